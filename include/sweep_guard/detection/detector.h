@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/geometry/swept_volume.h"
+#include "sweep_guard/geometry/triangle_mesh.h"
+
+namespace sweep_guard {
+
+/// What a detector found.
+struct Detection {
+  std::vector<std::uint32_t>
+      triangles;           ///< indices of the triangles met: ascending, each once; empty: the way is clear
+  double inflation = 0.0;  ///< the volume was grown by this to outweigh rounding [m], beyond its own margin
+};
+
+/// Finds the triangles of a mesh that a swept volume meets. Made once, queried every cycle; holds buffers and devices,
+/// nothing about a deformation. One thread at a time; any thread.
+class Detector {
+ public:
+  virtual ~Detector() = default;
+
+  /// Conservative: may name a triangle that is closer to the volume than `inflation`, never leaves out one that meets
+  /// it. Touching is meeting.
+  /// @throws DeviceError if the answer cannot be trusted: nothing is known then
+  virtual Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) = 0;
+
+ protected:
+  Detector() = default;
+  Detector(const Detector&) = default;
+  Detector& operator=(const Detector&) = default;
+};
+
+/// @param name  `select` (OpenGL's selection mode, [P, Sec. 3.1]) or `reference` (every triangle clipped in double
+/// precision)
+/// @param cull  `select` shows OpenGL only the triangles that are not beyond one plane; no influence on the answer but
+/// for
+///              a smaller inflation
+/// @throws InvalidInput on any other name, DeviceError if there is no off-screen context
+std::unique_ptr<Detector> makeDetector(const std::string& name, bool cull = true);
+
+/// The names that makeDetector() knows.
+const std::vector<std::string>& detectorNames();
+
+}  // namespace sweep_guard

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "sweep_guard/geometry/half_space.h"
+
+namespace sweep_guard {
+
+/// The faces of the intersection of half-spaces: one convex polygon for each that bounds it, counter-clockwise seen
+/// from outside. A half-space that bounds nothing gives no face.
+/// @param half_spaces  at most a few dozen; their intersection must be bounded
+/// @param radius       the intersection lies within this distance of the origin [m]
+std::vector<Polygon> polytopeFaces(const std::vector<HalfSpace>& half_spaces, double radius);
+
+/// Volume [m^3] of the convex polytope with these faces.
+double polytopeVolume(const std::vector<Polygon>& faces);
+
+}  // namespace sweep_guard

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace sweep_guard {
+
+/// A half-space {p : n·p <= d}, in the frame its variable's suffix names (`clip_B` is in box frame B).
+/// The unit normal points out of it: signedDistance() is negative inside, zero on the boundary plane.
+class HalfSpace {
+ public:
+  /// @param normal  outward normal, any length above 1e-10 [-]
+  /// @param offset  signed distance of the boundary plane from the origin along the unit normal [m]
+  /// @throws InvalidInput if `normal` is too short to normalize
+  HalfSpace(const Eigen::Vector3d& normal, double offset);
+
+  const Eigen::Vector3d& normal() const { return normal_; }                                   ///< unit, outward [-]
+  double offset() const { return offset_; }                                                   ///< [m]
+  double signedDistance(const Eigen::Vector3d& p) const { return normal_.dot(p) - offset_; }  ///< [m]
+
+  /// The half-space whose boundary lies `distance` further out [m]; negative: further in.
+  HalfSpace grown(double distance) const;
+
+ private:
+  Eigen::Vector3d normal_;
+  double offset_;
+};
+
+/// A convex polygon: its corners in order. One corner is a point, two are a segment, none is nothing.
+using Polygon = std::vector<Eigen::Vector3d>;
+
+/// The part of a convex polygon that lies in a half-space (Sutherland and Hodgman 1974). Its boundary belongs to it: a
+/// polygon that only touches the plane leaves its touching corners.
+Polygon clip(const Polygon& polygon, const HalfSpace& half_space);
+
+}  // namespace sweep_guard

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace sweep_guard {
+
+/// A rigid motion of the tool frame T between two poses, in mesh frame M: the origin of T goes straight at constant
+/// speed, the orientation turns about one axis at constant rate, the shorter way [P, Sec. 3.1: "straight line
+/// displacement"]. Between orientations half a turn apart the axis is not unique; slerp's choice holds.
+struct Motion {
+  Eigen::Isometry3d X_MT_start = Eigen::Isometry3d::Identity();  ///< translation [m]
+  Eigen::Isometry3d X_MT_end = Eigen::Isometry3d::Identity();    ///< translation [m]
+
+  /// Rotation from start to end [rad], in [0, pi].
+  double angle() const;
+  /// Axis of that rotation in T, unit; any unit vector where the angle is 0.
+  Eigen::Vector3d axis_T() const;
+  /// Pose at a fraction of the motion, in [0, 1].
+  Eigen::Isometry3d at(double fraction) const;
+};
+
+/// The motion cut into the fewest equal parts that turn by at most `max_rotation` each; end to end, so that nothing
+/// between them is left out.
+/// @param max_rotation  [rad], > 0
+std::vector<Motion> split(const Motion& motion, double max_rotation);
+
+/// Greatest distance [m] between the arc that a tool point runs along while the tool turns and the chord that replaces
+/// it. A swept volume built on chords is conservative once it is grown by this. Bound: linear interpolation of a curve
+/// with |x''| = radius * angle^2 errs by at most an eighth of that.
+/// @param radius  largest distance of a tool point from the rotation axis through the tool frame's origin [m], >= 0
+/// @param angle   rotation between the two poses [rad], in [0, pi]
+double chordError(double radius, double angle);
+
+}  // namespace sweep_guard

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sweep_guard/detection/detector.h"
+#include "sweep_guard/geometry/motion.h"
+#include "sweep_guard/geometry/swept_volume.h"
+
+namespace sweep_guard {
+
+struct SweepOptions {
+  VolumeKind volume = VolumeKind::kObbPlanes;
+  double max_rotation = 0.175;  ///< a motion that turns more is split [rad], in (0, 1.5]
+  double margin = 0.0;          ///< the tool is grown by this [m], >= 0
+};
+
+/// What the tool meets of one mesh during one motion.
+struct SweepFindings {
+  std::vector<std::uint32_t> triangles;  ///< ascending, each once
+  double margin = 0.0;  ///< the volumes lie at most this far outside of the tool's two poses, rounding included [m]
+  std::vector<SweptVolume> volumes_M;  ///< those tested, end to end, in the mesh's frame
+};
+
+/// Tests the volume that the tool sweeps, split so that the margin for its arcs stays small.
+/// @throws DeviceError if the detector fails
+SweepFindings testSweep(Detector& detector, const Tool& tool, const Motion& motion, const TriangleMesh& mesh_M,
+                        const SweepOptions& options);
+
+/// What the tool meets along a path of poses.
+struct PathFindings {
+  SweepFindings findings;           ///< union over the path
+  std::optional<size_t> first_met;  ///< first sweep that met something; sweep i goes from pose i to pose i + 1
+};
+
+/// Tests every sweep of a path; a path of one pose is tested where it stands.
+/// @param path  at least one X_MT
+/// @throws DeviceError if the detector fails
+PathFindings testPath(Detector& detector, const Tool& tool, const std::vector<Eigen::Isometry3d>& path,
+                      const TriangleMesh& mesh_M, const SweepOptions& options);
+
+}  // namespace sweep_guard

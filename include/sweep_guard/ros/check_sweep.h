@@ -1,0 +1,43 @@
+#pragma once
+
+#include <ros/service_server.h>
+#include <sweep_guard/CheckSweep.h>
+
+#include <map>
+#include <memory>
+
+#include "sweep_guard/ros/frames.h"
+#include "sweep_guard/ros/parameters.h"
+#include "sweep_guard/ros/queue_thread.h"
+#include "sweep_guard/ros/workpiece_store.h"
+
+namespace sweep_guard_ros {
+
+/// The service `~check_sweep`: sweeps a path of poses against the workpieces as they are now. Own thread, own
+/// detectors, a snapshot of the meshes: it never delays the guard.
+class CheckSweepService {
+ public:
+  CheckSweepService(const ros::NodeHandle& private_node, const Parameters& parameters, const Frames& frames,
+                    const WorkpieceStore& workpieces);
+
+  void start() { thread_.start(); }
+
+ private:
+  bool onCall(sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
+  void check(const sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
+  sweep_guard::Workpieces choose(const std::vector<std::string>& ids) const;
+  std::vector<Eigen::Isometry3d> pathIn(const std::string& mesh_frame,
+                                        const std::vector<geometry_msgs::PoseStamped>& path) const;
+  bool fresh(const sweep_guard::Workpiece& workpiece) const;
+  sweep_guard::Detector& detector(const std::string& name);
+
+  const Parameters parameters_;
+  const sweep_guard::Tool tool_;
+  const Frames& frames_;
+  const WorkpieceStore& workpieces_;
+  std::map<std::string, std::unique_ptr<sweep_guard::Detector>> detectors_;  // made when first asked for
+  QueueThread thread_;                                                       // outlives what calls back on it
+  ros::ServiceServer server_;
+};
+
+}  // namespace sweep_guard_ros

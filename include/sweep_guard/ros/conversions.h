@@ -1,0 +1,42 @@
+#pragma once
+
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Transform.h>
+#include <ros/time.h>
+#include <sweep_guard/Contacts.h>
+#include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/MeshVertices.h>
+#include <sweep_guard/ObjectContacts.h>
+#include <sweep_guard/Warning.h>
+
+#include <Eigen/Geometry>
+
+#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/guard/verdict.h"
+
+namespace sweep_guard_ros {
+
+sweep_guard::Time fromMsg(const ros::Time& time);
+ros::Time toMsg(sweep_guard::Time time);  ///< times before the epoch become 0
+
+/// Now on both clocks.
+sweep_guard::Instant now();
+
+/// @throws sweep_guard::InvalidInput if a field is NaN, infinite or beyond 1e7 m, or if the quaternion's norm is off by
+/// more
+///         than 0.1. A smaller deviation is normalised away.
+Eigen::Isometry3d fromMsg(const geometry_msgs::Pose& pose);
+Eigen::Isometry3d fromMsg(const geometry_msgs::Transform& transform);
+geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose);
+
+/// @throws sweep_guard::InvalidInput if there are more than `max_triangles`, or the mesh itself is invalid
+sweep_guard::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles);
+
+/// The objects met, in the report's order.
+sweep_guard::ObjectContacts toMsg(const sweep_guard::SweptObject& object);
+sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report);
+
+/// Level, reasons and what follows from them; header, tool and counters are the sender's.
+sweep_guard::Warning toMsg(const sweep_guard::Verdict& verdict);
+
+}  // namespace sweep_guard_ros

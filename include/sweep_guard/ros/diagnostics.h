@@ -1,0 +1,65 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/common/time.h"
+#include "sweep_guard/ros/parameters.h"
+#include "sweep_guard/ros/pose_input.h"
+#include "sweep_guard/ros/workpiece_store.h"
+
+namespace sweep_guard_ros {
+
+/// What the worker did since it was last asked. Any thread.
+class Workload {
+ public:
+  struct Summary {
+    std::uint64_t sweeps_total = 0;  ///< poses swept since the start
+    std::uint64_t late_total = 0;    ///< of them later than a cycle of 15 Hz [P, Sec. 3.2]
+    std::uint64_t faults_total = 0;  ///< failures of the detector
+    std::vector<double> latencies;   ///< pose received to contacts sent, since the last summary [s], ascending
+    double busiest = 0.0;            ///< longest sweep since the last summary [s]
+  };
+
+  void swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_time);
+  void failed();
+  Summary take();
+
+ private:
+  std::mutex mutex_;
+  Summary summary_;
+};
+
+/// Answers "why is there no warning" on /diagnostics: each input's source, publishers, rate, age and refusals; the
+/// detector; the deadlines; the memory; the verdict.
+class Diagnostics {
+ public:
+  Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const Parameters& parameters,
+              const PoseInput& poses, const WorkpieceStore& workpieces, const sweep_guard::Ledger& ledger,
+              Workload& workload);
+
+  /// Publishes now; call once a second.
+  void publish() { updater_.force_update(); }
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+  void verdict(Status& status) const;
+  void poseInput(Status& status);
+  void meshInput(Status& status) const;
+  void deadlines(Status& status);
+  void process(Status& status) const;
+
+  const Parameters parameters_;
+  const PoseInput& poses_;
+  const WorkpieceStore& workpieces_;
+  const sweep_guard::Ledger& ledger_;
+  Workload& workload_;
+  std::uint64_t poses_before_ = 0;
+  sweep_guard::SteadyTime asked_before_ = std::chrono::steady_clock::now();
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/guard/verdict.h"
+
+namespace sweep_guard_ros {
+
+/// What the markers show.
+struct MarkerScene {
+  std::shared_ptr<const sweep_guard::SweepReport> newest;   ///< null: nothing swept yet
+  std::shared_ptr<const sweep_guard::SweepReport> contact;  ///< newest with a contact; null: none
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();   ///< of the newest report
+  sweep_guard::Verdict verdict;
+};
+
+/// Draws the tool, the measured sweep, the triangles met and the warning text for rviz. Ids are stable, what is gone is
+/// deleted once, nothing outlives half a second, and everything is grey while the level is unknown. One thread.
+class Markers {
+ public:
+  Markers(std::string fixed_frame, const sweep_guard::Tool& tool);
+
+  visualization_msgs::MarkerArray draw(const MarkerScene& scene);
+
+ private:
+  using Key = std::pair<std::string, int>;  // namespace and id
+
+  const std::string fixed_frame_;
+  const double tool_radius_;
+  const double tool_length_;
+  std::set<Key> shown_;
+};
+
+}  // namespace sweep_guard_ros

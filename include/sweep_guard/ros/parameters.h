@@ -1,0 +1,36 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/guard/verdict.h"
+
+namespace sweep_guard_ros {
+
+enum class ToolSource { kTopic, kTf };
+
+/// Every parameter of the node, checked. config/sweep_guard.yaml tells key, unit, range and effect of each.
+struct Parameters {
+  std::string fixed_frame;
+  ToolSource tool_source;
+  std::string tool_frame;
+  double tool_radius;  ///< [m]
+  double tool_length;  ///< [m]
+  int tool_sides;
+  std::string detector;
+  bool cull;
+  sweep_guard::SweepOptions sweep;
+  sweep_guard::VerdictLimits limits;
+  double marker_rate;  ///< [Hz]
+  size_t max_triangles;
+
+  sweep_guard::Tool tool() const;
+};
+
+/// Reads the private parameters; a missing one takes its default. Warns of each parameter that no one reads.
+/// @throws sweep_guard::InvalidInput naming key, value and range if one has the wrong type, is NaN or is out of range
+Parameters loadParameters(const ros::NodeHandle& private_node);
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+
+namespace sweep_guard_ros {
+
+/// One callback queue with its one thread, so that no input waits for another.
+class QueueThread {
+ public:
+  /// A node handle whose callbacks run in this thread.
+  ros::NodeHandle on(ros::NodeHandle node) {
+    node.setCallbackQueue(&queue_);
+    return node;
+  }
+
+  ros::CallbackQueue& queue() { return queue_; }
+  void start() { spinner_.start(); }
+
+ private:
+  ros::CallbackQueue queue_;
+  ros::AsyncSpinner spinner_{1, &queue_};
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/MeshVertices.h>
+
+#include <atomic>
+#include <mutex>
+#include <set>
+
+#include "sweep_guard/guard/ledger.h"
+
+namespace sweep_guard_ros {
+
+/// The newest snapshot of every workpiece. Takes the messages in, checked and copied once; hands out what is shared and
+/// never changes. A message that is refused leaves the snapshot before, and tells the ledger. Messages come in by one
+/// thread; any thread may ask.
+class WorkpieceStore {
+ public:
+  WorkpieceStore(size_t max_triangles, sweep_guard::Ledger& ledger);
+
+  void accept(const sweep_guard::DeformableMesh& msg);
+  void accept(const sweep_guard::MeshVertices& msg);
+
+  sweep_guard::Workpieces snapshot() const;
+  std::set<std::string> frames() const;
+
+  /// Time went back: every snapshot counts as without a stamp until a new one comes.
+  void timeJumped();
+
+  std::uint64_t received() const { return received_; }  ///< messages, refused ones too
+  std::uint64_t refused() const { return refused_; }
+
+ private:
+  template <typename Msg>
+  void acceptOrRefuse(const Msg& msg);
+  void store(const sweep_guard::DeformableMesh& msg);
+  void store(const sweep_guard::MeshVertices& msg);
+  std::shared_ptr<const sweep_guard::Workpiece> find(const std::string& id) const;
+  void replace(sweep_guard::Workpiece workpiece);
+  void remove(const std::string& id);
+
+  const size_t max_triangles_;
+  sweep_guard::Ledger& ledger_;
+  mutable std::mutex mutex_;
+  sweep_guard::Workpieces workpieces_;  // ascending by id
+  std::atomic<std::uint64_t> received_ = 0;
+  std::atomic<std::uint64_t> refused_ = 0;
+};
+
+}  // namespace sweep_guard_ros

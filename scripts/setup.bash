@@ -1,0 +1,92 @@
+# Shared by the scripts next to it, which source it: a clean environment, the Debian packages, the build.
+# shellcheck shell=bash
+set -euo pipefail
+
+root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
+build=$root/build
+
+say() { echo "-- $*"; }
+fail() {
+  echo "$(basename "$0"): $*" >&2
+  exit "${status:-1}"
+}
+
+# Debian's ROS runs on Debian's python3: one of pyenv or conda in front of it lacks catkin_pkg, ament and rospy. What another
+# workspace or installation has put into the environment would be built into build/, so these scripts do without it; to use
+# sweep_guard together with other workspaces, build it inside one of them with catkin_make.
+clean_environment() {
+  export PATH="/usr/sbin:/usr/bin:/sbin:/bin:$PATH"
+  unset PYTHONPATH PYTHONHOME LD_LIBRARY_PATH PKG_CONFIG_PATH CMAKE_PREFIX_PATH
+  unset ROS_PACKAGE_PATH ROS_ROOT ROS_DISTRO ROS_NAMESPACE ROS_LOG_DIR
+  export ROS_HOME="$build/ros"  # logs belong to the build, not to ~/.ros
+}
+
+as_root() {
+  if [[ $EUID == 0 ]]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo -- "$@"
+  else
+    fail "needs root rights to install: run it as root once, or install sudo"
+  fi
+}
+
+# missing_packages PACKAGE... - those that are not installed, one per line
+missing_packages() {
+  comm -23 <(printf '%s\n' "$@" | sort -u) \
+    <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' | sort -u)
+}
+
+# install_packages PACKAGE... - asks for root rights only where one is missing
+install_packages() {
+  local missing quiet=() output=/dev/stdout
+  mapfile -t missing < <(missing_packages "$@")
+  [[ ${#missing[@]} -gt 0 ]] || return 0
+  [[ $(. /etc/os-release && echo "$ID $VERSION_ID") == 'debian 12' ]] ||
+    fail "this is not Debian 12, whose packages are needed. Missing here: ${missing[*]}"
+  say "installing ${missing[*]}"
+  [[ -t 1 ]] || { quiet=(-qq) && output=/dev/null; }
+  local apt=(env DEBIAN_FRONTEND=noninteractive apt-get "${quiet[@]}" -o DPkg::Lock::Timeout=300)
+  as_root "${apt[@]}" update >$output || say "going on with the package lists that are there"
+  as_root "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >$output
+}
+
+# install_listed FILE... - the packages listed in files of this folder
+install_listed() {
+  local packages
+  mapfile -t packages < <(cd "$root/scripts" && sed 's/#.*//' "$@" | xargs -n1)
+  install_packages "${packages[@]}"
+}
+
+# build_targets TARGET... - what goes well shows only on a terminal
+build_targets() {
+  local quiet=()
+  [[ -t 1 ]] || quiet=(--quiet)
+  mkdir -p "$build"
+  say "configuring $build"
+  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
+    -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" >"$build/configure.log" 2>&1 || {
+    cat "$build/configure.log" >&2
+    fail "configuring failed. If something other than these scripts made $build, remove it and try again"
+  }
+  say "building $*"
+  cmake --build "$build" --target "$@" -- "${quiet[@]}" || fail "the build failed"
+}
+
+enter_workspace() {
+  set +u  # catkin's file reads unset variables
+  # shellcheck source=/dev/null
+  . "$build/devel/setup.bash"
+  set -u
+}
+
+# What is started here talks over the loopback, so that the host's own name need not resolve. localhost must:
+# roslaunch looks it up in any case, and a bare system has no /etc/hosts.
+use_loopback() {
+  unset ROS_HOSTNAME ROS_IPV6
+  export ROS_IP=127.0.0.1
+  getent ahostsv4 localhost >/dev/null || install_packages libnss-myhostname
+}
+
+clean_environment

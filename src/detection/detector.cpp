@@ -1,0 +1,20 @@
+#include "sweep_guard/detection/detector.h"
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/detection/reference_detector.h"
+#include "sweep_guard/detection/select_detector.h"
+
+namespace sweep_guard {
+
+std::unique_ptr<Detector> makeDetector(const std::string& name, bool cull) {
+  if (name == "select") return std::make_unique<SelectDetector>(SelectDetector::Options{cull});
+  if (name == "reference") return std::make_unique<ReferenceDetector>();
+  throw InvalidInput("detector '" + name + "' is unknown: use select or reference");
+}
+
+const std::vector<std::string>& detectorNames() {
+  static const std::vector<std::string> names = {"select", "reference"};
+  return names;
+}
+
+}  // namespace sweep_guard

@@ -1,0 +1,47 @@
+#include "sweep_guard/geometry/swept_volume.h"
+
+#include <cassert>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/geometry/bounding_planes.h"
+
+namespace sweep_guard {
+
+VolumeKind volumeKind(const std::string& name) {
+  if (name == "obb") return VolumeKind::kObb;
+  if (name == "obb_planes") return VolumeKind::kObbPlanes;
+  throw InvalidInput("volume '" + name + "' is unknown: use obb or obb_planes");
+}
+
+std::string nameOf(VolumeKind kind) { return kind == VolumeKind::kObb ? "obb" : "obb_planes"; }
+
+std::vector<HalfSpace> SweptVolume::halfSpaces_B() const {
+  std::vector<HalfSpace> half_spaces;
+  for (int i = 0; i < 3; ++i) {
+    half_spaces.emplace_back(Eigen::Vector3d::Unit(i), box.half_extents[i]);
+    half_spaces.emplace_back(-Eigen::Vector3d::Unit(i), box.half_extents[i]);
+  }
+  half_spaces.insert(half_spaces.end(), clips_B.begin(), clips_B.end());
+  return half_spaces;
+}
+
+SweptVolume sweptVolume(const Tool& tool, const Motion& motion, VolumeKind kind, double extra_margin) {
+  assert(motion.angle() < 1.6 && extra_margin >= 0.0);
+  // Far from the mesh's origin the extents would lose digits: they are taken near the tool, and moved there at the end.
+  const Eigen::Translation3d there(motion.X_MT_start.translation());
+  const Motion near{there.inverse() * motion.X_MT_start, there.inverse() * motion.X_MT_end};
+
+  SweptVolume volume;
+  volume.margin = chordError(tool.reach(motion.axis_T()), motion.angle()) + extra_margin;
+  volume.box = boundingBox(tool, near);
+  if (kind == VolumeKind::kObbPlanes) volume.clips_B = boundingPlanes(tool, near, volume.box);
+
+  const Eigen::Vector3d& mean_T = tool.moments_T().mean;
+  volume.interior_B = volume.box.X_MB.inverse() * (0.5 * (near.X_MT_start * mean_T + near.X_MT_end * mean_T));
+  volume.box.half_extents.array() += volume.margin;
+  for (HalfSpace& clip_B : volume.clips_B) clip_B = clip_B.grown(volume.margin);
+  volume.box.X_MB = there * volume.box.X_MB;
+  return volume;
+}
+
+}  // namespace sweep_guard

@@ -1,0 +1,81 @@
+#include "sweep_guard/geometry/triangle_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard {
+namespace {
+
+template <typename Coordinate>
+bool usable(Coordinate coordinate) {
+  return std::abs(coordinate) <= static_cast<Coordinate>(kMaxCoordinate);  // false for NaN and infinity too
+}
+
+[[noreturn]] void refuseVertex(size_t vertex) {
+  throw InvalidInput("vertex " + std::to_string(vertex) +
+                     " is NaN, infinite or beyond 1e7 m: send finite positions in metres");
+}
+
+void checkTriangles(const std::vector<Triangle>& triangles, size_t vertex_count) {
+  if (triangles.empty()) throw InvalidInput("the mesh has no triangles: send at least one");
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    const std::uint32_t largest = *std::max_element(triangles[i].begin(), triangles[i].end());
+    if (largest >= vertex_count) {
+      throw InvalidInput("triangle " + std::to_string(i) + " names vertex " + std::to_string(largest) + " of " +
+                         std::to_string(vertex_count) + ": indices are 0-based and below the number of vertices");
+    }
+  }
+}
+
+Eigen::Vector3d centerOf(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : points) box.extend(p);
+  return box.center();
+}
+
+}  // namespace
+
+TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles) {
+  checkTriangles(triangles, vertices_M.size());
+  for (size_t i = 0; i < vertices_M.size(); ++i) {
+    for (const double coordinate : vertices_M[i]) {
+      if (!usable(coordinate)) refuseVertex(i);
+    }
+  }
+  triangles_ = std::make_shared<const std::vector<Triangle>>(std::move(triangles));
+  origin_ = centerOf(vertices_M);
+  offsets_.reserve(3 * vertices_M.size());
+  for (const Eigen::Vector3d& p : vertices_M) {
+    const Eigen::Vector3f kept = (p - origin_).cast<float>();
+    offsets_.insert(offsets_.end(), kept.begin(), kept.end());
+    rounding_ = std::max(rounding_, (p - (origin_ + kept.cast<double>())).norm());
+  }
+  measureRadius();
+}
+
+TriangleMesh::TriangleMesh(std::shared_ptr<const std::vector<Triangle>> triangles, std::vector<float> positions_M)
+    : triangles_(std::move(triangles)), offsets_(std::move(positions_M)) {
+  for (size_t i = 0; i < offsets_.size(); ++i) {
+    if (!usable(offsets_[i])) refuseVertex(i / 3);
+  }
+  measureRadius();
+}
+
+void TriangleMesh::measureRadius() {
+  double squared = 0.0;
+  for (size_t i = 0; i < vertexCount(); ++i) squared = std::max(squared, offset(i).squaredNorm());
+  radius_ = std::sqrt(squared);
+}
+
+TriangleMesh TriangleMesh::deformed(std::vector<float> positions_M) const {
+  if (positions_M.size() != offsets_.size()) {
+    throw InvalidInput(std::to_string(positions_M.size()) + " coordinates for " + std::to_string(vertexCount()) +
+                       " vertices: send three per vertex of the mesh");
+  }
+  return TriangleMesh(triangles_, std::move(positions_M));
+}
+
+}  // namespace sweep_guard

@@ -1,0 +1,113 @@
+#include "sweep_guard/ros/check_sweep.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::CheckSweep;
+using sweep_guard::InvalidInput;
+
+constexpr size_t kMaxPoses = 1024;
+constexpr auto kTransformMayBeLate = std::chrono::milliseconds(100);
+
+}  // namespace
+
+CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const Parameters& parameters,
+                                     const Frames& frames, const WorkpieceStore& workpieces)
+    : parameters_(parameters),
+      tool_(parameters.tool()),
+      frames_(frames),
+      workpieces_(workpieces),
+      server_(thread_.on(private_node).advertiseService("check_sweep", &CheckSweepService::onCall, this)) {}
+
+// What cannot be tested is answered, not thrown away: a failed ROS call tells the caller nothing.
+bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Response& response) {
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    check(request, response);
+    response.success = true;
+  } catch (const std::exception& error) {
+    response = CheckSweep::Response();
+    response.message = error.what();
+  }
+  response.clear = response.success && response.clear;
+  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
+  response.compute_time = ros::Duration(sweep_guard::toSeconds(std::chrono::steady_clock::now() - begin));
+  return true;
+}
+
+void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
+  if (request.path.empty()) throw InvalidInput("the path is empty: send one pose or more");
+  if (request.path.size() > kMaxPoses) {
+    throw InvalidInput("the path has " + std::to_string(request.path.size()) + " poses: send at most 1024");
+  }
+  if (!(request.margin >= 0.0 && request.margin <= sweep_guard::kMaxCoordinate)) {
+    throw InvalidInput("the margin must be a length >= 0 m");
+  }
+  sweep_guard::SweepOptions options = parameters_.sweep;
+  if (!request.volume.empty()) options.volume = sweep_guard::volumeKind(request.volume);
+  options.margin = request.margin;
+  sweep_guard::Detector& used = detector(request.detector.empty() ? parameters_.detector : request.detector);
+
+  std::optional<size_t> first;
+  response.clear = true;
+  for (const auto& workpiece : choose(request.mesh_ids)) {
+    auto path = sweep_guard::testPath(used, tool_, pathIn(workpiece->frame, request.path), workpiece->mesh_M, options);
+    response.margin = std::max(response.margin, path.findings.margin);
+    response.clear = response.clear && fresh(*workpiece);
+    if (!path.first_met) continue;
+    first = std::min(first.value_or(*path.first_met), *path.first_met);
+    response.objects.push_back(toMsg(sweep_guard::SweptObject{workpiece, {}, std::move(path.findings)}));
+  }
+  response.collision = first.has_value();
+  response.clear = response.clear && !response.collision;
+  response.segment = static_cast<std::uint32_t>(first.value_or(0));
+  if (request.fine) response.message = "this version has no fine phase: triangles are candidates";
+}
+
+sweep_guard::Workpieces CheckSweepService::choose(const std::vector<std::string>& ids) const {
+  const sweep_guard::Workpieces all = workpieces_.snapshot();
+  if (all.empty()) throw InvalidInput("no workpiece yet: nothing can be promised");
+  if (ids.empty()) return all;
+  sweep_guard::Workpieces chosen;
+  for (const std::string& id : std::set<std::string>(ids.begin(), ids.end())) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& workpiece) { return workpiece->id == id; });
+    if (found == all.end()) throw InvalidInput("there is no workpiece '" + id + "'");
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh_frame,
+                                                         const std::vector<geometry_msgs::PoseStamped>& path) const {
+  std::vector<Eigen::Isometry3d> path_M;
+  for (size_t i = 0; i < path.size(); ++i) {
+    try {
+      path_M.push_back(
+          frames_.lookup(mesh_frame, path[i].header.frame_id, fromMsg(path[i].header.stamp), kTransformMayBeLate) *
+          fromMsg(path[i].pose));
+    } catch (const sweep_guard::Error& error) {
+      throw InvalidInput("pose " + std::to_string(i) + ": " + error.what());
+    }
+  }
+  return path_M;
+}
+
+bool CheckSweepService::fresh(const sweep_guard::Workpiece& workpiece) const {
+  return !sweep_guard::stale({workpiece.stamp, workpiece.received}, now(), parameters_.limits.mesh_timeout);
+}
+
+sweep_guard::Detector& CheckSweepService::detector(const std::string& name) {
+  const auto made = detectors_.find(name);
+  if (made != detectors_.end()) return *made->second;
+  return *detectors_.emplace(name, sweep_guard::makeDetector(name, parameters_.cull)).first->second;
+}
+
+}  // namespace sweep_guard_ros

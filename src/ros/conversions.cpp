@@ -1,0 +1,140 @@
+#include "sweep_guard/ros/conversions.h"
+
+#include <cmath>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::InvalidInput;
+using sweep_guard::Warning;
+
+template <typename MessageConstant, typename CoreConstant>
+constexpr bool same(MessageConstant in_message, CoreConstant in_core) {
+  return static_cast<std::uint32_t>(in_message) == static_cast<std::uint32_t>(in_core);
+}
+
+static_assert(same(Warning::NO_POSE, sweep_guard::kNoPose));
+static_assert(same(Warning::POSE_STALE, sweep_guard::kPoseStale));
+static_assert(same(Warning::POSE_INVALID, sweep_guard::kPoseInvalid));
+static_assert(same(Warning::OUT_OF_ORDER, sweep_guard::kOutOfOrder));
+static_assert(same(Warning::FUTURE_STAMP, sweep_guard::kFutureStamp));
+static_assert(same(Warning::NO_MESH, sweep_guard::kNoMesh));
+static_assert(same(Warning::MESH_STALE, sweep_guard::kMeshStale));
+static_assert(same(Warning::MESH_INVALID, sweep_guard::kMeshInvalid));
+static_assert(same(Warning::TF_FAIL, sweep_guard::kTfFail));
+static_assert(same(Warning::TIME_JUMP, sweep_guard::kTimeJump));
+static_assert(same(Warning::DETECTOR_FAULT, sweep_guard::kDetectorFault));
+static_assert(same(Warning::NOT_SWEPT, sweep_guard::kNotSwept));
+static_assert(same(Warning::UNKNOWN, sweep_guard::Level::kUnknown));
+static_assert(same(Warning::CLEAR, sweep_guard::Level::kClear));
+static_assert(same(Warning::CONSIDERED, sweep_guard::Level::kConsidered));
+static_assert(same(Warning::REFLEX, sweep_guard::Level::kReflex));
+static_assert(same(Warning::CONTACT, sweep_guard::Level::kContact));
+
+template <typename Vector>
+Eigen::Vector3d toEigen(const Vector& v) {
+  return {v.x, v.y, v.z};
+}
+
+Eigen::Isometry3d rigid(const Eigen::Vector3d& translation, const geometry_msgs::Quaternion& rotation) {
+  if (!(translation.cwiseAbs().maxCoeff() <= sweep_guard::kMaxCoordinate) || translation.hasNaN()) {
+    throw InvalidInput("position is NaN, infinite or beyond 1e7 m");
+  }
+  const Eigen::Quaterniond q(rotation.w, rotation.x, rotation.y, rotation.z);
+  if (!(std::abs(q.norm() - 1.0) <= 0.1)) throw InvalidInput("orientation is not a unit quaternion");
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = q.normalized().toRotationMatrix();
+  pose.translation() = translation;
+  return pose;
+}
+
+}  // namespace
+
+sweep_guard::Time fromMsg(const ros::Time& time) {
+  return sweep_guard::Time(sweep_guard::Duration(static_cast<std::int64_t>(time.toNSec())));
+}
+
+ros::Time toMsg(sweep_guard::Time time) {
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, time.time_since_epoch().count())));
+  return stamp;
+}
+
+sweep_guard::Instant now() { return {fromMsg(ros::Time::now()), std::chrono::steady_clock::now()}; }
+
+Eigen::Isometry3d fromMsg(const geometry_msgs::Pose& pose) { return rigid(toEigen(pose.position), pose.orientation); }
+
+Eigen::Isometry3d fromMsg(const geometry_msgs::Transform& transform) {
+  return rigid(toEigen(transform.translation), transform.rotation);
+}
+
+geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond q(pose.linear());
+  geometry_msgs::Pose msg;
+  msg.position.x = pose.translation().x();
+  msg.position.y = pose.translation().y();
+  msg.position.z = pose.translation().z();
+  msg.orientation.w = q.w();
+  msg.orientation.x = q.x();
+  msg.orientation.y = q.y();
+  msg.orientation.z = q.z();
+  return msg;
+}
+
+sweep_guard::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles) {
+  if (mesh.triangles.size() > max_triangles) {
+    throw InvalidInput(std::to_string(mesh.triangles.size()) + " triangles: limits/max_triangles is " +
+                       std::to_string(max_triangles));
+  }
+  std::vector<Eigen::Vector3d> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (const geometry_msgs::Point& vertex : mesh.vertices) vertices.push_back(toEigen(vertex));
+  std::vector<sweep_guard::Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const shape_msgs::MeshTriangle& triangle : mesh.triangles) {
+    const auto& index = triangle.vertex_indices;
+    triangles.push_back({index[0], index[1], index[2]});
+  }
+  return sweep_guard::TriangleMesh(vertices, std::move(triangles));
+}
+
+sweep_guard::ObjectContacts toMsg(const sweep_guard::SweptObject& object) {
+  sweep_guard::ObjectContacts msg;
+  msg.mesh_id = object.workpiece->id;
+  msg.revision = object.workpiece->revision;
+  msg.mesh_stamp = toMsg(object.workpiece->stamp);
+  msg.triangles = object.findings.triangles;
+  return msg;
+}
+
+sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report) {
+  sweep_guard::Contacts msg;
+  msg.header.stamp = toMsg(report.end);
+  msg.interval_start = toMsg(report.start);
+  msg.margin = report.margin();
+  for (const sweep_guard::SweptObject& object : report.objects) {
+    if (!object.findings.triangles.empty()) msg.objects.push_back(toMsg(object));
+  }
+  return msg;
+}
+
+sweep_guard::Warning toMsg(const sweep_guard::Verdict& verdict) {
+  using sweep_guard::Level;
+  Warning msg;
+  msg.level = static_cast<std::uint8_t>(verdict.level);
+  msg.clear = verdict.level == Level::kClear;
+  msg.contact = verdict.level == Level::kContact;
+  msg.considered = !msg.clear;
+  msg.reflex = !msg.clear && verdict.level != Level::kConsidered;
+  msg.time_to_collision = ros::Duration(msg.contact ? 0.0 : -1.0);
+  msg.mesh_id = verdict.mesh_id;
+  msg.triangles = verdict.triangles;
+  msg.reasons = verdict.reasons;
+  msg.text = verdict.text;
+  msg.covered_until = toMsg(verdict.covered_until);
+  return msg;
+}
+
+}  // namespace sweep_guard_ros

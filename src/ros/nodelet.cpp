@@ -1,0 +1,27 @@
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <memory>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/node.h"
+
+namespace sweep_guard_ros {
+
+class SweepGuardNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    try {
+      node_ = std::make_unique<SweepGuardNode>(getNodeHandle(), getPrivateNodeHandle());
+    } catch (const sweep_guard::Error& error) {
+      NODELET_FATAL("%s", error.what());
+      throw;
+    }
+  }
+
+  std::unique_ptr<SweepGuardNode> node_;
+};
+
+}  // namespace sweep_guard_ros
+
+PLUGINLIB_EXPORT_CLASS(sweep_guard_ros::SweepGuardNodelet, nodelet::Nodelet)

@@ -1,0 +1,120 @@
+#include "sweep_guard/ros/workpiece_store.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::InvalidInput;
+using sweep_guard::Workpiece;
+
+constexpr auto kFutureTolerance = std::chrono::milliseconds(50);
+
+void checkHeader(const std::string& id, const std_msgs::Header& header) {
+  if (id.empty()) throw InvalidInput("the id is empty: name the workpiece");
+  if (header.frame_id.empty()) throw InvalidInput("header.frame_id is empty: name the frame of the vertices");
+  if (fromMsg(header.stamp) > now().stamp + kFutureTolerance) {
+    throw InvalidInput("its stamp lies in the future: are the clocks synchronised?");
+  }
+}
+
+bool before(const std::shared_ptr<const Workpiece>& workpiece, const std::string& id) { return workpiece->id < id; }
+
+}  // namespace
+
+WorkpieceStore::WorkpieceStore(size_t max_triangles, sweep_guard::Ledger& ledger)
+    : max_triangles_(max_triangles), ledger_(ledger) {}
+
+void WorkpieceStore::accept(const sweep_guard::DeformableMesh& msg) { acceptOrRefuse(msg); }
+void WorkpieceStore::accept(const sweep_guard::MeshVertices& msg) { acceptOrRefuse(msg); }
+
+template <typename Msg>
+void WorkpieceStore::acceptOrRefuse(const Msg& msg) {
+  ++received_;
+  try {
+    store(msg);
+    ledger_.meshAccepted(msg.id);
+  } catch (const InvalidInput& error) {
+    ++refused_;
+    const std::string story = "workpiece '" + msg.id + "' refused: " + error.what();
+    ledger_.meshRefused(msg.id, story, std::chrono::steady_clock::now());
+    ROS_ERROR_THROTTLE(1.0, "%s", story.c_str());
+  }
+}
+
+void WorkpieceStore::store(const sweep_guard::DeformableMesh& msg) {
+  if (!msg.id.empty() && msg.mesh.vertices.empty() && msg.mesh.triangles.empty()) return remove(msg.id);
+  checkHeader(msg.id, msg.header);
+  replace({msg.id, msg.revision, fromMsg(msg.header.stamp), std::chrono::steady_clock::now(), msg.header.frame_id,
+           fromMsg(msg.mesh, max_triangles_)});
+}
+
+void WorkpieceStore::store(const sweep_guard::MeshVertices& msg) {
+  checkHeader(msg.id, msg.header);
+  const auto current = find(msg.id);
+  if (!current) throw InvalidInput("its vertices came, but not its mesh: publish DeformableMesh latched");
+  if (current->revision != msg.revision) {
+    throw InvalidInput("its vertices have revision " + std::to_string(msg.revision) + ", its mesh " +
+                       std::to_string(current->revision));
+  }
+  const sweep_guard::Time stamp = fromMsg(msg.header.stamp);
+  if (stamp < current->stamp) throw InvalidInput("the stamp of its vertices goes back");
+  replace({msg.id, msg.revision, stamp, std::chrono::steady_clock::now(), msg.header.frame_id,
+           current->mesh_M.deformed(msg.positions)});
+}
+
+std::shared_ptr<const Workpiece> WorkpieceStore::find(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::lower_bound(workpieces_.begin(), workpieces_.end(), id, before);
+  return found != workpieces_.end() && (*found)->id == id ? *found : nullptr;
+}
+
+void WorkpieceStore::replace(Workpiece workpiece) {
+  auto snapshot = std::make_shared<const Workpiece>(std::move(workpiece));
+  const std::lock_guard lock(mutex_);
+  const auto place = std::lower_bound(workpieces_.begin(), workpieces_.end(), snapshot->id, before);
+  if (place != workpieces_.end() && (*place)->id == snapshot->id) {
+    *place = std::move(snapshot);
+  } else {
+    workpieces_.insert(place, std::move(snapshot));
+  }
+  ledger_.setWorkpieces(workpieces_);
+}
+
+void WorkpieceStore::remove(const std::string& id) {
+  if (!find(id)) ROS_WARN("workpiece '%s' is to be removed, but there is none", id.c_str());
+  const std::lock_guard lock(mutex_);
+  workpieces_.erase(std::remove_if(workpieces_.begin(), workpieces_.end(),
+                                   [&](const auto& workpiece) { return workpiece->id == id; }),
+                    workpieces_.end());
+  ledger_.setWorkpieces(workpieces_);
+}
+
+sweep_guard::Workpieces WorkpieceStore::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return workpieces_;
+}
+
+std::set<std::string> WorkpieceStore::frames() const {
+  const std::lock_guard lock(mutex_);
+  std::set<std::string> frames;
+  for (const auto& workpiece : workpieces_) frames.insert(workpiece->frame);
+  return frames;
+}
+
+void WorkpieceStore::timeJumped() {
+  const std::lock_guard lock(mutex_);
+  for (auto& workpiece : workpieces_) {
+    Workpiece undated = *workpiece;
+    undated.stamp = {};
+    workpiece = std::make_shared<const Workpiece>(std::move(undated));
+  }
+  ledger_.setWorkpieces(workpieces_);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,109 @@
+#include "simulation/demo_report.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace sweep_guard_simulation {
+
+using sweep_guard::Duration;
+using sweep_guard::Time;
+
+namespace {
+
+constexpr Duration kCycle = std::chrono::nanoseconds(std::chrono::seconds(1)) / 15;
+
+std::string milliseconds(const std::optional<Duration>& duration) {
+  if (!duration) return "-";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << sweep_guard::toSeconds(*duration) * 1e3;
+  return text.str();
+}
+
+void countUnmatched(std::map<Time, int>* unmatched, Time stamp, int change) {
+  const auto entry = unmatched->try_emplace(stamp, 0).first;
+  entry->second += change;
+  if (entry->second == 0) unmatched->erase(entry);
+}
+
+}  // namespace
+
+void DemoReport::addPose(Time stamp, std::uint32_t sequence) {
+  ++poses_;
+  if (last_sequence_ && sequence > *last_sequence_) sequence_gap_ += sequence - *last_sequence_ - 1;
+  last_sequence_ = sequence;
+  countUnmatched(&unmatched_, stamp, 1);
+}
+
+void DemoReport::addContacts(Time stamp, Time arrival, const std::vector<TouchedObject>& objects) {
+  std::size_t touched = 0;
+  for (const TouchedObject& object : objects) {
+    touched += object.triangles.size();
+    for (const std::uint32_t triangle : object.triangles) triangles_.emplace(object.mesh_id, triangle);
+  }
+  if (touched > 0) ++contacts_;
+  latencies_.push_back({stamp, arrival - stamp, touched});
+  countUnmatched(&unmatched_, stamp, -1);
+}
+
+bool DemoReport::awaits(Time stamp) const {
+  const auto entry = unmatched_.find(stamp);
+  return entry != unmatched_.end() && entry->second > 0;
+}
+
+std::size_t DemoReport::posesWithoutContacts() const {
+  std::size_t count = 0;
+  for (const auto& [stamp, poses] : unmatched_) count += static_cast<std::size_t>(std::max(poses, 0));
+  return count;
+}
+
+std::size_t DemoReport::missedCycles() const {
+  const auto missed = [](const Latency& latency) { return latency.delay > kCycle; };
+  return static_cast<std::size_t>(std::count_if(latencies_.begin(), latencies_.end(), missed));
+}
+
+std::optional<Duration> DemoReport::latency(double fraction) const {
+  assert(fraction >= 0.0 && fraction <= 1.0);
+  if (latencies_.empty()) return std::nullopt;
+  std::vector<Duration> delays;
+  delays.reserve(latencies_.size());
+  for (const Latency& latency : latencies_) delays.push_back(latency.delay);
+  const double rank = std::ceil(fraction * static_cast<double>(delays.size()));
+  const auto nth = delays.begin() + std::max(static_cast<std::ptrdiff_t>(rank) - 1, std::ptrdiff_t{0});
+  std::nth_element(delays.begin(), nth, delays.end());
+  return *nth;
+}
+
+std::string DemoReport::liveLine(Duration elapsed, const std::string& level) const {
+  std::ostringstream line;
+  line << std::fixed << std::setprecision(1) << sweep_guard::toSeconds(elapsed) << " s  poses " << poses_
+       << "  contacts " << contacts_ << "  level " << level << "  latency p50 " << milliseconds(latency(0.5)) << " ms";
+  return line.str();
+}
+
+std::string DemoReport::summary() const {
+  std::ostringstream text;
+  text << "poses in              " << poses_ << "\n"
+       << "mesh updates          " << mesh_updates_ << "\n"
+       << "sweeps tested         " << sweeps() << "\n"
+       << "contacts              " << contacts_ << "\n"
+       << "triangles touched     " << trianglesTouched() << "\n"
+       << "pose to contact [ms]  p50 " << milliseconds(latency(0.5)) << "  p99 " << milliseconds(latency(0.99))
+       << "  max " << milliseconds(latency(1.0)) << "\n"
+       << "missed cycles         " << missedCycles() << "\n"
+       << "poses lost            " << posesWithoutContacts() + posesNeverReceived();
+  return text.str();
+}
+
+std::optional<std::string> DemoReport::fault() const {
+  if (poses_ == 0) return "no tool pose arrived: the operator did not move";
+  if (mesh_updates_ == 0) return "no mesh update arrived: the workpiece did not deform";
+  if (posesNeverReceived() > 0)
+    return std::to_string(posesNeverReceived()) + " poses were lost before the monitor got them";
+  if (posesWithoutContacts() > 0) return std::to_string(posesWithoutContacts()) + " poses were not swept by the guard";
+  return std::nullopt;
+}
+
+}  // namespace sweep_guard_simulation

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_simulation {
+
+/// What a Contacts message says about one workpiece.
+struct TouchedObject {
+  std::string mesh_id;
+  std::vector<std::uint32_t> triangles;
+};
+
+/// Time between a pose and the answer to it.
+struct Latency {
+  sweep_guard::Time stamp;      ///< of the pose
+  sweep_guard::Duration delay;  ///< arrival of its Contacts minus its stamp
+  std::size_t triangles;        ///< touched
+};
+
+/// Counts what went into the guard and what came out: which poses were answered, how fast, and which were lost. Poses
+/// and answers are matched by their stamps, by multiplicity; either may come first.
+class DemoReport {
+ public:
+  /// @param sequence  header.seq, counted by the publisher
+  void addPose(sweep_guard::Time stamp, std::uint32_t sequence);
+  void addMeshUpdate() { ++mesh_updates_; }
+  void addContacts(sweep_guard::Time stamp, sweep_guard::Time arrival, const std::vector<TouchedObject>& objects);
+
+  bool awaits(sweep_guard::Time stamp) const;  ///< a pose of this stamp has no Contacts so far
+  std::size_t poses() const { return poses_; }
+  std::size_t meshUpdates() const { return mesh_updates_; }
+  std::size_t sweeps() const { return latencies_.size(); }              ///< Contacts messages
+  std::size_t contacts() const { return contacts_; }                    ///< those that touched a triangle
+  std::size_t trianglesTouched() const { return triangles_.size(); }    ///< distinct ones
+  std::size_t posesWithoutContacts() const;                             ///< so far
+  std::size_t posesNeverReceived() const { return sequence_gap_; }      ///< missing in header.seq
+  std::size_t missedCycles() const;                                     ///< answers later than 1/15 s
+  const std::vector<Latency>& latencies() const { return latencies_; }  ///< in order of arrival
+
+  /// The delay that `fraction` in [0, 1] of the answers did not exceed (nearest rank): 0.5 the median, 1 the largest.
+  /// Empty without an answer.
+  std::optional<sweep_guard::Duration> latency(double fraction) const;
+
+  /// One line: 12.5 s  poses 1250  contacts 31  level CONTACT  latency p50 0.4 ms
+  std::string liveLine(sweep_guard::Duration elapsed, const std::string& level) const;
+  std::string summary() const;               ///< several lines, the last without a line feed
+  std::optional<std::string> fault() const;  ///< why the demo did not do what it should; empty if it did
+
+ private:
+  std::size_t poses_ = 0;
+  std::size_t mesh_updates_ = 0;
+  std::size_t contacts_ = 0;
+  std::size_t sequence_gap_ = 0;
+  std::optional<std::uint32_t> last_sequence_;
+  std::map<sweep_guard::Time, int> unmatched_;  // poses minus Contacts of a stamp, without those at 0
+  std::vector<Latency> latencies_;
+  std::set<std::pair<std::string, std::uint32_t>> triangles_;
+};
+
+}  // namespace sweep_guard_simulation

@@ -1,0 +1,36 @@
+#include "simulation/file.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_simulation {
+
+using sweep_guard::InvalidInput;
+
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 256U << 20U;
+
+}  // namespace
+
+std::string readFile(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw InvalidInput(path + ": no such file; give an absolute path");
+  if (!std::filesystem::is_regular_file(status)) throw InvalidInput(path + ": not a regular file");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw InvalidInput(path + ": " + error.message());
+  if (size > kLargestFile) throw InvalidInput(path + ": larger than 256 MiB; give a smaller file");
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream) throw InvalidInput(path + ": cannot be read; check its permissions");
+  return bytes;
+}
+
+}  // namespace sweep_guard_simulation

@@ -1,0 +1,106 @@
+#include "simulation/motion_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+#include "simulation/file.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_simulation {
+
+using sweep_guard::InvalidInput;
+using sweep_guard::StampedPose;
+
+namespace {
+
+constexpr std::size_t kColumns = 8;
+constexpr std::string_view kBlanks = " \t\r";
+constexpr double kShortestQuaternion = 1e-10;
+
+using Columns = std::array<long double, kColumns>;
+
+std::string_view nextWord(std::string_view* line) {
+  line->remove_prefix(std::min(line->find_first_not_of(kBlanks), line->size()));
+  const std::string_view word = line->substr(0, line->find_first_of(kBlanks));
+  line->remove_prefix(word.size());
+  return word;
+}
+
+long double toNumber(std::string_view word) {
+  long double number = std::numeric_limits<long double>::quiet_NaN();
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, number);
+  if (error != std::errc() || stop != end || !std::isfinite(static_cast<double>(number))) {
+    throw InvalidInput("'" + std::string(word) + "' is not a finite number; correct or remove the line");
+  }
+  return number;
+}
+
+Columns toColumns(std::string_view line) {
+  Columns columns{};
+  std::size_t count = 0;
+  for (std::string_view word = nextWord(&line); !word.empty(); word = nextWord(&line), ++count) {
+    if (count < kColumns) columns[count] = toNumber(word);
+  }
+  if (count != kColumns) {
+    throw InvalidInput(std::to_string(count) +
+                       " numbers instead of the 8 of 'stamp tx ty tz qx qy qz qw'; correct or remove the line");
+  }
+  return columns;
+}
+
+sweep_guard::Time toStamp(long double seconds) {
+  using LongSeconds = std::chrono::duration<long double>;
+  constexpr long double kLargest = LongSeconds(sweep_guard::Duration::max()).count() / 2;
+  if (std::fabs(seconds) > kLargest) throw InvalidInput("stamp is out of range; stamps are seconds");
+  return sweep_guard::Time(std::chrono::round<sweep_guard::Duration>(LongSeconds(seconds)));
+}
+
+StampedPose toPose(const Columns& columns) {
+  const auto column = [&columns](std::size_t i) { return static_cast<double>(columns[i]); };
+  const Eigen::Quaterniond rotation(column(7), column(4), column(5), column(6));
+  const double length = rotation.coeffs().stableNorm();
+  if (!(length > kShortestQuaternion)) throw InvalidInput("quaternion is zero; correct or remove the line");
+  StampedPose pose;
+  pose.stamp = toStamp(columns[0]);
+  pose.X_WT.translation() << column(1), column(2), column(3);
+  pose.X_WT.linear() = Eigen::Quaterniond(rotation.coeffs() / length).toRotationMatrix();
+  return pose;
+}
+
+}  // namespace
+
+std::vector<StampedPose> readMotionFile(const std::string& path) {
+  std::istringstream text(readFile(path));
+  std::vector<StampedPose> poses;
+  int line_number = 0;
+  for (std::string line; std::getline(text, line);) {
+    ++line_number;
+    const std::size_t begin = line.find_first_not_of(kBlanks);
+    if (begin == std::string::npos || line[begin] == '#') continue;
+    try {
+      const StampedPose pose = toPose(toColumns(line));
+      if (!poses.empty() && pose.stamp < poses.back().stamp) {
+        throw InvalidInput("stamp is earlier than the one before; sort the lines by their stamps");
+      }
+      poses.push_back(pose);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(path + ":" + std::to_string(line_number) + ": " + error.what());
+    }
+  }
+  if (poses.empty()) {
+    throw InvalidInput(path + ":" + std::to_string(line_number) +
+                       ": no pose in the file; give lines 'stamp tx ty tz qx qy qz qw'");
+  }
+  return poses;
+}
+
+}  // namespace sweep_guard_simulation

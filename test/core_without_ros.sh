@@ -1,0 +1,29 @@
+#!/bin/bash
+# core_without_ros.sh LIBRARY ROOT: the core includes nothing of ROS, no message and no room above it, and links nothing but
+# OSMesa and the system's own libraries.
+set -euo pipefail
+library=$1
+root=$2
+
+files=()
+for room in common geometry detection prediction guard; do
+  for folder in "$root/include/sweep_guard/$room" "$root/src/$room"; do
+    [[ -d $folder ]] && files+=("$folder"/*)
+  done
+done
+[[ ${#files[@]} -gt 20 ]] || { echo "finds only ${#files[@]} files of the core in $root" && exit 1; }
+
+status=0
+foreign='#include [<"](ros|tf2|rviz|nodelet|pluginlib|std_srvs|[a-z_]*_msgs|sweep_guard/(ros|rviz|simulation|[A-Z]))'
+if grep -nE "$foreign" "${files[@]}"; then
+  echo "the core includes what is above it"
+  status=1
+fi
+
+needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
+grep -q '^libOSMesa\.' <<<"$needed" || { echo "$library does not link OSMesa: is it the core?" && status=1; }
+if grep -vE '^(libOSMesa|libstdc\+\+|libm|libgcc_s|libc|libpthread|libasan|libubsan|libtsan|ld-linux-[a-z0-9-]*)\.so' <<<"$needed"; then
+  echo "$library links these, which the core must not need"
+  status=1
+fi
+exit $status

@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "detection/exact_oracle.h"
+#include "scenes.h"
+#include "sweep_guard/detection/detector.h"
+#include "sweep_guard/detection/reference_detector.h"
+#include "sweep_guard/detection/select_detector.h"
+
+namespace sweep_guard {
+namespace {
+
+using SceneOf = Scene (*)(std::uint64_t seed);
+
+struct Variant {
+  std::string name;
+  std::function<std::unique_ptr<Detector>()> make;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Variant& variant) { return stream << variant.name; }
+
+// Every detector by name, and the ways of `select` that no name gives.
+std::vector<Variant> variants() {
+  std::vector<Variant> all;
+  for (const std::string& name : detectorNames()) all.push_back({name, [name] { return makeDetector(name); }});
+  const auto select = [&](const std::string& name, const SelectDetector::Options& options) {
+    all.push_back({"select_" + name, [options] { return std::make_unique<SelectDetector>(options); }});
+  };
+  select("without_cull", {/*cull=*/false});
+  select("one_by_one", {/*cull=*/true, /*block=*/1});
+  select("in_sevens_with_room_for_two_hits", {/*cull=*/true, /*block=*/7, /*hit_records=*/2});
+  return all;
+}
+
+SweptVolume grown(SweptVolume volume, double distance) {
+  volume.box.half_extents.array() += distance;
+  for (HalfSpace& clip_B : volume.clips_B) clip_B = clip_B.grown(distance);
+  return volume;
+}
+
+std::vector<std::uint32_t> difference(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  std::vector<std::uint32_t> only_in_a;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only_in_a));
+  return only_in_a;
+}
+
+class DetectorContractTest : public testing::TestWithParam<Variant> {
+ protected:
+  // Of each of so many scenes: what the reference finds is found, and what is found besides is within the inflation.
+  void compareWithReference(SceneOf scene_of, int count) {
+    for (int seed = 0; seed < count && !HasFailure(); ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      const Scene scene = scene_of(static_cast<std::uint64_t>(seed));
+      const Detection found = detector_->detect(scene.mesh_M, scene.swept_M);
+      const Detection expected = reference_.detect(scene.mesh_M, scene.swept_M);
+      const Detection allowed = reference_.detect(scene.mesh_M, grown(scene.swept_M, found.inflation));
+      for (const std::uint32_t missed : difference(expected.triangles, found.triangles)) {
+        ADD_FAILURE() << "missed " << describe(scene, missed);
+      }
+      for (const std::uint32_t extra : difference(found.triangles, allowed.triangles)) {
+        ADD_FAILURE() << "farther than " << found.inflation << " m: " << describe(scene, extra);
+      }
+    }
+  }
+
+  // The same against exact arithmetic, which judges the reference too.
+  void compareWithExact(SceneOf scene_of, int count) {
+    for (int seed = 0; seed < count && !HasFailure(); ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      const Scene scene = scene_of(static_cast<std::uint64_t>(seed));
+      const Detection found = detector_->detect(scene.mesh_M, scene.swept_M);
+      for (std::uint32_t i = 0; i < scene.mesh_M.triangles().size(); ++i) {
+        if (std::binary_search(found.triangles.begin(), found.triangles.end(), i)) {
+          EXPECT_TRUE(meetsExactly(scene.mesh_M, i, scene.swept_M, found.inflation))
+              << "farther than " << found.inflation << " m: " << describe(scene, i);
+        } else {
+          EXPECT_FALSE(meetsExactly(scene.mesh_M, i, scene.swept_M)) << "missed " << describe(scene, i);
+        }
+      }
+    }
+  }
+
+  std::unique_ptr<Detector> detector_ = GetParam().make();
+  ReferenceDetector reference_;
+};
+
+TEST_P(DetectorContractTest, FindsWhatTheReferenceFindsInRandomScenes) {
+  compareWithReference(randomScene, sceneCount(/*full_size=*/100'000, /*default_percent=*/10.0));
+}
+
+TEST_P(DetectorContractTest, FindsWhatTheReferenceFindsInGrazingScenes) {
+  compareWithReference(grazingScene, sceneCount(/*full_size=*/10'000, /*default_percent=*/100.0));
+}
+
+TEST_P(DetectorContractTest, FindsWhatExactArithmeticFindsInRandomScenes) {
+  compareWithExact(randomScene, sceneCount(/*full_size=*/2'000, /*default_percent=*/5.0));
+}
+
+TEST_P(DetectorContractTest, FindsWhatExactArithmeticFindsInGrazingScenes) {
+  compareWithExact(grazingScene, sceneCount(/*full_size=*/2'000, /*default_percent=*/25.0));
+}
+
+INSTANTIATE_TEST_SUITE_P(AllDetectors, DetectorContractTest, testing::ValuesIn(variants()),
+                         [](const auto& test) { return test.param.name; });
+
+struct Shares {
+  double with_hit = 0.0;           // of scenes, with some triangle met
+  double without_hit = 0.0;        // of scenes, with none
+  double met = 0.0;                // of triangles
+  double decided_by_little = 0.0;  // of triangles, those that meet the volume only if it grows by 1e-6 of its size
+};
+
+Shares sharesOf(SceneOf scene_of, int count) {
+  ReferenceDetector reference;
+  Shares shares;
+  double triangles = 0.0;
+  double met = 0.0;
+  double close = 0.0;
+  for (int seed = 0; seed < count; ++seed) {
+    const Scene scene = scene_of(static_cast<std::uint64_t>(seed));
+    const double little = 1e-6 * scene.swept_M.box.half_extents.norm();
+    const size_t found = reference.detect(scene.mesh_M, scene.swept_M).triangles.size();
+    (found > 0 ? shares.with_hit : shares.without_hit) += 1.0 / count;
+    triangles += static_cast<double>(scene.mesh_M.triangles().size());
+    met += static_cast<double>(found);
+    close += static_cast<double>(reference.detect(scene.mesh_M, grown(scene.swept_M, little)).triangles.size() - found);
+  }
+  shares.met = met / triangles;
+  shares.decided_by_little = close / triangles;
+  return shares;
+}
+
+// Scenes that all hit, or all miss, would prove nothing about a detector that always answers alike.
+TEST(ScenesTest, RandomScenesHitAndMiss) {
+  const Shares shares = sharesOf(randomScene, 1000);
+  EXPECT_GT(shares.with_hit, 0.3);
+  EXPECT_GT(shares.without_hit, 0.05);
+  EXPECT_GT(shares.met, 0.05);
+  EXPECT_LT(shares.met, 0.8);
+}
+
+TEST(ScenesTest, GrazingScenesHitAndMissByLittle) {
+  const Shares shares = sharesOf(grazingScene, 1000);
+  EXPECT_GT(shares.with_hit, 0.3);
+  EXPECT_GT(shares.without_hit, 0.1);
+  EXPECT_GT(shares.met, 0.2);
+  EXPECT_LT(shares.met, 0.8);
+  EXPECT_GT(shares.decided_by_little, 0.1);
+}
+
+}  // namespace
+}  // namespace sweep_guard

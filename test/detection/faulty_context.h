@@ -1,0 +1,37 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/detection/offscreen_context.h"
+
+namespace sweep_guard {
+
+/// An OSMesa context of which single functions are replaced.
+class FaultyContext : public OffscreenContext {
+ public:
+  using Replacements = std::map<std::string, Function>;  ///< null: the function is missing
+
+  explicit FaultyContext(Replacements replacements) : replacements_(std::move(replacements)) {}
+
+  void makeCurrent() override {
+    if (refuses) throw DeviceError("faulty context: cannot be made current");
+    context_->makeCurrent();
+  }
+
+  Function function(const char* name) override {
+    const auto replacement = replacements_.find(name);
+    return replacement == replacements_.end() ? context_->function(name) : replacement->second;
+  }
+
+  bool refuses = false;  ///< makeCurrent() throws
+
+ private:
+  std::unique_ptr<OffscreenContext> context_ = makeOsMesaContext();
+  Replacements replacements_;
+};
+
+}  // namespace sweep_guard

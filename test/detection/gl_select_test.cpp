@@ -1,0 +1,247 @@
+#include "sweep_guard/detection/gl_select.h"
+
+#include <GL/gl.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "detection/faulty_context.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard {
+namespace {
+
+using Names = std::vector<std::uint32_t>;
+using Replacements = FaultyContext::Replacements;
+
+template <typename Function>
+OffscreenContext::Function erased(Function* function) {
+  return reinterpret_cast<OffscreenContext::Function>(function);
+}
+
+// OSMesa's own functions, for replacements to call. Every context has the same.
+template <typename Function>
+Function* original(const char* name) {
+  static const std::unique_ptr<OffscreenContext> context = makeOsMesaContext();
+  return reinterpret_cast<Function*>(context->function(name));
+}
+
+GLint GLAPIENTRY seeNothing(GLenum mode) {
+  original<decltype(::glRenderMode)>("glRenderMode")(mode);
+  return 0;
+}
+
+GLint GLAPIENTRY overflowForEver(GLenum mode) {
+  original<decltype(::glRenderMode)>("glRenderMode")(mode);
+  return -1;
+}
+
+GLenum GLAPIENTRY reportAnError() { return GL_INVALID_OPERATION; }
+
+GLuint* selection = nullptr;
+
+void GLAPIENTRY rememberBuffer(GLsizei size, GLuint* buffer) {
+  selection = buffer;
+  original<decltype(::glSelectBuffer)>("glSelectBuffer")(size, buffer);
+}
+
+GLint GLAPIENTRY misnameTheLastHit(GLenum mode) {
+  const GLint records = original<decltype(::glRenderMode)>("glRenderMode")(mode);
+  if (records > 0) selection[4 * records - 1] = 0xFFFFFFFFU;
+  return records;
+}
+
+GLint GLAPIENTRY forgetTheNameOfTheLastHit(GLenum mode) {
+  const GLint records = original<decltype(::glRenderMode)>("glRenderMode")(mode);
+  if (records > 0) selection[4 * records - 4] = 0;
+  return records;
+}
+
+// Triangles in a row along x, each 0.01 large; the canary at the centre of the cube.
+class Row {
+ public:
+  explicit Row(const std::vector<float>& places) {
+    for (const float x : places) {
+      corners_.insert(corners_.end(), {x, 0.0F, 0.0F, x + 0.01F, 0.0F, 0.0F, x, 0.01F, 0.0F});
+    }
+  }
+
+  GlSelect::Query query(int triangles_per_name = 1) const { return {corners_, triangles_per_name, clips, canary}; }
+
+  std::vector<Eigen::Vector4d> clips;
+  Eigen::Vector3d canary = Eigen::Vector3d::Zero();
+
+ private:
+  std::vector<float> corners_;
+};
+
+const Row kRow({-2.0F, -0.5F, 0.0F, 0.5F, 2.0F, 0.9F});
+
+GlSelect faulty(const Replacements& replacements) { return GlSelect(std::make_unique<FaultyContext>(replacements)); }
+
+std::string complaint(GlSelect& select) {
+  try {
+    select.hits(kRow.query());
+  } catch (const DeviceError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(GlSelectTest, NamesTheTrianglesInTheCube) {
+  GlSelect select(makeOsMesaContext());
+  EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
+}
+
+TEST(GlSelectTest, NamesBlocksOfTriangles) {
+  GlSelect select(makeOsMesaContext());
+  EXPECT_EQ(select.hits(kRow.query(2)), (Names{0, 1, 2}));
+  EXPECT_EQ(select.hits(kRow.query(4)), (Names{0, 1}));  // the last block is short
+  EXPECT_EQ(select.hits(kRow.query(100)), (Names{0}));
+  EXPECT_EQ(select.hits(Row({2.0F, 3.0F, 0.0F}).query(2)), (Names{1}));
+}
+
+TEST(GlSelectTest, NamesNothingWhereThereIsNothing) {
+  GlSelect select(makeOsMesaContext());
+  EXPECT_EQ(select.hits(Row({2.0F, -3.0F}).query()), Names{});
+  EXPECT_EQ(select.hits(Row(std::vector<float>{}).query()), Names{});
+}
+
+TEST(GlSelectTest, KeepsWhatIsOnThePositiveSideOfEachClip) {
+  Row row = kRow;
+  row.clips = {{1, 0, 0, 0.25}, {-1, 0, 0, 0.75}};  // x >= -0.25, x <= 0.75
+  GlSelect select(makeOsMesaContext());
+  EXPECT_EQ(select.hits(row.query()), (Names{2, 3}));
+}
+
+TEST(GlSelectTest, AppliesSixClips) {
+  Row row = kRow;
+  row.clips.assign(5, {0, 0, 0, 1});
+  row.clips.push_back({1, 0, 0, -0.25});
+  row.canary = {0.3, 0, 0};
+  GlSelect select(makeOsMesaContext());
+  EXPECT_EQ(select.hits(row.query()), (Names{3, 5}));
+}
+
+TEST(GlSelectTest, ForgetsTheClipsOfTheQueryBefore) {
+  Row clipped = kRow;
+  clipped.clips = {{1, 0, 0, 0.25}};
+  GlSelect select(makeOsMesaContext());
+  EXPECT_EQ(select.hits(clipped.query()), (Names{2, 3, 5}));
+  EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
+}
+
+// Touching is meeting. 2e-7 further out is not: so the cube is where it should be.
+TEST(GlSelectTest, HitsWhatTouchesTheCube) {
+  GlSelect select(makeOsMesaContext());
+  EXPECT_EQ(select.hits(Row({1.0F, 1.0000002F}).query()), (Names{0}));
+}
+
+TEST(GlSelectTest, HitsBothWindingsAndDegenerateTriangles) {
+  const std::vector<float> corners = {0,  0,  0,    0,    0.1F, 0,    0.1F, 0,    0,      // clockwise
+                                      0,  0,  0,    0.1F, 0,    0,    0,    0.1F, 0,      // counter-clockwise
+                                      0,  0,  0,    0,    0,    0,    0,    0,    0,      // a point
+                                      0,  0,  0,    0,    0,    0.5F, 0,    0,    0.5F,   // a segment, seen end on
+                                      -9, -9, 0.5F, 9,    -9,   0.5F, 0,    9,    0.5F,   // encloses the cube
+                                      -9, -9, 1.0F, 9,    -9,   1.0F, 0,    9,    1.0F};  // in the plane of a face
+  const Eigen::Vector3d canary = Eigen::Vector3d::Zero();
+  GlSelect select(makeOsMesaContext());
+  EXPECT_EQ(select.hits({corners, 1, {}, canary}), (Names{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(GlSelectTest, GrowsABufferThatIsTooSmall) {
+  GlSelect select(makeOsMesaContext(), /*hit_records=*/1);
+  EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
+  EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
+}
+
+// Someone else draws in the same thread between two queries.
+TEST(GlSelectTest, SetsTheWholeStateForEveryQuery) {
+  auto context = makeOsMesaContext();
+  OffscreenContext& shared = *context;
+  GlSelect select(std::move(context));
+  ASSERT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
+
+  shared.makeCurrent();
+  original<decltype(::glEnable)>("glEnable")(GL_CULL_FACE);
+  original<decltype(::glCullFace)>("glCullFace")(GL_FRONT_AND_BACK);
+  original<decltype(::glMatrixMode)>("glMatrixMode")(GL_PROJECTION);
+  original<decltype(::glScalef)>("glScalef")(100.0F, 100.0F, 100.0F);
+  original<decltype(::glEnable)>("glEnable")(GL_CLIP_PLANE5);
+  original<decltype(::glDisableClientState)>("glDisableClientState")(GL_VERTEX_ARRAY);
+  original<decltype(::glPolygonMode)>("glPolygonMode")(GL_FRONT_AND_BACK, GL_POINT);
+  EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
+}
+
+TEST(GlSelectTest, MakesItsContextCurrentForEveryQuery) {
+  GlSelect first(makeOsMesaContext());
+  GlSelect second(makeOsMesaContext());
+  EXPECT_EQ(first.hits(kRow.query()), (Names{1, 2, 3, 5}));
+  EXPECT_EQ(second.hits(Row({0.0F}).query()), (Names{0}));
+  EXPECT_EQ(first.hits(kRow.query()), (Names{1, 2, 3, 5}));
+}
+
+TEST(GlSelectTest, DoesNotTakeSilenceForAnAnswer) {
+  GlSelect select = faulty({{"glRenderMode", erased(seeNothing)}});
+  EXPECT_TRUE(contains(complaint(select), "canary")) << complaint(select);
+}
+
+TEST(GlSelectTest, DoesNotTrustACanaryThatIsOutside) {
+  Row row = kRow;
+  row.canary = {0, 0, 1.5};
+  GlSelect select(makeOsMesaContext());
+  EXPECT_THROW(select.hits(row.query()), DeviceError);
+}
+
+TEST(GlSelectTest, DoesNotAnswerAfterAnError) {
+  GlSelect select = faulty({{"glGetError", erased(reportAnError)}});
+  EXPECT_TRUE(contains(complaint(select), "error 1282")) << complaint(select);  // GL_INVALID_OPERATION
+}
+
+TEST(GlSelectTest, DoesNotGrowItsBufferForEver) {
+  GlSelect select = faulty({{"glRenderMode", erased(overflowForEver)}});
+  EXPECT_TRUE(contains(complaint(select), "overflows")) << complaint(select);
+}
+
+TEST(GlSelectTest, DoesNotTrustAHitUnderAnUnknownName) {
+  GlSelect unknown = faulty({{"glSelectBuffer", erased(rememberBuffer)}, {"glRenderMode", erased(misnameTheLastHit)}});
+  EXPECT_TRUE(contains(complaint(unknown), "no known name")) << complaint(unknown);
+  GlSelect nameless =
+      faulty({{"glSelectBuffer", erased(rememberBuffer)}, {"glRenderMode", erased(forgetTheNameOfTheLastHit)}});
+  EXPECT_TRUE(contains(complaint(nameless), "no known name")) << complaint(nameless);
+}
+
+// A vertex that is no number makes OpenGL leave out its triangle. The canary shows that the others are still seen.
+TEST(GlSelectTest, SeesTheOthersBesideAVertexThatIsNoNumber) {
+  std::vector<float> corners = {0, 0, 0, 0.1F, 0, 0, 0, 0.1F, 0, 0, 0, 0, 0.1F, 0, 0, 0, 0.1F, 0};
+  corners[4] = std::numeric_limits<float>::quiet_NaN();
+  const Eigen::Vector3d canary = Eigen::Vector3d::Zero();
+  GlSelect select(makeOsMesaContext());
+  const Names hits = select.hits({corners, 1, {}, canary});
+  EXPECT_FALSE(hits.empty());
+  EXPECT_EQ(hits.back(), 1U);
+}
+
+TEST(GlSelectTest, NamesTheFunctionThatIsMissing) {
+  try {
+    faulty({{"glInitNames", nullptr}});
+    ADD_FAILURE() << "works without glInitNames";
+  } catch (const DeviceError& error) {
+    EXPECT_TRUE(contains(error.what(), "glInitNames")) << error.what();
+  }
+}
+
+TEST(GlSelectTest, PassesOnThatAContextCannotBeMadeCurrent) {
+  auto context = std::make_unique<FaultyContext>(Replacements{});
+  FaultyContext& faulty_context = *context;
+  GlSelect select(std::move(context));
+  faulty_context.refuses = true;
+  EXPECT_THROW(select.hits(kRow.query()), DeviceError);
+  faulty_context.refuses = false;
+  EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
+}
+
+}  // namespace
+}  // namespace sweep_guard

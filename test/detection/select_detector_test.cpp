@@ -1,0 +1,194 @@
+#include "sweep_guard/detection/select_detector.h"
+
+#include <GL/gl.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "detection/faulty_context.h"
+#include "scenes.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/detection/reference_detector.h"
+
+namespace sweep_guard {
+namespace {
+
+using Replacements = FaultyContext::Replacements;
+
+GLenum GLAPIENTRY reportAnError() { return GL_INVALID_OPERATION; }
+
+// What a context whose selection fails is made of.
+Replacements broken() { return {{"glGetError", reinterpret_cast<OffscreenContext::Function>(reportAnError)}}; }
+
+// Makes contexts, of which the first so many are broken.
+class Factory {
+ public:
+  explicit Factory(int broken_ones) : broken_left_(broken_ones) {}
+
+  SelectDetector::ContextFactory get() {
+    return [this]() -> std::unique_ptr<OffscreenContext> {
+      ++made;
+      return std::make_unique<FaultyContext>(broken_left_-- > 0 ? broken() : Replacements{});
+    };
+  }
+
+  int made = 0;
+
+ private:
+  int broken_left_;
+};
+
+// A drill that moves 0.2 m to the side, over the surface of the wavy hull.
+SweptVolume sweptDrill() {
+  Motion motion;
+  motion.X_MT_start.translation() = Eigen::Vector3d(-0.1, 0.01, 0.1);
+  motion.X_MT_end.translation() = Eigen::Vector3d(0.1, 0.01, 0.1);
+  return sweptVolume(Tool::cylinder(0.005, 0.05), motion, VolumeKind::kObbPlanes);
+}
+
+const TriangleMesh& hull() {
+  static const TriangleMesh mesh = wavyHull(/*rings=*/21, /*sectors=*/40, /*phase=*/0.0);
+  return mesh;
+}
+
+std::vector<std::uint32_t> expected(const TriangleMesh& mesh = hull()) {
+  return ReferenceDetector().detect(mesh, sweptDrill()).triangles;
+}
+
+TEST(SelectDetectorTest, FindsTheTrianglesThatTheDrillMeets) {
+  SelectDetector detector({});
+  ASSERT_GT(expected().size(), 20U);
+  EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
+}
+
+// Two records hold 8 words: the canary and one hit.
+TEST(SelectDetectorTest, FindsAllInABufferThatHoldsTwo) {
+  SelectDetector detector({/*cull=*/true, /*block=*/64, /*hit_records=*/2});
+  EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
+}
+
+TEST(SelectDetectorTest, TakesANewContextWhereOneFails) {
+  Factory factory(/*broken_ones=*/1);
+  SelectDetector detector({}, factory.get());
+  EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
+  EXPECT_EQ(factory.made, 2);
+  EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
+  EXPECT_EQ(factory.made, 2);  // and keeps it
+}
+
+TEST(SelectDetectorTest, GivesUpWhereTheSecondContextFailsAndComesBackWithTheThird) {
+  Factory factory(/*broken_ones=*/2);
+  SelectDetector detector({}, factory.get());
+  EXPECT_THROW(detector.detect(hull(), sweptDrill()), DeviceError);
+  EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
+  EXPECT_EQ(factory.made, 3);
+}
+
+TEST(SelectDetectorTest, ComesBackAfterATimeWithoutAnyContext) {
+  Factory factory(/*broken_ones=*/1);
+  bool refuse = false;
+  SelectDetector detector({}, [&]() -> std::unique_ptr<OffscreenContext> {
+    if (refuse) throw DeviceError("no context today");
+    return factory.get()();
+  });
+  refuse = true;
+  EXPECT_THROW(detector.detect(hull(), sweptDrill()), DeviceError);
+  EXPECT_THROW(detector.detect(hull(), sweptDrill()), DeviceError);
+  refuse = false;
+  EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
+}
+
+TEST(SelectDetectorTest, RefusesToStartWithoutAContext) {
+  const auto none = []() -> std::unique_ptr<OffscreenContext> { throw DeviceError("no context"); };
+  EXPECT_THROW(SelectDetector({}, none), DeviceError);
+  const auto incomplete = []() -> std::unique_ptr<OffscreenContext> {
+    return std::make_unique<FaultyContext>(Replacements{{"glClipPlane", nullptr}});
+  };
+  EXPECT_THROW(SelectDetector({}, incomplete), DeviceError);
+}
+
+// A context is current in one thread at a time; a nodelet's timer comes from any.
+TEST(SelectDetectorTest, AnswersInOneThreadAfterTheOther) {
+  SelectDetector detector({});
+  for (int i = 0; i < 5; ++i) {
+    std::vector<std::uint32_t> found;
+    std::thread([&] { found = detector.detect(hull(), sweptDrill()).triangles; }).join();
+    EXPECT_EQ(found, expected()) << "thread " << i;
+  }
+  EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
+}
+
+TEST(SelectDetectorTest, DetectorsInParallelThreadsDoNotDisturbEachOther) {
+  constexpr std::uint64_t kScenes = 200;
+  std::vector<std::vector<std::uint32_t>> alone;
+  SelectDetector detector_alone({});
+  for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+    const Scene scene = randomScene(seed);
+    alone.push_back(detector_alone.detect(scene.mesh_M, scene.swept_M).triangles);
+  }
+  std::vector<int> wrong(4, 0);
+  std::vector<std::thread> threads;
+  for (int& wrong_here : wrong) {
+    threads.emplace_back([&] {
+      SelectDetector detector({});
+      for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+        const Scene scene = randomScene(seed);
+        if (detector.detect(scene.mesh_M, scene.swept_M).triangles != alone[seed]) ++wrong_here;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, std::vector<int>(4, 0));
+}
+
+TEST(SelectDetectorTest, FollowsADeformation) {
+  SelectDetector detector({});
+  TriangleMesh mesh = hull();
+  for (int step = 0; step < 20; ++step) {
+    const TriangleMesh target = wavyHull(21, 40, /*phase=*/0.3 * step);
+    std::vector<float> positions;
+    for (size_t i = 0; i < target.vertexCount(); ++i) {
+      const Eigen::Vector3f p = target.vertex(i).cast<float>();
+      positions.insert(positions.end(), p.begin(), p.end());
+    }
+    mesh = mesh.deformed(std::move(positions));
+    EXPECT_EQ(detector.detect(mesh, sweptDrill()).triangles, expected(mesh)) << "step " << step;
+  }
+}
+
+TEST(SelectDetectorTest, FollowsAChangeOfTopology) {
+  SelectDetector detector({});
+  for (const int rings : {21, 5, 40, 3, 2}) {
+    const TriangleMesh mesh = wavyHull(rings, 40, 0.0);
+    EXPECT_EQ(detector.detect(mesh, sweptDrill()).triangles, expected(mesh)) << rings << " rings";
+  }
+}
+
+// Small numbers of triangles, on both sides of the size of a block.
+TEST(SelectDetectorTest, FindsEachTriangleWhereverItIsInABlock) {
+  for (const int block : {1, 2, 3, 64}) {
+    SelectDetector detector({/*cull=*/false, block});
+    for (const std::uint32_t count : {1U, 2U, 3U, 4U, 63U, 64U, 65U, 128U, 129U}) {
+      for (const std::uint32_t met : {0U, count / 2, count - 1}) {
+        std::vector<Eigen::Vector3d> vertices(count, Eigen::Vector3d(5, 5, 5));
+        vertices[met] = Eigen::Vector3d(0, 0.01, 0.1);
+        std::vector<Triangle> triangles;
+        for (std::uint32_t i = 0; i < count; ++i) triangles.push_back({i, i, i});
+        const TriangleMesh mesh(vertices, triangles);
+        EXPECT_EQ(detector.detect(mesh, sweptDrill()).triangles, std::vector<std::uint32_t>{met})
+            << "blocks of " << block << ", " << count << " triangles";
+      }
+    }
+  }
+}
+
+TEST(MakeDetectorTest, KnowsItsNamesAndNoOther) {
+  for (const std::string& name : detectorNames()) {
+    EXPECT_EQ(makeDetector(name)->detect(hull(), sweptDrill()).triangles, expected()) << name;
+  }
+  EXPECT_EQ(makeDetector("select", /*cull=*/false)->detect(hull(), sweptDrill()).triangles, expected());
+  for (const char* name : {"", "Select", "halfspace"}) EXPECT_THROW(makeDetector(name), InvalidInput) << name;
+}
+
+}  // namespace
+}  // namespace sweep_guard

@@ -1,0 +1,129 @@
+#include "sweep_guard/geometry/motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes.h"
+
+namespace sweep_guard {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+constexpr double kDegree = kPi / 180.0;
+
+Eigen::Isometry3d turnedAboutZ(double degrees, const Eigen::Vector3d& place = Eigen::Vector3d::Zero()) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  pose.translation() = place;
+  return pose;
+}
+
+double angleBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) { return Motion{a, b}.angle(); }
+
+TEST(MotionTest, StartsAndEndsAtItsPoses) {
+  const Motion motion{turnedAboutZ(10, {1, 2, 3}), turnedAboutZ(50, {3, 2, 1})};
+  EXPECT_TRUE(motion.at(0.0).isApprox(motion.X_MT_start, 1e-14));
+  EXPECT_TRUE(motion.at(1.0).isApprox(motion.X_MT_end, 1e-14));
+}
+
+TEST(MotionTest, GoesStraightAndTurnsAtConstantRate) {
+  const Motion motion{turnedAboutZ(0), turnedAboutZ(80, {4, 0, 8})};
+  EXPECT_TRUE(motion.at(0.25).isApprox(turnedAboutZ(20, {1, 0, 2}), 1e-14));
+  EXPECT_NEAR(motion.angle(), 80 * kDegree, 1e-14);
+  EXPECT_TRUE(motion.axis_T().isApprox(Eigen::Vector3d::UnitZ(), 1e-14));
+}
+
+TEST(MotionTest, TurnsTheShorterWay) {
+  const Motion motion{turnedAboutZ(-100), turnedAboutZ(100)};
+  EXPECT_NEAR(motion.angle(), 160 * kDegree, 1e-14);
+  EXPECT_TRUE(motion.at(0.5).isApprox(turnedAboutZ(180), 1e-14));
+}
+
+// A quaternion and its negative are one rotation, and a rotation matrix gives either: whichever it is, halfway is half
+// the angle from both ends.
+TEST(MotionTest, IsHalfwayBetweenAnyTwoRotations) {
+  Random random(/*seed=*/1);
+  for (int i = 0; i < 10'000; ++i) {
+    const Motion motion{random.pose(Eigen::Vector3d::Zero()), random.pose(Eigen::Vector3d::Zero())};
+    const double half = 0.5 * motion.angle();
+    EXPECT_LE(half, 0.5 * kPi);
+    EXPECT_NEAR(angleBetween(motion.X_MT_start, motion.at(0.5)), half, 1e-9) << "motion " << i;
+    EXPECT_NEAR(angleBetween(motion.at(0.5), motion.X_MT_end), half, 1e-9) << "motion " << i;
+  }
+}
+
+// There the axis is one of many.
+TEST(MotionTest, HasAUnitAxisWithoutARotationAndAtHalfATurn) {
+  for (const double degrees : {0.0, 1e-9, 179.999999, 180.0, 180.000001}) {
+    const Motion motion{turnedAboutZ(0), turnedAboutZ(degrees)};
+    EXPECT_NEAR(motion.axis_T().norm(), 1.0, 1e-12) << degrees;
+    EXPECT_NEAR(angleBetween(motion.X_MT_start, motion.at(0.5)), 0.5 * motion.angle(), 1e-9) << degrees;
+  }
+}
+
+TEST(SplitTest, MakesTheFewestPartsThatTurnAtMostTheMaximum) {
+  const Motion motion{turnedAboutZ(0), turnedAboutZ(90, {9, 0, 0})};
+  EXPECT_EQ(split(motion, 91 * kDegree).size(), 1U);
+  EXPECT_EQ(split(motion, 46 * kDegree).size(), 2U);
+  EXPECT_EQ(split(motion, 31 * kDegree).size(), 3U);
+  EXPECT_EQ(split(motion, 29 * kDegree).size(), 4U);
+}
+
+TEST(SplitTest, LeavesAMotionWithoutRotationWhole) {
+  EXPECT_EQ(split({turnedAboutZ(30), turnedAboutZ(30, {1e6, 0, 0})}, 0.175).size(), 1U);
+}
+
+TEST(SplitTest, PartsAreEndToEndAndCoverTheMotion) {
+  Random random(/*seed=*/2);
+  for (int i = 0; i < 1000; ++i) {
+    SCOPED_TRACE("motion " + std::to_string(i));
+    const Motion motion{random.pose(10.0 * random.direction()), random.pose(10.0 * random.direction())};
+    const double max_rotation = random.uniform(0.05, 1.5);
+    const std::vector<Motion> parts = split(motion, max_rotation);
+    const auto count = static_cast<double>(parts.size());
+    EXPECT_EQ(parts.front().X_MT_start.matrix(), motion.X_MT_start.matrix());
+    EXPECT_EQ(parts.back().X_MT_end.matrix(), motion.X_MT_end.matrix());
+    for (size_t k = 0; k < parts.size(); ++k) {
+      EXPECT_LE(parts[k].angle(), max_rotation * (1.0 + 1e-9));
+      if (k > 0) {
+        EXPECT_EQ(parts[k].X_MT_start.matrix(), parts[k - 1].X_MT_end.matrix());
+      }
+      const double middle = (static_cast<double>(k) + 0.5) / count;
+      EXPECT_TRUE(parts[k].at(0.5).isApprox(motion.at(middle), 1e-9));
+    }
+  }
+}
+
+TEST(ChordErrorTest, IsAnEighthOfRadiusTimesAngleSquared) {
+  EXPECT_DOUBLE_EQ(chordError(0.2, 0.1), 0.00025);
+  EXPECT_EQ(chordError(0.2, 0.0), 0.0);
+  EXPECT_EQ(chordError(0.0, 1.0), 0.0);
+}
+
+// Against the motion itself in 1000 steps: every point of the rim is within the bound of the chord it is replaced by.
+TEST(ChordErrorTest, BoundsTheArcsOfEveryToolPoint) {
+  Random random(/*seed=*/3);
+  double closest = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE("motion " + std::to_string(i));
+    const Tool tool = randomTool(random, 1.0);
+    const Motion motion = randomMotion(random, tool, random.direction(), /*max_angle=*/1.57);
+    const double bound = chordError(tool.reach(motion.axis_T()), motion.angle());
+    for (int step = 0; step <= 1000; ++step) {
+      const double fraction = step / 1000.0;
+      const Eigen::Isometry3d X_MT = motion.at(fraction);
+      for (size_t vertex = 0; vertex < tool.mesh_T().vertexCount(); ++vertex) {
+        const Eigen::Vector3d p_T = tool.mesh_T().vertex(vertex);
+        const Eigen::Vector3d chord = (1.0 - fraction) * (motion.X_MT_start * p_T) + fraction * (motion.X_MT_end * p_T);
+        const double error = (X_MT * p_T - chord).norm();
+        ASSERT_LE(error, bound + 1e-12);
+        if (bound > 1e-6) closest = std::max(closest, error / bound);
+      }
+    }
+  }
+  EXPECT_GT(closest, 0.9);  // the bound is nearly reached, so half of it would not do
+}
+
+}  // namespace
+}  // namespace sweep_guard

@@ -1,0 +1,123 @@
+#include "sweep_guard/geometry/swept_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geometry/round_tool.h"
+#include "scenes.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard {
+namespace {
+
+// How far a point lies outside of the volume [m]; negative: inside.
+double outside(const SweptVolume& volume, const Eigen::Vector3d& p_B) {
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (const HalfSpace& half_space : volume.halfSpaces_B()) {
+    farthest = std::max(farthest, half_space.signedDistance(p_B));
+  }
+  return farthest;
+}
+
+// The same for the round tool, over the exact motion in steps.
+double outside(const SweptVolume& volume, const Tool& tool, const Motion& motion, int steps) {
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (int step = 0; step <= steps; ++step) {
+    const Eigen::Isometry3d X_BT = volume.box.X_MB.inverse() * motion.at(static_cast<double>(step) / steps);
+    for (const Eigen::Vector3d& p_T : roundToolPoints_T(tool, 32)) {
+      farthest = std::max(farthest, outside(volume, X_BT * p_T));
+    }
+  }
+  return farthest;
+}
+
+TEST(VolumeKindTest, HasTheNamesOfTheInterface) {
+  for (const std::string name : {"obb", "obb_planes"}) EXPECT_EQ(nameOf(volumeKind(name)), name);
+  EXPECT_EQ(volumeKind("obb"), VolumeKind::kObb);
+  for (const std::string name : {"", "OBB", "hull"}) EXPECT_THROW(volumeKind(name), InvalidInput) << name;
+}
+
+TEST(SweptVolumeTest, IsTheBoxAloneIfAskedFor) {
+  Random random(/*seed=*/1);
+  const Tool drill = Tool::cylinder(0.005, 0.1);
+  const Motion motion = handMotion(random);
+  EXPECT_EQ(sweptVolume(drill, motion, VolumeKind::kObb).halfSpaces_B().size(), 6U);
+  EXPECT_GT(sweptVolume(drill, motion, VolumeKind::kObbPlanes).halfSpaces_B().size(), 6U);
+}
+
+TEST(SweptVolumeTest, IsGrownByTheChordErrorAndTheExtraMargin) {
+  const Tool drill = Tool::cylinder(0.5, 2.0);
+  Motion turn;
+  turn.X_MT_end.linear() = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  EXPECT_NEAR(sweptVolume(drill, turn, VolumeKind::kObb).margin, 2.5 * 0.1 * 0.1 / 8.0, 1e-15);
+  EXPECT_NEAR(sweptVolume(drill, turn, VolumeKind::kObb, 0.25).margin, 0.25 + 2.5 * 0.1 * 0.1 / 8.0, 1e-15);
+
+  const SweptVolume still = sweptVolume(drill, Motion{}, VolumeKind::kObbPlanes, 0.25);
+  EXPECT_EQ(still.margin, 0.25);
+  EXPECT_TRUE(still.box.half_extents.isApprox(Eigen::Vector3d(0.75, 0.75, 1.25), 1e-12));
+}
+
+// Both kinds, at rest, in a straight line and turning by as much as it may.
+TEST(SweptVolumeTest, HoldsTheToolAllAlongTheExactMotion) {
+  Random random(/*seed=*/2);
+  for (int i = 0; i < 2000 && !HasFailure(); ++i) {
+    SCOPED_TRACE("motion " + std::to_string(i));
+    const Tool tool = randomTool(random, random.logUniform(1e-3, 1e3));
+    const double size = tool.radius() + tool.length();
+    const Motion motion = randomMotion(random, tool, size * random.direction(), /*max_angle=*/1.57);
+    for (const VolumeKind kind : {VolumeKind::kObb, VolumeKind::kObbPlanes}) {
+      EXPECT_LE(outside(sweptVolume(tool, motion, kind), tool, motion, /*steps=*/50), 1e-12 * size);
+    }
+  }
+}
+
+// The chords alone would lose the arcs.
+TEST(SweptVolumeTest, WouldNotHoldTheArcsWithoutItsMargin) {
+  const Tool drill = Tool::cylinder(0.005, 0.1);
+  Motion turn;
+  turn.X_MT_end.linear() = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  SweptVolume volume = sweptVolume(drill, turn, VolumeKind::kObbPlanes);
+  volume.box.half_extents.array() -= 0.999 * volume.margin;
+  EXPECT_GT(outside(volume, drill, turn, /*steps=*/50), 0.5 * volume.margin);
+}
+
+// A double has 1.2e-10 m between two numbers there, and the poses themselves are no better.
+TEST(SweptVolumeTest, HoldsTheToolAThousandKilometresOut) {
+  Random random(/*seed=*/3);
+  for (int i = 0; i < 1000; ++i) {
+    const Tool tool = randomTool(random, 0.1);
+    const Motion motion = randomMotion(random, tool, 1e6 * random.direction(), /*max_angle=*/0.175);
+    const SweptVolume volume = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
+    EXPECT_LE(outside(volume, tool, motion, /*steps=*/10), 1e-9) << "motion " << i;
+  }
+}
+
+TEST(SweptVolumeTest, IsAsTightAThousandKilometresOutAsAtTheOrigin) {
+  Random random(/*seed=*/4);
+  for (int i = 0; i < 100; ++i) {
+    const Tool tool = randomTool(random, 0.1);
+    const Motion here = randomMotion(random, tool, Eigen::Vector3d::Zero(), /*max_angle=*/0.175);
+    const Eigen::Translation3d away(1e6, -1e6, 1e6);
+    const Motion there{away * here.X_MT_start, away * here.X_MT_end};
+    const SweptVolume near = sweptVolume(tool, here, VolumeKind::kObb);
+    const SweptVolume far = sweptVolume(tool, there, VolumeKind::kObb);
+    EXPECT_TRUE(far.box.half_extents.isApprox(near.box.half_extents, 1e-6)) << "motion " << i;
+  }
+}
+
+// The canary stands there: a point on a plane would be lost to the next rounding.
+TEST(SweptVolumeTest, HasItsInteriorPointStrictlyInside) {
+  Random random(/*seed=*/5);
+  for (int i = 0; i < 20'000; ++i) {
+    const Tool tool = randomTool(random, random.logUniform(1e-3, 1e3));
+    const double size = tool.radius() + tool.length();
+    const Motion motion = randomMotion(random, tool, random.logUniform(1e-3, 1e6) * random.direction(), 1.57);
+    const bool solid = tool.radius() > 0.0 && tool.length() > 0.0;
+    const SweptVolume volume = sweptVolume(tool, motion, VolumeKind::kObbPlanes, solid ? 0.0 : 1e-3 * size);
+    EXPECT_LT(outside(volume, volume.interior_B), 0.0) << "motion " << i;
+  }
+}
+
+}  // namespace
+}  // namespace sweep_guard

@@ -1,0 +1,148 @@
+#include "sweep_guard/geometry/triangle_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// One triangle, and a vertex that none uses.
+const std::vector<Eigen::Vector3d> kVertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const std::vector<Triangle> kTriangles = {{0, 1, 2}};
+
+// The complaint about a mesh; empty if it is accepted.
+std::string complaint(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Triangle>& triangles) {
+  try {
+    const TriangleMesh mesh(vertices, triangles);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string complaintAboutCoordinate(size_t vertex, int axis, double coordinate) {
+  std::vector<Eigen::Vector3d> vertices = kVertices;
+  vertices[vertex][axis] = coordinate;
+  return complaint(vertices, kTriangles);
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(TriangleMeshTest, KeepsWhatItIsGiven) {
+  const TriangleMesh mesh(kVertices, kTriangles);
+  ASSERT_EQ(mesh.triangles(), kTriangles);
+  ASSERT_EQ(mesh.vertexCount(), 4U);
+  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(mesh.vertex(i), kVertices[i]);
+  EXPECT_EQ(mesh.rounding(), 0.0);
+}
+
+// Vertex 0, the last that is used, and one that no triangle uses.
+TEST(TriangleMeshTest, RefusesCoordinatesThatAreNoNumbersWhereverTheyAre) {
+  for (const double bad : {kNaN, kInfinity, -kInfinity}) {
+    for (const size_t vertex : {0U, 2U, 3U}) {
+      for (const int axis : {0, 1, 2}) {
+        EXPECT_TRUE(contains(complaintAboutCoordinate(vertex, axis, bad), "vertex " + std::to_string(vertex) + " "))
+            << bad << " on axis " << axis << " of vertex " << vertex;
+      }
+    }
+  }
+}
+
+TEST(TriangleMeshTest, AcceptsCoordinatesUpToTheBound) {
+  EXPECT_EQ(complaintAboutCoordinate(1, 0, 1e7), "");
+  EXPECT_EQ(complaintAboutCoordinate(1, 2, -1e7), "");
+  EXPECT_TRUE(contains(complaintAboutCoordinate(1, 0, std::nextafter(1e7, 1e8)), "vertex 1 "));
+  EXPECT_TRUE(contains(complaintAboutCoordinate(3, 2, std::nextafter(-1e7, -1e8)), "vertex 3 "));
+}
+
+TEST(TriangleMeshTest, NamesTheIndexThatIsOutOfRange) {
+  EXPECT_EQ(complaint(kVertices, {{1, 2, 3}}), "");
+  const std::string message = complaint(kVertices, {{0, 1, 2}, {0, 4, 2}});
+  EXPECT_TRUE(contains(message, "triangle 1 names vertex 4 of 4")) << message;
+  EXPECT_TRUE(contains(complaint(kVertices, {{4294967295U, 1, 2}}), "4294967295"));
+}
+
+TEST(TriangleMeshTest, RefusesAMeshWithoutTriangles) {
+  EXPECT_TRUE(contains(complaint(kVertices, {}), "no triangles"));
+  EXPECT_TRUE(contains(complaint({}, {}), "no triangles"));
+}
+
+// Dropping them could lose a wire or a tip.
+TEST(TriangleMeshTest, KeepsDegenerateTriangles) {
+  const std::vector<Triangle> point_and_needle = {{0, 0, 0}, {0, 1, 1}};
+  EXPECT_EQ(TriangleMesh(kVertices, point_and_needle).triangles(), point_and_needle);
+}
+
+// 1e6 m out, a float32 of its own would be off by up to 0.03 m.
+TEST(TriangleMeshTest, KeepsPositionsFarOutToWithinItsRounding) {
+  const Eigen::Vector3d far(1e6, -1e6, 1e6);
+  const std::vector<Eigen::Vector3d> vertices = {far + Eigen::Vector3d(0.1, 0.2, 0.3), far,
+                                                 far + Eigen::Vector3d(-0.7, 1.0, 0.0)};
+  const TriangleMesh mesh(vertices, {{0, 1, 2}});
+  EXPECT_GT(mesh.rounding(), 0.0);
+  EXPECT_LT(mesh.rounding(), 1e-7);
+  for (size_t i = 0; i < 3; ++i) EXPECT_LE((mesh.vertex(i) - vertices[i]).norm(), mesh.rounding());
+}
+
+TEST(TriangleMeshTest, MeasuresItsRadiusFromItsOrigin) {
+  const TriangleMesh mesh({{10, 0, 0}, {16, 8, 0}, {10, 8, 0}}, {{0, 1, 2}});
+  EXPECT_EQ(mesh.origin(), Eigen::Vector3d(13, 4, 0));
+  EXPECT_DOUBLE_EQ(mesh.radius(), 5.0);
+}
+
+TEST(TriangleMeshTest, DeformsToTheGivenPositions) {
+  const TriangleMesh deformed =
+      TriangleMesh(kVertices, kTriangles).deformed({0.1F, 0, 0, 1, 0, 0, 0, 1, 0, 1e6F, 0, 0.3F});
+  EXPECT_EQ(deformed.vertex(0), Eigen::Vector3d(0.1F, 0, 0));
+  EXPECT_EQ(deformed.vertex(3), Eigen::Vector3d(1e6F, 0, 0.3F));
+  EXPECT_EQ(deformed.rounding(), 0.0);
+  EXPECT_DOUBLE_EQ(deformed.radius(), Eigen::Vector3d(1e6F, 0, 0.3F).norm());
+}
+
+// Nothing is rebuilt at 60 Hz: not even the list of triangles is copied.
+TEST(TriangleMeshTest, SharesItsTrianglesWithItsDeformations) {
+  const TriangleMesh mesh(kVertices, kTriangles);
+  const TriangleMesh deformed = mesh.deformed(std::vector<float>(12, 0.0F));
+  EXPECT_EQ(&deformed.triangles(), &mesh.triangles());
+  EXPECT_EQ(&deformed.deformed(std::vector<float>(12, 1.0F)).triangles(), &mesh.triangles());
+}
+
+TEST(TriangleMeshTest, OutlivesTheMeshItWasDeformedFrom) {
+  const TriangleMesh deformed = TriangleMesh(kVertices, kTriangles).deformed(std::vector<float>(12, 0.0F));
+  EXPECT_EQ(deformed.triangles(), kTriangles);
+}
+
+TEST(TriangleMeshTest, RefusesADeformationOfAnotherSize) {
+  const TriangleMesh mesh(kVertices, kTriangles);
+  EXPECT_THROW(mesh.deformed(std::vector<float>(11)), InvalidInput);
+  EXPECT_THROW(mesh.deformed(std::vector<float>(15)), InvalidInput);
+  EXPECT_THROW(mesh.deformed({}), InvalidInput);
+}
+
+TEST(TriangleMeshTest, RefusesADeformationThatIsNoNumber) {
+  const TriangleMesh mesh(kVertices, kTriangles);
+  constexpr float kTooFar = 1.1e7F;
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -kTooFar}) {
+    for (const size_t i : {0U, 8U, 11U}) {
+      std::vector<float> positions(12, 0.0F);
+      positions[i] = bad;
+      try {
+        mesh.deformed(positions);
+        ADD_FAILURE() << "accepts " << bad << " as coordinate " << i;
+      } catch (const InvalidInput& error) {
+        EXPECT_TRUE(contains(error.what(), "vertex " + std::to_string(i / 3) + " ")) << error.what();
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sweep_guard

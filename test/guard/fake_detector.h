@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/detection/detector.h"
+#include "sweep_guard/detection/reference_detector.h"
+
+namespace sweep_guard {
+
+/// The reference detector, with a record of what it was asked, and failing on demand.
+class FakeDetector : public Detector {
+ public:
+  struct Record {
+    std::vector<SweptVolume> volumes;
+    int failures_left = 0;
+    double inflation = 0.0;  ///< claimed on top of the reference's
+  };
+
+  explicit FakeDetector(Record& record) : record_(record) {}
+
+  Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) override {
+    if (record_.failures_left > 0) {
+      --record_.failures_left;
+      throw DeviceError("fake detector: fails as it was told");
+    }
+    record_.volumes.push_back(swept_M);
+    Detection detection = reference_.detect(mesh_M, swept_M);
+    detection.inflation += record_.inflation;
+    return detection;
+  }
+
+ private:
+  Record& record_;
+  ReferenceDetector reference_;
+};
+
+}  // namespace sweep_guard

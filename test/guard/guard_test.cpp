@@ -1,0 +1,164 @@
+#include "sweep_guard/guard/guard.h"
+
+#include <gtest/gtest.h>
+
+#include "guard/fake_detector.h"
+
+namespace sweep_guard {
+namespace {
+
+using Indices = std::vector<std::uint32_t>;
+
+Time at(double seconds) { return Time(fromSeconds(seconds)); }
+
+Eigen::Isometry3d up(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0, 0, z)); }
+
+using Places = std::map<std::string, Eigen::Isometry3d>;
+
+ToolPose pose(double seconds, const Places& X_MT) { return {at(seconds), SteadyTime{}, X_MT}; }
+
+// One triangle of a metre in the plane z = 0 of its frame.
+std::shared_ptr<const Workpiece> sheet(const std::string& id, const std::string& frame) {
+  return std::make_shared<const Workpiece>(
+      Workpiece{id, 0, at(0.0), SteadyTime{}, frame, TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}})});
+}
+
+// A drill that is 0.1 m long and guarded in the frame `table`, unless told otherwise.
+class GuardTest : public testing::Test {
+ protected:
+  SweepReport sweepTo(double seconds, double z) { return guard_.sweep(pose(seconds, {{"table", up(z)}}), table_); }
+
+  const Workpieces table_ = {sheet("sheet", "table")};
+  FakeDetector::Record record_;
+  Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<FakeDetector>(record_), {}};
+};
+
+TEST_F(GuardTest, TestsTheFirstPoseAlone) {
+  const SweepReport report = sweepTo(1.0, 0.5);
+  EXPECT_EQ(report.start, at(1.0));
+  EXPECT_EQ(report.end, at(1.0));
+  ASSERT_EQ(report.objects.size(), 1U);
+  EXPECT_EQ(report.objects[0].interval_start, at(1.0));
+  EXPECT_FALSE(report.contact());
+  ASSERT_EQ(record_.volumes.size(), 1U);
+  EXPECT_NEAR(record_.volumes[0].box.half_extents.z(), 0.05, 1e-9);  // no longer than the drill
+}
+
+TEST_F(GuardTest, FindsAContactAtTheFirstPose) {
+  const SweepReport report = sweepTo(1.0, 0.05);
+  EXPECT_TRUE(report.contact());
+  EXPECT_EQ(report.objects[0].findings.triangles, Indices{0});
+}
+
+// The sheet is between the poses, and touches the drill at neither.
+TEST_F(GuardTest, SweepsFromPoseToPose) {
+  EXPECT_FALSE(sweepTo(1.0, 0.5).contact());
+  const SweepReport report = sweepTo(1.1, -0.1);
+  EXPECT_TRUE(report.contact());
+  EXPECT_EQ(report.start, at(1.0));
+  EXPECT_EQ(report.end, at(1.1));
+  EXPECT_EQ(report.objects[0].interval_start, at(1.0));
+  EXPECT_EQ(report.objects[0].workpiece, table_[0]);
+  EXPECT_FALSE(sweepTo(1.2, -0.2).contact());
+}
+
+TEST_F(GuardTest, SweepsEveryIntervalEndToEnd) {
+  sweepTo(0.0, 1.0);
+  for (int i = 1; i <= 20; ++i) {
+    const SweepReport report = sweepTo(0.01 * i, 1.0 - 0.1 * i);
+    EXPECT_EQ(report.start, at(0.01 * (i - 1)));
+    EXPECT_EQ(report.end, at(0.01 * i));
+    // From the tip now to the far end before: 0.2 m, about the tip before.
+    EXPECT_NEAR(record_.volumes.back().box.half_extents.z(), 0.1, 1e-6);
+    EXPECT_NEAR(record_.volumes.back().box.X_MB.translation().z(), 1.0 - 0.1 * i, 1e-6);
+  }
+}
+
+TEST_F(GuardTest, SweepsBetweenTwoPosesOfTheSameStamp) {
+  sweepTo(1.0, 0.5);
+  const SweepReport report = sweepTo(1.0, -0.1);
+  EXPECT_TRUE(report.contact());
+  EXPECT_EQ(report.start, report.end);
+}
+
+TEST_F(GuardTest, LeavesTheIntervalOfAFailedSweepToTheNext) {
+  sweepTo(1.0, 0.5);
+  record_.failures_left = 1;
+  EXPECT_THROW(sweepTo(1.1, -0.1), DeviceError);
+  const SweepReport report = sweepTo(1.2, -0.2);
+  EXPECT_TRUE(report.contact());
+  EXPECT_EQ(report.objects[0].interval_start, at(1.0));
+}
+
+TEST_F(GuardTest, TestsThePoseAloneAfterForgetting) {
+  sweepTo(1.0, 0.5);
+  guard_.forget();
+  const SweepReport report = sweepTo(0.3, -0.1);
+  EXPECT_FALSE(report.contact());
+  EXPECT_EQ(report.objects[0].interval_start, at(0.3));
+}
+
+TEST_F(GuardTest, HasNothingToReportWithoutWorkpieces) {
+  const SweepReport report = guard_.sweep(pose(1.0, {{"table", up(0.0)}}), {});
+  EXPECT_TRUE(report.objects.empty());
+  EXPECT_TRUE(report.unswept.empty());
+  EXPECT_FALSE(report.contact());
+  EXPECT_EQ(report.margin(), 0.0);
+}
+
+TEST_F(GuardTest, NamesWorkpiecesWhoseFrameIsMissing) {
+  const Workpieces both = {sheet("on table", "table"), sheet("on turntable", "turntable")};
+  const SweepReport report = guard_.sweep(pose(1.0, {{"table", up(0.5)}}), both);
+  ASSERT_EQ(report.objects.size(), 1U);
+  EXPECT_EQ(report.objects[0].workpiece, both[0]);
+  ASSERT_EQ(report.unswept.size(), 1U);
+  EXPECT_EQ(report.unswept[0], both[1]);
+}
+
+// For one pose the turntable's transform is missing. The next sweep there starts at the pose before.
+TEST_F(GuardTest, SweepsFromTheLastPoseThatWasKnownInAFrame) {
+  const Workpieces both = {sheet("on table", "table"), sheet("on turntable", "turntable")};
+  guard_.sweep(pose(1.0, {{"table", up(0.5)}, {"turntable", up(0.5)}}), both);
+  guard_.sweep(pose(1.1, {{"table", up(0.4)}}), both);
+  const SweepReport report = guard_.sweep(pose(1.2, {{"table", up(0.3)}, {"turntable", up(-0.1)}}), both);
+  ASSERT_EQ(report.objects.size(), 2U);
+  EXPECT_EQ(report.objects[0].interval_start, at(1.1));
+  EXPECT_TRUE(report.objects[0].findings.triangles.empty());
+  EXPECT_EQ(report.objects[1].interval_start, at(1.0));
+  EXPECT_EQ(report.objects[1].findings.triangles, Indices{0});
+  EXPECT_EQ(report.start, at(1.0));
+  EXPECT_TRUE(report.contact());
+}
+
+// The tool rests in the world; the workpiece's frame comes up and passes it.
+TEST_F(GuardTest, MeetsAWorkpieceThatMovesWithItsFrame) {
+  const Eigen::Isometry3d X_WT = up(0.0);
+  const auto seenFrom = [&](const Eigen::Isometry3d& X_WM) { return X_WM.inverse() * X_WT; };
+  guard_.sweep(pose(1.0, {{"table", seenFrom(up(-0.5))}}), table_);
+  EXPECT_TRUE(guard_.sweep(pose(1.1, {{"table", seenFrom(up(0.5))}}), table_).contact());
+}
+
+// A pose is remembered in every frame, so a workpiece that comes later is swept over the interval it came in.
+TEST_F(GuardTest, SweepsAWorkpieceThatComesLaterFromThePoseBefore) {
+  guard_.sweep(pose(1.0, {{"table", up(0.5)}}), {});
+  const SweepReport report = sweepTo(1.1, -0.1);
+  EXPECT_TRUE(report.contact());
+  EXPECT_EQ(report.objects[0].interval_start, at(1.0));
+}
+
+// What comes to live in a frame later was not there when the tool moved before.
+TEST_F(GuardTest, ForgetsAFrameThatNothingLivesIn) {
+  sweepTo(1.0, 0.5);
+  guard_.sweep(pose(1.1, {}), {});
+  const SweepReport report = sweepTo(1.2, -0.1);
+  EXPECT_EQ(report.objects[0].interval_start, at(1.2));
+  EXPECT_FALSE(report.contact());
+}
+
+TEST_F(GuardTest, ReportsTheLargestMargin) {
+  record_.inflation = 0.125;
+  EXPECT_NEAR(sweepTo(1.0, 0.5).margin(), 0.125, 1e-9);
+}
+
+}  // namespace
+}  // namespace sweep_guard

@@ -1,0 +1,155 @@
+#include "sweep_guard/guard/sweep_test.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "guard/fake_detector.h"
+#include "scenes.h"
+
+namespace sweep_guard {
+namespace {
+
+using Indices = std::vector<std::uint32_t>;
+
+const Tool kDrill = Tool::cylinder(/*radius=*/0.005, /*length=*/0.1);
+
+Eigen::Isometry3d at(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
+
+// A square of 1 m in the plane at height z, and one 1 m to the side.
+TriangleMesh sheet(double z) {
+  return TriangleMesh({{-0.5, -0.5, z}, {0.5, -0.5, z}, {0.5, 0.5, z}, {-0.5, 0.5, z}, {1.5, -0.5, z}, {2.5, 0.5, z}},
+                      {{0, 1, 2}, {0, 2, 3}, {4, 5, 4}});
+}
+
+class SweepTestTest : public testing::TestWithParam<std::string> {
+ protected:
+  SweepFindings test(const Motion& motion, const TriangleMesh& mesh, const SweepOptions& options = {}) {
+    return testSweep(*detector_, kDrill, motion, mesh, options);
+  }
+
+  std::unique_ptr<Detector> detector_ = makeDetector(GetParam());
+};
+
+// 0.1 mm thin; 2 m between the poses.
+TEST_P(SweepTestTest, MeetsAThinSheetBetweenTwoPosesFarApart) {
+  const Motion through{at(0.1, 0.1, 1.0), at(0.1, 0.1, -0.9)};
+  EXPECT_EQ(test(through, sheet(0.0)).triangles, (Indices{0, 1}));
+  EXPECT_EQ(test(through, sheet(0.0001)).triangles, (Indices{0, 1}));
+  EXPECT_TRUE(test({at(0.1, 0.1, 1.0), at(0.1, 0.1, 1.0)}, sheet(0.0)).triangles.empty());
+  EXPECT_TRUE(test({at(0.1, 0.1, -0.9), at(0.1, 0.1, -0.9)}, sheet(0.0)).triangles.empty());
+}
+
+// The drill turns by 90 degrees about its tip: its far end runs along an arc of 0.1 m, which bulges 0.029 m out of the
+// chord. The point of the triangle is on the arc, 0.02 m from the chord.
+TEST_P(SweepTestTest, MeetsATriangleThatOnlyTheArcReaches) {
+  Motion turn;
+  turn.X_MT_end.linear() = Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const double reached = 0.095 * std::sqrt(0.5);
+  const TriangleMesh spike({{0, reached, -reached}, {0, 1, -1.1}, {0, 1.1, -1}}, {{0, 1, 2}});
+  const double from_chord = 0.095 - (0.1 + 0.005) * std::sqrt(0.5);
+  ASSERT_GT(from_chord, 0.02);
+  EXPECT_EQ(test(turn, spike).triangles, Indices{0});
+
+  const TriangleMesh beyond({{0, 0.09, -0.09}, {0, 1, -1.1}, {0, 1.1, -1}}, {{0, 1, 2}});
+  EXPECT_TRUE(test(turn, beyond).triangles.empty());
+}
+
+TEST_P(SweepTestTest, NamesEachTriangleOnceThoughSeveralPartsMeetIt) {
+  Motion turn{at(0, 0, 0.01), at(0, 0, -0.01)};
+  turn.X_MT_end.linear() = Eigen::AngleAxisd(1.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const SweepFindings findings = test(turn, sheet(0.0));
+  EXPECT_EQ(findings.volumes_M.size(), 9U);  // 1.5 / 0.175 = 8.6
+  EXPECT_EQ(findings.triangles, (Indices{0, 1}));
+}
+
+TEST_P(SweepTestTest, GrowsTheToolByTheMargin) {
+  const Motion below{at(0, 0, -0.011), at(0.1, 0, -0.011)};
+  SweepOptions options;
+  options.margin = 0.010;
+  EXPECT_TRUE(test(below, sheet(0.0), options).triangles.empty());
+  options.margin = 0.012;
+  EXPECT_EQ(test(below, sheet(0.0), options).triangles, (Indices{0, 1}));
+}
+
+INSTANTIATE_TEST_SUITE_P(AllDetectors, SweepTestTest, testing::ValuesIn(detectorNames()),
+                         [](const auto& test) { return test.param; });
+
+TEST(SweepFindingsTest, PartsAreEndToEndFromPoseToPose) {
+  FakeDetector::Record record;
+  FakeDetector detector(record);
+  Random random(/*seed=*/1);
+  const Motion motion{random.pose({0, 0, 0}), random.pose({1, 0, 0})};
+  const SweepFindings findings = testSweep(detector, kDrill, motion, sheet(0.0), {});
+  const std::vector<Motion> parts = split(motion, SweepOptions{}.max_rotation);
+  ASSERT_EQ(findings.volumes_M.size(), parts.size());
+  ASSERT_EQ(record.volumes.size(), parts.size());
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const SweptVolume expected = sweptVolume(kDrill, parts[i], VolumeKind::kObbPlanes);
+    EXPECT_TRUE(record.volumes[i].box.X_MB.isApprox(expected.box.X_MB, 1e-9)) << "part " << i;
+  }
+}
+
+TEST(SweepFindingsTest, UsesTheVolumeAskedFor) {
+  FakeDetector::Record record;
+  FakeDetector detector(record);
+  const Motion motion{at(0, 0, 0), at(0.1, 0.05, 0.02)};
+  SweepOptions options;
+  options.volume = VolumeKind::kObb;
+  testSweep(detector, kDrill, motion, sheet(0.0), options);
+  EXPECT_TRUE(record.volumes.back().clips_B.empty());
+  options.volume = VolumeKind::kObbPlanes;
+  testSweep(detector, kDrill, motion, sheet(0.0), options);
+  EXPECT_FALSE(record.volumes.back().clips_B.empty());
+}
+
+// What is reported holds: chord error, the margin asked for, the mesh's own rounding and the detector's inflation.
+TEST(SweepFindingsTest, ReportsAMarginThatAddsUp) {
+  FakeDetector::Record record;
+  record.inflation = 0.5;
+  FakeDetector detector(record);
+  Motion turn;
+  turn.X_MT_end.linear() = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  SweepOptions options;
+  options.margin = 0.25;
+  const TriangleMesh mesh({{0.1, 0.2, 0.3}, {1e3, 0, 0}, {0, 1e3, 0}}, {{0, 1, 2}});
+  ASSERT_GT(mesh.rounding(), 1e-6);
+  const double margin = testSweep(detector, kDrill, turn, mesh, options).margin;
+  EXPECT_NEAR(margin, 0.25 + 0.5 + 0.105 * 0.1 * 0.1 / 8.0 + mesh.rounding(), 1e-9);
+}
+
+// A vertex on the drill's rim is met as it was given, though the mesh, 1 km large, keeps it up to 0.04 mm off.
+TEST(SweepFindingsTest, MeetsVerticesWhereTheyWereGiven) {
+  const auto detector = makeDetector("reference");
+  int kept_outside = 0;
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    const double angle = degrees * std::acos(-1.0) / 180.0;
+    const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0.0);
+    const TriangleMesh mesh({kDrill.radius() * out, 1000.0 * out, 1000.0 * out + Eigen::Vector3d::UnitZ()},
+                            {{0, 1, 2}});
+    if (mesh.vertex(0).head<2>().norm() > kDrill.radius() + 1e-6) ++kept_outside;
+    EXPECT_EQ(testSweep(*detector, kDrill, Motion{}, mesh, {}).triangles, Indices{0}) << degrees << " degrees";
+  }
+  EXPECT_GT(kept_outside, 50);
+}
+
+// Every triangle named lies within the reported margin of the tool, of its volume that is: here against the box that
+// the drill itself is, at rest.
+TEST(SweepFindingsTest, NamesNothingFartherThanItsMargin) {
+  const auto detector = makeDetector("select");
+  for (int exponent = -12; exponent < 0; ++exponent) {
+    const double gap = std::pow(10.0, exponent);
+    const TriangleMesh ahead = sheet(gap);
+    const SweepFindings findings = testSweep(*detector, kDrill, Motion{}, ahead, {});
+    if (!findings.triangles.empty()) {
+      EXPECT_LE(gap, findings.margin);
+    }
+    if (gap > findings.margin) {
+      EXPECT_TRUE(findings.triangles.empty()) << gap;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sweep_guard

@@ -1,0 +1,487 @@
+// Drives a guard started by its public launch file (or as a nodelet) through its topics, under a clock of its own.
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "guard_probe.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::CheckSweep;
+using sweep_guard::Contacts;
+using sweep_guard::Warning;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+GuardProbe& probe() {
+  static GuardProbe probe(/*drives_clock=*/true);
+  return probe;
+}
+
+bool isClear(const Warning& warning) { return warning.level == Warning::CLEAR; }
+
+std::function<bool(const Warning&)> hasReason(std::uint32_t reason) {
+  return [reason](const Warning& warning) {
+    return warning.level == Warning::UNKNOWN && !warning.clear && (warning.reasons & reason) != 0;
+  };
+}
+
+class NodeTest : public ::testing::Test {
+ protected:
+  // Each test has a guard that has seen a fresh pose high above, no workpiece, and no contact any more.
+  void SetUp() override {
+    probe().advance(1.0);
+    Warning warning;
+    do {
+      probe().tick(0.001);
+      probe().publish(poseAt({0.0, 0.0, 5.0}, probe().time()));
+      probe().skipWarnings();
+      warning = probe().awaitWarning([](const Warning&) { return true; });
+    } while (warning.reasons != Warning::NO_MESH || warning.level != Warning::UNKNOWN);
+  }
+  void TearDown() override {
+    for (const std::string& id : placed_) probe().remove(id);
+  }
+
+  void placeSheet(const std::string& id, const Eigen::Vector3d& center) {
+    probe().place(sheetAt(id, center, probe().time()));
+    placed_.insert(id);
+  }
+
+  // Moves on by 10 ms.
+  Contacts moveTo(const Eigen::Vector3d& tip) {
+    probe().tick(0.01);
+    return probe().move(poseAt(tip, probe().time()));
+  }
+
+  // Keeps both inputs fresh until a warning fits: contacts are held for their hold time.
+  Warning moveUntil(const std::string& id, const Eigen::Vector3d& sheet, const Eigen::Vector3d& tip,
+                    const std::function<bool(const Warning&)>& fits) {
+    for (int i = 0; i < 1000; ++i) {
+      moveTo(tip);
+      probe().place(sheetMovedTo(id, sheet, probe().time()));
+      const auto warnings = probe().warnings();
+      if (fits(warnings.back())) return warnings.back();
+    }
+    ADD_FAILURE() << "no such warning; the last: " << probe().warnings().back().text;
+    return {};
+  }
+
+  std::set<std::string> placed_;
+};
+
+TEST(NodeStartTest, BeginsUnknown) {
+  const Warning first = probe().warnings().front();
+  EXPECT_EQ(first.level, Warning::UNKNOWN);
+  EXPECT_FALSE(first.clear);
+  EXPECT_TRUE(first.reflex);
+  EXPECT_TRUE(first.considered);
+  EXPECT_EQ(first.reasons, Warning::NO_POSE | Warning::NO_MESH) << first.text;
+}
+
+TEST(NodeStartTest, CheckSweepWithoutAWorkpieceSaysSo) {
+  CheckSweep::Request request;
+  request.path = {poseAt({0.0, 0.0, 0.0}, ros::Time())};
+  const auto response = probe().check(request);
+  EXPECT_FALSE(response.success);
+  EXPECT_FALSE(response.clear);
+  EXPECT_NE(response.message.find("no workpiece"), std::string::npos) << response.message;
+}
+
+TEST_F(NodeTest, AClearPathStaysClear) {
+  placeSheet("far", {0.0, 0.0, -1.0});
+  size_t clear_since = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Contacts contacts = moveTo({0.001 * i, 0.0, 1.0});
+    EXPECT_TRUE(contacts.objects.empty());
+    EXPECT_EQ(contacts.header.stamp, probe().time());
+    if (i == 0) {
+      probe().awaitWarning(isClear);
+      clear_since = probe().warnings().size();
+    }
+  }
+  const auto warnings = probe().warnings();
+  for (size_t i = clear_since; i < warnings.size(); ++i) EXPECT_TRUE(warnings[i].clear) << warnings[i].text;
+}
+
+// The sheet has no thickness and no pose is nearer to it than 5 cm: only the swept volume meets it.
+TEST_F(NodeTest, FindsASheetBetweenTwoPoses) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  EXPECT_TRUE(moveTo({0.0, 0.0, 0.05}).objects.empty());
+  const ros::Time before = probe().time();
+  const Contacts contacts = moveTo({0.0, 0.0, -0.5});
+  ASSERT_EQ(contacts.objects.size(), 1U);
+  EXPECT_EQ(contacts.objects[0].mesh_id, "sheet");
+  EXPECT_EQ(contacts.objects[0].triangles, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(contacts.interval_start, before);
+  EXPECT_EQ(contacts.volume, "obb_planes");
+  EXPECT_GE(contacts.margin, 0.0);
+  EXPECT_LT(contacts.margin, 1e-6);
+}
+
+TEST_F(NodeTest, ContactIsWarnedOfAtOnceHeldAndThenClear) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  moveTo({0.0, 0.0, -0.01});
+  const Warning contact = probe().awaitWarning([](const Warning& warning) { return warning.contact; });
+  EXPECT_EQ(contact.level, Warning::CONTACT);
+  EXPECT_EQ(contact.mesh_id, "sheet");
+  EXPECT_EQ(contact.triangles, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_TRUE(contact.reflex);
+  EXPECT_EQ(contact.header.stamp, probe().time());
+  moveTo({0.0, 0.0, 0.3});
+  const Warning clear = moveUntil("sheet", {0.0, 0.0, 0.0}, {0.0, 0.0, 0.3}, isClear);
+  EXPECT_GT(clear.sequence, contact.sequence);
+  EXPECT_EQ(clear.level_counts[Warning::CONTACT], contact.level_counts[Warning::CONTACT]);
+}
+
+TEST_F(NodeTest, DeformedVerticesAreTheOnesTested) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  EXPECT_TRUE(moveTo({0.0, 0.0, 0.5}).objects.empty());
+  probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.5}, probe().time()));
+  const Contacts contacts = moveTo({0.0, 0.0, 0.5});
+  ASSERT_EQ(contacts.objects.size(), 1U);
+  EXPECT_EQ(contacts.objects[0].mesh_stamp, probe().time() - ros::Duration(0.01));
+}
+
+// The tool rests; the frame of the workpiece carries the sheet through it.
+TEST_F(NodeTest, AWorkpieceThatMovesRigidlyIsMet) {
+  const auto place_frame = [](double z) {
+    probe().placeFrame("table", Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)));
+  };
+  place_frame(-1.0);
+  auto sheet = sheetAt("sheet", {0.0, 0.0, 0.0}, probe().time());
+  sheet.header.frame_id = "table";
+  probe().place(sheet);
+  placed_.insert("sheet");
+
+  probe().advance(0.01);
+  place_frame(-1.0);
+  EXPECT_TRUE(probe().move(poseAt({0.0, 0.0, 0.0}, probe().time())).objects.empty());
+  probe().advance(0.01);
+  place_frame(1.0);
+  EXPECT_EQ(probe().move(poseAt({0.0, 0.0, 0.0}, probe().time())).objects.size(), 1U);
+}
+
+TEST_F(NodeTest, SeveralWorkpiecesAreToldApart) {
+  placeSheet("left", {-1.0, 0.0, 0.0});
+  placeSheet("right", {1.0, 0.0, 0.0});
+  moveTo({-1.0, 0.0, 0.5});
+  const Contacts contacts = moveTo({-1.0, 0.0, -0.5});
+  ASSERT_EQ(contacts.objects.size(), 1U);
+  EXPECT_EQ(contacts.objects[0].mesh_id, "left");
+}
+
+TEST_F(NodeTest, EveryPoseOfABurstIsSwept) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  probe().advance(0.5);
+  probe().forgetContacts();
+  const ros::Time begin = probe().time() - ros::Duration(0.5);
+  for (int i = 1; i <= 500; ++i) probe().publish(poseAt({0.0, 0.0, 0.5}, begin + ros::Duration(0.001 * i)));
+  const auto contacts = probe().awaitContacts(500);
+  for (size_t i = 1; i < 500; ++i) EXPECT_EQ(contacts[i].interval_start, contacts[i - 1].header.stamp);
+}
+
+TEST_F(NodeTest, PosesOfOneStampAreSweptToo) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  const Contacts contacts = probe().move(poseAt({0.0, 0.0, -0.5}, probe().time()));
+  EXPECT_EQ(contacts.objects.size(), 1U);
+  EXPECT_EQ(contacts.interval_start, contacts.header.stamp);
+}
+
+struct BadPose {
+  const char* name;
+  std::uint32_t reason;
+  std::function<void(geometry_msgs::PoseStamped&)> spoil;
+};
+void PrintTo(const BadPose& bad, std::ostream* out) { *out << bad.name; }
+
+class BadPoseTest : public NodeTest, public ::testing::WithParamInterface<BadPose> {};
+
+// The pose that follows is swept from the last good one: the refused one leaves no hole.
+TEST_P(BadPoseTest, IsRefusedMakesUnknownAndLeavesNoGap) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  const ros::Time last_good = probe().time();
+  probe().awaitWarning(isClear);
+  probe().advance(0.01);
+  auto bad = poseAt({0.0, 0.0, 0.05}, probe().time());
+  GetParam().spoil(bad);
+  probe().publish(bad);
+  probe().awaitWarning(hasReason(GetParam().reason));
+
+  const Contacts contacts = moveTo({0.0, 0.0, -0.5});
+  EXPECT_EQ(contacts.interval_start, last_good);
+  EXPECT_EQ(contacts.objects.size(), 1U);
+  probe().awaitWarning([](const Warning& warning) { return warning.reasons == 0; });
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Poses, BadPoseTest,
+    ::testing::Values(
+        BadPose{"NanPosition", Warning::POSE_INVALID, [](auto& pose) { pose.pose.position.y = kNan; }},
+        BadPose{"InfiniteOrientation", Warning::POSE_INVALID, [](auto& pose) { pose.pose.orientation.x = INFINITY; }},
+        BadPose{"ZeroQuaternion", Warning::POSE_INVALID, [](auto& pose) { pose.pose.orientation.x = 0.0; }},
+        BadPose{"FarAway", Warning::POSE_INVALID, [](auto& pose) { pose.pose.position.z = 1e8; }},
+        BadPose{"NoStamp", Warning::POSE_INVALID, [](auto& pose) { pose.header.stamp = ros::Time(); }},
+        BadPose{"StampGoesBack", Warning::OUT_OF_ORDER, [](auto& pose) { pose.header.stamp -= ros::Duration(0.5); }},
+        BadPose{"StampInTheFuture", Warning::FUTURE_STAMP, [](auto& pose) { pose.header.stamp += ros::Duration(1.0); }},
+        BadPose{"UnknownFrame", Warning::TF_FAIL, [](auto& pose) { pose.header.frame_id = "nowhere"; }},
+        BadPose{"NoFrame", Warning::TF_FAIL, [](auto& pose) { pose.header.frame_id = ""; }}),
+    [](const auto& test) { return test.param.name; });
+
+struct BadMesh {
+  const char* name;
+  std::function<void(sweep_guard::DeformableMesh&)> spoil;
+};
+void PrintTo(const BadMesh& bad, std::ostream* out) { *out << bad.name; }
+
+class BadMeshTest : public NodeTest, public ::testing::WithParamInterface<BadMesh> {};
+
+TEST_P(BadMeshTest, IsRefusedMakesUnknownAndKeepsTheMeshBefore) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  auto bad = sheetAt("sheet", {0.0, 0.0, -1.0}, probe().time());
+  bad.revision = 2;
+  GetParam().spoil(bad);
+  probe().publish(bad);
+  const Warning warning = probe().awaitWarning(hasReason(Warning::MESH_INVALID));
+  EXPECT_NE(warning.text.find("refused"), std::string::npos) << warning.text;
+
+  EXPECT_EQ(moveTo({0.0, 0.0, -0.5}).objects.size(), 1U);
+  probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.0}, probe().time()));
+  probe().awaitWarning([](const Warning& later) { return (later.reasons & Warning::MESH_INVALID) == 0; });
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Meshes, BadMeshTest,
+    ::testing::Values(BadMesh{"NanVertex", [](auto& mesh) { mesh.mesh.vertices[3].z = kNan; }},
+                      BadMesh{"IndexOutOfRange", [](auto& mesh) { mesh.mesh.triangles[1].vertex_indices[2] = 4; }},
+                      BadMesh{"NoTriangles", [](auto& mesh) { mesh.mesh.triangles.clear(); }},
+                      BadMesh{"NoFrame", [](auto& mesh) { mesh.header.frame_id = ""; }},
+                      BadMesh{"StampInTheFuture", [](auto& mesh) { mesh.header.stamp += ros::Duration(1.0); }}),
+    [](const auto& test) { return test.param.name; });
+
+struct BadVertices {
+  const char* name;
+  std::function<void(sweep_guard::MeshVertices&)> spoil;
+};
+void PrintTo(const BadVertices& bad, std::ostream* out) { *out << bad.name; }
+
+class BadVerticesTest : public NodeTest, public ::testing::WithParamInterface<BadVertices> {};
+
+TEST_P(BadVerticesTest, AreRefusedMakeUnknownAndKeepTheMeshBefore) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  auto bad = sheetMovedTo("sheet", {0.0, 0.0, -1.0}, probe().time());
+  GetParam().spoil(bad);
+  probe().publish(bad);
+  probe().awaitWarning(hasReason(Warning::MESH_INVALID));
+  EXPECT_EQ(moveTo({0.0, 0.0, -0.5}).objects.size(), 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Vertices, BadVerticesTest,
+    ::testing::Values(BadVertices{"TooFew", [](auto& vertices) { vertices.positions.pop_back(); }},
+                      BadVertices{"Infinite", [](auto& vertices) { vertices.positions[0] = INFINITY; }},
+                      BadVertices{"OtherRevision", [](auto& vertices) { vertices.revision = 7; }},
+                      BadVertices{"UnknownWorkpiece", [](auto& vertices) { vertices.id = "ghost"; }},
+                      BadVertices{"NoId", [](auto& vertices) { vertices.id = ""; }},
+                      BadVertices{"StampGoesBack",
+                                  [](auto& vertices) { vertices.header.stamp -= ros::Duration(1.0); }}),
+    [](const auto& test) { return test.param.name; });
+
+TEST_F(NodeTest, AnEmptyMeshRemovesTheWorkpiece) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  moveTo({0.0, 0.0, 0.5});
+  probe().awaitWarning(isClear);
+  probe().remove("sheet");
+  placed_.clear();
+  probe().awaitWarning(hasReason(Warning::NO_MESH));
+}
+
+TEST_F(NodeTest, AWorkpieceThatHasNotBeenSweptIsNotClear) {
+  placeSheet("first", {0.0, 0.0, -1.0});
+  moveTo({0.0, 0.0, 0.5});
+  probe().awaitWarning(isClear);
+  placeSheet("second", {0.0, 0.0, -2.0});
+  probe().awaitWarning(hasReason(Warning::NOT_SWEPT));
+  moveTo({0.0, 0.0, 0.5});
+  probe().awaitWarning(isClear);
+}
+
+TEST_F(NodeTest, AWorkpieceInAnUnknownFrameIsNotClear) {
+  placeSheet("known", {0.0, 0.0, -1.0});
+  auto lost = sheetAt("lost", {0.0, 0.0, -1.0}, probe().time());
+  lost.header.frame_id = "nowhere";
+  probe().publish(lost);
+  placed_.insert("lost");
+  probe().awaitWarning(hasReason(Warning::NOT_SWEPT));
+  moveTo({0.0, 0.0, 0.5});
+  const Warning warning = probe().awaitWarning(hasReason(Warning::TF_FAIL));
+  EXPECT_NE(warning.text.find("nowhere"), std::string::npos) << warning.text;
+}
+
+TEST_F(NodeTest, StalePosesAndMeshesAreUnknownOnTheStampClock) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  moveTo({0.0, 0.0, 0.5});
+  probe().awaitWarning(isClear);
+  probe().advance(0.101);
+  probe().awaitWarning(hasReason(Warning::POSE_STALE));
+  probe().advance(0.4);
+  probe().awaitWarning(hasReason(Warning::MESH_STALE));
+}
+
+TEST_F(NodeTest, TimeThatGoesBackForgetsAndRecovers) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.5});
+  probe().setClock(probe().time() - ros::Duration(100.0));
+  const Warning jump = probe().awaitWarning(hasReason(Warning::TIME_JUMP));
+  EXPECT_NE(jump.reasons & Warning::NO_POSE, 0U);
+  EXPECT_NE(jump.reasons & Warning::MESH_STALE, 0U);
+
+  const Contacts first = moveTo({0.0, 0.0, -0.5});  // no motion from a pose of another time
+  EXPECT_EQ(first.interval_start, first.header.stamp);
+  EXPECT_TRUE(first.objects.empty());
+  moveUntil("sheet", {0.0, 0.0, 0.0}, {0.0, 0.0, -0.5}, isClear);
+}
+
+TEST_F(NodeTest, CheckSweepFindsASheetOnThePath) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  CheckSweep::Request request;
+  for (const double z : {1.0, 0.5, -0.5}) request.path.push_back(poseAt({0.0, 0.0, z}, ros::Time()));
+  const auto response = probe().check(request);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_TRUE(response.collision);
+  EXPECT_FALSE(response.clear);
+  EXPECT_EQ(response.segment, 1U);
+  EXPECT_TRUE(std::isnan(response.time_of_impact));
+  ASSERT_EQ(response.objects.size(), 1U);
+  EXPECT_EQ(response.objects[0].triangles, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_GT(response.compute_time.toSec(), 0.0);
+}
+
+TEST_F(NodeTest, CheckSweepOfAFreePathIsClear) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  CheckSweep::Request request;
+  for (const double x : {1.0, 2.0}) request.path.push_back(poseAt({x, 0.0, 0.0}, ros::Time()));
+  for (const char* detector : {"", "select", "reference"}) {
+    for (const char* volume : {"", "obb", "obb_planes"}) {
+      request.detector = detector;
+      request.volume = volume;
+      const auto response = probe().check(request);
+      EXPECT_TRUE(response.success && response.clear && !response.collision) << response.message;
+    }
+  }
+}
+
+TEST_F(NodeTest, CheckSweepOfAStaleWorkpieceIsFreeButNotClear) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  CheckSweep::Request request;
+  request.path = {poseAt({1.0, 0.0, 0.0}, ros::Time())};
+  probe().advance(0.6);
+  const auto response = probe().check(request);
+  EXPECT_TRUE(response.success);
+  EXPECT_FALSE(response.collision);
+  EXPECT_FALSE(response.clear);
+}
+
+TEST_F(NodeTest, CheckSweepOfOnePoseTestsWhereItStands) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  CheckSweep::Request request;
+  request.path = {
+      poseAt({0.0, 0.0, -0.05}, ros::Time())};  // the tool is 0.15 m long and points down: it pierces the sheet
+  EXPECT_TRUE(probe().check(request).collision);
+  request.path = {poseAt({0.0, 0.0, 0.01}, ros::Time())};
+  EXPECT_FALSE(probe().check(request).collision);
+  request.margin = 0.02;
+  const auto grown = probe().check(request);
+  EXPECT_TRUE(grown.collision);
+  EXPECT_GE(grown.margin, 0.02);
+}
+
+TEST_F(NodeTest, CheckSweepTestsTheWorkpiecesItIsAskedFor) {
+  placeSheet("left", {-1.0, 0.0, 0.0});
+  placeSheet("right", {1.0, 0.0, 0.0});
+  CheckSweep::Request request;
+  request.path = {poseAt({-1.0, 0.0, 0.5}, ros::Time()), poseAt({-1.0, 0.0, -0.5}, ros::Time())};
+  request.mesh_ids = {"right"};
+  EXPECT_TRUE(probe().check(request).clear);
+  request.mesh_ids = {"left", "right", "left"};
+  const auto both = probe().check(request);
+  ASSERT_EQ(both.objects.size(), 1U);
+  EXPECT_EQ(both.objects[0].mesh_id, "left");
+}
+
+TEST_F(NodeTest, CheckSweepRefusesWhatItCannotTest) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  CheckSweep::Request good;
+  good.path = {poseAt({1.0, 0.0, 0.0}, ros::Time())};
+  const auto refused = [&](const std::function<void(CheckSweep::Request&)>& spoil, const std::string& expected) {
+    CheckSweep::Request request = good;
+    spoil(request);
+    const auto response = probe().check(request);
+    EXPECT_FALSE(response.success || response.clear || response.collision);
+    EXPECT_NE(response.message.find(expected), std::string::npos) << response.message;
+  };
+  refused([](auto& request) { request.path.clear(); }, "empty");
+  refused([](auto& request) { request.path.assign(1025, request.path[0]); }, "1025 poses");
+  refused([](auto& request) { request.path[0].pose.position.x = kNan; }, "pose 0");
+  refused([](auto& request) { request.path[0].header.frame_id = "nowhere"; }, "nowhere");
+  refused([](auto& request) { request.mesh_ids = {"ghost"}; }, "ghost");
+  refused([](auto& request) { request.volume = "sphere"; }, "sphere");
+  refused([](auto& request) { request.detector = "oracle"; }, "oracle");
+  refused([](auto& request) { request.margin = -1.0; }, "margin");
+  refused([](auto& request) { request.margin = kNan; }, "margin");
+  EXPECT_TRUE(probe().check(good).clear);
+  good.path.assign(1024, good.path[0]);
+  EXPECT_TRUE(probe().check(good).clear);
+}
+
+TEST_F(NodeTest, DiagnosticsNameEachInput) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  moveTo({0.0, 0.0, 0.5});
+  const auto message = ros::topic::waitForMessage<diagnostic_msgs::DiagnosticArray>("/diagnostics", ros::Duration(1e6));
+  ASSERT_TRUE(message);
+  std::string all;
+  for (const auto& status : message->status) {
+    all += status.name + "\n";
+    for (const auto& value : status.values) all += value.key + "=" + value.value + "\n";
+  }
+  for (const char* expected :
+       {"verdict", "source=/tool_pose", "publishers=1", "detector=select", "'sheet'=revision 1"}) {
+    EXPECT_NE(all.find(expected), std::string::npos) << expected << " in\n" << all;
+  }
+}
+
+TEST_F(NodeTest, MarkersShowToolVolumeAndTouchedTriangles) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  moveTo({0.0, 0.0, -0.05});
+  std::set<std::string> namespaces;
+  const auto markers = probe().awaitMarkers([&](const visualization_msgs::MarkerArray& drawn) {
+    namespaces.clear();
+    for (const auto& marker : drawn.markers) namespaces.insert(marker.ns);
+    return namespaces.count("contact_triangles") != 0;
+  });
+  EXPECT_EQ(namespaces, (std::set<std::string>{"tool", "swept_volume", "contact_triangles", "warning_text"}));
+  for (const auto& marker : markers.markers) {
+    EXPECT_EQ(marker.lifetime, ros::Duration(0.5));
+    EXPECT_LT(marker.color.a, 1.0F);
+    EXPECT_EQ(marker.header.frame_id, "world");
+  }
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "node_test");
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
