@@ -45,8 +45,8 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       "mesh_vertices", 10, [this](const sweep_guard::MeshVertices::ConstPtr& msg) { workpieces_.accept(*msg); },
       nullptr, hints);
 
-  warning_timer_ = warning_thread_.on(node).createSteadyTimer(wall(kWatchPeriod),
-                                                              [this](const ros::SteadyTimerEvent&) { watch(); });
+  warning_timer_ =
+      warning_thread_.on(node).createSteadyTimer(wall(kWatchPeriod), [this](const ros::SteadyTimerEvent&) { watch(); });
   marker_timer_ = report_thread_.on(node).createSteadyTimer(ros::WallDuration(1.0 / parameters_.marker_rate),
                                                             [this](const ros::SteadyTimerEvent&) { publishMarkers(); });
   diagnostics_timer_ = report_thread_.on(node).createSteadyTimer(

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "simulation/parameters.h"
 #include "simulation/workpiece.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/MeshVertices.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/parameter_reader.h"
 
 namespace sweep_guard_simulation {
 
@@ -43,11 +43,11 @@ std_msgs::ColorRGBA shade(const float* a, const float* b, const float* c) {
 /// Publishes a workpiece: its triangles once, its vertices at a rate, a marker for rviz while somebody looks.
 class WorkpieceNode {
  public:
-  explicit WorkpieceNode(const Parameters& parameters)
+  explicit WorkpieceNode(sweep_guard_ros::ParameterReader& parameters)
       : workpiece_(makeWorkpiece(parameters)),
         id_(parameters.name("id", "workpiece")),
         frame_(parameters.name("frame", "workpiece")),
-        rate_(parameters.number("rate", 60.0, 0.1, 1000.0)) {
+        rate_(parameters.number("rate", 60.0, {0.1, 1000.0})) {
     broadcastFrame(parameters.name("parent_frame", "world"), parameters.position("position", {0.0, 0.0, 0.3}));
     mesh_publisher_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
     vertices_publisher_ = node_.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);
@@ -64,10 +64,10 @@ class WorkpieceNode {
   }
 
  private:
-  static Workpiece makeWorkpiece(const Parameters& parameters) {
+  static Workpiece makeWorkpiece(sweep_guard_ros::ParameterReader& parameters) {
     Workpiece::Options options;
-    options.size = parameters.number("size", options.size, 1e-3, 100.0);
-    options.amplitude = parameters.number("amplitude", options.amplitude, 0.0, 0.05);
+    options.size = parameters.number("size", options.size, {1e-3, 100.0});
+    options.amplitude = parameters.number("amplitude", options.amplitude, {0.0, 0.05});
     const int triangles = parameters.integer("triangles", 1600, 6, 1000000);
     const std::string mesh_file = parameters.text("mesh_file", "");
     return mesh_file.empty() ? Workpiece::hull(triangles, options) : Workpiece::fromFile(mesh_file, options);
@@ -155,10 +155,12 @@ class WorkpieceNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "deformable_workpiece");
-  ros::NodeHandle node("~");
-  ros::Time::waitForValid();
   try {
-    sweep_guard_simulation::WorkpieceNode(sweep_guard_simulation::Parameters(node)).run();
+    sweep_guard_ros::ParameterReader parameters{ros::NodeHandle("~")};
+    ros::Time::waitForValid();
+    sweep_guard_simulation::WorkpieceNode node(parameters);
+    parameters.warnOfUnread();
+    node.run();
   } catch (const sweep_guard::InvalidInput& error) {
     ROS_FATAL("%s", error.what());
     return 2;

@@ -13,13 +13,13 @@
 
 #include "simulation/drilling.h"
 #include "simulation/motion_file.h"
-#include "simulation/parameters.h"
 #include "simulation/replay.h"
 #include "simulation/top_surface.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/stamped_pose.h"
+#include "sweep_guard/ros/parameter_reader.h"
 
 namespace sweep_guard_simulation {
 
@@ -66,12 +66,12 @@ sweep_guard::TriangleMesh toMesh(const sweep_guard::DeformableMesh& message, con
 /// Leads the tool: waits for the workpiece and for the guard, then publishes one pose after the other when it is due.
 class OperatorNode {
  public:
-  explicit OperatorNode(const Parameters& parameters)
+  explicit OperatorNode(sweep_guard_ros::ParameterReader& parameters)
       : frame_(parameters.name("frame", "world")),
         motion_file_(parameters.text("motion_file", "")),
-        rate_(parameters.number("rate", 100.0, 1.0, 10000.0)),
-        loop_(parameters.boolean("loop", true)),
-        wait_for_guard_(parameters.boolean("wait_for_guard", true)),
+        rate_(parameters.number("rate", 100.0, {1.0, 10000.0})),
+        loop_(parameters.flag("loop", true)),
+        wait_for_guard_(parameters.flag("wait_for_guard", true)),
         min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
         listener_(buffer_) {
     if (!motion_file_.empty()) recording_ = readMotionFile(motion_file_);
@@ -185,10 +185,12 @@ class OperatorNode {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "operator");
-  ros::NodeHandle node("~");
-  ros::Time::waitForValid();
   try {
-    sweep_guard_simulation::OperatorNode(sweep_guard_simulation::Parameters(node)).run();
+    sweep_guard_ros::ParameterReader parameters{ros::NodeHandle("~")};
+    ros::Time::waitForValid();
+    sweep_guard_simulation::OperatorNode node(parameters);
+    parameters.warnOfUnread();
+    node.run();
   } catch (const sweep_guard::InvalidInput& error) {
     ROS_FATAL("%s", error.what());
     return 2;

@@ -10,7 +10,11 @@
 namespace sweep_guard {
 namespace {
 
-using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+// Wide enough for products of nine doubles; throws if it were not.
+using Integer = boost::multiprecision::number<
+    boost::multiprecision::cpp_int_backend<4096, 4096, boost::multiprecision::signed_magnitude,
+                                           boost::multiprecision::checked, void>,
+    boost::multiprecision::et_off>;
 using Vector = std::array<Integer, 3>;
 
 constexpr int kBits = 300;  // a double is an integer of 2^-kBits

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <Eigen/Core>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sweep_guard_ros {
+
+/// Reads the private parameters of a node, strictly: each function returns what is set for the key, or the fallback
+/// where nothing is set. roscpp's own reading falls back in silence where the type is wrong. All throw
+/// sweep_guard::InvalidInput naming key, value and range if the value has another type, is NaN or is out of range.
+class ParameterReader {
+ public:
+  struct Range {
+    double lowest;
+    double highest;
+  };
+
+  explicit ParameterReader(ros::NodeHandle private_node) : node_(std::move(private_node)) {}
+
+  double number(const std::string& key, double fallback, const Range& range);  ///< an integer is a number too
+  int integer(const std::string& key, int fallback, int lowest, int highest);
+  bool flag(const std::string& key, bool fallback);
+  std::string text(const std::string& key, const std::string& fallback);
+  std::string name(const std::string& key, const std::string& fallback);  ///< text, not empty
+  std::string choice(const std::string& key, const std::string& fallback, const std::vector<std::string>& choices);
+  Eigen::Vector3d position(const std::string& key, const Eigen::Vector3d& fallback);  ///< [x, y, z] within +-1e6 m
+
+  /// Warns of every private parameter that has not been asked for: a key that is misspelt would have no effect.
+  void warnOfUnread() const;
+
+ private:
+  bool get(const std::string& key, XmlRpc::XmlRpcValue& value);
+  [[noreturn]] void refuse(const std::string& key, const XmlRpc::XmlRpcValue& value, const std::string& wanted) const;
+
+  ros::NodeHandle node_;
+  std::set<std::string> read_;
+};
+
+}  // namespace sweep_guard_ros
