@@ -69,8 +69,9 @@ Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits
     verdict.level = Level::kContact;
     verdict.mesh_id = evidence.contact->id;
     verdict.triangles = evidence.contact->triangles;
-    verdict.text = "tool meets '" + verdict.mesh_id + "', " + std::to_string(verdict.triangles.size()) + " triangles" +
-                   (verdict.text.empty() ? "" : "; ") + verdict.text;
+    const size_t count = verdict.triangles.size();
+    verdict.text = "tool meets '" + verdict.mesh_id + "', " + std::to_string(count) +
+                   (count == 1 ? " triangle" : " triangles") + (verdict.text.empty() ? "" : "; ") + verdict.text;
   }
   verdict.text = std::string(nameOf(verdict.level)) + (verdict.text.empty() ? "" : ": ") + verdict.text;
   return verdict;

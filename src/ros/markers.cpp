@@ -90,21 +90,27 @@ void addSweptVolume(visualization_msgs::MarkerArray& array, const sweep_guard::S
   array.markers.push_back(std::move(edges));
 }
 
+// The triangles met, a little off the surface on either side: in it they would flicker with whoever draws the
+// workpiece.
 void addContactTriangles(visualization_msgs::MarkerArray& array, const sweep_guard::SweptObject& object, int index,
-                         sweep_guard::Time stamp) {
+                         sweep_guard::Time stamp, double lift) {
   if (object.findings.triangles.empty()) return;
   Marker faces = marker("contact_triangles", 2 * index, Marker::TRIANGLE_LIST, object.workpiece->frame, stamp);
   Marker edges = marker("contact_triangles", 2 * index + 1, Marker::LINE_LIST, object.workpiece->frame, stamp);
-  faces.color = color(0.95, 0.1, 0.05, 0.9);
-  edges.color = color(0.4, 0.0, 0.0, 0.95);
-  edges.scale.x = 0.0015;
+  faces.color = color(1.0, 0.15, 0.1, 0.95);
+  edges.color = color(1.0, 0.75, 0.7, 0.95);
+  edges.scale.x = lift;
   const sweep_guard::TriangleMesh& mesh_M = object.workpiece->mesh_M;
   for (const std::uint32_t triangle : object.findings.triangles) {
     const auto& [a, b, c] = mesh_M.triangles()[triangle];
-    const sweep_guard::Polygon corners = {mesh_M.vertex(a), mesh_M.vertex(b), mesh_M.vertex(c)};
-    addFaces(faces, corners);
-    addFaces(faces, {corners[0], corners[2], corners[1]});  // visible from either side
-    addEdges(edges, corners);
+    const Eigen::Vector3d p = mesh_M.vertex(a);
+    const Eigen::Vector3d q = mesh_M.vertex(b);
+    const Eigen::Vector3d r = mesh_M.vertex(c);
+    const Eigen::Vector3d off = lift * (q - p).cross(r - p).stableNormalized();
+    addFaces(faces, {p + off, q + off, r + off});
+    addFaces(faces, {p - off, r - off, q - off});
+    addEdges(edges, {p + off, q + off, r + off});
+    addEdges(edges, {p - off, q - off, r - off});
   }
   array.markers.push_back(std::move(faces));
   array.markers.push_back(std::move(edges));
@@ -139,7 +145,8 @@ visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
   }
   if (scene.contact && level == Level::kContact) {
     int index = 0;
-    for (const auto& object : scene.contact->objects) addContactTriangles(array, object, index++, scene.newest->end);
+    for (const auto& object : scene.contact->objects)
+      addContactTriangles(array, object, index++, scene.newest->end, 0.1 * tool_radius_);
   }
 
   std::set<Key> now_shown;
