@@ -38,8 +38,8 @@ SweepReport Guard::sweep(const ToolPose& pose, const Workpieces& workpieces) {
   return report;
 }
 
-// A frame without a workpiece is forgotten: what comes to live there later was not there when the tool moved before. One whose
-// transform is missing now keeps its pose, so that the next sweep begins there.
+// A frame without a workpiece is forgotten: what comes to live there later was not there when the tool moved before.
+// One whose transform is missing now keeps its pose, so that the next sweep begins there.
 void Guard::remember(const ToolPose& pose, const Workpieces& workpieces) {
   std::map<std::string, Placed> inhabited;
   for (const auto& workpiece : workpieces) {

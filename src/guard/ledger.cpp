@@ -38,8 +38,14 @@ void Ledger::mend(std::uint32_t reasons, std::uint64_t up_to) {
 
 void Ledger::meshRefused(const std::string& id, const std::string& story, SteadyTime now) {
   const std::lock_guard lock(mutex_);
-  if (mesh_faults_.size() >= kMeshFaultsKept && mesh_faults_.count(id) == 0) mesh_faults_.erase(mesh_faults_.begin());
+  if (mesh_faults_.size() >= kMeshFaultsKept) forgetUnknownMeshes();
   mesh_faults_[id] = {story, now};
+}
+
+void Ledger::forgetUnknownMeshes() {
+  for (auto fault = mesh_faults_.begin(); fault != mesh_faults_.end();) {
+    fault = known(fault->first) ? std::next(fault) : mesh_faults_.erase(fault);
+  }
 }
 
 void Ledger::meshAccepted(const std::string& id) {

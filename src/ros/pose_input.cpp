@@ -14,6 +14,7 @@ using sweep_guard::Reason;
 
 constexpr auto kFutureTolerance = std::chrono::milliseconds(50);
 constexpr auto kTransformMayBeLate = std::chrono::milliseconds(20);
+constexpr size_t kMissingKept = 64;  // made-up frame names must not fill the memory
 constexpr int kQueueLength = 4096;  // 4 s at 1 kHz
 
 struct PoseRefused : sweep_guard::InvalidInput {
@@ -110,8 +111,7 @@ void PoseInput::accept(const Incoming& incoming) {
   last_epoch_ = epoch;
   checkStamp(incoming.stamp);
   const std::uint64_t faults_before = ledger_.faultCount();
-  const Eigen::Isometry3d X_WT =
-      frames_.lookup(fixed_frame_, incoming.frame, incoming.stamp, kTransformMayBeLate) * incoming.X_FT;
+  const Eigen::Isometry3d X_WT = lookup(fixed_frame_, incoming.frame, incoming.stamp) * incoming.X_FT;
   last_ = incoming.stamp;
   auto X_MT = placeIn(workpieces_.frames(), incoming.stamp, X_WT);
   sink_({{incoming.stamp, incoming.received, std::move(X_MT)}, X_WT, faults_before, epoch});
@@ -131,18 +131,26 @@ std::map<std::string, Eigen::Isometry3d> PoseInput::placeIn(const std::set<std::
                                                             sweep_guard::Time stamp, const Eigen::Isometry3d& X_WT) {
   std::map<std::string, Eigen::Isometry3d> X_MT;
   for (const std::string& frame : mesh_frames) {
-    const bool awaited = missing_frames_.count(frame) == 0;
     try {
-      X_MT[frame] =
-          frames_.lookup(frame, fixed_frame_, stamp, awaited ? kTransformMayBeLate : sweep_guard::Duration(0)) * X_WT;
-      missing_frames_.erase(frame);
+      X_MT[frame] = lookup(frame, fixed_frame_, stamp) * X_WT;
     } catch (const FrameError& error) {
-      missing_frames_.insert(frame);
       ledger_.fault(sweep_guard::kTfFail, error.what());
       ROS_ERROR_THROTTLE(1.0, "workpieces in '%s' are not swept: %s", frame.c_str(), error.what());
     }
   }
   return X_MT;
+}
+
+// Waits for a transform that may be late, but not again for one that did not come: that would hold up every pose.
+Eigen::Isometry3d PoseInput::lookup(const std::string& target, const std::string& source, sweep_guard::Time stamp) {
+  const std::pair<std::string, std::string> frames(target, source);
+  const bool awaited = missing_.count(frames) == 0;
+  if (missing_.size() >= kMissingKept) missing_.clear();
+  missing_.insert(frames);
+  const Eigen::Isometry3d X =
+      frames_.lookup(target, source, stamp, awaited ? kTransformMayBeLate : sweep_guard::Duration(0));
+  missing_.erase(frames);
+  return X;
 }
 
 }  // namespace sweep_guard_ros

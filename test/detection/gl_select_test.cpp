@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <thread>
 
 #include "detection/faulty_context.h"
 #include "sweep_guard/common/error.h"
@@ -181,6 +182,14 @@ TEST(GlSelectTest, MakesItsContextCurrentForEveryQuery) {
   EXPECT_EQ(first.hits(kRow.query()), (Names{1, 2, 3, 5}));
   EXPECT_EQ(second.hits(Row({0.0F}).query()), (Names{0}));
   EXPECT_EQ(first.hits(kRow.query()), (Names{1, 2, 3, 5}));
+}
+
+// Without a current context OpenGL sees nothing and reports no error.
+TEST(GlSelectTest, MakesItsContextCurrentInTheThreadThatAsks) {
+  GlSelect select(makeOsMesaContext());
+  Names hits;
+  std::thread([&] { EXPECT_NO_THROW(hits = select.hits(kRow.query())); }).join();
+  EXPECT_EQ(hits, (Names{1, 2, 3, 5}));
 }
 
 TEST(GlSelectTest, DoesNotTakeSilenceForAnAnswer) {

@@ -50,6 +50,7 @@ class Ledger {
     SteadyTime reported;
   };
 
+  void forgetUnknownMeshes();
   bool known(const std::string& id) const;
 
   const VerdictLimits limits_;

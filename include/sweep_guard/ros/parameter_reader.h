@@ -19,7 +19,7 @@ class ParameterReader {
     double highest;
   };
 
-  explicit ParameterReader(ros::NodeHandle private_node) : node_(std::move(private_node)) {}
+  explicit ParameterReader(const ros::NodeHandle& private_node) : node_(private_node) {}
 
   double number(const std::string& key, double fallback, const Range& range);  ///< an integer is a number too
   int integer(const std::string& key, int fallback, int lowest, int highest);

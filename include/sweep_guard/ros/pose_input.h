@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "sweep_guard/guard/ledger.h"
 #include "sweep_guard/ros/frames.h"
@@ -62,6 +63,7 @@ class PoseInput {
   void checkStamp(sweep_guard::Time stamp) const;
   std::map<std::string, Eigen::Isometry3d> placeIn(const std::set<std::string>& mesh_frames, sweep_guard::Time stamp,
                                                    const Eigen::Isometry3d& X_WT);
+  Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard::Time stamp);
   void refuse(sweep_guard::Reason reason, const std::string& story);
 
   const std::string fixed_frame_;
@@ -73,7 +75,8 @@ class PoseInput {
 
   std::optional<sweep_guard::Time> last_;
   std::uint64_t last_epoch_ = 0;
-  std::set<std::string> missing_frames_;  // not waited for again until they come
+  std::set<std::pair<std::string, std::string>>
+      missing_;  // target and source of transforms that did not come last time
   std::atomic<std::uint64_t> epoch_ = 0;
   std::atomic<std::uint64_t> received_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;
