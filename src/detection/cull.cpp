@@ -28,7 +28,7 @@ const std::vector<std::uint32_t>& Cull::operator()(const TriangleMesh& mesh_M, c
   assert(swept_M.clips_B.size() <= 10);  // 6 + 10 bits
   beyond_.resize(mesh_M.vertexCount());
   for (std::uint32_t i = 0; i < beyond_.size(); ++i) {
-    beyond_[i] = planesBeyond(coordinates(i), swept_M.box.half_extents, swept_M.clips_B, coordinates.rounding());
+    beyond_[i] = planesBeyond(coordinates(i), swept_M.box.half_extents, swept_M.clips_B, 2.0 * coordinates.rounding());
   }
 
   left_.clear();

@@ -15,6 +15,18 @@ namespace {
 constexpr size_t kWordsPerRecord = 4;  // number of names, nearest and farthest depth, the one name
 constexpr int kClipPlanes = 6;
 
+// A context is current while it is used and no longer: the next use may come from another thread.
+class Current {
+ public:
+  explicit Current(OffscreenContext& context) : context_(context) { context_.makeCurrent(); }
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
+  ~Current() { context_.release(); }
+
+ private:
+  OffscreenContext& context_;
+};
+
 template <typename Function>
 void load(OffscreenContext& context, const char* name, Function*& function) {
   function = reinterpret_cast<Function*>(context.function(name));
@@ -61,7 +73,7 @@ struct GlSelect::Functions {
 
 GlSelect::GlSelect(std::unique_ptr<OffscreenContext> context, size_t hit_records)
     : context_(std::move(context)), hit_buffer_(kWordsPerRecord * std::max<size_t>(hit_records, 1)) {
-  context_->makeCurrent();
+  const Current current(*context_);
   gl_ = std::make_unique<const Functions>(*context_);
 }
 
@@ -73,7 +85,7 @@ const std::vector<std::uint32_t>& GlSelect::hits(const Query& query) {
   const auto per_name = static_cast<size_t>(query.triangles_per_name);
   const auto canary_name = static_cast<std::uint32_t>((triangles + per_name - 1) / per_name);
 
-  context_->makeCurrent();
+  const Current current(*context_);
   int records = draw(query, canary_name);
   while (records < 0) {  // more hits than room: what was written is cut short, so it is thrown away
     if (hit_buffer_.size() > kWordsPerRecord * canary_name) {

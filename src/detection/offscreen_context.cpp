@@ -41,6 +41,8 @@ class OsMesaContext : public OffscreenContext {
     }
   }
 
+  void release() override { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
   Function function(const char* name) override { return OSMesaGetProcAddress(name); }
 
  private:

@@ -19,9 +19,7 @@ Detection ReferenceDetector::detect(const TriangleMesh& mesh_M, const SweptVolum
   const BoxCoordinates coordinates(mesh_M, swept_M.box);
   Detection detection;
   detection.inflation = coordinates.rounding();
-  std::vector<HalfSpace> half_spaces;
-  for (const HalfSpace& half_space : swept_M.halfSpaces_B())
-    half_spaces.push_back(half_space.grown(detection.inflation));
+  const std::vector<HalfSpace> half_spaces = swept_M.grown(detection.inflation).halfSpaces_B();
   const std::vector<Triangle>& triangles = mesh_M.triangles();
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const auto& [a, b, c] = triangles[i];

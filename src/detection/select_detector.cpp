@@ -24,12 +24,6 @@ double farthestCorner(const TriangleMesh& mesh, const BoxCoordinates& coordinate
   return std::sqrt(squared);
 }
 
-SweptVolume inflated(SweptVolume volume, double inflation) {
-  volume.box.half_extents.array() += inflation;
-  for (HalfSpace& clip_B : volume.clips_B) clip_B = clip_B.grown(inflation);
-  return volume;
-}
-
 // The half-space n·p <= d in coordinates scaled to the cube, as OpenGL wants it: what is kept is positive.
 Eigen::Vector4d clipPlane(const HalfSpace& clip_B, const Eigen::Vector3d& half_extents) {
   Eigen::Vector4d plane;
@@ -56,7 +50,7 @@ Detection SelectDetector::detect(const TriangleMesh& mesh_M, const SweptVolume& 
   Detection detection;
   const double drawn = std::max(farthestCorner(mesh_M, coordinates, candidates), swept_M.box.half_extents.norm());
   const double inflation = kFloatError * drawn + coordinates.rounding();
-  const SweptVolume inflated_M = inflated(swept_M, inflation);
+  const SweptVolume inflated_M = swept_M.grown(inflation);
   detection.inflation = 2.0 * inflation;  // OpenGL's rounding can let in what is a little farther out, too
   try {
     detection.triangles = select(mesh_M, inflated_M, candidates);

@@ -1,5 +1,6 @@
 #include "sweep_guard/geometry/swept_volume.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "sweep_guard/common/error.h"
@@ -25,6 +26,14 @@ std::vector<HalfSpace> SweptVolume::halfSpaces_B() const {
   return half_spaces;
 }
 
+SweptVolume SweptVolume::grown(double distance) const {
+  SweptVolume grown = *this;
+  grown.margin += distance;
+  grown.box.half_extents.array() += distance;
+  for (HalfSpace& clip_B : grown.clips_B) clip_B = clip_B.grown(distance);
+  return grown;
+}
+
 SweptVolume sweptVolume(const Tool& tool, const Motion& motion, VolumeKind kind, double extra_margin) {
   assert(motion.angle() < 1.6 && extra_margin >= 0.0);
   // Far from the mesh's origin the extents would lose digits: they are taken near the tool, and moved there at the end.
@@ -32,16 +41,14 @@ SweptVolume sweptVolume(const Tool& tool, const Motion& motion, VolumeKind kind,
   const Motion near{there.inverse() * motion.X_MT_start, there.inverse() * motion.X_MT_end};
 
   SweptVolume volume;
-  volume.margin = chordError(tool.reach(motion.axis_T()), motion.angle()) + extra_margin;
   volume.box = boundingBox(tool, near);
   if (kind == VolumeKind::kObbPlanes) volume.clips_B = boundingPlanes(tool, near, volume.box);
-
   const Eigen::Vector3d& mean_T = tool.moments_T().mean;
   volume.interior_B = volume.box.X_MB.inverse() * (0.5 * (near.X_MT_start * mean_T + near.X_MT_end * mean_T));
-  volume.box.half_extents.array() += volume.margin;
-  for (HalfSpace& clip_B : volume.clips_B) clip_B = clip_B.grown(volume.margin);
   volume.box.X_MB = there * volume.box.X_MB;
-  return volume;
+
+  const double arc = std::max(chordError(tool.reach(motion.axis_T()), motion.angle()), motion.bulge);
+  return volume.grown(arc + extra_margin);
 }
 
 }  // namespace sweep_guard

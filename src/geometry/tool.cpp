@@ -76,6 +76,8 @@ double Tool::support(const Eigen::Vector3d& direction_T) const {
 
 double Tool::reach(const Eigen::Vector3d& axis_T) const { return radius_ + length_ * axis_T.head<2>().norm(); }
 
+double Tool::extent() const { return std::hypot(radius_, length_); }
+
 Eigen::Vector3d Tool::frontExtreme(const Eigen::Vector3d& direction_T) const {
   return discExtreme(0.0, radius_, direction_T);
 }

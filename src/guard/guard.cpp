@@ -1,8 +1,14 @@
 #include "sweep_guard/guard/guard.h"
 
 #include <algorithm>
+#include <set>
 
 namespace sweep_guard {
+namespace {
+
+constexpr size_t kLongestWay = 4096;  // of a detector that keeps failing: the warning is not clear meanwhile
+
+}  // namespace
 
 double SweepReport::margin() const {
   double largest = 0.0;
@@ -15,39 +21,60 @@ bool SweepReport::contact() const {
                      [](const SweptObject& object) { return !object.findings.triangles.empty(); });
 }
 
+bool SweepReport::complete() const { return !objects.empty() && unplaced.empty() && failures.empty(); }
+
 Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const SweepOptions& options)
     : tool_(std::move(tool)), detector_(std::move(detector)), options_(options) {}
 
 SweepReport Guard::sweep(const ToolPose& pose, const Workpieces& workpieces) {
-  SweepReport report;
-  report.start = pose.stamp;
-  report.end = pose.stamp;
+  dropWaysOfEmptyFrames(workpieces);
+  for (const auto& [frame, X_WM] : pose.X_WM) {
+    Way& way = ways_[frame];
+    if (way.size() >= kLongestWay) way.erase(way.begin() + 1);
+    way.push_back({pose.stamp, pose.X_WT, X_WM});
+  }
+
+  SweepReport report{pose.stamp, pose.stamp, {}, {}, {}};
+  std::set<std::string> failed_frames;
   for (const auto& workpiece : workpieces) {
-    const auto here = pose.X_MT.find(workpiece->frame);
-    if (here == pose.X_MT.end()) {
-      report.unswept.push_back(workpiece);
+    if (pose.X_WM.count(workpiece->frame) == 0) {
+      report.unplaced.push_back(workpiece);
       continue;
     }
-    const auto last = last_.find(workpiece->frame);
-    const Placed from = last == last_.end() ? Placed{pose.stamp, here->second} : last->second;
-    report.start = std::min(report.start, from.stamp);
-    report.objects.push_back(
-        {workpiece, from.stamp, testSweep(*detector_, tool_, {from.X_MT, here->second}, workpiece->mesh_M, options_)});
+    const Way& way = ways_.at(workpiece->frame);
+    report.start = std::min(report.start, way.front().stamp);
+    try {
+      report.objects.push_back({workpiece, way.front().stamp, sweepAlong(way, workpiece->mesh_M)});
+    } catch (const std::exception& error) {  // the device, or no memory: the others are swept all the same
+      report.failures.push_back({workpiece, error.what()});
+      failed_frames.insert(workpiece->frame);
+    }
   }
-  remember(pose, workpieces);
+  for (const auto& [frame, X_WM] : pose.X_WM) {
+    if (failed_frames.count(frame) == 0) ways_[frame] = {ways_[frame].back()};
+  }
   return report;
 }
 
-// A frame without a workpiece is forgotten: what comes to live there later was not there when the tool moved before.
-// One whose transform is missing now keeps its pose, so that the next sweep begins there.
-void Guard::remember(const ToolPose& pose, const Workpieces& workpieces) {
-  std::map<std::string, Placed> inhabited;
-  for (const auto& workpiece : workpieces) {
-    const auto last = last_.find(workpiece->frame);
-    if (last != last_.end()) inhabited.insert(*last);
+SweepFindings Guard::sweepAlong(const Way& way, const TriangleMesh& mesh_M) {
+  SweepFindings findings;
+  for (size_t i = 0; i < std::max<size_t>(way.size() - 1, 1); ++i) {
+    const Placed& from = way[i];
+    const Placed& to = way[std::min(i + 1, way.size() - 1)];
+    const RelativeMotion motion{{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}};
+    const std::vector<Motion> parts = split(motion, options_.max_rotation, tool_.extent());
+    unite(findings, testSweep(*detector_, tool_, parts, mesh_M, options_));
   }
-  for (const auto& [frame, X_MT] : pose.X_MT) inhabited.insert_or_assign(frame, Placed{pose.stamp, X_MT});
-  last_ = std::move(inhabited);
+  return findings;
+}
+
+// What comes to live in an empty frame later was not there when the tool moved before.
+void Guard::dropWaysOfEmptyFrames(const Workpieces& workpieces) {
+  for (auto way = ways_.begin(); way != ways_.end();) {
+    const bool inhabited = std::any_of(workpieces.begin(), workpieces.end(),
+                                       [&](const auto& workpiece) { return workpiece->frame == way->first; });
+    way = inhabited ? std::next(way) : ways_.erase(way);
+  }
 }
 
 }  // namespace sweep_guard

@@ -5,52 +5,52 @@
 namespace sweep_guard {
 namespace {
 
-constexpr Duration kUnknownMeshFaultLasts = std::chrono::seconds(1);
-constexpr size_t kMeshFaultsKept = 64;  // a flood of made-up ids must not grow the ledger
+constexpr size_t kRefusedMeshesKept = 64;  // a flood of made-up ids must not grow the ledger
 
-Evidence::Contact contactOf(const SweepReport& report, SteadyTime now) {
-  const auto met = std::find_if(report.objects.begin(), report.objects.end(),
-                                [](const SweptObject& object) { return !object.findings.triangles.empty(); });
-  return {met->workpiece->id, met->findings.triangles, now};
+bool sameTriangles(const Workpiece& a, const Workpiece& b) {
+  return a.id == b.id && a.frame == b.frame && &a.mesh_M.triangles() == &b.mesh_M.triangles();
+}
+
+// A workpiece that is there, and whose sweep had no answer.
+bool notSwept(const SweepReport& report, const std::string& id) {
+  const auto unplaced = [&](const auto& workpiece) { return workpiece->id == id; };
+  const auto failed = [&](const SweepFailure& failure) { return failure.workpiece->id == id; };
+  return std::any_of(report.unplaced.begin(), report.unplaced.end(), unplaced) ||
+         std::any_of(report.failures.begin(), report.failures.end(), failed);
 }
 
 }  // namespace
 
-Ledger::Ledger(const VerdictLimits& limits) : limits_(limits) {}
+Ledger::Ledger(const VerdictLimits& limits, std::function<void()> on_fault)
+    : limits_(limits), on_fault_(std::move(on_fault)) {}
+
+Ledger::Mark Ledger::mark() const {
+  const std::lock_guard lock(mutex_);
+  return mark_;
+}
 
 void Ledger::fault(Reason reason, const std::string& story) {
-  const std::lock_guard lock(mutex_);
-  faults_[reason] = {story, ++fault_count_};
-}
-
-std::uint64_t Ledger::faultCount() const {
-  const std::lock_guard lock(mutex_);
-  return fault_count_;
-}
-
-void Ledger::mend(std::uint32_t reasons, std::uint64_t up_to) {
-  const std::lock_guard lock(mutex_);
-  for (auto fault = faults_.begin(); fault != faults_.end();) {
-    const bool mended = (fault->first & reasons) != 0 && fault->second.number <= up_to;
-    fault = mended ? faults_.erase(fault) : std::next(fault);
+  {
+    const std::lock_guard lock(mutex_);
+    note(reason, story);
   }
+  on_fault_();
 }
 
-void Ledger::meshRefused(const std::string& id, const std::string& story, SteadyTime now) {
-  const std::lock_guard lock(mutex_);
-  if (mesh_faults_.size() >= kMeshFaultsKept) forgetUnknownMeshes();
-  mesh_faults_[id] = {story, now};
-}
+void Ledger::note(Reason reason, const std::string& story) { faults_[reason] = {story, ++mark_.faults}; }
 
-void Ledger::forgetUnknownMeshes() {
-  for (auto fault = mesh_faults_.begin(); fault != mesh_faults_.end();) {
-    fault = known(fault->first) ? std::next(fault) : mesh_faults_.erase(fault);
+void Ledger::meshRefused(const std::string& id, const std::string& story) {
+  {
+    const std::lock_guard lock(mutex_);
+    const bool room = refused_meshes_.size() < kRefusedMeshesKept || refused_meshes_.count(id) != 0;
+    refused_meshes_[room ? id : refused_meshes_.rbegin()->first] = story;
   }
+  on_fault_();
 }
 
 void Ledger::meshAccepted(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  mesh_faults_.erase(id);
+  refused_meshes_.erase(id);
 }
 
 void Ledger::setWorkpieces(const Workpieces& workpieces) {
@@ -58,45 +58,64 @@ void Ledger::setWorkpieces(const Workpieces& workpieces) {
   workpieces_ = workpieces;
 }
 
-void Ledger::swept(const SweepReport& report, const Seen& pose, SteadyTime now) {
-  const std::lock_guard lock(mutex_);
-  pose_ = pose;
-  swept_revisions_.clear();
-  for (const SweptObject& object : report.objects) swept_revisions_[object.workpiece->id] = object.workpiece->revision;
-  if (report.contact()) contact_ = contactOf(report, now);
+void Ledger::swept(const SweepReport& report, const Seen& pose, const Mark& pose_came, SteadyTime now) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (pose_came.epoch != mark_.epoch) return;
+    for (auto fault = faults_.begin(); fault != faults_.end();) {
+      fault = fault->second.number <= pose_came.faults ? faults_.erase(fault) : std::next(fault);
+    }
+    for (const SweepFailure& failure : report.failures) {
+      note(kDetectorFault, "detection on '" + failure.workpiece->id + "' failed: " + failure.reason);
+    }
+    pose_ = pose;
+    swept_.clear();
+    for (const SweptObject& object : report.objects) swept_.push_back(object.workpiece);
+    if (report.complete()) covered_until_ = report.end;
+    noteContact(report, now);
+  }
+  if (!report.failures.empty()) on_fault_();
+}
+
+void Ledger::noteContact(const SweepReport& report, SteadyTime now) {
+  if (contact_) contact_->lasting = contact_->lasting && notSwept(report, contact_->id);
+  for (const SweptObject& object : report.objects) {
+    if (object.findings.triangles.empty()) continue;
+    contact_ = {object.workpiece->id, object.findings.triangles, now, /*lasting=*/true};
+    return;
+  }
 }
 
 void Ledger::timeJumped(const std::string& story) {
-  const std::lock_guard lock(mutex_);
-  pose_.reset();
-  contact_.reset();
-  swept_revisions_.clear();
-  faults_.clear();
-  mesh_faults_.clear();
-  faults_[kTimeJump] = {story, ++fault_count_};
+  {
+    const std::lock_guard lock(mutex_);
+    ++mark_.epoch;
+    pose_.reset();
+    covered_until_ = {};
+    swept_.clear();
+    faults_.clear();
+    if (contact_) contact_->lasting = false;
+    note(kTimeJump, story);
+  }
+  on_fault_();
 }
 
 Verdict Ledger::verdict(const Instant& now) const {
   const std::lock_guard lock(mutex_);
   Evidence evidence;
   evidence.pose = pose_;
+  evidence.covered_until = covered_until_;
   evidence.contact = contact_;
   for (const auto& workpiece : workpieces_) {
-    const auto swept = swept_revisions_.find(workpiece->id);
-    evidence.objects.push_back({workpiece->id,
-                                {workpiece->stamp, workpiece->received},
-                                swept != swept_revisions_.end() && swept->second == workpiece->revision});
+    evidence.objects.push_back({workpiece->id, {workpiece->stamp, workpiece->received}, sweptLast(*workpiece)});
   }
   for (const auto& [reason, fault] : faults_) evidence.faults[reason] = fault.story;
-  for (const auto& [id, fault] : mesh_faults_) {
-    if (known(id) || now.steady - fault.reported <= kUnknownMeshFaultLasts) evidence.faults[kMeshInvalid] = fault.story;
-  }
+  for (const auto& [id, story] : refused_meshes_) evidence.faults[kMeshInvalid] = story;
   return assess(evidence, now, limits_);
 }
 
-bool Ledger::known(const std::string& id) const {
-  return std::any_of(workpieces_.begin(), workpieces_.end(),
-                     [&](const auto& workpiece) { return workpiece->id == id; });
+bool Ledger::sweptLast(const Workpiece& workpiece) const {
+  return std::any_of(swept_.begin(), swept_.end(), [&](const auto& swept) { return sameTriangles(*swept, workpiece); });
 }
 
 }  // namespace sweep_guard

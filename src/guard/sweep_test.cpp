@@ -13,35 +13,37 @@ std::vector<std::uint32_t> unite(const std::vector<std::uint32_t>& a, const std:
   return both;
 }
 
-void add(SweepFindings& all, SweepFindings more) {
+}  // namespace
+
+void unite(SweepFindings& all, SweepFindings more) {
   all.triangles = unite(all.triangles, more.triangles);
   all.margin = std::max(all.margin, more.margin);
   std::move(more.volumes_M.begin(), more.volumes_M.end(), std::back_inserter(all.volumes_M));
 }
 
-}  // namespace
-
-SweepFindings testSweep(Detector& detector, const Tool& tool, const Motion& motion, const TriangleMesh& mesh_M,
-                        const SweepOptions& options) {
+SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts,
+                        const TriangleMesh& mesh_M, const SweepOptions& options) {
   SweepFindings findings;
-  for (const Motion& part : split(motion, options.max_rotation)) {
+  for (const Motion& part : parts) {
     SweptVolume volume_M = sweptVolume(tool, part, options.volume, options.margin + mesh_M.rounding());
     Detection detection = detector.detect(mesh_M, volume_M);
     const double margin = volume_M.margin + detection.inflation;
-    add(findings, {std::move(detection.triangles), margin, {std::move(volume_M)}});
+    unite(findings, {std::move(detection.triangles), margin, {std::move(volume_M)}});
   }
   return findings;
 }
 
 PathFindings testPath(Detector& detector, const Tool& tool, const std::vector<Eigen::Isometry3d>& path,
-                      const TriangleMesh& mesh_M, const SweepOptions& options) {
+                      const TriangleMesh& mesh_M, const SweepOptions& options, const std::function<void()>& between) {
   assert(!path.empty());
   PathFindings along;
   for (size_t i = 0; i < std::max<size_t>(path.size() - 1, 1); ++i) {
+    between();
     const Motion motion{path[i], path[std::min(i + 1, path.size() - 1)]};
-    SweepFindings findings = testSweep(detector, tool, motion, mesh_M, options);
-    if (!findings.triangles.empty() && !along.first_met) along.first_met = i;
-    add(along.findings, std::move(findings));
+    const SweepFindings sweep = testSweep(detector, tool, split(motion, options.max_rotation), mesh_M, options);
+    if (!sweep.triangles.empty() && !along.first_met) along.first_met = i;
+    along.triangles = unite(along.triangles, sweep.triangles);
+    along.margin = std::max(along.margin, sweep.margin);
   }
   return along;
 }

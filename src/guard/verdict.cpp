@@ -64,8 +64,9 @@ Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits
   verdict.reasons = findings.reasons();
   verdict.level = verdict.reasons == 0 ? Level::kClear : Level::kUnknown;
   verdict.text = findings.text();
-  if (evidence.pose) verdict.covered_until = evidence.pose->stamp;
-  if (evidence.contact && now.steady - evidence.contact->found <= limits.hold_time) {
+  if (evidence.pose) verdict.pose_stamp = evidence.pose->stamp;
+  verdict.covered_until = evidence.covered_until;
+  if (evidence.contact && (evidence.contact->lasting || now.steady - evidence.contact->found <= limits.hold_time)) {
     verdict.level = Level::kContact;
     verdict.mesh_id = evidence.contact->id;
     verdict.triangles = evidence.contact->triangles;

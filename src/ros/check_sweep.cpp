@@ -37,7 +37,6 @@ bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Respons
     response = CheckSweep::Response();
     response.message = error.what();
   }
-  response.clear = response.success && response.clear;
   response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
   response.compute_time = ros::Duration(sweep_guard::toSeconds(std::chrono::steady_clock::now() - begin));
   return true;
@@ -56,15 +55,19 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   options.margin = request.margin;
   sweep_guard::Detector& used = detector(request.detector.empty() ? parameters_.detector : request.detector);
 
+  const auto give_up = [this] {
+    if (stopping_) throw sweep_guard::Error("the guard is shutting down");
+  };
   std::optional<size_t> first;
   response.clear = true;
   for (const auto& workpiece : choose(request.mesh_ids)) {
-    auto path = sweep_guard::testPath(used, tool_, pathIn(workpiece->frame, request.path), workpiece->mesh_M, options);
-    response.margin = std::max(response.margin, path.findings.margin);
+    auto path =
+        sweep_guard::testPath(used, tool_, pathIn(workpiece->frame, request.path), workpiece->mesh_M, options, give_up);
+    response.margin = std::max(response.margin, path.margin);
     response.clear = response.clear && fresh(*workpiece);
     if (!path.first_met) continue;
     first = std::min(first.value_or(*path.first_met), *path.first_met);
-    response.objects.push_back(toMsg(sweep_guard::SweptObject{workpiece, {}, std::move(path.findings)}));
+    response.objects.push_back(toMsg(*workpiece, path.triangles));
   }
   response.collision = first.has_value();
   response.clear = response.clear && !response.collision;

@@ -1,5 +1,6 @@
 #include "sweep_guard/ros/conversions.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sweep_guard/common/error.h"
@@ -88,6 +89,10 @@ sweep_guard::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_trian
     throw InvalidInput(std::to_string(mesh.triangles.size()) + " triangles: limits/max_triangles is " +
                        std::to_string(max_triangles));
   }
+  if (mesh.vertices.size() > 3 * max_triangles) {
+    throw InvalidInput(std::to_string(mesh.vertices.size()) +
+                       " vertices: more than three for each of limits/max_triangles");
+  }
   std::vector<Eigen::Vector3d> vertices;
   vertices.reserve(mesh.vertices.size());
   for (const geometry_msgs::Point& vertex : mesh.vertices) vertices.push_back(toEigen(vertex));
@@ -100,12 +105,13 @@ sweep_guard::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_trian
   return sweep_guard::TriangleMesh(vertices, std::move(triangles));
 }
 
-sweep_guard::ObjectContacts toMsg(const sweep_guard::SweptObject& object) {
+sweep_guard::ObjectContacts toMsg(const sweep_guard::Workpiece& workpiece,
+                                  const std::vector<std::uint32_t>& triangles) {
   sweep_guard::ObjectContacts msg;
-  msg.mesh_id = object.workpiece->id;
-  msg.revision = object.workpiece->revision;
-  msg.mesh_stamp = toMsg(object.workpiece->stamp);
-  msg.triangles = object.findings.triangles;
+  msg.mesh_id = workpiece.id;
+  msg.revision = workpiece.revision;
+  msg.mesh_stamp = toMsg(workpiece.stamp);
+  msg.triangles = triangles;
   return msg;
 }
 
@@ -115,7 +121,8 @@ sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report) {
   msg.interval_start = toMsg(report.start);
   msg.margin = report.margin();
   for (const sweep_guard::SweptObject& object : report.objects) {
-    if (!object.findings.triangles.empty()) msg.objects.push_back(toMsg(object));
+    const std::vector<std::uint32_t>& triangles = object.findings.triangles;
+    if (!triangles.empty()) msg.objects.push_back(toMsg(*object.workpiece, triangles));
   }
   return msg;
 }
@@ -123,6 +130,7 @@ sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report) {
 sweep_guard::Warning toMsg(const sweep_guard::Verdict& verdict) {
   using sweep_guard::Level;
   Warning msg;
+  msg.header.stamp = toMsg(verdict.pose_stamp);
   msg.level = static_cast<std::uint8_t>(verdict.level);
   msg.clear = verdict.level == Level::kClear;
   msg.contact = verdict.level == Level::kContact;

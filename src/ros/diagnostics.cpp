@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 
 #include "sweep_guard/ros/conversions.h"
 
@@ -13,7 +14,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 using sweep_guard::toSeconds;
 
-constexpr auto kCycle = std::chrono::milliseconds(66);  // of 15 Hz, the slowest that the paper accepts
+constexpr sweep_guard::Duration kCycle = std::chrono::nanoseconds(1'000'000'000 / 15);  // of 15 Hz [P, Sec. 3.2]
 constexpr size_t kLatenciesKept = 10000;
 
 double quantile(const std::vector<double>& ascending, double share) {
@@ -31,17 +32,13 @@ double residentMegabytes() {
 
 }  // namespace
 
-void Workload::swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_time) {
+void Workload::swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_time, size_t failures) {
   const std::lock_guard lock(mutex_);
   ++summary_.sweeps_total;
+  summary_.faults_total += failures;
   if (latency > kCycle) ++summary_.late_total;
   if (summary_.latencies.size() < kLatenciesKept) summary_.latencies.push_back(toSeconds(latency));
   summary_.busiest = std::max(summary_.busiest, toSeconds(sweep_time));
-}
-
-void Workload::failed() {
-  const std::lock_guard lock(mutex_);
-  ++summary_.faults_total;
 }
 
 Workload::Summary Workload::take() {
@@ -53,15 +50,17 @@ Workload::Summary Workload::take() {
   return taken;
 }
 
+double RateMeter::operator()(std::uint64_t count) {
+  const sweep_guard::SteadyTime asked = std::chrono::steady_clock::now();
+  const double rate = static_cast<double>(count - count_) / toSeconds(asked - asked_);
+  count_ = count;
+  asked_ = asked;
+  return rate;
+}
+
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const Parameters& parameters,
-                         const PoseInput& poses, const WorkpieceStore& workpieces, const sweep_guard::Ledger& ledger,
-                         Workload& workload)
-    : parameters_(parameters),
-      poses_(poses),
-      workpieces_(workpieces),
-      ledger_(ledger),
-      workload_(workload),
-      updater_(node, private_node, private_node.getNamespace()) {
+                         const Diagnosed& parts)
+    : parameters_(parameters), parts_(parts), updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("verdict", [this](Status& status) { verdict(status); });
   updater_.add("tool pose input", [this](Status& status) { poseInput(status); });
@@ -71,37 +70,45 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
 }
 
 void Diagnostics::verdict(Status& status) const {
-  const sweep_guard::Verdict verdict = ledger_.verdict(now());
+  const sweep_guard::Verdict verdict = parts_.ledger.verdict(now());
   const bool unknown = verdict.level == sweep_guard::Level::kUnknown;
   status.summary(unknown ? DiagnosticStatus::WARN : DiagnosticStatus::OK, verdict.text);
   status.add("reasons", verdict.reasons);
 }
 
 void Diagnostics::poseInput(Status& status) {
-  const sweep_guard::SteadyTime asked = std::chrono::steady_clock::now();
-  const std::uint64_t received = poses_.received();
-  const double rate = static_cast<double>(received - poses_before_) / toSeconds(asked - asked_before_);
-  poses_before_ = received;
-  asked_before_ = asked;
-  if (received == 0) {
-    status.summary(DiagnosticStatus::STALE, "no tool pose yet on " + poses_.source());
-  } else if (rate == 0.0) {
-    status.summary(DiagnosticStatus::ERROR, "tool poses have stopped on " + poses_.source());
-  } else {
-    status.summary(DiagnosticStatus::OK, "tool poses come in");
-  }
-  status.add("source", poses_.source());
-  status.add("publishers", poses_.publisherCount());
+  const PoseInput& poses = parts_.poses;
+  const double rate = poses_rate_(poses.received());
+  const double refused = refused_poses_rate_(poses.refused());
+  status.summary(DiagnosticStatus::OK, "tool poses come in");
+  if (refused > 0.0) status.summary(DiagnosticStatus::ERROR, "tool poses are refused: the log says why");
+  if (rate == 0.0) status.summary(DiagnosticStatus::ERROR, "tool poses have stopped on " + poses.source());
+  if (poses.received() == 0) status.summary(DiagnosticStatus::STALE, "no tool pose yet on " + poses.source());
+  const sweep_guard::Time newest = parts_.ledger.verdict(now()).pose_stamp;
+  status.add("source", poses.source());
+  status.add("publishers", poses.publisherCount());
   status.addf("rate [Hz]", "%.1f", rate);
-  status.add("received", received);
-  status.add("refused", poses_.refused());
+  if (newest != sweep_guard::Time())
+    status.addf("age of the newest swept [s]", "%.3f", toSeconds(now().stamp - newest));
+  status.add("received", poses.received());
+  status.add("refused", poses.refused());
 }
 
-void Diagnostics::meshInput(Status& status) const {
-  const sweep_guard::Workpieces workpieces = workpieces_.snapshot();
+void Diagnostics::meshInput(Status& status) {
+  const WorkpieceStore& store = parts_.workpieces;
+  const sweep_guard::Workpieces workpieces = store.snapshot();
   const sweep_guard::Instant at = now();
+  const double rate = meshes_rate_(store.received());
   status.summary(DiagnosticStatus::OK, std::to_string(workpieces.size()) + " workpieces");
   if (workpieces.empty()) status.summary(DiagnosticStatus::STALE, "no workpiece yet");
+  if (refused_meshes_rate_(store.refused()) > 0.0) {
+    status.mergeSummary(DiagnosticStatus::ERROR, "messages are refused: the log says why");
+  }
+  status.add("mesh topic", parts_.meshes.meshTopic());
+  status.add("mesh publishers", parts_.meshes.meshPublishers());
+  status.add("vertices topic", parts_.meshes.verticesTopic());
+  status.add("vertices publishers", parts_.meshes.verticesPublishers());
+  status.addf("rate [Hz]", "%.1f", rate);
   for (const auto& workpiece : workpieces) {
     const sweep_guard::Seen seen{workpiece->stamp, workpiece->received};
     if (sweep_guard::stale(seen, at, parameters_.limits.mesh_timeout)) {
@@ -110,12 +117,12 @@ void Diagnostics::meshInput(Status& status) const {
     status.addf("'" + workpiece->id + "'", "revision %u, %zu triangles in '%s', %.3f s old", workpiece->revision,
                 workpiece->mesh_M.triangles().size(), workpiece->frame.c_str(), toSeconds(sweep_guard::age(seen, at)));
   }
-  status.add("received", workpieces_.received());
-  status.add("refused", workpieces_.refused());
+  status.add("received", store.received());
+  status.add("refused", store.refused());
 }
 
 void Diagnostics::deadlines(Status& status) {
-  const Workload::Summary load = workload_.take();
+  const Workload::Summary load = parts_.workload.take();
   status.summary(DiagnosticStatus::OK, parameters_.detector + " keeps up");
   if (!load.latencies.empty() && load.latencies.back() > toSeconds(kCycle)) {
     status.summary(DiagnosticStatus::WARN, parameters_.detector + " is slower than 15 Hz: use fewer triangles");
@@ -125,7 +132,7 @@ void Diagnostics::deadlines(Status& status) {
   status.add("poses swept", load.sweeps_total);
   status.add("cycles missed", load.late_total);
   status.add("detector faults", load.faults_total);
-  status.addf("pose to contacts [ms]", "p50 %.2f, p99 %.2f, max %.2f", 1e3 * quantile(load.latencies, 0.5),
+  status.addf("pose to warning [ms]", "p50 %.2f, p99 %.2f, max %.2f", 1e3 * quantile(load.latencies, 0.5),
               1e3 * quantile(load.latencies, 0.99), 1e3 * quantile(load.latencies, 1.0));
   status.addf("longest sweep [ms]", "%.2f", 1e3 * load.busiest);
 }

@@ -1,15 +1,23 @@
 #include <ros/ros.h>
 
+#include <iostream>
+
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/node.h"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "sweep_guard");
   try {
-    const sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~")};
-    ros::waitForShutdown();
-  } catch (const sweep_guard::Error& error) {
-    ROS_FATAL("%s", error.what());
+    ros::init(argc, argv, "sweep_guard");
+    const ros::NodeHandle alive;  // without any handle the console is silent
+    try {
+      const sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~")};
+      ros::waitForShutdown();
+    } catch (const sweep_guard::Error& error) {
+      ROS_FATAL("%s", error.what());
+      return 2;
+    }
+  } catch (const ros::Exception& error) {  // a name or remapping that ROS refuses
+    std::cerr << "sweep_guard_node: " << error.what() << std::endl;
     return 2;
   }
   return 0;

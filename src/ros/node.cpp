@@ -8,14 +8,12 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr size_t kPosesQueued = 4096;  // 4 s at 1 kHz; by then the poses are stale, and the warning says so
-constexpr auto kWatchPeriod = std::chrono::milliseconds(10);  // how late a silent input may be noticed
-constexpr int kWatchesPerWarning = 5;
+constexpr size_t kPosesQueued = 4096;           // 4 s at 1 kHz; by then the poses are stale, and the warning says so
+constexpr std::uint32_t kContactsQueued = 256;  // a message may be as large as the mesh
+constexpr auto kWatchPeriod = std::chrono::milliseconds(10);    // how late a silent input may be noticed
+constexpr auto kWarningPeriod = std::chrono::milliseconds(45);  // with the watch's: 20 Hz at least
 constexpr auto kWarningValid = std::chrono::milliseconds(200);
 constexpr auto kClockJump = std::chrono::milliseconds(100);
-constexpr std::uint32_t kMendedByASweep = sweep_guard::kPoseInvalid | sweep_guard::kOutOfOrder |
-                                          sweep_guard::kFutureStamp | sweep_guard::kTfFail | sweep_guard::kTimeJump |
-                                          sweep_guard::kDetectorFault;
 
 ros::WallDuration wall(sweep_guard::Duration duration) { return ros::WallDuration(sweep_guard::toSeconds(duration)); }
 
@@ -23,28 +21,17 @@ ros::WallDuration wall(sweep_guard::Duration duration) { return ros::WallDuratio
 
 SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : parameters_(loadParameters(private_node)),
-      contacts_publisher_(ros::NodeHandle(private_node).advertise<sweep_guard::Contacts>("contacts", 1000)),
+      contacts_publisher_(ros::NodeHandle(private_node).advertise<sweep_guard::Contacts>("contacts", kContactsQueued)),
       warning_publisher_(ros::NodeHandle(private_node).advertise<sweep_guard::Warning>("warning", 10)),
       marker_publisher_(ros::NodeHandle(private_node).advertise<visualization_msgs::MarkerArray>("markers", 1)),
-      ledger_(parameters_.limits),
+      ledger_(parameters_.limits, [this] { warn(/*only_on_change=*/true); }),
       guard_(parameters_.tool(), sweep_guard::makeDetector(parameters_.detector, parameters_.cull), parameters_.sweep),
       workpieces_(parameters_.max_triangles, ledger_),
       poses_(node, parameters_, frames_, workpieces_, ledger_, [this](PlacedPose pose) { enqueue(std::move(pose)); }),
+      meshes_(node, workpieces_),
       check_sweep_(private_node, parameters_, frames_, workpieces_),
-      diagnostics_(node, private_node, parameters_, poses_, workpieces_, ledger_, workload_),
+      diagnostics_(node, private_node, parameters_, {poses_, meshes_, workpieces_, ledger_, workload_}),
       markers_(parameters_.fixed_frame, guard_.tool()) {
-  warning_.tool = parameters_.tool_frame;
-  warning_.header.frame_id = parameters_.fixed_frame;
-
-  const auto hints = ros::TransportHints().tcpNoDelay();
-  ros::NodeHandle mesh_node = mesh_thread_.on(node);
-  mesh_subscriber_ = mesh_node.subscribe<sweep_guard::DeformableMesh>(
-      "mesh", 10, [this](const sweep_guard::DeformableMesh::ConstPtr& msg) { workpieces_.accept(*msg); }, nullptr,
-      hints);
-  vertices_subscriber_ = mesh_node.subscribe<sweep_guard::MeshVertices>(
-      "mesh_vertices", 10, [this](const sweep_guard::MeshVertices::ConstPtr& msg) { workpieces_.accept(*msg); },
-      nullptr, hints);
-
   warning_timer_ =
       warning_thread_.on(node).createSteadyTimer(wall(kWatchPeriod), [this](const ros::SteadyTimerEvent&) { watch(); });
   marker_timer_ = report_thread_.on(node).createSteadyTimer(ros::WallDuration(1.0 / parameters_.marker_rate),
@@ -54,14 +41,14 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
 
   sweeping_thread_ = std::thread([this] { sweepPoses(); });
   warning_thread_.start();
-  mesh_thread_.start();
+  meshes_.start();
   poses_.start();
   check_sweep_.start();
   report_thread_.start();
   ROS_INFO("guarding '%s' in '%s' by %s, %s; poses from %s, meshes from %s and %s", parameters_.tool_frame.c_str(),
            parameters_.fixed_frame.c_str(), parameters_.detector.c_str(),
-           sweep_guard::nameOf(parameters_.sweep.volume).c_str(), poses_.source().c_str(),
-           mesh_subscriber_.getTopic().c_str(), vertices_subscriber_.getTopic().c_str());
+           sweep_guard::nameOf(parameters_.sweep.volume).c_str(), poses_.source().c_str(), meshes_.meshTopic().c_str(),
+           meshes_.verticesTopic().c_str());
 }
 
 SweepGuardNode::~SweepGuardNode() {
@@ -90,64 +77,59 @@ void SweepGuardNode::sweepPoses() {
     queue_.pop_front();
     lock.unlock();
     queue_changed_.notify_all();
-    sweep(pose);
-    warn(/*only_on_change=*/true);
+    try {
+      sweep(pose);
+    } catch (const std::exception& error) {  // no memory for the report or its messages
+      ledger_.fault(sweep_guard::kDetectorFault, std::string("sweeping failed: ") + error.what());
+    }
   }
 }
 
-void SweepGuardNode::sweep(const PlacedPose& pose) {
-  if (pose.epoch != epoch_) return;  // time has gone back since it came
-  if (pose.epoch != guard_epoch_) guard_.forget();
-  guard_epoch_ = pose.epoch;
-  try {
-    const sweep_guard::SteadyTime begin = std::chrono::steady_clock::now();
-    sweep_guard::SweepReport report = guard_.sweep(pose.tool, workpieces_.snapshot());
-    const sweep_guard::SteadyTime end = std::chrono::steady_clock::now();
-    this->report(pose, std::move(report));
-    workload_.swept(end - pose.tool.received, end - begin);
-  } catch (
-      const std::exception& error) {  // a detector that failed, or no memory: the next pose sweeps this interval too
-    workload_.failed();
-    ledger_.fault(sweep_guard::kDetectorFault, std::string("detector failed: ") + error.what());
-    ROS_ERROR_THROTTLE(1.0, "detector failed: %s", error.what());
-  }
-}
+void SweepGuardNode::sweep(const PlacedPose& placed) {
+  const sweep_guard::ToolPose& pose = placed.pose;
+  if (placed.came.epoch != ledger_.mark().epoch) return;  // time has gone back since it came
+  if (placed.came.epoch != guard_epoch_) guard_.forget();
+  guard_epoch_ = placed.came.epoch;
 
-void SweepGuardNode::report(const PlacedPose& pose, sweep_guard::SweepReport report) {
-  if (!report.objects.empty()) {
-    sweep_guard::Contacts contacts = toMsg(report);
-    contacts.header.frame_id = parameters_.fixed_frame;
-    contacts.tool = parameters_.tool_frame;
-    contacts.volume = sweep_guard::nameOf(parameters_.sweep.volume);
-    contacts_publisher_.publish(contacts);
-  }
-  ledger_.swept(report, {pose.tool.stamp, pose.tool.received}, std::chrono::steady_clock::now());
-  ledger_.mend(kMendedByASweep, pose.faults_before);
+  const sweep_guard::SteadyTime begin = std::chrono::steady_clock::now();
+  auto report = std::make_shared<const sweep_guard::SweepReport>(guard_.sweep(pose, workpieces_.snapshot()));
+  const sweep_guard::SteadyTime swept = std::chrono::steady_clock::now();
+  if (!report->objects.empty()) publishContacts(*report);
+  ledger_.swept(*report, {pose.stamp, pose.received}, placed.came, swept);
+  warn(/*only_on_change=*/true);
 
-  auto shared = std::make_shared<const sweep_guard::SweepReport>(std::move(report));
+  workload_.swept(std::chrono::steady_clock::now() - pose.received, swept - begin, report->failures.size());
+  for (const auto& failure : report->failures) log_.error(failure.workpiece->id, "detection failed: " + failure.reason);
   const std::lock_guard lock(scene_mutex_);
   scene_.X_WT = pose.X_WT;
-  scene_.newest = shared;
-  if (shared->contact()) scene_.contact = shared;
+  scene_.newest = report;
+  if (report->contact()) scene_.contact = report;
+}
+
+void SweepGuardNode::publishContacts(const sweep_guard::SweepReport& report) {
+  sweep_guard::Contacts contacts = toMsg(report);
+  contacts.header.frame_id = parameters_.fixed_frame;
+  contacts.tool = parameters_.tool_frame;
+  contacts.volume = sweep_guard::nameOf(parameters_.sweep.volume);
+  contacts_publisher_.publish(contacts);
+}
+
+void SweepGuardNode::watch() {
+  watchClock();
+  const bool due = std::chrono::steady_clock::now() - warned_.load() >= kWarningPeriod;
+  warn(/*only_on_change=*/!due);
 }
 
 // Clocks that go back (a bag that loops, a simulation that starts again) make every stamp of before meaningless.
 void SweepGuardNode::watchClock() {
   const sweep_guard::Time stamp = now().stamp;
   if (stamp + kClockJump < clock_seen_) {
-    ROS_WARN("ROS time went back by %.2f s: poses are forgotten, workpieces are stale",
+    ROS_WARN("ROS time went back by %.2f s: poses are forgotten, workpieces that may go stale are",
              sweep_guard::toSeconds(clock_seen_ - stamp));
     ledger_.timeJumped("time went back");
     workpieces_.timeJumped();
-    poses_.timeJumped();
-    ++epoch_;
   }
   clock_seen_ = stamp;
-}
-
-void SweepGuardNode::watch() {
-  watchClock();
-  warn(/*only_on_change=*/watches_++ % kWatchesPerWarning != 0);
 }
 
 void SweepGuardNode::warn(bool only_on_change) {
@@ -156,14 +138,14 @@ void SweepGuardNode::warn(bool only_on_change) {
   sweep_guard::Warning next = toMsg(ledger_.verdict(at));
   const bool new_level = next.level != warning_.level;
   if (only_on_change && !new_level && next.reasons == warning_.reasons) return;
-  next.header = warning_.header;
-  next.header.stamp = next.covered_until;
-  next.tool = warning_.tool;
+  next.header.frame_id = parameters_.fixed_frame;
+  next.tool = parameters_.tool_frame;
   next.sequence = warning_.sequence + (new_level ? 1 : 0);
   next.level_counts = warning_.level_counts;
   if (new_level) ++next.level_counts[next.level];
   next.valid_until = toMsg(at.stamp + kWarningValid);
   warning_ = next;
+  warned_ = at.steady;
   warning_publisher_.publish(next);
 }
 

@@ -95,10 +95,17 @@ void ParameterReader::warnOfUnread() const {
   node_.getParamNames(names);
   const std::string prefix = node_.getNamespace() + "/";
   for (const std::string& name : names) {
-    if (name.compare(0, prefix.size(), prefix) == 0 && read_.count(name.substr(prefix.size())) == 0) {
-      ROS_WARN("parameter %s is unknown and has no effect", name.c_str());
-    }
+    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string key = name.substr(prefix.size());
+    XmlRpc::XmlRpcValue value;
+    if (isGroup(key) && node_.getParam(key, value)) refuse(key, value, "a group of parameters");
+    if (read_.count(key) == 0) ROS_WARN("parameter %s is unknown and has no effect", name.c_str());
   }
+}
+
+bool ParameterReader::isGroup(const std::string& key) const {
+  const auto first_inside = read_.lower_bound(key + "/");
+  return first_inside != read_.end() && first_inside->compare(0, key.size() + 1, key + "/") == 0;
 }
 
 bool ParameterReader::get(const std::string& key, XmlRpc::XmlRpcValue& value) {

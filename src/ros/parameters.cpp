@@ -32,12 +32,13 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   parameters.detector = read.choice("detector", "select", sweep_guard::detectorNames());
   parameters.cull = read.flag("cull", true);
   parameters.sweep.volume = sweep_guard::volumeKind(read.choice("volume", "obb_planes", {"obb", "obb_planes"}));
-  parameters.sweep.max_rotation = read.number("max_rotation_per_sweep", 0.175, {0.001, 0.5});
+  parameters.sweep.max_rotation = read.number("max_rotation_per_sweep", 0.175, {0.01, 0.5});
   parameters.limits.hold_time = duration(read.number("warning/hold_time", 0.5, {0.0, 60.0}));
   parameters.limits.pose_timeout = duration(read.number("timing/pose_timeout", 0.1, {0.01, 2.0}));
   parameters.limits.mesh_timeout = duration(read.number("timing/mesh_timeout", 0.5, {0.01, kInfinity}));
   parameters.marker_rate = read.number("timing/marker_rate", 15.0, {0.1, 100.0});
   parameters.max_triangles = static_cast<size_t>(read.integer("limits/max_triangles", 1000000, 1, 10000000));
+  read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // diagnostic_updater leaves it there
   read.warnOfUnread();
   return parameters;
 }

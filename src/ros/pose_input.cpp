@@ -1,7 +1,5 @@
 #include "sweep_guard/ros/pose_input.h"
 
-#include <ros/console.h>
-
 #include <boost/make_shared.hpp>
 
 #include "sweep_guard/common/error.h"
@@ -15,7 +13,7 @@ using sweep_guard::Reason;
 constexpr auto kFutureTolerance = std::chrono::milliseconds(50);
 constexpr auto kTransformMayBeLate = std::chrono::milliseconds(20);
 constexpr size_t kMissingKept = 64;  // made-up frame names must not fill the memory
-constexpr int kQueueLength = 4096;  // 4 s at 1 kHz
+constexpr int kQueueLength = 4096;   // 4 s at 1 kHz
 
 struct PoseRefused : sweep_guard::InvalidInput {
   PoseRefused(Reason why, const std::string& story) : InvalidInput(story), reason(why) {}
@@ -45,14 +43,12 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters, 
       ledger_(ledger),
       sink_(std::move(sink)) {
   if (parameters.tool_source == ToolSource::kTf) {
-    transforms_changed_ = frames_.buffer()._addTransformsChangedListener([this] { onTransforms(); });
+    transforms_changed_ = frames_.onChange([this] { onTransforms(); });
   } else {
     subscriber_ = thread_.on(node).subscribe("tool_pose", kQueueLength, &PoseInput::onMessage, this,
                                              ros::TransportHints().tcpNoDelay());
   }
 }
-
-PoseInput::~PoseInput() { frames_.buffer()._removeTransformsChangedListener(transforms_changed_); }
 
 std::string PoseInput::source() const {
   return subscriber_ ? subscriber_.getTopic() : "tf " + fixed_frame_ + " to " + tool_frame_;
@@ -73,18 +69,17 @@ void PoseInput::onMessage(const geometry_msgs::PoseStamped& msg) {
 
 // Runs in the thread of the tf listener, which must not wait for transforms: the pose is only read here.
 void PoseInput::onTransforms() {
+  const std::optional<sweep_guard::Time> newest = frames_.newest(fixed_frame_, tool_frame_);
+  if (newest == last_transform_) return;  // some other transform has changed
+  last_transform_ = newest;
+  if (!newest) return;
   try {
-    const auto transform = frames_.buffer().lookupTransform(fixed_frame_, tool_frame_, ros::Time(0));
-    const Incoming incoming{fromMsg(transform.header.stamp), std::chrono::steady_clock::now(), fixed_frame_,
-                            fromMsg(transform.transform)};
-    thread_.queue().addCallback(boost::make_shared<Call>([this, incoming] {
-      if (last_ && incoming.stamp <= *last_ && last_epoch_ == epoch_) return;  // some other transform has changed
-      acceptOrRefuse([&] { return incoming; });
-    }));
-  } catch (const tf2::TransformException& error) {
-    ledger_.fault(sweep_guard::kTfFail, std::string("no tool pose in tf: ") + error.what());
-  } catch (const sweep_guard::InvalidInput& error) {
-    ledger_.fault(sweep_guard::kTfFail, std::string("tool pose in tf is not rigid: ") + error.what());
+    const Incoming incoming{*newest, std::chrono::steady_clock::now(), fixed_frame_,
+                            frames_.lookup(fixed_frame_, tool_frame_, *newest)};
+    thread_.queue().addCallback(
+        boost::make_shared<Call>([this, incoming] { acceptOrRefuse([&] { return incoming; }); }));
+  } catch (const FrameError& error) {
+    ledger_.fault(sweep_guard::kTfFail, error.what());
   }
 }
 
@@ -96,25 +91,25 @@ void PoseInput::acceptOrRefuse(const std::function<Incoming()>& read) {
     refuse(error.reason, error.what());
   } catch (const FrameError& error) {
     refuse(sweep_guard::kTfFail, error.what());
+  } catch (const std::exception& error) {  // no memory
+    refuse(sweep_guard::kPoseInvalid, error.what());
   }
 }
 
 void PoseInput::refuse(Reason reason, const std::string& story) {
   ++refused_;
   ledger_.fault(reason, "tool pose refused: " + story);
-  ROS_ERROR_THROTTLE(1.0, "tool pose on %s refused: %s", source().c_str(), story.c_str());
+  log_.error(std::to_string(reason), "tool pose on " + source() + " refused: " + story);
 }
 
 void PoseInput::accept(const Incoming& incoming) {
-  const std::uint64_t epoch = epoch_;
-  if (epoch != last_epoch_) last_.reset();
-  last_epoch_ = epoch;
+  const sweep_guard::Ledger::Mark came = ledger_.mark();
+  if (came.epoch != last_epoch_) last_.reset();
+  last_epoch_ = came.epoch;
   checkStamp(incoming.stamp);
-  const std::uint64_t faults_before = ledger_.faultCount();
   const Eigen::Isometry3d X_WT = lookup(fixed_frame_, incoming.frame, incoming.stamp) * incoming.X_FT;
   last_ = incoming.stamp;
-  auto X_MT = placeIn(workpieces_.frames(), incoming.stamp, X_WT);
-  sink_({{incoming.stamp, incoming.received, std::move(X_MT)}, X_WT, faults_before, epoch});
+  sink_({{incoming.stamp, incoming.received, X_WT, locate(workpieces_.frames(), incoming.stamp)}, came});
 }
 
 void PoseInput::checkStamp(sweep_guard::Time stamp) const {
@@ -127,30 +122,36 @@ void PoseInput::checkStamp(sweep_guard::Time stamp) const {
   }
 }
 
-std::map<std::string, Eigen::Isometry3d> PoseInput::placeIn(const std::set<std::string>& mesh_frames,
-                                                            sweep_guard::Time stamp, const Eigen::Isometry3d& X_WT) {
-  std::map<std::string, Eigen::Isometry3d> X_MT;
+std::map<std::string, Eigen::Isometry3d> PoseInput::locate(const std::set<std::string>& mesh_frames,
+                                                           sweep_guard::Time stamp) {
+  std::map<std::string, Eigen::Isometry3d> X_WM;
   for (const std::string& frame : mesh_frames) {
     try {
-      X_MT[frame] = lookup(frame, fixed_frame_, stamp) * X_WT;
+      X_WM[frame] = lookup(fixed_frame_, frame, stamp);
     } catch (const FrameError& error) {
       ledger_.fault(sweep_guard::kTfFail, error.what());
-      ROS_ERROR_THROTTLE(1.0, "workpieces in '%s' are not swept: %s", frame.c_str(), error.what());
+      log_.error(frame, "workpieces in '" + frame + "' are not swept: " + error.what());
     }
   }
-  return X_MT;
+  return X_WM;
 }
 
-// Waits for a transform that may be late, but not again for one that did not come: that would hold up every pose.
+// Waits for a transform that is late, but not again for one whose publisher has gone silent: that would hold up every
+// pose.
 Eigen::Isometry3d PoseInput::lookup(const std::string& target, const std::string& source, sweep_guard::Time stamp) {
-  const std::pair<std::string, std::string> frames(target, source);
-  const bool awaited = missing_.count(frames) == 0;
-  if (missing_.size() >= kMissingKept) missing_.clear();
-  missing_.insert(frames);
-  const Eigen::Isometry3d X =
-      frames_.lookup(target, source, stamp, awaited ? kTransformMayBeLate : sweep_guard::Duration(0));
-  missing_.erase(frames);
-  return X;
+  const FramePair frames(target, source);
+  const auto missed = missing_.find(frames);
+  const bool silent = missed != missing_.end() && missed->second == frames_.newest(target, source);
+  try {
+    const Eigen::Isometry3d X =
+        frames_.lookup(target, source, stamp, silent ? sweep_guard::Duration(0) : kTransformMayBeLate);
+    if (missed != missing_.end()) missing_.erase(missed);
+    return X;
+  } catch (const FrameError&) {
+    if (missing_.size() >= kMissingKept) missing_.clear();
+    missing_[frames] = frames_.newest(target, source);
+    throw;
+  }
 }
 
 }  // namespace sweep_guard_ros

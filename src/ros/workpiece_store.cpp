@@ -13,6 +13,7 @@ namespace {
 using sweep_guard::InvalidInput;
 using sweep_guard::Workpiece;
 
+constexpr size_t kMostWorkpieces = 1000;
 constexpr auto kFutureTolerance = std::chrono::milliseconds(50);
 
 void checkHeader(const std::string& id, const std_msgs::Header& header) {
@@ -39,17 +40,23 @@ void WorkpieceStore::acceptOrRefuse(const Msg& msg) {
   try {
     store(msg);
     ledger_.meshAccepted(msg.id);
-  } catch (const InvalidInput& error) {
+  } catch (const std::exception& error) {  // invalid, or no memory for it
     ++refused_;
     const std::string story = "workpiece '" + msg.id + "' refused: " + error.what();
-    ledger_.meshRefused(msg.id, story, std::chrono::steady_clock::now());
-    ROS_ERROR_THROTTLE(1.0, "%s", story.c_str());
+    ledger_.meshRefused(msg.id, story);
+    log_.error(msg.id, story);
   }
 }
 
 void WorkpieceStore::store(const sweep_guard::DeformableMesh& msg) {
-  if (!msg.id.empty() && msg.mesh.vertices.empty() && msg.mesh.triangles.empty()) return remove(msg.id);
+  if (msg.mesh.vertices.empty() && msg.mesh.triangles.empty()) return remove(msg.id);
   checkHeader(msg.id, msg.header);
+  const auto current = find(msg.id);
+  if (current) {
+    checkOrder(*current, fromMsg(msg.header.stamp));
+  } else if (snapshot().size() >= kMostWorkpieces) {
+    throw InvalidInput("there are " + std::to_string(kMostWorkpieces) + " workpieces already: remove some");
+  }
   replace({msg.id, msg.revision, fromMsg(msg.header.stamp), std::chrono::steady_clock::now(), msg.header.frame_id,
            fromMsg(msg.mesh, max_triangles_)});
 }
@@ -63,9 +70,16 @@ void WorkpieceStore::store(const sweep_guard::MeshVertices& msg) {
                        std::to_string(current->revision));
   }
   const sweep_guard::Time stamp = fromMsg(msg.header.stamp);
-  if (stamp < current->stamp) throw InvalidInput("the stamp of its vertices goes back");
+  checkOrder(*current, stamp);
   replace({msg.id, msg.revision, stamp, std::chrono::steady_clock::now(), msg.header.frame_id,
            current->mesh_M.deformed(msg.positions)});
+}
+
+// A current stamp that lies in the future is from before time went back: it says nothing about order.
+void WorkpieceStore::checkOrder(const Workpiece& current, sweep_guard::Time stamp) const {
+  if (stamp < current.stamp && current.stamp <= now().stamp + kFutureTolerance) {
+    throw InvalidInput("its stamp goes back");
+  }
 }
 
 std::shared_ptr<const Workpiece> WorkpieceStore::find(const std::string& id) const {

@@ -22,6 +22,8 @@ class FaultyContext : public OffscreenContext {
     context_->makeCurrent();
   }
 
+  void release() override { context_->release(); }
+
   Function function(const char* name) override {
     const auto replacement = replacements_.find(name);
     return replacement == replacements_.end() ? context_->function(name) : replacement->second;

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "geometry/round_tool.h"
 #include "scenes.h"
 
 namespace sweep_guard {
@@ -123,6 +125,51 @@ TEST(ChordErrorTest, BoundsTheArcsOfEveryToolPoint) {
     }
   }
   EXPECT_GT(closest, 0.9);  // the bound is nearly reached, so half of it would not do
+}
+
+// A frame that turns by 0.5 rad under a needle of 0.2 m that stands 1 m from its origin: (0.25 * 1 + 0.25 * 0.2) / 8.
+TEST(RelativeMotionTest, BulgesBecauseTheFrameTurns) {
+  const Eigen::Isometry3d beside = turnedAboutZ(0, {1, 0, 0});
+  const Motion turning{turnedAboutZ(0), turnedAboutZ(0.5 / kDegree)};
+  const std::vector<Motion> parts = split({{beside, beside}, turning}, /*max_rotation=*/1.0, /*tool_extent=*/0.2);
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_NEAR(parts[0].bulge, 0.3 / 8.0, 1e-12);
+  EXPECT_TRUE(parts[0].X_MT_end.translation().isApprox(Eigen::Vector3d(std::cos(0.5), -std::sin(0.5), 0), 1e-12));
+}
+
+TEST(RelativeMotionTest, DoesNotBulgeWhereTheFrameOnlyMoves) {
+  const Motion tool{turnedAboutZ(0), turnedAboutZ(10, {1, 0, 0})};
+  const Motion frame{turnedAboutZ(30), turnedAboutZ(30, {0, 5, 0})};
+  for (const Motion& part : split({tool, frame}, /*max_rotation=*/0.1, /*tool_extent=*/0.2)) {
+    EXPECT_LT(part.bulge, 1e-9);
+  }
+}
+
+// Against the motion itself: both turn and go at once, seen from the frame.
+TEST(RelativeMotionTest, BoundsTheArcsOfEveryToolPoint) {
+  Random random(/*seed=*/4);
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE("motion " + std::to_string(i));
+    const Tool tool = randomTool(random, 1.0);
+    const RelativeMotion motion{randomMotion(random, tool, 5.0 * random.direction(), /*max_angle=*/3.1),
+                                randomMotion(random, tool, 5.0 * random.direction(), /*max_angle=*/3.1)};
+    const double max_rotation = random.uniform(0.05, 0.5);
+    const std::vector<Motion> parts = split(motion, max_rotation, tool.extent());
+    for (size_t k = 0; k < parts.size(); ++k) {
+      const Motion& part = parts[k];
+      const double bound = std::max(chordError(tool.reach(part.axis_T()), part.angle()), part.bulge);
+      EXPECT_LE(part.angle(), max_rotation * (1.0 + 1e-9));
+      for (int step = 0; step <= 20; ++step) {
+        const double fraction = step / 20.0;
+        const double along = (static_cast<double>(k) + fraction) / static_cast<double>(parts.size());
+        const Eigen::Isometry3d X_MT = motion.frame_W.at(along).inverse() * motion.tool_W.at(along);
+        for (const Eigen::Vector3d& p_T : roundToolPoints_T(tool, 8)) {
+          const Eigen::Vector3d chord = (1.0 - fraction) * (part.X_MT_start * p_T) + fraction * (part.X_MT_end * p_T);
+          ASSERT_LE((X_MT * p_T - chord).norm(), bound + 1e-12) << "part " << k;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

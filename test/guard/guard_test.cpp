@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "guard/fake_detector.h"
 
 namespace sweep_guard {
@@ -15,7 +17,12 @@ Eigen::Isometry3d up(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0
 
 using Places = std::map<std::string, Eigen::Isometry3d>;
 
-ToolPose pose(double seconds, const Places& X_MT) { return {at(seconds), SteadyTime{}, X_MT}; }
+// The tool at a place in each frame. Only the motion between them counts: the tool rests in W, the frames move.
+ToolPose pose(double seconds, const Places& X_MT) {
+  ToolPose pose{at(seconds), SteadyTime{}, Eigen::Isometry3d::Identity(), {}};
+  for (const auto& [frame, X] : X_MT) pose.X_WM[frame] = X.inverse();
+  return pose;
+}
 
 // One triangle of a metre in the plane z = 0 of its frame.
 std::shared_ptr<const Workpiece> sheet(const std::string& id, const std::string& frame) {
@@ -84,10 +91,51 @@ TEST_F(GuardTest, SweepsBetweenTwoPosesOfTheSameStamp) {
 TEST_F(GuardTest, LeavesTheIntervalOfAFailedSweepToTheNext) {
   sweepTo(1.0, 0.5);
   record_.failures_left = 1;
-  EXPECT_THROW(sweepTo(1.1, -0.1), DeviceError);
+  const SweepReport failed = sweepTo(1.1, -0.1);
+  ASSERT_EQ(failed.failures.size(), 1U);
+  EXPECT_EQ(failed.failures[0].workpiece, table_[0]);
+  EXPECT_TRUE(failed.objects.empty());
+  EXPECT_FALSE(failed.complete());
   const SweepReport report = sweepTo(1.2, -0.2);
   EXPECT_TRUE(report.contact());
+  EXPECT_TRUE(report.complete());
   EXPECT_EQ(report.objects[0].interval_start, at(1.0));
+}
+
+// Down through the sheet and up again: the straight way from first to last is free.
+TEST_F(GuardTest, SweepsThroughEveryPoseSinceAFailure) {
+  sweepTo(1.0, 0.5);
+  record_.failures_left = 2;
+  sweepTo(1.1, 0.3);
+  sweepTo(1.2, -0.1);
+  const SweepReport report = sweepTo(1.3, 0.5);
+  EXPECT_TRUE(report.contact());
+  EXPECT_FALSE(sweepTo(1.4, 0.6).contact());
+}
+
+TEST_F(GuardTest, AFailureOnOneWorkpieceDoesNotHideAContactWithAnother) {
+  const Workpieces both = {sheet("first", "table"), sheet("second", "table")};
+  record_.failures_left = 1;
+  const SweepReport report = guard_.sweep(pose(1.0, {{"table", up(0.05)}}), both);
+  ASSERT_EQ(report.failures.size(), 1U);
+  EXPECT_EQ(report.failures[0].workpiece, both[0]);
+  EXPECT_TRUE(report.contact());
+}
+
+// The table turns by half a radian about its own origin, the tool rests a metre away: seen from the table it runs along
+// an arc that bulges by a metre times 0.25 / 8 = 31 mm beyond the straight way. Something stands on that arc.
+TEST_F(GuardTest, SweepsTheArcThatATurningTableMakesOfARestingTool) {
+  const auto tableTurnedBy = [](double angle) {
+    ToolPose pose{at(1.0 + angle), SteadyTime{}, Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0)), {}};
+    pose.X_WM["table"] = Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitZ());
+    return pose;
+  };
+  const Eigen::Vector3d on_arc(std::cos(0.25), std::sin(0.25), -0.05);
+  const TriangleMesh dot({on_arc, on_arc, on_arc}, {{0, 1, 2}});
+  const Workpieces table = {
+      std::make_shared<const Workpiece>(Workpiece{"dot", 0, at(0.0), SteadyTime{}, "table", dot})};
+  EXPECT_FALSE(guard_.sweep(tableTurnedBy(0.0), table).contact());
+  EXPECT_TRUE(guard_.sweep(tableTurnedBy(0.5), table).contact());
 }
 
 TEST_F(GuardTest, TestsThePoseAloneAfterForgetting) {
@@ -101,7 +149,7 @@ TEST_F(GuardTest, TestsThePoseAloneAfterForgetting) {
 TEST_F(GuardTest, HasNothingToReportWithoutWorkpieces) {
   const SweepReport report = guard_.sweep(pose(1.0, {{"table", up(0.0)}}), {});
   EXPECT_TRUE(report.objects.empty());
-  EXPECT_TRUE(report.unswept.empty());
+  EXPECT_TRUE(report.unplaced.empty());
   EXPECT_FALSE(report.contact());
   EXPECT_EQ(report.margin(), 0.0);
 }
@@ -111,8 +159,8 @@ TEST_F(GuardTest, NamesWorkpiecesWhoseFrameIsMissing) {
   const SweepReport report = guard_.sweep(pose(1.0, {{"table", up(0.5)}}), both);
   ASSERT_EQ(report.objects.size(), 1U);
   EXPECT_EQ(report.objects[0].workpiece, both[0]);
-  ASSERT_EQ(report.unswept.size(), 1U);
-  EXPECT_EQ(report.unswept[0], both[1]);
+  ASSERT_EQ(report.unplaced.size(), 1U);
+  EXPECT_EQ(report.unplaced[0], both[1]);
 }
 
 // For one pose the turntable's transform is missing. The next sweep there starts at the pose before.

@@ -19,6 +19,7 @@ std::shared_ptr<const Workpiece> workpiece(const std::string& id, int ms, std::u
 
 SweepReport reportOf(const Workpieces& workpieces, const std::vector<std::uint32_t>& met = {}) {
   SweepReport report;
+  report.end = at(1000).stamp;
   for (const auto& one : workpieces) report.objects.push_back({one, {}, {met, 0.0, {}}});
   return report;
 }
@@ -28,8 +29,10 @@ class LedgerTest : public testing::Test {
   // A fresh workpiece, swept at a fresh pose.
   LedgerTest() {
     ledger_.setWorkpieces(workpieces_);
-    ledger_.swept(reportOf(workpieces_), seenAt(1000), at(1000).steady);
+    sweep(reportOf(workpieces_), 1000);
   }
+
+  void sweep(const SweepReport& report, int ms) { ledger_.swept(report, seenAt(ms), ledger_.mark(), at(ms).steady); }
 
   Level levelAt(int ms) const { return ledger_.verdict(at(ms)).level; }
   std::uint32_t reasonsAt(int ms) const { return ledger_.verdict(at(ms)).reasons; }
@@ -53,58 +56,81 @@ TEST_F(LedgerTest, IsClearUntilTheInputsAgeOut) {
   EXPECT_EQ(reasonsAt(1501), kPoseStale | kMeshStale);
 }
 
-TEST_F(LedgerTest, AFaultLastsUntilItIsMended) {
-  ledger_.fault(kDetectorFault, "no canary");
-  EXPECT_EQ(reasonsAt(1000), kDetectorFault);
-  EXPECT_NE(ledger_.verdict(at(1000)).text.find("no canary"), std::string::npos);
-  ledger_.mend(kPoseInvalid, ledger_.faultCount());
-  EXPECT_EQ(reasonsAt(1000), kDetectorFault);
-  ledger_.mend(kDetectorFault, ledger_.faultCount());
-  EXPECT_EQ(levelAt(1000), Level::kClear);
+TEST_F(LedgerTest, AFaultLastsUntilALaterPoseIsSwept) {
+  ledger_.fault(kPoseInvalid, "NaN");
+  EXPECT_EQ(reasonsAt(1000), kPoseInvalid);
+  EXPECT_NE(ledger_.verdict(at(1000)).text.find("NaN"), std::string::npos);
+  sweep(reportOf(workpieces_), 1010);
+  EXPECT_EQ(levelAt(1010), Level::kClear);
 }
 
 // A pose that came before the bad one cannot vouch for what came after it.
 TEST_F(LedgerTest, AFaultIsNotMendedByWhatCameBeforeIt) {
-  const std::uint64_t before = ledger_.faultCount();
+  const Ledger::Mark before = ledger_.mark();
   ledger_.fault(kPoseInvalid, "NaN");
-  ledger_.mend(kPoseInvalid, before);
-  EXPECT_EQ(reasonsAt(1000), kPoseInvalid);
+  ledger_.swept(reportOf(workpieces_), seenAt(1010), before, at(1010).steady);
+  EXPECT_EQ(reasonsAt(1010), kPoseInvalid);
+}
+
+TEST(LedgerFaultTest, EveryFaultIsToldAtOnce) {
+  int told = 0;
+  Ledger ledger(kLimits, [&] { ++told; });
+  ledger.fault(kPoseInvalid, "NaN");
+  EXPECT_EQ(told, 1);
+  ledger.meshRefused("liver", "NaN");
+  EXPECT_EQ(told, 2);
+  SweepReport failed;
+  failed.failures.push_back({workpiece("liver", 1000), "no canary"});
+  ledger.swept(failed, seenAt(1000), ledger.mark(), at(1000).steady);
+  EXPECT_EQ(told, 3);
+  EXPECT_NE(ledger.verdict(at(1000)).reasons & kDetectorFault, 0U);
 }
 
 TEST_F(LedgerTest, ARefusedMeshCountsUntilItsNextGoodOne) {
-  ledger_.meshRefused("liver", "NaN vertex", at(1000).steady);
+  ledger_.meshRefused("liver", "NaN vertex");
   EXPECT_EQ(reasonsAt(1000), kMeshInvalid);
   ledger_.meshAccepted("spleen");
+  sweep(reportOf(workpieces_), 1050);
   EXPECT_EQ(reasonsAt(1050), kMeshInvalid);
   ledger_.meshAccepted("liver");
   EXPECT_EQ(levelAt(1050), Level::kClear);
 }
 
-TEST_F(LedgerTest, ARefusedMeshOfAnUnknownWorkpieceCountsForASecond) {
-  ledger_.meshRefused("ghost", "its vertices came, but not its mesh", at(1000).steady);
-  EXPECT_NE(reasonsAt(2000) & kMeshInvalid, 0U);
-  EXPECT_EQ(reasonsAt(2001) & kMeshInvalid, 0U);
+// Nobody knows where it is: as long as it is neither sent well nor removed, nothing is clear.
+TEST_F(LedgerTest, ARefusedMeshOfAnUnknownWorkpieceIsNotForgotten) {
+  ledger_.meshRefused("ghost", "NaN vertex");
+  EXPECT_NE(reasonsAt(1000000) & kMeshInvalid, 0U);
 }
 
-TEST_F(LedgerTest, AFloodOfUnknownWorkpiecesDoesNotHideAKnownFault) {
-  ledger_.meshRefused("liver", "NaN vertex", at(1000).steady);
-  for (int i = 0; i < 1000; ++i) ledger_.meshRefused("zombie" + std::to_string(i), "no mesh", at(1000).steady);
-  EXPECT_NE(reasonsAt(3000) & kMeshInvalid, 0U);
+TEST_F(LedgerTest, AFloodOfRefusedMeshesIsNotClearWhenSomeAreMended) {
+  for (int i = 0; i < 1000; ++i) ledger_.meshRefused("ghost" + std::to_string(i), "no mesh");
+  for (int i = 0; i < 50; ++i) ledger_.meshAccepted("ghost" + std::to_string(i));
+  EXPECT_NE(reasonsAt(1000) & kMeshInvalid, 0U);
+}
+
+TEST_F(LedgerTest, CoverageEndsWhereAWorkpieceCouldNotBeSwept) {
+  SweepReport report = reportOf(workpieces_);
+  report.end = at(1010).stamp;
+  report.failures.push_back({workpiece("spleen", 1000), "no canary"});
+  sweep(report, 1010);
+  EXPECT_EQ(ledger_.verdict(at(1010)).covered_until, at(1000).stamp);
+  EXPECT_EQ(ledger_.verdict(at(1010)).pose_stamp, at(1010).stamp);
 }
 
 TEST_F(LedgerTest, ANewWorkpieceOrRevisionIsNotClearBeforeItIsSwept) {
   const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
   ledger_.setWorkpieces(two);
   EXPECT_EQ(reasonsAt(1000), kNotSwept);
-  ledger_.swept(reportOf(two), seenAt(1010), at(1010).steady);
+  sweep(reportOf(two), 1010);
   EXPECT_EQ(levelAt(1010), Level::kClear);
   ledger_.setWorkpieces({workpieces_[0], workpiece("spleen", 1010, /*revision=*/2)});
   EXPECT_EQ(reasonsAt(1010), kNotSwept);
 }
 
 TEST_F(LedgerTest, AContactIsHeldWhileLaterSweepsAreFree) {
-  ledger_.swept(reportOf(workpieces_, {3, 5}), seenAt(1010), at(1010).steady);
-  ledger_.swept(reportOf(workpieces_), seenAt(1020), at(1020).steady);
+  sweep(reportOf(workpieces_, {3, 5}), 1010);
+  EXPECT_EQ(levelAt(1000000), Level::kContact);  // as far as is known it lasts
+  sweep(reportOf(workpieces_), 1020);
   const Verdict held = ledger_.verdict(at(1510));
   EXPECT_EQ(held.level, Level::kContact);
   EXPECT_EQ(held.mesh_id, "liver");
@@ -112,13 +138,33 @@ TEST_F(LedgerTest, AContactIsHeldWhileLaterSweepsAreFree) {
   EXPECT_NE(levelAt(1511), Level::kContact);
 }
 
-TEST_F(LedgerTest, TimeThatJumpedForgetsPoseContactAndFaults) {
-  ledger_.swept(reportOf(workpieces_, {3}), seenAt(1010), at(1010).steady);
+TEST_F(LedgerTest, AContactLastsWhileItsWorkpieceCannotBeSwept) {
+  sweep(reportOf(workpieces_, {3}), 1010);
+  SweepReport failed;
+  failed.failures.push_back({workpieces_[0], "no canary"});
+  sweep(failed, 1020);
+  EXPECT_EQ(levelAt(5000), Level::kContact);
+  ledger_.setWorkpieces({});
+  sweep({}, 1030);  // it has been removed
+  EXPECT_EQ(levelAt(5000), Level::kUnknown);
+}
+
+TEST_F(LedgerTest, TimeThatJumpedForgetsPoseAndFaults) {
   ledger_.fault(kTfFail, "no transform");
   ledger_.timeJumped("time went back");
   const Verdict verdict = ledger_.verdict(at(1010));
   EXPECT_EQ(verdict.level, Level::kUnknown);
   EXPECT_EQ(verdict.reasons, kTimeJump | kNoPose);
+  EXPECT_EQ(verdict.covered_until, Time());
+}
+
+TEST_F(LedgerTest, APoseFromBeforeAJumpOfTimeVouchesForNothing) {
+  const Ledger::Mark before = ledger_.mark();
+  ledger_.timeJumped("time went back");
+  ledger_.swept(reportOf(workpieces_), seenAt(1010), before, at(1010).steady);
+  EXPECT_EQ(reasonsAt(1010), kTimeJump | kNoPose);
+  sweep(reportOf(workpieces_), 1010);
+  EXPECT_EQ(levelAt(1010), Level::kClear);
 }
 
 }  // namespace

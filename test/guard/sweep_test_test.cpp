@@ -11,6 +11,11 @@
 namespace sweep_guard {
 namespace {
 
+SweepFindings testMotion(Detector& detector, const Tool& tool, const Motion& motion, const TriangleMesh& mesh_M,
+                         const SweepOptions& options) {
+  return testSweep(detector, tool, split(motion, options.max_rotation), mesh_M, options);
+}
+
 using Indices = std::vector<std::uint32_t>;
 
 const Tool kDrill = Tool::cylinder(/*radius=*/0.005, /*length=*/0.1);
@@ -26,7 +31,7 @@ TriangleMesh sheet(double z) {
 class SweepTestTest : public testing::TestWithParam<std::string> {
  protected:
   SweepFindings test(const Motion& motion, const TriangleMesh& mesh, const SweepOptions& options = {}) {
-    return testSweep(*detector_, kDrill, motion, mesh, options);
+    return testMotion(*detector_, kDrill, motion, mesh, options);
   }
 
   std::unique_ptr<Detector> detector_ = makeDetector(GetParam());
@@ -81,7 +86,7 @@ TEST(SweepFindingsTest, PartsAreEndToEndFromPoseToPose) {
   FakeDetector detector(record);
   Random random(/*seed=*/1);
   const Motion motion{random.pose({0, 0, 0}), random.pose({1, 0, 0})};
-  const SweepFindings findings = testSweep(detector, kDrill, motion, sheet(0.0), {});
+  const SweepFindings findings = testMotion(detector, kDrill, motion, sheet(0.0), {});
   const std::vector<Motion> parts = split(motion, SweepOptions{}.max_rotation);
   ASSERT_EQ(findings.volumes_M.size(), parts.size());
   ASSERT_EQ(record.volumes.size(), parts.size());
@@ -97,10 +102,10 @@ TEST(SweepFindingsTest, UsesTheVolumeAskedFor) {
   const Motion motion{at(0, 0, 0), at(0.1, 0.05, 0.02)};
   SweepOptions options;
   options.volume = VolumeKind::kObb;
-  testSweep(detector, kDrill, motion, sheet(0.0), options);
+  testMotion(detector, kDrill, motion, sheet(0.0), options);
   EXPECT_TRUE(record.volumes.back().clips_B.empty());
   options.volume = VolumeKind::kObbPlanes;
-  testSweep(detector, kDrill, motion, sheet(0.0), options);
+  testMotion(detector, kDrill, motion, sheet(0.0), options);
   EXPECT_FALSE(record.volumes.back().clips_B.empty());
 }
 
@@ -115,7 +120,7 @@ TEST(SweepFindingsTest, ReportsAMarginThatAddsUp) {
   options.margin = 0.25;
   const TriangleMesh mesh({{0.1, 0.2, 0.3}, {1e3, 0, 0}, {0, 1e3, 0}}, {{0, 1, 2}});
   ASSERT_GT(mesh.rounding(), 1e-6);
-  const double margin = testSweep(detector, kDrill, turn, mesh, options).margin;
+  const double margin = testMotion(detector, kDrill, turn, mesh, options).margin;
   EXPECT_NEAR(margin, 0.25 + 0.5 + 0.105 * 0.1 * 0.1 / 8.0 + mesh.rounding(), 1e-9);
 }
 
@@ -129,7 +134,7 @@ TEST(SweepFindingsTest, MeetsVerticesWhereTheyWereGiven) {
     const TriangleMesh mesh({kDrill.radius() * out, 1000.0 * out, 1000.0 * out + Eigen::Vector3d::UnitZ()},
                             {{0, 1, 2}});
     if (mesh.vertex(0).head<2>().norm() > kDrill.radius() + 1e-6) ++kept_outside;
-    EXPECT_EQ(testSweep(*detector, kDrill, Motion{}, mesh, {}).triangles, Indices{0}) << degrees << " degrees";
+    EXPECT_EQ(testMotion(*detector, kDrill, Motion{}, mesh, {}).triangles, Indices{0}) << degrees << " degrees";
   }
   EXPECT_GT(kept_outside, 50);
 }
@@ -141,7 +146,7 @@ TEST(SweepFindingsTest, NamesNothingFartherThanItsMargin) {
   for (int exponent = -12; exponent < 0; ++exponent) {
     const double gap = std::pow(10.0, exponent);
     const TriangleMesh ahead = sheet(gap);
-    const SweepFindings findings = testSweep(*detector, kDrill, Motion{}, ahead, {});
+    const SweepFindings findings = testMotion(*detector, kDrill, Motion{}, ahead, {});
     if (!findings.triangles.empty()) {
       EXPECT_LE(gap, findings.margin);
     }

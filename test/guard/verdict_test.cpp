@@ -28,14 +28,14 @@ Verdict assessNow(const Evidence& evidence) { return assess(evidence, kNow, kLim
 
 enum class Pose { kNone, kFresh, kStale };
 enum class Object { kNone, kFresh, kStale, kUnswept };
-enum class Contact { kNone, kHeld, kExpired };
+enum class Contact { kNone, kLasting, kHeld, kExpired };
 
 // What is wrong is listed whatever the level; the level is contact before unknown before clear.
 TEST(VerdictTest, FollowsItsTruthTable) {
   for (const Pose pose : {Pose::kNone, Pose::kFresh, Pose::kStale}) {
     for (const Object workpiece : {Object::kNone, Object::kFresh, Object::kStale, Object::kUnswept}) {
       for (const bool fault : {false, true}) {
-        for (const Contact contact : {Contact::kNone, Contact::kHeld, Contact::kExpired}) {
+        for (const Contact contact : {Contact::kNone, Contact::kLasting, Contact::kHeld, Contact::kExpired}) {
           Evidence evidence;
           std::uint32_t reasons = 0;
           if (pose != Pose::kNone) evidence.pose = seen(pose == Pose::kFresh ? 10ms : 101ms);
@@ -52,9 +52,10 @@ TEST(VerdictTest, FollowsItsTruthTable) {
             reasons |= kDetectorFault;
           }
           if (contact != Contact::kNone) {
-            evidence.contact = {"liver", {3, 4}, kNow.steady - (contact == Contact::kHeld ? 150ms : 201ms)};
+            const SteadyTime found = kNow.steady - (contact == Contact::kHeld ? 150ms : 201ms);
+            evidence.contact = {"liver", {3, 4}, found, /*lasting=*/contact == Contact::kLasting};
           }
-          const bool held = contact == Contact::kHeld;
+          const bool held = contact == Contact::kHeld || contact == Contact::kLasting;
 
           const Verdict verdict = assessNow(evidence);
           SCOPED_TRACE(verdict.text);
@@ -62,7 +63,7 @@ TEST(VerdictTest, FollowsItsTruthTable) {
           EXPECT_EQ(verdict.level, held ? Level::kContact : reasons != 0 ? Level::kUnknown : Level::kClear);
           EXPECT_EQ(verdict.triangles, held ? (std::vector<std::uint32_t>{3, 4}) : std::vector<std::uint32_t>{});
           EXPECT_EQ(verdict.mesh_id, held ? "liver" : "");
-          EXPECT_EQ(verdict.covered_until, evidence.pose ? evidence.pose->stamp : Time{});
+          EXPECT_EQ(verdict.pose_stamp, evidence.pose ? evidence.pose->stamp : Time{});
           EXPECT_EQ(verdict.text.find(nameOf(verdict.level)), 0U);
         }
       }
@@ -165,6 +166,15 @@ TEST(VerdictTest, EveryFaultMakesItUnknownUnderItsOwnBit) {
 TEST(VerdictTest, LevelsHaveTheNumbersAndNamesOfTheMessage) {
   constexpr std::array<const char*, 5> kNames = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};
   for (size_t i = 0; i < kNames.size(); ++i) EXPECT_STREQ(nameOf(static_cast<Level>(i)), kNames[i]);
+}
+
+// The hold time is how long a contact is shown after the tool has left, not how long it may last.
+TEST(VerdictTest, AContactThatLastsIsShownWhateverTheHoldTime) {
+  Evidence evidence;
+  evidence.contact = {"liver", {7}, kNow.steady - 1h, /*lasting=*/true};
+  EXPECT_EQ(assess(evidence, kNow, {100ms, 500ms, /*hold_time=*/0ms}).level, Level::kContact);
+  evidence.contact->lasting = false;
+  EXPECT_EQ(assess(evidence, kNow, {100ms, 500ms, /*hold_time=*/0ms}).level, Level::kUnknown);
 }
 
 }  // namespace

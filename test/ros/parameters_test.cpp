@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -82,19 +85,26 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("volume", "hull", "obb, obb_planes");
   refused("detector", "halfspace", "select, reference");
   refused("cull", 1, "true or false");
-  refused("max_rotation_per_sweep", 1.0, "0.001 to 0.5");
+  refused("max_rotation_per_sweep", 1.0, "0.01 to 0.5");
   refused("warning/hold_time", -0.1, "0 to 60");
   refused("timing/pose_timeout", 0.0, "0.01 to 2");
   refused("timing/pose_timeout", INFINITY, "0.01 to 2");
   refused("timing/mesh_timeout", NAN, "0.01 to inf");
   refused("timing/marker_rate", 0, "0.1 to 100");
   refused("limits/max_triangles", 0, "1 to 10000000");
+  refused("timing", 3, "a group");
 }
 
-TEST_F(ParametersTest, StopTheNodeWithStatusTwo) {
+TEST_F(ParametersTest, StopTheNodeWithOneLineAndStatusTwo) {
   const std::string node = std::filesystem::read_symlink("/proc/self/exe").replace_filename("sweep_guard_node");
-  const int status = std::system((node + " _tool/radius:=-1 >/dev/null 2>&1").c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 2);
+  FILE* run = popen((node + " _tool/radius:=-1 2>&1").c_str(), "r");
+  ASSERT_NE(run, nullptr);
+  std::string output;
+  std::array<char, 256> part{};
+  while (std::fgets(part.data(), part.size(), run) != nullptr) output += part.data();
+  EXPECT_EQ(WEXITSTATUS(pclose(run)), 2);
+  EXPECT_NE(output.find("/sweep_guard/tool/radius is -1"), std::string::npos) << output;
+  EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace sweep_guard {
 struct Detection {
   std::vector<std::uint32_t>
       triangles;           ///< indices of the triangles met: ascending, each once; empty: the way is clear
-  double inflation = 0.0;  ///< the volume was grown by this to outweigh rounding [m], beyond its own margin
+  double inflation = 0.0;  ///< what is named is nearer to the volume than this [m]: the price of rounding
 };
 
 /// Finds the triangles of a mesh that a swept volume meets. Made once, queried every cycle; holds buffers and devices,

@@ -16,6 +16,9 @@ class OffscreenContext {
   /// @throws DeviceError if that fails
   virtual void makeCurrent() = 0;
 
+  /// Lets go of the context, so that another thread may take it. It must be current.
+  virtual void release() = 0;
+
   /// The OpenGL function of that name, null if there is none. The context must be current.
   virtual Function function(const char* name) = 0;
 

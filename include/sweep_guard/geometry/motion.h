@@ -11,6 +11,7 @@ namespace sweep_guard {
 struct Motion {
   Eigen::Isometry3d X_MT_start = Eigen::Isometry3d::Identity();  ///< translation [m]
   Eigen::Isometry3d X_MT_end = Eigen::Isometry3d::Identity();    ///< translation [m]
+  double bulge = 0.0;  ///< bound on how far a tool point leaves its chord because M turns itself [m], >= 0
 
   /// Rotation from start to end [rad], in [0, pi].
   double angle() const;
@@ -24,6 +25,19 @@ struct Motion {
 /// between them is left out.
 /// @param max_rotation  [rad], > 0
 std::vector<Motion> split(const Motion& motion, double max_rotation);
+
+/// The tool and the mesh frame M moving side by side in the fixed frame W. Each goes straight and turns there; seen
+/// from an M that turns, the tool runs along an arc about M's origin, however little it turns itself.
+struct RelativeMotion {
+  Motion tool_W;   ///< of T in W
+  Motion frame_W;  ///< of M in W: its X_MT_start is X_WM at the start
+};
+
+/// The tool's motion in M, cut into the fewest equal parts in which tool and frame together turn by at most
+/// `max_rotation`.
+/// @param max_rotation  [rad], > 0
+/// @param tool_extent   largest distance of a tool point from the origin of T [m], >= 0
+std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_extent);
 
 /// Greatest distance [m] between the arc that a tool point runs along while the tool turns and the chord that replaces
 /// it. A swept volume built on chords is conservative once it is grown by this. Bound: linear interpolation of a curve

@@ -26,6 +26,9 @@ struct SweptVolume {
 
   /// The six sides of the box, and the clips: everything that bounds the volume, in B.
   std::vector<HalfSpace> halfSpaces_B() const;
+
+  /// The volume with every plane moved out by `distance` [m], >= 0.
+  SweptVolume grown(double distance) const;
 };
 
 /// What the tool covers during a motion.

@@ -37,6 +37,9 @@ class Tool {
   /// Bound [m] on the distance of any tool point from the line through the origin of T along a unit axis.
   double reach(const Eigen::Vector3d& axis_T) const;
 
+  /// Largest distance of a tool point from the origin of T [m].
+  double extent() const;
+
   /// Points of the front face (z = 0) and the rear face (z = -length) farthest along a direction of any length [m].
   Eigen::Vector3d frontExtreme(const Eigen::Vector3d& direction_T) const;
   Eigen::Vector3d rearExtreme(const Eigen::Vector3d& direction_T) const;

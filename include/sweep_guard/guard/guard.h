@@ -22,11 +22,12 @@ struct Workpiece {
 };
 using Workpieces = std::vector<std::shared_ptr<const Workpiece>>;
 
-/// Where the tool is at a moment, seen from every frame that a workpiece lives in.
+/// Where the tool T is at a moment in the fixed frame W, and where every frame M that a workpiece lives in.
 struct ToolPose {
   Time stamp;
   SteadyTime received;
-  std::map<std::string, Eigen::Isometry3d> X_MT;  ///< by name of M; a frame whose transform is missing is left out
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
+  std::map<std::string, Eigen::Isometry3d> X_WM;  ///< by name of M; a frame whose transform is missing is left out
 };
 
 /// One workpiece that was swept, and what was found.
@@ -36,44 +37,57 @@ struct SweptObject {
   SweepFindings findings;
 };
 
+/// A workpiece that could not be swept, and why.
+struct SweepFailure {
+  std::shared_ptr<const Workpiece> workpiece;
+  std::string reason;
+};
+
 /// One step of the guard: everything that happened up to a pose.
 struct SweepReport {
-  Time start;                        ///< earliest begin of a sweep; equal to `end` at the first pose
-  Time end;                          ///< stamp of the pose
-  std::vector<SweptObject> objects;  ///< every workpiece swept, in the order they came; not found: empty triangles
-  Workpieces unswept;                ///< workpieces whose frame the pose is not known in
+  Time start;                          ///< earliest begin of a sweep; equal to `end` at the first pose
+  Time end;                            ///< stamp of the pose
+  std::vector<SweptObject> objects;    ///< every workpiece swept, in the order they came; not met: no triangles
+  Workpieces unplaced;                 ///< workpieces whose frame is not known at the pose: not swept
+  std::vector<SweepFailure> failures;  ///< workpieces whose detection failed: not swept
 
   double margin() const;  ///< largest of the objects [m]
   bool contact() const;   ///< some object was met
+  bool complete() const;  ///< every workpiece was swept, and there is one
 };
 
-/// Sweeps the tool from pose to pose, so that no motion goes untested: for each frame from the last pose that was known
-/// there. A workpiece's first sweep is a test of the pose alone. One thread.
+/// Sweeps the tool from pose to pose, so that no motion goes untested. What could not be swept is not skipped: after a
+/// failure of the detector the way through every pose since is swept, after a missing transform the straight way from
+/// the last pose that was known in that frame. The first sweep in a frame is a test of the pose alone. One thread.
+///
+/// Tool and frames move straight at constant speed in W, and turn about one axis at constant rate, between their poses.
 class Guard {
  public:
   Guard(Tool tool, std::unique_ptr<Detector> detector, const SweepOptions& options);
 
   /// @param pose  its stamp must not lie before that of the pose before
-  /// @throws DeviceError if the detector fails; the next call then sweeps this interval too
   SweepReport sweep(const ToolPose& pose, const Workpieces& workpieces);
 
   /// Begins anew, as if no pose had come.
-  void forget() { last_.clear(); }
+  void forget() { ways_.clear(); }
 
   const Tool& tool() const { return tool_; }
 
  private:
   struct Placed {
     Time stamp;
-    Eigen::Isometry3d X_MT;
+    Eigen::Isometry3d X_WT;
+    Eigen::Isometry3d X_WM;
   };
+  using Way = std::vector<Placed>;  // the pose swept to last, and those since; ends at the newest
 
-  void remember(const ToolPose& pose, const Workpieces& workpieces);
+  SweepFindings sweepAlong(const Way& way, const TriangleMesh& mesh_M);
+  void dropWaysOfEmptyFrames(const Workpieces& workpieces);
 
   Tool tool_;
   std::unique_ptr<Detector> detector_;
   SweepOptions options_;
-  std::map<std::string, Placed> last_;  // by frame
+  std::map<std::string, Way> ways_;  // by frame
 };
 
 }  // namespace sweep_guard

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "sweep_guard/guard/guard.h"
@@ -15,27 +17,34 @@ namespace sweep_guard {
 /// an input is silent.
 class Ledger {
  public:
-  explicit Ledger(const VerdictLimits& limits);
+  /// Where in the ledger an input stood when it came: what it can vouch for.
+  struct Mark {
+    std::uint64_t epoch = 0;   ///< counts jumps of time
+    std::uint64_t faults = 0;  ///< faults reported before
+  };
 
-  /// Something was refused or failed: the verdict is not clear until it is mended.
+  /// @param on_fault  called after every fault, in the thread that reports it, so that none goes unseen
+  explicit Ledger(
+      const VerdictLimits& limits, std::function<void()> on_fault = [] {});
+
+  Mark mark() const;
+
+  /// Something was refused or failed: the verdict is not clear until a later input mends it.
   void fault(Reason reason, const std::string& story);
-  /// Number of faults so far: what mend() can be bounded by.
-  std::uint64_t faultCount() const;
-  /// Takes back the faults of these reasons, bits of Reason, that were reported when faultCount() was at most `up_to`.
-  void mend(std::uint32_t reasons, std::uint64_t up_to);
 
-  /// A mesh message was refused. In force until meshAccepted(), or for a second if no such workpiece is known.
-  void meshRefused(const std::string& id, const std::string& story, SteadyTime now);
+  /// A mesh message was refused: the verdict is not clear until meshAccepted(), for there is a workpiece that cannot be
+  /// seen.
+  void meshRefused(const std::string& id, const std::string& story);
+  /// A good message of that workpiece came, or it was removed.
   void meshAccepted(const std::string& id);
 
   /// The workpieces there are now, newest snapshots.
   void setWorkpieces(const Workpieces& workpieces);
 
-  /// A pose has been swept. Nothing of the evidence before is lost: a contact stays for its hold time.
-  /// @param pose  the pose at the end of the report's interval
-  void swept(const SweepReport& report, const Seen& pose, SteadyTime now);
+  /// A pose has been swept to. Mends the faults from before the pose came. Does nothing if time has jumped since.
+  void swept(const SweepReport& report, const Seen& pose, const Mark& pose_came, SteadyTime now);
 
-  /// Time went back: poses, contact and faults are forgotten; kTimeJump is in force until it is mended.
+  /// Time went back: poses and faults are forgotten; kTimeJump is in force until a pose of the new time is swept.
   void timeJumped(const std::string& story);
 
   Verdict verdict(const Instant& now) const;
@@ -45,23 +54,22 @@ class Ledger {
     std::string story;
     std::uint64_t number;
   };
-  struct MeshFault {
-    std::string story;
-    SteadyTime reported;
-  };
 
-  void forgetUnknownMeshes();
-  bool known(const std::string& id) const;
+  void note(Reason reason, const std::string& story);
+  void noteContact(const SweepReport& report, SteadyTime now);
+  bool sweptLast(const Workpiece& workpiece) const;
 
   const VerdictLimits limits_;
+  const std::function<void()> on_fault_;
   mutable std::mutex mutex_;
+  Mark mark_;
   std::optional<Seen> pose_;
+  Time covered_until_;
   std::optional<Evidence::Contact> contact_;
-  std::map<std::string, std::uint32_t> swept_revisions_;  // by id, at the newest pose
+  Workpieces swept_;  // at the newest pose
   Workpieces workpieces_;
   std::map<Reason, Fault> faults_;
-  std::map<std::string, MeshFault> mesh_faults_;  // by id
-  std::uint64_t fault_count_ = 0;
+  std::map<std::string, std::string> refused_meshes_;  // stories by id
 };
 
 }  // namespace sweep_guard

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,28 +16,35 @@ struct SweepOptions {
   double margin = 0.0;          ///< the tool is grown by this [m], >= 0
 };
 
-/// What the tool meets of one mesh during one motion.
+/// What the tool meets of one mesh while it moves.
 struct SweepFindings {
   std::vector<std::uint32_t> triangles;  ///< ascending, each once
-  double margin = 0.0;  ///< the volumes lie at most this far outside of the tool's two poses, rounding included [m]
-  std::vector<SweptVolume> volumes_M;  ///< those tested, end to end, in the mesh's frame
+  double margin = 0.0;                   ///< largest growth of a volume tested, for arcs, rounding and as asked for [m]
+  std::vector<SweptVolume> volumes_M;    ///< those tested, end to end, in the mesh's frame
 };
 
-/// Tests the volume that the tool sweeps, split so that the margin for its arcs stays small.
+/// Tests the volume that the tool sweeps in each part of its motion.
+/// @param parts  of split(): each turns by little, so that the margin for its arc stays small
 /// @throws DeviceError if the detector fails
-SweepFindings testSweep(Detector& detector, const Tool& tool, const Motion& motion, const TriangleMesh& mesh_M,
-                        const SweepOptions& options);
+SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts,
+                        const TriangleMesh& mesh_M, const SweepOptions& options);
+
+/// Takes in what was found in a later part of the same motion.
+void unite(SweepFindings& all, SweepFindings more);
 
 /// What the tool meets along a path of poses.
 struct PathFindings {
-  SweepFindings findings;           ///< union over the path
-  std::optional<size_t> first_met;  ///< first sweep that met something; sweep i goes from pose i to pose i + 1
+  std::vector<std::uint32_t> triangles;  ///< union over the path: ascending, each once
+  double margin = 0.0;                   ///< largest over the path [m]
+  std::optional<size_t> first_met;       ///< first sweep that met something; sweep i goes from pose i to pose i + 1
 };
 
 /// Tests every sweep of a path; a path of one pose is tested where it stands.
-/// @param path  at least one X_MT
+/// @param path     at least one X_MT
+/// @param between  called before every sweep; may throw to give up
 /// @throws DeviceError if the detector fails
-PathFindings testPath(Detector& detector, const Tool& tool, const std::vector<Eigen::Isometry3d>& path,
-                      const TriangleMesh& mesh_M, const SweepOptions& options);
+PathFindings testPath(
+    Detector& detector, const Tool& tool, const std::vector<Eigen::Isometry3d>& path, const TriangleMesh& mesh_M,
+    const SweepOptions& options, const std::function<void()>& between = [] {});
 
 }  // namespace sweep_guard

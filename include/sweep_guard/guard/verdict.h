@@ -52,18 +52,20 @@ struct Evidence {
     std::string id;
     std::vector<std::uint32_t> triangles;  ///< ascending, each once
     SteadyTime found;
+    bool lasting = false;  ///< the newest sweep has met it
   };
 
   std::optional<Seen> pose;  ///< newest pose that has been swept
   std::vector<Object> objects;
   std::optional<Contact> contact;        ///< newest contact
+  Time covered_until;                    ///< every workpiece has been swept up to here; epoch: never
   std::map<Reason, std::string> faults;  ///< in force, each with its story
 };
 
 struct VerdictLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
   Duration mesh_timeout;  ///< a workpiece older than this is stale; Duration::max(): never
-  Duration hold_time;     ///< a contact is shown for at least this long; >= 0
+  Duration hold_time;     ///< a contact is shown for so long after the tool has left; >= 0
 };
 
 /// The level and why.
@@ -73,7 +75,8 @@ struct Verdict {
   std::string text;                      ///< level and reasons in words
   std::string mesh_id;                   ///< object of the contact
   std::vector<std::uint32_t> triangles;  ///< of the contact
-  Time covered_until;                    ///< motion has been tested up to here; epoch: never
+  Time pose_stamp;                       ///< of the newest pose swept to; epoch: none
+  Time covered_until;                    ///< every workpiece has been swept up to here; epoch: never
 };
 
 /// Contact before unknown before clear. Clear takes a fresh pose, a workpiece, every workpiece fresh and swept at that

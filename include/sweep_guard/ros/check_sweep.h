@@ -3,6 +3,7 @@
 #include <ros/service_server.h>
 #include <sweep_guard/CheckSweep.h>
 
+#include <atomic>
 #include <map>
 #include <memory>
 
@@ -20,6 +21,10 @@ class CheckSweepService {
   CheckSweepService(const ros::NodeHandle& private_node, const Parameters& parameters, const Frames& frames,
                     const WorkpieceStore& workpieces);
 
+  ~CheckSweepService() { stopping_ = true; }
+  CheckSweepService(const CheckSweepService&) = delete;
+  CheckSweepService& operator=(const CheckSweepService&) = delete;
+
   void start() { thread_.start(); }
 
  private:
@@ -36,7 +41,8 @@ class CheckSweepService {
   const Frames& frames_;
   const WorkpieceStore& workpieces_;
   std::map<std::string, std::unique_ptr<sweep_guard::Detector>> detectors_;  // made when first asked for
-  QueueThread thread_;                                                       // outlives what calls back on it
+  std::atomic<bool> stopping_ = false;
+  QueueThread thread_;  // outlives what calls back on it
   ros::ServiceServer server_;
 };
 

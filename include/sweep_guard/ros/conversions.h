@@ -32,11 +32,12 @@ geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose);
 /// @throws sweep_guard::InvalidInput if there are more than `max_triangles`, or the mesh itself is invalid
 sweep_guard::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles);
 
-/// The objects met, in the report's order.
-sweep_guard::ObjectContacts toMsg(const sweep_guard::SweptObject& object);
+/// @param triangles  of the workpiece: ascending, each once
+sweep_guard::ObjectContacts toMsg(const sweep_guard::Workpiece& workpiece, const std::vector<std::uint32_t>& triangles);
+/// The objects met, in the report's order; header, tool and volume are the sender's.
 sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report);
 
-/// Level, reasons and what follows from them; header, tool and counters are the sender's.
+/// Level, reasons and what follows from them; frame, tool and counters are the sender's.
 sweep_guard::Warning toMsg(const sweep_guard::Verdict& verdict);
 
 }  // namespace sweep_guard_ros

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sweep_guard/common/time.h"
+#include "sweep_guard/ros/mesh_input.h"
 #include "sweep_guard/ros/parameters.h"
 #include "sweep_guard/ros/pose_input.h"
 #include "sweep_guard/ros/workpiece_store.h"
@@ -20,12 +21,11 @@ class Workload {
     std::uint64_t sweeps_total = 0;  ///< poses swept since the start
     std::uint64_t late_total = 0;    ///< of them later than a cycle of 15 Hz [P, Sec. 3.2]
     std::uint64_t faults_total = 0;  ///< failures of the detector
-    std::vector<double> latencies;   ///< pose received to contacts sent, since the last summary [s], ascending
+    std::vector<double> latencies;   ///< pose received to warning sent, since the last summary [s], ascending
     double busiest = 0.0;            ///< longest sweep since the last summary [s]
   };
 
-  void swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_time);
-  void failed();
+  void swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_time, size_t failures);
   Summary take();
 
  private:
@@ -33,13 +33,31 @@ class Workload {
   Summary summary_;
 };
 
+/// What the diagnostics look at.
+struct Diagnosed {
+  const PoseInput& poses;
+  const MeshInput& meshes;
+  const WorkpieceStore& workpieces;
+  const sweep_guard::Ledger& ledger;
+  Workload& workload;
+};
+
+/// Events per second since it was last asked.
+class RateMeter {
+ public:
+  double operator()(std::uint64_t count);
+
+ private:
+  std::uint64_t count_ = 0;
+  sweep_guard::SteadyTime asked_ = std::chrono::steady_clock::now();
+};
+
 /// Answers "why is there no warning" on /diagnostics: each input's source, publishers, rate, age and refusals; the
 /// detector; the deadlines; the memory; the verdict.
 class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const Parameters& parameters,
-              const PoseInput& poses, const WorkpieceStore& workpieces, const sweep_guard::Ledger& ledger,
-              Workload& workload);
+              const Diagnosed& parts);
 
   /// Publishes now; call once a second.
   void publish() { updater_.force_update(); }
@@ -48,17 +66,16 @@ class Diagnostics {
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
   void verdict(Status& status) const;
   void poseInput(Status& status);
-  void meshInput(Status& status) const;
+  void meshInput(Status& status);
   void deadlines(Status& status);
   void process(Status& status) const;
 
   const Parameters parameters_;
-  const PoseInput& poses_;
-  const WorkpieceStore& workpieces_;
-  const sweep_guard::Ledger& ledger_;
-  Workload& workload_;
-  std::uint64_t poses_before_ = 0;
-  sweep_guard::SteadyTime asked_before_ = std::chrono::steady_clock::now();
+  const Diagnosed parts_;
+  RateMeter poses_rate_;
+  RateMeter refused_poses_rate_;
+  RateMeter meshes_rate_;
+  RateMeter refused_meshes_rate_;
   diagnostic_updater::Updater updater_;
 };
 

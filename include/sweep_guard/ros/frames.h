@@ -4,7 +4,9 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <Eigen/Geometry>
-#include <set>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "sweep_guard/common/error.h"
@@ -30,7 +32,11 @@ class Frames {
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard::Time stamp,
                            sweep_guard::Duration wait) const;
 
-  tf2_ros::Buffer& buffer() { return buffer_; }
+  /// Stamp of the newest transform between two frames; empty if there is none. 0 where it never changes.
+  std::optional<sweep_guard::Time> newest(const std::string& target, const std::string& source) const;
+
+  /// Calls back after every transform that comes in, in the thread of the listener, until the handle is destroyed.
+  std::shared_ptr<void> onChange(std::function<void()> callback);
 
  private:
   tf2_ros::Buffer buffer_;

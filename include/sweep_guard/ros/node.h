@@ -4,6 +4,7 @@
 #include <ros/steady_timer.h>
 #include <sweep_guard/Warning.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -28,8 +29,8 @@ class SweepGuardNode {
  private:
   void enqueue(PlacedPose pose);
   void sweepPoses();
-  void sweep(const PlacedPose& pose);
-  void report(const PlacedPose& pose, sweep_guard::SweepReport report);
+  void sweep(const PlacedPose& placed);
+  void publishContacts(const sweep_guard::SweepReport& report);
   void watch();
   void watchClock();
   void warn(bool only_on_change);
@@ -40,36 +41,35 @@ class SweepGuardNode {
   ros::Publisher warning_publisher_;
   ros::Publisher marker_publisher_;
 
-  sweep_guard::Ledger ledger_;
-  sweep_guard::Guard guard_;  // of the sweeping thread
-  Frames frames_;
-  WorkpieceStore workpieces_;
-  PoseInput poses_;
-  CheckSweepService check_sweep_;
-  Workload workload_;
-  Diagnostics diagnostics_;
-  Markers markers_;
+  std::mutex warning_mutex_;
+  sweep_guard::Warning warning_;  // counters and level last sent
+  std::atomic<sweep_guard::SteadyTime> warned_ = sweep_guard::SteadyTime();
+  sweep_guard::Time clock_seen_;
 
   std::mutex queue_mutex_;
   std::condition_variable queue_changed_;
   std::deque<PlacedPose> queue_;
   bool stopping_ = false;
-  std::uint64_t guard_epoch_ = 0;
-
-  std::mutex warning_mutex_;
-  sweep_guard::Warning warning_;  // counters and level last sent
-  std::atomic<std::uint64_t> epoch_ = 0;
-  sweep_guard::Time clock_seen_;
-  int watches_ = 0;
 
   std::mutex scene_mutex_;
   MarkerScene scene_;
 
-  QueueThread mesh_thread_;
+  // What follows calls back on what stands above.
+  sweep_guard::Ledger ledger_;
+  sweep_guard::Guard guard_;       // of the sweeping thread
+  std::uint64_t guard_epoch_ = 0;  // of the sweeping thread
+  LogThrottle log_;                // of the sweeping thread
+  Frames frames_;
+  WorkpieceStore workpieces_;
+  PoseInput poses_;
+  MeshInput meshes_;
+  CheckSweepService check_sweep_;
+  Workload workload_;
+  Diagnostics diagnostics_;
+  Markers markers_;
+
   QueueThread warning_thread_;
   QueueThread report_thread_;
-  ros::Subscriber mesh_subscriber_;
-  ros::Subscriber vertices_subscriber_;
   ros::SteadyTimer warning_timer_;
   ros::SteadyTimer marker_timer_;
   ros::SteadyTimer diagnostics_timer_;

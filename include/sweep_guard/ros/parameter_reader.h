@@ -30,9 +30,11 @@ class ParameterReader {
   Eigen::Vector3d position(const std::string& key, const Eigen::Vector3d& fallback);  ///< [x, y, z] within +-1e6 m
 
   /// Warns of every private parameter that has not been asked for: a key that is misspelt would have no effect.
+  /// @throws sweep_guard::InvalidInput if a value stands where a group of parameters belongs
   void warnOfUnread() const;
 
  private:
+  bool isGroup(const std::string& key) const;
   bool get(const std::string& key, XmlRpc::XmlRpcValue& value);
   [[noreturn]] void refuse(const std::string& key, const XmlRpc::XmlRpcValue& value, const std::string& wanted) const;
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sweep_guard/guard/ledger.h"
+#include "sweep_guard/ros/log_throttle.h"
 
 namespace sweep_guard_ros {
 
@@ -36,11 +37,13 @@ class WorkpieceStore {
   void store(const sweep_guard::DeformableMesh& msg);
   void store(const sweep_guard::MeshVertices& msg);
   std::shared_ptr<const sweep_guard::Workpiece> find(const std::string& id) const;
+  void checkOrder(const sweep_guard::Workpiece& current, sweep_guard::Time stamp) const;
   void replace(sweep_guard::Workpiece workpiece);
   void remove(const std::string& id);
 
   const size_t max_triangles_;
   sweep_guard::Ledger& ledger_;
+  LogThrottle log_;
   mutable std::mutex mutex_;
   sweep_guard::Workpieces workpieces_;  // ascending by id
   std::atomic<std::uint64_t> received_ = 0;
