@@ -29,12 +29,28 @@ struct Candidate {
   PlanePoint to;
 };
 
-// The deepest of the planes through the candidate lines, each with the normal that points the way of `outward`.
-std::optional<HalfSpace> deepestPlane(const std::array<Candidate, 4>& lines, const Eigen::Vector2d& outward,
-                                      const Tool& tool, const Motion& motion_B, const Eigen::Vector3d& half_extents) {
+// Area that the line a y + b z = d cuts off the rectangle |y| <= h.y, |z| <= h.z, outside of it: with c = a h.y + b h.z
+// - d, the reach of the corner beyond the line, a triangle of legs c / a and c / b, less what of it lies beyond the
+// other corners.
+double areaCutOff(const Eigen::Vector2d& normal, double offset, const Eigen::Vector2d& h) {
+  const double a = std::abs(normal.x());
+  const double b = std::abs(normal.y());
+  const double c = a * h.x() + b * h.y() - offset;
+  if (c <= 0.0) return 0.0;
+  constexpr double kParallel = 1e-9;
+  if (a < kParallel) return c / b * 2.0 * h.x();
+  if (b < kParallel) return c / a * 2.0 * h.y();
+  const auto squareBeyond = [](double length) { return length > 0.0 ? length * length : 0.0; };
+  return (c * c - squareBeyond(c - 2.0 * a * h.x()) - squareBeyond(c - 2.0 * b * h.y())) / (2.0 * a * b);
+}
+
+// Of the planes through the candidate lines, each with the normal that points the way of `outward`, the one that cuts
+// most off.
+std::optional<HalfSpace> tightestPlane(const std::array<Candidate, 4>& lines, const Eigen::Vector2d& outward,
+                                       const Tool& tool, const Motion& motion_B, const Eigen::Vector3d& half_extents) {
   const double negligible = 1e-9 * half_extents.norm();
-  std::optional<HalfSpace> deepest;
-  double deepest_cut = negligible;
+  std::optional<HalfSpace> tightest;
+  double largest = negligible * half_extents.norm();
   for (const Candidate& line : lines) {
     const Eigen::Vector2d along = line.to - line.from;
     if (along.norm() <= negligible) continue;  // one point gives no line
@@ -42,13 +58,13 @@ std::optional<HalfSpace> deepestPlane(const std::array<Candidate, 4>& lines, con
     const Eigen::Vector2d facing = across.dot(outward) < 0.0 ? Eigen::Vector2d(-across) : across;
     const Eigen::Vector3d normal(0.0, facing.x(), facing.y());
     const double offset = support(tool, motion_B, normal);
-    const double cut = normal.cwiseAbs().dot(half_extents) - offset;
-    if (cut > deepest_cut) {
-      deepest_cut = cut;
-      deepest = HalfSpace(normal, offset);
+    const double area = areaCutOff(facing, offset, half_extents.tail<2>());
+    if (area > largest) {
+      largest = area;
+      tightest = HalfSpace(normal, offset);
     }
   }
-  return deepest;
+  return tightest;
 }
 
 }  // namespace
@@ -76,7 +92,7 @@ std::vector<HalfSpace> boundingPlanes(const Tool& tool, const Motion& motion, co
 
   std::vector<HalfSpace> planes;
   const auto add = [&](const std::array<Candidate, 4>& lines, const Eigen::Vector2d& outward) {
-    if (const auto plane = deepestPlane(lines, outward, tool, motion_B, box.half_extents)) planes.push_back(*plane);
+    if (const auto plane = tightestPlane(lines, outward, tool, motion_B, box.half_extents)) planes.push_back(*plane);
   };
   add(sides(&Face::y_max), side);
   add(sides(&Face::y_min), -side);

@@ -11,7 +11,7 @@ namespace sweep_guard {
 /// (FCP), all parallel to the X axis of the box [P, Sec. 3.1, Fig. 5]. In box frame B [m].
 ///
 /// A side plane runs through an extreme point of a front face and one of a rear face, a frontal plane through extreme
-/// points of the front (or rear) faces at both poses. Of the lines that Fig. 5 allows, the one that cuts deepest into
+/// points of the front (or rear) faces at both poses. Of the lines that Fig. 5 allows, the one that cuts most off
 /// the box is taken, and pushed out until it touches the round tool: so no plane can cut off a point of the tool,
 /// whatever its motion. A plane that would leave the box as it is is left out.
 std::vector<HalfSpace> boundingPlanes(const Tool& tool, const Motion& motion, const OrientedBox& box);
