@@ -190,5 +190,16 @@ TEST(MakeDetectorTest, KnowsItsNamesAndNoOther) {
   for (const char* name : {"", "Select", "halfspace"}) EXPECT_THROW(makeDetector(name), InvalidInput) << name;
 }
 
+// A context that stays current in the thread that made it would be used there after its end.
+TEST(SelectDetectorTest, MayEndInAnotherThreadThanItBegan) {
+  const TriangleMesh mesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const SweptVolume swept_M = sweptVolume(Tool::cylinder(0.01, 0.1), Motion{}, VolumeKind::kObbPlanes);
+  for (int i = 0; i < 5; ++i) {
+    std::unique_ptr<Detector> detector = makeDetector("select");
+    std::thread([&] { detector.reset(); }).join();
+    EXPECT_EQ(makeDetector("select")->detect(mesh, swept_M).triangles.size(), 1U);
+  }
+}
+
 }  // namespace
 }  // namespace sweep_guard

@@ -166,6 +166,47 @@ TEST_F(NodeTest, AWorkpieceThatMovesRigidlyIsMet) {
   EXPECT_EQ(probe().move(poseAt({0.0, 0.0, 0.0}, probe().time())).objects.size(), 1U);
 }
 
+// Transforms that come a little later than the poses are waited for, also after one has been missing.
+TEST_F(NodeTest, LateTransformsAreWaitedForAgainAfterAGap) {
+  const auto place_frame = [] { probe().placeFrame("lathe", Eigen::Isometry3d::Identity()); };
+  place_frame();
+  auto sheet = sheetAt("sheet", {0.0, 0.0, 0.0}, probe().time());
+  sheet.header.frame_id = "lathe";
+  probe().place(sheet);
+  placed_.insert("sheet");
+
+  probe().tick(0.01);
+  probe().publish(poseAt({0.0, 0.0, 0.5}, probe().time()));
+  probe().awaitWarning(hasReason(Warning::TF_FAIL));
+  probe().forgetContacts();
+  for (int i = 0; i < 5; ++i) {
+    probe().tick(0.005);
+    probe().publish(poseAt({0.0, 0.0, 0.5}, probe().time()));
+    place_frame();
+    probe().skipWarnings();
+    probe().awaitWarning([](const Warning&) { return true; });  // the next pose comes after this transform
+  }
+  EXPECT_GE(probe().awaitContacts(3).size(), 3U);
+}
+
+TEST_F(NodeTest, ATurningWorkpieceIsMetOnItsArc) {
+  const auto turn_frame = [](double angle) {
+    probe().placeFrame("turntable", Eigen::Isometry3d(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ())));
+  };
+  turn_frame(-0.25);
+  auto sheet = sheetAt("sheet", {1.0, 0.0, 0.05}, probe().time(), /*half_side=*/0.005);
+  sheet.header.frame_id = "turntable";
+  probe().place(sheet);
+  placed_.insert("sheet");
+  // The tool rests where the sheet passes by halfway: the chord between both ends misses it by 31 mm.
+  probe().tick(0.01);
+  turn_frame(-0.25);
+  EXPECT_TRUE(probe().move(poseAt({1.0, 0.0, 0.0}, probe().time())).objects.empty());
+  probe().tick(0.01);
+  turn_frame(0.25);
+  EXPECT_EQ(probe().move(poseAt({1.0, 0.0, 0.0}, probe().time())).objects.size(), 1U);
+}
+
 TEST_F(NodeTest, SeveralWorkpiecesAreToldApart) {
   placeSheet("left", {-1.0, 0.0, 0.0});
   placeSheet("right", {1.0, 0.0, 0.0});
