@@ -127,7 +127,7 @@ int GlSelect::draw(const Query& query, std::uint32_t canary_name) {
 }
 
 void GlSelect::setState(const Query& query) {
-  for (const GLenum matrix : {GL_PROJECTION, GL_MODELVIEW}) {
+  for (const GLenum matrix : {GLenum{GL_PROJECTION}, GLenum{GL_MODELVIEW}}) {
     gl_->matrixMode(matrix);
     gl_->loadIdentity();
   }

@@ -1,5 +1,6 @@
 #include "sweep_guard/geometry/motion.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 

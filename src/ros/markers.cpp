@@ -149,6 +149,11 @@ visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
       addContactTriangles(array, object, index++, scene.newest->end, 0.1 * tool_radius_);
   }
 
+  deleteGone(array);
+  return array;
+}
+
+void Markers::deleteGone(visualization_msgs::MarkerArray& array) {
   std::set<Key> now_shown;
   for (const Marker& drawn : array.markers) now_shown.emplace(drawn.ns, drawn.id);
   for (const auto& [ns, id] : shown_) {
@@ -158,7 +163,6 @@ visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
     array.markers.push_back(gone);
   }
   shown_ = std::move(now_shown);
-  return array;
 }
 
 }  // namespace sweep_guard_ros

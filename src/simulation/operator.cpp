@@ -37,9 +37,9 @@ constexpr std::uint32_t kNotReady =
     sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
 
 /// The next pose, its stamp counted from the start of the motion; empty at the end.
-using Motion = std::function<std::optional<StampedPose>()>;
+using PoseStream = std::function<std::optional<StampedPose>()>;
 
-Motion sampled(const Drilling& drilling, double rate, bool loop) {
+PoseStream sampled(const Drilling& drilling, double rate, bool loop) {
   return [drilling, rate, loop, sample = 0L]() mutable -> std::optional<StampedPose> {
     const double t = static_cast<double>(sample++) / rate;
     if (!loop && t > drilling.duration()) return std::nullopt;
@@ -47,7 +47,7 @@ Motion sampled(const Drilling& drilling, double rate, bool loop) {
   };
 }
 
-Motion replayed(std::vector<StampedPose> poses, const Replay::Options& options) {
+PoseStream replayed(std::vector<StampedPose> poses, const Replay::Options& options) {
   return [replay = Replay(std::move(poses), options)]() mutable { return replay.next(); };
 }
 
@@ -82,7 +82,7 @@ class OperatorNode {
 
   void run() {
     if (!waitUntil([this] { return surface_.has_value(); }, "the workpiece and its frame")) return;
-    const Motion motion = makeMotion();
+    const PoseStream motion = makePoses();
     if (wait_for_guard_ && !waitUntil([this] { return guard_ready_; }, "the guard to know the workpiece")) return;
     const auto connected = [this] { return static_cast<int>(publisher_.getNumSubscribers()) >= min_subscribers_; };
     if (!waitUntil(connected, std::to_string(min_subscribers_) + " subscribers of the tool pose")) return;
@@ -123,7 +123,7 @@ class OperatorNode {
     return false;
   }
 
-  Motion makeMotion() {
+  PoseStream makePoses() {
     if (recording_.empty()) {
       Drilling::Options options;
       options.depth = kDepth;
@@ -135,7 +135,7 @@ class OperatorNode {
     return replayed(recording_, options);
   }
 
-  bool perform(const Motion& motion) {
+  bool perform(const PoseStream& motion) {
     const ros::Time start = ros::Time::now();
     for (std::optional<StampedPose> pose = motion(); pose; pose = motion()) {
       const ros::Time due = start + ros::Duration().fromNSec(pose->stamp.time_since_epoch().count());

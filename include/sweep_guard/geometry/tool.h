@@ -14,8 +14,7 @@ struct Moments {
 };
 
 /// The rigid tool, in its frame T: origin at the tip, z pointing out of the tip. It is the cylinder of [P, Sec. 3.1],
-/// filling z in [-length, 0]. Every extent is that of the round cylinder; the polygonal one serves its statistics and
-/// its picture.
+/// filling z in [-length, 0]. Every extent is that of the round cylinder; the polygonal one serves its statistics.
 class Tool {
  public:
   /// @param radius  [m], finite, >= 0

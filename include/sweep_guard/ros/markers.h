@@ -32,6 +32,8 @@ class Markers {
  private:
   using Key = std::pair<std::string, int>;  // namespace and id
 
+  void deleteGone(visualization_msgs::MarkerArray& array);
+
   const std::string fixed_frame_;
   const double tool_radius_;
   const double tool_length_;
