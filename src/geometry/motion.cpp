@@ -63,6 +63,7 @@ std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, dou
     return motion.frame_W.at(fraction).inverse() * motion.tool_W.at(fraction);
   };
   std::vector<Motion> motions;
+  motions.reserve(static_cast<size_t>(parts));
   for (int i = 0; i < parts; ++i) {
     motions.push_back({pose_M(static_cast<double>(i) / parts), pose_M(static_cast<double>(i + 1) / parts), bulge});
   }

@@ -76,7 +76,7 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
 }
 
 sweep_guard::Workpieces CheckSweepService::choose(const std::vector<std::string>& ids) const {
-  const sweep_guard::Workpieces all = workpieces_.snapshot();
+  sweep_guard::Workpieces all = workpieces_.snapshot();
   if (all.empty()) throw InvalidInput("no workpiece yet: nothing can be promised");
   if (ids.empty()) return all;
   sweep_guard::Workpieces chosen;

@@ -8,7 +8,7 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr size_t kPosesQueued = 4096;           // 4 s at 1 kHz; by then the poses are stale, and the warning says so
+constexpr size_t kPosesQueued = 4096;            // 4 s at 1 kHz; by then the poses are stale, and the warning says so
 constexpr std::uint32_t kContactsQueued = 1000;  // of 1 s at 1 kHz
 constexpr auto kWatchPeriod = std::chrono::milliseconds(10);    // how late a silent input may be noticed
 constexpr auto kWarningPeriod = std::chrono::milliseconds(45);  // with the watch's: 20 Hz at least

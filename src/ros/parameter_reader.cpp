@@ -61,7 +61,7 @@ std::string ParameterReader::text(const std::string& key, const std::string& fal
 }
 
 std::string ParameterReader::name(const std::string& key, const std::string& fallback) {
-  const std::string name = text(key, fallback);
+  std::string name = text(key, fallback);
   if (name.empty()) refuse(key, XmlRpc::XmlRpcValue(name), "a name, not empty");
   return name;
 }
@@ -83,7 +83,7 @@ Eigen::Vector3d ParameterReader::position(const std::string& key, const Eigen::V
   const Range range{-kFarthest, kFarthest};
   const std::string wanted = "three times " + shown(range);
   if (value.getType() != XmlRpc::XmlRpcValue::TypeArray || value.size() != 3) refuse(key, value, wanted);
-  const Eigen::Vector3d position(toNumber(value[0]), toNumber(value[1]), toNumber(value[2]));
+  Eigen::Vector3d position(toNumber(value[0]), toNumber(value[1]), toNumber(value[2]));
   for (const double coordinate : position) {
     if (!within(coordinate, range)) refuse(key, value, wanted);
   }

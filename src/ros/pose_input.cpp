@@ -77,7 +77,7 @@ void PoseInput::onTransforms() {
     const Incoming incoming{*newest, std::chrono::steady_clock::now(), fixed_frame_,
                             frames_.lookup(fixed_frame_, tool_frame_, *newest)};
     thread_.queue().addCallback(
-        boost::make_shared<Call>([this, incoming] { acceptOrRefuse([&] { return incoming; }); }));
+        boost::make_shared<Call>([this, incoming] { acceptOrRefuse([incoming] { return incoming; }); }));
   } catch (const FrameError& error) {
     ledger_.fault(sweep_guard::kTfFail, error.what());
   }
@@ -143,7 +143,7 @@ Eigen::Isometry3d PoseInput::lookup(const std::string& target, const std::string
   const auto missed = missing_.find(frames);
   const bool silent = missed != missing_.end() && missed->second == frames_.newest(target, source);
   try {
-    const Eigen::Isometry3d X =
+    Eigen::Isometry3d X =
         frames_.lookup(target, source, stamp, silent ? sweep_guard::Duration(0) : kTransformMayBeLate);
     if (missed != missing_.end()) missing_.erase(missed);
     return X;

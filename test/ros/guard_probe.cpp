@@ -60,7 +60,8 @@ GuardProbe::GuardProbe(bool drives_clock, PoseSource pose_source) : time_(drives
            check_sweep_.exists();
   });
   if (drives_clock) {
-    await("the guard's clock", [this] { return clock_publisher_.getNumSubscribers() > 0; });
+    // The guard, and this process itself.
+    await("the subscribers of the clock", [this] { return clock_publisher_.getNumSubscribers() > 1; });
     setClock(time_);
   }
 }
