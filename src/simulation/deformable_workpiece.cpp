@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/run_node.h"
 #include "simulation/workpiece.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/MeshVertices.h"
@@ -154,16 +155,5 @@ class WorkpieceNode {
 }  // namespace sweep_guard_simulation
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "deformable_workpiece");
-  try {
-    sweep_guard_ros::ParameterReader parameters{ros::NodeHandle("~")};
-    ros::Time::waitForValid();
-    sweep_guard_simulation::WorkpieceNode node(parameters);
-    parameters.warnOfUnread();
-    node.run();
-  } catch (const sweep_guard::InvalidInput& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
+  return sweep_guard_simulation::runNode<sweep_guard_simulation::WorkpieceNode>(argc, argv, "deformable_workpiece");
 }

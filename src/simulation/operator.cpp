@@ -14,6 +14,7 @@
 #include "simulation/drilling.h"
 #include "simulation/motion_file.h"
 #include "simulation/replay.h"
+#include "simulation/run_node.h"
 #include "simulation/top_surface.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/Warning.h"
@@ -184,16 +185,5 @@ class OperatorNode {
 }  // namespace sweep_guard_simulation
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "operator");
-  try {
-    sweep_guard_ros::ParameterReader parameters{ros::NodeHandle("~")};
-    ros::Time::waitForValid();
-    sweep_guard_simulation::OperatorNode node(parameters);
-    parameters.warnOfUnread();
-    node.run();
-  } catch (const sweep_guard::InvalidInput& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
+  return sweep_guard_simulation::runNode<sweep_guard_simulation::OperatorNode>(argc, argv, "operator");
 }

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <clocale>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <locale>
 
 #include "sweep_guard/common/error.h"
 
@@ -87,10 +87,14 @@ TEST_F(MotionFileTest, RefusesAFileWithoutPoses) {
   EXPECT_THROW(readMotionFile("/dev/zero"), InvalidInput);
 }
 
+struct DecimalComma : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+};
+
 TEST_F(MotionFileTest, ReadsDecimalPointsInALocaleOfCommas) {
-  if (std::setlocale(LC_NUMERIC, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "locale de_DE.UTF-8 is not installed";
+  const std::locale before = std::locale::global(std::locale(std::locale(), new DecimalComma));
   const double x = read("0 1.5 0 0 0 0 0 1").front().X_WT.translation().x();
-  std::setlocale(LC_NUMERIC, "C");
+  std::locale::global(before);
   EXPECT_EQ(x, 1.5);
 }
 
