@@ -7,20 +7,9 @@
 
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/guard/sweep_test.h"
+#include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard {
-
-/// One workpiece as it was at a moment. Handed around as a shared snapshot, so that a new deformation never waits for a
-/// sweep.
-struct Workpiece {
-  std::string id;
-  std::uint32_t revision = 0;  ///< counts changes of the triangles
-  Time stamp;                  ///< of the vertex positions
-  SteadyTime received;
-  std::string frame;  ///< name of the mesh's frame M
-  TriangleMesh mesh_M;
-};
-using Workpieces = std::vector<std::shared_ptr<const Workpiece>>;
 
 /// Where the tool T is at a moment in the fixed frame W, and where every frame M that a workpiece lives in.
 struct ToolPose {
@@ -35,12 +24,6 @@ struct SweptObject {
   std::shared_ptr<const Workpiece> workpiece;
   Time interval_start;  ///< stamp of the pose that the sweep began at
   SweepFindings findings;
-};
-
-/// A workpiece that could not be swept, and why.
-struct SweepFailure {
-  std::shared_ptr<const Workpiece> workpiece;
-  std::string reason;
 };
 
 /// One step of the guard: everything that happened up to a pose.

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "sweep_guard/prediction/horizon.h"
+
+namespace sweep_guard {
+
+/// How many predicted sweeps fit into a cycle. Predicting must not slow the guard below its rate [P, Sec. 3.2]: as the
+/// sweeps cost more, the considered interval is cut into fewer, longer ones. The reflex interval keeps its steps.
+class Budget {
+ public:
+  /// @param cycle  time there is for one pose: its measured sweep and all predicted ones, > 0
+  Budget(const HorizonOptions& horizon, Duration cycle);
+
+  /// Number of sweeps to cut the considered interval into now, at least 1.
+  size_t consideredSweeps() const;
+
+  /// What the newest cycle took.
+  /// @param measured   the sweep to the measured pose
+  /// @param predicted  all predicted sweeps, `sweeps` of them
+  void spent(Duration measured, Duration predicted, size_t sweeps);
+
+ private:
+  HorizonOptions horizon_;
+  Duration cycle_;
+  double measured_ = 0.0;   // [s], slow to fall
+  double per_sweep_ = 0.0;  // [s], slow to fall
+};
+
+}  // namespace sweep_guard

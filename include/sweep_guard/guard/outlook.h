@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/geometry/swept_volume.h"
+#include "sweep_guard/guard/workpiece.h"
+#include "sweep_guard/prediction/horizon.h"
+#include "sweep_guard/prediction/pose_predictor.h"
+
+namespace sweep_guard {
+
+/// One sweep along the predicted path, tested against one workpiece.
+struct PredictedSweep {
+  Duration contact_from{};   ///< after the newest pose: contact in this sweep does not begin earlier
+  bool met = false;          ///< the predicted path itself meets the workpiece
+  double probability = 0.0;  ///< that the tool meets the workpiece in this sweep, in [0, 1]; below 0.001 it is 0
+};
+
+/// How the predicted path fares with one workpiece.
+struct PredictedObject {
+  std::shared_ptr<const Workpiece> workpiece;
+  std::vector<PredictedSweep> sweeps;     ///< as many as the path has poses: sweep i ends at pose i
+  std::vector<std::uint32_t> reflex;      ///< triangles met within the reflex interval: ascending, each once
+  std::vector<std::uint32_t> considered;  ///< triangles met later: ascending, each once, none of `reflex`
+  std::vector<SweptVolume> volumes_M;     ///< those of the sweeps, end to end, in the mesh's frame
+};
+
+/// What is expected to happen after a pose.
+struct Outlook {
+  Time stamp;                            ///< of the newest measured pose: the path begins there
+  PredictedPath path;                    ///< empty: the motion is not known yet
+  size_t reflex_sweeps = 0;              ///< the first so many end within the reflex interval
+  size_t sweeps_asked = 0;               ///< sweeps of the configured steps; fewer were made where time did not allow
+  std::vector<PredictedObject> objects;  ///< every workpiece tested
+  Workpieces unplaced;                   ///< workpieces whose frame is not known at the pose: not tested
+  std::vector<SweepFailure> failures;    ///< workpieces whose detection failed: not tested
+
+  /// Up to where every workpiece has been tested: the end of the path, or the pose itself.
+  Time coveredUntil() const;
+};
+
+/// A contact that an operator is warned of.
+struct ExpectedContact {
+  Time from;                 ///< it does not begin earlier
+  bool met = false;          ///< by the predicted path itself; otherwise it is merely probable enough
+  double probability = 0.0;  ///< largest of the sweeps from `from` on, in [0, 1]
+  std::string mesh_id;
+  std::vector<std::uint32_t> triangles;  ///< met by the predicted path: ascending, each once; empty if merely probable
+};
+
+/// The earliest sweep that meets a workpiece, or does so with at least this probability; empty if none does.
+/// @param min_probability  in (0, 1]
+std::optional<ExpectedContact> expectedContact(const Outlook& outlook, double min_probability);
+
+}  // namespace sweep_guard
