@@ -11,8 +11,8 @@ namespace sweep_guard {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Where the tool is expected to be some time after the newest pose observed.
-struct PredictedPose {
+/// Where the tool is expected to be some time after the newest pose observed. (The message of it is PredictedPose.)
+struct ExpectedPose {
   Duration ahead{};                                        ///< after the stamp of the newest pose observed, > 0
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the best guess
   /// Of its error: translation [m], then rotation vector [rad], both along the axes of W; symmetric, positive
@@ -21,7 +21,7 @@ struct PredictedPose {
 };
 
 /// Ascending in time. It begins at the newest pose observed, which is no part of it.
-using PredictedPath = std::vector<PredictedPose>;
+using PredictedPath = std::vector<ExpectedPose>;
 
 struct PredictorOptions {
   std::string predictor = "direct";  ///< one of predictorNames()
