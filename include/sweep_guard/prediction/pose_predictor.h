@@ -49,8 +49,8 @@ class PosePredictor {
   PosePredictor& operator=(PosePredictor&&) noexcept;
 
   /// Takes in the newest pose. A pose whose stamp is not later than that of the pose before replaces it. After a gap
-  /// (0.25 s, or three periods of slower poses) or a jump faster than the limits the fit begins anew; what was learned
-  /// of the operator is kept.
+  /// (0.25 s, or three periods of slower poses, 1 s at most) or a jump faster than the limits the fit begins anew; what
+  /// was learned of the operator is kept.
   void observe(const StampedPose& pose);
 
   /// The poses expected after the newest one observed; empty until a motion is known: two poses since the start or a

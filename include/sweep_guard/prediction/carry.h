@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "sweep_guard/prediction/rls.h"
+
+namespace sweep_guard {
+
+/// Learns how far an operator's velocities carry the tool within one horizon: a recursive least squares fit of the
+/// displacement that really came on the velocities known before, the coefficients shared by the three axes. What it has
+/// not learned yet is constant velocity; where its own errors turn out worse than those of constant velocity or of
+/// holding still, it leans on these. For translation [m, m/s] or rotation [rad, rad/s].
+class Carry {
+ public:
+  static constexpr int kVelocities = 5;
+  using Velocities = Eigen::Matrix<double, 3, kVelocities>;  ///< one per column, the first of them the newest
+  using Weights = Eigen::Matrix<double, kVelocities, 1>;     ///< [s] displacement expected: velocities * weights
+
+  /// @param ahead        the horizon [s], > 0
+  /// @param prior_speed  it takes a second of motion at this speed to outweigh the assumption of constant velocity
+  Carry(double ahead, double prior_speed) : ahead_(ahead), prior_(prior_speed * prior_speed) {}
+
+  /// @param velocities  known at a pose
+  /// @param moved       displacement that came within the horizon after it
+  /// @param period      since the pose before [s], > 0
+  void learn(const Velocities& velocities, const Eigen::Vector3d& moved, double period);
+
+  const Weights& weights() const { return weights_; }
+  double reach() const;  ///< root mean square of the recent displacements; infinite as long as there is none
+
+ private:
+  Eigen::Vector3d steady(const Velocities& velocities) const { return ahead_ * velocities.col(0); }
+  void compare(const std::array<double, 3>& errors, double period);
+  void blend();
+
+  double ahead_;
+  double prior_;
+  Rls<kVelocities, 1> fit_;
+  Weights learned_ = Weights::Zero();  // what the velocities carry besides constant velocity
+  std::array<double, 3> errors_{};     // recent: of what was learned, constant velocity, holding still
+  double squares_ = 0.0;               // of the displacements, weighted as below
+  double weight_ = 0.0;                // [s]
+  Weights weights_ = ahead_ * Weights::Unit(0);
+};
+
+}  // namespace sweep_guard

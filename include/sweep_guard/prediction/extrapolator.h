@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sweep_guard/prediction/displacement.h"
+#include "sweep_guard/prediction/motion_track.h"
+#include "sweep_guard/prediction/pose_predictor.h"
+
+namespace sweep_guard {
+
+/// One way of carrying a motion on.
+class Extrapolator {
+ public:
+  virtual ~Extrapolator() = default;
+
+  /// Takes in the newest pose of the track.
+  virtual void observe(const MotionTrack& track) = 0;
+
+  /// How far the tool is expected to go from the newest pose.
+  /// @param ahead  [s], > 0
+  virtual Vector6d displacementIn(double ahead) const = 0;
+
+ protected:
+  Extrapolator() = default;
+  Extrapolator(const Extrapolator&) = default;
+  Extrapolator& operator=(const Extrapolator&) = default;
+};
+
+/// @throws InvalidInput if an option is out of range
+std::unique_ptr<Extrapolator> makeExtrapolator(const PredictorOptions& options);
+
+}  // namespace sweep_guard

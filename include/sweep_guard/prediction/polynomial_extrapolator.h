@@ -1,0 +1,28 @@
+#pragma once
+
+#include "sweep_guard/prediction/extrapolator.h"
+#include "sweep_guard/prediction/velocity.h"
+
+namespace sweep_guard {
+
+/// The paper's predictor [P, Sec. 3.2]: one polynomial in time per degree of freedom, mutually independent, by
+/// recursive least squares on an observation period. Degrees above 1 wait until half of that period has been observed.
+class PolynomialExtrapolator : public Extrapolator {
+ public:
+  /// @throws InvalidInput if an option is out of range
+  explicit PolynomialExtrapolator(const PredictorOptions& options);
+
+  void observe(const MotionTrack& track) override;
+  Vector6d displacementIn(double ahead) const override;
+
+ private:
+  std::array<int, 6> degree_;
+  std::array<bool, 6> constrained_;
+  Duration window_;
+  PolynomialFit fit_;
+  PolynomialFit::Curve curve_;
+  Time newest_;
+  Vector6d coordinates_ = Vector6d::Zero();
+};
+
+}  // namespace sweep_guard

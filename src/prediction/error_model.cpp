@@ -1,0 +1,66 @@
+#include "sweep_guard/prediction/error_model.h"
+
+#include <cmath>
+
+#include "sweep_guard/prediction/interpolation.h"
+
+namespace sweep_guard {
+namespace {
+
+constexpr double kMemory = 20.0;      // [s]
+constexpr double kPriorShare = 0.3;   // of the way at present speed: what is taken for the error before any is known
+constexpr double kPriorWeight = 1.0;  // [s] of errors that outweigh it
+
+}  // namespace
+
+ErrorModel::ErrorModel() {
+  for (auto& records : records_) {
+    for (size_t i = 0; i < kLearnedAhead.size(); ++i) {
+      const double error = kPriorShare * kLearnedAhead[i];
+      records[i] = {kPriorWeight * error * error, kPriorWeight};
+    }
+  }
+}
+
+void ErrorModel::observe(const MotionTrack& track, const Vector6d& velocity, const Forecast& forecast) {
+  activity_ = activityAt(track, velocity);
+  if (track.step() == MotionTrack::Step::kCorrects) return;
+  if (track.step() == MotionTrack::Step::kBegins) hindsight_.clear();
+  const double period = toSeconds(track.period());
+  const double fade = std::exp(-period / kMemory);
+  hindsight_.add(track.newest(), {forecast, activity_}, [&](const Known& known, size_t i, const Vector6d& moved) {
+    const auto pose = [](const Vector6d& moved_to) { return displaced(Eigen::Isometry3d::Identity(), moved_to); };
+    const Vector6d error = displacement(pose(known.forecast[i]), pose(moved));
+    for (int kind = 0; kind < 2; ++kind) {
+      if (known.activity[kind] <= 0.0) continue;
+      Record& record = records_[static_cast<size_t>(kind)][i];
+      record.squares =
+          fade * record.squares + period * error.segment<3>(3 * kind).squaredNorm() / 3.0 / known.activity[kind];
+      record.weight = fade * record.weight + period;
+    }
+  });
+}
+
+Eigen::Vector2d ErrorModel::activityAt(const MotionTrack& track, const Vector6d& velocity) {
+  const Eigen::Vector2d squares(velocity.head<3>().squaredNorm(), velocity.tail<3>().squaredNorm());
+  if (track.step() == MotionTrack::Step::kContinues) {
+    const double period = toSeconds(track.period());
+    const double fade = std::exp(-period / kMemory);
+    speed_squares_ = fade * speed_squares_ + period * squares;
+    weight_ = fade * weight_ + period;
+  }
+  return weight_ > 0.0 ? Eigen::Vector2d(squares + speed_squares_ / weight_) : squares;
+}
+
+ErrorModel::Variance ErrorModel::variance(double ahead) const {
+  const auto of = [&](size_t kind) {
+    const double share = overLearnedAhead<double>(ahead, [&](size_t i) {
+      const Record& record = records_[kind][i];
+      return std::sqrt(record.squares / record.weight) / kLearnedAhead[i];
+    });
+    return share * share * ahead * ahead * activity_[static_cast<Eigen::Index>(kind)];
+  };
+  return {of(0), of(1)};
+}
+
+}  // namespace sweep_guard

@@ -1,0 +1,135 @@
+#include "sweep_guard/prediction/polynomial_fit.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace sweep_guard {
+namespace {
+
+constexpr int kTerms = PolynomialFit::kHighestDegree + 1;
+using Terms = Eigen::Matrix<double, kTerms, 1>;
+
+// Bonnet's recursion.
+Terms legendre(double x) {
+  Terms p = Terms::Ones();
+  p[1] = x;
+  for (int k = 1; k + 1 < kTerms; ++k) p[k + 1] = ((2 * k + 1) * x * p[k] - k * p[k - 1]) / (k + 1);
+  return p;
+}
+
+Terms legendreSlope(double x) {
+  const Terms p = legendre(x);
+  Terms slope = Terms::Zero();
+  slope[1] = 1.0;
+  for (int k = 1; k + 1 < kTerms; ++k) slope[k + 1] = slope[k - 1] + (2 * k + 1) * p[k];
+  return slope;
+}
+
+}  // namespace
+
+Vector6d PolynomialFit::Curve::sum(const Vector6d& constant, const Eigen::Matrix<double, kTerms, 1>& terms) const {
+  Vector6d values = constant;
+  for (int axis = 0; axis < 6; ++axis) {
+    const auto& coefficients = estimateFor(axis).coefficients;
+    values[axis] += coefficients.col(axis).dot(terms.head(coefficients.rows()));
+  }
+  return values;
+}
+
+Vector6d PolynomialFit::Curve::at(Time stamp) const { return sum(origin_, legendre(abscissa(stamp))); }
+
+Vector6d PolynomialFit::Curve::slopeAt(Time stamp) const {
+  return sum(Vector6d::Zero(), legendreSlope(abscissa(stamp))) / half_width_;
+}
+
+Vector6d PolynomialFit::Curve::varianceAt(Time stamp) const {
+  const Terms terms = legendre(abscissa(stamp));
+  Vector6d variance;
+  for (int axis = 0; axis < 6; ++axis) {
+    const Fit::Estimate& estimate = estimateFor(axis);
+    const auto used = terms.head(estimate.covariance.rows());
+    variance[axis] = estimate.variance[axis] * used.dot(estimate.covariance * used);
+  }
+  return variance;
+}
+
+PolynomialFit::PolynomialFit(const Options& options) : options_(options), samples_(64) {
+  assert(options.degree >= 0 && options.degree <= kHighestDegree && options.window > Duration::zero());
+  assert(options.forgetting_factor > 0.0 && options.forgetting_factor <= 1.0);
+}
+
+void PolynomialFit::add(Time stamp, const Vector6d& values) {
+  assert(samples_.empty() || stamp > samples_.back().stamp);
+  if (samples_.full()) samples_.set_capacity(2 * samples_.capacity());
+  samples_.push_back({stamp, values});
+  fit_.forget(options_.forgetting_factor);
+  include(samples_.back());
+  dropOld();
+  const Time wanted_middle = samples_.front().stamp + span() / 2;
+  if (std::abs(toSeconds(wanted_middle - middle_)) > half_width_ / 4.0 ||
+      std::abs(toSeconds(span()) / 2.0 - half_width_) > half_width_ / 4.0) {
+    rebuild();
+  }
+}
+
+void PolynomialFit::replaceNewest(const Vector6d& values) {
+  assert(!samples_.empty());
+  samples_.back().values = values;
+  rebuild();
+}
+
+void PolynomialFit::clear() {
+  samples_.clear();
+  fit_ = {};
+}
+
+Duration PolynomialFit::span() const {
+  return samples_.empty() ? Duration::zero() : samples_.back().stamp - samples_.front().stamp;
+}
+
+void PolynomialFit::include(const Sample& sample) {
+  fit_.add(legendre(toSeconds(sample.stamp - middle_) / half_width_), sample.values - origin_);
+}
+
+void PolynomialFit::dropOld() {
+  const Time oldest = samples_.back().stamp - options_.window;
+  const size_t kept = static_cast<size_t>(std::max(options_.degree + 1, 2));
+  while (samples_.size() > kept && samples_.front().stamp < oldest) {
+    const Sample& old = samples_.front();
+    const double weight = std::pow(options_.forgetting_factor, static_cast<double>(samples_.size() - 1));
+    fit_.add(legendre(toSeconds(old.stamp - middle_) / half_width_), old.values - origin_, -weight);
+    samples_.pop_front();
+  }
+}
+
+void PolynomialFit::rebuild() {
+  middle_ = samples_.front().stamp + span() / 2;
+  half_width_ = std::max(toSeconds(span()) / 2.0, 1e-9);
+  origin_ = samples_.back().values;
+  fit_ = {};
+  for (const Sample& sample : samples_) {
+    fit_.forget(options_.forgetting_factor);
+    include(sample);
+  }
+}
+
+PolynomialFit::Curve PolynomialFit::curve(const Degrees& degrees) const {
+  assert(!samples_.empty());
+  Curve curve;
+  curve.middle_ = middle_;
+  curve.half_width_ = half_width_;
+  curve.origin_ = origin_;
+  const int possible = static_cast<int>(std::min<size_t>(samples_.size(), kTerms)) - 1;
+  for (size_t axis = 0; axis < degrees.size(); ++axis) {
+    assert(degrees[axis] <= options_.degree);
+    curve.degrees_[axis] = std::min(degrees[axis], possible);
+  }
+  for (const int degree : curve.degrees_) {
+    auto& estimate = curve.by_degree_[static_cast<size_t>(degree)];
+    if (estimate.coefficients.rows() == 0) estimate = fit_.estimate(degree + 1);
+  }
+  return curve;
+}
+
+}  // namespace sweep_guard
