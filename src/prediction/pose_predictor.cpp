@@ -69,7 +69,7 @@ PredictedPath PosePredictor::predict(const std::vector<Duration>& ahead) const {
     assert(duration > (path.empty() ? Duration::zero() : path.back().ahead));
     const double seconds = toSeconds(duration);
     const ErrorModel::Variance variance = parts_->errors.variance(seconds);
-    PredictedPose pose;
+    ExpectedPose pose;
     pose.ahead = duration;
     pose.X_WT = displaced(parts_->track.newest().X_WT, parts_->displacementIn(seconds));
     pose.covariance.diagonal().head<3>().setConstant(variance.translation);
