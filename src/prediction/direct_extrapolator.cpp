@@ -31,8 +31,8 @@ DirectExtrapolator::DirectExtrapolator()
 
 void DirectExtrapolator::observe(const MotionTrack& track) {
   measure(track);
-  if (track.step() == MotionTrack::Step::kCorrects) return;
   if (track.step() == MotionTrack::Step::kBegins) hindsight_.clear();
+  if (track.step() != MotionTrack::Step::kContinues) return;
   const double period = toSeconds(track.period());
   hindsight_.add(track.newest(), velocities_, [&](const Velocities& known, size_t i, const Vector6d& moved) {
     translation_[i].learn(known.topRows<3>(), moved.head<3>(), period);

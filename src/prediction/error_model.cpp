@@ -24,8 +24,8 @@ ErrorModel::ErrorModel() {
 
 void ErrorModel::observe(const MotionTrack& track, const Vector6d& velocity, const Forecast& forecast) {
   activity_ = activityAt(track, velocity);
-  if (track.step() == MotionTrack::Step::kCorrects) return;
   if (track.step() == MotionTrack::Step::kBegins) hindsight_.clear();
+  if (track.step() != MotionTrack::Step::kContinues) return;
   const double period = toSeconds(track.period());
   const double fade = std::exp(-period / kMemory);
   hindsight_.add(track.newest(), {forecast, activity_}, [&](const Known& known, size_t i, const Vector6d& moved) {

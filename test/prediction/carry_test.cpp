@@ -1,0 +1,72 @@
+#include "sweep_guard/prediction/carry.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace sweep_guard {
+namespace {
+
+constexpr double kAhead = 0.5;        // [s]
+constexpr double kPriorSpeed = 0.02;  // [m/s]
+constexpr double kPeriod = 0.01;      // [s]
+
+Carry::Velocities anyVelocities(Random& random, double speed) {
+  Carry::Velocities velocities;
+  for (int i = 0; i < Carry::kVelocities; ++i) velocities.col(i) = speed * random.direction();
+  return velocities;
+}
+
+TEST(CarryTest, IsConstantVelocityBeforeItHasLearned) {
+  EXPECT_EQ(Carry(kAhead, kPriorSpeed).weights(), kAhead * Carry::Weights::Unit(0));
+}
+
+// An operator whose motions of the last 0.3 s carry on for 0.2 s and then stop.
+TEST(CarryTest, LearnsWhichVelocitiesCarryAndHowFar) {
+  Random random(1);
+  Carry carry(kAhead, kPriorSpeed);
+  for (int i = 0; i < 2000; ++i) {
+    const Carry::Velocities velocities = anyVelocities(random, 0.3);
+    carry.learn(velocities, 0.2 * velocities.col(2), kPeriod);
+  }
+  EXPECT_LT((carry.weights() - 0.2 * Carry::Weights::Unit(2)).norm(), 1e-3);
+}
+
+TEST(CarryTest, FollowsAnOperatorWhoChanges) {
+  Random random(2);
+  Carry carry(kAhead, kPriorSpeed);
+  for (int i = 0; i < 20000; ++i) {
+    const Carry::Velocities velocities = anyVelocities(random, 0.3);
+    carry.learn(velocities, (i < 10000 ? 0.5 : 0.1) * velocities.col(0), kPeriod);
+  }
+  EXPECT_NEAR(carry.weights()[0], 0.1, 0.01);
+}
+
+// Velocities that say nothing of where the tool goes: to hold still errs least.
+TEST(CarryTest, LeansOnHoldingStillWhereVelocitiesMislead) {
+  Random random(3);
+  Carry carry(kAhead, kPriorSpeed);
+  for (int i = 0; i < 3000; ++i) carry.learn(anyVelocities(random, 1.0), 0.05 * random.direction(), kPeriod);
+  EXPECT_LT(carry.weights().norm(), 0.02);
+}
+
+// Noise about a tool at rest, and then it goes: what was learned from the noise must not be blown up by the motion.
+TEST(CarryTest, DoesNotExplodeWhenRestEnds) {
+  Random random(4);
+  Carry carry(kAhead, kPriorSpeed);
+  for (int i = 0; i < 300; ++i) carry.learn(anyVelocities(random, 1e-4), 1e-5 * random.direction(), kPeriod);
+  for (int i = 0; i < 50; ++i) {
+    carry.learn(anyVelocities(random, 1e-4), Eigen::Vector3d(0.1 * i / 50, 0.0, 0.0), kPeriod);
+    EXPECT_LT(carry.weights().cwiseAbs().maxCoeff(), 3.0 * kAhead);
+  }
+}
+
+TEST(CarryTest, KnowsHowFarMotionsUsuallyReach) {
+  Carry carry(kAhead, kPriorSpeed);
+  EXPECT_TRUE(std::isinf(carry.reach()));
+  for (int i = 0; i < 10; ++i) carry.learn(Carry::Velocities::Zero(), {0.0, 0.3, 0.4}, kPeriod);
+  EXPECT_NEAR(carry.reach(), 0.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace sweep_guard

@@ -1,0 +1,79 @@
+#include "sweep_guard/prediction/error_model.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace sweep_guard {
+namespace {
+
+// A tool that goes along x at a speed that changes now and then, and forecasts that err by a known share of it.
+class ErrorModelTest : public testing::Test {
+ protected:
+  void go(double seconds, double speed, double error_share) {
+    for (int i = 0; i < static_cast<int>(seconds / kPeriod); ++i) {
+      time_ += kPeriod;
+      x_ += speed * kPeriod;
+      StampedPose pose;
+      pose.stamp = Time(fromSeconds(time_));
+      pose.X_WT.translation().x() = x_;
+      track_.add(pose);
+      Vector6d velocity = Vector6d::Zero();
+      velocity[0] = speed;
+      Forecast forecast;
+      for (size_t k = 0; k < forecast.size(); ++k) {
+        forecast[k] = kLearnedAhead[k] * velocity;
+        forecast[k].head<3>() += error_share * kLearnedAhead[k] * speed * std::sqrt(3.0) * random_.direction();
+      }
+      model_.observe(track_, velocity, forecast);
+    }
+  }
+  double deviation(double ahead) const { return std::sqrt(model_.variance(ahead).translation); }
+
+  static constexpr double kPeriod = 0.01;
+  Random random_{1};
+  double time_ = 100.0;
+  double x_ = 0.0;
+  MotionTrack track_{5.0, 20.0};
+  ErrorModel model_;
+};
+
+TEST_F(ErrorModelTest, SupposesAShareOfTheWayBeforeItKnows) {
+  go(0.02, 0.2, 0.0);
+  EXPECT_GT(deviation(0.5), 0.1 * 0.5 * 0.2);
+  EXPECT_LT(deviation(0.5), 0.5 * 0.2);
+}
+
+TEST_F(ErrorModelTest, FindsHowFarForecastsErr) {
+  go(60.0, 0.2, 0.1);
+  for (const double ahead : kLearnedAhead) EXPECT_NEAR(deviation(ahead), 0.1 * ahead * 0.2, 0.1 * 0.1 * ahead * 0.2);
+}
+
+TEST_F(ErrorModelTest, InterpolatesBetweenHorizonsAndGrowsBeyondThem) {
+  go(60.0, 0.2, 0.1);
+  EXPECT_GT(deviation(0.6), deviation(0.5));
+  EXPECT_LT(deviation(0.6), deviation(0.75));
+  EXPECT_NEAR(deviation(2.0), 2.0 * deviation(1.0), 1e-9);
+  EXPECT_LT(deviation(0.001), deviation(0.02));
+}
+
+TEST_F(ErrorModelTest, ExpectsGreaterErrorsInFastMotion) {
+  go(20.0, 0.1, 0.1);
+  go(20.0, 0.3, 0.1);
+  const double fast = deviation(0.5);
+  go(0.02, 0.1, 0.1);
+  EXPECT_LT(deviation(0.5), 0.9 * fast);
+}
+
+TEST_F(ErrorModelTest, AToolThatNeverErrsIsTrusted) {
+  go(120.0, 0.2, 0.0);
+  EXPECT_LT(deviation(1.0), 0.01 * 0.2);
+}
+
+TEST_F(ErrorModelTest, KnowsNothingAboutTurnsOfAToolThatNeverTurned) {
+  go(20.0, 0.2, 0.1);
+  EXPECT_EQ(model_.variance(0.5).rotation, 0.0);
+}
+
+}  // namespace
+}  // namespace sweep_guard

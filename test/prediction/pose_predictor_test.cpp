@@ -1,0 +1,245 @@
+#include "sweep_guard/prediction/pose_predictor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "scenes.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/prediction/displacement.h"
+
+namespace sweep_guard {
+namespace {
+
+using std::chrono::milliseconds;
+
+const std::vector<Duration> kAhead = {milliseconds(10),  milliseconds(50),  milliseconds(100),
+                                      milliseconds(200), milliseconds(500), milliseconds(1000)};
+
+Time at(double seconds) { return Time(fromSeconds(1000.0 + seconds)); }
+
+using PoseAt = std::function<Eigen::Isometry3d(double)>;
+
+PosePredictor predictorOf(const std::string& name) {
+  PredictorOptions options;
+  options.predictor = name;
+  return PosePredictor(options);
+}
+
+void follow(PosePredictor& predictor, const PoseAt& truth, double from, double until, double period) {
+  for (int i = 0; from + i * period <= until + 1e-9; ++i) {
+    predictor.observe({at(from + i * period), truth(from + i * period)});
+  }
+}
+
+void expectExact(const PosePredictor& predictor, const PoseAt& truth, double now, double tolerance) {
+  const PredictedPath path = predictor.predict(kAhead);
+  ASSERT_EQ(path.size(), kAhead.size());
+  for (const ExpectedPose& pose : path) {
+    const Vector6d error = displacement(pose.X_WT, truth(now + toSeconds(pose.ahead)));
+    EXPECT_LT(error.norm(), tolerance) << toSeconds(pose.ahead) << " s ahead";
+  }
+}
+
+// Each axis a polynomial of its own; it turns about one axis, faster and faster, through many half turns.
+Eigen::Isometry3d polynomialMotion(double t) {
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
+  X_WT.translation() << 0.2 - 0.1 * t, 0.05 * t * t - 0.1 * t, 0.01 * t * t * t;
+  const Eigen::Vector3d axis_T = Eigen::Vector3d(1.0, 2.0, -2.0) / 3.0;
+  X_WT.linear() = Eigen::AngleAxisd(3.0 * t + 0.2 * t * t, axis_T).toRotationMatrix();
+  return X_WT;
+}
+
+Eigen::Isometry3d steadyMotion(double t) {
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
+  X_WT.translation() << 0.1 * t, 0.02 - 0.05 * t, 0.0;
+  X_WT.linear() = Eigen::AngleAxisd(1.5 * t, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  return X_WT;
+}
+
+TEST(PosePredictorTest, APolynomialOfItsDegreeIsPredictedExactly) {
+  for (const double period : {0.001, 0.01, 0.066}) {
+    PredictorOptions options;
+    options.predictor = "polynomial";
+    options.degree = {1, 2, 3, 2, 2, 2};
+    PosePredictor predictor(options);
+    follow(predictor, polynomialMotion, 0.0, 3.0, period);
+    expectExact(predictor, polynomialMotion, std::floor(3.0 / period + 1e-9) * period, 1e-9);
+  }
+}
+
+TEST(PosePredictorTest, ConstantVelocityIsPredictedExactlyByAllThatMove) {
+  for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
+    PosePredictor predictor = predictorOf(name);
+    follow(predictor, steadyMotion, 0.0, 0.5, 0.01);
+    expectExact(predictor, steadyMotion, 0.5, 1e-9);
+    follow(predictor, steadyMotion, 0.51, 30.0, 0.01);
+    expectExact(predictor, steadyMotion, 30.0, 1e-9);
+  }
+}
+
+TEST(PosePredictorTest, HoldStaysWhereTheToolIs) {
+  PosePredictor predictor = predictorOf("hold");
+  follow(predictor, steadyMotion, 0.0, 1.0, 0.01);
+  for (const ExpectedPose& pose : predictor.predict(kAhead)) {
+    EXPECT_TRUE(pose.X_WT.isApprox(steadyMotion(1.0), 1e-12));
+    EXPECT_GT(pose.covariance(0, 0), 0.0);
+  }
+}
+
+TEST(PosePredictorTest, AConstrainedAxisIsHeld) {
+  PredictorOptions options;
+  options.predictor = "polynomial";
+  options.constrained = {false, true, false, false, true, false};
+  PosePredictor predictor(options);
+  follow(predictor, steadyMotion, 0.0, 1.0, 0.01);
+  const Eigen::Isometry3d X_WT = predictor.predict(kAhead).back().X_WT;
+  EXPECT_NEAR(X_WT.translation().x(), steadyMotion(2.0).translation().x(), 1e-9);
+  EXPECT_NEAR(X_WT.translation().y(), steadyMotion(1.0).translation().y(), 1e-9);
+  EXPECT_TRUE(X_WT.linear().isApprox(steadyMotion(1.0).linear(), 1e-9));
+}
+
+TEST(PosePredictorTest, KnowsNothingBeforeTheSecondPose) {
+  for (const std::string& name : predictorNames()) {
+    PosePredictor predictor = predictorOf(name);
+    EXPECT_TRUE(predictor.predict(kAhead).empty());
+    predictor.observe({at(0.0), steadyMotion(0.0)});
+    EXPECT_TRUE(predictor.predict(kAhead).empty());
+    predictor.observe({at(0.01), steadyMotion(0.01)});
+    EXPECT_EQ(predictor.predict(kAhead).size(), kAhead.size()) << name;
+  }
+}
+
+TEST(PosePredictorTest, BeginsAnewAfterAGapAJumpOrARestart) {
+  for (const std::string& name : predictorNames()) {
+    PosePredictor predictor = predictorOf(name);
+    follow(predictor, steadyMotion, 0.0, 1.0, 0.01);
+    predictor.observe({at(3.0), steadyMotion(3.0)});
+    EXPECT_TRUE(predictor.predict(kAhead).empty()) << name << ": a gap of 2 s";
+    follow(predictor, steadyMotion, 3.01, 3.1, 0.01);
+    predictor.observe({at(3.11), Eigen::Translation3d(9.0, 0.0, 0.0) * steadyMotion(3.11)});
+    EXPECT_TRUE(predictor.predict(kAhead).empty()) << name << ": a jump of 9 m";
+    follow(predictor, steadyMotion, 3.12, 3.3, 0.01);
+    EXPECT_FALSE(predictor.predict(kAhead).empty());
+    predictor.restart();
+    predictor.observe({at(0.0), steadyMotion(0.0)});
+    EXPECT_TRUE(predictor.predict(kAhead).empty()) << name << ": restarted";
+  }
+}
+
+TEST(PosePredictorTest, WhatWasLearnedSurvivesAGap) {
+  // Back and forth: a velocity does not carry far.
+  const PoseAt shake = [](double t) { return Eigen::Isometry3d(Eigen::Translation3d(0.05 * std::sin(6.0 * t), 0, 0)); };
+  PosePredictor predictor = predictorOf("direct");
+  follow(predictor, shake, 0.0, 30.0, 0.01);
+  follow(predictor, shake, 33.0, 33.05, 0.01);
+  const double speed = 0.3 * std::cos(6.0 * 33.05);
+  const double far = predictor.predict(kAhead).back().X_WT.translation().x() - shake(33.05).translation().x();
+  EXPECT_LT(std::abs(far), 0.5 * std::abs(speed));
+}
+
+TEST(PosePredictorTest, IsNeverFasterThanTheLimits) {
+  for (const std::string& name : predictorNames()) {
+    PredictorOptions options;
+    options.predictor = name;
+    options.degree = {3, 3, 3, 3, 3, 3};
+    options.max_speed = 0.5;
+    options.max_turn_rate = 2.0;
+    PosePredictor predictor(options);
+    const PoseAt rush = [](double t) {
+      return Eigen::Translation3d(0.4 * t * t, 0, 0) * Eigen::AngleAxisd(1.5 * t * t, Eigen::Vector3d::UnitZ());
+    };
+    follow(predictor, rush, 0.0, 0.6, 0.01);
+    for (const ExpectedPose& pose : predictor.predict(kAhead)) {
+      const Vector6d moved = displacement(rush(0.6), pose.X_WT);
+      EXPECT_LE(moved.head<3>().norm(), 0.5 * toSeconds(pose.ahead) + 1e-12) << name;
+      EXPECT_LE(moved.tail<3>().norm(), 2.0 * toSeconds(pose.ahead) + 1e-9) << name;
+    }
+  }
+}
+
+// Gaps, jumps, outliers, equal stamps, rest, rates from 5 Hz to 1 kHz: whatever comes, what goes out is a pose, as near
+// as the limits say, with a covariance.
+TEST(PosePredictorTest, NothingThatComesMakesItExplode) {
+  for (const std::string& name : predictorNames()) {
+    Random random(7);
+    PredictorOptions options;
+    options.predictor = name;
+    options.degree = {0, 1, 2, 3, 4, 5};
+    PosePredictor predictor(options);
+    double t = 0.0;
+    Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
+    for (int i = 0; i < 20000; ++i) {
+      if (!random.chance(0.05)) t += random.chance(0.002) ? 3.0 : random.logUniform(0.001, 0.2);
+      const double step = random.chance(0.3) ? 0.0 : random.logUniform(1e-9, 1e-2);
+      X_WT.translation() += step * random.direction();
+      X_WT.linear() = X_WT.linear() * random.turn(random.chance(0.3) ? 0.0 : random.logUniform(1e-9, 0.3));
+      X_WT.linear() = Eigen::Quaterniond(X_WT.linear()).normalized().toRotationMatrix();
+      const Eigen::Isometry3d outlier = random.pose(100.0 * random.direction());
+      predictor.observe({at(t), random.chance(0.01) ? outlier : X_WT});
+      for (const ExpectedPose& pose : predictor.predict(kAhead)) {
+        ASSERT_TRUE(pose.X_WT.matrix().allFinite() && pose.covariance.allFinite()) << name << ", pose " << i;
+        ASSERT_GE(pose.covariance.diagonal().minCoeff(), 0.0);
+        ASSERT_NEAR(pose.X_WT.linear().determinant(), 1.0, 1e-9);
+      }
+    }
+  }
+}
+
+// The shorter way from pose to pose, so that neither a half turn nor a full turn shows.
+TEST(PosePredictorTest, SpinsThroughHalfTurnsSmoothly) {
+  const PoseAt spin = [](double t) {
+    return Eigen::Isometry3d(Eigen::AngleAxisd(9.0 * t, Eigen::Vector3d(2.0, -1.0, 2.0) / 3.0));
+  };
+  for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
+    PosePredictor predictor = predictorOf(name);
+    follow(predictor, spin, 0.0, 0.3, 0.01);
+    for (int i = 31; i < 300; ++i) {
+      predictor.observe({at(0.01 * i), spin(0.01 * i)});
+      const ExpectedPose pose = predictor.predict({milliseconds(100)})[0];
+      ASSERT_LT(displacement(pose.X_WT, spin(0.01 * i + 0.1)).norm(), 1e-6) << name << " at " << 0.01 * i << " s";
+    }
+  }
+}
+
+TEST(PosePredictorTest, ItsCovarianceTellsHowFarItErrs) {
+  const PoseAt sway = [](double t) {
+    return Eigen::Isometry3d(
+        Eigen::Translation3d(0.2 * std::sin(1.3 * t), 0.1 * std::sin(2.9 * t), 0.15 * std::cos(t)));
+  };
+  for (const std::string& name : predictorNames()) {
+    PosePredictor predictor = predictorOf(name);
+    follow(predictor, sway, 0.0, 30.0, 0.01);
+    double errors = 0.0;
+    double expected = 0.0;
+    for (int i = 3001; i < 6000; ++i) {
+      predictor.observe({at(0.01 * i), sway(0.01 * i)});
+      const ExpectedPose pose = predictor.predict({milliseconds(500)})[0];
+      errors += displacement(pose.X_WT, sway(0.01 * i + 0.5)).head<3>().squaredNorm();
+      expected += pose.covariance.topLeftCorner<3, 3>().trace();
+    }
+    EXPECT_GT(expected, 0.5 * errors) << name;
+    EXPECT_LT(expected, 2.0 * errors) << name;
+  }
+}
+
+TEST(PosePredictorTest, RefusesOptionsThatCannotWork) {
+  const auto refuses = [](const std::function<void(PredictorOptions&)>& change) {
+    PredictorOptions options;
+    options.predictor = "polynomial";
+    change(options);
+    EXPECT_THROW(PosePredictor{options}, InvalidInput);
+  };
+  refuses([](PredictorOptions& options) { options.predictor = "oracle"; });
+  refuses([](PredictorOptions& options) { options.degree[2] = 6; });
+  refuses([](PredictorOptions& options) { options.degree[2] = -1; });
+  refuses([](PredictorOptions& options) { options.forgetting_factor = 0.0; });
+  refuses([](PredictorOptions& options) { options.forgetting_factor = std::nan(""); });
+  refuses([](PredictorOptions& options) { options.window = Duration::zero(); });
+  refuses([](PredictorOptions& options) { options.max_speed = 0.0; });
+  refuses([](PredictorOptions& options) { options.max_turn_rate = std::nan(""); });
+}
+
+}  // namespace
+}  // namespace sweep_guard

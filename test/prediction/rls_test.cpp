@@ -1,0 +1,103 @@
+#include "sweep_guard/prediction/rls.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace sweep_guard {
+namespace {
+
+using Fit = Rls<3, 2>;
+
+const Eigen::Matrix<double, 3, 2> kTruth = (Eigen::Matrix<double, 3, 2>() << 1.0, -2.0, 0.5, 0.0, 3.0, 0.25).finished();
+
+Fit::Regressors anyRegressors(Random& random) { return random.inBox({1.0, 1.0, 1.0}); }
+
+TEST(RlsTest, FindsTheCoefficientsOfNoiseFreeObservations) {
+  Random random(1);
+  Fit fit;
+  for (int i = 0; i < 10; ++i) {
+    const Fit::Regressors regressors = anyRegressors(random);
+    fit.add(regressors, kTruth.transpose() * regressors);
+  }
+  EXPECT_LT((fit.estimate().coefficients - kTruth).norm(), 1e-12);
+  EXPECT_LT(fit.estimate().variance.norm(), 1e-12);
+}
+
+// The batch solution of the weighted normal equations is what the recursion must arrive at.
+TEST(RlsTest, AgreesWithTheBatchSolution) {
+  Random random(2);
+  constexpr double kFactor = 0.9;
+  Eigen::MatrixXd regressors(20, 3);
+  Eigen::MatrixXd outputs(20, 2);
+  Fit fit;
+  for (int i = 0; i < 20; ++i) {
+    regressors.row(i) = anyRegressors(random);
+    outputs.row(i) << random.uniform(-1, 1), random.uniform(-1, 1);
+    fit.forget(kFactor);
+    fit.add(regressors.row(i).transpose(), outputs.row(i).transpose());
+  }
+  Eigen::VectorXd root_weights(20);
+  for (int i = 0; i < 20; ++i) root_weights[i] = std::pow(kFactor, (19 - i) / 2.0);
+  const Eigen::MatrixXd batch = (root_weights.asDiagonal() * regressors)
+                                    .colPivHouseholderQr()
+                                    .solve(Eigen::MatrixXd(root_weights.asDiagonal() * outputs));
+  EXPECT_LT((fit.estimate().coefficients - batch).norm(), 1e-12);
+}
+
+TEST(RlsTest, TakesAnObservationOutAgain) {
+  Random random(3);
+  Fit fit;
+  for (int i = 0; i < 6; ++i) {
+    const Fit::Regressors regressors = anyRegressors(random);
+    fit.add(regressors, kTruth.transpose() * regressors);
+  }
+  const Fit::Regressors outlier(1.0, 2.0, 3.0);
+  fit.add(outlier, Fit::Outputs(50.0, -50.0));
+  EXPECT_GT((fit.estimate().coefficients - kTruth).norm(), 1.0);
+  fit.add(outlier, Fit::Outputs(50.0, -50.0), -1.0);
+  EXPECT_LT((fit.estimate().coefficients - kTruth).norm(), 1e-10);
+}
+
+TEST(RlsTest, ThePriorDrawsToZeroWhatIsNotObserved) {
+  Fit fit;
+  fit.add({1.0, 0.0, 0.0}, Fit::Outputs(2.0, 4.0));
+  const auto coefficients = fit.estimate(3, 1.0).coefficients;
+  EXPECT_NEAR(coefficients(0, 0), 1.0, 1e-12);  // half way: one observation against a prior of the same weight
+  EXPECT_EQ(coefficients(1, 0), 0.0);
+  EXPECT_EQ(coefficients(2, 1), 0.0);
+}
+
+// Regressors that stand still for long must neither blow up the estimate nor forget what they cannot tell anew.
+TEST(RlsTest, DoesNotWindUpWhileNothingMoves) {
+  Random random(4);
+  Fit fit;
+  for (int i = 0; i < 100; ++i) {
+    const Fit::Regressors regressors = anyRegressors(random);
+    fit.add(regressors, kTruth.transpose() * regressors);
+  }
+  for (int i = 0; i < 100000; ++i) {
+    fit.forget(0.99);
+    fit.add(Fit::Regressors::Zero(), Fit::Outputs::Zero());
+  }
+  const auto estimate = fit.estimate(3, 1e-6);
+  EXPECT_TRUE(estimate.coefficients.allFinite());
+  EXPECT_TRUE(estimate.covariance.allFinite());
+  EXPECT_LT(estimate.coefficients.norm(), kTruth.norm());
+}
+
+TEST(RlsTest, ItsCovarianceIsSymmetricAndPositiveAfterAMillionUpdates) {
+  Random random(5);
+  Fit fit;
+  for (int i = 0; i < 1000000; ++i) {
+    fit.forget(0.999);
+    fit.add(anyRegressors(random), Fit::Outputs(random.uniform(-1, 1), 0.0));
+  }
+  const auto estimate = fit.estimate();
+  EXPECT_LT((estimate.covariance - estimate.covariance.transpose()).norm(), 1e-15 * estimate.covariance.norm());
+  EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(estimate.covariance).info(), Eigen::Success);
+  EXPECT_NEAR(estimate.variance[0], 1.0 / 3.0, 0.05);  // of a uniform number in [-1, 1)
+}
+
+}  // namespace
+}  // namespace sweep_guard
