@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "simulation/drilling.h"
-#include "simulation/motion_file.h"
+#include "recording/motion_file.h"
 #include "simulation/replay.h"
 #include "simulation/run_node.h"
 #include "simulation/top_surface.h"
@@ -75,7 +75,7 @@ class OperatorNode {
         wait_for_guard_(parameters.flag("wait_for_guard", true)),
         min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
         listener_(buffer_) {
-    if (!motion_file_.empty()) recording_ = readMotionFile(motion_file_);
+    if (!motion_file_.empty()) recording_ = sweep_guard_recording::readMotionFile(motion_file_);
     publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", kQueue);
     mesh_subscriber_ = node_.subscribe("mesh", 1, &OperatorNode::onMesh, this);
     warning_subscriber_ = node_.subscribe("warning", 1, &OperatorNode::onWarning, this);

@@ -11,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-#include "simulation/file.h"
+#include "recording/file.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_simulation {
@@ -131,7 +131,7 @@ Workpiece Workpiece::hull(int triangles, const Options& options) {
 
 Workpiece Workpiece::fromFile(const std::string& path, const Options& options) {
   const std::string mesh_format = format(path);
-  const std::string bytes = readFile(path);
+  const std::string bytes = sweep_guard_recording::readFile(path);
   const std::unique_ptr<const shapes::Mesh> mesh(shapes::createMeshFromBinary(bytes.data(), bytes.size(), mesh_format));
   if (!mesh || mesh->triangle_count == 0) {
     throw InvalidInput(path + ": no triangles could be read; give an OBJ or STL file with faces");

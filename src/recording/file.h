@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace sweep_guard_simulation {
+namespace sweep_guard_recording {
 
 /// The bytes of a file.
 /// @throws sweep_guard::InvalidInput if it is not a regular file (a device or pipe might never end), cannot be read or
@@ -10,4 +10,4 @@ namespace sweep_guard_simulation {
 ///     than 256 MiB
 std::string readFile(const std::string& path);
 
-}  // namespace sweep_guard_simulation
+}  // namespace sweep_guard_recording

@@ -1,4 +1,4 @@
-#include "simulation/motion_file.h"
+#include "recording/motion_file.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard_simulation {
+namespace sweep_guard_recording {
 namespace {
 
 using sweep_guard::InvalidInput;
@@ -114,4 +114,4 @@ TEST(MotionFileDataTest, ReadsEveryRecording) {
 }
 
 }  // namespace
-}  // namespace sweep_guard_simulation
+}  // namespace sweep_guard_recording

@@ -1,4 +1,4 @@
-#include "simulation/file.h"
+#include "recording/file.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard_simulation {
+namespace sweep_guard_recording {
 
 using sweep_guard::InvalidInput;
 
@@ -33,4 +33,4 @@ std::string readFile(const std::string& path) {
   return bytes;
 }
 
-}  // namespace sweep_guard_simulation
+}  // namespace sweep_guard_recording

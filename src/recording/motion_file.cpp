@@ -1,4 +1,4 @@
-#include "simulation/motion_file.h"
+#include "recording/motion_file.h"
 
 #include <algorithm>
 #include <array>
@@ -11,10 +11,10 @@
 #include <string_view>
 #include <system_error>
 
-#include "simulation/file.h"
+#include "recording/file.h"
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard_simulation {
+namespace sweep_guard_recording {
 
 using sweep_guard::InvalidInput;
 using sweep_guard::StampedPose;
@@ -103,4 +103,4 @@ std::vector<StampedPose> readMotionFile(const std::string& path) {
   return poses;
 }
 
-}  // namespace sweep_guard_simulation
+}  // namespace sweep_guard_recording

@@ -5,7 +5,7 @@
 
 #include "sweep_guard/common/stamped_pose.h"
 
-namespace sweep_guard_simulation {
+namespace sweep_guard_recording {
 
 /// Reads a recorded motion: a text file with one pose `stamp tx ty tz qx qy qz qw` per line (s, m, quaternion of any
 /// length), empty lines and lines that begin with `#` skipped. Decimal points whatever the locale. Stamps are those of
@@ -16,4 +16,4 @@ namespace sweep_guard_simulation {
 ///     finite numbers, a quaternion is zero, a stamp is earlier than the one before, or there is no pose at all
 std::vector<sweep_guard::StampedPose> readMotionFile(const std::string& path);
 
-}  // namespace sweep_guard_simulation
+}  // namespace sweep_guard_recording
