@@ -21,7 +21,8 @@ constexpr std::uintmax_t kLargestFile = 256U << 20U;
 std::string readFile(const std::string& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InvalidInput(path + ": no such file; give an absolute path");
+  if (!std::filesystem::exists(status))
+    throw InvalidInput(path + ": no such file; check the path, and give nodes an absolute one");
   if (!std::filesystem::is_regular_file(status)) throw InvalidInput(path + ": not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) throw InvalidInput(path + ": " + error.message());

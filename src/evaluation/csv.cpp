@@ -1,0 +1,30 @@
+#include "evaluation/csv.h"
+
+#include <array>
+#include <cstdio>
+
+namespace sweep_guard_evaluation {
+namespace {
+
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::string csvNumber(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+std::string csvLine(const std::vector<std::string>& fields) {
+  std::string line;
+  for (const std::string& text : fields) line += (line.empty() ? "" : ",") + field(text);
+  return line + '\n';
+}
+
+}  // namespace sweep_guard_evaluation

@@ -1,0 +1,76 @@
+#include "evaluation/first_contact.h"
+
+#include <algorithm>
+
+#include "sweep_guard/geometry/motion.h"
+
+namespace sweep_guard_evaluation {
+
+using sweep_guard::Duration;
+using sweep_guard::StampedPose;
+using sweep_guard::Time;
+using sweep_guard::Tool;
+
+namespace {
+
+/// Distance [m] that the tool is clear of the sheet by, at least; 0 if it touches.
+class Clearance {
+ public:
+  Clearance(const Tool& tool, const Sheet& sheet) : tool_(tool), sheet_(sheet) {}
+
+  double at(const Eigen::Isometry3d& X_WT) {
+    const double apart = (X_WT.translation() - sheet_.X_WS.translation()).norm();
+    const double sure = apart - tool_.extent() - std::sqrt(2.0) * sheet_.half_side;
+    if (sure > kContactTolerance) return last_ = sure;
+    last_ = std::max(2.0 * last_, kContactTolerance);
+    while (meets(tool_, X_WT, sheet_, last_)) {
+      if (last_ == kContactTolerance) return 0.0;
+      last_ = std::max(0.5 * last_, kContactTolerance);
+    }
+    return last_;
+  }
+
+ private:
+  const Tool& tool_;
+  const Sheet& sheet_;
+  double last_ = 1.0;  // the next one is likely to be near it
+};
+
+/// Bound on how far a point of the tool goes per second [m/s].
+double fastest(const StampedPose& from, const StampedPose& to, const Tool& tool) {
+  const sweep_guard::Motion motion{from.X_WT, to.X_WT};
+  const double way = (to.X_WT.translation() - from.X_WT.translation()).norm() + motion.angle() * tool.extent();
+  return way / sweep_guard::toSeconds(to.stamp - from.stamp);
+}
+
+/// When the tool may have gone `distance` [m] at the earliest, rounded down.
+Time reached(const RecordedMotion& motion, const Tool& tool, Time from, Time limit, double distance) {
+  const std::vector<StampedPose>& poses = motion.poses();
+  Time time = from;
+  for (size_t i = motion.newestAt(from); time < limit && i + 1 < poses.size(); ++i) {
+    const double speed = fastest(poses[i], poses[i + 1], tool);
+    const double left = sweep_guard::toSeconds(poses[i + 1].stamp - time);
+    if (speed * left > distance) {
+      return time + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(distance / speed));
+    }
+    distance -= speed * left;
+    time = poses[i + 1].stamp;
+  }
+  return limit;
+}
+
+}  // namespace
+
+std::optional<Time> firstContact(const RecordedMotion& motion, const Tool& tool, const Sheet& sheet, Time from,
+                                 Time to) {
+  Clearance clearance(tool, sheet);
+  for (Time time = from; time <= to;) {
+    const double clear = clearance.at(motion.at(time));
+    if (clear == 0.0) return time;
+    if (time == to) break;
+    time = std::clamp(reached(motion, tool, time, to, clear), time + Duration(1), to);
+  }
+  return std::nullopt;
+}
+
+}  // namespace sweep_guard_evaluation

@@ -1,0 +1,72 @@
+#include "evaluation/recorded_motion.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "sweep_guard/geometry/motion.h"
+
+namespace sweep_guard_evaluation {
+
+using sweep_guard::Duration;
+using sweep_guard::StampedPose;
+using sweep_guard::Time;
+
+namespace {
+
+constexpr Duration kShortestGap = std::chrono::milliseconds(250);
+constexpr int kPeriodsOfGap = 3;
+
+std::vector<StampedPose> lastOfEachStamp(const std::vector<StampedPose>& poses) {
+  std::vector<StampedPose> kept;
+  kept.reserve(poses.size());
+  for (const StampedPose& pose : poses) {
+    if (!kept.empty() && kept.back().stamp == pose.stamp) kept.pop_back();
+    kept.push_back(pose);
+  }
+  return kept;
+}
+
+Duration longestPeriod(const std::vector<StampedPose>& poses) {
+  std::vector<Duration> periods;
+  for (size_t i = 1; i < poses.size(); ++i) periods.push_back(poses[i].stamp - poses[i - 1].stamp);
+  if (periods.empty()) return kShortestGap;
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  return std::max(kShortestGap, kPeriodsOfGap * *middle);
+}
+
+bool isEarlier(Time time, const StampedPose& pose) { return time < pose.stamp; }
+
+}  // namespace
+
+RecordedMotion::RecordedMotion(const std::vector<StampedPose>& poses) : poses_(lastOfEachStamp(poses)) {
+  assert(!poses_.empty());
+  const Duration longest = longestPeriod(poses_);
+  for (const StampedPose& pose : poses_) {
+    if (stretches_.empty() || pose.stamp - stretches_.back().end > longest) stretches_.push_back({pose.stamp, {}});
+    stretches_.back().end = pose.stamp;
+  }
+}
+
+bool RecordedMotion::unbroken(Time from, Time to) const {
+  const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), from,
+                                      [](Time time, const Stretch& stretch) { return time < stretch.begin; });
+  return after != stretches_.begin() && to <= std::prev(after)->end;
+}
+
+size_t RecordedMotion::newestAt(Time time) const {
+  assert(time >= poses_.front().stamp);
+  return static_cast<size_t>(std::upper_bound(poses_.begin(), poses_.end(), time, isEarlier) - poses_.begin()) - 1;
+}
+
+Eigen::Isometry3d RecordedMotion::at(Time time) const {
+  assert(time <= poses_.back().stamp);
+  const size_t before = newestAt(time);
+  const StampedPose& from = poses_[before];
+  if (from.stamp == time) return from.X_WT;
+  const StampedPose& to = poses_[before + 1];
+  const double fraction = sweep_guard::toSeconds(time - from.stamp) / sweep_guard::toSeconds(to.stamp - from.stamp);
+  return sweep_guard::Motion{from.X_WT, to.X_WT}.at(fraction);
+}
+
+}  // namespace sweep_guard_evaluation

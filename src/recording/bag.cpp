@@ -1,0 +1,113 @@
+#include "recording/bag.h"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string_view>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_recording {
+
+using sweep_guard::InvalidInput;
+using sweep_guard::StampedPose;
+using sweep_guard_ros::fromMsg;
+
+namespace {
+
+constexpr std::string_view kMagic = "#ROSBAG V";
+const std::vector<std::string> kTypes = {"geometry_msgs/PoseStamped", "geometry_msgs/TransformStamped"};
+
+struct FramedPose {
+  std::string frames;
+  StampedPose pose;
+};
+
+std::string listed(const std::set<std::string>& topics) {
+  std::string list;
+  for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
+  return list.empty() ? "none" : list;
+}
+
+std::string chooseTopic(const rosbag::Bag& bag, const std::string& wanted) {
+  std::set<std::string> topics;
+  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag, rosbag::TypeQuery(kTypes)).getConnections()) {
+    topics.insert(connection->topic);
+  }
+  if (!wanted.empty() && topics.count(wanted) == 0) {
+    throw InvalidInput("no PoseStamped or TransformStamped on " + wanted + "; there are: " + listed(topics));
+  }
+  if (wanted.empty() && topics.size() != 1) {
+    throw InvalidInput("choose one topic of PoseStamped or TransformStamped with --topic; there are: " +
+                       listed(topics));
+  }
+  return wanted.empty() ? *topics.begin() : wanted;
+}
+
+FramedPose read(const rosbag::MessageInstance& message) {
+  if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>()) {
+    return {"'" + pose->header.frame_id + "'", {fromMsg(pose->header.stamp), fromMsg(pose->pose)}};
+  }
+  const auto transform = message.instantiate<geometry_msgs::TransformStamped>();
+  if (!transform) throw InvalidInput("message cannot be read; record it again");
+  return {"'" + transform->child_frame_id + "' in '" + transform->header.frame_id + "'",
+          {fromMsg(transform->header.stamp), fromMsg(transform->transform)}};
+}
+
+void append(std::vector<StampedPose>* poses, std::string* frames, const FramedPose& next) {
+  if (poses->empty()) *frames = next.frames;
+  if (next.frames != *frames) {
+    throw InvalidInput("gives " + next.frames + " where it gave " + *frames + " before; record one frame per topic");
+  }
+  if (!poses->empty() && next.pose.stamp < poses->back().stamp) {
+    throw InvalidInput("stamp is earlier than the one before; give a bag of one run");
+  }
+  poses->push_back(next.pose);
+}
+
+std::vector<StampedPose> readTopic(const rosbag::Bag& bag, const std::string& topic) {
+  std::vector<StampedPose> poses;
+  std::string frames;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+    try {
+      append(&poses, &frames, read(message));
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(topic + ", message " + std::to_string(poses.size() + 1) + ": " + error.what());
+    }
+  }
+  if (poses.empty()) throw InvalidInput("no message on " + topic);
+  return poses;
+}
+
+std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+bool isBag(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) return false;  // opening a pipe would wait
+  std::array<char, kMagic.size()> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return std::string_view(begin.data(), begin.size()) == kMagic;
+}
+
+std::vector<StampedPose> readBag(const std::string& path, const std::string& topic) {
+  try {
+    const rosbag::Bag bag(path);
+    return readTopic(bag, chooseTopic(bag, topic));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(path + ": " + error.what());
+  } catch (const rosbag::BagUnindexedException&) {
+    throw InvalidInput(path + ": the bag has no index; run rosbag reindex on it");
+  } catch (const std::exception& error) {  // rosbag's own, ROS's, no memory for what a broken header asks for
+    throw InvalidInput(path + ": the bag is broken: " + firstLine(error.what()));
+  }
+}
+
+}  // namespace sweep_guard_recording

@@ -1,0 +1,45 @@
+#include "evaluation/error_report.h"
+
+#include <gtest/gtest.h>
+
+namespace sweep_guard_evaluation {
+namespace {
+
+using std::chrono::milliseconds;
+
+ErrorReport report(const std::string& recording) {
+  return {recording,
+          {"hold", "constant_velocity", "direct"},
+          {milliseconds(100), milliseconds(500)},
+          {{{0.02, 0.04, 0.1, 0.2, 7}, {0.2, 0.4, 1.0, 2.0, 7}},
+           {{0.01, 0.05, 0.1, 0.2, 7}, {0.2, 0.4, 1.0, 2.0, 7}},
+           {{0.005, 0.02, 0.1, 0.2, 7}, {0.2, 0.4, 1.0, 2.0, 7}}}};
+}
+
+TEST(ErrorReportTest, WritesALineForEachPredictorAndHorizon) {
+  const std::string csv = errorCsv({report("hand")});
+  EXPECT_EQ(csv.substr(0, csv.find("hand,constant")),
+            "recording,predictor,horizon_s,position_median_m,position_p95_m,rotation_median_rad,rotation_p95_rad,"
+            "samples\n"
+            "hand,hold,0.1,0.02,0.04,0.1,0.2,7\n"
+            "hand,hold,0.5,0.2,0.4,1,2,7\n");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 2);
+}
+
+TEST(ErrorReportTest, QuotesARecordingWithACommaInItsName) {
+  EXPECT_NE(errorCsv({report("left, \"2\"")}).find("\n\"left, \"\"2\"\"\",direct,0.1,"), std::string::npos);
+}
+
+TEST(ErrorReportTest, ComparesWithTheBetterOfHoldAndConstantVelocity) {
+  EXPECT_NE(errorTable(report("hand")).find("5/20 (0.50/0.50)"), std::string::npos) << errorTable(report("hand"));
+}
+
+TEST(ErrorReportTest, KeepsTheHorizonsAskedFor) {
+  const ErrorReport some = atHorizons(report("hand"), {milliseconds(500)});
+  ASSERT_EQ(some.errors.size(), 3U);
+  ASSERT_EQ(some.errors[2].size(), 1U);
+  EXPECT_EQ(some.errors[2][0].position_median, 0.2);
+}
+
+}  // namespace
+}  // namespace sweep_guard_evaluation

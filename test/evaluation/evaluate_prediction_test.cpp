@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "evaluation/motions.h"
+
+namespace sweep_guard_evaluation {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+struct Outcome {
+  int status;
+  std::string out;  ///< stdout and stderr
+};
+
+/// The program itself, in a folder of its own.
+class EvaluatePredictionTest : public testing::Test {
+ protected:
+  EvaluatePredictionTest()
+      : folder_(std::filesystem::path(testing::TempDir()) /
+                (std::string("evaluate_prediction_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directory(folder_);
+  }
+  ~EvaluatePredictionTest() override { std::filesystem::remove_all(folder_); }
+
+  Outcome run(const std::string& arguments, const std::string& environment = "") const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && " + environment + " " EVALUATE_PREDICTION " " + arguments + " 2>&1";
+    FILE* const pipe = popen(command.c_str(), "r");
+    Outcome outcome{};
+    std::array<char, 4096> part;
+    for (size_t count = 0; (count = std::fread(part.data(), 1, part.size(), pipe)) > 0;) {
+      outcome.out.append(part.data(), count);
+    }
+    const int status = pclose(pipe);
+    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+  }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+
+  /// To and fro along x, 0.2 m wide, for 20 s at 50 Hz.
+  void writeMotion(const std::string& name) const {
+    std::ofstream file(folder_ / name);
+    for (int i = 0; i <= 1000; ++i) {
+      file << 0.02 * i << ' ' << 0.1 * std::sin(0.03 * i) << " 0 0 0 0.7071 0 0.7071\n";
+    }
+  }
+
+  std::string read(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
+
+  void expectOneLine(const std::string& arguments, const std::string& expected) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1) << outcome.out;
+    EXPECT_EQ(outcome.out.find("evaluate_prediction: "), 0U) << outcome.out;
+    EXPECT_NE(outcome.out.find(expected), std::string::npos) << outcome.out;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(EvaluatePredictionTest, SaysWhatItDoes) {
+  const Outcome outcome = run("--help");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out.find("Usage: evaluate_prediction"), 0U);
+}
+
+TEST_F(EvaluatePredictionTest, RefusesBadInputInOneLine) {
+  write("empty.txt", "");
+  write("words.txt", "this is no motion\n");
+  write("back.txt", "1 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n");
+  write("broken.bag", "#ROSBAG V2.0\nnothing of that kind");
+  write("old.bag", "#ROSBAG V1.0\n");
+  writeMotion("good.txt");
+  expectOneLine("", "no recording");
+  expectOneLine("--no-such-option good.txt", "--no-such-option");
+  expectOneLine("nowhere.txt", "nowhere.txt: no such file");
+  expectOneLine(".", "not a regular file");
+  expectOneLine("/dev/zero", "not a regular file");
+  expectOneLine("empty.txt", "no pose in the file");
+  expectOneLine("good.txt words.txt", "words.txt:1: ");
+  expectOneLine("back.txt", "back.txt:2: stamp is earlier");
+  expectOneLine("broken.bag", "broken.bag: the bag ");
+  expectOneLine("old.bag", "old.bag: the bag ");
+  expectOneLine("--csv nowhere/errors.csv good.txt", "nowhere/errors.csv: cannot be written");
+  expectOneLine("--predictors psychic good.txt", "psychic");
+}
+
+TEST_F(EvaluatePredictionTest, PrintsATableOfEveryPredictor) {
+  writeMotion("hand.txt");
+  const Outcome outcome = run("hand.txt");
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  for (const char* const word : {"hand", "hold", "constant_velocity", "polynomial", "direct", "position", "rotation"}) {
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << outcome.out;
+  }
+}
+
+TEST_F(EvaluatePredictionTest, WritesTheSameErrorsEveryTime) {
+  writeMotion("hand.txt");
+  writeMotion("arm.txt");
+  ASSERT_EQ(run("--csv first.csv hand.txt arm.txt").status, 0);
+  ASSERT_EQ(run("--csv again.csv hand.txt arm.txt").status, 0);
+  const std::string csv = read("first.csv");
+  EXPECT_EQ(csv, read("again.csv"));
+  EXPECT_EQ(csv.find("recording,predictor,horizon_s,position_median_m,position_p95_m,rotation_median_rad,"
+                     "rotation_p95_rad,samples\nhand,"),
+            0U);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 4 * 4);
+  EXPECT_NE(csv.find("\narm,hold,0.5,"), std::string::npos);
+}
+
+TEST_F(EvaluatePredictionTest, DrawsAPngAndLeavesNothingElse) {
+  writeMotion("it's a hand.txt");
+  const Outcome outcome = run("--plot \"it's.png\" \"it's a hand.txt\"");
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  EXPECT_EQ(read("it's.png").substr(1, 3), "PNG");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 2);
+}
+
+TEST_F(EvaluatePredictionTest, SaysWhatToInstallForPlots) {
+  writeMotion("hand.txt");
+  const Outcome outcome = run("--plot errors.png hand.txt", "PATH=/nowhere");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.out, "evaluate_prediction: plots need gnuplot; install it: apt-get install gnuplot-nox\n");
+}
+
+}  // namespace
+}  // namespace sweep_guard_evaluation

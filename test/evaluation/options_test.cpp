@@ -1,0 +1,72 @@
+#include "evaluation/options.h"
+
+#include <gtest/gtest.h>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_evaluation {
+namespace {
+
+using std::chrono::milliseconds;
+
+Options parse(std::vector<const char*> words) {
+  words.insert(words.begin(), "evaluate_prediction");
+  return parseOptions(static_cast<int>(words.size()), words.data());
+}
+
+std::string refusal(const std::vector<const char*>& words) {
+  try {
+    parse(words);
+  } catch (const sweep_guard::InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(OptionsTest, DefaultToAllPredictorsAndTheirOwnDefaults) {
+  const Options options = parse({"a.txt", "b.bag"});
+  EXPECT_EQ(options.files, (std::vector<std::string>{"a.txt", "b.bag"}));
+  EXPECT_EQ(options.predictors, sweep_guard::predictorNames());
+  EXPECT_EQ(options.horizons, (std::vector<sweep_guard::Duration>{milliseconds(100), milliseconds(200),
+                                                                  milliseconds(500), milliseconds(1000)}));
+  const sweep_guard::PredictorOptions defaults;
+  EXPECT_EQ(options.predictor.degree, defaults.degree);
+  EXPECT_EQ(options.predictor.window, defaults.window);
+  EXPECT_EQ(options.predictor.forgetting_factor, defaults.forgetting_factor);
+}
+
+TEST(OptionsTest, TakeListsInAnyOrderAndOnce) {
+  const Options options = parse({"--horizons", "0.5,0.1,0.5", "--predictors=hold,direct,hold", "a.txt"});
+  EXPECT_EQ(options.horizons, (std::vector<sweep_guard::Duration>{milliseconds(100), milliseconds(500)}));
+  EXPECT_EQ(options.predictors, (std::vector<std::string>{"hold", "direct"}));
+}
+
+TEST(OptionsTest, TakeADegreeForAllAxesOrForEach) {
+  EXPECT_EQ(parse({"--degree", "2", "a.txt"}).predictor.degree, (std::array<int, 6>{2, 2, 2, 2, 2, 2}));
+  EXPECT_EQ(parse({"--degree", "0,1,2,3,4,5", "a.txt"}).predictor.degree, (std::array<int, 6>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(OptionsTest, NameWhatIsWrong) {
+  EXPECT_NE(refusal({}).find("no recording"), std::string::npos);
+  EXPECT_NE(refusal({"--colour", "a.txt"}).find("--colour"), std::string::npos);
+  EXPECT_NE(refusal({"--placement", "9", "a.txt"}).find("--placement"), std::string::npos);  // no guessing
+  EXPECT_NE(refusal({"a.txt", "--csv"}).find("--csv"), std::string::npos);
+  EXPECT_NE(refusal({"--predictors", "direct,psychic", "a.txt"}).find("'psychic' is none of"), std::string::npos);
+  EXPECT_NE(refusal({"--predictors", "", "a.txt"}).find("'' is none of"), std::string::npos);
+  for (const char* const horizons : {"0", "-1", "nan", "1e9", "0.1,", "0.1 0.2", "1s"}) {
+    EXPECT_NE(refusal({"--horizons", horizons, "a.txt"}).find("--horizons"), std::string::npos) << horizons;
+  }
+  for (const char* const degree : {"6", "-1", "1.5", "1,2", "x"}) {
+    EXPECT_NE(refusal({"--degree", degree, "a.txt"}).find("--degree"), std::string::npos) << degree;
+  }
+  EXPECT_NE(refusal({"--window", "0", "a.txt"}).find("--window"), std::string::npos);
+  EXPECT_NE(refusal({"--forgetting-factor", "1.01", "a.txt"}).find("--forgetting-factor"), std::string::npos);
+}
+
+TEST(OptionsTest, HelpNeedsNoFile) {
+  EXPECT_TRUE(parse({"--help"}).help);
+  EXPECT_NE(usage().find("--predictors"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sweep_guard_evaluation

@@ -1,0 +1,164 @@
+#include "recording/bag.h"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <std_msgs/Header.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "recording/recording.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_recording {
+namespace {
+
+using sweep_guard::InvalidInput;
+using sweep_guard::StampedPose;
+
+class BagTest : public testing::Test {
+ protected:
+  BagTest()
+      : path_(testing::TempDir() + "bag_test_" + testing::UnitTest::GetInstance()->current_test_info()->name() +
+              ".bag"),
+        bag_(path_, rosbag::bagmode::Write) {}
+  ~BagTest() override { std::filesystem::remove(path_); }
+
+  static geometry_msgs::PoseStamped pose(double stamp, double x) {
+    geometry_msgs::PoseStamped message;
+    message.header.stamp = ros::Time(stamp);
+    message.pose.position.x = x;
+    message.pose.orientation.z = 0.6;
+    message.pose.orientation.w = 0.8;
+    return message;
+  }
+
+  static geometry_msgs::TransformStamped transform(double stamp, double x, const std::string& child = "tool") {
+    geometry_msgs::TransformStamped message;
+    message.header.stamp = ros::Time(stamp);
+    message.child_frame_id = child;
+    message.transform.translation.x = x;
+    message.transform.rotation.w = 1.0;
+    return message;
+  }
+
+  template <typename Message>
+  void write(const std::string& topic, const Message& message) {
+    bag_.write(topic, ros::Time(1000.0 + ++written_), message);  // received in this order, whatever the stamps
+  }
+
+  std::vector<StampedPose> read(const std::string& topic = "") {
+    bag_.close();
+    return readBag(path_, topic);
+  }
+
+  std::string refusal(const std::string& topic = "") {
+    try {
+      read(topic);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::string path_;
+  rosbag::Bag bag_;
+  int written_ = 0;
+};
+
+TEST_F(BagTest, IsReadLikeTheMotionFileOfTheSamePoses) {
+  std::ofstream text(path_ + ".txt");
+  for (int i = 0; i < 100; ++i) {
+    write("tool_pose", pose(12.5 + 0.01 * i, 0.125 * i));
+    text << 12.5 + 0.01 * i << ' ' << 0.125 * i << " 0 0 0 0 0.6 0.8\n";
+  }
+  bag_.close();
+  text.close();
+  const Recording from_bag = readRecording(path_, "");
+  const Recording from_text = readRecording(path_ + ".txt", "");
+  std::filesystem::remove(path_ + ".txt");
+
+  EXPECT_EQ(from_bag.name, "bag_test_IsReadLikeTheMotionFileOfTheSamePoses");
+  ASSERT_EQ(from_bag.poses.size(), 100U);
+  ASSERT_EQ(from_text.poses.size(), 100U);
+  for (size_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(from_bag.poses[i].stamp, from_text.poses[i].stamp);
+    EXPECT_TRUE(from_bag.poses[i].X_WT.isApprox(from_text.poses[i].X_WT, 1e-15));
+  }
+}
+
+TEST_F(BagTest, ReadsTransforms) {
+  write("wrist", transform(3.0, 0.5));
+  const std::vector<StampedPose> poses = read();
+  ASSERT_EQ(poses.size(), 1U);
+  EXPECT_EQ(poses[0].stamp, sweep_guard::Time(std::chrono::seconds(3)));
+  EXPECT_EQ(poses[0].X_WT.translation(), Eigen::Vector3d(0.5, 0.0, 0.0));
+}
+
+TEST_F(BagTest, TakesTheOnlyTopicOfPosesAmongOthers) {
+  write("header", std_msgs::Header());
+  write("tool_pose", pose(1.0, 0.5));
+  EXPECT_EQ(read().size(), 1U);
+}
+
+TEST_F(BagTest, ListsTheTopicsWhereThereIsAChoice) {
+  write("right", pose(1.0, 0.5));
+  write("left", transform(1.0, 0.5));
+  EXPECT_NE(refusal().find("--topic; there are: left, right"), std::string::npos);
+}
+
+TEST_F(BagTest, ReadsTheTopicThatIsAskedFor) {
+  write("right", pose(1.0, 0.5));
+  write("left", transform(1.0, 0.25));
+  EXPECT_EQ(read("left").at(0).X_WT.translation().x(), 0.25);
+}
+
+TEST_F(BagTest, SaysWhichTopicsThereAreInsteadOfTheOneAskedFor) {
+  write("right", pose(1.0, 0.5));
+  EXPECT_NE(refusal("middle").find("on middle; there are: right"), std::string::npos);
+}
+
+TEST_F(BagTest, RefusesABagWithoutPoses) {
+  write("header", std_msgs::Header());
+  EXPECT_NE(refusal().find("there are: none"), std::string::npos);
+}
+
+TEST_F(BagTest, NamesTheMessageThatItRefuses) {
+  write("tool_pose", pose(1.0, 0.5));
+  write("tool_pose", pose(2.0, std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_NE(refusal().find("tool_pose, message 2: position is NaN"), std::string::npos);
+}
+
+TEST_F(BagTest, RefusesAStampThatGoesBack) {
+  write("tool_pose", pose(2.0, 0.5));
+  write("tool_pose", pose(1.0, 0.5));
+  EXPECT_NE(refusal().find("message 2: stamp is earlier"), std::string::npos);
+}
+
+TEST_F(BagTest, RefusesFramesThatChange) {
+  write("vicon", transform(1.0, 0.5, "tool"));
+  write("vicon", transform(2.0, 0.5, "camera"));
+  EXPECT_NE(refusal().find("gives 'camera' in '' where it gave 'tool' in '' before"), std::string::npos);
+}
+
+TEST_F(BagTest, RefusesABagThatIsCutOff) {
+  for (int i = 0; i < 1000; ++i) write("tool_pose", pose(1.0 + i, 0.5));
+  bag_.close();
+  std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
+  ASSERT_TRUE(isBag(path_));
+  const std::string message = refusal();
+  EXPECT_EQ(message.find(path_ + ": the bag "), 0U) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+TEST(IsBagTest, IsFalseForWhatIsNone) {
+  EXPECT_FALSE(isBag("/dev/zero"));
+  EXPECT_FALSE(isBag(testing::TempDir()));
+  EXPECT_FALSE(isBag("/nowhere"));
+}
+
+}  // namespace
+}  // namespace sweep_guard_recording
