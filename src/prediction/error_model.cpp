@@ -7,17 +7,18 @@
 namespace sweep_guard {
 namespace {
 
-constexpr double kMemory = 20.0;      // [s]
-constexpr double kPriorShare = 0.3;   // of the way at present speed: what is taken for the error before any is known
-constexpr double kPriorWeight = 1.0;  // [s] of errors that outweigh it
+constexpr double kMemory = 20.0;     // [s]
+constexpr double kPriorShare = 0.3;  // of the way at present speed: what is taken for the error before any is known
+constexpr std::array<double, 2> kPriorSpeed = {0.02, 0.15};  // [m/s], [rad/s]: a second at this speed outweighs it
 
 }  // namespace
 
 ErrorModel::ErrorModel() {
-  for (auto& records : records_) {
+  for (size_t kind = 0; kind < records_.size(); ++kind) {
+    const double activity = kPriorSpeed[kind] * kPriorSpeed[kind];
     for (size_t i = 0; i < kLearnedAhead.size(); ++i) {
-      const double error = kPriorShare * kLearnedAhead[i];
-      records[i] = {kPriorWeight * error * error, kPriorWeight};
+      const double share = kPriorShare * kLearnedAhead[i];
+      records_[kind][i] = {share * share * activity, activity};
     }
   }
 }
@@ -32,11 +33,9 @@ void ErrorModel::observe(const MotionTrack& track, const Vector6d& velocity, con
     const auto pose = [](const Vector6d& moved_to) { return displaced(Eigen::Isometry3d::Identity(), moved_to); };
     const Vector6d error = displacement(pose(known.forecast[i]), pose(moved));
     for (int kind = 0; kind < 2; ++kind) {
-      if (known.activity[kind] <= 0.0) continue;
       Record& record = records_[static_cast<size_t>(kind)][i];
-      record.squares =
-          fade * record.squares + period * error.segment<3>(3 * kind).squaredNorm() / 3.0 / known.activity[kind];
-      record.weight = fade * record.weight + period;
+      record.squares = fade * record.squares + period * error.segment<3>(3 * kind).squaredNorm() / 3.0;
+      record.activity = fade * record.activity + period * known.activity[kind];
     }
   });
 }
@@ -56,7 +55,7 @@ ErrorModel::Variance ErrorModel::variance(double ahead) const {
   const auto of = [&](size_t kind) {
     const double share = overLearnedAhead<double>(ahead, [&](size_t i) {
       const Record& record = records_[kind][i];
-      return std::sqrt(record.squares / record.weight) / kLearnedAhead[i];
+      return std::sqrt(record.squares / record.activity) / kLearnedAhead[i];
     });
     return share * share * ahead * ahead * activity_[static_cast<Eigen::Index>(kind)];
   };

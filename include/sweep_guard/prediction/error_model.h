@@ -30,8 +30,8 @@ class ErrorModel {
  private:
   // Errors of one kind, translation or rotation, within one horizon.
   struct Record {
-    double squares;  // of the errors along an axis, relative to the activity they came with; weighted [s]
-    double weight;   // [s]
+    double squares;   // of the errors along an axis, weighted by time
+    double activity;  // that they came with, weighted by time
   };
   struct Known {
     Forecast forecast;
