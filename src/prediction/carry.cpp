@@ -23,7 +23,7 @@ void Carry::learn(const Velocities& velocities, const Eigen::Vector3d& moved, do
   weight_ = fade * weight_ + period;
   fit_.forget(fade);
   for (int axis = 0; axis < 3; ++axis) fit_.add(velocities.row(axis).transpose(), Scalar(besides[axis]), period);
-  learned_ = fit_.estimate(kVelocities, prior_).coefficients;
+  learned_ = fit_.coefficients(kVelocities, prior_);
   blend();
 }
 

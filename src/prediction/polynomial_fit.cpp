@@ -31,7 +31,8 @@ Terms legendreSlope(double x) {
 Vector6d PolynomialFit::Curve::sum(const Vector6d& constant, const Eigen::Matrix<double, kTerms, 1>& terms) const {
   Vector6d values = constant;
   for (int axis = 0; axis < 6; ++axis) {
-    const auto& coefficients = estimateFor(axis).coefficients;
+    const auto degree = static_cast<size_t>(degrees_[static_cast<size_t>(axis)]);
+    const Fit::Coefficients& coefficients = by_degree_[degree];
     values[axis] += coefficients.col(axis).dot(terms.head(coefficients.rows()));
   }
   return values;
@@ -41,17 +42,6 @@ Vector6d PolynomialFit::Curve::at(Time stamp) const { return sum(origin_, legend
 
 Vector6d PolynomialFit::Curve::slopeAt(Time stamp) const {
   return sum(Vector6d::Zero(), legendreSlope(abscissa(stamp))) / half_width_;
-}
-
-Vector6d PolynomialFit::Curve::varianceAt(Time stamp) const {
-  const Terms terms = legendre(abscissa(stamp));
-  Vector6d variance;
-  for (int axis = 0; axis < 6; ++axis) {
-    const Fit::Estimate& estimate = estimateFor(axis);
-    const auto used = terms.head(estimate.covariance.rows());
-    variance[axis] = estimate.variance[axis] * used.dot(estimate.covariance * used);
-  }
-  return variance;
 }
 
 PolynomialFit::PolynomialFit(const Options& options) : options_(options), samples_(64) {
@@ -126,8 +116,8 @@ PolynomialFit::Curve PolynomialFit::curve(const Degrees& degrees) const {
     curve.degrees_[axis] = std::min(degrees[axis], possible);
   }
   for (const int degree : curve.degrees_) {
-    auto& estimate = curve.by_degree_[static_cast<size_t>(degree)];
-    if (estimate.coefficients.rows() == 0) estimate = fit_.estimate(degree + 1);
+    auto& coefficients = curve.by_degree_[static_cast<size_t>(degree)];
+    if (coefficients.rows() == 0) coefficients = fit_.coefficients(degree + 1);
   }
   return curve;
 }

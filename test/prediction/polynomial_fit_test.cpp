@@ -88,17 +88,6 @@ TEST(PolynomialFitTest, CorrectsItsNewestSample) {
   EXPECT_NEAR(fit.curve({0, 1, 0, 0, 0, 0}).at(at(1.0))[1], staircase(1.0)[1], 1e-12);
 }
 
-// Samples that err by +-s alternately scatter by s^2 n / (n - 1) about their mean, and the mean of n of them errs by
-// that over n.
-TEST(PolynomialFitTest, TellsHowFarItsValuesCanBeTrusted) {
-  PolynomialFit fit({0, kWindow, 1.0});
-  for (int i = 0; i < 20; ++i) fit.add(at(0.01 * i), Vector6d::Constant(i % 2 == 0 ? 0.1 : -0.1));
-  EXPECT_NEAR(fit.curve({}).varianceAt(at(5.0))[0], 0.01 * 20 / 19 / 20, 1e-12);
-  const auto line = fitOf(staircase, 1, 1.0, 0.01).curve({0, 1, 1, 1, 1, 1});
-  EXPECT_NEAR(line.varianceAt(at(1.0))[1], 0.0, 1e-20);
-  EXPECT_GT(line.varianceAt(at(2.0))[2], line.varianceAt(at(1.0))[2]);
-}
-
 // Hours at 1 kHz: neither errors of rounding nor the age of the clock add up, and nothing winds up while it stands
 // still.
 TEST(PolynomialFitTest, IsAsExactAfterTenMillionUpdatesAsAtFirst) {

@@ -20,8 +20,8 @@ TEST(RlsTest, FindsTheCoefficientsOfNoiseFreeObservations) {
     const Fit::Regressors regressors = anyRegressors(random);
     fit.add(regressors, kTruth.transpose() * regressors);
   }
-  EXPECT_LT((fit.estimate().coefficients - kTruth).norm(), 1e-12);
-  EXPECT_LT(fit.estimate().variance.norm(), 1e-12);
+  EXPECT_LT((fit.coefficients() - kTruth).norm(), 1e-12);
+  EXPECT_LT(fit.variance().norm(), 1e-12);
 }
 
 // The batch solution of the weighted normal equations is what the recursion must arrive at.
@@ -42,7 +42,7 @@ TEST(RlsTest, AgreesWithTheBatchSolution) {
   const Eigen::MatrixXd batch = (root_weights.asDiagonal() * regressors)
                                     .colPivHouseholderQr()
                                     .solve(Eigen::MatrixXd(root_weights.asDiagonal() * outputs));
-  EXPECT_LT((fit.estimate().coefficients - batch).norm(), 1e-12);
+  EXPECT_LT((fit.coefficients() - batch).norm(), 1e-12);
 }
 
 TEST(RlsTest, TakesAnObservationOutAgain) {
@@ -54,18 +54,27 @@ TEST(RlsTest, TakesAnObservationOutAgain) {
   }
   const Fit::Regressors outlier(1.0, 2.0, 3.0);
   fit.add(outlier, Fit::Outputs(50.0, -50.0));
-  EXPECT_GT((fit.estimate().coefficients - kTruth).norm(), 1.0);
+  EXPECT_GT((fit.coefficients() - kTruth).norm(), 1.0);
   fit.add(outlier, Fit::Outputs(50.0, -50.0), -1.0);
-  EXPECT_LT((fit.estimate().coefficients - kTruth).norm(), 1e-10);
+  EXPECT_LT((fit.coefficients() - kTruth).norm(), 1e-10);
 }
 
 TEST(RlsTest, ThePriorDrawsToZeroWhatIsNotObserved) {
   Fit fit;
   fit.add({1.0, 0.0, 0.0}, Fit::Outputs(2.0, 4.0));
-  const auto coefficients = fit.estimate(3, 1.0).coefficients;
+  const auto coefficients = fit.coefficients(3, 1.0);
   EXPECT_NEAR(coefficients(0, 0), 1.0, 1e-12);  // half way: one observation against a prior of the same weight
   EXPECT_EQ(coefficients(1, 0), 0.0);
   EXPECT_EQ(coefficients(2, 1), 0.0);
+}
+
+// Two observations of variance 1 for each of orthogonal regressors: half the variance, and nothing in common.
+TEST(RlsTest, TellsHowFarTheCoefficientsCanBeTrusted) {
+  Fit fit;
+  for (int i = 0; i < 6; ++i) fit.add(Fit::Regressors::Unit(i % 3), Fit::Outputs(i < 3 ? 1.0 : -1.0, 0.0));
+  EXPECT_LT((fit.covariance() - 0.5 * Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(fit.variance()[0], 6.0 / 3.0, 1e-12);
+  EXPECT_EQ(fit.variance()[1], 0.0);
 }
 
 // Regressors that stand still for long must neither blow up the estimate nor forget what they cannot tell anew.
@@ -80,10 +89,8 @@ TEST(RlsTest, DoesNotWindUpWhileNothingMoves) {
     fit.forget(0.99);
     fit.add(Fit::Regressors::Zero(), Fit::Outputs::Zero());
   }
-  const auto estimate = fit.estimate(3, 1e-6);
-  EXPECT_TRUE(estimate.coefficients.allFinite());
-  EXPECT_TRUE(estimate.covariance.allFinite());
-  EXPECT_LT(estimate.coefficients.norm(), kTruth.norm());
+  EXPECT_TRUE(fit.covariance(3, 1e-6).allFinite());
+  EXPECT_LT(fit.coefficients(3, 1e-6).norm(), kTruth.norm());
 }
 
 TEST(RlsTest, ItsCovarianceIsSymmetricAndPositiveAfterAMillionUpdates) {
@@ -93,10 +100,10 @@ TEST(RlsTest, ItsCovarianceIsSymmetricAndPositiveAfterAMillionUpdates) {
     fit.forget(0.999);
     fit.add(anyRegressors(random), Fit::Outputs(random.uniform(-1, 1), 0.0));
   }
-  const auto estimate = fit.estimate();
-  EXPECT_LT((estimate.covariance - estimate.covariance.transpose()).norm(), 1e-15 * estimate.covariance.norm());
-  EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(estimate.covariance).info(), Eigen::Success);
-  EXPECT_NEAR(estimate.variance[0], 1.0 / 3.0, 0.05);  // of a uniform number in [-1, 1)
+  const Eigen::MatrixXd covariance = fit.covariance();
+  EXPECT_LT((covariance - covariance.transpose()).norm(), 1e-15 * covariance.norm());
+  EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(covariance).info(), Eigen::Success);
+  EXPECT_NEAR(fit.variance()[0], 1.0 / 3.0, 0.05);  // of a uniform number in [-1, 1)
 }
 
 }  // namespace

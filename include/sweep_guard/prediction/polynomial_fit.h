@@ -30,24 +30,20 @@ class PolynomialFit {
   /// What was fitted. A snapshot: later samples do not change it.
   class Curve {
    public:
-    Vector6d at(Time stamp) const;          ///< the values
-    Vector6d varianceAt(Time stamp) const;  ///< of the values, as far as the scatter of the samples tells
-    Vector6d slopeAt(Time stamp) const;     ///< their derivative [1/s]
+    Vector6d at(Time stamp) const;       ///< the values
+    Vector6d slopeAt(Time stamp) const;  ///< their derivative [1/s]
 
    private:
     friend class PolynomialFit;
     using Fit = Rls<kHighestDegree + 1, 6>;
     double abscissa(Time stamp) const { return toSeconds(stamp - middle_) / half_width_; }
-    const Fit::Estimate& estimateFor(int axis) const {
-      return by_degree_[static_cast<size_t>(degrees_[static_cast<size_t>(axis)])];
-    }
     Vector6d sum(const Vector6d& constant, const Fit::Regressors& terms) const;
 
     Time middle_;
     double half_width_ = 1.0;
     Vector6d origin_;
     Degrees degrees_;
-    std::array<Fit::Estimate, kHighestDegree + 1> by_degree_;  // of the degrees that are used
+    std::array<Fit::Coefficients, kHighestDegree + 1> by_degree_;  // of the degrees that are used
   };
 
   explicit PolynomialFit(const Options& options);

@@ -16,13 +16,6 @@ class Rls {
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, N, N>;
   using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, M, Eigen::ColMajor, N, M>;
 
-  /// The best coefficients of the first n regressors, and how far they can be trusted.
-  struct Estimate {
-    Coefficients coefficients;  ///< n x M
-    Square covariance;          ///< n x n, of the coefficients of an output whose observations err by 1
-    Outputs variance;           ///< of the observations about the fit; 0 without observations to spare
-  };
-
   /// Multiplies the weight of everything observed so far.
   /// @param factor  in (0, 1]
   void forget(double factor) {
@@ -40,24 +33,31 @@ class Rls {
     weight_ += weight;
   }
 
-  /// @param n      how many of the regressors take part, 1 to N
+  /// The best coefficients: one column per output.
+  /// @param n      only the first n regressors take part, 1 to N
   /// @param prior  information that every coefficient is 0, >= 0
-  Estimate estimate(int n = N, double prior = 0.0) const {
-    Square information = information_.topLeftCorner(n, n).template selfadjointView<Eigen::Lower>();
-    information.diagonal().array() += prior;
-    const Eigen::LDLT<Square> solver(information);
-    Estimate estimate;
-    estimate.coefficients = solver.solve(projection_.topRows(n));
-    estimate.covariance = solver.solve(Square::Identity(n, n));
-    const Outputs explained = estimate.coefficients.cwiseProduct(projection_.topRows(n)).colwise().sum().transpose();
-    const double spare = weight_ - n;
-    estimate.variance = spare > 0.0 ? Outputs((squares_ - explained).cwiseMax(0.0) / spare) : Outputs(Outputs::Zero());
-    return estimate;
+  Coefficients coefficients(int n = N, double prior = 0.0) const {
+    return solver(n, prior).solve(projection_.topRows(n));
   }
 
-  double weight() const { return weight_; }  ///< of all observations together
+  /// How far these coefficients can be trusted: their covariance for an output whose observations err by 1.
+  Square covariance(int n = N, double prior = 0.0) const { return solver(n, prior).solve(Square::Identity(n, n)); }
+
+  /// Variance of the observations about the fit by all regressors; 0 without observations to spare.
+  Outputs variance() const {
+    const double spare = weight_ - N;
+    if (spare <= 0.0) return Outputs::Zero();
+    const Outputs explained = coefficients().cwiseProduct(projection_).colwise().sum().transpose();
+    return (squares_ - explained).cwiseMax(0.0) / spare;
+  }
 
  private:
+  Eigen::LDLT<Square> solver(int n, double prior) const {
+    Square information = information_.topLeftCorner(n, n).template selfadjointView<Eigen::Lower>();
+    information.diagonal().array() += prior;
+    return Eigen::LDLT<Square>(information);
+  }
+
   Eigen::Matrix<double, N, N> information_ = Eigen::Matrix<double, N, N>::Zero();  // lower triangle
   Eigen::Matrix<double, N, M> projection_ = Eigen::Matrix<double, N, M>::Zero();
   Outputs squares_ = Outputs::Zero();
