@@ -23,10 +23,24 @@ bool SweepReport::contact() const {
 
 bool SweepReport::complete() const { return !objects.empty() && unplaced.empty() && failures.empty(); }
 
-Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const SweepOptions& options)
-    : tool_(std::move(tool)), detector_(std::move(detector)), options_(options) {}
+Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options)
+    : tool_(std::move(tool)),
+      detector_(std::move(detector)),
+      options_(options),
+      predictor_(options.predictor),
+      budget_(options.horizon, options.cycle),
+      test_path_({options.sweep, options.horizon.reflex_step / 2}) {}
 
 SweepReport Guard::sweep(const ToolPose& pose, const Workpieces& workpieces) {
+  const SteadyTime begin = options_.clock();
+  SweepReport report = sweepAll(pose, workpieces);
+  predictor_.observe({pose.stamp, pose.X_WT});
+  newest_ = pose;
+  measured_ = options_.clock() - begin;
+  return report;
+}
+
+SweepReport Guard::sweepAll(const ToolPose& pose, const Workpieces& workpieces) {
   dropWaysOfEmptyFrames(workpieces);
   for (const auto& [frame, X_WM] : pose.X_WM) {
     Way& way = ways_[frame];
@@ -62,10 +76,47 @@ SweepFindings Guard::sweepAlong(const Way& way, const TriangleMesh& mesh_M) {
     const Placed& from = way[i];
     const Placed& to = way[std::min(i + 1, way.size() - 1)];
     const RelativeMotion motion{{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}};
-    const std::vector<Motion> parts = split(motion, options_.max_rotation, tool_.extent());
-    unite(findings, testSweep(*detector_, tool_, parts, mesh_M, options_));
+    const std::vector<Motion> parts = split(motion, options_.sweep.max_rotation, tool_.extent());
+    unite(findings, testSweep(*detector_, tool_, parts, mesh_M, options_.sweep));
   }
   return findings;
+}
+
+Outlook Guard::lookAhead(Duration age, const Workpieces& workpieces) {
+  Outlook outlook;
+  if (!newest_) return outlook;
+  const SteadyTime begin = options_.clock();
+  const size_t reflex_sweeps = reflexSweeps(options_.horizon, age);
+  const Horizon asked = horizon(options_.horizon, age, budget_.consideredSweeps(reflex_sweeps));
+  outlook.stamp = newest_->stamp;
+  outlook.reflex_sweeps = asked.reflex_sweeps;
+  outlook.sweeps_asked = reflex_sweeps + consideredSweeps(options_.horizon);
+  outlook.path = predictor_.predict(asked.ends);
+  if (!outlook.path.empty()) testPath(outlook, workpieces);
+  budget_.spent(measured_, options_.clock() - begin, outlook.path.size());
+  return outlook;
+}
+
+void Guard::testPath(Outlook& outlook, const Workpieces& workpieces) {
+  for (const auto& workpiece : workpieces) {
+    const auto X_WM = newest_->X_WM.find(workpiece->frame);
+    if (X_WM == newest_->X_WM.end()) {
+      outlook.unplaced.push_back(workpiece);
+      continue;
+    }
+    try {
+      outlook.objects.push_back(
+          test_path_(*detector_, tool_, newest_->X_WT, outlook.path, outlook.reflex_sweeps, X_WM->second, workpiece));
+    } catch (const std::exception& error) {  // the device, or no memory: the others are tested all the same
+      outlook.failures.push_back({workpiece, error.what()});
+    }
+  }
+}
+
+void Guard::forget() {
+  ways_.clear();
+  predictor_.restart();
+  newest_.reset();
 }
 
 // What comes to live in an empty frame later was not there when the tool moved before.

@@ -11,6 +11,11 @@ bool sameTriangles(const Workpiece& a, const Workpiece& b) {
   return a.id == b.id && a.frame == b.frame && &a.mesh_M.triangles() == &b.mesh_M.triangles();
 }
 
+bool holds(const Workpieces& workpieces, const Workpiece& workpiece) {
+  return std::any_of(workpieces.begin(), workpieces.end(),
+                     [&](const auto& one) { return sameTriangles(*one, workpiece); });
+}
+
 // A workpiece that is there, and whose sweep had no answer.
 bool notSwept(const SweepReport& report, const std::string& id) {
   const auto unplaced = [&](const auto& workpiece) { return workpiece->id == id; };
@@ -71,7 +76,7 @@ void Ledger::swept(const SweepReport& report, const Seen& pose, const Mark& pose
     pose_ = pose;
     swept_.clear();
     for (const SweptObject& object : report.objects) swept_.push_back(object.workpiece);
-    if (report.complete()) covered_until_ = report.end;
+    if (report.complete()) swept_until_ = report.end;
     noteContact(report, now);
   }
   if (!report.failures.empty()) on_fault_();
@@ -86,12 +91,52 @@ void Ledger::noteContact(const SweepReport& report, SteadyTime now) {
   }
 }
 
+void Ledger::predicted(const Outlook& outlook, const Seen& pose, const Mark& pose_came, const Instant& now) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (pose_came.epoch != mark_.epoch) return;
+    for (const SweepFailure& failure : outlook.failures) {
+      note(kDetectorFault, "predicting contact with '" + failure.workpiece->id + "' failed: " + failure.reason);
+    }
+    prediction_ = Prediction{pose, outlook.coveredUntil(), {}};
+    for (const PredictedObject& object : outlook.objects) prediction_->tested.push_back(object.workpiece);
+    noteExpected(outlook, pose, now);
+  }
+  if (!outlook.failures.empty()) on_fault_();
+}
+
+// What was expected of a workpiece that could not be tested again still stands.
+void Ledger::noteExpected(const Outlook& outlook, const Seen& pose, const Instant& now) {
+  const auto next = expectedContact(outlook, limits_.min_probability);
+  if (expected_) {
+    const ExpectedContact& before = expected_->contact;
+    const auto same = [&](const auto& workpiece) { return workpiece->id == before.mesh_id; };
+    const bool there = std::any_of(workpieces_.begin(), workpieces_.end(), same);
+    const bool tested = std::any_of(prediction_->tested.begin(), prediction_->tested.end(), same);
+    if (there && !tested && (!next || before.from <= next->from)) return;
+    noteAlarm(now);
+    expected_.reset();
+  }
+  if (next) expected_ = Evidence::Expectation{*next, pose, outlook.path.back().ahead};
+}
+
+void Ledger::noteAlarm(const Instant& now) {
+  const Evidence::Alarm alarm{expected_->contact, now.steady - overSince(*expected_, now)};
+  const Level level = warningOf(*expected_, now, limits_);
+  if (level >= Level::kConsidered) considered_ = alarm;
+  if (level >= Level::kReflex) reflex_ = alarm;
+}
+
 void Ledger::timeJumped(const std::string& story) {
   {
     const std::lock_guard lock(mutex_);
     ++mark_.epoch;
     pose_.reset();
-    covered_until_ = {};
+    swept_until_ = {};
+    prediction_.reset();
+    expected_.reset();
+    reflex_.reset();
+    considered_.reset();
     swept_.clear();
     faults_.clear();
     if (contact_) contact_->lasting = false;
@@ -104,18 +149,28 @@ Verdict Ledger::verdict(const Instant& now) const {
   const std::lock_guard lock(mutex_);
   Evidence evidence;
   evidence.pose = pose_;
-  evidence.covered_until = covered_until_;
+  evidence.covered_until = coveredUntil(now);
+  evidence.expected = expected_;
+  evidence.reflex = reflex_;
+  evidence.considered = considered_;
   evidence.contact = contact_;
   for (const auto& workpiece : workpieces_) {
-    evidence.objects.push_back({workpiece->id, {workpiece->stamp, workpiece->received}, sweptLast(*workpiece)});
+    evidence.objects.push_back({workpiece->id, {workpiece->stamp, workpiece->received}, holds(swept_, *workpiece)});
   }
   for (const auto& [reason, fault] : faults_) evidence.faults[reason] = fault.story;
   for (const auto& [id, story] : refused_meshes_) evidence.faults[kMeshInvalid] = story;
   return assess(evidence, now, limits_);
 }
 
-bool Ledger::sweptLast(const Workpiece& workpiece) const {
-  return std::any_of(swept_.begin(), swept_.end(), [&](const auto& swept) { return sameTriangles(*swept, workpiece); });
+// A prediction counts where it follows on what has been swept, for as long as its pose is not stale: a newer pose
+// outdates it, but poses may come faster than predictions.
+Time Ledger::coveredUntil(const Instant& now) const {
+  if (!prediction_ || prediction_->pose.stamp > swept_until_ || stale(prediction_->pose, now, limits_.pose_timeout)) {
+    return swept_until_;
+  }
+  const auto tested = [&](const auto& workpiece) { return holds(prediction_->tested, *workpiece); };
+  const bool all = std::all_of(workpieces_.begin(), workpieces_.end(), tested);
+  return all ? std::max(swept_until_, prediction_->covered_until) : swept_until_;
 }
 
 }  // namespace sweep_guard

@@ -34,6 +34,14 @@ void assessPose(const Evidence& evidence, const Instant& now, const VerdictLimit
   }
 }
 
+void assessCoverage(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Findings& findings) {
+  if (evidence.objects.empty() || !evidence.pose || stale(*evidence.pose, now, limits.pose_timeout)) return;
+  const Duration ahead = evidence.covered_until - evidence.pose->stamp - age(*evidence.pose, now);
+  if (ahead >= limits.considered) return;
+  findings.add(kNotCovered, ahead <= Duration::zero() ? "what comes has not been tested"
+                                                      : "only the next " + inSeconds(ahead) + " have been tested");
+}
+
 void assessObjects(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Findings& findings) {
   if (evidence.objects.empty()) findings.add(kNoMesh, "no workpiece yet");
   for (const Evidence::Object& object : evidence.objects) {
@@ -42,6 +50,54 @@ void assessObjects(const Evidence& evidence, const Instant& now, const VerdictLi
     }
     if (evidence.pose && !object.swept) findings.add(kNotSwept, "workpiece '" + object.id + "' has not been swept yet");
   }
+}
+
+// The strongest warning in force or held, and the collision that it is about.
+struct Warned {
+  Level level = Level::kClear;
+  const ExpectedContact* contact = nullptr;
+
+  void raise(Level to, const ExpectedContact& about) {
+    if (to > level) *this = {to, &about};
+  }
+};
+
+Warned warned(const Evidence& evidence, const Instant& now, const VerdictLimits& limits) {
+  Warned warned;
+  if (evidence.expected && overSince(*evidence.expected, now) <= limits.hold_time) {
+    warned.raise(warningOf(*evidence.expected, now, limits), evidence.expected->contact);
+  }
+  const auto held = [&](const auto& alarm) { return alarm && now.steady - alarm->ended <= limits.hold_time; };
+  if (held(evidence.reflex)) warned.raise(Level::kReflex, evidence.reflex->contact);
+  if (held(evidence.considered)) warned.raise(Level::kConsidered, evidence.considered->contact);
+  return warned;
+}
+
+std::string counted(const std::vector<std::uint32_t>& triangles) {
+  return std::to_string(triangles.size()) + (triangles.size() == 1 ? " triangle" : " triangles");
+}
+
+void tell(Verdict& verdict, const std::string& story) {
+  verdict.text = story + (verdict.text.empty() ? "" : "; ") + verdict.text;
+}
+
+Duration timeTo(const Evidence::Expectation& expectation, const Instant& now) {
+  return expectation.contact.from - expectation.pose.stamp - age(expectation.pose, now);
+}
+
+void warn(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Verdict& verdict) {
+  if (evidence.expected && overSince(*evidence.expected, now) == Duration::zero()) {
+    verdict.time_to_collision = std::max(Duration::zero(), timeTo(*evidence.expected, now));
+    verdict.probability = evidence.expected->contact.probability;
+  }
+  const Warned strongest = warned(evidence, now, limits);
+  if (!strongest.contact) return;
+  verdict.level = strongest.level;
+  verdict.mesh_id = strongest.contact->mesh_id;
+  verdict.triangles = strongest.contact->triangles;
+  tell(verdict, "collision with '" + verdict.mesh_id + "' " +
+                    (verdict.time_to_collision ? "expected in " + inSeconds(*verdict.time_to_collision)
+                                               : std::string("was expected")));
 }
 
 }  // namespace
@@ -58,6 +114,7 @@ Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits
   Findings findings;
   assessPose(evidence, now, limits, findings);
   assessObjects(evidence, now, limits, findings);
+  assessCoverage(evidence, now, limits, findings);
   for (const auto& [reason, story] : evidence.faults) findings.add(reason, story);
 
   Verdict verdict;
@@ -66,16 +123,25 @@ Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits
   verdict.text = findings.text();
   if (evidence.pose) verdict.pose_stamp = evidence.pose->stamp;
   verdict.covered_until = evidence.covered_until;
+  warn(evidence, now, limits, verdict);
   if (evidence.contact && (evidence.contact->lasting || now.steady - evidence.contact->found <= limits.hold_time)) {
     verdict.level = Level::kContact;
     verdict.mesh_id = evidence.contact->id;
     verdict.triangles = evidence.contact->triangles;
-    const size_t count = verdict.triangles.size();
-    verdict.text = "tool meets '" + verdict.mesh_id + "', " + std::to_string(count) +
-                   (count == 1 ? " triangle" : " triangles") + (verdict.text.empty() ? "" : "; ") + verdict.text;
+    tell(verdict, "tool meets '" + verdict.mesh_id + "', " + counted(verdict.triangles));
   }
   verdict.text = std::string(nameOf(verdict.level)) + (verdict.text.empty() ? "" : ": ") + verdict.text;
   return verdict;
+}
+
+Level warningOf(const Evidence::Expectation& expectation, const Instant& now, const VerdictLimits& limits) {
+  const Duration left = timeTo(expectation, now) + overSince(expectation, now);
+  if (left <= limits.reflex + limits.tick) return Level::kReflex;
+  return left <= limits.considered + limits.tick ? Level::kConsidered : Level::kClear;
+}
+
+Duration overSince(const Evidence::Expectation& expectation, const Instant& now) {
+  return std::max(Duration::zero(), age(expectation.pose, now) - expectation.reach);
 }
 
 const char* nameOf(Level level) {

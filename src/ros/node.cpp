@@ -17,6 +17,13 @@ constexpr auto kClockJump = std::chrono::milliseconds(100);
 
 ros::WallDuration wall(sweep_guard::Duration duration) { return ros::WallDuration(sweep_guard::toSeconds(duration)); }
 
+sweep_guard::GuardOptions guardOptions(const Parameters& parameters) {
+  sweep_guard::GuardOptions options;
+  options.sweep = parameters.sweep;
+  options.horizon.reserve = parameters.limits.pose_timeout;
+  return options;
+}
+
 }  // namespace
 
 SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
@@ -25,7 +32,8 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       warning_publisher_(ros::NodeHandle(private_node).advertise<sweep_guard::Warning>("warning", 10)),
       marker_publisher_(ros::NodeHandle(private_node).advertise<visualization_msgs::MarkerArray>("markers", 1)),
       ledger_(parameters_.limits, [this] { warn(/*only_on_change=*/true); }),
-      guard_(parameters_.tool(), sweep_guard::makeDetector(parameters_.detector, parameters_.cull), parameters_.sweep),
+      guard_(parameters_.tool(), sweep_guard::makeDetector(parameters_.detector, parameters_.cull),
+             guardOptions(parameters_)),
       workpieces_(parameters_.max_triangles, ledger_),
       poses_(node, parameters_, frames_, workpieces_, ledger_, [this](PlacedPose pose) { enqueue(std::move(pose)); }),
       meshes_(node, workpieces_),
@@ -75,10 +83,13 @@ void SweepGuardNode::sweepPoses() {
     if (stopping_) return;
     const PlacedPose pose = std::move(queue_.front());
     queue_.pop_front();
+    const bool newest = queue_.empty();
     lock.unlock();
     queue_changed_.notify_all();
     try {
       sweep(pose);
+      const sweep_guard::Duration waited = std::chrono::steady_clock::now() - predicted_;
+      if (newest || waited >= sweep_guard::GuardOptions().cycle) lookAhead(pose);
     } catch (const std::exception& error) {  // no memory for the report or its messages
       ledger_.fault(sweep_guard::kDetectorFault, std::string("sweeping failed: ") + error.what());
     }
@@ -104,6 +115,14 @@ void SweepGuardNode::sweep(const PlacedPose& placed) {
   scene_.X_WT = pose.X_WT;
   scene_.newest = report;
   if (report->contact()) scene_.contact = report;
+}
+
+void SweepGuardNode::lookAhead(const PlacedPose& placed) {
+  if (placed.came.epoch != guard_epoch_) return;
+  const sweep_guard::Seen seen{placed.pose.stamp, placed.pose.received};
+  ledger_.predicted(guard_.lookAhead(age(seen, now()), workpieces_.snapshot()), seen, placed.came, now());
+  predicted_ = std::chrono::steady_clock::now();
+  warn(/*only_on_change=*/true);
 }
 
 void SweepGuardNode::publishContacts(const sweep_guard::SweepReport& report) {

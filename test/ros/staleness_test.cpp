@@ -17,6 +17,7 @@ TEST(StalenessTest, SilenceIsUnknownInTime) {
   const auto vertices = sheetMovedTo("sheet", {0.0, 0.0, -1.0}, ros::Time::now());
   probe.place(vertices);
   const auto pose = poseAt({0.0, 0.0, 0.5}, ros::Time::now());
+  probe.publish(poseAt({0.0, 0.0, 0.5}, pose.header.stamp - ros::Duration(0.01)));  // two poses are a motion
   probe.publish(pose);
   probe.awaitWarning([](const Warning& warning) { return warning.clear; });
 

@@ -20,6 +20,9 @@ class BoxCoordinates {
   /// Position of a vertex in B [m].
   Eigen::Vector3d operator()(std::uint32_t vertex) const { return R_BM_ * (mesh_.offset(vertex) - center_); }
 
+  /// Position of the mesh's origin in B [m].
+  Eigen::Vector3d origin() const { return R_BM_ * -center_; }
+
   /// Bound [m] on the rounding of any of these positions, of the box itself, and of a point that clipping makes between
   /// them: a dozen roundings of 2^-53, with a margin.
   double rounding() const { return rounding_; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sweep_guard/prediction/horizon.h"
 
 namespace sweep_guard {
@@ -11,8 +13,9 @@ class Budget {
   /// @param cycle  time there is for one pose: its measured sweep and all predicted ones, > 0
   Budget(const HorizonOptions& horizon, Duration cycle);
 
-  /// Number of sweeps to cut the considered interval into now, at least 1.
-  size_t consideredSweeps() const;
+  /// Number of sweeps to cut the considered interval into now, at least 1; 1 as long as nothing is known of their cost.
+  /// @param reflex_sweeps  how many the reflex interval takes
+  size_t consideredSweeps(size_t reflex_sweeps) const;
 
   /// What the newest cycle took.
   /// @param measured   the sweep to the measured pose
@@ -22,8 +25,8 @@ class Budget {
  private:
   HorizonOptions horizon_;
   Duration cycle_;
-  double measured_ = 0.0;   // [s], slow to fall
-  double per_sweep_ = 0.0;  // [s], slow to fall
+  double measured_ = 0.0;            // [s], slow to fall
+  std::optional<double> per_sweep_;  // [s], slow to fall
 };
 
 }  // namespace sweep_guard

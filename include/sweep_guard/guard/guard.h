@@ -1,11 +1,16 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sweep_guard/common/time.h"
+#include "sweep_guard/guard/budget.h"
+#include "sweep_guard/guard/outlook.h"
+#include "sweep_guard/guard/path_test.h"
 #include "sweep_guard/guard/sweep_test.h"
 #include "sweep_guard/guard/workpiece.h"
 
@@ -39,20 +44,36 @@ struct SweepReport {
   bool complete() const;  ///< every workpiece was swept, and there is one
 };
 
+struct GuardOptions {
+  SweepOptions sweep;
+  PredictorOptions predictor;
+  HorizonOptions horizon;
+  Duration cycle = fromSeconds(1.0 / 15.0);  ///< time there is for a pose and the prediction after it, > 0
+  /// What the cost of sweeping is measured on; never goes back.
+  std::function<SteadyTime()> clock = std::chrono::steady_clock::now;
+};
+
 /// Sweeps the tool from pose to pose, so that no motion goes untested. What could not be swept is not skipped: after a
 /// failure of the detector the way through every pose since is swept, after a missing transform the straight way from
-/// the last pose that was known in that frame. The first sweep in a frame is a test of the pose alone. One thread.
+/// the last pose that was known in that frame. The first sweep in a frame is a test of the pose alone. From the newest
+/// pose on it sweeps along the path that the operator's motion lets expect [P, Sec. 3.2]. One thread.
 ///
 /// Tool and frames move straight at constant speed in W, and turn about one axis at constant rate, between their poses.
 class Guard {
  public:
-  Guard(Tool tool, std::unique_ptr<Detector> detector, const SweepOptions& options);
+  /// @throws InvalidInput if an option is out of range
+  Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options);
 
   /// @param pose  its stamp must not lie before that of the pose before
   SweepReport sweep(const ToolPose& pose, const Workpieces& workpieces);
 
+  /// Sweeps along the path predicted from the newest pose on. Frames of workpieces are taken to stay as they are there.
+  /// The path is empty until a motion is known: two poses.
+  /// @param age  of the newest pose now, >= 0
+  Outlook lookAhead(Duration age, const Workpieces& workpieces);
+
   /// Begins anew, as if no pose had come.
-  void forget() { ways_.clear(); }
+  void forget();
 
   const Tool& tool() const { return tool_; }
 
@@ -65,12 +86,19 @@ class Guard {
   using Way = std::vector<Placed>;  // the pose swept to last, and those since; ends at the newest
 
   SweepFindings sweepAlong(const Way& way, const TriangleMesh& mesh_M);
+  SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);
+  void testPath(Outlook& outlook, const Workpieces& workpieces);
   void dropWaysOfEmptyFrames(const Workpieces& workpieces);
 
   Tool tool_;
   std::unique_ptr<Detector> detector_;
-  SweepOptions options_;
+  GuardOptions options_;
   std::map<std::string, Way> ways_;  // by frame
+  PosePredictor predictor_;
+  Budget budget_;
+  PathTest test_path_;
+  std::optional<ToolPose> newest_;
+  Duration measured_{};  // cost of the newest sweep
 };
 
 }  // namespace sweep_guard

@@ -44,7 +44,12 @@ class Ledger {
   /// A pose has been swept to. Mends the faults from before the pose came. Does nothing if time has jumped since.
   void swept(const SweepReport& report, const Seen& pose, const Mark& pose_came, SteadyTime now);
 
-  /// Time went back: poses and faults are forgotten; kTimeJump is in force until a pose of the new time is swept.
+  /// The path from a pose that has been swept to was tested. Does nothing if time has jumped since the pose came.
+  /// @param pose  that the path begins at
+  void predicted(const Outlook& outlook, const Seen& pose, const Mark& pose_came, const Instant& now);
+
+  /// Time went back: poses, predictions and faults are forgotten; kTimeJump is in force until a pose of the new time is
+  /// swept.
   void timeJumped(const std::string& story);
 
   Verdict verdict(const Instant& now) const;
@@ -55,18 +60,30 @@ class Ledger {
     std::uint64_t number;
   };
 
+  struct Prediction {
+    Seen pose;           // that it began at
+    Time covered_until;  // the workpieces tested
+    Workpieces tested;
+  };
+
   void note(Reason reason, const std::string& story);
   void noteContact(const SweepReport& report, SteadyTime now);
-  bool sweptLast(const Workpiece& workpiece) const;
+  void noteExpected(const Outlook& outlook, const Seen& pose, const Instant& now);
+  void noteAlarm(const Instant& now);
+  Time coveredUntil(const Instant& now) const;
 
   const VerdictLimits limits_;
   const std::function<void()> on_fault_;
   mutable std::mutex mutex_;
   Mark mark_;
   std::optional<Seen> pose_;
-  Time covered_until_;
+  Time swept_until_;  // every workpiece
   std::optional<Evidence::Contact> contact_;
   Workpieces swept_;  // at the newest pose
+  std::optional<Prediction> prediction_;
+  std::optional<Evidence::Expectation> expected_;
+  std::optional<Evidence::Alarm> reflex_;
+  std::optional<Evidence::Alarm> considered_;
   Workpieces workpieces_;
   std::map<Reason, Fault> faults_;
   std::map<std::string, std::string> refused_meshes_;  // stories by id

@@ -44,11 +44,11 @@ struct Outlook {
 
 /// A contact that an operator is warned of.
 struct ExpectedContact {
-  Time from;                 ///< it does not begin earlier
-  bool met = false;          ///< by the predicted path itself; otherwise it is merely probable enough
+  Time from;         ///< it does not begin earlier
+  bool met = false;  ///< the predicted path itself meets the workpiece, then or later; else it is merely probable
   double probability = 0.0;  ///< largest of the sweeps from `from` on, in [0, 1]
   std::string mesh_id;
-  std::vector<std::uint32_t> triangles;  ///< met by the predicted path: ascending, each once; empty if merely probable
+  std::vector<std::uint32_t> triangles;  ///< met by the predicted path: ascending, each once; empty if it meets none
 };
 
 /// The earliest sweep that meets a workpiece, or does so with at least this probability; empty if none does.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sweep_guard/common/time.h"
+#include "sweep_guard/guard/outlook.h"
 
 namespace sweep_guard {
 
@@ -27,6 +28,7 @@ enum Reason : std::uint32_t {
   kTimeJump = 1U << 9,
   kDetectorFault = 1U << 10,
   kNotSwept = 1U << 11,
+  kNotCovered = 1U << 12,
 };
 
 /// When an input was made and when it came in.
@@ -54,18 +56,36 @@ struct Evidence {
     SteadyTime found;
     bool lasting = false;  ///< the newest sweep has met it
   };
+  /// A contact that the newest prediction of its workpiece expects. In force until that prediction ends.
+  struct Expectation {
+    ExpectedContact contact;
+    Seen pose;         ///< that the prediction began at
+    Duration reach{};  ///< how far after that pose it ends
+  };
+  /// A warning that is no longer in force.
+  struct Alarm {
+    ExpectedContact contact;
+    SteadyTime ended;  ///< when it was in force last
+  };
 
   std::optional<Seen> pose;  ///< newest pose that has been swept
   std::vector<Object> objects;
-  std::optional<Contact> contact;        ///< newest contact
-  Time covered_until;                    ///< every workpiece has been swept up to here; epoch: never
+  std::optional<Contact> contact;  ///< newest contact
+  std::optional<Expectation> expected;
+  std::optional<Alarm> reflex;      ///< newest that has ended
+  std::optional<Alarm> considered;  ///< newest that has ended
+  Time covered_until;               ///< no workpiece is left untested up to here, measured or predicted; epoch: never
   std::map<Reason, std::string> faults;  ///< in force, each with its story
 };
 
 struct VerdictLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
   Duration mesh_timeout;  ///< a workpiece older than this is stale; Duration::max(): never
-  Duration hold_time;     ///< a contact is shown for so long after the tool has left; >= 0
+  Duration hold_time;     ///< a contact or a warning is shown for so long after it is over; >= 0
+  Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, > 0
+  Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
+  Duration tick = std::chrono::milliseconds(15);          ///< until the verdict is asked for again at the latest; >= 0
+  double min_probability = 0.1;                           ///< of a contact that is warned of, in (0, 1]
 };
 
 /// The level and why.
@@ -73,16 +93,28 @@ struct Verdict {
   Level level = Level::kUnknown;
   std::uint32_t reasons = 0;             ///< bits of Reason
   std::string text;                      ///< level and reasons in words
-  std::string mesh_id;                   ///< object of the contact
-  std::vector<std::uint32_t> triangles;  ///< of the contact
-  Time pose_stamp;                       ///< of the newest pose swept to; epoch: none
-  Time covered_until;                    ///< every workpiece has been swept up to here; epoch: never
+  std::string mesh_id;                   ///< object of the contact or of the collision expected
+  std::vector<std::uint32_t> triangles;  ///< of the contact, or those that the predicted path meets
+  /// Until the expected collision, >= 0; empty: none is expected.
+  std::optional<Duration> time_to_collision;
+  double probability = 0.0;  ///< of the expected collision, in [0, 1]
+  Time pose_stamp;           ///< of the newest pose swept to; epoch: none
+  Time covered_until;        ///< no workpiece is left untested up to here; epoch: never
 };
 
-/// Contact before unknown before clear. Clear takes a fresh pose, a workpiece, every workpiece fresh and swept at that
-/// pose, and no fault: whatever is missing is unknown, not clear. Reasons are named whatever the level. Ages are the
-/// larger of both clocks.
+/// Contact before reflex before considered before unknown before clear. A warning is due as soon as the collision
+/// expected would come within its interval before the verdict is asked for again; it is held for its hold time. Clear
+/// takes a fresh pose, a workpiece, every workpiece fresh, swept at that pose and tested up to the end of the
+/// considered interval, and no fault: whatever is missing is unknown, not clear. Reasons are named whatever the level.
+/// Ages are the larger of both clocks.
 Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits& limits);
+
+/// The warning that an expectation alone asks for now, or at the end of its prediction if that is over: kReflex,
+/// kConsidered, or kClear for none.
+Level warningOf(const Evidence::Expectation& expectation, const Instant& now, const VerdictLimits& limits);
+
+/// How long the prediction of an expectation has been over; 0 if it is not.
+Duration overSince(const Evidence::Expectation& expectation, const Instant& now);
 
 /// `UNKNOWN`, `CLEAR`, ...
 const char* nameOf(Level level);

@@ -23,6 +23,14 @@ struct Horizon {
   size_t reflex_sweeps = 0;    ///< the first so many end within the reflex interval
 };
 
+/// @throws InvalidInput if an option is out of range, or if an interval takes more than 10000 sweeps
+void check(const HorizonOptions& options);
+
+/// Number of sweeps that the reflex interval takes from a pose of this age on. From a pose that is older than the
+/// reserve they are as many as from one of that age, and longer than the reflex step.
+/// @param age  >= 0
+size_t reflexSweeps(const HorizonOptions& options, Duration age);
+
 /// Number of sweeps that the considered interval, reserve included, takes at its configured step.
 size_t consideredSweeps(const HorizonOptions& options);
 

@@ -30,6 +30,7 @@ class SweepGuardNode {
   void enqueue(PlacedPose pose);
   void sweepPoses();
   void sweep(const PlacedPose& placed);
+  void lookAhead(const PlacedPose& placed);
   void publishContacts(const sweep_guard::SweepReport& report);
   void watch();
   void watchClock();
@@ -56,9 +57,10 @@ class SweepGuardNode {
 
   // What follows calls back on what stands above.
   sweep_guard::Ledger ledger_;
-  sweep_guard::Guard guard_;       // of the sweeping thread
-  std::uint64_t guard_epoch_ = 0;  // of the sweeping thread
-  LogThrottle log_;                // of the sweeping thread
+  sweep_guard::Guard guard_;           // of the sweeping thread
+  std::uint64_t guard_epoch_ = 0;      // of the sweeping thread
+  sweep_guard::SteadyTime predicted_;  // of the sweeping thread
+  LogThrottle log_;                    // of the sweeping thread
   Frames frames_;
   WorkpieceStore workpieces_;
   PoseInput poses_;

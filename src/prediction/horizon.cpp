@@ -1,0 +1,61 @@
+#include "sweep_guard/prediction/horizon.h"
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard {
+namespace {
+
+constexpr Duration::rep kMostSweeps = 10000;
+
+void checkStep(const std::string& key, Duration interval, Duration step) {
+  if (step <= Duration::zero()) throw InvalidInput("horizon " + key + ": must be > 0 s");
+  if (interval / step >= kMostSweeps) {
+    throw InvalidInput("horizon " + key + ": takes more than 10000 sweeps; choose a longer step");
+  }
+}
+
+size_t steps(Duration interval, Duration step) { return static_cast<size_t>((interval + step - Duration(1)) / step); }
+
+// In whole nanoseconds; the last is exactly `to`.
+void appendEqual(std::vector<Duration>& ends, Duration from, Duration to, size_t count) {
+  for (size_t i = 1; i <= count; ++i) {
+    const auto [quotient, rest] = std::div((to - from).count(), static_cast<std::int64_t>(count));
+    const auto k = static_cast<std::int64_t>(i);
+    ends.push_back(from + Duration(quotient * k + rest * k / static_cast<std::int64_t>(count)));
+  }
+}
+
+}  // namespace
+
+void check(const HorizonOptions& options) {
+  if (options.reflex <= Duration::zero()) throw InvalidInput("horizon reflex: must be > 0 s");
+  if (options.considered <= options.reflex) throw InvalidInput("horizon considered: must be longer than reflex");
+  if (options.reserve < Duration::zero()) throw InvalidInput("horizon reserve: must be >= 0 s");
+  checkStep("reflex_step", options.reflex + options.reserve, options.reflex_step);
+  checkStep("considered_step", options.considered + options.reserve, options.considered_step);
+}
+
+size_t reflexSweeps(const HorizonOptions& options, Duration age) {
+  assert(age >= Duration::zero());
+  return steps(std::min(age, options.reserve) + options.reflex, options.reflex_step);
+}
+
+size_t consideredSweeps(const HorizonOptions& options) {
+  return steps(options.considered + options.reserve - options.reflex, options.considered_step);
+}
+
+Horizon horizon(const HorizonOptions& options, Duration age, size_t considered_sweeps) {
+  assert(considered_sweeps >= 1 && considered_sweeps <= consideredSweeps(options));
+  Horizon horizon{{}, reflexSweeps(options, age)};
+  horizon.ends.reserve(horizon.reflex_sweeps + considered_sweeps);
+  const Duration reflex_end = age + options.reflex;
+  appendEqual(horizon.ends, Duration::zero(), reflex_end, horizon.reflex_sweeps);
+  appendEqual(horizon.ends, reflex_end, age + options.considered + options.reserve, considered_sweeps);
+  return horizon;
+}
+
+}  // namespace sweep_guard

@@ -1,0 +1,180 @@
+#include "sweep_guard/guard/contact_probability.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes.h"
+
+namespace sweep_guard {
+namespace {
+
+double phi(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
+
+Matrix6d covarianceOf(const Eigen::Matrix<double, 6, 1>& deviations) {
+  return deviations.cwiseProduct(deviations).asDiagonal();
+}
+
+Matrix6d translating(double deviation) {
+  return covarianceOf((Eigen::Matrix<double, 6, 1>() << deviation, deviation, deviation, 0, 0, 0).finished());
+}
+
+// A square of two triangles, parallel to y and z, a kilometre wide.
+TriangleMesh wallAt(double x) {
+  return TriangleMesh({{x, -512, -512}, {x, 512, -512}, {x, 512, 512}, {x, -512, 512}}, {{0, 1, 2}, {0, 2, 3}});
+}
+
+// A tool of 0.125 m along x, its tip at the origin, that goes on along x by 0.25 m: its box ends at x = 0.25.
+const Tool kNeedle = Tool::cylinder(0.0, 0.125);
+const Tool kDrum = Tool::cylinder(0.5, 0.125);
+Motion goesOn() {
+  Motion motion;
+  motion.X_MT_start.linear() = Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  motion.X_MT_end = Eigen::Translation3d(0.25, 0.0, 0.0) * motion.X_MT_start;
+  return motion;
+}
+
+double probabilityOf(const Tool& tool, const Motion& motion, const Matrix6d& covariance_M, const TriangleMesh& mesh_M) {
+  const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
+  const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance_M, swept_M);
+  const auto clearance = ClearanceMeter()(mesh_M, swept_M, deviations);
+  return clearance ? contactProbability(clearance->deviations) : 0.0;
+}
+
+TEST(ContactProbabilityTest, IsTheGaussianIntegralAndZeroWhereItIsSmall) {
+  EXPECT_DOUBLE_EQ(contactProbability(0.0), 0.5);
+  EXPECT_NEAR(contactProbability(1.0), 0.158655253931457, 1e-12);
+  EXPECT_NEAR(contactProbability(-1.0), 1.0 - 0.158655253931457, 1e-12);
+  EXPECT_NEAR(contactProbability(3.09), 0.0010007824, 1e-9);
+  EXPECT_EQ(contactProbability(3.0901), 0.0);
+}
+
+// The wall stands `distance` beyond where the tip is expected to be, across its way.
+TEST(ContactProbabilityTest, OfAFlatWallIsExact) {
+  for (const double deviation : {0.001, 0.0625, 1.0}) {
+    for (const double ratio : {0.0, 0.25, 1.0, 2.0, 3.0}) {
+      const TriangleMesh wall = wallAt(0.25 + ratio * deviation);
+      EXPECT_NEAR(probabilityOf(kNeedle, goesOn(), translating(deviation), wall), phi(-ratio), 1e-6) << ratio;
+      EXPECT_NEAR(probabilityOf(kDrum, goesOn(), translating(deviation), wall), phi(-ratio), 1e-6) << ratio;
+    }
+  }
+}
+
+// The path ends beyond the wall: it must err by so much the other way for the wall to stay unmet.
+TEST(ContactProbabilityTest, OfAWallOnThePathIsMoreThanHalf) {
+  for (const double ratio : {-0.25, -1.0, -2.0, -3.0}) {
+    EXPECT_NEAR(probabilityOf(kDrum, goesOn(), translating(0.0625), wallAt(0.25 + ratio * 0.0625)), phi(-ratio), 4e-4);
+  }
+}
+
+TEST(ContactProbabilityTest, OfAFarWallIsZero) {
+  EXPECT_GT(probabilityOf(kNeedle, goesOn(), translating(0.0625), wallAt(0.25 + 3.08 * 0.0625)), 0.001);
+  EXPECT_EQ(probabilityOf(kNeedle, goesOn(), translating(0.0625), wallAt(0.25 + 3.10 * 0.0625)), 0.0);
+  EXPECT_EQ(probabilityOf(kNeedle, goesOn(), translating(0.0625), wallAt(100.0)), 0.0);
+}
+
+TEST(ContactProbabilityTest, OfAPathThatIsSureIsZeroOrOne) {
+  EXPECT_EQ(probabilityOf(kNeedle, goesOn(), Matrix6d::Zero(), wallAt(0.2501)), 0.0);
+  EXPECT_NEAR(probabilityOf(kDrum, goesOn(), Matrix6d::Zero(), wallAt(0.2499)), 1.0, 0.002);
+}
+
+// A drill that stands up, its tip at the origin and its far end 0.2 m below; a wall stands beside it. Its turn about y
+// by 0.1 rad moves the far end by 0.2 * 0.1 = 0.02 m towards the wall, and the tip not at all.
+TEST(ContactProbabilityTest, TurnsReachFartherWithALongerLever) {
+  Eigen::Matrix<double, 6, 1> turning = Eigen::Matrix<double, 6, 1>::Zero();
+  turning[4] = 0.1;
+  const Tool drill = Tool::cylinder(0.0, 0.2);
+  const SweptVolume swept_M = sweptVolume(drill, Motion(), VolumeKind::kObb);
+  const auto deviations = planeDeviations(drill, Eigen::Isometry3d::Identity(), covarianceOf(turning), swept_M);
+  const auto half_spaces_B = swept_M.halfSpaces_B();
+  for (size_t i = 0; i < half_spaces_B.size(); ++i) {
+    const Eigen::Vector3d n_M = swept_M.box.X_MB.linear() * half_spaces_B[i].normal();
+    if (std::abs(n_M.z()) > 0.5) {
+      EXPECT_NEAR(deviations[i], 1e-9, 1e-12);  // along its axis the tool does not move
+    }
+  }
+  // With the plane's normal n and its point r, the lever is (r x n): a plane that faces x and down touches the far end.
+  const Eigen::Vector3d n_M = Eigen::Vector3d(1.0, 0.0, -1.0).normalized();
+  SweptVolume tilted_M = swept_M;
+  tilted_M.clips_B.emplace_back(swept_M.box.X_MB.linear().transpose() * n_M, 1.0);
+  EXPECT_NEAR(planeDeviations(drill, Eigen::Isometry3d::Identity(), covarianceOf(turning), tilted_M).back(),
+              0.1 * 0.2 * n_M.x(), 1e-12);
+}
+
+// Any mesh, any motion: more doubt or less distance never makes contact beyond the path less probable.
+TEST(ContactProbabilityTest, GrowsWithDoubtAndFallsWithDistance) {
+  Random random(2);
+  const TriangleMesh hull = wavyHull(12, 16, 0.0);
+  int between = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Tool tool = Tool::cylinder(0.005, 0.1);
+    const Eigen::Vector3d away = random.direction();
+    Motion motion{random.pose(0.25 * away), random.pose(0.25 * away)};
+    motion.X_MT_end.linear() = motion.X_MT_start.linear();
+    const double scale = random.logUniform(0.01, 0.1);
+    const auto at = [&](double further, double doubt) {
+      Motion moved = motion;
+      moved.X_MT_start.pretranslate(further * away);
+      moved.X_MT_end.pretranslate(further * away);
+      return probabilityOf(tool, moved, translating(doubt * scale), hull);
+    };
+    const double here = at(0.0, 1.0);
+    between += here > 0.01 && here < 0.49;
+    if (here < 0.5) {
+      EXPECT_GE(at(0.0, 1.5) + 1e-3, here);
+      EXPECT_LE(at(0.0, 0.5) - 1e-3, here);
+    }
+  }
+  EXPECT_GT(between, 50);
+  const auto wall = [](double distance) {
+    return probabilityOf(kNeedle, goesOn(), translating(0.05), wallAt(0.25 + distance));
+  };
+  for (double distance = -0.05; distance < 0.2; distance += 0.01)
+    EXPECT_LE(wall(distance + 0.01), wall(distance) + 1e-3);
+}
+
+// What the meter says is what clipping says: a little less and nothing is met, a little more and something is.
+TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) {
+  Random random(3);
+  const TriangleMesh hull = wavyHull(12, 16, 0.5);
+  ClearanceMeter meter;
+  int met = 0;
+  int inside = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Tool tool = randomTool(random, 0.1);
+    Motion motion = randomMotion(random, tool, random.uniform(0.05, 0.3) * random.direction(), 0.17);
+    const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
+    const Matrix6d covariance = covarianceOf(Eigen::Matrix<double, 6, 1>::Constant(random.logUniform(0.01, 0.2)));
+    const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance, swept_M);
+    const auto meetsAt = [&](double z) {
+      const auto half_spaces_B = swept_M.halfSpaces_B();
+      for (const Triangle& triangle : hull.triangles()) {
+        Polygon polygon_B;
+        for (const auto vertex : triangle) polygon_B.push_back(swept_M.box.X_MB.inverse() * hull.vertex(vertex));
+        for (size_t k = 0; k < half_spaces_B.size(); ++k) {
+          polygon_B = clip(polygon_B, half_spaces_B[k].grown(z * deviations[k]));
+        }
+        if (!polygon_B.empty()) return true;
+      }
+      return false;
+    };
+    const auto clearance = meter(hull, swept_M, deviations);
+    if (!clearance) {
+      EXPECT_FALSE(meetsAt(kMostDeviations - 1e-6));
+      continue;
+    }
+    ++met;
+    inside += clearance->deviations < 0.0;
+    EXPECT_TRUE(meetsAt(clearance->deviations + 1e-6)) << i;
+    if (clearance->deviations > -kMostDeviations) {
+      EXPECT_FALSE(meetsAt(clearance->deviations - 2e-3)) << i;
+    }
+    EXPECT_TRUE(!clearance->separated || clearance->deviations > -1e-6);
+    EXPECT_TRUE(clearance->separated || meetsAt(0.0) || clearance->deviations > 0.0);
+  }
+  EXPECT_GT(met, 100);
+  EXPECT_GT(inside, 20);
+}
+
+}  // namespace
+}  // namespace sweep_guard
