@@ -8,7 +8,7 @@ namespace sweep_guard {
 namespace {
 
 constexpr double kMemory = 20.0;       // [s] of what was learned
-constexpr double kErrorMemory = 10.0;  // [s] of how it turned out
+constexpr double kErrorMemory = 20.0;  // [s] of how it turned out
 
 using Scalar = Eigen::Matrix<double, 1, 1>;
 

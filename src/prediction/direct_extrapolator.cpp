@@ -10,11 +10,11 @@ namespace {
 
 constexpr std::array<int, 4> kWindows = {50, 120, 300, 800};  // [ms]
 constexpr int kDragged = 1;              // the window whose velocity times its speed is the fifth regressor
-constexpr double kFastest = 3.0;         // times the usual speed: no more drag beyond
+constexpr double kFastest = 2.5;         // times the usual speed: no more drag beyond
 constexpr double kSpeedMemory = 20.0;    // [s]
 constexpr double kPriorSpeed = 0.02;     // [m/s]
 constexpr double kPriorTurnRate = 0.15;  // [rad/s]
-constexpr double kFarthest = 2.0;        // times the usual displacement of a second
+constexpr double kFarthest = 1.6;        // times the usual displacement of a second
 
 template <size_t... i>
 std::array<Carry, sizeof...(i)> makeCarries(double prior_speed, std::index_sequence<i...> /*knots*/) {

@@ -12,7 +12,7 @@ namespace sweep_guard {
 
 /// Learns from the operator how far velocities carry: for each of kLearnedAhead its own recursive least squares fit of
 /// the displacement that came on the velocities measured over windows of 0.05, 0.12, 0.3 and 0.8 s, and on the second
-/// of them times its speed, for fast motions end sooner. No prediction goes farther than twice what motions of a second
+/// of them times its speed, for fast motions end sooner. No prediction goes much farther than motions of a second
 /// usually do.
 class DirectExtrapolator : public Extrapolator {
  public:
