@@ -1,0 +1,89 @@
+#include "sweep_guard/guard/budget.h"
+
+#include <gtest/gtest.h>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr size_t kReflex = 10;
+constexpr auto kCycle = 66ms;
+
+// What a cycle takes if every predicted sweep costs this, once the budget has settled.
+Duration settled(Budget& budget, Duration measured, Duration per_sweep) {
+  Duration total{};
+  for (int i = 0; i < 500; ++i) {
+    const size_t sweeps = kReflex + budget.consideredSweeps(kReflex);
+    const Duration predicted = static_cast<int>(sweeps) * per_sweep;
+    total = measured + predicted;
+    budget.spent(measured, predicted, sweeps);
+  }
+  return total;
+}
+
+TEST(BudgetTest, BeginsCoarselyAndTakesAllStepsOnceTheyAreKnownToBeCheap) {
+  Budget budget({}, kCycle);
+  EXPECT_EQ(budget.consideredSweeps(kReflex), 1U);
+  budget.spent(1ms, 11 * 100us, 11);
+  EXPECT_EQ(budget.consideredSweeps(kReflex), consideredSweeps({}));
+}
+
+TEST(BudgetTest, TheDearerASweepTheFewerThereAre) {
+  size_t before = consideredSweeps({});
+  for (const Duration per_sweep : {1ms, 2ms, 3ms, 4ms, 5ms, 8ms, 100ms}) {
+    Budget budget({}, kCycle);
+    settled(budget, 1ms, per_sweep);
+    const size_t sweeps = budget.consideredSweeps(kReflex);
+    EXPECT_LE(sweeps, before);
+    EXPECT_GE(sweeps, 1U);
+    before = sweeps;
+  }
+  EXPECT_EQ(before, 1U);
+}
+
+TEST(BudgetTest, KeepsTheCycleAsLongAsTheReflexIntervalAndOneSweepFit) {
+  for (Duration per_sweep = 100us; per_sweep * (kReflex + 1) + 5ms <= kCycle; per_sweep += 100us) {
+    Budget budget({}, kCycle);
+    EXPECT_LE(settled(budget, 5ms, per_sweep), kCycle) << per_sweep.count() << " ns";
+  }
+}
+
+TEST(BudgetTest, RisesAtOnceAndFallsSlowly) {
+  Budget budget({}, kCycle);
+  settled(budget, 1ms, 1ms);
+  const size_t cheap = budget.consideredSweeps(kReflex);
+  budget.spent(1ms, 20 * 4ms, 20);
+  const size_t dear = budget.consideredSweeps(kReflex);
+  EXPECT_LT(dear, cheap);
+  budget.spent(1ms, 11 * 1ms, 11);
+  EXPECT_LE(budget.consideredSweeps(kReflex), dear + 1);
+  settled(budget, 1ms, 1ms);
+  EXPECT_EQ(budget.consideredSweeps(kReflex), cheap);
+}
+
+TEST(BudgetTest, ASlowMeasuredSweepLeavesLessToPredictionToo) {
+  Budget budget({}, kCycle);
+  settled(budget, 0ms, 2ms);
+  const size_t before = budget.consideredSweeps(kReflex);
+  budget.spent(20ms, 11 * 2ms, 11);
+  EXPECT_LT(budget.consideredSweeps(kReflex), before);
+}
+
+TEST(BudgetTest, ACycleWithoutAPredictionTellsNothingOfItsCost) {
+  Budget budget({}, kCycle);
+  budget.spent(1ms, 0ms, 0);
+  EXPECT_EQ(budget.consideredSweeps(kReflex), 1U);
+}
+
+TEST(BudgetTest, RefusesACycleWithoutTime) {
+  EXPECT_THROW(Budget({}, 0ms), InvalidInput);
+  HorizonOptions backwards;
+  backwards.considered = 50ms;
+  EXPECT_THROW(Budget(backwards, kCycle), InvalidInput);
+}
+
+}  // namespace
+}  // namespace sweep_guard

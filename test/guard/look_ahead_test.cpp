@@ -1,0 +1,334 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/round_tool.h"
+#include "guard/fake_detector.h"
+#include "scenes.h"
+#include "sweep_guard/guard/guard.h"
+
+namespace sweep_guard {
+namespace {
+
+using namespace std::chrono_literals;
+using Indices = std::vector<std::uint32_t>;
+
+GuardOptions constantVelocity() {
+  GuardOptions options;
+  options.predictor.predictor = "constant_velocity";
+  options.clock = [] { return SteadyTime(); };  // everything is free of cost
+  return options;
+}
+
+std::shared_ptr<const Workpiece> workpiece(const std::string& id, const TriangleMesh& mesh_M,
+                                           const std::string& frame = "table") {
+  return std::make_shared<const Workpiece>(Workpiece{id, 0, Time(1s), SteadyTime{}, frame, mesh_M});
+}
+
+TriangleMesh sheetAt(double z) {
+  return TriangleMesh({{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}}, {{0, 1, 2}, {0, 2, 3}});
+}
+
+// A constant velocity and rate of turn in W.
+struct Steady {
+  Eigen::Isometry3d X_WT;            // at time 0
+  Eigen::Vector3d velocity;          // [m/s]
+  Eigen::Vector3d turn = {0, 0, 0};  // [rad/s]
+
+  Eigen::Isometry3d at(double t) const {
+    Eigen::Isometry3d X = X_WT;
+    X.translation() += t * velocity;
+    if (turn.norm() > 0.0) X.linear() = Eigen::AngleAxisd(t * turn.norm(), turn.normalized()) * X_WT.linear();
+    return X;
+  }
+};
+
+// Points down from there, and comes down.
+Steady comingDown(double z, double speed) {
+  Steady motion{Eigen::Isometry3d(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX())), {0, 0, -speed}};
+  motion.X_WT.translation().z() = z;
+  return motion;
+}
+
+class LookAheadTest : public testing::Test {
+ protected:
+  // Ten poses of 10 ms; the last is where the motion is at time 0, its stamp is 10 s.
+  void follow(const Steady& motion,
+              const std::map<std::string, Eigen::Isometry3d>& X_WM = {{"table", Eigen::Isometry3d::Identity()}}) {
+    for (int i = -9; i <= 0; ++i) {
+      guard_.sweep({Time(10s + i * 10ms), SteadyTime(), motion.at(0.01 * i), X_WM}, workpieces_);
+    }
+  }
+
+  // The first prediction is coarse: nothing is known of its cost.
+  Outlook lookAhead(Duration age = 0ms) {
+    guard_.lookAhead(age, workpieces_);
+    return guard_.lookAhead(age, workpieces_);
+  }
+
+  Workpieces workpieces_;
+  FakeDetector::Record record_;
+  Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<FakeDetector>(record_), constantVelocity()};
+};
+
+TEST_F(LookAheadTest, ExpectsNothingBeforeAMotionIsKnown) {
+  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+  EXPECT_TRUE(guard_.lookAhead(0ms, workpieces_).path.empty());
+  guard_.sweep({Time(10s), SteadyTime(), Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}},
+               workpieces_);
+  const Outlook outlook = guard_.lookAhead(0ms, workpieces_);
+  EXPECT_TRUE(outlook.path.empty());
+  EXPECT_TRUE(outlook.objects.empty());
+  EXPECT_EQ(outlook.coveredUntil(), Time(10s));
+}
+
+TEST_F(LookAheadTest, ExpectsNothingAfterForgetting) {
+  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+  follow(comingDown(0.05, 0.1));
+  guard_.forget();
+  EXPECT_TRUE(lookAhead().path.empty());
+}
+
+TEST_F(LookAheadTest, CoversTheHorizonCountedFromNow) {
+  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+  follow(comingDown(5.0, 0.1));
+  const Outlook outlook = lookAhead(30ms);
+  EXPECT_EQ(outlook.stamp, Time(10s));
+  EXPECT_EQ(outlook.reflex_sweeps, 13U);
+  EXPECT_EQ(outlook.sweeps_asked, 23U);
+  ASSERT_EQ(outlook.path.size(), 23U);
+  EXPECT_EQ(outlook.path[12].ahead, 130ms);
+  EXPECT_EQ(outlook.coveredUntil(), Time(11130ms));
+  ASSERT_EQ(outlook.objects.size(), 1U);
+  EXPECT_EQ(outlook.objects[0].workpiece, workpieces_[0]);
+  EXPECT_EQ(outlook.objects[0].sweeps.size(), 23U);
+  EXPECT_EQ(outlook.objects[0].volumes_M.size(), 23U);
+}
+
+// 5 cm at 0.1 m/s: half a second. It is known to 5 ms when the sweep of 100 ms is halved that often.
+TEST_F(LookAheadTest, TellsWhenThePathMeetsASheet) {
+  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+  follow(comingDown(0.05, 0.1));
+  const Outlook outlook = lookAhead();
+  const auto expected = expectedContact(outlook, 1.0);
+  ASSERT_TRUE(expected);
+  EXPECT_TRUE(expected->met);
+  EXPECT_LE(expected->from, Time(10500ms));
+  EXPECT_GT(expected->from, Time(10494ms));
+  EXPECT_EQ(expected->mesh_id, "sheet");
+  EXPECT_EQ(expected->triangles, (Indices{0, 1}));
+  EXPECT_GE(expected->probability, 0.5);
+  EXPECT_EQ(outlook.objects[0].reflex, Indices{});
+  EXPECT_EQ(outlook.objects[0].considered, (Indices{0, 1}));
+  for (size_t i = 0; i < outlook.path.size(); ++i) {
+    EXPECT_EQ(outlook.objects[0].sweeps[i].met, outlook.path[i].ahead > 499ms) << i;
+  }
+}
+
+TEST_F(LookAheadTest, TrianglesOfTheReflexIntervalAreToldApart) {
+  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+  follow(comingDown(0.005, 0.1));
+  const Outlook outlook = lookAhead();
+  EXPECT_EQ(outlook.objects[0].reflex, (Indices{0, 1}));
+  EXPECT_EQ(outlook.objects[0].considered, Indices{});
+}
+
+// The sheet lives in a frame that is turned and far away: what counts is where it is in the world.
+TEST_F(LookAheadTest, TakesAWorkpieceWhereItsFrameIs) {
+  Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Isometry3d X_MW = random.pose(random.inBox({10, 10, 10}));
+    std::vector<Eigen::Vector3d> corners_M;
+    for (const auto& [x, y] : {std::pair(-1.0, -1.0), {1.0, -1.0}, {0.0, 1.0}}) {
+      corners_M.push_back(X_MW * Eigen::Vector3d(x, y, 0.0));
+    }
+    workpieces_ = {workpiece("sheet", TriangleMesh(corners_M, {{0, 1, 2}}), "turned")};
+    guard_.forget();
+    follow(comingDown(0.05, 0.1), {{"turned", X_MW.inverse()}});
+    const auto expected = expectedContact(lookAhead(), 1.0);
+    ASSERT_TRUE(expected);
+    EXPECT_LE(expected->from, Time(10500ms));
+    EXPECT_GT(expected->from, Time(10494ms));
+  }
+}
+
+// The drill swings past a wall, 0.2 mm beside it. A tenth of a second takes a margin of 0.28 mm for its arc.
+TEST_F(LookAheadTest, AVolumeThatIsMerelyLooseMeetsNothing) {
+  const double x = 0.005 + 0.0002;
+  workpieces_ = {workpiece("wall", TriangleMesh({{x, -1, -1}, {x, 1, -1}, {x, 0, 1}}, {{0, 1, 2}}))};
+  follow({Eigen::Isometry3d::Identity(), {0, 0, 0}, {1.5, 0, 0}});
+  const size_t asked_before = record_.volumes.size();
+  const Outlook outlook = lookAhead();
+  EXPECT_GT(record_.volumes.size(), asked_before);
+  EXPECT_EQ(outlook.objects[0].considered, Indices{});
+  for (const PredictedSweep& sweep : outlook.objects[0].sweeps) EXPECT_FALSE(sweep.met);
+}
+
+// Far away the detector is not asked.
+TEST_F(LookAheadTest, AFarWorkpieceCostsNoDetection) {
+  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+  follow(comingDown(5.0, 0.1));
+  record_.volumes.clear();
+  EXPECT_FALSE(expectedContact(lookAhead(), 0.001));
+  EXPECT_TRUE(record_.volumes.empty());
+}
+
+TEST_F(LookAheadTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
+  workpieces_ = {workpiece("first", sheetAt(0.0)), workpiece("second", sheetAt(-0.01))};
+  follow(comingDown(0.05, 0.1));
+  guard_.lookAhead(0ms, workpieces_);
+  record_.failures_left = 1;
+  const Outlook outlook = guard_.lookAhead(0ms, workpieces_);
+  ASSERT_EQ(outlook.failures.size(), 1U);
+  EXPECT_EQ(outlook.failures[0].workpiece, workpieces_[0]);
+  EXPECT_EQ(outlook.coveredUntil(), Time(10s));
+  ASSERT_TRUE(expectedContact(outlook, 1.0));
+  EXPECT_EQ(expectedContact(outlook, 1.0)->mesh_id, "second");
+}
+
+TEST_F(LookAheadTest, NamesWorkpiecesWhoseFrameIsMissing) {
+  workpieces_ = {workpiece("here", sheetAt(0.0)), workpiece("lost", sheetAt(0.0), "nowhere")};
+  follow(comingDown(0.05, 0.1));
+  const Outlook outlook = lookAhead();
+  ASSERT_EQ(outlook.unplaced.size(), 1U);
+  EXPECT_EQ(outlook.unplaced[0], workpieces_[1]);
+  EXPECT_EQ(outlook.objects.size(), 1U);
+  EXPECT_EQ(outlook.coveredUntil(), Time(10s));
+}
+
+bool contains(const SweptVolume& volume_M, const Eigen::Vector3d& p_M) {
+  const Eigen::Vector3d p_B = volume_M.box.X_MB.inverse() * p_M;
+  const auto half_spaces_B = volume_M.halfSpaces_B();
+  return std::all_of(half_spaces_B.begin(), half_spaces_B.end(),
+                     [&](const HalfSpace& half_space) { return half_space.signedDistance(p_B) <= 1e-9; });
+}
+
+// Wherever the tool is on its predicted path, at any time up to the end, each of its points lies in a volume.
+TEST_F(LookAheadTest, TheVolumesCoverThePathWithoutHoles) {
+  Random random(6);
+  const auto rims_T = roundToolPoints_T(guard_.tool(), 8);
+  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+  for (int i = 0; i < 20; ++i) {
+    const Steady motion{random.pose(random.inBox({1, 1, 1})), random.logUniform(0.01, 2.0) * random.direction(),
+                        random.logUniform(0.01, 10.0) * random.direction()};
+    guard_.forget();
+    const Eigen::Isometry3d X_WM = random.pose(random.inBox({1, 1, 1}));
+    follow(motion, {{"table", X_WM}});
+    const Outlook outlook = lookAhead(fromSeconds(random.uniform(0.0, 0.05)));
+    const std::vector<SweptVolume>& volumes_M = outlook.objects[0].volumes_M;
+    Motion leg{motion.at(0.0), outlook.path[0].X_WT};
+    for (size_t k = 0; k < outlook.path.size(); ++k) {
+      if (k > 0) leg = {outlook.path[k - 1].X_WT, outlook.path[k].X_WT};
+      for (const double fraction : {0.0, 0.3, 0.5, 0.9, 1.0}) {
+        for (const Eigen::Vector3d& p_T : rims_T) {
+          const Eigen::Vector3d p_M = X_WM.inverse() * leg.at(fraction) * p_T;
+          ASSERT_TRUE(std::any_of(volumes_M.begin(), volumes_M.end(),
+                                  [&](const SweptVolume& volume_M) { return contains(volume_M, p_M); }))
+              << "episode " << i << " sweep " << k << " at " << fraction;
+        }
+      }
+    }
+  }
+}
+
+// Every detection takes time on the guard's clock.
+class SlowDetector : public Detector {
+ public:
+  SlowDetector(SteadyTime& clock, const Duration& cost) : clock_(clock), cost_(cost) {}
+
+  Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) override {
+    clock_ += cost_;
+    return reference_.detect(mesh_M, swept_M);
+  }
+
+ private:
+  SteadyTime& clock_;
+  const Duration& cost_;
+  ReferenceDetector reference_;
+};
+
+// A drill sticks in a sheet and goes on along it: the detector is asked about every sweep.
+class SlowGuard {
+ public:
+  SlowGuard() {
+    GuardOptions options = constantVelocity();
+    options.clock = [this] { return clock_; };
+    options.cycle = 66ms;
+    guard_.emplace(Tool::cylinder(0.005, 0.1), std::make_unique<SlowDetector>(clock_, cost), options);
+  }
+
+  // Sweeps to the next pose and looks ahead. Returns what that took.
+  Duration cycle() {
+    const SteadyTime begin = clock_;
+    pose_.X_WT.translation().x() += 0.0001;
+    pose_.stamp += 66ms;
+    guard_->sweep(pose_, workpieces_);
+    outlook = guard_->lookAhead(5ms, workpieces_);
+    return clock_ - begin;
+  }
+
+  Duration cost{};
+  Outlook outlook;
+
+ private:
+  SteadyTime clock_;
+  ToolPose pose_{Time(10s), SteadyTime(), Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}};
+  Workpieces workpieces_ = {workpiece("sheet", sheetAt(-0.05))};
+  std::optional<Guard> guard_;
+};
+
+// [P, Sec. 3.2]: prediction must not slow the guard below 15 Hz.
+TEST(SlowDetectorTest, MakesTheConsideredIntervalCoarserAndNothingElse) {
+  size_t before = 21;
+  for (const Duration cost : {100us, 1000us, 2000us, 3000us, 3500us, 4200us}) {
+    SlowGuard guard;
+    guard.cost = cost;
+    for (int i = 0; i < 50; ++i) {
+      EXPECT_LE(guard.cycle(), 66ms) << cost.count() << " ns, cycle " << i;
+      if (i == 0) continue;  // no motion yet
+      EXPECT_EQ(guard.outlook.reflex_sweeps, 11U);
+      EXPECT_EQ(guard.outlook.sweeps_asked, 21U);
+      EXPECT_EQ(guard.outlook.path[10].ahead, 105ms);
+      EXPECT_EQ(guard.outlook.coveredUntil(), guard.outlook.stamp + 1105ms);
+    }
+    EXPECT_LE(guard.outlook.path.size(), before);
+    before = guard.outlook.path.size();
+  }
+  EXPECT_EQ(before, 12U);
+}
+
+TEST(SlowDetectorTest, NeverCostsTheReflexInterval) {
+  SlowGuard guard;
+  guard.cost = 30ms;
+  for (int i = 0; i < 10; ++i) guard.cycle();
+  EXPECT_EQ(guard.outlook.reflex_sweeps, 11U);
+  EXPECT_EQ(guard.outlook.path.size(), 12U);
+  EXPECT_EQ(guard.outlook.coveredUntil(), guard.outlook.stamp + 1105ms);
+}
+
+TEST(SlowDetectorTest, ThatBecomesSlowerKeepsTheCycle) {
+  SlowGuard guard;
+  guard.cost = 500us;
+  for (int i = 0; i < 10; ++i) guard.cycle();
+  EXPECT_EQ(guard.outlook.path.size(), 21U);
+  for (int i = 0; i < 40; ++i) {
+    guard.cost = guard.cost * 105 / 100;
+    EXPECT_LE(guard.cycle(), 66ms) << i;
+  }
+  EXPECT_LT(guard.outlook.path.size(), 21U);
+}
+
+TEST(GuardOptionsTest, RefusedOnesNameWhatIsWrong) {
+  const auto refused = [](const std::function<void(GuardOptions&)>& spoil) {
+    GuardOptions options;
+    spoil(options);
+    EXPECT_THROW(Guard(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options), InvalidInput);
+  };
+  refused([](auto& options) { options.cycle = 0ms; });
+  refused([](auto& options) { options.horizon.reflex_step = 0ms; });
+  refused([](auto& options) { options.horizon.considered = options.horizon.reflex; });
+  refused([](auto& options) { options.predictor.predictor = "oracle"; });
+}
+
+}  // namespace
+}  // namespace sweep_guard

@@ -1,0 +1,95 @@
+#include "sweep_guard/guard/outlook.h"
+
+#include <gtest/gtest.h>
+
+namespace sweep_guard {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::shared_ptr<const Workpiece> workpiece(const std::string& id) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  return std::make_shared<const Workpiece>(Workpiece{id, 1, Time(1s), SteadyTime(1s), "table", mesh});
+}
+
+// Three sweeps of 100 ms.
+PredictedObject object(const std::string& id, const std::vector<PredictedSweep>& sweeps) {
+  return {workpiece(id), sweeps, {}, {}, {}};
+}
+
+const PredictedSweep kFree0{0ms, false, 0.0};
+const PredictedSweep kFree1{100ms, false, 0.0};
+const PredictedSweep kFree2{200ms, false, 0.0};
+
+Outlook outlookOf(const std::vector<PredictedObject>& objects) {
+  Outlook outlook;
+  outlook.stamp = Time(5s);
+  outlook.path.resize(3);
+  for (int i = 0; i < 3; ++i) outlook.path[static_cast<size_t>(i)].ahead = (i + 1) * 100ms;
+  outlook.reflex_sweeps = 1;
+  outlook.objects = objects;
+  return outlook;
+}
+
+TEST(OutlookTest, CoversThePathOnlyIfEveryWorkpieceWasTested) {
+  Outlook outlook = outlookOf({object("liver", {kFree0, kFree1, kFree2})});
+  EXPECT_EQ(outlook.coveredUntil(), Time(5300ms));
+  outlook.unplaced = {workpiece("spleen")};
+  EXPECT_EQ(outlook.coveredUntil(), Time(5s));
+  outlook.unplaced.clear();
+  outlook.failures = {{workpiece("spleen"), "no canary"}};
+  EXPECT_EQ(outlook.coveredUntil(), Time(5s));
+  outlook.failures.clear();
+  outlook.path.clear();
+  EXPECT_EQ(outlook.coveredUntil(), Time(5s));
+}
+
+TEST(ExpectedContactTest, NothingIsExpectedWhereNothingIsMetOrProbable) {
+  EXPECT_FALSE(expectedContact(outlookOf({}), 0.1));
+  EXPECT_FALSE(expectedContact(outlookOf({object("liver", {kFree0, kFree1, kFree2})}), 0.1));
+  EXPECT_FALSE(expectedContact(outlookOf({object("liver", {kFree0, {100ms, false, 0.0999}, kFree2})}), 0.1));
+}
+
+TEST(ExpectedContactTest, IsTheEarliestOfAllWorkpieces) {
+  const auto expected = expectedContact(outlookOf({object("liver", {kFree0, kFree1, {210ms, true, 0.9}}),
+                                                   object("spleen", {kFree0, {150ms, true, 0.8}, kFree2})}),
+                                        0.1);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(expected->mesh_id, "spleen");
+  EXPECT_EQ(expected->from, Time(5150ms));
+  EXPECT_TRUE(expected->met);
+  EXPECT_EQ(expected->probability, 0.8);
+}
+
+TEST(ExpectedContactTest, MayBeMerelyProbable) {
+  const auto expected =
+      expectedContact(outlookOf({object("liver", {kFree0, {100ms, false, 0.1}, {200ms, false, 0.3}})}), 0.1);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(expected->from, Time(5100ms));
+  EXPECT_FALSE(expected->met);
+  EXPECT_EQ(expected->probability, 0.3);
+  EXPECT_TRUE(expected->triangles.empty());
+}
+
+// Probable first, met later: one collision, which begins with the former and has the triangles of the latter.
+TEST(ExpectedContactTest, TellsWhetherThePathMeetsTheWorkpieceLater) {
+  PredictedObject liver = object("liver", {kFree0, {100ms, false, 0.2}, {205ms, true, 0.9}});
+  liver.reflex = {1, 7};
+  liver.considered = {3};
+  const auto expected = expectedContact(outlookOf({liver}), 0.1);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(expected->from, Time(5100ms));
+  EXPECT_TRUE(expected->met);
+  EXPECT_EQ(expected->probability, 0.9);
+  EXPECT_EQ(expected->triangles, (std::vector<std::uint32_t>{1, 3, 7}));
+}
+
+// A path that meets is told of however small a probability its volume gives.
+TEST(ExpectedContactTest, APathThatMeetsNeedsNoProbability) {
+  const auto expected = expectedContact(outlookOf({object("liver", {{0ms, true, 0.0}, kFree1, kFree2})}), 1.0);
+  ASSERT_TRUE(expected);
+  EXPECT_TRUE(expected->met);
+}
+
+}  // namespace
+}  // namespace sweep_guard
