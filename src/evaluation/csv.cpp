@@ -1,7 +1,6 @@
 #include "evaluation/csv.h"
 
-#include <array>
-#include <cstdio>
+#include "evaluation/format.h"
 
 namespace sweep_guard_evaluation {
 namespace {
@@ -15,11 +14,7 @@ std::string field(const std::string& text) {
 
 }  // namespace
 
-std::string csvNumber(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
+std::string csvNumber(double value) { return format("%.6g", value); }
 
 std::string csvLine(const std::vector<std::string>& fields) {
   std::string line;

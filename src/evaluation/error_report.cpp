@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <limits>
 
 #include "evaluation/csv.h"
+#include "evaluation/format.h"
 #include "evaluation/gnuplot.h"
 
 namespace sweep_guard_evaluation {
@@ -33,13 +33,6 @@ constexpr std::array<Quantity, 2> kQuantities = {{
     {"position", "mm", 1e3, &ErrorSummary::position_median, &ErrorSummary::position_p95},
     {"rotation", "deg", 180.0 / kPi, &ErrorSummary::rotation_median, &ErrorSummary::rotation_p95},
 }};
-
-template <typename... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 400> text;
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 /// The smaller error of `hold` and `constant_velocity`; NaN if one of them is not there.
 double simplest(const ErrorReport& report, size_t horizon, Field field) {

@@ -1,12 +1,15 @@
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <set>
+#include <system_error>
 
-#include "evaluation/error_report.h"
+#include "evaluation/evaluate.h"
 #include "evaluation/gnuplot.h"
 #include "evaluation/options.h"
 #include "evaluation/parallel.h"
 #include "evaluation/progress_bar.h"
+#include "evaluation/tradeoff_report.h"
 #include "recording/recording.h"
 #include "sweep_guard/common/error.h"
 
@@ -18,14 +21,16 @@ using sweep_guard::Duration;
 using sweep_guard::InvalidInput;
 using sweep_guard_recording::Recording;
 
-constexpr Duration kHistory = std::chrono::seconds(1);
-constexpr Duration kFuture = std::chrono::seconds(1);
-
-/// A file that is written at the end, but refused at the beginning if it cannot be.
+/// A file that is written at the end, but refused at the beginning if it cannot be, or if it is one of the inputs.
 class OutputFile {
  public:
-  explicit OutputFile(const std::string& path) : path_(path) {
+  OutputFile(const std::string& path, const std::vector<std::string>& inputs) : path_(path) {
     if (path.empty()) return;
+    std::error_code none;
+    for (const std::string& input : inputs) {
+      if (!std::filesystem::equivalent(path, input, none)) continue;
+      throw InvalidInput(path + ": is a recording and would be overwritten; name another file to write");
+    }
     stream_.open(path);
     if (!stream_) throw InvalidInput(path + ": cannot be written; check folder and permissions");
   }
@@ -56,63 +61,64 @@ std::vector<Duration> withPlotted(const std::vector<Duration>& horizons) {
   return {all.begin(), all.end()};
 }
 
-/// A recording with what all predictors are judged on.
-struct Case {
-  Case(const Recording& of, Duration future)
-      : recording(of), motion(of.poses), samples(samplesOf(of.poses, motion, kHistory, future)) {}
+class Evaluation {
+ public:
+  explicit Evaluation(const Options& options)
+      : options_(options),
+        recordings_(readAll(options)),
+        csv_(options.csv, options.files),
+        plot_(options.plot, options.files),
+        warnings_csv_(options.warnings_csv, options.files),
+        tradeoff_csv_(options.tradeoff_csv, options.files),
+        tradeoff_plot_(options.tradeoff_plot, options.files) {
+    for (const Recording& recording : recordings_) steps_ += recording.poses.size() * options.predictors.size();
+  }
 
-  const Recording& recording;
-  RecordedMotion motion;
-  std::vector<size_t> samples;
-  std::vector<std::vector<ErrorsAhead>> errors;  // by predictor, then by horizon
+  /// The result of some work, while a progress bar is shown.
+  template <typename Work>
+  auto withProgress(const std::string& title, const Work& work) {
+    ProgressBar bar(title, steps_);
+    return work([&](size_t poses) { bar.advance(poses); });
+  }
+
+  void evaluateErrors() {
+    const std::vector<Duration> horizons = plot_.wanted() ? withPlotted(options_.horizons) : options_.horizons;
+    std::vector<ErrorReport> reports = withProgress(
+        "errors  ", [&](const Progress& progress) { return reportErrors(recordings_, options_, horizons, progress); });
+    if (plot_.wanted()) runGnuplot(errorPlot(reports, plot_.path()));
+    for (ErrorReport& report : reports) report = atHorizons(report, options_.horizons);
+    if (csv_.wanted()) csv_.write(errorCsv(reports));
+    for (const ErrorReport& report : reports) std::cout << errorTable(report) << '\n';
+  }
+
+  void evaluateWarnings() {
+    const std::vector<WarningReport> reports = withProgress(
+        "warnings", [&](const Progress& progress) { return reportWarnings(recordings_, options_, progress); });
+    if (warnings_csv_.wanted()) warnings_csv_.write(warningCsv(reports));
+    if (tradeoff_csv_.wanted()) tradeoff_csv_.write(tradeoffCsv(reports));
+    if (tradeoff_plot_.wanted()) runGnuplot(tradeoffPlot(reports, tradeoff_plot_.path()));
+    for (const WarningReport& report : reports) {
+      std::cout << warningTable(report) << '\n';
+      if (options_.wantTradeoff()) std::cout << tradeoffTable(report, options_.most_false_alarms) << '\n';
+    }
+  }
+
+ private:
+  const Options& options_;
+  std::vector<Recording> recordings_;
+  OutputFile csv_;
+  OutputFile plot_;
+  OutputFile warnings_csv_;
+  OutputFile tradeoff_csv_;
+  OutputFile tradeoff_plot_;
+  size_t steps_ = 0;
 };
 
-sweep_guard::PredictorOptions named(sweep_guard::PredictorOptions options, const std::string& predictor) {
-  options.predictor = predictor;
-  return options;
-}
-
-std::vector<ErrorReport> reportErrors(const std::vector<Recording>& recordings, const Options& options,
-                                      const std::vector<Duration>& horizons, const Progress& progress) {
-  std::vector<Case> cases;
-  for (const Recording& recording : recordings) {
-    cases.emplace_back(recording, std::max(kFuture, horizons.back()));
-    cases.back().errors.resize(options.predictors.size());
-  }
-  inParallel(cases.size() * options.predictors.size(), [&](size_t i) {
-    Case& of = cases[i / options.predictors.size()];
-    const size_t predictor = i % options.predictors.size();
-    of.errors[predictor] = predictionErrors(of.recording.poses, of.motion, of.samples, horizons,
-                                            named(options.predictor, options.predictors[predictor]), progress);
-  });
-  std::vector<ErrorReport> reports;
-  for (const Case& of : cases)
-    reports.push_back({of.recording.name, options.predictors, horizons, summaries(of.errors)});
-  return reports;
-}
-
-size_t countPoses(const std::vector<Recording>& recordings) {
-  size_t poses = 0;
-  for (const Recording& recording : recordings) poses += recording.poses.size();
-  return poses;
-}
-
-int run(const Options& options) {
-  if (!options.plot.empty()) requireGnuplot();
-  OutputFile csv(options.csv);
-  const OutputFile plot(options.plot);
-  const std::vector<Recording> recordings = readAll(options);
-  const std::vector<Duration> horizons = plot.wanted() ? withPlotted(options.horizons) : options.horizons;
-  std::vector<ErrorReport> reports;
-  {
-    ProgressBar bar(countPoses(recordings) * options.predictors.size());
-    reports = reportErrors(recordings, options, horizons, [&](size_t poses) { bar.advance(poses); });
-  }
-  if (plot.wanted()) runGnuplot(errorPlot(reports, plot.path()));
-  for (ErrorReport& report : reports) report = atHorizons(report, options.horizons);
-  if (csv.wanted()) csv.write(errorCsv(reports));
-  for (const ErrorReport& report : reports) std::cout << errorTable(report) << '\n';
-  return 0;
+void run(const Options& options) {
+  if (!options.plot.empty() || !options.tradeoff_plot.empty()) requireGnuplot();
+  Evaluation evaluation(options);
+  if (options.wantErrors()) evaluation.evaluateErrors();
+  if (options.wantWarnings()) evaluation.evaluateWarnings();
 }
 
 }  // namespace
@@ -126,7 +132,8 @@ int main(int argc, char** argv) {
       std::cout << usage();
       return 0;
     }
-    return run(options);
+    run(options);
+    return 0;
   } catch (const std::exception& error) {
     std::cerr << "evaluate_prediction: " << error.what() << std::endl;
     return 2;

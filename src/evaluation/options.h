@@ -1,11 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/time.h"
-#include "sweep_guard/prediction/pose_predictor.h"
+#include "evaluation/placement.h"
+#include "evaluation/watch.h"
 
 namespace sweep_guard_evaluation {
 
@@ -19,8 +18,22 @@ struct Options {
   std::vector<sweep_guard::Duration> horizons;  ///< ascending, > 0
   sweep_guard::PredictorOptions predictor;      ///< but for its name
 
+  PlacementOptions placement;
+  WatchOptions watch;               ///< but for its predictor and thresholds
+  double most_false_alarms = 10.0;  ///< per minute; so far the trade-off is averaged
+
   std::string csv;  ///< files to write; empty: not asked for
   std::string plot;
+  std::string warnings_csv;
+  std::string tradeoff_csv;
+  std::string tradeoff_plot;
+
+  bool nothingToWrite() const {
+    return csv.empty() && plot.empty() && warnings_csv.empty() && tradeoff_csv.empty() && tradeoff_plot.empty();
+  }
+  bool wantErrors() const { return !csv.empty() || !plot.empty() || nothingToWrite(); }
+  bool wantTradeoff() const { return !tradeoff_csv.empty() || !tradeoff_plot.empty(); }
+  bool wantWarnings() const { return !warnings_csv.empty() || wantTradeoff() || nothingToWrite(); }
 };
 
 /// What --help prints.

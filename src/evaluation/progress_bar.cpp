@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <string>
 
 namespace sweep_guard_evaluation {
 namespace {
@@ -13,7 +12,8 @@ constexpr size_t kWidth = 50;
 
 }  // namespace
 
-ProgressBar::ProgressBar(size_t total) : total_(std::max<size_t>(total, 1)), shown_(isatty(STDERR_FILENO) != 0) {}
+ProgressBar::ProgressBar(const std::string& title, size_t total)
+    : title_(title), total_(std::max<size_t>(total, 1)), shown_(isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() {
   if (shown_) std::cerr << "\r\033[K" << std::flush;
@@ -28,7 +28,7 @@ void ProgressBar::advance(size_t steps) {
   percent_ = percent;
   std::string bar(kWidth, '.');
   std::fill_n(bar.begin(), kWidth * percent / 100, '#');
-  std::cerr << "\r[" << bar << "] " << percent << " %" << std::flush;
+  std::cerr << '\r' << title_ << " [" << bar << "] " << percent << " %" << std::flush;
 }
 
 }  // namespace sweep_guard_evaluation

@@ -2,13 +2,14 @@
 
 #include <cstddef>
 #include <mutex>
+#include <string>
 
 namespace sweep_guard_evaluation {
 
 /// How far a long computation is, in one line on stderr where that is a terminal, and nowhere else. Any thread.
 class ProgressBar {
  public:
-  explicit ProgressBar(size_t total);
+  ProgressBar(const std::string& title, size_t total);
   ~ProgressBar();  ///< takes the line away
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -16,6 +17,7 @@ class ProgressBar {
   void advance(size_t steps);
 
  private:
+  const std::string title_;
   const size_t total_;
   const bool shown_;
   std::mutex mutex_;

@@ -59,8 +59,34 @@ TEST(OptionsTest, NameWhatIsWrong) {
   for (const char* const degree : {"6", "-1", "1.5", "1,2", "x"}) {
     EXPECT_NE(refusal({"--degree", degree, "a.txt"}).find("--degree"), std::string::npos) << degree;
   }
+  for (const char* const option :
+       {"--placements", "--seed", "--tool-radius", "--tool-length", "--min-probability", "--hold-time", "--up-to"}) {
+    EXPECT_NE(refusal({option, "-1", "a.txt"}).find(option), std::string::npos);
+    EXPECT_NE(refusal({option, "x", "a.txt"}).find(option), std::string::npos);
+  }
+  EXPECT_NE(refusal({"--min-probability", "0", "a.txt"}).find("--min-probability"), std::string::npos);
   EXPECT_NE(refusal({"--window", "0", "a.txt"}).find("--window"), std::string::npos);
   EXPECT_NE(refusal({"--forgetting-factor", "1.01", "a.txt"}).find("--forgetting-factor"), std::string::npos);
+}
+
+TEST(OptionsTest, RunTheGuardAsTheNodeDoes) {
+  const Options options = parse({"a.txt"});
+  EXPECT_EQ(options.watch.limits.min_probability, sweep_guard::VerdictLimits{}.min_probability);
+  EXPECT_EQ(options.watch.limits.hold_time, milliseconds(500));
+  EXPECT_EQ(options.watch.tool.radius(), 0.005);
+  EXPECT_EQ(options.watch.tool.length(), 0.1);
+  EXPECT_EQ(options.placement.count, 200U);
+}
+
+TEST(OptionsTest, ComputeWhatIsToBeWrittenOrEverything) {
+  const Options everything = parse({"a.txt"});
+  EXPECT_TRUE(everything.wantErrors() && everything.wantWarnings() && !everything.wantTradeoff());
+  const Options errors = parse({"--csv", "e.csv", "a.txt"});
+  EXPECT_TRUE(errors.wantErrors() && !errors.wantWarnings() && !errors.wantTradeoff());
+  const Options warnings = parse({"--warnings-csv", "w.csv", "a.txt"});
+  EXPECT_TRUE(!warnings.wantErrors() && warnings.wantWarnings() && !warnings.wantTradeoff());
+  const Options tradeoff = parse({"--tradeoff-plot", "t.png", "a.txt"});
+  EXPECT_TRUE(!tradeoff.wantErrors() && tradeoff.wantWarnings() && tradeoff.wantTradeoff());
 }
 
 TEST(OptionsTest, HelpNeedsNoFile) {

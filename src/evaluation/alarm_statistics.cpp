@@ -1,0 +1,61 @@
+#include "evaluation/alarm_statistics.h"
+
+#include <algorithm>
+
+namespace sweep_guard_evaluation {
+
+using std::chrono::milliseconds;
+using sweep_guard::Duration;
+using sweep_guard::Level;
+using sweep_guard::Time;
+
+const std::array<AlarmRule, 2>& alarmRules() {
+  static const std::array<AlarmRule, 2> kRules = {
+      {{"reflex", Level::kReflex, milliseconds(500), /*at_contact=*/true},
+       {"considered", Level::kConsidered, milliseconds(2000), /*at_contact=*/false}}};
+  return kRules;
+}
+
+std::optional<Duration> leadOf(const Episode& episode, const AlarmRule& rule) {
+  const Time contact = episode.placement.contact.value();
+  const std::vector<Alarm> alarms = episode.shown.alarms(rule.least);
+  const auto on = std::find_if(alarms.begin(), alarms.end(), [&](const Alarm& alarm) {
+    return alarm.end >= contact && (alarm.begin <= contact || rule.at_contact);
+  });
+  if (on == alarms.end()) return std::nullopt;
+  return contact - on->begin;
+}
+
+size_t falseAlarmsOf(const Episode& episode, const AlarmRule& rule) {
+  const Placement& placement = episode.placement;
+  const Time justified = placement.contact ? *placement.contact - rule.window : placement.end;
+  size_t count = 0;
+  for (const Alarm& alarm : episode.shown.alarms(rule.least)) {
+    if (alarm.begin >= justified) continue;
+    const Duration unjustified = std::min(alarm.end, justified) - alarm.begin;
+    count += 1 + static_cast<size_t>(unjustified / rule.window);
+  }
+  return count;
+}
+
+double AlarmStatistics::falseAlarmsPerMinute() const { return static_cast<double>(false_alarms) / minutes; }
+
+double AlarmStatistics::warnedAhead(double lead) const {
+  const auto enough = leads.end() - std::lower_bound(leads.begin(), leads.end(), lead);
+  return static_cast<double>(enough) / static_cast<double>(contacts);
+}
+
+AlarmStatistics alarmStatistics(const std::vector<Episode>& episodes, const AlarmRule& rule) {
+  AlarmStatistics statistics;
+  for (const Episode& episode : episodes) {
+    statistics.minutes += sweep_guard::toSeconds(episode.placement.end - episode.placement.begin) / 60.0;
+    statistics.false_alarms += falseAlarmsOf(episode, rule);
+    if (!episode.placement.contact) continue;
+    ++statistics.contacts;
+    if (const auto lead = leadOf(episode, rule)) statistics.leads.push_back(sweep_guard::toSeconds(*lead));
+  }
+  std::sort(statistics.leads.begin(), statistics.leads.end());
+  return statistics;
+}
+
+}  // namespace sweep_guard_evaluation

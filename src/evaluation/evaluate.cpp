@@ -1,0 +1,91 @@
+#include "evaluation/evaluate.h"
+
+#include <algorithm>
+
+#include "evaluation/parallel.h"
+#include "evaluation/tradeoff_report.h"
+
+namespace sweep_guard_evaluation {
+
+using sweep_guard::Duration;
+using sweep_guard_recording::Recording;
+
+namespace {
+
+constexpr Duration kHistory = std::chrono::seconds(1);
+constexpr Duration kFuture = std::chrono::seconds(1);
+
+/// A recording with what all predictors are judged on.
+struct Case {
+  Case(const Recording& of, Duration future)
+      : recording(of), motion(of.poses), samples(samplesOf(of.poses, motion, kHistory, future)) {}
+
+  const Recording& recording;
+  RecordedMotion motion;
+  std::vector<size_t> samples;
+  std::vector<std::vector<ErrorsAhead>> errors;  // by predictor, then by horizon
+};
+
+sweep_guard::PredictorOptions named(sweep_guard::PredictorOptions options, const std::string& predictor) {
+  options.predictor = predictor;
+  return options;
+}
+
+std::array<AlarmStatistics, 2> statisticsOf(const std::vector<Episode>& episodes) {
+  return {alarmStatistics(episodes, alarmRules()[0]), alarmStatistics(episodes, alarmRules()[1])};
+}
+
+WarningReport emptyReport(const std::string& recording, size_t placements, const Options& options) {
+  const double chosen = options.watch.limits.min_probability;
+  WarningReport report{recording, placements, options.predictors, {chosen}, 0, {}};
+  if (options.wantTradeoff()) report.min_probabilities = tradeoffThresholds(chosen);
+  const auto& all = report.min_probabilities;
+  report.chosen = static_cast<size_t>(std::find(all.begin(), all.end(), chosen) - all.begin());
+  report.statistics.resize(options.predictors.size());
+  return report;
+}
+
+}  // namespace
+
+std::vector<ErrorReport> reportErrors(const std::vector<Recording>& recordings, const Options& options,
+                                      const std::vector<Duration>& horizons, const Progress& progress) {
+  std::vector<Case> cases;
+  for (const Recording& recording : recordings) {
+    cases.emplace_back(recording, std::max(kFuture, horizons.back()));
+    cases.back().errors.resize(options.predictors.size());
+  }
+  inParallel(cases.size() * options.predictors.size(), [&](size_t i) {
+    Case& of = cases[i / options.predictors.size()];
+    const size_t predictor = i % options.predictors.size();
+    of.errors[predictor] = predictionErrors(of.recording.poses, of.motion, of.samples, horizons,
+                                            named(options.predictor, options.predictors[predictor]), progress);
+  });
+  std::vector<ErrorReport> reports;
+  for (const Case& of : cases)
+    reports.push_back({of.recording.name, options.predictors, horizons, summaries(of.errors)});
+  return reports;
+}
+
+std::vector<WarningReport> reportWarnings(const std::vector<Recording>& recordings, const Options& options,
+                                          const Progress& progress) {
+  std::vector<std::vector<Placement>> placements;
+  std::vector<WarningReport> reports;
+  for (const Recording& recording : recordings) {
+    placements.push_back(placeSheets(RecordedMotion(recording.poses), options.watch.tool, options.placement));
+    reports.push_back(emptyReport(recording.name, placements.back().size(), options));
+  }
+  inParallel(recordings.size() * options.predictors.size(), [&](size_t i) {
+    const size_t recording = i / options.predictors.size();
+    const size_t predictor = i % options.predictors.size();
+    WarningReport& report = reports[recording];
+    WatchOptions watching = options.watch;
+    watching.guard.predictor = named(options.predictor, options.predictors[predictor]);
+    watching.min_probabilities = report.min_probabilities;
+    for (const auto& episodes : watch(recordings[recording].poses, placements[recording], watching, progress)) {
+      report.statistics[predictor].push_back(statisticsOf(episodes));
+    }
+  });
+  return reports;
+}
+
+}  // namespace sweep_guard_evaluation

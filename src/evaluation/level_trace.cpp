@@ -1,0 +1,28 @@
+#include "evaluation/level_trace.h"
+
+#include <cassert>
+
+namespace sweep_guard_evaluation {
+
+using sweep_guard::Level;
+
+void LevelTrace::show(sweep_guard::Time time, Level level) {
+  assert(changes_.empty() || time >= newest_);
+  newest_ = time;
+  if (changes_.empty() || changes_.back().level != level) changes_.push_back({time, level});
+}
+
+std::vector<Alarm> LevelTrace::alarms(Level least) const {
+  assert(least >= Level::kConsidered);
+  std::vector<Alarm> alarms;
+  bool on = false;
+  for (const Change& change : changes_) {
+    if (on) alarms.back().end = change.time;
+    if (!on && change.level >= least) alarms.push_back({change.time, newest_});
+    on = change.level >= least;
+  }
+  if (on) alarms.back().end = newest_;
+  return alarms;
+}
+
+}  // namespace sweep_guard_evaluation

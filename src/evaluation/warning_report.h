@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluation/alarm_statistics.h"
+
+namespace sweep_guard_evaluation {
+
+/// What the warnings of several predictors were worth on one recording, on the same placements.
+struct WarningReport {
+  std::string recording;
+  size_t placements = 0;
+  std::vector<std::string> predictors;
+  std::vector<double> min_probabilities;  ///< thresholds, ascending
+  size_t chosen = 0;                      ///< index of the one that the guard is run with
+  /// By predictor, by threshold, then in the order of alarmRules().
+  std::vector<std::vector<std::array<AlarmStatistics, 2>>> statistics;
+
+  const AlarmStatistics& considered(size_t predictor, size_t threshold) const {
+    return statistics[predictor][threshold].back();
+  }
+};
+
+/// The leads at which warnings are compared [s].
+const std::vector<double>& comparedLeads();
+
+/// At the threshold chosen: recording,predictor,interval,contacts,warned,lead_median_s,lead_p5_s,false_alarms_per_min
+std::string warningCsv(const std::vector<WarningReport>& reports);
+
+/// The same for a reader, with the shares of contacts warned ahead.
+std::string warningTable(const WarningReport& report);
+
+}  // namespace sweep_guard_evaluation
