@@ -24,13 +24,6 @@ double deviationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& r, const 
   return std::sqrt(std::max(0.0, J.dot(covariance * J)));
 }
 
-bool meets(Polygon polygon, const std::vector<HalfSpace>& half_spaces, const std::vector<double>& sigmas, double z) {
-  for (size_t i = 0; i < half_spaces.size() && !polygon.empty(); ++i) {
-    polygon = clip(polygon, half_spaces[i].grown(z * sigmas[i]));
-  }
-  return !polygon.empty();
-}
-
 // No triangle of the mesh reaches the planes, for the ball around it does not.
 bool outOfReach(const TriangleMesh& mesh_M, const BoxCoordinates& coordinates,
                 const std::vector<HalfSpace>& half_spaces_B, const std::vector<double>& sigmas) {
@@ -69,26 +62,38 @@ std::optional<Clearance> ClearanceMeter::operator()(const TriangleMesh& mesh_M, 
   scoreVertices(mesh_M, coordinates, half_spaces_B, sigmas);
   collectCandidates(mesh_M, half_spaces_B.size());
   if (candidates_.empty()) return {};
-  Clearance clearance{candidates_.front().at_least > 0.0, candidates_.front().at_most};
+  double nearest = kMostDeviations + kTolerance;
   for (const Candidate& candidate : candidates_) {
     const double least = std::max(candidate.at_least, -kMostDeviations);
-    if (least > clearance.deviations - kTolerance) break;
-    const auto& [a, b, c] = mesh_M.triangles()[candidate.triangle];
-    const Polygon triangle_B = {coordinates(a), coordinates(b), coordinates(c)};
-    const auto reaches = [&](double z) { return meets(triangle_B, half_spaces_B, sigmas, z); };
+    if (least > nearest - kTolerance) break;
+    const Triangle& triangle = mesh_M.triangles()[candidate.triangle];
+    const auto& [a, b, c] = triangle;
+    const Polygon corners_B = {coordinates(a), coordinates(b), coordinates(c)};
+    const auto reaches = [&](double z) { return !within(z, corners_B, triangle, half_spaces_B, sigmas).empty(); };
+    double upper = std::min(nearest - kTolerance, candidate.at_most);
+    if (upper < candidate.at_most && !reaches(upper)) continue;
     double lower = least;
-    double upper = std::min(clearance.deviations, candidate.at_most);
-    if (upper == clearance.deviations && !reaches(upper - kTolerance)) continue;
     if (reaches(least + kRounding)) upper = least;
     while (upper - lower > kTolerance) {
       const double middle = 0.5 * (lower + upper);
       (reaches(middle) ? upper : lower) = middle;
     }
-    clearance.deviations = upper;
+    nearest = upper;
   }
-  if (clearance.deviations > kMostDeviations) return {};
-  clearance.deviations = std::max(clearance.deviations, -kMostDeviations);
-  return clearance;
+  if (nearest > kMostDeviations) return {};
+  return Clearance{candidates_.front().at_least > 0.0, nearest};
+}
+
+// What the planes enclose of a triangle once they are moved out. Most enclose it wholly: their scores say so.
+Polygon ClearanceMeter::within(double z, Polygon polygon_B, const Triangle& triangle,
+                               const std::vector<HalfSpace>& half_spaces_B, const std::vector<double>& sigmas) const {
+  const size_t planes = half_spaces_B.size();
+  for (size_t i = 0; i < planes && !polygon_B.empty(); ++i) {
+    const bool cuts = std::any_of(triangle.begin(), triangle.end(),
+                                  [&](std::uint32_t vertex) { return scores_[vertex * planes + i] > z; });
+    if (cuts) polygon_B = clip(polygon_B, half_spaces_B[i].grown(z * sigmas[i]));
+  }
+  return polygon_B;
 }
 
 void ClearanceMeter::scoreVertices(const TriangleMesh& mesh_M, const BoxCoordinates& coordinates,

@@ -36,7 +36,7 @@ SweepReport Guard::sweep(const ToolPose& pose, const Workpieces& workpieces) {
   SweepReport report = sweepAll(pose, workpieces);
   predictor_.observe({pose.stamp, pose.X_WT});
   newest_ = pose;
-  measured_ = options_.clock() - begin;
+  budget_.spentOnMeasured(options_.clock() - begin);
   return report;
 }
 
@@ -93,7 +93,7 @@ Outlook Guard::lookAhead(Duration age, const Workpieces& workpieces) {
   outlook.sweeps_asked = reflex_sweeps + consideredSweeps(options_.horizon);
   outlook.path = predictor_.predict(asked.ends);
   if (!outlook.path.empty()) testPath(outlook, workpieces);
-  budget_.spent(measured_, options_.clock() - begin, outlook.path.size());
+  budget_.spentOnPredicted(options_.clock() - begin, outlook.path.size());
   return outlook;
 }
 

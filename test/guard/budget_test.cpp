@@ -19,15 +19,25 @@ Duration settled(Budget& budget, Duration measured, Duration per_sweep) {
     const size_t sweeps = kReflex + budget.consideredSweeps(kReflex);
     const Duration predicted = static_cast<int>(sweeps) * per_sweep;
     total = measured + predicted;
-    budget.spent(measured, predicted, sweeps);
+    budget.spentOnMeasured(measured);
+    budget.spentOnPredicted(predicted, sweeps);
   }
   return total;
 }
 
-TEST(BudgetTest, BeginsCoarselyAndTakesAllStepsOnceTheyAreKnownToBeCheap) {
+TEST(BudgetTest, TakesAllStepsWhereTheyAreCheap) {
   Budget budget({}, kCycle);
+  budget.spentOnMeasured(500us);
+  EXPECT_EQ(budget.consideredSweeps(kReflex), consideredSweeps({}));
+  budget.spentOnPredicted(20 * 100us, 20);
+  EXPECT_EQ(budget.consideredSweeps(kReflex), consideredSweeps({}));
+}
+
+TEST(BudgetTest, BeginsCoarselyAfterASlowMeasuredSweep) {
+  Budget budget({}, kCycle);
+  budget.spentOnMeasured(10ms);
   EXPECT_EQ(budget.consideredSweeps(kReflex), 1U);
-  budget.spent(1ms, 11 * 100us, 11);
+  budget.spentOnPredicted(11 * 100us, 11);
   EXPECT_EQ(budget.consideredSweeps(kReflex), consideredSweeps({}));
 }
 
@@ -55,10 +65,10 @@ TEST(BudgetTest, RisesAtOnceAndFallsSlowly) {
   Budget budget({}, kCycle);
   settled(budget, 1ms, 1ms);
   const size_t cheap = budget.consideredSweeps(kReflex);
-  budget.spent(1ms, 20 * 4ms, 20);
+  budget.spentOnPredicted(20 * 4ms, 20);
   const size_t dear = budget.consideredSweeps(kReflex);
   EXPECT_LT(dear, cheap);
-  budget.spent(1ms, 11 * 1ms, 11);
+  budget.spentOnPredicted(11 * 1ms, 11);
   EXPECT_LE(budget.consideredSweeps(kReflex), dear + 1);
   settled(budget, 1ms, 1ms);
   EXPECT_EQ(budget.consideredSweeps(kReflex), cheap);
@@ -68,13 +78,14 @@ TEST(BudgetTest, ASlowMeasuredSweepLeavesLessToPredictionToo) {
   Budget budget({}, kCycle);
   settled(budget, 0ms, 2ms);
   const size_t before = budget.consideredSweeps(kReflex);
-  budget.spent(20ms, 11 * 2ms, 11);
+  budget.spentOnMeasured(20ms);
   EXPECT_LT(budget.consideredSweeps(kReflex), before);
 }
 
 TEST(BudgetTest, ACycleWithoutAPredictionTellsNothingOfItsCost) {
   Budget budget({}, kCycle);
-  budget.spent(1ms, 0ms, 0);
+  budget.spentOnMeasured(10ms);
+  budget.spentOnPredicted(0ms, 0);
   EXPECT_EQ(budget.consideredSweeps(kReflex), 1U);
 }
 

@@ -60,11 +60,7 @@ class LookAheadTest : public testing::Test {
     }
   }
 
-  // The first prediction is coarse: nothing is known of its cost.
-  Outlook lookAhead(Duration age = 0ms) {
-    guard_.lookAhead(age, workpieces_);
-    return guard_.lookAhead(age, workpieces_);
-  }
+  Outlook lookAhead(Duration age = 0ms) { return guard_.lookAhead(age, workpieces_); }
 
   Workpieces workpieces_;
   FakeDetector::Record record_;
@@ -176,7 +172,6 @@ TEST_F(LookAheadTest, AFarWorkpieceCostsNoDetection) {
 TEST_F(LookAheadTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
   workpieces_ = {workpiece("first", sheetAt(0.0)), workpiece("second", sheetAt(-0.01))};
   follow(comingDown(0.05, 0.1));
-  guard_.lookAhead(0ms, workpieces_);
   record_.failures_left = 1;
   const Outlook outlook = guard_.lookAhead(0ms, workpieces_);
   ASSERT_EQ(outlook.failures.size(), 1U);

@@ -13,14 +13,16 @@ class Budget {
   /// @param cycle  time there is for one pose: its measured sweep and all predicted ones, > 0
   Budget(const HorizonOptions& horizon, Duration cycle);
 
-  /// Number of sweeps to cut the considered interval into now, at least 1; 1 as long as nothing is known of their cost.
+  /// Number of sweeps to cut the considered interval into now, at least 1. Before the first prediction a sweep of it is
+  /// taken to cost a few measured ones.
   /// @param reflex_sweeps  how many the reflex interval takes
   size_t consideredSweeps(size_t reflex_sweeps) const;
 
-  /// What the newest cycle took.
-  /// @param measured   the sweep to the measured pose
-  /// @param predicted  all predicted sweeps, `sweeps` of them
-  void spent(Duration measured, Duration predicted, size_t sweeps);
+  /// What the newest measured sweep took.
+  void spentOnMeasured(Duration time);
+
+  /// What the newest prediction took, with so many sweeps; 0: there was none.
+  void spentOnPredicted(Duration time, size_t sweeps);
 
  private:
   HorizonOptions horizon_;

@@ -54,6 +54,8 @@ class ClearanceMeter {
   void scoreVertices(const TriangleMesh& mesh_M, const BoxCoordinates& coordinates,
                      const std::vector<HalfSpace>& half_spaces_B, const std::vector<double>& deviations);
   void collectCandidates(const TriangleMesh& mesh_M, size_t planes);
+  Polygon within(double z, Polygon polygon_B, const Triangle& triangle, const std::vector<HalfSpace>& half_spaces_B,
+                 const std::vector<double>& deviations) const;
 
   std::vector<double> scores_;         // per vertex and plane: deviations that the plane lacks to reach the vertex
   std::vector<std::uint16_t> beyond_;  // per vertex: one bit for each plane that lacks too many

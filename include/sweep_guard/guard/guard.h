@@ -98,7 +98,6 @@ class Guard {
   Budget budget_;
   PathTest test_path_;
   std::optional<ToolPose> newest_;
-  Duration measured_{};  // cost of the newest sweep
 };
 
 }  // namespace sweep_guard
