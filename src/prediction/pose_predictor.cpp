@@ -68,12 +68,10 @@ PredictedPath PosePredictor::predict(const std::vector<Duration>& ahead) const {
   for (const Duration& duration : ahead) {
     assert(duration > (path.empty() ? Duration::zero() : path.back().ahead));
     const double seconds = toSeconds(duration);
-    const ErrorModel::Variance variance = parts_->errors.variance(seconds);
     ExpectedPose pose;
     pose.ahead = duration;
     pose.X_WT = displaced(parts_->track.newest().X_WT, parts_->displacementIn(seconds));
-    pose.covariance.diagonal().head<3>().setConstant(variance.translation);
-    pose.covariance.diagonal().tail<3>().setConstant(variance.rotation);
+    pose.covariance = parts_->errors.covariance(seconds);
     path.push_back(pose);
   }
   return path;

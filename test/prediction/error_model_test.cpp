@@ -28,7 +28,9 @@ class ErrorModelTest : public testing::Test {
       model_.observe(track_, velocity, forecast);
     }
   }
-  double deviation(double ahead) const { return std::sqrt(model_.variance(ahead).translation); }
+  double deviation(double ahead) const {
+    return std::sqrt(model_.covariance(ahead).topLeftCorner<3, 3>().trace() / 3.0);
+  }
 
   static constexpr double kPeriod = 0.01;
   Random random_{1};
@@ -65,6 +67,26 @@ TEST_F(ErrorModelTest, ExpectsGreaterErrorsInFastMotion) {
   EXPECT_LT(deviation(0.5), 0.9 * fast);
 }
 
+// The tool goes along x and its forecasts err along x alone.
+TEST(ErrorModelDirectionTest, TellsErrorsAlongTheMotionFromThoseAcross) {
+  MotionTrack track(5.0, 20.0);
+  ErrorModel model;
+  for (int i = 0; i < 6000; ++i) {
+    StampedPose pose;
+    pose.stamp = Time(fromSeconds(100.0 + 0.01 * i));
+    pose.X_WT.translation().x() = 0.002 * i;
+    track.add(pose);
+    const Vector6d velocity = 0.2 * Vector6d::Unit(0);
+    Forecast forecast;
+    for (size_t k = 0; k < forecast.size(); ++k) forecast[k] = 1.1 * kLearnedAhead[k] * velocity;
+    model.observe(track, velocity, forecast);
+  }
+  const Eigen::Matrix3d covariance = model.covariance(0.5).topLeftCorner<3, 3>();
+  EXPECT_NEAR(std::sqrt(covariance(0, 0)), 0.1 * 0.5 * 0.2, 1e-3);
+  EXPECT_LT(std::sqrt(covariance(1, 1)), 0.1 * std::sqrt(covariance(0, 0)));
+  EXPECT_NEAR(covariance(0, 1), 0.0, 1e-12);
+}
+
 TEST_F(ErrorModelTest, AToolThatNeverErrsIsTrusted) {
   go(120.0, 0.2, 0.0);
   EXPECT_LT(deviation(1.0), 0.01 * 0.2);
@@ -72,7 +94,7 @@ TEST_F(ErrorModelTest, AToolThatNeverErrsIsTrusted) {
 
 TEST_F(ErrorModelTest, KnowsNothingAboutTurnsOfAToolThatNeverTurned) {
   go(20.0, 0.2, 0.1);
-  EXPECT_EQ(model_.variance(0.5).rotation, 0.0);
+  EXPECT_EQ((model_.covariance(0.5).bottomRightCorner<3, 3>().norm()), 0.0);
 }
 
 }  // namespace

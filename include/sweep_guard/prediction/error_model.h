@@ -4,47 +4,47 @@
 
 #include "sweep_guard/prediction/hindsight.h"
 #include "sweep_guard/prediction/motion_track.h"
+#include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard {
 
 /// How far the tool is expected to go within each of kLearnedAhead.
 using Forecast = std::array<Vector6d, kLearnedAhead.size()>;
 
-/// Learns how far predictions err from how they turned out: the mean square of the recent errors (20 s), for
-/// translation and for rotation, the same along all axes, greater in fast motion than in slow.
+/// Learns how far predictions err from how they turned out: the mean square of the recent errors (20 s), along the
+/// motion, across it and in rotation; greater in fast motion than in slow.
 class ErrorModel {
  public:
-  struct Variance {
-    double translation;  ///< along any axis [m^2]
-    double rotation;     ///< about any axis [rad^2]
-  };
-
   ErrorModel();
 
   /// Tells what is forecast at the newest pose of a track.
+  /// @param velocity  of the tool there: along the axes of W [m/s], then about the tool's own [rad/s]
   void observe(const MotionTrack& track, const Vector6d& velocity, const Forecast& forecast);
 
+  /// Of the error of a pose predicted: translation [m], then rotation vector [rad], both along the axes of W.
   /// @param ahead  of the newest pose [s], > 0
-  Variance variance(double ahead) const;
+  Matrix6d covariance(double ahead) const;
 
  private:
-  // Errors of one kind, translation or rotation, within one horizon.
+  // Squares per axis: along the motion, across it, in rotation.
   struct Record {
-    double squares;   // of the errors along an axis, weighted by time
-    double activity;  // that they came with, weighted by time
+    Eigen::Array3d errors;    // weighted by time
+    Eigen::Array3d activity;  // that they came with, weighted alike
   };
   struct Known {
     Forecast forecast;
-    Eigen::Vector2d activity;
+    Eigen::Array3d activity;
+    Eigen::Vector3d direction;
   };
 
-  Eigen::Vector2d activityAt(const MotionTrack& track, const Vector6d& velocity);
+  Eigen::Array3d activityAt(const MotionTrack& track, const Vector6d& velocity);
 
   Hindsight<Known> hindsight_;
-  std::array<std::array<Record, kLearnedAhead.size()>, 2> records_;
-  Eigen::Vector2d speed_squares_ = Eigen::Vector2d::Zero();  // recent, weighted [s]
-  double weight_ = 0.0;                                      // [s]
-  Eigen::Vector2d activity_ = Eigen::Vector2d::Zero();       // squared speed now plus the usual one, of either kind
+  std::array<Record, kLearnedAhead.size()> records_;
+  Eigen::Array3d speeds_ = Eigen::Array3d::Zero();       // squares of the recent ones, weighted by time
+  double weight_ = 0.0;                                  // [s]
+  Eigen::Array3d activity_ = Eigen::Array3d::Zero();     // squared speed now plus the usual one
+  Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  // of the motion in W, unit; 0 at rest
 };
 
 }  // namespace sweep_guard
