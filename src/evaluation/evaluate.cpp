@@ -61,6 +61,7 @@ std::vector<ErrorReport> reportErrors(const std::vector<Recording>& recordings, 
                                             named(options.predictor, options.predictors[predictor]), progress);
   });
   std::vector<ErrorReport> reports;
+  reports.reserve(cases.size());
   for (const Case& of : cases)
     reports.push_back({of.recording.name, options.predictors, horizons, summaries(of.errors)});
   return reports;

@@ -62,7 +62,7 @@ std::string colourOf(const std::string& predictor) {
 }
 
 PlotPage::PlotPage(const std::string& path, size_t rows, size_t columns)
-    : rows_(rows), columns_(columns), height_(kKeyHeight + static_cast<double>(rows) * kRowHeight + kBottom) {
+    : columns_(columns), height_(kKeyHeight + static_cast<double>(rows) * kRowHeight + kBottom) {
   std::ostringstream begin;
   begin << "set terminal pngcairo size " << kWidth << ',' << height_ << " font 'sans,14'\n"
         << "set output " << gnuplotText(path) << "\nset multiplot\n";

@@ -38,7 +38,6 @@ class PlotPage {
  private:
   void place(double left, double right, double bottom, double top);
 
-  size_t rows_;
   size_t columns_;
   double height_;  // [pixel]
   std::string script_;

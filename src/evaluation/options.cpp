@@ -45,7 +45,7 @@ struct Words {
   std::string seed = "1";
   std::string min_probability = csvNumber(sweep_guard::VerdictLimits{}.min_probability);
   std::string hold_time = "0.5";
-  std::string most_false_alarms = "10";
+  std::string most_false_alarms = "20";
 };
 
 auto text(std::string& word, const char* name) { return po::value(&word)->value_name(name); }

@@ -20,7 +20,7 @@ struct Options {
 
   PlacementOptions placement;
   WatchOptions watch;               ///< but for its predictor and thresholds
-  double most_false_alarms = 10.0;  ///< per minute; so far the trade-off is averaged
+  double most_false_alarms = 20.0;  ///< per minute; so far the trade-off is averaged
 
   std::string csv;  ///< files to write; empty: not asked for
   std::string plot;

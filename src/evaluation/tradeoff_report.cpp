@@ -37,14 +37,15 @@ std::string panel(const WarningReport& report, double lead) {
                                               i, colour.c_str(), i, report.chosen, report.chosen, colour.c_str());
   }
   const std::string title = report.recording + format(", %.1f s ahead", lead);
-  return data + "set title " + gnuplotText(title) + " noenhanced offset 0,-0.6\n" + curves;
+  return data + "set title " + gnuplotText(title) + " noenhanced font ',12' offset 0,-0.6\n" + curves;
 }
 
 }  // namespace
 
 std::vector<double> tradeoffThresholds(double chosen) {
-  std::vector<double> thresholds = {0.001, 0.0015, 0.002, 0.003, 0.005, 0.007, 0.01, 0.015, 0.02, 0.03, 0.05, 0.07,
-                                    0.1,   0.13,   0.16,  0.2,   0.25,  0.3,   0.35, 0.4,   0.45, 0.5,  1.0,  chosen};
+  std::vector<double> thresholds = {0.001, 0.0015, 0.002, 0.003, 0.005, 0.007, 0.01, 0.015, 0.02,  0.03, 0.05,
+                                    0.07,  0.1,    0.13,  0.16,  0.2,   0.25,  0.3,  0.34,  0.37,  0.4,  0.42,
+                                    0.44,  0.46,   0.47,  0.48,  0.49,  0.495, 0.5,  1.0,   chosen};
   std::sort(thresholds.begin(), thresholds.end());
   thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
   return thresholds;

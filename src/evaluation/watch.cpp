@@ -124,7 +124,8 @@ class Watch {
     auto predicted = std::exchange(outlook.objects, {});
     size_t i = 0;
     for (Watched& watched : watched_) {
-      report.objects.assign(1, std::move(swept[i]));
+      report.objects.clear();
+      report.objects.push_back(std::move(swept[i]));
       outlook.objects.clear();
       if (!predicted.empty()) outlook.objects.push_back(std::move(predicted[i]));
       watched.take(report, outlook);

@@ -126,13 +126,15 @@ TEST_F(EvaluatePredictionTest, WritesTheSameErrorsEveryTime) {
 
 TEST_F(EvaluatePredictionTest, WritesTheSameWarningsForTheSameSeed) {
   writeMotion("hand.txt");
-  ASSERT_EQ(run("--placements 6 --warnings-csv first.csv --tradeoff-csv curve.csv hand.txt").status, 0);
-  ASSERT_EQ(run("--placements 6 --warnings-csv again.csv --seed 1 hand.txt").status, 0);
-  ASSERT_EQ(run("--placements 6 --warnings-csv other.csv --seed 2 hand.txt").status, 0);
+  ASSERT_EQ(
+      run("--predictors hold,direct --placements 6 --warnings-csv first.csv --tradeoff-csv curve.csv hand.txt").status,
+      0);
+  ASSERT_EQ(run("--predictors hold,direct --placements 6 --warnings-csv again.csv --seed 1 hand.txt").status, 0);
+  ASSERT_EQ(run("--predictors hold,direct --placements 6 --warnings-csv other.csv --seed 2 hand.txt").status, 0);
   const std::string csv = read("first.csv");
   EXPECT_EQ(csv, read("again.csv"));
   EXPECT_NE(csv, read("other.csv"));
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 2);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2);
   EXPECT_NE(csv.find("\nhand,direct,reflex,3,3,"), std::string::npos) << csv;
   EXPECT_NE(read("curve.csv").find("\nhand,direct,0.001,"), std::string::npos);
 }
@@ -142,7 +144,7 @@ TEST_F(EvaluatePredictionTest, DrawsAPngAndLeavesNothingElse) {
   const Outcome outcome = run("--plot \"it's.png\" \"it's a hand.txt\"");
   EXPECT_EQ(outcome.status, 0) << outcome.out;
   EXPECT_EQ(read("it's.png").substr(1, 3), "PNG");
-  EXPECT_EQ(run("--placements 4 --tradeoff-plot curves.png \"it's a hand.txt\"").status, 0);
+  EXPECT_EQ(run("--predictors direct --placements 2 --tradeoff-plot curves.png \"it's a hand.txt\"").status, 0);
   EXPECT_EQ(read("curves.png").substr(1, 3), "PNG");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 3);
 }

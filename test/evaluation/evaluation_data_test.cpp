@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "evaluation/evaluate.h"
+
+namespace sweep_guard_evaluation {
+namespace {
+
+using sweep_guard_recording::Recording;
+using Field = double ErrorSummary::*;
+
+constexpr const char* kSlowRecording = "handheld_stylus_15hz";
+
+/// Recorded hands and a recorded robot arm, which are no part of the repository.
+class EvaluationDataTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* const variable = std::getenv("SWEEP_GUARD_DATA");
+    const std::filesystem::path data = variable != nullptr ? variable : SWEEP_GUARD_SOURCE_DIR "/../shared/data";
+    if (!std::filesystem::exists(data / "motion")) {
+      GTEST_SKIP() << data / "motion"
+                   << " is missing; set SWEEP_GUARD_DATA";
+    }
+    std::vector<std::string> words = {"evaluate_prediction"};
+    for (const auto& entry : std::filesystem::directory_iterator(data / "motion")) {
+      if (entry.path().extension() == ".txt") words.push_back(entry.path());
+    }
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    options_ = parseOptions(static_cast<int>(arguments.size()), arguments.data());
+    for (const std::string& file : options_.files) {
+      recordings_.push_back(sweep_guard_recording::readRecording(file, ""));
+    }
+    ASSERT_GE(recordings_.size(), 5U);
+  }
+
+  Options options_;
+  std::vector<Recording> recordings_;
+};
+
+/// Error of `direct` over that of the better of `hold` and `constant_velocity`.
+double ratio(const ErrorReport& report, size_t horizon, Field field) {
+  const auto of = [&](const char* name) {
+    const auto found = std::find(report.predictors.begin(), report.predictors.end(), name);
+    return report.errors.at(static_cast<size_t>(found - report.predictors.begin())).at(horizon).*field;
+  };
+  return of("direct") / std::min(of("hold"), of("constant_velocity"));
+}
+
+TEST_F(EvaluationDataTest, TheDefaultPredictorIsAheadOfHoldingAndOfConstantVelocity) {
+  options_.predictors = {"hold", "constant_velocity", "direct"};
+  for (const ErrorReport& report : reportErrors(recordings_, options_, options_.horizons, [](size_t) {})) {
+    const bool slow = report.recording == kSlowRecording;
+    for (size_t horizon = 0; horizon < report.horizons.size(); ++horizon) {
+      for (const Field median : {&ErrorSummary::position_median, &ErrorSummary::rotation_median}) {
+        EXPECT_LE(ratio(report, horizon, median), slow ? 1.02 : 1.0) << report.recording << ' ' << horizon;
+      }
+      for (const Field p95 : {&ErrorSummary::position_p95, &ErrorSummary::rotation_p95}) {
+        EXPECT_LE(ratio(report, horizon, p95), slow ? 1.2 : 1.0) << report.recording << ' ' << horizon;
+      }
+    }
+  }
+}
+
+TEST_F(EvaluationDataTest, EveryContactIsWarnedOfByTheReflexWarning) {
+  options_.predictors = {"direct"};
+  options_.placement.count = 10;
+  for (const WarningReport& report : reportWarnings(recordings_, options_, [](size_t) {})) {
+    const AlarmStatistics& reflex = report.statistics[0][report.chosen][0];
+    EXPECT_EQ(reflex.contacts, 5U) << report.recording;
+    EXPECT_EQ(reflex.leads.size(), reflex.contacts) << report.recording;
+  }
+}
+
+}  // namespace
+}  // namespace sweep_guard_evaluation
