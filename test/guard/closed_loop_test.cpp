@@ -149,8 +149,8 @@ struct Episode {
 // Where nothing is due, it is enough to look ahead now and then, and not to sweep: that would take the time.
 constexpr auto kNear = 1300ms;
 bool worthLooking(Duration left, Duration since_last) {
-  const bool soon = (left < 1150ms && left > 950ms) || left < 200ms;
-  return since_last >= (soon ? 20ms : 300ms);
+  const bool soon = (left < 1110ms && left > 1000ms) || (left < 160ms && left > 50ms);
+  return since_last >= (soon ? 20ms : 400ms);
 }
 
 // Runs until the contact is told.
@@ -211,8 +211,8 @@ TEST_P(ClosedLoopTest, WarnsInTimeOfEveryWallInTheWayOfASteadyTool) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Predictors, ClosedLoopTest,
-                         testing::Values(Subject{"constant_velocity", 100}, Subject{"polynomial", 10},
-                                         Subject{"direct", 10}),
+                         testing::Values(Subject{"constant_velocity", 100}, Subject{"polynomial", 5},
+                                         Subject{"direct", 5}),
                          [](const auto& test) { return std::string(test.param.predictor); });
 
 // Straight up or down, at 100 Hz; nothing else moves.
