@@ -23,6 +23,7 @@ namespace {
 
 constexpr std::size_t kColumns = 8;
 constexpr std::string_view kBlanks = " \t\r";
+constexpr std::size_t kLongestShown = 40;
 constexpr double kShortestQuaternion = 1e-10;
 
 using Columns = std::array<long double, kColumns>;
@@ -34,12 +35,20 @@ std::string_view nextWord(std::string_view* line) {
   return word;
 }
 
+/// As it may stand in a message: not too long, and nothing that a terminal would obey.
+std::string shown(std::string_view word) {
+  std::string text(word.substr(0, kLongestShown));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return word.size() > kLongestShown ? text + "..." : text;
+}
+
 long double toNumber(std::string_view word) {
   long double number = std::numeric_limits<long double>::quiet_NaN();
   const char* const end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, number);
   if (error != std::errc() || stop != end || !std::isfinite(static_cast<double>(number))) {
-    throw InvalidInput("'" + std::string(word) + "' is not a finite number; correct or remove the line");
+    throw InvalidInput("'" + shown(word) + "' is not a finite number; correct or remove the line");
   }
   return number;
 }

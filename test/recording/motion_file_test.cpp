@@ -76,6 +76,12 @@ TEST_F(MotionFileTest, RefusesWhatIsNotEightFiniteNumbers) {
   }
 }
 
+TEST_F(MotionFileTest, ShowsNothingOfABinaryFileThatATerminalWouldObey) {
+  const std::string message = refusal("\033[2J\x80" + std::string(100000, 'x') + " 0\n");
+  EXPECT_NE(message.find(":1: '?[2J?xxx"), std::string::npos) << message;
+  EXPECT_LT(message.size(), path_.size() + 150U);
+}
+
 TEST_F(MotionFileTest, RefusesAZeroQuaternion) {
   EXPECT_NE(refusal("0 0 0 0 0 0 0 0").find("quaternion"), std::string::npos);
 }
