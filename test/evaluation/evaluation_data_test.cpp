@@ -29,6 +29,7 @@ class EvaluationDataTest : public testing::Test {
       if (entry.path().extension() == ".txt") words.push_back(entry.path());
     }
     std::vector<const char*> arguments;
+    arguments.reserve(words.size());
     for (const std::string& word : words) arguments.push_back(word.c_str());
     options_ = parseOptions(static_cast<int>(arguments.size()), arguments.data());
     for (const std::string& file : options_.files) {
