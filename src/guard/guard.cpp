@@ -23,13 +23,37 @@ bool SweepReport::contact() const {
 
 bool SweepReport::complete() const { return !objects.empty() && unplaced.empty() && failures.empty(); }
 
+Outlook lookAlong(const Forecast& forecast, const Workpieces& workpieces, PathTest& test, Detector& detector,
+                  const Tool& tool) {
+  Outlook outlook;
+  outlook.stamp = forecast.from.stamp;
+  outlook.path = forecast.path;
+  outlook.reflex_sweeps = forecast.reflex_sweeps;
+  outlook.sweeps_asked = forecast.path.size();
+  if (forecast.path.empty()) return outlook;
+  for (const auto& workpiece : workpieces) {
+    const auto X_WM = forecast.from.X_WM.find(workpiece->frame);
+    if (X_WM == forecast.from.X_WM.end()) {
+      outlook.unplaced.push_back(workpiece);
+      continue;
+    }
+    try {
+      outlook.objects.push_back(
+          test(detector, tool, forecast.from.X_WT, forecast.path, forecast.reflex_sweeps, X_WM->second, workpiece));
+    } catch (const std::exception& error) {  // the device, or no memory: the others are tested all the same
+      outlook.failures.push_back({workpiece, error.what()});
+    }
+  }
+  return outlook;
+}
+
 Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options)
     : tool_(std::move(tool)),
       detector_(std::move(detector)),
       options_(options),
       predictor_(options.predictor),
       budget_(options.horizon, options.cycle),
-      test_path_({options.sweep, options.horizon.reflex_step / 2}) {}
+      test_path_(options.pathTest()) {}
 
 SweepReport Guard::sweep(const ToolPose& pose, const Workpieces& workpieces) {
   const SteadyTime begin = options_.clock();
@@ -83,34 +107,21 @@ SweepFindings Guard::sweepAlong(const Way& way, const TriangleMesh& mesh_M) {
 }
 
 Outlook Guard::lookAhead(Duration age, const Workpieces& workpieces) {
-  Outlook outlook;
-  if (!newest_) return outlook;
+  if (!newest_) return {};
   const SteadyTime begin = options_.clock();
   const size_t reflex_sweeps = reflexSweeps(options_.horizon, age);
   const Horizon asked = horizon(options_.horizon, age, budget_.consideredSweeps(reflex_sweeps));
-  outlook.stamp = newest_->stamp;
-  outlook.reflex_sweeps = asked.reflex_sweeps;
+  const Forecast forecast{*newest_, predictor_.predict(asked.ends), asked.reflex_sweeps};
+  Outlook outlook = lookAlong(forecast, workpieces, test_path_, *detector_, tool_);
   outlook.sweeps_asked = reflex_sweeps + consideredSweeps(options_.horizon);
-  outlook.path = predictor_.predict(asked.ends);
-  if (!outlook.path.empty()) testPath(outlook, workpieces);
   budget_.spentOnPredicted(options_.clock() - begin, outlook.path.size());
   return outlook;
 }
 
-void Guard::testPath(Outlook& outlook, const Workpieces& workpieces) {
-  for (const auto& workpiece : workpieces) {
-    const auto X_WM = newest_->X_WM.find(workpiece->frame);
-    if (X_WM == newest_->X_WM.end()) {
-      outlook.unplaced.push_back(workpiece);
-      continue;
-    }
-    try {
-      outlook.objects.push_back(
-          test_path_(*detector_, tool_, newest_->X_WT, outlook.path, outlook.reflex_sweeps, X_WM->second, workpiece));
-    } catch (const std::exception& error) {  // the device, or no memory: the others are tested all the same
-      outlook.failures.push_back({workpiece, error.what()});
-    }
-  }
+Forecast Guard::forecast(Duration age, Duration end) const {
+  if (!newest_) return {};
+  const Horizon asked = horizonUpTo(end, options_.horizon, age);
+  return {*newest_, predictor_.predict(asked.ends), asked.reflex_sweeps};
 }
 
 void Guard::forget() {

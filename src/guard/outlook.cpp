@@ -5,19 +5,25 @@
 #include <iterator>
 
 namespace sweep_guard {
-namespace {
 
-std::vector<std::uint32_t> trianglesMet(const PredictedObject& object) {
+std::vector<std::uint32_t> PredictedObject::triangles() const {
   std::vector<std::uint32_t> all;
-  std::merge(object.reflex.begin(), object.reflex.end(), object.considered.begin(), object.considered.end(),
-             std::back_inserter(all));
+  std::merge(reflex.begin(), reflex.end(), considered.begin(), considered.end(), std::back_inserter(all));
   return all;
 }
 
-}  // namespace
-
 Time Outlook::coveredUntil() const {
   return path.empty() || !unplaced.empty() || !failures.empty() ? stamp : stamp + path.back().ahead;
+}
+
+bool Outlook::complete() const { return !path.empty() && !objects.empty() && unplaced.empty() && failures.empty(); }
+
+double Outlook::probability() const {
+  double largest = 0.0;
+  for (const PredictedObject& object : objects) {
+    for (const PredictedSweep& sweep : object.sweeps) largest = std::max(largest, sweep.probability);
+  }
+  return largest;
 }
 
 std::optional<ExpectedContact> expectedContact(const Outlook& outlook, double min_probability) {
@@ -29,7 +35,7 @@ std::optional<ExpectedContact> expectedContact(const Outlook& outlook, double mi
     if (first == object.sweeps.end()) continue;
     const Time from = outlook.stamp + first->contact_from;
     if (earliest && earliest->from <= from) continue;
-    earliest = ExpectedContact{from, false, 0.0, object.workpiece->id, trianglesMet(object)};
+    earliest = ExpectedContact{from, false, 0.0, object.workpiece->id, object.triangles()};
     for (auto sweep = first; sweep != object.sweeps.end(); ++sweep) {
       earliest->met = earliest->met || sweep->met;
       earliest->probability = std::max(earliest->probability, sweep->probability);

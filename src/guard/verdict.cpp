@@ -135,7 +135,10 @@ Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits
 }
 
 Level warningOf(const Evidence::Expectation& expectation, const Instant& now, const VerdictLimits& limits) {
-  const Duration left = timeTo(expectation, now) + overSince(expectation, now);
+  return warningOf(timeTo(expectation, now) + overSince(expectation, now), limits);
+}
+
+Level warningOf(Duration left, const VerdictLimits& limits) {
   if (left <= limits.reflex + limits.tick) return Level::kReflex;
   return left <= limits.considered + limits.tick ? Level::kConsidered : Level::kClear;
 }

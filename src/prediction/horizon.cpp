@@ -58,4 +58,14 @@ Horizon horizon(const HorizonOptions& options, Duration age, size_t considered_s
   return horizon;
 }
 
+Horizon horizonUpTo(Duration end, HorizonOptions options, Duration age) {
+  assert(end > Duration::zero());
+  options.considered = std::max(end, options.reflex + options.considered_step);
+  Horizon all = horizon(options, age, consideredSweeps(options));
+  while (!all.ends.empty() && all.ends.back() >= age + end) all.ends.pop_back();
+  all.ends.push_back(age + end);
+  all.reflex_sweeps = std::min(all.reflex_sweeps, all.ends.size());
+  return all;
+}
+
 }  // namespace sweep_guard

@@ -50,7 +50,7 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   if (!(request.margin >= 0.0 && request.margin <= sweep_guard::kMaxCoordinate)) {
     throw InvalidInput("the margin must be a length >= 0 m");
   }
-  sweep_guard::SweepOptions options = parameters_.sweep;
+  sweep_guard::SweepOptions options = parameters_.guard.sweep;
   if (!request.volume.empty()) options.volume = sweep_guard::volumeKind(request.volume);
   options.margin = request.margin;
   sweep_guard::Detector& used = detector(request.detector.empty() ? parameters_.detector : request.detector);

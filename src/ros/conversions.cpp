@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sweep_guard/common/error.h"
 
@@ -28,6 +29,7 @@ static_assert(same(Warning::TF_FAIL, sweep_guard::kTfFail));
 static_assert(same(Warning::TIME_JUMP, sweep_guard::kTimeJump));
 static_assert(same(Warning::DETECTOR_FAULT, sweep_guard::kDetectorFault));
 static_assert(same(Warning::NOT_SWEPT, sweep_guard::kNotSwept));
+static_assert(same(Warning::NOT_COVERED, sweep_guard::kNotCovered));
 static_assert(same(Warning::UNKNOWN, sweep_guard::Level::kUnknown));
 static_assert(same(Warning::CLEAR, sweep_guard::Level::kClear));
 static_assert(same(Warning::CONSIDERED, sweep_guard::Level::kConsidered));
@@ -51,6 +53,15 @@ Eigen::Isometry3d rigid(const Eigen::Vector3d& translation, const geometry_msgs:
   return pose;
 }
 
+sweep_guard::PredictedPose predictedPose(const sweep_guard::ExpectedPose& expected, sweep_guard::Duration age) {
+  using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  sweep_guard::PredictedPose msg;
+  msg.from_now = toMsg(expected.ahead - age);
+  msg.pose = toMsg(expected.X_WT);
+  Eigen::Map<RowMajor>(msg.covariance.data()) = expected.covariance;
+  return msg;
+}
+
 }  // namespace
 
 sweep_guard::Time fromMsg(const ros::Time& time) {
@@ -62,6 +73,8 @@ ros::Time toMsg(sweep_guard::Time time) {
   stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, time.time_since_epoch().count())));
   return stamp;
 }
+
+ros::Duration toMsg(sweep_guard::Duration duration) { return ros::Duration().fromNSec(duration.count()); }
 
 sweep_guard::Instant now() { return {fromMsg(ros::Time::now()), std::chrono::steady_clock::now()}; }
 
@@ -127,6 +140,36 @@ sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report) {
   return msg;
 }
 
+sweep_guard::Prediction toMsg(const sweep_guard::Outlook& outlook, sweep_guard::Duration age,
+                              const sweep_guard::VerdictLimits& limits) {
+  sweep_guard::Prediction msg;
+  msg.header.stamp = toMsg(outlook.stamp);
+  for (const sweep_guard::ExpectedPose& expected : outlook.path) {
+    if (expected.ahead > age) msg.poses.push_back(predictedPose(expected, age));
+  }
+  msg.valid = outlook.complete();
+  msg.probability = msg.valid ? outlook.probability() : std::numeric_limits<double>::quiet_NaN();
+  msg.time_to_collision = ros::Duration(-1.0);
+  if (const auto expected = sweep_guard::expectedContact(outlook, limits.min_probability)) {
+    msg.collision = expected->met;
+    const sweep_guard::Duration left = expected->from - outlook.stamp - age;
+    msg.time_to_collision = toMsg(std::max(left, sweep_guard::Duration::zero()));
+    const sweep_guard::Level level = sweep_guard::warningOf(left, limits);
+    if (level == sweep_guard::Level::kReflex) msg.interval = sweep_guard::Prediction::REFLEX;
+    if (level == sweep_guard::Level::kConsidered) msg.interval = sweep_guard::Prediction::CONSIDERED;
+  }
+  for (const sweep_guard::PredictedObject& object : outlook.objects) {
+    const std::vector<std::uint32_t> triangles = object.triangles();
+    if (!triangles.empty()) msg.objects.push_back(toMsg(*object.workpiece, triangles));
+  }
+  return msg;
+}
+
+double timeToCollision(const sweep_guard::Prediction& prediction) {
+  if (prediction.time_to_collision >= ros::Duration(0)) return prediction.time_to_collision.toSec();
+  return prediction.valid ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+}
+
 sweep_guard::Warning toMsg(const sweep_guard::Verdict& verdict) {
   using sweep_guard::Level;
   Warning msg;
@@ -135,8 +178,9 @@ sweep_guard::Warning toMsg(const sweep_guard::Verdict& verdict) {
   msg.clear = verdict.level == Level::kClear;
   msg.contact = verdict.level == Level::kContact;
   msg.considered = !msg.clear;
-  msg.reflex = !msg.clear && verdict.level != Level::kConsidered;
+  msg.reflex = msg.contact || verdict.level == Level::kReflex || verdict.reasons != 0;
   msg.time_to_collision = ros::Duration(msg.contact ? 0.0 : -1.0);
+  if (!msg.contact && verdict.time_to_collision) msg.time_to_collision = toMsg(*verdict.time_to_collision);
   msg.mesh_id = verdict.mesh_id;
   msg.triangles = verdict.triangles;
   msg.reasons = verdict.reasons;

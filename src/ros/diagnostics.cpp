@@ -14,8 +14,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 using sweep_guard::toSeconds;
 
-constexpr sweep_guard::Duration kCycle = std::chrono::nanoseconds(1'000'000'000 / 15);  // of 15 Hz [P, Sec. 3.2]
-constexpr size_t kLatenciesKept = 10000;
+constexpr size_t kTimesKept = 10000;
 
 double quantile(const std::vector<double>& ascending, double share) {
   if (ascending.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -36,9 +35,19 @@ void Workload::swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_
   const std::lock_guard lock(mutex_);
   ++summary_.sweeps_total;
   summary_.faults_total += failures;
-  if (latency > kCycle) ++summary_.late_total;
-  if (summary_.latencies.size() < kLatenciesKept) summary_.latencies.push_back(toSeconds(latency));
+  if (latency > cycle_) ++summary_.late_total;
+  if (summary_.latencies.size() < kTimesKept) summary_.latencies.push_back(toSeconds(latency));
   summary_.busiest = std::max(summary_.busiest, toSeconds(sweep_time));
+}
+
+void Workload::predicted(const Prediction& prediction, size_t failures) {
+  const std::lock_guard lock(mutex_);
+  ++summary_.predictions_total;
+  summary_.faults_total += failures;
+  if (prediction.latency > cycle_) ++summary_.late_predictions_total;
+  if (summary_.prediction_times.size() < kTimesKept) summary_.prediction_times.push_back(toSeconds(prediction.time));
+  if (prediction.sweeps_made > 0 && prediction.sweeps_made < prediction.sweeps_asked) summary_.coarser = true;
+  summary_.prediction = prediction;
 }
 
 Workload::Summary Workload::take() {
@@ -46,7 +55,10 @@ Workload::Summary Workload::take() {
   Summary taken = summary_;
   summary_.latencies.clear();
   summary_.busiest = 0.0;
+  summary_.prediction_times.clear();
+  summary_.coarser = false;
   std::sort(taken.latencies.begin(), taken.latencies.end());
+  std::sort(taken.prediction_times.begin(), taken.prediction_times.end());
   return taken;
 }
 
@@ -66,7 +78,13 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.add("tool pose input", [this](Status& status) { poseInput(status); });
   updater_.add("mesh input", [this](Status& status) { meshInput(status); });
   updater_.add("detector and deadlines", [this](Status& status) { deadlines(status); });
+  updater_.add("prediction", [this](Status& status) { prediction(status); });
   updater_.add("process", [this](Status& status) { process(status); });
+}
+
+void Diagnostics::publish() {
+  load_ = parts_.workload.take();
+  updater_.force_update();
 }
 
 void Diagnostics::verdict(Status& status) const {
@@ -121,20 +139,42 @@ void Diagnostics::meshInput(Status& status) {
   status.add("refused", store.refused());
 }
 
-void Diagnostics::deadlines(Status& status) {
-  const Workload::Summary load = parts_.workload.take();
+void Diagnostics::deadlines(Status& status) const {
   status.summary(DiagnosticStatus::OK, parameters_.detector + " keeps up");
-  if (!load.latencies.empty() && load.latencies.back() > toSeconds(kCycle)) {
-    status.summary(DiagnosticStatus::WARN, parameters_.detector + " is slower than 15 Hz: use fewer triangles");
+  if (!load_.latencies.empty() && load_.latencies.back() > toSeconds(parameters_.guard.cycle)) {
+    status.summary(DiagnosticStatus::WARN,
+                   parameters_.detector + " is slower than timing/min_rate: use fewer triangles");
   }
   status.add("detector", parameters_.detector);
-  status.add("volume", sweep_guard::nameOf(parameters_.sweep.volume));
-  status.add("poses swept", load.sweeps_total);
-  status.add("cycles missed", load.late_total);
-  status.add("detector faults", load.faults_total);
-  status.addf("pose to warning [ms]", "p50 %.2f, p99 %.2f, max %.2f", 1e3 * quantile(load.latencies, 0.5),
-              1e3 * quantile(load.latencies, 0.99), 1e3 * quantile(load.latencies, 1.0));
-  status.addf("longest sweep [ms]", "%.2f", 1e3 * load.busiest);
+  status.add("volume", sweep_guard::nameOf(parameters_.guard.sweep.volume));
+  status.add("poses swept", load_.sweeps_total);
+  status.add("cycles missed", load_.late_total);
+  status.add("detector faults", load_.faults_total);
+  status.addf("pose to warning [ms]", "p50 %.2f, p99 %.2f, max %.2f", 1e3 * quantile(load_.latencies, 0.5),
+              1e3 * quantile(load_.latencies, 0.99), 1e3 * quantile(load_.latencies, 1.0));
+  status.addf("longest sweep [ms]", "%.2f", 1e3 * load_.busiest);
+}
+
+void Diagnostics::prediction(Status& status) const {
+  const std::string& predictor = parameters_.guard.predictor.predictor;
+  status.summary(DiagnosticStatus::OK, predictor + " looks ahead");
+  if (load_.coarser) {
+    status.summary(DiagnosticStatus::WARN,
+                   "the considered interval is swept more coarsely than horizon/considered_step "
+                   "to keep timing/min_rate: use fewer triangles");
+  }
+  status.add("predictor", predictor);
+  status.add("predictions", load_.predictions_total);
+  status.add("deadlines missed", load_.late_predictions_total);
+  const Workload::Prediction& newest = load_.prediction;
+  if (load_.prediction_times.empty() || newest.sweeps_made == 0) {
+    status.summary(DiagnosticStatus::STALE, "no prediction: two tool poses in a row are needed");
+  }
+  status.addf("sweeps made / asked", "%zu / %zu", newest.sweeps_made, newest.sweeps_asked);
+  status.addf("time [ms]", "p50 %.2f, max %.2f", 1e3 * quantile(load_.prediction_times, 0.5),
+              1e3 * quantile(load_.prediction_times, 1.0));
+  status.addf("horizon covered [s]", "%.2f", toSeconds(newest.covered));
+  status.addf("probability of contact", "%.3f", newest.probability);
 }
 
 void Diagnostics::process(Status& status) const {

@@ -1,6 +1,10 @@
 #include "sweep_guard/ros/node.h"
 
 #include <ros/console.h>
+#include <std_msgs/Bool.h>
+#include <std_msgs/Float64.h>
+
+#include <algorithm>
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
@@ -10,53 +14,73 @@ namespace {
 
 constexpr size_t kPosesQueued = 4096;            // 4 s at 1 kHz; by then the poses are stale, and the warning says so
 constexpr std::uint32_t kContactsQueued = 1000;  // of 1 s at 1 kHz
+constexpr std::uint32_t kPredictionsQueued = 100;
+constexpr size_t kQuestionsQueued = 16;
 constexpr auto kWatchPeriod = std::chrono::milliseconds(10);    // how late a silent input may be noticed
 constexpr auto kWarningPeriod = std::chrono::milliseconds(45);  // with the watch's: 20 Hz at least
 constexpr auto kWarningValid = std::chrono::milliseconds(200);
+constexpr auto kReflexPeriod = std::chrono::milliseconds(100);
+constexpr auto kConsideredPeriod = std::chrono::seconds(1);
 constexpr auto kClockJump = std::chrono::milliseconds(100);
 
-ros::WallDuration wall(sweep_guard::Duration duration) { return ros::WallDuration(sweep_guard::toSeconds(duration)); }
-
-sweep_guard::GuardOptions guardOptions(const Parameters& parameters) {
-  sweep_guard::GuardOptions options;
-  options.sweep = parameters.sweep;
-  options.horizon.reserve = parameters.limits.pose_timeout;
-  return options;
+template <typename Message>
+ros::Publisher advertise(ros::NodeHandle private_node, const std::string& topic, std::uint32_t queued) {
+  return private_node.advertise<Message>(topic, queued);
 }
+
+std_msgs::Bool flagMessage(bool raised) {
+  std_msgs::Bool msg;
+  msg.data = raised;
+  return msg;
+}
+
+ros::WallDuration wall(sweep_guard::Duration duration) { return ros::WallDuration(sweep_guard::toSeconds(duration)); }
 
 }  // namespace
 
 SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : parameters_(loadParameters(private_node)),
-      contacts_publisher_(ros::NodeHandle(private_node).advertise<sweep_guard::Contacts>("contacts", kContactsQueued)),
-      warning_publisher_(ros::NodeHandle(private_node).advertise<sweep_guard::Warning>("warning", 10)),
-      marker_publisher_(ros::NodeHandle(private_node).advertise<visualization_msgs::MarkerArray>("markers", 1)),
+      contacts_publisher_(advertise<sweep_guard::Contacts>(private_node, "contacts", kContactsQueued)),
+      prediction_publisher_(advertise<sweep_guard::Prediction>(private_node, "prediction", kPredictionsQueued)),
+      time_to_collision_publisher_(advertise<std_msgs::Float64>(private_node, "time_to_collision", kPredictionsQueued)),
+      warning_publisher_(advertise<sweep_guard::Warning>(private_node, "warning", 10)),
+      reflex_publisher_(advertise<std_msgs::Bool>(private_node, "reflex_warning", 10)),
+      considered_publisher_(advertise<std_msgs::Bool>(private_node, "considered_warning", 10)),
+      marker_publisher_(advertise<visualization_msgs::MarkerArray>(private_node, "markers", 1)),
       ledger_(parameters_.limits, [this] { warn(/*only_on_change=*/true); }),
-      guard_(parameters_.tool(), sweep_guard::makeDetector(parameters_.detector, parameters_.cull),
-             guardOptions(parameters_)),
+      guard_(parameters_.tool(), sweep_guard::makeDetector(parameters_.detector, parameters_.cull), parameters_.guard),
       workpieces_(parameters_.max_triangles, ledger_),
       poses_(node, parameters_, frames_, workpieces_, ledger_, [this](PlacedPose pose) { enqueue(std::move(pose)); }),
       meshes_(node, workpieces_),
       check_sweep_(private_node, parameters_, frames_, workpieces_),
+      predict_(private_node, parameters_, workpieces_, [this](sweep_guard::Duration horizon) { return ask(horizon); }),
+      workload_(parameters_.guard.cycle),
       diagnostics_(node, private_node, parameters_, {poses_, meshes_, workpieces_, ledger_, workload_}),
       markers_(parameters_.fixed_frame, guard_.tool()) {
   warning_timer_ =
       warning_thread_.on(node).createSteadyTimer(wall(kWatchPeriod), [this](const ros::SteadyTimerEvent&) { watch(); });
+  reflex_timer_ = warning_thread_.on(node).createSteadyTimer(wall(kReflexPeriod), [this](const ros::SteadyTimerEvent&) {
+    repeat(reflex_publisher_, &sweep_guard::Warning::reflex);
+  });
+  considered_timer_ = warning_thread_.on(node).createSteadyTimer(
+      wall(kConsideredPeriod),
+      [this](const ros::SteadyTimerEvent&) { repeat(considered_publisher_, &sweep_guard::Warning::considered); });
   marker_timer_ = report_thread_.on(node).createSteadyTimer(ros::WallDuration(1.0 / parameters_.marker_rate),
                                                             [this](const ros::SteadyTimerEvent&) { publishMarkers(); });
   diagnostics_timer_ = report_thread_.on(node).createSteadyTimer(
       ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { diagnostics_.publish(); });
 
-  sweeping_thread_ = std::thread([this] { sweepPoses(); });
+  sweeping_thread_ = std::thread([this] { work(); });
   warning_thread_.start();
   meshes_.start();
   poses_.start();
   check_sweep_.start();
+  predict_.start();
   report_thread_.start();
   ROS_INFO("guarding '%s' in '%s' by %s, %s; poses from %s, meshes from %s and %s", parameters_.tool_frame.c_str(),
            parameters_.fixed_frame.c_str(), parameters_.detector.c_str(),
-           sweep_guard::nameOf(parameters_.sweep.volume).c_str(), poses_.source().c_str(), meshes_.meshTopic().c_str(),
-           meshes_.verticesTopic().c_str());
+           sweep_guard::nameOf(parameters_.guard.sweep.volume).c_str(), poses_.source().c_str(),
+           meshes_.meshTopic().c_str(), meshes_.verticesTopic().c_str());
 }
 
 SweepGuardNode::~SweepGuardNode() {
@@ -66,6 +90,7 @@ SweepGuardNode::~SweepGuardNode() {
   }
   queue_changed_.notify_all();
   sweeping_thread_.join();
+  questions_.clear();  // whoever waits for an answer hears that there is none
 }
 
 void SweepGuardNode::enqueue(PlacedPose pose) {
@@ -76,61 +101,129 @@ void SweepGuardNode::enqueue(PlacedPose pose) {
   queue_changed_.notify_all();
 }
 
-void SweepGuardNode::sweepPoses() {
+std::future<PredictService::Answer> SweepGuardNode::ask(sweep_guard::Duration horizon) {
+  Question question{horizon, {}};
+  std::future<PredictService::Answer> answer = question.answer.get_future();
+  {
+    const std::lock_guard lock(queue_mutex_);
+    if (stopping_) throw sweep_guard::Error("the guard is shutting down");
+    if (questions_.size() >= kQuestionsQueued) throw sweep_guard::Error("the guard is busy: ask again");
+    questions_.push_back(std::move(question));
+  }
+  queue_changed_.notify_all();
+  return answer;
+}
+
+void SweepGuardNode::work() {
   while (true) {
     std::unique_lock lock(queue_mutex_);
-    queue_changed_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
+    queue_changed_.wait(lock, [this] { return stopping_ || !queue_.empty() || !questions_.empty(); });
     if (stopping_) return;
-    const PlacedPose pose = std::move(queue_.front());
-    queue_.pop_front();
-    const bool newest = queue_.empty();
+    std::deque<Question> questions = std::move(questions_);
+    questions_.clear();
+    std::optional<PlacedPose> pose;
+    if (!queue_.empty()) {
+      pose = std::move(queue_.front());
+      queue_.pop_front();
+    }
     lock.unlock();
     queue_changed_.notify_all();
-    try {
-      sweep(pose);
-      const sweep_guard::Duration waited = std::chrono::steady_clock::now() - predicted_;
-      if (newest || waited >= sweep_guard::GuardOptions().cycle) lookAhead(pose);
-    } catch (const std::exception& error) {  // no memory for the report or its messages
-      ledger_.fault(sweep_guard::kDetectorFault, std::string("sweeping failed: ") + error.what());
-    }
+    for (Question& question : questions) answer(question);
+    if (pose) process(*pose);
+  }
+}
+
+void SweepGuardNode::process(const PlacedPose& placed) {
+  if (placed.came.epoch != ledger_.mark().epoch) return;  // time has gone back since it came
+  try {
+    sweep(placed);
+    if (timeToLookAhead()) lookAhead(placed);
+  } catch (const std::exception& error) {  // no memory for the report or its messages
+    ledger_.fault(sweep_guard::kDetectorFault, std::string("sweeping failed: ") + error.what());
   }
 }
 
 void SweepGuardNode::sweep(const PlacedPose& placed) {
   const sweep_guard::ToolPose& pose = placed.pose;
-  if (placed.came.epoch != ledger_.mark().epoch) return;  // time has gone back since it came
   if (placed.came.epoch != guard_epoch_) guard_.forget();
   guard_epoch_ = placed.came.epoch;
 
   const sweep_guard::SteadyTime begin = std::chrono::steady_clock::now();
   auto report = std::make_shared<const sweep_guard::SweepReport>(guard_.sweep(pose, workpieces_.snapshot()));
   const sweep_guard::SteadyTime swept = std::chrono::steady_clock::now();
+  swept_ = {pose.stamp, pose.received};
   if (!report->objects.empty()) publishContacts(*report);
-  ledger_.swept(*report, {pose.stamp, pose.received}, placed.came, swept);
+  ledger_.swept(*report, *swept_, placed.came, swept);
   warn(/*only_on_change=*/true);
 
   workload_.swept(std::chrono::steady_clock::now() - pose.received, swept - begin, report->failures.size());
   for (const auto& failure : report->failures) log_.error(failure.workpiece->id, "detection failed: " + failure.reason);
   const std::lock_guard lock(scene_mutex_);
   scene_.X_WT = pose.X_WT;
+  scene_.trail.add(pose.stamp, pose.X_WT.translation());
   scene_.newest = report;
   if (report->contact()) scene_.contact = report;
 }
 
+// Poses that wait go first, so that each is swept at most one look ahead late; but not for longer than a cycle.
+bool SweepGuardNode::timeToLookAhead() {
+  if (std::chrono::steady_clock::now() - looked_ahead_ >= parameters_.guard.cycle) return true;
+  const std::lock_guard lock(queue_mutex_);
+  return queue_.empty();
+}
+
 void SweepGuardNode::lookAhead(const PlacedPose& placed) {
-  if (placed.came.epoch != guard_epoch_) return;
-  const sweep_guard::Seen seen{placed.pose.stamp, placed.pose.received};
-  ledger_.predicted(guard_.lookAhead(age(seen, now()), workpieces_.snapshot()), seen, placed.came, now());
-  predicted_ = std::chrono::steady_clock::now();
+  const sweep_guard::Instant at = now();
+  looked_ahead_ = at.steady;
+  const sweep_guard::Duration age = std::max(sweep_guard::age(*swept_, at), sweep_guard::Duration::zero());
+  auto outlook = std::make_shared<const sweep_guard::Outlook>(guard_.lookAhead(age, workpieces_.snapshot()));
+  const sweep_guard::SteadyTime looked = std::chrono::steady_clock::now();
+  ledger_.predicted(*outlook, *swept_, placed.came, now());
   warn(/*only_on_change=*/true);
+  publishPrediction(*outlook, age);
+
+  workload_.predicted(
+      {std::chrono::steady_clock::now() - placed.pose.received, looked - at.steady, outlook->path.size(),
+       outlook->sweeps_asked, outlook->coveredUntil() - outlook->stamp - age, outlook->probability()},
+      outlook->failures.size());
+  for (const auto& failure : outlook->failures)
+    log_.error(failure.workpiece->id, "detection failed: " + failure.reason);
+  const std::lock_guard lock(scene_mutex_);
+  scene_.outlook_from_W = placed.pose.X_WT.translation();
+  scene_.outlook = outlook;
+}
+
+void SweepGuardNode::answer(Question& question) {
+  try {
+    const sweep_guard::Instant at = now();
+    if (!swept_ || guard_epoch_ != ledger_.mark().epoch) throw sweep_guard::Error("no tool pose yet: nothing is known");
+    if (sweep_guard::stale(*swept_, at, parameters_.limits.pose_timeout)) {
+      throw sweep_guard::Error("the newest tool pose is stale: nothing is known of the tool now");
+    }
+    const sweep_guard::Duration age = std::max(sweep_guard::age(*swept_, at), sweep_guard::Duration::zero());
+    sweep_guard::Forecast forecast = guard_.forecast(age, question.horizon);
+    if (forecast.path.empty())
+      throw sweep_guard::Error("the motion is not known yet: two tool poses in a row are needed");
+    question.answer.set_value({std::move(forecast), age});
+  } catch (...) {
+    question.answer.set_exception(std::current_exception());
+  }
 }
 
 void SweepGuardNode::publishContacts(const sweep_guard::SweepReport& report) {
   sweep_guard::Contacts contacts = toMsg(report);
   contacts.header.frame_id = parameters_.fixed_frame;
   contacts.tool = parameters_.tool_frame;
-  contacts.volume = sweep_guard::nameOf(parameters_.sweep.volume);
+  contacts.volume = sweep_guard::nameOf(parameters_.guard.sweep.volume);
   contacts_publisher_.publish(contacts);
+}
+
+void SweepGuardNode::publishPrediction(const sweep_guard::Outlook& outlook, sweep_guard::Duration age) {
+  const sweep_guard::Prediction prediction = predictionMsg(outlook, age, parameters_);
+  std_msgs::Float64 time_to_collision;
+  time_to_collision.data = timeToCollision(prediction);
+  prediction_publisher_.publish(prediction);
+  time_to_collision_publisher_.publish(time_to_collision);
 }
 
 void SweepGuardNode::watch() {
@@ -163,9 +256,20 @@ void SweepGuardNode::warn(bool only_on_change) {
   next.level_counts = warning_.level_counts;
   if (new_level) ++next.level_counts[next.level];
   next.valid_until = toMsg(at.stamp + kWarningValid);
+  const bool reflex_rises = next.reflex && !warning_.reflex;
+  const bool considered_rises = next.considered && !warning_.considered;
   warning_ = next;
   warned_ = at.steady;
   warning_publisher_.publish(next);
+  if (reflex_rises) reflex_publisher_.publish(flagMessage(true));
+  if (considered_rises) considered_publisher_.publish(flagMessage(true));
+}
+
+// As it is now, not as it was when the warning was sent last.
+void SweepGuardNode::repeat(const ros::Publisher& publisher, Flag flag) {
+  warn(/*only_on_change=*/true);
+  const std::lock_guard lock(warning_mutex_);
+  publisher.publish(flagMessage(warning_.*flag != 0));
 }
 
 void SweepGuardNode::publishMarkers() {

@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <limits>
 #include <sstream>
 
@@ -22,28 +23,56 @@ bool within(double number, const ParameterReader::Range& range) {
   return number >= range.lowest && number <= range.highest;
 }
 
+bool within(const XmlRpc::XmlRpcValue& value, int lowest, int highest) {
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeInt) return false;
+  return static_cast<int>(value) >= lowest && static_cast<int>(value) <= highest;
+}
+
 std::string shown(const ParameterReader::Range& range) {
   std::ostringstream text;
   text << "a number from " << range.lowest << " to " << range.highest;
   return text.str();
 }
 
+std::string shown(int lowest, int highest) {
+  return " from " + std::to_string(lowest) + " to " + std::to_string(highest);
+}
+
+std::string listed(const std::vector<std::string>& choices) {
+  std::string list;
+  for (const std::string& one : choices) list += (list.empty() ? "" : ", ") + one;
+  return list;
+}
+
 }  // namespace
 
-double ParameterReader::number(const std::string& key, double fallback, const Range& range) {
+double ParameterReader::number(const std::string& key, double fallback, const Range& range, const std::string& note) {
   XmlRpc::XmlRpcValue value;
-  if (!get(key, value)) return fallback;
-  if (!within(toNumber(value), range)) refuse(key, value, shown(range));
+  if (!get(key, value)) value = fallback;
+  if (!within(toNumber(value), range)) refuse(key, value, shown(range) + (note.empty() ? "" : ": " + note));
   return toNumber(value);
 }
 
 int ParameterReader::integer(const std::string& key, int fallback, int lowest, int highest) {
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) return fallback;
-  const bool right = value.getType() == XmlRpc::XmlRpcValue::TypeInt && static_cast<int>(value) >= lowest &&
-                     static_cast<int>(value) <= highest;
-  if (!right) refuse(key, value, "an integer from " + std::to_string(lowest) + " to " + std::to_string(highest));
+  if (!within(value, lowest, highest)) refuse(key, value, "an integer" + shown(lowest, highest));
   return static_cast<int>(value);
+}
+
+std::vector<int> ParameterReader::integers(const std::string& key, const std::vector<int>& fallback, int lowest,
+                                           int highest) {
+  XmlRpc::XmlRpcValue value;
+  if (!get(key, value)) return fallback;
+  const std::string wanted = "a list of " + std::to_string(fallback.size()) + " integers" + shown(lowest, highest);
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) refuse(key, value, wanted);
+  std::vector<int> integers;
+  for (int i = 0; i < value.size(); ++i) {
+    if (!within(value[i], lowest, highest)) refuse(key, value, wanted);
+    integers.push_back(static_cast<int>(value[i]));
+  }
+  if (integers.size() != fallback.size()) refuse(key, value, wanted);
+  return integers;
 }
 
 bool ParameterReader::flag(const std::string& key, bool fallback) {
@@ -68,13 +97,25 @@ std::string ParameterReader::name(const std::string& key, const std::string& fal
 
 std::string ParameterReader::choice(const std::string& key, const std::string& fallback,
                                     const std::vector<std::string>& choices) {
-  const std::string chosen = text(key, fallback);
-  std::string wanted;
-  for (const std::string& one : choices) {
-    if (chosen == one) return one;
-    wanted += (wanted.empty() ? "one of " : ", ") + one;
+  std::string chosen = text(key, fallback);
+  if (std::count(choices.begin(), choices.end(), chosen) == 0) {
+    refuse(key, XmlRpc::XmlRpcValue(chosen), "one of " + listed(choices));
   }
-  refuse(key, XmlRpc::XmlRpcValue(chosen), wanted);
+  return chosen;
+}
+
+std::vector<std::string> ParameterReader::selection(const std::string& key, const std::vector<std::string>& choices) {
+  XmlRpc::XmlRpcValue value;
+  if (!get(key, value)) return {};
+  const std::string wanted = "a list of some of " + listed(choices) + ", or []";
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) refuse(key, value, wanted);
+  std::vector<std::string> selection;
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpc::XmlRpcValue::TypeString) refuse(key, value, wanted);
+    selection.push_back(static_cast<std::string>(value[i]));
+    if (std::count(choices.begin(), choices.end(), selection.back()) == 0) refuse(key, value, wanted);
+  }
+  return selection;
 }
 
 Eigen::Vector3d ParameterReader::position(const std::string& key, const Eigen::Vector3d& fallback) {

@@ -1,5 +1,6 @@
 #include "sweep_guard/ros/parameters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,10 +10,41 @@ namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard::Duration;
+using sweep_guard::toSeconds;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kShortestStep = 0.001;   // [s]
+constexpr double kFarthestHorizon = 5.0;  // [s]
 
 Duration duration(double seconds) { return std::isinf(seconds) ? Duration::max() : sweep_guard::fromSeconds(seconds); }
+
+sweep_guard::PredictorOptions readPredictor(ParameterReader& read) {
+  const std::vector<std::string> axes = {"x", "y", "z", "rx", "ry", "rz"};
+  sweep_guard::PredictorOptions options;
+  options.predictor = read.choice("prediction/predictor", options.predictor, sweep_guard::predictorNames());
+  const std::vector<int> degree =
+      read.integers("prediction/degree", {options.degree.begin(), options.degree.end()}, 0, 5);
+  std::copy(degree.begin(), degree.end(), options.degree.begin());
+  for (const std::string& axis : read.selection("prediction/constrained", axes)) {
+    options.constrained[static_cast<size_t>(std::find(axes.begin(), axes.end(), axis) - axes.begin())] = true;
+  }
+  options.forgetting_factor = read.number("prediction/forgetting_factor", options.forgetting_factor, {0.01, 1.0});
+  options.window = duration(read.number("prediction/window", toSeconds(options.window), {0.02, 10.0}));
+  options.max_speed = read.number("limits/max_speed", options.max_speed, {0.001, 1000.0});
+  options.max_turn_rate = read.number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0});
+  return options;
+}
+
+sweep_guard::HorizonOptions readHorizon(ParameterReader& read, Duration pose_timeout) {
+  const double reflex = read.number("horizon/reflex", 0.1, {0.01, 1.0});
+  const double reflex_step =
+      read.number("horizon/reflex_step", 0.01, {kShortestStep, reflex}, "at most horizon/reflex");
+  const double considered =
+      read.number("horizon/considered", 1.0, {reflex + kShortestStep, kFarthestHorizon}, "later than horizon/reflex");
+  const double considered_step = read.number("horizon/considered_step", 0.1, {kShortestStep, considered - reflex},
+                                             "at most horizon/considered less horizon/reflex");
+  return {duration(reflex), duration(reflex_step), duration(considered), duration(considered_step), pose_timeout};
+}
 
 }  // namespace
 
@@ -31,11 +63,17 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   parameters.tool_sides = read.integer("tool/sides", 32, 3, 1000);
   parameters.detector = read.choice("detector", "select", sweep_guard::detectorNames());
   parameters.cull = read.flag("cull", true);
-  parameters.sweep.volume = sweep_guard::volumeKind(read.choice("volume", "obb_planes", {"obb", "obb_planes"}));
-  parameters.sweep.max_rotation = read.number("max_rotation_per_sweep", 0.175, {0.01, 0.5});
+  parameters.guard.sweep.volume = sweep_guard::volumeKind(read.choice("volume", "obb_planes", {"obb", "obb_planes"}));
+  parameters.guard.sweep.max_rotation = read.number("max_rotation_per_sweep", 0.175, {0.01, 0.5});
+  parameters.limits.min_probability = read.number("warning/min_probability", 0.1, {0.001, 1.0});
   parameters.limits.hold_time = duration(read.number("warning/hold_time", 0.5, {0.0, 60.0}));
   parameters.limits.pose_timeout = duration(read.number("timing/pose_timeout", 0.1, {0.01, 2.0}));
   parameters.limits.mesh_timeout = duration(read.number("timing/mesh_timeout", 0.5, {0.01, kInfinity}));
+  parameters.guard.predictor = readPredictor(read);
+  parameters.guard.horizon = readHorizon(read, parameters.limits.pose_timeout);
+  parameters.limits.reflex = parameters.guard.horizon.reflex;
+  parameters.limits.considered = parameters.guard.horizon.considered;
+  parameters.guard.cycle = duration(1.0 / read.number("timing/min_rate", 15.0, {1.0, 1000.0}));
   parameters.marker_rate = read.number("timing/marker_rate", 15.0, {0.1, 100.0});
   parameters.max_triangles = static_cast<size_t>(read.integer("limits/max_triangles", 1000000, 1, 10000000));
   read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // diagnostic_updater leaves it there

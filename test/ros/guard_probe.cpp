@@ -1,8 +1,11 @@
 #include "guard_probe.h"
 
+#include <std_msgs/Bool.h>
+#include <std_msgs/Float64.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
@@ -10,6 +13,9 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(20);
+const ros::Duration kValid(0.2);  // of a warning, from when it was sent
+
+GuardProbe::Flag arrived(const std_msgs::Bool& flag) { return {flag.data != 0, std::chrono::steady_clock::now()}; }
 
 std::vector<Eigen::Vector3d> sheetCorners(const Eigen::Vector3d& center, double half_side) {
   std::vector<Eigen::Vector3d> corners;
@@ -27,43 +33,38 @@ GuardProbe::GuardProbe(bool drives_clock, PoseSource pose_source) : time_(drives
   mesh_publisher_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 100, wake);
   vertices_publisher_ = node_.advertise<sweep_guard::MeshVertices>("mesh_vertices", 100, wake);
   tf_publisher_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 100, wake);
-  const auto hints = ros::TransportHints().tcpNoDelay();
-  warning_subscriber_ = node_.subscribe<sweep_guard::Warning>(
-      "/sweep_guard/warning", 10000,
-      [this](const sweep_guard::Warning::ConstPtr& warning) {
-        const std::lock_guard lock(mutex_);
-        warnings_.push_back(*warning);
-        changed_.notify_all();
-      },
-      nullptr, hints);
-  contacts_subscriber_ = node_.subscribe<sweep_guard::Contacts>(
-      "/sweep_guard/contacts", 10000,
-      [this](const sweep_guard::Contacts::ConstPtr& contacts) {
-        const std::lock_guard lock(mutex_);
-        contacts_.push_back(*contacts);
-        changed_.notify_all();
-      },
-      nullptr, hints);
-  markers_subscriber_ = node_.subscribe<visualization_msgs::MarkerArray>(
-      "/sweep_guard/markers", 10, [this](const visualization_msgs::MarkerArray::ConstPtr& markers) {
-        const std::lock_guard lock(mutex_);
-        markers_ = *markers;
-        changed_.notify_all();
-      });
-  if (drives_clock) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10, wake);
+  listen<sweep_guard::Warning>("warning", [this](const auto& warning) { warnings_.push_back(warning); });
+  listen<sweep_guard::Contacts>("contacts", [this](const auto& contacts) { contacts_.push_back(contacts); });
+  listen<sweep_guard::Prediction>("prediction", [this](const auto& next) { predictions_.push_back(next); });
+  listen<std_msgs::Float64>("time_to_collision", [this](const auto& t) { times_to_collision_.push_back(t.data); });
+  listen<std_msgs::Bool>("reflex_warning", [this](const auto& flag) { reflex_flags_.push_back(arrived(flag)); });
+  listen<std_msgs::Bool>("considered_warning",
+                         [this](const auto& flag) { considered_flags_.push_back(arrived(flag)); });
+  listen<visualization_msgs::MarkerArray>("markers", [this](const auto& markers) { markers_.push_back(markers); });
+  if (drives_clock) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10, /*latch=*/true);
   check_sweep_ = node_.serviceClient<sweep_guard::CheckSweep>("/sweep_guard/check_sweep");
+  predict_ = node_.serviceClient<sweep_guard::Predict>("/sweep_guard/predict");
   spinner_.start();
+  const auto heard = [](const ros::Subscriber& subscriber) { return subscriber.getNumPublishers() > 0; };
   await("the guard's connections", [&] {
     return (pose_source == PoseSource::kTf || pose_publisher_.getNumSubscribers() > 0) &&
            mesh_publisher_.getNumSubscribers() > 0 && vertices_publisher_.getNumSubscribers() > 0 &&
-           tf_publisher_.getNumSubscribers() > 0 && contacts_subscriber_.getNumPublishers() > 0 && !warnings_.empty() &&
-           check_sweep_.exists();
+           tf_publisher_.getNumSubscribers() > 0 && std::all_of(subscribers_.begin(), subscribers_.end(), heard) &&
+           !warnings_.empty() && check_sweep_.exists() && predict_.exists();
   });
-  if (drives_clock) {
-    // The guard, and this process itself.
-    await("the subscribers of the clock", [this] { return clock_publisher_.getNumSubscribers() > 1; });
-    setClock(time_);
-  }
+  if (drives_clock) setClock(time_);  // latched: a guard that connects later sees it too
+}
+
+template <typename Message, typename Take>
+void GuardProbe::listen(const std::string& topic, Take take) {
+  subscribers_.push_back(node_.subscribe<Message>(
+      "/sweep_guard/" + topic, 10000,
+      [this, take](const typename Message::ConstPtr& message) {
+        const std::lock_guard lock(mutex_);
+        take(*message);
+        changed_.notify_all();
+      },
+      nullptr, ros::TransportHints().tcpNoDelay()));
 }
 
 template <typename Condition>
@@ -74,12 +75,15 @@ void GuardProbe::await(const std::string& what, Condition&& condition) const {
 
 void GuardProbe::setClock(ros::Time time) {
   publishClock(time);
-  const ros::Duration valid(0.2);
   await("the guard to see the clock",
-        [&] { return !warnings_.empty() && warnings_.back().valid_until == time + valid && ros::Time::now() == time; });
+        [&] { return warnings_.back().valid_until == time + kValid && ros::Time::now() == time; });
 }
 
-void GuardProbe::tick(double seconds) { publishClock(time_ + ros::Duration(seconds)); }
+void GuardProbe::tick(double seconds) {
+  publishClock(time_ + ros::Duration(seconds));
+  const ros::Time seen_by_now = time_ - ros::Duration(0.04);
+  await("the guard to keep up with the clock", [&] { return warnings_.back().valid_until - kValid >= seen_by_now; });
+}
 
 void GuardProbe::publishClock(ros::Time time) {
   time_ = time;
@@ -159,9 +163,15 @@ void GuardProbe::skipWarnings() {
 }
 
 visualization_msgs::MarkerArray GuardProbe::awaitMarkers(const MarkersFit& fit) {
-  await("markers", [&] { return fit(markers_); });
-  const std::lock_guard lock(mutex_);
-  return markers_;
+  visualization_msgs::MarkerArray found;
+  await("markers", [&] {
+    while (next_markers_ < markers_.size()) {
+      found = markers_[next_markers_++];
+      if (fit(found)) return true;
+    }
+    return false;
+  });
+  return found;
 }
 
 std::vector<sweep_guard::Warning> GuardProbe::warnings() const {
@@ -178,6 +188,55 @@ std::vector<sweep_guard::Contacts> GuardProbe::awaitContacts(size_t count) {
 void GuardProbe::forgetContacts() {
   const std::lock_guard lock(mutex_);
   contacts_.clear();
+}
+
+sweep_guard::Prediction GuardProbe::awaitPrediction(ros::Time stamp) const {
+  sweep_guard::Prediction found;
+  await("a prediction", [&] {
+    if (predictions_.size() != times_to_collision_.size()) return false;
+    const auto fits = [&](const sweep_guard::Prediction& prediction) { return prediction.header.stamp == stamp; };
+    const auto newest = std::find_if(predictions_.rbegin(), predictions_.rend(), fits);
+    if (newest == predictions_.rend()) return false;
+    found = *newest;
+    return true;
+  });
+  return found;
+}
+
+std::vector<double> GuardProbe::timesToCollision() const {
+  const std::lock_guard lock(mutex_);
+  return times_to_collision_;
+}
+
+std::vector<sweep_guard::Prediction> GuardProbe::predictions() const {
+  const std::lock_guard lock(mutex_);
+  return predictions_;
+}
+
+void GuardProbe::forgetPredictions() {
+  const std::lock_guard lock(mutex_);
+  predictions_.clear();
+  times_to_collision_.clear();
+}
+
+std::vector<GuardProbe::Flag> GuardProbe::awaitReflexFlags(size_t count) const {
+  await("reflex flags", [&] { return reflex_flags_.size() >= count; });
+  const std::lock_guard lock(mutex_);
+  return reflex_flags_;
+}
+
+std::vector<GuardProbe::Flag> GuardProbe::awaitConsideredFlags(size_t count) const {
+  await("considered flags", [&] { return considered_flags_.size() >= count; });
+  const std::lock_guard lock(mutex_);
+  return considered_flags_;
+}
+
+sweep_guard::Predict::Response GuardProbe::predict(double horizon) {
+  sweep_guard::Predict::Request request;
+  request.horizon = ros::Duration(horizon);
+  sweep_guard::Predict::Response response;
+  if (!predict_.call(request, response)) throw std::runtime_error("~predict does not answer");
+  return response;
 }
 
 sweep_guard::CheckSweep::Response GuardProbe::check(sweep_guard::CheckSweep::Request request) {

@@ -7,10 +7,12 @@
 #include <sweep_guard/Contacts.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
+#include <sweep_guard/Predict.h>
 #include <sweep_guard/Warning.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Geometry>
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -32,7 +34,8 @@ class GuardProbe {
   /// Moves the clock and returns when the guard has noticed.
   void setClock(ros::Time time);
   void advance(double seconds) { setClock(time_ + ros::Duration(seconds)); }
-  /// Moves the clock by so little that the guard may notice later: stamps may be 50 ms ahead of it.
+  /// Moves the clock by a little. The guard may notice later, but is never more than 40 ms behind: stamps may be ahead
+  /// of its clock by 50 ms.
   void tick(double seconds);
   ros::Time time() const { return time_; }
 
@@ -59,12 +62,31 @@ class GuardProbe {
   std::vector<sweep_guard::Warning> warnings() const;
   std::vector<sweep_guard::Contacts> awaitContacts(size_t count);  ///< all since the last call of forgetContacts()
   void forgetContacts();
+  /// The first that fit, of those that came since the ones returned last. @throws std::runtime_error after 20 s
   using MarkersFit = std::function<bool(const visualization_msgs::MarkerArray&)>;
   visualization_msgs::MarkerArray awaitMarkers(const MarkersFit& fit);
 
+  /// The prediction from the pose of this stamp. @throws std::runtime_error after 20 s
+  sweep_guard::Prediction awaitPrediction(ros::Time stamp) const;
+  std::vector<double> timesToCollision() const;  ///< as many as there are predictions, in their order
+  std::vector<sweep_guard::Prediction> predictions() const;
+  void forgetPredictions();
+
+  /// A flag, and when it came.
+  struct Flag {
+    bool raised;
+    std::chrono::steady_clock::time_point came;
+  };
+  /// Those since the start, as soon as there are so many. @throws std::runtime_error after 20 s
+  std::vector<Flag> awaitReflexFlags(size_t count) const;
+  std::vector<Flag> awaitConsideredFlags(size_t count) const;
+
   sweep_guard::CheckSweep::Response check(sweep_guard::CheckSweep::Request request);
+  sweep_guard::Predict::Response predict(double horizon);
 
  private:
+  template <typename Message, typename Take>
+  void listen(const std::string& topic, Take take);
   void publishClock(ros::Time time);
   void awaitPlaced(const std::string& id, const Eigen::Vector3d& first_vertex, const std_msgs::Header& header);
   template <typename Condition>
@@ -76,7 +98,12 @@ class GuardProbe {
   std::vector<sweep_guard::Warning> warnings_;
   size_t next_warning_ = 0;
   std::vector<sweep_guard::Contacts> contacts_;
-  visualization_msgs::MarkerArray markers_;
+  std::vector<sweep_guard::Prediction> predictions_;
+  std::vector<double> times_to_collision_;
+  std::vector<Flag> reflex_flags_;
+  std::vector<Flag> considered_flags_;
+  std::vector<visualization_msgs::MarkerArray> markers_;
+  size_t next_markers_ = 0;
   ros::Time time_;
 
   ros::Publisher clock_publisher_;
@@ -84,10 +111,9 @@ class GuardProbe {
   ros::Publisher mesh_publisher_;
   ros::Publisher vertices_publisher_;
   ros::Publisher tf_publisher_;
-  ros::Subscriber warning_subscriber_;
-  ros::Subscriber contacts_subscriber_;
-  ros::Subscriber markers_subscriber_;
+  std::vector<ros::Subscriber> subscribers_;
   ros::ServiceClient check_sweep_;
+  ros::ServiceClient predict_;
   ros::AsyncSpinner spinner_{1};
 };
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "guard_probe.h"
+#include "node_fixture.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -17,71 +17,6 @@ using sweep_guard::Warning;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-GuardProbe& probe() {
-  static GuardProbe probe(/*drives_clock=*/true);
-  return probe;
-}
-
-bool isClear(const Warning& warning) { return warning.level == Warning::CLEAR; }
-
-std::function<bool(const Warning&)> hasReason(std::uint32_t reason) {
-  return [reason](const Warning& warning) {
-    return warning.level == Warning::UNKNOWN && !warning.clear && (warning.reasons & reason) != 0;
-  };
-}
-
-class NodeTest : public ::testing::Test {
- protected:
-  // Each test has a guard that has seen a fresh pose high above, no workpiece, and no contact any more.
-  void SetUp() override {
-    probe().advance(1.0);
-    Warning warning;
-    do {
-      probe().tick(0.001);
-      probe().publish(poseAt({0.0, 0.0, 5.0}, probe().time()));
-      probe().skipWarnings();
-      warning = probe().awaitWarning([](const Warning&) { return true; });
-    } while (warning.reasons != Warning::NO_MESH || warning.level != Warning::UNKNOWN);
-  }
-  void TearDown() override {
-    for (const std::string& id : placed_) probe().remove(id);
-  }
-
-  void placeSheet(const std::string& id, const Eigen::Vector3d& center) {
-    probe().place(sheetAt(id, center, probe().time()));
-    placed_.insert(id);
-  }
-
-  // Moves on by 10 ms.
-  Contacts moveTo(const Eigen::Vector3d& tip) {
-    probe().tick(0.01);
-    return probe().move(poseAt(tip, probe().time()));
-  }
-
-  // The motion is known from two poses.
-  void restAt(const Eigen::Vector3d& tip) {
-    moveTo(tip);
-    probe().skipWarnings();
-    moveTo(tip);
-    probe().awaitWarning(isClear);
-  }
-
-  // Keeps both inputs fresh until a warning fits: contacts are held for their hold time.
-  Warning moveUntil(const std::string& id, const Eigen::Vector3d& sheet, const Eigen::Vector3d& tip,
-                    const std::function<bool(const Warning&)>& fits) {
-    for (int i = 0; i < 1000; ++i) {
-      moveTo(tip);
-      probe().place(sheetMovedTo(id, sheet, probe().time()));
-      const auto warnings = probe().warnings();
-      if (fits(warnings.back())) return warnings.back();
-    }
-    ADD_FAILURE() << "no such warning; the last: " << probe().warnings().back().text;
-    return {};
-  }
-
-  std::set<std::string> placed_;
-};
-
 TEST(NodeStartTest, BeginsUnknown) {
   const Warning first = probe().warnings().front();
   EXPECT_EQ(first.level, Warning::UNKNOWN);
@@ -89,6 +24,12 @@ TEST(NodeStartTest, BeginsUnknown) {
   EXPECT_TRUE(first.reflex);
   EXPECT_TRUE(first.considered);
   EXPECT_EQ(first.reasons, Warning::NO_POSE | Warning::NO_MESH) << first.text;
+}
+
+TEST(NodeStartTest, PredictWithoutAPoseSaysSo) {
+  const auto response = probe().predict(1.0);
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(response.message.find("no tool pose"), std::string::npos) << response.message;
 }
 
 TEST(NodeStartTest, CheckSweepWithoutAWorkpieceSaysSo) {
@@ -488,7 +429,7 @@ TEST_F(NodeTest, CheckSweepRefusesWhatItCannotTest) {
 
 TEST_F(NodeTest, DiagnosticsNameEachInput) {
   placeSheet("sheet", {0.0, 0.0, -1.0});
-  moveTo({0.0, 0.0, 0.5});
+  restAt({0.0, 0.0, 0.5});
   const auto message = ros::topic::waitForMessage<diagnostic_msgs::DiagnosticArray>("/diagnostics", ros::Duration(1e6));
   ASSERT_TRUE(message);
   std::string all;
@@ -496,8 +437,8 @@ TEST_F(NodeTest, DiagnosticsNameEachInput) {
     all += status.name + "\n";
     for (const auto& value : status.values) all += value.key + "=" + value.value + "\n";
   }
-  for (const char* expected :
-       {"verdict", "source=/tool_pose", "publishers=1", "detector=select", "'sheet'=revision 1"}) {
+  for (const char* expected : {"verdict", "source=/tool_pose", "publishers=1", "detector=select", "'sheet'=revision 1",
+                               "predictor=direct", "sweeps made / asked="}) {
     EXPECT_NE(all.find(expected), std::string::npos) << expected << " in\n" << all;
   }
 }
@@ -512,7 +453,9 @@ TEST_F(NodeTest, MarkersShowToolVolumeAndTouchedTriangles) {
     for (const auto& marker : drawn.markers) namespaces.insert(marker.ns);
     return namespaces.count("contact_triangles") != 0;
   });
-  EXPECT_EQ(namespaces, (std::set<std::string>{"tool", "swept_volume", "contact_triangles", "warning_text"}));
+  for (const char* expected : {"tool", "swept_volume", "contact_triangles", "trajectory", "warning_text"}) {
+    EXPECT_EQ(namespaces.count(expected), 1U) << expected;
+  }
   for (const auto& marker : markers.markers) {
     EXPECT_EQ(marker.lifetime, ros::Duration(0.5));
     EXPECT_LT(marker.color.a, 1.0F);

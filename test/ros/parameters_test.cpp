@@ -33,11 +33,24 @@ TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
   EXPECT_EQ(loaded.tool_sides, defaults.tool_sides);
   EXPECT_EQ(loaded.detector, defaults.detector);
   EXPECT_EQ(loaded.cull, defaults.cull);
-  EXPECT_EQ(loaded.sweep.volume, defaults.sweep.volume);
-  EXPECT_EQ(loaded.sweep.max_rotation, defaults.sweep.max_rotation);
+  EXPECT_EQ(loaded.guard.sweep.volume, defaults.guard.sweep.volume);
+  EXPECT_EQ(loaded.guard.sweep.max_rotation, defaults.guard.sweep.max_rotation);
   EXPECT_EQ(loaded.limits.hold_time, defaults.limits.hold_time);
   EXPECT_EQ(loaded.limits.pose_timeout, defaults.limits.pose_timeout);
   EXPECT_EQ(loaded.limits.mesh_timeout, defaults.limits.mesh_timeout);
+  EXPECT_EQ(loaded.guard.predictor.predictor, defaults.guard.predictor.predictor);
+  EXPECT_EQ(loaded.guard.predictor.degree, defaults.guard.predictor.degree);
+  EXPECT_EQ(loaded.guard.predictor.constrained, defaults.guard.predictor.constrained);
+  EXPECT_EQ(loaded.guard.predictor.forgetting_factor, defaults.guard.predictor.forgetting_factor);
+  EXPECT_EQ(loaded.guard.predictor.window, defaults.guard.predictor.window);
+  EXPECT_EQ(loaded.guard.predictor.max_speed, defaults.guard.predictor.max_speed);
+  EXPECT_EQ(loaded.guard.predictor.max_turn_rate, defaults.guard.predictor.max_turn_rate);
+  EXPECT_EQ(loaded.guard.horizon.reflex, defaults.guard.horizon.reflex);
+  EXPECT_EQ(loaded.guard.horizon.reflex_step, defaults.guard.horizon.reflex_step);
+  EXPECT_EQ(loaded.guard.horizon.considered, defaults.guard.horizon.considered);
+  EXPECT_EQ(loaded.guard.horizon.considered_step, defaults.guard.horizon.considered_step);
+  EXPECT_EQ(loaded.limits.min_probability, defaults.limits.min_probability);
+  EXPECT_EQ(loaded.guard.cycle, defaults.guard.cycle);
   EXPECT_EQ(loaded.marker_rate, defaults.marker_rate);
   EXPECT_EQ(loaded.max_triangles, defaults.max_triangles);
 }
@@ -52,8 +65,22 @@ TEST_F(ParametersTest, TakeWhatIsSet) {
   EXPECT_EQ(parameters.tool_radius, 0.002);
   EXPECT_EQ(parameters.tool_length, 1.0);
   EXPECT_EQ(parameters.detector, "reference");
-  EXPECT_EQ(parameters.sweep.volume, sweep_guard::VolumeKind::kObb);
+  EXPECT_EQ(parameters.guard.sweep.volume, sweep_guard::VolumeKind::kObb);
   EXPECT_EQ(parameters.limits.mesh_timeout, sweep_guard::Duration::max());
+}
+
+TEST_F(ParametersTest, TakeListsOfAxes) {
+  node_.setParam("prediction/degree", std::vector<int>{0, 1, 2, 3, 4, 5});
+  node_.setParam("prediction/constrained", std::vector<std::string>{"rz", "x"});
+  const Parameters parameters = loadParameters(node_);
+  EXPECT_EQ(parameters.guard.predictor.degree, (std::array<int, 6>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(parameters.guard.predictor.constrained, (std::array<bool, 6>{true, false, false, false, false, true}));
+}
+
+// A prediction has to serve until the next one comes, which is until the pose is stale.
+TEST_F(ParametersTest, MakeThePredictionReachAsFarAsThePoseCounts) {
+  node_.setParam("timing/pose_timeout", 0.25);
+  EXPECT_EQ(loadParameters(node_).guard.horizon.reserve, std::chrono::milliseconds(250));
 }
 
 TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
@@ -86,13 +113,49 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("detector", "halfspace", "select, reference");
   refused("cull", 1, "true or false");
   refused("max_rotation_per_sweep", 1.0, "0.01 to 0.5");
+  refused("prediction/predictor", "oracle", "constant_velocity");
+  refused("prediction/degree", 2, "6 integers from 0 to 5");
+  refused("prediction/degree", std::vector<int>(5, 1), "6 integers from 0 to 5");
+  refused("prediction/degree", std::vector<int>(6, 6), "6 integers from 0 to 5");
+  refused("prediction/degree", std::vector<double>(6, 1.5), "6 integers from 0 to 5");
+  refused("prediction/constrained", "rx", "some of x, y, z, rx, ry, rz");
+  refused("prediction/constrained", std::vector<std::string>{"roll"}, "some of x, y, z, rx, ry, rz");
+  refused("prediction/constrained", std::vector<int>{1}, "some of x, y, z, rx, ry, rz");
+  refused("prediction/forgetting_factor", 0.0, "0.01 to 1");
+  refused("prediction/forgetting_factor", 1.01, "0.01 to 1");
+  refused("prediction/window", NAN, "0.02 to 10");
+  refused("horizon/reflex", 0.0, "0.01 to 1");
+  refused("horizon/reflex_step", 0.2, "0.001 to 0.1: at most horizon/reflex");
+  refused("horizon/considered", 0.1, "0.101 to 5: later than horizon/reflex");
+  refused("horizon/considered", INFINITY, "0.101 to 5");
+  refused("horizon/considered_step", 0.95, "0.001 to 0.9: at most");
+  refused("warning/min_probability", 0.0, "0.001 to 1");
+  refused("warning/min_probability", 10, "0.001 to 1");
   refused("warning/hold_time", -0.1, "0 to 60");
+  refused("timing/min_rate", 0, "1 to 1000");
+  refused("limits/max_speed", -1, "0.001 to 1000");
+  refused("limits/max_turn_rate", "fast", "a number");
   refused("timing/pose_timeout", 0.0, "0.01 to 2");
   refused("timing/pose_timeout", INFINITY, "0.01 to 2");
   refused("timing/mesh_timeout", NAN, "0.01 to inf");
   refused("timing/marker_rate", 0, "0.1 to 100");
   refused("limits/max_triangles", 0, "1 to 10000000");
   refused("timing", 3, "a group");
+}
+
+// A value can be fine by itself, and out of range for what another key is set to or falls back to.
+TEST_F(ParametersTest, AreRefusedWhereTheyContradictEachOther) {
+  node_.setParam("horizon/reflex", 1.0);
+  try {
+    loadParameters(node_);
+    ADD_FAILURE() << "a reflex interval as long as the considered one is accepted";
+  } catch (const sweep_guard::InvalidInput& error) {
+    EXPECT_STREQ(error.what(),
+                 "parameter /guarded/horizon/considered is 1, but must be a number from 1.001 to 5: later than "
+                 "horizon/reflex");
+  }
+  node_.setParam("horizon/considered", 2.0);
+  EXPECT_EQ(loadParameters(node_).guard.horizon.reflex, std::chrono::seconds(1));
 }
 
 TEST_F(ParametersTest, StopTheNodeWithOneLineAndStatusTwo) {

@@ -44,6 +44,17 @@ struct SweepReport {
   bool complete() const;  ///< every workpiece was swept, and there is one
 };
 
+/// Where the tool is expected to go from a pose on, not tested yet.
+struct Forecast {
+  ToolPose from;
+  PredictedPath path;        ///< empty: the motion is not known yet
+  size_t reflex_sweeps = 0;  ///< the first so many end within the reflex interval
+};
+
+/// Tests a forecast against workpieces; their frames are taken to stay as they are at the pose that it begins at.
+Outlook lookAlong(const Forecast& forecast, const Workpieces& workpieces, PathTest& test, Detector& detector,
+                  const Tool& tool);
+
 struct GuardOptions {
   SweepOptions sweep;
   PredictorOptions predictor;
@@ -51,6 +62,8 @@ struct GuardOptions {
   Duration cycle = fromSeconds(1.0 / 15.0);  ///< time there is for a pose and the prediction after it, > 0
   /// What the cost of sweeping is measured on; never goes back.
   std::function<SteadyTime()> clock = std::chrono::steady_clock::now;
+
+  PathTest::Options pathTest() const { return {sweep, horizon.reflex_step / 2}; }
 };
 
 /// Sweeps the tool from pose to pose, so that no motion goes untested. What could not be swept is not skipped: after a
@@ -72,6 +85,11 @@ class Guard {
   /// @param age  of the newest pose now, >= 0
   Outlook lookAhead(Duration age, const Workpieces& workpieces);
 
+  /// Where the tool is expected to go from the newest pose on, at the configured steps. Cheap: nothing is tested.
+  /// @param age  of the newest pose now, >= 0
+  /// @param end  how far it is looked ahead from now on, > 0
+  Forecast forecast(Duration age, Duration end) const;
+
   /// Begins anew, as if no pose had come.
   void forget();
 
@@ -87,7 +105,6 @@ class Guard {
 
   SweepFindings sweepAlong(const Way& way, const TriangleMesh& mesh_M);
   SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);
-  void testPath(Outlook& outlook, const Workpieces& workpieces);
   void dropWaysOfEmptyFrames(const Workpieces& workpieces);
 
   Tool tool_;

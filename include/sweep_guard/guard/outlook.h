@@ -26,6 +26,8 @@ struct PredictedObject {
   std::vector<std::uint32_t> reflex;      ///< triangles met within the reflex interval: ascending, each once
   std::vector<std::uint32_t> considered;  ///< triangles met later: ascending, each once, none of `reflex`
   std::vector<SweptVolume> volumes_M;     ///< those of the sweeps, end to end, in the mesh's frame
+
+  std::vector<std::uint32_t> triangles() const;  ///< all that are met: ascending, each once
 };
 
 /// What is expected to happen after a pose.
@@ -40,6 +42,8 @@ struct Outlook {
 
   /// Up to where every workpiece has been tested: the end of the path, or the pose itself.
   Time coveredUntil() const;
+  bool complete() const;       ///< the motion is known, and every workpiece was tested, and there is one
+  double probability() const;  ///< that the tool meets a workpiece: the largest of all sweeps, in [0, 1]
 };
 
 /// A contact that an operator is warned of.

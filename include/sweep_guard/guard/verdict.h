@@ -109,6 +109,10 @@ struct Verdict {
 /// Ages are the larger of both clocks.
 Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits& limits);
 
+/// The warning that a collision asks for: kReflex, kConsidered, or kClear for none.
+/// @param left  until it comes
+Level warningOf(Duration left, const VerdictLimits& limits);
+
 /// The warning that an expectation alone asks for now, or at the end of its prediction if that is over: kReflex,
 /// kConsidered, or kClear for none.
 Level warningOf(const Evidence::Expectation& expectation, const Instant& now, const VerdictLimits& limits);

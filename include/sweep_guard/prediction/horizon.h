@@ -38,4 +38,8 @@ size_t consideredSweeps(const HorizonOptions& options);
 /// @param considered_sweeps  into how many equal sweeps the considered interval is cut, 1 to consideredSweeps()
 Horizon horizon(const HorizonOptions& options, Duration age, size_t considered_sweeps);
 
+/// The same steps up to any end.
+/// @param end  after now, > 0
+Horizon horizonUpTo(Duration end, HorizonOptions options, Duration age);
+
 }  // namespace sweep_guard

@@ -7,17 +7,20 @@
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/ObjectContacts.h>
+#include <sweep_guard/Prediction.h>
 #include <sweep_guard/Warning.h>
 
 #include <Eigen/Geometry>
 
 #include "sweep_guard/guard/guard.h"
+#include "sweep_guard/guard/outlook.h"
 #include "sweep_guard/guard/verdict.h"
 
 namespace sweep_guard_ros {
 
 sweep_guard::Time fromMsg(const ros::Time& time);
 ros::Time toMsg(sweep_guard::Time time);  ///< times before the epoch become 0
+ros::Duration toMsg(sweep_guard::Duration duration);
 
 /// Now on both clocks.
 sweep_guard::Instant now();
@@ -36,6 +39,14 @@ sweep_guard::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_trian
 sweep_guard::ObjectContacts toMsg(const sweep_guard::Workpiece& workpiece, const std::vector<std::uint32_t>& triangles);
 /// The objects met, in the report's order; header, tool and volume are the sender's.
 sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report);
+
+/// What is expected, told at a moment: poses that lie before it are left out. Frame, tool and predictor are the
+/// sender's.
+/// @param age  of the pose that the outlook begins at, at that moment
+sweep_guard::Prediction toMsg(const sweep_guard::Outlook& outlook, sweep_guard::Duration age,
+                              const sweep_guard::VerdictLimits& limits);
+/// Seconds until the predicted collision; infinite if there is none, NaN if that is not known.
+double timeToCollision(const sweep_guard::Prediction& prediction);
 
 /// Level, reasons and what follows from them; frame, tool and counters are the sender's.
 sweep_guard::Warning toMsg(const sweep_guard::Verdict& verdict);

@@ -17,18 +17,37 @@ namespace sweep_guard_ros {
 /// What the worker did since it was last asked. Any thread.
 class Workload {
  public:
+  /// One look ahead.
+  struct Prediction {
+    sweep_guard::Duration latency{};  ///< pose received to warning sent
+    sweep_guard::Duration time{};     ///< taken by the prediction and its sweeps
+    size_t sweeps_made = 0;           ///< 0: the motion is not known yet
+    size_t sweeps_asked = 0;          ///< of the configured steps
+    sweep_guard::Duration covered{};  ///< from the moment of the prediction on
+    double probability = 0.0;         ///< of a contact, in [0, 1]
+  };
   struct Summary {
-    std::uint64_t sweeps_total = 0;  ///< poses swept since the start
-    std::uint64_t late_total = 0;    ///< of them later than a cycle of 15 Hz [P, Sec. 3.2]
-    std::uint64_t faults_total = 0;  ///< failures of the detector
-    std::vector<double> latencies;   ///< pose received to warning sent, since the last summary [s], ascending
-    double busiest = 0.0;            ///< longest sweep since the last summary [s]
+    std::uint64_t sweeps_total = 0;            ///< poses swept since the start
+    std::uint64_t late_total = 0;              ///< of them later than a cycle
+    std::uint64_t predictions_total = 0;       ///< looks ahead since the start
+    std::uint64_t late_predictions_total = 0;  ///< of them later than a cycle
+    std::uint64_t faults_total = 0;            ///< failures of the detector
+    std::vector<double> latencies;             ///< pose received to warning sent, since the last summary [s], ascending
+    double busiest = 0.0;                      ///< longest sweep since the last summary [s]
+    std::vector<double> prediction_times;      ///< of the looks ahead since the last summary [s], ascending
+    bool coarser = false;                      ///< some of them made fewer sweeps than asked for
+    Prediction prediction;                     ///< the newest
   };
 
+  /// @param cycle  a pose whose warning takes longer is late [P, Sec. 3.2]
+  explicit Workload(sweep_guard::Duration cycle) : cycle_(cycle) {}
+
   void swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_time, size_t failures);
+  void predicted(const Prediction& prediction, size_t failures);
   Summary take();
 
  private:
+  const sweep_guard::Duration cycle_;
   std::mutex mutex_;
   Summary summary_;
 };
@@ -53,21 +72,22 @@ class RateMeter {
 };
 
 /// Answers "why is there no warning" on /diagnostics: each input's source, publishers, rate, age and refusals; the
-/// detector; the deadlines; the memory; the verdict.
+/// detector; the deadlines; the prediction; the memory; the verdict.
 class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const Parameters& parameters,
               const Diagnosed& parts);
 
   /// Publishes now; call once a second.
-  void publish() { updater_.force_update(); }
+  void publish();
 
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
   void verdict(Status& status) const;
   void poseInput(Status& status);
   void meshInput(Status& status);
-  void deadlines(Status& status);
+  void deadlines(Status& status) const;
+  void prediction(Status& status) const;
   void process(Status& status) const;
 
   const Parameters parameters_;
@@ -76,6 +96,7 @@ class Diagnostics {
   RateMeter refused_poses_rate_;
   RateMeter meshes_rate_;
   RateMeter refused_meshes_rate_;
+  Workload::Summary load_;  // of the last period
   diagnostic_updater::Updater updater_;
 };
 

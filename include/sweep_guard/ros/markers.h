@@ -9,20 +9,26 @@
 #include <utility>
 
 #include "sweep_guard/guard/guard.h"
+#include "sweep_guard/guard/outlook.h"
 #include "sweep_guard/guard/verdict.h"
+#include "sweep_guard/ros/trail.h"
 
 namespace sweep_guard_ros {
 
 /// What the markers show.
 struct MarkerScene {
-  std::shared_ptr<const sweep_guard::SweepReport> newest;   ///< null: nothing swept yet
-  std::shared_ptr<const sweep_guard::SweepReport> contact;  ///< newest with a contact; null: none
-  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();   ///< of the newest report
+  std::shared_ptr<const sweep_guard::SweepReport> newest;    ///< null: nothing swept yet
+  std::shared_ptr<const sweep_guard::SweepReport> contact;   ///< newest with a contact; null: none
+  std::shared_ptr<const sweep_guard::Outlook> outlook;       ///< newest; null: none yet
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();    ///< of the newest report
+  Eigen::Vector3d outlook_from_W = Eigen::Vector3d::Zero();  ///< where the tip was when it was looked ahead [m]
+  Trail trail;
   sweep_guard::Verdict verdict;
 };
 
-/// Draws the tool, the measured sweep, the triangles met and the warning text for rviz. Ids are stable, what is gone is
-/// deleted once, nothing outlives half a second, and everything is grey while the level is unknown. One thread.
+/// Draws the tool, its sweep, the triangles met, the same of the prediction, and the warning text for rviz. Ids are
+/// stable, what is gone is deleted once, nothing outlives half a second, and everything is grey while the level is
+/// unknown. One thread.
 class Markers {
  public:
   Markers(std::string fixed_frame, const sweep_guard::Tool& tool);
@@ -32,11 +38,12 @@ class Markers {
  private:
   using Key = std::pair<std::string, int>;  // namespace and id
 
+  void addMeasured(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const;
+  void addPredicted(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const;
   void deleteGone(visualization_msgs::MarkerArray& array);
 
   const std::string fixed_frame_;
-  const double tool_radius_;
-  const double tool_length_;
+  const sweep_guard::Tool tool_;
   std::set<Key> shown_;
 };
 

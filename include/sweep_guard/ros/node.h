@@ -7,17 +7,21 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <future>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "sweep_guard/ros/check_sweep.h"
 #include "sweep_guard/ros/diagnostics.h"
 #include "sweep_guard/ros/markers.h"
+#include "sweep_guard/ros/predict.h"
 
 namespace sweep_guard_ros {
 
 /// The guard of one tool as a ROS node, and as a nodelet: inputs on threads of their own, one thread that sweeps every
-/// pose, and a steady timer that warns whatever the inputs do. Topics, services and parameters: README.md.
+/// pose and looks ahead from the newest, and steady timers that warn whatever the inputs do. Topics, services and
+/// parameters: README.md.
 class SweepGuardNode {
  public:
   /// @throws sweep_guard::InvalidInput if a parameter is refused, sweep_guard::DeviceError if there is no detector
@@ -27,19 +31,35 @@ class SweepGuardNode {
   SweepGuardNode& operator=(const SweepGuardNode&) = delete;
 
  private:
+  struct Question {
+    sweep_guard::Duration horizon;
+    std::promise<PredictService::Answer> answer;
+  };
+
   void enqueue(PlacedPose pose);
-  void sweepPoses();
+  std::future<PredictService::Answer> ask(sweep_guard::Duration horizon);
+  void work();
+  void process(const PlacedPose& placed);
   void sweep(const PlacedPose& placed);
   void lookAhead(const PlacedPose& placed);
+  bool timeToLookAhead();
+  void answer(Question& question);
   void publishContacts(const sweep_guard::SweepReport& report);
+  void publishPrediction(const sweep_guard::Outlook& outlook, sweep_guard::Duration age);
   void watch();
   void watchClock();
   void warn(bool only_on_change);
+  using Flag = sweep_guard::Warning::_reflex_type sweep_guard::Warning::*;
+  void repeat(const ros::Publisher& publisher, Flag flag);
   void publishMarkers();
 
   const Parameters parameters_;
   ros::Publisher contacts_publisher_;
+  ros::Publisher prediction_publisher_;
+  ros::Publisher time_to_collision_publisher_;
   ros::Publisher warning_publisher_;
+  ros::Publisher reflex_publisher_;
+  ros::Publisher considered_publisher_;
   ros::Publisher marker_publisher_;
 
   std::mutex warning_mutex_;
@@ -50,6 +70,7 @@ class SweepGuardNode {
   std::mutex queue_mutex_;
   std::condition_variable queue_changed_;
   std::deque<PlacedPose> queue_;
+  std::deque<Question> questions_;
   bool stopping_ = false;
 
   std::mutex scene_mutex_;
@@ -57,15 +78,17 @@ class SweepGuardNode {
 
   // What follows calls back on what stands above.
   sweep_guard::Ledger ledger_;
-  sweep_guard::Guard guard_;           // of the sweeping thread
-  std::uint64_t guard_epoch_ = 0;      // of the sweeping thread
-  sweep_guard::SteadyTime predicted_;  // of the sweeping thread
-  LogThrottle log_;                    // of the sweeping thread
+  sweep_guard::Guard guard_;                // of the sweeping thread, as all down to log_
+  std::uint64_t guard_epoch_ = 0;           // that the guard's poses are of
+  std::optional<sweep_guard::Seen> swept_;  // newest pose that the guard knows
+  sweep_guard::SteadyTime looked_ahead_;    // when it did so last
+  LogThrottle log_;
   Frames frames_;
   WorkpieceStore workpieces_;
   PoseInput poses_;
   MeshInput meshes_;
   CheckSweepService check_sweep_;
+  PredictService predict_;
   Workload workload_;
   Diagnostics diagnostics_;
   Markers markers_;
@@ -73,6 +96,8 @@ class SweepGuardNode {
   QueueThread warning_thread_;
   QueueThread report_thread_;
   ros::SteadyTimer warning_timer_;
+  ros::SteadyTimer reflex_timer_;
+  ros::SteadyTimer considered_timer_;
   ros::SteadyTimer marker_timer_;
   ros::SteadyTimer diagnostics_timer_;
   std::thread sweeping_thread_;

@@ -21,12 +21,18 @@ class ParameterReader {
 
   explicit ParameterReader(const ros::NodeHandle& private_node) : node_(private_node) {}
 
-  double number(const std::string& key, double fallback, const Range& range);  ///< an integer is a number too
+  /// An integer is a number too. The fallback is checked as well: a range may hang on another parameter.
+  /// @param note  what the range hangs on, for the message
+  double number(const std::string& key, double fallback, const Range& range, const std::string& note = "");
   int integer(const std::string& key, int fallback, int lowest, int highest);
   bool flag(const std::string& key, bool fallback);
   std::string text(const std::string& key, const std::string& fallback);
   std::string name(const std::string& key, const std::string& fallback);  ///< text, not empty
   std::string choice(const std::string& key, const std::string& fallback, const std::vector<std::string>& choices);
+  /// As many integers as the fallback has.
+  std::vector<int> integers(const std::string& key, const std::vector<int>& fallback, int lowest, int highest);
+  /// Some of the choices, or none: a list without the rest, [] where nothing is set.
+  std::vector<std::string> selection(const std::string& key, const std::vector<std::string>& choices);
   Eigen::Vector3d position(const std::string& key, const Eigen::Vector3d& fallback);  ///< [x, y, z] within +-1e6 m
 
   /// Warns of every private parameter that has not been asked for: a key that is misspelt would have no effect.

@@ -21,7 +21,7 @@ struct Parameters {
   int tool_sides;
   std::string detector;
   bool cull;
-  sweep_guard::SweepOptions sweep;
+  sweep_guard::GuardOptions guard;
   sweep_guard::VerdictLimits limits;
   double marker_rate;  ///< [Hz]
   size_t max_triangles;

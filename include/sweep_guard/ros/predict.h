@@ -1,0 +1,54 @@
+#pragma once
+
+#include <ros/service_server.h>
+#include <sweep_guard/Predict.h>
+
+#include <functional>
+#include <future>
+#include <memory>
+
+#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/ros/parameters.h"
+#include "sweep_guard/ros/queue_thread.h"
+#include "sweep_guard/ros/workpiece_store.h"
+
+namespace sweep_guard_ros {
+
+/// The message `~prediction` of an outlook, complete.
+/// @param age  of the pose that the outlook begins at, at the moment of the prediction
+sweep_guard::Prediction predictionMsg(const sweep_guard::Outlook& outlook, sweep_guard::Duration age,
+                                      const Parameters& parameters);
+
+/// The service `~predict`: where the tool will be, and what it meets there, for any horizon. Only the poses are
+/// predicted where the guard's predictor lives, in microseconds between two sweeps; what they meet is tested here, in a
+/// thread and by a detector of its own, on a snapshot of the meshes: it never delays the guard.
+class PredictService {
+ public:
+  struct Answer {
+    sweep_guard::Forecast forecast;
+    sweep_guard::Duration age;  ///< of the pose that it begins at
+  };
+  /// Asks for the poses up to a horizon counted from now. The guard's thread answers between two sweeps, or has a
+  /// sweep_guard::Error thrown where it can promise none.
+  using Ask = std::function<std::future<Answer>(sweep_guard::Duration horizon)>;
+
+  PredictService(const ros::NodeHandle& private_node, const Parameters& parameters, const WorkpieceStore& workpieces,
+                 Ask ask);
+
+  void start() { thread_.start(); }
+
+ private:
+  bool onCall(sweep_guard::Predict::Request& request, sweep_guard::Predict::Response& response);
+  sweep_guard::Prediction predict(sweep_guard::Duration horizon);
+
+  const Parameters parameters_;
+  const sweep_guard::Tool tool_;
+  const WorkpieceStore& workpieces_;
+  const Ask ask_;
+  sweep_guard::PathTest test_;
+  std::unique_ptr<sweep_guard::Detector> detector_;  // made when first asked
+  QueueThread thread_;                               // outlives what calls back on it
+  ros::ServiceServer server_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,121 @@
+#include "sweep_guard/ros/marker_shapes.h"
+
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::Level;
+using visualization_msgs::Marker;
+
+constexpr double kLifetime = 0.5;  // [s]
+
+}  // namespace
+
+std_msgs::ColorRGBA color(double r, double g, double b, double alpha) {
+  std_msgs::ColorRGBA color;
+  color.r = static_cast<float>(r);
+  color.g = static_cast<float>(g);
+  color.b = static_cast<float>(b);
+  color.a = static_cast<float>(alpha);
+  return color;
+}
+
+std_msgs::ColorRGBA levelColor(Level level, double alpha) {
+  switch (level) {
+    case Level::kClear:
+      return color(0.2, 0.75, 0.3, alpha);
+    case Level::kConsidered:
+      return color(1.0, 0.7, 0.1, alpha);
+    case Level::kReflex:
+    case Level::kContact:
+      return color(0.95, 0.15, 0.1, alpha);
+    case Level::kUnknown:
+      break;
+  }
+  return color(0.55, 0.55, 0.55, alpha);
+}
+
+std_msgs::ColorRGBA unlessUnknown(Level level, const std_msgs::ColorRGBA& color) {
+  return level == Level::kUnknown ? levelColor(level, static_cast<double>(color.a)) : color;
+}
+
+geometry_msgs::Point point(const Eigen::Vector3d& p) {
+  geometry_msgs::Point msg;
+  msg.x = p.x();
+  msg.y = p.y();
+  msg.z = p.z();
+  return msg;
+}
+
+Marker marker(const std::string& ns, int id, int type, const std::string& frame, sweep_guard::Time stamp) {
+  Marker marker;
+  marker.header.frame_id = frame;
+  marker.header.stamp = toMsg(stamp);
+  marker.ns = ns;
+  marker.id = id;
+  marker.type = type;
+  marker.action = Marker::ADD;
+  marker.lifetime = ros::Duration(kLifetime);
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  return marker;
+}
+
+Marker toolMarker(const std::string& ns, int id, const std::string& frame, sweep_guard::Time stamp,
+                  const sweep_guard::Tool& tool, const Eigen::Isometry3d& X_WT) {
+  Marker cylinder = marker(ns, id, Marker::CYLINDER, frame, stamp);
+  cylinder.pose = toMsg(X_WT * Eigen::Translation3d(0.0, 0.0, -0.5 * tool.length()));
+  cylinder.scale.x = cylinder.scale.y = 2.0 * tool.radius();
+  cylinder.scale.z = tool.length();
+  return cylinder;
+}
+
+Surface::Surface(const std::string& ns, int index, const std::string& frame, sweep_guard::Time stamp, double line_width)
+    : faces_(marker(ns, 2 * index, Marker::TRIANGLE_LIST, frame, stamp)),
+      edges_(marker(ns, 2 * index + 1, Marker::LINE_LIST, frame, stamp)) {
+  edges_.scale.x = line_width;
+}
+
+void Surface::paint(const std_msgs::ColorRGBA& faces, const std_msgs::ColorRGBA& edges) {
+  faces_.color = faces;
+  edges_.color = edges;
+}
+
+void Surface::add(const sweep_guard::Polygon& polygon) {
+  for (size_t i = 2; i < polygon.size(); ++i) {
+    for (const size_t corner : {size_t{0}, i - 1, i}) faces_.points.push_back(point(polygon[corner]));
+  }
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    edges_.points.push_back(point(polygon[i]));
+    edges_.points.push_back(point(polygon[(i + 1) % polygon.size()]));
+  }
+}
+
+void Surface::add(const sweep_guard::SweptVolume& volume_M) {
+  const sweep_guard::OrientedBox& box = volume_M.box;
+  for (sweep_guard::Polygon polygon : sweep_guard::polytopeFaces(volume_M.halfSpaces_B(), box.half_extents.norm())) {
+    for (Eigen::Vector3d& p : polygon) p = box.X_MB * p;
+    add(polygon);
+  }
+}
+
+void Surface::add(const sweep_guard::TriangleMesh& mesh_M, const std::vector<std::uint32_t>& triangles, double lift) {
+  for (const std::uint32_t triangle : triangles) {
+    const auto& [a, b, c] = mesh_M.triangles()[triangle];
+    const Eigen::Vector3d p = mesh_M.vertex(a);
+    const Eigen::Vector3d q = mesh_M.vertex(b);
+    const Eigen::Vector3d r = mesh_M.vertex(c);
+    const Eigen::Vector3d off = lift * (q - p).cross(r - p).stableNormalized();
+    add({p + off, q + off, r + off});
+    add({p - off, r - off, q - off});
+  }
+}
+
+void Surface::moveInto(visualization_msgs::MarkerArray& array) {
+  if (faces_.points.empty()) return;
+  array.markers.push_back(std::move(faces_));
+  array.markers.push_back(std::move(edges_));
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,72 @@
+#include "sweep_guard/ros/predict.h"
+
+#include <limits>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::Duration;
+using sweep_guard::InvalidInput;
+using sweep_guard::Predict;
+
+constexpr Duration kFarthest = std::chrono::seconds(5);
+constexpr auto kPatience = std::chrono::seconds(1);  // with a guard that is stuck in a sweep
+
+Duration checked(const ros::Duration& horizon, Duration configured) {
+  const Duration asked(horizon.toNSec());
+  if (asked == Duration::zero()) return configured;
+  if (asked < Duration::zero() || asked > kFarthest) {
+    throw InvalidInput("the horizon is " + std::to_string(horizon.toSec()) +
+                       " s, but must be from 0 (as configured) to 5 s");
+  }
+  return asked;
+}
+
+}  // namespace
+
+sweep_guard::Prediction predictionMsg(const sweep_guard::Outlook& outlook, sweep_guard::Duration age,
+                                      const Parameters& parameters) {
+  sweep_guard::Prediction msg = toMsg(outlook, age, parameters.limits);
+  msg.header.frame_id = parameters.fixed_frame;
+  msg.tool = parameters.tool_frame;
+  msg.predictor = parameters.guard.predictor.predictor;
+  return msg;
+}
+
+PredictService::PredictService(const ros::NodeHandle& private_node, const Parameters& parameters,
+                               const WorkpieceStore& workpieces, Ask ask)
+    : parameters_(parameters),
+      tool_(parameters.tool()),
+      workpieces_(workpieces),
+      ask_(std::move(ask)),
+      test_(parameters.guard.pathTest()),
+      server_(thread_.on(private_node).advertiseService("predict", &PredictService::onCall, this)) {}
+
+// What cannot be predicted is answered, not thrown away: a failed ROS call tells the caller nothing.
+bool PredictService::onCall(Predict::Request& request, Predict::Response& response) {
+  try {
+    response.prediction = predict(checked(request.horizon, parameters_.guard.horizon.considered));
+    response.success = true;
+  } catch (const std::exception& error) {
+    response = Predict::Response();
+    response.message = error.what();
+    response.prediction.time_to_collision = ros::Duration(-1.0);
+    response.prediction.probability = std::numeric_limits<double>::quiet_NaN();
+  }
+  return true;
+}
+
+sweep_guard::Prediction PredictService::predict(Duration horizon) {
+  std::future<Answer> asked = ask_(horizon);
+  if (asked.wait_for(kPatience) != std::future_status::ready) throw sweep_guard::Error("the guard is busy: ask again");
+  const Answer answer = asked.get();
+  if (!detector_) detector_ = sweep_guard::makeDetector(parameters_.detector, parameters_.cull);
+  const sweep_guard::Outlook outlook =
+      sweep_guard::lookAlong(answer.forecast, workpieces_.snapshot(), test_, *detector_, tool_);
+  return predictionMsg(outlook, answer.age, parameters_);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,98 @@
+#include "sweep_guard/ros/predicted_markers.h"
+
+#include <algorithm>
+
+#include "sweep_guard/ros/marker_shapes.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::Level;
+using visualization_msgs::Marker;
+
+constexpr int kGhosts = 10;
+
+// How far any point of the tool moves between two poses, nearly: that of its tip or its far end.
+double moved(const sweep_guard::Tool& tool, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  const Eigen::Vector3d rear_T(0.0, 0.0, -tool.length());
+  return std::max((to.translation() - from.translation()).norm(), (to * rear_T - from * rear_T).norm());
+}
+
+void fade(Marker& strip, const Eigen::Vector3d& p_W, const std_msgs::ColorRGBA& full, double share) {
+  strip.points.push_back(point(p_W));
+  strip.colors.push_back(full);
+  strip.colors.back().a *= static_cast<float>(share);
+}
+
+}  // namespace
+
+void addGhosts(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
+  const sweep_guard::PredictedPath& path = scene.outlook.path;
+  const Eigen::Isometry3d* drawn = nullptr;
+  for (int i = 0; i < kGhosts && !path.empty(); ++i) {
+    const sweep_guard::Duration due = path.back().ahead * (i + 1) / kGhosts;
+    const auto pose = std::lower_bound(path.begin(), path.end(), due,
+                                       [](const auto& before, sweep_guard::Duration t) { return before.ahead < t; });
+    if (drawn != nullptr && moved(scene.tool, *drawn, pose->X_WT) < scene.tool.radius()) continue;
+    drawn = &pose->X_WT;
+    Marker ghost = toolMarker("predicted_tool", i, scene.fixed_frame, scene.outlook.stamp, scene.tool, pose->X_WT);
+    ghost.color = unlessUnknown(scene.level, color(0.45, 0.65, 1.0, 0.35 * (kGhosts - i) / kGhosts));
+    array.markers.push_back(ghost);
+  }
+}
+
+void addPredictedVolumes(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
+  int index = 0;
+  for (const sweep_guard::PredictedObject& object : scene.outlook.objects) {
+    Surface surface("predicted_volume", index++, object.workpiece->frame, scene.outlook.stamp, 0.0005);
+    surface.paint(levelColor(scene.level, 0.04), levelColor(scene.level, 0.25));
+    for (const sweep_guard::SweptVolume& volume_M : object.volumes_M) surface.add(volume_M);
+    surface.moveInto(array);
+  }
+}
+
+void addPredictedTriangles(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
+  const double lift = 0.05 * scene.tool.radius();  // half of what contacts are lifted: those are seen above
+  int index = 0;
+  for (const sweep_guard::PredictedObject& object : scene.outlook.objects) {
+    for (const auto& [level, triangles] :
+         {std::pair{Level::kReflex, &object.reflex}, {Level::kConsidered, &object.considered}}) {
+      const Level shown = scene.level == Level::kUnknown ? Level::kUnknown : level;
+      Surface surface("predicted_triangles", index++, object.workpiece->frame, scene.outlook.stamp, lift);
+      surface.paint(levelColor(shown, 0.8), levelColor(shown, 0.95));
+      surface.add(object.workpiece->mesh_M, *triangles, lift);
+      surface.moveInto(array);
+    }
+  }
+}
+
+void addTrail(visualization_msgs::MarkerArray& array, const Trail& trail, const std::string& fixed_frame, Level level) {
+  if (trail.points().size() < 2) return;  // one point is no line
+  const sweep_guard::Time newest = trail.points().back().stamp;
+  const double span = sweep_guard::toSeconds(newest - trail.points().front().stamp);
+  Marker strip = marker("trajectory", 0, Marker::LINE_STRIP, fixed_frame, newest);
+  strip.scale.x = 0.002;
+  strip.color = unlessUnknown(level, color(0.9, 0.9, 0.9, 0.8));
+  for (const Trail::Point& past : trail.points()) {
+    const double age = sweep_guard::toSeconds(newest - past.stamp);
+    fade(strip, past.p_W, strip.color, span > 0.0 ? 1.0 - age / span : 1.0);
+  }
+  array.markers.push_back(std::move(strip));
+}
+
+void addPredictedTrail(visualization_msgs::MarkerArray& array, const PredictedScene& scene,
+                       const Eigen::Vector3d& from_W) {
+  const sweep_guard::PredictedPath& path = scene.outlook.path;
+  if (path.empty()) return;
+  Marker strip = marker("trajectory", 1, Marker::LINE_STRIP, scene.fixed_frame, scene.outlook.stamp);
+  strip.scale.x = 0.003;
+  strip.color = unlessUnknown(scene.level, color(0.45, 0.65, 1.0, 0.95));
+  fade(strip, from_W, strip.color, 1.0);
+  const double span = sweep_guard::toSeconds(path.back().ahead);
+  for (const sweep_guard::ExpectedPose& pose : path) {
+    fade(strip, pose.X_WT.translation(), strip.color, 1.0 - 0.7 * sweep_guard::toSeconds(pose.ahead) / span);
+  }
+  array.markers.push_back(std::move(strip));
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+#include <string>
+
+#include "guard_probe.h"
+
+namespace sweep_guard_ros {
+
+/// The one probe of the test program, which is the clock of the guard.
+inline GuardProbe& probe() {
+  static GuardProbe probe(/*drives_clock=*/true);
+  return probe;
+}
+
+inline bool isClear(const sweep_guard::Warning& warning) { return warning.level == sweep_guard::Warning::CLEAR; }
+
+/// Unknown for this reason, among others.
+inline std::function<bool(const sweep_guard::Warning&)> hasReason(std::uint32_t reason) {
+  return [reason](const sweep_guard::Warning& warning) {
+    return warning.level == sweep_guard::Warning::UNKNOWN && !warning.clear && (warning.reasons & reason) != 0;
+  };
+}
+
+/// Stands beside a running guard. One test follows on the other: the guard goes on.
+class NodeTest : public ::testing::Test {
+ protected:
+  // Each test has a guard that has seen a fresh pose high above, no workpiece, and no contact any more.
+  void SetUp() override {
+    probe().advance(1.0);
+    sweep_guard::Warning warning;
+    do {
+      probe().tick(0.001);
+      probe().publish(poseAt({0.0, 0.0, 5.0}, probe().time()));
+      probe().skipWarnings();
+      warning = probe().awaitWarning([](const sweep_guard::Warning&) { return true; });
+    } while (warning.reasons != sweep_guard::Warning::NO_MESH || warning.level != sweep_guard::Warning::UNKNOWN);
+  }
+  void TearDown() override {
+    for (const std::string& id : placed_) probe().remove(id);
+  }
+
+  void placeSheet(const std::string& id, const Eigen::Vector3d& center) {
+    probe().place(sheetAt(id, center, probe().time()));
+    placed_.insert(id);
+  }
+
+  // Moves on by 10 ms.
+  sweep_guard::Contacts moveTo(const Eigen::Vector3d& tip) {
+    probe().tick(0.01);
+    return probe().move(poseAt(tip, probe().time()));
+  }
+
+  // The motion is known from two poses.
+  void restAt(const Eigen::Vector3d& tip) {
+    moveTo(tip);
+    probe().skipWarnings();
+    moveTo(tip);
+    probe().awaitWarning(isClear);
+  }
+
+  // Keeps both inputs fresh until a warning fits: contacts are held for their hold time.
+  sweep_guard::Warning moveUntil(const std::string& id, const Eigen::Vector3d& sheet, const Eigen::Vector3d& tip,
+                                 const std::function<bool(const sweep_guard::Warning&)>& fits) {
+    for (int i = 0; i < 1000; ++i) {
+      moveTo(tip);
+      probe().place(sheetMovedTo(id, sheet, probe().time()));
+      const auto warnings = probe().warnings();
+      if (fits(warnings.back())) return warnings.back();
+    }
+    ADD_FAILURE() << "no such warning; the last: " << probe().warnings().back().text;
+    return {};
+  }
+
+  std::set<std::string> placed_;
+};
+
+}  // namespace sweep_guard_ros
