@@ -105,7 +105,7 @@ void Ledger::predicted(const Outlook& outlook, const Seen& pose, const Mark& pos
   if (!outlook.failures.empty()) on_fault_();
 }
 
-// What was expected of a workpiece that could not be tested again still stands.
+// What was expected of a workpiece that could not be tested again still stands, to the end of its prediction.
 void Ledger::noteExpected(const Outlook& outlook, const Seen& pose, const Instant& now) {
   const auto next = expectedContact(outlook, limits_.min_probability);
   if (expected_) {
@@ -113,7 +113,8 @@ void Ledger::noteExpected(const Outlook& outlook, const Seen& pose, const Instan
     const auto same = [&](const auto& workpiece) { return workpiece->id == before.mesh_id; };
     const bool there = std::any_of(workpieces_.begin(), workpieces_.end(), same);
     const bool tested = std::any_of(prediction_->tested.begin(), prediction_->tested.end(), same);
-    if (there && !tested && (!next || before.from <= next->from)) return;
+    const bool stands = there && !tested && overSince(*expected_, now) == Duration::zero();
+    if (stands && (!next || before.from <= next->from)) return;
     noteAlarm(now);
     expected_.reset();
   }

@@ -85,12 +85,18 @@ Duration timeTo(const Evidence::Expectation& expectation, const Instant& now) {
   return expectation.contact.from - expectation.pose.stamp - age(expectation.pose, now);
 }
 
+void tellExpected(const Evidence::Expectation& expectation, const Instant& now, Verdict& verdict) {
+  verdict.time_to_collision = std::max(Duration::zero(), timeTo(expectation, now));
+  verdict.probability = expectation.contact.probability;
+}
+
 void warn(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Verdict& verdict) {
-  if (evidence.expected && overSince(*evidence.expected, now) == Duration::zero()) {
-    verdict.time_to_collision = std::max(Duration::zero(), timeTo(*evidence.expected, now));
-    verdict.probability = evidence.expected->contact.probability;
-  }
+  const auto& expected = evidence.expected;
+  const bool in_force = expected && overSince(*expected, now) == Duration::zero();
   const Warned strongest = warned(evidence, now, limits);
+  if (in_force && (!strongest.contact || strongest.contact->mesh_id == expected->contact.mesh_id)) {
+    tellExpected(*expected, now, verdict);
+  }
   if (!strongest.contact) return;
   verdict.level = strongest.level;
   verdict.mesh_id = strongest.contact->mesh_id;

@@ -325,6 +325,24 @@ TEST_F(LedgerTest, AnExpectationThatCannotBeTestedDoesNotHideASoonerOne) {
   EXPECT_EQ(ledger_.verdict(at(1010)).time_to_collision, milliseconds(100));
 }
 
+// Once the prediction is over that the first was expected by, the second is warned of however long the first is lost.
+TEST_F(LedgerTest, AnExpectationThatCannotBeTestedDoesNotHideALaterOneForGood) {
+  const Workpieces two = {workpiece("spleen", 1000), workpieces_[0]};
+  ledger_.setWorkpieces(two);
+  predict(collisionOn(two, 1000, 100), 1000);
+  for (int ms = 1010; ms <= 5000; ms += 10) {
+    const int left = 4500 - ms;
+    if (left <= 0) break;
+    sweepOnly(reportOf(workpieces_), ms);
+    predict(collisionOn(workpieces_, ms, left), ms);
+    if (ms > 1000 + 1100 + 500) {
+      ASSERT_EQ(levelAt(ms) >= Level::kConsidered, left <= 1015) << ms;
+      ASSERT_EQ(levelAt(ms) == Level::kReflex, left <= 115) << ms;
+    }
+  }
+  EXPECT_EQ(ledger_.verdict(at(4490)).mesh_id, "liver");
+}
+
 TEST_F(LedgerTest, WarnsOfWhatIsProbableEnough) {
   Outlook outlook = outlookOn(workpieces_, 1000);
   outlook.objects[0].sweeps[1].probability = kLimits.min_probability - 1e-9;

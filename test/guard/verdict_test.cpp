@@ -141,6 +141,12 @@ std::string meshOf(const Row& row) {
   }
 }
 
+// The alarm held is stronger than what is expected now, and of another workpiece.
+bool heldForAnother(const Row& row) {
+  if (row.alarm == Alarm::kReflexHeld) return row.expected != Expected::kReflex;
+  return row.alarm == Alarm::kConsideredHeld && row.expected == Expected::kBeyond;
+}
+
 TEST(VerdictTest, FollowsItsTruthTable) {
   for (const Row& row : allRows()) {
     const Evidence evidence = evidenceOf(row);
@@ -150,7 +156,7 @@ TEST(VerdictTest, FollowsItsTruthTable) {
     EXPECT_EQ(verdict.level, levelOf(row));
     EXPECT_EQ(verdict.mesh_id, meshOf(row));
     EXPECT_EQ(verdict.triangles.empty(), meshOf(row).empty());
-    const bool expected = row.expected != Expected::kNone && row.expected != Expected::kOver;
+    const bool expected = row.expected != Expected::kNone && row.expected != Expected::kOver && !heldForAnother(row);
     EXPECT_EQ(verdict.time_to_collision.has_value(), expected);
     EXPECT_EQ(verdict.probability, expected ? 0.75 : 0.0);
     EXPECT_EQ(verdict.pose_stamp, evidence.pose ? evidence.pose->stamp : Time{});
@@ -163,6 +169,21 @@ Level levelWhen(Duration collision_in) {
   Evidence evidence = allGood();
   evidence.expected = expectedIn(collision_in);
   return assessNow(evidence).level;
+}
+
+TEST(VerdictTest, TellsTheTimeAndProbabilityOfTheCollisionThatItNames) {
+  Evidence evidence = allGood();
+  evidence.expected = expectedIn(500ms);
+  evidence.reflex = alarmOf(150ms, "kidney");
+  const Verdict another = assessNow(evidence);
+  EXPECT_EQ(another.text, "REFLEX: collision with 'kidney' was expected");
+  EXPECT_FALSE(another.time_to_collision);
+  EXPECT_EQ(another.probability, 0.0);
+  evidence.reflex = alarmOf(150ms, "spleen");
+  const Verdict same = assessNow(evidence);
+  EXPECT_EQ(same.text, "REFLEX: collision with 'spleen' expected in 0.50 s");
+  EXPECT_EQ(same.time_to_collision, 500ms);
+  EXPECT_EQ(same.probability, 0.75);
 }
 
 // The verdict is asked for again in 15 ms: what would be due by then is told now.
