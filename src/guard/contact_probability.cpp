@@ -14,24 +14,22 @@ constexpr double kLeastDeviation = 1e-9;  // [m]; what is surer than this is sur
 constexpr double kTolerance = 1e-3;       // [standard deviations]
 constexpr double kRounding = 1e-6;        // of clipping [standard deviations]
 
-Eigen::Vector3d supportPoint(const Tool& tool, const Eigen::Vector3d& direction_T) {
-  return direction_T.z() < 0.0 ? tool.rearExtreme(direction_T) : tool.frontExtreme(direction_T);
-}
-
 double deviationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& r, const Matrix6d& covariance) {
   Eigen::Matrix<double, 6, 1> J;
   J << n, r.cross(n);
   return std::sqrt(std::max(0.0, J.dot(covariance * J)));
 }
 
-// No triangle of the mesh reaches the planes, for the ball around it does not.
-bool outOfReach(const TriangleMesh& mesh_M, const BoxCoordinates& coordinates,
-                const std::vector<HalfSpace>& half_spaces_B, const std::vector<double>& sigmas) {
-  const Eigen::Vector3d center_B = coordinates.origin();
-  for (size_t i = 0; i < half_spaces_B.size(); ++i) {
-    if (half_spaces_B[i].signedDistance(center_B) - mesh_M.radius() > kMostDeviations * sigmas[i]) return true;
-  }
-  return false;
+// Of the tool's support along a unit direction. The farther end lags behind by `gap`; within kMostDeviations of its own
+// it catches up with whichever is larger of these.
+double supportDeviation(const Tool& tool, const Eigen::Matrix3d& R_MT, const Eigen::Vector3d& n_M,
+                        const Matrix6d& covariance_M) {
+  const Eigen::Vector3d n_T = R_MT.transpose() * n_M;
+  const double front = deviationAlong(n_M, R_MT * tool.frontExtreme(n_T), covariance_M);
+  const double rear = deviationAlong(n_M, R_MT * tool.rearExtreme(n_T), covariance_M);
+  const double gap = tool.length() * std::abs(n_T.z());
+  const auto& [touching, other] = n_T.z() < 0.0 ? std::pair(rear, front) : std::pair(front, rear);
+  return std::max(touching, other - gap / kMostDeviations);
 }
 
 }  // namespace
@@ -46,67 +44,87 @@ std::vector<double> planeDeviations(const Tool& tool, const Eigen::Isometry3d& X
   std::vector<double> sigmas;
   for (const HalfSpace& half_space_B : swept_M.halfSpaces_B()) {
     const Eigen::Vector3d n_M = R_MB * half_space_B.normal();
-    const Eigen::Vector3d r_M = X_MT.linear() * supportPoint(tool, X_MT.linear().transpose() * n_M);
-    sigmas.push_back(std::max(kLeastDeviation, deviationAlong(n_M, r_M, covariance_M)));
+    sigmas.push_back(std::max(kLeastDeviation, supportDeviation(tool, X_MT.linear(), n_M, covariance_M)));
   }
   return sigmas;
 }
 
-std::optional<Clearance> ClearanceMeter::operator()(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                                                    const std::vector<double>& sigmas) {
-  const BoxCoordinates coordinates(mesh_M, swept_M.box);
-  const std::vector<HalfSpace> half_spaces_B = swept_M.grown(2.0 * coordinates.rounding()).halfSpaces_B();
-  assert(sigmas.size() == half_spaces_B.size() && half_spaces_B.size() <= 16);
-  if (outOfReach(mesh_M, coordinates, half_spaces_B, sigmas)) return {};
+struct ClearanceMeter::Planes {
+  BoxCoordinates coordinates;
+  std::vector<HalfSpace> half_spaces_B;
+  const std::vector<double>& sigmas;
 
-  scoreVertices(mesh_M, coordinates, half_spaces_B, sigmas);
-  collectCandidates(mesh_M, half_spaces_B.size());
+  size_t count() const { return sigmas.size(); }
+  HalfSpace movedOut(size_t i, double z) const { return half_spaces_B[i].grown(z * sigmas[i]); }
+};
+
+std::optional<Clearance> ClearanceMeter::operator()(const TriangleMesh& mesh_M, const MeshPart& part,
+                                                    const SweptVolume& swept_M, const std::vector<double>& sigmas) {
+  const BoxCoordinates coordinates(mesh_M, swept_M.box);
+  const Planes planes{coordinates, swept_M.grown(2.0 * coordinates.rounding()).halfSpaces_B(), sigmas};
+  assert(planes.half_spaces_B.size() == planes.count() && planes.count() <= 16);
+  scoreVertices(part, planes);
+  collectCandidates(part, planes);
   if (candidates_.empty()) return {};
+
+  const bool separated = candidates_.front().at_least > 0.0;
   double nearest = kMostDeviations + kTolerance;
   for (const Candidate& candidate : candidates_) {
-    const double least = std::max(candidate.at_least, -kMostDeviations);
-    if (least > nearest - kTolerance) break;
-    const Triangle& triangle = mesh_M.triangles()[candidate.triangle];
-    const auto& [a, b, c] = triangle;
-    const Polygon corners_B = {coordinates(a), coordinates(b), coordinates(c)};
-    const auto reaches = [&](double z) { return !within(z, corners_B, triangle, half_spaces_B, sigmas).empty(); };
-    double upper = std::min(nearest - kTolerance, candidate.at_most);
-    if (upper < candidate.at_most && !reaches(upper)) continue;
-    double lower = least;
-    if (reaches(least + kRounding)) upper = least;
-    while (upper - lower > kTolerance) {
-      const double middle = 0.5 * (lower + upper);
-      (reaches(middle) ? upper : lower) = middle;
+    if (candidate.at_least > nearest - kTolerance) break;
+    if (candidate.at_least <= 0.0 && reaches(kRounding, part, candidate, planes)) {
+      return Clearance{separated, std::max(candidate.at_least, -kMostDeviations)};
     }
-    nearest = upper;
+    nearest = std::min(nearest, outwards(nearest, part, candidate, planes));
   }
   if (nearest > kMostDeviations) return {};
-  return Clearance{candidates_.front().at_least > 0.0, nearest};
+  return Clearance{separated, nearest};
 }
 
-// What the planes enclose of a triangle once they are moved out. Most enclose it wholly: their scores say so.
-Polygon ClearanceMeter::within(double z, Polygon polygon_B, const Triangle& triangle,
-                               const std::vector<HalfSpace>& half_spaces_B, const std::vector<double>& sigmas) const {
-  const size_t planes = half_spaces_B.size();
-  for (size_t i = 0; i < planes && !polygon_B.empty(); ++i) {
-    const bool cuts = std::any_of(triangle.begin(), triangle.end(),
-                                  [&](std::uint32_t vertex) { return scores_[vertex * planes + i] > z; });
-    if (cuts) polygon_B = clip(polygon_B, half_spaces_B[i].grown(z * sigmas[i]));
+std::vector<std::uint32_t> ClearanceMeter::notSeparated(const MeshPart& part) const {
+  std::vector<std::uint32_t> left;
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.at_least <= 0.0) left.push_back(part.triangles[candidate.triangle]);
   }
-  return polygon_B;
+  std::sort(left.begin(), left.end());
+  return left;
 }
 
-void ClearanceMeter::scoreVertices(const TriangleMesh& mesh_M, const BoxCoordinates& coordinates,
-                                   const std::vector<HalfSpace>& half_spaces_B, const std::vector<double>& sigmas) {
-  const size_t planes = half_spaces_B.size();
-  scores_.resize(mesh_M.vertexCount() * planes);
-  beyond_.resize(mesh_M.vertexCount());
-  for (std::uint32_t vertex = 0; vertex < beyond_.size(); ++vertex) {
-    const Eigen::Vector3d p_B = coordinates(vertex);
+// By bisection; not less than `nearest` if it makes no difference.
+double ClearanceMeter::outwards(double nearest, const MeshPart& part, const Candidate& candidate,
+                                const Planes& planes) const {
+  double lower = std::max(candidate.at_least, 0.0);
+  double upper = std::min(nearest - kTolerance, candidate.at_most);
+  if (lower > upper || (upper < candidate.at_most && !reaches(upper, part, candidate, planes))) return nearest;
+  if (reaches(lower + kRounding, part, candidate, planes)) return lower;
+  while (upper - lower > kTolerance) {
+    const double middle = 0.5 * (lower + upper);
+    (reaches(middle, part, candidate, planes) ? upper : lower) = middle;
+  }
+  return upper;
+}
+
+// Whether the planes enclose anything of a triangle once they are moved out. Most enclose it wholly: their scores say
+// so.
+bool ClearanceMeter::reaches(double z, const MeshPart& part, const Candidate& candidate, const Planes& planes) const {
+  const Triangle& corners = part.corners[candidate.triangle];
+  Polygon polygon_B;
+  for (const std::uint32_t corner : corners) polygon_B.push_back(planes.coordinates(part.vertices[corner]));
+  for (size_t i = 0; i < planes.count() && !polygon_B.empty(); ++i) {
+    const auto beyond = [&](std::uint32_t corner) { return scores_[corner * planes.count() + i] > z; };
+    if (std::any_of(corners.begin(), corners.end(), beyond)) polygon_B = clip(polygon_B, planes.movedOut(i, z));
+  }
+  return !polygon_B.empty();
+}
+
+void ClearanceMeter::scoreVertices(const MeshPart& part, const Planes& planes) {
+  scores_.resize(part.vertices.size() * planes.count());
+  beyond_.resize(part.vertices.size());
+  for (size_t vertex = 0; vertex < beyond_.size(); ++vertex) {
+    const Eigen::Vector3d p_B = planes.coordinates(part.vertices[vertex]);
     unsigned bits = 0;
-    for (size_t i = 0; i < planes; ++i) {
-      const double score = half_spaces_B[i].signedDistance(p_B) / sigmas[i];
-      scores_[vertex * planes + i] = score;
+    for (size_t i = 0; i < planes.count(); ++i) {
+      const double score = planes.half_spaces_B[i].signedDistance(p_B) / planes.sigmas[i];
+      scores_[vertex * planes.count() + i] = score;
       bits |= static_cast<unsigned>(score > kMostDeviations) << i;
     }
     beyond_[vertex] = static_cast<std::uint16_t>(bits);
@@ -114,23 +132,23 @@ void ClearanceMeter::scoreVertices(const TriangleMesh& mesh_M, const BoxCoordina
 }
 
 // Those that might need fewest deviations first.
-void ClearanceMeter::collectCandidates(const TriangleMesh& mesh_M, size_t planes) {
+void ClearanceMeter::collectCandidates(const MeshPart& part, const Planes& planes) {
+  const size_t count = planes.count();
   candidates_.clear();
-  const std::vector<Triangle>& triangles = mesh_M.triangles();
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    const auto& [a, b, c] = triangles[i];
+  for (size_t i = 0; i < part.corners.size(); ++i) {
+    const auto& [a, b, c] = part.corners[i];
     if ((beyond_[a] & beyond_[b] & beyond_[c]) != 0) continue;
-    const double* const scores[] = {&scores_[a * planes], &scores_[b * planes], &scores_[c * planes]};
+    const double* const scores[] = {&scores_[a * count], &scores_[b * count], &scores_[c * count]};
     double at_least = -std::numeric_limits<double>::infinity();
     double at_most[] = {at_least, at_least, at_least};
-    for (size_t plane = 0; plane < planes; ++plane) {
+    for (size_t plane = 0; plane < count; ++plane) {
       at_least = std::max(at_least, std::min({scores[0][plane], scores[1][plane], scores[2][plane]}));
       for (size_t corner = 0; corner < 3; ++corner) at_most[corner] = std::max(at_most[corner], scores[corner][plane]);
     }
     candidates_.push_back({i, at_least, std::min({at_most[0], at_most[1], at_most[2]})});
   }
   std::sort(candidates_.begin(), candidates_.end(),
-            [](const Candidate& a, const Candidate& b) { return a.at_least < b.at_least; });
+            [](const Candidate& x, const Candidate& y) { return x.at_least < y.at_least; });
 }
 
 }  // namespace sweep_guard

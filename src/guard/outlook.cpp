@@ -33,7 +33,7 @@ std::optional<ExpectedContact> expectedContact(const Outlook& outlook, double mi
     const auto warns = [&](const PredictedSweep& sweep) { return sweep.met || sweep.probability >= min_probability; };
     const auto first = std::find_if(object.sweeps.begin(), object.sweeps.end(), warns);
     if (first == object.sweeps.end()) continue;
-    const Time from = outlook.stamp + first->contact_from;
+    const Time from = outlook.stamp + first->from;
     if (earliest && earliest->from <= from) continue;
     earliest = ExpectedContact{from, false, 0.0, object.workpiece->id, object.triangles()};
     for (auto sweep = first; sweep != object.sweeps.end(); ++sweep) {

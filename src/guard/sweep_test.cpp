@@ -4,19 +4,11 @@
 #include <cassert>
 #include <iterator>
 
+#include "sweep_guard/guard/triangle_set.h"
+
 namespace sweep_guard {
-namespace {
-
-std::vector<std::uint32_t> unite(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
-  std::vector<std::uint32_t> both;
-  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
-  return both;
-}
-
-}  // namespace
-
 void unite(SweepFindings& all, SweepFindings more) {
-  all.triangles = unite(all.triangles, more.triangles);
+  all.triangles = united(all.triangles, more.triangles);
   all.margin = std::max(all.margin, more.margin);
   std::move(more.volumes_M.begin(), more.volumes_M.end(), std::back_inserter(all.volumes_M));
 }
@@ -42,7 +34,7 @@ PathFindings testPath(Detector& detector, const Tool& tool, const std::vector<Ei
     const Motion motion{path[i], path[std::min(i + 1, path.size() - 1)]};
     const SweepFindings sweep = testSweep(detector, tool, split(motion, options.max_rotation), mesh_M, options);
     if (!sweep.triangles.empty() && !along.first_met) along.first_met = i;
-    along.triangles = unite(along.triangles, sweep.triangles);
+    along.triangles = united(along.triangles, sweep.triangles);
     along.margin = std::max(along.margin, sweep.margin);
   }
   return along;

@@ -95,10 +95,10 @@ struct Alarms {
 
 class Loop {
  public:
-  Loop(const std::string& predictor, double min_probability, const Wall& wall)
+  Loop(const std::string& predictor, double min_probability, const Wall& wall, Duration hold_time = 500ms)
       : wall_(wall),
         guard_(kDrill, std::make_unique<ReferenceDetector>(), optionsFor(predictor)),
-        ledger_(limits(min_probability)) {
+        ledger_(limits(min_probability, hold_time)) {
     ledger_.setWorkpieces({wall.workpiece});
   }
 
@@ -128,8 +128,8 @@ class Loop {
     return options;
   }
 
-  static VerdictLimits limits(double min_probability) {
-    VerdictLimits limits{100ms, Duration::max(), 500ms};
+  static VerdictLimits limits(double min_probability, Duration hold_time) {
+    VerdictLimits limits{100ms, Duration::max(), hold_time};
     limits.tick = kTick;
     limits.min_probability = min_probability;
     return limits;
@@ -218,6 +218,9 @@ INSTANTIATE_TEST_SUITE_P(Predictors, ClosedLoopTest,
 // Straight up or down, at 100 Hz; nothing else moves.
 class VerticalTest : public testing::Test {
  protected:
+  explicit VerticalTest(Duration hold_time = 500ms)
+      : loop_("constant_velocity", VerdictLimits().min_probability, floor(), hold_time) {}
+
   // @param z  of the tip over the wall [m], by time [s]
   void follow(double from, double to, const std::function<Eigen::Vector3d(double)>& tip,
               const std::function<void(double, const Verdict&)>& check) {
@@ -238,8 +241,36 @@ class VerticalTest : public testing::Test {
     return floor;
   }
 
-  Loop loop_{"constant_velocity", VerdictLimits().min_probability, floor()};
+  Loop loop_;
 };
+
+class VerticalTestWithoutHold : public VerticalTest {
+ protected:
+  VerticalTestWithoutHold() : VerticalTest(0ms) {}
+};
+
+// Down at 0.1 m/s, contact at 3 s. The threshold is low: doubt alone warns before the path does. Nothing is held.
+TEST_F(VerticalTestWithoutHold, AWarningOfASteadyToolNeverFallsAndComesNearerEvenly) {
+  Level before = Level::kUnknown;
+  std::optional<double> left_before;
+  follow(
+      0.0, 3.0, [](double time) { return Eigen::Vector3d(0, 0, 0.1 * (3.0 - time)); },
+      [&](double time, const Verdict& verdict) {
+        if (time < 0.02) return;  // no motion yet
+        ASSERT_GE(verdict.level, before) << time;
+        before = verdict.level;
+        if (verdict.level == Level::kReflex) {
+          ASSERT_LE(3.0 - time, 0.2);
+        }
+        if (!verdict.time_to_collision) return;
+        const double left = toSeconds(*verdict.time_to_collision);
+        if (left_before) {
+          ASSERT_LE(left, *left_before + 0.03) << time;
+        }
+        left_before = left;
+      });
+  EXPECT_GE(before, Level::kReflex);
+}
 
 TEST_F(VerticalTest, AToolThatLeavesIsNotWarnedOf) {
   follow(

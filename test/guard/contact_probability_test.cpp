@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scenes.h"
 
@@ -34,10 +36,15 @@ Motion goesOn() {
   return motion;
 }
 
+MeshPart wholeOf(const TriangleMesh& mesh_M) {
+  const double far = std::numeric_limits<double>::infinity();
+  return partWithin(mesh_M, {Eigen::Vector3d::Constant(-far), Eigen::Vector3d::Constant(far)});
+}
+
 double probabilityOf(const Tool& tool, const Motion& motion, const Matrix6d& covariance_M, const TriangleMesh& mesh_M) {
   const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
   const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance_M, swept_M);
-  const auto clearance = ClearanceMeter()(mesh_M, swept_M, deviations);
+  const auto clearance = ClearanceMeter()(mesh_M, wholeOf(mesh_M), swept_M, deviations);
   return clearance ? contactProbability(clearance->deviations) : 0.0;
 }
 
@@ -63,7 +70,9 @@ TEST(ContactProbabilityTest, OfAFlatWallIsExact) {
 // The path ends beyond the wall: it must err by so much the other way for the wall to stay unmet.
 TEST(ContactProbabilityTest, OfAWallOnThePathIsMoreThanHalf) {
   for (const double ratio : {-0.25, -1.0, -2.0, -3.0}) {
-    EXPECT_NEAR(probabilityOf(kDrum, goesOn(), translating(0.0625), wallAt(0.25 + ratio * 0.0625)), phi(-ratio), 4e-4);
+    EXPECT_NEAR(probabilityOf(kDrum, goesOn(), translating(0.0625), wallAt(0.25 + ratio * 0.0625)), phi(-ratio), 1e-6);
+    EXPECT_NEAR(probabilityOf(kNeedle, goesOn(), translating(0.0625), wallAt(0.25 + ratio * 0.0625)), phi(-ratio),
+                1e-6);
   }
 }
 
@@ -101,6 +110,34 @@ TEST(ContactProbabilityTest, TurnsReachFartherWithALongerLever) {
               0.1 * 0.2 * n_M.x(), 1e-12);
 }
 
+// A drill that stands, its tip free to turn about by 0.1 rad; a wall 10 mm beside its axis, 5 mm beside its side. The
+// far end, 0.2 m away, is off by 20 mm: a quarter of a deviation. Whichever end leans towards the wall, and if none
+// does.
+TEST(ContactProbabilityTest, OfAWallAlongTheToolDoesNotDependOnHowItLeans) {
+  Eigen::Matrix<double, 6, 1> turning = Eigen::Matrix<double, 6, 1>::Zero();
+  turning[4] = 0.1;
+  const Tool drill = Tool::cylinder(0.005, 0.2);
+  for (const double lean : {-1e-6, 0.0, 1e-6}) {
+    Motion stands;
+    stands.X_MT_start.linear() = Eigen::AngleAxisd(lean, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    stands.X_MT_end = stands.X_MT_start;
+    EXPECT_NEAR(probabilityOf(drill, stands, covarianceOf(turning), wallAt(0.01)), 0.40, 0.01) << lean;
+  }
+}
+
+// The far end lags 96 mm behind the tip, seen along the plane's normal: 5.5 deviations of its own.
+TEST(ContactProbabilityTest, AnEndThatIsFarFromThePlaneDoesNotCount) {
+  Eigen::Matrix<double, 6, 1> turning = Eigen::Matrix<double, 6, 1>::Zero();
+  turning[4] = 0.1;
+  const Tool drill = Tool::cylinder(0.0, 0.2);
+  Motion leans;
+  leans.X_MT_start.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  leans.X_MT_end = leans.X_MT_start;
+  SweptVolume swept_M = sweptVolume(drill, leans, VolumeKind::kObb);
+  swept_M.clips_B.emplace_back(swept_M.box.X_MB.linear().transpose() * Eigen::Vector3d::UnitX(), 1.0);
+  EXPECT_NEAR(planeDeviations(drill, leans.X_MT_end, covarianceOf(turning), swept_M).back(), 1e-9, 1e-12);
+}
+
 // Any mesh, any motion: more doubt or less distance never makes contact beyond the path less probable.
 TEST(ContactProbabilityTest, GrowsWithDoubtAndFallsWithDistance) {
   Random random(2);
@@ -133,12 +170,42 @@ TEST(ContactProbabilityTest, GrowsWithDoubtAndFallsWithDistance) {
     EXPECT_LE(wall(distance + 0.01), wall(distance) + 1e-3);
 }
 
-// What the meter says is what clipping says: a little less and nothing is met, a little more and something is.
+// Some of a volume with its planes moved out: what clipping leaves of a triangle.
+bool meets(const TriangleMesh& mesh_M, const Triangle& triangle, const SweptVolume& swept_M, double z,
+           const std::vector<double>& deviations) {
+  const auto half_spaces_B = swept_M.halfSpaces_B();
+  Polygon polygon_B;
+  for (const auto vertex : triangle) polygon_B.push_back(swept_M.box.X_MB.inverse() * mesh_M.vertex(vertex));
+  for (size_t k = 0; k < half_spaces_B.size(); ++k) {
+    polygon_B = clip(polygon_B, half_spaces_B[k].grown(z * deviations[k]));
+  }
+  return !polygon_B.empty();
+}
+
+// How far the planes must be moved in until one of them has the triangle wholly beyond it, at the least.
+double farthestBack(const TriangleMesh& mesh_M, const Triangle& triangle, const SweptVolume& swept_M,
+                    const std::vector<double>& deviations) {
+  const auto half_spaces_B = swept_M.halfSpaces_B();
+  double back = -std::numeric_limits<double>::infinity();
+  for (size_t k = 0; k < half_spaces_B.size(); ++k) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto vertex : triangle) {
+      const double distance = half_spaces_B[k].signedDistance(swept_M.box.X_MB.inverse() * mesh_M.vertex(vertex));
+      nearest = std::min(nearest, distance / deviations[k]);
+    }
+    back = std::max(back, nearest);
+  }
+  return back;
+}
+
+// What the meter says is what clipping says: a little less and nothing is met, a little more and something is. Where
+// the volume meets the mesh as it is, the tool must stay back from the triangle that is deepest in it.
 TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) {
   Random random(3);
   const TriangleMesh hull = wavyHull(12, 16, 0.5);
+  const MeshPart whole = wholeOf(hull);
   ClearanceMeter meter;
-  int met = 0;
+  int outside = 0;
   int inside = 0;
   for (int i = 0; i < 300; ++i) {
     const Tool tool = randomTool(random, 0.1);
@@ -147,32 +214,30 @@ TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) 
     const Matrix6d covariance = covarianceOf(Eigen::Matrix<double, 6, 1>::Constant(random.logUniform(0.01, 0.2)));
     const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance, swept_M);
     const auto meetsAt = [&](double z) {
-      const auto half_spaces_B = swept_M.halfSpaces_B();
-      for (const Triangle& triangle : hull.triangles()) {
-        Polygon polygon_B;
-        for (const auto vertex : triangle) polygon_B.push_back(swept_M.box.X_MB.inverse() * hull.vertex(vertex));
-        for (size_t k = 0; k < half_spaces_B.size(); ++k) {
-          polygon_B = clip(polygon_B, half_spaces_B[k].grown(z * deviations[k]));
-        }
-        if (!polygon_B.empty()) return true;
-      }
-      return false;
+      return std::any_of(hull.triangles().begin(), hull.triangles().end(),
+                         [&](const Triangle& triangle) { return meets(hull, triangle, swept_M, z, deviations); });
     };
-    const auto clearance = meter(hull, swept_M, deviations);
+    const auto clearance = meter(hull, whole, swept_M, deviations);
     if (!clearance) {
       EXPECT_FALSE(meetsAt(kMostDeviations - 1e-6));
       continue;
     }
-    ++met;
-    inside += clearance->deviations < 0.0;
-    EXPECT_TRUE(meetsAt(clearance->deviations + 1e-6)) << i;
-    if (clearance->deviations > -kMostDeviations) {
+    EXPECT_TRUE(meetsAt(std::max(0.0, clearance->deviations) + 1e-5)) << i;
+    EXPECT_EQ(clearance->separated, meter.notSeparated(whole).empty());
+    if (clearance->deviations > 2e-3) {
+      ++outside;
       EXPECT_FALSE(meetsAt(clearance->deviations - 2e-3)) << i;
+      continue;
     }
-    EXPECT_TRUE(!clearance->separated || clearance->deviations > -1e-6);
-    EXPECT_TRUE(clearance->separated || meetsAt(0.0) || clearance->deviations > 0.0);
+    double deepest = 0.0;
+    for (const Triangle& triangle : hull.triangles()) {
+      if (!meets(hull, triangle, swept_M, 0.0, deviations)) continue;
+      deepest = std::min(deepest, farthestBack(hull, triangle, swept_M, deviations));
+    }
+    inside += deepest < 0.0;
+    EXPECT_NEAR(clearance->deviations, std::max(deepest, -kMostDeviations), 2e-3) << i;
   }
-  EXPECT_GT(met, 100);
+  EXPECT_GT(outside, 50);
   EXPECT_GT(inside, 20);
 }
 

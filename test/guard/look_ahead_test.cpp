@@ -116,8 +116,8 @@ TEST_F(LookAheadTest, TellsWhenThePathMeetsASheet) {
   EXPECT_GE(expected->probability, 0.5);
   EXPECT_EQ(outlook.objects[0].reflex, Indices{});
   EXPECT_EQ(outlook.objects[0].considered, (Indices{0, 1}));
-  for (size_t i = 0; i < outlook.path.size(); ++i) {
-    EXPECT_EQ(outlook.objects[0].sweeps[i].met, outlook.path[i].ahead > 499ms) << i;
+  for (const PredictedSweep& sweep : outlook.objects[0].sweeps) {
+    EXPECT_EQ(sweep.met, sweep.from > 494ms) << toSeconds(sweep.from);
   }
 }
 
@@ -148,9 +148,9 @@ TEST_F(LookAheadTest, TakesAWorkpieceWhereItsFrameIs) {
   }
 }
 
-// The drill swings past a wall, 0.2 mm beside it. A tenth of a second takes a margin of 0.28 mm for its arc.
+// The drill swings past a wall, 0.01 mm beside it. 25 ms take a margin of 0.018 mm for its arc.
 TEST_F(LookAheadTest, AVolumeThatIsMerelyLooseMeetsNothing) {
-  const double x = 0.005 + 0.0002;
+  const double x = 0.005 + 0.00001;
   workpieces_ = {workpiece("wall", TriangleMesh({{x, -1, -1}, {x, 1, -1}, {x, 0, 1}}, {{0, 1, 2}}))};
   follow({Eigen::Isometry3d::Identity(), {0, 0, 0}, {1.5, 0, 0}});
   const size_t asked_before = record_.volumes.size();

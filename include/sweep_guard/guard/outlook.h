@@ -12,9 +12,9 @@
 
 namespace sweep_guard {
 
-/// One sweep along the predicted path, tested against one workpiece.
+/// One sweep along the predicted path, or a piece of one, tested against one workpiece.
 struct PredictedSweep {
-  Duration contact_from{};   ///< after the newest pose: contact in this sweep does not begin earlier
+  Duration from{};           ///< after the newest pose; it lasts until the next one begins
   bool met = false;          ///< the predicted path itself meets the workpiece
   double probability = 0.0;  ///< that the tool meets the workpiece in this sweep, in [0, 1]; below 0.001 it is 0
 };
@@ -22,7 +22,7 @@ struct PredictedSweep {
 /// How the predicted path fares with one workpiece.
 struct PredictedObject {
   std::shared_ptr<const Workpiece> workpiece;
-  std::vector<PredictedSweep> sweeps;     ///< as many as the path has poses: sweep i ends at pose i
+  std::vector<PredictedSweep> sweeps;     ///< end to end, ascending; a sweep that might meet is told in pieces
   std::vector<std::uint32_t> reflex;      ///< triangles met within the reflex interval: ascending, each once
   std::vector<std::uint32_t> considered;  ///< triangles met later: ascending, each once, none of `reflex`
   std::vector<SweptVolume> volumes_M;     ///< those of the sweeps, end to end, in the mesh's frame

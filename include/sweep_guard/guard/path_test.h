@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sweep_guard/guard/contact_probability.h"
+#include "sweep_guard/guard/expected_motion.h"
 #include "sweep_guard/guard/outlook.h"
 #include "sweep_guard/guard/sweep_test.h"
 
@@ -16,8 +17,9 @@ class PathTest {
 
   explicit PathTest(const Options& options) : options_(options) {}
 
-  /// A sweep whose volume seems to meet the workpiece is halved: short volumes are tight, and tell when it begins. Once
-  /// a piece as short as asked for meets, those after it are not halved any more.
+  /// A sweep whose volume seems to meet the workpiece, or might, is halved: short volumes are tight, and tell when it
+  /// begins. What might meet is halved down to 25 ms, what seems to meet down to the finest pieces. Once one of these
+  /// meets, those after it are not halved any more.
   /// @param X_WT  where the path begins
   /// @param X_WM  the workpiece's frame
   /// @throws DeviceError if the detector fails
@@ -26,13 +28,17 @@ class PathTest {
                              std::shared_ptr<const Workpiece> workpiece);
 
  private:
-  struct Piece;
-  struct Query;
+  struct Scene;
+  struct Findings;
 
-  void test(Query& query, const Piece& piece);
+  std::vector<SweptVolume> volumesOf(const Scene& scene, const Stretch& stretch) const;
+  double probability(const Scene& scene, const MeshPart& part, const Stretch& stretch,
+                     const std::vector<SweptVolume>& volumes_M, std::vector<const SweptVolume*>& unseparated);
+  void test(const Scene& scene, const MeshPart& around, const Stretch& stretch,
+            const std::vector<SweptVolume>& volumes_M, Findings& findings);
 
   Options options_;
-  ClearanceMeter measure_;
+  ClearanceMeter meter_;
 };
 
 }  // namespace sweep_guard

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <vector>
+
+#include "sweep_guard/geometry/motion.h"
+#include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/prediction/pose_predictor.h"
+
+namespace sweep_guard {
+
+/// A stretch of an expected motion: one step between two of its poses or a part of one, or several whole steps.
+struct Stretch {
+  Duration from{};   ///< after the newest measured pose
+  Duration to{};     ///< after the newest measured pose, > `from`
+  size_t first = 0;  ///< last pose not after `from`; pose 0 is the measured one
+  size_t last = 1;   ///< first pose not before `to`
+};
+
+/// How the tool is expected to move, seen from a mesh frame M that stays where it is: from pose to pose of a predicted
+/// path straight at constant speed, turning about one axis at constant rate.
+class ExpectedMotion {
+ public:
+  /// @param X_WT  where the path begins
+  /// @param path  at least one pose
+  ExpectedMotion(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
+                 const Eigen::Isometry3d& X_WM);
+
+  Stretch whole() const { return between(0, poses_.size() - 1); }
+
+  /// From pose to pose; the measured pose is number 0, the path's begin at 1.
+  Stretch between(size_t first, size_t last) const { return {poses_[first].time, poses_[last].time, first, last}; }
+
+  /// Cut at a pose in its middle if there is one, else in half.
+  std::pair<Stretch, Stretch> halves(const Stretch& stretch) const;
+
+  /// The motions to sweep, end to end. Part of a step is split(). Several steps are one motion along their chord, its
+  /// bulge bounding how far any tool point leaves it on the way through the poses between.
+  /// @param max_rotation  of a part of one step [rad]
+  std::vector<Motion> motions_M(const Stretch& stretch, double max_rotation) const;
+
+  /// The pose at the stretch's end.
+  Eigen::Isometry3d end_M(const Stretch& stretch) const { return at(stretch.to, stretch.last - 1).X_MT; }
+
+  /// Of that pose's error: translation [m], then rotation vector [rad], along the axes of M. Between two poses it grows
+  /// evenly, from 0 at the measured one.
+  Matrix6d covariance_M(const Stretch& stretch) const { return at(stretch.to, stretch.last - 1).covariance_M; }
+
+  /// Holds every tool point all along a stretch, off by up to `deviations` standard deviations.
+  /// @param margin  the tool is grown by this [m], >= 0
+  Eigen::AlignedBox3d reach_M(const Stretch& stretch, double deviations, double margin) const;
+
+ private:
+  struct Pose {
+    Duration time;
+    Eigen::Isometry3d X_MT;
+    Matrix6d covariance_M;
+  };
+
+  Pose at(Duration time, size_t first) const;
+  double bulge(const Motion& chord_M, const Stretch& stretch) const;
+
+  const Tool& tool_;
+  std::vector<Pose> poses_;
+};
+
+/// Where the sweeps along a path end: numbers of poses, counted as by ExpectedMotion, the last of them the path's end.
+/// The reflex interval is swept from pose to pose; the rest in about `considered_sweeps` sweeps of as many steps each,
+/// but no two steps that turn by more than 1.5 rad together are joined.
+/// @param considered_sweeps  >= 1
+std::vector<size_t> sweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t reflex_sweeps,
+                              size_t considered_sweeps);
+
+}  // namespace sweep_guard
