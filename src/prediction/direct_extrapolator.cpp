@@ -11,10 +11,8 @@ namespace {
 constexpr std::array<int, 4> kWindows = {50, 120, 300, 800};  // [ms]
 constexpr int kDragged = 1;              // the window whose velocity times its speed is the fifth regressor
 constexpr double kFastest = 2.5;         // times the usual speed: no more drag beyond
-constexpr double kSpeedMemory = 20.0;    // [s]
 constexpr double kPriorSpeed = 0.02;     // [m/s]
 constexpr double kPriorTurnRate = 0.15;  // [rad/s]
-constexpr double kFarthest = 1.6;        // times the usual displacement of a second
 
 template <size_t... i>
 std::array<Carry, sizeof...(i)> makeCarries(double prior_speed, std::index_sequence<i...> /*knots*/) {
@@ -32,6 +30,7 @@ DirectExtrapolator::DirectExtrapolator()
 void DirectExtrapolator::observe(const MotionTrack& track) {
   measure(track);
   if (track.step() == MotionTrack::Step::kBegins) hindsight_.clear();
+  if (track.step() == MotionTrack::Step::kCorrects) hindsight_.correctNewest(track.newest(), velocities_);
   if (track.step() != MotionTrack::Step::kContinues) return;
   const double period = toSeconds(track.period());
   hindsight_.add(track.newest(), velocities_, [&](const Velocities& known, size_t i, const Vector6d& moved) {
@@ -46,16 +45,11 @@ void DirectExtrapolator::measure(const MotionTrack& track) {
     velocities_.col(static_cast<int>(i)) = windows_[i].value();
   }
   const Vector6d velocity = velocities_.col(kDragged);
-  const Eigen::Vector2d square(velocity.head<3>().squaredNorm(), velocity.tail<3>().squaredNorm());
-  if (track.step() == MotionTrack::Step::kContinues) {
-    const double period = toSeconds(track.period());
-    const double fade = std::exp(-period / kSpeedMemory);
-    squares_ = fade * squares_ + period * square;
-    weight_ = fade * weight_ + period;
-  }
+  const Eigen::Array2d square(velocity.head<3>().squaredNorm(), velocity.tail<3>().squaredNorm());
+  if (track.step() == MotionTrack::Step::kContinues) speeds_.add(square, toSeconds(track.period()));
+  const Eigen::Array2d usual = speeds_.mean();
   for (int part = 0; part < 2; ++part) {
-    const double usual = squares_[part] > 0.0 ? squares_[part] / weight_ : 1.0;
-    const double drag = std::min(std::sqrt(square[part] / usual), kFastest);
+    const double drag = usual[part] > 0.0 ? std::min(std::sqrt(square[part] / usual[part]), kFastest) : 0.0;
     velocities_.col(Carry::kVelocities - 1).segment<3>(3 * part) = drag * velocity.segment<3>(3 * part);
   }
 }
@@ -70,9 +64,7 @@ Vector6d DirectExtrapolator::displacementIn(double ahead) const {
 Eigen::Vector3d DirectExtrapolator::carried(const Carries& carries, const Carry::Velocities& velocities, double ahead) {
   const Carry::Weights weights =
       overLearnedAhead<Carry::Weights>(ahead, [&](size_t i) { return carries[i].weights() / kLearnedAhead[i]; });
-  const Eigen::Vector3d displacement = ahead * velocities * weights;
-  const double farthest = kFarthest * carries.back().reach() * std::max(1.0, ahead / kLearnedAhead.back());
-  return displacement * std::min(1.0, farthest / std::max(displacement.norm(), 1e-12));
+  return ahead * velocities * weights;
 }
 
 }  // namespace sweep_guard

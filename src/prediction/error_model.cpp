@@ -1,13 +1,10 @@
 #include "sweep_guard/prediction/error_model.h"
 
-#include <cmath>
-
 #include "sweep_guard/prediction/interpolation.h"
 
 namespace sweep_guard {
 namespace {
 
-constexpr double kMemory = 20.0;         // [s]
 constexpr double kPriorShare = 0.3;      // of the way at present speed: what is taken for the error before any is known
 constexpr double kPriorSpeed = 0.02;     // [m/s] a second at this speed outweighs it
 constexpr double kPriorTurnRate = 0.15;  // [rad/s] likewise
@@ -19,6 +16,11 @@ Eigen::Array3d squares(const Vector6d& error, const Eigen::Vector3d& direction) 
   return {along * along, across / 2.0, error.tail<3>().squaredNorm() / 3.0};
 }
 
+Eigen::Array3d speedSquares(const Vector6d& velocity) {
+  const double speed = velocity.head<3>().squaredNorm();
+  return {speed, speed, velocity.tail<3>().squaredNorm()};
+}
+
 Vector6d errorOf(const Vector6d& forecast, const Vector6d& moved) {
   const auto pose = [](const Vector6d& way) { return displaced(Eigen::Isometry3d::Identity(), way); };
   return displacement(pose(forecast), pose(moved));
@@ -26,47 +28,39 @@ Vector6d errorOf(const Vector6d& forecast, const Vector6d& moved) {
 
 }  // namespace
 
+ErrorModel::Record ErrorModel::recordBefore(double ahead) {
+  const Squares activity = Squares(kPriorSpeed, kPriorSpeed, kPriorTurnRate).square();
+  const double share = kPriorShare * ahead;
+  return {RecentMean<Squares>(share * share * activity, 1.0), RecentMean<Squares>(activity, 1.0)};
+}
+
 ErrorModel::ErrorModel() {
-  const double speed = kPriorSpeed * kPriorSpeed;
-  const Eigen::Array3d activity(speed, speed, kPriorTurnRate * kPriorTurnRate);
-  for (size_t i = 0; i < records_.size(); ++i) {
-    const double share = kPriorShare * kLearnedAhead[i];
-    records_[i] = {share * share * activity, activity};
-  }
+  for (const double ahead : kLearnedAhead) records_.push_back(recordBefore(ahead));
 }
 
+// Errors are taken relative to the speed they came with: that known before or, where rest ended or a forecast went
+// astray, that of the motion that came or was forecast.
 void ErrorModel::observe(const MotionTrack& track, const Vector6d& velocity, const Forecast& forecast) {
-  activity_ = activityAt(track, velocity);
-  direction_ = velocity.head<3>().stableNormalized();
-  if (track.step() == MotionTrack::Step::kBegins) hindsight_.clear();
-  if (track.step() != MotionTrack::Step::kContinues) return;
   const double period = toSeconds(track.period());
-  const double fade = std::exp(-period / kMemory);
+  if (track.step() == MotionTrack::Step::kBegins) hindsight_.clear();
+  if (track.step() == MotionTrack::Step::kContinues) speeds_.add(speedSquares(velocity), period);
+  activity_ = speedSquares(velocity) + speeds_.mean();
+  direction_ = velocity.head<3>().stableNormalized();
   const Known newest{forecast, activity_, direction_};
+  if (track.step() == MotionTrack::Step::kCorrects) hindsight_.correctNewest(track.newest(), newest);
+  if (track.step() != MotionTrack::Step::kContinues) return;
   hindsight_.add(track.newest(), newest, [&](const Known& known, size_t i, const Vector6d& moved) {
-    Record& record = records_[i];
-    record.errors = fade * record.errors + period * squares(errorOf(known.forecast[i], moved), known.direction);
-    record.activity = fade * record.activity + period * known.activity;
+    records_[i].errors.add(squares(errorOf(known.forecast[i], moved), known.direction), period);
+    const auto speed = [&](const Vector6d& way) { return speedSquares(way / kLearnedAhead[i]); };
+    records_[i].activity.add(known.activity.max(speed(moved)).max(speed(known.forecast[i])), period);
   });
-}
-
-Eigen::Array3d ErrorModel::activityAt(const MotionTrack& track, const Vector6d& velocity) {
-  const double speed = velocity.head<3>().squaredNorm();
-  const Eigen::Array3d now(speed, speed, velocity.tail<3>().squaredNorm());
-  if (track.step() == MotionTrack::Step::kContinues) {
-    const double period = toSeconds(track.period());
-    const double fade = std::exp(-period / kMemory);
-    speeds_ = fade * speeds_ + period * now;
-    weight_ = fade * weight_ + period;
-  }
-  return weight_ > 0.0 ? Eigen::Array3d(now + speeds_ / weight_) : now;
 }
 
 Matrix6d ErrorModel::covariance(double ahead) const {
-  const auto share = overLearnedAhead<Eigen::Array3d>(ahead, [&](size_t i) -> Eigen::Array3d {
-    return (records_[i].errors / records_[i].activity).sqrt() / kLearnedAhead[i];
+  const auto share = overLearnedAhead<Squares>(ahead, [&](size_t i) -> Squares {
+    return (records_[i].errors.mean() / records_[i].activity.mean()).sqrt() / kLearnedAhead[i];
   });
-  const Eigen::Array3d variance = (share * ahead).square() * activity_;
+  const Squares variance = (share * ahead).square() * activity_;
   Matrix6d covariance = Matrix6d::Zero();
   covariance.diagonal() << Eigen::Vector3d::Constant(variance[1]), Eigen::Vector3d::Constant(variance[2]);
   covariance.topLeftCorner<3, 3>() += (variance[0] - variance[1]) * direction_ * direction_.transpose();

@@ -7,30 +7,34 @@ namespace {
 
 constexpr auto kGap = std::chrono::milliseconds(250);
 constexpr Duration kLongestGap = std::chrono::seconds(1);
-constexpr double kShortestPeriod = 0.01;  // [s] stamps cut or jittered by this do not make a jump
+constexpr Duration kShortestPeriod = std::chrono::microseconds(500);  // less says nothing of the speed
+constexpr Duration kJitter = std::chrono::milliseconds(10);           // stamps cut or late by this do not make a jump
 
 }  // namespace
 
 MotionTrack::Step MotionTrack::add(const StampedPose& pose) {
-  const Duration period = pose.stamp - newest_.stamp;
-  if (poses_ > 0 && period <= Duration::zero()) {
-    coordinates_ += displacement(newest_.X_WT, pose.X_WT);
-    newest_.X_WT = pose.X_WT;
-    return step_ = Step::kCorrects;
-  }
+  const Duration period = poses_ > 0 ? pose.stamp - newest_.stamp : Duration::zero();
   const Vector6d moved = poses_ > 0 ? displacement(newest_.X_WT, pose.X_WT) : Vector6d::Zero();
-  const bool begins = poses_ == 0 || interrupted(moved, period);
-  coordinates_ = begins ? Vector6d::Zero() : Vector6d(coordinates_ + moved);
-  poses_ = begins ? 1 : poses_ + 1;
-  period_ = newest_.stamp == Time() ? Duration::zero() : period;
-  newest_ = pose;
-  return step_ = begins ? Step::kBegins : Step::kContinues;
+  const bool corrects = poses_ > 0 && period < kShortestPeriod;
+  if (poses_ == 0 || tooFar(moved, period) || gap(period)) {
+    step_ = Step::kBegins;
+    coordinates_.setZero();
+    poses_ = 1;
+  } else {
+    step_ = corrects ? Step::kCorrects : Step::kContinues;
+    coordinates_ += moved;
+    poses_ += corrects ? 0 : 1;
+  }
+  if (!corrects) period_ = period > kLongestGap ? Duration::zero() : period;
+  newest_ = {step_ == Step::kCorrects ? newest_.stamp : pose.stamp, pose.X_WT};
+  return step_;
 }
 
-bool MotionTrack::interrupted(const Vector6d& moved, Duration period) const {
-  const double seconds = std::max(toSeconds(period), kShortestPeriod);
-  return period > std::clamp<Duration>(3 * period_, kGap, kLongestGap) ||
-         moved.head<3>().norm() > max_speed_ * seconds || moved.tail<3>().norm() > max_turn_rate_ * seconds;
+bool MotionTrack::tooFar(const Vector6d& moved, Duration period) const {
+  const double seconds = toSeconds(std::max(period, kJitter));
+  return moved.head<3>().norm() > max_speed_ * seconds || moved.tail<3>().norm() > max_turn_rate_ * seconds;
 }
+
+bool MotionTrack::gap(Duration period) const { return period > std::clamp<Duration>(3 * period_, kGap, kLongestGap); }
 
 }  // namespace sweep_guard

@@ -13,34 +13,45 @@ namespace {
 
 constexpr auto kActivityWindow = std::chrono::milliseconds(120);
 
-double positive(double limit, const char* name) {
-  if (!(limit > 0.0)) throw InvalidInput(std::string(name) + " must be greater than 0");
-  return limit;
+void check(bool good, const std::string& complaint) {
+  if (!good) throw InvalidInput(complaint);
 }
 
-Eigen::Vector3d limited(const Eigen::Vector3d& moved, double farthest) {
-  const double distance = moved.norm();
-  return distance > farthest ? Eigen::Vector3d(farthest / distance * moved) : moved;
+const PredictorOptions& checked(const PredictorOptions& options) {
+  for (const int degree : options.degree) {
+    check(degree >= 0 && degree <= PolynomialFit::kHighestDegree, "prediction degree " + std::to_string(degree) +
+                                                                      " is out of range: use 0 to " +
+                                                                      std::to_string(PolynomialFit::kHighestDegree));
+  }
+  check(options.forgetting_factor > 0.0 && options.forgetting_factor <= 1.0,
+        "forgetting factor " + std::to_string(options.forgetting_factor) +
+            " is out of range: use more than 0, at most 1");
+  check(options.window > Duration::zero(), "the observation window must be longer than 0 s");
+  check(options.max_speed > 0.0, "max_speed must be greater than 0");
+  check(options.max_turn_rate > 0.0, "max_turn_rate must be greater than 0");
+  return options;
 }
 
 }  // namespace
 
 struct PosePredictor::Parts {
   explicit Parts(const PredictorOptions& options)
-      : max_speed(positive(options.max_speed, "max_speed")),
-        max_turn_rate(positive(options.max_turn_rate, "max_turn_rate")),
-        track(max_speed, max_turn_rate),
+      : constrained(checked(options).constrained),
+        track(options.max_speed, options.max_turn_rate),
         extrapolator(makeExtrapolator(options)) {}
 
   Vector6d displacementIn(double ahead) const {
-    const Vector6d expected = extrapolator->displacementIn(ahead);
+    Vector6d expected = extrapolator->displacementIn(ahead);
+    for (int axis = 0; axis < 6; ++axis) {
+      if (constrained[static_cast<size_t>(axis)]) expected[axis] = 0.0;
+    }
     Vector6d moved;
-    moved << limited(expected.head<3>(), max_speed * ahead), limited(expected.tail<3>(), max_turn_rate * ahead);
+    moved << limited(expected.head<3>(), track.maxSpeed() * ahead),
+        limited(expected.tail<3>(), track.maxTurnRate() * ahead);
     return moved;
   }
 
-  double max_speed;
-  double max_turn_rate;
+  std::array<bool, 6> constrained;
   MotionTrack track;
   Velocity velocity{kActivityWindow};
   std::unique_ptr<Extrapolator> extrapolator;

@@ -13,7 +13,8 @@ void follow(PolynomialFit& fit, const MotionTrack& track) {
 
 void Velocity::observe(const MotionTrack& track) {
   follow(fit_, track);
-  value_ = fit_.curve({1, 1, 1, 1, 1, 1}).slopeAt(track.newest().stamp);
+  const Vector6d slope = fit_.curve({1, 1, 1, 1, 1, 1}).slopeAt(track.newest().stamp);
+  value_ << limited(slope.head<3>(), track.maxSpeed()), limited(slope.tail<3>(), track.maxTurnRate());
 }
 
 }  // namespace sweep_guard

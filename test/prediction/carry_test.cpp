@@ -61,12 +61,5 @@ TEST(CarryTest, DoesNotExplodeWhenRestEnds) {
   }
 }
 
-TEST(CarryTest, KnowsHowFarMotionsUsuallyReach) {
-  Carry carry(kAhead, kPriorSpeed);
-  EXPECT_TRUE(std::isinf(carry.reach()));
-  for (int i = 0; i < 10; ++i) carry.learn(Carry::Velocities::Zero(), {0.0, 0.3, 0.4}, kPeriod);
-  EXPECT_NEAR(carry.reach(), 0.5, 1e-12);
-}
-
 }  // namespace
 }  // namespace sweep_guard

@@ -54,7 +54,21 @@ TEST(HindsightTest, TellsNothingAcrossAnInterruption) {
   for (int i = 0; i < 10; ++i) tell(hindsight, 50.0 + 0.001 * i);
   hindsight.clear();
   EXPECT_TRUE(tell(hindsight, 60.0).empty());
-  for (const Told& one : tell(hindsight, 62.0)) EXPECT_EQ(one.known, 60.0);
+  const auto told = tell(hindsight, 62.0);
+  EXPECT_EQ(told.size(), kLearnedAhead.size());
+  for (const Told& one : told) EXPECT_EQ(one.known, 60.0);
+}
+
+TEST(HindsightTest, ForgetsANewestPoseThatWasWrong) {
+  Hindsight<double> hindsight;
+  tell(hindsight, 50.0);
+  StampedPose right = poseAt(50.0);
+  right.X_WT.translation().x() += 1.0;
+  hindsight.correctNewest(right, 7.0);
+  const auto told = tell(hindsight, 52.0);
+  ASSERT_EQ(told.size(), kLearnedAhead.size());
+  EXPECT_EQ(told[7].known, 7.0);
+  EXPECT_NEAR(told[7].moved[0], 0.5 * (poseAt(52.0).X_WT.translation().x() - right.X_WT.translation().x()), 1e-12);
 }
 
 }  // namespace

@@ -49,6 +49,8 @@ TEST_F(MotionTrackTest, ALongGapDoesNotExcuseTheNext) {
   addAt(0.0);
   EXPECT_EQ(addAt(12.0), Step::kBegins);
   EXPECT_EQ(addAt(14.0), Step::kBegins);
+  addAt(14.01);
+  EXPECT_EQ(addAt(14.9), Step::kBegins);
 }
 
 TEST_F(MotionTrackTest, AJumpInterruptsTheMotion) {
@@ -65,10 +67,23 @@ TEST_F(MotionTrackTest, AJumpInterruptsTheMotion) {
 TEST_F(MotionTrackTest, APoseThatIsNotLaterCorrectsTheOneBefore) {
   addAt(0.0);
   addAt(0.1, 0.1);
-  EXPECT_EQ(addAt(0.1, 0.15), Step::kCorrects);
+  EXPECT_EQ(addAt(0.1, 0.11), Step::kCorrects);
   EXPECT_EQ(track_.poses(), 2);
-  EXPECT_NEAR(track_.coordinates()[0], 0.15, 1e-15);
-  EXPECT_EQ(track_.newest().X_WT.translation().x(), 0.15);
+  EXPECT_NEAR(track_.coordinates()[0], 0.11, 1e-15);
+  EXPECT_EQ(track_.newest().X_WT.translation().x(), 0.11);
+}
+
+TEST_F(MotionTrackTest, ACorrectionThatIsAJumpInterruptsTheMotion) {
+  addAt(0.0);
+  addAt(0.1, 0.1);
+  EXPECT_EQ(addAt(0.1, 9.0), Step::kBegins);
+}
+
+// Poses closer than half a millisecond say nothing of a speed, and a flood of them would fill the memory.
+TEST_F(MotionTrackTest, PosesHardlyLaterCorrectTheOneBefore) {
+  addAt(0.0);
+  EXPECT_EQ(addAt(0.000499), Step::kCorrects);
+  EXPECT_EQ(addAt(0.0005), Step::kContinues);
 }
 
 TEST_F(MotionTrackTest, TurnsAddUpBeyondAFullTurn) {

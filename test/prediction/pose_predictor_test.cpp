@@ -89,15 +89,17 @@ TEST(PosePredictorTest, HoldStaysWhereTheToolIs) {
 }
 
 TEST(PosePredictorTest, AConstrainedAxisIsHeld) {
-  PredictorOptions options;
-  options.predictor = "polynomial";
-  options.constrained = {false, true, false, false, true, false};
-  PosePredictor predictor(options);
-  follow(predictor, steadyMotion, 0.0, 1.0, 0.01);
-  const Eigen::Isometry3d X_WT = predictor.predict(kAhead).back().X_WT;
-  EXPECT_NEAR(X_WT.translation().x(), steadyMotion(2.0).translation().x(), 1e-9);
-  EXPECT_NEAR(X_WT.translation().y(), steadyMotion(1.0).translation().y(), 1e-9);
-  EXPECT_TRUE(X_WT.linear().isApprox(steadyMotion(1.0).linear(), 1e-9));
+  for (const char* name : {"polynomial", "constant_velocity", "direct"}) {
+    PredictorOptions options;
+    options.predictor = name;
+    options.constrained = {false, true, false, false, true, false};
+    PosePredictor predictor(options);
+    follow(predictor, steadyMotion, 0.0, 1.0, 0.01);
+    const Eigen::Isometry3d X_WT = predictor.predict(kAhead).back().X_WT;
+    EXPECT_NEAR(X_WT.translation().x(), steadyMotion(2.0).translation().x(), 1e-9) << name;
+    EXPECT_NEAR(X_WT.translation().y(), steadyMotion(1.0).translation().y(), 1e-9) << name;
+    EXPECT_TRUE(X_WT.linear().isApprox(steadyMotion(1.0).linear(), 1e-9)) << name;
+  }
 }
 
 TEST(PosePredictorTest, KnowsNothingBeforeTheSecondPose) {
@@ -159,8 +161,8 @@ TEST(PosePredictorTest, IsNeverFasterThanTheLimits) {
   }
 }
 
-// Gaps, jumps, outliers, equal stamps, rest, rates from 5 Hz to 1 kHz: whatever comes, what goes out is a pose, as near
-// as the limits say, with a covariance.
+// Gaps, jumps, outliers, equal stamps, rest, rates from 5 Hz to 1 GHz: whatever comes, what goes out is a pose, as near
+// as the limits say, with a covariance that a tool at the limits could have earned.
 TEST(PosePredictorTest, NothingThatComesMakesItExplode) {
   for (const std::string& name : predictorNames()) {
     Random random(7);
@@ -171,19 +173,62 @@ TEST(PosePredictorTest, NothingThatComesMakesItExplode) {
     double t = 0.0;
     Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
     for (int i = 0; i < 20000; ++i) {
-      if (!random.chance(0.05)) t += random.chance(0.002) ? 3.0 : random.logUniform(0.001, 0.2);
+      if (!random.chance(0.05)) t += random.chance(0.002) ? 3.0 : random.logUniform(1e-9, 0.2);
       const double step = random.chance(0.3) ? 0.0 : random.logUniform(1e-9, 1e-2);
       X_WT.translation() += step * random.direction();
       X_WT.linear() = X_WT.linear() * random.turn(random.chance(0.3) ? 0.0 : random.logUniform(1e-9, 0.3));
       X_WT.linear() = Eigen::Quaterniond(X_WT.linear()).normalized().toRotationMatrix();
       const Eigen::Isometry3d outlier = random.pose(100.0 * random.direction());
-      predictor.observe({at(t), random.chance(0.01) ? outlier : X_WT});
-      for (const ExpectedPose& pose : predictor.predict(kAhead)) {
-        ASSERT_TRUE(pose.X_WT.matrix().allFinite() && pose.covariance.allFinite()) << name << ", pose " << i;
-        ASSERT_GE(pose.covariance.diagonal().minCoeff(), 0.0);
-        ASSERT_NEAR(pose.X_WT.linear().determinant(), 1.0, 1e-9);
+      const StampedPose pose{at(t), random.chance(0.01) ? outlier : X_WT};
+      predictor.observe(pose);
+      for (const ExpectedPose& expected : predictor.predict(kAhead)) {
+        const double ahead = toSeconds(expected.ahead);
+        ASSERT_TRUE(expected.X_WT.matrix().allFinite()) << name << ", pose " << i;
+        ASSERT_NEAR(expected.X_WT.linear().determinant(), 1.0, 1e-9);
+        ASSERT_LE((expected.X_WT.translation() - pose.X_WT.translation()).norm(),
+                  options.max_speed * ahead * (1.0 + 1e-9));
+        ASSERT_GE(expected.covariance.diagonal().minCoeff(), 0.0);
+        ASSERT_LE(expected.covariance.diagonal().head<3>().maxCoeff(), std::pow(3.0 * options.max_speed * ahead, 2));
       }
     }
+  }
+}
+
+// A tool that has rested for long, and then goes: two thirds of its way are expected at once, and the doubt does not
+// outgrow the motion.
+TEST(PosePredictorTest, FollowsAToolThatHasRested) {
+  const PoseAt start = [](double t) {
+    return Eigen::Isometry3d(Eigen::Translation3d(0.3 * std::max(t - 30.0, 0.0), 0.0, 0.0));
+  };
+  for (const char* name : {"constant_velocity", "direct"}) {
+    PosePredictor predictor = predictorOf(name);
+    follow(predictor, start, 0.0, 30.0, 0.01);
+    for (int i = 3001; i < 3500; ++i) {
+      predictor.observe({at(0.01 * i), start(0.01 * i)});
+      const ExpectedPose pose = predictor.predict({milliseconds(1000)})[0];
+      const double way = pose.X_WT.translation().x() - start(0.01 * i).translation().x();
+      if (i > 3010) {
+        ASSERT_GT(way, 0.2) << name << " at " << 0.01 * i << " s";
+      }
+      ASSERT_LT(std::sqrt(pose.covariance(0, 0)), 0.45) << name << " at " << 0.01 * i << " s";
+    }
+  }
+}
+
+// Two poses a microsecond and half a millimetre apart are no speed of 500 m/s to learn from.
+TEST(PosePredictorTest, AStutterOfTheStampsDoesNotPoisonWhatIsLearned) {
+  const PoseAt sway = [](double t) { return Eigen::Isometry3d(Eigen::Translation3d(0.2 * std::sin(2.0 * t), 0, 0)); };
+  for (const char* name : {"constant_velocity", "direct"}) {
+    PosePredictor steady = predictorOf(name);
+    PosePredictor stuttering = predictorOf(name);
+    follow(steady, sway, 0.0, 10.0, 0.01);
+    follow(stuttering, sway, 0.0, 5.0, 0.01);
+    stuttering.observe({at(5.000001), Eigen::Translation3d(0.0005, 0.0, 0.0) * sway(5.0)});
+    follow(stuttering, sway, 5.01, 10.0, 0.01);
+    const ExpectedPose expected = steady.predict({milliseconds(500)})[0];
+    const ExpectedPose disturbed = stuttering.predict({milliseconds(500)})[0];
+    EXPECT_LT((expected.X_WT.translation() - disturbed.X_WT.translation()).norm(), 0.002) << name;
+    EXPECT_LT(disturbed.covariance(0, 0), 1.2 * expected.covariance(0, 0)) << name;
   }
 }
 
@@ -227,9 +272,11 @@ TEST(PosePredictorTest, ItsCovarianceTellsHowFarItErrs) {
 TEST(PosePredictorTest, RefusesOptionsThatCannotWork) {
   const auto refuses = [](const std::function<void(PredictorOptions&)>& change) {
     PredictorOptions options;
-    options.predictor = "polynomial";
-    change(options);
-    EXPECT_THROW(PosePredictor{options}, InvalidInput);
+    for (const std::string& name : predictorNames()) {
+      options.predictor = name;
+      change(options);
+      EXPECT_THROW(PosePredictor{options}, InvalidInput) << name;
+    }
   };
   refuses([](PredictorOptions& options) { options.predictor = "oracle"; });
   refuses([](PredictorOptions& options) { options.degree[2] = 6; });

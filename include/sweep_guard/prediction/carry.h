@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 
+#include "sweep_guard/prediction/recent_mean.h"
 #include "sweep_guard/prediction/rls.h"
 
 namespace sweep_guard {
@@ -18,8 +18,9 @@ class Carry {
   using Weights = Eigen::Matrix<double, kVelocities, 1>;     ///< [s] displacement expected: velocities * weights
 
   /// @param ahead        the horizon [s], > 0
-  /// @param prior_speed  it takes a second of motion at this speed to outweigh the assumption of constant velocity
-  Carry(double ahead, double prior_speed) : ahead_(ahead), prior_(prior_speed * prior_speed) {}
+  /// @param prior_speed  a second of motion at this speed outweighs the assumption of constant velocity; slower motion
+  ///                     teaches less, > 0
+  Carry(double ahead, double prior_speed) : ahead_(ahead), prior_speed_(prior_speed) {}
 
   /// @param velocities  known at a pose
   /// @param moved       displacement that came within the horizon after it
@@ -27,20 +28,16 @@ class Carry {
   void learn(const Velocities& velocities, const Eigen::Vector3d& moved, double period);
 
   const Weights& weights() const { return weights_; }
-  double reach() const;  ///< root mean square of the recent displacements; infinite as long as there is none
 
  private:
-  Eigen::Vector3d steady(const Velocities& velocities) const { return ahead_ * velocities.col(0); }
-  void compare(const std::array<double, 3>& errors, double period);
   void blend();
 
   double ahead_;
-  double prior_;
+  double prior_speed_;
   Rls<kVelocities, 1> fit_;
   Weights learned_ = Weights::Zero();  // what the velocities carry besides constant velocity
-  std::array<double, 3> errors_{};     // recent: of what was learned, constant velocity, holding still
-  double squares_ = 0.0;               // of the displacements, weighted as below
-  double weight_ = 0.0;                // [s]
+  // Of what was learned, of constant velocity, of holding still.
+  RecentMean<Eigen::Array3d> errors_{Eigen::Array3d(0.0, 0.0, prior_speed_* ahead_), /*weight=*/0.1};
   Weights weights_ = ahead_ * Weights::Unit(0);
 };
 

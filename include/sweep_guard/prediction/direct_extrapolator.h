@@ -12,8 +12,7 @@ namespace sweep_guard {
 
 /// Learns from the operator how far velocities carry: for each of kLearnedAhead its own recursive least squares fit of
 /// the displacement that came on the velocities measured over windows of 0.05, 0.12, 0.3 and 0.8 s, and on the second
-/// of them times its speed, for fast motions end sooner. No prediction goes much farther than motions of a second
-/// usually do.
+/// of them times its speed, for fast motions end sooner.
 class DirectExtrapolator : public Extrapolator {
  public:
   DirectExtrapolator();
@@ -30,8 +29,7 @@ class DirectExtrapolator : public Extrapolator {
 
   std::vector<Velocity> windows_;
   Velocities velocities_ = Velocities::Zero();
-  Eigen::Vector2d squares_ = Eigen::Vector2d::Zero();  // of the recent speeds, of translation and rotation
-  double weight_ = 0.0;                                // of these [s]
+  RecentMean<Eigen::Array2d> speeds_{Eigen::Array2d::Zero()};  // squared, of translation and rotation
   Hindsight<Velocities> hindsight_;
   Carries translation_;
   Carries rotation_;

@@ -2,9 +2,9 @@
 
 #include <Eigen/Geometry>
 
-namespace sweep_guard {
+#include "sweep_guard/common/matrix6.h"
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
+namespace sweep_guard {
 
 /// How far a tool goes from one pose to another: translation along the axes of W [m], then the rotation vector about
 /// the tool's own axes [rad], the shorter way round, so that a wrap or a sign of a quaternion cannot show.
@@ -13,6 +13,12 @@ inline Vector6d displacement(const Eigen::Isometry3d& X_WT_from, const Eigen::Is
   Vector6d moved;
   moved << X_WT_to.translation() - X_WT_from.translation(), turn.angle() * turn.axis();
   return moved;
+}
+
+/// The vector, shortened to a length where it is longer.
+inline Eigen::Vector3d limited(const Eigen::Vector3d& vector, double length) {
+  const double norm = vector.norm();
+  return norm > length ? Eigen::Vector3d(length / norm * vector) : vector;
 }
 
 /// The pose so far away.

@@ -1,18 +1,20 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
+#include "sweep_guard/common/matrix6.h"
 #include "sweep_guard/prediction/hindsight.h"
 #include "sweep_guard/prediction/motion_track.h"
-#include "sweep_guard/prediction/pose_predictor.h"
+#include "sweep_guard/prediction/recent_mean.h"
 
 namespace sweep_guard {
 
 /// How far the tool is expected to go within each of kLearnedAhead.
 using Forecast = std::array<Vector6d, kLearnedAhead.size()>;
 
-/// Learns how far predictions err from how they turned out: the mean square of the recent errors (20 s), along the
-/// motion, across it and in rotation; greater in fast motion than in slow.
+/// Learns how far predictions err from how they turned out: the mean square of the recent errors, along the motion,
+/// across it and in rotation; greater in fast motion than in slow.
 class ErrorModel {
  public:
   ErrorModel();
@@ -27,23 +29,23 @@ class ErrorModel {
 
  private:
   // Squares per axis: along the motion, across it, in rotation.
+  using Squares = Eigen::Array3d;
   struct Record {
-    Eigen::Array3d errors;    // weighted by time
-    Eigen::Array3d activity;  // that they came with, weighted alike
+    RecentMean<Squares> errors;
+    RecentMean<Squares> activity;  // that they came with
   };
   struct Known {
     Forecast forecast;
-    Eigen::Array3d activity;
+    Squares activity;
     Eigen::Vector3d direction;
   };
 
-  Eigen::Array3d activityAt(const MotionTrack& track, const Vector6d& velocity);
+  static Record recordBefore(double ahead);
 
   Hindsight<Known> hindsight_;
-  std::array<Record, kLearnedAhead.size()> records_;
-  Eigen::Array3d speeds_ = Eigen::Array3d::Zero();       // squares of the recent ones, weighted by time
-  double weight_ = 0.0;                                  // [s]
-  Eigen::Array3d activity_ = Eigen::Array3d::Zero();     // squared speed now plus the usual one
+  std::vector<Record> records_;                          // of kLearnedAhead
+  RecentMean<Squares> speeds_{Squares::Zero()};          // of the tool
+  Squares activity_ = Squares::Zero();                   // squared speed now plus the usual one
   Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  // of the motion in W, unit; 0 at rest
 };
 

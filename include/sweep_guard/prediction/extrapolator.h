@@ -27,7 +27,7 @@ class Extrapolator {
   Extrapolator& operator=(const Extrapolator&) = default;
 };
 
-/// @throws InvalidInput if an option is out of range
+/// @throws InvalidInput if there is no predictor of that name
 std::unique_ptr<Extrapolator> makeExtrapolator(const PredictorOptions& options);
 
 }  // namespace sweep_guard

@@ -33,6 +33,11 @@ class Hindsight {
     moments_.push_back({newest, known});
   }
 
+  /// The newest pose was wrong.
+  void correctNewest(const StampedPose& pose, const Known& known) {
+    if (!moments_.empty()) moments_.back() = {pose, known};
+  }
+
   /// The motion has been interrupted: what has not come true will not be known.
   void clear() {
     moments_.clear();

@@ -12,7 +12,7 @@ class MotionTrack {
   enum class Step {
     kBegins,     ///< the first pose, or the first after an interruption
     kContinues,  ///< the motion goes on from the pose before
-    kCorrects,   ///< the stamp is not later: the pose takes the place of the pose before
+    kCorrects,   ///< the stamp is not later by 0.5 ms: the pose takes the place of the pose before
   };
 
   /// @param max_speed      [m/s], > 0
@@ -22,9 +22,14 @@ class MotionTrack {
   Step add(const StampedPose& pose);
 
   /// The next pose begins a motion.
-  void interrupt() { poses_ = 0; }
+  void interrupt() {
+    poses_ = 0;
+    period_ = Duration::zero();
+  }
 
   Step step() const { return step_; }                    ///< of the newest pose
+  double maxSpeed() const { return max_speed_; }         ///< [m/s]
+  double maxTurnRate() const { return max_turn_rate_; }  ///< [rad/s]
   int poses() const { return poses_; }                   ///< since the motion began
   const StampedPose& newest() const { return newest_; }  ///< there must be one
   Duration period() const { return period_; }            ///< from the pose before to the newest
@@ -34,7 +39,8 @@ class MotionTrack {
   const Vector6d& coordinates() const { return coordinates_; }
 
  private:
-  bool interrupted(const Vector6d& moved, Duration period) const;
+  bool tooFar(const Vector6d& moved, Duration period) const;
+  bool gap(Duration period) const;
 
   double max_speed_;
   double max_turn_rate_;

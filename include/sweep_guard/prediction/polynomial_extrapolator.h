@@ -9,7 +9,6 @@ namespace sweep_guard {
 /// recursive least squares on an observation period. Degrees above 1 wait until half of that period has been observed.
 class PolynomialExtrapolator : public Extrapolator {
  public:
-  /// @throws InvalidInput if an option is out of range
   explicit PolynomialExtrapolator(const PredictorOptions& options);
 
   void observe(const MotionTrack& track) override;
@@ -17,7 +16,6 @@ class PolynomialExtrapolator : public Extrapolator {
 
  private:
   std::array<int, 6> degree_;
-  std::array<bool, 6> constrained_;
   Duration window_;
   PolynomialFit fit_;
   PolynomialFit::Curve curve_;

@@ -3,12 +3,11 @@
 #include <array>
 #include <boost/circular_buffer.hpp>
 
+#include "sweep_guard/common/matrix6.h"
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/prediction/rls.h"
 
 namespace sweep_guard {
-
-using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// Fits six values by polynomials in time over a sliding window: recursive least squares with exponential forgetting on
 /// an observation period [P, Sec. 3.2].

@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/matrix6.h"
 #include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard {
-
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// Where the tool is expected to be some time after the newest pose observed. (The message of it is PredictedPose.)
 struct ExpectedPose {
@@ -28,7 +27,7 @@ struct PredictorOptions {
   /// Of the polynomials of `polynomial`: x y z of the tool's origin along the axes of W, then rotation about the tool's
   /// own axes; each 0 to 5.
   std::array<int, 6> degree = {1, 1, 1, 1, 1, 1};
-  std::array<bool, 6> constrained{};                 ///< axes, in the same order, that are held where they are
+  std::array<bool, 6> constrained{};                 ///< axes, in the same order, that no predictor moves
   double forgetting_factor = 0.98;                   ///< weight of a sample over that of the next one, in (0, 1]
   Duration window = std::chrono::milliseconds(300);  ///< no older sample counts; > 0
   double max_speed = 5.0;                            ///< of the tool's origin [m/s], > 0: no prediction is faster

@@ -6,8 +6,8 @@
 namespace sweep_guard {
 
 /// Recursive least squares [P, Sec. 3.2]: fits M outputs, each a weighted sum of the same N regressors, one observation
-/// at a time. It recurs on the information matrix and not on its inverse: nothing winds up where the regressors do not
-/// move, symmetry cannot be lost, and an observation can be taken out again.
+/// at a time. It recurs on the information matrix and not on its inverse: symmetry cannot be lost, an observation can
+/// be taken out again, and with a prior nothing winds up where the regressors do not move.
 template <int N, int M>
 class Rls {
  public:

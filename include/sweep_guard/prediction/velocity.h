@@ -17,7 +17,8 @@ class Velocity {
 
   void observe(const MotionTrack& track);
 
-  /// Along the axes of W [m/s], then about the tool's own axes [rad/s]; 0 after the first pose.
+  /// Along the axes of W [m/s], then about the tool's own axes [rad/s], within the limits of the track; 0 after the
+  /// first pose.
   const Vector6d& value() const { return value_; }
 
  private:
