@@ -18,20 +18,22 @@ Budget::Budget(const HorizonOptions& horizon, Duration cycle) : horizon_(horizon
   if (cycle_ <= Duration::zero()) throw InvalidInput("cycle: must be > 0 s");
 }
 
-size_t Budget::consideredSweeps(size_t reflex_sweeps) const {
-  const double per_sweep = per_sweep_.value_or(kFirstGuess * measured_);
-  const double left = kPlanned * toSeconds(cycle_) - measured_ - static_cast<double>(reflex_sweeps) * per_sweep;
+size_t Budget::consideredSweeps(size_t reflex_volumes, size_t considered_volumes) const {
+  const double per_volume = per_volume_.value_or(kFirstGuess * measured_);
+  const double left = toSeconds(forPrediction()) - static_cast<double>(reflex_volumes) * per_volume;
   const size_t most = sweep_guard::consideredSweeps(horizon_);
-  if (left >= static_cast<double>(most) * per_sweep) return most;
-  return static_cast<size_t>(std::max(1.0, left / per_sweep));
+  if (left >= static_cast<double>(considered_volumes) * per_volume) return most;
+  return static_cast<size_t>(std::clamp(left / per_volume, 1.0, static_cast<double>(most)));
 }
+
+Duration Budget::forPrediction() const { return fromSeconds(std::max(0.0, kPlanned * toSeconds(cycle_) - measured_)); }
 
 void Budget::spentOnMeasured(Duration time) { measured_ = std::max(toSeconds(time), kFall * measured_); }
 
-void Budget::spentOnPredicted(Duration time, size_t sweeps) {
-  if (sweeps == 0) return;
-  const double per_sweep = toSeconds(time) / static_cast<double>(sweeps);
-  per_sweep_ = std::max(per_sweep, kFall * per_sweep_.value_or(0.0));
+void Budget::spentOnPredicted(Duration time, size_t volumes) {
+  if (volumes == 0) return;
+  const double per_volume = toSeconds(time) / static_cast<double>(volumes);
+  per_volume_ = std::max(per_volume, kFall * per_volume_.value_or(0.0));
 }
 
 }  // namespace sweep_guard

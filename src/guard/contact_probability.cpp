@@ -131,9 +131,10 @@ void ClearanceMeter::scoreVertices(const MeshPart& part, const Planes& planes) {
   }
 }
 
-// Those that might need fewest deviations first.
+// Those that may need fewest deviations, in this order: at the limit a corner of one of them is enclosed.
 void ClearanceMeter::collectCandidates(const MeshPart& part, const Planes& planes) {
   const size_t count = planes.count();
+  double limit = kMostDeviations + kTolerance;
   candidates_.clear();
   for (size_t i = 0; i < part.corners.size(); ++i) {
     const auto& [a, b, c] = part.corners[i];
@@ -146,7 +147,10 @@ void ClearanceMeter::collectCandidates(const MeshPart& part, const Planes& plane
       for (size_t corner = 0; corner < 3; ++corner) at_most[corner] = std::max(at_most[corner], scores[corner][plane]);
     }
     candidates_.push_back({i, at_least, std::min({at_most[0], at_most[1], at_most[2]})});
+    limit = std::min(limit, std::max(0.0, candidates_.back().at_most));
   }
+  const auto too_far = [&](const Candidate& candidate) { return candidate.at_least > limit; };
+  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), too_far), candidates_.end());
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& x, const Candidate& y) { return x.at_least < y.at_least; });
 }

@@ -24,12 +24,13 @@ bool SweepReport::contact() const {
 bool SweepReport::complete() const { return !objects.empty() && unplaced.empty() && failures.empty(); }
 
 Outlook lookAlong(const Forecast& forecast, const Workpieces& workpieces, PathTest& test, Detector& detector,
-                  const Tool& tool) {
+                  const Tool& tool, const PathTest::Effort& effort) {
   Outlook outlook;
   outlook.stamp = forecast.from.stamp;
   outlook.path = forecast.path;
   outlook.reflex_sweeps = forecast.reflex_sweeps;
   outlook.sweeps_asked = forecast.path.size();
+  outlook.sweeps_made = effort.sweep_ends.empty() ? forecast.path.size() : effort.sweep_ends.size();
   if (forecast.path.empty()) return outlook;
   for (const auto& workpiece : workpieces) {
     const auto X_WM = forecast.from.X_WM.find(workpiece->frame);
@@ -38,8 +39,8 @@ Outlook lookAlong(const Forecast& forecast, const Workpieces& workpieces, PathTe
       continue;
     }
     try {
-      outlook.objects.push_back(
-          test(detector, tool, forecast.from.X_WT, forecast.path, forecast.reflex_sweeps, X_WM->second, workpiece));
+      outlook.objects.push_back(test(detector, tool, forecast.from.X_WT, forecast.path, forecast.reflex_sweeps,
+                                     X_WM->second, workpiece, effort));
     } catch (const std::exception& error) {  // the device, or no memory: the others are tested all the same
       outlook.failures.push_back({workpiece, error.what()});
     }
@@ -53,7 +54,7 @@ Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& 
       options_(options),
       predictor_(options.predictor),
       budget_(options.horizon, options.cycle),
-      test_path_(options.pathTest()) {}
+      path_test_(options.pathTest()) {}
 
 SweepReport Guard::sweep(const ToolPose& pose, const Workpieces& workpieces) {
   const SteadyTime begin = options_.clock();
@@ -109,13 +110,26 @@ SweepFindings Guard::sweepAlong(const Way& way, const TriangleMesh& mesh_M) {
 Outlook Guard::lookAhead(Duration age, const Workpieces& workpieces) {
   if (!newest_) return {};
   const SteadyTime begin = options_.clock();
-  const size_t reflex_sweeps = reflexSweeps(options_.horizon, age);
-  const Horizon asked = horizon(options_.horizon, age, budget_.consideredSweeps(reflex_sweeps));
+  const Horizon asked = horizon(options_.horizon, age);
   const Forecast forecast{*newest_, predictor_.predict(asked.ends), asked.reflex_sweeps};
-  Outlook outlook = lookAlong(forecast, workpieces, test_path_, *detector_, tool_);
-  outlook.sweeps_asked = reflex_sweeps + consideredSweeps(options_.horizon);
-  budget_.spentOnPredicted(options_.clock() - begin, outlook.path.size());
+  const Outlook outlook = lookAlong(forecast, workpieces, path_test_, *detector_, tool_, effortFor(forecast, begin));
+  size_t volumes = 0;
+  for (const PredictedObject& object : outlook.objects) volumes = std::max(volumes, object.volumes_tested);
+  budget_.spentOnPredicted(options_.clock() - begin, volumes);
   return outlook;
+}
+
+PathTest::Effort Guard::effortFor(const Forecast& forecast, SteadyTime begin) const {
+  const PredictedPath& path = forecast.path;
+  if (path.empty()) return {};
+  size_t volumes[] = {0, 0};
+  for (size_t i = 0; i < path.size(); ++i) {
+    const Motion step{i == 0 ? forecast.from.X_WT : path[i - 1].X_WT, path[i].X_WT};
+    volumes[i < forecast.reflex_sweeps ? 0 : 1] += split(step, options_.sweep.max_rotation).size();
+  }
+  const size_t considered_sweeps = budget_.consideredSweeps(volumes[0], volumes[1]);
+  return {sweepEnds(forecast.from.X_WT, path, forecast.reflex_sweeps, considered_sweeps),
+          [this, end = begin + budget_.forPrediction()] { return options_.clock() >= end; }};
 }
 
 Forecast Guard::forecast(Duration age, Duration end) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "sweep_guard/guard/triangle_set.h"
 
@@ -10,6 +11,12 @@ namespace {
 
 constexpr Duration kProbableStretch = std::chrono::milliseconds(25);  // what might meet is not told more finely
 
+std::vector<size_t> everyPose(size_t count) {
+  std::vector<size_t> ends(count);
+  std::iota(ends.begin(), ends.end(), 1);
+  return ends;
+}
+
 }  // namespace
 
 struct PathTest::Scene {
@@ -17,7 +24,18 @@ struct PathTest::Scene {
   const Tool& tool;
   const ExpectedMotion& motion;
   const TriangleMesh& mesh_M;
-  double margin;  // the tool is grown by this
+  double margin;        // the tool is grown by this
+  Duration reflex_end;  // after the newest pose
+  const std::function<bool()>& spent;
+
+  bool inTimeFor(const Stretch& stretch) const { return stretch.to <= reflex_end || !spent || !spent(); }
+};
+
+// What the planes of a stretch's volumes tell.
+struct PathTest::Reading {
+  double probability = 0.0;                     // that the tool meets something
+  std::vector<const SweptVolume*> unseparated;  // not told apart from the mesh
+  TriangleSet triangles;                        // that these may meet
 };
 
 // So far along the path.
@@ -25,29 +43,43 @@ struct PathTest::Findings {
   std::vector<PredictedSweep> sweeps;
   bool met = false;
   TriangleSet triangles;  // of the sweep that is tested
+  size_t volumes_tested = 0;
 };
 
 PredictedObject PathTest::operator()(Detector& detector, const Tool& tool, const Eigen::Isometry3d& X_WT,
                                      const PredictedPath& path, size_t reflex_sweeps, const Eigen::Isometry3d& X_WM,
-                                     std::shared_ptr<const Workpiece> workpiece) {
+                                     std::shared_ptr<const Workpiece> workpiece, const Effort& effort) {
   const TriangleMesh& mesh_M = workpiece->mesh_M;
   const ExpectedMotion motion(tool, X_WT, path, X_WM);
-  const Scene scene{detector, tool, motion, mesh_M, options_.sweep.margin + mesh_M.rounding()};
-  const MeshPart part = partWithin(mesh_M, motion.reach_M(motion.whole(), kMostDeviations, scene.margin));
+  const Duration reflex_end = reflex_sweeps == 0 ? Duration::zero() : path[reflex_sweeps - 1].ahead;
+  const double margin = options_.sweep.margin + mesh_M.rounding();
+  const Scene scene{detector, tool, motion, mesh_M, margin, reflex_end, effort.spent};
+  const MeshPart part = partWithin(mesh_M, motion.reach_M(motion.whole(), kMostDeviations, margin));
   PredictedObject object{workpiece, {}, {}, {}, {}};
   Findings findings;
-  for (size_t end = 1; end <= path.size(); ++end) {
-    const Stretch sweep = motion.between(end - 1, end);
+  size_t begin = 0;
+  for (const size_t end : effort.sweep_ends.empty() ? everyPose(path.size()) : effort.sweep_ends) {
+    const Stretch sweep = motion.between(begin, end);
     std::vector<SweptVolume> volumes_M = volumesOf(scene, sweep);
     findings.triangles.clear();
     test(scene, part, sweep, volumes_M, findings);
     TriangleSet& met = end <= reflex_sweeps ? object.reflex : object.considered;
     met = united(met, findings.triangles);
     std::move(volumes_M.begin(), volumes_M.end(), std::back_inserter(object.volumes_M));
+    begin = end;
   }
   object.sweeps = std::move(findings.sweeps);
+  object.volumes_tested = findings.volumes_tested;
   object.considered = without(object.considered, object.reflex);
   return object;
+}
+
+TriangleSet PathTest::detected(const Scene& scene, const std::vector<const SweptVolume*>& volumes_M) {
+  TriangleSet met;
+  for (const SweptVolume* volume_M : volumes_M) {
+    met = united(met, scene.detector.detect(scene.mesh_M, *volume_M).triangles);
+  }
+  return met;
 }
 
 std::vector<SweptVolume> PathTest::volumesOf(const Scene& scene, const Stretch& stretch) const {
@@ -58,21 +90,22 @@ std::vector<SweptVolume> PathTest::volumesOf(const Scene& scene, const Stretch& 
   return volumes_M;
 }
 
-// That the tool meets something in the stretch, and which of its volumes the planes do not tell apart from the mesh.
-double PathTest::probability(const Scene& scene, const MeshPart& part, const Stretch& stretch,
-                             const std::vector<SweptVolume>& volumes_M, std::vector<const SweptVolume*>& unseparated) {
-  if (part.triangles.empty()) return 0.0;
+PathTest::Reading PathTest::read(const Scene& scene, const MeshPart& part, const Stretch& stretch,
+                                 const std::vector<SweptVolume>& volumes_M) {
+  Reading reading;
+  if (part.triangles.empty()) return reading;
   const Eigen::Isometry3d X_MT = scene.motion.end_M(stretch);
   const Matrix6d covariance_M = scene.motion.covariance_M(stretch);
-  double largest = 0.0;
   for (const SweptVolume& volume_M : volumes_M) {
     const auto deviations = planeDeviations(scene.tool, X_MT, covariance_M, volume_M);
     const auto clearance = meter_(scene.mesh_M, part, volume_M, deviations);
     if (!clearance) continue;
-    largest = std::max(largest, contactProbability(clearance->deviations));
-    if (!clearance->separated) unseparated.push_back(&volume_M);
+    reading.probability = std::max(reading.probability, contactProbability(clearance->deviations));
+    if (clearance->separated) continue;
+    reading.unseparated.push_back(&volume_M);
+    reading.triangles = united(reading.triangles, meter_.notSeparated(part));
   }
-  return largest;
+  return reading;
 }
 
 // @param around  triangles that the tool may reach; those that it may reach in this stretch are among them
@@ -86,17 +119,15 @@ void PathTest::test(const Scene& scene, const MeshPart& around, const Stretch& s
     test(scene, part, second, volumesOf(scene, second), findings);
   };
 
-  std::vector<const SweptVolume*> unseparated;
-  const double probable = probability(scene, part, stretch, volumes_M, unseparated);
-  if (probable > 0.0 && !findings.met && length > std::max(kProbableStretch, options_.finest)) return halve();
+  const Reading reading = read(scene, part, stretch, volumes_M);
+  const bool in_time = reading.probability == 0.0 || scene.inTimeFor(stretch);
+  const bool finer = !findings.met && in_time;
+  if (in_time) findings.volumes_tested += volumes_M.size();
+  if (reading.probability > 0.0 && finer && length > std::max(kProbableStretch, options_.finest)) return halve();
+  const TriangleSet met = in_time ? detected(scene, reading.unseparated) : reading.triangles;
+  if (!met.empty() && finer && length > options_.finest) return halve();
 
-  TriangleSet met;
-  for (const SweptVolume* volume_M : unseparated) {
-    met = united(met, scene.detector.detect(scene.mesh_M, *volume_M).triangles);
-  }
-  if (!met.empty() && !findings.met && length > options_.finest) return halve();
-
-  findings.sweeps.push_back({stretch.from, !met.empty(), probable});
+  findings.sweeps.push_back({stretch.from, !met.empty(), reading.probability});
   findings.met = findings.met || !met.empty();
   findings.triangles = united(findings.triangles, met);
 }

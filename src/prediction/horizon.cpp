@@ -50,9 +50,9 @@ size_t consideredSweeps(const HorizonOptions& options) {
   return steps(options.considered + options.reserve - options.reflex, options.considered_step);
 }
 
-Horizon horizon(const HorizonOptions& options, Duration age, size_t considered_sweeps) {
-  assert(considered_sweeps >= 1 && considered_sweeps <= consideredSweeps(options));
+Horizon horizon(const HorizonOptions& options, Duration age) {
   Horizon horizon{{}, reflexSweeps(options, age)};
+  const size_t considered_sweeps = consideredSweeps(options);
   horizon.ends.reserve(horizon.reflex_sweeps + considered_sweeps);
   const Duration reflex_end = age + options.reflex;
   appendEqual(horizon.ends, Duration::zero(), reflex_end, horizon.reflex_sweeps);
@@ -63,7 +63,7 @@ Horizon horizon(const HorizonOptions& options, Duration age, size_t considered_s
 Horizon horizonUpTo(Duration end, HorizonOptions options, Duration age) {
   assert(end > Duration::zero());
   options.considered = std::max(end, options.reflex + options.considered_step);
-  Horizon all = horizon(options, age, consideredSweeps(options));
+  Horizon all = horizon(options, age);
   while (!all.ends.empty() && all.ends.back() >= age + end) all.ends.pop_back();
   all.ends.push_back(age + end);
   all.reflex_sweeps = std::min(all.reflex_sweeps, all.ends.size());

@@ -183,7 +183,7 @@ void SweepGuardNode::lookAhead(const PlacedPose& placed) {
   publishPrediction(*outlook, age);
 
   workload_.predicted(
-      {std::chrono::steady_clock::now() - placed.pose.received, looked - at.steady, outlook->path.size(),
+      {std::chrono::steady_clock::now() - placed.pose.received, looked - at.steady, outlook->sweeps_made,
        outlook->sweeps_asked, outlook->coveredUntil() - outlook->stamp - age, outlook->probability()},
       outlook->failures.size());
   for (const auto& failure : outlook->failures)

@@ -226,6 +226,115 @@ TEST_F(LookAheadTest, TheVolumesCoverThePathWithoutHoles) {
   }
 }
 
+// Ten steps of 10 ms, then ten of 100 ms.
+PredictedPath pathAlong(const std::function<Eigen::Isometry3d(double)>& X_WT) {
+  PredictedPath path;
+  for (const Duration ahead : horizon({}, 0ms).ends) path.push_back({ahead, X_WT(toSeconds(ahead)), Matrix6d::Zero()});
+  return path;
+}
+
+// However coarsely the considered interval is swept, in time or not.
+class CoarseSweepsTest : public testing::Test {
+ protected:
+  template <typename Check>
+  void atEveryGranularity(const Tool& tool, const std::function<Eigen::Isometry3d(double)>& X_WT,
+                          const TriangleMesh& mesh_M, const Check& check) {
+    const PredictedPath path = pathAlong(X_WT);
+    for (size_t sweeps = 1; sweeps <= 10; ++sweeps) {
+      const auto ends = sweepEnds(X_WT(0.0), path, 10, sweeps);
+      ASSERT_EQ(ends.back(), path.size());
+      for (const bool spent : {false, true}) {
+        SCOPED_TRACE(std::to_string(sweeps) + (spent ? " sweeps, no time" : " sweeps"));
+        PathTest test({SweepOptions(), 5ms});
+        check(test(detector_, tool, X_WT(0.0), path, 10, Eigen::Isometry3d::Identity(), workpiece("one", mesh_M),
+                   {ends, [spent] { return spent; }}));
+      }
+    }
+  }
+
+  ReferenceDetector detector_;
+};
+
+bool met(const PredictedObject& object) {
+  return std::any_of(object.sweeps.begin(), object.sweeps.end(), [](const auto& sweep) { return sweep.met; });
+}
+
+// From 0.1 s to 1.1 s it turns once: the first pose and the last are the same.
+TEST_F(CoarseSweepsTest, FindWhatASpinningToolMeets) {
+  const auto spinning = [](double t) {
+    return Eigen::Isometry3d(Eigen::AngleAxisd(2.0 * M_PI * t, Eigen::Vector3d::UnitX()));
+  };
+  for (const double t : {0.15, 0.4, 0.65, 0.9}) {
+    const Eigen::Vector3d p = spinning(t) * Eigen::Vector3d(0.0, 0.0, -0.15);
+    const TriangleMesh dot({p, p, p}, {{0, 1, 2}});
+    atEveryGranularity(Tool::cylinder(0.005, 0.2), spinning, dot,
+                       [](const PredictedObject& object) { EXPECT_TRUE(met(object)); });
+  }
+}
+
+// x = 0.6 t - 0.5 t^2 reaches 0.18 m, and is back at 0.055 m at the end.
+TEST_F(CoarseSweepsTest, FindWhatLiesBeforeAToolThatTurnsBack) {
+  const auto there_and_back = [](double t) {
+    Eigen::Isometry3d X_WT(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitY()));
+    X_WT.translation().x() = 0.6 * t - 0.5 * t * t;
+    return X_WT;
+  };
+  const TriangleMesh wall({{0.12, -9, -9}, {0.12, 9, -9}, {0.12, 0, 9}}, {{0, 1, 2}});
+  atEveryGranularity(Tool::cylinder(0.005, 0.1), there_and_back, wall,
+                     [](const PredictedObject& object) { EXPECT_TRUE(met(object)); });
+}
+
+// Against the motion from pose to pose, not against the chord that a long sweep takes.
+TEST_F(CoarseSweepsTest, CoverTheMotionThroughEveryPose) {
+  Random random(8);
+  const Tool tool = Tool::cylinder(0.01, 0.15);
+  const auto rims_T = roundToolPoints_T(tool, 8);
+  for (int i = 0; i < 5; ++i) {
+    const Eigen::Vector3d swing = random.uniform(0.0, 0.3) * random.direction();
+    const Eigen::Vector3d axis = random.direction();
+    const double wave = random.uniform(1.0, 6.0);
+    const double turn = random.uniform(0.0, 3.0);
+    const auto swinging = [&](double t) {
+      Eigen::Isometry3d X_WT(Eigen::AngleAxisd(turn * std::sin(wave * t), axis));
+      X_WT.translation() = std::sin(1.3 * wave * t) * swing + 0.1 * t * axis;
+      return X_WT;
+    };
+    const PredictedPath path = pathAlong(swinging);
+    const auto covered = [&](const PredictedObject& object) {
+      for (size_t k = 0; k < path.size(); ++k) {
+        const Motion leg{k == 0 ? swinging(0.0) : path[k - 1].X_WT, path[k].X_WT};
+        for (const double fraction : {0.1, 0.5, 1.0}) {
+          for (const Eigen::Vector3d& p_T : rims_T) {
+            const Eigen::Vector3d p_M = leg.at(fraction) * p_T;
+            ASSERT_TRUE(std::any_of(object.volumes_M.begin(), object.volumes_M.end(),
+                                    [&](const SweptVolume& volume_M) { return contains(volume_M, p_M); }))
+                << "episode " << i << " step " << k << " at " << fraction;
+          }
+        }
+      }
+    };
+    atEveryGranularity(tool, swinging, sheetAt(0.0), covered);
+  }
+}
+
+TEST(SweepEndsTest, AreThePosesOfTheReflexIntervalAndEvenlyManyBeyond) {
+  const PredictedPath path = pathAlong([](double t) { return Eigen::Isometry3d(Eigen::Translation3d(t, 0, 0)); });
+  for (size_t sweeps = 1; sweeps <= 10; ++sweeps) {
+    const auto ends = sweepEnds(Eigen::Isometry3d::Identity(), path, 10, sweeps);
+    ASSERT_EQ(ends.size(), 10 + sweeps);
+    for (size_t i = 0; i < 10; ++i) EXPECT_EQ(ends[i], i + 1);
+    EXPECT_EQ(ends.back(), 20U);
+    for (size_t i = 10; i < ends.size(); ++i) EXPECT_LE(ends[i] - ends[i - 1], (10 + sweeps - 1) / sweeps);
+  }
+}
+
+// 0.6 rad a step: two are joined, three are not.
+TEST(SweepEndsTest, DoNotJoinStepsThatTurnFar) {
+  const auto turning = [](double t) { return Eigen::Isometry3d(Eigen::AngleAxisd(6.0 * t, Eigen::Vector3d::UnitX())); };
+  const auto ends = sweepEnds(turning(0.0), pathAlong(turning), 10, 1);
+  EXPECT_EQ(ends, (std::vector<size_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20}));
+}
+
 // Every detection takes time on the guard's clock.
 class SlowDetector : public Detector {
  public:
@@ -256,6 +365,7 @@ class SlowGuard {
   Duration cycle() {
     const SteadyTime begin = clock_;
     pose_.X_WT.translation().x() += 0.0001;
+    pose_.X_WT.rotate(Eigen::AngleAxisd(0.066 * turn_rate, Eigen::Vector3d::UnitX()));
     pose_.stamp += 66ms;
     guard_->sweep(pose_, workpieces_);
     outlook = guard_->lookAhead(5ms, workpieces_);
@@ -263,6 +373,7 @@ class SlowGuard {
   }
 
   Duration cost{};
+  double turn_rate = 0.0;  // [rad/s]
   Outlook outlook;
 
  private:
@@ -286,10 +397,26 @@ TEST(SlowDetectorTest, MakesTheConsideredIntervalCoarserAndNothingElse) {
       EXPECT_EQ(guard.outlook.path[10].ahead, 105ms);
       EXPECT_EQ(guard.outlook.coveredUntil(), guard.outlook.stamp + 1105ms);
     }
-    EXPECT_LE(guard.outlook.path.size(), before);
-    before = guard.outlook.path.size();
+    EXPECT_LE(guard.outlook.sweeps_made, before);
+    EXPECT_EQ(guard.outlook.path.size(), 21U);
+    before = guard.outlook.sweeps_made;
   }
   EXPECT_EQ(before, 12U);
+}
+
+// Its far end goes through the sheet and back. A step of 100 ms takes four volumes, a measured sweep three.
+TEST(SlowDetectorTest, DoesNotDelayATurningToolEither) {
+  for (const Duration cost : {500us, 1000us, 2000us, 3000us, 4000us}) {
+    SlowGuard guard;
+    guard.cost = cost;
+    guard.turn_rate = 6.0;
+    for (int i = 0; i < 100; ++i) {
+      EXPECT_LE(guard.cycle(), 66ms) << cost.count() << " ns, cycle " << i;
+      if (i == 0) continue;  // no motion yet
+      EXPECT_EQ(guard.outlook.coveredUntil(), guard.outlook.stamp + 1105ms);
+      EXPECT_TRUE(expectedContact(guard.outlook, 1.0));
+    }
+  }
 }
 
 TEST(SlowDetectorTest, NeverCostsTheReflexInterval) {
@@ -297,7 +424,7 @@ TEST(SlowDetectorTest, NeverCostsTheReflexInterval) {
   guard.cost = 30ms;
   for (int i = 0; i < 10; ++i) guard.cycle();
   EXPECT_EQ(guard.outlook.reflex_sweeps, 11U);
-  EXPECT_EQ(guard.outlook.path.size(), 12U);
+  EXPECT_EQ(guard.outlook.sweeps_made, 12U);
   EXPECT_EQ(guard.outlook.coveredUntil(), guard.outlook.stamp + 1105ms);
 }
 
@@ -305,12 +432,12 @@ TEST(SlowDetectorTest, ThatBecomesSlowerKeepsTheCycle) {
   SlowGuard guard;
   guard.cost = 500us;
   for (int i = 0; i < 10; ++i) guard.cycle();
-  EXPECT_EQ(guard.outlook.path.size(), 21U);
+  EXPECT_EQ(guard.outlook.sweeps_made, 21U);
   for (int i = 0; i < 40; ++i) {
     guard.cost = guard.cost * 105 / 100;
     EXPECT_LE(guard.cycle(), 66ms) << i;
   }
-  EXPECT_LT(guard.outlook.path.size(), 21U);
+  EXPECT_LT(guard.outlook.sweeps_made, 21U);
 }
 
 TEST(GuardOptionsTest, RefusedOnesNameWhatIsWrong) {

@@ -53,7 +53,7 @@ struct Forecast {
 
 /// Tests a forecast against workpieces; their frames are taken to stay as they are at the pose that it begins at.
 Outlook lookAlong(const Forecast& forecast, const Workpieces& workpieces, PathTest& test, Detector& detector,
-                  const Tool& tool);
+                  const Tool& tool, const PathTest::Effort& effort = {});
 
 struct GuardOptions {
   SweepOptions sweep;
@@ -105,6 +105,7 @@ class Guard {
 
   SweepFindings sweepAlong(const Way& way, const TriangleMesh& mesh_M);
   SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);
+  PathTest::Effort effortFor(const Forecast& forecast, SteadyTime begin) const;
   void dropWaysOfEmptyFrames(const Workpieces& workpieces);
 
   Tool tool_;
@@ -113,7 +114,7 @@ class Guard {
   std::map<std::string, Way> ways_;  // by frame
   PosePredictor predictor_;
   Budget budget_;
-  PathTest test_path_;
+  PathTest path_test_;
   std::optional<ToolPose> newest_;
 };
 

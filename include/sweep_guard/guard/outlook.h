@@ -26,6 +26,7 @@ struct PredictedObject {
   std::vector<std::uint32_t> reflex;      ///< triangles met within the reflex interval: ascending, each once
   std::vector<std::uint32_t> considered;  ///< triangles met later: ascending, each once, none of `reflex`
   std::vector<SweptVolume> volumes_M;     ///< those of the sweeps, end to end, in the mesh's frame
+  size_t volumes_tested = 0;              ///< and the ones of the pieces, as far as there was time
 
   std::vector<std::uint32_t> triangles() const;  ///< all that are met: ascending, each once
 };
@@ -35,7 +36,8 @@ struct Outlook {
   Time stamp;                            ///< of the newest measured pose: the path begins there
   PredictedPath path;                    ///< empty: the motion is not known yet
   size_t reflex_sweeps = 0;              ///< the first so many end within the reflex interval
-  size_t sweeps_asked = 0;               ///< sweeps of the configured steps; fewer were made where time did not allow
+  size_t sweeps_asked = 0;               ///< one for every pose of the path
+  size_t sweeps_made = 0;                ///< fewer where time did not allow: a sweep then passes several poses
   std::vector<PredictedObject> objects;  ///< every workpiece tested
   Workpieces unplaced;                   ///< workpieces whose frame is not known at the pose: not tested
   std::vector<SweepFailure> failures;    ///< workpieces whose detection failed: not tested

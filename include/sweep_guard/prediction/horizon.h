@@ -34,9 +34,9 @@ size_t reflexSweeps(const HorizonOptions& options, Duration age);
 /// Number of sweeps that the considered interval, reserve included, takes at its configured step.
 size_t consideredSweeps(const HorizonOptions& options);
 
-/// @param age                of the newest pose, >= 0
-/// @param considered_sweeps  into how many equal sweeps the considered interval is cut, 1 to consideredSweeps()
-Horizon horizon(const HorizonOptions& options, Duration age, size_t considered_sweeps);
+/// At the configured steps, or equal ones a little shorter.
+/// @param age  of the newest pose, >= 0
+Horizon horizon(const HorizonOptions& options, Duration age);
 
 /// The same steps up to any end.
 /// @param end  after now, > 0
