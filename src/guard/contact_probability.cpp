@@ -56,6 +56,16 @@ struct ClearanceMeter::Planes {
 
   size_t count() const { return sigmas.size(); }
   HalfSpace movedOut(size_t i, double z) const { return half_spaces_B[i].grown(z * sigmas[i]); }
+
+  // Normals and offsets, in standard deviations: a division per vertex and plane would cost most of the time.
+  std::vector<Eigen::Vector4d> perDeviation() const {
+    std::vector<Eigen::Vector4d> scales;
+    for (size_t i = 0; i < count(); ++i) {
+      scales.emplace_back();
+      scales.back() << half_spaces_B[i].normal() / sigmas[i], half_spaces_B[i].offset() / sigmas[i];
+    }
+    return scales;
+  }
 };
 
 std::optional<Clearance> ClearanceMeter::operator()(const TriangleMesh& mesh_M, const MeshPart& part,
@@ -117,14 +127,16 @@ bool ClearanceMeter::reaches(double z, const MeshPart& part, const Candidate& ca
 }
 
 void ClearanceMeter::scoreVertices(const MeshPart& part, const Planes& planes) {
-  scores_.resize(part.vertices.size() * planes.count());
+  const size_t count = planes.count();
+  const std::vector<Eigen::Vector4d> scales = planes.perDeviation();
+  scores_.resize(part.vertices.size() * count);
   beyond_.resize(part.vertices.size());
   for (size_t vertex = 0; vertex < beyond_.size(); ++vertex) {
     const Eigen::Vector3d p_B = planes.coordinates(part.vertices[vertex]);
     unsigned bits = 0;
-    for (size_t i = 0; i < planes.count(); ++i) {
-      const double score = planes.half_spaces_B[i].signedDistance(p_B) / planes.sigmas[i];
-      scores_[vertex * planes.count() + i] = score;
+    for (size_t i = 0; i < count; ++i) {
+      const double score = scales[i].head<3>().dot(p_B) - scales[i][3];
+      scores_[vertex * count + i] = score;
       bits |= static_cast<unsigned>(score > kMostDeviations) << i;
     }
     beyond_[vertex] = static_cast<std::uint16_t>(bits);
@@ -141,13 +153,14 @@ void ClearanceMeter::collectCandidates(const MeshPart& part, const Planes& plane
     if ((beyond_[a] & beyond_[b] & beyond_[c]) != 0) continue;
     const double* const scores[] = {&scores_[a * count], &scores_[b * count], &scores_[c * count]};
     double at_least = -std::numeric_limits<double>::infinity();
-    double at_most[] = {at_least, at_least, at_least};
     for (size_t plane = 0; plane < count; ++plane) {
       at_least = std::max(at_least, std::min({scores[0][plane], scores[1][plane], scores[2][plane]}));
-      for (size_t corner = 0; corner < 3; ++corner) at_most[corner] = std::max(at_most[corner], scores[corner][plane]);
     }
-    candidates_.push_back({i, at_least, std::min({at_most[0], at_most[1], at_most[2]})});
-    limit = std::min(limit, std::max(0.0, candidates_.back().at_most));
+    if (at_least > limit) continue;
+    double at_most = std::numeric_limits<double>::infinity();
+    for (const double* corner : scores) at_most = std::min(at_most, *std::max_element(corner, corner + count));
+    candidates_.push_back({i, at_least, at_most});
+    limit = std::min(limit, std::max(0.0, at_most));
   }
   const auto too_far = [&](const Candidate& candidate) { return candidate.at_least > limit; };
   candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), too_far), candidates_.end());
