@@ -1,0 +1,161 @@
+#include "sweep_guard/guard/mesh_part.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/round_tool.h"
+#include "scenes.h"
+#include "sweep_guard/detection/reference_detector.h"
+#include "sweep_guard/guard/path_test.h"
+
+namespace sweep_guard {
+namespace {
+
+using namespace std::chrono_literals;
+
+bool beyondOneSide(const TriangleMesh& mesh_M, const Triangle& triangle, const Eigen::AlignedBox3d& box_M) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto all = [&](const auto& beyond) {
+      return std::all_of(triangle.begin(), triangle.end(),
+                         [&](std::uint32_t corner) { return beyond(mesh_M.vertex(corner)[axis]); });
+    };
+    if (all([&](double x) { return x > box_M.max()[axis]; })) return true;
+    if (all([&](double x) { return x < box_M.min()[axis]; })) return true;
+  }
+  return false;
+}
+
+Eigen::AlignedBox3d randomBox(Random& random) {
+  const Eigen::Vector3d a = random.inBox({0.1, 0.1, 0.1});
+  return Eigen::AlignedBox3d(a).extend(a + random.inBox({0.2, 0.2, 0.2}));
+}
+
+TEST(MeshPartTest, LeavesOutWhatLiesBeyondASideAndNothingElse) {
+  Random random(1);
+  const TriangleMesh hull = wavyHull(12, 16, 0.5);
+  int parts = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::AlignedBox3d box_M = randomBox(random);
+    const MeshPart part = partWithin(hull, box_M);
+    parts += !part.triangles.empty() && part.triangles.size() < hull.triangles().size();
+    ASSERT_EQ(part.corners.size(), part.triangles.size());
+    for (size_t k = 0; k < part.triangles.size(); ++k) {
+      for (size_t corner = 0; corner < 3; ++corner) {
+        EXPECT_EQ(part.vertices[part.corners[k][corner]], hull.triangles()[part.triangles[k]][corner]);
+      }
+    }
+    for (std::uint32_t triangle = 0; triangle < hull.triangles().size(); ++triangle) {
+      const bool left = std::binary_search(part.triangles.begin(), part.triangles.end(), triangle);
+      EXPECT_EQ(left, !beyondOneSide(hull, hull.triangles()[triangle], box_M));
+    }
+  }
+  EXPECT_GT(parts, 50);
+}
+
+TEST(MeshPartTest, APartOfAPartIsWhatIsWithinBoth) {
+  Random random(2);
+  const TriangleMesh hull = wavyHull(12, 16, 0.5);
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::AlignedBox3d box_M = randomBox(random);
+    const MeshPart outer = partWithin(hull, randomBox(random).extend(box_M));
+    const MeshPart inner = partWithin(hull, outer, box_M);
+    const MeshPart direct = partWithin(hull, box_M);
+    EXPECT_EQ(inner.triangles, direct.triangles);
+    EXPECT_EQ(inner.vertices, direct.vertices);
+    EXPECT_EQ(inner.corners, direct.corners);
+  }
+}
+
+// A tool that swings about, ever less sure of where it is.
+struct Swing {
+  explicit Swing(Random& random) : axis(random.direction()), rate(random.uniform(0.5, 4.0)) {
+    const Eigen::Matrix<double, 6, 1> unit =
+        (Eigen::Matrix<double, 6, 1>() << random.direction(), random.direction()).finished();
+    Matrix6d doubt = Matrix6d::Identity() * 1e-5;
+    doubt += 1e-3 * unit * unit.transpose();
+    for (int i = 1; i <= 11; ++i) path.push_back({i * 100ms, at(0.1 * i), 0.1 * i * doubt});
+  }
+
+  Eigen::Isometry3d at(double t) const {
+    Eigen::Isometry3d X_WT(Eigen::AngleAxisd(rate * t, axis));
+    X_WT.translation() = 0.2 * std::sin(rate * t) * axis.unitOrthogonal();
+    return X_WT;
+  }
+
+  Eigen::Vector3d axis;
+  double rate;
+  PredictedPath path;
+};
+
+TEST(ExpectedMotionTest, ReachesAsFarAsAnyToolPointThatErrs) {
+  Random random(3);
+  const Tool tool = Tool::cylinder(0.01, 0.15);
+  for (int i = 0; i < 50; ++i) {
+    const Swing swing(random);
+    const Eigen::Isometry3d X_WM = random.pose(random.inBox({1, 1, 1}));
+    const ExpectedMotion motion(tool, swing.at(0.0), swing.path, X_WM);
+    const Stretch whole = motion.whole();
+    const Eigen::AlignedBox3d box_M = motion.reach_M(whole, 2.0, 0.0);
+    for (const auto& stretch :
+         {motion.halves(whole).first, motion.between(4, 5), motion.halves(motion.between(7, 8)).second}) {
+      const Eigen::Isometry3d X_MT = motion.end_M(stretch);
+      const Matrix6d doubt = motion.covariance_M(stretch).llt().matrixL();
+      const Eigen::AlignedBox3d near_M = motion.reach_M(stretch, 2.0, 0.0);
+      for (const Eigen::Vector3d& p_T : roundToolPoints_T(tool, 8)) {
+        // Any error of two deviations, to first order.
+        Eigen::Matrix<double, 6, 1> unit;
+        unit << random.inBox({1, 1, 1}), random.inBox({1, 1, 1});
+        const Eigen::Matrix<double, 6, 1> error = 2.0 * (doubt * unit.normalized());
+        const Eigen::Vector3d r_M = X_MT.linear() * p_T;
+        const Eigen::Vector3d p_M = X_MT * p_T + error.head<3>() + error.tail<3>().cross(r_M);
+        EXPECT_TRUE(near_M.contains(p_M));
+        EXPECT_TRUE(box_M.contains(p_M));
+      }
+    }
+  }
+}
+
+// The same workpiece, with much more of it far away: nothing else is found.
+TEST(PathTestTest, WhatIsOutOfReachMakesNoDifference) {
+  Random random(4);
+  ReferenceDetector detector;
+  PathTest test({SweepOptions(), 5ms});
+  int met = 0;
+  for (int i = 0; i < 30; ++i) {
+    std::vector<Eigen::Vector3d> vertices;
+    std::vector<Triangle> triangles;
+    const auto add = [&](const Eigen::Vector3d& place, double size) {
+      const auto first = static_cast<std::uint32_t>(vertices.size());
+      for (int k = 0; k < 3; ++k)
+        vertices.push_back((place + random.inBox({size, size, size})).cast<float>().cast<double>());
+      triangles.push_back({first, first + 1, first + 2});
+    };
+    for (int k = 0; k < 20; ++k) add(random.inBox({0.4, 0.4, 0.4}), 0.1);
+    const TriangleMesh near_M(vertices, triangles);
+    for (int k = 0; k < 200; ++k) add(random.uniform(10.0, 100.0) * random.direction(), 1.0);
+    const TriangleMesh all_M(vertices, triangles);
+
+    const Swing swing(random);
+    const auto predicted = [&](const TriangleMesh& mesh_M) {
+      return test(detector, Tool::cylinder(0.01, 0.15), swing.at(0.0), swing.path, 1, Eigen::Isometry3d::Identity(),
+                  std::make_shared<const Workpiece>(Workpiece{"one", 0, Time(), SteadyTime(), "table", mesh_M}));
+    };
+    const PredictedObject alone = predicted(near_M);
+    const PredictedObject among = predicted(all_M);
+    EXPECT_EQ(alone.reflex, among.reflex);
+    EXPECT_EQ(alone.considered, among.considered);
+    ASSERT_EQ(alone.sweeps.size(), among.sweeps.size());
+    for (size_t k = 0; k < alone.sweeps.size(); ++k) {
+      EXPECT_EQ(alone.sweeps[k].met, among.sweeps[k].met);
+      EXPECT_NEAR(alone.sweeps[k].probability, among.sweeps[k].probability, 2e-3);
+    }
+    met += !alone.considered.empty();
+  }
+  EXPECT_GT(met, 5);
+}
+
+}  // namespace
+}  // namespace sweep_guard
