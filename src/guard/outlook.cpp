@@ -12,6 +12,11 @@ std::vector<std::uint32_t> PredictedObject::triangles() const {
   return all;
 }
 
+std::optional<Duration> PredictedObject::met() const {
+  const auto first = std::find_if(sweeps.begin(), sweeps.end(), [](const PredictedSweep& sweep) { return sweep.met; });
+  return first == sweeps.end() ? std::nullopt : std::optional(first->from);
+}
+
 Time Outlook::coveredUntil() const {
   return path.empty() || !unplaced.empty() || !failures.empty() ? stamp : stamp + path.back().ahead;
 }
@@ -26,6 +31,15 @@ double Outlook::probability() const {
   return largest;
 }
 
+std::optional<Duration> Outlook::met() const {
+  std::optional<Duration> first;
+  for (const PredictedObject& object : objects) {
+    const std::optional<Duration> met = object.met();
+    if (met && (!first || *met < *first)) first = met;
+  }
+  return first;
+}
+
 std::optional<ExpectedContact> expectedContact(const Outlook& outlook, double min_probability) {
   assert(min_probability > 0.0 && min_probability <= 1.0);
   std::optional<ExpectedContact> earliest;
@@ -35,9 +49,9 @@ std::optional<ExpectedContact> expectedContact(const Outlook& outlook, double mi
     if (first == object.sweeps.end()) continue;
     const Time from = outlook.stamp + first->from;
     if (earliest && earliest->from <= from) continue;
-    earliest = ExpectedContact{from, false, 0.0, object.workpiece->id, object.triangles()};
+    earliest = ExpectedContact{from, std::nullopt, 0.0, object.workpiece->id, object.triangles()};
+    if (const auto met = object.met()) earliest->met = outlook.stamp + *met;
     for (auto sweep = first; sweep != object.sweeps.end(); ++sweep) {
-      earliest->met = earliest->met || sweep->met;
       earliest->probability = std::max(earliest->probability, sweep->probability);
     }
   }

@@ -1,6 +1,7 @@
 #include "sweep_guard/guard/verdict.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace sweep_guard {
@@ -81,13 +82,18 @@ void tell(Verdict& verdict, const std::string& story) {
   verdict.text = story + (verdict.text.empty() ? "" : "; ") + verdict.text;
 }
 
-Duration timeTo(const Evidence::Expectation& expectation, const Instant& now) {
-  return expectation.contact.from - expectation.pose.stamp - age(expectation.pose, now);
+Duration timeTo(Time moment, const Seen& pose, const Instant& now) { return moment - pose.stamp - age(pose, now); }
+
+std::string prospect(const Verdict& verdict) {
+  if (verdict.time_to_collision) return "expected in " + inSeconds(*verdict.time_to_collision);
+  if (verdict.probability == 0.0) return "was expected";
+  return std::to_string(std::lround(100.0 * verdict.probability)) + " % probable";
 }
 
 void tellExpected(const Evidence::Expectation& expectation, const Instant& now, Verdict& verdict) {
-  verdict.time_to_collision = std::max(Duration::zero(), timeTo(expectation, now));
-  verdict.probability = expectation.contact.probability;
+  const auto& [contact, pose, reach] = expectation;
+  if (contact.met) verdict.time_to_collision = std::max(Duration::zero(), timeTo(*contact.met, pose, now));
+  verdict.probability = contact.probability;
 }
 
 void warn(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Verdict& verdict) {
@@ -101,9 +107,7 @@ void warn(const Evidence& evidence, const Instant& now, const VerdictLimits& lim
   verdict.level = strongest.level;
   verdict.mesh_id = strongest.contact->mesh_id;
   verdict.triangles = strongest.contact->triangles;
-  tell(verdict, "collision with '" + verdict.mesh_id + "' " +
-                    (verdict.time_to_collision ? "expected in " + inSeconds(*verdict.time_to_collision)
-                                               : std::string("was expected")));
+  tell(verdict, "collision with '" + verdict.mesh_id + "' " + prospect(verdict));
 }
 
 }  // namespace
@@ -134,6 +138,7 @@ Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits
     verdict.level = Level::kContact;
     verdict.mesh_id = evidence.contact->id;
     verdict.triangles = evidence.contact->triangles;
+    verdict.text = findings.text();  // what was expected has come
     tell(verdict, "tool meets '" + verdict.mesh_id + "', " + counted(verdict.triangles));
   }
   verdict.text = std::string(nameOf(verdict.level)) + (verdict.text.empty() ? "" : ": ") + verdict.text;
@@ -141,7 +146,7 @@ Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits
 }
 
 Level warningOf(const Evidence::Expectation& expectation, const Instant& now, const VerdictLimits& limits) {
-  return warningOf(timeTo(expectation, now) + overSince(expectation, now), limits);
+  return warningOf(timeTo(expectation.contact.from, expectation.pose, now) + overSince(expectation, now), limits);
 }
 
 Level warningOf(Duration left, const VerdictLimits& limits) {

@@ -150,11 +150,12 @@ sweep_guard::Prediction toMsg(const sweep_guard::Outlook& outlook, sweep_guard::
   msg.valid = outlook.complete();
   msg.probability = msg.valid ? outlook.probability() : std::numeric_limits<double>::quiet_NaN();
   msg.time_to_collision = ros::Duration(-1.0);
+  if (const auto met = outlook.met()) {
+    msg.collision = true;
+    msg.time_to_collision = toMsg(std::max(*met - age, sweep_guard::Duration::zero()));
+  }
   if (const auto expected = sweep_guard::expectedContact(outlook, limits.min_probability)) {
-    msg.collision = expected->met;
-    const sweep_guard::Duration left = expected->from - outlook.stamp - age;
-    msg.time_to_collision = toMsg(std::max(left, sweep_guard::Duration::zero()));
-    const sweep_guard::Level level = sweep_guard::warningOf(left, limits);
+    const sweep_guard::Level level = sweep_guard::warningOf(expected->from - outlook.stamp - age, limits);
     if (level == sweep_guard::Level::kReflex) msg.interval = sweep_guard::Prediction::REFLEX;
     if (level == sweep_guard::Level::kConsidered) msg.interval = sweep_guard::Prediction::CONSIDERED;
   }

@@ -1,5 +1,7 @@
 #include "sweep_guard/ros/markers.h"
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include "sweep_guard/ros/conversions.h"
 #include "sweep_guard/ros/marker_shapes.h"
 #include "sweep_guard/ros/predicted_markers.h"
@@ -12,10 +14,12 @@ using visualization_msgs::Marker;
 
 constexpr double kLineWidth = 0.001;  // [m]
 
+// Level and reasons, each in a line of its own.
 void addText(visualization_msgs::MarkerArray& array, Marker text, const sweep_guard::Verdict& verdict) {
   text.scale.z = 0.025;
   text.color = levelColor(verdict.level, 0.95);
-  text.text = verdict.text;
+  text.text = boost::algorithm::replace_first_copy(verdict.text, ": ", "\n");
+  boost::algorithm::replace_all(text.text, "; ", "\n");
   array.markers.push_back(std::move(text));
 }
 
@@ -62,7 +66,7 @@ void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerSc
   array.markers.push_back(tool);
 
   Marker text = marker("warning_text", 0, Marker::TEXT_VIEW_FACING, fixed_frame_, stamp);
-  text.pose = toMsg(scene.X_WT * Eigen::Translation3d(0.0, 0.0, -1.3 * tool_.length()));
+  text.pose = toMsg(scene.X_WT * Eigen::Translation3d(0.0, 0.0, -1.4 * tool_.length()));
   addText(array, std::move(text), scene.verdict);
 
   addSweptVolumes(array, *scene.newest, level);

@@ -36,7 +36,7 @@ void addGhosts(visualization_msgs::MarkerArray& array, const PredictedScene& sce
     if (drawn != nullptr && moved(scene.tool, *drawn, pose->X_WT) < scene.tool.radius()) continue;
     drawn = &pose->X_WT;
     Marker ghost = toolMarker("predicted_tool", i, scene.fixed_frame, scene.outlook.stamp, scene.tool, pose->X_WT);
-    ghost.color = unlessUnknown(scene.level, color(0.45, 0.65, 1.0, 0.35 * (kGhosts - i) / kGhosts));
+    ghost.color = unlessUnknown(scene.level, color(0.45, 0.65, 1.0, 0.5 * (kGhosts - i) / kGhosts));
     array.markers.push_back(ghost);
   }
 }
@@ -45,7 +45,7 @@ void addPredictedVolumes(visualization_msgs::MarkerArray& array, const Predicted
   int index = 0;
   for (const sweep_guard::PredictedObject& object : scene.outlook.objects) {
     Surface surface("predicted_volume", index++, object.workpiece->frame, scene.outlook.stamp, 0.0005);
-    surface.paint(levelColor(scene.level, 0.04), levelColor(scene.level, 0.25));
+    surface.paint(levelColor(scene.level, 0.03), levelColor(scene.level, 0.12));
     for (const sweep_guard::SweptVolume& volume_M : object.volumes_M) surface.add(volume_M);
     surface.moveInto(array);
   }

@@ -142,7 +142,10 @@ class DemoMonitor {
     report_.addPose(toTime(pose->header.stamp), pose->header.seq);
   }
   void onMeshVertices(const sweep_guard::MeshVertices::ConstPtr&) { report_.addMeshUpdate(); }
-  void onWarning(const sweep_guard::Warning::ConstPtr& warning) { level_ = levelName(warning->level); }
+  void onWarning(const sweep_guard::Warning::ConstPtr& warning) {
+    level_ = levelName(warning->level);
+    report_.addWarning(toTime(ros::Time::now()), static_cast<sweep_guard::Level>(warning->level));
+  }
 
   void onContacts(const sweep_guard::Contacts::ConstPtr& contacts) {
     const sweep_guard::Time arrival = toTime(ros::Time::now());

@@ -22,6 +22,23 @@ std::string milliseconds(const std::optional<Duration>& duration) {
   return text.str();
 }
 
+// 4 of 4 contacts, 0.60 s (reflex 0.15 s) in the median
+std::string warned(std::vector<WarningLeads::Contact> contacts) {
+  std::ostringstream text;
+  const auto in_time = [](const WarningLeads::Contact& contact) { return contact.considered > Duration(0); };
+  text << std::count_if(contacts.begin(), contacts.end(), in_time) << " of " << contacts.size() << " contacts";
+  if (contacts.empty()) return text.str();
+  const auto median = [&](Duration WarningLeads::Contact::*lead) {
+    const auto middle = contacts.begin() + static_cast<std::ptrdiff_t>(contacts.size() / 2);
+    std::nth_element(contacts.begin(), middle, contacts.end(),
+                     [lead](const auto& a, const auto& b) { return a.*lead < b.*lead; });
+    return sweep_guard::toSeconds((*middle).*lead);
+  };
+  text << std::fixed << std::setprecision(2) << ", by " << median(&WarningLeads::Contact::considered) << " s (reflex "
+       << median(&WarningLeads::Contact::reflex) << " s) in the median";
+  return text.str();
+}
+
 void countUnmatched(std::map<Time, int>* unmatched, Time stamp, int change) {
   const auto entry = unmatched->try_emplace(stamp, 0).first;
   entry->second += change;
@@ -92,6 +109,7 @@ std::string DemoReport::summary() const {
        << "triangles touched     " << trianglesTouched() << "\n"
        << "pose to contact [ms]  p50 " << milliseconds(latency(0.5)) << "  p99 " << milliseconds(latency(0.99))
        << "  max " << milliseconds(latency(1.0)) << "\n"
+       << "warned ahead of       " << warned(leads_.contacts()) << "\n"
        << "missed cycles         " << missedCycles() << "\n"
        << "poses lost            " << posesWithoutContacts() + posesNeverReceived();
   return text.str();

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulation/warning_leads.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_simulation {
@@ -34,6 +35,9 @@ class DemoReport {
   void addPose(sweep_guard::Time stamp, std::uint32_t sequence);
   void addMeshUpdate() { ++mesh_updates_; }
   void addContacts(sweep_guard::Time stamp, sweep_guard::Time arrival, const std::vector<TouchedObject>& objects);
+
+  /// @param arrival  not before that of the warning before
+  void addWarning(sweep_guard::Time arrival, sweep_guard::Level level) { leads_.add(arrival, level); }
 
   bool awaits(sweep_guard::Time stamp) const;  ///< a pose of this stamp has no Contacts so far
   std::size_t poses() const { return poses_; }
@@ -64,6 +68,7 @@ class DemoReport {
   std::map<sweep_guard::Time, int> unmatched_;  // poses minus Contacts of a stamp, without those at 0
   std::vector<Latency> latencies_;
   std::set<std::pair<std::string, std::uint32_t>> triangles_;
+  WarningLeads leads_;
 };
 
 }  // namespace sweep_guard_simulation

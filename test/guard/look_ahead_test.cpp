@@ -101,6 +101,18 @@ TEST_F(LookAheadTest, CoversTheHorizonCountedFromNow) {
   EXPECT_EQ(outlook.objects[0].volumes_M.size(), 23U);
 }
 
+TEST_F(LookAheadTest, ForecastsForAnyHorizonWithoutTesting) {
+  EXPECT_TRUE(guard_.forecast(0ms, 1s).path.empty());
+  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+  follow(comingDown(0.05, 0.1));
+  const size_t detections = record_.volumes.size();
+  const Forecast forecast = guard_.forecast(20ms, 3s);
+  EXPECT_EQ(record_.volumes.size(), detections);
+  EXPECT_EQ(forecast.from.stamp, Time(10s));
+  EXPECT_EQ(forecast.path.back().ahead, 3020ms);
+  EXPECT_NEAR(forecast.path.back().X_WT.translation().z(), 0.05 - 0.1 * 3.02, 1e-9);
+}
+
 // 5 cm at 0.1 m/s: half a second. It is known to 5 ms when the sweep of 100 ms is halved that often.
 TEST_F(LookAheadTest, TellsWhenThePathMeetsASheet) {
   workpieces_ = {workpiece("sheet", sheetAt(0.0))};

@@ -44,6 +44,39 @@ TEST(OutlookTest, CoversThePathOnlyIfEveryWorkpieceWasTested) {
   EXPECT_EQ(outlook.coveredUntil(), Time(5s));
 }
 
+TEST(OutlookTest, IsCompleteOnlyWithAPathAndAWorkpieceAndEveryWorkpieceTested) {
+  const Outlook complete = outlookOf({object("liver", {kFree0, kFree1, kFree2})});
+  EXPECT_TRUE(complete.complete());
+  EXPECT_FALSE(outlookOf({}).complete());
+  Outlook outlook = complete;
+  outlook.unplaced = {workpiece("spleen")};
+  EXPECT_FALSE(outlook.complete());
+  outlook = complete;
+  outlook.failures = {{workpiece("spleen"), "no canary"}};
+  EXPECT_FALSE(outlook.complete());
+  outlook = complete;
+  outlook.path.clear();
+  EXPECT_FALSE(outlook.complete());
+}
+
+TEST(OutlookTest, IsAsProbableAsItsLikeliestSweep) {
+  EXPECT_EQ(outlookOf({}).probability(), 0.0);
+  EXPECT_EQ(outlookOf({object("liver", {kFree0, {100ms, false, 0.3}, kFree2}),
+                       object("spleen", {kFree0, {100ms, false, 0.2}, {200ms, true, 0.6}})})
+                .probability(),
+            0.6);
+}
+
+TEST(OutlookTest, IsMetWhereThePathFirstMeetsAnyWorkpiece) {
+  EXPECT_FALSE(outlookOf({}).met());
+  EXPECT_FALSE(outlookOf({object("liver", {{0ms, false, 0.4}, kFree1, kFree2})}).met());
+  EXPECT_EQ(outlookOf({object("liver", {{0ms, false, 0.4}, kFree1, kFree2}),
+                       object("spleen", {kFree0, kFree1, {205ms, true, 0.9}}),
+                       object("kidney", {kFree0, {103ms, true, 0.6}, {205ms, true, 0.9}})})
+                .met(),
+            103ms);
+}
+
 TEST(ExpectedContactTest, NothingIsExpectedWhereNothingIsMetOrProbable) {
   EXPECT_FALSE(expectedContact(outlookOf({}), 0.1));
   EXPECT_FALSE(expectedContact(outlookOf({object("liver", {kFree0, kFree1, kFree2})}), 0.1));
@@ -57,7 +90,7 @@ TEST(ExpectedContactTest, IsTheEarliestOfAllWorkpieces) {
   ASSERT_TRUE(expected);
   EXPECT_EQ(expected->mesh_id, "spleen");
   EXPECT_EQ(expected->from, Time(5150ms));
-  EXPECT_TRUE(expected->met);
+  EXPECT_EQ(expected->met, Time(5150ms));
   EXPECT_EQ(expected->probability, 0.8);
 }
 
@@ -71,15 +104,15 @@ TEST(ExpectedContactTest, MayBeMerelyProbable) {
   EXPECT_TRUE(expected->triangles.empty());
 }
 
-// Probable first, met later: one collision, which begins with the former and has the triangles of the latter.
-TEST(ExpectedContactTest, TellsWhetherThePathMeetsTheWorkpieceLater) {
+// Probable first, met later: one collision, which may begin with the former and has the triangles of the latter.
+TEST(ExpectedContactTest, TellsWhenThePathMeetsTheWorkpieceLater) {
   PredictedObject liver = object("liver", {kFree0, {100ms, false, 0.2}, {205ms, true, 0.9}});
   liver.reflex = {1, 7};
   liver.considered = {3};
   const auto expected = expectedContact(outlookOf({liver}), 0.1);
   ASSERT_TRUE(expected);
   EXPECT_EQ(expected->from, Time(5100ms));
-  EXPECT_TRUE(expected->met);
+  EXPECT_EQ(expected->met, Time(5205ms));
   EXPECT_EQ(expected->probability, 0.9);
   EXPECT_EQ(expected->triangles, (std::vector<std::uint32_t>{1, 3, 7}));
 }

@@ -31,11 +31,11 @@ Verdict assessNow(const Evidence& evidence) { return assess(evidence, kNow, kLim
 
 // Told by a prediction from a pose of 10 ms ago, that reaches 1.1 s beyond it.
 Evidence::Expectation expectedIn(Duration time) {
-  return {{kNow.stamp + time, /*met=*/true, /*probability=*/0.75, "spleen", {8}}, seen(10ms), 1100ms};
+  return {{kNow.stamp + time, /*met=*/kNow.stamp + time, /*probability=*/0.75, "spleen", {8}}, seen(10ms), 1100ms};
 }
 
 Evidence::Alarm alarmOf(Duration ago, const std::string& mesh_id = "kidney") {
-  return {{kNow.stamp, /*met=*/true, /*probability=*/1.0, mesh_id, {9}}, kNow.steady - ago};
+  return {{kNow.stamp, /*met=*/kNow.stamp, /*probability=*/1.0, mesh_id, {9}}, kNow.steady - ago};
 }
 
 enum class Pose { kNone, kFresh, kStale };
@@ -207,6 +207,18 @@ TEST(VerdictTest, TimeToCollisionRunsDownOnEitherClockAndNotBelowZero) {
   }
   EXPECT_EQ(assess(evidence, {kNow.stamp + 185ms - 1ns, kNow.steady}, kLimits).level, Level::kConsidered);
   EXPECT_EQ(assess(evidence, {kNow.stamp + 185ms, kNow.steady}, kLimits).level, Level::kReflex);
+}
+
+// The operator is warned of it, but no one can say when it comes.
+TEST(VerdictTest, WhatIsMerelyProbableHasNoTime) {
+  Evidence evidence = allGood();
+  evidence.expected = expectedIn(50ms);
+  evidence.expected->contact.met.reset();
+  const Verdict verdict = assessNow(evidence);
+  EXPECT_EQ(verdict.level, Level::kReflex);
+  EXPECT_FALSE(verdict.time_to_collision);
+  EXPECT_EQ(verdict.probability, 0.75);
+  EXPECT_EQ(verdict.text, "REFLEX: collision with 'spleen' 75 % probable");
 }
 
 // A prediction says nothing of what comes after its end: what it warned of is over then, and held.

@@ -26,6 +26,20 @@ TEST(HorizonTest, CutsBothIntervalsIntoTheirSteps) {
   EXPECT_EQ(ahead.ends, expected);
 }
 
+TEST(HorizonTest, EndsAnywhere) {
+  EXPECT_EQ(horizonUpTo(4ms, {}, 0ms).ends, (std::vector<Duration>{4ms}));
+  EXPECT_EQ(horizonUpTo(4ms, {}, 0ms).reflex_sweeps, 1U);
+  EXPECT_EQ(horizonUpTo(30ms, {}, 0ms).ends, (std::vector<Duration>{10ms, 20ms, 30ms}));
+  const Horizon far = horizonUpTo(5s, {}, 20ms);
+  EXPECT_EQ(far.ends.back(), 5020ms);
+  EXPECT_EQ(far.reflex_sweeps, 12U);
+  EXPECT_LE(longest(far.ends, 0, far.reflex_sweeps), 10ms);
+  EXPECT_LE(longest(far.ends, far.reflex_sweeps, far.ends.size()), 100ms);
+  const Horizon between = horizonUpTo(555ms, {}, 20ms);
+  EXPECT_EQ(between.ends.back(), 575ms);
+  EXPECT_TRUE(std::is_sorted(between.ends.begin(), between.ends.end(), std::less_equal<>()));
+}
+
 TEST(HorizonTest, CountsFromNowNotFromThePose) {
   const Horizon ahead = horizon({}, 35ms);
   EXPECT_EQ(ahead.ends[ahead.reflex_sweeps - 1], 135ms);

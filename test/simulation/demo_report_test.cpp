@@ -102,6 +102,22 @@ TEST(DemoReportTest, SaysWhatDidNotFlow) {
   EXPECT_EQ(report.fault(), "1 poses were not swept by the guard");
 }
 
+TEST(DemoReportTest, TellsHowLongAheadItWasWarned) {
+  DemoReport report;
+  EXPECT_NE(report.summary().find("warned ahead of       0 of 0 contacts\n"), std::string::npos) << report.summary();
+  report.addWarning(at(100), sweep_guard::Level::kConsidered);
+  report.addWarning(at(900), sweep_guard::Level::kReflex);
+  report.addWarning(at(1000), sweep_guard::Level::kContact);
+  report.addWarning(at(2000), sweep_guard::Level::kClear);
+  report.addWarning(at(3000), sweep_guard::Level::kContact);
+  report.addWarning(at(4000), sweep_guard::Level::kConsidered);
+  report.addWarning(at(4400), sweep_guard::Level::kReflex);
+  report.addWarning(at(4600), sweep_guard::Level::kContact);
+  EXPECT_NE(report.summary().find("warned ahead of       2 of 3 contacts, by 0.60 s (reflex 0.10 s) in the median\n"),
+            std::string::npos)
+      << report.summary();
+}
+
 TEST(DemoReportTest, WritesTheLiveLine) {
   DemoReport report;
   report.addPose(at(10), 1);

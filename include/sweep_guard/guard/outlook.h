@@ -29,6 +29,7 @@ struct PredictedObject {
   size_t volumes_tested = 0;              ///< and the ones of the pieces, as far as there was time
 
   std::vector<std::uint32_t> triangles() const;  ///< all that are met: ascending, each once
+  std::optional<Duration> met() const;           ///< when the path first meets it, after the newest pose
 };
 
 /// What is expected to happen after a pose.
@@ -44,14 +45,15 @@ struct Outlook {
 
   /// Up to where every workpiece has been tested: the end of the path, or the pose itself.
   Time coveredUntil() const;
-  bool complete() const;       ///< the motion is known, and every workpiece was tested, and there is one
-  double probability() const;  ///< that the tool meets a workpiece: the largest of all sweeps, in [0, 1]
+  bool complete() const;                ///< the motion is known, and every workpiece was tested, and there is one
+  double probability() const;           ///< that the tool meets a workpiece: the largest of all sweeps, in [0, 1]
+  std::optional<Duration> met() const;  ///< when the path first meets a workpiece, after the newest pose
 };
 
 /// A contact that an operator is warned of.
 struct ExpectedContact {
-  Time from;         ///< it does not begin earlier
-  bool met = false;  ///< the predicted path itself meets the workpiece, then or later; else it is merely probable
+  Time from;                 ///< it does not begin earlier
+  std::optional<Time> met;   ///< when the predicted path itself meets the workpiece; empty: contact is merely probable
   double probability = 0.0;  ///< largest of the sweeps from `from` on, in [0, 1]
   std::string mesh_id;
   std::vector<std::uint32_t> triangles;  ///< met by the predicted path: ascending, each once; empty if it meets none

@@ -95,7 +95,8 @@ struct Verdict {
   std::string text;                      ///< level and reasons in words
   std::string mesh_id;                   ///< object of the contact or of the collision expected
   std::vector<std::uint32_t> triangles;  ///< of the contact, or those that the predicted path meets
-  /// Until the expected collision, >= 0; empty: none is expected, or the level is held for another workpiece's.
+  /// Until the predicted path meets that workpiece, >= 0; empty: it does not, though a collision may be probable, or
+  /// the level is held for another workpiece's.
   std::optional<Duration> time_to_collision;
   double probability = 0.0;  ///< of that collision, in [0, 1]; 0 without
   Time pose_stamp;           ///< of the newest pose swept to; epoch: none

@@ -1,0 +1,30 @@
+#include "simulation/warning_leads.h"
+
+namespace sweep_guard_simulation {
+
+using sweep_guard::Level;
+using sweep_guard::Time;
+
+namespace {
+
+void follow(std::optional<Time>& since, bool in_force, Time at) {
+  if (!in_force) since.reset();
+  if (in_force && !since) since = at;
+}
+
+}  // namespace
+
+// What is left of a warning after a contact does not warn of the next.
+void WarningLeads::add(Time at, Level level) {
+  const bool contact = level == Level::kContact;
+  if (in_contact_ && !contact) {
+    considered_since_.reset();
+    reflex_since_.reset();
+  }
+  follow(considered_since_, level == Level::kConsidered || level == Level::kReflex || contact, at);
+  follow(reflex_since_, level == Level::kReflex || contact, at);
+  if (contact && !in_contact_) contacts_.push_back({at - *considered_since_, at - *reflex_since_});
+  in_contact_ = contact;
+}
+
+}  // namespace sweep_guard_simulation
