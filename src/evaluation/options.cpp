@@ -41,7 +41,7 @@ struct Words {
   std::string forgetting_factor = "0.98";
   std::string tool_radius = "0.005";
   std::string tool_length = "0.1";
-  std::string placements = "200";
+  std::string placements = "80";
   std::string seed = "1";
   std::string min_probability = csvNumber(sweep_guard::VerdictLimits{}.min_probability);
   std::string hold_time = "0.5";

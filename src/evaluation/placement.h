@@ -10,7 +10,7 @@
 namespace sweep_guard_evaluation {
 
 struct PlacementOptions {
-  size_t count = 200;      ///< half of them to be run into, half to be missed
+  size_t count = 80;       ///< half of them to be run into, half to be missed
   std::uint64_t seed = 1;  ///< the same placements every time
 };
 

@@ -75,7 +75,7 @@ TEST(OptionsTest, RunTheGuardAsTheNodeDoes) {
   EXPECT_EQ(options.watch.limits.hold_time, milliseconds(500));
   EXPECT_EQ(options.watch.tool.radius(), 0.005);
   EXPECT_EQ(options.watch.tool.length(), 0.1);
-  EXPECT_EQ(options.placement.count, 200U);
+  EXPECT_EQ(options.placement.count, 80U);
 }
 
 TEST(OptionsTest, ComputeWhatIsToBeWrittenOrEverything) {
