@@ -147,6 +147,8 @@ sweep_guard::Prediction toMsg(const sweep_guard::Outlook& outlook, sweep_guard::
   for (const sweep_guard::ExpectedPose& expected : outlook.path) {
     if (expected.ahead > age) msg.poses.push_back(predictedPose(expected, age));
   }
+  msg.sweeps_asked = static_cast<std::uint32_t>(outlook.sweeps_asked);
+  msg.sweeps_made = static_cast<std::uint32_t>(outlook.sweeps_made);
   msg.valid = outlook.complete();
   msg.probability = msg.valid ? outlook.probability() : std::numeric_limits<double>::quiet_NaN();
   msg.time_to_collision = ros::Duration(-1.0);

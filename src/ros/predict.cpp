@@ -14,6 +14,7 @@ using sweep_guard::Predict;
 
 constexpr Duration kFarthest = std::chrono::seconds(5);
 constexpr auto kPatience = std::chrono::seconds(1);  // with a guard that is stuck in a sweep
+constexpr auto kEffort = std::chrono::seconds(1);    // after which what comes late is tested coarsely
 
 Duration checked(const ros::Duration& horizon, Duration configured) {
   const Duration asked(horizon.toNSec());
@@ -65,8 +66,13 @@ sweep_guard::Prediction PredictService::predict(Duration horizon) {
   const Answer answer = asked.get();
   if (!detector_) detector_ = sweep_guard::makeDetector(parameters_.detector, parameters_.cull);
   const sweep_guard::Outlook outlook =
-      sweep_guard::lookAlong(answer.forecast, workpieces_.snapshot(), test_, *detector_, tool_);
+      sweep_guard::lookAlong(answer.forecast, workpieces_.snapshot(), test_, *detector_, tool_, effort());
   return predictionMsg(outlook, answer.age, parameters_);
+}
+
+sweep_guard::PathTest::Effort PredictService::effort() const {
+  const auto end = std::chrono::steady_clock::now() + kEffort;
+  return {{}, [this, end] { return stopping_ || std::chrono::steady_clock::now() >= end; }};
 }
 
 }  // namespace sweep_guard_ros

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/drilling.h"
 #include "recording/motion_file.h"
+#include "simulation/drilling.h"
 #include "simulation/replay.h"
 #include "simulation/run_node.h"
 #include "simulation/top_surface.h"

@@ -20,7 +20,7 @@ GuardProbe::Flag arrived(const std_msgs::Bool& flag) { return {flag.data != 0, s
 std::vector<Eigen::Vector3d> sheetCorners(const Eigen::Vector3d& center, double half_side) {
   std::vector<Eigen::Vector3d> corners;
   for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
-    corners.push_back(center + half_side * Eigen::Vector3d(x, y, 0.0));
+    corners.emplace_back(center + half_side * Eigen::Vector3d(x, y, 0.0));
   }
   return corners;
 }

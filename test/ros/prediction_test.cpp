@@ -86,6 +86,9 @@ TEST_F(PredictionTest, TellsWhereTheToolWillBe) {
     }
   }
   EXPECT_GE(prediction.poses.size(), 11U);
+  EXPECT_GE(prediction.sweeps_asked, prediction.poses.size());
+  EXPECT_GT(prediction.sweeps_made, 0U);
+  EXPECT_LE(prediction.sweeps_made, prediction.sweeps_asked);
   EXPECT_NEAR(before.toSec(), 1.1, 0.001);  // the considered interval, and as long as a pose counts
 }
 

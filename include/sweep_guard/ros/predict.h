@@ -3,6 +3,7 @@
 #include <ros/service_server.h>
 #include <sweep_guard/Predict.h>
 
+#include <atomic>
 #include <functional>
 #include <future>
 #include <memory>
@@ -35,11 +36,16 @@ class PredictService {
   PredictService(const ros::NodeHandle& private_node, const Parameters& parameters, const WorkpieceStore& workpieces,
                  Ask ask);
 
+  ~PredictService() { stopping_ = true; }
+  PredictService(const PredictService&) = delete;
+  PredictService& operator=(const PredictService&) = delete;
+
   void start() { thread_.start(); }
 
  private:
   bool onCall(sweep_guard::Predict::Request& request, sweep_guard::Predict::Response& response);
   sweep_guard::Prediction predict(sweep_guard::Duration horizon);
+  sweep_guard::PathTest::Effort effort() const;
 
   const Parameters parameters_;
   const sweep_guard::Tool tool_;
@@ -47,7 +53,8 @@ class PredictService {
   const Ask ask_;
   sweep_guard::PathTest test_;
   std::unique_ptr<sweep_guard::Detector> detector_;  // made when first asked
-  QueueThread thread_;                               // outlives what calls back on it
+  std::atomic<bool> stopping_ = false;
+  QueueThread thread_;  // outlives what calls back on it
   ros::ServiceServer server_;
 };
 
