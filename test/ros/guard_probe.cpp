@@ -213,10 +213,14 @@ std::vector<sweep_guard::Prediction> GuardProbe::predictions() const {
   return predictions_;
 }
 
+// A prediction and its time come one after the other: half of a pair, forgotten, would leave the lists unequal for good.
 void GuardProbe::forgetPredictions() {
-  const std::lock_guard lock(mutex_);
-  predictions_.clear();
-  times_to_collision_.clear();
+  await("the time to collision of each prediction", [&] {
+    if (predictions_.size() != times_to_collision_.size()) return false;
+    predictions_.clear();
+    times_to_collision_.clear();
+    return true;
+  });
 }
 
 std::vector<GuardProbe::Flag> GuardProbe::awaitReflexFlags(size_t count) const {
