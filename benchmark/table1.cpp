@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "hull_volume.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/detection/select_detector.h"
 #include "sweep_guard/geometry/bounding_planes.h"
+#include "sweep_guard/geometry/convex_hull.h"
 #include "sweep_guard/geometry/convex_polytope.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
@@ -142,12 +142,12 @@ double volumeOf(const SweptVolume& volume) {
   return polytopeVolume(polytopeFaces(volume.halfSpaces_B(), volume.box.half_extents.norm()));
 }
 
-std::optional<double> hullOfBothPoses(const Tool& tool, const Motion& motion) {
+double hullOfBothPoses(const Tool& tool, const Motion& motion) {
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Isometry3d& X_MT : {motion.X_MT_start, motion.X_MT_end}) {
     for (size_t i = 0; i < tool.mesh_T().vertexCount(); ++i) points.push_back(X_MT * tool.mesh_T().vertex(i));
   }
-  return hullVolume(points);
+  return volume(convexHull(points));
 }
 
 void printQuantiles(const char* what, const Sample& sample) {
@@ -162,7 +162,6 @@ void printTightness() {
   Sample planes_to_hull;
   Sample tested_to_hull;
   std::array<int, 5> with_planes = {};
-  bool hull_known = false;
   for (int i = 0; i < kTightnessMotions; ++i) {
     const Motion motion = handMotion(random);
     SweptVolume volume;
@@ -172,23 +171,17 @@ void printTightness() {
     const double cut = volumeOf(volume);
     ++with_planes[volume.clips_B.size()];
     planes_to_box.add(cut / box);
-    if (const std::optional<double> hull = hullOfBothPoses(tool, motion)) {
-      hull_known = true;
-      box_to_hull.add(box / *hull);
-      planes_to_hull.add(cut / *hull);
-      tested_to_hull.add(volumeOf(sweptVolume(tool, motion, VolumeKind::kObbPlanes)) / *hull);
-    }
+    const double hull = hullOfBothPoses(tool, motion);
+    box_to_hull.add(box / hull);
+    planes_to_hull.add(cut / hull);
+    tested_to_hull.add(volumeOf(sweptVolume(tool, motion, VolumeKind::kObbPlanes)) / hull);
   }
   std::printf("\nVolumes, over %d motions of 1 to 20 mm and 0 to 10 degrees\n", kTightnessMotions);
   std::printf("%-34s %6s %6s %6s\n", "", "p10", "median", "p90");
   printQuantiles("box with planes / box", planes_to_box);
-  if (hull_known) {
-    printQuantiles("box / hull of both poses", box_to_hull);
-    printQuantiles("box with planes / hull", planes_to_hull);
-    printQuantiles("the same, margin for arcs included", tested_to_hull);
-  } else {
-    std::printf("(the hull of both poses needs Qhull: install libqhull-dev and build again)\n");
-  }
+  printQuantiles("box / hull of both poses", box_to_hull);
+  printQuantiles("box with planes / hull", planes_to_hull);
+  printQuantiles("the same, margin for arcs included", tested_to_hull);
   for (size_t planes = 0; planes < with_planes.size(); ++planes) {
     std::printf("%zu planes: %.1f %%   ", planes, 100.0 * with_planes[planes] / kTightnessMotions);
   }

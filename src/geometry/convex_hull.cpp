@@ -1,0 +1,253 @@
+#include "sweep_guard/geometry/convex_hull.h"
+
+#include <libqhull_r/libqhull_r.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+using Facet = std::vector<std::uint32_t>;  // as many points as the hull has dimensions
+
+constexpr double kRounding = std::numeric_limits<double>::epsilon();
+constexpr double kMostExcess = 1e-9;  // of the extent
+
+// What Qhull makes of the points: facets with the indices of their corners.
+class Qhull {
+ public:
+  Qhull() : messages_(std::fopen("/dev/null", "w")) {
+    if (!messages_) throw DeviceError("cannot open /dev/null, where the messages of Qhull go");
+    qh_zero(&qh_, messages_.get());
+  }
+  ~Qhull() {
+    int long_blocks = 0;
+    int long_bytes = 0;
+    qh_freeqhull(&qh_, !qh_ALL);
+    qh_memfreeshort(&qh_, &long_blocks, &long_bytes);
+  }
+  Qhull(const Qhull&) = delete;
+  Qhull& operator=(const Qhull&) = delete;
+
+  // Nothing if the points have fewer dimensions than that, or if Qhull gives up.
+  std::optional<std::vector<Facet>> facets(std::vector<double> coordinates, int dimensions) {
+    std::string command = "qhull Qt";
+    const int count = static_cast<int>(coordinates.size()) / dimensions;
+    const int error =
+        qh_new_qhull(&qh_, dimensions, count, coordinates.data(), False, command.data(), nullptr, messages_.get());
+    if (error == qh_ERRmem) throw std::bad_alloc();
+    if (error != qh_ERRnone) return std::nullopt;
+    std::vector<Facet> facets;
+    for (const facetT* facet = qh_.facet_list; facet && facet->next; facet = facet->next) {
+      facets.push_back(cornersOf(*facet));
+      if (facets.back().size() != static_cast<size_t>(dimensions)) return std::nullopt;
+    }
+    return facets;
+  }
+
+ private:
+  struct Close {
+    void operator()(FILE* file) const { std::fclose(file); }
+  };
+
+  Facet cornersOf(const facetT& facet) {
+    Facet corners;
+    vertexT* vertex = nullptr;
+    vertexT** vertexp = nullptr;
+    FOREACHvertex_(facet.vertices) corners.push_back(static_cast<std::uint32_t>(qh_pointid(&qh_, vertex->point)));
+    if (facet.toporient != qh_ORIENTclock) std::swap(corners[0], corners[1]);
+    return corners;
+  }
+
+  std::unique_ptr<FILE, Close> messages_;
+  qhT qh_ = {};
+};
+
+void checkPoints(const Points& points) {
+  if (points.empty()) throw InvalidInput("no points: a convex hull needs at least one");
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (points[i].cwiseAbs().maxCoeff() <= kMaxCoordinate && points[i].allFinite()) continue;
+    throw InvalidInput("point " + std::to_string(i) + " is NaN, infinite or beyond 1e7 m: give finite positions");
+  }
+}
+
+Points distinct(Points points) {
+  const auto key = [](const Eigen::Vector3d& p) { return std::make_tuple(p.x(), p.y(), p.z()); };
+  std::sort(points.begin(), points.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+// The points about their middle: what is far away is as exact as what is near.
+Eigen::Matrix3Xd centred(const Points& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : points) box.extend(p);
+  Eigen::Matrix3Xd about(3, points.size());
+  for (size_t i = 0; i < points.size(); ++i) about.col(static_cast<Eigen::Index>(i)) = points[i] - box.center();
+  return about;
+}
+
+double extentOf(const Eigen::Matrix3Xd& about) { return std::sqrt(about.colwise().squaredNorm().maxCoeff()); }
+
+// Their coordinates along their own principal axes, the longest first, of about 1: Qhull has absolute tolerances.
+Eigen::Matrix3Xd principalCoordinates(const Eigen::Matrix3Xd& about) {
+  const Eigen::Matrix3Xd scaled = about / extentOf(about);
+  const Eigen::Vector3d mean = scaled.rowwise().mean();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> deviation(scaled.colwise() - mean, Eigen::ComputeFullU);
+  Eigen::Matrix3d axes = deviation.matrixU();
+  axes.col(2) *= axes.determinant() < 0.0 ? -1.0 : 1.0;
+  return axes.transpose() * scaled;
+}
+
+std::optional<std::vector<Facet>> facetsOf(const Eigen::Matrix3Xd& principal, int dimensions) {
+  if (principal.cols() <= dimensions) return std::nullopt;
+  const Eigen::MatrixXd used = principal.topRows(dimensions);
+  return Qhull().facets({used.data(), used.data() + used.size()}, dimensions);
+}
+
+// The two ends of points on a line.
+std::vector<Facet> endsOf(const Eigen::Matrix3Xd& principal) {
+  Eigen::Index first = 0;
+  Eigen::Index last = 0;
+  principal.row(0).minCoeff(&first);
+  principal.row(0).maxCoeff(&last);
+  return {{static_cast<std::uint32_t>(first)}, {static_cast<std::uint32_t>(last)}};
+}
+
+Facet cornersOf(const std::vector<Facet>& facets) {
+  Facet corners;
+  for (const Facet& facet : facets) corners.insert(corners.end(), facet.begin(), facet.end());
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+// The hull as simplices from its middle to its facets: a point is near one of their convex combinations.
+class Simplices {
+ public:
+  Simplices(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
+    const Facet corners = cornersOf(facets);
+    for (const std::uint32_t corner : corners) middle_ += about.col(corner) / static_cast<double>(corners.size());
+    for (const Facet& facet : facets) add(about, facet);
+  }
+
+  // Bound on the distance of a point from the hull, but for the rounding of the sums.
+  double excess(const Eigen::Vector3d& p, double negligible) const {
+    double least = (p - middle_).norm();
+    for (size_t i = 0; i < spans_.size() && least > negligible; ++i) {
+      Eigen::VectorXd weights = (inverses_[i] * (p - middle_)).cwiseMax(0.0);
+      weights /= std::max(1.0, weights.sum());
+      const double distance = (p - middle_ - spans_[i] * weights).norm();
+      if (distance < least) least = distance;
+    }
+    return least;
+  }
+
+ private:
+  void add(const Eigen::Matrix3Xd& about, const Facet& facet) {
+    Eigen::MatrixXd span(3, facet.size());
+    for (size_t i = 0; i < facet.size(); ++i) span.col(static_cast<Eigen::Index>(i)) = about.col(facet[i]) - middle_;
+    const Eigen::MatrixXd inverse = span.completeOrthogonalDecomposition().pseudoInverse();
+    if (!inverse.allFinite()) return;
+    spans_.push_back(span);
+    inverses_.push_back(inverse);
+  }
+
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>> spans_;
+  std::vector<Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3>> inverses_;
+};
+
+double excessOf(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
+  const double rounding = kRounding * extentOf(about);
+  const Simplices simplices(about, facets);
+  double excess = 0.0;
+  for (const Eigen::Vector3d& p : about.colwise()) excess = std::max(excess, simplices.excess(p, 4.0 * rounding));
+  // Each weight and each sum may be off by one rounding per corner.
+  return excess + static_cast<double>(cornersOf(facets).size() + 32) * rounding;
+}
+
+std::vector<Triangle> fan(size_t corners) {
+  const auto last = static_cast<std::uint32_t>(corners - 1);
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 1; i < last; ++i) triangles.push_back({0, i, i + 1});
+  if (triangles.empty()) triangles.push_back({0, last, last});
+  return triangles;
+}
+
+ConvexHull everyPoint(const Points& points) { return {points, fan(points.size()), 0.0, false}; }
+
+// Corners of a flat hull in their order around it.
+Facet around(const Eigen::Matrix3Xd& principal, Facet corners) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const std::uint32_t i : corners) middle += principal.col(i).head<2>() / static_cast<double>(corners.size());
+  const auto angle = [&](std::uint32_t i) {
+    return std::atan2(principal(1, i) - middle.y(), principal(0, i) - middle.x());
+  };
+  std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) { return angle(a) < angle(b); });
+  return corners;
+}
+
+std::vector<Triangle> renumbered(const std::vector<Facet>& facets, const Facet& corners) {
+  const auto number = [&](std::uint32_t i) {
+    return static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), i) - corners.begin());
+  };
+  std::vector<Triangle> triangles;
+  for (const Facet& facet : facets) triangles.push_back({number(facet[0]), number(facet[1]), number(facet[2])});
+  return triangles;
+}
+
+// The hull of that many dimensions; nothing if there is none, or none near enough to the points.
+std::optional<ConvexHull> hullOf(const Points& points, const Eigen::Matrix3Xd& about, const Eigen::Matrix3Xd& principal,
+                                 int dimensions) {
+  const std::optional<std::vector<Facet>> facets =
+      dimensions == 1 ? endsOf(principal) : facetsOf(principal, dimensions);
+  if (!facets) return std::nullopt;
+  const double excess = excessOf(about, *facets);
+  if (excess > kMostExcess * extentOf(about)) return std::nullopt;
+  Facet corners = cornersOf(*facets);
+  ConvexHull hull{{}, {}, excess, dimensions == 3};
+  hull.triangles = hull.solid ? renumbered(*facets, corners) : fan(corners.size());
+  if (dimensions == 2) corners = around(principal, corners);
+  for (const std::uint32_t i : corners) hull.corners.push_back(points[i]);
+  return hull;
+}
+
+}  // namespace
+
+ConvexHull convexHull(const std::vector<Eigen::Vector3d>& points) {
+  checkPoints(points);
+  const Points given = distinct(points);
+  if (given.size() == 1) return everyPoint(given);
+  const Eigen::Matrix3Xd about = centred(given);
+  const Eigen::Matrix3Xd principal = principalCoordinates(about);
+  for (const int dimensions : {3, 2, 1}) {
+    if (std::optional<ConvexHull> hull = hullOf(given, about, principal, dimensions)) return *std::move(hull);
+  }
+  return everyPoint(given);
+}
+
+double volume(const ConvexHull& hull) {
+  if (!hull.solid) return 0.0;
+  const Eigen::Vector3d& apex = hull.corners.front();
+  double sum = 0.0;
+  for (const auto& [a, b, c] : hull.triangles) {
+    sum += (hull.corners[a] - apex).cross(hull.corners[b] - apex).dot(hull.corners[c] - apex) / 6.0;
+  }
+  return sum;
+}
+
+}  // namespace sweep_guard
