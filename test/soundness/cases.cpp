@@ -1,0 +1,224 @@
+#include "soundness/cases.h"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <istream>
+#include <sstream>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard::soundness {
+namespace {
+
+std::string hex(double value) {
+  std::array<char, 40> text;
+  std::snprintf(text.data(), text.size(), "%a", value);
+  return text.data();
+}
+
+template <typename Derived>
+std::string hex(const Eigen::MatrixBase<Derived>& values) {
+  std::string text;
+  for (const double value : values.reshaped()) text += ' ' + hex(value);
+  return text;
+}
+
+std::string hex(const Eigen::Isometry3d& pose) { return hex(pose.linear()) + hex(pose.translation()); }
+
+std::string textOf(const Triangles& triangles) {
+  std::string text = triangles.streamed ? "streamed\n" : "";
+  for (size_t i = 0; i < triangles.count(); ++i) {
+    text += "triangle";
+    for (size_t corner = 0; corner < 3; ++corner) text += hex(triangles.corners_M[3 * i + corner]);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string textOf(const std::string& word, const Motion& motion) {
+  return word + hex(motion.X_MT_start) + hex(motion.X_MT_end) + '\n';
+}
+
+std::string textOf(const Body& body) {
+  return "cylinder " + hex(body.radius) + ' ' + hex(body.length) + ' ' + std::to_string(body.sides) + '\n';
+}
+
+// The numbers of one line.
+class Line {
+ public:
+  explicit Line(const std::string& line) : stream_(line) { stream_ >> word_; }
+
+  const std::string& word() const { return word_; }
+  std::string rest() {
+    std::string text;
+    std::getline(stream_ >> std::ws, text);
+    return text;
+  }
+  std::string next() {
+    std::string text;
+    if (!(stream_ >> text)) throw InvalidInput("soundness case: a number is missing after '" + word_ + "'");
+    return text;
+  }
+  double number() {
+    const std::string text = next();
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (*end != '\0') throw InvalidInput("soundness case: '" + text + "' is no number");
+    return value;
+  }
+  Eigen::Vector3d vector() {
+    const double x = number();
+    const double y = number();
+    return {x, y, number()};
+  }
+  Eigen::Isometry3d pose() {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    for (int i = 0; i < 3; ++i) pose.linear().col(i) = vector();
+    pose.translation() = vector();
+    return pose;
+  }
+  Motion motion() {
+    Motion motion;
+    motion.X_MT_start = pose();
+    motion.X_MT_end = pose();
+    return motion;
+  }
+  Body body() {
+    Body body;
+    body.radius = number();
+    body.length = number();
+    body.sides = static_cast<int>(number());
+    return body;
+  }
+
+ private:
+  std::istringstream stream_;
+  std::string word_;
+};
+
+bool readTriangles(Line& line, Triangles& triangles) {
+  if (line.word() == "streamed") {
+    triangles.streamed = true;
+  } else if (line.word() == "triangle") {
+    for (int i = 0; i < 3; ++i) triangles.corners_M.push_back(line.vector());
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void readPair(Line& line, PairCase& pair) {
+  SweptVolume& volume = pair.swept_M;
+  if (readTriangles(line, pair.triangles)) return;
+  if (line.word() == "box") {
+    volume.box.X_MB = line.pose();
+    volume.box.half_extents = line.vector();
+  } else if (line.word() == "inside") {
+    volume.interior_B = line.vector();
+    volume.margin = line.number();
+  } else if (line.word() == "clip") {
+    const Eigen::Vector3d normal = line.vector();
+    volume.clips_B.emplace_back(normal, line.number());
+  } else {
+    throw InvalidInput("soundness case: '" + line.word() + "' means nothing in a pair");
+  }
+}
+
+void readSweep(Line& line, SweepCase& sweep) {
+  if (readTriangles(line, sweep.triangles)) return;
+  if (line.word() == "cylinder") {
+    sweep.tool.push_back(line.body());
+  } else if (line.word() == "motion") {
+    sweep.motion = line.motion();
+  } else if (line.word() == "frame") {
+    sweep.frame_W = line.motion();
+  } else if (line.word() == "options") {
+    sweep.options.volume = volumeKind(line.next());
+    sweep.options.max_rotation = line.number();
+    sweep.options.margin = line.number();
+  } else if (line.word() == "contact") {
+    const auto triangle = static_cast<std::uint32_t>(line.number());
+    sweep.contacts.push_back({triangle, line.number()});
+  } else {
+    throw InvalidInput("soundness case: '" + line.word() + "' means nothing in a sweep");
+  }
+}
+
+}  // namespace
+
+TriangleMesh Triangles::mesh() const {
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < count(); ++i) triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  TriangleMesh mesh(corners_M, std::move(triangles));
+  if (!streamed) return mesh;
+  std::vector<float> positions;
+  for (const Eigen::Vector3d& p : corners_M) {
+    const Eigen::Vector3f kept = p.cast<float>();
+    positions.insert(positions.end(), kept.begin(), kept.end());
+  }
+  return mesh.deformed(std::move(positions));
+}
+
+std::vector<Motion> SweepCase::parts() const {
+  if (!frame_W) return split(motion, options.max_rotation);
+  return split(RelativeMotion{motion, *frame_W}, options.max_rotation, extentOf(tool));
+}
+
+std::vector<VolumeKind> volumeKinds() { return {VolumeKind::kObb, VolumeKind::kObbPlanes}; }
+
+std::string textOf(const PairCase& pair, const std::string& about) {
+  const SweptVolume& volume = pair.swept_M;
+  std::string text = "soundness-pair " + about + '\n';
+  text += "box" + hex(volume.box.X_MB) + hex(volume.box.half_extents) + '\n';
+  text += "inside" + hex(volume.interior_B) + ' ' + hex(volume.margin) + '\n';
+  for (const HalfSpace& clip_B : volume.clips_B) {
+    text += "clip" + hex(clip_B.normal()) + ' ' + hex(clip_B.offset()) + '\n';
+  }
+  return text + textOf(pair.triangles) + "end\n";
+}
+
+std::string textOf(const SweepCase& sweep, const std::string& about) {
+  std::string text = "soundness-sweep " + about + '\n';
+  for (const Body& body : sweep.tool) text += textOf(body);
+  text += textOf("motion", sweep.motion);
+  if (sweep.frame_W) text += textOf("frame", *sweep.frame_W);
+  text += "options " + nameOf(sweep.options.volume) + ' ' + hex(sweep.options.max_rotation) + ' ' +
+          hex(sweep.options.margin) + '\n';
+  text += textOf(sweep.triangles);
+  for (const Contact& contact : sweep.contacts) {
+    text += "contact " + std::to_string(contact.triangle) + ' ' + hex(contact.fraction) + '\n';
+  }
+  return text + "end\n";
+}
+
+std::optional<AnyCase> readCase(std::istream& stream) {
+  AnyCase any;
+  for (std::string text; std::getline(stream, text);) {
+    Line line(text);
+    const bool started = any.pair || any.sweep;
+    if (started && line.word() == "end") return any;
+    if (any.pair) {
+      readPair(line, *any.pair);
+    } else if (any.sweep) {
+      readSweep(line, *any.sweep);
+    } else if (line.word() == "soundness-pair") {
+      any.pair.emplace();
+      any.about = line.rest();
+    } else if (line.word() == "soundness-sweep") {
+      any.sweep.emplace();
+      any.about = line.rest();
+    }
+  }
+  if (any.pair || any.sweep) throw InvalidInput("soundness case: cut off before 'end'");
+  return std::nullopt;
+}
+
+SweptVolume settled(SweptVolume volume) {
+  for (HalfSpace& clip_B : volume.clips_B) {
+    for (int i = 0; i < 8; ++i) clip_B = HalfSpace(clip_B.normal(), clip_B.offset());
+  }
+  return volume;
+}
+
+}  // namespace sweep_guard::soundness

@@ -1,0 +1,95 @@
+#include "soundness/checks.h"
+
+#include <algorithm>
+
+#include "soundness/oracle.h"
+
+namespace sweep_guard::soundness {
+namespace {
+
+bool contains(const std::vector<std::uint32_t>& triangles, std::uint32_t triangle) {
+  return std::binary_search(triangles.begin(), triangles.end(), triangle);
+}
+
+std::string about(const Context& context, const std::string& detector) {
+  return context.family + ' ' + context.about + " detector " + detector;
+}
+
+}  // namespace
+
+std::vector<Suspect> allSuspects() {
+  std::vector<Suspect> suspects;
+  for (const std::string& name : detectorNames()) suspects.push_back({name, makeDetector(name)});
+  return suspects;
+}
+
+void checkPair(const Context& context, const PairCase& pair) {
+  const TriangleMesh mesh_M = pair.triangles.mesh();
+  const SweptVolume& swept_M = pair.swept_M;
+  const auto count = static_cast<std::uint32_t>(mesh_M.triangles().size());
+  std::vector<bool> met;
+  for (std::uint32_t i = 0; i < count; ++i) met.push_back(meets(mesh_M, i, swept_M));
+  for (std::uint32_t i = 0; i < count; i += 100) {
+    if (meetsByLinearProgram(mesh_M, i, swept_M) != met[i]) {
+      context.report.fail("the oracles disagree about triangle " + std::to_string(i),
+                          textOf(pair, about(context, "oracle")));
+    }
+  }
+
+  for (Suspect& suspect : context.suspects) {
+    Tally& tally = context.report.of(suspect.name, context.family);
+    const auto fail = [&](const std::string& what, std::uint32_t triangle) {
+      context.report.fail(what + " triangle " + std::to_string(triangle), textOf(pair, about(context, suspect.name)));
+    };
+    const Detection found = suspect.detector->detect(mesh_M, swept_M);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      ++tally.cases;
+      if (met[i]) {
+        ++tally.positives;
+        if (contains(found.triangles, i)) continue;
+        ++tally.misses;
+        fail("missed", i);
+      } else if (contains(found.triangles, i)) {
+        ++tally.extras;
+        if (meets(mesh_M, i, swept_M, found.inflation)) continue;
+        ++tally.unexplained;
+        fail("farther away than the inflation:", i);
+      }
+    }
+  }
+}
+
+void checkPositives(const Context& context, const SweepCase& sweep) {
+  const TriangleMesh mesh_M = sweep.triangles.mesh();
+  const Tool tool = toolOf(sweep.tool);
+  const std::vector<Motion> parts = sweep.parts();
+  for (Suspect& suspect : context.suspects) {
+    for (const VolumeKind kind : volumeKinds()) {
+      SweepCase seen = sweep;
+      seen.options.volume = kind;
+      Tally& tally = context.report.of(suspect.name + '/' + nameOf(kind), context.family);
+      const SweepFindings findings = testSweep(*suspect.detector, tool, parts, mesh_M, seen.options);
+      for (const Contact& contact : sweep.contacts) {
+        ++tally.cases;
+        ++tally.positives;
+        if (contains(findings.triangles, contact.triangle)) continue;
+        ++tally.misses;
+        context.report.fail("missed triangle " + std::to_string(contact.triangle),
+                            textOf(seen, about(context, suspect.name)));
+      }
+    }
+  }
+}
+
+std::vector<std::uint32_t> unexplained(const TriangleMesh& mesh_M, const SweepFindings& findings) {
+  std::vector<std::uint32_t> farther;
+  for (const std::uint32_t triangle : findings.triangles) {
+    const auto near = [&](const SweptVolume& volume_M) {
+      return meets(mesh_M, triangle, volume_M, findings.margin - volume_M.margin);
+    };
+    if (std::none_of(findings.volumes_M.begin(), findings.volumes_M.end(), near)) farther.push_back(triangle);
+  }
+  return farther;
+}
+
+}  // namespace sweep_guard::soundness

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "soundness/cases.h"
+#include "soundness/report.h"
+#include "sweep_guard/detection/detector.h"
+
+namespace sweep_guard::soundness {
+
+/// A detector under test, and its name.
+struct Suspect {
+  std::string name;
+  std::unique_ptr<Detector> detector;
+};
+
+/// All of detectorNames().
+std::vector<Suspect> allSuspects();
+
+/// Where a case came from, and where to say what is wrong with it.
+struct Context {
+  std::string family;
+  std::string about;  ///< seed and index
+  std::vector<Suspect>& suspects;
+  Report& report;
+};
+
+/// Every triangle that exact arithmetic says is met is named; what is named besides is nearer than the inflation. Of
+/// one in a hundred triangles the second oracle has to say the same as the first.
+void checkPair(const Context& context, const PairCase& pair);
+
+/// Every contact is named, with every kind of volume.
+void checkPositives(const Context& context, const SweepCase& sweep);
+
+/// The triangles named that are no nearer than `findings.margin` to any volume tested.
+std::vector<std::uint32_t> unexplained(const TriangleMesh& mesh_M, const SweepFindings& findings);
+
+}  // namespace sweep_guard::soundness

@@ -1,0 +1,268 @@
+#include "soundness/positives.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "soundness/exact_motion.h"
+
+namespace sweep_guard::soundness {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+constexpr double kFarthest = 9.9e6;  // leaves room for a tool
+
+// A point of the tool at a fraction of the motion, so deep inside.
+struct ToolPoint {
+  Real fraction;
+  Vector3r p_T;
+  Eigen::Vector3d outward_M;  // a direction in which the sweep ends there, or any
+};
+
+double randomAngle(Random& random) {
+  switch (random.below(8)) {
+    case 0:
+      return 0.0;
+    case 1:
+      return random.logUniform(1e-12, 1e-6);
+    case 2:
+      return kPi / 2.0;
+    case 3:
+      return kPi - random.logUniform(1e-9, 1e-4);
+    case 4:
+      return kPi;
+    case 5:
+      return random.uniform(0.0, kPi);
+    default:
+      return random.uniform(0.0, 0.35);
+  }
+}
+
+Motion randomPath(Random& random, const Eigen::Vector3d& place, double size) {
+  Motion motion;
+  motion.X_MT_start = random.pose(place);
+  motion.X_MT_end = motion.X_MT_start;
+  if (random.chance(0.8)) {
+    motion.X_MT_end.translation() += size * random.logUniform(1e-6, 10.0) * random.direction();
+  }
+  motion.X_MT_end.linear() = random.turn(randomAngle(random)) * motion.X_MT_start.linear();
+  return motion;
+}
+
+Vector3r randomPointOf(Random& random, const Body& body, Real inset) {
+  Vector3r p = support(body, random.direction().cast<Real>(), inset);
+  if (random.chance(0.5)) return p;
+  const Vector3r q = support(body, random.direction().cast<Real>(), inset);
+  return p + static_cast<Real>(random.uniform(0.0, 1.0)) * (q - p);
+}
+
+// The point of the body that gets farthest in a direction, at the dyadic fraction at which it does.
+ToolPoint farthestOfSweep(Random& random, const Body& body, const ExactMotion& motion, Real inset) {
+  const Eigen::Vector3d outward = random.direction();
+  const Vector3r direction = outward.cast<Real>();
+  const auto pointAt = [&](Real fraction) { return support(body, motion.directionInTool(fraction, direction), inset); };
+  const auto reachAt = [&](Real fraction) { return direction.dot(motion.at(fraction, pointAt(fraction))); };
+  Real best = 0;
+  Real reach = reachAt(0);
+  Real step = 1.0L / 16;
+  for (int i = 1; i <= 16; ++i) {
+    if (const Real here = reachAt(i * step); here > reach) {
+      reach = here;
+      best = i * step;
+    }
+  }
+  for (; step > 1e-5L; step /= 2) {
+    for (const Real fraction : {best - step / 2, best + step / 2}) {
+      if (fraction < 0 || fraction > 1) continue;
+      if (const Real here = reachAt(fraction); here > reach) {
+        reach = here;
+        best = fraction;
+      }
+    }
+  }
+  return {best, pointAt(best), outward};
+}
+
+ToolPoint randomToolPoint(Random& random, const Body& body, const ExactMotion& motion, size_t parts, Real inset) {
+  if (random.chance(0.4)) return farthestOfSweep(random, body, motion, inset);
+  Real fraction = static_cast<Real>(random.below(1 + (1 << 12))) / (1 << 12);
+  if (random.chance(0.2)) fraction = random.below(2);
+  if (random.chance(0.2)) {
+    fraction = static_cast<Real>(random.below(static_cast<int>(parts) + 1)) / static_cast<Real>(parts);
+  }
+  return {fraction, randomPointOf(random, body, inset), random.direction()};
+}
+
+// A triangle about a point of it.
+struct Shape {
+  std::array<Real, 3> weights;  // of the corners in the point
+  Eigen::Vector3d first_edge;   // from corner 0
+  Eigen::Vector3d second_edge;
+};
+
+Eigen::Vector3d across(Random& random, const Eigen::Vector3d& normal) {
+  return normal.cross(random.direction()).normalized();
+}
+
+Eigen::Vector3d edgeDirection(Random& random, const Eigen::Vector3d& outward, int lean) {
+  const Eigen::Vector3d along = across(random, outward);
+  if (lean == 0) return along;
+  if (lean == 1) return (along + random.logUniform(1e-9, 10.0) * outward).normalized();
+  return random.direction();
+}
+
+Shape randomShape(Random& random, const Eigen::Vector3d& outward, double size) {
+  const int lean = random.below(3);  // tangent, away from the tool, any
+  Shape shape;
+  shape.first_edge = size * edgeDirection(random, outward, lean);
+  shape.second_edge = size * random.logUniform(0.01, 1.0) * edgeDirection(random, outward, lean);
+  switch (random.below(8)) {
+    case 0:  // sliver
+      shape.second_edge = 0.5 * shape.first_edge + 1e-9 * size * random.direction();
+      break;
+    case 1:  // needle
+      shape.second_edge = shape.first_edge;
+      break;
+    case 2:  // point
+      shape.first_edge = shape.second_edge = Eigen::Vector3d::Zero();
+      break;
+    default:
+      break;
+  }
+  const auto u = static_cast<Real>(random.uniform(0.0, 1.0));
+  const auto v = static_cast<Real>(random.uniform(0.0, 1.0)) * (1 - u);
+  switch (random.below(3)) {
+    case 0:
+      shape.weights = {1, 0, 0};
+      break;
+    case 1:
+      shape.weights = {1 - u, u, 0};
+      break;
+    default:
+      shape.weights = {1 - u - v, u, v};
+      break;
+  }
+  return shape;
+}
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+Corners cornersAbout(const Shape& shape, const Vector3r& p) {
+  const Vector3r first =
+      p - shape.weights[1] * shape.first_edge.cast<Real>() - shape.weights[2] * shape.second_edge.cast<Real>();
+  return {first.cast<double>(), (first + shape.first_edge.cast<Real>()).cast<double>(),
+          (first + shape.second_edge.cast<Real>()).cast<double>()};
+}
+
+Vector3r pointOf(const Shape& shape, const Corners& corners) {
+  Vector3r p = Vector3r::Zero();
+  for (size_t i = 0; i < 3; ++i) p += shape.weights[i] * corners[i].cast<Real>();
+  return p;
+}
+
+double largestCoordinate(const Motion& motion) {
+  return std::max(motion.X_MT_start.translation().cwiseAbs().maxCoeff(),
+                  motion.X_MT_end.translation().cwiseAbs().maxCoeff());
+}
+
+// How far inside the points are: 2 to 64 roundings of the numbers at hand, or deep.
+double randomInset(Random& random, double size, double largest) {
+  const double rounding = 0x1p-52 * (largest + size);
+  constexpr std::array<double, 4> kRoundings = {2.0, 4.0, 8.0, 64.0};
+  if (random.chance(0.2)) return std::max(64.0 * rounding, size * random.logUniform(1e-9, 1e-2));
+  return kRoundings[static_cast<size_t>(random.below(4))] * rounding;
+}
+
+class Builder {
+ public:
+  Builder(Random& random, SweepCase& sweep) : random_(random), sweep_(sweep), size_(extentOf(sweep.tool)) {}
+
+  // Moves the tool to a triangle whose corners are the same numbers in float32.
+  void addOneInFloat(double triangle_size) {
+    sweep_.triangles.streamed = true;
+    choosePoint(largestCoordinate(sweep_.motion) + triangle_size);
+    const Shape shape = randomShape(random_, point_.outward_M, triangle_size);
+    Corners corners = cornersAbout(shape, position());
+    for (Eigen::Vector3d& p : corners) p = p.cast<float>().cast<double>();
+    const Eigen::Vector3d shift = (pointOf(shape, corners) - position()).cast<double>();
+    sweep_.motion.X_MT_start.translation() += shift;
+    sweep_.motion.X_MT_end.translation() += shift;
+    addIfMet(shape, corners);
+  }
+
+  void addThroughTheTool(int count, double triangle_size) {
+    const double largest = largestCoordinate(sweep_.motion) + (sweep_.frame_W ? largestCoordinate(*sweep_.frame_W) : 0);
+    choosePoint(largest + triangle_size);
+    while (count-- > 0) {
+      point_ = randomToolPoint(random_, body(), ExactMotion(motion()), parts_, inset_);
+      const Shape shape = randomShape(random_, point_.outward_M, triangle_size);
+      addIfMet(shape, cornersAbout(shape, position()));
+    }
+  }
+
+ private:
+  const Body& body() const { return sweep_.tool[body_]; }
+  ExactMotion motion() const {
+    return sweep_.frame_W ? ExactMotion(RelativeMotion{sweep_.motion, *sweep_.frame_W}) : ExactMotion(sweep_.motion);
+  }
+  Vector3r position() const { return motion().at(point_.fraction, point_.p_T); }
+
+  void choosePoint(double largest) {
+    body_ = static_cast<size_t>(random_.below(static_cast<int>(sweep_.tool.size())));
+    depth_ = static_cast<Real>(randomInset(random_, size_, largest));
+    inset_ = hasInset(body(), depth_) ? depth_ : Real{0};
+    // A body without an inside is grown instead: that, too, puts the point so deep into it.
+    if (inset_ == 0) sweep_.options.margin = static_cast<double>(depth_);
+    parts_ = sweep_.parts().size();
+    point_ = randomToolPoint(random_, body(), motion(), parts_, inset_);
+  }
+
+  void addIfMet(const Shape& shape, const Corners& corners) {
+    if ((pointOf(shape, corners) - position()).norm() >= depth_) return;
+    const auto triangle = static_cast<std::uint32_t>(sweep_.triangles.count());
+    for (const Eigen::Vector3d& p : corners) sweep_.triangles.corners_M.push_back(p);
+    sweep_.contacts.push_back({triangle, static_cast<double>(point_.fraction)});
+  }
+
+  Random& random_;
+  SweepCase& sweep_;
+  double size_;
+  size_t body_ = 0;
+  size_t parts_ = 1;
+  Real depth_ = 0;
+  Real inset_ = 0;
+  ToolPoint point_;
+};
+
+}  // namespace
+
+SweepCase randomSweep(Random& random) {
+  SweepCase sweep;
+  const double scale = random.logUniform(1e-6, 1e3);
+  sweep.tool = randomBodies(random, scale);
+  const double distance = random.chance(0.4) ? scale * random.uniform(0.0, 3.0) : random.logUniform(1e-3, 5e6);
+  sweep.motion = randomPath(random, distance * random.direction(), scale);
+  if (random.chance(0.5)) sweep.options.max_rotation = random.logUniform(0.02, 1.5);
+  return sweep;
+}
+
+SweepCase constructedPositives(std::uint64_t seed) {
+  Random random(seed);
+  SweepCase sweep;
+  do {
+    sweep = randomSweep(random);
+    const double size = extentOf(sweep.tool);
+    const double distance = largestCoordinate(sweep.motion);
+    const double triangle_size = std::min(size * random.logUniform(1e-6, 1e6), 0.3 * (kFarthest - distance));
+    Builder builder(random, sweep);
+    if (random.chance(0.5)) {
+      builder.addOneInFloat(triangle_size);
+    } else {
+      if (random.chance(0.2)) sweep.frame_W = randomPath(random, Eigen::Vector3d::Zero(), size);
+      builder.addThroughTheTool(1 + random.below(32), triangle_size);
+    }
+  } while (sweep.triangles.count() == 0);
+  return sweep;
+}
+
+}  // namespace sweep_guard::soundness

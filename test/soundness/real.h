@@ -1,0 +1,12 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace sweep_guard::soundness {
+
+/// What the checks compute in: 64 bits of mantissa, eleven more than the product has.
+using Real = long double;
+using Vector3r = Eigen::Matrix<Real, 3, 1>;
+using Matrix3r = Eigen::Matrix<Real, 3, 3>;
+
+}  // namespace sweep_guard::soundness

@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "detection/exact_oracle.h"
+#include "soundness/exact_motion.h"
+#include "soundness/families.h"
+#include "soundness/oracle.h"
+#include "soundness/pairs.h"
+#include "soundness/positives.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard::soundness {
+namespace {
+
+void compareOracles(PairCase (*make)(std::uint64_t)) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const PairCase pair = make(seed);
+    const TriangleMesh mesh_M = pair.triangles.mesh();
+    for (std::uint32_t i = 0; i < pair.triangles.count(); ++i) {
+      const bool met = meets(mesh_M, i, pair.swept_M);
+      EXPECT_EQ(met, meetsExactly(mesh_M, i, pair.swept_M)) << "seed " << seed << " triangle " << i;
+      EXPECT_EQ(met, meetsByLinearProgram(mesh_M, i, pair.swept_M)) << "seed " << seed << " triangle " << i;
+    }
+  }
+}
+
+TEST(OracleTest, ThreeWaysOfDecidingAgreeOnRandomPairs) { compareOracles(randomPairs); }
+TEST(OracleTest, ThreeWaysOfDecidingAgreeOnGrazingPairs) { compareOracles(grazingPairs); }
+TEST(OracleTest, ThreeWaysOfDecidingAgreeOnAdversarialPairs) { compareOracles(adversarialPairs); }
+
+// Two derivations of the same motion; the product's is good to double.
+TEST(ExactMotionTest, IsTheMotionOfTheProduct) {
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    Random random(seed);
+    const SweepCase sweep = randomSweep(random);
+    const ExactMotion exact(sweep.motion);
+    const Eigen::Vector3d p_T = extentOf(sweep.tool) * random.direction();
+    const double largest = sweep.motion.X_MT_start.translation().norm() + sweep.motion.X_MT_end.translation().norm();
+    for (const double fraction : {0.0, 0.125, 0.5, 0.875, 1.0}) {
+      const Vector3r error = exact.at(fraction, p_T.cast<Real>()) - (sweep.motion.at(fraction) * p_T).cast<Real>();
+      EXPECT_LT(static_cast<double>(error.norm()), 1e-15 * largest + 1e-14 * p_T.norm()) << "seed " << seed;
+    }
+  }
+}
+
+TEST(CaseTest, SurvivesBeingWrittenDown) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const std::string pair = textOf(adversarialPairs(seed), "adversarial seed 1");
+    const std::string sweep = textOf(constructedPositives(seed), "positives seed 1");
+    std::istringstream stream("something before\n" + pair + "something between\n" + sweep);
+    const std::optional<AnyCase> first = readCase(stream);
+    ASSERT_TRUE(first && first->pair);
+    EXPECT_EQ(textOf(*first->pair, first->about), pair);
+    const std::optional<AnyCase> second = readCase(stream);
+    ASSERT_TRUE(second && second->sweep);
+    EXPECT_EQ(textOf(*second->sweep, second->about), sweep);
+    EXPECT_FALSE(readCase(stream));
+  }
+}
+
+TEST(CaseTest, IsRefusedIfItIsCutOffOrUnknown) {
+  std::istringstream cut_off("soundness-pair x\nstreamed\n");
+  EXPECT_THROW(readCase(cut_off), InvalidInput);
+  std::istringstream unknown("soundness-pair x\nsphere 1\nend\n");
+  EXPECT_THROW(readCase(unknown), InvalidInput);
+  std::istringstream short_of_numbers("soundness-pair x\ntriangle 0x1p0 2\nend\n");
+  EXPECT_THROW(readCase(short_of_numbers), InvalidInput);
+}
+
+// Does not name the last triangle that is met.
+class Forgetful : public Detector {
+ public:
+  Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) override {
+    Detection detection = honest_->detect(mesh_M, swept_M);
+    if (!detection.triangles.empty()) detection.triangles.pop_back();
+    return detection;
+  }
+
+ private:
+  std::unique_ptr<Detector> honest_ = makeDetector("reference");
+};
+
+// Names everything.
+class Fearful : public Detector {
+ public:
+  Detection detect(const TriangleMesh& mesh_M, const SweptVolume&) override {
+    Detection detection;
+    for (std::uint32_t i = 0; i < mesh_M.triangles().size(); ++i) detection.triangles.push_back(i);
+    return detection;
+  }
+};
+
+// Runs a family on one detector, and then once more what was written down.
+void expectCaught(const std::string& family_name, std::unique_ptr<Detector> detector, const std::string& what) {
+  std::vector<Suspect> suspects;
+  suspects.push_back({"suspect", std::move(detector)});
+  std::stringstream out;
+  Report report(out);
+  for (const Family& family : families()) {
+    if (family.name == family_name) run(family, {/*cases=*/200}, suspects, report);
+  }
+  EXPECT_GT(report.failures(), 0U);
+  EXPECT_NE(out.str().find("FAILED: " + what), std::string::npos) << out.str();
+
+  std::ostringstream again;
+  Report second(again);
+  const std::optional<AnyCase> first = readCase(out);
+  ASSERT_TRUE(first);
+  replay(*first, suspects, second);
+  EXPECT_GT(second.failures(), 0U) << textOf(*first->pair, first->about);
+}
+
+TEST(SearchTest, CatchesADetectorThatForgetsATriangle) {
+  expectCaught("grazing", std::make_unique<Forgetful>(), "missed triangle");
+  expectCaught("positives", std::make_unique<Forgetful>(), "missed triangle");
+}
+
+TEST(SearchTest, CatchesADetectorThatNamesWhatIsFarAway) {
+  expectCaught("random", std::make_unique<Fearful>(), "farther away than the inflation");
+}
+
+TEST(SearchTest, IsDividedWithoutALoss) {
+  std::vector<Suspect> suspects;
+  suspects.push_back({"reference", makeDetector("reference")});
+  std::ostringstream out;
+  Report whole(out);
+  Report halves(out);
+  const Family& family = families().front();
+  run(family, {/*cases=*/4000, /*seed=*/7}, suspects, whole);
+  for (const std::uint64_t part : {0U, 1U}) {
+    Report half(out);
+    run(family, {/*cases=*/4000, /*seed=*/7, part, /*parts=*/2}, suspects, half);
+    halves.of("reference", family.name).cases += half.of("reference", family.name).cases;
+  }
+  EXPECT_GE(halves.of("reference", family.name).cases, 4000U);
+  EXPECT_GE(whole.of("reference", family.name).cases, 4000U);
+}
+
+}  // namespace
+}  // namespace sweep_guard::soundness
