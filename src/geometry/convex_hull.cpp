@@ -250,4 +250,12 @@ double volume(const ConvexHull& hull) {
   return sum;
 }
 
+double surface(const ConvexHull& hull) {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : hull.triangles) {
+    sum += (hull.corners[b] - hull.corners[a]).cross(hull.corners[c] - hull.corners[a]).norm() / 2.0;
+  }
+  return hull.solid ? sum : 2.0 * sum;
+}
+
 }  // namespace sweep_guard

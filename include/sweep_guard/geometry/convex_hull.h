@@ -28,4 +28,7 @@ ConvexHull convexHull(const std::vector<Eigen::Vector3d>& points);
 /// Volume [m^3] of a hull; 0 if it is flat.
 double volume(const ConvexHull& hull);
 
+/// Surface [m^2] of a hull; of a flat one both of its sides.
+double surface(const ConvexHull& hull);
+
 }  // namespace sweep_guard
