@@ -1,4 +1,4 @@
-// Prints Table 1 of the paper for this machine, and how tightly the volumes enclose what the tool sweeps.
+// Prints Table 1 of the paper for this machine.
 //   table1 [--csv FILE]
 #include <algorithm>
 #include <array>
@@ -10,13 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "sample.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/detection/select_detector.h"
-#include "sweep_guard/geometry/bounding_planes.h"
-#include "sweep_guard/geometry/convex_hull.h"
-#include "sweep_guard/geometry/convex_polytope.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
 namespace sweep_guard {
@@ -24,24 +22,9 @@ namespace {
 
 constexpr int kMotions = 100;
 constexpr int kRepetitions = 20;
-constexpr int kTightnessMotions = 1000;
 constexpr std::array<VolumeKind, 2> kKinds = {VolumeKind::kObb, VolumeKind::kObbPlanes};
 
 Tool drill() { return Tool::cylinder(/*radius=*/0.005, /*length=*/0.1); }
-
-class Sample {
- public:
-  void add(double value) { values_.push_back(value); }
-  double quantile(double fraction) const {
-    std::vector<double> values = values_;
-    const auto middle = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + middle, values.end());
-    return values[static_cast<size_t>(middle)];
-  }
-
- private:
-  std::vector<double> values_;
-};
 
 // A drill that points into the hull, its tip from 5 mm below to 20 mm above the surface, and moves as a hand does.
 Motion drilling(Random& random) {
@@ -138,56 +121,6 @@ void printTimes(const TriangleMesh& mesh, std::ostream& csv) {
   }
 }
 
-double volumeOf(const SweptVolume& volume) {
-  return polytopeVolume(polytopeFaces(volume.halfSpaces_B(), volume.box.half_extents.norm()));
-}
-
-double hullOfBothPoses(const Tool& tool, const Motion& motion) {
-  std::vector<Eigen::Vector3d> points;
-  for (const Eigen::Isometry3d& X_MT : {motion.X_MT_start, motion.X_MT_end}) {
-    for (size_t i = 0; i < tool.mesh_T().vertexCount(); ++i) points.push_back(X_MT * tool.mesh_T().vertex(i));
-  }
-  return volume(convexHull(points));
-}
-
-void printQuantiles(const char* what, const Sample& sample) {
-  std::printf("%-34s %6.3f %6.3f %6.3f\n", what, sample.quantile(0.1), sample.quantile(0.5), sample.quantile(0.9));
-}
-
-void printTightness() {
-  const Tool tool = Tool::cylinder(drill().radius(), drill().length(), /*sides=*/256);
-  Random random(/*seed=*/1);
-  Sample planes_to_box;
-  Sample box_to_hull;
-  Sample planes_to_hull;
-  Sample tested_to_hull;
-  std::array<int, 5> with_planes = {};
-  for (int i = 0; i < kTightnessMotions; ++i) {
-    const Motion motion = handMotion(random);
-    SweptVolume volume;
-    volume.box = boundingBox(tool, motion);
-    const double box = volumeOf(volume);
-    volume.clips_B = boundingPlanes(tool, motion, volume.box);
-    const double cut = volumeOf(volume);
-    ++with_planes[volume.clips_B.size()];
-    planes_to_box.add(cut / box);
-    const double hull = hullOfBothPoses(tool, motion);
-    box_to_hull.add(box / hull);
-    planes_to_hull.add(cut / hull);
-    tested_to_hull.add(volumeOf(sweptVolume(tool, motion, VolumeKind::kObbPlanes)) / hull);
-  }
-  std::printf("\nVolumes, over %d motions of 1 to 20 mm and 0 to 10 degrees\n", kTightnessMotions);
-  std::printf("%-34s %6s %6s %6s\n", "", "p10", "median", "p90");
-  printQuantiles("box with planes / box", planes_to_box);
-  printQuantiles("box / hull of both poses", box_to_hull);
-  printQuantiles("box with planes / hull", planes_to_hull);
-  printQuantiles("the same, margin for arcs included", tested_to_hull);
-  for (size_t planes = 0; planes < with_planes.size(); ++planes) {
-    std::printf("%zu planes: %.1f %%   ", planes, 100.0 * with_planes[planes] / kTightnessMotions);
-  }
-  std::printf("\n");
-}
-
 int main(const std::vector<std::string>& arguments) {
   std::ofstream csv;
   if (arguments.size() == 2 && arguments[0] == "--csv") {
@@ -206,7 +139,6 @@ int main(const std::vector<std::string>& arguments) {
   std::printf("Pentium III of 866 MHz with an ELSA Gloria II Pro; a scale, not a competitor.\n");
   printTimes(wavyHull(/*rings=*/11, /*sectors=*/20, /*phase=*/0.0), csv);
   printTimes(wavyHull(/*rings=*/21, /*sectors=*/40, /*phase=*/0.0), csv);
-  printTightness();
   return 0;
 }
 

@@ -173,11 +173,15 @@ class Simplices {
 
 double excessOf(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
   const double rounding = kRounding * extentOf(about);
+  const Facet corners = cornersOf(facets);
   const Simplices simplices(about, facets);
   double excess = 0.0;
-  for (const Eigen::Vector3d& p : about.colwise()) excess = std::max(excess, simplices.excess(p, 4.0 * rounding));
+  for (std::uint32_t i = 0; i < about.cols(); ++i) {
+    if (std::binary_search(corners.begin(), corners.end(), i)) continue;
+    excess = std::max(excess, simplices.excess(about.col(i), 4.0 * rounding));
+  }
   // Each weight and each sum may be off by one rounding per corner.
-  return excess + static_cast<double>(cornersOf(facets).size() + 32) * rounding;
+  return excess + static_cast<double>(corners.size() + 32) * rounding;
 }
 
 std::vector<Triangle> fan(size_t corners) {
