@@ -24,7 +24,7 @@ constexpr int kMotions = 100;
 constexpr int kRepetitions = 20;
 constexpr std::array<VolumeKind, 2> kKinds = {VolumeKind::kObb, VolumeKind::kObbPlanes};
 
-Tool drill() { return Tool::cylinder(/*radius=*/0.005, /*length=*/0.1); }
+ConvexShape drill() { return ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1); }
 
 // A drill that points into the hull, its tip from 5 mm below to 20 mm above the surface, and moves as a hand does.
 Motion drilling(Random& random) {
@@ -63,7 +63,7 @@ std::vector<Variant> variants() {
   return all;
 }
 
-void measure(Variant& variant, const Tool& tool, const TriangleMesh& mesh, const Motion& motion) {
+void measure(Variant& variant, const ConvexShape& tool, const TriangleMesh& mesh, const Motion& motion) {
   using Clock = std::chrono::steady_clock;
   using Milliseconds = std::chrono::duration<double, std::milli>;
   const auto start = Clock::now();
@@ -79,7 +79,7 @@ void measure(Variant& variant, const Tool& tool, const TriangleMesh& mesh, const
 
 // The variants take turns, each repetition in another order, so that a busy machine slows them all alike.
 std::vector<Variant> run(const TriangleMesh& mesh) {
-  const Tool tool = drill();
+  const ConvexShape tool = drill();
   Random random(/*seed=*/1);
   std::vector<Motion> motions;
   for (int i = 0; i < kMotions; ++i) motions.push_back(drilling(random));
@@ -130,7 +130,7 @@ int main(const std::vector<std::string>& arguments) {
     throw InvalidInput("usage: table1 [--csv FILE]");
   }
   csv << "triangles,detector,volume,set_up_ms,query_ms,both_ms,both_p10_ms,both_p90_ms,hits,paper_ms\n";
-  const Tool tool = drill();
+  const ConvexShape tool = drill();
   std::printf(
       "Time of one detection, medians [ms]: a drill of %.0f x %.0f mm at the surface of a wavy hull, %d motions\n",
       2e3 * tool.radius(), 1e3 * tool.length(), kMotions);

@@ -119,7 +119,7 @@ struct Row {
 };
 
 int main() {
-  const Tool tool = Tool::cylinder(kRadius, kLength);
+  const ConvexShape tool = ConvexShape::cylinder(kRadius, kLength);
   Random motions(/*seed=*/1);
   Random points(/*seed=*/2);
   std::vector<Row> rows = {{"obb", {}}, {"obb_planes", {}}, {"hull", {}}, {"hull of both poses, not grown", {}}};

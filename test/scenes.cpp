@@ -278,14 +278,14 @@ Eigen::Isometry3d Random::pose(const Eigen::Vector3d& place) {
   return pose;
 }
 
-Tool randomTool(Random& random, double scale) {
+ConvexShape randomTool(Random& random, double scale) {
   const int kind = random.below(8);
   const double radius = kind == 0 ? 0.0 : scale * random.logUniform(0.01, 1.0);
   const double length = kind == 1 ? 0.0 : scale * random.logUniform(0.01, 1.0);
-  return Tool::cylinder(radius, length, 3 + random.below(30));
+  return ConvexShape::cylinder(radius, length, 3 + random.below(30));
 }
 
-Motion randomMotion(Random& random, const Tool& tool, const Eigen::Vector3d& place, double max_angle) {
+Motion randomMotion(Random& random, const ConvexShape& tool, const Eigen::Vector3d& place, double max_angle) {
   const int kind = random.below(8);
   const double size = tool.radius() + tool.length();
   Motion motion;
@@ -308,7 +308,7 @@ Motion handMotion(Random& random) {
 
 Scene randomScene(std::uint64_t seed) {
   Random random(seed);
-  const Tool tool = randomTool(random, random.logUniform(1e-3, 1e3));
+  const ConvexShape tool = randomTool(random, random.logUniform(1e-3, 1e3));
   const Motion motion = randomMotion(random, tool, randomPlace(random), /*max_angle=*/0.175);
   const SweptVolume swept_M = sweptVolume(tool, motion, randomKind(random));
 
@@ -327,7 +327,7 @@ Scene randomScene(std::uint64_t seed) {
 Scene grazingScene(std::uint64_t seed) {
   Random random(seed);
   if (random.chance(0.1)) return alignedGrazingScene(random);
-  const Tool tool = randomTool(random, random.logUniform(1e-3, 1e3));
+  const ConvexShape tool = randomTool(random, random.logUniform(1e-3, 1e3));
   const Motion motion = randomMotion(random, tool, randomPlace(random), /*max_angle=*/0.175);
   SweptVolume volume = sweptVolume(tool, motion, randomKind(random), 1e-3 * (tool.radius() + tool.length()));
   const double size = volume.box.half_extents.norm();

@@ -5,8 +5,8 @@
 #include <random>
 #include <string>
 
+#include "sweep_guard/geometry/convex_shape.h"
 #include "sweep_guard/geometry/swept_volume.h"
-#include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
 namespace sweep_guard {
@@ -31,11 +31,11 @@ class Random {
 };
 
 /// A cylinder of about the size `scale` [m]: one in eight flat (length 0), one in eight a needle (radius 0).
-Tool randomTool(Random& random, double scale);
+ConvexShape randomTool(Random& random, double scale);
 
 /// From a pose near `place` [m]: up to two tool sizes far, turning up to `max_angle` [rad]; one in eight stands still,
 /// one in eight only goes, one in eight only turns.
-Motion randomMotion(Random& random, const Tool& tool, const Eigen::Vector3d& place, double max_angle);
+Motion randomMotion(Random& random, const ConvexShape& tool, const Eigen::Vector3d& place, double max_angle);
 
 /// The motion of a hand's millimetres: steps of 1 to 20 mm, turns of 0 to 10 degrees, any direction, at the origin.
 Motion handMotion(Random& random);

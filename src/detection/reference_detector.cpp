@@ -15,15 +15,21 @@ bool meets(Polygon polygon, const std::vector<HalfSpace>& half_spaces) {
 
 }  // namespace
 
-Detection ReferenceDetector::detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) {
+Detection ReferenceDetector::find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                                  const std::vector<std::uint32_t>* candidates) {
   const BoxCoordinates coordinates(mesh_M, swept_M.box);
   Detection detection;
   detection.inflation = coordinates.rounding();
   const std::vector<HalfSpace> half_spaces = swept_M.grown(detection.inflation).halfSpaces_B();
   const std::vector<Triangle>& triangles = mesh_M.triangles();
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+  const auto look = [&](std::uint32_t i) {
     const auto& [a, b, c] = triangles[i];
     if (meets({coordinates(a), coordinates(b), coordinates(c)}, half_spaces)) detection.triangles.push_back(i);
+  };
+  if (candidates != nullptr) {
+    for (const std::uint32_t i : *candidates) look(i);
+  } else {
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) look(i);
   }
   return detection;
 }

@@ -44,9 +44,12 @@ void SelectDetector::makeSelection() {
   gl_ = std::make_unique<GlSelect>(make_context_(), options_.hit_records);
 }
 
-Detection SelectDetector::detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) {
+Detection SelectDetector::find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                               const std::vector<std::uint32_t>* among) {
+  const std::vector<std::uint32_t>& candidates = among != nullptr ? *among
+                                                 : options_.cull  ? cull_(mesh_M, swept_M)
+                                                                  : allTriangles(mesh_M);
   const BoxCoordinates coordinates(mesh_M, swept_M.box);
-  const std::vector<std::uint32_t>& candidates = options_.cull ? cull_(mesh_M, swept_M) : allTriangles(mesh_M);
   Detection detection;
   const double drawn = std::max(farthestCorner(mesh_M, coordinates, candidates), swept_M.box.half_extents.norm());
   const double inflation = kFloatError * drawn + coordinates.rounding();

@@ -6,17 +6,17 @@
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard::ConvexShape;
 using sweep_guard::Duration;
 using sweep_guard::StampedPose;
 using sweep_guard::Time;
-using sweep_guard::Tool;
 
 namespace {
 
 /// Distance [m] that the tool is clear of the sheet by, at least; 0 if it touches.
 class Clearance {
  public:
-  Clearance(const Tool& tool, const Sheet& sheet) : tool_(tool), sheet_(sheet) {}
+  Clearance(const ConvexShape& tool, const Sheet& sheet) : tool_(tool), sheet_(sheet) {}
 
   double at(const Eigen::Isometry3d& X_WT) {
     const double apart = (X_WT.translation() - sheet_.X_WS.translation()).norm();
@@ -31,20 +31,20 @@ class Clearance {
   }
 
  private:
-  const Tool& tool_;
+  const ConvexShape& tool_;
   const Sheet& sheet_;
   double last_ = 1.0;  // the next one is likely to be near it
 };
 
 /// Bound on how far a point of the tool goes per second [m/s].
-double fastest(const StampedPose& from, const StampedPose& to, const Tool& tool) {
+double fastest(const StampedPose& from, const StampedPose& to, const ConvexShape& tool) {
   const sweep_guard::Motion motion{from.X_WT, to.X_WT};
   const double way = (to.X_WT.translation() - from.X_WT.translation()).norm() + motion.angle() * tool.extent();
   return way / sweep_guard::toSeconds(to.stamp - from.stamp);
 }
 
 /// When the tool may have gone `distance` [m] at the earliest, rounded down.
-Time reached(const RecordedMotion& motion, const Tool& tool, Time from, Time limit, double distance) {
+Time reached(const RecordedMotion& motion, const ConvexShape& tool, Time from, Time limit, double distance) {
   const std::vector<StampedPose>& poses = motion.poses();
   Time time = from;
   for (size_t i = motion.newestAt(from); time < limit && i + 1 < poses.size(); ++i) {
@@ -61,7 +61,7 @@ Time reached(const RecordedMotion& motion, const Tool& tool, Time from, Time lim
 
 }  // namespace
 
-std::optional<Time> firstContact(const RecordedMotion& motion, const Tool& tool, const Sheet& sheet, Time from,
+std::optional<Time> firstContact(const RecordedMotion& motion, const ConvexShape& tool, const Sheet& sheet, Time from,
                                  Time to) {
   Clearance clearance(tool, sheet);
   for (Time time = from; time <= to;) {

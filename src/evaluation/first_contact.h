@@ -16,7 +16,7 @@ constexpr double kContactTolerance = 1e-6;
 /// early by no more than the tool needs for sqrt(2) * kContactTolerance.
 /// @param from, to  within the recording
 /// @returns empty: none
-std::optional<sweep_guard::Time> firstContact(const RecordedMotion& motion, const sweep_guard::Tool& tool,
+std::optional<sweep_guard::Time> firstContact(const RecordedMotion& motion, const sweep_guard::ConvexShape& tool,
                                               const Sheet& sheet, sweep_guard::Time from, sweep_guard::Time to);
 
 }  // namespace sweep_guard_evaluation

@@ -153,8 +153,8 @@ void takePrediction(const Words& words, Options& options) {
 void takeWarnings(const Words& words, Options& options) {
   options.placement.count = toCount<size_t>("placements", words.placements, 1, 100000);
   options.placement.seed = toCount<std::uint64_t>("seed", words.seed, 0, std::numeric_limits<std::uint64_t>::max());
-  options.watch.tool = sweep_guard::Tool::cylinder(toNumber("tool-radius", words.tool_radius, 1e-6, 100.0),
-                                                   toNumber("tool-length", words.tool_length, 1e-6, 100.0));
+  options.watch.tool = sweep_guard::ConvexShape::cylinder(toNumber("tool-radius", words.tool_radius, 1e-6, 100.0),
+                                                          toNumber("tool-length", words.tool_length, 1e-6, 100.0));
   options.watch.limits.min_probability = toNumber("min-probability", words.min_probability, 1e-3, 1.0);
   options.watch.limits.hold_time = sweep_guard::fromSeconds(toNumber("hold-time", words.hold_time, 0.0, 60.0));
   options.most_false_alarms = toNumber("up-to", words.most_false_alarms, 1e-3, 1e6);

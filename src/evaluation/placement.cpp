@@ -9,9 +9,9 @@ namespace sweep_guard_evaluation {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using sweep_guard::ConvexShape;
 using sweep_guard::Duration;
 using sweep_guard::Time;
-using sweep_guard::Tool;
 
 namespace {
 
@@ -48,7 +48,7 @@ std::optional<Moment> randomMoment(const RecordedMotion& motion, Duration after,
 }
 
 /// The point of the tool that is farthest along a direction.
-Eigen::Vector3d foremost(const Tool& tool, const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& direction_W) {
+Eigen::Vector3d foremost(const ConvexShape& tool, const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& direction_W) {
   const Eigen::Vector3d direction_T = X_WT.linear().transpose() * direction_W;
   const Eigen::Vector3d front = tool.frontExtreme(direction_T);
   const Eigen::Vector3d rear = tool.rearExtreme(direction_T);
@@ -57,7 +57,8 @@ Eigen::Vector3d foremost(const Tool& tool, const Eigen::Isometry3d& X_WT, const 
 
 /// A sheet in the tangent plane of the tool that faces its velocity, moved along itself by up to `aside` of its half
 /// side and away from the tool by up to `away` [m].
-Sheet randomSheet(const Tool& tool, const Moment& moment, double tilt, double aside, double away, Random& random) {
+Sheet randomSheet(const ConvexShape& tool, const Moment& moment, double tilt, double aside, double away,
+                  Random& random) {
   const Eigen::Matrix3d R_WV = random.frameWithZ(moment.velocity_W.normalized());
   const double angle = random.uniform(0.0, tilt * kPi / 180.0);
   const Eigen::Vector3d normal_W = R_WV * Eigen::Vector3d(std::sin(angle), 0.0, std::cos(angle));
@@ -71,7 +72,7 @@ Sheet randomSheet(const Tool& tool, const Moment& moment, double tilt, double as
   return sheet;
 }
 
-std::optional<Placement> tryContact(const RecordedMotion& motion, const Tool& tool, Random& random) {
+std::optional<Placement> tryContact(const RecordedMotion& motion, const ConvexShape& tool, Random& random) {
   const std::optional<Moment> moment = randomMoment(motion, Duration(0), random);
   if (!moment) return std::nullopt;
   const Sheet sheet = randomSheet(tool, *moment, kTiltOfContact, /*aside=*/0.9, /*away=*/0.0, random);
@@ -81,7 +82,7 @@ std::optional<Placement> tryContact(const RecordedMotion& motion, const Tool& to
   return Placement{sheet, begin, *contact, contact};
 }
 
-std::optional<Placement> tryMiss(const RecordedMotion& motion, const Tool& tool, Random& random) {
+std::optional<Placement> tryMiss(const RecordedMotion& motion, const ConvexShape& tool, Random& random) {
   const std::optional<Moment> moment = randomMoment(motion, kAfter + kUntouchedAfter, random);
   if (!moment) return std::nullopt;
   const Sheet sheet = randomSheet(tool, *moment, kTiltOfMiss, /*aside=*/2.0, kLargestGap, random);
@@ -94,7 +95,8 @@ std::optional<Placement> tryMiss(const RecordedMotion& motion, const Tool& tool,
 
 }  // namespace
 
-std::vector<Placement> placeSheets(const RecordedMotion& motion, const Tool& tool, const PlacementOptions& options) {
+std::vector<Placement> placeSheets(const RecordedMotion& motion, const ConvexShape& tool,
+                                   const PlacementOptions& options) {
   Random random(options.seed);
   std::vector<Placement> placements;
   for (size_t tries = kTries * options.count; placements.size() < options.count && tries > 0; --tries) {

@@ -31,7 +31,7 @@ struct Placement {
 ///
 /// @returns ordered by begin; fewer than asked for where the recording has no room: the tool rests, is too short, has
 /// gaps
-std::vector<Placement> placeSheets(const RecordedMotion& motion, const sweep_guard::Tool& tool,
+std::vector<Placement> placeSheets(const RecordedMotion& motion, const sweep_guard::ConvexShape& tool,
                                    const PlacementOptions& options);
 
 }  // namespace sweep_guard_evaluation

@@ -6,9 +6,9 @@
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard::ConvexShape;
 using sweep_guard::HalfSpace;
 using sweep_guard::Polygon;
-using sweep_guard::Tool;
 
 namespace {
 
@@ -47,7 +47,7 @@ sweep_guard::TriangleMesh meshOf(const Sheet& sheet) {
   return sweep_guard::TriangleMesh(cornersOf(sheet, sheet.X_WS), {{0, 1, 2}, {0, 2, 3}});
 }
 
-bool meets(const Tool& tool, const Eigen::Isometry3d& X_WT, const Sheet& sheet, double margin) {
+bool meets(const ConvexShape& tool, const Eigen::Isometry3d& X_WT, const Sheet& sheet, double margin) {
   Polygon part_T = cornersOf(sheet, X_WT.inverse() * sheet.X_WS);
   part_T = clip(part_T, HalfSpace(Eigen::Vector3d::UnitZ(), margin));
   part_T = clip(part_T, HalfSpace(-Eigen::Vector3d::UnitZ(), tool.length() + margin));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/geometry/convex_shape.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
 namespace sweep_guard_evaluation {
@@ -19,6 +19,6 @@ sweep_guard::TriangleMesh meshOf(const Sheet& sheet);
 /// @param margin  grows the cylinder by so much in radius and at both ends [m], >= 0; a sheet that is nearer than this
 /// to
 ///                the tool is met, one farther than sqrt(2) times this is not
-bool meets(const sweep_guard::Tool& tool, const Eigen::Isometry3d& X_WT, const Sheet& sheet, double margin);
+bool meets(const sweep_guard::ConvexShape& tool, const Eigen::Isometry3d& X_WT, const Sheet& sheet, double margin);
 
 }  // namespace sweep_guard_evaluation

@@ -80,7 +80,7 @@ class Watch {
   Watch(const std::vector<Placement>& placements, const WatchOptions& options)
       : placements_(placements),
         options_(options),
-        guard_(options.tool, sweep_guard::makeDetector("reference"), unhurried(options.guard)),
+        guard_(sweep_guard::Tool(options.tool), sweep_guard::makeDetector("reference"), unhurried(options.guard)),
         episodes_(options.min_probabilities.size(), std::vector<Episode>(placements.size())) {}
 
   void take(const StampedPose& pose) {

@@ -10,7 +10,7 @@
 namespace sweep_guard_evaluation {
 
 struct WatchOptions {
-  sweep_guard::Tool tool = sweep_guard::Tool::cylinder(/*radius=*/0.005, /*length=*/0.1);
+  sweep_guard::ConvexShape tool = sweep_guard::ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
   sweep_guard::GuardOptions guard;  ///< its clock is not asked: the budget of time never runs out
   /// Workpieces never go stale. `min_probability` is taken from below.
   sweep_guard::VerdictLimits limits = {std::chrono::milliseconds(100), sweep_guard::Duration::max(),

@@ -7,7 +7,7 @@
 namespace sweep_guard {
 namespace {
 
-// A point of the tool at one pose, in the plane (Y, Z) of the box.
+// A point of the body at one pose, in the plane (Y, Z) of the box.
 using PlanePoint = Eigen::Vector2d;
 
 struct Face {
@@ -15,12 +15,12 @@ struct Face {
   PlanePoint y_min;
 };
 
-using ExtremeOfFace = Eigen::Vector3d (Tool::*)(const Eigen::Vector3d&) const;
+using ExtremeOfFace = Eigen::Vector3d (ConvexShape::*)(const Eigen::Vector3d&) const;
 
-Face projectFace(const Tool& tool, ExtremeOfFace extreme, const Eigen::Isometry3d& X_BT) {
+Face projectFace(const ConvexShape& shape, ExtremeOfFace extreme, const Eigen::Isometry3d& X_BT) {
   const Eigen::Vector3d y_axis_T = X_BT.linear().transpose().col(1);
-  const Eigen::Vector3d highest = X_BT * (tool.*extreme)(y_axis_T);
-  const Eigen::Vector3d lowest = X_BT * (tool.*extreme)(-y_axis_T);
+  const Eigen::Vector3d highest = X_BT * (shape.*extreme)(y_axis_T);
+  const Eigen::Vector3d lowest = X_BT * (shape.*extreme)(-y_axis_T);
   return {highest.tail<2>(), lowest.tail<2>()};
 }
 
@@ -47,7 +47,8 @@ double areaCutOff(const Eigen::Vector2d& normal, double offset, const Eigen::Vec
 // Of the planes through the candidate lines, each with the normal that points the way of `outward`, the one that cuts
 // most off.
 std::optional<HalfSpace> tightestPlane(const std::array<Candidate, 4>& lines, const Eigen::Vector2d& outward,
-                                       const Tool& tool, const Motion& motion_B, const Eigen::Vector3d& half_extents) {
+                                       const ConvexShape& shape, const Motion& motion_B,
+                                       const Eigen::Vector3d& half_extents) {
   const double negligible = 1e-9 * half_extents.norm();
   std::optional<HalfSpace> tightest;
   double largest = negligible * half_extents.norm();
@@ -57,7 +58,7 @@ std::optional<HalfSpace> tightestPlane(const std::array<Candidate, 4>& lines, co
     const Eigen::Vector2d across = Eigen::Vector2d(along.y(), -along.x()).normalized();
     const Eigen::Vector2d facing = across.dot(outward) < 0.0 ? Eigen::Vector2d(-across) : across;
     const Eigen::Vector3d normal(0.0, facing.x(), facing.y());
-    const double offset = support(tool, motion_B, normal);
+    const double offset = support(shape, motion_B, normal);
     const double area = areaCutOff(facing, offset, half_extents.tail<2>());
     if (area > largest) {
       largest = area;
@@ -69,13 +70,13 @@ std::optional<HalfSpace> tightestPlane(const std::array<Candidate, 4>& lines, co
 
 }  // namespace
 
-std::vector<HalfSpace> boundingPlanes(const Tool& tool, const Motion& motion, const OrientedBox& box) {
+std::vector<HalfSpace> boundingPlanes(const ConvexShape& shape, const Motion& motion, const OrientedBox& box) {
   const Eigen::Isometry3d X_BM = box.X_MB.inverse();
-  const Motion motion_B{X_BM * motion.X_MT_start, X_BM * motion.X_MT_end};
-  const Face front_start = projectFace(tool, &Tool::frontExtreme, motion_B.X_MT_start);
-  const Face front_end = projectFace(tool, &Tool::frontExtreme, motion_B.X_MT_end);
-  const Face rear_start = projectFace(tool, &Tool::rearExtreme, motion_B.X_MT_start);
-  const Face rear_end = projectFace(tool, &Tool::rearExtreme, motion_B.X_MT_end);
+  const Motion motion_B{X_BM * motion.X_MT_start, X_BM * motion.X_MT_end, 0.0, X_BM.linear() * motion.drift};
+  const Face front_start = projectFace(shape, &ConvexShape::frontExtreme, motion_B.X_MT_start);
+  const Face front_end = projectFace(shape, &ConvexShape::frontExtreme, motion_B.X_MT_end);
+  const Face rear_start = projectFace(shape, &ConvexShape::rearExtreme, motion_B.X_MT_start);
+  const Face rear_end = projectFace(shape, &ConvexShape::rearExtreme, motion_B.X_MT_end);
 
   const auto sides = [&](PlanePoint Face::*y) {
     return std::array<Candidate, 4>{{{rear_start.*y, front_start.*y},
@@ -87,12 +88,13 @@ std::vector<HalfSpace> boundingPlanes(const Tool& tool, const Motion& motion, co
     return std::array<Candidate, 4>{
         {{start.y_max, end.y_max}, {start.y_max, end.y_min}, {start.y_min, end.y_max}, {start.y_min, end.y_min}}};
   };
-  const Eigen::Vector2d tip = (motion_B.X_MT_start.linear().col(2) + motion_B.X_MT_end.linear().col(2)).tail<2>();
+  const Eigen::Vector3d axis_T = shape.axis_T();
+  const Eigen::Vector2d tip = (motion_B.X_MT_start.linear() * axis_T + motion_B.X_MT_end.linear() * axis_T).tail<2>();
   const Eigen::Vector2d side = std::copysign(1.0, tip.y()) * Eigen::Vector2d(tip.y(), -tip.x());  // towards +Y
 
   std::vector<HalfSpace> planes;
   const auto add = [&](const std::array<Candidate, 4>& lines, const Eigen::Vector2d& outward) {
-    if (const auto plane = tightestPlane(lines, outward, tool, motion_B, box.half_extents)) planes.push_back(*plane);
+    if (const auto plane = tightestPlane(lines, outward, shape, motion_B, box.half_extents)) planes.push_back(*plane);
   };
   add(sides(&Face::y_max), side);
   add(sides(&Face::y_min), -side);

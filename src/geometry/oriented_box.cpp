@@ -8,14 +8,15 @@
 namespace sweep_guard {
 namespace {
 
-// The sums of [P, Sec. 3.1] over both poses, from those over one tool: moments of a union of equal sets.
+// The sums of [P, Sec. 3.1] over both poses, from those over one body: moments of a union of equal sets. A drift
+// doubles the sets once more.
 Eigen::Matrix3d covarianceOfBoth(const Moments& moments_T, const Motion& motion) {
   const Eigen::Matrix3d& R_start = motion.X_MT_start.linear();
   const Eigen::Matrix3d& R_end = motion.X_MT_end.linear();
   const Eigen::Vector3d half_step = 0.5 * (motion.X_MT_end * moments_T.mean - motion.X_MT_start * moments_T.mean);
   return 0.5 *
              (R_start * moments_T.covariance * R_start.transpose() + R_end * moments_T.covariance * R_end.transpose()) +
-         half_step * half_step.transpose();
+         half_step * half_step.transpose() + 0.25 * motion.drift * motion.drift.transpose();
 }
 
 struct Axis {
@@ -28,14 +29,14 @@ struct Axis {
 
 }  // namespace
 
-OrientedBox boundingBox(const Tool& tool, const Motion& motion) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covarianceOfBoth(tool.moments_T(), motion));
+OrientedBox boundingBox(const ConvexShape& shape, const Motion& motion) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covarianceOfBoth(shape.moments_T(), motion));
   assert(solver.info() == Eigen::Success);
 
   std::array<Axis, 3> axes;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d direction = solver.eigenvectors().col(i);
-    axes[static_cast<size_t>(i)] = {direction, -support(tool, motion, -direction), support(tool, motion, direction)};
+    axes[static_cast<size_t>(i)] = {direction, -support(shape, motion, -direction), support(shape, motion, direction)};
   }
   std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.halfExtent() < b.halfExtent(); });
 

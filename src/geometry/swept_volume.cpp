@@ -34,20 +34,20 @@ SweptVolume SweptVolume::grown(double distance) const {
   return grown;
 }
 
-SweptVolume sweptVolume(const Tool& tool, const Motion& motion, VolumeKind kind, double extra_margin) {
+SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKind kind, double extra_margin) {
   assert(motion.angle() < 1.6 && extra_margin >= 0.0);
   // Far from the mesh's origin the extents would lose digits: they are taken near the tool, and moved there at the end.
   const Eigen::Translation3d there(motion.X_MT_start.translation());
-  const Motion near{there.inverse() * motion.X_MT_start, there.inverse() * motion.X_MT_end};
+  const Motion near{there.inverse() * motion.X_MT_start, there.inverse() * motion.X_MT_end, 0.0, motion.drift};
 
   SweptVolume volume;
-  volume.box = boundingBox(tool, near);
-  if (kind == VolumeKind::kObbPlanes) volume.clips_B = boundingPlanes(tool, near, volume.box);
-  const Eigen::Vector3d& mean_T = tool.moments_T().mean;
+  volume.box = boundingBox(shape, near);
+  if (kind == VolumeKind::kObbPlanes) volume.clips_B = boundingPlanes(shape, near, volume.box);
+  const Eigen::Vector3d& mean_T = shape.moments_T().mean;
   volume.interior_B = volume.box.X_MB.inverse() * (0.5 * (near.X_MT_start * mean_T + near.X_MT_end * mean_T));
   volume.box.X_MB = there * volume.box.X_MB;
 
-  const double arc = std::max(chordError(tool.reach(motion.axis_T()), motion.angle()), motion.bulge);
+  const double arc = std::max(chordError(shape.reach(motion.axis_T()), motion.angle()), motion.bulge);
   return volume.grown(arc + extra_margin);
 }
 

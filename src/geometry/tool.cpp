@@ -1,97 +1,86 @@
 #include "sweep_guard/geometry/tool.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
-TriangleMesh cylinderMesh(double radius, double length, int sides) {
-  const auto n = static_cast<std::uint32_t>(sides);
-  const std::uint32_t front_center = 2 * n;
-  const std::uint32_t rear_center = 2 * n + 1;
-  std::vector<Eigen::Vector3d> vertices;
-  for (const double z : {0.0, -length}) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const double angle = kTwoPi * i / n;
-      vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-    }
+// Of several sets of points, each counted alike.
+Moments united(const std::vector<Moments>& sets) {
+  const double share = 1.0 / static_cast<double>(sets.size());
+  Moments all{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+  for (const Moments& set : sets) all.mean += share * set.mean;
+  for (const Moments& set : sets) {
+    const Eigen::Vector3d apart = set.mean - all.mean;
+    all.covariance += share * (set.covariance + apart * apart.transpose());
   }
-  vertices.emplace_back(0.0, 0.0, 0.0);
-  vertices.emplace_back(0.0, 0.0, -length);
-
-  std::vector<Triangle> triangles;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t next = (i + 1) % n;
-    triangles.push_back({front_center, i, next});
-    triangles.push_back({rear_center, n + next, n + i});
-    triangles.push_back({i, n + i, next});
-    triangles.push_back({next, n + i, n + next});
-  }
-  return TriangleMesh(vertices, std::move(triangles));
-}
-
-Moments triangleMoments(const TriangleMesh& mesh) {
-  const double count = 3.0 * static_cast<double>(mesh.triangles().size());
-  Moments moments{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
-  for (const Triangle& triangle : mesh.triangles()) {
-    for (const std::uint32_t vertex : triangle) moments.mean += mesh.vertex(vertex) / count;
-  }
-  for (const Triangle& triangle : mesh.triangles()) {
-    for (const std::uint32_t vertex : triangle) {
-      const Eigen::Vector3d p = mesh.vertex(vertex) - moments.mean;
-      moments.covariance += p * p.transpose() / count;
-    }
-  }
-  return moments;
-}
-
-Eigen::Vector3d discExtreme(double z, double radius, const Eigen::Vector3d& direction) {
-  const Eigen::Vector2d radial = direction.head<2>();
-  const double length = radial.norm();
-  if (length == 0.0) return {0.0, 0.0, z};
-  return {radius * radial.x() / length, radius * radial.y() / length, z};
+  return all;
 }
 
 }  // namespace
 
+Tool::Tool(std::vector<ToolPart> parts) : parts_(std::move(parts)) {
+  if (parts_.empty()) throw InvalidInput("the tool has no part: give it one");
+  for (const ToolPart& part : parts_) {
+    const ConvexShape& shape = part.shape_T;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
+      bounds_.min()[i] = std::min(bounds_.min()[i], -shape.support(-axis));
+      bounds_.max()[i] = std::max(bounds_.max()[i], shape.support(axis));
+    }
+    extent_ = std::max(extent_, shape.extent());
+  }
+  std::vector<size_t> all(parts_.size());
+  std::iota(all.begin(), all.end(), 0U);
+  grow(std::move(all));
+}
+
+Tool::Tool(const ConvexShape& shape_T) : Tool(std::vector<ToolPart>{{"", shape_T}}) {}
+
 Tool Tool::cylinder(double radius, double length, int sides) {
-  if (!(radius >= 0.0 && radius <= kMaxCoordinate)) throw InvalidInput("tool radius: must be finite and >= 0 m");
-  if (!(length >= 0.0 && length <= kMaxCoordinate)) throw InvalidInput("tool length: must be finite and >= 0 m");
-  if (radius == 0.0 && length == 0.0) throw InvalidInput("tool: radius and length are both 0; give it a size");
-  if (sides < 3 || sides > 1000) throw InvalidInput("tool sides: must be 3 to 1000");
-  return Tool(radius, length, cylinderMesh(radius, length, sides));
+  return Tool(ConvexShape::cylinder(radius, length, sides));
 }
 
-Tool::Tool(double radius, double length, TriangleMesh mesh_T)
-    : radius_(radius), length_(length), mesh_T_(std::move(mesh_T)), moments_T_(triangleMoments(mesh_T_)) {}
-
-double Tool::support(const Eigen::Vector3d& direction_T) const {
-  return radius_ * direction_T.head<2>().norm() + length_ * std::max(0.0, -direction_T.z());
+// Halves them at the median along the longest side of the box around them.
+size_t Tool::grow(std::vector<size_t> parts) {
+  const size_t node = tree_.size();
+  if (parts.size() == 1) {
+    tree_.push_back({parts_[parts[0]].shape_T, parts[0], {}});
+    return node;
+  }
+  tree_.push_back({boxAround(parts), std::nullopt, {}});
+  const Eigen::Vector3d longest = tree_[node].shape_T.axis_T();
+  const auto along = [&](size_t part) { return longest.dot(parts_[part].shape_T.moments_T().mean); };
+  const auto middle = parts.begin() + static_cast<std::ptrdiff_t>(parts.size() / 2);
+  std::nth_element(parts.begin(), middle, parts.end(), [&](size_t a, size_t b) { return along(a) < along(b); });
+  const size_t first = grow({parts.begin(), middle});
+  const size_t second = grow({middle, parts.end()});
+  tree_[node].below = {first, second};
+  return node;
 }
 
-double Tool::reach(const Eigen::Vector3d& axis_T) const { return radius_ + length_ * axis_T.head<2>().norm(); }
-
-double Tool::extent() const { return std::hypot(radius_, length_); }
-
-Eigen::Vector3d Tool::frontExtreme(const Eigen::Vector3d& direction_T) const {
-  return discExtreme(0.0, radius_, direction_T);
-}
-
-Eigen::Vector3d Tool::rearExtreme(const Eigen::Vector3d& direction_T) const {
-  return discExtreme(-length_, radius_, direction_T);
-}
-
-double support(const Tool& tool, const Eigen::Isometry3d& X_MT, const Eigen::Vector3d& direction_M) {
-  return direction_M.dot(X_MT.translation()) + tool.support(X_MT.linear().transpose() * direction_M);
-}
-
-double support(const Tool& tool, const Motion& motion, const Eigen::Vector3d& direction_M) {
-  return std::max(support(tool, motion.X_MT_start, direction_M), support(tool, motion.X_MT_end, direction_M));
+ConvexShape Tool::boxAround(const std::vector<size_t>& parts) const {
+  std::vector<Moments> moments;
+  for (const size_t part : parts) moments.push_back(parts_[part].shape_T.moments_T());
+  Eigen::Isometry3d X_TB = Eigen::Isometry3d::Identity();
+  X_TB.linear() = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(united(moments).covariance).eigenvectors();
+  if (X_TB.linear().determinant() < 0.0) X_TB.linear().col(0) *= -1.0;
+  Eigen::AlignedBox3d box;
+  for (const size_t part : parts) {
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d axis = X_TB.linear().col(i);
+      box.min()[i] = std::min(box.min()[i], -parts_[part].shape_T.support(-axis));
+      box.max()[i] = std::max(box.max()[i], parts_[part].shape_T.support(axis));
+    }
+  }
+  X_TB.translation() = X_TB.linear() * box.center();
+  // Grown by what rounding may cost: a dozen roundings of 2^-53, with a margin.
+  const double rounding = 0x1p-48 * extent_;
+  return ConvexShape::box(0.5 * box.sizes() + Eigen::Vector3d::Constant(rounding)).placed(X_TB);
 }
 
 }  // namespace sweep_guard

@@ -22,13 +22,16 @@ double deviationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& r, const 
 
 // Of the tool's support along a unit direction. The farther end lags behind by `gap`; within kMostDeviations of its own
 // it catches up with whichever is larger of these.
-double supportDeviation(const Tool& tool, const Eigen::Matrix3d& R_MT, const Eigen::Vector3d& n_M,
+double supportDeviation(const ConvexShape& shape, const Eigen::Matrix3d& R_MT, const Eigen::Vector3d& n_M,
                         const Matrix6d& covariance_M) {
   const Eigen::Vector3d n_T = R_MT.transpose() * n_M;
-  const double front = deviationAlong(n_M, R_MT * tool.frontExtreme(n_T), covariance_M);
-  const double rear = deviationAlong(n_M, R_MT * tool.rearExtreme(n_T), covariance_M);
-  const double gap = tool.length() * std::abs(n_T.z());
-  const auto& [touching, other] = n_T.z() < 0.0 ? std::pair(rear, front) : std::pair(front, rear);
+  const Eigen::Vector3d front_T = shape.frontExtreme(n_T);
+  const Eigen::Vector3d rear_T = shape.rearExtreme(n_T);
+  const double front = deviationAlong(n_M, R_MT * front_T, covariance_M);
+  const double rear = deviationAlong(n_M, R_MT * rear_T, covariance_M);
+  const double ahead = n_T.dot(front_T - rear_T);
+  const double gap = std::abs(ahead);
+  const auto& [touching, other] = ahead < 0.0 ? std::pair(rear, front) : std::pair(front, rear);
   return std::max(touching, other - gap / kMostDeviations);
 }
 
@@ -38,13 +41,13 @@ double contactProbability(double deviations) {
   return deviations > kMostDeviations ? 0.0 : 0.5 * std::erfc(deviations / std::sqrt(2.0));
 }
 
-std::vector<double> planeDeviations(const Tool& tool, const Eigen::Isometry3d& X_MT, const Matrix6d& covariance_M,
-                                    const SweptVolume& swept_M) {
+std::vector<double> planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& X_MT,
+                                    const Matrix6d& covariance_M, const SweptVolume& swept_M) {
   const Eigen::Matrix3d& R_MB = swept_M.box.X_MB.linear();
   std::vector<double> sigmas;
   for (const HalfSpace& half_space_B : swept_M.halfSpaces_B()) {
     const Eigen::Vector3d n_M = R_MB * half_space_B.normal();
-    sigmas.push_back(std::max(kLeastDeviation, supportDeviation(tool, X_MT.linear(), n_M, covariance_M)));
+    sigmas.push_back(std::max(kLeastDeviation, supportDeviation(shape, X_MT.linear(), n_M, covariance_M)));
   }
   return sigmas;
 }

@@ -33,9 +33,8 @@ Eigen::AlignedBox3d boxAround(const Tool& tool, const Eigen::Isometry3d& X_MT, c
                               double most) {
   Eigen::AlignedBox3d box_M;
   for (int i = 0; i < 8; ++i) {
-    const double x = (i & 1) != 0 ? tool.radius() : -tool.radius();
-    const double y = (i & 2) != 0 ? tool.radius() : -tool.radius();
-    const Eigen::Vector3d r_M = X_MT.linear() * Eigen::Vector3d(x, y, (i & 4) != 0 ? -tool.length() : 0.0);
+    const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
+    const Eigen::Vector3d r_M = X_MT.linear() * tool.bounds_T().corner(corner);
     const Eigen::Vector3d p_M = X_MT.translation() + r_M;
     const Eigen::Vector3d off = most * pointDeviations(r_M, covariance_M);
     box_M.extend(Eigen::AlignedBox3d(p_M - off, p_M + off));

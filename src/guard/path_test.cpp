@@ -33,9 +33,9 @@ struct PathTest::Scene {
 
 // What the planes of a stretch's volumes tell.
 struct PathTest::Reading {
-  double probability = 0.0;                     // that the tool meets something
-  std::vector<const SweptVolume*> unseparated;  // not told apart from the mesh
-  TriangleSet triangles;                        // that these may meet
+  double probability = 0.0;            // that the tool meets something
+  std::vector<SweptBody> unseparated;  // parts of the tool not told apart from the mesh
+  TriangleSet triangles;               // that these may meet
 };
 
 // So far along the path.
@@ -60,12 +60,12 @@ PredictedObject PathTest::operator()(Detector& detector, const Tool& tool, const
   size_t begin = 0;
   for (const size_t end : effort.sweep_ends.empty() ? everyPose(path.size()) : effort.sweep_ends) {
     const Stretch sweep = motion.between(begin, end);
-    std::vector<SweptVolume> volumes_M = volumesOf(scene, sweep);
+    std::vector<SweptBody> whole = wholeTool(scene, sweep);
     findings.triangles.clear();
-    test(scene, part, sweep, volumes_M, findings);
+    test(scene, part, sweep, whole, findings);
     TriangleSet& met = end <= reflex_sweeps ? object.reflex : object.considered;
     met = united(met, findings.triangles);
-    std::move(volumes_M.begin(), volumes_M.end(), std::back_inserter(object.volumes_M));
+    for (SweptBody& body : whole) object.volumes_M.push_back(std::move(body.volume_M));
     begin = end;
   }
   object.sweeps = std::move(findings.sweeps);
@@ -74,55 +74,64 @@ PredictedObject PathTest::operator()(Detector& detector, const Tool& tool, const
   return object;
 }
 
-TriangleSet PathTest::detected(const Scene& scene, const std::vector<const SweptVolume*>& volumes_M) {
+TriangleSet PathTest::detected(const Scene& scene, const std::vector<SweptBody>& bodies) {
   TriangleSet met;
-  for (const SweptVolume* volume_M : volumes_M) {
-    met = united(met, scene.detector.detect(scene.mesh_M, *volume_M).triangles);
-  }
+  for (const SweptBody& body : bodies) met = united(met, detect(scene.detector, scene.mesh_M, body).triangles);
   return met;
 }
 
-std::vector<SweptVolume> PathTest::volumesOf(const Scene& scene, const Stretch& stretch) const {
-  std::vector<SweptVolume> volumes_M;
-  for (const Motion& part_M : scene.motion.motions_M(stretch, options_.sweep.max_rotation)) {
-    volumes_M.push_back(sweptVolume(scene.tool, part_M, options_.sweep.volume, scene.margin));
+std::vector<SweptBody> PathTest::wholeTool(const Scene& scene, const Stretch& stretch) const {
+  std::vector<SweptBody> whole;
+  for (const Motion& motion_M : scene.motion.motions_M(stretch, options_.sweep.max_rotation)) {
+    whole.push_back(sweptBody(scene.tool.whole(), motion_M, options_.sweep.volume, scene.margin));
   }
-  return volumes_M;
+  return whole;
 }
 
 PathTest::Reading PathTest::read(const Scene& scene, const MeshPart& part, const Stretch& stretch,
-                                 const std::vector<SweptVolume>& volumes_M) {
+                                 const std::vector<SweptBody>& whole) {
   Reading reading;
   if (part.triangles.empty()) return reading;
-  const Eigen::Isometry3d X_MT = scene.motion.end_M(stretch);
-  const Matrix6d covariance_M = scene.motion.covariance_M(stretch);
-  for (const SweptVolume& volume_M : volumes_M) {
-    const auto deviations = planeDeviations(scene.tool, X_MT, covariance_M, volume_M);
-    const auto clearance = meter_(scene.mesh_M, part, volume_M, deviations);
-    if (!clearance) continue;
-    reading.probability = std::max(reading.probability, contactProbability(clearance->deviations));
-    if (clearance->separated) continue;
-    reading.unseparated.push_back(&volume_M);
-    reading.triangles = united(reading.triangles, meter_.notSeparated(part));
-  }
+  for (const SweptBody& body : whole) read(scene, part, stretch, scene.tool.tree()[0], body, reading);
   return reading;
+}
+
+// Down the tool's tree, as far as its boxes might meet something.
+void PathTest::read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const Tool::Node& node,
+                    const SweptBody& body, Reading& reading) {
+  const auto deviations =
+      planeDeviations(node.shape_T, scene.motion.end_M(stretch), scene.motion.covariance_M(stretch), body.volume_M);
+  const auto clearance = meter_(scene.mesh_M, part, body.volume_M, deviations);
+  if (!clearance) return;
+  if (!node.part) {
+    for (const size_t index : node.below) {
+      const Tool::Node& below = scene.tool.tree()[index];
+      const SweptBody within = sweptBody(below.shape_T, body.motion_M, options_.sweep.volume, scene.margin);
+      read(scene, part, stretch, below, within, reading);
+    }
+    return;
+  }
+  reading.probability = std::max(reading.probability, contactProbability(clearance->deviations));
+  if (clearance->separated) return;
+  reading.unseparated.push_back(body);
+  reading.triangles = united(reading.triangles, meter_.notSeparated(part));
 }
 
 // @param around  triangles that the tool may reach; those that it may reach in this stretch are among them
 void PathTest::test(const Scene& scene, const MeshPart& around, const Stretch& stretch,
-                    const std::vector<SweptVolume>& volumes_M, Findings& findings) {
+                    const std::vector<SweptBody>& whole, Findings& findings) {
   const MeshPart part = partWithin(scene.mesh_M, around, scene.motion.reach_M(stretch, kMostDeviations, scene.margin));
   const Duration length = stretch.to - stretch.from;
   const auto halve = [&] {
     const auto [first, second] = scene.motion.halves(stretch);
-    test(scene, part, first, volumesOf(scene, first), findings);
-    test(scene, part, second, volumesOf(scene, second), findings);
+    test(scene, part, first, wholeTool(scene, first), findings);
+    test(scene, part, second, wholeTool(scene, second), findings);
   };
 
-  const Reading reading = read(scene, part, stretch, volumes_M);
+  const Reading reading = read(scene, part, stretch, whole);
   const bool in_time = reading.probability == 0.0 || scene.inTimeFor(stretch);
   const bool finer = !findings.met && in_time;
-  if (in_time) findings.volumes_tested += volumes_M.size();
+  if (in_time) findings.volumes_tested += whole.size();
   if (reading.probability > 0.0 && finer && length > std::max(kProbableStretch, options_.finest)) return halve();
   const TriangleSet met = in_time ? detected(scene, reading.unseparated) : reading.triangles;
   if (!met.empty() && finer && length > options_.finest) return halve();

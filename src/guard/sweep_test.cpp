@@ -4,9 +4,37 @@
 #include <cassert>
 #include <iterator>
 
+#include "sweep_guard/guard/swept_body.h"
 #include "sweep_guard/guard/triangle_set.h"
 
 namespace sweep_guard {
+namespace {
+
+// Down the tool's tree: whatever a box does not meet, the bodies in it do not meet either.
+struct TreeWalk {
+  Detector& detector;
+  const Tool& tool;
+  const TriangleMesh& mesh_M;
+  const SweepOptions& options;
+  const Motion& motion_M;
+  SweepFindings& findings;
+
+  void visit(size_t index, const TriangleSet* among) {
+    const Tool::Node& node = tool.tree()[index];
+    SweptBody body = sweptBody(node.shape_T, motion_M, options.volume, options.margin + mesh_M.rounding());
+    const Detection detection = detect(detector, mesh_M, body, among);
+    findings.margin = std::max(findings.margin, body.volume_M.margin + detection.inflation);
+    if (!node.part && !detection.triangles.empty()) {
+      for (const size_t below : node.below) visit(below, &detection.triangles);
+      return;
+    }
+    findings.triangles = united(findings.triangles, detection.triangles);
+    findings.volumes_M.push_back(std::move(body.volume_M));
+  }
+};
+
+}  // namespace
+
 void unite(SweepFindings& all, SweepFindings more) {
   all.triangles = united(all.triangles, more.triangles);
   all.margin = std::max(all.margin, more.margin);
@@ -16,12 +44,7 @@ void unite(SweepFindings& all, SweepFindings more) {
 SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts,
                         const TriangleMesh& mesh_M, const SweepOptions& options) {
   SweepFindings findings;
-  for (const Motion& part : parts) {
-    SweptVolume volume_M = sweptVolume(tool, part, options.volume, options.margin + mesh_M.rounding());
-    Detection detection = detector.detect(mesh_M, volume_M);
-    const double margin = volume_M.margin + detection.inflation;
-    unite(findings, {std::move(detection.triangles), margin, {std::move(volume_M)}});
-  }
+  for (const Motion& part : parts) TreeWalk{detector, tool, mesh_M, options, part, findings}.visit(0, nullptr);
   return findings;
 }
 

@@ -65,9 +65,9 @@ Marker marker(const std::string& ns, int id, int type, const std::string& frame,
 Marker toolMarker(const std::string& ns, int id, const std::string& frame, sweep_guard::Time stamp,
                   const sweep_guard::Tool& tool, const Eigen::Isometry3d& X_WT) {
   Marker cylinder = marker(ns, id, Marker::CYLINDER, frame, stamp);
-  cylinder.pose = toMsg(X_WT * Eigen::Translation3d(0.0, 0.0, -0.5 * tool.length()));
-  cylinder.scale.x = cylinder.scale.y = 2.0 * tool.radius();
-  cylinder.scale.z = tool.length();
+  cylinder.pose = toMsg(X_WT * Eigen::Translation3d(0.0, 0.0, -0.5 * tool.whole().length()));
+  cylinder.scale.x = cylinder.scale.y = 2.0 * tool.whole().radius();
+  cylinder.scale.z = tool.whole().length();
   return cylinder;
 }
 

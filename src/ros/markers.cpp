@@ -66,13 +66,13 @@ void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerSc
   array.markers.push_back(tool);
 
   Marker text = marker("warning_text", 0, Marker::TEXT_VIEW_FACING, fixed_frame_, stamp);
-  text.pose = toMsg(scene.X_WT * Eigen::Translation3d(0.0, 0.0, -1.4 * tool_.length()));
+  text.pose = toMsg(scene.X_WT * Eigen::Translation3d(0.0, 0.0, -1.4 * tool_.whole().length()));
   addText(array, std::move(text), scene.verdict);
 
   addSweptVolumes(array, *scene.newest, level);
   addTrail(array, scene.trail, fixed_frame_, level);
   if (scene.contact && level == Level::kContact) {
-    addContactTriangles(array, *scene.contact, stamp, 0.1 * tool_.radius());
+    addContactTriangles(array, *scene.contact, stamp, 0.1 * tool_.whole().radius());
   }
 }
 

@@ -14,7 +14,7 @@ constexpr int kGhosts = 10;
 
 // How far any point of the tool moves between two poses, nearly: that of its tip or its far end.
 double moved(const sweep_guard::Tool& tool, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  const Eigen::Vector3d rear_T(0.0, 0.0, -tool.length());
+  const Eigen::Vector3d rear_T(0.0, 0.0, -tool.whole().length());
   return std::max((to.translation() - from.translation()).norm(), (to * rear_T - from * rear_T).norm());
 }
 
@@ -33,7 +33,7 @@ void addGhosts(visualization_msgs::MarkerArray& array, const PredictedScene& sce
     const sweep_guard::Duration due = path.back().ahead * (i + 1) / kGhosts;
     const auto pose = std::lower_bound(path.begin(), path.end(), due,
                                        [](const auto& before, sweep_guard::Duration t) { return before.ahead < t; });
-    if (drawn != nullptr && moved(scene.tool, *drawn, pose->X_WT) < scene.tool.radius()) continue;
+    if (drawn != nullptr && moved(scene.tool, *drawn, pose->X_WT) < scene.tool.whole().radius()) continue;
     drawn = &pose->X_WT;
     Marker ghost = toolMarker("predicted_tool", i, scene.fixed_frame, scene.outlook.stamp, scene.tool, pose->X_WT);
     ghost.color = unlessUnknown(scene.level, color(0.45, 0.65, 1.0, 0.5 * (kGhosts - i) / kGhosts));
@@ -52,7 +52,7 @@ void addPredictedVolumes(visualization_msgs::MarkerArray& array, const Predicted
 }
 
 void addPredictedTriangles(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
-  const double lift = 0.05 * scene.tool.radius();  // half of what contacts are lifted: those are seen above
+  const double lift = 0.05 * scene.tool.whole().radius();  // half of what contacts are lifted: those are seen above
   int index = 0;
   for (const sweep_guard::PredictedObject& object : scene.outlook.objects) {
     for (const auto& [level, triangles] :

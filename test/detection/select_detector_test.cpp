@@ -43,7 +43,7 @@ SweptVolume sweptDrill() {
   Motion motion;
   motion.X_MT_start.translation() = Eigen::Vector3d(-0.1, 0.01, 0.1);
   motion.X_MT_end.translation() = Eigen::Vector3d(0.1, 0.01, 0.1);
-  return sweptVolume(Tool::cylinder(0.005, 0.05), motion, VolumeKind::kObbPlanes);
+  return sweptVolume(ConvexShape::cylinder(0.005, 0.05), motion, VolumeKind::kObbPlanes);
 }
 
 const TriangleMesh& hull() {
@@ -193,7 +193,7 @@ TEST(MakeDetectorTest, KnowsItsNamesAndNoOther) {
 // A context that stays current in the thread that made it would be used there after its end.
 TEST(SelectDetectorTest, MayEndInAnotherThreadThanItBegan) {
   const TriangleMesh mesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}});
-  const SweptVolume swept_M = sweptVolume(Tool::cylinder(0.01, 0.1), Motion{}, VolumeKind::kObbPlanes);
+  const SweptVolume swept_M = sweptVolume(ConvexShape::cylinder(0.01, 0.1), Motion{}, VolumeKind::kObbPlanes);
   for (int i = 0; i < 5; ++i) {
     std::unique_ptr<Detector> detector = makeDetector("select");
     std::thread([&] { detector.reset(); }).join();

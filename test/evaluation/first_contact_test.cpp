@@ -10,10 +10,10 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using sweep_guard::ConvexShape;
 using sweep_guard::Duration;
 using sweep_guard::StampedPose;
 using sweep_guard::Time;
-using sweep_guard::Tool;
 
 // Of the tool in time: at 0.1 m/s the tolerance of 1 um is gone in 10 us.
 constexpr double kTimeTolerance = 2e-5;  // [s]
@@ -36,7 +36,7 @@ class FirstContactTest : public testing::Test {
     return time ? sweep_guard::toSeconds(time->time_since_epoch()) : -1.0;
   }
 
-  Tool tool_ = Tool::cylinder(0.005, 0.1);
+  ConvexShape tool_ = ConvexShape::cylinder(0.005, 0.1);
 };
 
 TEST_F(FirstContactTest, EndOnIntoAWall) {

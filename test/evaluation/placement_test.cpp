@@ -10,8 +10,8 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using sweep_guard::ConvexShape;
 using sweep_guard::StampedPose;
-using sweep_guard::Tool;
 
 /// Along a figure of eight, 0.4 m wide, for a minute.
 std::vector<StampedPose> winding() {
@@ -27,7 +27,7 @@ std::vector<StampedPose> winding() {
 class PlacementTest : public testing::Test {
  protected:
   RecordedMotion motion_{winding()};
-  Tool tool_ = Tool::cylinder(0.005, 0.1);
+  ConvexShape tool_ = ConvexShape::cylinder(0.005, 0.1);
 };
 
 TEST_F(PlacementTest, GivesAsManyAsAskedForHalfOfThemWithContact) {

@@ -7,7 +7,7 @@
 namespace sweep_guard_evaluation {
 namespace {
 
-using sweep_guard::Tool;
+using sweep_guard::ConvexShape;
 
 // A tool along z from -0.1 to 0 with a radius of 5 mm.
 class MeetsTest : public testing::Test {
@@ -24,7 +24,7 @@ class MeetsTest : public testing::Test {
     return meets(tool_, Eigen::Isometry3d::Identity(), sheet, margin);
   }
 
-  Tool tool_ = Tool::cylinder(0.005, 0.1);
+  ConvexShape tool_ = ConvexShape::cylinder(0.005, 0.1);
 };
 
 TEST_F(MeetsTest, AWallBeforeTheTipAtTheTip) {

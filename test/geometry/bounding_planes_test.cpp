@@ -33,7 +33,7 @@ TEST(BoundingPlanesTest, AreTheSideAndFrontalPlanesOfFigureFive) {
   box.X_MB.translation() = Eigen::Vector3d(0, 2.9, -4.7);
   box.half_extents = Eigen::Vector3d(1, 3.9, 5.3);
 
-  const std::vector<HalfSpace> planes_B = boundingPlanes(Tool::cylinder(1, 10), motion, box);
+  const std::vector<HalfSpace> planes_B = boundingPlanes(ConvexShape::cylinder(1, 10), motion, box);
   ASSERT_EQ(planes_B.size(), 4U);
   const auto in_B = [](double y, double z) { return Eigen::Vector2d(y - 2.9, z + 4.7); };
   expectPlane(planes_B[0], {9.4, -5.8}, in_B(1, -10));  // SCP: from the rear at the start to the front at the end
@@ -47,7 +47,7 @@ TEST(BoundingPlanesTest, AreTheSideAndFrontalPlanesOfFigureFive) {
 TEST(BoundingPlanesTest, LeaveTheBoxOfADrillAlongItsAxisAlone) {
   Motion ahead;
   ahead.X_MT_end.translation() = Eigen::Vector3d(0, 0, 0.5);
-  const Tool drill = Tool::cylinder(1, 10);
+  const ConvexShape drill = ConvexShape::cylinder(1, 10);
   EXPECT_TRUE(boundingPlanes(drill, ahead, boundingBox(drill, ahead)).empty());
   EXPECT_TRUE(boundingPlanes(drill, Motion{}, boundingBox(drill, Motion{})).empty());
 }
@@ -57,7 +57,7 @@ TEST(BoundingPlanesTest, CutOffNoPointOfTheRoundToolWhateverItsMotion) {
   Random random(/*seed=*/1);
   int planes = 0;
   for (int i = 0; i < kMotions && !HasFailure(); ++i) {
-    const Tool tool = randomTool(random, random.logUniform(1e-3, 1e3));
+    const ConvexShape tool = randomTool(random, random.logUniform(1e-3, 1e3));
     const double size = tool.radius() + tool.length();
     const Motion motion = randomMotion(random, tool, size * random.direction(), /*max_angle=*/3.14);
     const OrientedBox box = boundingBox(tool, motion);
@@ -79,7 +79,7 @@ TEST(BoundingPlanesTest, CutOffNoPointOfTheRoundToolWhateverItsMotion) {
 TEST(BoundingPlanesTest, AreParallelToTheXAxisOfTheBox) {
   Random random(/*seed=*/2);
   for (int i = 0; i < 1000; ++i) {
-    const Tool tool = randomTool(random, 1.0);
+    const ConvexShape tool = randomTool(random, 1.0);
     const Motion motion = randomMotion(random, tool, random.direction(), /*max_angle=*/3.14);
     for (const HalfSpace& plane_B : boundingPlanes(tool, motion, boundingBox(tool, motion))) {
       EXPECT_EQ(plane_B.normal().x(), 0.0);
@@ -89,7 +89,7 @@ TEST(BoundingPlanesTest, AreParallelToTheXAxisOfTheBox) {
 
 TEST(BoundingPlanesTest, MakeTheVolumeOfHandMotionsTighter) {
   Random random(/*seed=*/3);
-  const Tool drill = Tool::cylinder(/*radius=*/0.005, /*length=*/0.1);
+  const ConvexShape drill = ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
   std::vector<double> ratios;
   for (int i = 0; i < 1000; ++i) {
     const Motion motion = handMotion(random);

@@ -109,7 +109,7 @@ TEST(ChordErrorTest, BoundsTheArcsOfEveryToolPoint) {
   double closest = 0.0;
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE("motion " + std::to_string(i));
-    const Tool tool = randomTool(random, 1.0);
+    const ConvexShape tool = randomTool(random, 1.0);
     const Motion motion = randomMotion(random, tool, random.direction(), /*max_angle=*/1.57);
     const double bound = chordError(tool.reach(motion.axis_T()), motion.angle());
     for (int step = 0; step <= 1000; ++step) {
@@ -150,7 +150,7 @@ TEST(RelativeMotionTest, BoundsTheArcsOfEveryToolPoint) {
   Random random(/*seed=*/4);
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE("motion " + std::to_string(i));
-    const Tool tool = randomTool(random, 1.0);
+    const ConvexShape tool = randomTool(random, 1.0);
     const RelativeMotion motion{randomMotion(random, tool, 5.0 * random.direction(), /*max_angle=*/3.1),
                                 randomMotion(random, tool, 5.0 * random.direction(), /*max_angle=*/3.1)};
     const double max_rotation = random.uniform(0.05, 0.5);

@@ -29,7 +29,7 @@ void expectValid(const OrientedBox& box) {
 }
 
 // The sums of [P, Sec. 3.1], written down once more: over the corners of the triangles of both tools.
-Eigen::Matrix3d papersCovariance(const Tool& tool, const Motion& motion) {
+Eigen::Matrix3d papersCovariance(const ConvexShape& tool, const Motion& motion) {
   std::vector<Eigen::Vector3d> corners;
   for (const Eigen::Isometry3d& X_MT : {motion.X_MT_start, motion.X_MT_end}) {
     for (const Triangle& triangle : tool.mesh_T().triangles()) {
@@ -47,7 +47,7 @@ Eigen::Matrix3d papersCovariance(const Tool& tool, const Motion& motion) {
 
 // Straight ahead, the drill covers a longer drill.
 TEST(OrientedBoxTest, EnclosesADrillThatMovesAlongItsAxis) {
-  const OrientedBox box = boundingBox(Tool::cylinder(0.5, 2.0), translation({0, 0, 4}));
+  const OrientedBox box = boundingBox(ConvexShape::cylinder(0.5, 2.0), translation({0, 0, 4}));
   EXPECT_TRUE(box.half_extents.isApprox(Eigen::Vector3d(0.5, 0.5, 3.0), 1e-9));
   EXPECT_TRUE(box.X_MB.translation().isApprox(Eigen::Vector3d(0, 0, 1), 1e-9));
   EXPECT_NEAR(std::abs(box.X_MB.linear()(2, 2)), 1.0, 1e-12);
@@ -55,7 +55,7 @@ TEST(OrientedBoxTest, EnclosesADrillThatMovesAlongItsAxis) {
 
 // Sideways by more than its length: now the way is the longest axis, the drill's axis the second.
 TEST(OrientedBoxTest, OrdersItsAxesByExtent) {
-  const OrientedBox box = boundingBox(Tool::cylinder(0.5, 2.0), translation({6, 0, 0}));
+  const OrientedBox box = boundingBox(ConvexShape::cylinder(0.5, 2.0), translation({6, 0, 0}));
   EXPECT_TRUE(box.half_extents.isApprox(Eigen::Vector3d(0.5, 1.0, 3.5), 1e-9));
   EXPECT_NEAR(std::abs(box.X_MB.linear()(0, 2)), 1.0, 1e-9);
   EXPECT_NEAR(std::abs(box.X_MB.linear()(2, 1)), 1.0, 1e-9);
@@ -63,8 +63,9 @@ TEST(OrientedBoxTest, OrdersItsAxesByExtent) {
 
 TEST(OrientedBoxTest, IsValidForDegenerateTools) {
   for (const Motion& motion : {standstill(), translation({0, 0, 1}), translation({1e-12, 0, 0})}) {
-    for (const Tool& tool : {Tool::cylinder(1.0, 0.0), Tool::cylinder(0.0, 1.0), Tool::cylinder(1.0, 1.0),
-                             Tool::cylinder(1e-9, 1e3), Tool::cylinder(1e3, 1e-9, 3)}) {
+    for (const ConvexShape& tool :
+         {ConvexShape::cylinder(1.0, 0.0), ConvexShape::cylinder(0.0, 1.0), ConvexShape::cylinder(1.0, 1.0),
+          ConvexShape::cylinder(1e-9, 1e3), ConvexShape::cylinder(1e3, 1e-9, 3)}) {
       SCOPED_TRACE("radius " + std::to_string(tool.radius()) + ", length " + std::to_string(tool.length()));
       expectValid(boundingBox(tool, motion));
     }
@@ -74,7 +75,7 @@ TEST(OrientedBoxTest, IsValidForDegenerateTools) {
 // The variances of the corners are equal along all axes where length^2 = 10/6 radius^2 (as of ToolTest's prism): any
 // axes are eigenvectors, and must be a valid box.
 TEST(OrientedBoxTest, IsValidForEqualEigenvalues) {
-  const Tool cube_like = Tool::cylinder(1.0, std::sqrt(10.0 / 6.0), /*sides=*/4);
+  const ConvexShape cube_like = ConvexShape::cylinder(1.0, std::sqrt(10.0 / 6.0), /*sides=*/4);
   const Eigen::Matrix3d covariance = cube_like.moments_T().covariance;
   ASSERT_TRUE(covariance.isApprox(covariance(0, 0) * Eigen::Matrix3d::Identity(), 1e-6));
   expectValid(boundingBox(cube_like, standstill()));
@@ -84,7 +85,7 @@ TEST(OrientedBoxTest, HoldsTheRoundToolAtBothPosesTightly) {
   Random random(/*seed=*/1);
   for (int i = 0; i < kMotions && !HasFailure(); ++i) {
     SCOPED_TRACE("motion " + std::to_string(i));
-    const Tool tool = randomTool(random, random.logUniform(1e-3, 1e3));
+    const ConvexShape tool = randomTool(random, random.logUniform(1e-3, 1e3));
     const double size = tool.radius() + tool.length();
     const Motion motion = randomMotion(random, tool, size * random.direction(), /*max_angle=*/3.14);
     const OrientedBox box = boundingBox(tool, motion);
@@ -108,7 +109,7 @@ TEST(OrientedBoxTest, AxesAreEigenvectorsOfThePapersCovariance) {
   Random random(/*seed=*/2);
   for (int i = 0; i < 1000; ++i) {
     SCOPED_TRACE("motion " + std::to_string(i));
-    const Tool tool = randomTool(random, 1.0);
+    const ConvexShape tool = randomTool(random, 1.0);
     const Motion motion = randomMotion(random, tool, random.direction(), /*max_angle=*/3.14);
     const Eigen::Matrix3d R = boundingBox(tool, motion).X_MB.linear();
     const Eigen::Matrix3d diagonal = R.transpose() * papersCovariance(tool, motion) * R;

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <vector>
 
-#include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/geometry/convex_shape.h"
 
 namespace sweep_guard {
 
 /// Points on both rims of the round tool, in T [m]: their convex hull is the tool, but for slivers between them.
-inline std::vector<Eigen::Vector3d> roundToolPoints_T(const Tool& tool, int points_per_rim) {
+inline std::vector<Eigen::Vector3d> roundToolPoints_T(const ConvexShape& tool, int points_per_rim) {
   constexpr double kTwoPi = 6.283185307179586;
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < points_per_rim; ++i) {

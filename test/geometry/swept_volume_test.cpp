@@ -21,7 +21,7 @@ double outside(const SweptVolume& volume, const Eigen::Vector3d& p_B) {
 }
 
 // The same for the round tool, over the exact motion in steps.
-double outside(const SweptVolume& volume, const Tool& tool, const Motion& motion, int steps) {
+double outside(const SweptVolume& volume, const ConvexShape& tool, const Motion& motion, int steps) {
   double farthest = -std::numeric_limits<double>::infinity();
   for (int step = 0; step <= steps; ++step) {
     const Eigen::Isometry3d X_BT = volume.box.X_MB.inverse() * motion.at(static_cast<double>(step) / steps);
@@ -40,14 +40,14 @@ TEST(VolumeKindTest, HasTheNamesOfTheInterface) {
 
 TEST(SweptVolumeTest, IsTheBoxAloneIfAskedFor) {
   Random random(/*seed=*/1);
-  const Tool drill = Tool::cylinder(0.005, 0.1);
+  const ConvexShape drill = ConvexShape::cylinder(0.005, 0.1);
   const Motion motion = handMotion(random);
   EXPECT_EQ(sweptVolume(drill, motion, VolumeKind::kObb).halfSpaces_B().size(), 6U);
   EXPECT_GT(sweptVolume(drill, motion, VolumeKind::kObbPlanes).halfSpaces_B().size(), 6U);
 }
 
 TEST(SweptVolumeTest, IsGrownByTheChordErrorAndTheExtraMargin) {
-  const Tool drill = Tool::cylinder(0.5, 2.0);
+  const ConvexShape drill = ConvexShape::cylinder(0.5, 2.0);
   Motion turn;
   turn.X_MT_end.linear() = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
   EXPECT_NEAR(sweptVolume(drill, turn, VolumeKind::kObb).margin, 2.5 * 0.1 * 0.1 / 8.0, 1e-15);
@@ -63,7 +63,7 @@ TEST(SweptVolumeTest, HoldsTheToolAllAlongTheExactMotion) {
   Random random(/*seed=*/2);
   for (int i = 0; i < 1000 && !HasFailure(); ++i) {
     SCOPED_TRACE("motion " + std::to_string(i));
-    const Tool tool = randomTool(random, random.logUniform(1e-3, 1e3));
+    const ConvexShape tool = randomTool(random, random.logUniform(1e-3, 1e3));
     const double size = tool.radius() + tool.length();
     const Motion motion = randomMotion(random, tool, size * random.direction(), /*max_angle=*/1.57);
     for (const VolumeKind kind : {VolumeKind::kObb, VolumeKind::kObbPlanes}) {
@@ -74,7 +74,7 @@ TEST(SweptVolumeTest, HoldsTheToolAllAlongTheExactMotion) {
 
 // The chords alone would lose the arcs.
 TEST(SweptVolumeTest, WouldNotHoldTheArcsWithoutItsMargin) {
-  const Tool drill = Tool::cylinder(0.005, 0.1);
+  const ConvexShape drill = ConvexShape::cylinder(0.005, 0.1);
   Motion turn;
   turn.X_MT_end.linear() = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitX()).toRotationMatrix();
   SweptVolume volume = sweptVolume(drill, turn, VolumeKind::kObbPlanes);
@@ -86,7 +86,7 @@ TEST(SweptVolumeTest, WouldNotHoldTheArcsWithoutItsMargin) {
 TEST(SweptVolumeTest, HoldsTheToolAThousandKilometresOut) {
   Random random(/*seed=*/3);
   for (int i = 0; i < 1000; ++i) {
-    const Tool tool = randomTool(random, 0.1);
+    const ConvexShape tool = randomTool(random, 0.1);
     const Motion motion = randomMotion(random, tool, 1e6 * random.direction(), /*max_angle=*/0.175);
     const SweptVolume volume = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
     EXPECT_LE(outside(volume, tool, motion, /*steps=*/10), 1e-9) << "motion " << i;
@@ -96,7 +96,7 @@ TEST(SweptVolumeTest, HoldsTheToolAThousandKilometresOut) {
 TEST(SweptVolumeTest, IsAsTightAThousandKilometresOutAsAtTheOrigin) {
   Random random(/*seed=*/4);
   for (int i = 0; i < 100; ++i) {
-    const Tool tool = randomTool(random, 0.1);
+    const ConvexShape tool = randomTool(random, 0.1);
     const Motion here = randomMotion(random, tool, Eigen::Vector3d::Zero(), /*max_angle=*/0.175);
     const Eigen::Translation3d away(1e6, -1e6, 1e6);
     const Motion there{away * here.X_MT_start, away * here.X_MT_end};
@@ -110,7 +110,7 @@ TEST(SweptVolumeTest, IsAsTightAThousandKilometresOutAsAtTheOrigin) {
 TEST(SweptVolumeTest, HasItsInteriorPointStrictlyInside) {
   Random random(/*seed=*/5);
   for (int i = 0; i < 20'000; ++i) {
-    const Tool tool = randomTool(random, random.logUniform(1e-3, 1e3));
+    const ConvexShape tool = randomTool(random, random.logUniform(1e-3, 1e3));
     const double size = tool.radius() + tool.length();
     const Motion motion = randomMotion(random, tool, random.logUniform(1e-3, 1e6) * random.direction(), 1.57);
     const bool solid = tool.radius() > 0.0 && tool.length() > 0.0;

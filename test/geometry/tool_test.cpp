@@ -1,4 +1,4 @@
-#include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/geometry/convex_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace sweep_guard {
 namespace {
 
 TEST(ToolTest, FillsTheCylinderBehindItsTip) {
-  const Tool drill = Tool::cylinder(/*radius=*/0.5, /*length=*/2.0);
+  const ConvexShape drill = ConvexShape::cylinder(/*radius=*/0.5, /*length=*/2.0);
   EXPECT_EQ(drill.support(Eigen::Vector3d::UnitZ()), 0.0);
   EXPECT_EQ(drill.support(-Eigen::Vector3d::UnitZ()), 2.0);
   EXPECT_EQ(drill.support(Eigen::Vector3d::UnitX()), 0.5);
@@ -25,7 +25,7 @@ TEST(ToolTest, SupportIsThatOfTheRoundToolSampledDensely) {
   Random random(/*seed=*/1);
   constexpr int kPoints = 720;
   for (int i = 0; i < 1000; ++i) {
-    const Tool tool = randomTool(random, 1.0);
+    const ConvexShape tool = randomTool(random, 1.0);
     const Eigen::Vector3d direction = random.direction();
     double farthest = -std::numeric_limits<double>::infinity();
     for (const Eigen::Vector3d& p : roundToolPoints_T(tool, kPoints)) farthest = std::max(farthest, direction.dot(p));
@@ -35,7 +35,7 @@ TEST(ToolTest, SupportIsThatOfTheRoundToolSampledDensely) {
 }
 
 TEST(ToolTest, SupportAtAPoseFollowsThePose) {
-  const Tool drill = Tool::cylinder(0.5, 2.0);
+  const ConvexShape drill = ConvexShape::cylinder(0.5, 2.0);
   Eigen::Isometry3d X_MT = Eigen::Isometry3d::Identity();
   X_MT.linear() = Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitY()).toRotationMatrix();  // z_T along x_M
   X_MT.translation() = Eigen::Vector3d(10, 20, 30);
@@ -51,7 +51,7 @@ TEST(ToolTest, SupportAtAPoseFollowsThePose) {
 TEST(ToolTest, ReachBoundsTheDistanceFromAnyAxisThroughTheTip) {
   Random random(/*seed=*/2);
   for (int i = 0; i < 1000; ++i) {
-    const Tool tool = randomTool(random, 1.0);
+    const ConvexShape tool = randomTool(random, 1.0);
     const Eigen::Vector3d axis = random.direction();
     double farthest = 0.0;
     for (const Eigen::Vector3d& p : roundToolPoints_T(tool, 64)) farthest = std::max(farthest, axis.cross(p).norm());
@@ -62,12 +62,12 @@ TEST(ToolTest, ReachBoundsTheDistanceFromAnyAxisThroughTheTip) {
 
 // A drill that spins about its own axis leaves its place by its radius alone.
 TEST(ToolTest, ReachAboutItsOwnAxisIsItsRadius) {
-  EXPECT_EQ(Tool::cylinder(0.5, 2.0).reach(Eigen::Vector3d::UnitZ()), 0.5);
-  EXPECT_EQ(Tool::cylinder(0.5, 2.0).reach(Eigen::Vector3d::UnitY()), 2.5);
+  EXPECT_EQ(ConvexShape::cylinder(0.5, 2.0).reach(Eigen::Vector3d::UnitZ()), 0.5);
+  EXPECT_EQ(ConvexShape::cylinder(0.5, 2.0).reach(Eigen::Vector3d::UnitY()), 2.5);
 }
 
 TEST(ToolTest, ExtremesOfItsFacesAreOnTheirRims) {
-  const Tool drill = Tool::cylinder(0.5, 2.0);
+  const ConvexShape drill = ConvexShape::cylinder(0.5, 2.0);
   EXPECT_TRUE(drill.frontExtreme({3, 4, 7}).isApprox(Eigen::Vector3d(0.3, 0.4, 0.0), 1e-15));
   EXPECT_TRUE(drill.rearExtreme({-3, 4, 7}).isApprox(Eigen::Vector3d(-0.3, 0.4, -2.0), 1e-15));
   EXPECT_EQ(drill.frontExtreme(Eigen::Vector3d::UnitZ()), Eigen::Vector3d(0, 0, 0));
@@ -76,7 +76,7 @@ TEST(ToolTest, ExtremesOfItsFacesAreOnTheirRims) {
 // A prism of 4 sides, radius 1, length 2: 16 triangles, 48 corners; 5 at each of its 8 rim vertices, 4 at each centre.
 // So x^2 sums to 5 * 4, and every z is 1 from the mean.
 TEST(ToolTest, MomentsAreThePapersSumsOverTriangleCorners) {
-  const Tool prism = Tool::cylinder(/*radius=*/1.0, /*length=*/2.0, /*sides=*/4);
+  const ConvexShape prism = ConvexShape::cylinder(/*radius=*/1.0, /*length=*/2.0, /*sides=*/4);
   ASSERT_EQ(prism.mesh_T().triangles().size(), 16U);
   EXPECT_TRUE(prism.moments_T().mean.isApprox(Eigen::Vector3d(0, 0, -1), 1e-12));
   const Eigen::Vector3d diagonal(20.0 / 48.0, 20.0 / 48.0, 1.0);
@@ -84,7 +84,7 @@ TEST(ToolTest, MomentsAreThePapersSumsOverTriangleCorners) {
 }
 
 TEST(ToolTest, MeshIsClosedAndTouchesTheRoundToolFromInside) {
-  const Tool drill = Tool::cylinder(0.5, 2.0, /*sides=*/8);
+  const ConvexShape drill = ConvexShape::cylinder(0.5, 2.0, /*sides=*/8);
   double six_volumes = 0.0;
   for (const Triangle& triangle : drill.mesh_T().triangles()) {
     const auto p = [&](size_t i) { return drill.mesh_T().vertex(triangle[i]); };
@@ -98,17 +98,17 @@ TEST(ToolTest, RefusesSizesOutOfRange) {
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {-1e-9, nan, infinity, 1.1e7}) {
-    EXPECT_THROW(Tool::cylinder(bad, 1.0), InvalidInput) << bad;
-    EXPECT_THROW(Tool::cylinder(1.0, bad), InvalidInput) << bad;
+    EXPECT_THROW(ConvexShape::cylinder(bad, 1.0), InvalidInput) << bad;
+    EXPECT_THROW(ConvexShape::cylinder(1.0, bad), InvalidInput) << bad;
   }
-  EXPECT_THROW(Tool::cylinder(0.0, 0.0), InvalidInput);
-  for (const int sides : {-1, 0, 2, 1001}) EXPECT_THROW(Tool::cylinder(1.0, 1.0, sides), InvalidInput) << sides;
+  EXPECT_THROW(ConvexShape::cylinder(0.0, 0.0), InvalidInput);
+  for (const int sides : {-1, 0, 2, 1001}) EXPECT_THROW(ConvexShape::cylinder(1.0, 1.0, sides), InvalidInput) << sides;
 }
 
 TEST(ToolTest, AcceptsFlatAndNeedleTools) {
-  EXPECT_EQ(Tool::cylinder(0.0, 1.0).support(Eigen::Vector3d::UnitX()), 0.0);
-  EXPECT_EQ(Tool::cylinder(1.0, 0.0, 3).support(-Eigen::Vector3d::UnitZ()), 0.0);
-  EXPECT_EQ(Tool::cylinder(1.0, 1.0, 1000).mesh_T().triangles().size(), 4000U);
+  EXPECT_EQ(ConvexShape::cylinder(0.0, 1.0).support(Eigen::Vector3d::UnitX()), 0.0);
+  EXPECT_EQ(ConvexShape::cylinder(1.0, 0.0, 3).support(-Eigen::Vector3d::UnitZ()), 0.0);
+  EXPECT_EQ(ConvexShape::cylinder(1.0, 1.0, 1000).mesh_T().triangles().size(), 4000U);
 }
 
 }  // namespace

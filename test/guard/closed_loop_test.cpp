@@ -14,7 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kTick = 15ms;
-const Tool kDrill = Tool::cylinder(0.005, 0.1);
+const ConvexShape kDrill = ConvexShape::cylinder(0.005, 0.1);
 
 struct Approach {
   Eigen::Isometry3d X_WT;    // at time 0
@@ -97,7 +97,7 @@ class Loop {
  public:
   Loop(const std::string& predictor, double min_probability, const Wall& wall, Duration hold_time = 500ms)
       : wall_(wall),
-        guard_(kDrill, std::make_unique<ReferenceDetector>(), optionsFor(predictor)),
+        guard_(Tool(kDrill), std::make_unique<ReferenceDetector>(), optionsFor(predictor)),
         ledger_(limits(min_probability, hold_time)) {
     ledger_.setWorkpieces({wall.workpiece});
   }

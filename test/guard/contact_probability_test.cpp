@@ -27,8 +27,8 @@ TriangleMesh wallAt(double x) {
 }
 
 // A tool of 0.125 m along x, its tip at the origin, that goes on along x by 0.25 m: its box ends at x = 0.25.
-const Tool kNeedle = Tool::cylinder(0.0, 0.125);
-const Tool kDrum = Tool::cylinder(0.5, 0.125);
+const ConvexShape kNeedle = ConvexShape::cylinder(0.0, 0.125);
+const ConvexShape kDrum = ConvexShape::cylinder(0.5, 0.125);
 Motion goesOn() {
   Motion motion;
   motion.X_MT_start.linear() = Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitY()).toRotationMatrix();
@@ -41,7 +41,8 @@ MeshPart wholeOf(const TriangleMesh& mesh_M) {
   return partWithin(mesh_M, {Eigen::Vector3d::Constant(-far), Eigen::Vector3d::Constant(far)});
 }
 
-double probabilityOf(const Tool& tool, const Motion& motion, const Matrix6d& covariance_M, const TriangleMesh& mesh_M) {
+double probabilityOf(const ConvexShape& tool, const Motion& motion, const Matrix6d& covariance_M,
+                     const TriangleMesh& mesh_M) {
   const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
   const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance_M, swept_M);
   const auto clearance = ClearanceMeter()(mesh_M, wholeOf(mesh_M), swept_M, deviations);
@@ -92,7 +93,7 @@ TEST(ContactProbabilityTest, OfAPathThatIsSureIsZeroOrOne) {
 TEST(ContactProbabilityTest, TurnsReachFartherWithALongerLever) {
   Eigen::Matrix<double, 6, 1> turning = Eigen::Matrix<double, 6, 1>::Zero();
   turning[4] = 0.1;
-  const Tool drill = Tool::cylinder(0.0, 0.2);
+  const ConvexShape drill = ConvexShape::cylinder(0.0, 0.2);
   const SweptVolume swept_M = sweptVolume(drill, Motion(), VolumeKind::kObb);
   const auto deviations = planeDeviations(drill, Eigen::Isometry3d::Identity(), covarianceOf(turning), swept_M);
   const auto half_spaces_B = swept_M.halfSpaces_B();
@@ -116,7 +117,7 @@ TEST(ContactProbabilityTest, TurnsReachFartherWithALongerLever) {
 TEST(ContactProbabilityTest, OfAWallAlongTheToolDoesNotDependOnHowItLeans) {
   Eigen::Matrix<double, 6, 1> turning = Eigen::Matrix<double, 6, 1>::Zero();
   turning[4] = 0.1;
-  const Tool drill = Tool::cylinder(0.005, 0.2);
+  const ConvexShape drill = ConvexShape::cylinder(0.005, 0.2);
   for (const double lean : {-1e-6, 0.0, 1e-6}) {
     Motion stands;
     stands.X_MT_start.linear() = Eigen::AngleAxisd(lean, Eigen::Vector3d::UnitY()).toRotationMatrix();
@@ -129,7 +130,7 @@ TEST(ContactProbabilityTest, OfAWallAlongTheToolDoesNotDependOnHowItLeans) {
 TEST(ContactProbabilityTest, AnEndThatIsFarFromThePlaneDoesNotCount) {
   Eigen::Matrix<double, 6, 1> turning = Eigen::Matrix<double, 6, 1>::Zero();
   turning[4] = 0.1;
-  const Tool drill = Tool::cylinder(0.0, 0.2);
+  const ConvexShape drill = ConvexShape::cylinder(0.0, 0.2);
   Motion leans;
   leans.X_MT_start.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()).toRotationMatrix();
   leans.X_MT_end = leans.X_MT_start;
@@ -144,7 +145,7 @@ TEST(ContactProbabilityTest, GrowsWithDoubtAndFallsWithDistance) {
   const TriangleMesh hull = wavyHull(12, 16, 0.0);
   int between = 0;
   for (int i = 0; i < 200; ++i) {
-    const Tool tool = Tool::cylinder(0.005, 0.1);
+    const ConvexShape tool = ConvexShape::cylinder(0.005, 0.1);
     const Eigen::Vector3d away = random.direction();
     Motion motion{random.pose(0.25 * away), random.pose(0.25 * away)};
     motion.X_MT_end.linear() = motion.X_MT_start.linear();
@@ -208,7 +209,7 @@ TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) 
   int outside = 0;
   int inside = 0;
   for (int i = 0; i < 300; ++i) {
-    const Tool tool = randomTool(random, 0.1);
+    const ConvexShape tool = randomTool(random, 0.1);
     Motion motion = randomMotion(random, tool, random.uniform(0.05, 0.3) * random.direction(), 0.17);
     const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
     const Matrix6d covariance = covarianceOf(Eigen::Matrix<double, 6, 1>::Constant(random.logUniform(0.01, 0.2)));

@@ -19,18 +19,20 @@ class FakeDetector : public Detector {
 
   explicit FakeDetector(Record& record) : record_(record) {}
 
-  Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) override {
+ private:
+  Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                 const std::vector<std::uint32_t>* candidates) override {
     if (record_.failures_left > 0) {
       --record_.failures_left;
       throw DeviceError("fake detector: fails as it was told");
     }
     record_.volumes.push_back(swept_M);
-    Detection detection = reference_.detect(mesh_M, swept_M);
+    Detection detection = candidates != nullptr ? reference_.detectAmong(mesh_M, swept_M, *candidates)
+                                                : reference_.detect(mesh_M, swept_M);
     detection.inflation += record_.inflation;
     return detection;
   }
 
- private:
   Record& record_;
   ReferenceDetector reference_;
 };

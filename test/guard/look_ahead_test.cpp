@@ -213,7 +213,7 @@ bool contains(const SweptVolume& volume_M, const Eigen::Vector3d& p_M) {
 // Wherever the tool is on its predicted path, at any time up to the end, each of its points lies in a volume.
 TEST_F(LookAheadTest, TheVolumesCoverThePathWithoutHoles) {
   Random random(6);
-  const auto rims_T = roundToolPoints_T(guard_.tool(), 8);
+  const auto rims_T = roundToolPoints_T(guard_.tool().whole(), 8);
   workpieces_ = {workpiece("sheet", sheetAt(0.0))};
   for (int i = 0; i < 20; ++i) {
     const Steady motion{random.pose(random.inBox({1, 1, 1})), random.logUniform(0.01, 2.0) * random.direction(),
@@ -249,7 +249,7 @@ PredictedPath pathAlong(const std::function<Eigen::Isometry3d(double)>& X_WT) {
 class CoarseSweepsTest : public testing::Test {
  protected:
   template <typename Check>
-  void atEveryGranularity(const Tool& tool, const std::function<Eigen::Isometry3d(double)>& X_WT,
+  void atEveryGranularity(const ConvexShape& tool, const std::function<Eigen::Isometry3d(double)>& X_WT,
                           const TriangleMesh& mesh_M, const Check& check) {
     const PredictedPath path = pathAlong(X_WT);
     for (size_t sweeps = 1; sweeps <= 10; ++sweeps) {
@@ -258,7 +258,7 @@ class CoarseSweepsTest : public testing::Test {
       for (const bool spent : {false, true}) {
         SCOPED_TRACE(std::to_string(sweeps) + (spent ? " sweeps, no time" : " sweeps"));
         PathTest test({SweepOptions(), 5ms});
-        check(test(detector_, tool, X_WT(0.0), path, 10, Eigen::Isometry3d::Identity(), workpiece("one", mesh_M),
+        check(test(detector_, Tool(tool), X_WT(0.0), path, 10, Eigen::Isometry3d::Identity(), workpiece("one", mesh_M),
                    {ends, [spent] { return spent; }}));
       }
     }
@@ -279,7 +279,7 @@ TEST_F(CoarseSweepsTest, FindWhatASpinningToolMeets) {
   for (const double t : {0.15, 0.4, 0.65, 0.9}) {
     const Eigen::Vector3d p = spinning(t) * Eigen::Vector3d(0.0, 0.0, -0.15);
     const TriangleMesh dot({p, p, p}, {{0, 1, 2}});
-    atEveryGranularity(Tool::cylinder(0.005, 0.2), spinning, dot,
+    atEveryGranularity(ConvexShape::cylinder(0.005, 0.2), spinning, dot,
                        [](const PredictedObject& object) { EXPECT_TRUE(met(object)); });
   }
 }
@@ -292,14 +292,14 @@ TEST_F(CoarseSweepsTest, FindWhatLiesBeforeAToolThatTurnsBack) {
     return X_WT;
   };
   const TriangleMesh wall({{0.12, -9, -9}, {0.12, 9, -9}, {0.12, 0, 9}}, {{0, 1, 2}});
-  atEveryGranularity(Tool::cylinder(0.005, 0.1), there_and_back, wall,
+  atEveryGranularity(ConvexShape::cylinder(0.005, 0.1), there_and_back, wall,
                      [](const PredictedObject& object) { EXPECT_TRUE(met(object)); });
 }
 
 // Against the motion from pose to pose, not against the chord that a long sweep takes.
 TEST_F(CoarseSweepsTest, CoverTheMotionThroughEveryPose) {
   Random random(8);
-  const Tool tool = Tool::cylinder(0.01, 0.15);
+  const ConvexShape tool = ConvexShape::cylinder(0.01, 0.15);
   const auto rims_T = roundToolPoints_T(tool, 8);
   for (int i = 0; i < 5; ++i) {
     const Eigen::Vector3d swing = random.uniform(0.0, 0.3) * random.direction();
@@ -352,12 +352,14 @@ class SlowDetector : public Detector {
  public:
   SlowDetector(SteadyTime& clock, const Duration& cost) : clock_(clock), cost_(cost) {}
 
-  Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) override {
+ private:
+  Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                 const std::vector<std::uint32_t>* candidates) override {
     clock_ += cost_;
-    return reference_.detect(mesh_M, swept_M);
+    return candidates != nullptr ? reference_.detectAmong(mesh_M, swept_M, *candidates)
+                                 : reference_.detect(mesh_M, swept_M);
   }
 
- private:
   SteadyTime& clock_;
   const Duration& cost_;
   ReferenceDetector reference_;
@@ -456,7 +458,8 @@ TEST(GuardOptionsTest, RefusedOnesNameWhatIsWrong) {
   const auto refused = [](const std::function<void(GuardOptions&)>& spoil) {
     GuardOptions options;
     spoil(options);
-    EXPECT_THROW(Guard(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options), InvalidInput);
+    EXPECT_THROW(Guard(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options),
+                 InvalidInput);
   };
   refused([](auto& options) { options.cycle = 0ms; });
   refused([](auto& options) { options.horizon.reflex_step = 0ms; });

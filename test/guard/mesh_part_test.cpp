@@ -92,11 +92,12 @@ struct Swing {
 
 TEST(ExpectedMotionTest, ReachesAsFarAsAnyToolPointThatErrs) {
   Random random(3);
-  const Tool tool = Tool::cylinder(0.01, 0.15);
+  const ConvexShape tool = ConvexShape::cylinder(0.01, 0.15);
+  const Tool whole_tool(tool);
   for (int i = 0; i < 50; ++i) {
     const Swing swing(random);
     const Eigen::Isometry3d X_WM = random.pose(random.inBox({1, 1, 1}));
-    const ExpectedMotion motion(tool, swing.at(0.0), swing.path, X_WM);
+    const ExpectedMotion motion(whole_tool, swing.at(0.0), swing.path, X_WM);
     const Stretch whole = motion.whole();
     const Eigen::AlignedBox3d box_M = motion.reach_M(whole, 2.0, 0.0);
     for (const auto& stretch :
@@ -140,7 +141,8 @@ TEST(PathTestTest, WhatIsOutOfReachMakesNoDifference) {
 
     const Swing swing(random);
     const auto predicted = [&](const TriangleMesh& mesh_M) {
-      return test(detector, Tool::cylinder(0.01, 0.15), swing.at(0.0), swing.path, 1, Eigen::Isometry3d::Identity(),
+      return test(detector, Tool::cylinder(0.01, 0.15), swing.at(0.0), swing.path, 1,
+                  Eigen::Isometry3d::Identity(),
                   std::make_shared<const Workpiece>(Workpiece{"one", 0, Time(), SteadyTime(), "table", mesh_M}));
     };
     const PredictedObject alone = predicted(near_M);

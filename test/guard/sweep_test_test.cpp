@@ -11,14 +11,14 @@
 namespace sweep_guard {
 namespace {
 
-SweepFindings testMotion(Detector& detector, const Tool& tool, const Motion& motion, const TriangleMesh& mesh_M,
+SweepFindings testMotion(Detector& detector, const ConvexShape& tool, const Motion& motion, const TriangleMesh& mesh_M,
                          const SweepOptions& options) {
-  return testSweep(detector, tool, split(motion, options.max_rotation), mesh_M, options);
+  return testSweep(detector, Tool(tool), split(motion, options.max_rotation), mesh_M, options);
 }
 
 using Indices = std::vector<std::uint32_t>;
 
-const Tool kDrill = Tool::cylinder(/*radius=*/0.005, /*length=*/0.1);
+const ConvexShape kDrill = ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
 
 Eigen::Isometry3d at(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
 

@@ -213,7 +213,8 @@ std::vector<sweep_guard::Prediction> GuardProbe::predictions() const {
   return predictions_;
 }
 
-// A prediction and its time come one after the other: half of a pair, forgotten, would leave the lists unequal for good.
+// A prediction and its time come one after the other: half of a pair, forgotten, would leave the lists unequal for
+// good.
 void GuardProbe::forgetPredictions() {
   await("the time to collision of each prediction", [&] {
     if (predictions_.size() != times_to_collision_.size()) return false;

@@ -127,7 +127,7 @@ PairCase adversarialPairs(std::uint64_t seed) {
   const VolumeKind kind = kinds[static_cast<size_t>(random.below(static_cast<int>(kinds.size())))];
 
   PairCase pair;
-  pair.swept_M = settled(sweptVolume(toolOf(tool), motion, kind, random.chance(0.5) ? 0.0 : 1e-3 * scale));
+  pair.swept_M = settled(sweptVolume(toolOf(tool).whole(), motion, kind, random.chance(0.5) ? 0.0 : 1e-3 * scale));
   const double size = pair.swept_M.box.half_extents.norm();
   const double largest = pair.swept_M.box.X_MB.translation().cwiseAbs().maxCoeff() + size;
   for (int count = 1 + random.below(30); count > 0; --count) {

@@ -26,12 +26,24 @@ class Detector {
   /// Conservative: may name a triangle that is closer to the volume than `inflation`, never leaves out one that meets
   /// it. Touching is meeting.
   /// @throws DeviceError if the answer cannot be trusted: nothing is known then
-  virtual Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) = 0;
+  Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) { return find(mesh_M, swept_M, nullptr); }
+
+  /// The same, of these triangles alone.
+  /// @param candidates  indices of triangles: ascending, each once
+  Detection detectAmong(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                        const std::vector<std::uint32_t>& candidates) {
+    return find(mesh_M, swept_M, &candidates);
+  }
 
  protected:
   Detector() = default;
   Detector(const Detector&) = default;
   Detector& operator=(const Detector&) = default;
+
+ private:
+  // Among all triangles if there are no candidates.
+  virtual Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                         const std::vector<std::uint32_t>* candidates) = 0;
 };
 
 /// @param name  `select` (OpenGL's selection mode, [P, Sec. 3.1]) or `reference` (every triangle clipped in double

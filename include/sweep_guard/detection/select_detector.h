@@ -27,10 +27,10 @@ class SelectDetector : public Detector {
   /// @throws DeviceError if there is no context or it lacks a function
   explicit SelectDetector(const Options& options, ContextFactory make_context = makeOsMesaContext);
 
-  /// @throws DeviceError if the selection fails twice, the second time in a new context
-  Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) override;
-
  private:
+  // Throws DeviceError if the selection fails twice, the second time in a new context.
+  Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                 const std::vector<std::uint32_t>* among) override;
   std::vector<std::uint32_t> select(const TriangleMesh& mesh_M, const SweptVolume& inflated_M,
                                     const std::vector<std::uint32_t>& candidates);
   void makeSelection();

@@ -7,13 +7,13 @@
 
 namespace sweep_guard {
 
-/// The planes that cut the box down to what the tool sweeps: at most two side planes (SCP) and two frontal planes
-/// (FCP), all parallel to the X axis of the box [P, Sec. 3.1, Fig. 5]. In box frame B [m].
+/// The planes that cut the box down to what a body of the tool sweeps: at most two side planes (SCP) and two frontal
+/// planes (FCP), all parallel to the X axis of the box [P, Sec. 3.1, Fig. 5]. In box frame B [m].
 ///
 /// A side plane runs through an extreme point of a front face and one of a rear face, a frontal plane through extreme
 /// points of the front (or rear) faces at both poses. Of the lines that Fig. 5 allows, the one that cuts most off
-/// the box is taken, and pushed out until it touches the round tool: so no plane can cut off a point of the tool,
-/// whatever its motion. A plane that would leave the box as it is is left out.
-std::vector<HalfSpace> boundingPlanes(const Tool& tool, const Motion& motion, const OrientedBox& box);
+/// the box is taken, and pushed out until it touches the body itself: so no plane can cut off a point of it, whatever
+/// its shape and its motion. A plane that would leave the box as it is is left out.
+std::vector<HalfSpace> boundingPlanes(const ConvexShape& shape, const Motion& motion, const OrientedBox& box);
 
 }  // namespace sweep_guard

@@ -12,6 +12,9 @@ struct Motion {
   Eigen::Isometry3d X_MT_start = Eigen::Isometry3d::Identity();  ///< translation [m]
   Eigen::Isometry3d X_MT_end = Eigen::Isometry3d::Identity();    ///< translation [m]
   double bulge = 0.0;  ///< bound on how far a tool point leaves its chord because M turns itself [m], >= 0
+  /// Besides, the tool may be anywhere from where it is to this far on, at any time [m]: so looks, from a mesh that
+  /// goes the other way meanwhile, at whatever pace.
+  Eigen::Vector3d drift = Eigen::Vector3d::Zero();
 
   /// Rotation from start to end [rad], in [0, pi].
   double angle() const;

@@ -16,12 +16,13 @@ enum class VolumeKind { kObb, kObbPlanes };
 VolumeKind volumeKind(const std::string& name);
 std::string nameOf(VolumeKind kind);
 
-/// A convex volume that holds everything the tool touches during one motion, arcs included: a box, cut by half-spaces.
+/// A convex volume that holds everything a body of the tool touches during one motion, arcs and drift included: a box,
+/// cut by half-spaces.
 /// What a detector tests. The suffix of a variable of this type names the frame M of the mesh it is tested against.
 struct SweptVolume {
   OrientedBox box;                                       ///< grown by `margin` already
   std::vector<HalfSpace> clips_B;                        ///< in box frame B; grown by `margin` already
-  Eigen::Vector3d interior_B = Eigen::Vector3d::Zero();  ///< a point of the tool, inside of every plane [m]
+  Eigen::Vector3d interior_B = Eigen::Vector3d::Zero();  ///< a point of the shape, inside of every plane [m]
   double margin = 0.0;  ///< every plane lies this far outside of the tool's two poses [m], >= 0
 
   /// The six sides of the box, and the clips: everything that bounds the volume, in B.
@@ -31,9 +32,9 @@ struct SweptVolume {
   SweptVolume grown(double distance) const;
 };
 
-/// What the tool covers during a motion.
+/// What a convex body of the tool covers during a motion.
 /// @param motion        turns by at most 90 degrees; split() longer ones
 /// @param extra_margin  the volume is grown by this, besides what the arcs of the rotation need [m], >= 0
-SweptVolume sweptVolume(const Tool& tool, const Motion& motion, VolumeKind kind, double extra_margin = 0.0);
+SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKind kind, double extra_margin = 0.0);
 
 }  // namespace sweep_guard

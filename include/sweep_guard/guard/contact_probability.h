@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "sweep_guard/geometry/swept_volume.h"
-#include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 #include "sweep_guard/guard/mesh_part.h"
 #include "sweep_guard/prediction/pose_predictor.h"
@@ -23,13 +22,13 @@ constexpr double kMostDeviations = 3.09;
 double contactProbability(double deviations);
 
 /// How far each plane of a swept volume may be off, in the order of halfSpaces_B(): the standard deviation [m], along
-/// the plane's normal, of the tool point that touches it. A point at r from the tool's origin moves along n by n·dx +
-/// (r x n)·dtheta. Where the tool's side faces the plane, either end of it may come to touch: a bound from above for
-/// errors of up to kMostDeviations. At least 1e-9 m.
+/// the plane's normal, of the point of the body that touches it. A point at r from the tool's origin moves along n by
+/// n·dx + (r x n)·dtheta. Where the body's side faces the plane, either end of it may come to touch: a bound from above
+/// for errors of up to kMostDeviations, of a hull of points that of the box around it. At least 1e-9 m.
 /// @param X_MT        pose of the tool that the covariance is of
 /// @param covariance  translation [m], then rotation vector [rad], both along the axes of M
-std::vector<double> planeDeviations(const Tool& tool, const Eigen::Isometry3d& X_MT, const Matrix6d& covariance_M,
-                                    const SweptVolume& swept_M);
+std::vector<double> planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& X_MT,
+                                    const Matrix6d& covariance_M, const SweptVolume& swept_M);
 
 /// What stands between a volume and a mesh.
 struct Clearance {

@@ -6,6 +6,7 @@
 #include "sweep_guard/guard/expected_motion.h"
 #include "sweep_guard/guard/outlook.h"
 #include "sweep_guard/guard/sweep_test.h"
+#include "sweep_guard/guard/swept_body.h"
 #include "sweep_guard/guard/triangle_set.h"
 
 namespace sweep_guard {
@@ -42,12 +43,13 @@ class PathTest {
   struct Reading;
   struct Findings;
 
-  std::vector<SweptVolume> volumesOf(const Scene& scene, const Stretch& stretch) const;
-  static TriangleSet detected(const Scene& scene, const std::vector<const SweptVolume*>& volumes_M);
-  Reading read(const Scene& scene, const MeshPart& part, const Stretch& stretch,
-               const std::vector<SweptVolume>& volumes_M);
-  void test(const Scene& scene, const MeshPart& around, const Stretch& stretch,
-            const std::vector<SweptVolume>& volumes_M, Findings& findings);
+  std::vector<SweptBody> wholeTool(const Scene& scene, const Stretch& stretch) const;
+  static TriangleSet detected(const Scene& scene, const std::vector<SweptBody>& bodies);
+  Reading read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const std::vector<SweptBody>& whole);
+  void read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const Tool::Node& node,
+            const SweptBody& body, Reading& reading);
+  void test(const Scene& scene, const MeshPart& around, const Stretch& stretch, const std::vector<SweptBody>& whole,
+            Findings& findings);
 
   Options options_;
   ClearanceMeter meter_;

@@ -7,6 +7,7 @@
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/geometry/swept_volume.h"
+#include "sweep_guard/geometry/tool.h"
 
 namespace sweep_guard {
 
@@ -20,10 +21,13 @@ struct SweepOptions {
 struct SweepFindings {
   std::vector<std::uint32_t> triangles;  ///< ascending, each once
   double margin = 0.0;                   ///< largest growth of a volume tested, for arcs, rounding and as asked for [m]
-  std::vector<SweptVolume> volumes_M;    ///< those tested, end to end, in the mesh's frame
+  /// Those tested, end to end, in the mesh's frame: of the tool's parts, and where a box around several meets nothing,
+  /// of that.
+  std::vector<SweptVolume> volumes_M;
 };
 
-/// Tests the volume that the tool sweeps in each part of its motion.
+/// Tests the volumes that the tool sweeps in each part of its motion: down the tree of its boxes, as far as they meet
+/// something, to its convex parts. What is found is what these meet.
 /// @param parts  of split(): each turns by little, so that the margin for its arc stays small
 /// @throws DeviceError if the detector fails
 SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts,

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/guard/outlook.h"
 #include "sweep_guard/guard/verdict.h"
 #include "sweep_guard/ros/trail.h"

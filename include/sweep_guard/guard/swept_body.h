@@ -1,0 +1,27 @@
+#pragma once
+
+#include "sweep_guard/detection/detector.h"
+#include "sweep_guard/geometry/convex_shape.h"
+#include "sweep_guard/geometry/motion.h"
+#include "sweep_guard/geometry/swept_volume.h"
+#include "sweep_guard/guard/triangle_set.h"
+
+namespace sweep_guard {
+
+/// One convex body of the tool during one motion, and the volume that holds it. The body must outlive it.
+struct SweptBody {
+  const ConvexShape* shape_T;
+  Motion motion_M;
+  SweptVolume volume_M;
+};
+
+/// @param margin  the body is grown by this [m], >= 0
+SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKind kind, double margin);
+
+/// The triangles that the volume meets.
+/// @param among  if given, no others are looked at
+/// @throws DeviceError if the detector fails
+Detection detect(Detector& detector, const TriangleMesh& mesh_M, const SweptBody& body,
+                 const TriangleSet* among = nullptr);
+
+}  // namespace sweep_guard

@@ -1,0 +1,300 @@
+#include "sweep_guard/geometry/convex_shape.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/geometry/convex_hull.h"
+
+namespace sweep_guard {
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+constexpr int kSphereRings = 8;
+constexpr int kSphereSectors = 16;
+
+template <typename... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <typename... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
+bool usableLength(double length) { return length >= 0.0 && length <= kMaxCoordinate; }
+
+struct Surface {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangle> triangles;
+};
+
+Surface cylinderSurface(double radius, double length, int sides) {
+  const auto n = static_cast<std::uint32_t>(sides);
+  const std::uint32_t front_center = 2 * n;
+  const std::uint32_t rear_center = 2 * n + 1;
+  Surface surface;
+  for (const double z : {0.0, -length}) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double angle = kTwoPi * i / n;
+      surface.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+  }
+  surface.vertices.emplace_back(0.0, 0.0, 0.0);
+  surface.vertices.emplace_back(0.0, 0.0, -length);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t next = (i + 1) % n;
+    surface.triangles.push_back({front_center, i, next});
+    surface.triangles.push_back({rear_center, n + next, n + i});
+    surface.triangles.push_back({i, n + i, next});
+    surface.triangles.push_back({next, n + i, n + next});
+  }
+  return surface;
+}
+
+Surface sphereSurface(double radius) {
+  const auto at = [](int ring, int sector) {
+    return static_cast<std::uint32_t>(ring * kSphereSectors + sector % kSphereSectors);
+  };
+  Surface surface;
+  for (int ring = 0; ring <= kSphereRings; ++ring) {
+    const double polar = 0.5 * kTwoPi * ring / kSphereRings;
+    for (int sector = 0; sector < kSphereSectors; ++sector) {
+      const double azimuth = kTwoPi * sector / kSphereSectors;
+      surface.vertices.push_back(radius * Eigen::Vector3d(std::sin(polar) * std::cos(azimuth),
+                                                          std::sin(polar) * std::sin(azimuth), std::cos(polar)));
+    }
+  }
+  for (int ring = 0; ring < kSphereRings; ++ring) {
+    for (int sector = 0; sector < kSphereSectors; ++sector) {
+      surface.triangles.push_back({at(ring, sector), at(ring + 1, sector), at(ring + 1, sector + 1)});
+      surface.triangles.push_back({at(ring, sector), at(ring + 1, sector + 1), at(ring, sector + 1)});
+    }
+  }
+  return surface;
+}
+
+// Corner i has the sign of bit k along axis k.
+Surface boxSurface(const Eigen::Vector3d& h) {
+  Surface surface;
+  for (int i = 0; i < 8; ++i) {
+    surface.vertices.emplace_back((i & 1) != 0 ? h.x() : -h.x(), (i & 2) != 0 ? h.y() : -h.y(),
+                                  (i & 4) != 0 ? h.z() : -h.z());
+  }
+  surface.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return surface;
+}
+
+Moments triangleMoments(const TriangleMesh& mesh) {
+  const double count = 3.0 * static_cast<double>(mesh.triangles().size());
+  Moments moments{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+  for (const Triangle& triangle : mesh.triangles()) {
+    for (const std::uint32_t vertex : triangle) moments.mean += mesh.vertex(vertex) / count;
+  }
+  for (const Triangle& triangle : mesh.triangles()) {
+    for (const std::uint32_t vertex : triangle) {
+      const Eigen::Vector3d p = mesh.vertex(vertex) - moments.mean;
+      moments.covariance += p * p.transpose() / count;
+    }
+  }
+  return moments;
+}
+
+Eigen::Vector3d discExtreme(double z, double radius, const Eigen::Vector3d& direction) {
+  const Eigen::Vector2d radial = direction.head<2>();
+  const double length = radial.norm();
+  if (length == 0.0) return {0.0, 0.0, z};
+  return {radius * radial.x() / length, radius * radial.y() / length, z};
+}
+
+double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
+
+const Eigen::Vector3d& farthest(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d* best = &points.front();
+  double most = direction.dot(*best);
+  for (const Eigen::Vector3d& p : points) {
+    const double along = direction.dot(p);
+    if (along > most) {
+      most = along;
+      best = &p;
+    }
+  }
+  return *best;
+}
+
+}  // namespace
+
+ConvexShape::ConvexShape(Body body_S, const std::vector<Eigen::Vector3d>& vertices_S, std::vector<Triangle> triangles)
+    : body_S_(std::move(body_S)),
+      mesh_T_(vertices_S, std::move(triangles)),
+      moments_T_(triangleMoments(mesh_T_)),
+      faces_(faces()) {}
+
+ConvexShape ConvexShape::cylinder(double radius, double length, int sides) {
+  if (!usableLength(radius)) throw InvalidInput("cylinder radius: must be finite and >= 0 m");
+  if (!usableLength(length)) throw InvalidInput("cylinder length: must be finite and >= 0 m");
+  if (radius == 0.0 && length == 0.0) throw InvalidInput("cylinder: radius and length are both 0; give it a size");
+  if (sides < 3 || sides > 1000) throw InvalidInput("cylinder sides: must be 3 to 1000");
+  const Surface surface = cylinderSurface(radius, length, sides);
+  return {Round{radius, length}, surface.vertices, surface.triangles};
+}
+
+ConvexShape ConvexShape::sphere(double radius) {
+  if (!usableLength(radius) || radius == 0.0) throw InvalidInput("sphere radius: must be finite and > 0 m");
+  const Surface surface = sphereSurface(radius);
+  ConvexShape sphere(Points{{Eigen::Vector3d::Zero()}}, surface.vertices, surface.triangles);
+  return sphere.padded(radius);
+}
+
+ConvexShape ConvexShape::box(const Eigen::Vector3d& half_extents) {
+  for (const double half : half_extents) {
+    if (!usableLength(half)) throw InvalidInput("box size: must be finite and >= 0 m");
+  }
+  if (half_extents.isZero(0.0)) throw InvalidInput("box size: all three are 0; give it a size");
+  const Surface surface = boxSurface(half_extents);
+  return {Box{half_extents}, surface.vertices, surface.triangles};
+}
+
+ConvexShape ConvexShape::hull(const std::vector<Eigen::Vector3d>& points_T) {
+  const ConvexHull hull = convexHull(points_T);
+  return ConvexShape(Points{hull.corners}, hull.corners, hull.triangles).padded(hull.excess);
+}
+
+ConvexShape ConvexShape::placed(const Eigen::Isometry3d& X_NT) const {
+  ConvexShape placed = *this;
+  placed.R_TS_ = X_NT.linear() * R_TS_;
+  placed.p_TS_ = X_NT * p_TS_;
+  std::vector<Eigen::Vector3d> vertices;
+  for (size_t i = 0; i < mesh_T_.vertexCount(); ++i) vertices.push_back(X_NT * mesh_T_.vertex(i));
+  placed.mesh_T_ = TriangleMesh(vertices, mesh_T_.triangles());
+  placed.moments_T_ = triangleMoments(placed.mesh_T_);
+  placed.faces_ = placed.faces();
+  return placed;
+}
+
+ConvexShape ConvexShape::padded(double distance) const {
+  assert(distance >= 0.0);
+  ConvexShape padded = *this;
+  padded.padding_ += distance;
+  return padded;
+}
+
+double ConvexShape::support(const Eigen::Vector3d& direction_T) const {
+  const Eigen::Vector3d d = R_TS_.transpose() * direction_T;
+  const double of_body = std::visit(
+      Overloaded{
+          [&](const Round& round) { return round.radius * d.head<2>().norm() + round.length * std::max(0.0, -d.z()); },
+          [&](const Box& box) { return box.half_extents.dot(d.cwiseAbs()); },
+          [&](const Points& points) { return d.dot(farthest(points.corners, d)); }},
+      body_S_);
+  return direction_T.dot(p_TS_) + of_body + padding_;
+}
+
+Eigen::Vector3d ConvexShape::supportPoint(const Eigen::Vector3d& direction_T) const {
+  const Eigen::Vector3d d = R_TS_.transpose() * direction_T;
+  const Eigen::Vector3d p_S = std::visit(
+      Overloaded{[&](const Round& round) { return discExtreme(d.z() < 0.0 ? -round.length : 0.0, round.radius, d); },
+                 [&](const Box& box) -> Eigen::Vector3d { return box.half_extents.cwiseProduct(d.unaryExpr(&sign)); },
+                 [&](const Points& points) { return farthest(points.corners, d); }},
+      body_S_);
+  const Eigen::Vector3d p_T = p_TS_ + R_TS_ * p_S;
+  const double length = direction_T.norm();
+  return padding_ == 0.0 || length == 0.0 ? p_T : Eigen::Vector3d(p_T + padding_ / length * direction_T);
+}
+
+// The distance from a line is convex: it is largest at a corner, or on a rim.
+double ConvexShape::reach(const Eigen::Vector3d& axis_T) const {
+  const auto away = [&](const Eigen::Vector3d& p_S) { return (p_TS_ + R_TS_ * p_S).cross(axis_T).norm(); };
+  const auto farthest_of = [&](const std::vector<Eigen::Vector3d>& corners) {
+    double most = 0.0;
+    for (const Eigen::Vector3d& corner : corners) most = std::max(most, away(corner));
+    return most;
+  };
+  const double of_body =
+      std::visit(Overloaded{[&](const Round& round) {
+                              const double rear = away({0.0, 0.0, -round.length});
+                              return round.radius + std::max(away(Eigen::Vector3d::Zero()), rear);
+                            },
+                            [&](const Box& box) { return farthest_of(boxSurface(box.half_extents).vertices); },
+                            [&](const Points& points) { return farthest_of(points.corners); }},
+                 body_S_);
+  return of_body + padding_;
+}
+
+double ConvexShape::extent() const {
+  const auto farthest_of = [&](const std::vector<Eigen::Vector3d>& corners) {
+    double most = 0.0;
+    for (const Eigen::Vector3d& corner : corners) most = std::max(most, (p_TS_ + R_TS_ * corner).norm());
+    return most;
+  };
+  const Eigen::Vector3d origin_S = -(R_TS_.transpose() * p_TS_);
+  const auto rim = [&](double z, double radius) {
+    return std::hypot(origin_S.head<2>().norm() + radius, origin_S.z() - z);
+  };
+  const double of_body = std::visit(
+      Overloaded{[&](const Round& round) { return std::max(rim(0.0, round.radius), rim(-round.length, round.radius)); },
+                 [&](const Box& box) { return farthest_of(boxSurface(box.half_extents).vertices); },
+                 [&](const Points& points) { return farthest_of(points.corners); }},
+      body_S_);
+  return of_body + padding_;
+}
+
+ConvexShape::Faces ConvexShape::faces() const {
+  if (const auto* round = std::get_if<Round>(&body_S_)) {
+    return {R_TS_, p_TS_, Eigen::Vector2d::Constant(round->radius), 0.0, -round->length, /*round=*/true};
+  }
+  if (std::holds_alternative<Box>(body_S_)) return facesOfBox(R_TS_);
+  return facesOfBox(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments_T_.covariance).eigenvectors());
+}
+
+ConvexShape::Faces ConvexShape::facesOfBox(const Eigen::Matrix3d& axes_T) const {
+  Eigen::Vector3d half;
+  Eigen::Vector3d center;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = axes_T.col(i);
+    const double upper = support(axis) - padding_;
+    const double lower = padding_ - support(-axis);
+    half[i] = std::max(0.0, 0.5 * (upper - lower));
+    center[i] = 0.5 * (upper + lower);
+  }
+  std::array<int, 3> order = {0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return half[i] < half[j]; });
+  Faces faces;
+  for (int i = 0; i < 3; ++i) faces.R_TF.col(i) = axes_T.col(order[static_cast<size_t>(i)]);
+  faces.p_T = axes_T * center;
+  faces.half_sides = {half[order[0]], half[order[1]]};
+  faces.front = half[order[2]];
+  faces.rear = -half[order[2]];
+  return faces;
+}
+
+Eigen::Vector3d ConvexShape::faceExtreme(double z, const Eigen::Vector3d& direction_T) const {
+  const Eigen::Vector3d d = faces_.R_TF.transpose() * direction_T;
+  const Eigen::Vector3d p_F =
+      faces_.round ? discExtreme(z, faces_.half_sides.x(), d)
+                   : Eigen::Vector3d(sign(d.x()) * faces_.half_sides.x(), sign(d.y()) * faces_.half_sides.y(), z);
+  const double length = direction_T.norm();
+  const Eigen::Vector3d p_T = faces_.p_T + faces_.R_TF * p_F;
+  return padding_ == 0.0 || length == 0.0 ? p_T : Eigen::Vector3d(p_T + padding_ / length * direction_T);
+}
+
+Eigen::Vector3d ConvexShape::frontExtreme(const Eigen::Vector3d& direction_T) const {
+  return faceExtreme(faces_.front, direction_T);
+}
+
+Eigen::Vector3d ConvexShape::rearExtreme(const Eigen::Vector3d& direction_T) const {
+  return faceExtreme(faces_.rear, direction_T);
+}
+
+double support(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Eigen::Vector3d& direction_M) {
+  return direction_M.dot(X_MT.translation()) + shape.support(X_MT.linear().transpose() * direction_M);
+}
+
+double support(const ConvexShape& shape, const Motion& motion, const Eigen::Vector3d& direction_M) {
+  return std::max(support(shape, motion.X_MT_start, direction_M), support(shape, motion.X_MT_end, direction_M)) +
+         std::max(0.0, direction_M.dot(motion.drift));
+}
+
+}  // namespace sweep_guard
