@@ -33,6 +33,18 @@ double extentOf(const Bodies& bodies) {
   return extent;
 }
 
+Body scaled(Body body, double scale) {
+  body.radius *= scale;
+  body.length *= scale;
+  return body;
+}
+
+Body enlarged(Body body, double more) {
+  body.radius += more;
+  body.length += more;
+  return body;
+}
+
 Tool toolOf(const Bodies& bodies) {
   const Body& body = bodies.front();
   return Tool::cylinder(body.radius, body.length, body.sides);

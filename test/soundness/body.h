@@ -36,6 +36,12 @@ Vector3r nearest(const Body& body, const Vector3r& p_T);
 /// Largest distance of a point of the bodies from the origin of T [m].
 double extentOf(const Bodies& bodies);
 
+/// The body with all lengths times a power of two.
+Body scaled(Body body, double scale);
+
+/// A body that holds this one, larger by up to `more` [m] on every side.
+Body enlarged(Body body, double more);
+
 /// The product's tool made of these bodies.
 Tool toolOf(const Bodies& bodies);
 

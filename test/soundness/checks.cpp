@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "soundness/oracle.h"
+#include "soundness/sampled_sweep.h"
 
 namespace sweep_guard::soundness {
 namespace {
@@ -32,14 +33,15 @@ void checkPair(const Context& context, const PairCase& pair) {
   for (std::uint32_t i = 0; i < count; i += 100) {
     if (meetsByLinearProgram(mesh_M, i, swept_M) != met[i]) {
       context.report.fail("the oracles disagree about triangle " + std::to_string(i),
-                          textOf(pair, about(context, "oracle")));
+                          [&] { return textOf(pair, about(context, "oracle")); });
     }
   }
 
   for (Suspect& suspect : context.suspects) {
     Tally& tally = context.report.of(suspect.name, context.family);
     const auto fail = [&](const std::string& what, std::uint32_t triangle) {
-      context.report.fail(what + " triangle " + std::to_string(triangle), textOf(pair, about(context, suspect.name)));
+      context.report.fail(what + " triangle " + std::to_string(triangle),
+                          [&] { return textOf(pair, about(context, suspect.name)); });
     };
     const Detection found = suspect.detector->detect(mesh_M, swept_M);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -75,7 +77,44 @@ void checkPositives(const Context& context, const SweepCase& sweep) {
         if (contains(findings.triangles, contact.triangle)) continue;
         ++tally.misses;
         context.report.fail("missed triangle " + std::to_string(contact.triangle),
-                            textOf(seen, about(context, suspect.name)));
+                            [&] { return textOf(seen, about(context, suspect.name)); });
+      }
+    }
+  }
+}
+
+void checkWholeSweep(const Context& context, const SweepCase& sweep) {
+  const TriangleMesh mesh_M = sweep.triangles.mesh();
+  const Tool tool = toolOf(sweep.tool);
+  const std::vector<Motion> parts = sweep.parts();
+  const SampledSweep sampled(sweep);
+  std::vector<bool> met;
+  for (size_t i = 0; i < sweep.triangles.count(); ++i) {
+    const Eigen::Vector3d* corners = &sweep.triangles.corners_M[3 * i];
+    met.push_back(sampled.meets({corners[0], corners[1], corners[2]}));
+  }
+  for (Suspect& suspect : context.suspects) {
+    for (const VolumeKind kind : volumeKinds()) {
+      SweepCase seen = sweep;
+      seen.options.volume = kind;
+      Tally& tally = context.report.of(suspect.name + '/' + nameOf(kind), context.family);
+      const auto fail = [&](const std::string& what, std::uint32_t triangle) {
+        context.report.fail(what + " triangle " + std::to_string(triangle),
+                            [&] { return textOf(seen, about(context, suspect.name)); });
+      };
+      const SweepFindings findings = testSweep(*suspect.detector, tool, parts, mesh_M, seen.options);
+      ++tally.cases;
+      for (std::uint32_t i = 0; i < met.size(); ++i) {
+        const bool named = contains(findings.triangles, i);
+        if (met[i]) ++tally.positives;
+        if (named && !met[i]) ++tally.extras;
+        if (named || !met[i]) continue;
+        ++tally.misses;
+        fail("missed", i);
+      }
+      for (const std::uint32_t triangle : unexplained(mesh_M, findings)) {
+        ++tally.unexplained;
+        fail("farther away than the margin:", triangle);
       }
     }
   }

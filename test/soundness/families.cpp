@@ -1,9 +1,13 @@
 #include "soundness/families.h"
 
 #include <algorithm>
+#include <array>
 
+#include "soundness/metamorphic.h"
 #include "soundness/pairs.h"
 #include "soundness/positives.h"
+#include "soundness/sampled_sweep.h"
+#include "sweep_guard/common/error.h"
 
 namespace sweep_guard::soundness {
 namespace {
@@ -13,7 +17,26 @@ void runPairs(const Context& context, std::uint64_t seed) {
   checkPair(context, make(seed));
 }
 
+void replayPair(const Context& context, const AnyCase& any) { checkPair(context, any.pair.value()); }
+
 void runPositives(const Context& context, std::uint64_t seed) { checkPositives(context, constructedPositives(seed)); }
+
+void replayPositives(const Context& context, const AnyCase& any) { checkPositives(context, any.sweep.value()); }
+
+void runRelations(const Context& context, std::uint64_t seed) {
+  constexpr std::array<PairCase (*)(std::uint64_t), 3> kPairs = {randomPairs, grazingPairs, adversarialPairs};
+  checkRelations(context, kPairs[seed % 3](seed));
+  checkRelations(context, constructedPositives(seed));
+}
+
+void replayRelations(const Context& context, const AnyCase& any) {
+  if (any.pair) checkRelations(context, *any.pair);
+  if (any.sweep) checkRelations(context, *any.sweep);
+}
+
+void runWholeSweep(const Context& context, std::uint64_t seed) { checkWholeSweep(context, randomWholeSweep(seed)); }
+
+void replayWholeSweep(const Context& context, const AnyCase& any) { checkWholeSweep(context, any.sweep.value()); }
 
 // Every seed of every family is the start of a sequence of its own (splitmix64, Steele et al. 2014).
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t index) {
@@ -37,11 +60,16 @@ std::uint64_t casesOf(Report& report, const std::string& family) {
 
 const std::vector<Family>& families() {
   static const std::vector<Family> all = {
-      {"random", "triangles of every kind around a volume, against exact arithmetic", runPairs<randomPairs>},
-      {"grazing", "triangles that only just touch a volume, against exact arithmetic", runPairs<grazingPairs>},
+      {"random", "triangles of every kind around a volume, against exact arithmetic", runPairs<randomPairs>,
+       replayPair},
+      {"grazing", "triangles that only just touch a volume, against exact arithmetic", runPairs<grazingPairs>,
+       replayPair},
       {"adversarial", "what is hardest for float32 and for clipping, against exact arithmetic",
-       runPairs<adversarialPairs>},
-      {"positives", "triangles through known points of a moving tool", runPositives},
+       runPairs<adversarialPairs>, replayPair},
+      {"positives", "triangles through known points of a moving tool", runPositives, replayPositives},
+      {"metamorphic", "what has to be named still when a scene is told differently", runRelations, replayRelations},
+      {"sweeps", "a tool about a workpiece of 1 600 triangles, against densely sampled exact poses", runWholeSweep,
+       replayWholeSweep},
   };
   return all;
 }
@@ -55,9 +83,13 @@ void run(const Family& family, const Extent& extent, std::vector<Suspect>& suspe
 }
 
 void replay(const AnyCase& any, std::vector<Suspect>& suspects, Report& report) {
-  const Context context{"replay", any.about, suspects, report};
-  if (any.pair) checkPair(context, *any.pair);
-  if (any.sweep) checkPositives(context, *any.sweep);
+  const std::string name = any.about.substr(0, any.about.find(' '));
+  for (const Family& family : families()) {
+    if (family.name != name) continue;
+    family.replay({name, any.about.substr(std::min(any.about.size(), name.size() + 1)), suspects, report}, any);
+    return;
+  }
+  throw InvalidInput("soundness case: there is no family '" + name + "'");
 }
 
 }  // namespace sweep_guard::soundness

@@ -13,6 +13,7 @@ struct Family {
   std::string name;
   std::string meaning;
   void (*run)(const Context& context, std::uint64_t seed);
+  void (*replay)(const Context& context, const AnyCase& any);
 };
 
 const std::vector<Family>& families();

@@ -19,25 +19,6 @@ struct ToolPoint {
   Eigen::Vector3d outward_M;  // a direction in which the sweep ends there, or any
 };
 
-double randomAngle(Random& random) {
-  switch (random.below(8)) {
-    case 0:
-      return 0.0;
-    case 1:
-      return random.logUniform(1e-12, 1e-6);
-    case 2:
-      return kPi / 2.0;
-    case 3:
-      return kPi - random.logUniform(1e-9, 1e-4);
-    case 4:
-      return kPi;
-    case 5:
-      return random.uniform(0.0, kPi);
-    default:
-      return random.uniform(0.0, 0.35);
-  }
-}
-
 Motion randomPath(Random& random, const Eigen::Vector3d& place, double size) {
   Motion motion;
   motion.X_MT_start = random.pose(place);
@@ -235,6 +216,25 @@ class Builder {
 };
 
 }  // namespace
+
+double randomAngle(Random& random) {
+  switch (random.below(8)) {
+    case 0:
+      return 0.0;
+    case 1:
+      return random.logUniform(1e-12, 1e-6);
+    case 2:
+      return kPi / 2.0;
+    case 3:
+      return kPi - random.logUniform(1e-9, 1e-4);
+    case 4:
+      return kPi;
+    case 5:
+      return random.uniform(0.0, kPi);
+    default:
+      return random.uniform(0.0, 0.35);
+  }
+}
 
 SweepCase randomSweep(Random& random) {
   SweepCase sweep;

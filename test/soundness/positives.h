@@ -16,6 +16,9 @@ namespace sweep_guard::soundness {
 /// has one triangle in float32, and the tool is moved to it: then only the last digits are in doubt.
 SweepCase constructedPositives(std::uint64_t seed);
 
+/// A rotation angle in [0, pi]: none, tiny, any, a right angle, almost or exactly half a turn.
+double randomAngle(Random& random);
+
 /// The motions and options alone, without a triangle.
 SweepCase randomSweep(Random& random);
 

@@ -2,9 +2,9 @@
 
 namespace sweep_guard::soundness {
 
-void Report::fail(const std::string& what, const std::string& text) {
+void Report::fail(const std::string& what, const std::function<std::string()>& text) {
   constexpr std::uint64_t kShown = 5;
-  if (++failures_ <= kShown) out_ << "FAILED: " << what << '\n' << text << std::flush;
+  if (++failures_ <= kShown) out_ << "FAILED: " << what << '\n' << text() << std::flush;
 }
 
 void Report::summarize() const {

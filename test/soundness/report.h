@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <ostream>
 #include <string>
@@ -25,8 +26,9 @@ class Report {
   Tally& of(const std::string& detector, const std::string& family) { return tallies_[family][detector]; }
   const std::map<std::string, Tally>& ofFamily(const std::string& family) { return tallies_[family]; }
 
-  /// A case that failed, as text that can be replayed.
-  void fail(const std::string& what, const std::string& text);
+  /// A case that failed.
+  /// @param text  gives the case as text that can be replayed; asked for the first few only
+  void fail(const std::string& what, const std::function<std::string()>& text);
 
   std::uint64_t failures() const { return failures_; }
 

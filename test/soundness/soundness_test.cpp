@@ -98,7 +98,7 @@ void expectCaught(const std::string& family_name, std::unique_ptr<Detector> dete
   std::stringstream out;
   Report report(out);
   for (const Family& family : families()) {
-    if (family.name == family_name) run(family, {/*cases=*/200}, suspects, report);
+    if (family.name == family_name) run(family, {/*cases=*/20}, suspects, report);
   }
   EXPECT_GT(report.failures(), 0U);
   EXPECT_NE(out.str().find("FAILED: " + what), std::string::npos) << out.str();
@@ -108,16 +108,18 @@ void expectCaught(const std::string& family_name, std::unique_ptr<Detector> dete
   const std::optional<AnyCase> first = readCase(out);
   ASSERT_TRUE(first);
   replay(*first, suspects, second);
-  EXPECT_GT(second.failures(), 0U) << textOf(*first->pair, first->about);
+  EXPECT_GT(second.failures(), 0U) << first->about;
 }
 
 TEST(SearchTest, CatchesADetectorThatForgetsATriangle) {
   expectCaught("grazing", std::make_unique<Forgetful>(), "missed triangle");
   expectCaught("positives", std::make_unique<Forgetful>(), "missed triangle");
+  expectCaught("metamorphic", std::make_unique<Forgetful>(), "relation");
 }
 
 TEST(SearchTest, CatchesADetectorThatNamesWhatIsFarAway) {
   expectCaught("random", std::make_unique<Fearful>(), "farther away than the inflation");
+  expectCaught("sweeps", std::make_unique<Fearful>(), "farther away than the margin");
 }
 
 TEST(SearchTest, IsDividedWithoutALoss) {

@@ -1,0 +1,115 @@
+#include "soundness/sampled_sweep.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "soundness/exact_motion.h"
+#include "soundness/positives.h"
+
+namespace sweep_guard::soundness {
+namespace {
+
+using Corners = std::array<Vector3r, 3>;
+
+// Ericson, Real-Time Collision Detection, 5.1.5: by the region of the plane in which the point lies.
+Vector3r nearestOfTriangle(const Corners& corners, const Vector3r& p) {
+  const auto& [a, b, c] = corners;
+  const Vector3r ab = b - a;
+  const Vector3r ac = c - a;
+  const Real d1 = ab.dot(p - a);
+  const Real d2 = ac.dot(p - a);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const Real d3 = ab.dot(p - b);
+  const Real d4 = ac.dot(p - b);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const Real vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
+  const Real d5 = ab.dot(p - c);
+  const Real d6 = ac.dot(p - c);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const Real vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
+  const Real va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+  const Real sum = va + vb + vc;
+  return a + vb / sum * ab + vc / sum * ac;
+}
+
+}  // namespace
+
+SampledSweep::SampledSweep(const SweepCase& sweep) : tool_(sweep.tool) {
+  const ExactMotion motion(sweep.motion);
+  for (int i = 0; i <= kSteps; ++i) {
+    const Real fraction = static_cast<Real>(i) / kSteps;
+    Pose pose;
+    pose.p_M = motion.at(fraction, Vector3r::Zero());
+    for (int axis = 0; axis < 3; ++axis) {
+      pose.R_TM.col(axis) = motion.directionInTool(fraction, Vector3r::Unit(axis));
+    }
+    poses_.push_back(pose);
+  }
+  way_ = (poses_.back().p_M - poses_.front().p_M).norm();
+  angle_ = static_cast<Real>(sweep.motion.angle()) * (1 + 1e-9L);
+  slack_ = 1e-12L * static_cast<Real>(extentOf(tool_));
+}
+
+bool SampledSweep::meets(const std::array<Eigen::Vector3d, 3>& corners_M) const {
+  const Corners corners = {corners_M[0].cast<Real>(), corners_M[1].cast<Real>(), corners_M[2].cast<Real>()};
+  const Vector3r center = (corners[0] + corners[1] + corners[2]) / 3;
+  Real radius = 0;
+  for (const Vector3r& p : corners) radius = std::max(radius, (p - center).norm());
+  const Real lever = std::max((center - poses_.front().p_M).norm(), (center - poses_.back().p_M).norm());
+  const Real way_in_a_step = (way_ + angle_ * lever) / kSteps;  // of the centre, in the tool frame
+
+  for (const Body& body : tool_) {
+    for (size_t i = 0; i < poses_.size();) {
+      const Pose& pose = poses_[i];
+      const Real distance = -depth(body, pose.R_TM * (center - pose.p_M));
+      const Real gap = distance - radius;
+      if (gap > way_in_a_step) {
+        i += way_in_a_step > 0 ? static_cast<size_t>(std::min<Real>(gap / way_in_a_step, kSteps + 1)) : poses_.size();
+        continue;
+      }
+      if (gap <= 0 && meetsAt(pose, body, corners)) return true;
+      ++i;
+    }
+  }
+  return false;
+}
+
+bool SampledSweep::meetsAt(const Pose& pose, const Body& body, const Corners& corners_M) const {
+  Corners corners_T;
+  Vector3r p = Vector3r::Zero();
+  for (size_t i = 0; i < 3; ++i) {
+    corners_T[i] = pose.R_TM * (corners_M[i] - pose.p_M);
+    if (depth(body, corners_T[i]) > slack_) return true;
+    p += corners_T[i] / 3;
+  }
+  constexpr int kTimes = 8;
+  for (int i = 0; i < kTimes; ++i) {
+    if (depth(body, p) > slack_) return true;
+    const Vector3r there = nearestOfTriangle(corners_T, nearest(body, p));
+    if ((there - p).squaredNorm() < slack_ * slack_) return false;
+    p = there;
+  }
+  return depth(body, p) > slack_;
+}
+
+SweepCase randomWholeSweep(std::uint64_t seed) {
+  Random random(seed);
+  SweepCase sweep;
+  const TriangleMesh mesh = wavyHull(/*rings=*/21, /*sectors=*/40, random.uniform(0.0, 6.0));
+  for (const Triangle& triangle : mesh.triangles()) {
+    for (const std::uint32_t vertex : triangle) sweep.triangles.corners_M.push_back(mesh.vertex(vertex));
+  }
+  sweep.tool = randomBodies(random, random.logUniform(0.01, 0.2));
+  constexpr double kRadius = 0.1;
+  sweep.motion.X_MT_start = random.pose(kRadius * random.uniform(0.5, 1.6) * random.direction());
+  sweep.motion.X_MT_end = sweep.motion.X_MT_start;
+  if (random.chance(0.9)) sweep.motion.X_MT_end.translation() += random.logUniform(1e-4, 0.2) * random.direction();
+  sweep.motion.X_MT_end.linear() = random.turn(randomAngle(random)) * sweep.motion.X_MT_start.linear();
+  return sweep;
+}
+
+}  // namespace sweep_guard::soundness
