@@ -177,4 +177,12 @@ std::vector<std::vector<std::uint32_t>> decompose(const TriangleMesh& mesh, cons
   return Decomposition(mesh, options).sets();
 }
 
+std::vector<ConvexShape> convexParts(const TriangleMesh& mesh_T, const DecompositionOptions& options) {
+  std::vector<ConvexShape> parts;
+  for (const Set& set : decompose(mesh_T, options)) {
+    parts.push_back(ConvexShape::hull(cornersOf(mesh_T, set)).padded(mesh_T.rounding()));
+  }
+  return parts;
+}
+
 }  // namespace sweep_guard

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "scenes.h"
@@ -79,6 +80,22 @@ void expectPartition(const TriangleMesh& mesh, const Sets& sets) {
   for (const int count : uses) EXPECT_EQ(count, 1);
 }
 
+void expectHolds(const TriangleMesh& mesh, const Sets& sets, const std::vector<ConvexShape>& parts, Random& random) {
+  ASSERT_EQ(parts.size(), sets.size());
+  for (size_t i = 0; i < parts.size(); ++i) {
+    for (int k = 0; k < 50; ++k) {
+      const Eigen::Vector3d direction = random.direction();
+      double corners = -std::numeric_limits<double>::infinity();
+      for (const std::uint32_t triangle : sets[i]) {
+        for (const std::uint32_t v : mesh.triangles()[triangle]) {
+          corners = std::max(corners, direction.dot(mesh.vertex(v)));
+        }
+      }
+      EXPECT_LE(corners, parts[i].support(direction) + 1e-15 * (1.0 + mesh.radius()));
+    }
+  }
+}
+
 TEST(DecompositionTest, PutsEveryTriangleIntoOneSet) {
   Random random(/*seed=*/1);
   for (int i = 0; i < 30; ++i) {
@@ -92,6 +109,18 @@ TEST(DecompositionTest, PutsEveryTriangleIntoOneSet) {
     SCOPED_TRACE("soup " + std::to_string(i));
     expectPartition(mesh, sets);
     EXPECT_LE(sets.size(), size_t{1} << static_cast<unsigned>(options.max_depth));
+  }
+}
+
+// Each in every direction as far out as the corners of its triangles: being convex, it holds all of them.
+TEST(DecompositionTest, PartsHoldTheirTriangles) {
+  Random random(/*seed=*/2);
+  for (int i = 0; i < 30; ++i) {
+    const double size = random.logUniform(1e-4, 10.0);
+    const TriangleMesh mesh = triangleSoup(random, 1 + random.below(200), size, random.direction());
+    const DecompositionOptions options{/*max_depth=*/random.below(8), /*step=*/0.002, /*least_saving=*/0.001};
+    SCOPED_TRACE("soup " + std::to_string(i));
+    expectHolds(mesh, decompose(mesh, options), convexParts(mesh, options), random);
   }
 }
 

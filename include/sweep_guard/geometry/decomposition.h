@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sweep_guard/geometry/convex_shape.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
 namespace sweep_guard {
@@ -28,5 +29,12 @@ struct DecompositionOptions {
 /// @returns sets of triangle indices: none empty, every triangle in one of them, ascending
 /// @throws InvalidInput if an option is out of range
 std::vector<std::vector<std::uint32_t>> decompose(const TriangleMesh& mesh, const DecompositionOptions& options = {});
+
+/// The convex hulls of these sets, in this order: of ALL corners of their triangles, so that together they hold every
+/// point of every triangle, and of the mesh as it was before it was rounded. What a closed mesh encloses they need not
+/// hold: there they may leave a hollow. Nothing gets there without meeting the surface, as long as motion is swept
+/// without gaps.
+/// @throws InvalidInput if an option is out of range
+std::vector<ConvexShape> convexParts(const TriangleMesh& mesh_T, const DecompositionOptions& options = {});
 
 }  // namespace sweep_guard
