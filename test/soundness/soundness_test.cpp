@@ -70,21 +70,20 @@ TEST(CaseTest, IsRefusedIfItIsCutOffOrUnknown) {
 
 // Does not name the last triangle that is met.
 class Forgetful : public Detector {
- public:
-  Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) override {
-    Detection detection = honest_->detect(mesh_M, swept_M);
+  Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                 const std::vector<std::uint32_t>* candidates) override {
+    Detection detection =
+        candidates == nullptr ? honest_->detect(mesh_M, swept_M) : honest_->detectAmong(mesh_M, swept_M, *candidates);
     if (!detection.triangles.empty()) detection.triangles.pop_back();
     return detection;
   }
 
- private:
   std::unique_ptr<Detector> honest_ = makeDetector("reference");
 };
 
 // Names everything.
 class Fearful : public Detector {
- public:
-  Detection detect(const TriangleMesh& mesh_M, const SweptVolume&) override {
+  Detection find(const TriangleMesh& mesh_M, const SweptVolume&, const std::vector<std::uint32_t>*) override {
     Detection detection;
     for (std::uint32_t i = 0; i < mesh_M.triangles().size(); ++i) detection.triangles.push_back(i);
     return detection;
