@@ -1,0 +1,218 @@
+#include "sweep_guard/detection/fine_phase.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "sweep_guard/geometry/penetration.h"
+#include "sweep_guard/geometry/separation.h"
+
+namespace sweep_guard {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMaxDirections = 1000;
+constexpr int kMaxTries = 40;
+
+struct PlacedShape {
+  const ConvexShape& shape_T;
+  Eigen::Matrix3d R_MT;
+  Eigen::Vector3d p_MT;
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& direction_M) const {
+    return p_MT + R_MT * shape_T.supportPoint(R_MT.transpose() * direction_M);
+  }
+};
+
+// The least of (1 - x) start + x end - bend x (1 - x) for x in [0, 1].
+double leastBetween(double start, double end, double bend) {
+  const double rise = end - start;
+  if (std::abs(rise) >= bend) return std::min(start, end);
+  return start - (bend - rise) * (bend - rise) / (4.0 * bend);
+}
+
+// Tool and triangle along one part of the motion, by its fraction s. Everything is relative to a corner of the
+// triangle at the start, so that places far from the origin of M cost no digits.
+class Course {
+ public:
+  Course(const ConvexShape& shape_T, const Motion& part, const MovingTriangle& triangle, double start, double end)
+      : shape_T_(shape_T),
+        base_M_(triangle.start_M[0]),
+        R_MT_(part.X_MT_start.linear()),
+        from_(part.X_MT_start.translation() - base_M_),
+        travel_(part.X_MT_end.translation() - part.X_MT_start.translation()) {
+    if (part.X_MT_start.linear() != part.X_MT_end.linear()) {
+      angle_ = part.angle();
+      axis_T_ = part.axis_T();
+      axis_M_ = R_MT_ * axis_T_;
+      reach_ = shape_T.reach(axis_T_);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d way = triangle.end_M[i] - triangle.start_M[i];
+      corners_[i] = triangle.start_M[i] - base_M_ + start * way;
+      ways_[i] = (end - start) * way;
+    }
+  }
+
+  PlacedShape tool(double s) const {
+    if (angle_ == 0.0) return {shape_T_, R_MT_, from_ + s * travel_};
+    return {shape_T_, R_MT_ * Eigen::AngleAxisd(s * angle_, axis_T_).toRotationMatrix(), from_ + s * travel_};
+  }
+
+  std::array<Eigen::Vector3d, 3> corners(double s) const {
+    return {corners_[0] + s * ways_[0], corners_[1] + s * ways_[1], corners_[2] + s * ways_[2]};
+  }
+
+  // G(s) along a unit direction.
+  double gap(const Eigen::Vector3d& n, double s) const {
+    const PlacedShape placed = tool(s);
+    const double least = n.dot(placed.p_MT) - shape_T_.support(placed.R_MT.transpose() * -n);
+    const std::array<Eigen::Vector3d, 3> p = corners(s);
+    return least - std::max({n.dot(p[0]), n.dot(p[1]), n.dot(p[2])});
+  }
+
+  // How far from `s`, where the gap along n is `gap_here`, this direction proves a gap of more than `least`, as far as
+  // a few tries tell: aims where the gap is `aim`. Returns `s` itself if none succeeds.
+  double freeUntil(const Eigen::Vector3d& n, double s, double gap_here, double aim, double least) const {
+    const double bending = 0.5 * angle_ * angle_ * reach_ * n.cross(axis_M_).norm();
+    double step = 1.0 - s;
+    for (int i = 0; i < kMaxTries; ++i) {
+      const double next = step == 1.0 - s ? 1.0 : s + step;
+      if (next == s) return s;
+      const double gap_there = gap(n, next);
+      if (leastBetween(gap_here, gap_there, bending * step * step) > least) return next;
+      step *= gap_there < aim ? std::clamp((gap_here - aim) / (gap_here - gap_there), 1e-3, i == 0 ? 1.0 : 0.7) : 0.5;
+    }
+    return s;
+  }
+
+  const Eigen::Vector3d& base_M() const { return base_M_; }
+  double farthest() const { return std::max(from_.norm(), (from_ + travel_).norm()); }
+
+ private:
+  const ConvexShape& shape_T_;
+  Eigen::Vector3d base_M_;
+  Eigen::Matrix3d R_MT_;
+  Eigen::Vector3d from_;
+  Eigen::Vector3d travel_;
+  double angle_ = 0.0;
+  Eigen::Vector3d axis_T_ = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d axis_M_ = Eigen::Vector3d::UnitZ();
+  double reach_ = 0.0;
+  std::array<Eigen::Vector3d, 3> corners_;
+  std::array<Eigen::Vector3d, 3> ways_;
+};
+
+struct Touch {
+  double fraction;
+  Separation separation;
+};
+
+double diameter(const std::array<Eigen::Vector3d, 3>& p) {
+  return std::sqrt(std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()}));
+}
+
+// The face normal, the tool's axes, and what is orthogonal to an axis and an edge; both ways each.
+std::vector<Eigen::Vector3d> proposals(const Eigen::Matrix3d& R_MT, const std::array<Eigen::Vector3d, 3>& corners) {
+  std::vector<Eigen::Vector3d> directions;
+  const auto propose = [&](const Eigen::Vector3d& direction) {
+    const double length = direction.norm();
+    if (!(length > 1e-12)) return;
+    directions.push_back(direction / length);
+    directions.push_back(-direction / length);
+  };
+  for (int i = 0; i < 3; ++i) propose(R_MT.col(i));
+  const std::array<Eigen::Vector3d, 3> edges = {(corners[1] - corners[0]).normalized(),
+                                                (corners[2] - corners[1]).normalized(),
+                                                (corners[0] - corners[2]).normalized()};
+  propose(edges[0].cross(edges[1]));
+  for (const Eigen::Vector3d& edge : edges) {
+    for (int i = 0; i < 3; ++i) propose(edge.cross(R_MT.col(i)));
+  }
+  return directions;
+}
+
+class FinePhase {
+ public:
+  FinePhase(const ConvexShape& shape_T, const std::vector<Motion>& parts, const MovingTriangle& triangle, double margin)
+      : shape_T_(shape_T), parts_(parts), triangle_(triangle), margin_(margin) {
+    size_ = shape_T.extent() + std::max(diameter(triangle.start_M), diameter(triangle.end_M));
+    tolerance_ = 2e-9 * size_ + 1e-14 * std::max(course(0).farthest(), course(parts.size() - 1).farthest());
+  }
+
+  std::optional<Impact> run(const std::optional<Eigen::Vector3d>& way_in_M) {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const Course part = course(i);
+      const std::optional<Touch> touch = firstTouch(part, margin_ + parts_[i].bulge);
+      if (!touch) continue;
+      const bool overlaps = i == 0 && touch->fraction == 0.0 && touch->separation.gap <= 0.0;
+      const Eigen::Vector3d normal = !overlaps  ? touch->separation.normal
+                                     : way_in_M ? *way_in_M
+                                                : wayOutAtTheStart(part);
+      const double time = (static_cast<double>(i) + touch->fraction) / static_cast<double>(parts_.size());
+      const double depth = std::max(0.0, -course(parts_.size() - 1).gap(normal, 1.0));
+      return Impact{time, part.base_M() + touch->separation.on_obstacle, normal, depth};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Course course(std::size_t part) const {
+    const auto count = static_cast<double>(parts_.size());
+    const auto i = static_cast<double>(part);
+    return {shape_T_, parts_[part], triangle_, i / count, (i + 1.0) / count};
+  }
+
+  std::optional<Touch> firstTouch(const Course& part, double margin) {
+    double s = 0.0;
+    double gap = normal_ ? part.gap(*normal_, s) : -kInfinity;
+    while (true) {
+      if (gap <= margin + tolerance_) {
+        const Separation apart = separationAt(part, s, 0.25 * tolerance_);
+        if (apart.gap <= margin + tolerance_ || ++directions_ > kMaxDirections) break;
+        normal_ = apart.normal;
+        gap = apart.gap;
+      }
+      const double next = part.freeUntil(*normal_, s, gap, margin + 0.5 * tolerance_, margin + 0.25 * tolerance_);
+      if (next == 1.0) return std::nullopt;
+      if (next == s) break;
+      s = next;
+      gap = -kInfinity;
+    }
+    return Touch{s, separationAt(part, s, 0.0)};
+  }
+
+  Separation separationAt(const Course& part, double s, double accuracy) const {
+    const PlacedShape tool = part.tool(s);
+    const PointHull triangle(part.corners(s));
+    return separation(tool, triangle, accuracy, normal_.value_or(tool.p_MT));
+  }
+
+  Eigen::Vector3d wayOutAtTheStart(const Course& part) const {
+    const PlacedShape tool = part.tool(0.0);
+    const std::array<Eigen::Vector3d, 3> corners = part.corners(0.0);
+    return wayOut(tool, PointHull(corners), proposals(tool.R_MT, corners), std::max(size_, 1e-12));
+  }
+
+  const ConvexShape& shape_T_;
+  const std::vector<Motion>& parts_;
+  const MovingTriangle& triangle_;
+  double margin_;
+  double size_;       // of tool and triangle [m]
+  double tolerance_;  // [m]
+  int directions_ = 0;
+  std::optional<Eigen::Vector3d> normal_;  // proves the gap so far
+};
+
+}  // namespace
+
+std::optional<Impact> firstImpact(const ConvexShape& shape_T, const std::vector<Motion>& parts,
+                                  const MovingTriangle& triangle, double margin,
+                                  const std::optional<Eigen::Vector3d>& way_in_M) {
+  assert(!parts.empty());
+  assert(margin >= 0.0);
+  return FinePhase(shape_T, parts, triangle, margin).run(way_in_M);
+}
+
+}  // namespace sweep_guard

@@ -1,0 +1,80 @@
+#include "sweep_guard/geometry/penetration.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "scenes.h"
+
+namespace sweep_guard {
+namespace {
+
+using Eigen::Vector3d;
+using Corners = std::array<Vector3d, 3>;
+
+// Ellipsoid: smooth, and of any proportions.
+struct Ellipsoid {
+  Eigen::Matrix3d axes;  // columns: directions times half lengths [m]
+  Vector3d center;
+
+  Vector3d operator()(const Vector3d& direction) const {
+    return center + axes * (axes.transpose() * direction).normalized();
+  }
+};
+
+std::vector<Vector3d> axesBothWays() {
+  std::vector<Vector3d> directions;
+  for (int i = 0; i < 3; ++i) {
+    directions.push_back(Vector3d::Unit(i));
+    directions.push_back(-Vector3d::Unit(i));
+  }
+  return directions;
+}
+
+TEST(WayOutTest, IsTheLeastOfManyDirections) {
+  Random random(/*seed=*/1);
+  int least = 0;
+  int overlapping = 0;
+  constexpr int kPairs = 500;
+  for (int i = 0; i < kPairs; ++i) {
+    const Vector3d half(random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), random.uniform(0.1, 1.0));
+    const Ellipsoid tool{random.rotation() * half.asDiagonal(), 0.2 * random.direction()};
+    Corners corners;
+    for (Vector3d& p : corners) p = random.logUniform(0.1, 10.0) * random.direction();
+    const Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    for (Vector3d& p : corners) p -= middle;
+    const PointHull triangle(corners);
+    std::vector<Vector3d> proposals = axesBothWays();
+    const Vector3d face = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    proposals.push_back(face);
+    proposals.push_back(-face);
+    const Vector3d normal = wayOut(tool, triangle, proposals, /*size=*/1.0);
+    EXPECT_NEAR(normal.norm(), 1.0, 1e-14);
+    double sampled = depthAlong(face, tool, triangle);
+    for (int k = 0; k < 3000; ++k) sampled = std::min(sampled, depthAlong(random.direction(), tool, triangle));
+    const double depth = depthAlong(normal, tool, triangle);
+    if (depth <= 0.0) continue;
+    ++overlapping;
+    EXPECT_LE(depth, depthAlong(face, tool, triangle) + 1e-12) << i;
+    EXPECT_LE(depth, 1.1 * sampled + 1e-12) << i;
+    least += depth <= sampled + 1e-9 ? 1 : 0;
+  }
+  EXPECT_GT(overlapping, kPairs / 2);
+  EXPECT_GE(least, overlapping * 99 / 100);
+}
+
+// libccd makes no polytope of flat bodies; the proposals carry the answer.
+TEST(WayOutTest, TakesFlatBodies) {
+  const PointHull sheet(Corners{Vector3d(-1, -1, 0), Vector3d(2, -1, 0), Vector3d(-1, 2, 0)});
+  const PointHull cut(Corners{Vector3d(0, 0, -0.1), Vector3d(0.2, 0, 0.3), Vector3d(-0.1, 0, 0.3)});
+  const Vector3d out = wayOut(cut, sheet, axesBothWays(), /*size=*/1.0);
+  EXPECT_NEAR(depthAlong(out, cut, sheet), 0.1, 1e-9);
+  const PointHull same(Corners{Vector3d(0, 0, 0), Vector3d(0.2, 0, 0), Vector3d(0, 0.2, 0)});
+  EXPECT_NEAR(depthAlong(wayOut(same, sheet, axesBothWays(), 1.0), same, sheet), 0.0, 1e-12);
+  const PointHull point(std::array<Vector3d, 1>{Vector3d::Zero()});
+  EXPECT_NEAR(depthAlong(wayOut(point, sheet, axesBothWays(), 1.0), point, sheet), 0.0, 1e-12);
+  EXPECT_NEAR(depthAlong(wayOut(point, point, axesBothWays(), 1.0), point, point), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace sweep_guard
