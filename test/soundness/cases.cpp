@@ -1,5 +1,6 @@
 #include "soundness/cases.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -40,8 +41,14 @@ std::string textOf(const std::string& word, const Motion& motion) {
   return word + hex(motion.X_MT_start) + hex(motion.X_MT_end) + '\n';
 }
 
+constexpr std::array<const char*, 4> kKinds = {"cylinder", "sphere", "box", "hull"};
+
 std::string textOf(const Body& body) {
-  return "cylinder " + hex(body.radius) + ' ' + hex(body.length) + ' ' + std::to_string(body.sides) + '\n';
+  std::string text = std::string("body ") + kKinds[static_cast<size_t>(body.kind)] + ' ' + hex(body.radius) + ' ' +
+                     hex(body.length) + ' ' + std::to_string(body.sides) + hex(body.half_extents) + hex(body.X_TS) +
+                     ' ' + hex(body.padding) + ' ' + std::to_string(body.points.size());
+  for (const Eigen::Vector3d& p : body.points) text += hex(p);
+  return text + '\n';
 }
 
 // The numbers of one line.
@@ -86,13 +93,25 @@ class Line {
   }
   Body body() {
     Body body;
+    body.kind = kind();
     body.radius = number();
     body.length = number();
     body.sides = static_cast<int>(number());
-    return body;
+    body.half_extents = vector();
+    body.X_TS = pose();
+    body.padding = number();
+    for (double count = number(); count > 0.0; --count) body.points.push_back(vector());
+    return withFacets(body);
   }
 
  private:
+  Body::Kind kind() {
+    const std::string name = next();
+    const auto* const known = std::find(kKinds.begin(), kKinds.end(), name);
+    if (known == kKinds.end()) throw InvalidInput("soundness case: there is no body '" + name + "'");
+    return static_cast<Body::Kind>(known - kKinds.begin());
+  }
+
   std::istringstream stream_;
   std::string word_;
 };
@@ -127,10 +146,12 @@ void readPair(Line& line, PairCase& pair) {
 
 void readSweep(Line& line, SweepCase& sweep) {
   if (readTriangles(line, sweep.triangles)) return;
-  if (line.word() == "cylinder") {
+  if (line.word() == "body") {
     sweep.tool.push_back(line.body());
   } else if (line.word() == "motion") {
     sweep.motion = line.motion();
+  } else if (line.word() == "drift") {
+    sweep.drift = line.vector();
   } else if (line.word() == "frame") {
     sweep.frame_W = line.motion();
   } else if (line.word() == "options") {
@@ -139,7 +160,8 @@ void readSweep(Line& line, SweepCase& sweep) {
     sweep.options.margin = line.number();
   } else if (line.word() == "contact") {
     const auto triangle = static_cast<std::uint32_t>(line.number());
-    sweep.contacts.push_back({triangle, line.number()});
+    const double fraction = line.number();
+    sweep.contacts.push_back({triangle, fraction, line.number()});
   } else {
     throw InvalidInput("soundness case: '" + line.word() + "' means nothing in a sweep");
   }
@@ -161,8 +183,11 @@ TriangleMesh Triangles::mesh() const {
 }
 
 std::vector<Motion> SweepCase::parts() const {
-  if (!frame_W) return split(motion, options.max_rotation);
-  return split(RelativeMotion{motion, *frame_W}, options.max_rotation, extentOf(tool));
+  std::vector<Motion> parts = frame_W
+                                  ? split(RelativeMotion{motion, *frame_W}, options.max_rotation, toolOf(tool).extent())
+                                  : split(motion, options.max_rotation);
+  for (Motion& part : parts) part.drift = drift;
+  return parts;
 }
 
 std::vector<VolumeKind> volumeKinds() { return {VolumeKind::kObb, VolumeKind::kObbPlanes}; }
@@ -182,12 +207,14 @@ std::string textOf(const SweepCase& sweep, const std::string& about) {
   std::string text = "soundness-sweep " + about + '\n';
   for (const Body& body : sweep.tool) text += textOf(body);
   text += textOf("motion", sweep.motion);
+  if (!sweep.drift.isZero(0.0)) text += "drift" + hex(sweep.drift) + '\n';
   if (sweep.frame_W) text += textOf("frame", *sweep.frame_W);
   text += "options " + nameOf(sweep.options.volume) + ' ' + hex(sweep.options.max_rotation) + ' ' +
           hex(sweep.options.margin) + '\n';
   text += textOf(sweep.triangles);
   for (const Contact& contact : sweep.contacts) {
-    text += "contact " + std::to_string(contact.triangle) + ' ' + hex(contact.fraction) + '\n';
+    text +=
+        "contact " + std::to_string(contact.triangle) + ' ' + hex(contact.fraction) + ' ' + hex(contact.drift) + '\n';
   }
   return text + "end\n";
 }

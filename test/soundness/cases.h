@@ -32,17 +32,19 @@ struct PairCase {
 /// A point of the moving tool that lies on a triangle.
 struct Contact {
   std::uint32_t triangle;
-  double fraction;  ///< of the motion, in [0, 1]
+  double fraction;     ///< of the motion, in [0, 1]
+  double drift = 0.0;  ///< fraction of the drift, in [0, 1]
 };
 
 /// Triangles against the whole motion of a tool.
 struct SweepCase {
   Triangles triangles;
   Bodies tool;
-  Motion motion;                  ///< of the tool in M, or in W if the frame M moves
-  std::optional<Motion> frame_W;  ///< of M in W
-  SweepOptions options;           ///< its volume is the checker's choice
-  std::vector<Contact> contacts;  ///< these triangles are met for certain, in ascending order
+  Motion motion;                                    ///< of the tool in M, or in W if the frame M moves
+  Eigen::Vector3d drift = Eigen::Vector3d::Zero();  ///< the tool may be up to this far on, at any time [m]
+  std::optional<Motion> frame_W;                    ///< of M in W
+  SweepOptions options;                             ///< its volume is the checker's choice
+  std::vector<Contact> contacts;                    ///< these triangles are met for certain, in ascending order
 
   /// The motion cut for testSweep().
   std::vector<Motion> parts() const;

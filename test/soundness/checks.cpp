@@ -87,35 +87,49 @@ void checkWholeSweep(const Context& context, const SweepCase& sweep) {
   const TriangleMesh mesh_M = sweep.triangles.mesh();
   const Tool tool = toolOf(sweep.tool);
   const std::vector<Motion> parts = sweep.parts();
-  const SampledSweep sampled(sweep);
-  std::vector<bool> met;
-  for (size_t i = 0; i < sweep.triangles.count(); ++i) {
-    const Eigen::Vector3d* corners = &sweep.triangles.corners_M[3 * i];
-    met.push_back(sampled.meets({corners[0], corners[1], corners[2]}));
-  }
+  struct Answer {
+    std::string detector;
+    SweepCase seen;
+    SweepFindings findings;
+  };
+  std::vector<Answer> answers;
+  std::vector<size_t> times_named(sweep.triangles.count());
   for (Suspect& suspect : context.suspects) {
     for (const VolumeKind kind : volumeKinds()) {
       SweepCase seen = sweep;
       seen.options.volume = kind;
-      Tally& tally = context.report.of(suspect.name + '/' + nameOf(kind), context.family);
-      const auto fail = [&](const std::string& what, std::uint32_t triangle) {
-        context.report.fail(what + " triangle " + std::to_string(triangle),
-                            [&] { return textOf(seen, about(context, suspect.name)); });
-      };
-      const SweepFindings findings = testSweep(*suspect.detector, tool, parts, mesh_M, seen.options);
-      ++tally.cases;
-      for (std::uint32_t i = 0; i < met.size(); ++i) {
-        const bool named = contains(findings.triangles, i);
-        if (met[i]) ++tally.positives;
-        if (named && !met[i]) ++tally.extras;
-        if (named || !met[i]) continue;
-        ++tally.misses;
-        fail("missed", i);
-      }
-      for (const std::uint32_t triangle : unexplained(mesh_M, findings)) {
-        ++tally.unexplained;
-        fail("farther away than the margin:", triangle);
-      }
+      answers.push_back({suspect.name, seen, testSweep(*suspect.detector, tool, parts, mesh_M, seen.options)});
+      for (const std::uint32_t triangle : answers.back().findings.triangles) ++times_named[triangle];
+    }
+  }
+
+  // Where all agree that it is met, nothing depends on it but how many extras are counted.
+  constexpr size_t kCoarsely = 16;
+  const SampledSweep sampled(sweep);
+  std::vector<bool> met;
+  for (size_t i = 0; i < times_named.size(); ++i) {
+    const Eigen::Vector3d* corners = &sweep.triangles.corners_M[3 * i];
+    met.push_back(
+        sampled.meets({corners[0], corners[1], corners[2]}, times_named[i] == answers.size() ? kCoarsely : 1));
+  }
+  for (const auto& [detector, seen, findings] : answers) {
+    Tally& tally = context.report.of(detector + '/' + nameOf(seen.options.volume), context.family);
+    const auto fail = [&](const std::string& what, std::uint32_t triangle) {
+      context.report.fail(what + " triangle " + std::to_string(triangle),
+                          [&, &of = seen, &by = detector] { return textOf(of, about(context, by)); });
+    };
+    ++tally.cases;
+    for (std::uint32_t i = 0; i < met.size(); ++i) {
+      const bool named = contains(findings.triangles, i);
+      if (met[i]) ++tally.positives;
+      if (named && !met[i]) ++tally.extras;
+      if (named || !met[i]) continue;
+      ++tally.misses;
+      fail("missed", i);
+    }
+    for (const std::uint32_t triangle : unexplained(mesh_M, findings)) {
+      ++tally.unexplained;
+      fail("farther away than the margin:", triangle);
     }
   }
 }

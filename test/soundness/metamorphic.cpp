@@ -276,6 +276,7 @@ SweepCase scaledSweep(const SweepCase& sweep, double scale) {
   SweepCase other = sweep;
   other.triangles = scaled(sweep.triangles, scale);
   other.motion = scaled(sweep.motion, scale);
+  other.drift *= scale;
   if (sweep.frame_W) other.frame_W = scaled(*sweep.frame_W, scale);
   other.options.margin *= scale;
   for (Body& body : other.tool) body = scaled(body, scale);
@@ -296,6 +297,7 @@ void checkOne(Relations& relations, const SweepCase& sweep) {
     SweepCase elsewhere = sweep;
     elsewhere.triangles = moved(move, sweep.triangles);
     elsewhere.motion = moved(move, sweep.motion);
+    elsewhere.drift = move.linear() * sweep.drift;
     const double all =
         largestCoordinate(sweep.triangles) + largestCoordinate(elsewhere.triangles) + extentOf(sweep.tool);
     elsewhere.options.margin += (sweep.triangles.streamed ? 0x1p-22 : 0x1p-49) * all;

@@ -15,6 +15,7 @@ constexpr double kFarthest = 9.9e6;  // leaves room for a tool
 // A point of the tool at a fraction of the motion, so deep inside.
 struct ToolPoint {
   Real fraction;
+  Real drift;  // fraction of it
   Vector3r p_T;
   Eigen::Vector3d outward_M;  // a direction in which the sweep ends there, or any
 };
@@ -38,7 +39,8 @@ Vector3r randomPointOf(Random& random, const Body& body, Real inset) {
 }
 
 // The point of the body that gets farthest in a direction, at the dyadic fraction at which it does.
-ToolPoint farthestOfSweep(Random& random, const Body& body, const ExactMotion& motion, Real inset) {
+ToolPoint farthestOfSweep(Random& random, const Body& body, const ExactMotion& motion, const Eigen::Vector3d& drift,
+                          Real inset) {
   const Eigen::Vector3d outward = random.direction();
   const Vector3r direction = outward.cast<Real>();
   const auto pointAt = [&](Real fraction) { return support(body, motion.directionInTool(fraction, direction), inset); };
@@ -61,17 +63,19 @@ ToolPoint farthestOfSweep(Random& random, const Body& body, const ExactMotion& m
       }
     }
   }
-  return {best, pointAt(best), outward};
+  return {best, outward.dot(drift) > 0.0 ? Real{1} : Real{0}, pointAt(best), outward};
 }
 
-ToolPoint randomToolPoint(Random& random, const Body& body, const ExactMotion& motion, size_t parts, Real inset) {
-  if (random.chance(0.4)) return farthestOfSweep(random, body, motion, inset);
+ToolPoint randomToolPoint(Random& random, const Body& body, const ExactMotion& motion, const Eigen::Vector3d& drift,
+                          size_t parts, Real inset) {
+  if (random.chance(0.4)) return farthestOfSweep(random, body, motion, drift, inset);
   Real fraction = static_cast<Real>(random.below(1 + (1 << 12))) / (1 << 12);
   if (random.chance(0.2)) fraction = random.below(2);
   if (random.chance(0.2)) {
     fraction = static_cast<Real>(random.below(static_cast<int>(parts) + 1)) / static_cast<Real>(parts);
   }
-  return {fraction, randomPointOf(random, body, inset), random.direction()};
+  const Real along = static_cast<Real>(random.below(17)) / 16;
+  return {fraction, along, randomPointOf(random, body, inset), random.direction()};
 }
 
 // A triangle about a point of it.
@@ -175,7 +179,7 @@ class Builder {
     const double largest = largestCoordinate(sweep_.motion) + (sweep_.frame_W ? largestCoordinate(*sweep_.frame_W) : 0);
     choosePoint(largest + triangle_size);
     while (count-- > 0) {
-      point_ = randomToolPoint(random_, body(), ExactMotion(motion()), parts_, inset_);
+      point_ = randomToolPoint(random_, body(), motion(), sweep_.drift, parts_, inset_);
       const Shape shape = randomShape(random_, point_.outward_M, triangle_size);
       addIfMet(shape, cornersAbout(shape, position()));
     }
@@ -186,7 +190,9 @@ class Builder {
   ExactMotion motion() const {
     return sweep_.frame_W ? ExactMotion(RelativeMotion{sweep_.motion, *sweep_.frame_W}) : ExactMotion(sweep_.motion);
   }
-  Vector3r position() const { return motion().at(point_.fraction, point_.p_T); }
+  Vector3r position() const {
+    return motion().at(point_.fraction, point_.p_T) + point_.drift * sweep_.drift.cast<Real>();
+  }
 
   void choosePoint(double largest) {
     body_ = static_cast<size_t>(random_.below(static_cast<int>(sweep_.tool.size())));
@@ -195,14 +201,14 @@ class Builder {
     // A body without an inside is grown instead: that, too, puts the point so deep into it.
     if (inset_ == 0) sweep_.options.margin = static_cast<double>(depth_);
     parts_ = sweep_.parts().size();
-    point_ = randomToolPoint(random_, body(), motion(), parts_, inset_);
+    point_ = randomToolPoint(random_, body(), motion(), sweep_.drift, parts_, inset_);
   }
 
   void addIfMet(const Shape& shape, const Corners& corners) {
     if ((pointOf(shape, corners) - position()).norm() >= depth_) return;
     const auto triangle = static_cast<std::uint32_t>(sweep_.triangles.count());
     for (const Eigen::Vector3d& p : corners) sweep_.triangles.corners_M.push_back(p);
-    sweep_.contacts.push_back({triangle, static_cast<double>(point_.fraction)});
+    sweep_.contacts.push_back({triangle, static_cast<double>(point_.fraction), static_cast<double>(point_.drift)});
   }
 
   Random& random_;
@@ -254,6 +260,7 @@ SweepCase constructedPositives(std::uint64_t seed) {
     const double size = extentOf(sweep.tool);
     const double distance = largestCoordinate(sweep.motion);
     const double triangle_size = std::min(size * random.logUniform(1e-6, 1e6), 0.3 * (kFarthest - distance));
+    if (random.chance(0.2)) sweep.drift = size * random.logUniform(1e-6, 3.0) * random.direction();
     Builder builder(random, sweep);
     if (random.chance(0.5)) {
       builder.addOneInFloat(triangle_size);

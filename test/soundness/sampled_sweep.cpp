@@ -54,46 +54,52 @@ SampledSweep::SampledSweep(const SweepCase& sweep) : tool_(sweep.tool) {
   slack_ = 1e-12L * static_cast<Real>(extentOf(tool_));
 }
 
-bool SampledSweep::meets(const std::array<Eigen::Vector3d, 3>& corners_M) const {
+bool SampledSweep::meets(const std::array<Eigen::Vector3d, 3>& corners_M, size_t every) const {
   const Corners corners = {corners_M[0].cast<Real>(), corners_M[1].cast<Real>(), corners_M[2].cast<Real>()};
   const Vector3r center = (corners[0] + corners[1] + corners[2]) / 3;
   Real radius = 0;
   for (const Vector3r& p : corners) radius = std::max(radius, (p - center).norm());
-  const Real lever = std::max((center - poses_.front().p_M).norm(), (center - poses_.back().p_M).norm());
-  const Real way_in_a_step = (way_ + angle_ * lever) / kSteps;  // of the centre, in the tool frame
+  const Real lever = std::max((center - poses_.front().p_M).norm(), (center - poses_.back().p_M).norm()) + radius;
+  const Real way_in_a_step = (way_ + angle_ * lever) / kSteps;  // of any of its points, in the tool frame
 
   for (const Body& body : tool_) {
     for (size_t i = 0; i < poses_.size();) {
       const Pose& pose = poses_[i];
-      const Real distance = -depth(body, pose.R_TM * (center - pose.p_M));
-      const Real gap = distance - radius;
-      if (gap > way_in_a_step) {
-        i += way_in_a_step > 0 ? static_cast<size_t>(std::min<Real>(gap / way_in_a_step, kSteps + 1)) : poses_.size();
-        continue;
+      Real apart = -depth(body, pose.R_TM * (center - pose.p_M)) - radius;
+      if (apart <= way_in_a_step) {
+        const std::optional<Real> closer = apartAt(pose, body, corners);
+        if (!closer) return true;
+        apart = *closer;
       }
-      if (gap <= 0 && meetsAt(pose, body, corners)) return true;
-      ++i;
+      if (way_in_a_step == 0) break;  // at rest
+      i += std::max(every, static_cast<size_t>(std::min<Real>(apart / way_in_a_step, kSteps + 1)) / every * every);
     }
   }
   return false;
 }
 
-bool SampledSweep::meetsAt(const Pose& pose, const Body& body, const Corners& corners_M) const {
+std::optional<Real> SampledSweep::apartAt(const Pose& pose, const Body& body, const Corners& corners_M) const {
   Corners corners_T;
   Vector3r p = Vector3r::Zero();
   for (size_t i = 0; i < 3; ++i) {
     corners_T[i] = pose.R_TM * (corners_M[i] - pose.p_M);
-    if (depth(body, corners_T[i]) > slack_) return true;
+    if (depth(body, corners_T[i]) > slack_) return std::nullopt;
     p += corners_T[i] / 3;
   }
+  Real apart = 0;
   constexpr int kTimes = 8;
   for (int i = 0; i < kTimes; ++i) {
-    if (depth(body, p) > slack_) return true;
-    const Vector3r there = nearestOfTriangle(corners_T, nearest(body, p));
-    if ((there - p).squaredNorm() < slack_ * slack_) return false;
-    p = there;
+    if (depth(body, p) > slack_) return std::nullopt;
+    const Vector3r of_body = nearest(body, p);
+    p = nearestOfTriangle(corners_T, of_body);
+    // All of the body on one side of a slab, all of the triangle on the other: so far they are apart.
+    const Vector3r across = (p - of_body).normalized();
+    const Real triangle = std::min({across.dot(corners_T[0]), across.dot(corners_T[1]), across.dot(corners_T[2])});
+    apart = std::max(apart, triangle - across.dot(support(body, across)));
+    if (apart > 0.5L * (p - of_body).norm()) return apart;
   }
-  return depth(body, p) > slack_;
+  if (depth(body, p) > slack_) return std::nullopt;
+  return apart;
 }
 
 SweepCase randomWholeSweep(std::uint64_t seed) {
@@ -103,7 +109,10 @@ SweepCase randomWholeSweep(std::uint64_t seed) {
   for (const Triangle& triangle : mesh.triangles()) {
     for (const std::uint32_t vertex : triangle) sweep.triangles.corners_M.push_back(mesh.vertex(vertex));
   }
-  sweep.tool = randomBodies(random, random.logUniform(0.01, 0.2));
+  const auto flatHull = [](const Body& body) { return body.kind == Body::Kind::kHull && body.facets.empty(); };
+  do {
+    sweep.tool = randomBodies(random, random.logUniform(0.01, 0.2));
+  } while (std::any_of(sweep.tool.begin(), sweep.tool.end(), flatHull));  // depth() knows nothing of these
   constexpr double kRadius = 0.1;
   sweep.motion.X_MT_start = random.pose(kRadius * random.uniform(0.5, 1.6) * random.direction());
   sweep.motion.X_MT_end = sweep.motion.X_MT_start;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "soundness/body.h"
@@ -20,14 +21,16 @@ class SampledSweep {
   explicit SampledSweep(const SweepCase& sweep);
 
   /// Whether some point of the triangle is in the tool at some pose; false: none was found.
-  bool meets(const std::array<Eigen::Vector3d, 3>& corners_M) const;
+  /// @param every  only each of so many poses is tried
+  bool meets(const std::array<Eigen::Vector3d, 3>& corners_M, size_t every = 1) const;
 
  private:
   struct Pose {
     Matrix3r R_TM;
     Vector3r p_M;
   };
-  bool meetsAt(const Pose& pose, const Body& body, const std::array<Vector3r, 3>& corners_M) const;
+  // How far a body is apart at least; empty if they meet.
+  std::optional<Real> apartAt(const Pose& pose, const Body& body, const std::array<Vector3r, 3>& corners_M) const;
 
   const Bodies& tool_;
   std::vector<Pose> poses_;
