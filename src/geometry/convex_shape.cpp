@@ -162,6 +162,15 @@ ConvexShape ConvexShape::hull(const std::vector<Eigen::Vector3d>& points_T) {
   return ConvexShape(Points{hull.corners}, hull.corners, hull.triangles).padded(hull.excess);
 }
 
+std::optional<ConvexShape::Cylinder> ConvexShape::asCylinder() const {
+  const Round* const round = std::get_if<Round>(&body_S_);
+  if (round == nullptr) return {};
+  Eigen::Isometry3d X_TC = Eigen::Isometry3d::Identity();
+  X_TC.linear() = R_TS_;
+  X_TC.translation() = p_TS_;
+  return Cylinder{round->radius, round->length, X_TC};
+}
+
 ConvexShape ConvexShape::placed(const Eigen::Isometry3d& X_NT) const {
   ConvexShape placed = *this;
   placed.R_TS_ = X_NT.linear() * R_TS_;

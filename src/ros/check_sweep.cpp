@@ -22,7 +22,7 @@ constexpr auto kTransformMayBeLate = std::chrono::milliseconds(100);
 CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const Parameters& parameters,
                                      const Frames& frames, const WorkpieceStore& workpieces)
     : parameters_(parameters),
-      tool_(parameters.tool()),
+      tool_(*parameters.tool),
       frames_(frames),
       workpieces_(workpieces),
       server_(thread_.on(private_node).advertiseService("check_sweep", &CheckSweepService::onCall, this)) {}

@@ -1,5 +1,7 @@
 #include "sweep_guard/ros/marker_shapes.h"
 
+#include <algorithm>
+
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -62,14 +64,38 @@ Marker marker(const std::string& ns, int id, int type, const std::string& frame,
   return marker;
 }
 
-Marker toolMarker(const std::string& ns, int id, const std::string& frame, sweep_guard::Time stamp,
-                  const sweep_guard::Tool& tool, const Eigen::Isometry3d& X_WT) {
-  Marker cylinder = marker(ns, id, Marker::CYLINDER, frame, stamp);
-  cylinder.pose = toMsg(X_WT * Eigen::Translation3d(0.0, 0.0, -0.5 * tool.whole().length()));
-  cylinder.scale.x = cylinder.scale.y = 2.0 * tool.whole().radius();
-  cylinder.scale.z = tool.whole().length();
-  return cylinder;
+int toolMarkers(const sweep_guard::Tool& tool) {
+  int cylinders = 0;
+  for (const sweep_guard::ToolPart& part : tool.parts()) cylinders += part.shape_T.asCylinder() ? 1 : 0;
+  return cylinders + (static_cast<size_t>(cylinders) < tool.parts().size() ? 1 : 0);
 }
+
+void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing, const sweep_guard::Tool& tool,
+             const Eigen::Isometry3d& X_WT) {
+  int id = drawing.index * toolMarkers(tool);
+  Marker others = marker(drawing.ns, id, Marker::TRIANGLE_LIST, drawing.frame, drawing.stamp);
+  others.pose = toMsg(X_WT);
+  others.color = drawing.color;
+  for (const sweep_guard::ToolPart& part : tool.parts()) {
+    if (const auto cylinder = part.shape_T.asCylinder()) {
+      Marker drawn = marker(drawing.ns, id++, Marker::CYLINDER, drawing.frame, drawing.stamp);
+      drawn.pose = toMsg(X_WT * cylinder->X_TC * Eigen::Translation3d(0.0, 0.0, -0.5 * cylinder->length));
+      drawn.scale.x = drawn.scale.y = 2.0 * cylinder->radius;
+      drawn.scale.z = cylinder->length;
+      drawn.color = drawing.color;
+      array.markers.push_back(drawn);
+      continue;
+    }
+    const sweep_guard::TriangleMesh& mesh_T = part.shape_T.mesh_T();
+    for (const sweep_guard::Triangle& triangle : mesh_T.triangles()) {
+      for (const std::uint32_t corner : triangle) others.points.push_back(point(mesh_T.vertex(corner)));
+    }
+  }
+  others.id = id;
+  if (!others.points.empty()) array.markers.push_back(std::move(others));
+}
+
+double liftOff(const sweep_guard::Tool& tool) { return std::min(0.001, 0.05 * tool.bounds_T().sizes().minCoeff()); }
 
 Surface::Surface(const std::string& ns, int index, const std::string& frame, sweep_guard::Time stamp, double line_width)
     : faces_(marker(ns, 2 * index, Marker::TRIANGLE_LIST, frame, stamp)),

@@ -23,6 +23,12 @@ void addText(visualization_msgs::MarkerArray& array, Marker text, const sweep_gu
   array.markers.push_back(std::move(text));
 }
 
+// Behind the rear end.
+Eigen::Vector3d textPosition(const sweep_guard::Tool& tool) {
+  const Eigen::AlignedBox3d& box = tool.bounds_T();
+  return {box.center().x(), box.center().y(), box.min().z() - 0.4 * box.sizes().z()};
+}
+
 // In the frame of each workpiece.
 void addSweptVolumes(visualization_msgs::MarkerArray& array, const sweep_guard::SweepReport& report, Level level) {
   int index = 0;
@@ -61,18 +67,16 @@ visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
 void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const {
   const Level level = scene.verdict.level;
   const sweep_guard::Time stamp = scene.newest->end;
-  Marker tool = toolMarker("tool", 0, fixed_frame_, stamp, tool_, scene.X_WT);
-  tool.color = unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8));
-  array.markers.push_back(tool);
+  addTool(array, {"tool", 0, fixed_frame_, stamp, unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8))}, tool_, scene.X_WT);
 
   Marker text = marker("warning_text", 0, Marker::TEXT_VIEW_FACING, fixed_frame_, stamp);
-  text.pose = toMsg(scene.X_WT * Eigen::Translation3d(0.0, 0.0, -1.4 * tool_.whole().length()));
+  text.pose = toMsg(scene.X_WT * Eigen::Translation3d(textPosition(tool_)));
   addText(array, std::move(text), scene.verdict);
 
   addSweptVolumes(array, *scene.newest, level);
   addTrail(array, scene.trail, fixed_frame_, level);
   if (scene.contact && level == Level::kContact) {
-    addContactTriangles(array, *scene.contact, stamp, 0.1 * tool_.whole().radius());
+    addContactTriangles(array, *scene.contact, stamp, liftOff(tool_));
   }
 }
 

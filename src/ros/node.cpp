@@ -48,7 +48,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       considered_publisher_(advertise<std_msgs::Bool>(private_node, "considered_warning", 10)),
       marker_publisher_(advertise<visualization_msgs::MarkerArray>(private_node, "markers", 1)),
       ledger_(parameters_.limits, [this] { warn(/*only_on_change=*/true); }),
-      guard_(parameters_.tool(), sweep_guard::makeDetector(parameters_.detector, parameters_.cull), parameters_.guard),
+      guard_(*parameters_.tool, sweep_guard::makeDetector(parameters_.detector, parameters_.cull), parameters_.guard),
       workpieces_(parameters_.max_triangles, ledger_),
       poses_(node, parameters_, frames_, workpieces_, ledger_, [this](PlacedPose pose) { enqueue(std::move(pose)); }),
       meshes_(node, workpieces_),

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -116,6 +117,51 @@ std::vector<std::string> ParameterReader::selection(const std::string& key, cons
     if (std::count(choices.begin(), choices.end(), selection.back()) == 0) refuse(key, value, wanted);
   }
   return selection;
+}
+
+std::vector<std::string> ParameterReader::texts(const std::string& key) {
+  XmlRpc::XmlRpcValue value;
+  if (!get(key, value)) return {};
+  const std::string wanted = "a list of texts, or []";
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) refuse(key, value, wanted);
+  std::vector<std::string> texts;
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpc::XmlRpcValue::TypeString) refuse(key, value, wanted);
+    texts.push_back(static_cast<std::string>(value[i]));
+    if (texts.back().empty()) refuse(key, value, wanted + ", none of them empty");
+  }
+  return texts;
+}
+
+std::map<std::string, double> ParameterReader::numbers(const std::string& key) {
+  XmlRpc::XmlRpcValue value;
+  if (!get(key, value)) return {};
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, value, "a group of numbers, or {}");
+  std::map<std::string, double> numbers;
+  for (auto& [name, entry] : value) {
+    const std::string entry_key = key + "/" + name;
+    read_.insert(entry_key);
+    const double number = toNumber(entry);
+    if (!std::isfinite(number)) refuse(entry_key, entry, "a finite number");
+    numbers[name] = number;
+  }
+  return numbers;
+}
+
+std::string ParameterReader::textAbove(const std::string& name) {
+  std::string key;
+  XmlRpc::XmlRpcValue value;
+  read_.insert(name);
+  if (!node_.searchParam(name, key) || !node_.getParam(key, value)) return "";
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeString) {
+    throw sweep_guard::InvalidInput("parameter " + key + " must be a text");
+  }
+  return static_cast<std::string>(value);
+}
+
+void ParameterReader::refuseIfSet(const std::string& key, const std::string& instead) {
+  XmlRpc::XmlRpcValue value;
+  if (get(key, value)) refuse(key, value, "left out: " + instead);
 }
 
 Eigen::Vector3d ParameterReader::position(const std::string& key, const Eigen::Vector3d& fallback) {

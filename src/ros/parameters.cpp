@@ -1,10 +1,15 @@
 #include "sweep_guard/ros/parameters.h"
 
+#include <ros/console.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
+#include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/parameter_reader.h"
+#include "sweep_guard/ros/tool_model.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -46,9 +51,59 @@ sweep_guard::HorizonOptions readHorizon(ParameterReader& read, Duration pose_tim
   return {duration(reflex), duration(reflex_step), duration(considered), duration(considered_step), pose_timeout};
 }
 
-}  // namespace
+// What a cylinder is made of is checked for a tool of another type, too.
+sweep_guard::Tool readCylinder(ParameterReader& read, double padding) {
+  const double radius = read.number("tool/radius", 0.01, {1e-6, 100.0});
+  const double length = read.number("tool/length", 0.15, {1e-6, 100.0});
+  const int sides = read.integer("tool/sides", 32, 3, 1000);
+  return sweep_guard::Tool(sweep_guard::ConvexShape::cylinder(radius, length, sides).padded(padding));
+}
 
-sweep_guard::Tool Parameters::tool() const { return sweep_guard::Tool::cylinder(tool_radius, tool_length, tool_sides); }
+ToolModelOptions readModelOptions(ParameterReader& read, const std::string& frame, double padding) {
+  ToolModelOptions options;
+  options.frame = frame;
+  options.padding = padding;
+  options.links = read.texts("tool/links");
+  options.mesh_depth = read.integer("tool/mesh_depth", options.mesh_depth, 0, 16);
+  options.joints = read.numbers("tool/joints");
+  options.mesh_roots = read.texts("tool/mesh_roots");
+  read.refuseIfSet("tool/joint_states",
+                   "a tool that changes its shape while it moves is not supported; set tool/joints");
+  return options;
+}
+
+void tellOf(const ToolModel& model, const std::string& parameter) {
+  std::ostringstream text;
+  text << "tool from " << parameter << ": " << model.parts.size() << " parts in the frame of '" << model.frame << "'";
+  for (const auto& [joint, position] : model.held) text << ", joint '" << joint << "' at " << position;
+  ROS_INFO("%s", text.str().c_str());
+}
+
+sweep_guard::Tool toolFromRobot(ParameterReader& read, const std::string& parameter, const ToolModelOptions& options) {
+  const std::string urdf = read.textAbove(parameter);
+  if (urdf.empty()) {
+    throw sweep_guard::InvalidInput("tool/type is urdf, but there is no robot description in the parameter '" +
+                                    parameter + "': load one, or name it in tool/robot_description");
+  }
+  try {
+    ToolModel model = loadToolModel(urdf, options);
+    tellOf(model, parameter);
+    return sweep_guard::Tool(std::move(model.parts));
+  } catch (const sweep_guard::InvalidInput& error) {
+    throw sweep_guard::InvalidInput("no tool from the parameter '" + parameter + "': " + error.what());
+  }
+}
+
+sweep_guard::Tool readTool(ParameterReader& read, const std::string& frame) {
+  const std::string type = read.choice("tool/type", "cylinder", {"cylinder", "urdf"});
+  const double padding = read.number("tool/padding", 0.0, {0.0, 1.0});
+  const sweep_guard::Tool cylinder = readCylinder(read, padding);
+  const std::string description = read.name("tool/robot_description", "robot_description");
+  const ToolModelOptions options = readModelOptions(read, frame, padding);
+  return type == "urdf" ? toolFromRobot(read, description, options) : cylinder;
+}
+
+}  // namespace
 
 Parameters loadParameters(const ros::NodeHandle& private_node) {
   ParameterReader read(private_node);
@@ -57,10 +112,7 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   parameters.tool_source =
       read.choice("tool_source", "topic", {"topic", "tf"}) == "tf" ? ToolSource::kTf : ToolSource::kTopic;
   parameters.tool_frame = read.name("tool_frame", "tool");
-  read.choice("tool/type", "cylinder", {"cylinder"});
-  parameters.tool_radius = read.number("tool/radius", 0.01, {1e-6, 100.0});
-  parameters.tool_length = read.number("tool/length", 0.15, {1e-6, 100.0});
-  parameters.tool_sides = read.integer("tool/sides", 32, 3, 1000);
+  parameters.tool = std::make_shared<const sweep_guard::Tool>(readTool(read, parameters.tool_frame));
   parameters.detector = read.choice("detector", "select", sweep_guard::detectorNames());
   parameters.cull = read.flag("cull", true);
   parameters.guard.sweep.volume = sweep_guard::volumeKind(read.choice("volume", "obb_planes", {"obb", "obb_planes"}));

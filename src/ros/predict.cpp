@@ -40,7 +40,7 @@ sweep_guard::Prediction predictionMsg(const sweep_guard::Outlook& outlook, sweep
 PredictService::PredictService(const ros::NodeHandle& private_node, const Parameters& parameters,
                                const WorkpieceStore& workpieces, Ask ask)
     : parameters_(parameters),
-      tool_(parameters.tool()),
+      tool_(*parameters.tool),
       workpieces_(workpieces),
       ask_(std::move(ask)),
       test_(parameters.guard.pathTest()),

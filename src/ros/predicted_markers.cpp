@@ -12,10 +12,14 @@ using visualization_msgs::Marker;
 
 constexpr int kGhosts = 10;
 
-// How far any point of the tool moves between two poses, nearly: that of its tip or its far end.
+// How far any point of the tool moves between two poses: that of a corner of the box around it.
 double moved(const sweep_guard::Tool& tool, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  const Eigen::Vector3d rear_T(0.0, 0.0, -tool.whole().length());
-  return std::max((to.translation() - from.translation()).norm(), (to * rear_T - from * rear_T).norm());
+  double most = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d p_T = tool.bounds_T().corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+    most = std::max(most, (to * p_T - from * p_T).norm());
+  }
+  return most;
 }
 
 void fade(Marker& strip, const Eigen::Vector3d& p_W, const std_msgs::ColorRGBA& full, double share) {
@@ -33,11 +37,12 @@ void addGhosts(visualization_msgs::MarkerArray& array, const PredictedScene& sce
     const sweep_guard::Duration due = path.back().ahead * (i + 1) / kGhosts;
     const auto pose = std::lower_bound(path.begin(), path.end(), due,
                                        [](const auto& before, sweep_guard::Duration t) { return before.ahead < t; });
-    if (drawn != nullptr && moved(scene.tool, *drawn, pose->X_WT) < scene.tool.whole().radius()) continue;
+    if (drawn != nullptr && moved(scene.tool, *drawn, pose->X_WT) < 0.5 * scene.tool.bounds_T().sizes().minCoeff())
+      continue;
     drawn = &pose->X_WT;
-    Marker ghost = toolMarker("predicted_tool", i, scene.fixed_frame, scene.outlook.stamp, scene.tool, pose->X_WT);
-    ghost.color = unlessUnknown(scene.level, color(0.45, 0.65, 1.0, 0.5 * (kGhosts - i) / kGhosts));
-    array.markers.push_back(ghost);
+    const std_msgs::ColorRGBA fading = color(0.45, 0.65, 1.0, 0.5 * (kGhosts - i) / kGhosts);
+    addTool(array, {"predicted_tool", i, scene.fixed_frame, scene.outlook.stamp, unlessUnknown(scene.level, fading)},
+            scene.tool, pose->X_WT);
   }
 }
 
@@ -52,7 +57,7 @@ void addPredictedVolumes(visualization_msgs::MarkerArray& array, const Predicted
 }
 
 void addPredictedTriangles(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
-  const double lift = 0.05 * scene.tool.whole().radius();  // half of what contacts are lifted: those are seen above
+  const double lift = 0.5 * liftOff(scene.tool);  // half of what contacts are lifted: those are seen above
   int index = 0;
   for (const sweep_guard::PredictedObject& object : scene.outlook.objects) {
     for (const auto& [level, triangles] :

@@ -15,12 +15,14 @@
 #include "simulation/drilling.h"
 #include "simulation/replay.h"
 #include "simulation/run_node.h"
+#include "simulation/tip.h"
 #include "simulation/top_surface.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/ros/parameter_reader.h"
+#include "sweep_guard/ros/parameters.h"
 
 namespace sweep_guard_simulation {
 
@@ -31,6 +33,7 @@ using sweep_guard::StampedPose;
 constexpr int kQueue = 10000;
 constexpr double kLongestSleep = 0.1;  // [s] so that a long gap in a recording does not delay the end of the node
 constexpr double kLinger = 1.0;        // [s] for the last poses to leave
+constexpr double kSlant = 0.45;        // more than the drill tilts: rise per width of the tool between two holes
 constexpr double kDepth = 0.010;       // [m] below the surface, in both kinds of motion
 constexpr double kHoleCircle = 0.06;   // [m] radius
 constexpr int kHolesOnCircle = 5;
@@ -75,6 +78,8 @@ class OperatorNode {
         wait_for_guard_(parameters.flag("wait_for_guard", true)),
         min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
         listener_(buffer_) {
+    const std::string guard = parameters.text("guard", "");
+    if (!guard.empty()) takeHold(*sweep_guard_ros::loadParameters(ros::NodeHandle(guard)).tool);
     if (!motion_file_.empty()) recording_ = sweep_guard_recording::readMotionFile(motion_file_);
     publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", kQueue);
     mesh_subscriber_ = node_.subscribe("mesh", 1, &OperatorNode::onMesh, this);
@@ -97,6 +102,11 @@ class OperatorNode {
   }
 
  private:
+  void takeHold(const sweep_guard::Tool& tool) {
+    p_TTip_ = tipOf(tool);
+    girth_ = girthOf(tool);
+  }
+
   void onMesh(const sweep_guard::DeformableMesh::ConstPtr& mesh) {
     if (!mesh->mesh.triangles.empty()) mesh_ = mesh;
   }
@@ -128,6 +138,7 @@ class OperatorNode {
     if (recording_.empty()) {
       Drilling::Options options;
       options.depth = kDepth;
+      options.clearance += kSlant * girth_;
       return sampled(Drilling(holesAround(*surface_, kHoleCircle, kHolesOnCircle), options), rate_, loop_);
     }
     Replay::Options options;
@@ -141,7 +152,7 @@ class OperatorNode {
     for (std::optional<StampedPose> pose = motion(); pose; pose = motion()) {
       const ros::Time due = start + ros::Duration().fromNSec(pose->stamp.time_since_epoch().count());
       if (!sleepUntil(due)) return false;
-      publish(pose->X_WT, due);
+      publish(pose->X_WT * Eigen::Translation3d(-p_TTip_), due);
     }
     return true;
   }
@@ -172,6 +183,8 @@ class OperatorNode {
   sweep_guard::DeformableMesh::ConstPtr mesh_;
   std::optional<TopSurface> surface_;
   bool guard_ready_ = false;
+  Eigen::Vector3d p_TTip_ = Eigen::Vector3d::Zero();  // [m]; the motion is that of the tip
+  double girth_ = 0.0;                                // [m]
   ros::NodeHandle node_;
   ros::Publisher publisher_;
   ros::Subscriber mesh_subscriber_;

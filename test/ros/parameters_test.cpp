@@ -17,9 +17,34 @@ namespace {
 
 class ParametersTest : public ::testing::Test {
  protected:
-  void TearDown() override { ros::param::del("/guarded"); }
+  void TearDown() override {
+    for (const char* const set : {"/guarded", "/sweep_guard"}) ros::param::del(set);
+  }
   ros::NodeHandle node_{"/guarded"};
 };
+
+// How far the tool's first part reaches [m].
+double reach(const Parameters& parameters, const Eigen::Vector3d& direction_T) {
+  return parameters.tool->parts().front().shape_T.support(direction_T);
+}
+
+// Of the mesh that stands for the tool's first part.
+size_t corners(const Parameters& parameters) { return parameters.tool->parts().front().shape_T.mesh_T().vertexCount(); }
+
+std::string refusal(const ros::NodeHandle& node) {
+  try {
+    loadParameters(node);
+  } catch (const sweep_guard::InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const std::string kGripper =
+    "<robot name='r'><link name='hand'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>"
+    "<link name='finger'><collision><geometry><box size='0.02 0.02 0.02'/></geometry></collision></link>"
+    "<joint name='opening' type='prismatic'><parent link='hand'/><child link='finger'/><axis xyz='1 0 0'/>"
+    "<limit lower='0' upper='0.5' effort='1' velocity='1'/></joint></robot>";
 
 TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
   const Parameters defaults = loadParameters(node_);
@@ -28,9 +53,12 @@ TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
   EXPECT_EQ(loaded.fixed_frame, defaults.fixed_frame);
   EXPECT_EQ(loaded.tool_source, defaults.tool_source);
   EXPECT_EQ(loaded.tool_frame, defaults.tool_frame);
-  EXPECT_EQ(loaded.tool_radius, defaults.tool_radius);
-  EXPECT_EQ(loaded.tool_length, defaults.tool_length);
-  EXPECT_EQ(loaded.tool_sides, defaults.tool_sides);
+  ASSERT_EQ(loaded.tool->parts().size(), defaults.tool->parts().size());
+  for (const Eigen::Vector3d& direction :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1)}) {
+    EXPECT_EQ(reach(loaded, direction), reach(defaults, direction));
+  }
+  EXPECT_EQ(corners(loaded), corners(defaults));
   EXPECT_EQ(loaded.detector, defaults.detector);
   EXPECT_EQ(loaded.cull, defaults.cull);
   EXPECT_EQ(loaded.guard.sweep.volume, defaults.guard.sweep.volume);
@@ -62,8 +90,8 @@ TEST_F(ParametersTest, TakeWhatIsSet) {
   node_.setParam("volume", "obb");
   node_.setParam("timing/mesh_timeout", INFINITY);
   const Parameters parameters = loadParameters(node_);
-  EXPECT_EQ(parameters.tool_radius, 0.002);
-  EXPECT_EQ(parameters.tool_length, 1.0);
+  EXPECT_EQ(reach(parameters, Eigen::Vector3d::UnitX()), 0.002);
+  EXPECT_EQ(reach(parameters, -Eigen::Vector3d::UnitZ()), 1.0);
   EXPECT_EQ(parameters.detector, "reference");
   EXPECT_EQ(parameters.guard.sweep.volume, sweep_guard::VolumeKind::kObb);
   EXPECT_EQ(parameters.limits.mesh_timeout, sweep_guard::Duration::max());
@@ -75,6 +103,39 @@ TEST_F(ParametersTest, TakeListsOfAxes) {
   const Parameters parameters = loadParameters(node_);
   EXPECT_EQ(parameters.guard.predictor.degree, (std::array<int, 6>{0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(parameters.guard.predictor.constrained, (std::array<bool, 6>{true, false, false, false, false, true}));
+}
+
+TEST_F(ParametersTest, PadACylinder) {
+  node_.setParam("tool/padding", 0.003);
+  const Parameters parameters = loadParameters(node_);
+  EXPECT_NEAR(reach(parameters, Eigen::Vector3d::UnitX()), 0.013, 1e-12);
+  EXPECT_NEAR(reach(parameters, Eigen::Vector3d::UnitZ()), 0.003, 1e-12);
+}
+
+TEST_F(ParametersTest, MakeAToolOfARobot) {
+  ros::param::set("/robot_description", kGripper);
+  node_.setParam("tool/type", "urdf");
+  node_.setParam("tool/links", std::vector<std::string>{"finger"});
+  node_.setParam("tool/joints/opening", 0.25);
+  node_.setParam("tool_frame", "hand");
+  node_.setParam("tool/padding", 0.001);
+  EXPECT_NEAR(reach(loadParameters(node_), Eigen::Vector3d::UnitX()), 0.261, 1e-12);
+  node_.setParam("tool/joints/opening", 1);
+  EXPECT_EQ(
+      refusal(node_),
+      "no tool from the parameter 'robot_description': tool/joints/opening is beyond the joint's limits, 0 to 0.5");
+  ros::param::del("/robot_description");
+}
+
+TEST_F(ParametersTest, FindTheRobotUnderAnotherName) {
+  node_.setParam("tool/type", "urdf");
+  EXPECT_NE(refusal(node_).find("no robot description in the parameter 'robot_description'"), std::string::npos);
+  node_.setParam("tool/robot_description", "gripper");
+  EXPECT_NE(refusal(node_).find("no robot description in the parameter 'gripper'"), std::string::npos);
+  node_.setParam("gripper", kGripper);
+  EXPECT_EQ(loadParameters(node_).tool->parts().size(), 2U);
+  node_.setParam("gripper", 3);
+  EXPECT_EQ(refusal(node_), "parameter /guarded/gripper must be a text");
 }
 
 // A prediction has to serve until the next one comes, which is until the pose is stale.
@@ -100,7 +161,19 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("fixed_frame", 3, "frame");
   refused("fixed_frame", "", "frame");
   refused("tool_source", "topics", "topic, tf");
-  refused("tool/type", "sphere", "cylinder");
+  refused("tool/type", "sphere", "cylinder, urdf");
+  refused("tool/robot_description", "", "a name, not empty");
+  refused("tool/links", "hand", "a list of texts");
+  refused("tool/links", std::vector<int>{1}, "a list of texts");
+  refused("tool/links", std::vector<std::string>{""}, "none of them empty");
+  refused("tool/mesh_roots", "/tmp", "a list of texts");
+  refused("tool/mesh_depth", 17, "0 to 16");
+  refused("tool/padding", -0.001, "0 to 1");
+  refused("tool/padding", NAN, "0 to 1");
+  refused("tool/joints", 0.5, "a group of numbers");
+  refused("tool/joints/opening", "wide", "a finite number");
+  refused("tool/joints/opening", NAN, "a finite number");
+  refused("tool/joint_states", "joint_states", "tool/joints");
   refused("tool/radius", 0.0, "1e-06 to 100");
   refused("tool/radius", -0.01, "-0.01");
   refused("tool/radius", NAN, "1e-06 to 100");
@@ -158,16 +231,38 @@ TEST_F(ParametersTest, AreRefusedWhereTheyContradictEachOther) {
   EXPECT_EQ(loadParameters(node_).guard.horizon.reflex, std::chrono::seconds(1));
 }
 
-TEST_F(ParametersTest, StopTheNodeWithOneLineAndStatusTwo) {
+/// What the node says, and its exit status.
+std::pair<std::string, int> runNode(const std::string& arguments) {
   const std::string node = std::filesystem::read_symlink("/proc/self/exe").replace_filename("sweep_guard_node");
-  FILE* run = popen((node + " _tool/radius:=-1 2>&1").c_str(), "r");
-  ASSERT_NE(run, nullptr);
+  FILE* run = popen((node + " " + arguments + " 2>&1").c_str(), "r");
+  if (run == nullptr) return {"it does not run", -1};
   std::string output;
   std::array<char, 256> part{};
   while (std::fgets(part.data(), part.size(), run) != nullptr) output += part.data();
-  EXPECT_EQ(WEXITSTATUS(pclose(run)), 2);
+  return {output, WEXITSTATUS(pclose(run))};
+}
+
+TEST_F(ParametersTest, StopTheNodeWithOneLineAndStatusTwo) {
+  const auto [output, status] = runNode("_tool/radius:=-1");
+  EXPECT_EQ(status, 2);
   EXPECT_NE(output.find("/sweep_guard/tool/radius is -1"), std::string::npos) << output;
   EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
+}
+
+// urdfdom and rospack would have lines of their own.
+TEST_F(ParametersTest, StopTheNodeWithOneLineForARobotThatMakesNoTool) {
+  const std::string start = "<robot name='r'><link name='a'><collision><geometry>";
+  const std::string end = "</geometry></collision></link></robot>";
+  for (const auto& [shape, expected] : {std::pair{"<capsule/>", "capsule"},
+                                        {"<mesh filename='package://nowhere/a.stl'/>", "package 'nowhere'"},
+                                        {"<sphere radius='-1'/>", "link 'a': its sphere's radius is -1"}}) {
+    ros::param::set("/robot_description", start + shape + end);
+    const auto [output, status] = runNode("_tool/type:=urdf");
+    EXPECT_EQ(status, 2);
+    EXPECT_NE(output.find(expected), std::string::npos) << output;
+    EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
+  }
+  ros::param::del("/robot_description");
 }
 
 }  // namespace

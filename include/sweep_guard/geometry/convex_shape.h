@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -69,6 +70,14 @@ class ConvexShape {
   double length() const { return faces_.front - faces_.rear + 2.0 * padding_; }  ///< across both faces [m]
   double radius() const { return faces_.half_sides.minCoeff() + padding_; }      ///< least, of a face [m]
   Eigen::Vector3d axis_T() const { return faces_.R_TF.col(2); }                  ///< from rear to front, unit
+
+  /// A round cylinder around the z axis of a frame C, filling z in [-length, 0].
+  struct Cylinder {
+    double radius;  ///< [m]
+    double length;  ///< [m]
+    Eigen::Isometry3d X_TC;
+  };
+  std::optional<Cylinder> asCylinder() const;  ///< the body without padding, if it is one
 
   const TriangleMesh& mesh_T() const { return mesh_T_; }   ///< its surface without padding; round ones polygonal
   const Moments& moments_T() const { return moments_T_; }  ///< of the corners of these triangles, as often as used

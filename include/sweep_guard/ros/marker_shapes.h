@@ -30,9 +30,21 @@ geometry_msgs::Point point(const Eigen::Vector3d& p);
 visualization_msgs::Marker marker(const std::string& ns, int id, int type, const std::string& frame,
                                   sweep_guard::Time stamp);
 
-/// The tool as a cylinder.
-visualization_msgs::Marker toolMarker(const std::string& ns, int id, const std::string& frame, sweep_guard::Time stamp,
-                                      const sweep_guard::Tool& tool, const Eigen::Isometry3d& X_WT);
+/// A tool in one pose and colour: its cylinders as such, its other parts together as triangles, all without padding.
+struct ToolDrawing {
+  std::string ns;
+  int index;  ///< of several in this namespace: ids are those from index * toolMarkers(tool) on
+  std::string frame;
+  sweep_guard::Time stamp;
+  std_msgs::ColorRGBA color;
+};
+int toolMarkers(const sweep_guard::Tool& tool);  ///< number of markers that draw it
+void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing, const sweep_guard::Tool& tool,
+             const Eigen::Isometry3d& X_WT);
+
+/// How far triangles are lifted off a workpiece, so that they are seen, and are not far from it either, for small tools
+/// [m].
+double liftOff(const sweep_guard::Tool& tool);
 
 /// A surface and the lines on it: two markers with the ids 2 * index and 2 * index + 1.
 class Surface {

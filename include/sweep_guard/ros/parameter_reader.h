@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include <Eigen/Core>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -33,6 +34,13 @@ class ParameterReader {
   std::vector<int> integers(const std::string& key, const std::vector<int>& fallback, int lowest, int highest);
   /// Some of the choices, or none: a list without the rest, [] where nothing is set.
   std::vector<std::string> selection(const std::string& key, const std::vector<std::string>& choices);
+  std::vector<std::string> texts(const std::string& key);  ///< a list of them, [] where nothing is set
+  /// A group of numbers by their names, none where nothing is set. Any finite number is accepted.
+  std::map<std::string, double> numbers(const std::string& key);
+  /// Text of a parameter of any namespace from the node's own upwards, or an absolute name; empty: there is none.
+  std::string textAbove(const std::string& name);
+  /// Refuses the parameter if it is set at all. @param instead  what to do
+  void refuseIfSet(const std::string& key, const std::string& instead);
   Eigen::Vector3d position(const std::string& key, const Eigen::Vector3d& fallback);  ///< [x, y, z] within +-1e6 m
 
   /// Warns of every private parameter that has not been asked for: a key that is misspelt would have no effect.

@@ -2,6 +2,7 @@
 
 #include <ros/node_handle.h>
 
+#include <memory>
 #include <string>
 
 #include "sweep_guard/guard/guard.h"
@@ -16,21 +17,19 @@ struct Parameters {
   std::string fixed_frame;
   ToolSource tool_source;
   std::string tool_frame;
-  double tool_radius;  ///< [m]
-  double tool_length;  ///< [m]
-  int tool_sides;
+  std::shared_ptr<const sweep_guard::Tool> tool;
   std::string detector;
   bool cull;
   sweep_guard::GuardOptions guard;
   sweep_guard::VerdictLimits limits;
   double marker_rate;  ///< [Hz]
   size_t max_triangles;
-
-  sweep_guard::Tool tool() const;
 };
 
 /// Reads the private parameters; a missing one takes its default. Warns of each parameter that no one reads.
-/// @throws sweep_guard::InvalidInput naming key, value and range if one has the wrong type, is NaN or is out of range
+/// Makes the tool, too: of a robot description, if that is what tool/type asks for.
+/// @throws sweep_guard::InvalidInput naming key, value and range if one has the wrong type, is NaN or is out of range;
+///     naming link and file if the robot description makes no tool
 Parameters loadParameters(const ros::NodeHandle& private_node);
 
 }  // namespace sweep_guard_ros

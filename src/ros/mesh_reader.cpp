@@ -1,0 +1,242 @@
+// Reads a mesh file for the guard, in a process of its own: assimp crashes on some broken files.
+#include <assimp/config.h>
+#include <assimp/scene.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <csignal>
+#include <cstring>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/ros/mesh_wire.h"
+
+namespace {
+
+using sweep_guard_ros::kMostMeshTriangles;
+using Point = std::array<double, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr rlim_t kMemory = rlim_t{1} << 30U;  // [byte]
+constexpr rlim_t kProcessorTime = 10;         // [s]
+constexpr int kDeepestNode = 100;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kMemoryIsLimited = false;  // sanitizers reserve terabytes of addresses
+#else
+constexpr bool kMemoryIsLimited = true;
+#endif
+
+void limit(__rlimit_resource resource, rlim_t most) {
+  const rlimit both{most, most};
+  if (setrlimit(resource, &both) != 0) throw std::runtime_error("the reader cannot limit itself");
+}
+
+// From here on no file can be opened: a mesh may name others, and what they are is not known.
+void confine() {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  close_range(3, ~0U, 0);
+  limit(RLIMIT_NOFILE, 0);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, kProcessorTime);
+  if (kMemoryIsLimited) limit(RLIMIT_AS, kMemory);
+}
+
+struct Surface {
+  std::vector<Point> vertices;
+  std::vector<Triangle> triangles;
+  size_t faces = 0;
+  bool solid = false;  // has a face of three corners or more
+
+  std::uint32_t add(const Point& point) {
+    const auto [known, is_new] = index.try_emplace(point, static_cast<std::uint32_t>(vertices.size()));
+    if (is_new) vertices.push_back(point);
+    return known->second;
+  }
+
+ private:
+  std::map<Point, std::uint32_t> index;
+};
+
+Point transformed(const aiMatrix4x4& X, const aiVector3D& p) {
+  const double x = static_cast<double>(p.x);
+  const double y = static_cast<double>(p.y);
+  const double z = static_cast<double>(p.z);
+  const auto row = [&](ai_real a, ai_real b, ai_real c, ai_real d) {
+    return static_cast<double>(a) * x + static_cast<double>(b) * y + static_cast<double>(c) * z +
+           static_cast<double>(d);
+  };
+  return {row(X.a1, X.a2, X.a3, X.a4), row(X.b1, X.b2, X.b3, X.b4), row(X.c1, X.c2, X.c3, X.c4)};
+}
+
+bool finite(const Point& point) {
+  for (const double coordinate : point) {
+    if (!(coordinate > -1e30 && coordinate < 1e30)) return false;
+  }
+  return true;
+}
+
+// A fan covers the polygon, be it concave. Points and edges become triangles without an area.
+void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, Surface& surface) {
+  if (face.mNumIndices == 0) return;
+  std::vector<std::uint32_t> corners;
+  for (unsigned i = 0; i < face.mNumIndices; ++i) {
+    if (face.mIndices[i] >= vertex.size()) throw std::runtime_error("a face names a missing vertex");
+    corners.push_back(vertex[face.mIndices[i]]);
+  }
+  surface.solid = surface.solid || corners.size() >= 3;
+  ++surface.faces;
+  while (corners.size() < 3) corners.push_back(corners.back());
+  for (size_t i = 2; i < corners.size(); ++i) surface.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+  if (surface.triangles.size() > kMostMeshTriangles) throw std::runtime_error("it has more than a million triangles");
+}
+
+void addMesh(const aiMesh& mesh, const aiMatrix4x4& X, Surface& surface) {
+  std::vector<std::uint32_t> vertex;
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    const Point point = transformed(X, mesh.mVertices[i]);
+    if (!finite(point)) throw std::runtime_error("a vertex is NaN or infinite");
+    vertex.push_back(surface.add(point));
+  }
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) addFace(mesh.mFaces[i], vertex, surface);
+}
+
+void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_parent, int depth, Surface& surface) {
+  if (depth > kDeepestNode) throw std::runtime_error("its nodes are nested too deeply");
+  const aiMatrix4x4 X = X_parent * node.mTransformation;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene.mMeshes[node.mMeshes[i]], X, surface);
+  for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], X, depth + 1, surface);
+}
+
+// assimp goes on after an error and leaves out what it did not understand: a tool must not lose a part that way.
+class FirstError : public Assimp::LogStream {
+ public:
+  explicit FirstError(std::string& text) : text_(text) {}
+  void write(const char* message) override {
+    if (text_.empty()) text_ = message;
+  }
+
+ private:
+  std::string& text_;
+};
+
+bool startsWord(const std::string& line, const std::string& word) {
+  const size_t begin = line.find_first_not_of(" \t");
+  if (begin == std::string::npos || line.compare(begin, word.size(), word) != 0) return false;
+  const size_t end = begin + word.size();
+  return end == line.size() || std::isspace(static_cast<unsigned char>(line[end])) != 0;
+}
+
+size_t linesOf(const std::string& bytes, const std::string& word) {
+  std::istringstream lines(bytes);
+  size_t count = 0;
+  for (std::string line; std::getline(lines, line);) count += startsWord(line, word) ? 1 : 0;
+  return count;
+}
+
+bool isBinaryStl(const std::string& bytes) {
+  std::uint32_t facets = 0;
+  if (bytes.size() < 84) return false;
+  std::memcpy(&facets, &bytes[80], sizeof facets);
+  return bytes.size() == 84 + 50 * std::uint64_t{facets};
+}
+
+void requireComplete(const std::string& bytes, const std::string& format, const Surface& surface) {
+  if (!surface.solid) throw std::runtime_error("it has no triangles");
+  size_t claimed = 0;
+  if (format == "obj") claimed = linesOf(bytes, "f");
+  if (format == "stl" && !isBinaryStl(bytes)) {
+    claimed = linesOf(bytes, "facet");
+    if (linesOf(bytes, "endsolid") != linesOf(bytes, "solid")) throw std::runtime_error("its end is missing");
+  }
+  if (surface.faces < claimed) {
+    throw std::runtime_error("only " + std::to_string(surface.faces) + " of its " + std::to_string(claimed) +
+                             " faces can be read");
+  }
+}
+
+// Materials stand in files of their own, which there is no need to open, and without which assimp reports errors.
+void blankMaterials(std::string& bytes) {
+  for (size_t begin = 0; begin < bytes.size();) {
+    const size_t end = std::min(bytes.find('\n', begin), bytes.size());
+    if (bytes.compare(begin, 6, "mtllib") == 0 || bytes.compare(begin, 6, "usemtl") == 0) {
+      std::fill(&bytes[begin], bytes.data() + end, ' ');
+    }
+    begin = end + 1;
+  }
+}
+
+// Without what only assimp knows of: its log's prefix, and the name that it gives to bytes in memory.
+std::string plain(std::string text) {
+  for (const std::string& noise : {std::string("Error, T0: "), std::string(" for $$$___magic___$$$.stl")}) {
+    const size_t at = text.find(noise);
+    if (at != std::string::npos) text.erase(at, noise.size());
+  }
+  return text;
+}
+
+Surface read(std::string bytes, const std::string& format) {
+  if (bytes.empty()) throw std::runtime_error("it is empty");
+  if (bytes.compare(0, 19, "version https://git") == 0) {
+    throw std::runtime_error("it is a git-lfs pointer, not the mesh: run git lfs pull");
+  }
+  if (format == "obj") blankMaterials(bytes);
+  std::string error;
+  Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
+  Assimp::DefaultLogger::get()->attachStream(new FirstError(error), Assimp::Logger::Err);
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as rviz: axes as they stand
+  const aiScene* const scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
+  if (scene == nullptr || scene->mRootNode == nullptr) throw std::runtime_error(plain(importer.GetErrorString()));
+  if (!error.empty()) throw std::runtime_error(plain(error));
+  Surface surface;
+  addNode(*scene, *scene->mRootNode, aiMatrix4x4(), 0, surface);
+  requireComplete(bytes, format, surface);
+  return surface;
+}
+
+template <typename Value>
+void write(const std::vector<Value>& values) {
+  std::cout.write(reinterpret_cast<const char*>(values.data()),
+                  static_cast<std::streamsize>(values.size() * sizeof(Value)));
+}
+
+void write(const Surface& surface) {
+  write(std::vector<sweep_guard_ros::MeshWireHeader>{
+      {static_cast<std::uint32_t>(surface.vertices.size()), static_cast<std::uint32_t>(surface.triangles.size())}});
+  write(surface.vertices);
+  write(surface.triangles);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: mesh_reader stl|obj|dae <FILE\n";
+    return 2;
+  }
+  try {
+    confine();
+    write(read({std::istreambuf_iterator<char>(std::cin), {}}, argv[1]));
+    std::cout.flush();
+    return std::cout ? 0 : 2;
+  } catch (const std::bad_alloc&) {
+    std::cout << "reading it takes more than 1 GiB of memory";
+  } catch (const std::exception& error) {
+    std::cout << error.what();
+  }
+  std::cout.flush();
+  return 1;
+}

@@ -1,0 +1,236 @@
+// Meshes are found only where they may be, and read as a whole or not at all; no file brings the guard down.
+#include "sweep_guard/ros/mesh_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
+#include "ros/package_folder.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+namespace fs = std::filesystem;
+using sweep_guard::InvalidInput;
+
+template <typename Work>
+std::string refusal(Work work) {
+  try {
+    work();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class MeshFileTest : public testing::Test {
+ protected:
+  std::string refused(const std::string& name, const std::string& content) const {
+    const fs::path file = folder_.write(name, content);
+    std::string message = refusal([&] { readMesh(file); });
+    EXPECT_NE(message, "") << name << " is read";
+    EXPECT_NE(message.find(file.string()), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    return message;
+  }
+
+  PackageFolder folder_;
+};
+
+Eigen::AlignedBox3d boxOf(const MeshSurface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : surface.vertices) box.extend(p);
+  return box;
+}
+
+void expectUnitTetrahedron(const MeshSurface& surface, double scale = 1.0) {
+  EXPECT_EQ(surface.vertices.size(), 4U);
+  EXPECT_EQ(surface.triangles.size(), 4U);
+  const Eigen::AlignedBox3d box = boxOf(surface);
+  EXPECT_LT(box.min().norm(), 1e-9);
+  EXPECT_LT((box.max() - Eigen::Vector3d::Constant(scale)).norm(), 1e-9);
+}
+
+std::string asciiStl() {
+  std::string text = "solid tetrahedron\n";
+  for (const char* const corners :
+       {"0 0 0 1 0 0 0 1 0", "0 0 0 1 0 0 0 0 1", "0 0 0 0 1 0 0 0 1", "1 0 0 0 1 0 0 0 1"}) {
+    std::istringstream numbers(corners);
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (int i = 0; i < 3; ++i) {
+      std::string x, y, z;
+      numbers >> x >> y >> z;
+      text += "vertex " + x + " " + y + " " + z + "\n";
+    }
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid tetrahedron\n";
+}
+
+std::string binaryStl(std::uint32_t claimed_facets) {
+  std::string bytes(80, ' ');
+  const auto append = [&bytes](const void* data, size_t size) { bytes.append(static_cast<const char*>(data), size); };
+  append(&claimed_facets, sizeof claimed_facets);
+  const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}) {
+    bytes.append(12, '\0');
+    for (const int corner : {a, b, c}) append(corners[corner], sizeof corners[corner]);
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+std::string dae(const std::string& unit, const std::string& up, const std::string& scene) {
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><asset>" +
+         unit + up +
+         "</asset><library_geometries><geometry id='g'><mesh><source id='p'><float_array id='a' count='12'>0 0 0 1 0 0 "
+         "0 "
+         "1 0 0 0 1</float_array><technique_common><accessor source='#a' count='4' stride='3'><param name='X' "
+         "type='float'/><param name='Y' type='float'/><param name='Z' type='float'/></accessor></technique_common>"
+         "</source><vertices id='v'><input semantic='POSITION' source='#p'/></vertices><triangles count='4'><input "
+         "semantic='VERTEX' source='#v' offset='0'/><p>0 1 2 0 1 3 0 2 3 1 2 3</p></triangles></mesh></geometry>"
+         "</library_geometries><library_visual_scenes><visual_scene id='s'>" +
+         scene + "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
+}
+
+TEST_F(MeshFileTest, ReadsEveryFormat) {
+  expectUnitTetrahedron(readMesh(folder_.write("t.obj", tetrahedronObj())));
+  expectUnitTetrahedron(readMesh(folder_.write("t.STL", asciiStl())));
+  expectUnitTetrahedron(readMesh(folder_.write("b.stl", binaryStl(4))));
+  expectUnitTetrahedron(readMesh(folder_.write("t.dae", dae("", "", "<node><instance_geometry url='#g'/></node>"))));
+}
+
+// A model in millimetres or inches says so; one whose z is not up is taken as it stands.
+TEST_F(MeshFileTest, TakesTheUnitOfADaeAndNotItsUpAxis) {
+  const std::string scene = "<node><instance_geometry url='#g'/></node>";
+  const MeshSurface inches = readMesh(folder_.write("i.dae", dae("<unit name='inch' meter='0.0254'/>", "", scene)));
+  EXPECT_LT((boxOf(inches).max() - Eigen::Vector3d::Constant(0.0254)).norm(), 1e-8);
+  const std::string placed =
+      "<node><translate>0 0 5</translate><scale>1 2 3</scale><instance_geometry url='#g'/></node>";
+  for (const char* const up : {"X_UP", "Y_UP", "Z_UP"}) {
+    const MeshSurface mesh =
+        readMesh(folder_.write("u.dae", dae("", std::string("<up_axis>") + up + "</up_axis>", placed)));
+    EXPECT_LT((boxOf(mesh).max() - Eigen::Vector3d(1, 2, 8)).norm(), 1e-6) << up;
+  }
+}
+
+// Materials are in files of their own, and no tool's business.
+TEST_F(MeshFileTest, ReadsAnObjWithoutItsMaterials) {
+  expectUnitTetrahedron(readMesh(folder_.write("m.obj", "mtllib /dev/zero\nusemtl steel\n" + tetrahedronObj())));
+}
+
+TEST_F(MeshFileTest, KeepsEdgesAndPointsBesideTriangles) {
+  const MeshSurface mesh = readMesh(folder_.write("e.obj", tetrahedronObj() + "v 5 0 0\nl 1 5\n"));
+  EXPECT_EQ(boxOf(mesh).max().x(), 5.0);
+}
+
+TEST_F(MeshFileTest, RefusesWhatItCannotReadAsAWhole) {
+  EXPECT_NE(refused("empty.obj", "").find("empty"), std::string::npos);
+  EXPECT_NE(refused("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n").find("no triangles"), std::string::npos);
+  EXPECT_NE(refused("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("NaN"), std::string::npos);
+  EXPECT_NE(refused("inf.obj", "v 0 0 1e39\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("infinite"), std::string::npos);
+  EXPECT_NE(refused("index.obj", tetrahedronObj() + "f 1 2 9\n").find("index"), std::string::npos);
+  const std::string stl = asciiStl();
+  EXPECT_NE(refused("cut.stl", stl.substr(0, stl.rfind("facet normal"))).find("end is missing"), std::string::npos);
+  EXPECT_NE(refused("cut.stl", stl.substr(0, stl.rfind("vertex"))).find("cannot be read"), std::string::npos);
+  EXPECT_NE(refused("lie.stl", binaryStl(3)).find("cannot be read"), std::string::npos);
+  EXPECT_NE(refused("lie.stl", binaryStl(4000000000U)).find("cannot be read"), std::string::npos);
+  EXPECT_NE(refused("lfs.obj", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n").find("git lfs pull"),
+            std::string::npos);
+  EXPECT_NE(refused("cut.dae", "<COLLADA version='1.4.1'><asset>").find("XML"), std::string::npos);
+  EXPECT_NE(refused("t.ply", "ply").find("STL, OBJ or DAE"), std::string::npos);
+}
+
+TEST_F(MeshFileTest, RefusesWhatIsNoFileOfUsualSize) {
+  const fs::path huge = folder_.write("huge.stl", "solid");
+  fs::resize_file(huge, std::uintmax_t{4} << 30U);
+  EXPECT_NE(refusal([&] { readMesh(huge); }).find("32 MiB"), std::string::npos);
+  const fs::path pipe = folder_.path() / "pipe.stl";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(refusal([&] { readMesh(pipe); }).find("not a regular file"), std::string::npos);
+  fs::create_directory(folder_.path() / "folder.stl");
+  EXPECT_NE(refusal([&] { readMesh(folder_.path() / "folder.stl"); }).find("not a regular file"), std::string::npos);
+}
+
+// assimp goes down into nested nodes by recursion, until the stack ends.
+TEST_F(MeshFileTest, RefusesAFileThatCrashesItsReader) {
+  constexpr int kNested = 200000;
+  std::string nested;
+  for (int i = 0; i < kNested; ++i) nested += "<node>";
+  for (int i = 0; i < kNested; ++i) nested += "</node>";
+  EXPECT_NE(refused("nested.dae", dae("", "", nested)).find("crashes what reads it"), std::string::npos);
+}
+
+TEST_F(MeshFileTest, SurvivesEveryHostileFileUnderEveryName) {
+  const fs::path hostile = dataFolder() / "hostile";
+  if (!fs::exists(hostile)) GTEST_SKIP() << hostile << " is missing; set SWEEP_GUARD_DATA";
+  int read = 0;
+  int refused_files = 0;
+  for (const auto& entry : fs::directory_iterator(hostile)) {
+    for (const char* const name : {"h.stl", "h.obj", "h.dae"}) {
+      const fs::path copy = folder_.path() / name;
+      fs::copy_file(entry.path(), copy, fs::copy_options::overwrite_existing);
+      fs::permissions(copy, fs::perms::owner_all);
+      const std::string message = refusal([&] {
+        const MeshSurface surface = readMesh(copy);
+        EXPECT_FALSE(surface.triangles.empty());
+        EXPECT_TRUE(boxOf(surface).diagonal().allFinite());
+      });
+      ++(message.empty() ? read : refused_files);
+    }
+  }
+  EXPECT_GT(read, 10);  // some are merely unusual
+  EXPECT_GT(refused_files, 60);
+}
+
+TEST_F(MeshFileTest, IsFoundInAPackage) {
+  const fs::path file = folder_.write("robot/meshes/t.obj", tetrahedronObj());
+  EXPECT_EQ(locateMesh("package://robot/meshes/t.obj", {}), file);
+  EXPECT_EQ(locateMesh("package://robot/meshes/../meshes/t.obj", {}), file);
+  EXPECT_EQ(locateMesh("file://" + file.string(), {}), file);
+}
+
+// Models that are handed around often lack the file that makes a folder a package.
+TEST_F(MeshFileTest, IsFoundInAFolderOnThePackagePath) {
+  const fs::path file = folder_.write("bare_robot/t.obj", tetrahedronObj());
+  EXPECT_EQ(locateMesh("package://bare_robot/t.obj", {}), file);
+}
+
+TEST_F(MeshFileTest, IsFoundInARoot) {
+  const fs::path file = folder_.write("elsewhere/t.obj", tetrahedronObj());
+  EXPECT_EQ(locateMesh("file://" + file.string(), {file.parent_path().string()}), file);
+  EXPECT_NE(refusal([&] { locateMesh("file://" + file.string(), {}); }).find("tool/mesh_roots"), std::string::npos);
+  EXPECT_NE(refusal([&] { locateMesh("file://" + file.string(), {folder_.path() / "else"}); }), "");
+}
+
+TEST_F(MeshFileTest, IsNotFoundOutsideOfItsPackage) {
+  const fs::path outside = folder_.write("outside/t.obj", tetrahedronObj());
+  fs::create_symlink(outside, folder_.package() / "link.obj");
+  fs::create_directory_symlink(outside.parent_path(), folder_.package() / "linked");
+  const auto expectRefused = [](const std::string& uri, const std::string& expected) {
+    const std::string message = refusal([&] { locateMesh(uri, {}); });
+    EXPECT_NE(message.find(expected), std::string::npos) << uri << ": " << message;
+    EXPECT_NE(message.find(uri), std::string::npos) << message;
+  };
+  expectRefused("package://robot/../outside/t.obj", "leads out of");
+  expectRefused("package://robot/link.obj", "leads out of");
+  expectRefused("package://robot/linked/t.obj", "leads out of");
+  expectRefused("file://" + (folder_.package() / "link.obj").string(), "neither in a package");
+  expectRefused("package://robot//etc/passwd", "leads out of");
+  expectRefused("package://../outside/t.obj", "package://NAME/PATH");
+  expectRefused("package://robot", "package://NAME/PATH");
+  expectRefused("package://no_such_robot/t.obj", "no package 'no_such_robot'");
+  expectRefused("package://robot/missing.obj", "no such file");
+  expectRefused("file://localhost/etc/passwd", "file:///PATH");
+  expectRefused("file:///etc/passwd", "neither in a package");
+  expectRefused("http://example.org/t.obj", "only package:// and file://");
+  expectRefused("/etc/passwd", "only package:// and file://");
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros

@@ -1,0 +1,338 @@
+// A tool is what the collision geometry of a robot description says, all of it, or it is refused.
+#include "sweep_guard/ros/tool_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "ros/package_folder.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using sweep_guard::ConvexShape;
+using sweep_guard::InvalidInput;
+using sweep_guard::ToolPart;
+
+std::string robot(const std::string& body) { return "<robot name='r'>" + body + "</robot>"; }
+
+std::string link(const std::string& name, const std::string& collisions = "") {
+  return "<link name='" + name + "'>" + collisions + "</link>";
+}
+
+std::string collision(const std::string& shape, const std::string& origin = "") {
+  return "<collision>" + origin + "<geometry>" + shape + "</geometry></collision>";
+}
+
+std::string joint(const std::string& name, const std::string& type, const std::string& parent, const std::string& child,
+                  const std::string& more = "") {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child + "'/>" +
+         more + "</joint>";
+}
+
+const std::string kBall = collision("<sphere radius='0.1'/>");
+
+ToolModelOptions toolOf(const std::string& frame, const std::vector<std::string>& links) {
+  ToolModelOptions options;
+  options.frame = frame;
+  options.links = links;
+  return options;
+}
+
+double support(const std::vector<ToolPart>& parts, const Vector3d& direction) {
+  double most = -INFINITY;
+  for (const ToolPart& part : parts) most = std::max(most, part.shape_T.support(direction));
+  return most;
+}
+
+void expectBox(const std::vector<ToolPart>& parts, const Vector3d& lowest, const Vector3d& highest,
+               double tolerance = 1e-9) {
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(support(parts, Vector3d::Unit(axis)), highest[axis], tolerance) << "axis " << axis;
+    EXPECT_NEAR(-support(parts, -Vector3d::Unit(axis)), lowest[axis], tolerance) << "axis " << axis;
+  }
+}
+
+std::string refusal(const std::string& urdf, const ToolModelOptions& options) {
+  try {
+    loadToolModel(urdf, options);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ToolModelTest, PutsPrimitivesWhereTheirOriginsAre) {
+  const auto parts = loadToolModel(robot(link("a", collision("<cylinder radius='0.1' length='0.6'/>",
+                                                             "<origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>"))),
+                                   toolOf("a", {}))
+                         .parts;
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_EQ(parts[0].link, "a");
+  expectBox(parts, {0.7, 1.9, 2.9}, {1.3, 2.1, 3.1});
+  expectBox(loadToolModel(robot(link("a", collision("<box size='0.2 0.4 0.6'/>"))), toolOf("a", {})).parts,
+            {-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3});
+  expectBox(
+      loadToolModel(robot(link("a", collision("<sphere radius='0.5'/>", "<origin xyz='0 0 1'/>"))), toolOf("a", {}))
+          .parts,
+      {-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5});
+}
+
+// A polygon with 32 sides would fall short of the circle by half a per cent.
+TEST(ToolModelTest, KeepsCylindersRound) {
+  const auto parts =
+      loadToolModel(robot(link("a", collision("<cylinder radius='1' length='1'/>"))), toolOf("a", {})).parts;
+  for (double angle = 0.0; angle < 6.3; angle += 0.01) {
+    EXPECT_NEAR(support(parts, Vector3d(std::cos(angle), std::sin(angle), 0.0)), 1.0, 1e-12);
+  }
+}
+
+TEST(ToolModelTest, TakesEveryCollisionOfEveryLinkListed) {
+  const std::string urdf = robot(link("a", kBall + collision("<box size='1 1 1'/>")) + link("b", kBall) +
+                                 link("c", kBall) + joint("ab", "fixed", "a", "b", "<origin xyz='0 0 2'/>") +
+                                 joint("bc", "fixed", "b", "c", "<origin xyz='0 0 2'/>"));
+  const auto parts = loadToolModel(urdf, toolOf("b", {"a", "b"})).parts;
+  ASSERT_EQ(parts.size(), 3U);
+  EXPECT_EQ(parts[1].link, "a");
+  EXPECT_EQ(parts[2].link, "b");
+  expectBox(parts, {-0.5, -0.5, -2.5}, {0.5, 0.5, 0.1});
+}
+
+TEST(ToolModelTest, TakesWhatHangsOnTheToolFrameWhereNoLinkIsListed) {
+  const std::string urdf = robot(link("arm", kBall) + link("hand", kBall) + link("tip") + link("finger", kBall) +
+                                 joint("wrist", "fixed", "arm", "hand") + joint("mount", "fixed", "hand", "tip") +
+                                 joint("knuckle", "fixed", "hand", "finger"));
+  std::set<std::string> links;
+  for (const ToolPart& part : loadToolModel(urdf, toolOf("hand", {})).parts) links.insert(part.link);
+  EXPECT_EQ(links, (std::set<std::string>{"finger", "hand"}));
+}
+
+// The frame that nobody has named is that of the first link, and not a guess where one has been named.
+TEST(ToolModelTest, TakesTheFirstLinkForAToolFrameThatNobodyNamed) {
+  const std::string urdf =
+      robot(link("a", kBall) + link("b", kBall) + joint("ab", "fixed", "a", "b", "<origin xyz='0 0 2'/>"));
+  const ToolModel model = loadToolModel(urdf, toolOf("tool", {"b"}));
+  EXPECT_EQ(model.frame, "b");
+  expectBox(model.parts, Vector3d::Constant(-0.1), Vector3d::Constant(0.1));
+  EXPECT_NE(refusal(urdf, toolOf("tol", {"b"})).find("tool_frame names 'tol'"), std::string::npos);
+}
+
+TEST(ToolModelTest, HoldsJointsWhereTheyAreSet) {
+  const std::string urdf = robot(link("a", kBall) + link("b") + link("c", kBall) +
+                                 joint("turn", "revolute", "a", "b",
+                                       "<origin xyz='1 0 0'/><axis xyz='0 0 2'/>"
+                                       "<limit lower='-2' upper='2' effort='1' velocity='1'/>") +
+                                 joint("slide", "prismatic", "b", "c",
+                                       "<axis xyz='1 0 0'/><limit lower='0.5' upper='3' effort='1' velocity='1'/>"));
+  ToolModelOptions options = toolOf("a", {"c"});
+  expectBox(loadToolModel(urdf, options).parts, {1.4, -0.1, -0.1}, {1.6, 0.1, 0.1});  // 0 is below the slide's limits
+  options.joints = {{"turn", M_PI / 2}, {"slide", 2.0}};
+  const ToolModel model = loadToolModel(urdf, options);
+  expectBox(model.parts, {0.9, 1.9, -0.1}, {1.1, 2.1, 0.1});
+  EXPECT_EQ(model.held, options.joints);
+  options.joints = {{"slide", 3.5}};
+  EXPECT_NE(refusal(urdf, options).find("tool/joints/slide is beyond the joint's limits, 0.5 to 3"), std::string::npos);
+  options.joints = {{"slid", 1.0}};
+  EXPECT_NE(refusal(urdf, options).find("no joint 'slid'"), std::string::npos);
+}
+
+TEST(ToolModelTest, ClosesBothFingersOfAGripper) {
+  const std::string limit = "<limit lower='0' upper='0.04' effort='1' velocity='1'/>";
+  const std::string urdf =
+      robot(link("hand", kBall) + link("left", kBall) + link("right", kBall) +
+            joint("l", "prismatic", "hand", "left", "<axis xyz='0 1 0'/>" + limit) +
+            joint("r", "prismatic", "hand", "right",
+                  "<axis xyz='0 -1 0'/>" + limit + "<mimic joint='l' multiplier='2' offset='0.01'/>"));
+  ToolModelOptions options = toolOf("hand", {"left", "right"});
+  options.joints = {{"l", 0.04}};
+  expectBox(loadToolModel(urdf, options).parts, {-0.1, -0.19, -0.1}, {0.1, 0.14, 0.1});
+  options.joints = {{"r", 0.01}};
+  EXPECT_NE(refusal(urdf, options).find("mimics 'l'"), std::string::npos);
+}
+
+// A joint above the tool moves all of it alike.
+TEST(ToolModelTest, LeavesOutJointsThatMoveTheToolAsAWhole) {
+  const std::string urdf = robot(link("base", kBall) + link("hand", kBall) + link("tip") +
+                                 joint("float", "floating", "base", "hand") + joint("mount", "fixed", "hand", "tip"));
+  EXPECT_TRUE(loadToolModel(urdf, toolOf("tip", {"hand"})).held.empty());
+  EXPECT_NE(refusal(urdf, toolOf("tip", {"base"})).find("joint 'float'"), std::string::npos);
+}
+
+TEST(ToolModelTest, MakesHullsOfMeshesToScale) {
+  const PackageFolder folder;
+  folder.write("robot/t.obj", tetrahedronObj());
+  const auto tool = [](const std::string& scale) {
+    return loadToolModel(robot(link("a", collision("<mesh filename='package://robot/t.obj' scale='" + scale + "'/>"))),
+                         toolOf("a", {}))
+        .parts;
+  };
+  expectBox(tool("1 1 1"), {0, 0, 0}, {1, 1, 1});
+  expectBox(tool("0.1 2 -3"), {0, 0, -3}, {0.1, 2, 0});
+  EXPECT_NEAR(support(tool("1 1 1"), Vector3d(1, 1, 1).normalized()), 1.0 / std::sqrt(3.0), 1e-9);
+}
+
+TEST(ToolModelTest, GrowsEveryPartByThePadding) {
+  ToolModelOptions options = toolOf("a", {});
+  options.padding = 0.05;
+  const std::string urdf = robot(link("a", kBall + collision("<box size='1 1 1'/>", "<origin xyz='2 0 0'/>")));
+  expectBox(loadToolModel(urdf, options).parts, {-0.15, -0.55, -0.55}, {2.55, 0.55, 0.55});
+}
+
+struct Bad {
+  std::string urdf;
+  std::string expected;
+};
+
+TEST(ToolModelTest, RefusesBadDescriptionsInOneLine) {
+  const PackageFolder folder;
+  folder.write("robot/flat.obj", "v 0 0 0\n");
+  const auto mesh = [](const std::string& attributes) {
+    return robot(link("a", collision("<mesh " + attributes + "/>")));
+  };
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<e>";
+  const std::vector<Bad> cases = {
+      {"", "no XML"},
+      {"<robot name='r'><link name='a'>", "no XML"},
+      {deep, "no XML"},
+      {"<sdf/>", "no element <robot>"},
+      {std::string(size_t{9} << 20U, ' '), "larger than 8 MiB"},
+      {robot(""), "no URDF"},
+      {"<robot>" + link("a", kBall) + "</robot>", "name"},
+      {robot(link("a", kBall) + link("a", kBall)), "'a' is not unique"},
+      {robot(link("a", kBall) + link("b", kBall)), "wo root links"},
+      {robot(link("a", kBall) + joint("j", "fixed", "a", "b")), "[b]"},
+      {robot(link("a", kBall) + link("b") + joint("j", "bent", "a", "b")), "bent"},
+      {robot(link("a", kBall) + link("b") + link("c") + joint("j", "fixed", "a", "b") + joint("k", "fixed", "c", "b")),
+       "root"},
+      {robot(link("a", kBall) + link("b") + joint("j", "fixed", "a", "b") + joint("k", "fixed", "a", "b")),
+       "child of two joints"},
+      {robot(link("a")), "neither link 'a' nor what hangs on it has a shape"},
+      {robot(link("a", "<visual><geometry><sphere radius='1'/></geometry></visual>")),
+       "link 'a': it has visual geometry, but no collision"},
+      {robot(link("a", "<collision/>")), "link 'a'"},
+      {robot(link("a", "<collision><geometry><sphere radius='1'/><sphere radius='2'/></geometry></collision>")),
+       "link 'a': a collision must have one geometry"},
+      {robot(link("a", collision("<capsule radius='1' length='1'/>"))), "capsule"},
+      {robot(link("a", collision("<sphere radius='-1'/>"))), "link 'a': its sphere's radius is -1"},
+      {robot(link("a", collision("<sphere radius='wide'/>"))), "wide"},
+      {robot(link("a", collision("<sphere radius='nan'/>"))), "nan"},
+      {robot(link("a", collision("<box size='1 0 1'/>"))), "link 'a': its box's size in y is 0"},
+      {robot(link("a", collision("<box size='1 1'/>"))), "3 expected"},
+      {robot(link("a", collision("<cylinder radius='1' length='1e9'/>"))), "link 'a': its cylinder's length is 1e+09"},
+      {robot(link("a", collision("<sphere radius='1'/>", "<origin xyz='1e300 0 0'/>"))), "link 'a': it reaches"},
+      {mesh("filename='package://robot/missing.stl'"), "link 'a': package://robot/missing.stl: there is no such file"},
+      {mesh("filename='package://missing/a.stl'"), "link 'a': package://missing/a.stl: there is no package"},
+      {mesh("filename='package://robot/../../../../etc/passwd'"), "leads out of the package"},
+      {mesh("filename='http://example.org/a.stl'"), "only package:// and file://"},
+      {mesh("filename='package://robot/flat.obj'"), "robot/flat.obj: cannot be read: OBJ-file is too small"},
+      {mesh("filename='package://robot/flat.obj' scale='0 1 1'"), "scale must not be 0"},
+      {mesh("scale='1 1 1'"), "filename"},
+  };
+  for (const Bad& bad : cases) {
+    const std::string message = refusal(bad.urdf, toolOf("tool", {}));
+    EXPECT_NE(message, "") << bad.urdf << " is accepted";
+    EXPECT_NE(message.find(bad.expected), std::string::npos) << bad.urdf.substr(0, 200) << ": " << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_LT(message.size(), 500U) << message;
+  }
+}
+
+TEST(ToolModelTest, RefusesLinksThatAreNone) {
+  const std::string urdf = robot(link("a", kBall) + link("b") + joint("ab", "fixed", "a", "b"));
+  EXPECT_NE(refusal(urdf, toolOf("tool", {"c"})).find("'c', which is no link of the robot; its links are a, b"),
+            std::string::npos);
+  EXPECT_NE(refusal(urdf, toolOf("tool", {"a", "a"})).find("twice"), std::string::npos);
+  EXPECT_NE(refusal(urdf, toolOf("tool", {"b"})).find("link 'b': it has no geometry"), std::string::npos);
+}
+
+/// Robots that nobody on the project made.
+class RealRobotTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = dataFolder() / "urdf";
+    if (!fs::exists(folder_)) GTEST_SKIP() << folder_ << " is missing; set SWEEP_GUARD_DATA";
+    PackageFolder::setPackagePath(folder_.string());
+  }
+
+  std::string read(const std::string& name) const {
+    std::ifstream file(folder_ / "expanded" / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  PackageFolder restored_;
+  fs::path folder_;
+};
+
+TEST_F(RealRobotTest, FrankaHandIsAMeshAndTwoFingersOfFourBoxes) {
+  ToolModelOptions options = toolOf("panda_hand_tcp", {"panda_hand", "panda_leftfinger", "panda_rightfinger"});
+  const ToolModel closed = loadToolModel(read("franka_hand.urdf"), options);
+  EXPECT_EQ(closed.parts.size(), 9U);
+  EXPECT_EQ(closed.held.at("panda_finger_joint1"), 0.0);
+  EXPECT_NEAR(support(closed.parts, Vector3d::UnitZ()), 0.0584 + 0.04525 + 0.00925 - 0.1034, 1e-9);
+  options.joints["panda_finger_joint1"] = 0.04;
+  const ToolModel open = loadToolModel(read("franka_hand.urdf"), options);
+  const auto fingers = [](const ToolModel& model) {
+    return std::vector<ToolPart>(model.parts.begin() + 1, model.parts.end());
+  };
+  for (const Vector3d& side : {Vector3d(Vector3d::UnitY()), Vector3d(-Vector3d::UnitY())}) {
+    EXPECT_NEAR(support(fingers(open), side), support(fingers(closed), side) + 0.04, 1e-9);
+  }
+}
+
+TEST_F(RealRobotTest, EveryCompleteRobotLoads) {
+  const struct {
+    std::string file;
+    std::string frame;
+    std::vector<std::string> links;
+    size_t parts;
+    double extent;  // [m], roughly
+  } cases[] = {
+      {"franka_hand.urdf", "panda_hand", {}, 15, 0.2},
+      {"panda_with_hand.urdf", "panda_link8", {"panda_link5", "panda_link6", "panda_link7", "panda_hand"}, 4, 0.5},
+      {"ur5.urdf", "tool0", {"forearm_link", "wrist_1_link", "wrist_2_link", "wrist_3_link"}, 4, 0.6},
+      {"ur5.urdf", "base_link", {}, 7, 1.2},
+      {"costar_drill.urdf", "drill", {"drill"}, 1, 0.3},
+  };
+  for (const auto& one : cases) {
+    ToolModelOptions options = toolOf(one.frame, one.links);
+    options.mesh_depth = 0;
+    const ToolModel model = loadToolModel(read(one.file), options);
+    EXPECT_EQ(model.parts.size(), one.parts) << one.file;
+    double extent = 0.0;
+    for (const ToolPart& part : model.parts) extent = std::max(extent, part.shape_T.extent());
+    EXPECT_GT(extent, 0.3 * one.extent) << one.file;
+    EXPECT_LT(extent, 2.0 * one.extent) << one.file;
+  }
+}
+
+TEST_F(RealRobotTest, DrillIsCutWhereItIsHollow) {
+  ToolModelOptions options = toolOf("drill", {"drill"});
+  const auto whole = loadToolModel(read("costar_drill.urdf"), options).parts;
+  options.mesh_depth = 0;
+  const auto hull = loadToolModel(read("costar_drill.urdf"), options).parts;
+  EXPECT_EQ(hull.size(), 1U);
+  EXPECT_GT(whole.size(), 2U);
+  for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(0.6, 0, 0.8)}) {
+    EXPECT_NEAR(support(whole, direction), support(hull, direction), 1e-7);
+  }
+}
+
+TEST_F(RealRobotTest, DvrkInstrumentIsRefusedByTheNameOfTheMissingMesh) {
+  for (const std::vector<std::string>& links :
+       {std::vector<std::string>{}, {"PSM1_roll_link"}, {"PSM1_roll_link", "PSM1_wrist_pitch_link"}}) {
+    EXPECT_NE(
+        refusal(read("dvrk_psm1.urdf"), toolOf("tool", links))
+            .find("link 'PSM1_roll_link': package://dvrk_model/meshes/instruments/roll/4670/roll_4670.obj: there is "
+                  "no such file"),
+        std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
