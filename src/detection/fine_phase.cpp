@@ -14,6 +14,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxDirections = 1000;
 constexpr int kMaxTries = 40;
+constexpr double kDrawn = 1e-3;  // of the tool's extent
+constexpr double kGain = 0.05;   // of the gap that a direction is worth being followed for
 
 struct PlacedShape {
   const ConvexShape& shape_T;
@@ -72,17 +74,25 @@ class Course {
     return least - std::max({n.dot(p[0]), n.dot(p[1]), n.dot(p[2])});
   }
 
-  // How far from `s`, where the gap along n is `gap_here`, this direction proves a gap of more than `least`, as far as
-  // a few tries tell: aims where the gap is `aim`. Returns `s` itself if none succeeds.
-  double freeUntil(const Eigen::Vector3d& n, double s, double gap_here, double aim, double least) const {
+  // How far on from `s`, where the gap along n is `gap`, this direction proves a gap of more than `least`. Looks for
+  // where the gap is `aim`, and ends where little is left to gain along n. Returns `s` itself if nothing is proven.
+  double freeUntil(const Eigen::Vector3d& n, double s, double gap, double aim, double least) const {
     const double bending = 0.5 * angle_ * angle_ * reach_ * n.cross(axis_M_).norm();
-    double step = 1.0 - s;
-    for (int i = 0; i < kMaxTries; ++i) {
-      const double next = step == 1.0 - s ? 1.0 : s + step;
-      if (next == s) return s;
-      const double gap_there = gap(n, next);
-      if (leastBetween(gap_here, gap_there, bending * step * step) > least) return next;
-      step *= gap_there < aim ? std::clamp((gap_here - aim) / (gap_here - gap_there), 1e-3, i == 0 ? 1.0 : 0.7) : 0.5;
+    const double enough = aim + std::max(aim - least, kGain * (gap - aim));
+    double beyond = 1.0;  // not proven, where there is a gap_beyond
+    double gap_beyond = kInfinity;
+    for (int i = 0; i < kMaxTries && gap > enough && s < beyond; ++i) {
+      const double share = gap_beyond < aim ? (gap - aim) / (gap - gap_beyond) : i == 0 ? 1.0 : 0.5;
+      const double next = i == 0 ? beyond : s + std::clamp(share, 1e-3, 0.99) * (beyond - s);
+      const double gap_next = this->gap(n, next);
+      const double step = next - s;
+      if (leastBetween(gap, gap_next, bending * step * step) > least) {
+        s = next;
+        gap = gap_next;
+      } else {
+        beyond = next;
+        gap_beyond = gap_next;
+      }
     }
     return s;
   }
@@ -169,7 +179,7 @@ class FinePhase {
     double gap = normal_ ? part.gap(*normal_, s) : -kInfinity;
     while (true) {
       if (gap <= margin + tolerance_) {
-        const Separation apart = separationAt(part, s, 0.25 * tolerance_);
+        const Separation apart = separationAt(part, s, margin);
         if (apart.gap <= margin + tolerance_ || ++directions_ > kMaxDirections) break;
         normal_ = apart.normal;
         gap = apart.gap;
@@ -180,13 +190,26 @@ class FinePhase {
       s = next;
       gap = -kInfinity;
     }
-    return Touch{s, separationAt(part, s, 0.0)};
+    return Touch{s, exactSeparationAt(part, s)};
   }
 
-  Separation separationAt(const Course& part, double s, double accuracy) const {
+  // Exact enough to go on in time, or where it is this close.
+  Separation separationAt(const Course& part, double s, double margin) const {
+    const PlacedShape tool = part.tool(s);
+    return roughSeparation(tool, PointHull(part.corners(s)), margin, 0.25 * tolerance_, normal_.value_or(tool.p_MT));
+  }
+
+  // The direction of a distance that is next to nothing has few digits. So the tool is drawn out along it a little:
+  // what the direction was wrong by shrinks as that way is shorter than the tool's radius of curvature.
+  Separation exactSeparationAt(const Course& part, double s) const {
     const PlacedShape tool = part.tool(s);
     const PointHull triangle(part.corners(s));
-    return separation(tool, triangle, accuracy, normal_.value_or(tool.p_MT));
+    Separation touch = separation(tool, triangle, 0.0, normal_.value_or(tool.p_MT));
+    if (touch.gap <= 0.0) return touch;
+    PlacedShape drawn = tool;
+    drawn.p_MT += kDrawn * (shape_T_.extent() > 0.0 ? shape_T_.extent() : size_) * touch.normal;
+    touch.normal = separation(drawn, triangle, 0.0, touch.normal).normal;
+    return touch;
   }
 
   Eigen::Vector3d wayOutAtTheStart(const Course& part) const {

@@ -74,7 +74,7 @@ Eigen::Vector3d wayOut(const SupportMapping& tool, const SupportMapping& obstacl
   }
   for (int i = 0; i < kMaxImprovements; ++i) {
     const Drawn drawn{tool, (1.01 * depth + 1e-6 * size) * best};
-    if (!improves(separation(drawn, obstacle, /*accuracy=*/0.0, best).normal, 1e-10 * size)) break;
+    if (!improves(separation(drawn, obstacle, /*accuracy=*/0.0, best).normal, 1e-9 * size)) break;
   }
   return best;
 }

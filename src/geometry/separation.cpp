@@ -11,6 +11,7 @@ namespace {
 constexpr int kMaxSteps = 64;
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 constexpr double kNeedle = 1e-8;  // squared sine below which a face's weights lose digits
+constexpr double kShare = 0.125;  // of the gap beyond the margin that roughSeparation() may miss
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A point of the Minkowski difference, and the two points whose difference it is.
@@ -152,11 +153,18 @@ Eigen::Vector3d outwards(const Simplex& simplex, const Eigen::Vector3d& point) {
   return normal.normalized();
 }
 
+// When to end.
+struct Goal {
+  double accuracy = 0.0;      // the gap stays no farther behind the distance [m]
+  double margin = kInfinity;  // or no farther than a share of what the gap exceeds this by [m]
+  double proven = kInfinity;  // the gap is more [m]
+  double met = 0.0;           // the distance is no more [m]
+};
+
 class Search {
  public:
-  /// Ends when the bodies are proven to be farther apart than `proven`, or found to be no farther than `met` [m].
-  Search(const SupportMapping& tool, const SupportMapping& obstacle, double accuracy, double proven, double met)
-      : tool_(tool), obstacle_(obstacle), accuracy_(accuracy), proven_(proven), met_(met) {}
+  Search(const SupportMapping& tool, const SupportMapping& obstacle, const Goal& goal)
+      : tool_(tool), obstacle_(obstacle), goal_(goal) {}
 
   Separation run(const Eigen::Vector3d& guess) {
     const double length = guess.norm();
@@ -181,9 +189,11 @@ class Search {
       best_.gap = gap;
       best_.normal = direction;
     }
-    if (simplex_.size() == 0) return approach(vertex) && best_.gap <= proven_;
+    if (simplex_.size() == 0) return approach(vertex) && best_.gap <= goal_.proven;
     const double distance = std::sqrt(closest_.squared_distance);
-    if (best_.gap > proven_ || distance - best_.gap <= std::max(kRounding * size_, accuracy_)) return false;
+    const double left = distance - best_.gap;
+    if (best_.gap > goal_.proven || left <= std::max(kRounding * size_, goal_.accuracy)) return false;
+    if (left <= kShare * (best_.gap - goal_.margin)) return false;
     return !simplex_.has(vertex.w) && approach(vertex);
   }
 
@@ -197,14 +207,12 @@ class Search {
     }
     simplex_.keep(closest);
     closest_ = closest;
-    return std::sqrt(closest_.squared_distance) > std::max(4.0 * kRounding * size_, met_);
+    return std::sqrt(closest_.squared_distance) > std::max(4.0 * kRounding * size_, goal_.met);
   }
 
   const SupportMapping& tool_;
   const SupportMapping& obstacle_;
-  double accuracy_;
-  double proven_;
-  double met_;
+  Goal goal_;
   double size_ = 0.0;  // of the Minkowski difference, as far as it is known [m]
   Simplex simplex_;
   Closest closest_;
@@ -229,12 +237,25 @@ Eigen::Vector3d PointHull::operator()(const Eigen::Vector3d& direction) const {
 
 Separation separation(const SupportMapping& tool, const SupportMapping& obstacle, double accuracy,
                       const Eigen::Vector3d& guess) {
-  return Search(tool, obstacle, accuracy, kInfinity, 0.0).run(guess);
+  Goal goal;
+  goal.accuracy = accuracy;
+  return Search(tool, obstacle, goal).run(guess);
+}
+
+Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obstacle, double margin, double accuracy,
+                           const Eigen::Vector3d& guess) {
+  Goal goal;
+  goal.accuracy = accuracy;
+  goal.margin = margin;
+  return Search(tool, obstacle, goal).run(guess);
 }
 
 bool fartherApart(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
                   const Eigen::Vector3d& guess) {
-  return Search(tool, obstacle, 0.0, distance, distance).run(guess).gap > distance;
+  Goal goal;
+  goal.proven = distance;
+  goal.met = distance;
+  return Search(tool, obstacle, goal).run(guess).gap > distance;
 }
 
 }  // namespace sweep_guard

@@ -197,6 +197,19 @@ TEST(SeparationTest, StopsAtTheAccuracyAskedFor) {
   }
 }
 
+TEST(RoughSeparationTest, MissesAnEighthOfWhatIsBeyondTheMargin) {
+  Random random(/*seed=*/8);
+  for (int i = 0; i < 2000; ++i) {
+    const PointHull triangle(randomTriangle(random, 1.0));
+    const Cylinder cylinder = randomCylinder(random, 4.0 * random.direction());
+    const double gap = separation(cylinder, triangle).gap;
+    const double margin = random.uniform(0.0, 1.0);
+    const double rough = roughSeparation(cylinder, triangle, margin, /*accuracy=*/1e-6, random.direction()).gap;
+    EXPECT_LE(rough, gap + 1e-9) << i;
+    EXPECT_GE(rough, gap - std::max(1e-6, 0.125 * (gap - margin)) - 1e-9) << i;
+  }
+}
+
 TEST(FartherApartTest, IsWhetherTheGapIsMore) {
   Random random(/*seed=*/6);
   for (int i = 0; i < 5000; ++i) {

@@ -48,6 +48,7 @@ struct Impact {
 /// @param parts     of one motion, of equal duration, end to end, as split() gives them; not empty. Each one's `bulge`
 /// is
 ///                  added to the margin
+///                  A motion's `drift` is not looked at: the triangle has its own
 /// @param margin    [m], >= 0. Not part of the depth
 /// @param way_in_M  unit: the normal along which the tool came in earlier
 std::optional<Impact> firstImpact(const ConvexShape& shape_T, const std::vector<Motion>& parts,

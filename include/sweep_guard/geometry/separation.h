@@ -70,6 +70,11 @@ struct Separation {
 Separation separation(const SupportMapping& tool, const SupportMapping& obstacle, double accuracy = 0.0,
                       const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());
 
+/// The same, only as exactly as a step forward in time needs: where the bodies are more than `margin` [m] apart, an
+/// eighth of what the distance is more may be missing in `gap`.
+Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obstacle, double margin, double accuracy,
+                           const Eigen::Vector3d& guess);
+
 /// Whether the bodies are proven to be farther apart than `distance` [m], >= 0. Cheaper than separation(): it ends with
 /// the first direction that proves it, or with the first two points that are closer.
 bool fartherApart(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
