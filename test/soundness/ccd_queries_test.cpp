@@ -1,0 +1,92 @@
+#include "soundness/ccd_queries.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard::soundness {
+namespace {
+
+using Kind = CcdQuery::Kind;
+
+std::vector<CcdQuery> read(const std::string& text, Kind kind) {
+  std::istringstream stream(text);
+  return readCcdQueries(stream, kind);
+}
+
+// Eight rows of whole numbers.
+std::string rows(const std::array<std::array<int, 3>, 8>& points, int truth) {
+  std::string text;
+  for (const auto& p : points) {
+    for (const int coordinate : p) text += std::to_string(coordinate) + ",1,";
+    text += std::to_string(truth) + '\n';
+  }
+  return text;
+}
+
+TEST(ReadCcdQueriesTest, TakesIntegersOfAnyLength) {
+  std::string text;
+  for (int i = 0; i < 8; ++i) {
+    text += "-1267650600228229401496703205376,1267650600228229401496703205376,0,1,3,4,1\n";  // 2^100
+  }
+  const std::vector<CcdQuery> queries = read(text, Kind::kVertexFace);
+  ASSERT_EQ(queries.size(), 1U);
+  EXPECT_EQ(queries[0].start[2], Eigen::Vector3d(-1.0, 0.0, 0.75));
+  EXPECT_TRUE(queries[0].truth);
+}
+
+TEST(ReadCcdQueriesTest, RefusesWhatIsNoQuery) {
+  const std::string good = rows({}, 1);
+  EXPECT_EQ(read(good, Kind::kEdgeEdge).size(), 1U);
+  EXPECT_TRUE(read("", Kind::kEdgeEdge).empty());
+  for (const std::string bad : {"0,1,0,1,0,1\n", "0,1,0,1,0,1,2\n", "0,1,0,1,0,0,1\n", "0,1,0,1,x,1,1\n",
+                                "0,1,0,1,-,1,1\n", "1,3,0,1,0,1,1\n", "0,1,0,1,0,1,0\n", "0,1,0,1,0,1,1\n"}) {
+    EXPECT_THROW(read(good + bad + (bad.back() == '0' ? good : ""), Kind::kEdgeEdge), InvalidInput) << bad;
+  }
+  EXPECT_THROW(read("0,1,0,1,0,1,1\n" + rows({}, 0), Kind::kEdgeEdge), InvalidInput);
+}
+
+TEST(CcdQueryTest, AVertexThatPassesAFaceIsNamedAndOneThatPassesBesideItIsNot) {
+  const auto query = [](int x) {
+    return read(rows({{{x, 1, 1}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {x, 1, -1}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}}, 1),
+                Kind::kVertexFace)[0];
+  };
+  EXPECT_TRUE(named(query(1)));
+  EXPECT_TRUE(named(query(3)));  // on the edge
+  EXPECT_FALSE(named(query(4)));
+}
+
+// The second edge gets longer and turns while it passes, so that no rigid tool could stand for it.
+TEST(CcdQueryTest, EdgesThatCrossAreNamedAndOthersAreNot) {
+  const auto query = [](int reach) {
+    return read(
+        rows({{{0, 0, 0}, {8, 0, 0}, {1, -1, 1}, {2, 1, 3}, {0, 0, 0}, {8, 0, 0}, {reach, -4, -1}, {5, 4, -5}}}, 1),
+        Kind::kEdgeEdge)[0];
+  };
+  EXPECT_TRUE(named(query(4)));
+  EXPECT_FALSE(named(query(-90)));
+}
+
+TEST(CcdDataTest, MissesNoneOfTheSampleQueries) {
+  const char* const variable = std::getenv("SWEEP_GUARD_DATA");
+  const std::filesystem::path data = variable != nullptr ? variable : SWEEP_GUARD_SOURCE_DIR "/../shared/data";
+  if (!std::filesystem::exists(data / "ccd"))
+    GTEST_SKIP() << data / "ccd"
+                 << " is missing; set SWEEP_GUARD_DATA";
+  CcdTally all;
+  std::ostringstream misses;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(data / "ccd")) {
+    if (entry.path().extension() != ".csv") continue;
+    all.add(checkCcdQueries(entry.path(), misses));
+  }
+  EXPECT_GT(all.positives, 100);
+  EXPECT_EQ(all.misses, 0) << misses.str();
+  EXPECT_LT(all.farthest_extra, 1e-8);  // the fine phase's tolerance is 2e-9
+}
+
+}  // namespace
+}  // namespace sweep_guard::soundness
