@@ -4,6 +4,7 @@
 
 #include "soundness/oracle.h"
 #include "soundness/sampled_sweep.h"
+#include "sweep_guard/detection/fine_phase.h"
 
 namespace sweep_guard::soundness {
 namespace {
@@ -80,6 +81,31 @@ void checkPositives(const Context& context, const SweepCase& sweep) {
                             [&] { return textOf(seen, about(context, suspect.name)); });
       }
     }
+  }
+}
+
+void checkImpacts(const Context& context, const SweepCase& sweep) {
+  const TriangleMesh mesh_M = sweep.triangles.mesh();
+  const Tool tool = toolOf(sweep.tool);
+  const std::vector<Motion> parts = sweep.parts();
+  Tally& tally = context.report.of("fine", context.family);
+  for (const Contact& contact : sweep.contacts) {
+    const Triangle& triangle = mesh_M.triangles()[contact.triangle];
+    MovingTriangle moving;
+    for (size_t i = 0; i < 3; ++i) moving.start_M[i] = moving.end_M[i] = mesh_M.vertex(triangle[i]);
+    const double margin = sweep.options.margin + mesh_M.rounding();
+    std::optional<double> first;
+    for (const ToolPart& part : tool.parts()) {
+      const std::optional<Impact> impact = firstImpact(part.shape_T, parts, moving, margin);
+      if (impact && (!first || impact->time_of_impact < *first)) first = impact->time_of_impact;
+    }
+    ++tally.cases;
+    ++tally.positives;
+    constexpr double kRounding = 1e-12;  // of the motion
+    if (first && *first <= contact.fraction + kRounding) continue;
+    ++tally.misses;
+    context.report.fail((first ? "late for triangle " : "missed triangle ") + std::to_string(contact.triangle),
+                        [&] { return textOf(sweep, about(context, "fine")); });
   }
 }
 

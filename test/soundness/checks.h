@@ -34,6 +34,9 @@ void checkPair(const Context& context, const PairCase& pair);
 /// Every contact is named, with every kind of volume.
 void checkPositives(const Context& context, const SweepCase& sweep);
 
+/// The fine phase finds every contact, and no later than it happens.
+void checkImpacts(const Context& context, const SweepCase& sweep);
+
 /// Every triangle found to meet the tool at one of many exact poses is named; what is named is within its margin.
 void checkWholeSweep(const Context& context, const SweepCase& sweep);
 

@@ -23,6 +23,12 @@ void runPositives(const Context& context, std::uint64_t seed) { checkPositives(c
 
 void replayPositives(const Context& context, const AnyCase& any) { checkPositives(context, any.sweep.value()); }
 
+void runImpacts(const Context& context, std::uint64_t seed) {
+  checkImpacts(context, constructedPositives(seed, /*drift=*/false));
+}
+
+void replayImpacts(const Context& context, const AnyCase& any) { checkImpacts(context, any.sweep.value()); }
+
 void runRelations(const Context& context, std::uint64_t seed) {
   constexpr std::array<PairCase (*)(std::uint64_t), 3> kPairs = {randomPairs, grazingPairs, adversarialPairs};
   checkRelations(context, kPairs[seed % 3](seed));
@@ -67,6 +73,7 @@ const std::vector<Family>& families() {
       {"adversarial", "what is hardest for float32 and for clipping, against exact arithmetic",
        runPairs<adversarialPairs>, replayPair},
       {"positives", "triangles through known points of a moving tool", runPositives, replayPositives},
+      {"impacts", "the fine phase on such triangles: none is missed, none is found late", runImpacts, replayImpacts},
       {"metamorphic", "what has to be named still when a scene is told differently", runRelations, replayRelations},
       {"sweeps", "a tool about a workpiece of 1 600 triangles, against densely sampled exact poses", runWholeSweep,
        replayWholeSweep},

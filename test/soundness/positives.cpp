@@ -252,7 +252,7 @@ SweepCase randomSweep(Random& random) {
   return sweep;
 }
 
-SweepCase constructedPositives(std::uint64_t seed) {
+SweepCase constructedPositives(std::uint64_t seed, bool drift) {
   Random random(seed);
   SweepCase sweep;
   do {
@@ -260,7 +260,7 @@ SweepCase constructedPositives(std::uint64_t seed) {
     const double size = extentOf(sweep.tool);
     const double distance = largestCoordinate(sweep.motion);
     const double triangle_size = std::min(size * random.logUniform(1e-6, 1e6), 0.3 * (kFarthest - distance));
-    if (random.chance(0.2)) sweep.drift = size * random.logUniform(1e-6, 3.0) * random.direction();
+    if (drift && random.chance(0.2)) sweep.drift = size * random.logUniform(1e-6, 3.0) * random.direction();
     Builder builder(random, sweep);
     if (random.chance(0.5)) {
       builder.addOneInFloat(triangle_size);

@@ -15,7 +15,8 @@ namespace sweep_guard::soundness {
 /// the tool. Triangles of 1e-6 to 1e6 tool sizes touching with a corner, an edge or their inside: across, tangent,
 /// leaning away; slivers, needles, points. One in two cases has one triangle in float32, and the tool is moved to it:
 /// then only the last digits are in doubt.
-SweepCase constructedPositives(std::uint64_t seed);
+/// @param drift  whether some of the tools drift
+SweepCase constructedPositives(std::uint64_t seed, bool drift = true);
 
 /// A rotation angle in [0, pi]: none, tiny, any, a right angle, almost or exactly half a turn.
 double randomAngle(Random& random);
