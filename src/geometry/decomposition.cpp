@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -125,11 +127,53 @@ double spaceBetween(const TriangleMesh& mesh, const Set& set, const ConvexHull& 
   return space;
 }
 
+bool before(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+// For each vertex the first that lies at the same place: files often have one for each triangle that uses it.
+Set placesOf(const TriangleMesh& mesh) {
+  Set order(mesh.vertexCount());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return before(mesh.offset(a), mesh.offset(b)); });
+  Set places(order.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && mesh.offset(order[i]) == mesh.offset(order[i - 1]);
+    places[order[i]] = same ? places[order[i - 1]] : order[i];
+  }
+  return places;
+}
+
+// The pieces that hang together by vertices, ordered by their first triangle.
+std::vector<Set> piecesOf(const TriangleMesh& mesh) {
+  Set root = placesOf(mesh);
+  const auto rootOf = [&root](std::uint32_t vertex) {
+    while (root[vertex] != vertex) vertex = root[vertex] = root[root[vertex]];
+    return vertex;
+  };
+  for (const auto& [a, b, c] : mesh.triangles()) {
+    root[rootOf(b)] = rootOf(a);
+    root[rootOf(c)] = rootOf(a);
+  }
+  std::map<std::uint32_t, Set> by_root;
+  for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) by_root[rootOf(mesh.triangles()[i][0])].push_back(i);
+  std::vector<Set> pieces;
+  for (auto& [vertex, piece] : by_root) pieces.push_back(std::move(piece));
+  return pieces;
+}
+
 struct Cover {
   std::vector<Set> sets;
-  double swept;   // what the hulls sweep in a step [m^3]
-  double wasted;  // as much of that as is not the mesh
+  double swept = 0.0;   // what the hulls sweep in a step [m^3]
+  double wasted = 0.0;  // as much of that as is not the mesh
 };
+
+int levelsFor(size_t count) {
+  int levels = 0;
+  while (count > size_t{1} << static_cast<unsigned>(levels)) ++levels;
+  return levels;
+}
 
 Cover joined(Cover a, Cover b) {
   std::move(b.sets.begin(), b.sets.end(), std::back_inserter(a.sets));
@@ -140,9 +184,15 @@ class Decomposition {
  public:
   Decomposition(const TriangleMesh& mesh, const DecompositionOptions& options) : mesh_(mesh), step_(options.step) {
     Set all(mesh.triangles().size());
-    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+    std::iota(all.begin(), all.end(), 0U);
     price_of_a_part_ = options.least_saving * whole(all).swept;
     cover_ = bestCover(all, options.max_depth);
+    const std::vector<Set> pieces = piecesOf(mesh);
+    const int depth = options.max_depth - levelsFor(pieces.size());
+    if (depth < 0 || pieces.size() == 1) return;
+    Cover apart;
+    for (const Set& piece : pieces) apart = joined(std::move(apart), bestCover(piece, depth));
+    if (pays(apart, cover_)) cover_ = std::move(apart);
   }
 
   std::vector<Set> sets() && { return std::move(cover_.sets); }
@@ -160,14 +210,19 @@ class Decomposition {
     std::optional<Halves> halves = cut(mesh_, set);
     if (!halves) return one;
     Cover parts = joined(bestCover(halves->first, depth - 1), bestCover(halves->second, depth - 1));
-    const double price = price_of_a_part_ * static_cast<double>(parts.sets.size() - 1);
-    return parts.swept + price < one.swept && parts.wasted + price < one.wasted ? parts : one;
+    return pays(parts, one) ? parts : one;
+  }
+
+  bool pays(const Cover& parts, const Cover& instead_of) const {
+    const double more = static_cast<double>(parts.sets.size()) - static_cast<double>(instead_of.sets.size());
+    const double price = price_of_a_part_ * more;
+    return parts.swept + price < instead_of.swept && parts.wasted + price < instead_of.wasted;
   }
 
   const TriangleMesh& mesh_;
   double step_;
   double price_of_a_part_ = 0.0;
-  Cover cover_ = {};
+  Cover cover_;
 };
 
 }  // namespace

@@ -186,6 +186,21 @@ TEST(DecompositionTest, LeavesWhatIsInsideOfACasing) {
   EXPECT_EQ(decompose(casing.mesh()).size(), 1U);
 }
 
+// A hand and two fingers: a cut across the hand would leave each finger with half of it.
+TEST(DecompositionTest, TakesPiecesApart) {
+  Surface hand;
+  addBox(hand, {-0.1, -0.03, -0.06}, {0.1, 0.03, 0}, /*cells=*/6);
+  addBox(hand, {-0.05, -0.01, 0.001}, {-0.03, 0.01, 0.05}, /*cells=*/6);
+  addBox(hand, {0.03, -0.01, 0.001}, {0.05, 0.01, 0.05}, /*cells=*/6);
+  for (Triangle& triangle : hand.triangles) {  // each with vertices of its own, as in STL files
+    for (std::uint32_t& vertex : triangle) {
+      hand.vertices.push_back(Eigen::Vector3d(hand.vertices[vertex]));
+      vertex = static_cast<std::uint32_t>(hand.vertices.size() - 1);
+    }
+  }
+  EXPECT_EQ(decompose(hand.mesh()).size(), 3U);
+}
+
 // Two sheets in one plane have no volume, but what they sweep together is more than what each does.
 TEST(DecompositionTest, PartsFlatSheets) {
   Surface sheets;

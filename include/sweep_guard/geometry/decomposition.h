@@ -17,7 +17,8 @@ struct DecompositionOptions {
 
 /// Cuts the triangles of a mesh into sets whose convex hulls are a tight cover of it: recursively as the OBBTree does
 /// [Gottschalk et al. 1996], across the longest side of the box of their moments, at the mean; across the next side if
-/// that leaves all triangles on one hand. A triangle goes where its centroid is; none is cut.
+/// that leaves all triangles on one hand. A triangle goes where its centroid is; none is cut. Pieces that do not hang
+/// together may be taken apart first, if that is the better start.
 ///
 /// Cuts are undone, from the leaves up, where they do not pay. What a hull with volume V and surface S covers while it
 /// goes a step, averaged over all directions, is V + S * step / 4 (Cauchy: the mean shadow of a convex body is a

@@ -1,0 +1,66 @@
+// Real meshes, as files give them: open ones, slivers, several pieces, quads cut in two.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+
+#include "scenes.h"
+#include "sweep_guard/geometry/decomposition.h"
+#include "sweep_guard/ros/mesh_file.h"
+
+namespace sweep_guard {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path dataFolder() {
+  const char* const variable = std::getenv("SWEEP_GUARD_DATA");
+  return variable != nullptr ? variable : SWEEP_GUARD_SOURCE_DIR "/../shared/data";
+}
+
+// How far a triangle reaches out of a convex part in any of the directions [m].
+double outside(const ConvexShape& part, const TriangleMesh& mesh, const std::vector<std::uint32_t>& set,
+               const Eigen::Vector3d& direction) {
+  double reach = -std::numeric_limits<double>::infinity();
+  for (const std::uint32_t i : set) {
+    for (const std::uint32_t vertex : mesh.triangles()[i]) reach = std::max(reach, direction.dot(mesh.vertex(vertex)));
+  }
+  return reach - part.support(direction);
+}
+
+class DecompositionDataTest : public testing::TestWithParam<const char*> {};
+
+TEST_P(DecompositionDataTest, PartsHoldEveryTriangle) {
+  const fs::path path = dataFolder() / GetParam();
+  if (!fs::exists(path)) GTEST_SKIP() << path << " is missing; set SWEEP_GUARD_DATA";
+  const sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path);
+  const TriangleMesh mesh(surface.vertices, surface.triangles);
+  const auto sets = decompose(mesh);
+  const std::vector<ConvexShape> parts = convexParts(mesh);
+  ASSERT_EQ(parts.size(), sets.size());
+  Random random(/*seed=*/1);
+  std::vector<int> held(mesh.triangles().size(), 0);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    for (const std::uint32_t triangle : sets[i]) ++held[triangle];
+    for (int k = 0; k < 100; ++k) {
+      EXPECT_LE(outside(parts[i], mesh, sets[i], random.direction()), 1e-15 * (mesh.origin().norm() + mesh.radius()));
+    }
+  }
+  EXPECT_TRUE(std::all_of(held.begin(), held.end(), [](int sets_with_it) { return sets_with_it == 1; }));
+  RecordProperty("parts", static_cast<int>(parts.size()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, DecompositionDataTest,
+                         testing::Values("mesh/sofa_pliers_binary.stl", "mesh/sofa_dental_instrument_light.obj",
+                                         "mesh/sofa_stylus.obj", "mesh/sofa_torus.obj", "mesh/sofa_dragon.stl",
+                                         "mesh/sofa_raptor_8kp.obj",
+                                         "urdf/franka_description/meshes/collision/hand.stl",
+                                         "urdf/franka_description/meshes/visual/finger.dae",
+                                         "urdf/costar_simulation/urdf/drill/drill.stl",
+                                         "urdf/dvrk_model/meshes/instruments/housing/Classic/housing_Classic.dae",
+                                         "urdf/dvrk_model/meshes/instruments/tip/006/Classic/tip_006.dae"));
+
+}  // namespace
+}  // namespace sweep_guard
