@@ -1,0 +1,256 @@
+// Prints what cutting real tools into convex parts brings and costs, by the depth of the cuts.
+//   tool_depth [DATA]    the folder with mesh/ and urdf/; default: SWEEP_GUARD_DATA
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sample.h"
+#include "scenes.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/detection/detector.h"
+#include "sweep_guard/geometry/convex_hull.h"
+#include "sweep_guard/geometry/decomposition.h"
+#include "sweep_guard/guard/sweep_test.h"
+#include "sweep_guard/ros/mesh_file.h"
+
+namespace sweep_guard {
+namespace {
+
+constexpr int kMotions = 100;
+constexpr int kRepetitions = 3;
+constexpr int kMostTries = 3000;
+constexpr double kDegree = 0.017453292519943295;
+
+using Surface = sweep_guard_ros::MeshSurface;
+
+struct NamedMesh {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+Surface readSurface(const std::string& path, double unit) {
+  Surface surface = sweep_guard_ros::readMesh(path);
+  for (Eigen::Vector3d& p : surface.vertices) p *= unit;
+  return surface;
+}
+
+double sizeOf(const Surface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : surface.vertices) box.extend(p);
+  return box.sizes().maxCoeff();
+}
+
+TriangleMesh centred(Surface surface) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : surface.vertices) box.extend(p);
+  for (Eigen::Vector3d& p : surface.vertices) p -= box.center();
+  return TriangleMesh(surface.vertices, surface.triangles);
+}
+
+void add(Surface& all, const Surface& more, const Eigen::Isometry3d& pose) {
+  const auto first = static_cast<std::uint32_t>(all.vertices.size());
+  for (const Eigen::Vector3d& p : more.vertices) all.vertices.push_back(pose * p);
+  for (const auto& [a, b, c] : more.triangles) all.triangles.push_back({first + a, first + b, first + c});
+}
+
+// The Franka hand, its fingers 8 cm apart.
+Surface gripper(const std::string& meshes) {
+  Surface all = readSurface(meshes + "/collision/hand.stl", 1.0);
+  const Surface finger = readSurface(meshes + "/visual/finger.dae", 1.0);
+  for (const double turn : {0.0, 180.0 * kDegree}) {
+    Eigen::Isometry3d pose(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()));
+    add(all, finger, Eigen::Translation3d(0.0, 0.0, 0.0584) * pose * Eigen::Translation3d(0.0, 0.04, 0.0));
+  }
+  return all;
+}
+
+std::vector<NamedMesh> tools(const std::string& data) {
+  const std::string mesh = data + "/mesh/";
+  const std::string franka = data + "/urdf/franka_description/meshes";
+  const std::string instruments = data + "/urdf/dvrk_model/meshes/instruments/";
+  std::vector<NamedMesh> all;
+  all.push_back({"Franka gripper, open", centred(gripper(franka))});
+  all.push_back({"Franka finger", centred(readSurface(franka + "/visual/finger.dae", 1.0))});
+  all.push_back({"Costar drill", centred(readSurface(data + "/urdf/costar_simulation/urdf/drill/drill.stl", 1.0))});
+  all.push_back({"pliers", centred(readSurface(mesh + "sofa_pliers_binary.stl", 0.01))});
+  all.push_back({"dental instrument", centred(readSurface(mesh + "sofa_dental_instrument_light.obj", 0.01))});
+  all.push_back({"stylus", centred(readSurface(mesh + "sofa_stylus.obj", 0.1))});
+  all.push_back(
+      {"dVRK shaft, housing", centred(readSurface(instruments + "housing/Classic/housing_Classic.dae", 1.0))});
+  all.push_back({"dVRK tip", centred(readSurface(instruments + "tip/006/Classic/tip_006.dae", 1.0))});
+  return all;
+}
+
+NamedMesh workpiece(const std::string& name, const std::string& path, double size) {
+  const double unit = sizeOf(readSurface(path, 1.0));
+  return {name, centred(readSurface(path, size / unit))};
+}
+
+Tool toolOf(const TriangleMesh& mesh_T, const DecompositionOptions& options) {
+  std::vector<ToolPart> parts;
+  for (const ConvexShape& shape_T : convexParts(mesh_T, options)) parts.push_back({"", shape_T});
+  return Tool(std::move(parts));
+}
+
+struct SurfacePoint {
+  Eigen::Vector3d p;
+  Eigen::Vector3d normal;
+};
+
+SurfacePoint randomPoint(const TriangleMesh& mesh, Random& random) {
+  for (;;) {
+    const auto i = static_cast<size_t>(random.below(static_cast<int>(mesh.triangles().size())));
+    const auto& [a, b, c] = mesh.triangles()[i];
+    const Eigen::Vector3d normal = (mesh.vertex(b) - mesh.vertex(a)).cross(mesh.vertex(c) - mesh.vertex(a));
+    if (normal.norm() > 0.0) return {(mesh.vertex(a) + mesh.vertex(b) + mesh.vertex(c)) / 3.0, normal.normalized()};
+  }
+}
+
+// A point of the tool's surface 0.2 to 5 mm off a point of the workpiece's, face to face.
+Motion closeBy(const TriangleMesh& tool_T, const TriangleMesh& mesh_M, Random& random) {
+  const SurfacePoint on_tool = randomPoint(tool_T, random);
+  const SurfacePoint on_mesh = randomPoint(mesh_M, random);
+  Motion motion;
+  motion.X_MT_start.linear() =
+      Eigen::AngleAxisd(random.uniform(0.0, 360.0 * kDegree), on_mesh.normal).toRotationMatrix() *
+      Eigen::Quaterniond::FromTwoVectors(on_tool.normal, -on_mesh.normal).toRotationMatrix();
+  motion.X_MT_start.translation() =
+      on_mesh.p + random.logUniform(0.0002, 0.005) * on_mesh.normal - motion.X_MT_start.linear() * on_tool.p;
+  motion.X_MT_end = motion.X_MT_start;
+  return motion;
+}
+
+bool isFree(Detector& detector, const Tool& tool, const Motion& motion, const TriangleMesh& mesh_M) {
+  return std::all_of(tool.parts().begin(), tool.parts().end(), [&](const ToolPart& part) {
+    const SweptVolume swept_M = sweptVolume(part.shape_T, motion, VolumeKind::kObbPlanes);
+    return detector.detect(mesh_M, swept_M).triangles.empty();
+  });
+}
+
+// Motions of 0.2 to 5 mm and up to 2 degrees, from poses where not even the finest cover of the tool meets anything.
+std::vector<Motion> freeMotions(Detector& detector, const TriangleMesh& tool_T, const TriangleMesh& mesh_M) {
+  const Tool finest = toolOf(tool_T, {/*max_depth=*/9, /*step=*/0.0002, /*least_saving=*/0.0});
+  Random random(/*seed=*/1);
+  std::vector<Motion> motions;
+  for (int i = 0; i < kMostTries && motions.size() < kMotions; ++i) {
+    Motion motion = closeBy(tool_T, mesh_M, random);
+    if (!isFree(detector, finest, motion, mesh_M)) continue;
+    motion.X_MT_end.linear() = random.turn(random.uniform(0.0, 2.0 * kDegree)) * motion.X_MT_start.linear();
+    motion.X_MT_end.translation() += random.logUniform(0.0002, 0.005) * random.direction();
+    motions.push_back(motion);
+  }
+  return motions;
+}
+
+struct Cost {
+  Sample candidates;
+  Sample volumes;
+  Sample time;  // [us]
+  int met = 0;
+};
+
+Cost measure(Detector& detector, const Tool& tool, const TriangleMesh& mesh_M, const std::vector<Motion>& motions) {
+  using Clock = std::chrono::steady_clock;
+  Cost cost;
+  for (const Motion& motion : motions) {
+    Sample times;
+    SweepFindings findings;
+    for (int i = 0; i < kRepetitions; ++i) {
+      const auto start = Clock::now();
+      findings = testSweep(detector, tool, {motion}, mesh_M, {});
+      times.add(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
+    }
+    cost.time.add(times.quantile(0.5));
+    cost.candidates.add(static_cast<double>(findings.triangles.size()));
+    cost.volumes.add(static_cast<double>(findings.volumes_M.size()));
+    if (!findings.triangles.empty()) ++cost.met;
+  }
+  return cost;
+}
+
+double volumeOfHulls(const TriangleMesh& mesh_T, const DecompositionOptions& options) {
+  double sum = 0.0;
+  for (const std::vector<std::uint32_t>& set : decompose(mesh_T, options)) {
+    std::vector<Eigen::Vector3d> corners;
+    for (const std::uint32_t i : set) {
+      for (const std::uint32_t vertex : mesh_T.triangles()[i]) corners.push_back(mesh_T.vertex(vertex));
+    }
+    sum += volume(convexHull(corners));
+  }
+  return sum;
+}
+
+void printRow(const std::string& name, const NamedMesh& tool_T, const DecompositionOptions& options, Detector& detector,
+              const std::vector<NamedMesh>& pieces, const std::vector<std::vector<Motion>>& motions) {
+  const auto start = std::chrono::steady_clock::now();
+  const Tool tool = toolOf(tool_T.mesh, options);
+  const double load = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::printf("%-8s %5zu %9.3f %6.2f", name.c_str(), tool.parts().size(), 1e6 * volumeOfHulls(tool_T.mesh, options),
+              load);
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    const Cost cost = measure(detector, tool, pieces[i].mesh, motions[i]);
+    std::printf("   %5.1f %8.1f %6.1f %6.1f %6.1f", 100.0 * cost.met / static_cast<double>(motions[i].size()),
+                cost.candidates.mean(), cost.volumes.mean(), cost.time.quantile(0.5), cost.time.quantile(0.9));
+  }
+  std::printf("\n");
+}
+
+void study(const NamedMesh& tool_T, const std::vector<NamedMesh>& pieces, Detector& detector) {
+  std::vector<std::vector<Motion>> motions;
+  for (const NamedMesh& piece : pieces) motions.push_back(freeMotions(detector, tool_T.mesh, piece.mesh));
+  std::printf("\n%s, %zu triangles, %.0f mm; %zu and %zu motions\n", tool_T.name.c_str(),
+              tool_T.mesh.triangles().size(), 2e3 * tool_T.mesh.radius(), motions[0].size(), motions[1].size());
+  if (motions[0].empty() || motions[1].empty()) return;
+  DecompositionOptions options;
+  options.least_saving = 0.0;
+  for (int depth = 0; depth <= 6; ++depth) {
+    options.max_depth = depth;
+    printRow(std::to_string(depth), tool_T, options, detector, pieces, motions);
+  }
+  for (const double least_saving : {0.001, 0.003, 0.01}) {
+    options.least_saving = least_saving;
+    printRow("6, " + std::to_string(least_saving).substr(0, 5), tool_T, options, detector, pieces, motions);
+  }
+}
+
+int main(const std::vector<std::string>& arguments) {
+  const char* const variable = std::getenv("SWEEP_GUARD_DATA");
+  if (arguments.size() > 1 || (arguments.empty() && variable == nullptr)) {
+    throw InvalidInput("usage: tool_depth DATA, the folder with mesh/ and urdf/, or set SWEEP_GUARD_DATA");
+  }
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  const std::string data = arguments.empty() ? variable : arguments[0];
+  std::vector<NamedMesh> pieces;
+  pieces.push_back(workpiece("torus", data + "/mesh/sofa_torus.obj", 0.2));
+  pieces.push_back(workpiece("raptor", data + "/mesh/sofa_raptor_8kp.obj", 0.3));
+  const std::unique_ptr<Detector> detector = makeDetector("select");
+  std::printf(
+      "Tools cut into convex parts, close to a torus of 1600 triangles and 200 mm (left) and a raptor of 17632\n");
+  std::printf("triangles and 300 mm (right). Motions of 0.2 to 5 mm and up to 2 degrees, from poses that are free.\n");
+  std::printf("A depth alone: all cuts that gain anything; with a second number: least_saving.\n\n");
+  std::printf("%-8s %5s %9s %6s   %5s %8s %6s %6s %6s   (twice)\n", "depth", "parts", "hulls", "load", "met", "met",
+              "volumes", "time", "p90");
+  std::printf("%-8s %5s %9s %6s   %5s %8s %6s %6s %6s\n", "", "", "[cm^3]", "[s]", "[%]", "triang.", "", "[us]",
+              "[us]");
+  for (const NamedMesh& tool_T : tools(data)) study(tool_T, pieces, *detector);
+  return 0;
+}
+
+}  // namespace
+}  // namespace sweep_guard
+
+int main(int argc, char** argv) {
+  try {
+    return sweep_guard::main({argv + 1, argv + argc});
+  } catch (const sweep_guard::Error& error) {
+    std::cerr << "tool_depth: " << error.what() << '\n';
+    return 1;
+  }
+}
