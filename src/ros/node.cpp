@@ -77,8 +77,8 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
   check_sweep_.start();
   predict_.start();
   report_thread_.start();
-  ROS_INFO("guarding '%s' in '%s' by %s, %s; poses from %s, meshes from %s and %s", parameters_.tool_frame.c_str(),
-           parameters_.fixed_frame.c_str(), parameters_.detector.c_str(),
+  ROS_INFO("guarding '%s' (%s) in '%s' by %s, %s; poses from %s, meshes from %s and %s", parameters_.tool_frame.c_str(),
+           parameters_.tool_story.c_str(), parameters_.fixed_frame.c_str(), parameters_.detector.c_str(),
            sweep_guard::nameOf(parameters_.guard.sweep.volume).c_str(), poses_.source().c_str(),
            meshes_.meshTopic().c_str(), meshes_.verticesTopic().c_str());
 }

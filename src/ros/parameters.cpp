@@ -1,7 +1,5 @@
 #include "sweep_guard/ros/parameters.h"
 
-#include <ros/console.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -72,14 +70,15 @@ ToolModelOptions readModelOptions(ParameterReader& read, const std::string& fram
   return options;
 }
 
-void tellOf(const ToolModel& model, const std::string& parameter) {
+std::string told(const ToolModel& model, const std::string& parameter) {
   std::ostringstream text;
-  text << "tool from " << parameter << ": " << model.parts.size() << " parts in the frame of '" << model.frame << "'";
+  text << model.parts.size() << " parts from " << parameter << " in the frame of '" << model.frame << "'";
   for (const auto& [joint, position] : model.held) text << ", joint '" << joint << "' at " << position;
-  ROS_INFO("%s", text.str().c_str());
+  return text.str();
 }
 
-sweep_guard::Tool toolFromRobot(ParameterReader& read, const std::string& parameter, const ToolModelOptions& options) {
+sweep_guard::Tool toolFromRobot(ParameterReader& read, const std::string& parameter, const ToolModelOptions& options,
+                                std::string& story) {
   const std::string urdf = read.textAbove(parameter);
   if (urdf.empty()) {
     throw sweep_guard::InvalidInput("tool/type is urdf, but there is no robot description in the parameter '" +
@@ -87,20 +86,22 @@ sweep_guard::Tool toolFromRobot(ParameterReader& read, const std::string& parame
   }
   try {
     ToolModel model = loadToolModel(urdf, options);
-    tellOf(model, parameter);
+    story = told(model, parameter);
     return sweep_guard::Tool(std::move(model.parts));
   } catch (const sweep_guard::InvalidInput& error) {
     throw sweep_guard::InvalidInput("no tool from the parameter '" + parameter + "': " + error.what());
   }
 }
 
-sweep_guard::Tool readTool(ParameterReader& read, const std::string& frame) {
+void readTool(ParameterReader& read, Parameters& parameters) {
   const std::string type = read.choice("tool/type", "cylinder", {"cylinder", "urdf"});
   const double padding = read.number("tool/padding", 0.0, {0.0, 1.0});
   const sweep_guard::Tool cylinder = readCylinder(read, padding);
   const std::string description = read.name("tool/robot_description", "robot_description");
-  const ToolModelOptions options = readModelOptions(read, frame, padding);
-  return type == "urdf" ? toolFromRobot(read, description, options) : cylinder;
+  const ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
+  parameters.tool_story = "a cylinder";
+  parameters.tool = std::make_shared<const sweep_guard::Tool>(
+      type == "urdf" ? toolFromRobot(read, description, options, parameters.tool_story) : cylinder);
 }
 
 }  // namespace
@@ -112,7 +113,7 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   parameters.tool_source =
       read.choice("tool_source", "topic", {"topic", "tf"}) == "tf" ? ToolSource::kTf : ToolSource::kTopic;
   parameters.tool_frame = read.name("tool_frame", "tool");
-  parameters.tool = std::make_shared<const sweep_guard::Tool>(readTool(read, parameters.tool_frame));
+  readTool(read, parameters);
   parameters.detector = read.choice("detector", "select", sweep_guard::detectorNames());
   parameters.cull = read.flag("cull", true);
   parameters.guard.sweep.volume = sweep_guard::volumeKind(read.choice("volume", "obb_planes", {"obb", "obb_planes"}));

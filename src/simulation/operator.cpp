@@ -77,9 +77,8 @@ class OperatorNode {
         loop_(parameters.flag("loop", true)),
         wait_for_guard_(parameters.flag("wait_for_guard", true)),
         min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
+        guard_(parameters.text("guard", "")),
         listener_(buffer_) {
-    const std::string guard = parameters.text("guard", "");
-    if (!guard.empty()) takeHold(*sweep_guard_ros::loadParameters(ros::NodeHandle(guard)).tool);
     if (!motion_file_.empty()) recording_ = sweep_guard_recording::readMotionFile(motion_file_);
     publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", kQueue);
     mesh_subscriber_ = node_.subscribe("mesh", 1, &OperatorNode::onMesh, this);
@@ -88,8 +87,9 @@ class OperatorNode {
 
   void run() {
     if (!waitUntil([this] { return surface_.has_value(); }, "the workpiece and its frame")) return;
-    const PoseStream motion = makePoses();
     if (wait_for_guard_ && !waitUntil([this] { return guard_ready_; }, "the guard to know the workpiece")) return;
+    if (!guard_.empty()) takeHold(*sweep_guard_ros::loadParameters(ros::NodeHandle(guard_)).tool);
+    const PoseStream motion = makePoses();
     const auto connected = [this] { return static_cast<int>(publisher_.getNumSubscribers()) >= min_subscribers_; };
     if (!waitUntil(connected, std::to_string(min_subscribers_) + " subscribers of the tool pose")) return;
     mesh_subscriber_.shutdown();
@@ -179,6 +179,7 @@ class OperatorNode {
   bool loop_;
   bool wait_for_guard_;
   int min_subscribers_;
+  std::string guard_;  // whose tool it leads; empty: one with the tip in the origin
   std::vector<StampedPose> recording_;
   sweep_guard::DeformableMesh::ConstPtr mesh_;
   std::optional<TopSurface> surface_;

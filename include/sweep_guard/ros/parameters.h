@@ -18,6 +18,7 @@ struct Parameters {
   ToolSource tool_source;
   std::string tool_frame;
   std::shared_ptr<const sweep_guard::Tool> tool;
+  std::string tool_story;  ///< what it is and where it comes from, for people
   std::string detector;
   bool cull;
   sweep_guard::GuardOptions guard;
