@@ -40,4 +40,19 @@ const std::vector<std::uint32_t>& Cull::operator()(const TriangleMesh& mesh_M, c
   return left_;
 }
 
+const std::vector<std::uint32_t>& Cull::operator()(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                                                   const std::vector<std::uint32_t>& among) {
+  assert(&among != &left_ && swept_M.clips_B.size() <= 10);
+  const BoxCoordinates coordinates(mesh_M, swept_M.box);
+  const auto beyond = [&](std::uint32_t vertex) {
+    return planesBeyond(coordinates(vertex), swept_M.box.half_extents, swept_M.clips_B, 2.0 * coordinates.rounding());
+  };
+  left_.clear();
+  for (const std::uint32_t i : among) {
+    const auto& [a, b, c] = mesh_M.triangles()[i];
+    if ((beyond(a) & beyond(b) & beyond(c)) == 0) left_.push_back(i);
+  }
+  return left_;
+}
+
 }  // namespace sweep_guard

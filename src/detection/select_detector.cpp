@@ -46,9 +46,7 @@ void SelectDetector::makeSelection() {
 
 Detection SelectDetector::find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
                                const std::vector<std::uint32_t>* among) {
-  const std::vector<std::uint32_t>& candidates = among != nullptr ? *among
-                                                 : options_.cull  ? cull_(mesh_M, swept_M)
-                                                                  : allTriangles(mesh_M);
+  const std::vector<std::uint32_t>& candidates = candidatesOf(mesh_M, swept_M, among);
   const BoxCoordinates coordinates(mesh_M, swept_M.box);
   Detection detection;
   const double drawn = std::max(farthestCorner(mesh_M, coordinates, candidates), swept_M.box.half_extents.norm());
@@ -95,6 +93,12 @@ std::vector<std::uint32_t> SelectDetector::select(const TriangleMesh& mesh_M, co
   if (in_blocks.empty()) return triangles;
   for (const std::uint32_t name : hits(in_blocks, 1)) triangles.push_back(in_blocks[name]);
   return triangles;
+}
+
+const std::vector<std::uint32_t>& SelectDetector::candidatesOf(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                                                               const std::vector<std::uint32_t>* among) {
+  if (!options_.cull) return among != nullptr ? *among : allTriangles(mesh_M);
+  return among != nullptr ? cull_(mesh_M, swept_M, *among) : cull_(mesh_M, swept_M);
 }
 
 const std::vector<std::uint32_t>& SelectDetector::allTriangles(const TriangleMesh& mesh_M) {

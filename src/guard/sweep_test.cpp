@@ -4,13 +4,15 @@
 #include <cassert>
 #include <iterator>
 
+#include "sweep_guard/detection/cull.h"
 #include "sweep_guard/guard/swept_body.h"
 #include "sweep_guard/guard/triangle_set.h"
 
 namespace sweep_guard {
 namespace {
 
-// Down the tool's tree: whatever a box does not meet, the bodies in it do not meet either.
+// Down the tool's tree: whatever a box does not meet, the bodies in it do not meet either. Its planes are enough to see
+// that; the detector, which is dear for what it names, is asked about the parts, and where a box is far from all.
 struct TreeWalk {
   Detector& detector;
   const Tool& tool;
@@ -18,16 +20,22 @@ struct TreeWalk {
   const SweepOptions& options;
   const Motion& motion_M;
   SweepFindings& findings;
+  Cull cull = {};
 
   void visit(size_t index, const TriangleSet* among) {
     const Tool::Node& node = tool.tree()[index];
     SweptBody body = sweptBody(node.shape_T, motion_M, options.volume, options.margin + mesh_M.rounding());
+    TriangleSet near;
+    if (!node.part) {
+      near = among == nullptr ? cull(mesh_M, body.volume_M) : cull(mesh_M, body.volume_M, *among);
+      if (!near.empty()) {
+        for (const size_t below : node.below) visit(below, &near);
+        return;
+      }
+      among = &near;
+    }
     const Detection detection = detect(detector, mesh_M, body, among);
     findings.margin = std::max(findings.margin, body.volume_M.margin + detection.inflation);
-    if (!node.part && !detection.triangles.empty()) {
-      for (const size_t below : node.below) visit(below, &detection.triangles);
-      return;
-    }
     findings.triangles = united(findings.triangles, detection.triangles);
     findings.volumes_M.push_back(std::move(body.volume_M));
   }

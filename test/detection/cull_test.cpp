@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "detection/exact_oracle.h"
 #include "scenes.h"
@@ -34,6 +35,20 @@ TEST(CullTest, KeepsWhatTouches) {
                           {{0, 1, 2}, {3, 4, 4}, {1, 2, 2}});
   Cull cull;
   EXPECT_EQ(cull(mesh, cutCube()), (std::vector<std::uint32_t>{0, 1}));
+}
+
+TEST(CullTest, AmongSomeLeavesWhatItLeavesOfAll) {
+  Cull of_all;
+  Cull of_some;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const Scene scene = grazingScene(seed);
+    std::vector<std::uint32_t> odd;
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 1; i < scene.mesh_M.triangles().size(); i += 2) odd.push_back(i);
+    const std::vector<std::uint32_t>& left = of_all(scene.mesh_M, scene.swept_M);
+    std::set_intersection(left.begin(), left.end(), odd.begin(), odd.end(), std::back_inserter(expected));
+    EXPECT_EQ(of_some(scene.mesh_M, scene.swept_M, odd), expected) << "seed " << seed;
+  }
 }
 
 TEST(CullTest, LeavesOutNothingThatMeetsTheVolume) {

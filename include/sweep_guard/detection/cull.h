@@ -15,6 +15,11 @@ class Cull {
   /// Triangles that are left, ascending. Valid until the next call.
   const std::vector<std::uint32_t>& operator()(const TriangleMesh& mesh_M, const SweptVolume& swept_M);
 
+  /// The same, of these triangles alone: only their corners are looked at.
+  /// @param among  indices of triangles: ascending, each once; not the result of the call before
+  const std::vector<std::uint32_t>& operator()(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                                               const std::vector<std::uint32_t>& among);
+
  private:
   std::vector<std::uint16_t> beyond_;  // per vertex: one bit for each plane that it lies beyond
   std::vector<std::uint32_t> left_;

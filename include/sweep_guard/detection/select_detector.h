@@ -34,6 +34,8 @@ class SelectDetector : public Detector {
   std::vector<std::uint32_t> select(const TriangleMesh& mesh_M, const SweptVolume& inflated_M,
                                     const std::vector<std::uint32_t>& candidates);
   void makeSelection();
+  const std::vector<std::uint32_t>& candidatesOf(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
+                                                 const std::vector<std::uint32_t>* among);
   const std::vector<std::uint32_t>& allTriangles(const TriangleMesh& mesh_M);
 
   Options options_;
