@@ -12,6 +12,24 @@ using visualization_msgs::Marker;
 
 constexpr double kLifetime = 0.5;  // [s]
 
+const Eigen::Vector3d kLight(0.48, 0.14, 0.866);  // towards it
+
+// rviz's own light leaves the side that one looks at in the dark.
+void addShaded(Marker& list, const sweep_guard::ConvexShape& shape_T, const Eigen::Matrix3d& R_WT) {
+  const sweep_guard::TriangleMesh& mesh_T = shape_T.mesh_T();
+  for (const auto& [a, b, c] : mesh_T.triangles()) {
+    const Eigen::Vector3d p = mesh_T.vertex(a);
+    const Eigen::Vector3d normal = (mesh_T.vertex(b) - p).cross(mesh_T.vertex(c) - p).stableNormalized();
+    const double outward = normal.dot(p - shape_T.moments_T().mean) < 0.0 ? -1.0 : 1.0;
+    const auto light = static_cast<float>(0.65 + 0.35 * outward * (R_WT * normal).dot(kLight));
+    std_msgs::ColorRGBA shaded = list.color;
+    for (float* const component : {&shaded.r, &shaded.g, &shaded.b})
+      *component = std::min(1.0F, 1.2F * light * *component);
+    list.colors.insert(list.colors.end(), 3, shaded);
+    for (const std::uint32_t corner : {a, b, c}) list.points.push_back(point(mesh_T.vertex(corner)));
+  }
+}
+
 }  // namespace
 
 std_msgs::ColorRGBA color(double r, double g, double b, double alpha) {
@@ -86,10 +104,7 @@ void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing,
       array.markers.push_back(drawn);
       continue;
     }
-    const sweep_guard::TriangleMesh& mesh_T = part.shape_T.mesh_T();
-    for (const sweep_guard::Triangle& triangle : mesh_T.triangles()) {
-      for (const std::uint32_t corner : triangle) others.points.push_back(point(mesh_T.vertex(corner)));
-    }
+    addShaded(others, part.shape_T, X_WT.linear());
   }
   others.id = id;
   if (!others.points.empty()) array.markers.push_back(std::move(others));

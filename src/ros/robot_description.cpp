@@ -20,16 +20,16 @@ constexpr size_t kLargestDescription = size_t{8} << 20U;  // [byte]
 constexpr int kLongestMimicry = 16;
 constexpr double kMostTurned = 1e4;  // [rad] of a continuous joint
 
-/// urdfdom tells what is wrong through console_bridge, and goes on after some errors.
-class FirstComplaint : public console_bridge::OutputHandler {
+/// urdfdom tells what is wrong through console_bridge, from the detail to the link, and goes on after some errors.
+class Complaints : public console_bridge::OutputHandler {
  public:
-  FirstComplaint() { console_bridge::useOutputHandler(this); }
-  ~FirstComplaint() override { console_bridge::restorePreviousOutputHandler(); }
-  FirstComplaint(const FirstComplaint&) = delete;
-  FirstComplaint& operator=(const FirstComplaint&) = delete;
+  Complaints() { console_bridge::useOutputHandler(this); }
+  ~Complaints() override { console_bridge::restorePreviousOutputHandler(); }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
 
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && text_.empty()) text_ = text;
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) text_ += (text_.empty() ? "" : "; ") + text;
   }
   const std::string& text() const { return text_; }
 
@@ -61,6 +61,19 @@ void requireOneGeometry(const XMLElement& collision, const std::string& link) {
   throw InvalidInput("link '" + link + "': a collision must have one geometry of one shape; give each shape its own");
 }
 
+class PrinterWithoutComments : public tinyxml2::XMLPrinter {
+ public:
+  using tinyxml2::XMLPrinter::Visit;
+  bool Visit(const tinyxml2::XMLComment&) override { return true; }
+};
+
+// urdfdom's complaints take what they quote for a format of printf().
+std::string withoutFormats(std::string xml) {
+  const std::string full_width = "\xEF\xBC\x85";
+  for (size_t at = xml.find('%'); at != std::string::npos; at = xml.find('%', at)) xml.replace(at, 1, full_width);
+  return xml;
+}
+
 // tinyxml2 bounds how deeply elements nest, which TinyXML, and so urdfdom, does not.
 std::string checkedXml(const std::string& urdf) {
   if (urdf.size() > kLargestDescription) throw InvalidInput("it is larger than 8 MiB");
@@ -77,13 +90,13 @@ std::string checkedXml(const std::string& urdf) {
       requireOneGeometry(*collision, nameOf(*link));
     }
   }
-  tinyxml2::XMLPrinter printer;
-  document.Print(&printer);
-  return printer.CStr();
+  PrinterWithoutComments printer;
+  document.Accept(&printer);
+  return withoutFormats(printer.CStr());
 }
 
 std::shared_ptr<const urdf::ModelInterface> parse(const std::string& xml) {
-  const FirstComplaint complaint;
+  const Complaints complaints;
   std::shared_ptr<const urdf::ModelInterface> model;
   std::string reason;
   try {
@@ -91,7 +104,7 @@ std::shared_ptr<const urdf::ModelInterface> parse(const std::string& xml) {
   } catch (const std::exception& error) {
     reason = error.what();
   }
-  if (!complaint.text().empty()) reason = complaint.text();
+  if (!complaints.text().empty()) reason = complaints.text();
   if (reason.empty() && (!model || !model->getRoot())) reason = "there is no root link";
   if (!reason.empty()) throw InvalidInput("it is no URDF: " + oneLine(reason));
   return model;

@@ -220,8 +220,11 @@ TEST(ToolModelTest, RefusesBadDescriptionsInOneLine) {
        "link 'a': a collision must have one geometry"},
       {robot(link("a", collision("<capsule radius='1' length='1'/>"))), "capsule"},
       {robot(link("a", collision("<sphere radius='-1'/>"))), "link 'a': its sphere's radius is -1"},
-      {robot(link("a", collision("<sphere radius='wide'/>"))), "wide"},
+      {robot(link("a", collision("<sphere radius='wide'/>"))), "Link [a]"},
       {robot(link("a", collision("<sphere radius='nan'/>"))), "nan"},
+      {robot(link("a", collision("<sphere radius='%n%s%s%s%s%s%s'/>"))), "radius"},  // a format, to printf()
+      {robot(link("a", collision("<&#37;n&#37;s/>"))), "no XML"},
+      {robot(link("&#37;n%s%s%s%s%s%s", collision("<sphere radius='wide'/>"))), "wide"},
       {robot(link("a", collision("<box size='1 0 1'/>"))), "link 'a': its box's size in y is 0"},
       {robot(link("a", collision("<box size='1 1'/>"))), "3 expected"},
       {robot(link("a", collision("<cylinder radius='1' length='1e9'/>"))), "link 'a': its cylinder's length is 1e+09"},
