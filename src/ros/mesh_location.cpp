@@ -79,7 +79,7 @@ path locateInPackage(const std::string& uri) {
   if (folder.empty()) {
     throw InvalidInput(uri + ": there is no package '" + package + "'; add its folder to ROS_PACKAGE_PATH");
   }
-  const path file = real(folder / rest.substr(package.size() + 1));
+  path file = real(folder / rest.substr(package.size() + 1));
   if (file.empty()) throw InvalidInput(uri + ": there is no such file in " + folder.string() + "; add it");
   if (!inside(file, folder)) {
     throw InvalidInput(uri + ": leads out of the package's folder " + folder.string() + "; put the file into it");
@@ -90,7 +90,7 @@ path locateInPackage(const std::string& uri) {
 path locateFile(const std::string& uri, const std::vector<std::string>& roots) {
   const path named = uri.substr(kFileScheme.size());
   if (!named.is_absolute()) throw InvalidInput(uri + ": must be file:///PATH");
-  const path file = real(named);
+  path file = real(named);
   if (file.empty()) throw InvalidInput(uri + ": there is no such file");
   for (const std::string& root : roots) {
     if (inside(file, real(root))) return file;

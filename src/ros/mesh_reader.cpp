@@ -61,19 +61,19 @@ struct Surface {
   bool solid = false;  // has a face of three corners or more
 
   std::uint32_t add(const Point& point) {
-    const auto [known, is_new] = index.try_emplace(point, static_cast<std::uint32_t>(vertices.size()));
+    const auto [known, is_new] = index_.try_emplace(point, static_cast<std::uint32_t>(vertices.size()));
     if (is_new) vertices.push_back(point);
     return known->second;
   }
 
  private:
-  std::map<Point, std::uint32_t> index;
+  std::map<Point, std::uint32_t> index_;
 };
 
 Point transformed(const aiMatrix4x4& X, const aiVector3D& p) {
-  const double x = static_cast<double>(p.x);
-  const double y = static_cast<double>(p.y);
-  const double z = static_cast<double>(p.z);
+  const auto x = static_cast<double>(p.x);
+  const auto y = static_cast<double>(p.y);
+  const auto z = static_cast<double>(p.z);
   const auto row = [&](ai_real a, ai_real b, ai_real c, ai_real d) {
     return static_cast<double>(a) * x + static_cast<double>(b) * y + static_cast<double>(c) * z +
            static_cast<double>(d);

@@ -139,7 +139,8 @@ std::map<std::string, double> ParameterReader::numbers(const std::string& key) {
   if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, value, "a group of numbers, or {}");
   std::map<std::string, double> numbers;
   for (auto& [name, entry] : value) {
-    const std::string entry_key = key + "/" + name;
+    std::string entry_key = key;
+    entry_key.append("/").append(name);
     read_.insert(entry_key);
     const double number = toNumber(entry);
     if (!std::isfinite(number)) refuse(entry_key, entry, "a finite number");

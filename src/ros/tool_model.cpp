@@ -68,7 +68,7 @@ double size(double value, const std::string& what) {
 }
 
 Eigen::Vector3d scaleOf(const urdf::Mesh& mesh) {
-  const Eigen::Vector3d scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
+  Eigen::Vector3d scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
   for (const double factor : scale) {
     if (!(std::abs(factor) >= 1e-9 && std::abs(factor) <= 1e9)) {
       throw InvalidInput(mesh.filename + ": its scale must not be 0, nor beyond 1e9");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "ros/package_folder.h"
@@ -45,7 +46,7 @@ ToolModelOptions toolOf(const std::string& frame, const std::vector<std::string>
 }
 
 double support(const std::vector<ToolPart>& parts, const Vector3d& direction) {
-  double most = -INFINITY;
+  double most = -std::numeric_limits<double>::infinity();
   for (const ToolPart& part : parts) most = std::max(most, part.shape_T.support(direction));
   return most;
 }
