@@ -11,10 +11,14 @@ namespace sweep_guard {
 VolumeKind volumeKind(const std::string& name) {
   if (name == "obb") return VolumeKind::kObb;
   if (name == "obb_planes") return VolumeKind::kObbPlanes;
-  throw InvalidInput("volume '" + name + "' is unknown: use obb or obb_planes");
+  if (name == "hull") return VolumeKind::kHull;
+  throw InvalidInput("volume '" + name + "' is unknown: use obb, obb_planes or hull");
 }
 
-std::string nameOf(VolumeKind kind) { return kind == VolumeKind::kObb ? "obb" : "obb_planes"; }
+std::string nameOf(VolumeKind kind) {
+  if (kind == VolumeKind::kHull) return "hull";
+  return kind == VolumeKind::kObb ? "obb" : "obb_planes";
+}
 
 std::vector<HalfSpace> SweptVolume::halfSpaces_B() const {
   std::vector<HalfSpace> half_spaces;
@@ -42,7 +46,7 @@ SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKi
 
   SweptVolume volume;
   volume.box = boundingBox(shape, near);
-  if (kind == VolumeKind::kObbPlanes) volume.clips_B = boundingPlanes(shape, near, volume.box);
+  if (kind != VolumeKind::kObb) volume.clips_B = boundingPlanes(shape, near, volume.box);
   const Eigen::Vector3d& mean_T = shape.moments_T().mean;
   volume.interior_B = volume.box.X_MB.inverse() * (0.5 * (near.X_MT_start * mean_T + near.X_MT_end * mean_T));
   volume.box.X_MB = there * volume.box.X_MB;

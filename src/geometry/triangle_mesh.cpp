@@ -30,6 +30,25 @@ void checkTriangles(const std::vector<Triangle>& triangles, size_t vertex_count)
   }
 }
 
+bool everyEdgeIsEven(const std::vector<Triangle>& triangles) {
+  std::vector<std::uint64_t> edges;
+  edges.reserve(3 * triangles.size());
+  for (const Triangle& triangle : triangles) {
+    for (size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(triangle[i], triangle[(i + 1) % 3]);
+      if (low != high) edges.push_back(std::uint64_t{high} << 32 | low);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (size_t i = 0; i < edges.size();) {
+    const auto run = std::upper_bound(edges.begin() + static_cast<std::ptrdiff_t>(i), edges.end(), edges[i]);
+    const auto next = static_cast<size_t>(run - edges.begin());
+    if ((next - i) % 2 != 0) return false;
+    i = next;
+  }
+  return true;
+}
+
 Eigen::Vector3d centerOf(const std::vector<Eigen::Vector3d>& points) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : points) box.extend(p);
@@ -45,7 +64,8 @@ TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::
       if (!usable(coordinate)) refuseVertex(i);
     }
   }
-  triangles_ = std::make_shared<const std::vector<Triangle>>(std::move(triangles));
+  const bool closed = everyEdgeIsEven(triangles);
+  topology_ = std::make_shared<const Topology>(Topology{std::move(triangles), closed});
   origin_ = centerOf(vertices_M);
   offsets_.reserve(3 * vertices_M.size());
   for (const Eigen::Vector3d& p : vertices_M) {
@@ -53,20 +73,23 @@ TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::
     offsets_.insert(offsets_.end(), kept.begin(), kept.end());
     rounding_ = std::max(rounding_, (p - (origin_ + kept.cast<double>())).norm());
   }
-  measureRadius();
+  measure();
 }
 
-TriangleMesh::TriangleMesh(std::shared_ptr<const std::vector<Triangle>> triangles, std::vector<float> positions_M)
-    : triangles_(std::move(triangles)), offsets_(std::move(positions_M)) {
+TriangleMesh::TriangleMesh(std::shared_ptr<const Topology> topology, std::vector<float> positions_M)
+    : topology_(std::move(topology)), offsets_(std::move(positions_M)) {
   for (size_t i = 0; i < offsets_.size(); ++i) {
     if (!usable(offsets_[i])) refuseVertex(i / 3);
   }
-  measureRadius();
+  measure();
 }
 
-void TriangleMesh::measureRadius() {
+void TriangleMesh::measure() {
   double squared = 0.0;
-  for (size_t i = 0; i < vertexCount(); ++i) squared = std::max(squared, offset(i).squaredNorm());
+  for (size_t i = 0; i < vertexCount(); ++i) {
+    squared = std::max(squared, offset(i).squaredNorm());
+    bounds_.extend(offset(i));
+  }
   radius_ = std::sqrt(squared);
 }
 
@@ -75,7 +98,7 @@ TriangleMesh TriangleMesh::deformed(std::vector<float> positions_M) const {
     throw InvalidInput(std::to_string(positions_M.size()) + " coordinates for " + std::to_string(vertexCount()) +
                        " vertices: send three per vertex of the mesh");
   }
-  return TriangleMesh(triangles_, std::move(positions_M));
+  return TriangleMesh(topology_, std::move(positions_M));
 }
 
 }  // namespace sweep_guard

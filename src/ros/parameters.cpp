@@ -116,7 +116,8 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   readTool(read, parameters);
   parameters.detector = read.choice("detector", "select", sweep_guard::detectorNames());
   parameters.cull = read.flag("cull", true);
-  parameters.guard.sweep.volume = sweep_guard::volumeKind(read.choice("volume", "obb_planes", {"obb", "obb_planes"}));
+  parameters.guard.sweep.volume =
+      sweep_guard::volumeKind(read.choice("volume", "obb_planes", {"obb", "obb_planes", "hull"}));
   parameters.guard.sweep.max_rotation = read.number("max_rotation_per_sweep", 0.175, {0.01, 0.5});
   parameters.limits.min_probability = read.number("warning/min_probability", 0.1, {0.001, 1.0});
   parameters.limits.hold_time = duration(read.number("warning/hold_time", 0.5, {0.0, 60.0}));

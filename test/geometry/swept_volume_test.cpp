@@ -33,9 +33,9 @@ double outside(const SweptVolume& volume, const ConvexShape& tool, const Motion&
 }
 
 TEST(VolumeKindTest, HasTheNamesOfTheInterface) {
-  for (const std::string name : {"obb", "obb_planes"}) EXPECT_EQ(nameOf(volumeKind(name)), name);
+  for (const std::string name : {"obb", "obb_planes", "hull"}) EXPECT_EQ(nameOf(volumeKind(name)), name);
   EXPECT_EQ(volumeKind("obb"), VolumeKind::kObb);
-  for (const std::string name : {"", "OBB", "hull"}) EXPECT_THROW(volumeKind(name), InvalidInput) << name;
+  for (const std::string name : {"", "OBB", "sphere"}) EXPECT_THROW(volumeKind(name), InvalidInput) << name;
 }
 
 TEST(SweptVolumeTest, IsTheBoxAloneIfAskedFor) {

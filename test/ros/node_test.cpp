@@ -355,7 +355,7 @@ TEST_F(NodeTest, CheckSweepOfAFreePathIsClear) {
   CheckSweep::Request request;
   for (const double x : {1.0, 2.0}) request.path.push_back(poseAt({x, 0.0, 0.0}, ros::Time()));
   for (const char* detector : {"", "select", "reference"}) {
-    for (const char* volume : {"", "obb", "obb_planes"}) {
+    for (const char* volume : {"", "obb", "obb_planes", "hull"}) {
       request.detector = detector;
       request.volume = volume;
       const auto response = probe().check(request);

@@ -182,7 +182,7 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("tool/length", true, "a number");
   refused("tool/sides", 2, "3 to 1000");
   refused("tool/sides", 3.5, "an integer");
-  refused("volume", "hull", "obb, obb_planes");
+  refused("volume", "sphere", "obb, obb_planes, hull");
   refused("detector", "halfspace", "select, reference");
   refused("cull", 1, "true or false");
   refused("max_rotation_per_sweep", 1.0, "0.01 to 0.5");

@@ -8,11 +8,12 @@
 
 namespace sweep_guard {
 
-/// How closely the swept volume is enclosed: by the box alone (`obb`) or by box, side and frontal planes (`obb_planes`)
-/// [P, Sec. 3.1].
-enum class VolumeKind { kObb, kObbPlanes };
+/// How closely the swept volume is enclosed: by the box alone (`obb`), by box, side and frontal planes (`obb_planes`)
+/// [P, Sec. 3.1], or by the convex hull of the body at both poses (`hull`). The hull has no planes of its own: what box
+/// and planes meet is left out if a direction proves that the hull does not meet it.
+enum class VolumeKind { kObb, kObbPlanes, kHull };
 
-/// @throws InvalidInput on any name but `obb` and `obb_planes`
+/// @throws InvalidInput on any name but `obb`, `obb_planes` and `hull`
 VolumeKind volumeKind(const std::string& name);
 std::string nameOf(VolumeKind kind);
 

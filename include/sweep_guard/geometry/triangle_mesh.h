@@ -29,7 +29,9 @@ class TriangleMesh {
   /// @throws InvalidInput on a wrong count or a bad coordinate
   TriangleMesh deformed(std::vector<float> positions_M) const;
 
-  const std::vector<Triangle>& triangles() const { return *triangles_; }
+  const std::vector<Triangle>& triangles() const { return topology_->triangles; }
+  /// Each edge belongs to an even number of triangles: the surface has no border, and so an inside.
+  bool closed() const { return topology_->closed; }
   size_t vertexCount() const { return offsets_.size() / 3; }
 
   /// Position of vertex `i` in M [m].
@@ -42,16 +44,25 @@ class TriangleMesh {
   /// Largest distance [m] of a vertex from origin().
   double radius() const { return radius_; }
 
+  /// The box along the axes of M that holds every vertex [m].
+  Eigen::AlignedBox3d bounds_M() const { return {origin_ + bounds_.min(), origin_ + bounds_.max()}; }
+
   /// Largest distance [m] between a vertex as it was given and as it is kept. 0 for positions given in float32.
   double rounding() const { return rounding_; }
 
  private:
-  TriangleMesh(std::shared_ptr<const std::vector<Triangle>> triangles, std::vector<float> positions_M);
-  void measureRadius();
+  struct Topology {
+    std::vector<Triangle> triangles;
+    bool closed;
+  };
 
-  std::shared_ptr<const std::vector<Triangle>> triangles_;  // shared by all deformations of one topology
+  TriangleMesh(std::shared_ptr<const Topology> topology, std::vector<float> positions_M);
+  void measure();
+
+  std::shared_ptr<const Topology> topology_;  // shared by all deformations
   std::vector<float> offsets_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  Eigen::AlignedBox3d bounds_;  // of the offsets
   double radius_ = 0.0;
   double rounding_ = 0.0;
 };

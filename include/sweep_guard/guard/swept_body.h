@@ -12,13 +12,15 @@ namespace sweep_guard {
 struct SweptBody {
   const ConvexShape* shape_T;
   Motion motion_M;
+  VolumeKind kind;
   SweptVolume volume_M;
 };
 
 /// @param margin  the body is grown by this [m], >= 0
 SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKind kind, double margin);
 
-/// The triangles that the volume meets.
+/// The triangles that the volume meets; of kind `hull`, those of them that the hull of the body at both ends of the
+/// motion, before and after its drift, grown by the volume's margin, is not proven to miss.
 /// @param among  if given, no others are looked at
 /// @throws DeviceError if the detector fails
 Detection detect(Detector& detector, const TriangleMesh& mesh_M, const SweptBody& body,
