@@ -38,6 +38,10 @@ SweptVolume SweptVolume::grown(double distance) const {
   return grown;
 }
 
+double arcMargin(const ConvexShape& shape, const Motion& motion) {
+  return std::max(chordError(shape.reach(motion.axis_T()), motion.angle()), motion.bulge);
+}
+
 SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKind kind, double extra_margin) {
   assert(motion.angle() < 1.6 && extra_margin >= 0.0);
   // Far from the mesh's origin the extents would lose digits: they are taken near the tool, and moved there at the end.
@@ -51,8 +55,7 @@ SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKi
   volume.interior_B = volume.box.X_MB.inverse() * (0.5 * (near.X_MT_start * mean_T + near.X_MT_end * mean_T));
   volume.box.X_MB = there * volume.box.X_MB;
 
-  const double arc = std::max(chordError(shape.reach(motion.axis_T()), motion.angle()), motion.bulge);
-  return volume.grown(arc + extra_margin);
+  return volume.grown(arcMargin(shape, motion) + extra_margin);
 }
 
 }  // namespace sweep_guard

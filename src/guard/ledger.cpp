@@ -16,6 +16,14 @@ bool holds(const Workpieces& workpieces, const Workpiece& workpiece) {
                      [&](const auto& one) { return sameTriangles(*one, workpiece); });
 }
 
+std::optional<size_t> firstPart(const SweepFindings& findings) {
+  const auto sooner = [](const TouchedTriangle& a, const TouchedTriangle& b) {
+    return a.impact.time_of_impact < b.impact.time_of_impact;
+  };
+  const auto first = std::min_element(findings.touched.begin(), findings.touched.end(), sooner);
+  return first == findings.touched.end() ? std::nullopt : std::optional(first->part);
+}
+
 // A workpiece that is there, and whose sweep had no answer.
 bool notSwept(const SweepReport& report, const std::string& id) {
   const auto unplaced = [&](const auto& workpiece) { return workpiece->id == id; };
@@ -85,8 +93,9 @@ void Ledger::swept(const SweepReport& report, const Seen& pose, const Mark& pose
 void Ledger::noteContact(const SweepReport& report, SteadyTime now) {
   if (contact_) contact_->lasting = contact_->lasting && notSwept(report, contact_->id);
   for (const SweptObject& object : report.objects) {
-    if (object.findings.triangles.empty()) continue;
-    contact_ = {object.workpiece->id, object.findings.triangles, now, /*lasting=*/true};
+    if (!object.findings.contact()) continue;
+    const SweepFindings& found = object.findings;
+    contact_ = {object.workpiece->id, found.met, now, /*lasting=*/true, found.inside, firstPart(found)};
     return;
   }
 }

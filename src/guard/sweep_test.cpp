@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "sweep_guard/detection/cull.h"
+#include "sweep_guard/detection/inside.h"
 #include "sweep_guard/guard/swept_body.h"
 #include "sweep_guard/guard/triangle_set.h"
 
@@ -16,30 +17,45 @@ namespace {
 struct TreeWalk {
   Detector& detector;
   const Tool& tool;
-  const TriangleMesh& mesh_M;
+  const MovingMesh& mesh;
   const SweepOptions& options;
-  const Motion& motion_M;
+  Motion motion_M;
   SweepFindings& findings;
+  std::vector<TriangleSet>& met_by;  // each part of the tool
   Cull cull = {};
 
   void visit(size_t index, const TriangleSet* among) {
     const Tool::Node& node = tool.tree()[index];
-    SweptBody body = sweptBody(node.shape_T, motion_M, options.volume, options.margin + mesh_M.rounding());
+    SweptBody body = sweptBody(node.shape_T, motion_M, options.volume, options.margin + mesh.spread());
     TriangleSet near;
     if (!node.part) {
-      near = among == nullptr ? cull(mesh_M, body.volume_M) : cull(mesh_M, body.volume_M, *among);
+      near = among == nullptr ? cull(mesh.mesh_M(), body.volume_M) : cull(mesh.mesh_M(), body.volume_M, *among);
       if (!near.empty()) {
         for (const size_t below : node.below) visit(below, &near);
         return;
       }
       among = &near;
     }
-    const Detection detection = detect(detector, mesh_M, body, among);
+    const Detection detection = detect(detector, mesh.mesh_M(), body, among);
     findings.margin = std::max(findings.margin, body.volume_M.margin + detection.inflation);
+    if (node.part) met_by[*node.part] = united(met_by[*node.part], detection.triangles);
     findings.triangles = united(findings.triangles, detection.triangles);
     findings.volumes_M.push_back(std::move(body.volume_M));
   }
 };
+
+bool anyPartInside(const Tool& tool, const Eigen::Isometry3d& X_MT, const TriangleMesh& mesh_M) {
+  return mesh_M.closed() && std::any_of(tool.parts().begin(), tool.parts().end(), [&](const ToolPart& part) {
+           return inside(mesh_M, X_MT * part.shape_T.moments_T().mean);
+         });
+}
+
+void keepFirst(std::vector<TouchedTriangle>& all, const std::vector<TouchedTriangle>& later) {
+  const auto before = [](const TouchedTriangle& a, const TouchedTriangle& b) { return a.triangle < b.triangle; };
+  std::vector<TouchedTriangle> both;
+  std::set_union(all.begin(), all.end(), later.begin(), later.end(), std::back_inserter(both), before);
+  all = std::move(both);
+}
 
 }  // namespace
 
@@ -47,12 +63,29 @@ void unite(SweepFindings& all, SweepFindings more) {
   all.triangles = united(all.triangles, more.triangles);
   all.margin = std::max(all.margin, more.margin);
   std::move(more.volumes_M.begin(), more.volumes_M.end(), std::back_inserter(all.volumes_M));
+  all.fine = more.fine;
+  all.met = united(all.met, more.met);
+  keepFirst(all.touched, more.touched);
+  all.inside = all.inside || more.inside;
 }
 
-SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts,
-                        const TriangleMesh& mesh_M, const SweepOptions& options) {
+SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
+                        const SweepOptions& options, const WaysIn& ways_in) {
   SweepFindings findings;
-  for (const Motion& part : parts) TreeWalk{detector, tool, mesh_M, options, part, findings}.visit(0, nullptr);
+  std::vector<TriangleSet> met_by(tool.parts().size());
+  for (Motion motion_M : parts) {
+    motion_M.drift = mesh.drift_M();
+    TreeWalk{detector, tool, mesh, options, motion_M, findings, met_by}.visit(0, nullptr);
+  }
+  findings.fine = options.fine;
+  if (options.fine) {
+    Confirmation confirmed = confirm(tool, parts, mesh, met_by, options.margin, ways_in);
+    findings.met = std::move(confirmed.met);
+    findings.touched = std::move(confirmed.touched);
+  } else {
+    findings.met = findings.triangles;
+  }
+  if (findings.met.empty()) findings.inside = anyPartInside(tool, parts.back().X_MT_end, mesh.mesh_M());
   return findings;
 }
 
@@ -60,15 +93,35 @@ PathFindings testPath(Detector& detector, const Tool& tool, const std::vector<Ei
                       const TriangleMesh& mesh_M, const SweepOptions& options, const std::function<void()>& between) {
   assert(!path.empty());
   PathFindings along;
+  WaysIn ways_in;
   for (size_t i = 0; i < std::max<size_t>(path.size() - 1, 1); ++i) {
     between();
     const Motion motion{path[i], path[std::min(i + 1, path.size() - 1)]};
-    const SweepFindings sweep = testSweep(detector, tool, split(motion, options.max_rotation), mesh_M, options);
-    if (!sweep.triangles.empty() && !along.first_met) along.first_met = i;
-    along.triangles = united(along.triangles, sweep.triangles);
-    along.margin = std::max(along.margin, sweep.margin);
+    SweepFindings sweep = testSweep(detector, tool, split(motion, options.max_rotation), mesh_M, options, ways_in);
+    if (sweep.contact() && !along.first_met) {
+      along.first_met = i;
+      along.time_of_impact = firstTime(sweep);
+    }
+    ways_in = waysIn(sweep.touched);
+    unite(along.all, std::move(sweep));
   }
   return along;
+}
+
+WaysIn waysIn(const std::vector<TouchedTriangle>& touched) {
+  WaysIn ways_in;
+  for (const TouchedTriangle& one : touched) ways_in.emplace(one.triangle, one.impact.normal_M);
+  return ways_in;
+}
+
+std::optional<double> firstTime(const SweepFindings& findings) {
+  if (!findings.fine) return std::nullopt;
+  if (findings.inside) return 0.0;
+  std::optional<double> first;
+  for (const TouchedTriangle& one : findings.touched) {
+    first = std::min(first.value_or(1.0), one.impact.time_of_impact);
+  }
+  return first;
 }
 
 }  // namespace sweep_guard

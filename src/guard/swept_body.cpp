@@ -1,9 +1,9 @@
 #include "sweep_guard/guard/swept_body.h"
 
 #include <algorithm>
-#include <array>
 
 #include "sweep_guard/geometry/separation.h"
+#include "sweep_guard/guard/moving_mesh.h"
 
 namespace sweep_guard {
 namespace {
@@ -31,34 +31,33 @@ class HullOfMotion {
   Eigen::Vector3d place_;
 };
 
-// Without those that a direction proves to be farther from the hull than the margin.
-TriangleSet metByHull(const TriangleMesh& mesh_M, const SweptBody& body, double margin, const TriangleSet& triangles) {
-  TriangleSet met;
-  for (const std::uint32_t triangle : triangles) {
-    const auto& [a, b, c] = mesh_M.triangles()[triangle];
-    const Eigen::Vector3d& place = mesh_M.origin();
-    const Eigen::Vector3d near = mesh_M.offset(a);
-    const HullOfMotion hull(*body.shape_T, body.motion_M, place + near);
-    const PointHull corners(
-        std::array<Eigen::Vector3d, 3>{Eigen::Vector3d::Zero(), mesh_M.offset(b) - near, mesh_M.offset(c) - near});
-    if (!fartherApart(hull, corners, margin)) met.push_back(triangle);
-  }
-  return met;
-}
-
 }  // namespace
 
 SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKind kind, double margin) {
   return {&shape_T, motion_M, kind, sweptVolume(shape_T, motion_M, kind, margin)};
 }
 
+bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const MovingTriangle& triangle, double margin) {
+  const Eigen::Vector3d& place = triangle.end_M[0];
+  const HullOfMotion hull(shape_T, motion_M, place);
+  PointHull prism;
+  for (const Eigen::Vector3d& p : triangle.end_M) prism.add(p - place);
+  if (triangle.start_M != triangle.end_M) {
+    for (const Eigen::Vector3d& p : triangle.start_M) prism.add(p - place);
+  }
+  return fartherApart(hull, prism, margin);
+}
+
 Detection detect(Detector& detector, const TriangleMesh& mesh_M, const SweptBody& body, const TriangleSet* among) {
   Detection detection =
       among == nullptr ? detector.detect(mesh_M, body.volume_M) : detector.detectAmong(mesh_M, body.volume_M, *among);
-  if (body.kind == VolumeKind::kHull) {
-    const double margin = body.volume_M.margin + detection.inflation;
-    detection.triangles = metByHull(mesh_M, body, margin, detection.triangles);
-  }
+  if (body.kind != VolumeKind::kHull) return detection;
+  const double margin = body.volume_M.margin + detection.inflation;
+  const auto missed = [&](std::uint32_t triangle) {
+    return missedByHull(*body.shape_T, body.motion_M, MovingMesh(mesh_M).triangle(triangle), margin);
+  };
+  TriangleSet& left = detection.triangles;
+  left.erase(std::remove_if(left.begin(), left.end(), missed), left.end());
   return detection;
 }
 

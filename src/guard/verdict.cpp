@@ -138,8 +138,10 @@ Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits
     verdict.level = Level::kContact;
     verdict.mesh_id = evidence.contact->id;
     verdict.triangles = evidence.contact->triangles;
+    verdict.tool_part = evidence.contact->tool_part;
     verdict.text = findings.text();  // what was expected has come
-    tell(verdict, "tool meets '" + verdict.mesh_id + "', " + counted(verdict.triangles));
+    const std::string how = evidence.contact->inside ? "tool is inside of '" : "tool meets '";
+    tell(verdict, how + verdict.mesh_id + "'" + (verdict.triangles.empty() ? "" : ", " + counted(verdict.triangles)));
   }
   verdict.text = std::string(nameOf(verdict.level)) + (verdict.text.empty() ? "" : ": ") + verdict.text;
   return verdict;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
@@ -16,6 +17,16 @@ using sweep_guard::InvalidInput;
 
 constexpr size_t kMaxPoses = 1024;
 constexpr auto kTransformMayBeLate = std::chrono::milliseconds(100);
+
+// When a path first meets something.
+struct Moment {
+  size_t segment;
+  std::optional<double> time_of_impact;  // in that segment
+};
+
+Moment earlier(const std::optional<Moment>& a, const Moment& b) {
+  return a && std::tie(a->segment, a->time_of_impact) < std::tie(b.segment, b.time_of_impact) ? *a : b;
+}
 
 }  // namespace
 
@@ -30,14 +41,15 @@ CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const 
 // What cannot be tested is answered, not thrown away: a failed ROS call tells the caller nothing.
 bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Response& response) {
   const auto begin = std::chrono::steady_clock::now();
+  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
   try {
     check(request, response);
     response.success = true;
   } catch (const std::exception& error) {
     response = CheckSweep::Response();
+    response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
     response.message = error.what();
   }
-  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
   response.compute_time = ros::Duration(sweep_guard::toSeconds(std::chrono::steady_clock::now() - begin));
   return true;
 }
@@ -53,26 +65,27 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   sweep_guard::SweepOptions options = parameters_.guard.sweep;
   if (!request.volume.empty()) options.volume = sweep_guard::volumeKind(request.volume);
   options.margin = request.margin;
+  options.fine = request.fine;
   sweep_guard::Detector& used = detector(request.detector.empty() ? parameters_.detector : request.detector);
 
   const auto give_up = [this] {
     if (stopping_) throw sweep_guard::Error("the guard is shutting down");
   };
-  std::optional<size_t> first;
+  std::optional<Moment> first;
   response.clear = true;
   for (const auto& workpiece : choose(request.mesh_ids)) {
     auto path =
         sweep_guard::testPath(used, tool_, pathIn(workpiece->frame, request.path), workpiece->mesh_M, options, give_up);
-    response.margin = std::max(response.margin, path.margin);
+    response.margin = std::max(response.margin, path.all.margin);
     response.clear = response.clear && fresh(*workpiece);
-    if (!path.first_met) continue;
-    first = std::min(first.value_or(*path.first_met), *path.first_met);
-    response.objects.push_back(toMsg(*workpiece, path.triangles));
+    if (!path.all.triangles.empty() || path.all.inside) response.objects.push_back(toMsg(*workpiece, path.all, tool_));
+    if (path.first_met) first = earlier(first, {*path.first_met, path.time_of_impact});
   }
   response.collision = first.has_value();
   response.clear = response.clear && !response.collision;
-  response.segment = static_cast<std::uint32_t>(first.value_or(0));
-  if (request.fine) response.message = "this version has no fine phase: triangles are candidates";
+  if (!first) return;
+  response.segment = static_cast<std::uint32_t>(first->segment);
+  if (first->time_of_impact) response.time_of_impact = *first->time_of_impact;
 }
 
 sweep_guard::Workpieces CheckSweepService::choose(const std::vector<std::string>& ids) const {

@@ -53,6 +53,22 @@ Eigen::Isometry3d rigid(const Eigen::Vector3d& translation, const geometry_msgs:
   return pose;
 }
 
+sweep_guard::TriangleContact contact(const sweep_guard::TouchedTriangle& touched, const sweep_guard::Tool& tool) {
+  sweep_guard::TriangleContact msg;
+  msg.triangle = touched.triangle;
+  msg.tool_link = tool.parts()[touched.part].link;
+  msg.time_of_impact = touched.impact.time_of_impact;
+  const auto& [p_M, n_M] = std::pair(touched.impact.point_M, touched.impact.normal_M);
+  msg.point.x = p_M.x();
+  msg.point.y = p_M.y();
+  msg.point.z = p_M.z();
+  msg.normal.x = n_M.x();
+  msg.normal.y = n_M.y();
+  msg.normal.z = n_M.z();
+  msg.depth = touched.impact.depth;
+  return msg;
+}
+
 sweep_guard::PredictedPose predictedPose(const sweep_guard::ExpectedPose& expected, sweep_guard::Duration age) {
   using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
   sweep_guard::PredictedPose msg;
@@ -128,14 +144,24 @@ sweep_guard::ObjectContacts toMsg(const sweep_guard::Workpiece& workpiece,
   return msg;
 }
 
-sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report) {
+sweep_guard::ObjectContacts toMsg(const sweep_guard::Workpiece& workpiece, const sweep_guard::SweepFindings& findings,
+                                  const sweep_guard::Tool& tool) {
+  sweep_guard::ObjectContacts msg = toMsg(workpiece, findings.triangles);
+  msg.fine = findings.fine;
+  msg.inside = findings.inside;
+  msg.inside_tested = workpiece.mesh_M.closed();
+  for (const sweep_guard::TouchedTriangle& touched : findings.touched) msg.impacts.push_back(contact(touched, tool));
+  return msg;
+}
+
+sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report, const sweep_guard::Tool& tool) {
   sweep_guard::Contacts msg;
   msg.header.stamp = toMsg(report.end);
   msg.interval_start = toMsg(report.start);
   msg.margin = report.margin();
   for (const sweep_guard::SweptObject& object : report.objects) {
-    const std::vector<std::uint32_t>& triangles = object.findings.triangles;
-    if (!triangles.empty()) msg.objects.push_back(toMsg(*object.workpiece, triangles));
+    if (object.findings.triangles.empty() && !object.findings.inside) continue;
+    msg.objects.push_back(toMsg(*object.workpiece, object.findings, tool));
   }
   return msg;
 }

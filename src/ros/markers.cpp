@@ -46,7 +46,7 @@ void addContactTriangles(visualization_msgs::MarkerArray& array, const sweep_gua
   for (const sweep_guard::SweptObject& object : report.objects) {
     Surface surface("contact_triangles", index++, object.workpiece->frame, stamp, lift);
     surface.paint(color(1.0, 0.15, 0.1, 0.95), color(1.0, 0.75, 0.7, 0.95));
-    surface.add(object.workpiece->mesh_M, object.findings.triangles, lift);
+    surface.add(object.workpiece->mesh_M, object.findings.met, lift);
     surface.moveInto(array);
   }
 }

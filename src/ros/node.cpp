@@ -211,7 +211,7 @@ void SweepGuardNode::answer(Question& question) {
 }
 
 void SweepGuardNode::publishContacts(const sweep_guard::SweepReport& report) {
-  sweep_guard::Contacts contacts = toMsg(report);
+  sweep_guard::Contacts contacts = toMsg(report, guard_.tool());
   contacts.header.frame_id = parameters_.fixed_frame;
   contacts.tool = parameters_.tool_frame;
   contacts.volume = sweep_guard::nameOf(parameters_.guard.sweep.volume);
@@ -247,7 +247,9 @@ void SweepGuardNode::watchClock() {
 void SweepGuardNode::warn(bool only_on_change) {
   const std::lock_guard lock(warning_mutex_);
   const sweep_guard::Instant at = now();
-  sweep_guard::Warning next = toMsg(ledger_.verdict(at));
+  const sweep_guard::Verdict verdict = ledger_.verdict(at);
+  sweep_guard::Warning next = toMsg(verdict);
+  if (verdict.tool_part) next.tool_link = guard_.tool().parts()[*verdict.tool_part].link;
   const bool new_level = next.level != warning_.level;
   if (only_on_change && !new_level && next.reasons == warning_.reasons) return;
   next.header.frame_id = parameters_.fixed_frame;

@@ -116,6 +116,7 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   readTool(read, parameters);
   parameters.detector = read.choice("detector", "select", sweep_guard::detectorNames());
   parameters.cull = read.flag("cull", true);
+  parameters.guard.sweep.fine = read.flag("fine", true);
   parameters.guard.sweep.volume =
       sweep_guard::volumeKind(read.choice("volume", "obb_planes", {"obb", "obb_planes", "hull"}));
   parameters.guard.sweep.max_rotation = read.number("max_rotation_per_sweep", 0.175, {0.01, 0.5});

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/guard/moving_mesh.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -71,8 +72,10 @@ void WorkpieceStore::store(const sweep_guard::MeshVertices& msg) {
   }
   const sweep_guard::Time stamp = fromMsg(msg.header.stamp);
   checkOrder(*current, stamp);
-  replace({msg.id, msg.revision, stamp, std::chrono::steady_clock::now(), msg.header.frame_id,
-           current->mesh_M.deformed(msg.positions)});
+  sweep_guard::TriangleMesh mesh_M = current->mesh_M.deformed(msg.positions);
+  const double way = current->way + sweep_guard::farthestWay(current->mesh_M, mesh_M);
+  replace({msg.id, msg.revision, stamp, std::chrono::steady_clock::now(), msg.header.frame_id, std::move(mesh_M),
+           current->updates + 1, way});
 }
 
 // A current stamp that lies in the future is from before time went back: it says nothing about order.

@@ -33,6 +33,10 @@ struct SweptVolume {
   SweptVolume grown(double distance) const;
 };
 
+/// How far points of a body leave the hull of its two poses during a motion at most [m]: along arcs, and because M
+/// turns.
+double arcMargin(const ConvexShape& shape, const Motion& motion);
+
 /// What a convex body of the tool covers during a motion.
 /// @param motion        turns by at most 90 degrees; split() longer ones
 /// @param extra_margin  the volume is grown by this, besides what the arcs of the rotation need [m], >= 0

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -27,7 +29,9 @@ struct ToolPose {
 /// One workpiece that was swept, and what was found.
 struct SweptObject {
   std::shared_ptr<const Workpiece> workpiece;
-  Time interval_start;  ///< stamp of the pose that the sweep began at
+  /// Stamp of the pose that the sweep began at; times of impact count from it to the newest pose's. What an update of
+  /// the mesh has met earlier has time 0.
+  Time interval_start;
   SweepFindings findings;
 };
 
@@ -72,6 +76,9 @@ struct GuardOptions {
 /// pose on it sweeps along the path that the operator's motion lets expect [P, Sec. 3.2]. One thread.
 ///
 /// Tool and frames move straight at constant speed in W, and turn about one axis at constant rate, between their poses.
+/// The vertices of a workpiece go straight from one update to the next, at whatever pace. They do so between the stamps
+/// of both: when an update comes, the tool's way is swept again from the earlier of them on, though no longer back than
+/// 0.5 s, against a mesh that moves.
 class Guard {
  public:
   /// @throws InvalidInput if an option is out of range
@@ -97,21 +104,34 @@ class Guard {
 
  private:
   struct Placed {
+    std::uint64_t number;  // counts the poses
     Time stamp;
     Eigen::Isometry3d X_WT;
     Eigen::Isometry3d X_WM;
   };
-  using Way = std::vector<Placed>;  // the pose swept to last, and those since; ends at the newest
+  using Way = std::deque<Placed>;  // the poses that may be swept again, and the newest
+  struct Swept {
+    std::shared_ptr<const Workpiece> workpiece;  // as it was then
+    std::uint64_t pose = 0;                      // number of the pose swept to
+    WaysIn ways_in;
+  };
+  struct Span;
 
-  SweepFindings sweepAlong(const Way& way, const TriangleMesh& mesh_M);
   SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);
+  SweptObject sweepObject(const std::shared_ptr<const Workpiece>& workpiece);
+  const Swept* sweptBefore(const Workpiece& workpiece) const;
+  Span spanOf(const Way& way, const Swept* before, const MovingMesh& mesh) const;
+  SweepFindings sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const WaysIn& ways_in);
+  void forgetWhatIsGone(const Workpieces& workpieces);
+  void shorten(const std::string& frame, Way& way) const;
   PathTest::Effort effortFor(const Forecast& forecast, SteadyTime begin) const;
-  void dropWaysOfEmptyFrames(const Workpieces& workpieces);
 
   Tool tool_;
   std::unique_ptr<Detector> detector_;
   GuardOptions options_;
-  std::map<std::string, Way> ways_;  // by frame
+  std::map<std::string, Way> ways_;     // by frame
+  std::map<std::string, Swept> swept_;  // by id
+  std::uint64_t poses_ = 0;
   PosePredictor predictor_;
   Budget budget_;
   PathTest path_test_;

@@ -8,6 +8,9 @@
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/guard/confirmation.h"
+#include "sweep_guard/guard/moving_mesh.h"
+#include "sweep_guard/guard/triangle_set.h"
 
 namespace sweep_guard {
 
@@ -15,32 +18,48 @@ struct SweepOptions {
   VolumeKind volume = VolumeKind::kObbPlanes;
   double max_rotation = 0.175;  ///< a motion that turns more is split [rad], in (0, 1.5]
   double margin = 0.0;          ///< the tool is grown by this [m], >= 0
+  bool fine = true;             ///< the fine phase confirms what the volumes meet
 };
 
 /// What the tool meets of one mesh while it moves.
 struct SweepFindings {
-  std::vector<std::uint32_t> triangles;  ///< ascending, each once
-  double margin = 0.0;                   ///< largest growth of a volume tested, for arcs, rounding and as asked for [m]
+  TriangleSet triangles;  ///< those that a swept volume meets: ascending, each once
+  double margin = 0.0;    ///< largest growth of a volume tested [m]: arcs, rounding, a mesh that moves, as asked for
   /// Those tested, end to end, in the mesh's frame: of the tool's parts, and where a box around several meets nothing,
   /// of that.
   std::vector<SweptVolume> volumes_M;
+  bool fine = false;     ///< the fine phase has run
+  TriangleSet met = {};  ///< of `triangles`, those that the fine phase does not rule out; without it, all
+  std::vector<TouchedTriangle> touched = {};  ///< confirmed by the fine phase: ascending, each once
+  bool inside = false;                        ///< a part of the tool is wholly inside of the closed mesh
+
+  bool contact() const { return inside || !met.empty(); }
 };
 
 /// Tests the volumes that the tool sweeps in each part of its motion: down the tree of its boxes, as far as they meet
-/// something, to its convex parts. What is found is what these meet.
-/// @param parts  of split(): each turns by little, so that the margin for its arc stays small
+/// something, to its convex parts. What these meet goes to the fine phase. If the mesh is closed and nothing is met, it
+/// remains to be tested whether a part of the tool is inside.
+/// @param parts    of split(): each turns by little, so that the margin for its arc stays small
+/// @param ways_in  of triangles touched before
 /// @throws DeviceError if the detector fails
-SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts,
-                        const TriangleMesh& mesh_M, const SweepOptions& options);
+SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
+                        const SweepOptions& options, const WaysIn& ways_in = {});
 
-/// Takes in what was found in a later part of the same motion.
+/// Takes in what was found in a later part of the same motion. Times of impact stay as they are, of either part.
 void unite(SweepFindings& all, SweepFindings more);
+
+/// The normals to go on with in the next sweep.
+WaysIn waysIn(const std::vector<TouchedTriangle>& touched);
+
+/// When contact begins, as a fraction of the sweep: the first time of impact, 0 for a tool that is inside all along.
+/// Empty without the fine phase, or without contact.
+std::optional<double> firstTime(const SweepFindings& findings);
 
 /// What the tool meets along a path of poses.
 struct PathFindings {
-  std::vector<std::uint32_t> triangles;  ///< union over the path: ascending, each once
-  double margin = 0.0;                   ///< largest over the path [m]
-  std::optional<size_t> first_met;       ///< first sweep that met something; sweep i goes from pose i to pose i + 1
+  SweepFindings all;                     ///< of all sweeps; of a triangle touched in several the first time
+  std::optional<size_t> first_met;       ///< first sweep with contact; sweep i goes from pose i to pose i + 1
+  std::optional<double> time_of_impact;  ///< in that sweep, [0, 1]; empty without the fine phase
 };
 
 /// Tests every sweep of a path; a path of one pose is tested where it stands.

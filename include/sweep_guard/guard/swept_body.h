@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sweep_guard/detection/detector.h"
+#include "sweep_guard/detection/fine_phase.h"
 #include "sweep_guard/geometry/convex_shape.h"
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/geometry/swept_volume.h"
@@ -25,5 +26,9 @@ SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKi
 /// @throws DeviceError if the detector fails
 Detection detect(Detector& detector, const TriangleMesh& mesh_M, const SweptBody& body,
                  const TriangleSet* among = nullptr);
+
+/// Whether a direction proves that a body, anywhere in the hull of its motion's two poses before and after its drift,
+/// is farther than `margin` [m] from a triangle, anywhere in the hull of its two places.
+bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const MovingTriangle& triangle, double margin);
 
 }  // namespace sweep_guard

@@ -54,7 +54,9 @@ struct Evidence {
     std::string id;
     std::vector<std::uint32_t> triangles;  ///< ascending, each once
     SteadyTime found;
-    bool lasting = false;  ///< the newest sweep has met it
+    bool lasting = false;                  ///< the newest sweep has met it
+    bool inside = false;                   ///< the tool is inside of it
+    std::optional<size_t> tool_part = {};  ///< that touched first, where the fine phase knows
   };
   /// A contact that the newest prediction of its workpiece expects. In force until that prediction ends.
   struct Expectation {
@@ -94,6 +96,7 @@ struct Verdict {
   std::uint32_t reasons = 0;             ///< bits of Reason
   std::string text;                      ///< level and reasons in words
   std::string mesh_id;                   ///< object of the contact or of the collision expected
+  std::optional<size_t> tool_part;       ///< in contact, the one that touched first, where the fine phase knows
   std::vector<std::uint32_t> triangles;  ///< of the contact, or those that the predicted path meets
   /// Until the predicted path meets that workpiece, >= 0; empty: it does not, though a collision may be probable, or
   /// the level is held for another workpiece's.

@@ -19,6 +19,8 @@ struct Workpiece {
   SteadyTime received;
   std::string frame;  ///< name of the mesh's frame M
   TriangleMesh mesh_M;
+  std::uint64_t updates = 0;  ///< of the positions of these triangles, so far
+  double way = 0.0;           ///< in these, no vertex has gone farther in all [m]
 };
 using Workpieces = std::vector<std::shared_ptr<const Workpiece>>;
 

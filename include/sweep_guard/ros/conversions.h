@@ -37,8 +37,10 @@ sweep_guard::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_trian
 
 /// @param triangles  of the workpiece: ascending, each once
 sweep_guard::ObjectContacts toMsg(const sweep_guard::Workpiece& workpiece, const std::vector<std::uint32_t>& triangles);
+sweep_guard::ObjectContacts toMsg(const sweep_guard::Workpiece& workpiece, const sweep_guard::SweepFindings& findings,
+                                  const sweep_guard::Tool& tool);
 /// The objects met, in the report's order; header, tool and volume are the sender's.
-sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report);
+sweep_guard::Contacts toMsg(const sweep_guard::SweepReport& report, const sweep_guard::Tool& tool);
 
 /// What is expected, told at a moment: poses that lie before it are left out. Frame, tool and predictor are the
 /// sender's.
