@@ -20,7 +20,7 @@ std::shared_ptr<const Workpiece> workpiece(const std::string& id, int ms, std::u
 SweepReport reportOf(const Workpieces& workpieces, const std::vector<std::uint32_t>& met = {}) {
   SweepReport report;
   report.end = at(1000).stamp;
-  for (const auto& one : workpieces) report.objects.push_back({one, {}, {met, 0.0, {}}});
+  for (const auto& one : workpieces) report.objects.push_back({one, {}, {met, 0.0, {}, false, met}});
   return report;
 }
 
