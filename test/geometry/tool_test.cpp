@@ -1,114 +1,111 @@
-#include "sweep_guard/geometry/convex_shape.h"
+#include "sweep_guard/geometry/tool.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
+#include <set>
 
-#include "geometry/round_tool.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard {
 namespace {
 
-TEST(ToolTest, FillsTheCylinderBehindItsTip) {
-  const ConvexShape drill = ConvexShape::cylinder(/*radius=*/0.5, /*length=*/2.0);
-  EXPECT_EQ(drill.support(Eigen::Vector3d::UnitZ()), 0.0);
-  EXPECT_EQ(drill.support(-Eigen::Vector3d::UnitZ()), 2.0);
-  EXPECT_EQ(drill.support(Eigen::Vector3d::UnitX()), 0.5);
-  EXPECT_NEAR(drill.support({0.0, 0.6, -0.8}), 0.5 * 0.6 + 2.0 * 0.8, 1e-15);
-  EXPECT_NEAR(drill.support({0.0, 0.6, 0.8}), 0.5 * 0.6, 1e-15);
-}
-
-TEST(ToolTest, SupportIsThatOfTheRoundToolSampledDensely) {
-  Random random(/*seed=*/1);
-  constexpr int kPoints = 720;
-  for (int i = 0; i < 1000; ++i) {
-    const ConvexShape tool = randomTool(random, 1.0);
-    const Eigen::Vector3d direction = random.direction();
-    double farthest = -std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector3d& p : roundToolPoints_T(tool, kPoints)) farthest = std::max(farthest, direction.dot(p));
-    EXPECT_NEAR(tool.support(direction), farthest, 1e-5 * tool.radius() + 1e-15) << "tool " << i;
-    EXPECT_GE(tool.support(direction), farthest - 1e-15) << "tool " << i;
+ConvexShape randomShape(Random& random) {
+  const Eigen::Isometry3d X_TS = random.pose(random.inBox({1, 1, 1}));
+  switch (random.below(4)) {
+    case 0:
+      return ConvexShape::cylinder(random.uniform(0.0, 0.3), random.uniform(0.01, 0.5)).placed(X_TS);
+    case 1:
+      return ConvexShape::box(random.inBox({0.3, 0.3, 0.3}).cwiseAbs()).placed(X_TS);
+    case 2:
+      return ConvexShape::sphere(random.uniform(0.01, 0.3)).placed(X_TS);
+    default: {
+      std::vector<Eigen::Vector3d> points;
+      for (int i = 1 + random.below(20); i > 0; --i) points.push_back(random.inBox({0.3, 0.3, 0.3}));
+      return ConvexShape::hull(points).placed(X_TS).padded(random.chance(0.5) ? 0.0 : 0.01);
+    }
   }
 }
 
-TEST(ToolTest, SupportAtAPoseFollowsThePose) {
-  const ConvexShape drill = ConvexShape::cylinder(0.5, 2.0);
-  Eigen::Isometry3d X_MT = Eigen::Isometry3d::Identity();
-  X_MT.linear() = Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitY()).toRotationMatrix();  // z_T along x_M
-  X_MT.translation() = Eigen::Vector3d(10, 20, 30);
-  EXPECT_NEAR(support(drill, X_MT, Eigen::Vector3d::UnitX()), 10.0, 1e-12);
-  EXPECT_NEAR(support(drill, X_MT, -Eigen::Vector3d::UnitX()), -8.0, 1e-12);
-  EXPECT_NEAR(support(drill, X_MT, Eigen::Vector3d::UnitZ()), 30.5, 1e-12);
-
-  const Motion motion{X_MT, Eigen::Translation3d(1, 0, 0) * X_MT};
-  EXPECT_NEAR(support(drill, motion, Eigen::Vector3d::UnitX()), 11.0, 1e-12);
-  EXPECT_NEAR(support(drill, motion, -Eigen::Vector3d::UnitX()), -8.0, 1e-12);
+Tool randomParts(Random& random, int count) {
+  std::vector<ToolPart> parts;
+  for (int i = 0; i < count; ++i) parts.push_back({"part " + std::to_string(i), randomShape(random)});
+  return Tool(std::move(parts));
 }
 
-TEST(ToolTest, ReachBoundsTheDistanceFromAnyAxisThroughTheTip) {
-  Random random(/*seed=*/2);
-  for (int i = 0; i < 1000; ++i) {
-    const ConvexShape tool = randomTool(random, 1.0);
-    const Eigen::Vector3d axis = random.direction();
-    double farthest = 0.0;
-    for (const Eigen::Vector3d& p : roundToolPoints_T(tool, 64)) farthest = std::max(farthest, axis.cross(p).norm());
-    EXPECT_GE(tool.reach(axis), farthest - 1e-15) << "tool " << i;
-    EXPECT_LE(tool.reach(axis), 1.5 * farthest) << "tool " << i;
+TEST(ToolTest, OfOnePartIsThatPart) {
+  const Tool drill = Tool::cylinder(0.005, 0.1);
+  ASSERT_EQ(drill.tree().size(), 1U);
+  EXPECT_EQ(drill.tree()[0].part, 0U);
+  EXPECT_EQ(drill.whole().support(-Eigen::Vector3d::UnitZ()), 0.1);
+  EXPECT_TRUE(drill.bounds_T().isApprox(
+      Eigen::AlignedBox3d(Eigen::Vector3d(-0.005, -0.005, -0.1), Eigen::Vector3d(0.005, 0.005, 0.0))));
+}
+
+TEST(ToolTest, OfNoPartIsRefused) { EXPECT_THROW(Tool(std::vector<ToolPart>{}), InvalidInput); }
+
+TEST(ToolTest, EveryPartIsALeafOfTheTreeOnce) {
+  Random random(/*seed=*/11);
+  for (int count = 1; count <= 33; ++count) {
+    const Tool tool = randomParts(random, count);
+    std::multiset<size_t> leaves;
+    std::multiset<size_t> below;
+    for (const Tool::Node& node : tool.tree()) {
+      if (node.part) leaves.insert(*node.part);
+      if (!node.part) below.insert(node.below.begin(), node.below.end());
+    }
+    EXPECT_EQ(leaves.size(), static_cast<size_t>(count));
+    EXPECT_EQ(std::set<size_t>(leaves.begin(), leaves.end()).size(), leaves.size());
+    EXPECT_EQ(below.size(), tool.tree().size() - 1);  // every node but the root is below one other
+    EXPECT_EQ(std::set<size_t>(below.begin(), below.end()).size(), below.size());
   }
 }
 
-// A drill that spins about its own axis leaves its place by its radius alone.
-TEST(ToolTest, ReachAboutItsOwnAxisIsItsRadius) {
-  EXPECT_EQ(ConvexShape::cylinder(0.5, 2.0).reach(Eigen::Vector3d::UnitZ()), 0.5);
-  EXPECT_EQ(ConvexShape::cylinder(0.5, 2.0).reach(Eigen::Vector3d::UnitY()), 2.5);
-}
-
-TEST(ToolTest, ExtremesOfItsFacesAreOnTheirRims) {
-  const ConvexShape drill = ConvexShape::cylinder(0.5, 2.0);
-  EXPECT_TRUE(drill.frontExtreme({3, 4, 7}).isApprox(Eigen::Vector3d(0.3, 0.4, 0.0), 1e-15));
-  EXPECT_TRUE(drill.rearExtreme({-3, 4, 7}).isApprox(Eigen::Vector3d(-0.3, 0.4, -2.0), 1e-15));
-  EXPECT_EQ(drill.frontExtreme(Eigen::Vector3d::UnitZ()), Eigen::Vector3d(0, 0, 0));
-}
-
-// A prism of 4 sides, radius 1, length 2: 16 triangles, 48 corners; 5 at each of its 8 rim vertices, 4 at each centre.
-// So x^2 sums to 5 * 4, and every z is 1 from the mean.
-TEST(ToolTest, MomentsAreThePapersSumsOverTriangleCorners) {
-  const ConvexShape prism = ConvexShape::cylinder(/*radius=*/1.0, /*length=*/2.0, /*sides=*/4);
-  ASSERT_EQ(prism.mesh_T().triangles().size(), 16U);
-  EXPECT_TRUE(prism.moments_T().mean.isApprox(Eigen::Vector3d(0, 0, -1), 1e-12));
-  const Eigen::Vector3d diagonal(20.0 / 48.0, 20.0 / 48.0, 1.0);
-  EXPECT_TRUE(prism.moments_T().covariance.isApprox(Eigen::Matrix3d(diagonal.asDiagonal()), 1e-7));
-}
-
-TEST(ToolTest, MeshIsClosedAndTouchesTheRoundToolFromInside) {
-  const ConvexShape drill = ConvexShape::cylinder(0.5, 2.0, /*sides=*/8);
-  double six_volumes = 0.0;
-  for (const Triangle& triangle : drill.mesh_T().triangles()) {
-    const auto p = [&](size_t i) { return drill.mesh_T().vertex(triangle[i]); };
-    six_volumes += p(0).dot(p(1).cross(p(2)));
+void expectHeld(const Tool& tool, const Tool::Node& above, const Tool::Node& node, const Eigen::Vector3d& direction) {
+  if (node.part) {
+    EXPECT_GE(above.shape_T.support(direction), node.shape_T.support(direction) - 1e-12);
+    return;
   }
-  const double octagon = 0.5 * 8 * 0.5 * 0.5 * std::sin(std::acos(-1.0) / 4);
-  EXPECT_NEAR(std::abs(six_volumes / 6.0), 2.0 * octagon, 1e-6);
+  for (const size_t below : node.below) expectHeld(tool, above, tool.tree()[below], direction);
 }
 
-TEST(ToolTest, RefusesSizesOutOfRange) {
-  const double nan = std::nan("");
-  const double infinity = std::numeric_limits<double>::infinity();
-  for (const double bad : {-1e-9, nan, infinity, 1.1e7}) {
-    EXPECT_THROW(ConvexShape::cylinder(bad, 1.0), InvalidInput) << bad;
-    EXPECT_THROW(ConvexShape::cylinder(1.0, bad), InvalidInput) << bad;
+TEST(ToolTest, EveryNodeHoldsThePartsBelowIt) {
+  Random random(/*seed=*/12);
+  for (int i = 0; i < 50; ++i) {
+    const Tool tool = randomParts(random, 1 + random.below(20));
+    for (const Tool::Node& node : tool.tree()) {
+      for (int k = 0; k < 50; ++k) expectHeld(tool, node, node, random.direction());
+    }
   }
-  EXPECT_THROW(ConvexShape::cylinder(0.0, 0.0), InvalidInput);
-  for (const int sides : {-1, 0, 2, 1001}) EXPECT_THROW(ConvexShape::cylinder(1.0, 1.0, sides), InvalidInput) << sides;
 }
 
-TEST(ToolTest, AcceptsFlatAndNeedleTools) {
-  EXPECT_EQ(ConvexShape::cylinder(0.0, 1.0).support(Eigen::Vector3d::UnitX()), 0.0);
-  EXPECT_EQ(ConvexShape::cylinder(1.0, 0.0, 3).support(-Eigen::Vector3d::UnitZ()), 0.0);
-  EXPECT_EQ(ConvexShape::cylinder(1.0, 1.0, 1000).mesh_T().triangles().size(), 4000U);
+TEST(ToolTest, ExtentAndBoundsHoldEveryPart) {
+  Random random(/*seed=*/13);
+  for (int i = 0; i < 200; ++i) {
+    const Tool tool = randomParts(random, 1 + random.below(5));
+    for (const ToolPart& part : tool.parts()) {
+      const Eigen::Vector3d p_T = part.shape_T.supportPoint(random.direction());
+      EXPECT_LE(p_T.norm(), tool.extent() + 1e-12);
+      EXPECT_LE(tool.bounds_T().exteriorDistance(p_T), 1e-12);
+      const Eigen::Vector3d axis = random.direction();
+      EXPECT_LE(p_T.cross(axis).norm(), part.shape_T.reach(axis) + 1e-12);
+    }
+  }
+}
+
+// A support function is that of its own support point, and no point of the body reaches farther.
+TEST(ToolTest, PartsReachAsFarAsTheirSupportPoints) {
+  Random random(/*seed=*/14);
+  for (int i = 0; i < 300; ++i) {
+    const ConvexShape shape = randomShape(random);
+    for (int k = 0; k < 20; ++k) {
+      const Eigen::Vector3d direction = random.direction();
+      EXPECT_NEAR(shape.support(direction), direction.dot(shape.supportPoint(direction)), 1e-12);
+      const Eigen::Vector3d other = shape.supportPoint(random.direction());
+      EXPECT_GE(shape.support(direction), direction.dot(other) - 1e-12);
+      EXPECT_LE(direction.dot(shape.frontExtreme(-direction)), shape.support(direction) + 1.0);
+    }
+  }
 }
 
 }  // namespace

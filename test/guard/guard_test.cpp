@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "guard/fake_detector.h"
+#include "sweep_guard/guard/moving_mesh.h"
 
 namespace sweep_guard {
 namespace {
@@ -206,6 +207,94 @@ TEST_F(GuardTest, ForgetsAFrameThatNothingLivesIn) {
 TEST_F(GuardTest, ReportsTheLargestMargin) {
   record_.inflation = 0.125;
   EXPECT_NEAR(sweepTo(1.0, 0.5).margin(), 0.125, 1e-9);
+}
+
+// A sheet of the same triangles each time, at different heights; only update() makes a later one of an earlier.
+class MovingSheetTest : public testing::Test {
+ protected:
+  static TriangleMesh flat() { return TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}}); }
+
+  void place(double seconds, double z) {
+    std::vector<float> positions;
+    const TriangleMesh before = newest_ ? newest_->mesh_M : flat();
+    for (size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d p = before.vertex(i);
+      for (const double x : {p.x(), p.y(), z}) positions.push_back(static_cast<float>(x));
+    }
+    TriangleMesh mesh = before.deformed(positions);
+    const double way = newest_ ? newest_->way + farthestWay(before, mesh) : 0.0;
+    const std::uint64_t updates = newest_ ? newest_->updates + 1 : 0;
+    newest_ = std::make_shared<const Workpiece>(
+        Workpiece{"sheet", 0, at(seconds), SteadyTime{}, "table", std::move(mesh), updates, way});
+  }
+
+  SweepReport sweepTo(double seconds, double z) { return guard_.sweep(pose(seconds, {{"table", up(z)}}), {newest_}); }
+
+  std::shared_ptr<const Workpiece> newest_;
+  Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), {}};
+};
+
+TEST_F(MovingSheetTest, ThatJumpsOverARestingToolIsReported) {
+  place(1.0, -1.0);
+  EXPECT_FALSE(sweepTo(1.0, 0.0).contact());
+  place(1.01, 1.0);
+  const SweepReport report = sweepTo(1.01, 0.0);
+  EXPECT_TRUE(report.contact());
+  const SweepFindings& found = report.objects[0].findings;
+  EXPECT_EQ(found.met, Indices{0});
+  ASSERT_EQ(found.touched.size(), 1U);
+  EXPECT_NEAR(found.touched[0].impact.time_of_impact, 0.45, 1e-6);  // 0.9 m of 2 m to the far end of the drill
+  EXPECT_LT(report.margin(), 1e-6);                                 // it went as a whole
+  EXPECT_FALSE(sweepTo(1.02, 0.0).contact());
+}
+
+TEST_F(MovingSheetTest, ThatStaysBelowIsNotMet) {
+  place(1.0, -1.0);
+  sweepTo(1.0, 0.0);
+  place(1.01, -0.2);
+  EXPECT_FALSE(sweepTo(1.01, 0.0).contact());
+}
+
+// Up and down again between two sweeps: only how far it went in all tells.
+TEST_F(MovingSheetTest, ThatIsBackBeforeTheNextSweepIsReported) {
+  place(1.0, -1.0);
+  sweepTo(1.0, 0.0);
+  place(1.004, 0.5);
+  place(1.008, -1.0);
+  const SweepReport report = sweepTo(1.01, 0.0);
+  EXPECT_TRUE(report.contact());
+  EXPECT_GT(report.margin(), 1.4);
+}
+
+// While the sheet came up, the tool was below it for a moment, and is above it again when the news arrives.
+TEST_F(MovingSheetTest, IsMetWhereTheToolWasMeanwhile) {
+  place(1.0, -1.0);
+  sweepTo(1.0, 0.5);
+  sweepTo(1.01, -0.5);
+  sweepTo(1.02, 2.0);
+  sweepTo(1.03, 2.0);
+  place(1.025, 0.0);
+  const SweepReport report = sweepTo(1.04, 2.0);
+  EXPECT_TRUE(report.contact());
+  EXPECT_EQ(report.objects[0].interval_start, at(1.03));
+}
+
+TEST_F(MovingSheetTest, ThatRestsIsNotSweptAgain) {
+  place(1.0, -1.0);
+  sweepTo(1.0, 0.5);
+  sweepTo(1.01, 0.4);
+  place(1.015, -1.0);
+  const SweepReport report = sweepTo(1.02, 0.3);
+  EXPECT_EQ(report.objects[0].findings.volumes_M.size(), 1U);
+}
+
+TEST_F(MovingSheetTest, IsFollowedThroughAFailureOfTheFirstSweep) {
+  FakeDetector::Record record;
+  record.failures_left = 1;
+  Guard guard{Tool::cylinder(0.005, 0.1), std::make_unique<FakeDetector>(record), {}};
+  place(1.0, 0.0);
+  EXPECT_EQ(guard.sweep(pose(1.0, {{"table", up(0.5)}}), {newest_}).failures.size(), 1U);
+  EXPECT_TRUE(guard.sweep(pose(1.1, {{"table", up(-0.5)}}), {newest_}).contact());
 }
 
 }  // namespace

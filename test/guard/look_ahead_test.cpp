@@ -458,8 +458,7 @@ TEST(GuardOptionsTest, RefusedOnesNameWhatIsWrong) {
   const auto refused = [](const std::function<void(GuardOptions&)>& spoil) {
     GuardOptions options;
     spoil(options);
-    EXPECT_THROW(Guard(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options),
-                 InvalidInput);
+    EXPECT_THROW(Guard(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options), InvalidInput);
   };
   refused([](auto& options) { options.cycle = 0ms; });
   refused([](auto& options) { options.horizon.reflex_step = 0ms; });

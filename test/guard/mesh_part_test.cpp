@@ -141,8 +141,7 @@ TEST(PathTestTest, WhatIsOutOfReachMakesNoDifference) {
 
     const Swing swing(random);
     const auto predicted = [&](const TriangleMesh& mesh_M) {
-      return test(detector, Tool::cylinder(0.01, 0.15), swing.at(0.0), swing.path, 1,
-                  Eigen::Isometry3d::Identity(),
+      return test(detector, Tool::cylinder(0.01, 0.15), swing.at(0.0), swing.path, 1, Eigen::Isometry3d::Identity(),
                   std::make_shared<const Workpiece>(Workpiece{"one", 0, Time(), SteadyTime(), "table", mesh_M}));
     };
     const PredictedObject alone = predicted(near_M);

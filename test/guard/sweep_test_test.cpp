@@ -156,5 +156,119 @@ TEST(SweepFindingsTest, NamesNothingFartherThanItsMargin) {
   }
 }
 
+// The box around a drill that goes aslant holds corners that the drill never comes to. Whoever looks closely sees that.
+TEST(FineTest, RulesOutWhatOnlyTheVolumeMeets) {
+  const auto detector = makeDetector("reference");
+  const Motion aslant{at(0, 0, 0), at(0.1, 0.02, 0.05)};
+  const SweptVolume volume = sweptVolume(kDrill, aslant, VolumeKind::kObb);
+  const Eigen::Vector3d corner = volume.box.X_MB * (0.999 * volume.box.half_extents);
+  const TriangleMesh dot({corner, corner, corner}, {{0, 1, 2}});
+  SweepOptions options;
+  options.volume = VolumeKind::kObb;
+  const SweepFindings fine = testMotion(*detector, kDrill, aslant, dot, options);
+  EXPECT_EQ(fine.triangles, Indices{0});
+  EXPECT_TRUE(fine.fine && fine.met.empty() && fine.touched.empty() && !fine.contact());
+  EXPECT_EQ(firstTime(fine), std::nullopt);
+  options.fine = false;
+  EXPECT_TRUE(testMotion(*detector, kDrill, aslant, dot, options).contact());
+}
+
+TEST(FineTest, TellsWhenWhereAndHowDeep) {
+  const auto detector = makeDetector("reference");
+  const SweepFindings down = testMotion(*detector, kDrill, {at(0.2, 0.1, 0.3), at(0.2, 0.1, -0.1)}, sheet(0.0), {});
+  EXPECT_EQ(down.met, (Indices{0}));
+  ASSERT_EQ(down.touched.size(), 1U);
+  // The drill points up: its far end, 0.1 m below the tip, comes first, after 0.2 of 0.4 m.
+  EXPECT_NEAR(down.touched[0].impact.time_of_impact, 0.5, 1e-6);
+  EXPECT_TRUE(down.touched[0].impact.normal_M.isApprox(Eigen::Vector3d::UnitZ(), 1e-6));
+  EXPECT_NEAR(down.touched[0].impact.depth, 0.2, 1e-9);
+  EXPECT_NEAR(down.touched[0].impact.point_M.z(), 0.0, 1e-9);
+  EXPECT_NEAR(*firstTime(down), 0.5, 1e-6);
+}
+
+// Pushed in further, it goes on along the normal that it came in by, though the sheet's other side is nearer by then.
+TEST(FineTest, GoesOnAlongTheWayIn) {
+  const auto detector = makeDetector("reference");
+  WaysIn ways_in;
+  double depth = 0.0;
+  for (double z = 0.11; z > -0.05; z -= 0.01) {
+    const std::vector<Motion> push = split({at(0.2, 0.1, z), at(0.2, 0.1, z - 0.01)}, 0.1);
+    const SweepFindings findings = testSweep(*detector, Tool(kDrill), push, sheet(0.0), {}, ways_in);
+    ways_in = waysIn(findings.touched);
+    if (findings.touched.empty()) continue;
+    EXPECT_TRUE(findings.touched[0].impact.normal_M.isApprox(Eigen::Vector3d::UnitZ(), 1e-6)) << z;
+    EXPECT_NEAR(findings.touched[0].impact.depth, 0.11 - z, 1e-9);
+    EXPECT_GE(findings.touched[0].impact.depth, depth);
+    depth = findings.touched[0].impact.depth;
+  }
+  EXPECT_NEAR(depth, 0.11, 1e-9);  // the whole drill, and the last step
+}
+
+TEST(VolumeTest, HullIsTighterThanPlanesAndPlanesThanTheBoxAndNoneMissesWhatIsTouched) {
+  const auto detector = makeDetector("reference");
+  Random random(/*seed=*/21);
+  const TriangleMesh mesh = wavyHull(24, 40, 0.5);
+  size_t named[] = {0, 0, 0};
+  for (int i = 0; i < 60; ++i) {
+    const Motion motion{random.pose(0.12 * random.direction()), random.pose(0.12 * random.direction())};
+    Indices before;
+    Indices touched;
+    for (const VolumeKind kind : {VolumeKind::kObb, VolumeKind::kObbPlanes, VolumeKind::kHull}) {
+      SweepOptions options;
+      options.volume = kind;
+      const SweepFindings findings = testMotion(*detector, kDrill, motion, mesh, options);
+      named[static_cast<size_t>(kind)] += findings.triangles.size();
+      if (kind == VolumeKind::kObb) touched = findings.met;
+      EXPECT_EQ(findings.met, touched);
+      if (kind != VolumeKind::kObb) {
+        EXPECT_TRUE(without(findings.triangles, before).empty());
+      }
+      before = findings.triangles;
+    }
+  }
+  EXPECT_LT(named[1], 0.95 * static_cast<double>(named[0]));
+  EXPECT_LT(named[2], 0.95 * static_cast<double>(named[1]));
+}
+
+// Two fingers, open: what is between them meets the box around both, and neither finger.
+TEST(SeveralPartsTest, MeetWhatTheyMeetTogetherAndNotWhatIsBetweenThem) {
+  const auto finger = [](double y) {
+    return ToolPart{
+        "finger",
+        ConvexShape::box({0.005, 0.005, 0.05}).placed(Eigen::Isometry3d(Eigen::Translation3d(0.0, y, -0.05)))};
+  };
+  const Tool gripper({finger(-0.04), finger(0.04)});
+  const TriangleMesh three({{0, -0.04, -0.01}, {0, 0, -0.01}, {0, 0.04, -0.01}}, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
+  for (const std::string& name : detectorNames()) {
+    const auto detector = makeDetector(name);
+    const SweepFindings findings = testSweep(*detector, gripper, {Motion{}}, three, {});
+    EXPECT_EQ(findings.triangles, (Indices{0, 2})) << name;
+    ASSERT_EQ(findings.touched.size(), 2U);
+    EXPECT_EQ(findings.touched[0].part, 0U);
+    EXPECT_EQ(findings.touched[1].part, 1U);
+    EXPECT_EQ(findings.volumes_M.size(), 2U);
+    const SweepFindings aside = testSweep(*detector, gripper, {{at(1, 0, 0), at(1.1, 0, 0)}}, three, {});
+    EXPECT_TRUE(aside.triangles.empty());
+    EXPECT_EQ(aside.volumes_M.size(), 1U);  // of the box around both
+  }
+}
+
+TEST(InsideOfAWorkpieceTest, IsContactOfAClosedMeshAlone) {
+  const auto detector = makeDetector("reference");
+  const TriangleMesh closed = wavyHull(24, 40, 0.0);
+  std::vector<Eigen::Vector3d> corners;
+  for (size_t i = 0; i < closed.vertexCount(); ++i) corners.push_back(closed.vertex(i));
+  std::vector<Triangle> but_one = closed.triangles();
+  but_one.pop_back();
+  const TriangleMesh open(corners, but_one);
+  const ConvexShape bead = ConvexShape::cylinder(0.005, 0.01);
+  const SweepFindings within = testMotion(*detector, bead, Motion{}, closed, {});
+  EXPECT_TRUE(within.triangles.empty());
+  EXPECT_TRUE(within.inside && within.contact());
+  EXPECT_EQ(firstTime(within), 0.0);
+  EXPECT_FALSE(testMotion(*detector, bead, Motion{}, open, {}).contact());
+  EXPECT_FALSE(testMotion(*detector, bead, {at(1, 0, 0), at(1, 0, 0)}, closed, {}).contact());
+}
+
 }  // namespace
 }  // namespace sweep_guard

@@ -1,0 +1,100 @@
+#include "sweep_guard/detection/inside.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace sweep_guard {
+namespace {
+
+// Edges along the axes, so that a ray along them runs through edges and corners.
+TriangleMesh cube(double half, bool flipped = false) {
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.emplace_back((i & 1) != 0 ? half : -half, (i & 2) != 0 ? half : -half, (i & 4) != 0 ? half : -half);
+  }
+  std::vector<Triangle> triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  if (flipped) std::swap(triangles[3][0], triangles[3][1]);
+  return TriangleMesh(corners, triangles);
+}
+
+TEST(ClosedTest, IsAMeshWithoutABorder) {
+  EXPECT_TRUE(cube(1.0).closed());
+  EXPECT_TRUE(wavyHull(8, 12, 0.3).closed());
+  std::vector<Triangle> open = cube(1.0).triangles();
+  open.pop_back();
+  std::vector<Eigen::Vector3d> corners;
+  for (size_t i = 0; i < 8; ++i) corners.push_back(cube(1.0).vertex(i));
+  EXPECT_FALSE(TriangleMesh(corners, open).closed());
+}
+
+TEST(ClosedTest, StaysSoWhenTheMeshDeforms) {
+  std::vector<float> positions;
+  for (size_t i = 0; i < 8; ++i) {
+    for (const double x : cube(2.0).vertex(i)) positions.push_back(static_cast<float>(x));
+  }
+  EXPECT_TRUE(cube(1.0).deformed(positions).closed());
+}
+
+TEST(InsideTest, OfACubeIsWhereItIsWhateverEdgesTheRayMeets) {
+  for (const bool flipped : {false, true}) {
+    const TriangleMesh mesh = cube(1.0, flipped);
+    for (const double x : {-2.0, -0.5, 0.0, 0.5, 2.0}) {
+      for (const double y : {-2.0, -0.5, 0.0, 0.5, 2.0}) {
+        for (const double z : {-2.0, -0.5, 0.0, 0.5, 2.0}) {
+          const bool expected = std::max({std::abs(x), std::abs(y), std::abs(z)}) < 1.0;
+          EXPECT_EQ(inside(mesh, {x, y, z}), expected) << x << ' ' << y << ' ' << z;
+        }
+      }
+    }
+  }
+}
+
+// Every edge and every corner of the mesh lies on the ray of some point, seen from both sides.
+TEST(InsideTest, OfAHullIsWithinItsSurfaceOnEveryRayThroughItsVertices) {
+  const TriangleMesh mesh = wavyHull(10, 14, 0.7);
+  for (size_t i = 0; i < mesh.vertexCount(); ++i) {
+    const Eigen::Vector3d p = mesh.vertex(i);
+    EXPECT_TRUE(inside(mesh, {0.0, 0.5 * p.y(), 0.5 * p.z()}));
+    EXPECT_TRUE(inside(mesh, 0.9 * p)) << "vertex " << i;
+    EXPECT_FALSE(inside(mesh, 1.1 * p)) << "vertex " << i;
+    EXPECT_FALSE(inside(mesh, {-1.0, p.y(), p.z()}));
+    EXPECT_FALSE(inside(mesh, {1.0, p.y(), p.z()}));
+  }
+}
+
+// A hollow in it: the inner shell turns inside into outside again.
+TEST(InsideTest, OfAHollowIsOutside) {
+  std::vector<Eigen::Vector3d> corners;
+  std::vector<Triangle> triangles;
+  for (const double half : {1.0, 0.5}) {
+    const auto first = static_cast<std::uint32_t>(corners.size());
+    const TriangleMesh shell = cube(half);
+    for (size_t i = 0; i < 8; ++i) corners.push_back(shell.vertex(i));
+    for (const auto& [a, b, c] : shell.triangles()) triangles.push_back({first + a, first + b, first + c});
+  }
+  const TriangleMesh hollow(corners, triangles);
+  ASSERT_TRUE(hollow.closed());
+  EXPECT_FALSE(inside(hollow, {0.1, 0.1, 0.1}));
+  EXPECT_TRUE(inside(hollow, {0.75, 0.1, 0.1}));
+  EXPECT_FALSE(inside(hollow, {1.25, 0.1, 0.1}));
+}
+
+TEST(InsideTest, HoldsAtAnyPlaceAndScale) {
+  Random random(/*seed=*/5);
+  const TriangleMesh unit = wavyHull(8, 12, 0.0);
+  for (int i = 0; i < 200; ++i) {
+    const double scale = random.logUniform(1e-3, 1e3);
+    const Eigen::Isometry3d X = random.pose(random.logUniform(1e-3, 1e3) * scale * random.direction());
+    std::vector<Eigen::Vector3d> corners;
+    for (size_t k = 0; k < unit.vertexCount(); ++k) corners.push_back(X * (scale * unit.vertex(k)));
+    const TriangleMesh mesh(corners, unit.triangles());
+    const Eigen::Vector3d p = unit.vertex(static_cast<size_t>(random.below(static_cast<int>(unit.vertexCount()))));
+    EXPECT_TRUE(inside(mesh, X * (0.95 * scale * p)));
+    EXPECT_FALSE(inside(mesh, X * (1.05 * scale * p)));
+  }
+}
+
+}  // namespace
+}  // namespace sweep_guard
