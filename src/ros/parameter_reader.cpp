@@ -45,6 +45,20 @@ std::string listed(const std::vector<std::string>& choices) {
   return list;
 }
 
+// A list as a command line gives it: a, b or [a, b].
+XmlRpc::XmlRpcValue split(std::string text) {
+  if (text.size() >= 2 && text.front() == '[' && text.back() == ']') text = text.substr(1, text.size() - 2);
+  XmlRpc::XmlRpcValue list;
+  list.setSize(0);
+  if (text.empty()) return list;
+  std::istringstream words(text + ',');
+  for (std::string word; std::getline(words, word, ',');) {
+    const size_t begin = std::min(word.find_first_not_of(' '), word.size());
+    list[list.size()] = word.substr(begin, word.find_last_not_of(' ') + 1 - begin);
+  }
+  return list;
+}
+
 }  // namespace
 
 double ParameterReader::number(const std::string& key, double fallback, const Range& range, const std::string& note) {
@@ -123,6 +137,7 @@ std::vector<std::string> ParameterReader::texts(const std::string& key) {
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) return {};
   const std::string wanted = "a list of texts, or []";
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) value = split(static_cast<std::string>(value));
   if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) refuse(key, value, wanted);
   std::vector<std::string> texts;
   for (int i = 0; i < value.size(); ++i) {

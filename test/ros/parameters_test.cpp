@@ -127,6 +127,17 @@ TEST_F(ParametersTest, MakeAToolOfARobot) {
   ros::param::del("/robot_description");
 }
 
+// A command line has no lists.
+TEST_F(ParametersTest, TakeAListOfLinksAsText) {
+  ros::param::set("/robot_description", kGripper);
+  node_.setParam("tool/type", "urdf");
+  for (const char* const links : {"hand,finger", "[hand, finger]", "[]", ""}) {
+    node_.setParam("tool/links", links);
+    EXPECT_EQ(loadParameters(node_).tool->parts().size(), 2U) << links;
+  }
+  ros::param::del("/robot_description");
+}
+
 TEST_F(ParametersTest, FindTheRobotUnderAnotherName) {
   node_.setParam("tool/type", "urdf");
   EXPECT_NE(refusal(node_).find("no robot description in the parameter 'robot_description'"), std::string::npos);
@@ -163,10 +174,11 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("tool_source", "topics", "topic, tf");
   refused("tool/type", "sphere", "cylinder, urdf");
   refused("tool/robot_description", "", "a name, not empty");
-  refused("tool/links", "hand", "a list of texts");
+  refused("tool/links", "hand,,finger", "none of them empty");
+  refused("tool/links", true, "a list of texts");
   refused("tool/links", std::vector<int>{1}, "a list of texts");
   refused("tool/links", std::vector<std::string>{""}, "none of them empty");
-  refused("tool/mesh_roots", "/tmp", "a list of texts");
+  refused("tool/mesh_roots", 1, "a list of texts");
   refused("tool/mesh_depth", 17, "0 to 16");
   refused("tool/padding", -0.001, "0 to 1");
   refused("tool/padding", NAN, "0 to 1");

@@ -34,7 +34,7 @@ class ParameterReader {
   std::vector<int> integers(const std::string& key, const std::vector<int>& fallback, int lowest, int highest);
   /// Some of the choices, or none: a list without the rest, [] where nothing is set.
   std::vector<std::string> selection(const std::string& key, const std::vector<std::string>& choices);
-  std::vector<std::string> texts(const std::string& key);  ///< a list of them, [] where nothing is set
+  std::vector<std::string> texts(const std::string& key);  ///< a list of them, or `a,b`; [] where nothing is set
   /// A group of numbers by their names, none where nothing is set. Any finite number is accepted.
   std::map<std::string, double> numbers(const std::string& key);
   /// Text of a parameter of any namespace from the node's own upwards, or an absolute name; empty: there is none.
