@@ -2,6 +2,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -66,6 +67,57 @@ TEST_F(NodeTest, FindsASheetBetweenTwoPoses) {
   EXPECT_EQ(contacts.interval_start, before);
   EXPECT_EQ(contacts.volume, "obb_planes");
   EXPECT_LT(contacts.margin, 1e-6);
+}
+
+// The drill points down and sinks by 0.55 m: its tip comes to the sheet after 0.05 m, and ends 0.5 m below.
+TEST_F(NodeTest, TellsWhenWhereAndHowDeepASheetIsTouched) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.01, 0.02, 0.05});
+  const Contacts contacts = moveTo({0.01, 0.02, -0.5});
+  ASSERT_EQ(contacts.objects.size(), 1U);
+  const auto& object = contacts.objects[0];
+  EXPECT_TRUE(object.fine);
+  EXPECT_FALSE(object.inside);
+  EXPECT_FALSE(object.inside_tested);  // a sheet has none
+  ASSERT_FALSE(object.impacts.empty());
+  const auto& impact = object.impacts[0];
+  EXPECT_NEAR(impact.time_of_impact, 0.05 / 0.55, 1e-6);
+  EXPECT_NEAR(impact.point.z, 0.0, 1e-9);
+  EXPECT_NEAR(impact.normal.z, 1.0, 1e-9);
+  EXPECT_NEAR(impact.depth, 0.5, 1e-9);
+}
+
+TEST_F(NodeTest, ASheetThatJumpsOverARestingToolIsMet) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  restAt({0.0, 0.0, 0.0});
+  probe().place(sheetMovedTo("sheet", {0.0, 0.0, 1.0}, probe().time()));
+  EXPECT_EQ(moveTo({0.0, 0.0, 0.0}).objects.size(), 1U);
+  probe().awaitWarning([](const Warning& warning) { return warning.contact; });
+  EXPECT_TRUE(moveTo({0.0, 0.0, 0.0}).objects.empty());
+}
+
+TEST_F(NodeTest, AToolInsideOfAClosedMeshIsContact) {
+  auto box = sheetAt("box", {0.0, 0.0, -1.0}, probe().time(), /*half_side=*/1.0);
+  for (int i = 0; i < 4; ++i) {
+    box.mesh.vertices.push_back(box.mesh.vertices[static_cast<size_t>(i)]);
+    box.mesh.vertices.back().z = 1.0;
+  }
+  box.mesh.triangles.clear();
+  const std::vector<std::array<std::uint32_t, 3>> faces = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7},
+                                                           {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5},
+                                                           {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  for (const auto& [a, b, c] : faces) {
+    box.mesh.triangles.emplace_back();
+    box.mesh.triangles.back().vertex_indices = {a, b, c};
+  }
+  probe().place(box);
+  placed_.insert("box");
+  const Contacts contacts = moveTo({0.0, 0.0, 0.1});
+  ASSERT_EQ(contacts.objects.size(), 1U);
+  EXPECT_TRUE(contacts.objects[0].inside && contacts.objects[0].inside_tested);
+  EXPECT_TRUE(contacts.objects[0].triangles.empty());
+  const Warning warning = probe().awaitWarning([](const Warning& next) { return next.contact; });
+  EXPECT_NE(warning.text.find("inside of 'box'"), std::string::npos) << warning.text;
 }
 
 TEST_F(NodeTest, ContactIsWarnedOfAtOnceHeldAndThenClear) {
@@ -348,6 +400,22 @@ TEST_F(NodeTest, CheckSweepFindsASheetOnThePath) {
   ASSERT_EQ(response.objects.size(), 1U);
   EXPECT_EQ(response.objects[0].triangles, (std::vector<std::uint32_t>{0, 1}));
   EXPECT_GT(response.compute_time.toSec(), 0.0);
+}
+
+TEST_F(NodeTest, CheckSweepTellsTheTimeOfImpactWhereItIsAskedTo) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  CheckSweep::Request request;
+  for (const double z : {1.0, 0.5, -0.5}) request.path.push_back(poseAt({0.01, 0.02, z}, ros::Time()));
+  request.fine = true;
+  const auto response = probe().check(request);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_TRUE(response.collision);
+  EXPECT_EQ(response.segment, 1U);
+  EXPECT_NEAR(response.time_of_impact, 0.5, 1e-6);
+  ASSERT_EQ(response.objects.size(), 1U);
+  EXPECT_TRUE(response.objects[0].fine);
+  ASSERT_FALSE(response.objects[0].impacts.empty());
+  EXPECT_NEAR(response.objects[0].impacts[0].depth, 0.5, 1e-9);
 }
 
 TEST_F(NodeTest, CheckSweepOfAFreePathIsClear) {
