@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <istream>
+#include <map>
 #include <sstream>
 
 #include "sweep_guard/common/error.h"
@@ -27,14 +28,19 @@ std::string hex(const Eigen::MatrixBase<Derived>& values) {
 
 std::string hex(const Eigen::Isometry3d& pose) { return hex(pose.linear()) + hex(pose.translation()); }
 
-std::string textOf(const Triangles& triangles) {
-  std::string text = triangles.streamed ? "streamed\n" : "";
-  for (size_t i = 0; i < triangles.count(); ++i) {
-    text += "triangle";
-    for (size_t corner = 0; corner < 3; ++corner) text += hex(triangles.corners_M[3 * i + corner]);
-    text += '\n';
+std::string textOf(const std::string& word, const std::vector<Eigen::Vector3d>& corners) {
+  std::string text;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    if (i % 3 == 0) text += word;
+    text += hex(corners[i]);
+    if (i % 3 == 2) text += '\n';
   }
   return text;
+}
+
+std::string textOf(const Triangles& triangles) {
+  return std::string(triangles.streamed ? "streamed\n" : "") + (triangles.welded ? "welded\n" : "") +
+         textOf("triangle", triangles.corners_M) + textOf("before", triangles.before_M);
 }
 
 std::string textOf(const std::string& word, const Motion& motion) {
@@ -119,6 +125,10 @@ class Line {
 bool readTriangles(Line& line, Triangles& triangles) {
   if (line.word() == "streamed") {
     triangles.streamed = true;
+  } else if (line.word() == "welded") {
+    triangles.welded = true;
+  } else if (line.word() == "before") {
+    for (int i = 0; i < 3; ++i) triangles.before_M.push_back(line.vector());
   } else if (line.word() == "triangle") {
     for (int i = 0; i < 3; ++i) triangles.corners_M.push_back(line.vector());
   } else {
@@ -150,8 +160,6 @@ void readSweep(Line& line, SweepCase& sweep) {
     sweep.tool.push_back(line.body());
   } else if (line.word() == "motion") {
     sweep.motion = line.motion();
-  } else if (line.word() == "drift") {
-    sweep.drift = line.vector();
   } else if (line.word() == "frame") {
     sweep.frame_W = line.motion();
   } else if (line.word() == "options") {
@@ -167,30 +175,48 @@ void readSweep(Line& line, SweepCase& sweep) {
   }
 }
 
-}  // namespace
-
-TriangleMesh Triangles::mesh() const {
-  std::vector<Triangle> triangles;
-  for (std::uint32_t i = 0; i < count(); ++i) triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-  TriangleMesh mesh(corners_M, std::move(triangles));
-  if (!streamed) return mesh;
+// Of the corners of one moment. Corners that are welded are so by their places at the end.
+TriangleMesh meshOf(const Triangles& all, const std::vector<Eigen::Vector3d>& corners) {
+  std::map<std::array<double, 3>, std::uint32_t> known;
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangle> triangles(all.count());
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector3d& p = all.corners_M[i];
+    const auto next = static_cast<std::uint32_t>(vertices.size());
+    const std::uint32_t vertex =
+        all.welded ? known.emplace(std::array<double, 3>{p.x(), p.y(), p.z()}, next).first->second : next;
+    if (vertex == next) vertices.push_back(corners[i]);
+    triangles[i / 3][i % 3] = vertex;
+  }
+  TriangleMesh mesh(vertices, std::move(triangles));
+  if (!all.streamed) return mesh;
   std::vector<float> positions;
-  for (const Eigen::Vector3d& p : corners_M) {
+  for (const Eigen::Vector3d& p : vertices) {
     const Eigen::Vector3f kept = p.cast<float>();
     positions.insert(positions.end(), kept.begin(), kept.end());
   }
   return mesh.deformed(std::move(positions));
 }
 
+}  // namespace
+
+TriangleMesh Triangles::mesh() const { return meshOf(*this, corners_M); }
+
+TriangleMesh Triangles::meshBefore() const { return before_M.empty() ? mesh() : meshOf(*this, before_M); }
+
 std::vector<Motion> SweepCase::parts() const {
-  std::vector<Motion> parts = frame_W
-                                  ? split(RelativeMotion{motion, *frame_W}, options.max_rotation, toolOf(tool).extent())
-                                  : split(motion, options.max_rotation);
-  for (Motion& part : parts) part.drift = drift;
-  return parts;
+  if (!frame_W) return split(motion, options.max_rotation);
+  return split(RelativeMotion{motion, *frame_W}, options.max_rotation, toolOf(tool).extent());
 }
 
-std::vector<VolumeKind> volumeKinds() { return {VolumeKind::kObb, VolumeKind::kObbPlanes}; }
+SweepFindings findingsOf(Detector& detector, const SweepCase& sweep) {
+  const TriangleMesh mesh_M = sweep.triangles.mesh();
+  const TriangleMesh before_M = sweep.triangles.meshBefore();
+  return testSweep(detector, toolOf(sweep.tool), sweep.parts(), MovingMesh(mesh_M, before_M, /*strayed=*/0.0),
+                   sweep.options);
+}
+
+std::vector<VolumeKind> volumeKinds() { return {VolumeKind::kObb, VolumeKind::kObbPlanes, VolumeKind::kHull}; }
 
 std::string textOf(const PairCase& pair, const std::string& about) {
   const SweptVolume& volume = pair.swept_M;
@@ -207,14 +233,13 @@ std::string textOf(const SweepCase& sweep, const std::string& about) {
   std::string text = "soundness-sweep " + about + '\n';
   for (const Body& body : sweep.tool) text += textOf(body);
   text += textOf("motion", sweep.motion);
-  if (!sweep.drift.isZero(0.0)) text += "drift" + hex(sweep.drift) + '\n';
   if (sweep.frame_W) text += textOf("frame", *sweep.frame_W);
   text += "options " + nameOf(sweep.options.volume) + ' ' + hex(sweep.options.max_rotation) + ' ' +
           hex(sweep.options.margin) + '\n';
   text += textOf(sweep.triangles);
   for (const Contact& contact : sweep.contacts) {
     text +=
-        "contact " + std::to_string(contact.triangle) + ' ' + hex(contact.fraction) + ' ' + hex(contact.drift) + '\n';
+        "contact " + std::to_string(contact.triangle) + ' ' + hex(contact.fraction) + ' ' + hex(contact.pace) + '\n';
   }
   return text + "end\n";
 }

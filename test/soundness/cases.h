@@ -17,10 +17,13 @@ namespace sweep_guard::soundness {
 /// Triangles as the product gets them.
 struct Triangles {
   std::vector<Eigen::Vector3d> corners_M;  ///< three for each [m]
+  std::vector<Eigen::Vector3d> before_M;   ///< where they came from meanwhile [m]; empty if they rest
   bool streamed = false;                   ///< handed over in float32, as in a MeshVertices message
+  bool welded = false;                     ///< equal corners are one vertex
 
   size_t count() const { return corners_M.size() / 3; }
   TriangleMesh mesh() const;
+  TriangleMesh meshBefore() const;  ///< mesh(), if they rest
 };
 
 /// Triangles against one volume: which of them a detector has to name, an oracle tells.
@@ -32,23 +35,25 @@ struct PairCase {
 /// A point of the moving tool that lies on a triangle.
 struct Contact {
   std::uint32_t triangle;
-  double fraction;     ///< of the motion, in [0, 1]
-  double drift = 0.0;  ///< fraction of the drift, in [0, 1]
+  double fraction;    ///< of the motion, in [0, 1]
+  double pace = 0.0;  ///< fraction of its way that the triangle has gone by then, in [0, 1]
 };
 
 /// Triangles against the whole motion of a tool.
 struct SweepCase {
   Triangles triangles;
   Bodies tool;
-  Motion motion;                                    ///< of the tool in M, or in W if the frame M moves
-  Eigen::Vector3d drift = Eigen::Vector3d::Zero();  ///< the tool may be up to this far on, at any time [m]
-  std::optional<Motion> frame_W;                    ///< of M in W
-  SweepOptions options;                             ///< its volume is the checker's choice
-  std::vector<Contact> contacts;                    ///< these triangles are met for certain, in ascending order
+  Motion motion;                  ///< of the tool in M, or in W if the frame M moves
+  std::optional<Motion> frame_W;  ///< of M in W
+  SweepOptions options;           ///< its volume is the checker's choice
+  std::vector<Contact> contacts;  ///< these triangles are met for certain, in ascending order
 
   /// The motion cut for testSweep().
   std::vector<Motion> parts() const;
 };
+
+/// What testSweep() finds.
+SweepFindings findingsOf(Detector& detector, const SweepCase& sweep);
 
 /// All kinds of volume that the product knows.
 std::vector<VolumeKind> volumeKinds();

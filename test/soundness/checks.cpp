@@ -63,22 +63,21 @@ void checkPair(const Context& context, const PairCase& pair) {
 }
 
 void checkPositives(const Context& context, const SweepCase& sweep) {
-  const TriangleMesh mesh_M = sweep.triangles.mesh();
-  const Tool tool = toolOf(sweep.tool);
-  const std::vector<Motion> parts = sweep.parts();
   for (Suspect& suspect : context.suspects) {
     for (const VolumeKind kind : volumeKinds()) {
       SweepCase seen = sweep;
       seen.options.volume = kind;
       Tally& tally = context.report.of(suspect.name + '/' + nameOf(kind), context.family);
-      const SweepFindings findings = testSweep(*suspect.detector, tool, parts, mesh_M, seen.options);
+      const SweepFindings findings = findingsOf(*suspect.detector, seen);
       for (const Contact& contact : sweep.contacts) {
         ++tally.cases;
         ++tally.positives;
-        if (contains(findings.triangles, contact.triangle)) continue;
+        const bool named = contains(findings.triangles, contact.triangle);
+        if (named && contains(findings.met, contact.triangle)) continue;
         ++tally.misses;
-        context.report.fail("missed triangle " + std::to_string(contact.triangle),
-                            [&] { return textOf(seen, about(context, suspect.name)); });
+        context.report.fail(
+            (named ? "not confirmed: triangle " : "missed triangle ") + std::to_string(contact.triangle),
+            [&] { return textOf(seen, about(context, suspect.name)); });
       }
     }
   }
@@ -86,17 +85,17 @@ void checkPositives(const Context& context, const SweepCase& sweep) {
 
 void checkImpacts(const Context& context, const SweepCase& sweep) {
   const TriangleMesh mesh_M = sweep.triangles.mesh();
+  const TriangleMesh before_M = sweep.triangles.meshBefore();
+  const MovingMesh mesh(mesh_M, before_M, /*strayed=*/0.0);
   const Tool tool = toolOf(sweep.tool);
   const std::vector<Motion> parts = sweep.parts();
   Tally& tally = context.report.of("fine", context.family);
   for (const Contact& contact : sweep.contacts) {
-    const Triangle& triangle = mesh_M.triangles()[contact.triangle];
-    MovingTriangle moving;
-    for (size_t i = 0; i < 3; ++i) moving.start_M[i] = moving.end_M[i] = mesh_M.vertex(triangle[i]);
-    const double margin = sweep.options.margin + mesh_M.rounding();
+    if (mesh.moved() && contact.pace != contact.fraction) continue;  // not at an even pace
     std::optional<double> first;
     for (const ToolPart& part : tool.parts()) {
-      const std::optional<Impact> impact = firstImpact(part.shape_T, parts, moving, margin);
+      const auto impact =
+          firstImpact(part.shape_T, parts, mesh.triangle(contact.triangle), sweep.options.margin + mesh.uncertainty());
       if (impact && (!first || impact->time_of_impact < *first)) first = impact->time_of_impact;
     }
     ++tally.cases;
@@ -111,51 +110,47 @@ void checkImpacts(const Context& context, const SweepCase& sweep) {
 
 void checkWholeSweep(const Context& context, const SweepCase& sweep) {
   const TriangleMesh mesh_M = sweep.triangles.mesh();
-  const Tool tool = toolOf(sweep.tool);
-  const std::vector<Motion> parts = sweep.parts();
-  struct Answer {
-    std::string detector;
-    SweepCase seen;
-    SweepFindings findings;
-  };
-  std::vector<Answer> answers;
-  std::vector<size_t> times_named(sweep.triangles.count());
+  const SampledSweep sampled(sweep);
+  std::vector<std::optional<Real>> apart;  // empty: met
+  for (size_t i = 0; i < sweep.triangles.count(); ++i) {
+    const Eigen::Vector3d* corners = &sweep.triangles.corners_M[3 * i];
+    apart.push_back(sampled.apart({corners[0], corners[1], corners[2]}));
+  }
+  const bool any_met = std::any_of(apart.begin(), apart.end(), [](const auto& distance) { return !distance; });
   for (Suspect& suspect : context.suspects) {
     for (const VolumeKind kind : volumeKinds()) {
       SweepCase seen = sweep;
       seen.options.volume = kind;
-      answers.push_back({suspect.name, seen, testSweep(*suspect.detector, tool, parts, mesh_M, seen.options)});
-      for (const std::uint32_t triangle : answers.back().findings.triangles) ++times_named[triangle];
-    }
-  }
-
-  // Where all agree that it is met, nothing depends on it but how many extras are counted.
-  constexpr size_t kCoarsely = 16;
-  const SampledSweep sampled(sweep);
-  std::vector<bool> met;
-  for (size_t i = 0; i < times_named.size(); ++i) {
-    const Eigen::Vector3d* corners = &sweep.triangles.corners_M[3 * i];
-    met.push_back(
-        sampled.meets({corners[0], corners[1], corners[2]}, times_named[i] == answers.size() ? kCoarsely : 1));
-  }
-  for (const auto& [detector, seen, findings] : answers) {
-    Tally& tally = context.report.of(detector + '/' + nameOf(seen.options.volume), context.family);
-    const auto fail = [&](const std::string& what, std::uint32_t triangle) {
-      context.report.fail(what + " triangle " + std::to_string(triangle),
-                          [&, &of = seen, &by = detector] { return textOf(of, about(context, by)); });
-    };
-    ++tally.cases;
-    for (std::uint32_t i = 0; i < met.size(); ++i) {
-      const bool named = contains(findings.triangles, i);
-      if (met[i]) ++tally.positives;
-      if (named && !met[i]) ++tally.extras;
-      if (named || !met[i]) continue;
-      ++tally.misses;
-      fail("missed", i);
-    }
-    for (const std::uint32_t triangle : unexplained(mesh_M, findings)) {
-      ++tally.unexplained;
-      fail("farther away than the margin:", triangle);
+      const SweepFindings findings = findingsOf(*suspect.detector, seen);
+      Tally& tally = context.report.of(suspect.name + '/' + nameOf(kind), context.family);
+      const auto fail = [&](const std::string& what, std::uint32_t triangle) {
+        context.report.fail(what + " triangle " + std::to_string(triangle),
+                            [&] { return textOf(seen, about(context, suspect.name)); });
+      };
+      ++tally.cases;
+      for (std::uint32_t i = 0; i < apart.size(); ++i) {
+        if (!apart[i]) {
+          ++tally.positives;
+          if (contains(findings.triangles, i) && contains(findings.met, i)) continue;
+          ++tally.misses;
+          fail("missed", i);
+        } else if (contains(findings.met, i)) {
+          ++tally.extras;
+          if (*apart[i] <= 0) continue;
+          ++tally.unexplained;
+          fail("said to be met, and is apart:", i);
+        }
+      }
+      for (const std::uint32_t triangle : unexplained(mesh_M, findings)) {
+        ++tally.unexplained;
+        fail("farther away than the margin:", triangle);
+      }
+      if (any_met || !findings.met.empty()) continue;
+      const bool within = sampled.endsWithin(sweep.triangles);
+      if (within) ++tally.positives;
+      if (within == findings.inside) continue;
+      ++(within ? tally.misses : tally.unexplained);
+      fail(within ? "not said to be inside, of a mesh with" : "said to be inside, of a mesh with", 0);
     }
   }
 }

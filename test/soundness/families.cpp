@@ -23,9 +23,7 @@ void runPositives(const Context& context, std::uint64_t seed) { checkPositives(c
 
 void replayPositives(const Context& context, const AnyCase& any) { checkPositives(context, any.sweep.value()); }
 
-void runImpacts(const Context& context, std::uint64_t seed) {
-  checkImpacts(context, constructedPositives(seed, /*drift=*/false));
-}
+void runImpacts(const Context& context, std::uint64_t seed) { checkImpacts(context, constructedPositives(seed)); }
 
 void replayImpacts(const Context& context, const AnyCase& any) { checkImpacts(context, any.sweep.value()); }
 

@@ -25,6 +25,7 @@ Random randomOf(const Triangles& triangles) {
 double largestCoordinate(const Triangles& triangles) {
   double largest = 0.0;
   for (const Eigen::Vector3d& p : triangles.corners_M) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  for (const Eigen::Vector3d& p : triangles.before_M) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   return largest;
 }
 
@@ -113,6 +114,7 @@ Eigen::Isometry3d randomMove(Random& random, const Triangles& triangles) {
 
 Triangles moved(const Eigen::Isometry3d& move, Triangles triangles) {
   for (Eigen::Vector3d& p : triangles.corners_M) p = move * p;
+  for (Eigen::Vector3d& p : triangles.before_M) p = move * p;
   return triangles;
 }
 
@@ -124,6 +126,7 @@ double randomScale(Random& random, double largest) {
 
 Triangles scaled(Triangles triangles, double scale) {
   for (Eigen::Vector3d& p : triangles.corners_M) p *= scale;
+  for (Eigen::Vector3d& p : triangles.before_M) p *= scale;
   return triangles;
 }
 
@@ -194,14 +197,28 @@ class Relations {
     return suspect_.detector->detect(mesh, volume);
   }
 
-  SweepFindings sweep(const SweepCase& sweep, const TriangleMesh& mesh) const {
-    return testSweep(*suspect_.detector, toolOf(sweep.tool), sweep.parts(), mesh, sweep.options);
+  SweepFindings sweep(const SweepCase& sweep) const { return findingsOf(*suspect_.detector, sweep); }
+
+  // What the first poses of a path meet, all of it meets: a longer horizon contains a shorter one.
+  void keepsTheBeginning(const SweepCase& sweep, int count) {
+    ++tally_.cases;
+    constexpr int kPoses = 8;
+    std::vector<Eigen::Isometry3d> path;
+    for (int i = 0; i < kPoses; ++i) path.push_back(sweep.motion.at(static_cast<double>(i) / (kPoses - 1)));
+    const TriangleMesh mesh = sweep.triangles.mesh();
+    const auto metBy = [&](const std::vector<Eigen::Isometry3d>& poses) {
+      return testPath(*suspect_.detector, toolOf(sweep.tool), poses, mesh, sweep.options).all.met;
+    };
+    const std::vector<std::uint32_t> all = metBy(path);
+    for (const std::uint32_t triangle : metBy({path.begin(), path.begin() + count})) {
+      demand(contains(all, triangle), "beginning of a path", triangle);
+    }
   }
 
   // The contacts at fractions from `from` to `to` are named.
   void keepsContacts(const std::string& relation, const SweepCase& sweep, double from = 0.0, double to = 1.0) {
     ++tally_.cases;
-    const std::vector<std::uint32_t> triangles = this->sweep(sweep, sweep.triangles.mesh()).triangles;
+    const std::vector<std::uint32_t> triangles = this->sweep(sweep).met;
     for (const Contact& contact : sweep.contacts) {
       if (contact.fraction < from || contact.fraction > to) continue;
       demand(contains(triangles, contact.triangle), relation, contact.triangle);
@@ -260,6 +277,7 @@ bool aboutHalfATurn(const Motion& motion) { return motion.angle() > kPi - 1e-7; 
 SweepCase reversed(SweepCase sweep) {
   std::swap(sweep.motion.X_MT_start, sweep.motion.X_MT_end);
   if (sweep.frame_W) std::swap(sweep.frame_W->X_MT_start, sweep.frame_W->X_MT_end);
+  if (!sweep.triangles.before_M.empty()) std::swap(sweep.triangles.corners_M, sweep.triangles.before_M);
   return sweep;
 }
 
@@ -276,7 +294,6 @@ SweepCase scaledSweep(const SweepCase& sweep, double scale) {
   SweepCase other = sweep;
   other.triangles = scaled(sweep.triangles, scale);
   other.motion = scaled(sweep.motion, scale);
-  other.drift *= scale;
   if (sweep.frame_W) other.frame_W = scaled(*sweep.frame_W, scale);
   other.options.margin *= scale;
   for (Body& body : other.tool) body = scaled(body, scale);
@@ -292,12 +309,13 @@ void checkOne(Relations& relations, const SweepCase& sweep) {
   for (Body& body : larger.tool) body = enlarged(body, random.logUniform(1e-6, 1.0) * extentOf(sweep.tool));
   relations.keepsContacts("larger tool", larger);
 
+  relations.keepsTheBeginning(sweep, 1 + random.below(8));
+
   if (!sweep.frame_W && !aboutHalfATurn(sweep.motion)) {
     const Eigen::Isometry3d move = randomMove(random, sweep.triangles);
     SweepCase elsewhere = sweep;
     elsewhere.triangles = moved(move, sweep.triangles);
     elsewhere.motion = moved(move, sweep.motion);
-    elsewhere.drift = move.linear() * sweep.drift;
     const double all =
         largestCoordinate(sweep.triangles) + largestCoordinate(elsewhere.triangles) + extentOf(sweep.tool);
     elsewhere.options.margin += (sweep.triangles.streamed ? 0x1p-22 : 0x1p-49) * all;
@@ -309,11 +327,12 @@ void checkOne(Relations& relations, const SweepCase& sweep) {
   if (sweep.frame_W) largest += sweep.frame_W->X_MT_start.translation().norm();
   largest += extentOf(sweep.tool);
   const double scale = randomScale(random, largest);
-  const SweepFindings here = relations.sweep(sweep, sweep.triangles.mesh());
+  const SweepFindings here = relations.sweep(sweep);
   const SweepCase other = scaledSweep(sweep, scale);
-  const SweepFindings there = relations.sweep(other, other.triangles.mesh());
-  relations.demandSame(here.triangles == there.triangles && here.margin * scale == there.margin,
-                       "sweep scaled by a power of two");
+  const SweepFindings there = relations.sweep(other);
+  relations.demandSame(
+      here.triangles == there.triangles && here.met == there.met && here.margin * scale == there.margin,
+      "sweep scaled by a power of two");
 }
 
 }  // namespace

@@ -10,13 +10,12 @@ namespace sweep_guard::soundness {
 /// nothing of the product was asked to know it.
 ///
 /// Tools from 1e-6 to 1e3 m: cylinders, flat ones and needles, and up to five bodies of any kind; rotations 0, 1e-9
-/// rad, any, 90, 179.999 and 180 degrees; at rest, going, turning, drifting, and seen from a frame that turns; up to
-/// 1e7 m from the origin. Points on the hull of the whole sweep, on silhouettes, at the joints of split(), anywhere in
-/// the tool. Triangles of 1e-6 to 1e6 tool sizes touching with a corner, an edge or their inside: across, tangent,
-/// leaning away; slivers, needles, points. One in two cases has one triangle in float32, and the tool is moved to it:
-/// then only the last digits are in doubt.
-/// @param drift  whether some of the tools drift
-SweepCase constructedPositives(std::uint64_t seed, bool drift = true);
+/// rad, any, 90, 179.999 and 180 degrees; at rest, going, turning, meshes that move meanwhile, all this seen from a
+/// frame that turns; up to 1e7 m from the origin. Points on the hull of the whole sweep, on silhouettes, at the joints
+/// of split(), anywhere in the tool. Triangles of 1e-6 to 1e6 tool sizes touching with a corner, an edge or their
+/// inside: across, tangent, leaning away; slivers, needles, points. One in two cases has one triangle in float32, and
+/// the tool is moved to it: then only the last digits are in doubt.
+SweepCase constructedPositives(std::uint64_t seed);
 
 /// A rotation angle in [0, pi]: none, tiny, any, a right angle, almost or exactly half a turn.
 double randomAngle(Random& random);

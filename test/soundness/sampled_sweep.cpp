@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "soundness/exact_motion.h"
 #include "soundness/nearest_point.h"
@@ -31,7 +32,7 @@ SampledSweep::SampledSweep(const SweepCase& sweep) : tool_(sweep.tool) {
   slack_ = 1e-12L * static_cast<Real>(extentOf(tool_));
 }
 
-bool SampledSweep::meets(const std::array<Eigen::Vector3d, 3>& corners_M, size_t every) const {
+std::optional<Real> SampledSweep::apart(const std::array<Eigen::Vector3d, 3>& corners_M) const {
   const Corners corners = {corners_M[0].cast<Real>(), corners_M[1].cast<Real>(), corners_M[2].cast<Real>()};
   const Vector3r center = (corners[0] + corners[1] + corners[2]) / 3;
   Real radius = 0;
@@ -39,20 +40,39 @@ bool SampledSweep::meets(const std::array<Eigen::Vector3d, 3>& corners_M, size_t
   const Real lever = std::max((center - poses_.front().p_M).norm(), (center - poses_.back().p_M).norm()) + radius;
   const Real way_in_a_step = (way_ + angle_ * lever) / kSteps;  // of any of its points, in the tool frame
 
+  Real least = std::numeric_limits<Real>::infinity();
   for (const Body& body : tool_) {
     for (size_t i = 0; i < poses_.size();) {
       const Pose& pose = poses_[i];
-      Real apart = -depth(body, pose.R_TM * (center - pose.p_M)) - radius;
-      if (apart <= way_in_a_step) {
+      Real distance = -depth(body, pose.R_TM * (center - pose.p_M)) - radius;
+      if (distance <= 4 * way_in_a_step) {
         const std::optional<Real> closer = apartAt(pose, body, corners);
-        if (!closer) return true;
-        apart = *closer;
+        if (!closer) return std::nullopt;
+        distance = *closer;
       }
-      if (way_in_a_step == 0) break;  // at rest
-      i += std::max(every, static_cast<size_t>(std::min<Real>(apart / way_in_a_step, kSteps + 1)) / every * every);
+      // Goes on by so many steps that half of the distance is left.
+      const Real steps = way_in_a_step > 0 ? std::min<Real>(distance / (2 * way_in_a_step), kSteps + 1) : kSteps + 1;
+      const auto whole = std::max<size_t>(1, static_cast<size_t>(std::max<Real>(steps, 0)));
+      least = std::min(least, distance - static_cast<Real>(whole) * way_in_a_step);
+      i += whole;
     }
   }
-  return false;
+  return least - slack_;
+}
+
+bool SampledSweep::endsWithin(const Triangles& triangles) const {
+  const Pose& end = poses_.back();
+  return std::any_of(tool_.begin(), tool_.end(), [&](const Body& body) {
+    const Vector3r p = end.p_M + end.R_TM.transpose() * support(body, Vector3r::UnitZ());
+    Real solid_angle = 0;  // of each triangle, after van Oosterom and Strackee 1983
+    for (size_t i = 0; i < triangles.count(); ++i) {
+      Corners seen;
+      for (size_t k = 0; k < 3; ++k) seen[k] = (triangles.corners_M[3 * i + k].cast<Real>() - p).normalized();
+      const auto& [a, b, c] = seen;
+      solid_angle += 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+    }
+    return std::abs(solid_angle) > 6;  // 4 pi inside, 0 outside
+  });
 }
 
 std::optional<Real> SampledSweep::apartAt(const Pose& pose, const Body& body, const Corners& corners_M) const {
@@ -86,6 +106,7 @@ SweepCase randomWholeSweep(std::uint64_t seed) {
   for (const Triangle& triangle : mesh.triangles()) {
     for (const std::uint32_t vertex : triangle) sweep.triangles.corners_M.push_back(mesh.vertex(vertex));
   }
+  sweep.triangles.welded = true;
   const auto flatHull = [](const Body& body) { return body.kind == Body::Kind::kHull && body.facets.empty(); };
   do {
     sweep.tool = randomBodies(random, random.logUniform(0.01, 0.2));

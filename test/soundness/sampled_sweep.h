@@ -20,9 +20,12 @@ class SampledSweep {
   /// @param sweep  without a moving frame
   explicit SampledSweep(const SweepCase& sweep);
 
-  /// Whether some point of the triangle is in the tool at some pose; false: none was found.
-  /// @param every  only each of so many poses is tried
-  bool meets(const std::array<Eigen::Vector3d, 3>& corners_M, size_t every = 1) const;
+  /// Empty if some point of the triangle is in the tool at some pose. Or else how far they are apart at least during
+  /// all of the motion, between the poses too; not positive if they may touch [m].
+  std::optional<Real> apart(const std::array<Eigen::Vector3d, 3>& corners_M) const;
+
+  /// Whether a part of the tool, which touches nothing, ends inside of these triangles: they wind around it.
+  bool endsWithin(const Triangles& triangles) const;
 
  private:
   struct Pose {
