@@ -41,7 +41,13 @@ Vector3r randomPointOf(Random& random, const Body& body, Real inset) {
 // The point of the body that gets farthest in a direction, at the dyadic fraction at which it does.
 ToolPoint farthestOfSweep(Random& random, const Body& body, const ExactMotion& motion, const Eigen::Vector3d& way,
                           Real inset) {
-  const Eigen::Vector3d outward = random.direction();
+  // Every other time from the tool's origin through a point of the tool on its way: there an arc is widest.
+  const auto on_the_way = static_cast<Real>(random.uniform(0.0, 1.0));
+  const Vector3r p_T = support(body, random.direction().cast<Real>(), inset);
+  const Vector3r radial = motion.at(on_the_way, p_T) - motion.at(on_the_way, Vector3r::Zero());
+  const Eigen::Vector3d outward = radial.norm() > 0 && random.chance(0.5)
+                                      ? Eigen::Vector3d(radial.normalized().cast<double>())
+                                      : random.direction();
   const Vector3r direction = outward.cast<Real>();
   const auto pointAt = [&](Real fraction) { return support(body, motion.directionInTool(fraction, direction), inset); };
   const auto reachAt = [&](Real fraction) { return direction.dot(motion.at(fraction, pointAt(fraction))); };
@@ -303,7 +309,7 @@ SweepCase constructedPositives(std::uint64_t seed) {
       builder.addOneInFloat(triangle_size);
     } else {
       if (random.chance(0.2)) sweep.frame_W = randomPath(random, Eigen::Vector3d::Zero(), size);
-      builder.addThroughTheTool(1 + random.below(32), triangle_size);
+      builder.addThroughTheTool(1 + random.below(8), triangle_size);
     }
   } while (sweep.triangles.count() == 0);
   return sweep;
