@@ -117,41 +117,39 @@ void checkWholeSweep(const Context& context, const SweepCase& sweep) {
     apart.push_back(sampled.apart({corners[0], corners[1], corners[2]}));
   }
   const bool any_met = std::any_of(apart.begin(), apart.end(), [](const auto& distance) { return !distance; });
+  const bool within = !any_met && sampled.endsWithin(sweep.triangles);
+  const Tool tool = toolOf(sweep.tool);
+  const std::vector<Motion> parts = sweep.parts();
   for (Suspect& suspect : context.suspects) {
-    for (const VolumeKind kind : volumeKinds()) {
-      SweepCase seen = sweep;
-      seen.options.volume = kind;
-      const SweepFindings findings = findingsOf(*suspect.detector, seen);
-      Tally& tally = context.report.of(suspect.name + '/' + nameOf(kind), context.family);
-      const auto fail = [&](const std::string& what, std::uint32_t triangle) {
-        context.report.fail(what + " triangle " + std::to_string(triangle),
-                            [&] { return textOf(seen, about(context, suspect.name)); });
-      };
-      ++tally.cases;
-      for (std::uint32_t i = 0; i < apart.size(); ++i) {
-        if (!apart[i]) {
-          ++tally.positives;
-          if (contains(findings.triangles, i) && contains(findings.met, i)) continue;
-          ++tally.misses;
-          fail("missed", i);
-        } else if (contains(findings.met, i)) {
-          ++tally.extras;
-          if (*apart[i] <= 0) continue;
-          ++tally.unexplained;
-          fail("said to be met, and is apart:", i);
-        }
-      }
-      for (const std::uint32_t triangle : unexplained(mesh_M, findings)) {
+    const SweepFindings findings = testSweep(*suspect.detector, tool, parts, mesh_M, sweep.options);
+    Tally& tally = context.report.of(suspect.name + '/' + nameOf(sweep.options.volume), context.family);
+    const auto fail = [&](const std::string& what, std::uint32_t triangle) {
+      context.report.fail(what + " triangle " + std::to_string(triangle),
+                          [&] { return textOf(sweep, about(context, suspect.name)); });
+    };
+    ++tally.cases;
+    for (std::uint32_t i = 0; i < apart.size(); ++i) {
+      if (!apart[i]) {
+        ++tally.positives;
+        if (contains(findings.triangles, i) && contains(findings.met, i)) continue;
+        ++tally.misses;
+        fail("missed", i);
+      } else if (contains(findings.met, i)) {
+        ++tally.extras;
+        if (*apart[i] <= 0) continue;
         ++tally.unexplained;
-        fail("farther away than the margin:", triangle);
+        fail("said to be met, and is apart:", i);
       }
-      if (any_met || !findings.met.empty()) continue;
-      const bool within = sampled.endsWithin(sweep.triangles);
-      if (within) ++tally.positives;
-      if (within == findings.inside) continue;
-      ++(within ? tally.misses : tally.unexplained);
-      fail(within ? "not said to be inside, of a mesh with" : "said to be inside, of a mesh with", 0);
     }
+    for (const std::uint32_t triangle : unexplained(mesh_M, findings)) {
+      ++tally.unexplained;
+      fail("farther away than the margin:", triangle);
+    }
+    if (any_met || !findings.met.empty()) continue;
+    if (within) ++tally.positives;
+    if (within == findings.inside) continue;
+    ++(within ? tally.misses : tally.unexplained);
+    fail(within ? "not said to be inside, of a mesh with" : "said to be inside, of a mesh with", 0);
   }
 }
 

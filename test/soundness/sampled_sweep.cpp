@@ -107,6 +107,8 @@ SweepCase randomWholeSweep(std::uint64_t seed) {
     for (const std::uint32_t vertex : triangle) sweep.triangles.corners_M.push_back(mesh.vertex(vertex));
   }
   sweep.triangles.welded = true;
+  const std::vector<VolumeKind> kinds = volumeKinds();
+  sweep.options.volume = kinds[static_cast<size_t>(random.below(static_cast<int>(kinds.size())))];
   const auto flatHull = [](const Body& body) { return body.kind == Body::Kind::kHull && body.facets.empty(); };
   do {
     sweep.tool = randomBodies(random, random.logUniform(0.01, 0.2));

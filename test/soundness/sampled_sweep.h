@@ -42,7 +42,8 @@ class SampledSweep {
   Real slack_;  // what is in the tool by less is not certain
 };
 
-/// A tool that moves about a wavy hull of 1 600 triangles, with rotations up to half a turn.
+/// A tool that moves about a wavy hull of 1 600 triangles, with rotations up to half a turn; swept by any kind of
+/// volume.
 SweepCase randomWholeSweep(std::uint64_t seed);
 
 }  // namespace sweep_guard::soundness
