@@ -1,7 +1,6 @@
 #include "sweep_guard/guard/guard.h"
 
 #include <algorithm>
-#include <set>
 
 namespace sweep_guard {
 namespace {
@@ -9,9 +8,25 @@ namespace {
 constexpr size_t kLongestWay = 4096;  // of a detector that keeps failing: the warning is not clear meanwhile
 constexpr Duration kDeformationLasts = std::chrono::milliseconds(500);  // older workpieces are stale by default
 
-// To the share of a longer motion that begins at `done` and lasts `share`.
-void rescale(std::vector<TouchedTriangle>& touched, double done, double share) {
-  for (TouchedTriangle& one : touched) one.impact.time_of_impact = done + share * one.impact.time_of_impact;
+// To the share of a longer motion that lasts from `begin` to `end`.
+void rescale(std::vector<TouchedTriangle>& touched, double begin, double end) {
+  for (TouchedTriangle& one : touched) one.impact.time_of_impact = begin + (end - begin) * one.impact.time_of_impact;
+}
+
+// The share of the time from pose `begin` of a way to its last that is over at pose `i`.
+template <typename Way>
+double shareOf(const Way& way, size_t begin, size_t i) {
+  if (i <= begin) return 0.0;
+  const double time = toSeconds(way.back().stamp - way[begin].stamp);
+  if (i >= way.size() || !(time > 0.0)) return 1.0;
+  return toSeconds(way[i].stamp - way[begin].stamp) / time;
+}
+
+// The last place in a way up to which, one after the other, all are so; the first if not even that one is.
+template <typename Way, typename IsSo>
+size_t lastOf(const Way& way, const IsSo& is_so) {
+  const auto beyond = std::find_if_not(way.begin(), way.end(), is_so);
+  return static_cast<size_t>(std::max<std::ptrdiff_t>(beyond - way.begin(), 1) - 1);
 }
 
 MovingMesh movingMesh(const Workpiece& now, const Workpiece& before) {
@@ -106,50 +121,43 @@ SweepReport Guard::sweepAll(const ToolPose& pose, const Workpieces& workpieces) 
   return report;
 }
 
-// Places in a way: legs from `first` on are swept; those before `begin` only because the mesh has moved since.
-struct Guard::Span {
-  size_t first;
-  size_t begin;
-};
-
 SweptObject Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece) {
   const Way& way = ways_.at(workpiece->frame);
-  const Swept* before = sweptBefore(*workpiece);
-  const MovingMesh mesh = before != nullptr ? movingMesh(*workpiece, *before->workpiece) : workpiece->mesh_M;
-  const auto [first, begin] = spanOf(way, before, mesh);
-  WaysIn ways_in = before != nullptr ? before->ways_in : WaysIn();
-  if (before == nullptr) swept_[workpiece->id] = {workpiece, way[begin].number, {}};  // should the sweep fail
+  const size_t last = way.size() - 1;
+  Swept swept = sweptBefore(workpiece, way);
+  const size_t begin = lastOf(way, [&](const Placed& placed) { return placed.number <= swept.pose; });
+  const auto past = [&](const Workpiece& deformation) { return deformation.stamp <= way[begin].stamp; };
+  while (swept.deformations.size() > 1 && past(*swept.deformations[1])) swept.deformations.pop_front();
+  const auto before = swept.deformations.back();
+  if (workpiece != before) swept.deformations.push_back(workpiece);
+
+  const MovingMesh mesh = movingMesh(*workpiece, *swept.deformations.front());
+  const bool again = workpiece != before && mesh.moved();
+  const auto met_before = [&](const Placed& placed) { return placed.stamp <= before->stamp; };
+  const size_t first = again ? std::min(begin, lastOf(way, met_before)) : begin;
   SweptObject object{workpiece, way[begin].stamp, {}};
-  const double legs = std::max(1.0, static_cast<double>(way.size() - 1 - begin));
-  for (size_t i = first; i < std::max(way.size() - 1, first + 1); ++i) {
-    SweepFindings found = sweepLeg(way[i], way[std::min(i + 1, way.size() - 1)], mesh, ways_in);
-    ways_in = waysIn(found.touched);
-    const double done = i < begin ? 0.0 : static_cast<double>(i - begin) / legs;
-    rescale(found.touched, done, i < begin ? 0.0 : 1.0 / legs);
+  for (size_t i = first; i < std::max(last, first + 1); ++i) {
+    SweepFindings found = sweepLeg(way[i], way[std::min(i + 1, last)], mesh, swept.ways_in);
+    swept.ways_in = waysIn(found.touched);
+    rescale(found.touched, shareOf(way, begin, i), shareOf(way, begin, i + 1));
     unite(object.findings, std::move(found));
   }
-  swept_[workpiece->id] = {workpiece, way.back().number, std::move(ways_in)};
+  swept.pose = way.back().number;
+  swept_[workpiece->id] = std::move(swept);
   return object;
 }
 
-const Guard::Swept* Guard::sweptBefore(const Workpiece& workpiece) const {
-  const auto found = swept_.find(workpiece.id);
-  if (found == swept_.end()) return nullptr;
-  const Workpiece& before = *found->second.workpiece;
-  return before.frame == workpiece.frame && sameTriangles(before.mesh_M, workpiece.mesh_M) ? &found->second : nullptr;
-}
-
-Guard::Span Guard::spanOf(const Way& way, const Swept* before, const MovingMesh& mesh) const {
-  const size_t last = way.size() - 1;
-  if (before == nullptr) return {last == 0 ? 0 : last - 1, last == 0 ? 0 : last - 1};
-  const auto first_after = [&](const auto& is_after) {
-    return static_cast<size_t>(std::find_if(way.begin(), way.end(), is_after) - way.begin());
-  };
-  const size_t after_swept = first_after([&](const Placed& placed) { return placed.number > before->pose; });
-  const size_t begin = std::min(last, std::max<size_t>(after_swept, 1) - 1);
-  if (!mesh.moved()) return {begin, begin};
-  const size_t after_mesh = first_after([&](const Placed& placed) { return placed.stamp > before->workpiece->stamp; });
-  return {std::min(begin, std::max<size_t>(after_mesh, 1) - 1), begin};
+// Whatever its triangles were: from there on it has not been swept.
+Guard::Swept Guard::sweptBefore(const std::shared_ptr<const Workpiece>& workpiece, const Way& way) {
+  const Swept is_new{{workpiece}, way[std::max<size_t>(way.size(), 2) - 2].number, {}};
+  Swept& known = swept_.emplace(workpiece->id, is_new).first->second;
+  const Workpiece& before = *known.deformations.back();
+  if (before.frame != workpiece->frame) {
+    known = is_new;
+  } else if (!sameTriangles(before.mesh_M, workpiece->mesh_M)) {
+    known = {{workpiece}, known.pose, {}};
+  }
+  return known;
 }
 
 SweepFindings Guard::sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const WaysIn& ways_in) {
@@ -213,7 +221,7 @@ void Guard::forgetWhatIsGone(const Workpieces& workpieces) {
 void Guard::shorten(const std::string& frame, Way& way) const {
   std::uint64_t unswept = way.back().number;
   for (const auto& [id, swept] : swept_) {
-    if (swept.workpiece->frame == frame) unswept = std::min(unswept, swept.pose);
+    if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.pose);
   }
   const Time oldest = way.back().stamp - kDeformationLasts;
   while (way.size() > 1 && way[1].number <= unswept && way[1].stamp <= oldest) way.pop_front();

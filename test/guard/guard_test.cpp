@@ -114,6 +114,24 @@ TEST_F(GuardTest, SweepsThroughEveryPoseSinceAFailure) {
   EXPECT_FALSE(sweepTo(1.4, 0.6).contact());
 }
 
+// The drill's far end is at the sheet 2/3 through the first of the intervals, which lasts 0.1 s of 1 s.
+TEST_F(GuardTest, TimesOfImpactAreFractionsOfTheTimeAfterAFailureToo) {
+  sweepTo(1.0, 0.5);
+  record_.failures_left = 1;
+  sweepTo(1.1, -0.1);
+  const SweepReport report = sweepTo(2.0, -0.2);
+  ASSERT_EQ(report.objects[0].findings.touched.size(), 1U);
+  EXPECT_NEAR(report.objects[0].findings.touched[0].impact.time_of_impact, 0.4 / 0.6 * 0.1, 1e-6);
+}
+
+TEST_F(GuardTest, SweepsTheWayThroughAFailureThoughTheTrianglesAreNewSince) {
+  const Workpieces remeshed = {sheet("sheet", "table")};
+  sweepTo(1.0, 0.5);
+  record_.failures_left = 1;
+  sweepTo(1.1, -0.2);
+  EXPECT_TRUE(guard_.sweep(pose(1.2, {{"table", up(-0.3)}}), remeshed).contact());
+}
+
 TEST_F(GuardTest, AFailureOnOneWorkpieceDoesNotHideAContactWithAnother) {
   const Workpieces both = {sheet("first", "table"), sheet("second", "table")};
   record_.failures_left = 1;
@@ -277,6 +295,17 @@ TEST_F(MovingSheetTest, IsMetWhereTheToolWasMeanwhile) {
   const SweepReport report = sweepTo(1.04, 2.0);
   EXPECT_TRUE(report.contact());
   EXPECT_EQ(report.objects[0].interval_start, at(1.03));
+}
+
+// News of the sheet are faster than those of the tool: it is not there yet when the tool passes.
+TEST_F(MovingSheetTest, IsMetOnItsWayByPosesOlderThanItsUpdate) {
+  place(1.0, -1.0);
+  sweepTo(1.0, 0.5);
+  place(1.1, -1.5);
+  place(1.2, -3.0);
+  EXPECT_FALSE(sweepTo(1.01, 0.5).contact());
+  EXPECT_TRUE(sweepTo(1.02, -1.2).contact());
+  EXPECT_FALSE(sweepTo(1.3, 0.5).contact() && sweepTo(1.31, -1.2).contact());
 }
 
 TEST_F(MovingSheetTest, ThatRestsIsNotSweptAgain) {

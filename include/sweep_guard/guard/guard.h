@@ -111,16 +111,15 @@ class Guard {
   };
   using Way = std::deque<Placed>;  // the poses that may be swept again, and the newest
   struct Swept {
-    std::shared_ptr<const Workpiece> workpiece;  // as it was then
-    std::uint64_t pose = 0;                      // number of the pose swept to
+    // As it was then, and before that as long as the poses to come may be older: the stamps of meshes may run ahead.
+    std::deque<std::shared_ptr<const Workpiece>> deformations;
+    std::uint64_t pose = 0;  // number of the pose swept to
     WaysIn ways_in;
   };
-  struct Span;
 
   SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);
   SweptObject sweepObject(const std::shared_ptr<const Workpiece>& workpiece);
-  const Swept* sweptBefore(const Workpiece& workpiece) const;
-  Span spanOf(const Way& way, const Swept* before, const MovingMesh& mesh) const;
+  Swept sweptBefore(const std::shared_ptr<const Workpiece>& workpiece, const Way& way);
   SweepFindings sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const WaysIn& ways_in);
   void forgetWhatIsGone(const Workpieces& workpieces);
   void shorten(const std::string& frame, Way& way) const;
