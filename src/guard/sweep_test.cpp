@@ -50,8 +50,16 @@ bool anyPartInside(const Tool& tool, const Eigen::Isometry3d& X_MT, const Triang
          });
 }
 
-void keepFirst(std::vector<TouchedTriangle>& all, const std::vector<TouchedTriangle>& later) {
-  const auto before = [](const TouchedTriangle& a, const TouchedTriangle& b) { return a.triangle < b.triangle; };
+bool before(const TouchedTriangle& a, const TouchedTriangle& b) { return a.triangle < b.triangle; }
+
+// When and where is told of the first touch; how deep, and along which normal, of the last.
+void join(std::vector<TouchedTriangle>& all, const std::vector<TouchedTriangle>& later) {
+  for (TouchedTriangle& one : all) {
+    const auto again = std::lower_bound(later.begin(), later.end(), one, before);
+    const bool touches = again != later.end() && again->triangle == one.triangle;
+    if (touches) one.impact.normal_M = again->impact.normal_M;
+    one.impact.depth = touches ? again->impact.depth : 0.0;
+  }
   std::vector<TouchedTriangle> both;
   std::set_union(all.begin(), all.end(), later.begin(), later.end(), std::back_inserter(both), before);
   all = std::move(both);
@@ -65,7 +73,7 @@ void unite(SweepFindings& all, SweepFindings more) {
   std::move(more.volumes_M.begin(), more.volumes_M.end(), std::back_inserter(all.volumes_M));
   all.fine = more.fine;
   all.met = united(all.met, more.met);
-  keepFirst(all.touched, more.touched);
+  join(all.touched, more.touched);
   all.inside = all.inside || more.inside;
 }
 

@@ -308,6 +308,18 @@ TEST_F(MovingSheetTest, IsMetOnItsWayByPosesOlderThanItsUpdate) {
   EXPECT_FALSE(sweepTo(1.3, 0.5).contact() && sweepTo(1.31, -1.2).contact());
 }
 
+// An update has the way before swept again, where the drill was not in as deep.
+TEST_F(MovingSheetTest, HasDepthsOfTheNewestPoseAtItsUpdatesToo) {
+  place(1.0, 0.0);
+  for (int i = 0; i < 20; ++i) {
+    const double z = 0.1 - 0.004 * i;
+    if (i % 5 == 4) place(1.0 + 0.01 * i, i % 2 == 0 ? 1e-6 : 0.0);
+    const SweepReport report = sweepTo(1.0 + 0.01 * i, z);
+    ASSERT_EQ(report.objects[0].findings.touched.size(), 1U);
+    EXPECT_NEAR(report.objects[0].findings.touched[0].impact.depth, 0.1 - z, 2e-6);
+  }
+}
+
 TEST_F(MovingSheetTest, ThatRestsIsNotSweptAgain) {
   place(1.0, -1.0);
   sweepTo(1.0, 0.5);

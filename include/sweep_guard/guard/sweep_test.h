@@ -45,7 +45,8 @@ struct SweepFindings {
 SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
                         const SweepOptions& options, const WaysIn& ways_in = {});
 
-/// Takes in what was found in a later part of the same motion. Times of impact stay as they are, of either part.
+/// Takes in what was found in a later part of the same motion. Times of impact stay as they are, of either part; depths
+/// are those at the end of the later one, 0 of what it does not touch.
 void unite(SweepFindings& all, SweepFindings more);
 
 /// The normals to go on with in the next sweep.
@@ -57,7 +58,7 @@ std::optional<double> firstTime(const SweepFindings& findings);
 
 /// What the tool meets along a path of poses.
 struct PathFindings {
-  SweepFindings all;                     ///< of all sweeps; of a triangle touched in several the first time
+  SweepFindings all;                     ///< of all sweeps, as of unite()
   std::optional<size_t> first_met;       ///< first sweep with contact; sweep i goes from pose i to pose i + 1
   std::optional<double> time_of_impact;  ///< in that sweep, [0, 1]; empty without the fine phase
 };
