@@ -19,8 +19,8 @@ Detection ReferenceDetector::find(const TriangleMesh& mesh_M, const SweptVolume&
                                   const std::vector<std::uint32_t>* candidates) {
   const BoxCoordinates coordinates(mesh_M, swept_M.box);
   Detection detection;
-  detection.inflation = coordinates.rounding();
-  const std::vector<HalfSpace> half_spaces = swept_M.grown(detection.inflation).halfSpaces_B();
+  detection.inflation = 2.0 * coordinates.rounding();  // clipping itself can let in what is a little farther out, too
+  const std::vector<HalfSpace> half_spaces = swept_M.grown(coordinates.rounding()).halfSpaces_B();
   const std::vector<Triangle>& triangles = mesh_M.triangles();
   const auto look = [&](std::uint32_t i) {
     const auto& [a, b, c] = triangles[i];

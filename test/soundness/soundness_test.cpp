@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "detection/exact_oracle.h"
@@ -119,6 +121,20 @@ TEST(SearchTest, CatchesADetectorThatForgetsATriangle) {
 TEST(SearchTest, CatchesADetectorThatNamesWhatIsFarAway) {
   expectCaught("random", std::make_unique<Fearful>(), "farther away than the inflation");
   expectCaught("sweeps", std::make_unique<Fearful>(), "farther away than the margin");
+}
+
+// Each of these files is a case that once failed.
+TEST(SearchTest, FindsNothingAnyMoreInWhatWasFound) {
+  size_t cases = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SWEEP_GUARD_SOURCE_DIR "/test/soundness/found")) {
+    std::ifstream file(entry.path());
+    std::vector<Suspect> suspects = allSuspects();
+    std::ostringstream out;
+    Report report(out);
+    for (; const std::optional<AnyCase> any = readCase(file); ++cases) replay(*any, suspects, report);
+    EXPECT_EQ(report.failures(), 0U) << entry.path() << '\n' << out.str();
+  }
+  EXPECT_GT(cases, 0U);
 }
 
 TEST(SearchTest, IsDividedWithoutALoss) {
