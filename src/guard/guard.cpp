@@ -137,8 +137,11 @@ SweptObject Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece
   const size_t first = again ? std::min(begin, lastOf(way, met_before)) : begin;
   SweptObject object{workpiece, way[begin].stamp, {}};
   for (size_t i = first; i < std::max(last, first + 1); ++i) {
-    SweepFindings found = sweepLeg(way[i], way[std::min(i + 1, last)], mesh, swept.ways_in);
-    swept.ways_in = waysIn(found.touched);
+    const bool is_new = i >= begin;
+    const TriangleSet settled = is_new ? TriangleSet() : object.findings.met;  // once more tells nothing new
+    SweepFindings found = sweepLeg(way[i], way[std::min(i + 1, last)], mesh, swept.ways_in, settled);
+    if (is_new) swept.ways_in.clear();
+    swept.ways_in.merge(waysIn(found.touched));
     rescale(found.touched, shareOf(way, begin, i), shareOf(way, begin, i + 1));
     unite(object.findings, std::move(found));
   }
@@ -160,10 +163,11 @@ Guard::Swept Guard::sweptBefore(const std::shared_ptr<const Workpiece>& workpiec
   return known;
 }
 
-SweepFindings Guard::sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const WaysIn& ways_in) {
+SweepFindings Guard::sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const WaysIn& ways_in,
+                              const TriangleSet& settled) {
   const RelativeMotion motion{{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}};
   const std::vector<Motion> parts = split(motion, options_.sweep.max_rotation, tool_.extent());
-  return testSweep(*detector_, tool_, parts, mesh, options_.sweep, ways_in);
+  return testSweep(*detector_, tool_, parts, mesh, options_.sweep, ways_in, settled);
 }
 
 Outlook Guard::lookAhead(Duration age, const Workpieces& workpieces) {

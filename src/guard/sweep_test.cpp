@@ -78,7 +78,7 @@ void unite(SweepFindings& all, SweepFindings more) {
 }
 
 SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
-                        const SweepOptions& options, const WaysIn& ways_in) {
+                        const SweepOptions& options, const WaysIn& ways_in, const TriangleSet& settled) {
   SweepFindings findings;
   std::vector<TriangleSet> met_by(tool.parts().size());
   for (Motion motion_M : parts) {
@@ -87,8 +87,9 @@ SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<
   }
   findings.fine = options.fine;
   if (options.fine) {
+    for (TriangleSet& met : met_by) met = without(met, settled);
     Confirmation confirmed = confirm(tool, parts, mesh, met_by, options.margin, ways_in);
-    findings.met = std::move(confirmed.met);
+    findings.met = united(confirmed.met, without(findings.triangles, without(findings.triangles, settled)));
     findings.touched = std::move(confirmed.touched);
   } else {
     findings.met = findings.triangles;

@@ -120,7 +120,8 @@ class Guard {
   SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);
   SweptObject sweepObject(const std::shared_ptr<const Workpiece>& workpiece);
   Swept sweptBefore(const std::shared_ptr<const Workpiece>& workpiece, const Way& way);
-  SweepFindings sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const WaysIn& ways_in);
+  SweepFindings sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const WaysIn& ways_in,
+                         const TriangleSet& settled);
   void forgetWhatIsGone(const Workpieces& workpieces);
   void shorten(const std::string& frame, Way& way) const;
   PathTest::Effort effortFor(const Forecast& forecast, SteadyTime begin) const;

@@ -41,9 +41,10 @@ struct SweepFindings {
 /// remains to be tested whether a part of the tool is inside.
 /// @param parts    of split(): each turns by little, so that the margin for its arc stays small
 /// @param ways_in  of triangles touched before
+/// @param settled  triangles that need no closer look: met, if a volume meets them
 /// @throws DeviceError if the detector fails
 SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
-                        const SweepOptions& options, const WaysIn& ways_in = {});
+                        const SweepOptions& options, const WaysIn& ways_in = {}, const TriangleSet& settled = {});
 
 /// Takes in what was found in a later part of the same motion. Times of impact stay as they are, of either part; depths
 /// are those at the end of the later one, 0 of what it does not touch.
