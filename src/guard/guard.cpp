@@ -138,10 +138,12 @@ SweptObject Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece
   SweptObject object{workpiece, way[begin].stamp, {}};
   for (size_t i = first; i < std::max(last, first + 1); ++i) {
     const bool is_new = i >= begin;
-    const TriangleSet settled = is_new ? TriangleSet() : object.findings.met;  // once more tells nothing new
-    SweepFindings found = sweepLeg(way[i], way[std::min(i + 1, last)], mesh, swept.ways_in, settled);
-    if (is_new) swept.ways_in.clear();
-    swept.ways_in.merge(waysIn(found.touched));
+    swept.known.settled = is_new ? TriangleSet() : object.findings.met;  // once more tells nothing new
+    SweepFindings found = sweepLeg(way[i], way[std::min(i + 1, last)], mesh, swept.known);
+    if (is_new) swept.known.ways_in.clear();
+    SweptBefore after = known(found);
+    after.ways_in.merge(swept.known.ways_in);
+    swept.known = std::move(after);
     rescale(found.touched, shareOf(way, begin, i), shareOf(way, begin, i + 1));
     unite(object.findings, std::move(found));
   }
@@ -163,11 +165,10 @@ Guard::Swept Guard::sweptBefore(const std::shared_ptr<const Workpiece>& workpiec
   return known;
 }
 
-SweepFindings Guard::sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const WaysIn& ways_in,
-                              const TriangleSet& settled) {
+SweepFindings Guard::sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const SweptBefore& before) {
   const RelativeMotion motion{{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}};
   const std::vector<Motion> parts = split(motion, options_.sweep.max_rotation, tool_.extent());
-  return testSweep(*detector_, tool_, parts, mesh, options_.sweep, ways_in, settled);
+  return testSweep(*detector_, tool_, parts, mesh, options_.sweep, before);
 }
 
 Outlook Guard::lookAhead(Duration age, const Workpieces& workpieces) {

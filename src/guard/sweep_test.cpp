@@ -50,18 +50,18 @@ bool anyPartInside(const Tool& tool, const Eigen::Isometry3d& X_MT, const Triang
          });
 }
 
-bool before(const TouchedTriangle& a, const TouchedTriangle& b) { return a.triangle < b.triangle; }
+bool ascending(const TouchedTriangle& a, const TouchedTriangle& b) { return a.triangle < b.triangle; }
 
 // When and where is told of the first touch; how deep, and along which normal, of the last.
 void join(std::vector<TouchedTriangle>& all, const std::vector<TouchedTriangle>& later) {
   for (TouchedTriangle& one : all) {
-    const auto again = std::lower_bound(later.begin(), later.end(), one, before);
+    const auto again = std::lower_bound(later.begin(), later.end(), one, ascending);
     const bool touches = again != later.end() && again->triangle == one.triangle;
     if (touches) one.impact.normal_M = again->impact.normal_M;
     one.impact.depth = touches ? again->impact.depth : 0.0;
   }
   std::vector<TouchedTriangle> both;
-  std::set_union(all.begin(), all.end(), later.begin(), later.end(), std::back_inserter(both), before);
+  std::set_union(all.begin(), all.end(), later.begin(), later.end(), std::back_inserter(both), ascending);
   all = std::move(both);
 }
 
@@ -78,7 +78,7 @@ void unite(SweepFindings& all, SweepFindings more) {
 }
 
 SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
-                        const SweepOptions& options, const WaysIn& ways_in, const TriangleSet& settled) {
+                        const SweepOptions& options, const SweptBefore& before) {
   SweepFindings findings;
   std::vector<TriangleSet> met_by(tool.parts().size());
   for (Motion motion_M : parts) {
@@ -87,14 +87,16 @@ SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<
   }
   findings.fine = options.fine;
   if (options.fine) {
-    for (TriangleSet& met : met_by) met = without(met, settled);
-    Confirmation confirmed = confirm(tool, parts, mesh, met_by, options.margin, ways_in);
-    findings.met = united(confirmed.met, without(findings.triangles, without(findings.triangles, settled)));
+    for (TriangleSet& met : met_by) met = without(met, before.settled);
+    Confirmation confirmed = confirm(tool, parts, mesh, met_by, options.margin, before.ways_in);
+    findings.met = united(confirmed.met, without(findings.triangles, without(findings.triangles, before.settled)));
     findings.touched = std::move(confirmed.touched);
   } else {
     findings.met = findings.triangles;
   }
-  if (findings.met.empty()) findings.inside = anyPartInside(tool, parts.back().X_MT_end, mesh.mesh_M());
+  if (findings.met.empty() && !before.outside) {
+    findings.inside = anyPartInside(tool, parts.back().X_MT_end, mesh.mesh_M());
+  }
   return findings;
 }
 
@@ -102,25 +104,25 @@ PathFindings testPath(Detector& detector, const Tool& tool, const std::vector<Ei
                       const TriangleMesh& mesh_M, const SweepOptions& options, const std::function<void()>& between) {
   assert(!path.empty());
   PathFindings along;
-  WaysIn ways_in;
+  SweptBefore before;
   for (size_t i = 0; i < std::max<size_t>(path.size() - 1, 1); ++i) {
     between();
     const Motion motion{path[i], path[std::min(i + 1, path.size() - 1)]};
-    SweepFindings sweep = testSweep(detector, tool, split(motion, options.max_rotation), mesh_M, options, ways_in);
+    SweepFindings sweep = testSweep(detector, tool, split(motion, options.max_rotation), mesh_M, options, before);
     if (sweep.contact() && !along.first_met) {
       along.first_met = i;
       along.time_of_impact = firstTime(sweep);
     }
-    ways_in = waysIn(sweep.touched);
+    before = known(sweep);
     unite(along.all, std::move(sweep));
   }
   return along;
 }
 
-WaysIn waysIn(const std::vector<TouchedTriangle>& touched) {
-  WaysIn ways_in;
-  for (const TouchedTriangle& one : touched) ways_in.emplace(one.triangle, one.impact.normal_M);
-  return ways_in;
+SweptBefore known(const SweepFindings& findings) {
+  SweptBefore known{{}, !findings.contact(), {}};
+  for (const TouchedTriangle& one : findings.touched) known.ways_in.emplace(one.triangle, one.impact.normal_M);
+  return known;
 }
 
 std::optional<double> firstTime(const SweepFindings& findings) {

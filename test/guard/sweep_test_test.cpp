@@ -199,12 +199,12 @@ TEST(FineTest, LooksNoCloserAtWhatIsSettled) {
 // Pushed in further, it goes on along the normal that it came in by, though the sheet's other side is nearer by then.
 TEST(FineTest, GoesOnAlongTheWayIn) {
   const auto detector = makeDetector("reference");
-  WaysIn ways_in;
+  SweptBefore before;
   double depth = 0.0;
   for (double z = 0.11; z > -0.05; z -= 0.01) {
     const std::vector<Motion> push = split({at(0.2, 0.1, z), at(0.2, 0.1, z - 0.01)}, 0.1);
-    const SweepFindings findings = testSweep(*detector, Tool(kDrill), push, sheet(0.0), {}, ways_in);
-    ways_in = waysIn(findings.touched);
+    const SweepFindings findings = testSweep(*detector, Tool(kDrill), push, sheet(0.0), {}, before);
+    before = known(findings);
     if (findings.touched.empty()) continue;
     EXPECT_TRUE(findings.touched[0].impact.normal_M.isApprox(Eigen::Vector3d::UnitZ(), 1e-6)) << z;
     EXPECT_NEAR(findings.touched[0].impact.depth, 0.11 - z, 1e-9);
@@ -278,6 +278,18 @@ TEST(InsideOfAWorkpieceTest, IsContactOfAClosedMeshAlone) {
   EXPECT_EQ(firstTime(within), 0.0);
   EXPECT_FALSE(testMotion(*detector, bead, Motion{}, open, {}).contact());
   EXPECT_FALSE(testMotion(*detector, bead, {at(1, 0, 0), at(1, 0, 0)}, closed, {}).contact());
+}
+
+TEST(InsideOfAWorkpieceTest, IsAskedAgainOnlyAfterContact) {
+  const auto detector = makeDetector("reference");
+  const TriangleMesh closed = wavyHull(24, 40, 0.0);
+  const Tool bead = Tool::cylinder(0.005, 0.01);
+  const SweepFindings outside = testSweep(*detector, bead, {{at(1, 0, 0), at(1, 0, 0)}}, closed, {});
+  EXPECT_TRUE(known(outside).outside);
+  const SweepFindings in = testSweep(*detector, bead, {{at(1, 0, 0), at(0, 0, 0)}}, closed, {}, known(outside));
+  EXPECT_FALSE(in.met.empty());
+  EXPECT_FALSE(known(in).outside);
+  EXPECT_TRUE(testSweep(*detector, bead, {Motion{}}, closed, {}, known(in)).inside);
 }
 
 }  // namespace

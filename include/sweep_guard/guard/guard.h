@@ -114,14 +114,13 @@ class Guard {
     // As it was then, and before that as long as the poses to come may be older: the stamps of meshes may run ahead.
     std::deque<std::shared_ptr<const Workpiece>> deformations;
     std::uint64_t pose = 0;  // number of the pose swept to
-    WaysIn ways_in;
+    SweptBefore known;
   };
 
   SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);
   SweptObject sweepObject(const std::shared_ptr<const Workpiece>& workpiece);
   Swept sweptBefore(const std::shared_ptr<const Workpiece>& workpiece, const Way& way);
-  SweepFindings sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const WaysIn& ways_in,
-                         const TriangleSet& settled);
+  SweepFindings sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const SweptBefore& before);
   void forgetWhatIsGone(const Workpieces& workpieces);
   void shorten(const std::string& frame, Way& way) const;
   PathTest::Effort effortFor(const Forecast& forecast, SteadyTime begin) const;

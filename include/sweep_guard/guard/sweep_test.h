@@ -36,22 +36,29 @@ struct SweepFindings {
   bool contact() const { return inside || !met.empty(); }
 };
 
+/// What a sweep leaves behind.
+struct SweptBefore {
+  WaysIn ways_in;        ///< of the triangles touched
+  bool outside = false;  ///< every part of the tool is known to be outside of the mesh
+  TriangleSet settled;   ///< need no closer look: met, if a volume meets them
+};
+
 /// Tests the volumes that the tool sweeps in each part of its motion: down the tree of its boxes, as far as they meet
 /// something, to its convex parts. What these meet goes to the fine phase. If the mesh is closed and nothing is met, it
-/// remains to be tested whether a part of the tool is inside.
+/// remains to be tested whether a part of the tool is inside; but not if all were outside before, for nothing gets in
+/// without meeting the surface.
 /// @param parts    of split(): each turns by little, so that the margin for its arc stays small
-/// @param ways_in  of triangles touched before
-/// @param settled  triangles that need no closer look: met, if a volume meets them
+/// @param before  of the sweep that ended where this one begins
 /// @throws DeviceError if the detector fails
 SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
-                        const SweepOptions& options, const WaysIn& ways_in = {}, const TriangleSet& settled = {});
+                        const SweepOptions& options, const SweptBefore& before = {});
 
 /// Takes in what was found in a later part of the same motion. Times of impact stay as they are, of either part; depths
 /// are those at the end of the later one, 0 of what it does not touch.
 void unite(SweepFindings& all, SweepFindings more);
 
-/// The normals to go on with in the next sweep.
-WaysIn waysIn(const std::vector<TouchedTriangle>& touched);
+/// What the next sweep is to know of this one.
+SweptBefore known(const SweepFindings& findings);
 
 /// When contact begins, as a fraction of the sweep: the first time of impact, 0 for a tool that is inside all along.
 /// Empty without the fine phase, or without contact.
