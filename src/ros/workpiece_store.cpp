@@ -58,8 +58,14 @@ void WorkpieceStore::store(const sweep_guard::DeformableMesh& msg) {
   } else if (snapshot().size() >= kMostWorkpieces) {
     throw InvalidInput("there are " + std::to_string(kMostWorkpieces) + " workpieces already: remove some");
   }
+  sweep_guard::TriangleMesh mesh_M = fromMsg(msg.mesh, max_triangles_);
+  const bool deforms = current && current->frame == msg.header.frame_id &&
+                       current->mesh_M.vertexCount() == mesh_M.vertexCount() &&
+                       current->mesh_M.triangles() == mesh_M.triangles();
+  const std::uint64_t updates = deforms ? current->updates + 1 : 0;
+  const double way = deforms ? current->way + sweep_guard::farthestWay(current->mesh_M, mesh_M) : 0.0;
   replace({msg.id, msg.revision, fromMsg(msg.header.stamp), std::chrono::steady_clock::now(), msg.header.frame_id,
-           fromMsg(msg.mesh, max_triangles_)});
+           std::move(mesh_M), updates, way});
 }
 
 void WorkpieceStore::store(const sweep_guard::MeshVertices& msg) {

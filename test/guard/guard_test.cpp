@@ -338,5 +338,14 @@ TEST_F(MovingSheetTest, IsFollowedThroughAFailureOfTheFirstSweep) {
   EXPECT_TRUE(guard.sweep(pose(1.1, {{"table", up(-0.5)}}), {newest_}).contact());
 }
 
+// As a publisher does that sends the whole mesh each time.
+TEST_F(MovingSheetTest, IsFollowedThoughItsTrianglesAreSentAnew) {
+  place(1.0, -1.0);
+  sweepTo(1.0, 0.0);
+  const TriangleMesh anew({{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}}, {{0, 1, 2}});
+  newest_ = std::make_shared<const Workpiece>(Workpiece{"sheet", 0, at(1.01), SteadyTime{}, "table", anew, 1, 2.0});
+  EXPECT_TRUE(sweepTo(1.01, 0.0).contact());
+}
+
 }  // namespace
 }  // namespace sweep_guard

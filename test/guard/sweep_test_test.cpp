@@ -189,11 +189,11 @@ TEST(FineTest, TellsWhenWhereAndHowDeep) {
 TEST(FineTest, LooksNoCloserAtWhatIsSettled) {
   const auto detector = makeDetector("reference");
   const std::vector<Motion> down = {{at(0.2, 0.1, 0.3), at(0.2, 0.1, -0.1)}};
-  const SweepFindings settled = testSweep(*detector, Tool(kDrill), down, sheet(0.0), {}, {}, {0, 7});
+  const SweepFindings settled = testSweep(*detector, Tool(kDrill), down, sheet(0.0), {}, {{}, false, {0, 7}});
   EXPECT_EQ(settled.met, (Indices{0}));
   EXPECT_TRUE(settled.touched.empty());
   const std::vector<Motion> above = {{at(0.2, 0.1, 0.5), at(0.2, 0.1, 0.3)}};
-  EXPECT_FALSE(testSweep(*detector, Tool(kDrill), above, sheet(0.0), {}, {}, {0, 7}).contact());
+  EXPECT_FALSE(testSweep(*detector, Tool(kDrill), above, sheet(0.0), {}, {{}, false, {0, 7}}).contact());
 }
 
 // Pushed in further, it goes on along the normal that it came in by, though the sheet's other side is nearer by then.

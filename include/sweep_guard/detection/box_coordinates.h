@@ -13,7 +13,8 @@ class BoxCoordinates {
  public:
   BoxCoordinates(const TriangleMesh& mesh_M, const OrientedBox& box_M)
       : mesh_(mesh_M), R_BM_(box_M.X_MB.linear().transpose()), center_(box_M.X_MB.translation() - mesh_M.origin()) {
-    const double largest = box_M.X_MB.translation().norm() + mesh_M.origin().norm() + mesh_M.radius();
+    const double largest =
+        box_M.X_MB.translation().norm() + box_M.half_extents.norm() + mesh_M.origin().norm() + mesh_M.radius();
     rounding_ = largest * 0x1p-48;
   }
 
