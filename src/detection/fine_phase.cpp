@@ -148,7 +148,10 @@ class FinePhase {
   FinePhase(const ConvexShape& shape_T, const std::vector<Motion>& parts, const MovingTriangle& triangle, double margin)
       : shape_T_(shape_T), parts_(parts), triangle_(triangle), margin_(margin) {
     size_ = shape_T.extent() + std::max(diameter(triangle.start_M), diameter(triangle.end_M));
-    tolerance_ = 2e-9 * size_ + 1e-14 * std::max(course(0).farthest(), course(parts.size() - 1).farthest());
+    const Course first = course(0);
+    const Course last = course(parts.size() - 1);
+    // The poses themselves have been rounded, as far from the origin of M as they are.
+    tolerance_ = 2e-9 * size_ + 1e-14 * (first.base_M().norm() + std::max(first.farthest(), last.farthest()));
   }
 
   std::optional<Impact> run(const std::optional<Eigen::Vector3d>& way_in_M) {
