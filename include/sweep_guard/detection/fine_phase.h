@@ -40,8 +40,9 @@ struct Impact {
 /// next direction is looked for; so it goes on until the gap is the margin, or the end is reached.
 ///
 /// It ends within a tolerance above the margin: 2e-9 of the size of tool and triangle, and 1e-14 of how far they are
-/// apart at the start and the end, and from the origin of M, where the poses have been rounded [m]. So the time of impact is early by that, over the speed of closing. Should 1000
-/// directions not suffice, the time that was reached counts as the time of impact.
+/// apart at the start and the end, and from the origin of M, where the poses have been rounded [m]. So the time of
+/// impact is early by that, over the speed of closing. Should 1000 directions not suffice, the time that was reached
+/// counts as the time of impact.
 ///
 /// If the tool overlaps the triangle at the start already, the time of impact is 0 and the normal is `way_in_M` where
 /// that is given, or else the direction of least depth.
