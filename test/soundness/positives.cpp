@@ -308,7 +308,13 @@ SweepCase constructedPositives(std::uint64_t seed) {
     if (random.chance(0.5)) {
       builder.addOneInFloat(triangle_size);
     } else {
-      if (random.chance(0.2)) sweep.frame_W = randomPath(random, Eigen::Vector3d::Zero(), size);
+      if (random.chance(0.2)) {
+        // Both may be far from the origin of W, wherever they are from each other.
+        const Eigen::Vector3d place = (random.chance(0.5) ? 0.0 : random.logUniform(1.0, 1e6)) * random.direction();
+        sweep.frame_W = randomPath(random, place, size);
+        sweep.motion.X_MT_start.pretranslate(place);
+        sweep.motion.X_MT_end.pretranslate(place);
+      }
       builder.addThroughTheTool(1 + random.below(8), triangle_size);
     }
   } while (sweep.triangles.count() == 0);
