@@ -76,6 +76,25 @@ TEST(InsideTest, OfAHullIsWithinItsSurfaceOnEveryRayThroughItsVertices) {
   EXPECT_GT(rays, 50);
 }
 
+// The corner that the ray meets comes first or last of all: nothing is to depend on the order of the vertices.
+TEST(InsideTest, OfAnOctahedronIsBehindItsCorners) {
+  std::vector<Triangle> triangles;
+  for (const std::uint32_t x : {0U, 5U}) {
+    for (const std::uint32_t y : {1U, 2U}) {
+      for (const std::uint32_t z : {3U, 4U}) triangles.push_back({x, y, z});
+    }
+  }
+  const std::vector<Eigen::Vector3d> corners = {{1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {-1, 0, 0}};
+  const TriangleMesh mesh(corners, triangles);
+  ASSERT_TRUE(mesh.closed());
+  EXPECT_TRUE(inside(mesh, {0.0, 0.0, 0.0}));
+  EXPECT_TRUE(inside(mesh, {-0.5, 0.0, 0.0}));
+  EXPECT_FALSE(inside(mesh, {-1.5, 0.0, 0.0}));
+  std::vector<Eigen::Vector3d> turned = corners;
+  std::swap(turned.front(), turned.back());
+  EXPECT_TRUE(inside(TriangleMesh(turned, triangles), {0.5, 0.0, 0.0}));
+}
+
 // A hollow in it: the inner shell turns inside into outside again.
 TEST(InsideTest, OfAHollowIsOutside) {
   std::vector<Eigen::Vector3d> corners;
