@@ -1,12 +1,12 @@
 #include "sweep_guard/geometry/separation.h"
 
-#include <ccd/ccd.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "geometry/libccd_overlap.h"
 #include "scenes.h"
 
 namespace sweep_guard {
@@ -221,21 +221,6 @@ TEST(FartherApartTest, IsWhetherTheGapIsMore) {
       EXPECT_EQ(fartherApart(cylinder, triangle, distance, random.direction()), gap > distance) << i;
     }
   }
-}
-
-void supportOf(const void* body, const ccd_vec3_t* direction, ccd_vec3_t* point) {
-  const Vector3d along(direction->v[0], direction->v[1], direction->v[2]);
-  const Vector3d p = (*static_cast<const SupportMapping*>(body))(along.normalized());
-  ccdVec3Set(point, p.x(), p.y(), p.z());
-}
-
-bool overlapByLibccd(const SupportMapping& a, const SupportMapping& b) {
-  ccd_t ccd;
-  CCD_INIT(&ccd);
-  ccd.support1 = supportOf;
-  ccd.support2 = supportOf;
-  ccd.max_iterations = 500;
-  return ccdGJKIntersect(&a, &b, &ccd) != 0;
 }
 
 // Where the distance is more than what libccd takes for zero.
