@@ -47,17 +47,7 @@ std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, dou
   const double tool_angle = motion.tool_W.angle();
   const double frame_angle = motion.frame_W.angle();
   const int parts = std::max(1, static_cast<int>(std::ceil((tool_angle + frame_angle) / max_rotation)));
-  const double turn = frame_angle / parts;
-  const auto offset_W = [&](double fraction) -> Eigen::Vector3d {
-    return motion.tool_W.at(fraction).translation() - motion.frame_W.at(fraction).translation();
-  };
-  // A tool point in M is x = R_MW (d + R_WT p): |x''| <= turn^2 |d| + 2 turn |d'| + (turn + tool's turn)^2 |p|, and the
-  // chord of a curve errs by an eighth of that.
-  const double step = (offset_W(1.0) - offset_W(0.0)).norm() / parts;
-  const double farthest = std::max(offset_W(0.0).norm(), offset_W(1.0).norm());
-  const double both = (tool_angle + frame_angle) / parts;
-  const double bulge =
-      turn == 0.0 ? 0.0 : (turn * turn * farthest + 2.0 * turn * step + both * both * tool_extent) / 8.0;
+  const double bulge = frame_angle == 0.0 ? 0.0 : arc(motion, tool_extent) / (static_cast<double>(parts) * parts);
 
   const auto pose_M = [&](double fraction) {
     return motion.frame_W.at(fraction).inverse() * motion.tool_W.at(fraction);
@@ -68,6 +58,17 @@ std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, dou
     motions.push_back({pose_M(static_cast<double>(i) / parts), pose_M(static_cast<double>(i + 1) / parts), bulge});
   }
   return motions;
+}
+
+// A tool point in M is x = R_MW (d + R_WT p): |x''| <= turn^2 |d| + 2 turn |d'| + (turn + tool's turn)^2 |p|, and the
+// chord of a curve errs by an eighth of that.
+double arc(const RelativeMotion& motion, double tool_extent) {
+  const double turn = motion.frame_W.angle();
+  const double both = motion.tool_W.angle() + turn;
+  const Eigen::Vector3d from_W = motion.tool_W.X_MT_start.translation() - motion.frame_W.X_MT_start.translation();
+  const Eigen::Vector3d to_W = motion.tool_W.X_MT_end.translation() - motion.frame_W.X_MT_end.translation();
+  const double farthest = std::max(from_W.norm(), to_W.norm());
+  return (turn * turn * farthest + 2.0 * turn * (to_W - from_W).norm() + both * both * tool_extent) / 8.0;
 }
 
 double chordError(double radius, double angle) { return radius * angle * angle / 8.0; }

@@ -49,9 +49,12 @@ ExpectedMotion::ExpectedMotion(const Tool& tool, const Eigen::Isometry3d& X_WT, 
     : tool_(tool) {
   assert(!path.empty());
   const Eigen::Isometry3d X_MW = X_WM.inverse();
-  poses_.push_back({Duration::zero(), X_MW * X_WT, Matrix6d::Zero()});
+  way_M_.push_back({Duration::zero(), X_MW * X_WT, 0.0});
+  covariances_M_.push_back(Matrix6d::Zero());
   for (const ExpectedPose& pose : path) {
-    poses_.push_back({pose.ahead, X_MW * pose.X_WT, turned(pose.covariance, X_MW.linear())});
+    const Motion step_M{way_M_.back().X_MT, X_MW * pose.X_WT};
+    way_M_.push_back({pose.ahead, step_M.X_MT_end, chordError(tool.extent(), step_M.angle())});
+    covariances_M_.push_back(turned(pose.covariance, X_MW.linear()));
   }
 }
 
@@ -63,44 +66,23 @@ std::pair<Stretch, Stretch> ExpectedMotion::halves(const Stretch& stretch) const
 }
 
 ExpectedMotion::Pose ExpectedMotion::at(Duration time, size_t first) const {
-  const Pose& before = poses_[first];
-  const Pose& after = poses_[first + 1];
-  if (time == before.time) return before;
-  if (time == after.time) return after;
+  const Waypoint& before = way_M_[first];
+  const Waypoint& after = way_M_[first + 1];
+  if (time == before.time) return {before.X_MT, covariances_M_[first]};
+  if (time == after.time) return {after.X_MT, covariances_M_[first + 1]};
   const double along = share(time - before.time, after.time - before.time);
-  return {time, Motion{before.X_MT, after.X_MT}.at(along),
-          (1.0 - along) * before.covariance_M + along * after.covariance_M};
+  return {Motion{before.X_MT, after.X_MT}.at(along),
+          (1.0 - along) * covariances_M_[first] + along * covariances_M_[first + 1]};
 }
 
 std::vector<Motion> ExpectedMotion::motions_M(const Stretch& stretch, double max_rotation) const {
-  Motion motion_M{at(stretch.from, stretch.first).X_MT, end_M(stretch)};
-  if (stretch.last - stretch.first == 1) return split(motion_M, max_rotation);
-  motion_M.bulge = bulge(motion_M, stretch);
-  return {motion_M};
-}
-
-// At a pose between, a tool point is off by no more than the pose's shift and its turn times the tool's extent. From
-// one such pose to the next both the motion and its chord are straight but for their arcs.
-double ExpectedMotion::bulge(const Motion& chord_M, const Stretch& stretch) const {
-  const double extent = tool_.extent();
-  const double turn = chord_M.angle();
-  double off = 0.0;
-  double arc = 0.0;
-  for (size_t i = stretch.first + 1; i <= stretch.last; ++i) {
-    const Motion step{poses_[i - 1].X_MT, poses_[i].X_MT};
-    const double along = share(poses_[i].time - stretch.from, stretch.to - stretch.from);
-    const double step_share = share(poses_[i].time - poses_[i - 1].time, stretch.to - stretch.from);
-    const Motion error{chord_M.at(along), poses_[i].X_MT};
-    const double shift = (error.X_MT_end.translation() - error.X_MT_start.translation()).norm();
-    off = std::max(off, shift + extent * error.angle());
-    arc = std::max(arc, chordError(extent, step.angle()) + chordError(extent, step_share * turn));
-  }
-  return off + arc + chordError(extent, turn);
+  if (stretch.last - stretch.first > 1) return {chord(way_M_, stretch.first, stretch.last, tool_.extent())};
+  return split(Motion{at(stretch.from, stretch.first).X_MT, end_M(stretch)}, max_rotation);
 }
 
 Eigen::AlignedBox3d ExpectedMotion::reach_M(const Stretch& stretch, double most, double margin) const {
   std::vector<Pose> poses = {at(stretch.from, stretch.first)};
-  for (size_t i = stretch.first + 1; i < stretch.last; ++i) poses.push_back(poses_[i]);
+  for (size_t i = stretch.first + 1; i < stretch.last; ++i) poses.push_back({way_M_[i].X_MT, covariances_M_[i]});
   poses.push_back(at(stretch.to, stretch.last - 1));
 
   Eigen::AlignedBox3d box_M;

@@ -5,28 +5,12 @@
 namespace sweep_guard {
 namespace {
 
-constexpr size_t kLongestWay = 4096;  // of a detector that keeps failing: the warning is not clear meanwhile
+constexpr double kChordBulge = 1e-3;                                    // of the tool's extent
 constexpr Duration kDeformationLasts = std::chrono::milliseconds(500);  // older workpieces are stale by default
 
 // To the share of a longer motion that lasts from `begin` to `end`.
 void rescale(std::vector<TouchedTriangle>& touched, double begin, double end) {
   for (TouchedTriangle& one : touched) one.impact.time_of_impact = begin + (end - begin) * one.impact.time_of_impact;
-}
-
-// The share of the time from pose `begin` of a way to its last that is over at pose `i`.
-template <typename Way>
-double shareOf(const Way& way, size_t begin, size_t i) {
-  if (i <= begin) return 0.0;
-  const double time = toSeconds(way.back().stamp - way[begin].stamp);
-  if (i >= way.size() || !(time > 0.0)) return 1.0;
-  return toSeconds(way[i].stamp - way[begin].stamp) / time;
-}
-
-// The last place in a way up to which, one after the other, all are so; the first if not even that one is.
-template <typename Way, typename IsSo>
-size_t lastOf(const Way& way, const IsSo& is_so) {
-  const auto beyond = std::find_if_not(way.begin(), way.end(), is_so);
-  return static_cast<size_t>(std::max<std::ptrdiff_t>(beyond - way.begin(), 1) - 1);
 }
 
 MovingMesh movingMesh(const Workpiece& now, const Workpiece& before) {
@@ -102,8 +86,7 @@ SweepReport Guard::sweepAll(const ToolPose& pose, const Workpieces& workpieces) 
   ++poses_;
   for (const auto& [frame, X_WM] : pose.X_WM) {
     Way& way = ways_[frame];
-    if (way.size() >= kLongestWay) way.erase(way.begin() + 1);
-    way.push_back({poses_, pose.stamp, pose.X_WT, X_WM});
+    way.add({poses_, pose.stamp, pose.X_WT, X_WM});
   }
 
   SweepReport report{pose.stamp, pose.stamp, {}, {}, {}};
@@ -127,7 +110,7 @@ SweptObject Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece
   const Way& way = ways_.at(workpiece->frame);
   const size_t last = way.size() - 1;
   Swept swept = sweptBefore(workpiece, way);
-  const size_t begin = lastOf(way, [&](const Placed& placed) { return placed.number <= swept.pose; });
+  const size_t begin = way.lastUpTo(swept.pose);
   const auto past = [&](const Workpiece& deformation) { return deformation.stamp <= way[begin].stamp; };
   while (swept.deformations.size() > 1 && past(*swept.deformations[1])) swept.deformations.pop_front();
   const auto before = swept.deformations.back();
@@ -135,21 +118,25 @@ SweptObject Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece
 
   const MovingMesh mesh = movingMesh(*workpiece, *swept.deformations.front());
   const bool again = workpiece != before && mesh.moved();
-  const auto met_before = [&](const Placed& placed) { return placed.stamp <= before->stamp; };
-  const size_t first = again ? std::min(begin, lastOf(way, met_before)) : begin;
+  const size_t first = again ? std::min(begin, way.lastUpTo(before->stamp)) : begin;
   SweptObject object{workpiece, way[begin].stamp, {}};
-  for (size_t i = first; i < std::max(last, first + 1); ++i) {
+  way.waypoints_M(first, last, tool_.extent(), waypoints_M_);
+  size_t i = first;
+  do {
     const bool is_new = i >= begin;
     swept.known.settled = is_new ? TriangleSet() : object.findings.met;  // once more tells nothing new
-    SweepFindings found = sweepLeg(way[i], way[std::min(i + 1, last)], mesh, swept.known);
+    const size_t end = first + endOfMotion(i - first, (is_new ? last : begin) - first);
+    const std::vector<Motion> parts = motions_M(way, first, i - first, end - first);
+    SweepFindings found = testSweep(*detector_, tool_, parts, mesh, options_.sweep, swept.known);
     if (is_new) swept.known.ways_in.clear();
     SweptBefore after = known(found);
     after.ways_in.merge(swept.known.ways_in);
     swept.known = std::move(after);
-    rescale(found.touched, shareOf(way, begin, i), shareOf(way, begin, i + 1));
+    rescale(found.touched, way.share(begin, i), way.share(begin, end));
     unite(object.findings, std::move(found));
-  }
-  swept.pose = way.back().number;
+    i = end;
+  } while (i < last);
+  swept.pose = way.newest().number;
   swept_[workpiece->id] = std::move(swept);
   return object;
 }
@@ -167,10 +154,19 @@ Guard::Swept Guard::sweptBefore(const std::shared_ptr<const Workpiece>& workpiec
   return known;
 }
 
-SweepFindings Guard::sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const SweptBefore& before) {
-  const RelativeMotion motion{{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}};
-  const std::vector<Motion> parts = split(motion, options_.sweep.max_rotation, tool_.extent());
-  return testSweep(*detector_, tool_, parts, mesh, options_.sweep, before);
+// Numbers count the waypoints of the stretch.
+size_t Guard::endOfMotion(size_t begin, size_t last) const {
+  if (begin >= last) return last;
+  const ChordLimits limits{kChordBulge * tool_.extent(), options_.sweep.max_rotation};
+  return lastOfChord(waypoints_M_, begin, last, tool_.extent(), limits);
+}
+
+// From one waypoint of the stretch that begins at place `first` of the way to another.
+std::vector<Motion> Guard::motions_M(const Way& way, size_t first, size_t begin, size_t end) const {
+  if (end > begin + 1) return {chord(waypoints_M_, begin, end, tool_.extent())};
+  const Placed& from = way[first + begin];
+  const Placed& to = way[first + end];
+  return split({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, options_.sweep.max_rotation, tool_.extent());
 }
 
 Outlook Guard::lookAhead(Duration age, const Workpieces& workpieces) {
@@ -226,12 +222,12 @@ void Guard::forgetWhatIsGone(const Workpieces& workpieces) {
 
 // To what an update of a mesh may ask for, and to what a workpiece has not been swept along yet.
 void Guard::shorten(const std::string& frame, Way& way) const {
-  std::uint64_t unswept = way.back().number;
+  std::uint64_t unswept = way.newest().number;
   for (const auto& [id, swept] : swept_) {
     if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.pose);
   }
-  const Time oldest = way.back().stamp - kDeformationLasts;
-  while (way.size() > 1 && way[1].number <= unswept && way[1].stamp <= oldest) way.pop_front();
+  const Time oldest = way.newest().stamp - kDeformationLasts;
+  while (way.size() > 1 && way[1].number <= unswept && way[1].stamp <= oldest) way.forgetFirst();
 }
 
 }  // namespace sweep_guard

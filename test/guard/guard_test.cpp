@@ -124,6 +124,24 @@ TEST_F(GuardTest, TimesOfImpactAreFractionsOfTheTimeAfterAFailureToo) {
   EXPECT_NEAR(report.objects[0].findings.touched[0].impact.time_of_impact, 0.4 / 0.6 * 0.1, 1e-6);
 }
 
+// Down at a pace that grows, until the detector answers again: the legs are joined, the time counts by theirs. At 1 m/s
+// a bulge of a ten-thousandth of a metre makes it early by 0.2 ms at the most.
+TEST_F(GuardTest, TimesOfImpactOnJoinedLegsAreNotLate) {
+  const auto z = [](int ms) { return 0.3 - 1e-3 * ms - 1e-6 * ms * ms; };
+  const double met_ms = 0.5 * (std::sqrt(1e6 + 4e6 * 0.2) - 1e3);
+  for (int last = 172; last < 200; ++last) {
+    guard_.forget();
+    sweepTo(1.0, z(0));
+    record_.failures_left = last - 1;
+    for (int ms = 1; ms < last; ++ms) sweepTo(1.0 + 1e-3 * ms, z(ms));
+    const SweepFindings found = sweepTo(1.0 + 1e-3 * last, z(last)).objects[0].findings;
+    EXPECT_LT(found.volumes_M.size(), 20U);
+    ASSERT_EQ(found.touched.size(), 1U);
+    EXPECT_LE(found.touched[0].impact.time_of_impact * last, met_ms);
+    EXPECT_GE(found.touched[0].impact.time_of_impact * last, met_ms - 0.2);
+  }
+}
+
 TEST_F(GuardTest, SweepsTheWayThroughAFailureThoughTheTrianglesAreNewSince) {
   const Workpieces remeshed = {sheet("sheet", "table")};
   sweepTo(1.0, 0.5);
@@ -295,6 +313,30 @@ TEST_F(MovingSheetTest, IsMetWhereTheToolWasMeanwhile) {
   const SweepReport report = sweepTo(1.04, 2.0);
   EXPECT_TRUE(report.contact());
   EXPECT_EQ(report.objects[0].interval_start, at(1.03));
+}
+
+// 16 ms at 1 kHz: one sweep for what was, and one for what is new.
+TEST_F(MovingSheetTest, TakesOneMoreSweepAfterASmoothMotion) {
+  place(1.0, -1.0);
+  sweepTo(1.0, 0.5);
+  for (int ms = 1; ms <= 16; ++ms) sweepTo(1.0 + 1e-3 * ms, 0.5 - 2e-4 * ms - 1e-6 * ms * ms);
+  place(1.015, -0.9);
+  const SweepReport report = sweepTo(1.017, 0.49);
+  EXPECT_EQ(report.objects[0].findings.volumes_M.size(), 2U);
+  EXPECT_FALSE(report.contact());
+}
+
+// The tool was down for a moment only, a millisecond there and one back.
+TEST_F(MovingSheetTest, IsMetByAFlickBeforeItsUpdate) {
+  for (int flick = 1; flick < 16; ++flick) {
+    SCOPED_TRACE("flick at " + std::to_string(flick) + " ms");
+    newest_.reset();
+    guard_.forget();
+    place(1.0, -1.0);
+    for (int ms = 0; ms <= 16; ++ms) EXPECT_FALSE(sweepTo(1.0 + 1e-3 * ms, ms == flick ? -0.3 : 0.5).contact());
+    place(1.016, -0.35);
+    EXPECT_TRUE(sweepTo(1.017, 0.5).contact());
+  }
 }
 
 // News of the sheet are faster than those of the tool: it is not there yet when the tool passes.

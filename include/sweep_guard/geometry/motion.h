@@ -11,7 +11,9 @@ namespace sweep_guard {
 struct Motion {
   Eigen::Isometry3d X_MT_start = Eigen::Isometry3d::Identity();  ///< translation [m]
   Eigen::Isometry3d X_MT_end = Eigen::Isometry3d::Identity();    ///< translation [m]
-  double bulge = 0.0;  ///< bound on how far a tool point leaves its chord because M turns itself [m], >= 0
+  /// Bound on how far a tool point leaves its chord because M turns itself, or because the motion stands for several
+  /// [m], >= 0.
+  double bulge = 0.0;
   /// Besides, the tool may be anywhere from where it is to this far on, at any time [m]: so looks, from a mesh that
   /// goes the other way meanwhile, at whatever pace.
   Eigen::Vector3d drift = Eigen::Vector3d::Zero();
@@ -41,6 +43,11 @@ struct RelativeMotion {
 /// @param max_rotation  [rad], > 0
 /// @param tool_extent   largest distance of a tool point from the origin of T [m], >= 0
 std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_extent);
+
+/// Bound on how far a tool point, seen from M, is off the straight line at constant speed from where it starts to where
+/// it ends [m].
+/// @param tool_extent  largest distance of a tool point from the origin of T [m], >= 0
+double arc(const RelativeMotion& motion, double tool_extent);
 
 /// Greatest distance [m] between the arc that a tool point runs along while the tool turns and the chord that replaces
 /// it. A swept volume built on chords is conservative once it is grown by this. Bound: linear interpolation of a curve

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sweep_guard/geometry/motion.h"
+#include "sweep_guard/geometry/chord.h"
 #include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
@@ -25,16 +25,15 @@ class ExpectedMotion {
   ExpectedMotion(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
                  const Eigen::Isometry3d& X_WM);
 
-  Stretch whole() const { return between(0, poses_.size() - 1); }
+  Stretch whole() const { return between(0, way_M_.size() - 1); }
 
   /// From pose to pose; the measured pose is number 0, the path's begin at 1.
-  Stretch between(size_t first, size_t last) const { return {poses_[first].time, poses_[last].time, first, last}; }
+  Stretch between(size_t first, size_t last) const { return {way_M_[first].time, way_M_[last].time, first, last}; }
 
   /// Cut at a pose in its middle if there is one, else in half.
   std::pair<Stretch, Stretch> halves(const Stretch& stretch) const;
 
-  /// The motions to sweep, end to end. Part of a step is split(). Several steps are one motion along their chord, its
-  /// bulge bounding how far any tool point leaves it on the way through the poses between.
+  /// The motions to sweep, end to end. Part of a step is split(); several steps are one motion, their chord().
   /// @param max_rotation  of a part of one step [rad]
   std::vector<Motion> motions_M(const Stretch& stretch, double max_rotation) const;
 
@@ -51,16 +50,15 @@ class ExpectedMotion {
 
  private:
   struct Pose {
-    Duration time;
     Eigen::Isometry3d X_MT;
     Matrix6d covariance_M;
   };
 
   Pose at(Duration time, size_t first) const;
-  double bulge(const Motion& chord_M, const Stretch& stretch) const;
 
   const Tool& tool_;
-  std::vector<Pose> poses_;
+  Waypoints way_M_;
+  std::vector<Matrix6d> covariances_M_;  // at the waypoints
 };
 
 /// Where the sweeps along a path end: numbers of poses, counted as by ExpectedMotion, the last of them the path's end.

@@ -14,6 +14,7 @@
 #include "sweep_guard/guard/outlook.h"
 #include "sweep_guard/guard/path_test.h"
 #include "sweep_guard/guard/sweep_test.h"
+#include "sweep_guard/guard/way.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard {
@@ -79,6 +80,10 @@ struct GuardOptions {
 /// The vertices of a workpiece go straight from one update to the next, at whatever pace. They do so between the stamps
 /// of both: when an update comes, the tool's way is swept again from the earlier of them on, though no longer back than
 /// 0.5 s, against a mesh that moves.
+///
+/// Legs from pose to pose that are swept at once are joined into a chord() as long as that bulges by no more than a
+/// thousandth of the tool's extent: smooth motion takes one or two sweeps, a flick stays one. Times of impact stay
+/// early.
 class Guard {
  public:
   /// @throws InvalidInput if an option is out of range
@@ -103,13 +108,6 @@ class Guard {
   const Tool& tool() const { return tool_; }
 
  private:
-  struct Placed {
-    std::uint64_t number;  // counts the poses
-    Time stamp;
-    Eigen::Isometry3d X_WT;
-    Eigen::Isometry3d X_WM;
-  };
-  using Way = std::deque<Placed>;  // the poses that may be swept again, and the newest
   struct Swept {
     // As it was then, and before that as long as the poses to come may be older: the stamps of meshes may run ahead.
     std::deque<std::shared_ptr<const Workpiece>> deformations;
@@ -120,7 +118,8 @@ class Guard {
   SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);
   SweptObject sweepObject(const std::shared_ptr<const Workpiece>& workpiece);
   Swept sweptBefore(const std::shared_ptr<const Workpiece>& workpiece, const Way& way);
-  SweepFindings sweepLeg(const Placed& from, const Placed& to, const MovingMesh& mesh, const SweptBefore& before);
+  size_t endOfMotion(size_t begin, size_t last) const;
+  std::vector<Motion> motions_M(const Way& way, size_t first, size_t begin, size_t end) const;
   void forgetWhatIsGone(const Workpieces& workpieces);
   void shorten(const std::string& frame, Way& way) const;
   PathTest::Effort effortFor(const Forecast& forecast, SteadyTime begin) const;
@@ -128,13 +127,14 @@ class Guard {
   Tool tool_;
   std::unique_ptr<Detector> detector_;
   GuardOptions options_;
-  std::map<std::string, Way> ways_;     // by frame
+  std::map<std::string, Way> ways_;     // by frame: the poses that may be swept again, and the newest
   std::map<std::string, Swept> swept_;  // by id
   std::uint64_t poses_ = 0;
   PosePredictor predictor_;
   Budget budget_;
   PathTest path_test_;
   std::optional<ToolPose> newest_;
+  Waypoints waypoints_M_;  // of the stretch that is swept
 };
 
 }  // namespace sweep_guard
