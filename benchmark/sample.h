@@ -11,6 +11,7 @@ class Sample {
  public:
   void add(double value) { values_.push_back(value); }
   size_t count() const { return values_.size(); }
+  const std::vector<double>& values() const { return values_; }
 
   /// @param fraction  in [0, 1]; 0.5: the median
   double quantile(double fraction) const {

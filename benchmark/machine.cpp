@@ -1,0 +1,31 @@
+#include "machine.h"
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+
+namespace sweep_guard_benchmark {
+namespace {
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+std::string machineText() {
+  return "processor: " + processor() +
+         "\ncompiler: " SWEEP_GUARD_COMPILER "; peers but FCL, and the clip: with -march=native besides\n";
+}
+
+double load() {
+  std::array<double, 1> averages = {};
+  getloadavg(averages.data(), 1);
+  return averages[0];
+}
+
+}  // namespace sweep_guard_benchmark

@@ -1,0 +1,45 @@
+#include <cstring>
+
+#include "peers/peers.h"
+
+namespace sweep_guard_benchmark {
+namespace {
+
+// Reads every position once, and does nothing with it: no update can take less.
+class MemoryRead : public Peer {
+ public:
+  explicit MemoryRead(Surface& surface) : surface_(surface) {}
+
+  void prepare(const std::vector<Polytope>& /*volumes_M*/) override {}
+
+  void update() override {
+    const float* const positions = surface_.positions_M.data();
+    const size_t count = surface_.positions_M.size() / kStep * kStep;
+    std::array<Register, 4> sums = {};
+    for (size_t i = 0; i < count; i += kStep) {
+      for (size_t j = 0; j < sums.size(); ++j) {
+        Register values;
+        std::memcpy(&values, positions + i + j * kStep / sums.size(), sizeof(values));
+        sums[j] += values;
+      }
+    }
+    const Register sum = sums[0] + sums[1] + sums[2] + sums[3];
+    sum_ = sum[0];
+  }
+
+  void query(size_t /*volume*/, TriangleIds& /*ids*/) override {}
+  bool answers() const override { return false; }
+
+ private:
+  using Register = std::uint32_t __attribute__((vector_size(64)));
+  static constexpr size_t kStep = 4 * sizeof(Register) / sizeof(float);  // no load waits for the addition before
+
+  Surface& surface_;
+  volatile std::uint32_t sum_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Peer> makeMemoryRead(Surface& surface) { return std::make_unique<MemoryRead>(surface); }
+
+}  // namespace sweep_guard_benchmark

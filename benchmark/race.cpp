@@ -1,0 +1,77 @@
+#include "race.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <iterator>
+
+namespace sweep_guard_benchmark {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr size_t kWarmUp = 3;       // frames
+constexpr size_t kFewest = 3;       // frames
+constexpr double kRounding = 1e-9;  // of the polytope in M and of its clip [m]
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+}  // namespace
+
+Entrant::Entrant(const Workload& workload, const Factory& make)
+    : surface_(std::make_unique<Surface>(workload.surface)), peer_(make(*surface_)), ids_(workload.queries) {}
+
+double Entrant::run(const Frame& frame) {
+  peer_->prepare(frame.volumes_M);
+  for (TriangleIds& ids : ids_) ids.clear();
+  std::memcpy(surface_->positions_M.data(), frame.positions_M.data(), sizeof(float) * frame.positions_M.size());
+  const auto start = Clock::now();
+  peer_->update();
+  peer_->queryAll(ids_);
+  const double time = 1e6 * secondsSince(start);
+  if (peer_->answers()) check(frame);
+  return time;
+}
+
+void Entrant::check(const Frame& frame) {
+  const auto corner = [&](std::uint32_t vertex) { return &frame.positions_M[3 * vertex]; };
+  for (size_t volume = 0; volume < ids_.size(); ++volume) {
+    TriangleIds ids = ids_[volume];
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    const TriangleIds& truth = frame.truth[volume];
+    TriangleIds missed;
+    std::set_difference(truth.begin(), truth.end(), ids.begin(), ids.end(), std::back_inserter(missed));
+    misses_ += missed.size();
+    TriangleIds added;
+    std::set_difference(ids.begin(), ids.end(), truth.begin(), truth.end(), std::back_inserter(added));
+    for (const std::uint32_t id : added) {
+      const auto& [a, b, c] = surface_->triangles[id];
+      const double grown = peer_->inflation() + kRounding;
+      if (!meets(frame.volumes_M[volume], corner(a), corner(b), corner(c), grown)) ++extras_;
+    }
+  }
+}
+
+Race race(const Workload& workload, Entrant& ours, Entrant& peer, const Limits& limits) {
+  const auto start = Clock::now();
+  const auto frame = [&](size_t i) -> const Frame& { return workload.frames[i % workload.frames.size()]; };
+  for (size_t i = 0; i < kWarmUp && secondsSince(start) < 0.1 * limits.seconds; ++i) {
+    ours.run(frame(i));
+    peer.run(frame(i));
+  }
+  Race race;
+  for (size_t i = 0; i < limits.frames; ++i) {
+    if (race.ratio.count() >= kFewest && secondsSince(start) > limits.seconds) break;
+    const bool ours_first = i % 2 == 0;
+    double ours_us = ours_first ? ours.run(frame(i)) : 0.0;
+    const double peer_us = peer.run(frame(i));
+    if (!ours_first) ours_us = ours.run(frame(i));
+    race.ours_us.add(ours_us);
+    race.peer_us.add(peer_us);
+    race.ratio.add(peer_us / ours_us);
+  }
+  return race;
+}
+
+}  // namespace sweep_guard_benchmark

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sweep_guard_benchmark {
+
+/// One line of the results.
+struct Row {
+  std::string work;
+  std::string method;
+  size_t triangles = 0;
+  size_t queries = 0;
+  double median_us = 0.0;
+  double p10_us = 0.0;
+  double p90_us = 0.0;
+  std::optional<double> ratio_median;  ///< of this method's time to ours, frame by frame
+  std::optional<double> ratio_p10;
+  std::optional<size_t> misses;  ///< triangles met but not named, over all frames; empty: nothing is asked
+  std::optional<size_t> extras;  ///< triangles named but not met
+};
+
+/// Names of the columns, as a line.
+std::string csvHeader();
+std::string csvLine(const Row& row);
+
+/// @throws InvalidInput if a line is none of ours
+std::vector<Row> readCsv(std::istream& csv);
+
+}  // namespace sweep_guard_benchmark
