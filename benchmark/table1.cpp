@@ -54,9 +54,10 @@ std::vector<Variant> variants() {
   std::vector<Variant> all;
   for (const VolumeKind kind : kKinds) {
     for (const std::string& name : detectorNames()) all.push_back({name, makeDetector(name), kind, {}, {}, {}, 0});
-    all.push_back({"select, no cull", makeDetector("select", /*cull=*/false), kind, {}, {}, {}, 0});
+    all.push_back({"select, no cull", makeDetector("select", {/*cull=*/false}), kind, {}, {}, {}, 0});
+    all.push_back({"select, on egl", makeDetector("select", {/*cull=*/true, "egl"}), kind, {}, {}, {}, 0});
     // A name for each triangle, and every triangle drawn.
-    const SelectDetector::Options papers{/*cull=*/false, /*block=*/1};
+    const SelectDetector::Options papers{{/*cull=*/false}, /*block=*/1};
     all.push_back({"select, the paper's way", std::make_unique<SelectDetector>(papers), kind, {}, {}, {}, 0});
   }
   std::stable_sort(all.begin(), all.end(), [](const Variant& a, const Variant& b) { return a.name < b.name; });

@@ -1,6 +1,6 @@
 #!/bin/bash
 # core_without_ros.sh LIBRARY ROOT: the core includes nothing of ROS, no message and no room above it, and links nothing but
-# OSMesa, Qhull, libccd and the system's own libraries.
+# Qhull, libccd and the system's own libraries: OpenGL least of all, which is loaded by name.
 set -euo pipefail
 library=$1
 root=$2
@@ -21,8 +21,8 @@ if grep -nE "$foreign" "${files[@]}"; then
 fi
 
 needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
-grep -q '^libOSMesa\.' <<<"$needed" || { echo "$library does not link OSMesa: is it the core?" && status=1; }
-if grep -vE '^(libOSMesa|libccd|libqhull_r|libstdc\+\+|libm|libgcc_s|libc|libpthread|libasan|libubsan|libtsan|ld-linux-[a-z0-9-]*)\.so' <<<"$needed"; then
+grep -q '^libccd\.' <<<"$needed" || { echo "$library does not link libccd: is it the core?" && status=1; }
+if grep -vE '^(libccd|libqhull_r|libstdc\+\+|libm|libgcc_s|libc|libpthread|libasan|libubsan|libtsan|ld-linux-[a-z0-9-]*)\.so' <<<"$needed"; then
   echo "$library links these, which the core must not need"
   status=1
 fi

@@ -6,8 +6,11 @@
 
 namespace sweep_guard {
 
-std::unique_ptr<Detector> makeDetector(const std::string& name, bool cull) {
-  if (name == "select") return std::make_unique<SelectDetector>(SelectDetector::Options{cull});
+std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOptions& options) {
+  if (name == "select") {
+    return std::make_unique<SelectDetector>(SelectDetector::Options{options.cull},
+                                            [name = options.gl_context] { return makeOffscreenContext(name); });
+  }
   if (name == "reference") return std::make_unique<ReferenceDetector>();
   throw InvalidInput("detector '" + name + "' is unknown: use select or reference");
 }

@@ -15,43 +15,25 @@ namespace {
 constexpr size_t kWordsPerRecord = 4;  // number of names, nearest and farthest depth, the one name
 constexpr int kClipPlanes = 6;
 
-// A context is current while it is used and no longer: the next use may come from another thread.
-class Current {
- public:
-  explicit Current(OffscreenContext& context) : context_(context) { context_.makeCurrent(); }
-  Current(const Current&) = delete;
-  Current& operator=(const Current&) = delete;
-  ~Current() { context_.release(); }
-
- private:
-  OffscreenContext& context_;
-};
-
-template <typename Function>
-void load(OffscreenContext& context, const char* name, Function*& function) {
-  function = reinterpret_cast<Function*>(context.function(name));
-  if (function == nullptr) throw DeviceError(std::string("the off-screen context has no OpenGL function ") + name);
-}
-
 }  // namespace
 
 struct GlSelect::Functions {
   explicit Functions(OffscreenContext& context) {
-    load(context, "glClipPlane", clipPlane);
-    load(context, "glDisable", disable);
-    load(context, "glDrawArrays", drawArrays);
-    load(context, "glEnable", enable);
-    load(context, "glEnableClientState", enableClientState);
-    load(context, "glGetError", getError);
-    load(context, "glInitNames", initNames);
-    load(context, "glLoadIdentity", loadIdentity);
-    load(context, "glLoadName", loadName);
-    load(context, "glMatrixMode", matrixMode);
-    load(context, "glPolygonMode", polygonMode);
-    load(context, "glPushName", pushName);
-    load(context, "glRenderMode", renderMode);
-    load(context, "glSelectBuffer", selectBuffer);
-    load(context, "glVertexPointer", vertexPointer);
+    context.load("glClipPlane", clipPlane);
+    context.load("glDisable", disable);
+    context.load("glDrawArrays", drawArrays);
+    context.load("glEnable", enable);
+    context.load("glEnableClientState", enableClientState);
+    context.load("glGetError", getError);
+    context.load("glInitNames", initNames);
+    context.load("glLoadIdentity", loadIdentity);
+    context.load("glLoadName", loadName);
+    context.load("glMatrixMode", matrixMode);
+    context.load("glPolygonMode", polygonMode);
+    context.load("glPushName", pushName);
+    context.load("glRenderMode", renderMode);
+    context.load("glSelectBuffer", selectBuffer);
+    context.load("glVertexPointer", vertexPointer);
   }
 
   decltype(::glClipPlane)* clipPlane;
@@ -73,7 +55,7 @@ struct GlSelect::Functions {
 
 GlSelect::GlSelect(std::unique_ptr<OffscreenContext> context, size_t hit_records)
     : context_(std::move(context)), hit_buffer_(kWordsPerRecord * std::max<size_t>(hit_records, 1)) {
-  const Current current(*context_);
+  const CurrentContext current(*context_);
   gl_ = std::make_unique<const Functions>(*context_);
 }
 
@@ -85,7 +67,7 @@ const std::vector<std::uint32_t>& GlSelect::hits(const Query& query) {
   const auto per_name = static_cast<size_t>(query.triangles_per_name);
   const auto canary_name = static_cast<std::uint32_t>((triangles + per_name - 1) / per_name);
 
-  const Current current(*context_);
+  const CurrentContext current(*context_);
   int records = draw(query, canary_name);
   while (records < 0) {  // more hits than room: what was written is cut short, so it is thrown away
     if (hit_buffer_.size() > kWordsPerRecord * canary_name) {

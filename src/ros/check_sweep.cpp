@@ -123,7 +123,7 @@ bool CheckSweepService::fresh(const sweep_guard::Workpiece& workpiece) const {
 sweep_guard::Detector& CheckSweepService::detector(const std::string& name) {
   const auto made = detectors_.find(name);
   if (made != detectors_.end()) return *made->second;
-  return *detectors_.emplace(name, sweep_guard::makeDetector(name, parameters_.cull)).first->second;
+  return *detectors_.emplace(name, sweep_guard::makeDetector(name, parameters_.detector_options)).first->second;
 }
 
 }  // namespace sweep_guard_ros

@@ -146,6 +146,7 @@ void Diagnostics::deadlines(Status& status) const {
                    parameters_.detector + " is slower than timing/min_rate: use fewer triangles");
   }
   status.add("detector", parameters_.detector);
+  status.add("gl_context", parameters_.detector_options.gl_context);
   status.add("volume", sweep_guard::nameOf(parameters_.guard.sweep.volume));
   status.add("poses swept", load_.sweeps_total);
   status.add("cycles missed", load_.late_total);

@@ -48,7 +48,8 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       considered_publisher_(advertise<std_msgs::Bool>(private_node, "considered_warning", 10)),
       marker_publisher_(advertise<visualization_msgs::MarkerArray>(private_node, "markers", 1)),
       ledger_(parameters_.limits, [this] { warn(/*only_on_change=*/true); }),
-      guard_(*parameters_.tool, sweep_guard::makeDetector(parameters_.detector, parameters_.cull), parameters_.guard),
+      guard_(*parameters_.tool, sweep_guard::makeDetector(parameters_.detector, parameters_.detector_options),
+             parameters_.guard),
       workpieces_(parameters_.max_triangles, ledger_),
       poses_(node, parameters_, frames_, workpieces_, ledger_, [this](PlacedPose pose) { enqueue(std::move(pose)); }),
       meshes_(node, workpieces_),
@@ -78,7 +79,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
   predict_.start();
   report_thread_.start();
   ROS_INFO("guarding '%s' (%s) in '%s' by %s, %s; poses from %s, meshes from %s and %s", parameters_.tool_frame.c_str(),
-           parameters_.tool_story.c_str(), parameters_.fixed_frame.c_str(), parameters_.detector.c_str(),
+           parameters_.tool_story.c_str(), parameters_.fixed_frame.c_str(), parameters_.detector_story.c_str(),
            sweep_guard::nameOf(parameters_.guard.sweep.volume).c_str(), poses_.source().c_str(),
            meshes_.meshTopic().c_str(), meshes_.verticesTopic().c_str());
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/detection/offscreen_context.h"
 #include "sweep_guard/ros/parameter_reader.h"
 #include "sweep_guard/ros/tool_model.h"
 
@@ -115,7 +116,10 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   parameters.tool_frame = read.name("tool_frame", "tool");
   readTool(read, parameters);
   parameters.detector = read.choice("detector", "select", sweep_guard::detectorNames());
-  parameters.cull = read.flag("cull", true);
+  parameters.detector_options.cull = read.flag("cull", true);
+  parameters.detector_options.gl_context = read.choice("gl_context", "osmesa", sweep_guard::offscreenContextNames());
+  parameters.detector_story = parameters.detector;
+  if (parameters.detector == "select") parameters.detector_story += " on " + parameters.detector_options.gl_context;
   parameters.guard.sweep.fine = read.flag("fine", true);
   parameters.guard.sweep.volume =
       sweep_guard::volumeKind(read.choice("volume", "obb_planes", {"obb", "obb_planes", "hull"}));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "detection/every_context.h"
 #include "detection/exact_oracle.h"
 #include "scenes.h"
 #include "sweep_guard/detection/detector.h"
@@ -20,21 +21,29 @@ using SceneOf = Scene (*)(std::uint64_t seed);
 
 struct Variant {
   std::string name;
+  std::string gl_context;  // that it needs; empty: none
   std::function<std::unique_ptr<Detector>()> make;
 };
 
 std::ostream& operator<<(std::ostream& stream, const Variant& variant) { return stream << variant.name; }
 
-// Every detector by name, and the ways of `select` that no name gives.
+// Every detector by name, and on every context the ways of `select` that no name gives.
 std::vector<Variant> variants() {
   std::vector<Variant> all;
-  for (const std::string& name : detectorNames()) all.push_back({name, [name] { return makeDetector(name); }});
-  const auto select = [&](const std::string& name, const SelectDetector::Options& options) {
-    all.push_back({"select_" + name, [options] { return std::make_unique<SelectDetector>(options); }});
-  };
-  select("without_cull", {/*cull=*/false});
-  select("one_by_one", {/*cull=*/true, /*block=*/1});
-  select("in_sevens_with_room_for_two_hits", {/*cull=*/true, /*block=*/7, /*hit_records=*/2});
+  for (const std::string& name : detectorNames()) {
+    if (name != "select") all.push_back({name, "", [name] { return makeDetector(name); }});
+  }
+  for (const std::string& gl_context : offscreenContextNames()) {
+    const auto select = [&](const std::string& name, const SelectDetector::Options& options) {
+      const auto contexts = [gl_context] { return makeOffscreenContext(gl_context); };
+      all.push_back({"select_" + name + gl_context, gl_context,
+                     [=] { return std::make_unique<SelectDetector>(options, contexts); }});
+    };
+    select("on_", {});
+    select("without_cull_on_", {/*cull=*/false});
+    select("one_by_one_on_", {/*cull=*/true, /*block=*/1});
+    select("in_sevens_with_room_for_two_hits_on_", {/*cull=*/true, /*block=*/7, /*hit_records=*/2});
+  }
   return all;
 }
 
@@ -52,6 +61,13 @@ std::vector<std::uint32_t> difference(const std::vector<std::uint32_t>& a, const
 
 class DetectorContractTest : public testing::TestWithParam<Variant> {
  protected:
+  void SetUp() override {
+    const std::string& gl_context = GetParam().gl_context;
+    const std::string why = gl_context.empty() ? "" : whyMissing(gl_context);
+    if (!why.empty()) GTEST_SKIP() << why;
+    detector_ = GetParam().make();
+  }
+
   // Of each of so many scenes: what the reference finds is found, and what is found besides is within the inflation.
   void compareWithReference(SceneOf scene_of, int count) {
     for (int seed = 0; seed < count && !HasFailure(); ++seed) {
@@ -86,7 +102,7 @@ class DetectorContractTest : public testing::TestWithParam<Variant> {
     }
   }
 
-  std::unique_ptr<Detector> detector_ = GetParam().make();
+  std::unique_ptr<Detector> detector_;
   ReferenceDetector reference_;
 };
 

@@ -10,12 +10,13 @@
 
 namespace sweep_guard {
 
-/// An OSMesa context of which single functions are replaced.
+/// A context of which single functions are replaced.
 class FaultyContext : public OffscreenContext {
  public:
   using Replacements = std::map<std::string, Function>;  ///< null: the function is missing
 
-  explicit FaultyContext(Replacements replacements) : replacements_(std::move(replacements)) {}
+  FaultyContext(std::unique_ptr<OffscreenContext> context, Replacements replacements)
+      : context_(std::move(context)), replacements_(std::move(replacements)) {}
 
   void makeCurrent() override {
     if (refuses) throw DeviceError("faulty context: cannot be made current");
@@ -32,7 +33,7 @@ class FaultyContext : public OffscreenContext {
   bool refuses = false;  ///< makeCurrent() throws
 
  private:
-  std::unique_ptr<OffscreenContext> context_ = makeOsMesaContext();
+  std::unique_ptr<OffscreenContext> context_;
   Replacements replacements_;
 };
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 #include <thread>
 
+#include "detection/every_context.h"
 #include "detection/faulty_context.h"
 #include "sweep_guard/common/error.h"
 
@@ -20,11 +22,19 @@ OffscreenContext::Function erased(Function* function) {
   return reinterpret_cast<OffscreenContext::Function>(function);
 }
 
-// OSMesa's own functions, for replacements to call. Every context has the same.
+std::string tested;  // the context's name
+
+// One that replacements take their originals from. Every context of one kind has the same.
+OffscreenContext& sound() {
+  static std::map<std::string, std::unique_ptr<OffscreenContext>> contexts;
+  std::unique_ptr<OffscreenContext>& context = contexts[tested];
+  if (!context) context = makeOffscreenContext(tested);
+  return *context;
+}
+
 template <typename Function>
 Function* original(const char* name) {
-  static const std::unique_ptr<OffscreenContext> context = makeOsMesaContext();
-  return reinterpret_cast<Function*>(context->function(name));
+  return reinterpret_cast<Function*>(sound().function(name));
 }
 
 GLint GLAPIENTRY seeNothing(GLenum mode) {
@@ -78,7 +88,9 @@ class Row {
 
 const Row kRow({-2.0F, -0.5F, 0.0F, 0.5F, 2.0F, 0.9F});
 
-GlSelect faulty(const Replacements& replacements) { return GlSelect(std::make_unique<FaultyContext>(replacements)); }
+GlSelect faulty(const Replacements& replacements) {
+  return GlSelect(std::make_unique<FaultyContext>(makeOffscreenContext(tested), replacements));
+}
 
 std::string complaint(GlSelect& select) {
   try {
@@ -91,56 +103,66 @@ std::string complaint(GlSelect& select) {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST(GlSelectTest, NamesTheTrianglesInTheCube) {
-  GlSelect select(makeOsMesaContext());
+class GlSelectTest : public OnEveryContext {
+ protected:
+  void SetUp() override {
+    OnEveryContext::SetUp();
+    if (IsSkipped()) return;
+    tested = GetParam();
+    sound();  // to make it while another is current would take that away
+  }
+};
+
+TEST_P(GlSelectTest, NamesTheTrianglesInTheCube) {
+  GlSelect select(makeOffscreenContext(tested));
   EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
 }
 
-TEST(GlSelectTest, NamesBlocksOfTriangles) {
-  GlSelect select(makeOsMesaContext());
+TEST_P(GlSelectTest, NamesBlocksOfTriangles) {
+  GlSelect select(makeOffscreenContext(tested));
   EXPECT_EQ(select.hits(kRow.query(2)), (Names{0, 1, 2}));
   EXPECT_EQ(select.hits(kRow.query(4)), (Names{0, 1}));  // the last block is short
   EXPECT_EQ(select.hits(kRow.query(100)), (Names{0}));
   EXPECT_EQ(select.hits(Row({2.0F, 3.0F, 0.0F}).query(2)), (Names{1}));
 }
 
-TEST(GlSelectTest, NamesNothingWhereThereIsNothing) {
-  GlSelect select(makeOsMesaContext());
+TEST_P(GlSelectTest, NamesNothingWhereThereIsNothing) {
+  GlSelect select(makeOffscreenContext(tested));
   EXPECT_EQ(select.hits(Row({2.0F, -3.0F}).query()), Names{});
   EXPECT_EQ(select.hits(Row(std::vector<float>{}).query()), Names{});
 }
 
-TEST(GlSelectTest, KeepsWhatIsOnThePositiveSideOfEachClip) {
+TEST_P(GlSelectTest, KeepsWhatIsOnThePositiveSideOfEachClip) {
   Row row = kRow;
   row.clips = {{1, 0, 0, 0.25}, {-1, 0, 0, 0.75}};  // x >= -0.25, x <= 0.75
-  GlSelect select(makeOsMesaContext());
+  GlSelect select(makeOffscreenContext(tested));
   EXPECT_EQ(select.hits(row.query()), (Names{2, 3}));
 }
 
-TEST(GlSelectTest, AppliesSixClips) {
+TEST_P(GlSelectTest, AppliesSixClips) {
   Row row = kRow;
   row.clips.assign(5, {0, 0, 0, 1});
   row.clips.push_back({1, 0, 0, -0.25});
   row.canary = {0.3, 0, 0};
-  GlSelect select(makeOsMesaContext());
+  GlSelect select(makeOffscreenContext(tested));
   EXPECT_EQ(select.hits(row.query()), (Names{3, 5}));
 }
 
-TEST(GlSelectTest, ForgetsTheClipsOfTheQueryBefore) {
+TEST_P(GlSelectTest, ForgetsTheClipsOfTheQueryBefore) {
   Row clipped = kRow;
   clipped.clips = {{1, 0, 0, 0.25}};
-  GlSelect select(makeOsMesaContext());
+  GlSelect select(makeOffscreenContext(tested));
   EXPECT_EQ(select.hits(clipped.query()), (Names{2, 3, 5}));
   EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
 }
 
 // Touching is meeting. 2e-7 further out is not: so the cube is where it should be.
-TEST(GlSelectTest, HitsWhatTouchesTheCube) {
-  GlSelect select(makeOsMesaContext());
+TEST_P(GlSelectTest, HitsWhatTouchesTheCube) {
+  GlSelect select(makeOffscreenContext(tested));
   EXPECT_EQ(select.hits(Row({1.0F, 1.0000002F}).query()), (Names{0}));
 }
 
-TEST(GlSelectTest, HitsBothWindingsAndDegenerateTriangles) {
+TEST_P(GlSelectTest, HitsBothWindingsAndDegenerateTriangles) {
   const std::vector<float> corners = {0,  0,  0,    0,    0.1F, 0,    0.1F, 0,    0,      // clockwise
                                       0,  0,  0,    0.1F, 0,    0,    0,    0.1F, 0,      // counter-clockwise
                                       0,  0,  0,    0,    0,    0,    0,    0,    0,      // a point
@@ -148,19 +170,19 @@ TEST(GlSelectTest, HitsBothWindingsAndDegenerateTriangles) {
                                       -9, -9, 0.5F, 9,    -9,   0.5F, 0,    9,    0.5F,   // encloses the cube
                                       -9, -9, 1.0F, 9,    -9,   1.0F, 0,    9,    1.0F};  // in the plane of a face
   const Eigen::Vector3d canary = Eigen::Vector3d::Zero();
-  GlSelect select(makeOsMesaContext());
+  GlSelect select(makeOffscreenContext(tested));
   EXPECT_EQ(select.hits({corners, 1, {}, canary}), (Names{0, 1, 2, 3, 4, 5}));
 }
 
-TEST(GlSelectTest, GrowsABufferThatIsTooSmall) {
-  GlSelect select(makeOsMesaContext(), /*hit_records=*/1);
+TEST_P(GlSelectTest, GrowsABufferThatIsTooSmall) {
+  GlSelect select(makeOffscreenContext(tested), /*hit_records=*/1);
   EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
   EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
 }
 
 // Someone else draws in the same thread between two queries.
-TEST(GlSelectTest, SetsTheWholeStateForEveryQuery) {
-  auto context = makeOsMesaContext();
+TEST_P(GlSelectTest, SetsTheWholeStateForEveryQuery) {
+  auto context = makeOffscreenContext(tested);
   OffscreenContext& shared = *context;
   GlSelect select(std::move(context));
   ASSERT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
@@ -176,45 +198,45 @@ TEST(GlSelectTest, SetsTheWholeStateForEveryQuery) {
   EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
 }
 
-TEST(GlSelectTest, MakesItsContextCurrentForEveryQuery) {
-  GlSelect first(makeOsMesaContext());
-  GlSelect second(makeOsMesaContext());
+TEST_P(GlSelectTest, MakesItsContextCurrentForEveryQuery) {
+  GlSelect first(makeOffscreenContext(tested));
+  GlSelect second(makeOffscreenContext(tested));
   EXPECT_EQ(first.hits(kRow.query()), (Names{1, 2, 3, 5}));
   EXPECT_EQ(second.hits(Row({0.0F}).query()), (Names{0}));
   EXPECT_EQ(first.hits(kRow.query()), (Names{1, 2, 3, 5}));
 }
 
 // Without a current context OpenGL sees nothing and reports no error.
-TEST(GlSelectTest, MakesItsContextCurrentInTheThreadThatAsks) {
-  GlSelect select(makeOsMesaContext());
+TEST_P(GlSelectTest, MakesItsContextCurrentInTheThreadThatAsks) {
+  GlSelect select(makeOffscreenContext(tested));
   Names hits;
   std::thread([&] { EXPECT_NO_THROW(hits = select.hits(kRow.query())); }).join();
   EXPECT_EQ(hits, (Names{1, 2, 3, 5}));
 }
 
-TEST(GlSelectTest, DoesNotTakeSilenceForAnAnswer) {
+TEST_P(GlSelectTest, DoesNotTakeSilenceForAnAnswer) {
   GlSelect select = faulty({{"glRenderMode", erased(seeNothing)}});
   EXPECT_TRUE(contains(complaint(select), "canary")) << complaint(select);
 }
 
-TEST(GlSelectTest, DoesNotTrustACanaryThatIsOutside) {
+TEST_P(GlSelectTest, DoesNotTrustACanaryThatIsOutside) {
   Row row = kRow;
   row.canary = {0, 0, 1.5};
-  GlSelect select(makeOsMesaContext());
+  GlSelect select(makeOffscreenContext(tested));
   EXPECT_THROW(select.hits(row.query()), DeviceError);
 }
 
-TEST(GlSelectTest, DoesNotAnswerAfterAnError) {
+TEST_P(GlSelectTest, DoesNotAnswerAfterAnError) {
   GlSelect select = faulty({{"glGetError", erased(reportAnError)}});
   EXPECT_TRUE(contains(complaint(select), "error 1282")) << complaint(select);  // GL_INVALID_OPERATION
 }
 
-TEST(GlSelectTest, DoesNotGrowItsBufferForEver) {
+TEST_P(GlSelectTest, DoesNotGrowItsBufferForEver) {
   GlSelect select = faulty({{"glRenderMode", erased(overflowForEver)}});
   EXPECT_TRUE(contains(complaint(select), "overflows")) << complaint(select);
 }
 
-TEST(GlSelectTest, DoesNotTrustAHitUnderAnUnknownName) {
+TEST_P(GlSelectTest, DoesNotTrustAHitUnderAnUnknownName) {
   GlSelect unknown = faulty({{"glSelectBuffer", erased(rememberBuffer)}, {"glRenderMode", erased(misnameTheLastHit)}});
   EXPECT_TRUE(contains(complaint(unknown), "no known name")) << complaint(unknown);
   GlSelect nameless =
@@ -223,17 +245,17 @@ TEST(GlSelectTest, DoesNotTrustAHitUnderAnUnknownName) {
 }
 
 // A vertex that is no number makes OpenGL leave out its triangle. The canary shows that the others are still seen.
-TEST(GlSelectTest, SeesTheOthersBesideAVertexThatIsNoNumber) {
+TEST_P(GlSelectTest, SeesTheOthersBesideAVertexThatIsNoNumber) {
   std::vector<float> corners = {0, 0, 0, 0.1F, 0, 0, 0, 0.1F, 0, 0, 0, 0, 0.1F, 0, 0, 0, 0.1F, 0};
   corners[4] = std::numeric_limits<float>::quiet_NaN();
   const Eigen::Vector3d canary = Eigen::Vector3d::Zero();
-  GlSelect select(makeOsMesaContext());
+  GlSelect select(makeOffscreenContext(tested));
   const Names hits = select.hits({corners, 1, {}, canary});
   EXPECT_FALSE(hits.empty());
   EXPECT_EQ(hits.back(), 1U);
 }
 
-TEST(GlSelectTest, NamesTheFunctionThatIsMissing) {
+TEST_P(GlSelectTest, NamesTheFunctionThatIsMissing) {
   try {
     faulty({{"glInitNames", nullptr}});
     ADD_FAILURE() << "works without glInitNames";
@@ -242,8 +264,8 @@ TEST(GlSelectTest, NamesTheFunctionThatIsMissing) {
   }
 }
 
-TEST(GlSelectTest, PassesOnThatAContextCannotBeMadeCurrent) {
-  auto context = std::make_unique<FaultyContext>(Replacements{});
+TEST_P(GlSelectTest, PassesOnThatAContextCannotBeMadeCurrent) {
+  auto context = std::make_unique<FaultyContext>(makeOffscreenContext(tested), Replacements{});
   FaultyContext& faulty_context = *context;
   GlSelect select(std::move(context));
   faulty_context.refuses = true;
@@ -251,6 +273,8 @@ TEST(GlSelectTest, PassesOnThatAContextCannotBeMadeCurrent) {
   faulty_context.refuses = false;
   EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
 }
+
+INSTANTIATE_ON_EVERY_CONTEXT(GlSelectTest);
 
 }  // namespace
 }  // namespace sweep_guard

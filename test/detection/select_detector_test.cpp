@@ -5,6 +5,7 @@
 
 #include <thread>
 
+#include "detection/every_context.h"
 #include "detection/faulty_context.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
@@ -23,18 +24,20 @@ Replacements broken() { return {{"glGetError", reinterpret_cast<OffscreenContext
 // Makes contexts, of which the first so many are broken.
 class Factory {
  public:
-  explicit Factory(int broken_ones) : broken_left_(broken_ones) {}
+  Factory(std::string gl_context, int broken_ones) : gl_context_(std::move(gl_context)), broken_left_(broken_ones) {}
 
   SelectDetector::ContextFactory get() {
     return [this]() -> std::unique_ptr<OffscreenContext> {
       ++made;
-      return std::make_unique<FaultyContext>(broken_left_-- > 0 ? broken() : Replacements{});
+      return std::make_unique<FaultyContext>(makeOffscreenContext(gl_context_),
+                                             broken_left_-- > 0 ? broken() : Replacements{});
     };
   }
 
   int made = 0;
 
  private:
+  std::string gl_context_;
   int broken_left_;
 };
 
@@ -55,20 +58,27 @@ std::vector<std::uint32_t> expected(const TriangleMesh& mesh = hull()) {
   return ReferenceDetector().detect(mesh, sweptDrill()).triangles;
 }
 
-TEST(SelectDetectorTest, FindsTheTrianglesThatTheDrillMeets) {
-  SelectDetector detector({});
+class SelectDetectorTest : public OnEveryContext {
+ protected:
+  static SelectDetector::ContextFactory contexts() {
+    return [] { return makeOffscreenContext(GetParam()); };
+  }
+};
+
+TEST_P(SelectDetectorTest, FindsTheTrianglesThatTheDrillMeets) {
+  SelectDetector detector({}, contexts());
   ASSERT_GT(expected().size(), 20U);
   EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
 }
 
 // Two records hold 8 words: the canary and one hit.
-TEST(SelectDetectorTest, FindsAllInABufferThatHoldsTwo) {
-  SelectDetector detector({/*cull=*/true, /*block=*/64, /*hit_records=*/2});
+TEST_P(SelectDetectorTest, FindsAllInABufferThatHoldsTwo) {
+  SelectDetector detector({/*cull=*/true, /*block=*/64, /*hit_records=*/2}, contexts());
   EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
 }
 
-TEST(SelectDetectorTest, TakesANewContextWhereOneFails) {
-  Factory factory(/*broken_ones=*/1);
+TEST_P(SelectDetectorTest, TakesANewContextWhereOneFails) {
+  Factory factory(GetParam(), /*broken_ones=*/1);
   SelectDetector detector({}, factory.get());
   EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
   EXPECT_EQ(factory.made, 2);
@@ -76,16 +86,16 @@ TEST(SelectDetectorTest, TakesANewContextWhereOneFails) {
   EXPECT_EQ(factory.made, 2);  // and keeps it
 }
 
-TEST(SelectDetectorTest, GivesUpWhereTheSecondContextFailsAndComesBackWithTheThird) {
-  Factory factory(/*broken_ones=*/2);
+TEST_P(SelectDetectorTest, GivesUpWhereTheSecondContextFailsAndComesBackWithTheThird) {
+  Factory factory(GetParam(), /*broken_ones=*/2);
   SelectDetector detector({}, factory.get());
   EXPECT_THROW(detector.detect(hull(), sweptDrill()), DeviceError);
   EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
   EXPECT_EQ(factory.made, 3);
 }
 
-TEST(SelectDetectorTest, ComesBackAfterATimeWithoutAnyContext) {
-  Factory factory(/*broken_ones=*/1);
+TEST_P(SelectDetectorTest, ComesBackAfterATimeWithoutAnyContext) {
+  Factory factory(GetParam(), /*broken_ones=*/1);
   bool refuse = false;
   SelectDetector detector({}, [&]() -> std::unique_ptr<OffscreenContext> {
     if (refuse) throw DeviceError("no context today");
@@ -98,18 +108,18 @@ TEST(SelectDetectorTest, ComesBackAfterATimeWithoutAnyContext) {
   EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
 }
 
-TEST(SelectDetectorTest, RefusesToStartWithoutAContext) {
+TEST_P(SelectDetectorTest, RefusesToStartWithoutAContext) {
   const auto none = []() -> std::unique_ptr<OffscreenContext> { throw DeviceError("no context"); };
   EXPECT_THROW(SelectDetector({}, none), DeviceError);
   const auto incomplete = []() -> std::unique_ptr<OffscreenContext> {
-    return std::make_unique<FaultyContext>(Replacements{{"glClipPlane", nullptr}});
+    return std::make_unique<FaultyContext>(makeOffscreenContext(GetParam()), Replacements{{"glClipPlane", nullptr}});
   };
   EXPECT_THROW(SelectDetector({}, incomplete), DeviceError);
 }
 
 // A context is current in one thread at a time; a nodelet's timer comes from any.
-TEST(SelectDetectorTest, AnswersInOneThreadAfterTheOther) {
-  SelectDetector detector({});
+TEST_P(SelectDetectorTest, AnswersInOneThreadAfterTheOther) {
+  SelectDetector detector({}, contexts());
   for (int i = 0; i < 5; ++i) {
     std::vector<std::uint32_t> found;
     std::thread([&] { found = detector.detect(hull(), sweptDrill()).triangles; }).join();
@@ -118,10 +128,10 @@ TEST(SelectDetectorTest, AnswersInOneThreadAfterTheOther) {
   EXPECT_EQ(detector.detect(hull(), sweptDrill()).triangles, expected());
 }
 
-TEST(SelectDetectorTest, DetectorsInParallelThreadsDoNotDisturbEachOther) {
+TEST_P(SelectDetectorTest, DetectorsInParallelThreadsDoNotDisturbEachOther) {
   constexpr std::uint64_t kScenes = 200;
   std::vector<std::vector<std::uint32_t>> alone;
-  SelectDetector detector_alone({});
+  SelectDetector detector_alone({}, contexts());
   for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
     const Scene scene = randomScene(seed);
     alone.push_back(detector_alone.detect(scene.mesh_M, scene.swept_M).triangles);
@@ -130,7 +140,7 @@ TEST(SelectDetectorTest, DetectorsInParallelThreadsDoNotDisturbEachOther) {
   std::vector<std::thread> threads;
   for (int& wrong_here : wrong) {
     threads.emplace_back([&] {
-      SelectDetector detector({});
+      SelectDetector detector({}, contexts());
       for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
         const Scene scene = randomScene(seed);
         if (detector.detect(scene.mesh_M, scene.swept_M).triangles != alone[seed]) ++wrong_here;
@@ -141,8 +151,8 @@ TEST(SelectDetectorTest, DetectorsInParallelThreadsDoNotDisturbEachOther) {
   EXPECT_EQ(wrong, std::vector<int>(4, 0));
 }
 
-TEST(SelectDetectorTest, FollowsADeformation) {
-  SelectDetector detector({});
+TEST_P(SelectDetectorTest, FollowsADeformation) {
+  SelectDetector detector({}, contexts());
   TriangleMesh mesh = hull();
   for (int step = 0; step < 20; ++step) {
     const TriangleMesh target = wavyHull(21, 40, /*phase=*/0.3 * step);
@@ -156,8 +166,8 @@ TEST(SelectDetectorTest, FollowsADeformation) {
   }
 }
 
-TEST(SelectDetectorTest, FollowsAChangeOfTopology) {
-  SelectDetector detector({});
+TEST_P(SelectDetectorTest, FollowsAChangeOfTopology) {
+  SelectDetector detector({}, contexts());
   for (const int rings : {21, 5, 40, 3, 2}) {
     const TriangleMesh mesh = wavyHull(rings, 40, 0.0);
     EXPECT_EQ(detector.detect(mesh, sweptDrill()).triangles, expected(mesh)) << rings << " rings";
@@ -165,9 +175,9 @@ TEST(SelectDetectorTest, FollowsAChangeOfTopology) {
 }
 
 // Small numbers of triangles, on both sides of the size of a block.
-TEST(SelectDetectorTest, FindsEachTriangleWhereverItIsInABlock) {
+TEST_P(SelectDetectorTest, FindsEachTriangleWhereverItIsInABlock) {
   for (const int block : {1, 2, 3, 64}) {
-    SelectDetector detector({/*cull=*/false, block});
+    SelectDetector detector({/*cull=*/false, block}, contexts());
     for (const std::uint32_t count : {1U, 2U, 3U, 4U, 63U, 64U, 65U, 128U, 129U}) {
       for (const std::uint32_t met : {0U, count / 2, count - 1}) {
         std::vector<Eigen::Vector3d> vertices(count, Eigen::Vector3d(5, 5, 5));
@@ -186,20 +196,24 @@ TEST(MakeDetectorTest, KnowsItsNamesAndNoOther) {
   for (const std::string& name : detectorNames()) {
     EXPECT_EQ(makeDetector(name)->detect(hull(), sweptDrill()).triangles, expected()) << name;
   }
-  EXPECT_EQ(makeDetector("select", /*cull=*/false)->detect(hull(), sweptDrill()).triangles, expected());
+  EXPECT_EQ(makeDetector("select", {/*cull=*/false})->detect(hull(), sweptDrill()).triangles, expected());
   for (const char* name : {"", "Select", "halfspace"}) EXPECT_THROW(makeDetector(name), InvalidInput) << name;
+  EXPECT_THROW(makeDetector("select", {/*cull=*/true, "glx"}), InvalidInput);
 }
 
 // A context that stays current in the thread that made it would be used there after its end.
-TEST(SelectDetectorTest, MayEndInAnotherThreadThanItBegan) {
+TEST_P(SelectDetectorTest, MayEndInAnotherThreadThanItBegan) {
   const TriangleMesh mesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}});
   const SweptVolume swept_M = sweptVolume(ConvexShape::cylinder(0.01, 0.1), Motion{}, VolumeKind::kObbPlanes);
+  const DetectorOptions options{/*cull=*/true, GetParam()};
   for (int i = 0; i < 5; ++i) {
-    std::unique_ptr<Detector> detector = makeDetector("select");
+    std::unique_ptr<Detector> detector = makeDetector("select", options);
     std::thread([&] { detector.reset(); }).join();
-    EXPECT_EQ(makeDetector("select")->detect(mesh, swept_M).triangles.size(), 1U);
+    EXPECT_EQ(makeDetector("select", options)->detect(mesh, swept_M).triangles.size(), 1U);
   }
 }
+
+INSTANTIATE_ON_EVERY_CONTEXT(SelectDetectorTest);
 
 }  // namespace
 }  // namespace sweep_guard

@@ -1,4 +1,4 @@
-// Built with libGL linked in front of OSMesa: there every linked OpenGL call of this process goes to the wrong library,
+// Built with libGL linked: there every linked OpenGL call of this process goes to the wrong library,
 // which answers a selection with silence.
 #include <GL/gl.h>
 #include <dlfcn.h>
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string>
 
+#include "detection/every_context.h"
 #include "scenes.h"
 #include "sweep_guard/detection/reference_detector.h"
 #include "sweep_guard/detection/select_detector.h"
@@ -20,14 +21,16 @@ std::string libraryOf(const void* symbol) {
 }
 
 // Without this the test below would prove nothing. The call keeps libGL linked.
-TEST(SelectWithLibGlTest, LinkedCallsReachLibGl) {
+TEST(LibGlTest, LinkedCallsReachLibGl) {
   EXPECT_EQ(glGetString(GL_RENDERER), nullptr);  // libGL has no context here
   EXPECT_NE(libraryOf(dlsym(RTLD_DEFAULT, "glRenderMode")).find("libGL.so"), std::string::npos)
       << libraryOf(dlsym(RTLD_DEFAULT, "glRenderMode"));
 }
 
-TEST(SelectWithLibGlTest, SelectStillHits) {
-  SelectDetector detector({});
+class SelectWithLibGlTest : public OnEveryContext {};
+
+TEST_P(SelectWithLibGlTest, SelectStillHits) {
+  SelectDetector detector({}, [] { return makeOffscreenContext(GetParam()); });
   ReferenceDetector reference;
   size_t hits = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
@@ -39,6 +42,8 @@ TEST(SelectWithLibGlTest, SelectStillHits) {
   }
   EXPECT_GT(hits, 500U);
 }
+
+INSTANTIATE_ON_EVERY_CONTEXT(SelectWithLibGlTest);
 
 }  // namespace
 }  // namespace sweep_guard

@@ -60,7 +60,8 @@ TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
   }
   EXPECT_EQ(corners(loaded), corners(defaults));
   EXPECT_EQ(loaded.detector, defaults.detector);
-  EXPECT_EQ(loaded.cull, defaults.cull);
+  EXPECT_EQ(loaded.detector_options.cull, defaults.detector_options.cull);
+  EXPECT_EQ(loaded.detector_options.gl_context, defaults.detector_options.gl_context);
   EXPECT_EQ(loaded.guard.sweep.volume, defaults.guard.sweep.volume);
   EXPECT_EQ(loaded.guard.sweep.max_rotation, defaults.guard.sweep.max_rotation);
   EXPECT_EQ(loaded.limits.hold_time, defaults.limits.hold_time);
@@ -197,6 +198,7 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("volume", "sphere", "obb, obb_planes, hull");
   refused("detector", "halfspace", "select, reference");
   refused("cull", 1, "true or false");
+  refused("gl_context", "glx", "osmesa, egl");
   refused("max_rotation_per_sweep", 1.0, "0.01 to 0.5");
   refused("prediction/predictor", "oracle", "constant_velocity");
   refused("prediction/degree", 2, "6 integers from 0 to 5");

@@ -1,10 +1,12 @@
 #include "soundness/checks.h"
 
 #include <algorithm>
+#include <iostream>
 
 #include "soundness/oracle.h"
 #include "soundness/sampled_sweep.h"
 #include "sweep_guard/detection/fine_phase.h"
+#include "sweep_guard/detection/offscreen_context.h"
 
 namespace sweep_guard::soundness {
 namespace {
@@ -21,7 +23,17 @@ std::string about(const Context& context, const std::string& detector) {
 
 std::vector<Suspect> allSuspects() {
   std::vector<Suspect> suspects;
-  for (const std::string& name : detectorNames()) suspects.push_back({name, makeDetector(name)});
+  for (const std::string& name : detectorNames()) {
+    if (name != "select") suspects.push_back({name, makeDetector(name)});
+  }
+  for (const std::string& gl_context : offscreenContextNames()) {
+    const std::string name = gl_context == "osmesa" ? "select" : "select_" + gl_context;
+    try {
+      suspects.push_back({name, makeDetector("select", {/*cull=*/true, gl_context})});
+    } catch (const DeviceError& error) {
+      std::cout << name << " is skipped: " << error.what() << std::endl;
+    }
+  }
   return suspects;
 }
 

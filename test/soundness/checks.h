@@ -16,7 +16,8 @@ struct Suspect {
   std::unique_ptr<Detector> detector;
 };
 
-/// All of detectorNames().
+/// All of detectorNames(), and `select_egl`: `select` on EGL. What the machine has no context for is said to be
+/// skipped.
 std::vector<Suspect> allSuspects();
 
 /// Where a case came from, and where to say what is wrong with it.

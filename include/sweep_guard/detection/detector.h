@@ -46,13 +46,17 @@ class Detector {
                          const std::vector<std::uint32_t>* candidates) = 0;
 };
 
+/// What `select` is made with. No other detector looks at it, and the answer does not depend on it but for a smaller
+/// inflation with `cull`.
+struct DetectorOptions {
+  bool cull = true;                   ///< show OpenGL only the triangles that are not beyond one plane
+  std::string gl_context = "osmesa";  ///< one of offscreenContextNames()
+};
+
 /// @param name  `select` (OpenGL's selection mode, [P, Sec. 3.1]) or `reference` (every triangle clipped in double
 /// precision)
-/// @param cull  `select` shows OpenGL only the triangles that are not beyond one plane; no influence on the answer but
-/// for
-///              a smaller inflation
-/// @throws InvalidInput on any other name, DeviceError if there is no off-screen context
-std::unique_ptr<Detector> makeDetector(const std::string& name, bool cull = true);
+/// @throws InvalidInput on any other name of a detector or context, DeviceError if there is no off-screen context
+std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOptions& options = {});
 
 /// The names that makeDetector() knows.
 const std::vector<std::string>& detectorNames();

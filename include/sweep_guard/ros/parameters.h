@@ -20,7 +20,8 @@ struct Parameters {
   std::shared_ptr<const sweep_guard::Tool> tool;
   std::string tool_story;  ///< what it is and where it comes from, for people
   std::string detector;
-  bool cull;
+  std::string detector_story;  ///< its name, and what gives it OpenGL, for people
+  sweep_guard::DetectorOptions detector_options;
   sweep_guard::GuardOptions guard;
   sweep_guard::VerdictLimits limits;
   double marker_rate;  ///< [Hz]

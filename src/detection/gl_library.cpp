@@ -1,0 +1,40 @@
+#include "sweep_guard/detection/gl_library.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <mutex>
+
+namespace sweep_guard {
+namespace {
+
+// Mesa ends the process over a driver name it does not know. Selection never rasterises, so it needs no worker threads.
+// It complains on stderr where there is no home for its cache.
+void chooseDriver() {
+  const char* driver = std::getenv("GALLIUM_DRIVER");
+  const bool known = driver != nullptr && (std::string(driver) == "llvmpipe" || std::string(driver) == "softpipe");
+  if (!known) setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+  setenv("LP_NUM_THREADS", "0", 0);
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+}
+
+}  // namespace
+
+GlLibrary::GlLibrary(const char* file, std::string advice) : file_(file), advice_(std::move(advice)) {
+  static std::once_flag driver_chosen;
+  std::call_once(driver_chosen, chooseDriver);
+  handle_ = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  if (handle_ == nullptr) throw unusable("it cannot be loaded");
+}
+
+DeviceError GlLibrary::unusable(const std::string& reason) const {
+  return DeviceError("no off-screen context from " + file_ + ", " + reason + ": " + advice_);
+}
+
+void* GlLibrary::symbol(const char* name) const {
+  void* const found = dlsym(handle_, name);
+  if (found == nullptr) throw unusable(std::string("it has no ") + name);
+  return found;
+}
+
+}  // namespace sweep_guard
