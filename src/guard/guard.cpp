@@ -13,11 +13,11 @@ void rescale(std::vector<TouchedTriangle>& touched, double begin, double end) {
   for (TouchedTriangle& one : touched) one.impact.time_of_impact = begin + (end - begin) * one.impact.time_of_impact;
 }
 
-MovingMesh movingMesh(const Workpiece& now, const Workpiece& before) {
+MovingMesh movingMesh(const Workpiece& now, const Workpiece& before, const Displacements& displacements) {
   if (&now == &before) return now.mesh_M;
   const bool skipped = now.updates > before.updates + 1;
-  const double off = skipped ? strayed(now.way - before.way, leastWay(before.mesh_M, now.mesh_M)) : 0.0;
-  return {now.mesh_M, before.mesh_M, off};
+  const double off = skipped ? strayed(now.way - before.way, displacements.least()) : 0.0;
+  return {now.mesh_M, before.mesh_M, displacements, off};
 }
 
 bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
@@ -116,7 +116,12 @@ SweptObject Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece
   const auto before = swept.deformations.back();
   if (workpiece != before) swept.deformations.push_back(workpiece);
 
-  const MovingMesh mesh = movingMesh(*workpiece, *swept.deformations.front());
+  const auto from = swept.deformations.front();
+  if (swept.displaced_from != from || workpiece != before) {
+    swept.displaced_from = from;
+    swept.displacements = workpiece == from ? Displacements() : Displacements(from->mesh_M, workpiece->mesh_M);
+  }
+  const MovingMesh mesh = movingMesh(*workpiece, *from, swept.displacements);
   const bool again = workpiece != before && mesh.moved();
   const size_t first = again ? std::min(begin, way.lastUpTo(before->stamp)) : begin;
   SweptObject object{workpiece, way[begin].stamp, {}};

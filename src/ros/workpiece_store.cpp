@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/guard/moving_mesh.h"
+#include "sweep_guard/guard/displacements.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -63,7 +63,7 @@ void WorkpieceStore::store(const sweep_guard::DeformableMesh& msg) {
                        current->mesh_M.vertexCount() == mesh_M.vertexCount() &&
                        current->mesh_M.triangles() == mesh_M.triangles();
   const std::uint64_t updates = deforms ? current->updates + 1 : 0;
-  const double way = deforms ? current->way + sweep_guard::farthestWay(current->mesh_M, mesh_M) : 0.0;
+  const double way = deforms ? current->way + sweep_guard::Displacements(current->mesh_M, mesh_M).farthest() : 0.0;
   replace({msg.id, msg.revision, fromMsg(msg.header.stamp), std::chrono::steady_clock::now(), msg.header.frame_id,
            std::move(mesh_M), updates, way});
 }
@@ -79,7 +79,7 @@ void WorkpieceStore::store(const sweep_guard::MeshVertices& msg) {
   const sweep_guard::Time stamp = fromMsg(msg.header.stamp);
   checkOrder(*current, stamp);
   sweep_guard::TriangleMesh mesh_M = current->mesh_M.deformed(msg.positions);
-  const double way = current->way + sweep_guard::farthestWay(current->mesh_M, mesh_M);
+  const double way = current->way + sweep_guard::Displacements(current->mesh_M, mesh_M).farthest();
   replace({msg.id, msg.revision, stamp, std::chrono::steady_clock::now(), msg.header.frame_id, std::move(mesh_M),
            current->updates + 1, way});
 }

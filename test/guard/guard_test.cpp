@@ -258,7 +258,7 @@ class MovingSheetTest : public testing::Test {
       for (const double x : {p.x(), p.y(), z}) positions.push_back(static_cast<float>(x));
     }
     TriangleMesh mesh = before.deformed(positions);
-    const double way = newest_ ? newest_->way + farthestWay(before, mesh) : 0.0;
+    const double way = newest_ ? newest_->way + Displacements(before, mesh).farthest() : 0.0;
     const std::uint64_t updates = newest_ ? newest_->updates + 1 : 0;
     newest_ = std::make_shared<const Workpiece>(
         Workpiece{"sheet", 0, at(seconds), SteadyTime{}, "table", std::move(mesh), updates, way});

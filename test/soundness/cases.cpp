@@ -212,8 +212,8 @@ std::vector<Motion> SweepCase::parts() const {
 SweepFindings findingsOf(Detector& detector, const SweepCase& sweep) {
   const TriangleMesh mesh_M = sweep.triangles.mesh();
   const TriangleMesh before_M = sweep.triangles.meshBefore();
-  return testSweep(detector, toolOf(sweep.tool), sweep.parts(), MovingMesh(mesh_M, before_M, /*strayed=*/0.0),
-                   sweep.options);
+  return testSweep(detector, toolOf(sweep.tool), sweep.parts(),
+                   MovingMesh(mesh_M, before_M, {before_M, mesh_M}, /*strayed=*/0.0), sweep.options);
 }
 
 std::vector<VolumeKind> volumeKinds() { return {VolumeKind::kObb, VolumeKind::kObbPlanes, VolumeKind::kHull}; }

@@ -98,7 +98,7 @@ void checkPositives(const Context& context, const SweepCase& sweep) {
 void checkImpacts(const Context& context, const SweepCase& sweep) {
   const TriangleMesh mesh_M = sweep.triangles.mesh();
   const TriangleMesh before_M = sweep.triangles.meshBefore();
-  const MovingMesh mesh(mesh_M, before_M, /*strayed=*/0.0);
+  const MovingMesh mesh(mesh_M, before_M, {before_M, mesh_M}, /*strayed=*/0.0);
   const Tool tool = toolOf(sweep.tool);
   const std::vector<Motion> parts = sweep.parts();
   Tally& tally = context.report.of("fine", context.family);

@@ -41,6 +41,10 @@ class TriangleMesh {
   /// Position of vertex `i` relative to origin() [m]; exact in float32.
   Eigen::Vector3d offset(size_t i) const { return Eigen::Map<const Eigen::Vector3f>(&offsets_[3 * i]).cast<double>(); }
 
+  /// Offsets of the vertices as they lie in memory, x0 y0 z0 x1 ... [m]; all deformations of a mesh have them in the same
+  /// places.
+  const std::vector<float>& places() const { return offsets_; }
+
   /// Largest distance [m] of a vertex from origin().
   double radius() const { return radius_; }
 

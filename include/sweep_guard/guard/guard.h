@@ -112,7 +112,9 @@ class Guard {
     // As it was then, and before that as long as the poses to come may be older: the stamps of meshes may run ahead.
     std::deque<std::shared_ptr<const Workpiece>> deformations;
     std::uint64_t pose = 0;  // number of the pose swept to
-    SweptBefore known;
+    SweptBefore known = {};
+    std::shared_ptr<const Workpiece> displaced_from = nullptr;
+    Displacements displacements = {};  // from there to the newest deformation
   };
 
   SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);

@@ -4,6 +4,7 @@
 
 #include "sweep_guard/detection/fine_phase.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
+#include "sweep_guard/guard/displacements.h"
 
 namespace sweep_guard {
 
@@ -14,9 +15,11 @@ class MovingMesh {
   /// A mesh that rests.
   MovingMesh(const TriangleMesh& mesh_M) : mesh_M_(mesh_M) {}  // NOLINT(google-explicit-constructor)
 
-  /// @param before_M  of the same triangles
-  /// @param strayed   bound on how far a vertex was off the straight way from there [m], >= 0
-  MovingMesh(const TriangleMesh& mesh_M, const TriangleMesh& before_M, double strayed);
+  /// @param before_M       of the same triangles
+  /// @param displacements  from there
+  /// @param strayed        bound on how far a vertex was off the straight way from there [m], >= 0
+  MovingMesh(const TriangleMesh& mesh_M, const TriangleMesh& before_M, const Displacements& displacements,
+             double strayed);
 
   const TriangleMesh& mesh_M() const { return mesh_M_; }       ///< where it is now
   bool moved() const { return before_M_ != nullptr; }          ///< some vertex has
@@ -40,10 +43,5 @@ class MovingMesh {
 /// How far a vertex can have been off the straight way [m], if it has gone `way` in all, to end `straight` from where
 /// it began: half of what is left, across.
 double strayed(double way, double straight);
-
-/// The way of the vertex that goes farthest, from one deformation to the next [m].
-double farthestWay(const TriangleMesh& from_M, const TriangleMesh& to_M);
-/// The way of the vertex that goes least [m].
-double leastWay(const TriangleMesh& from_M, const TriangleMesh& to_M);
 
 }  // namespace sweep_guard

@@ -1,0 +1,51 @@
+#include "sweep_guard/guard/displacements.h"
+
+namespace sweep_guard {
+namespace {
+
+constexpr Eigen::Index kLanes = 24;  // x y z of eight vertices: whole registers of any width
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+// Of differences of coordinates, x y z x ...: each is rounded by half a unit in the last of 24 digits.
+Eigen::AlignedBox3d boxOfDifferences(const float* from, const float* to, size_t vertices) {
+  Eigen::AlignedBox3f box;
+  Lanes least = Lanes::Constant(std::numeric_limits<float>::infinity());
+  Lanes most = -least;
+  size_t i = 0;
+  for (; i + kLanes <= 3 * vertices; i += kLanes) {
+    const Lanes way = Eigen::Map<const Lanes>(to + i) - Eigen::Map<const Lanes>(from + i);
+    least = least.min(way);
+    most = most.max(way);
+  }
+  for (Eigen::Index lane = 0; lane < kLanes && i > 0; lane += 3) {
+    box.extend(least.segment<3>(lane).matrix()).extend(most.segment<3>(lane).matrix());
+  }
+  for (; i < 3 * vertices; i += 3) {
+    box.extend(Eigen::Map<const Eigen::Vector3f>(to + i) - Eigen::Map<const Eigen::Vector3f>(from + i));
+  }
+  const auto rounding = [](const Eigen::Vector3f& corner) -> Eigen::Vector3d {
+    return corner.cwiseAbs().cast<double>() * 0x1.001p-24;
+  };
+  return {box.min().cast<double>() - rounding(box.min()), box.max().cast<double>() + rounding(box.max())};
+}
+
+Eigen::AlignedBox3d boxOfEach(const TriangleMesh& from_M, const TriangleMesh& to_M) {
+  Eigen::AlignedBox3d box;
+  for (size_t i = 0; i < to_M.vertexCount(); ++i) box.extend(to_M.offset(i) - from_M.offset(i));
+  return box;
+}
+
+}  // namespace
+
+// Meshes of one topology keep their vertices in the same places.
+Displacements::Displacements(const TriangleMesh& from_M, const TriangleMesh& to_M) {
+  const bool alike = &from_M.triangles() == &to_M.triangles();
+  box_M_ = alike ? boxOfDifferences(from_M.places().data(), to_M.places().data(), to_M.vertexCount())
+                 : boxOfEach(from_M, to_M);
+  if (from_M.origin() == to_M.origin()) return;
+  const Eigen::Vector3d shift_M = to_M.origin() - from_M.origin();
+  const Eigen::Vector3d rounding = (to_M.origin().cwiseAbs() + from_M.origin().cwiseAbs()) * 0x1p-50;
+  box_M_ = Eigen::AlignedBox3d(box_M_.min() + shift_M - rounding, box_M_.max() + shift_M + rounding);
+}
+
+}  // namespace sweep_guard

@@ -1,0 +1,93 @@
+#include "sweep_guard/guard/displacements.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace sweep_guard {
+namespace {
+
+// As long as it is asked for: a strip.
+TriangleMesh strip(size_t vertices, Random& random, double size, const Eigen::Vector3d& place_M) {
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Triangle> triangles;
+  for (size_t i = 0; i < vertices; ++i) {
+    positions.push_back(place_M + random.inBox({size, size, size}));
+    const auto index = static_cast<std::uint32_t>(i);
+    if (i > 1) triangles.push_back({index - 2, index - 1, index});
+  }
+  return TriangleMesh(positions, triangles);
+}
+
+TriangleMesh moved(const TriangleMesh& mesh, Random& random, double most) {
+  std::vector<float> positions;
+  for (size_t i = 0; i < mesh.vertexCount(); ++i) {
+    const Eigen::Vector3d p = mesh.vertex(i) + random.inBox({most, most, most});
+    for (const double x : p) positions.push_back(static_cast<float>(x));
+  }
+  return mesh.deformed(positions);
+}
+
+// Every vertex in long double; none is outside, and the box is that of the vertices but for rounding.
+void expectTight(const TriangleMesh& from, const TriangleMesh& to, double rounding) {
+  const Displacements displacements(from, to);
+  Eigen::AlignedBox3d tight;
+  double farthest = 0.0;
+  double least = kMaxCoordinate;
+  for (size_t i = 0; i < from.vertexCount(); ++i) {
+    using Exact = Eigen::Matrix<long double, 3, 1>;
+    const Exact far = to.origin().cast<long double>() - from.origin().cast<long double>();
+    const Exact way = far + (to.offset(i).cast<long double>() - from.offset(i).cast<long double>());
+    for (int axis = 0; axis < 3; ++axis) {
+      ASSERT_LE(static_cast<long double>(displacements.box_M().min()[axis]), way[axis]) << "vertex " << i;
+      ASSERT_GE(static_cast<long double>(displacements.box_M().max()[axis]), way[axis]) << "vertex " << i;
+    }
+    tight.extend(way.cast<double>());
+    farthest = std::max(farthest, static_cast<double>(way.norm()));
+    least = std::min(least, static_cast<double>(way.norm()));
+  }
+  EXPECT_LE((displacements.box_M().min() - tight.min()).cwiseAbs().maxCoeff(), rounding);
+  EXPECT_LE((displacements.box_M().max() - tight.max()).cwiseAbs().maxCoeff(), rounding);
+  EXPECT_GE(displacements.farthest() * (1.0 + 1e-15), farthest);
+  EXPECT_LE(displacements.least() * (1.0 - 1e-15), least);
+}
+
+TEST(DisplacementsTest, HoldThatOfEveryVertexOfAnyMesh) {
+  Random random(/*seed=*/1);
+  for (size_t vertices = 3; vertices < 100; ++vertices) {
+    SCOPED_TRACE(std::to_string(vertices) + " vertices");
+    const TriangleMesh sent = strip(vertices, random, random.logUniform(0.01, 100.0), random.inBox({10, 10, 10}));
+    const double most = random.logUniform(1e-6, 10.0);
+    const TriangleMesh first = moved(sent, random, most);
+    expectTight(first, moved(first, random, most), 1e-6 * most + 1e-7);
+    expectTight(sent, first, 1e-4);
+    expectTight(sent, strip(vertices, random, 1.0, random.inBox({1e6, 1e6, 1e6})), 1e-6);
+  }
+}
+
+// Where the last of eight vertices, and the first and the last of all, are the only ones that move.
+TEST(DisplacementsTest, SeeEachVertex) {
+  Random random(/*seed=*/2);
+  const TriangleMesh mesh = moved(strip(37, random, 1.0, {0, 0, 0}), random, 0.0);
+  std::vector<float> positions = mesh.places();
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const float before = positions[i];
+    positions[i] = 7.0F;
+    EXPECT_EQ(Displacements(mesh, mesh.deformed(positions)).box_M().max()[static_cast<int>(i % 3)] > 5.0, true) << i;
+    positions[i] = before;
+  }
+  EXPECT_FALSE(Displacements(mesh, mesh.deformed(positions)).any());
+  EXPECT_EQ(Displacements(mesh, mesh).farthest(), 0.0);
+}
+
+TEST(DisplacementsTest, AreBoundedByTheCornersOfTheirBox) {
+  const TriangleMesh flat({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const TriangleMesh bent({{0, 0, 3}, {1, 0, 1}, {0, 1, 2}}, {{0, 1, 2}});
+  const Displacements displacements(flat, bent);
+  EXPECT_TRUE(displacements.any());
+  EXPECT_NEAR(displacements.farthest(), 3.0, 1e-6);
+  EXPECT_NEAR(displacements.least(), 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace sweep_guard
