@@ -39,7 +39,7 @@ po::options_description described(Options& options) {
   described.add_options()("help,h", po::bool_switch(&options.help), "say this")(
       "triangles", po::value(&options.triangles)->default_value(options.triangles), "of the hull, about")(
       "csv", po::value(&options.csv)->value_name("FILE"), "results are added to this file")(
-      "peers", po::value(&options.peers)->default_value(options.peers), "all, quick (not the slowest), scalar or none")(
+      "peers", po::value(&options.peers)->default_value(options.peers), "all, scalar or none")(
       "deformations", po::value(&options.deformations)->default_value(0),
       "different ones; 0: as many as fit into 50 MB")(
       "frames", po::value(&options.limits.frames)->default_value(options.limits.frames), "of each pair")(
@@ -69,13 +69,14 @@ Contender detector(const std::string& name) {
 const Contender kMemoryRead = {"memory read", makeMemoryRead};
 
 std::vector<Contender> others(const std::string& peers) {
-  std::vector<Contender> all = {kMemoryRead};
+  const auto whole = [](Surface& surface) { return makeWholeDetectorPeer(mainDetector(), surface); };
+  std::vector<Contender> all = {kMemoryRead, {mainDetector() + " with set-up", whole, true}};
   for (const std::string& name : sweep_guard::detectorNames()) {
     if (name != mainDetector()) all.push_back(detector(name));
   }
   if (peers == "none") return all;
   for (const PeerKind& kind : peerKinds()) {
-    if (peers == "scalar" && kind.name != "scalar") continue;
+    if (peers == "scalar" && !kind.package.empty()) continue;
     if (kind.make) {
       all.push_back({kind.name, kind.make});
     } else {
@@ -88,7 +89,8 @@ std::vector<Contender> others(const std::string& peers) {
 
 // The ones that matter where the order or the number of hits is what is looked at.
 bool chief(const Contender& contender) {
-  static const std::vector<std::string> kNames = {"memory read", "select", "scalar", "FCL AABB", "Bullet", "Embree"};
+  static const std::vector<std::string> kNames = {"memory read", "select", "scalar", "scalar box first",
+                                                  "FCL AABB",    "Bullet", "Embree"};
   return std::find(kNames.begin(), kNames.end(), contender.name) != kNames.end();
 }
 

@@ -30,7 +30,9 @@ Frame frameOf(std::vector<float> positions_M, std::vector<Motion> motions_M) {
   for (const Motion& motion_M : frame.motions_M) {
     frame.swept_M.push_back(sweptVolume(drill(), motion_M, sweep_guard::VolumeKind::kObbPlanes));
   }
-  for (const sweep_guard::SweptVolume& swept_M : frame.swept_M) frame.volumes_M.push_back(polytope(swept_M));
+  for (size_t i = 0; i < frame.swept_M.size(); ++i) {
+    frame.volumes_M.push_back(polytope(frame.swept_M[i], frame.motions_M[i]));
+  }
   return frame;
 }
 

@@ -27,7 +27,6 @@ class Cgal : public Peer {
       triangles_[i] = {point(a), point(b), point(c)};
     }
     tree_.rebuild(triangles_.cbegin(), triangles_.cend());
-    tree_.build();
   }
 
   void query(size_t volume, TriangleIds& ids) override {

@@ -5,6 +5,7 @@ namespace sweep_guard_benchmark {
 const std::vector<PeerKind>& peerKinds() {
   static const std::vector<PeerKind> kinds = {
       {"scalar", "", makeScalar},
+      {"scalar box first", "", makeScalarBoxFirst},
 #ifdef SWEEP_GUARD_FCL
       {"FCL AABB", "libfcl-dev", makeFclAabb},
       {"FCL OBBRSS", "libfcl-dev", makeFclObbRss},

@@ -22,8 +22,11 @@ const std::vector<PeerKind>& peerKinds();
 /// Every position is read once, nothing is answered: the limit.
 std::unique_ptr<Peer> makeMemoryRead(Surface& surface);
 
-/// Every triangle, one after the other.
+/// Every triangle, one after the other, against every plane, until it is beyond one; what is beyond none is clipped.
 std::unique_ptr<Peer> makeScalar(Surface& surface);
+
+/// The same, against the box along the axes before.
+std::unique_ptr<Peer> makeScalarBoxFirst(Surface& surface);
 
 /// A tree of boxes along the axes: refitted, then traversed by FCL's node for a mesh and a shape.
 std::unique_ptr<Peer> makeFclAabb(Surface& surface);

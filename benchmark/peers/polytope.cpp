@@ -22,10 +22,11 @@ int indexOf(const Eigen::Vector3d& corner, std::vector<Eigen::Vector3d>& corners
 
 }  // namespace
 
-Polytope polytope(const sweep_guard::SweptVolume& swept_M) {
+Polytope polytope(const sweep_guard::SweptVolume& swept_M, const sweep_guard::Motion& motion_M) {
   const Eigen::Isometry3d& X_MB = swept_M.box.X_MB;
   Polytope polytope_M;
   polytope_M.swept_M = &swept_M;
+  polytope_M.motion_M = &motion_M;
   const std::vector<sweep_guard::HalfSpace> half_spaces_B = swept_M.halfSpaces_B();
   for (const sweep_guard::HalfSpace& half_space_B : half_spaces_B) {
     const Eigen::Vector3d normal_M = X_MB.linear() * half_space_B.normal();

@@ -4,8 +4,9 @@
 #include <vector>
 
 namespace sweep_guard {
+struct Motion;
 struct SweptVolume;
-}
+}  // namespace sweep_guard
 
 namespace sweep_guard_benchmark {
 
@@ -25,10 +26,11 @@ struct Polytope {
   Point lower_M;                        ///< of the box along the axes of M [m]
   Point upper_M;
   const sweep_guard::SweptVolume* swept_M;  ///< the same as the detectors take it
+  const sweep_guard::Motion* motion_M;      ///< of the tool, which it is made around
 };
 
-/// @param swept_M  outlives the result
-Polytope polytope(const sweep_guard::SweptVolume& swept_M);
+/// @param swept_M, motion_M  outlive the result
+Polytope polytope(const sweep_guard::SweptVolume& swept_M, const sweep_guard::Motion& motion_M);
 
 /// Whether a triangle meets the polytope, moved out by `grown` [m]: clipped in double precision (Sutherland and Hodgman
 /// 1974). Touching is meeting.

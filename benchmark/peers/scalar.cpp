@@ -11,7 +11,8 @@ struct Plane {
   float x, y, z, offset;
 };
 
-// Every triangle against the box along the axes, then plane by plane; clipped is what is beyond none.
+// Every triangle plane by plane; clipped is what is beyond none.
+template <bool kBoxFirst>
 class Scalar : public Peer {
  public:
   explicit Scalar(Surface& surface) : surface_(surface) {}
@@ -29,7 +30,7 @@ class Scalar : public Peer {
       const float* const a = positions + 3 * triangle[0];
       const float* const b = positions + 3 * triangle[1];
       const float* const c = positions + 3 * triangle[2];
-      if (besideBox(a, b, c) || beyondAPlane(a, b, c)) continue;
+      if ((kBoxFirst && besideBox(a, b, c)) || beyondAPlane(a, b, c)) continue;
       if (meets(volume_M, a, b, c)) ids.push_back(static_cast<std::uint32_t>(i));
     }
   }
@@ -75,6 +76,8 @@ class Scalar : public Peer {
 
 }  // namespace
 
-std::unique_ptr<Peer> makeScalar(Surface& surface) { return std::make_unique<Scalar>(surface); }
+std::unique_ptr<Peer> makeScalar(Surface& surface) { return std::make_unique<Scalar<false>>(surface); }
+
+std::unique_ptr<Peer> makeScalarBoxFirst(Surface& surface) { return std::make_unique<Scalar<true>>(surface); }
 
 }  // namespace sweep_guard_benchmark
