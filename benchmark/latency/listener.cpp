@@ -1,0 +1,53 @@
+#include "latency/listener.h"
+
+namespace sweep_guard_benchmark {
+namespace {
+
+constexpr std::uint32_t kQueued = 100'000;  // nothing is lost here
+
+Nanoseconds nanoseconds(const ros::Time& time) { return static_cast<Nanoseconds>(time.toNSec()); }
+
+Nanoseconds now() { return nanoseconds(ros::Time::now()); }
+
+}  // namespace
+
+Listener::Listener(const std::string& guard) {
+  ros::NodeHandle node = thread_.on(ros::NodeHandle(guard));
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  contacts_ = node.subscribe("contacts", kQueued, &Listener::onContacts, this, hints);
+  predictions_ = node.subscribe("prediction", kQueued, &Listener::onPrediction, this, hints);
+  warnings_ = node.subscribe("warning", kQueued, &Listener::onWarning, this, hints);
+  thread_.start();
+}
+
+Said Listener::said() const {
+  const std::lock_guard lock(mutex_);
+  return said_;
+}
+
+void Listener::onContacts(const sweep_guard::Contacts& contacts) {
+  const Nanoseconds received = now();
+  const std::lock_guard lock(mutex_);
+  said_.contacts.push_back({nanoseconds(contacts.interval_start), nanoseconds(contacts.header.stamp), received});
+}
+
+void Listener::onPrediction(const sweep_guard::Prediction& prediction) {
+  const Nanoseconds received = now();
+  const Nanoseconds stamp = nanoseconds(prediction.header.stamp);
+  const std::lock_guard lock(mutex_);
+  said_.predictions.push_back({stamp, stamp, received});
+  said_.sweeps_asked += prediction.sweeps_asked;
+  said_.sweeps_made += prediction.sweeps_made;
+  said_.whole_predictions += prediction.sweeps_made == prediction.sweeps_asked ? 1 : 0;
+}
+
+void Listener::onWarning(const sweep_guard::Warning& warning) {
+  const Nanoseconds received = now();
+  const Nanoseconds stamp = nanoseconds(warning.header.stamp);
+  const std::lock_guard lock(mutex_);
+  said_.warnings.push_back({stamp, stamp, received});
+  if (warning.level != level_) said_.changes.push_back({stamp, stamp, received});
+  level_ = warning.level;
+}
+
+}  // namespace sweep_guard_benchmark

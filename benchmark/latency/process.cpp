@@ -1,0 +1,61 @@
+#include "latency/process.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_benchmark {
+namespace {
+
+std::string wordsAfterName(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string stat;
+  std::getline(file, stat);
+  if (!file) throw sweep_guard::DeviceError("process " + std::to_string(process) + " is gone");
+  return stat.substr(stat.rfind(')') + 1);
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& command) {
+  std::vector<std::string> words = command;
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  if (posix_spawn(&id_, arguments.front(), nullptr, nullptr, arguments.data(), environ) != 0) {
+    throw sweep_guard::DeviceError("cannot start " + command.front());
+  }
+}
+
+ChildProcess::~ChildProcess() {
+  kill(id_, SIGINT);
+  waitpid(id_, nullptr, 0);
+}
+
+Usage usageOf(pid_t process) {
+  constexpr int kUserTime = 12;  // words after the name: proc(5), stat
+  constexpr int kSystemTime = 13;
+  constexpr int kResidentPages = 22;
+  std::vector<std::string> words(1);
+  for (const char c : wordsAfterName(process)) {
+    if (c == ' ') {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  const auto number = [&](size_t word) { return std::stod(words.at(word)); };
+  return {(number(kUserTime) + number(kSystemTime)) / static_cast<double>(sysconf(_SC_CLK_TCK)),
+          1e-6 * number(kResidentPages) * static_cast<double>(sysconf(_SC_PAGESIZE))};
+}
+
+std::string neighbour(const std::string& program) {
+  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / program).string();
+}
+
+}  // namespace sweep_guard_benchmark

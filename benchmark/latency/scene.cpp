@@ -1,0 +1,80 @@
+#include "latency/scene.h"
+
+#include <boost/make_shared.hpp>
+#include <cmath>
+
+#include "scenes.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_benchmark {
+namespace {
+
+constexpr double kTurn = 2.0 * 3.14159265358979323846;
+constexpr int kFrames = 12;
+constexpr double kWaves = 0.3;  // [rad] of their phase
+
+sweep_guard::TriangleMesh hull(int triangles, int frame) {
+  int sectors = static_cast<int>(std::sqrt(triangles));
+  while (triangles / 2 % sectors != 0) --sectors;
+  return sweep_guard::wavyHull(triangles / 2 / sectors + 1, sectors, kWaves * std::sin(kTurn * frame / kFrames));
+}
+
+template <typename Message>
+Message labelled() {
+  Message message;
+  message.header.frame_id = "world";
+  message.id = "hull";
+  message.revision = 1;
+  return message;
+}
+
+sweep_guard::DeformableMesh wholeMesh(const sweep_guard::TriangleMesh& mesh_M) {
+  auto message = labelled<sweep_guard::DeformableMesh>();
+  for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
+    const Eigen::Vector3d p_M = mesh_M.vertex(i);
+    geometry_msgs::Point point;
+    point.x = p_M.x();
+    point.y = p_M.y();
+    point.z = p_M.z();
+    message.mesh.vertices.push_back(point);
+  }
+  for (const auto& [a, b, c] : mesh_M.triangles()) {
+    shape_msgs::MeshTriangle triangle;
+    triangle.vertex_indices = {a, b, c};
+    message.mesh.triangles.push_back(triangle);
+  }
+  return message;
+}
+
+sweep_guard::MeshVertices::Ptr verticesOf(const sweep_guard::TriangleMesh& mesh_M) {
+  auto message = boost::make_shared<sweep_guard::MeshVertices>(labelled<sweep_guard::MeshVertices>());
+  for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
+    const Eigen::Vector3f p_M = mesh_M.vertex(i).cast<float>();
+    message->positions.insert(message->positions.end(), p_M.begin(), p_M.end());
+  }
+  return message;
+}
+
+}  // namespace
+
+LatencyScene::LatencyScene(int triangles) : mesh_(wholeMesh(hull(triangles, 0))) {
+  for (int frame = 0; frame < kFrames; ++frame) frames_.push_back(verticesOf(hull(triangles, frame)));
+}
+
+// From 22 mm off the hull's mean surface to 2 mm inside of it, every 3 s, with a little swing; the waves reach 10 mm.
+geometry_msgs::Pose LatencyScene::tool(double t) {
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
+  X_WT.translation() << 0.110 + 0.012 * std::cos(kTurn * t / 3.0), 0.004 * std::sin(0.7 * kTurn * t),
+      0.004 * std::sin(0.45 * kTurn * t);
+  X_WT.rotate(Eigen::AngleAxisd(-0.25 * kTurn + 0.1 * std::sin(0.5 * kTurn * t), Eigen::Vector3d::UnitY()));
+  return sweep_guard_ros::toMsg(X_WT);
+}
+
+sweep_guard::MeshVertices::Ptr LatencyScene::frame(const ros::Time& stamp) {
+  sweep_guard::MeshVertices::Ptr& frame = frames_[next_++ % frames_.size()];
+  if (!frame.unique()) frame = boost::make_shared<sweep_guard::MeshVertices>(*frame);
+  frame->header.stamp = stamp;
+  return frame;
+}
+
+}  // namespace sweep_guard_benchmark

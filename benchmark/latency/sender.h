@@ -1,0 +1,42 @@
+#pragma once
+
+#include <ros/publisher.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "latency/figures.h"
+#include "latency/scene.h"
+
+namespace sweep_guard_benchmark {
+
+/// Sends the scene from the moment it is made on: the mesh once, its vertices at 60 Hz, the tool's pose at 1 kHz, each
+/// stamped with the time at which it is sent. What comes too late is left out, not made up for.
+class Sender {
+ public:
+  explicit Sender(LatencyScene& scene);
+  Sender(const Sender&) = delete;
+  Sender& operator=(const Sender&) = delete;
+  ~Sender();
+
+  /// Stamps of all poses sent. Ends the sending.
+  const std::vector<Nanoseconds>& poses();
+
+  double processor() const;  ///< used by the sending so far [s]
+
+ private:
+  void sendPoses();
+  void sendVertices();
+  void stop();
+
+  LatencyScene& scene_;
+  ros::Publisher mesh_;
+  ros::Publisher vertices_;
+  ros::Publisher poses_;
+  std::vector<Nanoseconds> stamps_;
+  std::atomic<bool> stopping_{false};
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace sweep_guard_benchmark
