@@ -74,22 +74,31 @@ Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& 
 
 SweepReport Guard::sweep(const ToolPose& pose, const Workpieces& workpieces) {
   const SteadyTime begin = options_.clock();
+  forgetWhatIsGone(workpieces);
+  take(pose);
   SweepReport report = sweepAll(pose, workpieces);
-  predictor_.observe({pose.stamp, pose.X_WT});
+  report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
+  waiting_since_.reset();
+  swept_to_ = poses_;
   newest_ = pose;
   budget_.spentOnMeasured(options_.clock() - begin);
   return report;
 }
 
-SweepReport Guard::sweepAll(const ToolPose& pose, const Workpieces& workpieces) {
-  forgetWhatIsGone(workpieces);
-  ++poses_;
-  for (const auto& [frame, X_WM] : pose.X_WM) {
-    Way& way = ways_[frame];
-    way.add({poses_, pose.stamp, pose.X_WT, X_WM});
-  }
+void Guard::pass(const ToolPose& pose) {
+  take(pose);
+  if (!waiting_since_) waiting_since_ = pose.stamp;
+}
 
-  SweepReport report{pose.stamp, pose.stamp, {}, {}, {}};
+void Guard::take(const ToolPose& pose) {
+  ++poses_;
+  for (const auto& [frame, X_WM] : pose.X_WM) ways_[frame].add({poses_, pose.stamp, pose.X_WT, X_WM});
+  predictor_.observe({pose.stamp, pose.X_WT});
+}
+
+SweepReport Guard::sweepAll(const ToolPose& pose, const Workpieces& workpieces) {
+  SweepReport report;
+  report.start = report.end = pose.stamp;
   for (const auto& workpiece : workpieces) {
     if (pose.X_WM.count(workpiece->frame) == 0) {
       report.unplaced.push_back(workpiece);
@@ -109,7 +118,7 @@ SweepReport Guard::sweepAll(const ToolPose& pose, const Workpieces& workpieces) 
 SweptObject Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece) {
   const Way& way = ways_.at(workpiece->frame);
   const size_t last = way.size() - 1;
-  Swept swept = sweptBefore(workpiece, way);
+  Swept swept = sweptBefore(workpiece);
   const size_t begin = way.lastUpTo(swept.pose);
   const auto past = [&](const Workpiece& deformation) { return deformation.stamp <= way[begin].stamp; };
   while (swept.deformations.size() > 1 && past(*swept.deformations[1])) swept.deformations.pop_front();
@@ -147,8 +156,8 @@ SweptObject Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece
 }
 
 // Whatever its triangles were: from there on it has not been swept.
-Guard::Swept Guard::sweptBefore(const std::shared_ptr<const Workpiece>& workpiece, const Way& way) {
-  const Swept is_new{{workpiece}, way[std::max<size_t>(way.size(), 2) - 2].number, {}};
+Guard::Swept Guard::sweptBefore(const std::shared_ptr<const Workpiece>& workpiece) {
+  const Swept is_new{{workpiece}, swept_to_, {}};
   Swept& known = swept_.emplace(workpiece->id, is_new).first->second;
   const Workpiece& before = *known.deformations.back();
   if (before.frame != workpiece->frame) {
@@ -208,6 +217,7 @@ Forecast Guard::forecast(Duration age, Duration end) const {
 void Guard::forget() {
   ways_.clear();
   swept_.clear();
+  waiting_since_.reset();
   predictor_.restart();
   newest_.reset();
 }

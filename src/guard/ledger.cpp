@@ -86,6 +86,7 @@ void Ledger::swept(const SweepReport& report, const Seen& pose, const Mark& pose
     for (const SweptObject& object : report.objects) swept_.push_back(object.workpiece);
     if (report.complete()) swept_until_ = report.end;
     noteContact(report, now);
+    if (report.backlog > limits_.overload) overload_ = Evidence::Backlog{report.backlog, now};
   }
   if (!report.failures.empty()) on_fault_();
 }
@@ -147,6 +148,7 @@ void Ledger::timeJumped(const std::string& story) {
     expected_.reset();
     reflex_.reset();
     considered_.reset();
+    overload_.reset();
     swept_.clear();
     faults_.clear();
     if (contact_) contact_->lasting = false;
@@ -164,6 +166,7 @@ Verdict Ledger::verdict(const Instant& now) const {
   evidence.reflex = reflex_;
   evidence.considered = considered_;
   evidence.contact = contact_;
+  evidence.overload = overload_;
   for (const auto& workpiece : workpieces_) {
     evidence.objects.push_back({workpiece->id, {workpiece->stamp, workpiece->received}, holds(swept_, *workpiece)});
   }

@@ -53,6 +53,11 @@ void assessObjects(const Evidence& evidence, const Instant& now, const VerdictLi
   }
 }
 
+void assessLoad(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Findings& findings) {
+  if (!evidence.overload || now.steady - evidence.overload->found > limits.hold_time) return;
+  findings.add(kOverload, "overload: poses of " + inSeconds(evidence.overload->span) + " were swept at once");
+}
+
 // The strongest warning in force or held, and the collision that it is about.
 struct Warned {
   Level level = Level::kClear;
@@ -125,11 +130,12 @@ Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits
   assessPose(evidence, now, limits, findings);
   assessObjects(evidence, now, limits, findings);
   assessCoverage(evidence, now, limits, findings);
+  assessLoad(evidence, now, limits, findings);
   for (const auto& [reason, story] : evidence.faults) findings.add(reason, story);
 
   Verdict verdict;
   verdict.reasons = findings.reasons();
-  verdict.level = verdict.reasons == 0 ? Level::kClear : Level::kUnknown;
+  verdict.level = (verdict.reasons & ~kDegraded) == 0 ? Level::kClear : Level::kUnknown;
   verdict.text = findings.text();
   if (evidence.pose) verdict.pose_stamp = evidence.pose->stamp;
   verdict.covered_until = evidence.covered_until;

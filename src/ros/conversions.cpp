@@ -30,6 +30,7 @@ static_assert(same(Warning::TIME_JUMP, sweep_guard::kTimeJump));
 static_assert(same(Warning::DETECTOR_FAULT, sweep_guard::kDetectorFault));
 static_assert(same(Warning::NOT_SWEPT, sweep_guard::kNotSwept));
 static_assert(same(Warning::NOT_COVERED, sweep_guard::kNotCovered));
+static_assert(same(Warning::OVERLOAD, sweep_guard::kOverload));
 static_assert(same(Warning::UNKNOWN, sweep_guard::Level::kUnknown));
 static_assert(same(Warning::CLEAR, sweep_guard::Level::kClear));
 static_assert(same(Warning::CONSIDERED, sweep_guard::Level::kConsidered));
@@ -207,7 +208,7 @@ sweep_guard::Warning toMsg(const sweep_guard::Verdict& verdict) {
   msg.clear = verdict.level == Level::kClear;
   msg.contact = verdict.level == Level::kContact;
   msg.considered = !msg.clear;
-  msg.reflex = msg.contact || verdict.level == Level::kReflex || verdict.reasons != 0;
+  msg.reflex = msg.contact || verdict.level == Level::kReflex || (verdict.reasons & ~sweep_guard::kDegraded) != 0;
   msg.time_to_collision = ros::Duration(msg.contact ? 0.0 : -1.0);
   if (!msg.contact && verdict.time_to_collision) msg.time_to_collision = toMsg(*verdict.time_to_collision);
   msg.mesh_id = verdict.mesh_id;

@@ -34,6 +34,13 @@ std_msgs::Bool flagMessage(bool raised) {
   return msg;
 }
 
+// A pose that is passed is swept where the next one is.
+bool knowsAllFramesOf(const PlacedPose& placed, const PlacedPose& next) {
+  const auto& frames = placed.pose.X_WM;
+  return std::all_of(frames.begin(), frames.end(),
+                     [&](const auto& frame) { return next.pose.X_WM.count(frame.first) != 0; });
+}
+
 ros::WallDuration wall(sweep_guard::Duration duration) { return ros::WallDuration(sweep_guard::toSeconds(duration)); }
 
 }  // namespace
@@ -122,21 +129,29 @@ void SweepGuardNode::work() {
     if (stopping_) return;
     std::deque<Question> questions = std::move(questions_);
     questions_.clear();
-    std::optional<PlacedPose> pose;
-    if (!queue_.empty()) {
-      pose = std::move(queue_.front());
-      queue_.pop_front();
-    }
+    const std::deque<PlacedPose> poses = std::move(queue_);
+    queue_.clear();
     lock.unlock();
     queue_changed_.notify_all();
     for (Question& question : questions) answer(question);
-    if (pose) process(*pose);
+    process(poses);
   }
 }
 
-void SweepGuardNode::process(const PlacedPose& placed) {
+void SweepGuardNode::process(const std::deque<PlacedPose>& poses) {
+  for (size_t i = 0; i < poses.size(); ++i) process(poses[i], i + 1 < poses.size() ? &poses[i + 1] : nullptr);
+}
+
+// @param next  if it waits already
+void SweepGuardNode::process(const PlacedPose& placed, const PlacedPose* next) {
   if (placed.came.epoch != ledger_.mark().epoch) return;  // time has gone back since it came
+  if (placed.came.epoch != guard_epoch_) {
+    guard_.forget();
+    passed_.clear();
+  }
+  guard_epoch_ = placed.came.epoch;
   try {
+    if (next != nullptr && knowsAllFramesOf(placed, *next)) return pass(placed);
     sweep(placed);
     if (timeToLookAhead()) lookAhead(placed);
   } catch (const std::exception& error) {  // no memory for the report or its messages
@@ -144,11 +159,16 @@ void SweepGuardNode::process(const PlacedPose& placed) {
   }
 }
 
+void SweepGuardNode::pass(const PlacedPose& placed) {
+  const sweep_guard::ToolPose& pose = placed.pose;
+  guard_.pass(pose);
+  passed_.push_back(pose.received);
+  const std::lock_guard lock(scene_mutex_);
+  scene_.trail.add(pose.stamp, pose.X_WT.translation());
+}
+
 void SweepGuardNode::sweep(const PlacedPose& placed) {
   const sweep_guard::ToolPose& pose = placed.pose;
-  if (placed.came.epoch != guard_epoch_) guard_.forget();
-  guard_epoch_ = placed.came.epoch;
-
   const sweep_guard::SteadyTime begin = std::chrono::steady_clock::now();
   auto report = std::make_shared<const sweep_guard::SweepReport>(guard_.sweep(pose, workpieces_.snapshot()));
   const sweep_guard::SteadyTime swept = std::chrono::steady_clock::now();
@@ -157,7 +177,10 @@ void SweepGuardNode::sweep(const PlacedPose& placed) {
   ledger_.swept(*report, *swept_, placed.came, swept);
   warn(/*only_on_change=*/true);
 
-  workload_.swept(std::chrono::steady_clock::now() - pose.received, swept - begin, report->failures.size());
+  const sweep_guard::SteadyTime warned = std::chrono::steady_clock::now();
+  for (const sweep_guard::SteadyTime received : passed_) workload_.swept(warned - received, {}, 0);
+  passed_.clear();
+  workload_.swept(warned - pose.received, swept - begin, report->failures.size());
   for (const auto& failure : report->failures) log_.error(failure.workpiece->id, "detection failed: " + failure.reason);
   const std::lock_guard lock(scene_mutex_);
   scene_.X_WT = pose.X_WT;

@@ -36,6 +36,8 @@ class GuardTest : public testing::Test {
  protected:
   SweepReport sweepTo(double seconds, double z) { return guard_.sweep(pose(seconds, {{"table", up(z)}}), table_); }
 
+  void passTo(double seconds, double z) { guard_.pass(pose(seconds, {{"table", up(z)}})); }
+
   const Workpieces table_ = {sheet("sheet", "table")};
   FakeDetector::Record record_;
   Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<FakeDetector>(record_), {}};
@@ -157,6 +159,74 @@ TEST_F(GuardTest, AFailureOnOneWorkpieceDoesNotHideAContactWithAnother) {
   ASSERT_EQ(report.failures.size(), 1U);
   EXPECT_EQ(report.failures[0].workpiece, both[0]);
   EXPECT_TRUE(report.contact());
+}
+
+TEST_F(GuardTest, PassesThroughABacklogInOneSweep) {
+  sweepTo(1.0, 0.5);
+  record_.volumes.clear();
+  for (int ms = 1; ms < 40; ++ms) passTo(1.0 + 1e-3 * ms, 0.5 - 1e-3 * ms);
+  EXPECT_TRUE(record_.volumes.empty());
+  const SweepReport report = sweepTo(1.04, 0.46);
+  EXPECT_EQ(record_.volumes.size(), 1U);
+  EXPECT_NEAR(record_.volumes[0].box.half_extents.z(), 0.07, 1e-6);
+  EXPECT_EQ(report.start, at(1.0));
+  EXPECT_EQ(report.end, at(1.04));
+  EXPECT_NEAR(toSeconds(report.backlog), 0.039, 1e-9);
+  const SweepReport next = sweepTo(1.041, 0.46);
+  EXPECT_EQ(next.start, at(1.04));
+  EXPECT_EQ(next.backlog, Duration::zero());
+}
+
+// A millisecond down and one up again, wherever in the backlog.
+TEST_F(GuardTest, MeetsWhatAFlickInABacklogMeets) {
+  for (int flick = 1; flick < 100; ++flick) {
+    SCOPED_TRACE("flick at " + std::to_string(flick) + " ms");
+    guard_.forget();
+    EXPECT_FALSE(sweepTo(1.0, 0.5).contact());
+    for (int ms = 1; ms < 100; ++ms) passTo(1.0 + 1e-3 * ms, ms == flick ? -0.2 : 0.5);
+    const SweepReport report = sweepTo(1.1, 0.5);
+    ASSERT_TRUE(report.contact());
+    const double first_ms = 100 * report.objects[0].findings.touched[0].impact.time_of_impact;
+    EXPECT_NEAR(first_ms, flick - 1 + 0.4 / 0.7, 1e-6);
+  }
+}
+
+TEST_F(GuardTest, SweepsAWorkpieceThatComesDuringABacklogAllAlongIt) {
+  guard_.sweep(pose(1.0, {{"table", up(0.5)}}), {});
+  passTo(1.1, -0.2);
+  passTo(1.2, -0.5);
+  EXPECT_TRUE(sweepTo(1.3, -0.6).contact());
+}
+
+TEST_F(GuardTest, SweepsABacklogWhereItsFrameIsKnownAgain) {
+  sweepTo(1.0, 0.5);
+  passTo(1.1, -0.2);
+  const SweepReport unplaced = guard_.sweep(pose(1.2, {}), table_);
+  EXPECT_EQ(unplaced.unplaced.size(), 1U);
+  passTo(1.3, 0.4);
+  const SweepReport report = sweepTo(1.4, 0.5);
+  EXPECT_TRUE(report.contact());
+  EXPECT_EQ(report.start, at(1.0));
+}
+
+TEST_F(GuardTest, ABacklogLeavesThePredictionAsItIs) {
+  GuardOptions options;
+  options.clock = [] { return SteadyTime(); };
+  Guard backlogged(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options);
+  Guard prompt(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options);
+  for (int ms = 0; ms <= 300; ++ms) {
+    const ToolPose pose{at(1.0 + 1e-3 * ms), SteadyTime{}, up(0.5 + 0.1 * std::sin(0.01 * ms)), {}};
+    prompt.sweep(pose, {});
+    if (ms % 10 == 0) {
+      backlogged.sweep(pose, {});
+    } else {
+      backlogged.pass(pose);
+    }
+  }
+  const PredictedPath expected = prompt.forecast({}, fromSeconds(1.0)).path;
+  const PredictedPath path = backlogged.forecast({}, fromSeconds(1.0)).path;
+  ASSERT_EQ(path.size(), expected.size());
+  for (size_t i = 0; i < path.size(); ++i) EXPECT_EQ(path[i].X_WT.matrix(), expected[i].X_WT.matrix());
 }
 
 // The table turns by half a radian about its own origin, the tool rests a metre away: seen from the table it runs along

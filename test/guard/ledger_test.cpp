@@ -73,6 +73,31 @@ class LedgerTest : public testing::Test {
   Ledger ledger_{kLimits};
 };
 
+TEST_F(LedgerTest, AnOverloadIsToldAndHeldButLeavesTheLevel) {
+  SweepReport report = reportOf(workpieces_);
+  report.backlog = milliseconds(20);
+  sweep(report, 1010);
+  EXPECT_EQ(reasonsAt(1010), 0U);
+  report.backlog = milliseconds(21);
+  sweep(report, 1020);
+  sweep(reportOf(workpieces_), 1030);
+  EXPECT_EQ(reasonsAt(1030), kOverload);
+  EXPECT_EQ(levelAt(1030), Level::kClear);
+  sweep(reportOf(workpieces_), 1480);
+  EXPECT_EQ(reasonsAt(1480), kOverload);
+  ledger_.setWorkpieces({workpiece("liver", 1500)});
+  sweep(reportOf({workpiece("liver", 1500)}), 1521);
+  EXPECT_EQ(reasonsAt(1521) & kOverload, 0U);
+}
+
+TEST_F(LedgerTest, AnOverloadIsForgottenWhenTimeJumps) {
+  SweepReport report = reportOf(workpieces_);
+  report.backlog = milliseconds(50);
+  sweep(report, 1010);
+  ledger_.timeJumped("time went back");
+  EXPECT_EQ(reasonsAt(1010) & kOverload, 0U);
+}
+
 TEST(EmptyLedgerTest, KnowsNothing) {
   const Verdict verdict = Ledger(kLimits).verdict(at(0));
   EXPECT_EQ(verdict.level, Level::kUnknown);

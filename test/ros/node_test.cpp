@@ -215,14 +215,28 @@ TEST_F(NodeTest, SeveralWorkpiecesAreToldApart) {
   EXPECT_EQ(contacts.objects[0].mesh_id, "left");
 }
 
+// However the poses wait for each other: there is no hole, and the flick of 2 ms in their middle is met.
 TEST_F(NodeTest, EveryPoseOfABurstIsSwept) {
   placeSheet("sheet", {0.0, 0.0, -1.0});
   probe().advance(0.5);
   probe().forgetContacts();
   const ros::Time begin = probe().time() - ros::Duration(0.5);
-  for (int i = 1; i <= 500; ++i) probe().publish(poseAt({0.0, 0.0, 0.5}, begin + ros::Duration(0.001 * i)));
-  const auto contacts = probe().awaitContacts(500);
-  for (size_t i = 1; i < 500; ++i) EXPECT_EQ(contacts[i].interval_start, contacts[i - 1].header.stamp);
+  for (int i = 1; i <= 500; ++i) {
+    probe().publish(poseAt({0.0, 0.0, i == 250 ? -1.5 : 0.5}, begin + ros::Duration(0.001 * i)));
+  }
+  std::vector<Contacts> contacts;
+  do {
+    contacts = probe().awaitContacts(contacts.size() + 1);
+  } while (contacts.back().header.stamp < probe().time());
+  size_t met = 0;
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    if (i > 0) {
+      EXPECT_EQ(contacts[i].interval_start, contacts[i - 1].header.stamp);
+    }
+    met += contacts[i].objects.size();
+  }
+  EXPECT_GE(met, 1U);
+  EXPECT_LE(met, 2U);
 }
 
 TEST_F(NodeTest, PosesOfOneStampAreSweptToo) {

@@ -38,8 +38,10 @@ struct SweptObject {
 
 /// One step of the guard: everything that happened up to a pose.
 struct SweepReport {
-  Time start;                          ///< earliest begin of a sweep; equal to `end` at the first pose
-  Time end;                            ///< stamp of the pose
+  Time start;  ///< earliest begin of a sweep; equal to `end` at the first pose
+  Time end;    ///< stamp of the pose
+  /// Time that the poses span which had to wait, and were passed through on the way to this one; 0 if there were none.
+  Duration backlog{};
   std::vector<SweptObject> objects;    ///< every workpiece swept, in the order they came; not met: no triangles
   Workpieces unplaced;                 ///< workpieces whose frame is not known at the pose: not swept
   std::vector<SweepFailure> failures;  ///< workpieces whose detection failed: not swept
@@ -89,6 +91,12 @@ class Guard {
   /// @throws InvalidInput if an option is out of range
   Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options);
 
+  /// Takes in a pose of a backlog: the next sweep is to pass through it. Its frames should all be known at the pose
+  /// that is swept to; what lives in others waits until they are known again.
+  /// @param pose  its stamp must not lie before that of the pose before
+  void pass(const ToolPose& pose);
+
+  /// From the pose swept to last, through those passed since, to this one.
   /// @param pose  its stamp must not lie before that of the pose before
   SweepReport sweep(const ToolPose& pose, const Workpieces& workpieces);
 
@@ -117,9 +125,10 @@ class Guard {
     Displacements displacements = {};  // from there to the newest deformation
   };
 
+  void take(const ToolPose& pose);
   SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);
   SweptObject sweepObject(const std::shared_ptr<const Workpiece>& workpiece);
-  Swept sweptBefore(const std::shared_ptr<const Workpiece>& workpiece, const Way& way);
+  Swept sweptBefore(const std::shared_ptr<const Workpiece>& workpiece);
   size_t endOfMotion(size_t begin, size_t last) const;
   std::vector<Motion> motions_M(const Way& way, size_t first, size_t begin, size_t end) const;
   void forgetWhatIsGone(const Workpieces& workpieces);
@@ -132,6 +141,8 @@ class Guard {
   std::map<std::string, Way> ways_;     // by frame: the poses that may be swept again, and the newest
   std::map<std::string, Swept> swept_;  // by id
   std::uint64_t poses_ = 0;
+  std::uint64_t swept_to_ = 0;         // number of the pose swept to last
+  std::optional<Time> waiting_since_;  // stamp of the first pose passed since then
   PosePredictor predictor_;
   Budget budget_;
   PathTest path_test_;

@@ -79,6 +79,7 @@ class Ledger {
   std::optional<Seen> pose_;
   Time swept_until_;  // every workpiece
   std::optional<Evidence::Contact> contact_;
+  std::optional<Evidence::Backlog> overload_;
   Workpieces swept_;  // at the newest pose
   std::optional<Prediction> prediction_;
   std::optional<Evidence::Expectation> expected_;

@@ -29,7 +29,11 @@ enum Reason : std::uint32_t {
   kDetectorFault = 1U << 10,
   kNotSwept = 1U << 11,
   kNotCovered = 1U << 12,
+  kOverload = 1U << 13,
 };
+
+/// Reasons that tell of something degraded, and leave the level as it is.
+constexpr std::uint32_t kDegraded = kOverload;
 
 /// When an input was made and when it came in.
 struct Seen {
@@ -70,6 +74,12 @@ struct Evidence {
     SteadyTime ended;  ///< when it was in force last
   };
 
+  /// Poses that had to wait, and were swept all at once.
+  struct Backlog {
+    Duration span{};  ///< from the first to the last of them
+    SteadyTime found;
+  };
+
   std::optional<Seen> pose;  ///< newest pose that has been swept
   std::vector<Object> objects;
   std::optional<Contact> contact;  ///< newest contact
@@ -77,6 +87,7 @@ struct Evidence {
   std::optional<Alarm> reflex;      ///< newest that has ended
   std::optional<Alarm> considered;  ///< newest that has ended
   Time covered_until;               ///< no workpiece is left untested up to here, measured or predicted; epoch: never
+  std::optional<Backlog> overload;  ///< newest that was too long
   std::map<Reason, std::string> faults;  ///< in force, each with its story
 };
 
@@ -87,6 +98,7 @@ struct VerdictLimits {
   Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, > 0
   Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
   Duration tick = std::chrono::milliseconds(15);          ///< until the verdict is asked for again at the latest; >= 0
+  Duration overload = std::chrono::milliseconds(20);      ///< a longer backlog of poses is told of; >= 0
   double min_probability = 0.1;                           ///< of a contact that is warned of, in (0, 1]
 };
 
@@ -109,7 +121,8 @@ struct Verdict {
 /// Contact before reflex before considered before unknown before clear. A warning is due as soon as the collision
 /// expected would come within its interval before the verdict is asked for again; it is held for its hold time. Clear
 /// takes a fresh pose, a workpiece, every workpiece fresh, swept at that pose and tested up to the end of the
-/// considered interval, and no fault: whatever is missing is unknown, not clear. Reasons are named whatever the level.
+/// considered interval, and no fault: whatever is missing is unknown, not clear. Reasons are named whatever the level;
+/// an overload alone, which costs exactness but leaves nothing unswept, does not change it.
 /// Ages are the larger of both clocks.
 Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits& limits);
 

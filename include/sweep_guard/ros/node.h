@@ -20,8 +20,8 @@
 namespace sweep_guard_ros {
 
 /// The guard of one tool as a ROS node, and as a nodelet: inputs on threads of their own, one thread that sweeps every
-/// pose and looks ahead from the newest, and steady timers that warn whatever the inputs do. Topics, services and
-/// parameters: README.md.
+/// pose, those that had to wait at once, and looks ahead from the newest, and steady timers that warn whatever the
+/// inputs do. Topics, services and parameters: README.md.
 class SweepGuardNode {
  public:
   /// @throws sweep_guard::InvalidInput if a parameter is refused, sweep_guard::DeviceError if there is no detector
@@ -39,7 +39,9 @@ class SweepGuardNode {
   void enqueue(PlacedPose pose);
   std::future<PredictService::Answer> ask(sweep_guard::Duration horizon);
   void work();
-  void process(const PlacedPose& placed);
+  void process(const std::deque<PlacedPose>& poses);
+  void process(const PlacedPose& placed, const PlacedPose* next);
+  void pass(const PlacedPose& placed);
   void sweep(const PlacedPose& placed);
   void lookAhead(const PlacedPose& placed);
   bool timeToLookAhead();
@@ -78,10 +80,11 @@ class SweepGuardNode {
 
   // What follows calls back on what stands above.
   sweep_guard::Ledger ledger_;
-  sweep_guard::Guard guard_;                // of the sweeping thread, as all down to log_
-  std::uint64_t guard_epoch_ = 0;           // that the guard's poses are of
-  std::optional<sweep_guard::Seen> swept_;  // newest pose that the guard knows
-  sweep_guard::SteadyTime looked_ahead_;    // when it did so last
+  sweep_guard::Guard guard_;                     // of the sweeping thread, as all down to log_
+  std::uint64_t guard_epoch_ = 0;                // that the guard's poses are of
+  std::optional<sweep_guard::Seen> swept_;       // newest pose that the guard knows
+  std::vector<sweep_guard::SteadyTime> passed_;  // when the poses passed since then came in
+  sweep_guard::SteadyTime looked_ahead_;         // when it did so last
   LogThrottle log_;
   Frames frames_;
   WorkpieceStore workpieces_;
