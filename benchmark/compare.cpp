@@ -115,7 +115,7 @@ class Comparison {
     compare(sweeps, sweeps.name, contenders);
     for (const Workload* workload : {&sweep, &sweeps}) compare(shuffled(*workload), "shuffled", chiefs);
     if (options_.triangles > 200000) return right_;
-    for (const size_t hits : {0, 1}) {
+    for (const size_t hits : {size_t{0}, size_t{1}}) {
       const Workload workload = grazing(hull_, hits, std::min<size_t>(8, deformations()));
       compare(workload, workload.name, chiefs);
     }

@@ -85,7 +85,7 @@ Surface reordered(const Surface& surface, const Order& order) {
   Surface reordered;
   std::vector<std::uint32_t> place(order.vertices.size());
   for (std::uint32_t i = 0; i < order.vertices.size(); ++i) {
-    const auto from = surface.positions_M.begin() + 3 * order.vertices[i];
+    const float* const from = surface.vertex(order.vertices[i]);
     reordered.positions_M.insert(reordered.positions_M.end(), from, from + 3);
     place[order.vertices[i]] = i;
   }

@@ -34,7 +34,7 @@ double Entrant::run(const Frame& frame) {
 }
 
 void Entrant::check(const Frame& frame) {
-  const auto corner = [&](std::uint32_t vertex) { return &frame.positions_M[3 * vertex]; };
+  const auto corner = [&](size_t vertex) { return &frame.positions_M[3 * vertex]; };
   for (size_t volume = 0; volume < ids_.size(); ++volume) {
     TriangleIds ids = ids_[volume];
     std::sort(ids.begin(), ids.end());

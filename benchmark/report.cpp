@@ -249,15 +249,15 @@ int run(const std::vector<std::string>& arguments) {
   if (!csv) throw InvalidInput(arguments[0] + ": cannot be read");
   const Results results(readCsv(csv));
   printTable(results, "update", 0);
-  for (const std::string work : {"ordered", "shuffled", "no hit", "one hit"}) {
-    for (const size_t queries : {1, 20}) printTable(results, work, queries);
+  for (const char* const work : {"ordered", "shuffled", "no hit", "one hit"}) {
+    for (const size_t queries : {size_t{1}, size_t{20}}) printTable(results, work, queries);
   }
   printPromises(results);
   const bool right = printErrors(results);
   if (drawn) {
     sweep_guard_evaluation::requireGnuplot();
-    for (const std::string work : {"ordered", "shuffled"}) {
-      for (const size_t queries : {1, 20}) plot(results, work, queries, arguments[2]);
+    for (const char* const work : {"ordered", "shuffled"}) {
+      for (const size_t queries : {size_t{1}, size_t{20}}) plot(results, work, queries, arguments[2]);
     }
   }
   return right ? 0 : 1;

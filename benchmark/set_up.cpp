@@ -60,7 +60,7 @@ Row finePhase(const Workload& workload) {
   Sample us;
   for (const Frame& frame : workload.frames) {
     if (frame.truth[0].empty()) continue;
-    const auto at = [&](std::uint32_t i) -> Eigen::Vector3d {
+    const auto at = [&](size_t i) -> Eigen::Vector3d {
       return Eigen::Map<const Eigen::Vector3f>(&frame.positions_M[3 * i]).cast<double>();
     };
     const std::vector<Motion> parts = split(frame.motions_M[0], 0.1745);

@@ -39,14 +39,14 @@ class Cgal : public Peer {
     for (const Triangles::const_iterator candidate : candidates_) {
       const auto i = static_cast<size_t>(candidate - triangles_.cbegin());
       const auto& [a, b, c] = surface_.triangles[i];
-      if (meets(volume_M, corner(a), corner(b), corner(c))) ids.push_back(static_cast<std::uint32_t>(i));
+      if (meets(volume_M, surface_.vertex(a), surface_.vertex(b), surface_.vertex(c)))
+        ids.push_back(static_cast<std::uint32_t>(i));
     }
   }
 
  private:
-  const float* corner(std::uint32_t vertex) const { return surface_.positions_M.data() + 3 * vertex; }
   Kernel::Point_3 point(std::uint32_t vertex) const {
-    const float* const p = corner(vertex);
+    const float* const p = surface_.vertex(vertex);
     return {p[0], p[1], p[2]};
   }
 

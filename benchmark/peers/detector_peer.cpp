@@ -17,7 +17,7 @@ using sweep_guard::TriangleMesh;
 TriangleMesh meshOf(const Surface& surface) {
   std::vector<Eigen::Vector3d> vertices_M;
   for (size_t i = 0; i < surface.positions_M.size(); i += 3) {
-    vertices_M.push_back(Eigen::Map<const Eigen::Vector3f>(&surface.positions_M[i]).cast<double>());
+    vertices_M.emplace_back(Eigen::Map<const Eigen::Vector3f>(&surface.positions_M[i]).cast<double>());
   }
   return TriangleMesh(vertices_M, {surface.triangles.begin(), surface.triangles.end()});
 }

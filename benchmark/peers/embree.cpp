@@ -60,14 +60,12 @@ class Embree : public Peer {
   }
 
  private:
-  const float* corner(std::uint32_t vertex) const { return surface_.positions_M.data() + 3 * vertex; }
-
   static void boundTriangle(const RTCBoundsFunctionArguments* arguments) {
     const auto* self = static_cast<const Embree*>(arguments->geometryUserPtr);
     const auto& triangle = self->surface_.triangles[arguments->primID];
-    const float* const a = self->corner(triangle[0]);
-    const float* const b = self->corner(triangle[1]);
-    const float* const c = self->corner(triangle[2]);
+    const float* const a = self->surface_.vertex(triangle[0]);
+    const float* const b = self->surface_.vertex(triangle[1]);
+    const float* const c = self->surface_.vertex(triangle[2]);
     RTCBounds& bounds = *arguments->bounds_o;
     bounds.lower_x = std::min({a[0], b[0], c[0]});
     bounds.lower_y = std::min({a[1], b[1], c[1]});
@@ -92,7 +90,7 @@ class Embree : public Peer {
     auto* const self = static_cast<Embree*>(data);
     for (unsigned i = 0; i < count; ++i) {
       const auto& [a, b, c] = self->surface_.triangles[collisions[i].primID0];
-      if (meets(*self->volume_M_, self->corner(a), self->corner(b), self->corner(c))) {
+      if (meets(*self->volume_M_, self->surface_.vertex(a), self->surface_.vertex(b), self->surface_.vertex(c))) {
         self->ids_->push_back(collisions[i].primID0);
       }
     }

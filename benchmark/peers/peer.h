@@ -15,6 +15,8 @@ using TriangleIds = std::vector<std::uint32_t>;
 struct Surface {
   std::vector<float> positions_M;                       ///< x0 y0 z0 x1 ... [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< vertex indices; they stay
+
+  const float* vertex(size_t i) const { return positions_M.data() + 3 * i; }
 };
 
 /// A way to find the triangles of a deforming surface that convex volumes meet. Made once per surface, which outlives

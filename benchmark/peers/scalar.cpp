@@ -23,13 +23,13 @@ class Scalar : public Peer {
   void query(size_t volume, TriangleIds& ids) override {
     const Polytope& volume_M = (*volumes_M_)[volume];
     take(volume_M);
-    const float* const positions = surface_.positions_M.data();
+    const auto at = [first = surface_.vertex(0)](size_t vertex) { return first + 3 * vertex; };
     const size_t count = surface_.triangles.size();
     for (size_t i = 0; i < count; ++i) {
       const auto& triangle = surface_.triangles[i];
-      const float* const a = positions + 3 * triangle[0];
-      const float* const b = positions + 3 * triangle[1];
-      const float* const c = positions + 3 * triangle[2];
+      const float* const a = at(triangle[0]);
+      const float* const b = at(triangle[1]);
+      const float* const c = at(triangle[2]);
       if ((kBoxFirst && besideBox(a, b, c)) || beyondAPlane(a, b, c)) continue;
       if (meets(volume_M, a, b, c)) ids.push_back(static_cast<std::uint32_t>(i));
     }
