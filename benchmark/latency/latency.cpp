@@ -30,13 +30,14 @@ using sweep_guard_evaluation::csvLine;
 using sweep_guard_evaluation::csvNumber;
 using sweep_guard_evaluation::quantile;
 
-constexpr double kPatience = 60.0;  // [s] until the guard has taken the mesh
+constexpr double kPatience = 30.0;  // [s] with a guard that takes in the mesh, or has fallen behind
 constexpr double kWarmUp = 2.0;     // [s]
 const std::string kGuard = "sweep_guard";
 
 struct Settings {
   int triangles = 1600;
   double seconds = 10.0;
+  Rates rates;
   std::string transport = "tcpros";
   std::string detector = "select";
   std::string csv;
@@ -47,9 +48,11 @@ struct Settings {
 Settings settingsOf(int argc, char** argv) {
   Settings settings;
   options::options_description known("latency [options]");
-  known.add_options()("help", "this text")                               //
-      ("triangles", options::value(&settings.triangles), "of the hull")  //
-      ("seconds", options::value(&settings.seconds), "to measure for")   //
+  known.add_options()("help", "this text")                                 //
+      ("triangles", options::value(&settings.triangles), "of the hull")    //
+      ("seconds", options::value(&settings.seconds), "to measure for")     //
+      ("pose-rate", options::value(&settings.rates.poses), "[Hz]")         //
+      ("vertices-rate", options::value(&settings.rates.vertices), "[Hz]")  //
       ("transport", options::value(&settings.transport),
        "tcpros: the guard is a node; nodelet: it runs in this process")                                               //
       ("detector", options::value(&settings.detector), "of the guard")                                                //
@@ -66,6 +69,7 @@ Settings settingsOf(int argc, char** argv) {
   if (settings.transport != "tcpros" && settings.transport != "nodelet") {
     throw InvalidInput("--transport: '" + settings.transport + "' is unknown: use tcpros or nodelet");
   }
+  if (!(settings.rates.poses > 0.0 && settings.rates.vertices > 0.0)) throw InvalidInput("rates: use some > 0");
   if (settings.triangles < 6 || settings.triangles % 2 != 0) throw InvalidInput("--triangles: use an even number >= 6");
   return settings;
 }
@@ -124,10 +128,10 @@ struct Measurement {
   double seconds() const { return 1e-9 * static_cast<double>(end - begin); }
 };
 
-void waitForContacts(const Listener& listener) {
+// Until the contacts cover that pose, or for so long.
+void waitFor(const Listener& listener, Nanoseconds pose) {
   const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(kPatience);
-  while (listener.said().contacts.empty()) {
-    if (!ros::ok() || ros::WallTime::now() > give_up) throw sweep_guard::DeviceError("the guard says nothing");
+  while (listener.newestContacts() < pose && ros::ok() && ros::WallTime::now() < give_up) {
     ros::WallDuration(0.1).sleep();
   }
 }
@@ -144,8 +148,9 @@ Measurement measure(const Settings& settings) {
   setParameters(settings);
   const Listener listener(kGuard);
   const GuardProcess guard(settings.transport);
-  Sender sender(scene);
-  waitForContacts(listener);
+  Sender sender(scene, settings.rates);
+  waitFor(listener, /*pose=*/1);
+  if (listener.newestContacts() == 0) throw sweep_guard::DeviceError("the guard says nothing");
   ros::WallDuration(kWarmUp).sleep();
 
   Measurement measured;
@@ -156,13 +161,13 @@ Measurement measure(const Settings& settings) {
   measured.end = static_cast<Nanoseconds>(ros::Time::now().toNSec());
   measured.after = usage(guard, sender);
   getloadavg(&measured.load, 1);
-  ros::WallDuration(1.0).sleep();  // for what is late
   measured.poses = sender.poses();
-  ros::WallDuration(0.5).sleep();
+  waitFor(listener, measured.poses.back());
   measured.said = listener.said();
   measured.said.sweeps_asked -= before.sweeps_asked;
   measured.said.sweeps_made -= before.sweeps_made;
   measured.said.whole_predictions -= before.whole_predictions;
+  measured.said.met -= before.met;
   return measured;
 }
 
@@ -213,8 +218,10 @@ void print(const Settings& settings, const Measurement& measured, const std::vec
                 quantile(row.milliseconds, 0.9), quantile(row.milliseconds, 0.99), quantile(row.milliseconds, 1.0));
   }
   const std::vector<Heard> swept = within(measured.said.contacts, measured.begin, measured.end);
-  std::printf("poses: %zu sent; sweeps: %.1f per second; intervals unswept: %zu\n", posesOf(measured).size(),
-              static_cast<double>(swept.size()) / measured.seconds(), holes(measured.said.contacts));
+  std::printf(
+      "poses: %zu sent, %zu covered; sweeps: %.1f per second, %zu of them met something; intervals unswept: %zu\n",
+      posesOf(measured).size(), rows[0].milliseconds.size(), static_cast<double>(swept.size()) / measured.seconds(),
+      measured.said.met, holes(measured.said.contacts));
   std::printf("predicted sweeps: %zu made of %zu; predictions with all of them: %zu\n", measured.said.sweeps_made,
               measured.said.sweeps_asked, measured.said.whole_predictions);
   std::printf("guard's process: %.0f %% of a processor, %.1f MB, %+.1f MB meanwhile\n",
@@ -263,7 +270,8 @@ int run(int argc, char** argv) {
       appendHistogram(settings.histogram, {methodOf(settings), settings.triangles, row.work}, row.milliseconds);
     }
   }
-  return holes(measured.said.contacts) == 0 && !rows[0].milliseconds.empty() ? 0 : 1;
+  const bool covered = rows[0].milliseconds.size() == posesOf(measured).size();
+  return covered && holes(measured.said.contacts) == 0 ? 0 : 1;
 }
 
 }  // namespace

@@ -25,10 +25,16 @@ Said Listener::said() const {
   return said_;
 }
 
+Nanoseconds Listener::newestContacts() const {
+  const std::lock_guard lock(mutex_);
+  return said_.contacts.empty() ? 0 : said_.contacts.back().stamp;
+}
+
 void Listener::onContacts(const sweep_guard::Contacts& contacts) {
   const Nanoseconds received = now();
   const std::lock_guard lock(mutex_);
   said_.contacts.push_back({nanoseconds(contacts.interval_start), nanoseconds(contacts.header.stamp), received});
+  said_.met += contacts.objects.empty() ? 0 : 1;
 }
 
 void Listener::onPrediction(const sweep_guard::Prediction& prediction) {

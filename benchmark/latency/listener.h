@@ -19,6 +19,7 @@ struct Said {
   std::vector<Heard> predictions;
   std::vector<Heard> warnings;
   std::vector<Heard> changes;    ///< the warnings that changed the level
+  std::size_t met = 0;           ///< contacts that are not empty
   std::size_t sweeps_asked = 0;  ///< of all predictions
   std::size_t sweeps_made = 0;
   std::size_t whole_predictions = 0;  ///< those with all sweeps that were asked for
@@ -32,6 +33,9 @@ class Listener {
 
   /// So far.
   Said said() const;
+
+  /// Stamp of the newest contacts; 0: none so far.
+  Nanoseconds newestContacts() const;
 
  private:
   void onContacts(const sweep_guard::Contacts& contacts);

@@ -14,13 +14,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPosePeriod = std::chrono::microseconds(1000);
-constexpr auto kVerticesPeriod = std::chrono::nanoseconds(1'000'000'000 / 60);
 constexpr size_t kPosesKept = 1'000'000;
 
-// Calls `send` every `period` with the time since the first call [s].
+// Calls `send` at that rate with the time since the first call [s].
 template <typename Send>
-void repeat(const std::atomic<bool>& stopping, Clock::duration period, const Send& send) {
+void repeat(const std::atomic<bool>& stopping, double rate, const Send& send) {
+  const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate));
   const Clock::time_point begin = Clock::now();
   for (Clock::time_point due = begin; !stopping; due = std::max(due + period, Clock::now())) {
     std::this_thread::sleep_until(due);
@@ -38,7 +37,7 @@ double processorOf(std::thread& thread) {
 
 }  // namespace
 
-Sender::Sender(LatencyScene& scene) : scene_(scene) {
+Sender::Sender(LatencyScene& scene, const Rates& rates) : scene_(scene), rates_(rates) {
   ros::NodeHandle node;
   mesh_ = node.advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
   vertices_ = node.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);
@@ -65,7 +64,7 @@ double Sender::processor() const {
 }
 
 void Sender::sendPoses() {
-  repeat(stopping_, kPosePeriod, [this](double t) {
+  repeat(stopping_, rates_.poses, [this](double t) {
     auto pose = boost::make_shared<geometry_msgs::PoseStamped>();
     pose->header.frame_id = "world";
     pose->pose = LatencyScene::tool(t);
@@ -76,7 +75,7 @@ void Sender::sendPoses() {
 }
 
 void Sender::sendVertices() {
-  repeat(stopping_, kVerticesPeriod, [this](double /*t*/) { vertices_.publish(scene_.frame(ros::Time::now())); });
+  repeat(stopping_, rates_.vertices, [this](double /*t*/) { vertices_.publish(scene_.frame(ros::Time::now())); });
 }
 
 void Sender::stop() {

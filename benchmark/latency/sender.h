@@ -11,11 +11,17 @@
 
 namespace sweep_guard_benchmark {
 
-/// Sends the scene from the moment it is made on: the mesh once, its vertices at 60 Hz, the tool's pose at 1 kHz, each
+/// How often things are sent [Hz].
+struct Rates {
+  double poses = 1000.0;
+  double vertices = 60.0;
+};
+
+/// Sends the scene from the moment it is made on: the mesh once, its vertices and the tool's pose again and again, each
 /// stamped with the time at which it is sent. What comes too late is left out, not made up for.
 class Sender {
  public:
-  explicit Sender(LatencyScene& scene);
+  Sender(LatencyScene& scene, const Rates& rates);
   Sender(const Sender&) = delete;
   Sender& operator=(const Sender&) = delete;
   ~Sender();
@@ -31,6 +37,7 @@ class Sender {
   void stop();
 
   LatencyScene& scene_;
+  Rates rates_;
   ros::Publisher mesh_;
   ros::Publisher vertices_;
   ros::Publisher poses_;
