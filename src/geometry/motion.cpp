@@ -28,13 +28,17 @@ Eigen::Isometry3d Motion::at(double fraction) const {
   return pose;
 }
 
-std::vector<Motion> split(const Motion& motion, double max_rotation) {
+size_t countOfParts(double angle, double max_rotation) {
   assert(max_rotation > 0.0);
-  const int parts = std::max(1, static_cast<int>(std::ceil(motion.angle() / max_rotation)));
+  return std::max<size_t>(1, static_cast<size_t>(std::ceil(angle / max_rotation)));
+}
+
+std::vector<Motion> split(const Motion& motion, double max_rotation) {
+  const size_t parts = countOfParts(motion.angle(), max_rotation);
   std::vector<Motion> motions;
   Eigen::Isometry3d start = motion.X_MT_start;
-  for (int i = 1; i < parts; ++i) {
-    const Eigen::Isometry3d end = motion.at(static_cast<double>(i) / parts);
+  for (size_t i = 1; i < parts; ++i) {
+    const Eigen::Isometry3d end = motion.at(static_cast<double>(i) / static_cast<double>(parts));
     motions.push_back({start, end});
     start = end;
   }
@@ -43,21 +47,24 @@ std::vector<Motion> split(const Motion& motion, double max_rotation) {
 }
 
 std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_extent) {
-  assert(max_rotation > 0.0);
-  const double tool_angle = motion.tool_W.angle();
+  std::vector<Motion> parts_M;
+  split(motion, max_rotation, tool_extent, parts_M);
+  return parts_M;
+}
+
+void split(const RelativeMotion& motion, double max_rotation, double tool_extent, std::vector<Motion>& parts_M) {
   const double frame_angle = motion.frame_W.angle();
-  const int parts = std::max(1, static_cast<int>(std::ceil((tool_angle + frame_angle) / max_rotation)));
-  const double bulge = frame_angle == 0.0 ? 0.0 : arc(motion, tool_extent) / (static_cast<double>(parts) * parts);
+  const size_t count = countOfParts(motion.tool_W.angle() + frame_angle, max_rotation);
+  const auto parts = static_cast<double>(count);
+  const double bulge = frame_angle == 0.0 ? 0.0 : arc(motion, tool_extent) / (parts * parts);
 
   const auto pose_M = [&](double fraction) {
     return motion.frame_W.at(fraction).inverse() * motion.tool_W.at(fraction);
   };
-  std::vector<Motion> motions;
-  motions.reserve(static_cast<size_t>(parts));
-  for (int i = 0; i < parts; ++i) {
-    motions.push_back({pose_M(static_cast<double>(i) / parts), pose_M(static_cast<double>(i + 1) / parts), bulge});
+  parts_M.clear();
+  for (size_t i = 0; i < count; ++i) {
+    parts_M.push_back({pose_M(static_cast<double>(i) / parts), pose_M(static_cast<double>(i + 1) / parts), bulge});
   }
-  return motions;
 }
 
 // A tool point in M is x = R_MW (d + R_WT p): |x''| <= turn^2 |d| + 2 turn |d'| + (turn + tool's turn)^2 |p|, and the

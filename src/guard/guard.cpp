@@ -20,6 +20,38 @@ MovingMesh movingMesh(const Workpiece& now, const Workpiece& before, const Displ
   return {now.mesh_M, before.mesh_M, displacements, off};
 }
 
+// As it does by itself, but that names of frames stay where they are.
+void assign(ToolPose& to, const ToolPose& from) {
+  const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
+  if (!std::equal(to.X_WM.begin(), to.X_WM.end(), from.X_WM.begin(), from.X_WM.end(), same)) {
+    to = from;
+    return;
+  }
+  to.stamp = from.stamp;
+  to.received = from.received;
+  to.X_WT = from.X_WT;
+  auto next = from.X_WM.begin();
+  for (auto& [frame, X_WM] : to.X_WM) X_WM = next++->second;
+}
+
+void clear(SweepFindings& findings) {
+  findings.triangles.clear();
+  findings.margin = 0.0;
+  findings.volumes_M.clear();
+  findings.fine = false;
+  findings.met.clear();
+  findings.touched.clear();
+  findings.inside = false;
+}
+
+// The ways in known before stay where there is no newer one.
+void learn(SweptBefore& known, const SweepFindings& found) {
+  known.outside = !found.contact();
+  for (const TouchedTriangle& one : found.touched) {
+    known.ways_in.insert_or_assign(one.triangle, one.impact.normal_M);
+  }
+}
+
 bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
   return &a.triangles() == &b.triangles() || (a.vertexCount() == b.vertexCount() && a.triangles() == b.triangles());
 }
@@ -73,16 +105,25 @@ Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& 
       path_test_(options.pathTest()) {}
 
 SweepReport Guard::sweep(const ToolPose& pose, const Workpieces& workpieces) {
+  SweepReport report;
+  sweep(pose, workpieces, report);
+  return report;
+}
+
+void Guard::sweep(const ToolPose& pose, const Workpieces& workpieces, SweepReport& report) {
   const SteadyTime begin = options_.clock();
   forgetWhatIsGone(workpieces);
   take(pose);
-  SweepReport report = sweepAll(pose, workpieces);
+  sweepAll(pose, workpieces, report);
   report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
   waiting_since_.reset();
   swept_to_ = poses_;
-  newest_ = pose;
+  if (newest_) {
+    assign(*newest_, pose);
+  } else {
+    newest_ = pose;
+  }
   budget_.spentOnMeasured(options_.clock() - begin);
-  return report;
 }
 
 void Guard::pass(const ToolPose& pose) {
@@ -96,74 +137,84 @@ void Guard::take(const ToolPose& pose) {
   predictor_.observe({pose.stamp, pose.X_WT});
 }
 
-SweepReport Guard::sweepAll(const ToolPose& pose, const Workpieces& workpieces) {
-  SweepReport report;
+void Guard::sweepAll(const ToolPose& pose, const Workpieces& workpieces, SweepReport& report) {
   report.start = report.end = pose.stamp;
+  report.unplaced.clear();
+  report.failures.clear();
+  size_t swept = 0;
   for (const auto& workpiece : workpieces) {
     if (pose.X_WM.count(workpiece->frame) == 0) {
       report.unplaced.push_back(workpiece);
       continue;
     }
     try {
-      report.objects.push_back(sweepObject(workpiece));
-      report.start = std::min(report.start, report.objects.back().interval_start);
+      if (swept == report.objects.size()) report.objects.emplace_back();
+      SweptObject& object = report.objects[swept];
+      sweepObject(workpiece, object);
+      report.start = std::min(report.start, object.interval_start);
+      ++swept;
     } catch (const std::exception& error) {  // the device, or no memory: the others are swept all the same
       report.failures.push_back({workpiece, error.what()});
     }
   }
+  report.objects.resize(swept);
   for (auto& [frame, way] : ways_) shorten(frame, way);
-  return report;
 }
 
-SweptObject Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece) {
+void Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece, SweptObject& object) {
   const Way& way = ways_.at(workpiece->frame);
   const size_t last = way.size() - 1;
-  Swept swept = sweptBefore(workpiece);
+  Swept& swept = sweptBefore(workpiece);
   const size_t begin = way.lastUpTo(swept.pose);
   const auto past = [&](const Workpiece& deformation) { return deformation.stamp <= way[begin].stamp; };
-  while (swept.deformations.size() > 1 && past(*swept.deformations[1])) swept.deformations.pop_front();
-  const auto before = swept.deformations.back();
-  if (workpiece != before) swept.deformations.push_back(workpiece);
-
-  const auto from = swept.deformations.front();
-  if (swept.displaced_from != from || workpiece != before) {
+  while (swept.deformations.size() > 1 && past(*swept.deformations[1])) {
+    swept.deformations.erase(swept.deformations.begin());
+  }
+  const auto& from = swept.deformations.front();
+  const Workpiece& before = *swept.deformations.back();
+  const bool deformed = workpiece.get() != &before;
+  if (deformed || swept.displaced_from != from) {
     swept.displaced_from = from;
     swept.displacements = workpiece == from ? Displacements() : Displacements(from->mesh_M, workpiece->mesh_M);
   }
+
   const MovingMesh mesh = movingMesh(*workpiece, *from, swept.displacements);
-  const bool again = workpiece != before && mesh.moved();
-  const size_t first = again ? std::min(begin, way.lastUpTo(before->stamp)) : begin;
-  SweptObject object{workpiece, way[begin].stamp, {}};
+  const bool again = deformed && mesh.moved();
+  const size_t first = again ? std::min(begin, way.lastUpTo(before.stamp)) : begin;
+  object.workpiece = workpiece;
+  object.interval_start = way[begin].stamp;
+  clear(object.findings);
+  known_ = swept.known;
   way.waypoints_M(first, last, tool_.extent(), waypoints_M_);
   size_t i = first;
   do {
     const bool is_new = i >= begin;
-    swept.known.settled = is_new ? TriangleSet() : object.findings.met;  // once more tells nothing new
     const size_t end = first + endOfMotion(i - first, (is_new ? last : begin) - first);
-    const std::vector<Motion> parts = motions_M(way, first, i - first, end - first);
-    SweepFindings found = testSweep(*detector_, tool_, parts, mesh, options_.sweep, swept.known);
-    if (is_new) swept.known.ways_in.clear();
-    SweptBefore after = known(found);
-    after.ways_in.merge(swept.known.ways_in);
-    swept.known = std::move(after);
+    known_.settled.clear();
+    if (!is_new) known_.settled = object.findings.met;  // once more tells nothing new
+    SweepFindings found =
+        testSweep(*detector_, tool_, motions_M(way, first, i - first, end - first), mesh, options_.sweep, known_);
+    if (is_new) known_.ways_in.clear();
+    learn(known_, found);
     rescale(found.touched, way.share(begin, i), way.share(begin, end));
     unite(object.findings, std::move(found));
     i = end;
   } while (i < last);
+  if (deformed) swept.deformations.push_back(workpiece);
   swept.pose = way.newest().number;
-  swept_[workpiece->id] = std::move(swept);
-  return object;
+  std::swap(swept.known, known_);
 }
 
 // Whatever its triangles were: from there on it has not been swept.
-Guard::Swept Guard::sweptBefore(const std::shared_ptr<const Workpiece>& workpiece) {
-  const Swept is_new{{workpiece}, swept_to_, {}};
-  Swept& known = swept_.emplace(workpiece->id, is_new).first->second;
+Guard::Swept& Guard::sweptBefore(const std::shared_ptr<const Workpiece>& workpiece) {
+  const auto one = swept_.find(workpiece->id);
+  if (one == swept_.end()) return swept_.emplace(workpiece->id, Swept{{workpiece}, swept_to_}).first->second;
+  Swept& known = one->second;
   const Workpiece& before = *known.deformations.back();
   if (before.frame != workpiece->frame) {
-    known = is_new;
+    known = {{workpiece}, swept_to_};
   } else if (!sameTriangles(before.mesh_M, workpiece->mesh_M)) {
-    known = {{workpiece}, known.pose, {}};
+    known = {{workpiece}, known.pose};
   }
   return known;
 }
@@ -176,11 +227,15 @@ size_t Guard::endOfMotion(size_t begin, size_t last) const {
 }
 
 // From one waypoint of the stretch that begins at place `first` of the way to another.
-std::vector<Motion> Guard::motions_M(const Way& way, size_t first, size_t begin, size_t end) const {
-  if (end > begin + 1) return {chord(waypoints_M_, begin, end, tool_.extent())};
+const std::vector<Motion>& Guard::motions_M(const Way& way, size_t first, size_t begin, size_t end) {
+  if (end > begin + 1) {
+    motions_M_.assign(1, chord(waypoints_M_, begin, end, tool_.extent()));
+    return motions_M_;
+  }
   const Placed& from = way[first + begin];
   const Placed& to = way[first + end];
-  return split({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, options_.sweep.max_rotation, tool_.extent());
+  split({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, options_.sweep.max_rotation, tool_.extent(), motions_M_);
+  return motions_M_;
 }
 
 Outlook Guard::lookAhead(Duration age, const Workpieces& workpieces) {
@@ -201,7 +256,7 @@ PathTest::Effort Guard::effortFor(const Forecast& forecast, SteadyTime begin) co
   size_t volumes[] = {0, 0};
   for (size_t i = 0; i < path.size(); ++i) {
     const Motion step{i == 0 ? forecast.from.X_WT : path[i - 1].X_WT, path[i].X_WT};
-    volumes[i < forecast.reflex_sweeps ? 0 : 1] += split(step, options_.sweep.max_rotation).size();
+    volumes[i < forecast.reflex_sweeps ? 0 : 1] += countOfParts(step.angle(), options_.sweep.max_rotation);
   }
   const size_t considered_sweeps = budget_.consideredSweeps(volumes[0], volumes[1]);
   return {sweepEnds(forecast.from.X_WT, path, forecast.reflex_sweeps, considered_sweeps),

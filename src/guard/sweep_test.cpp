@@ -121,7 +121,7 @@ PathFindings testPath(Detector& detector, const Tool& tool, const std::vector<Ei
 
 SweptBefore known(const SweepFindings& findings) {
   SweptBefore known{{}, !findings.contact(), {}};
-  for (const TouchedTriangle& one : findings.touched) known.ways_in.emplace(one.triangle, one.impact.normal_M);
+  for (const TouchedTriangle& one : findings.touched) known.ways_in.emplace_hint(known.ways_in.end(), one.triangle, one.impact.normal_M);
   return known;
 }
 

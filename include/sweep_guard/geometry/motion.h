@@ -26,6 +26,11 @@ struct Motion {
   Eigen::Isometry3d at(double fraction) const;
 };
 
+/// How many equal parts, at the least, a motion is cut into so that none turns by more than `max_rotation`; >= 1.
+/// @param angle         that it turns by [rad], >= 0
+/// @param max_rotation  [rad], > 0
+size_t countOfParts(double angle, double max_rotation);
+
 /// The motion cut into the fewest equal parts that turn by at most `max_rotation` each; end to end, so that nothing
 /// between them is left out.
 /// @param max_rotation  [rad], > 0
@@ -43,6 +48,8 @@ struct RelativeMotion {
 /// @param max_rotation  [rad], > 0
 /// @param tool_extent   largest distance of a tool point from the origin of T [m], >= 0
 std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_extent);
+/// @param[out] parts_M  what was in it is replaced
+void split(const RelativeMotion& motion, double max_rotation, double tool_extent, std::vector<Motion>& parts_M);
 
 /// Bound on how far a tool point, seen from M, is off the straight line at constant speed from where it starts to where
 /// it ends [m].

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <boost/container/flat_map.hpp>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "sweep_guard/detection/fine_phase.h"
@@ -19,7 +19,7 @@ struct TouchedTriangle {
 };
 
 /// By triangle, the normals along which the tool came in: unit, from the triangle to the tool, in the mesh's frame.
-using WaysIn = std::unordered_map<std::uint32_t, Eigen::Vector3d>;
+using WaysIn = boost::container::flat_map<std::uint32_t, Eigen::Vector3d>;
 
 /// What the fine phase makes of candidates.
 struct Confirmation {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -98,6 +97,8 @@ class Guard {
 
   /// From the pose swept to last, through those passed since, to this one.
   /// @param pose  its stamp must not lie before that of the pose before
+  /// @param[out] report  what was in it is replaced; one that is handed in again and again ceases to allocate
+  void sweep(const ToolPose& pose, const Workpieces& workpieces, SweepReport& report);
   SweepReport sweep(const ToolPose& pose, const Workpieces& workpieces);
 
   /// Sweeps along the path predicted from the newest pose on. Frames of workpieces are taken to stay as they are there.
@@ -118,7 +119,7 @@ class Guard {
  private:
   struct Swept {
     // As it was then, and before that as long as the poses to come may be older: the stamps of meshes may run ahead.
-    std::deque<std::shared_ptr<const Workpiece>> deformations;
+    Workpieces deformations;
     std::uint64_t pose = 0;  // number of the pose swept to
     SweptBefore known = {};
     std::shared_ptr<const Workpiece> displaced_from = nullptr;
@@ -126,11 +127,11 @@ class Guard {
   };
 
   void take(const ToolPose& pose);
-  SweepReport sweepAll(const ToolPose& pose, const Workpieces& workpieces);
-  SweptObject sweepObject(const std::shared_ptr<const Workpiece>& workpiece);
-  Swept sweptBefore(const std::shared_ptr<const Workpiece>& workpiece);
+  void sweepAll(const ToolPose& pose, const Workpieces& workpieces, SweepReport& report);
+  void sweepObject(const std::shared_ptr<const Workpiece>& workpiece, SweptObject& object);
+  Swept& sweptBefore(const std::shared_ptr<const Workpiece>& workpiece);
   size_t endOfMotion(size_t begin, size_t last) const;
-  std::vector<Motion> motions_M(const Way& way, size_t first, size_t begin, size_t end) const;
+  const std::vector<Motion>& motions_M(const Way& way, size_t first, size_t begin, size_t end);
   void forgetWhatIsGone(const Workpieces& workpieces);
   void shorten(const std::string& frame, Way& way) const;
   PathTest::Effort effortFor(const Forecast& forecast, SteadyTime begin) const;
@@ -147,7 +148,9 @@ class Guard {
   Budget budget_;
   PathTest path_test_;
   std::optional<ToolPose> newest_;
-  Waypoints waypoints_M_;  // of the stretch that is swept
+  Waypoints waypoints_M_;          // of the stretch that is swept
+  std::vector<Motion> motions_M_;  // of a part of it
+  SweptBefore known_;              // while a sweep may still fail
 };
 
 }  // namespace sweep_guard

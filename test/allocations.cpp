@@ -1,0 +1,96 @@
+#include "allocations.h"
+
+#include <cxxabi.h>
+#include <dlfcn.h>
+#include <execinfo.h>
+
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <new>
+#include <vector>
+
+namespace sweep_guard {
+namespace {
+
+constexpr size_t kKept = 1000;
+constexpr int kDeepest = 24;
+
+struct Stack {
+  std::array<void*, kDeepest> frames;
+  int depth;
+};
+
+thread_local bool counting = false;
+size_t counted = 0;
+std::array<Stack, kKept> kept;
+
+void note() {
+  if (!counting) return;
+  counting = false;  // what looks for the stack may allocate
+  if (counted < kKept) kept[counted].depth = backtrace(kept[counted].frames.data(), kDeepest);
+  ++counted;
+  counting = true;
+}
+
+void* allocate(size_t size, size_t alignment) {
+  note();
+  const size_t whole = (size + alignment - 1) / alignment * alignment;
+  void* memory =
+      alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size) : std::aligned_alloc(alignment, whole);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+std::string nameOf(void* address) {
+  Dl_info info;
+  if (dladdr(address, &info) == 0 || info.dli_sname == nullptr) return "?";
+  int status = 0;
+  char* readable = abi::__cxa_demangle(info.dli_sname, nullptr, nullptr, &status);
+  const std::string name = status == 0 ? readable : info.dli_sname;
+  std::free(readable);
+  return name.substr(0, name.find('('));
+}
+
+std::string textOf(const Stack& stack) {
+  std::string text;
+  for (int i = 3; i < stack.depth; ++i) {
+    const std::string name = nameOf(stack.frames[static_cast<size_t>(i)]);
+    if (name.find("testing::") != std::string::npos) break;
+    if (name != "?" && name.find("std::") != 0) text += (text.empty() ? "" : " < ") + name;
+  }
+  return text;
+}
+
+}  // namespace
+
+Allocations::Allocations() {
+  void* frame = nullptr;
+  backtrace(&frame, 1);  // loads its library
+  counted = 0;
+  counting = true;
+}
+
+Allocations::~Allocations() { counting = false; }
+
+size_t Allocations::count() const { return counted; }
+
+std::string Allocations::stacks() const {
+  counting = false;
+  std::map<std::string, size_t> times;
+  for (size_t i = 0; i < std::min(counted, kKept); ++i) ++times[textOf(kept[i])];
+  std::string text;
+  for (const auto& [stack, count] : times) text += std::to_string(count) + "  " + stack + "\n";
+  return text;
+}
+
+}  // namespace sweep_guard
+
+void* operator new(size_t size) { return sweep_guard::allocate(size, alignof(std::max_align_t)); }
+void* operator new(size_t size, std::align_val_t alignment) {
+  return sweep_guard::allocate(size, static_cast<size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t /*size*/) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t /*size*/, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
