@@ -96,7 +96,13 @@ void Ledger::noteContact(const SweepReport& report, SteadyTime now) {
   for (const SweptObject& object : report.objects) {
     if (!object.findings.contact()) continue;
     const SweepFindings& found = object.findings;
-    contact_ = {object.workpiece->id, found.met, now, /*lasting=*/true, found.inside, firstPart(found)};
+    if (!contact_) contact_.emplace();
+    contact_->id = object.workpiece->id;
+    contact_->triangles = found.met;
+    contact_->found = now;
+    contact_->lasting = true;
+    contact_->inside = found.inside;
+    contact_->tool_part = firstPart(found);
     return;
   }
 }

@@ -5,9 +5,11 @@
 #include <std_msgs/Float64.h>
 
 #include <algorithm>
+#include <boost/make_shared.hpp>
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
+#include "sweep_guard/ros/real_time.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -123,6 +125,10 @@ std::future<PredictService::Answer> SweepGuardNode::ask(sweep_guard::Duration ho
 }
 
 void SweepGuardNode::work() {
+  if (parameters_.realtime_priority > 0) {
+    const std::string refusal = askForRealTime(parameters_.realtime_priority);
+    if (!refusal.empty()) ROS_WARN("%s", refusal.c_str());
+  }
   while (true) {
     std::unique_lock lock(queue_mutex_);
     queue_changed_.wait(lock, [this] { return stopping_ || !queue_.empty() || !questions_.empty(); });
@@ -170,7 +176,8 @@ void SweepGuardNode::pass(const PlacedPose& placed) {
 void SweepGuardNode::sweep(const PlacedPose& placed) {
   const sweep_guard::ToolPose& pose = placed.pose;
   const sweep_guard::SteadyTime begin = std::chrono::steady_clock::now();
-  auto report = std::make_shared<const sweep_guard::SweepReport>(guard_.sweep(pose, workpieces_.snapshot()));
+  const auto report = reports_.take();
+  guard_.sweep(pose, workpieces_.snapshot(), *report);
   const sweep_guard::SteadyTime swept = std::chrono::steady_clock::now();
   swept_ = {pose.stamp, pose.received};
   if (!report->objects.empty()) publishContacts(*report);
@@ -235,17 +242,18 @@ void SweepGuardNode::answer(Question& question) {
 }
 
 void SweepGuardNode::publishContacts(const sweep_guard::SweepReport& report) {
-  sweep_guard::Contacts contacts = toMsg(report, guard_.tool());
-  contacts.header.frame_id = parameters_.fixed_frame;
-  contacts.tool = parameters_.tool_frame;
-  contacts.volume = sweep_guard::nameOf(parameters_.guard.sweep.volume);
+  if (contacts_publisher_.getNumSubscribers() == 0) return;
+  const auto contacts = boost::make_shared<sweep_guard::Contacts>(toMsg(report, guard_.tool()));
+  contacts->header.frame_id = parameters_.fixed_frame;
+  contacts->tool = parameters_.tool_frame;
+  contacts->volume = sweep_guard::nameOf(parameters_.guard.sweep.volume);
   contacts_publisher_.publish(contacts);
 }
 
 void SweepGuardNode::publishPrediction(const sweep_guard::Outlook& outlook, sweep_guard::Duration age) {
-  const sweep_guard::Prediction prediction = predictionMsg(outlook, age, parameters_);
+  const auto prediction = boost::make_shared<sweep_guard::Prediction>(predictionMsg(outlook, age, parameters_));
   std_msgs::Float64 time_to_collision;
-  time_to_collision.data = timeToCollision(prediction);
+  time_to_collision.data = timeToCollision(*prediction);
   prediction_publisher_.publish(prediction);
   time_to_collision_publisher_.publish(time_to_collision);
 }

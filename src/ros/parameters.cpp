@@ -134,6 +134,7 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   parameters.limits.considered = parameters.guard.horizon.considered;
   parameters.guard.cycle = duration(1.0 / read.number("timing/min_rate", 15.0, {1.0, 1000.0}));
   parameters.marker_rate = read.number("timing/marker_rate", 15.0, {0.1, 100.0});
+  parameters.realtime_priority = read.integer("timing/realtime_priority", 0, 0, 99);
   parameters.max_triangles = static_cast<size_t>(read.integer("limits/max_triangles", 1000000, 1, 10000000));
   read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // diagnostic_updater leaves it there
   read.warnOfUnread();

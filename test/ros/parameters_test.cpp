@@ -220,6 +220,7 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("warning/min_probability", 10, "0.001 to 1");
   refused("warning/hold_time", -0.1, "0 to 60");
   refused("timing/min_rate", 0, "1 to 1000");
+  refused("timing/realtime_priority", 100, "0 to 99");
   refused("limits/max_speed", -1, "0.001 to 1000");
   refused("limits/max_turn_rate", "fast", "a number");
   refused("timing/pose_timeout", 0.0, "0.01 to 2");

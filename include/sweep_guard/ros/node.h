@@ -12,6 +12,7 @@
 #include <optional>
 #include <thread>
 
+#include "sweep_guard/common/pool.h"
 #include "sweep_guard/ros/check_sweep.h"
 #include "sweep_guard/ros/diagnostics.h"
 #include "sweep_guard/ros/markers.h"
@@ -85,6 +86,7 @@ class SweepGuardNode {
   std::optional<sweep_guard::Seen> swept_;       // newest pose that the guard knows
   std::vector<sweep_guard::SteadyTime> passed_;  // when the poses passed since then came in
   sweep_guard::SteadyTime looked_ahead_;         // when it did so last
+  sweep_guard::Pool<sweep_guard::SweepReport> reports_;
   LogThrottle log_;
   Frames frames_;
   WorkpieceStore workpieces_;

@@ -24,7 +24,8 @@ struct Parameters {
   sweep_guard::DetectorOptions detector_options;
   sweep_guard::GuardOptions guard;
   sweep_guard::VerdictLimits limits;
-  double marker_rate;  ///< [Hz]
+  double marker_rate;     ///< [Hz]
+  int realtime_priority;  ///< of the thread that sweeps; 0: none
   size_t max_triangles;
 };
 

@@ -1,0 +1,67 @@
+#include "sweep_guard/common/pool.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <thread>
+
+namespace sweep_guard {
+namespace {
+
+TEST(PoolTest, UsesAgainWhatNobodyHolds) {
+  Pool<std::string> pool;
+  std::string* first = nullptr;
+  {
+    const auto one = pool.take();
+    *one = "as it was left";
+    first = one.get();
+  }
+  const auto again = pool.take();
+  EXPECT_EQ(again.get(), first);
+  EXPECT_EQ(*again, "as it was left");
+  EXPECT_EQ(pool.size(), 1U);
+}
+
+TEST(PoolTest, LeavesAloneWhatSomebodyHolds) {
+  Pool<std::string> pool;
+  const std::shared_ptr<const std::string> held = pool.take();
+  const auto other = pool.take();
+  EXPECT_NE(other.get(), held.get());
+  EXPECT_EQ(pool.size(), 2U);
+}
+
+TEST(PoolTest, TakesOnlyWhatFits) {
+  Pool<std::string> pool;
+  pool.add("one");
+  EXPECT_FALSE(pool.take([](const std::string& value) { return value == "two"; }));
+  EXPECT_TRUE(pool.take([](const std::string& value) { return value == "one"; }));
+}
+
+// The reader lets go only when it has read all; the writer never writes before.
+TEST(PoolTest, DoesNotChangeWhatAnotherThreadReads) {
+  Pool<std::vector<int>> pool;
+  std::atomic<std::shared_ptr<const std::vector<int>>*> handed = nullptr;
+  std::atomic<bool> done = false;
+  bool torn = false;
+  std::thread reader([&] {
+    while (!done) {
+      auto* given = handed.exchange(nullptr);
+      if (given == nullptr) continue;
+      for (const int number : **given) torn = torn || number != given->get()->front();
+      delete given;
+    }
+  });
+  for (int i = 0; i < 20000; ++i) {
+    const auto next = pool.take();
+    next->assign(64, i);
+    delete handed.exchange(new std::shared_ptr<const std::vector<int>>(next));
+  }
+  done = true;
+  reader.join();
+  delete handed.exchange(nullptr);
+  EXPECT_FALSE(torn);
+  EXPECT_LE(pool.size(), 4U);
+}
+
+}  // namespace
+}  // namespace sweep_guard

@@ -1,0 +1,59 @@
+#include "sweep_guard/ros/real_time.h"
+
+#include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
+
+#include <thread>
+
+namespace sweep_guard_ros {
+namespace {
+
+struct Asked {
+  std::string refusal;
+  int policy;
+  int priority;
+};
+
+// In a thread of its own, which alone is to get it.
+Asked ask(int priority) {
+  Asked asked;
+  std::thread([&] {
+    asked.refusal = askForRealTime(priority);
+    sched_param parameters{};
+    pthread_getschedparam(pthread_self(), &asked.policy, &parameters);
+    asked.policy &= ~SCHED_RESET_ON_FORK;
+    asked.priority = parameters.sched_priority;
+  }).join();
+  return asked;
+}
+
+TEST(AskForRealTimeTest, IsGrantedOrSaysWhatToSet) {
+  const Asked asked = ask(10);
+  if (asked.refusal.empty()) {
+    EXPECT_EQ(asked.policy, SCHED_FIFO);
+    EXPECT_EQ(asked.priority, 10);
+  } else {
+    EXPECT_EQ(asked.policy, SCHED_OTHER);
+    EXPECT_NE(asked.refusal.find("rtprio 10"), std::string::npos) << asked.refusal;
+    EXPECT_NE(asked.refusal.find("limits.conf"), std::string::npos) << asked.refusal;
+  }
+}
+
+TEST(AskForRealTimeTest, SaysWhyItIsRefusedAndLeavesTheThreadAsItIs) {
+  const Asked asked = ask(1000);
+  EXPECT_NE(asked.refusal.find("real-time priority 1000 is refused"), std::string::npos) << asked.refusal;
+  EXPECT_NE(asked.refusal.find("timing/realtime_priority"), std::string::npos) << asked.refusal;
+  EXPECT_EQ(asked.policy, SCHED_OTHER);
+}
+
+TEST(AskForRealTimeTest, ConcernsTheThreadThatAsks) {
+  ask(10);
+  sched_param parameters{};
+  int policy = 0;
+  pthread_getschedparam(pthread_self(), &policy, &parameters);
+  EXPECT_EQ(policy, SCHED_OTHER);
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
