@@ -1,31 +1,25 @@
-#!/ bin / bash
-#compare.sh COMPARE REPORT : a short comparison ends well, the detectors are right in it, \
-    and its results are as documented.
-set - euo pipefail compare = $1 report = $2
+#!/bin/bash
+# compare.sh COMPARE REPORT: a short comparison ends well, the detectors are right in it, and its results are as documented.
+set -euo pipefail
+compare=$1
+report=$2
 
-    folder = $(mktemp - d) trap 'rm -rf "$folder"' EXIT csv =
-        $folder / results.csv "$compare" --triangles 400 --peers scalar-- frames 5 --deformations 5 --csv "$csv"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+csv=$folder/results.csv
+"$compare" --triangles 400 --peers scalar --frames 5 --deformations 5 --csv "$csv"
 
-                  columns = work,
-                   method, triangles, queries, median_us, p10_us, p90_us, ratio_median, ratio_p10, misses,
-                   extras [[$(head - 1 "$csv") == "$columns"]] || {
-  echo "the columns are not $columns" && exit 1;
-}
-for
-  method in select reference scalar;
-do
-  for
-    queries in 1 20;
-do
-  grep - qE
-          "^ordered,$method,400,$queries,([^,]+,){5}0,0$"
-          "$csv" ||
-  {
-    echo "no line of $method without misses and extras for $queries queries" && exit 1;
-  }
-done
+columns=work,method,triangles,queries,median_us,p10_us,p90_us,ratio_median,ratio_p10,misses,extras
+[[ $(head -1 "$csv") == "$columns" ]] || { echo "the columns are not $columns" && exit 1; }
+for method in select reference scalar; do
+  for queries in 1 20; do
+    grep -qE "^ordered,$method,400,$queries,([^,]+,){5}0,0$" "$csv" ||
+      { echo "no line of $method without misses and extras for $queries queries" && exit 1; }
+  done
 done
 "$report" "$csv" >"$folder/report"
 sed -i '0,/^ordered,select,\(.*\),0,0$/s//ordered,select,\1,1,0/' "$csv"
-if "$report" "$csv" >>"$folder/report";
-then echo "a miss goes unpunished" exit 1 fi
+if "$report" "$csv" >>"$folder/report"; then
+  echo "a miss goes unpunished"
+  exit 1
+fi
