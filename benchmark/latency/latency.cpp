@@ -30,7 +30,7 @@ using sweep_guard_evaluation::csvLine;
 using sweep_guard_evaluation::csvNumber;
 using sweep_guard_evaluation::quantile;
 
-constexpr double kPatience = 30.0;  // [s] with a guard that takes in the mesh, or has fallen behind
+constexpr double kPatience = 15.0;  // [s] with a guard that takes in the mesh, or has fallen behind
 constexpr double kWarmUp = 2.0;     // [s]
 const std::string kGuard = "sweep_guard";
 
