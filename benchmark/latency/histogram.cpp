@@ -45,7 +45,7 @@ std::vector<Histogram> readHistograms(const std::string& path) {
     std::getline(fields, title.method, '\t');
     std::getline(fields, triangles, '\t');
     std::getline(fields, title.work, '\t');
-    if (!(fields >> middle >> share)) throw sweep_guard::InvalidInput(path + ": '" + line + "' is no class");
+    if (!(fields >> middle >> share)) throw sweep_guard::InvalidInput(path + " holds a line that is no class");
     title.triangles = std::stoi(triangles);
     const bool same = !histograms.empty() && histograms.back().title.work == title.work &&
                       histograms.back().title.method == title.method &&

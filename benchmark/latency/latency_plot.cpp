@@ -52,6 +52,7 @@ void draw(const std::string& source, const std::string& path) {
   }
   PlotPage page(path, sizes.size(), methods.size());
   std::vector<std::string> key;
+  key.reserve(kColours.size());
   for (const auto& [work, colour] : kColours)
     key.push_back("with lines lw 4 lc rgb '" + colour + "' title " + gnuplotText(work));
   page.addKey({}, key);

@@ -25,6 +25,7 @@ std::string wordsAfterName(pid_t process) {
 ChildProcess::ChildProcess(const std::vector<std::string>& command) {
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   if (posix_spawn(&id_, arguments.front(), nullptr, nullptr, arguments.data(), environ) != 0) {

@@ -22,16 +22,16 @@ class Egl {
     load("eglBindAPI", bindApi);
     load("eglCreateContext", createContext);
     load("eglDestroyContext", destroyContext);
-    load("eglGetPlatformDisplayEXT", getPlatformDisplay);
+    load("eglGetPlatformDisplayEXT", get_platform_display_);
     load("eglInitialize", initialize);
     load("eglMakeCurrent", makeCurrent);
-    load("eglQueryDevicesEXT", queryDevices);
-    load("eglQueryDeviceStringEXT", queryDeviceString);
+    load("eglQueryDevicesEXT", query_devices_);
+    load("eglQueryDeviceStringEXT", query_device_string_);
   }
 
   // Initialized once more each time: that costs nothing, and someone else may have terminated it.
   EGLDisplay softwareDisplay() const {
-    EGLDisplay display = getPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, softwareDevice(), nullptr);
+    EGLDisplay display = get_platform_display_(EGL_PLATFORM_DEVICE_EXT, softwareDevice(), nullptr);
     if (initialize(display, nullptr, nullptr) != EGL_TRUE) throw library.unusable("its software device does not start");
     return display;
   }
@@ -54,19 +54,19 @@ class Egl {
 
   EGLDeviceEXT softwareDevice() const {
     EGLint count = 0;
-    queryDevices(0, nullptr, &count);
+    query_devices_(0, nullptr, &count);
     std::vector<EGLDeviceEXT> devices(static_cast<size_t>(count));
-    queryDevices(count, devices.data(), &count);
+    query_devices_(count, devices.data(), &count);
     for (EGLDeviceEXT device : devices) {
-      const char* const extensions = queryDeviceString(device, EGL_EXTENSIONS);
+      const char* const extensions = query_device_string_(device, EGL_EXTENSIONS);
       if (extensions != nullptr && std::strstr(extensions, "EGL_MESA_device_software") != nullptr) return device;
     }
     throw library.unusable("it has no software device");
   }
 
-  std::remove_pointer_t<PFNEGLGETPLATFORMDISPLAYEXTPROC>* getPlatformDisplay;
-  std::remove_pointer_t<PFNEGLQUERYDEVICESEXTPROC>* queryDevices;
-  std::remove_pointer_t<PFNEGLQUERYDEVICESTRINGEXTPROC>* queryDeviceString;
+  std::remove_pointer_t<PFNEGLGETPLATFORMDISPLAYEXTPROC>* get_platform_display_;
+  std::remove_pointer_t<PFNEGLQUERYDEVICESEXTPROC>* query_devices_;
+  std::remove_pointer_t<PFNEGLQUERYDEVICESTRINGEXTPROC>* query_device_string_;
 };
 
 const Egl& egl() {
