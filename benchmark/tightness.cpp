@@ -50,7 +50,7 @@ struct Estimate {
 
 // Of what the drill covers at any time, which is all inside of the polytope.
 Estimate sweptVolumeIn(const SweptVolume& bounds, const Motion& motion, Random& random) {
-  const std::vector<HalfSpace> clips_B = bounds.clips_B;
+  const Clips clips_B = bounds.clips_B;
   int hits = 0;
   for (int i = 0; i < kPoints; ++i) {
     const Eigen::Vector3d p_B = random.inBox(bounds.box.half_extents);

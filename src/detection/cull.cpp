@@ -1,58 +1,57 @@
 #include "sweep_guard/detection/cull.h"
 
-#include <cassert>
-
-#include "sweep_guard/detection/box_coordinates.h"
+#include <algorithm>
 
 namespace sweep_guard {
 namespace {
 
-// One bit for each plane of the volume that the point lies beyond.
-std::uint16_t planesBeyond(const Eigen::Vector3d& p_B, const Eigen::Vector3d& half_extents,
-                           const std::vector<HalfSpace>& clips_B, double rounding) {
-  unsigned bits = 0;
-  for (int i = 0; i < 3; ++i) {
-    bits |= static_cast<unsigned>(p_B[i] > half_extents[i] + rounding) << (2 * i);
-    bits |= static_cast<unsigned>(-p_B[i] > half_extents[i] + rounding) << (2 * i + 1);
-  }
-  for (size_t i = 0; i < clips_B.size(); ++i) {
-    bits |= static_cast<unsigned>(clips_B[i].signedDistance(p_B) > rounding) << (6 + i);
-  }
-  return static_cast<std::uint16_t>(bits);
-}
+constexpr std::int32_t kLookedInto = 1 << 30;
+constexpr std::int32_t kBeyond = simd::kInsideAll - 1;
 
 }  // namespace
 
-const std::vector<std::uint32_t>& Cull::operator()(const TriangleMesh& mesh_M, const SweptVolume& swept_M) {
-  const BoxCoordinates coordinates(mesh_M, swept_M.box);
-  assert(swept_M.clips_B.size() <= 10);  // 6 + 10 bits
-  beyond_.resize(mesh_M.vertexCount());
-  for (std::uint32_t i = 0; i < beyond_.size(); ++i) {
-    beyond_[i] = planesBeyond(coordinates(i), swept_M.box.half_extents, swept_M.clips_B, 2.0 * coordinates.rounding());
+const std::vector<Survivor>& Cull::operator()(const MeshPart& part, const simd::Planes& planes) {
+  survivors_.clear();
+  if (part.empty() || whollyBeyond(part.mesh_M(), planes)) return survivors_;
+  const size_t count = part.blocks().size();
+  block_bits_.resize(std::max(block_bits_.size(), simd::padded(count)));
+  vertex_bits_.resize(std::max(vertex_bits_.size(), part.mesh_M().blocks().count() * simd::kBlock));
+  simd::kernels().classifyBoxes(part.boxes(), count, planes, block_bits_.data());
+  for (const Cluster& cluster : part.clusters()) {
+    if (!beyondOnePlane(cluster, block_bits_)) look(part, cluster, planes);
   }
-
-  left_.clear();
-  const std::vector<Triangle>& triangles = mesh_M.triangles();
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    const auto& [a, b, c] = triangles[i];
-    if ((beyond_[a] & beyond_[b] & beyond_[c]) == 0) left_.push_back(i);
+  if (!part.mesh_M().order().triangle_at.empty()) {
+    std::sort(survivors_.begin(), survivors_.end(),
+              [](const Survivor& a, const Survivor& b) { return a.triangle < b.triangle; });
   }
-  return left_;
+  return survivors_;
 }
 
-const std::vector<std::uint32_t>& Cull::operator()(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                                                   const std::vector<std::uint32_t>& among) {
-  assert(&among != &left_ && swept_M.clips_B.size() <= 10);
-  const BoxCoordinates coordinates(mesh_M, swept_M.box);
-  const auto beyond = [&](std::uint32_t vertex) {
-    return planesBeyond(coordinates(vertex), swept_M.box.half_extents, swept_M.clips_B, 2.0 * coordinates.rounding());
-  };
-  left_.clear();
-  for (const std::uint32_t i : among) {
-    const auto& [a, b, c] = mesh_M.triangles()[i];
-    if ((beyond(a) & beyond(b) & beyond(c)) == 0) left_.push_back(i);
+void Cull::look(const MeshPart& part, const Cluster& cluster, const simd::Planes& planes) {
+  for (const std::uint32_t block : cluster.blocks) classify(part, block, planes);
+  const std::vector<std::uint32_t>& triangle_at = part.mesh_M().order().triangle_at;
+  const Triangle* corners = &part.mesh_M().cornerPlaces()[cluster.first];
+  const size_t before = survivors_.size();
+  survivors_.resize(before + cluster.count);
+  Survivor* next = survivors_.data() + before;
+  for (std::uint32_t i = 0; i < cluster.count; ++i) {
+    const std::int32_t a = vertex_bits_[corners[i][0]];
+    const std::int32_t b = vertex_bits_[corners[i][1]];
+    const std::int32_t c = vertex_bits_[corners[i][2]];
+    const std::uint32_t place = cluster.first + i;
+    *next = {triangle_at.empty() ? place : triangle_at[place], ((a | b | c) & simd::kInsideAll) != 0};
+    next += (a & b & c & kBeyond) == 0 ? 1 : 0;
   }
-  return left_;
+  survivors_.resize(static_cast<size_t>(next - survivors_.data()));
+}
+
+void Cull::classify(const MeshPart& part, std::uint32_t block, const simd::Planes& planes) {
+  if ((block_bits_[block] & kLookedInto) != 0) return;
+  block_bits_[block] |= kLookedInto;
+  const std::uint32_t number = part.blocks()[block];
+  withBlock(part.mesh_M().places(), number, [&](const float* vertices) {
+    simd::kernels().classifyBlock(vertices, planes, &vertex_bits_[number * simd::kBlock]);
+  });
 }
 
 }  // namespace sweep_guard

@@ -1,6 +1,7 @@
 #include "sweep_guard/detection/detector.h"
 
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/detection/halfspace_detector.h"
 #include "sweep_guard/detection/reference_detector.h"
 #include "sweep_guard/detection/select_detector.h"
 
@@ -11,12 +12,13 @@ std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOp
     return std::make_unique<SelectDetector>(SelectDetector::Options{options.cull},
                                             [name = options.gl_context] { return makeOffscreenContext(name); });
   }
+  if (name == "halfspace") return std::make_unique<HalfspaceDetector>();
   if (name == "reference") return std::make_unique<ReferenceDetector>();
-  throw InvalidInput("detector '" + name + "' is unknown: use select or reference");
+  throw InvalidInput("detector '" + name + "' is unknown: use select, halfspace or reference");
 }
 
 const std::vector<std::string>& detectorNames() {
-  static const std::vector<std::string> names = {"select", "reference"};
+  static const std::vector<std::string> names = {"select", "halfspace", "reference"};
   return names;
 }
 

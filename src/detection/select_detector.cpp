@@ -3,26 +3,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/detection/box_coordinates.h"
+#include "sweep_guard/detection/float_planes.h"
 
 namespace sweep_guard {
 namespace {
 
 constexpr double kFloatError = 0x1p-22;  // per metre of distance from the box centre; the worst found is 1 to 2e-8
-
-double farthestCorner(const TriangleMesh& mesh, const BoxCoordinates& coordinates,
-                      const std::vector<std::uint32_t>& triangles) {
-  double squared = 0.0;
-  for (const std::uint32_t triangle : triangles) {
-    for (const std::uint32_t vertex : mesh.triangles()[triangle]) {
-      squared = std::max(squared, coordinates(vertex).squaredNorm());
-    }
-  }
-  return std::sqrt(squared);
-}
 
 // The half-space n·p <= d in coordinates scaled to the cube, as OpenGL wants it: what is kept is positive.
 Eigen::Vector4d clipPlane(const HalfSpace& clip_B, const Eigen::Vector3d& half_extents) {
@@ -44,66 +33,79 @@ void SelectDetector::makeSelection() {
   gl_ = std::make_unique<GlSelect>(make_context_(), options_.hit_records);
 }
 
-Detection SelectDetector::find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                               const std::vector<std::uint32_t>* among) {
-  const std::vector<std::uint32_t>& candidates = candidatesOf(mesh_M, swept_M, among);
-  const BoxCoordinates coordinates(mesh_M, swept_M.box);
-  Detection detection;
-  const double drawn = std::max(farthestCorner(mesh_M, coordinates, candidates), swept_M.box.half_extents.norm());
-  const double inflation = kFloatError * drawn + coordinates.rounding();
-  const SweptVolume inflated_M = swept_M.grown(inflation);
-  detection.inflation = 2.0 * inflation;  // OpenGL's rounding can let in what is a little farther out, too
-  try {
-    detection.triangles = select(mesh_M, inflated_M, candidates);
-  } catch (const DeviceError&) {
-    makeSelection();
-    detection.triangles = select(mesh_M, inflated_M, candidates);
+void SelectDetector::find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) {
+  const std::vector<Survivor>& survivors = options_.cull ? cull_(part, floatPlanes(part.mesh_M(), swept_M)) : all(part);
+  takeCorners(part.mesh_M(), swept_M.box, survivors);
+  names_.clear();
+  if (!corners_B_.empty()) {  // the clear case and the far case cost nothing
+    const double inflation = inflationFor(part.mesh_M(), swept_M.box);
+    detection.inflation = 2.0 * inflation;  // OpenGL's rounding can let in what is a little farther out, too
+    try {
+      select(swept_M.grown(inflation));
+    } catch (const DeviceError&) {
+      makeSelection();
+      select(swept_M.grown(inflation));
+    }
   }
-  return detection;
+  std::uint32_t number = 0;  // of those in doubt
+  auto name = names_.begin();
+  for (const Survivor& survivor : survivors) {
+    const bool hit = !survivor.met && name != names_.end() && *name == number;
+    if (survivor.met || hit) detection.triangles.push_back(survivor.triangle);
+    if (hit) ++name;
+    if (!survivor.met) ++number;
+  }
 }
 
-std::vector<std::uint32_t> SelectDetector::select(const TriangleMesh& mesh_M, const SweptVolume& inflated_M,
-                                                  const std::vector<std::uint32_t>& candidates) {
+// Of the triangles in doubt.
+void SelectDetector::takeCorners(const TriangleMesh& mesh_M, const OrientedBox& box_M,
+                                 const std::vector<Survivor>& survivors) {
+  const BoxCoordinates coordinates(mesh_M, box_M);
+  corners_B_.clear();
+  for (const Survivor& survivor : survivors) {
+    if (survivor.met) continue;
+    for (const std::uint32_t vertex : mesh_M.triangles()[survivor.triangle]) corners_B_.push_back(coordinates(vertex));
+  }
+}
+
+double SelectDetector::inflationFor(const TriangleMesh& mesh_M, const OrientedBox& box_M) const {
+  double squared = box_M.half_extents.squaredNorm();
+  for (const Eigen::Vector3d& corner : corners_B_) squared = std::max(squared, corner.squaredNorm());
+  return kFloatError * std::sqrt(squared) + BoxCoordinates(mesh_M, box_M).rounding();
+}
+
+// Names of those that hit, by their number among the triangles in doubt: first whole blocks, then one by one.
+void SelectDetector::select(const SweptVolume& inflated_M) {
   if (!gl_) makeSelection();
-  const BoxCoordinates coordinates(mesh_M, inflated_M.box);
   const Eigen::Vector3d& half_extents = inflated_M.box.half_extents;
   const Eigen::Vector3d canary = inflated_M.interior_B.cwiseQuotient(half_extents);
-  std::vector<Eigen::Vector4d> clips;
-  for (const HalfSpace& clip_B : inflated_M.clips_B) clips.push_back(clipPlane(clip_B, half_extents));
-
-  const auto hits = [&](const std::vector<std::uint32_t>& triangles, int triangles_per_name) -> const auto& {
-    corners_.clear();
-    for (const std::uint32_t triangle : triangles) {
-      for (const std::uint32_t vertex : mesh_M.triangles()[triangle]) {
-        const Eigen::Vector3f corner = coordinates(vertex).cwiseQuotient(half_extents).cast<float>();
-        corners_.insert(corners_.end(), corner.begin(), corner.end());
-      }
-    }
-    return gl_->hits({corners_, triangles_per_name, clips, canary});
-  };
-
-  std::vector<std::uint32_t> in_blocks;
-  for (const std::uint32_t block : hits(candidates, options_.block)) {
-    const auto begin = static_cast<size_t>(block) * static_cast<size_t>(options_.block);
-    const size_t end = std::min(candidates.size(), begin + static_cast<size_t>(options_.block));
-    in_blocks.insert(in_blocks.end(), candidates.begin() + static_cast<std::ptrdiff_t>(begin),
-                     candidates.begin() + static_cast<std::ptrdiff_t>(end));
+  clips_.clear();
+  for (const HalfSpace& clip_B : inflated_M.clips_B) clips_.push_back(clipPlane(clip_B, half_extents));
+  corners_.clear();
+  for (const Eigen::Vector3d& corner_B : corners_B_) {
+    const Eigen::Vector3f corner = corner_B.cwiseQuotient(half_extents).cast<float>();
+    corners_.insert(corners_.end(), corner.begin(), corner.end());
   }
-  std::vector<std::uint32_t> triangles;
-  if (in_blocks.empty()) return triangles;
-  for (const std::uint32_t name : hits(in_blocks, 1)) triangles.push_back(in_blocks[name]);
-  return triangles;
+
+  in_blocks_.clear();
+  const auto count = static_cast<std::uint32_t>(corners_B_.size() / 3);
+  const auto block = static_cast<std::uint32_t>(options_.block);
+  for (const std::uint32_t name : gl_->hits({corners_, options_.block, clips_, canary})) {
+    for (std::uint32_t i = name * block; i < std::min(count, (name + 1) * block); ++i) in_blocks_.push_back(i);
+  }
+  names_.clear();
+  if (in_blocks_.empty()) return;
+  for (size_t i = 0; i < in_blocks_.size(); ++i) {  // closed up: blocks ascend
+    std::copy_n(corners_.begin() + 9 * in_blocks_[i], 9, corners_.begin() + 9 * static_cast<std::ptrdiff_t>(i));
+  }
+  corners_.resize(9 * in_blocks_.size());
+  for (const std::uint32_t name : gl_->hits({corners_, 1, clips_, canary})) names_.push_back(in_blocks_[name]);
 }
 
-const std::vector<std::uint32_t>& SelectDetector::candidatesOf(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                                                               const std::vector<std::uint32_t>* among) {
-  if (!options_.cull) return among != nullptr ? *among : allTriangles(mesh_M);
-  return among != nullptr ? cull_(mesh_M, swept_M, *among) : cull_(mesh_M, swept_M);
-}
-
-const std::vector<std::uint32_t>& SelectDetector::allTriangles(const TriangleMesh& mesh_M) {
-  all_.resize(mesh_M.triangles().size());
-  std::iota(all_.begin(), all_.end(), 0U);
+const std::vector<Survivor>& SelectDetector::all(const MeshPart& part) {
+  all_.clear();
+  part.forEachTriangle([&](std::uint32_t triangle) { all_.push_back({triangle, false}); });
+  std::sort(all_.begin(), all_.end(), [](const Survivor& a, const Survivor& b) { return a.triangle < b.triangle; });
   return all_;
 }
 

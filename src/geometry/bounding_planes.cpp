@@ -70,7 +70,7 @@ std::optional<HalfSpace> tightestPlane(const std::array<Candidate, 4>& lines, co
 
 }  // namespace
 
-std::vector<HalfSpace> boundingPlanes(const ConvexShape& shape, const Motion& motion, const OrientedBox& box) {
+Clips boundingPlanes(const ConvexShape& shape, const Motion& motion, const OrientedBox& box) {
   const Eigen::Isometry3d X_BM = box.X_MB.inverse();
   const Motion motion_B{X_BM * motion.X_MT_start, X_BM * motion.X_MT_end, 0.0, X_BM.linear() * motion.drift};
   const Face front_start = projectFace(shape, &ConvexShape::frontExtreme, motion_B.X_MT_start);
@@ -92,7 +92,7 @@ std::vector<HalfSpace> boundingPlanes(const ConvexShape& shape, const Motion& mo
   const Eigen::Vector2d tip = (motion_B.X_MT_start.linear() * axis_T + motion_B.X_MT_end.linear() * axis_T).tail<2>();
   const Eigen::Vector2d side = std::copysign(1.0, tip.y()) * Eigen::Vector2d(tip.y(), -tip.x());  // towards +Y
 
-  std::vector<HalfSpace> planes;
+  Clips planes;
   const auto add = [&](const std::array<Candidate, 4>& lines, const Eigen::Vector2d& outward) {
     if (const auto plane = tightestPlane(lines, outward, shape, motion_B, box.half_extents)) planes.push_back(*plane);
   };

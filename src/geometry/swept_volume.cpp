@@ -22,11 +22,7 @@ std::string nameOf(VolumeKind kind) {
 
 std::vector<HalfSpace> SweptVolume::halfSpaces_B() const {
   std::vector<HalfSpace> half_spaces;
-  for (int i = 0; i < 3; ++i) {
-    half_spaces.emplace_back(Eigen::Vector3d::Unit(i), box.half_extents[i]);
-    half_spaces.emplace_back(-Eigen::Vector3d::Unit(i), box.half_extents[i]);
-  }
-  half_spaces.insert(half_spaces.end(), clips_B.begin(), clips_B.end());
+  forEachHalfSpace([&](const Eigen::Vector3d& normal, double offset) { half_spaces.emplace_back(normal, offset); });
   return half_spaces;
 }
 

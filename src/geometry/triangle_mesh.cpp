@@ -49,6 +49,18 @@ bool everyEdgeIsEven(const std::vector<Triangle>& triangles) {
   return true;
 }
 
+void checkCount(const std::vector<float>& positions, size_t vertices) {
+  if (positions.size() != 3 * vertices) {
+    throw InvalidInput(std::to_string(positions.size()) + " coordinates for " + std::to_string(vertices) +
+                       " vertices: send three per vertex of the mesh");
+  }
+}
+
+[[noreturn]] void refuse(const std::vector<float>& positions) {
+  const auto bad = std::find_if_not(positions.begin(), positions.end(), usable<float>);
+  refuseVertex(static_cast<size_t>(bad - positions.begin()) / 3);
+}
+
 Eigen::Vector3d centerOf(const std::vector<Eigen::Vector3d>& points) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : points) box.extend(p);
@@ -64,41 +76,54 @@ TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::
       if (!usable(coordinate)) refuseVertex(i);
     }
   }
-  const bool closed = everyEdgeIsEven(triangles);
-  topology_ = std::make_shared<const Topology>(Topology{std::move(triangles), closed});
   origin_ = centerOf(vertices_M);
-  offsets_.reserve(3 * vertices_M.size());
+  std::vector<float> sent;
+  sent.reserve(3 * vertices_M.size());
   for (const Eigen::Vector3d& p : vertices_M) {
     const Eigen::Vector3f kept = (p - origin_).cast<float>();
-    offsets_.insert(offsets_.end(), kept.begin(), kept.end());
+    sent.insert(sent.end(), kept.begin(), kept.end());
     rounding_ = std::max(rounding_, (p - (origin_ + kept.cast<double>())).norm());
   }
-  measure();
+  const bool closed = everyEdgeIsEven(triangles);
+  MeshOrder order = orderOf(sent, triangles);
+  topology_ = std::make_shared<const Topology>(Topology{std::move(triangles), closed, std::move(order)});
+  exchange(sent);
 }
 
-TriangleMesh::TriangleMesh(std::shared_ptr<const Topology> topology, std::vector<float> positions_M)
-    : topology_(std::move(topology)), offsets_(std::move(positions_M)) {
-  for (size_t i = 0; i < offsets_.size(); ++i) {
-    if (!usable(offsets_[i])) refuseVertex(i / 3);
+// Takes offsets as sent, and gives back those of before. False, and nothing changed, if one cannot be used.
+bool TriangleMesh::exchange(std::vector<float>& sent) {
+  const std::vector<std::uint32_t>& places = topology_->order.vertex_places;
+  if (!places.empty()) {
+    spare_.resize(sent.size());
+    place(places, sent, spare_);
   }
-  measure();
+  std::vector<float>& incoming = places.empty() ? sent : spare_;
+  offsets_.swap(incoming);
+  if (measure()) return true;
+  offsets_.swap(incoming);
+  if (!offsets_.empty()) measure();
+  return false;
 }
 
-void TriangleMesh::measure() {
-  double squared = 0.0;
-  for (size_t i = 0; i < vertexCount(); ++i) {
-    squared = std::max(squared, offset(i).squaredNorm());
-    bounds_.extend(offset(i));
-  }
-  radius_ = std::sqrt(squared);
+bool TriangleMesh::measure() {
+  const bool finite = blocks_.measure(offsets_);
+  const Eigen::AlignedBox3d& bounds = blocks_.bounds();
+  radius_ = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).norm();
+  return finite && usable(bounds.min().minCoeff()) && usable(bounds.max().maxCoeff());
+}
+
+void TriangleMesh::deform(std::vector<float>& positions_M) {
+  checkCount(positions_M, vertexCount());
+  if (!exchange(positions_M)) refuse(positions_M);
+  origin_.setZero();
+  rounding_ = 0.0;
 }
 
 TriangleMesh TriangleMesh::deformed(std::vector<float> positions_M) const {
-  if (positions_M.size() != offsets_.size()) {
-    throw InvalidInput(std::to_string(positions_M.size()) + " coordinates for " + std::to_string(vertexCount()) +
-                       " vertices: send three per vertex of the mesh");
-  }
-  return TriangleMesh(topology_, std::move(positions_M));
+  checkCount(positions_M, vertexCount());
+  TriangleMesh after(topology_);
+  if (!after.exchange(positions_M)) refuse(positions_M);
+  return after;
 }
 
 }  // namespace sweep_guard

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "sweep_guard/detection/box_coordinates.h"
+#include "sweep_guard/detection/convex_clip.h"
+#include "sweep_guard/detection/float_planes.h"
 
 namespace sweep_guard {
 namespace {
@@ -41,127 +43,121 @@ double contactProbability(double deviations) {
   return deviations > kMostDeviations ? 0.0 : 0.5 * std::erfc(deviations / std::sqrt(2.0));
 }
 
-std::vector<double> planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& X_MT,
-                                    const Matrix6d& covariance_M, const SweptVolume& swept_M) {
+PerHalfSpace planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Matrix6d& covariance_M,
+                             const SweptVolume& swept_M) {
   const Eigen::Matrix3d& R_MB = swept_M.box.X_MB.linear();
-  std::vector<double> sigmas;
-  for (const HalfSpace& half_space_B : swept_M.halfSpaces_B()) {
-    const Eigen::Vector3d n_M = R_MB * half_space_B.normal();
+  PerHalfSpace sigmas;
+  swept_M.forEachHalfSpace([&](const Eigen::Vector3d& normal_B, double /*offset*/) {
+    const Eigen::Vector3d n_M = R_MB * normal_B;
     sigmas.push_back(std::max(kLeastDeviation, supportDeviation(shape, X_MT.linear(), n_M, covariance_M)));
-  }
+  });
   return sigmas;
 }
 
 struct ClearanceMeter::Planes {
+  const TriangleMesh& mesh_M;
   BoxCoordinates coordinates;
-  std::vector<HalfSpace> half_spaces_B;
-  const std::vector<double>& sigmas;
+  boost::container::static_vector<HalfSpace, kMostHalfSpaces> half_spaces_B;
+  const PerHalfSpace& sigmas;
 
   size_t count() const { return sigmas.size(); }
-  HalfSpace movedOut(size_t i, double z) const { return half_spaces_B[i].grown(z * sigmas[i]); }
-
-  // Normals and offsets, in standard deviations: a division per vertex and plane would cost most of the time.
-  std::vector<Eigen::Vector4d> perDeviation() const {
-    std::vector<Eigen::Vector4d> scales;
-    for (size_t i = 0; i < count(); ++i) {
-      scales.emplace_back();
-      scales.back() << half_spaces_B[i].normal() / sigmas[i], half_spaces_B[i].offset() / sigmas[i];
-    }
-    return scales;
+  std::array<Eigen::Vector3d, 3> corners_B(std::uint32_t triangle) const {
+    const auto& [a, b, c] = mesh_M.triangles()[triangle];
+    return {coordinates(a), coordinates(b), coordinates(c)};
   }
 };
 
-std::optional<Clearance> ClearanceMeter::operator()(const TriangleMesh& mesh_M, const MeshPart& part,
-                                                    const SweptVolume& swept_M, const std::vector<double>& sigmas) {
-  const BoxCoordinates coordinates(mesh_M, swept_M.box);
-  const Planes planes{coordinates, swept_M.grown(2.0 * coordinates.rounding()).halfSpaces_B(), sigmas};
-  assert(planes.half_spaces_B.size() == planes.count() && planes.count() <= 16);
-  scoreVertices(part, planes);
-  collectCandidates(part, planes);
+std::optional<Clearance> ClearanceMeter::operator()(const MeshPart& part, const SweptVolume& swept_M,
+                                                    const PerHalfSpace& sigmas) {
+  const BoxCoordinates coordinates(part.mesh_M(), swept_M.box);
+  Planes planes{part.mesh_M(), coordinates, {}, sigmas};
+  swept_M.grown(2.0 * coordinates.rounding()).forEachHalfSpace([&](const Eigen::Vector3d& normal, double offset) {
+    planes.half_spaces_B.emplace_back(normal, offset);
+  });
+  assert(planes.half_spaces_B.size() == planes.count());
+  PerHalfSpace farthest = sigmas;
+  for (double& sigma : farthest) sigma *= kMostDeviations;
+  survivors_ = &cull_(part, floatPlanes(part.mesh_M(), swept_M, farthest));
+  scoreCorners(planes);
+  collectCandidates(planes);
   if (candidates_.empty()) return {};
 
   const bool separated = candidates_.front().at_least > 0.0;
   double nearest = kMostDeviations + kTolerance;
   for (const Candidate& candidate : candidates_) {
     if (candidate.at_least > nearest - kTolerance) break;
-    if (candidate.at_least <= 0.0 && reaches(kRounding, part, candidate, planes)) {
+    if (candidate.at_least <= 0.0 && reaches(kRounding, candidate, planes)) {
       return Clearance{separated, std::max(candidate.at_least, -kMostDeviations)};
     }
-    nearest = std::min(nearest, outwards(nearest, part, candidate, planes));
+    nearest = std::min(nearest, outwards(nearest, candidate, planes));
   }
   if (nearest > kMostDeviations) return {};
   return Clearance{separated, nearest};
 }
 
-std::vector<std::uint32_t> ClearanceMeter::notSeparated(const MeshPart& part) const {
+std::vector<std::uint32_t> ClearanceMeter::notSeparated() const {
   std::vector<std::uint32_t> left;
   for (const Candidate& candidate : candidates_) {
-    if (candidate.at_least <= 0.0) left.push_back(part.triangles[candidate.triangle]);
+    if (candidate.at_least <= 0.0) left.push_back((*survivors_)[candidate.number].triangle);
   }
   std::sort(left.begin(), left.end());
   return left;
 }
 
 // By bisection; not less than `nearest` if it makes no difference.
-double ClearanceMeter::outwards(double nearest, const MeshPart& part, const Candidate& candidate,
-                                const Planes& planes) const {
+double ClearanceMeter::outwards(double nearest, const Candidate& candidate, const Planes& planes) const {
   double lower = std::max(candidate.at_least, 0.0);
   double upper = std::min(nearest - kTolerance, candidate.at_most);
-  if (lower > upper || (upper < candidate.at_most && !reaches(upper, part, candidate, planes))) return nearest;
-  if (reaches(lower + kRounding, part, candidate, planes)) return lower;
+  if (lower > upper || (upper < candidate.at_most && !reaches(upper, candidate, planes))) return nearest;
+  if (reaches(lower + kRounding, candidate, planes)) return lower;
   while (upper - lower > kTolerance) {
     const double middle = 0.5 * (lower + upper);
-    (reaches(middle, part, candidate, planes) ? upper : lower) = middle;
+    (reaches(middle, candidate, planes) ? upper : lower) = middle;
   }
   return upper;
 }
 
 // Whether the planes enclose anything of a triangle once they are moved out. Most enclose it wholly: their scores say
 // so.
-bool ClearanceMeter::reaches(double z, const MeshPart& part, const Candidate& candidate, const Planes& planes) const {
-  const Triangle& corners = part.corners[candidate.triangle];
-  Polygon polygon_B;
-  for (const std::uint32_t corner : corners) polygon_B.push_back(planes.coordinates(part.vertices[corner]));
-  for (size_t i = 0; i < planes.count() && !polygon_B.empty(); ++i) {
-    const auto beyond = [&](std::uint32_t corner) { return scores_[corner * planes.count() + i] > z; };
-    if (std::any_of(corners.begin(), corners.end(), beyond)) polygon_B = clip(polygon_B, planes.movedOut(i, z));
+bool ClearanceMeter::reaches(double z, const Candidate& candidate, const Planes& planes) const {
+  const size_t count = planes.count();
+  const double* scores = &scores_[3 * candidate.number * count];
+  CutTriangle left(planes.corners_B((*survivors_)[candidate.number].triangle));
+  for (size_t i = 0; i < count && !left.empty(); ++i) {
+    if (std::max({scores[i], scores[count + i], scores[2 * count + i]}) <= z) continue;
+    const HalfSpace& half_space = planes.half_spaces_B[i];
+    left.cut(half_space.normal(), half_space.offset() + z * planes.sigmas[i]);
   }
-  return !polygon_B.empty();
+  return !left.empty();
 }
 
-void ClearanceMeter::scoreVertices(const MeshPart& part, const Planes& planes) {
-  const size_t count = planes.count();
-  const std::vector<Eigen::Vector4d> scales = planes.perDeviation();
-  scores_.resize(part.vertices.size() * count);
-  beyond_.resize(part.vertices.size());
-  for (size_t vertex = 0; vertex < beyond_.size(); ++vertex) {
-    const Eigen::Vector3d p_B = planes.coordinates(part.vertices[vertex]);
-    unsigned bits = 0;
-    for (size_t i = 0; i < count; ++i) {
-      const double score = scales[i].head<3>().dot(p_B) - scales[i][3];
-      scores_[vertex * count + i] = score;
-      bits |= static_cast<unsigned>(score > kMostDeviations) << i;
+void ClearanceMeter::scoreCorners(const Planes& planes) {
+  scores_.clear();
+  for (const Survivor& survivor : *survivors_) {
+    for (const Eigen::Vector3d& p_B : planes.corners_B(survivor.triangle)) {
+      for (size_t i = 0; i < planes.count(); ++i) {
+        scores_.push_back(planes.half_spaces_B[i].signedDistance(p_B) / planes.sigmas[i]);
+      }
     }
-    beyond_[vertex] = static_cast<std::uint16_t>(bits);
   }
 }
 
 // Those that may need fewest deviations, in this order: at the limit a corner of one of them is enclosed.
-void ClearanceMeter::collectCandidates(const MeshPart& part, const Planes& planes) {
+void ClearanceMeter::collectCandidates(const Planes& planes) {
   const size_t count = planes.count();
   double limit = kMostDeviations + kTolerance;
   candidates_.clear();
-  for (size_t i = 0; i < part.corners.size(); ++i) {
-    const auto& [a, b, c] = part.corners[i];
-    if ((beyond_[a] & beyond_[b] & beyond_[c]) != 0) continue;
-    const double* const scores[] = {&scores_[a * count], &scores_[b * count], &scores_[c * count]};
+  for (size_t i = 0; i < survivors_->size(); ++i) {
+    const double* const scores = &scores_[3 * i * count];
     double at_least = -std::numeric_limits<double>::infinity();
     for (size_t plane = 0; plane < count; ++plane) {
-      at_least = std::max(at_least, std::min({scores[0][plane], scores[1][plane], scores[2][plane]}));
+      at_least = std::max(at_least, std::min({scores[plane], scores[count + plane], scores[2 * count + plane]}));
     }
     if (at_least > limit) continue;
     double at_most = std::numeric_limits<double>::infinity();
-    for (const double* corner : scores) at_most = std::min(at_most, *std::max_element(corner, corner + count));
+    for (size_t corner = 0; corner < 3; ++corner) {
+      at_most = std::min(at_most, *std::max_element(scores + corner * count, scores + (corner + 1) * count));
+    }
     candidates_.push_back({i, at_least, at_most});
     limit = std::min(limit, std::max(0.0, at_most));
   }

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "sweep_guard/detection/float_planes.h"
 #include "sweep_guard/guard/triangle_set.h"
 
 namespace sweep_guard {
@@ -54,7 +55,7 @@ PredictedObject PathTest::operator()(Detector& detector, const Tool& tool, const
   const Duration reflex_end = reflex_sweeps == 0 ? Duration::zero() : path[reflex_sweeps - 1].ahead;
   const double margin = options_.sweep.margin + mesh_M.rounding();
   const Scene scene{detector, tool, motion, mesh_M, margin, reflex_end, effort.spent};
-  const MeshPart part = partWithin(mesh_M, motion.reach_M(motion.whole(), kMostDeviations, margin));
+  const MeshPart part = partInReach(scene, mesh_M, motion.whole(), 0);
   PredictedObject object{workpiece, {}, {}, {}, {}};
   Findings findings;
   size_t begin = 0;
@@ -62,7 +63,7 @@ PredictedObject PathTest::operator()(Detector& detector, const Tool& tool, const
     const Stretch sweep = motion.between(begin, end);
     std::vector<SweptBody> whole = wholeTool(scene, sweep);
     findings.triangles.clear();
-    test(scene, part, sweep, whole, findings);
+    test(scene, part, sweep, whole, findings, 1);
     TriangleSet& met = end <= reflex_sweeps ? object.reflex : object.considered;
     met = united(met, findings.triangles);
     for (SweptBody& body : whole) object.volumes_M.push_back(std::move(body.volume_M));
@@ -74,10 +75,19 @@ PredictedObject PathTest::operator()(Detector& detector, const Tool& tool, const
   return object;
 }
 
-TriangleSet PathTest::detected(const Scene& scene, const std::vector<SweptBody>& bodies) {
+TriangleSet PathTest::detected(const Scene& scene, const MeshPart& part, const std::vector<SweptBody>& bodies) {
   TriangleSet met;
-  for (const SweptBody& body : bodies) met = united(met, detect(scene.detector, scene.mesh_M, body).triangles);
+  for (const SweptBody& body : bodies) {
+    detect(scene.detector, part, body, detection_);
+    met = united(met, detection_.triangles);
+  }
   return met;
+}
+
+MeshPart PathTest::partInReach(const Scene& scene, const MeshPart& around, const Stretch& stretch, size_t halvings) {
+  while (finders_.size() <= halvings) finders_.emplace_back();
+  const Eigen::AlignedBox3d reach_M = scene.motion.reach_M(stretch, kMostDeviations, scene.margin);
+  return finders_[halvings](around, floatPlanes(scene.mesh_M, reach_M));
 }
 
 std::vector<SweptBody> PathTest::wholeTool(const Scene& scene, const Stretch& stretch) const {
@@ -91,7 +101,7 @@ std::vector<SweptBody> PathTest::wholeTool(const Scene& scene, const Stretch& st
 PathTest::Reading PathTest::read(const Scene& scene, const MeshPart& part, const Stretch& stretch,
                                  const std::vector<SweptBody>& whole) {
   Reading reading;
-  if (part.triangles.empty()) return reading;
+  if (part.empty()) return reading;
   for (const SweptBody& body : whole) read(scene, part, stretch, scene.tool.tree()[0], body, reading);
   return reading;
 }
@@ -101,7 +111,7 @@ void PathTest::read(const Scene& scene, const MeshPart& part, const Stretch& str
                     const SweptBody& body, Reading& reading) {
   const auto deviations =
       planeDeviations(node.shape_T, scene.motion.end_M(stretch), scene.motion.covariance_M(stretch), body.volume_M);
-  const auto clearance = meter_(scene.mesh_M, part, body.volume_M, deviations);
+  const auto clearance = meter_(part, body.volume_M, deviations);
   if (!clearance) return;
   if (!node.part) {
     for (const size_t index : node.below) {
@@ -114,18 +124,18 @@ void PathTest::read(const Scene& scene, const MeshPart& part, const Stretch& str
   reading.probability = std::max(reading.probability, contactProbability(clearance->deviations));
   if (clearance->separated) return;
   reading.unseparated.push_back(body);
-  reading.triangles = united(reading.triangles, meter_.notSeparated(part));
+  reading.triangles = united(reading.triangles, meter_.notSeparated());
 }
 
 // @param around  triangles that the tool may reach; those that it may reach in this stretch are among them
 void PathTest::test(const Scene& scene, const MeshPart& around, const Stretch& stretch,
-                    const std::vector<SweptBody>& whole, Findings& findings) {
-  const MeshPart part = partWithin(scene.mesh_M, around, scene.motion.reach_M(stretch, kMostDeviations, scene.margin));
+                    const std::vector<SweptBody>& whole, Findings& findings, size_t halvings) {
+  const MeshPart part = partInReach(scene, around, stretch, halvings);
   const Duration length = stretch.to - stretch.from;
   const auto halve = [&] {
     const auto [first, second] = scene.motion.halves(stretch);
-    test(scene, part, first, wholeTool(scene, first), findings);
-    test(scene, part, second, wholeTool(scene, second), findings);
+    test(scene, part, first, wholeTool(scene, first), findings, halvings + 1);
+    test(scene, part, second, wholeTool(scene, second), findings, halvings + 1);
   };
 
   const Reading reading = read(scene, part, stretch, whole);
@@ -133,7 +143,7 @@ void PathTest::test(const Scene& scene, const MeshPart& around, const Stretch& s
   const bool finer = !findings.met && in_time;
   if (in_time) findings.volumes_tested += whole.size();
   if (reading.probability > 0.0 && finer && length > std::max(kProbableStretch, options_.finest)) return halve();
-  const TriangleSet met = in_time ? detected(scene, reading.unseparated) : reading.triangles;
+  const TriangleSet met = in_time ? detected(scene, part, reading.unseparated) : reading.triangles;
   if (!met.empty() && finer && length > options_.finest) return halve();
 
   findings.sweeps.push_back({stretch.from, !met.empty(), reading.probability});

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "sweep_guard/detection/cull.h"
+#include "sweep_guard/detection/float_planes.h"
 #include "sweep_guard/detection/inside.h"
 #include "sweep_guard/guard/swept_body.h"
 #include "sweep_guard/guard/triangle_set.h"
@@ -13,7 +14,7 @@ namespace sweep_guard {
 namespace {
 
 // Down the tool's tree: whatever a box does not meet, the bodies in it do not meet either. Its planes are enough to see
-// that; the detector, which is dear for what it names, is asked about the parts, and where a box is far from all.
+// that; the detector, which is dear for what it names, is asked about the parts.
 struct TreeWalk {
   Detector& detector;
   const Tool& tool;
@@ -23,24 +24,30 @@ struct TreeWalk {
   SweepFindings& findings;
   std::vector<TriangleSet>& met_by;  // each part of the tool
   Cull cull = {};
+  Detection detection = {};
 
-  void visit(size_t index, const TriangleSet* among) {
+  void visit(size_t index, const MeshPart& around) {
     const Tool::Node& node = tool.tree()[index];
     SweptBody body = sweptBody(node.shape_T, motion_M, options.volume, options.margin + mesh.spread());
-    TriangleSet near;
-    if (!node.part) {
-      near = among == nullptr ? cull(mesh.mesh_M(), body.volume_M) : cull(mesh.mesh_M(), body.volume_M, *among);
-      if (!near.empty()) {
-        for (const size_t below : node.below) visit(below, &near);
-        return;
-      }
-      among = &near;
+    detection = {};
+    if (node.part) {
+      detect(detector, around, body, detection);
+      met_by[*node.part] = united(met_by[*node.part], detection.triangles);
+      findings.triangles = united(findings.triangles, detection.triangles);
+    } else if (visitBelow(node, body.volume_M, around)) {
+      return;
     }
-    const Detection detection = detect(detector, mesh.mesh_M(), body, among);
     findings.margin = std::max(findings.margin, body.volume_M.margin + detection.inflation);
-    if (node.part) met_by[*node.part] = united(met_by[*node.part], detection.triangles);
-    findings.triangles = united(findings.triangles, detection.triangles);
     findings.volumes_M.push_back(std::move(body.volume_M));
+  }
+
+  bool visitBelow(const Tool::Node& node, const SweptVolume& volume_M, const MeshPart& around) {
+    const simd::Planes planes = floatPlanes(mesh.mesh_M(), volume_M);
+    PartFinder finder;
+    const MeshPart near = finder(around, planes);
+    if (cull(near, planes).empty()) return false;
+    for (const size_t below : node.below) visit(below, near);
+    return true;
   }
 };
 
@@ -83,7 +90,7 @@ SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<
   std::vector<TriangleSet> met_by(tool.parts().size());
   for (Motion motion_M : parts) {
     motion_M.drift = mesh.drift_M();
-    TreeWalk{detector, tool, mesh, options, motion_M, findings, met_by}.visit(0, nullptr);
+    TreeWalk{detector, tool, mesh, options, motion_M, findings, met_by}.visit(0, mesh.mesh_M());
   }
   findings.fine = options.fine;
   if (options.fine) {

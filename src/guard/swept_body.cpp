@@ -48,17 +48,16 @@ bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const Movi
   return fartherApart(hull, prism, margin);
 }
 
-Detection detect(Detector& detector, const TriangleMesh& mesh_M, const SweptBody& body, const TriangleSet* among) {
-  Detection detection =
-      among == nullptr ? detector.detect(mesh_M, body.volume_M) : detector.detectAmong(mesh_M, body.volume_M, *among);
-  if (body.kind != VolumeKind::kHull) return detection;
-  const double margin = body.volume_M.margin + detection.inflation;
+void detect(Detector& detector, const MeshPart& part, const SweptBody& body, Detection& found) {
+  found = detector.detect(part, body.volume_M);
+  if (body.kind != VolumeKind::kHull) return;
+  const double margin = body.volume_M.margin + found.inflation;
+  const MovingMesh resting(part.mesh_M());
   const auto missed = [&](std::uint32_t triangle) {
-    return missedByHull(*body.shape_T, body.motion_M, MovingMesh(mesh_M).triangle(triangle), margin);
+    return missedByHull(*body.shape_T, body.motion_M, resting.triangle(triangle), margin);
   };
-  TriangleSet& left = detection.triangles;
+  std::vector<std::uint32_t>& left = found.triangles;
   left.erase(std::remove_if(left.begin(), left.end(), missed), left.end());
-  return detection;
 }
 
 }  // namespace sweep_guard

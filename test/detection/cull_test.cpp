@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "detection/exact_oracle.h"
+#include "mesh_orders.h"
 #include "scenes.h"
+#include "sweep_guard/detection/float_planes.h"
+#include "sweep_guard/detection/reference_detector.h"
 
 namespace sweep_guard {
 namespace {
@@ -19,6 +21,16 @@ SweptVolume cutCube() {
   return volume;
 }
 
+using Triangles = std::vector<std::uint32_t>;
+
+Triangles left(Cull& cull, const TriangleMesh& mesh_M, const SweptVolume& swept_M, bool met_only = false) {
+  Triangles triangles;
+  for (const Survivor& survivor : cull(mesh_M, floatPlanes(mesh_M, swept_M))) {
+    if (survivor.met || !met_only) triangles.push_back(survivor.triangle);
+  }
+  return triangles;
+}
+
 TEST(CullTest, LeavesOutWhatIsWhollyBeyondOnePlane) {
   const TriangleMesh mesh({{0, 0, 0}, {0.5, 0, 0}, {2, 0, 0}, {2, 0, 3}, {2, 3, 0}, {0, 2, 0}, {0.9, 0.9, 0}},
                           {{0, 0, 1},    // inside
@@ -27,44 +39,83 @@ TEST(CullTest, LeavesOutWhatIsWhollyBeyondOnePlane) {
                            {2, 5, 5},    // beyond two different sides, and beyond the clip
                            {6, 6, 6}});  // in the corner that the clip takes away
   Cull cull;
-  EXPECT_EQ(cull(mesh, cutCube()), (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(left(cull, mesh, cutCube()), (Triangles{0, 1}));
 }
 
 TEST(CullTest, KeepsWhatTouches) {
   const TriangleMesh mesh({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0.5, 0.5, -1}, {3, 3, -3}},
                           {{0, 1, 2}, {3, 4, 4}, {1, 2, 2}});
   Cull cull;
-  EXPECT_EQ(cull(mesh, cutCube()), (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(left(cull, mesh, cutCube()), (Triangles{0, 1}));
 }
 
-TEST(CullTest, AmongSomeLeavesWhatItLeavesOfAll) {
-  Cull of_all;
-  Cull of_some;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    const Scene scene = grazingScene(seed);
-    std::vector<std::uint32_t> odd;
-    std::vector<std::uint32_t> expected;
-    for (std::uint32_t i = 1; i < scene.mesh_M.triangles().size(); i += 2) odd.push_back(i);
-    const std::vector<std::uint32_t>& left = of_all(scene.mesh_M, scene.swept_M);
-    std::set_intersection(left.begin(), left.end(), odd.begin(), odd.end(), std::back_inserter(expected));
-    EXPECT_EQ(of_some(scene.mesh_M, scene.swept_M, odd), expected) << "seed " << seed;
-  }
+TEST(CullTest, KnowsWhatIsMetByACornerInside) {
+  const TriangleMesh mesh({{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {-3, 0, 0.5}, {3, 0.5, 0.5}, {0, -1, 0}},
+                          {{0, 1, 2},    // one corner inside
+                           {3, 4, 4},    // passes through: it remains to be seen
+                           {5, 2, 2}});  // a corner on the surface: likewise
+  Cull cull;
+  EXPECT_EQ(left(cull, mesh, cutCube()), (Triangles{0, 1, 2}));
+  EXPECT_EQ(left(cull, mesh, cutCube(), /*met_only=*/true), Triangles{0});
 }
 
-TEST(CullTest, LeavesOutNothingThatMeetsTheVolume) {
+TEST(CullTest, LeavesOutNothingThatMeetsTheVolumeAndKnowsOnlyWhatDoes) {
   Cull cull;
   size_t left_out = 0;
-  for (std::uint64_t seed = 0; seed < 500; ++seed) {
-    const Scene scene = grazingScene(seed);
-    const std::vector<std::uint32_t>& left = cull(scene.mesh_M, scene.swept_M);
+  size_t known = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const Scene scene = seed % 2 == 0 ? grazingScene(seed) : randomScene(seed);
+    const Triangles kept = left(cull, scene.mesh_M, scene.swept_M);
+    const Triangles met = left(cull, scene.mesh_M, scene.swept_M, /*met_only=*/true);
     for (std::uint32_t i = 0; i < scene.mesh_M.triangles().size(); ++i) {
-      if (std::binary_search(left.begin(), left.end(), i)) continue;
-      ++left_out;
-      EXPECT_FALSE(meetsExactly(scene.mesh_M, i, scene.swept_M)) << "seed " << seed << ": " << describe(scene, i);
+      if (std::binary_search(met.begin(), met.end(), i)) {
+        ++known;
+        EXPECT_TRUE(meetsExactly(scene.mesh_M, i, scene.swept_M)) << "seed " << seed << ": " << describe(scene, i);
+      } else if (!std::binary_search(kept.begin(), kept.end(), i)) {
+        ++left_out;
+        EXPECT_FALSE(meetsExactly(scene.mesh_M, i, scene.swept_M)) << "seed " << seed << ": " << describe(scene, i);
+      }
     }
   }
-  EXPECT_GT(left_out, 500U);
+  EXPECT_GT(left_out, 1000U);
+  EXPECT_GT(known, 1000U);
 }
+
+// Blocks, clusters and the last, incomplete ones of both; in any order.
+class LargeMeshTest : public testing::TestWithParam<MeshOrdering> {};
+
+TEST_P(LargeMeshTest, CullKeepsWhatTheReferenceFindsAndLittleMore) {
+  Cull cull;
+  PartFinder finder;
+  ReferenceDetector reference;
+  Random random(/*seed=*/3);
+  size_t kept = 0;
+  size_t met = 0;
+  for (int i = 0; i < 40; ++i) {
+    const TriangleMesh hull = GetParam().of(wavyHull(30 + i, 40, random.uniform(0.0, 6.0)));
+    const ConvexShape tool = ConvexShape::cylinder(/*radius=*/0.01, /*length=*/0.1);
+    Motion motion = handMotion(random);
+    const Eigen::Vector3d place = 0.1 * random.direction();
+    motion.X_MT_start.pretranslate(place);
+    motion.X_MT_end.pretranslate(place);
+    const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
+    const Triangles expected = reference.detect(hull, swept_M).triangles;
+    const Triangles of_all = left(cull, hull, swept_M);
+    EXPECT_TRUE(std::includes(of_all.begin(), of_all.end(), expected.begin(), expected.end()));
+
+    const simd::Planes planes = floatPlanes(hull, swept_M);
+    Triangles of_part;
+    for (const Survivor& survivor : cull(finder(hull, planes), planes)) of_part.push_back(survivor.triangle);
+    EXPECT_EQ(of_part, of_all);
+    kept += of_all.size();
+    met += expected.size();
+  }
+  EXPECT_GT(met, 500U);
+  EXPECT_LT(kept, met + met / 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllOrders, LargeMeshTest, testing::ValuesIn(meshOrderings()),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace sweep_guard

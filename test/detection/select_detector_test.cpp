@@ -197,7 +197,7 @@ TEST(MakeDetectorTest, KnowsItsNamesAndNoOther) {
     EXPECT_EQ(makeDetector(name)->detect(hull(), sweptDrill()).triangles, expected()) << name;
   }
   EXPECT_EQ(makeDetector("select", {/*cull=*/false})->detect(hull(), sweptDrill()).triangles, expected());
-  for (const char* name : {"", "Select", "halfspace"}) EXPECT_THROW(makeDetector(name), InvalidInput) << name;
+  for (const char* name : {"", "Select", "plane"}) EXPECT_THROW(makeDetector(name), InvalidInput) << name;
   EXPECT_THROW(makeDetector("select", {/*cull=*/true, "glx"}), InvalidInput);
 }
 

@@ -33,7 +33,7 @@ TEST(BoundingPlanesTest, AreTheSideAndFrontalPlanesOfFigureFive) {
   box.X_MB.translation() = Eigen::Vector3d(0, 2.9, -4.7);
   box.half_extents = Eigen::Vector3d(1, 3.9, 5.3);
 
-  const std::vector<HalfSpace> planes_B = boundingPlanes(ConvexShape::cylinder(1, 10), motion, box);
+  const Clips planes_B = boundingPlanes(ConvexShape::cylinder(1, 10), motion, box);
   ASSERT_EQ(planes_B.size(), 4U);
   const auto in_B = [](double y, double z) { return Eigen::Vector2d(y - 2.9, z + 4.7); };
   expectPlane(planes_B[0], {9.4, -5.8}, in_B(1, -10));  // SCP: from the rear at the start to the front at the end
@@ -61,7 +61,7 @@ TEST(BoundingPlanesTest, CutOffNoPointOfTheRoundToolWhateverItsMotion) {
     const double size = tool.radius() + tool.length();
     const Motion motion = randomMotion(random, tool, size * random.direction(), /*max_angle=*/3.14);
     const OrientedBox box = boundingBox(tool, motion);
-    const std::vector<HalfSpace> planes_B = boundingPlanes(tool, motion, box);
+    const Clips planes_B = boundingPlanes(tool, motion, box);
     planes += static_cast<int>(planes_B.size());
     EXPECT_LE(planes_B.size(), 4U);
     for (const Eigen::Isometry3d& X_MT : {motion.X_MT_start, motion.X_MT_end}) {

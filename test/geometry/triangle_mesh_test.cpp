@@ -104,7 +104,7 @@ TEST(TriangleMeshTest, DeformsToTheGivenPositions) {
   EXPECT_EQ(deformed.vertex(0), Eigen::Vector3d(0.1F, 0, 0));
   EXPECT_EQ(deformed.vertex(3), Eigen::Vector3d(1e6F, 0, 0.3F));
   EXPECT_EQ(deformed.rounding(), 0.0);
-  EXPECT_DOUBLE_EQ(deformed.radius(), Eigen::Vector3d(1e6F, 0, 0.3F).norm());
+  EXPECT_DOUBLE_EQ(deformed.radius(), Eigen::Vector3d(1e6F, 1.0, 0.3F).norm());
 }
 
 // Nothing is rebuilt at 60 Hz: not even the list of triangles is copied.

@@ -36,16 +36,11 @@ Motion goesOn() {
   return motion;
 }
 
-MeshPart wholeOf(const TriangleMesh& mesh_M) {
-  const double far = std::numeric_limits<double>::infinity();
-  return partWithin(mesh_M, {Eigen::Vector3d::Constant(-far), Eigen::Vector3d::Constant(far)});
-}
-
 double probabilityOf(const ConvexShape& tool, const Motion& motion, const Matrix6d& covariance_M,
                      const TriangleMesh& mesh_M) {
   const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
   const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance_M, swept_M);
-  const auto clearance = ClearanceMeter()(mesh_M, wholeOf(mesh_M), swept_M, deviations);
+  const auto clearance = ClearanceMeter()(mesh_M, swept_M, deviations);
   return clearance ? contactProbability(clearance->deviations) : 0.0;
 }
 
@@ -173,7 +168,7 @@ TEST(ContactProbabilityTest, GrowsWithDoubtAndFallsWithDistance) {
 
 // Some of a volume with its planes moved out: what clipping leaves of a triangle.
 bool meets(const TriangleMesh& mesh_M, const Triangle& triangle, const SweptVolume& swept_M, double z,
-           const std::vector<double>& deviations) {
+           const PerHalfSpace& deviations) {
   const auto half_spaces_B = swept_M.halfSpaces_B();
   Polygon polygon_B;
   for (const auto vertex : triangle) polygon_B.push_back(swept_M.box.X_MB.inverse() * mesh_M.vertex(vertex));
@@ -185,7 +180,7 @@ bool meets(const TriangleMesh& mesh_M, const Triangle& triangle, const SweptVolu
 
 // How far the planes must be moved in until one of them has the triangle wholly beyond it, at the least.
 double farthestBack(const TriangleMesh& mesh_M, const Triangle& triangle, const SweptVolume& swept_M,
-                    const std::vector<double>& deviations) {
+                    const PerHalfSpace& deviations) {
   const auto half_spaces_B = swept_M.halfSpaces_B();
   double back = -std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < half_spaces_B.size(); ++k) {
@@ -204,7 +199,6 @@ double farthestBack(const TriangleMesh& mesh_M, const Triangle& triangle, const 
 TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) {
   Random random(3);
   const TriangleMesh hull = wavyHull(12, 16, 0.5);
-  const MeshPart whole = wholeOf(hull);
   ClearanceMeter meter;
   int outside = 0;
   int inside = 0;
@@ -218,13 +212,13 @@ TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) 
       return std::any_of(hull.triangles().begin(), hull.triangles().end(),
                          [&](const Triangle& triangle) { return meets(hull, triangle, swept_M, z, deviations); });
     };
-    const auto clearance = meter(hull, whole, swept_M, deviations);
+    const auto clearance = meter(hull, swept_M, deviations);
     if (!clearance) {
       EXPECT_FALSE(meetsAt(kMostDeviations - 1e-6));
       continue;
     }
     EXPECT_TRUE(meetsAt(std::max(0.0, clearance->deviations) + 1e-5)) << i;
-    EXPECT_EQ(clearance->separated, meter.notSeparated(whole).empty());
+    EXPECT_EQ(clearance->separated, meter.notSeparated().empty());
     if (clearance->deviations > 2e-3) {
       ++outside;
       EXPECT_FALSE(meetsAt(clearance->deviations - 2e-3)) << i;

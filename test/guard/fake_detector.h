@@ -20,17 +20,14 @@ class FakeDetector : public Detector {
   explicit FakeDetector(Record& record) : record_(record) {}
 
  private:
-  Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                 const std::vector<std::uint32_t>* candidates) override {
+  void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) override {
     if (record_.failures_left > 0) {
       --record_.failures_left;
       throw DeviceError("fake detector: fails as it was told");
     }
     record_.volumes.push_back(swept_M);
-    Detection detection = candidates != nullptr ? reference_.detectAmong(mesh_M, swept_M, *candidates)
-                                                : reference_.detect(mesh_M, swept_M);
+    detection = reference_.detect(part, swept_M);
     detection.inflation += record_.inflation;
-    return detection;
   }
 
   Record& record_;

@@ -353,11 +353,9 @@ class SlowDetector : public Detector {
   SlowDetector(SteadyTime& clock, const Duration& cost) : clock_(clock), cost_(cost) {}
 
  private:
-  Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                 const std::vector<std::uint32_t>* candidates) override {
+  void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) override {
     clock_ += cost_;
-    return candidates != nullptr ? reference_.detectAmong(mesh_M, swept_M, *candidates)
-                                 : reference_.detect(mesh_M, swept_M);
+    detection = reference_.detect(part, swept_M);
   }
 
   SteadyTime& clock_;

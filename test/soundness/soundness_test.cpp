@@ -72,12 +72,9 @@ TEST(CaseTest, IsRefusedIfItIsCutOffOrUnknown) {
 
 // Does not name the last triangle that is met.
 class Forgetful : public Detector {
-  Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                 const std::vector<std::uint32_t>* candidates) override {
-    Detection detection =
-        candidates == nullptr ? honest_->detect(mesh_M, swept_M) : honest_->detectAmong(mesh_M, swept_M, *candidates);
+  void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) override {
+    detection = honest_->detect(part, swept_M);
     if (!detection.triangles.empty()) detection.triangles.pop_back();
-    return detection;
   }
 
   std::unique_ptr<Detector> honest_ = makeDetector("reference");

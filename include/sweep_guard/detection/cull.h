@@ -3,26 +3,33 @@
 #include <cstdint>
 #include <vector>
 
-#include "sweep_guard/geometry/swept_volume.h"
-#include "sweep_guard/geometry/triangle_mesh.h"
+#include "sweep_guard/detection/mesh_part.h"
+#include "sweep_guard/simd/kernels.h"
 
 namespace sweep_guard {
 
-/// Leaves out the triangles that lie wholly beyond one plane of a volume: they cannot meet it. One pass over the
-/// vertices, one over the triangles. Keeps its buffers between calls.
+/// A triangle that no plane of a volume separates from it.
+struct Survivor {
+  std::uint32_t triangle;
+  bool met;  ///< a corner is certainly inside of the volume; else it remains to be seen
+};
+
+/// Tells in float32 what is certain: the triangles that lie wholly beyond one plane of a convex volume are left out,
+/// and those with a corner inside are met. First whole clusters, by the boxes of their blocks; then triangles, by their
+/// corners. Keeps its buffers between calls.
 class Cull {
  public:
   /// Triangles that are left, ascending. Valid until the next call.
-  const std::vector<std::uint32_t>& operator()(const TriangleMesh& mesh_M, const SweptVolume& swept_M);
-
-  /// The same, of these triangles alone: only their corners are looked at.
-  /// @param among  indices of triangles: ascending, each once; not the result of the call before
-  const std::vector<std::uint32_t>& operator()(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                                               const std::vector<std::uint32_t>& among);
+  /// @param planes  of the volume; see floatPlanes()
+  const std::vector<Survivor>& operator()(const MeshPart& part, const simd::Planes& planes);
 
  private:
-  std::vector<std::uint16_t> beyond_;  // per vertex: one bit for each plane that it lies beyond
-  std::vector<std::uint32_t> left_;
+  void look(const MeshPart& part, const Cluster& cluster, const simd::Planes& planes);
+  void classify(const MeshPart& part, std::uint32_t block, const simd::Planes& planes);
+
+  std::vector<std::int32_t> block_bits_;    // per block of the part
+  std::vector<std::uint16_t> vertex_bits_;  // per place of a vertex; of the blocks that were looked into
+  std::vector<Survivor> survivors_;
 };
 
 }  // namespace sweep_guard

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/detection/mesh_part.h"
 #include "sweep_guard/geometry/swept_volume.h"
-#include "sweep_guard/geometry/triangle_mesh.h"
 
 namespace sweep_guard {
 
@@ -25,14 +25,13 @@ class Detector {
 
   /// Conservative: may name a triangle that is closer to the volume than `inflation`, never leaves out one that meets
   /// it. Touching is meeting.
+  /// @param part  of a mesh, or all of one: no other triangles are looked at
+  /// @returns valid until the next call
   /// @throws DeviceError if the answer cannot be trusted: nothing is known then
-  Detection detect(const TriangleMesh& mesh_M, const SweptVolume& swept_M) { return find(mesh_M, swept_M, nullptr); }
-
-  /// The same, of these triangles alone.
-  /// @param candidates  indices of triangles: ascending, each once
-  Detection detectAmong(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                        const std::vector<std::uint32_t>& candidates) {
-    return find(mesh_M, swept_M, &candidates);
+  const Detection& detect(const MeshPart& part, const SweptVolume& swept_M) {
+    detection_.triangles.clear();
+    find(part, swept_M, detection_);
+    return detection_;
   }
 
  protected:
@@ -41,20 +40,21 @@ class Detector {
   Detector& operator=(const Detector&) = default;
 
  private:
-  // Among all triangles if there are no candidates.
-  virtual Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                         const std::vector<std::uint32_t>* candidates) = 0;
+  // Fills an empty detection.
+  virtual void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) = 0;
+
+  Detection detection_;
 };
 
 /// What `select` is made with. No other detector looks at it, and the answer does not depend on it but for a smaller
 /// inflation with `cull`.
 struct DetectorOptions {
-  bool cull = true;                   ///< show OpenGL only the triangles that are not beyond one plane
+  bool cull = true;                   ///< show OpenGL only the triangles in doubt after a test against single planes
   std::string gl_context = "osmesa";  ///< one of offscreenContextNames()
 };
 
-/// @param name  `select` (OpenGL's selection mode, [P, Sec. 3.1]) or `reference` (every triangle clipped in double
-/// precision)
+/// @param name  `select` (OpenGL's selection mode, [P, Sec. 3.1]), `halfspace` (the same test on the processor's vector
+///              units) or `reference` (every triangle clipped in double precision)
 /// @throws InvalidInput on any other name of a detector or context, DeviceError if there is no off-screen context
 std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOptions& options = {});
 

@@ -8,8 +8,7 @@ namespace sweep_guard {
 /// against. Its inflation bounds the rounding of double precision alone.
 class ReferenceDetector : public Detector {
  private:
-  Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                 const std::vector<std::uint32_t>* candidates) override;
+  void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) override;
 };
 
 }  // namespace sweep_guard

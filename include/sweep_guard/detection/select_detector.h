@@ -10,8 +10,8 @@
 namespace sweep_guard {
 
 /// The method of the paper: the swept volume becomes OpenGL's viewing volume, and selection mode names the triangles
-/// inside [P, Sec. 3.1]. Blocks of triangles share a name at first; single triangles are drawn only inside the blocks
-/// that hit.
+/// inside [P, Sec. 3.1]. What single planes or corners decide is not drawn. Of the others, blocks of triangles share a
+/// name at first; single triangles are drawn only inside the blocks that hit.
 ///
 /// OpenGL computes in float32. So positions are taken into the box's own coordinates in double, and the volume is
 /// inflated by 2^-22 of the distance to the farthest vertex drawn: six to ten times the worst error found.
@@ -19,7 +19,7 @@ class SelectDetector : public Detector {
  public:
   using ContextFactory = std::function<std::unique_ptr<OffscreenContext>()>;
   struct Options {
-    bool cull = true;          ///< draw only what is not beyond one plane of the volume
+    bool cull = true;          ///< draw only what is in doubt; otherwise everything
     int block = 64;            ///< triangles under one name in the first pass; >= 1
     size_t hit_records = 256;  ///< room in the selection buffer at first; it grows
   };
@@ -29,21 +29,23 @@ class SelectDetector : public Detector {
 
  private:
   // Throws DeviceError if the selection fails twice, the second time in a new context.
-  Detection find(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                 const std::vector<std::uint32_t>* among) override;
-  std::vector<std::uint32_t> select(const TriangleMesh& mesh_M, const SweptVolume& inflated_M,
-                                    const std::vector<std::uint32_t>& candidates);
+  void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) override;
+  const std::vector<Survivor>& all(const MeshPart& part);
+  void takeCorners(const TriangleMesh& mesh_M, const OrientedBox& box_M, const std::vector<Survivor>& survivors);
+  double inflationFor(const TriangleMesh& mesh_M, const OrientedBox& box_M) const;
+  void select(const SweptVolume& inflated_M);
   void makeSelection();
-  const std::vector<std::uint32_t>& candidatesOf(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
-                                                 const std::vector<std::uint32_t>* among);
-  const std::vector<std::uint32_t>& allTriangles(const TriangleMesh& mesh_M);
 
   Options options_;
   ContextFactory make_context_;
   std::unique_ptr<GlSelect> gl_;
   Cull cull_;
-  std::vector<std::uint32_t> all_;
-  std::vector<float> corners_;
+  std::vector<Survivor> all_;
+  std::vector<Eigen::Vector3d> corners_B_;  // three of each triangle in doubt [m]
+  std::vector<float> corners_;              // in units of the box
+  std::vector<Eigen::Vector4d> clips_;
+  std::vector<std::uint32_t> in_blocks_;  // numbers among those in doubt
+  std::vector<std::uint32_t> names_;      // those of them that hit
 };
 
 }  // namespace sweep_guard

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "sweep_guard/detection/cull.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
-#include "sweep_guard/guard/mesh_part.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard {
@@ -27,8 +27,8 @@ double contactProbability(double deviations);
 /// for errors of up to kMostDeviations, of a hull of points that of the box around it. At least 1e-9 m.
 /// @param X_MT        pose of the tool that the covariance is of
 /// @param covariance  translation [m], then rotation vector [rad], both along the axes of M
-std::vector<double> planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& X_MT,
-                                    const Matrix6d& covariance_M, const SweptVolume& swept_M);
+PerHalfSpace planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Matrix6d& covariance_M,
+                             const SweptVolume& swept_M);
 
 /// What stands between a volume and a mesh.
 struct Clearance {
@@ -44,27 +44,27 @@ class ClearanceMeter {
   /// Empty if more than kMostDeviations are needed. Exact to 1e-3 standard deviations; not below -kMostDeviations.
   /// @param part        of the mesh: no other triangles are looked at
   /// @param deviations  of planeDeviations()
-  std::optional<Clearance> operator()(const TriangleMesh& mesh_M, const MeshPart& part, const SweptVolume& swept_M,
-                                      const std::vector<double>& deviations);
+  std::optional<Clearance> operator()(const MeshPart& part, const SweptVolume& swept_M, const PerHalfSpace& deviations);
 
   /// The triangles that no plane of the volume measured last separates from it: ascending. The volume meets no others.
-  std::vector<std::uint32_t> notSeparated(const MeshPart& part) const;
+  std::vector<std::uint32_t> notSeparated() const;
 
  private:
   struct Candidate {
-    size_t triangle;  // of the part
+    size_t number;    // of the survivor
     double at_least;  // deviations
     double at_most;   // deviations
   };
   struct Planes;
 
-  void scoreVertices(const MeshPart& part, const Planes& planes);
-  void collectCandidates(const MeshPart& part, const Planes& planes);
-  bool reaches(double z, const MeshPart& part, const Candidate& candidate, const Planes& planes) const;
-  double outwards(double nearest, const MeshPart& part, const Candidate& candidate, const Planes& planes) const;
+  void scoreCorners(const Planes& planes);
+  void collectCandidates(const Planes& planes);
+  bool reaches(double z, const Candidate& candidate, const Planes& planes) const;
+  double outwards(double nearest, const Candidate& candidate, const Planes& planes) const;
 
-  std::vector<double> scores_;         // per vertex and plane: deviations that the plane lacks to reach the vertex
-  std::vector<std::uint16_t> beyond_;  // per vertex: one bit for each plane that lacks too many
+  Cull cull_;
+  const std::vector<Survivor>* survivors_ = nullptr;  // of it: within kMostDeviations of each plane
+  std::vector<double> scores_;         // per survivor, corner and plane: deviations that the plane lacks to reach it
   std::vector<Candidate> candidates_;  // ascending by at_least
 };
 

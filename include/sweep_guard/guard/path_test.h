@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 
 #include "sweep_guard/guard/contact_probability.h"
@@ -44,15 +45,18 @@ class PathTest {
   struct Findings;
 
   std::vector<SweptBody> wholeTool(const Scene& scene, const Stretch& stretch) const;
-  static TriangleSet detected(const Scene& scene, const std::vector<SweptBody>& bodies);
+  TriangleSet detected(const Scene& scene, const MeshPart& part, const std::vector<SweptBody>& bodies);
   Reading read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const std::vector<SweptBody>& whole);
   void read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const Tool::Node& node,
             const SweptBody& body, Reading& reading);
   void test(const Scene& scene, const MeshPart& around, const Stretch& stretch, const std::vector<SweptBody>& whole,
-            Findings& findings);
+            Findings& findings, size_t halvings);
+  MeshPart partInReach(const Scene& scene, const MeshPart& around, const Stretch& stretch, size_t halvings);
 
   Options options_;
   ClearanceMeter meter_;
+  std::deque<PartFinder> finders_;  // of the whole path, of its sweeps, of their halves, ...
+  Detection detection_;
 };
 
 }  // namespace sweep_guard

@@ -5,7 +5,6 @@
 #include "sweep_guard/geometry/convex_shape.h"
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/geometry/swept_volume.h"
-#include "sweep_guard/guard/triangle_set.h"
 
 namespace sweep_guard {
 
@@ -22,10 +21,9 @@ SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKi
 
 /// The triangles that the volume meets; of kind `hull`, those of them that the hull of the body at both ends of the
 /// motion, before and after its drift, grown by the volume's margin, is not proven to miss.
-/// @param among  if given, no others are looked at
+/// @param[out] found  what was in it is replaced
 /// @throws DeviceError if the detector fails
-Detection detect(Detector& detector, const TriangleMesh& mesh_M, const SweptBody& body,
-                 const TriangleSet* among = nullptr);
+void detect(Detector& detector, const MeshPart& part, const SweptBody& body, Detection& found);
 
 /// Whether a direction proves that a body, anywhere in the hull of its motion's two poses before and after its drift,
 /// is farther than `margin` [m] from a triangle, anywhere in the hull of its two places.

@@ -1,10 +1,8 @@
-#include "sweep_guard/guard/mesh_part.h"
+#include "sweep_guard/guard/expected_motion.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geometry/round_tool.h"
 #include "scenes.h"
@@ -15,59 +13,6 @@ namespace sweep_guard {
 namespace {
 
 using namespace std::chrono_literals;
-
-bool beyondOneSide(const TriangleMesh& mesh_M, const Triangle& triangle, const Eigen::AlignedBox3d& box_M) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto all = [&](const auto& beyond) {
-      return std::all_of(triangle.begin(), triangle.end(),
-                         [&](std::uint32_t corner) { return beyond(mesh_M.vertex(corner)[axis]); });
-    };
-    if (all([&](double x) { return x > box_M.max()[axis]; })) return true;
-    if (all([&](double x) { return x < box_M.min()[axis]; })) return true;
-  }
-  return false;
-}
-
-Eigen::AlignedBox3d randomBox(Random& random) {
-  const Eigen::Vector3d a = random.inBox({0.1, 0.1, 0.1});
-  return Eigen::AlignedBox3d(a).extend(a + random.inBox({0.2, 0.2, 0.2}));
-}
-
-TEST(MeshPartTest, LeavesOutWhatLiesBeyondASideAndNothingElse) {
-  Random random(1);
-  const TriangleMesh hull = wavyHull(12, 16, 0.5);
-  int parts = 0;
-  for (int i = 0; i < 200; ++i) {
-    const Eigen::AlignedBox3d box_M = randomBox(random);
-    const MeshPart part = partWithin(hull, box_M);
-    parts += !part.triangles.empty() && part.triangles.size() < hull.triangles().size();
-    ASSERT_EQ(part.corners.size(), part.triangles.size());
-    for (size_t k = 0; k < part.triangles.size(); ++k) {
-      for (size_t corner = 0; corner < 3; ++corner) {
-        EXPECT_EQ(part.vertices[part.corners[k][corner]], hull.triangles()[part.triangles[k]][corner]);
-      }
-    }
-    for (std::uint32_t triangle = 0; triangle < hull.triangles().size(); ++triangle) {
-      const bool left = std::binary_search(part.triangles.begin(), part.triangles.end(), triangle);
-      EXPECT_EQ(left, !beyondOneSide(hull, hull.triangles()[triangle], box_M));
-    }
-  }
-  EXPECT_GT(parts, 50);
-}
-
-TEST(MeshPartTest, APartOfAPartIsWhatIsWithinBoth) {
-  Random random(2);
-  const TriangleMesh hull = wavyHull(12, 16, 0.5);
-  for (int i = 0; i < 200; ++i) {
-    const Eigen::AlignedBox3d box_M = randomBox(random);
-    const MeshPart outer = partWithin(hull, randomBox(random).extend(box_M));
-    const MeshPart inner = partWithin(hull, outer, box_M);
-    const MeshPart direct = partWithin(hull, box_M);
-    EXPECT_EQ(inner.triangles, direct.triangles);
-    EXPECT_EQ(inner.vertices, direct.vertices);
-    EXPECT_EQ(inner.corners, direct.corners);
-  }
-}
 
 // A tool that swings about, ever less sure of where it is.
 struct Swing {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "sweep_guard/geometry/swept_volume.h"
+
+namespace sweep_guard {
+
+/// What is left of a triangle when it is cut by planes, one after the other [Sutherland and Hodgman 1974]. In double
+/// precision, without a buffer.
+class CutTriangle {
+ public:
+  explicit CutTriangle(const std::array<Eigen::Vector3d, 3>& corners)
+      : corners_{corners[0], corners[1], corners[2]}, count_(3) {}
+
+  /// Keeps what lies within n·p <= d: its boundary, too. At most kMostHalfSpaces times; not of nothing.
+  void cut(const Eigen::Vector3d& normal, double offset);
+  bool empty() const { return count_ == 0; }
+
+ private:
+  // Each plane adds one at most.
+  std::array<Eigen::Vector3d, 3 + kMostHalfSpaces> corners_;
+  size_t count_;
+};
+
+/// Tells whether triangles meet a convex volume.
+class ConvexClip {
+ public:
+  explicit ConvexClip(const SweptVolume& volume);
+
+  /// @param corners_B  in the frame of the volume's box [m]
+  bool meets(const std::array<Eigen::Vector3d, 3>& corners_B) const;
+
+ private:
+  // Structure of arrays: all planes are looked at for each corner.
+  Eigen::Array<double, kMostHalfSpaces, 3> normals_;
+  Eigen::Array<double, kMostHalfSpaces, 1> offsets_;
+  Eigen::Index count_ = 0;
+};
+
+}  // namespace sweep_guard

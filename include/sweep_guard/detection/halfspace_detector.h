@@ -1,0 +1,17 @@
+#pragma once
+
+#include "sweep_guard/detection/cull.h"
+#include "sweep_guard/detection/detector.h"
+
+namespace sweep_guard {
+
+/// Decides on the processor's vector units what is certain in float32, and clips what is left in double. Names what the
+/// reference names, but for the rounding of double precision.
+class HalfspaceDetector : public Detector {
+ private:
+  void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) override;
+
+  Cull cull_;
+};
+
+}  // namespace sweep_guard

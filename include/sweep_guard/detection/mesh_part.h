@@ -1,0 +1,80 @@
+#pragma once
+
+#include <vector>
+
+#include "sweep_guard/geometry/triangle_mesh.h"
+#include "sweep_guard/simd/kernels.h"
+
+namespace sweep_guard {
+
+/// Some clusters of a mesh, and the blocks of vertices that hold their corners: what a detector looks at. A view: the
+/// mesh, and for a part of it its PartFinder, must outlive it unchanged.
+class MeshPart {
+ public:
+  /// All of it.
+  MeshPart(const TriangleMesh& mesh_M)  // NOLINT(google-explicit-constructor)
+      : mesh_M_(&mesh_M),
+        boxes_(mesh_M.blocks().arrays()),
+        blocks_(&mesh_M.order().blocks),
+        clusters_(&mesh_M.order().clusters) {}
+
+  const TriangleMesh& mesh_M() const { return *mesh_M_; }
+  bool empty() const { return clusters_->empty(); }
+
+  /// Numbers of the blocks in mesh_M().blocks().
+  const std::vector<std::uint32_t>& blocks() const { return *blocks_; }
+  /// Their boxes, in this order, padded to simd::kPadding [m].
+  const simd::BoxArrays<const float>& boxes() const { return boxes_; }
+  /// Ascending. Their `blocks` are indices into blocks().
+  const std::vector<Cluster>& clusters() const { return *clusters_; }
+
+  /// Calls a function with the index of each triangle.
+  template <typename Function>
+  void forEachTriangle(const Function& function) const {
+    const std::vector<std::uint32_t>& triangle_at = mesh_M_->order().triangle_at;
+    for (const Cluster& cluster : *clusters_) {
+      for (std::uint32_t place = cluster.first; place < cluster.first + cluster.count; ++place) {
+        function(triangle_at.empty() ? place : triangle_at[place]);
+      }
+    }
+  }
+
+ private:
+  friend class PartFinder;
+
+  const TriangleMesh* mesh_M_;
+  simd::BoxArrays<const float> boxes_;
+  const std::vector<std::uint32_t>* blocks_;
+  const std::vector<Cluster>* clusters_;
+};
+
+/// Finds the part of a mesh that may reach into a convex region. Keeps its buffers between calls.
+class PartFinder {
+ public:
+  /// What is left out lies beyond one of the planes. One pass over the boxes of the blocks.
+  /// @param part  not the result of the call before
+  /// @returns a view of buffers of this: valid until the next call
+  MeshPart operator()(const MeshPart& part, const simd::Planes& planes);
+
+ private:
+  void keep(const MeshPart& part, Cluster cluster);
+  void gatherBoxes(MeshPart& found);
+
+  std::vector<std::int32_t> bits_;        // per block of the part: planes that it lies beyond
+  std::vector<std::uint32_t> new_index_;  // per block of the part, among those kept
+  std::vector<std::uint32_t> old_index_;  // and back
+  std::vector<std::uint32_t> blocks_;
+  std::vector<Cluster> clusters_;
+  std::vector<float> sides_;
+};
+
+/// A mesh wholly beyond one of the planes, by the box around it.
+bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes);
+
+/// A cluster is beyond one plane if all its blocks are.
+inline bool beyondOnePlane(const Cluster& cluster, const std::vector<std::int32_t>& bits_of_blocks) {
+  const auto& [a, b, c, d] = cluster.blocks;
+  return (bits_of_blocks[a] & bits_of_blocks[b] & bits_of_blocks[c] & bits_of_blocks[d] & (simd::kInsideAll - 1)) != 0;
+}
+
+}  // namespace sweep_guard

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+/// The loops over vertices and boxes that decide how fast a mesh is looked at, in float32. They are compiled for
+/// several instruction sets; the best one of the machine is chosen when the first is needed. Rounding differs between
+/// them: what rests on their results has to allow for it.
+namespace sweep_guard::simd {
+
+/// Vertices of a block: consecutive ones, that share a box.
+constexpr std::size_t kBlock = 32;
+/// Arrays of boxes and of their bits are as long as a multiple of this.
+constexpr std::size_t kPadding = 16;
+constexpr std::size_t padded(std::size_t count) { return (count + kPadding - 1) / kPadding * kPadding; }
+constexpr std::size_t kMostPlanes = 15;
+
+/// Boxes, one array for each side: lower x, y, z [m].
+template <typename Number>
+struct BoxArrays {
+  std::array<Number*, 3> lower;
+  std::array<Number*, 3> upper;
+};
+
+/// Bounds of all coordinates seen [m]. The first three lanes are x, y, z.
+struct Extremes {
+  std::array<float, 3> lower;
+  std::array<float, 3> upper;
+};
+
+/// Planes n·p = d by what is certain of a point in float32: n·p > `outside` is beyond, n·p < `inside` is not.
+struct Planes {
+  std::size_t count = 0;  ///< at most kMostPlanes
+  std::array<std::array<float, kMostPlanes + 1>, 3> normal;
+  std::array<float, kMostPlanes + 1> outside;
+  std::array<float, kMostPlanes + 1> inside;
+};
+
+/// Set in the bits of a vertex that is inside of all planes. Bit i is set where it is beyond plane i.
+constexpr std::uint16_t kInsideAll = 1U << kMostPlanes;
+
+struct Kernels {
+  const char* name;  ///< of the instruction set
+
+  /// Takes the boxes of blocks of vertices.
+  /// @param vertices  x0 y0 z0 x1 ... of `blocks` times kBlock vertices; kPadding floats more must be readable
+  /// @param extremes  widened to hold all of them
+  /// @returns whether all are finite
+  bool (*bound)(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, Extremes& extremes);
+
+  /// For each box, the planes that all of it lies beyond. Arrays are padded to kPadding.
+  void (*classifyBoxes)(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes,
+                        std::int32_t* bits);
+
+  /// The bits of the vertices of one block.
+  void (*classifyBlock)(const float* vertices, const Planes& planes, std::uint16_t* bits);
+};
+
+/// Those that this machine can run, the best one first; `baseline` is always among them.
+const std::vector<Kernels>& availableKernels();
+
+/// The best; or the one that the environment variable SWEEP_GUARD_SIMD names: avx512, avx2 or baseline.
+/// @throws InvalidInput if the machine has not got that
+const Kernels& kernels();
+
+}  // namespace sweep_guard::simd

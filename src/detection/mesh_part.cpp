@@ -1,0 +1,71 @@
+#include "sweep_guard/detection/mesh_part.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace sweep_guard {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+}  // namespace
+
+bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes) {
+  const Eigen::Vector3f lower = mesh_M.blocks().bounds().min().cast<float>();
+  const Eigen::Vector3f upper = mesh_M.blocks().bounds().max().cast<float>();
+  for (size_t i = 0; i < planes.count; ++i) {
+    const Eigen::Vector3f normal(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i]);
+    const Eigen::Vector3f nearest = (normal.array() < 0.0F).select(upper, lower);
+    if (normal.dot(nearest) > planes.outside[i]) return true;
+  }
+  return false;
+}
+
+MeshPart PartFinder::operator()(const MeshPart& part, const simd::Planes& planes) {
+  blocks_.clear();
+  clusters_.clear();
+  old_index_.clear();
+  if (!whollyBeyond(part.mesh_M(), planes)) {
+    const size_t count = part.blocks().size();
+    bits_.resize(std::max(bits_.size(), simd::padded(count)));
+    simd::kernels().classifyBoxes(part.boxes(), count, planes, bits_.data());
+    new_index_.assign(count, kNone);
+    for (const Cluster& cluster : part.clusters()) {
+      if (!beyondOnePlane(cluster, bits_)) keep(part, cluster);
+    }
+  }
+  MeshPart found = part;
+  found.blocks_ = &blocks_;
+  found.clusters_ = &clusters_;
+  gatherBoxes(found);
+  return found;
+}
+
+void PartFinder::keep(const MeshPart& part, Cluster cluster) {
+  for (std::uint32_t& block : cluster.blocks) {
+    std::uint32_t& index = new_index_[block];
+    if (index == kNone) {
+      index = static_cast<std::uint32_t>(blocks_.size());
+      blocks_.push_back(part.blocks()[block]);
+      old_index_.push_back(block);
+    }
+    block = index;
+  }
+  clusters_.push_back(cluster);
+}
+
+// Takes the boxes of the part that it was found in.
+void PartFinder::gatherBoxes(MeshPart& found) {
+  const size_t stride = simd::padded(blocks_.size());
+  sides_.resize(std::max(sides_.size(), 6 * stride));
+  float* to = sides_.data();
+  for (auto* sides : {&found.boxes_.lower, &found.boxes_.upper}) {
+    for (const float*& side : *sides) {
+      std::transform(old_index_.begin(), old_index_.end(), to, [&](std::uint32_t i) { return side[i]; });
+      side = to;
+      to += stride;
+    }
+  }
+}
+
+}  // namespace sweep_guard

@@ -1,0 +1,132 @@
+#include "sweep_guard/geometry/mesh_order.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+
+#include "sweep_guard/geometry/vertex_blocks.h"
+
+namespace sweep_guard {
+namespace {
+
+constexpr size_t kMostTriangles = 64;  // of a cluster
+constexpr double kWorthwhile = 0.5;    // of what it was: renumbering costs every deformation a gather
+
+// The low 21 bits of a number, each followed by two zeros.
+std::uint64_t spread(std::uint64_t bits) {
+  bits = (bits | bits << 32U) & 0x1f00000000ffffU;
+  bits = (bits | bits << 16U) & 0x1f0000ff0000ffU;
+  bits = (bits | bits << 8U) & 0x100f00f00f00f00fU;
+  bits = (bits | bits << 4U) & 0x10c30c30c30c30c3U;
+  return (bits | bits << 2U) & 0x1249249249249249U;
+}
+
+// Places along the Z-order curve [Morton 1966] through the box of all.
+std::vector<std::uint32_t> placesAlongCurve(const std::vector<float>& positions, const Eigen::AlignedBox3d& bounds) {
+  const double scale = 0x1fffff / std::max(bounds.sizes().maxCoeff(), 1e-30);
+  std::vector<std::uint64_t> codes(positions.size() / 3);
+  for (size_t i = 0; i < codes.size(); ++i) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double along = scale * (positions[3 * i + axis] - bounds.min()[static_cast<int>(axis)]);
+      codes[i] |= spread(static_cast<std::uint64_t>(along)) << axis;
+    }
+  }
+  std::vector<std::uint32_t> order(codes.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
+  std::vector<std::uint32_t> places(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) places[order[i]] = i;
+  return places;
+}
+
+// Not empty if it makes the boxes of the blocks much smaller.
+std::vector<std::uint32_t> betterPlaces(const std::vector<float>& positions) {
+  VertexBlocks blocks;
+  blocks.measure(positions);
+  if (blocks.count() < 2) return {};
+  std::vector<std::uint32_t> places = placesAlongCurve(positions, blocks.bounds());
+  std::vector<float> kept(positions.size());
+  place(places, positions, kept);
+  const double as_sent = blocks.totalSize();
+  blocks.measure(kept);
+  if (blocks.totalSize() > kWorthwhile * as_sent) places.clear();
+  return places;
+}
+
+// The cluster that begins at a triangle: as long as it needs no fifth block.
+Cluster clusterFrom(std::uint32_t first, const std::vector<Triangle>& corners) {
+  Cluster cluster{first, 0, {}};
+  size_t blocks = 0;
+  const auto takes = [&](std::uint32_t vertex) {
+    const auto block = static_cast<std::uint32_t>(vertex / simd::kBlock);
+    auto* const end = cluster.blocks.begin() + blocks;
+    if (std::find(cluster.blocks.begin(), end, block) != end) return true;
+    if (blocks == cluster.blocks.size()) return false;
+    cluster.blocks[blocks++] = block;
+    return true;
+  };
+  for (size_t i = first; i < corners.size() && cluster.count < kMostTriangles; ++i, ++cluster.count) {
+    const size_t before = blocks;
+    if (std::all_of(corners[i].begin(), corners[i].end(), takes)) continue;
+    blocks = before;
+    break;
+  }
+  std::fill(cluster.blocks.begin() + blocks, cluster.blocks.end(), cluster.blocks[blocks - 1]);
+  return cluster;
+}
+
+std::vector<Cluster> clustersOf(const std::vector<Triangle>& corners) {
+  std::vector<Cluster> clusters;
+  for (std::uint32_t at = 0; at < corners.size(); at += clusters.back().count) {
+    clusters.push_back(clusterFrom(at, corners));
+  }
+  return clusters;
+}
+
+std::vector<Triangle> placed(const std::vector<std::uint32_t>& places, std::vector<Triangle> triangles) {
+  if (places.empty()) return triangles;
+  for (Triangle& triangle : triangles) {
+    for (std::uint32_t& vertex : triangle) vertex = places[vertex];
+  }
+  return triangles;
+}
+
+std::vector<std::uint32_t> byFirstVertex(const std::vector<Triangle>& corners) {
+  std::vector<std::uint32_t> order(corners.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto first = [&](std::uint32_t i) { return *std::min_element(corners[i].begin(), corners[i].end()); };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return first(a) < first(b); });
+  return order;
+}
+
+}  // namespace
+
+MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangle>& triangles) {
+  MeshOrder order;
+  order.vertex_places = betterPlaces(positions);
+  std::vector<Triangle> corners = placed(order.vertex_places, triangles);
+  order.clusters = clustersOf(corners);
+
+  const std::vector<std::uint32_t> sorted = byFirstVertex(corners);
+  std::vector<Triangle> in_order;
+  in_order.reserve(sorted.size());
+  for (const std::uint32_t triangle : sorted) in_order.push_back(corners[triangle]);
+  std::vector<Cluster> clusters = clustersOf(in_order);
+  if (static_cast<double>(clusters.size()) < kWorthwhile * static_cast<double>(order.clusters.size())) {
+    order.triangle_at = sorted;
+    order.clusters = std::move(clusters);
+    corners = std::move(in_order);
+  }
+  if (!order.vertex_places.empty() || !order.triangle_at.empty()) order.corners = std::move(corners);
+  order.blocks.resize((positions.size() / 3 + simd::kBlock - 1) / simd::kBlock);
+  std::iota(order.blocks.begin(), order.blocks.end(), 0U);
+  return order;
+}
+
+void place(const std::vector<std::uint32_t>& places, const std::vector<float>& sent, std::vector<float>& kept) {
+  for (size_t i = 0; i < places.size(); ++i) {
+    std::copy_n(sent.data() + 3 * i, 3, kept.data() + 3 * static_cast<size_t>(places[i]));
+  }
+}
+
+}  // namespace sweep_guard

@@ -1,0 +1,63 @@
+#include <cstdlib>
+#include <string>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/simd/kernels.h"
+
+namespace sweep_guard::simd {
+
+#ifdef __x86_64__
+namespace avx512 {
+extern const Kernels kKernels;
+}
+namespace avx2 {
+extern const Kernels kKernels;
+}
+#endif
+namespace baseline {
+extern const Kernels kKernels;
+}
+
+namespace {
+
+Kernels named(const char* name, Kernels kernels) {
+  kernels.name = name;
+  return kernels;
+}
+
+std::vector<Kernels> findKernels() {
+  std::vector<Kernels> found;
+#ifdef __x86_64__
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  if (avx2 && avx512) found.push_back(named("avx512", avx512::kKernels));
+  if (avx2) found.push_back(named("avx2", avx2::kKernels));
+#endif
+  found.push_back(named("baseline", baseline::kKernels));
+  return found;
+}
+
+const Kernels& chooseKernels() {
+  const char* asked = std::getenv("SWEEP_GUARD_SIMD");
+  if (asked == nullptr || *asked == '\0') return availableKernels().front();
+  for (const Kernels& kernels : availableKernels()) {
+    if (std::string(asked) == kernels.name) return kernels;
+  }
+  throw InvalidInput("SWEEP_GUARD_SIMD=" + std::string(asked) + " is not of this machine: use " +
+                     availableKernels().front().name + " or baseline");
+}
+
+}  // namespace
+
+const std::vector<Kernels>& availableKernels() {
+  static const std::vector<Kernels> available = findKernels();
+  return available;
+}
+
+const Kernels& kernels() {
+  static const Kernels& chosen = chooseKernels();
+  return chosen;
+}
+
+}  // namespace sweep_guard::simd

@@ -1,0 +1,141 @@
+// Compiled once for every instruction set. So nothing that another file might define too may come out of it: an inline
+// function compiled for AVX-512 could be linked into code that runs everywhere.
+#include <experimental/simd>
+#include <utility>
+
+#include "sweep_guard/simd/kernels.h"
+
+namespace sweep_guard::simd {
+namespace {
+
+namespace stdx = std::experimental;
+using Float = stdx::native_simd<float>;
+using Int = stdx::rebind_simd_t<std::int32_t, Float>;
+using Vector [[gnu::vector_size(sizeof(Float))]] = float;
+constexpr std::size_t kWidth = Float::size();
+constexpr std::size_t kFloats = 3 * kBlock;
+constexpr std::size_t kInPhase = kWidth / 3 * 3;  // lanes of whole vertices: a load of these begins with an x
+constexpr std::size_t kAhead = 8;  // blocks; what the hardware fetches alone does not fill the memory's time
+
+static_assert(kWidth == 4 || kWidth == 8 || kWidth == 16);
+
+// A load that stays one: GCC repeats it as an operand of each use, and these cross cache lines.
+[[gnu::always_inline]] inline Float load(const float* from) {
+  auto lanes = static_cast<Vector>(Float(from, stdx::element_aligned));
+#ifdef __x86_64__
+  asm("" : "+v"(lanes));
+#endif
+  return Float(lanes);
+}
+
+template <std::size_t by, std::size_t... lane>
+[[gnu::always_inline]] inline Float turned(const Float& lanes, std::index_sequence<lane...> /*all*/) {
+  const auto from = static_cast<Vector>(lanes);
+  return Float(__builtin_shufflevector(from, from, static_cast<int>((lane + by) % kWidth)...));
+}
+
+// Lane i becomes what lane i + by was.
+template <std::size_t by>
+[[gnu::always_inline]] inline Float turned(const Float& lanes) {
+  return turned<by>(lanes, std::make_index_sequence<kWidth>());
+}
+
+// The best of all x, all y, all z among the lanes in phase.
+template <typename Best>
+[[gnu::always_inline]] inline Float perAxis(const Float& lanes, const Best& best) {
+  if (kWidth == 4) return lanes;
+  const Float two = best(lanes, turned<3>(lanes));
+  if (kWidth == 8) return two;
+  return best(best(two, turned<6>(two)), turned<12>(lanes));
+}
+
+struct Lower {
+  [[gnu::always_inline]] Float operator()(const Float& a, const Float& b) const { return stdx::min(a, b); }
+};
+struct Upper {
+  [[gnu::always_inline]] Float operator()(const Float& a, const Float& b) const { return stdx::max(a, b); }
+};
+
+bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, Extremes& extremes) {
+  Float least([&](std::size_t lane) { return extremes.lower[lane % 3]; });
+  Float most([&](std::size_t lane) { return extremes.upper[lane % 3]; });
+  Float sums[4] = {};  // NaN and infinity stay in a sum; four, so that none waits for the one before
+  for (std::size_t block = 0; block < blocks; ++block, vertices += kFloats) {
+    for (std::size_t line = 0; line < kFloats; line += 16) __builtin_prefetch(vertices + kAhead * kFloats + line);
+    Float lower = load(vertices + kFloats - kInPhase);
+    Float upper = lower;
+    sums[3] += lower;
+    for (std::size_t i = 0; i + kInPhase < kFloats; i += kInPhase) {
+      const Float lanes = load(vertices + i);
+      lower = stdx::min(lower, lanes);
+      upper = stdx::max(upper, lanes);
+      sums[i / kInPhase % 4] += lanes;
+    }
+    lower = perAxis(lower, Lower());
+    upper = perAxis(upper, Upper());
+    least = stdx::min(least, lower);
+    most = stdx::max(most, upper);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      boxes.lower[axis][block] = lower[axis];
+      boxes.upper[axis][block] = upper[axis];
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    extremes.lower[axis] = least[axis];
+    extremes.upper[axis] = most[axis];
+  }
+  return stdx::all_of((sums[0] + sums[1] + sums[2] + sums[3]) * 0.0F == 0.0F);
+}
+
+// Of a box, the corner that lies least far out decides.
+void classifyBoxes(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes, std::int32_t* bits) {
+  const float* nearest[kMostPlanes][3];
+  for (std::size_t i = 0; i < planes.count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      nearest[i][axis] = planes.normal[axis][i] < 0.0F ? boxes.upper[axis] : boxes.lower[axis];
+    }
+  }
+  for (std::size_t first = 0; first < count; first += kWidth) {
+    Float found = 0.0F;  // a sum of powers of two: lanes of float select faster than those of int
+    float bit = 1.0F;
+    for (std::size_t i = 0; i < planes.count; ++i, bit *= 2.0F) {
+      const auto along = [&](std::size_t axis) {
+        return planes.normal[axis][i] * Float(nearest[i][axis] + first, stdx::element_aligned);
+      };
+      stdx::where(along(0) + along(1) + along(2) > planes.outside[i], found) += bit;
+    }
+    stdx::static_simd_cast<Int>(found).copy_to(bits + first, stdx::element_aligned);
+  }
+}
+
+void classifyBlock(const float* vertices, const Planes& planes, std::uint16_t* bits) {
+  alignas(sizeof(Float)) float p[3][kBlock];
+  for (std::size_t i = 0; i < kBlock; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis][i] = vertices[3 * i + axis];
+  }
+  for (std::size_t first = 0; first < kBlock; first += kWidth) {
+    const auto lanes = [&](std::size_t axis) { return Float(p[axis] + first, stdx::vector_aligned); };
+    const Float x = lanes(0);
+    const Float y = lanes(1);
+    const Float z = lanes(2);
+    Float found = 0.0F;
+    typename Float::mask_type inside(true);
+    float bit = 1.0F;
+    for (std::size_t i = 0; i < planes.count; ++i, bit *= 2.0F) {
+      const Float out = planes.normal[0][i] * x + planes.normal[1][i] * y + planes.normal[2][i] * z;
+      stdx::where(out > planes.outside[i], found) += bit;
+      inside = inside && out < planes.inside[i];
+    }
+    stdx::where(inside, found) = static_cast<float>(kInsideAll);
+    for (std::size_t i = 0; i < kWidth; ++i) bits[first + i] = static_cast<std::uint16_t>(found[i]);
+  }
+}
+
+}  // namespace
+
+namespace SWEEP_GUARD_ISA {
+extern const Kernels kKernels;
+const Kernels kKernels = {nullptr, bound, classifyBoxes, classifyBlock};
+}  // namespace SWEEP_GUARD_ISA
+
+}  // namespace sweep_guard::simd
