@@ -196,7 +196,7 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("tool/sides", 2, "3 to 1000");
   refused("tool/sides", 3.5, "an integer");
   refused("volume", "sphere", "obb, obb_planes, hull");
-  refused("detector", "halfspace", "select, reference");
+  refused("detector", "plane", "select, halfspace, reference");
   refused("cull", 1, "true or false");
   refused("gl_context", "glx", "osmesa, egl");
   refused("max_rotation_per_sweep", 1.0, "0.01 to 0.5");
