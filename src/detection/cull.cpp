@@ -13,12 +13,10 @@ constexpr std::int32_t kBeyond = simd::kInsideAll - 1;
 const std::vector<Survivor>& Cull::operator()(const MeshPart& part, const simd::Planes& planes) {
   survivors_.clear();
   if (part.empty() || whollyBeyond(part.mesh_M(), planes)) return survivors_;
-  const size_t count = part.blocks().size();
-  block_bits_.resize(std::max(block_bits_.size(), simd::padded(count)));
   vertex_bits_.resize(std::max(vertex_bits_.size(), part.mesh_M().blocks().count() * simd::kBlock));
-  simd::kernels().classifyBoxes(part.boxes(), count, planes, block_bits_.data());
+  block_bits_ = &bits_(part, planes);
   for (const Cluster& cluster : part.clusters()) {
-    if (!beyondOnePlane(cluster, block_bits_)) look(part, cluster, planes);
+    if (!beyondOnePlane(cluster, *block_bits_)) look(part, cluster, planes);
   }
   if (!part.mesh_M().order().triangle_at.empty()) {
     std::sort(survivors_.begin(), survivors_.end(),
@@ -46,8 +44,9 @@ void Cull::look(const MeshPart& part, const Cluster& cluster, const simd::Planes
 }
 
 void Cull::classify(const MeshPart& part, std::uint32_t block, const simd::Planes& planes) {
-  if ((block_bits_[block] & kLookedInto) != 0) return;
-  block_bits_[block] |= kLookedInto;
+  std::int32_t& bits = (*block_bits_)[block];
+  if ((bits & kLookedInto) != 0) return;
+  bits |= kLookedInto;
   const std::uint32_t number = part.blocks()[block];
   withBlock(part.mesh_M().places(), number, [&](const float* vertices) {
     simd::kernels().classifyBlock(vertices, planes, &vertex_bits_[number * simd::kBlock]);

@@ -21,20 +21,42 @@ bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes) {
   return false;
 }
 
+std::vector<std::int32_t>& BlockBits::operator()(const MeshPart& part, const simd::Planes& planes) {
+  const size_t count = part.blocks().size();
+  bits_.resize(std::max(bits_.size(), simd::padded(count)));
+  const auto classify = simd::kernels().classifyBoxes;
+  if (!part.larger()) {
+    classify(part.boxes(), count, planes, bits_.data());
+    return bits_;
+  }
+  const size_t larger = simd::padded(count) / simd::kPadding;
+  bits_of_larger_.resize(std::max(bits_of_larger_.size(), simd::padded(larger)));
+  classify(*part.larger(), larger, planes, bits_of_larger_.data());
+  for (size_t i = 0; i < larger; ++i) {
+    std::int32_t* bits = &bits_[i * simd::kPadding];
+    if (bits_of_larger_[i] != 0) {
+      std::fill_n(bits, simd::kPadding, bits_of_larger_[i]);
+    } else {
+      classify(part.boxes().from(i * simd::kPadding), simd::kPadding, planes, bits);
+    }
+  }
+  return bits_;
+}
+
 MeshPart PartFinder::operator()(const MeshPart& part, const simd::Planes& planes) {
   blocks_.clear();
   clusters_.clear();
   old_index_.clear();
   if (!whollyBeyond(part.mesh_M(), planes)) {
     const size_t count = part.blocks().size();
-    bits_.resize(std::max(bits_.size(), simd::padded(count)));
-    simd::kernels().classifyBoxes(part.boxes(), count, planes, bits_.data());
+    const std::vector<std::int32_t>& bits = bits_(part, planes);
     new_index_.assign(count, kNone);
     for (const Cluster& cluster : part.clusters()) {
-      if (!beyondOnePlane(cluster, bits_)) keep(part, cluster);
+      if (!beyondOnePlane(cluster, bits)) keep(part, cluster);
     }
   }
   MeshPart found = part;
+  found.larger_.reset();
   found.blocks_ = &blocks_;
   found.clusters_ = &clusters_;
   gatherBoxes(found);

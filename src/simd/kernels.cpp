@@ -56,33 +56,49 @@ struct Upper {
   [[gnu::always_inline]] Float operator()(const Float& a, const Float& b) const { return stdx::max(a, b); }
 };
 
-bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, Extremes& extremes) {
-  Float least([&](std::size_t lane) { return extremes.lower[lane % 3]; });
-  Float most([&](std::size_t lane) { return extremes.upper[lane % 3]; });
+void store(const Float& lower, const Float& upper, const BoxArrays<float>& boxes, std::size_t at) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    boxes.lower[axis][at] = lower[axis];
+    boxes.upper[axis][at] = upper[axis];
+  }
+}
+
+struct Bounds {
+  Float lower;
+  Float upper;
+
+  [[gnu::always_inline]] void widen(const Float& low, const Float& high) {
+    lower = stdx::min(lower, low);
+    upper = stdx::max(upper, high);
+  }
+};
+
+bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, const BoxArrays<float>& larger,
+           Extremes& extremes) {
+  Bounds all{Float([&](std::size_t lane) { return extremes.lower[lane % 3]; }),
+             Float([&](std::size_t lane) { return extremes.upper[lane % 3]; })};
+  Bounds some = all;
   Float sums[4] = {};  // NaN and infinity stay in a sum; four, so that none waits for the one before
   for (std::size_t block = 0; block < blocks; ++block, vertices += kFloats) {
     for (std::size_t line = 0; line < kFloats; line += 16) __builtin_prefetch(vertices + kAhead * kFloats + line);
-    Float lower = load(vertices + kFloats - kInPhase);
-    Float upper = lower;
-    sums[3] += lower;
+    const Float last = load(vertices + kFloats - kInPhase);
+    Bounds one{last, last};
+    sums[3] += last;
     for (std::size_t i = 0; i + kInPhase < kFloats; i += kInPhase) {
       const Float lanes = load(vertices + i);
-      lower = stdx::min(lower, lanes);
-      upper = stdx::max(upper, lanes);
+      one.widen(lanes, lanes);
       sums[i / kInPhase % 4] += lanes;
     }
-    lower = perAxis(lower, Lower());
-    upper = perAxis(upper, Upper());
-    least = stdx::min(least, lower);
-    most = stdx::max(most, upper);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      boxes.lower[axis][block] = lower[axis];
-      boxes.upper[axis][block] = upper[axis];
-    }
+    one = {perAxis(one.lower, Lower()), perAxis(one.upper, Upper())};
+    store(one.lower, one.upper, boxes, block);
+    if (block % kPadding == 0) some = one;
+    some.widen(one.lower, one.upper);
+    all.widen(one.lower, one.upper);
+    if (block % kPadding == kPadding - 1) store(some.lower, some.upper, larger, block / kPadding);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    extremes.lower[axis] = least[axis];
-    extremes.upper[axis] = most[axis];
+    extremes.lower[axis] = all.lower[axis];
+    extremes.upper[axis] = all.upper[axis];
   }
   return stdx::all_of((sums[0] + sums[1] + sums[2] + sums[3]) * 0.0F == 0.0F);
 }

@@ -27,7 +27,8 @@ class Cull {
   void look(const MeshPart& part, const Cluster& cluster, const simd::Planes& planes);
   void classify(const MeshPart& part, std::uint32_t block, const simd::Planes& planes);
 
-  std::vector<std::int32_t> block_bits_;    // per block of the part
+  BlockBits bits_;
+  std::vector<std::int32_t>* block_bits_ = nullptr;
   std::vector<std::uint16_t> vertex_bits_;  // per place of a vertex; of the blocks that were looked into
   std::vector<Survivor> survivors_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sweep_guard/geometry/triangle_mesh.h"
@@ -15,6 +16,7 @@ class MeshPart {
   MeshPart(const TriangleMesh& mesh_M)  // NOLINT(google-explicit-constructor)
       : mesh_M_(&mesh_M),
         boxes_(mesh_M.blocks().arrays()),
+        larger_(mesh_M.blocks().larger()),
         blocks_(&mesh_M.order().blocks),
         clusters_(&mesh_M.order().clusters) {}
 
@@ -25,6 +27,8 @@ class MeshPart {
   const std::vector<std::uint32_t>& blocks() const { return *blocks_; }
   /// Their boxes, in this order, padded to simd::kPadding [m].
   const simd::BoxArrays<const float>& boxes() const { return boxes_; }
+  /// Around every simd::kPadding of them, if it is all of the mesh.
+  const std::optional<simd::BoxArrays<const float>>& larger() const { return larger_; }
   /// Ascending. Their `blocks` are indices into blocks().
   const std::vector<Cluster>& clusters() const { return *clusters_; }
 
@@ -44,8 +48,20 @@ class MeshPart {
 
   const TriangleMesh* mesh_M_;
   simd::BoxArrays<const float> boxes_;
+  std::optional<simd::BoxArrays<const float>> larger_;
   const std::vector<std::uint32_t>* blocks_;
   const std::vector<Cluster>* clusters_;
+};
+
+/// For each block of a part, one bit for each plane that it lies beyond. Keeps its buffers between calls.
+class BlockBits {
+ public:
+  /// Valid until the next call.
+  std::vector<std::int32_t>& operator()(const MeshPart& part, const simd::Planes& planes);
+
+ private:
+  std::vector<std::int32_t> bits_;
+  std::vector<std::int32_t> bits_of_larger_;
 };
 
 /// Finds the part of a mesh that may reach into a convex region. Keeps its buffers between calls.
@@ -60,7 +76,7 @@ class PartFinder {
   void keep(const MeshPart& part, Cluster cluster);
   void gatherBoxes(MeshPart& found);
 
-  std::vector<std::int32_t> bits_;        // per block of the part: planes that it lies beyond
+  BlockBits bits_;
   std::vector<std::uint32_t> new_index_;  // per block of the part, among those kept
   std::vector<std::uint32_t> old_index_;  // and back
   std::vector<std::uint32_t> blocks_;
