@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "sweep_guard/simd/kernels.h"
+
 namespace sweep_guard_benchmark {
 namespace {
 
@@ -18,7 +20,7 @@ std::string processor() {
 }  // namespace
 
 std::string machineText() {
-  return "processor: " + processor() +
+  return "processor: " + processor() + ", of which we use " + sweep_guard::simd::kernels().name +
          "\ncompiler: " SWEEP_GUARD_COMPILER "; peers but FCL, and the clip: with -march=native besides\n";
 }
 

@@ -47,7 +47,8 @@ class Truth {
   std::vector<TriangleIds> operator()(const Frame& frame) {
     std::vector<TriangleIds> truth;
     if (frame.swept_M.empty()) return truth;
-    mesh_M_ = mesh_M_.deformed(frame.positions_M);
+    std::vector<float> positions_M = frame.positions_M;
+    mesh_M_.deform(positions_M);
     for (const sweep_guard::SweptVolume& swept_M : frame.swept_M) {
       truth.push_back(reference_->detect(mesh_M_, swept_M).triangles);
     }

@@ -4,6 +4,8 @@
 
 #include "hull.h"
 #include "sweep_guard/detection/detector.h"
+#include "sweep_guard/detection/float_planes.h"
+#include "sweep_guard/detection/mesh_part.h"
 #include "sweep_guard/detection/select_detector.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
@@ -11,6 +13,7 @@ namespace sweep_guard_benchmark {
 namespace {
 
 using sweep_guard::Detector;
+using sweep_guard::MeshPart;
 using sweep_guard::SweptVolume;
 using sweep_guard::TriangleMesh;
 
@@ -24,27 +27,52 @@ TriangleMesh meshOf(const Surface& surface) {
 
 class DetectorPeer : public Peer {
  public:
-  DetectorPeer(Surface& surface, std::unique_ptr<Detector> detector, bool sets_up = false)
-      : surface_(surface), mesh_M_(meshOf(surface)), detector_(std::move(detector)), sets_up_(sets_up) {}
+  struct Options {
+    bool sets_up = false;  ///< the volumes, too
+    bool narrows = true;   ///< several queries are asked of the part of the mesh about all of them
+  };
+
+  DetectorPeer(Surface& surface, std::unique_ptr<Detector> detector, const Options& options)
+      : surface_(surface), mesh_M_(meshOf(surface)), detector_(std::move(detector)), options_(options) {}
 
   void prepare(const std::vector<Polytope>& volumes_M) override {
     volumes_M_ = &volumes_M;
     inflation_ = 0.0;
   }
 
-  void update() override { mesh_M_ = mesh_M_.deformed(surface_.positions_M); }
+  void update() override { mesh_M_.deform(surface_.positions_M); }
 
-  void query(size_t volume, TriangleIds& ids) override {
-    const sweep_guard::Detection& detection = detector_->detect(mesh_M_, sweptVolumeOf((*volumes_M_)[volume]));
-    ids.assign(detection.triangles.begin(), detection.triangles.end());
-    inflation_ = std::max(inflation_, detection.inflation);
+  void queryAll(std::vector<TriangleIds>& ids) override {
+    if (ids.size() <= 1 || !options_.narrows) return Peer::queryAll(ids);
+    const Eigen::AlignedBox3d box_M = boxAroundAll();
+    const MeshPart part = finder_(mesh_M_, floatPlanes(mesh_M_, box_M));
+    for (size_t volume = 0; volume < ids.size(); ++volume) detect(part, volume, ids[volume]);
   }
+
+  void query(size_t volume, TriangleIds& ids) override { detect(mesh_M_, volume, ids); }
 
   double inflation() const override { return inflation_; }
 
  private:
+  void detect(const MeshPart& part, size_t volume, TriangleIds& ids) {
+    const sweep_guard::Detection& detection = detector_->detect(part, sweptVolumeOf((*volumes_M_)[volume]));
+    ids.assign(detection.triangles.begin(), detection.triangles.end());
+    inflation_ = std::max(inflation_, detection.inflation);
+  }
+
+  Eigen::AlignedBox3d boxAroundAll() const {
+    Eigen::AlignedBox3d box_M;
+    for (const Polytope& volume_M : *volumes_M_) {
+      const sweep_guard::OrientedBox& box = volume_M.swept_M->box;
+      const Eigen::Vector3d half_M = box.X_MB.linear().cwiseAbs() * box.half_extents;
+      box_M.extend(box.X_MB.translation() - half_M);
+      box_M.extend(box.X_MB.translation() + half_M);
+    }
+    return box_M;
+  }
+
   const SweptVolume& sweptVolumeOf(const Polytope& volume_M) {
-    if (!sets_up_) return *volume_M.swept_M;
+    if (!options_.sets_up) return *volume_M.swept_M;
     swept_M_ = sweptVolume(tool_, *volume_M.motion_M, sweep_guard::VolumeKind::kObbPlanes);
     return swept_M_;
   }
@@ -52,9 +80,10 @@ class DetectorPeer : public Peer {
   Surface& surface_;
   TriangleMesh mesh_M_;
   std::unique_ptr<Detector> detector_;
+  sweep_guard::PartFinder finder_;
   const std::vector<Polytope>* volumes_M_ = nullptr;
   double inflation_ = 0.0;
-  bool sets_up_;
+  Options options_;
   sweep_guard::ConvexShape tool_ = drill();
   SweptVolume swept_M_;
 };
@@ -62,16 +91,19 @@ class DetectorPeer : public Peer {
 }  // namespace
 
 std::unique_ptr<Peer> makeDetectorPeer(const std::string& name, Surface& surface) {
-  return std::make_unique<DetectorPeer>(surface, sweep_guard::makeDetector(name));
+  return std::make_unique<DetectorPeer>(surface, sweep_guard::makeDetector(name), DetectorPeer::Options{});
 }
 
 std::unique_ptr<Peer> makeWholeDetectorPeer(const std::string& name, Surface& surface) {
-  return std::make_unique<DetectorPeer>(surface, sweep_guard::makeDetector(name), /*sets_up=*/true);
+  return std::make_unique<DetectorPeer>(surface, sweep_guard::makeDetector(name),
+                                        DetectorPeer::Options{/*sets_up=*/true});
 }
 
 std::unique_ptr<Peer> makePlainSelectPeer(Surface& surface) {
   const sweep_guard::SelectDetector::Options papers{/*cull=*/false, /*block=*/1};
-  return std::make_unique<DetectorPeer>(surface, std::make_unique<sweep_guard::SelectDetector>(papers));
+  auto detector = std::make_unique<sweep_guard::SelectDetector>(papers);
+  return std::make_unique<DetectorPeer>(surface, std::move(detector),
+                                        DetectorPeer::Options{/*sets_up=*/false, /*narrows=*/false});
 }
 
 }  // namespace sweep_guard_benchmark

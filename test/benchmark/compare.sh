@@ -11,7 +11,7 @@ csv=$folder/results.csv
 
 columns=work,method,triangles,queries,median_us,p10_us,p90_us,ratio_median,ratio_p10,misses,extras
 [[ $(head -1 "$csv") == "$columns" ]] || { echo "the columns are not $columns" && exit 1; }
-for method in select reference scalar; do
+for method in halfspace select reference scalar; do
   for queries in 1 20; do
     grep -qE "^ordered,$method,400,$queries,([^,]+,){5}0,0$" "$csv" ||
       { echo "no line of $method without misses and extras for $queries queries" && exit 1; }
