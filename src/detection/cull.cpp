@@ -1,6 +1,7 @@
 #include "sweep_guard/detection/cull.h"
 
 #include <algorithm>
+#include <array>
 
 namespace sweep_guard {
 namespace {
@@ -29,18 +30,19 @@ void Cull::look(const MeshPart& part, const Cluster& cluster, const simd::Planes
   for (const std::uint32_t block : cluster.blocks) classify(part, block, planes);
   const std::vector<std::uint32_t>& triangle_at = part.mesh_M().order().triangle_at;
   const Triangle* corners = &part.mesh_M().cornerPlaces()[cluster.first];
-  const size_t before = survivors_.size();
-  survivors_.resize(before + cluster.count);
-  Survivor* next = survivors_.data() + before;
+  std::array<Survivor, kMostTriangles> left;
+  size_t count = 0;
   for (std::uint32_t i = 0; i < cluster.count; ++i) {
     const std::int32_t a = vertex_bits_[corners[i][0]];
     const std::int32_t b = vertex_bits_[corners[i][1]];
     const std::int32_t c = vertex_bits_[corners[i][2]];
-    const std::uint32_t place = cluster.first + i;
-    *next = {triangle_at.empty() ? place : triangle_at[place], ((a | b | c) & simd::kInsideAll) != 0};
-    next += (a & b & c & kBeyond) == 0 ? 1 : 0;
+    left[count] = {cluster.first + i, ((a | b | c) & simd::kInsideAll) != 0};
+    count += (a & b & c & kBeyond) == 0 ? 1 : 0;  // no branch: it could not be foretold
   }
-  survivors_.resize(static_cast<size_t>(next - survivors_.data()));
+  if (!triangle_at.empty()) {
+    for (size_t i = 0; i < count; ++i) left[i].triangle = triangle_at[left[i].triangle];
+  }
+  survivors_.insert(survivors_.end(), left.begin(), left.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 void Cull::classify(const MeshPart& part, std::uint32_t block, const simd::Planes& planes) {

@@ -9,8 +9,7 @@
 namespace sweep_guard {
 namespace {
 
-constexpr size_t kMostTriangles = 64;  // of a cluster
-constexpr double kWorthwhile = 0.5;    // of what it was: renumbering costs every deformation a gather
+constexpr double kWorthwhile = 0.5;  // of what it was: renumbering costs every deformation a gather
 
 // The low 21 bits of a number, each followed by two zeros.
 std::uint64_t spread(std::uint64_t bits) {

@@ -124,27 +124,37 @@ void classifyBoxes(const BoxArrays<const float>& boxes, std::size_t count, const
   }
 }
 
+// Two registers of vertices at a time: the next plane need not wait for the one before.
 void classifyBlock(const float* vertices, const Planes& planes, std::uint16_t* bits) {
   alignas(sizeof(Float)) float p[3][kBlock];
   for (std::size_t i = 0; i < kBlock; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis][i] = vertices[3 * i + axis];
   }
-  for (std::size_t first = 0; first < kBlock; first += kWidth) {
-    const auto lanes = [&](std::size_t axis) { return Float(p[axis] + first, stdx::vector_aligned); };
-    const Float x = lanes(0);
-    const Float y = lanes(1);
-    const Float z = lanes(2);
-    Float found = 0.0F;
-    typename Float::mask_type inside(true);
+  alignas(sizeof(Float)) std::int32_t wide[kBlock];
+  for (std::size_t first = 0; first < kBlock; first += 2 * kWidth) {
+    Float at[2][3];
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        at[k][axis] = Float(p[axis] + first + k * kWidth, stdx::vector_aligned);
+      }
+    }
+    Float found[2] = {0.0F, 0.0F};
+    Float closest[2] = {-1.0F, -1.0F};  // to being not certainly inside
     float bit = 1.0F;
     for (std::size_t i = 0; i < planes.count; ++i, bit *= 2.0F) {
-      const Float out = planes.normal[0][i] * x + planes.normal[1][i] * y + planes.normal[2][i] * z;
-      stdx::where(out > planes.outside[i], found) += bit;
-      inside = inside && out < planes.inside[i];
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Float out =
+            planes.normal[0][i] * at[k][0] + planes.normal[1][i] * at[k][1] + planes.normal[2][i] * at[k][2];
+        stdx::where(out > planes.outside[i], found[k]) += bit;
+        closest[k] = stdx::max(closest[k], out - planes.inside[i]);
+      }
     }
-    stdx::where(inside, found) = static_cast<float>(kInsideAll);
-    for (std::size_t i = 0; i < kWidth; ++i) bits[first + i] = static_cast<std::uint16_t>(found[i]);
+    for (std::size_t k = 0; k < 2; ++k) {
+      stdx::where(closest[k] < 0.0F, found[k]) = static_cast<float>(kInsideAll);
+      stdx::static_simd_cast<Int>(found[k]).copy_to(wide + first + k * kWidth, stdx::vector_aligned);
+    }
   }
+  for (std::size_t i = 0; i < kBlock; ++i) bits[i] = static_cast<std::uint16_t>(wide[i]);
 }
 
 }  // namespace

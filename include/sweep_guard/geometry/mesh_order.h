@@ -9,10 +9,12 @@ namespace sweep_guard {
 /// Three vertex indices, 0-based, of either winding.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Consecutive triangles, at most 64, whose corners lie in few blocks of vertices.
+constexpr std::uint32_t kMostTriangles = 64;  ///< of a cluster
+
+/// Consecutive triangles, whose corners lie in few blocks of vertices.
 struct Cluster {
   std::uint32_t first;                  ///< place of the first triangle
-  std::uint32_t count;                  ///< >= 1
+  std::uint32_t count;                  ///< 1 to kMostTriangles
   std::array<std::uint32_t, 4> blocks;  ///< those of its corners; if there are fewer, the last one again
 };
 
