@@ -1,0 +1,124 @@
+#include "latency/measurement.h"
+
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+#include <memory>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_benchmark {
+namespace {
+
+using sweep_guard::InvalidInput;
+
+constexpr double kPatience = 15.0;  // [s] with a guard that takes in the mesh, or has fallen behind
+constexpr double kWarmUp = 2.0;     // [s]
+const std::string kGuard = "sweep_guard";
+
+void setParameters(const Settings& settings) {
+  const ros::NodeHandle guard(kGuard);
+  guard.setParam("tool/radius", 0.005);
+  guard.setParam("tool/length", 0.05);
+  guard.setParam("detector", settings.detector);
+  for (const std::string& parameter : settings.parameters) {
+    const size_t equals = parameter.find('=');
+    if (equals == std::string::npos) throw InvalidInput("--set: '" + parameter + "' is not key=value");
+    const std::string value = parameter.substr(equals + 1);
+    char* end = nullptr;
+    const double number = std::strtod(value.c_str(), &end);
+    if (end != value.c_str() && *end == '\0') {
+      guard.setParam(parameter.substr(0, equals), number);
+    } else {
+      guard.setParam(parameter.substr(0, equals), value);
+    }
+  }
+}
+
+// The guard: a program of its own, or in this one.
+class GuardProcess {
+ public:
+  explicit GuardProcess(const std::string& transport) {
+    if (transport == "tcpros") {
+      child_ =
+          std::make_unique<ChildProcess>(std::vector<std::string>{neighbour("sweep_guard_node"), "__name:=" + kGuard});
+      return;
+    }
+    loader_ = std::make_unique<nodelet::Loader>(/*provide_ros_api=*/false);
+    if (!loader_->load(ros::names::resolve(kGuard), "sweep_guard/SweepGuardNodelet", {}, {})) {
+      throw sweep_guard::DeviceError("the nodelet cannot be loaded");
+    }
+  }
+
+  pid_t id() const { return child_ ? child_->id() : getpid(); }
+  bool isOurs() const { return child_ == nullptr; }
+
+ private:
+  std::unique_ptr<ChildProcess> child_;
+  std::unique_ptr<nodelet::Loader> loader_;
+};
+
+// Until the contacts cover that pose, or for so long.
+void waitFor(const Listener& listener, Nanoseconds pose) {
+  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(kPatience);
+  while (listener.newestContacts() < pose && ros::ok() && ros::WallTime::now() < give_up) {
+    ros::WallDuration(0.1).sleep();
+  }
+}
+
+// Without what the sending takes, where that is in the guard's process.
+Usage usage(const GuardProcess& guard, const Sender& sender) {
+  Usage used = usageOf(guard.id());
+  if (guard.isOurs()) used.processor_s -= sender.processor();
+  return used;
+}
+
+}  // namespace
+
+Measurement measure(const Settings& settings) {
+  LatencyScene scene(settings.triangles);
+  setParameters(settings);
+  const Listener listener(kGuard);
+  const GuardProcess guard(settings.transport);
+  Sender sender(scene, settings.rates);
+  waitFor(listener, /*pose=*/1);
+  if (listener.newestContacts() == 0) throw sweep_guard::DeviceError("the guard says nothing");
+  ros::WallDuration(kWarmUp).sleep();
+
+  Measurement measured;
+  const Said before = listener.said();
+  measured.before = usage(guard, sender);
+  measured.begin = static_cast<Nanoseconds>(ros::Time::now().toNSec());
+  ros::WallDuration(settings.seconds).sleep();
+  measured.end = static_cast<Nanoseconds>(ros::Time::now().toNSec());
+  measured.after = usage(guard, sender);
+  getloadavg(&measured.load, 1);
+  measured.poses = sender.poses();
+  waitFor(listener, measured.poses.back());
+  measured.said = listener.said();
+  measured.said.sweeps_asked -= before.sweeps_asked;
+  measured.said.sweeps_made -= before.sweeps_made;
+  measured.said.whole_predictions -= before.whole_predictions;
+  measured.said.met -= before.met;
+  return measured;
+}
+
+std::vector<Nanoseconds> posesOf(const Measurement& measured) {
+  std::vector<Nanoseconds> poses;
+  std::copy_if(measured.poses.begin(), measured.poses.end(), std::back_inserter(poses),
+               [&](Nanoseconds pose) { return pose >= measured.begin && pose < measured.end; });
+  return poses;
+}
+
+std::vector<Row> rowsOf(const Measurement& measured) {
+  const auto during = [&](const std::vector<Heard>& heard) { return within(heard, measured.begin, measured.end); };
+  return {{"pose to contacts", latencies(posesOf(measured), measured.said.contacts)},
+          {"pose to prediction", ages(during(measured.said.predictions))},
+          {"pose to warning", ages(during(measured.said.warnings))},
+          {"pose to change of level", ages(during(measured.said.changes))}};
+}
+
+}  // namespace sweep_guard_benchmark

@@ -1,0 +1,110 @@
+#include "latency/report.h"
+
+#include <cstdio>
+#include <fstream>
+#include <optional>
+
+#include "evaluation/csv.h"
+#include "evaluation/quantile.h"
+#include "latency/histogram.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_benchmark {
+namespace {
+
+using sweep_guard::InvalidInput;
+using sweep_guard_evaluation::csvLine;
+using sweep_guard_evaluation::csvNumber;
+using sweep_guard_evaluation::quantile;
+
+std::string methodOf(const Settings& settings) {
+  std::string method = settings.detector;
+  for (const std::string& parameter : settings.parameters) method += ' ' + parameter;
+  return method + ", " + settings.transport;
+}
+
+double sweepsPerSecond(const Measurement& measured) {
+  const std::vector<Heard> swept = within(measured.said.contacts, measured.begin, measured.end);
+  return static_cast<double>(swept.size()) / measured.seconds();
+}
+
+// Of the warning, p99 over TCPROS on a quiet machine [ms].
+std::optional<double> goal(const Settings& settings) {
+  if (settings.transport != "tcpros") return std::nullopt;
+  if (settings.triangles <= 1600) return 2.0;
+  if (settings.triangles <= 20'000) return 4.0;
+  if (settings.triangles <= 100'000) return 10.0;
+  return std::nullopt;
+}
+
+void printPromises(const Settings& settings, const Measurement& measured, const std::vector<Row>& rows) {
+  const auto print_one = [](bool kept, const std::string& what, double value, const std::string& bound) {
+    std::printf("%s  %s: %.3g %s\n", kept ? "pass" : "FAIL", what.c_str(), value, bound.c_str());
+  };
+  const auto unswept = static_cast<double>(holes(measured.said.contacts));
+  print_one(unswept == 0.0, "intervals unswept", unswept, "= 0");
+  if (const std::optional<double> bound = goal(settings)) {
+    const double p99 = quantile(rows[2].milliseconds, 0.99);
+    print_one(p99 <= *bound, "pose to warning, p99 [ms], on a quiet machine", p99, "<= " + csvNumber(*bound));
+  }
+  if (settings.transport == "nodelet" && settings.triangles >= 1'000'000) {
+    print_one(sweepsPerSecond(measured) >= 30.0, "sweeps per second", sweepsPerSecond(measured), ">= 30");
+  }
+}
+
+void appendFigures(const Settings& settings, const Measurement& measured, const std::vector<Row>& rows) {
+  const bool is_new = !std::ifstream(settings.csv).good();
+  std::ofstream file(settings.csv, std::ios::app);
+  if (is_new) {
+    file << csvLine({"work", "method", "triangles", "count", "per_second", "p50_ms", "p90_ms", "p99_ms", "max_ms",
+                     "unswept", "sweeps_made", "sweeps_asked", "processor_share", "resident_mb", "growth_mb", "load"});
+  }
+  for (const Row& row : rows) {
+    const auto at = [&](double fraction) { return csvNumber(quantile(row.milliseconds, fraction)); };
+    const double seconds = measured.seconds();
+    file << csvLine({row.work, methodOf(settings), std::to_string(settings.triangles),
+                     std::to_string(row.milliseconds.size()),
+                     csvNumber(static_cast<double>(row.milliseconds.size()) / seconds), at(0.5), at(0.9), at(0.99),
+                     at(1.0), std::to_string(holes(measured.said.contacts)), std::to_string(measured.said.sweeps_made),
+                     std::to_string(measured.said.sweeps_asked),
+                     csvNumber((measured.after.processor_s - measured.before.processor_s) / seconds),
+                     csvNumber(measured.after.resident_mb),
+                     csvNumber(measured.after.resident_mb - measured.before.resident_mb), csvNumber(measured.load)});
+  }
+  if (!file) throw InvalidInput("--csv: cannot write " + settings.csv);
+}
+
+}  // namespace
+
+void print(const Settings& settings, const Measurement& measured, const std::vector<Row>& rows) {
+  std::printf(
+      "\n%d triangles, %s; load %.1f [ms]\n| | count | per second | p50 | p90 | p99 | max "
+      "|\n|---|---|---|---|---|---|---|\n",
+      settings.triangles, methodOf(settings).c_str(), measured.load);
+  for (const Row& row : rows) {
+    std::printf("| %s | %zu | %.1f | %.2f | %.2f | %.2f | %.2f |\n", row.work.c_str(), row.milliseconds.size(),
+                static_cast<double>(row.milliseconds.size()) / measured.seconds(), quantile(row.milliseconds, 0.5),
+                quantile(row.milliseconds, 0.9), quantile(row.milliseconds, 0.99), quantile(row.milliseconds, 1.0));
+  }
+  std::printf(
+      "poses: %zu sent, %zu covered; sweeps: %.1f per second, %zu of them met something; intervals unswept: %zu\n",
+      posesOf(measured).size(), rows[0].milliseconds.size(), sweepsPerSecond(measured), measured.said.met,
+      holes(measured.said.contacts));
+  std::printf("predicted sweeps: %zu made of %zu; predictions with all of them: %zu\n", measured.said.sweeps_made,
+              measured.said.sweeps_asked, measured.said.whole_predictions);
+  std::printf("guard's process: %.0f %% of a processor, %.1f MB, %+.1f MB meanwhile\n",
+              100.0 * (measured.after.processor_s - measured.before.processor_s) / measured.seconds(),
+              measured.after.resident_mb, measured.after.resident_mb - measured.before.resident_mb);
+  printPromises(settings, measured, rows);
+  std::fflush(stdout);
+}
+
+void save(const Settings& settings, const Measurement& measured, const std::vector<Row>& rows) {
+  if (!settings.csv.empty()) appendFigures(settings, measured, rows);
+  if (settings.histogram.empty()) return;
+  for (const Row& row : rows) {
+    appendHistogram(settings.histogram, {methodOf(settings), settings.triangles, row.work}, row.milliseconds);
+  }
+}
+
+}  // namespace sweep_guard_benchmark
