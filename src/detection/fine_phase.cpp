@@ -124,8 +124,8 @@ double diameter(const std::array<Eigen::Vector3d, 3>& p) {
 }
 
 // The face normal, the tool's axes, and what is orthogonal to an axis and an edge; both ways each.
-std::vector<Eigen::Vector3d> proposals(const Eigen::Matrix3d& R_MT, const std::array<Eigen::Vector3d, 3>& corners) {
-  std::vector<Eigen::Vector3d> directions;
+Proposals proposals(const Eigen::Matrix3d& R_MT, const std::array<Eigen::Vector3d, 3>& corners) {
+  Proposals directions;
   const auto propose = [&](const Eigen::Vector3d& direction) {
     const double length = direction.norm();
     if (!(length > 1e-12)) return;

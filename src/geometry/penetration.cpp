@@ -56,8 +56,8 @@ double depthAlong(const Eigen::Vector3d& normal, const SupportMapping& tool, con
   return normal.dot(obstacle(normal) - tool(-normal));
 }
 
-Eigen::Vector3d wayOut(const SupportMapping& tool, const SupportMapping& obstacle,
-                       const std::vector<Eigen::Vector3d>& proposals, double size) {
+Eigen::Vector3d wayOut(const SupportMapping& tool, const SupportMapping& obstacle, const Proposals& proposals,
+                       double size) {
   assert(!proposals.empty());
   Eigen::Vector3d best = proposals.front();
   double depth = depthAlong(best, tool, obstacle);

@@ -1,7 +1,6 @@
 #include "sweep_guard/guard/confirmation.h"
 
 #include <algorithm>
-#include <map>
 
 #include "sweep_guard/guard/swept_body.h"
 
@@ -10,8 +9,18 @@ namespace {
 
 class Look {
  public:
-  Look(const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh, double margin, const WaysIn& ways_in)
-      : tool_(tool), parts_(parts), mesh_(mesh), margin_(margin + mesh.uncertainty()), ways_in_(ways_in) {}
+  Look(const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh, double margin, const WaysIn& ways_in,
+       Confirmation& confirmation)
+      : tool_(tool),
+        parts_(parts),
+        mesh_(mesh),
+        margin_(margin + mesh.uncertainty()),
+        ways_in_(ways_in),
+        met_(confirmation.met),
+        touched_(confirmation.touched) {
+    met_.clear();
+    touched_.clear();
+  }
 
   void at(std::uint32_t index, size_t part) {
     const ConvexShape& shape_T = tool_.parts()[part].shape_T;
@@ -26,18 +35,20 @@ class Look {
     }
   }
 
-  Confirmation finish() && {
+  void finish() {
     std::sort(met_.begin(), met_.end());
     met_.erase(std::unique(met_.begin(), met_.end()), met_.end());
-    Confirmation confirmation{std::move(met_), {}};
-    for (const auto& [index, touched] : touched_) confirmation.touched.push_back(touched);
-    return confirmation;
   }
 
  private:
   void keepFirst(const TouchedTriangle& touched) {
-    const auto [known, is_new] = touched_.emplace(touched.triangle, touched);
-    if (!is_new && touched.impact.time_of_impact < known->second.impact.time_of_impact) known->second = touched;
+    const auto below = [](const TouchedTriangle& one, std::uint32_t triangle) { return one.triangle < triangle; };
+    const auto known = std::lower_bound(touched_.begin(), touched_.end(), touched.triangle, below);
+    if (known == touched_.end() || known->triangle != touched.triangle) {
+      touched_.insert(known, touched);
+    } else if (touched.impact.time_of_impact < known->impact.time_of_impact) {
+      *known = touched;
+    }
   }
 
   bool mayMeet(const ConvexShape& shape_T, const MovingTriangle& triangle) const {
@@ -51,19 +62,20 @@ class Look {
   const MovingMesh& mesh_;
   double margin_;
   const WaysIn& ways_in_;
-  TriangleSet met_;
-  std::map<std::uint32_t, TouchedTriangle> touched_;
+  TriangleSet& met_;
+  std::vector<TouchedTriangle>& touched_;
 };
 
 }  // namespace
 
-Confirmation confirm(const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
-                     const std::vector<TriangleSet>& candidates, double margin, const WaysIn& ways_in) {
-  Look look(tool, parts, mesh, margin, ways_in);
+void confirm(const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
+             const std::vector<TriangleSet>& candidates, double margin, const WaysIn& ways_in,
+             Confirmation& confirmation) {
+  Look look(tool, parts, mesh, margin, ways_in, confirmation);
   for (size_t part = 0; part < candidates.size(); ++part) {
     for (const std::uint32_t index : candidates[part]) look.at(index, part);
   }
-  return std::move(look).finish();
+  look.finish();
 }
 
 }  // namespace sweep_guard

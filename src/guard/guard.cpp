@@ -34,16 +34,6 @@ void assign(ToolPose& to, const ToolPose& from) {
   for (auto& [frame, X_WM] : to.X_WM) X_WM = next++->second;
 }
 
-void clear(SweepFindings& findings) {
-  findings.triangles.clear();
-  findings.margin = 0.0;
-  findings.volumes_M.clear();
-  findings.fine = false;
-  findings.met.clear();
-  findings.touched.clear();
-  findings.inside = false;
-}
-
 // The ways in known before stay where there is no newer one.
 void learn(SweptBefore& known, const SweepFindings& found) {
   known.outside = !found.contact();
@@ -183,7 +173,7 @@ void Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece, Swept
   const size_t first = again ? std::min(begin, way.lastUpTo(before.stamp)) : begin;
   object.workpiece = workpiece;
   object.interval_start = way[begin].stamp;
-  clear(object.findings);
+  object.findings.clear();
   known_ = swept.known;
   way.waypoints_M(first, last, tool_.extent(), waypoints_M_);
   size_t i = first;
@@ -192,12 +182,12 @@ void Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece, Swept
     const size_t end = first + endOfMotion(i - first, (is_new ? last : begin) - first);
     known_.settled.clear();
     if (!is_new) known_.settled = object.findings.met;  // once more tells nothing new
-    SweepFindings found =
-        testSweep(*detector_, tool_, motions_M(way, first, i - first, end - first), mesh, options_.sweep, known_);
+    SweepFindings& found =
+        sweep_test_(*detector_, tool_, motions_M(way, first, i - first, end - first), mesh, options_.sweep, known_);
     if (is_new) known_.ways_in.clear();
     learn(known_, found);
     rescale(found.touched, way.share(begin, i), way.share(begin, end));
-    unite(object.findings, std::move(found));
+    unite(object.findings, found);
     i = end;
   } while (i < last);
   if (deformed) swept.deformations.push_back(workpiece);

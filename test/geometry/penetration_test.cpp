@@ -22,8 +22,8 @@ struct Ellipsoid {
   }
 };
 
-std::vector<Vector3d> axesBothWays() {
-  std::vector<Vector3d> directions;
+Proposals axesBothWays() {
+  Proposals directions;
   for (int i = 0; i < 3; ++i) {
     directions.push_back(Vector3d::Unit(i));
     directions.push_back(-Vector3d::Unit(i));
@@ -44,7 +44,7 @@ TEST(WayOutTest, IsTheLeastOfManyDirections) {
     const Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     for (Vector3d& p : corners) p -= middle;
     const PointHull triangle(corners);
-    std::vector<Vector3d> proposals = axesBothWays();
+    Proposals proposals = axesBothWays();
     const Vector3d face = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
     proposals.push_back(face);
     proposals.push_back(-face);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <boost/container/static_vector.hpp>
 
 #include "sweep_guard/geometry/separation.h"
 
@@ -11,6 +11,9 @@ namespace sweep_guard {
 /// over the tool of normal · q. Negative where the tool is free already, by as much.
 double depthAlong(const Eigen::Vector3d& normal, const SupportMapping& tool, const SupportMapping& obstacle);
 
+/// Directions to try, unit.
+using Proposals = boost::container::static_vector<Eigen::Vector3d, 26>;
+
 /// The direction along which two convex bodies that overlap come apart the soonest. The expanding polytope algorithm of
 /// libccd proposes one, the caller others; the best of them, by depthAlong(), is then made better until nothing is
 /// gained any more: the tool is drawn out along it and the direction of the closest points is taken instead, which
@@ -18,7 +21,7 @@ double depthAlong(const Eigen::Vector3d& normal, const SupportMapping& tool, con
 /// it the least of all. They need not be good: a flat body, of which libccd can make no polytope, has its face normals.
 /// @param proposals  any number of directions, unit; not empty
 /// @param size       of the smaller body, about [m], > 0
-Eigen::Vector3d wayOut(const SupportMapping& tool, const SupportMapping& obstacle,
-                       const std::vector<Eigen::Vector3d>& proposals, double size);
+Eigen::Vector3d wayOut(const SupportMapping& tool, const SupportMapping& obstacle, const Proposals& proposals,
+                       double size);
 
 }  // namespace sweep_guard

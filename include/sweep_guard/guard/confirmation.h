@@ -33,7 +33,9 @@ struct Confirmation {
 /// @param parts       of one motion, of equal duration, end to end
 /// @param candidates  for each part of the tool
 /// @param margin      the tool is grown by this [m], >= 0
-Confirmation confirm(const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
-                     const std::vector<TriangleSet>& candidates, double margin, const WaysIn& ways_in);
+/// @param[out] confirmation  what was in it is replaced
+void confirm(const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
+             const std::vector<TriangleSet>& candidates, double margin, const WaysIn& ways_in,
+             Confirmation& confirmation);
 
 }  // namespace sweep_guard

@@ -150,7 +150,8 @@ class Guard {
   std::optional<ToolPose> newest_;
   Waypoints waypoints_M_;          // of the stretch that is swept
   std::vector<Motion> motions_M_;  // of a part of it
-  SweptBefore known_;              // while a sweep may still fail
+  SweepTest sweep_test_;
+  SweptBefore known_;  // while a sweep may still fail
 };
 
 }  // namespace sweep_guard

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "sweep_guard/detection/cull.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/geometry/swept_volume.h"
@@ -34,6 +36,7 @@ struct SweepFindings {
   bool inside = false;                        ///< a part of the tool is wholly inside of the closed mesh
 
   bool contact() const { return inside || !met.empty(); }
+  void clear();  ///< as new; keeps its buffers
 };
 
 /// What a sweep leaves behind.
@@ -53,9 +56,30 @@ struct SweptBefore {
 SweepFindings testSweep(Detector& detector, const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh,
                         const SweepOptions& options, const SweptBefore& before = {});
 
+/// The same, again and again: keeps its buffers between calls.
+class SweepTest {
+ public:
+  /// @returns valid until the next call
+  SweepFindings& operator()(Detector& detector, const Tool& tool, const std::vector<Motion>& parts,
+                            const MovingMesh& mesh, const SweepOptions& options, const SweptBefore& before);
+
+ private:
+  struct TreeWalk;
+
+  void confirmMet(const Tool& tool, const std::vector<Motion>& parts, const MovingMesh& mesh, double margin,
+                  const SweptBefore& before);
+
+  SweepFindings findings_;
+  std::vector<TriangleSet> met_by_;  // each part of the tool
+  Detection detection_;
+  Cull cull_;
+  std::deque<PartFinder> finders_;  // by depth in the tool's tree
+  Confirmation confirmation_;
+};
+
 /// Takes in what was found in a later part of the same motion. Times of impact stay as they are, of either part; depths
 /// are those at the end of the later one, 0 of what it does not touch.
-void unite(SweepFindings& all, SweepFindings more);
+void unite(SweepFindings& all, const SweepFindings& more);
 
 /// What the next sweep is to know of this one.
 SweptBefore known(const SweepFindings& findings);
