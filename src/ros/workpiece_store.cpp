@@ -64,8 +64,10 @@ void WorkpieceStore::store(const sweep_guard::DeformableMesh& msg) {
                        current->mesh_M.triangles() == mesh_M.triangles();
   const std::uint64_t updates = deforms ? current->updates + 1 : 0;
   const double way = deforms ? current->way + sweep_guard::Displacements(current->mesh_M, mesh_M).farthest() : 0.0;
-  replace({msg.id, msg.revision, fromMsg(msg.header.stamp), std::chrono::steady_clock::now(), msg.header.frame_id,
-           std::move(mesh_M), updates, way});
+  deformations_.erase(msg.id);
+  replace(std::make_shared<const Workpiece>(Workpiece{msg.id, msg.revision, fromMsg(msg.header.stamp),
+                                                      std::chrono::steady_clock::now(), msg.header.frame_id,
+                                                      std::move(mesh_M), updates, way}));
 }
 
 void WorkpieceStore::store(const sweep_guard::MeshVertices& msg) {
@@ -78,10 +80,25 @@ void WorkpieceStore::store(const sweep_guard::MeshVertices& msg) {
   }
   const sweep_guard::Time stamp = fromMsg(msg.header.stamp);
   checkOrder(*current, stamp);
-  sweep_guard::TriangleMesh mesh_M = current->mesh_M.deformed(msg.positions);
-  const double way = current->way + sweep_guard::Displacements(current->mesh_M, mesh_M).farthest();
-  replace({msg.id, msg.revision, stamp, std::chrono::steady_clock::now(), msg.header.frame_id, std::move(mesh_M),
-           current->updates + 1, way});
+  const auto next = deformed(*current, msg.positions);
+  next->revision = msg.revision;
+  next->stamp = stamp;
+  next->received = std::chrono::steady_clock::now();
+  next->frame = msg.header.frame_id;
+  next->updates = current->updates + 1;
+  next->way = current->way + sweep_guard::Displacements(current->mesh_M, next->mesh_M).farthest();
+  replace(next);
+}
+
+// In a snapshot that nobody holds, where there is one. The only copy of the positions.
+std::shared_ptr<Workpiece> WorkpieceStore::deformed(const Workpiece& current, const std::vector<float>& positions_M) {
+  Deformations& deformations = deformations_[current.id];
+  const auto fits = [&](const Workpiece& one) { return &one.mesh_M.triangles() == &current.mesh_M.triangles(); };
+  auto next = deformations.snapshots.take(fits);
+  if (!next) next = deformations.snapshots.add(current);
+  deformations.positions_M.assign(positions_M.begin(), positions_M.end());
+  next->mesh_M.deform(deformations.positions_M);
+  return next;
 }
 
 // A current stamp that lies in the future is from before time went back: it says nothing about order.
@@ -97,8 +114,7 @@ std::shared_ptr<const Workpiece> WorkpieceStore::find(const std::string& id) con
   return found != workpieces_.end() && (*found)->id == id ? *found : nullptr;
 }
 
-void WorkpieceStore::replace(Workpiece workpiece) {
-  auto snapshot = std::make_shared<const Workpiece>(std::move(workpiece));
+void WorkpieceStore::replace(std::shared_ptr<const Workpiece> snapshot) {
   const std::lock_guard lock(mutex_);
   const auto place = std::lower_bound(workpieces_.begin(), workpieces_.end(), snapshot->id, before);
   if (place != workpieces_.end() && (*place)->id == snapshot->id) {
@@ -110,6 +126,7 @@ void WorkpieceStore::replace(Workpiece workpiece) {
 }
 
 void WorkpieceStore::remove(const std::string& id) {
+  deformations_.erase(id);
   if (!find(id)) ROS_WARN("workpiece '%s' is to be removed, but there is none", id.c_str());
   const std::lock_guard lock(mutex_);
   workpieces_.erase(std::remove_if(workpieces_.begin(), workpieces_.end(),

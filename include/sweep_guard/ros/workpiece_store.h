@@ -4,17 +4,22 @@
 #include <sweep_guard/MeshVertices.h>
 
 #include <atomic>
+#include <map>
 #include <mutex>
 #include <set>
+#include <string>
+#include <vector>
 
+#include "sweep_guard/common/pool.h"
 #include "sweep_guard/guard/ledger.h"
 #include "sweep_guard/ros/log_throttle.h"
 
 namespace sweep_guard_ros {
 
 /// The newest snapshot of every workpiece. Takes the messages in, checked and copied once; hands out what is shared and
-/// never changes. A message that is refused leaves the snapshot before, and tells the ledger. Messages come in by one
-/// thread; any thread may ask.
+/// does not change while anybody holds it: snapshots of deformations that nobody holds any more are used again, so that
+/// nothing is allocated for them in the long run. A message that is refused leaves the snapshot before, and tells the
+/// ledger. Messages come in by one thread; any thread may ask.
 class WorkpieceStore {
  public:
   WorkpieceStore(size_t max_triangles, sweep_guard::Ledger& ledger);
@@ -32,20 +37,29 @@ class WorkpieceStore {
   std::uint64_t refused() const { return refused_; }
 
  private:
+  // Of one workpiece, as long as its triangles stay.
+  struct Deformations {
+    sweep_guard::Pool<sweep_guard::Workpiece> snapshots;
+    std::vector<float> positions_M;
+  };
+
   template <typename Msg>
   void acceptOrRefuse(const Msg& msg);
   void store(const sweep_guard::DeformableMesh& msg);
   void store(const sweep_guard::MeshVertices& msg);
   std::shared_ptr<const sweep_guard::Workpiece> find(const std::string& id) const;
   void checkOrder(const sweep_guard::Workpiece& current, sweep_guard::Time stamp) const;
-  void replace(sweep_guard::Workpiece workpiece);
+  std::shared_ptr<sweep_guard::Workpiece> deformed(const sweep_guard::Workpiece& current,
+                                                   const std::vector<float>& positions_M);
+  void replace(std::shared_ptr<const sweep_guard::Workpiece> snapshot);
   void remove(const std::string& id);
 
   const size_t max_triangles_;
   sweep_guard::Ledger& ledger_;
   LogThrottle log_;
   mutable std::mutex mutex_;
-  sweep_guard::Workpieces workpieces_;  // ascending by id
+  sweep_guard::Workpieces workpieces_;                // ascending by id
+  std::map<std::string, Deformations> deformations_;  // by id; of the thread that accepts
   std::atomic<std::uint64_t> received_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;
 };
