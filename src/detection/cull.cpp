@@ -51,7 +51,7 @@ void Cull::classify(const MeshPart& part, std::uint32_t block, const simd::Plane
   bits |= kLookedInto;
   const std::uint32_t number = part.blocks()[block];
   withBlock(part.mesh_M().places(), number, [&](const float* vertices) {
-    simd::kernels().classifyBlock(vertices, planes, &vertex_bits_[number * simd::kBlock]);
+    kernels_->classifyBlock(vertices, planes, &vertex_bits_[number * simd::kBlock]);
   });
 }
 

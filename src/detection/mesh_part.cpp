@@ -24,7 +24,7 @@ bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes) {
 std::vector<std::int32_t>& BlockBits::operator()(const MeshPart& part, const simd::Planes& planes) {
   const size_t count = part.blocks().size();
   bits_.resize(std::max(bits_.size(), simd::padded(count)));
-  const auto classify = simd::kernels().classifyBoxes;
+  const auto classify = kernels_->classifyBoxes;
   if (!part.larger()) {
     classify(part.boxes(), count, planes, bits_.data());
     return bits_;

@@ -57,6 +57,8 @@ std::optional<HalfSpace> tightestPlane(const std::array<Candidate, 4>& lines, co
     if (along.norm() <= negligible) continue;  // one point gives no line
     const Eigen::Vector2d across = Eigen::Vector2d(along.y(), -along.x()).normalized();
     const Eigen::Vector2d facing = across.dot(outward) < 0.0 ? Eigen::Vector2d(-across) : across;
+    // The line runs through points of the body: pushed out, it cuts off no more than this.
+    if (areaCutOff(facing, facing.dot(line.from), half_extents.tail<2>()) <= largest) continue;
     const Eigen::Vector3d normal(0.0, facing.x(), facing.y());
     const double offset = support(shape, motion_B, normal);
     const double area = areaCutOff(facing, offset, half_extents.tail<2>());

@@ -11,6 +11,7 @@
 #include "detection/exact_oracle.h"
 #include "scenes.h"
 #include "sweep_guard/detection/detector.h"
+#include "sweep_guard/detection/halfspace_detector.h"
 #include "sweep_guard/detection/reference_detector.h"
 #include "sweep_guard/detection/select_detector.h"
 
@@ -32,6 +33,10 @@ std::vector<Variant> variants() {
   std::vector<Variant> all;
   for (const std::string& name : detectorNames()) {
     if (name != "select") all.push_back({name, "", [name] { return makeDetector(name); }});
+  }
+  for (const simd::Kernels& kernels : simd::availableKernels()) {
+    const auto make = [&kernels]() -> std::unique_ptr<Detector> { return std::make_unique<HalfspaceDetector>(kernels); };
+    all.push_back({std::string("halfspace_") + kernels.name, "", make});
   }
   for (const std::string& gl_context : offscreenContextNames()) {
     const auto select = [&](const std::string& name, const SelectDetector::Options& options) {
@@ -124,6 +129,23 @@ TEST_P(DetectorContractTest, FindsWhatExactArithmeticFindsInGrazingScenes) {
 
 INSTANTIATE_TEST_SUITE_P(AllDetectors, DetectorContractTest, testing::ValuesIn(variants()),
                          [](const auto& test) { return test.param.name; });
+
+TEST(HalfspaceDetectorTest, NamesTheSameWithEachInstructionSet) {
+  size_t named = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    const Scene scene = seed % 2 == 0 ? grazingScene(seed) : randomScene(seed);
+    HalfspaceDetector best;
+    const Detection expected = best.detect(scene.mesh_M, scene.swept_M);
+    named += expected.triangles.size();
+    for (const simd::Kernels& kernels : simd::availableKernels()) {
+      HalfspaceDetector detector(kernels);
+      const Detection& found = detector.detect(scene.mesh_M, scene.swept_M);
+      EXPECT_EQ(found.triangles, expected.triangles) << kernels.name << ", seed " << seed;
+      EXPECT_EQ(found.inflation, expected.inflation);
+    }
+  }
+  EXPECT_GT(named, 1000U);
+}
 
 struct Shares {
   double with_hit = 0.0;           // of scenes, with some triangle met

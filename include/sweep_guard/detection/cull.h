@@ -19,6 +19,8 @@ struct Survivor {
 /// corners. Keeps its buffers between calls.
 class Cull {
  public:
+  explicit Cull(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels), bits_(kernels) {}
+
   /// Triangles that are left, ascending. Valid until the next call.
   /// @param planes  of the volume; see floatPlanes()
   const std::vector<Survivor>& operator()(const MeshPart& part, const simd::Planes& planes);
@@ -27,6 +29,7 @@ class Cull {
   void look(const MeshPart& part, const Cluster& cluster, const simd::Planes& planes);
   void classify(const MeshPart& part, std::uint32_t block, const simd::Planes& planes);
 
+  const simd::Kernels* kernels_;
   BlockBits bits_;
   std::vector<std::int32_t>* block_bits_ = nullptr;
   std::vector<std::uint16_t> vertex_bits_;  // per place of a vertex; of the blocks that were looked into

@@ -8,6 +8,10 @@ namespace sweep_guard {
 /// Decides on the processor's vector units what is certain in float32, and clips what is left in double. Names what the
 /// reference names, but for the rounding of double precision.
 class HalfspaceDetector : public Detector {
+ public:
+  /// @param kernels  what they are makes no difference but in time
+  explicit HalfspaceDetector(const simd::Kernels& kernels = simd::kernels()) : cull_(kernels) {}
+
  private:
   void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) override;
 

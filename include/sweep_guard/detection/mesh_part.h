@@ -56,10 +56,13 @@ class MeshPart {
 /// For each block of a part, one bit for each plane that it lies beyond. Keeps its buffers between calls.
 class BlockBits {
  public:
+  explicit BlockBits(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels) {}
+
   /// Valid until the next call.
   std::vector<std::int32_t>& operator()(const MeshPart& part, const simd::Planes& planes);
 
  private:
+  const simd::Kernels* kernels_;
   std::vector<std::int32_t> bits_;
   std::vector<std::int32_t> bits_of_larger_;
 };

@@ -1,0 +1,100 @@
+#include "sweep_guard/geometry/mesh_order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "mesh_orders.h"
+#include "scenes.h"
+#include "sweep_guard/geometry/triangle_mesh.h"
+
+namespace sweep_guard {
+namespace {
+
+class MeshOrderTest : public testing::TestWithParam<MeshOrdering> {
+ protected:
+  const TriangleMesh hull_ = wavyHull(60, 80, 0.5);
+  const TriangleMesh mesh_ = GetParam().of(hull_);
+};
+
+TEST_P(MeshOrderTest, IsTheSendersWhereThatIsGood) {
+  EXPECT_EQ(mesh_.order().vertex_places.empty(), !GetParam().vertices_shuffled);
+  if (!GetParam().vertices_shuffled) {
+    EXPECT_EQ(mesh_.order().triangle_at.empty(), !GetParam().triangles_shuffled);
+  }
+}
+
+TEST_P(MeshOrderTest, EveryTriangleHasOnePlaceInOneCluster) {
+  std::uint32_t next = 0;
+  std::set<std::uint32_t> triangles;
+  for (const Cluster& cluster : mesh_.order().clusters) {
+    EXPECT_EQ(cluster.first, next);
+    EXPECT_GE(cluster.count, 1U);
+    EXPECT_LE(cluster.count, kMostTriangles);
+    next += cluster.count;
+  }
+  EXPECT_EQ(next, mesh_.triangles().size());
+  for (std::uint32_t place = 0; place < next; ++place) {
+    const auto& at = mesh_.order().triangle_at;
+    triangles.insert(at.empty() ? place : at[place]);
+  }
+  EXPECT_EQ(triangles.size(), mesh_.triangles().size());
+}
+
+TEST_P(MeshOrderTest, TheBlocksOfAClusterHoldItsCorners) {
+  for (const Cluster& cluster : mesh_.order().clusters) {
+    for (std::uint32_t place = cluster.first; place < cluster.first + cluster.count; ++place) {
+      for (const std::uint32_t vertex : mesh_.cornerPlaces()[place]) {
+        const auto block = static_cast<std::uint32_t>(vertex / simd::kBlock);
+        EXPECT_NE(std::find(cluster.blocks.begin(), cluster.blocks.end(), block), cluster.blocks.end());
+      }
+    }
+  }
+}
+
+TEST_P(MeshOrderTest, KeepsClustersFew) { EXPECT_LT(mesh_.order().clusters.size(), mesh_.triangles().size() / 16); }
+
+TEST_P(MeshOrderTest, IndicesStayTheSenders) {
+  const TriangleMesh moved = GetParam().of(wavyHull(60, 80, 2.5));
+  std::vector<float> positions;
+  for (size_t i = 0; i < moved.vertexCount(); ++i) {
+    for (const double x : moved.vertex(i)) positions.push_back(static_cast<float>(x));
+  }
+  TriangleMesh deformed = mesh_;
+  std::vector<float> sent = positions;
+  deformed.deform(sent);
+  EXPECT_EQ(sent.size(), positions.size());
+  for (size_t i = 0; i < deformed.vertexCount(); ++i) {
+    EXPECT_EQ(deformed.vertex(i), Eigen::Map<const Eigen::Vector3f>(&positions[3 * i]).cast<double>());
+  }
+  const auto& at = deformed.order().triangle_at;
+  for (std::uint32_t place = 0; place < deformed.triangles().size(); ++place) {
+    const Triangle& corners = deformed.triangles()[at.empty() ? place : at[place]];
+    for (size_t k = 0; k < 3; ++k) {
+      const Eigen::Map<const Eigen::Vector3f> p(&deformed.places()[3 * size_t{deformed.cornerPlaces()[place][k]}]);
+      EXPECT_EQ(p.cast<double>(), deformed.vertex(corners[k]));
+    }
+  }
+}
+
+TEST_P(MeshOrderTest, ABadDeformationChangesNothing) {
+  TriangleMesh mesh = mesh_;
+  std::vector<float> bad(3 * mesh.vertexCount(), 0.0F);
+  bad[3 * 100 + 1] = std::numeric_limits<float>::quiet_NaN();
+  try {
+    mesh.deform(bad);
+    FAIL();
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find("vertex 100 "), std::string::npos) << error.what();
+  }
+  for (size_t i = 0; i < mesh.vertexCount(); ++i) EXPECT_EQ(mesh.vertex(i), mesh_.vertex(i));
+  EXPECT_EQ(mesh.bounds_M().min(), mesh_.bounds_M().min());
+  EXPECT_EQ(mesh.bounds_M().max(), mesh_.bounds_M().max());
+}
+
+INSTANTIATE_TEST_SUITE_P(AllOrders, MeshOrderTest, testing::ValuesIn(meshOrderings()),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace sweep_guard

@@ -1,0 +1,189 @@
+#include "sweep_guard/simd/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "scenes.h"
+
+namespace sweep_guard::simd {
+namespace {
+
+constexpr size_t kFloats = 3 * kBlock;
+
+// Room for boxes, and the arrays in it.
+struct Boxes {
+  explicit Boxes(size_t count) : stride(padded(count)), sides(6 * stride) {}
+
+  template <typename Number>
+  BoxArrays<Number> arrays() {
+    const auto side = [&](size_t i) { return sides.data() + i * stride; };
+    return {{side(0), side(1), side(2)}, {side(3), side(4), side(5)}};
+  }
+
+  size_t stride;
+  std::vector<float> sides;
+};
+
+float randomFloat(Random& random) { return static_cast<float>(random.uniform(-1.0, 1.0)); }
+
+std::vector<float> randomBlocks(Random& random, size_t blocks) {
+  std::vector<float> vertices(blocks * kFloats + kPadding);
+  for (float& coordinate : vertices) coordinate = randomFloat(random);
+  return vertices;
+}
+
+Planes randomPlanes(Random& random, size_t count) {
+  Planes planes;
+  planes.count = count;
+  for (size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d normal = random.direction();
+    for (size_t axis = 0; axis < 3; ++axis) {
+      planes.normal[axis][i] = static_cast<float>(normal[static_cast<Eigen::Index>(axis)]);
+    }
+    planes.outside[i] = randomFloat(random);
+    planes.inside[i] = planes.outside[i] - 1e-4F;
+  }
+  return planes;
+}
+
+Extremes nothing() {
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  return {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+}
+
+// How far a point is beyond a plane's `outside`, in double, and what float may err by.
+double beyond(const Planes& planes, size_t plane, const float* p) {
+  double sum = -static_cast<double>(planes.outside[plane]);
+  for (size_t axis = 0; axis < 3; ++axis) sum += static_cast<double>(planes.normal[axis][plane]) * p[axis];
+  return sum;
+}
+constexpr double kRounding = 1e-6;
+
+class KernelsTest : public testing::TestWithParam<Kernels> {};
+
+TEST_P(KernelsTest, BoundsEveryBlockEverySixteenAndAll) {
+  Random random(1);
+  for (const size_t blocks : {1U, 2U, 15U, 16U, 17U, 50U}) {
+    const std::vector<float> vertices = randomBlocks(random, blocks);
+    Boxes boxes(blocks);
+    Boxes larger(blocks / kPadding + 1);
+    Extremes extremes = nothing();
+    ASSERT_TRUE(GetParam().bound(vertices.data(), blocks, boxes.arrays<float>(), larger.arrays<float>(), extremes));
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto range = [&](size_t first, size_t count) {
+        std::pair<float, float> range(1e9F, -1e9F);
+        for (size_t i = first * kBlock; i < (first + count) * kBlock; ++i) {
+          range.first = std::min(range.first, vertices[3 * i + axis]);
+          range.second = std::max(range.second, vertices[3 * i + axis]);
+        }
+        return range;
+      };
+      for (size_t block = 0; block < blocks; ++block) {
+        EXPECT_EQ(boxes.arrays<float>().lower[axis][block], range(block, 1).first);
+        EXPECT_EQ(boxes.arrays<float>().upper[axis][block], range(block, 1).second);
+      }
+      for (size_t i = 0; i < blocks / kPadding; ++i) {
+        EXPECT_EQ(larger.arrays<float>().lower[axis][i], range(i * kPadding, kPadding).first);
+        EXPECT_EQ(larger.arrays<float>().upper[axis][i], range(i * kPadding, kPadding).second);
+      }
+      EXPECT_EQ(extremes.lower[axis], range(0, blocks).first);
+      EXPECT_EQ(extremes.upper[axis], range(0, blocks).second);
+    }
+  }
+}
+
+TEST_P(KernelsTest, WidensTheExtremesThatItIsGiven) {
+  Random random(2);
+  const std::vector<float> vertices = randomBlocks(random, 1);
+  Boxes boxes(1);
+  Extremes extremes{{-2.0F, 0.0F, -3.0F}, {0.0F, 4.0F, 5.0F}};
+  GetParam().bound(vertices.data(), 1, boxes.arrays<float>(), boxes.arrays<float>(), extremes);
+  EXPECT_EQ(extremes.lower[0], -2.0F);
+  EXPECT_EQ(extremes.lower[1], boxes.arrays<float>().lower[1][0]);
+  EXPECT_EQ(extremes.lower[2], -3.0F);
+  EXPECT_EQ(extremes.upper[0], boxes.arrays<float>().upper[0][0]);
+  EXPECT_EQ(extremes.upper[1], 4.0F);
+  EXPECT_EQ(extremes.upper[2], 5.0F);
+}
+
+TEST_P(KernelsTest, SeesWhatIsNotFiniteWhereverItStands) {
+  Random random(3);
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                          -std::numeric_limits<float>::infinity()}) {
+    for (size_t at = 0; at < 2 * kFloats; ++at) {
+      std::vector<float> vertices = randomBlocks(random, 2);
+      vertices[at] = bad;
+      Boxes boxes(2);
+      Extremes extremes = nothing();
+      EXPECT_FALSE(GetParam().bound(vertices.data(), 2, boxes.arrays<float>(), boxes.arrays<float>(), extremes)) << at;
+    }
+  }
+}
+
+TEST_P(KernelsTest, TellsThePlanesThatAllOfABoxIsBeyond) {
+  Random random(4);
+  int set = 0;
+  int clear = 0;
+  for (const size_t count : {1U, 16U, 40U}) {
+    Boxes boxes(count);
+    for (size_t i = 0; i < 3 * boxes.stride; ++i) {
+      boxes.sides[i] = randomFloat(random);
+      boxes.sides[i + 3 * boxes.stride] = boxes.sides[i] + 0.3F * std::abs(randomFloat(random));
+    }
+    const Planes planes = randomPlanes(random, 12);
+    std::vector<std::int32_t> bits(boxes.stride);
+    GetParam().classifyBoxes(boxes.arrays<const float>(), count, planes, bits.data());
+    for (size_t box = 0; box < count; ++box) {
+      for (size_t plane = 0; plane < planes.count; ++plane) {
+        double nearest = 1e9;
+        for (int corner = 0; corner < 8; ++corner) {
+          float p[3];
+          for (size_t axis = 0; axis < 3; ++axis) {
+            const auto& side = (corner >> axis & 1) != 0 ? boxes.arrays<float>().upper : boxes.arrays<float>().lower;
+            p[axis] = side[axis][box];
+          }
+          nearest = std::min(nearest, beyond(planes, plane, p));
+        }
+        const bool told = (bits[box] >> plane & 1) != 0;
+        if (std::abs(nearest) > kRounding) EXPECT_EQ(told, nearest > 0.0) << "box " << box << ", plane " << plane;
+        (told ? set : clear) += 1;
+      }
+    }
+  }
+  EXPECT_GT(set, 100);
+  EXPECT_GT(clear, 100);
+}
+
+TEST_P(KernelsTest, TellsThePlanesThatAVertexIsBeyondAndWhatIsInsideOfAll) {
+  Random random(5);
+  int inside_all = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const std::vector<float> vertices = randomBlocks(random, 1);
+    const Planes planes = randomPlanes(random, static_cast<size_t>(1 + random.below(static_cast<int>(kMostPlanes))));
+    std::vector<std::uint16_t> bits(kBlock);
+    GetParam().classifyBlock(vertices.data(), planes, bits.data());
+    for (size_t i = 0; i < kBlock; ++i) {
+      bool inside = true;
+      for (size_t plane = 0; plane < planes.count; ++plane) {
+        const double out = beyond(planes, plane, &vertices[3 * i]);
+        if (std::abs(out) > kRounding) EXPECT_EQ((bits[i] >> plane & 1) != 0, out > 0.0);
+        inside = inside && out < -1e-4;
+      }
+      if ((bits[i] & kInsideAll) != 0) EXPECT_EQ(bits[i], kInsideAll);
+      if (inside) EXPECT_TRUE((bits[i] & kInsideAll) != 0 || planes.count == kMostPlanes);
+      inside_all += (bits[i] & kInsideAll) != 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(inside_all, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllSets, KernelsTest, testing::ValuesIn(availableKernels()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(AvailableKernelsTest, EndWithTheBaseline) { EXPECT_STREQ(availableKernels().back().name, "baseline"); }
+
+}  // namespace
+}  // namespace sweep_guard::simd
