@@ -74,12 +74,12 @@ TEST_P(KernelsTest, BoundsEveryBlockEverySixteenAndAll) {
     ASSERT_TRUE(GetParam().bound(vertices.data(), blocks, boxes.arrays<float>(), larger.arrays<float>(), extremes));
     for (size_t axis = 0; axis < 3; ++axis) {
       const auto range = [&](size_t first, size_t count) {
-        std::pair<float, float> range(1e9F, -1e9F);
+        std::pair<float, float> ends(1e9F, -1e9F);
         for (size_t i = first * kBlock; i < (first + count) * kBlock; ++i) {
-          range.first = std::min(range.first, vertices[3 * i + axis]);
-          range.second = std::max(range.second, vertices[3 * i + axis]);
+          ends.first = std::min(ends.first, vertices[3 * i + axis]);
+          ends.second = std::max(ends.second, vertices[3 * i + axis]);
         }
-        return range;
+        return ends;
       };
       for (size_t block = 0; block < blocks; ++block) {
         EXPECT_EQ(boxes.arrays<float>().lower[axis][block], range(block, 1).first);
@@ -148,7 +148,9 @@ TEST_P(KernelsTest, TellsThePlanesThatAllOfABoxIsBeyond) {
           nearest = std::min(nearest, beyond(planes, plane, p));
         }
         const bool told = (bits[box] >> plane & 1) != 0;
-        if (std::abs(nearest) > kRounding) EXPECT_EQ(told, nearest > 0.0) << "box " << box << ", plane " << plane;
+        if (std::abs(nearest) > kRounding) {
+          EXPECT_EQ(told, nearest > 0.0) << "box " << box << ", plane " << plane;
+        }
         (told ? set : clear) += 1;
       }
     }
@@ -169,11 +171,17 @@ TEST_P(KernelsTest, TellsThePlanesThatAVertexIsBeyondAndWhatIsInsideOfAll) {
       bool inside = true;
       for (size_t plane = 0; plane < planes.count; ++plane) {
         const double out = beyond(planes, plane, &vertices[3 * i]);
-        if (std::abs(out) > kRounding) EXPECT_EQ((bits[i] >> plane & 1) != 0, out > 0.0);
-        inside = inside && out < -1e-4;
+        if (std::abs(out) > kRounding) {
+          EXPECT_EQ((bits[i] >> plane & 1) != 0, out > 0.0);
+        }
+        inside = inside && out < -1e-4 - kRounding;
       }
-      if ((bits[i] & kInsideAll) != 0) EXPECT_EQ(bits[i], kInsideAll);
-      if (inside) EXPECT_TRUE((bits[i] & kInsideAll) != 0 || planes.count == kMostPlanes);
+      if ((bits[i] & kInsideAll) != 0) {
+        EXPECT_EQ(bits[i], kInsideAll);
+      }
+      if (inside) {
+        EXPECT_EQ(bits[i], kInsideAll);
+      }
       inside_all += (bits[i] & kInsideAll) != 0 ? 1 : 0;
     }
   }

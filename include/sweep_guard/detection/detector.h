@@ -30,6 +30,7 @@ class Detector {
   /// @throws DeviceError if the answer cannot be trusted: nothing is known then
   const Detection& detect(const MeshPart& part, const SweptVolume& swept_M) {
     detection_.triangles.clear();
+    detection_.inflation = 0.0;
     find(part, swept_M, detection_);
     return detection_;
   }
