@@ -19,20 +19,6 @@ Eigen::Matrix3d covarianceOfBoth(const Moments& moments_T, const Motion& motion)
          half_step * half_step.transpose() + 0.25 * motion.drift * motion.drift.transpose();
 }
 
-// Along eigenvectors, orthonormal to the last digit whatever their accuracy.
-Eigen::Matrix3d axesOf(const Eigen::Matrix3d& covariance) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(covariance);
-  assert(solver.info() == Eigen::Success && solver.eigenvectors().allFinite());
-  const Eigen::Vector3d first = solver.eigenvectors().col(0).normalized();
-  const Eigen::Vector3d rest = solver.eigenvectors().col(1);
-  Eigen::Matrix3d axes;
-  axes.col(0) = first;
-  axes.col(1) = (rest - first.dot(rest) * first).normalized();
-  axes.col(2) = first.cross(axes.col(1));
-  return axes;
-}
-
 struct Axis {
   Eigen::Vector3d direction_M;
   double lower;
@@ -44,10 +30,12 @@ struct Axis {
 }  // namespace
 
 OrientedBox boundingBox(const ConvexShape& shape, const Motion& motion) {
-  const Eigen::Matrix3d directions = axesOf(covarianceOfBoth(shape.moments_T(), motion));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covarianceOfBoth(shape.moments_T(), motion));
+  assert(solver.info() == Eigen::Success);
+
   std::array<Axis, 3> axes;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d direction = directions.col(i);
+    const Eigen::Vector3d direction = solver.eigenvectors().col(i);
     axes[static_cast<size_t>(i)] = {direction, -support(shape, motion, -direction), support(shape, motion, direction)};
   }
   std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.halfExtent() < b.halfExtent(); });

@@ -35,7 +35,9 @@ std::vector<Variant> variants() {
     if (name != "select") all.push_back({name, "", [name] { return makeDetector(name); }});
   }
   for (const simd::Kernels& kernels : simd::availableKernels()) {
-    const auto make = [&kernels]() -> std::unique_ptr<Detector> { return std::make_unique<HalfspaceDetector>(kernels); };
+    const auto make = [&kernels]() -> std::unique_ptr<Detector> {
+      return std::make_unique<HalfspaceDetector>(kernels);
+    };
     all.push_back({std::string("halfspace_") + kernels.name, "", make});
   }
   for (const std::string& gl_context : offscreenContextNames()) {

@@ -192,6 +192,21 @@ TEST_P(SelectDetectorTest, FindsEachTriangleWhereverItIsInABlock) {
   }
 }
 
+// Where the cull decides everything, OpenGL's rounding plays no part.
+TEST(SelectDetectorTest, WhatWasDrawnBeforeLeavesNoInflation) {
+  const TriangleMesh mesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const SweptVolume across_M = sweptVolume(ConvexShape::cylinder(0.01, 0.1), Motion{}, VolumeKind::kObbPlanes);
+  SweptVolume far_M = across_M;
+  far_M.box.X_MB.translation().z() += 1.0;
+  SelectDetector detector({});
+  const Detection drawn = detector.detect(mesh, across_M);
+  EXPECT_EQ(drawn.triangles.size(), 1U);
+  EXPECT_GT(drawn.inflation, 0.0);
+  const Detection far = detector.detect(mesh, far_M);
+  EXPECT_TRUE(far.triangles.empty());
+  EXPECT_EQ(far.inflation, 0.0);
+}
+
 TEST(MakeDetectorTest, KnowsItsNamesAndNoOther) {
   for (const std::string& name : detectorNames()) {
     EXPECT_EQ(makeDetector(name)->detect(hull(), sweptDrill()).triangles, expected()) << name;
