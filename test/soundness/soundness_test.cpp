@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -82,10 +84,9 @@ class Forgetful : public Detector {
 
 // Names everything.
 class Fearful : public Detector {
-  Detection find(const TriangleMesh& mesh_M, const SweptVolume&, const std::vector<std::uint32_t>*) override {
-    Detection detection;
-    for (std::uint32_t i = 0; i < mesh_M.triangles().size(); ++i) detection.triangles.push_back(i);
-    return detection;
+  void find(const MeshPart& part, const SweptVolume& /*swept_M*/, Detection& detection) override {
+    part.forEachTriangle([&](std::uint32_t triangle) { detection.triangles.push_back(triangle); });
+    std::sort(detection.triangles.begin(), detection.triangles.end());
   }
 };
 
