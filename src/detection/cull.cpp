@@ -6,7 +6,6 @@
 namespace sweep_guard {
 namespace {
 
-constexpr std::int32_t kLookedInto = 1 << 30;
 constexpr std::int32_t kBeyond = simd::kInsideAll - 1;
 
 }  // namespace
@@ -15,15 +14,33 @@ const std::vector<Survivor>& Cull::operator()(const MeshPart& part, const simd::
   survivors_.clear();
   if (part.empty() || whollyBeyond(part.mesh_M(), planes)) return survivors_;
   vertex_bits_.resize(std::max(vertex_bits_.size(), part.mesh_M().blocks().count() * simd::kBlock));
-  block_bits_ = &bits_(part, planes);
+  bits_.classify(part, planes);
+  near_.clear();
   for (const Cluster& cluster : part.clusters()) {
-    if (!beyondOnePlane(cluster, *block_bits_)) look(part, cluster, planes);
+    if (!bits_.beyondOnePlane(cluster)) {
+      fetch(part, cluster);
+      near_.push_back(cluster);
+    }
   }
+  for (const Cluster& cluster : near_) look(part, cluster, planes);
   if (!part.mesh_M().order().triangle_at.empty()) {
     std::sort(survivors_.begin(), survivors_.end(),
               [](const Survivor& a, const Survivor& b) { return a.triangle < b.triangle; });
   }
   return survivors_;
+}
+
+// What is looked at in a large mesh lies here and there: the memory may begin with all of it.
+void Cull::fetch(const MeshPart& part, const Cluster& cluster) {
+  constexpr size_t kLine = 64;
+  const auto fetchAll = [](const void* from, size_t size) {
+    for (size_t at = 0; at < size; at += kLine) __builtin_prefetch(static_cast<const char*>(from) + at);
+  };
+  fetchAll(&part.mesh_M().cornerPlaces()[cluster.first], cluster.count * sizeof(Triangle));
+  for (const std::uint32_t block : cluster.blocks) {
+    constexpr size_t kFloats = 3 * simd::kBlock;
+    fetchAll(part.mesh_M().places().data() + part.blocks()[block] * kFloats, kFloats * sizeof(float));
+  }
 }
 
 void Cull::look(const MeshPart& part, const Cluster& cluster, const simd::Planes& planes) {
@@ -46,9 +63,7 @@ void Cull::look(const MeshPart& part, const Cluster& cluster, const simd::Planes
 }
 
 void Cull::classify(const MeshPart& part, std::uint32_t block, const simd::Planes& planes) {
-  std::int32_t& bits = (*block_bits_)[block];
-  if ((bits & kLookedInto) != 0) return;
-  bits |= kLookedInto;
+  if (!bits_.firstAsked(block)) return;
   const std::uint32_t number = part.blocks()[block];
   withBlock(part.mesh_M().places(), number, [&](const float* vertices) {
     kernels_->classifyBlock(vertices, planes, &vertex_bits_[number * simd::kBlock]);

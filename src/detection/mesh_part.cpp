@@ -7,6 +7,7 @@ namespace sweep_guard {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::int32_t kAsked = 1 << 30;
 
 }  // namespace
 
@@ -21,26 +22,16 @@ bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes) {
   return false;
 }
 
-std::vector<std::int32_t>& BlockBits::operator()(const MeshPart& part, const simd::Planes& planes) {
+void BlockBits::classify(const MeshPart& part, const simd::Planes& planes) {
   const size_t count = part.blocks().size();
   bits_.resize(std::max(bits_.size(), simd::padded(count)));
-  const auto classify = kernels_->classifyBoxes;
-  if (!part.larger()) {
-    classify(part.boxes(), count, planes, bits_.data());
-    return bits_;
-  }
-  const size_t larger = simd::padded(count) / simd::kPadding;
-  bits_of_larger_.resize(std::max(bits_of_larger_.size(), simd::padded(larger)));
-  classify(*part.larger(), larger, planes, bits_of_larger_.data());
-  for (size_t i = 0; i < larger; ++i) {
-    std::int32_t* bits = &bits_[i * simd::kPadding];
-    if (bits_of_larger_[i] != 0) {
-      std::fill_n(bits, simd::kPadding, bits_of_larger_[i]);
-    } else {
-      classify(part.boxes().from(i * simd::kPadding), simd::kPadding, planes, bits);
-    }
-  }
-  return bits_;
+  kernels_->classifyBoxes(part.boxes(), count, planes, bits_.data());
+}
+
+bool BlockBits::firstAsked(std::uint32_t block) {
+  const bool first = (bits_[block] & kAsked) == 0;
+  bits_[block] |= kAsked;
+  return first;
 }
 
 MeshPart PartFinder::operator()(const MeshPart& part, const simd::Planes& planes) {
@@ -48,15 +39,13 @@ MeshPart PartFinder::operator()(const MeshPart& part, const simd::Planes& planes
   clusters_.clear();
   old_index_.clear();
   if (!whollyBeyond(part.mesh_M(), planes)) {
-    const size_t count = part.blocks().size();
-    const std::vector<std::int32_t>& bits = bits_(part, planes);
-    new_index_.assign(count, kNone);
+    bits_.classify(part, planes);
+    new_index_.assign(part.blocks().size(), kNone);
     for (const Cluster& cluster : part.clusters()) {
-      if (!beyondOnePlane(cluster, bits)) keep(part, cluster);
+      if (!bits_.beyondOnePlane(cluster)) keep(part, cluster);
     }
   }
   MeshPart found = part;
-  found.larger_.reset();
   found.blocks_ = &blocks_;
   found.clusters_ = &clusters_;
   gatherBoxes(found);

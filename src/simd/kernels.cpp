@@ -73,11 +73,9 @@ struct Bounds {
   }
 };
 
-bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, const BoxArrays<float>& larger,
-           Extremes& extremes) {
+bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, Extremes& extremes) {
   Bounds all{Float([&](std::size_t lane) { return extremes.lower[lane % 3]; }),
              Float([&](std::size_t lane) { return extremes.upper[lane % 3]; })};
-  Bounds some = all;
   Float sums[4] = {};  // NaN and infinity stay in a sum; four, so that none waits for the one before
   for (std::size_t block = 0; block < blocks; ++block, vertices += kFloats) {
     for (std::size_t line = 0; line < kFloats; line += 16) __builtin_prefetch(vertices + kAhead * kFloats + line);
@@ -91,10 +89,7 @@ bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& bo
     }
     one = {perAxis(one.lower, Lower()), perAxis(one.upper, Upper())};
     store(one.lower, one.upper, boxes, block);
-    if (block % kPadding == 0) some = one;
-    some.widen(one.lower, one.upper);
     all.widen(one.lower, one.upper);
-    if (block % kPadding == kPadding - 1) store(some.lower, some.upper, larger, block / kPadding);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     extremes.lower[axis] = all.lower[axis];
@@ -103,25 +98,43 @@ bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& bo
   return stdx::all_of((sums[0] + sums[1] + sums[2] + sums[3]) * 0.0F == 0.0F);
 }
 
-// Of a box, the corner that lies least far out decides.
-void classifyBoxes(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes, std::int32_t* bits) {
-  const float* nearest[kMostPlanes][3];
-  for (std::size_t i = 0; i < planes.count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      nearest[i][axis] = planes.normal[axis][i] < 0.0F ? boxes.upper[axis] : boxes.lower[axis];
+// Of each box, the corner that lies least far beyond each plane.
+struct NearestCorners {
+  NearestCorners(const BoxArrays<const float>& boxes, const Planes& planes) {
+    for (std::size_t i = 0; i < planes.count; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        from[i][axis] = planes.normal[axis][i] < 0.0F ? boxes.upper[axis] : boxes.lower[axis];
+      }
     }
   }
-  for (std::size_t first = 0; first < count; first += kWidth) {
-    Float found = 0.0F;  // a sum of powers of two: lanes of float select faster than those of int
-    float bit = 1.0F;
-    for (std::size_t i = 0; i < planes.count; ++i, bit *= 2.0F) {
+
+  const float* from[kMostPlanes][3];
+};
+
+// So many registers of boxes at a time: none need wait for another.
+template <std::size_t registers>
+void classifyBoxesFrom(std::size_t first, const NearestCorners& nearest, const Planes& planes, std::int32_t* bits) {
+  Float found[registers];  // sums of powers of two: lanes of float select faster than those of int
+  for (std::size_t k = 0; k < registers; ++k) found[k] = 0.0F;
+  float bit = 1.0F;
+  for (std::size_t i = 0; i < planes.count; ++i, bit *= 2.0F) {
+    for (std::size_t k = 0; k < registers; ++k) {
       const auto along = [&](std::size_t axis) {
-        return planes.normal[axis][i] * Float(nearest[i][axis] + first, stdx::element_aligned);
+        return planes.normal[axis][i] * Float(nearest.from[i][axis] + first + k * kWidth, stdx::element_aligned);
       };
-      stdx::where(along(0) + along(1) + along(2) > planes.outside[i], found) += bit;
+      stdx::where(along(0) + along(1) + along(2) > planes.outside[i], found[k]) += bit;
     }
-    stdx::static_simd_cast<Int>(found).copy_to(bits + first, stdx::element_aligned);
   }
+  for (std::size_t k = 0; k < registers; ++k) {
+    stdx::static_simd_cast<Int>(found[k]).copy_to(bits + first + k * kWidth, stdx::element_aligned);
+  }
+}
+
+void classifyBoxes(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes, std::int32_t* bits) {
+  const NearestCorners nearest(boxes, planes);
+  std::size_t first = 0;
+  for (; first + 4 * kWidth <= count; first += 4 * kWidth) classifyBoxesFrom<4>(first, nearest, planes, bits);
+  for (; first < count; first += kWidth) classifyBoxesFrom<1>(first, nearest, planes, bits);
 }
 
 // Two registers of vertices at a time: the next plane need not wait for the one before.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "sweep_guard/geometry/triangle_mesh.h"
@@ -16,7 +15,6 @@ class MeshPart {
   MeshPart(const TriangleMesh& mesh_M)  // NOLINT(google-explicit-constructor)
       : mesh_M_(&mesh_M),
         boxes_(mesh_M.blocks().arrays()),
-        larger_(mesh_M.blocks().larger()),
         blocks_(&mesh_M.order().blocks),
         clusters_(&mesh_M.order().clusters) {}
 
@@ -27,8 +25,6 @@ class MeshPart {
   const std::vector<std::uint32_t>& blocks() const { return *blocks_; }
   /// Their boxes, in this order, padded to simd::kPadding [m].
   const simd::BoxArrays<const float>& boxes() const { return boxes_; }
-  /// Around every simd::kPadding of them, if it is all of the mesh.
-  const std::optional<simd::BoxArrays<const float>>& larger() const { return larger_; }
   /// Ascending. Their `blocks` are indices into blocks().
   const std::vector<Cluster>& clusters() const { return *clusters_; }
 
@@ -48,23 +44,30 @@ class MeshPart {
 
   const TriangleMesh* mesh_M_;
   simd::BoxArrays<const float> boxes_;
-  std::optional<simd::BoxArrays<const float>> larger_;
   const std::vector<std::uint32_t>* blocks_;
   const std::vector<Cluster>* clusters_;
 };
 
-/// For each block of a part, one bit for each plane that it lies beyond. Keeps its buffers between calls.
+/// Which planes the blocks of a part lie beyond. Keeps its buffers between calls.
 class BlockBits {
  public:
   explicit BlockBits(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels) {}
 
-  /// Valid until the next call.
-  std::vector<std::int32_t>& operator()(const MeshPart& part, const simd::Planes& planes);
+  /// What follows is about this part and these planes.
+  void classify(const MeshPart& part, const simd::Planes& planes);
+
+  /// All blocks of a cluster of the part lie beyond one of the planes, by their boxes.
+  bool beyondOnePlane(const Cluster& cluster) const {
+    const auto& [a, b, c, d] = cluster.blocks;
+    return (bits_[a] & bits_[b] & bits_[c] & bits_[d] & (simd::kInsideAll - 1)) != 0;
+  }
+
+  /// Whether it is asked for the first time about this block of the part.
+  bool firstAsked(std::uint32_t block);
 
  private:
   const simd::Kernels* kernels_;
-  std::vector<std::int32_t> bits_;
-  std::vector<std::int32_t> bits_of_larger_;
+  std::vector<std::int32_t> bits_;  // and a flag
 };
 
 /// Finds the part of a mesh that may reach into a convex region. Keeps its buffers between calls.
@@ -89,11 +92,5 @@ class PartFinder {
 
 /// A mesh wholly beyond one of the planes, by the box around it.
 bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes);
-
-/// A cluster is beyond one plane if all its blocks are.
-inline bool beyondOnePlane(const Cluster& cluster, const std::vector<std::int32_t>& bits_of_blocks) {
-  const auto& [a, b, c, d] = cluster.blocks;
-  return (bits_of_blocks[a] & bits_of_blocks[b] & bits_of_blocks[c] & bits_of_blocks[d] & (simd::kInsideAll - 1)) != 0;
-}
 
 }  // namespace sweep_guard

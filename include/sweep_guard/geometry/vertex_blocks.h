@@ -21,9 +21,6 @@ class VertexBlocks {
   /// One array per side, padded to simd::kPadding [m].
   simd::BoxArrays<const float> arrays() const;
 
-  /// Around every simd::kPadding of them; the last one around those that are left.
-  simd::BoxArrays<const float> larger() const;
-
   /// Around all of them [m].
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
@@ -31,11 +28,8 @@ class VertexBlocks {
   double totalSize() const;
 
  private:
-  void enlarge(size_t first);
-
   size_t count_ = 0;
-  std::vector<float> sides_;   // six arrays of boxes
-  std::vector<float> larger_;  // likewise
+  std::vector<float> sides_;  // six arrays of boxes
   Eigen::AlignedBox3d bounds_;
 };
 

@@ -12,7 +12,7 @@ namespace sweep_guard::simd {
 
 /// Vertices of a block: consecutive ones, that share a box.
 constexpr std::size_t kBlock = 32;
-/// Arrays of boxes and of their bits are as long as a multiple of this. So many consecutive boxes share a larger one.
+/// Arrays of boxes and of their bits are as long as a multiple of this.
 constexpr std::size_t kPadding = 16;
 constexpr std::size_t padded(std::size_t count) { return (count + kPadding - 1) / kPadding * kPadding; }
 constexpr std::size_t kMostPlanes = 15;
@@ -50,13 +50,11 @@ constexpr std::uint16_t kInsideAll = 1U << kMostPlanes;
 struct Kernels {
   const char* name;  ///< of the instruction set
 
-  /// Takes the boxes of blocks of vertices, and a larger one around each kPadding of these.
+  /// Takes the boxes of blocks of vertices.
   /// @param vertices  x0 y0 z0 x1 ... of `blocks` times kBlock vertices; kPadding floats more must be readable
-  /// @param larger    written for full ones only
   /// @param extremes  widened to hold all of them
   /// @returns whether all are finite
-  bool (*bound)(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes,
-                const BoxArrays<float>& larger, Extremes& extremes);
+  bool (*bound)(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, Extremes& extremes);
 
   /// For each box, the planes that all of it lies beyond. Arrays are padded to kPadding.
   void (*classifyBoxes)(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes,
