@@ -9,6 +9,7 @@
 #include "sweep_guard/detection/offscreen_context.h"
 #include "sweep_guard/ros/parameter_reader.h"
 #include "sweep_guard/ros/tool_model.h"
+#include "sweep_guard/simd/kernels.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -120,6 +121,8 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   parameters.detector_options.gl_context = read.choice("gl_context", "osmesa", sweep_guard::offscreenContextNames());
   parameters.detector_story = parameters.detector;
   if (parameters.detector == "select") parameters.detector_story += " on " + parameters.detector_options.gl_context;
+  if (parameters.detector == "halfspace")
+    parameters.detector_story += std::string(" on ") + sweep_guard::simd::kernels().name;
   parameters.guard.sweep.fine = read.flag("fine", true);
   parameters.guard.sweep.volume =
       sweep_guard::volumeKind(read.choice("volume", "obb_planes", {"obb", "obb_planes", "hull"}));
