@@ -185,6 +185,12 @@ std::vector<sweep_guard::Contacts> GuardProbe::awaitContacts(size_t count) {
   return contacts_;
 }
 
+std::vector<sweep_guard::Contacts> GuardProbe::awaitContactsUpTo(ros::Time stamp) {
+  await("contacts up to a pose", [&] { return !contacts_.empty() && contacts_.back().header.stamp >= stamp; });
+  const std::lock_guard lock(mutex_);
+  return contacts_;
+}
+
 void GuardProbe::forgetContacts() {
   const std::lock_guard lock(mutex_);
   contacts_.clear();

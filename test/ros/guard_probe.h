@@ -61,6 +61,8 @@ class GuardProbe {
   void skipWarnings();
   std::vector<sweep_guard::Warning> warnings() const;
   std::vector<sweep_guard::Contacts> awaitContacts(size_t count);  ///< all since the last call of forgetContacts()
+  /// Likewise, up to the ones at the pose of this stamp: of poses that wait for each other only the last has any.
+  std::vector<sweep_guard::Contacts> awaitContactsUpTo(ros::Time stamp);
   void forgetContacts();
   /// The first that fit, of those that came since the ones returned last. @throws std::runtime_error after 20 s
   using MarkersFit = std::function<bool(const visualization_msgs::MarkerArray&)>;
