@@ -1,12 +1,14 @@
 #include "sweep_guard/detection/convex_clip.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace sweep_guard {
 
 void CutTriangle::cut(const Eigen::Vector3d& normal, double offset) {
   assert(count_ > 0 && count_ < corners_.size());
-  const std::array<Eigen::Vector3d, 3 + kMostHalfSpaces> whole = corners_;
+  std::array<Eigen::Vector3d, 3 + kMostHalfSpaces> whole;
+  std::copy_n(corners_.begin(), count_, whole.begin());
   const Eigen::Vector3d* before = &whole[count_ - 1];
   double before_out = normal.dot(*before) - offset;
   size_t left = 0;

@@ -15,32 +15,14 @@ const std::vector<Survivor>& Cull::operator()(const MeshPart& part, const simd::
   if (part.empty() || whollyBeyond(part.mesh_M(), planes)) return survivors_;
   vertex_bits_.resize(std::max(vertex_bits_.size(), part.mesh_M().blocks().count() * simd::kBlock));
   bits_.classify(part, planes);
-  near_.clear();
   for (const Cluster& cluster : part.clusters()) {
-    if (!bits_.beyondOnePlane(cluster)) {
-      fetch(part, cluster);
-      near_.push_back(cluster);
-    }
+    if (!bits_.beyondOnePlane(cluster)) look(part, cluster, planes);
   }
-  for (const Cluster& cluster : near_) look(part, cluster, planes);
   if (!part.mesh_M().order().triangle_at.empty()) {
     std::sort(survivors_.begin(), survivors_.end(),
               [](const Survivor& a, const Survivor& b) { return a.triangle < b.triangle; });
   }
   return survivors_;
-}
-
-// What is looked at in a large mesh lies here and there: the memory may begin with all of it.
-void Cull::fetch(const MeshPart& part, const Cluster& cluster) {
-  constexpr size_t kLine = 64;
-  const auto fetchAll = [](const void* from, size_t size) {
-    for (size_t at = 0; at < size; at += kLine) __builtin_prefetch(static_cast<const char*>(from) + at);
-  };
-  fetchAll(&part.mesh_M().cornerPlaces()[cluster.first], cluster.count * sizeof(Triangle));
-  for (const std::uint32_t block : cluster.blocks) {
-    constexpr size_t kFloats = 3 * simd::kBlock;
-    fetchAll(part.mesh_M().places().data() + part.blocks()[block] * kFloats, kFloats * sizeof(float));
-  }
 }
 
 void Cull::look(const MeshPart& part, const Cluster& cluster, const simd::Planes& planes) {

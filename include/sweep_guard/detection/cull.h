@@ -26,13 +26,11 @@ class Cull {
   const std::vector<Survivor>& operator()(const MeshPart& part, const simd::Planes& planes);
 
  private:
-  static void fetch(const MeshPart& part, const Cluster& cluster);
   void look(const MeshPart& part, const Cluster& cluster, const simd::Planes& planes);
   void classify(const MeshPart& part, std::uint32_t block, const simd::Planes& planes);
 
   const simd::Kernels* kernels_;
   BlockBits bits_;
-  std::vector<Cluster> near_;
   std::vector<std::uint16_t> vertex_bits_;  // per place of a vertex; of the blocks that were looked into
   std::vector<Survivor> survivors_;
 };
