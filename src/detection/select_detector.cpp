@@ -40,11 +40,12 @@ void SelectDetector::find(const MeshPart& part, const SweptVolume& swept_M, Dete
   if (!corners_B_.empty()) {  // the clear case and the far case cost nothing
     const double inflation = inflationFor(part.mesh_M(), swept_M.box);
     detection.inflation = 2.0 * inflation;  // OpenGL's rounding can let in what is a little farther out, too
+    const SweptVolume inflated_M = swept_M.grown(inflation);
     try {
-      select(swept_M.grown(inflation));
+      select(inflated_M);
     } catch (const DeviceError&) {
       makeSelection();
-      select(swept_M.grown(inflation));
+      select(inflated_M);
     }
   }
   std::uint32_t number = 0;  // of those in doubt
