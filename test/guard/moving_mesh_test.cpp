@@ -37,7 +37,9 @@ TEST(MovingMeshTest, SpreadsAsFarAsAVertexLeavesTheDrift) {
   EXPECT_EQ(mesh.triangle(0).end_M[0], Eigen::Vector3d(0, 0, 3));
 }
 
-TEST(MovingMeshTest, CountsWhatItMayHaveStrayedEvenIfItIsBack) { EXPECT_TRUE(MovingMesh(kFlat, kFlat, {kFlat, kFlat}, 0.1).moved()); }
+TEST(MovingMeshTest, CountsWhatItMayHaveStrayedEvenIfItIsBack) {
+  EXPECT_TRUE(MovingMesh(kFlat, kFlat, {kFlat, kFlat}, 0.1).moved());
+}
 
 // Of all paths of a length between two points, the one over the tip of an isosceles triangle goes farthest aside.
 TEST(StrayedTest, IsTheHeightOfTheTriangleOnTheStraightWay) {
