@@ -48,7 +48,7 @@ std::vector<std::uint32_t> betterPlaces(const std::vector<float>& positions) {
   place(places, positions, kept);
   const double as_sent = blocks.totalSize();
   blocks.measure(kept);
-  if (blocks.totalSize() > kWorthwhile * as_sent) places.clear();
+  if (blocks.totalSize() >= kWorthwhile * as_sent) places.clear();  // all in one point: neither helps
   return places;
 }
 
