@@ -267,6 +267,22 @@ void Guard::forget() {
   newest_.reset();
 }
 
+void Guard::adopt(GuardChange& change) {
+  change.options.clock = options_.clock;
+  std::swap(options_, change.options);
+  if (change.detector) std::swap(detector_, change.detector);
+  if (change.tool) {
+    std::swap(tool_, *change.tool);
+    for (auto& [id, swept] : swept_) swept.known = {};
+  }
+  if (change.predictor) {
+    std::swap(predictor_, *change.predictor);
+    if (newest_) predictor_.observe({newest_->stamp, newest_->X_WT});
+  }
+  budget_ = Budget(options_.horizon, options_.cycle);
+  path_test_ = PathTest(options_.pathTest());
+}
+
 // What comes to live in an empty frame later was not there when the tool moved before.
 void Guard::forgetWhatIsGone(const Workpieces& workpieces) {
   const auto dropUnless = [&](auto& known, const auto& fits) {

@@ -35,7 +35,7 @@ bool notSwept(const SweepReport& report, const std::string& id) {
 }  // namespace
 
 Ledger::Ledger(const VerdictLimits& limits, std::function<void()> on_fault)
-    : limits_(limits), on_fault_(std::move(on_fault)) {}
+    : on_fault_(std::move(on_fault)), limits_(limits) {}
 
 Ledger::Mark Ledger::mark() const {
   const std::lock_guard lock(mutex_);
@@ -147,25 +147,75 @@ void Ledger::noteAlarm(const Instant& now) {
 void Ledger::timeJumped(const std::string& story) {
   {
     const std::lock_guard lock(mutex_);
-    ++mark_.epoch;
-    pose_.reset();
-    swept_until_ = {};
-    prediction_.reset();
-    expected_.reset();
-    reflex_.reset();
-    considered_.reset();
-    overload_.reset();
-    swept_.clear();
-    faults_.clear();
+    beginAnew();
     if (contact_) contact_->lasting = false;
     note(kTimeJump, story);
   }
   on_fault_();
 }
 
+void Ledger::beginAnew() {
+  ++mark_.epoch;
+  pose_.reset();
+  swept_until_ = {};
+  prediction_.reset();
+  expected_.reset();
+  reflex_.reset();
+  considered_.reset();
+  overload_.reset();
+  swept_.clear();
+  faults_.clear();
+}
+
+void Ledger::restart() {
+  {
+    const std::lock_guard lock(mutex_);
+    beginAnew();
+    contact_.reset();
+  }
+  on_fault_();
+}
+
+void Ledger::disable(const std::string& asked_by) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (disabled_by_) return;
+    beginAnew();
+    contact_.reset();
+    disabled_by_ = asked_by;
+  }
+  on_fault_();
+}
+
+void Ledger::enable() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!disabled_by_) return;
+    beginAnew();
+    disabled_by_.reset();
+  }
+  on_fault_();
+}
+
+std::optional<std::string> Ledger::disabledBy() const {
+  const std::lock_guard lock(mutex_);
+  return disabled_by_;
+}
+
+bool Ledger::counts(const Mark& came) const {
+  const std::lock_guard lock(mutex_);
+  return came.epoch == mark_.epoch && !disabled_by_;
+}
+
+void Ledger::setLimits(const VerdictLimits& limits) {
+  const std::lock_guard lock(mutex_);
+  limits_ = limits;
+}
+
 Verdict Ledger::verdict(const Instant& now) const {
   const std::lock_guard lock(mutex_);
   Evidence evidence;
+  evidence.disabled = disabled_by_;
   evidence.pose = pose_;
   evidence.covered_until = coveredUntil(now);
   evidence.expected = expected_;

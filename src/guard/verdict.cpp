@@ -115,6 +115,13 @@ void warn(const Evidence& evidence, const Instant& now, const VerdictLimits& lim
   tell(verdict, "collision with '" + verdict.mesh_id + "' " + prospect(verdict));
 }
 
+Verdict unwatched(const std::string& asked_by) {
+  Verdict verdict;
+  verdict.reasons = kDisabled;
+  verdict.text = std::string(nameOf(verdict.level)) + ": disabled by " + asked_by + ": nothing is tested";
+  return verdict;
+}
+
 }  // namespace
 
 Duration age(const Seen& seen, const Instant& now) {
@@ -126,6 +133,7 @@ bool stale(const Seen& seen, const Instant& now, Duration timeout) {
 }
 
 Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits& limits) {
+  if (evidence.disabled) return unwatched(*evidence.disabled);
   Findings findings;
   assessPose(evidence, now, limits, findings);
   assessObjects(evidence, now, limits, findings);

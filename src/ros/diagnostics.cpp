@@ -62,6 +62,11 @@ Workload::Summary Workload::take() {
   return taken;
 }
 
+void Workload::restart() {
+  const std::lock_guard lock(mutex_);
+  summary_ = {};
+}
+
 double RateMeter::operator()(std::uint64_t count) {
   const sweep_guard::SteadyTime asked = std::chrono::steady_clock::now();
   const double rate = static_cast<double>(count - count_) / toSeconds(asked - asked_);

@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kPosesQueued = 4096;            // 4 s at 1 kHz; by then the poses are stale, and the warning says so
 constexpr std::uint32_t kContactsQueued = 1000;  // of 1 s at 1 kHz
 constexpr std::uint32_t kPredictionsQueued = 100;
-constexpr size_t kQuestionsQueued = 16;
+constexpr size_t kTasksQueued = 16;
 constexpr auto kWatchPeriod = std::chrono::milliseconds(10);    // how late a silent input may be noticed
 constexpr auto kWarningPeriod = std::chrono::milliseconds(45);  // with the watch's: 20 Hz at least
 constexpr auto kWarningValid = std::chrono::milliseconds(200);
@@ -63,10 +63,14 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       poses_(node, parameters_, frames_, workpieces_, ledger_, [this](PlacedPose pose) { enqueue(std::move(pose)); }),
       meshes_(node, workpieces_),
       check_sweep_(private_node, parameters_, frames_, workpieces_),
-      predict_(private_node, parameters_, workpieces_, [this](sweep_guard::Duration horizon) { return ask(horizon); }),
+      predict_(private_node, parameters_, workpieces_,
+               [this](sweep_guard::Duration horizon) {
+                 return betweenSweeps<PredictService::Answer>([this, horizon] { return forecast(horizon); });
+               }),
       workload_(parameters_.guard.cycle),
       diagnostics_(node, private_node, parameters_, {poses_, meshes_, workpieces_, ledger_, workload_}),
-      markers_(parameters_.fixed_frame, guard_.tool()) {
+      markers_(parameters_.fixed_frame, guard_.tool()),
+      controls_(private_node, ledger_, workpieces_, [this] { reset(); }) {
   warning_timer_ =
       warning_thread_.on(node).createSteadyTimer(wall(kWatchPeriod), [this](const ros::SteadyTimerEvent&) { watch(); });
   reflex_timer_ = warning_thread_.on(node).createSteadyTimer(wall(kReflexPeriod), [this](const ros::SteadyTimerEvent&) {
@@ -86,6 +90,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
   poses_.start();
   check_sweep_.start();
   predict_.start();
+  controls_.start();
   report_thread_.start();
   ROS_INFO("guarding '%s' (%s) in '%s' by %s, %s; poses from %s, meshes from %s and %s", parameters_.tool_frame.c_str(),
            parameters_.tool_story.c_str(), parameters_.fixed_frame.c_str(), parameters_.detector_story.c_str(),
@@ -100,10 +105,11 @@ SweepGuardNode::~SweepGuardNode() {
   }
   queue_changed_.notify_all();
   sweeping_thread_.join();
-  questions_.clear();  // whoever waits for an answer hears that there is none
+  tasks_.clear();  // whoever waits for one hears that it is not done
 }
 
 void SweepGuardNode::enqueue(PlacedPose pose) {
+  if (!ledger_.counts(pose.came)) return;
   std::unique_lock lock(queue_mutex_);
   queue_changed_.wait(lock, [this] { return stopping_ || queue_.size() < kPosesQueued; });
   queue_.push_back(std::move(pose));
@@ -111,17 +117,34 @@ void SweepGuardNode::enqueue(PlacedPose pose) {
   queue_changed_.notify_all();
 }
 
-std::future<PredictService::Answer> SweepGuardNode::ask(sweep_guard::Duration horizon) {
-  Question question{horizon, {}};
-  std::future<PredictService::Answer> answer = question.answer.get_future();
+// Done by the sweeping thread, which alone touches the guard.
+template <typename Result>
+std::future<Result> SweepGuardNode::betweenSweeps(std::function<Result()> task) {
+  const auto packaged = std::make_shared<std::packaged_task<Result()>>(std::move(task));
   {
     const std::lock_guard lock(queue_mutex_);
     if (stopping_) throw sweep_guard::Error("the guard is shutting down");
-    if (questions_.size() >= kQuestionsQueued) throw sweep_guard::Error("the guard is busy: ask again");
-    questions_.push_back(std::move(question));
+    if (tasks_.size() >= kTasksQueued) throw sweep_guard::Error("the guard is busy: ask again");
+    tasks_.push_back([packaged] { (*packaged)(); });
   }
   queue_changed_.notify_all();
-  return answer;
+  return packaged->get_future();
+}
+
+void SweepGuardNode::reset() {
+  sweep_guard::GuardChange change;
+  change.options = parameters_.guard;
+  change.predictor.emplace(parameters_.guard.predictor);
+  ledger_.restart();
+  betweenSweeps<void>([&] {
+    guard_.forget();
+    guard_.adopt(change);
+    passed_.clear();
+    swept_.reset();
+    const std::lock_guard lock(scene_mutex_);
+    scene_ = {};
+  }).get();
+  workload_.restart();
 }
 
 void SweepGuardNode::work() {
@@ -131,15 +154,15 @@ void SweepGuardNode::work() {
   }
   while (true) {
     std::unique_lock lock(queue_mutex_);
-    queue_changed_.wait(lock, [this] { return stopping_ || !queue_.empty() || !questions_.empty(); });
+    queue_changed_.wait(lock, [this] { return stopping_ || !queue_.empty() || !tasks_.empty(); });
     if (stopping_) return;
-    std::deque<Question> questions = std::move(questions_);
-    questions_.clear();
+    const std::deque<std::function<void()>> tasks = std::move(tasks_);
+    tasks_.clear();
     const std::deque<PlacedPose> poses = std::move(queue_);
     queue_.clear();
     lock.unlock();
     queue_changed_.notify_all();
-    for (Question& question : questions) answer(question);
+    for (const auto& task : tasks) task();
     process(poses);
   }
 }
@@ -150,7 +173,7 @@ void SweepGuardNode::process(const std::deque<PlacedPose>& poses) {
 
 // @param next  if it waits already
 void SweepGuardNode::process(const PlacedPose& placed, const PlacedPose* next) {
-  if (placed.came.epoch != ledger_.mark().epoch) return;  // time has gone back since it came
+  if (!ledger_.counts(placed.came)) return;
   if (placed.came.epoch != guard_epoch_) {
     guard_.forget();
     passed_.clear();
@@ -224,21 +247,18 @@ void SweepGuardNode::lookAhead(const PlacedPose& placed) {
   scene_.outlook = outlook;
 }
 
-void SweepGuardNode::answer(Question& question) {
-  try {
-    const sweep_guard::Instant at = now();
-    if (!swept_ || guard_epoch_ != ledger_.mark().epoch) throw sweep_guard::Error("no tool pose yet: nothing is known");
-    if (sweep_guard::stale(*swept_, at, parameters_.limits.pose_timeout)) {
-      throw sweep_guard::Error("the newest tool pose is stale: nothing is known of the tool now");
-    }
-    const sweep_guard::Duration age = std::max(sweep_guard::age(*swept_, at), sweep_guard::Duration::zero());
-    sweep_guard::Forecast forecast = guard_.forecast(age, question.horizon);
-    if (forecast.path.empty())
-      throw sweep_guard::Error("the motion is not known yet: two tool poses in a row are needed");
-    question.answer.set_value({std::move(forecast), age});
-  } catch (...) {
-    question.answer.set_exception(std::current_exception());
+PredictService::Answer SweepGuardNode::forecast(sweep_guard::Duration horizon) const {
+  const sweep_guard::Instant at = now();
+  if (const auto asked_by = ledger_.disabledBy()) throw sweep_guard::Error("the guard is disabled by " + *asked_by);
+  if (!swept_ || guard_epoch_ != ledger_.mark().epoch) throw sweep_guard::Error("no tool pose yet: nothing is known");
+  if (sweep_guard::stale(*swept_, at, parameters_.limits.pose_timeout)) {
+    throw sweep_guard::Error("the newest tool pose is stale: nothing is known of the tool now");
   }
+  const sweep_guard::Duration age = std::max(sweep_guard::age(*swept_, at), sweep_guard::Duration::zero());
+  sweep_guard::Forecast forecast = guard_.forecast(age, horizon);
+  if (forecast.path.empty())
+    throw sweep_guard::Error("the motion is not known yet: two tool poses in a row are needed");
+  return {std::move(forecast), age};
 }
 
 void SweepGuardNode::publishContacts(const sweep_guard::SweepReport& report) {

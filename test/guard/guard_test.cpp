@@ -84,6 +84,38 @@ TEST_F(GuardTest, SweepsEveryIntervalEndToEnd) {
   }
 }
 
+// The drill of 5 mm passes the sheet's edge in 7 mm.
+TEST_F(GuardTest, SweepsTheWayOnWithWhatItAdopts) {
+  guard_.sweep(pose(1.0, {{"table", Eigen::Isometry3d(Eigen::Translation3d(0.0, -1.007, 0.5))}}), table_);
+  FakeDetector::Record record;
+  GuardChange change;
+  change.tool = Tool::cylinder(0.01, 0.1);
+  change.detector = std::make_unique<FakeDetector>(record);
+  change.options.sweep.volume = VolumeKind::kObb;
+  guard_.adopt(change);
+  ASSERT_TRUE(change.tool && change.detector);
+  EXPECT_NEAR(change.tool->bounds_T().max().x(), 0.005, 1e-9);
+  record_.volumes.clear();
+  const Eigen::Isometry3d below(Eigen::Translation3d(0.0, -1.007, -0.5));
+  const SweepReport report = guard_.sweep(pose(1.1, {{"table", below}}), table_);
+  EXPECT_EQ(report.start, at(1.0));
+  EXPECT_TRUE(report.contact());
+  EXPECT_TRUE(record_.volumes.empty());
+  ASSERT_FALSE(record.volumes.empty());
+  EXPECT_TRUE(record.volumes[0].clips_B.empty());
+}
+
+// Else nothing would be known of what comes for two poses.
+TEST_F(GuardTest, PredictsWithAnAdoptedPredictorFromTheNextPoseOn) {
+  sweepTo(1.0, 0.5);
+  GuardChange change;
+  change.predictor.emplace(PredictorOptions());
+  guard_.adopt(change);
+  EXPECT_TRUE(guard_.lookAhead({}, table_).path.empty());
+  sweepTo(1.1, 0.5);
+  EXPECT_FALSE(guard_.lookAhead({}, table_).path.empty());
+}
+
 TEST_F(GuardTest, SweepsBetweenTwoPosesOfTheSameStamp) {
   sweepTo(1.0, 0.5);
   const SweepReport report = sweepTo(1.0, -0.1);

@@ -390,5 +390,57 @@ TEST_F(LedgerTest, TimeThatJumpedForgetsWhatWasExpectedAndWarnedOf) {
   EXPECT_EQ(reasonsAt(1020), kNotCovered);
 }
 
+TEST_F(LedgerTest, DisabledIsUnknownByWhomItWasAskedWhateverCame) {
+  sweep(reportOf(workpieces_, {3}), 1010);
+  ledger_.disable("/somebody");
+  ledger_.disable("/somebody_else");
+  ledger_.fault(kTfFail, "no transform");
+  const Verdict verdict = ledger_.verdict(at(1010));
+  EXPECT_EQ(verdict.level, Level::kUnknown);
+  EXPECT_EQ(verdict.reasons, kDisabled);
+  EXPECT_EQ(verdict.text, "UNKNOWN: disabled by /somebody: nothing is tested");
+  EXPECT_EQ(verdict.covered_until, Time());
+}
+
+TEST_F(LedgerTest, WhatCameBeforeOrWhileItWasDisabledDoesNotCount) {
+  const Ledger::Mark before = ledger_.mark();
+  EXPECT_TRUE(ledger_.counts(before));
+  ledger_.disable("/somebody");
+  const Ledger::Mark meanwhile = ledger_.mark();
+  EXPECT_FALSE(ledger_.counts(before));
+  EXPECT_FALSE(ledger_.counts(meanwhile));
+  ledger_.enable();
+  EXPECT_FALSE(ledger_.counts(before));
+  EXPECT_FALSE(ledger_.counts(meanwhile));
+  EXPECT_TRUE(ledger_.counts(ledger_.mark()));
+  ledger_.swept(reportOf(workpieces_), seenAt(1010), meanwhile, at(1010).steady);
+  EXPECT_EQ(reasonsAt(1010), kNoPose);
+  sweep(reportOf(workpieces_), 1020);
+  EXPECT_EQ(levelAt(1020), Level::kClear);
+}
+
+TEST_F(LedgerTest, ToEnableWhatIsEnabledForgetsNothing) {
+  ledger_.enable();
+  EXPECT_EQ(levelAt(1000), Level::kClear);
+}
+
+TEST_F(LedgerTest, RestartEndsWhatIsHeldButNotARefusedMesh) {
+  sweep(reportOf(workpieces_, {3}), 1010);
+  EXPECT_EQ(levelAt(1010), Level::kContact);
+  ledger_.restart();
+  EXPECT_EQ(reasonsAt(1010), kNoPose);
+  ledger_.meshRefused("liver", "workpiece 'liver' refused");
+  ledger_.restart();
+  EXPECT_EQ(reasonsAt(1010), kNoPose | kMeshInvalid);
+}
+
+TEST_F(LedgerTest, NewLimitsCountFromTheNextVerdictOn) {
+  EXPECT_EQ(levelAt(1050), Level::kClear);
+  VerdictLimits limits = kLimits;
+  limits.pose_timeout = milliseconds(40);
+  ledger_.setLimits(limits);
+  EXPECT_NE(reasonsAt(1050) & kPoseStale, 0U);
+}
+
 }  // namespace
 }  // namespace sweep_guard

@@ -44,13 +44,15 @@ GuardProbe::GuardProbe(bool drives_clock, PoseSource pose_source) : time_(drives
   if (drives_clock) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10, /*latch=*/true);
   check_sweep_ = node_.serviceClient<sweep_guard::CheckSweep>("/sweep_guard/check_sweep");
   predict_ = node_.serviceClient<sweep_guard::Predict>("/sweep_guard/predict");
+  enable_ = node_.serviceClient<std_srvs::SetBool>("/sweep_guard/enable");
+  reset_ = node_.serviceClient<std_srvs::Trigger>("/sweep_guard/reset");
   spinner_.start();
   const auto heard = [](const ros::Subscriber& subscriber) { return subscriber.getNumPublishers() > 0; };
   await("the guard's connections", [&] {
     return (pose_source == PoseSource::kTf || pose_publisher_.getNumSubscribers() > 0) &&
            mesh_publisher_.getNumSubscribers() > 0 && vertices_publisher_.getNumSubscribers() > 0 &&
            tf_publisher_.getNumSubscribers() > 0 && std::all_of(subscribers_.begin(), subscribers_.end(), heard) &&
-           !warnings_.empty() && check_sweep_.exists() && predict_.exists();
+           !warnings_.empty() && check_sweep_.exists() && predict_.exists() && enable_.exists() && reset_.exists();
   });
   if (drives_clock) setClock(time_);  // latched: a guard that connects later sees it too
 }
@@ -254,6 +256,19 @@ sweep_guard::CheckSweep::Response GuardProbe::check(sweep_guard::CheckSweep::Req
   sweep_guard::CheckSweep::Response response;
   if (!check_sweep_.call(request, response)) throw std::runtime_error("~check_sweep does not answer");
   return response;
+}
+
+std_srvs::SetBool::Response GuardProbe::enable(bool enabled) {
+  std_srvs::SetBool service;
+  service.request.data = enabled;
+  if (!enable_.call(service)) throw std::runtime_error("~enable does not answer");
+  return service.response;
+}
+
+std_srvs::Trigger::Response GuardProbe::reset() {
+  std_srvs::Trigger service;
+  if (!reset_.call(service)) throw std::runtime_error("~reset does not answer");
+  return service.response;
 }
 
 geometry_msgs::PoseStamped poseAt(const Eigen::Vector3d& tip_W, ros::Time stamp, const Eigen::Quaterniond& rotation) {

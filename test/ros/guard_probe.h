@@ -3,6 +3,8 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
 #include <sweep_guard/CheckSweep.h>
 #include <sweep_guard/Contacts.h>
 #include <sweep_guard/DeformableMesh.h>
@@ -85,6 +87,8 @@ class GuardProbe {
 
   sweep_guard::CheckSweep::Response check(sweep_guard::CheckSweep::Request request);
   sweep_guard::Predict::Response predict(double horizon);
+  std_srvs::SetBool::Response enable(bool enabled);
+  std_srvs::Trigger::Response reset();
 
  private:
   template <typename Message, typename Take>
@@ -116,6 +120,8 @@ class GuardProbe {
   std::vector<ros::Subscriber> subscribers_;
   ros::ServiceClient check_sweep_;
   ros::ServiceClient predict_;
+  ros::ServiceClient enable_;
+  ros::ServiceClient reset_;
   ros::AsyncSpinner spinner_{1};
 };
 

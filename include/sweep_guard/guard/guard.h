@@ -72,6 +72,14 @@ struct GuardOptions {
   PathTest::Options pathTest() const { return {sweep, horizon.reflex_step / 2}; }
 };
 
+/// What a guard is to go on with.
+struct GuardChange {
+  GuardOptions options;                    ///< its clock does not count: the one there is stays
+  std::optional<Tool> tool;                ///< empty: the one there is
+  std::unique_ptr<Detector> detector;      ///< null: the one there is
+  std::optional<PosePredictor> predictor;  ///< of these options; empty: the one there is, and what it has learned
+};
+
 /// Sweeps the tool from pose to pose, so that no motion goes untested. What could not be swept is not skipped: after a
 /// failure of the detector the way through every pose since is swept, after a missing transform the straight way from
 /// the last pose that was known in that frame. The first sweep in a frame is a test of the pose alone. From the newest
@@ -113,6 +121,12 @@ class Guard {
 
   /// Begins anew, as if no pose had come.
   void forget();
+
+  /// Goes on differently. The next sweep begins where the last one has ended: the way between two poses is swept by
+  /// what there was before, or by what there is now.
+  /// @param[in,out] change  is handed what it replaces, so that the caller may destroy it where that takes no one's
+  /// time
+  void adopt(GuardChange& change);
 
   const Tool& tool() const { return tool_; }
 

@@ -19,11 +19,13 @@ class Ledger {
  public:
   /// Where in the ledger an input stood when it came: what it can vouch for.
   struct Mark {
-    std::uint64_t epoch = 0;   ///< counts jumps of time
+    std::uint64_t epoch = 0;   ///< counts new beginnings: jumps of time, restarts, and where it was disabled or enabled
     std::uint64_t faults = 0;  ///< faults reported before
   };
 
-  /// @param on_fault  called after every fault, in the thread that reports it, so that none goes unseen
+  /// @param on_fault  called after every fault and every new beginning, in the thread that reports it, so that none
+  /// goes
+  ///                  unseen
   explicit Ledger(
       const VerdictLimits& limits, std::function<void()> on_fault = [] {});
 
@@ -41,16 +43,35 @@ class Ledger {
   /// The workpieces there are now, newest snapshots.
   void setWorkpieces(const Workpieces& workpieces);
 
-  /// A pose has been swept to. Mends the faults from before the pose came. Does nothing if time has jumped since.
+  /// A pose has been swept to. Mends the faults from before the pose came. Does nothing if there was a new beginning
+  /// since.
   void swept(const SweepReport& report, const Seen& pose, const Mark& pose_came, SteadyTime now);
 
-  /// The path from a pose that has been swept to was tested. Does nothing if time has jumped since the pose came.
+  /// The path from a pose that has been swept to was tested. Does nothing if there was a new beginning since the
+  /// pose came.
   /// @param pose  that the path begins at
   void predicted(const Outlook& outlook, const Seen& pose, const Mark& pose_came, const Instant& now);
 
   /// Time went back: poses, predictions and faults are forgotten; kTimeJump is in force until a pose of the new time is
   /// swept.
   void timeJumped(const std::string& story);
+
+  /// Everything but the workpieces, and those refused, is forgotten: what is to be told comes from poses that come from
+  /// now on.
+  void restart();
+
+  /// Nothing is promised until enable(), whatever comes in: the verdict is unknown. Does nothing if it is disabled.
+  /// @param asked_by  for people
+  void disable(const std::string& asked_by);
+  /// What moved while it was disabled was not swept and does not count: as restart(). Does nothing if it is enabled.
+  void enable();
+  std::optional<std::string> disabledBy() const;  ///< empty: it is enabled
+
+  /// What came in at that mark is still to be swept: there was no new beginning since, and the guard is enabled.
+  bool counts(const Mark& came) const;
+
+  /// From the next verdict on.
+  void setLimits(const VerdictLimits& limits);
 
   Verdict verdict(const Instant& now) const;
 
@@ -66,16 +87,18 @@ class Ledger {
     Workpieces tested;
   };
 
+  void beginAnew();
   void note(Reason reason, const std::string& story);
   void noteContact(const SweepReport& report, SteadyTime now);
   void noteExpected(const Outlook& outlook, const Seen& pose, const Instant& now);
   void noteAlarm(const Instant& now);
   Time coveredUntil(const Instant& now) const;
 
-  const VerdictLimits limits_;
   const std::function<void()> on_fault_;
   mutable std::mutex mutex_;
+  VerdictLimits limits_;
   Mark mark_;
+  std::optional<std::string> disabled_by_;
   std::optional<Seen> pose_;
   Time swept_until_;  // every workpiece
   std::optional<Evidence::Contact> contact_;

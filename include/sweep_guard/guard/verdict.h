@@ -30,6 +30,7 @@ enum Reason : std::uint32_t {
   kNotSwept = 1U << 11,
   kNotCovered = 1U << 12,
   kOverload = 1U << 13,
+  kDisabled = 1U << 14,
 };
 
 /// Reasons that tell of something degraded, and leave the level as it is.
@@ -89,6 +90,7 @@ struct Evidence {
   Time covered_until;               ///< no workpiece is left untested up to here, measured or predicted; epoch: never
   std::optional<Backlog> overload;  ///< newest that was too long
   std::map<Reason, std::string> faults;  ///< in force, each with its story
+  std::optional<std::string> disabled;   ///< who asked for it, if the guard is disabled: nothing else counts then
 };
 
 struct VerdictLimits {
@@ -123,7 +125,7 @@ struct Verdict {
 /// takes a fresh pose, a workpiece, every workpiece fresh, swept at that pose and tested up to the end of the
 /// considered interval, and no fault: whatever is missing is unknown, not clear. Reasons are named whatever the level;
 /// an overload alone, which costs exactness but leaves nothing unswept, does not change it.
-/// Ages are the larger of both clocks.
+/// A guard that is disabled is unknown for that reason alone. Ages are the larger of both clocks.
 Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits& limits);
 
 /// The warning that a collision asks for: kReflex, kConsidered, or kClear for none.

@@ -45,6 +45,7 @@ class Workload {
   void swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_time, size_t failures);
   void predicted(const Prediction& prediction, size_t failures);
   Summary take();
+  void restart();  ///< counts from 0
 
  private:
   const sweep_guard::Duration cycle_;

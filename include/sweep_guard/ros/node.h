@@ -14,6 +14,7 @@
 
 #include "sweep_guard/common/pool.h"
 #include "sweep_guard/ros/check_sweep.h"
+#include "sweep_guard/ros/controls.h"
 #include "sweep_guard/ros/diagnostics.h"
 #include "sweep_guard/ros/markers.h"
 #include "sweep_guard/ros/predict.h"
@@ -32,13 +33,10 @@ class SweepGuardNode {
   SweepGuardNode& operator=(const SweepGuardNode&) = delete;
 
  private:
-  struct Question {
-    sweep_guard::Duration horizon;
-    std::promise<PredictService::Answer> answer;
-  };
-
   void enqueue(PlacedPose pose);
-  std::future<PredictService::Answer> ask(sweep_guard::Duration horizon);
+  template <typename Result>
+  std::future<Result> betweenSweeps(std::function<Result()> task);
+  void reset();
   void work();
   void process(const std::deque<PlacedPose>& poses);
   void process(const PlacedPose& placed, const PlacedPose* next);
@@ -46,7 +44,7 @@ class SweepGuardNode {
   void sweep(const PlacedPose& placed);
   void lookAhead(const PlacedPose& placed);
   bool timeToLookAhead();
-  void answer(Question& question);
+  PredictService::Answer forecast(sweep_guard::Duration horizon) const;
   void publishContacts(const sweep_guard::SweepReport& report);
   void publishPrediction(const sweep_guard::Outlook& outlook, sweep_guard::Duration age);
   void watch();
@@ -73,7 +71,7 @@ class SweepGuardNode {
   std::mutex queue_mutex_;
   std::condition_variable queue_changed_;
   std::deque<PlacedPose> queue_;
-  std::deque<Question> questions_;
+  std::deque<std::function<void()>> tasks_;  // of the sweeping thread, between two sweeps
   bool stopping_ = false;
 
   std::mutex scene_mutex_;
@@ -97,6 +95,7 @@ class SweepGuardNode {
   Workload workload_;
   Diagnostics diagnostics_;
   Markers markers_;
+  Controls controls_;
 
   QueueThread warning_thread_;
   QueueThread report_thread_;

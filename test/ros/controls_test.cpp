@@ -1,0 +1,143 @@
+// ~enable and ~reset of a running guard. Part of node_test.
+#include "node_fixture.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::Contacts;
+using sweep_guard::Warning;
+
+class ControlsTest : public NodeTest {
+ protected:
+  void TearDown() override {
+    probe().enable(true);
+    NodeTest::TearDown();
+  }
+};
+
+TEST_F(ControlsTest, DisabledIsUnknownForThatReasonAloneAndNotClear) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  restAt({0.0, 0.0, 0.5});
+  const auto response = probe().enable(false);
+  EXPECT_TRUE(response.success) << response.message;
+  const Warning warning = probe().awaitWarning(hasReason(Warning::DISABLED));
+  EXPECT_EQ(warning.reasons, Warning::DISABLED);
+  EXPECT_TRUE(warning.reflex && warning.considered);
+  EXPECT_NE(warning.text.find("disabled by /node_test"), std::string::npos) << warning.text;
+}
+
+// The pose that comes while it is disabled is never swept: not at once, and not as part of the way afterwards.
+TEST_F(ControlsTest, NothingIsSweptWhileDisabledAndCoverageBeginsAnew) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  restAt({0.0, 0.0, 0.5});
+  ASSERT_TRUE(probe().enable(false).success);
+  probe().forgetContacts();
+  probe().forgetPredictions();
+  probe().tick(0.01);
+  probe().publish(poseAt({0.0, 0.0, 0.1}, probe().time()));
+  EXPECT_FALSE(probe().predict(1.0).success);
+  probe().skipWarnings();
+  ASSERT_TRUE(probe().enable(true).success);
+  const Warning first = probe().awaitWarning([](const Warning& next) { return next.reasons != Warning::DISABLED; });
+  EXPECT_EQ(first.level, Warning::UNKNOWN);
+  EXPECT_NE(first.reasons & Warning::NO_POSE, 0U) << first.text;
+  EXPECT_EQ(first.covered_until, ros::Time());
+
+  probe().tick(0.01);
+  probe().publish(poseAt({0.0, 0.0, -0.5}, probe().time()));  // beyond the sheet, clear of it
+  const std::vector<Contacts> contacts = probe().awaitContactsUpTo(probe().time());
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(contacts[0].interval_start, probe().time());
+  EXPECT_TRUE(contacts[0].objects.empty());
+  restAt({0.0, 0.0, -0.5});
+}
+
+TEST_F(ControlsTest, ToEnableWhatIsEnabledChangesNothing) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  restAt({0.0, 0.0, 0.5});
+  const size_t clear_since = probe().warnings().size();
+  EXPECT_TRUE(probe().enable(true).success);
+  moveTo({0.0, 0.0, 0.5});
+  const auto warnings = probe().warnings();
+  for (size_t i = clear_since; i < warnings.size(); ++i) EXPECT_TRUE(warnings[i].clear) << warnings[i].text;
+}
+
+TEST_F(ControlsTest, ContactIsNotHiddenByDisabling) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  moveTo({0.0, 0.0, -0.01});
+  probe().awaitWarning([](const Warning& warning) { return warning.contact; });
+  const auto response = probe().enable(false);
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(response.message.find("CONTACT: tool meets 'sheet'"), std::string::npos) << response.message;
+  moveTo({0.0, 0.0, -0.01});
+  EXPECT_TRUE(probe().warnings().back().contact);
+}
+
+// While the clock of the stamps stands still, too, the guard stays disabled, and an input that is refused is no news.
+TEST_F(ControlsTest, DisabledOutlastsResetAndJumpsOfTime) {
+  ASSERT_TRUE(probe().enable(false).success);
+  const auto response = probe().reset();
+  EXPECT_TRUE(response.success);
+  EXPECT_NE(response.message.find("stays disabled"), std::string::npos) << response.message;
+  probe().skipWarnings();
+  probe().setClock(probe().time() - ros::Duration(10.0));
+  probe().publish(poseAt({0.0, 0.0, 0.5}, ros::Time()));
+  EXPECT_EQ(probe().awaitWarning([](const Warning&) { return true; }).reasons, Warning::DISABLED);
+}
+
+TEST_F(ControlsTest, ResetEndsAHeldContactAndBeginsAnewWithTheWorkpiecesThereAre) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  moveTo({0.0, 0.0, -0.01});
+  const Warning contact = probe().awaitWarning([](const Warning& warning) { return warning.contact; });
+  moveTo({0.0, 0.0, 0.5});
+  probe().skipWarnings();
+  const auto response = probe().reset();
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_NE(response.message.find("Kept: 1 workpieces"), std::string::npos) << response.message;
+  const Warning anew = probe().awaitWarning([](const Warning& warning) { return !warning.contact; });
+  EXPECT_EQ(anew.level, Warning::UNKNOWN);
+  EXPECT_EQ(anew.reasons, Warning::NO_POSE) << anew.text;
+  EXPECT_GT(anew.sequence, contact.sequence);
+  restAt({0.0, 0.0, 0.5});
+}
+
+TEST_F(ControlsTest, ResetDoesNotHideAContactThatIsStillThere) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, -0.05});
+  ASSERT_TRUE(probe().reset().success);
+  probe().skipWarnings();
+  EXPECT_EQ(moveTo({0.0, 0.0, -0.05}).objects.size(), 1U);
+  probe().awaitWarning([](const Warning& warning) { return warning.contact; });
+}
+
+// Two poses make a motion: those before the reset do not count.
+TEST_F(ControlsTest, ResetForgetsTheMotion) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  restAt({0.0, 0.0, 0.5});
+  EXPECT_TRUE(probe().predict(1.0).success);
+  ASSERT_TRUE(probe().reset().success);
+  EXPECT_FALSE(probe().predict(1.0).success);
+  moveTo({0.0, 0.0, 0.5});
+  EXPECT_FALSE(probe().predict(1.0).success);
+  moveTo({0.0, 0.0, 0.5});
+  probe().awaitPrediction(probe().time());
+  EXPECT_TRUE(probe().predict(1.0).success);
+}
+
+// What cannot be seen is not forgotten.
+TEST_F(ControlsTest, ResetKeepsARefusedWorkpieceInMind) {
+  auto bad = sheetAt("bad", {0.0, 0.0, -1.0}, probe().time());
+  bad.mesh.triangles.clear();
+  probe().publish(bad);
+  placed_.insert("bad");
+  probe().awaitWarning(hasReason(Warning::MESH_INVALID));
+  ASSERT_TRUE(probe().reset().success);
+  probe().skipWarnings();
+  const Warning warning = probe().awaitWarning([](const Warning&) { return true; });
+  EXPECT_NE(warning.reasons & Warning::MESH_INVALID, 0U) << warning.text;
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
