@@ -5,14 +5,20 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "recording/motion_file.h"
+#include "recording/recording.h"
 #include "simulation/drilling.h"
+#include "simulation/guided_tip.h"
+#include "simulation/joy_guide.h"
+#include "simulation/joystick.h"
+#include "simulation/marker_guide.h"
+#include "simulation/pose_stream.h"
 #include "simulation/replay.h"
 #include "simulation/run_node.h"
 #include "simulation/tip.h"
@@ -35,25 +41,12 @@ constexpr double kLongestSleep = 0.1;  // [s] so that a long gap in a recording 
 constexpr double kLinger = 1.0;        // [s] for the last poses to leave
 constexpr double kSlant = 0.45;        // more than the drill tilts: rise per width of the tool between two holes
 constexpr double kDepth = 0.010;       // [m] below the surface, in both kinds of motion
+constexpr double kClearance = 0.1;     // [m] above the surface, where a hand takes the tool over
+constexpr int kHighestAxis = 63;       // of an input device
 constexpr double kHoleCircle = 0.06;   // [m] radius
 constexpr int kHolesOnCircle = 5;
 constexpr std::uint32_t kNotReady =
     sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
-
-/// The next pose, its stamp counted from the start of the motion; empty at the end.
-using PoseStream = std::function<std::optional<StampedPose>()>;
-
-PoseStream sampled(const Drilling& drilling, double rate, bool loop) {
-  return [drilling, rate, loop, sample = 0L]() mutable -> std::optional<StampedPose> {
-    const double t = static_cast<double>(sample++) / rate;
-    if (!loop && t > drilling.duration()) return std::nullopt;
-    return StampedPose{sweep_guard::Time(sweep_guard::fromSeconds(t)), drilling.pose(t)};
-  };
-}
-
-PoseStream replayed(std::vector<StampedPose> poses, const Replay::Options& options) {
-  return [replay = Replay(std::move(poses), options)]() mutable { return replay.next(); };
-}
 
 sweep_guard::TriangleMesh toMesh(const sweep_guard::DeformableMesh& message, const Eigen::Isometry3d& X_WM) {
   std::vector<Eigen::Vector3d> vertices_W;
@@ -73,13 +66,18 @@ class OperatorNode {
   explicit OperatorNode(sweep_guard_ros::ParameterReader& parameters)
       : frame_(parameters.name("frame", "world")),
         motion_file_(parameters.text("motion_file", "")),
+        motion_topic_(parameters.text("motion_topic", "")),
+        input_(parameters.choice("input", motion_file_.empty() ? "scripted" : "recording",
+                                 {"scripted", "recording", "marker", "joy"})),
+        limits_(readLimits(parameters)),
+        joystick_(readJoystick(parameters)),
         rate_(parameters.number("rate", 100.0, {1.0, 10000.0})),
         loop_(parameters.flag("loop", true)),
         wait_for_guard_(parameters.flag("wait_for_guard", true)),
         min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
         guard_(parameters.text("guard", "")),
         listener_(buffer_) {
-    if (!motion_file_.empty()) recording_ = sweep_guard_recording::readMotionFile(motion_file_);
+    if (input_ == "recording") readMotion();
     publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", kQueue);
     mesh_subscriber_ = node_.subscribe("mesh", 1, &OperatorNode::onMesh, this);
     warning_subscriber_ = node_.subscribe("warning", 1, &OperatorNode::onWarning, this);
@@ -102,6 +100,38 @@ class OperatorNode {
   }
 
  private:
+  static GuidedTip::Limits readLimits(sweep_guard_ros::ParameterReader& parameters) {
+    GuidedTip::Limits limits;
+    limits.speed = parameters.number("hand/speed", limits.speed, {0.001, 5.0});
+    limits.acceleration = parameters.number("hand/acceleration", limits.acceleration, {0.01, 100.0});
+    limits.turn_rate = parameters.number("hand/turn_rate", limits.turn_rate, {0.01, 20.0});
+    limits.turn_acceleration = parameters.number("hand/turn_acceleration", limits.turn_acceleration, {0.1, 1000.0});
+    return limits;
+  }
+
+  static Joystick::Options readJoystick(sweep_guard_ros::ParameterReader& parameters) {
+    const auto axes = [&parameters](const std::string& key, const std::array<int, 3>& fallback) {
+      const std::vector<int> read = parameters.integers(key, {fallback.begin(), fallback.end()}, -1, kHighestAxis);
+      return std::array<int, 3>{read[0], read[1], read[2]};
+    };
+    Joystick::Options options;
+    options.linear_axes = axes("joy/linear_axes", options.linear_axes);
+    options.angular_axes = axes("joy/angular_axes", options.angular_axes);
+    options.linear = parameters.position("joy/linear", options.linear);
+    options.angular = parameters.position("joy/angular", options.angular);
+    options.dead_zone = parameters.number("joy/dead_zone", options.dead_zone, {0.0, 0.9});
+    options.timeout = sweep_guard::fromSeconds(
+        parameters.number("joy/timeout", sweep_guard::toSeconds(options.timeout), {0.01, 10.0}));
+    return options;
+  }
+
+  void readMotion() {
+    if (motion_file_.empty()) {
+      throw sweep_guard::InvalidInput("input is 'recording' and motion_file is empty; give a motion file or a rosbag");
+    }
+    recording_ = sweep_guard_recording::readRecording(motion_file_, motion_topic_).poses;
+  }
+
   void takeHold(const sweep_guard::Tool& tool) {
     p_TTip_ = tipOf(tool);
     girth_ = girthOf(tool);
@@ -135,16 +165,36 @@ class OperatorNode {
   }
 
   PoseStream makePoses() {
-    if (recording_.empty()) {
-      Drilling::Options options;
-      options.depth = kDepth;
-      options.clearance += kSlant * girth_;
-      return sampled(Drilling(holesAround(*surface_, kHoleCircle, kHolesOnCircle), options), rate_, loop_);
+    if (input_ == "recording") return playRecording();
+    if (input_ == "scripted") return drill();
+    const GuidedTip tip(aboveTheWorkpiece(), limits_);
+    if (input_ == "joy") {
+      joy_guide_.emplace(node_, joystick_);
+      return guided(tip, rate_, [this](GuidedTip& led, double dt) { joy_guide_->move(led, dt); });
     }
+    marker_guide_.emplace(ros::names::resolve("~marker"), frame_, tip.pose(), buffer_);
+    return guided(tip, rate_, [this](GuidedTip& led, double dt) { marker_guide_->move(led, dt); });
+  }
+
+  PoseStream drill() const {
+    Drilling::Options options;
+    options.depth = kDepth;
+    options.clearance += kSlant * girth_;
+    return sampled(Drilling(holesAround(*surface_, kHoleCircle, kHolesOnCircle), options), rate_, loop_);
+  }
+
+  PoseStream playRecording() const {
     Replay::Options options;
     options.loop = loop_;
     options.target_W = surface_->highestPoint() - kDepth * Eigen::Vector3d::UnitZ();
     return replayed(recording_, options);
+  }
+
+  // Of the tip, which points down.
+  Eigen::Isometry3d aboveTheWorkpiece() const {
+    const double clearance = kClearance + kSlant * girth_;
+    return Eigen::Translation3d(surface_->highestPoint() + clearance * Eigen::Vector3d::UnitZ()) *
+           Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
   }
 
   bool perform(const PoseStream& motion) {
@@ -153,6 +203,7 @@ class OperatorNode {
       const ros::Time due = start + ros::Duration().fromNSec(pose->stamp.time_since_epoch().count());
       if (!sleepUntil(due)) return false;
       publish(pose->X_WT * Eigen::Translation3d(-p_TTip_), due);
+      ros::spinOnce();
     }
     return true;
   }
@@ -175,6 +226,10 @@ class OperatorNode {
 
   std::string frame_;
   std::string motion_file_;
+  std::string motion_topic_;
+  std::string input_;
+  GuidedTip::Limits limits_;
+  Joystick::Options joystick_;
   double rate_;
   bool loop_;
   bool wait_for_guard_;
@@ -192,6 +247,8 @@ class OperatorNode {
   ros::Subscriber warning_subscriber_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
+  std::optional<JoyGuide> joy_guide_;
+  std::optional<MarkerGuide> marker_guide_;
 };
 
 }  // namespace

@@ -1,0 +1,38 @@
+#include "simulation/joy_guide.h"
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_simulation {
+
+namespace {
+
+constexpr double kReminderPeriod = 10.0;  // [s]
+
+// When it came: the device may stamp by another clock.
+sweep_guard::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
+
+}  // namespace
+
+JoyGuide::JoyGuide(ros::NodeHandle node, const Joystick::Options& options)
+    : joystick_(options), subscriber_(node.subscribe("joy", 1, &JoyGuide::onJoy, this)) {
+  ROS_INFO("lead the tool with the device that publishes %s", subscriber_.getTopic().c_str());
+}
+
+void JoyGuide::move(GuidedTip& tip, double dt) const {
+  if (subscriber_.getNumPublishers() == 0) {
+    ROS_WARN_THROTTLE(kReminderPeriod, "the tool rests: nobody publishes %s; start the driver of the device",
+                      subscriber_.getTopic().c_str());
+  }
+  tip.moveAt(joystick_.velocity(now()), dt);
+}
+
+void JoyGuide::onJoy(const sensor_msgs::Joy::ConstPtr& joy) {
+  try {
+    joystick_.take(joy->axes, now());
+  } catch (const sweep_guard::InvalidInput& error) {
+    ROS_ERROR_THROTTLE(kReminderPeriod, "message on %s refused: %s", subscriber_.getTopic().c_str(), error.what());
+  }
+}
+
+}  // namespace sweep_guard_simulation

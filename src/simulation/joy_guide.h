@@ -1,0 +1,25 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
+
+#include "simulation/guided_tip.h"
+#include "simulation/joystick.h"
+
+namespace sweep_guard_simulation {
+
+/// Leads a tip by the messages of an input device on the topic `joy`.
+class JoyGuide {
+ public:
+  JoyGuide(ros::NodeHandle node, const Joystick::Options& options);
+
+  void move(GuidedTip& tip, double dt) const;
+
+ private:
+  void onJoy(const sensor_msgs::Joy::ConstPtr& joy);
+
+  Joystick joystick_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace sweep_guard_simulation

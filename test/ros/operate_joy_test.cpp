@@ -1,0 +1,63 @@
+// The demo led by an input device whose messages are those of a SpaceMouse.
+#include <gtest/gtest.h>
+#include <sensor_msgs/Joy.h>
+
+#include "demo_listener.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using Eigen::Vector3d;
+using Poses = DemoListener::Poses;
+
+const ros::Duration kPeriod(0.01);
+constexpr double kSpeed = 0.15;  // [m/s] of config/operator.yaml
+
+class OperateJoyTest : public ::testing::Test {
+ protected:
+  // Latched: what comes before the connection stands is not lost.
+  OperateJoyTest() : publisher_(node_.advertise<sensor_msgs::Joy>("spacenav/joy", 1, /*latch=*/true)) {}
+
+  void push(const std::vector<float>& axes) {
+    sensor_msgs::Joy joy;
+    joy.axes = axes;
+    publisher_.publish(joy);
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher publisher_;
+  DemoListener listener_;
+};
+
+// One message, and then silence: the tool goes left, and stops. What lies in the dead zone moves nothing.
+TEST_F(OperateJoyTest, TheToolMovesWhileMessagesComeAndStopsWithThem) {
+  const Vector3d start = positionOf(listener_.awaitRest(10).back());
+  push({0.05F, 1.0F, -0.05F, 0.0F, 0.0F, 0.09F});
+  listener_.awaitPoses([&start](const Poses& poses) { return positionOf(poses.back()).y() > start.y() + 0.005; });
+  const Poses resting = listener_.awaitRest(50);
+  EXPECT_EQ(positionOf(resting.back()).x(), start.x());
+  EXPECT_EQ(positionOf(resting.back()).z(), start.z());
+
+  const Poses all = listener_.awaitPoses(0);
+  EXPECT_TRUE(isEven(all, kPeriod));
+  EXPECT_LE(longestStep(all), kSpeed * kPeriod.toSec() + 1e-9);
+}
+
+// As a device does that is held: message after message, here after every fifth pose.
+TEST_F(OperateJoyTest, TheToolIsLedIntoTheWorkpiece) {
+  size_t poses = 0;
+  while (!listener_.touched() && poses < 1000) {
+    push({0.0F, 0.0F, -1.0F, 0.0F, 0.0F, 0.0F});
+    poses = listener_.awaitPoses(poses + 5).size();
+  }
+  EXPECT_TRUE(listener_.touched());
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "operate_joy_test");
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
