@@ -1,0 +1,158 @@
+#include "sweep_guard/rviz/panel_state.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <tuple>
+#include <utility>
+
+namespace sweep_guard_rviz {
+namespace {
+
+using sweep_guard::Warning;
+
+constexpr auto kFlashHalf = std::chrono::milliseconds(250);
+
+constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
+    {Warning::NO_POSE, "no tool pose yet"},
+    {Warning::POSE_STALE, "the tool pose is out of date"},
+    {Warning::POSE_INVALID, "a tool pose was refused: not valid"},
+    {Warning::OUT_OF_ORDER, "a tool pose was refused: older than the one before"},
+    {Warning::FUTURE_STAMP, "a tool pose was refused: its stamp lies in the future"},
+    {Warning::NO_MESH, "no workpiece yet"},
+    {Warning::MESH_STALE, "a workpiece is out of date"},
+    {Warning::MESH_INVALID, "a workpiece was refused: not valid"},
+    {Warning::TF_FAIL, "a transform is missing"},
+    {Warning::TIME_JUMP, "time went back"},
+    {Warning::DETECTOR_FAULT, "the detector failed"},
+    {Warning::NOT_SWEPT, "a workpiece has not been swept yet"},
+    {Warning::NOT_COVERED, "what comes has not been tested"},
+    {Warning::OVERLOAD, "overload: poses were swept at once"},
+    {Warning::DISABLED, "the guard is disabled: nothing is tested"},
+};
+
+std::string seconds(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f s", value);
+  return text;
+}
+
+const char* nameOf(Light light) {
+  constexpr const char* kNames[] = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};
+  return kNames[static_cast<size_t>(light)];
+}
+
+const char* meaningOf(Light light, bool timed) {
+  switch (light) {
+    case Light::kContact:
+      return "the tool touches";
+    case Light::kReflex:
+    case Light::kConsidered:
+      return timed ? "to collision" : "collision is probable";
+    case Light::kClear:
+      return timed ? "to collision" : "no collision ahead";
+    case Light::kUnknown:
+      break;
+  }
+  return "nothing is promised";
+}
+
+std::vector<std::string> sentences(std::string text) {
+  const size_t level = text.find(": ");
+  if (level != std::string::npos) text.erase(0, level + 2);
+  std::vector<std::string> parts;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find("; ", begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  return parts;
+}
+
+// The guard's own words, which have figures; ours where it has none.
+std::vector<std::string> whysOf(const Warning& warning) {
+  if (warning.level == Warning::CLEAR && warning.reasons == 0) return {};
+  if (warning.text.find(": ") != std::string::npos) return sentences(warning.text);
+  std::vector<std::string> whys;
+  for (const auto& [bit, words] : kReasons) {
+    if ((warning.reasons & bit) != 0) whys.emplace_back(words);
+  }
+  return whys;
+}
+
+std::string targetOf(const Warning& warning) {
+  if (warning.mesh_id.empty()) return "";
+  std::string target = (warning.level == Warning::CONTACT ? "touches " : "ahead: ") + warning.mesh_id;
+  const size_t count = warning.triangles.size();
+  if (count > 0) target += ", " + std::to_string(count) + (count == 1 ? " triangle" : " triangles");
+  if (!warning.tool_link.empty()) target += ", by " + warning.tool_link;
+  return target;
+}
+
+PanelState unknown(std::vector<std::string> whys) {
+  PanelState state;
+  state.word = nameOf(Light::kUnknown);
+  state.time = "-";
+  state.meaning = meaningOf(Light::kUnknown, false);
+  state.whys = std::move(whys);
+  return state;
+}
+
+PanelState silent(const std::string& why) {
+  PanelState state = unknown({why});
+  state.silent = true;
+  return state;
+}
+
+// Two halves of a period, on the clock that all panels of a machine share.
+bool brightAt(SteadyTime now) { return now.time_since_epoch() / kFlashHalf % 2 == 0; }
+
+}  // namespace
+
+bool PanelState::operator==(const PanelState& other) const {
+  const auto all = [](const PanelState& s) {
+    return std::tie(s.light, s.bright, s.disabled, s.silent, s.word, s.time, s.meaning, s.target, s.whys);
+  };
+  return all(*this) == all(other);
+}
+
+Light lightOf(const Warning& warning) {
+  const bool says_clear = warning.level == Warning::CLEAR;
+  const bool is_clear = warning.clear && (warning.reasons & ~Warning::OVERLOAD) == 0;
+  if (warning.level > Warning::CONTACT || says_clear != is_clear) return Light::kUnknown;
+  return static_cast<Light>(warning.level);
+}
+
+std::optional<double> timeToCollision(const Warning& warning) {
+  if (lightOf(warning) == Light::kUnknown || warning.time_to_collision < ros::Duration(0)) return std::nullopt;
+  return warning.time_to_collision.toSec();
+}
+
+PanelState panelState(const std::optional<ReceivedWarning>& newest, const Moment& now, const std::string& topic) {
+  if (!newest) return silent("no warning from " + topic);
+  const Warning& warning = newest->warning;
+  const std::chrono::duration<double> age = now.steady - newest->received;
+  if (age > kSilence) return silent("the guard has been silent for " + seconds(age.count()));
+  if (warning.valid_until < now.stamp) {
+    return silent("the warning ran out " + seconds((now.stamp - warning.valid_until).toSec()) + " ago");
+  }
+
+  PanelState state;
+  state.light = lightOf(warning);
+  if (state.light == Light::kUnknown) {
+    state = unknown(whysOf(warning));
+    if (warning.level != Warning::UNKNOWN) state.whys.emplace_back("the warning contradicts itself");
+    state.disabled = (warning.reasons & Warning::DISABLED) != 0;
+    if (state.disabled) state.word = "DISABLED";
+    return state;
+  }
+  const std::optional<double> left = timeToCollision(warning);
+  state.bright = state.light != Light::kContact || brightAt(now.steady);
+  state.word = nameOf(state.light);
+  state.time = !left ? "-" : state.light == Light::kContact ? "now" : seconds(*left);
+  state.meaning = meaningOf(state.light, left.has_value());
+  state.target = targetOf(warning);
+  state.whys = whysOf(warning);
+  return state;
+}
+
+}  // namespace sweep_guard_rviz

@@ -1,0 +1,65 @@
+#include "sweep_guard/rviz/service_call.h"
+
+#include <ros/node_handle.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+namespace sweep_guard_rviz {
+
+ServiceCall::~ServiceCall() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    client_.shutdown();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void ServiceCall::setBool(const std::string& service, bool value) {
+  std_srvs::SetBool set;
+  set.request.data = value;
+  start(service, set);
+}
+
+void ServiceCall::trigger(const std::string& service) { start(service, std_srvs::Trigger()); }
+
+bool ServiceCall::busy() const {
+  const std::lock_guard lock(mutex_);
+  return busy_;
+}
+
+std::optional<std::string> ServiceCall::takeOutcome() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(outcome_, std::nullopt);
+}
+
+template <typename Service>
+void ServiceCall::start(const std::string& name, Service service) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(busy_, true)) return;
+  }
+  if (thread_.joinable()) thread_.join();
+  thread_ = std::thread([this, name, service]() mutable {
+    std::string outcome = call(name, service);
+    const std::lock_guard lock(mutex_);
+    outcome_ = std::move(outcome);
+    busy_ = false;
+  });
+}
+
+template <typename Service>
+std::string ServiceCall::call(const std::string& name, Service& service) {
+  // Persistent: only such a call ends when its client is shut down.
+  ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>(name, /*persistent=*/true);
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_) return "";
+    client_ = client;
+  }
+  if (!client.call(service)) return "no answer from " + name;
+  if (!service.response.message.empty()) return service.response.message;
+  return name + (service.response.success ? ": done" : ": refused");
+}
+
+}  // namespace sweep_guard_rviz

@@ -1,0 +1,171 @@
+#include "sweep_guard/rviz/warning_panel.h"
+
+#include <ros/names.h>
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "sweep_guard/rviz/strip_chart.h"
+#include "sweep_guard/rviz/traffic_light.h"
+
+namespace sweep_guard_rviz {
+namespace {
+
+constexpr unsigned kLooksPerChart = 3;
+constexpr size_t kMostWhys = 4;
+const char* const kTopic = "Warning Topic";
+
+QString bullets(const std::vector<std::string>& whys, size_t most) {
+  QStringList lines;
+  for (size_t i = 0; i < std::min(most, whys.size()); ++i) lines << QString::fromUtf8("\u2022 ") + whys[i].c_str();
+  if (whys.size() > most) lines << QString("and %1 more").arg(whys.size() - most);
+  return lines.join('\n');
+}
+
+QLabel* makeLabel(QWidget* parent) {
+  auto* const label = new QLabel(parent);
+  label->setTextFormat(Qt::PlainText);
+  label->setWordWrap(true);
+  label->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  return label;
+}
+
+}  // namespace
+
+WarningPanel::WarningPanel(QWidget* parent)
+    : rviz::Panel(parent),
+      light_(new TrafficLight(this)),
+      target_(makeLabel(this)),
+      whys_(makeLabel(this)),
+      chart_(new StripChart(this)),
+      enable_(new QPushButton(this)),
+      reset_(new QPushButton("Reset", this)),
+      outcome_(makeLabel(this)),
+      topic_edit_(new QLineEdit(this)) {
+  light_->setObjectName("light");
+  enable_->setObjectName("enable");
+  reset_->setObjectName("reset");
+  layOut();
+  connect(enable_, &QPushButton::clicked, this, [this] { call_.setBool(service("enable"), state_.disabled); });
+  connect(reset_, &QPushButton::clicked, this, [this] { call_.trigger(service("reset")); });
+  connect(topic_edit_, &QLineEdit::editingFinished, this, [this] {
+    if (topic_edit_->text().toStdString() == topic_) return;
+    setTopic(topic_edit_->text().toStdString());
+    Q_EMIT configChanged();
+  });
+  setTopic("/sweep_guard/warning");
+  connect(&timer_, &QTimer::timeout, this, [this] { look(); });
+  timer_.setTimerType(Qt::PreciseTimer);
+  timer_.start(kPeriod);
+}
+
+WarningPanel::~WarningPanel() {
+  disconnect(topic_edit_, nullptr, this, nullptr);  // it loses the focus, and tells, when the rest of this is gone
+}
+
+void WarningPanel::layOut() {
+  QFont bold = target_->font();
+  bold.setBold(true);
+  target_->setFont(bold);
+  const int line = whys_->fontMetrics().lineSpacing();
+  topic_edit_->setFocusPolicy(Qt::ClickFocus);
+  reset_->setToolTip("Forgets faults and the poses so far, as after a start");
+
+  auto* const place = new QWidget(this);
+  place->setMinimumHeight(6 * line);  // what stands below does not jump
+  auto* const words = new QVBoxLayout(place);
+  words->setContentsMargins(9, 4, 9, 0);
+  words->addWidget(target_);
+  words->addWidget(whys_);
+  words->addStretch();
+  auto* const buttons = new QHBoxLayout;
+  buttons->setContentsMargins(9, 0, 9, 0);
+  buttons->addWidget(enable_);
+  buttons->addWidget(reset_);
+  auto* const topic = new QFormLayout;
+  topic->setContentsMargins(9, 0, 9, 6);
+  topic->addRow("Topic", topic_edit_);
+  topic->addRow(outcome_);
+  outcome_->hide();
+
+  auto* const all = new QVBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->addWidget(light_, 3);
+  all->addWidget(place);
+  all->addWidget(chart_, 2);
+  all->addLayout(buttons);
+  all->addLayout(topic);
+}
+
+void WarningPanel::load(const rviz::Config& config) {
+  rviz::Panel::load(config);
+  QString topic;
+  if (config.mapGetString(kTopic, &topic)) setTopic(topic.toStdString());
+}
+
+void WarningPanel::save(rviz::Config config) const {
+  rviz::Panel::save(config);
+  config.mapSetValue(kTopic, QString::fromStdString(topic_));
+}
+
+void WarningPanel::setTopic(const std::string& topic) {
+  topic_ = topic;
+  topic_edit_->setText(QString::fromStdString(topic));
+  newest_.reset();
+  history_.clear();
+  outcome_->hide();
+  try {
+    feed_.listen(topic);
+  } catch (const ros::InvalidNameException& error) {
+    outcome_->setText(error.what());
+    outcome_->show();
+    feed_.listen("");
+  }
+  look();
+}
+
+std::string WarningPanel::service(const std::string& name) const {
+  return ros::names::append(ros::names::parentNamespace(ros::names::resolve(topic_)), name);
+}
+
+void WarningPanel::look() {
+  const std::vector<ReceivedWarning> warnings = feed_.take();
+  const Moment now{std::chrono::steady_clock::now(), ros::Time::now()};
+  if (!warnings.empty()) newest_ = warnings.back();
+  state_ = panelState(newest_, now, topic_);
+  remember(warnings, now.steady);
+  showState(now.steady);
+  if (const auto outcome = call_.takeOutcome()) {
+    outcome_->setText(QString::fromStdString(*outcome));
+    outcome_->show();
+  }
+}
+
+void WarningPanel::remember(const std::vector<ReceivedWarning>& warnings, SteadyTime now) {
+  for (const ReceivedWarning& each : warnings) {
+    history_.add({each.received, lightOf(each.warning), timeToCollision(each.warning)});
+  }
+  if (state_.silent) history_.add({now, Light::kUnknown, std::nullopt});
+}
+
+void WarningPanel::showState(SteadyTime now) {
+  light_->show(state_);
+  target_->setText(QString::fromStdString(state_.target));
+  target_->setVisible(!state_.target.empty());
+  whys_->setText(bullets(state_.whys, kMostWhys));
+  whys_->setToolTip(state_.whys.size() > kMostWhys ? bullets(state_.whys, state_.whys.size()) : QString());
+  enable_->setText(state_.disabled ? "Enable" : "Disable");
+  enable_->setEnabled(!call_.busy());
+  reset_->setEnabled(!call_.busy());
+  if (looks_++ % kLooksPerChart == 0) chart_->show(history_, now);
+}
+
+}  // namespace sweep_guard_rviz
+
+PLUGINLIB_EXPORT_CLASS(sweep_guard_rviz::WarningPanel, rviz::Panel)

@@ -1,0 +1,164 @@
+#include "sweep_guard/rviz/panel_state.h"
+
+#include <gtest/gtest.h>
+
+#include "sweep_guard/rviz/level_history.h"
+
+namespace sweep_guard_rviz {
+namespace {
+
+using std::chrono::milliseconds;
+using sweep_guard::Warning;
+
+const Moment kNow{SteadyTime(std::chrono::hours(1)), ros::Time(1000.0)};
+
+Warning warningOf(std::uint8_t level) {
+  Warning warning;
+  warning.level = level;
+  warning.clear = level == Warning::CLEAR;
+  warning.time_to_collision = ros::Duration(-1.0);
+  warning.valid_until = kNow.stamp + ros::Duration(0.2);
+  return warning;
+}
+
+PanelState shown(const Warning& warning, milliseconds age = milliseconds(10)) {
+  return panelState(ReceivedWarning{warning, kNow.steady - age}, kNow, "/guard/warning");
+}
+
+TEST(PanelStateTest, EveryLevelHasItsLightAndItsWord) {
+  const char* const words[] = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};
+  for (std::uint8_t level = Warning::UNKNOWN; level <= Warning::CONTACT; ++level) {
+    const PanelState state = shown(warningOf(level));
+    EXPECT_EQ(static_cast<int>(state.light), level);
+    EXPECT_EQ(state.word, words[level]);
+    EXPECT_FALSE(state.silent);
+  }
+}
+
+TEST(PanelStateTest, NoWarningIsUnknownAndNamesTheTopic) {
+  const PanelState state = panelState(std::nullopt, kNow, "/guard/warning");
+  EXPECT_EQ(state.light, Light::kUnknown);
+  EXPECT_TRUE(state.silent);
+  EXPECT_EQ(state.whys, std::vector<std::string>{"no warning from /guard/warning"});
+}
+
+TEST(PanelStateTest, SilenceIsUnknownAfterLessThanAFifthOfASecond) {
+  EXPECT_LT(kSilence, milliseconds(200));
+  EXPECT_EQ(shown(warningOf(Warning::CLEAR), kSilence).light, Light::kClear);
+  const PanelState state = shown(warningOf(Warning::CLEAR), kSilence + milliseconds(1));
+  EXPECT_EQ(state.light, Light::kUnknown);
+  EXPECT_TRUE(state.silent);
+}
+
+TEST(PanelStateTest, AWarningThatRanOutIsUnknownHoweverFreshItCame) {
+  Warning warning = warningOf(Warning::CLEAR);
+  warning.valid_until = kNow.stamp - ros::Duration(0.01);
+  EXPECT_EQ(shown(warning).light, Light::kUnknown);
+}
+
+TEST(PanelStateTest, AZeroInitialisedWarningIsUnknown) { EXPECT_EQ(shown(Warning()).light, Light::kUnknown); }
+
+TEST(PanelStateTest, ClearWithAReasonOrWithoutPermissionIsUnknown) {
+  Warning warning = warningOf(Warning::CLEAR);
+  warning.reasons = Warning::MESH_STALE;
+  EXPECT_EQ(shown(warning).light, Light::kUnknown);
+  warning = warningOf(Warning::CLEAR);
+  warning.clear = false;
+  EXPECT_EQ(shown(warning).light, Light::kUnknown);
+}
+
+TEST(PanelStateTest, OverloadLeavesClearAsItIsAndIsTold) {
+  Warning warning = warningOf(Warning::CLEAR);
+  warning.reasons = Warning::OVERLOAD;
+  const PanelState state = shown(warning);
+  EXPECT_EQ(state.light, Light::kClear);
+  EXPECT_EQ(state.whys.size(), 1U);
+}
+
+TEST(PanelStateTest, ALevelThatDoesNotExistIsUnknown) { EXPECT_EQ(shown(warningOf(5)).light, Light::kUnknown); }
+
+TEST(PanelStateTest, EveryReasonHasWordsWhereTheGuardHasNone) {
+  for (std::uint32_t bit = 1; bit <= Warning::DISABLED; bit <<= 1U) {
+    Warning warning = warningOf(Warning::UNKNOWN);
+    warning.reasons = bit;
+    EXPECT_EQ(shown(warning).whys.size(), 1U) << bit;
+  }
+}
+
+TEST(PanelStateTest, TheGuardsOwnWordsStandInLinesOfTheirOwn) {
+  Warning warning = warningOf(Warning::UNKNOWN);
+  warning.reasons = Warning::POSE_STALE | Warning::NO_MESH;
+  warning.text = "UNKNOWN: newest tool pose tested is 0.52 s old; no workpiece yet";
+  EXPECT_EQ(shown(warning).whys,
+            (std::vector<std::string>{"newest tool pose tested is 0.52 s old", "no workpiece yet"}));
+}
+
+TEST(PanelStateTest, WhatWillBeHitIsNamed) {
+  Warning warning = warningOf(Warning::REFLEX);
+  warning.time_to_collision = ros::Duration(0.084);
+  warning.mesh_id = "liver";
+  warning.triangles = {3, 4, 8};
+  warning.tool_link = "tip";
+  const PanelState state = shown(warning);
+  EXPECT_EQ(state.time, "0.08 s");
+  EXPECT_EQ(state.meaning, "to collision");
+  EXPECT_EQ(state.target, "ahead: liver, 3 triangles, by tip");
+}
+
+TEST(PanelStateTest, ACollisionThatIsMerelyProbableHasNoTime) {
+  const PanelState state = shown(warningOf(Warning::CONSIDERED));
+  EXPECT_EQ(state.time, "-");
+  EXPECT_EQ(state.meaning, "collision is probable");
+}
+
+TEST(PanelStateTest, OnlyContactFlashesAndDoesSoTwiceASecond) {
+  for (std::uint8_t level = Warning::UNKNOWN; level <= Warning::CONTACT; ++level) {
+    int changes = 0;
+    bool bright = true;
+    for (int tick = 0; tick < 1000; tick += 10) {
+      const Moment now{kNow.steady + milliseconds(tick), kNow.stamp};
+      const PanelState state = panelState(ReceivedWarning{warningOf(level), now.steady}, now, "");
+      changes += state.bright != bright ? 1 : 0;
+      bright = state.bright;
+    }
+    if (level == Warning::CONTACT) {
+      EXPECT_GE(changes, 3);
+    } else {
+      EXPECT_EQ(changes, 0);
+    }
+  }
+}
+
+TEST(PanelStateTest, DisabledIsNotClearAndSaysSo) {
+  Warning warning = warningOf(Warning::UNKNOWN);
+  warning.reasons = Warning::DISABLED;
+  const PanelState state = shown(warning);
+  EXPECT_EQ(state.light, Light::kUnknown);
+  EXPECT_TRUE(state.disabled);
+  EXPECT_EQ(state.word, "DISABLED");
+}
+
+TEST(LevelHistoryTest, KeepsWhatWasInForceTwentySecondsAgo) {
+  LevelHistory history;
+  const auto at = [](double seconds) {
+    return SteadyTime(std::chrono::hours(1)) + milliseconds(static_cast<int>(1000 * seconds));
+  };
+  history.add({at(0.0), Light::kClear, {}});
+  history.add({at(5.0), Light::kConsidered, 0.8});
+  history.add({at(24.0), Light::kReflex, 0.1});
+  ASSERT_EQ(history.samples().size(), 3U);
+  history.add({at(26.0), Light::kContact, 0.0});
+  ASSERT_EQ(history.samples().size(), 3U);
+  EXPECT_EQ(history.samples().front().light, Light::kConsidered);
+  EXPECT_EQ(history.longestTime(), 0.8);
+}
+
+TEST(LevelHistoryTest, TimeDoesNotGoBack) {
+  LevelHistory history;
+  history.add({kNow.steady, Light::kClear, {}});
+  history.add({kNow.steady - milliseconds(5), Light::kReflex, {}});
+  EXPECT_EQ(history.samples().back().since, kNow.steady);
+}
+
+}  // namespace
+}  // namespace sweep_guard_rviz

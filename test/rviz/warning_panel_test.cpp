@@ -1,0 +1,284 @@
+#include "sweep_guard/rviz/warning_panel.h"
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <QApplication>
+#include <QPushButton>
+#include <algorithm>
+#include <cmath>
+#include <future>
+
+#include "await.h"
+#include "pictures.h"
+#include "sweep_guard/rviz/palette.h"
+#include "sweep_guard/rviz/strip_chart.h"
+
+namespace sweep_guard_rviz {
+namespace {
+
+using sweep_guard::Warning;
+
+const char* const kTopic = "/guard/warning";
+
+Warning warningOf(std::uint8_t level) {
+  Warning warning;
+  warning.level = level;
+  warning.clear = level == Warning::CLEAR;
+  warning.time_to_collision = ros::Duration(-1.0);
+  if (level >= Warning::CONSIDERED) {
+    constexpr double kTimes[] = {0.62, 0.08, 0.0};
+    warning.time_to_collision = ros::Duration(kTimes[level - Warning::CONSIDERED]);
+    warning.mesh_id = "liver";
+    warning.triangles.resize(34);
+    warning.tool_link = "drill_tip";
+  }
+  if (level == Warning::UNKNOWN) {
+    warning.reasons = Warning::POSE_STALE | Warning::TF_FAIL;
+    warning.text = "UNKNOWN: newest tool pose tested is 0.52 s old; no transform from 'liver' to 'world'";
+  }
+  return warning;
+}
+
+/// A panel, and a guard that says the same all the time.
+class WarningPanelTest : public ::testing::Test {
+ protected:
+  WarningPanelTest() : publisher_(node_.advertise<Warning>(kTopic, 10)) {
+    rviz::Config config;
+    config.mapSetValue("Warning Topic", kTopic);
+    panel_.load(config);
+    panel_.resize(340, 560);
+    panel_.show();
+    QObject::connect(&timer_, &QTimer::timeout, [this] { publish(); });
+  }
+
+  void say(const Warning& warning) {
+    warning_ = warning;
+    timer_.start(std::chrono::milliseconds(20));
+    await("the light", [&] { return !panel_.state().silent && panel_.state().light == lightOf(warning); });
+  }
+  void fallSilent() { timer_.stop(); }
+
+  QImage light() { return panel_.findChild<QWidget*>("light")->grab().toImage(); }
+  QPushButton* button(const char* name) { return panel_.findChild<QPushButton*>(name); }
+
+  ros::NodeHandle node_;
+  ros::Publisher publisher_;
+  WarningPanel panel_;
+
+ private:
+  void publish() {
+    warning_.valid_until = ros::Time::now() + ros::Duration(0.2);
+    publisher_.publish(warning_);
+  }
+
+  Warning warning_;
+  QTimer timer_;
+};
+
+template <typename Color>
+auto isLike(const Color& color) {
+  return [color](const QColor& c) {
+    return std::abs(c.red() - color.red()) + std::abs(c.green() - color.green()) + std::abs(c.blue() - color.blue()) <
+           12;
+  };
+}
+
+TEST_F(WarningPanelTest, WarningsFillTheLightWithTheirColour) {
+  for (const std::uint8_t level : {Warning::UNKNOWN, Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT}) {
+    say(warningOf(level));
+    await("the bright half", [this] { return panel_.state().bright; });
+    EXPECT_GT(shareOf(light(), isLike(colorOf(static_cast<Light>(level)))), 0.4) << panel_.state().word;
+    keepPicture(panel_.grab().toImage(), "panel_" + panel_.state().word);
+  }
+}
+
+TEST_F(WarningPanelTest, ClearIsASmallGreenLamp) {
+  say(warningOf(Warning::CLEAR));
+  const double green = shareOf(light(), isGreen);
+  EXPECT_GT(green, 0.002);
+  EXPECT_LT(green, 0.1);
+  keepPicture(panel_.grab().toImage(), "panel_CLEAR");
+}
+
+TEST_F(WarningPanelTest, NothingButClearIsGreenAnywhereInTheLight) {
+  for (const std::uint8_t level : {Warning::UNKNOWN, Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT}) {
+    say(warningOf(level));
+    EXPECT_EQ(shareOf(light(), isGreen), 0.0) << panel_.state().word;
+  }
+}
+
+TEST_F(WarningPanelTest, ContactFlashes) {
+  say(warningOf(Warning::CONTACT));
+  await("the bright half", [this] { return panel_.state().bright; });
+  const double bright = shareOf(light(), isRed);
+  await("the other half", [this] { return !panel_.state().bright; });
+  EXPECT_LT(shareOf(light(), isRed), 0.5 * bright);
+  keepPicture(panel_.grab().toImage(), "panel_CONTACT_dark");
+}
+
+TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGreyWithinAFifthOfASecond) {
+  static_assert(kSilence + WarningPanel::kPeriod < std::chrono::milliseconds(200));
+  say(warningOf(Warning::CLEAR));
+  fallSilent();
+  await("grey", [this] { return panel_.state().silent; });
+  EXPECT_EQ(shareOf(light(), isGreen), 0.0);
+  EXPECT_EQ(panel_.history().samples().back().light, Light::kUnknown);
+}
+
+TEST_F(WarningPanelTest, TheChartKnowsWhatTheGuardSaid) {
+  say(warningOf(Warning::CLEAR));
+  say(warningOf(Warning::CONSIDERED));
+  const auto& samples = panel_.history().samples();
+  const auto has = [&](Light light) {
+    return std::any_of(samples.begin(), samples.end(), [&](const auto& sample) { return sample.light == light; });
+  };
+  EXPECT_TRUE(has(Light::kClear));
+  EXPECT_TRUE(has(Light::kConsidered));
+  EXPECT_EQ(samples.back().time, 0.62);
+}
+
+TEST_F(WarningPanelTest, TheTopicIsSavedWithTheConfiguration) {
+  rviz::Config config;
+  panel_.save(config);
+  QString topic;
+  ASSERT_TRUE(config.mapGetString("Warning Topic", &topic));
+  EXPECT_EQ(topic, kTopic);
+}
+
+TEST_F(WarningPanelTest, AnImpossibleTopicIsUnknownAndDoesNoHarm) {
+  rviz::Config config;
+  config.mapSetValue("Warning Topic", "no topic!");
+  panel_.load(config);
+  EXPECT_TRUE(panel_.state().silent);
+}
+
+// Twenty seconds in which the tool comes near twice, and touches.
+LevelHistory approach() {
+  LevelHistory history;
+  const SteadyTime begin = SteadyTime(std::chrono::hours(1));
+  const auto at = [&](double seconds) { return begin + std::chrono::milliseconds(std::lround(1000.0 * seconds)); };
+  for (double t = 0.0; t < 20.0; t += 0.05) {
+    const double left = t < 3.0 ? 9.0 : std::abs(std::fmod(t - 3.0, 8.0) - 3.0) * (t < 11.0 ? 0.5 : 0.3) - 0.1;
+    const Light light = t < 1.0      ? Light::kUnknown
+                        : left > 1.0 ? Light::kClear
+                        : left > 0.1 ? Light::kConsidered
+                        : left > 0.0 ? Light::kReflex
+                                     : Light::kContact;
+    const bool timed = light >= Light::kConsidered;
+    history.add({at(t), light, timed ? std::optional<double>(std::max(0.0, left)) : std::nullopt});
+  }
+  return history;
+}
+
+TEST(StripChartTest, TellsLevelsByColour) {
+  StripChart chart;
+  chart.resize(320, 150);
+  const LevelHistory history = approach();
+  chart.show(history, history.samples().back().since);
+  const QImage image = chart.grab().toImage();
+  keepPicture(image, "strip_chart");
+  EXPECT_GT(shareOf(image, isAmber), 0.01);
+  EXPECT_GT(shareOf(image, isRed), 0.001);
+  EXPECT_GT(shareOf(image, isGreen), 0.001);
+}
+
+TEST(StripChartTest, IsEmptyWithoutHistory) {
+  StripChart chart;
+  const QImage image = chart.grab().toImage();
+  EXPECT_EQ(shareOf(image, isAmber) + shareOf(image, isRed) + shareOf(image, isGreen), 0.0);
+}
+
+/// The services of a guard, on a thread of their own, which answer when they are let.
+class SlowGuard {
+ public:
+  SlowGuard() {
+    node_.setCallbackQueue(&queue_);
+    enable_ = node_.advertiseService<std_srvs::SetBool::Request, std_srvs::SetBool::Response>(
+        "/guard/enable", [this](auto& request, auto& response) {
+          asked.set_value(request.data);
+          may_answer.get_future().wait();
+          response.success = true;
+          response.message = "done as asked";
+          return true;
+        });
+    spinner_.start();
+  }
+  ~SlowGuard() {
+    spinner_.stop();
+    enable_.shutdown();
+  }
+
+  std::promise<bool> asked;
+  std::promise<void> may_answer;
+
+ private:
+  ros::NodeHandle node_;
+  ros::CallbackQueue queue_;
+  ros::AsyncSpinner spinner_{1, &queue_};
+  ros::ServiceServer enable_;
+};
+
+TEST_F(WarningPanelTest, GoesOnWhileTheGuardThinksAboutDisabling) {
+  SlowGuard guard;
+  say(warningOf(Warning::CLEAR));
+  button("enable")->click();
+  EXPECT_FALSE(guard.asked.get_future().get());
+  say(warningOf(Warning::REFLEX));
+  EXPECT_FALSE(button("enable")->isEnabled());
+  guard.may_answer.set_value();
+  await("the button", [this] { return button("enable")->isEnabled(); });
+}
+
+TEST_F(WarningPanelTest, TheButtonOfADisabledGuardEnablesIt) {
+  SlowGuard guard;
+  Warning warning = warningOf(Warning::UNKNOWN);
+  warning.reasons = Warning::DISABLED;
+  warning.text = "UNKNOWN: disabled by /operator: nothing is tested";
+  say(warning);
+  await("the word", [this] { return panel_.state().disabled; });
+  EXPECT_EQ(button("enable")->text(), "Enable");
+  keepPicture(panel_.grab().toImage(), "panel_DISABLED");
+  button("enable")->click();
+  EXPECT_TRUE(guard.asked.get_future().get());
+  guard.may_answer.set_value();
+  await("the button", [this] { return button("enable")->isEnabled(); });
+}
+
+TEST_F(WarningPanelTest, ResetCallsTheGuard) {
+  bool called = false;
+  const ros::ServiceServer server = node_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
+      "/guard/reset", [&](auto& /*request*/, auto& /*response*/) { return called = true; });
+  button("reset")->click();
+  await("the call", [&] {
+    ros::spinOnce();
+    return called;
+  });
+}
+
+TEST_F(WarningPanelTest, AGuardThatNeverAnswersDoesNotKeepThePanelFromClosing) {
+  SlowGuard guard;
+  {
+    WarningPanel panel;
+    rviz::Config config;
+    config.mapSetValue("Warning Topic", kTopic);
+    panel.load(config);
+    panel.findChild<QPushButton*>("enable")->click();
+    guard.asked.get_future().wait();
+  }
+  guard.may_answer.set_value();
+}
+
+}  // namespace
+}  // namespace sweep_guard_rviz
+
+int main(int argc, char** argv) {
+  qputenv("QT_QPA_PLATFORM", "offscreen");
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "warning_panel_test");
+  ros::NodeHandle keeps_ros_running;
+  QApplication application(argc, argv);
+  return RUN_ALL_TESTS();
+}
