@@ -76,15 +76,29 @@ Surface sphereSurface(double radius) {
 }
 
 // Corner i has the sign of bit k along axis k.
-Surface boxSurface(const Eigen::Vector3d& h) {
-  Surface surface;
-  for (int i = 0; i < 8; ++i) {
-    surface.vertices.emplace_back((i & 1) != 0 ? h.x() : -h.x(), (i & 2) != 0 ? h.y() : -h.y(),
-                                  (i & 4) != 0 ? h.z() : -h.z());
+std::array<Eigen::Vector3d, 8> boxCorners(const Eigen::Vector3d& h) {
+  std::array<Eigen::Vector3d, 8> corners;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    corners[i] = {(i & 1) != 0 ? h.x() : -h.x(), (i & 2) != 0 ? h.y() : -h.y(), (i & 4) != 0 ? h.z() : -h.z()};
   }
-  surface.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return surface;
+  return corners;
+}
+
+Surface boxSurface(const Eigen::Vector3d& half_extents) {
+  const auto corners = boxCorners(half_extents);
+  return {{corners.begin(), corners.end()},
+          {{0, 2, 1},
+           {1, 2, 3},
+           {4, 5, 6},
+           {5, 7, 6},
+           {0, 1, 4},
+           {1, 5, 4},
+           {2, 6, 3},
+           {3, 6, 7},
+           {0, 4, 2},
+           {2, 4, 6},
+           {1, 3, 5},
+           {3, 7, 5}}};
 }
 
 Moments triangleMoments(const TriangleMesh& mesh) {
@@ -216,7 +230,7 @@ Eigen::Vector3d ConvexShape::supportPoint(const Eigen::Vector3d& direction_T) co
 // The distance from a line is convex: it is largest at a corner, or on a rim.
 double ConvexShape::reach(const Eigen::Vector3d& axis_T) const {
   const auto away = [&](const Eigen::Vector3d& p_S) { return (p_TS_ + R_TS_ * p_S).cross(axis_T).norm(); };
-  const auto farthest_of = [&](const std::vector<Eigen::Vector3d>& corners) {
+  const auto farthest_of = [&](const auto& corners) {
     double most = 0.0;
     for (const Eigen::Vector3d& corner : corners) most = std::max(most, away(corner));
     return most;
@@ -226,14 +240,14 @@ double ConvexShape::reach(const Eigen::Vector3d& axis_T) const {
                               const double rear = away({0.0, 0.0, -round.length});
                               return round.radius + std::max(away(Eigen::Vector3d::Zero()), rear);
                             },
-                            [&](const Box& box) { return farthest_of(boxSurface(box.half_extents).vertices); },
+                            [&](const Box& box) { return farthest_of(boxCorners(box.half_extents)); },
                             [&](const Points& points) { return farthest_of(points.corners); }},
                  body_S_);
   return of_body + padding_;
 }
 
 double ConvexShape::extent() const {
-  const auto farthest_of = [&](const std::vector<Eigen::Vector3d>& corners) {
+  const auto farthest_of = [&](const auto& corners) {
     double most = 0.0;
     for (const Eigen::Vector3d& corner : corners) most = std::max(most, (p_TS_ + R_TS_ * corner).norm());
     return most;
@@ -244,7 +258,7 @@ double ConvexShape::extent() const {
   };
   const double of_body = std::visit(
       Overloaded{[&](const Round& round) { return std::max(rim(0.0, round.radius), rim(-round.length, round.radius)); },
-                 [&](const Box& box) { return farthest_of(boxSurface(box.half_extents).vertices); },
+                 [&](const Box& box) { return farthest_of(boxCorners(box.half_extents)); },
                  [&](const Points& points) { return farthest_of(points.corners); }},
       body_S_);
   return of_body + padding_;

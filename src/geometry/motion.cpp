@@ -33,17 +33,22 @@ size_t countOfParts(double angle, double max_rotation) {
   return std::max<size_t>(1, static_cast<size_t>(std::ceil(angle / max_rotation)));
 }
 
-std::vector<Motion> split(const Motion& motion, double max_rotation) {
-  const size_t parts = countOfParts(motion.angle(), max_rotation);
-  std::vector<Motion> motions;
+void split(const Motion& motion, double max_rotation, std::vector<Motion>& parts) {
+  const size_t count = countOfParts(motion.angle(), max_rotation);
+  parts.clear();
   Eigen::Isometry3d start = motion.X_MT_start;
-  for (size_t i = 1; i < parts; ++i) {
-    const Eigen::Isometry3d end = motion.at(static_cast<double>(i) / static_cast<double>(parts));
-    motions.push_back({start, end});
+  for (size_t i = 1; i < count; ++i) {
+    const Eigen::Isometry3d end = motion.at(static_cast<double>(i) / static_cast<double>(count));
+    parts.push_back({start, end});
     start = end;
   }
-  motions.push_back({start, motion.X_MT_end});
-  return motions;
+  parts.push_back({start, motion.X_MT_end});
+}
+
+std::vector<Motion> split(const Motion& motion, double max_rotation) {
+  std::vector<Motion> parts;
+  split(motion, max_rotation, parts);
+  return parts;
 }
 
 std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_extent) {

@@ -95,13 +95,13 @@ std::optional<Clearance> ClearanceMeter::operator()(const MeshPart& part, const 
   return Clearance{separated, nearest};
 }
 
-std::vector<std::uint32_t> ClearanceMeter::notSeparated() const {
-  std::vector<std::uint32_t> left;
+const TriangleSet& ClearanceMeter::notSeparated() {
+  not_separated_.clear();
   for (const Candidate& candidate : candidates_) {
-    if (candidate.at_least <= 0.0) left.push_back((*survivors_)[candidate.number].triangle);
+    if (candidate.at_least <= 0.0) not_separated_.push_back((*survivors_)[candidate.number].triangle);
   }
-  std::sort(left.begin(), left.end());
-  return left;
+  std::sort(not_separated_.begin(), not_separated_.end());
+  return not_separated_;
 }
 
 // By bisection; not less than `nearest` if it makes no difference.

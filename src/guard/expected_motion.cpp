@@ -29,12 +29,12 @@ Eigen::Vector3d pointDeviations(const Eigen::Vector3d& r_M, const Matrix6d& cova
 
 // Holds every tool point at a pose that is off by up to so many standard deviations. How far a point may be off along
 // an axis is convex in the point: the corners of a box around the tool bound it.
-Eigen::AlignedBox3d boxAround(const Tool& tool, const Eigen::Isometry3d& X_MT, const Matrix6d& covariance_M,
-                              double most) {
+Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& tool_T, const Eigen::Isometry3d& X_MT,
+                              const Matrix6d& covariance_M, double most) {
   Eigen::AlignedBox3d box_M;
   for (int i = 0; i < 8; ++i) {
     const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
-    const Eigen::Vector3d r_M = X_MT.linear() * tool.bounds_T().corner(corner);
+    const Eigen::Vector3d r_M = X_MT.linear() * tool_T.corner(corner);
     const Eigen::Vector3d p_M = X_MT.translation() + r_M;
     const Eigen::Vector3d off = most * pointDeviations(r_M, covariance_M);
     box_M.extend(Eigen::AlignedBox3d(p_M - off, p_M + off));
@@ -44,16 +44,19 @@ Eigen::AlignedBox3d boxAround(const Tool& tool, const Eigen::Isometry3d& X_MT, c
 
 }  // namespace
 
-ExpectedMotion::ExpectedMotion(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
-                               const Eigen::Isometry3d& X_WM)
-    : tool_(tool) {
+void ExpectedMotion::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
+                            const Eigen::Isometry3d& X_WM) {
   assert(!path.empty());
+  tool_T_ = tool.bounds_T();
+  tool_extent_ = tool.extent();
+  way_M_.clear();
+  covariances_M_.clear();
   const Eigen::Isometry3d X_MW = X_WM.inverse();
   way_M_.push_back({Duration::zero(), X_MW * X_WT, 0.0});
   covariances_M_.push_back(Matrix6d::Zero());
   for (const ExpectedPose& pose : path) {
     const Motion step_M{way_M_.back().X_MT, X_MW * pose.X_WT};
-    way_M_.push_back({pose.ahead, step_M.X_MT_end, chordError(tool.extent(), step_M.angle())});
+    way_M_.push_back({pose.ahead, step_M.X_MT_end, chordError(tool_extent_, step_M.angle())});
     covariances_M_.push_back(turned(pose.covariance, X_MW.linear()));
   }
 }
@@ -75,29 +78,32 @@ ExpectedMotion::Pose ExpectedMotion::at(Duration time, size_t first) const {
           (1.0 - along) * covariances_M_[first] + along * covariances_M_[first + 1]};
 }
 
-std::vector<Motion> ExpectedMotion::motions_M(const Stretch& stretch, double max_rotation) const {
-  if (stretch.last - stretch.first > 1) return {chord(way_M_, stretch.first, stretch.last, tool_.extent())};
-  return split(Motion{at(stretch.from, stretch.first).X_MT, end_M(stretch)}, max_rotation);
+void ExpectedMotion::motions_M(const Stretch& stretch, double max_rotation, std::vector<Motion>& motions_M) const {
+  if (stretch.last - stretch.first > 1) {
+    motions_M.assign(1, chord(way_M_, stretch.first, stretch.last, tool_extent_));
+  } else {
+    split(Motion{at(stretch.from, stretch.first).X_MT, end_M(stretch)}, max_rotation, motions_M);
+  }
 }
 
 Eigen::AlignedBox3d ExpectedMotion::reach_M(const Stretch& stretch, double most, double margin) const {
-  std::vector<Pose> poses = {at(stretch.from, stretch.first)};
-  for (size_t i = stretch.first + 1; i < stretch.last; ++i) poses.push_back({way_M_[i].X_MT, covariances_M_[i]});
-  poses.push_back(at(stretch.to, stretch.last - 1));
-
-  Eigen::AlignedBox3d box_M;
+  Pose pose = at(stretch.from, stretch.first);
+  Eigen::AlignedBox3d box_M = boxAround(tool_T_, pose.X_MT, pose.covariance_M, most);
   double arc = 0.0;
-  for (size_t i = 0; i < poses.size(); ++i) {
-    box_M.extend(boxAround(tool_, poses[i].X_MT, poses[i].covariance_M, most));
-    if (i > 0) arc = std::max(arc, chordError(tool_.extent(), Motion{poses[i - 1].X_MT, poses[i].X_MT}.angle()));
-  }
+  const auto goOnTo = [&](const Pose& next) {
+    box_M.extend(boxAround(tool_T_, next.X_MT, next.covariance_M, most));
+    arc = std::max(arc, chordError(tool_extent_, Motion{pose.X_MT, next.X_MT}.angle()));
+    pose = next;
+  };
+  for (size_t i = stretch.first + 1; i < stretch.last; ++i) goOnTo({way_M_[i].X_MT, covariances_M_[i]});
+  goOnTo(at(stretch.to, stretch.last - 1));
   return {box_M.min().array() - (arc + margin), box_M.max().array() + (arc + margin)};
 }
 
-std::vector<size_t> sweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t reflex_sweeps,
-                              size_t considered_sweeps) {
+void sweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t reflex_sweeps, size_t considered_sweeps,
+               std::vector<size_t>& ends) {
   assert(considered_sweeps >= 1 && reflex_sweeps <= path.size());
-  std::vector<size_t> ends(reflex_sweeps);
+  ends.resize(reflex_sweeps);
   std::iota(ends.begin(), ends.end(), 1);
   const size_t steps = path.size() - reflex_sweeps;
   const auto due = [&](size_t end) { return (end - reflex_sweeps) * considered_sweeps / steps; };
@@ -112,7 +118,6 @@ std::vector<size_t> sweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath
     if (due(end) > due(end - 1)) turn = 0.0;
     begin = ends.empty() ? 0 : ends.back();
   }
-  return ends;
 }
 
 }  // namespace sweep_guard

@@ -61,29 +61,33 @@ bool SweepReport::contact() const {
 
 bool SweepReport::complete() const { return !objects.empty() && unplaced.empty() && failures.empty(); }
 
-Outlook lookAlong(const Forecast& forecast, const Workpieces& workpieces, PathTest& test, Detector& detector,
-                  const Tool& tool, const PathTest::Effort& effort) {
-  Outlook outlook;
+void lookAlong(const Forecast& forecast, const Workpieces& workpieces, PathTest& test, Detector& detector,
+               const Tool& tool, const PathTest::Effort& effort, Outlook& outlook) {
   outlook.stamp = forecast.from.stamp;
   outlook.path = forecast.path;
   outlook.reflex_sweeps = forecast.reflex_sweeps;
   outlook.sweeps_asked = forecast.path.size();
-  outlook.sweeps_made = effort.sweep_ends.empty() ? forecast.path.size() : effort.sweep_ends.size();
-  if (forecast.path.empty()) return outlook;
+  outlook.sweeps_made = effort.sweepsAlong(forecast.path);
+  outlook.unplaced.clear();
+  outlook.failures.clear();
+  size_t tested = 0;
   for (const auto& workpiece : workpieces) {
+    if (forecast.path.empty()) break;
     const auto X_WM = forecast.from.X_WM.find(workpiece->frame);
     if (X_WM == forecast.from.X_WM.end()) {
       outlook.unplaced.push_back(workpiece);
       continue;
     }
     try {
-      outlook.objects.push_back(test(detector, tool, forecast.from.X_WT, forecast.path, forecast.reflex_sweeps,
-                                     X_WM->second, workpiece, effort));
+      if (tested == outlook.objects.size()) outlook.objects.emplace_back();
+      test(detector, tool, forecast.from.X_WT, forecast.path, forecast.reflex_sweeps, X_WM->second, workpiece, effort,
+           outlook.objects[tested]);
+      ++tested;
     } catch (const std::exception& error) {  // the device, or no memory: the others are tested all the same
       outlook.failures.push_back({workpiece, error.what()});
     }
   }
-  return outlook;
+  outlook.objects.resize(tested);
 }
 
 Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options)
@@ -108,11 +112,8 @@ void Guard::sweep(const ToolPose& pose, const Workpieces& workpieces, SweepRepor
   report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
   waiting_since_.reset();
   swept_to_ = poses_;
-  if (newest_) {
-    assign(*newest_, pose);
-  } else {
-    newest_ = pose;
-  }
+  if (!forecast_) forecast_.emplace();
+  assign(forecast_->from, pose);
   budget_.spentOnMeasured(options_.clock() - begin);
 }
 
@@ -229,34 +230,45 @@ const std::vector<Motion>& Guard::motions_M(const Way& way, size_t first, size_t
 }
 
 Outlook Guard::lookAhead(Duration age, const Workpieces& workpieces) {
-  if (!newest_) return {};
-  const SteadyTime begin = options_.clock();
-  const Horizon asked = horizon(options_.horizon, age);
-  const Forecast forecast{*newest_, predictor_.predict(asked.ends), asked.reflex_sweeps};
-  const Outlook outlook = lookAlong(forecast, workpieces, path_test_, *detector_, tool_, effortFor(forecast, begin));
-  size_t volumes = 0;
-  for (const PredictedObject& object : outlook.objects) volumes = std::max(volumes, object.volumes_tested);
-  budget_.spentOnPredicted(options_.clock() - begin, volumes);
+  Outlook outlook;
+  lookAhead(age, workpieces, outlook);
   return outlook;
 }
 
-PathTest::Effort Guard::effortFor(const Forecast& forecast, SteadyTime begin) const {
-  const PredictedPath& path = forecast.path;
-  if (path.empty()) return {};
+void Guard::lookAhead(Duration age, const Workpieces& workpieces, Outlook& outlook) {
+  if (!forecast_) {
+    outlook = {};
+    return;
+  }
+  const SteadyTime begin = options_.clock();
+  horizon(options_.horizon, age, horizon_);
+  predictor_.predict(horizon_.ends, forecast_->path);
+  forecast_->reflex_sweeps = horizon_.reflex_sweeps;
+  chooseEffort(begin);
+  lookAlong(*forecast_, workpieces, path_test_, *detector_, tool_, effort_, outlook);
+  size_t volumes = 0;
+  for (const PredictedObject& object : outlook.objects) volumes = std::max(volumes, object.volumes_tested);
+  budget_.spentOnPredicted(options_.clock() - begin, volumes);
+}
+
+void Guard::chooseEffort(SteadyTime begin) {
+  effort_.sweep_ends.clear();
+  effort_.spent = [this, end = begin + budget_.forPrediction()] { return options_.clock() >= end; };
+  const PredictedPath& path = forecast_->path;
+  if (path.empty()) return;
   size_t volumes[] = {0, 0};
   for (size_t i = 0; i < path.size(); ++i) {
-    const Motion step{i == 0 ? forecast.from.X_WT : path[i - 1].X_WT, path[i].X_WT};
-    volumes[i < forecast.reflex_sweeps ? 0 : 1] += countOfParts(step.angle(), options_.sweep.max_rotation);
+    const Motion step{i == 0 ? forecast_->from.X_WT : path[i - 1].X_WT, path[i].X_WT};
+    volumes[i < forecast_->reflex_sweeps ? 0 : 1] += countOfParts(step.angle(), options_.sweep.max_rotation);
   }
   const size_t considered_sweeps = budget_.consideredSweeps(volumes[0], volumes[1]);
-  return {sweepEnds(forecast.from.X_WT, path, forecast.reflex_sweeps, considered_sweeps),
-          [this, end = begin + budget_.forPrediction()] { return options_.clock() >= end; }};
+  sweepEnds(forecast_->from.X_WT, path, forecast_->reflex_sweeps, considered_sweeps, effort_.sweep_ends);
 }
 
 Forecast Guard::forecast(Duration age, Duration end) const {
-  if (!newest_) return {};
+  if (!forecast_) return {};
   const Horizon asked = horizonUpTo(end, options_.horizon, age);
-  return {*newest_, predictor_.predict(asked.ends), asked.reflex_sweeps};
+  return {forecast_->from, predictor_.predict(asked.ends), asked.reflex_sweeps};
 }
 
 void Guard::forget() {
@@ -264,7 +276,7 @@ void Guard::forget() {
   swept_.clear();
   waiting_since_.reset();
   predictor_.restart();
-  newest_.reset();
+  forecast_.reset();
 }
 
 void Guard::adopt(GuardChange& change) {
@@ -277,7 +289,7 @@ void Guard::adopt(GuardChange& change) {
   }
   if (change.predictor) {
     std::swap(predictor_, *change.predictor);
-    if (newest_) predictor_.observe({newest_->stamp, newest_->X_WT});
+    if (forecast_) predictor_.observe({forecast_->from.stamp, forecast_->from.X_WT});
   }
   budget_ = Budget(options_.horizon, options_.cycle);
   path_test_ = PathTest(options_.pathTest());

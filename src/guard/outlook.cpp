@@ -17,6 +17,15 @@ std::optional<Duration> PredictedObject::met() const {
   return first == sweeps.end() ? std::nullopt : std::optional(first->from);
 }
 
+void PredictedObject::clear() {
+  workpiece.reset();
+  sweeps.clear();
+  reflex.clear();
+  considered.clear();
+  volumes_M.clear();
+  volumes_tested = 0;
+}
+
 Time Outlook::coveredUntil() const {
   return path.empty() || !unplaced.empty() || !failures.empty() ? stamp : stamp + path.back().ahead;
 }

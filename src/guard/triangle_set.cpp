@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
 
 namespace sweep_guard {
 
@@ -16,18 +15,6 @@ void remove(TriangleSet& all, const TriangleSet& others) {
 void keepOnly(TriangleSet& all, const TriangleSet& others) {
   const auto is_none = [&](std::uint32_t one) { return !std::binary_search(others.begin(), others.end(), one); };
   all.erase(std::remove_if(all.begin(), all.end(), is_none), all.end());
-}
-
-TriangleSet united(const TriangleSet& a, const TriangleSet& b) {
-  TriangleSet both;
-  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
-  return both;
-}
-
-TriangleSet without(const TriangleSet& all, const TriangleSet& others) {
-  TriangleSet rest;
-  std::set_difference(all.begin(), all.end(), others.begin(), others.end(), std::back_inserter(rest));
-  return rest;
 }
 
 }  // namespace sweep_guard

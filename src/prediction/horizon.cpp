@@ -50,14 +50,18 @@ size_t consideredSweeps(const HorizonOptions& options) {
   return steps(options.considered + options.reserve - options.reflex, options.considered_step);
 }
 
-Horizon horizon(const HorizonOptions& options, Duration age) {
-  Horizon horizon{{}, reflexSweeps(options, age)};
-  const size_t considered_sweeps = consideredSweeps(options);
-  horizon.ends.reserve(horizon.reflex_sweeps + considered_sweeps);
+void horizon(const HorizonOptions& options, Duration age, Horizon& horizon) {
+  horizon.ends.clear();
+  horizon.reflex_sweeps = reflexSweeps(options, age);
   const Duration reflex_end = age + options.reflex;
   appendEqual(horizon.ends, Duration::zero(), reflex_end, horizon.reflex_sweeps);
-  appendEqual(horizon.ends, reflex_end, age + options.considered + options.reserve, considered_sweeps);
-  return horizon;
+  appendEqual(horizon.ends, reflex_end, age + options.considered + options.reserve, consideredSweeps(options));
+}
+
+Horizon horizon(const HorizonOptions& options, Duration age) {
+  Horizon all;
+  horizon(options, age, all);
+  return all;
 }
 
 Horizon horizonUpTo(Duration end, HorizonOptions options, Duration age) {

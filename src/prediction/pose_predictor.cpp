@@ -72,10 +72,9 @@ void PosePredictor::observe(const StampedPose& pose) {
   parts_->errors.observe(parts_->track, parts_->velocity.value(), forecast);
 }
 
-PredictedPath PosePredictor::predict(const std::vector<Duration>& ahead) const {
-  PredictedPath path;
-  if (parts_->track.poses() < 2) return path;
-  path.reserve(ahead.size());
+void PosePredictor::predict(const std::vector<Duration>& ahead, PredictedPath& path) const {
+  path.clear();
+  if (parts_->track.poses() < 2) return;
   for (const Duration& duration : ahead) {
     assert(duration > (path.empty() ? Duration::zero() : path.back().ahead));
     const double seconds = toSeconds(duration);
@@ -85,6 +84,11 @@ PredictedPath PosePredictor::predict(const std::vector<Duration>& ahead) const {
     pose.covariance = parts_->errors.covariance(seconds);
     path.push_back(pose);
   }
+}
+
+PredictedPath PosePredictor::predict(const std::vector<Duration>& ahead) const {
+  PredictedPath path;
+  predict(ahead, path);
   return path;
 }
 

@@ -65,8 +65,8 @@ sweep_guard::Prediction PredictService::predict(Duration horizon) {
   if (asked.wait_for(kPatience) != std::future_status::ready) throw sweep_guard::Error("the guard is busy: ask again");
   const Answer answer = asked.get();
   if (!detector_) detector_ = sweep_guard::makeDetector(parameters_.detector, parameters_.detector_options);
-  const sweep_guard::Outlook outlook =
-      sweep_guard::lookAlong(answer.forecast, workpieces_.snapshot(), test_, *detector_, tool_, effort());
+  sweep_guard::Outlook outlook;
+  sweep_guard::lookAlong(answer.forecast, workpieces_.snapshot(), test_, *detector_, tool_, effort(), outlook);
   return predictionMsg(outlook, answer.age, parameters_);
 }
 

@@ -42,7 +42,8 @@ TEST(ExpectedMotionTest, ReachesAsFarAsAnyToolPointThatErrs) {
   for (int i = 0; i < 50; ++i) {
     const Swing swing(random);
     const Eigen::Isometry3d X_WM = random.pose(random.inBox({1, 1, 1}));
-    const ExpectedMotion motion(whole_tool, swing.at(0.0), swing.path, X_WM);
+    ExpectedMotion motion;
+    motion.follow(whole_tool, swing.at(0.0), swing.path, X_WM);
     const Stretch whole = motion.whole();
     const Eigen::AlignedBox3d box_M = motion.reach_M(whole, 2.0, 0.0);
     for (const auto& stretch :
@@ -86,8 +87,10 @@ TEST(PathTestTest, WhatIsOutOfReachMakesNoDifference) {
 
     const Swing swing(random);
     const auto predicted = [&](const TriangleMesh& mesh_M) {
-      return test(detector, Tool::cylinder(0.01, 0.15), swing.at(0.0), swing.path, 1, Eigen::Isometry3d::Identity(),
-                  std::make_shared<const Workpiece>(Workpiece{"one", 0, Time(), SteadyTime(), "table", mesh_M}));
+      PredictedObject object;
+      test(detector, Tool::cylinder(0.01, 0.15), swing.at(0.0), swing.path, 1, Eigen::Isometry3d::Identity(),
+           std::make_shared<const Workpiece>(Workpiece{"one", 0, Time(), SteadyTime(), "table", mesh_M}), {}, object);
+      return object;
     };
     const PredictedObject alone = predicted(near_M);
     const PredictedObject among = predicted(all_M);

@@ -245,6 +245,13 @@ PredictedPath pathAlong(const std::function<Eigen::Isometry3d(double)>& X_WT) {
   return path;
 }
 
+// Of a reflex interval of ten sweeps.
+std::vector<size_t> endsOf(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t considered_sweeps) {
+  std::vector<size_t> ends;
+  sweepEnds(X_WT, path, 10, considered_sweeps, ends);
+  return ends;
+}
+
 // However coarsely the considered interval is swept, in time or not.
 class CoarseSweepsTest : public testing::Test {
  protected:
@@ -253,13 +260,15 @@ class CoarseSweepsTest : public testing::Test {
                           const TriangleMesh& mesh_M, const Check& check) {
     const PredictedPath path = pathAlong(X_WT);
     for (size_t sweeps = 1; sweeps <= 10; ++sweeps) {
-      const auto ends = sweepEnds(X_WT(0.0), path, 10, sweeps);
+      const auto ends = endsOf(X_WT(0.0), path, sweeps);
       ASSERT_EQ(ends.back(), path.size());
       for (const bool spent : {false, true}) {
         SCOPED_TRACE(std::to_string(sweeps) + (spent ? " sweeps, no time" : " sweeps"));
         PathTest test({SweepOptions(), 5ms});
-        check(test(detector_, Tool(tool), X_WT(0.0), path, 10, Eigen::Isometry3d::Identity(), workpiece("one", mesh_M),
-                   {ends, [spent] { return spent; }}));
+        PredictedObject object;
+        test(detector_, Tool(tool), X_WT(0.0), path, 10, Eigen::Isometry3d::Identity(), workpiece("one", mesh_M),
+             {ends, [spent] { return spent; }}, object);
+        check(object);
       }
     }
   }
@@ -332,7 +341,7 @@ TEST_F(CoarseSweepsTest, CoverTheMotionThroughEveryPose) {
 TEST(SweepEndsTest, AreThePosesOfTheReflexIntervalAndEvenlyManyBeyond) {
   const PredictedPath path = pathAlong([](double t) { return Eigen::Isometry3d(Eigen::Translation3d(t, 0, 0)); });
   for (size_t sweeps = 1; sweeps <= 10; ++sweeps) {
-    const auto ends = sweepEnds(Eigen::Isometry3d::Identity(), path, 10, sweeps);
+    const auto ends = endsOf(Eigen::Isometry3d::Identity(), path, sweeps);
     ASSERT_EQ(ends.size(), 10 + sweeps);
     for (size_t i = 0; i < 10; ++i) EXPECT_EQ(ends[i], i + 1);
     EXPECT_EQ(ends.back(), 20U);
@@ -343,7 +352,7 @@ TEST(SweepEndsTest, AreThePosesOfTheReflexIntervalAndEvenlyManyBeyond) {
 // 0.6 rad a step: two are joined, three are not.
 TEST(SweepEndsTest, DoNotJoinStepsThatTurnFar) {
   const auto turning = [](double t) { return Eigen::Isometry3d(Eigen::AngleAxisd(6.0 * t, Eigen::Vector3d::UnitX())); };
-  const auto ends = sweepEnds(turning(0.0), pathAlong(turning), 10, 1);
+  const auto ends = endsOf(turning(0.0), pathAlong(turning), 1);
   EXPECT_EQ(ends, (std::vector<size_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20}));
 }
 

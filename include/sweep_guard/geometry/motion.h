@@ -34,6 +34,8 @@ size_t countOfParts(double angle, double max_rotation);
 /// The motion cut into the fewest equal parts that turn by at most `max_rotation` each; end to end, so that nothing
 /// between them is left out.
 /// @param max_rotation  [rad], > 0
+/// @param[out] parts    what was in it is replaced
+void split(const Motion& motion, double max_rotation, std::vector<Motion>& parts);
 std::vector<Motion> split(const Motion& motion, double max_rotation);
 
 /// The tool and the mesh frame M moving side by side in the fixed frame W. Each goes straight and turns there; seen

@@ -7,6 +7,7 @@
 #include "sweep_guard/detection/cull.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
+#include "sweep_guard/guard/triangle_set.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard {
@@ -47,7 +48,8 @@ class ClearanceMeter {
   std::optional<Clearance> operator()(const MeshPart& part, const SweptVolume& swept_M, const PerHalfSpace& deviations);
 
   /// The triangles that no plane of the volume measured last separates from it: ascending. The volume meets no others.
-  std::vector<std::uint32_t> notSeparated() const;
+  /// Valid until the next call.
+  const TriangleSet& notSeparated();
 
  private:
   struct Candidate {
@@ -66,6 +68,7 @@ class ClearanceMeter {
   const std::vector<Survivor>* survivors_ = nullptr;  // of it: within kMostDeviations of each plane
   std::vector<double> scores_;         // per survivor, corner and plane: deviations that the plane lacks to reach it
   std::vector<Candidate> candidates_;  // ascending by at_least
+  TriangleSet not_separated_;
 };
 
 }  // namespace sweep_guard

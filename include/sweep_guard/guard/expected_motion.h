@@ -17,13 +17,15 @@ struct Stretch {
 };
 
 /// How the tool is expected to move, seen from a mesh frame M that stays where it is: from pose to pose of a predicted
-/// path straight at constant speed, turning about one axis at constant rate.
+/// path straight at constant speed, turning about one axis at constant rate. Keeps its buffers from one path to the
+/// next.
 class ExpectedMotion {
  public:
+  /// Must be called before anything else is asked.
   /// @param X_WT  where the path begins
   /// @param path  at least one pose
-  ExpectedMotion(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
-                 const Eigen::Isometry3d& X_WM);
+  void follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
+              const Eigen::Isometry3d& X_WM);
 
   Stretch whole() const { return between(0, way_M_.size() - 1); }
 
@@ -34,8 +36,9 @@ class ExpectedMotion {
   std::pair<Stretch, Stretch> halves(const Stretch& stretch) const;
 
   /// The motions to sweep, end to end. Part of a step is split(); several steps are one motion, their chord().
-  /// @param max_rotation  of a part of one step [rad]
-  std::vector<Motion> motions_M(const Stretch& stretch, double max_rotation) const;
+  /// @param max_rotation    of a part of one step [rad]
+  /// @param[out] motions_M  what was in it is replaced
+  void motions_M(const Stretch& stretch, double max_rotation, std::vector<Motion>& motions_M) const;
 
   /// The pose at the stretch's end.
   Eigen::Isometry3d end_M(const Stretch& stretch) const { return at(stretch.to, stretch.last - 1).X_MT; }
@@ -56,7 +59,8 @@ class ExpectedMotion {
 
   Pose at(Duration time, size_t first) const;
 
-  const Tool& tool_;
+  Eigen::AlignedBox3d tool_T_;
+  double tool_extent_ = 0.0;
   Waypoints way_M_;
   std::vector<Matrix6d> covariances_M_;  // at the waypoints
 };
@@ -65,7 +69,8 @@ class ExpectedMotion {
 /// The reflex interval is swept from pose to pose; the rest in about `considered_sweeps` sweeps of as many steps each,
 /// but no two steps that turn by more than 1.5 rad together are joined.
 /// @param considered_sweeps  >= 1
-std::vector<size_t> sweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t reflex_sweeps,
-                              size_t considered_sweeps);
+/// @param[out] ends          what was in it is replaced
+void sweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t reflex_sweeps, size_t considered_sweeps,
+               std::vector<size_t>& ends);
 
 }  // namespace sweep_guard

@@ -58,8 +58,9 @@ struct Forecast {
 };
 
 /// Tests a forecast against workpieces; their frames are taken to stay as they are at the pose that it begins at.
-Outlook lookAlong(const Forecast& forecast, const Workpieces& workpieces, PathTest& test, Detector& detector,
-                  const Tool& tool, const PathTest::Effort& effort = {});
+/// @param[out] outlook  what was in it is replaced; one that is handed in again and again ceases to allocate
+void lookAlong(const Forecast& forecast, const Workpieces& workpieces, PathTest& test, Detector& detector,
+               const Tool& tool, const PathTest::Effort& effort, Outlook& outlook);
 
 struct GuardOptions {
   SweepOptions sweep;
@@ -111,7 +112,9 @@ class Guard {
 
   /// Sweeps along the path predicted from the newest pose on. Frames of workpieces are taken to stay as they are there.
   /// The path is empty until a motion is known: two poses.
-  /// @param age  of the newest pose now, >= 0
+  /// @param age           of the newest pose now, >= 0
+  /// @param[out] outlook  what was in it is replaced; one that is handed in again and again ceases to allocate
+  void lookAhead(Duration age, const Workpieces& workpieces, Outlook& outlook);
   Outlook lookAhead(Duration age, const Workpieces& workpieces);
 
   /// Where the tool is expected to go from the newest pose on, at the configured steps. Cheap: nothing is tested.
@@ -148,7 +151,7 @@ class Guard {
   const std::vector<Motion>& motions_M(const Way& way, size_t first, size_t begin, size_t end);
   void forgetWhatIsGone(const Workpieces& workpieces);
   void shorten(const std::string& frame, Way& way) const;
-  PathTest::Effort effortFor(const Forecast& forecast, SteadyTime begin) const;
+  void chooseEffort(SteadyTime begin);
 
   Tool tool_;
   std::unique_ptr<Detector> detector_;
@@ -161,9 +164,11 @@ class Guard {
   PosePredictor predictor_;
   Budget budget_;
   PathTest path_test_;
-  std::optional<ToolPose> newest_;
-  Waypoints waypoints_M_;          // of the stretch that is swept
-  std::vector<Motion> motions_M_;  // of a part of it
+  std::optional<Forecast> forecast_;  // from the newest pose swept to
+  Horizon horizon_;                   // of it
+  PathTest::Effort effort_;           // for it
+  Waypoints waypoints_M_;             // of the stretch that is swept
+  std::vector<Motion> motions_M_;     // of a part of it
   SweepTest sweep_test_;
   SweptBefore known_;  // while a sweep may still fail
 };

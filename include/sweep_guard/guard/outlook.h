@@ -30,6 +30,7 @@ struct PredictedObject {
 
   std::vector<std::uint32_t> triangles() const;  ///< all that are met: ascending, each once
   std::optional<Duration> met() const;           ///< when the path first meets it, after the newest pose
+  void clear();                                  ///< as new; keeps its buffers
 };
 
 /// What is expected to happen after a pose.

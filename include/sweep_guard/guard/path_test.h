@@ -24,6 +24,8 @@ class PathTest {
   struct Effort {
     std::vector<size_t> sweep_ends;  ///< of sweepEnds(); empty: each pose ends a sweep
     std::function<bool()> spent;     ///< the time for what comes after the reflex interval is over; empty: it never is
+
+    size_t sweepsAlong(const PredictedPath& path) const { return sweep_ends.empty() ? path.size() : sweep_ends.size(); }
   };
 
   explicit PathTest(const Options& options) : options_(options) {}
@@ -33,30 +35,35 @@ class PathTest {
   /// meets, those after it are not halved any more. Beyond the reflex interval nothing is halved, nor the detector
   /// asked, once the effort is spent: a triangle counts as met then as long as no plane of a volume separates it.
   /// @param X_WT  where the path begins
-  /// @param X_WM  the workpiece's frame
+  /// @param X_WM         the workpiece's frame
+  /// @param[out] object  what was in it is replaced
   /// @throws DeviceError if the detector fails
-  PredictedObject operator()(Detector& detector, const Tool& tool, const Eigen::Isometry3d& X_WT,
-                             const PredictedPath& path, size_t reflex_sweeps, const Eigen::Isometry3d& X_WM,
-                             std::shared_ptr<const Workpiece> workpiece, const Effort& effort = {});
+  void operator()(Detector& detector, const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
+                  size_t reflex_sweeps, const Eigen::Isometry3d& X_WM, std::shared_ptr<const Workpiece> workpiece,
+                  const Effort& effort, PredictedObject& object);
 
  private:
   struct Scene;
-  struct Reading;
   struct Findings;
 
-  std::vector<SweptBody> wholeTool(const Scene& scene, const Stretch& stretch) const;
-  TriangleSet detected(const Scene& scene, const MeshPart& part, const std::vector<SweptBody>& bodies);
-  Reading read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const std::vector<SweptBody>& whole);
-  void read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const Tool::Node& node,
-            const SweptBody& body, Reading& reading);
-  void test(const Scene& scene, const MeshPart& around, const Stretch& stretch, const std::vector<SweptBody>& whole,
-            Findings& findings, size_t halvings);
+  void sweepWhole(const Scene& scene, const Stretch& stretch);
+  void detectMet(const Scene& scene, const MeshPart& part);
+  double read(const Scene& scene, const MeshPart& part, const Stretch& stretch);
+  double read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const Tool::Node& node,
+              const SweptBody& body);
+  void test(const Scene& scene, const MeshPart& around, const Stretch& stretch, Findings& findings, size_t halvings);
   MeshPart partInReach(const Scene& scene, const MeshPart& around, const Stretch& stretch, size_t halvings);
 
   Options options_;
   ClearanceMeter meter_;
   std::deque<PartFinder> finders_;  // of the whole path, of its sweeps, of their halves, ...
   Detection detection_;
+  ExpectedMotion motion_;
+  // Of the stretch that is tested:
+  std::vector<Motion> motions_M_;
+  std::vector<SweptBody> whole_;        // around all parts of the tool
+  std::vector<SweptBody> unseparated_;  // parts of the tool that no plane tells apart from the mesh
+  TriangleSet met_;                     // that these meet, as far as is known
 };
 
 }  // namespace sweep_guard

@@ -34,9 +34,4 @@ void remove(TriangleSet& all, const TriangleSet& others);
 /// Takes all but `others` out of `all`, in place.
 void keepOnly(TriangleSet& all, const TriangleSet& others);
 
-TriangleSet united(const TriangleSet& a, const TriangleSet& b);
-
-/// Those of `all` that are not among `others`.
-TriangleSet without(const TriangleSet& all, const TriangleSet& others);
-
 }  // namespace sweep_guard

@@ -36,6 +36,8 @@ size_t consideredSweeps(const HorizonOptions& options);
 
 /// At the configured steps, or equal ones a little shorter.
 /// @param age  of the newest pose, >= 0
+/// @param[out] horizon  what was in it is replaced
+void horizon(const HorizonOptions& options, Duration age, Horizon& horizon);
 Horizon horizon(const HorizonOptions& options, Duration age);
 
 /// The same steps up to any end.

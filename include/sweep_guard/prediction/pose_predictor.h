@@ -54,7 +54,9 @@ class PosePredictor {
 
   /// The poses expected after the newest one observed; empty until a motion is known: two poses since the start or a
   /// gap.
-  /// @param ahead  ascending, > 0
+  /// @param ahead      ascending, > 0
+  /// @param[out] path  what was in it is replaced
+  void predict(const std::vector<Duration>& ahead, PredictedPath& path) const;
   PredictedPath predict(const std::vector<Duration>& ahead) const;
 
   /// Begins anew, as if no pose had come; what was learned of the operator is kept.
