@@ -24,6 +24,12 @@ std::optional<size_t> firstPart(const SweepFindings& findings) {
   return first == findings.touched.end() ? std::nullopt : std::optional(first->part);
 }
 
+void note(std::optional<Evidence::Alarm>& alarm, const ExpectedContact& contact, SteadyTime ended) {
+  if (!alarm) alarm.emplace();
+  alarm->contact = contact;
+  alarm->ended = ended;
+}
+
 // A workpiece that is there, and whose sweep had no answer.
 bool notSwept(const SweepReport& report, const std::string& id) {
   const auto unplaced = [&](const auto& workpiece) { return workpiece->id == id; };
@@ -50,59 +56,85 @@ void Ledger::fault(Reason reason, const std::string& story) {
   on_fault_();
 }
 
-void Ledger::note(Reason reason, const std::string& story) { faults_[reason] = {story, ++mark_.faults}; }
+void Ledger::note(Reason reason, const std::string& story) {
+  evidence_.faults[reason] = story;
+  fault_numbers_[reason] = ++mark_.faults;
+}
 
 void Ledger::meshRefused(const std::string& id, const std::string& story) {
   {
     const std::lock_guard lock(mutex_);
     const bool room = refused_meshes_.size() < kRefusedMeshesKept || refused_meshes_.count(id) != 0;
     refused_meshes_[room ? id : refused_meshes_.rbegin()->first] = story;
+    noteRefusedMeshes();
   }
   on_fault_();
 }
 
 void Ledger::meshAccepted(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  refused_meshes_.erase(id);
+  if (refused_meshes_.erase(id) > 0) noteRefusedMeshes();
+}
+
+void Ledger::noteRefusedMeshes() {
+  evidence_.faults.erase(kMeshInvalid);
+  if (!refused_meshes_.empty()) evidence_.faults[kMeshInvalid] = refused_meshes_.rbegin()->second;
 }
 
 void Ledger::setWorkpieces(const Workpieces& workpieces) {
   const std::lock_guard lock(mutex_);
   workpieces_ = workpieces;
+  noteObjects();
+}
+
+void Ledger::noteObjects() {
+  evidence_.objects.resize(workpieces_.size());
+  for (size_t i = 0; i < workpieces_.size(); ++i) {
+    const Workpiece& workpiece = *workpieces_[i];
+    Evidence::Object& object = evidence_.objects[i];
+    object.id = workpiece.id;
+    object.seen = {workpiece.stamp, workpiece.received};
+    object.swept = holds(swept_, workpiece);
+  }
 }
 
 void Ledger::swept(const SweepReport& report, const Seen& pose, const Mark& pose_came, SteadyTime now) {
   {
     const std::lock_guard lock(mutex_);
     if (pose_came.epoch != mark_.epoch) return;
-    for (auto fault = faults_.begin(); fault != faults_.end();) {
-      fault = fault->second.number <= pose_came.faults ? faults_.erase(fault) : std::next(fault);
+    for (auto fault = fault_numbers_.begin(); fault != fault_numbers_.end();) {
+      const auto& [reason, number] = *fault;
+      const bool mended = number <= pose_came.faults;
+      if (mended) evidence_.faults.erase(reason);
+      fault = mended ? fault_numbers_.erase(fault) : std::next(fault);
     }
     for (const SweepFailure& failure : report.failures) {
       note(kDetectorFault, "detection on '" + failure.workpiece->id + "' failed: " + failure.reason);
     }
-    pose_ = pose;
+    evidence_.pose = pose;
     swept_.clear();
     for (const SweptObject& object : report.objects) swept_.push_back(object.workpiece);
+    noteObjects();
     if (report.complete()) swept_until_ = report.end;
     noteContact(report, now);
-    if (report.backlog > limits_.overload) overload_ = Evidence::Backlog{report.backlog, now};
+    if (report.backlog > limits_.overload) evidence_.overload = Evidence::Backlog{report.backlog, now};
   }
   if (!report.failures.empty()) on_fault_();
 }
 
 void Ledger::noteContact(const SweepReport& report, SteadyTime now) {
-  if (contact_) contact_->lasting = contact_->lasting && notSwept(report, contact_->id);
+  auto& contact = evidence_.contact;
+  if (contact) contact->lasting = contact->lasting && notSwept(report, contact->id);
   for (const SweptObject& object : report.objects) {
     if (!object.findings.contact()) continue;
     const SweepFindings& found = object.findings;
-    if (!contact_) contact_.emplace();
-    contact_->id = object.workpiece->id;
-    contact_->triangles = found.met;
-    contact_->found = now;
-    contact_->lasting = true;
-    contact_->inside = found.inside;
-    contact_->tool_part = firstPart(found);
+    if (!contact) contact.emplace();
+    contact->id = object.workpiece->id;
+    contact->triangles = found.met;
+    contact->found = now;
+    contact->lasting = true;
+    contact->inside = found.inside;
+    contact->tool_part = firstPart(found);
     return;
   }
 }
@@ -114,7 +146,10 @@ void Ledger::predicted(const Outlook& outlook, const Seen& pose, const Mark& pos
     for (const SweepFailure& failure : outlook.failures) {
       note(kDetectorFault, "predicting contact with '" + failure.workpiece->id + "' failed: " + failure.reason);
     }
-    prediction_ = Prediction{pose, outlook.coveredUntil(), {}};
+    if (!prediction_) prediction_.emplace();
+    prediction_->pose = pose;
+    prediction_->covered_until = outlook.coveredUntil();
+    prediction_->tested.clear();
     for (const PredictedObject& object : outlook.objects) prediction_->tested.push_back(object.workpiece);
     noteExpected(outlook, pose, now);
   }
@@ -123,32 +158,37 @@ void Ledger::predicted(const Outlook& outlook, const Seen& pose, const Mark& pos
 
 // What was expected of a workpiece that could not be tested again still stands, to the end of its prediction.
 void Ledger::noteExpected(const Outlook& outlook, const Seen& pose, const Instant& now) {
-  const auto next = expectedContact(outlook, limits_.min_probability);
-  if (expected_) {
-    const ExpectedContact& before = expected_->contact;
+  expectedContact(outlook, limits_.min_probability, next_);
+  auto& expected = evidence_.expected;
+  if (expected) {
+    const ExpectedContact& before = expected->contact;
     const auto same = [&](const auto& workpiece) { return workpiece->id == before.mesh_id; };
     const bool there = std::any_of(workpieces_.begin(), workpieces_.end(), same);
     const bool tested = std::any_of(prediction_->tested.begin(), prediction_->tested.end(), same);
-    const bool stands = there && !tested && overSince(*expected_, now) == Duration::zero();
-    if (stands && (!next || before.from <= next->from)) return;
+    const bool stands = there && !tested && overSince(*expected, now) == Duration::zero();
+    if (stands && (!next_ || before.from <= next_->from)) return;
     noteAlarm(now);
-    expected_.reset();
   }
-  if (next) expected_ = Evidence::Expectation{*next, pose, outlook.path.back().ahead};
+  if (!next_) return expected.reset();
+  if (!expected) expected.emplace();
+  std::swap(expected->contact, *next_);
+  expected->pose = pose;
+  expected->reach = outlook.path.back().ahead;
 }
 
 void Ledger::noteAlarm(const Instant& now) {
-  const Evidence::Alarm alarm{expected_->contact, now.steady - overSince(*expected_, now)};
-  const Level level = warningOf(*expected_, now, limits_);
-  if (level >= Level::kConsidered) considered_ = alarm;
-  if (level >= Level::kReflex) reflex_ = alarm;
+  const Evidence::Expectation& expected = *evidence_.expected;
+  const SteadyTime ended = now.steady - overSince(expected, now);
+  const Level level = warningOf(expected, now, limits_);
+  if (level >= Level::kConsidered) sweep_guard::note(evidence_.considered, expected.contact, ended);
+  if (level >= Level::kReflex) sweep_guard::note(evidence_.reflex, expected.contact, ended);
 }
 
 void Ledger::timeJumped(const std::string& story) {
   {
     const std::lock_guard lock(mutex_);
     beginAnew();
-    if (contact_) contact_->lasting = false;
+    if (evidence_.contact) evidence_.contact->lasting = false;
     note(kTimeJump, story);
   }
   on_fault_();
@@ -156,22 +196,25 @@ void Ledger::timeJumped(const std::string& story) {
 
 void Ledger::beginAnew() {
   ++mark_.epoch;
-  pose_.reset();
+  evidence_.pose.reset();
+  evidence_.expected.reset();
+  evidence_.reflex.reset();
+  evidence_.considered.reset();
+  evidence_.overload.reset();
+  evidence_.faults.clear();
   swept_until_ = {};
   prediction_.reset();
-  expected_.reset();
-  reflex_.reset();
-  considered_.reset();
-  overload_.reset();
   swept_.clear();
-  faults_.clear();
+  fault_numbers_.clear();
+  noteObjects();
+  noteRefusedMeshes();
 }
 
 void Ledger::restart() {
   {
     const std::lock_guard lock(mutex_);
     beginAnew();
-    contact_.reset();
+    evidence_.contact.reset();
   }
   on_fault_();
 }
@@ -179,10 +222,10 @@ void Ledger::restart() {
 void Ledger::disable(const std::string& asked_by) {
   {
     const std::lock_guard lock(mutex_);
-    if (disabled_by_) return;
+    if (evidence_.disabled) return;
     beginAnew();
-    contact_.reset();
-    disabled_by_ = asked_by;
+    evidence_.contact.reset();
+    evidence_.disabled = asked_by;
   }
   on_fault_();
 }
@@ -190,21 +233,21 @@ void Ledger::disable(const std::string& asked_by) {
 void Ledger::enable() {
   {
     const std::lock_guard lock(mutex_);
-    if (!disabled_by_) return;
+    if (!evidence_.disabled) return;
     beginAnew();
-    disabled_by_.reset();
+    evidence_.disabled.reset();
   }
   on_fault_();
 }
 
 std::optional<std::string> Ledger::disabledBy() const {
   const std::lock_guard lock(mutex_);
-  return disabled_by_;
+  return evidence_.disabled;
 }
 
 bool Ledger::counts(const Mark& came) const {
   const std::lock_guard lock(mutex_);
-  return came.epoch == mark_.epoch && !disabled_by_;
+  return came.epoch == mark_.epoch && !evidence_.disabled;
 }
 
 void Ledger::setLimits(const VerdictLimits& limits) {
@@ -213,22 +256,15 @@ void Ledger::setLimits(const VerdictLimits& limits) {
 }
 
 Verdict Ledger::verdict(const Instant& now) const {
+  Verdict verdict;
+  this->verdict(now, verdict);
+  return verdict;
+}
+
+void Ledger::verdict(const Instant& now, Verdict& verdict) const {
   const std::lock_guard lock(mutex_);
-  Evidence evidence;
-  evidence.disabled = disabled_by_;
-  evidence.pose = pose_;
-  evidence.covered_until = coveredUntil(now);
-  evidence.expected = expected_;
-  evidence.reflex = reflex_;
-  evidence.considered = considered_;
-  evidence.contact = contact_;
-  evidence.overload = overload_;
-  for (const auto& workpiece : workpieces_) {
-    evidence.objects.push_back({workpiece->id, {workpiece->stamp, workpiece->received}, holds(swept_, *workpiece)});
-  }
-  for (const auto& [reason, fault] : faults_) evidence.faults[reason] = fault.story;
-  for (const auto& [id, story] : refused_meshes_) evidence.faults[kMeshInvalid] = story;
-  return assess(evidence, now, limits_);
+  evidence_.covered_until = coveredUntil(now);
+  assess(evidence_, now, limits_, verdict);
 }
 
 // A prediction counts where it follows on what has been swept, for as long as its pose is not stale: a newer pose

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <iterator>
 
+#include "sweep_guard/guard/triangle_set.h"
+
 namespace sweep_guard {
 
 std::vector<std::uint32_t> PredictedObject::triangles() const {
@@ -49,22 +51,35 @@ std::optional<Duration> Outlook::met() const {
   return first;
 }
 
-std::optional<ExpectedContact> expectedContact(const Outlook& outlook, double min_probability) {
+void expectedContact(const Outlook& outlook, double min_probability, std::optional<ExpectedContact>& expected) {
   assert(min_probability > 0.0 && min_probability <= 1.0);
-  std::optional<ExpectedContact> earliest;
+  const auto warns = [&](const PredictedSweep& sweep) { return sweep.met || sweep.probability >= min_probability; };
+  const PredictedObject* earliest = nullptr;
+  std::vector<PredictedSweep>::const_iterator first;
   for (const PredictedObject& object : outlook.objects) {
-    const auto warns = [&](const PredictedSweep& sweep) { return sweep.met || sweep.probability >= min_probability; };
-    const auto first = std::find_if(object.sweeps.begin(), object.sweeps.end(), warns);
-    if (first == object.sweeps.end()) continue;
-    const Time from = outlook.stamp + first->from;
-    if (earliest && earliest->from <= from) continue;
-    earliest = ExpectedContact{from, std::nullopt, 0.0, object.workpiece->id, object.triangles()};
-    if (const auto met = object.met()) earliest->met = outlook.stamp + *met;
-    for (auto sweep = first; sweep != object.sweeps.end(); ++sweep) {
-      earliest->probability = std::max(earliest->probability, sweep->probability);
-    }
+    const auto sweep = std::find_if(object.sweeps.begin(), object.sweeps.end(), warns);
+    if (sweep == object.sweeps.end() || (earliest != nullptr && first->from <= sweep->from)) continue;
+    earliest = &object;
+    first = sweep;
   }
-  return earliest;
+  if (earliest == nullptr) return expected.reset();
+  if (!expected) expected.emplace();
+  const auto met = earliest->met();
+  expected->from = outlook.stamp + first->from;
+  expected->met = met ? std::optional(outlook.stamp + *met) : std::nullopt;
+  expected->probability = 0.0;
+  for (auto sweep = first; sweep != earliest->sweeps.end(); ++sweep) {
+    expected->probability = std::max(expected->probability, sweep->probability);
+  }
+  expected->mesh_id = earliest->workpiece->id;
+  expected->triangles = earliest->reflex;
+  unite(expected->triangles, earliest->considered);
+}
+
+std::optional<ExpectedContact> expectedContact(const Outlook& outlook, double min_probability) {
+  std::optional<ExpectedContact> expected;
+  expectedContact(outlook, min_probability, expected);
+  return expected;
 }
 
 }  // namespace sweep_guard

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
+#include <string_view>
 
 namespace sweep_guard {
 namespace {
@@ -13,49 +15,53 @@ std::string inSeconds(Duration duration) {
   return text;
 }
 
-class Findings {
- public:
-  void add(Reason reason, const std::string& story) {
-    reasons_ |= reason;
-    text_ += (text_.empty() ? "" : "; ") + story;
-  }
-  std::uint32_t reasons() const { return reasons_; }
-  const std::string& text() const { return text_; }
+// Pieces are put together where the text is kept, so that telling the same again and again allocates nothing.
+using Pieces = std::initializer_list<std::string_view>;
 
- private:
-  std::uint32_t reasons_ = 0;
-  std::string text_;
-};
-
-void assessPose(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Findings& findings) {
-  if (!evidence.pose) {
-    findings.add(kNoPose, "no tool pose yet");
-  } else if (stale(*evidence.pose, now, limits.pose_timeout)) {
-    findings.add(kPoseStale, "newest tool pose tested is " + inSeconds(age(*evidence.pose, now)) + " old");
+void insert(std::string& text, size_t place, Pieces pieces) {
+  for (const std::string_view piece : pieces) {
+    text.insert(place, piece);
+    place += piece.size();
   }
 }
 
-void assessCoverage(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Findings& findings) {
+void add(Verdict& verdict, Reason reason, Pieces story) {
+  verdict.reasons |= reason;
+  if (!verdict.text.empty()) verdict.text += "; ";
+  insert(verdict.text, verdict.text.size(), story);
+}
+
+void assessPose(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Verdict& verdict) {
+  if (!evidence.pose) {
+    add(verdict, kNoPose, {"no tool pose yet"});
+  } else if (stale(*evidence.pose, now, limits.pose_timeout)) {
+    add(verdict, kPoseStale, {"newest tool pose tested is ", inSeconds(age(*evidence.pose, now)), " old"});
+  }
+}
+
+void assessCoverage(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Verdict& verdict) {
   if (evidence.objects.empty() || !evidence.pose || stale(*evidence.pose, now, limits.pose_timeout)) return;
   const Duration ahead = evidence.covered_until - evidence.pose->stamp - age(*evidence.pose, now);
   if (ahead >= limits.considered) return;
-  findings.add(kNotCovered, ahead <= Duration::zero() ? "what comes has not been tested"
-                                                      : "only the next " + inSeconds(ahead) + " have been tested");
+  if (ahead <= Duration::zero()) return add(verdict, kNotCovered, {"what comes has not been tested"});
+  add(verdict, kNotCovered, {"only the next ", inSeconds(ahead), " have been tested"});
 }
 
-void assessObjects(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Findings& findings) {
-  if (evidence.objects.empty()) findings.add(kNoMesh, "no workpiece yet");
+void assessObjects(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Verdict& verdict) {
+  if (evidence.objects.empty()) add(verdict, kNoMesh, {"no workpiece yet"});
   for (const Evidence::Object& object : evidence.objects) {
     if (stale(object.seen, now, limits.mesh_timeout)) {
-      findings.add(kMeshStale, "workpiece '" + object.id + "' is " + inSeconds(age(object.seen, now)) + " old");
+      add(verdict, kMeshStale, {"workpiece '", object.id, "' is ", inSeconds(age(object.seen, now)), " old"});
     }
-    if (evidence.pose && !object.swept) findings.add(kNotSwept, "workpiece '" + object.id + "' has not been swept yet");
+    if (evidence.pose && !object.swept) {
+      add(verdict, kNotSwept, {"workpiece '", object.id, "' has not been swept yet"});
+    }
   }
 }
 
-void assessLoad(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Findings& findings) {
+void assessLoad(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Verdict& verdict) {
   if (!evidence.overload || now.steady - evidence.overload->found > limits.hold_time) return;
-  findings.add(kOverload, "overload: poses of " + inSeconds(evidence.overload->span) + " were swept at once");
+  add(verdict, kOverload, {"overload: poses of ", inSeconds(evidence.overload->span), " were swept at once"});
 }
 
 // The strongest warning in force or held, and the collision that it is about.
@@ -79,20 +85,27 @@ Warned warned(const Evidence& evidence, const Instant& now, const VerdictLimits&
   return warned;
 }
 
-std::string counted(const std::vector<std::uint32_t>& triangles) {
-  return std::to_string(triangles.size()) + (triangles.size() == 1 ? " triangle" : " triangles");
-}
-
-void tell(Verdict& verdict, const std::string& story) {
-  verdict.text = story + (verdict.text.empty() ? "" : "; ") + verdict.text;
+void tell(Verdict& verdict, Pieces story) {
+  if (!verdict.text.empty()) verdict.text.insert(0, "; ");
+  insert(verdict.text, 0, story);
 }
 
 Duration timeTo(Time moment, const Seen& pose, const Instant& now) { return moment - pose.stamp - age(pose, now); }
 
-std::string prospect(const Verdict& verdict) {
-  if (verdict.time_to_collision) return "expected in " + inSeconds(*verdict.time_to_collision);
-  if (verdict.probability == 0.0) return "was expected";
-  return std::to_string(std::lround(100.0 * verdict.probability)) + " % probable";
+void tellProspect(Verdict& verdict) {
+  const auto tellIt = [&](std::string_view how, const std::string& much, std::string_view more = {}) {
+    tell(verdict, {"collision with '", verdict.mesh_id, "' ", how, much, more});
+  };
+  if (verdict.time_to_collision) return tellIt("expected in ", inSeconds(*verdict.time_to_collision));
+  if (verdict.probability == 0.0) return tellIt("was expected", "");
+  tellIt("", std::to_string(std::lround(100.0 * verdict.probability)), " % probable");
+}
+
+void tellContact(Verdict& verdict, bool inside) {
+  const size_t count = verdict.triangles.size();
+  const std::string_view how = inside ? "tool is inside of '" : "tool meets '";
+  if (count == 0) return tell(verdict, {how, verdict.mesh_id, "'"});
+  tell(verdict, {how, verdict.mesh_id, "', ", std::to_string(count), count == 1 ? " triangle" : " triangles"});
 }
 
 void tellExpected(const Evidence::Expectation& expectation, const Instant& now, Verdict& verdict) {
@@ -112,17 +125,27 @@ void warn(const Evidence& evidence, const Instant& now, const VerdictLimits& lim
   verdict.level = strongest.level;
   verdict.mesh_id = strongest.contact->mesh_id;
   verdict.triangles = strongest.contact->triangles;
-  tell(verdict, "collision with '" + verdict.mesh_id + "' " + prospect(verdict));
+  tellProspect(verdict);
 }
 
-Verdict unwatched(const std::string& asked_by) {
-  Verdict verdict;
-  verdict.reasons = kDisabled;
-  verdict.text = std::string(nameOf(verdict.level)) + ": disabled by " + asked_by + ": nothing is tested";
-  return verdict;
+void assessNothing(const std::string& disabled_by, Verdict& verdict) {
+  add(verdict, kDisabled, {nameOf(verdict.level), ": disabled by ", disabled_by, ": nothing is tested"});
 }
 
 }  // namespace
+
+void Verdict::clear() {
+  level = Level::kUnknown;
+  reasons = 0;
+  text.clear();
+  mesh_id.clear();
+  tool_part.reset();
+  triangles.clear();
+  time_to_collision.reset();
+  probability = 0.0;
+  pose_stamp = {};
+  covered_until = {};
+}
 
 Duration age(const Seen& seen, const Instant& now) {
   return std::max(now.stamp - seen.stamp, now.steady - seen.received);
@@ -133,32 +156,34 @@ bool stale(const Seen& seen, const Instant& now, Duration timeout) {
 }
 
 Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits& limits) {
-  if (evidence.disabled) return unwatched(*evidence.disabled);
-  Findings findings;
-  assessPose(evidence, now, limits, findings);
-  assessObjects(evidence, now, limits, findings);
-  assessCoverage(evidence, now, limits, findings);
-  assessLoad(evidence, now, limits, findings);
-  for (const auto& [reason, story] : evidence.faults) findings.add(reason, story);
-
   Verdict verdict;
-  verdict.reasons = findings.reasons();
+  assess(evidence, now, limits, verdict);
+  return verdict;
+}
+
+void assess(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Verdict& verdict) {
+  verdict.clear();
+  if (evidence.disabled) return assessNothing(*evidence.disabled, verdict);
+  assessPose(evidence, now, limits, verdict);
+  assessObjects(evidence, now, limits, verdict);
+  assessCoverage(evidence, now, limits, verdict);
+  assessLoad(evidence, now, limits, verdict);
+  for (const auto& [reason, story] : evidence.faults) add(verdict, reason, {story});
+
   verdict.level = (verdict.reasons & ~kDegraded) == 0 ? Level::kClear : Level::kUnknown;
-  verdict.text = findings.text();
   if (evidence.pose) verdict.pose_stamp = evidence.pose->stamp;
   verdict.covered_until = evidence.covered_until;
+  const size_t length = verdict.text.size();
   warn(evidence, now, limits, verdict);
   if (evidence.contact && (evidence.contact->lasting || now.steady - evidence.contact->found <= limits.hold_time)) {
     verdict.level = Level::kContact;
     verdict.mesh_id = evidence.contact->id;
     verdict.triangles = evidence.contact->triangles;
     verdict.tool_part = evidence.contact->tool_part;
-    verdict.text = findings.text();  // what was expected has come
-    const std::string how = evidence.contact->inside ? "tool is inside of '" : "tool meets '";
-    tell(verdict, how + verdict.mesh_id + "'" + (verdict.triangles.empty() ? "" : ", " + counted(verdict.triangles)));
+    verdict.text.erase(0, verdict.text.size() - length);  // what was expected has come
+    tellContact(verdict, evidence.contact->inside);
   }
-  verdict.text = std::string(nameOf(verdict.level)) + (verdict.text.empty() ? "" : ": ") + verdict.text;
-  return verdict;
+  insert(verdict.text, 0, {nameOf(verdict.level), verdict.text.empty() ? "" : ": "});
 }
 
 Level warningOf(const Evidence::Expectation& expectation, const Instant& now, const VerdictLimits& limits) {

@@ -8,7 +8,7 @@
 #include "sweep_guard/common/pool.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/displacements.h"
-#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/guard/ledger.h"
 
 namespace sweep_guard {
 namespace {
@@ -17,15 +17,45 @@ using namespace std::chrono_literals;
 
 constexpr int kWarm = 3000;  // [ms]
 constexpr int kEnd = 4000;
-constexpr int kPeriod = 16;
+constexpr int kPeriod = 20;
 constexpr int kRings = 11;
 constexpr int kSectors = 20;
+constexpr double kTurn = 2.0 * M_PI;
+constexpr double kClear = 2.0;  // [m]
+constexpr double kNear = 0.107;
+constexpr double kContact = 0.095;
 const std::string kFrame = "a frame whose name is too long to be kept in place";
 
-// A drill that circles over or in a wavy workpiece at 1 kHz; a deformation every 16 ms.
-class AllocationTest : public testing::Test {
+struct Configuration {
+  std::string name;
+  std::string detector = "halfspace";
+  VolumeKind volume = VolumeKind::kObbPlanes;
+  bool several_parts = false;
+  std::string predictor = "direct";
+  bool time_is_short = false;
+};
+
+void PrintTo(const Configuration& configuration, std::ostream* out) { *out << configuration.name; }
+
+ConvexShape at(const Eigen::Vector3d& p_T, const ConvexShape& shape) {
+  return shape.placed(Eigen::Isometry3d(Eigen::Translation3d(p_T)));
+}
+
+Tool toolOf(const Configuration& configuration) {
+  const ConvexShape drill = ConvexShape::cylinder(0.005, 0.1);
+  if (!configuration.several_parts) return Tool(drill);
+  const ConvexShape wedge = ConvexShape::hull({{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.02}, {0.01, 0.01, 0}});
+  return Tool({{"drill", drill},
+               {"handle", at({0, 0, -0.12}, ConvexShape::box({0.01, 0.02, 0.03}))},
+               {"knob", at({0.02, 0, -0.01}, ConvexShape::sphere(0.006))},
+               {"wedge", at({-0.02, 0, -0.02}, wedge)}});
+}
+
+// A tool that circles over or in a wavy workpiece once a second, at 1 kHz; a deformation, and a look ahead, every 20
+// ms. Each pose is followed by a verdict.
+class SteadyStateTest : public testing::TestWithParam<Configuration> {
  protected:
-  AllocationTest() {
+  SteadyStateTest() {
     for (int ms = 0; ms < kEnd; ms += kPeriod) sent_.push_back(positions(ms));
     const TriangleMesh mesh_M = wavyHull(kRings, kSectors, /*phase=*/0.0);
     workpieces_.push_back(
@@ -33,7 +63,7 @@ class AllocationTest : public testing::Test {
   }
 
   static std::vector<float> positions(int ms) {
-    const TriangleMesh mesh_M = wavyHull(kRings, kSectors, std::sin(0.006 * ms));
+    const TriangleMesh mesh_M = wavyHull(kRings, kSectors, std::sin(1e-3 * kTurn * ms));
     std::vector<float> positions;
     for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
       for (const double x : mesh_M.vertex(i)) positions.push_back(static_cast<float>(x));
@@ -41,11 +71,23 @@ class AllocationTest : public testing::Test {
     return positions;
   }
 
+  // What is done takes no time, or all there is.
+  GuardOptions options() {
+    GuardOptions options;
+    options.sweep.volume = GetParam().volume;
+    options.predictor.predictor = GetParam().predictor;
+    options.clock = [this] { return clock_ += GetParam().time_is_short ? 1s : 0s; };
+    return options;
+  }
+
+  static Instant now(int ms) { return {Time(100s + ms * 1ms), SteadyTime(ms * 1ms)}; }
+
   const ToolPose& pose(int ms, double height) {
-    const double t = 1e-3 * ms;
-    pose_.stamp = Time(100s + ms * 1ms);
-    pose_.X_WT.linear() = Eigen::AngleAxisd(M_PI + 0.2 * std::sin(3 * t), Eigen::Vector3d::UnitX()).toRotationMatrix();
-    pose_.X_WT.translation() = Eigen::Vector3d(0.02 * std::cos(5 * t), 0.02 * std::sin(5 * t), height);
+    const double t = 1e-3 * kTurn * ms;
+    pose_.stamp = now(ms).stamp;
+    pose_.received = now(ms).steady;
+    pose_.X_WT.linear() = Eigen::AngleAxisd(M_PI + 0.2 * std::sin(2 * t), Eigen::Vector3d::UnitX()).toRotationMatrix();
+    pose_.X_WT.translation() = Eigen::Vector3d(0.02 * std::cos(t), 0.02 * std::sin(t), height);
     return pose_;
   }
 
@@ -56,51 +98,99 @@ class AllocationTest : public testing::Test {
     if (!next) next = snapshots_.add(*workpieces_[0]);
     positions_ = sent_[static_cast<size_t>(ms / kPeriod)];
     next->mesh_M.deform(positions_);
-    next->stamp = Time(100s + ms * 1ms);
+    next->stamp = now(ms).stamp;
+    next->received = now(ms).steady;
     next->updates = workpieces_[0]->updates + 1;
     next->way = workpieces_[0]->way + Displacements(workpieces_[0]->mesh_M, next->mesh_M).farthest();
     workpieces_[0] = next;
+    ledger_.setWorkpieces(workpieces_);
   }
 
   void cycle(int ms, double height) {
     if (ms % kPeriod == 0) deform(ms);
+    const Seen seen{now(ms).stamp, now(ms).steady};
     guard_.sweep(pose(ms, height), workpieces_, report_);
+    ledger_.swept(report_, seen, ledger_.mark(), now(ms).steady);
+    if (ms % kPeriod == 0) {
+      guard_.lookAhead(5ms, workpieces_, outlook_);
+      ledger_.predicted(outlook_, seen, ledger_.mark(), now(ms));
+    }
+    ledger_.verdict(now(ms), verdict_);
   }
 
-  void expectNoneAt(double height, bool contact) {
+  // @param check  called after each cycle
+  template <typename Check>
+  void expectNoneAt(double height, const Check& check) {
     for (int ms = 0; ms < kWarm; ++ms) cycle(ms, height);
     for (int ms = kWarm; ms < kEnd; ++ms) {
       const Allocations made;
       cycle(ms, height);
       ASSERT_EQ(made.count(), 0U) << "after " << ms << " ms:\n" << made.stacks();
-      ASSERT_EQ(report_.contact(), contact);
+      check();
+      if (HasFatalFailure()) return;
     }
   }
 
+  SteadyTime clock_;
   Pool<Workpiece> snapshots_;
   Workpieces workpieces_;
   std::vector<std::vector<float>> sent_;
   std::vector<float> positions_;
   ToolPose pose_{{}, {}, Eigen::Isometry3d::Identity(), {{kFrame, Eigen::Isometry3d::Identity()}}};
-  Guard guard_{Tool::cylinder(0.005, 0.1), makeDetector("halfspace"), {}};
+  Guard guard_{toolOf(GetParam()), makeDetector(GetParam().detector), options()};
   SweepReport report_;
+  Outlook outlook_;
+  Ledger ledger_{{/*pose_timeout=*/100ms, /*mesh_timeout=*/500ms, /*hold_time=*/200ms}};
+  Verdict verdict_;
 };
 
-TEST_F(AllocationTest, PassingAPoseMakesNone) {
-  for (int ms = 0; ms < 800; ++ms) cycle(ms, 0.5);
+TEST_P(SteadyStateTest, AllocatesNothingInTheClear) {
+  expectNoneAt(kClear, [&] {
+    ASSERT_EQ(verdict_.level, Level::kClear);
+    ASSERT_EQ(outlook_.probability(), 0.0);
+  });
+}
+
+TEST_P(SteadyStateTest, AllocatesNothingWhileItWarns) {
+  expectNoneAt(kNear, [&] {
+    ASSERT_GE(verdict_.level, Level::kConsidered);
+    ASSERT_LE(verdict_.level, Level::kReflex);
+  });
+}
+
+TEST_P(SteadyStateTest, AllocatesNothingInContact) {
+  expectNoneAt(kContact, [&] {
+    ASSERT_EQ(verdict_.level, Level::kContact);
+    ASSERT_TRUE(outlook_.met());
+  });
+}
+
+TEST_P(SteadyStateTest, AllocatesNothingForPosesThatArePassed) {
+  for (int ms = 0; ms < 800; ++ms) cycle(ms, kClear);
   for (int round = 0; round < 10; ++round) {
     const int begin = 800 + 8 * round;
     {
       const Allocations made;
-      for (int ms = begin; ms < begin + 7; ++ms) guard_.pass(pose(ms, 0.5));
+      for (int ms = begin; ms < begin + 7; ++ms) guard_.pass(pose(ms, kClear));
       EXPECT_EQ(made.count(), 0U) << made.stacks();
     }
-    cycle(begin + 7, 0.5);
+    cycle(begin + 7, kClear);
   }
 }
 
-TEST_F(AllocationTest, SweepsAndDeformationsInTheClearMakeNone) { expectNoneAt(0.5, /*contact=*/false); }
-TEST_F(AllocationTest, SweepsAndDeformationsInContactMakeNone) { expectNoneAt(0.095, /*contact=*/true); }
+INSTANTIATE_TEST_SUITE_P(
+    Each, SteadyStateTest,
+    testing::Values(Configuration{"halfspace"},                                                             //
+                    Configuration{"select", "select"},                                                      //
+                    Configuration{"obb", "halfspace", VolumeKind::kObb},                                    //
+                    Configuration{"hull", "halfspace", VolumeKind::kHull},                                  //
+                    Configuration{"several_parts", "halfspace", VolumeKind::kObbPlanes, true},              //
+                    Configuration{"select_hull_several_parts", "select", VolumeKind::kHull, true},          //
+                    Configuration{"polynomial", "halfspace", VolumeKind::kObbPlanes, false, "polynomial"},  //
+                    Configuration{"constant_velocity", "halfspace", VolumeKind::kObbPlanes, false, "constant_velocity"},
+                    Configuration{"hold", "halfspace", VolumeKind::kObbPlanes, false, "hold"},
+                    Configuration{"short_of_time", "halfspace", VolumeKind::kObbPlanes, true, "direct", true}),
+    [](const auto& one) { return one.param.name; });
 
 }  // namespace
 }  // namespace sweep_guard

@@ -73,14 +73,11 @@ class Ledger {
   /// From the next verdict on.
   void setLimits(const VerdictLimits& limits);
 
+  /// @param[out] verdict  what was in it is replaced; one that is handed in again and again ceases to allocate
+  void verdict(const Instant& now, Verdict& verdict) const;
   Verdict verdict(const Instant& now) const;
 
  private:
-  struct Fault {
-    std::string story;
-    std::uint64_t number;
-  };
-
   struct Prediction {
     Seen pose;           // that it began at
     Time covered_until;  // the workpieces tested
@@ -89,6 +86,8 @@ class Ledger {
 
   void beginAnew();
   void note(Reason reason, const std::string& story);
+  void noteRefusedMeshes();
+  void noteObjects();
   void noteContact(const SweepReport& report, SteadyTime now);
   void noteExpected(const Outlook& outlook, const Seen& pose, const Instant& now);
   void noteAlarm(const Instant& now);
@@ -98,18 +97,13 @@ class Ledger {
   mutable std::mutex mutex_;
   VerdictLimits limits_;
   Mark mark_;
-  std::optional<std::string> disabled_by_;
-  std::optional<Seen> pose_;
-  Time swept_until_;  // every workpiece
-  std::optional<Evidence::Contact> contact_;
-  std::optional<Evidence::Backlog> overload_;
-  Workpieces swept_;  // at the newest pose
+  mutable Evidence evidence_;  // what it covers is as of the last verdict
+  Time swept_until_;           // every workpiece
+  Workpieces swept_;           // at the newest pose
   std::optional<Prediction> prediction_;
-  std::optional<Evidence::Expectation> expected_;
-  std::optional<Evidence::Alarm> reflex_;
-  std::optional<Evidence::Alarm> considered_;
+  std::optional<ExpectedContact> next_;  // of the newest prediction
   Workpieces workpieces_;
-  std::map<Reason, Fault> faults_;
+  std::map<Reason, std::uint64_t> fault_numbers_;
   std::map<std::string, std::string> refused_meshes_;  // stories by id
 };
 

@@ -62,6 +62,8 @@ struct ExpectedContact {
 
 /// The earliest sweep that meets a workpiece, or does so with at least this probability; empty if none does.
 /// @param min_probability  in (0, 1]
+/// @param[out] expected    what was in it is replaced
+void expectedContact(const Outlook& outlook, double min_probability, std::optional<ExpectedContact>& expected);
 std::optional<ExpectedContact> expectedContact(const Outlook& outlook, double min_probability);
 
 }  // namespace sweep_guard

@@ -118,6 +118,8 @@ struct Verdict {
   double probability = 0.0;  ///< of that collision, in [0, 1]; 0 without
   Time pose_stamp;           ///< of the newest pose swept to; epoch: none
   Time covered_until;        ///< no workpiece is left untested up to here; epoch: never
+
+  void clear();  ///< as new; keeps its buffers
 };
 
 /// Contact before reflex before considered before unknown before clear. A warning is due as soon as the collision
@@ -126,6 +128,8 @@ struct Verdict {
 /// considered interval, and no fault: whatever is missing is unknown, not clear. Reasons are named whatever the level;
 /// an overload alone, which costs exactness but leaves nothing unswept, does not change it.
 /// A guard that is disabled is unknown for that reason alone. Ages are the larger of both clocks.
+/// @param[out] verdict  what was in it is replaced
+void assess(const Evidence& evidence, const Instant& now, const VerdictLimits& limits, Verdict& verdict);
 Verdict assess(const Evidence& evidence, const Instant& now, const VerdictLimits& limits);
 
 /// The warning that a collision asks for: kReflex, kConsidered, or kClear for none.
