@@ -230,7 +230,8 @@ void SweepGuardNode::lookAhead(const PlacedPose& placed) {
   const sweep_guard::Instant at = now();
   looked_ahead_ = at.steady;
   const sweep_guard::Duration age = std::max(sweep_guard::age(*swept_, at), sweep_guard::Duration::zero());
-  auto outlook = std::make_shared<const sweep_guard::Outlook>(guard_.lookAhead(age, workpieces_.snapshot()));
+  const auto outlook = outlooks_.take();
+  guard_.lookAhead(age, workpieces_.snapshot(), *outlook);
   const sweep_guard::SteadyTime looked = std::chrono::steady_clock::now();
   ledger_.predicted(*outlook, *swept_, placed.came, now());
   warn(/*only_on_change=*/true);
@@ -299,11 +300,11 @@ void SweepGuardNode::watchClock() {
 void SweepGuardNode::warn(bool only_on_change) {
   const std::lock_guard lock(warning_mutex_);
   const sweep_guard::Instant at = now();
-  const sweep_guard::Verdict verdict = ledger_.verdict(at);
-  sweep_guard::Warning next = toMsg(verdict);
-  if (verdict.tool_part) next.tool_link = guard_.tool().parts()[*verdict.tool_part].link;
-  const bool new_level = next.level != warning_.level;
-  if (only_on_change && !new_level && next.reasons == warning_.reasons) return;
+  ledger_.verdict(at, verdict_);
+  const bool new_level = static_cast<std::uint8_t>(verdict_.level) != warning_.level;
+  if (only_on_change && !new_level && verdict_.reasons == warning_.reasons) return;
+  sweep_guard::Warning next = toMsg(verdict_);
+  if (verdict_.tool_part) next.tool_link = guard_.tool().parts()[*verdict_.tool_part].link;
   next.header.frame_id = parameters_.fixed_frame;
   next.tool = parameters_.tool_frame;
   next.sequence = warning_.sequence + (new_level ? 1 : 0);

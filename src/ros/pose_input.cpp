@@ -109,7 +109,7 @@ void PoseInput::accept(const Incoming& incoming) {
   checkStamp(incoming.stamp);
   const Eigen::Isometry3d X_WT = lookup(fixed_frame_, incoming.frame, incoming.stamp) * incoming.X_FT;
   last_ = incoming.stamp;
-  sink_({{incoming.stamp, incoming.received, X_WT, locate(workpieces_.frames(), incoming.stamp)}, came});
+  sink_({{incoming.stamp, incoming.received, X_WT, locate(*workpieces_.frames(), incoming.stamp)}, came});
 }
 
 void PoseInput::checkStamp(sweep_guard::Time stamp) const {

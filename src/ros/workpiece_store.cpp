@@ -117,11 +117,14 @@ std::shared_ptr<const Workpiece> WorkpieceStore::find(const std::string& id) con
 void WorkpieceStore::replace(std::shared_ptr<const Workpiece> snapshot) {
   const std::lock_guard lock(mutex_);
   const auto place = std::lower_bound(workpieces_.begin(), workpieces_.end(), snapshot->id, before);
-  if (place != workpieces_.end() && (*place)->id == snapshot->id) {
+  const bool known = place != workpieces_.end() && (*place)->id == snapshot->id;
+  const bool stays = known && (*place)->frame == snapshot->frame;
+  if (known) {
     *place = std::move(snapshot);
   } else {
     workpieces_.insert(place, std::move(snapshot));
   }
+  if (!stays) gatherFrames();  // rarely; each pose asks for them
   ledger_.setWorkpieces(workpieces_);
 }
 
@@ -132,6 +135,7 @@ void WorkpieceStore::remove(const std::string& id) {
   workpieces_.erase(std::remove_if(workpieces_.begin(), workpieces_.end(),
                                    [&](const auto& workpiece) { return workpiece->id == id; }),
                     workpieces_.end());
+  gatherFrames();
   ledger_.setWorkpieces(workpieces_);
 }
 
@@ -140,11 +144,15 @@ sweep_guard::Workpieces WorkpieceStore::snapshot() const {
   return workpieces_;
 }
 
-std::set<std::string> WorkpieceStore::frames() const {
+std::shared_ptr<const std::set<std::string>> WorkpieceStore::frames() const {
   const std::lock_guard lock(mutex_);
+  return frames_;
+}
+
+void WorkpieceStore::gatherFrames() {
   std::set<std::string> frames;
   for (const auto& workpiece : workpieces_) frames.insert(workpiece->frame);
-  return frames;
+  frames_ = std::make_shared<const std::set<std::string>>(std::move(frames));
 }
 
 void WorkpieceStore::timeJumped() {

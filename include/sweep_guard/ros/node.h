@@ -64,6 +64,7 @@ class SweepGuardNode {
   ros::Publisher marker_publisher_;
 
   std::mutex warning_mutex_;
+  sweep_guard::Verdict verdict_;  // newest
   sweep_guard::Warning warning_;  // counters and level last sent
   std::atomic<sweep_guard::SteadyTime> warned_ = sweep_guard::SteadyTime();
   sweep_guard::Time clock_seen_;
@@ -85,6 +86,7 @@ class SweepGuardNode {
   std::vector<sweep_guard::SteadyTime> passed_;  // when the poses passed since then came in
   sweep_guard::SteadyTime looked_ahead_;         // when it did so last
   sweep_guard::Pool<sweep_guard::SweepReport> reports_;
+  sweep_guard::Pool<sweep_guard::Outlook> outlooks_;
   LogThrottle log_;
   Frames frames_;
   WorkpieceStore workpieces_;

@@ -28,7 +28,7 @@ class WorkpieceStore {
   void accept(const sweep_guard::MeshVertices& msg);
 
   sweep_guard::Workpieces snapshot() const;
-  std::set<std::string> frames() const;
+  std::shared_ptr<const std::set<std::string>> frames() const;  ///< that the workpieces live in
 
   /// Time went back: every snapshot counts as without a stamp until a new one comes.
   void timeJumped();
@@ -53,12 +53,14 @@ class WorkpieceStore {
                                                    const std::vector<float>& positions_M);
   void replace(std::shared_ptr<const sweep_guard::Workpiece> snapshot);
   void remove(const std::string& id);
+  void gatherFrames();
 
   const size_t max_triangles_;
   sweep_guard::Ledger& ledger_;
   LogThrottle log_;
   mutable std::mutex mutex_;
-  sweep_guard::Workpieces workpieces_;                // ascending by id
+  sweep_guard::Workpieces workpieces_;  // ascending by id
+  std::shared_ptr<const std::set<std::string>> frames_ = std::make_shared<const std::set<std::string>>();
   std::map<std::string, Deformations> deformations_;  // by id; of the thread that accepts
   std::atomic<std::uint64_t> received_ = 0;
   std::atomic<std::uint64_t> refused_ = 0;
