@@ -23,6 +23,7 @@ constexpr auto kWarningPeriod = std::chrono::milliseconds(45);  // with the watc
 constexpr auto kWarningValid = std::chrono::milliseconds(200);
 constexpr auto kReflexPeriod = std::chrono::milliseconds(100);
 constexpr auto kConsideredPeriod = std::chrono::seconds(1);
+constexpr auto kViewPeriod = std::chrono::microseconds(16667);
 constexpr auto kClockJump = std::chrono::milliseconds(100);
 
 template <typename Message>
@@ -70,6 +71,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       workload_(parameters_.guard.cycle),
       diagnostics_(node, private_node, parameters_, {poses_, meshes_, workpieces_, ledger_, workload_}),
       markers_(parameters_.fixed_frame, guard_.tool()),
+      view_(private_node, parameters_.fixed_frame, parameters_.tool_frame, guard_.tool()),
       controls_(private_node, ledger_, workpieces_, [this] { reset(); }) {
   warning_timer_ =
       warning_thread_.on(node).createSteadyTimer(wall(kWatchPeriod), [this](const ros::SteadyTimerEvent&) { watch(); });
@@ -81,6 +83,9 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       [this](const ros::SteadyTimerEvent&) { repeat(considered_publisher_, &sweep_guard::Warning::considered); });
   marker_timer_ = report_thread_.on(node).createSteadyTimer(ros::WallDuration(1.0 / parameters_.marker_rate),
                                                             [this](const ros::SteadyTimerEvent&) { publishMarkers(); });
+  view_timer_ = report_thread_.on(node).createSteadyTimer(wall(kViewPeriod), [this](const ros::SteadyTimerEvent&) {
+    if (view_.wanted()) view_.publish(sceneNow());
+  });
   diagnostics_timer_ = report_thread_.on(node).createSteadyTimer(
       ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { diagnostics_.publish(); });
 
@@ -327,15 +332,18 @@ void SweepGuardNode::repeat(const ros::Publisher& publisher, Flag flag) {
   publisher.publish(flagMessage(warning_.*flag != 0));
 }
 
-void SweepGuardNode::publishMarkers() {
-  if (marker_publisher_.getNumSubscribers() == 0) return;
+MarkerScene SweepGuardNode::sceneNow() {
   MarkerScene scene;
   {
     const std::lock_guard lock(scene_mutex_);
     scene = scene_;
   }
   scene.verdict = ledger_.verdict(now());
-  marker_publisher_.publish(markers_.draw(scene));
+  return scene;
+}
+
+void SweepGuardNode::publishMarkers() {
+  if (marker_publisher_.getNumSubscribers() > 0) marker_publisher_.publish(markers_.draw(sceneNow()));
 }
 
 }  // namespace sweep_guard_ros

@@ -18,6 +18,7 @@
 #include "sweep_guard/ros/diagnostics.h"
 #include "sweep_guard/ros/markers.h"
 #include "sweep_guard/ros/predict.h"
+#include "sweep_guard/ros/view_output.h"
 
 namespace sweep_guard_ros {
 
@@ -52,6 +53,7 @@ class SweepGuardNode {
   void warn(bool only_on_change);
   using Flag = sweep_guard::Warning::_reflex_type sweep_guard::Warning::*;
   void repeat(const ros::Publisher& publisher, Flag flag);
+  MarkerScene sceneNow();
   void publishMarkers();
 
   const Parameters parameters_;
@@ -97,6 +99,7 @@ class SweepGuardNode {
   Workload workload_;
   Diagnostics diagnostics_;
   Markers markers_;
+  ViewOutput view_;
   Controls controls_;
 
   QueueThread warning_thread_;
@@ -105,6 +108,7 @@ class SweepGuardNode {
   ros::SteadyTimer reflex_timer_;
   ros::SteadyTimer considered_timer_;
   ros::SteadyTimer marker_timer_;
+  ros::SteadyTimer view_timer_;
   ros::SteadyTimer diagnostics_timer_;
   std::thread sweeping_thread_;
 };

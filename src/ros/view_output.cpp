@@ -1,0 +1,111 @@
+#include "sweep_guard/ros/view_output.h"
+
+#include <algorithm>
+
+#include "sweep_guard/ros/conversions.h"
+#include "sweep_guard/ros/marker_shapes.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::ObjectView;
+
+sweep_guard::TestedVolume volumeMsg(const sweep_guard::SweptVolume& volume_M) {
+  sweep_guard::TestedVolume msg;
+  msg.pose = toMsg(volume_M.box.X_MB);
+  msg.half_extents.x = volume_M.box.half_extents.x();
+  msg.half_extents.y = volume_M.box.half_extents.y();
+  msg.half_extents.z = volume_M.box.half_extents.z();
+  for (const sweep_guard::HalfSpace& clip_B : volume_M.clips_B) {
+    const Eigen::Vector3d& n = clip_B.normal();
+    msg.clips.emplace_back().coef = {n.x(), n.y(), n.z(), -clip_B.offset()};
+  }
+  return msg;
+}
+
+std::vector<sweep_guard::TestedVolume> volumeMsgs(const std::vector<sweep_guard::SweptVolume>& volumes_M) {
+  std::vector<sweep_guard::TestedVolume> msgs;
+  for (const sweep_guard::SweptVolume& volume_M : volumes_M) msgs.push_back(volumeMsg(volume_M));
+  return msgs;
+}
+
+ObjectView& viewOf(const sweep_guard::Workpiece& workpiece, std::vector<ObjectView>& objects) {
+  const auto known = std::find_if(objects.begin(), objects.end(),
+                                  [&](const ObjectView& object) { return object.mesh_id == workpiece.id; });
+  if (known != objects.end()) return *known;
+  ObjectView& object = objects.emplace_back();
+  object.mesh_id = workpiece.id;
+  object.revision = workpiece.revision;
+  object.frame_id = workpiece.frame;
+  return object;
+}
+
+void addContact(const MarkerScene& scene, const sweep_guard::Tool& tool, std::vector<ObjectView>& objects) {
+  for (const sweep_guard::SweptObject& object : scene.contact->objects) {
+    ObjectView& view = viewOf(*object.workpiece, objects);
+    if (view.revision != object.workpiece->revision) continue;
+    view.touched = object.findings.met;
+    view.impacts = toMsg(*object.workpiece, object.findings, tool).impacts;
+  }
+}
+
+void addPredicted(const sweep_guard::Outlook& outlook, std::vector<ObjectView>& objects) {
+  for (const sweep_guard::PredictedObject& object : outlook.objects) {
+    ObjectView& view = viewOf(*object.workpiece, objects);
+    if (view.revision != object.workpiece->revision) continue;
+    view.predicted = volumeMsgs(object.volumes_M);
+    view.reflex = object.reflex;
+    view.considered = object.considered;
+  }
+}
+
+}  // namespace
+
+sweep_guard::View toMsg(const MarkerScene& scene, const sweep_guard::Tool& tool) {
+  sweep_guard::View msg;
+  msg.level = static_cast<std::uint8_t>(scene.verdict.level);
+  msg.pose = toMsg(scene.X_WT);
+  if (!scene.newest) return msg;
+  msg.header.stamp = toMsg(scene.newest->end);
+  for (const sweep_guard::SweptObject& object : scene.newest->objects) {
+    viewOf(*object.workpiece, msg.objects).measured = volumeMsgs(object.findings.volumes_M);
+  }
+  if (scene.contact && scene.verdict.level == sweep_guard::Level::kContact) addContact(scene, tool, msg.objects);
+  if (!scene.outlook) return msg;
+  addPredicted(*scene.outlook, msg.objects);
+  for (const sweep_guard::ExpectedPose& expected : scene.outlook->path) msg.path.push_back(toMsg(expected.X_WT));
+  return msg;
+}
+
+sweep_guard::ToolShape toMsg(const sweep_guard::Tool& tool) {
+  sweep_guard::ToolShape msg;
+  for (const sweep_guard::ToolPart& part : tool.parts()) {
+    const sweep_guard::TriangleMesh& mesh_T = part.shape_T.mesh_T();
+    shape_msgs::Mesh& surface = msg.parts.emplace_back();
+    for (size_t i = 0; i < mesh_T.vertexCount(); ++i) surface.vertices.push_back(point(mesh_T.vertex(i)));
+    for (const auto& [a, b, c] : mesh_T.triangles()) surface.triangles.emplace_back().vertex_indices = {a, b, c};
+    msg.links.push_back(part.link);
+  }
+  return msg;
+}
+
+ViewOutput::ViewOutput(ros::NodeHandle private_node, std::string fixed_frame, std::string tool_frame,
+                       const sweep_guard::Tool& tool)
+    : tool_(tool),
+      fixed_frame_(std::move(fixed_frame)),
+      tool_frame_(std::move(tool_frame)),
+      view_publisher_(private_node.advertise<sweep_guard::View>("view", 1)),
+      tool_publisher_(private_node.advertise<sweep_guard::ToolShape>("tool", 1, /*latch=*/true)) {
+  sweep_guard::ToolShape shape = toMsg(tool_);
+  shape.header.frame_id = tool_frame_;
+  tool_publisher_.publish(shape);
+}
+
+void ViewOutput::publish(const MarkerScene& scene) const {
+  sweep_guard::View view = toMsg(scene, tool_);
+  view.header.frame_id = fixed_frame_;
+  view.tool = tool_frame_;
+  view_publisher_.publish(view);
+}
+
+}  // namespace sweep_guard_ros
