@@ -56,13 +56,19 @@ const char* meaningOf(Light light, bool timed) {
   return "nothing is promised";
 }
 
+// What target and time say already.
+bool isRepeated(const std::string& sentence) {
+  return sentence.rfind("tool meets '", 0) == 0 || sentence.find("' expected in ") != std::string::npos;
+}
+
 std::vector<std::string> sentences(std::string text) {
   const size_t level = text.find(": ");
   if (level != std::string::npos) text.erase(0, level + 2);
   std::vector<std::string> parts;
   for (size_t begin = 0; begin < text.size();) {
     const size_t end = std::min(text.find("; ", begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
+    const std::string sentence = text.substr(begin, end - begin);
+    if (!isRepeated(sentence)) parts.push_back(sentence);
     begin = end + 2;
   }
   return parts;

@@ -93,6 +93,13 @@ TEST(PanelStateTest, TheGuardsOwnWordsStandInLinesOfTheirOwn) {
             (std::vector<std::string>{"newest tool pose tested is 0.52 s old", "no workpiece yet"}));
 }
 
+TEST(PanelStateTest, NothingIsSaidTwice) {
+  Warning warning = warningOf(Warning::CONTACT);
+  warning.reasons = Warning::POSE_STALE;
+  warning.text = "CONTACT: tool meets 'liver', 3 triangles; newest tool pose tested is 0.52 s old";
+  EXPECT_EQ(shown(warning).whys, std::vector<std::string>{"newest tool pose tested is 0.52 s old"});
+}
+
 TEST(PanelStateTest, WhatWillBeHitIsNamed) {
   Warning warning = warningOf(Warning::REFLEX);
   warning.time_to_collision = ros::Duration(0.084);

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <OgreColourValue.h>
+
+namespace sweep_guard_rviz {
+
+/// How one part of the picture is drawn.
+struct Part {
+  bool shown = true;
+  Ogre::ColourValue color;
+};
+
+/// What is drawn, and how.
+struct Look {
+  Part surface;
+  bool edges = false;  ///< of the surface's triangles
+  Part touched;
+  Part reflex;
+  Part considered;
+  Part measured;    ///< volumes of the newest sweep
+  int history = 0;  ///< of earlier sweeps whose volumes stay
+  Part predicted;   ///< volumes along the predicted path
+  Part tool;
+  Part ghosts;
+  int most_ghosts = 10;
+  Part path;  ///< of the tip, measured and predicted
+  Part contacts;
+  float point_size = 0.003F;    ///< of a contact [m]
+  float normal_length = 0.02F;  ///< [m]
+  bool depths = true;           ///< of contacts: a spike into the workpiece, and the largest in words
+
+  /// In grey, as while nothing is promised; the surface stays as it is.
+  Look greyed() const;
+  /// The surface alone.
+  Look surfaceOnly() const;
+};
+
+}  // namespace sweep_guard_rviz

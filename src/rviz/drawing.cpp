@@ -1,0 +1,69 @@
+#include "sweep_guard/rviz/drawing.h"
+
+#include <OgreManualObject.h>
+#include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
+#include <OgreTechnique.h>
+
+#include "sweep_guard/rviz/paint.h"
+
+namespace sweep_guard_rviz {
+namespace {
+
+using Ogre::Vector3;
+
+void addAll(Ogre::ManualObject& object, const Ogre::MaterialPtr& material, Ogre::RenderOperation::OperationType type,
+            std::vector<Vector3>& points) {
+  if (points.empty()) return;
+  object.begin(material->getName(), type, kResources);
+  for (const Vector3& point : points) object.position(point);
+  object.end();
+  points.clear();
+}
+
+}  // namespace
+
+Drawing::Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, int lifted)
+    : scene_(scene), object_(scene.createManualObject()), faces_(makeMaterial(lifted)), lines_(makeMaterial(lifted)) {
+  object_->setDynamic(true);
+  node.attachObject(object_);
+}
+
+Drawing::~Drawing() { scene_.destroyManualObject(object_); }
+
+void Drawing::addTriangle(const Vector3& a, const Vector3& b, const Vector3& c) {
+  triangle_corners_.insert(triangle_corners_.end(), {a, b, c});
+}
+
+void Drawing::addFace(const std::vector<Vector3>& corners) {
+  for (size_t i = 2; i < corners.size(); ++i) addTriangle(corners[0], corners[i - 1], corners[i]);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    line_ends_.push_back(corners[i]);
+    line_ends_.push_back(corners[(i + 1) % corners.size()]);
+  }
+}
+
+void Drawing::addSpike(const Vector3& base, const Vector3& tip, float radius) {
+  const Vector3 u = (tip - base).perpendicular().normalisedCopy();
+  const Vector3 v = (tip - base).crossProduct(u).normalisedCopy();
+  const Vector3 corners[] = {base + radius * u, base + radius * v, base - radius * u, base - radius * v};
+  for (size_t i = 0; i < 4; ++i) addTriangle(corners[i], corners[(i + 1) % 4], tip);
+}
+
+void Drawing::addBead(const Vector3& center, float radius) {
+  addSpike(center, center + radius * Vector3::UNIT_Z, radius);
+  addSpike(center, center - radius * Vector3::UNIT_Z, radius);
+}
+
+void Drawing::paint(const Ogre::ColourValue& faces, const Ogre::ColourValue& lines) {
+  sweep_guard_rviz::paint(*faces_->getTechnique(0)->getPass(0), faces);
+  sweep_guard_rviz::paint(*lines_->getTechnique(0)->getPass(0), lines);
+}
+
+void Drawing::show() {
+  object_->clear();
+  addAll(*object_, faces_, Ogre::RenderOperation::OT_TRIANGLE_LIST, triangle_corners_);
+  addAll(*object_, lines_, Ogre::RenderOperation::OT_LINE_LIST, line_ends_);
+}
+
+}  // namespace sweep_guard_rviz
