@@ -1,0 +1,34 @@
+#include "sweep_guard/rviz/highlights.h"
+
+#include <gtest/gtest.h>
+
+namespace sweep_guard_rviz {
+namespace {
+
+using Triangles = std::vector<std::uint32_t>;
+
+TEST(HighlightsTest, ATriangleIsShownAsTheMostUrgentOfWhatItIs) {
+  sweep_guard::ObjectView view;
+  view.touched = {3};
+  view.reflex = {3, 4};
+  view.considered = {3, 4, 5};
+  const Highlights shown = highlightsOf(view, 10);
+  EXPECT_EQ(shown.touched, Triangles{3});
+  EXPECT_EQ(shown.reflex, Triangles{4});
+  EXPECT_EQ(shown.considered, Triangles{5});
+}
+
+TEST(HighlightsTest, WhatTheWorkpieceDoesNotHaveIsLeftOut) {
+  sweep_guard::ObjectView view;
+  view.touched = {1, 9, 10, 4000000000U};
+  EXPECT_EQ(highlightsOf(view, 10).touched, (Triangles{1, 9}));
+}
+
+TEST(HighlightsTest, OrderAndRepetitionDoNotMatter) {
+  sweep_guard::ObjectView view;
+  view.considered = {7, 2, 7};
+  EXPECT_EQ(highlightsOf(view, 10).considered, (Triangles{2, 7}));
+}
+
+}  // namespace
+}  // namespace sweep_guard_rviz
