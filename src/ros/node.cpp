@@ -277,6 +277,7 @@ void SweepGuardNode::publishContacts(const sweep_guard::SweepReport& report) {
 }
 
 void SweepGuardNode::publishPrediction(const sweep_guard::Outlook& outlook, sweep_guard::Duration age) {
+  if (prediction_publisher_.getNumSubscribers() + time_to_collision_publisher_.getNumSubscribers() == 0) return;
   const auto prediction = boost::make_shared<sweep_guard::Prediction>(predictionMsg(outlook, age, parameters_));
   std_msgs::Float64 time_to_collision;
   time_to_collision.data = timeToCollision(*prediction);

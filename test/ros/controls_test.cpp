@@ -23,7 +23,7 @@ TEST_F(ControlsTest, DisabledIsUnknownForThatReasonAloneAndNotClear) {
   const Warning warning = probe().awaitWarning(hasReason(Warning::DISABLED));
   EXPECT_EQ(warning.reasons, Warning::DISABLED);
   EXPECT_TRUE(warning.reflex && warning.considered);
-  EXPECT_NE(warning.text.find("disabled by /node_test"), std::string::npos) << warning.text;
+  EXPECT_NE(warning.text.find("disabled by " + ros::this_node::getName()), std::string::npos) << warning.text;
 }
 
 // The pose that comes while it is disabled is never swept: not at once, and not as part of the way afterwards.
