@@ -1,23 +1,30 @@
 #include "sweep_guard/detection/cull.h"
 
 #include <algorithm>
-#include <array>
 
 namespace sweep_guard {
 namespace {
 
-constexpr std::int32_t kBeyond = simd::kInsideAll - 1;
+std::uint64_t allOf(const Cluster& cluster) { return ~std::uint64_t{0} >> (simd::kCluster - cluster.count); }
+
+template <typename Value>
+void fetch(const Value* from, size_t count = 1) {
+  constexpr size_t kLine = 64;
+  for (size_t i = 0; i < count * sizeof(Value); i += kLine) __builtin_prefetch(reinterpret_cast<const char*>(from) + i);
+}
 
 }  // namespace
 
 const std::vector<Survivor>& Cull::operator()(const MeshPart& part, const simd::Planes& planes) {
   survivors_.clear();
   if (part.empty() || whollyBeyond(part.mesh_M(), planes)) return survivors_;
-  vertex_bits_.resize(std::max(vertex_bits_.size(), part.mesh_M().blocks().count() * simd::kBlock));
-  bits_.classify(part, planes);
-  for (const Cluster& cluster : part.clusters()) {
-    if (!bits_.beyondOnePlane(cluster)) look(part, cluster, planes);
+  findLeft(part, planes);
+  for (const std::uint32_t block : blocks_) {
+    withBlock(part.mesh_M().places(), part.blocks()[block], [&](const float* vertices) {
+      kernels_->classifyBlock(vertices, planes, &vertex_bits_[block * simd::kBlock]);
+    });
   }
+  for (const Cluster* cluster : clusters_) look(part.mesh_M().order(), *cluster);
   if (!part.mesh_M().order().triangle_at.empty()) {
     std::sort(survivors_.begin(), survivors_.end(),
               [](const Survivor& a, const Survivor& b) { return a.triangle < b.triangle; });
@@ -25,31 +32,33 @@ const std::vector<Survivor>& Cull::operator()(const MeshPart& part, const simd::
   return survivors_;
 }
 
-void Cull::look(const MeshPart& part, const Cluster& cluster, const simd::Planes& planes) {
-  for (const std::uint32_t block : cluster.blocks) classify(part, block, planes);
-  const std::vector<std::uint32_t>& triangle_at = part.mesh_M().order().triangle_at;
-  const Triangle* corners = &part.mesh_M().cornerPlaces()[cluster.first];
-  std::array<Survivor, kMostTriangles> left;
-  size_t count = 0;
-  for (std::uint32_t i = 0; i < cluster.count; ++i) {
-    const std::int32_t a = vertex_bits_[corners[i][0]];
-    const std::int32_t b = vertex_bits_[corners[i][1]];
-    const std::int32_t c = vertex_bits_[corners[i][2]];
-    left[count] = {cluster.first + i, ((a | b | c) & simd::kInsideAll) != 0};
-    count += (a & b & c & kBeyond) == 0 ? 1 : 0;  // no branch: it could not be foretold
+// Clusters that are not wholly beyond a plane, and their blocks. What these need of memory comes meanwhile.
+void Cull::findLeft(const MeshPart& part, const simd::Planes& planes) {
+  clusters_.clear();
+  blocks_.clear();
+  vertex_bits_.resize(std::max(vertex_bits_.size(), part.blocks().size() * simd::kBlock));
+  bits_.classify(part, planes);
+  for (const Cluster& cluster : part.clusters()) {
+    if (bits_.beyondOnePlane(cluster)) continue;
+    clusters_.push_back(&cluster);
+    fetch(&part.mesh_M().order().corners[cluster.number]);
+    for (const std::uint32_t block : cluster.blocks) {
+      if (!bits_.firstAsked(block)) continue;
+      blocks_.push_back(block);
+      fetch(part.mesh_M().places().data() + part.blocks()[block] * kBlockFloats, kBlockFloats);
+    }
   }
-  if (!triangle_at.empty()) {
-    for (size_t i = 0; i < count; ++i) left[i].triangle = triangle_at[left[i].triangle];
-  }
-  survivors_.insert(survivors_.end(), left.begin(), left.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-void Cull::classify(const MeshPart& part, std::uint32_t block, const simd::Planes& planes) {
-  if (!bits_.firstAsked(block)) return;
-  const std::uint32_t number = part.blocks()[block];
-  withBlock(part.mesh_M().places(), number, [&](const float* vertices) {
-    kernels_->classifyBlock(vertices, planes, &vertex_bits_[number * simd::kBlock]);
-  });
+void Cull::look(const MeshOrder& order, const Cluster& cluster) {
+  const auto bits = [&](size_t i) { return &vertex_bits_[cluster.blocks[i] * simd::kBlock]; };
+  const simd::TriangleBits found =
+      kernels_->classifyTriangles(order.corners[cluster.number], {bits(0), bits(1), bits(2), bits(3)});
+  for (std::uint64_t left = found.left & allOf(cluster); left != 0; left &= left - 1) {
+    const auto i = static_cast<std::uint32_t>(__builtin_ctzll(left));
+    const std::uint32_t place = cluster.first + i;
+    survivors_.push_back({order.triangle_at.empty() ? place : order.triangle_at[place], (found.met >> i & 1U) != 0});
+  }
 }
 
 }  // namespace sweep_guard

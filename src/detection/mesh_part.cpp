@@ -7,7 +7,7 @@ namespace sweep_guard {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::int32_t kAsked = 1 << 30;
+constexpr std::uint16_t kAsked = simd::kInsideAll;  // no plane's, and boxes have no use for it
 
 }  // namespace
 

@@ -54,7 +54,7 @@ std::vector<std::uint32_t> betterPlaces(const std::vector<float>& positions) {
 
 // The cluster that begins at a triangle: as long as it needs no fifth block.
 Cluster clusterFrom(std::uint32_t first, const std::vector<Triangle>& corners) {
-  Cluster cluster{first, 0, {}};
+  Cluster cluster{0, first, 0, {}};
   size_t blocks = 0;
   const auto takes = [&](std::uint32_t vertex) {
     const auto block = static_cast<std::uint32_t>(vertex / simd::kBlock);
@@ -64,7 +64,7 @@ Cluster clusterFrom(std::uint32_t first, const std::vector<Triangle>& corners) {
     cluster.blocks[blocks++] = block;
     return true;
   };
-  for (size_t i = first; i < corners.size() && cluster.count < kMostTriangles; ++i, ++cluster.count) {
+  for (size_t i = first; i < corners.size() && cluster.count < simd::kCluster; ++i, ++cluster.count) {
     const size_t before = blocks;
     if (std::all_of(corners[i].begin(), corners[i].end(), takes)) continue;
     blocks = before;
@@ -74,10 +74,24 @@ Cluster clusterFrom(std::uint32_t first, const std::vector<Triangle>& corners) {
   return cluster;
 }
 
+simd::ClusterCorners cornersOf(const Cluster& cluster, const std::vector<Triangle>& corners) {
+  simd::ClusterCorners places{};
+  for (size_t i = 0; i < cluster.count; ++i) {
+    for (size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = corners[cluster.first + i][k];
+      const auto* const block = std::find(cluster.blocks.begin(), cluster.blocks.end(), vertex / simd::kBlock);
+      const auto place = static_cast<size_t>(block - cluster.blocks.begin()) * simd::kBlock + vertex % simd::kBlock;
+      places.places[k][i] = static_cast<std::uint8_t>(place);
+    }
+  }
+  return places;
+}
+
 std::vector<Cluster> clustersOf(const std::vector<Triangle>& corners) {
   std::vector<Cluster> clusters;
   for (std::uint32_t at = 0; at < corners.size(); at += clusters.back().count) {
     clusters.push_back(clusterFrom(at, corners));
+    clusters.back().number = static_cast<std::uint32_t>(clusters.size() - 1);
   }
   return clusters;
 }
@@ -116,7 +130,8 @@ MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangl
     order.clusters = std::move(clusters);
     corners = std::move(in_order);
   }
-  if (!order.vertex_places.empty() || !order.triangle_at.empty()) order.corners = std::move(corners);
+  order.corners.reserve(order.clusters.size());
+  for (const Cluster& cluster : order.clusters) order.corners.push_back(cornersOf(cluster, corners));
   order.blocks.resize((positions.size() / 3 + simd::kBlock - 1) / simd::kBlock);
   std::iota(order.blocks.begin(), order.blocks.end(), 0U);
   return order;

@@ -17,15 +17,14 @@ simd::BoxArrays<Number> sixArrays(Number* sides, size_t boxes) {
 
 bool VertexBlocks::measure(const std::vector<float>& positions) {
   assert(!positions.empty() && positions.size() % 3 == 0);
-  constexpr size_t kFloats = 3 * simd::kBlock;
   constexpr float kFar = std::numeric_limits<float>::infinity();
-  count_ = (positions.size() + kFloats - 1) / kFloats;
+  count_ = (positions.size() + kBlockFloats - 1) / kBlockFloats;
   sides_.resize(6 * simd::padded(count_));
   const auto boxes = sixArrays(sides_.data(), count_);
 
   simd::Extremes extremes{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   const size_t readable = positions.size() - std::min(positions.size(), simd::kPadding);
-  const size_t whole = std::min(readable / kFloats, count_ - 1);
+  const size_t whole = std::min(readable / kBlockFloats, count_ - 1);
   bool finite = simd::kernels().bound(positions.data(), whole, boxes, extremes);
   for (size_t block = whole; block < count_; ++block) {
     withBlock(positions, block, [&](const float* vertices) {

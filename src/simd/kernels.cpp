@@ -2,6 +2,9 @@
 // function compiled for AVX-512 could be linked into code that runs everywhere.
 #include <experimental/simd>
 #include <utility>
+#ifdef __AVX512BW__
+#include <immintrin.h>
+#endif
 
 #include "sweep_guard/simd/kernels.h"
 
@@ -10,9 +13,10 @@ namespace {
 
 namespace stdx = std::experimental;
 using Float = stdx::native_simd<float>;
-using Int = stdx::rebind_simd_t<std::int32_t, Float>;
 using Vector [[gnu::vector_size(sizeof(Float))]] = float;
 constexpr std::size_t kWidth = Float::size();
+using Ints [[gnu::vector_size(sizeof(Float))]] = std::int32_t;
+using Words [[gnu::vector_size(sizeof(Float) / 2)]] = std::uint16_t;
 constexpr std::size_t kFloats = 3 * kBlock;
 constexpr std::size_t kInPhase = kWidth / 3 * 3;  // lanes of whole vertices: a load of these begins with an x
 constexpr std::size_t kAhead = 8;  // blocks; what the hardware fetches alone does not fill the memory's time
@@ -98,6 +102,13 @@ bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& bo
   return stdx::all_of((sums[0] + sums[1] + sums[2] + sums[3]) * 0.0F == 0.0F);
 }
 
+// Sums of powers of two, below 2^16.
+[[gnu::always_inline]] inline void storeBits(const Float& sums, std::uint16_t* bits) {
+  const auto ints = __builtin_convertvector(static_cast<Vector>(sums), Ints);
+  const auto words = __builtin_convertvector(ints, Words);
+  __builtin_memcpy(bits, &words, sizeof(words));
+}
+
 // Of each box, the corner that lies least far beyond each plane.
 struct NearestCorners {
   NearestCorners(const BoxArrays<const float>& boxes, const Planes& planes) {
@@ -113,7 +124,7 @@ struct NearestCorners {
 
 // So many registers of boxes at a time: none need wait for another.
 template <std::size_t registers>
-void classifyBoxesFrom(std::size_t first, const NearestCorners& nearest, const Planes& planes, std::int32_t* bits) {
+void classifyBoxesFrom(std::size_t first, const NearestCorners& nearest, const Planes& planes, std::uint16_t* bits) {
   Float found[registers];  // sums of powers of two: lanes of float select faster than those of int
   for (std::size_t k = 0; k < registers; ++k) found[k] = 0.0F;
   float bit = 1.0F;
@@ -126,55 +137,130 @@ void classifyBoxesFrom(std::size_t first, const NearestCorners& nearest, const P
     }
   }
   for (std::size_t k = 0; k < registers; ++k) {
-    stdx::static_simd_cast<Int>(found[k]).copy_to(bits + first + k * kWidth, stdx::element_aligned);
+    storeBits(found[k], bits + first + k * kWidth);
   }
 }
 
-void classifyBoxes(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes, std::int32_t* bits) {
+void classifyBoxes(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes, std::uint16_t* bits) {
   const NearestCorners nearest(boxes, planes);
   std::size_t first = 0;
   for (; first + 4 * kWidth <= count; first += 4 * kWidth) classifyBoxesFrom<4>(first, nearest, planes, bits);
   for (; first < count; first += kWidth) classifyBoxesFrom<1>(first, nearest, planes, bits);
 }
 
+// One axis of as many vertices as a register has lanes, from the three registers that hold them.
+template <std::size_t axis, std::size_t... lane>
+[[gnu::always_inline]] inline Float oneAxis(const Float (&of)[3], std::index_sequence<lane...> /*all*/) {
+  const auto first = static_cast<Vector>(of[0]);
+  const auto second = static_cast<Vector>(of[1]);
+  const auto third = static_cast<Vector>(of[2]);
+  const Vector two = __builtin_shufflevector(first, second, static_cast<int>((3 * lane + axis) % (2 * kWidth))...);
+  return Float(__builtin_shufflevector(
+      two, third, static_cast<int>(3 * lane + axis < 2 * kWidth ? lane : 3 * lane + axis - kWidth)...));
+}
+
+struct Points {
+  explicit Points(const float* vertices) {
+    const Float of[3] = {load(vertices), load(vertices + kWidth), load(vertices + 2 * kWidth)};
+    constexpr auto kAll = std::make_index_sequence<kWidth>();
+    x = oneAxis<0>(of, kAll);
+    y = oneAxis<1>(of, kAll);
+    z = oneAxis<2>(of, kAll);
+  }
+
+  Float x;
+  Float y;
+  Float z;
+};
+
 // Two registers of vertices at a time: the next plane need not wait for the one before.
 void classifyBlock(const float* vertices, const Planes& planes, std::uint16_t* bits) {
-  alignas(sizeof(Float)) float p[3][kBlock];
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) p[axis][i] = vertices[3 * i + axis];
-  }
-  alignas(sizeof(Float)) std::int32_t wide[kBlock];
   for (std::size_t first = 0; first < kBlock; first += 2 * kWidth) {
-    Float at[2][3];
-    for (std::size_t k = 0; k < 2; ++k) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        at[k][axis] = Float(p[axis] + first + k * kWidth, stdx::vector_aligned);
-      }
-    }
+    const Points at[2] = {Points(vertices + 3 * first), Points(vertices + 3 * (first + kWidth))};
     Float found[2] = {0.0F, 0.0F};
-    Float closest[2] = {-1.0F, -1.0F};  // to being not certainly inside
+    Float::mask_type inside[2] = {Float::mask_type(true), Float::mask_type(true)};
     float bit = 1.0F;
     for (std::size_t i = 0; i < planes.count; ++i, bit *= 2.0F) {
       for (std::size_t k = 0; k < 2; ++k) {
-        const Float out =
-            planes.normal[0][i] * at[k][0] + planes.normal[1][i] * at[k][1] + planes.normal[2][i] * at[k][2];
+        const Float out = planes.normal[0][i] * at[k].x + planes.normal[1][i] * at[k].y + planes.normal[2][i] * at[k].z;
         stdx::where(out > planes.outside[i], found[k]) += bit;
-        closest[k] = stdx::max(closest[k], out - planes.inside[i]);
+        inside[k] = inside[k] && out < planes.inside[i];
       }
     }
     for (std::size_t k = 0; k < 2; ++k) {
-      stdx::where(closest[k] < 0.0F, found[k]) = static_cast<float>(kInsideAll);
-      stdx::static_simd_cast<Int>(found[k]).copy_to(wide + first + k * kWidth, stdx::vector_aligned);
+      stdx::where(inside[k], found[k]) = static_cast<float>(kInsideAll);
+      storeBits(found[k], bits + first + k * kWidth);
     }
   }
-  for (std::size_t i = 0; i < kBlock; ++i) bits[i] = static_cast<std::uint16_t>(wide[i]);
 }
+
+constexpr int kBeyondAny = kInsideAll - 1;
+static_assert(kInsideAll == 1U << 15U);  // the sign of a word
+
+#ifdef __AVX512BW__
+
+// The bits of a cluster's vertices fit into four registers: corners are picked out of these, not out of memory.
+class VertexBits {
+ public:
+  explicit VertexBits(const std::array<const std::uint16_t*, kClusterBlocks>& bits)
+      : of_{_mm512_loadu_si512(bits[0]), _mm512_loadu_si512(bits[1]), _mm512_loadu_si512(bits[2]),
+            _mm512_loadu_si512(bits[3])} {
+    static_assert(kClusterBlocks == 4 && kBlock == 32 && sizeof(__m512i) == kBlock * sizeof(std::uint16_t));
+  }
+
+  // Of the vertices at kBlock places.
+  __m512i operator()(const std::uint8_t* places) const {
+    const __m512i at = _mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(places)));
+    const __mmask32 in_last_two = _mm512_test_epi16_mask(at, _mm512_set1_epi16(2 * kBlock));
+    return _mm512_mask_blend_epi16(in_last_two, _mm512_permutex2var_epi16(of_[0], at, of_[1]),
+                                   _mm512_permutex2var_epi16(of_[2], at, of_[3]));
+  }
+
+ private:
+  __m512i of_[kClusterBlocks];
+};
+
+TriangleBits classifyTriangles(const ClusterCorners& corners,
+                               const std::array<const std::uint16_t*, kClusterBlocks>& bits) {
+  const VertexBits bits_of(bits);
+  TriangleBits found = {0, 0};
+  for (std::size_t first = 0; first < kCluster; first += kBlock) {
+    const __m512i a = bits_of(&corners.places[0][first]);
+    const __m512i b = bits_of(&corners.places[1][first]);
+    const __m512i c = bits_of(&corners.places[2][first]);
+    const __mmask32 left = _mm512_testn_epi16_mask(a & b & c, _mm512_set1_epi16(kBeyondAny));
+    const __mmask32 met = _mm512_movepi16_mask(a | b | c);
+    found.left |= std::uint64_t{left} << first;
+    found.met |= std::uint64_t{met} << first;
+  }
+  return found;
+}
+
+#else
+
+TriangleBits classifyTriangles(const ClusterCorners& corners,
+                               const std::array<const std::uint16_t*, kClusterBlocks>& bits) {
+  std::uint16_t of[kClusterBlocks * kBlock];
+  for (std::size_t i = 0; i < kClusterBlocks; ++i)
+    __builtin_memcpy(of + i * kBlock, bits[i], sizeof(of) / kClusterBlocks);
+  TriangleBits found = {0, 0};
+  for (std::size_t i = 0; i < kCluster; ++i) {
+    const unsigned a = of[corners.places[0][i]];
+    const unsigned b = of[corners.places[1][i]];
+    const unsigned c = of[corners.places[2][i]];
+    found.left |= std::uint64_t{(a & b & c & kBeyondAny) == 0} << i;
+    found.met |= std::uint64_t{((a | b | c) & kInsideAll) != 0} << i;
+  }
+  return found;
+}
+
+#endif
 
 }  // namespace
 
 namespace SWEEP_GUARD_ISA {
 extern const Kernels kKernels;
-const Kernels kKernels = {nullptr, bound, classifyBoxes, classifyBlock};
+const Kernels kKernels = {nullptr, bound, classifyBoxes, classifyBlock, classifyTriangles};
 }  // namespace SWEEP_GUARD_ISA
 
 }  // namespace sweep_guard::simd

@@ -129,7 +129,7 @@ TEST_P(KernelsTest, TellsThePlanesThatAllOfABoxIsBeyond) {
       boxes.sides[i + 3 * boxes.stride] = boxes.sides[i] + 0.3F * std::abs(randomFloat(random));
     }
     const Planes planes = randomPlanes(random, 12);
-    std::vector<std::int32_t> bits(boxes.stride);
+    std::vector<std::uint16_t> bits(boxes.stride);
     GetParam().classifyBoxes(boxes.arrays<const float>(), count, planes, bits.data());
     for (size_t box = 0; box < count; ++box) {
       for (size_t plane = 0; plane < planes.count; ++plane) {
@@ -181,6 +181,38 @@ TEST_P(KernelsTest, TellsThePlanesThatAVertexIsBeyondAndWhatIsInsideOfAll) {
     }
   }
   EXPECT_GT(inside_all, 100);
+}
+
+TEST_P(KernelsTest, TellsTheTrianglesWhollyBeyondAPlaneAndThoseWithACornerInside) {
+  Random random(6);
+  int left = 0;
+  int met = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::array<std::array<std::uint16_t, kBlock>, kClusterBlocks> bits{};
+    for (auto& block : bits) {
+      for (std::uint16_t& vertex : block) {
+        vertex = random.below(8) == 0 ? kInsideAll : static_cast<std::uint16_t>(random.below(8) << random.below(3));
+      }
+    }
+    ClusterCorners corners{};
+    for (auto& of_all : corners.places) {
+      for (std::uint8_t& place : of_all) place = static_cast<std::uint8_t>(random.below(kClusterBlocks * kBlock));
+    }
+    const TriangleBits found =
+        GetParam().classifyTriangles(corners, {bits[0].data(), bits[1].data(), bits[2].data(), bits[3].data()});
+    for (size_t i = 0; i < kCluster; ++i) {
+      const auto corner = [&](size_t k) { return bits[corners.places[k][i] / kBlock][corners.places[k][i] % kBlock]; };
+      const bool beyond = (corner(0) & corner(1) & corner(2) & (kInsideAll - 1)) != 0;
+      const bool inside = ((corner(0) | corner(1) | corner(2)) & kInsideAll) != 0;
+      EXPECT_EQ((found.left >> i & 1) != 0, !beyond);
+      EXPECT_EQ((found.met >> i & 1) != 0, inside);
+      left += beyond ? 0 : 1;
+      met += inside ? 1 : 0;
+    }
+  }
+  EXPECT_GT(left, 1000);
+  EXPECT_LT(left, 12000);
+  EXPECT_GT(met, 1000);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllSets, KernelsTest, testing::ValuesIn(availableKernels()),

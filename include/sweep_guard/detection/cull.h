@@ -26,12 +26,14 @@ class Cull {
   const std::vector<Survivor>& operator()(const MeshPart& part, const simd::Planes& planes);
 
  private:
-  void look(const MeshPart& part, const Cluster& cluster, const simd::Planes& planes);
-  void classify(const MeshPart& part, std::uint32_t block, const simd::Planes& planes);
+  void findLeft(const MeshPart& part, const simd::Planes& planes);
+  void look(const MeshOrder& order, const Cluster& cluster);
 
   const simd::Kernels* kernels_;
   BlockBits bits_;
-  std::vector<std::uint16_t> vertex_bits_;  // per place of a vertex; of the blocks that were looked into
+  std::vector<const Cluster*> clusters_;    // that are left
+  std::vector<std::uint32_t> blocks_;       // of these, each once
+  std::vector<std::uint16_t> vertex_bits_;  // of each block of the part; those of others mean nothing
   std::vector<Survivor> survivors_;
 };
 

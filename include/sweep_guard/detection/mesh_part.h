@@ -67,7 +67,7 @@ class BlockBits {
 
  private:
   const simd::Kernels* kernels_;
-  std::vector<std::int32_t> bits_;  // and a flag
+  std::vector<std::uint16_t> bits_;  // and a flag
 };
 
 /// Finds the part of a mesh that may reach into a convex region. Keeps its buffers between calls.

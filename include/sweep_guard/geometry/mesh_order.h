@@ -4,29 +4,31 @@
 #include <cstdint>
 #include <vector>
 
+#include "sweep_guard/simd/kernels.h"
+
 namespace sweep_guard {
 
 /// Three vertex indices, 0-based, of either winding.
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr std::uint32_t kMostTriangles = 64;  ///< of a cluster
-
 /// Consecutive triangles, whose corners lie in few blocks of vertices.
 struct Cluster {
-  std::uint32_t first;                  ///< place of the first triangle
-  std::uint32_t count;                  ///< 1 to kMostTriangles
-  std::array<std::uint32_t, 4> blocks;  ///< those of its corners; if there are fewer, the last one again
+  std::uint32_t number;  ///< among all of the mesh
+  std::uint32_t first;   ///< place of the first triangle
+  std::uint32_t count;   ///< 1 to simd::kCluster
+  std::array<std::uint32_t, simd::kClusterBlocks>
+      blocks;  ///< those of its corners; if there are fewer, the last one again
 };
 
 /// The order in which the vertices and triangles of a mesh are kept, so that what lies close together in space does in
 /// memory. Depends on the first deformation seen; any other is served as well, as long as neighbours stay neighbours.
 /// The sender's own order is kept where it is good enough, and most are.
 struct MeshOrder {
-  std::vector<std::uint32_t> vertex_places;  ///< place of each of the sender's vertices; empty: as they came
-  std::vector<std::uint32_t> triangle_at;    ///< the sender's triangle at each place; empty: as they came
-  std::vector<Triangle> corners;      ///< places of the vertices of the triangle at each place; empty: as they came
-  std::vector<Cluster> clusters;      ///< of all places, ascending
-  std::vector<std::uint32_t> blocks;  ///< 0, 1, ... of the vertices
+  std::vector<std::uint32_t> vertex_places;   ///< place of each of the sender's vertices; empty: as they came
+  std::vector<std::uint32_t> triangle_at;     ///< the sender's triangle at each place; empty: as they came
+  std::vector<Cluster> clusters;              ///< of all places, ascending
+  std::vector<simd::ClusterCorners> corners;  ///< of each cluster
+  std::vector<std::uint32_t> blocks;          ///< 0, 1, ... of the vertices
 };
 
 /// @param positions  x0 y0 z0 x1 ... [m], as sent

@@ -55,11 +55,6 @@ class TriangleMesh {
   const VertexBlocks& blocks() const { return blocks_; }
   /// Of vertices and triangles in memory; the same for all deformations.
   const MeshOrder& order() const { return topology_->order; }
-  /// The corners of the triangle at each place in order(): places of vertices.
-  const std::vector<Triangle>& cornerPlaces() const {
-    return order().corners.empty() ? topology_->triangles : order().corners;
-  }
-
   /// Bound on the distance [m] of a vertex from origin(): the farthest corner of the box around all.
   double radius() const { return radius_; }
 

@@ -34,14 +34,15 @@ class VertexBlocks {
   Eigen::AlignedBox3d bounds_;
 };
 
+constexpr size_t kBlockFloats = 3 * simd::kBlock;
+
 /// Calls a function with the vertices of one block: kBlock of them, readable simd::kPadding floats on. The last block
 /// is filled up with its last vertex.
 template <typename Function>
 void withBlock(const std::vector<float>& positions, size_t block, const Function& function) {
-  constexpr size_t kFloats = 3 * simd::kBlock;
-  const size_t first = block * kFloats;
-  if (first + kFloats + simd::kPadding <= positions.size()) return function(positions.data() + first);
-  std::array<float, kFloats + simd::kPadding> filled;
+  const size_t first = block * kBlockFloats;
+  if (first + kBlockFloats + simd::kPadding <= positions.size()) return function(positions.data() + first);
+  std::array<float, kBlockFloats + simd::kPadding> filled;
   for (size_t i = 0; i < filled.size(); ++i) {
     const size_t at = first + i;
     filled[i] = positions[at < positions.size() ? at : positions.size() - 3 + i % 3];

@@ -12,6 +12,9 @@ namespace sweep_guard::simd {
 
 /// Vertices of a block: consecutive ones, that share a box.
 constexpr std::size_t kBlock = 32;
+/// Triangles of a cluster at most, and the blocks that hold their corners.
+constexpr std::size_t kCluster = 64;
+constexpr std::size_t kClusterBlocks = 4;
 /// Arrays of boxes and of their bits are as long as a multiple of this.
 constexpr std::size_t kPadding = 16;
 constexpr std::size_t padded(std::size_t count) { return (count + kPadding - 1) / kPadding * kPadding; }
@@ -47,6 +50,18 @@ struct Planes {
 /// Set in the bits of a vertex that is inside of all planes. Bit i is set where it is beyond plane i.
 constexpr std::uint16_t kInsideAll = 1U << kMostPlanes;
 
+/// The first, second and third corners of the triangles of a cluster, places among the vertices of its blocks: block
+/// i / kBlock of them, vertex i % kBlock of that.
+struct ClusterCorners {
+  std::array<std::array<std::uint8_t, kCluster>, 3> places;
+};
+
+/// Triangles of a cluster: bit i for triangle i.
+struct TriangleBits {
+  std::uint64_t left;  ///< not wholly beyond one plane
+  std::uint64_t met;   ///< with a corner inside of all planes
+};
+
 struct Kernels {
   const char* name;  ///< of the instruction set
 
@@ -58,10 +73,15 @@ struct Kernels {
 
   /// For each box, the planes that all of it lies beyond. Arrays are padded to kPadding.
   void (*classifyBoxes)(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes,
-                        std::int32_t* bits);
+                        std::uint16_t* bits);
 
   /// The bits of the vertices of one block.
   void (*classifyBlock)(const float* vertices, const Planes& planes, std::uint16_t* bits);
+
+  /// The triangles of a cluster, by the bits of the vertices of each of its blocks. Those past its last one mean
+  /// nothing.
+  TriangleBits (*classifyTriangles)(const ClusterCorners& corners,
+                                    const std::array<const std::uint16_t*, kClusterBlocks>& bits);
 };
 
 /// Those that this machine can run, the best one first; `baseline` is always among them.
