@@ -30,10 +30,9 @@ Moment earlier(const std::optional<Moment>& a, const Moment& b) {
 
 }  // namespace
 
-CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const Parameters& parameters,
+CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const LiveParameters& live,
                                      const Frames& frames, const WorkpieceStore& workpieces)
-    : parameters_(parameters),
-      tool_(*parameters.tool),
+    : live_(live),
       frames_(frames),
       workpieces_(workpieces),
       server_(thread_.on(private_node).advertiseService("check_sweep", &CheckSweepService::onCall, this)) {}
@@ -43,6 +42,7 @@ bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Respons
   const auto begin = std::chrono::steady_clock::now();
   response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
   try {
+    refreshParameters();
     check(request, response);
     response.success = true;
   } catch (const std::exception& error) {
@@ -54,6 +54,13 @@ bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Respons
   return true;
 }
 
+void CheckSweepService::refreshParameters() {
+  const auto current = live_.get();
+  if (current == parameters_) return;
+  detectors_.clear();
+  parameters_ = current;
+}
+
 void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
   if (request.path.empty()) throw InvalidInput("the path is empty: send one pose or more");
   if (request.path.size() > kMaxPoses) {
@@ -62,11 +69,11 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   if (!(request.margin >= 0.0 && request.margin <= sweep_guard::kMaxCoordinate)) {
     throw InvalidInput("the margin must be a length >= 0 m");
   }
-  sweep_guard::SweepOptions options = parameters_.guard.sweep;
+  sweep_guard::SweepOptions options = parameters_->guard.sweep;
   if (!request.volume.empty()) options.volume = sweep_guard::volumeKind(request.volume);
   options.margin = request.margin;
   options.fine = request.fine;
-  sweep_guard::Detector& used = detector(request.detector.empty() ? parameters_.detector : request.detector);
+  sweep_guard::Detector& used = detector(request.detector.empty() ? parameters_->detector : request.detector);
 
   const auto give_up = [this] {
     if (stopping_) throw sweep_guard::Error("the guard is shutting down");
@@ -74,11 +81,12 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   std::optional<Moment> first;
   response.clear = true;
   for (const auto& workpiece : choose(request.mesh_ids)) {
-    auto path =
-        sweep_guard::testPath(used, tool_, pathIn(workpiece->frame, request.path), workpiece->mesh_M, options, give_up);
+    auto path = sweep_guard::testPath(used, *parameters_->tool, pathIn(workpiece->frame, request.path),
+                                      workpiece->mesh_M, options, give_up);
     response.margin = std::max(response.margin, path.all.margin);
     response.clear = response.clear && fresh(*workpiece);
-    if (!path.all.triangles.empty() || path.all.inside) response.objects.push_back(toMsg(*workpiece, path.all, tool_));
+    if (!path.all.triangles.empty() || path.all.inside)
+      response.objects.push_back(toMsg(*workpiece, path.all, *parameters_->tool));
     if (path.first_met) first = earlier(first, {*path.first_met, path.time_of_impact});
   }
   response.collision = first.has_value();
@@ -117,13 +125,13 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
 }
 
 bool CheckSweepService::fresh(const sweep_guard::Workpiece& workpiece) const {
-  return !sweep_guard::stale({workpiece.stamp, workpiece.received}, now(), parameters_.limits.mesh_timeout);
+  return !sweep_guard::stale({workpiece.stamp, workpiece.received}, now(), parameters_->limits.mesh_timeout);
 }
 
 sweep_guard::Detector& CheckSweepService::detector(const std::string& name) {
   const auto made = detectors_.find(name);
   if (made != detectors_.end()) return *made->second;
-  return *detectors_.emplace(name, sweep_guard::makeDetector(name, parameters_.detector_options)).first->second;
+  return *detectors_.emplace(name, sweep_guard::makeDetector(name, parameters_->detector_options)).first->second;
 }
 
 }  // namespace sweep_guard_ros

@@ -31,19 +31,28 @@ double residentMegabytes() {
 
 }  // namespace
 
-void Workload::swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_time, size_t failures) {
+void Workload::setCycle(sweep_guard::Duration cycle) {
+  const std::lock_guard lock(mutex_);
+  cycle_ = cycle;
+}
+
+void Workload::failed(const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  ++summary_.faults_total;
+  summary_.last_fault = why;
+}
+
+void Workload::swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_time) {
   const std::lock_guard lock(mutex_);
   ++summary_.sweeps_total;
-  summary_.faults_total += failures;
   if (latency > cycle_) ++summary_.late_total;
   if (summary_.latencies.size() < kTimesKept) summary_.latencies.push_back(toSeconds(latency));
   summary_.busiest = std::max(summary_.busiest, toSeconds(sweep_time));
 }
 
-void Workload::predicted(const Prediction& prediction, size_t failures) {
+void Workload::predicted(const Prediction& prediction) {
   const std::lock_guard lock(mutex_);
   ++summary_.predictions_total;
-  summary_.faults_total += failures;
   if (prediction.latency > cycle_) ++summary_.late_predictions_total;
   if (summary_.prediction_times.size() < kTimesKept) summary_.prediction_times.push_back(toSeconds(prediction.time));
   if (prediction.sweeps_made > 0 && prediction.sweeps_made < prediction.sweeps_asked) summary_.coarser = true;
@@ -75,15 +84,17 @@ double RateMeter::operator()(std::uint64_t count) {
   return rate;
 }
 
-Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const Parameters& parameters,
-                         const Diagnosed& parts)
-    : parameters_(parameters), parts_(parts), updater_(node, private_node, private_node.getNamespace()) {
+Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const Diagnosed& parts)
+    : parts_(parts), updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("verdict", [this](Status& status) { verdict(status); });
-  updater_.add("tool pose input", [this](Status& status) { poseInput(status); });
-  updater_.add("mesh input", [this](Status& status) { meshInput(status); });
-  updater_.add("detector and deadlines", [this](Status& status) { deadlines(status); });
+  updater_.add("tool pose", [this](Status& status) { pose(status); });
+  updater_.add("mesh", [this](Status& status) { mesh(status); });
+  updater_.add("mesh vertices", [this](Status& status) { vertices(status); });
+  updater_.add("workpieces", [this](Status& status) { workpieces(status); });
+  updater_.add("detector", [this](Status& status) { detector(status); });
   updater_.add("prediction", [this](Status& status) { prediction(status); });
+  updater_.add("parameters", [this](Status& status) { parameters(status); });
   updater_.add("process", [this](Status& status) { process(status); });
 }
 
@@ -94,93 +105,141 @@ void Diagnostics::publish() {
 
 void Diagnostics::verdict(Status& status) const {
   const sweep_guard::Verdict verdict = parts_.ledger.verdict(now());
+  const auto disabled_by = parts_.ledger.disabledBy();
   const bool unknown = verdict.level == sweep_guard::Level::kUnknown;
   status.summary(unknown ? DiagnosticStatus::WARN : DiagnosticStatus::OK, verdict.text);
+  status.add("level", sweep_guard::nameOf(verdict.level));
   status.add("reasons", verdict.reasons);
+  status.add("enabled", disabled_by ? "no: disabled by " + *disabled_by : "yes");
+  if (verdict.covered_until != sweep_guard::Time())
+    status.addf("covered ahead [s]", "%.3f", toSeconds(verdict.covered_until - now().stamp));
 }
 
-void Diagnostics::poseInput(Status& status) {
-  const PoseInput& poses = parts_.poses;
-  const double rate = poses_rate_(poses.received());
-  const double refused = refused_poses_rate_(poses.refused());
-  status.summary(DiagnosticStatus::OK, "tool poses come in");
-  if (refused > 0.0) status.summary(DiagnosticStatus::ERROR, "tool poses are refused: the log says why");
-  if (rate == 0.0) status.summary(DiagnosticStatus::ERROR, "tool poses have stopped on " + poses.source());
-  if (poses.received() == 0) status.summary(DiagnosticStatus::STALE, "no tool pose yet on " + poses.source());
-  const sweep_guard::Time newest = parts_.ledger.verdict(now()).pose_stamp;
-  status.add("source", poses.source());
-  status.add("publishers", poses.publisherCount());
-  status.addf("rate [Hz]", "%.1f", rate);
-  if (newest != sweep_guard::Time())
-    status.addf("age of the newest swept [s]", "%.3f", toSeconds(now().stamp - newest));
-  status.add("received", poses.received());
-  status.add("refused", poses.refused());
+void Diagnostics::pose(Status& status) {
+  input(status, {parts_.poses.source(), parts_.poses.publishers(), parts_.poses.record().summary(), /*goes_on=*/true},
+        poses_);
+  if (parts_.poses.publishers().value_or(1) > 1) {
+    status.mergeSummary(DiagnosticStatus::WARN, "several publishers: the tool jumps between their poses");
+  }
 }
 
-void Diagnostics::meshInput(Status& status) {
-  const WorkpieceStore& store = parts_.workpieces;
-  const sweep_guard::Workpieces workpieces = store.snapshot();
+void Diagnostics::mesh(Status& status) {
+  const InputRecord::Summary record = parts_.workpieces.meshes().summary();
+  input(status, {parts_.meshes.meshTopic(), parts_.meshes.meshPublishers(), record, /*goes_on=*/record.received == 0},
+        meshes_);
+}
+
+void Diagnostics::vertices(Status& status) {
+  input(status,
+        {parts_.meshes.verticesTopic(), parts_.meshes.verticesPublishers(), parts_.workpieces.vertices().summary(),
+         /*goes_on=*/false},
+        vertices_);
+}
+
+void Diagnostics::input(Status& status, const Input& input, Meter& meter) const {
+  const InputRecord::Summary& record = input.record;
+  const double rate = meter.received(record.received);
+  const auto silence = input.goes_on ? DiagnosticStatus::ERROR : DiagnosticStatus::OK;
+  if (rate > 0.0) {
+    status.summary(DiagnosticStatus::OK, "comes in");
+  } else if (record.newest) {
+    status.summary(silence, input.goes_on ? "has stopped" : "nothing new");
+  } else if (input.publishers == 0U) {
+    status.summary(silence, "nobody publishes " + input.source);
+  } else {
+    status.summary(input.goes_on ? DiagnosticStatus::STALE : DiagnosticStatus::OK, "nothing yet on " + input.source);
+  }
+  if (meter.refused(record.refused) > 0.0) status.summary(DiagnosticStatus::ERROR, "refused: " + record.last_error);
+
   const sweep_guard::Instant at = now();
-  const double rate = meshes_rate_(store.received());
+  status.add("source", input.source);
+  if (input.publishers) status.add("publishers", *input.publishers);
+  status.addf("rate [Hz]", "%.1f", rate);
+  if (record.newest) {
+    status.addf("age [s]", "%.3f", toSeconds(at.steady - record.newest->received));
+    status.addf("age by stamp [s]", "%.3f", toSeconds(at.stamp - record.newest->stamp));
+  }
+  status.add("received", record.received);
+  status.add("refused", record.refused);
+  status.add("last error", record.last_error.empty() ? "none" : record.last_error);
+  if (!record.last_error.empty()) status.addf("age of the error [s]", "%.1f", toSeconds(at.steady - record.failed));
+}
+
+void Diagnostics::workpieces(Status& status) const {
+  const sweep_guard::Workpieces workpieces = parts_.workpieces.snapshot();
+  const sweep_guard::Instant at = now();
+  const sweep_guard::Duration timeout = parts_.parameters.get()->limits.mesh_timeout;
   status.summary(DiagnosticStatus::OK, std::to_string(workpieces.size()) + " workpieces");
   if (workpieces.empty()) status.summary(DiagnosticStatus::STALE, "no workpiece yet");
-  if (refused_meshes_rate_(store.refused()) > 0.0) {
-    status.mergeSummary(DiagnosticStatus::ERROR, "messages are refused: the log says why");
-  }
-  status.add("mesh topic", parts_.meshes.meshTopic());
-  status.add("mesh publishers", parts_.meshes.meshPublishers());
-  status.add("vertices topic", parts_.meshes.verticesTopic());
-  status.add("vertices publishers", parts_.meshes.verticesPublishers());
-  status.addf("rate [Hz]", "%.1f", rate);
   for (const auto& workpiece : workpieces) {
     const sweep_guard::Seen seen{workpiece->stamp, workpiece->received};
-    if (sweep_guard::stale(seen, at, parameters_.limits.mesh_timeout)) {
+    if (sweep_guard::stale(seen, at, timeout)) {
       status.mergeSummary(DiagnosticStatus::ERROR, "'" + workpiece->id + "' is stale");
     }
     status.addf("'" + workpiece->id + "'", "revision %u, %zu triangles in '%s', %.3f s old", workpiece->revision,
                 workpiece->mesh_M.triangles().size(), workpiece->frame.c_str(), toSeconds(sweep_guard::age(seen, at)));
   }
-  status.add("received", store.received());
-  status.add("refused", store.refused());
 }
 
-void Diagnostics::deadlines(Status& status) const {
-  status.summary(DiagnosticStatus::OK, parameters_.detector + " keeps up");
-  if (!load_.latencies.empty() && load_.latencies.back() > toSeconds(parameters_.guard.cycle)) {
+void Diagnostics::detector(Status& status) const {
+  const auto parameters = parts_.parameters.get();
+  const sweep_guard::Duration cycle = parameters->guard.cycle;
+  status.summary(DiagnosticStatus::OK, parameters->detector + " keeps up");
+  if (load_.latencies.empty()) status.summary(DiagnosticStatus::WARN, "no tool pose to sweep to");
+  if (!load_.latencies.empty() && load_.latencies.back() > toSeconds(cycle)) {
     status.summary(DiagnosticStatus::WARN,
-                   parameters_.detector + " is slower than timing/min_rate: use fewer triangles");
+                   parameters->detector + " is slower than timing/min_rate: use fewer triangles");
   }
-  status.add("detector", parameters_.detector);
-  status.add("gl_context", parameters_.detector_options.gl_context);
-  status.add("volume", sweep_guard::nameOf(parameters_.guard.sweep.volume));
+  if (parts_.ledger.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is swept");
+  status.add("detector", parameters->detector);
+  if (parameters->detector == "select") status.add("gl_context", parameters->detector_options.gl_context);
+  status.add("volume", sweep_guard::nameOf(parameters->guard.sweep.volume));
   status.add("poses swept", load_.sweeps_total);
+  status.addf("deadline [ms]", "%.1f", 1e3 * toSeconds(cycle));
   status.add("cycles missed", load_.late_total);
-  status.add("detector faults", load_.faults_total);
   status.addf("pose to warning [ms]", "p50 %.2f, p99 %.2f, max %.2f", 1e3 * quantile(load_.latencies, 0.5),
               1e3 * quantile(load_.latencies, 0.99), 1e3 * quantile(load_.latencies, 1.0));
   status.addf("longest sweep [ms]", "%.2f", 1e3 * load_.busiest);
+  status.add("faults", load_.faults_total);
+  status.add("last error", load_.last_fault.empty() ? "none" : load_.last_fault);
 }
 
 void Diagnostics::prediction(Status& status) const {
-  const std::string& predictor = parameters_.guard.predictor.predictor;
+  const auto parameters = parts_.parameters.get();
+  const std::string& predictor = parameters->guard.predictor.predictor;
+  const sweep_guard::HorizonOptions& horizon = parameters->guard.horizon;
+  const Workload::Prediction& newest = load_.prediction;
   status.summary(DiagnosticStatus::OK, predictor + " looks ahead");
   if (load_.coarser) {
     status.summary(DiagnosticStatus::WARN,
                    "the considered interval is swept more coarsely than horizon/considered_step "
                    "to keep timing/min_rate: use fewer triangles");
   }
-  status.add("predictor", predictor);
-  status.add("predictions", load_.predictions_total);
-  status.add("deadlines missed", load_.late_predictions_total);
-  const Workload::Prediction& newest = load_.prediction;
   if (load_.prediction_times.empty() || newest.sweeps_made == 0) {
     status.summary(DiagnosticStatus::STALE, "no prediction: two tool poses in a row are needed");
   }
+  if (parts_.ledger.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is predicted");
+  status.add("predictor", predictor);
+  status.addf("horizon [s]", "reflex %g, considered %g", toSeconds(horizon.reflex), toSeconds(horizon.considered));
+  status.add("predictions", load_.predictions_total);
+  status.add("deadlines missed", load_.late_predictions_total);
   status.addf("sweeps made / asked", "%zu / %zu", newest.sweeps_made, newest.sweeps_asked);
   status.addf("time [ms]", "p50 %.2f, max %.2f", 1e3 * quantile(load_.prediction_times, 0.5),
               1e3 * quantile(load_.prediction_times, 1.0));
   status.addf("horizon covered [s]", "%.2f", toSeconds(newest.covered));
   status.addf("probability of contact", "%.3f", newest.probability);
+}
+
+void Diagnostics::parameters(Status& status) const {
+  const std::vector<ParameterChange> changes = differences(parts_.parameters.initial(), *parts_.parameters.get());
+  const Tuning::Story story = parts_.tuning.story();
+  status.summary(DiagnosticStatus::OK,
+                 changes.empty() ? "as at the start" : std::to_string(changes.size()) + " changed since the start");
+  for (const ParameterChange& change : changes) {
+    status.add(change.key, shown(change.after) + ", at the start " + shown(change.before));
+  }
+  status.add("last change", story.last_change.empty() ? "none" : story.last_change);
+  status.add("last refusal", story.last_refusal.empty() ? "none" : story.last_refusal);
 }
 
 void Diagnostics::process(Status& status) const {

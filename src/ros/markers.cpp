@@ -1,5 +1,6 @@
 #include "sweep_guard/ros/markers.h"
 
+#include <algorithm>
 #include <boost/algorithm/string/replace.hpp>
 
 #include "sweep_guard/ros/conversions.h"
@@ -53,13 +54,21 @@ void addContactTriangles(visualization_msgs::MarkerArray& array, const sweep_gua
 
 }  // namespace
 
-Markers::Markers(std::string fixed_frame, const sweep_guard::Tool& tool)
-    : fixed_frame_(std::move(fixed_frame)), tool_(tool) {}
+const std::vector<std::string>& markerNamespaces() {
+  static const std::vector<std::string> namespaces = {"tool",           "swept_volume",     "contact_triangles",
+                                                      "predicted_tool", "predicted_volume", "predicted_triangles",
+                                                      "trajectory",     "warning_text"};
+  return namespaces;
+}
+
+Markers::Markers(std::string fixed_frame) : fixed_frame_(std::move(fixed_frame)) {}
 
 visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
   visualization_msgs::MarkerArray array;
   if (scene.newest) addMeasured(array, scene);
   if (scene.outlook) addPredicted(array, scene);
+  const auto hidden = [&](const Marker& drawn) { return scene.namespaces.count(drawn.ns) == 0; };
+  array.markers.erase(std::remove_if(array.markers.begin(), array.markers.end(), hidden), array.markers.end());
   deleteGone(array);
   return array;
 }
@@ -67,21 +76,22 @@ visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
 void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const {
   const Level level = scene.verdict.level;
   const sweep_guard::Time stamp = scene.newest->end;
-  addTool(array, {"tool", 0, fixed_frame_, stamp, unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8))}, tool_, scene.X_WT);
+  addTool(array, {"tool", 0, fixed_frame_, stamp, unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8))}, *scene.tool,
+          scene.X_WT);
 
   Marker text = marker("warning_text", 0, Marker::TEXT_VIEW_FACING, fixed_frame_, stamp);
-  text.pose = toMsg(scene.X_WT * Eigen::Translation3d(textPosition(tool_)));
+  text.pose = toMsg(scene.X_WT * Eigen::Translation3d(textPosition(*scene.tool)));
   addText(array, std::move(text), scene.verdict);
 
   addSweptVolumes(array, *scene.newest, level);
   addTrail(array, scene.trail, fixed_frame_, level);
   if (scene.contact && level == Level::kContact) {
-    addContactTriangles(array, *scene.contact, stamp, liftOff(tool_));
+    addContactTriangles(array, *scene.contact, stamp, liftOff(*scene.tool));
   }
 }
 
 void Markers::addPredicted(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const {
-  const PredictedScene predicted{*scene.outlook, tool_, fixed_frame_, scene.verdict.level};
+  const PredictedScene predicted{*scene.outlook, *scene.tool, fixed_frame_, scene.verdict.level};
   addGhosts(array, predicted);
   addPredictedVolumes(array, predicted);
   addPredictedTriangles(array, predicted);

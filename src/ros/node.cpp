@@ -57,22 +57,26 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       reflex_publisher_(advertise<std_msgs::Bool>(private_node, "reflex_warning", 10)),
       considered_publisher_(advertise<std_msgs::Bool>(private_node, "considered_warning", 10)),
       marker_publisher_(advertise<visualization_msgs::MarkerArray>(private_node, "markers", 1)),
-      ledger_(parameters_.limits, [this] { warn(/*only_on_change=*/true); }),
-      guard_(*parameters_.tool, sweep_guard::makeDetector(parameters_.detector, parameters_.detector_options),
-             parameters_.guard),
-      workpieces_(parameters_.max_triangles, ledger_),
-      poses_(node, parameters_, frames_, workpieces_, ledger_, [this](PlacedPose pose) { enqueue(std::move(pose)); }),
+      ledger_(parameters_.initial().limits, [this] { warn(/*only_on_change=*/true); }),
+      guard_(*parameters_.initial().tool,
+             sweep_guard::makeDetector(parameters_.initial().detector, parameters_.initial().detector_options),
+             parameters_.initial().guard),
+      workpieces_(parameters_.initial().max_triangles, ledger_),
+      poses_(node, parameters_.initial(), frames_, workpieces_, ledger_,
+             [this](PlacedPose pose) { enqueue(std::move(pose)); }),
       meshes_(node, workpieces_),
       check_sweep_(private_node, parameters_, frames_, workpieces_),
       predict_(private_node, parameters_, workpieces_,
                [this](sweep_guard::Duration horizon) {
                  return betweenSweeps<PredictService::Answer>([this, horizon] { return forecast(horizon); });
                }),
-      workload_(parameters_.guard.cycle),
-      diagnostics_(node, private_node, parameters_, {poses_, meshes_, workpieces_, ledger_, workload_}),
-      markers_(parameters_.fixed_frame, guard_.tool()),
-      view_(private_node, parameters_.fixed_frame, parameters_.tool_frame, guard_.tool()),
-      controls_(private_node, ledger_, workpieces_, [this] { reset(); }) {
+      workload_(parameters_.initial().guard.cycle),
+      markers_(parameters_.initial().fixed_frame),
+      view_(private_node, parameters_.initial().fixed_frame, parameters_.initial().tool_frame,
+            *parameters_.initial().tool),
+      controls_(private_node, ledger_, workpieces_, [this] { reset(); }),
+      tuning_(private_node, parameters_, [this](const auto& next) { adopt(next); }),
+      diagnostics_(node, private_node, {parameters_, poses_, meshes_, workpieces_, ledger_, workload_, tuning_}) {
   warning_timer_ =
       warning_thread_.on(node).createSteadyTimer(wall(kWatchPeriod), [this](const ros::SteadyTimerEvent&) { watch(); });
   reflex_timer_ = warning_thread_.on(node).createSteadyTimer(wall(kReflexPeriod), [this](const ros::SteadyTimerEvent&) {
@@ -81,7 +85,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
   considered_timer_ = warning_thread_.on(node).createSteadyTimer(
       wall(kConsideredPeriod),
       [this](const ros::SteadyTimerEvent&) { repeat(considered_publisher_, &sweep_guard::Warning::considered); });
-  marker_timer_ = report_thread_.on(node).createSteadyTimer(ros::WallDuration(1.0 / parameters_.marker_rate),
+  marker_timer_ = report_thread_.on(node).createSteadyTimer(ros::WallDuration(1.0 / parameters_.initial().marker_rate),
                                                             [this](const ros::SteadyTimerEvent&) { publishMarkers(); });
   view_timer_ = report_thread_.on(node).createSteadyTimer(wall(kViewPeriod), [this](const ros::SteadyTimerEvent&) {
     if (view_.wanted()) view_.publish(sceneNow());
@@ -96,10 +100,12 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
   check_sweep_.start();
   predict_.start();
   controls_.start();
+  tuning_.start();
   report_thread_.start();
-  ROS_INFO("guarding '%s' (%s) in '%s' by %s, %s; poses from %s, meshes from %s and %s", parameters_.tool_frame.c_str(),
-           parameters_.tool_story.c_str(), parameters_.fixed_frame.c_str(), parameters_.detector_story.c_str(),
-           sweep_guard::nameOf(parameters_.guard.sweep.volume).c_str(), poses_.source().c_str(),
+  ROS_INFO("guarding '%s' (%s) in '%s' by %s, %s; poses from %s, meshes from %s and %s",
+           parameters_.initial().tool_frame.c_str(), parameters_.initial().tool_story.c_str(),
+           parameters_.initial().fixed_frame.c_str(), parameters_.initial().detector_story.c_str(),
+           sweep_guard::nameOf(parameters_.initial().guard.sweep.volume).c_str(), poses_.source().c_str(),
            meshes_.meshTopic().c_str(), meshes_.verticesTopic().c_str());
 }
 
@@ -136,10 +142,33 @@ std::future<Result> SweepGuardNode::betweenSweeps(std::function<Result()> task) 
   return packaged->get_future();
 }
 
-void SweepGuardNode::reset() {
+// What takes time is made here, and what it replaces is destroyed here: the sweeping thread only exchanges them.
+void SweepGuardNode::adopt(const std::shared_ptr<const Parameters>& next) {
+  const std::lock_guard alone(adopting_mutex_);
   sweep_guard::GuardChange change;
-  change.options = parameters_.guard;
-  change.predictor.emplace(parameters_.guard.predictor);
+  change.options = next->guard;
+  for (const ParameterChange& one : differences(*parameters_.get(), *next)) {
+    const auto in = [&](const std::string& group) { return one.key.compare(0, group.size(), group) == 0; };
+    if (in("detector") || in("cull"))
+      change.detector = sweep_guard::makeDetector(next->detector, next->detector_options);
+    if (in("prediction/") || in("limits/")) change.predictor.emplace(next->guard.predictor);
+    if (in("tool/")) change.tool = *next->tool;
+  }
+  betweenSweeps<void>([&] {
+    guard_.adopt(change);
+    ledger_.setLimits(next->limits);
+    workload_.setCycle(next->guard.cycle);
+    parameters_.set(next);
+  }).get();
+  marker_timer_.setPeriod(ros::WallDuration(1.0 / next->marker_rate));
+  warn(/*only_on_change=*/true);
+}
+
+void SweepGuardNode::reset() {
+  const std::lock_guard alone(adopting_mutex_);
+  sweep_guard::GuardChange change;
+  change.options = parameters_.get()->guard;
+  change.predictor.emplace(change.options.predictor);
   ledger_.restart();
   betweenSweeps<void>([&] {
     guard_.forget();
@@ -153,8 +182,8 @@ void SweepGuardNode::reset() {
 }
 
 void SweepGuardNode::work() {
-  if (parameters_.realtime_priority > 0) {
-    const std::string refusal = askForRealTime(parameters_.realtime_priority);
+  if (parameters_.initial().realtime_priority > 0) {
+    const std::string refusal = askForRealTime(parameters_.initial().realtime_priority);
     if (!refusal.empty()) ROS_WARN("%s", refusal.c_str());
   }
   while (true) {
@@ -213,10 +242,10 @@ void SweepGuardNode::sweep(const PlacedPose& placed) {
   warn(/*only_on_change=*/true);
 
   const sweep_guard::SteadyTime warned = std::chrono::steady_clock::now();
-  for (const sweep_guard::SteadyTime received : passed_) workload_.swept(warned - received, {}, 0);
+  for (const sweep_guard::SteadyTime received : passed_) workload_.swept(warned - received, {});
   passed_.clear();
-  workload_.swept(warned - pose.received, swept - begin, report->failures.size());
-  for (const auto& failure : report->failures) log_.error(failure.workpiece->id, "detection failed: " + failure.reason);
+  workload_.swept(warned - pose.received, swept - begin);
+  for (const auto& failure : report->failures) tellFailure(failure);
   const std::lock_guard lock(scene_mutex_);
   scene_.X_WT = pose.X_WT;
   scene_.trail.add(pose.stamp, pose.X_WT.translation());
@@ -224,9 +253,14 @@ void SweepGuardNode::sweep(const PlacedPose& placed) {
   if (report->contact()) scene_.contact = report;
 }
 
+void SweepGuardNode::tellFailure(const sweep_guard::SweepFailure& failure) {
+  workload_.failed("'" + failure.workpiece->id + "': " + failure.reason);
+  log_.error(failure.workpiece->id, "detection failed: " + failure.reason);
+}
+
 // Poses that wait go first, so that each is swept at most one look ahead late; but not for longer than a cycle.
 bool SweepGuardNode::timeToLookAhead() {
-  if (std::chrono::steady_clock::now() - looked_ahead_ >= parameters_.guard.cycle) return true;
+  if (std::chrono::steady_clock::now() - looked_ahead_ >= parameters_.get()->guard.cycle) return true;
   const std::lock_guard lock(queue_mutex_);
   return queue_.empty();
 }
@@ -242,12 +276,10 @@ void SweepGuardNode::lookAhead(const PlacedPose& placed) {
   warn(/*only_on_change=*/true);
   publishPrediction(*outlook, age);
 
-  workload_.predicted(
-      {std::chrono::steady_clock::now() - placed.pose.received, looked - at.steady, outlook->sweeps_made,
-       outlook->sweeps_asked, outlook->coveredUntil() - outlook->stamp - age, outlook->probability()},
-      outlook->failures.size());
-  for (const auto& failure : outlook->failures)
-    log_.error(failure.workpiece->id, "detection failed: " + failure.reason);
+  workload_.predicted({std::chrono::steady_clock::now() - placed.pose.received, looked - at.steady,
+                       outlook->sweeps_made, outlook->sweeps_asked, outlook->coveredUntil() - outlook->stamp - age,
+                       outlook->probability()});
+  for (const auto& failure : outlook->failures) tellFailure(failure);
   const std::lock_guard lock(scene_mutex_);
   scene_.outlook_from_W = placed.pose.X_WT.translation();
   scene_.outlook = outlook;
@@ -257,7 +289,7 @@ PredictService::Answer SweepGuardNode::forecast(sweep_guard::Duration horizon) c
   const sweep_guard::Instant at = now();
   if (const auto asked_by = ledger_.disabledBy()) throw sweep_guard::Error("the guard is disabled by " + *asked_by);
   if (!swept_ || guard_epoch_ != ledger_.mark().epoch) throw sweep_guard::Error("no tool pose yet: nothing is known");
-  if (sweep_guard::stale(*swept_, at, parameters_.limits.pose_timeout)) {
+  if (sweep_guard::stale(*swept_, at, parameters_.get()->limits.pose_timeout)) {
     throw sweep_guard::Error("the newest tool pose is stale: nothing is known of the tool now");
   }
   const sweep_guard::Duration age = std::max(sweep_guard::age(*swept_, at), sweep_guard::Duration::zero());
@@ -270,15 +302,16 @@ PredictService::Answer SweepGuardNode::forecast(sweep_guard::Duration horizon) c
 void SweepGuardNode::publishContacts(const sweep_guard::SweepReport& report) {
   if (contacts_publisher_.getNumSubscribers() == 0) return;
   const auto contacts = boost::make_shared<sweep_guard::Contacts>(toMsg(report, guard_.tool()));
-  contacts->header.frame_id = parameters_.fixed_frame;
-  contacts->tool = parameters_.tool_frame;
-  contacts->volume = sweep_guard::nameOf(parameters_.guard.sweep.volume);
+  const auto parameters = parameters_.get();
+  contacts->header.frame_id = parameters->fixed_frame;
+  contacts->tool = parameters->tool_frame;
+  contacts->volume = sweep_guard::nameOf(parameters->guard.sweep.volume);
   contacts_publisher_.publish(contacts);
 }
 
 void SweepGuardNode::publishPrediction(const sweep_guard::Outlook& outlook, sweep_guard::Duration age) {
   if (prediction_publisher_.getNumSubscribers() + time_to_collision_publisher_.getNumSubscribers() == 0) return;
-  const auto prediction = boost::make_shared<sweep_guard::Prediction>(predictionMsg(outlook, age, parameters_));
+  const auto prediction = boost::make_shared<sweep_guard::Prediction>(predictionMsg(outlook, age, *parameters_.get()));
   std_msgs::Float64 time_to_collision;
   time_to_collision.data = timeToCollision(*prediction);
   prediction_publisher_.publish(prediction);
@@ -309,10 +342,11 @@ void SweepGuardNode::warn(bool only_on_change) {
   ledger_.verdict(at, verdict_);
   const bool new_level = static_cast<std::uint8_t>(verdict_.level) != warning_.level;
   if (only_on_change && !new_level && verdict_.reasons == warning_.reasons) return;
+  const auto parameters = parameters_.get();
   sweep_guard::Warning next = toMsg(verdict_);
-  if (verdict_.tool_part) next.tool_link = guard_.tool().parts()[*verdict_.tool_part].link;
-  next.header.frame_id = parameters_.fixed_frame;
-  next.tool = parameters_.tool_frame;
+  if (verdict_.tool_part) next.tool_link = parameters->tool->parts()[*verdict_.tool_part].link;
+  next.header.frame_id = parameters->fixed_frame;
+  next.tool = parameters->tool_frame;
   next.sequence = warning_.sequence + (new_level ? 1 : 0);
   next.level_counts = warning_.level_counts;
   if (new_level) ++next.level_counts[next.level];
@@ -339,6 +373,9 @@ MarkerScene SweepGuardNode::sceneNow() {
     const std::lock_guard lock(scene_mutex_);
     scene = scene_;
   }
+  const auto parameters = parameters_.get();
+  scene.tool = parameters->tool;
+  scene.namespaces = parameters->marker_namespaces;
   scene.verdict = ledger_.verdict(now());
   return scene;
 }

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -13,6 +14,7 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr double kFarthest = 1e6;
+constexpr const char* kAroundWords = " '\"";
 
 double toNumber(const XmlRpc::XmlRpcValue& value) {
   if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) return static_cast<double>(value);
@@ -35,6 +37,11 @@ std::string shown(const ParameterReader::Range& range) {
   return text.str();
 }
 
+std::string described(const ParameterReader::Range& range) {
+  const std::string unit = range.unit;
+  return (unit.empty() ? "" : "[" + unit + "] ") + shown(range);
+}
+
 std::string shown(int lowest, int highest) {
   return " from " + std::to_string(lowest) + " to " + std::to_string(highest);
 }
@@ -53,47 +60,81 @@ XmlRpc::XmlRpcValue split(std::string text) {
   if (text.empty()) return list;
   std::istringstream words(text + ',');
   for (std::string word; std::getline(words, word, ',');) {
-    const size_t begin = std::min(word.find_first_not_of(' '), word.size());
-    list[list.size()] = word.substr(begin, word.find_last_not_of(' ') + 1 - begin);
+    const size_t begin = std::min(word.find_first_not_of(kAroundWords), word.size());
+    list[list.size()] = word.substr(begin, word.find_last_not_of(kAroundWords) + 1 - begin);
   }
   return list;
 }
 
+// What a list in a text holds stays text.
+XmlRpc::XmlRpcValue toInteger(const XmlRpc::XmlRpcValue& value) {
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeString) return value;
+  const std::string text = static_cast<std::string>(value);
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? XmlRpc::XmlRpcValue(number) : value;
+}
+
+std::string bracketed(const std::vector<std::string>& words) { return "[" + listed(words) + "]"; }
+
+std::string bracketed(const std::vector<int>& integers) {
+  std::vector<std::string> words;
+  for (const int integer : integers) words.push_back(std::to_string(integer));
+  return bracketed(words);
+}
+
 }  // namespace
 
-double ParameterReader::number(const std::string& key, double fallback, const Range& range, const std::string& note) {
+std::string shown(const ParameterValue& value) {
+  std::ostringstream text;
+  text << std::boolalpha;
+  std::visit([&](const auto& held) { text << held; }, value);
+  return text.str();
+}
+
+double ParameterReader::number(const std::string& key, double fallback, const Range& range,
+                               const std::optional<Bound>& bound) {
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) value = fallback;
-  if (!within(toNumber(value), range)) refuse(key, value, shown(range) + (note.empty() ? "" : ": " + note));
+  const Range& narrowest = bound ? bound->range : range;
+  if (!within(toNumber(value), narrowest)) refuse(key, value, shown(narrowest) + (bound ? std::string(": ") + bound->note : ""));
+  described_.push_back(
+      {key, toNumber(value), fallback, range.lowest, range.highest, {}, sweep_guard_ros::described(range)});
   return toNumber(value);
 }
 
 int ParameterReader::integer(const std::string& key, int fallback, int lowest, int highest) {
   XmlRpc::XmlRpcValue value;
-  if (!get(key, value)) return fallback;
-  if (!within(value, lowest, highest)) refuse(key, value, "an integer" + shown(lowest, highest));
-  return static_cast<int>(value);
+  if (!get(key, value)) value = fallback;
+  const std::string wanted = "an integer" + shown(lowest, highest);
+  if (!within(value, lowest, highest)) refuse(key, value, wanted);
+  const int integer = static_cast<int>(value);
+  described_.push_back({key, integer, fallback, static_cast<double>(lowest), static_cast<double>(highest), {}, wanted});
+  return integer;
 }
 
 std::vector<int> ParameterReader::integers(const std::string& key, const std::vector<int>& fallback, int lowest,
                                            int highest) {
-  XmlRpc::XmlRpcValue value;
-  if (!get(key, value)) return fallback;
+  XmlRpc::XmlRpcValue list;
   const std::string wanted = "a list of " + std::to_string(fallback.size()) + " integers" + shown(lowest, highest);
-  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) refuse(key, value, wanted);
   std::vector<int> integers;
-  for (int i = 0; i < value.size(); ++i) {
-    if (!within(value[i], lowest, highest)) refuse(key, value, wanted);
-    integers.push_back(static_cast<int>(value[i]));
+  const bool set = getList(key, wanted, list);
+  for (int i = 0; set && i < list.size(); ++i) {
+    XmlRpc::XmlRpcValue integer = toInteger(list[i]);
+    if (!within(integer, lowest, highest)) refuse(key, list, wanted);
+    integers.push_back(static_cast<int>(integer));
   }
-  if (integers.size() != fallback.size()) refuse(key, value, wanted);
+  if (!set) integers = fallback;
+  if (integers.size() != fallback.size()) refuse(key, list, wanted);
+  described_.push_back({key, bracketed(integers), bracketed(fallback), 0.0, 0.0, {}, wanted});
   return integers;
 }
 
 bool ParameterReader::flag(const std::string& key, bool fallback) {
   XmlRpc::XmlRpcValue value;
-  if (!get(key, value)) return fallback;
+  if (!get(key, value)) value = fallback;
   if (value.getType() != XmlRpc::XmlRpcValue::TypeBoolean) refuse(key, value, "true or false");
+  described_.push_back({key, static_cast<bool>(value), fallback, 0.0, 1.0, {}, "true or false"});
   return static_cast<bool>(value);
 }
 
@@ -113,32 +154,30 @@ std::string ParameterReader::name(const std::string& key, const std::string& fal
 std::string ParameterReader::choice(const std::string& key, const std::string& fallback,
                                     const std::vector<std::string>& choices) {
   std::string chosen = text(key, fallback);
-  if (std::count(choices.begin(), choices.end(), chosen) == 0) {
-    refuse(key, XmlRpc::XmlRpcValue(chosen), "one of " + listed(choices));
-  }
+  const std::string wanted = "one of " + listed(choices);
+  if (std::count(choices.begin(), choices.end(), chosen) == 0) refuse(key, XmlRpc::XmlRpcValue(chosen), wanted);
+  described_.push_back({key, chosen, fallback, 0.0, 0.0, choices, wanted});
   return chosen;
 }
 
 std::vector<std::string> ParameterReader::selection(const std::string& key, const std::vector<std::string>& choices) {
-  XmlRpc::XmlRpcValue value;
-  if (!get(key, value)) return {};
+  XmlRpc::XmlRpcValue list;
   const std::string wanted = "a list of some of " + listed(choices) + ", or []";
-  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) refuse(key, value, wanted);
   std::vector<std::string> selection;
-  for (int i = 0; i < value.size(); ++i) {
-    if (value[i].getType() != XmlRpc::XmlRpcValue::TypeString) refuse(key, value, wanted);
-    selection.push_back(static_cast<std::string>(value[i]));
-    if (std::count(choices.begin(), choices.end(), selection.back()) == 0) refuse(key, value, wanted);
+  const bool set = getList(key, wanted, list);
+  for (int i = 0; set && i < list.size(); ++i) {
+    if (list[i].getType() != XmlRpc::XmlRpcValue::TypeString) refuse(key, list, wanted);
+    selection.push_back(static_cast<std::string>(list[i]));
+    if (std::count(choices.begin(), choices.end(), selection.back()) == 0) refuse(key, list, wanted);
   }
+  described_.push_back({key, bracketed(selection), std::string("[]"), 0.0, 0.0, {}, wanted});
   return selection;
 }
 
 std::vector<std::string> ParameterReader::texts(const std::string& key) {
   XmlRpc::XmlRpcValue value;
-  if (!get(key, value)) return {};
   const std::string wanted = "a list of texts, or []";
-  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) value = split(static_cast<std::string>(value));
-  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) refuse(key, value, wanted);
+  if (!getList(key, wanted, value)) return {};
   std::vector<std::string> texts;
   for (int i = 0; i < value.size(); ++i) {
     if (value[i].getType() != XmlRpc::XmlRpcValue::TypeString) refuse(key, value, wanted);
@@ -168,10 +207,14 @@ std::string ParameterReader::textAbove(const std::string& name) {
   std::string key;
   XmlRpc::XmlRpcValue value;
   read_.insert(name);
+  const auto known = settings_.find(name);
+  if (known != settings_.end()) return known->second ? static_cast<std::string>(*known->second) : "";
+  settings_[name] = std::nullopt;
   if (!node_.searchParam(name, key) || !node_.getParam(key, value)) return "";
   if (value.getType() != XmlRpc::XmlRpcValue::TypeString) {
     throw sweep_guard::InvalidInput("parameter " + key + " must be a text");
   }
+  settings_[name] = value;
   return static_cast<std::string>(value);
 }
 
@@ -213,7 +256,20 @@ bool ParameterReader::isGroup(const std::string& key) const {
 
 bool ParameterReader::get(const std::string& key, XmlRpc::XmlRpcValue& value) {
   read_.insert(key);
-  return node_.getParam(key, value);
+  auto setting = settings_.find(key);
+  if (setting == settings_.end()) {
+    setting = settings_.emplace(key, std::nullopt).first;
+    if (node_.getParam(key, value)) setting->second = value;
+  }
+  if (setting->second) value = *setting->second;
+  return setting->second.has_value();
+}
+
+bool ParameterReader::getList(const std::string& key, const std::string& wanted, XmlRpc::XmlRpcValue& list) {
+  if (!get(key, list)) return false;
+  if (list.getType() == XmlRpc::XmlRpcValue::TypeString) list = split(static_cast<std::string>(list));
+  if (list.getType() != XmlRpc::XmlRpcValue::TypeArray) refuse(key, list, wanted);
+  return true;
 }
 
 void ParameterReader::refuse(const std::string& key, const XmlRpc::XmlRpcValue& value,

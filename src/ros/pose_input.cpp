@@ -54,11 +54,13 @@ std::string PoseInput::source() const {
   return subscriber_ ? subscriber_.getTopic() : "tf " + fixed_frame_ + " to " + tool_frame_;
 }
 
-int PoseInput::publisherCount() const { return subscriber_ ? static_cast<int>(subscriber_.getNumPublishers()) : 0; }
+std::optional<std::uint32_t> PoseInput::publishers() const {
+  return subscriber_ ? std::optional(subscriber_.getNumPublishers()) : std::nullopt;
+}
 
 void PoseInput::onMessage(const geometry_msgs::PoseStamped& msg) {
   const sweep_guard::SteadyTime received = std::chrono::steady_clock::now();
-  acceptOrRefuse([&] {
+  acceptOrRefuse({fromMsg(msg.header.stamp), received}, [&] {
     try {
       return Incoming{fromMsg(msg.header.stamp), received, msg.header.frame_id, fromMsg(msg.pose)};
     } catch (const sweep_guard::InvalidInput& error) {
@@ -76,15 +78,17 @@ void PoseInput::onTransforms() {
   try {
     const Incoming incoming{*newest, std::chrono::steady_clock::now(), fixed_frame_,
                             frames_.lookup(fixed_frame_, tool_frame_, *newest)};
+    const sweep_guard::Seen seen{incoming.stamp, incoming.received};
     thread_.queue().addCallback(
-        boost::make_shared<Call>([this, incoming] { acceptOrRefuse([incoming] { return incoming; }); }));
+        boost::make_shared<Call>([this, seen, incoming] { acceptOrRefuse(seen, [incoming] { return incoming; }); }));
   } catch (const FrameError& error) {
+    record_.failed(error.what());
     ledger_.fault(sweep_guard::kTfFail, error.what());
   }
 }
 
-void PoseInput::acceptOrRefuse(const std::function<Incoming()>& read) {
-  ++received_;
+void PoseInput::acceptOrRefuse(const sweep_guard::Seen& seen, const std::function<Incoming()>& read) {
+  record_.came(seen);
   try {
     accept(read());
   } catch (const PoseRefused& error) {
@@ -96,10 +100,10 @@ void PoseInput::acceptOrRefuse(const std::function<Incoming()>& read) {
   }
 }
 
-void PoseInput::refuse(Reason reason, const std::string& story) {
-  ++refused_;
-  ledger_.fault(reason, "tool pose refused: " + story);
-  log_.error(std::to_string(reason), "tool pose on " + source() + " refused: " + story);
+void PoseInput::refuse(Reason reason, const std::string& why) {
+  record_.refused(why);
+  ledger_.fault(reason, "tool pose refused: " + why);
+  log_.error(std::to_string(reason), "tool pose on " + source() + " refused: " + why);
 }
 
 void PoseInput::accept(const Incoming& incoming) {
@@ -129,6 +133,7 @@ std::map<std::string, Eigen::Isometry3d> PoseInput::locate(const std::set<std::s
     try {
       X_WM[frame] = lookup(fixed_frame_, frame, stamp);
     } catch (const FrameError& error) {
+      record_.failed("workpieces in '" + frame + "' are not swept: " + error.what());
       ledger_.fault(sweep_guard::kTfFail, error.what());
       log_.error(frame, "workpieces in '" + frame + "' are not swept: " + error.what());
     }

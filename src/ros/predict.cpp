@@ -37,19 +37,18 @@ sweep_guard::Prediction predictionMsg(const sweep_guard::Outlook& outlook, sweep
   return msg;
 }
 
-PredictService::PredictService(const ros::NodeHandle& private_node, const Parameters& parameters,
+PredictService::PredictService(const ros::NodeHandle& private_node, const LiveParameters& live,
                                const WorkpieceStore& workpieces, Ask ask)
-    : parameters_(parameters),
-      tool_(*parameters.tool),
+    : live_(live),
       workpieces_(workpieces),
       ask_(std::move(ask)),
-      test_(parameters.guard.pathTest()),
       server_(thread_.on(private_node).advertiseService("predict", &PredictService::onCall, this)) {}
 
 // What cannot be predicted is answered, not thrown away: a failed ROS call tells the caller nothing.
 bool PredictService::onCall(Predict::Request& request, Predict::Response& response) {
   try {
-    response.prediction = predict(checked(request.horizon, parameters_.guard.horizon.considered));
+    refreshParameters();
+    response.prediction = predict(checked(request.horizon, parameters_->guard.horizon.considered));
     response.success = true;
   } catch (const std::exception& error) {
     response = Predict::Response();
@@ -60,14 +59,22 @@ bool PredictService::onCall(Predict::Request& request, Predict::Response& respon
   return true;
 }
 
+void PredictService::refreshParameters() {
+  const auto current = live_.get();
+  if (current == parameters_) return;
+  detector_ = sweep_guard::makeDetector(current->detector, current->detector_options);
+  test_.emplace(current->guard.pathTest());
+  parameters_ = current;
+}
+
 sweep_guard::Prediction PredictService::predict(Duration horizon) {
   std::future<Answer> asked = ask_(horizon);
   if (asked.wait_for(kPatience) != std::future_status::ready) throw sweep_guard::Error("the guard is busy: ask again");
   const Answer answer = asked.get();
-  if (!detector_) detector_ = sweep_guard::makeDetector(parameters_.detector, parameters_.detector_options);
   sweep_guard::Outlook outlook;
-  sweep_guard::lookAlong(answer.forecast, workpieces_.snapshot(), test_, *detector_, tool_, effort(), outlook);
-  return predictionMsg(outlook, answer.age, parameters_);
+  sweep_guard::lookAlong(answer.forecast, workpieces_.snapshot(), *test_, *detector_, *parameters_->tool, effort(),
+                         outlook);
+  return predictionMsg(outlook, answer.age, *parameters_);
 }
 
 sweep_guard::PathTest::Effort PredictService::effort() const {

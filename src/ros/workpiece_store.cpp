@@ -32,18 +32,18 @@ bool before(const std::shared_ptr<const Workpiece>& workpiece, const std::string
 WorkpieceStore::WorkpieceStore(size_t max_triangles, sweep_guard::Ledger& ledger)
     : max_triangles_(max_triangles), ledger_(ledger) {}
 
-void WorkpieceStore::accept(const sweep_guard::DeformableMesh& msg) { acceptOrRefuse(msg); }
-void WorkpieceStore::accept(const sweep_guard::MeshVertices& msg) { acceptOrRefuse(msg); }
+void WorkpieceStore::accept(const sweep_guard::DeformableMesh& msg) { acceptOrRefuse(msg, meshes_); }
+void WorkpieceStore::accept(const sweep_guard::MeshVertices& msg) { acceptOrRefuse(msg, vertices_); }
 
 template <typename Msg>
-void WorkpieceStore::acceptOrRefuse(const Msg& msg) {
-  ++received_;
+void WorkpieceStore::acceptOrRefuse(const Msg& msg, InputRecord& record) {
+  record.came({fromMsg(msg.header.stamp), std::chrono::steady_clock::now()});
   try {
     store(msg);
     ledger_.meshAccepted(msg.id);
   } catch (const std::exception& error) {  // invalid, or no memory for it
-    ++refused_;
     const std::string story = "workpiece '" + msg.id + "' refused: " + error.what();
+    record.refused(story);
     ledger_.meshRefused(msg.id, story);
     log_.error(msg.id, story);
   }

@@ -41,18 +41,24 @@ GuardProbe::GuardProbe(bool drives_clock, PoseSource pose_source) : time_(drives
   listen<std_msgs::Bool>("considered_warning",
                          [this](const auto& flag) { considered_flags_.push_back(arrived(flag)); });
   listen<visualization_msgs::MarkerArray>("markers", [this](const auto& markers) { markers_.push_back(markers); });
+  listen<dynamic_reconfigure::Config>("parameter_updates", [this](const auto& next) { configuration_ = next; });
+  listen<diagnostic_msgs::DiagnosticArray>("/diagnostics", [this](const auto& diagnostics) {
+    statuses_.insert(statuses_.end(), diagnostics.status.begin(), diagnostics.status.end());
+  });
   if (drives_clock) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10, /*latch=*/true);
   check_sweep_ = node_.serviceClient<sweep_guard::CheckSweep>("/sweep_guard/check_sweep");
   predict_ = node_.serviceClient<sweep_guard::Predict>("/sweep_guard/predict");
   enable_ = node_.serviceClient<std_srvs::SetBool>("/sweep_guard/enable");
   reset_ = node_.serviceClient<std_srvs::Trigger>("/sweep_guard/reset");
+  configure_ = node_.serviceClient<dynamic_reconfigure::Reconfigure>("/sweep_guard/set_parameters");
   spinner_.start();
   const auto heard = [](const ros::Subscriber& subscriber) { return subscriber.getNumPublishers() > 0; };
   await("the guard's connections", [&] {
     return (pose_source == PoseSource::kTf || pose_publisher_.getNumSubscribers() > 0) &&
            mesh_publisher_.getNumSubscribers() > 0 && vertices_publisher_.getNumSubscribers() > 0 &&
            tf_publisher_.getNumSubscribers() > 0 && std::all_of(subscribers_.begin(), subscribers_.end(), heard) &&
-           !warnings_.empty() && check_sweep_.exists() && predict_.exists() && enable_.exists() && reset_.exists();
+           !warnings_.empty() && !configuration_.doubles.empty() && check_sweep_.exists() && predict_.exists() &&
+           enable_.exists() && reset_.exists() && configure_.exists();
   });
   if (drives_clock) setClock(time_);  // latched: a guard that connects later sees it too
 }
@@ -60,7 +66,7 @@ GuardProbe::GuardProbe(bool drives_clock, PoseSource pose_source) : time_(drives
 template <typename Message, typename Take>
 void GuardProbe::listen(const std::string& topic, Take take) {
   subscribers_.push_back(node_.subscribe<Message>(
-      "/sweep_guard/" + topic, 10000,
+      ros::names::resolve("/sweep_guard", topic), 10000,
       [this, take](const typename Message::ConstPtr& message) {
         const std::lock_guard lock(mutex_);
         take(*message);
@@ -269,6 +275,46 @@ std_srvs::Trigger::Response GuardProbe::reset() {
   std_srvs::Trigger service;
   if (!reset_.call(service)) throw std::runtime_error("~reset does not answer");
   return service.response;
+}
+
+bool GuardProbe::configure(const dynamic_reconfigure::Config& changes) {
+  dynamic_reconfigure::Reconfigure service;
+  service.request.config = changes;
+  return configure_.call(service);
+}
+
+dynamic_reconfigure::Config GuardProbe::configuration() const {
+  const std::lock_guard lock(mutex_);
+  return configuration_;
+}
+
+GuardProbe::Status GuardProbe::awaitStatus(const std::string& name, const std::function<bool(const Status&)>& fits) {
+  Status found;
+  size_t next = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    statuses_.clear();
+  }
+  await("a status of " + name, [&] {
+    while (next < statuses_.size()) {
+      found = statuses_[next++];
+      if (found.name.substr(found.name.find(": ") + 2) == name && fits(found)) return true;
+    }
+    return false;
+  });
+  return found;
+}
+
+size_t GuardProbe::markersSoFar() const {
+  const std::lock_guard lock(mutex_);
+  return markers_.size();
+}
+
+std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key) {
+  for (const auto& value : status.values) {
+    if (value.key == key) return value.value;
+  }
+  return "";
 }
 
 geometry_msgs::PoseStamped poseAt(const Eigen::Vector3d& tip_W, ros::Time stamp, const Eigen::Quaterniond& rotation) {

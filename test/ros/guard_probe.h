@@ -1,5 +1,8 @@
 #pragma once
 
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
@@ -90,6 +93,16 @@ class GuardProbe {
   std_srvs::SetBool::Response enable(bool enabled);
   std_srvs::Trigger::Response reset();
 
+  /// Changes parameters while the guard runs; false: it refuses.
+  bool configure(const dynamic_reconfigure::Config& changes);
+  dynamic_reconfigure::Config configuration() const;  ///< the newest that the guard has told
+
+  /// The first status of that name that fits, of those that come from now on. @throws std::runtime_error after 20 s
+  using Status = diagnostic_msgs::DiagnosticStatus;
+  Status awaitStatus(const std::string& name, const std::function<bool(const Status&)>& fits);
+
+  size_t markersSoFar() const;
+
  private:
   template <typename Message, typename Take>
   void listen(const std::string& topic, Take take);
@@ -110,6 +123,8 @@ class GuardProbe {
   std::vector<Flag> considered_flags_;
   std::vector<visualization_msgs::MarkerArray> markers_;
   size_t next_markers_ = 0;
+  std::vector<Status> statuses_;
+  dynamic_reconfigure::Config configuration_;
   ros::Time time_;
 
   ros::Publisher clock_publisher_;
@@ -122,8 +137,12 @@ class GuardProbe {
   ros::ServiceClient predict_;
   ros::ServiceClient enable_;
   ros::ServiceClient reset_;
+  ros::ServiceClient configure_;
   ros::AsyncSpinner spinner_{1};
 };
+
+/// What a status says for a key; empty if it says nothing.
+std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key);
 
 /// Tool with its tip at a point [m] in `world`, pointing down unless turned.
 geometry_msgs::PoseStamped poseAt(

@@ -54,12 +54,17 @@ class NodeTest : public ::testing::Test {
     return probe().move(poseAt(tip, probe().time()));
   }
 
-  // The motion is known from two poses.
+  // The motion is known from two poses. On a machine that is busy they may be stale before they are told to be clear.
   void restAt(const Eigen::Vector3d& tip) {
     moveTo(tip);
-    probe().skipWarnings();
-    moveTo(tip);
-    probe().awaitWarning(isClear);
+    sweep_guard::Warning warning;
+    do {
+      probe().skipWarnings();
+      moveTo(tip);
+      warning = probe().awaitWarning([](const sweep_guard::Warning& next) {
+        return next.clear || (next.reasons & sweep_guard::Warning::POSE_STALE) != 0;
+      });
+    } while (!warning.clear);
   }
 
   // Keeps both inputs fresh until a warning fits: contacts are held for their hold time.

@@ -1,5 +1,4 @@
 // Drives a guard started by its public launch file (or as a nodelet) through its topics, under a clock of its own.
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -365,6 +364,7 @@ TEST_F(NodeTest, AWorkpieceThatHasNotBeenSweptIsNotClear) {
 
 TEST_F(NodeTest, AWorkpieceInAnUnknownFrameIsNotClear) {
   placeSheet("known", {0.0, 0.0, -1.0});
+  restAt({0.0, 0.0, 0.5});
   auto lost = sheetAt("lost", {0.0, 0.0, -1.0}, probe().time());
   lost.header.frame_id = "nowhere";
   probe().publish(lost);
@@ -504,22 +504,6 @@ TEST_F(NodeTest, CheckSweepRefusesWhatItCannotTest) {
   EXPECT_TRUE(probe().check(good).clear);
   good.path.assign(1024, good.path[0]);
   EXPECT_TRUE(probe().check(good).clear);
-}
-
-TEST_F(NodeTest, DiagnosticsNameEachInput) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
-  restAt({0.0, 0.0, 0.5});
-  const auto message = ros::topic::waitForMessage<diagnostic_msgs::DiagnosticArray>("/diagnostics", ros::Duration(1e6));
-  ASSERT_TRUE(message);
-  std::string all;
-  for (const auto& status : message->status) {
-    all += status.name + "\n";
-    for (const auto& value : status.values) all += value.key + "=" + value.value + "\n";
-  }
-  for (const char* expected : {"verdict", "source=/tool_pose", "publishers=1", "detector=select", "'sheet'=revision 1",
-                               "predictor=direct", "sweeps made / asked="}) {
-    EXPECT_NE(all.find(expected), std::string::npos) << expected << " in\n" << all;
-  }
 }
 
 TEST_F(NodeTest, MarkersShowToolVolumeAndTouchedTriangles) {

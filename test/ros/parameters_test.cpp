@@ -8,6 +8,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/parameters.h"
@@ -82,6 +85,10 @@ TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
   EXPECT_EQ(loaded.guard.cycle, defaults.guard.cycle);
   EXPECT_EQ(loaded.marker_rate, defaults.marker_rate);
   EXPECT_EQ(loaded.max_triangles, defaults.max_triangles);
+  for (const ParameterInfo& info : loaded.described) {
+    EXPECT_EQ(info.value, info.fallback) << info.key;
+    EXPECT_TRUE(info.key == "diagnostic_period" || ros::param::has("/from_file/" + info.key)) << info.key;
+  }
 }
 
 TEST_F(ParametersTest, TakeWhatIsSet) {
@@ -150,6 +157,91 @@ TEST_F(ParametersTest, FindTheRobotUnderAnotherName) {
   EXPECT_EQ(refusal(node_), "parameter /guarded/gripper must be a text");
 }
 
+TEST_F(ParametersTest, TakeNumbersAndAxesAsText) {
+  node_.setParam("prediction/degree", "[0, 1, 2, 3, 4, 5]");
+  node_.setParam("prediction/constrained", "['rz', 'x']");
+  const Parameters parameters = loadParameters(node_);
+  EXPECT_EQ(parameters.guard.predictor.degree, (std::array<int, 6>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(parameters.guard.predictor.constrained, (std::array<bool, 6>{true, false, false, false, false, true}));
+}
+
+TEST_F(ParametersTest, ChangeInWhatIsAskedForAndNothingElse) {
+  node_.setParam("horizon/reflex", 0.2);
+  node_.setParam("tool/radius", 0.02);
+  const Parameters before = loadParameters(node_);
+  node_.setParam("horizon/reflex", 0.3);  // as somebody else may
+  node_.setParam("tool/radius", 0.03);
+  const Parameters after =
+      changeParameters(node_, before, {{"detector", std::string("reference")}, {"horizon/considered", 2}});
+  EXPECT_EQ(after.detector, "reference");
+  EXPECT_EQ(after.guard.horizon.considered, std::chrono::seconds(2));
+  EXPECT_EQ(after.guard.horizon.reflex, std::chrono::milliseconds(200));
+  EXPECT_EQ(after.tool, before.tool);
+  const std::vector<ParameterChange> changes = differences(before, after);
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_EQ(changes[0].key, "detector");
+  EXPECT_EQ(shown(changes[0].after), "reference");
+  EXPECT_EQ(shown(changes[1].before), "1");
+}
+
+TEST_F(ParametersTest, ChangeThePaddingOfARobot) {
+  ros::param::set("/robot_description", kGripper);
+  node_.setParam("tool/type", "urdf");
+  const Parameters before = loadParameters(node_);
+  ros::param::del("/robot_description");
+  const Parameters after = changeParameters(node_, before, {{"tool/padding", 0.01}});
+  EXPECT_NEAR(reach(after, Eigen::Vector3d::UnitX()), reach(before, Eigen::Vector3d::UnitX()) + 0.01, 1e-12);
+  EXPECT_EQ(after.tool->parts().size(), before.tool->parts().size());
+}
+
+TEST_F(ParametersTest, AreNotChangedToWhatTheStartWouldRefuse) {
+  const Parameters before = loadParameters(node_);
+  const auto refused = [&](const std::string& key, const ParameterValue& value, const std::string& expected) {
+    try {
+      changeParameters(node_, before, {{key, value}});
+      ADD_FAILURE() << key << " is accepted";
+    } catch (const sweep_guard::InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find("/guarded/" + key), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+  };
+  refused("tool/padding", -0.1, "0 to 1");
+  refused("warning/hold_time", static_cast<double>(NAN), "0 to 60");
+  refused("horizon/reflex_step", 0.2, "0.001 to 0.1: at most horizon/reflex");
+  refused("volume", std::string("sphere"), "obb, obb_planes, hull");
+  refused("cull", 1, "true or false");
+  refused("tool/radius", 0.02, "does not change while the guard runs");
+  refused("gl_context", std::string("egl"), "does not change while the guard runs");
+  refused("nonsense", 1.0, "there is no parameter");
+}
+
+// Key or keys, default, range, while running, meaning.
+TEST_F(ParametersTest, AreThoseOfTheReadmeWhichTellsWhatChangesWhileRunning) {
+  std::set<std::string> known;
+  for (const auto& [key, setting] : loadParameters(node_).settings) known.insert(key);
+  for (const char* const apart : {"diagnostic_period", "tool/joint_states", "robot_description"}) known.erase(apart);
+
+  std::ifstream readme(SWEEP_GUARD_SOURCE_DIR "/README.md");
+  std::set<std::string> told;
+  bool in_table = false;
+  for (std::string line; std::getline(readme, line);) {
+    if (line.rfind("| key | default | range | while running |", 0) == 0) in_table = true;
+    if (line.empty()) in_table = false;
+    if (!in_table || line.rfind("| `", 0) != 0) continue;
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, '|');) cells.push_back(cell);
+    ASSERT_GE(cells.size(), 6U) << line;
+    std::istringstream keys(cells[1]);
+    std::string key;
+    while (std::getline(keys, key, '`') && std::getline(keys, key, '`')) {
+      told.insert(key);
+      EXPECT_EQ(cells[4].find("yes") != std::string::npos, changesWhileRunning(key)) << key;
+    }
+  }
+  EXPECT_EQ(told, known);
+}
+
 // A prediction has to serve until the next one comes, which is until the pose is stale.
 TEST_F(ParametersTest, MakeThePredictionReachAsFarAsThePoseCounts) {
   node_.setParam("timing/pose_timeout", 0.25);
@@ -205,7 +297,8 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("prediction/degree", std::vector<int>(5, 1), "6 integers from 0 to 5");
   refused("prediction/degree", std::vector<int>(6, 6), "6 integers from 0 to 5");
   refused("prediction/degree", std::vector<double>(6, 1.5), "6 integers from 0 to 5");
-  refused("prediction/constrained", "rx", "some of x, y, z, rx, ry, rz");
+  refused("prediction/constrained", "rx, roll", "some of x, y, z, rx, ry, rz");
+  refused("prediction/degree", "1, 1, 1, 1, 1, 1.5", "6 integers from 0 to 5");
   refused("prediction/constrained", std::vector<std::string>{"roll"}, "some of x, y, z, rx, ry, rz");
   refused("prediction/constrained", std::vector<int>{1}, "some of x, y, z, rx, ry, rz");
   refused("prediction/forgetting_factor", 0.0, "0.01 to 1");

@@ -18,7 +18,7 @@ namespace sweep_guard_ros {
 /// detectors, a snapshot of the meshes: it never delays the guard.
 class CheckSweepService {
  public:
-  CheckSweepService(const ros::NodeHandle& private_node, const Parameters& parameters, const Frames& frames,
+  CheckSweepService(const ros::NodeHandle& private_node, const LiveParameters& live, const Frames& frames,
                     const WorkpieceStore& workpieces);
 
   ~CheckSweepService() { stopping_ = true; }
@@ -29,6 +29,7 @@ class CheckSweepService {
 
  private:
   bool onCall(sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
+  void refreshParameters();
   void check(const sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
   sweep_guard::Workpieces choose(const std::vector<std::string>& ids) const;
   std::vector<Eigen::Isometry3d> pathIn(const std::string& mesh_frame,
@@ -36,11 +37,11 @@ class CheckSweepService {
   bool fresh(const sweep_guard::Workpiece& workpiece) const;
   sweep_guard::Detector& detector(const std::string& name);
 
-  const Parameters parameters_;
-  const sweep_guard::Tool tool_;
+  const LiveParameters& live_;
+  std::shared_ptr<const Parameters> parameters_;  // of the newest call
   const Frames& frames_;
   const WorkpieceStore& workpieces_;
-  std::map<std::string, std::unique_ptr<sweep_guard::Detector>> detectors_;  // made when first asked for
+  std::map<std::string, std::unique_ptr<sweep_guard::Detector>> detectors_;  // made when first asked for, with these
   std::atomic<bool> stopping_ = false;
   QueueThread thread_;  // outlives what calls back on it
   ros::ServiceServer server_;

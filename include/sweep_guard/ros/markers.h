@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/guard/outlook.h"
@@ -17,6 +18,8 @@ namespace sweep_guard_ros {
 
 /// What the markers show.
 struct MarkerScene {
+  std::shared_ptr<const sweep_guard::Tool> tool;
+  std::set<std::string> namespaces;                          ///< only these are drawn
   std::shared_ptr<const sweep_guard::SweepReport> newest;    ///< null: nothing swept yet
   std::shared_ptr<const sweep_guard::SweepReport> contact;   ///< newest with a contact; null: none
   std::shared_ptr<const sweep_guard::Outlook> outlook;       ///< newest; null: none yet
@@ -26,12 +29,15 @@ struct MarkerScene {
   sweep_guard::Verdict verdict;
 };
 
+/// The namespaces that markers come in, in the order in which they are documented.
+const std::vector<std::string>& markerNamespaces();
+
 /// Draws the tool, its sweep, the triangles met, the same of the prediction, and the warning text for rviz. Ids are
 /// stable, what is gone is deleted once, nothing outlives half a second, and everything is grey while the level is
 /// unknown. One thread.
 class Markers {
  public:
-  Markers(std::string fixed_frame, const sweep_guard::Tool& tool);
+  explicit Markers(std::string fixed_frame);
 
   visualization_msgs::MarkerArray draw(const MarkerScene& scene);
 
@@ -43,7 +49,6 @@ class Markers {
   void deleteGone(visualization_msgs::MarkerArray& array);
 
   const std::string fixed_frame_;
-  const sweep_guard::Tool tool_;
   std::set<Key> shown_;
 };
 

@@ -18,6 +18,7 @@
 #include "sweep_guard/ros/diagnostics.h"
 #include "sweep_guard/ros/markers.h"
 #include "sweep_guard/ros/predict.h"
+#include "sweep_guard/ros/tuning.h"
 #include "sweep_guard/ros/view_output.h"
 
 namespace sweep_guard_ros {
@@ -38,12 +39,14 @@ class SweepGuardNode {
   template <typename Result>
   std::future<Result> betweenSweeps(std::function<Result()> task);
   void reset();
+  void adopt(const std::shared_ptr<const Parameters>& next);
   void work();
   void process(const std::deque<PlacedPose>& poses);
   void process(const PlacedPose& placed, const PlacedPose* next);
   void pass(const PlacedPose& placed);
   void sweep(const PlacedPose& placed);
   void lookAhead(const PlacedPose& placed);
+  void tellFailure(const sweep_guard::SweepFailure& failure);
   bool timeToLookAhead();
   PredictService::Answer forecast(sweep_guard::Duration horizon) const;
   void publishContacts(const sweep_guard::SweepReport& report);
@@ -56,7 +59,7 @@ class SweepGuardNode {
   MarkerScene sceneNow();
   void publishMarkers();
 
-  const Parameters parameters_;
+  LiveParameters parameters_;
   ros::Publisher contacts_publisher_;
   ros::Publisher prediction_publisher_;
   ros::Publisher time_to_collision_publisher_;
@@ -70,6 +73,8 @@ class SweepGuardNode {
   sweep_guard::Warning warning_;  // counters and level last sent
   std::atomic<sweep_guard::SteadyTime> warned_ = sweep_guard::SteadyTime();
   sweep_guard::Time clock_seen_;
+
+  std::mutex adopting_mutex_;  // what the guard goes on with
 
   std::mutex queue_mutex_;
   std::condition_variable queue_changed_;
@@ -97,10 +102,11 @@ class SweepGuardNode {
   CheckSweepService check_sweep_;
   PredictService predict_;
   Workload workload_;
-  Diagnostics diagnostics_;
   Markers markers_;
   ViewOutput view_;
   Controls controls_;
+  Tuning tuning_;
+  Diagnostics diagnostics_;
 
   QueueThread warning_thread_;
   QueueThread report_thread_;

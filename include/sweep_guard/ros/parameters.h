@@ -2,11 +2,16 @@
 
 #include <ros/node_handle.h>
 
+#include <map>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/guard/verdict.h"
+#include "sweep_guard/ros/parameter_reader.h"
 
 namespace sweep_guard_ros {
 
@@ -18,15 +23,19 @@ struct Parameters {
   ToolSource tool_source;
   std::string tool_frame;
   std::shared_ptr<const sweep_guard::Tool> tool;
+  double tool_padding;     ///< [m]
   std::string tool_story;  ///< what it is and where it comes from, for people
   std::string detector;
   std::string detector_story;  ///< its name, and what gives it OpenGL, for people
   sweep_guard::DetectorOptions detector_options;
   sweep_guard::GuardOptions guard;
   sweep_guard::VerdictLimits limits;
-  double marker_rate;     ///< [Hz]
-  int realtime_priority;  ///< of the thread that sweeps; 0: none
+  double marker_rate;                       ///< [Hz]
+  std::set<std::string> marker_namespaces;  ///< those that are published
+  int realtime_priority;                    ///< of the thread that sweeps; 0: none
   size_t max_triangles;
+  ParameterReader::Settings settings;    ///< all that is set
+  std::vector<ParameterInfo> described;  ///< always the same keys in the same order
 };
 
 /// Reads the private parameters; a missing one takes its default. Warns of each parameter that no one reads.
@@ -34,5 +43,38 @@ struct Parameters {
 /// @throws sweep_guard::InvalidInput naming key, value and range if one has the wrong type, is NaN or is out of range;
 ///     naming link and file if the robot description makes no tool
 Parameters loadParameters(const ros::NodeHandle& private_node);
+
+/// Not all do: tools, topics and devices stay what they were made as.
+bool changesWhileRunning(const std::string& key);
+
+/// The parameters with some of them set anew, checked in the same way as at the start, each by itself and all together.
+/// The others are as they were, whatever the parameter server says by now.
+/// @throws sweep_guard::InvalidInput as loadParameters(), or if there is no such parameter or it does not change while
+///     running
+Parameters changeParameters(const ros::NodeHandle& private_node, const Parameters& before,
+                            const std::map<std::string, ParameterValue>& changes);
+
+struct ParameterChange {
+  std::string key;
+  ParameterValue before;
+  ParameterValue after;
+};
+
+std::vector<ParameterChange> differences(const Parameters& before, const Parameters& after);
+
+/// The parameters in force. What is handed out does not change; any thread.
+class LiveParameters {
+ public:
+  explicit LiveParameters(Parameters initial);
+
+  std::shared_ptr<const Parameters> get() const;
+  void set(std::shared_ptr<const Parameters> parameters);
+  const Parameters& initial() const { return *initial_; }  ///< those of the start
+
+ private:
+  const std::shared_ptr<const Parameters> initial_;
+  mutable std::mutex mutex_;
+  std::shared_ptr<const Parameters> current_;
+};
 
 }  // namespace sweep_guard_ros

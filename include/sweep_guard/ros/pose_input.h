@@ -3,7 +3,6 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/subscriber.h>
 
-#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -14,6 +13,7 @@
 
 #include "sweep_guard/guard/ledger.h"
 #include "sweep_guard/ros/frames.h"
+#include "sweep_guard/ros/input_record.h"
 #include "sweep_guard/ros/log_throttle.h"
 #include "sweep_guard/ros/parameters.h"
 #include "sweep_guard/ros/queue_thread.h"
@@ -38,10 +38,9 @@ class PoseInput {
 
   void start() { thread_.start(); }
 
-  std::uint64_t received() const { return received_; }  ///< poses, refused ones too
-  std::uint64_t refused() const { return refused_; }
-  std::string source() const;  ///< resolved topic, or the tf frame
-  int publisherCount() const;  ///< of the topic; 0 for tf
+  const InputRecord& record() const { return record_; }
+  std::string source() const;                       ///< resolved topic, or the tf frames
+  std::optional<std::uint32_t> publishers() const;  ///< of the topic; empty for tf
 
  private:
   struct Incoming {
@@ -53,12 +52,12 @@ class PoseInput {
 
   void onMessage(const geometry_msgs::PoseStamped& msg);
   void onTransforms();
-  void acceptOrRefuse(const std::function<Incoming()>& read);
+  void acceptOrRefuse(const sweep_guard::Seen& seen, const std::function<Incoming()>& read);
   void accept(const Incoming& incoming);
   void checkStamp(sweep_guard::Time stamp) const;
   std::map<std::string, Eigen::Isometry3d> locate(const std::set<std::string>& mesh_frames, sweep_guard::Time stamp);
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard::Time stamp);
-  void refuse(sweep_guard::Reason reason, const std::string& story);
+  void refuse(sweep_guard::Reason reason, const std::string& why);
 
   const std::string fixed_frame_;
   const std::string tool_frame_;
@@ -74,8 +73,7 @@ class PoseInput {
   std::map<FramePair, std::optional<sweep_guard::Time>>
       missing_;  // transforms that did not come, and the newest there was
   LogThrottle log_;
-  std::atomic<std::uint64_t> received_ = 0;
-  std::atomic<std::uint64_t> refused_ = 0;
+  InputRecord record_;
 
   QueueThread thread_;  // outlives what calls back on it
   std::shared_ptr<void> transforms_changed_;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <optional>
 
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/ros/parameters.h"
@@ -33,7 +34,7 @@ class PredictService {
   /// sweep_guard::Error thrown where it can promise none.
   using Ask = std::function<std::future<Answer>(sweep_guard::Duration horizon)>;
 
-  PredictService(const ros::NodeHandle& private_node, const Parameters& parameters, const WorkpieceStore& workpieces,
+  PredictService(const ros::NodeHandle& private_node, const LiveParameters& live, const WorkpieceStore& workpieces,
                  Ask ask);
 
   ~PredictService() { stopping_ = true; }
@@ -44,15 +45,16 @@ class PredictService {
 
  private:
   bool onCall(sweep_guard::Predict::Request& request, sweep_guard::Predict::Response& response);
+  void refreshParameters();
   sweep_guard::Prediction predict(sweep_guard::Duration horizon);
   sweep_guard::PathTest::Effort effort() const;
 
-  const Parameters parameters_;
-  const sweep_guard::Tool tool_;
+  const LiveParameters& live_;
+  std::shared_ptr<const Parameters> parameters_;  // of the newest call
   const WorkpieceStore& workpieces_;
   const Ask ask_;
-  sweep_guard::PathTest test_;
-  std::unique_ptr<sweep_guard::Detector> detector_;  // made when first asked
+  std::optional<sweep_guard::PathTest> test_;        // made when first asked, with these
+  std::unique_ptr<sweep_guard::Detector> detector_;  // likewise
   std::atomic<bool> stopping_ = false;
   QueueThread thread_;  // outlives what calls back on it
   ros::ServiceServer server_;

@@ -3,7 +3,6 @@
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
 
-#include <atomic>
 #include <map>
 #include <mutex>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include "sweep_guard/common/pool.h"
 #include "sweep_guard/guard/ledger.h"
+#include "sweep_guard/ros/input_record.h"
 #include "sweep_guard/ros/log_throttle.h"
 
 namespace sweep_guard_ros {
@@ -33,8 +33,8 @@ class WorkpieceStore {
   /// Time went back: every snapshot counts as without a stamp until a new one comes.
   void timeJumped();
 
-  std::uint64_t received() const { return received_; }  ///< messages, refused ones too
-  std::uint64_t refused() const { return refused_; }
+  const InputRecord& meshes() const { return meshes_; }
+  const InputRecord& vertices() const { return vertices_; }
 
  private:
   // Of one workpiece, as long as its triangles stay.
@@ -44,7 +44,7 @@ class WorkpieceStore {
   };
 
   template <typename Msg>
-  void acceptOrRefuse(const Msg& msg);
+  void acceptOrRefuse(const Msg& msg, InputRecord& record);
   void store(const sweep_guard::DeformableMesh& msg);
   void store(const sweep_guard::MeshVertices& msg);
   std::shared_ptr<const sweep_guard::Workpiece> find(const std::string& id) const;
@@ -62,8 +62,8 @@ class WorkpieceStore {
   sweep_guard::Workpieces workpieces_;  // ascending by id
   std::shared_ptr<const std::set<std::string>> frames_ = std::make_shared<const std::set<std::string>>();
   std::map<std::string, Deformations> deformations_;  // by id; of the thread that accepts
-  std::atomic<std::uint64_t> received_ = 0;
-  std::atomic<std::uint64_t> refused_ = 0;
+  InputRecord meshes_;
+  InputRecord vertices_;
 };
 
 }  // namespace sweep_guard_ros

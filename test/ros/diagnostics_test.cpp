@@ -1,0 +1,79 @@
+// What /diagnostics answer to "why is there no warning". Part of node_test.
+#include <cmath>
+
+#include "node_fixture.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using sweep_guard::Warning;
+
+class DiagnosticsTest : public NodeTest {
+ protected:
+  static bool any(const DiagnosticStatus& /*status*/) { return true; }
+
+  static DiagnosticStatus awaitValue(const std::string& name, const std::string& key, const std::string& value) {
+    return probe().awaitStatus(name, [&](const DiagnosticStatus& status) { return valueOf(status, key) == value; });
+  }
+};
+
+TEST_F(DiagnosticsTest, EachInputTellsItsTopicItsPublishersAndItsAge) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  probe().place(sheetMovedTo("sheet", {0.0, 0.0, -1.0}, probe().time()));
+  restAt({0.0, 0.0, 0.5});
+  for (const auto& [name, topic] :
+       {std::pair{"tool pose", "/tool_pose"}, {"mesh", "/mesh"}, {"mesh vertices", "/mesh_vertices"}}) {
+    const DiagnosticStatus status = probe().awaitStatus(name, any);
+    EXPECT_EQ(valueOf(status, "source"), topic);
+    EXPECT_EQ(valueOf(status, "publishers"), "1");
+    EXPECT_FALSE(valueOf(status, "rate [Hz]").empty());
+    EXPECT_FALSE(valueOf(status, "age [s]").empty());
+    EXPECT_FALSE(valueOf(status, "age by stamp [s]").empty());
+    EXPECT_FALSE(valueOf(status, "last error").empty());
+  }
+  const DiagnosticStatus workpieces = probe().awaitStatus("workpieces", any);
+  EXPECT_EQ(valueOf(workpieces, "'sheet'").find("revision 1, 2 triangles in 'world'"), 0U);
+}
+
+TEST_F(DiagnosticsTest, APoseThatWasRefusedIsTheLastErrorOfItsInputAlone) {
+  auto bad = poseAt({0.0, 0.0, 0.5}, probe().time());
+  bad.pose.position.y = NAN;
+  probe().publish(bad);
+  const DiagnosticStatus status = probe().awaitStatus("tool pose", [](const DiagnosticStatus& next) {
+    return next.level == DiagnosticStatus::ERROR && next.message.find("refused") == 0;
+  });
+  EXPECT_NE(valueOf(status, "last error").find("position"), std::string::npos) << valueOf(status, "last error");
+  EXPECT_EQ(valueOf(probe().awaitStatus("mesh vertices", any), "last error").find("position"), std::string::npos);
+}
+
+TEST_F(DiagnosticsTest, PosesThatHaveStoppedAreAnErrorAndVerticesAreNot) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  restAt({0.0, 0.0, 0.5});
+  probe().awaitStatus("tool pose", [](const DiagnosticStatus& status) {
+    return status.level == DiagnosticStatus::ERROR && status.message == "has stopped";
+  });
+  EXPECT_EQ(probe().awaitStatus("mesh vertices", any).level, DiagnosticStatus::OK);
+}
+
+TEST_F(DiagnosticsTest, TellTheDetectorThePredictorAndTheirDeadlines) {
+  const DiagnosticStatus detector = probe().awaitStatus("detector", any);
+  EXPECT_EQ(valueOf(detector, "detector"), "select");
+  EXPECT_EQ(valueOf(detector, "deadline [ms]"), "66.7");
+  EXPECT_EQ(valueOf(detector, "last error"), "none");
+  const DiagnosticStatus prediction = probe().awaitStatus("prediction", any);
+  EXPECT_EQ(valueOf(prediction, "predictor"), "direct");
+  EXPECT_EQ(valueOf(prediction, "horizon [s]"), "reflex 0.1, considered 1");
+  EXPECT_EQ(valueOf(probe().awaitStatus("parameters", any), "last refusal"), "none");
+}
+
+TEST_F(DiagnosticsTest, TellThatTheGuardIsDisabledAndByWhom) {
+  ASSERT_TRUE(probe().enable(false).success);
+  awaitValue("verdict", "enabled", "no: disabled by " + ros::this_node::getName());
+  EXPECT_EQ(probe().awaitStatus("detector", any).message, "disabled: nothing is swept");
+  ASSERT_TRUE(probe().enable(true).success);
+  awaitValue("verdict", "enabled", "yes");
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros

@@ -1,0 +1,492 @@
+// Every parameter that may change while the guard runs is changed, and what the guard does changes with it.
+#include <dynamic_reconfigure/ConfigDescription.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "node_fixture.h"
+#include "sweep_guard/ros/markers.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using dynamic_reconfigure::Config;
+using dynamic_reconfigure::ConfigDescription;
+using sweep_guard::Contacts;
+using sweep_guard::Prediction;
+using sweep_guard::Warning;
+
+constexpr double kStep = 0.01;  // [s]
+
+void add(Config& config, const std::string& key, double value) {
+  config.doubles.emplace_back();
+  config.doubles.back().name = key;
+  config.doubles.back().value = value;
+}
+void add(Config& config, const std::string& key, bool value) {
+  config.bools.emplace_back();
+  config.bools.back().name = key;
+  config.bools.back().value = value;
+}
+void add(Config& config, const std::string& key, const char* value) {
+  config.strs.emplace_back();
+  config.strs.back().name = key;
+  config.strs.back().value = value;
+}
+
+template <typename Value>
+Config one(const std::string& key, Value value) {
+  Config config;
+  add(config, key, value);
+  return config;
+}
+
+template <typename Parameters>
+auto valueIn(const Parameters& parameters, const std::string& key) {
+  const auto found =
+      std::find_if(parameters.begin(), parameters.end(), [&](const auto& parameter) { return parameter.name == key; });
+  if (found == parameters.end()) throw std::runtime_error("no parameter " + key);
+  return found->value;
+}
+
+// The guard is as it was at the start before and after each test.
+class TuningTest : public NodeTest {
+ protected:
+  static void SetUpTestSuite() { at_start_ = probe().configuration(); }
+  void SetUp() override {
+    probe().configure(one("warning/hold_time", 0.0));
+    NodeTest::SetUp();
+  }
+  void TearDown() override {
+    EXPECT_TRUE(probe().configure(at_start_));
+    probe().enable(true);
+    NodeTest::TearDown();
+  }
+
+  template <typename Value>
+  void change(const std::string& key, Value value) {
+    ASSERT_TRUE(probe().configure(one(key, value))) << key;
+    changed_.insert(key);
+  }
+
+  // One step of a motion, and what is expected after it.
+  Prediction predictAt(const Eigen::Vector3d& tip) {
+    moveTo(tip);
+    return probe().awaitPrediction(probe().time());
+  }
+
+  // Rests for a while, then goes along x at a speed [m/s] for some steps.
+  Prediction restAndGo(double speed, int steps) {
+    probe().reset();
+    placeSheet("far", {0.0, 0.0, -2.0});
+    for (int i = 0; i < 20; ++i) moveTo({0.0, 0.0, 1.0});
+    Prediction prediction;
+    for (int i = 1; i <= steps; ++i) prediction = predictAt({speed * kStep * i, 0.0, 1.0});
+    return prediction;
+  }
+  static double end(const Prediction& prediction) { return prediction.poses.back().pose.position.x; }
+
+  // Comes down towards the sheet at 0.25 m/s, so that it would be met after the time to go [s].
+  Warning descendUntil(double to_go) {
+    constexpr double kSpeed = 0.25;
+    probe().reset();
+    for (int i = 20; i >= 0; --i) {
+      predictAt({0.0, 0.0, kSpeed * (to_go + i * kStep)});
+      probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.0}, probe().time()));
+    }
+    predictAt({0.0, 0.0, kSpeed * to_go - kSpeed * kStep});
+    probe().skipWarnings();
+    return probe().awaitWarning([](const Warning&) { return true; });
+  }
+
+  // From a standstill through this motion; the sheet is thin and small, its centre at a point.
+  Contacts sweep(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    moveTo(from);
+    return moveTo(to);
+  }
+
+  static inline Config at_start_;
+  static inline std::set<std::string> changed_;
+};
+
+TEST_F(TuningTest, PaddingGrowsTheTool) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  EXPECT_TRUE(sweep({0.115, 0.0, -0.05}, {0.115, 0.0, -0.05}).objects.empty());  // 5 mm beside it
+  change("tool/padding", 0.006);
+  EXPECT_EQ(sweep({0.115, 0.0, -0.05}, {0.115, 0.0, -0.05}).objects.size(), 1U);
+  sweep_guard::CheckSweep::Request request;
+  request.path = {poseAt({0.115, 0.0, -0.05}, ros::Time())};
+  EXPECT_TRUE(probe().check(request).collision);
+}
+
+// In a corner of the box about a slanting motion, and outside of the hull.
+TEST_F(TuningTest, TheVolumeIsTheOneThatIsTested) {
+  probe().place(sheetAt("corner", {0.2, 0.0, -0.1}, probe().time(), /*half_side=*/0.005));
+  placed_.insert("corner");
+  change("volume", "obb");
+  EXPECT_EQ(sweep({0.0, 0.0, 0.0}, {0.15, 0.0, -0.15}).objects.size(), 1U);
+  change("volume", "hull");
+  const Contacts contacts = sweep({0.0, 0.0, 0.0}, {0.15, 0.0, -0.15});
+  EXPECT_TRUE(contacts.objects.empty());
+  EXPECT_EQ(contacts.volume, "hull");
+}
+
+// What a detector adds for its rounding tells which one it is; the cull decides a triangle with a corner in the volume.
+TEST_F(TuningTest, TheDetectorAndItsCullAreTheOnesThatAnswer) {
+  probe().place(sheetAt("small", {0.0, 0.0, 0.0}, probe().time(), /*half_side=*/0.002));
+  placed_.insert("small");
+  const auto margin = [&] { return sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05}).margin; };
+  const double culled = margin();
+  change("cull", false);
+  const double drawn = margin();
+  EXPECT_GT(drawn, culled);
+  change("detector", "reference");
+  EXPECT_LT(margin(), drawn);
+  predictAt({0.0, 0.0, 0.5});
+  predictAt({0.0, 0.0, 0.5});
+  EXPECT_TRUE(probe().predict(1.0).success);
+}
+
+TEST_F(TuningTest, TheFinePhaseIsLeftOut) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  EXPECT_TRUE(sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05}).objects.at(0).fine);
+  change("fine", false);
+  EXPECT_FALSE(sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05}).objects.at(0).fine);
+}
+
+// The margin pays for the arc, which falls with the square of the angle.
+TEST_F(TuningTest, TurnsAreSplitInSmallerParts) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  const auto margin = [&] {
+    moveTo({0.0, 0.0, 1.0});
+    probe().tick(kStep);
+    return probe()
+        .move(poseAt({0.0, 0.0, 1.0}, probe().time(),
+                     Eigen::Quaterniond(Eigen::AngleAxisd(M_PI - 0.15, Eigen::Vector3d::UnitX()))))
+        .margin;
+  };
+  const double whole = margin();
+  change("max_rotation_per_sweep", 0.05);
+  EXPECT_LT(margin(), 0.2 * whole);
+}
+
+TEST_F(TuningTest, ThePredictorIsExchanged) {
+  change("prediction/predictor", "constant_velocity");
+  EXPECT_NEAR(end(restAndGo(0.2, 10)), 0.02 + 0.2 * 1.1, 0.01);
+  change("prediction/predictor", "hold");
+  EXPECT_NEAR(end(restAndGo(0.2, 10)), 0.02, 1e-9);
+}
+
+TEST_F(TuningTest, ThePolynomialHasAnotherDegree) {
+  change("prediction/predictor", "polynomial");
+  const double line = end(restAndGo(0.2, 10));
+  change("prediction/degree", "[0, 1, 1, 1, 1, 1]");
+  EXPECT_LT(end(restAndGo(0.2, 10)), line - 0.05);
+}
+
+TEST_F(TuningTest, AnAxisIsHeldStill) {
+  change("prediction/predictor", "constant_velocity");
+  EXPECT_GT(end(restAndGo(0.2, 10)), 0.1);
+  change("prediction/constrained", "[x]");
+  EXPECT_NEAR(end(restAndGo(0.2, 10)), 0.02, 1e-9);
+}
+
+TEST_F(TuningTest, ThePolynomialForgetsSooner) {
+  change("prediction/predictor", "polynomial");
+  const double slowly = end(restAndGo(0.2, 5));
+  change("prediction/forgetting_factor", 0.1);
+  EXPECT_GT(end(restAndGo(0.2, 5)), slowly + 0.05);
+}
+
+TEST_F(TuningTest, ThePolynomialLooksBackLess) {
+  change("prediction/predictor", "polynomial");
+  const double long_back = end(restAndGo(0.2, 5));
+  change("prediction/window", 0.04);
+  EXPECT_GT(end(restAndGo(0.2, 5)), long_back + 0.05);
+}
+
+// What is faster is a jump, and what comes after one is not known.
+TEST_F(TuningTest, TheLimitOfSpeedTellsAJump) {
+  EXPECT_FALSE(restAndGo(0.2, 3).poses.empty());
+  change("limits/max_speed", 0.1);
+  EXPECT_TRUE(restAndGo(0.2, 3).poses.empty());
+}
+
+TEST_F(TuningTest, TheLimitOfTurningTellsAJump) {
+  placeSheet("far", {0.0, 0.0, -2.0});
+  const auto turn = [&] {
+    probe().reset();
+    moveTo({0.0, 0.0, 1.0});
+    moveTo({0.0, 0.0, 1.0});
+    probe().tick(kStep);
+    probe().move(poseAt({0.0, 0.0, 1.0}, probe().time(),
+                        Eigen::Quaterniond(Eigen::AngleAxisd(M_PI - 0.05, Eigen::Vector3d::UnitX()))));
+    return probe().awaitPrediction(probe().time());
+  };
+  EXPECT_FALSE(turn().poses.empty());
+  change("limits/max_turn_rate", 1.0);
+  EXPECT_TRUE(turn().poses.empty());
+}
+
+TEST_F(TuningTest, TheReflexIntervalIsLonger) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  EXPECT_EQ(descendUntil(0.4).level, Warning::CONSIDERED);
+  change("horizon/reflex", 0.8);
+  EXPECT_EQ(descendUntil(0.4).level, Warning::REFLEX);
+}
+
+TEST_F(TuningTest, TheConsideredIntervalIsLonger) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  change("warning/min_probability", 1.0);
+  EXPECT_EQ(descendUntil(1.5).level, Warning::CLEAR);
+  change("horizon/considered", 2.0);
+  EXPECT_EQ(descendUntil(1.5).level, Warning::CONSIDERED);
+}
+
+TEST_F(TuningTest, ThePredictedStepsAreLonger) {
+  const std::uint32_t before = restAndGo(0.0, 2).sweeps_asked;
+  change("horizon/reflex_step", 0.05);
+  const std::uint32_t fewer = restAndGo(0.0, 2).sweeps_asked;
+  EXPECT_EQ(fewer, before - 8);
+  change("horizon/considered_step", 0.5);
+  EXPECT_LE(restAndGo(0.0, 2).sweeps_asked, fewer - 7);
+}
+
+// Beside the way, where contact is merely probable.
+TEST_F(TuningTest, WhatIsProbableEnoughIsWarnedOf) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  const auto rest = [&] {
+    Prediction prediction;
+    for (int i = 0; i < 40; ++i) {
+      prediction = predictAt({0.0005 * (i % 2), 0.0, 0.003});
+      probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.0}, probe().time()));
+    }
+    return prediction;
+  };
+  change("warning/min_probability", 1.0);
+  const Prediction before = rest();
+  EXPECT_EQ(before.interval, Prediction::NONE);
+  ASSERT_GT(before.probability, 0.001);
+  change("warning/min_probability", 0.001);
+  EXPECT_NE(rest().interval, Prediction::NONE);
+}
+
+TEST_F(TuningTest, AContactIsHeldAndLetGo) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  change("warning/hold_time", 60.0);
+  sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05});
+  for (int i = 0; i < 5; ++i) moveTo({0.0, 0.0, 0.5});
+  EXPECT_EQ(probe().warnings().back().level, Warning::CONTACT);
+  probe().skipWarnings();
+  change("warning/hold_time", 0.0);
+  moveTo({0.0, 0.0, 0.5});
+  probe().awaitWarning([](const Warning& warning) { return !warning.contact; });
+}
+
+// A thousand times less time for more than two thousand sweeps.
+TEST_F(TuningTest, TheRateDecidesHowManySweepsThereIsTimeFor) {
+  Config fine;
+  add(fine, "horizon/considered", 5.0);
+  add(fine, "horizon/considered_step", 0.002);
+  ASSERT_TRUE(probe().configure(fine));
+  change("timing/min_rate", 1.0);
+  const Prediction slow = restAndGo(0.1, 3);
+  EXPECT_EQ(slow.sweeps_made, slow.sweeps_asked);
+  change("timing/min_rate", 1000.0);
+  const Prediction fast = restAndGo(0.1, 3);
+  EXPECT_LT(fast.sweeps_made, fast.sweeps_asked);
+}
+
+TEST_F(TuningTest, PosesGrowStaleLater) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  restAt({0.0, 0.0, 0.5});
+  probe().advance(0.15);
+  probe().awaitWarning(hasReason(Warning::POSE_STALE));
+  change("timing/pose_timeout", 2.0);
+  probe().skipWarnings();
+  const Warning later = probe().awaitWarning([](const Warning&) { return true; });
+  EXPECT_EQ(later.reasons & Warning::POSE_STALE, 0U) << later.text;
+}
+
+TEST_F(TuningTest, MeshesNeverGrowStale) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  probe().advance(0.6);
+  probe().awaitWarning(hasReason(Warning::MESH_STALE));
+  change("timing/mesh_timeout", std::numeric_limits<double>::infinity());
+  probe().skipWarnings();
+  const Warning later = probe().awaitWarning([](const Warning&) { return true; });
+  EXPECT_EQ(later.reasons & Warning::MESH_STALE, 0U) << later.text;
+}
+
+// Against the warnings, which keep their rate of 20 Hz.
+TEST_F(TuningTest, MarkersComeAtAnotherRate) {
+  const auto count = [] {
+    const size_t before = probe().markersSoFar();
+    probe().skipWarnings();
+    probe().awaitWarning([left = 20](const Warning&) mutable { return --left == 0; });
+    return probe().markersSoFar() - before;
+  };
+  change("timing/marker_rate", 0.1);
+  EXPECT_LE(count(), 1U);
+  change("timing/marker_rate", 100.0);
+  EXPECT_GE(count(), 20U);
+}
+
+TEST_F(TuningTest, EachPartOfTheMarkersIsLeftOut) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSheet("below", {0.0, 0.0, -0.1});
+  change("warning/hold_time", 60.0);
+  moveTo({0.0, 0.0, 0.02});
+  moveTo({0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, -0.02});
+  const auto drawn = [](const visualization_msgs::MarkerArray& array) {
+    std::set<std::string> namespaces;
+    for (const auto& marker : array.markers) {
+      if (marker.action == visualization_msgs::Marker::ADD) namespaces.insert(marker.ns);
+    }
+    return namespaces;
+  };
+  const std::set<std::string> all(markerNamespaces().begin(), markerNamespaces().end());
+  probe().awaitMarkers([&](const auto& array) { return drawn(array) == all; });
+  for (const std::string& part : markerNamespaces()) {
+    std::set<std::string> others = all;
+    others.erase(part);
+    change("markers/" + part, false);
+    probe().awaitMarkers([&](const auto& array) { return drawn(array) == others; });
+    change("markers/" + part, true);
+    probe().awaitMarkers([&](const auto& array) { return drawn(array) == all; });
+  }
+}
+
+// The way through the sheet begins under one configuration and ends under another.
+TEST_F(TuningTest, TheWayDuringAChangeIsSwept) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  const ros::Time before = probe().time();
+  Config config;
+  add(config, "detector", "halfspace");
+  add(config, "volume", "hull");
+  add(config, "tool/padding", 0.001);
+  add(config, "prediction/predictor", "constant_velocity");
+  ASSERT_TRUE(probe().configure(config));
+  const Contacts contacts = moveTo({0.0, 0.0, -0.5});
+  EXPECT_EQ(contacts.interval_start, before);
+  EXPECT_EQ(contacts.objects.size(), 1U);
+}
+
+// However poses and changes come to stand between each other.
+TEST_F(TuningTest, ManyChangesLeaveNoHole) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.5});
+  probe().forgetContacts();
+  for (int i = 0; i < 60; ++i) {
+    probe().tick(0.001);
+    probe().publish(poseAt({0.0, 0.0, i == 30 ? -0.5 : 0.5}, probe().time()));
+    Config config = one("detector", i % 2 == 0 ? "halfspace" : "reference");
+    add(config, "tool/padding", 0.001 * (i % 3));
+    ASSERT_TRUE(probe().configure(config));
+  }
+  const std::vector<Contacts> contacts = probe().awaitContactsUpTo(probe().time());
+  size_t met = 0;
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    if (i > 0) {
+      EXPECT_EQ(contacts[i].interval_start, contacts[i - 1].header.stamp);
+    }
+    met += contacts[i].objects.size();
+  }
+  EXPECT_GE(met, 1U);
+  EXPECT_LE(met, 2U);
+}
+
+TEST_F(TuningTest, AChangeAloneMakesNothingUnknown) {
+  change("timing/pose_timeout", 2.0);  // on a machine that is busy it takes a while
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  restAt({0.0, 0.0, 0.5});
+  const size_t since = probe().warnings().size();
+  for (const char* const detector : {"halfspace", "reference", "select"}) {
+    change("detector", detector);
+    moveTo({0.0, 0.0, 0.5});
+    probe().awaitPrediction(probe().time());
+  }
+  const auto warnings = probe().warnings();
+  for (size_t i = since; i < warnings.size(); ++i) EXPECT_TRUE(warnings[i].clear) << warnings[i].text;
+}
+
+TEST_F(TuningTest, BadValuesAreRefusedAndLeaveEverythingAsItWas) {
+  placeSheet("sheet", {0.0, 0.0, -1.0});
+  const Config before = probe().configuration();
+  for (const Config& bad :
+       {one("tool/padding", -0.001), one("horizon/reflex", std::nan("")), one("horizon/reflex", 5.0),
+        one("horizon/considered", 0.05), one("horizon/reflex_step", 0.5), one("timing/pose_timeout", 100.0),
+        one("warning/min_probability", 0.0), one("detector", "oracle"), one("volume", "sphere"),
+        one("prediction/degree", "[1, 1]"), one("prediction/degree", "[1, 1, 1, 1, 1, 9]"),
+        one("prediction/constrained", "[roll]"), one("cull", "yes"), one("fine", 1.0), one("gl_context", "egl"),
+        one("limits/max_triangles", 5.0), one("tool/radius", 0.02), one("nonsense", 1.0)}) {
+    EXPECT_FALSE(probe().configure(bad)) << bad;
+    const Config after = probe().configuration();
+    EXPECT_EQ(after.doubles, before.doubles) << bad;
+    EXPECT_EQ(after.strs, before.strs) << bad;
+    EXPECT_EQ(after.bools, before.bools) << bad;
+  }
+  restAt({0.0, 0.0, 0.5});
+}
+
+// One of the two would be good by itself.
+TEST_F(TuningTest, ARequestComesIntoForceAsAWholeOrNotAtAll) {
+  Config config;
+  add(config, "horizon/considered_step", 0.2);
+  add(config, "horizon/considered", 0.05);
+  EXPECT_FALSE(probe().configure(config));
+  EXPECT_EQ(valueIn(probe().configuration().doubles, "horizon/considered_step"), 0.1);
+  config.doubles.back().value = 2.0;
+  EXPECT_TRUE(probe().configure(config));
+}
+
+TEST_F(TuningTest, DiagnosticsAndTheParameterServerTellWhatWasChangedAndRefused) {
+  change("horizon/reflex", 0.2);
+  EXPECT_FALSE(probe().configure(one("horizon/reflex", 3.0)));
+  const auto status = probe().awaitStatus("parameters", [](const auto& next) {
+    return valueOf(next, "last refusal").find("horizon/reflex is 3, but must be a number from 0.01 to 1") !=
+           std::string::npos;
+  });
+  EXPECT_EQ(valueOf(status, "horizon/reflex"), "0.2, at the start 0.1");
+  EXPECT_NE(valueOf(status, "last change").find("horizon/reflex from 0.1 to 0.2"), std::string::npos);
+  EXPECT_NE(valueOf(status, "last change").find(ros::this_node::getName()), std::string::npos);
+  double set = 0.0;
+  EXPECT_TRUE(ros::param::get("/sweep_guard/horizon/reflex", set));
+  EXPECT_EQ(set, 0.2);
+}
+
+// Clients build their sliders and their choices from it.
+TEST_F(TuningTest, TheDescriptionHasEachParameterInAGroupWithRangeAndDefault) {
+  const auto description =
+      ros::topic::waitForMessage<ConfigDescription>("/sweep_guard/parameter_descriptions", ros::Duration(1e6));
+  ASSERT_TRUE(description);
+  std::set<std::string> offered;
+  for (const auto& group : description->groups) {
+    for (const auto& parameter : group.parameters) {
+      offered.insert(parameter.name);
+      EXPECT_EQ(parameter.name.find(group.name + "/") == 0, group.id != 0) << parameter.name;
+      EXPECT_FALSE(parameter.description.empty()) << parameter.name;
+    }
+  }
+  EXPECT_EQ(valueIn(description->min.doubles, "timing/pose_timeout"), 0.01);
+  EXPECT_EQ(valueIn(description->max.doubles, "timing/pose_timeout"), 2.0);
+  EXPECT_EQ(valueIn(description->dflt.strs, "detector"), "select");
+  if (::testing::GTEST_FLAG(filter) == "*") {
+    EXPECT_EQ(offered, changed_) << "the tests above change all that may change";
+  }
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "tuning_test");
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
