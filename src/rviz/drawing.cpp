@@ -23,8 +23,13 @@ void addAll(Ogre::ManualObject& object, const Ogre::MaterialPtr& material, Ogre:
 
 }  // namespace
 
-Drawing::Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, int lifted)
-    : scene_(scene), object_(scene.createManualObject()), faces_(makeMaterial(lifted)), lines_(makeMaterial(lifted)) {
+Drawing::Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, Depth depth)
+    : scene_(scene), object_(scene.createManualObject()), faces_(makeMaterial()), lines_(makeMaterial()) {
+  if (depth == Depth::kOnTop) {
+    faces_->setDepthCheckEnabled(false);
+    lines_->setDepthCheckEnabled(false);
+    object_->setRenderQueueGroup(Ogre::RENDER_QUEUE_6);
+  }
   object_->setDynamic(true);
   node.attachObject(object_);
 }

@@ -25,7 +25,10 @@ LookProperties::LookProperties(rviz::Property& parent, const std::function<void(
       path_(add({"Path", "Way of the tip, of the last 2 s and expected.", {235, 235, 235}, 0.9F})),
       contacts_(
           add({"Contacts", "First point touched of each triangle, and the way out of it.", {255, 240, 90}, 1.0F})) {
-  edges_ = new rviz::BoolProperty("Edges", true, "Of the triangles.", surface_.shown);
+  most_edged_ = new rviz::IntProperty("Edges Up To", 5000,
+                                      "Edges are drawn of surfaces of so many triangles at most: lines cost more.",
+                                      surface_.shown);
+  most_edged_->setMin(0);
   history_ = new rviz::IntProperty("History", 0, "Earlier boxes that stay, half a box apart.", measured_.shown);
   history_->setMin(0);
   history_->setMax(1000);
@@ -38,7 +41,7 @@ LookProperties::LookProperties(rviz::Property& parent, const std::function<void(
   normal_length_->setMin(1e-5F);
   depths_ = new rviz::BoolProperty("Depths", true, "Into the workpiece, the largest in words.", contacts_.shown);
   for (rviz::Property* property :
-       {static_cast<rviz::Property*>(edges_), static_cast<rviz::Property*>(history_),
+       {static_cast<rviz::Property*>(most_edged_), static_cast<rviz::Property*>(history_),
         static_cast<rviz::Property*>(most_ghosts_), static_cast<rviz::Property*>(point_size_),
         static_cast<rviz::Property*>(normal_length_), static_cast<rviz::Property*>(depths_)}) {
     QObject::connect(property, &rviz::Property::changed, &parent_, changed_);
@@ -61,7 +64,7 @@ LookProperties::PartProperties LookProperties::add(const Default& part) {
 Look LookProperties::look() const {
   Look look;
   look.surface = surface_.part();
-  look.edges = edges_->getBool();
+  look.most_edged = static_cast<size_t>(most_edged_->getInt());
   look.touched = touched_.part();
   look.reflex = reflex_.part();
   look.considered = considered_.part();

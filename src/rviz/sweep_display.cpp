@@ -9,6 +9,8 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
+#include "sweep_guard/rviz/attach.h"
+
 namespace sweep_guard_rviz {
 namespace {
 
@@ -43,10 +45,7 @@ void SweepDisplay::addTopics() {
   vertices_topic_ = topic<sweep_guard::MeshVertices>("Vertices Topic", "/mesh_vertices", "How they deform.", *this);
   for (rviz::RosTopicProperty* each : {view_topic_, tool_topic_, mesh_topic_, vertices_topic_}) {
     connect(each, &rviz::Property::changed, this, [this] {
-      if (!initialized() || !isEnabled()) return;
-      unsubscribe();
-      reset();
-      subscribe();
+      if (initialized()) reset();
     });
   }
 }
@@ -97,6 +96,9 @@ void SweepDisplay::reset() {
   if (path_) path_->clear();
   if (tool_) tool_->show({});
   stale_ = true;
+  if (!isEnabled()) return;
+  unsubscribe();  // what is latched is to come again
+  subscribe();
 }
 
 WorkpieceVisual& SweepDisplay::workpiece(const std::string& id) {
@@ -152,13 +154,8 @@ void SweepDisplay::draw() {
   Look look = look_->look();
   if (was_silent_) look = look.surfaceOnly();
   if (view_ && view_->level == sweep_guard::Warning::UNKNOWN) look = look.greyed();
-  for (const auto& [id, visual] : workpieces_) visual->paint(look);
+  drawWorkpieces(look);
   if (view_) {
-    for (const sweep_guard::ObjectView& object : view_->objects) {
-      WorkpieceVisual& visual = workpiece(object.mesh_id);
-      visual.paint(look);
-      visual.show(object, look);
-    }
     drawTools(look);
     path_->show(view_->path, look.path);
   }
@@ -166,6 +163,27 @@ void SweepDisplay::draw() {
        !view_        ? "none has come from " + view_topic_->getTopicStd()
        : was_silent_ ? "the guard is silent"
                      : "comes");
+}
+
+// Of what the guard no longer speaks of, only the surface is drawn; what has none is gone.
+void SweepDisplay::drawWorkpieces(const Look& look) {
+  std::map<std::string, const sweep_guard::ObjectView*> views;
+  if (view_) {
+    for (const sweep_guard::ObjectView& object : view_->objects) views[object.mesh_id] = &object;
+  }
+  for (const auto& [id, view] : views) workpiece(id);
+  for (auto each = workpieces_.begin(); each != workpieces_.end();) {
+    const auto& [id, visual] = *each;
+    const auto view = views.find(id);
+    const bool spoken_of = view != views.end();
+    if (!spoken_of && !visual->hasMesh()) {
+      each = workpieces_.erase(each);
+      continue;
+    }
+    visual->paint(look);
+    visual->show(spoken_of ? *view->second : sweep_guard::ObjectView(), look);
+    ++each;
+  }
 }
 
 void SweepDisplay::drawTools(const Look& look) {
@@ -201,7 +219,7 @@ void SweepDisplay::place() {
     if (found) visual->place(position, orientation);
   }
   const bool found = view_ && find(view_->header.frame_id);
-  guard_node_->setVisible(found && !was_silent_);
+  attach(*scene_node_, *guard_node_, found && !was_silent_);
   if (found) {
     guard_node_->setPosition(position);
     guard_node_->setOrientation(orientation);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sweep_guard/rviz/attach.h"
 #include "sweep_guard/rviz/ogre_conversions.h"
 #include "sweep_guard/rviz/volume_faces.h"
 
@@ -58,8 +59,8 @@ WorkpieceVisual::WorkpieceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& roo
       surface_(scene, *node_),
       measured_(scene, *node_),
       predicted_(scene, *node_),
-      points_(scene, *node_, 4),
-      depths_(scene, *node_, 4),
+      points_(scene, *node_, Drawing::Depth::kOnTop),
+      depths_(scene, *node_, Drawing::Depth::kOnTop),
       label_("", "Liberation Sans", 0.012F),
       label_node_(node_->createChildSceneNode()) {
   label_.showOnTop(true);
@@ -106,7 +107,8 @@ void WorkpieceVisual::show(const sweep_guard::ObjectView& view, const Look& look
 }
 
 void WorkpieceVisual::paint(const Look& look) {
-  surface_.paintLayer(SurfaceVisual::kSurface, look.surface.color, look.surface.shown, look.edges);
+  const bool edges = surface_.triangleCount() <= look.most_edged;
+  surface_.paintLayer(SurfaceVisual::kSurface, look.surface.color, look.surface.shown, edges);
   surface_.paintLayer(SurfaceVisual::kTouched, look.touched.color, look.touched.shown, true);
   surface_.paintLayer(SurfaceVisual::kReflex, look.reflex.color, look.reflex.shown, true);
   surface_.paintLayer(SurfaceVisual::kConsidered, look.considered.color, look.considered.shown, true);
@@ -169,13 +171,6 @@ void WorkpieceVisual::place(const Ogre::Vector3& position, const Ogre::Quaternio
   node_->setOrientation(orientation);
 }
 
-void WorkpieceVisual::setVisible(bool visible) {
-  if (visible == (node_->getParent() != nullptr)) return;
-  if (visible) {
-    root_.addChild(node_);
-  } else {
-    root_.removeChild(node_);
-  }
-}
+void WorkpieceVisual::setVisible(bool visible) { attach(root_, *node_, visible); }
 
 }  // namespace sweep_guard_rviz

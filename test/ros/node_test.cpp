@@ -1,5 +1,8 @@
 // Drives a guard started by its public launch file (or as a nodelet) through its topics, under a clock of its own.
 #include <gtest/gtest.h>
+#include <ros/topic.h>
+#include <sweep_guard/ToolShape.h>
+#include <sweep_guard/View.h>
 
 #include <array>
 #include <cmath>
@@ -524,6 +527,30 @@ TEST_F(NodeTest, MarkersShowToolVolumeAndTouchedTriangles) {
     EXPECT_LT(marker.color.a, 1.0F);
     EXPECT_EQ(marker.header.frame_id, "world");
   }
+}
+
+TEST_F(NodeTest, TheViewTellsWhatIsTestedAndTouched) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  moveTo({0.0, 0.0, -0.05});
+  sweep_guard::View::ConstPtr view;
+  do {
+    view = ros::topic::waitForMessage<sweep_guard::View>("/sweep_guard/view");
+  } while (view && (view->objects.empty() || view->objects[0].touched.empty()));
+  ASSERT_TRUE(view);
+  EXPECT_EQ(view->header.frame_id, "world");
+  EXPECT_EQ(view->level, sweep_guard::Warning::CONTACT);
+  EXPECT_EQ(view->objects[0].mesh_id, "sheet");
+  EXPECT_EQ(view->objects[0].touched, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_FALSE(view->objects[0].measured.empty());
+  EXPECT_FALSE(view->objects[0].impacts.empty());
+}
+
+TEST_F(NodeTest, TheShapeOfTheToolIsLatched) {
+  const auto tool = ros::topic::waitForMessage<sweep_guard::ToolShape>("/sweep_guard/tool");
+  ASSERT_TRUE(tool);
+  EXPECT_EQ(tool->header.frame_id, "tool");
+  EXPECT_EQ(tool->parts.size(), 1U);
 }
 
 }  // namespace

@@ -227,6 +227,24 @@ TEST_F(SweepDisplayTest, HighlightsNothingOfAnotherRevision) {
   EXPECT_EQ(drawn(SurfaceVisual::kTouched), 0U);
 }
 
+TEST_F(SweepDisplayTest, AWorkpieceThatTheGuardIsSilentAboutHasNoHighlights) {
+  place(sheet(0.0));
+  show(viewOf(Warning::CONTACT));
+  await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
+  View view = viewOf(Warning::CONTACT);
+  view.objects.clear();
+  show(view);
+  await("that they go", [this] { return drawn(SurfaceVisual::kTouched) == 0; });
+  EXPECT_EQ(drawn(SurfaceVisual::kSurface), kTriangles);
+}
+
+TEST_F(SweepDisplayTest, AResetKeepsWhatIsLatched) {
+  place(sheet(0.0));
+  display_->reset();
+  EXPECT_EQ(drawn(SurfaceVisual::kSurface), 0U);
+  await("the mesh", [this] { return drawn(SurfaceVisual::kSurface) == kTriangles; });
+}
+
 TEST_F(SweepDisplayTest, ShowsTheToolAndItsGhosts) {
   View view = viewOf(Warning::CLEAR);
   for (int i = 1; i <= 20; ++i) {

@@ -17,8 +17,9 @@ namespace sweep_guard_rviz {
 /// Triangles and lines that are drawn anew whenever they change: few.
 class Drawing {
  public:
-  /// @param lifted  see makeMaterial()
-  Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, int lifted = 0);
+  enum class Depth { kInTheScene, kOnTop };  ///< on top: nothing hides it
+
+  Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, Depth depth = Depth::kInTheScene);
   ~Drawing();
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;

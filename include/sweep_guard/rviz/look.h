@@ -13,7 +13,7 @@ struct Part {
 /// What is drawn, and how.
 struct Look {
   Part surface;
-  bool edges = false;  ///< of the surface's triangles
+  size_t most_edged = 0;  ///< edges are drawn of surfaces of so many triangles at most
   Part touched;
   Part reflex;
   Part considered;

@@ -40,7 +40,7 @@ class LookProperties {
   rviz::Property& parent_;
   std::function<void()> changed_;
   PartProperties surface_;
-  rviz::BoolProperty* edges_;
+  rviz::IntProperty* most_edged_;
   PartProperties touched_;
   PartProperties reflex_;
   PartProperties considered_;

@@ -52,6 +52,7 @@ class SweepDisplay : public rviz::Display {
 
   void deform();
   void draw();
+  void drawWorkpieces(const Look& look);
   void drawTools(const Look& look);
   void place();
   void tellMeshes();
