@@ -4,13 +4,13 @@
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
+#include "sweep_guard/ros/future_stamp.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard::Reason;
 
-constexpr auto kFutureTolerance = std::chrono::milliseconds(50);
 constexpr auto kTransformMayBeLate = std::chrono::milliseconds(20);
 constexpr size_t kMissingKept = 64;  // made-up frame names must not fill the memory
 constexpr int kQueueLength = 4096;   // 4 s at 1 kHz
@@ -118,7 +118,7 @@ void PoseInput::accept(const Incoming& incoming) {
 
 void PoseInput::checkStamp(sweep_guard::Time stamp) const {
   if (stamp == sweep_guard::Time()) throw PoseRefused(sweep_guard::kPoseInvalid, "its stamp is 0: stamp each pose");
-  if (stamp > now().stamp + kFutureTolerance) {
+  if (liesInFuture(stamp)) {
     throw PoseRefused(sweep_guard::kFutureStamp, "its stamp lies in the future: are the clocks synchronised?");
   }
   if (last_ && stamp < *last_) {

@@ -7,6 +7,7 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/guard/displacements.h"
 #include "sweep_guard/ros/conversions.h"
+#include "sweep_guard/ros/future_stamp.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -15,12 +16,11 @@ using sweep_guard::InvalidInput;
 using sweep_guard::Workpiece;
 
 constexpr size_t kMostWorkpieces = 1000;
-constexpr auto kFutureTolerance = std::chrono::milliseconds(50);
 
 void checkHeader(const std::string& id, const std_msgs::Header& header) {
   if (id.empty()) throw InvalidInput("the id is empty: name the workpiece");
   if (header.frame_id.empty()) throw InvalidInput("header.frame_id is empty: name the frame of the vertices");
-  if (fromMsg(header.stamp) > now().stamp + kFutureTolerance) {
+  if (liesInFuture(fromMsg(header.stamp))) {
     throw InvalidInput("its stamp lies in the future: are the clocks synchronised?");
   }
 }

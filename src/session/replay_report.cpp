@@ -1,0 +1,212 @@
+// Lets a bag play to a guard, and reports what the guard told.
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <std_srvs/SetBool.h>
+#include <topic_tools/shape_shifter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "evaluation/gnuplot.h"
+#include "session/session_bag.h"
+#include "session/session_log.h"
+#include "session/session_report.h"
+#include "sweep_guard/Contacts.h"
+#include "sweep_guard/Warning.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+#include "sweep_guard/ros/parameter_reader.h"
+
+namespace sweep_guard_session {
+namespace {
+
+using sweep_guard::InvalidInput;
+using sweep_guard_ros::fromMsg;
+
+constexpr std::uint32_t kQueue = 100000;
+constexpr double kPatience = 60.0;  // [s] on the wall, until everybody is there
+constexpr double kGrace = 2.0;      // [s] on the wall, for the last answers
+
+sweep_guard::Time now() { return fromMsg(ros::Time::now()); }
+
+void handleMessages() { ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01)); }
+
+/// @return false when it takes longer, or the node is to end
+bool waitUntil(const std::function<bool()>& condition, double patience) {
+  for (const ros::WallTime begin = ros::WallTime::now(); ros::ok(); handleMessages()) {
+    if (condition()) return true;
+    if ((ros::WallTime::now() - begin).toSec() > patience) return false;
+  }
+  return false;
+}
+
+// What only the volume meets is no contact.
+bool isTouched(const sweep_guard::ObjectContacts& object) {
+  return !object.impacts.empty() || object.inside != 0 || object.fine == 0;
+}
+
+Touch toTouch(const sweep_guard::Contacts& contacts, const sweep_guard::ObjectContacts& object) {
+  Touch touch;
+  touch.heard = now();
+  touch.first = fromMsg(contacts.interval_start);
+  touch.mesh_id = object.mesh_id;
+  if (object.fine == 0) touch.triangles = object.triangles;
+  double first = std::numeric_limits<double>::infinity();
+  for (const sweep_guard::TriangleContact& impact : object.impacts) {
+    touch.triangles.push_back(impact.triangle);
+    touch.depth = std::fmax(touch.depth, impact.depth);
+    if (impact.time_of_impact >= first) continue;
+    first = impact.time_of_impact;
+    touch.first = fromMsg(contacts.interval_start + (contacts.header.stamp - contacts.interval_start) * first);
+    touch.tool_link = impact.tool_link;
+  }
+  return touch;
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream stream(path);
+  stream << text << std::flush;
+  if (!stream) throw InvalidInput(path.string() + ": cannot be written; give output:=FOLDER");
+}
+
+class ReplayReport {
+ public:
+  explicit ReplayReport(sweep_guard_ros::ParameterReader& parameters)
+      : path_(parameters.name("bag", "")), output_(parameters.name("output", path_ + ".report")) {
+    SessionTopics topics;
+    topics.tool_pose = parameters.text("tool_pose", "/tool_pose");
+    topics.mesh = parameters.text("mesh", "/mesh");
+    topics.mesh_vertices = parameters.text("mesh_vertices", "/mesh_vertices");
+    const std::string guard = parameters.name("guard", "sweep_guard");
+    if (ros::NodeHandle(guard).param<std::string>("tool_source", "topic") == "tf") topics.tool_pose.clear();
+    mesh_in_bag_ = !topics.mesh.empty();
+    bag_ = inspectBag(path_, topics);
+    listenTo(parameters.text("topics", ""));
+    sweep_guard_evaluation::requireGnuplot();
+    makeFolder();
+  }
+
+  void run() {
+    startPlayer();
+    await([this] { return clock_.getNumPublishers() == 0 || contacts_.getNumPublishers() == 0; });
+    if (contacts_.getNumPublishers() == 0)
+      throw InvalidInput("the guard has ended during the session; see its message");
+    waitUntil([this] { return log_.lastSwept() && *log_.lastSwept() >= bag_.last_pose; }, kGrace);
+    log_.end(now());
+    if (ros::ok()) report();
+  }
+
+ private:
+  // The player waits for a listener on each topic: somebody else's may come later, or not at all.
+  void listenTo(const std::string& topics) {
+    std::istringstream words(topics);
+    for (std::string topic; words >> topic;) others_.push_back(subscribe(topic));
+  }
+
+  // To nothing but the connection.
+  ros::Subscriber subscribe(const std::string& topic) {
+    const boost::function<void(const topic_tools::ShapeShifter::ConstPtr&)> ignore = [](const auto&) {};
+    return node_.subscribe<topic_tools::ShapeShifter>(topic, 1, ignore);
+  }
+
+  void makeFolder() const {
+    std::error_code error;
+    std::filesystem::create_directories(output_, error);
+    if (error) throw InvalidInput(output_ + ": " + error.message() + "; give output:=FOLDER");
+  }
+
+  void require(const std::function<bool()>& condition, const std::string& problem) {
+    if (!waitUntil(condition, kPatience) && ros::ok()) throw InvalidInput(problem);
+  }
+
+  static void await(const std::function<bool()>& condition) {
+    waitUntil(condition, std::numeric_limits<double>::infinity());
+  }
+
+  void startPlayer() {
+    clock_ = subscribe("/clock");
+    contacts_ =
+        node_.subscribe("contacts", kQueue, &ReplayReport::onContacts, this, ros::TransportHints().tcpNoDelay());
+    warning_ = node_.subscribe("warning", kQueue, &ReplayReport::onWarning, this, ros::TransportHints().tcpNoDelay());
+    require([this] { return contacts_.getNumPublishers() > 0 && warned_; },
+            "no guard on " + contacts_.getTopic() + "; see why it has ended");
+    require([this] { return mesh_in_bag_ || knows_mesh_; },
+            "the guard got no workpiece; see why static_mesh has ended");
+    const std::string service = ros::names::resolve("pause_playback");
+    require([this, &service] { return clock_.getNumPublishers() > 0 && ros::service::exists(service, false); },
+            "the bag is not played: no service " + service + ". Somebody has to listen to each of its topics");
+    std_srvs::SetBool let_go;
+    let_go.request.data = 0;
+    playing_ = true;
+    if (!ros::service::call(service, let_go) && ros::ok()) throw InvalidInput("the player does not answer " + service);
+    ROS_INFO("guarding %s: %.1f s", path_.c_str(), sweep_guard::toSeconds(bag_.end - bag_.begin));
+  }
+
+  void onContacts(const sweep_guard::Contacts::ConstPtr& contacts) {
+    log_.addSweep(fromMsg(contacts->interval_start), fromMsg(contacts->header.stamp));
+    for (const sweep_guard::ObjectContacts& object : contacts->objects) {
+      if (isTouched(object)) log_.add(toTouch(*contacts, object));
+    }
+  }
+
+  void onWarning(const sweep_guard::Warning::ConstPtr& warning) {
+    warned_ = true;
+    knows_mesh_ = (warning->reasons & sweep_guard::Warning::NO_MESH) == 0;
+    if (!playing_) return;
+    Told told{std::max(now(), bag_.begin), static_cast<sweep_guard::Level>(warning->level), warning->text};
+    if (warning->time_to_collision >= ros::Duration(0)) {
+      told.time_to_collision = sweep_guard::Duration(warning->time_to_collision.toNSec());
+    }
+    log_.add(told);
+  }
+
+  void report() const {
+    const std::filesystem::path folder(output_);
+    write(folder / "contacts.csv", contactsCsv(log_, bag_.begin));
+    write(folder / "levels.csv", levelsCsv(log_, bag_.begin));
+    const std::string plot = folder / "timeline.png";
+    const std::string name = std::filesystem::path(path_).filename();
+    sweep_guard_evaluation::runGnuplot(timelinePlot(log_, bag_, name, plot));
+    std::cout << summary(log_, bag_) << "written to " << output_ << ": contacts.csv, levels.csv, timeline.png"
+              << std::endl;
+  }
+
+  std::string path_;
+  std::string output_;
+  bool mesh_in_bag_ = true;
+  SessionBag bag_;
+  SessionLog log_;
+  bool warned_ = false;
+  bool knows_mesh_ = false;
+  bool playing_ = false;
+  ros::NodeHandle node_;
+  ros::Subscriber clock_;
+  ros::Subscriber contacts_;
+  ros::Subscriber warning_;
+  std::vector<ros::Subscriber> others_;
+};
+
+}  // namespace
+}  // namespace sweep_guard_session
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "replay_report");
+  sweep_guard_ros::ParameterReader parameters{ros::NodeHandle("~")};  // without a handle the console is silent
+  try {
+    sweep_guard_session::ReplayReport report(parameters);
+    parameters.warnOfUnread();
+    report.run();
+  } catch (const sweep_guard::Error& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sweep_guard/guard/verdict.h"
+
+namespace sweep_guard_session {
+
+/// What a warning told.
+struct Told {
+  sweep_guard::Time at;  ///< when it was heard, on the session's clock; not before that of the warning before
+  sweep_guard::Level level = sweep_guard::Level::kUnknown;
+  std::string text;                                          ///< level and reasons in words
+  std::optional<sweep_guard::Duration> time_to_collision{};  ///< empty: none, or not known
+};
+
+/// A stretch of the session through which the level stayed the same.
+struct Stretch {
+  sweep_guard::Level level;
+  sweep_guard::Time begin;
+  sweep_guard::Time end;
+  std::string text;  ///< of the warning that lasted longest in it
+};
+
+/// What one sweep met of one workpiece.
+struct Touch {
+  sweep_guard::Time heard;  ///< on the session's clock
+  sweep_guard::Time
+      first;  ///< moment of the first touch between the two poses, or the first pose's where that is unknown
+  std::string mesh_id;
+  std::string tool_link;  ///< that touched first; empty: not known
+  std::vector<std::uint32_t> triangles;
+  double depth = std::numeric_limits<double>::quiet_NaN();  ///< [m], NaN: not known
+};
+
+/// A contact as the operator saw it: one stretch of level CONTACT. The guard holds a contact for a while, so that a
+/// tool that bounces is one.
+struct Contact {
+  sweep_guard::Time begin;  ///< first touch
+  sweep_guard::Time end;    ///< of the level
+  std::string mesh_id;      ///< that was touched first, as the tool's link
+  std::string tool_link;
+  std::set<std::uint32_t> triangles;  ///< of that workpiece
+  double depth;                       ///< greatest [m], NaN: not known
+  /// How long before the first touch that level or a higher one came on and stayed; 0: not before it.
+  sweep_guard::Duration considered_lead;
+  sweep_guard::Duration reflex_lead;
+};
+
+/// What a guard told of a session, in the order in which it was heard.
+class SessionLog {
+ public:
+  void add(const Told& told);
+  void add(Touch touch) { touches_.push_back(std::move(touch)); }
+  /// @param start, stamp  of the interval that was swept
+  void addSweep(sweep_guard::Time start, sweep_guard::Time stamp);
+  void end(sweep_guard::Time at);  ///< what was told last holds until then
+
+  const std::vector<Told>& told() const { return told_; }
+  std::vector<Stretch> stretches() const;  ///< one after the other, none without duration
+  std::vector<Contact> contacts() const;
+  sweep_guard::Duration duration(sweep_guard::Level level) const;  ///< of all stretches of that level
+  std::size_t sweeps() const { return sweeps_; }
+  sweep_guard::Duration unswept() const { return unswept_; }  ///< holes between the intervals swept
+  std::optional<sweep_guard::Time> lastSwept() const { return last_swept_; }
+
+ private:
+  std::vector<Told> told_;
+  std::vector<Touch> touches_;
+  sweep_guard::Time end_;
+  std::size_t sweeps_ = 0;
+  sweep_guard::Duration unswept_{0};
+  std::optional<sweep_guard::Time> last_swept_;
+};
+
+}  // namespace sweep_guard_session

@@ -1,0 +1,227 @@
+#include "session/session_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "evaluation/csv.h"
+#include "evaluation/format.h"
+#include "evaluation/gnuplot.h"
+
+namespace sweep_guard_session {
+
+using sweep_guard::Duration;
+using sweep_guard::Level;
+using sweep_guard::Time;
+using sweep_guard::toSeconds;
+using sweep_guard_evaluation::csvLine;
+using sweep_guard_evaluation::csvNumber;
+using sweep_guard_evaluation::format;
+using sweep_guard_evaluation::gnuplotText;
+
+namespace {
+
+constexpr std::size_t kMostContactsListed = 20;
+constexpr std::array<Level, 5> kLevels = {Level::kUnknown, Level::kClear, Level::kConsidered, Level::kReflex,
+                                          Level::kContact};
+
+const char* colourOf(Level level) {
+  switch (level) {
+    case Level::kClear:
+      return "#009E73";
+    case Level::kConsidered:
+      return "#E69F00";
+    case Level::kReflex:
+      return "#D00000";
+    case Level::kContact:
+      return "#7B0099";
+    default:
+      return "#888888";
+  }
+}
+
+double seconds(Time time, Time begin) { return toSeconds(time - begin); }
+
+std::string fixed(double value) { return std::isnan(value) ? "nan" : format("%.4f", value); }
+
+Duration median(std::vector<Duration> durations) {
+  const auto middle = durations.begin() + static_cast<std::ptrdiff_t>(durations.size() / 2);
+  std::nth_element(durations.begin(), middle, durations.end());
+  return *middle;
+}
+
+// REFLEX     12 of 12, 0.21 s in the median, 0.12 s at the least
+std::string leadLine(const std::vector<Contact>& contacts, Level level, Duration Contact::*lead) {
+  std::vector<Duration> leads;
+  for (const Contact& contact : contacts) leads.push_back(contact.*lead);
+  const auto ahead = std::count_if(leads.begin(), leads.end(), [](Duration d) { return d > Duration(0); });
+  return format("  %-10s ahead of %td of %zu, by %.2f s in the median, %.2f s at the least\n",
+                sweep_guard::nameOf(level), ahead, leads.size(), toSeconds(median(leads)),
+                toSeconds(*std::min_element(leads.begin(), leads.end())));
+}
+
+std::string levelTable(const SessionLog& log) {
+  const double whole = std::max(
+      toSeconds(log.told().empty() ? Duration(0) : log.stretches().back().end - log.stretches().front().begin), 1e-9);
+  std::string table = "levels\n";
+  for (const Level level : kLevels) {
+    const double lasted = toSeconds(log.duration(level));
+    table += format("  %-10s %8.1f s %5.1f %%\n", sweep_guard::nameOf(level), lasted, 100.0 * lasted / whole);
+  }
+  return table;
+}
+
+std::string contactTable(const std::vector<Contact>& contacts, Time begin) {
+  std::string table = format("  %3s %9s %9s  %-12s %-12s %9s %6s %12s %8s\n", "#", "begin [s]", "lasts [s]", "mesh",
+                             "link", "triangles", "[mm]", "CONSIDERED", "REFLEX");
+  for (std::size_t i = 0; i < std::min(contacts.size(), kMostContactsListed); ++i) {
+    const Contact& contact = contacts[i];
+    table += format("  %3zu %9.2f %9.2f  %-12s %-12s %9zu %6.1f %10.2f s %6.2f s\n", i + 1,
+                    seconds(contact.begin, begin), toSeconds(contact.end - contact.begin), contact.mesh_id.c_str(),
+                    contact.tool_link.c_str(), contact.triangles.size(), 1e3 * contact.depth,
+                    toSeconds(contact.considered_lead), toSeconds(contact.reflex_lead));
+  }
+  if (contacts.size() > kMostContactsListed)
+    table += format("  ... and %zu more\n", contacts.size() - kMostContactsListed);
+  return table;
+}
+
+// A backlog is swept at once, through all of its poses.
+std::string sweptLine(const SessionLog& log, const SessionBag& bag) {
+  std::string line = format("swept      %zu times, ", log.sweeps());
+  line += log.unswept() > Duration(0) ? format("%.3f s between two poses NOT SWEPT", toSeconds(log.unswept()))
+                                      : std::string("without a gap");
+  if (bag.poses > log.sweeps()) {
+    line += format("; %zu poses waited and were swept with the next: rate:=0.5 gives this machine more time",
+                   bag.poses - log.sweeps());
+  }
+  return line + '\n';
+}
+
+std::string longestUnknown(const SessionLog& log, Time begin) {
+  const std::vector<Stretch> stretches = log.stretches();
+  const Stretch* longest = nullptr;
+  for (const Stretch& stretch : stretches) {
+    if (stretch.level != Level::kUnknown) continue;
+    if (longest == nullptr || stretch.end - stretch.begin > longest->end - longest->begin) longest = &stretch;
+  }
+  if (longest == nullptr) return "";
+  return format("  longest UNKNOWN: %.1f s, from %.1f s on: %s\n", toSeconds(longest->end - longest->begin),
+                seconds(longest->begin, begin), longest->text.c_str());
+}
+
+// A box from tic to tic for each stretch: middle, row, half width, half height, colour.
+std::string levelPanel(const SessionLog& log, Time begin) {
+  std::ostringstream panel;
+  panel << "$levels << EOD\n";
+  for (const Stretch& stretch : log.stretches()) {
+    const double from = seconds(stretch.begin, begin);
+    const double to = seconds(stretch.end, begin);
+    panel << 0.5 * (from + to) << ' ' << static_cast<int>(stretch.level) << ' ' << 0.5 * (to - from) << " 0.4 \""
+          << colourOf(stretch.level) << "\"\n";
+  }
+  panel << "EOD\nset ylabel ''\nset yrange [-0.6:4.6]\nset format x ''\nset ytics font ',11' (";
+  for (const Level level : kLevels) {
+    panel << (level == Level::kUnknown ? "" : ", ") << "'" << sweep_guard::nameOf(level) << "' "
+          << static_cast<int>(level);
+  }
+  panel << ")\nset style fill solid 1.0 noborder\n"
+        << "rgb(text) = int(sprintf('0x%s', substr(text, 2, 7)))\n"
+        << "plot $levels using 1:2:3:4:(rgb(strcol(5))) with boxxyerror lc rgb variable notitle";
+  return panel.str();
+}
+
+// Where none is expected, the line is interrupted.
+std::string collisionPanel(const SessionLog& log, Time begin) {
+  std::ostringstream panel;
+  double highest = 1.0;
+  panel << "$collision << EOD\n";
+  for (const Told& told : log.told()) {
+    if (told.time_to_collision) {
+      highest = std::max(highest, toSeconds(*told.time_to_collision));
+      panel << seconds(told.at, begin) << ' ' << toSeconds(*told.time_to_collision);
+    }
+    panel << '\n';
+  }
+  panel << "EOD\nset title 'Time until the predicted path meets a workpiece (0: in contact; no line: it meets none)'\n"
+        << "set ytics auto font ',14'\nset ylabel '[s]'\nset yrange [-0.05:" << 1.05 * highest << "]\n"
+        << "plot -1 notitle, $collision using 1:2 with linespoints pt 7 ps 0.3 lw 2 lc rgb '#0072B2' notitle";
+  return panel.str();
+}
+
+std::string leadPanel(const std::vector<Contact>& contacts, Time begin) {
+  std::ostringstream panel;
+  panel << "set title 'How long before each contact the warnings came on (numbers: contacts.csv; no bar: not before "
+           "it)'\n"
+        << "set format x '%g'\nset ylabel '[s]'\nset yrange [0:0.2<*]\nset xlabel 'time since the begin of the session "
+           "[s]'\n";
+  if (contacts.empty())
+    return panel.str() + "set yrange [0:1]\nset label 'no contact' at graph 0.5, 0.5 center\nplot -1 notitle";
+  panel << "$leads << EOD\n";
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    panel << seconds(contacts[i].begin, begin) << ' ' << toSeconds(contacts[i].considered_lead) << ' '
+          << toSeconds(contacts[i].reflex_lead) << ' ' << i + 1 << '\n';
+  }
+  panel << "EOD\nset offsets 0, 0, graph 0.15, 0\n"
+        << "plot $leads using 1:2 with impulses lw 6 lc rgb '" << colourOf(Level::kConsidered) << "' notitle, "
+        << "$leads using 1:3 with impulses lw 6 lc rgb '" << colourOf(Level::kReflex) << "' notitle, "
+        << "$leads using 1:2:4 with labels offset 0, 0.7 notitle";
+  return panel.str();
+}
+
+}  // namespace
+
+std::string contactsCsv(const SessionLog& log, Time begin) {
+  std::string csv = csvLine({"contact", "begin_s", "end_s", "stamp_s", "mesh", "tool_link", "triangles", "depth_mm",
+                             "considered_lead_s", "reflex_lead_s"});
+  std::size_t number = 0;
+  for (const Contact& contact : log.contacts()) {
+    csv += csvLine({std::to_string(++number), fixed(seconds(contact.begin, begin)), fixed(seconds(contact.end, begin)),
+                    format("%.6f", toSeconds(contact.begin.time_since_epoch())), contact.mesh_id, contact.tool_link,
+                    std::to_string(contact.triangles.size()), csvNumber(1e3 * contact.depth),
+                    fixed(toSeconds(contact.considered_lead)), fixed(toSeconds(contact.reflex_lead))});
+  }
+  return csv;
+}
+
+std::string levelsCsv(const SessionLog& log, Time begin) {
+  std::string csv = csvLine({"begin_s", "end_s", "level", "text"});
+  for (const Stretch& stretch : log.stretches()) {
+    csv += csvLine({fixed(seconds(stretch.begin, begin)), fixed(seconds(stretch.end, begin)),
+                    sweep_guard::nameOf(stretch.level), stretch.text});
+  }
+  return csv;
+}
+
+std::string summary(const SessionLog& log, const SessionBag& bag) {
+  const std::vector<Contact> contacts = log.contacts();
+  std::string text = format("session    %.1f s, %zu poses, %zu meshes, %zu updates of vertices\n",
+                            toSeconds(bag.end - bag.begin), bag.poses, bag.meshes, bag.vertices);
+  text += sweptLine(log, bag);
+  text += levelTable(log) + longestUnknown(log, bag.begin);
+  text += format("contacts   %zu\n", contacts.size());
+  if (contacts.empty()) return text;
+  text += leadLine(contacts, Level::kConsidered, &Contact::considered_lead);
+  text += leadLine(contacts, Level::kReflex, &Contact::reflex_lead);
+  return text + contactTable(contacts, bag.begin);
+}
+
+std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
+                         const std::string& path) {
+  sweep_guard_evaluation::PlotPage page(path, /*rows=*/3, /*columns=*/1);
+  std::vector<std::string> key;
+  for (const Level level : kLevels) {
+    key.push_back(format("with lines lw 8 lc rgb '%s' title '%s'", colourOf(level), sweep_guard::nameOf(level)));
+  }
+  page.addKey({}, key);
+  const std::string frame = format("set xrange [0:%g]\n", std::max(toSeconds(bag.end - bag.begin), 0.01)) +
+                            "set title " + gnuplotText("What the guard told: " + title) + " noenhanced\n";
+  page.addPanel(0, 0, frame + levelPanel(log, bag.begin));
+  page.addPanel(1, 0, collisionPanel(log, bag.begin));
+  page.addPanel(2, 0, leadPanel(log.contacts(), bag.begin));
+  return page.script();
+}
+
+}  // namespace sweep_guard_session

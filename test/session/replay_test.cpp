@@ -1,0 +1,184 @@
+// Makes a bag of which the contacts are known, lets replay.launch guard it, and reads the report.
+#include <arpa/inet.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/MeshVertices.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sweep_guard_session {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kBegin = 1000.0;                 // [s]
+constexpr double kDuration = 4.0;                 // [s]
+constexpr double kRate = 1000.0;                  // [Hz] of the poses
+constexpr double kHeight = 0.15;                  // [m] of the tip above the sheet, at first
+constexpr double kPeriod = 2.0;                   // [s] down, and up again
+constexpr double kSpeed = 0.16;                   // [m/s]
+constexpr double kFirstTouch = kHeight / kSpeed;  // [s] after the tip begins to come down
+
+geometry_msgs::PoseStamped poseAt(double t) {
+  const double phase = std::fmod(t, kPeriod);
+  geometry_msgs::PoseStamped pose;
+  pose.header.stamp = ros::Time(kBegin + t);
+  pose.header.frame_id = "world";
+  pose.pose.position.z = kHeight - kSpeed * std::min(phase, kPeriod - phase);
+  pose.pose.orientation.x = 1.0;
+  return pose;
+}
+
+sweep_guard::DeformableMesh sheet() {
+  sweep_guard::DeformableMesh mesh;
+  mesh.header.stamp = ros::Time(kBegin);
+  mesh.header.frame_id = "world";
+  mesh.id = "sheet";
+  mesh.revision = 1;
+  for (const auto& [x, y] :
+       std::vector<std::pair<double, double>>{{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}) {
+    geometry_msgs::Point point;
+    point.x = x;
+    point.y = y;
+    mesh.mesh.vertices.push_back(point);
+  }
+  mesh.mesh.triangles.resize(2);
+  mesh.mesh.triangles[0].vertex_indices = {0, 1, 2};
+  mesh.mesh.triangles[1].vertex_indices = {0, 2, 3};
+  return mesh;
+}
+
+sweep_guard::MeshVertices sheetAt(double t) {
+  sweep_guard::MeshVertices vertices;
+  vertices.header.stamp = ros::Time(kBegin + t);
+  vertices.header.frame_id = "world";
+  vertices.id = "sheet";
+  vertices.revision = 1;
+  vertices.positions = {-0.1F, -0.1F, 0.0F, 0.1F, -0.1F, 0.0F, 0.1F, 0.1F, 0.0F, -0.1F, 0.1F, 0.0F};
+  return vertices;
+}
+
+// Free for the moment.
+int freePort() {
+  const int handle = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof(address);
+  EXPECT_EQ(bind(handle, reinterpret_cast<sockaddr*>(&address), size), 0);
+  EXPECT_EQ(getsockname(handle, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  close(handle);
+  return ntohs(address.sin_port);
+}
+
+std::vector<std::vector<std::string>> readCsv(const fs::path& path) {
+  std::vector<std::vector<std::string>> lines;
+  std::ifstream stream(path);
+  for (std::string line; std::getline(stream, line);) {
+    lines.emplace_back();
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) lines.back().push_back(field);
+  }
+  return lines;
+}
+
+std::string readText(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+class ReplayTest : public testing::Test {
+ protected:
+  ReplayTest() : folder_(fs::path(testing::TempDir()) / ("replay_test_" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~ReplayTest() override { fs::remove_all(folder_); }
+
+  static void writePoses(rosbag::Bag& bag) {
+    for (int i = 0; i < static_cast<int>(kDuration * kRate); ++i) {
+      const geometry_msgs::PoseStamped pose = poseAt(i / kRate);
+      bag.write("/tool_pose", pose.header.stamp, pose);
+    }
+  }
+
+  // What it printed. What it leaves in ROS_HOME goes with the folder.
+  std::string replay(const std::string& arguments) const {
+    const int port = freePort();
+    std::ostringstream command;
+    command << "ROS_HOME=" << folder_ << " ROS_IP=127.0.0.1 ROS_MASTER_URI=http://127.0.0.1:" << port
+            << " timeout 100 roslaunch -p " << port << " sweep_guard replay.launch bag:=" << bag_.string()
+            << " output:=" << (folder_ / "report").string() << ' ' << arguments << " > " << folder_ / "printed.txt"
+            << " 2>&1";
+    EXPECT_EQ(std::system(command.str().c_str()), 0);
+    return readText(folder_ / "printed.txt");
+  }
+
+  fs::path folder_;
+  fs::path bag_ = folder_ / "session.bag";
+};
+
+TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
+  rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
+  bag.write("/mesh", ros::Time(kBegin), sheet());
+  writePoses(bag);
+  for (double t = 0.0; t < kDuration; t += 1.0 / 60.0) {
+    bag.write("/mesh_vertices", ros::Time(kBegin + t), sheetAt(t));
+  }
+  bag.close();
+  const std::string printed = replay("");
+  EXPECT_TRUE(has(printed, "4000 poses")) << printed;
+  EXPECT_TRUE(has(printed, "without a gap")) << printed;
+
+  const auto contacts = readCsv(folder_ / "report/contacts.csv");
+  ASSERT_EQ(contacts.size(), 3U) << printed;
+  for (std::size_t i = 1; i < contacts.size(); ++i) {
+    const double considered = std::stod(contacts[i][8]);
+    const double reflex = std::stod(contacts[i][9]);
+    EXPECT_NEAR(std::stod(contacts[i][1]), kFirstTouch + kPeriod * static_cast<double>(i - 1), 0.005);
+    EXPECT_EQ(contacts[i][4], "sheet");
+    EXPECT_EQ(contacts[i][6], "2");
+    EXPECT_NEAR(std::stod(contacts[i][7]), 1e3 * (kSpeed * kPeriod / 2.0 - kHeight), 1.0);
+    EXPECT_GT(reflex, 0.0);
+    EXPECT_GT(considered, reflex);
+  }
+  EXPECT_TRUE(has(readText(folder_ / "report/levels.csv"), "REFLEX")) << printed;
+  EXPECT_GT(fs::file_size(folder_ / "report/timeline.png"), 10000U);
+}
+
+// In millimetres, as parts often are.
+TEST_F(ReplayTest, TakesAWorkpieceFromAFileWhereTheBagHasNone) {
+  rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
+  writePoses(bag);
+  bag.close();
+  const fs::path file = folder_ / "sheet.obj";
+  std::ofstream(file) << "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\nf 1 2 3\nf 1 3 4\n";
+  const std::string printed = replay("mesh_file:=" + file.string() + " mesh_scale:=0.001");
+  ASSERT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 3U) << printed;
+}
+
+TEST_F(ReplayTest, ABagThatCannotBeGuardedEndsItWithALineThatSaysWhy) {
+  rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
+  bag.write("/mesh", ros::Time(kBegin), sheet());
+  bag.close();
+  const std::string printed = replay("");
+  EXPECT_TRUE(has(printed, "there is no /tool_pose")) << printed;
+  EXPECT_FALSE(fs::exists(folder_ / "report/contacts.csv"));
+}
+
+}  // namespace
+}  // namespace sweep_guard_session

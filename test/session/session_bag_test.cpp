@@ -1,0 +1,123 @@
+#include "session/session_bag.h"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <std_msgs/Header.h>
+#include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/MeshVertices.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_session {
+namespace {
+
+using std::chrono::seconds;
+
+class SessionBagTest : public testing::Test {
+ protected:
+  SessionBagTest()
+      : path_(testing::TempDir() + "session_bag_test_" + testing::UnitTest::GetInstance()->current_test_info()->name() +
+              ".bag"),
+        bag_(path_, rosbag::bagmode::Write) {}
+  ~SessionBagTest() override { std::filesystem::remove(path_); }
+
+  void writePose(double recorded, double stamp, const std::string& topic = "/tool_pose") {
+    geometry_msgs::PoseStamped pose;
+    pose.header.stamp = ros::Time(stamp);
+    bag_.write(topic, ros::Time(recorded), pose);
+  }
+  void writeMesh() { bag_.write("/mesh", ros::Time(100.0), sweep_guard::DeformableMesh()); }
+
+  SessionBag inspect() {
+    bag_.close();
+    return inspectBag(path_, {"/tool_pose", "/mesh", "/mesh_vertices"});
+  }
+
+  // The message with which it is refused.
+  std::string refusal() {
+    try {
+      inspect();
+    } catch (const sweep_guard::InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::string path_;
+  rosbag::Bag bag_;
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(SessionBagTest, CountsWhatIsGuarded) {
+  writeMesh();
+  writePose(101.0, 100.99);
+  writePose(102.0, 101.99);
+  bag_.write("/mesh_vertices", ros::Time(103.0), sweep_guard::MeshVertices());
+  const SessionBag bag = inspect();
+  EXPECT_EQ(bag.poses, 2U);
+  EXPECT_EQ(bag.meshes, 1U);
+  EXPECT_EQ(bag.vertices, 1U);
+  EXPECT_EQ(bag.begin, sweep_guard::Time(seconds(100)));
+  EXPECT_EQ(bag.end, sweep_guard::Time(seconds(103)));
+  EXPECT_EQ(bag.last_pose, sweep_guard::Time(std::chrono::milliseconds(101990)));
+}
+
+TEST_F(SessionBagTest, TellsOfAFileThatIsMissingOrNoBag) {
+  const SessionTopics topics{"/tool_pose", "/mesh", "/mesh_vertices"};
+  bag_.close();
+  EXPECT_THROW(inspectBag(path_ + ".not", topics), sweep_guard::InvalidInput);
+  std::ofstream(path_) << "100 0 0 0 0 0 0 1\n";
+  EXPECT_TRUE(has(refusal(), "not a rosbag"));
+}
+
+TEST_F(SessionBagTest, TellsOfAnEmptyBag) { EXPECT_TRUE(has(refusal(), "the bag is empty")); }
+
+TEST_F(SessionBagTest, ListsTheTopicsThatAreThereWhereOneIsMissing) {
+  writeMesh();
+  writePose(101.0, 101.0, "/stylus");
+  const std::string text = refusal();
+  EXPECT_TRUE(has(text, "there is no /tool_pose"));
+  EXPECT_TRUE(has(text, "give tool_pose:=TOPIC"));
+  EXPECT_TRUE(has(text, "/stylus (geometry_msgs/PoseStamped)"));
+  EXPECT_TRUE(has(text, "/mesh (sweep_guard/DeformableMesh)"));
+}
+
+TEST_F(SessionBagTest, TellsHowToGuardABagWithoutAMesh) {
+  writePose(101.0, 101.0);
+  EXPECT_TRUE(has(refusal(), "mesh_file:=FILE"));
+}
+
+TEST_F(SessionBagTest, NeedsNoMeshThatComesFromElsewhereAndNoPoseThatComesFromTf) {
+  writePose(101.0, 101.0);
+  bag_.close();
+  EXPECT_EQ(inspectBag(path_, {"/tool_pose", "", ""}).poses, 1U);
+  EXPECT_EQ(inspectBag(path_, {"", "", ""}).poses, 0U);
+}
+
+TEST_F(SessionBagTest, TellsOfATopicOfAnotherType) {
+  writeMesh();
+  bag_.write("/tool_pose", ros::Time(101.0), std_msgs::Header());
+  EXPECT_TRUE(has(refusal(), "/tool_pose is std_msgs/Header"));
+}
+
+TEST_F(SessionBagTest, TellsOfPosesWithoutStamps) {
+  writeMesh();
+  writePose(101.0, 0.0);
+  EXPECT_TRUE(has(refusal(), "no stamps"));
+}
+
+TEST_F(SessionBagTest, TellsOfPosesThatAnotherClockHasStamped) {
+  writeMesh();
+  writePose(101.0, 41.0);
+  writePose(102.0, 42.5);
+  EXPECT_TRUE(has(refusal(), "stamped 59.5 s before they were recorded"));
+}
+
+}  // namespace
+}  // namespace sweep_guard_session

@@ -1,0 +1,126 @@
+#include "session/session_log.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sweep_guard_session {
+namespace {
+
+using std::chrono::milliseconds;
+using sweep_guard::Level;
+using sweep_guard::Time;
+
+Time at(int ms) { return Time(milliseconds(ms)); }
+
+void tell(SessionLog& log, int ms, Level level, const std::string& text = "") { log.add({at(ms), level, text}); }
+
+Touch touchAt(int first, int heard, std::uint32_t triangle, double depth) {
+  return {at(heard), at(first), "liver", "tip", {triangle}, depth};
+}
+
+TEST(SessionLogTest, LevelsThatRepeatAreOneStretchAndTheLastEndsWithTheSession) {
+  SessionLog log;
+  tell(log, 0, Level::kUnknown);
+  tell(log, 100, Level::kClear);
+  tell(log, 150, Level::kClear);
+  tell(log, 300, Level::kConsidered);
+  log.end(at(450));
+  const std::vector<Stretch> stretches = log.stretches();
+  ASSERT_EQ(stretches.size(), 3U);
+  EXPECT_EQ(stretches[1].begin, at(100));
+  EXPECT_EQ(stretches[1].end, at(300));
+  EXPECT_EQ(stretches[2].end, at(450));
+  EXPECT_EQ(log.duration(Level::kClear), milliseconds(200));
+  EXPECT_EQ(log.duration(Level::kReflex), milliseconds(0));
+}
+
+TEST(SessionLogTest, AStretchIsCalledAfterWhatWasToldLongest) {
+  SessionLog log;
+  tell(log, 0, Level::kUnknown, "no pose");
+  tell(log, 10, Level::kUnknown, "no mesh");
+  tell(log, 40, Level::kUnknown, "stale");
+  log.end(at(50));
+  ASSERT_EQ(log.stretches().size(), 1U);
+  EXPECT_EQ(log.stretches()[0].text, "no mesh");
+}
+
+TEST(SessionLogTest, LeadsCountFromWhenTheLevelCameOnToTheFirstTouch) {
+  SessionLog log;
+  tell(log, 0, Level::kClear);
+  tell(log, 1000, Level::kConsidered);
+  tell(log, 1700, Level::kReflex);
+  tell(log, 1910, Level::kContact);
+  log.add(touchAt(1900, 1909, 7, 0.001));
+  log.add(touchAt(1910, 1919, 8, 0.003));
+  tell(log, 2600, Level::kClear);
+  const std::vector<Contact> contacts = log.contacts();
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(contacts[0].begin, at(1900));
+  EXPECT_EQ(contacts[0].end, at(2600));
+  EXPECT_EQ(contacts[0].considered_lead, milliseconds(900));
+  EXPECT_EQ(contacts[0].reflex_lead, milliseconds(200));
+  EXPECT_EQ(contacts[0].mesh_id, "liver");
+  EXPECT_EQ(contacts[0].tool_link, "tip");
+  EXPECT_EQ(contacts[0].triangles, (std::set<std::uint32_t>{7, 8}));
+  EXPECT_EQ(contacts[0].depth, 0.003);
+}
+
+TEST(SessionLogTest, AWarningThatWasInterruptedCountsFromWhenItCameBack) {
+  SessionLog log;
+  tell(log, 0, Level::kConsidered);
+  tell(log, 500, Level::kUnknown);
+  tell(log, 600, Level::kConsidered);
+  tell(log, 1000, Level::kContact);
+  log.add(touchAt(1000, 1000, 1, 0.0));
+  log.end(at(1100));
+  EXPECT_EQ(log.contacts()[0].considered_lead, milliseconds(400));
+  EXPECT_EQ(log.contacts()[0].reflex_lead, milliseconds(0));
+}
+
+TEST(SessionLogTest, WhatIsLeftOfAWarningAfterAContactBeginsAnew) {
+  SessionLog log;
+  tell(log, 0, Level::kReflex);
+  tell(log, 100, Level::kContact);
+  log.add(touchAt(90, 100, 1, 0.0));
+  tell(log, 700, Level::kReflex);
+  tell(log, 900, Level::kContact);
+  log.add(touchAt(890, 900, 2, 0.0));
+  log.end(at(1000));
+  const std::vector<Contact> contacts = log.contacts();
+  ASSERT_EQ(contacts.size(), 2U);
+  EXPECT_EQ(contacts[1].reflex_lead, milliseconds(190));
+  EXPECT_EQ(contacts[1].triangles, std::set<std::uint32_t>{2});
+}
+
+TEST(SessionLogTest, AWarningThatComesAfterTheTouchHasNoLead) {
+  SessionLog log;
+  tell(log, 0, Level::kClear);
+  tell(log, 95, Level::kReflex);
+  tell(log, 100, Level::kContact);
+  log.add(touchAt(90, 100, 1, NAN));
+  log.end(at(200));
+  EXPECT_EQ(log.contacts()[0].reflex_lead, milliseconds(0));
+  EXPECT_TRUE(std::isnan(log.contacts()[0].depth));
+}
+
+TEST(SessionLogTest, HolesBetweenSweepsAreSummed) {
+  SessionLog log;
+  log.addSweep(at(0), at(0));
+  log.addSweep(at(0), at(10));
+  log.addSweep(at(10), at(30));
+  EXPECT_EQ(log.unswept(), milliseconds(0));
+  log.addSweep(at(35), at(40));
+  EXPECT_EQ(log.unswept(), milliseconds(5));
+  EXPECT_EQ(log.sweeps(), 4U);
+  EXPECT_EQ(log.lastSwept(), at(40));
+}
+
+TEST(SessionLogTest, NothingWasTold) {
+  const SessionLog log;
+  EXPECT_TRUE(log.stretches().empty());
+  EXPECT_TRUE(log.contacts().empty());
+}
+
+}  // namespace
+}  // namespace sweep_guard_session

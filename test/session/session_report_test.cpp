@@ -1,0 +1,88 @@
+#include "session/session_report.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "evaluation/gnuplot.h"
+
+namespace sweep_guard_session {
+namespace {
+
+using std::chrono::milliseconds;
+using sweep_guard::Level;
+using sweep_guard::Time;
+
+const Time kBegin(std::chrono::seconds(100));
+
+Time at(int ms) { return kBegin + milliseconds(ms); }
+
+SessionBag bagOf(std::size_t poses) {
+  SessionBag bag;
+  bag.poses = poses;
+  bag.begin = kBegin;
+  bag.end = at(2000);
+  return bag;
+}
+
+SessionLog oneContact() {
+  SessionLog log;
+  log.add({at(0), Level::kUnknown, "UNKNOWN: no tool pose yet"});
+  log.add({at(100), Level::kClear, "CLEAR"});
+  log.add({at(500), Level::kConsidered, "CONSIDERED", milliseconds(900)});
+  log.add({at(1200), Level::kReflex, "REFLEX", milliseconds(100)});
+  log.add({at(1310), Level::kContact, "CONTACT: tool meets 'a, b'", milliseconds(0)});
+  log.add({at(1310), at(1300), "a, b", "tip", {3, 4}, 0.0025});
+  log.addSweep(at(1290), at(1310));
+  log.end(at(2000));
+  return log;
+}
+
+TEST(SessionReportTest, ContactsAreALineEachWithTheirLeads) {
+  EXPECT_EQ(contactsCsv(oneContact(), kBegin),
+            "contact,begin_s,end_s,stamp_s,mesh,tool_link,triangles,depth_mm,considered_lead_s,reflex_lead_s\n"
+            "1,1.3000,2.0000,101.300000,\"a, b\",tip,2,2.5,0.8000,0.1000\n");
+}
+
+TEST(SessionReportTest, LevelsAreALineEach) {
+  EXPECT_EQ(levelsCsv(oneContact(), kBegin),
+            "begin_s,end_s,level,text\n"
+            "0.0000,0.1000,UNKNOWN,UNKNOWN: no tool pose yet\n"
+            "0.1000,0.5000,CLEAR,CLEAR\n"
+            "0.5000,1.2000,CONSIDERED,CONSIDERED\n"
+            "1.2000,1.3100,REFLEX,REFLEX\n"
+            "1.3100,2.0000,CONTACT,\"CONTACT: tool meets 'a, b'\"\n");
+}
+
+TEST(SessionReportTest, SummaryTellsOfContactsAndOfWhatWasNotSwept) {
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  SessionLog log = oneContact();
+  EXPECT_TRUE(has(summary(log, bagOf(1)), "swept      1 times, without a gap\n"));
+  EXPECT_TRUE(has(summary(log, bagOf(3)), "2 poses waited"));
+  EXPECT_TRUE(has(summary(log, bagOf(1)), "ahead of 1 of 1, by 0.10 s in the median"));
+  log.addSweep(at(1360), at(1370));
+  EXPECT_TRUE(has(summary(log, bagOf(2)), "0.050 s between two poses NOT SWEPT"));
+}
+
+TEST(SessionReportTest, ASessionOfWhichNothingIsKnownIsReportedToo) {
+  EXPECT_FALSE(summary(SessionLog(), bagOf(0)).empty());
+}
+
+// gnuplot refuses a script that is wrong; an apostrophe must not end a text in it.
+TEST(SessionReportTest, PlotsAreDrawnWithAndWithoutContacts) {
+  const std::string path = testing::TempDir() + "session_report_test.png";
+  SessionLog uneventful;
+  uneventful.add({at(0), Level::kClear, "CLEAR"});
+  uneventful.end(at(2000));
+  for (const SessionLog& log : {oneContact(), uneventful}) {
+    std::filesystem::remove(path);
+    sweep_guard_evaluation::runGnuplot(timelinePlot(log, bagOf(1), "operator's.bag", path));
+    EXPECT_GT(std::filesystem::file_size(path), 10000U);
+  }
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace sweep_guard_session
