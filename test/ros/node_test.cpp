@@ -287,6 +287,20 @@ INSTANTIATE_TEST_SUITE_P(
         BadPose{"NoFrame", Warning::TF_FAIL, [](auto& pose) { pose.header.frame_id = ""; }}),
     [](const auto& test) { return test.param.name; });
 
+// /clock comes by a connection of its own, and may be late.
+TEST_F(NodeTest, APoseThatOvertakesTheSimulatedClockIsWaitedFor) {
+  placeSheet("sheet", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  const ros::Time ahead = probe().time() + ros::Duration(0.2);
+  const size_t told = probe().warnings().size();
+  probe().forgetContacts();
+  probe().publish(poseAt({0.0, 0.0, -0.05}, ahead));
+  probe().advance(0.2);
+  EXPECT_EQ(probe().awaitContactsUpTo(ahead).back().objects.size(), 1U);
+  const std::vector<Warning> warnings = probe().warnings();
+  for (size_t i = told; i < warnings.size(); ++i) EXPECT_EQ(warnings[i].reasons & Warning::FUTURE_STAMP, 0U);
+}
+
 struct BadMesh {
   const char* name;
   std::function<void(sweep_guard::DeformableMesh&)> spoil;
