@@ -40,12 +40,12 @@ ObjectView& viewOf(const sweep_guard::Workpiece& workpiece, std::vector<ObjectVi
   return object;
 }
 
-void addContact(const MarkerScene& scene, const sweep_guard::Tool& tool, std::vector<ObjectView>& objects) {
+void addContact(const MarkerScene& scene, std::vector<ObjectView>& objects) {
   for (const sweep_guard::SweptObject& object : scene.contact->objects) {
     ObjectView& view = viewOf(*object.workpiece, objects);
     if (view.revision != object.workpiece->revision) continue;
     view.touched = object.findings.met;
-    view.impacts = toMsg(*object.workpiece, object.findings, tool).impacts;
+    view.impacts = toMsg(*object.workpiece, object.findings, *scene.tool).impacts;
   }
 }
 
@@ -61,7 +61,7 @@ void addPredicted(const sweep_guard::Outlook& outlook, std::vector<ObjectView>& 
 
 }  // namespace
 
-sweep_guard::View toMsg(const MarkerScene& scene, const sweep_guard::Tool& tool) {
+sweep_guard::View toMsg(const MarkerScene& scene) {
   sweep_guard::View msg;
   msg.level = static_cast<std::uint8_t>(scene.verdict.level);
   msg.pose = toMsg(scene.X_WT);
@@ -70,7 +70,7 @@ sweep_guard::View toMsg(const MarkerScene& scene, const sweep_guard::Tool& tool)
   for (const sweep_guard::SweptObject& object : scene.newest->objects) {
     viewOf(*object.workpiece, msg.objects).measured = volumeMsgs(object.findings.volumes_M);
   }
-  if (scene.contact && scene.verdict.level == sweep_guard::Level::kContact) addContact(scene, tool, msg.objects);
+  if (scene.contact && scene.verdict.level == sweep_guard::Level::kContact) addContact(scene, msg.objects);
   if (!scene.outlook) return msg;
   addPredicted(*scene.outlook, msg.objects);
   for (const sweep_guard::ExpectedPose& expected : scene.outlook->path) msg.path.push_back(toMsg(expected.X_WT));
@@ -91,18 +91,17 @@ sweep_guard::ToolShape toMsg(const sweep_guard::Tool& tool) {
 
 ViewOutput::ViewOutput(ros::NodeHandle private_node, std::string fixed_frame, std::string tool_frame,
                        const sweep_guard::Tool& tool)
-    : tool_(tool),
-      fixed_frame_(std::move(fixed_frame)),
+    : fixed_frame_(std::move(fixed_frame)),
       tool_frame_(std::move(tool_frame)),
       view_publisher_(private_node.advertise<sweep_guard::View>("view", 1)),
       tool_publisher_(private_node.advertise<sweep_guard::ToolShape>("tool", 1, /*latch=*/true)) {
-  sweep_guard::ToolShape shape = toMsg(tool_);
+  sweep_guard::ToolShape shape = toMsg(tool);
   shape.header.frame_id = tool_frame_;
   tool_publisher_.publish(shape);
 }
 
 void ViewOutput::publish(const MarkerScene& scene) const {
-  sweep_guard::View view = toMsg(scene, tool_);
+  sweep_guard::View view = toMsg(scene);
   view.header.frame_id = fixed_frame_;
   view.tool = tool_frame_;
   view_publisher_.publish(view);

@@ -7,6 +7,8 @@ namespace {
 
 using sweep_guard::Level;
 
+const sweep_guard::Tool kTool = sweep_guard::Tool::cylinder(0.01, 0.1, 8);
+
 std::shared_ptr<const sweep_guard::Workpiece> sheet() {
   const sweep_guard::TriangleMesh mesh_M({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
   return std::make_shared<const sweep_guard::Workpiece>(
@@ -28,6 +30,7 @@ MarkerScene touching() {
   expected.considered = {0};
 
   MarkerScene scene;
+  scene.tool = std::make_shared<const sweep_guard::Tool>(kTool);
   scene.newest = report;
   scene.contact = report;
   scene.outlook = outlook;
@@ -35,10 +38,8 @@ MarkerScene touching() {
   return scene;
 }
 
-const sweep_guard::Tool kTool = sweep_guard::Tool::cylinder(0.01, 0.1, 8);
-
 TEST(ViewTest, TellsWhatWasSweptTouchedAndExpected) {
-  const sweep_guard::View view = toMsg(touching(), kTool);
+  const sweep_guard::View view = toMsg(touching());
   ASSERT_EQ(view.objects.size(), 1U);
   const sweep_guard::ObjectView& object = view.objects[0];
   EXPECT_EQ(object.mesh_id, "sheet");
@@ -50,7 +51,7 @@ TEST(ViewTest, TellsWhatWasSweptTouchedAndExpected) {
 }
 
 TEST(ViewTest, AClipIsNegativeInside) {
-  const sweep_guard::View view = toMsg(touching(), kTool);
+  const sweep_guard::View view = toMsg(touching());
   ASSERT_EQ(view.objects[0].measured.size(), 1U);
   const sweep_guard::TestedVolume& volume = view.objects[0].measured[0];
   EXPECT_EQ(volume.half_extents.z, 0.3);
@@ -62,11 +63,11 @@ TEST(ViewTest, AClipIsNegativeInside) {
 TEST(ViewTest, ShowsNoContactThatIsOver) {
   MarkerScene scene = touching();
   scene.verdict.level = Level::kClear;
-  EXPECT_TRUE(toMsg(scene, kTool).objects[0].touched.empty());
+  EXPECT_TRUE(toMsg(scene).objects[0].touched.empty());
 }
 
 TEST(ViewTest, KnowsNothingBeforeTheFirstSweep) {
-  const sweep_guard::View view = toMsg(MarkerScene(), kTool);
+  const sweep_guard::View view = toMsg(MarkerScene());
   EXPECT_TRUE(view.objects.empty());
   EXPECT_TRUE(view.path.empty());
   EXPECT_EQ(view.level, static_cast<std::uint8_t>(Level::kUnknown));

@@ -11,8 +11,9 @@
 namespace sweep_guard_ros {
 
 /// What markers show, as values; header's frame and tool are the sender's.
-sweep_guard::View toMsg(const MarkerScene& scene, const sweep_guard::Tool& tool);
-sweep_guard::ToolShape toMsg(const sweep_guard::Tool& tool);
+/// @param scene  with its tool
+sweep_guard::View toMsg(const MarkerScene& scene);
+sweep_guard::ToolShape toMsg(const sweep_guard::Tool& tool);  ///< without padding: it does not change
 
 /// Publishes `~view`, and once `~tool`, for displays that draw the workpiece themselves.
 class ViewOutput {
@@ -24,7 +25,6 @@ class ViewOutput {
   void publish(const MarkerScene& scene) const;
 
  private:
-  const sweep_guard::Tool tool_;
   const std::string fixed_frame_;
   const std::string tool_frame_;
   ros::Publisher view_publisher_;
