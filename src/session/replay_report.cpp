@@ -89,6 +89,13 @@ class ReplayReport {
     if (ros::NodeHandle(guard).param<std::string>("tool_source", "topic") == "tf") topics.tool_pose.clear();
     mesh_in_bag_ = !topics.mesh.empty();
     bag_ = inspectBag(path_, topics);
+    if (bag_.meshes == 1 && bag_.vertices == 0) {
+      ROS_WARN(
+          "there are no vertices on %s: the workpiece will be stale, and the level UNKNOWN, after "
+          "timing/mesh_timeout. Give mesh_vertices:=TOPIC, or, if it does not deform, "
+          "config:=$(rospack find sweep_guard)/config/static_workpiece.yaml",
+          topics.mesh_vertices.c_str());
+    }
     listenTo(parameters.text("topics", ""));
     sweep_guard_evaluation::requireGnuplot();
     makeFolder();
