@@ -57,7 +57,7 @@ bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Respons
 void CheckSweepService::refreshParameters() {
   const auto current = live_.get();
   if (current == parameters_) return;
-  detectors_.clear();
+  if (parameters_ && detectorsDiffer(*parameters_, *current)) detectors_.clear();
   parameters_ = current;
 }
 

@@ -147,13 +147,14 @@ void SweepGuardNode::adopt(const std::shared_ptr<const Parameters>& next) {
   const std::lock_guard alone(adopting_mutex_);
   sweep_guard::GuardChange change;
   change.options = next->guard;
-  for (const ParameterChange& one : differences(*parameters_.get(), *next)) {
-    const auto in = [&](const std::string& group) { return one.key.compare(0, group.size(), group) == 0; };
-    if (in("detector") || in("cull"))
-      change.detector = sweep_guard::makeDetector(next->detector, next->detector_options);
-    if (in("prediction/") || in("limits/")) change.predictor.emplace(next->guard.predictor);
-    if (in("tool/")) change.tool = *next->tool;
+  const auto before = parameters_.get();
+  if (detectorsDiffer(*before, *next)) {
+    change.detector = sweep_guard::makeDetector(next->detector, next->detector_options);
   }
+  if (differ(*before, *next, "prediction/") || differ(*before, *next, "limits/")) {
+    change.predictor.emplace(next->guard.predictor);
+  }
+  if (differ(*before, *next, "tool/")) change.tool = *next->tool;
   betweenSweeps<void>([&] {
     guard_.adopt(change);
     ledger_.setLimits(next->limits);

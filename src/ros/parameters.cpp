@@ -219,6 +219,17 @@ std::vector<ParameterChange> differences(const Parameters& before, const Paramet
   return changes;
 }
 
+bool differ(const Parameters& before, const Parameters& after, const std::string& beginning) {
+  const std::vector<ParameterChange> changes = differences(before, after);
+  return std::any_of(changes.begin(), changes.end(), [&](const ParameterChange& change) {
+    return change.key.compare(0, beginning.size(), beginning) == 0;
+  });
+}
+
+bool detectorsDiffer(const Parameters& before, const Parameters& after) {
+  return differ(before, after, "detector") || differ(before, after, "cull");
+}
+
 LiveParameters::LiveParameters(Parameters initial)
     : initial_(std::make_shared<const Parameters>(std::move(initial))), current_(initial_) {}
 

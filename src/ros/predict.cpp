@@ -62,7 +62,9 @@ bool PredictService::onCall(Predict::Request& request, Predict::Response& respon
 void PredictService::refreshParameters() {
   const auto current = live_.get();
   if (current == parameters_) return;
-  detector_ = sweep_guard::makeDetector(current->detector, current->detector_options);
+  if (!detector_ || detectorsDiffer(*parameters_, *current)) {
+    detector_ = sweep_guard::makeDetector(current->detector, current->detector_options);
+  }
   test_.emplace(current->guard.pathTest());
   parameters_ = current;
 }

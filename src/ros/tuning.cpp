@@ -58,7 +58,7 @@ std::string groupOf(const std::string& key) {
   return slash == std::string::npos ? kRoot : key.substr(0, slash);
 }
 
-// Those that change while running, in the order of the configuration file: the group's name is the key's.
+// In the order in which they are read; a key's group is what stands before its slash.
 std::vector<dynamic_reconfigure::Group> groups(const std::vector<ParameterInfo>& tunable) {
   std::vector<dynamic_reconfigure::Group> groups(1);
   groups[0].name = kRoot;

@@ -62,6 +62,12 @@ struct ParameterChange {
 
 std::vector<ParameterChange> differences(const Parameters& before, const Parameters& after);
 
+/// Whether one of those differs whose keys begin so.
+bool differ(const Parameters& before, const Parameters& after, const std::string& beginning);
+
+/// Whether a detector made for the one does not fit the other.
+bool detectorsDiffer(const Parameters& before, const Parameters& after);
+
 /// The parameters in force. What is handed out does not change; any thread.
 class LiveParameters {
  public:
