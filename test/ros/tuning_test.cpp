@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <set>
 #include <utility>
@@ -459,6 +460,20 @@ TEST_F(TuningTest, DiagnosticsAndTheParameterServerTellWhatWasChangedAndRefused)
   double set = 0.0;
   EXPECT_TRUE(ros::param::get("/sweep_guard/horizon/reflex", set));
   EXPECT_EQ(set, 0.2);
+}
+
+// What reads the description, and sends each value in the type that it tells.
+TEST_F(TuningTest, TheCommandLineToolChangesThem) {
+  const auto set = [](const std::string& what) {
+    return std::system(("rosrun dynamic_reconfigure dynparam set /sweep_guard " + what).c_str());
+  };
+  EXPECT_EQ(set("\"{detector: halfspace, fine: false, horizon/considered: 2, prediction/constrained: [x, rz]}\""), 0);
+  const Config after = probe().configuration();
+  EXPECT_EQ(valueIn(after.strs, "detector"), "halfspace");
+  EXPECT_FALSE(valueIn(after.bools, "fine"));
+  EXPECT_EQ(valueIn(after.doubles, "horizon/considered"), 2.0);
+  EXPECT_EQ(valueIn(after.strs, "prediction/constrained"), "[x, rz]");
+  EXPECT_NE(set("horizon/considered 0.01"), 0);
 }
 
 // Clients build their sliders and their choices from it.
