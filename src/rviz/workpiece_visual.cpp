@@ -61,7 +61,7 @@ WorkpieceVisual::WorkpieceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& roo
       predicted_(scene, *node_),
       points_(scene, *node_, Drawing::Depth::kOnTop),
       depths_(scene, *node_, Drawing::Depth::kOnTop),
-      label_("", "Liberation Sans", 0.012F),
+      label_("-"),
       label_node_(node_->createChildSceneNode()) {
   label_.showOnTop(true);
   label_node_->attachObject(&label_);
@@ -162,8 +162,9 @@ void WorkpieceVisual::label(const TriangleContact* deepest, const Look& look) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f mm deep", 1e3 * deepest->depth);
   label_.setCaption(text);
+  label_.setCharacterHeight(0.5F * look.normal_length);
   label_.setColor(look.contacts.color);
-  label_node_->setPosition(toOgre(deepest->point) + 1.3F * look.normal_length * toOgre(deepest->normal));
+  label_node_->setPosition(toOgre(deepest->point) + 1.7F * look.normal_length * toOgre(deepest->normal));
 }
 
 void WorkpieceVisual::place(const Ogre::Vector3& position, const Ogre::Quaternion& orientation) {

@@ -238,6 +238,28 @@ TEST_F(SweepDisplayTest, AWorkpieceThatTheGuardIsSilentAboutHasNoHighlights) {
   EXPECT_EQ(drawn(SurfaceVisual::kSurface), kTriangles);
 }
 
+TEST_F(SweepDisplayTest, AContactHasItsPointAndNormal) {
+  const auto yellow = [](const QColor& c) { return c.red() > 240 && c.green() > 230 && c.blue() < 110; };
+  place(sheet(0.0));
+  rviz::Property* const contacts = display_->subProp("Contacts");
+  contacts->subProp("Point Size")->setValue(0.8F);
+  contacts->subProp("Normal Length")->setValue(1.0F);
+  View view = viewOf(Warning::CONTACT);
+  show(view);
+  await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
+  EXPECT_LT(shareOf(rviz_frame->picture(), yellow), 1e-4);
+  sweep_guard::TriangleContact& contact = view.objects[0].impacts.emplace_back();
+  contact.point.y = 1.0;
+  contact.normal.z = 1.0;
+  contact.depth = 0.0213;
+  show(view);
+  await("the contact", [&] {
+    const QImage picture = rviz_frame->picture();
+    keepPicture(picture, "display_depth");
+    return shareOf(picture, yellow) > 1e-3;
+  });
+}
+
 TEST_F(SweepDisplayTest, AResetKeepsWhatIsLatched) {
   place(sheet(0.0));
   display_->reset();
