@@ -51,8 +51,8 @@ bool Controls::onReset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigge
     response.message =
         "forgotten: tool poses, what was swept, the prediction and what it had learned, warnings held, faults, what "
         "the "
-        "diagnostics counted of sweeps. Kept: " +
-        std::to_string(workpieces_.snapshot().size()) + " workpieces, the parameters, the counts of the warning";
+        "diagnostics counted of sweeps. Kept: the workpieces (" +
+        std::to_string(workpieces_.snapshot().size()) + "), the parameters, the counts of the warning";
     if (ledger_.disabledBy()) response.message += "; and the guard stays disabled";
   } catch (const std::exception& error) {
     response.message = error.what();

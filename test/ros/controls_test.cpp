@@ -95,7 +95,7 @@ TEST_F(ControlsTest, ResetEndsAHeldContactAndBeginsAnewWithTheWorkpiecesThereAre
   probe().skipWarnings();
   const auto response = probe().reset();
   EXPECT_TRUE(response.success) << response.message;
-  EXPECT_NE(response.message.find("Kept: 1 workpieces"), std::string::npos) << response.message;
+  EXPECT_NE(response.message.find("Kept: the workpieces (1)"), std::string::npos) << response.message;
   const Warning anew = probe().awaitWarning([](const Warning& warning) { return !warning.contact; });
   EXPECT_EQ(anew.level, Warning::UNKNOWN);
   EXPECT_EQ(anew.reasons, Warning::NO_POSE) << anew.text;
