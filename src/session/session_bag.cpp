@@ -38,7 +38,7 @@ Types typesIn(const rosbag::Bag& bag) {
 
 std::string listed(const Types& types) {
   std::string list;
-  for (const auto& [topic, type] : types) list += "\n  " + topic + " (" + type + ")";
+  for (const auto& [topic, type] : types) list.append("\n  ").append(topic).append(" (").append(type).append(")");
   return list;
 }
 

@@ -55,6 +55,7 @@ Duration median(std::vector<Duration> durations) {
 // REFLEX     12 of 12, 0.21 s in the median, 0.12 s at the least
 std::string leadLine(const std::vector<Contact>& contacts, Level level, Duration Contact::*lead) {
   std::vector<Duration> leads;
+  leads.reserve(contacts.size());
   for (const Contact& contact : contacts) leads.push_back(contact.*lead);
   const auto ahead = std::count_if(leads.begin(), leads.end(), [](Duration d) { return d > Duration(0); });
   return format("  %-10s ahead of %td of %zu, by %.2f s in the median, %.2f s at the least\n",
@@ -212,6 +213,7 @@ std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std
                          const std::string& path) {
   sweep_guard_evaluation::PlotPage page(path, /*rows=*/3, /*columns=*/1);
   std::vector<std::string> key;
+  key.reserve(kLevels.size());
   for (const Level level : kLevels) {
     key.push_back(format("with lines lw 8 lc rgb '%s' title '%s'", colourOf(level), sweep_guard::nameOf(level)));
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -172,7 +173,7 @@ class OperatorNode {
       joy_guide_.emplace(node_, joystick_);
       return guided(tip, rate_, [this](GuidedTip& led, double dt) { joy_guide_->move(led, dt); });
     }
-    marker_guide_.emplace(ros::names::resolve("~marker"), frame_, tip.pose(), buffer_);
+    marker_guide_ = std::make_unique<MarkerGuide>(ros::names::resolve("~marker"), frame_, tip.pose(), buffer_);
     return guided(tip, rate_, [this](GuidedTip& led, double dt) { marker_guide_->move(led, dt); });
   }
 
@@ -248,7 +249,7 @@ class OperatorNode {
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
   std::optional<JoyGuide> joy_guide_;
-  std::optional<MarkerGuide> marker_guide_;
+  std::unique_ptr<MarkerGuide> marker_guide_;
 };
 
 }  // namespace
