@@ -1,6 +1,6 @@
 #!/bin/bash
 # core_without_ros.sh LIBRARY ROOT: the core includes nothing of ROS, no message and no room above it, and links nothing but
-# Qhull, libccd and the system's own libraries: OpenGL least of all, which is loaded by name.
+# Qhull, libccd and the system's own libraries: OpenGL least of all, which is loaded by name. rviz's plugins know the messages only.
 set -euo pipefail
 library=$1
 root=$2
@@ -17,6 +17,11 @@ status=0
 foreign='#include [<"](ros|tf2|rviz|nodelet|pluginlib|std_srvs|[a-z_]*_msgs|sweep_guard/(ros|rviz|simulation|[A-Z]))'
 if grep -nE "$foreign" "${files[@]}"; then
   echo "the core includes what is above it"
+  status=1
+fi
+
+if grep -nE '#include [<"]sweep_guard/(common|geometry|detection|prediction|guard|ros|simulation)/' "$root"/{include/sweep_guard,src}/rviz/*; then
+  echo "a plugin for rviz includes more of this package than its messages"
   status=1
 fi
 

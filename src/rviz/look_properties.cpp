@@ -20,7 +20,7 @@ LookProperties::LookProperties(rviz::Property& parent, const std::function<void(
       measured_(
           add({"Measured sweep", "Boxes and their clipping planes, swept to the newest pose.", {0, 205, 230}, 0.2F})),
       predicted_(add({"Predicted sweeps", "The same along the predicted path.", {140, 190, 255}, 0.03F})),
-      tool_(add({"Tool", "Where it was measured last.", {90, 128, 230}, 0.85F})),
+      tool_(add({"Tool", "Where it was measured last.", {90, 128, 230}, 1.0F})),
       ghosts_(add({"Ghosts", "Where it is expected, fading with the time from now.", {115, 165, 255}, 0.35F})),
       path_(add({"Path", "Way of the tip, of the last 2 s and expected.", {235, 235, 235}, 0.9F})),
       contacts_(
