@@ -34,7 +34,11 @@ Drawing::Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, Depth depth)
   node.attachObject(object_);
 }
 
-Drawing::~Drawing() { scene_.destroyManualObject(object_); }
+Drawing::~Drawing() {
+  scene_.destroyManualObject(object_);
+  drop(faces_);
+  drop(lines_);
+}
 
 void Drawing::addTriangle(const Vector3& a, const Vector3& b, const Vector3& c) {
   triangle_corners_.insert(triangle_corners_.end(), {a, b, c});

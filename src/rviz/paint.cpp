@@ -33,6 +33,8 @@ Ogre::MaterialPtr makeShadedMaterial() {
   return material;
 }
 
+void drop(const Ogre::MaterialPtr& material) { Ogre::MaterialManager::getSingleton().remove(material); }
+
 void paint(Ogre::Pass& pass, const Ogre::ColourValue& color) {
   pass.setLightingEnabled(true);
   pass.setAmbient(Ogre::ColourValue::Black);

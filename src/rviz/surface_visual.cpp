@@ -54,7 +54,10 @@ SurfaceVisual::SurfaceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node) :
   for (int layer = 0; layer < kLayers; ++layer) materials_.push_back(makeMaterial(layer));
 }
 
-SurfaceVisual::~SurfaceVisual() { clear(); }
+SurfaceVisual::~SurfaceVisual() {
+  clear();
+  for (const Ogre::MaterialPtr& material : materials_) drop(material);
+}
 
 void SurfaceVisual::clear() {
   if (entity_ == nullptr) return;

@@ -54,14 +54,19 @@ void add(Ogre::ManualObject& drawing, const shape_msgs::Mesh& part) {
 
 }  // namespace
 
-ToolVisual::ToolVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node) : scene_(scene), node_(node) {}
+ToolVisual::ToolVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node)
+    : scene_(scene), node_(node), material_(makeShadedMaterial()) {}
 
-ToolVisual::~ToolVisual() { clear(); }
+ToolVisual::~ToolVisual() {
+  clear();
+  drop(material_);
+}
 
 void ToolVisual::clear() {
   for (const Instance& instance : instances_) {
     scene_.destroyEntity(instance.entity);
     scene_.destroySceneNode(instance.node);
+    drop(instance.material);
   }
   instances_.clear();
   shown_ = 0;
@@ -72,7 +77,7 @@ void ToolVisual::clear() {
 void ToolVisual::setShape(const sweep_guard::ToolShape& shape) {
   clear();
   Ogre::ManualObject drawing(newName());
-  drawing.begin(makeShadedMaterial()->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST, kResources);
+  drawing.begin(material_->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST, kResources);
   for (const shape_msgs::Mesh& part : shape.parts) {
     if (isSound(part)) add(drawing, part);
   }

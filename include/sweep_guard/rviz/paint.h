@@ -15,6 +15,9 @@ Ogre::MaterialPtr makeMaterial(int lifted = 0);
 /// One that is shaded by rviz's light, dimly on the side away from it.
 Ogre::MaterialPtr makeShadedMaterial();
 
+/// Ogre keeps it until then.
+void drop(const Ogre::MaterialPtr& material);
+
 /// In one colour. What is transparent hides nothing.
 void paint(Ogre::Pass& pass, const Ogre::ColourValue& color);
 void paintByVertices(Ogre::Pass& pass, float alpha);  ///< in the colours of the vertices, of this alpha

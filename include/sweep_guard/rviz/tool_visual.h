@@ -49,6 +49,7 @@ class ToolVisual {
 
   Ogre::SceneManager& scene_;
   Ogre::SceneNode& node_;
+  Ogre::MaterialPtr material_;  // of the mesh; each instance has its own
   Ogre::MeshPtr mesh_;
   double reach_ = 0.0;
   double thickness_ = 0.0;
