@@ -79,6 +79,7 @@ std::string bracketed(const std::vector<std::string>& words) { return "[" + list
 
 std::string bracketed(const std::vector<int>& integers) {
   std::vector<std::string> words;
+  words.reserve(integers.size());
   for (const int integer : integers) words.push_back(std::to_string(integer));
   return bracketed(words);
 }
@@ -97,7 +98,8 @@ double ParameterReader::number(const std::string& key, double fallback, const Ra
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) value = fallback;
   const Range& narrowest = bound ? bound->range : range;
-  if (!within(toNumber(value), narrowest)) refuse(key, value, shown(narrowest) + (bound ? std::string(": ") + bound->note : ""));
+  if (!within(toNumber(value), narrowest))
+    refuse(key, value, shown(narrowest) + (bound ? std::string(": ") + bound->note : ""));
   described_.push_back(
       {key, toNumber(value), fallback, range.lowest, range.highest, {}, sweep_guard_ros::described(range)});
   return toNumber(value);

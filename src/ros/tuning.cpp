@@ -4,6 +4,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "sweep_guard/common/error.h"
 
@@ -44,13 +45,14 @@ ParameterValue limit(const ParameterInfo& info, double bound) {
 
 // As a Python expression, which is what clients read.
 std::string enumeration(const std::vector<std::string>& choices) {
-  std::string list;
+  if (choices.empty()) return "";
+  std::ostringstream list;
   for (const std::string& choice : choices) {
-    list += (list.empty() ? "" : ", ") + ("{'name': '" + choice + "', 'value': '" + choice) +
-            "', 'type': 'str', 'description': '', 'ctype': 'std::string', 'cconsttype': 'const char * const', "
-            "'srcfile': '', 'srcline': 0}";
+    list << "{'name': '" << choice << "', 'value': '" << choice
+         << "', 'type': 'str', 'description': '', 'ctype': 'std::string', 'cconsttype': 'const char * const', "
+            "'srcfile': '', 'srcline': 0}, ";
   }
-  return choices.empty() ? "" : "{'enum': [" + list + "], 'enum_description': ''}";
+  return "{'enum': [" + list.str() + "], 'enum_description': ''}";
 }
 
 std::string groupOf(const std::string& key) {
