@@ -38,8 +38,7 @@ void Cull::findLeft(const MeshPart& part, const simd::Planes& planes) {
   blocks_.clear();
   vertex_bits_.resize(std::max(vertex_bits_.size(), part.blocks().size() * simd::kBlock));
   bits_.classify(part, planes);
-  for (const Cluster& cluster : part.clusters()) {
-    if (bits_.beyondOnePlane(cluster)) continue;
+  bits_.forEachLeft(part, [&](const Cluster& cluster) {
     clusters_.push_back(&cluster);
     fetch(&part.mesh_M().order().corners[cluster.number]);
     for (const std::uint32_t block : cluster.blocks) {
@@ -47,7 +46,7 @@ void Cull::findLeft(const MeshPart& part, const simd::Planes& planes) {
       blocks_.push_back(block);
       fetch(part.mesh_M().places().data() + part.blocks()[block] * kBlockFloats, kBlockFloats);
     }
-  }
+  });
 }
 
 void Cull::look(const MeshOrder& order, const Cluster& cluster) {

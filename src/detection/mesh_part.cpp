@@ -9,6 +9,10 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint16_t kAsked = simd::kInsideAll;  // no plane's, and boxes have no use for it
 
+constexpr std::uint16_t kAll = std::numeric_limits<std::uint16_t>::max();
+
+size_t groupsOf(size_t blocks) { return (blocks + kBlocksTogether - 1) / kBlocksTogether; }
+
 }  // namespace
 
 bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes) {
@@ -26,6 +30,23 @@ void BlockBits::classify(const MeshPart& part, const simd::Planes& planes) {
   const size_t count = part.blocks().size();
   bits_.resize(std::max(bits_.size(), simd::padded(count)));
   kernels_->classifyBoxes(part.boxes(), count, planes, bits_.data());
+  classifyGroups(count);
+}
+
+void BlockBits::classifyGroups(size_t blocks) {
+  const size_t whole = blocks / kBlocksTogether;
+  const size_t count = groupsOf(blocks);
+  group_bits_.resize(std::max(group_bits_.size(), count + 1));
+  const auto common = [&](size_t first, size_t last) {
+    std::uint16_t bits = kAll;
+    for (size_t i = first; i < last; ++i) bits &= bits_[i];
+    return bits;
+  };
+  for (size_t group = 0; group < whole; ++group) {
+    group_bits_[group] = common(group * kBlocksTogether, (group + 1) * kBlocksTogether);
+  }
+  if (whole < count) group_bits_[whole] = common(whole * kBlocksTogether, blocks);
+  group_bits_[count] = 0;
 }
 
 bool BlockBits::firstAsked(std::uint32_t block) {
@@ -41,13 +62,14 @@ MeshPart PartFinder::operator()(const MeshPart& part, const simd::Planes& planes
   if (!whollyBeyond(part.mesh_M(), planes)) {
     bits_.classify(part, planes);
     new_index_.assign(part.blocks().size(), kNone);
-    for (const Cluster& cluster : part.clusters()) {
-      if (!bits_.beyondOnePlane(cluster)) keep(part, cluster);
-    }
+    bits_.forEachLeft(part, [&](const Cluster& cluster) { keep(part, cluster); });
   }
   MeshPart found = part;
   found.blocks_ = &blocks_;
   found.clusters_ = &clusters_;
+  const auto none = static_cast<std::uint32_t>(groupsOf(blocks_.size()));
+  group_.assign(1, {0, static_cast<std::uint32_t>(clusters_.size()), {none, none, none, none}});
+  found.groups_ = &group_;
   gatherBoxes(found);
   return found;
 }

@@ -52,26 +52,72 @@ std::vector<std::uint32_t> betterPlaces(const std::vector<float>& positions) {
   return places;
 }
 
+// Few numbers, each once.
+class FewNumbers {
+ public:
+  using Array = std::array<std::uint32_t, simd::kClusterBlocks>;
+
+  // False, and nothing changes, if there are too many then.
+  template <typename Numbers>
+  bool add(const Numbers& numbers) {
+    const size_t before = count_;
+    for (const std::uint32_t number : numbers) {
+      auto* const end = numbers_.begin() + count_;
+      if (std::find(numbers_.begin(), end, number) != end) continue;
+      if (count_ == numbers_.size()) {
+        count_ = before;
+        return false;
+      }
+      numbers_[count_++] = number;
+    }
+    return true;
+  }
+
+  // The last one fills the rest.
+  Array filled() const {
+    Array filled = numbers_;
+    std::fill(filled.begin() + count_, filled.end(), numbers_[count_ - 1]);
+    return filled;
+  }
+
+ private:
+  Array numbers_{};
+  size_t count_ = 0;
+};
+
+template <typename Numbers>
+Numbers divided(Numbers numbers, std::uint32_t by) {
+  for (std::uint32_t& number : numbers) number /= by;
+  return numbers;
+}
+
 // The cluster that begins at a triangle: as long as it needs no fifth block.
 Cluster clusterFrom(std::uint32_t first, const std::vector<Triangle>& corners) {
-  Cluster cluster{0, first, 0, {}};
-  size_t blocks = 0;
-  const auto takes = [&](std::uint32_t vertex) {
-    const auto block = static_cast<std::uint32_t>(vertex / simd::kBlock);
-    auto* const end = cluster.blocks.begin() + blocks;
-    if (std::find(cluster.blocks.begin(), end, block) != end) return true;
-    if (blocks == cluster.blocks.size()) return false;
-    cluster.blocks[blocks++] = block;
-    return true;
-  };
-  for (size_t i = first; i < corners.size() && cluster.count < simd::kCluster; ++i, ++cluster.count) {
-    const size_t before = blocks;
-    if (std::all_of(corners[i].begin(), corners[i].end(), takes)) continue;
-    blocks = before;
-    break;
+  FewNumbers blocks;
+  std::uint32_t count = 0;
+  while (first + count < corners.size() && count < simd::kCluster &&
+         blocks.add(divided(corners[first + count], simd::kBlock))) {
+    ++count;
   }
-  std::fill(cluster.blocks.begin() + blocks, cluster.blocks.end(), cluster.blocks[blocks - 1]);
-  return cluster;
+  return {0, first, count, blocks.filled()};
+}
+
+ClusterGroup groupFrom(std::uint32_t first, const std::vector<Cluster>& clusters) {
+  FewNumbers block_groups;
+  std::uint32_t count = 0;
+  while (first + count < clusters.size() && count < kBlocksTogether &&
+         block_groups.add(divided(clusters[first + count].blocks, kBlocksTogether))) {
+    ++count;
+  }
+  return {first, count, block_groups.filled()};
+}
+
+std::vector<ClusterGroup> groupsOf(const std::vector<Cluster>& clusters) {
+  std::vector<ClusterGroup> groups;
+  for (std::uint32_t at = 0; at < clusters.size(); at += groups.back().count) {
+    groups.push_back(groupFrom(at, clusters));
+  }
+  return groups;
 }
 
 simd::ClusterCorners cornersOf(const Cluster& cluster, const std::vector<Triangle>& corners) {
@@ -132,6 +178,7 @@ MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangl
   }
   order.corners.reserve(order.clusters.size());
   for (const Cluster& cluster : order.clusters) order.corners.push_back(cornersOf(cluster, corners));
+  order.groups = groupsOf(order.clusters);
   order.blocks.resize((positions.size() / 3 + simd::kBlock - 1) / simd::kBlock);
   std::iota(order.blocks.begin(), order.blocks.end(), 0U);
   return order;

@@ -39,6 +39,21 @@ TEST_P(MeshOrderTest, EveryTriangleHasOnePlaceInOneCluster) {
   EXPECT_EQ(triangles.size(), mesh_.triangles().size());
 }
 
+TEST_P(MeshOrderTest, GroupsHoldEveryClusterOnceAndAllOfTheirBlocks) {
+  std::uint32_t next = 0;
+  for (const ClusterGroup& group : mesh_.order().groups) {
+    EXPECT_EQ(group.first, next);
+    EXPECT_GE(group.count, 1U);
+    for (; next < group.first + group.count; ++next) {
+      for (const std::uint32_t block : mesh_.order().clusters[next].blocks) {
+        const auto& known = group.block_groups;
+        EXPECT_NE(std::find(known.begin(), known.end(), block / kBlocksTogether), known.end());
+      }
+    }
+  }
+  EXPECT_EQ(next, mesh_.order().clusters.size());
+}
+
 TEST_P(MeshOrderTest, KeepsClustersFew) { EXPECT_LT(mesh_.order().clusters.size(), mesh_.triangles().size() / 16); }
 
 TEST_P(MeshOrderTest, IndicesStayTheSenders) {

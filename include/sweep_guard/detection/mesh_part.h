@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "sweep_guard/geometry/triangle_mesh.h"
@@ -16,7 +17,8 @@ class MeshPart {
       : mesh_M_(&mesh_M),
         boxes_(mesh_M.blocks().arrays()),
         blocks_(&mesh_M.order().blocks),
-        clusters_(&mesh_M.order().clusters) {}
+        clusters_(&mesh_M.order().clusters),
+        groups_(&mesh_M.order().groups) {}
 
   const TriangleMesh& mesh_M() const { return *mesh_M_; }
   bool empty() const { return clusters_->empty(); }
@@ -27,6 +29,8 @@ class MeshPart {
   const simd::BoxArrays<const float>& boxes() const { return boxes_; }
   /// Ascending. Their `blocks` are indices into blocks().
   const std::vector<Cluster>& clusters() const { return *clusters_; }
+  /// Of these, ascending. Their `block_groups` are of blocks(); a part of a mesh is one group, of no blocks in common.
+  const std::vector<ClusterGroup>& groups() const { return *groups_; }
 
   /// Calls a function with the index of each triangle.
   template <typename Function>
@@ -46,6 +50,7 @@ class MeshPart {
   simd::BoxArrays<const float> boxes_;
   const std::vector<std::uint32_t>* blocks_;
   const std::vector<Cluster>* clusters_;
+  const std::vector<ClusterGroup>* groups_;
 };
 
 /// Which planes the blocks of a part lie beyond. Keeps its buffers between calls.
@@ -56,18 +61,35 @@ class BlockBits {
   /// What follows is about this part and these planes.
   void classify(const MeshPart& part, const simd::Planes& planes);
 
-  /// All blocks of a cluster of the part lie beyond one of the planes, by their boxes.
-  bool beyondOnePlane(const Cluster& cluster) const {
-    const auto& [a, b, c, d] = cluster.blocks;
-    return (bits_[a] & bits_[b] & bits_[c] & bits_[d] & (simd::kInsideAll - 1)) != 0;
+  /// Calls a function with each cluster of the part but those that lie wholly beyond one of the planes, by the boxes of
+  /// their blocks.
+  template <typename Function>
+  void forEachLeft(const MeshPart& part, const Function& function) const {
+    for (const ClusterGroup& group : part.groups()) {
+      if (beyondOnePlane(group_bits_, group.block_groups)) continue;
+      for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
+        const Cluster& cluster = part.clusters()[i];
+        if (!beyondOnePlane(bits_, cluster.blocks)) function(cluster);
+      }
+    }
   }
 
   /// Whether it is asked for the first time about this block of the part.
   bool firstAsked(std::uint32_t block);
 
  private:
+  using Indices = std::array<std::uint32_t, simd::kClusterBlocks>;
+
+  static bool beyondOnePlane(const std::vector<std::uint16_t>& bits, const Indices& at) {
+    const auto& [a, b, c, d] = at;
+    return (bits[a] & bits[b] & bits[c] & bits[d] & (simd::kInsideAll - 1)) != 0;
+  }
+
+  void classifyGroups(size_t blocks);
+
   const simd::Kernels* kernels_;
-  std::vector<std::uint16_t> bits_;  // and a flag
+  std::vector<std::uint16_t> bits_;        // of each block, and a flag
+  std::vector<std::uint16_t> group_bits_;  // what those of a group have in common; the last is of none
 };
 
 /// Finds the part of a mesh that may reach into a convex region. Keeps its buffers between calls.
@@ -87,6 +109,7 @@ class PartFinder {
   std::vector<std::uint32_t> old_index_;  // and back
   std::vector<std::uint32_t> blocks_;
   std::vector<Cluster> clusters_;
+  std::vector<ClusterGroup> group_;
   std::vector<float> sides_;
 };
 

@@ -16,8 +16,19 @@ struct Cluster {
   std::uint32_t number;  ///< among all of the mesh
   std::uint32_t first;   ///< place of the first triangle
   std::uint32_t count;   ///< 1 to simd::kCluster
-  std::array<std::uint32_t, simd::kClusterBlocks>
-      blocks;  ///< those of its corners; if there are fewer, the last one again
+  /// Those of its corners; if there are fewer, the last one again.
+  std::array<std::uint32_t, simd::kClusterBlocks> blocks;
+};
+
+/// Blocks that are looked at together: consecutive ones, from a multiple of this on.
+constexpr std::uint32_t kBlocksTogether = 8;
+
+/// Consecutive clusters, whose blocks lie in few groups of kBlocksTogether.
+struct ClusterGroup {
+  std::uint32_t first;  ///< cluster
+  std::uint32_t count;
+  /// Groups of blocks; if there are fewer, the last one again.
+  std::array<std::uint32_t, simd::kClusterBlocks> block_groups;
 };
 
 /// The order in which the vertices and triangles of a mesh are kept, so that what lies close together in space does in
@@ -28,6 +39,7 @@ struct MeshOrder {
   std::vector<std::uint32_t> triangle_at;     ///< the sender's triangle at each place; empty: as they came
   std::vector<Cluster> clusters;              ///< of all places, ascending
   std::vector<simd::ClusterCorners> corners;  ///< of each cluster
+  std::vector<ClusterGroup> groups;           ///< of all clusters, ascending
   std::vector<std::uint32_t> blocks;          ///< 0, 1, ... of the vertices
 };
 
