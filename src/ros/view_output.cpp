@@ -25,6 +25,7 @@ sweep_guard::TestedVolume volumeMsg(const sweep_guard::SweptVolume& volume_M) {
 
 std::vector<sweep_guard::TestedVolume> volumeMsgs(const std::vector<sweep_guard::SweptVolume>& volumes_M) {
   std::vector<sweep_guard::TestedVolume> msgs;
+  msgs.reserve(volumes_M.size());
   for (const sweep_guard::SweptVolume& volume_M : volumes_M) msgs.push_back(volumeMsg(volume_M));
   return msgs;
 }

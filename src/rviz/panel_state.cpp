@@ -123,7 +123,7 @@ bool PanelState::operator==(const PanelState& other) const {
 
 Light lightOf(const Warning& warning) {
   const bool says_clear = warning.level == Warning::CLEAR;
-  const bool is_clear = warning.clear && (warning.reasons & ~Warning::OVERLOAD) == 0;
+  const bool is_clear = warning.clear && (warning.reasons & ~std::uint32_t{Warning::OVERLOAD}) == 0;
   if (warning.level > Warning::CONTACT || says_clear != is_clear) return Light::kUnknown;
   return static_cast<Light>(warning.level);
 }

@@ -24,7 +24,7 @@ using sweep_guard::View;
 using sweep_guard::Warning;
 
 constexpr int kSide = 10;  // squares along a side of the sheet
-constexpr size_t kTriangles = 2 * kSide * kSide;
+constexpr size_t kTriangles = size_t{2} * kSide * kSide;
 
 bool there_is_a_display = false;
 

@@ -22,6 +22,7 @@ namespace {
 using sweep_guard::Warning;
 
 const char* const kTopic = "/guard/warning";
+constexpr std::uint8_t kLoud[] = {Warning::UNKNOWN, Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT};
 
 Warning warningOf(std::uint8_t level) {
   Warning warning;
@@ -87,7 +88,7 @@ auto isLike(const Color& color) {
 }
 
 TEST_F(WarningPanelTest, WarningsFillTheLightWithTheirColour) {
-  for (const std::uint8_t level : {Warning::UNKNOWN, Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT}) {
+  for (const std::uint8_t level : kLoud) {
     say(warningOf(level));
     await("the bright half", [this] { return panel_.state().bright; });
     EXPECT_GT(shareOf(light(), isLike(colorOf(static_cast<Light>(level)))), 0.4) << panel_.state().word;
@@ -104,7 +105,7 @@ TEST_F(WarningPanelTest, ClearIsASmallGreenLamp) {
 }
 
 TEST_F(WarningPanelTest, NothingButClearIsGreenAnywhereInTheLight) {
-  for (const std::uint8_t level : {Warning::UNKNOWN, Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT}) {
+  for (const std::uint8_t level : kLoud) {
     say(warningOf(level));
     EXPECT_EQ(shareOf(light(), isGreen), 0.0) << panel_.state().word;
   }
