@@ -1,0 +1,287 @@
+// README.md and doc/ tell what there is: the topics, services and defaults of a running guard, the arguments of the
+// launch files, the words of the code; and their links lead somewhere.
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <ros/topic.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "sweep_guard/Warning.h"
+#include "sweep_guard/ros/parameters.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using Names = std::set<std::string>;
+using Row = std::vector<std::string>;
+
+const std::filesystem::path kRoot = SWEEP_GUARD_SOURCE_DIR;
+const std::string kGuard = "/sweep_guard";
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  EXPECT_TRUE(stream) << file;
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(stream, line);) all.push_back(line);
+  return all;
+}
+
+std::vector<std::string> split(const std::string& text, const std::string& separator) {
+  std::vector<std::string> parts;
+  size_t begin = 0;
+  for (size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + separator.size()) {
+    parts.push_back(text.substr(begin, end - begin));
+  }
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+// Lines of the tables that begin with this line.
+std::vector<std::string> tableLines(const std::string& document, const std::string& head) {
+  std::vector<std::string> rows;
+  bool inside = false;
+  for (const std::string& line : lines(document)) {
+    if (inside && line.rfind("|---", 0) != 0 && !line.empty()) rows.push_back(line);
+    inside = line == head || (inside && !line.empty());
+  }
+  EXPECT_FALSE(rows.empty()) << "no table " << head;
+  return rows;
+}
+
+// Cells from 1 on.
+std::vector<Row> table(const std::string& document, const std::string& head) {
+  std::vector<Row> rows;
+  for (const std::string& line : tableLines(document, head)) rows.push_back(split(line, "|"));
+  return rows;
+}
+
+// What stands in `code`.
+std::vector<std::string> codes(const std::string& cell) {
+  const std::vector<std::string> parts = split(cell, "`");
+  std::vector<std::string> codes;
+  for (size_t i = 1; i < parts.size(); i += 2) codes.push_back(parts[i]);
+  return codes;
+}
+
+std::string trimmed(const std::string& cell) {
+  const size_t first = cell.find_first_not_of(" `");
+  return first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(" `") - first + 1);
+}
+
+std::string resolved(const std::string& name) {
+  return name[0] == '~' ? kGuard + "/" + name.substr(1) : name[0] == '/' ? name : "/" + name;
+}
+
+XmlRpc::XmlRpcValue askMaster(const std::string& what) {
+  XmlRpc::XmlRpcValue request;
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue answer;
+  request[0] = "documents_test";
+  EXPECT_TRUE(ros::master::execute(what, request, response, answer, true));
+  return answer;
+}
+
+enum Graph { kPublished, kSubscribed, kServed };
+
+Names namesOfTheGuard(Graph part) {
+  ros::topic::waitForMessage<sweep_guard::Warning>(kGuard + "/warning");  // it is there as a whole
+  XmlRpc::XmlRpcValue entries = askMaster("getSystemState")[part];
+  Names names;
+  for (int i = 0; i < entries.size(); ++i) {
+    for (int j = 0; j < entries[i][1].size(); ++j) {
+      if (static_cast<std::string>(entries[i][1][j]) == kGuard) names.insert(entries[i][0]);
+    }
+  }
+  for (const char* const of_every_node : {"/rosout", "/sweep_guard/get_loggers", "/sweep_guard/set_logger_level"}) {
+    names.erase(of_every_node);
+  }
+  return names;
+}
+
+// Those that stand in the table, each with its type.
+Names topicsOfTheGuard(Graph part) {
+  const Names names = namesOfTheGuard(part);
+  XmlRpc::XmlRpcValue types = askMaster("getTopicTypes");
+  Names typed;
+  for (int i = 0; i < types.size(); ++i) {
+    if (names.count(types[i][0]) != 0) {
+      typed.insert(static_cast<std::string>(types[i][0]) + " " + static_cast<std::string>(types[i][1]));
+    }
+  }
+  EXPECT_EQ(typed.size(), names.size());
+  return typed;
+}
+
+Names topicsTold(const std::string& head) {
+  Names told;
+  for (const Row& row : table(contents(kRoot / "README.md"), head)) {
+    for (const std::string& name : codes(row.at(1))) told.insert(resolved(name) + " " + trimmed(row.at(2)));
+  }
+  return told;
+}
+
+TEST(DocumentsTest, ReadmeTellsEachTopicAndItsType) {
+  EXPECT_EQ(topicsTold("| in | type | meaning | try |"), topicsOfTheGuard(kSubscribed));
+  EXPECT_EQ(topicsTold("| out | type | when | try |"), topicsOfTheGuard(kPublished));
+}
+
+TEST(DocumentsTest, ReadmeTellsEachService) {
+  Names told;
+  for (const Row& row : table(contents(kRoot / "README.md"), "| service | type | what it does | try |")) {
+    told.insert(resolved(trimmed(row.at(1))));
+  }
+  EXPECT_EQ(told, namesOfTheGuard(kServed));
+}
+
+// 0.1, 1.0 s: one for each key, or one for all; units are left to the reader.
+std::string defaultTold(const std::string& cell, size_t i, size_t keys) {
+  if (keys == 1) return cell[0] == '[' ? cell : cell.substr(0, cell.find(' '));
+  const std::vector<std::string> values = split(cell, ", ");
+  return defaultTold(values[std::min(i, values.size() - 1)], 0, 1);
+}
+
+bool equal(const std::string& told, const ParameterValue& value) {
+  const double* const number = std::get_if<double>(&value);
+  return number != nullptr ? std::stod(told) == *number : told == shown(value);
+}
+
+TEST(DocumentsTest, ReadmeTellsTheDefaultOfEachParameter) {
+  std::map<std::string, ParameterValue> defaults;
+  for (const ParameterInfo& info : loadParameters(ros::NodeHandle("/nothing_is_set")).described) {
+    defaults.emplace(info.key, info.fallback);
+  }
+  size_t compared = 0;
+  for (const Row& row : table(contents(kRoot / "README.md"), "| key | default | range | while running | |")) {
+    const std::vector<std::string> keys = codes(row.at(1));
+    for (size_t i = 0; i < keys.size(); ++i) {
+      const auto found = defaults.find(keys[i]);
+      if (found == defaults.end()) continue;  // a text, or a group
+      const std::string told = defaultTold(trimmed(row.at(2)), i, keys.size());
+      EXPECT_TRUE(equal(told, found->second)) << keys[i] << " is not " << told << ", but " << shown(found->second);
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared + 1, defaults.size());  // diagnostic_period is diagnostic_updater's
+}
+
+std::string argumentLine(const tinyxml2::XMLElement& argument) {
+  const char* const value = argument.Attribute("default");
+  std::string fallback = value == nullptr ? "(none)" : value;
+  if (fallback.find("$(eval") != std::string::npos || fallback.find("$(arg") != std::string::npos) {
+    fallback = "*follows*";
+  } else if (value != nullptr && !fallback.empty()) {
+    fallback = "`" + std::regex_replace(fallback, std::regex("\\$\\(find sweep_guard\\)/"), "") + "`";
+  }
+  const char* const meaning = argument.Attribute("doc");
+  return std::string("| `") + argument.Attribute("name") + "` | " + fallback + (fallback.empty() ? "| " : " | ") +
+         (meaning == nullptr ? "?" : meaning) + " |";
+}
+
+TEST(DocumentsTest, LaunchFilesHaveTheArgumentsThatAreTold) {
+  const std::vector<std::string> chapters = split(contents(kRoot / "doc" / "launch.md"), "\n## ");
+  size_t files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(kRoot / "launch")) {
+    tinyxml2::XMLDocument launch;
+    ASSERT_EQ(launch.LoadFile(file.path().c_str()), tinyxml2::XML_SUCCESS);
+    std::vector<std::string> expected;
+    for (const auto* argument = launch.RootElement()->FirstChildElement("arg"); argument != nullptr;
+         argument = argument->NextSiblingElement("arg")) {
+      expected.push_back(argumentLine(*argument));
+    }
+    const std::string title = file.path().filename().string() + "\n";
+    const auto chapter = std::find_if(chapters.begin(), chapters.end(),
+                                      [&](const std::string& text) { return text.rfind(title, 0) == 0; });
+    ASSERT_NE(chapter, chapters.end()) << "doc/launch.md says nothing of " << title;
+    EXPECT_EQ(tableLines(*chapter, "| argument | default | |"), expected) << title;
+    ++files;
+  }
+  EXPECT_EQ(chapters.size(), files + 1);
+}
+
+std::string allSources() {
+  std::string all;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(kRoot / "src")) {
+    if (file.path().extension() == ".cpp") all += contents(file.path());
+  }
+  return std::regex_replace(all, std::regex("\"\\s*\n\\s*\""), "");  // texts that go on in the next line
+}
+
+TEST(DocumentsTest, TroubleshootingQuotesWhatTheCodeSays) {
+  const std::string sources = allSources();
+  size_t quotes = 0;
+  const std::string document = contents(kRoot / "doc" / "troubleshooting.md");
+  for (const Row& row : table(document, "| symptom | what it says | what to do |")) {
+    for (const std::string& quote : codes(row.at(2))) {
+      for (const std::string& part : split(quote, "…")) {
+        if (trimmed(part).empty()) continue;
+        EXPECT_NE(sources.find(trimmed(part)), std::string::npos) << "nothing says '" << trimmed(part) << "'";
+        ++quotes;
+      }
+    }
+  }
+  EXPECT_GT(quotes, 60U);
+}
+
+// As it is linked to.
+std::string anchor(const std::string& heading) {
+  std::string anchor;
+  for (const char c : heading) {
+    const auto character = static_cast<unsigned char>(c);
+    if (c == ' ') anchor += '-';
+    if (std::isalnum(character) != 0 || c == '-' || c == '_') anchor += static_cast<char>(std::tolower(character));
+  }
+  return anchor;
+}
+
+bool hasAnchor(const std::string& document, const std::string& wanted) {
+  const std::vector<std::string> all = lines(document);
+  return std::any_of(all.begin(), all.end(), [&](const std::string& line) {
+    return line[0] == '#' && anchor(line.substr(std::min(line.find(' '), line.size() - 1) + 1)) == wanted;
+  });
+}
+
+void expectLinksToLeadSomewhere(const std::filesystem::path& file) {
+  const std::string text = contents(file);
+  const std::regex link(R"(\]\(([^)#]*)#?([^)]*)\))");
+  for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found) {
+    const std::string path = (*found)[1];
+    const std::string place = (*found)[2];
+    if (path.find("://") != std::string::npos) continue;
+    const std::filesystem::path target = path.empty() ? file : file.parent_path() / path;
+    EXPECT_TRUE(std::filesystem::exists(target)) << file << " links to " << path;
+    if (place.empty()) continue;
+    EXPECT_TRUE(hasAnchor(contents(target), place)) << file << " links to " << path << "#" << place;
+  }
+}
+
+TEST(DocumentsTest, LinksLeadSomewhere) {
+  for (const auto& folder : {kRoot, kRoot / "doc"}) {
+    for (const auto& file : std::filesystem::directory_iterator(folder)) {
+      if (file.path().extension() == ".md") expectLinksToLeadSomewhere(file.path());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "documents_test");
+  const ros::NodeHandle alive;
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
