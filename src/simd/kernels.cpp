@@ -19,7 +19,7 @@ using Ints [[gnu::vector_size(sizeof(Float))]] = std::int32_t;
 using Words [[gnu::vector_size(sizeof(Float) / 2)]] = std::uint16_t;
 constexpr std::size_t kFloats = 3 * kBlock;
 constexpr std::size_t kInPhase = kWidth / 3 * 3;  // lanes of whole vertices: a load of these begins with an x
-constexpr std::size_t kAhead = 8;  // blocks; what the hardware fetches alone does not fill the memory's time
+constexpr std::size_t kAhead = 32;  // blocks, 12 KB; what the hardware fetches alone does not fill the memory's time
 
 static_assert(kWidth == 4 || kWidth == 8 || kWidth == 16);
 
