@@ -1,5 +1,5 @@
-// README.md and doc/ tell what there is: the topics, services and defaults of a running guard, the arguments of the
-// launch files, the words of the code; and their links lead somewhere.
+// README.md and doc/ tell what there is: topics, services and defaults of a running guard, arguments of launch files
+// and scripts, parameters, the words of the code; and their links lead somewhere.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <ros/topic.h>
@@ -212,28 +212,40 @@ TEST(DocumentsTest, LaunchFilesHaveTheArgumentsThatAreTold) {
   EXPECT_EQ(chapters.size(), files + 1);
 }
 
-std::string allSources() {
+std::string sources(const std::vector<std::string>& folders) {
   std::string all;
-  for (const auto& file : std::filesystem::recursive_directory_iterator(kRoot / "src")) {
-    if (file.path().extension() == ".cpp") all += contents(file.path());
+  for (const std::string& folder : folders) {
+    for (const auto& file : std::filesystem::recursive_directory_iterator(kRoot / folder)) {
+      if (file.path().extension() == ".cpp") all += contents(file.path());
+    }
   }
   return std::regex_replace(all, std::regex("\"\\s*\n\\s*\""), "");  // texts that go on in the next line
 }
 
 TEST(DocumentsTest, TroubleshootingQuotesWhatTheCodeSays) {
-  const std::string sources = allSources();
+  const std::string said = sources({"src"});
   size_t quotes = 0;
   const std::string document = contents(kRoot / "doc" / "troubleshooting.md");
   for (const Row& row : table(document, "| symptom | what it says | what to do |")) {
     for (const std::string& quote : codes(row.at(2))) {
       for (const std::string& part : split(quote, "…")) {
         if (trimmed(part).empty()) continue;
-        EXPECT_NE(sources.find(trimmed(part)), std::string::npos) << "nothing says '" << trimmed(part) << "'";
+        EXPECT_NE(said.find(trimmed(part)), std::string::npos) << "nothing says '" << trimmed(part) << "'";
         ++quotes;
       }
     }
   }
   EXPECT_GT(quotes, 60U);
+}
+
+std::vector<std::filesystem::path> documents() {
+  std::vector<std::filesystem::path> documents;
+  for (const auto& folder : {kRoot, kRoot / "doc"}) {
+    for (const auto& file : std::filesystem::directory_iterator(folder)) {
+      if (file.path().extension() == ".md") documents.push_back(file.path());
+    }
+  }
+  return documents;
 }
 
 // As it is linked to.
@@ -269,9 +281,43 @@ void expectLinksToLeadSomewhere(const std::filesystem::path& file) {
 }
 
 TEST(DocumentsTest, LinksLeadSomewhere) {
-  for (const auto& folder : {kRoot, kRoot / "doc"}) {
-    for (const auto& file : std::filesystem::directory_iterator(folder)) {
-      if (file.path().extension() == ".md") expectLinksToLeadSomewhere(file.path());
+  for (const auto& file : documents()) expectLinksToLeadSomewhere(file);
+}
+
+TEST(DocumentsTest, NameParametersThatThereAre) {
+  const auto settings = loadParameters(ros::NodeHandle("/nothing_is_set")).settings;
+  const std::regex key("^((tool|prediction|horizon|warning|timing|markers|limits)/[a-z_]+)");
+  size_t named = 0;
+  for (const auto& file : documents()) {
+    for (const std::string& code : codes(contents(file))) {
+      std::smatch found;
+      if (!std::regex_search(code, found, key)) continue;
+      EXPECT_EQ(settings.count(found[1]), 1U) << file << " names " << found[1];
+      ++named;
+    }
+  }
+  EXPECT_GT(named, 60U);
+}
+
+// The script does, or the program that it hands its arguments to.
+bool takes(const std::filesystem::path& script, const std::string& option) {
+  static const std::string programs = sources({"src", "test", "benchmark"});
+  return contents(script).find(option) != std::string::npos || programs.find(option) != std::string::npos;
+}
+
+TEST(DocumentsTest, NameScriptsAndOptionsThatThereAre) {
+  const std::regex call("scripts/([a-z]+)( [^`\n#]*)?");
+  const std::regex option("--[a-z-]+");
+  for (const auto& file : documents()) {
+    const std::string text = contents(file);
+    for (std::sregex_iterator found(text.begin(), text.end(), call), end; found != end; ++found) {
+      const std::filesystem::path script = kRoot / "scripts" / (*found)[1].str();
+      if (std::filesystem::exists(script.string() + ".txt")) continue;
+      ASSERT_TRUE(std::filesystem::exists(script)) << file << " names " << script;
+      const std::string arguments = (*found)[2];
+      for (std::sregex_iterator each(arguments.begin(), arguments.end(), option); each != end; ++each) {
+        EXPECT_TRUE(takes(script, each->str())) << file << ": " << script << " does not know " << each->str();
+      }
     }
   }
 }
