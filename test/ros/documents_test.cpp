@@ -299,10 +299,19 @@ TEST(DocumentsTest, NameParametersThatThereAre) {
   EXPECT_GT(named, 60U);
 }
 
+// Not as the beginning of a longer one.
+bool hasOption(const std::string& text, const std::string& option) {
+  for (size_t at = text.find(option); at != std::string::npos; at = text.find(option, at + 1)) {
+    const char next = text.c_str()[at + option.size()];
+    if (std::islower(static_cast<unsigned char>(next)) == 0 && next != '-') return true;
+  }
+  return false;
+}
+
 // The script does, or the program that it hands its arguments to.
 bool takes(const std::filesystem::path& script, const std::string& option) {
   static const std::string programs = sources({"src", "test", "benchmark"});
-  return contents(script).find(option) != std::string::npos || programs.find(option) != std::string::npos;
+  return hasOption(contents(script), option) || hasOption(programs, option);
 }
 
 TEST(DocumentsTest, NameScriptsAndOptionsThatThereAre) {
