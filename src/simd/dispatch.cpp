@@ -41,11 +41,12 @@ std::vector<Kernels> findKernels() {
 const Kernels& chooseKernels() {
   const char* asked = std::getenv("SWEEP_GUARD_SIMD");
   if (asked == nullptr || *asked == '\0') return availableKernels().front();
+  std::string names;
   for (const Kernels& kernels : availableKernels()) {
     if (std::string(asked) == kernels.name) return kernels;
+    names += std::string(names.empty() ? "" : " or ") + kernels.name;
   }
-  throw InvalidInput("SWEEP_GUARD_SIMD=" + std::string(asked) + " is not of this machine: use " +
-                     availableKernels().front().name + " or baseline");
+  throw InvalidInput("SWEEP_GUARD_SIMD=" + std::string(asked) + " is not of this machine: use " + names);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ class TriangleMesh {
   /// @throws InvalidInput with the index of the first offender
   TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles);
 
-  /// Deforms it. One pass over the positions; no structure is rebuilt, nothing is allocated: buffers are exchanged.
+  /// Deforms it. One pass over the positions; no structure is rebuilt. Buffers are exchanged and nothing is allocated,
+  /// but for a spare one the first time, where vertices are renumbered.
   /// @param[in,out] positions_M  x0 y0 z0 x1 ... [m], one triple per vertex, bounds as above; afterwards room for the
   ///                             next ones, its contents are of no use
   /// @throws InvalidInput on a wrong count or a bad coordinate: the mesh stays as it was

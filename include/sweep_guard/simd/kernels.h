@@ -33,7 +33,7 @@ struct BoxArrays {
   }
 };
 
-/// Bounds of all coordinates seen [m]. The first three lanes are x, y, z.
+/// Bounds of all coordinates seen [m], for each of x, y, z.
 struct Extremes {
   std::array<float, 3> lower;
   std::array<float, 3> upper;
