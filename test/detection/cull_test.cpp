@@ -59,6 +59,18 @@ TEST(CullTest, KnowsWhatIsMetByACornerInside) {
   EXPECT_EQ(left(cull, mesh, cutCube(), /*met_only=*/true), Triangles{0});
 }
 
+// What was known of the larger one's blocks is still in the buffers.
+TEST(CullTest, TakesASmallerMeshAfterALargerOne) {
+  std::vector<Eigen::Vector3d> vertices(kBlocksTogether * simd::kBlock, Eigen::Vector3d(5, 0, 0));
+  const auto near = static_cast<std::uint32_t>(vertices.size());
+  vertices.insert(vertices.end(), {{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}});
+  const TriangleMesh large(vertices, {{0, 100, 200}, {near, near + 1, near + 2}});
+  const TriangleMesh small({{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}}, {{0, 1, 2}});
+  Cull cull;
+  EXPECT_EQ(left(cull, large, cutCube()), Triangles{1});
+  EXPECT_EQ(left(cull, small, cutCube()), Triangles{0});
+}
+
 TEST(CullTest, LeavesOutNothingThatMeetsTheVolumeAndKnowsOnlyWhatDoes) {
   Cull cull;
   size_t left_out = 0;
@@ -92,8 +104,7 @@ TEST_P(LargeMeshTest, CullKeepsWhatTheReferenceFindsAndLittleMore) {
   size_t kept = 0;
   size_t met = 0;
   for (int i = 0; i < 40; ++i) {
-    const int rows = 30 + 7 * i % 40;  // fewer after more, too: buffers keep what was there before
-    const TriangleMesh hull = GetParam().of(wavyHull(rows, 40, random.uniform(0.0, 6.0)));
+    const TriangleMesh hull = GetParam().of(wavyHull(30 + i, 40, random.uniform(0.0, 6.0)));
     const ConvexShape tool = ConvexShape::cylinder(/*radius=*/0.01, /*length=*/0.1);
     Motion motion = handMotion(random);
     const Eigen::Vector3d place = 0.1 * random.direction();
