@@ -88,6 +88,10 @@ void SelectDetector::select(const SweptVolume& inflated_M) {
     corners_.insert(corners_.end(), corner.begin(), corner.end());
   }
 
+  if (options_.block == 1) {
+    names_ = gl_->hits({corners_, 1, clips_, canary});
+    return;
+  }
   in_blocks_.clear();
   const auto count = static_cast<std::uint32_t>(corners_B_.size() / 3);
   const auto block = static_cast<std::uint32_t>(options_.block);
@@ -106,7 +110,9 @@ void SelectDetector::select(const SweptVolume& inflated_M) {
 const std::vector<Survivor>& SelectDetector::all(const MeshPart& part) {
   all_.clear();
   part.forEachTriangle([&](std::uint32_t triangle) { all_.push_back({triangle, false}); });
-  std::sort(all_.begin(), all_.end(), [](const Survivor& a, const Survivor& b) { return a.triangle < b.triangle; });
+  if (!part.mesh_M().order().triangle_at.empty()) {
+    std::sort(all_.begin(), all_.end(), [](const Survivor& a, const Survivor& b) { return a.triangle < b.triangle; });
+  }
   return all_;
 }
 
