@@ -7,7 +7,7 @@ namespace {
 
 static_assert(sizeof(btScalar) == sizeof(float), "Bullet reads the positions where they are");
 
-const btVector3 kFarthest(10, 10, 10);  // around everything [m]
+const btVector3 kFarthest(0.4F, 0.4F, 0.4F);  // around the hull; Bullet adds a metre, and divides by 65533 [m]
 
 btVector3 toBullet(const Point& p) {
   return {static_cast<btScalar>(p[0]), static_cast<btScalar>(p[1]), static_cast<btScalar>(p[2])};

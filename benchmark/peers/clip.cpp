@@ -1,5 +1,6 @@
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
 
 #include "peers/polytope.h"
 
@@ -17,6 +18,17 @@ double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + 
 
 Point between(const Point& p, const Point& q, double t) {
   return {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])};
+}
+
+// The planes that a point lies beyond, one bit for each.
+std::uint32_t planesBeyond(const Polytope& polytope_M, const Point& p_M, double grown) {
+  std::uint32_t beyond = 0;
+  std::uint32_t bit = 1;
+  for (const Polytope::Plane& plane : polytope_M.planes_M) {
+    if (dot(plane.normal_M, p_M) - plane.offset - grown > 0.0) beyond |= bit;
+    bit <<= 1U;
+  }
+  return beyond;
 }
 
 // False if nothing is cut off: `inside` is not touched then.
@@ -46,10 +58,19 @@ bool meets(const Polytope& polytope_M, const float* a_M, const float* b_M, const
   assert(polytope_M.planes_M.size() + 3 <= kMostCorners);
   std::array<Corners, 2> polygons;
   std::size_t current = 0;
+  std::uint32_t beyond_all = ~std::uint32_t{0};
+  std::uint32_t beyond_any = 0;
   for (const float* corner : {a_M, b_M, c_M}) {
-    polygons[0].points[polygons[0].count++] = {corner[0], corner[1], corner[2]};
+    const Point& p_M = polygons[0].points[polygons[0].count++] = {corner[0], corner[1], corner[2]};
+    const std::uint32_t beyond = planesBeyond(polytope_M, p_M, grown);
+    if (beyond == 0) return true;
+    beyond_all &= beyond;
+    beyond_any |= beyond;
   }
-  for (const Polytope::Plane& plane : polytope_M.planes_M) {
+  if (beyond_all != 0) return false;
+  for (std::size_t i = 0; i < polytope_M.planes_M.size(); ++i) {
+    if ((beyond_any >> i & 1U) == 0) continue;
+    const Polytope::Plane& plane = polytope_M.planes_M[i];
     if (cut(polygons[current], plane, grown, polygons[1 - current])) current = 1 - current;
     if (polygons[current].count == 0) return false;
   }

@@ -42,10 +42,7 @@ class Embree : public Peer {
 
   void prepare(const std::vector<Polytope>& volumes_M) override {
     volumes_M_ = &volumes_M;
-    volume_scenes_.clear();
-    for (const Polytope& volume_M : volumes_M) {
-      volume_scenes_.push_back(sceneOf(device_, 1, boundVolume, const_cast<Polytope*>(&volume_M)));
-    }
+    volumes_scene_ = sceneOf(device_, volumes_M.size(), boundVolume, this);
   }
 
   void update() override {
@@ -53,10 +50,9 @@ class Embree : public Peer {
     rtcCommitScene(scene_.get());
   }
 
-  void query(size_t volume, TriangleIds& ids) override {
-    volume_M_ = &(*volumes_M_)[volume];
-    ids_ = &ids;
-    rtcCollide(scene_.get(), volume_scenes_[volume].get(), take, this);
+  void queryAll(std::vector<TriangleIds>& ids) override {
+    ids_ = ids.data();
+    rtcCollide(scene_.get(), volumes_scene_.get(), take, this);
   }
 
  private:
@@ -76,22 +72,25 @@ class Embree : public Peer {
   }
 
   static void boundVolume(const RTCBoundsFunctionArguments* arguments) {
-    const auto* volume_M = static_cast<const Polytope*>(arguments->geometryUserPtr);
+    const auto* self = static_cast<const Embree*>(arguments->geometryUserPtr);
+    const Polytope& volume_M = (*self->volumes_M_)[arguments->primID];
     RTCBounds& bounds = *arguments->bounds_o;
-    bounds.lower_x = static_cast<float>(volume_M->lower_M[0]) - kRounding;
-    bounds.lower_y = static_cast<float>(volume_M->lower_M[1]) - kRounding;
-    bounds.lower_z = static_cast<float>(volume_M->lower_M[2]) - kRounding;
-    bounds.upper_x = static_cast<float>(volume_M->upper_M[0]) + kRounding;
-    bounds.upper_y = static_cast<float>(volume_M->upper_M[1]) + kRounding;
-    bounds.upper_z = static_cast<float>(volume_M->upper_M[2]) + kRounding;
+    bounds.lower_x = static_cast<float>(volume_M.lower_M[0]) - kRounding;
+    bounds.lower_y = static_cast<float>(volume_M.lower_M[1]) - kRounding;
+    bounds.lower_z = static_cast<float>(volume_M.lower_M[2]) - kRounding;
+    bounds.upper_x = static_cast<float>(volume_M.upper_M[0]) + kRounding;
+    bounds.upper_y = static_cast<float>(volume_M.upper_M[1]) + kRounding;
+    bounds.upper_z = static_cast<float>(volume_M.upper_M[2]) + kRounding;
   }
 
   static void take(void* data, RTCCollision* collisions, unsigned count) {
     auto* const self = static_cast<Embree*>(data);
     for (unsigned i = 0; i < count; ++i) {
       const auto& [a, b, c] = self->surface_.triangles[collisions[i].primID0];
-      if (meets(*self->volume_M_, self->surface_.vertex(a), self->surface_.vertex(b), self->surface_.vertex(c))) {
-        self->ids_->push_back(collisions[i].primID0);
+      const unsigned volume = collisions[i].primID1;
+      const Polytope& volume_M = (*self->volumes_M_)[volume];
+      if (meets(volume_M, self->surface_.vertex(a), self->surface_.vertex(b), self->surface_.vertex(c))) {
+        self->ids_[volume].push_back(collisions[i].primID0);
       }
     }
   }
@@ -101,10 +100,9 @@ class Embree : public Peer {
   Surface& surface_;
   Device device_;
   Scene scene_;
-  std::vector<Scene> volume_scenes_;
+  Scene volumes_scene_;
   const std::vector<Polytope>* volumes_M_ = nullptr;
-  const Polytope* volume_M_ = nullptr;
-  TriangleIds* ids_ = nullptr;
+  TriangleIds* ids_ = nullptr;  // of each volume
 };
 
 }  // namespace

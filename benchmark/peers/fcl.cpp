@@ -34,31 +34,29 @@ class Model {
     std::vector<fcl::Triangle> triangles;
     for (const auto& [a, b, c] : surface.triangles) triangles.emplace_back(a, b, c);
     model_.beginModel();
-    model_.addSubModel(vertices(), triangles);
+    std::vector<fcl::Vector3d> vertices;
+    forEachVertex([&](const fcl::Vector3d& p) { vertices.push_back(p); });
+    model_.addSubModel(vertices, triangles);
     model_.endModel();
   }
 
   void refit() {
     model_.beginReplaceModel();
-    model_.replaceSubModel(vertices());
+    forEachVertex([&](const fcl::Vector3d& p) { model_.replaceVertex(p); });
     model_.endReplaceModel(/*refit=*/true, /*bottomup=*/true);
   }
 
   fcl::BVHModel<Box>& operator*() { return model_; }
 
  private:
-  const std::vector<fcl::Vector3d>& vertices() {
+  template <typename Function>
+  void forEachVertex(const Function& function) const {
     const std::vector<float>& positions = surface_.positions_M;
-    vertices_.resize(positions.size() / 3);
-    for (size_t i = 0; i < vertices_.size(); ++i) {
-      vertices_[i] = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
-    }
-    return vertices_;
+    for (size_t i = 0; i < positions.size(); i += 3) function({positions[i], positions[i + 1], positions[i + 2]});
   }
 
   const Surface& surface_;
   fcl::BVHModel<Box> model_;
-  std::vector<fcl::Vector3d> vertices_;
 };
 
 class FclPeer : public Peer {

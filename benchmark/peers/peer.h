@@ -31,10 +31,11 @@ class Peer {
   /// Takes in the positions of the surface. May exchange the vector of positions for another one of the same size.
   virtual void update() = 0;
 
-  /// Adds the triangles that the volume of this index meets: in any order, possibly more than once.
-  virtual void query(size_t volume, TriangleIds& ids) = 0;
+  /// Adds the triangles that the volume of this index meets: in any order, possibly more than once. A peer that takes
+  /// all volumes at once has queryAll() instead.
+  virtual void query(size_t /*volume*/, TriangleIds& /*ids*/) {}
 
-  /// The triangles that each volume meets.
+  /// Adds the triangles that each volume meets.
   virtual void queryAll(std::vector<TriangleIds>& ids) {
     for (size_t volume = 0; volume < ids.size(); ++volume) query(volume, ids[volume]);
   }
