@@ -54,25 +54,20 @@ struct Contender {
   bool ours = false;
 };
 
-// What the others are compared with: the fastest that there is.
-std::string mainDetector() {
-  for (const std::string& name : sweep_guard::detectorNames()) {
-    if (name == "halfspace") return name;
-  }
-  return "select";
-}
-
 Contender detector(const std::string& name) {
   return {name, [name](Surface& surface) { return makeDetectorPeer(name, surface); }, true};
 }
 
-const Contender kMemoryRead = {"memory read", makeMemoryRead};
+// Every position is read once: the limit, of a plain loop and of one that fetches ahead.
+const std::vector<Contender> kMemoryReads = {{"memory read", makeMemoryRead},
+                                             {"memory read fetched ahead", makeMemoryReadAhead}};
 
 std::vector<Contender> others(const std::string& peers) {
-  const auto whole = [](Surface& surface) { return makeWholeDetectorPeer(mainDetector(), surface); };
-  std::vector<Contender> all = {kMemoryRead, {mainDetector() + " with set-up", whole, true}};
+  const auto whole = [](Surface& surface) { return makeWholeDetectorPeer(kOurs, surface); };
+  std::vector<Contender> all = kMemoryReads;
+  all.push_back({kOurs + " with set-up", whole, true});
   for (const std::string& name : sweep_guard::detectorNames()) {
-    if (name != mainDetector()) all.push_back(detector(name));
+    if (name != kOurs) all.push_back(detector(name));
   }
   if (peers == "none") return all;
   for (const PeerKind& kind : peerKinds()) {
@@ -108,7 +103,7 @@ class Comparison {
     const std::vector<Contender> contenders = others(options_.peers);
     std::vector<Contender> chiefs;
     std::copy_if(contenders.begin(), contenders.end(), std::back_inserter(chiefs), chief);
-    compare(ordinary(hull_, Question::kNothing, deformations()), "update", {kMemoryRead});
+    compare(ordinary(hull_, Question::kNothing, deformations()), "update", kMemoryReads);
     const Workload sweep = ordinary(hull_, Question::kSweep, deformations());
     const Workload sweeps = ordinary(hull_, Question::kTwentySweeps, deformations());
     compare(sweep, sweep.name, contenders);
@@ -137,13 +132,13 @@ class Comparison {
   void compare(const Workload& workload, const std::string& work, const std::vector<Contender>& contenders) {
     std::printf("\n%s, %zu triangles, %zu queries, %.1f hits per frame (load %.1f)\n", work.c_str(),
                 workload.surface.triangles.size(), workload.queries, workload.hits(), load());
-    std::printf("%-24s %12s %12s %12s %9s %9s %7s %7s %7s\n", "method", "median us", "p10", "p90", "ratio", "p10",
+    std::printf("%-26s %12s %12s %12s %9s %9s %7s %7s %7s\n", "method", "median us", "p10", "p90", "ratio", "p10",
                 "misses", "extras", "frames");
     Sample ours_us;
     size_t misses = 0;
     size_t extras = 0;
     for (const Contender& contender : contenders) {
-      Entrant ours(workload, detector(mainDetector()).make);
+      Entrant ours(workload, detector(kOurs).make);
       Entrant peer(workload, contender.make);
       const Race result = race(workload, ours, peer, options_.limits);
       for (const double time : result.ours_us.values()) ours_us.add(time);
@@ -158,9 +153,9 @@ class Comparison {
       }
       if (contender.ours) judge(row);
       write(row, result.ratio.count());
-      if (contender.name == kMemoryRead.name) printBandwidth(workload, row.median_us);
+      if (!peer.answers()) printBandwidth(workload, row.median_us);
     }
-    Row row = rowOf(work, workload, mainDetector(), ours_us);
+    Row row = rowOf(work, workload, kOurs, ours_us);
     row.ratio_median = row.ratio_p10 = 1.0;
     if (workload.queries > 0) {
       row.misses = misses;
@@ -184,7 +179,7 @@ class Comparison {
 
   static void printBandwidth(const Workload& workload, double us) {
     const auto bytes = static_cast<double>(sizeof(float) * workload.surface.positions_M.size());
-    std::printf("    %.1f GB/s of a buffer of %.0f KB, just written\n", 1e-3 * bytes / us, 1e-3 * bytes);
+    std::printf("    %.1f GB/s of two buffers in turn, of %.0f KB, just written\n", 1e-3 * bytes / us, 1e-3 * bytes);
   }
 
   void judge(const Row& row) {
@@ -195,7 +190,7 @@ class Comparison {
 
   void write(const Row& row, size_t frames) {
     const auto count = [](const std::optional<size_t>& value) { return value ? std::to_string(*value) : "-"; };
-    std::printf("%-24s %12.2f %12.2f %12.2f %9.3g %9.3g %7s %7s %7zu\n", row.method.c_str(), row.median_us, row.p10_us,
+    std::printf("%-26s %12.2f %12.2f %12.2f %9.3g %9.3g %7s %7s %7zu\n", row.method.c_str(), row.median_us, row.p10_us,
                 row.p90_us, *row.ratio_median, *row.ratio_p10, count(row.misses).c_str(), count(row.extras).c_str(),
                 frames);
     std::fflush(stdout);
@@ -218,7 +213,7 @@ int run(int argc, char** argv) {
     std::cout << "usage: compare [OPTION...]\n" << known;
     return 0;
   }
-  std::printf("%sours: %s\n", machineText().c_str(), mainDetector().c_str());
+  std::printf("%sours: %s\n", machineText().c_str(), kOurs.c_str());
   return Comparison(options).run() ? 0 : 1;
 }
 

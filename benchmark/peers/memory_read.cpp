@@ -5,8 +5,10 @@
 namespace sweep_guard_benchmark {
 namespace {
 
-// Reads every position once, and does nothing with it: no update can take less. It takes the buffer that they came in,
-// and gives back the one before, as a mesh does: two buffers in turn find less of themselves in the caches than one.
+// Reads every position once, and does nothing with it: no update in such a loop can take less. It takes the buffer that
+// they came in, and gives back the one before, as a mesh does: two buffers in turn find less of themselves in the
+// caches than one.
+template <bool kFetchesAhead>
 class MemoryRead : public Peer {
  public:
   explicit MemoryRead(Surface& surface) : surface_(surface), positions_M_(surface.positions_M) {}
@@ -19,6 +21,7 @@ class MemoryRead : public Peer {
     const size_t count = positions_M_.size() / kStep * kStep;
     std::array<Register, 4> sums = {};
     for (size_t i = 0; i < count; i += kStep) {
+      if (kFetchesAhead) fetch(positions + i + kAhead);
       for (size_t j = 0; j < sums.size(); ++j) {
         Register values;
         std::memcpy(&values, positions + i + j * kStep / sums.size(), sizeof(values));
@@ -29,12 +32,16 @@ class MemoryRead : public Peer {
     sum_ = sum[0];
   }
 
-  void query(size_t /*volume*/, TriangleIds& /*ids*/) override {}
   bool answers() const override { return false; }
 
  private:
   using Register = std::uint32_t __attribute__((vector_size(64)));
   static constexpr size_t kStep = 4 * sizeof(Register) / sizeof(float);  // no load waits for the addition before
+  static constexpr size_t kAhead = 12 * 1024 / sizeof(float);            // as far as the update of a mesh does
+
+  static void fetch(const float* from) {
+    for (size_t line = 0; line < kStep; line += sizeof(Register) / sizeof(float)) __builtin_prefetch(from + line);
+  }
 
   Surface& surface_;
   std::vector<float> positions_M_;
@@ -43,6 +50,8 @@ class MemoryRead : public Peer {
 
 }  // namespace
 
-std::unique_ptr<Peer> makeMemoryRead(Surface& surface) { return std::make_unique<MemoryRead>(surface); }
+std::unique_ptr<Peer> makeMemoryRead(Surface& surface) { return std::make_unique<MemoryRead<false>>(surface); }
+
+std::unique_ptr<Peer> makeMemoryReadAhead(Surface& surface) { return std::make_unique<MemoryRead<true>>(surface); }
 
 }  // namespace sweep_guard_benchmark

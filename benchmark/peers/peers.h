@@ -19,8 +19,11 @@ struct PeerKind {
 /// All there are, the missing ones too.
 const std::vector<PeerKind>& peerKinds();
 
-/// Every position is read once, nothing is answered: the limit.
+/// Every position is read once, nothing is answered: the limit of a plain loop.
 std::unique_ptr<Peer> makeMemoryRead(Surface& surface);
+
+/// The same, and 12 KB ahead are fetched into the cache, as the update of a mesh does: the limit.
+std::unique_ptr<Peer> makeMemoryReadAhead(Surface& surface);
 
 /// Every triangle, one after the other, against every plane, until it is beyond one; what is beyond none is clipped.
 std::unique_ptr<Peer> makeScalar(Surface& surface);
