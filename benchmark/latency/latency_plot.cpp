@@ -32,9 +32,9 @@ std::string panel(const std::string& title, const std::vector<Histogram>& histog
     data << "EOD\n";
     plots << (i == 0 ? "plot " : ", ") << "$data" << i << ' ' << lineOf(histograms[i].title.work) << " notitle";
   }
-  return data.str() +
-         "set logscale x\nset xrange [0.03:1000]\nset yrange [0:*]\nset format x '%g ms'\nset ylabel '%'\n" +
-         "set title " + gnuplotText(title) + " noenhanced\n" + plots.str();
+  return data.str() + "set logscale x\nset xrange [0.03:1000]\nset yrange [0:*]\nset format x '%g'\n" +
+         "set xtics font ',11'\nset ylabel '%'\n" + "set title " + gnuplotText(title) +
+         " noenhanced font ',11' offset -3\n" + plots.str();
 }
 
 void draw(const std::string& source, const std::string& path) {
@@ -60,7 +60,9 @@ void draw(const std::string& source, const std::string& path) {
     for (size_t column = 0; column < methods.size(); ++column) {
       const auto found = panels.find({sizes[row], methods[column]});
       if (found == panels.end()) continue;
-      page.addPanel(row, column, panel(std::to_string(sizes[row]) + " triangles, " + methods[column], found->second));
+      const std::string label = row + 1 == sizes.size() ? "set xlabel '[ms]'\n" : "";
+      page.addPanel(row, column,
+                    label + panel(std::to_string(sizes[row]) + " triangles, " + methods[column], found->second));
     }
   }
   sweep_guard_evaluation::runGnuplot(page.script());
