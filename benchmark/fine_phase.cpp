@@ -1,11 +1,12 @@
 // Prints what the fine phase costs per candidate [us]: a drill that moves as a hand does, and triangles about it.
 #include "sweep_guard/detection/fine_phase.h"
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include "microseconds.h"
 #include "scenes.h"
 #include "sweep_guard/geometry/separation.h"
 
@@ -49,15 +50,11 @@ std::vector<Candidate> candidates(double away, bool turning) {
   return all;
 }
 
+// The least time of several [us], for each of so many.
 template <typename Work>
-double microseconds(size_t count, const Work& work) {
-  double best = 0.0;
-  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - start;
-    if (repetition == 0 || time.count() < best) best = time.count();
-  }
+double timePerEach(size_t count, const Work& work) {
+  double best = microseconds(work);
+  for (int repetition = 1; repetition < kRepetitions; ++repetition) best = std::min(best, microseconds(work));
   return best / static_cast<double>(count);
 }
 
@@ -65,7 +62,7 @@ void printSeparation(double away) {
   const ConvexShape shape = drill();
   const std::vector<Candidate> all = candidates(away, /*turning=*/false);
   const auto each = [&](const auto& ask) {
-    return microseconds(all.size(), [&] {
+    return timePerEach(all.size(), [&] {
       for (const Candidate& c : all) {
         const Eigen::Isometry3d& X_MT = c.parts[0].X_MT_start;
         ask(Drill{shape, X_MT}, PointHull(c.triangle.start_M), X_MT.translation() - c.triangle.start_M[0]);
@@ -97,7 +94,7 @@ void printImpacts(double away, bool turning) {
   const auto print = [&](const char* what, const std::vector<Candidate>& some, const auto& way_in) {
     if (some.empty()) return;
     double sum = 0.0;
-    const double time = microseconds(some.size(), [&] {
+    const double time = timePerEach(some.size(), [&] {
       for (const Candidate& c : some) sum += firstImpact(shape, c.parts, c.triangle, 0.0, way_in) ? 1.0 : 0.0;
     });
     std::printf("  %s %.2f (%zu%s)", what, time, some.size(), sum < 0.0 ? "!" : "");

@@ -1,10 +1,10 @@
 // Measures what a sweep costs besides looking at the mesh: its volume, and the fine phase for a triangle that it meets.
 //   set_up [--csv FILE]
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 
+#include "microseconds.h"
 #include "row.h"
 #include "sample.h"
 #include "sweep_guard/common/error.h"
@@ -15,6 +15,7 @@ namespace sweep_guard_benchmark {
 namespace {
 
 using sweep_guard::InvalidInput;
+using sweep_guard::microseconds;
 using sweep_guard::Motion;
 using sweep_guard::Sample;
 using sweep_guard::VolumeKind;
@@ -22,13 +23,6 @@ using sweep_guard::VolumeKind;
 constexpr size_t kRings = 158;
 constexpr size_t kFrames = 32;
 constexpr int kRepetitions = 100;
-
-template <typename Work>
-double microseconds(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
-}
 
 Row rowOf(const std::string& work, const std::string& method, size_t triangles, const Sample& us) {
   Row row;

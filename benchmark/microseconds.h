@@ -1,0 +1,15 @@
+#pragma once
+
+#include <chrono>
+
+namespace sweep_guard {
+
+/// How long some work takes, done once [us].
+template <typename Work>
+double microseconds(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace sweep_guard
