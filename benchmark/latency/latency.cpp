@@ -48,7 +48,7 @@ int run(int argc, char** argv) {
   const Settings settings = settingsOf(argc, argv);
   const ros::NodeHandle alive;
   const Measurement measured = measure(settings);
-  const std::vector<Row> rows = rowsOf(measured);
+  const std::vector<LatencyRow> rows = rowsOf(measured);
   print(settings, measured, rows);
   save(settings, measured, rows);
   const bool covered = rows[0].milliseconds.size() == posesOf(measured).size();

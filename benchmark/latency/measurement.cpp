@@ -113,7 +113,7 @@ std::vector<Nanoseconds> posesOf(const Measurement& measured) {
   return poses;
 }
 
-std::vector<Row> rowsOf(const Measurement& measured) {
+std::vector<LatencyRow> rowsOf(const Measurement& measured) {
   const auto during = [&](const std::vector<Heard>& heard) { return within(heard, measured.begin, measured.end); };
   return {{"pose to contacts", latencies(posesOf(measured), measured.said.contacts)},
           {"pose to prediction", ages(during(measured.said.predictions))},

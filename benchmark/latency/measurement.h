@@ -39,13 +39,13 @@ struct Measurement {
 Measurement measure(const Settings& settings);
 
 /// One line of the table, and of the CSV file.
-struct Row {
+struct LatencyRow {
   std::string work;
   std::vector<double> milliseconds;
 };
 
 /// From the stamp of a pose to the contacts, the prediction, the warning and the change of level, in this order.
-std::vector<Row> rowsOf(const Measurement& measured);
+std::vector<LatencyRow> rowsOf(const Measurement& measured);
 
 /// The poses sent meanwhile.
 std::vector<Nanoseconds> posesOf(const Measurement& measured);

@@ -5,10 +5,10 @@
 namespace sweep_guard_benchmark {
 
 /// Prints figures as a table, and whether what is promised is kept.
-void print(const Settings& settings, const Measurement& measured, const std::vector<Row>& rows);
+void print(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows);
 
 /// Appends them to the files that the settings name.
 /// @throws sweep_guard::InvalidInput if one cannot be written
-void save(const Settings& settings, const Measurement& measured, const std::vector<Row>& rows);
+void save(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows);
 
 }  // namespace sweep_guard_benchmark
