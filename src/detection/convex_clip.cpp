@@ -7,20 +7,24 @@ namespace sweep_guard {
 
 void CutTriangle::cut(const Eigen::Vector3d& normal, double offset) {
   assert(count_ > 0 && count_ < corners_.size());
-  std::array<Eigen::Vector3d, 3 + kMostHalfSpaces> whole;
-  std::copy_n(corners_.begin(), count_, whole.begin());
-  const Eigen::Vector3d* before = &whole[count_ - 1];
-  double before_out = normal.dot(*before) - offset;
+  const Corners whole = corners_;
+  std::array<double, kMostCorners> out;
+  size_t crossings = 0;
+  for (size_t i = 0; i < count_; ++i) {
+    out[i] = normal.dot(whole[i]) - offset;
+    if (i > 0 && (out[i] > 0.0) != (out[i - 1] > 0.0)) ++crossings;
+  }
+  if ((out[0] > 0.0) != (out[count_ - 1] > 0.0)) ++crossings;
+  if (crossings > 2)
+    return;  // a line crosses a convex outline twice: what is more is rounding, of corners in the plane
+
   size_t left = 0;
   for (size_t i = 0; i < count_; ++i) {
-    const Eigen::Vector3d& corner = whole[i];
-    const double out = normal.dot(corner) - offset;
-    if ((out > 0.0) != (before_out > 0.0)) {
-      corners_[left++] = *before + before_out / (before_out - out) * (corner - *before);
+    const size_t before = (i + count_ - 1) % count_;
+    if ((out[i] > 0.0) != (out[before] > 0.0)) {
+      corners_[left++] = whole[before] + out[before] / (out[before] - out[i]) * (whole[i] - whole[before]);
     }
-    if (!(out > 0.0)) corners_[left++] = corner;
-    before = &corner;
-    before_out = out;
+    if (!(out[i] > 0.0)) corners_[left++] = whole[i];
   }
   count_ = left;
 }

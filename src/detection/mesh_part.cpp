@@ -1,6 +1,7 @@
 #include "sweep_guard/detection/mesh_part.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace sweep_guard {
@@ -8,10 +9,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint16_t kAsked = simd::kInsideAll;  // no plane's, and boxes have no use for it
-
 constexpr std::uint16_t kAll = std::numeric_limits<std::uint16_t>::max();
-
-size_t groupsOf(size_t blocks) { return (blocks + kBlocksTogether - 1) / kBlocksTogether; }
 
 }  // namespace
 
@@ -30,13 +28,12 @@ void BlockBits::classify(const MeshPart& part, const simd::Planes& planes) {
   const size_t count = part.blocks().size();
   bits_.resize(std::max(bits_.size(), simd::padded(count)));
   kernels_->classifyBoxes(part.boxes(), count, planes, bits_.data());
-  classifyGroups(count);
+  if (part.groups() != nullptr) classifyGroups(count);
 }
 
 void BlockBits::classifyGroups(size_t blocks) {
   const size_t whole = blocks / kBlocksTogether;
-  const size_t count = groupsOf(blocks);
-  group_bits_.resize(std::max(group_bits_.size(), count + 1));
+  group_bits_.resize(std::max(group_bits_.size(), whole + 1));
   const auto common = [&](size_t first, size_t last) {
     std::uint16_t bits = kAll;
     for (size_t i = first; i < last; ++i) bits &= bits_[i];
@@ -45,8 +42,7 @@ void BlockBits::classifyGroups(size_t blocks) {
   for (size_t group = 0; group < whole; ++group) {
     group_bits_[group] = common(group * kBlocksTogether, (group + 1) * kBlocksTogether);
   }
-  if (whole < count) group_bits_[whole] = common(whole * kBlocksTogether, blocks);
-  group_bits_[count] = 0;
+  group_bits_[whole] = common(whole * kBlocksTogether, blocks);
 }
 
 bool BlockBits::firstAsked(std::uint32_t block) {
@@ -56,6 +52,7 @@ bool BlockBits::firstAsked(std::uint32_t block) {
 }
 
 MeshPart PartFinder::operator()(const MeshPart& part, const simd::Planes& planes) {
+  assert(part.clusters_ != &clusters_);
   blocks_.clear();
   clusters_.clear();
   old_index_.clear();
@@ -67,9 +64,7 @@ MeshPart PartFinder::operator()(const MeshPart& part, const simd::Planes& planes
   MeshPart found = part;
   found.blocks_ = &blocks_;
   found.clusters_ = &clusters_;
-  const auto none = static_cast<std::uint32_t>(groupsOf(blocks_.size()));
-  group_.assign(1, {0, static_cast<std::uint32_t>(clusters_.size()), {none, none, none, none}});
-  found.groups_ = &group_;
+  found.groups_ = nullptr;
   gatherBoxes(found);
   return found;
 }

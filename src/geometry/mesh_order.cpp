@@ -105,7 +105,7 @@ Cluster clusterFrom(std::uint32_t first, const std::vector<Triangle>& corners) {
 ClusterGroup groupFrom(std::uint32_t first, const std::vector<Cluster>& clusters) {
   FewNumbers block_groups;
   std::uint32_t count = 0;
-  while (first + count < clusters.size() && count < kBlocksTogether &&
+  while (first + count < clusters.size() && count < kClustersTogether &&
          block_groups.add(divided(clusters[first + count].blocks, kBlocksTogether))) {
     ++count;
   }

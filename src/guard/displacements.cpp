@@ -1,5 +1,7 @@
 #include "sweep_guard/guard/displacements.h"
 
+#include <limits>
+
 namespace sweep_guard {
 namespace {
 

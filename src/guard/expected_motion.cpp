@@ -91,6 +91,9 @@ Eigen::AlignedBox3d ExpectedMotion::reach_M(const Stretch& stretch, double most,
   Eigen::AlignedBox3d box_M = boxAround(tool_T_, pose.X_MT, pose.covariance_M, most);
   double arc = 0.0;
   const auto goOnTo = [&](const Pose& next) {
+    // In between, covariances lie between those of both ends: so do deviations below the larger one.
+    box_M.extend(boxAround(tool_T_, pose.X_MT, next.covariance_M, most));
+    box_M.extend(boxAround(tool_T_, next.X_MT, pose.covariance_M, most));
     box_M.extend(boxAround(tool_T_, next.X_MT, next.covariance_M, most));
     arc = std::max(arc, chordError(tool_extent_, Motion{pose.X_MT, next.X_MT}.angle()));
     pose = next;

@@ -119,6 +119,10 @@ TEST_P(LargeMeshTest, CullKeepsWhatTheReferenceFindsAndLittleMore) {
     Triangles of_part;
     for (const Survivor& survivor : cull(finder(hull, planes), planes)) of_part.push_back(survivor.triangle);
     EXPECT_EQ(of_part, of_all);
+    for (const simd::Kernels& kernels : simd::availableKernels()) {
+      Cull same(kernels);
+      EXPECT_EQ(left(same, hull, swept_M), of_all) << kernels.name;
+    }
     kept += of_all.size();
     met += expected.size();
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mesh_orders.h"
 #include "scenes.h"
 #include "sweep_guard/common/pool.h"
 #include "sweep_guard/detection/detector.h"
@@ -18,8 +19,6 @@ using namespace std::chrono_literals;
 constexpr int kWarm = 3000;  // [ms]
 constexpr int kEnd = 4000;
 constexpr int kPeriod = 20;
-constexpr int kRings = 11;
-constexpr int kSectors = 20;
 constexpr double kTurn = 2.0 * M_PI;
 constexpr double kClear = 2.0;  // [m]
 constexpr double kNear = 0.107;
@@ -33,6 +32,7 @@ struct Configuration {
   bool several_parts = false;
   std::string predictor = "direct";
   bool time_is_short = false;
+  bool large_and_shuffled = false;
 };
 
 void PrintTo(const Configuration& configuration, std::ostream* out) { *out << configuration.name; }
@@ -57,13 +57,19 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
  protected:
   SteadyStateTest() {
     for (int ms = 0; ms < kEnd; ms += kPeriod) sent_.push_back(positions(ms));
-    const TriangleMesh mesh_M = wavyHull(kRings, kSectors, /*phase=*/0.0);
+    const TriangleMesh mesh_M = wavyWorkpiece(/*phase=*/0.0);
     workpieces_.push_back(
         snapshots_.add({"a workpiece of a long name", 1, Time(100s), {}, kFrame, mesh_M.deformed(sent_[0])}));
   }
 
+  // The large one has clusters in groups, and is renumbered.
+  static TriangleMesh wavyWorkpiece(double phase) {
+    if (!GetParam().large_and_shuffled) return wavyHull(/*rings=*/11, /*sectors=*/20, phase);
+    return meshOrderings().back().of(wavyHull(/*rings=*/30, /*sectors=*/40, phase));
+  }
+
   static std::vector<float> positions(int ms) {
-    const TriangleMesh mesh_M = wavyHull(kRings, kSectors, std::sin(1e-3 * kTurn * ms));
+    const TriangleMesh mesh_M = wavyWorkpiece(std::sin(1e-3 * kTurn * ms));
     std::vector<float> positions;
     for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
       for (const double x : mesh_M.vertex(i)) positions.push_back(static_cast<float>(x));
@@ -189,7 +195,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Configuration{"polynomial", "halfspace", VolumeKind::kObbPlanes, false, "polynomial"},  //
                     Configuration{"constant_velocity", "halfspace", VolumeKind::kObbPlanes, false, "constant_velocity"},
                     Configuration{"hold", "halfspace", VolumeKind::kObbPlanes, false, "hold"},
-                    Configuration{"short_of_time", "halfspace", VolumeKind::kObbPlanes, true, "direct", true}),
+                    Configuration{"short_of_time", "halfspace", VolumeKind::kObbPlanes, true, "direct", true},
+                    Configuration{"large_and_shuffled", "halfspace", VolumeKind::kObbPlanes, false, "direct", false,
+                                  true}),
     [](const auto& one) { return one.param.name; });
 
 }  // namespace

@@ -65,6 +65,27 @@ TEST(ExpectedMotionTest, ReachesAsFarAsAnyToolPointThatErrs) {
   }
 }
 
+// Doubt grows fastest at the begin: as the root of time.
+TEST(ExpectedMotionTest, ReachesAsFarWithinAStepAsAtItsEnds) {
+  Random random(5);
+  const ConvexShape tool = ConvexShape::cylinder(0.01, 0.15);
+  const Tool whole_tool(tool);
+  for (int i = 0; i < 50; ++i) {
+    const Swing swing(random);
+    ExpectedMotion motion;
+    motion.follow(whole_tool, swing.at(0.0), swing.path, random.pose(random.inBox({1, 1, 1})));
+    const Eigen::AlignedBox3d step_M = motion.reach_M(motion.between(0, 1), 3.0, 0.0);
+    Stretch part = motion.between(0, 1);
+    for (int halving = 0; halving < 5; ++halving) {
+      part = motion.halves(part).first;
+      const Eigen::AlignedBox3d part_M = motion.reach_M(part, 3.0, 0.0);
+      const double rounding = 1e-9 + chordError(whole_tool.extent(), 0.1);
+      EXPECT_TRUE(
+          Eigen::AlignedBox3d(step_M.min().array() - rounding, step_M.max().array() + rounding).contains(part_M));
+    }
+  }
+}
+
 // The same workpiece, with much more of it far away: nothing else is found.
 TEST(PathTestTest, WhatIsOutOfReachMakesNoDifference) {
   Random random(4);

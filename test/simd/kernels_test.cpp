@@ -122,7 +122,7 @@ TEST_P(KernelsTest, TellsThePlanesThatAllOfABoxIsBeyond) {
   Random random(4);
   int set = 0;
   int clear = 0;
-  for (const size_t count : {1U, 16U, 40U}) {
+  for (const size_t count : {1U, 16U, 40U, 130U}) {
     Boxes boxes(count);
     for (size_t i = 0; i < 3 * boxes.stride; ++i) {
       boxes.sides[i] = randomFloat(random);

@@ -19,8 +19,10 @@ class CutTriangle {
   bool empty() const { return count_ == 0; }
 
  private:
-  // Each plane adds one at most.
-  std::array<Eigen::Vector3d, 3 + kMostHalfSpaces> corners_;
+  static constexpr size_t kMostCorners = 3 + kMostHalfSpaces;  // each plane adds one at most
+  using Corners = std::array<Eigen::Vector3d, kMostCorners>;
+
+  Corners corners_;
   size_t count_;
 };
 

@@ -15,8 +15,8 @@ struct Survivor {
 };
 
 /// Tells in float32 what is certain: the triangles that lie wholly beyond one plane of a convex volume are left out,
-/// and those with a corner inside are met. First whole clusters, by the boxes of their blocks; then triangles, by their
-/// corners. Keeps its buffers between calls.
+/// and those with a corner inside are met. First groups of clusters and clusters, by the boxes of their blocks; then
+/// triangles, by their corners. Keeps its buffers between calls.
 class Cull {
  public:
   explicit Cull(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels), bits_(kernels) {}

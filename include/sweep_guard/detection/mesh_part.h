@@ -29,8 +29,8 @@ class MeshPart {
   const simd::BoxArrays<const float>& boxes() const { return boxes_; }
   /// Ascending. Their `blocks` are indices into blocks().
   const std::vector<Cluster>& clusters() const { return *clusters_; }
-  /// Of these, ascending. Their `block_groups` are of blocks(); a part of a mesh is one group, of no blocks in common.
-  const std::vector<ClusterGroup>& groups() const { return *groups_; }
+  /// Of all clusters of a whole mesh. A part of one has got none.
+  const std::vector<ClusterGroup>* groups() const { return groups_; }
 
   /// Calls a function with the index of each triangle.
   template <typename Function>
@@ -65,12 +65,15 @@ class BlockBits {
   /// their blocks.
   template <typename Function>
   void forEachLeft(const MeshPart& part, const Function& function) const {
-    for (const ClusterGroup& group : part.groups()) {
-      if (beyondOnePlane(group_bits_, group.block_groups)) continue;
-      for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
+    const auto consider = [&](size_t first, size_t count) {
+      for (size_t i = first; i < first + count; ++i) {
         const Cluster& cluster = part.clusters()[i];
         if (!beyondOnePlane(bits_, cluster.blocks)) function(cluster);
       }
+    };
+    if (part.groups() == nullptr) return consider(0, part.clusters().size());
+    for (const ClusterGroup& group : *part.groups()) {
+      if (!beyondOnePlane(group_bits_, group.block_groups)) consider(group.first, group.count);
     }
   }
 
@@ -89,7 +92,7 @@ class BlockBits {
 
   const simd::Kernels* kernels_;
   std::vector<std::uint16_t> bits_;        // of each block, and a flag
-  std::vector<std::uint16_t> group_bits_;  // what those of a group have in common; the last is of none
+  std::vector<std::uint16_t> group_bits_;  // what those of a group have in common
 };
 
 /// Finds the part of a mesh that may reach into a convex region. Keeps its buffers between calls.
@@ -109,7 +112,6 @@ class PartFinder {
   std::vector<std::uint32_t> old_index_;  // and back
   std::vector<std::uint32_t> blocks_;
   std::vector<Cluster> clusters_;
-  std::vector<ClusterGroup> group_;
   std::vector<float> sides_;
 };
 

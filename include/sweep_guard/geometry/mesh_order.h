@@ -22,11 +22,12 @@ struct Cluster {
 
 /// Blocks that are looked at together: consecutive ones, from a multiple of this on.
 constexpr std::uint32_t kBlocksTogether = 8;
+constexpr std::uint32_t kClustersTogether = 8;  ///< at most
 
 /// Consecutive clusters, whose blocks lie in few groups of kBlocksTogether.
 struct ClusterGroup {
-  std::uint32_t first;  ///< cluster
-  std::uint32_t count;
+  std::uint32_t first;  ///< number of the first cluster
+  std::uint32_t count;  ///< 1 to kClustersTogether
   /// Groups of blocks; if there are fewer, the last one again.
   std::array<std::uint32_t, simd::kClusterBlocks> block_groups;
 };
