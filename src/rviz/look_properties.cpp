@@ -29,7 +29,8 @@ LookProperties::LookProperties(rviz::Property& parent, const std::function<void(
                                       "Edges are drawn of surfaces of so many triangles at most: lines cost more.",
                                       surface_.shown);
   most_edged_->setMin(0);
-  history_ = new rviz::IntProperty("History", 0, "Earlier boxes that stay, half a box apart.", measured_.shown);
+  history_ = new rviz::IntProperty("History", 0, "Earlier boxes that stay, each a box's least width farther.",
+                                   measured_.shown);
   history_->setMin(0);
   history_->setMax(1000);
   most_ghosts_ = new rviz::IntProperty("Number", 8, "Of ghosts at most.", ghosts_.shown);

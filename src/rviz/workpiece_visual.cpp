@@ -129,9 +129,10 @@ void WorkpieceVisual::showVolumes(const sweep_guard::ObjectView& view, const Loo
   predicted_.show();
 }
 
-// One for every half box that the tool has gone.
+// Close enough to tile the way: each a box's least width farther.
 void WorkpieceVisual::remember(const sweep_guard::TestedVolume& volume, size_t most) {
-  const float spacing = 0.5F * toOgre(volume.half_extents).length();
+  const auto& half = volume.half_extents;
+  const auto spacing = static_cast<float>(2.0 * std::min({half.x, half.y, half.z}));
   const bool far =
       history_.empty() || toOgre(volume.pose.position).distance(toOgre(history_.back().pose.position)) > spacing;
   if (far) history_.push_back(volume);

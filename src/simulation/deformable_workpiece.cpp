@@ -9,6 +9,7 @@
 
 #include "simulation/run_node.h"
 #include "simulation/workpiece.h"
+#include "simulation/workpiece_messages.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/MeshVertices.h"
 #include "sweep_guard/common/error.h"
@@ -18,7 +19,6 @@ namespace sweep_guard_simulation {
 
 namespace {
 
-constexpr std::uint32_t kRevision = 1;
 constexpr double kMarkerPeriod = 1.0 / 15.0;  // [s]
 
 geometry_msgs::Point toPoint(const float* p) {
@@ -87,30 +87,21 @@ class WorkpieceNode {
   }
 
   void publishMesh() {
-    sweep_guard::DeformableMesh message;
+    sweep_guard::DeformableMesh message = meshMessage(workpiece_, 0.0);
     message.header.stamp = start_;
     message.header.frame_id = frame_;
     message.id = id_;
-    message.revision = kRevision;
-    const std::vector<float> positions = workpiece_.positions(0.0);
-    for (size_t i = 0; i < positions.size(); i += 3) message.mesh.vertices.push_back(toPoint(&positions[i]));
-    for (const auto& [a, b, c] : workpiece_.triangles()) {
-      shape_msgs::MeshTriangle triangle;
-      triangle.vertex_indices = {a, b, c};
-      message.mesh.triangles.push_back(triangle);
-    }
     mesh_publisher_.publish(message);
     ROS_INFO("workpiece '%s': %zu triangles, %zu vertices, %.0f Hz", id_.c_str(), workpiece_.triangles().size(),
              workpiece_.vertexCount(), rate_);
   }
 
   void publishVertices() {
-    sweep_guard::MeshVertices message;
-    message.header.stamp = ros::Time::now();
+    const ros::Time now = ros::Time::now();
+    sweep_guard::MeshVertices message = verticesMessage(workpiece_, (now - start_).toSec());
+    message.header.stamp = now;
     message.header.frame_id = frame_;
     message.id = id_;
-    message.revision = kRevision;
-    message.positions = workpiece_.positions((message.header.stamp - start_).toSec());
     vertices_publisher_.publish(message);
     if (marker_publisher_.getNumSubscribers() > 0 && (message.header.stamp - marker_stamp_).toSec() >= kMarkerPeriod) {
       marker_stamp_ = message.header.stamp;
