@@ -26,6 +26,7 @@ void CutTriangle::cut(const Eigen::Vector3d& normal, double offset) {
     }
     if (!(out[i] > 0.0)) corners_[left++] = whole[i];
   }
+  assert(left <= count_ + 1);
   count_ = left;
 }
 
