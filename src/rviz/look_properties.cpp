@@ -29,7 +29,7 @@ LookProperties::LookProperties(rviz::Property& parent, const std::function<void(
                                       "Edges are drawn of surfaces of so many triangles at most: lines cost more.",
                                       surface_.shown);
   most_edged_->setMin(0);
-  history_ = new rviz::IntProperty("History", 0, "Earlier boxes that stay, each a box's least width farther.",
+  history_ = new rviz::IntProperty("History", 0, "Earlier boxes that stay, each half a box's least width farther.",
                                    measured_.shown);
   history_->setMin(0);
   history_->setMax(1000);

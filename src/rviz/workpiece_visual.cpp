@@ -129,13 +129,15 @@ void WorkpieceVisual::showVolumes(const sweep_guard::ObjectView& view, const Loo
   predicted_.show();
 }
 
-// Close enough to tile the way: each a box's least width farther.
+// Close enough to leave no gap. A sweep in parts shows them all again and again: each is kept once.
 void WorkpieceVisual::remember(const sweep_guard::TestedVolume& volume, size_t most) {
   const auto& half = volume.half_extents;
-  const auto spacing = static_cast<float>(2.0 * std::min({half.x, half.y, half.z}));
-  const bool far =
-      history_.empty() || toOgre(volume.pose.position).distance(toOgre(history_.back().pose.position)) > spacing;
-  if (far) history_.push_back(volume);
+  const auto spacing = static_cast<float>(std::min({half.x, half.y, half.z}));
+  const Ogre::Vector3 center = toOgre(volume.pose.position);
+  const bool kept = std::any_of(history_.begin(), history_.end(), [&](const sweep_guard::TestedVolume& one) {
+    return toOgre(one.pose.position).distance(center) < spacing;
+  });
+  if (!kept) history_.push_back(volume);
   while (history_.size() > most) history_.pop_front();
 }
 
