@@ -7,7 +7,8 @@ namespace sweep_guard {
 
 void CutTriangle::cut(const Eigen::Vector3d& normal, double offset) {
   assert(count_ > 0 && count_ < corners_.size());
-  const Corners whole = corners_;
+  Corners whole;
+  std::copy_n(corners_.begin(), count_, whole.begin());
   std::array<double, kMostCorners> out;
   size_t crossings = 0;
   for (size_t i = 0; i < count_; ++i) {
