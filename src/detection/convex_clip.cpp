@@ -16,8 +16,8 @@ void CutTriangle::cut(const Eigen::Vector3d& normal, double offset) {
     if (i > 0 && (out[i] > 0.0) != (out[i - 1] > 0.0)) ++crossings;
   }
   if ((out[0] > 0.0) != (out[count_ - 1] > 0.0)) ++crossings;
-  if (crossings > 2)
-    return;  // a line crosses a convex outline twice: what is more is rounding, of corners in the plane
+  // A line crosses a convex outline twice: what is more is rounding, of corners in the plane.
+  if (crossings > 2) return;
 
   size_t left = 0;
   for (size_t i = 0; i < count_; ++i) {
