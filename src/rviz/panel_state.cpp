@@ -121,6 +121,8 @@ bool PanelState::operator==(const PanelState& other) const {
   return all(*this) == all(other);
 }
 
+Moment currentMoment() { return {std::chrono::steady_clock::now(), ros::Time::now()}; }
+
 Light lightOf(const Warning& warning) {
   const bool says_clear = warning.level == Warning::CLEAR;
   const bool is_clear = warning.clear && (warning.reasons & ~std::uint32_t{Warning::OVERLOAD}) == 0;
@@ -136,7 +138,7 @@ std::optional<double> timeToCollision(const Warning& warning) {
 PanelState panelState(const std::optional<ReceivedWarning>& newest, const Moment& now, const std::string& topic) {
   if (!newest) return silent("no warning from " + topic);
   const Warning& warning = newest->warning;
-  const std::chrono::duration<double> age = now.steady - newest->received;
+  const std::chrono::duration<double> age = now.steady - newest->received.steady;
   if (age > kSilence) return silent("the guard has been silent for " + seconds(age.count()));
   if (warning.valid_until < now.stamp) {
     return silent("the warning ran out " + seconds((now.stamp - warning.valid_until).toSec()) + " ago");

@@ -4,15 +4,20 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <utility>
+
 namespace sweep_guard_rviz {
 
 ServiceCall::~ServiceCall() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-    client_.shutdown();
-  }
+  drop();
   if (thread_.joinable()) thread_.join();
+}
+
+void ServiceCall::drop() {
+  const std::lock_guard lock(mutex_);
+  dropped_ = true;
+  client_.shutdown();
+  outcome_.reset();
 }
 
 void ServiceCall::setBool(const std::string& service, bool value) {
@@ -38,12 +43,13 @@ void ServiceCall::start(const std::string& name, Service service) {
   {
     const std::lock_guard lock(mutex_);
     if (std::exchange(busy_, true)) return;
+    dropped_ = false;
   }
   if (thread_.joinable()) thread_.join();
   thread_ = std::thread([this, name, service]() mutable {
     std::string outcome = call(name, service);
     const std::lock_guard lock(mutex_);
-    outcome_ = std::move(outcome);
+    if (!dropped_) outcome_ = std::move(outcome);
     busy_ = false;
   });
 }
@@ -54,7 +60,7 @@ std::string ServiceCall::call(const std::string& name, Service& service) {
   ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>(name, /*persistent=*/true);
   {
     const std::lock_guard lock(mutex_);
-    if (stopping_) return "";
+    if (dropped_) return "";
     client_ = client;
   }
   if (!client.call(service)) return "no answer from " + name;

@@ -1,5 +1,7 @@
 #include "sweep_guard/rviz/warning_feed.h"
 
+#include <utility>
+
 namespace sweep_guard_rviz {
 namespace {
 
@@ -34,7 +36,7 @@ std::vector<ReceivedWarning> WarningFeed::take() {
 void WarningFeed::receive(const sweep_guard::Warning& warning) {
   const std::lock_guard lock(mutex_);
   if (received_.size() >= kKept) received_.erase(received_.begin(), received_.begin() + kKept / 2);
-  received_.push_back({warning, std::chrono::steady_clock::now()});
+  received_.push_back({warning, currentMoment()});
 }
 
 }  // namespace sweep_guard_rviz

@@ -10,6 +10,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "sweep_guard/rviz/strip_chart.h"
 #include "sweep_guard/rviz/traffic_light.h"
@@ -51,16 +52,17 @@ WarningPanel::WarningPanel(QWidget* parent)
   light_->setObjectName("light");
   enable_->setObjectName("enable");
   reset_->setObjectName("reset");
+  outcome_->setObjectName("outcome");
   layOut();
-  connect(enable_, &QPushButton::clicked, this, [this] { call_.setBool(service("enable"), state_.disabled); });
-  connect(reset_, &QPushButton::clicked, this, [this] { call_.trigger(service("reset")); });
+  connect(enable_, &QPushButton::clicked, this, [this] { call_.setBool(announced("enable"), state_.disabled); });
+  connect(reset_, &QPushButton::clicked, this, [this] { call_.trigger(announced("reset")); });
   connect(topic_edit_, &QLineEdit::editingFinished, this, [this] {
     if (topic_edit_->text().toStdString() == topic_) return;
     setTopic(topic_edit_->text().toStdString());
     Q_EMIT configChanged();
   });
   setTopic("/sweep_guard/warning");
-  connect(&timer_, &QTimer::timeout, this, [this] { look(); });
+  connect(&timer_, &QTimer::timeout, this, [this] { look(currentMoment()); });
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.start(kPeriod);
 }
@@ -117,39 +119,44 @@ void WarningPanel::save(rviz::Config config) const {
 void WarningPanel::setTopic(const std::string& topic) {
   topic_ = topic;
   topic_edit_->setText(QString::fromStdString(topic));
+  guard_.clear();
   newest_.reset();
   history_.clear();
+  call_.drop();
   outcome_->hide();
   try {
     feed_.listen(topic);
+    if (!topic.empty()) guard_ = ros::names::parentNamespace(ros::names::resolve(topic));
   } catch (const ros::InvalidNameException& error) {
-    outcome_->setText(error.what());
-    outcome_->show();
-    feed_.listen("");
+    tell(error.what());
   }
-  look();
+  look(currentMoment());
 }
 
-std::string WarningPanel::service(const std::string& name) const {
-  return ros::names::append(ros::names::parentNamespace(ros::names::resolve(topic_)), name);
+std::string WarningPanel::announced(const std::string& service) {
+  const std::string name = ros::names::append(guard_, service);
+  tell("waiting for " + name);
+  return name;
 }
 
-void WarningPanel::look() {
+void WarningPanel::tell(const std::string& outcome) {
+  outcome_->setText(QString::fromStdString(outcome));
+  outcome_->show();
+}
+
+void WarningPanel::look(const Moment& now) {
   const std::vector<ReceivedWarning> warnings = feed_.take();
-  const Moment now{std::chrono::steady_clock::now(), ros::Time::now()};
   if (!warnings.empty()) newest_ = warnings.back();
   state_ = panelState(newest_, now, topic_);
   remember(warnings, now.steady);
   showState(now.steady);
-  if (const auto outcome = call_.takeOutcome()) {
-    outcome_->setText(QString::fromStdString(*outcome));
-    outcome_->show();
-  }
+  if (const auto outcome = call_.takeOutcome()) tell(*outcome);
 }
 
 void WarningPanel::remember(const std::vector<ReceivedWarning>& warnings, SteadyTime now) {
   for (const ReceivedWarning& each : warnings) {
-    history_.add({each.received, lightOf(each.warning), timeToCollision(each.warning)});
+    const PanelState shown = panelState(each, each.received, topic_);
+    history_.add({each.received.steady, shown.light, shown.silent ? std::nullopt : timeToCollision(each.warning)});
   }
   if (state_.silent) history_.add({now, Light::kUnknown, std::nullopt});
 }
@@ -161,8 +168,7 @@ void WarningPanel::showState(SteadyTime now) {
   whys_->setText(bullets(state_.whys, kMostWhys));
   whys_->setToolTip(state_.whys.size() > kMostWhys ? bullets(state_.whys, state_.whys.size()) : QString());
   enable_->setText(state_.disabled ? "Enable" : "Disable");
-  enable_->setEnabled(!call_.busy());
-  reset_->setEnabled(!call_.busy());
+  for (QPushButton* const button : {enable_, reset_}) button->setEnabled(!guard_.empty() && !call_.busy());
   if (looks_++ % kLooksPerChart == 0) chart_->show(history_, now);
 }
 

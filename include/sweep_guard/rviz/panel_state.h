@@ -16,20 +16,23 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 /// What the traffic light shows. The order is that of the levels of a Warning.
 enum class Light : std::uint8_t { kUnknown = 0, kClear = 1, kConsidered = 2, kReflex = 3, kContact = 4 };
 
-/// A warning, and when it came in.
-struct ReceivedWarning {
-  sweep_guard::Warning warning;
-  SteadyTime received;
-};
-
-/// Now on both clocks.
+/// A time on both clocks.
 struct Moment {
   SteadyTime steady;
   ros::Time stamp;
 };
 
-/// A warning older than this is no longer shown. With the period in which the panel looks, less than 0.2 s.
-constexpr auto kSilence = std::chrono::milliseconds(150);
+Moment currentMoment();
+
+/// A warning, and when it came in.
+struct ReceivedWarning {
+  sweep_guard::Warning warning;
+  Moment received;
+};
+
+/// A warning older than this is no longer shown: two periods of the warning, and some. With the period in which the
+/// panel looks, and the frame that rviz may be drawing then, less than 0.2 s at 20 frames per second or more.
+constexpr auto kSilence = std::chrono::milliseconds(120);
 
 /// Everything the panel says, in words. Silence, what contradicts itself and what is out of date are unknown.
 struct PanelState {

@@ -24,6 +24,9 @@ class ServiceCall {
   void setBool(const std::string& service, bool value);
   void trigger(const std::string& service);
 
+  /// Ends the call under way, if its service has been found; its outcome, and one not taken yet, are forgotten.
+  void drop();
+
   bool busy() const;
   std::optional<std::string> takeOutcome();  ///< of the call that has ended since, in words
 
@@ -35,7 +38,7 @@ class ServiceCall {
 
   mutable std::mutex mutex_;
   ros::ServiceClient client_;  // of the call under way: shutting it down ends that
-  bool stopping_ = false;
+  bool dropped_ = false;
   bool busy_ = false;
   std::optional<std::string> outcome_;
   std::thread thread_;

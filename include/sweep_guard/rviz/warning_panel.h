@@ -32,18 +32,22 @@ class WarningPanel : public rviz::Panel {
   void load(const rviz::Config& config) override;
   void save(rviz::Config config) const override;
 
+  /// Shows what there is to show at a time. Its timer calls this every kPeriod.
+  void look(const Moment& now);
+
   const PanelState& state() const { return state_; }  ///< what is shown
   const LevelHistory& history() const { return history_; }
 
  private:
   void layOut();
   void setTopic(const std::string& topic);
-  void look();
   void remember(const std::vector<ReceivedWarning>& warnings, SteadyTime now);
   void showState(SteadyTime now);
-  std::string service(const std::string& name) const;
+  std::string announced(const std::string& service);
+  void tell(const std::string& outcome);
 
   std::string topic_;
+  std::string guard_;  // namespace of its services; empty: none that could be called
   WarningFeed feed_;
   ServiceCall call_;
   std::optional<ReceivedWarning> newest_;
