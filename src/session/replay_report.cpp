@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "evaluation/gnuplot.h"
+#include "recording/touched.h"
 #include "session/session_bag.h"
 #include "session/session_log.h"
 #include "session/session_report.h"
@@ -48,20 +49,14 @@ bool waitUntil(const std::function<bool()>& condition, double patience) {
   return false;
 }
 
-// What only the volume meets is no contact.
-bool isTouched(const sweep_guard::ObjectContacts& object) {
-  return !object.impacts.empty() || object.inside != 0 || object.fine == 0;
-}
-
 Touch toTouch(const sweep_guard::Contacts& contacts, const sweep_guard::ObjectContacts& object) {
   Touch touch;
   touch.heard = now();
   touch.first = fromMsg(contacts.interval_start);
   touch.mesh_id = object.mesh_id;
-  if (object.fine == 0) touch.triangles = object.triangles;
+  touch.triangles = sweep_guard_recording::trianglesTouched(object);
   double first = std::numeric_limits<double>::infinity();
   for (const sweep_guard::TriangleContact& impact : object.impacts) {
-    touch.triangles.push_back(impact.triangle);
     touch.depth = std::fmax(touch.depth, impact.depth);
     if (impact.time_of_impact >= first) continue;
     first = impact.time_of_impact;
@@ -85,15 +80,18 @@ class ReplayReport {
     topics.tool_pose = parameters.text("tool_pose", "/tool_pose");
     topics.mesh = parameters.text("mesh", "/mesh");
     topics.mesh_vertices = parameters.text("mesh_vertices", "/mesh_vertices");
-    const std::string guard = parameters.name("guard", "sweep_guard");
-    if (ros::NodeHandle(guard).param<std::string>("tool_source", "topic") == "tf") topics.tool_pose.clear();
+    const ros::NodeHandle guard(parameters.name("guard", "sweep_guard"));
+    if (guard.param<std::string>("tool_source", "topic") == "tf") {
+      listenTo(topics.tool_pose);
+      topics.tool_pose.clear();
+    }
     mesh_in_bag_ = !topics.mesh.empty();
     bag_ = inspectBag(path_, topics);
-    if (bag_.meshes == 1 && bag_.vertices == 0) {
+    if (bag_.meshes == 1 && bag_.vertices == 0 && std::isfinite(guard.param("timing/mesh_timeout", 0.5))) {
       ROS_WARN(
           "there are no vertices on %s: the workpiece will be stale, and the level UNKNOWN, after "
-          "timing/mesh_timeout. Give mesh_vertices:=TOPIC, or, if it does not deform, "
-          "config:=$(rospack find sweep_guard)/config/static_workpiece.yaml",
+          "timing/mesh_timeout. Give mesh_vertices:=TOPIC, or, if it does not deform, set timing/mesh_timeout: .inf "
+          "in your config",
           topics.mesh_vertices.c_str());
     }
     listenTo(parameters.text("topics", ""));
@@ -106,12 +104,17 @@ class ReplayReport {
     await([this] { return clock_.getNumPublishers() == 0 || contacts_.getNumPublishers() == 0; });
     if (contacts_.getNumPublishers() == 0)
       throw InvalidInput("the guard has ended during the session; see its message");
-    waitUntil([this] { return log_.lastSwept() && *log_.lastSwept() >= bag_.last_pose; }, kGrace);
+    waitUntil([this] { return sweptToTheEnd(); }, kGrace);
     log_.end(now());
     if (ros::ok()) report();
   }
 
  private:
+  bool sweptToTheEnd() const {
+    const auto last = log_.swept().last();
+    return last && (bag_.poses.empty() || *last >= bag_.poses.back());
+  }
+
   // The player waits for a listener on each topic: somebody else's may come later, or not at all.
   void listenTo(const std::string& topics) {
     std::istringstream words(topics);
@@ -160,7 +163,7 @@ class ReplayReport {
   void onContacts(const sweep_guard::Contacts::ConstPtr& contacts) {
     log_.addSweep(fromMsg(contacts->interval_start), fromMsg(contacts->header.stamp));
     for (const sweep_guard::ObjectContacts& object : contacts->objects) {
-      if (isTouched(object)) log_.add(toTouch(*contacts, object));
+      if (sweep_guard_recording::isTouched(object)) log_.add(toTouch(*contacts, object));
     }
   }
 
@@ -179,11 +182,11 @@ class ReplayReport {
     const std::filesystem::path folder(output_);
     write(folder / "contacts.csv", contactsCsv(log_, bag_.begin));
     write(folder / "levels.csv", levelsCsv(log_, bag_.begin));
-    const std::string plot = folder / "timeline.png";
     const std::string name = std::filesystem::path(path_).filename();
-    sweep_guard_evaluation::runGnuplot(timelinePlot(log_, bag_, name, plot));
-    std::cout << summary(log_, bag_) << "written to " << output_ << ": contacts.csv, levels.csv, timeline.png"
-              << std::endl;
+    sweep_guard_evaluation::runGnuplot(timelinePlot(log_, bag_, name, folder / "timeline.png"));
+    sweep_guard_evaluation::runGnuplot(contactsPlot(log_, bag_, name, folder / "contacts.png"));
+    std::cout << summary(log_, bag_) << "written to " << output_
+              << ": timeline.png, contacts.png, contacts.csv, levels.csv" << std::endl;
   }
 
   std::string path_;

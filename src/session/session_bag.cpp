@@ -59,19 +59,19 @@ void requireTopics(const Types& types, const SessionTopics& topics) {
   require(types, "mesh_vertices", topics.mesh_vertices, "sweep_guard/MeshVertices", "give mesh_vertices:=TOPIC");
 }
 
-void countPoses(const rosbag::Bag& bag, const std::string& topic, SessionBag& session) {
+void readPoses(const rosbag::Bag& bag, const std::string& topic, SessionBag& session) {
   Duration least_behind = Duration::max();
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
     const auto pose = message.instantiate<geometry_msgs::PoseStamped>();
     if (!pose) throw InvalidInput("a message on " + topic + " cannot be read; record it again");
-    ++session.poses;
     const sweep_guard::Time stamp = fromMsg(pose->header.stamp);
-    session.last_pose = std::max(session.last_pose, stamp);
+    session.poses.push_back(stamp);
     const Duration behind = fromMsg(message.getTime()) - stamp;
     if (std::chrono::abs(behind) < std::chrono::abs(least_behind)) least_behind = behind;
   }
-  if (session.poses == 0) throw InvalidInput("there is no message on " + topic + "; record it again");
-  if (session.last_pose == sweep_guard::Time()) {
+  if (session.poses.empty()) throw InvalidInput("there is no message on " + topic + "; record it again");
+  std::sort(session.poses.begin(), session.poses.end());
+  if (session.poses.back() == sweep_guard::Time()) {
     throw InvalidInput("the poses on " + topic + " have no stamps, and without them nothing is known of the motion; " +
                        "stamp each pose when the tool is there");
   }
@@ -97,7 +97,7 @@ SessionBag inspect(const rosbag::Bag& bag, const SessionTopics& topics) {
     session.meshes = count(topics.mesh);
     session.vertices = count(topics.mesh_vertices);
   }
-  if (!topics.tool_pose.empty()) countPoses(bag, topics.tool_pose, session);
+  if (!topics.tool_pose.empty()) readPoses(bag, topics.tool_pose, session);
   return session;
 }
 
@@ -106,7 +106,7 @@ SessionBag inspect(const rosbag::Bag& bag, const SessionTopics& topics) {
 SessionBag inspectBag(const std::string& path, const SessionTopics& topics) {
   try {
     if (!std::filesystem::exists(path)) throw InvalidInput("no such file; give bag:=FILE");
-    if (!sweep_guard_recording::isBag(path)) throw InvalidInput("not a rosbag; give bag:=FILE");
+    if (!sweep_guard_recording::isBag(path)) throw InvalidInput("not a rosbag, or not readable; give bag:=FILE");
     return inspect(rosbag::Bag(path), topics);
   } catch (const InvalidInput& error) {
     throw InvalidInput(path + ": " + error.what());

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "sweep_guard/common/time.h"
 
@@ -16,12 +17,11 @@ struct SessionTopics {
 
 /// A bag that can be guarded.
 struct SessionBag {
-  std::size_t poses = 0;        ///< messages on the pose's topic
-  std::size_t meshes = 0;       ///< messages on the mesh's topic
-  std::size_t vertices = 0;     ///< messages on the topic of its vertices
-  sweep_guard::Time last_pose;  ///< newest stamp of a pose; epoch: without such a topic
-  sweep_guard::Time begin;      ///< first message
-  sweep_guard::Time end;        ///< last message
+  std::vector<sweep_guard::Time> poses;  ///< stamps of the messages on the pose's topic, ascending
+  std::size_t meshes = 0;                ///< messages on the mesh's topic
+  std::size_t vertices = 0;              ///< messages on the topic of its vertices
+  sweep_guard::Time begin;               ///< first message
+  sweep_guard::Time end;                 ///< last message
 };
 
 /// Looks into a recorded session before it is played.

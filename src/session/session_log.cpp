@@ -37,12 +37,6 @@ void SessionLog::add(const Told& told) {
   end_ = told.at;
 }
 
-void SessionLog::addSweep(Time start, Time stamp) {
-  ++sweeps_;
-  if (last_swept_ && start > *last_swept_) unswept_ += start - *last_swept_;
-  last_swept_ = stamp;
-}
-
 void SessionLog::end(Time at) { end_ = std::max(end_, at); }
 
 std::vector<Stretch> SessionLog::stretches() const {
@@ -70,7 +64,10 @@ std::vector<Contact> SessionLog::contacts() const {
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     if (stretches[i].level != Level::kContact) continue;
     Contact contact{stretches[i].begin, stretches[i].end, "", "", {}, std::numeric_limits<double>::quiet_NaN(), {}, {}};
-    for (; touch != touches_.end() && touch->heard <= contact.end; ++touch) take(contact, *touch);
+    const Time before = contacts.empty() ? Time::min() : contacts.back().end;  // what came late belongs there
+    for (; touch != touches_.end() && touch->heard <= contact.end; ++touch) {
+      if (touch->first >= before) take(contact, *touch);
+    }
     const auto lead = [&](Level least) { return std::max(contact.begin - onSince(stretches, i, least), Duration(0)); };
     contact.considered_lead = lead(Level::kConsidered);
     contact.reflex_lead = lead(Level::kReflex);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "recording/swept_intervals.h"
 #include "sweep_guard/guard/verdict.h"
 
 namespace sweep_guard_session {
@@ -58,25 +59,20 @@ class SessionLog {
  public:
   void add(const Told& told);
   void add(Touch touch) { touches_.push_back(std::move(touch)); }
-  /// @param start, stamp  of the interval that was swept
-  void addSweep(sweep_guard::Time start, sweep_guard::Time stamp);
+  void addSweep(sweep_guard::Time start, sweep_guard::Time stamp) { swept_.add(start, stamp); }
   void end(sweep_guard::Time at);  ///< what was told last holds until then
 
   const std::vector<Told>& told() const { return told_; }
   std::vector<Stretch> stretches() const;  ///< one after the other, none without duration
   std::vector<Contact> contacts() const;
   sweep_guard::Duration duration(sweep_guard::Level level) const;  ///< of all stretches of that level
-  std::size_t sweeps() const { return sweeps_; }
-  sweep_guard::Duration unswept() const { return unswept_; }  ///< holes between the intervals swept
-  std::optional<sweep_guard::Time> lastSwept() const { return last_swept_; }
+  const sweep_guard_recording::SweptIntervals& swept() const { return swept_; }
 
  private:
   std::vector<Told> told_;
   std::vector<Touch> touches_;
   sweep_guard::Time end_;
-  std::size_t sweeps_ = 0;
-  sweep_guard::Duration unswept_{0};
-  std::optional<sweep_guard::Time> last_swept_;
+  sweep_guard_recording::SweptIntervals swept_;
 };
 
 }  // namespace sweep_guard_session

@@ -9,6 +9,7 @@
 #include "evaluation/csv.h"
 #include "evaluation/format.h"
 #include "evaluation/gnuplot.h"
+#include "session/contact_table.h"
 
 namespace sweep_guard_session {
 
@@ -23,7 +24,8 @@ using sweep_guard_evaluation::gnuplotText;
 
 namespace {
 
-constexpr std::size_t kMostContactsListed = 20;
+constexpr std::size_t kMostContactsPrinted = 20;
+constexpr std::size_t kMostContactsDrawn = 40;
 constexpr std::array<Level, 5> kLevels = {Level::kUnknown, Level::kClear, Level::kConsidered, Level::kReflex,
                                           Level::kContact};
 
@@ -64,8 +66,8 @@ std::string leadLine(const std::vector<Contact>& contacts, Level level, Duration
 }
 
 std::string levelTable(const SessionLog& log) {
-  const double whole = std::max(
-      toSeconds(log.told().empty() ? Duration(0) : log.stretches().back().end - log.stretches().front().begin), 1e-9);
+  const std::vector<Stretch> stretches = log.stretches();
+  const double whole = stretches.empty() ? 1.0 : toSeconds(stretches.back().end - stretches.front().begin);
   std::string table = "levels\n";
   for (const Level level : kLevels) {
     const double lasted = toSeconds(log.duration(level));
@@ -74,29 +76,22 @@ std::string levelTable(const SessionLog& log) {
   return table;
 }
 
-std::string contactTable(const std::vector<Contact>& contacts, Time begin) {
-  std::string table = format("  %3s %9s %9s  %-12s %-12s %9s %6s %12s %8s\n", "#", "begin [s]", "lasts [s]", "mesh",
-                             "link", "triangles", "[mm]", "CONSIDERED", "REFLEX");
-  for (std::size_t i = 0; i < std::min(contacts.size(), kMostContactsListed); ++i) {
-    const Contact& contact = contacts[i];
-    table += format("  %3zu %9.2f %9.2f  %-12s %-12s %9zu %6.1f %10.2f s %6.2f s\n", i + 1,
-                    seconds(contact.begin, begin), toSeconds(contact.end - contact.begin), contact.mesh_id.c_str(),
-                    contact.tool_link.c_str(), contact.triangles.size(), 1e3 * contact.depth,
-                    toSeconds(contact.considered_lead), toSeconds(contact.reflex_lead));
-  }
-  if (contacts.size() > kMostContactsListed)
-    table += format("  ... and %zu more\n", contacts.size() - kMostContactsListed);
-  return table;
-}
-
 // A backlog is swept at once, through all of its poses.
 std::string sweptLine(const SessionLog& log, const SessionBag& bag) {
-  std::string line = format("swept      %zu times, ", log.sweeps());
-  line += log.unswept() > Duration(0) ? format("%.3f s between two poses NOT SWEPT", toSeconds(log.unswept()))
+  const sweep_guard_recording::SweptIntervals& swept = log.swept();
+  if (swept.size() == 0) return "swept      NOTHING WAS SWEPT; what was UNKNOWN tells why\n";
+  std::string line = format("swept      %zu times, ", swept.size());
+  line += swept.holes() > Duration(0) ? format("%.3f s between two poses NOT SWEPT", toSeconds(swept.holes()))
                                       : std::string("without a gap");
-  if (bag.poses > log.sweeps()) {
-    line += format("; %zu poses waited and were swept with the next: rate:=0.5 gives this machine more time",
-                   bag.poses - log.sweeps());
+  const auto covered = static_cast<std::size_t>(
+      std::count_if(bag.poses.begin(), bag.poses.end(), [&swept](Time pose) { return swept.cover(pose); }));
+  if (covered > swept.size()) {
+    line += format("; %zu poses waited for the next, or were refused: rate:=0.5 gives this machine more time",
+                   covered - swept.size());
+  }
+  if (covered < bag.poses.size()) line += format("\n           %zu poses NOT SWEPT", bag.poses.size() - covered);
+  if (!bag.poses.empty() && *swept.last() < bag.poses.back()) {
+    line += format(", all of the last %.3f s", toSeconds(bag.poses.back() - *swept.last()));
   }
   return line + '\n';
 }
@@ -130,7 +125,7 @@ std::string levelPanel(const SessionLog& log, Time begin) {
   }
   panel << ")\nset style fill solid 1.0 noborder\n"
         << "rgb(text) = int(sprintf('0x%s', substr(text, 2, 7)))\n"
-        << "plot $levels using 1:2:3:4:(rgb(strcol(5))) with boxxyerror lc rgb variable notitle";
+        << "plot -1 notitle, $levels using 1:2:3:4:(rgb(strcol(5))) with boxxyerror lc rgb variable notitle";
   return panel.str();
 }
 
@@ -154,7 +149,7 @@ std::string collisionPanel(const SessionLog& log, Time begin) {
 
 std::string leadPanel(const std::vector<Contact>& contacts, Time begin) {
   std::ostringstream panel;
-  panel << "set title 'How long before each contact the warnings came on (numbers: contacts.csv; no bar: not before "
+  panel << "set title 'How long before each contact the warnings came on (numbers: contacts.png; no bar: not before "
            "it)'\n"
         << "set format x '%g'\nset ylabel '[s]'\nset yrange [0:0.2<*]\nset xlabel 'time since the begin of the session "
            "[s]'\n";
@@ -199,14 +194,14 @@ std::string levelsCsv(const SessionLog& log, Time begin) {
 std::string summary(const SessionLog& log, const SessionBag& bag) {
   const std::vector<Contact> contacts = log.contacts();
   std::string text = format("session    %.1f s, %zu poses, %zu meshes, %zu updates of vertices\n",
-                            toSeconds(bag.end - bag.begin), bag.poses, bag.meshes, bag.vertices);
+                            toSeconds(bag.end - bag.begin), bag.poses.size(), bag.meshes, bag.vertices);
   text += sweptLine(log, bag);
   text += levelTable(log) + longestUnknown(log, bag.begin);
   text += format("contacts   %zu\n", contacts.size());
   if (contacts.empty()) return text;
   text += leadLine(contacts, Level::kConsidered, &Contact::considered_lead);
   text += leadLine(contacts, Level::kReflex, &Contact::reflex_lead);
-  return text + contactTable(contacts, bag.begin);
+  return text + ContactTable(contacts, bag.begin, kMostContactsPrinted).text();
 }
 
 std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
@@ -224,6 +219,12 @@ std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std
   page.addPanel(1, 0, collisionPanel(log, bag.begin));
   page.addPanel(2, 0, leadPanel(log.contacts(), bag.begin));
   return page.script();
+}
+
+std::string contactsPlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
+                         const std::string& path) {
+  return ContactTable(log.contacts(), bag.begin, kMostContactsDrawn)
+      .plot("Contacts of " + title + ", and how long before them CONSIDERED and REFLEX came on", path);
 }
 
 }  // namespace sweep_guard_session

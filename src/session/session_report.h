@@ -24,4 +24,8 @@ std::string summary(const SessionLog& log, const SessionBag& bag);
 std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
                          const std::string& path);
 
+/// The same for a table of the contacts, of the first 40 where there are more.
+std::string contactsPlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
+                         const std::string& path);
+
 }  // namespace sweep_guard_session

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "recording/touched.h"
 #include "simulation/demo_report.h"
 #include "sweep_guard/Contacts.h"
 #include "sweep_guard/MeshVertices.h"
@@ -149,11 +150,15 @@ class DemoMonitor {
 
   void onContacts(const sweep_guard::Contacts::ConstPtr& contacts) {
     const sweep_guard::Time arrival = toTime(ros::Time::now());
-    if (settling_ && !report_.awaits(toTime(contacts->header.stamp))) return;
+    const sweep_guard::Time start = toTime(contacts->interval_start);
+    const sweep_guard::Time stamp = toTime(contacts->header.stamp);
+    if (settling_ && !report_.awaits(start, stamp)) return;
     std::vector<TouchedObject> objects;
-    for (const sweep_guard::ObjectContacts& object : contacts->objects)
-      objects.push_back({object.mesh_id, object.triangles});
-    report_.addContacts(toTime(contacts->header.stamp), arrival, objects);
+    for (const sweep_guard::ObjectContacts& object : contacts->objects) {
+      if (!sweep_guard_recording::isTouched(object)) continue;
+      objects.push_back({object.mesh_id, sweep_guard_recording::trianglesTouched(object)});
+    }
+    report_.addContacts(start, stamp, arrival, objects);
   }
 
   void handleMessages() { ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01)); }
@@ -178,7 +183,7 @@ class DemoMonitor {
     handleMessages();
     tool_pose_.shutdown();
     settling_ = true;
-    for (const Duration begin = steadyNow(); report_.posesWithoutContacts() > 0 && steadyNow() - begin < kGrace;) {
+    for (const Duration begin = steadyNow(); report_.posesNotSwept() > 0 && steadyNow() - begin < kGrace;) {
       handleMessages();
     }
   }

@@ -39,41 +39,31 @@ std::string warned(std::vector<WarningLeads::Contact> contacts) {
   return text.str();
 }
 
-void countUnmatched(std::map<Time, int>* unmatched, Time stamp, int change) {
-  const auto entry = unmatched->try_emplace(stamp, 0).first;
-  entry->second += change;
-  if (entry->second == 0) unmatched->erase(entry);
-}
-
 }  // namespace
 
 void DemoReport::addPose(Time stamp, std::uint32_t sequence) {
   ++poses_;
   if (last_sequence_ && sequence > *last_sequence_) sequence_gap_ += sequence - *last_sequence_ - 1;
   last_sequence_ = sequence;
-  countUnmatched(&unmatched_, stamp, 1);
+  if (!swept_.cover(stamp)) not_swept_.insert(stamp);
 }
 
-void DemoReport::addContacts(Time stamp, Time arrival, const std::vector<TouchedObject>& objects) {
+void DemoReport::addContacts(Time start, Time stamp, Time arrival, const std::vector<TouchedObject>& objects) {
   std::size_t touched = 0;
   for (const TouchedObject& object : objects) {
     touched += object.triangles.size();
     for (const std::uint32_t triangle : object.triangles) triangles_.emplace(object.mesh_id, triangle);
   }
-  if (touched > 0) ++contacts_;
+  if (!objects.empty()) ++contacts_;
   latencies_.push_back({stamp, arrival - stamp, touched});
-  countUnmatched(&unmatched_, stamp, -1);
+  swept_.add(start, stamp);
+  not_swept_.erase(stamp);
+  not_swept_.erase(not_swept_.upper_bound(start), not_swept_.lower_bound(stamp));
 }
 
-bool DemoReport::awaits(Time stamp) const {
-  const auto entry = unmatched_.find(stamp);
-  return entry != unmatched_.end() && entry->second > 0;
-}
-
-std::size_t DemoReport::posesWithoutContacts() const {
-  std::size_t count = 0;
-  for (const auto& [stamp, poses] : unmatched_) count += static_cast<std::size_t>(std::max(poses, 0));
-  return count;
+bool DemoReport::awaits(Time start, Time stamp) const {
+  const auto pose = not_swept_.upper_bound(start);
+  return not_swept_.count(stamp) > 0 || (pose != not_swept_.end() && *pose < stamp);
 }
 
 std::size_t DemoReport::missedCycles() const {
@@ -111,7 +101,7 @@ std::string DemoReport::summary() const {
        << "  max " << milliseconds(latency(1.0)) << "\n"
        << "warned ahead of       " << warned(leads_.contacts()) << "\n"
        << "missed cycles         " << missedCycles() << "\n"
-       << "poses lost            " << posesWithoutContacts() + posesNeverReceived();
+       << "poses lost            " << posesNotSwept() + posesNeverReceived();
   return text.str();
 }
 
@@ -120,7 +110,7 @@ std::optional<std::string> DemoReport::fault() const {
   if (mesh_updates_ == 0) return "no mesh update arrived: the workpiece did not deform";
   if (posesNeverReceived() > 0)
     return std::to_string(posesNeverReceived()) + " poses were lost before the monitor got them";
-  if (posesWithoutContacts() > 0) return std::to_string(posesWithoutContacts()) + " poses were not swept by the guard";
+  if (posesNotSwept() > 0) return std::to_string(posesNotSwept()) + " poses were not swept by the guard";
   return std::nullopt;
 }
 

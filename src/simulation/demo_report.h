@@ -2,22 +2,22 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "recording/swept_intervals.h"
 #include "simulation/warning_leads.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_simulation {
 
-/// What a Contacts message says about one workpiece.
+/// A workpiece that was touched.
 struct TouchedObject {
   std::string mesh_id;
-  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> triangles;  ///< none: the tool is inside of it
 };
 
 /// Time between a pose and the answer to it.
@@ -27,25 +27,27 @@ struct Latency {
   std::size_t triangles;        ///< touched
 };
 
-/// Counts what went into the guard and what came out: which poses were answered, how fast, and which were lost. Poses
-/// and answers are matched by their stamps, by multiplicity; either may come first.
+/// Counts what went into the guard and what came out: which poses were swept, how fast, and which were lost. Poses and
+/// the intervals swept are matched by their stamps; either may come first.
 class DemoReport {
  public:
   /// @param sequence  header.seq, counted by the publisher
   void addPose(sweep_guard::Time stamp, std::uint32_t sequence);
   void addMeshUpdate() { ++mesh_updates_; }
-  void addContacts(sweep_guard::Time stamp, sweep_guard::Time arrival, const std::vector<TouchedObject>& objects);
+  /// @param start, stamp  of the interval swept
+  void addContacts(sweep_guard::Time start, sweep_guard::Time stamp, sweep_guard::Time arrival,
+                   const std::vector<TouchedObject>& objects);
 
   /// @param arrival  not before that of the warning before
   void addWarning(sweep_guard::Time arrival, sweep_guard::Level level) { leads_.add(arrival, level); }
 
-  bool awaits(sweep_guard::Time stamp) const;  ///< a pose of this stamp has no Contacts so far
+  bool awaits(sweep_guard::Time start, sweep_guard::Time stamp) const;  ///< an interval with a pose not swept so far
   std::size_t poses() const { return poses_; }
   std::size_t meshUpdates() const { return mesh_updates_; }
   std::size_t sweeps() const { return latencies_.size(); }              ///< Contacts messages
-  std::size_t contacts() const { return contacts_; }                    ///< those that touched a triangle
+  std::size_t contacts() const { return contacts_; }                    ///< those with a workpiece touched
   std::size_t trianglesTouched() const { return triangles_.size(); }    ///< distinct ones
-  std::size_t posesWithoutContacts() const;                             ///< so far
+  std::size_t posesNotSwept() const { return not_swept_.size(); }       ///< so far
   std::size_t posesNeverReceived() const { return sequence_gap_; }      ///< missing in header.seq
   std::size_t missedCycles() const;                                     ///< answers later than 1/15 s
   const std::vector<Latency>& latencies() const { return latencies_; }  ///< in order of arrival
@@ -65,7 +67,8 @@ class DemoReport {
   std::size_t contacts_ = 0;
   std::size_t sequence_gap_ = 0;
   std::optional<std::uint32_t> last_sequence_;
-  std::map<sweep_guard::Time, int> unmatched_;  // poses minus Contacts of a stamp, without those at 0
+  sweep_guard_recording::SweptIntervals swept_;
+  std::multiset<sweep_guard::Time> not_swept_;
   std::vector<Latency> latencies_;
   std::set<std::pair<std::string, std::uint32_t>> triangles_;
   WarningLeads leads_;

@@ -6,6 +6,7 @@
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sys/socket.h>
+#include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -116,12 +117,25 @@ class ReplayTest : public testing::Test {
     }
   }
 
+  static void writeTransforms(rosbag::Bag& bag) {
+    for (double t = 0.0; t < kDuration; t += 0.01) {
+      const geometry_msgs::PoseStamped pose = poseAt(t);
+      tf2_msgs::TFMessage message;
+      geometry_msgs::TransformStamped& transform = message.transforms.emplace_back();
+      transform.header = pose.header;
+      transform.child_frame_id = "tip";
+      transform.transform.translation.z = pose.pose.position.z;
+      transform.transform.rotation = pose.pose.orientation;
+      bag.write("/tf", pose.header.stamp, message);
+    }
+  }
+
   // What it printed. What it leaves in ROS_HOME goes with the folder.
   std::string replay(const std::string& arguments) const {
     const int port = freePort();
     std::ostringstream command;
     command << "ROS_HOME=" << folder_ << " ROS_IP=127.0.0.1 ROS_MASTER_URI=http://127.0.0.1:" << port
-            << " timeout 100 roslaunch -p " << port << " sweep_guard replay.launch bag:=" << bag_.string()
+            << " timeout 100 roslaunch -p " << port << " sweep_guard replay.launch bag:=" << bag_
             << " output:=" << (folder_ / "report").string() << ' ' << arguments << " > " << folder_ / "printed.txt"
             << " 2>&1";
     EXPECT_EQ(std::system(command.str().c_str()), 0);
@@ -129,7 +143,7 @@ class ReplayTest : public testing::Test {
   }
 
   fs::path folder_;
-  fs::path bag_ = folder_ / "session.bag";
+  fs::path bag_ = folder_ / "operator's session.bag";
 };
 
 TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
@@ -158,6 +172,7 @@ TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
   }
   EXPECT_TRUE(has(readText(folder_ / "report/levels.csv"), "REFLEX")) << printed;
   EXPECT_GT(fs::file_size(folder_ / "report/timeline.png"), 10000U);
+  EXPECT_GT(fs::file_size(folder_ / "report/contacts.png"), 10000U);
 }
 
 // In millimetres, as parts often are.
@@ -169,6 +184,20 @@ TEST_F(ReplayTest, TakesAWorkpieceFromAFileWhereTheBagHasNone) {
   std::ofstream(file) << "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\nf 1 2 3\nf 1 3 4\n";
   const std::string printed = replay("mesh_file:=" + file.string() + " mesh_scale:=0.001");
   ASSERT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 3U) << printed;
+}
+
+// The guard does not listen to poses then, and the player waits for a listener of each topic.
+TEST_F(ReplayTest, TakesTheToolFromTfAlthoughTheBagHasItsPoses) {
+  rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
+  bag.write("/mesh", ros::Time(kBegin), sheet());
+  writePoses(bag);
+  writeTransforms(bag);
+  bag.close();
+  const fs::path config = folder_ / "tf.yaml";
+  std::ofstream(config) << "tool_source: tf\ntool_frame: tip\ntiming:\n  mesh_timeout: .inf\n";
+  const std::string printed = replay("config:=" + config.string());
+  ASSERT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 3U) << printed;
+  EXPECT_FALSE(has(printed, "there are no vertices")) << printed;
 }
 
 TEST_F(ReplayTest, ABagThatCannotBeGuardedEndsItWithALineThatSaysWhy) {

@@ -104,16 +104,21 @@ TEST(SessionLogTest, AWarningThatComesAfterTheTouchHasNoLead) {
   EXPECT_TRUE(std::isnan(log.contacts()[0].depth));
 }
 
-TEST(SessionLogTest, HolesBetweenSweepsAreSummed) {
+// Where warnings are not held, the last touch is heard when the level has gone.
+TEST(SessionLogTest, ATouchThatIsHeardAfterItsContactIsNotTheNextOnes) {
   SessionLog log;
-  log.addSweep(at(0), at(0));
-  log.addSweep(at(0), at(10));
-  log.addSweep(at(10), at(30));
-  EXPECT_EQ(log.unswept(), milliseconds(0));
-  log.addSweep(at(35), at(40));
-  EXPECT_EQ(log.unswept(), milliseconds(5));
-  EXPECT_EQ(log.sweeps(), 4U);
-  EXPECT_EQ(log.lastSwept(), at(40));
+  tell(log, 0, Level::kContact);
+  log.add(touchAt(0, 0, 1, 0.001));
+  tell(log, 100, Level::kReflex);
+  log.add(touchAt(95, 101, 2, 0.002));
+  tell(log, 500, Level::kContact);
+  log.add(touchAt(490, 500, 3, 0.003));
+  log.end(at(600));
+  const std::vector<Contact> contacts = log.contacts();
+  ASSERT_EQ(contacts.size(), 2U);
+  EXPECT_EQ(contacts[1].begin, at(490));
+  EXPECT_EQ(contacts[1].reflex_lead, milliseconds(390));
+  EXPECT_EQ(contacts[1].triangles, std::set<std::uint32_t>{3});
 }
 
 TEST(SessionLogTest, NothingWasTold) {

@@ -17,9 +17,12 @@ const Time kBegin(std::chrono::seconds(100));
 
 Time at(int ms) { return kBegin + milliseconds(ms); }
 
-SessionBag bagOf(std::size_t poses) {
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// The last pose is where the contact is, those before every 10 ms.
+SessionBag bagOf(int poses) {
   SessionBag bag;
-  bag.poses = poses;
+  for (int i = poses; i > 0; --i) bag.poses.push_back(at(1320 - 10 * i));
   bag.begin = kBegin;
   bag.end = at(2000);
   return bag;
@@ -55,19 +58,36 @@ TEST(SessionReportTest, LevelsAreALineEach) {
 }
 
 TEST(SessionReportTest, SummaryTellsOfContactsAndOfWhatWasNotSwept) {
-  const auto has = [](const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-  };
   SessionLog log = oneContact();
   EXPECT_TRUE(has(summary(log, bagOf(1)), "swept      1 times, without a gap\n"));
-  EXPECT_TRUE(has(summary(log, bagOf(3)), "2 poses waited"));
+  EXPECT_TRUE(has(summary(log, bagOf(2)), "; 1 poses waited for the next, or were refused"));
   EXPECT_TRUE(has(summary(log, bagOf(1)), "ahead of 1 of 1, by 0.10 s in the median"));
   log.addSweep(at(1360), at(1370));
   EXPECT_TRUE(has(summary(log, bagOf(2)), "0.050 s between two poses NOT SWEPT"));
 }
 
-TEST(SessionReportTest, ASessionOfWhichNothingIsKnownIsReportedToo) {
-  EXPECT_FALSE(summary(SessionLog(), bagOf(0)).empty());
+TEST(SessionReportTest, SummaryDoesNotCallPosesSweptThatNoIntervalCovers) {
+  const SessionLog log = oneContact();
+  SessionBag bag = bagOf(5);
+  EXPECT_TRUE(has(summary(log, bag), "1 poses waited"));
+  EXPECT_TRUE(has(summary(log, bag), "\n           3 poses NOT SWEPT\n"));
+  bag.poses.push_back(at(1560));
+  EXPECT_TRUE(has(summary(log, bag), "\n           4 poses NOT SWEPT, all of the last 0.250 s\n"));
+  SessionLog blind;
+  blind.add({at(0), Level::kUnknown, "UNKNOWN: no workpiece yet"});
+  blind.end(at(2000));
+  EXPECT_TRUE(has(summary(blind, bag), "NOTHING WAS SWEPT"));
+  EXPECT_FALSE(has(summary(blind, bag), "waited"));
+}
+
+TEST(SessionReportTest, ASessionOfOneInstantIsReportedToo) {
+  SessionLog instant;
+  instant.add({at(0), Level::kUnknown, "UNKNOWN: no tool pose yet"});
+  instant.end(at(0));
+  for (const SessionLog& log : {SessionLog(), instant}) {
+    EXPECT_TRUE(has(summary(log, bagOf(0)), "UNKNOWN         0.0 s   0.0 %\n"));
+    EXPECT_TRUE(has(summary(log, bagOf(0)), "contacts   0\n"));
+  }
 }
 
 // gnuplot refuses a script that is wrong; an apostrophe must not end a text in it.
@@ -76,10 +96,13 @@ TEST(SessionReportTest, PlotsAreDrawnWithAndWithoutContacts) {
   SessionLog uneventful;
   uneventful.add({at(0), Level::kClear, "CLEAR"});
   uneventful.end(at(2000));
-  for (const SessionLog& log : {oneContact(), uneventful}) {
+  for (const SessionLog& log : {oneContact(), uneventful, SessionLog()}) {
     std::filesystem::remove(path);
     sweep_guard_evaluation::runGnuplot(timelinePlot(log, bagOf(1), "operator's.bag", path));
     EXPECT_GT(std::filesystem::file_size(path), 10000U);
+    std::filesystem::remove(path);
+    sweep_guard_evaluation::runGnuplot(contactsPlot(log, bagOf(1), "operator's.bag", path));
+    EXPECT_GT(std::filesystem::file_size(path), 3000U);
   }
   std::filesystem::remove(path);
 }

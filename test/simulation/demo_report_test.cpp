@@ -15,43 +15,59 @@ TEST(DemoReportTest, IsContentWhenEveryPoseWasAnswered) {
   report.addMeshUpdate();
   report.addPose(at(10), 1);
   report.addPose(at(20), 2);
-  report.addContacts(at(10), at(11), {});
-  report.addContacts(at(20), at(21), {});
-  EXPECT_EQ(report.posesWithoutContacts(), 0U);
+  report.addContacts(at(10), at(10), at(11), {});
+  report.addContacts(at(20), at(20), at(21), {});
+  EXPECT_EQ(report.posesNotSwept(), 0U);
   EXPECT_FALSE(report.fault());
 }
 
 TEST(DemoReportTest, MatchesAnAnswerThatOvertakesItsPose) {
   DemoReport report;
-  report.addContacts(at(10), at(11), {});
-  EXPECT_EQ(report.posesWithoutContacts(), 0U);
+  report.addContacts(at(10), at(10), at(11), {});
+  EXPECT_EQ(report.posesNotSwept(), 0U);
   report.addPose(at(10), 1);
-  EXPECT_EQ(report.posesWithoutContacts(), 0U);
+  EXPECT_EQ(report.posesNotSwept(), 0U);
 }
 
-TEST(DemoReportTest, CountsPosesOfEqualStampsEach) {
+TEST(DemoReportTest, APoseThatHadToWaitIsSweptWithTheNextWhicheverComesFirst) {
+  DemoReport report;
+  report.addMeshUpdate();
+  report.addPose(at(10), 1);
+  report.addContacts(at(10), at(10), at(11), {});
+  report.addPose(at(20), 2);
+  report.addPose(at(30), 3);
+  EXPECT_EQ(report.posesNotSwept(), 2U);
+  report.addContacts(at(10), at(30), at(31), {});
+  EXPECT_EQ(report.posesNotSwept(), 0U);
+  report.addContacts(at(30), at(50), at(51), {});
+  report.addPose(at(40), 4);
+  report.addPose(at(50), 5);
+  EXPECT_FALSE(report.fault());
+}
+
+TEST(DemoReportTest, APoseIsNotSweptByTheIntervalThatBeginsAtIt) {
   DemoReport report;
   report.addPose(at(10), 1);
-  report.addPose(at(10), 2);
-  report.addContacts(at(10), at(11), {});
-  EXPECT_EQ(report.posesWithoutContacts(), 1U);
+  report.addContacts(at(10), at(20), at(21), {});
+  EXPECT_EQ(report.posesNotSwept(), 1U);
 }
 
 TEST(DemoReportTest, AwaitsAnAnswerUntilItCame) {
   DemoReport report;
   report.addPose(at(10), 1);
-  EXPECT_TRUE(report.awaits(at(10)));
-  EXPECT_FALSE(report.awaits(at(20)));
-  report.addContacts(at(10), at(11), {});
-  EXPECT_FALSE(report.awaits(at(10)));
+  EXPECT_TRUE(report.awaits(at(10), at(10)));
+  EXPECT_TRUE(report.awaits(at(0), at(20)));
+  EXPECT_FALSE(report.awaits(at(10), at(20)));
+  report.addContacts(at(10), at(10), at(11), {});
+  EXPECT_FALSE(report.awaits(at(10), at(10)));
 }
 
 // The answer to one pose must not make up for the missing answer to another.
 TEST(DemoReportTest, DoesNotOffsetALostPoseByAForeignAnswer) {
   DemoReport report;
-  report.addContacts(at(5), at(6), {});
+  report.addContacts(at(5), at(5), at(6), {});
   report.addPose(at(10), 1);
-  EXPECT_EQ(report.posesWithoutContacts(), 1U);
+  EXPECT_EQ(report.posesNotSwept(), 1U);
 }
 
 TEST(DemoReportTest, CountsGapsInTheSequence) {
@@ -59,7 +75,7 @@ TEST(DemoReportTest, CountsGapsInTheSequence) {
   report.addMeshUpdate();
   for (const std::uint32_t sequence : {7U, 8U, 11U, 12U}) {
     report.addPose(at(static_cast<int>(sequence)), sequence);
-    report.addContacts(at(static_cast<int>(sequence)), at(20), {});
+    report.addContacts(at(static_cast<int>(sequence)), at(static_cast<int>(sequence)), at(20), {});
   }
   EXPECT_EQ(report.posesNeverReceived(), 2U);
   EXPECT_EQ(report.fault(), "2 poses were lost before the monitor got them");
@@ -67,11 +83,12 @@ TEST(DemoReportTest, CountsGapsInTheSequence) {
 
 TEST(DemoReportTest, CountsContactsAndDistinctTriangles) {
   DemoReport report;
-  report.addContacts(at(10), at(11), {{"a", {1, 2}}, {"b", {1}}});
-  report.addContacts(at(20), at(21), {{"a", {2, 3}}});
-  report.addContacts(at(30), at(31), {{"a", {}}});
-  EXPECT_EQ(report.sweeps(), 3U);
-  EXPECT_EQ(report.contacts(), 2U);
+  report.addContacts(at(10), at(10), at(11), {{"a", {1, 2}}, {"b", {1}}});
+  report.addContacts(at(20), at(20), at(21), {{"a", {2, 3}}});
+  report.addContacts(at(30), at(30), at(31), {{"a", {}}});  // inside of it
+  report.addContacts(at(40), at(40), at(41), {});
+  EXPECT_EQ(report.sweeps(), 4U);
+  EXPECT_EQ(report.contacts(), 3U);
   EXPECT_EQ(report.trianglesTouched(), 4U);
   EXPECT_EQ(report.latencies().front().triangles, 3U);
 }
@@ -79,7 +96,7 @@ TEST(DemoReportTest, CountsContactsAndDistinctTriangles) {
 TEST(DemoReportTest, TakesLatenciesByNearestRank) {
   DemoReport report;
   EXPECT_FALSE(report.latency(0.5));
-  for (const int delay : {4, 1, 3, 2}) report.addContacts(at(0), at(delay), {});
+  for (const int delay : {4, 1, 3, 2}) report.addContacts(at(0), at(0), at(delay), {});
   EXPECT_EQ(report.latency(0.0), milliseconds(1));
   EXPECT_EQ(report.latency(0.5), milliseconds(2));
   EXPECT_EQ(report.latency(0.99), milliseconds(4));
@@ -88,8 +105,8 @@ TEST(DemoReportTest, TakesLatenciesByNearestRank) {
 
 TEST(DemoReportTest, MissesACycleAboveAFifteenthOfASecond) {
   DemoReport report;
-  report.addContacts(at(0), at(66), {});
-  report.addContacts(at(0), at(67), {});
+  report.addContacts(at(0), at(0), at(66), {});
+  report.addContacts(at(0), at(0), at(67), {});
   EXPECT_EQ(report.missedCycles(), 1U);
 }
 
@@ -121,7 +138,7 @@ TEST(DemoReportTest, TellsHowLongAheadItWasWarned) {
 TEST(DemoReportTest, WritesTheLiveLine) {
   DemoReport report;
   report.addPose(at(10), 1);
-  report.addContacts(at(10), Time(std::chrono::microseconds(10400)), {{"a", {1}}});
+  report.addContacts(at(10), at(10), Time(std::chrono::microseconds(10400)), {{"a", {1}}});
   EXPECT_EQ(report.liveLine(milliseconds(12500), "CONTACT"),
             "12.5 s  poses 1  contacts 1  level CONTACT  latency p50 0.4 ms");
 }
