@@ -57,9 +57,10 @@ std::string formatOf(const path& file) {
   throw InvalidInput(file.string() + ": not a mesh file that is read; give an STL, OBJ or DAE file");
 }
 
-// A pipe must not make the opening wait; O_NOFOLLOW: the path has none left, unless it was swapped just now.
-Descriptor openMesh(const path& file) {
-  Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+// A pipe must not make the opening wait.
+Descriptor openMesh(const path& file, Links links) {
+  const int follow = links == Links::kFollow ? 0 : O_NOFOLLOW;
+  Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | follow));
   struct stat status {};
   if (opened.get() < 0 || fstat(opened.get(), &status) != 0) {
     throw InvalidInput(file.string() + ": cannot be opened: " + std::strerror(errno));
@@ -191,9 +192,9 @@ std::optional<MeshSurface> decode(const std::string& bytes) {
 
 }  // namespace
 
-MeshSurface readMesh(const path& file) {
+MeshSurface readMesh(const path& file, Links links) {
   const std::string format = formatOf(file);
-  const Descriptor opened = openMesh(file);
+  const Descriptor opened = openMesh(file, links);
   Reader reader(readerProgram(), format, opened);
   const std::optional<std::string> answer = reader.answer();
   const std::string remedy = "; export the mesh anew";

@@ -62,7 +62,9 @@ path packageFolder(const std::string& package) {
 
 bool insidePackage(const path& file) {
   for (const path& entry : packagePath()) {
-    for (path folder = file.parent_path(); folder == entry || inside(folder, entry); folder = folder.parent_path()) {
+    const auto within = [&entry](const path& folder) { return folder == entry || inside(folder, entry); };
+    for (path folder = file.parent_path(); folder.has_relative_path() && within(folder);
+         folder = folder.parent_path()) {
       if (std::error_code error; std::filesystem::exists(folder / "package.xml", error)) return true;
     }
   }

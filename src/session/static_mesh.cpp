@@ -21,7 +21,8 @@ geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
 
 // Without a stamp: it was always so, whatever the clock says.
 sweep_guard::DeformableMesh readWorkpiece(sweep_guard_ros::ParameterReader& parameters) {
-  const sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(parameters.name("file", ""));
+  const sweep_guard_ros::MeshSurface surface =
+      sweep_guard_ros::readMesh(parameters.name("file", ""), sweep_guard_ros::Links::kFollow);
   const double scale = parameters.number("scale", 1.0, {1e-6, 1e6});
   const Eigen::Vector3d position = parameters.position("position", {0.0, 0.0, 0.0});
   sweep_guard::DeformableMesh message;
@@ -58,7 +59,7 @@ int main(int argc, char** argv) {
   const ros::NodeHandle alive;  // without any handle the console is silent
   try {
     sweep_guard_session::run();
-  } catch (const sweep_guard::InvalidInput& error) {
+  } catch (const sweep_guard::Error& error) {
     ROS_FATAL("%s", error.what());
     return 2;
   }

@@ -10,6 +10,7 @@
 #include "simulation/run_node.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
+#include "simulation/workpiece_parameters.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/MeshVertices.h"
 #include "sweep_guard/common/error.h"
@@ -65,15 +66,6 @@ class WorkpieceNode {
   }
 
  private:
-  static Workpiece makeWorkpiece(sweep_guard_ros::ParameterReader& parameters) {
-    Workpiece::Options options;
-    options.size = parameters.number("size", options.size, {1e-3, 100.0});
-    options.amplitude = parameters.number("amplitude", options.amplitude, {0.0, 0.05});
-    const int triangles = parameters.integer("triangles", 1600, 6, 1000000);
-    const std::string mesh_file = parameters.text("mesh_file", "");
-    return mesh_file.empty() ? Workpiece::hull(triangles, options) : Workpiece::fromFile(mesh_file, options);
-  }
-
   void broadcastFrame(const std::string& parent, const Eigen::Vector3d& position) {
     geometry_msgs::TransformStamped transform;
     transform.header.stamp = ros::Time::now();

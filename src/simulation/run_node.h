@@ -10,7 +10,7 @@
 namespace sweep_guard_simulation {
 
 /// The main program of a node of the demo: makes it of its private parameters and runs it.
-/// @return exit status; 2, after one line that says why, if a parameter or a file is refused
+/// @return exit status; 2, after one line that says why, if a parameter or a file is refused or cannot be read
 template <typename Node>
 int runNode(int argc, char** argv, const std::string& name) {
   ros::init(argc, argv, name);
@@ -21,7 +21,7 @@ int runNode(int argc, char** argv, const std::string& name) {
     Node node(parameters);
     parameters.warnOfUnread();
     node.run();
-  } catch (const sweep_guard::InvalidInput& error) {
+  } catch (const sweep_guard::Error& error) {
     ROS_FATAL("%s", error.what());
     return 2;
   }

@@ -19,6 +19,7 @@
 #include "simulation/tip_script.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
+#include "simulation/workpiece_parameters.h"
 #include "sweep_guard/Prediction.h"
 #include "sweep_guard/ToolShape.h"
 #include "sweep_guard/View.h"
@@ -34,6 +35,7 @@ constexpr double kFirstLook = 1.0;  // [s]; it takes longer to draw
 constexpr int kViewsToSettle = 3;   // the first may be older than the prediction that goes with its pose
 constexpr std::uint32_t kNotReady =
     sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
+const char* const kEnd = "END";  // instead of a level
 const char* const kLevels[] = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};
 
 class Stage {
@@ -44,7 +46,7 @@ class Stage {
         script_(parameters.texts("poses")),
         step_(1.0 / parameters.number("rate", 50.0, {1.0, 1000.0})),
         slowdown_(parameters.number("slowdown", 1.0, {0.01, 100.0})),
-        level_(parameters.choice("until", "END", {"END", "UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"})),
+        level_(parameters.choice("until", kEnd, {kEnd, "UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"})),
         from_(parameters.number("from", 0.0, {0.0, 1000.0})),
         silent_from_(parameters.number("silent_from", 1000.0, {0.0, 1000.0})) {
     node_.setParam("/use_sim_time", true);
@@ -78,18 +80,9 @@ class Stage {
   }
 
  private:
-  static Workpiece makeWorkpiece(sweep_guard_ros::ParameterReader& parameters) {
-    Workpiece::Options options;
-    options.size = parameters.number("workpiece/size", options.size, {1e-3, 100.0});
-    options.amplitude = parameters.number("workpiece/amplitude", options.amplitude, {0.0, 0.05});
-    const int triangles = parameters.integer("workpiece/triangles", 1600, 6, 1000000);
-    const std::string file = parameters.text("workpiece/file", "");
-    return file.empty() ? Workpiece::hull(triangles, options) : Workpiece::fromFile(file, options);
-  }
-
   void broadcastFrame(sweep_guard_ros::ParameterReader& parameters) {
-    const Eigen::Vector3d turn = parameters.position("workpiece/turn", {0.0, 0.0, 0.0});
-    const Eigen::Isometry3d X_WM = Eigen::Translation3d(parameters.position("workpiece/position", {0.0, 0.0, 0.3})) *
+    const Eigen::Vector3d turn = parameters.position("turn", {0.0, 0.0, 0.0});
+    const Eigen::Isometry3d X_WM = Eigen::Translation3d(parameters.position("position", {0.0, 0.0, 0.3})) *
                                    Eigen::AngleAxisd(turn.norm(), turn.stableNormalized());
     geometry_msgs::TransformStamped transform = tf2::eigenToTransform(X_WM);
     transform.header.frame_id = frame_;
@@ -164,16 +157,20 @@ class Stage {
         publishPose();
         await("the guard's answer", [this] { return view_.header.stamp == now(); });
       }
-      if (mayHold()) return;
+      if (isOver()) return;
       due += ros::WallDuration(slowdown_ * step_);
       await("its time", [&] { return ros::WallTime::now() >= due; });
       t_ += step_;
     }
   }
 
-  bool mayHold() const {
-    if (t_ + 0.5 * step_ > script_.end()) return true;
-    return t_ >= from_ && warning_.level < std::size(kLevels) && level_ == kLevels[warning_.level];
+  bool isOver() const {
+    if (t_ >= from_ && warning_.level < std::size(kLevels) && level_ == kLevels[warning_.level]) return true;
+    const bool ended = t_ + 0.5 * step_ > script_.end();
+    if (ended && level_ != kEnd) {
+      throw sweep_guard::InvalidInput("the scene has ended without " + level_ + "; its last words: " + warning_.text);
+    }
+    return ended;
   }
 
   void hold() {

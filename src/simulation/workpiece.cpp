@@ -1,18 +1,13 @@
 #include "simulation/workpiece.h"
 
-#include <geometric_shapes/mesh_operations.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <memory>
 #include <utility>
 
-#include "recording/file.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/mesh_file.h"
 
 namespace sweep_guard_simulation {
 
@@ -83,15 +78,6 @@ std::vector<Triangle> gridTriangles(const Grid& grid) {
   return triangles;
 }
 
-std::string format(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  if (extension != ".obj" && extension != ".stl")
-    throw InvalidInput(path + ": not a mesh file; give an OBJ or STL file");
-  return extension.substr(1);
-}
-
 void requireWithin(const std::string& name, double value, double min, double max) {
   if (value >= min && value <= max) return;
   throw InvalidInput(name + " of the workpiece is " + std::to_string(value) + ", must be in [" + std::to_string(min) +
@@ -130,22 +116,9 @@ Workpiece Workpiece::hull(int triangles, const Options& options) {
 }
 
 Workpiece Workpiece::fromFile(const std::string& path, const Options& options) {
-  const std::string mesh_format = format(path);
-  const std::string bytes = sweep_guard_recording::readFile(path);
-  const std::unique_ptr<const shapes::Mesh> mesh(shapes::createMeshFromBinary(bytes.data(), bytes.size(), mesh_format));
-  if (!mesh || mesh->triangle_count == 0) {
-    throw InvalidInput(path + ": no triangles could be read; give an OBJ or STL file with faces");
-  }
-  std::vector<Eigen::Vector3d> points;
-  for (const double* p = mesh->vertices; p != mesh->vertices + std::size_t{3} * mesh->vertex_count; p += 3)
-    points.emplace_back(p);
-  std::vector<Triangle> triangles;
-  for (const unsigned* i = mesh->triangles; i != mesh->triangles + std::size_t{3} * mesh->triangle_count; i += 3) {
-    if (std::max({i[0], i[1], i[2]}) >= points.size()) throw InvalidInput(path + ": a triangle names a missing vertex");
-    triangles.push_back({i[0], i[1], i[2]});
-  }
+  sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path, sweep_guard_ros::Links::kFollow);
   try {
-    Workpiece workpiece(points, std::move(triangles), options);
+    Workpiece workpiece(surface.vertices, std::move(surface.triangles), options);
     workpiece.makeSway(options);
     return workpiece;
   } catch (const InvalidInput& error) {

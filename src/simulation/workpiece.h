@@ -26,11 +26,9 @@ class Workpiece {
   /// @throws sweep_guard::InvalidInput if a number is out of range
   static Workpiece hull(int triangles, const Options& options);
 
-  /// The triangles of an OBJ or STL file, scaled to the size and swaying: it bends and shears as a whole. Other formats
-  /// are refused, as assimp's readers of PLY and OFF crash on broken files.
-  /// @throws sweep_guard::InvalidInput if a number is out of range, or the file is missing, not regular, larger than
-  /// 256 MiB, or
-  ///     holds no triangles, points that are not finite or all in one place
+  /// The triangles of a file that readMesh() reads, scaled to the size and swaying: it bends and shears as a whole.
+  /// @throws sweep_guard::InvalidInput if a number is out of range, the file is refused, or its points are all in one
+  ///     place
   static Workpiece fromFile(const std::string& path, const Options& options);
 
   /// x0 y0 z0 x1 ... in M [m] at time `t` [s], one triple per vertex.

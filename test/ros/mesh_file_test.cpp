@@ -146,6 +146,14 @@ TEST_F(MeshFileTest, RefusesWhatItCannotReadAsAWhole) {
   EXPECT_NE(refused("t.ply", "ply").find("STL, OBJ or DAE"), std::string::npos);
 }
 
+// What it is stands in the name of the link.
+TEST_F(MeshFileTest, FollowsASymbolicLinkWhereItIsTold) {
+  const fs::path link = folder_.path() / "link.obj";
+  fs::create_symlink(folder_.write("blob", tetrahedronObj()), link);
+  EXPECT_NE(refusal([&] { readMesh(link); }).find("cannot be opened"), std::string::npos);
+  expectUnitTetrahedron(readMesh(link, Links::kFollow));
+}
+
 TEST_F(MeshFileTest, RefusesWhatIsNoFileOfUsualSize) {
   const fs::path huge = folder_.write("huge.stl", "solid");
   fs::resize_file(huge, std::uintmax_t{4} << 30U);
@@ -206,6 +214,16 @@ TEST_F(MeshFileTest, IsFoundInARoot) {
   EXPECT_EQ(locateMesh("file://" + file.string(), {file.parent_path().string()}), file);
   EXPECT_NE(refusal([&] { locateMesh("file://" + file.string(), {}); }).find("tool/mesh_roots"), std::string::npos);
   EXPECT_NE(refusal([&] { locateMesh("file://" + file.string(), {folder_.path() / "else"}); }), "");
+}
+
+// The folder above / is /.
+TEST_F(MeshFileTest, IsNotFoundByAPackagePathOfEverything) {
+  const fs::path file = folder_.write("elsewhere/t.obj", tetrahedronObj());
+  PackageFolder::setPackagePath("/");
+  EXPECT_NE(refusal([&] { locateMesh("file://" + file.string(), {}); }).find("neither in a package"),
+            std::string::npos);
+  EXPECT_EQ(locateMesh("file://" + folder_.write("robot/t.obj", tetrahedronObj()).string(), {}),
+            folder_.package() / "t.obj");
 }
 
 TEST_F(MeshFileTest, IsNotFoundOutsideOfItsPackage) {

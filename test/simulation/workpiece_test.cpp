@@ -9,6 +9,7 @@
 #include <map>
 
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/mesh_wire.h"
 
 namespace sweep_guard_simulation {
 namespace {
@@ -111,6 +112,15 @@ TEST_F(WorkpieceFileTest, ScalesAndCentresAFile) {
   EXPECT_TRUE(toMatrix(positions).rowwise().minCoeff().isApprox(Eigen::Vector3f(-0.15F, -0.15F, -0.3F), 1e-5F));
 }
 
+TEST_F(WorkpieceFileTest, ReadsWhatASymbolicLinkLeadsTo) {
+  const std::string link = testing::TempDir() + "workpiece_link.obj";
+  std::ofstream(path_) << kTetrahedron;
+  std::filesystem::remove(link);
+  std::filesystem::create_symlink(path_, link);
+  EXPECT_EQ(Workpiece::fromFile(link, {}).triangles().size(), 4U);
+  std::filesystem::remove(link);
+}
+
 TEST_F(WorkpieceFileTest, SwaysEveryVertexInEveryFrameAndNotAsAWhole) {
   const Workpiece workpiece = load(kTetrahedron);
   std::vector<float> before = workpiece.positions(0.0);
@@ -143,7 +153,7 @@ TEST_F(WorkpieceFileTest, RefusesOtherFormats) {
 
 TEST_F(WorkpieceFileTest, RefusesAFileLargerThanItsLimit) {
   std::ofstream(path_) << kTetrahedron;
-  std::filesystem::resize_file(path_, (256U << 20U) + 1U);
+  std::filesystem::resize_file(path_, sweep_guard_ros::kLargestMeshFile + 1);
   EXPECT_THROW(Workpiece::fromFile(path_, {}), InvalidInput);
 }
 
@@ -152,7 +162,7 @@ TEST(WorkpieceDataTest, LoadsEveryMesh) {
   if (!std::filesystem::exists(meshes)) GTEST_SKIP() << meshes << " is missing; set SWEEP_GUARD_DATA";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(meshes)) {
     const std::string extension = entry.path().extension();
-    if (extension != ".obj" && extension != ".stl") continue;
+    if (extension != ".obj" && extension != ".stl" && extension != ".dae") continue;
     const Workpiece workpiece = Workpiece::fromFile(entry.path(), {});
     EXPECT_GT(workpiece.triangles().size(), 200U) << entry.path();
     for (const auto& triangle : workpiece.triangles()) {

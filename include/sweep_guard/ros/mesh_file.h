@@ -24,10 +24,15 @@ struct MeshSurface {
 /// @throws sweep_guard::InvalidInput naming the URI and what to do
 std::filesystem::path locateMesh(const std::string& uri, const std::vector<std::string>& roots);
 
+/// Whether a path may end with a symbolic link: one that its user has chosen may, one that locateMesh() has checked has
+/// none left, unless it was swapped just now.
+enum class Links { kRefuse, kFollow };
+
 /// Reads an STL, OBJ or DAE file, a regular one of 32 MiB and a million triangles at most, in a process of its own:
 /// what crashes, hangs or eats memory there is refused here. The program mesh_reader next to the nodes does the
 /// reading. Nothing of a file is left out in silence: what cannot be read as a whole is refused.
 /// @throws sweep_guard::InvalidInput naming the file, what is wrong and what to do
-MeshSurface readMesh(const std::filesystem::path& path);
+/// @throws sweep_guard::DeviceError if mesh_reader cannot be run
+MeshSurface readMesh(const std::filesystem::path& path, Links links = Links::kRefuse);
 
 }  // namespace sweep_guard_ros
