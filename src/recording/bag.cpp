@@ -33,7 +33,7 @@ struct FramedPose {
 std::string listed(const std::set<std::string>& topics) {
   std::string list;
   for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
-  return list.empty() ? "none" : list;
+  return list;
 }
 
 std::string chooseTopic(const rosbag::Bag& bag, const std::string& wanted) {
@@ -41,11 +41,12 @@ std::string chooseTopic(const rosbag::Bag& bag, const std::string& wanted) {
   for (const rosbag::ConnectionInfo* connection : rosbag::View(bag, rosbag::TypeQuery(kTypes)).getConnections()) {
     topics.insert(connection->topic);
   }
+  if (topics.empty()) throw InvalidInput("there is no PoseStamped or TransformStamped in it; record one of them");
   if (!wanted.empty() && topics.count(wanted) == 0) {
     throw InvalidInput("no PoseStamped or TransformStamped on " + wanted + "; there are: " + listed(topics));
   }
   if (wanted.empty() && topics.size() != 1) {
-    throw InvalidInput("choose one topic of PoseStamped or TransformStamped with --topic; there are: " +
+    throw InvalidInput("choose one topic (motion_topic:=TOPIC, or --topic of evaluate_prediction); there are: " +
                        listed(topics));
   }
   return wanted.empty() ? *topics.begin() : wanted;
@@ -91,7 +92,8 @@ std::string firstLine(const std::string& text) { return text.substr(0, text.find
 }  // namespace
 
 bool isBag(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) return false;  // opening a pipe would wait
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;  // opening a pipe would wait
   std::array<char, kMagic.size()> begin{};
   std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
   return std::string_view(begin.data(), begin.size()) == kMagic;

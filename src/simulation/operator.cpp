@@ -39,6 +39,7 @@ using sweep_guard::StampedPose;
 
 constexpr int kQueue = 10000;
 constexpr double kLongestSleep = 0.1;  // [s] so that a long gap in a recording does not delay the end of the node
+constexpr double kLongGap = 5.0;       // [s] that is told of
 constexpr double kLinger = 1.0;        // [s] for the last poses to leave
 constexpr double kSlant = 0.45;        // more than the drill tilts: rise per width of the tool between two holes
 constexpr double kDepth = 0.010;       // [m] below the surface, in both kinds of motion
@@ -202,6 +203,8 @@ class OperatorNode {
     const ros::Time start = ros::Time::now();
     for (std::optional<StampedPose> pose = motion(); pose; pose = motion()) {
       const ros::Time due = start + ros::Duration().fromNSec(pose->stamp.time_since_epoch().count());
+      const double gap = (due - ros::Time::now()).toSec();
+      if (gap > kLongGap) ROS_INFO("the motion has a gap: waiting for %.0f s", gap);
       if (!sleepUntil(due)) return false;
       publish(pose->X_WT * Eigen::Translation3d(-p_TTip_), due);
       ros::spinOnce();

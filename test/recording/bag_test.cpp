@@ -107,7 +107,8 @@ TEST_F(BagTest, TakesTheOnlyTopicOfPosesAmongOthers) {
 TEST_F(BagTest, ListsTheTopicsWhereThereIsAChoice) {
   write("right", pose(1.0, 0.5));
   write("left", transform(1.0, 0.5));
-  EXPECT_NE(refusal().find("--topic; there are: left, right"), std::string::npos);
+  EXPECT_NE(refusal().find("motion_topic:=TOPIC, or --topic of evaluate_prediction); there are: left, right"),
+            std::string::npos);
 }
 
 TEST_F(BagTest, ReadsTheTopicThatIsAskedFor) {
@@ -123,7 +124,8 @@ TEST_F(BagTest, SaysWhichTopicsThereAreInsteadOfTheOneAskedFor) {
 
 TEST_F(BagTest, RefusesABagWithoutPoses) {
   write("header", std_msgs::Header());
-  EXPECT_NE(refusal().find("there are: none"), std::string::npos);
+  EXPECT_NE(refusal().find("there is no PoseStamped or TransformStamped in it"), std::string::npos);
+  EXPECT_NE(refusal("tool_pose").find("there is no PoseStamped or TransformStamped in it"), std::string::npos);
 }
 
 TEST_F(BagTest, NamesTheMessageThatItRefuses) {
@@ -158,6 +160,10 @@ TEST(IsBagTest, IsFalseForWhatIsNone) {
   EXPECT_FALSE(isBag("/dev/zero"));
   EXPECT_FALSE(isBag(testing::TempDir()));
   EXPECT_FALSE(isBag("/nowhere"));
+  const std::string loop = testing::TempDir() + "is_bag_test_loop";
+  std::filesystem::create_symlink(loop, loop);
+  EXPECT_FALSE(isBag(loop));
+  std::filesystem::remove(loop);
 }
 
 }  // namespace
