@@ -38,20 +38,44 @@ ConvexClip::ConvexClip(const SweptVolume& volume) {
   });
 }
 
-bool ConvexClip::meets(const std::array<Eigen::Vector3d, 3>& corners_B) const {
-  std::array<unsigned, 3> beyond{};  // one bit for each plane
-  for (size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector3d& p = corners_B[k];
-    for (Eigen::Index i = 0; i < count_; ++i) {
-      const double out = normals_(i, 0) * p.x() + normals_(i, 1) * p.y() + normals_(i, 2) * p.z() - offsets_[i];
-      beyond[k] |= static_cast<unsigned>(out > 0.0) << i;
-    }
-    if (beyond[k] == 0) return true;
+ConvexClip::Corner ConvexClip::corner(const Eigen::Vector3d& p_B) const {
+  Corner corner;
+  for (Eigen::Index i = 0; i < count_; ++i) {
+    corner.out[i] = normals_(i, 0) * p_B.x() + normals_(i, 1) * p_B.y() + normals_(i, 2) * p_B.z() - offsets_[i];
+    corner.beyond |= static_cast<unsigned>(corner.out[i] > 0.0) << i;
   }
-  if ((beyond[0] & beyond[1] & beyond[2]) != 0) return false;
+  return corner;
+}
+
+bool ConvexClip::meetsEdge(const Corner& a, const Corner& b) {
+  if ((a.beyond & b.beyond) != 0) return false;
+  double enters = 0.0;
+  double leaves = 1.0;
+  for (unsigned crossed = a.beyond | b.beyond; crossed != 0; crossed &= crossed - 1) {
+    const int i = __builtin_ctz(crossed);
+    const double crossing = a.out[i] / (a.out[i] - b.out[i]);
+    if ((a.beyond >> i & 1U) != 0) {
+      enters = std::max(enters, crossing);
+    } else {
+      leaves = std::min(leaves, crossing);
+    }
+  }
+  return enters <= leaves;
+}
+
+bool ConvexClip::meets(const std::array<Eigen::Vector3d, 3>& corners_B) const {
+  std::array<Corner, 3> corners;
+  for (size_t k = 0; k < 3; ++k) {
+    corners[k] = corner(corners_B[k]);
+    if (corners[k].beyond == 0) return true;
+  }
+  const auto& [a, b, c] = corners;
+  if ((a.beyond & b.beyond & c.beyond) != 0) return false;
+  // Most triangles that meet the volume do so along an edge: cheaper to see than to cut them.
+  if (meetsEdge(a, b) || meetsEdge(b, c) || meetsEdge(c, a)) return true;
 
   CutTriangle left(corners_B);
-  const unsigned separating = beyond[0] | beyond[1] | beyond[2];
+  const unsigned separating = a.beyond | b.beyond | c.beyond;
   for (Eigen::Index i = 0; i < count_ && !left.empty(); ++i) {
     if ((separating >> i & 1U) != 0) left.cut(normals_.row(i).matrix(), offsets_[i]);
   }

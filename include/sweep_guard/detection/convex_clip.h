@@ -35,6 +35,14 @@ class ConvexClip {
   bool meets(const std::array<Eigen::Vector3d, 3>& corners_B) const;
 
  private:
+  struct Corner {
+    Eigen::Array<double, kMostHalfSpaces, 1> out;  // beyond each plane [m]
+    unsigned beyond = 0;                           // one bit for each plane
+  };
+
+  Corner corner(const Eigen::Vector3d& p_B) const;
+  static bool meetsEdge(const Corner& a, const Corner& b);  // [Cyrus and Beck 1978]
+
   // Structure of arrays: all planes are looked at for each corner.
   Eigen::Array<double, kMostHalfSpaces, 3> normals_;
   Eigen::Array<double, kMostHalfSpaces, 1> offsets_;
