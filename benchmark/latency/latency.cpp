@@ -25,6 +25,7 @@ Settings settingsOf(int argc, char** argv) {
       ("transport", options::value(&settings.transport),
        "tcpros: the guard is a node; nodelet: it runs in this process")                                               //
       ("detector", options::value(&settings.detector), "of the guard")                                                //
+      ("label", options::value(&settings.label), "named in the tables beside the transport")                          //
       ("set", options::value(&settings.parameters), "parameter of the guard, as in gl_context=egl; may be repeated")  //
       ("csv", options::value(&settings.csv), "append the figures to this file")                                       //
       ("histogram", options::value(&settings.histogram), "append the distribution to this file");

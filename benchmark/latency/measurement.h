@@ -16,6 +16,7 @@ struct Settings {
   Rates rates;
   std::string transport = "tcpros";  ///< tcpros: the guard is a node; nodelet: it runs in this process
   std::string detector = "select";
+  std::string label;                    ///< said beside the transport, as in "rviz looks on"; empty: nothing
   std::string csv;                      ///< file that the figures are appended to; empty: none
   std::string histogram;                ///< file that the distributions are appended to; empty: none
   std::vector<std::string> parameters;  ///< of the guard, as in gl_context=egl

@@ -20,7 +20,8 @@ using sweep_guard_evaluation::quantile;
 std::string methodOf(const Settings& settings) {
   std::string method = settings.detector;
   for (const std::string& parameter : settings.parameters) method += ' ' + parameter;
-  return method + ", " + settings.transport;
+  method += ", " + settings.transport;
+  return settings.label.empty() ? method : method + ", " + settings.label;
 }
 
 double sweepsPerSecond(const Measurement& measured) {
