@@ -3,9 +3,9 @@
 namespace sweep_guard_rviz {
 namespace {
 
-constexpr Part Look::*kOfTheGuard[] = {&Look::touched,  &Look::reflex,    &Look::considered,
-                                       &Look::measured, &Look::predicted, &Look::tool,
-                                       &Look::ghosts,   &Look::path,      &Look::contacts};
+constexpr Part Look::*kOfTheGuard[] = {&Look::touched,   &Look::reflex,  &Look::considered, &Look::measured,
+                                       &Look::predicted, &Look::tool,    &Look::ghosts,     &Look::path,
+                                       &Look::contacts,  &Look::normals, &Look::depths};
 
 }  // namespace
 

@@ -23,8 +23,9 @@ LookProperties::LookProperties(rviz::Property& parent, const std::function<void(
       tool_(add({"Tool", "Where it was measured last.", {90, 128, 230}, 1.0F})),
       ghosts_(add({"Ghosts", "Where it is expected, fading with the time from now.", {115, 165, 255}, 0.35F})),
       path_(add({"Path", "Way of the tip, of the last 2 s and expected.", {235, 235, 235}, 0.9F})),
-      contacts_(
-          add({"Contacts", "First point touched of each triangle, and the way out of it.", {255, 240, 90}, 1.0F})) {
+      contacts_(add({"Contacts", "First point touched of each triangle.", {255, 240, 90}, 1.0F})),
+      normals_(add({"Normals", "Of the triangles touched: the way out of them.", {255, 240, 90}, 1.0F})),
+      depths_(add({"Depths", "Of the contacts, into the workpiece; the largest in words.", {235, 20, 20}, 1.0F})) {
   most_edged_ = new rviz::IntProperty("Edges Up To", 5000,
                                       "Edges are drawn of surfaces of so many triangles at most: lines cost more.",
                                       surface_.shown);
@@ -36,15 +37,15 @@ LookProperties::LookProperties(rviz::Property& parent, const std::function<void(
   most_ghosts_ = new rviz::IntProperty("Number", 8, "Of ghosts at most.", ghosts_.shown);
   most_ghosts_->setMin(1);
   most_ghosts_->setMax(50);
-  point_size_ = new rviz::FloatProperty("Point Size", 0.003F, "[m]", contacts_.shown);
+  point_size_ =
+      new rviz::FloatProperty("Point Size", 0.003F, "[m]; normals and depths are half as thick.", contacts_.shown);
   point_size_->setMin(1e-5F);
-  normal_length_ = new rviz::FloatProperty("Normal Length", 0.02F, "[m]", contacts_.shown);
+  normal_length_ = new rviz::FloatProperty("Length", 0.02F, "[m]", normals_.shown);
   normal_length_->setMin(1e-5F);
-  depths_ = new rviz::BoolProperty("Depths", true, "Into the workpiece, the largest in words.", contacts_.shown);
   for (rviz::Property* property :
        {static_cast<rviz::Property*>(most_edged_), static_cast<rviz::Property*>(history_),
         static_cast<rviz::Property*>(most_ghosts_), static_cast<rviz::Property*>(point_size_),
-        static_cast<rviz::Property*>(normal_length_), static_cast<rviz::Property*>(depths_)}) {
+        static_cast<rviz::Property*>(normal_length_)}) {
     QObject::connect(property, &rviz::Property::changed, &parent_, changed_);
   }
 }
@@ -70,16 +71,17 @@ Look LookProperties::look() const {
   look.reflex = reflex_.part();
   look.considered = considered_.part();
   look.measured = measured_.part();
-  look.history = history_->getInt();
+  look.history = static_cast<size_t>(history_->getInt());
   look.predicted = predicted_.part();
   look.tool = tool_.part();
   look.ghosts = ghosts_.part();
-  look.most_ghosts = most_ghosts_->getInt();
+  look.most_ghosts = static_cast<size_t>(most_ghosts_->getInt());
   look.path = path_.part();
   look.contacts = contacts_.part();
   look.point_size = point_size_->getFloat();
+  look.normals = normals_.part();
   look.normal_length = normal_length_->getFloat();
-  look.depths = depths_->getBool();
+  look.depths = depths_.part();
   return look;
 }
 

@@ -16,6 +16,7 @@ void begin(rviz::BillboardLine& line) {
   line.clear();
   line.setMaxPointsPerLine(kMostPoints);
   line.setLineWidth(kWidth);
+  line.setColor(1.0F, 1.0F, 1.0F, 0.5F);  // transparent: else the alpha of the points has no effect
 }
 
 Ogre::ColourValue faded(Ogre::ColourValue color, float share) {

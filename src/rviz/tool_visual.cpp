@@ -9,10 +9,12 @@
 #include <OgreTechnique.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "sweep_guard/rviz/ogre_conversions.h"
 #include "sweep_guard/rviz/paint.h"
+#include "sweep_guard/rviz/triangles.h"
 
 namespace sweep_guard_rviz {
 namespace {
@@ -28,13 +30,6 @@ Vector3 centerOf(const shape_msgs::Mesh& part) {
   Vector3 sum = Vector3::ZERO;
   for (const geometry_msgs::Point& vertex : part.vertices) sum += toOgre(vertex);
   return sum / static_cast<float>(std::max<size_t>(1, part.vertices.size()));
-}
-
-bool isSound(const shape_msgs::Mesh& part) {
-  return std::all_of(part.triangles.begin(), part.triangles.end(), [&](const shape_msgs::MeshTriangle& triangle) {
-    const auto& corners = triangle.vertex_indices;
-    return std::all_of(corners.begin(), corners.end(), [&](auto corner) { return corner < part.vertices.size(); });
-  });
 }
 
 // Of a convex part: normals point away from its centre.
@@ -79,7 +74,7 @@ void ToolVisual::setShape(const sweep_guard::ToolShape& shape) {
   Ogre::ManualObject drawing(newName());
   drawing.begin(material_->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST, kResources);
   for (const shape_msgs::Mesh& part : shape.parts) {
-    if (isSound(part)) add(drawing, part);
+    if (haveTheirCorners(part.triangles, part.vertices.size())) add(drawing, part);
   }
   if (drawing.getCurrentVertexCount() == 0) return;
   drawing.end();

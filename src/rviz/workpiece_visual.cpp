@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "sweep_guard/rviz/attach.h"
 #include "sweep_guard/rviz/ogre_conversions.h"
+#include "sweep_guard/rviz/triangles.h"
 #include "sweep_guard/rviz/volume_faces.h"
 
 namespace sweep_guard_rviz {
@@ -20,13 +22,6 @@ constexpr size_t kMostContacts = 200;
 
 bool allFinite(const std::vector<float>& values) {
   return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
-}
-
-bool refersTo(const std::vector<shape_msgs::MeshTriangle>& triangles, size_t vertices) {
-  return std::all_of(triangles.begin(), triangles.end(), [&](const shape_msgs::MeshTriangle& triangle) {
-    const auto& corners = triangle.vertex_indices;
-    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) { return corner < vertices; });
-  });
 }
 
 std::vector<float> positionsOf(const shape_msgs::Mesh& mesh) {
@@ -60,6 +55,7 @@ WorkpieceVisual::WorkpieceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& roo
       measured_(scene, *node_),
       predicted_(scene, *node_),
       points_(scene, *node_, Drawing::Depth::kOnTop),
+      normals_(scene, *node_, Drawing::Depth::kOnTop),
       depths_(scene, *node_, Drawing::Depth::kOnTop),
       label_("-"),
       label_node_(node_->createChildSceneNode()) {
@@ -76,7 +72,7 @@ WorkpieceVisual::~WorkpieceVisual() {
 
 std::string WorkpieceVisual::setMesh(const sweep_guard::DeformableMesh& message) {
   const std::vector<float> positions = positionsOf(message.mesh);
-  if (!refersTo(message.mesh.triangles, message.mesh.vertices.size()))
+  if (!haveTheirCorners(message.mesh.triangles, message.mesh.vertices.size()))
     return "a triangle has a corner that is not there";
   if (!allFinite(positions)) return "a vertex is NaN or infinite";
   surface_.setTriangles(message.mesh.triangles, message.mesh.vertices.size());
@@ -106,6 +102,11 @@ void WorkpieceVisual::show(const sweep_guard::ObjectView& view, const Look& look
   showContacts(view, look);
 }
 
+void WorkpieceVisual::showSurfaceOnly() {
+  history_.clear();
+  show(sweep_guard::ObjectView(), Look());
+}
+
 void WorkpieceVisual::paint(const Look& look) {
   const bool edges = surface_.triangleCount() <= look.most_edged;
   surface_.paintLayer(SurfaceVisual::kSurface, look.surface.color, look.surface.shown, edges);
@@ -115,46 +116,35 @@ void WorkpieceVisual::paint(const Look& look) {
   measured_.paint(look.measured.color, outline(look.measured));
   predicted_.paint(look.predicted.color, outline(look.predicted));
   points_.paint(look.contacts.color, look.contacts.color);
-  depths_.paint(look.touched.color, look.touched.color);
+  normals_.paint(look.normals.color, look.normals.color);
+  depths_.paint(look.depths.color, look.depths.color);
 }
 
 void WorkpieceVisual::showVolumes(const sweep_guard::ObjectView& view, const Look& look) {
   if (look.measured.shown) {
     showAll(measured_, view.measured);
-    for (const sweep_guard::TestedVolume& volume : view.measured) remember(volume, static_cast<size_t>(look.history));
-    showAll(measured_, {history_.begin(), history_.end()});
+    showAll(measured_, history_.beside(view.measured));
+    history_.add(view.measured, look.history);
   }
   measured_.show();
   if (look.predicted.shown) showAll(predicted_, view.predicted);
   predicted_.show();
 }
 
-// Close enough to leave no gap. A sweep in parts shows them all again and again: each is kept once.
-void WorkpieceVisual::remember(const sweep_guard::TestedVolume& volume, size_t most) {
-  const auto& half = volume.half_extents;
-  const auto spacing = static_cast<float>(std::min({half.x, half.y, half.z}));
-  const Ogre::Vector3 center = toOgre(volume.pose.position);
-  const bool kept = std::any_of(history_.begin(), history_.end(), [&](const sweep_guard::TestedVolume& one) {
-    return toOgre(one.pose.position).distance(center) < spacing;
-  });
-  if (!kept) history_.push_back(volume);
-  while (history_.size() > most) history_.pop_front();
-}
-
 void WorkpieceVisual::showContacts(const sweep_guard::ObjectView& view, const Look& look) {
   const TriangleContact* deepest = nullptr;
-  const size_t count = look.contacts.shown ? std::min(kMostContacts, view.impacts.size()) : 0;
-  for (size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < std::min(kMostContacts, view.impacts.size()); ++i) {
     const TriangleContact& contact = view.impacts[i];
     const Ogre::Vector3 point = toOgre(contact.point);
     const Ogre::Vector3 normal = toOgre(contact.normal);
-    points_.addBead(point, 0.5F * look.point_size);
-    points_.addSpike(point, point + look.normal_length * normal, 0.25F * look.point_size);
-    if (!look.depths || !(contact.depth > 0.0)) continue;
+    if (look.contacts.shown) points_.addBead(point, 0.5F * look.point_size);
+    if (look.normals.shown) normals_.addSpike(point, point + look.normal_length * normal, 0.25F * look.point_size);
+    if (!look.depths.shown || !(contact.depth > 0.0)) continue;
     depths_.addSpike(point, point - static_cast<float>(contact.depth) * normal, 0.25F * look.point_size);
     if (deepest == nullptr || contact.depth > deepest->depth) deepest = &contact;
   }
   points_.show();
+  normals_.show();
   depths_.show();
   label(deepest, look);
 }
@@ -166,7 +156,7 @@ void WorkpieceVisual::label(const TriangleContact* deepest, const Look& look) {
   std::snprintf(text, sizeof text, "%.1f mm deep", 1e3 * deepest->depth);
   label_.setCaption(text);
   label_.setCharacterHeight(0.5F * look.normal_length);
-  label_.setColor(look.contacts.color);
+  label_.setColor(look.depths.color);
   label_node_->setPosition(toOgre(deepest->point) + 1.7F * look.normal_length * toOgre(deepest->normal));
 }
 

@@ -2,6 +2,7 @@
 
 #include <QDir>
 #include <QImage>
+#include <cstdlib>
 #include <string>
 
 namespace sweep_guard_rviz {
@@ -26,5 +27,10 @@ double shareOf(const QImage& image, Fits&& fits) {
 inline bool isGreen(const QColor& c) { return c.green() > c.red() + 40 && c.green() > c.blue() + 40; }
 inline bool isRed(const QColor& c) { return c.red() > 150 && c.green() < 90 && c.blue() < 90; }
 inline bool isAmber(const QColor& c) { return c.red() > 200 && c.green() > 120 && c.green() < 210 && c.blue() < 90; }
+
+inline bool isGrey(const QColor& c) {
+  return c.red() > 120 && c.red() < 160 && std::abs(c.red() - c.green()) < 6 && std::abs(c.red() - c.blue()) < 6;
+}
+inline bool isMagenta(const QColor& c) { return c.red() > c.green() + 50 && c.blue() > c.green() + 50; }
 
 }  // namespace sweep_guard_rviz

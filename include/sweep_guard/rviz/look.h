@@ -17,17 +17,18 @@ struct Look {
   Part touched;
   Part reflex;
   Part considered;
-  Part measured;    ///< volumes of the newest sweep
-  int history = 0;  ///< of earlier sweeps whose volumes stay
-  Part predicted;   ///< volumes along the predicted path
+  Part measured;       ///< volumes of the newest sweep
+  size_t history = 0;  ///< number of earlier volumes that stay
+  Part predicted;      ///< volumes along the predicted path
   Part tool;
   Part ghosts;
-  int most_ghosts = 10;
+  size_t most_ghosts = 0;
   Part path;  ///< of the tip, measured and predicted
   Part contacts;
-  float point_size = 0.003F;    ///< of a contact [m]
-  float normal_length = 0.02F;  ///< [m]
-  bool depths = true;           ///< of contacts: a spike into the workpiece, and the largest in words
+  float point_size = 0.0F;  ///< of a contact [m]
+  Part normals;
+  float normal_length = 0.0F;  ///< [m]
+  Part depths;                 ///< of contacts: a spike into the workpiece, and the largest in words
 
   /// In grey, as while nothing is promised; the surface stays as it is.
   Look greyed() const;

@@ -53,8 +53,9 @@ class LookProperties {
   PartProperties path_;
   PartProperties contacts_;
   rviz::FloatProperty* point_size_;
+  PartProperties normals_;
   rviz::FloatProperty* normal_length_;
-  rviz::BoolProperty* depths_;
+  PartProperties depths_;
 };
 
 }  // namespace sweep_guard_rviz

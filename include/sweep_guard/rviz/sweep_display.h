@@ -12,7 +12,7 @@
 #include "sweep_guard/rviz/look_properties.h"
 #include "sweep_guard/rviz/tip_path.h"
 #include "sweep_guard/rviz/tool_visual.h"
-#include "sweep_guard/rviz/workpiece_visual.h"
+#include "sweep_guard/rviz/workpieces.h"
 
 namespace rviz {
 class RosTopicProperty;
@@ -21,7 +21,8 @@ class RosTopicProperty;
 namespace sweep_guard_rviz {
 
 /// Draws the workpieces as they deform, with what the guard tests and finds: `~view` on the meshes that it is fed with.
-/// Without `~view` for half a second, the workpieces alone. Nothing is subscribed to while it is disabled.
+/// Without `~view` for half a second, the workpieces alone; no tool while its pose is not known. Nothing is subscribed
+/// to while it is disabled.
 class SweepDisplay : public rviz::Display {
  public:
   SweepDisplay();
@@ -29,6 +30,8 @@ class SweepDisplay : public rviz::Display {
 
   void update(float wall_dt, float ros_dt) override;
   void reset() override;
+  /// The `~view` of a guard, and the `~tool` beside it.
+  void setTopic(const QString& topic, const QString& datatype) override;
 
   /// Triangles that are drawn in a layer, of all workpieces.
   size_t drawnTriangles(SurfaceVisual::Layer layer) const;
@@ -45,18 +48,15 @@ class SweepDisplay : public rviz::Display {
   void addTopics();
   void subscribe();
   void unsubscribe();
-  void takeMesh(const sweep_guard::DeformableMesh& mesh);
-  void takeVertices(const sweep_guard::MeshVertices::ConstPtr& vertices);
   void takeView(const sweep_guard::View::ConstPtr& view);
-  WorkpieceVisual& workpiece(const std::string& id);
 
-  void deform();
   void draw();
-  void drawWorkpieces(const Look& look);
   void drawTools(const Look& look);
   void place();
-  void tellMeshes();
-  void tell(rviz::StatusProperty::Level level, const std::string& name, const std::string& text);
+  void tellInputs();
+  /// One line of the status. @param wrong  empty: nothing is, which `fine` says then
+  void tell(const std::string& name, const std::string& wrong, const std::string& fine,
+            rviz::StatusProperty::Level if_wrong = rviz::StatusProperty::Warn);
   bool silent() const;
 
   rviz::RosTopicProperty* view_topic_ = nullptr;
@@ -68,12 +68,10 @@ class SweepDisplay : public rviz::Display {
   Ogre::SceneNode* guard_node_ = nullptr;  // of the fixed frame of the guard
   std::unique_ptr<ToolVisual> tool_;
   std::unique_ptr<TipPath> path_;
-  std::map<std::string, std::unique_ptr<WorkpieceVisual>> workpieces_;
-  std::map<std::string, std::string> wrong_;  // with a workpiece, in words
+  std::unique_ptr<Workpieces> workpieces_;
 
   ros::Subscriber subscribers_[4];
   sweep_guard::View::ConstPtr view_;
-  std::map<std::string, sweep_guard::MeshVertices::ConstPtr> vertices_;  // that are not drawn yet
   SteadyTime seen_;
   bool was_silent_ = true;
   bool stale_ = true;  // what is drawn is not what is known

@@ -6,7 +6,6 @@
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/ObjectView.h>
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include "sweep_guard/rviz/drawing.h"
 #include "sweep_guard/rviz/look.h"
 #include "sweep_guard/rviz/surface_visual.h"
+#include "sweep_guard/rviz/volume_history.h"
 
 namespace sweep_guard_rviz {
 
@@ -30,6 +30,7 @@ class WorkpieceVisual {
   std::string setVertices(const sweep_guard::MeshVertices& vertices);
 
   void show(const sweep_guard::ObjectView& view, const Look& look);
+  void showSurfaceOnly();
   void paint(const Look& look);
 
   bool hasMesh() const { return revision_.has_value(); }
@@ -43,7 +44,6 @@ class WorkpieceVisual {
 
  private:
   void showVolumes(const sweep_guard::ObjectView& view, const Look& look);
-  void remember(const sweep_guard::TestedVolume& volume, size_t most);
   void showContacts(const sweep_guard::ObjectView& view, const Look& look);
   void label(const sweep_guard::TriangleContact* deepest, const Look& look);
 
@@ -56,10 +56,11 @@ class WorkpieceVisual {
   Drawing measured_;
   Drawing predicted_;
   Drawing points_;
+  Drawing normals_;
   Drawing depths_;
   rviz::MovableText label_;  // of the deepest contact
   Ogre::SceneNode* label_node_;
-  std::deque<sweep_guard::TestedVolume> history_;
+  VolumeHistory history_;
   std::optional<Highlights> highlights_;
 };
 
