@@ -7,6 +7,14 @@
 #include "sweep_guard/guard/triangle_set.h"
 
 namespace sweep_guard {
+namespace {
+
+auto firstMet(const PredictedObject& object) {
+  return std::find_if(object.sweeps.begin(), object.sweeps.end(),
+                      [](const PredictedSweep& sweep) { return sweep.met; });
+}
+
+}  // namespace
 
 std::vector<std::uint32_t> PredictedObject::triangles() const {
   std::vector<std::uint32_t> all;
@@ -15,7 +23,7 @@ std::vector<std::uint32_t> PredictedObject::triangles() const {
 }
 
 std::optional<Duration> PredictedObject::met() const {
-  const auto first = std::find_if(sweeps.begin(), sweeps.end(), [](const PredictedSweep& sweep) { return sweep.met; });
+  const auto first = firstMet(*this);
   return first == sweeps.end() ? std::nullopt : std::optional(first->from);
 }
 
@@ -64,9 +72,11 @@ void expectedContact(const Outlook& outlook, double min_probability, std::option
   }
   if (earliest == nullptr) return expected.reset();
   if (!expected) expected.emplace();
-  const auto met = earliest->met();
+  const auto met = firstMet(*earliest);
+  const bool any_met = met != earliest->sweeps.end();
   expected->from = outlook.stamp + first->from;
-  expected->met = met ? std::optional(outlook.stamp + *met) : std::nullopt;
+  expected->met = any_met ? std::optional(outlook.stamp + met->from) : std::nullopt;
+  expected->tool_part = (any_met ? met : first)->tool_part;
   expected->probability = 0.0;
   for (auto sweep = first; sweep != earliest->sweeps.end(); ++sweep) {
     expected->probability = std::max(expected->probability, sweep->probability);

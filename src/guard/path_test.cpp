@@ -68,46 +68,56 @@ void PathTest::sweepWhole(const Scene& scene, const Stretch& stretch) {
   }
 }
 
-// What the planes tell: the probability that the tool meets something, and what is not told apart.
-double PathTest::read(const Scene& scene, const MeshPart& part, const Stretch& stretch) {
+// The first of two alike.
+const PathTest::Chance& PathTest::likelier(const Chance& one, const Chance& other) {
+  return other.probability > one.probability ? other : one;
+}
+
+// What the planes tell: the part of the tool that is likeliest to meet something, and what is not told apart.
+PathTest::Chance PathTest::read(const Scene& scene, const MeshPart& part, const Stretch& stretch) {
   unseparated_.clear();
   met_.clear();
-  double probability = 0.0;
-  if (part.empty()) return probability;
+  meeting_ = {};
+  Chance chance;
+  if (part.empty()) return chance;
   for (const SweptBody& body : whole_) {
-    probability = std::max(probability, read(scene, part, stretch, scene.tool.tree()[0], body));
+    chance = likelier(chance, read(scene, part, stretch, scene.tool.tree()[0], body));
   }
-  return probability;
+  return chance;
 }
 
 // Down the tool's tree, as far as its boxes might meet something.
-double PathTest::read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const Tool::Node& node,
-                      const SweptBody& body) {
+PathTest::Chance PathTest::read(const Scene& scene, const MeshPart& part, const Stretch& stretch,
+                                const Tool::Node& node, const SweptBody& body) {
   const auto deviations =
       planeDeviations(node.shape_T, motion_.end_M(stretch), motion_.covariance_M(stretch), body.volume_M);
   const auto clearance = meter_(part, body.volume_M, deviations);
-  if (!clearance) return 0.0;
+  if (!clearance) return {};
   if (node.part) {
+    const Chance chance{contactProbability(clearance->deviations), node.part};
     if (!clearance->separated) {
-      unseparated_.push_back(body);
+      unseparated_.push_back({body, chance});
       unite(met_, meter_.notSeparated());
+      meeting_ = likelier(meeting_, chance);
     }
-    return contactProbability(clearance->deviations);
+    return chance;
   }
-  double probability = 0.0;
+  Chance chance;
   for (const size_t index : node.below) {
     const Tool::Node& below = scene.tool.tree()[index];
     const SweptBody within = sweptBody(below.shape_T, body.motion_M, options_.sweep.volume, scene.margin);
-    probability = std::max(probability, read(scene, part, stretch, below, within));
+    chance = likelier(chance, read(scene, part, stretch, below, within));
   }
-  return probability;
+  return chance;
 }
 
 void PathTest::detectMet(const Scene& scene, const MeshPart& part) {
   met_.clear();
-  for (const SweptBody& body : unseparated_) {
+  meeting_ = {};
+  for (const auto& [body, chance] : unseparated_) {
     detect(scene.detector, part, body, detection_);
     unite(met_, detection_.triangles);
+    if (!detection_.triangles.empty()) meeting_ = likelier(meeting_, chance);
   }
 }
 
@@ -125,15 +135,16 @@ void PathTest::test(const Scene& scene, const MeshPart& around, const Stretch& s
     }
   };
 
-  const double probability = read(scene, part, stretch);
-  const bool in_time = probability == 0.0 || scene.inTimeFor(stretch);
+  const Chance chance = read(scene, part, stretch);
+  const bool in_time = chance.probability == 0.0 || scene.inTimeFor(stretch);
   const bool finer = !findings.any_met && in_time;
   if (in_time) findings.object.volumes_tested += whole_.size();
-  if (probability > 0.0 && finer && length > std::max(kProbableStretch, options_.finest)) return halve();
+  if (chance.probability > 0.0 && finer && length > std::max(kProbableStretch, options_.finest)) return halve();
   if (in_time) detectMet(scene, part);
   if (!met_.empty() && finer && length > options_.finest) return halve();
 
-  findings.object.sweeps.push_back({stretch.from, !met_.empty(), probability});
+  const auto tool_part = met_.empty() ? chance.part : meeting_.part;
+  findings.object.sweeps.push_back({stretch.from, !met_.empty(), chance.probability, tool_part});
   findings.any_met = findings.any_met || !met_.empty();
   unite(*findings.met, met_);
 }

@@ -124,6 +124,7 @@ void warn(const Evidence& evidence, const Instant& now, const VerdictLimits& lim
   if (!strongest.contact) return;
   verdict.level = strongest.level;
   verdict.mesh_id = strongest.contact->mesh_id;
+  verdict.tool_part = strongest.contact->tool_part;
   verdict.triangles = strongest.contact->triangles;
   tellProspect(verdict);
 }

@@ -161,6 +161,7 @@ TEST_P(SteadyStateTest, AllocatesNothingWhileItWarns) {
   expectNoneAt(kNear, [&] {
     ASSERT_GE(verdict_.level, Level::kConsidered);
     ASSERT_LE(verdict_.level, Level::kReflex);
+    ASSERT_TRUE(verdict_.tool_part);
   });
 }
 

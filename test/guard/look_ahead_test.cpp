@@ -338,6 +338,79 @@ TEST_F(CoarseSweepsTest, CoverTheMotionThroughEveryPose) {
   }
 }
 
+// A drill, and 5 cm beside it along x a round camera whose front is level with the tip.
+class PartsTest : public testing::Test {
+ protected:
+  static Tool drillAndCamera() {
+    const ConvexShape camera = ConvexShape::sphere(0.01);
+    return Tool({{"drill", ConvexShape::cylinder(0.005, 0.1)},
+                 {"camera", camera.placed(Eigen::Isometry3d(Eigen::Translation3d(0.05, 0.0, -0.01)))}});
+  }
+
+  static TriangleMesh patchAt(double x, double y, double z) {
+    constexpr double kHalf = 0.001;
+    return TriangleMesh({{x - kHalf, y - kHalf, z}, {x + kHalf, y - kHalf, z}, {x, y + kHalf, z}}, {{0, 1, 2}});
+  }
+
+  // The tip comes up along z, 0.1 m/s, its position uncertain by so much in each direction.
+  PredictedObject lookAlong(const TriangleMesh& mesh_M, double deviation, bool in_time = true) {
+    const auto rising = [](double t) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.1 * t)); };
+    PredictedPath path = pathAlong(rising);
+    for (ExpectedPose& pose : path) {
+      pose.covariance.topLeftCorner<3, 3>().diagonal().setConstant(deviation * deviation);
+    }
+    PathTest test({SweepOptions(), 5ms});
+    PredictedObject object;
+    test(detector_, tool_, rising(0.0), path, 10, Eigen::Isometry3d::Identity(), workpiece("patch", mesh_M),
+         {{}, [in_time] { return !in_time; }}, object);
+    return object;
+  }
+
+  static std::optional<size_t> partOfFirst(const PredictedObject& object, bool met) {
+    for (const PredictedSweep& sweep : object.sweeps) {
+      if (met ? sweep.met : sweep.probability > 0.0) return sweep.tool_part;
+    }
+    ADD_FAILURE() << "there is none";
+    return {};
+  }
+
+  Tool tool_ = drillAndCamera();
+  ReferenceDetector detector_;
+};
+
+TEST_F(PartsTest, TheOneThatMeetsIsNamedInTimeOrNot) {
+  for (const bool in_time : {true, false}) {
+    EXPECT_EQ(partOfFirst(lookAlong(patchAt(0.0, 0.0, 0.05), 0.0, in_time), /*met=*/true), 0U);
+    EXPECT_EQ(partOfFirst(lookAlong(patchAt(0.05, 0.0, 0.05), 0.0, in_time), /*met=*/true), 1U);
+  }
+}
+
+// The patch lies 9 mm beside the camera, or 10 mm beside the drill.
+TEST_F(PartsTest, TheOneThatIsLikeliestToMeetIsNamed) {
+  const PredictedObject beside_camera = lookAlong(patchAt(0.05, 0.02, 0.05), 0.005);
+  EXPECT_FALSE(beside_camera.met());
+  EXPECT_EQ(partOfFirst(beside_camera, /*met=*/false), 1U);
+  const PredictedObject beside_drill = lookAlong(patchAt(0.0, 0.016, 0.05), 0.005);
+  EXPECT_FALSE(beside_drill.met());
+  EXPECT_EQ(partOfFirst(beside_drill, /*met=*/false), 0U);
+}
+
+// Either may meet it: 9 mm from the one, 24 mm from the other.
+TEST_F(PartsTest, WhatIsNearerIsLikelier) {
+  for (const auto& [x, nearer] : {std::pair(0.015, 0U), std::pair(0.03, 1U)}) {
+    const PredictedObject between = lookAlong(patchAt(x, 0.0, 0.05), 0.02);
+    EXPECT_FALSE(between.met());
+    const auto less = [](const auto& a, const auto& b) { return a.probability < b.probability; };
+    const auto likeliest = std::max_element(between.sweeps.begin(), between.sweeps.end(), less);
+    ASSERT_GT(likeliest->probability, 0.25);
+    EXPECT_EQ(likeliest->tool_part, nearer);
+  }
+}
+
+TEST_F(PartsTest, NoneIsNamedWhereNothingIsNear) {
+  for (const PredictedSweep& sweep : lookAlong(patchAt(0.5, 0.5, 0.05), 0.001).sweeps) EXPECT_FALSE(sweep.tool_part);
+}
+
 TEST(SweepEndsTest, AreThePosesOfTheReflexIntervalAndEvenlyManyBeyond) {
   const PredictedPath path = pathAlong([](double t) { return Eigen::Isometry3d(Eigen::Translation3d(t, 0, 0)); });
   for (size_t sweeps = 1; sweeps <= 10; ++sweeps) {

@@ -117,6 +117,25 @@ TEST(ExpectedContactTest, TellsWhenThePathMeetsTheWorkpieceLater) {
   EXPECT_EQ(expected->triangles, (std::vector<std::uint32_t>{1, 3, 7}));
 }
 
+// What is merely probable before it is met is one collision with it: the part is the one that the time and the
+// triangles are of.
+TEST(ExpectedContactTest, NamesThePartOfTheToolThatMeetsFirst) {
+  const auto expected = expectedContact(
+      outlookOf({object("liver", {{0ms, false, 0.2, 0}, {100ms, true, 0.9, 1}, {200ms, true, 0.9, 2}})}), 0.1);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(expected->from, Time(5000ms));
+  EXPECT_EQ(expected->tool_part, 1U);
+}
+
+TEST(ExpectedContactTest, NamesThePartThatIsLikeliestToMeetWhereNoneDoes) {
+  const auto expected =
+      expectedContact(outlookOf({object("liver", {kFree0, {100ms, false, 0.2, 3}, {200ms, false, 0.3, 1}}),
+                                 object("spleen", {kFree0, kFree1, {200ms, false, 0.9, 2}})}),
+                      0.1);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(expected->tool_part, 3U);
+}
+
 // A path that meets is told of however small a probability its volume gives.
 TEST(ExpectedContactTest, APathThatMeetsNeedsNoProbability) {
   const auto expected = expectedContact(outlookOf({object("liver", {{0ms, true, 0.0}, kFree1, kFree2})}), 1.0);

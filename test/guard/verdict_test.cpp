@@ -186,6 +186,21 @@ TEST(VerdictTest, TellsTheTimeAndProbabilityOfTheCollisionThatItNames) {
   EXPECT_EQ(same.probability, 0.75);
 }
 
+TEST(VerdictTest, NamesThePartOfTheToolThatItWarnsOf) {
+  Evidence evidence = allGood();
+  evidence.expected = expectedIn(500ms);
+  evidence.expected->contact.tool_part = 1;
+  EXPECT_EQ(assessNow(evidence).tool_part, 1U);
+  evidence.reflex = alarmOf(150ms);
+  evidence.reflex->contact.tool_part = 2;
+  EXPECT_EQ(assessNow(evidence).tool_part, 2U);
+  evidence.contact = {"liver", {7}, kNow.steady, /*lasting=*/true, /*inside=*/false, /*tool_part=*/3};
+  EXPECT_EQ(assessNow(evidence).tool_part, 3U);
+  evidence.contact->tool_part.reset();  // that of another object would be wrong
+  EXPECT_FALSE(assessNow(evidence).tool_part);
+  EXPECT_FALSE(assessNow(allGood()).tool_part);
+}
+
 // The verdict is asked for again in 15 ms: what would be due by then is told now.
 TEST(VerdictTest, WarnsOfWhatComesWithinAnIntervalAndATick) {
   EXPECT_EQ(levelWhen(115ms - 1ns), Level::kReflex);

@@ -279,6 +279,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadPose{"NanPosition", Warning::POSE_INVALID, [](auto& pose) { pose.pose.position.y = kNan; }},
         BadPose{"InfiniteOrientation", Warning::POSE_INVALID, [](auto& pose) { pose.pose.orientation.x = INFINITY; }},
         BadPose{"ZeroQuaternion", Warning::POSE_INVALID, [](auto& pose) { pose.pose.orientation.x = 0.0; }},
+        BadPose{"LongQuaternion", Warning::POSE_INVALID, [](auto& pose) { pose.pose.orientation.x = 1.2; }},
         BadPose{"FarAway", Warning::POSE_INVALID, [](auto& pose) { pose.pose.position.z = 1e8; }},
         BadPose{"NoStamp", Warning::POSE_INVALID, [](auto& pose) { pose.header.stamp = ros::Time(); }},
         BadPose{"StampGoesBack", Warning::OUT_OF_ORDER, [](auto& pose) { pose.header.stamp -= ros::Duration(0.5); }},

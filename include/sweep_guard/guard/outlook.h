@@ -17,6 +17,8 @@ struct PredictedSweep {
   Duration from{};           ///< after the newest pose; it lasts until the next one begins
   bool met = false;          ///< the predicted path itself meets the workpiece
   double probability = 0.0;  ///< that the tool meets the workpiece in this sweep, in [0, 1]; below 0.001 it is 0
+  /// Index of the part of the tool that is likeliest to: of those that meet it if `met`. Empty without any.
+  std::optional<size_t> tool_part = {};
 };
 
 /// How the predicted path fares with one workpiece.
@@ -58,6 +60,8 @@ struct ExpectedContact {
   double probability = 0.0;  ///< largest of the sweeps from `from` on, in [0, 1]
   std::string mesh_id;
   std::vector<std::uint32_t> triangles;  ///< met by the predicted path: ascending, each once; empty if it meets none
+  /// Index of the part of the tool that meets it first; of one that is merely probable, the likeliest to.
+  std::optional<size_t> tool_part = {};
 };
 
 /// The earliest sweep that meets a workpiece, or does so with at least this probability; empty if none does.

@@ -2,6 +2,8 @@
 
 #include <deque>
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "sweep_guard/guard/contact_probability.h"
 #include "sweep_guard/guard/expected_motion.h"
@@ -46,10 +48,21 @@ class PathTest {
   struct Scene;
   struct Findings;
 
+  /// A part of the tool, and how likely it is to meet the mesh.
+  struct Chance {
+    double probability = 0.0;
+    std::optional<size_t> part = {};  // none where nothing may
+  };
+  struct Unseparated {
+    SweptBody body;
+    Chance chance;
+  };
+
   void sweepWhole(const Scene& scene, const Stretch& stretch);
   void detectMet(const Scene& scene, const MeshPart& part);
-  double read(const Scene& scene, const MeshPart& part, const Stretch& stretch);
-  double read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const Tool::Node& node,
+  static const Chance& likelier(const Chance& one, const Chance& other);
+  Chance read(const Scene& scene, const MeshPart& part, const Stretch& stretch);
+  Chance read(const Scene& scene, const MeshPart& part, const Stretch& stretch, const Tool::Node& node,
               const SweptBody& body);
   void test(const Scene& scene, const MeshPart& around, const Stretch& stretch, Findings& findings, size_t halvings);
   MeshPart partInReach(const Scene& scene, const MeshPart& around, const Stretch& stretch, size_t halvings);
@@ -61,9 +74,10 @@ class PathTest {
   ExpectedMotion motion_;
   // Of the stretch that is tested:
   std::vector<Motion> motions_M_;
-  std::vector<SweptBody> whole_;        // around all parts of the tool
-  std::vector<SweptBody> unseparated_;  // parts of the tool that no plane tells apart from the mesh
-  TriangleSet met_;                     // that these meet, as far as is known
+  std::vector<SweptBody> whole_;          // around all parts of the tool
+  std::vector<Unseparated> unseparated_;  // parts of the tool that no plane tells apart from the mesh
+  TriangleSet met_;                       // that these meet, as far as is known
+  Chance meeting_;                        // the likeliest of those that do
 };
 
 }  // namespace sweep_guard

@@ -107,10 +107,12 @@ struct VerdictLimits {
 /// The level and why.
 struct Verdict {
   Level level = Level::kUnknown;
-  std::uint32_t reasons = 0;             ///< bits of Reason
-  std::string text;                      ///< level and reasons in words
-  std::string mesh_id;                   ///< object of the contact or of the collision expected
-  std::optional<size_t> tool_part;       ///< in contact, the one that touched first, where the fine phase knows
+  std::uint32_t reasons = 0;  ///< bits of Reason
+  std::string text;           ///< level and reasons in words
+  std::string mesh_id;        ///< object of the contact or of the collision expected
+  /// Index of the part of the tool: in contact the one that touched first, where the fine phase knows; before, the one
+  /// that is expected to, or likeliest to.
+  std::optional<size_t> tool_part;
   std::vector<std::uint32_t> triangles;  ///< of the contact, or those that the predicted path meets
   /// Until the predicted path meets that workpiece, >= 0; empty: it does not, though a collision may be probable, or
   /// the level is held for another workpiece's.
