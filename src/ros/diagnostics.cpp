@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
 #include <limits>
 
@@ -13,8 +12,6 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 using sweep_guard::toSeconds;
-
-constexpr size_t kTimesKept = 10000;
 
 double quantile(const std::vector<double>& ascending, double share) {
   if (ascending.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -30,51 +27,6 @@ double residentMegabytes() {
 }
 
 }  // namespace
-
-void Workload::setCycle(sweep_guard::Duration cycle) {
-  const std::lock_guard lock(mutex_);
-  cycle_ = cycle;
-}
-
-void Workload::failed(const std::string& why) {
-  const std::lock_guard lock(mutex_);
-  ++summary_.faults_total;
-  summary_.last_fault = why;
-}
-
-void Workload::swept(sweep_guard::Duration latency, sweep_guard::Duration sweep_time) {
-  const std::lock_guard lock(mutex_);
-  ++summary_.sweeps_total;
-  if (latency > cycle_) ++summary_.late_total;
-  if (summary_.latencies.size() < kTimesKept) summary_.latencies.push_back(toSeconds(latency));
-  summary_.busiest = std::max(summary_.busiest, toSeconds(sweep_time));
-}
-
-void Workload::predicted(const Prediction& prediction) {
-  const std::lock_guard lock(mutex_);
-  ++summary_.predictions_total;
-  if (prediction.latency > cycle_) ++summary_.late_predictions_total;
-  if (summary_.prediction_times.size() < kTimesKept) summary_.prediction_times.push_back(toSeconds(prediction.time));
-  if (prediction.sweeps_made > 0 && prediction.sweeps_made < prediction.sweeps_asked) summary_.coarser = true;
-  summary_.prediction = prediction;
-}
-
-Workload::Summary Workload::take() {
-  const std::lock_guard lock(mutex_);
-  Summary taken = summary_;
-  summary_.latencies.clear();
-  summary_.busiest = 0.0;
-  summary_.prediction_times.clear();
-  summary_.coarser = false;
-  std::sort(taken.latencies.begin(), taken.latencies.end());
-  std::sort(taken.prediction_times.begin(), taken.prediction_times.end());
-  return taken;
-}
-
-void Workload::restart() {
-  const std::lock_guard lock(mutex_);
-  summary_ = {};
-}
 
 double RateMeter::operator()(std::uint64_t count) {
   const sweep_guard::SteadyTime asked = std::chrono::steady_clock::now();
@@ -182,26 +134,31 @@ void Diagnostics::workpieces(Status& status) const {
 }
 
 void Diagnostics::detector(Status& status) const {
-  const auto parameters = parts_.parameters.get();
-  const sweep_guard::Duration cycle = parameters->guard.cycle;
-  status.summary(DiagnosticStatus::OK, parameters->detector + " keeps up");
-  if (load_.latencies.empty()) status.summary(DiagnosticStatus::WARN, "no tool pose to sweep to");
-  if (!load_.latencies.empty() && load_.latencies.back() > toSeconds(cycle)) {
-    status.summary(DiagnosticStatus::WARN,
-                   parameters->detector + " is slower than timing/min_rate: use fewer triangles");
-  }
+  tellDetector(load_, *parts_.parameters.get(), status);
   if (parts_.ledger.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is swept");
-  status.add("detector", parameters->detector);
-  if (parameters->detector == "select") status.add("gl_context", parameters->detector_options.gl_context);
-  status.add("volume", sweep_guard::nameOf(parameters->guard.sweep.volume));
-  status.add("poses swept", load_.sweeps_total);
+}
+
+void tellDetector(const Workload::Summary& load, const Parameters& parameters,
+                  diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const sweep_guard::Duration cycle = parameters.guard.cycle;
+  status.summary(DiagnosticStatus::OK, parameters.detector + " keeps up");
+  if (load.latencies.empty()) status.summary(DiagnosticStatus::WARN, "no tool pose to sweep to");
+  if (!load.latencies.empty() && load.latencies.back() > toSeconds(cycle)) {
+    status.summary(DiagnosticStatus::WARN,
+                   parameters.detector + " is slower than timing/min_rate: use fewer triangles");
+  }
+  if (load.faults > 0) status.mergeSummary(DiagnosticStatus::ERROR, "failed: " + load.last_fault);
+  status.add("detector", parameters.detector);
+  if (parameters.detector == "select") status.add("gl_context", parameters.detector_options.gl_context);
+  status.add("volume", sweep_guard::nameOf(parameters.guard.sweep.volume));
+  status.add("poses swept", load.sweeps_total);
   status.addf("deadline [ms]", "%.1f", 1e3 * toSeconds(cycle));
-  status.add("cycles missed", load_.late_total);
-  status.addf("pose to warning [ms]", "p50 %.2f, p99 %.2f, max %.2f", 1e3 * quantile(load_.latencies, 0.5),
-              1e3 * quantile(load_.latencies, 0.99), 1e3 * quantile(load_.latencies, 1.0));
-  status.addf("longest sweep [ms]", "%.2f", 1e3 * load_.busiest);
-  status.add("faults", load_.faults_total);
-  status.add("last error", load_.last_fault.empty() ? "none" : load_.last_fault);
+  status.add("cycles missed", load.late_total);
+  status.addf("pose to warning [ms]", "p50 %.2f, p99 %.2f, max %.2f", 1e3 * quantile(load.latencies, 0.5),
+              1e3 * quantile(load.latencies, 0.99), 1e3 * quantile(load.latencies, 1.0));
+  status.addf("longest sweep [ms]", "%.2f", 1e3 * load.busiest);
+  status.add("faults", load.faults_total);
+  status.add("last error", load.last_fault.empty() ? "none" : load.last_fault);
 }
 
 void Diagnostics::prediction(Status& status) const {
@@ -215,9 +172,10 @@ void Diagnostics::prediction(Status& status) const {
                    "the considered interval is swept more coarsely than horizon/considered_step "
                    "to keep timing/min_rate: use fewer triangles");
   }
-  if (load_.prediction_times.empty() || newest.sweeps_made == 0) {
+  if (newest.sweeps_made == 0) {
     status.summary(DiagnosticStatus::STALE, "no prediction: two tool poses in a row are needed");
   }
+  if (load_.prediction_times.empty()) status.summary(DiagnosticStatus::STALE, "no tool pose to look ahead from");
   if (parts_.ledger.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is predicted");
   status.add("predictor", predictor);
   status.addf("horizon [s]", "reflex %g, considered %g", toSeconds(horizon.reflex), toSeconds(horizon.considered));

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "node_fixture.h"
+#include "sweep_guard/ros/diagnostics.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -17,6 +18,30 @@ class DiagnosticsTest : public NodeTest {
     return probe().awaitStatus(name, [&](const DiagnosticStatus& status) { return valueOf(status, key) == value; });
   }
 };
+
+DiagnosticStatus detectorOf(Workload& workload) {
+  Parameters parameters;
+  parameters.detector = "halfspace";
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  tellDetector(workload.take(), parameters, status);
+  return status;
+}
+
+// A failure takes no longer than a sweep: it keeps up with the poses.
+TEST(DetectorStatusTest, IsAnErrorInThePeriodInWhichTheDetectorFails) {
+  Workload workload(std::chrono::milliseconds(66));
+  workload.swept(std::chrono::milliseconds(1), std::chrono::milliseconds(1));
+  workload.failed("'liver': no canary");
+  const DiagnosticStatus failing = detectorOf(workload);
+  EXPECT_EQ(failing.level, DiagnosticStatus::ERROR);
+  EXPECT_EQ(failing.message, "failed: 'liver': no canary");
+  workload.swept(std::chrono::milliseconds(1), std::chrono::milliseconds(1));
+  const DiagnosticStatus mended = detectorOf(workload);
+  EXPECT_EQ(mended.level, DiagnosticStatus::OK);
+  EXPECT_EQ(mended.message, "halfspace keeps up");
+  EXPECT_EQ(valueOf(mended, "faults"), "1");
+  EXPECT_EQ(valueOf(mended, "last error"), "'liver': no canary");
+}
 
 TEST_F(DiagnosticsTest, EachInputTellsItsTopicItsPublishersAndItsAge) {
   placeSheet("sheet", {0.0, 0.0, -1.0});
