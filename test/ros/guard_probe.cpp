@@ -310,6 +310,17 @@ size_t GuardProbe::markersSoFar() const {
   return markers_.size();
 }
 
+bool endToEnd(const std::vector<sweep_guard::Contacts>& contacts) {
+  const auto apart = [](const auto& one, const auto& next) { return next.interval_start != one.header.stamp; };
+  return std::adjacent_find(contacts.begin(), contacts.end(), apart) == contacts.end();
+}
+
+size_t objectsMet(const std::vector<sweep_guard::Contacts>& contacts) {
+  size_t count = 0;
+  for (const sweep_guard::Contacts& one : contacts) count += one.objects.size();
+  return count;
+}
+
 std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key) {
   for (const auto& value : status.values) {
     if (value.key == key) return value.value;

@@ -141,6 +141,10 @@ class GuardProbe {
   ros::AsyncSpinner spinner_{1};
 };
 
+/// Each interval begins where the one before ended: no motion was left out.
+bool endToEnd(const std::vector<sweep_guard::Contacts>& contacts);
+size_t objectsMet(const std::vector<sweep_guard::Contacts>& contacts);  ///< in all of them
+
 /// What a status says for a key; empty if it says nothing.
 std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key);
 
