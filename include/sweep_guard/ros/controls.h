@@ -14,8 +14,8 @@ namespace sweep_guard_ros {
 
 /// The services `~enable` and `~reset`. Disabled is not clear: the warning is UNKNOWN, both flags stay raised. While
 /// the level is REFLEX or CONTACT the guard refuses to be disabled: grey light would hide from the operator what he has
-/// to see now. To reset is allowed always, for it hides nothing: a contact that is still there is found at the next
-/// pose.
+/// to see now. To reset is allowed always: a contact that is still there is found at the next pose. Where none comes,
+/// it is forgotten, and the guard may be disabled: the warning is UNKNOWN, and says so.
 class Controls {
  public:
   /// @param reset  forgets what came before, and returns when that is done
