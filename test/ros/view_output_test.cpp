@@ -68,6 +68,7 @@ TEST(ViewTest, ShowsNoContactThatIsOver) {
 
 TEST(ViewTest, KnowsNothingBeforeTheFirstSweep) {
   const sweep_guard::View view = toMsg(MarkerScene());
+  EXPECT_TRUE(view.header.stamp.isZero());
   EXPECT_TRUE(view.objects.empty());
   EXPECT_TRUE(view.path.empty());
   EXPECT_EQ(view.level, static_cast<std::uint8_t>(Level::kUnknown));

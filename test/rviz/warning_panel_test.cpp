@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <utility>
 
 #include "await.h"
 #include "pictures.h"
@@ -240,7 +241,7 @@ class SlowGuard {
     enable_ = node_.advertiseService<std_srvs::SetBool::Request, std_srvs::SetBool::Response>(
         "/guard/enable", [this](auto& request, auto& response) {
           asked.set_value(request.data);
-          may_answer.get_future().wait();
+          may_answer_.get_future().wait();
           response.success = true;
           response.message = "done as asked";
           return true;
@@ -248,14 +249,20 @@ class SlowGuard {
     spinner_.start();
   }
   ~SlowGuard() {
+    answer();
     spinner_.stop();
     enable_.shutdown();
   }
 
+  void answer() {
+    if (!std::exchange(answered_, true)) may_answer_.set_value();
+  }
+
   std::promise<bool> asked;
-  std::promise<void> may_answer;
 
  private:
+  std::promise<void> may_answer_;
+  bool answered_ = false;
   ros::NodeHandle node_;
   ros::CallbackQueue queue_;
   ros::AsyncSpinner spinner_{1, &queue_};
@@ -269,7 +276,7 @@ TEST_F(WarningPanelTest, GoesOnWhileTheGuardThinksAboutDisabling) {
   EXPECT_FALSE(guard.asked.get_future().get());
   say(warningOf(Warning::REFLEX));
   EXPECT_FALSE(button("enable")->isEnabled());
-  guard.may_answer.set_value();
+  guard.answer();
   await("the button", [this] { return button("enable")->isEnabled(); });
 }
 
@@ -282,7 +289,6 @@ TEST_F(WarningPanelTest, AGuardThatNeverAnswersIsLeftForAnother) {
   load("/other/warning");
   await("the button", [this] { return button("enable")->isEnabled(); });
   EXPECT_TRUE(outcome->isHidden());
-  guard.may_answer.set_value();
 }
 
 TEST_F(WarningPanelTest, TheButtonOfADisabledGuardEnablesIt) {
@@ -296,7 +302,7 @@ TEST_F(WarningPanelTest, TheButtonOfADisabledGuardEnablesIt) {
   keepPicture(panel_.grab().toImage(), "panel_DISABLED");
   button("enable")->click();
   EXPECT_TRUE(guard.asked.get_future().get());
-  guard.may_answer.set_value();
+  guard.answer();
   await("the button", [this] { return button("enable")->isEnabled(); });
 }
 
@@ -321,7 +327,6 @@ TEST_F(WarningPanelTest, AGuardThatNeverAnswersDoesNotKeepThePanelFromClosing) {
     panel.findChild<QPushButton*>("enable")->click();
     guard.asked.get_future().wait();
   }
-  guard.may_answer.set_value();
 }
 
 }  // namespace
