@@ -1,0 +1,48 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "sweep_guard/ros/pose_input.h"
+
+namespace sweep_guard_ros {
+
+/// What waits for the thread that sweeps: poses in their order, and tasks to be done between two sweeps.
+class WorkQueue {
+ public:
+  struct Work {
+    std::deque<std::function<void()>> tasks;
+    std::deque<PlacedPose> poses;
+  };
+
+  void push(PlacedPose pose);  ///< waits while there is no room
+
+  /// @throws sweep_guard::Error if too many tasks wait already, or after stop()
+  template <typename Result>
+  std::future<Result> ask(std::function<Result()> task) {
+    const auto packaged = std::make_shared<std::packaged_task<Result()>>(std::move(task));
+    pushTask([packaged] { (*packaged)(); });
+    return packaged->get_future();
+  }
+
+  std::optional<Work> take();  ///< all there is, as soon as there is any; empty after stop()
+  bool noPoseWaits() const;
+
+  void stop();  ///< lets everybody go; whoever waits for a task hears that it is not done
+
+ private:
+  void pushTask(std::function<void()> task);
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  Work work_;
+  bool stopping_ = false;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,59 @@
+#include "sweep_guard/ros/work_queue.h"
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr size_t kPosesQueued = 4096;  // 4 s at 1 kHz; by then the poses are stale, and the warning says so
+constexpr size_t kTasksQueued = 16;
+
+}  // namespace
+
+void WorkQueue::push(PlacedPose pose) {
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return stopping_ || work_.poses.size() < kPosesQueued; });
+    work_.poses.push_back(std::move(pose));
+  }
+  changed_.notify_all();
+}
+
+void WorkQueue::pushTask(std::function<void()> task) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_) throw sweep_guard::Error("the guard is shutting down");
+    if (work_.tasks.size() >= kTasksQueued) throw sweep_guard::Error("the guard is busy: ask again");
+    work_.tasks.push_back(std::move(task));
+  }
+  changed_.notify_all();
+}
+
+std::optional<WorkQueue::Work> WorkQueue::take() {
+  Work taken;
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return stopping_ || !work_.poses.empty() || !work_.tasks.empty(); });
+    if (stopping_) return std::nullopt;
+    std::swap(taken, work_);
+  }
+  changed_.notify_all();
+  return taken;
+}
+
+bool WorkQueue::noPoseWaits() const {
+  const std::lock_guard lock(mutex_);
+  return work_.poses.empty();
+}
+
+void WorkQueue::stop() {
+  Work dropped;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    std::swap(dropped, work_);
+  }
+  changed_.notify_all();
+}
+
+}  // namespace sweep_guard_ros
