@@ -114,7 +114,9 @@ void Sweeper::process(const PlacedPose& placed, const PlacedPose* next) {
     sweep(placed);
     if (timeToLookAhead()) lookAhead(placed);
   } catch (const std::exception& error) {  // no memory for the report or its messages
-    parts_.ledger.fault(sweep_guard::kDetectorFault, std::string("sweeping failed: ") + error.what());
+    const std::string story = std::string("sweeping failed: ") + error.what();
+    parts_.workload.failed(story);
+    parts_.ledger.fault(sweep_guard::kDetectorFault, story);
   }
 }
 
