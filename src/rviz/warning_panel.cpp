@@ -134,7 +134,7 @@ void WarningPanel::setTopic(const std::string& topic) {
 }
 
 std::string WarningPanel::announced(const std::string& service) {
-  const std::string name = ros::names::append(guard_, service);
+  std::string name = ros::names::append(guard_, service);
   tell("waiting for " + name);
   return name;
 }

@@ -1,5 +1,7 @@
 #include "sweep_guard/rviz/workpieces.h"
 
+#include <algorithm>
+
 namespace sweep_guard_rviz {
 
 void Workpieces::clear() {
@@ -77,10 +79,8 @@ size_t Workpieces::drawnTriangles(SurfaceVisual::Layer layer) const {
 std::string Workpieces::complaint(const std::string& topic) const {
   if (!wrong_.empty()) return "'" + wrong_.begin()->first + "': " + wrong_.begin()->second;
   if (visuals_.empty()) return "none has come from " + topic;
-  for (const auto& [id, visual] : visuals_) {
-    if (!visual->hasMesh()) return "'" + id + "' has not come from " + topic;
-  }
-  return "";
+  const auto missing = std::find_if(visuals_.begin(), visuals_.end(), [](auto& one) { return !one.second->hasMesh(); });
+  return missing == visuals_.end() ? "" : "'" + missing->first + "' has not come from " + topic;
 }
 
 }  // namespace sweep_guard_rviz
