@@ -87,12 +87,13 @@ TEST_F(ClipTest, IsWhatEveryPlaneLeavesButForRounding) {
   EXPECT_LT(met, 80000);
 }
 
-TEST_F(ClipTest, MeetsAnEdgeWithBothEndsOutside) {
+TEST_F(ClipTest, IsNotMetByAnEdgeThatPassesItNarrowly) {
   volume_.clips_B.clear();
   const ConvexClip clip(volume_);
   const Eigen::Vector3d far(30.0, 30.0, 0.0);
-  EXPECT_TRUE(clip.meets({Eigen::Vector3d(-9.0, 0.0, 0.0), Eigen::Vector3d(9.0, 0.1, 0.1), far}));
-  EXPECT_FALSE(clip.meets({Eigen::Vector3d(0.4, 9.0, 0.0), Eigen::Vector3d(9.0, 0.4, 0.0), far}));
+  const auto edge = [&](double x, double y) { return clip.meets({Eigen::Vector3d(x, 0.0, 0.0), {0.0, y, 0.0}, far}); };
+  EXPECT_TRUE(edge(0.6, 0.7 * 0.6 / 0.1 - 1e-6));
+  EXPECT_FALSE(edge(0.6, 0.7 * 0.6 / 0.1 + 1e-6));
 }
 
 TEST_F(ClipTest, MeetsATriangleWhoseEdgesAllPassItBy) {
