@@ -27,8 +27,8 @@ struct Latency {
   std::size_t triangles;        ///< touched
 };
 
-/// Counts what went into the guard and what came out: which poses were swept, how fast, and which were lost. Poses and
-/// the intervals swept are matched by their stamps; either may come first.
+/// Counts what went into the guard and what came out: which poses were swept or swept through, how fast, and which were
+/// left out. Poses and the intervals swept are matched by their stamps; either may come first.
 class DemoReport {
  public:
   /// @param sequence  header.seq, counted by the publisher
