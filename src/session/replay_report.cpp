@@ -53,6 +53,7 @@ Touch toTouch(const sweep_guard::Contacts& contacts, const sweep_guard::ObjectCo
   Touch touch;
   touch.heard = now();
   touch.first = fromMsg(contacts.interval_start);
+  touch.stamp = fromMsg(contacts.header.stamp);
   touch.mesh_id = object.mesh_id;
   touch.triangles = sweep_guard_recording::trianglesTouched(object);
   double first = std::numeric_limits<double>::infinity();

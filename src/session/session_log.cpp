@@ -12,6 +12,8 @@ using sweep_guard::Time;
 
 namespace {
 
+constexpr double kUnknownDepth = std::numeric_limits<double>::quiet_NaN();
+
 // What is left of a warning after a contact does not warn of the next: the way back ends there.
 Time onSince(const std::vector<Stretch>& stretches, std::size_t contact, Level least) {
   std::size_t first = contact;
@@ -28,6 +30,16 @@ void take(Contact& contact, const Touch& touch) {
   if (touch.mesh_id != contact.mesh_id) return;
   contact.triangles.insert(touch.triangles.begin(), touch.triangles.end());
   contact.depth = std::fmax(contact.depth, touch.depth);  // of a number and NaN, the number
+}
+
+// To each contact the touches heard in it, and those heard later of poses within it.
+void share(const std::vector<Touch>& touches, std::vector<Contact>& contacts) {
+  std::size_t i = 0;
+  for (const Touch& touch : touches) {
+    while (i < contacts.size() && touch.heard > contacts[i].end) ++i;
+    const bool late = i > 0 && touch.stamp <= contacts[i - 1].end;
+    if (late || i < contacts.size()) take(contacts[late ? i - 1 : i], touch);
+  }
 }
 
 }  // namespace
@@ -60,18 +72,19 @@ std::vector<Stretch> SessionLog::stretches() const {
 std::vector<Contact> SessionLog::contacts() const {
   const std::vector<Stretch> stretches = this->stretches();
   std::vector<Contact> contacts;
-  auto touch = touches_.begin();
+  std::vector<std::size_t> places;  // among the stretches
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     if (stretches[i].level != Level::kContact) continue;
-    Contact contact{stretches[i].begin, stretches[i].end, "", "", {}, std::numeric_limits<double>::quiet_NaN(), {}, {}};
-    const Time before = contacts.empty() ? Time::min() : contacts.back().end;  // what came late belongs there
-    for (; touch != touches_.end() && touch->heard <= contact.end; ++touch) {
-      if (touch->first >= before) take(contact, *touch);
-    }
-    const auto lead = [&](Level least) { return std::max(contact.begin - onSince(stretches, i, least), Duration(0)); };
-    contact.considered_lead = lead(Level::kConsidered);
-    contact.reflex_lead = lead(Level::kReflex);
-    contacts.push_back(contact);
+    contacts.push_back({stretches[i].begin, stretches[i].end, "", "", {}, kUnknownDepth, {}, {}});
+    places.push_back(i);
+  }
+  share(touches_, contacts);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto lead = [&](Level least) {
+      return std::max(contacts[i].begin - onSince(stretches, places[i], least), Duration(0));
+    };
+    contacts[i].considered_lead = lead(Level::kConsidered);
+    contacts[i].reflex_lead = lead(Level::kReflex);
   }
   return contacts;
 }

@@ -32,8 +32,9 @@ struct Stretch {
 /// What one sweep met of one workpiece.
 struct Touch {
   sweep_guard::Time heard;  ///< on the session's clock
-  sweep_guard::Time
-      first;  ///< moment of the first touch between the two poses, or the first pose's where that is unknown
+  /// Moment of the first touch between the two poses, or the first pose's where that is unknown.
+  sweep_guard::Time first;
+  sweep_guard::Time stamp;  ///< of the pose that was swept to
   std::string mesh_id;
   std::string tool_link;  ///< that touched first; empty: not known
   std::vector<std::uint32_t> triangles;

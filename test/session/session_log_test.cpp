@@ -16,7 +16,8 @@ Time at(int ms) { return Time(milliseconds(ms)); }
 void tell(SessionLog& log, int ms, Level level, const std::string& text = "") { log.add({at(ms), level, text}); }
 
 Touch touchAt(int first, int heard, std::uint32_t triangle, double depth) {
-  return {at(heard), at(first), "liver", "tip", {triangle}, depth};
+  const int stamp = first + 4;
+  return {at(heard), at(first), at(stamp), "liver", "tip", {triangle}, depth};
 }
 
 TEST(SessionLogTest, LevelsThatRepeatAreOneStretchAndTheLastEndsWithTheSession) {
@@ -105,7 +106,7 @@ TEST(SessionLogTest, AWarningThatComesAfterTheTouchHasNoLead) {
 }
 
 // Where warnings are not held, the last touch is heard when the level has gone.
-TEST(SessionLogTest, ATouchThatIsHeardAfterItsContactIsNotTheNextOnes) {
+TEST(SessionLogTest, ATouchThatIsHeardAfterItsContactIsItsOwn) {
   SessionLog log;
   tell(log, 0, Level::kContact);
   log.add(touchAt(0, 0, 1, 0.001));
@@ -116,9 +117,35 @@ TEST(SessionLogTest, ATouchThatIsHeardAfterItsContactIsNotTheNextOnes) {
   log.end(at(600));
   const std::vector<Contact> contacts = log.contacts();
   ASSERT_EQ(contacts.size(), 2U);
+  EXPECT_EQ(contacts[0].triangles, (std::set<std::uint32_t>{1, 2}));
+  EXPECT_EQ(contacts[0].depth, 0.002);
   EXPECT_EQ(contacts[1].begin, at(490));
   EXPECT_EQ(contacts[1].reflex_lead, milliseconds(390));
   EXPECT_EQ(contacts[1].triangles, std::set<std::uint32_t>{3});
+}
+
+TEST(SessionLogTest, ATouchInAnIntervalInWhichAContactEndedIsTheNextOnes) {
+  SessionLog log;
+  tell(log, 0, Level::kContact);
+  log.add(touchAt(0, 4, 1, 0.001));
+  tell(log, 100, Level::kClear);
+  tell(log, 105, Level::kContact);
+  log.add(touchAt(98, 105, 2, 0.002));
+  log.end(at(200));
+  const std::vector<Contact> contacts = log.contacts();
+  ASSERT_EQ(contacts.size(), 2U);
+  EXPECT_EQ(contacts[0].triangles, std::set<std::uint32_t>{1});
+  EXPECT_EQ(contacts[1].begin, at(98));
+  EXPECT_EQ(contacts[1].mesh_id, "liver");
+}
+
+TEST(SessionLogTest, ATouchHeardAfterTheLastContactIsItsOwn) {
+  SessionLog log;
+  tell(log, 0, Level::kContact);
+  tell(log, 100, Level::kClear);
+  log.add(touchAt(95, 101, 1, 0.001));
+  log.end(at(200));
+  EXPECT_EQ(log.contacts()[0].triangles, std::set<std::uint32_t>{1});
 }
 
 TEST(SessionLogTest, NothingWasTold) {

@@ -35,7 +35,7 @@ SessionLog oneContact() {
   log.add({at(500), Level::kConsidered, "CONSIDERED", milliseconds(900)});
   log.add({at(1200), Level::kReflex, "REFLEX", milliseconds(100)});
   log.add({at(1310), Level::kContact, "CONTACT: tool meets 'a, b'", milliseconds(0)});
-  log.add({at(1310), at(1300), "a, b", "tip", {3, 4}, 0.0025});
+  log.add({at(1310), at(1300), at(1310), "a, b", "tip", {3, 4}, 0.0025});
   log.addSweep(at(1290), at(1310));
   log.end(at(2000));
   return log;
