@@ -10,6 +10,16 @@ fail() {
   echo "$(basename "$0"): $*" >&2
   exit "${status:-1}"
 }
+usage_error() { status=2 fail "$*: see scripts/$(basename "$0") --help"; }
+
+# needs_value OPTION [VALUE] [...] - the rest of the command line
+needs_value() { [[ -n ${2:-} ]] || usage_error "$1 needs a value"; }
+
+# needs_seconds OPTION [VALUE] [...] - likewise
+needs_seconds() {
+  needs_value "$@"
+  [[ $2 =~ ^[0-9]+(\.[0-9]+)?$ && $2 =~ [1-9] ]] || usage_error "$1 needs seconds above 0, not $2"
+}
 
 # Debian's ROS runs on Debian's python3: one of pyenv or conda in front of it lacks catkin_pkg, ament and rospy. What another
 # workspace or installation has put into the environment would be built into build/, so these scripts do without it; to use
