@@ -24,6 +24,9 @@ class GuidedTip {
 
   const Eigen::Isometry3d& pose() const { return X_WT_; }
 
+  /// At rest again: nobody saw it move for a while.
+  void rest() { velocity_ = Twist(); }
+
   /// Moves on by `dt` [s] > 0 at this velocity, or as near to it as the limits allow.
   void moveAt(const Twist& wanted, double dt);
 

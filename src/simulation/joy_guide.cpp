@@ -7,7 +7,8 @@ namespace sweep_guard_simulation {
 
 namespace {
 
-constexpr double kReminderPeriod = 10.0;  // [s]
+constexpr double kReminderPeriod = 10.0;                                    // [s]
+constexpr sweep_guard::Duration kBacklog = std::chrono::milliseconds(100);  // in which roscpp reads what has waited
 
 // When it came: the device may stamp by another clock.
 sweep_guard::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
@@ -26,6 +27,8 @@ void JoyGuide::move(GuidedTip& tip, double dt) const {
   }
   tip.moveAt(joystick_.velocity(now()), dt);
 }
+
+void JoyGuide::release() { joystick_.releaseUntil(now() + kBacklog); }
 
 void JoyGuide::onJoy(const sensor_msgs::Joy::ConstPtr& joy) {
   try {

@@ -15,6 +15,9 @@ class JoyGuide {
 
   void move(GuidedTip& tip, double dt) const;
 
+  /// After a stall: the tool rests until a message comes that has not waited meanwhile.
+  void release();
+
  private:
   void onJoy(const sensor_msgs::Joy::ConstPtr& joy);
 

@@ -39,8 +39,14 @@ void Joystick::take(const std::vector<float>& axes, sweep_guard::Time at) {
     twist.linear[k] = options_.linear[k] * deflection(axes, options_.linear_axes[i], options_.dead_zone);
     twist.angular[k] = options_.angular[k] * deflection(axes, options_.angular_axes[i], options_.dead_zone);
   }
+  if (at < released_until_) return;
   newest_ = twist;
   newest_at_ = at;
+}
+
+void Joystick::releaseUntil(sweep_guard::Time until) {
+  newest_at_.reset();
+  released_until_ = until;
 }
 
 Twist Joystick::velocity(sweep_guard::Time at) const {

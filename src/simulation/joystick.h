@@ -32,12 +32,16 @@ class Joystick {
   /// force
   void take(const std::vector<float>& axes, sweep_guard::Time at);
 
+  /// Lets go of what was taken, and of all that is taken before `until`: it may have waited, nobody knows for how long.
+  void releaseUntil(sweep_guard::Time until);
+
   Twist velocity(sweep_guard::Time at) const;
 
  private:
   Options options_;
   Twist newest_;
   std::optional<sweep_guard::Time> newest_at_;
+  sweep_guard::Time released_until_;
 };
 
 }  // namespace sweep_guard_simulation

@@ -19,6 +19,7 @@
 #include "simulation/joy_guide.h"
 #include "simulation/joystick.h"
 #include "simulation/marker_guide.h"
+#include "simulation/pace.h"
 #include "simulation/pose_stream.h"
 #include "simulation/replay.h"
 #include "simulation/run_node.h"
@@ -28,6 +29,7 @@
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/stamped_pose.h"
+#include "sweep_guard/ros/conversions.h"
 #include "sweep_guard/ros/parameter_reader.h"
 #include "sweep_guard/ros/parameters.h"
 
@@ -38,14 +40,15 @@ namespace {
 using sweep_guard::StampedPose;
 
 constexpr int kQueue = 10000;
-constexpr double kLongestSleep = 0.1;  // [s] so that a long gap in a recording does not delay the end of the node
-constexpr double kLongGap = 5.0;       // [s] that is told of
-constexpr double kLinger = 1.0;        // [s] for the last poses to leave
-constexpr double kSlant = 0.45;        // more than the drill tilts: rise per width of the tool between two holes
-constexpr double kDepth = 0.010;       // [m] below the surface, in both kinds of motion
-constexpr double kClearance = 0.1;     // [m] above the surface, where a hand takes the tool over
-constexpr int kHighestAxis = 63;       // of an input device
-constexpr double kHoleCircle = 0.06;   // [m] radius
+constexpr double kLongestSleep = 0.1;     // [s] so that a long gap in a recording does not delay the end of the node
+constexpr double kLongGap = 5.0;          // [s] that is told of
+constexpr double kReminderPeriod = 10.0;  // [s]
+constexpr double kLinger = 1.0;           // [s] for the last poses to leave
+constexpr double kSlant = 0.45;           // more than the drill tilts: rise per width of the tool between two holes
+constexpr double kDepth = 0.010;          // [m] below the surface, in both kinds of motion
+constexpr double kClearance = 0.1;        // [m] above the surface, where a hand takes the tool over
+constexpr int kHighestAxis = 63;          // of an input device
+constexpr double kHoleCircle = 0.06;      // [m] radius
 constexpr int kHolesOnCircle = 5;
 constexpr std::uint32_t kNotReady =
     sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
@@ -172,10 +175,17 @@ class OperatorNode {
     const GuidedTip tip(aboveTheWorkpiece(), limits_);
     if (input_ == "joy") {
       joy_guide_.emplace(node_, joystick_);
-      return guided(tip, rate_, [this](GuidedTip& led, double dt) { joy_guide_->move(led, dt); });
+      return ledBy(tip, [this](GuidedTip& led, double dt) { joy_guide_->move(led, dt); });
     }
     marker_guide_ = std::make_unique<MarkerGuide>(ros::names::resolve("~marker"), frame_, tip.pose(), buffer_);
-    return guided(tip, rate_, [this](GuidedTip& led, double dt) { marker_guide_->move(led, dt); });
+    return ledBy(tip, [this](GuidedTip& led, double dt) { marker_guide_->move(led, dt); });
+  }
+
+  PoseStream ledBy(const GuidedTip& tip, const Guide& guide) {
+    return guided(tip, rate_, [this, guide](GuidedTip& led, double dt) {
+      if (std::exchange(stalled_, false)) led.rest();
+      guide(led, dt);
+    });
   }
 
   PoseStream drill() const {
@@ -200,16 +210,24 @@ class OperatorNode {
   }
 
   bool perform(const PoseStream& motion) {
-    const ros::Time start = ros::Time::now();
+    Pace pace(now(), joy_guide_ || marker_guide_);
     for (std::optional<StampedPose> pose = motion(); pose; pose = motion()) {
-      const ros::Time due = start + ros::Duration().fromNSec(pose->stamp.time_since_epoch().count());
-      const double gap = (due - ros::Time::now()).toSec();
+      const double gap = sweep_guard::toSeconds(pace.due(pose->stamp) - now());
       if (gap > kLongGap) ROS_INFO("the motion has a gap: waiting for %.0f s", gap);
-      if (!sleepUntil(due)) return false;
-      publish(pose->X_WT * Eigen::Translation3d(-p_TTip_), due);
+      if (!sleepUntil(sweep_guard_ros::toMsg(pace.due(pose->stamp)))) return false;
+      if (pace.resume(pose->stamp, now())) goOnAfterStall();
+      publish(pose->X_WT * Eigen::Translation3d(-p_TTip_), sweep_guard_ros::toMsg(pace.due(pose->stamp)));
       ros::spinOnce();
     }
     return true;
+  }
+
+  static sweep_guard::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
+
+  void goOnAfterStall() {
+    ROS_WARN_THROTTLE(kReminderPeriod, "the operator stalled: the tool goes on from now, and from rest");
+    stalled_ = true;
+    if (joy_guide_) joy_guide_->release();
   }
 
   static bool sleepUntil(const ros::Time& due) {
@@ -251,6 +269,7 @@ class OperatorNode {
   ros::Subscriber warning_subscriber_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
+  bool stalled_ = false;  // since the tip moved last
   std::optional<JoyGuide> joy_guide_;
   std::unique_ptr<MarkerGuide> marker_guide_;
 };

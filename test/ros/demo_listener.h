@@ -43,7 +43,7 @@ Eigen::Vector3d positionOf(const geometry_msgs::PoseStamped& pose);
 /// Farthest way between one pose and the next [m].
 double longestStep(const DemoListener::Poses& poses);
 
-/// Whether the stamps are so far apart, all of them, to the nanosecond.
+/// Whether the stamps are so far apart, all of them, to the nanosecond; farther only where the operator stalled.
 bool isEven(const DemoListener::Poses& poses, const ros::Duration& period);
 
 }  // namespace sweep_guard_ros

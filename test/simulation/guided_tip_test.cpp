@@ -96,6 +96,18 @@ TEST(GuidedTipTest, TakesUpAVelocityAndStops) {
   EXPECT_TRUE(tip.pose().translation().isApprox(before, kTiny));
 }
 
+// The first step from rest: 1 m/s^2 over 0.01 s.
+TEST(GuidedTipTest, StartsFromRestAfterwardsAsAtFirst) {
+  GuidedTip tip(poseAt({0, 0, 0}), {});
+  Twist wanted;
+  wanted.linear.x() = 0.1;
+  for (int i = 0; i < 20; ++i) tip.moveAt(wanted, kStep);
+  tip.rest();
+  const Vector3d before = tip.pose().translation();
+  tip.moveAt(wanted, kStep);
+  EXPECT_TRUE((tip.pose().translation() - before).isApprox(Vector3d(0.0001, 0, 0), 1e-9));
+}
+
 TEST(GuidedTipTest, TurnsAboutTheAxesOfTheWorldAndItsTip) {
   GuidedTip tip(Isometry3d(Eigen::Translation3d(1, 2, 3) * AngleAxisd(M_PI, Vector3d::UnitX())), {});
   const Isometry3d before = tip.pose();

@@ -53,6 +53,17 @@ TEST(JoystickTest, RestsBeforeTheFirstMessageAndWhenMessagesStop) {
   EXPECT_EQ(joystick.velocity(kNow + milliseconds(251)).linear, Vector3d::Zero());
 }
 
+TEST(JoystickTest, RestsWhenReleasedUntilAMessageComesAfterwards) {
+  Joystick joystick(plain());
+  joystick.take({1, 0, 0, 0, 0, 0}, kNow);
+  joystick.releaseUntil(kNow + milliseconds(100));
+  EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d::Zero());
+  joystick.take({1, 0, 0, 0, 0, 0}, kNow + milliseconds(99));
+  EXPECT_EQ(joystick.velocity(kNow + milliseconds(99)).linear, Vector3d::Zero());
+  joystick.take({1, 0, 0, 0, 0, 0}, kNow + milliseconds(100));
+  EXPECT_EQ(joystick.velocity(kNow + milliseconds(100)).linear, Vector3d(1, 0, 0));
+}
+
 TEST(JoystickTest, RefusesADeviceOfFewerAxesAndNumbersThatAreNone) {
   Joystick joystick(plain());
   EXPECT_THROW(joystick.take({1, 1}, kNow), sweep_guard::InvalidInput);
