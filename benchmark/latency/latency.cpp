@@ -45,7 +45,7 @@ Settings settingsOf(int argc, char** argv) {
 }
 
 int run(int argc, char** argv) {
-  ros::init(argc, argv, "latency");
+  ros::init(argc, argv, "latency", ros::init_options::NoSigintHandler);  // a measurement that is cut short is none
   const Settings settings = settingsOf(argc, argv);
   const ros::NodeHandle alive;
   const Measurement measured = measure(settings);
