@@ -12,8 +12,8 @@ namespace {
 using sweep_guard::Reason;
 
 constexpr auto kTransformMayBeLate = std::chrono::milliseconds(20);
-constexpr size_t kMissingKept = 64;  // made-up frame names must not fill the memory
-constexpr int kQueueLength = 4096;   // 4 s at 1 kHz
+constexpr size_t kMissingKept = 64;        // made-up frame names must not fill the memory
+constexpr std::uint32_t kQueueLength = 0;  // no bound: a pose that ROS drops for another is a hole nobody hears of
 
 struct PoseRefused : sweep_guard::InvalidInput {
   PoseRefused(Reason why, const std::string& story) : InvalidInput(story), reason(why) {}

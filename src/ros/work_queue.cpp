@@ -5,7 +5,7 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr size_t kPosesQueued = 4096;  // 4 s at 1 kHz; by then the poses are stale, and the warning says so
+constexpr size_t kPosesQueued = 4096;  // what is swept at once; the others wait with the input, which loses none
 constexpr size_t kTasksQueued = 16;
 
 }  // namespace
