@@ -5,7 +5,7 @@
 namespace sweep_guard {
 namespace {
 
-constexpr size_t kRefusedMeshesKept = 64;  // a flood of made-up ids must not grow the ledger
+constexpr size_t kRefusalsKept = 64;  // a flood of made-up ids must not grow the ledger
 
 bool sameTriangles(const Workpiece& a, const Workpiece& b) {
   return a.id == b.id && a.frame == b.frame && &a.mesh_M.triangles() == &b.mesh_M.triangles();
@@ -61,24 +61,34 @@ void Ledger::note(Reason reason, const std::string& story) {
   fault_numbers_[reason] = ++mark_.faults;
 }
 
-void Ledger::meshRefused(const std::string& id, const std::string& story) {
+void Ledger::meshRefused(const std::string& id, const std::string& story) { refused(refused_meshes_, id, story); }
+
+void Ledger::verticesRefused(const std::string& id, const std::string& story) { refused(refused_vertices_, id, story); }
+
+void Ledger::refused(Stories& refusals, const std::string& id, const std::string& story) {
   {
     const std::lock_guard lock(mutex_);
-    const bool room = refused_meshes_.size() < kRefusedMeshesKept || refused_meshes_.count(id) != 0;
-    refused_meshes_[room ? id : refused_meshes_.rbegin()->first] = story;
-    noteRefusedMeshes();
+    const bool room = refusals.size() < kRefusalsKept || refusals.count(id) != 0;
+    refusals[room ? id : refusals.rbegin()->first] = story;
+    noteRefusals();
   }
   on_fault_();
 }
 
 void Ledger::meshAccepted(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  if (refused_meshes_.erase(id) > 0) noteRefusedMeshes();
+  if (refused_meshes_.erase(id) + refused_vertices_.erase(id) > 0) noteRefusals();
 }
 
-void Ledger::noteRefusedMeshes() {
+void Ledger::verticesAccepted(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  if (refused_vertices_.erase(id) > 0) noteRefusals();
+}
+
+void Ledger::noteRefusals() {
+  const Stories& told = refused_meshes_.empty() ? refused_vertices_ : refused_meshes_;
   evidence_.faults.erase(kMeshInvalid);
-  if (!refused_meshes_.empty()) evidence_.faults[kMeshInvalid] = refused_meshes_.rbegin()->second;
+  if (!told.empty()) evidence_.faults[kMeshInvalid] = told.rbegin()->second;
 }
 
 void Ledger::setWorkpieces(const Workpieces& workpieces) {
@@ -207,7 +217,7 @@ void Ledger::beginAnew() {
   swept_.clear();
   fault_numbers_.clear();
   noteObjects();
-  noteRefusedMeshes();
+  noteRefusals();
 }
 
 void Ledger::restart() {

@@ -32,20 +32,28 @@ bool before(const std::shared_ptr<const Workpiece>& workpiece, const std::string
 WorkpieceStore::WorkpieceStore(size_t max_triangles, sweep_guard::Ledger& ledger)
     : max_triangles_(max_triangles), ledger_(ledger) {}
 
-void WorkpieceStore::accept(const sweep_guard::DeformableMesh& msg) { acceptOrRefuse(msg, meshes_); }
-void WorkpieceStore::accept(const sweep_guard::MeshVertices& msg) { acceptOrRefuse(msg, vertices_); }
+void WorkpieceStore::accept(const sweep_guard::DeformableMesh& msg) {
+  const auto refusal = refusalOf(msg, meshes_);
+  refusal ? ledger_.meshRefused(msg.id, *refusal) : ledger_.meshAccepted(msg.id);
+}
 
+void WorkpieceStore::accept(const sweep_guard::MeshVertices& msg) {
+  const auto refusal = refusalOf(msg, vertices_);
+  refusal ? ledger_.verticesRefused(msg.id, *refusal) : ledger_.verticesAccepted(msg.id);
+}
+
+// Stores it, or says why not.
 template <typename Msg>
-void WorkpieceStore::acceptOrRefuse(const Msg& msg, InputRecord& record) {
+std::optional<std::string> WorkpieceStore::refusalOf(const Msg& msg, InputRecord& record) {
   record.came({fromMsg(msg.header.stamp), std::chrono::steady_clock::now()});
   try {
     store(msg);
-    ledger_.meshAccepted(msg.id);
+    return std::nullopt;
   } catch (const std::exception& error) {  // invalid, or no memory for it
     const std::string story = "workpiece '" + msg.id + "' refused: " + error.what();
     record.refused(story);
-    ledger_.meshRefused(msg.id, story);
     log_.error(msg.id, story);
+    return story;
   }
 }
 

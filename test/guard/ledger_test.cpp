@@ -135,15 +135,16 @@ TEST(LedgerFaultTest, EveryFaultIsToldAtOnce) {
   ledger.fault(kPoseInvalid, "NaN");
   EXPECT_EQ(told, 1);
   ledger.meshRefused("liver", "NaN");
-  EXPECT_EQ(told, 2);
+  ledger.verticesRefused("liver", "NaN");
+  EXPECT_EQ(told, 3);
   SweepReport failed;
   failed.failures.push_back({workpiece("liver", 1000), "no canary"});
   ledger.swept(failed, seenAt(1000), ledger.mark(), at(1000).steady);
-  EXPECT_EQ(told, 3);
+  EXPECT_EQ(told, 4);
   Outlook outlook;
   outlook.failures = failed.failures;
   ledger.predicted(outlook, seenAt(1000), ledger.mark(), at(1000));
-  EXPECT_EQ(told, 4);
+  EXPECT_EQ(told, 5);
   EXPECT_NE(ledger.verdict(at(1000)).reasons & kDetectorFault, 0U);
 }
 
@@ -155,6 +156,28 @@ TEST_F(LedgerTest, ARefusedMeshCountsUntilItsNextGoodOne) {
   EXPECT_EQ(reasonsAt(1050), kMeshInvalid);
   ledger_.meshAccepted("liver");
   EXPECT_EQ(levelAt(1050), Level::kClear);
+}
+
+// What the refused mesh announced is still not seen, however good the vertices of the one before are.
+TEST_F(LedgerTest, ARefusedMeshIsNotMendedByVertices) {
+  ledger_.meshRefused("liver", "too large");
+  ledger_.verticesRefused("liver", "wrong revision");
+  ledger_.verticesAccepted("liver");
+  sweep(reportOf(workpieces_), 1050);
+  EXPECT_EQ(reasonsAt(1050), kMeshInvalid);
+  EXPECT_NE(ledger_.verdict(at(1050)).text.find("too large"), std::string::npos);
+  ledger_.meshAccepted("liver");
+  EXPECT_EQ(levelAt(1050), Level::kClear);
+}
+
+TEST_F(LedgerTest, RefusedVerticesAreMendedByGoodOnesAndByAMesh) {
+  ledger_.verticesRefused("liver", "NaN vertex");
+  EXPECT_EQ(reasonsAt(1000), kMeshInvalid);
+  ledger_.verticesAccepted("liver");
+  EXPECT_EQ(levelAt(1000), Level::kClear);
+  ledger_.verticesRefused("liver", "NaN vertex");
+  ledger_.meshAccepted("liver");
+  EXPECT_EQ(levelAt(1000), Level::kClear);
 }
 
 // Nobody knows where it is: as long as it is neither sent well nor removed, nothing is clear.

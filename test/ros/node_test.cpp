@@ -304,7 +304,7 @@ void PrintTo(const BadMesh& bad, std::ostream* out) { *out << bad.name; }
 
 class BadMeshTest : public NodeTest, public ::testing::WithParamInterface<BadMesh> {};
 
-TEST_P(BadMeshTest, IsRefusedMakesUnknownAndKeepsTheMeshBefore) {
+TEST_P(BadMeshTest, IsRefusedMakesUnknownUntilAGoodOneAndKeepsTheMeshBefore) {
   placeSheet("sheet", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   auto bad = sheetAt("sheet", {0.0, 0.0, -1.0}, probe().time());
@@ -315,7 +315,11 @@ TEST_P(BadMeshTest, IsRefusedMakesUnknownAndKeepsTheMeshBefore) {
   EXPECT_NE(warning.text.find("refused"), std::string::npos) << warning.text;
 
   EXPECT_EQ(moveTo({0.0, 0.0, -0.5}).objects.size(), 1U);
-  probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.0}, probe().time()));
+  probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.01}, probe().time()));  // still the mesh before
+  moveTo({0.0, 0.0, -0.5});
+  const auto of_newest_pose = [](const Warning& later) { return later.header.stamp == probe().time(); };
+  EXPECT_NE(probe().awaitWarning(of_newest_pose).reasons & Warning::MESH_INVALID, 0U);
+  placeSheet("sheet", {0.0, 0.0, 0.02});
   probe().awaitWarning([](const Warning& later) { return (later.reasons & Warning::MESH_INVALID) == 0; });
 }
 

@@ -34,11 +34,15 @@ class Ledger {
   /// Something was refused or failed: the verdict is not clear until a later input mends it.
   void fault(Reason reason, const std::string& story);
 
-  /// A mesh message was refused: the verdict is not clear until meshAccepted(), for there is a workpiece that cannot be
+  /// A whole mesh was refused: the verdict is not clear until meshAccepted(), for there is a workpiece that cannot be
   /// seen.
   void meshRefused(const std::string& id, const std::string& story);
-  /// A good message of that workpiece came, or it was removed.
+  /// A good mesh of that workpiece came, or it was removed: nothing of it counts as refused any more.
   void meshAccepted(const std::string& id);
+  /// New vertices of a mesh were refused: the verdict is not clear until verticesAccepted() or meshAccepted().
+  void verticesRefused(const std::string& id, const std::string& story);
+  /// Good vertices came. They are those of the mesh before: one that was refused since stays so.
+  void verticesAccepted(const std::string& id);
 
   /// The workpieces there are now, newest snapshots.
   void setWorkpieces(const Workpieces& workpieces);
@@ -84,9 +88,12 @@ class Ledger {
     Workpieces tested;
   };
 
+  using Stories = std::map<std::string, std::string>;  // by id
+
   void beginAnew();
   void note(Reason reason, const std::string& story);
-  void noteRefusedMeshes();
+  void refused(Stories& refusals, const std::string& id, const std::string& story);
+  void noteRefusals();
   void noteObjects();
   void noteContact(const SweepReport& report, SteadyTime now);
   void noteExpected(const Outlook& outlook, const Seen& pose, const Instant& now);
@@ -104,7 +111,8 @@ class Ledger {
   std::optional<ExpectedContact> next_;  // of the newest prediction
   Workpieces workpieces_;
   std::map<Reason, std::uint64_t> fault_numbers_;
-  std::map<std::string, std::string> refused_meshes_;  // stories by id
+  Stories refused_meshes_;
+  Stories refused_vertices_;
 };
 
 }  // namespace sweep_guard

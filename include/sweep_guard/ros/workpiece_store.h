@@ -5,6 +5,7 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -44,7 +45,7 @@ class WorkpieceStore {
   };
 
   template <typename Msg>
-  void acceptOrRefuse(const Msg& msg, InputRecord& record);
+  std::optional<std::string> refusalOf(const Msg& msg, InputRecord& record);
   void store(const sweep_guard::DeformableMesh& msg);
   void store(const sweep_guard::MeshVertices& msg);
   std::shared_ptr<const sweep_guard::Workpiece> find(const std::string& id) const;
