@@ -8,19 +8,19 @@
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
 
-#include <algorithm>
+#include <Eigen/Dense>
 #include <array>
-#include <cctype>
+#include <cmath>
 #include <csignal>
-#include <cstring>
 #include <iostream>
 #include <iterator>
 #include <map>
-#include <sstream>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "ros/mesh_text.h"
 #include "sweep_guard/ros/mesh_wire.h"
 
 namespace {
@@ -32,6 +32,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 constexpr rlim_t kMemory = rlim_t{1} << 30U;  // [byte]
 constexpr rlim_t kProcessorTime = 10;         // [s]
 constexpr int kDeepestNode = 100;
+constexpr double kFlattest = 1e-6;  // volume of what a transform makes of a cube, per product of its edges
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kMemoryIsLimited = false;  // sanitizers reserve terabytes of addresses
@@ -58,7 +59,8 @@ struct Surface {
   std::vector<Point> vertices;
   std::vector<Triangle> triangles;
   size_t faces = 0;
-  bool solid = false;  // has a face of three corners or more
+  size_t polygons = 0;  // faces of three corners or more
+  bool solid = false;   // one of them has three different corners
 
   std::uint32_t add(const Point& point) {
     const auto [known, is_new] = index_.try_emplace(point, static_cast<std::uint32_t>(vertices.size()));
@@ -96,8 +98,9 @@ void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, Surfa
     if (face.mIndices[i] >= vertex.size()) throw std::runtime_error("a face names a missing vertex");
     corners.push_back(vertex[face.mIndices[i]]);
   }
-  surface.solid = surface.solid || corners.size() >= 3;
   ++surface.faces;
+  if (corners.size() >= 3) ++surface.polygons;
+  surface.solid = surface.solid || std::set<std::uint32_t>(corners.begin(), corners.end()).size() >= 3;
   while (corners.size() < 3) corners.push_back(corners.back());
   for (size_t i = 2; i < corners.size(); ++i) surface.triangles.push_back({corners[0], corners[i - 1], corners[i]});
   if (surface.triangles.size() > kMostMeshTriangles) throw std::runtime_error("it has more than a million triangles");
@@ -113,11 +116,23 @@ void addMesh(const aiMesh& mesh, const aiMatrix4x4& X, Surface& surface) {
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) addFace(mesh.mFaces[i], vertex, surface);
 }
 
+// No part may become flat, or a point, on its way to where it belongs.
+bool collapsesSpace(const aiMatrix4x4& X) {
+  const Eigen::Matrix3d linear{{X.a1, X.a2, X.a3}, {X.b1, X.b2, X.b3}, {X.c1, X.c2, X.c3}};
+  return !(std::abs(linear.determinant()) > kFlattest * linear.colwise().norm().prod());
+}
+
 void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_parent, int depth, Surface& surface) {
   if (depth > kDeepestNode) throw std::runtime_error("its nodes are nested too deeply");
   const aiMatrix4x4 X = X_parent * node.mTransformation;
+  if (node.mNumMeshes > 0 && collapsesSpace(X)) throw std::runtime_error("a transform in it collapses space");
   for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene.mMeshes[node.mMeshes[i]], X, surface);
   for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], X, depth + 1, surface);
+}
+
+// Some of what assimp leaves out is but a warning to it; most warnings are about materials.
+bool tellsOfLoss(const std::string& message) {
+  return message.rfind("Warn", 0) != 0 || message.find("Skipping") != std::string::npos;
 }
 
 // assimp goes on after an error and leaves out what it did not understand: a tool must not lose a part that way.
@@ -125,62 +140,27 @@ class FirstError : public Assimp::LogStream {
  public:
   explicit FirstError(std::string& text) : text_(text) {}
   void write(const char* message) override {
-    if (text_.empty()) text_ = message;
+    if (text_.empty() && tellsOfLoss(message)) text_ = message;
   }
 
  private:
   std::string& text_;
 };
 
-bool startsWord(const std::string& line, const std::string& word) {
-  const size_t begin = line.find_first_not_of(" \t");
-  if (begin == std::string::npos || line.compare(begin, word.size(), word) != 0) return false;
-  const size_t end = begin + word.size();
-  return end == line.size() || std::isspace(static_cast<unsigned char>(line[end])) != 0;
-}
-
-size_t linesOf(const std::string& bytes, const std::string& word) {
-  std::istringstream lines(bytes);
-  size_t count = 0;
-  for (std::string line; std::getline(lines, line);) count += startsWord(line, word) ? 1 : 0;
-  return count;
-}
-
-bool isBinaryStl(const std::string& bytes) {
-  std::uint32_t facets = 0;
-  if (bytes.size() < 84) return false;
-  std::memcpy(&facets, &bytes[80], sizeof facets);
-  return bytes.size() == 84 + 50 * std::uint64_t{facets};
-}
-
 void requireComplete(const std::string& bytes, const std::string& format, const Surface& surface) {
-  if (!surface.solid) throw std::runtime_error("it has no triangles");
-  size_t claimed = 0;
-  if (format == "obj") claimed = linesOf(bytes, "f");
-  if (format == "stl" && !isBinaryStl(bytes)) {
-    claimed = linesOf(bytes, "facet");
-    if (linesOf(bytes, "endsolid") != linesOf(bytes, "solid")) throw std::runtime_error("its end is missing");
-  }
-  if (surface.faces < claimed) {
-    throw std::runtime_error("only " + std::to_string(surface.faces) + " of its " + std::to_string(claimed) +
+  if (surface.polygons == 0) throw std::runtime_error("it has no triangles");
+  if (!surface.solid) throw std::runtime_error("all its triangles are points or lines");
+  const size_t announced = sweep_guard_ros::facesAnnounced(bytes, format);
+  if (surface.faces < announced) {
+    throw std::runtime_error("only " + std::to_string(surface.faces) + " of its " + std::to_string(announced) +
                              " faces can be read");
-  }
-}
-
-// Materials stand in files of their own, which there is no need to open, and without which assimp reports errors.
-void blankMaterials(std::string& bytes) {
-  for (size_t begin = 0; begin < bytes.size();) {
-    const size_t end = std::min(bytes.find('\n', begin), bytes.size());
-    if (bytes.compare(begin, 6, "mtllib") == 0 || bytes.compare(begin, 6, "usemtl") == 0) {
-      std::fill(&bytes[begin], bytes.data() + end, ' ');
-    }
-    begin = end + 1;
   }
 }
 
 // Without what only assimp knows of: its log's prefix, and the name that it gives to bytes in memory.
 std::string plain(std::string text) {
-  for (const std::string& noise : {std::string("Error, T0: "), std::string(" for $$$___magic___$$$.stl")}) {
+  for (const std::string& noise :
+       {std::string("Error, T0: "), std::string("Warn,  T0: "), std::string(" for $$$___magic___$$$.stl")}) {
     const size_t at = text.find(noise);
     if (at != std::string::npos) text.erase(at, noise.size());
   }
@@ -192,15 +172,17 @@ Surface read(std::string bytes, const std::string& format) {
   if (bytes.compare(0, 19, "version https://git") == 0) {
     throw std::runtime_error("it is a git-lfs pointer, not the mesh: run git lfs pull");
   }
-  if (format == "obj") blankMaterials(bytes);
+  sweep_guard_ros::simplify(bytes, format);
   std::string error;
   Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
-  Assimp::DefaultLogger::get()->attachStream(new FirstError(error), Assimp::Logger::Err);
+  Assimp::DefaultLogger::get()->attachStream(new FirstError(error), Assimp::Logger::Err | Assimp::Logger::Warn);
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as rviz: axes as they stand
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);           // a file without a mesh has none
   const aiScene* const scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
   if (scene == nullptr || scene->mRootNode == nullptr) throw std::runtime_error(plain(importer.GetErrorString()));
   if (!error.empty()) throw std::runtime_error(plain(error));
+  sweep_guard_ros::requireReadable(bytes, format);
   Surface surface;
   addNode(*scene, *scene->mRootNode, aiMatrix4x4(), 0, surface);
   requireComplete(bytes, format, surface);

@@ -146,6 +146,63 @@ TEST_F(MeshFileTest, RefusesWhatItCannotReadAsAWhole) {
   EXPECT_NE(refused("t.ply", "ply").find("STL, OBJ or DAE"), std::string::npos);
 }
 
+// Some exporters write capitals, or a byte order mark.
+TEST_F(MeshFileTest, ReadsCapitalsAndAByteOrderMark) {
+  std::string capitals = tetrahedronObj();
+  std::replace(capitals.begin(), capitals.end(), 'f', 'F');
+  expectUnitTetrahedron(readMesh(folder_.write("f.obj", capitals)));
+  expectUnitTetrahedron(readMesh(folder_.write("bom.obj", "\xEF\xBB\xBF" + tetrahedronObj())));
+  std::string stl = asciiStl();
+  const auto half = stl.begin() + static_cast<std::ptrdiff_t>(stl.size() / 2);
+  std::transform(half, stl.end(), half, [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  expectUnitTetrahedron(readMesh(folder_.write("f.stl", stl)));
+}
+
+TEST_F(MeshFileTest, RefusesAnObjOfWhichSomeLineWouldBeDropped) {
+  const std::string obj = tetrahedronObj();
+  EXPECT_NE(refused("surf.obj", obj + "surf 0 1 0 1 1 2 3 4\nend\n").find("'surf'"), std::string::npos);
+  EXPECT_NE(refused("hex.obj", "v 0x10 0 0\n" + obj).find("'0x10'"), std::string::npos);
+  EXPECT_NE(refused("seven.obj", "v 1 2 3 1 1 1 1\n" + obj).find("7 numbers"), std::string::npos);
+  EXPECT_NE(refused("indented.obj", " v 1 2 3\n" + obj).find("indented"), std::string::npos);
+  EXPECT_NE(refused("indented.obj", obj + " f 1 2 3\n").find("faces"), std::string::npos);
+}
+
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+  return text.replace(text.find(part), part.size(), by);
+}
+
+TEST_F(MeshFileTest, RefusesADaeWithoutAMesh) {
+  const std::string instance = "<node><instance_geometry url='#g'/></node>";
+  EXPECT_NE(refused("camera.dae", dae("", "", "<node id='Camera'/>")).find("no triangles"), std::string::npos);
+  const std::string uncounted = replaced(dae("", "", instance), "triangles count='4'", "triangles count='0'");
+  EXPECT_NE(refused("count.dae", uncounted).find("count, 0"), std::string::npos);
+}
+
+TEST_F(MeshFileTest, RefusesADaeOfWhichAPartWouldBeDroppedOrDistorted) {
+  const std::string instance = "<node><instance_geometry url='#g'/></node>";
+  const std::string gone = "<node><instance_geometry url='#gone'/></node>";
+  EXPECT_NE(refused("gone.dae", dae("", "", instance + gone)).find("gone"), std::string::npos);
+  const std::string skin = "<node><instance_controller url='#gone'/></node>";
+  EXPECT_NE(refused("skin.dae", dae("", "", instance + skin)).find("gone"), std::string::npos);
+  for (const std::string unit : {"0", "-1", "inch", "nan", "inf", "", "1 inch"}) {
+    const std::string message = refused("u.dae", dae("<unit name='x' meter='" + unit + "'/>", "", instance));
+    EXPECT_NE(message.find("'" + unit + "' metres"), std::string::npos) << message;
+  }
+  for (const std::string matrix : {"0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0", "1 0 0 0 0 1 0 0 0 0 0 0 0 0 0 1"}) {
+    const std::string flat = "<node><matrix>" + matrix + "</matrix><instance_geometry url='#g'/></node>";
+    EXPECT_NE(refused("flat.dae", dae("", "", instance + flat)).find("collapses space"), std::string::npos);
+  }
+  const std::string negative = replaced(dae("", "", instance), "1 2 3</p>", "1 2 -1</p>");
+  EXPECT_NE(refused("p.dae", negative).find("index"), std::string::npos);
+  const std::string spline = replaced(dae("", "", instance), "</mesh>", "</mesh><spline/>");
+  EXPECT_NE(refused("spline.dae", spline).find("<spline>"), std::string::npos);
+}
+
+TEST_F(MeshFileTest, RefusesWhatHasNoExtent) {
+  EXPECT_NE(refused("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n").find("points or lines"), std::string::npos);
+  EXPECT_NE(refused("line.obj", "v 1 2 3\nv 1 2 3\nv 1 2 4\nf 1 2 3\n").find("points or lines"), std::string::npos);
+}
+
 // What it is stands in the name of the link.
 TEST_F(MeshFileTest, FollowsASymbolicLinkWhereItIsTold) {
   const fs::path link = folder_.path() / "link.obj";
