@@ -77,6 +77,7 @@ class ReplayReport {
  public:
   explicit ReplayReport(sweep_guard_ros::ParameterReader& parameters)
       : path_(parameters.name("bag", "")), output_(parameters.name("output", path_ + ".report")) {
+    parameters.number("rate", 1.0, {1e-3, 1e3});  // the player's: it would not say what is wrong
     SessionTopics topics;
     topics.tool_pose = parameters.text("tool_pose", "/tool_pose");
     topics.mesh = parameters.text("mesh", "/mesh");

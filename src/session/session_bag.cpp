@@ -106,6 +106,7 @@ SessionBag inspect(const rosbag::Bag& bag, const SessionTopics& topics) {
 SessionBag inspectBag(const std::string& path, const SessionTopics& topics) {
   try {
     if (!std::filesystem::exists(path)) throw InvalidInput("no such file; give bag:=FILE");
+    if (!std::filesystem::is_regular_file(path)) throw InvalidInput("not a regular file; give bag:=FILE");
     if (!sweep_guard_recording::isBag(path)) throw InvalidInput("not a rosbag, or not readable; give bag:=FILE");
     return inspect(rosbag::Bag(path), topics);
   } catch (const InvalidInput& error) {

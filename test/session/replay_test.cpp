@@ -6,6 +6,7 @@
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
 
@@ -143,7 +144,7 @@ class ReplayTest : public testing::Test {
   }
 
   fs::path folder_;
-  fs::path bag_ = folder_ / "operator's session.bag";
+  fs::path bag_ = folder_ / "operator's \"first\" session.bag";
 };
 
 TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
@@ -207,6 +208,27 @@ TEST_F(ReplayTest, ABagThatCannotBeGuardedEndsItWithALineThatSaysWhy) {
   const std::string printed = replay("");
   EXPECT_TRUE(has(printed, "there is no /tool_pose")) << printed;
   EXPECT_FALSE(fs::exists(folder_ / "report/contacts.csv"));
+}
+
+TEST_F(ReplayTest, ARateThatIsNoneEndsItWithALineThatNamesIt) {
+  rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
+  bag.write("/mesh", ros::Time(kBegin), sheet());
+  writePoses(bag);
+  bag.close();
+  for (const char* const rate : {"0", "-1"}) {
+    const std::string printed = replay(std::string("rate:=") + rate);
+    EXPECT_TRUE(has(printed, "rate")) << printed;
+    EXPECT_TRUE(has(printed, "0.001")) << printed;
+    EXPECT_FALSE(fs::exists(folder_ / "report/contacts.csv"));
+  }
+}
+
+// Killed, it would not have ended by itself, and its player would not have been told to.
+TEST_F(ReplayTest, APipeEndsItWithALineThatSaysWhyAndLeavesNobodyHanging) {
+  ASSERT_EQ(mkfifo(bag_.c_str(), 0600), 0);
+  const std::string printed = replay("");
+  EXPECT_TRUE(has(printed, "not a regular file")) << printed;
+  EXPECT_FALSE(has(printed, "escalating")) << printed;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <std_msgs/Header.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -74,6 +75,14 @@ TEST_F(SessionBagTest, TellsOfAFileThatIsMissingOrNoBag) {
   EXPECT_THROW(inspectBag(path_ + ".not", topics), sweep_guard::InvalidInput);
   std::ofstream(path_) << "100 0 0 0 0 0 0 1\n";
   EXPECT_TRUE(has(refusal(), "not a rosbag"));
+}
+
+// To open it would take until somebody writes.
+TEST_F(SessionBagTest, TellsOfAPipe) {
+  bag_.close();
+  std::filesystem::remove(path_);
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_TRUE(has(refusal(), "not a regular file"));
 }
 
 TEST_F(SessionBagTest, TellsOfAnEmptyBag) { EXPECT_TRUE(has(refusal(), "the bag is empty")); }
