@@ -142,7 +142,9 @@ void tellDetector(const Workload::Summary& load, const Parameters& parameters,
                   diagnostic_updater::DiagnosticStatusWrapper& status) {
   const sweep_guard::Duration cycle = parameters.guard.cycle;
   status.summary(DiagnosticStatus::OK, parameters.detector + " keeps up");
-  if (load.latencies.empty()) status.summary(DiagnosticStatus::WARN, "no tool pose to sweep to");
+  if (load.latencies.empty() && load.faults == 0) {
+    status.summary(DiagnosticStatus::WARN, "no tool pose to sweep to");
+  }
   if (!load.latencies.empty() && load.latencies.back() > toSeconds(cycle)) {
     status.summary(DiagnosticStatus::WARN,
                    parameters.detector + " is slower than timing/min_rate: use fewer triangles");

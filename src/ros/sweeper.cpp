@@ -91,13 +91,14 @@ void Sweeper::work() {
     const std::string refusal = askForRealTime(priority);
     if (!refusal.empty()) ROS_WARN("%s", refusal.c_str());
   }
-  while (const auto waiting = queue_.take()) {
-    for (const auto& task : waiting->tasks) task();
-    process(waiting->poses);
+  WorkQueue::Work waiting;
+  while (queue_.take(waiting)) {
+    for (const auto& task : waiting.tasks) task();
+    process(waiting.poses);
   }
 }
 
-void Sweeper::process(const std::deque<PlacedPose>& poses) {
+void Sweeper::process(const std::vector<PlacedPose>& poses) {
   for (size_t i = 0; i < poses.size(); ++i) process(poses[i], i + 1 < poses.size() ? &poses[i + 1] : nullptr);
 }
 
@@ -115,8 +116,8 @@ void Sweeper::process(const PlacedPose& placed, const PlacedPose* next) {
     if (timeToLookAhead()) lookAhead(placed);
   } catch (const std::exception& error) {  // no memory for the report or its messages
     const std::string story = std::string("sweeping failed: ") + error.what();
-    parts_.workload.failed(story);
     parts_.ledger.fault(sweep_guard::kDetectorFault, story);
+    parts_.workload.failed(story);
   }
 }
 

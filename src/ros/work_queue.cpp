@@ -29,16 +29,17 @@ void WorkQueue::pushTask(std::function<void()> task) {
   changed_.notify_all();
 }
 
-std::optional<WorkQueue::Work> WorkQueue::take() {
-  Work taken;
+bool WorkQueue::take(Work& taken) {
+  taken.tasks.clear();
+  taken.poses.clear();
   {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return stopping_ || !work_.poses.empty() || !work_.tasks.empty(); });
-    if (stopping_) return std::nullopt;
+    if (stopping_) return false;
     std::swap(taken, work_);
   }
   changed_.notify_all();
-  return taken;
+  return true;
 }
 
 bool WorkQueue::noPoseWaits() const {

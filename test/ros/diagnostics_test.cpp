@@ -43,6 +43,12 @@ TEST(DetectorStatusTest, IsAnErrorInThePeriodInWhichTheDetectorFails) {
   EXPECT_EQ(valueOf(mended, "last error"), "'liver': no canary");
 }
 
+TEST(DetectorStatusTest, AFailureOfEachSweepIsNoLackOfPoses) {
+  Workload workload(std::chrono::milliseconds(66));
+  workload.failed("sweeping failed: no memory");
+  EXPECT_EQ(detectorOf(workload).message, "failed: sweeping failed: no memory");
+}
+
 TEST_F(DiagnosticsTest, EachInputTellsItsTopicItsPublishersAndItsAge) {
   placeSheet("sheet", {0.0, 0.0, -1.0});
   probe().place(sheetMovedTo("sheet", {0.0, 0.0, -1.0}, probe().time()));

@@ -29,11 +29,14 @@ class SweepGuardNode {
   void makeReports(const ros::NodeHandle& node);
   void greet() const;
 
-  // What stands below calls back on what stands above.
+  // What stands below calls back on what stands above; the ledger on the warnings, too.
   LiveParameters parameters_;
   sweep_guard::Ledger ledger_;
   WarningOutput warnings_;
   SceneOutput scene_;
+  QueueThread report_thread_;
+  ros::SteadyTimer marker_timer_;
+  ros::SteadyTimer view_timer_;
   Workload workload_;
   Frames frames_;
   WorkpieceStore workpieces_;
@@ -45,12 +48,8 @@ class SweepGuardNode {
   Controls controls_;
   Tuning tuning_;
   Diagnostics diagnostics_;
-  Watchdog watchdog_;
-
-  QueueThread report_thread_;
-  ros::SteadyTimer marker_timer_;
-  ros::SteadyTimer view_timer_;
   ros::SteadyTimer diagnostics_timer_;
+  Watchdog watchdog_;
 };
 
 }  // namespace sweep_guard_ros

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -59,7 +58,7 @@ class Sweeper {
 
  private:
   void work();
-  void process(const std::deque<PlacedPose>& poses);
+  void process(const std::vector<PlacedPose>& poses);
   void process(const PlacedPose& placed, const PlacedPose* next);
   void pass(const PlacedPose& placed);
   void sweep(const PlacedPose& placed);

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <condition_variable>
-#include <deque>
 #include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
+#include <vector>
 
 #include "sweep_guard/ros/pose_input.h"
 
@@ -17,8 +16,8 @@ namespace sweep_guard_ros {
 class WorkQueue {
  public:
   struct Work {
-    std::deque<std::function<void()>> tasks;
-    std::deque<PlacedPose> poses;
+    std::vector<std::function<void()>> tasks;
+    std::vector<PlacedPose> poses;
   };
 
   void push(PlacedPose pose);  ///< waits while there is no room
@@ -31,7 +30,9 @@ class WorkQueue {
     return packaged->get_future();
   }
 
-  std::optional<Work> take();  ///< all there is, as soon as there is any; empty after stop()
+  /// All there is, as soon as there is any, instead of what was taken before.
+  /// @return false after stop()
+  bool take(Work& taken);
   bool noPoseWaits() const;
 
   void stop();  ///< lets everybody go; whoever waits for a task hears that it is not done

@@ -1,0 +1,77 @@
+#include "sweep_guard/ros/work_queue.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr size_t kPoses = 4096;
+constexpr int kTasks = 16;
+
+void fill(WorkQueue& queue) {
+  for (size_t i = 0; i < kPoses; ++i) queue.push({});
+}
+
+std::future<int> ask(WorkQueue& queue, int answer) {
+  return queue.ask<int>([answer] { return answer; });
+}
+
+TEST(WorkQueueTest, GivesWhatWaitsAllAtOnceAndEachOnce) {
+  WorkQueue queue;
+  WorkQueue::Work taken;
+  queue.push({});
+  queue.push({});
+  std::future<int> answer = ask(queue, 7);
+  ASSERT_TRUE(queue.take(taken));
+  EXPECT_TRUE(queue.noPoseWaits());
+  EXPECT_EQ(taken.poses.size(), 2U);
+  ASSERT_EQ(taken.tasks.size(), 1U);
+  taken.tasks.front()();
+  EXPECT_EQ(answer.get(), 7);
+
+  queue.push({});
+  ASSERT_TRUE(queue.take(taken));
+  EXPECT_EQ(taken.poses.size(), 1U);
+  EXPECT_TRUE(taken.tasks.empty());
+}
+
+TEST(WorkQueueTest, APoseWithoutRoomWaitsAndIsNotLost) {
+  WorkQueue queue;
+  fill(queue);
+  std::thread input([&] { queue.push({}); });
+  WorkQueue::Work taken;
+  size_t poses = 0;
+  while (poses < kPoses + 1 && queue.take(taken)) poses += taken.poses.size();
+  input.join();
+  EXPECT_EQ(poses, kPoses + 1);
+  EXPECT_TRUE(queue.noPoseWaits());
+}
+
+TEST(WorkQueueTest, RefusesMoreTasksThanItHasRoomFor) {
+  WorkQueue queue;
+  for (int i = 0; i < kTasks; ++i) ask(queue, i);
+  EXPECT_THROW(ask(queue, 0), sweep_guard::Error);
+  WorkQueue::Work taken;
+  ASSERT_TRUE(queue.take(taken));
+  EXPECT_NO_THROW(ask(queue, 0));
+}
+
+TEST(WorkQueueTest, StoppingLetsEverybodyGo) {
+  WorkQueue queue;
+  fill(queue);
+  std::future<int> answer = ask(queue, 7);
+  std::thread input([&] { queue.push({}); });
+  queue.stop();
+  input.join();
+  EXPECT_THROW(answer.get(), std::future_error);
+  EXPECT_THROW(ask(queue, 0), sweep_guard::Error);
+  WorkQueue::Work taken;
+  EXPECT_FALSE(queue.take(taken));
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
