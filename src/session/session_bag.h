@@ -25,10 +25,9 @@ struct SessionBag {
 };
 
 /// Looks into a recorded session before it is played.
-/// @throws sweep_guard::InvalidInput that says what is wrong and what to do: no such file, no regular file, no bag, without index,
-/// broken, empty; a
-///     topic that is not in it or has another type (those that are there are listed); poses without stamps, or whose
-///     stamps are from another clock than the one that recorded them
+/// @throws sweep_guard::InvalidInput that says what is wrong and what to do: no such file, no regular file, no bag,
+///     without index, broken, empty; a topic that is not in it or has another type (those that are there are listed);
+///     poses without stamps, or whose stamps are from another clock than the one that recorded them
 SessionBag inspectBag(const std::string& path, const SessionTopics& topics);
 
 }  // namespace sweep_guard_session
