@@ -22,8 +22,8 @@ namespace sweep_guard_benchmark {
 namespace {
 
 namespace po = boost::program_options;
-using sweep_guard::InvalidInput;
-using sweep_guard::Sample;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::Sample;
 
 struct Options {
   size_t triangles = 1600;
@@ -66,7 +66,7 @@ std::vector<Contender> others(const std::string& peers) {
   const auto whole = [](Surface& surface) { return makeWholeDetectorPeer(kOurs, surface); };
   std::vector<Contender> all = kMemoryReads;
   all.push_back({kOurs + " with set-up", whole, true});
-  for (const std::string& name : sweep_guard::detectorNames()) {
+  for (const std::string& name : sweep_guard_core::detectorNames()) {
     if (name != kOurs) all.push_back(detector(name));
   }
   if (peers == "none") return all;

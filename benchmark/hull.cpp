@@ -15,7 +15,7 @@ constexpr double kRadius = 0.01;      // of the drill [m]
 constexpr double kLength = 0.15;      // of the drill [m]
 constexpr double kTilt = kPi / 6.0;   // of the drill [rad]
 
-std::vector<std::uint32_t> shuffled(size_t count, sweep_guard::Random& random) {
+std::vector<std::uint32_t> shuffled(size_t count, sweep_guard_core::Random& random) {
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);
   for (size_t i = count; i > 1; --i)
@@ -54,8 +54,8 @@ Surface Hull::surface(double phase) const {
   return surface;
 }
 
-sweep_guard::Motion Hull::drilling(sweep_guard::Random& random, double phase, double depth, double length,
-                                   double angle) const {
+sweep_guard_core::Motion Hull::drilling(sweep_guard_core::Random& random, double phase, double depth, double length,
+                                        double angle) const {
   const double polar = random.uniform(0.2 * kPi, 0.8 * kPi);
   const double azimuth = random.uniform(0.0, 2.0 * kPi);
   constexpr double kDifference = 1e-6;  // [rad]
@@ -66,7 +66,7 @@ sweep_guard::Motion Hull::drilling(sweep_guard::Random& random, double phase, do
 
   const Eigen::Vector3d beside = outwards.cross(random.direction()).normalized();
   const Eigen::Vector3d axis = -(std::cos(kTilt) * outwards + std::sin(kTilt) * beside);
-  sweep_guard::Motion motion;
+  sweep_guard_core::Motion motion;
   motion.X_MT_start.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
   motion.X_MT_start.translation() = p - depth * outwards;
   motion.X_MT_end.linear() = random.turn(angle) * motion.X_MT_start.linear();
@@ -74,10 +74,10 @@ sweep_guard::Motion Hull::drilling(sweep_guard::Random& random, double phase, do
   return motion;
 }
 
-sweep_guard::ConvexShape drill() { return sweep_guard::ConvexShape::cylinder(kRadius, kLength); }
+sweep_guard_core::ConvexShape drill() { return sweep_guard_core::ConvexShape::cylinder(kRadius, kLength); }
 
 Order randomOrder(const Surface& surface) {
-  sweep_guard::Random random(/*seed=*/surface.triangles.size());
+  sweep_guard_core::Random random(/*seed=*/surface.triangles.size());
   return {shuffled(surface.positions_M.size() / 3, random), shuffled(surface.triangles.size(), random)};
 }
 

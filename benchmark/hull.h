@@ -26,8 +26,8 @@ class Hull {
   /// @param depth   of the tip inside of the surface at the start [m]; negative: outside
   /// @param length  of the step [m]
   /// @param angle   of the turn [rad]
-  sweep_guard::Motion drilling(sweep_guard::Random& random, double phase, double depth, double length,
-                               double angle) const;
+  sweep_guard_core::Motion drilling(sweep_guard_core::Random& random, double phase, double depth, double length,
+                                    double angle) const;
 
  private:
   Eigen::Vector3d point(double polar, double azimuth, double phase) const;
@@ -36,7 +36,7 @@ class Hull {
 };
 
 /// The drill of Hull::drilling().
-sweep_guard::ConvexShape drill();
+sweep_guard_core::ConvexShape drill();
 
 /// Vertices and triangles in another order.
 struct Order {

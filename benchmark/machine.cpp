@@ -20,7 +20,7 @@ std::string processor() {
 }  // namespace
 
 std::string machineText() {
-  return "processor: " + processor() + ", of which we use " + sweep_guard::simd::kernels().name +
+  return "processor: " + processor() + ", of which we use " + sweep_guard_core::simd::kernels().name +
          "\ncompiler: " SWEEP_GUARD_COMPILER "; peers but FCL, and the clip: with -march=native besides\n";
 }
 

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// How long some work takes, done once [us].
 template <typename Work>
@@ -12,4 +12,4 @@ double microseconds(const Work& work) {
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

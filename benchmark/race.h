@@ -41,9 +41,9 @@ struct Limits {
 
 /// Two entrants on the same frames.
 struct Race {
-  sweep_guard::Sample ours_us;
-  sweep_guard::Sample peer_us;
-  sweep_guard::Sample ratio;  ///< peer's time over ours, frame by frame
+  sweep_guard_core::Sample ours_us;
+  sweep_guard_core::Sample peer_us;
+  sweep_guard_core::Sample ratio;  ///< peer's time over ours, frame by frame
 };
 
 /// Lets both run each frame, one after the other, in alternating order.

@@ -17,10 +17,10 @@
 namespace sweep_guard_benchmark {
 namespace {
 
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
 
 bool isOurs(const std::string& method) {
-  const std::vector<std::string>& names = sweep_guard::detectorNames();
+  const std::vector<std::string>& names = sweep_guard_core::detectorNames();
   return std::any_of(names.begin(), names.end(), [&](const auto& name) { return method.rfind(name, 0) == 0; });
 }
 

@@ -65,7 +65,7 @@ std::vector<Row> readCsv(std::istream& csv) {
     try {
       rows.push_back(rowIn(line));
     } catch (const std::logic_error&) {
-      throw sweep_guard::InvalidInput("not a line of benchmark results: " + line);
+      throw sweep_guard_core::InvalidInput("not a line of benchmark results: " + line);
     }
   }
   return rows;

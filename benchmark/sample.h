@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Numbers, and what most of them are.
 class Sample {
@@ -31,4 +31,4 @@ class Sample {
   std::vector<double> values_;
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -8,17 +8,17 @@
 #include "row.h"
 #include "sample.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/detection/fine_phase.h"
+#include "sweep_guard/detection/time_of_impact.h"
 #include "workload.h"
 
 namespace sweep_guard_benchmark {
 namespace {
 
-using sweep_guard::InvalidInput;
-using sweep_guard::microseconds;
-using sweep_guard::Motion;
-using sweep_guard::Sample;
-using sweep_guard::VolumeKind;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::microseconds;
+using sweep_guard_core::Motion;
+using sweep_guard_core::Sample;
+using sweep_guard_core::VolumeKind;
 
 constexpr size_t kRings = 158;
 constexpr size_t kFrames = 32;
@@ -38,7 +38,7 @@ Row rowOf(const std::string& work, const std::string& method, size_t triangles, 
 
 // All frames at a time: a single volume is too short to be timed.
 Row setUp(const Workload& workload, VolumeKind kind) {
-  const sweep_guard::ConvexShape tool = drill();
+  const sweep_guard_core::ConvexShape tool = drill();
   Sample us;
   for (int repetition = 0; repetition < kRepetitions; ++repetition) {
     const double time = microseconds([&] {
@@ -50,7 +50,7 @@ Row setUp(const Workload& workload, VolumeKind kind) {
 }
 
 Row finePhase(const Workload& workload) {
-  const sweep_guard::ConvexShape tool = drill();
+  const sweep_guard_core::ConvexShape tool = drill();
   Sample us;
   for (const Frame& frame : workload.frames) {
     if (frame.truth[0].empty()) continue;
@@ -62,7 +62,7 @@ Row finePhase(const Workload& workload) {
       for (const std::uint32_t id : frame.truth[0]) {
         const auto& [a, b, c] = workload.surface.triangles[id];
         const std::array<Eigen::Vector3d, 3> corners = {at(a), at(b), at(c)};
-        firstImpact(tool, parts, {corners, corners}, 0.0);
+        timeOfImpact(tool, parts, {corners, corners}, 0.0);
       }
     });
     us.add(time / static_cast<double>(frame.truth[0].size()));

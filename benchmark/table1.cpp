@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "detection/select_detector.h"
 #include "sample.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/detection/detector.h"
-#include "sweep_guard/detection/select_detector.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr int kMotions = 100;
@@ -144,12 +144,12 @@ int main(const std::vector<std::string>& arguments) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core
 
 int main(int argc, char** argv) {
   try {
-    return sweep_guard::main({argv + 1, argv + argc});
-  } catch (const sweep_guard::Error& error) {
+    return sweep_guard_core::main({argv + 1, argv + argc});
+  } catch (const sweep_guard_core::Error& error) {
     std::cerr << "table1: " << error.what() << '\n';
     return 1;
   }

@@ -11,7 +11,7 @@
 #include "sweep_guard/geometry/convex_polytope.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr int kMotions = 1000;
@@ -159,6 +159,6 @@ int main() {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core
 
-int main() { return sweep_guard::main(); }
+int main() { return sweep_guard_core::main(); }

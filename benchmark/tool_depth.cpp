@@ -17,15 +17,15 @@
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/geometry/convex_hull.h"
 #include "sweep_guard/geometry/decomposition.h"
-#include "sweep_guard/guard/sweep_test.h"
-#include "sweep_guard/ros/mesh_file.h"
+#include "sweep_guard/guard/sweep_checker.h"
+#include "sweep_guard/ros/tool/mesh_file.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr int kMotions = 100;
 constexpr int kRepetitions = 3;
-constexpr int kMostTries = 3000;
+constexpr int kMaxTries = 3000;
 constexpr double kDegree = 0.017453292519943295;
 
 using Surface = sweep_guard_ros::MeshSurface;
@@ -94,8 +94,8 @@ NamedMesh workpiece(const std::string& name, const std::string& path, double siz
 }
 
 Tool toolOf(const TriangleMesh& mesh_T, const DecompositionOptions& options) {
-  std::vector<ToolPart> parts;
-  for (const ConvexShape& shape_T : convexParts(mesh_T, options)) parts.push_back({"", shape_T});
+  std::vector<ConvexPiece> parts;
+  for (const ConvexShape& shape_T : convexPieces(mesh_T, options)) parts.push_back({"", shape_T});
   return Tool(std::move(parts));
 }
 
@@ -128,7 +128,7 @@ Motion closeBy(const TriangleMesh& tool_T, const TriangleMesh& mesh_M, Random& r
 }
 
 bool isFree(Detector& detector, const Tool& tool, const Motion& motion, const TriangleMesh& mesh_M) {
-  return std::all_of(tool.parts().begin(), tool.parts().end(), [&](const ToolPart& part) {
+  return std::all_of(tool.pieces().begin(), tool.pieces().end(), [&](const ConvexPiece& part) {
     const SweptVolume swept_M = sweptVolume(part.shape_T, motion, VolumeKind::kObbPlanes);
     return detector.detect(mesh_M, swept_M).triangles.empty();
   });
@@ -139,7 +139,7 @@ std::vector<Motion> freeMotions(Detector& detector, const TriangleMesh& tool_T, 
   const Tool finest = toolOf(tool_T, {/*max_depth=*/9, /*step=*/0.0002, /*least_saving=*/0.0});
   Random random(/*seed=*/1);
   std::vector<Motion> motions;
-  for (int i = 0; i < kMostTries && motions.size() < kMotions; ++i) {
+  for (int i = 0; i < kMaxTries && motions.size() < kMotions; ++i) {
     Motion motion = closeBy(tool_T, mesh_M, random);
     if (!isFree(detector, finest, motion, mesh_M)) continue;
     motion.X_MT_end.linear() = random.turn(random.uniform(0.0, 2.0 * kDegree)) * motion.X_MT_start.linear();
@@ -161,16 +161,16 @@ Cost measure(Detector& detector, const Tool& tool, const TriangleMesh& mesh_M, c
   Cost cost;
   for (const Motion& motion : motions) {
     Sample times;
-    SweepFindings findings;
+    SweepResult result;
     for (int i = 0; i < kRepetitions; ++i) {
       const auto start = Clock::now();
-      findings = testSweep(detector, tool, {motion}, mesh_M, {});
+      result = checkSweep(detector, {tool, {motion}, mesh_M});
       times.add(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
     }
     cost.time.add(times.quantile(0.5));
-    cost.candidates.add(static_cast<double>(findings.triangles.size()));
-    cost.volumes.add(static_cast<double>(findings.volumes_M.size()));
-    if (!findings.triangles.empty()) ++cost.met;
+    cost.candidates.add(static_cast<double>(result.triangles.size()));
+    cost.volumes.add(static_cast<double>(result.volumes_M.size()));
+    if (!result.triangles.empty()) ++cost.met;
   }
   return cost;
 }
@@ -192,7 +192,7 @@ void printRow(const std::string& name, const NamedMesh& tool_T, const Decomposit
   const auto start = std::chrono::steady_clock::now();
   const Tool tool = toolOf(tool_T.mesh, options);
   const double load = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%-8s %5zu %9.3f %6.2f", name.c_str(), tool.parts().size(), 1e6 * volumeOfHulls(tool_T.mesh, options),
+  std::printf("%-8s %5zu %9.3f %6.2f", name.c_str(), tool.pieces().size(), 1e6 * volumeOfHulls(tool_T.mesh, options),
               load);
   for (size_t i = 0; i < pieces.size(); ++i) {
     const Cost cost = measure(detector, tool, pieces[i].mesh, motions[i]);
@@ -244,12 +244,12 @@ int main(const std::vector<std::string>& arguments) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core
 
 int main(int argc, char** argv) {
   try {
-    return sweep_guard::main({argv + 1, argv + argc});
-  } catch (const sweep_guard::Error& error) {
+    return sweep_guard_core::main({argv + 1, argv + argc});
+  } catch (const sweep_guard_core::Error& error) {
     std::cerr << "tool_depth: " << error.what() << '\n';
     return 1;
   }

@@ -7,8 +7,8 @@
 namespace sweep_guard_benchmark {
 namespace {
 
-using sweep_guard::Motion;
-using sweep_guard::Random;
+using sweep_guard_core::Motion;
+using sweep_guard_core::Random;
 
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kPhaseStep = 0.1;  // of the waves from frame to frame [rad]
@@ -28,7 +28,7 @@ Frame frameOf(std::vector<float> positions_M, std::vector<Motion> motions_M) {
   frame.positions_M = std::move(positions_M);
   frame.motions_M = std::move(motions_M);
   for (const Motion& motion_M : frame.motions_M) {
-    frame.swept_M.push_back(sweptVolume(drill(), motion_M, sweep_guard::VolumeKind::kObbPlanes));
+    frame.swept_M.push_back(sweptVolume(drill(), motion_M, sweep_guard_core::VolumeKind::kObbPlanes));
   }
   for (size_t i = 0; i < frame.swept_M.size(); ++i) {
     frame.volumes_M.push_back(polytope(frame.swept_M[i], frame.motions_M[i]));
@@ -42,22 +42,22 @@ class Truth {
   explicit Truth(const Surface& surface)
       : mesh_M_(std::vector<Eigen::Vector3d>(surface.positions_M.size() / 3, Eigen::Vector3d::Zero()),
                 {surface.triangles.begin(), surface.triangles.end()}),
-        reference_(sweep_guard::makeDetector("reference")) {}
+        reference_(sweep_guard_core::makeDetector("reference")) {}
 
   std::vector<TriangleIds> operator()(const Frame& frame) {
     std::vector<TriangleIds> truth;
     if (frame.swept_M.empty()) return truth;
     std::vector<float> positions_M = frame.positions_M;
     mesh_M_.deform(positions_M);
-    for (const sweep_guard::SweptVolume& swept_M : frame.swept_M) {
+    for (const sweep_guard_core::SweptVolume& swept_M : frame.swept_M) {
       truth.push_back(reference_->detect(mesh_M_, swept_M).triangles);
     }
     return truth;
   }
 
  private:
-  sweep_guard::TriangleMesh mesh_M_;
-  std::unique_ptr<sweep_guard::Detector> reference_;
+  sweep_guard_core::TriangleMesh mesh_M_;
+  std::unique_ptr<sweep_guard_core::Detector> reference_;
 };
 
 }  // namespace

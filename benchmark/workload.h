@@ -12,10 +12,10 @@ namespace sweep_guard_benchmark {
 /// One deformation, and what is asked about it.
 struct Frame {
   std::vector<float> positions_M;
-  std::vector<sweep_guard::Motion> motions_M;
-  std::vector<sweep_guard::SweptVolume> swept_M;  ///< of the motions
-  std::vector<Polytope> volumes_M;                ///< the same
-  std::vector<TriangleIds> truth;                 ///< what each meets, ascending
+  std::vector<sweep_guard_core::Motion> motions_M;
+  std::vector<sweep_guard_core::SweptVolume> swept_M;  ///< of the motions
+  std::vector<Polytope> volumes_M;                     ///< the same
+  std::vector<TriangleIds> truth;                      ///< what each meets, ascending
 };
 
 /// Frames of one kind.

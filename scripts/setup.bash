@@ -29,6 +29,7 @@ clean_environment() {
   unset PYTHONPATH PYTHONHOME LD_LIBRARY_PATH PKG_CONFIG_PATH CMAKE_PREFIX_PATH
   unset ROS_PACKAGE_PATH ROS_ROOT ROS_DISTRO ROS_NAMESPACE ROS_LOG_DIR
   export ROS_HOME="$build/ros"  # logs belong to the build, not to ~/.ros
+  export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1  # the copies of scripts/mutation find what is compiled here
 }
 
 as_root() {

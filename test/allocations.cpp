@@ -8,9 +8,8 @@
 #include <cstdlib>
 #include <map>
 #include <new>
-#include <vector>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr size_t kKept = 1000;
@@ -84,11 +83,11 @@ std::string Allocations::stacks() const {
   return text;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core
 
-void* operator new(size_t size) { return sweep_guard::allocate(size, alignof(std::max_align_t)); }
+void* operator new(size_t size) { return sweep_guard_core::allocate(size, alignof(std::max_align_t)); }
 void* operator new(size_t size, std::align_val_t alignment) {
-  return sweep_guard::allocate(size, static_cast<size_t>(alignment));
+  return sweep_guard_core::allocate(size, static_cast<size_t>(alignment));
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t /*size*/) noexcept { std::free(memory); }

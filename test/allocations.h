@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Counts what this thread allocates by operator new while it lives; one at a time. Replaces the operators of the
 /// program that is linked to it.
@@ -18,4 +18,4 @@ class Allocations {
   std::string stacks() const;  ///< of where they were made, each once, with how many; the first thousand
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

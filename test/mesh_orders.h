@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <numeric>
 #include <ostream>
 #include <string>
@@ -8,7 +7,7 @@
 
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// One of the orders in which the same mesh may come.
 struct MeshOrdering {
@@ -50,4 +49,4 @@ inline std::vector<MeshOrdering> meshOrderings() {
           {"all_shuffled", true, true}};
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

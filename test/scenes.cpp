@@ -9,7 +9,7 @@
 
 #include "sweep_guard/geometry/convex_polytope.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -416,4 +416,4 @@ int sceneCount(int full_size, double default_percent) {
   return static_cast<int>(std::lround(full_size * (percent != nullptr ? std::atof(percent) : default_percent) / 100.0));
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

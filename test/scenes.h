@@ -9,7 +9,7 @@
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Random numbers that a seed gives on every machine alike: the standard fixes its engines, not its distributions.
 class Random {
@@ -67,4 +67,4 @@ TriangleMesh wavyHull(int rings, int sectors, double phase);
 /// `default_percent`.
 int sceneCount(int full_size, double default_percent);
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -12,7 +12,7 @@ namespace sweep_guard_benchmark {
 namespace {
 
 constexpr double kClasses = 20.0;  // per decade
-constexpr double kLeast = 1e-3;    // [ms]
+constexpr double kMin = 1e-3;      // [ms]
 
 }  // namespace
 
@@ -20,7 +20,7 @@ constexpr double kLeast = 1e-3;    // [ms]
 void appendHistogram(const std::string& path, const HistogramTitle& title, const std::vector<double>& milliseconds) {
   std::map<int, double> counts;
   for (const double value : milliseconds) {
-    counts[static_cast<int>(std::floor(kClasses * std::log10(std::max(value, kLeast))))] += 1.0;
+    counts[static_cast<int>(std::floor(kClasses * std::log10(std::max(value, kMin))))] += 1.0;
   }
   std::ofstream file(path, std::ios::app);
   if (counts.empty()) return;
@@ -29,12 +29,12 @@ void appendHistogram(const std::string& path, const HistogramTitle& title, const
          << std::pow(10.0, (number + 0.5) / kClasses) << '\t'
          << counts[number] / static_cast<double>(milliseconds.size()) << '\n';
   }
-  if (!file) throw sweep_guard::InvalidInput("cannot write " + path);
+  if (!file) throw sweep_guard_core::InvalidInput("cannot write " + path);
 }
 
 std::vector<Histogram> readHistograms(const std::string& path) {
   std::ifstream file(path);
-  if (!file) throw sweep_guard::InvalidInput("cannot read " + path);
+  if (!file) throw sweep_guard_core::InvalidInput("cannot read " + path);
   std::vector<Histogram> histograms;
   for (std::string line; std::getline(file, line);) {
     std::istringstream fields(line);
@@ -45,7 +45,7 @@ std::vector<Histogram> readHistograms(const std::string& path) {
     std::getline(fields, title.method, '\t');
     std::getline(fields, triangles, '\t');
     std::getline(fields, title.work, '\t');
-    if (!(fields >> middle >> share)) throw sweep_guard::InvalidInput(path + " holds a line that is no class");
+    if (!(fields >> middle >> share)) throw sweep_guard_core::InvalidInput(path + " holds a line that is no class");
     title.triangles = std::stoi(triangles);
     const bool same = !histograms.empty() && histograms.back().title.work == title.work &&
                       histograms.back().title.method == title.method &&

@@ -20,11 +20,11 @@ struct Histogram {
 };
 
 /// Adds a distribution to a file, which is made where it is missing.
-/// @throws sweep_guard::InvalidInput if it cannot be written
+/// @throws sweep_guard_core::InvalidInput if it cannot be written
 void appendHistogram(const std::string& path, const HistogramTitle& title, const std::vector<double>& milliseconds);
 
 /// All of a file, in its order.
-/// @throws sweep_guard::InvalidInput if it cannot be read
+/// @throws sweep_guard_core::InvalidInput if it cannot be read
 std::vector<Histogram> readHistograms(const std::string& path);
 
 }  // namespace sweep_guard_benchmark

@@ -12,7 +12,7 @@ namespace sweep_guard_benchmark {
 namespace {
 
 namespace options = boost::program_options;
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
 
 Settings settingsOf(int argc, char** argv) {
   Settings settings;

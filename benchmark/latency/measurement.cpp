@@ -13,7 +13,7 @@
 namespace sweep_guard_benchmark {
 namespace {
 
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
 
 constexpr double kPatience = 15.0;  // [s] with a guard that takes in the mesh, or has fallen behind
 constexpr double kWarmUp = 2.0;     // [s]
@@ -49,7 +49,7 @@ class GuardProcess {
     }
     loader_ = std::make_unique<nodelet::Loader>(/*provide_ros_api=*/false);
     if (!loader_->load(ros::names::resolve(kGuard), "sweep_guard/SweepGuardNodelet", {}, {})) {
-      throw sweep_guard::DeviceError("the nodelet cannot be loaded");
+      throw sweep_guard_core::DeviceError("the nodelet cannot be loaded");
     }
   }
 
@@ -85,7 +85,7 @@ Measurement measure(const Settings& settings) {
   const GuardProcess guard(settings.transport);
   Sender sender(scene, settings.rates);
   waitFor(listener, /*pose=*/1);
-  if (listener.newestContacts() == 0) throw sweep_guard::DeviceError("the guard says nothing");
+  if (listener.newestContacts() == 0) throw sweep_guard_core::DeviceError("the guard says nothing");
   ros::WallDuration(kWarmUp).sleep();
 
   Measurement measured;

@@ -36,7 +36,7 @@ struct Measurement {
 };
 
 /// Starts a guard, sends it the scene, and listens. Needs a ROS master.
-/// @throws sweep_guard::DeviceError if the guard cannot be started or says nothing
+/// @throws sweep_guard_core::DeviceError if the guard cannot be started or says nothing
 Measurement measure(const Settings& settings);
 
 /// One line of the table, and of the CSV file.

@@ -16,7 +16,7 @@ std::string wordsAfterName(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string stat;
   std::getline(file, stat);
-  if (!file) throw sweep_guard::DeviceError("process " + std::to_string(process) + " is gone");
+  if (!file) throw sweep_guard_core::DeviceError("process " + std::to_string(process) + " is gone");
   return stat.substr(stat.rfind(')') + 1);
 }
 
@@ -29,7 +29,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command) {
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   if (posix_spawn(&id_, arguments.front(), nullptr, nullptr, arguments.data(), environ) != 0) {
-    throw sweep_guard::DeviceError("cannot start " + command.front());
+    throw sweep_guard_core::DeviceError("cannot start " + command.front());
   }
 }
 

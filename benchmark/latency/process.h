@@ -11,7 +11,7 @@ namespace sweep_guard_benchmark {
 class ChildProcess {
  public:
   /// @param command  path of the program, then its arguments
-  /// @throws sweep_guard::DeviceError if it cannot be started
+  /// @throws sweep_guard_core::DeviceError if it cannot be started
   explicit ChildProcess(const std::vector<std::string>& command);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -29,7 +29,7 @@ struct Usage {
   double resident_mb;
 };
 
-/// @throws sweep_guard::DeviceError if there is no such process
+/// @throws sweep_guard_core::DeviceError if there is no such process
 Usage usageOf(pid_t process);
 
 /// Path of a program beside this one.

@@ -5,17 +5,17 @@
 #include <optional>
 
 #include "evaluation/csv.h"
-#include "evaluation/quantile.h"
 #include "latency/histogram.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_benchmark {
 namespace {
 
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::quantile;
 using sweep_guard_evaluation::csvLine;
 using sweep_guard_evaluation::csvNumber;
-using sweep_guard_evaluation::quantile;
 
 std::string methodOf(const Settings& settings) {
   std::string method = settings.detector;
@@ -45,7 +45,7 @@ void printPromises(const Settings& settings, const Measurement& measured, const 
   const auto unswept = static_cast<double>(holes(measured.said.contacts));
   print_one(unswept == 0.0, "intervals unswept", unswept, "= 0");
   if (const std::optional<double> bound = goal(settings)) {
-    const double p99 = quantile(rows[2].milliseconds, 0.99);
+    const double p99 = sweep_guard_core::quantile(rows[2].milliseconds, 0.99);
     const std::string samples = std::to_string(rows[2].milliseconds.size());
     print_one(p99 <= *bound, "pose to warning, p99 of " + samples + " [ms], on a quiet machine", p99,
               "<= " + csvNumber(*bound));
@@ -63,7 +63,7 @@ void appendFigures(const Settings& settings, const Measurement& measured, const 
                      "unswept", "sweeps_made", "sweeps_asked", "processor_share", "resident_mb", "growth_mb", "load"});
   }
   for (const LatencyRow& row : rows) {
-    const auto at = [&](double fraction) { return csvNumber(quantile(row.milliseconds, fraction)); };
+    const auto at = [&](double fraction) { return csvNumber(sweep_guard_core::quantile(row.milliseconds, fraction)); };
     const double seconds = measured.seconds();
     file << csvLine({row.work, methodOf(settings), std::to_string(settings.triangles),
                      std::to_string(row.milliseconds.size()),
@@ -86,11 +86,12 @@ void print(const Settings& settings, const Measurement& measured, const std::vec
       settings.triangles, methodOf(settings).c_str(), measured.load);
   for (const LatencyRow& row : rows) {
     std::printf("| %s | %zu | %.1f | %.2f | %.2f | %.2f | %.2f |\n", row.work.c_str(), row.milliseconds.size(),
-                static_cast<double>(row.milliseconds.size()) / measured.seconds(), quantile(row.milliseconds, 0.5),
-                quantile(row.milliseconds, 0.9), quantile(row.milliseconds, 0.99), quantile(row.milliseconds, 1.0));
+                static_cast<double>(row.milliseconds.size()) / measured.seconds(),
+                sweep_guard_core::quantile(row.milliseconds, 0.5), sweep_guard_core::quantile(row.milliseconds, 0.9),
+                sweep_guard_core::quantile(row.milliseconds, 0.99), sweep_guard_core::quantile(row.milliseconds, 1.0));
   }
   std::printf(
-      "pose to warning: the age of the newest verdict when a warning is heard, mostly one of the repeats at 20 Hz; p99 "
+      "pose to warning: the age of the newest warning when a warning is heard, mostly one of the repeats at 20 Hz; p99 "
       "of %zu\n",
       rows[2].milliseconds.size());
   std::printf(

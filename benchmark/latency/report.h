@@ -8,7 +8,7 @@ namespace sweep_guard_benchmark {
 void print(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows);
 
 /// Appends them to the files that the settings name.
-/// @throws sweep_guard::InvalidInput if one cannot be written
+/// @throws sweep_guard_core::InvalidInput if one cannot be written
 void save(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows);
 
 }  // namespace sweep_guard_benchmark

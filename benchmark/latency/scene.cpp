@@ -13,10 +13,10 @@ constexpr double kTurn = 2.0 * 3.14159265358979323846;
 constexpr int kFrames = 12;
 constexpr double kWaves = 0.3;  // [rad] of their phase
 
-sweep_guard::TriangleMesh hull(int triangles, int frame) {
+sweep_guard_core::TriangleMesh hull(int triangles, int frame) {
   int sectors = static_cast<int>(std::sqrt(triangles));
   while (triangles / 2 % sectors != 0) --sectors;
-  return sweep_guard::wavyHull(triangles / 2 / sectors + 1, sectors, kWaves * std::sin(kTurn * frame / kFrames));
+  return sweep_guard_core::wavyHull(triangles / 2 / sectors + 1, sectors, kWaves * std::sin(kTurn * frame / kFrames));
 }
 
 template <typename Message>
@@ -28,7 +28,7 @@ Message labelled() {
   return message;
 }
 
-sweep_guard::DeformableMesh wholeMesh(const sweep_guard::TriangleMesh& mesh_M) {
+sweep_guard::DeformableMesh wholeMesh(const sweep_guard_core::TriangleMesh& mesh_M) {
   auto message = labelled<sweep_guard::DeformableMesh>();
   for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
     const Eigen::Vector3d p_M = mesh_M.vertex(i);
@@ -46,7 +46,7 @@ sweep_guard::DeformableMesh wholeMesh(const sweep_guard::TriangleMesh& mesh_M) {
   return message;
 }
 
-sweep_guard::MeshVertices::Ptr verticesOf(const sweep_guard::TriangleMesh& mesh_M) {
+sweep_guard::MeshVertices::Ptr verticesOf(const sweep_guard_core::TriangleMesh& mesh_M) {
   auto message = boost::make_shared<sweep_guard::MeshVertices>(labelled<sweep_guard::MeshVertices>());
   for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
     const Eigen::Vector3f p_M = mesh_M.vertex(i).cast<float>();

@@ -7,7 +7,7 @@ namespace {
 
 static_assert(sizeof(btScalar) == sizeof(float), "Bullet reads the positions where they are");
 
-const btVector3 kFarthest(0.4F, 0.4F, 0.4F);  // around the hull; Bullet adds a metre, and divides by 65533 [m]
+const btVector3 kMaxDistance(0.4F, 0.4F, 0.4F);  // around the hull; Bullet adds a metre, and divides by 65533 [m]
 
 btVector3 toBullet(const Point& p) {
   return {static_cast<btScalar>(p[0]), static_cast<btScalar>(p[1]), static_cast<btScalar>(p[2])};
@@ -22,7 +22,7 @@ std::vector<int> indicesOf(const Surface& surface) {
 // btBvhTriangleMeshShape::refitTree() would also look at every triangle six times over.
 class BulletPeer : public Peer {
  public:
-  void update() override { shape_.getOptimizedBvh()->refit(&mesh_, -kFarthest, kFarthest); }
+  void update() override { shape_.getOptimizedBvh()->refit(&mesh_, -kMaxDistance, kMaxDistance); }
 
  protected:
   explicit BulletPeer(Surface& surface)
@@ -30,7 +30,7 @@ class BulletPeer : public Peer {
         indices_(indicesOf(surface)),
         mesh_(static_cast<int>(surface.triangles.size()), indices_.data(), 3 * sizeof(int),
               static_cast<int>(surface.positions_M.size() / 3), surface.positions_M.data(), 3 * sizeof(float)),
-        shape_(&mesh_, /*useQuantizedAabbCompression=*/true, -kFarthest, kFarthest) {}
+        shape_(&mesh_, /*useQuantizedAabbCompression=*/true, -kMaxDistance, kMaxDistance) {}
 
   Surface& surface_;
   std::vector<int> indices_;

@@ -7,10 +7,10 @@
 namespace sweep_guard_benchmark {
 namespace {
 
-constexpr std::size_t kMostCorners = 32;  // each plane adds at most one to the triangle's three
+constexpr std::size_t kMaxCorners = 32;  // each plane adds at most one to the triangle's three
 
 struct Corners {
-  std::array<Point, kMostCorners> points;
+  std::array<Point, kMaxCorners> points;
   std::size_t count = 0;
 };
 
@@ -33,7 +33,7 @@ std::uint32_t planesBeyond(const Polytope& polytope_M, const Point& p_M, double 
 
 // False if nothing is cut off: `inside` is not touched then.
 bool cut(const Corners& polygon, const Polytope::Plane& plane, double grown, Corners& inside) {
-  std::array<double, kMostCorners> distances;
+  std::array<double, kMaxCorners> distances;
   bool beyond = false;
   for (std::size_t i = 0; i < polygon.count; ++i) {
     distances[i] = dot(plane.normal_M, polygon.points[i]) - plane.offset - grown;
@@ -55,7 +55,7 @@ bool cut(const Corners& polygon, const Polytope::Plane& plane, double grown, Cor
 }  // namespace
 
 bool meets(const Polytope& polytope_M, const float* a_M, const float* b_M, const float* c_M, double grown) {
-  assert(polytope_M.planes_M.size() + 3 <= kMostCorners);
+  assert(polytope_M.planes_M.size() + 3 <= kMaxCorners);
   std::array<Corners, 2> polygons;
   std::size_t current = 0;
   std::uint32_t beyond_all = ~std::uint32_t{0};

@@ -2,20 +2,20 @@
 
 #include <algorithm>
 
+#include "detection/select_detector.h"
 #include "hull.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/detection/float_planes.h"
-#include "sweep_guard/detection/mesh_part.h"
-#include "sweep_guard/detection/select_detector.h"
+#include "sweep_guard/detection/submesh.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
 namespace sweep_guard_benchmark {
 namespace {
 
-using sweep_guard::Detector;
-using sweep_guard::MeshPart;
-using sweep_guard::SweptVolume;
-using sweep_guard::TriangleMesh;
+using sweep_guard_core::Detector;
+using sweep_guard_core::Submesh;
+using sweep_guard_core::SweptVolume;
+using sweep_guard_core::TriangleMesh;
 
 TriangleMesh meshOf(const Surface& surface) {
   std::vector<Eigen::Vector3d> vertices_M;
@@ -45,7 +45,7 @@ class DetectorPeer : public Peer {
   void queryAll(std::vector<TriangleIds>& ids) override {
     if (ids.size() <= 1 || !options_.narrows) return Peer::queryAll(ids);
     const Eigen::AlignedBox3d box_M = boxAroundAll();
-    const MeshPart part = finder_(mesh_M_, floatPlanes(mesh_M_, box_M));
+    const Submesh part = finder_.find(mesh_M_, floatPlanes(mesh_M_, box_M));
     for (size_t volume = 0; volume < ids.size(); ++volume) detect(part, volume, ids[volume]);
   }
 
@@ -54,8 +54,8 @@ class DetectorPeer : public Peer {
   double inflation() const override { return inflation_; }
 
  private:
-  void detect(const MeshPart& part, size_t volume, TriangleIds& ids) {
-    const sweep_guard::Detection& detection = detector_->detect(part, sweptVolumeOf((*volumes_M_)[volume]));
+  void detect(const Submesh& part, size_t volume, TriangleIds& ids) {
+    const sweep_guard_core::Detection& detection = detector_->detect(part, sweptVolumeOf((*volumes_M_)[volume]));
     ids.assign(detection.triangles.begin(), detection.triangles.end());
     inflation_ = std::max(inflation_, detection.inflation);
   }
@@ -63,7 +63,7 @@ class DetectorPeer : public Peer {
   Eigen::AlignedBox3d boxAroundAll() const {
     Eigen::AlignedBox3d box_M;
     for (const Polytope& volume_M : *volumes_M_) {
-      const sweep_guard::OrientedBox& box = volume_M.swept_M->box;
+      const sweep_guard_core::OrientedBox& box = volume_M.swept_M->box;
       const Eigen::Vector3d half_M = box.X_MB.linear().cwiseAbs() * box.half_extents;
       box_M.extend(box.X_MB.translation() - half_M);
       box_M.extend(box.X_MB.translation() + half_M);
@@ -73,35 +73,35 @@ class DetectorPeer : public Peer {
 
   const SweptVolume& sweptVolumeOf(const Polytope& volume_M) {
     if (!options_.sets_up) return *volume_M.swept_M;
-    swept_M_ = sweptVolume(tool_, *volume_M.motion_M, sweep_guard::VolumeKind::kObbPlanes);
+    swept_M_ = sweptVolume(tool_, *volume_M.motion_M, sweep_guard_core::VolumeKind::kObbPlanes);
     return swept_M_;
   }
 
   Surface& surface_;
   TriangleMesh mesh_M_;
   std::unique_ptr<Detector> detector_;
-  sweep_guard::PartFinder finder_;
+  sweep_guard_core::SubmeshFinder finder_;
   const std::vector<Polytope>* volumes_M_ = nullptr;
   double inflation_ = 0.0;
   Options options_;
-  sweep_guard::ConvexShape tool_ = drill();
+  sweep_guard_core::ConvexShape tool_ = drill();
   SweptVolume swept_M_;
 };
 
 }  // namespace
 
 std::unique_ptr<Peer> makeDetectorPeer(const std::string& name, Surface& surface) {
-  return std::make_unique<DetectorPeer>(surface, sweep_guard::makeDetector(name), DetectorPeer::Options{});
+  return std::make_unique<DetectorPeer>(surface, sweep_guard_core::makeDetector(name), DetectorPeer::Options{});
 }
 
 std::unique_ptr<Peer> makeWholeDetectorPeer(const std::string& name, Surface& surface) {
-  return std::make_unique<DetectorPeer>(surface, sweep_guard::makeDetector(name),
+  return std::make_unique<DetectorPeer>(surface, sweep_guard_core::makeDetector(name),
                                         DetectorPeer::Options{/*sets_up=*/true});
 }
 
 std::unique_ptr<Peer> makePlainSelectPeer(Surface& surface) {
-  const sweep_guard::SelectDetector::Options papers{/*cull=*/false, /*block=*/1};
-  auto detector = std::make_unique<sweep_guard::SelectDetector>(papers);
+  const sweep_guard_core::SelectDetector::Options papers{/*cull=*/false, /*block=*/1};
+  auto detector = std::make_unique<sweep_guard_core::SelectDetector>(papers);
   return std::make_unique<DetectorPeer>(surface, std::move(detector),
                                         DetectorPeer::Options{/*sets_up=*/false, /*narrows=*/false});
 }

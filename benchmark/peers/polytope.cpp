@@ -22,18 +22,18 @@ int indexOf(const Eigen::Vector3d& corner, std::vector<Eigen::Vector3d>& corners
 
 }  // namespace
 
-Polytope polytope(const sweep_guard::SweptVolume& swept_M, const sweep_guard::Motion& motion_M) {
+Polytope polytope(const sweep_guard_core::SweptVolume& swept_M, const sweep_guard_core::Motion& motion_M) {
   const Eigen::Isometry3d& X_MB = swept_M.box.X_MB;
   Polytope polytope_M;
   polytope_M.swept_M = &swept_M;
   polytope_M.motion_M = &motion_M;
-  const std::vector<sweep_guard::HalfSpace> half_spaces_B = swept_M.halfSpaces_B();
-  for (const sweep_guard::HalfSpace& half_space_B : half_spaces_B) {
+  const std::vector<sweep_guard_core::HalfSpace> half_spaces_B = swept_M.halfSpaces_B();
+  for (const sweep_guard_core::HalfSpace& half_space_B : half_spaces_B) {
     const Eigen::Vector3d normal_M = X_MB.linear() * half_space_B.normal();
     polytope_M.planes_M.push_back({toPoint(normal_M), half_space_B.offset() + normal_M.dot(X_MB.translation())});
   }
   std::vector<Eigen::Vector3d> corners_B;
-  for (const sweep_guard::Polygon& face : polytopeFaces(half_spaces_B, 1.01 * swept_M.box.half_extents.norm())) {
+  for (const sweep_guard_core::Polygon& face : polytopeFaces(half_spaces_B, 1.01 * swept_M.box.half_extents.norm())) {
     std::vector<int> indices;
     for (const Eigen::Vector3d& corner : face) {
       const int index = indexOf(corner, corners_B);

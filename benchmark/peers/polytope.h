@@ -3,10 +3,10 @@
 #include <array>
 #include <vector>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 struct Motion;
 struct SweptVolume;
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core
 
 namespace sweep_guard_benchmark {
 
@@ -25,12 +25,12 @@ struct Polytope {
   std::vector<std::vector<int>> faces;  ///< indices of corners, counter-clockwise seen from outside
   Point lower_M;                        ///< of the box along the axes of M [m]
   Point upper_M;
-  const sweep_guard::SweptVolume* swept_M;  ///< the same as the detectors take it
-  const sweep_guard::Motion* motion_M;      ///< of the tool, which it is made around
+  const sweep_guard_core::SweptVolume* swept_M;  ///< the same as the detectors take it
+  const sweep_guard_core::Motion* motion_M;      ///< of the tool, which it is made around
 };
 
 /// @param swept_M, motion_M  outlive the result
-Polytope polytope(const sweep_guard::SweptVolume& swept_M, const sweep_guard::Motion& motion_M);
+Polytope polytope(const sweep_guard_core::SweptVolume& swept_M, const sweep_guard_core::Motion& motion_M);
 
 /// Whether a triangle meets the polytope, moved out by `grown` [m]: clipped in double precision (Sutherland and Hodgman
 /// 1974). Touching is meeting.

@@ -1,15 +1,15 @@
-#include "sweep_guard/detection/convex_clip.h"
+#include "detection/convex_clip.h"
 
 #include <algorithm>
 #include <cassert>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
-void CutTriangle::cut(const Eigen::Vector3d& normal, double offset) {
+void ClippedTriangle::cut(const Eigen::Vector3d& normal, double offset) {
   assert(count_ > 0 && count_ < corners_.size());
   Corners whole;
   std::copy_n(corners_.begin(), count_, whole.begin());
-  std::array<double, kMostCorners> out;
+  std::array<double, kMaxCorners> out;
   size_t crossings = 0;
   for (size_t i = 0; i < count_; ++i) {
     out[i] = normal.dot(whole[i]) - offset;
@@ -74,7 +74,7 @@ bool ConvexClip::meets(const std::array<Eigen::Vector3d, 3>& corners_B) const {
   // Most triangles that meet the volume do so along an edge: cheaper to see than to cut them.
   if (meetsEdge(a, b) || meetsEdge(b, c) || meetsEdge(c, a)) return true;
 
-  CutTriangle left(corners_B);
+  ClippedTriangle left(corners_B);
   const unsigned separating = a.beyond | b.beyond | c.beyond;
   for (Eigen::Index i = 0; i < count_ && !left.empty(); ++i) {
     if ((separating >> i & 1U) != 0) left.cut(normals_.row(i).matrix(), offsets_[i]);
@@ -82,4 +82,4 @@ bool ConvexClip::meets(const std::array<Eigen::Vector3d, 3>& corners_B) const {
   return !left.empty();
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

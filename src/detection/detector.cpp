@@ -1,11 +1,11 @@
 #include "sweep_guard/detection/detector.h"
 
+#include "detection/halfspace_detector.h"
+#include "detection/reference_detector.h"
+#include "detection/select_detector.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/detection/halfspace_detector.h"
-#include "sweep_guard/detection/reference_detector.h"
-#include "sweep_guard/detection/select_detector.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOptions& options) {
   if (name == "select") {
@@ -22,4 +22,4 @@ const std::vector<std::string>& detectorNames() {
   return names;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -6,10 +6,10 @@
 
 #include <cstring>
 
-#include "sweep_guard/detection/gl_library.h"
+#include "detection/gl_library.h"
 #include "sweep_guard/detection/offscreen_context.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr GLsizei kFramebufferSize = 16;  // pixels; selection draws nothing
@@ -143,4 +143,4 @@ std::unique_ptr<OffscreenContext> makeEglContext() {
   return context;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -3,13 +3,13 @@
 #include <cassert>
 #include <cmath>
 
-#include "sweep_guard/detection/box_coordinates.h"
+#include "detection/box_coordinates.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr double kFloatError = 0x1p-20;  // six roundings of 2^-24 at most: normal, offset, three products, two sums
-constexpr double kLargest = 1e30;        // farther than any vertex, finite in float
+constexpr double kMaxSize = 1e30;        // farther than any vertex, finite in float
 
 class FloatPlanes {
  public:
@@ -18,8 +18,8 @@ class FloatPlanes {
   // n·p <= d, relative to the mesh's origin.
   void add(const Eigen::Vector3d& normal, double d) {
     const size_t i = planes_.count++;
-    assert(planes_.count <= simd::kMostPlanes);
-    d = std::min(std::max(d, -kLargest), kLargest);
+    assert(planes_.count <= simd::kMaxPlanes);
+    d = std::min(std::max(d, -kMaxSize), kMaxSize);
     const double doubt = kFloatError * (radius_ + std::abs(d)) + rounding_;
     for (size_t axis = 0; axis < 3; ++axis) {
       planes_.normal[axis][i] = static_cast<float>(normal[static_cast<Eigen::Index>(axis)]);
@@ -60,4 +60,4 @@ simd::Planes floatPlanes(const TriangleMesh& mesh_M, const Eigen::AlignedBox3d& 
   return planes.planes();
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,11 +1,11 @@
-#include "sweep_guard/detection/gl_library.h"
+#include "detection/gl_library.h"
 
 #include <dlfcn.h>
 
 #include <cstdlib>
 #include <mutex>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // Mesa ends the process over a driver name it does not know. Selection never rasterises, so it needs no worker threads.
@@ -37,4 +37,4 @@ void* GlLibrary::symbol(const char* name) const {
   return found;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

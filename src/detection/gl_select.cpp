@@ -1,4 +1,4 @@
-#include "sweep_guard/detection/gl_select.h"
+#include "detection/gl_select.h"
 
 #include <GL/gl.h>
 
@@ -9,7 +9,7 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr size_t kWordsPerRecord = 4;  // number of names, nearest and farthest depth, the one name
@@ -143,4 +143,4 @@ void GlSelect::readHits(int records, std::uint32_t canary_name) {
   names_.pop_back();
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,10 +1,10 @@
-#include "sweep_guard/detection/inside.h"
+#include "detection/inside.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // A mesh seen along x, from a point.
@@ -55,4 +55,4 @@ bool inside(const TriangleMesh& mesh_M, const Eigen::Vector3d& p_M) {
   return crossings % 2 == 1;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

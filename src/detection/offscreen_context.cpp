@@ -1,6 +1,6 @@
 #include "sweep_guard/detection/offscreen_context.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 std::unique_ptr<OffscreenContext> makeOffscreenContext(const std::string& name) {
   if (name == "osmesa") return makeOsMesaContext();
@@ -13,4 +13,4 @@ const std::vector<std::string>& offscreenContextNames() {
   return names;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -2,10 +2,10 @@
 
 #include <array>
 
-#include "sweep_guard/detection/gl_library.h"
+#include "detection/gl_library.h"
 #include "sweep_guard/detection/offscreen_context.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // OSMesa's own header is not asked for: it goes with the library.
@@ -56,4 +56,4 @@ class OsMesaContext : public OffscreenContext {
 
 std::unique_ptr<OffscreenContext> makeOsMesaContext() { return std::make_unique<OsMesaContext>(); }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,10 +1,10 @@
-#include "sweep_guard/detection/reference_detector.h"
+#include "detection/reference_detector.h"
 
 #include <algorithm>
 
-#include "sweep_guard/detection/box_coordinates.h"
+#include "detection/box_coordinates.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 bool meets(Polygon polygon, const std::vector<HalfSpace>& half_spaces) {
@@ -17,16 +17,17 @@ bool meets(Polygon polygon, const std::vector<HalfSpace>& half_spaces) {
 
 }  // namespace
 
-void ReferenceDetector::find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) {
+void ReferenceDetector::find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) {
   const TriangleMesh& mesh_M = part.mesh_M();
   const BoxCoordinates coordinates(mesh_M, swept_M.box);
   detection.inflation = 2.0 * coordinates.rounding();  // clipping itself can let in what is a little farther out, too
   const std::vector<HalfSpace> half_spaces = swept_M.grown(coordinates.rounding()).halfSpaces_B();
   part.forEachTriangle([&](std::uint32_t i) {
     const auto& [a, b, c] = mesh_M.triangles()[i];
-    if (meets({coordinates(a), coordinates(b), coordinates(c)}, half_spaces)) detection.triangles.push_back(i);
+    if (meets({coordinates.position(a), coordinates.position(b), coordinates.position(c)}, half_spaces))
+      detection.triangles.push_back(i);
   });
   std::sort(detection.triangles.begin(), detection.triangles.end());
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,14 +1,14 @@
-#include "sweep_guard/detection/select_detector.h"
+#include "detection/select_detector.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "detection/box_coordinates.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/detection/box_coordinates.h"
 #include "sweep_guard/detection/float_planes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr double kFloatError = 0x1p-22;  // per metre of distance from the box centre; the worst found is 1 to 2e-8
@@ -33,9 +33,10 @@ void SelectDetector::makeSelection() {
   gl_ = std::make_unique<GlSelect>(make_context_(), options_.hit_records);
 }
 
-void SelectDetector::find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) {
-  const std::vector<Survivor>& survivors = options_.cull ? cull_(part, floatPlanes(part.mesh_M(), swept_M)) : all(part);
-  takeCorners(part.mesh_M(), swept_M.box, survivors);
+void SelectDetector::find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) {
+  const std::vector<RemainingTriangle>& remaining =
+      options_.cull ? culler_.cull(part, floatPlanes(part.mesh_M(), swept_M)) : all(part);
+  takeCorners(part.mesh_M(), swept_M.box, remaining);
   names_.clear();
   if (!corners_B_.empty()) {  // the clear case and the far case cost nothing
     const double inflation = inflationFor(part.mesh_M(), swept_M.box);
@@ -50,22 +51,23 @@ void SelectDetector::find(const MeshPart& part, const SweptVolume& swept_M, Dete
   }
   std::uint32_t number = 0;  // of those in doubt
   auto name = names_.begin();
-  for (const Survivor& survivor : survivors) {
-    const bool hit = !survivor.met && name != names_.end() && *name == number;
-    if (survivor.met || hit) detection.triangles.push_back(survivor.triangle);
+  for (const RemainingTriangle& candidate : remaining) {
+    const bool hit = !candidate.met && name != names_.end() && *name == number;
+    if (candidate.met || hit) detection.triangles.push_back(candidate.triangle);
     if (hit) ++name;
-    if (!survivor.met) ++number;
+    if (!candidate.met) ++number;
   }
 }
 
 // Of the triangles in doubt.
 void SelectDetector::takeCorners(const TriangleMesh& mesh_M, const OrientedBox& box_M,
-                                 const std::vector<Survivor>& survivors) {
+                                 const std::vector<RemainingTriangle>& remaining) {
   const BoxCoordinates coordinates(mesh_M, box_M);
   corners_B_.clear();
-  for (const Survivor& survivor : survivors) {
-    if (survivor.met) continue;
-    for (const std::uint32_t vertex : mesh_M.triangles()[survivor.triangle]) corners_B_.push_back(coordinates(vertex));
+  for (const RemainingTriangle& candidate : remaining) {
+    if (candidate.met) continue;
+    for (const std::uint32_t vertex : mesh_M.triangles()[candidate.triangle])
+      corners_B_.push_back(coordinates.position(vertex));
   }
 }
 
@@ -107,13 +109,14 @@ void SelectDetector::select(const SweptVolume& inflated_M) {
   for (const std::uint32_t name : gl_->hits({corners_, 1, clips_, canary})) names_.push_back(in_blocks_[name]);
 }
 
-const std::vector<Survivor>& SelectDetector::all(const MeshPart& part) {
+const std::vector<RemainingTriangle>& SelectDetector::all(const Submesh& part) {
   all_.clear();
   part.forEachTriangle([&](std::uint32_t triangle) { all_.push_back({triangle, false}); });
   if (!part.mesh_M().order().triangle_at.empty()) {
-    std::sort(all_.begin(), all_.end(), [](const Survivor& a, const Survivor& b) { return a.triangle < b.triangle; });
+    std::sort(all_.begin(), all_.end(),
+              [](const RemainingTriangle& a, const RemainingTriangle& b) { return a.triangle < b.triangle; });
   }
   return all_;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -5,14 +5,14 @@
 namespace sweep_guard_evaluation {
 
 using std::chrono::milliseconds;
-using sweep_guard::Duration;
-using sweep_guard::Level;
-using sweep_guard::Time;
+using sweep_guard_core::Duration;
+using sweep_guard_core::Time;
+using sweep_guard_core::WarningLevel;
 
 const std::array<AlarmRule, 2>& alarmRules() {
   static const std::array<AlarmRule, 2> kRules = {
-      {{"reflex", Level::kReflex, milliseconds(500), /*at_contact=*/true},
-       {"considered", Level::kConsidered, milliseconds(2000), /*at_contact=*/false}}};
+      {{"reflex", WarningLevel::kReflex, milliseconds(500), /*at_contact=*/true},
+       {"considered", WarningLevel::kConsidered, milliseconds(2000), /*at_contact=*/false}}};
   return kRules;
 }
 
@@ -27,7 +27,7 @@ std::optional<Duration> leadOf(const Episode& episode, const AlarmRule& rule) {
 }
 
 size_t falseAlarmsOf(const Episode& episode, const AlarmRule& rule) {
-  const Placement& placement = episode.placement;
+  const ObstaclePlacement& placement = episode.placement;
   const Time justified = placement.contact ? *placement.contact - rule.window : placement.end;
   size_t count = 0;
   for (const Alarm& alarm : episode.shown.alarms(rule.least)) {
@@ -48,11 +48,11 @@ double AlarmStatistics::warnedAhead(double lead) const {
 AlarmStatistics alarmStatistics(const std::vector<Episode>& episodes, const AlarmRule& rule) {
   AlarmStatistics statistics;
   for (const Episode& episode : episodes) {
-    statistics.minutes += sweep_guard::toSeconds(episode.placement.end - episode.placement.begin) / 60.0;
+    statistics.minutes += sweep_guard_core::toSeconds(episode.placement.end - episode.placement.begin) / 60.0;
     statistics.false_alarms += falseAlarmsOf(episode, rule);
     if (!episode.placement.contact) continue;
     ++statistics.contacts;
-    if (const auto lead = leadOf(episode, rule)) statistics.leads.push_back(sweep_guard::toSeconds(*lead));
+    if (const auto lead = leadOf(episode, rule)) statistics.leads.push_back(sweep_guard_core::toSeconds(*lead));
   }
   std::sort(statistics.leads.begin(), statistics.leads.end());
   return statistics;

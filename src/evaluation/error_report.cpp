@@ -10,7 +10,7 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard::toSeconds;
+using sweep_guard_core::toSeconds;
 
 namespace {
 
@@ -58,7 +58,7 @@ std::string cell(const ErrorReport& report, size_t predictor, size_t horizon, co
 
 std::string quantityTable(const ErrorReport& report, const Quantity& quantity) {
   std::string table = format("  %-19s", format("%s [%s]", quantity.name, quantity.unit).c_str());
-  for (const sweep_guard::Duration horizon : report.horizons) {
+  for (const sweep_guard_core::Duration horizon : report.horizons) {
     table += format(" %23s", format("%.3g s", toSeconds(horizon)).c_str());
   }
   for (size_t predictor = 0; predictor < report.predictors.size(); ++predictor) {
@@ -97,11 +97,11 @@ std::string panel(const ErrorReport& report, const Quantity& quantity) {
 
 }  // namespace
 
-ErrorReport atHorizons(const ErrorReport& report, const std::vector<sweep_guard::Duration>& horizons) {
+ErrorReport atHorizons(const ErrorReport& report, const std::vector<sweep_guard_core::Duration>& horizons) {
   ErrorReport some{report.recording, report.predictors, horizons, {}};
   for (const std::vector<ErrorSummary>& of_one : report.errors) {
     some.errors.emplace_back();
-    for (const sweep_guard::Duration horizon : horizons) {
+    for (const sweep_guard_core::Duration horizon : horizons) {
       const auto found = std::find(report.horizons.begin(), report.horizons.end(), horizon);
       some.errors.back().push_back(of_one[static_cast<size_t>(found - report.horizons.begin())]);
     }

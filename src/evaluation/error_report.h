@@ -11,12 +11,12 @@ namespace sweep_guard_evaluation {
 struct ErrorReport {
   std::string recording;
   std::vector<std::string> predictors;
-  std::vector<sweep_guard::Duration> horizons;
+  std::vector<sweep_guard_core::Duration> horizons;
   std::vector<std::vector<ErrorSummary>> errors;  ///< by predictor, then by horizon
 };
 
 /// The report on some of its horizons.
-ErrorReport atHorizons(const ErrorReport& report, const std::vector<sweep_guard::Duration>& horizons);
+ErrorReport atHorizons(const ErrorReport& report, const std::vector<sweep_guard_core::Duration>& horizons);
 
 /// recording,predictor,horizon_s,position_median_m,position_p95_m,rotation_median_rad,rotation_p95_rad,samples
 std::string errorCsv(const std::vector<ErrorReport>& reports);

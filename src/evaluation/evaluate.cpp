@@ -7,7 +7,7 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard::Duration;
+using sweep_guard_core::Duration;
 using sweep_guard_recording::Recording;
 
 namespace {
@@ -26,7 +26,7 @@ struct Case {
   std::vector<std::vector<ErrorsAhead>> errors;  // by predictor, then by horizon
 };
 
-sweep_guard::PredictorOptions named(sweep_guard::PredictorOptions options, const std::string& predictor) {
+sweep_guard_core::PredictorOptions named(sweep_guard_core::PredictorOptions options, const std::string& predictor) {
   options.predictor = predictor;
   return options;
 }
@@ -36,7 +36,7 @@ std::array<AlarmStatistics, 2> statisticsOf(const std::vector<Episode>& episodes
 }
 
 WarningReport emptyReport(const std::string& recording, size_t placements, const Options& options) {
-  const double chosen = options.watch.limits.min_probability;
+  const double chosen = options.simulation.limits.min_probability;
   WarningReport report{recording, placements, options.predictors, {chosen}, 0, {}};
   if (options.wantTradeoff()) report.min_probabilities = tradeoffThresholds(chosen);
   const auto& all = report.min_probabilities;
@@ -69,20 +69,20 @@ std::vector<ErrorReport> reportErrors(const std::vector<Recording>& recordings, 
 
 std::vector<WarningReport> reportWarnings(const std::vector<Recording>& recordings, const Options& options,
                                           const Progress& progress) {
-  std::vector<std::vector<Placement>> placements;
+  std::vector<std::vector<ObstaclePlacement>> placements;
   std::vector<WarningReport> reports;
   for (const Recording& recording : recordings) {
-    placements.push_back(placeSheets(RecordedMotion(recording.poses), options.watch.tool, options.placement));
+    placements.push_back(placeObstacles(RecordedMotion(recording.poses), options.simulation.tool, options.placement));
     reports.push_back(emptyReport(recording.name, placements.back().size(), options));
   }
   inParallel(recordings.size() * options.predictors.size(), [&](size_t i) {
     const size_t recording = i / options.predictors.size();
     const size_t predictor = i % options.predictors.size();
     WarningReport& report = reports[recording];
-    WatchOptions watching = options.watch;
+    GuardSimulationOptions watching = options.simulation;
     watching.guard.predictor = named(options.predictor, options.predictors[predictor]);
     watching.min_probabilities = report.min_probabilities;
-    for (const auto& episodes : watch(recordings[recording].poses, placements[recording], watching, progress)) {
+    for (const auto& episodes : simulateGuard(recordings[recording].poses, placements[recording], watching, progress)) {
       report.statistics[predictor].push_back(statisticsOf(episodes));
     }
   });

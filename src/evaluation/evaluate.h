@@ -13,7 +13,7 @@ namespace sweep_guard_evaluation {
 /// after without a gap.
 /// @param horizons  ascending, > 0
 std::vector<ErrorReport> reportErrors(const std::vector<sweep_guard_recording::Recording>& recordings,
-                                      const Options& options, const std::vector<sweep_guard::Duration>& horizons,
+                                      const Options& options, const std::vector<sweep_guard_core::Duration>& horizons,
                                       const Progress& progress);
 
 /// What warnings are worth with every predictor on every recording: at the threshold asked for, and at all those of the

@@ -17,8 +17,8 @@ namespace sweep_guard_evaluation {
 namespace {
 
 using std::chrono::milliseconds;
-using sweep_guard::Duration;
-using sweep_guard::InvalidInput;
+using sweep_guard_core::Duration;
+using sweep_guard_core::InvalidInput;
 using sweep_guard_recording::Recording;
 
 /// A file that is written at the end, but refused at the beginning if it cannot be, or if it is one of the inputs.

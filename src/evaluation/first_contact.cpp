@@ -6,24 +6,24 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard::ConvexShape;
-using sweep_guard::Duration;
-using sweep_guard::StampedPose;
-using sweep_guard::Time;
+using sweep_guard_core::ConvexShape;
+using sweep_guard_core::Duration;
+using sweep_guard_core::StampedPose;
+using sweep_guard_core::Time;
 
 namespace {
 
-/// Distance [m] that the tool is clear of the sheet by, at least; 0 if it touches.
+/// Distance [m] that the tool is clear of the obstacle by, at least; 0 if it touches.
 class Clearance {
  public:
-  Clearance(const ConvexShape& tool, const Sheet& sheet) : tool_(tool), sheet_(sheet) {}
+  Clearance(const ConvexShape& tool, const SquareObstacle& obstacle) : tool_(tool), obstacle_(obstacle) {}
 
   double at(const Eigen::Isometry3d& X_WT) {
-    const double apart = (X_WT.translation() - sheet_.X_WS.translation()).norm();
-    const double sure = apart - tool_.extent() - std::sqrt(2.0) * sheet_.half_side;
+    const double apart = (X_WT.translation() - obstacle_.X_WS.translation()).norm();
+    const double sure = apart - tool_.boundingRadius() - std::sqrt(2.0) * obstacle_.half_side;
     if (sure > kContactTolerance) return last_ = sure;
     last_ = std::max(2.0 * last_, kContactTolerance);
-    while (meets(tool_, X_WT, sheet_, last_)) {
+    while (meets(tool_, X_WT, obstacle_, last_)) {
       if (last_ == kContactTolerance) return 0.0;
       last_ = std::max(0.5 * last_, kContactTolerance);
     }
@@ -32,15 +32,15 @@ class Clearance {
 
  private:
   const ConvexShape& tool_;
-  const Sheet& sheet_;
+  const SquareObstacle& obstacle_;
   double last_ = 1.0;  // the next one is likely to be near it
 };
 
 /// Bound on how far a point of the tool goes per second [m/s].
 double fastest(const StampedPose& from, const StampedPose& to, const ConvexShape& tool) {
-  const sweep_guard::Motion motion{from.X_WT, to.X_WT};
-  const double way = (to.X_WT.translation() - from.X_WT.translation()).norm() + motion.angle() * tool.extent();
-  return way / sweep_guard::toSeconds(to.stamp - from.stamp);
+  const sweep_guard_core::Motion motion{from.X_WT, to.X_WT};
+  const double way = (to.X_WT.translation() - from.X_WT.translation()).norm() + motion.angle() * tool.boundingRadius();
+  return way / sweep_guard_core::toSeconds(to.stamp - from.stamp);
 }
 
 /// When the tool may have gone `distance` [m] at the earliest, rounded down.
@@ -49,7 +49,7 @@ Time reached(const RecordedMotion& motion, const ConvexShape& tool, Time from, T
   Time time = from;
   for (size_t i = motion.newestAt(from); time < limit && i + 1 < poses.size(); ++i) {
     const double speed = fastest(poses[i], poses[i + 1], tool);
-    const double left = sweep_guard::toSeconds(poses[i + 1].stamp - time);
+    const double left = sweep_guard_core::toSeconds(poses[i + 1].stamp - time);
     if (speed * left > distance) {
       return time + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(distance / speed));
     }
@@ -61,9 +61,9 @@ Time reached(const RecordedMotion& motion, const ConvexShape& tool, Time from, T
 
 }  // namespace
 
-std::optional<Time> firstContact(const RecordedMotion& motion, const ConvexShape& tool, const Sheet& sheet, Time from,
-                                 Time to) {
-  Clearance clearance(tool, sheet);
+std::optional<Time> firstContact(const RecordedMotion& motion, const ConvexShape& tool, const SquareObstacle& obstacle,
+                                 Time from, Time to) {
+  Clearance clearance(tool, obstacle);
   for (Time time = from; time <= to;) {
     const double clear = clearance.at(motion.at(time));
     if (clear == 0.0) return time;

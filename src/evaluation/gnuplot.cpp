@@ -36,16 +36,16 @@ class IgnoredPipeSignal {
 
 void requireGnuplot() {
   if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) {
-    throw sweep_guard::InvalidInput("plots need gnuplot; install it: apt-get install gnuplot-nox");
+    throw sweep_guard_core::InvalidInput("plots need gnuplot; install it: apt-get install gnuplot-nox");
   }
 }
 
 void runGnuplot(const std::string& script) {
   const IgnoredPipeSignal ignored;
   FILE* const pipe = popen("gnuplot", "w");
-  if (pipe == nullptr) throw sweep_guard::DeviceError("gnuplot cannot be started");
+  if (pipe == nullptr) throw sweep_guard_core::DeviceError("gnuplot cannot be started");
   const bool written = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-  if (pclose(pipe) != 0 || !written) throw sweep_guard::DeviceError("gnuplot failed; its message stands above");
+  if (pclose(pipe) != 0 || !written) throw sweep_guard_core::DeviceError("gnuplot failed; its message stands above");
 }
 
 std::string gnuplotText(const std::string& text) {

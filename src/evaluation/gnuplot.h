@@ -5,11 +5,11 @@
 
 namespace sweep_guard_evaluation {
 
-/// @throws sweep_guard::InvalidInput, saying what to install, if there is no gnuplot
+/// @throws sweep_guard_core::InvalidInput, saying what to install, if there is no gnuplot
 void requireGnuplot();
 
 /// Runs a script.
-/// @throws sweep_guard::DeviceError if gnuplot fails
+/// @throws sweep_guard_core::DeviceError if gnuplot fails
 void runGnuplot(const std::string& script);
 
 /// A text as gnuplot takes it literally, quotes included.

@@ -4,16 +4,16 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard::Level;
+using sweep_guard_core::WarningLevel;
 
-void LevelTrace::show(sweep_guard::Time time, Level level) {
+void LevelTrace::show(sweep_guard_core::Time time, WarningLevel level) {
   assert(changes_.empty() || time >= newest_);
   newest_ = time;
   if (changes_.empty() || changes_.back().level != level) changes_.push_back({time, level});
 }
 
-std::vector<Alarm> LevelTrace::alarms(Level least) const {
-  assert(least >= Level::kConsidered);
+std::vector<Alarm> LevelTrace::alarms(WarningLevel least) const {
+  assert(least >= WarningLevel::kConsidered);
   std::vector<Alarm> alarms;
   bool on = false;
   for (const Change& change : changes_) {

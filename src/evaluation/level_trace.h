@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include "sweep_guard/guard/verdict.h"
+#include "sweep_guard/monitor/warning.h"
 
 namespace sweep_guard_evaluation {
 
-/// A stretch of time in which a warning was on without a break.
+/// A segment of time in which a warning was on without a break.
 struct Alarm {
-  sweep_guard::Time begin;
-  sweep_guard::Time end;
+  sweep_guard_core::Time begin;
+  sweep_guard_core::Time end;
 };
 
 /// The levels that a guard showed one after the other.
@@ -17,20 +17,20 @@ class LevelTrace {
  public:
   /// That level is shown from now on.
   /// @param time  not before that of the call before
-  void show(sweep_guard::Time time, sweep_guard::Level level);
+  void show(sweep_guard_core::Time time, sweep_guard_core::WarningLevel level);
 
   /// Stretches in which the level was that or a higher one; kUnknown and kClear are no warnings. The last ends when
   /// the newest level was shown, if it is one of these.
   /// @param least  kConsidered, kReflex or kContact
-  std::vector<Alarm> alarms(sweep_guard::Level least) const;
+  std::vector<Alarm> alarms(sweep_guard_core::WarningLevel least) const;
 
  private:
   struct Change {
-    sweep_guard::Time time;
-    sweep_guard::Level level;
+    sweep_guard_core::Time time;
+    sweep_guard_core::WarningLevel level;
   };
   std::vector<Change> changes_;
-  sweep_guard::Time newest_;
+  sweep_guard_core::Time newest_;
 };
 
 }  // namespace sweep_guard_evaluation

@@ -13,11 +13,11 @@
 namespace sweep_guard_evaluation {
 
 namespace po = boost::program_options;
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
 
 namespace {
 
-constexpr double kLongestHorizon = 10.0;  // [s]
+constexpr double kMaxHorizon = 10.0;  // [s]
 
 std::string joined(const std::vector<std::string>& words) {
   std::string list;
@@ -34,7 +34,7 @@ std::vector<std::string> splitAtCommas(const std::string& list) {
 
 /// What stands behind the options, until it is checked.
 struct Words {
-  std::string predictors = joined(sweep_guard::predictorNames());
+  std::string predictors = joined(sweep_guard_core::predictorNames());
   std::string horizons = "0.1,0.2,0.5,1";
   std::string degree = "1";
   std::string window = "0.3";
@@ -43,7 +43,7 @@ struct Words {
   std::string tool_length = "0.1";
   std::string placements = "80";
   std::string seed = "1";
-  std::string min_probability = csvNumber(sweep_guard::VerdictLimits{}.min_probability);
+  std::string min_probability = csvNumber(sweep_guard_core::WarningLimits{}.min_probability);
   std::string hold_time = "0.5";
   std::string most_false_alarms = "20";
 };
@@ -111,7 +111,7 @@ Count toCount(const std::string& option, const std::string& word, Count least, C
 }
 
 std::vector<std::string> toPredictors(const std::string& list) {
-  const std::vector<std::string>& known = sweep_guard::predictorNames();
+  const std::vector<std::string>& known = sweep_guard_core::predictorNames();
   std::vector<std::string> names;
   for (const std::string& name : splitAtCommas(list)) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
@@ -122,10 +122,10 @@ std::vector<std::string> toPredictors(const std::string& list) {
   return names;
 }
 
-std::vector<sweep_guard::Duration> toHorizons(const std::string& list) {
-  std::vector<sweep_guard::Duration> horizons;
+std::vector<sweep_guard_core::Duration> toHorizons(const std::string& list) {
+  std::vector<sweep_guard_core::Duration> horizons;
   for (const std::string& word : splitAtCommas(list)) {
-    horizons.push_back(sweep_guard::fromSeconds(toNumber("horizons", word, 1e-3, kLongestHorizon)));
+    horizons.push_back(sweep_guard_core::fromSeconds(toNumber("horizons", word, 1e-3, kMaxHorizon)));
   }
   std::sort(horizons.begin(), horizons.end());
   horizons.erase(std::unique(horizons.begin(), horizons.end()), horizons.end());
@@ -146,17 +146,18 @@ void takePrediction(const Words& words, Options& options) {
   options.predictors = toPredictors(words.predictors);
   options.horizons = toHorizons(words.horizons);
   options.predictor.degree = toDegrees(words.degree);
-  options.predictor.window = sweep_guard::fromSeconds(toNumber("window", words.window, 1e-3, 60.0));
+  options.predictor.window = sweep_guard_core::fromSeconds(toNumber("window", words.window, 1e-3, 60.0));
   options.predictor.forgetting_factor = toNumber("forgetting-factor", words.forgetting_factor, 1e-3, 1.0);
 }
 
 void takeWarnings(const Words& words, Options& options) {
   options.placement.count = toCount<size_t>("placements", words.placements, 1, 100000);
   options.placement.seed = toCount<std::uint64_t>("seed", words.seed, 0, std::numeric_limits<std::uint64_t>::max());
-  options.watch.tool = sweep_guard::ConvexShape::cylinder(toNumber("tool-radius", words.tool_radius, 1e-6, 100.0),
-                                                          toNumber("tool-length", words.tool_length, 1e-6, 100.0));
-  options.watch.limits.min_probability = toNumber("min-probability", words.min_probability, 1e-3, 1.0);
-  options.watch.limits.hold_time = sweep_guard::fromSeconds(toNumber("hold-time", words.hold_time, 0.0, 60.0));
+  options.simulation.tool = sweep_guard_core::ConvexShape::cylinder(
+      toNumber("tool-radius", words.tool_radius, 1e-6, 100.0), toNumber("tool-length", words.tool_length, 1e-6, 100.0));
+  options.simulation.limits.min_probability = toNumber("min-probability", words.min_probability, 1e-3, 1.0);
+  options.simulation.limits.hold_time =
+      sweep_guard_core::fromSeconds(toNumber("hold-time", words.hold_time, 0.0, 60.0));
   options.most_false_alarms = toNumber("up-to", words.most_false_alarms, 1e-3, 1e6);
 }
 

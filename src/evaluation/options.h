@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/placement.h"
-#include "evaluation/watch.h"
+#include "evaluation/obstacle_placement.h"
+#include "evaluation/simulate_guard.h"
 
 namespace sweep_guard_evaluation {
 
@@ -14,13 +14,13 @@ struct Options {
   std::vector<std::string> files;  ///< at least one
   std::string topic;               ///< of the rosbags; empty: the only one with poses
 
-  std::vector<std::string> predictors;          ///< at least one, each once
-  std::vector<sweep_guard::Duration> horizons;  ///< ascending, > 0
-  sweep_guard::PredictorOptions predictor;      ///< but for its name
+  std::vector<std::string> predictors;               ///< at least one, each once
+  std::vector<sweep_guard_core::Duration> horizons;  ///< ascending, > 0
+  sweep_guard_core::PredictorOptions predictor;      ///< but for its name
 
-  PlacementOptions placement;
-  WatchOptions watch;               ///< but for its predictor and thresholds
-  double most_false_alarms = 20.0;  ///< per minute; so far the trade-off is averaged
+  ObstaclePlacementOptions placement;
+  GuardSimulationOptions simulation;  ///< but for its predictor and thresholds
+  double most_false_alarms = 20.0;    ///< per minute; so far the trade-off is averaged
 
   std::string csv;  ///< files to write; empty: not asked for
   std::string plot;
@@ -39,7 +39,7 @@ struct Options {
 /// What --help prints.
 std::string usage();
 
-/// @throws sweep_guard::InvalidInput naming the option that is unknown, lacks its value or is out of range
+/// @throws sweep_guard_core::InvalidInput naming the option that is unknown, lacks its value or is out of range
 Options parseOptions(int argc, const char* const* argv);
 
 }  // namespace sweep_guard_evaluation

@@ -4,14 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include "evaluation/quantile.h"
+#include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard::Duration;
-using sweep_guard::PosePredictor;
-using sweep_guard::PredictedPath;
-using sweep_guard::StampedPose;
+using sweep_guard_core::Duration;
+using sweep_guard_core::PosePredictor;
+using sweep_guard_core::PredictedPath;
+using sweep_guard_core::quantile;
+using sweep_guard_core::StampedPose;
 
 namespace {
 
@@ -31,7 +32,7 @@ class Comparison {
     }
   }
 
-  void add(sweep_guard::Time stamp, const PredictedPath& path) {
+  void add(sweep_guard_core::Time stamp, const PredictedPath& path) {
     for (size_t i = 0; i < horizons_.size(); ++i) {
       if (path.empty()) {
         addTo(errors_[i], std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
@@ -79,7 +80,7 @@ std::vector<size_t> samplesOf(const std::vector<StampedPose>& poses, const Recor
                               Duration future) {
   std::vector<size_t> samples;
   for (size_t i = 0; i < poses.size(); ++i) {
-    const sweep_guard::Time stamp = poses[i].stamp;
+    const sweep_guard_core::Time stamp = poses[i].stamp;
     if (i > 0 && poses[i - 1].stamp == stamp) continue;
     if (motion.unbroken(stamp - history, stamp + future)) samples.push_back(i);
   }
@@ -88,7 +89,7 @@ std::vector<size_t> samplesOf(const std::vector<StampedPose>& poses, const Recor
 
 std::vector<ErrorsAhead> predictionErrors(const std::vector<StampedPose>& poses, const RecordedMotion& motion,
                                           const std::vector<size_t>& samples, const std::vector<Duration>& horizons,
-                                          const sweep_guard::PredictorOptions& options, const Progress& progress) {
+                                          const sweep_guard_core::PredictorOptions& options, const Progress& progress) {
   PosePredictor predictor(options);
   Comparison comparison(motion, horizons, samples.size());
   auto sample = samples.begin();

@@ -15,8 +15,8 @@ using Progress = std::function<void(size_t)>;
 /// without a gap. Of poses that share a stamp the first may be one; the others are fed to the predictor, no more.
 /// @param poses  of `motion`, those that share a stamp included
 /// @returns indices of `poses`, ascending
-std::vector<size_t> samplesOf(const std::vector<sweep_guard::StampedPose>& poses, const RecordedMotion& motion,
-                              sweep_guard::Duration history, sweep_guard::Duration future);
+std::vector<size_t> samplesOf(const std::vector<sweep_guard_core::StampedPose>& poses, const RecordedMotion& motion,
+                              sweep_guard_core::Duration history, sweep_guard_core::Duration future);
 
 /// Errors of one predictor at one horizon, one per sample, NaN where it predicted nothing.
 struct ErrorsAhead {
@@ -27,10 +27,10 @@ struct ErrorsAhead {
 /// Feeds every pose to a predictor, in their order, and compares what it expects after each sample with the motion.
 /// @param horizons  ascending, > 0; the motion goes on for as long after every sample
 /// @returns one for each horizon
-std::vector<ErrorsAhead> predictionErrors(const std::vector<sweep_guard::StampedPose>& poses,
+std::vector<ErrorsAhead> predictionErrors(const std::vector<sweep_guard_core::StampedPose>& poses,
                                           const RecordedMotion& motion, const std::vector<size_t>& samples,
-                                          const std::vector<sweep_guard::Duration>& horizons,
-                                          const sweep_guard::PredictorOptions& options, const Progress& progress);
+                                          const std::vector<sweep_guard_core::Duration>& horizons,
+                                          const sweep_guard_core::PredictorOptions& options, const Progress& progress);
 
 /// Median and 95th percentile; NaN if there is no sample.
 struct ErrorSummary {

@@ -7,13 +7,13 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard::Duration;
-using sweep_guard::StampedPose;
-using sweep_guard::Time;
+using sweep_guard_core::Duration;
+using sweep_guard_core::StampedPose;
+using sweep_guard_core::Time;
 
 namespace {
 
-constexpr Duration kShortestGap = std::chrono::milliseconds(250);
+constexpr Duration kMinGap = std::chrono::milliseconds(250);
 constexpr int kPeriodsOfGap = 3;
 
 std::vector<StampedPose> lastOfEachStamp(const std::vector<StampedPose>& poses) {
@@ -29,10 +29,10 @@ std::vector<StampedPose> lastOfEachStamp(const std::vector<StampedPose>& poses) 
 Duration longestPeriod(const std::vector<StampedPose>& poses) {
   std::vector<Duration> periods;
   for (size_t i = 1; i < poses.size(); ++i) periods.push_back(poses[i].stamp - poses[i - 1].stamp);
-  if (periods.empty()) return kShortestGap;
+  if (periods.empty()) return kMinGap;
   const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
   std::nth_element(periods.begin(), middle, periods.end());
-  return std::max(kShortestGap, kPeriodsOfGap * *middle);
+  return std::max(kMinGap, kPeriodsOfGap * *middle);
 }
 
 bool isEarlier(Time time, const StampedPose& pose) { return time < pose.stamp; }
@@ -43,15 +43,15 @@ RecordedMotion::RecordedMotion(const std::vector<StampedPose>& poses) : poses_(l
   assert(!poses_.empty());
   const Duration longest = longestPeriod(poses_);
   for (const StampedPose& pose : poses_) {
-    if (stretches_.empty() || pose.stamp - stretches_.back().end > longest) stretches_.push_back({pose.stamp, {}});
-    stretches_.back().end = pose.stamp;
+    if (segments_.empty() || pose.stamp - segments_.back().end > longest) segments_.push_back({pose.stamp, {}});
+    segments_.back().end = pose.stamp;
   }
 }
 
 bool RecordedMotion::unbroken(Time from, Time to) const {
-  const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), from,
-                                      [](Time time, const Stretch& stretch) { return time < stretch.begin; });
-  return after != stretches_.begin() && to <= std::prev(after)->end;
+  const auto after = std::upper_bound(segments_.begin(), segments_.end(), from,
+                                      [](Time time, const Segment& segment) { return time < segment.begin; });
+  return after != segments_.begin() && to <= std::prev(after)->end;
 }
 
 size_t RecordedMotion::newestAt(Time time) const {
@@ -65,8 +65,9 @@ Eigen::Isometry3d RecordedMotion::at(Time time) const {
   const StampedPose& from = poses_[before];
   if (from.stamp == time) return from.X_WT;
   const StampedPose& to = poses_[before + 1];
-  const double fraction = sweep_guard::toSeconds(time - from.stamp) / sweep_guard::toSeconds(to.stamp - from.stamp);
-  return sweep_guard::Motion{from.X_WT, to.X_WT}.at(fraction);
+  const double fraction =
+      sweep_guard_core::toSeconds(time - from.stamp) / sweep_guard_core::toSeconds(to.stamp - from.stamp);
+  return sweep_guard_core::Motion{from.X_WT, to.X_WT}.at(fraction);
 }
 
 }  // namespace sweep_guard_evaluation

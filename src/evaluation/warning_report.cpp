@@ -2,9 +2,12 @@
 
 #include "evaluation/csv.h"
 #include "evaluation/format.h"
-#include "evaluation/quantile.h"
+#include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_evaluation {
+
+using sweep_guard_core::quantile;
+
 namespace {
 
 std::string percent(double share) { return format("%5.1f %%", 100.0 * share); }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // A point of the body at one pose, in the plane (Y, Z) of the box.
@@ -74,11 +74,11 @@ std::optional<HalfSpace> tightestPlane(const std::array<Candidate, 4>& lines, co
 
 Clips boundingPlanes(const ConvexShape& shape, const Motion& motion, const OrientedBox& box) {
   const Eigen::Isometry3d X_BM = box.X_MB.inverse();
-  const Motion motion_B{X_BM * motion.X_MT_start, X_BM * motion.X_MT_end, 0.0, X_BM.linear() * motion.drift};
-  const Face front_start = projectFace(shape, &ConvexShape::frontExtreme, motion_B.X_MT_start);
-  const Face front_end = projectFace(shape, &ConvexShape::frontExtreme, motion_B.X_MT_end);
-  const Face rear_start = projectFace(shape, &ConvexShape::rearExtreme, motion_B.X_MT_start);
-  const Face rear_end = projectFace(shape, &ConvexShape::rearExtreme, motion_B.X_MT_end);
+  const Motion motion_B{X_BM * motion.X_MT_start, X_BM * motion.X_MT_end, 0.0, X_BM.linear() * motion.mesh_translation};
+  const Face front_start = projectFace(shape, &ConvexShape::frontSupport, motion_B.X_MT_start);
+  const Face front_end = projectFace(shape, &ConvexShape::frontSupport, motion_B.X_MT_end);
+  const Face rear_start = projectFace(shape, &ConvexShape::rearSupport, motion_B.X_MT_start);
+  const Face rear_end = projectFace(shape, &ConvexShape::rearSupport, motion_B.X_MT_end);
 
   const auto sides = [&](PlanePoint Face::*y) {
     return std::array<Candidate, 4>{{{rear_start.*y, front_start.*y},
@@ -105,4 +105,4 @@ Clips boundingPlanes(const ConvexShape& shape, const Motion& motion, const Orien
   return planes;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

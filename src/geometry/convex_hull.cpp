@@ -17,14 +17,14 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 using Facet = std::vector<std::uint32_t>;  // as many points as the hull has dimensions
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
-constexpr double kMostExcess = 1e-9;  // of the extent
+constexpr double kMaxHullTolerance = 1e-9;  // of the extent
 
 // What Qhull makes of the points: facets with the indices of their corners.
 class Qhull {
@@ -145,7 +145,7 @@ class Simplices {
   }
 
   // Bound on the distance of a point from the hull, but for the rounding of the sums.
-  double excess(const Eigen::Vector3d& p, double negligible) const {
+  double hull_tolerance(const Eigen::Vector3d& p, double negligible) const {
     double least = (p - middle_).norm();
     for (size_t i = 0; i < spans_.size() && least > negligible; ++i) {
       Eigen::VectorXd weights = (inverses_[i] * (p - middle_)).cwiseMax(0.0);
@@ -171,17 +171,17 @@ class Simplices {
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3>> inverses_;
 };
 
-double excessOf(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
+double hullTolerance(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
   const double rounding = kRounding * extentOf(about);
   const Facet corners = cornersOf(facets);
   const Simplices simplices(about, facets);
-  double excess = 0.0;
+  double hull_tolerance = 0.0;
   for (std::uint32_t i = 0; i < about.cols(); ++i) {
     if (std::binary_search(corners.begin(), corners.end(), i)) continue;
-    excess = std::max(excess, simplices.excess(about.col(i), 4.0 * rounding));
+    hull_tolerance = std::max(hull_tolerance, simplices.hull_tolerance(about.col(i), 4.0 * rounding));
   }
   // Each weight and each sum may be off by one rounding per corner.
-  return excess + static_cast<double>(corners.size() + 32) * rounding;
+  return hull_tolerance + static_cast<double>(corners.size() + 32) * rounding;
 }
 
 std::vector<Triangle> fan(size_t corners) {
@@ -220,10 +220,10 @@ std::optional<ConvexHull> hullOf(const Points& points, const Eigen::Matrix3Xd& a
   const std::optional<std::vector<Facet>> facets =
       dimensions == 1 ? endsOf(principal) : facetsOf(principal, dimensions);
   if (!facets) return std::nullopt;
-  const double excess = excessOf(about, *facets);
-  if (excess > kMostExcess * extentOf(about)) return std::nullopt;
+  const double hull_tolerance = hullTolerance(about, *facets);
+  if (hull_tolerance > kMaxHullTolerance * extentOf(about)) return std::nullopt;
   Facet corners = cornersOf(*facets);
-  ConvexHull hull{{}, {}, excess, dimensions == 3};
+  ConvexHull hull{{}, {}, hull_tolerance, dimensions == 3};
   hull.triangles = hull.solid ? renumbered(*facets, corners) : fan(corners.size());
   if (dimensions == 2) corners = around(principal, corners);
   for (const std::uint32_t i : corners) hull.corners.push_back(points[i]);
@@ -262,4 +262,4 @@ double surface(const ConvexHull& hull) {
   return hull.solid ? sum : 2.0 * sum;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 Polygon squareOnPlane(const HalfSpace& plane, double half_side) {
@@ -34,4 +34,4 @@ double polytopeVolume(const std::vector<Polygon>& faces) {
   return six_volumes / 6.0;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

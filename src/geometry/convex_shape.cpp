@@ -9,7 +9,7 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/geometry/convex_hull.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
@@ -173,7 +173,7 @@ ConvexShape ConvexShape::box(const Eigen::Vector3d& half_extents) {
 
 ConvexShape ConvexShape::hull(const std::vector<Eigen::Vector3d>& points_T) {
   const ConvexHull hull = convexHull(points_T);
-  return ConvexShape(Points{hull.corners}, hull.corners, hull.triangles).padded(hull.excess);
+  return ConvexShape(Points{hull.corners}, hull.corners, hull.triangles).padded(hull.hull_tolerance);
 }
 
 std::optional<ConvexShape::Cylinder> ConvexShape::asCylinder() const {
@@ -228,7 +228,7 @@ Eigen::Vector3d ConvexShape::supportPoint(const Eigen::Vector3d& direction_T) co
 }
 
 // The distance from a line is convex: it is largest at a corner, or on a rim.
-double ConvexShape::reach(const Eigen::Vector3d& axis_T) const {
+double ConvexShape::radiusAbout(const Eigen::Vector3d& axis_T) const {
   const auto away = [&](const Eigen::Vector3d& p_S) { return (p_TS_ + R_TS_ * p_S).cross(axis_T).norm(); };
   const auto farthest_of = [&](const auto& corners) {
     double most = 0.0;
@@ -246,7 +246,7 @@ double ConvexShape::reach(const Eigen::Vector3d& axis_T) const {
   return of_body + padding_;
 }
 
-double ConvexShape::extent() const {
+double ConvexShape::boundingRadius() const {
   const auto farthest_of = [&](const auto& corners) {
     double most = 0.0;
     for (const Eigen::Vector3d& corner : corners) most = std::max(most, (p_TS_ + R_TS_ * corner).norm());
@@ -293,7 +293,7 @@ ConvexShape::Faces ConvexShape::facesOfBox(const Eigen::Matrix3d& axes_T) const 
   return faces;
 }
 
-Eigen::Vector3d ConvexShape::faceExtreme(double z, const Eigen::Vector3d& direction_T) const {
+Eigen::Vector3d ConvexShape::faceSupport(double z, const Eigen::Vector3d& direction_T) const {
   const Eigen::Vector3d d = faces_.R_TF.transpose() * direction_T;
   const Eigen::Vector3d p_F =
       faces_.round ? discExtreme(z, faces_.half_sides.x(), d)
@@ -303,12 +303,12 @@ Eigen::Vector3d ConvexShape::faceExtreme(double z, const Eigen::Vector3d& direct
   return padding_ == 0.0 || length == 0.0 ? p_T : Eigen::Vector3d(p_T + padding_ / length * direction_T);
 }
 
-Eigen::Vector3d ConvexShape::frontExtreme(const Eigen::Vector3d& direction_T) const {
-  return faceExtreme(faces_.front, direction_T);
+Eigen::Vector3d ConvexShape::frontSupport(const Eigen::Vector3d& direction_T) const {
+  return faceSupport(faces_.front, direction_T);
 }
 
-Eigen::Vector3d ConvexShape::rearExtreme(const Eigen::Vector3d& direction_T) const {
-  return faceExtreme(faces_.rear, direction_T);
+Eigen::Vector3d ConvexShape::rearSupport(const Eigen::Vector3d& direction_T) const {
+  return faceSupport(faces_.rear, direction_T);
 }
 
 double support(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Eigen::Vector3d& direction_M) {
@@ -317,7 +317,7 @@ double support(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Ei
 
 double support(const ConvexShape& shape, const Motion& motion, const Eigen::Vector3d& direction_M) {
   return std::max(support(shape, motion.X_MT_start, direction_M), support(shape, motion.X_MT_end, direction_M)) +
-         std::max(0.0, direction_M.dot(motion.drift));
+         std::max(0.0, direction_M.dot(motion.mesh_translation));
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -15,7 +15,7 @@
 #include "sweep_guard/geometry/convex_hull.h"
 #include "sweep_guard/geometry/half_space.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using Set = std::vector<std::uint32_t>;  // of triangles
@@ -232,7 +232,7 @@ std::vector<std::vector<std::uint32_t>> decompose(const TriangleMesh& mesh, cons
   return Decomposition(mesh, options).sets();
 }
 
-std::vector<ConvexShape> convexParts(const TriangleMesh& mesh_T, const DecompositionOptions& options) {
+std::vector<ConvexShape> convexPieces(const TriangleMesh& mesh_T, const DecompositionOptions& options) {
   std::vector<ConvexShape> parts;
   for (const Set& set : decompose(mesh_T, options)) {
     parts.push_back(ConvexShape::hull(cornersOf(mesh_T, set)).padded(mesh_T.rounding()));
@@ -240,4 +240,4 @@ std::vector<ConvexShape> convexParts(const TriangleMesh& mesh_T, const Decomposi
   return parts;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

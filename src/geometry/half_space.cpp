@@ -2,7 +2,7 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 HalfSpace::HalfSpace(const Eigen::Vector3d& normal, double offset) : normal_(normal.normalized()), offset_(offset) {
   if (!(normal.norm() > 1e-10)) throw InvalidInput("half-space: the normal is too short to give a direction");
@@ -29,4 +29,4 @@ Polygon clip(const Polygon& polygon, const HalfSpace& half_space) {
   return inside;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -6,7 +6,7 @@
 
 #include "sweep_guard/geometry/vertex_blocks.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr double kWorthwhile = 0.5;  // of what it was: renumbering costs every deformation a gather
@@ -190,4 +190,4 @@ void place(const std::vector<std::uint32_t>& places, const std::vector<float>& s
   }
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 Eigen::AngleAxisd relativeRotation(const Motion& motion) {
@@ -28,13 +28,13 @@ Eigen::Isometry3d Motion::at(double fraction) const {
   return pose;
 }
 
-size_t countOfParts(double angle, double max_rotation) {
+size_t subMotionCount(double angle, double max_rotation) {
   assert(max_rotation > 0.0);
   return std::max<size_t>(1, static_cast<size_t>(std::ceil(angle / max_rotation)));
 }
 
 void split(const Motion& motion, double max_rotation, std::vector<Motion>& parts) {
-  const size_t count = countOfParts(motion.angle(), max_rotation);
+  const size_t count = subMotionCount(motion.angle(), max_rotation);
   parts.clear();
   Eigen::Isometry3d start = motion.X_MT_start;
   for (size_t i = 1; i < count; ++i) {
@@ -51,38 +51,39 @@ std::vector<Motion> split(const Motion& motion, double max_rotation) {
   return parts;
 }
 
-std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_extent) {
-  std::vector<Motion> parts_M;
-  split(motion, max_rotation, tool_extent, parts_M);
-  return parts_M;
+std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_radius) {
+  std::vector<Motion> sub_motions_M;
+  split(motion, max_rotation, tool_radius, sub_motions_M);
+  return sub_motions_M;
 }
 
-void split(const RelativeMotion& motion, double max_rotation, double tool_extent, std::vector<Motion>& parts_M) {
+void split(const RelativeMotion& motion, double max_rotation, double tool_radius, std::vector<Motion>& sub_motions_M) {
   const double frame_angle = motion.frame_W.angle();
-  const size_t count = countOfParts(motion.tool_W.angle() + frame_angle, max_rotation);
+  const size_t count = subMotionCount(motion.tool_W.angle() + frame_angle, max_rotation);
   const auto parts = static_cast<double>(count);
-  const double bulge = frame_angle == 0.0 ? 0.0 : arc(motion, tool_extent) / (parts * parts);
+  const double deviation_bound = frame_angle == 0.0 ? 0.0 : chordError(motion, tool_radius) / (parts * parts);
 
   const auto pose_M = [&](double fraction) {
     return motion.frame_W.at(fraction).inverse() * motion.tool_W.at(fraction);
   };
-  parts_M.clear();
+  sub_motions_M.clear();
   for (size_t i = 0; i < count; ++i) {
-    parts_M.push_back({pose_M(static_cast<double>(i) / parts), pose_M(static_cast<double>(i + 1) / parts), bulge});
+    sub_motions_M.push_back(
+        {pose_M(static_cast<double>(i) / parts), pose_M(static_cast<double>(i + 1) / parts), deviation_bound});
   }
 }
 
 // A tool point in M is x = R_MW (d + R_WT p): |x''| <= turn^2 |d| + 2 turn |d'| + (turn + tool's turn)^2 |p|, and the
 // chord of a curve errs by an eighth of that.
-double arc(const RelativeMotion& motion, double tool_extent) {
+double chordError(const RelativeMotion& motion, double tool_radius) {
   const double turn = motion.frame_W.angle();
   const double both = motion.tool_W.angle() + turn;
   const Eigen::Vector3d from_W = motion.tool_W.X_MT_start.translation() - motion.frame_W.X_MT_start.translation();
   const Eigen::Vector3d to_W = motion.tool_W.X_MT_end.translation() - motion.frame_W.X_MT_end.translation();
   const double farthest = std::max(from_W.norm(), to_W.norm());
-  return (turn * turn * farthest + 2.0 * turn * (to_W - from_W).norm() + both * both * tool_extent) / 8.0;
+  return (turn * turn * farthest + 2.0 * turn * (to_W - from_W).norm() + both * both * tool_radius) / 8.0;
 }
 
 double chordError(double radius, double angle) { return radius * angle * angle / 8.0; }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

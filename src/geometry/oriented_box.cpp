@@ -5,10 +5,10 @@
 #include <array>
 #include <cassert>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
-// The sums of [P, Sec. 3.1] over both poses, from those over one body: moments of a union of equal sets. A drift
+// The sums of [P, Sec. 3.1] over both poses, from those over one body: moments of a union of equal sets. A mesh_translation
 // doubles the sets once more.
 Eigen::Matrix3d covarianceOfBoth(const Moments& moments_T, const Motion& motion) {
   const Eigen::Matrix3d& R_start = motion.X_MT_start.linear();
@@ -16,7 +16,7 @@ Eigen::Matrix3d covarianceOfBoth(const Moments& moments_T, const Motion& motion)
   const Eigen::Vector3d half_step = 0.5 * (motion.X_MT_end * moments_T.mean - motion.X_MT_start * moments_T.mean);
   return 0.5 *
              (R_start * moments_T.covariance * R_start.transpose() + R_end * moments_T.covariance * R_end.transpose()) +
-         half_step * half_step.transpose() + 0.25 * motion.drift * motion.drift.transpose();
+         half_step * half_step.transpose() + 0.25 * motion.mesh_translation * motion.mesh_translation.transpose();
 }
 
 struct Axis {
@@ -51,4 +51,4 @@ OrientedBox boundingBox(const ConvexShape& shape, const Motion& motion) {
   return box;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

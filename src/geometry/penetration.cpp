@@ -1,11 +1,11 @@
-#include "sweep_guard/geometry/penetration.h"
+#include "geometry/penetration.h"
 
 #include <ccd/ccd.h>
 
 #include <cmath>
 #include <optional>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr int kMaxImprovements = 50;
@@ -20,7 +20,8 @@ void unitSupport(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* po
   const auto& [body, size] = *static_cast<const UnitBody*>(object);
   const Eigen::Vector3d along(direction->v[0], direction->v[1], direction->v[2]);
   const double length = along.norm();
-  const Eigen::Vector3d p = body(length > 0.0 ? Eigen::Vector3d(along / length) : Eigen::Vector3d::UnitZ()) / size;
+  const Eigen::Vector3d p =
+      body.supportPoint(length > 0.0 ? Eigen::Vector3d(along / length) : Eigen::Vector3d::UnitZ()) / size;
   ccdVec3Set(point, p.x(), p.y(), p.z());
 }
 
@@ -47,17 +48,17 @@ std::optional<Eigen::Vector3d> polytopeDirection(const SupportMapping& tool, con
 struct Drawn {
   const SupportMapping& body;
   Eigen::Vector3d by;
-  Eigen::Vector3d operator()(const Eigen::Vector3d& direction) const { return body(direction) + by; }
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const { return body.supportPoint(direction) + by; }
 };
 
 }  // namespace
 
 double depthAlong(const Eigen::Vector3d& normal, const SupportMapping& tool, const SupportMapping& obstacle) {
-  return normal.dot(obstacle(normal) - tool(-normal));
+  return normal.dot(obstacle.supportPoint(normal) - tool.supportPoint(-normal));
 }
 
-Eigen::Vector3d wayOut(const SupportMapping& tool, const SupportMapping& obstacle, const Proposals& proposals,
-                       double size) {
+Eigen::Vector3d minimumTranslationDirection(const SupportMapping& tool, const SupportMapping& obstacle,
+                                            const Proposals& proposals, double size) {
   assert(!proposals.empty());
   Eigen::Vector3d best = proposals.front();
   double depth = depthAlong(best, tool, obstacle);
@@ -79,4 +80,4 @@ Eigen::Vector3d wayOut(const SupportMapping& tool, const SupportMapping& obstacl
   return best;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

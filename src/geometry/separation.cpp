@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr int kMaxSteps = 64;
@@ -169,7 +169,8 @@ class Search {
   Separation run(const Eigen::Vector3d& guess) {
     const double length = guess.norm();
     Eigen::Vector3d direction = length > 0.0 ? Eigen::Vector3d(guess / length) : Eigen::Vector3d::UnitZ();
-    for (int step = 0; step < kMaxSteps && lookAlong(direction); ++step) direction = outwards(simplex_, closest_.point);
+    for (int step = 0; step < kMaxSteps && testPredictedMotion(direction); ++step)
+      direction = outwards(simplex_, closest_.point);
     for (int i = 0; i < simplex_.size(); ++i) {
       const double weight = closest_.weights[static_cast<std::size_t>(i)];
       best_.on_tool += weight * simplex_[i].on_tool;
@@ -180,8 +181,8 @@ class Search {
 
  private:
   // False if nothing more is to be learnt.
-  bool lookAlong(const Eigen::Vector3d& direction) {
-    Vertex vertex{{}, tool_(-direction), obstacle_(direction)};
+  bool testPredictedMotion(const Eigen::Vector3d& direction) {
+    Vertex vertex{{}, tool_.supportPoint(-direction), obstacle_.supportPoint(direction)};
     vertex.w = vertex.on_tool - vertex.on_obstacle;
     size_ = std::max(size_, vertex.w.norm());
     const double gap = direction.dot(vertex.w);
@@ -221,7 +222,7 @@ class Search {
 
 }  // namespace
 
-Eigen::Vector3d PointHull::operator()(const Eigen::Vector3d& direction) const {
+Eigen::Vector3d PointHull::supportPoint(const Eigen::Vector3d& direction) const {
   assert(count_ > 0);
   std::size_t farthest = 0;
   double reach = direction.dot(points_[0]);
@@ -250,12 +251,12 @@ Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obs
   return Search(tool, obstacle, goal).run(guess);
 }
 
-bool fartherApart(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
-                  const Eigen::Vector3d& guess) {
+bool distanceExceeds(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
+                     const Eigen::Vector3d& guess) {
   Goal goal;
   goal.proven = distance;
   goal.met = distance;
   return Search(tool, obstacle, goal).run(guess).gap > distance;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

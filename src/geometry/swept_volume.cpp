@@ -6,7 +6,7 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/geometry/bounding_planes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 VolumeKind volumeKind(const std::string& name) {
   if (name == "obb") return VolumeKind::kObb;
@@ -34,15 +34,16 @@ SweptVolume SweptVolume::grown(double distance) const {
   return grown;
 }
 
-double arcMargin(const ConvexShape& shape, const Motion& motion) {
-  return std::max(chordError(shape.reach(motion.axis_T()), motion.angle()), motion.bulge);
+double deviationBound(const ConvexShape& shape, const Motion& motion) {
+  return std::max(chordError(shape.radiusAbout(motion.axis_T()), motion.angle()), motion.deviation_bound);
 }
 
 SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKind kind, double extra_margin) {
   assert(motion.angle() < 1.6 && extra_margin >= 0.0);
   // Far from the mesh's origin the extents would lose digits: they are taken near the tool, and moved there at the end.
   const Eigen::Translation3d there(motion.X_MT_start.translation());
-  const Motion near{there.inverse() * motion.X_MT_start, there.inverse() * motion.X_MT_end, 0.0, motion.drift};
+  const Motion near{there.inverse() * motion.X_MT_start, there.inverse() * motion.X_MT_end, 0.0,
+                    motion.mesh_translation};
 
   SweptVolume volume;
   volume.box = boundingBox(shape, near);
@@ -51,7 +52,7 @@ SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKi
   volume.interior_B = volume.box.X_MB.inverse() * (0.5 * (near.X_MT_start * mean_T + near.X_MT_end * mean_T));
   volume.box.X_MB = there * volume.box.X_MB;
 
-  return volume.grown(arcMargin(shape, motion) + extra_margin);
+  return volume.grown(deviationBound(shape, motion) + extra_margin);
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

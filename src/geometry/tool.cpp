@@ -6,7 +6,7 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // Of several sets of points, each counted alike.
@@ -23,23 +23,23 @@ Moments united(const std::vector<Moments>& sets) {
 
 }  // namespace
 
-Tool::Tool(std::vector<ToolPart> parts) : parts_(std::move(parts)) {
-  if (parts_.empty()) throw InvalidInput("the tool has no part: give it one");
-  for (const ToolPart& part : parts_) {
+Tool::Tool(std::vector<ConvexPiece> parts) : pieces_(std::move(parts)) {
+  if (pieces_.empty()) throw InvalidInput("the tool has no part: give it one");
+  for (const ConvexPiece& part : pieces_) {
     const ConvexShape& shape = part.shape_T;
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
       bounds_.min()[i] = std::min(bounds_.min()[i], -shape.support(-axis));
       bounds_.max()[i] = std::max(bounds_.max()[i], shape.support(axis));
     }
-    extent_ = std::max(extent_, shape.extent());
+    bounding_radius_ = std::max(bounding_radius_, shape.boundingRadius());
   }
-  std::vector<size_t> all(parts_.size());
+  std::vector<size_t> all(pieces_.size());
   std::iota(all.begin(), all.end(), 0U);
   grow(std::move(all));
 }
 
-Tool::Tool(const ConvexShape& shape_T) : Tool(std::vector<ToolPart>{{"", shape_T}}) {}
+Tool::Tool(const ConvexShape& shape_T) : Tool(std::vector<ConvexPiece>{{"", shape_T}}) {}
 
 Tool Tool::cylinder(double radius, double length, int sides) {
   return Tool(ConvexShape::cylinder(radius, length, sides));
@@ -49,12 +49,12 @@ Tool Tool::cylinder(double radius, double length, int sides) {
 size_t Tool::grow(std::vector<size_t> parts) {
   const size_t node = tree_.size();
   if (parts.size() == 1) {
-    tree_.push_back({parts_[parts[0]].shape_T, parts[0], {}});
+    tree_.push_back({pieces_[parts[0]].shape_T, parts[0], {}});
     return node;
   }
   tree_.push_back({boxAround(parts), std::nullopt, {}});
   const Eigen::Vector3d longest = tree_[node].shape_T.axis_T();
-  const auto along = [&](size_t part) { return longest.dot(parts_[part].shape_T.moments_T().mean); };
+  const auto along = [&](size_t part) { return longest.dot(pieces_[part].shape_T.moments_T().mean); };
   const auto middle = parts.begin() + static_cast<std::ptrdiff_t>(parts.size() / 2);
   std::nth_element(parts.begin(), middle, parts.end(), [&](size_t a, size_t b) { return along(a) < along(b); });
   const size_t first = grow({parts.begin(), middle});
@@ -65,7 +65,7 @@ size_t Tool::grow(std::vector<size_t> parts) {
 
 ConvexShape Tool::boxAround(const std::vector<size_t>& parts) const {
   std::vector<Moments> moments;
-  for (const size_t part : parts) moments.push_back(parts_[part].shape_T.moments_T());
+  for (const size_t part : parts) moments.push_back(pieces_[part].shape_T.moments_T());
   Eigen::Isometry3d X_TB = Eigen::Isometry3d::Identity();
   X_TB.linear() = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(united(moments).covariance).eigenvectors();
   if (X_TB.linear().determinant() < 0.0) X_TB.linear().col(0) *= -1.0;
@@ -73,14 +73,14 @@ ConvexShape Tool::boxAround(const std::vector<size_t>& parts) const {
   for (const size_t part : parts) {
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d axis = X_TB.linear().col(i);
-      box.min()[i] = std::min(box.min()[i], -parts_[part].shape_T.support(-axis));
-      box.max()[i] = std::max(box.max()[i], parts_[part].shape_T.support(axis));
+      box.min()[i] = std::min(box.min()[i], -pieces_[part].shape_T.support(-axis));
+      box.max()[i] = std::max(box.max()[i], pieces_[part].shape_T.support(axis));
     }
   }
   X_TB.translation() = X_TB.linear() * box.center();
   // Grown by what rounding may cost: a dozen roundings of 2^-53, with a margin.
-  const double rounding = 0x1p-48 * extent_;
+  const double rounding = 0x1p-48 * bounding_radius_;
   return ConvexShape::box(0.5 * box.sizes() + Eigen::Vector3d::Constant(rounding)).placed(X_TB);
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -6,7 +6,7 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 template <typename Coordinate>
@@ -126,4 +126,4 @@ TriangleMesh TriangleMesh::deformed(std::vector<float> positions_M) const {
   return after;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

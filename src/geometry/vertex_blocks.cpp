@@ -4,7 +4,7 @@
 #include <cassert>
 #include <limits>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 template <typename Number>
@@ -49,4 +49,4 @@ double VertexBlocks::totalSize() const {
   return sum;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

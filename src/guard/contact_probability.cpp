@@ -5,16 +5,16 @@
 #include <cmath>
 #include <limits>
 
-#include "sweep_guard/detection/box_coordinates.h"
-#include "sweep_guard/detection/convex_clip.h"
+#include "detection/box_coordinates.h"
+#include "detection/convex_clip.h"
 #include "sweep_guard/detection/float_planes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
-constexpr double kLeastDeviation = 1e-9;  // [m]; what is surer than this is sure
-constexpr double kTolerance = 1e-3;       // [standard deviations]
-constexpr double kRounding = 1e-6;        // of clipping [standard deviations]
+constexpr double kMinDeviation = 1e-9;  // [m]; what is surer than this is sure
+constexpr double kTolerance = 1e-3;     // [standard deviations]
+constexpr double kRounding = 1e-6;      // of clipping [standard deviations]
 
 double deviationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& r, const Matrix6d& covariance) {
   Eigen::Matrix<double, 6, 1> J;
@@ -22,25 +22,25 @@ double deviationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& r, const 
   return std::sqrt(std::max(0.0, J.dot(covariance * J)));
 }
 
-// Of the tool's support along a unit direction. The farther end lags behind by `gap`; within kMostDeviations of its own
+// Of the tool's support along a unit direction. The farther end lags behind by `gap`; within kMaxDeviations of its own
 // it catches up with whichever is larger of these.
 double supportDeviation(const ConvexShape& shape, const Eigen::Matrix3d& R_MT, const Eigen::Vector3d& n_M,
                         const Matrix6d& covariance_M) {
   const Eigen::Vector3d n_T = R_MT.transpose() * n_M;
-  const Eigen::Vector3d front_T = shape.frontExtreme(n_T);
-  const Eigen::Vector3d rear_T = shape.rearExtreme(n_T);
+  const Eigen::Vector3d front_T = shape.frontSupport(n_T);
+  const Eigen::Vector3d rear_T = shape.rearSupport(n_T);
   const double front = deviationAlong(n_M, R_MT * front_T, covariance_M);
   const double rear = deviationAlong(n_M, R_MT * rear_T, covariance_M);
   const double ahead = n_T.dot(front_T - rear_T);
   const double gap = std::abs(ahead);
   const auto& [touching, other] = ahead < 0.0 ? std::pair(rear, front) : std::pair(front, rear);
-  return std::max(touching, other - gap / kMostDeviations);
+  return std::max(touching, other - gap / kMaxDeviations);
 }
 
 }  // namespace
 
 double contactProbability(double deviations) {
-  return deviations > kMostDeviations ? 0.0 : 0.5 * std::erfc(deviations / std::sqrt(2.0));
+  return deviations > kMaxDeviations ? 0.0 : 0.5 * std::erfc(deviations / std::sqrt(2.0));
 }
 
 PerHalfSpace planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Matrix6d& covariance_M,
@@ -49,7 +49,7 @@ PerHalfSpace planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& 
   PerHalfSpace sigmas;
   swept_M.forEachHalfSpace([&](const Eigen::Vector3d& normal_B, double /*offset*/) {
     const Eigen::Vector3d n_M = R_MB * normal_B;
-    sigmas.push_back(std::max(kLeastDeviation, supportDeviation(shape, X_MT.linear(), n_M, covariance_M)));
+    sigmas.push_back(std::max(kMinDeviation, supportDeviation(shape, X_MT.linear(), n_M, covariance_M)));
   });
   return sigmas;
 }
@@ -57,18 +57,18 @@ PerHalfSpace planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& 
 struct ClearanceMeter::Planes {
   const TriangleMesh& mesh_M;
   BoxCoordinates coordinates;
-  boost::container::static_vector<HalfSpace, kMostHalfSpaces> half_spaces_B;
+  boost::container::static_vector<HalfSpace, kMaxHalfSpaces> half_spaces_B;
   const PerHalfSpace& sigmas;
 
   size_t count() const { return sigmas.size(); }
   std::array<Eigen::Vector3d, 3> corners_B(std::uint32_t triangle) const {
     const auto& [a, b, c] = mesh_M.triangles()[triangle];
-    return {coordinates(a), coordinates(b), coordinates(c)};
+    return {coordinates.position(a), coordinates.position(b), coordinates.position(c)};
   }
 };
 
-std::optional<Clearance> ClearanceMeter::operator()(const MeshPart& part, const SweptVolume& swept_M,
-                                                    const PerHalfSpace& sigmas) {
+std::optional<Clearance> ClearanceMeter::measure(const Submesh& part, const SweptVolume& swept_M,
+                                                 const PerHalfSpace& sigmas) {
   const BoxCoordinates coordinates(part.mesh_M(), swept_M.box);
   Planes planes{part.mesh_M(), coordinates, {}, sigmas};
   swept_M.grown(2.0 * coordinates.rounding()).forEachHalfSpace([&](const Eigen::Vector3d& normal, double offset) {
@@ -76,29 +76,29 @@ std::optional<Clearance> ClearanceMeter::operator()(const MeshPart& part, const 
   });
   assert(planes.half_spaces_B.size() == planes.count());
   PerHalfSpace farthest = sigmas;
-  for (double& sigma : farthest) sigma *= kMostDeviations;
-  survivors_ = &cull_(part, floatPlanes(part.mesh_M(), swept_M, farthest));
+  for (double& sigma : farthest) sigma *= kMaxDeviations;
+  remaining_ = &culler_.cull(part, floatPlanes(part.mesh_M(), swept_M, farthest));
   scoreCorners(planes);
   collectCandidates(planes);
   if (candidates_.empty()) return {};
 
   const bool separated = candidates_.front().at_least > 0.0;
-  double nearest = kMostDeviations + kTolerance;
+  double nearest = kMaxDeviations + kTolerance;
   for (const Candidate& candidate : candidates_) {
     if (candidate.at_least > nearest - kTolerance) break;
     if (candidate.at_least <= 0.0 && reaches(kRounding, candidate, planes)) {
-      return Clearance{separated, std::max(candidate.at_least, -kMostDeviations)};
+      return Clearance{separated, std::max(candidate.at_least, -kMaxDeviations)};
     }
     nearest = std::min(nearest, outwards(nearest, candidate, planes));
   }
-  if (nearest > kMostDeviations) return {};
+  if (nearest > kMaxDeviations) return {};
   return Clearance{separated, nearest};
 }
 
 const TriangleSet& ClearanceMeter::notSeparated() {
   not_separated_.clear();
   for (const Candidate& candidate : candidates_) {
-    if (candidate.at_least <= 0.0) not_separated_.push_back((*survivors_)[candidate.number].triangle);
+    if (candidate.at_least <= 0.0) not_separated_.push_back((*remaining_)[candidate.number].triangle);
   }
   std::sort(not_separated_.begin(), not_separated_.end());
   return not_separated_;
@@ -122,7 +122,7 @@ double ClearanceMeter::outwards(double nearest, const Candidate& candidate, cons
 bool ClearanceMeter::reaches(double z, const Candidate& candidate, const Planes& planes) const {
   const size_t count = planes.count();
   const double* scores = &scores_[3 * candidate.number * count];
-  CutTriangle left(planes.corners_B((*survivors_)[candidate.number].triangle));
+  ClippedTriangle left(planes.corners_B((*remaining_)[candidate.number].triangle));
   for (size_t i = 0; i < count && !left.empty(); ++i) {
     if (std::max({scores[i], scores[count + i], scores[2 * count + i]}) <= z) continue;
     const HalfSpace& half_space = planes.half_spaces_B[i];
@@ -133,8 +133,8 @@ bool ClearanceMeter::reaches(double z, const Candidate& candidate, const Planes&
 
 void ClearanceMeter::scoreCorners(const Planes& planes) {
   scores_.clear();
-  for (const Survivor& survivor : *survivors_) {
-    for (const Eigen::Vector3d& p_B : planes.corners_B(survivor.triangle)) {
+  for (const RemainingTriangle& candidate : *remaining_) {
+    for (const Eigen::Vector3d& p_B : planes.corners_B(candidate.triangle)) {
       for (size_t i = 0; i < planes.count(); ++i) {
         scores_.push_back(planes.half_spaces_B[i].signedDistance(p_B) / planes.sigmas[i]);
       }
@@ -145,9 +145,9 @@ void ClearanceMeter::scoreCorners(const Planes& planes) {
 // Those that may need fewest deviations, in this order: at the limit a corner of one of them is enclosed.
 void ClearanceMeter::collectCandidates(const Planes& planes) {
   const size_t count = planes.count();
-  double limit = kMostDeviations + kTolerance;
+  double limit = kMaxDeviations + kTolerance;
   candidates_.clear();
-  for (size_t i = 0; i < survivors_->size(); ++i) {
+  for (size_t i = 0; i < remaining_->size(); ++i) {
     const double* const scores = &scores_[3 * i * count];
     double at_least = -std::numeric_limits<double>::infinity();
     for (size_t plane = 0; plane < count; ++plane) {
@@ -167,4 +167,4 @@ void ClearanceMeter::collectCandidates(const Planes& planes) {
             [](const Candidate& x, const Candidate& y) { return x.at_least < y.at_least; });
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

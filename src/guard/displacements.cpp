@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr Eigen::Index kLanes = 24;  // x y z of eight vertices: whole registers of any width
@@ -50,4 +50,4 @@ Displacements::Displacements(const TriangleMesh& from_M, const TriangleMesh& to_
   box_M_ = Eigen::AlignedBox3d(box_M_.min() + shift_M - rounding, box_M_.max() + shift_M + rounding);
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

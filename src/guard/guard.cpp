@@ -2,26 +2,26 @@
 
 #include <algorithm>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
-constexpr double kChordBulge = 1e-3;                                    // of the tool's extent
-constexpr Duration kDeformationLasts = std::chrono::milliseconds(500);  // older workpieces are stale by default
+constexpr double kMergeTolerance = 1e-3;  // of the tool's bounding radius
+constexpr Duration kDeformationLasts = std::chrono::milliseconds(500);
 
-// To the share of a longer motion that lasts from `begin` to `end`.
-void rescale(std::vector<TouchedTriangle>& touched, double begin, double end) {
-  for (TouchedTriangle& one : touched) one.impact.time_of_impact = begin + (end - begin) * one.impact.time_of_impact;
+// From fractions of a segment to fractions of the interval, in which the segment lasts from `begin` to `end`.
+void rescale(std::vector<TriangleContact>& in_contact, double begin, double end) {
+  for (TriangleContact& one : in_contact) one.impact.time_of_impact = begin + (end - begin) * one.impact.time_of_impact;
 }
 
 MovingMesh movingMesh(const Workpiece& now, const Workpiece& before, const Displacements& displacements) {
   if (&now == &before) return now.mesh_M;
   const bool skipped = now.updates > before.updates + 1;
-  const double off = skipped ? strayed(now.way - before.way, displacements.least()) : 0.0;
+  const double off = skipped ? pathDeviation(now.path_length - before.path_length, displacements.least()) : 0.0;
   return {now.mesh_M, before.mesh_M, displacements, off};
 }
 
-// As it does by itself, but that names of frames stay where they are.
-void assign(ToolPose& to, const ToolPose& from) {
+// Copies the pose, reusing map nodes when the frames are equal.
+void assign(PoseWithFrames& to, const PoseWithFrames& from) {
   const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
   if (!std::equal(to.X_WM.begin(), to.X_WM.end(), from.X_WM.begin(), from.X_WM.end(), same)) {
     to = from;
@@ -34,11 +34,11 @@ void assign(ToolPose& to, const ToolPose& from) {
   for (auto& [frame, X_WM] : to.X_WM) X_WM = next++->second;
 }
 
-// The ways in known before stay where there is no newer one.
-void learn(SweptBefore& known, const SweepFindings& found) {
-  known.outside = !found.contact();
-  for (const TouchedTriangle& one : found.touched) {
-    known.ways_in.insert_or_assign(one.triangle, one.impact.normal_M);
+// Older normals stay where there is no newer one.
+void update(SweepCache& cache, const SweepResult& result) {
+  cache.outside = !result.contact();
+  for (const TriangleContact& one : result.in_contact) {
+    cache.contact_normals.insert_or_assign(one.triangle, one.impact.normal_M);
   }
 }
 
@@ -48,87 +48,45 @@ bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
 
 }  // namespace
 
-double SweepReport::margin() const {
-  double largest = 0.0;
-  for (const SweptObject& object : objects) largest = std::max(largest, object.findings.margin);
-  return largest;
-}
-
-bool SweepReport::contact() const {
-  return std::any_of(objects.begin(), objects.end(),
-                     [](const SweptObject& object) { return object.findings.contact(); });
-}
-
-bool SweepReport::complete() const { return !objects.empty() && unplaced.empty() && failures.empty(); }
-
-void lookAlong(const Forecast& forecast, const Workpieces& workpieces, PathTest& test, Detector& detector,
-               const Tool& tool, const PathTest::Effort& effort, Outlook& outlook) {
-  outlook.stamp = forecast.from.stamp;
-  outlook.path = forecast.path;
-  outlook.reflex_sweeps = forecast.reflex_sweeps;
-  outlook.sweeps_asked = forecast.path.size();
-  outlook.sweeps_made = effort.sweepsAlong(forecast.path);
-  outlook.unplaced.clear();
-  outlook.failures.clear();
-  size_t tested = 0;
-  for (const auto& workpiece : workpieces) {
-    if (forecast.path.empty()) break;
-    const auto X_WM = forecast.from.X_WM.find(workpiece->frame);
-    if (X_WM == forecast.from.X_WM.end()) {
-      outlook.unplaced.push_back(workpiece);
-      continue;
-    }
-    try {
-      if (tested == outlook.objects.size()) outlook.objects.emplace_back();
-      test(detector, tool, forecast.from.X_WT, forecast.path, forecast.reflex_sweeps, X_WM->second, workpiece, effort,
-           outlook.objects[tested]);
-      ++tested;
-    } catch (const std::exception& error) {  // the device, or no memory: the others are tested all the same
-      outlook.failures.push_back({workpiece, error.what()});
-    }
-  }
-  outlook.objects.resize(tested);
-}
-
 Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options)
     : tool_(std::move(tool)),
       detector_(std::move(detector)),
       options_(options),
       predictor_(options.predictor),
       budget_(options.horizon, options.cycle),
-      path_test_(options.pathTest()) {}
+      path_checker_(PathChecker::optionsOf(options)) {}
 
-SweepReport Guard::sweep(const ToolPose& pose, const Workpieces& workpieces) {
+SweepReport Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces) {
   SweepReport report;
   sweep(pose, workpieces, report);
   return report;
 }
 
-void Guard::sweep(const ToolPose& pose, const Workpieces& workpieces, SweepReport& report) {
+void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
   const SteadyTime begin = options_.clock();
-  forgetWhatIsGone(workpieces);
+  forgetRemoved(workpieces);
   take(pose);
   sweepAll(pose, workpieces, report);
   report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
   waiting_since_.reset();
   swept_to_ = poses_;
-  if (!forecast_) forecast_.emplace();
-  assign(forecast_->from, pose);
+  if (!predicted_motion_) predicted_motion_.emplace();
+  assign(predicted_motion_->from, pose);
   budget_.spentOnMeasured(options_.clock() - begin);
 }
 
-void Guard::pass(const ToolPose& pose) {
+void Guard::pass(const PoseWithFrames& pose) {
   take(pose);
   if (!waiting_since_) waiting_since_ = pose.stamp;
 }
 
-void Guard::take(const ToolPose& pose) {
+void Guard::take(const PoseWithFrames& pose) {
   ++poses_;
-  for (const auto& [frame, X_WM] : pose.X_WM) ways_[frame].add({poses_, pose.stamp, pose.X_WT, X_WM});
+  for (const auto& [frame, X_WM] : pose.X_WM) histories_[frame].add({poses_, pose.stamp, pose.X_WT, X_WM});
   predictor_.observe({pose.stamp, pose.X_WT});
 }
 
-void Guard::sweepAll(const ToolPose& pose, const Workpieces& workpieces, SweepReport& report) {
+void Guard::sweepAll(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
   report.start = report.end = pose.stamp;
   report.unplaced.clear();
   report.failures.clear();
@@ -144,20 +102,20 @@ void Guard::sweepAll(const ToolPose& pose, const Workpieces& workpieces, SweepRe
       sweepObject(workpiece, object);
       report.start = std::min(report.start, object.interval_start);
       ++swept;
-    } catch (const std::exception& error) {  // the device, or no memory: the others are swept all the same
+    } catch (const std::exception& error) {  // of the detector, or no memory: the other workpieces are swept
       report.failures.push_back({workpiece, error.what()});
     }
   }
   report.objects.resize(swept);
-  for (auto& [frame, way] : ways_) shorten(frame, way);
+  for (auto& [frame, history] : histories_) shorten(frame, history);
 }
 
 void Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece, SweptObject& object) {
-  const Way& way = ways_.at(workpiece->frame);
-  const size_t last = way.size() - 1;
+  const PoseHistory& history = histories_.at(workpiece->frame);
+  const size_t last = history.size() - 1;
   Swept& swept = sweptBefore(workpiece);
-  const size_t begin = way.lastUpTo(swept.pose);
-  const auto past = [&](const Workpiece& deformation) { return deformation.stamp <= way[begin].stamp; };
+  const size_t begin = history.lastUpTo(swept.pose);
+  const auto past = [&](const Workpiece& deformation) { return deformation.stamp <= history[begin].stamp; };
   while (swept.deformations.size() > 1 && past(*swept.deformations[1])) {
     swept.deformations.erase(swept.deformations.begin());
   }
@@ -171,32 +129,32 @@ void Guard::sweepObject(const std::shared_ptr<const Workpiece>& workpiece, Swept
 
   const MovingMesh mesh = movingMesh(*workpiece, *from, swept.displacements);
   const bool again = deformed && mesh.moved();
-  const size_t first = again ? std::min(begin, way.lastUpTo(before.stamp)) : begin;
+  const size_t first = again ? std::min(begin, history.lastUpTo(before.stamp)) : begin;
   object.workpiece = workpiece;
-  object.interval_start = way[begin].stamp;
-  object.findings.clear();
-  known_ = swept.known;
-  way.waypoints_M(first, last, tool_.extent(), waypoints_M_);
+  object.interval_start = history[begin].stamp;
+  object.result.clear();
+  cache_ = swept.cache;
+  history.path_M(first, last, tool_.boundingRadius(), path_M_);
   size_t i = first;
   do {
     const bool is_new = i >= begin;
     const size_t end = first + endOfMotion(i - first, (is_new ? last : begin) - first);
-    known_.settled.clear();
-    if (!is_new) known_.settled = object.findings.met;  // once more tells nothing new
-    SweepFindings& found =
-        sweep_test_(*detector_, tool_, motions_M(way, first, i - first, end - first), mesh, options_.sweep, known_);
-    if (is_new) known_.ways_in.clear();
-    learn(known_, found);
-    rescale(found.touched, way.share(begin, i), way.share(begin, end));
-    unite(object.findings, found);
+    cache_.already_confirmed.clear();
+    if (!is_new) cache_.already_confirmed = object.result.not_ruled_out;
+    SweepResult& found = sweep_checker_.check(
+        *detector_, {tool_, motions_M(history, first, i - first, end - first), mesh, options_.sweep, cache_});
+    if (is_new) cache_.contact_normals.clear();
+    update(cache_, found);
+    rescale(found.in_contact, history.share(begin, i), history.share(begin, end));
+    unite(object.result, found);
     i = end;
   } while (i < last);
   if (deformed) swept.deformations.push_back(workpiece);
-  swept.pose = way.newest().number;
-  std::swap(swept.known, known_);
+  swept.pose = history.newest().number;
+  std::swap(swept.cache, cache_);
 }
 
-// Whatever its triangles were: from there on it has not been swept.
+// A workpiece with other triangles, or in another frame, has not been swept since the last pose.
 Guard::Swept& Guard::sweptBefore(const std::shared_ptr<const Workpiece>& workpiece) {
   const auto one = swept_.find(workpiece->id);
   if (one == swept_.end()) return swept_.emplace(workpiece->id, Swept{{workpiece}, swept_to_}).first->second;
@@ -210,93 +168,93 @@ Guard::Swept& Guard::sweptBefore(const std::shared_ptr<const Workpiece>& workpie
   return known;
 }
 
-// Numbers count the waypoints of the stretch.
+// Numbers count points of path_M_.
 size_t Guard::endOfMotion(size_t begin, size_t last) const {
   if (begin >= last) return last;
-  const ChordLimits limits{kChordBulge * tool_.extent(), options_.sweep.max_rotation};
-  return lastOfChord(waypoints_M_, begin, last, tool_.extent(), limits);
+  const MergeLimits limits{kMergeTolerance * tool_.boundingRadius(), options_.sweep.max_rotation};
+  return endOfMergedMotion(path_M_, begin, last, tool_.boundingRadius(), limits);
 }
 
-// From one waypoint of the stretch that begins at place `first` of the way to another.
-const std::vector<Motion>& Guard::motions_M(const Way& way, size_t first, size_t begin, size_t end) {
+// Between two points of path_M_, whose first point is sample `first` of the history.
+const std::vector<Motion>& Guard::motions_M(const PoseHistory& history, size_t first, size_t begin, size_t end) {
   if (end > begin + 1) {
-    motions_M_.assign(1, chord(waypoints_M_, begin, end, tool_.extent()));
+    motions_M_.assign(1, mergedMotion(path_M_, begin, end, tool_.boundingRadius()));
     return motions_M_;
   }
-  const Placed& from = way[first + begin];
-  const Placed& to = way[first + end];
-  split({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, options_.sweep.max_rotation, tool_.extent(), motions_M_);
+  const PoseSample& from = history[first + begin];
+  const PoseSample& to = history[first + end];
+  split({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, options_.sweep.max_rotation, tool_.boundingRadius(), motions_M_);
   return motions_M_;
 }
 
-Outlook Guard::lookAhead(Duration age, const Workpieces& workpieces) {
-  Outlook outlook;
-  lookAhead(age, workpieces, outlook);
-  return outlook;
+Prediction Guard::predict(Duration age, const Workpieces& workpieces) {
+  Prediction prediction;
+  predict(age, workpieces, prediction);
+  return prediction;
 }
 
-void Guard::lookAhead(Duration age, const Workpieces& workpieces, Outlook& outlook) {
-  if (!forecast_) {
-    outlook = {};
+void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& prediction) {
+  if (!predicted_motion_) {
+    prediction = {};
     return;
   }
   const SteadyTime begin = options_.clock();
   horizon(options_.horizon, age, horizon_);
-  predictor_.predict(horizon_.ends, forecast_->path);
-  forecast_->reflex_sweeps = horizon_.reflex_sweeps;
-  chooseEffort(begin);
-  lookAlong(*forecast_, workpieces, path_test_, *detector_, tool_, effort_, outlook);
+  predictor_.predict(horizon_.ends, predicted_motion_->path);
+  predicted_motion_->reflex_sweeps = horizon_.reflex_sweeps;
+  chooseSweepPlan(begin);
+  path_checker_.predict(*detector_, {tool_, *predicted_motion_, workpieces, plan_}, prediction);
   size_t volumes = 0;
-  for (const PredictedObject& object : outlook.objects) volumes = std::max(volumes, object.volumes_tested);
+  for (const PredictedObject& object : prediction.objects) volumes = std::max(volumes, object.volumes_tested);
   budget_.spentOnPredicted(options_.clock() - begin, volumes);
 }
 
-void Guard::chooseEffort(SteadyTime begin) {
-  effort_.sweep_ends.clear();
-  effort_.spent = [this, end = begin + budget_.forPrediction()] { return options_.clock() >= end; };
-  const PredictedPath& path = forecast_->path;
+void Guard::chooseSweepPlan(SteadyTime begin) {
+  plan_.sweep_ends.clear();
+  plan_.out_of_time = [this, end = begin + budget_.forPrediction()] { return options_.clock() >= end; };
+  const PredictedPath& path = predicted_motion_->path;
   if (path.empty()) return;
   size_t volumes[] = {0, 0};
   for (size_t i = 0; i < path.size(); ++i) {
-    const Motion step{i == 0 ? forecast_->from.X_WT : path[i - 1].X_WT, path[i].X_WT};
-    volumes[i < forecast_->reflex_sweeps ? 0 : 1] += countOfParts(step.angle(), options_.sweep.max_rotation);
+    const Motion step{i == 0 ? predicted_motion_->from.X_WT : path[i - 1].X_WT, path[i].X_WT};
+    volumes[i < predicted_motion_->reflex_sweeps ? 0 : 1] += subMotionCount(step.angle(), options_.sweep.max_rotation);
   }
   const size_t considered_sweeps = budget_.consideredSweeps(volumes[0], volumes[1]);
-  sweepEnds(forecast_->from.X_WT, path, forecast_->reflex_sweeps, considered_sweeps, effort_.sweep_ends);
+  sweepEnds(predicted_motion_->from.X_WT, path, predicted_motion_->reflex_sweeps, considered_sweeps, plan_.sweep_ends);
 }
 
-Forecast Guard::forecast(Duration age, Duration end) const {
-  if (!forecast_) return {};
+PredictedMotion Guard::predictMotion(Duration age, Duration end) const {
+  if (!predicted_motion_) return {};
   const Horizon asked = horizonUpTo(end, options_.horizon, age);
-  return {forecast_->from, predictor_.predict(asked.ends), asked.reflex_sweeps};
+  return {predicted_motion_->from, predictor_.predict(asked.ends), asked.reflex_sweeps};
 }
 
-void Guard::forget() {
-  ways_.clear();
+void Guard::reset() {
+  histories_.clear();
   swept_.clear();
   waiting_since_.reset();
   predictor_.restart();
-  forecast_.reset();
+  predicted_motion_.reset();
 }
 
-void Guard::adopt(GuardChange& change) {
+void Guard::exchange(GuardChange& change) {
   change.options.clock = options_.clock;
   std::swap(options_, change.options);
   if (change.detector) std::swap(detector_, change.detector);
   if (change.tool) {
     std::swap(tool_, *change.tool);
-    for (auto& [id, swept] : swept_) swept.known = {};
+    for (auto& [id, swept] : swept_) swept.cache = {};
   }
   if (change.predictor) {
     std::swap(predictor_, *change.predictor);
-    if (forecast_) predictor_.observe({forecast_->from.stamp, forecast_->from.X_WT});
+    if (predicted_motion_) predictor_.observe({predicted_motion_->from.stamp, predicted_motion_->from.X_WT});
   }
-  budget_ = Budget(options_.horizon, options_.cycle);
-  path_test_ = PathTest(options_.pathTest());
+  budget_ = TimeBudget(options_.horizon, options_.cycle);
+  path_checker_ = PathChecker(PathChecker::optionsOf(options_));
 }
 
-// What comes to live in an empty frame later was not there when the tool moved before.
-void Guard::forgetWhatIsGone(const Workpieces& workpieces) {
+// A workpiece that appears later in an empty frame was not there when the tool moved.
+void Guard::forgetRemoved(const Workpieces& workpieces) {
   const auto dropUnless = [&](auto& known, const auto& fits) {
     for (auto one = known.begin(); one != known.end();) {
       const bool there = std::any_of(workpieces.begin(), workpieces.end(),
@@ -304,18 +262,18 @@ void Guard::forgetWhatIsGone(const Workpieces& workpieces) {
       one = there ? std::next(one) : known.erase(one);
     }
   };
-  dropUnless(ways_, [](const Workpiece& workpiece, const std::string& frame) { return workpiece.frame == frame; });
+  dropUnless(histories_, [](const Workpiece& workpiece, const std::string& frame) { return workpiece.frame == frame; });
   dropUnless(swept_, [](const Workpiece& workpiece, const std::string& id) { return workpiece.id == id; });
 }
 
-// To what an update of a mesh may ask for, and to what a workpiece has not been swept along yet.
-void Guard::shorten(const std::string& frame, Way& way) const {
-  std::uint64_t unswept = way.newest().number;
+// Keeps what a mesh update may need, and what some workpiece has not been swept along yet.
+void Guard::shorten(const std::string& frame, PoseHistory& history) const {
+  std::uint64_t unswept = history.newest().number;
   for (const auto& [id, swept] : swept_) {
     if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.pose);
   }
-  const Time oldest = way.newest().stamp - kDeformationLasts;
-  while (way.size() > 1 && way[1].number <= unswept && way[1].stamp <= oldest) way.forgetFirst();
+  const Time oldest = history.newest().stamp - kDeformationLasts;
+  while (history.size() > 1 && history[1].number <= unswept && history[1].stamp <= oldest) history.forgetFirst();
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 std::array<Eigen::Vector3d, 3> corners(const TriangleMesh& mesh, const Triangle& triangle) {
@@ -13,12 +13,12 @@ std::array<Eigen::Vector3d, 3> corners(const TriangleMesh& mesh, const Triangle&
 }  // namespace
 
 MovingMesh::MovingMesh(const TriangleMesh& mesh_M, const TriangleMesh& before_M, const Displacements& displacements,
-                       double strayed)
+                       double path_deviation)
     : mesh_M_(mesh_M) {
-  if (!displacements.any() && strayed == 0.0) return;
+  if (!displacements.any() && path_deviation == 0.0) return;
   before_M_ = &before_M;
-  drift_M_ = displacements.box_M().center();
-  uncertainty_ = strayed + std::max(mesh_M.rounding(), before_M.rounding());
+  translation_M_ = displacements.box_M().center();
+  uncertainty_ = path_deviation + std::max(mesh_M.rounding(), before_M.rounding());
   spread_ = 0.5 * displacements.box_M().diagonal().norm() + uncertainty_;
 }
 
@@ -29,8 +29,8 @@ MovingTriangle MovingMesh::triangle(std::uint32_t index) const {
 }
 
 // The farthest from the straight way that a path of this length reaches, is the height of an isosceles triangle on it.
-double strayed(double way, double straight) {
+double pathDeviation(double way, double straight) {
   return 0.5 * std::sqrt(std::max(0.0, (way - straight) * (way + straight)));
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -5,7 +5,7 @@
 #include "sweep_guard/geometry/separation.h"
 #include "sweep_guard/guard/moving_mesh.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // The convex hull of a body at both ends of a motion, seen from a place near it.
@@ -14,11 +14,11 @@ class HullOfMotion {
   HullOfMotion(const ConvexShape& shape_T, const Motion& motion, const Eigen::Vector3d& place)
       : shape_T_(shape_T), motion_(motion), place_(place) {}
 
-  Eigen::Vector3d operator()(const Eigen::Vector3d& direction) const {
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const {
     const Eigen::Vector3d at_start = farthest(motion_.X_MT_start, direction);
     const Eigen::Vector3d at_end = farthest(motion_.X_MT_end, direction);
     const Eigen::Vector3d& p = direction.dot(at_end - at_start) > 0.0 ? at_end : at_start;
-    return direction.dot(motion_.drift) > 0.0 ? Eigen::Vector3d(p + motion_.drift) : p;
+    return direction.dot(motion_.mesh_translation) > 0.0 ? Eigen::Vector3d(p + motion_.mesh_translation) : p;
   }
 
  private:
@@ -45,10 +45,10 @@ bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const Movi
   if (triangle.start_M != triangle.end_M) {
     for (const Eigen::Vector3d& p : triangle.start_M) prism.add(p - place);
   }
-  return fartherApart(hull, prism, margin);
+  return distanceExceeds(hull, prism, margin);
 }
 
-void detect(Detector& detector, const MeshPart& part, const SweptBody& body, Detection& found) {
+void detect(Detector& detector, const Submesh& part, const SweptBody& body, Detection& found) {
   found = detector.detect(part, body.volume_M);
   if (body.kind != VolumeKind::kHull) return;
   const double margin = body.volume_M.margin + found.inflation;
@@ -60,4 +60,4 @@ void detect(Detector& detector, const MeshPart& part, const SweptBody& body, Det
   left.erase(std::remove_if(left.begin(), left.end(), missed), left.end());
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 void unite(TriangleSet& all, const TriangleSet& more) { unite(all, more, std::less<>()); }
 
@@ -17,4 +17,4 @@ void keepOnly(TriangleSet& all, const TriangleSet& others) {
   all.erase(std::remove_if(all.begin(), all.end(), is_none), all.end());
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,8 +1,8 @@
-#include "sweep_guard/prediction/error_model.h"
+#include "prediction/error_model.h"
 
-#include "sweep_guard/prediction/interpolation.h"
+#include "prediction/interpolation.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr double kPriorShare = 0.3;      // of the way at present speed: what is taken for the error before any is known
@@ -21,9 +21,9 @@ Eigen::Array3d speedSquares(const Vector6d& velocity) {
   return {speed, speed, velocity.tail<3>().squaredNorm()};
 }
 
-Vector6d errorOf(const Vector6d& forecast, const Vector6d& moved) {
+Vector6d errorOf(const Vector6d& predicted, const Vector6d& moved) {
   const auto pose = [](const Vector6d& way) { return displaced(Eigen::Isometry3d::Identity(), way); };
-  return displacement(pose(forecast), pose(moved));
+  return displacement(pose(predicted), pose(moved));
 }
 
 }  // namespace
@@ -31,34 +31,36 @@ Vector6d errorOf(const Vector6d& forecast, const Vector6d& moved) {
 ErrorModel::Record ErrorModel::recordBefore(double ahead) {
   const Squares activity = Squares(kPriorSpeed, kPriorSpeed, kPriorTurnRate).square();
   const double share = kPriorShare * ahead;
-  return {RecentMean<Squares>(share * share * activity, 1.0), RecentMean<Squares>(activity, 1.0)};
+  return {ExponentialMovingAverage<Squares>(share * share * activity, 1.0),
+          ExponentialMovingAverage<Squares>(activity, 1.0)};
 }
 
 ErrorModel::ErrorModel() {
-  for (const double ahead : kLearnedAhead) records_.push_back(recordBefore(ahead));
+  for (const double ahead : kLearnedHorizons) records_.push_back(recordBefore(ahead));
 }
 
-// Errors are taken relative to the speed they came with: that known before or, where rest ended or a forecast went
-// astray, that of the motion that came or was forecast.
-void ErrorModel::observe(const MotionTrack& track, const Vector6d& velocity, const Forecast& forecast) {
-  const double period = toSeconds(track.period());
-  if (track.step() == MotionTrack::Step::kBegins) hindsight_.clear();
-  if (track.step() == MotionTrack::Step::kContinues) speeds_.add(speedSquares(velocity), period);
+// Errors are taken relative to the speed they came with: that known before or, where rest ended or a predicted went
+// astray, that of the motion that came or was predicted.
+void ErrorModel::observe(const PoseTracker& tracker, const Vector6d& velocity,
+                         const PredictedDisplacements& predicted) {
+  const double period = toSeconds(tracker.period());
+  if (tracker.step() == PoseTracker::Step::kBegins) targets_.clear();
+  if (tracker.step() == PoseTracker::Step::kContinues) speeds_.add(speedSquares(velocity), period);
   activity_ = speedSquares(velocity) + speeds_.mean();
   direction_ = velocity.head<3>().stableNormalized();
-  const Known newest{forecast, activity_, direction_};
-  if (track.step() == MotionTrack::Step::kCorrects) hindsight_.correctNewest(track.newest(), newest);
-  if (track.step() != MotionTrack::Step::kContinues) return;
-  hindsight_.add(track.newest(), newest, [&](const Known& known, size_t i, const Vector6d& moved) {
-    records_[i].errors.add(squares(errorOf(known.forecast[i], moved), known.direction), period);
-    const auto speed = [&](const Vector6d& way) { return speedSquares(way / kLearnedAhead[i]); };
-    records_[i].activity.add(known.activity.max(speed(moved)).max(speed(known.forecast[i])), period);
+  const Known newest{predicted, activity_, direction_};
+  if (tracker.step() == PoseTracker::Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
+  if (tracker.step() != PoseTracker::Step::kContinues) return;
+  targets_.add(tracker.newest(), newest, [&](const Known& known, size_t i, const Vector6d& moved) {
+    records_[i].errors.add(squares(errorOf(known.predicted[i], moved), known.direction), period);
+    const auto speed = [&](const Vector6d& way) { return speedSquares(way / kLearnedHorizons[i]); };
+    records_[i].activity.add(known.activity.max(speed(moved)).max(speed(known.predicted[i])), period);
   });
 }
 
 Matrix6d ErrorModel::covariance(double ahead) const {
-  const auto share = overLearnedAhead<Squares>(ahead, [&](size_t i) -> Squares {
-    return (records_[i].errors.mean() / records_[i].activity.mean()).sqrt() / kLearnedAhead[i];
+  const auto share = interpolateOverHorizons<Squares>(ahead, [&](size_t i) -> Squares {
+    return (records_[i].errors.mean() / records_[i].activity.mean()).sqrt() / kLearnedHorizons[i];
   });
   const Squares variance = (share * ahead).square() * activity_;
   Matrix6d covariance = Matrix6d::Zero();
@@ -67,4 +69,4 @@ Matrix6d ErrorModel::covariance(double ahead) const {
   return covariance;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,21 +1,21 @@
-#include "sweep_guard/prediction/extrapolator.h"
+#include "prediction/extrapolator.h"
 
+#include "prediction/direct_extrapolator.h"
+#include "prediction/polynomial_extrapolator.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/prediction/direct_extrapolator.h"
-#include "sweep_guard/prediction/polynomial_extrapolator.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 class Hold : public Extrapolator {
  public:
-  void observe(const MotionTrack& /*track*/) override {}
+  void observe(const PoseTracker& /*tracker*/) override {}
   Vector6d displacementIn(double /*ahead*/) const override { return Vector6d::Zero(); }
 };
 
 class ConstantVelocity : public Extrapolator {
  public:
-  void observe(const MotionTrack& track) override { velocity_.observe(track); }
+  void observe(const PoseTracker& tracker) override { velocity_.observe(tracker); }
   Vector6d displacementIn(double ahead) const override { return ahead * velocity_.value(); }
 
  private:
@@ -38,4 +38,4 @@ const std::vector<std::string>& predictorNames() {
   return names;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -8,14 +8,14 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
-constexpr Duration::rep kMostSweeps = 10000;
+constexpr Duration::rep kMaxSweeps = 10000;
 
 void checkStep(const std::string& key, Duration interval, Duration step) {
   if (step <= Duration::zero()) throw InvalidInput("horizon " + key + ": must be > 0 s");
-  if (interval / step >= kMostSweeps) {
+  if (interval / step >= kMaxSweeps) {
     throw InvalidInput("horizon " + key + ": takes more than 10000 sweeps; choose a longer step");
   }
 }
@@ -74,4 +74,4 @@ Horizon horizonUpTo(Duration end, HorizonOptions options, Duration age) {
   return all;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,13 +1,13 @@
-#include "sweep_guard/prediction/polynomial_fit.h"
+#include "prediction/polynomial_fit.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
-constexpr int kTerms = PolynomialFit::kHighestDegree + 1;
+constexpr int kTerms = PolynomialFit::kMaxDegree + 1;
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 
 // Bonnet's recursion.
@@ -45,7 +45,7 @@ Vector6d PolynomialFit::Curve::slopeAt(Time stamp) const {
 }
 
 PolynomialFit::PolynomialFit(const Options& options) : options_(options), samples_(64) {
-  assert(options.degree >= 0 && options.degree <= kHighestDegree && options.window > Duration::zero());
+  assert(options.degree >= 0 && options.degree <= kMaxDegree && options.window > Duration::zero());
   assert(options.forgetting_factor > 0.0 && options.forgetting_factor <= 1.0);
 }
 
@@ -122,4 +122,4 @@ PolynomialFit::Curve PolynomialFit::curve(const Degrees& degrees) const {
   return curve;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

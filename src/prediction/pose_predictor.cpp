@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 
+#include "prediction/error_model.h"
+#include "prediction/extrapolator.h"
+#include "prediction/velocity.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/prediction/error_model.h"
-#include "sweep_guard/prediction/extrapolator.h"
-#include "sweep_guard/prediction/velocity.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr auto kActivityWindow = std::chrono::milliseconds(120);
@@ -19,9 +19,9 @@ void check(bool good, const std::string& complaint) {
 
 const PredictorOptions& checked(const PredictorOptions& options) {
   for (const int degree : options.degree) {
-    check(degree >= 0 && degree <= PolynomialFit::kHighestDegree, "prediction degree " + std::to_string(degree) +
-                                                                      " is out of range: use 0 to " +
-                                                                      std::to_string(PolynomialFit::kHighestDegree));
+    check(degree >= 0 && degree <= PolynomialFit::kMaxDegree, "prediction degree " + std::to_string(degree) +
+                                                                  " is out of range: use 0 to " +
+                                                                  std::to_string(PolynomialFit::kMaxDegree));
   }
   check(options.forgetting_factor > 0.0 && options.forgetting_factor <= 1.0,
         "forgetting factor " + std::to_string(options.forgetting_factor) +
@@ -37,7 +37,7 @@ const PredictorOptions& checked(const PredictorOptions& options) {
 struct PosePredictor::Parts {
   explicit Parts(const PredictorOptions& options)
       : constrained(checked(options).constrained),
-        track(options.max_speed, options.max_turn_rate),
+        tracker(options.max_speed, options.max_turn_rate),
         extrapolator(makeExtrapolator(options)) {}
 
   Vector6d displacementIn(double ahead) const {
@@ -46,13 +46,13 @@ struct PosePredictor::Parts {
       if (constrained[static_cast<size_t>(axis)]) expected[axis] = 0.0;
     }
     Vector6d moved;
-    moved << limited(expected.head<3>(), track.maxSpeed() * ahead),
-        limited(expected.tail<3>(), track.maxTurnRate() * ahead);
+    moved << limited(expected.head<3>(), tracker.maxSpeed() * ahead),
+        limited(expected.tail<3>(), tracker.maxTurnRate() * ahead);
     return moved;
   }
 
   std::array<bool, 6> constrained;
-  MotionTrack track;
+  PoseTracker tracker;
   Velocity velocity{kActivityWindow};
   std::unique_ptr<Extrapolator> extrapolator;
   ErrorModel errors;
@@ -64,23 +64,23 @@ PosePredictor::PosePredictor(PosePredictor&&) noexcept = default;
 PosePredictor& PosePredictor::operator=(PosePredictor&&) noexcept = default;
 
 void PosePredictor::observe(const StampedPose& pose) {
-  parts_->track.add(pose);
-  parts_->velocity.observe(parts_->track);
-  parts_->extrapolator->observe(parts_->track);
-  Forecast forecast;
-  for (size_t i = 0; i < forecast.size(); ++i) forecast[i] = parts_->displacementIn(kLearnedAhead[i]);
-  parts_->errors.observe(parts_->track, parts_->velocity.value(), forecast);
+  parts_->tracker.add(pose);
+  parts_->velocity.observe(parts_->tracker);
+  parts_->extrapolator->observe(parts_->tracker);
+  PredictedDisplacements predicted;
+  for (size_t i = 0; i < predicted.size(); ++i) predicted[i] = parts_->displacementIn(kLearnedHorizons[i]);
+  parts_->errors.observe(parts_->tracker, parts_->velocity.value(), predicted);
 }
 
 void PosePredictor::predict(const std::vector<Duration>& ahead, PredictedPath& path) const {
   path.clear();
-  if (parts_->track.poses() < 2) return;
+  if (parts_->tracker.poses() < 2) return;
   for (const Duration& duration : ahead) {
     assert(duration > (path.empty() ? Duration::zero() : path.back().ahead));
     const double seconds = toSeconds(duration);
-    ExpectedPose pose;
+    PredictedPose pose;
     pose.ahead = duration;
-    pose.X_WT = displaced(parts_->track.newest().X_WT, parts_->displacementIn(seconds));
+    pose.X_WT = displaced(parts_->tracker.newest().X_WT, parts_->displacementIn(seconds));
     pose.covariance = parts_->errors.covariance(seconds);
     path.push_back(pose);
   }
@@ -92,6 +92,6 @@ PredictedPath PosePredictor::predict(const std::vector<Duration>& ahead) const {
   return path;
 }
 
-void PosePredictor::restart() { parts_->track.interrupt(); }
+void PosePredictor::restart() { parts_->tracker.interrupt(); }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -16,8 +16,8 @@
 
 namespace sweep_guard_recording {
 
-using sweep_guard::InvalidInput;
-using sweep_guard::StampedPose;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::StampedPose;
 using sweep_guard_ros::fromMsg;
 
 namespace {

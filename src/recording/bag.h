@@ -14,10 +14,10 @@ bool isBag(const std::string& path);
 /// those of the headers; equal ones are kept.
 /// @param topic  empty: the only one of these types
 /// @returns the poses in the order of the bag, at least one, their rotations orthonormal
-/// @throws sweep_guard::InvalidInput if the file cannot be read or is no bag, if the topic is not in it or there is a
+/// @throws sweep_guard_core::InvalidInput if the file cannot be read or is no bag, if the topic is not in it or there is a
 /// choice of topics
 ///     (they are listed), if a pose is refused by fromMsg(), a stamp is earlier than the one before, or the frames
 ///     change
-std::vector<sweep_guard::StampedPose> readBag(const std::string& path, const std::string& topic);
+std::vector<sweep_guard_core::StampedPose> readBag(const std::string& path, const std::string& topic);
 
 }  // namespace sweep_guard_recording

@@ -10,11 +10,11 @@
 
 namespace sweep_guard_recording {
 
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
 
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 256U << 20U;
+constexpr std::uintmax_t kMaxFile = 256U << 20U;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ std::string readFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(status)) throw InvalidInput(path + ": not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) throw InvalidInput(path + ": " + error.message());
-  if (size > kLargestFile) throw InvalidInput(path + ": larger than 256 MiB; give a smaller file");
+  if (size > kMaxFile) throw InvalidInput(path + ": larger than 256 MiB; give a smaller file");
   std::ifstream stream(path, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(size), '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -16,15 +16,15 @@
 
 namespace sweep_guard_recording {
 
-using sweep_guard::InvalidInput;
-using sweep_guard::StampedPose;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::StampedPose;
 
 namespace {
 
 constexpr std::size_t kColumns = 8;
 constexpr std::string_view kBlanks = " \t\r";
-constexpr std::size_t kLongestShown = 40;
-constexpr double kShortestQuaternion = 1e-10;
+constexpr std::size_t kMaxShown = 40;
+constexpr double kMinQuaternion = 1e-10;
 
 using Columns = std::array<long double, kColumns>;
 
@@ -37,10 +37,10 @@ std::string_view nextWord(std::string_view* line) {
 
 /// As it may stand in a message: not too long, and nothing that a terminal would obey.
 std::string shown(std::string_view word) {
-  std::string text(word.substr(0, kLongestShown));
+  std::string text(word.substr(0, kMaxShown));
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return word.size() > kLongestShown ? text + "..." : text;
+  return word.size() > kMaxShown ? text + "..." : text;
 }
 
 long double toNumber(std::string_view word) {
@@ -66,18 +66,18 @@ Columns toColumns(std::string_view line) {
   return columns;
 }
 
-sweep_guard::Time toStamp(long double seconds) {
+sweep_guard_core::Time toStamp(long double seconds) {
   using LongSeconds = std::chrono::duration<long double>;
-  constexpr long double kLargest = LongSeconds(sweep_guard::Duration::max()).count() / 2;
-  if (std::fabs(seconds) > kLargest) throw InvalidInput("stamp is out of range; stamps are seconds");
-  return sweep_guard::Time(std::chrono::round<sweep_guard::Duration>(LongSeconds(seconds)));
+  constexpr long double kMaxSize = LongSeconds(sweep_guard_core::Duration::max()).count() / 2;
+  if (std::fabs(seconds) > kMaxSize) throw InvalidInput("stamp is out of range; stamps are seconds");
+  return sweep_guard_core::Time(std::chrono::round<sweep_guard_core::Duration>(LongSeconds(seconds)));
 }
 
 StampedPose toPose(const Columns& columns) {
   const auto column = [&columns](std::size_t i) { return static_cast<double>(columns[i]); };
   const Eigen::Quaterniond rotation(column(7), column(4), column(5), column(6));
   const double length = rotation.coeffs().stableNorm();
-  if (!(length > kShortestQuaternion)) throw InvalidInput("quaternion is zero; correct or remove the line");
+  if (!(length > kMinQuaternion)) throw InvalidInput("quaternion is zero; correct or remove the line");
   StampedPose pose;
   pose.stamp = toStamp(columns[0]);
   pose.X_WT.translation() << column(1), column(2), column(3);

@@ -11,9 +11,9 @@ namespace sweep_guard_recording {
 /// length), empty lines and lines that begin with `#` skipped. Decimal points whatever the locale. Stamps are those of
 /// the file, rounded to nanoseconds; equal ones are kept, as recorders that cut their digits write them.
 /// @returns the poses in the order of the file, at least one, their rotations orthonormal
-/// @throws sweep_guard::InvalidInput with file and line if the file cannot be read or is larger than 256 MiB, a line is
+/// @throws sweep_guard_core::InvalidInput with file and line if the file cannot be read or is larger than 256 MiB, a line is
 /// not eight
 ///     finite numbers, a quaternion is zero, a stamp is earlier than the one before, or there is no pose at all
-std::vector<sweep_guard::StampedPose> readMotionFile(const std::string& path);
+std::vector<sweep_guard_core::StampedPose> readMotionFile(const std::string& path);
 
 }  // namespace sweep_guard_recording

@@ -9,13 +9,13 @@ namespace sweep_guard_recording {
 
 /// A recorded motion, and what it is called in tables and plots.
 struct Recording {
-  std::string name;                             ///< of the file, without folder and extension
-  std::vector<sweep_guard::StampedPose> poses;  ///< at least one; stamps do not decrease
+  std::string name;                                  ///< of the file, without folder and extension
+  std::vector<sweep_guard_core::StampedPose> poses;  ///< at least one; stamps do not decrease
 };
 
 /// Reads a motion file or a rosbag, whichever it is.
 /// @param topic  of a rosbag; empty: the only one that has poses
-/// @throws sweep_guard::InvalidInput as readMotionFile() and readBag() do
+/// @throws sweep_guard_core::InvalidInput as readMotionFile() and readBag() do
 Recording readRecording(const std::string& path, const std::string& topic);
 
 }  // namespace sweep_guard_recording

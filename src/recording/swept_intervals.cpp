@@ -4,7 +4,7 @@
 
 namespace sweep_guard_recording {
 
-using sweep_guard::Time;
+using sweep_guard_core::Time;
 
 void SweptIntervals::add(Time start, Time stamp) {
   if (size_++ > 0 && start > *last()) holes_ += start - *last();

@@ -2,8 +2,8 @@
 
 #include <iostream>
 
+#include "ros/node.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/ros/node.h"
 
 int main(int argc, char** argv) {
   try {
@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     try {
       const sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~")};
       ros::waitForShutdown();
-    } catch (const sweep_guard::Error& error) {
+    } catch (const sweep_guard_core::Error& error) {
       ROS_FATAL("%s", error.what());
       return 2;
     }

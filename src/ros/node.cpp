@@ -1,4 +1,4 @@
-#include "sweep_guard/ros/node.h"
+#include "ros/node.h"
 
 #include <ros/console.h>
 
@@ -14,39 +14,40 @@ const ros::WallDuration kDiagnosticsPeriod(1.0);
 
 SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : parameters_(loadParameters(private_node)),
-      ledger_(parameters_.initial().limits, [this] { warnings_.warnOfChange(); }),
-      warnings_(private_node, parameters_, ledger_),
-      scene_(private_node, parameters_, ledger_),
-      workload_(parameters_.initial().guard.cycle),
-      workpieces_(parameters_.initial().max_triangles, ledger_),
-      sweeper_(private_node, {parameters_, workpieces_, ledger_, workload_, warnings_, scene_}),
-      poses_(node, parameters_.initial(), frames_, workpieces_, ledger_,
-             [this](PlacedPose pose) { sweeper_.sweepTo(std::move(pose)); }),
+      monitor_(parameters_.initial().limits, [this] { warnings_.warnOfChange(); }),
+      warnings_(private_node, parameters_, monitor_),
+      scene_(private_node, parameters_, monitor_),
+      statistics_(parameters_.initial().guard.cycle),
+      workpieces_(parameters_.initial().max_triangles, monitor_),
+      guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, warnings_, scene_}),
+      poses_(node, parameters_.initial(), frames_, workpieces_, monitor_,
+             [this](QueuedPose pose) { guard_thread_.sweepTo(std::move(pose)); }),
       meshes_(node, workpieces_),
       check_sweep_(private_node, parameters_, frames_, workpieces_),
       predict_(private_node, parameters_, workpieces_,
-               [this](sweep_guard::Duration horizon) { return sweeper_.forecast(horizon); }),
-      controls_(private_node, ledger_, workpieces_, [this] { sweeper_.reset(); }),
-      tuning_(private_node, parameters_, [this](const auto& next) { adopt(next); }),
-      diagnostics_(node, private_node, {parameters_, poses_, meshes_, workpieces_, ledger_, workload_, tuning_}),
-      watchdog_(node, ledger_, workpieces_, warnings_) {
+               [this](sweep_guard_core::Duration horizon) { return guard_thread_.predictMotion(horizon); }),
+      controls_(private_node, monitor_, workpieces_, [this] { guard_thread_.reset(); }),
+      reconfigure_server_(private_node, parameters_, [this](const auto& next) { adopt(next); }),
+      diagnostics_(node, private_node,
+                   {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_}),
+      watchdog_(node, monitor_, workpieces_, warnings_) {
   makeReports(node);
-  sweeper_.start();
+  guard_thread_.start();
   watchdog_.start();
   meshes_.start();
   poses_.start();
   check_sweep_.start();
   predict_.start();
   controls_.start();
-  tuning_.start();
+  reconfigure_server_.start();
   report_thread_.start();
   greet();
 }
 
-SweepGuardNode::~SweepGuardNode() { sweeper_.stop(); }
+SweepGuardNode::~SweepGuardNode() { guard_thread_.stop(); }
 
 void SweepGuardNode::adopt(const std::shared_ptr<const Parameters>& next) {
-  sweeper_.adopt(next);
+  guard_thread_.adopt(next);
   marker_timer_.setPeriod(ros::WallDuration(1.0 / next->marker_rate));
   warnings_.warnOfChange();
 }
@@ -63,8 +64,8 @@ void SweepGuardNode::makeReports(const ros::NodeHandle& node) {
 void SweepGuardNode::greet() const {
   const Parameters& initial = parameters_.initial();
   ROS_INFO("guarding '%s' (%s) in '%s' by %s, %s; poses from %s, meshes from %s and %s", initial.tool_frame.c_str(),
-           initial.tool_story.c_str(), initial.fixed_frame.c_str(), initial.detector_story.c_str(),
-           sweep_guard::nameOf(initial.guard.sweep.volume).c_str(), poses_.source().c_str(),
+           initial.tool_description_text.c_str(), initial.fixed_frame.c_str(), initial.detector_description.c_str(),
+           sweep_guard_core::nameOf(initial.guard.sweep.volume).c_str(), poses_.source().c_str(),
            meshes_.meshTopic().c_str(), meshes_.verticesTopic().c_str());
 }
 

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "ros/node.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/ros/node.h"
 
 namespace sweep_guard_ros {
 
@@ -13,7 +13,7 @@ class SweepGuardNodelet : public nodelet::Nodelet {
   void onInit() override {
     try {
       node_ = std::make_unique<SweepGuardNode>(getNodeHandle(), getPrivateNodeHandle());
-    } catch (const sweep_guard::Error& error) {
+    } catch (const sweep_guard_core::Error& error) {
       NODELET_FATAL("%s", error.what());
       throw;
     }

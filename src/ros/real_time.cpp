@@ -1,4 +1,4 @@
-#include "sweep_guard/ros/real_time.h"
+#include "ros/real_time.h"
 
 #include <pthread.h>
 #include <sched.h>

@@ -1,4 +1,4 @@
-#include "sweep_guard/ros/watchdog.h"
+#include "ros/watchdog.h"
 
 #include <ros/console.h>
 
@@ -14,9 +14,9 @@ constexpr auto kClockJump = std::chrono::milliseconds(100);
 
 }  // namespace
 
-Watchdog::Watchdog(const ros::NodeHandle& node, sweep_guard::Ledger& ledger, WorkpieceStore& workpieces,
-                   WarningOutput& warnings)
-    : ledger_(ledger), workpieces_(workpieces), warnings_(warnings) {
+Watchdog::Watchdog(const ros::NodeHandle& node, sweep_guard_core::WarningMonitor& monitor, WorkpieceStore& workpieces,
+                   WarningPublisher& warnings)
+    : monitor_(monitor), workpieces_(workpieces), warnings_(warnings) {
   ros::NodeHandle here = thread_.on(node);
   timer_ = here.createSteadyTimer(kPeriod, [this](const ros::SteadyTimerEvent&) {
     watchClock();
@@ -29,11 +29,11 @@ Watchdog::Watchdog(const ros::NodeHandle& node, sweep_guard::Ledger& ledger, Wor
 }
 
 void Watchdog::watchClock() {
-  const sweep_guard::Time stamp = now().stamp;
+  const sweep_guard_core::Time stamp = now().stamp;
   if (stamp + kClockJump < clock_seen_) {
     ROS_WARN("ROS time went back by %.2f s: poses are forgotten, workpieces that may go stale are",
-             sweep_guard::toSeconds(clock_seen_ - stamp));
-    ledger_.timeJumped("time went back");
+             sweep_guard_core::toSeconds(clock_seen_ - stamp));
+    monitor_.timeJumped("time went back");
     workpieces_.timeJumped();
   }
   clock_seen_ = stamp;

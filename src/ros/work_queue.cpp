@@ -1,4 +1,4 @@
-#include "sweep_guard/ros/work_queue.h"
+#include "ros/work_queue.h"
 
 #include "sweep_guard/common/error.h"
 
@@ -10,7 +10,7 @@ constexpr size_t kTasksQueued = 16;
 
 }  // namespace
 
-void WorkQueue::push(PlacedPose pose) {
+void WorkQueue::push(QueuedPose pose) {
   {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return stopping_ || work_.poses.size() < kPosesQueued; });
@@ -22,8 +22,8 @@ void WorkQueue::push(PlacedPose pose) {
 void WorkQueue::pushTask(std::function<void()> task) {
   {
     const std::lock_guard lock(mutex_);
-    if (stopping_) throw sweep_guard::Error("the guard is shutting down");
-    if (work_.tasks.size() >= kTasksQueued) throw sweep_guard::Error("the guard is busy: ask again");
+    if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
+    if (work_.tasks.size() >= kTasksQueued) throw sweep_guard_core::Error("the guard is busy: ask again");
     work_.tasks.push_back(std::move(task));
   }
   changed_.notify_all();

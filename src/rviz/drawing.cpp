@@ -1,11 +1,11 @@
-#include "sweep_guard/rviz/drawing.h"
+#include "rviz/drawing.h"
 
 #include <OgreManualObject.h>
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 #include <OgreTechnique.h>
 
-#include "sweep_guard/rviz/paint.h"
+#include "rviz/paint.h"
 
 namespace sweep_guard_rviz {
 namespace {

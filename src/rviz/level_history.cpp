@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/level_history.h"
+#include "rviz/level_history.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/look.h"
+#include "rviz/look.h"
 
 namespace sweep_guard_rviz {
 namespace {

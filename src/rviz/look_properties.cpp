@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/look_properties.h"
+#include "rviz/look_properties.h"
 
 namespace sweep_guard_rviz {
 

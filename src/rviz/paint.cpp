@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/paint.h"
+#include "rviz/paint.h"
 
 #include <OgreMaterialManager.h>
 #include <OgrePass.h>

@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/palette.h"
+#include "rviz/palette.h"
 
 namespace sweep_guard_rviz {
 

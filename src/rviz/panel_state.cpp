@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/panel_state.h"
+#include "rviz/panel_state.h"
 
 #include <algorithm>
 #include <cstdio>

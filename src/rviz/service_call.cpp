@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/service_call.h"
+#include "rviz/service_call.h"
 
 #include <ros/node_handle.h>
 #include <std_srvs/SetBool.h>

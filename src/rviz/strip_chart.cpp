@@ -1,11 +1,11 @@
-#include "sweep_guard/rviz/strip_chart.h"
+#include "rviz/strip_chart.h"
 
 #include <QPainter>
 #include <QPolygonF>
 #include <algorithm>
 #include <cmath>
 
-#include "sweep_guard/rviz/palette.h"
+#include "rviz/palette.h"
 
 namespace sweep_guard_rviz {
 namespace {

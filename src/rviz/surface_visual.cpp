@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/surface_visual.h"
+#include "rviz/surface_visual.h"
 
 #include <OgreEntity.h>
 #include <OgreHardwareBufferManager.h>
@@ -16,7 +16,7 @@
 #include <string>
 #include <utility>
 
-#include "sweep_guard/rviz/paint.h"
+#include "rviz/paint.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/sweep_display.h"
+#include "rviz/sweep_display.h"
 
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
@@ -12,7 +12,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <utility>
 
-#include "sweep_guard/rviz/attach.h"
+#include "rviz/attach.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -1,8 +1,8 @@
-#include "sweep_guard/rviz/tip_path.h"
+#include "rviz/tip_path.h"
 
 #include <algorithm>
 
-#include "sweep_guard/rviz/ogre_conversions.h"
+#include "rviz/ogre_conversions.h"
 
 namespace sweep_guard_rviz {
 namespace {
@@ -10,16 +10,16 @@ namespace {
 constexpr double kKept = 2.0;      // [s]
 constexpr double kSpacing = 0.02;  // [s]
 constexpr float kWidth = 0.002F;   // [m]
-constexpr std::uint32_t kMostPoints = 1200;
+constexpr std::uint32_t kMaxPoints = 1200;
 
 void begin(rviz::BillboardLine& line) {
   line.clear();
-  line.setMaxPointsPerLine(kMostPoints);
+  line.setMaxPointsPerLine(kMaxPoints);
   line.setLineWidth(kWidth);
   line.setColor(1.0F, 1.0F, 1.0F, 0.5F);  // transparent: else the alpha of the points has no effect
 }
 
-Ogre::ColourValue faded(Ogre::ColourValue color, float share) {
+Ogre::ColourValue decay(Ogre::ColourValue color, float share) {
   color.a *= share;
   return color;
 }
@@ -50,11 +50,11 @@ void TipPath::show(const std::vector<geometry_msgs::Pose>& expected, const Part&
   const double span = std::max(1e-3, (points_.back().stamp - points_.front().stamp).toSec());
   for (const Point& point : points_) {
     const double age = (points_.back().stamp - point.stamp).toSec();
-    measured_.addPoint(point.position, faded(part.color, static_cast<float>(1.0 - age / span)));
+    measured_.addPoint(point.position, decay(part.color, static_cast<float>(1.0 - age / span)));
   }
-  if (expected.empty() || expected.size() + 1 > kMostPoints) return;
+  if (expected.empty() || expected.size() + 1 > kMaxPoints) return;
   expected_.addPoint(points_.back().position, part.color);
-  for (const geometry_msgs::Pose& pose : expected) expected_.addPoint(toOgre(pose.position), faded(part.color, 0.6F));
+  for (const geometry_msgs::Pose& pose : expected) expected_.addPoint(toOgre(pose.position), decay(part.color, 0.6F));
 }
 
 }  // namespace sweep_guard_rviz

@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/tool_visual.h"
+#include "rviz/tool_visual.h"
 
 #include <OgreEntity.h>
 #include <OgreManualObject.h>
@@ -12,9 +12,9 @@
 #include <cmath>
 #include <string>
 
-#include "sweep_guard/rviz/ogre_conversions.h"
-#include "sweep_guard/rviz/paint.h"
-#include "sweep_guard/rviz/triangles.h"
+#include "rviz/ogre_conversions.h"
+#include "rviz/paint.h"
+#include "rviz/triangles.h"
 
 namespace sweep_guard_rviz {
 namespace {

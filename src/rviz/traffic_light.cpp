@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/traffic_light.h"
+#include "rviz/traffic_light.h"
 
 #include <QFontMetricsF>
 #include <QPainter>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sweep_guard/rviz/palette.h"
+#include "rviz/palette.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -1,8 +1,8 @@
-#include "sweep_guard/rviz/volume_faces.h"
+#include "rviz/volume_faces.h"
 
 #include <OgreQuaternion.h>
 
-#include "sweep_guard/rviz/ogre_conversions.h"
+#include "rviz/ogre_conversions.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -1,9 +1,9 @@
-#include "sweep_guard/rviz/volume_history.h"
+#include "rviz/volume_history.h"
 
 #include <algorithm>
 #include <iterator>
 
-#include "sweep_guard/rviz/ogre_conversions.h"
+#include "rviz/ogre_conversions.h"
 
 namespace sweep_guard_rviz {
 namespace {

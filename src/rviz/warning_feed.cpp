@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/warning_feed.h"
+#include "rviz/warning_feed.h"
 
 #include <utility>
 

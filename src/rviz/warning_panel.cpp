@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/warning_panel.h"
+#include "rviz/warning_panel.h"
 
 #include <ros/names.h>
 
@@ -12,14 +12,14 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "sweep_guard/rviz/strip_chart.h"
-#include "sweep_guard/rviz/traffic_light.h"
+#include "rviz/strip_chart.h"
+#include "rviz/traffic_light.h"
 
 namespace sweep_guard_rviz {
 namespace {
 
 constexpr unsigned kLooksPerChart = 3;
-constexpr size_t kMostWhys = 4;
+constexpr size_t kMaxWhys = 4;
 const char* const kTopic = "Warning Topic";
 
 QString bullets(const std::vector<std::string>& whys, size_t most) {
@@ -165,8 +165,8 @@ void WarningPanel::showState(SteadyTime now) {
   light_->show(state_);
   target_->setText(QString::fromStdString(state_.target));
   target_->setVisible(!state_.target.empty());
-  whys_->setText(bullets(state_.whys, kMostWhys));
-  whys_->setToolTip(state_.whys.size() > kMostWhys ? bullets(state_.whys, state_.whys.size()) : QString());
+  whys_->setText(bullets(state_.whys, kMaxWhys));
+  whys_->setToolTip(state_.whys.size() > kMaxWhys ? bullets(state_.whys, state_.whys.size()) : QString());
   enable_->setText(state_.disabled ? "Enable" : "Disable");
   for (QPushButton* const button : {enable_, reset_}) button->setEnabled(!guard_.empty() && !call_.busy());
   if (looks_++ % kLooksPerChart == 0) chart_->show(history_, now);

@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/workpiece_visual.h"
+#include "rviz/workpiece_visual.h"
 
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
@@ -8,17 +8,17 @@
 #include <cstdio>
 #include <utility>
 
-#include "sweep_guard/rviz/attach.h"
-#include "sweep_guard/rviz/ogre_conversions.h"
-#include "sweep_guard/rviz/triangles.h"
-#include "sweep_guard/rviz/volume_faces.h"
+#include "rviz/attach.h"
+#include "rviz/ogre_conversions.h"
+#include "rviz/triangles.h"
+#include "rviz/volume_faces.h"
 
 namespace sweep_guard_rviz {
 namespace {
 
 using sweep_guard::TriangleContact;
 
-constexpr size_t kMostContacts = 200;
+constexpr size_t kMaxContacts = 200;
 
 bool allFinite(const std::vector<float>& values) {
   return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
@@ -133,7 +133,7 @@ void WorkpieceVisual::showVolumes(const sweep_guard::ObjectView& view, const Loo
 
 void WorkpieceVisual::showContacts(const sweep_guard::ObjectView& view, const Look& look) {
   const TriangleContact* deepest = nullptr;
-  for (size_t i = 0; i < std::min(kMostContacts, view.impacts.size()); ++i) {
+  for (size_t i = 0; i < std::min(kMaxContacts, view.impacts.size()); ++i) {
     const TriangleContact& contact = view.impacts[i];
     const Ogre::Vector3 point = toOgre(contact.point);
     const Ogre::Vector3 normal = toOgre(contact.normal);

@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/workpieces.h"
+#include "rviz/workpieces.h"
 
 #include <algorithm>
 

@@ -10,17 +10,17 @@
 
 namespace sweep_guard_session {
 
-using sweep_guard::Duration;
-using sweep_guard::Time;
-using sweep_guard::toSeconds;
+using sweep_guard_core::Duration;
+using sweep_guard_core::Time;
+using sweep_guard_core::toSeconds;
 using sweep_guard_evaluation::format;
 using sweep_guard_evaluation::gnuplotText;
 
 namespace {
 
-constexpr std::size_t kLongestName = 24;  // of characters in a cell
-constexpr double kWidth = 1300.0;         // of the picture, all in [pixel]
-constexpr double kTop = 60.0;             // above the headings
+constexpr std::size_t kMaxName = 24;  // of characters in a cell
+constexpr double kWidth = 1300.0;     // of the picture, all in [pixel]
+constexpr double kTop = 60.0;         // above the headings
 constexpr double kRow = 30.0;
 constexpr double kBottom = 20.0;
 
@@ -44,8 +44,8 @@ constexpr std::array<Column, 9> kColumns = {{{"#", 3, 70.0},
 std::string shown(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '?');
-  if (name.size() <= kLongestName) return name;
-  std::size_t end = kLongestName;
+  if (name.size() <= kMaxName) return name;
+  std::size_t end = kMaxName;
   while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
   return name.substr(0, end) + "...";
 }

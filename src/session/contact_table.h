@@ -13,7 +13,7 @@ class ContactTable {
  public:
   /// @param begin  of the session, from which the times count
   /// @param most   contacts that are listed, the first ones
-  ContactTable(const std::vector<Contact>& contacts, sweep_guard::Time begin, std::size_t most);
+  ContactTable(const std::vector<Contact>& contacts, sweep_guard_core::Time begin, std::size_t most);
 
   /// For a terminal, indented; ends with a line feed.
   std::string text() const;

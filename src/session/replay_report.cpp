@@ -24,19 +24,19 @@
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
-#include "sweep_guard/ros/parameter_reader.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_session {
 namespace {
 
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
 using sweep_guard_ros::fromMsg;
 
 constexpr std::uint32_t kQueue = 100000;
 constexpr double kPatience = 60.0;  // [s] on the wall, until everybody is there
 constexpr double kGrace = 2.0;      // [s] on the wall, for the last answers
 
-sweep_guard::Time now() { return fromMsg(ros::Time::now()); }
+sweep_guard_core::Time now() { return fromMsg(ros::Time::now()); }
 
 void handleMessages() { ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01)); }
 
@@ -159,7 +159,7 @@ class ReplayReport {
     let_go.request.data = 0;
     playing_ = true;
     if (!ros::service::call(service, let_go) && ros::ok()) throw InvalidInput("the player does not answer " + service);
-    ROS_INFO("guarding %s: %.1f s", path_.c_str(), sweep_guard::toSeconds(bag_.end - bag_.begin));
+    ROS_INFO("guarding %s: %.1f s", path_.c_str(), sweep_guard_core::toSeconds(bag_.end - bag_.begin));
   }
 
   void onContacts(const sweep_guard::Contacts::ConstPtr& contacts) {
@@ -173,9 +173,9 @@ class ReplayReport {
     warned_ = true;
     knows_mesh_ = (warning->reasons & sweep_guard::Warning::NO_MESH) == 0;
     if (!playing_) return;
-    Told told{std::max(now(), bag_.begin), static_cast<sweep_guard::Level>(warning->level), warning->text};
+    Told told{std::max(now(), bag_.begin), static_cast<sweep_guard_core::WarningLevel>(warning->level), warning->text};
     if (warning->time_to_collision >= ros::Duration(0)) {
-      told.time_to_collision = sweep_guard::Duration(warning->time_to_collision.toNSec());
+      told.time_to_collision = sweep_guard_core::Duration(warning->time_to_collision.toNSec());
     }
     log_.add(told);
   }
@@ -216,7 +216,7 @@ int main(int argc, char** argv) {
     sweep_guard_session::ReplayReport report(parameters);
     parameters.warnOfUnread();
     report.run();
-  } catch (const sweep_guard::Error& error) {
+  } catch (const sweep_guard_core::Error& error) {
     ROS_FATAL("%s", error.what());
     return 2;
   }

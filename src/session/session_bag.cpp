@@ -15,15 +15,15 @@
 
 namespace sweep_guard_session {
 
-using sweep_guard::Duration;
-using sweep_guard::InvalidInput;
+using sweep_guard_core::Duration;
+using sweep_guard_core::InvalidInput;
 using sweep_guard_ros::fromMsg;
 
 namespace {
 
 // A guard takes no pose from farther ahead, and none that is older as fresh, whatever its configuration.
-constexpr Duration kMostAhead = std::chrono::milliseconds(50);
-constexpr Duration kMostBehind = std::chrono::seconds(2);
+constexpr Duration kMaxAhead = std::chrono::milliseconds(50);
+constexpr Duration kMaxBehind = std::chrono::seconds(2);
 constexpr const char* kPoseType = "geometry_msgs/PoseStamped";
 
 using Types = std::map<std::string, std::string>;  // by topic
@@ -64,24 +64,24 @@ void readPoses(const rosbag::Bag& bag, const std::string& topic, SessionBag& ses
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
     const auto pose = message.instantiate<geometry_msgs::PoseStamped>();
     if (!pose) throw InvalidInput("a message on " + topic + " cannot be read; record it again");
-    const sweep_guard::Time stamp = fromMsg(pose->header.stamp);
+    const sweep_guard_core::Time stamp = fromMsg(pose->header.stamp);
     session.poses.push_back(stamp);
     const Duration behind = fromMsg(message.getTime()) - stamp;
     if (std::chrono::abs(behind) < std::chrono::abs(least_behind)) least_behind = behind;
   }
   if (session.poses.empty()) throw InvalidInput("there is no message on " + topic + "; record it again");
   std::sort(session.poses.begin(), session.poses.end());
-  if (session.poses.back() == sweep_guard::Time()) {
+  if (session.poses.back() == sweep_guard_core::Time()) {
     throw InvalidInput("the poses on " + topic + " have no stamps, and without them nothing is known of the motion; " +
                        "stamp each pose when the tool is there");
   }
-  if (least_behind > kMostBehind || least_behind < -kMostAhead) {
+  if (least_behind > kMaxBehind || least_behind < -kMaxAhead) {
     throw InvalidInput(sweep_guard_evaluation::format(
         "the poses on %s are stamped %.1f s %s they were recorded, by another clock: to the guard they would all be "
         "%s; "
         "synchronise the clocks, or correct the stamps",
-        topic.c_str(), std::abs(sweep_guard::toSeconds(least_behind)), least_behind > Duration(0) ? "before" : "after",
-        least_behind > Duration(0) ? "stale" : "from the future"));
+        topic.c_str(), std::abs(sweep_guard_core::toSeconds(least_behind)),
+        least_behind > Duration(0) ? "before" : "after", least_behind > Duration(0) ? "stale" : "from the future"));
   }
 }
 

@@ -17,15 +17,15 @@ struct SessionTopics {
 
 /// A bag that can be guarded.
 struct SessionBag {
-  std::vector<sweep_guard::Time> poses;  ///< stamps of the messages on the pose's topic, ascending
-  std::size_t meshes = 0;                ///< messages on the mesh's topic
-  std::size_t vertices = 0;              ///< messages on the topic of its vertices
-  sweep_guard::Time begin;               ///< first message
-  sweep_guard::Time end;                 ///< last message
+  std::vector<sweep_guard_core::Time> poses;  ///< stamps of the messages on the pose's topic, ascending
+  std::size_t meshes = 0;                     ///< messages on the mesh's topic
+  std::size_t vertices = 0;                   ///< messages on the topic of its vertices
+  sweep_guard_core::Time begin;               ///< first message
+  sweep_guard_core::Time end;                 ///< last message
 };
 
 /// Looks into a recorded session before it is played.
-/// @throws sweep_guard::InvalidInput that says what is wrong and what to do: no such file, no regular file, no bag,
+/// @throws sweep_guard_core::InvalidInput that says what is wrong and what to do: no such file, no regular file, no bag,
 ///     without index, broken, empty; a topic that is not in it or has another type (those that are there are listed);
 ///     poses without stamps, or whose stamps are from another clock than the one that recorded them
 SessionBag inspectBag(const std::string& path, const SessionTopics& topics);

@@ -6,19 +6,19 @@
 
 namespace sweep_guard_session {
 
-using sweep_guard::Duration;
-using sweep_guard::Level;
-using sweep_guard::Time;
+using sweep_guard_core::Duration;
+using sweep_guard_core::Time;
+using sweep_guard_core::WarningLevel;
 
 namespace {
 
 constexpr double kUnknownDepth = std::numeric_limits<double>::quiet_NaN();
 
 // What is left of a warning after a contact does not warn of the next: the way back ends there.
-Time onSince(const std::vector<Stretch>& stretches, std::size_t contact, Level least) {
+Time onSince(const std::vector<Segment>& segments, std::size_t contact, WarningLevel least) {
   std::size_t first = contact;
-  while (first > 0 && stretches[first - 1].level >= least && stretches[first - 1].level < Level::kContact) --first;
-  return stretches[first].begin;
+  while (first > 0 && segments[first - 1].level >= least && segments[first - 1].level < WarningLevel::kContact) --first;
+  return segments[first].begin;
 }
 
 void take(Contact& contact, const Touch& touch) {
@@ -51,48 +51,48 @@ void SessionLog::add(const Told& told) {
 
 void SessionLog::end(Time at) { end_ = std::max(end_, at); }
 
-std::vector<Stretch> SessionLog::stretches() const {
-  std::vector<Stretch> stretches;
+std::vector<Segment> SessionLog::segments() const {
+  std::vector<Segment> segments;
   Duration longest{0};
   for (std::size_t i = 0; i < told_.size(); ++i) {
     const Time until = i + 1 < told_.size() ? told_[i + 1].at : end_;
     const Duration lasted = until - told_[i].at;
     if (lasted == Duration(0)) continue;
-    if (stretches.empty() || stretches.back().level != told_[i].level) {
-      stretches.push_back({told_[i].level, told_[i].at, until, told_[i].text});
+    if (segments.empty() || segments.back().level != told_[i].level) {
+      segments.push_back({told_[i].level, told_[i].at, until, told_[i].text});
       longest = lasted;
     }
-    stretches.back().end = until;
-    if (lasted > longest) stretches.back().text = told_[i].text;
+    segments.back().end = until;
+    if (lasted > longest) segments.back().text = told_[i].text;
     longest = std::max(longest, lasted);
   }
-  return stretches;
+  return segments;
 }
 
 std::vector<Contact> SessionLog::contacts() const {
-  const std::vector<Stretch> stretches = this->stretches();
+  const std::vector<Segment> segments = this->segments();
   std::vector<Contact> contacts;
-  std::vector<std::size_t> places;  // among the stretches
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    if (stretches[i].level != Level::kContact) continue;
-    contacts.push_back({stretches[i].begin, stretches[i].end, "", "", {}, kUnknownDepth, {}, {}});
+  std::vector<std::size_t> places;  // among the segments
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (segments[i].level != WarningLevel::kContact) continue;
+    contacts.push_back({segments[i].begin, segments[i].end, "", "", {}, kUnknownDepth, {}, {}});
     places.push_back(i);
   }
   share(touches_, contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto lead = [&](Level least) {
-      return std::max(contacts[i].begin - onSince(stretches, places[i], least), Duration(0));
+    const auto lead = [&](WarningLevel least) {
+      return std::max(contacts[i].begin - onSince(segments, places[i], least), Duration(0));
     };
-    contacts[i].considered_lead = lead(Level::kConsidered);
-    contacts[i].reflex_lead = lead(Level::kReflex);
+    contacts[i].considered_lead = lead(WarningLevel::kConsidered);
+    contacts[i].reflex_lead = lead(WarningLevel::kReflex);
   }
   return contacts;
 }
 
-Duration SessionLog::duration(Level level) const {
+Duration SessionLog::duration(WarningLevel level) const {
   Duration sum{0};
-  for (const Stretch& stretch : stretches()) {
-    if (stretch.level == level) sum += stretch.end - stretch.begin;
+  for (const Segment& segment : segments()) {
+    if (segment.level == level) sum += segment.end - segment.begin;
   }
   return sum;
 }

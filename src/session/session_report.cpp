@@ -13,10 +13,10 @@
 
 namespace sweep_guard_session {
 
-using sweep_guard::Duration;
-using sweep_guard::Level;
-using sweep_guard::Time;
-using sweep_guard::toSeconds;
+using sweep_guard_core::Duration;
+using sweep_guard_core::Time;
+using sweep_guard_core::toSeconds;
+using sweep_guard_core::WarningLevel;
 using sweep_guard_evaluation::csvLine;
 using sweep_guard_evaluation::csvNumber;
 using sweep_guard_evaluation::format;
@@ -24,20 +24,21 @@ using sweep_guard_evaluation::gnuplotText;
 
 namespace {
 
-constexpr std::size_t kMostContactsPrinted = 20;
-constexpr std::size_t kMostContactsDrawn = 40;
-constexpr std::array<Level, 5> kLevels = {Level::kUnknown, Level::kClear, Level::kConsidered, Level::kReflex,
-                                          Level::kContact};
+constexpr std::size_t kMaxContactsPrinted = 20;
+constexpr std::size_t kMaxContactsDrawn = 40;
+constexpr std::array<WarningLevel, 5> kLevels = {WarningLevel::kUnknown, WarningLevel::kClear,
+                                                 WarningLevel::kConsidered, WarningLevel::kReflex,
+                                                 WarningLevel::kContact};
 
-const char* colourOf(Level level) {
+const char* colourOf(WarningLevel level) {
   switch (level) {
-    case Level::kClear:
+    case WarningLevel::kClear:
       return "#009E73";
-    case Level::kConsidered:
+    case WarningLevel::kConsidered:
       return "#E69F00";
-    case Level::kReflex:
+    case WarningLevel::kReflex:
       return "#D00000";
-    case Level::kContact:
+    case WarningLevel::kContact:
       return "#7B0099";
     default:
       return "#888888";
@@ -55,23 +56,24 @@ Duration median(std::vector<Duration> durations) {
 }
 
 // REFLEX     12 of 12, 0.21 s in the median, 0.12 s at the least
-std::string leadLine(const std::vector<Contact>& contacts, Level level, Duration Contact::*lead) {
+std::string leadLine(const std::vector<Contact>& contacts, WarningLevel level, Duration Contact::*lead) {
   std::vector<Duration> leads;
   leads.reserve(contacts.size());
   for (const Contact& contact : contacts) leads.push_back(contact.*lead);
   const auto ahead = std::count_if(leads.begin(), leads.end(), [](Duration d) { return d > Duration(0); });
   return format("  %-10s ahead of %td of %zu, by %.2f s in the median, %.2f s at the least\n",
-                sweep_guard::nameOf(level), ahead, leads.size(), toSeconds(median(leads)),
+                sweep_guard_core::styleOf(level).name, ahead, leads.size(), toSeconds(median(leads)),
                 toSeconds(*std::min_element(leads.begin(), leads.end())));
 }
 
 std::string levelTable(const SessionLog& log) {
-  const std::vector<Stretch> stretches = log.stretches();
-  const double whole = stretches.empty() ? 1.0 : toSeconds(stretches.back().end - stretches.front().begin);
+  const std::vector<Segment> segments = log.segments();
+  const double whole = segments.empty() ? 1.0 : toSeconds(segments.back().end - segments.front().begin);
   std::string table = "levels\n";
-  for (const Level level : kLevels) {
+  for (const WarningLevel level : kLevels) {
     const double lasted = toSeconds(log.duration(level));
-    table += format("  %-10s %8.1f s %5.1f %%\n", sweep_guard::nameOf(level), lasted, 100.0 * lasted / whole);
+    table +=
+        format("  %-10s %8.1f s %5.1f %%\n", sweep_guard_core::styleOf(level).name, lasted, 100.0 * lasted / whole);
   }
   return table;
 }
@@ -97,30 +99,30 @@ std::string sweptLine(const SessionLog& log, const SessionBag& bag) {
 }
 
 std::string longestUnknown(const SessionLog& log, Time begin) {
-  const std::vector<Stretch> stretches = log.stretches();
-  const Stretch* longest = nullptr;
-  for (const Stretch& stretch : stretches) {
-    if (stretch.level != Level::kUnknown) continue;
-    if (longest == nullptr || stretch.end - stretch.begin > longest->end - longest->begin) longest = &stretch;
+  const std::vector<Segment> segments = log.segments();
+  const Segment* longest = nullptr;
+  for (const Segment& segment : segments) {
+    if (segment.level != WarningLevel::kUnknown) continue;
+    if (longest == nullptr || segment.end - segment.begin > longest->end - longest->begin) longest = &segment;
   }
   if (longest == nullptr) return "";
   return format("  longest UNKNOWN: %.1f s, from %.1f s on: %s\n", toSeconds(longest->end - longest->begin),
                 seconds(longest->begin, begin), longest->text.c_str());
 }
 
-// A box from tic to tic for each stretch: middle, row, half width, half height, colour.
+// A box from tic to tic for each segment: middle, row, half width, half height, colour.
 std::string levelPanel(const SessionLog& log, Time begin) {
   std::ostringstream panel;
   panel << "$levels << EOD\n";
-  for (const Stretch& stretch : log.stretches()) {
-    const double from = seconds(stretch.begin, begin);
-    const double to = seconds(stretch.end, begin);
-    panel << 0.5 * (from + to) << ' ' << static_cast<int>(stretch.level) << ' ' << 0.5 * (to - from) << " 0.4 \""
-          << colourOf(stretch.level) << "\"\n";
+  for (const Segment& segment : log.segments()) {
+    const double from = seconds(segment.begin, begin);
+    const double to = seconds(segment.end, begin);
+    panel << 0.5 * (from + to) << ' ' << static_cast<int>(segment.level) << ' ' << 0.5 * (to - from) << " 0.4 \""
+          << colourOf(segment.level) << "\"\n";
   }
   panel << "EOD\nset ylabel ''\nset yrange [-0.6:4.6]\nset format x ''\nset ytics font ',11' (";
-  for (const Level level : kLevels) {
-    panel << (level == Level::kUnknown ? "" : ", ") << "'" << sweep_guard::nameOf(level) << "' "
+  for (const WarningLevel level : kLevels) {
+    panel << (level == WarningLevel::kUnknown ? "" : ", ") << "'" << sweep_guard_core::styleOf(level).name << "' "
           << static_cast<int>(level);
   }
   panel << ")\nset style fill solid 1.0 noborder\n"
@@ -161,8 +163,8 @@ std::string leadPanel(const std::vector<Contact>& contacts, Time begin) {
           << toSeconds(contacts[i].reflex_lead) << ' ' << i + 1 << '\n';
   }
   panel << "EOD\nset offsets 0, 0, graph 0.15, 0\n"
-        << "plot $leads using 1:2 with impulses lw 6 lc rgb '" << colourOf(Level::kConsidered) << "' notitle, "
-        << "$leads using 1:3 with impulses lw 6 lc rgb '" << colourOf(Level::kReflex) << "' notitle, "
+        << "plot $leads using 1:2 with impulses lw 6 lc rgb '" << colourOf(WarningLevel::kConsidered) << "' notitle, "
+        << "$leads using 1:3 with impulses lw 6 lc rgb '" << colourOf(WarningLevel::kReflex) << "' notitle, "
         << "$leads using 1:2:4 with labels offset 0, 0.7 notitle";
   return panel.str();
 }
@@ -184,9 +186,9 @@ std::string contactsCsv(const SessionLog& log, Time begin) {
 
 std::string levelsCsv(const SessionLog& log, Time begin) {
   std::string csv = csvLine({"begin_s", "end_s", "level", "text"});
-  for (const Stretch& stretch : log.stretches()) {
-    csv += csvLine({fixed(seconds(stretch.begin, begin)), fixed(seconds(stretch.end, begin)),
-                    sweep_guard::nameOf(stretch.level), stretch.text});
+  for (const Segment& segment : log.segments()) {
+    csv += csvLine({fixed(seconds(segment.begin, begin)), fixed(seconds(segment.end, begin)),
+                    sweep_guard_core::styleOf(segment.level).name, segment.text});
   }
   return csv;
 }
@@ -199,9 +201,9 @@ std::string summary(const SessionLog& log, const SessionBag& bag) {
   text += levelTable(log) + longestUnknown(log, bag.begin);
   text += format("contacts   %zu\n", contacts.size());
   if (contacts.empty()) return text;
-  text += leadLine(contacts, Level::kConsidered, &Contact::considered_lead);
-  text += leadLine(contacts, Level::kReflex, &Contact::reflex_lead);
-  return text + ContactTable(contacts, bag.begin, kMostContactsPrinted).text();
+  text += leadLine(contacts, WarningLevel::kConsidered, &Contact::considered_lead);
+  text += leadLine(contacts, WarningLevel::kReflex, &Contact::reflex_lead);
+  return text + ContactTable(contacts, bag.begin, kMaxContactsPrinted).text();
 }
 
 std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
@@ -209,8 +211,9 @@ std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std
   sweep_guard_evaluation::PlotPage page(path, /*rows=*/3, /*columns=*/1);
   std::vector<std::string> key;
   key.reserve(kLevels.size());
-  for (const Level level : kLevels) {
-    key.push_back(format("with lines lw 8 lc rgb '%s' title '%s'", colourOf(level), sweep_guard::nameOf(level)));
+  for (const WarningLevel level : kLevels) {
+    key.push_back(
+        format("with lines lw 8 lc rgb '%s' title '%s'", colourOf(level), sweep_guard_core::styleOf(level).name));
   }
   page.addKey({}, key);
   const std::string frame = format("set xrange [0:%g]\n", std::max(toSeconds(bag.end - bag.begin), 0.01)) +
@@ -223,7 +226,7 @@ std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std
 
 std::string contactsPlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
                          const std::string& path) {
-  return ContactTable(log.contacts(), bag.begin, kMostContactsDrawn)
+  return ContactTable(log.contacts(), bag.begin, kMaxContactsDrawn)
       .plot("Contacts of " + title + ", and how long before them CONSIDERED and REFLEX came on", path);
 }
 

@@ -9,10 +9,10 @@ namespace sweep_guard_session {
 
 /// One line for each contact, times from the begin of the session: `contact,begin_s,end_s,stamp_s,mesh,tool_link,
 /// triangles,depth_mm,considered_lead_s,reflex_lead_s`. Contacts are counted from 1.
-std::string contactsCsv(const SessionLog& log, sweep_guard::Time begin);
+std::string contactsCsv(const SessionLog& log, sweep_guard_core::Time begin);
 
 /// One line for each change of level: `begin_s,end_s,level,text`.
-std::string levelsCsv(const SessionLog& log, sweep_guard::Time begin);
+std::string levelsCsv(const SessionLog& log, sweep_guard_core::Time begin);
 
 /// For a terminal: what was played, how long which level was shown, the contacts and their leads. Ends with a line
 /// feed.

@@ -5,8 +5,8 @@
 
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/ros/mesh_file.h"
-#include "sweep_guard/ros/parameter_reader.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
+#include "sweep_guard/ros/tool/mesh_file.h"
 
 namespace sweep_guard_session {
 namespace {
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   const ros::NodeHandle alive;  // without any handle the console is silent
   try {
     sweep_guard_session::run();
-  } catch (const sweep_guard::Error& error) {
+  } catch (const sweep_guard_core::Error& error) {
     ROS_FATAL("%s", error.what());
     return 2;
   }

@@ -4,7 +4,7 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/simd/kernels.h"
 
-namespace sweep_guard::simd {
+namespace sweep_guard_core::simd {
 
 #ifdef __x86_64__
 namespace avx512 {
@@ -61,4 +61,4 @@ const Kernels& kernels() {
   return chosen;
 }
 
-}  // namespace sweep_guard::simd
+}  // namespace sweep_guard_core::simd

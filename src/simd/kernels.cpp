@@ -8,7 +8,7 @@
 
 #include "sweep_guard/simd/kernels.h"
 
-namespace sweep_guard::simd {
+namespace sweep_guard_core::simd {
 namespace {
 
 namespace stdx = std::experimental;
@@ -119,7 +119,7 @@ struct NearestCorners {
     }
   }
 
-  const float* from[kMostPlanes][3];
+  const float* from[kMaxPlanes][3];
 };
 
 // So many registers of boxes at a time: none need wait for another.
@@ -263,4 +263,4 @@ extern const Kernels kKernels;
 const Kernels kKernels = {nullptr, bound, classifyBoxes, classifyBlock, classifyTriangles};
 }  // namespace SWEEP_GUARD_ISA
 
-}  // namespace sweep_guard::simd
+}  // namespace sweep_guard_core::simd

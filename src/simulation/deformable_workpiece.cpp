@@ -14,7 +14,7 @@
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/MeshVertices.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/ros/parameter_reader.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_simulation {
 

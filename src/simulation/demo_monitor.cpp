@@ -27,8 +27,8 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using sweep_guard::Duration;
-using sweep_guard::InvalidInput;
+using sweep_guard_core::Duration;
+using sweep_guard_core::InvalidInput;
 
 constexpr std::uint32_t kQueue = 100000;
 constexpr Duration kPatience = seconds(60);
@@ -57,7 +57,7 @@ Duration toDuration(const std::string& text) {
   if (error != std::errc() || stop != text.data() + text.size() || !(value >= 0.0 && value <= 1e6)) {
     throw InvalidInput("--duration is '" + text + "', must be seconds in [0, 1e6]");
   }
-  return sweep_guard::fromSeconds(value);
+  return sweep_guard_core::fromSeconds(value);
 }
 
 Arguments parse(const std::vector<std::string>& words) {
@@ -77,7 +77,7 @@ Arguments parse(const std::vector<std::string>& words) {
   return arguments;
 }
 
-sweep_guard::Time toTime(const ros::Time& time) { return sweep_guard::Time(Duration(time.toNSec())); }
+sweep_guard_core::Time toTime(const ros::Time& time) { return sweep_guard_core::Time(Duration(time.toNSec())); }
 
 Duration steadyNow() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
@@ -145,13 +145,13 @@ class DemoMonitor {
   void onMeshVertices(const sweep_guard::MeshVertices::ConstPtr&) { report_.addMeshUpdate(); }
   void onWarning(const sweep_guard::Warning::ConstPtr& warning) {
     level_ = levelName(warning->level);
-    report_.addWarning(toTime(ros::Time::now()), static_cast<sweep_guard::Level>(warning->level));
+    report_.addWarning(toTime(ros::Time::now()), static_cast<sweep_guard_core::WarningLevel>(warning->level));
   }
 
   void onContacts(const sweep_guard::Contacts::ConstPtr& contacts) {
-    const sweep_guard::Time arrival = toTime(ros::Time::now());
-    const sweep_guard::Time start = toTime(contacts->interval_start);
-    const sweep_guard::Time stamp = toTime(contacts->header.stamp);
+    const sweep_guard_core::Time arrival = toTime(ros::Time::now());
+    const sweep_guard_core::Time start = toTime(contacts->interval_start);
+    const sweep_guard_core::Time stamp = toTime(contacts->header.stamp);
     if (settling_ && !report_.awaits(start, stamp)) return;
     std::vector<TouchedObject> objects;
     for (const sweep_guard::ObjectContacts& object : contacts->objects) {
@@ -212,8 +212,8 @@ void writeLatencies(const std::string& path, const std::vector<Latency>& latenci
   std::ofstream csv(path);
   csv << "stamp_s,latency_ms,triangles\n" << std::fixed;
   for (const Latency& latency : latencies) {
-    csv << sweep_guard::toSeconds(latency.stamp.time_since_epoch()) << ','
-        << sweep_guard::toSeconds(latency.delay) * 1e3 << ',' << latency.triangles << '\n';
+    csv << sweep_guard_core::toSeconds(latency.stamp.time_since_epoch()) << ','
+        << sweep_guard_core::toSeconds(latency.delay) * 1e3 << ',' << latency.triangles << '\n';
   }
   csv.flush();
   if (!csv) throw InvalidInput(path + ": cannot be written: " + std::strerror(errno));
@@ -247,7 +247,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     return sweep_guard_simulation::run(arguments);
-  } catch (const sweep_guard::InvalidInput& error) {
+  } catch (const sweep_guard_core::InvalidInput& error) {
     std::cerr << "demo_monitor: " << error.what() << std::endl;
     return 1;
   }

@@ -8,8 +8,8 @@
 
 namespace sweep_guard_simulation {
 
-using sweep_guard::Duration;
-using sweep_guard::Time;
+using sweep_guard_core::Duration;
+using sweep_guard_core::Time;
 
 namespace {
 
@@ -18,7 +18,7 @@ constexpr Duration kCycle = std::chrono::nanoseconds(std::chrono::seconds(1)) / 
 std::string milliseconds(const std::optional<Duration>& duration) {
   if (!duration) return "-";
   std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << sweep_guard::toSeconds(*duration) * 1e3;
+  text << std::fixed << std::setprecision(1) << sweep_guard_core::toSeconds(*duration) * 1e3;
   return text.str();
 }
 
@@ -32,7 +32,7 @@ std::string warned(std::vector<WarningLeads::Contact> contacts) {
     const auto middle = contacts.begin() + static_cast<std::ptrdiff_t>(contacts.size() / 2);
     std::nth_element(contacts.begin(), middle, contacts.end(),
                      [lead](const auto& a, const auto& b) { return a.*lead < b.*lead; });
-    return sweep_guard::toSeconds((*middle).*lead);
+    return sweep_guard_core::toSeconds((*middle).*lead);
   };
   text << std::fixed << std::setprecision(2) << ", by " << median(&WarningLeads::Contact::considered) << " s (reflex "
        << median(&WarningLeads::Contact::reflex) << " s) in the median";
@@ -85,7 +85,7 @@ std::optional<Duration> DemoReport::latency(double fraction) const {
 
 std::string DemoReport::liveLine(Duration elapsed, const std::string& level) const {
   std::ostringstream line;
-  line << std::fixed << std::setprecision(1) << sweep_guard::toSeconds(elapsed) << " s  poses " << poses_
+  line << std::fixed << std::setprecision(1) << sweep_guard_core::toSeconds(elapsed) << " s  poses " << poses_
        << "  contacts " << contacts_ << "  level " << level << "  latency p50 " << milliseconds(latency(0.5)) << " ms";
   return line.str();
 }

@@ -10,7 +10,7 @@
 
 namespace sweep_guard_simulation {
 
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
 
 namespace {
 

@@ -25,7 +25,7 @@ class Drilling {
   };
 
   /// @param holes_W  points of the surface [m], drilled in this order
-  /// @throws sweep_guard::InvalidInput if there is no hole or an option is out of range
+  /// @throws sweep_guard_core::InvalidInput if there is no hole or an option is out of range
   Drilling(std::vector<Eigen::Vector3d> holes_W, const Options& options);
 
   Eigen::Isometry3d pose(double t) const;  ///< X_WT at t [s] >= 0; begins above the last hole and goes round for ever

@@ -41,7 +41,7 @@ Eigen::Quaterniond rotation(const Vector3d& rotation_vector) {
 
 GuidedTip::GuidedTip(const Eigen::Isometry3d& X_WT, const Limits& limits) : X_WT_(X_WT), limits_(limits) {
   for (const double limit : {limits.speed, limits.acceleration, limits.turn_rate, limits.turn_acceleration}) {
-    if (!(limit > 0.0)) throw sweep_guard::InvalidInput("a limit of the guided motion is not above 0");
+    if (!(limit > 0.0)) throw sweep_guard_core::InvalidInput("a limit of the guided motion is not above 0");
   }
 }
 

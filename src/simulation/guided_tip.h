@@ -19,7 +19,7 @@ class GuidedTip {
 
   /// At rest.
   /// @param X_WT  of the frame whose origin is the tip
-  /// @throws sweep_guard::InvalidInput if a limit is not above 0
+  /// @throws sweep_guard_core::InvalidInput if a limit is not above 0
   GuidedTip(const Eigen::Isometry3d& X_WT, const Limits& limits);
 
   const Eigen::Isometry3d& pose() const { return X_WT_; }

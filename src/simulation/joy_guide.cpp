@@ -7,11 +7,12 @@ namespace sweep_guard_simulation {
 
 namespace {
 
-constexpr double kReminderPeriod = 10.0;                                    // [s]
-constexpr sweep_guard::Duration kBacklog = std::chrono::milliseconds(100);  // in which roscpp reads what has waited
+constexpr double kReminderPeriod = 10.0;  // [s]
+constexpr sweep_guard_core::Duration kBacklog =
+    std::chrono::milliseconds(100);  // in which roscpp reads what has waited
 
 // When it came: the device may stamp by another clock.
-sweep_guard::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
+sweep_guard_core::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
 
 }  // namespace
 
@@ -33,7 +34,7 @@ void JoyGuide::release() { joystick_.releaseUntil(now() + kBacklog); }
 void JoyGuide::onJoy(const sensor_msgs::Joy::ConstPtr& joy) {
   try {
     joystick_.take(joy->axes, now());
-  } catch (const sweep_guard::InvalidInput& error) {
+  } catch (const sweep_guard_core::InvalidInput& error) {
     ROS_ERROR_THROTTLE(kReminderPeriod, "message on %s refused: %s", subscriber_.getTopic().c_str(), error.what());
   }
 }

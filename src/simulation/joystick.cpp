@@ -9,7 +9,7 @@
 
 namespace sweep_guard_simulation {
 
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
 
 namespace {
 
@@ -29,10 +29,10 @@ double deflection(const std::vector<float>& axes, int axis, double dead_zone) {
 
 Joystick::Joystick(const Options& options) : options_(options) {
   if (!(options.dead_zone >= 0.0 && options.dead_zone < 1.0)) throw InvalidInput("the dead zone is not within [0, 1)");
-  if (!(options.timeout > sweep_guard::Duration(0))) throw InvalidInput("the timeout is not above 0");
+  if (!(options.timeout > sweep_guard_core::Duration(0))) throw InvalidInput("the timeout is not above 0");
 }
 
-void Joystick::take(const std::vector<float>& axes, sweep_guard::Time at) {
+void Joystick::take(const std::vector<float>& axes, sweep_guard_core::Time at) {
   Twist twist;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -44,12 +44,12 @@ void Joystick::take(const std::vector<float>& axes, sweep_guard::Time at) {
   newest_at_ = at;
 }
 
-void Joystick::releaseUntil(sweep_guard::Time until) {
+void Joystick::releaseUntil(sweep_guard_core::Time until) {
   newest_at_.reset();
   released_until_ = until;
 }
 
-Twist Joystick::velocity(sweep_guard::Time at) const {
+Twist Joystick::velocity(sweep_guard_core::Time at) const {
   return newest_at_ && at - *newest_at_ <= options_.timeout ? newest_ : Twist();
 }
 

@@ -21,27 +21,28 @@ class Joystick {
     Eigen::Vector3d linear = Eigen::Vector3d::Constant(0.15);  ///< [m/s] at full deflection; < 0: the other way round
     Eigen::Vector3d angular = Eigen::Vector3d::Constant(0.8);  ///< [rad/s] at full deflection; < 0: the other way round
     double dead_zone = 0.1;  ///< in [0, 1); part of the full deflection that counts as none
-    sweep_guard::Duration timeout = std::chrono::milliseconds(250);  ///< of silence after which the tool is to stop
+    sweep_guard_core::Duration timeout =
+        std::chrono::milliseconds(250);  ///< of silence after which the tool is to stop
   };
 
-  /// @throws sweep_guard::InvalidInput if an option is out of range
+  /// @throws sweep_guard_core::InvalidInput if an option is out of range
   explicit Joystick(const Options& options);
 
   /// @param axes  of the device, 1 at full deflection; what is beyond counts as that
-  /// @throws sweep_guard::InvalidInput if an axis that is used is missing or not finite; what came before stays in
+  /// @throws sweep_guard_core::InvalidInput if an axis that is used is missing or not finite; what came before stays in
   /// force
-  void take(const std::vector<float>& axes, sweep_guard::Time at);
+  void take(const std::vector<float>& axes, sweep_guard_core::Time at);
 
   /// Lets go of what was taken, and of all that is taken before `until`: it may have waited, nobody knows for how long.
-  void releaseUntil(sweep_guard::Time until);
+  void releaseUntil(sweep_guard_core::Time until);
 
-  Twist velocity(sweep_guard::Time at) const;
+  Twist velocity(sweep_guard_core::Time at) const;
 
  private:
   Options options_;
   Twist newest_;
-  std::optional<sweep_guard::Time> newest_at_;
-  sweep_guard::Time released_until_;
+  std::optional<sweep_guard_core::Time> newest_at_;
+  sweep_guard_core::Time released_until_;
 };
 
 }  // namespace sweep_guard_simulation

@@ -62,7 +62,7 @@ void MarkerGuide::onFeedback(const Feedback::ConstPtr& feedback) {
     goal_W_ = X_WF * sweep_guard_ros::fromMsg(feedback->pose);
   } catch (const tf2::TransformException& error) {
     ROS_ERROR_THROTTLE(kReminderPeriod, "the marker's pose is not followed: %s", error.what());
-  } catch (const sweep_guard::InvalidInput& error) {
+  } catch (const sweep_guard_core::InvalidInput& error) {
     ROS_ERROR_THROTTLE(kReminderPeriod, "the marker's pose is not followed: %s", error.what());
   }
 }

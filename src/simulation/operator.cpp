@@ -14,12 +14,13 @@
 #include <vector>
 
 #include "recording/recording.h"
+#include "ros/parameters/parameters.h"
 #include "simulation/drilling.h"
 #include "simulation/guided_tip.h"
 #include "simulation/joy_guide.h"
 #include "simulation/joystick.h"
 #include "simulation/marker_guide.h"
-#include "simulation/pace.h"
+#include "simulation/pose_scheduler.h"
 #include "simulation/pose_stream.h"
 #include "simulation/replay.h"
 #include "simulation/run_node.h"
@@ -30,39 +31,38 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/ros/conversions.h"
-#include "sweep_guard/ros/parameter_reader.h"
-#include "sweep_guard/ros/parameters.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_simulation {
 
 namespace {
 
-using sweep_guard::StampedPose;
+using sweep_guard_core::StampedPose;
 
 constexpr int kQueue = 10000;
-constexpr double kLongestSleep = 0.1;     // [s] so that a long gap in a recording does not delay the end of the node
+constexpr double kMaxSleep = 0.1;         // [s] so that a long gap in a recording does not delay the end of the node
 constexpr double kLongGap = 5.0;          // [s] that is told of
 constexpr double kReminderPeriod = 10.0;  // [s]
 constexpr double kLinger = 1.0;           // [s] for the last poses to leave
 constexpr double kSlant = 0.45;           // more than the drill tilts: rise per width of the tool between two holes
 constexpr double kDepth = 0.010;          // [m] below the surface, in both kinds of motion
 constexpr double kClearance = 0.1;        // [m] above the surface, where a hand takes the tool over
-constexpr int kHighestAxis = 63;          // of an input device
+constexpr int kMaxAxis = 63;              // of an input device
 constexpr double kHoleCircle = 0.06;      // [m] radius
 constexpr int kHolesOnCircle = 5;
 constexpr std::uint32_t kNotReady =
     sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
 
-sweep_guard::TriangleMesh toMesh(const sweep_guard::DeformableMesh& message, const Eigen::Isometry3d& X_WM) {
+sweep_guard_core::TriangleMesh toMesh(const sweep_guard::DeformableMesh& message, const Eigen::Isometry3d& X_WM) {
   std::vector<Eigen::Vector3d> vertices_W;
   for (const geometry_msgs::Point& p : message.mesh.vertices)
     vertices_W.push_back(X_WM * Eigen::Vector3d(p.x, p.y, p.z));
-  std::vector<sweep_guard::Triangle> triangles;
+  std::vector<sweep_guard_core::Triangle> triangles;
   for (const shape_msgs::MeshTriangle& triangle : message.mesh.triangles) {
     const auto& indices = triangle.vertex_indices;
     triangles.push_back({indices[0], indices[1], indices[2]});
   }
-  return sweep_guard::TriangleMesh(vertices_W, std::move(triangles));
+  return sweep_guard_core::TriangleMesh(vertices_W, std::move(triangles));
 }
 
 /// Leads the tool: waits for the workpiece and for the guard, then publishes one pose after the other when it is due.
@@ -116,7 +116,7 @@ class OperatorNode {
 
   static Joystick::Options readJoystick(sweep_guard_ros::ParameterReader& parameters) {
     const auto axes = [&parameters](const std::string& key, const std::array<int, 3>& fallback) {
-      const std::vector<int> read = parameters.integers(key, {fallback.begin(), fallback.end()}, -1, kHighestAxis);
+      const std::vector<int> read = parameters.integers(key, {fallback.begin(), fallback.end()}, -1, kMaxAxis);
       return std::array<int, 3>{read[0], read[1], read[2]};
     };
     Joystick::Options options;
@@ -125,21 +125,22 @@ class OperatorNode {
     options.linear = parameters.position("joy/linear", options.linear);
     options.angular = parameters.position("joy/angular", options.angular);
     options.dead_zone = parameters.number("joy/dead_zone", options.dead_zone, {0.0, 0.9});
-    options.timeout = sweep_guard::fromSeconds(
-        parameters.number("joy/timeout", sweep_guard::toSeconds(options.timeout), {0.01, 10.0}));
+    options.timeout = sweep_guard_core::fromSeconds(
+        parameters.number("joy/timeout", sweep_guard_core::toSeconds(options.timeout), {0.01, 10.0}));
     return options;
   }
 
   void readMotion() {
     if (motion_file_.empty()) {
-      throw sweep_guard::InvalidInput("input is 'recording' and motion_file is empty; give a motion file or a rosbag");
+      throw sweep_guard_core::InvalidInput(
+          "input is 'recording' and motion_file is empty; give a motion file or a rosbag");
     }
     recording_ = sweep_guard_recording::readRecording(motion_file_, motion_topic_).poses;
   }
 
-  void takeHold(const sweep_guard::Tool& tool) {
+  void takeHold(const sweep_guard_core::Tool& tool) {
     p_TTip_ = tipOf(tool);
-    girth_ = girthOf(tool);
+    girth_ = radialExtent(tool);
   }
 
   void onMesh(const sweep_guard::DeformableMesh::ConstPtr& mesh) {
@@ -210,19 +211,19 @@ class OperatorNode {
   }
 
   bool perform(const PoseStream& motion) {
-    Pace pace(now(), joy_guide_ || marker_guide_);
+    PoseScheduler scheduler(now(), joy_guide_ || marker_guide_);
     for (std::optional<StampedPose> pose = motion(); pose; pose = motion()) {
-      const double gap = sweep_guard::toSeconds(pace.due(pose->stamp) - now());
+      const double gap = sweep_guard_core::toSeconds(scheduler.due(pose->stamp) - now());
       if (gap > kLongGap) ROS_INFO("the motion has a gap: waiting for %.0f s", gap);
-      if (!sleepUntil(sweep_guard_ros::toMsg(pace.due(pose->stamp)))) return false;
-      if (pace.resume(pose->stamp, now())) goOnAfterStall();
-      publish(pose->X_WT * Eigen::Translation3d(-p_TTip_), sweep_guard_ros::toMsg(pace.due(pose->stamp)));
+      if (!sleepUntil(sweep_guard_ros::toMsg(scheduler.due(pose->stamp)))) return false;
+      if (scheduler.resume(pose->stamp, now())) goOnAfterStall();
+      publish(pose->X_WT * Eigen::Translation3d(-p_TTip_), sweep_guard_ros::toMsg(scheduler.due(pose->stamp)));
       ros::spinOnce();
     }
     return true;
   }
 
-  static sweep_guard::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
+  static sweep_guard_core::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
 
   void goOnAfterStall() {
     ROS_WARN_THROTTLE(kReminderPeriod, "the operator stalled: the tool goes on from now, and from rest");
@@ -233,7 +234,7 @@ class OperatorNode {
   static bool sleepUntil(const ros::Time& due) {
     while (ros::ok() && ros::Time::now() < due) {
       const ros::Duration rest = due - ros::Time::now();
-      std::min(rest, ros::Duration(kLongestSleep)).sleep();
+      std::min(rest, ros::Duration(kMaxSleep)).sleep();
     }
     return ros::ok();
   }

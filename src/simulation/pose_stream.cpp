@@ -4,12 +4,12 @@
 
 namespace sweep_guard_simulation {
 
-using sweep_guard::StampedPose;
+using sweep_guard_core::StampedPose;
 
 namespace {
 
-sweep_guard::Time stampOf(long sample, double rate) {
-  return sweep_guard::Time(sweep_guard::fromSeconds(static_cast<double>(sample) / rate));
+sweep_guard_core::Time stampOf(long sample, double rate) {
+  return sweep_guard_core::Time(sweep_guard_core::fromSeconds(static_cast<double>(sample) / rate));
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 
 namespace sweep_guard_simulation {
 
-using sweep_guard::StampedPose;
+using sweep_guard_core::StampedPose;
 
 namespace {
 
-Eigen::Vector3d lowestTip(const std::vector<StampedPose>& motion, sweep_guard::Duration window) {
+Eigen::Vector3d lowestTip(const std::vector<StampedPose>& motion, sweep_guard_core::Duration window) {
   Eigen::Vector3d lowest = motion.front().X_WT.translation();
   for (const StampedPose& pose : motion) {
     if (pose.stamp - motion.front().stamp > window) break;
@@ -24,9 +24,9 @@ Eigen::Vector3d lowestTip(const std::vector<StampedPose>& motion, sweep_guard::D
 
 Replay::Replay(std::vector<StampedPose> motion, const Options& options)
     : motion_(std::move(motion)), loop_(options.loop) {
-  if (motion_.empty()) throw sweep_guard::InvalidInput("the motion has no poses");
+  if (motion_.empty()) throw sweep_guard_core::InvalidInput("the motion has no poses");
   if (loop_ && motion_.front().stamp == motion_.back().stamp) {
-    throw sweep_guard::InvalidInput("the motion lasts no time and cannot loop; set loop to false");
+    throw sweep_guard_core::InvalidInput("the motion lasts no time and cannot loop; set loop to false");
   }
   const Eigen::Vector3d shift = options.target_W - lowestTip(motion_, options.window);
   for (StampedPose& pose : motion_) pose.X_WT.pretranslate(shift);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/ros/parameter_reader.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_simulation {
 
@@ -21,7 +21,7 @@ int runNode(int argc, char** argv, const std::string& name) {
     Node node(parameters);
     parameters.warnOfUnread();
     node.run();
-  } catch (const sweep_guard::Error& error) {
+  } catch (const sweep_guard_core::Error& error) {
     ROS_FATAL("%s", error.what());
     return 2;
   }

@@ -7,17 +7,17 @@ namespace sweep_guard_simulation {
 namespace {
 
 using Eigen::Vector3d;
-using sweep_guard::ToolPart;
+using sweep_guard_core::ConvexPiece;
 
 constexpr int kDirections = 8;  // in pairs that are opposite
 constexpr double kAside = 1e-3;
 
 }  // namespace
 
-Vector3d tipOf(const sweep_guard::Tool& tool) {
-  const auto reach = [](const ToolPart& part) { return part.shape_T.support(Vector3d::UnitZ()); };
-  const auto front = std::max_element(tool.parts().begin(), tool.parts().end(),
-                                      [&](const ToolPart& a, const ToolPart& b) { return reach(a) < reach(b); });
+Vector3d tipOf(const sweep_guard_core::Tool& tool) {
+  const auto reach = [](const ConvexPiece& part) { return part.shape_T.support(Vector3d::UnitZ()); };
+  const auto front = std::max_element(tool.pieces().begin(), tool.pieces().end(),
+                                      [&](const ConvexPiece& a, const ConvexPiece& b) { return reach(a) < reach(b); });
   Vector3d sum = Vector3d::Zero();
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * M_PI * (i + 0.5) / kDirections;
@@ -26,7 +26,7 @@ Vector3d tipOf(const sweep_guard::Tool& tool) {
   return sum / kDirections;
 }
 
-double girthOf(const sweep_guard::Tool& tool) {
+double radialExtent(const sweep_guard_core::Tool& tool) {
   const Vector3d tip = tipOf(tool);
   const Eigen::Vector2d lowest = (tool.bounds_T().min() - tip).head<2>().cwiseAbs();
   const Eigen::Vector2d highest = (tool.bounds_T().max() - tip).head<2>().cwiseAbs();

@@ -9,7 +9,7 @@
 
 namespace sweep_guard_simulation {
 
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
 
 TipScript::TipScript(const std::vector<std::string>& poses) {
   if (poses.size() < 2) throw InvalidInput("a motion needs two poses at least");

@@ -12,7 +12,7 @@ class TipScript {
   /// @param poses  a line each: `t x y z rx ry rz`; t [s] ascending, x y z [m] of the tip in the fixed frame W, rx ry
   /// rz
   ///     the rotation vector [rad] in W by which the tool is turned from pointing down
-  /// @throws sweep_guard::InvalidInput if there are fewer than two lines, one is not seven finite numbers, or a time
+  /// @throws sweep_guard_core::InvalidInput if there are fewer than two lines, one is not seven finite numbers, or a time
   /// does
   ///     not ascend
   explicit TipScript(const std::vector<std::string>& poses);

@@ -20,9 +20,9 @@ std::optional<double> heightOver(const Eigen::Vector3d& a, const Eigen::Vector3d
 
 }  // namespace
 
-TopSurface::TopSurface(sweep_guard::TriangleMesh mesh_W)
+TopSurface::TopSurface(sweep_guard_core::TriangleMesh mesh_W)
     : mesh_W_(std::move(mesh_W)), highest_W_(mesh_W_.vertex(mesh_W_.triangles().front().front())) {
-  for (const sweep_guard::Triangle& triangle : mesh_W_.triangles()) {
+  for (const sweep_guard_core::Triangle& triangle : mesh_W_.triangles()) {
     for (const std::uint32_t index : triangle) {
       if (mesh_W_.vertex(index).z() > highest_W_.z()) highest_W_ = mesh_W_.vertex(index);
     }

@@ -11,13 +11,13 @@ namespace sweep_guard_simulation {
 class TopSurface {
  public:
   /// @param mesh_W  the workpiece, its frame M being W
-  explicit TopSurface(sweep_guard::TriangleMesh mesh_W);
+  explicit TopSurface(sweep_guard_core::TriangleMesh mesh_W);
 
   const Eigen::Vector3d& highestPoint() const { return highest_W_; }  ///< [m], of the triangles
   std::optional<double> height(double x, double y) const;  ///< [m] of the surface over (x, y), empty beside it
 
  private:
-  sweep_guard::TriangleMesh mesh_W_;
+  sweep_guard_core::TriangleMesh mesh_W_;
   Eigen::Vector3d highest_W_;
 };
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sweep_guard/common/time.h"
-#include "sweep_guard/guard/verdict.h"
+#include "sweep_guard/monitor/warning.h"
 
 namespace sweep_guard_simulation {
 
@@ -14,18 +14,18 @@ class WarningLeads {
   /// A contact that began, and how long before a warning was in force without a break; 0 where it came with the
   /// contact.
   struct Contact {
-    sweep_guard::Duration considered;  ///< that one or a stronger one
-    sweep_guard::Duration reflex;      ///< that one
+    sweep_guard_core::Duration considered;  ///< that one or a stronger one
+    sweep_guard_core::Duration reflex;      ///< that one
   };
 
   /// @param at  not before that of the level before
-  void add(sweep_guard::Time at, sweep_guard::Level level);
+  void add(sweep_guard_core::Time at, sweep_guard_core::WarningLevel level);
 
   const std::vector<Contact>& contacts() const { return contacts_; }
 
  private:
-  std::optional<sweep_guard::Time> considered_since_;  // considered, reflex or contact
-  std::optional<sweep_guard::Time> reflex_since_;      // reflex or contact
+  std::optional<sweep_guard_core::Time> considered_since_;  // considered, reflex or contact
+  std::optional<sweep_guard_core::Time> reflex_since_;      // reflex or contact
   bool in_contact_ = false;
   std::vector<Contact> contacts_;
 };

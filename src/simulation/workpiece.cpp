@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/ros/mesh_file.h"
+#include "sweep_guard/ros/tool/mesh_file.h"
 
 namespace sweep_guard_simulation {
 
-using sweep_guard::InvalidInput;
-using sweep_guard::Triangle;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::Triangle;
 
 namespace {
 

@@ -23,17 +23,17 @@ class Workpiece {
   /// A closed, wavy ellipsoid (0.6 x 0.6 x 0.44 m at the default size) with waves moving over it along x.
   /// @param triangles  in [6, 1000000]; the count made is the nearest of the form 2 * sectors * rings with cells of
   ///     usable shape: 400 and 1600 exactly, others within 1 %
-  /// @throws sweep_guard::InvalidInput if a number is out of range
+  /// @throws sweep_guard_core::InvalidInput if a number is out of range
   static Workpiece hull(int triangles, const Options& options);
 
   /// The triangles of a file that readMesh() reads, scaled to the size and swaying: it bends and shears as a whole.
-  /// @throws sweep_guard::InvalidInput if a number is out of range, the file is refused, or its points are all in one
+  /// @throws sweep_guard_core::InvalidInput if a number is out of range, the file is refused, or its points are all in one
   ///     place
   static Workpiece fromFile(const std::string& path, const Options& options);
 
   /// x0 y0 z0 x1 ... in M [m] at time `t` [s], one triple per vertex.
   std::vector<float> positions(double t) const;
-  const std::vector<sweep_guard::Triangle>& triangles() const { return triangles_; }
+  const std::vector<sweep_guard_core::Triangle>& triangles() const { return triangles_; }
   std::size_t vertexCount() const { return vertices_.size(); }
 
  private:
@@ -46,12 +46,12 @@ class Workpiece {
     double phase;            // [rad]
   };
 
-  Workpiece(const std::vector<Eigen::Vector3d>& points, std::vector<sweep_guard::Triangle> triangles,
+  Workpiece(const std::vector<Eigen::Vector3d>& points, std::vector<sweep_guard_core::Triangle> triangles,
             const Options& options);
   void makeWaves(const Options& options);
   void makeSway(const Options& options);
 
-  std::vector<sweep_guard::Triangle> triangles_;
+  std::vector<sweep_guard_core::Triangle> triangles_;
   std::vector<Vertex> vertices_;
   double amplitude_;     // [m]
   double angular_rate_;  // [rad/s]

@@ -5,7 +5,7 @@
 #include <string>
 #include <thread>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 TEST(PoolTest, UsesAgainWhatNobodyHolds) {
@@ -64,4 +64,4 @@ TEST(PoolTest, DoesNotChangeWhatAnotherThreadReads) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,10 +1,10 @@
-#include "sweep_guard/detection/convex_clip.h"
+#include "detection/convex_clip.h"
 
 #include <gtest/gtest.h>
 
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // Planes through one line, and a triangle without area on it: which side of a plane its corners lie on is rounding.
@@ -26,8 +26,8 @@ TEST_F(WireTest, OnTheLineThatPlanesShareIsCutByAsManyAsThereMayBe) {
   int left = 0;
   for (int trial = 0; trial < 100000; ++trial) {
     next();
-    CutTriangle triangle({point(), point(), point()});
-    for (size_t i = 0; i < kMostHalfSpaces && !triangle.empty(); ++i) {
+    ClippedTriangle triangle({point(), point(), point()});
+    for (size_t i = 0; i < kMaxHalfSpaces && !triangle.empty(); ++i) {
       const Eigen::Vector3d n = normal();
       triangle.cut(n, n.dot(p_));
     }
@@ -39,8 +39,8 @@ TEST_F(WireTest, OnTheLineThatPlanesShareIsCutByAsManyAsThereMayBe) {
 TEST_F(WireTest, IsNotLostWhereThePlanesAreMovedOutByItsRounding) {
   for (int trial = 0; trial < 10000; ++trial) {
     next();
-    CutTriangle triangle({point(), point(), point()});
-    for (size_t i = 0; i < kMostHalfSpaces; ++i) {
+    ClippedTriangle triangle({point(), point(), point()});
+    for (size_t i = 0; i < kMaxHalfSpaces; ++i) {
       const Eigen::Vector3d n = normal();
       triangle.cut(n, n.dot(p_) + 1e-14);
       ASSERT_FALSE(triangle.empty());
@@ -53,7 +53,7 @@ class ClipTest : public testing::Test {
  protected:
   ClipTest() {
     volume_.box.half_extents = Eigen::Vector3d(0.5, 0.7, 1.1);
-    for (size_t i = 0; i < kMostClips; ++i) volume_.clips_B.push_back(HalfSpace(random_.direction(), 0.6));
+    for (size_t i = 0; i < kMaxClips; ++i) volume_.clips_B.push_back(HalfSpace(random_.direction(), 0.6));
   }
 
   Eigen::Vector3d point() {
@@ -61,7 +61,7 @@ class ClipTest : public testing::Test {
   }
 
   static bool leftByAllPlanes(const SweptVolume& volume, const std::array<Eigen::Vector3d, 3>& corners_B) {
-    CutTriangle triangle(corners_B);
+    ClippedTriangle triangle(corners_B);
     volume.forEachHalfSpace([&](const Eigen::Vector3d& normal_B, double offset) {
       if (!triangle.empty()) triangle.cut(normal_B, offset);
     });
@@ -103,4 +103,4 @@ TEST_F(ClipTest, MeetsATriangleWhoseEdgesAllPassItBy) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

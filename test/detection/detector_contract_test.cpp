@@ -9,13 +9,13 @@
 
 #include "detection/every_context.h"
 #include "detection/exact_oracle.h"
+#include "detection/halfspace_detector.h"
+#include "detection/reference_detector.h"
+#include "detection/select_detector.h"
 #include "scenes.h"
 #include "sweep_guard/detection/detector.h"
-#include "sweep_guard/detection/halfspace_detector.h"
-#include "sweep_guard/detection/reference_detector.h"
-#include "sweep_guard/detection/select_detector.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using SceneOf = Scene (*)(std::uint64_t seed);
@@ -195,4 +195,4 @@ TEST(ScenesTest, GrazingScenesHitAndMissByLittle) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -4,18 +4,14 @@
 
 #include <string>
 
+#include "refusal.h"
 #include "sweep_guard/detection/offscreen_context.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Why this machine has no such context; empty: it has.
 inline std::string whyMissing(const std::string& gl_context) {
-  try {
-    makeOffscreenContext(gl_context);
-  } catch (const DeviceError& error) {
-    return error.what();
-  }
-  return {};
+  return refusal<DeviceError>([&] { makeOffscreenContext(gl_context); });
 }
 
 /// Tests that run on each of offscreenContextNames(), and are skipped where the machine lacks one.
@@ -26,7 +22,7 @@ class OnEveryContext : public testing::TestWithParam<std::string> {
   }
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core
 
 #define INSTANTIATE_ON_EVERY_CONTEXT(suite)                                             \
   INSTANTIATE_TEST_SUITE_P(Contexts, suite, testing::ValuesIn(offscreenContextNames()), \

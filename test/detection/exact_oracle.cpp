@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // Wide enough for products of nine doubles; throws if it were not.
@@ -102,4 +102,4 @@ bool meetsExactly(const TriangleMesh& mesh_M, std::uint32_t triangle, const Swep
          solvable(inequalities);
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

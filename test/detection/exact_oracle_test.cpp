@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // One triangle against the cube [-1, 1]^3.
@@ -49,4 +49,4 @@ TEST(ExactOracleTest, SeesPointsAndSegments) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -8,7 +8,7 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/detection/offscreen_context.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// A context of which single functions are replaced.
 class FaultyContext : public OffscreenContext {
@@ -37,4 +37,4 @@ class FaultyContext : public OffscreenContext {
   Replacements replacements_;
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

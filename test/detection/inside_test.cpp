@@ -1,4 +1,4 @@
-#include "sweep_guard/detection/inside.h"
+#include "detection/inside.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // Edges along the axes, so that a ray along them runs through edges and corners.
@@ -128,4 +128,4 @@ TEST(InsideTest, HoldsAtAnyPlaceAndScale) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,4 +1,4 @@
-#include "sweep_guard/detection/select_detector.h"
+#include "detection/select_detector.h"
 
 #include <GL/gl.h>
 #include <gtest/gtest.h>
@@ -7,11 +7,11 @@
 
 #include "detection/every_context.h"
 #include "detection/faulty_context.h"
+#include "detection/reference_detector.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/detection/reference_detector.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using Replacements = FaultyContext::Replacements;
@@ -231,4 +231,4 @@ TEST_P(SelectDetectorTest, MayEndInAnotherThreadThanItBegan) {
 INSTANTIATE_ON_EVERY_CONTEXT(SelectDetectorTest);
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -8,11 +8,12 @@
 #include <string>
 
 #include "detection/every_context.h"
+#include "detection/reference_detector.h"
+#include "detection/select_detector.h"
+#include "refusal.h"
 #include "scenes.h"
-#include "sweep_guard/detection/reference_detector.h"
-#include "sweep_guard/detection/select_detector.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 std::string libraryOf(const void* symbol) {
@@ -23,8 +24,7 @@ std::string libraryOf(const void* symbol) {
 // Without this the test below would prove nothing. The call keeps libGL linked.
 TEST(LibGlTest, LinkedCallsReachLibGl) {
   EXPECT_EQ(glGetString(GL_RENDERER), nullptr);  // libGL has no context here
-  EXPECT_NE(libraryOf(dlsym(RTLD_DEFAULT, "glRenderMode")).find("libGL.so"), std::string::npos)
-      << libraryOf(dlsym(RTLD_DEFAULT, "glRenderMode"));
+  EXPECT_TRUE(has(libraryOf(dlsym(RTLD_DEFAULT, "glRenderMode")), "libGL.so"));
 }
 
 class SelectWithLibGlTest : public OnEveryContext {};
@@ -46,4 +46,4 @@ TEST_P(SelectWithLibGlTest, SelectStillHits) {
 INSTANTIATE_ON_EVERY_CONTEXT(SelectWithLibGlTest);
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "refusal.h"
+
 namespace sweep_guard_evaluation {
 namespace {
 
@@ -27,11 +29,11 @@ TEST(ErrorReportTest, WritesALineForEachPredictorAndHorizon) {
 }
 
 TEST(ErrorReportTest, QuotesARecordingWithACommaInItsName) {
-  EXPECT_NE(errorCsv({report("left, \"2\"")}).find("\n\"left, \"\"2\"\"\",direct,0.1,"), std::string::npos);
+  EXPECT_TRUE(has(errorCsv({report("left, \"2\"")}), "\n\"left, \"\"2\"\"\",direct,0.1,"));
 }
 
 TEST(ErrorReportTest, ComparesWithTheBetterOfHoldAndConstantVelocity) {
-  EXPECT_NE(errorTable(report("hand")).find("5/20 (0.50/0.50)"), std::string::npos) << errorTable(report("hand"));
+  EXPECT_TRUE(has(errorTable(report("hand")), "5/20 (0.50/0.50)"));
 }
 
 TEST(ErrorReportTest, KeepsTheHorizonsAskedFor) {

@@ -3,12 +3,12 @@
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "evaluation/motions.h"
+#include "refusal.h"
 
 namespace sweep_guard_evaluation {
 namespace {
@@ -67,7 +67,7 @@ class EvaluatePredictionTest : public testing::Test {
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1) << outcome.out;
     EXPECT_EQ(outcome.out.find("evaluate_prediction: "), 0U) << outcome.out;
-    EXPECT_NE(outcome.out.find(expected), std::string::npos) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, expected));
   }
 
   std::filesystem::path folder_;
@@ -106,7 +106,7 @@ TEST_F(EvaluatePredictionTest, PrintsATableOfEveryPredictor) {
   EXPECT_EQ(outcome.status, 0) << outcome.out;
   for (const char* const word :
        {"hand", "hold", "constant_velocity", "polynomial", "direct", "position", "rotation", "reflex", "considered"}) {
-    EXPECT_NE(outcome.out.find(word), std::string::npos) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, word));
   }
 }
 
@@ -121,7 +121,7 @@ TEST_F(EvaluatePredictionTest, WritesTheSameErrorsEveryTime) {
                      "rotation_p95_rad,samples\nhand,"),
             0U);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 4 * 4);
-  EXPECT_NE(csv.find("\narm,hold,0.5,"), std::string::npos);
+  EXPECT_TRUE(has(csv, "\narm,hold,0.5,"));
 }
 
 TEST_F(EvaluatePredictionTest, WritesTheSameWarningsForTheSameSeed) {
@@ -135,8 +135,8 @@ TEST_F(EvaluatePredictionTest, WritesTheSameWarningsForTheSameSeed) {
   EXPECT_EQ(csv, read("again.csv"));
   EXPECT_NE(csv, read("other.csv"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2);
-  EXPECT_NE(csv.find("\nhand,direct,reflex,3,3,"), std::string::npos) << csv;
-  EXPECT_NE(read("curve.csv").find("\nhand,direct,0.001,"), std::string::npos);
+  EXPECT_TRUE(has(csv, "\nhand,direct,reflex,3,3,"));
+  EXPECT_TRUE(has(read("curve.csv"), "\nhand,direct,0.001,"));
 }
 
 TEST_F(EvaluatePredictionTest, DrawsAPngAndLeavesNothingElse) {

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
+#include "data_path.h"
 #include "evaluation/evaluate.h"
 
 namespace sweep_guard_evaluation {
@@ -18,14 +18,10 @@ constexpr const char* kSlowRecording = "handheld_stylus_15hz";
 class EvaluationDataTest : public testing::Test {
  protected:
   void SetUp() override {
-    const char* const variable = std::getenv("SWEEP_GUARD_DATA");
-    const std::filesystem::path data = variable != nullptr ? variable : SWEEP_GUARD_SOURCE_DIR "/../shared/data";
-    if (!std::filesystem::exists(data / "motion")) {
-      GTEST_SKIP() << data / "motion"
-                   << " is missing; set SWEEP_GUARD_DATA";
-    }
+    const std::filesystem::path data = dataPath("motion");
+    if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is missing; set SWEEP_GUARD_DATA";
     std::vector<std::string> words = {"evaluate_prediction"};
-    for (const auto& entry : std::filesystem::directory_iterator(data / "motion")) {
+    for (const auto& entry : std::filesystem::directory_iterator(data)) {
       if (entry.path().extension() == ".txt") words.push_back(entry.path());
     }
     std::vector<const char*> arguments;

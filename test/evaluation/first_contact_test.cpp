@@ -10,30 +10,30 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using sweep_guard::ConvexShape;
-using sweep_guard::Duration;
-using sweep_guard::StampedPose;
-using sweep_guard::Time;
+using sweep_guard_core::ConvexShape;
+using sweep_guard_core::Duration;
+using sweep_guard_core::StampedPose;
+using sweep_guard_core::Time;
 
 // Of the tool in time: at 0.1 m/s the tolerance of 1 um is gone in 10 us.
 constexpr double kTimeTolerance = 2e-5;  // [s]
 
 class FirstContactTest : public testing::Test {
  protected:
-  static Sheet wall(const Eigen::Vector3d& centre, const Eigen::Vector3d& normal) {
-    Sheet sheet;
-    sheet.half_side = 0.1;
-    sheet.X_WS.translation() = centre;
-    sheet.X_WS.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix();
-    return sheet;
+  static SquareObstacle wall(const Eigen::Vector3d& centre, const Eigen::Vector3d& normal) {
+    SquareObstacle obstacle;
+    obstacle.half_side = 0.1;
+    obstacle.X_WS.translation() = centre;
+    obstacle.X_WS.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix();
+    return obstacle;
   }
 
-  std::optional<Time> contact(const std::vector<StampedPose>& poses, const Sheet& sheet) const {
-    return firstContact(RecordedMotion(poses), tool_, sheet, poses.front().stamp, poses.back().stamp);
+  std::optional<Time> contact(const std::vector<StampedPose>& poses, const SquareObstacle& obstacle) const {
+    return firstContact(RecordedMotion(poses), tool_, obstacle, poses.front().stamp, poses.back().stamp);
   }
 
   static double inSeconds(const std::optional<Time>& time) {
-    return time ? sweep_guard::toSeconds(time->time_since_epoch()) : -1.0;
+    return time ? sweep_guard_core::toSeconds(time->time_since_epoch()) : -1.0;
   }
 
   ConvexShape tool_ = ConvexShape::cylinder(0.005, 0.1);
@@ -59,8 +59,8 @@ TEST_F(FirstContactTest, SidewaysIntoAWallIsARadiusEarlier) {
 TEST_F(FirstContactTest, WithATiltedWallIsAtTheRim) {
   const std::vector<StampedPose> poses = straightMotion(0.1, milliseconds(70), seconds(10));
   const double tilt = 0.6;
-  const Sheet sheet = wall({0.5, 0, 0}, {std::cos(tilt), std::sin(tilt), 0.0});
-  EXPECT_NEAR(inSeconds(contact(poses, sheet)), 5.0 - 0.005 * std::tan(tilt) / 0.1, kTimeTolerance);
+  const SquareObstacle obstacle = wall({0.5, 0, 0}, {std::cos(tilt), std::sin(tilt), 0.0});
+  EXPECT_NEAR(inSeconds(contact(poses, obstacle)), 5.0 - 0.005 * std::tan(tilt) / 0.1, kTimeTolerance);
 }
 
 // A quarter of a turn about the tip in 1 s, against an edge that lies 80 mm from the tip where the axis comes after 60
@@ -70,7 +70,7 @@ TEST_F(FirstContactTest, OfAToolThatOnlyTurns) {
   StampedPose end;
   end.stamp = Time(seconds(1));
   end.X_WT.linear() = Eigen::AngleAxisd(0.5 * kPi, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  Sheet edge;
+  SquareObstacle edge;
   edge.half_side = 0.02;
   const double angle = kPi / 3.0;
   const double distance = 0.08;
@@ -92,10 +92,11 @@ TEST_F(FirstContactTest, IsNoneBesideTheWall) {
 
 TEST_F(FirstContactTest, IsLookedForFromAndToTheTimesAskedFor) {
   const RecordedMotion motion(straightMotion(0.1, milliseconds(70), seconds(10)));
-  const Sheet sheet = wall({0.5, 0, 0}, Eigen::Vector3d::UnitX());
-  EXPECT_EQ(firstContact(motion, tool_, sheet, Time(seconds(1)), Time(milliseconds(4999))), std::nullopt);
-  EXPECT_EQ(firstContact(motion, tool_, sheet, Time(milliseconds(5500)), Time(seconds(8))), Time(milliseconds(5500)));
-  EXPECT_EQ(firstContact(motion, tool_, sheet, Time(milliseconds(6100)), Time(seconds(8))), std::nullopt);
+  const SquareObstacle obstacle = wall({0.5, 0, 0}, Eigen::Vector3d::UnitX());
+  EXPECT_EQ(firstContact(motion, tool_, obstacle, Time(seconds(1)), Time(milliseconds(4999))), std::nullopt);
+  EXPECT_EQ(firstContact(motion, tool_, obstacle, Time(milliseconds(5500)), Time(seconds(8))),
+            Time(milliseconds(5500)));
+  EXPECT_EQ(firstContact(motion, tool_, obstacle, Time(milliseconds(6100)), Time(seconds(8))), std::nullopt);
 }
 
 TEST_F(FirstContactTest, IsNoneOfAToolThatRests) {

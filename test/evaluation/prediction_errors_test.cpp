@@ -12,14 +12,14 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using sweep_guard::Duration;
-using sweep_guard::StampedPose;
+using sweep_guard_core::Duration;
+using sweep_guard_core::StampedPose;
 
 const std::vector<Duration> kHorizons = {milliseconds(100), seconds(1)};
 
 std::vector<ErrorSummary> errorsOf(const std::string& predictor, const std::vector<StampedPose>& poses) {
   const RecordedMotion motion(poses);
-  sweep_guard::PredictorOptions options;
+  sweep_guard_core::PredictorOptions options;
   options.predictor = predictor;
   const std::vector<size_t> samples = samplesOf(poses, motion, seconds(1), seconds(1));
   return summaries({predictionErrors(poses, motion, samples, kHorizons, options, [](size_t) {})})[0];
@@ -54,10 +54,10 @@ TEST(SamplesTest, HaveHistoryAndFutureWithoutAGap) {
   poses.erase(poses.begin() + 31, poses.begin() + 34);  // from 3.0 to 3.4 s
   const std::vector<size_t> samples = samplesOf(poses, RecordedMotion(poses), seconds(1), milliseconds(500));
   ASSERT_EQ(samples.size(), 16U + 12U);
-  EXPECT_EQ(poses[samples[0]].stamp, sweep_guard::Time(seconds(1)));
-  EXPECT_EQ(poses[samples[15]].stamp, sweep_guard::Time(milliseconds(2500)));
-  EXPECT_EQ(poses[samples[16]].stamp, sweep_guard::Time(milliseconds(4400)));
-  EXPECT_EQ(poses[samples[27]].stamp, sweep_guard::Time(milliseconds(5500)));
+  EXPECT_EQ(poses[samples[0]].stamp, sweep_guard_core::Time(seconds(1)));
+  EXPECT_EQ(poses[samples[15]].stamp, sweep_guard_core::Time(milliseconds(2500)));
+  EXPECT_EQ(poses[samples[16]].stamp, sweep_guard_core::Time(milliseconds(4400)));
+  EXPECT_EQ(poses[samples[27]].stamp, sweep_guard_core::Time(milliseconds(5500)));
 }
 
 TEST(SamplesTest, CountAStampOnce) {

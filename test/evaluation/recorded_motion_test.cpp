@@ -6,8 +6,8 @@ namespace sweep_guard_evaluation {
 namespace {
 
 using std::chrono::milliseconds;
-using sweep_guard::StampedPose;
-using sweep_guard::Time;
+using sweep_guard_core::StampedPose;
+using sweep_guard_core::Time;
 
 Time at(int ms) { return Time(milliseconds(ms)); }
 
@@ -43,9 +43,9 @@ TEST(RecordedMotionTest, KeepsTheLastOfPosesThatShareAStamp) {
 
 TEST(RecordedMotionTest, EndsAStretchAtAnIntervalOfMoreThanAQuarterOfASecond) {
   const RecordedMotion motion(posesAt({0, 10, 260, 270, 521, 531}));
-  ASSERT_EQ(motion.stretches().size(), 2U);
-  EXPECT_EQ(motion.stretches()[0].end, at(270));
-  EXPECT_EQ(motion.stretches()[1].begin, at(521));
+  ASSERT_EQ(motion.segments().size(), 2U);
+  EXPECT_EQ(motion.segments()[0].end, at(270));
+  EXPECT_EQ(motion.segments()[1].begin, at(521));
   EXPECT_TRUE(motion.unbroken(at(0), at(270)));
   EXPECT_FALSE(motion.unbroken(at(0), at(271)));
   EXPECT_FALSE(motion.unbroken(at(300), at(310)));
@@ -55,8 +55,8 @@ TEST(RecordedMotionTest, EndsAStretchAtAnIntervalOfMoreThanAQuarterOfASecond) {
 }
 
 TEST(RecordedMotionTest, AllowsSlowPosesThreeOfTheirPeriods) {
-  EXPECT_EQ(RecordedMotion(posesAt({0, 200, 400, 1000, 1200})).stretches().size(), 1U);
-  EXPECT_EQ(RecordedMotion(posesAt({0, 200, 400, 1001, 1201})).stretches().size(), 2U);
+  EXPECT_EQ(RecordedMotion(posesAt({0, 200, 400, 1000, 1200})).segments().size(), 1U);
+  EXPECT_EQ(RecordedMotion(posesAt({0, 200, 400, 1001, 1201})).segments().size(), 2U);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "evaluation/tradeoff_report.h"
+#include "refusal.h"
 
 namespace sweep_guard_evaluation {
 namespace {
@@ -26,8 +27,8 @@ TEST(WarningReportTest, WritesALineForEachPredictorAndInterval) {
 
 TEST(WarningReportTest, ShowsTheSharesThatAreWarnedOfAhead) {
   const std::string table = warningTable(report());
-  EXPECT_NE(table.find("hand, 20 placements"), std::string::npos);
-  EXPECT_NE(table.find("80.0 %   50.0 %   20.0 %"), std::string::npos) << table;
+  EXPECT_TRUE(has(table, "hand, 20 placements"));
+  EXPECT_TRUE(has(table, "80.0 %   50.0 %   20.0 %"));
 }
 
 TEST(TradeoffReportTest, WritesALineForEachThreshold) {

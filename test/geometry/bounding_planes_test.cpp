@@ -10,7 +10,7 @@
 #include "sweep_guard/geometry/convex_polytope.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr int kMotions = 100'000;
@@ -104,4 +104,4 @@ TEST(BoundingPlanesTest, MakeTheVolumeOfHandMotionsTighter) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -4,7 +4,7 @@
 
 #include "sweep_guard/geometry/swept_volume.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 std::vector<HalfSpace> unitCube() {
@@ -52,4 +52,4 @@ TEST(ConvexPolytopeTest, HalfSpacesWithoutACommonPointHaveNoVolume) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

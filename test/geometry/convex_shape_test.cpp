@@ -9,7 +9,7 @@
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 TEST(ConvexShapeTest, FillsTheCylinderBehindItsTip) {
@@ -55,22 +55,22 @@ TEST(ConvexShapeTest, ReachBoundsTheDistanceFromAnyAxisThroughTheTip) {
     const Eigen::Vector3d axis = random.direction();
     double farthest = 0.0;
     for (const Eigen::Vector3d& p : roundToolPoints_T(tool, 64)) farthest = std::max(farthest, axis.cross(p).norm());
-    EXPECT_GE(tool.reach(axis), farthest - 1e-15) << "tool " << i;
-    EXPECT_LE(tool.reach(axis), 1.5 * farthest) << "tool " << i;
+    EXPECT_GE(tool.radiusAbout(axis), farthest - 1e-15) << "tool " << i;
+    EXPECT_LE(tool.radiusAbout(axis), 1.5 * farthest) << "tool " << i;
   }
 }
 
 // A drill that spins about its own axis leaves its place by its radius alone.
 TEST(ConvexShapeTest, ReachAboutItsOwnAxisIsItsRadius) {
-  EXPECT_EQ(ConvexShape::cylinder(0.5, 2.0).reach(Eigen::Vector3d::UnitZ()), 0.5);
-  EXPECT_EQ(ConvexShape::cylinder(0.5, 2.0).reach(Eigen::Vector3d::UnitY()), 2.5);
+  EXPECT_EQ(ConvexShape::cylinder(0.5, 2.0).radiusAbout(Eigen::Vector3d::UnitZ()), 0.5);
+  EXPECT_EQ(ConvexShape::cylinder(0.5, 2.0).radiusAbout(Eigen::Vector3d::UnitY()), 2.5);
 }
 
 TEST(ConvexShapeTest, ExtremesOfItsFacesAreOnTheirRims) {
   const ConvexShape drill = ConvexShape::cylinder(0.5, 2.0);
-  EXPECT_TRUE(drill.frontExtreme({3, 4, 7}).isApprox(Eigen::Vector3d(0.3, 0.4, 0.0), 1e-15));
-  EXPECT_TRUE(drill.rearExtreme({-3, 4, 7}).isApprox(Eigen::Vector3d(-0.3, 0.4, -2.0), 1e-15));
-  EXPECT_EQ(drill.frontExtreme(Eigen::Vector3d::UnitZ()), Eigen::Vector3d(0, 0, 0));
+  EXPECT_TRUE(drill.frontSupport({3, 4, 7}).isApprox(Eigen::Vector3d(0.3, 0.4, 0.0), 1e-15));
+  EXPECT_TRUE(drill.rearSupport({-3, 4, 7}).isApprox(Eigen::Vector3d(-0.3, 0.4, -2.0), 1e-15));
+  EXPECT_EQ(drill.frontSupport(Eigen::Vector3d::UnitZ()), Eigen::Vector3d(0, 0, 0));
 }
 
 // A prism of 4 sides, radius 1, length 2: 16 triangles, 48 corners; 5 at each of its 8 rim vertices, 4 at each centre.
@@ -112,4 +112,4 @@ TEST(ConvexShapeTest, AcceptsFlatAndNeedleTools) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

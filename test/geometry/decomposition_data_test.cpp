@@ -2,23 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 
+#include "data_path.h"
 #include "scenes.h"
 #include "sweep_guard/geometry/decomposition.h"
-#include "sweep_guard/ros/mesh_file.h"
+#include "sweep_guard/ros/tool/mesh_file.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path dataFolder() {
-  const char* const variable = std::getenv("SWEEP_GUARD_DATA");
-  return variable != nullptr ? variable : SWEEP_GUARD_SOURCE_DIR "/../shared/data";
-}
 
 // How far a triangle reaches out of a convex part in any of the directions [m].
 double outside(const ConvexShape& part, const TriangleMesh& mesh, const std::vector<std::uint32_t>& set,
@@ -33,12 +28,12 @@ double outside(const ConvexShape& part, const TriangleMesh& mesh, const std::vec
 class DecompositionDataTest : public testing::TestWithParam<const char*> {};
 
 TEST_P(DecompositionDataTest, PartsHoldEveryTriangle) {
-  const fs::path path = dataFolder() / GetParam();
+  const fs::path path = dataPath(GetParam());
   if (!fs::exists(path)) GTEST_SKIP() << path << " is missing; set SWEEP_GUARD_DATA";
   const sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path);
   const TriangleMesh mesh(surface.vertices, surface.triangles);
   const auto sets = decompose(mesh);
-  const std::vector<ConvexShape> parts = convexParts(mesh);
+  const std::vector<ConvexShape> parts = convexPieces(mesh);
   ASSERT_EQ(parts.size(), sets.size());
   Random random(/*seed=*/1);
   std::vector<int> held(mesh.triangles().size(), 0);
@@ -63,4 +58,4 @@ INSTANTIATE_TEST_SUITE_P(Meshes, DecompositionDataTest,
                                          "urdf/dvrk_model/meshes/instruments/tip/006/Classic/tip_006.dae"));
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -11,7 +11,7 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/geometry/convex_hull.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using Sets = std::vector<std::vector<std::uint32_t>>;
@@ -120,7 +120,7 @@ TEST(DecompositionTest, PartsHoldTheirTriangles) {
     const TriangleMesh mesh = triangleSoup(random, 1 + random.below(200), size, random.direction());
     const DecompositionOptions options{/*max_depth=*/random.below(8), /*step=*/0.002, /*least_saving=*/0.001};
     SCOPED_TRACE("soup " + std::to_string(i));
-    expectHolds(mesh, decompose(mesh, options), convexParts(mesh, options), random);
+    expectHolds(mesh, decompose(mesh, options), convexPieces(mesh, options), random);
   }
 }
 
@@ -236,4 +236,4 @@ TEST(DecompositionTest, RefusesOptionsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -4,7 +4,7 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 const HalfSpace kBelowOne(Eigen::Vector3d::UnitZ(), 1.0);  // z <= 1
@@ -69,4 +69,4 @@ TEST(ClipTest, ClipsPointsAndSegments) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

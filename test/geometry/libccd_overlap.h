@@ -4,13 +4,13 @@
 
 #include "sweep_guard/geometry/separation.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Whether two convex bodies overlap, as libccd's GJK has it: an oracle that shares nothing with separation().
 inline bool overlapByLibccd(const SupportMapping& a, const SupportMapping& b) {
   const auto support_of = [](const void* body, const ccd_vec3_t* direction, ccd_vec3_t* point) {
     const Eigen::Vector3d along(direction->v[0], direction->v[1], direction->v[2]);
-    const Eigen::Vector3d p = (*static_cast<const SupportMapping*>(body))(along.normalized());
+    const Eigen::Vector3d p = static_cast<const SupportMapping*>(body)->supportPoint(along.normalized());
     ccdVec3Set(point, p.x(), p.y(), p.z());
   };
   ccd_t ccd;
@@ -21,4 +21,4 @@ inline bool overlapByLibccd(const SupportMapping& a, const SupportMapping& b) {
   return ccdGJKIntersect(&a, &b, &ccd) != 0;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -6,10 +6,11 @@
 #include <set>
 
 #include "mesh_orders.h"
+#include "refusal.h"
 #include "scenes.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 class MeshOrderTest : public testing::TestWithParam<MeshOrdering> {
@@ -92,12 +93,7 @@ TEST_P(MeshOrderTest, ABadDeformationChangesNothing) {
   TriangleMesh mesh = mesh_;
   std::vector<float> bad(3 * mesh.vertexCount(), 0.0F);
   bad[3 * 100 + 1] = std::numeric_limits<float>::quiet_NaN();
-  try {
-    mesh.deform(bad);
-    FAIL();
-  } catch (const std::exception& error) {
-    EXPECT_NE(std::string(error.what()).find("vertex 100 "), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(has(refusal([&] { mesh.deform(bad); }), "vertex 100 "));
   for (size_t i = 0; i < mesh.vertexCount(); ++i) EXPECT_EQ(mesh.vertex(i), mesh_.vertex(i));
   EXPECT_EQ(mesh.bounds_M().min(), mesh_.bounds_M().min());
   EXPECT_EQ(mesh.bounds_M().max(), mesh_.bounds_M().max());
@@ -107,4 +103,4 @@ INSTANTIATE_TEST_SUITE_P(AllOrders, MeshOrderTest, testing::ValuesIn(meshOrderin
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -8,7 +8,7 @@
 #include "geometry/round_tool.h"
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -111,7 +111,7 @@ TEST(ChordErrorTest, BoundsTheArcsOfEveryToolPoint) {
     SCOPED_TRACE("motion " + std::to_string(i));
     const ConvexShape tool = randomTool(random, 1.0);
     const Motion motion = randomMotion(random, tool, random.direction(), /*max_angle=*/1.57);
-    const double bound = chordError(tool.reach(motion.axis_T()), motion.angle());
+    const double bound = chordError(tool.radiusAbout(motion.axis_T()), motion.angle());
     for (int step = 0; step <= 1000; ++step) {
       const double fraction = step / 1000.0;
       const Eigen::Isometry3d X_MT = motion.at(fraction);
@@ -131,17 +131,17 @@ TEST(ChordErrorTest, BoundsTheArcsOfEveryToolPoint) {
 TEST(RelativeMotionTest, BulgesBecauseTheFrameTurns) {
   const Eigen::Isometry3d beside = turnedAboutZ(0, {1, 0, 0});
   const Motion turning{turnedAboutZ(0), turnedAboutZ(0.5 / kDegree)};
-  const std::vector<Motion> parts = split({{beside, beside}, turning}, /*max_rotation=*/1.0, /*tool_extent=*/0.2);
+  const std::vector<Motion> parts = split({{beside, beside}, turning}, /*max_rotation=*/1.0, /*tool_radius=*/0.2);
   ASSERT_EQ(parts.size(), 1U);
-  EXPECT_NEAR(parts[0].bulge, 0.3 / 8.0, 1e-12);
+  EXPECT_NEAR(parts[0].deviation_bound, 0.3 / 8.0, 1e-12);
   EXPECT_TRUE(parts[0].X_MT_end.translation().isApprox(Eigen::Vector3d(std::cos(0.5), -std::sin(0.5), 0), 1e-12));
 }
 
 TEST(RelativeMotionTest, DoesNotBulgeWhereTheFrameOnlyMoves) {
   const Motion tool{turnedAboutZ(0), turnedAboutZ(10, {1, 0, 0})};
   const Motion frame{turnedAboutZ(30), turnedAboutZ(30, {0, 5, 0})};
-  for (const Motion& part : split({tool, frame}, /*max_rotation=*/0.1, /*tool_extent=*/0.2)) {
-    EXPECT_LT(part.bulge, 1e-9);
+  for (const Motion& part : split({tool, frame}, /*max_rotation=*/0.1, /*tool_radius=*/0.2)) {
+    EXPECT_LT(part.deviation_bound, 1e-9);
   }
 }
 
@@ -154,10 +154,10 @@ TEST(RelativeMotionTest, BoundsTheArcsOfEveryToolPoint) {
     const RelativeMotion motion{randomMotion(random, tool, 5.0 * random.direction(), /*max_angle=*/3.1),
                                 randomMotion(random, tool, 5.0 * random.direction(), /*max_angle=*/3.1)};
     const double max_rotation = random.uniform(0.05, 0.5);
-    const std::vector<Motion> parts = split(motion, max_rotation, tool.extent());
+    const std::vector<Motion> parts = split(motion, max_rotation, tool.boundingRadius());
     for (size_t k = 0; k < parts.size(); ++k) {
       const Motion& part = parts[k];
-      const double bound = std::max(chordError(tool.reach(part.axis_T()), part.angle()), part.bulge);
+      const double bound = std::max(chordError(tool.radiusAbout(part.axis_T()), part.angle()), part.deviation_bound);
       EXPECT_LE(part.angle(), max_rotation * (1.0 + 1e-9));
       for (int step = 0; step <= 20; ++step) {
         const double fraction = step / 20.0;
@@ -173,4 +173,4 @@ TEST(RelativeMotionTest, BoundsTheArcsOfEveryToolPoint) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

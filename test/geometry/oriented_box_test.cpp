@@ -5,7 +5,7 @@
 #include "geometry/round_tool.h"
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 constexpr int kMotions = 20'000;
@@ -118,4 +118,4 @@ TEST(OrientedBoxTest, AxesAreEigenvectorsOfThePapersCovariance) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,4 +1,4 @@
-#include "sweep_guard/geometry/penetration.h"
+#include "geometry/penetration.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using Eigen::Vector3d;
@@ -17,7 +17,7 @@ struct Ellipsoid {
   Eigen::Matrix3d axes;  // columns: directions times half lengths [m]
   Vector3d center;
 
-  Vector3d operator()(const Vector3d& direction) const {
+  Vector3d supportPoint(const Vector3d& direction) const {
     return center + axes * (axes.transpose() * direction).normalized();
   }
 };
@@ -48,7 +48,7 @@ TEST(WayOutTest, IsTheLeastOfManyDirections) {
     const Vector3d face = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
     proposals.push_back(face);
     proposals.push_back(-face);
-    const Vector3d normal = wayOut(tool, triangle, proposals, /*size=*/1.0);
+    const Vector3d normal = minimumTranslationDirection(tool, triangle, proposals, /*size=*/1.0);
     EXPECT_NEAR(normal.norm(), 1.0, 1e-14);
     double sampled = depthAlong(face, tool, triangle);
     for (int k = 0; k < 3000; ++k) sampled = std::min(sampled, depthAlong(random.direction(), tool, triangle));
@@ -67,14 +67,14 @@ TEST(WayOutTest, IsTheLeastOfManyDirections) {
 TEST(WayOutTest, TakesFlatBodies) {
   const PointHull sheet(Corners{Vector3d(-1, -1, 0), Vector3d(2, -1, 0), Vector3d(-1, 2, 0)});
   const PointHull cut(Corners{Vector3d(0, 0, -0.1), Vector3d(0.2, 0, 0.3), Vector3d(-0.1, 0, 0.3)});
-  const Vector3d out = wayOut(cut, sheet, axesBothWays(), /*size=*/1.0);
+  const Vector3d out = minimumTranslationDirection(cut, sheet, axesBothWays(), /*size=*/1.0);
   EXPECT_NEAR(depthAlong(out, cut, sheet), 0.1, 1e-9);
   const PointHull same(Corners{Vector3d(0, 0, 0), Vector3d(0.2, 0, 0), Vector3d(0, 0.2, 0)});
-  EXPECT_NEAR(depthAlong(wayOut(same, sheet, axesBothWays(), 1.0), same, sheet), 0.0, 1e-12);
+  EXPECT_NEAR(depthAlong(minimumTranslationDirection(same, sheet, axesBothWays(), 1.0), same, sheet), 0.0, 1e-12);
   const PointHull point(std::array<Vector3d, 1>{Vector3d::Zero()});
-  EXPECT_NEAR(depthAlong(wayOut(point, sheet, axesBothWays(), 1.0), point, sheet), 0.0, 1e-12);
-  EXPECT_NEAR(depthAlong(wayOut(point, point, axesBothWays(), 1.0), point, point), 0.0, 1e-12);
+  EXPECT_NEAR(depthAlong(minimumTranslationDirection(point, sheet, axesBothWays(), 1.0), point, sheet), 0.0, 1e-12);
+  EXPECT_NEAR(depthAlong(minimumTranslationDirection(point, point, axesBothWays(), 1.0), point, point), 0.0, 1e-12);
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -5,7 +5,7 @@
 
 #include "sweep_guard/geometry/convex_shape.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Points on both rims of the round tool, in T [m]: their convex hull is the tool, but for slivers between them.
 inline std::vector<Eigen::Vector3d> roundToolPoints_T(const ConvexShape& tool, int points_per_rim) {
@@ -20,4 +20,4 @@ inline std::vector<Eigen::Vector3d> roundToolPoints_T(const ConvexShape& tool, i
   return points;
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "geometry/libccd_overlap.h"
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using Eigen::Vector3d;
@@ -20,7 +19,7 @@ struct Cylinder {
   double length;
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
 
-  Vector3d operator()(const Vector3d& direction) const {
+  Vector3d supportPoint(const Vector3d& direction) const {
     const Vector3d d = X.linear().transpose() * direction;
     const double across = d.head<2>().norm();
     Vector3d p(0.0, 0.0, d.z() < 0.0 ? -length : 0.0);
@@ -38,16 +37,16 @@ struct Ball {
   double radius;
   Vector3d center;
 
-  Vector3d operator()(const Vector3d& direction) const { return center + radius * direction; }
+  Vector3d supportPoint(const Vector3d& direction) const { return center + radius * direction; }
 };
 
 struct Both {
   const SupportMapping a;
   const SupportMapping b;
 
-  Vector3d operator()(const Vector3d& direction) const {
-    const Vector3d p = a(direction);
-    const Vector3d q = b(direction);
+  Vector3d supportPoint(const Vector3d& direction) const {
+    const Vector3d p = a.supportPoint(direction);
+    const Vector3d q = b.supportPoint(direction);
     return direction.dot(p) < direction.dot(q) ? q : p;
   }
 };
@@ -89,7 +88,7 @@ Cylinder randomCylinder(Random& random, const Vector3d& place) {
 double pointDistance(const Separation& answer) { return (answer.on_tool - answer.on_obstacle).norm(); }
 
 double provenBy(const Vector3d& normal, const SupportMapping& tool, const SupportMapping& obstacle) {
-  return normal.dot(tool(-normal) - obstacle(normal));
+  return normal.dot(tool.supportPoint(-normal) - obstacle.supportPoint(normal));
 }
 
 TEST(SeparationTest, MeasuresABallToCornerEdgeAndFace) {
@@ -129,7 +128,8 @@ TEST(SeparationTest, ProvesWhatItsPointsShow) {
       const PointHull triangle(randomTriangle(random, random.logUniform(1e-2, 1e1)));
       Cylinder cylinder = randomCylinder(random, Vector3d::Zero());
       const Vector3d direction = random.direction();
-      cylinder.X.translation() += triangle(direction) - cylinder(-direction) + away * direction;
+      cylinder.X.translation() +=
+          triangle.supportPoint(direction) - cylinder.supportPoint(-direction) + away * direction;
       const Separation answer = separation(cylinder, triangle);
       EXPECT_NEAR(answer.normal.norm(), 1.0, 1e-15);
       EXPECT_GE(answer.gap, 0.999 * away - 1e-11);
@@ -171,7 +171,7 @@ TEST(SeparationTest, ProvesNothingWhereBodiesOverlap) {
     const Separation answer = separation(cylinder, PointHull(corners));
     EXPECT_LE(answer.gap, 1e-14) << i;
     EXPECT_LE(pointDistance(answer), 1e-5) << i;  // a needle's weights hold few digits
-    EXPECT_FALSE(fartherApart(cylinder, PointHull(corners), 1e-14)) << i;
+    EXPECT_FALSE(distanceExceeds(cylinder, PointHull(corners), 1e-14)) << i;
   }
 }
 
@@ -218,7 +218,7 @@ TEST(FartherApartTest, IsWhetherTheGapIsMore) {
     const double gap = separation(cylinder, triangle).gap;
     for (const double distance : {0.0, 0.1, gap - 1e-7, gap + 1e-7}) {
       if (distance < 0.0 || std::abs(gap - distance) < 1e-8) continue;
-      EXPECT_EQ(fartherApart(cylinder, triangle, distance, random.direction()), gap > distance) << i;
+      EXPECT_EQ(distanceExceeds(cylinder, triangle, distance, random.direction()), gap > distance) << i;
     }
   }
 }
@@ -240,4 +240,4 @@ TEST(SeparationTest, AgreesWithLibccd) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -8,7 +8,7 @@
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // How far a point lies outside of the volume [m]; negative: inside.
@@ -120,4 +120,4 @@ TEST(SweptVolumeTest, HasItsInteriorPointStrictlyInside) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

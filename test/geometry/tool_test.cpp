@@ -7,7 +7,7 @@
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 ConvexShape randomShape(Random& random) {
@@ -28,7 +28,7 @@ ConvexShape randomShape(Random& random) {
 }
 
 Tool randomParts(Random& random, int count) {
-  std::vector<ToolPart> parts;
+  std::vector<ConvexPiece> parts;
   for (int i = 0; i < count; ++i) parts.push_back({"part " + std::to_string(i), randomShape(random)});
   return Tool(std::move(parts));
 }
@@ -36,13 +36,13 @@ Tool randomParts(Random& random, int count) {
 TEST(ToolTest, OfOnePartIsThatPart) {
   const Tool drill = Tool::cylinder(0.005, 0.1);
   ASSERT_EQ(drill.tree().size(), 1U);
-  EXPECT_EQ(drill.tree()[0].part, 0U);
+  EXPECT_EQ(drill.tree()[0].piece, 0U);
   EXPECT_EQ(drill.whole().support(-Eigen::Vector3d::UnitZ()), 0.1);
   EXPECT_TRUE(drill.bounds_T().isApprox(
       Eigen::AlignedBox3d(Eigen::Vector3d(-0.005, -0.005, -0.1), Eigen::Vector3d(0.005, 0.005, 0.0))));
 }
 
-TEST(ToolTest, OfNoPartIsRefused) { EXPECT_THROW(Tool(std::vector<ToolPart>{}), InvalidInput); }
+TEST(ToolTest, OfNoPartIsRefused) { EXPECT_THROW(Tool(std::vector<ConvexPiece>{}), InvalidInput); }
 
 TEST(ToolTest, EveryPartIsALeafOfTheTreeOnce) {
   Random random(/*seed=*/11);
@@ -51,8 +51,8 @@ TEST(ToolTest, EveryPartIsALeafOfTheTreeOnce) {
     std::multiset<size_t> leaves;
     std::multiset<size_t> below;
     for (const Tool::Node& node : tool.tree()) {
-      if (node.part) leaves.insert(*node.part);
-      if (!node.part) below.insert(node.below.begin(), node.below.end());
+      if (node.piece) leaves.insert(*node.piece);
+      if (!node.piece) below.insert(node.below.begin(), node.below.end());
     }
     EXPECT_EQ(leaves.size(), static_cast<size_t>(count));
     EXPECT_EQ(std::set<size_t>(leaves.begin(), leaves.end()).size(), leaves.size());
@@ -62,7 +62,7 @@ TEST(ToolTest, EveryPartIsALeafOfTheTreeOnce) {
 }
 
 void expectHeld(const Tool& tool, const Tool::Node& above, const Tool::Node& node, const Eigen::Vector3d& direction) {
-  if (node.part) {
+  if (node.piece) {
     EXPECT_GE(above.shape_T.support(direction), node.shape_T.support(direction) - 1e-12);
     return;
   }
@@ -83,12 +83,12 @@ TEST(ToolTest, ExtentAndBoundsHoldEveryPart) {
   Random random(/*seed=*/13);
   for (int i = 0; i < 200; ++i) {
     const Tool tool = randomParts(random, 1 + random.below(5));
-    for (const ToolPart& part : tool.parts()) {
+    for (const ConvexPiece& part : tool.pieces()) {
       const Eigen::Vector3d p_T = part.shape_T.supportPoint(random.direction());
-      EXPECT_LE(p_T.norm(), tool.extent() + 1e-12);
+      EXPECT_LE(p_T.norm(), tool.boundingRadius() + 1e-12);
       EXPECT_LE(tool.bounds_T().exteriorDistance(p_T), 1e-12);
       const Eigen::Vector3d axis = random.direction();
-      EXPECT_LE(p_T.cross(axis).norm(), part.shape_T.reach(axis) + 1e-12);
+      EXPECT_LE(p_T.cross(axis).norm(), part.shape_T.radiusAbout(axis) + 1e-12);
     }
   }
 }
@@ -103,10 +103,10 @@ TEST(ToolTest, PartsReachAsFarAsTheirSupportPoints) {
       EXPECT_NEAR(shape.support(direction), direction.dot(shape.supportPoint(direction)), 1e-12);
       const Eigen::Vector3d other = shape.supportPoint(random.direction());
       EXPECT_GE(shape.support(direction), direction.dot(other) - 1e-12);
-      EXPECT_LE(direction.dot(shape.frontExtreme(-direction)), shape.support(direction) + 1.0);
+      EXPECT_LE(direction.dot(shape.frontSupport(-direction)), shape.support(direction) + 1.0);
     }
   }
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

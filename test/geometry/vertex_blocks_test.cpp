@@ -6,7 +6,7 @@
 
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 std::vector<float> randomPositions(Random& random, size_t vertices) {
@@ -68,4 +68,4 @@ TEST(VertexBlocksTest, AreMeasuredAnewEachTime) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

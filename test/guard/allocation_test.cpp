@@ -5,13 +5,15 @@
 #include <cmath>
 
 #include "mesh_orders.h"
+#include "monitor/warnings.h"
 #include "scenes.h"
 #include "sweep_guard/common/pool.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/displacements.h"
-#include "sweep_guard/guard/ledger.h"
+#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/monitor/warning_monitor.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using namespace std::chrono_literals;
@@ -52,7 +54,7 @@ Tool toolOf(const Configuration& configuration) {
 }
 
 // A tool that circles over or in a wavy workpiece once a second, at 1 kHz; a deformation, and a look ahead, every 20
-// ms. Each pose is followed by a verdict.
+// ms. Each pose is followed by a warning.
 class SteadyStateTest : public testing::TestWithParam<Configuration> {
  protected:
   SteadyStateTest() {
@@ -88,7 +90,7 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
 
   static Instant now(int ms) { return {Time(100s + ms * 1ms), SteadyTime(ms * 1ms)}; }
 
-  const ToolPose& pose(int ms, double height) {
+  const PoseWithFrames& pose(int ms, double height) {
     const double t = 1e-3 * kTurn * ms;
     pose_.stamp = now(ms).stamp;
     pose_.received = now(ms).steady;
@@ -107,21 +109,21 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
     next->stamp = now(ms).stamp;
     next->received = now(ms).steady;
     next->updates = workpieces_[0]->updates + 1;
-    next->way = workpieces_[0]->way + Displacements(workpieces_[0]->mesh_M, next->mesh_M).farthest();
+    next->path_length = workpieces_[0]->path_length + Displacements(workpieces_[0]->mesh_M, next->mesh_M).farthest();
     workpieces_[0] = next;
-    ledger_.setWorkpieces(workpieces_);
+    monitor_.setWorkpieces(workpieces_);
   }
 
   void cycle(int ms, double height) {
     if (ms % kPeriod == 0) deform(ms);
-    const Seen seen{now(ms).stamp, now(ms).steady};
+    const Timestamps seen{now(ms).stamp, now(ms).steady};
     guard_.sweep(pose(ms, height), workpieces_, report_);
-    ledger_.swept(report_, seen, ledger_.mark(), now(ms).steady);
+    monitor_.swept(report_, seen, monitor_.checkpoint(), now(ms).steady);
     if (ms % kPeriod == 0) {
-      guard_.lookAhead(5ms, workpieces_, outlook_);
-      ledger_.predicted(outlook_, seen, ledger_.mark(), now(ms));
+      guard_.predict(5ms, workpieces_, prediction_);
+      monitor_.predicted(prediction_, seen, monitor_.checkpoint(), now(ms));
     }
-    ledger_.verdict(now(ms), verdict_);
+    monitor_.warning(now(ms), warning_);
   }
 
   // @param check  called after each cycle
@@ -142,33 +144,33 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
   Workpieces workpieces_;
   std::vector<std::vector<float>> sent_;
   std::vector<float> positions_;
-  ToolPose pose_{{}, {}, Eigen::Isometry3d::Identity(), {{kFrame, Eigen::Isometry3d::Identity()}}};
+  PoseWithFrames pose_{{}, {}, Eigen::Isometry3d::Identity(), {{kFrame, Eigen::Isometry3d::Identity()}}};
   Guard guard_{toolOf(GetParam()), makeDetector(GetParam().detector), options()};
   SweepReport report_;
-  Outlook outlook_;
-  Ledger ledger_{{/*pose_timeout=*/100ms, /*mesh_timeout=*/500ms, /*hold_time=*/200ms}};
-  Verdict verdict_;
+  Prediction prediction_;
+  WarningMonitor monitor_{{/*pose_timeout=*/100ms, /*mesh_timeout=*/500ms, /*hold_time=*/200ms}};
+  Warning warning_;
 };
 
 TEST_P(SteadyStateTest, AllocatesNothingInTheClear) {
   expectNoneAt(kClear, [&] {
-    ASSERT_EQ(verdict_.level, Level::kClear);
-    ASSERT_EQ(outlook_.probability(), 0.0);
+    ASSERT_EQ(warning_.level, WarningLevel::kClear);
+    ASSERT_EQ(prediction_.probability(), 0.0);
   });
 }
 
 TEST_P(SteadyStateTest, AllocatesNothingWhileItWarns) {
   expectNoneAt(kNear, [&] {
-    ASSERT_GE(verdict_.level, Level::kConsidered);
-    ASSERT_LE(verdict_.level, Level::kReflex);
-    ASSERT_TRUE(verdict_.tool_part);
+    ASSERT_GE(warning_.level, WarningLevel::kConsidered);
+    ASSERT_LE(warning_.level, WarningLevel::kReflex);
+    ASSERT_TRUE(warning_.tool_piece);
   });
 }
 
 TEST_P(SteadyStateTest, AllocatesNothingInContact) {
   expectNoneAt(kContact, [&] {
-    ASSERT_EQ(verdict_.level, Level::kContact);
-    ASSERT_TRUE(outlook_.met());
+    ASSERT_EQ(warning_.level, WarningLevel::kContact);
+    ASSERT_TRUE(prediction_.firstContact());
   });
 }
 
@@ -202,4 +204,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return one.param.name; });
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

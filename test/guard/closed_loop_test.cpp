@@ -1,14 +1,16 @@
-// A tool moves at constant velocity; the guard sees poses as they come, and is asked for its verdict at every pose and
+// A tool moves at constant velocity; the guard sees poses as they come, and is asked for its warning at every pose and
 // every tick, as in the node.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "detection/reference_detector.h"
+#include "monitor/warnings.h"
 #include "scenes.h"
-#include "sweep_guard/detection/reference_detector.h"
-#include "sweep_guard/guard/ledger.h"
+#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/monitor/warning_monitor.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using namespace std::chrono_literals;
@@ -83,13 +85,13 @@ struct Alarms {
   std::optional<Duration> considered;  // of CONSIDERED or more
   std::optional<Duration> reflex;      // of REFLEX or more
   std::optional<Duration> contact;
-  Level last = Level::kUnknown;
+  WarningLevel last = WarningLevel::kUnknown;
 
-  void note(Duration time, Level level) {
+  void note(Duration time, WarningLevel level) {
     last = level;
-    if (level >= Level::kConsidered && !considered) considered = time;
-    if (level >= Level::kReflex && !reflex) reflex = time;
-    if (level == Level::kContact && !contact) contact = time;
+    if (level >= WarningLevel::kConsidered && !considered) considered = time;
+    if (level >= WarningLevel::kReflex && !reflex) reflex = time;
+    if (level == WarningLevel::kContact && !contact) contact = time;
   }
 };
 
@@ -98,23 +100,23 @@ class Loop {
   Loop(const std::string& predictor, double min_probability, const Wall& wall, Duration hold_time = 500ms)
       : wall_(wall),
         guard_(Tool(kDrill), std::make_unique<ReferenceDetector>(), optionsFor(predictor)),
-        ledger_(limits(min_probability, hold_time)) {
-    ledger_.setWorkpieces({wall.workpiece});
+        monitor_(limits(min_probability, hold_time)) {
+    monitor_.setWorkpieces({wall.workpiece});
   }
 
   // A pose of that time, that comes in later.
   void pose(Duration time, Duration latency, const Eigen::Isometry3d& X_WT, bool sweep, bool look_ahead) {
     const Instant came = instant(time + latency);
-    const Seen seen{instant(time).stamp, came.steady};
-    const Ledger::Mark mark = ledger_.mark();
+    const Timestamps seen{instant(time).stamp, came.steady};
+    const WarningMonitor::Checkpoint checkpoint = monitor_.checkpoint();
     const Workpieces all = {wall_.workpiece};
-    const ToolPose pose{seen.stamp, seen.received, X_WT, {{"table", wall_.X_WM}}};
-    ledger_.swept(guard_.sweep(pose, sweep ? all : Workpieces()), seen, mark, came.steady);
-    if (look_ahead) ledger_.predicted(guard_.lookAhead(age(seen, came), all), seen, mark, came);
+    const PoseWithFrames pose{seen.stamp, seen.received, X_WT, {{"table", wall_.X_WM}}};
+    monitor_.swept(guard_.sweep(pose, sweep ? all : Workpieces()), seen, checkpoint, came.steady);
+    if (look_ahead) monitor_.predicted(guard_.predict(age(seen, came), all), seen, checkpoint, came);
   }
 
-  void tick(Duration time) { alarms.note(time, ledger_.verdict(instant(time)).level); }
-  Verdict verdict(Duration time) const { return ledger_.verdict(instant(time)); }
+  void tick(Duration time) { alarms.note(time, warningOf(monitor_, instant(time)).level); }
+  Warning warning(Duration time) const { return warningOf(monitor_, instant(time)); }
 
   Alarms alarms;
 
@@ -128,8 +130,8 @@ class Loop {
     return options;
   }
 
-  static VerdictLimits limits(double min_probability, Duration hold_time) {
-    VerdictLimits limits{100ms, Duration::max(), hold_time};
+  static WarningLimits limits(double min_probability, Duration hold_time) {
+    WarningLimits limits{100ms, Duration::max(), hold_time};
     limits.tick = kTick;
     limits.min_probability = min_probability;
     return limits;
@@ -137,7 +139,7 @@ class Loop {
 
   Wall wall_;
   Guard guard_;
-  Ledger ledger_;
+  WarningMonitor monitor_;
 };
 
 struct Episode {
@@ -219,17 +221,17 @@ INSTANTIATE_TEST_SUITE_P(Predictors, ClosedLoopTest,
 class VerticalTest : public testing::Test {
  protected:
   explicit VerticalTest(Duration hold_time = 500ms)
-      : loop_("constant_velocity", VerdictLimits().min_probability, floor(), hold_time) {}
+      : loop_("constant_velocity", WarningLimits().min_probability, floor(), hold_time) {}
 
   // @param z  of the tip over the wall [m], by time [s]
   void follow(double from, double to, const std::function<Eigen::Vector3d(double)>& tip,
-              const std::function<void(double, const Verdict&)>& check) {
+              const std::function<void(double, const Warning&)>& check) {
     for (double time = from; time < to; time += 0.01) {
       const Duration now = fromSeconds(time);
       Eigen::Isometry3d X_WT(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
       X_WT.translation() = tip(time);
       loop_.pose(now, 0ms, X_WT, /*sweep=*/true, /*look_ahead=*/true);
-      check(time, loop_.verdict(now));
+      check(time, loop_.warning(now));
     }
   }
 
@@ -251,42 +253,42 @@ class VerticalTestWithoutHold : public VerticalTest {
 
 // Down at 0.1 m/s, contact at 3 s. The threshold is low: doubt alone warns before the path does. Nothing is held.
 TEST_F(VerticalTestWithoutHold, AWarningOfASteadyToolNeverFallsAndComesNearerEvenly) {
-  Level before = Level::kUnknown;
+  WarningLevel before = WarningLevel::kUnknown;
   std::optional<double> left_before;
   follow(
       0.0, 3.0, [](double time) { return Eigen::Vector3d(0, 0, 0.1 * (3.0 - time)); },
-      [&](double time, const Verdict& verdict) {
+      [&](double time, const Warning& warning) {
         if (time < 0.02) return;  // no motion yet
-        ASSERT_GE(verdict.level, before) << time;
-        before = verdict.level;
-        if (verdict.level == Level::kReflex) {
+        ASSERT_GE(warning.level, before) << time;
+        before = warning.level;
+        if (warning.level == WarningLevel::kReflex) {
           ASSERT_LE(3.0 - time, 0.2);
         }
-        if (!verdict.time_to_collision) return;
-        const double left = toSeconds(*verdict.time_to_collision);
+        if (!warning.time_to_collision) return;
+        const double left = toSeconds(*warning.time_to_collision);
         if (left_before) {
           ASSERT_LE(left, *left_before + 0.03) << time;
         }
         left_before = left;
       });
-  EXPECT_GE(before, Level::kReflex);
+  EXPECT_GE(before, WarningLevel::kReflex);
 }
 
 TEST_F(VerticalTest, AToolThatLeavesIsNotWarnedOf) {
   follow(
       0.0, 2.0, [](double time) { return Eigen::Vector3d(0, 0, 0.01 + 0.1 * time); },
-      [](double time, const Verdict& verdict) {
+      [](double time, const Warning& warning) {
         if (time < 0.02) return;  // no motion yet
-        ASSERT_EQ(verdict.level, Level::kClear) << time << ": " << verdict.text;
+        ASSERT_EQ(warning.level, WarningLevel::kClear) << time << ": " << warning.text;
       });
 }
 
 TEST_F(VerticalTest, AToolThatPassesByIsNotWarnedOf) {
   follow(
       0.0, 2.0, [](double time) { return Eigen::Vector3d(0.1 * time, 0, 0.1); },
-      [](double time, const Verdict& verdict) {
+      [](double time, const Warning& warning) {
         if (time < 0.02) return;
-        ASSERT_EQ(verdict.level, Level::kClear) << time << ": " << verdict.text;
+        ASSERT_EQ(warning.level, WarningLevel::kClear) << time << ": " << warning.text;
       });
 }
 
@@ -295,12 +297,12 @@ TEST_F(VerticalTest, AToolThatTurnsBackIsWarnedOfUntilTheHoldTimeIsOver) {
   const auto tip = [](double time) { return Eigen::Vector3d(0, 0, 0.02 + 0.1 * std::abs(time - 3.0)); };
   bool warned = false;
   double last = 0.0;
-  follow(0.0, 5.0, tip, [&](double time, const Verdict& verdict) {
-    ASSERT_NE(verdict.level, Level::kContact);
+  follow(0.0, 5.0, tip, [&](double time, const Warning& warning) {
+    ASSERT_NE(warning.level, WarningLevel::kContact);
     if (time > 2.25 && time < 3.0) {
-      ASSERT_GE(verdict.level, Level::kConsidered) << time;
+      ASSERT_GE(warning.level, WarningLevel::kConsidered) << time;
     }
-    if (verdict.level < Level::kConsidered) return;
+    if (warning.level < WarningLevel::kConsidered) return;
     warned = true;
     last = time;
   });
@@ -309,4 +311,4 @@ TEST_F(VerticalTest, AToolThatTurnsBackIsWarnedOfUntilTheHoldTimeIsOver) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

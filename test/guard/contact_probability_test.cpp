@@ -8,7 +8,7 @@
 
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 double phi(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
@@ -40,7 +40,7 @@ double probabilityOf(const ConvexShape& tool, const Motion& motion, const Matrix
                      const TriangleMesh& mesh_M) {
   const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
   const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance_M, swept_M);
-  const auto clearance = ClearanceMeter()(mesh_M, swept_M, deviations);
+  const auto clearance = ClearanceMeter().measure(mesh_M, swept_M, deviations);
   return clearance ? contactProbability(clearance->deviations) : 0.0;
 }
 
@@ -212,9 +212,9 @@ TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) 
       return std::any_of(hull.triangles().begin(), hull.triangles().end(),
                          [&](const Triangle& triangle) { return meets(hull, triangle, swept_M, z, deviations); });
     };
-    const auto clearance = meter(hull, swept_M, deviations);
+    const auto clearance = meter.measure(hull, swept_M, deviations);
     if (!clearance) {
-      EXPECT_FALSE(meetsAt(kMostDeviations - 1e-6));
+      EXPECT_FALSE(meetsAt(kMaxDeviations - 1e-6));
       continue;
     }
     EXPECT_TRUE(meetsAt(std::max(0.0, clearance->deviations) + 1e-5)) << i;
@@ -230,11 +230,11 @@ TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) 
       deepest = std::min(deepest, farthestBack(hull, triangle, swept_M, deviations));
     }
     inside += deepest < 0.0;
-    EXPECT_NEAR(clearance->deviations, std::max(deepest, -kMostDeviations), 2e-3) << i;
+    EXPECT_NEAR(clearance->deviations, std::max(deepest, -kMaxDeviations), 2e-3) << i;
   }
   EXPECT_GT(outside, 50);
   EXPECT_GT(inside, 20);
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -4,7 +4,7 @@
 
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // As long as it is asked for: a strip.
@@ -90,4 +90,4 @@ TEST(DisplacementsTest, AreBoundedByTheCornersOfTheirBox) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -2,11 +2,11 @@
 
 #include <vector>
 
+#include "detection/reference_detector.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/detection/detector.h"
-#include "sweep_guard/detection/reference_detector.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// The reference detector, with a record of what it was asked, and failing on demand.
 class FakeDetector : public Detector {
@@ -20,7 +20,7 @@ class FakeDetector : public Detector {
   explicit FakeDetector(Record& record) : record_(record) {}
 
  private:
-  void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) override {
+  void find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) override {
     if (record_.failures_left > 0) {
       --record_.failures_left;
       throw DeviceError("fake detector: fails as it was told");
@@ -34,4 +34,4 @@ class FakeDetector : public Detector {
   ReferenceDetector reference_;
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -7,7 +7,7 @@
 #include "guard/fake_detector.h"
 #include "sweep_guard/guard/moving_mesh.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using Indices = std::vector<std::uint32_t>;
@@ -19,8 +19,8 @@ Eigen::Isometry3d up(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0
 using Places = std::map<std::string, Eigen::Isometry3d>;
 
 // The tool at a place in each frame. Only the motion between them counts: the tool rests in W, the frames move.
-ToolPose pose(double seconds, const Places& X_MT) {
-  ToolPose pose{at(seconds), SteadyTime{}, Eigen::Isometry3d::Identity(), {}};
+PoseWithFrames pose(double seconds, const Places& X_MT) {
+  PoseWithFrames pose{at(seconds), SteadyTime{}, Eigen::Isometry3d::Identity(), {}};
   for (const auto& [frame, X] : X_MT) pose.X_WM[frame] = X.inverse();
   return pose;
 }
@@ -57,7 +57,7 @@ TEST_F(GuardTest, TestsTheFirstPoseAlone) {
 TEST_F(GuardTest, FindsAContactAtTheFirstPose) {
   const SweepReport report = sweepTo(1.0, 0.05);
   EXPECT_TRUE(report.contact());
-  EXPECT_EQ(report.objects[0].findings.triangles, Indices{0});
+  EXPECT_EQ(report.objects[0].result.triangles, Indices{0});
 }
 
 // The sheet is between the poses, and touches the drill at neither.
@@ -92,7 +92,7 @@ TEST_F(GuardTest, SweepsTheWayOnWithWhatItAdopts) {
   change.tool = Tool::cylinder(0.01, 0.1);
   change.detector = std::make_unique<FakeDetector>(record);
   change.options.sweep.volume = VolumeKind::kObb;
-  guard_.adopt(change);
+  guard_.exchange(change);
   ASSERT_TRUE(change.tool && change.detector);
   EXPECT_NEAR(change.tool->bounds_T().max().x(), 0.005, 1e-9);
   record_.volumes.clear();
@@ -110,10 +110,10 @@ TEST_F(GuardTest, PredictsWithAnAdoptedPredictorFromTheNextPoseOn) {
   sweepTo(1.0, 0.5);
   GuardChange change;
   change.predictor.emplace(PredictorOptions());
-  guard_.adopt(change);
-  EXPECT_TRUE(guard_.lookAhead({}, table_).path.empty());
+  guard_.exchange(change);
+  EXPECT_TRUE(guard_.predict({}, table_).path.empty());
   sweepTo(1.1, 0.5);
-  EXPECT_FALSE(guard_.lookAhead({}, table_).path.empty());
+  EXPECT_FALSE(guard_.predict({}, table_).path.empty());
 }
 
 TEST_F(GuardTest, SweepsBetweenTwoPosesOfTheSameStamp) {
@@ -137,7 +137,7 @@ TEST_F(GuardTest, LeavesTheIntervalOfAFailedSweepToTheNext) {
   EXPECT_EQ(report.objects[0].interval_start, at(1.0));
 }
 
-// Down through the sheet and up again: the straight way from first to last is free.
+// Down through the sheet and up again: the straight history from first to last is free.
 TEST_F(GuardTest, SweepsThroughEveryPoseSinceAFailure) {
   sweepTo(1.0, 0.5);
   record_.failures_left = 2;
@@ -154,25 +154,25 @@ TEST_F(GuardTest, TimesOfImpactAreFractionsOfTheTimeAfterAFailureToo) {
   record_.failures_left = 1;
   sweepTo(1.1, -0.1);
   const SweepReport report = sweepTo(2.0, -0.2);
-  ASSERT_EQ(report.objects[0].findings.touched.size(), 1U);
-  EXPECT_NEAR(report.objects[0].findings.touched[0].impact.time_of_impact, 0.4 / 0.6 * 0.1, 1e-6);
+  ASSERT_EQ(report.objects[0].result.in_contact.size(), 1U);
+  EXPECT_NEAR(report.objects[0].result.in_contact[0].impact.time_of_impact, 0.4 / 0.6 * 0.1, 1e-6);
 }
 
 // Down at a pace that grows, until the detector answers again: the legs are joined, the time counts by theirs. At 1 m/s
-// a bulge of a ten-thousandth of a metre makes it early by 0.2 ms at the most.
+// a deviation_bound of a ten-thousandth of a metre makes it early by 0.2 ms at the most.
 TEST_F(GuardTest, TimesOfImpactOnJoinedLegsAreNotLate) {
   const auto z = [](int ms) { return 0.3 - 1e-3 * ms - 1e-6 * ms * ms; };
   const double met_ms = 0.5 * (std::sqrt(1e6 + 4e6 * 0.2) - 1e3);
   for (int last = 172; last < 200; ++last) {
-    guard_.forget();
+    guard_.reset();
     sweepTo(1.0, z(0));
     record_.failures_left = last - 1;
     for (int ms = 1; ms < last; ++ms) sweepTo(1.0 + 1e-3 * ms, z(ms));
-    const SweepFindings found = sweepTo(1.0 + 1e-3 * last, z(last)).objects[0].findings;
+    const SweepResult found = sweepTo(1.0 + 1e-3 * last, z(last)).objects[0].result;
     EXPECT_LT(found.volumes_M.size(), 20U);
-    ASSERT_EQ(found.touched.size(), 1U);
-    EXPECT_LE(found.touched[0].impact.time_of_impact * last, met_ms);
-    EXPECT_GE(found.touched[0].impact.time_of_impact * last, met_ms - 0.2);
+    ASSERT_EQ(found.in_contact.size(), 1U);
+    EXPECT_LE(found.in_contact[0].impact.time_of_impact * last, met_ms);
+    EXPECT_GE(found.in_contact[0].impact.time_of_impact * last, met_ms - 0.2);
   }
 }
 
@@ -213,12 +213,12 @@ TEST_F(GuardTest, PassesThroughABacklogInOneSweep) {
 TEST_F(GuardTest, MeetsWhatAFlickInABacklogMeets) {
   for (int flick = 1; flick < 100; ++flick) {
     SCOPED_TRACE("flick at " + std::to_string(flick) + " ms");
-    guard_.forget();
+    guard_.reset();
     EXPECT_FALSE(sweepTo(1.0, 0.5).contact());
     for (int ms = 1; ms < 100; ++ms) passTo(1.0 + 1e-3 * ms, ms == flick ? -0.2 : 0.5);
     const SweepReport report = sweepTo(1.1, 0.5);
     ASSERT_TRUE(report.contact());
-    const double first_ms = 100 * report.objects[0].findings.touched[0].impact.time_of_impact;
+    const double first_ms = 100 * report.objects[0].result.in_contact[0].impact.time_of_impact;
     EXPECT_NEAR(first_ms, flick - 1 + 0.4 / 0.7, 1e-6);
   }
 }
@@ -247,7 +247,7 @@ TEST_F(GuardTest, ABacklogLeavesThePredictionAsItIs) {
   Guard backlogged(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options);
   Guard prompt(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options);
   for (int ms = 0; ms <= 300; ++ms) {
-    const ToolPose pose{at(1.0 + 1e-3 * ms), SteadyTime{}, up(0.5 + 0.1 * std::sin(0.01 * ms)), {}};
+    const PoseWithFrames pose{at(1.0 + 1e-3 * ms), SteadyTime{}, up(0.5 + 0.1 * std::sin(0.01 * ms)), {}};
     prompt.sweep(pose, {});
     if (ms % 10 == 0) {
       backlogged.sweep(pose, {});
@@ -255,17 +255,17 @@ TEST_F(GuardTest, ABacklogLeavesThePredictionAsItIs) {
       backlogged.pass(pose);
     }
   }
-  const PredictedPath expected = prompt.forecast({}, fromSeconds(1.0)).path;
-  const PredictedPath path = backlogged.forecast({}, fromSeconds(1.0)).path;
+  const PredictedPath expected = prompt.predictMotion({}, fromSeconds(1.0)).path;
+  const PredictedPath path = backlogged.predictMotion({}, fromSeconds(1.0)).path;
   ASSERT_EQ(path.size(), expected.size());
   for (size_t i = 0; i < path.size(); ++i) EXPECT_EQ(path[i].X_WT.matrix(), expected[i].X_WT.matrix());
 }
 
 // The table turns by half a radian about its own origin, the tool rests a metre away: seen from the table it runs along
-// an arc that bulges by a metre times 0.25 / 8 = 31 mm beyond the straight way. Something stands on that arc.
+// an arc that bulges by a metre times 0.25 / 8 = 31 mm beyond the straight history. Something stands on that arc.
 TEST_F(GuardTest, SweepsTheArcThatATurningTableMakesOfARestingTool) {
   const auto tableTurnedBy = [](double angle) {
-    ToolPose pose{at(1.0 + angle), SteadyTime{}, Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0)), {}};
+    PoseWithFrames pose{at(1.0 + angle), SteadyTime{}, Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0)), {}};
     pose.X_WM["table"] = Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitZ());
     return pose;
   };
@@ -279,7 +279,7 @@ TEST_F(GuardTest, SweepsTheArcThatATurningTableMakesOfARestingTool) {
 
 TEST_F(GuardTest, TestsThePoseAloneAfterForgetting) {
   sweepTo(1.0, 0.5);
-  guard_.forget();
+  guard_.reset();
   const SweepReport report = sweepTo(0.3, -0.1);
   EXPECT_FALSE(report.contact());
   EXPECT_EQ(report.objects[0].interval_start, at(0.3));
@@ -310,9 +310,9 @@ TEST_F(GuardTest, SweepsFromTheLastPoseThatWasKnownInAFrame) {
   const SweepReport report = guard_.sweep(pose(1.2, {{"table", up(0.3)}, {"turntable", up(-0.1)}}), both);
   ASSERT_EQ(report.objects.size(), 2U);
   EXPECT_EQ(report.objects[0].interval_start, at(1.1));
-  EXPECT_TRUE(report.objects[0].findings.triangles.empty());
+  EXPECT_TRUE(report.objects[0].result.triangles.empty());
   EXPECT_EQ(report.objects[1].interval_start, at(1.0));
-  EXPECT_EQ(report.objects[1].findings.triangles, Indices{0});
+  EXPECT_EQ(report.objects[1].result.triangles, Indices{0});
   EXPECT_EQ(report.start, at(1.0));
   EXPECT_TRUE(report.contact());
 }
@@ -360,10 +360,10 @@ class MovingSheetTest : public testing::Test {
       for (const double x : {p.x(), p.y(), z}) positions.push_back(static_cast<float>(x));
     }
     TriangleMesh mesh = before.deformed(positions);
-    const double way = newest_ ? newest_->way + Displacements(before, mesh).farthest() : 0.0;
+    const double history = newest_ ? newest_->path_length + Displacements(before, mesh).farthest() : 0.0;
     const std::uint64_t updates = newest_ ? newest_->updates + 1 : 0;
     newest_ = std::make_shared<const Workpiece>(
-        Workpiece{"sheet", 0, at(seconds), SteadyTime{}, "table", std::move(mesh), updates, way});
+        Workpiece{"sheet", 0, at(seconds), SteadyTime{}, "table", std::move(mesh), updates, history});
   }
 
   SweepReport sweepTo(double seconds, double z) { return guard_.sweep(pose(seconds, {{"table", up(z)}}), {newest_}); }
@@ -378,11 +378,11 @@ TEST_F(MovingSheetTest, ThatJumpsOverARestingToolIsReported) {
   place(1.01, 1.0);
   const SweepReport report = sweepTo(1.01, 0.0);
   EXPECT_TRUE(report.contact());
-  const SweepFindings& found = report.objects[0].findings;
-  EXPECT_EQ(found.met, Indices{0});
-  ASSERT_EQ(found.touched.size(), 1U);
-  EXPECT_NEAR(found.touched[0].impact.time_of_impact, 0.45, 1e-6);  // 0.9 m of 2 m to the far end of the drill
-  EXPECT_LT(report.margin(), 1e-6);                                 // it went as a whole
+  const SweepResult& found = report.objects[0].result;
+  EXPECT_EQ(found.not_ruled_out, Indices{0});
+  ASSERT_EQ(found.in_contact.size(), 1U);
+  EXPECT_NEAR(found.in_contact[0].impact.time_of_impact, 0.45, 1e-6);  // 0.9 m of 2 m to the far end of the drill
+  EXPECT_LT(report.margin(), 1e-6);                                    // it went as a whole
   EXPECT_FALSE(sweepTo(1.02, 0.0).contact());
 }
 
@@ -424,7 +424,7 @@ TEST_F(MovingSheetTest, TakesOneMoreSweepAfterASmoothMotion) {
   for (int ms = 1; ms <= 16; ++ms) sweepTo(1.0 + 1e-3 * ms, 0.5 - 2e-4 * ms - 1e-6 * ms * ms);
   place(1.015, -0.9);
   const SweepReport report = sweepTo(1.017, 0.49);
-  EXPECT_EQ(report.objects[0].findings.volumes_M.size(), 2U);
+  EXPECT_EQ(report.objects[0].result.volumes_M.size(), 2U);
   EXPECT_FALSE(report.contact());
 }
 
@@ -433,7 +433,7 @@ TEST_F(MovingSheetTest, IsMetByAFlickBeforeItsUpdate) {
   for (int flick = 1; flick < 16; ++flick) {
     SCOPED_TRACE("flick at " + std::to_string(flick) + " ms");
     newest_.reset();
-    guard_.forget();
+    guard_.reset();
     place(1.0, -1.0);
     for (int ms = 0; ms <= 16; ++ms) EXPECT_FALSE(sweepTo(1.0 + 1e-3 * ms, ms == flick ? -0.3 : 0.5).contact());
     place(1.016, -0.35);
@@ -452,15 +452,15 @@ TEST_F(MovingSheetTest, IsMetOnItsWayByPosesOlderThanItsUpdate) {
   EXPECT_FALSE(sweepTo(1.3, 0.5).contact() && sweepTo(1.31, -1.2).contact());
 }
 
-// An update has the way before swept again, where the drill was not in as deep.
+// An update has the history before swept again, where the drill was not in as deep.
 TEST_F(MovingSheetTest, HasDepthsOfTheNewestPoseAtItsUpdatesToo) {
   place(1.0, 0.0);
   for (int i = 0; i < 20; ++i) {
     const double z = 0.1 - 0.004 * i;
     if (i % 5 == 4) place(1.0 + 0.01 * i, i % 2 == 0 ? 1e-6 : 0.0);
     const SweepReport report = sweepTo(1.0 + 0.01 * i, z);
-    ASSERT_EQ(report.objects[0].findings.touched.size(), 1U);
-    EXPECT_NEAR(report.objects[0].findings.touched[0].impact.depth, 0.1 - z, 2e-6);
+    ASSERT_EQ(report.objects[0].result.in_contact.size(), 1U);
+    EXPECT_NEAR(report.objects[0].result.in_contact[0].impact.depth, 0.1 - z, 2e-6);
   }
 }
 
@@ -470,7 +470,7 @@ TEST_F(MovingSheetTest, ThatRestsIsNotSweptAgain) {
   sweepTo(1.01, 0.4);
   place(1.015, -1.0);
   const SweepReport report = sweepTo(1.02, 0.3);
-  EXPECT_EQ(report.objects[0].findings.volumes_M.size(), 1U);
+  EXPECT_EQ(report.objects[0].result.volumes_M.size(), 1U);
 }
 
 TEST_F(MovingSheetTest, IsFollowedThroughAFailureOfTheFirstSweep) {
@@ -492,4 +492,4 @@ TEST_F(MovingSheetTest, IsFollowedThoughItsTrianglesAreSentAnew) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

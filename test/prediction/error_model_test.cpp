@@ -1,10 +1,10 @@
-#include "sweep_guard/prediction/error_model.h"
+#include "prediction/error_model.h"
 
 #include <gtest/gtest.h>
 
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 // A tool that goes along x at a speed that changes now and then, and forecasts that err by a known share of it.
@@ -20,12 +20,12 @@ class ErrorModelTest : public testing::Test {
       track_.add(pose);
       Vector6d velocity = Vector6d::Zero();
       velocity[0] = speed;
-      Forecast forecast;
-      for (size_t k = 0; k < forecast.size(); ++k) {
-        forecast[k] = kLearnedAhead[k] * velocity;
-        forecast[k].head<3>() += error_share * kLearnedAhead[k] * speed * std::sqrt(3.0) * random_.direction();
+      PredictedDisplacements predicted;
+      for (size_t k = 0; k < predicted.size(); ++k) {
+        predicted[k] = kLearnedHorizons[k] * velocity;
+        predicted[k].head<3>() += error_share * kLearnedHorizons[k] * speed * std::sqrt(3.0) * random_.direction();
       }
-      model_.observe(track_, velocity, forecast);
+      model_.observe(track_, velocity, predicted);
     }
   }
   double deviation(double ahead) const {
@@ -36,7 +36,7 @@ class ErrorModelTest : public testing::Test {
   Random random_{1};
   double time_ = 100.0;
   double x_ = 0.0;
-  MotionTrack track_{5.0, 20.0};
+  PoseTracker track_{5.0, 20.0};
   ErrorModel model_;
 };
 
@@ -48,7 +48,7 @@ TEST_F(ErrorModelTest, SupposesAShareOfTheWayBeforeItKnows) {
 
 TEST_F(ErrorModelTest, FindsHowFarForecastsErr) {
   go(60.0, 0.2, 0.1);
-  for (const double ahead : kLearnedAhead) EXPECT_NEAR(deviation(ahead), 0.1 * ahead * 0.2, 0.1 * 0.1 * ahead * 0.2);
+  for (const double ahead : kLearnedHorizons) EXPECT_NEAR(deviation(ahead), 0.1 * ahead * 0.2, 0.1 * 0.1 * ahead * 0.2);
 }
 
 TEST_F(ErrorModelTest, InterpolatesBetweenHorizonsAndGrowsBeyondThem) {
@@ -69,17 +69,17 @@ TEST_F(ErrorModelTest, ExpectsGreaterErrorsInFastMotion) {
 
 // The tool goes along x and its forecasts err along x alone.
 TEST(ErrorModelDirectionTest, TellsErrorsAlongTheMotionFromThoseAcross) {
-  MotionTrack track(5.0, 20.0);
+  PoseTracker tracker(5.0, 20.0);
   ErrorModel model;
   for (int i = 0; i < 6000; ++i) {
     StampedPose pose;
     pose.stamp = Time(fromSeconds(100.0 + 0.01 * i));
     pose.X_WT.translation().x() = 0.002 * i;
-    track.add(pose);
+    tracker.add(pose);
     const Vector6d velocity = 0.2 * Vector6d::Unit(0);
-    Forecast forecast;
-    for (size_t k = 0; k < forecast.size(); ++k) forecast[k] = 1.1 * kLearnedAhead[k] * velocity;
-    model.observe(track, velocity, forecast);
+    PredictedDisplacements predicted;
+    for (size_t k = 0; k < predicted.size(); ++k) predicted[k] = 1.1 * kLearnedHorizons[k] * velocity;
+    model.observe(tracker, velocity, predicted);
   }
   const Eigen::Matrix3d covariance = model.covariance(0.5).topLeftCorner<3, 3>();
   EXPECT_NEAR(std::sqrt(covariance(0, 0)), 0.1 * 0.5 * 0.2, 1e-3);
@@ -98,4 +98,4 @@ TEST_F(ErrorModelTest, KnowsNothingAboutTurnsOfAToolThatNeverTurned) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -1,11 +1,11 @@
-#include "sweep_guard/prediction/polynomial_fit.h"
+#include "prediction/polynomial_fit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using std::chrono::milliseconds;
@@ -105,4 +105,4 @@ TEST(PolynomialFitTest, IsAsExactAfterTenMillionUpdatesAsAtFirst) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

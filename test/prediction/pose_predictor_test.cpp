@@ -5,11 +5,11 @@
 #include <cmath>
 #include <functional>
 
+#include "prediction/displacement.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/prediction/displacement.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using std::chrono::milliseconds;
@@ -36,7 +36,7 @@ void follow(PosePredictor& predictor, const PoseAt& truth, double from, double u
 void expectExact(const PosePredictor& predictor, const PoseAt& truth, double now, double tolerance) {
   const PredictedPath path = predictor.predict(kAhead);
   ASSERT_EQ(path.size(), kAhead.size());
-  for (const ExpectedPose& pose : path) {
+  for (const PredictedPose& pose : path) {
     const Vector6d error = displacement(pose.X_WT, truth(now + toSeconds(pose.ahead)));
     EXPECT_LT(error.norm(), tolerance) << toSeconds(pose.ahead) << " s ahead";
   }
@@ -82,7 +82,7 @@ TEST(PosePredictorTest, ConstantVelocityIsPredictedExactlyByAllThatMove) {
 TEST(PosePredictorTest, HoldStaysWhereTheToolIs) {
   PosePredictor predictor = predictorOf("hold");
   follow(predictor, steadyMotion, 0.0, 1.0, 0.01);
-  for (const ExpectedPose& pose : predictor.predict(kAhead)) {
+  for (const PredictedPose& pose : predictor.predict(kAhead)) {
     EXPECT_TRUE(pose.X_WT.isApprox(steadyMotion(1.0), 1e-12));
     EXPECT_GT(pose.covariance(0, 0), 0.0);
   }
@@ -153,7 +153,7 @@ TEST(PosePredictorTest, IsNeverFasterThanTheLimits) {
       return Eigen::Translation3d(0.4 * t * t, 0, 0) * Eigen::AngleAxisd(1.5 * t * t, Eigen::Vector3d::UnitZ());
     };
     follow(predictor, rush, 0.0, 0.6, 0.01);
-    for (const ExpectedPose& pose : predictor.predict(kAhead)) {
+    for (const PredictedPose& pose : predictor.predict(kAhead)) {
       const Vector6d moved = displacement(rush(0.6), pose.X_WT);
       EXPECT_LE(moved.head<3>().norm(), 0.5 * toSeconds(pose.ahead) + 1e-12) << name;
       EXPECT_LE(moved.tail<3>().norm(), 2.0 * toSeconds(pose.ahead) + 1e-9) << name;
@@ -181,7 +181,7 @@ TEST(PosePredictorTest, NothingThatComesMakesItExplode) {
       const Eigen::Isometry3d outlier = random.pose(100.0 * random.direction());
       const StampedPose pose{at(t), random.chance(0.01) ? outlier : X_WT};
       predictor.observe(pose);
-      for (const ExpectedPose& expected : predictor.predict(kAhead)) {
+      for (const PredictedPose& expected : predictor.predict(kAhead)) {
         const double ahead = toSeconds(expected.ahead);
         ASSERT_TRUE(expected.X_WT.matrix().allFinite()) << name << ", pose " << i;
         ASSERT_NEAR(expected.X_WT.linear().determinant(), 1.0, 1e-9);
@@ -205,7 +205,7 @@ TEST(PosePredictorTest, FollowsAToolThatHasRested) {
     follow(predictor, start, 0.0, 30.0, 0.01);
     for (int i = 3001; i < 3500; ++i) {
       predictor.observe({at(0.01 * i), start(0.01 * i)});
-      const ExpectedPose pose = predictor.predict({milliseconds(1000)})[0];
+      const PredictedPose pose = predictor.predict({milliseconds(1000)})[0];
       const double way = pose.X_WT.translation().x() - start(0.01 * i).translation().x();
       if (i > 3010) {
         ASSERT_GT(way, 0.2) << name << " at " << 0.01 * i << " s";
@@ -225,8 +225,8 @@ TEST(PosePredictorTest, AStutterOfTheStampsDoesNotPoisonWhatIsLearned) {
     follow(stuttering, sway, 0.0, 5.0, 0.01);
     stuttering.observe({at(5.000001), Eigen::Translation3d(0.0005, 0.0, 0.0) * sway(5.0)});
     follow(stuttering, sway, 5.01, 10.0, 0.01);
-    const ExpectedPose expected = steady.predict({milliseconds(500)})[0];
-    const ExpectedPose disturbed = stuttering.predict({milliseconds(500)})[0];
+    const PredictedPose expected = steady.predict({milliseconds(500)})[0];
+    const PredictedPose disturbed = stuttering.predict({milliseconds(500)})[0];
     EXPECT_LT((expected.X_WT.translation() - disturbed.X_WT.translation()).norm(), 0.002) << name;
     EXPECT_LT(disturbed.covariance(0, 0), 1.2 * expected.covariance(0, 0)) << name;
   }
@@ -242,7 +242,7 @@ TEST(PosePredictorTest, SpinsThroughHalfTurnsSmoothly) {
     follow(predictor, spin, 0.0, 0.3, 0.01);
     for (int i = 31; i < 300; ++i) {
       predictor.observe({at(0.01 * i), spin(0.01 * i)});
-      const ExpectedPose pose = predictor.predict({milliseconds(100)})[0];
+      const PredictedPose pose = predictor.predict({milliseconds(100)})[0];
       ASSERT_LT(displacement(pose.X_WT, spin(0.01 * i + 0.1)).norm(), 1e-6) << name << " at " << 0.01 * i << " s";
     }
   }
@@ -260,7 +260,7 @@ TEST(PosePredictorTest, ItsCovarianceTellsHowFarItErrs) {
     double expected = 0.0;
     for (int i = 3001; i < 6000; ++i) {
       predictor.observe({at(0.01 * i), sway(0.01 * i)});
-      const ExpectedPose pose = predictor.predict({milliseconds(500)})[0];
+      const PredictedPose pose = predictor.predict({milliseconds(500)})[0];
       errors += displacement(pose.X_WT, sway(0.01 * i + 0.5)).head<3>().squaredNorm();
       expected += pose.covariance.topLeftCorner<3, 3>().trace();
     }
@@ -289,4 +289,4 @@ TEST(PosePredictorTest, RefusesOptionsThatCannotWork) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

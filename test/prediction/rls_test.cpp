@@ -1,10 +1,10 @@
-#include "sweep_guard/prediction/rls.h"
+#include "prediction/rls.h"
 
 #include <gtest/gtest.h>
 
 #include "scenes.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 namespace {
 
 using Fit = Rls<3, 2>;
@@ -107,4 +107,4 @@ TEST(RlsTest, ItsCovarianceIsSymmetricAndPositiveAfterAMillionUpdates) {
 }
 
 }  // namespace
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -2,18 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <locale>
 
+#include "data_path.h"
+#include "refusal.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_recording {
 namespace {
 
-using sweep_guard::InvalidInput;
-using sweep_guard::StampedPose;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::StampedPose;
 
 class MotionFileTest : public testing::Test {
  protected:
@@ -28,12 +29,7 @@ class MotionFileTest : public testing::Test {
   }
 
   std::string refusal(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "";
+    return ::refusal([&] { read(text); });
   }
 
   std::string path_;
@@ -78,16 +74,14 @@ TEST_F(MotionFileTest, RefusesWhatIsNotEightFiniteNumbers) {
 
 TEST_F(MotionFileTest, ShowsNothingOfABinaryFileThatATerminalWouldObey) {
   const std::string message = refusal("\033[2J\x80" + std::string(100000, 'x') + " 0\n");
-  EXPECT_NE(message.find(":1: '?[2J?xxx"), std::string::npos) << message;
+  EXPECT_TRUE(has(message, ":1: '?[2J?xxx"));
   EXPECT_LT(message.size(), path_.size() + 150U);
 }
 
-TEST_F(MotionFileTest, RefusesAZeroQuaternion) {
-  EXPECT_NE(refusal("0 0 0 0 0 0 0 0").find("quaternion"), std::string::npos);
-}
+TEST_F(MotionFileTest, RefusesAZeroQuaternion) { EXPECT_TRUE(has(refusal("0 0 0 0 0 0 0 0"), "quaternion")); }
 
 TEST_F(MotionFileTest, RefusesAFileWithoutPoses) {
-  EXPECT_NE(refusal("# nothing\n").find("no pose"), std::string::npos);
+  EXPECT_TRUE(has(refusal("# nothing\n"), "no pose"));
   EXPECT_THROW(readMotionFile(path_ + "_missing"), InvalidInput);
   EXPECT_THROW(readMotionFile(testing::TempDir()), InvalidInput);
   EXPECT_THROW(readMotionFile("/dev/zero"), InvalidInput);
@@ -105,13 +99,10 @@ TEST_F(MotionFileTest, ReadsDecimalPointsInALocaleOfCommas) {
 }
 
 TEST(MotionFileDataTest, ReadsEveryRecording) {
-  const char* const variable = std::getenv("SWEEP_GUARD_DATA");
-  const std::filesystem::path data = variable != nullptr ? variable : SWEEP_GUARD_SOURCE_DIR "/../shared/data";
-  if (!std::filesystem::exists(data / "motion"))
-    GTEST_SKIP() << data / "motion"
-                 << " is missing; set SWEEP_GUARD_DATA";
+  const std::filesystem::path data = dataPath("motion");
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is missing; set SWEEP_GUARD_DATA";
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(data / "motion")) {
+  for (const auto& entry : std::filesystem::directory_iterator(data)) {
     if (entry.path().extension() != ".txt") continue;
     ++count;
     EXPECT_GT(readMotionFile(entry.path()).size(), 900U) << entry.path();

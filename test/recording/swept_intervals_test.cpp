@@ -6,7 +6,7 @@ namespace sweep_guard_recording {
 namespace {
 
 using std::chrono::milliseconds;
-using sweep_guard::Time;
+using sweep_guard_core::Time;
 
 Time at(int ms) { return Time(milliseconds(ms)); }
 

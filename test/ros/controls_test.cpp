@@ -1,5 +1,6 @@
 // ~enable and ~reset of a running guard. Part of node_test.
 #include "node_fixture.h"
+#include "refusal.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -23,7 +24,7 @@ TEST_F(ControlsTest, DisabledIsUnknownForThatReasonAloneAndNotClear) {
   const Warning warning = probe().awaitWarning(hasReason(Warning::DISABLED));
   EXPECT_EQ(warning.reasons, Warning::DISABLED);
   EXPECT_TRUE(warning.reflex && warning.considered);
-  EXPECT_NE(warning.text.find("disabled by " + ros::this_node::getName()), std::string::npos) << warning.text;
+  EXPECT_TRUE(has(warning.text, "disabled by " + ros::this_node::getName()));
 }
 
 // The pose that comes while it is disabled is never swept: not at once, and not as part of the way afterwards.
@@ -69,7 +70,7 @@ TEST_F(ControlsTest, ContactIsNotHiddenByDisabling) {
   probe().awaitWarning([](const Warning& warning) { return warning.contact; });
   const auto response = probe().enable(false);
   EXPECT_FALSE(response.success);
-  EXPECT_NE(response.message.find("CONTACT: tool meets 'sheet'"), std::string::npos) << response.message;
+  EXPECT_TRUE(has(response.message, "CONTACT: tool meets 'sheet'"));
   moveTo({0.0, 0.0, -0.01});
   EXPECT_TRUE(probe().warnings().back().contact);
 }
@@ -79,7 +80,7 @@ TEST_F(ControlsTest, DisabledOutlastsResetAndJumpsOfTime) {
   ASSERT_TRUE(probe().enable(false).success);
   const auto response = probe().reset();
   EXPECT_TRUE(response.success);
-  EXPECT_NE(response.message.find("stays disabled"), std::string::npos) << response.message;
+  EXPECT_TRUE(has(response.message, "stays disabled"));
   probe().skipWarnings();
   probe().setClock(probe().time() - ros::Duration(10.0));
   probe().publish(poseAt({0.0, 0.0, 0.5}, ros::Time()));
@@ -95,7 +96,7 @@ TEST_F(ControlsTest, ResetEndsAHeldContactAndBeginsAnewWithTheWorkpiecesThereAre
   probe().skipWarnings();
   const auto response = probe().reset();
   EXPECT_TRUE(response.success) << response.message;
-  EXPECT_NE(response.message.find("Kept: the workpieces (1)"), std::string::npos) << response.message;
+  EXPECT_TRUE(has(response.message, "Kept: the workpieces (1)"));
   const Warning anew = probe().awaitWarning([](const Warning& warning) { return !warning.contact; });
   EXPECT_EQ(anew.level, Warning::UNKNOWN);
   EXPECT_EQ(anew.reasons, Warning::NO_POSE) << anew.text;

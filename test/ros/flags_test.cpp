@@ -1,6 +1,8 @@
 // On the wall clock: how often ~reflex_warning and ~considered_warning come, and that they do not wait when they rise.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "guard_probe.h"
 
 namespace sweep_guard_ros {
@@ -30,33 +32,36 @@ std::chrono::steady_clock::time_point firstRaised(const std::function<std::vecto
   }
 }
 
-// A tick of the timers comes so soon after an edge by chance too, but not after ten of them.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// A tick of the timers comes so soon after an edge by chance too, but not after most of 21; load delays a few.
 TEST(FlagsTest, ComeAtOnceWhenTheyRise) {
   GuardProbe probe(/*drives_clock=*/false);
   const auto reflex = [&](size_t count) { return probe.awaitReflexFlags(count); };
   const auto considered = [&](size_t count) { return probe.awaitConsideredFlags(count); };
   probe.place(sheetAt("sheet", {0.0, 0.0, -1.0}, ros::Time::now()));
-  for (int i = 0; i < 10; ++i) {
-    probe.skipWarnings();
-    probe.place(sheetMovedTo("sheet", {0.0, 0.0, -1.0}, ros::Time::now()));
-    const ros::Time now = ros::Time::now();
-    probe.publish(poseAt({0.0, 0.0, 0.5}, now - ros::Duration(0.01)));
-    probe.publish(poseAt({0.0, 0.0, 0.5}, now));
-    probe.awaitWarning([](const Warning& warning) { return warning.clear; });
+  std::vector<double> reflex_late;      // [s]
+  std::vector<double> considered_late;  // [s]
+  for (int i = 0; i < 21; ++i) {
+    do {  // until it is clear: on a machine that is busy a pose may be stale before
+      probe.place(sheetMovedTo("sheet", {0.0, 0.0, -1.0}, ros::Time::now()));
+      probe.publish(poseAt({0.0, 0.0, 0.5}, ros::Time::now()));
+      probe.skipWarnings();
+    } while (!probe.awaitWarning([](const Warning&) { return true; }).clear);
     const size_t reflex_before = reflex(0).size();
     const size_t considered_before = considered(0).size();
     probe.awaitWarning([](const Warning& warning) { return warning.reflex && warning.considered; });  // pose too old
     const auto risen = std::chrono::steady_clock::now();
-    EXPECT_LT(firstRaised(reflex, reflex_before) - risen, std::chrono::milliseconds(25));
-    EXPECT_LT(firstRaised(considered, considered_before) - risen, std::chrono::milliseconds(25));
+    reflex_late.push_back(duration<double>(firstRaised(reflex, reflex_before) - risen).count());
+    considered_late.push_back(duration<double>(firstRaised(considered, considered_before) - risen).count());
   }
+  EXPECT_LT(median(reflex_late), 0.01);
+  EXPECT_LT(median(considered_late), 0.01);
 }
 
 }  // namespace
 }  // namespace sweep_guard_ros
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "flags_test");
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -1,4 +1,4 @@
-#include "sweep_guard/ros/marker_shapes.h"
+#include "ros/output/marker_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 namespace sweep_guard_ros {
 namespace {
 
-using sweep_guard::ConvexShape;
-using sweep_guard::Tool;
+using sweep_guard_core::ConvexShape;
+using sweep_guard_core::Tool;
 using visualization_msgs::Marker;
 
 std::vector<Marker> draw(const Tool& tool, int index, const Eigen::Isometry3d& X_WT = Eigen::Isometry3d::Identity()) {
   visualization_msgs::MarkerArray array;
-  addTool(array, {"tool", index, "world", sweep_guard::Time(), color(0.4, 0.5, 0.9, 0.8)}, tool, X_WT);
+  addTool(array, {"tool", index, "world", sweep_guard_core::Time(), color(0.4, 0.5, 0.9, 0.8)}, tool, X_WT);
   return array.markers;
 }
 

@@ -1,5 +1,7 @@
 // Meshes are found only where they may be, and read as a whole or not at all; no file brings the guard down.
-#include "sweep_guard/ros/mesh_file.h"
+#include "sweep_guard/ros/tool/mesh_file.h"
+#include "data_path.h"
+#include "refusal.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -10,23 +12,11 @@
 #include <cstring>
 
 #include "ros/package_folder.h"
-#include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 namespace fs = std::filesystem;
-using sweep_guard::InvalidInput;
-
-template <typename Work>
-std::string refusal(Work work) {
-  try {
-    work();
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "";
-}
 
 class MeshFileTest : public testing::Test {
  protected:
@@ -34,7 +24,7 @@ class MeshFileTest : public testing::Test {
     const fs::path file = folder_.write(name, content);
     std::string message = refusal([&] { readMesh(file); });
     EXPECT_NE(message, "") << name << " is read";
-    EXPECT_NE(message.find(file.string()), std::string::npos) << message;
+    EXPECT_TRUE(has(message, file.string()));
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return message;
   }
@@ -130,20 +120,19 @@ TEST_F(MeshFileTest, KeepsEdgesAndPointsBesideTriangles) {
 }
 
 TEST_F(MeshFileTest, RefusesWhatItCannotReadAsAWhole) {
-  EXPECT_NE(refused("empty.obj", "").find("empty"), std::string::npos);
-  EXPECT_NE(refused("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n").find("no triangles"), std::string::npos);
-  EXPECT_NE(refused("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("NaN"), std::string::npos);
-  EXPECT_NE(refused("inf.obj", "v 0 0 1e39\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("infinite"), std::string::npos);
-  EXPECT_NE(refused("index.obj", tetrahedronObj() + "f 1 2 9\n").find("index"), std::string::npos);
+  EXPECT_TRUE(has(refused("empty.obj", ""), "empty"));
+  EXPECT_TRUE(has(refused("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "no triangles"));
+  EXPECT_TRUE(has(refused("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "NaN"));
+  EXPECT_TRUE(has(refused("inf.obj", "v 0 0 1e39\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "infinite"));
+  EXPECT_TRUE(has(refused("index.obj", tetrahedronObj() + "f 1 2 9\n"), "index"));
   const std::string stl = asciiStl();
-  EXPECT_NE(refused("cut.stl", stl.substr(0, stl.rfind("facet normal"))).find("end is missing"), std::string::npos);
-  EXPECT_NE(refused("cut.stl", stl.substr(0, stl.rfind("vertex"))).find("cannot be read"), std::string::npos);
-  EXPECT_NE(refused("lie.stl", binaryStl(3)).find("cannot be read"), std::string::npos);
-  EXPECT_NE(refused("lie.stl", binaryStl(4000000000U)).find("cannot be read"), std::string::npos);
-  EXPECT_NE(refused("lfs.obj", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n").find("git lfs pull"),
-            std::string::npos);
-  EXPECT_NE(refused("cut.dae", "<COLLADA version='1.4.1'><asset>").find("XML"), std::string::npos);
-  EXPECT_NE(refused("t.ply", "ply").find("STL, OBJ or DAE"), std::string::npos);
+  EXPECT_TRUE(has(refused("cut.stl", stl.substr(0, stl.rfind("facet normal"))), "end is missing"));
+  EXPECT_TRUE(has(refused("cut.stl", stl.substr(0, stl.rfind("vertex"))), "cannot be read"));
+  EXPECT_TRUE(has(refused("lie.stl", binaryStl(3)), "cannot be read"));
+  EXPECT_TRUE(has(refused("lie.stl", binaryStl(4000000000U)), "cannot be read"));
+  EXPECT_TRUE(has(refused("lfs.obj", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n"), "git lfs pull"));
+  EXPECT_TRUE(has(refused("cut.dae", "<COLLADA version='1.4.1'><asset>"), "XML"));
+  EXPECT_TRUE(has(refused("t.ply", "ply"), "STL, OBJ or DAE"));
 }
 
 // Some exporters write capitals, or a byte order mark.
@@ -160,11 +149,11 @@ TEST_F(MeshFileTest, ReadsCapitalsAndAByteOrderMark) {
 
 TEST_F(MeshFileTest, RefusesAnObjOfWhichSomeLineWouldBeDropped) {
   const std::string obj = tetrahedronObj();
-  EXPECT_NE(refused("surf.obj", obj + "surf 0 1 0 1 1 2 3 4\nend\n").find("'surf'"), std::string::npos);
-  EXPECT_NE(refused("hex.obj", "v 0x10 0 0\n" + obj).find("'0x10'"), std::string::npos);
-  EXPECT_NE(refused("seven.obj", "v 1 2 3 1 1 1 1\n" + obj).find("7 numbers"), std::string::npos);
-  EXPECT_NE(refused("indented.obj", " v 1 2 3\n" + obj).find("indented"), std::string::npos);
-  EXPECT_NE(refused("indented.obj", obj + " f 1 2 3\n").find("faces"), std::string::npos);
+  EXPECT_TRUE(has(refused("surf.obj", obj + "surf 0 1 0 1 1 2 3 4\nend\n"), "'surf'"));
+  EXPECT_TRUE(has(refused("hex.obj", "v 0x10 0 0\n" + obj), "'0x10'"));
+  EXPECT_TRUE(has(refused("seven.obj", "v 1 2 3 1 1 1 1\n" + obj), "7 numbers"));
+  EXPECT_TRUE(has(refused("indented.obj", " v 1 2 3\n" + obj), "indented"));
+  EXPECT_TRUE(has(refused("indented.obj", obj + " f 1 2 3\n"), "faces"));
 }
 
 std::string replaced(std::string text, const std::string& part, const std::string& by) {
@@ -173,53 +162,53 @@ std::string replaced(std::string text, const std::string& part, const std::strin
 
 TEST_F(MeshFileTest, RefusesADaeWithoutAMesh) {
   const std::string instance = "<node><instance_geometry url='#g'/></node>";
-  EXPECT_NE(refused("camera.dae", dae("", "", "<node id='Camera'/>")).find("no triangles"), std::string::npos);
+  EXPECT_TRUE(has(refused("camera.dae", dae("", "", "<node id='Camera'/>")), "no triangles"));
   const std::string uncounted = replaced(dae("", "", instance), "triangles count='4'", "triangles count='0'");
-  EXPECT_NE(refused("count.dae", uncounted).find("count, 0"), std::string::npos);
+  EXPECT_TRUE(has(refused("count.dae", uncounted), "count, 0"));
 }
 
 TEST_F(MeshFileTest, RefusesADaeOfWhichAPartWouldBeDroppedOrDistorted) {
   const std::string instance = "<node><instance_geometry url='#g'/></node>";
   const std::string gone = "<node><instance_geometry url='#gone'/></node>";
-  EXPECT_NE(refused("gone.dae", dae("", "", instance + gone)).find("gone"), std::string::npos);
+  EXPECT_TRUE(has(refused("gone.dae", dae("", "", instance + gone)), "gone"));
   const std::string skin = "<node><instance_controller url='#gone'/></node>";
-  EXPECT_NE(refused("skin.dae", dae("", "", instance + skin)).find("gone"), std::string::npos);
+  EXPECT_TRUE(has(refused("skin.dae", dae("", "", instance + skin)), "gone"));
   for (const std::string unit : {"0", "-1", "inch", "nan", "inf", "", "1 inch"}) {
     const std::string message = refused("u.dae", dae("<unit name='x' meter='" + unit + "'/>", "", instance));
-    EXPECT_NE(message.find("'" + unit + "' metres"), std::string::npos) << message;
+    EXPECT_TRUE(has(message, "'" + unit + "' metres"));
   }
   for (const std::string matrix : {"0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0", "1 0 0 0 0 1 0 0 0 0 0 0 0 0 0 1"}) {
     const std::string flat = "<node><matrix>" + matrix + "</matrix><instance_geometry url='#g'/></node>";
-    EXPECT_NE(refused("flat.dae", dae("", "", instance + flat)).find("collapses space"), std::string::npos);
+    EXPECT_TRUE(has(refused("flat.dae", dae("", "", instance + flat)), "collapses space"));
   }
   const std::string negative = replaced(dae("", "", instance), "1 2 3</p>", "1 2 -1</p>");
-  EXPECT_NE(refused("p.dae", negative).find("index"), std::string::npos);
+  EXPECT_TRUE(has(refused("p.dae", negative), "index"));
   const std::string spline = replaced(dae("", "", instance), "</mesh>", "</mesh><spline/>");
-  EXPECT_NE(refused("spline.dae", spline).find("<spline>"), std::string::npos);
+  EXPECT_TRUE(has(refused("spline.dae", spline), "<spline>"));
 }
 
 TEST_F(MeshFileTest, RefusesWhatHasNoExtent) {
-  EXPECT_NE(refused("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n").find("points or lines"), std::string::npos);
-  EXPECT_NE(refused("line.obj", "v 1 2 3\nv 1 2 3\nv 1 2 4\nf 1 2 3\n").find("points or lines"), std::string::npos);
+  EXPECT_TRUE(has(refused("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n"), "points or lines"));
+  EXPECT_TRUE(has(refused("line.obj", "v 1 2 3\nv 1 2 3\nv 1 2 4\nf 1 2 3\n"), "points or lines"));
 }
 
 // What it is stands in the name of the link.
 TEST_F(MeshFileTest, FollowsASymbolicLinkWhereItIsTold) {
   const fs::path link = folder_.path() / "link.obj";
   fs::create_symlink(folder_.write("blob", tetrahedronObj()), link);
-  EXPECT_NE(refusal([&] { readMesh(link); }).find("cannot be opened"), std::string::npos);
+  EXPECT_TRUE(has(refusal([&] { readMesh(link); }), "cannot be opened"));
   expectUnitTetrahedron(readMesh(link, Links::kFollow));
 }
 
 TEST_F(MeshFileTest, RefusesWhatIsNoFileOfUsualSize) {
   const fs::path huge = folder_.write("huge.stl", "solid");
   fs::resize_file(huge, std::uintmax_t{4} << 30U);
-  EXPECT_NE(refusal([&] { readMesh(huge); }).find("32 MiB"), std::string::npos);
+  EXPECT_TRUE(has(refusal([&] { readMesh(huge); }), "32 MiB"));
   const fs::path pipe = folder_.path() / "pipe.stl";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_NE(refusal([&] { readMesh(pipe); }).find("not a regular file"), std::string::npos);
+  EXPECT_TRUE(has(refusal([&] { readMesh(pipe); }), "not a regular file"));
   fs::create_directory(folder_.path() / "folder.stl");
-  EXPECT_NE(refusal([&] { readMesh(folder_.path() / "folder.stl"); }).find("not a regular file"), std::string::npos);
+  EXPECT_TRUE(has(refusal([&] { readMesh(folder_.path() / "folder.stl"); }), "not a regular file"));
 }
 
 // assimp goes down into nested nodes by recursion, until the stack ends.
@@ -228,11 +217,11 @@ TEST_F(MeshFileTest, RefusesAFileThatCrashesItsReader) {
   std::string nested;
   for (int i = 0; i < kNested; ++i) nested += "<node>";
   for (int i = 0; i < kNested; ++i) nested += "</node>";
-  EXPECT_NE(refused("nested.dae", dae("", "", nested)).find("crashes what reads it"), std::string::npos);
+  EXPECT_TRUE(has(refused("nested.dae", dae("", "", nested)), "crashes what reads it"));
 }
 
 TEST_F(MeshFileTest, SurvivesEveryHostileFileUnderEveryName) {
-  const fs::path hostile = dataFolder() / "hostile";
+  const fs::path hostile = dataPath("hostile");
   if (!fs::exists(hostile)) GTEST_SKIP() << hostile << " is missing; set SWEEP_GUARD_DATA";
   int read = 0;
   int refused_files = 0;
@@ -269,7 +258,7 @@ TEST_F(MeshFileTest, IsFoundInAFolderOnThePackagePath) {
 TEST_F(MeshFileTest, IsFoundInARoot) {
   const fs::path file = folder_.write("elsewhere/t.obj", tetrahedronObj());
   EXPECT_EQ(locateMesh("file://" + file.string(), {file.parent_path().string()}), file);
-  EXPECT_NE(refusal([&] { locateMesh("file://" + file.string(), {}); }).find("tool/mesh_roots"), std::string::npos);
+  EXPECT_TRUE(has(refusal([&] { locateMesh("file://" + file.string(), {}); }), "tool/mesh_roots"));
   EXPECT_NE(refusal([&] { locateMesh("file://" + file.string(), {folder_.path() / "else"}); }), "");
 }
 
@@ -277,8 +266,7 @@ TEST_F(MeshFileTest, IsFoundInARoot) {
 TEST_F(MeshFileTest, IsNotFoundByAPackagePathOfEverything) {
   const fs::path file = folder_.write("elsewhere/t.obj", tetrahedronObj());
   PackageFolder::setPackagePath("/");
-  EXPECT_NE(refusal([&] { locateMesh("file://" + file.string(), {}); }).find("neither in a package"),
-            std::string::npos);
+  EXPECT_TRUE(has(refusal([&] { locateMesh("file://" + file.string(), {}); }), "neither in a package"));
   EXPECT_EQ(locateMesh("file://" + folder_.write("robot/t.obj", tetrahedronObj()).string(), {}),
             folder_.package() / "t.obj");
 }
@@ -289,8 +277,8 @@ TEST_F(MeshFileTest, IsNotFoundOutsideOfItsPackage) {
   fs::create_directory_symlink(outside.parent_path(), folder_.package() / "linked");
   const auto expectRefused = [](const std::string& uri, const std::string& expected) {
     const std::string message = refusal([&] { locateMesh(uri, {}); });
-    EXPECT_NE(message.find(expected), std::string::npos) << uri << ": " << message;
-    EXPECT_NE(message.find(uri), std::string::npos) << message;
+    EXPECT_TRUE(has(message, expected)) << uri << ": " << message;
+    EXPECT_TRUE(has(message, uri));
   };
   expectRefused("package://robot/../outside/t.obj", "leads out of");
   expectRefused("package://robot/link.obj", "leads out of");

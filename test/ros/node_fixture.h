@@ -43,8 +43,11 @@ class NodeTest : public ::testing::Test {
     for (const std::string& id : placed_) probe().remove(id);
   }
 
-  void placeSheet(const std::string& id, const Eigen::Vector3d& center) {
-    probe().place(sheetAt(id, center, probe().time()));
+  void placeSheet(const std::string& id, const Eigen::Vector3d& center, const std::string& frame = "world",
+                  double half_side = 0.1) {
+    auto sheet = sheetAt(id, center, probe().time(), half_side);
+    sheet.header.frame_id = frame;
+    probe().place(sheet);
     placed_.insert(id);
   }
 

@@ -3,8 +3,6 @@
 #include <nodelet/NodeletLoad.h>
 #include <nodelet/NodeletUnload.h>
 
-#include <memory>
-
 #include "guard_probe.h"
 
 namespace sweep_guard_ros {
@@ -56,10 +54,3 @@ TEST_F(NodeletReloadTest, ASecondGuardLeavesTheFirstAlone) {
 
 }  // namespace
 }  // namespace sweep_guard_ros
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "nodelet_reload_test");
-  ros::start();
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

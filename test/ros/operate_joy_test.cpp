@@ -55,9 +55,3 @@ TEST_F(OperateJoyTest, TheToolIsLedIntoTheWorkpiece) {
 
 }  // namespace
 }  // namespace sweep_guard_ros
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "operate_joy_test");
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

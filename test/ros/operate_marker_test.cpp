@@ -68,9 +68,3 @@ TEST(OperateMarkerTest, TheToolFollowsTheMarkerAsADeviceWould) {
 
 }  // namespace
 }  // namespace sweep_guard_ros
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "operate_marker_test");
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

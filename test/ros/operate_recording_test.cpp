@@ -20,9 +20,3 @@ TEST(OperateRecordingTest, EveryPoseComesAtTheIntervalItWasRecordedAt) {
 
 }  // namespace
 }  // namespace sweep_guard_ros
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "operate_recording_test");
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -51,11 +51,4 @@ inline std::string tetrahedronObj() {
   return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
 }
 
-/// Folder of the inputs that nobody on the project made.
-inline std::filesystem::path dataFolder() {
-  const char* const variable = std::getenv("SWEEP_GUARD_DATA");
-  return variable != nullptr ? std::filesystem::path(variable)
-                             : std::filesystem::path(SWEEP_GUARD_SOURCE_DIR) / "../shared/data";
-}
-
 }  // namespace sweep_guard_ros

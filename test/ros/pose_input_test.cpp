@@ -1,5 +1,5 @@
 // The input of poses by itself, in one process with their publisher: a message waits as soon as it is published.
-#include "sweep_guard/ros/pose_input.h"
+#include "ros/input/pose_input.h"
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -28,8 +28,8 @@ TEST(PoseInputTest, NoPoseOfALongBacklogIsLost) {
   const ros::Time end = ros::Time::now();
   std::promise<void> published;
   std::promise<void> last_came;
-  std::vector<sweep_guard::Time> came;
-  const auto sweep = [&, all_wait = published.get_future().share()](const PlacedPose& placed) {
+  std::vector<sweep_guard_core::Time> came;
+  const auto sweep = [&, all_wait = published.get_future().share()](const QueuedPose& placed) {
     all_wait.wait();
     came.push_back(placed.pose.stamp);
     if (placed.pose.stamp == fromMsg(end)) last_came.set_value();
@@ -37,9 +37,9 @@ TEST(PoseInputTest, NoPoseOfALongBacklogIsLost) {
 
   const Parameters parameters = loadParameters(ros::NodeHandle("~"));
   Frames frames;
-  sweep_guard::Ledger ledger(parameters.limits);
-  const WorkpieceStore workpieces(parameters.max_triangles, ledger);
-  PoseInput input(node, parameters, frames, workpieces, ledger, sweep);
+  sweep_guard_core::WarningMonitor monitor(parameters.limits);
+  const WorkpieceStore workpieces(parameters.max_triangles, monitor);
+  PoseInput input(node, parameters, frames, workpieces, monitor, sweep);
   const ros::Publisher publisher = node.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
   ASSERT_EQ(publisher.getNumSubscribers(), 1U);
   input.start();
@@ -53,9 +53,3 @@ TEST(PoseInputTest, NoPoseOfALongBacklogIsLost) {
 
 }  // namespace
 }  // namespace sweep_guard_ros
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "pose_input_test");
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

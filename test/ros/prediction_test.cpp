@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "node_fixture.h"
+#include "refusal.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -89,7 +91,7 @@ TEST_F(PredictionTest, TellsWhereTheToolWillBe) {
   EXPECT_GE(prediction.sweeps_asked, prediction.poses.size());
   EXPECT_GT(prediction.sweeps_made, 0U);
   EXPECT_LE(prediction.sweeps_made, prediction.sweeps_asked);
-  EXPECT_NEAR(before.toSec(), 1.1, 0.001);  // the considered interval, and as long as a pose counts
+  EXPECT_NEAR(before.toSec(), 2.0, 0.001);  // the considered interval, and as long as a pose counts
 }
 
 TEST_F(PredictionTest, AnApproachIsConsideredThenReflexThenContact) {
@@ -106,17 +108,17 @@ TEST_F(PredictionTest, AnApproachIsConsideredThenReflexThenContact) {
 
   const auto predictions = probe().predictions();
   const auto times = probe().timesToCollision();
-  const auto time_before = [&](double left) {  // of the contact
-    size_t i = 0;
-    while (predictions[i].header.stamp + ros::Duration(left) < contact) ++i;
-    return times[i];
-  };
   EXPECT_EQ(times[2], INFINITY);
   EXPECT_EQ(times.back(), 0.0);
-  for (const double left : {0.9, 0.7, 0.5, 0.3, 0.1}) {
-    EXPECT_LE(time_before(left), left + 1e-3);
-    EXPECT_LT(time_before(left - 0.1), time_before(left));
+  std::array<double, 10> longest{};  // time told, for each tenth of a second before the contact: load only shortens it
+  for (size_t i = 0; i < predictions.size(); ++i) {
+    const double left = (contact - predictions[i].header.stamp).toSec();
+    if (left < 0.005 || left > 0.995) continue;
+    EXPECT_LE(times[i], left + 1e-3);
+    double& told = longest.at(static_cast<size_t>(10.0 * left));
+    told = std::max(told, times[i]);
   }
+  for (size_t i = 1; i < longest.size(); ++i) EXPECT_LT(longest[i - 1], longest[i]);
 }
 
 TEST_F(PredictionTest, AWarningNamesWhatIsExpected) {
@@ -158,7 +160,7 @@ TEST_F(PredictionTest, ARetreatDoesNotWarn) {
 TEST_F(PredictionTest, PosesThatStopAreUnknown) {
   restAt({0.0, 0.0, 0.6});
   descend(0.6, 0.5);
-  probe().advance(0.11);
+  probe().advance(1.01);
   const Warning warning = probe().awaitWarning(hasReason(Warning::POSE_STALE));
   EXPECT_TRUE(warning.reflex && warning.considered);
   EXPECT_EQ(warning.time_to_collision, ros::Duration(-1.0));
@@ -207,7 +209,7 @@ TEST_F(PredictionTest, MarkersShowWhatIsPredicted) {
     EXPECT_LT(marker.color.a, 1.0F);
   }
 
-  probe().advance(2.0);  // what was expected is over, and the pose is stale
+  probe().advance(3.0);  // what was expected is over, and the pose is stale
   const auto grey = [&](const MarkerArray& drawn) {
     const auto stale = markers_of(drawn, "predicted_triangles");
     return !stale.empty() && stale[0].color.r == stale[0].color.b;
@@ -255,12 +257,12 @@ TEST_F(PredictionTest, PredictRefusesWhatItCannotAnswer) {
     EXPECT_FALSE(response.success || response.prediction.valid);
     EXPECT_TRUE(response.prediction.poses.empty());
     EXPECT_EQ(response.prediction.time_to_collision, ros::Duration(-1.0));
-    EXPECT_NE(response.message.find(expected), std::string::npos) << response.message;
+    EXPECT_TRUE(has(response.message, expected));
   };
   restAt({0.0, 0.0, 0.9});
   refused(-0.1, "from 0 (as configured) to 5 s");
   refused(5.001, "from 0 (as configured) to 5 s");
-  probe().advance(0.2);
+  probe().advance(1.1);
   refused(1.0, "stale");
   probe().setClock(probe().time() - ros::Duration(100.0));
   refused(1.0, "no tool pose");

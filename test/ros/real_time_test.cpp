@@ -1,10 +1,12 @@
-#include "sweep_guard/ros/real_time.h"
+#include "ros/real_time.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
 
 #include <thread>
+
+#include "refusal.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -35,15 +37,15 @@ TEST(AskForRealTimeTest, IsGrantedOrSaysWhatToSet) {
     EXPECT_EQ(asked.priority, 10);
   } else {
     EXPECT_EQ(asked.policy, SCHED_OTHER);
-    EXPECT_NE(asked.refusal.find("rtprio 10"), std::string::npos) << asked.refusal;
-    EXPECT_NE(asked.refusal.find("limits.conf"), std::string::npos) << asked.refusal;
+    EXPECT_TRUE(has(asked.refusal, "rtprio 10"));
+    EXPECT_TRUE(has(asked.refusal, "limits.conf"));
   }
 }
 
 TEST(AskForRealTimeTest, SaysWhyItIsRefusedAndLeavesTheThreadAsItIs) {
   const Asked asked = ask(1000);
-  EXPECT_NE(asked.refusal.find("real-time priority 1000 is refused"), std::string::npos) << asked.refusal;
-  EXPECT_NE(asked.refusal.find("timing/realtime_priority"), std::string::npos) << asked.refusal;
+  EXPECT_TRUE(has(asked.refusal, "real-time priority 1000 is refused"));
+  EXPECT_TRUE(has(asked.refusal, "timing/realtime_priority"));
   EXPECT_EQ(asked.policy, SCHED_OTHER);
 }
 

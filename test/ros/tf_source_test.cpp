@@ -40,9 +40,3 @@ TEST(TfSourceTest, SweepsFromTransformToTransform) {
 
 }  // namespace
 }  // namespace sweep_guard_ros
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "tf_source_test");
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -45,9 +45,3 @@ INSTANTIATE_TEST_SUITE_P(Links, ToolLinkTest, ::testing::Values(Link{"drill", 0.
 
 }  // namespace
 }  // namespace sweep_guard_ros
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "tool_link_test");
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

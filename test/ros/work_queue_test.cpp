@@ -1,4 +1,4 @@
-#include "sweep_guard/ros/work_queue.h"
+#include "ros/work_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ TEST(WorkQueueTest, APoseWithoutRoomWaitsAndIsNotLost) {
 TEST(WorkQueueTest, RefusesMoreTasksThanItHasRoomFor) {
   WorkQueue queue;
   for (int i = 0; i < kTasks; ++i) ask(queue, i);
-  EXPECT_THROW(ask(queue, 0), sweep_guard::Error);
+  EXPECT_THROW(ask(queue, 0), sweep_guard_core::Error);
   WorkQueue::Work taken;
   ASSERT_TRUE(queue.take(taken));
   EXPECT_NO_THROW(ask(queue, 0));
@@ -68,7 +68,7 @@ TEST(WorkQueueTest, StoppingLetsEverybodyGo) {
   queue.stop();
   input.join();
   EXPECT_THROW(answer.get(), std::future_error);
-  EXPECT_THROW(ask(queue, 0), sweep_guard::Error);
+  EXPECT_THROW(ask(queue, 0), sweep_guard_core::Error);
   WorkQueue::Work taken;
   EXPECT_FALSE(queue.take(taken));
 }

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "display_scene.h"
-#include "sweep_guard/rviz/sweep_display.h"
+#include "rviz/sweep_display.h"
 
 namespace sweep_guard_rviz {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sweep_guard/rviz/tool_visual.h"
+#include "rviz/tool_visual.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/highlights.h"
+#include "rviz/highlights.h"
 
 #include <gtest/gtest.h>
 

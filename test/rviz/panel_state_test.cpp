@@ -1,8 +1,8 @@
-#include "sweep_guard/rviz/panel_state.h"
+#include "rviz/panel_state.h"
 
 #include <gtest/gtest.h>
 
-#include "sweep_guard/rviz/level_history.h"
+#include "rviz/level_history.h"
 
 namespace sweep_guard_rviz {
 namespace {
@@ -12,7 +12,7 @@ using sweep_guard::Warning;
 
 const Moment kNow{SteadyTime(std::chrono::hours(1)), ros::Time(1000.0)};
 
-Warning warningOf(std::uint8_t level) {
+Warning warningLevel(std::uint8_t level) {
   Warning warning;
   warning.level = level;
   warning.clear = level == Warning::CLEAR;
@@ -28,7 +28,7 @@ PanelState shown(const Warning& warning, milliseconds age = milliseconds(10)) {
 TEST(PanelStateTest, EveryLevelHasItsLightAndItsWord) {
   const char* const words[] = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};
   for (std::uint8_t level = Warning::UNKNOWN; level <= Warning::CONTACT; ++level) {
-    const PanelState state = shown(warningOf(level));
+    const PanelState state = shown(warningLevel(level));
     EXPECT_EQ(static_cast<int>(state.light), level);
     EXPECT_EQ(state.word, words[level]);
     EXPECT_FALSE(state.silent);
@@ -43,14 +43,14 @@ TEST(PanelStateTest, NoWarningIsUnknownAndNamesTheTopic) {
 }
 
 TEST(PanelStateTest, SilenceIsUnknown) {
-  EXPECT_EQ(shown(warningOf(Warning::CLEAR), kSilence).light, Light::kClear);
-  const PanelState state = shown(warningOf(Warning::CLEAR), kSilence + milliseconds(1));
+  EXPECT_EQ(shown(warningLevel(Warning::CLEAR), kSilence).light, Light::kClear);
+  const PanelState state = shown(warningLevel(Warning::CLEAR), kSilence + milliseconds(1));
   EXPECT_EQ(state.light, Light::kUnknown);
   EXPECT_TRUE(state.silent);
 }
 
 TEST(PanelStateTest, AWarningThatRanOutIsUnknownHoweverFreshItCame) {
-  Warning warning = warningOf(Warning::CLEAR);
+  Warning warning = warningLevel(Warning::CLEAR);
   warning.valid_until = kNow.stamp - ros::Duration(0.01);
   EXPECT_EQ(shown(warning).light, Light::kUnknown);
 }
@@ -58,34 +58,34 @@ TEST(PanelStateTest, AWarningThatRanOutIsUnknownHoweverFreshItCame) {
 TEST(PanelStateTest, AZeroInitialisedWarningIsUnknown) { EXPECT_EQ(shown(Warning()).light, Light::kUnknown); }
 
 TEST(PanelStateTest, ClearWithAReasonOrWithoutPermissionIsUnknown) {
-  Warning warning = warningOf(Warning::CLEAR);
+  Warning warning = warningLevel(Warning::CLEAR);
   warning.reasons = Warning::MESH_STALE;
   EXPECT_EQ(shown(warning).light, Light::kUnknown);
-  warning = warningOf(Warning::CLEAR);
+  warning = warningLevel(Warning::CLEAR);
   warning.clear = false;
   EXPECT_EQ(shown(warning).light, Light::kUnknown);
 }
 
 TEST(PanelStateTest, OverloadLeavesClearAsItIsAndIsTold) {
-  Warning warning = warningOf(Warning::CLEAR);
+  Warning warning = warningLevel(Warning::CLEAR);
   warning.reasons = Warning::OVERLOAD;
   const PanelState state = shown(warning);
   EXPECT_EQ(state.light, Light::kClear);
   EXPECT_EQ(state.whys.size(), 1U);
 }
 
-TEST(PanelStateTest, ALevelThatDoesNotExistIsUnknown) { EXPECT_EQ(shown(warningOf(5)).light, Light::kUnknown); }
+TEST(PanelStateTest, ALevelThatDoesNotExistIsUnknown) { EXPECT_EQ(shown(warningLevel(5)).light, Light::kUnknown); }
 
 TEST(PanelStateTest, EveryReasonHasWordsWhereTheGuardHasNone) {
   for (std::uint32_t bit = 1; bit <= Warning::DISABLED; bit <<= 1U) {
-    Warning warning = warningOf(Warning::UNKNOWN);
+    Warning warning = warningLevel(Warning::UNKNOWN);
     warning.reasons = bit;
     EXPECT_EQ(shown(warning).whys.size(), 1U) << bit;
   }
 }
 
 TEST(PanelStateTest, TheGuardsOwnWordsStandInLinesOfTheirOwn) {
-  Warning warning = warningOf(Warning::UNKNOWN);
+  Warning warning = warningLevel(Warning::UNKNOWN);
   warning.reasons = Warning::POSE_STALE | Warning::NO_MESH;
   warning.text = "UNKNOWN: newest tool pose tested is 0.52 s old; no workpiece yet";
   EXPECT_EQ(shown(warning).whys,
@@ -93,14 +93,14 @@ TEST(PanelStateTest, TheGuardsOwnWordsStandInLinesOfTheirOwn) {
 }
 
 TEST(PanelStateTest, NothingIsSaidTwice) {
-  Warning warning = warningOf(Warning::CONTACT);
+  Warning warning = warningLevel(Warning::CONTACT);
   warning.reasons = Warning::POSE_STALE;
   warning.text = "CONTACT: tool meets 'liver', 3 triangles; newest tool pose tested is 0.52 s old";
   EXPECT_EQ(shown(warning).whys, std::vector<std::string>{"newest tool pose tested is 0.52 s old"});
 }
 
 TEST(PanelStateTest, WhatWillBeHitIsNamed) {
-  Warning warning = warningOf(Warning::REFLEX);
+  Warning warning = warningLevel(Warning::REFLEX);
   warning.time_to_collision = ros::Duration(0.084);
   warning.mesh_id = "liver";
   warning.triangles = {3, 4, 8};
@@ -112,7 +112,7 @@ TEST(PanelStateTest, WhatWillBeHitIsNamed) {
 }
 
 TEST(PanelStateTest, ACollisionThatIsMerelyProbableHasNoTime) {
-  const PanelState state = shown(warningOf(Warning::CONSIDERED));
+  const PanelState state = shown(warningLevel(Warning::CONSIDERED));
   EXPECT_EQ(state.time, "-");
   EXPECT_EQ(state.meaning, "collision is probable");
 }
@@ -123,7 +123,7 @@ TEST(PanelStateTest, OnlyContactFlashesAndDoesSoTwiceASecond) {
     bool bright = true;
     for (int tick = 0; tick < 1000; tick += 10) {
       const Moment now{kNow.steady + milliseconds(tick), kNow.stamp};
-      const PanelState state = panelState(ReceivedWarning{warningOf(level), now}, now, "");
+      const PanelState state = panelState(ReceivedWarning{warningLevel(level), now}, now, "");
       changes += state.bright != bright ? 1 : 0;
       bright = state.bright;
     }
@@ -136,7 +136,7 @@ TEST(PanelStateTest, OnlyContactFlashesAndDoesSoTwiceASecond) {
 }
 
 TEST(PanelStateTest, DisabledIsNotClearAndSaysSo) {
-  Warning warning = warningOf(Warning::UNKNOWN);
+  Warning warning = warningLevel(Warning::UNKNOWN);
   warning.reasons = Warning::DISABLED;
   const PanelState state = shown(warning);
   EXPECT_EQ(state.light, Light::kUnknown);

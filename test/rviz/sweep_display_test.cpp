@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/sweep_display.h"
+#include "rviz/sweep_display.h"
 
 #include <sweep_guard/Warning.h>
 

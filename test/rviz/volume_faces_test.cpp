@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/volume_faces.h"
+#include "rviz/volume_faces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/volume_history.h"
+#include "rviz/volume_history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sweep_guard/rviz/warning_panel.h"
+#include "rviz/warning_panel.h"
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -15,8 +15,8 @@
 
 #include "await.h"
 #include "pictures.h"
-#include "sweep_guard/rviz/palette.h"
-#include "sweep_guard/rviz/strip_chart.h"
+#include "rviz/palette.h"
+#include "rviz/strip_chart.h"
 
 namespace sweep_guard_rviz {
 namespace {
@@ -26,7 +26,7 @@ using sweep_guard::Warning;
 const char* const kTopic = "/guard/warning";
 constexpr std::uint8_t kLoud[] = {Warning::UNKNOWN, Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT};
 
-Warning warningOf(std::uint8_t level) {
+Warning warningLevel(std::uint8_t level) {
   Warning warning;
   warning.level = level;
   warning.clear = level == Warning::CLEAR;
@@ -99,7 +99,7 @@ auto isLike(const Color& color) {
 
 TEST_F(WarningPanelTest, WarningsFillTheLightWithTheirColour) {
   for (const std::uint8_t level : kLoud) {
-    say(warningOf(level));
+    say(warningLevel(level));
     await("the bright half", [this] { return panel_.state().bright; });
     EXPECT_GT(shareOf(light(), isLike(colorOf(static_cast<Light>(level)))), 0.4) << panel_.state().word;
     keepPicture(panel_.grab().toImage(), "panel_" + panel_.state().word);
@@ -107,7 +107,7 @@ TEST_F(WarningPanelTest, WarningsFillTheLightWithTheirColour) {
 }
 
 TEST_F(WarningPanelTest, ClearIsASmallGreenLamp) {
-  say(warningOf(Warning::CLEAR));
+  say(warningLevel(Warning::CLEAR));
   const double green = shareOf(light(), isGreen);
   EXPECT_GT(green, 0.002);
   EXPECT_LT(green, 0.1);
@@ -116,13 +116,13 @@ TEST_F(WarningPanelTest, ClearIsASmallGreenLamp) {
 
 TEST_F(WarningPanelTest, NothingButClearIsGreenAnywhereInTheLight) {
   for (const std::uint8_t level : kLoud) {
-    say(warningOf(level));
+    say(warningLevel(level));
     EXPECT_EQ(shareOf(light(), isGreen), 0.0) << panel_.state().word;
   }
 }
 
 TEST_F(WarningPanelTest, ContactFlashes) {
-  say(warningOf(Warning::CONTACT));
+  say(warningLevel(Warning::CONTACT));
   await("the bright half", [this] { return panel_.state().bright; });
   const double bright = shareOf(light(), isRed);
   await("the other half", [this] { return !panel_.state().bright; });
@@ -133,7 +133,7 @@ TEST_F(WarningPanelTest, ContactFlashes) {
 // On a clock of ours: its timer does not run meanwhile, for Qt does not. A warning may still come in, and counts.
 TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGreyWithinAFifthOfASecondAtTwentyFramesASecond) {
   constexpr auto kFrame = std::chrono::milliseconds(50);
-  say(warningOf(Warning::CLEAR), /*valid_for=*/3600.0);
+  say(warningLevel(Warning::CLEAR), /*valid_for=*/3600.0);
   fallSilent();
   const std::deque<LevelHistory::Sample>& samples = panel_.history().samples();
   Moment now{samples.back().since, ros::Time::now()};
@@ -148,7 +148,7 @@ TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGreyWithinAFifthOfASecondAtTwentyF
 }
 
 TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGrey) {
-  say(warningOf(Warning::CLEAR));
+  say(warningLevel(Warning::CLEAR));
   fallSilent();
   await("grey", [this] { return panel_.state().silent; });
   EXPECT_EQ(shareOf(light(), isGreen), 0.0);
@@ -156,8 +156,8 @@ TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGrey) {
 }
 
 TEST_F(WarningPanelTest, TheChartKnowsWhatTheGuardSaid) {
-  say(warningOf(Warning::CLEAR));
-  say(warningOf(Warning::CONSIDERED));
+  say(warningLevel(Warning::CLEAR));
+  say(warningLevel(Warning::CONSIDERED));
   const auto& samples = panel_.history().samples();
   const auto has = [&](Light light) {
     return std::any_of(samples.begin(), samples.end(), [&](const auto& sample) { return sample.light == light; });
@@ -176,7 +176,7 @@ TEST_F(WarningPanelTest, TheTopicIsSavedWithTheConfiguration) {
 }
 
 TEST_F(WarningPanelTest, WhereTheClockDiffersTheChartIsAsGreyAsTheLight) {
-  speak(warningOf(Warning::CLEAR), /*valid_for=*/-1.0);
+  speak(warningLevel(Warning::CLEAR), /*valid_for=*/-1.0);
   await("a warning", [this] {
     const auto& whys = panel_.state().whys;
     return !whys.empty() && whys[0].rfind("the warning ran out", 0) == 0;
@@ -271,10 +271,10 @@ class SlowGuard {
 
 TEST_F(WarningPanelTest, GoesOnWhileTheGuardThinksAboutDisabling) {
   SlowGuard guard;
-  say(warningOf(Warning::CLEAR));
+  say(warningLevel(Warning::CLEAR));
   button("enable")->click();
   EXPECT_FALSE(guard.asked.get_future().get());
-  say(warningOf(Warning::REFLEX));
+  say(warningLevel(Warning::REFLEX));
   EXPECT_FALSE(button("enable")->isEnabled());
   guard.answer();
   await("the button", [this] { return button("enable")->isEnabled(); });
@@ -293,7 +293,7 @@ TEST_F(WarningPanelTest, AGuardThatNeverAnswersIsLeftForAnother) {
 
 TEST_F(WarningPanelTest, TheButtonOfADisabledGuardEnablesIt) {
   SlowGuard guard;
-  Warning warning = warningOf(Warning::UNKNOWN);
+  Warning warning = warningLevel(Warning::UNKNOWN);
   warning.reasons = Warning::DISABLED;
   warning.text = "UNKNOWN: disabled by /operator: nothing is tested";
   say(warning);

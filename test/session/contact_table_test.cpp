@@ -8,12 +8,13 @@
 #include <fstream>
 
 #include "evaluation/gnuplot.h"
+#include "refusal.h"
 
 namespace sweep_guard_session {
 namespace {
 
 using std::chrono::milliseconds;
-using sweep_guard::Time;
+using sweep_guard_core::Time;
 
 const Time kBegin(std::chrono::seconds(100));
 
@@ -21,8 +22,6 @@ Contact contactAt(int ms, const std::string& mesh) {
   const Time begin = kBegin + milliseconds(ms);
   return {begin, begin + milliseconds(700), mesh, "finger", {3, 4}, 0.0025, milliseconds(800), milliseconds(0)};
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // Of a PNG file [pixel].
 std::uint32_t heightOf(const std::string& path) {

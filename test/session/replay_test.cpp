@@ -20,6 +20,8 @@
 #include <utility>
 #include <vector>
 
+#include "refusal.h"
+
 namespace sweep_guard_session {
 namespace {
 
@@ -101,8 +103,6 @@ std::string readText(const fs::path& path) {
   text << std::ifstream(path).rdbuf();
   return text.str();
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 class ReplayTest : public testing::Test {
  protected:

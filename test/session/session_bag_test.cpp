@@ -12,6 +12,7 @@
 #include <fstream>
 #include <string>
 
+#include "refusal.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_session {
@@ -41,19 +42,12 @@ class SessionBagTest : public testing::Test {
 
   // The message with which it is refused.
   std::string refusal() {
-    try {
-      inspect();
-    } catch (const sweep_guard::InvalidInput& error) {
-      return error.what();
-    }
-    return "";
+    return ::refusal([&] { inspect(); });
   }
 
   std::string path_;
   rosbag::Bag bag_;
 };
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_F(SessionBagTest, CountsWhatIsGuarded) {
   writeMesh();
@@ -64,15 +58,15 @@ TEST_F(SessionBagTest, CountsWhatIsGuarded) {
   ASSERT_EQ(bag.poses.size(), 2U);
   EXPECT_EQ(bag.meshes, 1U);
   EXPECT_EQ(bag.vertices, 1U);
-  EXPECT_EQ(bag.begin, sweep_guard::Time(seconds(100)));
-  EXPECT_EQ(bag.end, sweep_guard::Time(seconds(103)));
-  EXPECT_EQ(bag.poses.back(), sweep_guard::Time(std::chrono::milliseconds(101990)));
+  EXPECT_EQ(bag.begin, sweep_guard_core::Time(seconds(100)));
+  EXPECT_EQ(bag.end, sweep_guard_core::Time(seconds(103)));
+  EXPECT_EQ(bag.poses.back(), sweep_guard_core::Time(std::chrono::milliseconds(101990)));
 }
 
 TEST_F(SessionBagTest, TellsOfAFileThatIsMissingOrNoBag) {
   const SessionTopics topics{"/tool_pose", "/mesh", "/mesh_vertices"};
   bag_.close();
-  EXPECT_THROW(inspectBag(path_ + ".not", topics), sweep_guard::InvalidInput);
+  EXPECT_THROW(inspectBag(path_ + ".not", topics), sweep_guard_core::InvalidInput);
   std::ofstream(path_) << "100 0 0 0 0 0 0 1\n";
   EXPECT_TRUE(has(refusal(), "not a rosbag"));
 }

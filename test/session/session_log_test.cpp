@@ -8,12 +8,12 @@ namespace sweep_guard_session {
 namespace {
 
 using std::chrono::milliseconds;
-using sweep_guard::Level;
-using sweep_guard::Time;
+using sweep_guard_core::Time;
+using sweep_guard_core::WarningLevel;
 
 Time at(int ms) { return Time(milliseconds(ms)); }
 
-void tell(SessionLog& log, int ms, Level level, const std::string& text = "") { log.add({at(ms), level, text}); }
+void tell(SessionLog& log, int ms, WarningLevel level, const std::string& text = "") { log.add({at(ms), level, text}); }
 
 Touch touchAt(int first, int heard, std::uint32_t triangle, double depth) {
   const int stamp = first + 4;
@@ -22,39 +22,39 @@ Touch touchAt(int first, int heard, std::uint32_t triangle, double depth) {
 
 TEST(SessionLogTest, LevelsThatRepeatAreOneStretchAndTheLastEndsWithTheSession) {
   SessionLog log;
-  tell(log, 0, Level::kUnknown);
-  tell(log, 100, Level::kClear);
-  tell(log, 150, Level::kClear);
-  tell(log, 300, Level::kConsidered);
+  tell(log, 0, WarningLevel::kUnknown);
+  tell(log, 100, WarningLevel::kClear);
+  tell(log, 150, WarningLevel::kClear);
+  tell(log, 300, WarningLevel::kConsidered);
   log.end(at(450));
-  const std::vector<Stretch> stretches = log.stretches();
-  ASSERT_EQ(stretches.size(), 3U);
-  EXPECT_EQ(stretches[1].begin, at(100));
-  EXPECT_EQ(stretches[1].end, at(300));
-  EXPECT_EQ(stretches[2].end, at(450));
-  EXPECT_EQ(log.duration(Level::kClear), milliseconds(200));
-  EXPECT_EQ(log.duration(Level::kReflex), milliseconds(0));
+  const std::vector<Segment> segments = log.segments();
+  ASSERT_EQ(segments.size(), 3U);
+  EXPECT_EQ(segments[1].begin, at(100));
+  EXPECT_EQ(segments[1].end, at(300));
+  EXPECT_EQ(segments[2].end, at(450));
+  EXPECT_EQ(log.duration(WarningLevel::kClear), milliseconds(200));
+  EXPECT_EQ(log.duration(WarningLevel::kReflex), milliseconds(0));
 }
 
 TEST(SessionLogTest, AStretchIsCalledAfterWhatWasToldLongest) {
   SessionLog log;
-  tell(log, 0, Level::kUnknown, "no pose");
-  tell(log, 10, Level::kUnknown, "no mesh");
-  tell(log, 40, Level::kUnknown, "stale");
+  tell(log, 0, WarningLevel::kUnknown, "no pose");
+  tell(log, 10, WarningLevel::kUnknown, "no mesh");
+  tell(log, 40, WarningLevel::kUnknown, "stale");
   log.end(at(50));
-  ASSERT_EQ(log.stretches().size(), 1U);
-  EXPECT_EQ(log.stretches()[0].text, "no mesh");
+  ASSERT_EQ(log.segments().size(), 1U);
+  EXPECT_EQ(log.segments()[0].text, "no mesh");
 }
 
 TEST(SessionLogTest, LeadsCountFromWhenTheLevelCameOnToTheFirstTouch) {
   SessionLog log;
-  tell(log, 0, Level::kClear);
-  tell(log, 1000, Level::kConsidered);
-  tell(log, 1700, Level::kReflex);
-  tell(log, 1910, Level::kContact);
+  tell(log, 0, WarningLevel::kClear);
+  tell(log, 1000, WarningLevel::kConsidered);
+  tell(log, 1700, WarningLevel::kReflex);
+  tell(log, 1910, WarningLevel::kContact);
   log.add(touchAt(1900, 1909, 7, 0.001));
   log.add(touchAt(1910, 1919, 8, 0.003));
-  tell(log, 2600, Level::kClear);
+  tell(log, 2600, WarningLevel::kClear);
   const std::vector<Contact> contacts = log.contacts();
   ASSERT_EQ(contacts.size(), 1U);
   EXPECT_EQ(contacts[0].begin, at(1900));
@@ -69,10 +69,10 @@ TEST(SessionLogTest, LeadsCountFromWhenTheLevelCameOnToTheFirstTouch) {
 
 TEST(SessionLogTest, AWarningThatWasInterruptedCountsFromWhenItCameBack) {
   SessionLog log;
-  tell(log, 0, Level::kConsidered);
-  tell(log, 500, Level::kUnknown);
-  tell(log, 600, Level::kConsidered);
-  tell(log, 1000, Level::kContact);
+  tell(log, 0, WarningLevel::kConsidered);
+  tell(log, 500, WarningLevel::kUnknown);
+  tell(log, 600, WarningLevel::kConsidered);
+  tell(log, 1000, WarningLevel::kContact);
   log.add(touchAt(1000, 1000, 1, 0.0));
   log.end(at(1100));
   EXPECT_EQ(log.contacts()[0].considered_lead, milliseconds(400));
@@ -81,11 +81,11 @@ TEST(SessionLogTest, AWarningThatWasInterruptedCountsFromWhenItCameBack) {
 
 TEST(SessionLogTest, WhatIsLeftOfAWarningAfterAContactBeginsAnew) {
   SessionLog log;
-  tell(log, 0, Level::kReflex);
-  tell(log, 100, Level::kContact);
+  tell(log, 0, WarningLevel::kReflex);
+  tell(log, 100, WarningLevel::kContact);
   log.add(touchAt(90, 100, 1, 0.0));
-  tell(log, 700, Level::kReflex);
-  tell(log, 900, Level::kContact);
+  tell(log, 700, WarningLevel::kReflex);
+  tell(log, 900, WarningLevel::kContact);
   log.add(touchAt(890, 900, 2, 0.0));
   log.end(at(1000));
   const std::vector<Contact> contacts = log.contacts();
@@ -96,9 +96,9 @@ TEST(SessionLogTest, WhatIsLeftOfAWarningAfterAContactBeginsAnew) {
 
 TEST(SessionLogTest, AWarningThatComesAfterTheTouchHasNoLead) {
   SessionLog log;
-  tell(log, 0, Level::kClear);
-  tell(log, 95, Level::kReflex);
-  tell(log, 100, Level::kContact);
+  tell(log, 0, WarningLevel::kClear);
+  tell(log, 95, WarningLevel::kReflex);
+  tell(log, 100, WarningLevel::kContact);
   log.add(touchAt(90, 100, 1, NAN));
   log.end(at(200));
   EXPECT_EQ(log.contacts()[0].reflex_lead, milliseconds(0));
@@ -108,11 +108,11 @@ TEST(SessionLogTest, AWarningThatComesAfterTheTouchHasNoLead) {
 // Where warnings are not held, the last touch is heard when the level has gone.
 TEST(SessionLogTest, ATouchThatIsHeardAfterItsContactIsItsOwn) {
   SessionLog log;
-  tell(log, 0, Level::kContact);
+  tell(log, 0, WarningLevel::kContact);
   log.add(touchAt(0, 0, 1, 0.001));
-  tell(log, 100, Level::kReflex);
+  tell(log, 100, WarningLevel::kReflex);
   log.add(touchAt(95, 101, 2, 0.002));
-  tell(log, 500, Level::kContact);
+  tell(log, 500, WarningLevel::kContact);
   log.add(touchAt(490, 500, 3, 0.003));
   log.end(at(600));
   const std::vector<Contact> contacts = log.contacts();
@@ -126,10 +126,10 @@ TEST(SessionLogTest, ATouchThatIsHeardAfterItsContactIsItsOwn) {
 
 TEST(SessionLogTest, ATouchInAnIntervalInWhichAContactEndedIsTheNextOnes) {
   SessionLog log;
-  tell(log, 0, Level::kContact);
+  tell(log, 0, WarningLevel::kContact);
   log.add(touchAt(0, 4, 1, 0.001));
-  tell(log, 100, Level::kClear);
-  tell(log, 105, Level::kContact);
+  tell(log, 100, WarningLevel::kClear);
+  tell(log, 105, WarningLevel::kContact);
   log.add(touchAt(98, 105, 2, 0.002));
   log.end(at(200));
   const std::vector<Contact> contacts = log.contacts();
@@ -141,8 +141,8 @@ TEST(SessionLogTest, ATouchInAnIntervalInWhichAContactEndedIsTheNextOnes) {
 
 TEST(SessionLogTest, ATouchHeardAfterTheLastContactIsItsOwn) {
   SessionLog log;
-  tell(log, 0, Level::kContact);
-  tell(log, 100, Level::kClear);
+  tell(log, 0, WarningLevel::kContact);
+  tell(log, 100, WarningLevel::kClear);
   log.add(touchAt(95, 101, 1, 0.001));
   log.end(at(200));
   EXPECT_EQ(log.contacts()[0].triangles, std::set<std::uint32_t>{1});
@@ -150,7 +150,7 @@ TEST(SessionLogTest, ATouchHeardAfterTheLastContactIsItsOwn) {
 
 TEST(SessionLogTest, NothingWasTold) {
   const SessionLog log;
-  EXPECT_TRUE(log.stretches().empty());
+  EXPECT_TRUE(log.segments().empty());
   EXPECT_TRUE(log.contacts().empty());
 }
 

@@ -5,19 +5,18 @@
 #include <filesystem>
 
 #include "evaluation/gnuplot.h"
+#include "refusal.h"
 
 namespace sweep_guard_session {
 namespace {
 
 using std::chrono::milliseconds;
-using sweep_guard::Level;
-using sweep_guard::Time;
+using sweep_guard_core::Time;
+using sweep_guard_core::WarningLevel;
 
 const Time kBegin(std::chrono::seconds(100));
 
 Time at(int ms) { return kBegin + milliseconds(ms); }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // The last pose is where the contact is, those before every 10 ms.
 SessionBag bagOf(int poses) {
@@ -30,11 +29,11 @@ SessionBag bagOf(int poses) {
 
 SessionLog oneContact() {
   SessionLog log;
-  log.add({at(0), Level::kUnknown, "UNKNOWN: no tool pose yet"});
-  log.add({at(100), Level::kClear, "CLEAR"});
-  log.add({at(500), Level::kConsidered, "CONSIDERED", milliseconds(900)});
-  log.add({at(1200), Level::kReflex, "REFLEX", milliseconds(100)});
-  log.add({at(1310), Level::kContact, "CONTACT: tool meets 'a, b'", milliseconds(0)});
+  log.add({at(0), WarningLevel::kUnknown, "UNKNOWN: no tool pose yet"});
+  log.add({at(100), WarningLevel::kClear, "CLEAR"});
+  log.add({at(500), WarningLevel::kConsidered, "CONSIDERED", milliseconds(900)});
+  log.add({at(1200), WarningLevel::kReflex, "REFLEX", milliseconds(100)});
+  log.add({at(1310), WarningLevel::kContact, "CONTACT: tool meets 'a, b'", milliseconds(0)});
   log.add({at(1310), at(1300), at(1310), "a, b", "tip", {3, 4}, 0.0025});
   log.addSweep(at(1290), at(1310));
   log.end(at(2000));
@@ -74,7 +73,7 @@ TEST(SessionReportTest, SummaryDoesNotCallPosesSweptThatNoIntervalCovers) {
   bag.poses.push_back(at(1560));
   EXPECT_TRUE(has(summary(log, bag), "\n           4 poses NOT SWEPT, all of the last 0.250 s\n"));
   SessionLog blind;
-  blind.add({at(0), Level::kUnknown, "UNKNOWN: no workpiece yet"});
+  blind.add({at(0), WarningLevel::kUnknown, "UNKNOWN: no workpiece yet"});
   blind.end(at(2000));
   EXPECT_TRUE(has(summary(blind, bag), "NOTHING WAS SWEPT"));
   EXPECT_FALSE(has(summary(blind, bag), "waited"));
@@ -82,7 +81,7 @@ TEST(SessionReportTest, SummaryDoesNotCallPosesSweptThatNoIntervalCovers) {
 
 TEST(SessionReportTest, ASessionOfOneInstantIsReportedToo) {
   SessionLog instant;
-  instant.add({at(0), Level::kUnknown, "UNKNOWN: no tool pose yet"});
+  instant.add({at(0), WarningLevel::kUnknown, "UNKNOWN: no tool pose yet"});
   instant.end(at(0));
   for (const SessionLog& log : {SessionLog(), instant}) {
     EXPECT_TRUE(has(summary(log, bagOf(0)), "UNKNOWN         0.0 s   0.0 %\n"));
@@ -94,7 +93,7 @@ TEST(SessionReportTest, ASessionOfOneInstantIsReportedToo) {
 TEST(SessionReportTest, PlotsAreDrawnWithAndWithoutContacts) {
   const std::string path = testing::TempDir() + "session_report_test.png";
   SessionLog uneventful;
-  uneventful.add({at(0), Level::kClear, "CLEAR"});
+  uneventful.add({at(0), WarningLevel::kClear, "CLEAR"});
   uneventful.end(at(2000));
   for (const SessionLog& log : {oneContact(), uneventful, SessionLog()}) {
     std::filesystem::remove(path);

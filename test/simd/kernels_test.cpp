@@ -8,7 +8,7 @@
 
 #include "scenes.h"
 
-namespace sweep_guard::simd {
+namespace sweep_guard_core::simd {
 namespace {
 
 constexpr size_t kFloats = 3 * kBlock;
@@ -159,7 +159,7 @@ TEST_P(KernelsTest, TellsThePlanesThatAVertexIsBeyondAndWhatIsInsideOfAll) {
   int inside_all = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const std::vector<float> vertices = randomBlocks(random, 1);
-    const Planes planes = randomPlanes(random, static_cast<size_t>(1 + random.below(static_cast<int>(kMostPlanes))));
+    const Planes planes = randomPlanes(random, static_cast<size_t>(1 + random.below(static_cast<int>(kMaxPlanes))));
     std::vector<std::uint16_t> bits(kBlock);
     GetParam().classifyBlock(vertices.data(), planes, bits.data());
     for (size_t i = 0; i < kBlock; ++i) {
@@ -221,4 +221,4 @@ INSTANTIATE_TEST_SUITE_P(AllSets, KernelsTest, testing::ValuesIn(availableKernel
 TEST(AvailableKernelsTest, EndWithTheBaseline) { EXPECT_STREQ(availableKernels().back().name, "baseline"); }
 
 }  // namespace
-}  // namespace sweep_guard::simd
+}  // namespace sweep_guard_core::simd

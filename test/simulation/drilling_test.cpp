@@ -73,16 +73,16 @@ TEST(DrillingTest, IsRigidAtAllTimes) {
 }
 
 TEST(DrillingTest, RefusesNoHoleAndOptionsOutOfRange) {
-  EXPECT_THROW(Drilling({}, {}), sweep_guard::InvalidInput);
+  EXPECT_THROW(Drilling({}, {}), sweep_guard_core::InvalidInput);
   Drilling::Options options;
   options.travel_time = 0.0;
-  EXPECT_THROW(Drilling(holes(), options), sweep_guard::InvalidInput);
+  EXPECT_THROW(Drilling(holes(), options), sweep_guard_core::InvalidInput);
 }
 
 // A roof with its ridge along y at x = 0 and 45 degree sides: the point at x = -1 lies a radius below the ridge.
 TEST(HolesAroundTest, LeavesOutPointsThatAreMissingOrFarBelow) {
   const TopSurface roof(
-      sweep_guard::TriangleMesh({{0, 0, 3}, {0, 3, 2.9}, {-3, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {0, 1, 3}}));
+      sweep_guard_core::TriangleMesh({{0, 0, 3}, {0, 3, 2.9}, {-3, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {0, 1, 3}}));
   const auto found = holesAround(roof, /*radius=*/0.5, /*count=*/4);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_TRUE(found[0].isApprox(Eigen::Vector3d(0, 0, 3)));

@@ -131,9 +131,9 @@ TEST(GuidedTipTest, RotationsStayRotations) {
 TEST(GuidedTipTest, RefusesLimitsThatAllowNoMotion) {
   GuidedTip::Limits limits;
   limits.acceleration = 0.0;
-  EXPECT_THROW(GuidedTip(Isometry3d::Identity(), limits), sweep_guard::InvalidInput);
+  EXPECT_THROW(GuidedTip(Isometry3d::Identity(), limits), sweep_guard_core::InvalidInput);
   limits.acceleration = NAN;
-  EXPECT_THROW(GuidedTip(Isometry3d::Identity(), limits), sweep_guard::InvalidInput);
+  EXPECT_THROW(GuidedTip(Isometry3d::Identity(), limits), sweep_guard_core::InvalidInput);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::milliseconds;
 
-const sweep_guard::Time kNow(std::chrono::seconds(100));
+const sweep_guard_core::Time kNow(std::chrono::seconds(100));
 
 Joystick::Options plain() {
   Joystick::Options options;
@@ -66,18 +66,18 @@ TEST(JoystickTest, RestsWhenReleasedUntilAMessageComesAfterwards) {
 
 TEST(JoystickTest, RefusesADeviceOfFewerAxesAndNumbersThatAreNone) {
   Joystick joystick(plain());
-  EXPECT_THROW(joystick.take({1, 1}, kNow), sweep_guard::InvalidInput);
-  EXPECT_THROW(joystick.take({1, 1, 1, 1, 1, NAN}, kNow), sweep_guard::InvalidInput);
+  EXPECT_THROW(joystick.take({1, 1}, kNow), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(joystick.take({1, 1, 1, 1, 1, NAN}, kNow), sweep_guard_core::InvalidInput);
   EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d::Zero());
 }
 
 TEST(JoystickTest, RefusesOptionsOutOfRange) {
   Joystick::Options options;
   options.dead_zone = 1.0;
-  EXPECT_THROW(Joystick{options}, sweep_guard::InvalidInput);
+  EXPECT_THROW(Joystick{options}, sweep_guard_core::InvalidInput);
   options.dead_zone = 0.0;
   options.timeout = milliseconds(0);
-  EXPECT_THROW(Joystick{options}, sweep_guard::InvalidInput);
+  EXPECT_THROW(Joystick{options}, sweep_guard_core::InvalidInput);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace sweep_guard_simulation {
 namespace {
 
 using std::chrono::milliseconds;
-using sweep_guard::StampedPose;
-using sweep_guard::Time;
+using sweep_guard_core::StampedPose;
+using sweep_guard_core::Time;
 
 TEST(PoseStreamTest, GuidedPosesComeAtAnEvenRateAlsoWhileTheTipRests) {
   std::vector<double> steps;

@@ -8,11 +8,11 @@ namespace sweep_guard_simulation {
 namespace {
 
 using std::chrono::seconds;
-using sweep_guard::StampedPose;
+using sweep_guard_core::StampedPose;
 
 StampedPose poseAt(int stamp, double x, double z) {
   StampedPose pose;
-  pose.stamp = sweep_guard::Time(seconds(stamp));
+  pose.stamp = sweep_guard_core::Time(seconds(stamp));
   pose.X_WT.translation() << x, 0, z;
   return pose;
 }
@@ -57,8 +57,8 @@ TEST(ReplayTest, LeavesRotationsAlone) {
 }
 
 TEST(ReplayTest, RefusesAMotionThatCannotBePlayed) {
-  EXPECT_THROW(Replay({}, {}), sweep_guard::InvalidInput);
-  EXPECT_THROW(Replay({poseAt(1, 0, 0), poseAt(1, 1, 0)}, {/*loop=*/true}), sweep_guard::InvalidInput);
+  EXPECT_THROW(Replay({}, {}), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(Replay({poseAt(1, 0, 0), poseAt(1, 1, 0)}, {/*loop=*/true}), sweep_guard_core::InvalidInput);
 }
 
 }  // namespace

@@ -37,11 +37,11 @@ TEST(TipScriptTest, HasOneVelocityOnBothSidesOfAPose) {
 }
 
 TEST(TipScriptTest, RefusesWhatIsNoMotion) {
-  EXPECT_THROW(TipScript({"0 0 0 0 0 0 0"}), sweep_guard::InvalidInput);
-  EXPECT_THROW(TipScript({"0 0 0 0 0 0 0", "0 1 0 0 0 0 0"}), sweep_guard::InvalidInput);
-  EXPECT_THROW(TipScript({"0 0 0 0 0 0", "1 0 0 0 0 0 0"}), sweep_guard::InvalidInput);
-  EXPECT_THROW(TipScript({"0 0 0 0 0 0 0", "1 0 0 0 0 0 0 7"}), sweep_guard::InvalidInput);
-  EXPECT_THROW(TipScript({"0 0 0 0 0 0 0", "1 0 0 nan 0 0 0"}), sweep_guard::InvalidInput);
+  EXPECT_THROW(TipScript({"0 0 0 0 0 0 0"}), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(TipScript({"0 0 0 0 0 0 0", "0 1 0 0 0 0 0"}), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(TipScript({"0 0 0 0 0 0", "1 0 0 0 0 0 0"}), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(TipScript({"0 0 0 0 0 0 0", "1 0 0 0 0 0 0 7"}), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(TipScript({"0 0 0 0 0 0 0", "1 0 0 nan 0 0 0"}), sweep_guard_core::InvalidInput);
 }
 
 }  // namespace

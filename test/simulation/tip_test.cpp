@@ -6,8 +6,8 @@ namespace sweep_guard_simulation {
 namespace {
 
 using Eigen::Vector3d;
-using sweep_guard::ConvexShape;
-using sweep_guard::Tool;
+using sweep_guard_core::ConvexShape;
+using sweep_guard_core::Tool;
 
 ConvexShape boxAt(const Vector3d& center, const Vector3d& half_extents) {
   return ConvexShape::box(half_extents).placed(Eigen::Isometry3d(Eigen::Translation3d(center)));
@@ -15,14 +15,14 @@ ConvexShape boxAt(const Vector3d& center, const Vector3d& half_extents) {
 
 TEST(TipTest, IsTheOriginForACylinder) {
   EXPECT_LT(tipOf(Tool::cylinder(0.01, 0.15)).norm(), 1e-9);
-  EXPECT_NEAR(girthOf(Tool::cylinder(0.01, 0.15)), std::sqrt(2.0) * 0.01, 1e-6);
+  EXPECT_NEAR(radialExtent(Tool::cylinder(0.01, 0.15)), std::sqrt(2.0) * 0.01, 1e-6);
 }
 
 TEST(TipTest, IsTheMiddleOfTheFaceOfThePartInFront) {
   const Tool tool(
       {{"palm", boxAt({0, 0, 0}, {0.1, 0.1, 0.1})}, {"finger", boxAt({0.05, -0.02, 0.2}, {0.01, 0.02, 0.03})}});
   EXPECT_LT((tipOf(tool) - Vector3d(0.05, -0.02, 0.23)).norm(), 1e-6);
-  EXPECT_NEAR(girthOf(tool), std::hypot(0.15, 0.12), 1e-6);
+  EXPECT_NEAR(radialExtent(tool), std::hypot(0.15, 0.12), 1e-6);
 }
 
 TEST(TipTest, IsTheTopOfABall) {

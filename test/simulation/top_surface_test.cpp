@@ -7,7 +7,7 @@ namespace {
 
 // Two sheets over the unit triangle, the upper one slanted from z = 1 to z = 3 along x, and a loose vertex above both.
 TopSurface twoSheets() {
-  return TopSurface(sweep_guard::TriangleMesh(
+  return TopSurface(sweep_guard_core::TriangleMesh(
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 3}, {0, 1, 1}, {0, 0, 9}}, {{0, 1, 2}, {3, 4, 5}}));
 }
 

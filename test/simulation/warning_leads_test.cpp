@@ -6,50 +6,49 @@ namespace sweep_guard_simulation {
 namespace {
 
 using namespace std::chrono_literals;
-using sweep_guard::Level;
-using sweep_guard::Time;
+using sweep_guard_core::Duration;
+using sweep_guard_core::Time;
+using sweep_guard_core::WarningLevel;
+
+std::vector<WarningLeads::Contact> contactsOf(std::initializer_list<std::pair<Time, WarningLevel>> levels) {
+  WarningLeads leads;
+  for (const auto& [at, level] : levels) leads.add(at, level);
+  return leads.contacts();
+}
+
+void expectLeads(const WarningLeads::Contact& contact, Duration considered, Duration reflex) {
+  EXPECT_EQ(contact.considered, considered);
+  EXPECT_EQ(contact.reflex, reflex);
+}
 
 TEST(WarningLeadsTest, CountFromWhenTheWarningRose) {
-  WarningLeads leads;
-  leads.add(Time(1s), Level::kClear);
-  leads.add(Time(2s), Level::kConsidered);
-  leads.add(Time(2100ms), Level::kConsidered);
-  leads.add(Time(2900ms), Level::kReflex);
-  EXPECT_TRUE(leads.contacts().empty());
-  leads.add(Time(3s), Level::kContact);
-  leads.add(Time(3100ms), Level::kContact);
-  ASSERT_EQ(leads.contacts().size(), 1U);
-  EXPECT_EQ(leads.contacts()[0].considered, 1s);
-  EXPECT_EQ(leads.contacts()[0].reflex, 100ms);
+  const auto contacts = contactsOf({{Time(1s), WarningLevel::kClear},
+                                    {Time(2s), WarningLevel::kConsidered},
+                                    {Time(2100ms), WarningLevel::kConsidered},
+                                    {Time(2900ms), WarningLevel::kReflex},
+                                    {Time(3s), WarningLevel::kContact},
+                                    {Time(3100ms), WarningLevel::kContact}});
+  ASSERT_EQ(contacts.size(), 1U);
+  expectLeads(contacts[0], 1s, 100ms);
 }
 
 TEST(WarningLeadsTest, AreZeroWhereNothingWarned) {
-  WarningLeads leads;
-  leads.add(Time(1s), Level::kConsidered);
-  leads.add(Time(2s), Level::kUnknown);
-  leads.add(Time(3s), Level::kContact);
-  ASSERT_EQ(leads.contacts().size(), 1U);
-  EXPECT_EQ(leads.contacts()[0].considered, 0s);
-  EXPECT_EQ(leads.contacts()[0].reflex, 0s);
+  const auto contacts = contactsOf(
+      {{Time(1s), WarningLevel::kConsidered}, {Time(2s), WarningLevel::kUnknown}, {Time(3s), WarningLevel::kContact}});
+  expectLeads(contacts.at(0), 0s, 0s);
 }
 
 TEST(WarningLeadsTest, AWarningThatWasWithdrawnDoesNotCount) {
-  WarningLeads leads;
-  leads.add(Time(1s), Level::kReflex);
-  leads.add(Time(2s), Level::kConsidered);
-  leads.add(Time(3s), Level::kContact);
-  EXPECT_EQ(leads.contacts().at(0).considered, 2s);
-  EXPECT_EQ(leads.contacts().at(0).reflex, 0s);
+  const auto contacts = contactsOf(
+      {{Time(1s), WarningLevel::kReflex}, {Time(2s), WarningLevel::kConsidered}, {Time(3s), WarningLevel::kContact}});
+  expectLeads(contacts.at(0), 2s, 0s);
 }
 
 TEST(WarningLeadsTest, EachContactHasItsOwn) {
-  WarningLeads leads;
-  leads.add(Time(1s), Level::kContact);
-  leads.add(Time(2s), Level::kReflex);
-  leads.add(Time(3s), Level::kContact);
-  ASSERT_EQ(leads.contacts().size(), 2U);
-  EXPECT_EQ(leads.contacts()[1].considered, 1s);
-  EXPECT_EQ(leads.contacts()[1].reflex, 1s);
+  const auto contacts = contactsOf(
+      {{Time(1s), WarningLevel::kContact}, {Time(2s), WarningLevel::kReflex}, {Time(3s), WarningLevel::kContact}});
+  ASSERT_EQ(contacts.size(), 2U);
+  expectLeads(contacts[1], 1s, 1s);
 }
 
 }  // namespace

@@ -3,18 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 
+#include "data_path.h"
+#include "refusal.h"
+#include "ros/tool/mesh_wire.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/ros/mesh_wire.h"
 
 namespace sweep_guard_simulation {
 namespace {
 
-using sweep_guard::InvalidInput;
+using sweep_guard_core::InvalidInput;
 
 constexpr const char* kTetrahedron = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
@@ -26,11 +27,6 @@ Workpiece::Options resting() {
   Workpiece::Options options;
   options.amplitude = 0.0;
   return options;
-}
-
-std::filesystem::path dataFolder() {
-  const char* const variable = std::getenv("SWEEP_GUARD_DATA");
-  return variable != nullptr ? variable : SWEEP_GUARD_SOURCE_DIR "/../shared/data";
 }
 
 class WorkpieceFileTest : public testing::Test {
@@ -153,12 +149,12 @@ TEST_F(WorkpieceFileTest, RefusesOtherFormats) {
 
 TEST_F(WorkpieceFileTest, RefusesAFileLargerThanItsLimit) {
   std::ofstream(path_) << kTetrahedron;
-  std::filesystem::resize_file(path_, sweep_guard_ros::kLargestMeshFile + 1);
+  std::filesystem::resize_file(path_, sweep_guard_ros::kMaxMeshFile + 1);
   EXPECT_THROW(Workpiece::fromFile(path_, {}), InvalidInput);
 }
 
 TEST(WorkpieceDataTest, LoadsEveryMesh) {
-  const std::filesystem::path meshes = dataFolder() / "mesh";
+  const std::filesystem::path meshes = dataPath("mesh");
   if (!std::filesystem::exists(meshes)) GTEST_SKIP() << meshes << " is missing; set SWEEP_GUARD_DATA";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(meshes)) {
     const std::string extension = entry.path().extension();
@@ -172,14 +168,14 @@ TEST(WorkpieceDataTest, LoadsEveryMesh) {
 }
 
 TEST(WorkpieceDataTest, LoadsOrRefusesEveryHostileFile) {
-  const std::filesystem::path hostile = dataFolder() / "hostile";
+  const std::filesystem::path hostile = dataPath("hostile");
   if (!std::filesystem::exists(hostile)) GTEST_SKIP() << hostile << " is missing; set SWEEP_GUARD_DATA";
   for (const auto& entry : std::filesystem::directory_iterator(hostile)) {
     try {
       const std::vector<float> positions = Workpiece::fromFile(entry.path(), {}).positions(1.0);
       EXPECT_TRUE(toMatrix(positions).allFinite()) << entry.path();
     } catch (const InvalidInput& error) {
-      EXPECT_NE(std::string(error.what()).find(entry.path()), std::string::npos);
+      EXPECT_TRUE(has(error.what(), entry.path()));
     }
   }
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 using Kind = Body::Kind;
@@ -204,7 +204,7 @@ Body enlarged(Body body, double more) {
 
 Tool toolOf(const Bodies& bodies) {
   if (bodies.size() == 1) return Tool(shapeOf(bodies.front()));
-  std::vector<ToolPart> parts;
+  std::vector<ConvexPiece> parts;
   for (const Body& body : bodies) parts.push_back({"", shapeOf(body)});
   return Tool(std::move(parts));
 }
@@ -223,4 +223,4 @@ Bodies randomBodies(Random& random, double scale) {
   return {body};
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <string>
 #include <vector>
 
 #include "scenes.h"
 #include "soundness/real.h"
 #include "sweep_guard/geometry/tool.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// A convex part of a tool, in the tool frame T, told in numbers: what the product's shapes are made from, and all that
 /// the checks know of it. Nothing here asks the product.
@@ -62,4 +61,4 @@ Tool toolOf(const Bodies& bodies);
 /// About the size `scale` [m]: a cylinder, flat ones and needles too; or one to five bodies of any kind, anywhere.
 Bodies randomBodies(Random& random, double scale);
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -10,7 +10,7 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 std::string hex(double value) {
@@ -204,16 +204,17 @@ TriangleMesh Triangles::mesh() const { return meshOf(*this, corners_M); }
 
 TriangleMesh Triangles::meshBefore() const { return before_M.empty() ? mesh() : meshOf(*this, before_M); }
 
-std::vector<Motion> SweepCase::parts() const {
+std::vector<Motion> SweepCase::subMotions() const {
   if (!frame_W) return split(motion, options.max_rotation);
-  return split(RelativeMotion{motion, *frame_W}, options.max_rotation, toolOf(tool).extent());
+  return split(RelativeMotion{motion, *frame_W}, options.max_rotation, toolOf(tool).boundingRadius());
 }
 
-SweepFindings findingsOf(Detector& detector, const SweepCase& sweep) {
+SweepResult findingsOf(Detector& detector, const SweepCase& sweep) {
   const TriangleMesh mesh_M = sweep.triangles.mesh();
   const TriangleMesh before_M = sweep.triangles.meshBefore();
-  return testSweep(detector, toolOf(sweep.tool), sweep.parts(),
-                   MovingMesh(mesh_M, before_M, {before_M, mesh_M}, /*strayed=*/0.0), sweep.options);
+  return checkSweep(detector,
+                    {toolOf(sweep.tool), sweep.subMotions(),
+                     MovingMesh(mesh_M, before_M, {before_M, mesh_M}, /*path_deviation=*/0.0), sweep.options});
 }
 
 std::vector<VolumeKind> volumeKinds() { return {VolumeKind::kObb, VolumeKind::kObbPlanes, VolumeKind::kHull}; }
@@ -273,4 +274,4 @@ SweptVolume settled(SweptVolume volume) {
   return volume;
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

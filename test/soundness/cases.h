@@ -10,9 +10,9 @@
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
-#include "sweep_guard/guard/sweep_test.h"
+#include "sweep_guard/guard/sweep_checker.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// Triangles as the product gets them.
 struct Triangles {
@@ -48,12 +48,12 @@ struct SweepCase {
   SweepOptions options;           ///< its volume is the checker's choice
   std::vector<Contact> contacts;  ///< these triangles are met for certain, in ascending order
 
-  /// The motion cut for testSweep().
-  std::vector<Motion> parts() const;
+  /// The motion cut for checkSweep().
+  std::vector<Motion> subMotions() const;
 };
 
-/// What testSweep() finds.
-SweepFindings findingsOf(Detector& detector, const SweepCase& sweep);
+/// What checkSweep() finds.
+SweepResult findingsOf(Detector& detector, const SweepCase& sweep);
 
 /// All kinds of volume that the product knows.
 std::vector<VolumeKind> volumeKinds();
@@ -76,4 +76,4 @@ std::optional<AnyCase> readCase(std::istream& stream);
 /// The same volume with normals that survive being written down: normalising them again changes nothing.
 SweptVolume settled(SweptVolume volume);
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

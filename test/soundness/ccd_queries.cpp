@@ -7,12 +7,11 @@
 #include <fstream>
 #include <istream>
 #include <limits>
-#include <optional>
 
 #include "soundness/nearest_point.h"
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 using Integer = CGAL::Gmpz;
@@ -131,7 +130,7 @@ bool named(const CcdQuery& query) {
   const ConvexShape point = ConvexShape::hull({Eigen::Vector3d::Zero()});
   const PosedQuery seen = posed(query);
   return std::any_of(seen.triangles.begin(), seen.triangles.end(), [&](const MovingTriangle& triangle) {
-    return firstImpact(point, {Motion{}}, triangle, seen.rounding).has_value();
+    return timeOfImpact(point, {Motion{}}, triangle, seen.rounding).has_value();
   });
 }
 
@@ -203,4 +202,4 @@ CcdTally checkCcdQueries(const std::string& file, std::ostream& out) {
   return tally;
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/detection/fine_phase.h"
+#include "sweep_guard/detection/time_of_impact.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// Two edges, or a vertex and a face, whose four points go straight from one place to another; and whether they meet.
 /// A query of the Sample Queries of Wang et al. 2021: everybody's test of continuous collision detection.
@@ -58,4 +58,4 @@ struct CcdTally {
 /// @throws InvalidInput if the file cannot be read or does not tell its kind
 CcdTally checkCcdQueries(const std::string& file, std::ostream& out);
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

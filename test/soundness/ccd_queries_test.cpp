@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
+#include "data_path.h"
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 using Kind = CcdQuery::Kind;
@@ -72,14 +72,11 @@ TEST(CcdQueryTest, EdgesThatCrossAreNamedAndOthersAreNot) {
 }
 
 TEST(CcdDataTest, MissesNoneOfTheSampleQueries) {
-  const char* const variable = std::getenv("SWEEP_GUARD_DATA");
-  const std::filesystem::path data = variable != nullptr ? variable : SWEEP_GUARD_SOURCE_DIR "/../shared/data";
-  if (!std::filesystem::exists(data / "ccd"))
-    GTEST_SKIP() << data / "ccd"
-                 << " is missing; set SWEEP_GUARD_DATA";
+  const std::filesystem::path data = dataPath("ccd");
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is missing; set SWEEP_GUARD_DATA";
   CcdTally all;
   std::ostringstream misses;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(data / "ccd")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(data)) {
     if (entry.path().extension() != ".csv") continue;
     all.add(checkCcdQueries(entry.path(), misses));
   }
@@ -89,4 +86,4 @@ TEST(CcdDataTest, MissesNoneOfTheSampleQueries) {
 }
 
 }  // namespace
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

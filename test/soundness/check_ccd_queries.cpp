@@ -6,9 +6,9 @@
 namespace {
 
 int check(int count, char** files) {
-  sweep_guard::soundness::CcdTally all;
+  sweep_guard_core::soundness::CcdTally all;
   for (int i = 0; i < count; ++i) {
-    all.add(sweep_guard::soundness::checkCcdQueries(files[i], std::cout));
+    all.add(sweep_guard_core::soundness::checkCcdQueries(files[i], std::cout));
   }
   std::cout << "farthest extra " << all.farthest_extra << " of its size apart\n";
   std::cout << "queries " << all.queries << " positives " << all.positives << " misses " << all.misses << " extras "

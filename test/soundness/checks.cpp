@@ -5,10 +5,10 @@
 
 #include "soundness/oracle.h"
 #include "soundness/sampled_sweep.h"
-#include "sweep_guard/detection/fine_phase.h"
 #include "sweep_guard/detection/offscreen_context.h"
+#include "sweep_guard/detection/time_of_impact.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 bool contains(const std::vector<std::uint32_t>& triangles, std::uint32_t triangle) {
@@ -80,12 +80,12 @@ void checkPositives(const Context& context, const SweepCase& sweep) {
       SweepCase seen = sweep;
       seen.options.volume = kind;
       Tally& tally = context.report.of(suspect.name + '/' + nameOf(kind), context.family);
-      const SweepFindings findings = findingsOf(*suspect.detector, seen);
+      const SweepResult result = findingsOf(*suspect.detector, seen);
       for (const Contact& contact : sweep.contacts) {
         ++tally.cases;
         ++tally.positives;
-        const bool named = contains(findings.triangles, contact.triangle);
-        if (named && contains(findings.met, contact.triangle)) continue;
+        const bool named = contains(result.triangles, contact.triangle);
+        if (named && contains(result.not_ruled_out, contact.triangle)) continue;
         ++tally.misses;
         context.report.fail(
             (named ? "not confirmed: triangle " : "missed triangle ") + std::to_string(contact.triangle),
@@ -98,16 +98,16 @@ void checkPositives(const Context& context, const SweepCase& sweep) {
 void checkImpacts(const Context& context, const SweepCase& sweep) {
   const TriangleMesh mesh_M = sweep.triangles.mesh();
   const TriangleMesh before_M = sweep.triangles.meshBefore();
-  const MovingMesh mesh(mesh_M, before_M, {before_M, mesh_M}, /*strayed=*/0.0);
+  const MovingMesh mesh(mesh_M, before_M, {before_M, mesh_M}, /*path_deviation=*/0.0);
   const Tool tool = toolOf(sweep.tool);
-  const std::vector<Motion> parts = sweep.parts();
+  const std::vector<Motion> parts = sweep.subMotions();
   Tally& tally = context.report.of("fine", context.family);
   for (const Contact& contact : sweep.contacts) {
     if (mesh.moved() && contact.pace != contact.fraction) continue;  // not at an even pace
     std::optional<double> first;
-    for (const ToolPart& part : tool.parts()) {
+    for (const ConvexPiece& part : tool.pieces()) {
       const auto impact =
-          firstImpact(part.shape_T, parts, mesh.triangle(contact.triangle), sweep.options.margin + mesh.uncertainty());
+          timeOfImpact(part.shape_T, parts, mesh.triangle(contact.triangle), sweep.options.margin + mesh.uncertainty());
       if (impact && (!first || impact->time_of_impact < *first)) first = impact->time_of_impact;
     }
     ++tally.cases;
@@ -131,9 +131,9 @@ void checkWholeSweep(const Context& context, const SweepCase& sweep) {
   const bool any_met = std::any_of(apart.begin(), apart.end(), [](const auto& distance) { return !distance; });
   const bool within = !any_met && sampled.endsWithin(sweep.triangles);
   const Tool tool = toolOf(sweep.tool);
-  const std::vector<Motion> parts = sweep.parts();
+  const std::vector<Motion> parts = sweep.subMotions();
   for (Suspect& suspect : context.suspects) {
-    const SweepFindings findings = testSweep(*suspect.detector, tool, parts, mesh_M, sweep.options);
+    const SweepResult result = checkSweep(*suspect.detector, {tool, parts, mesh_M, sweep.options});
     Tally& tally = context.report.of(suspect.name + '/' + nameOf(sweep.options.volume), context.family);
     const auto fail = [&](const std::string& what, std::uint32_t triangle) {
       context.report.fail(what + " triangle " + std::to_string(triangle),
@@ -143,37 +143,37 @@ void checkWholeSweep(const Context& context, const SweepCase& sweep) {
     for (std::uint32_t i = 0; i < apart.size(); ++i) {
       if (!apart[i]) {
         ++tally.positives;
-        if (contains(findings.triangles, i) && contains(findings.met, i)) continue;
+        if (contains(result.triangles, i) && contains(result.not_ruled_out, i)) continue;
         ++tally.misses;
         fail("missed", i);
-      } else if (contains(findings.met, i)) {
+      } else if (contains(result.not_ruled_out, i)) {
         ++tally.extras;
         if (*apart[i] <= 0) continue;
         ++tally.unexplained;
         fail("said to be met, and is apart:", i);
       }
     }
-    for (const std::uint32_t triangle : unexplained(mesh_M, findings)) {
+    for (const std::uint32_t triangle : unexplained(mesh_M, result)) {
       ++tally.unexplained;
       fail("farther away than the margin:", triangle);
     }
-    if (any_met || !findings.met.empty()) continue;
+    if (any_met || !result.not_ruled_out.empty()) continue;
     if (within) ++tally.positives;
-    if (within == findings.inside) continue;
+    if (within == result.inside) continue;
     ++(within ? tally.misses : tally.unexplained);
     fail(within ? "not said to be inside, of a mesh with" : "said to be inside, of a mesh with", 0);
   }
 }
 
-std::vector<std::uint32_t> unexplained(const TriangleMesh& mesh_M, const SweepFindings& findings) {
+std::vector<std::uint32_t> unexplained(const TriangleMesh& mesh_M, const SweepResult& result) {
   std::vector<std::uint32_t> farther;
-  for (const std::uint32_t triangle : findings.triangles) {
+  for (const std::uint32_t triangle : result.triangles) {
     const auto near = [&](const SweptVolume& volume_M) {
-      return meets(mesh_M, triangle, volume_M, findings.margin - volume_M.margin);
+      return meets(mesh_M, triangle, volume_M, result.margin - volume_M.margin);
     };
-    if (std::none_of(findings.volumes_M.begin(), findings.volumes_M.end(), near)) farther.push_back(triangle);
+    if (std::none_of(result.volumes_M.begin(), result.volumes_M.end(), near)) farther.push_back(triangle);
   }
   return farther;
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

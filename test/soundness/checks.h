@@ -8,7 +8,7 @@
 #include "soundness/report.h"
 #include "sweep_guard/detection/detector.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// A detector under test, and its name.
 struct Suspect {
@@ -41,7 +41,7 @@ void checkImpacts(const Context& context, const SweepCase& sweep);
 /// Every triangle found to meet the tool at one of many exact poses is named; what is named is within its margin.
 void checkWholeSweep(const Context& context, const SweepCase& sweep);
 
-/// The triangles named that are no nearer than `findings.margin` to any volume tested.
-std::vector<std::uint32_t> unexplained(const TriangleMesh& mesh_M, const SweepFindings& findings);
+/// The triangles named that are no nearer than `result.margin` to any volume tested.
+std::vector<std::uint32_t> unexplained(const TriangleMesh& mesh_M, const SweepResult& result);
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 using Quaternion = Eigen::Quaternion<Real>;
@@ -58,4 +58,4 @@ Vector3r ExactMotion::directionInTool(Real fraction, const Vector3r& direction_M
   return tool_.rotation(fraction).transpose() * direction_W;
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

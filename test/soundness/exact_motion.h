@@ -5,7 +5,7 @@
 #include "soundness/real.h"
 #include "sweep_guard/geometry/motion.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// Where the points of a tool really are during a motion: the origin goes straight, the orientation turns at constant
 /// rate, in long double and without the product's interpolation. The rotation matrices are orthonormal only as far as
@@ -41,4 +41,4 @@ class ExactMotion {
   std::optional<Path> frame_;
 };
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -9,7 +9,7 @@
 #include "soundness/sampled_sweep.h"
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 template <PairCase (*make)(std::uint64_t)>
@@ -97,4 +97,4 @@ void replay(const AnyCase& any, std::vector<Suspect>& suspects, Report& report) 
   throw InvalidInput("soundness case: there is no family '" + name + "'");
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -6,7 +6,7 @@
 
 #include "soundness/checks.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// A kind of case, and its check. One call makes and checks a handful of cases from a seed.
 struct Family {
@@ -32,4 +32,4 @@ void run(const Family& family, const Extent& extent, std::vector<Suspect>& suspe
 /// Checks one written case again.
 void replay(const AnyCase& any, std::vector<Suspect>& suspects, Report& report);
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

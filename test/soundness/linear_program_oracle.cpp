@@ -6,7 +6,7 @@
 
 #include "soundness/oracle.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 using Rational = CGAL::Gmpq;
@@ -48,4 +48,4 @@ bool meetsByLinearProgram(const TriangleMesh& mesh_M, std::uint32_t triangle, co
   return !CGAL::solve_linear_program(program, Rational()).is_infeasible();
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -8,11 +8,11 @@
 
 #include "soundness/exact_motion.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
-constexpr double kFarthest = 9.9e6;
+constexpr double kMaxDistance = 9.9e6;
 
 // Random numbers that depend on the case alone, so that a replay draws the same.
 Random randomOf(const Triangles& triangles) {
@@ -98,7 +98,7 @@ Retold cutInFour(const Triangles& triangles) {
 
 Retold withMore(const Triangles& triangles, Random& random) {
   Retold retold = eachTurned(triangles, {0, 1, 2});
-  const double largest = std::min(kFarthest, 2.0 * largestCoordinate(triangles));
+  const double largest = std::min(kMaxDistance, 2.0 * largestCoordinate(triangles));
   for (int count = 1 + random.below(10); count > 0; --count) {
     const Eigen::Vector3d half = Eigen::Vector3d::Constant(largest);
     append(retold.other, random.inBox(half), random.inBox(half), random.inBox(half));
@@ -107,7 +107,7 @@ Retold withMore(const Triangles& triangles, Random& random) {
 }
 
 Eigen::Isometry3d randomMove(Random& random, const Triangles& triangles) {
-  const double room = kFarthest - 2.0 * largestCoordinate(triangles);
+  const double room = kMaxDistance - 2.0 * largestCoordinate(triangles);
   if (room <= 0.0) return Eigen::Isometry3d::Identity();
   return random.pose(random.uniform(0.0, std::min(room, 2.0 * largestCoordinate(triangles))) * random.direction());
 }
@@ -120,7 +120,7 @@ Triangles moved(const Eigen::Isometry3d& move, Triangles triangles) {
 
 // A power of two that keeps everything within bounds.
 double randomScale(Random& random, double largest) {
-  const int most = std::min(20, static_cast<int>(std::floor(std::log2(kFarthest / std::max(largest, 1e-9)))) - 2);
+  const int most = std::min(20, static_cast<int>(std::floor(std::log2(kMaxDistance / std::max(largest, 1e-9)))) - 2);
   return std::ldexp(1.0, most - random.below(30));
 }
 
@@ -197,7 +197,7 @@ class Relations {
     return suspect_.detector->detect(mesh, volume);
   }
 
-  SweepFindings sweep(const SweepCase& sweep) const { return findingsOf(*suspect_.detector, sweep); }
+  SweepResult sweep(const SweepCase& sweep) const { return findingsOf(*suspect_.detector, sweep); }
 
   // What the first poses of a path meet, all of it meets: a longer horizon contains a shorter one.
   void keepsTheBeginning(const SweepCase& sweep, int count) {
@@ -207,7 +207,7 @@ class Relations {
     for (int i = 0; i < kPoses; ++i) path.push_back(sweep.motion.at(static_cast<double>(i) / (kPoses - 1)));
     const TriangleMesh mesh = sweep.triangles.mesh();
     const auto metBy = [&](const std::vector<Eigen::Isometry3d>& poses) {
-      return testPath(*suspect_.detector, toolOf(sweep.tool), poses, mesh, sweep.options).all.met;
+      return checkPath(*suspect_.detector, toolOf(sweep.tool), poses, mesh, sweep.options).all.not_ruled_out;
     };
     const std::vector<std::uint32_t> all = metBy(path);
     for (const std::uint32_t triangle : metBy({path.begin(), path.begin() + count})) {
@@ -218,7 +218,7 @@ class Relations {
   // The contacts at fractions from `from` to `to` are named.
   void keepsContacts(const std::string& relation, const SweepCase& sweep, double from = 0.0, double to = 1.0) {
     ++tally_.cases;
-    const std::vector<std::uint32_t> triangles = this->sweep(sweep).met;
+    const std::vector<std::uint32_t> triangles = this->sweep(sweep).not_ruled_out;
     for (const Contact& contact : sweep.contacts) {
       if (contact.fraction < from || contact.fraction > to) continue;
       demand(contains(triangles, contact.triangle), relation, contact.triangle);
@@ -327,12 +327,12 @@ void checkOne(Relations& relations, const SweepCase& sweep) {
   if (sweep.frame_W) largest += sweep.frame_W->X_MT_start.translation().norm();
   largest += extentOf(sweep.tool);
   const double scale = randomScale(random, largest);
-  const SweepFindings here = relations.sweep(sweep);
+  const SweepResult here = relations.sweep(sweep);
   const SweepCase other = scaledSweep(sweep, scale);
-  const SweepFindings there = relations.sweep(other);
-  relations.demandSame(
-      here.triangles == there.triangles && here.met == there.met && here.margin * scale == there.margin,
-      "sweep scaled by a power of two");
+  const SweepResult there = relations.sweep(other);
+  relations.demandSame(here.triangles == there.triangles && here.not_ruled_out == there.not_ruled_out &&
+                           here.margin * scale == there.margin,
+                       "sweep scaled by a power of two");
 }
 
 }  // namespace
@@ -355,4 +355,4 @@ void checkRelations(const Context& context, const SweepCase& sweep) {
   }
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

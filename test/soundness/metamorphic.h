@@ -2,7 +2,7 @@
 
 #include "soundness/checks.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// Relations between answers, for which no oracle is needed. What a detector names in one scene it has to name in
 /// another that is the same but for its description, once the volume is grown by what rounding can do in both: moved
@@ -16,4 +16,4 @@ void checkRelations(const Context& context, const PairCase& pair);
 /// first poses of a path meet, the whole path meets.
 void checkRelations(const Context& context, const SweepCase& sweep);
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

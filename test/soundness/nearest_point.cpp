@@ -1,6 +1,6 @@
 #include "soundness/nearest_point.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 // Ericson, Real-Time Collision Detection, 5.1.5: by the region of the plane in which the point lies.
 Vector3r nearestOfTriangle(const std::array<Vector3r, 3>& corners, const Vector3r& p) {
@@ -26,4 +26,4 @@ Vector3r nearestOfTriangle(const std::array<Vector3r, 3>& corners, const Vector3
   return a + vb / sum * ab + vc / sum * ac;
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

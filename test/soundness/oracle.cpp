@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "detection/exact_oracle.h"
 #include "soundness/real.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 using Distances = std::array<Real, 3>;  // of the corners from one plane; positive: outside
@@ -141,4 +140,4 @@ bool meets(const TriangleMesh& mesh_M, std::uint32_t triangle, const SweptVolume
   return meetsExactly(mesh_M, triangle, swept_M, growth);
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

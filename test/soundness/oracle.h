@@ -5,7 +5,7 @@
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// Whether a triangle meets a volume grown by `growth` [m]. Exact: long double answers where its rounding, bounded
 /// safely, cannot matter; the rest is decided by meetsExactly() in integers. Thousands of times faster than that.
@@ -16,4 +16,4 @@ bool meets(const TriangleMesh& mesh_M, std::uint32_t triangle, const SweptVolume
 bool meetsByLinearProgram(const TriangleMesh& mesh_M, std::uint32_t triangle, const SweptVolume& swept_M,
                           double growth = 0.0);
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

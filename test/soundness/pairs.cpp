@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
-constexpr double kFarthest = 9.9e6;
+constexpr double kMaxDistance = 9.9e6;
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
@@ -76,7 +76,7 @@ double randomGap(Random& random, double size, double largest) {
 Corners touching(Random& random, const SweptVolume& volume, double size, double largest) {
   const Spot spot = randomSpot(random, volume);
   const Eigen::Vector3d p = spot.p_B + randomGap(random, size, largest) * spot.outward;
-  const double room = 0.2 * (kFarthest - largest);
+  const double room = 0.2 * (kMaxDistance - largest);
   const double side =
       std::min(room, size * (random.chance(0.5) ? random.logUniform(1e-6, 1.0) : random.logUniform(2.0, 1e6)));
   const auto edge = [&] {
@@ -139,4 +139,4 @@ PairCase adversarialPairs(std::uint64_t seed) {
   return pair;
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

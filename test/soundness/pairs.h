@@ -3,7 +3,7 @@
 #include "scenes.h"
 #include "soundness/cases.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// The scenes of the detectors' own tests: triangles of every kind around the volume, and triangles that only just
 /// touch it or only just do not.
@@ -16,4 +16,4 @@ PairCase grazingPairs(std::uint64_t seed);
 /// slivers, needles and points.
 PairCase adversarialPairs(std::uint64_t seed);
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "soundness/exact_motion.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
-constexpr double kFarthest = 9.9e6;  // leaves room for a tool
+constexpr double kMaxDistance = 9.9e6;  // leaves room for a tool
 
 // A point of the tool at a fraction of the motion, so deep inside.
 struct ToolPoint {
@@ -237,7 +236,7 @@ class Builder {
     inset_ = hasInset(body(), depth_) ? depth_ : Real{0};
     // A body without an inside is grown instead: that, too, puts the point so deep into it.
     if (inset_ == 0) sweep_.options.margin = static_cast<double>(depth_);
-    parts_ = sweep_.parts().size();
+    parts_ = sweep_.subMotions().size();
     point_ = randomToolPoint(random_, body(), motion(), way_, parts_, inset_);
   }
 
@@ -301,7 +300,7 @@ SweepCase constructedPositives(std::uint64_t seed) {
     sweep = randomSweep(random);
     const double size = extentOf(sweep.tool);
     const double distance = largestCoordinate(sweep.motion);
-    const double triangle_size = std::min(size * random.logUniform(1e-6, 1e6), 0.3 * (kFarthest - distance));
+    const double triangle_size = std::min(size * random.logUniform(1e-6, 1e6), 0.3 * (kMaxDistance - distance));
     const bool moves = random.chance(0.3);
     const Eigen::Vector3d way = size * random.logUniform(1e-6, 3.0) * random.direction();
     Builder builder(random, sweep, moves ? way : Eigen::Vector3d::Zero());
@@ -321,4 +320,4 @@ SweepCase constructedPositives(std::uint64_t seed) {
   return sweep;
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

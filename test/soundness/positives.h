@@ -3,7 +3,7 @@
 #include "scenes.h"
 #include "soundness/cases.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// A moving tool and triangles through exactly known points of it: at a known fraction of the motion a point of the
 /// tool, `k` roundings inside of its surface, lies on the triangle to within those. So each triangle is met, and
@@ -23,4 +23,4 @@ double randomAngle(Random& random);
 /// The motions and options alone, without a triangle.
 SweepCase randomSweep(Random& random);
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

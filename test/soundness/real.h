@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// What the checks compute in: 64 bits of mantissa, eleven more than the product has.
 using Real = long double;
 using Vector3r = Eigen::Matrix<Real, 3, 1>;
 using Matrix3r = Eigen::Matrix<Real, 3, 3>;
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

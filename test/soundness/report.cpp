@@ -1,6 +1,6 @@
 #include "soundness/report.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 void Report::fail(const std::string& what, const std::function<std::string()>& text) {
   constexpr std::uint64_t kShown = 5;
@@ -18,4 +18,4 @@ void Report::summarize() const {
   out_ << "failures " << failures_ << std::endl;
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// What came of the cases of one family with one detector.
 struct Tally {
@@ -41,4 +41,4 @@ class Report {
   std::uint64_t failures_ = 0;
 };
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

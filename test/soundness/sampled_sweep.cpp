@@ -9,7 +9,7 @@
 #include "soundness/nearest_point.h"
 #include "soundness/positives.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 using Corners = std::array<Vector3r, 3>;
@@ -121,4 +121,4 @@ SweepCase randomWholeSweep(std::uint64_t seed) {
   return sweep;
 }
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -7,7 +7,7 @@
 #include "soundness/body.h"
 #include "soundness/cases.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 
 /// The exact motion of a tool at 1 025 poses, evenly spaced in time, against triangles: where a point of a triangle
 /// lies in the tool at one of them, by the analytic description of its bodies, the triangle is met for certain. Tried
@@ -46,4 +46,4 @@ class SampledSweep {
 /// volume.
 SweepCase randomWholeSweep(std::uint64_t seed);
 
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -6,7 +6,7 @@
 #include "soundness/families.h"
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 namespace options = boost::program_options;
@@ -99,11 +99,11 @@ int search(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness
 
 int main(int argc, char** argv) {
   try {
-    return sweep_guard::soundness::search(argc, argv);
+    return sweep_guard_core::soundness::search(argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "soundness: " << error.what() << '\n';
     return 2;

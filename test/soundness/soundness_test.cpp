@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "detection/exact_oracle.h"
+#include "refusal.h"
 #include "soundness/exact_motion.h"
 #include "soundness/families.h"
 #include "soundness/oracle.h"
@@ -14,7 +15,7 @@
 #include "soundness/positives.h"
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard::soundness {
+namespace sweep_guard_core::soundness {
 namespace {
 
 void compareOracles(PairCase (*make)(std::uint64_t)) {
@@ -74,7 +75,7 @@ TEST(CaseTest, IsRefusedIfItIsCutOffOrUnknown) {
 
 // Does not name the last triangle that is met.
 class Forgetful : public Detector {
-  void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) override {
+  void find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) override {
     detection = honest_->detect(part, swept_M);
     if (!detection.triangles.empty()) detection.triangles.pop_back();
   }
@@ -84,7 +85,7 @@ class Forgetful : public Detector {
 
 // Names everything.
 class Fearful : public Detector {
-  void find(const MeshPart& part, const SweptVolume& /*swept_M*/, Detection& detection) override {
+  void find(const Submesh& part, const SweptVolume& /*swept_M*/, Detection& detection) override {
     part.forEachTriangle([&](std::uint32_t triangle) { detection.triangles.push_back(triangle); });
     std::sort(detection.triangles.begin(), detection.triangles.end());
   }
@@ -100,7 +101,7 @@ void expectCaught(const std::string& family_name, std::unique_ptr<Detector> dete
     if (family.name == family_name) run(family, {/*cases=*/20}, suspects, report);
   }
   EXPECT_GT(report.failures(), 0U);
-  EXPECT_NE(out.str().find("FAILED: " + what), std::string::npos) << out.str();
+  EXPECT_TRUE(has(out.str(), "FAILED: " + what));
 
   std::ostringstream again;
   Report second(again);
@@ -153,4 +154,4 @@ TEST(SearchTest, IsDividedWithoutALoss) {
 }
 
 }  // namespace
-}  // namespace sweep_guard::soundness
+}  // namespace sweep_guard_core::soundness

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Root of everything the core throws. Its message says what is wrong and what to do.
 struct Error : std::runtime_error {
@@ -19,4 +19,4 @@ struct DeviceError : Error {
   using Error::Error;
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

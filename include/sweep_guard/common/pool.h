@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Values that are handed out shared, and do not change while anybody holds them. What nobody else holds any more is
 /// used again, buffers and all. One thread takes and adds; any thread may hold and let go. No weak pointers.
@@ -40,4 +40,4 @@ class Pool {
   std::vector<std::shared_ptr<Value>> all_;
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

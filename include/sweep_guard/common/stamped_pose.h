@@ -4,7 +4,7 @@
 
 #include "sweep_guard/common/time.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Where the tool frame T was at a moment, in the fixed frame W.
 struct StampedPose {
@@ -12,4 +12,4 @@ struct StampedPose {
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< rotation orthonormal, translation [m]
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

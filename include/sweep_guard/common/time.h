@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 using Duration = std::chrono::nanoseconds;
 
@@ -35,4 +35,4 @@ inline Duration fromSeconds(double seconds) {
   return std::chrono::round<Duration>(std::chrono::duration<double>(seconds));
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

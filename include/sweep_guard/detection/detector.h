@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/detection/mesh_part.h"
+#include "sweep_guard/detection/submesh.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// What a detector found.
 struct Detection {
@@ -28,7 +28,7 @@ class Detector {
   /// @param part  of a mesh, or all of one: no other triangles are looked at
   /// @returns valid until the next call
   /// @throws DeviceError if the answer cannot be trusted: nothing is known then
-  const Detection& detect(const MeshPart& part, const SweptVolume& swept_M) {
+  const Detection& detect(const Submesh& part, const SweptVolume& swept_M) {
     detection_.triangles.clear();
     detection_.inflation = 0.0;
     find(part, swept_M, detection_);
@@ -42,7 +42,7 @@ class Detector {
 
  private:
   // Fills an empty detection.
-  virtual void find(const MeshPart& part, const SweptVolume& swept_M, Detection& detection) = 0;
+  virtual void find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) = 0;
 
   Detection detection_;
 };
@@ -62,4 +62,4 @@ std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOp
 /// The names that makeDetector() knows.
 const std::vector<std::string>& detectorNames();
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -6,7 +6,7 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// A place where OpenGL runs without a window. Its functions are asked for by name, never linked: with libGL in the
 /// same process, linked calls can reach the wrong library, which answers a selection with silence.
@@ -70,4 +70,4 @@ std::unique_ptr<OffscreenContext> makeOffscreenContext(const std::string& name);
 /// The names that makeOffscreenContext() knows.
 const std::vector<std::string>& offscreenContextNames();
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

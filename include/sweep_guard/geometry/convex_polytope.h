@@ -4,7 +4,7 @@
 
 #include "sweep_guard/geometry/half_space.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// The faces of the intersection of half-spaces: one convex polygon for each that bounds it, counter-clockwise seen
 /// from outside. A half-space that bounds nothing gives no face.
@@ -15,4 +15,4 @@ std::vector<Polygon> polytopeFaces(const std::vector<HalfSpace>& half_spaces, do
 /// Volume [m^3] of the convex polytope with these faces.
 double polytopeVolume(const std::vector<Polygon>& faces);
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

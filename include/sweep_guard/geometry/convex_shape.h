@@ -8,7 +8,7 @@
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// First and second order statistics of a set of points [P, Sec. 3.1].
 struct Moments {
@@ -57,15 +57,15 @@ class ConvexShape {
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction_T) const;
 
   /// Bound [m] on the distance of any point of the body from the line through the origin of T along a unit axis.
-  double reach(const Eigen::Vector3d& axis_T) const;
+  double radiusAbout(const Eigen::Vector3d& axis_T) const;
 
   /// Bound [m] on the distance of any point of the body from the origin of T.
-  double extent() const;
+  double boundingRadius() const;
 
   /// Points of the front and rear face farthest along a direction of any length [m]: of a cylinder its two discs; of
   /// other bodies the two faces, across its longest side, of a box around it.
-  Eigen::Vector3d frontExtreme(const Eigen::Vector3d& direction_T) const;
-  Eigen::Vector3d rearExtreme(const Eigen::Vector3d& direction_T) const;
+  Eigen::Vector3d frontSupport(const Eigen::Vector3d& direction_T) const;
+  Eigen::Vector3d rearSupport(const Eigen::Vector3d& direction_T) const;
 
   double length() const { return faces_.front - faces_.rear + 2.0 * padding_; }  ///< across both faces [m]
   double radius() const { return faces_.half_sides.minCoeff() + padding_; }      ///< least, of a face [m]
@@ -108,7 +108,7 @@ class ConvexShape {
   ConvexShape(Body body_S, const std::vector<Eigen::Vector3d>& vertices_S, std::vector<Triangle> triangles);
   Faces faces() const;
   Faces facesOfBox(const Eigen::Matrix3d& axes_T) const;
-  Eigen::Vector3d faceExtreme(double z, const Eigen::Vector3d& direction_T) const;
+  Eigen::Vector3d faceSupport(double z, const Eigen::Vector3d& direction_T) const;
 
   Body body_S_;  // in a frame S of its own
   Eigen::Matrix3d R_TS_ = Eigen::Matrix3d::Identity();
@@ -122,8 +122,8 @@ class ConvexShape {
 /// How far the body at a pose reaches along a unit direction of the pose's parent frame [m].
 double support(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Eigen::Vector3d& direction_M);
 
-/// How far the body reaches in a motion's two poses, before and after the motion's drift [m]: the support function of
+/// How far the body reaches in a motion's two poses, before and after the motion's mesh_translation [m]: the support function of
 /// the convex hull of all four.
 double support(const ConvexShape& shape, const Motion& motion, const Eigen::Vector3d& direction_M);
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

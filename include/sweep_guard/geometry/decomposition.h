@@ -6,7 +6,7 @@
 #include "sweep_guard/geometry/convex_shape.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// How finely a mesh is cut.
 struct DecompositionOptions {
@@ -36,6 +36,6 @@ std::vector<std::vector<std::uint32_t>> decompose(const TriangleMesh& mesh, cons
 /// hold: there they may leave a hollow. Nothing gets there without meeting the surface, as long as motion is swept
 /// without gaps.
 /// @throws InvalidInput if an option is out of range
-std::vector<ConvexShape> convexParts(const TriangleMesh& mesh_T, const DecompositionOptions& options = {});
+std::vector<ConvexShape> convexPieces(const TriangleMesh& mesh_T, const DecompositionOptions& options = {});
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

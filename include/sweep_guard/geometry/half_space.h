@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// A half-space {p : n·p <= d}, in the frame its variable's suffix names (`clip_B` is in box frame B).
 /// The unit normal points out of it: signedDistance() is negative inside, zero on the boundary plane.
@@ -33,4 +33,4 @@ using Polygon = std::vector<Eigen::Vector3d>;
 /// polygon that only touches the plane leaves its touching corners.
 Polygon clip(const Polygon& polygon, const HalfSpace& half_space);
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -6,7 +6,7 @@
 
 #include "sweep_guard/simd/kernels.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Three vertex indices, 0-based, of either winding.
 using Triangle = std::array<std::uint32_t, 3>;
@@ -53,4 +53,4 @@ MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangl
 /// @param[out] kept  of the same size
 void place(const std::vector<std::uint32_t>& places, const std::vector<float>& sent, std::vector<float>& kept);
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cstddef>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// A convex body as its support mapping: the point of the body [m] that lies farthest along a unit direction. A view
 /// of anything that can be called so; the body must outlive it.
@@ -14,10 +14,10 @@ class SupportMapping {
   template <typename Body>
   SupportMapping(const Body& body)  // NOLINT: a body is given where its mapping is asked for
       : body_(&body), call_([](const void* viewed, const Eigen::Vector3d& direction) -> Eigen::Vector3d {
-          return (*static_cast<const Body*>(viewed))(direction);
+          return static_cast<const Body*>(viewed)->supportPoint(direction);
         }) {}
 
-  Eigen::Vector3d operator()(const Eigen::Vector3d& direction) const { return call_(body_, direction); }
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const { return call_(body_, direction); }
 
  private:
   const void* body_;
@@ -39,7 +39,7 @@ class PointHull {
     points_[count_++] = p;
   }
 
-  Eigen::Vector3d operator()(const Eigen::Vector3d& direction) const;
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const;
 
  private:
   std::array<Eigen::Vector3d, kMaxPoints> points_;
@@ -77,7 +77,7 @@ Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obs
 
 /// Whether the bodies are proven to be farther apart than `distance` [m], >= 0. Cheaper than separation(): it ends with
 /// the first direction that proves it, or with the first two points that are closer.
-bool fartherApart(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
-                  const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());
+bool distanceExceeds(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
+                     const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

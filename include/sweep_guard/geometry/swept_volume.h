@@ -6,7 +6,7 @@
 #include "sweep_guard/geometry/bounding_planes.h"
 #include "sweep_guard/geometry/oriented_box.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// How closely the swept volume is enclosed: by the box alone (`obb`), by box, side and frontal planes (`obb_planes`)
 /// [P, Sec. 3.1], or by the convex hull of the body at both poses (`hull`). The hull has no planes of its own: what box
@@ -18,11 +18,11 @@ VolumeKind volumeKind(const std::string& name);
 std::string nameOf(VolumeKind kind);
 
 /// Of a volume with all its clips: 12 at most.
-constexpr size_t kMostHalfSpaces = 6 + kMostClips;
+constexpr size_t kMaxHalfSpaces = 6 + kMaxClips;
 /// A number for each of these.
-using PerHalfSpace = boost::container::static_vector<double, kMostHalfSpaces>;
+using PerHalfSpace = boost::container::static_vector<double, kMaxHalfSpaces>;
 
-/// A convex volume that holds everything a body of the tool touches during one motion, arcs and drift included: a box,
+/// A convex volume that holds everything a body of the tool touches during one motion, arcs and mesh_translation included: a box,
 /// cut by half-spaces.
 /// What a detector tests. The suffix of a variable of this type names the frame M of the mesh it is tested against.
 struct SweptVolume {
@@ -50,11 +50,11 @@ struct SweptVolume {
 
 /// How far points of a body leave the hull of its two poses during a motion at most [m]: along arcs, and because M
 /// turns.
-double arcMargin(const ConvexShape& shape, const Motion& motion);
+double deviationBound(const ConvexShape& shape, const Motion& motion);
 
 /// What a convex body of the tool covers during a motion.
 /// @param motion        turns by at most 90 degrees; split() longer ones
 /// @param extra_margin  the volume is grown by this, besides what the arcs of the rotation need [m], >= 0
 SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKind kind, double extra_margin = 0.0);
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

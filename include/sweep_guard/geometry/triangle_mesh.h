@@ -8,7 +8,7 @@
 #include "sweep_guard/geometry/mesh_order.h"
 #include "sweep_guard/geometry/vertex_blocks.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Largest coordinate accepted [m]. Beyond it double precision loses what a contact needs.
 constexpr double kMaxCoordinate = 1e7;
@@ -85,4 +85,4 @@ class TriangleMesh {
   double rounding_ = 0.0;
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -7,7 +7,7 @@
 
 #include "sweep_guard/simd/kernels.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Boxes along the axes around every simd::kBlock consecutive vertices of a mesh: what a deformation is looked at by.
 /// Taken in one pass over the positions.
@@ -50,4 +50,4 @@ void withBlock(const std::vector<float>& positions, size_t block, const Function
   function(filled.data());
 }
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

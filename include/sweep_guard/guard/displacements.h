@@ -4,7 +4,7 @@
 
 #include "sweep_guard/geometry/triangle_mesh.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// How far the vertices of a mesh have gone from one deformation to another: a box that holds the displacement of each,
 /// along the axes of M [m].
@@ -27,4 +27,4 @@ class Displacements {
   Eigen::AlignedBox3d box_M_ = Eigen::AlignedBox3d(Eigen::Vector3d::Zero());
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

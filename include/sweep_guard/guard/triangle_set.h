@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Indices of triangles: ascending, each once.
 using TriangleSet = std::vector<std::uint32_t>;
@@ -34,4 +34,4 @@ void remove(TriangleSet& all, const TriangleSet& others);
 /// Takes all but `others` out of `all`, in place.
 void keepOnly(TriangleSet& all, const TriangleSet& others);
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -8,7 +8,7 @@
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// One workpiece as it was at a moment. Handed around as a shared snapshot, so that a new deformation never waits for a
 /// sweep.
@@ -20,7 +20,7 @@ struct Workpiece {
   std::string frame;  ///< name of the mesh's frame M
   TriangleMesh mesh_M;
   std::uint64_t updates = 0;  ///< of the positions of these triangles, so far
-  double way = 0.0;           ///< in these, no vertex has gone farther in all [m]
+  double path_length = 0.0;   ///< in these, no vertex has gone farther in all [m]
 };
 using Workpieces = std::vector<std::shared_ptr<const Workpiece>>;
 
@@ -30,4 +30,4 @@ struct SweepFailure {
   std::string reason;
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

@@ -4,7 +4,7 @@
 
 #include "sweep_guard/common/time.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// How far and how finely is looked ahead: the reflex interval in small steps, then the considered interval in larger
 /// ones [P, Sec. 3.2, Fig. 6]. Counted from now, not from the newest pose.
@@ -44,4 +44,4 @@ Horizon horizon(const HorizonOptions& options, Duration age);
 /// @param end  after now, > 0
 Horizon horizonUpTo(Duration end, HorizonOptions options, Duration age);
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

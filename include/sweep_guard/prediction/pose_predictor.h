@@ -8,10 +8,10 @@
 #include "sweep_guard/common/matrix6.h"
 #include "sweep_guard/common/stamped_pose.h"
 
-namespace sweep_guard {
+namespace sweep_guard_core {
 
 /// Where the tool is expected to be some time after the newest pose observed. (The message of it is PredictedPose.)
-struct ExpectedPose {
+struct PredictedPose {
   Duration ahead{};                                        ///< after the stamp of the newest pose observed, > 0
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the best guess
   /// Of its error: translation [m], then rotation vector [rad], both along the axes of W; symmetric, positive
@@ -20,7 +20,7 @@ struct ExpectedPose {
 };
 
 /// Ascending in time. It begins at the newest pose observed, which is no part of it.
-using PredictedPath = std::vector<ExpectedPose>;
+using PredictedPath = std::vector<PredictedPose>;
 
 struct PredictorOptions {
   std::string predictor = "direct";  ///< one of predictorNames()
@@ -67,4 +67,4 @@ class PosePredictor {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace sweep_guard
+}  // namespace sweep_guard_core

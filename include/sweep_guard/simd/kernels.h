@@ -8,7 +8,7 @@
 /// The loops over vertices and boxes that decide how fast a mesh is looked at, in float32. They are compiled for
 /// several instruction sets; the best one of the machine is chosen when the first is needed. Rounding differs between
 /// them: what rests on their results has to allow for it.
-namespace sweep_guard::simd {
+namespace sweep_guard_core::simd {
 
 /// Vertices of a block: consecutive ones, that share a box.
 constexpr std::size_t kBlock = 32;
@@ -18,7 +18,7 @@ constexpr std::size_t kClusterBlocks = 4;
 /// Arrays of boxes and of their bits are as long as a multiple of this.
 constexpr std::size_t kPadding = 16;
 constexpr std::size_t padded(std::size_t count) { return (count + kPadding - 1) / kPadding * kPadding; }
-constexpr std::size_t kMostPlanes = 15;
+constexpr std::size_t kMaxPlanes = 15;
 
 /// Boxes, one array for each side: lower x, y, z [m].
 template <typename Number>
@@ -41,14 +41,14 @@ struct Extremes {
 
 /// Planes n·p = d by what is certain of a point in float32: n·p > `outside` is beyond, n·p < `inside` is not.
 struct Planes {
-  std::size_t count = 0;  ///< at most kMostPlanes
-  std::array<std::array<float, kMostPlanes + 1>, 3> normal;
-  std::array<float, kMostPlanes + 1> outside;
-  std::array<float, kMostPlanes + 1> inside;
+  std::size_t count = 0;  ///< at most kMaxPlanes
+  std::array<std::array<float, kMaxPlanes + 1>, 3> normal;
+  std::array<float, kMaxPlanes + 1> outside;
+  std::array<float, kMaxPlanes + 1> inside;
 };
 
 /// Set in the bits of a vertex that is inside of all planes. Bit i is set where it is beyond plane i.
-constexpr std::uint16_t kInsideAll = 1U << kMostPlanes;
+constexpr std::uint16_t kInsideAll = 1U << kMaxPlanes;
 
 /// The first, second and third corners of the triangles of a cluster, places among the vertices of its blocks: block
 /// i / kBlock of them, vertex i % kBlock of that.
@@ -91,4 +91,4 @@ const std::vector<Kernels>& availableKernels();
 /// @throws InvalidInput if the machine has not got that
 const Kernels& kernels();
 
-}  // namespace sweep_guard::simd
+}  // namespace sweep_guard_core::simd

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "sweep_guard/detection/detector.h"
+#include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/guard/sweep_checker.h"
+#include "sweep_guard/prediction/horizon.h"
+#include "sweep_guard/prediction/pose_predictor.h"
+
+namespace sweep_guard_core {
+
+struct GuardOptions {
+  SweepOptions sweep;
+  PredictorOptions predictor;
+  HorizonOptions horizon;
+  Duration cycle = fromSeconds(1.0 / 15.0);  ///< time available for one pose and its prediction, > 0
+  /// Clock that measures what sweeps cost; never goes back.
+  std::function<SteadyTime()> clock = std::chrono::steady_clock::now;
+};
+
+/// What a running guard exchanges. What is empty or null stays as it is.
+struct GuardChange {
+  GuardOptions options;  ///< its clock is ignored
+  std::optional<Tool> tool = {};
+  std::unique_ptr<Detector> detector = nullptr;
+  std::optional<PosePredictor> predictor = {};  ///< made from `options`; empty: the guard keeps what it has learned
+};
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+#include <string>
+
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_core {
+
+/// The pose of the tool frame T, and of every mesh frame M, in the fixed frame W at one moment.
+struct PoseWithFrames {
+  Time stamp;
+  SteadyTime received;
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
+  std::map<std::string, Eigen::Isometry3d> X_WM;  ///< by name of M; a frame whose transform is missing is left out
+};
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sweep_guard/common/time.h"
+#include "sweep_guard/geometry/swept_volume.h"
+#include "sweep_guard/guard/workpiece.h"
+#include "sweep_guard/prediction/pose_predictor.h"
+
+namespace sweep_guard_core {
+
+/// One sweep along the predicted path, or a piece of it, tested against one workpiece.
+struct PredictedSweep {
+  Duration from{};           ///< start, after the newest pose; the sweep lasts until the next one begins
+  bool contact = false;      ///< the predicted path itself meets the workpiece
+  double probability = 0.0;  ///< probability that the tool meets the workpiece in this sweep, in [0, 1]; 0 below 0.001
+  /// Index of the convex piece of the tool most likely to meet the workpiece; with `contact`, of those that do.
+  std::optional<size_t> tool_piece = {};
+};
+
+/// The predicted contacts with one workpiece.
+struct PredictedObject {
+  std::shared_ptr<const Workpiece> workpiece;
+  std::vector<PredictedSweep> sweeps;     ///< end to end, ascending in time; a sweep with a possible contact is split
+  std::vector<std::uint32_t> reflex;      ///< triangles met within the reflex interval: ascending, each once
+  std::vector<std::uint32_t> considered;  ///< triangles met later: ascending, each once, none of `reflex`
+  std::vector<SweptVolume> volumes_M;     ///< volumes of the sweeps, end to end, in the mesh's frame
+  size_t volumes_tested = 0;              ///< number of volumes tested, including those of split sweeps
+
+  std::vector<std::uint32_t> triangles() const;  ///< all triangles met: ascending, each once
+  std::optional<Duration> firstContact() const;  ///< when the path first meets the workpiece, after the newest pose
+  void clear();                                  ///< resets all fields and keeps the buffers
+};
+
+/// The predicted path of the tool after a pose, and the contacts along it.
+struct Prediction {
+  Time stamp;                            ///< stamp of the newest measured pose, where the path begins
+  PredictedPath path;                    ///< empty if the motion is not known yet
+  size_t reflex_sweeps = 0;              ///< number of sweeps, from the first, that end within the reflex interval
+  size_t sweeps_asked = 0;               ///< one for every pose of the path
+  size_t sweeps_made = 0;                ///< fewer if time was short: one sweep then covers several poses
+  std::vector<PredictedObject> objects;  ///< every workpiece tested
+  Workpieces unplaced;                   ///< workpieces not tested because their frame is unknown at the pose
+  std::vector<SweepFailure> failures;    ///< workpieces not tested because the detector failed
+
+  Time coveredUntil() const;   ///< every workpiece is tested up to here: the end of the path, or the pose itself
+  bool complete() const;       ///< the motion is known, there is a workpiece, and every workpiece was tested
+  double probability() const;  ///< largest probability of all sweeps, in [0, 1]
+  std::optional<Duration> firstContact() const;  ///< when the path first meets a workpiece, after the newest pose
+};
+
+}  // namespace sweep_guard_core

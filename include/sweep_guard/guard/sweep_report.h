@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sweep_guard/common/time.h"
+#include "sweep_guard/guard/sweep_checker.h"
+#include "sweep_guard/guard/workpiece.h"
+
+namespace sweep_guard_core {
+
+/// One workpiece that was swept, and the result.
+struct SweptObject {
+  std::shared_ptr<const Workpiece> workpiece;
+  /// Stamp of the pose that the sweep began at. Times of impact are fractions of the interval from this stamp to the
+  /// stamp of the newest pose. A contact that a mesh update caused before this stamp has time 0.
+  Time interval_start;
+  SweepResult result;
+};
+
+/// Reports one step of the guard: the sweeps up to one pose.
+struct SweepReport {
+  Time start;                          ///< earliest start of a sweep; equal to `end` at the first pose
+  Time end;                            ///< stamp of the pose
+  Duration backlog{};                  ///< time spanned by the poses that waited and were passed on the way; >= 0
+  std::vector<SweptObject> objects;    ///< every workpiece swept, in the order of the request
+  Workpieces unplaced;                 ///< workpieces that were not swept because their frame is unknown at the pose
+  std::vector<SweepFailure> failures;  ///< workpieces that were not swept because the detector failed
+
+  double margin() const;  ///< largest margin of all objects [m]
+  bool contact() const;   ///< the tool met an object
+  bool complete() const;  ///< there is at least one workpiece, and every workpiece was swept
+};
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/guard/prediction.h"
+#include "sweep_guard/monitor/timestamps.h"
+
+namespace sweep_guard_core {
+
+/// The contact that the operator is warned of, and the prediction that it comes from.
+struct PredictedContact {
+  Time earliest;                ///< the contact does not begin earlier
+  std::optional<Time> contact;  ///< when the predicted path meets the workpiece; empty if contact is merely probable
+  double probability = 0.0;     ///< largest probability of the sweeps from `earliest` on, in [0, 1]
+  std::string mesh_id = {};
+  std::vector<std::uint32_t> triangles = {};  ///< met by the predicted path: ascending, each once
+  /// Index of the convex piece of the tool that meets the workpiece first, or is most likely to.
+  std::optional<size_t> tool_piece = {};
+  Timestamps pose = {};    ///< newest pose, where the prediction begins
+  Duration duration = {};  ///< length of the prediction, from the stamp of that pose
+};
+
+/// Finds the earliest sweep that meets a workpiece, or does so with at least this probability.
+/// @param min_probability  in (0, 1]
+/// @param[out] contact     overwritten; empty if there is none
+void findPredictedContact(const Prediction& prediction, const Timestamps& pose, double min_probability,
+                          std::optional<PredictedContact>& contact);
+
+}  // namespace sweep_guard_core

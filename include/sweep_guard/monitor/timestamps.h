@@ -1,0 +1,19 @@
+#pragma once
+
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_core {
+
+/// When an input was stamped by its sender, and when it was received.
+struct Timestamps {
+  Time stamp;
+  SteadyTime received;
+};
+
+/// Returns the age on the clock on which it is larger.
+Duration age(const Timestamps& input, const Instant& now);
+
+/// Returns whether the age exceeds `timeout`; Duration::max() never times out.
+bool stale(const Timestamps& input, const Instant& now, Duration timeout);
+
+}  // namespace sweep_guard_core

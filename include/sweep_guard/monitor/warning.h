@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/common/warning_level.h"
+#include "sweep_guard/monitor/warning_inputs.h"
+
+namespace sweep_guard_core {
+
+struct WarningLimits {
+  Duration pose_timeout;  ///< a pose older than this is stale; > 0
+  Duration mesh_timeout;  ///< a workpiece older than this is stale; Duration::max(): never
+  Duration hold_time;     ///< how long a contact or a warning is shown after it has ended; >= 0
+  Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, > 0
+  Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
+  Duration tick = std::chrono::milliseconds(15);          ///< longest time until the next computeWarning(); >= 0
+  Duration overload = std::chrono::milliseconds(20);      ///< longest backlog of poses without a reason; >= 0
+  double min_probability = 0.1;                           ///< smallest probability that is warned of, in (0, 1]
+};
+
+/// The level and the reasons for it.
+struct Warning {
+  WarningLevel level = WarningLevel::kUnknown;
+  std::uint32_t reasons = 0;  ///< bits of Reason
+  std::string text;           ///< level and reasons in words
+  std::string mesh_id;        ///< workpiece of the contact, or of the predicted contact
+  /// Convex piece of the tool that touched first, if the narrow phase knows; before contact, the piece that is predicted
+  /// to touch, or most likely to.
+  std::optional<size_t> tool_piece;
+  std::vector<std::uint32_t> triangles;  ///< in contact, or met by the predicted path
+  std::optional<Duration>
+      time_to_collision;     ///< until the predicted path meets that workpiece, >= 0; empty: it does not
+  double probability = 0.0;  ///< probability of the predicted contact, in [0, 1]
+  Time pose_stamp;           ///< newest pose that has been swept; epoch: none
+  Time covered_until;        ///< every workpiece is tested up to here; epoch: never
+
+  void clear();  ///< resets all fields and keeps the buffers
+};
+
+/// Computes the warning. The first level that applies wins, in this order:
+/// - CONTACT: the tool meets a workpiece, or met one within the hold time.
+/// - REFLEX, CONSIDERED: the earliest predicted contact falls into the interval before the next call, or did so within
+///   the hold time.
+/// - UNKNOWN: a reason other than kDegraded applies.
+/// - CLEAR: there is a workpiece; pose and workpieces are fresh; every workpiece was swept at that pose and tested to
+///   the end of the considered interval; there is no fault.
+/// Reasons are reported whatever the level. A disabled guard is UNKNOWN for that reason alone.
+/// @param[out] warning  overwritten; its buffers are used again
+void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning);
+
+/// Returns the level of a predicted contact that is `time_left` away: kReflex, kConsidered, or kClear for none.
+WarningLevel warningLevel(Duration time_left, const WarningLimits& limits);
+
+/// Returns the level of a predicted contact now, or at the end of its prediction if that is over.
+WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits);
+
+/// Returns the time since the prediction of a contact ended; 0 if it has not.
+Duration timeSinceEnd(const PredictedContact& predicted, const Instant& now);
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/monitor/predicted_contact.h"
+#include "sweep_guard/monitor/timestamps.h"
+
+namespace sweep_guard_core {
+
+/// Why a level is not clear, or what is degraded. Bits of a set; numbers equal those of sweep_guard/Warning.
+enum Reason : std::uint32_t {
+  kNoPose = 1U << 0,
+  kPoseStale = 1U << 1,
+  kPoseInvalid = 1U << 2,
+  kOutOfOrder = 1U << 3,
+  kFutureStamp = 1U << 4,
+  kNoMesh = 1U << 5,
+  kMeshStale = 1U << 6,
+  kMeshInvalid = 1U << 7,
+  kTfFail = 1U << 8,
+  kTimeJump = 1U << 9,
+  kDetectorFault = 1U << 10,
+  kNotSwept = 1U << 11,
+  kNotCovered = 1U << 12,
+  kOverload = 1U << 13,
+  kDisabled = 1U << 14,
+};
+
+/// Reasons that report a degraded state and do not change the level.
+constexpr std::uint32_t kDegraded = kOverload;
+
+/// Everything that a warning is computed from.
+struct WarningInputs {
+  struct Object {
+    std::string id;
+    Timestamps timestamps;
+    bool swept = false;  ///< this revision was swept at the newest pose
+  };
+  struct Contact {
+    std::string id;
+    std::vector<std::uint32_t> triangles;  ///< ascending, each once
+    SteadyTime found;
+    bool lasting = false;                   ///< the newest sweep has met it
+    bool inside = false;                    ///< the tool is inside the workpiece
+    std::optional<size_t> tool_piece = {};  ///< convex piece that touched first, if the narrow phase knows
+  };
+  /// A warning that has ended.
+  struct Alarm {
+    PredictedContact contact;
+    SteadyTime ended;
+  };
+  /// Poses that waited and were swept at once.
+  struct Backlog {
+    Duration span{};  ///< from the first to the last of these poses
+    SteadyTime found;
+  };
+
+  std::optional<Timestamps> pose;  ///< newest pose that has been swept
+  std::vector<Object> objects;
+  std::optional<Contact> contact;             ///< newest contact
+  std::optional<PredictedContact> predicted;  ///< from the newest prediction of its workpiece
+  std::optional<Alarm> reflex;                ///< newest reflex warning that has ended
+  std::optional<Alarm> considered;            ///< newest considered warning that has ended
+  Time covered_until;                    ///< every workpiece is tested up to here, measured or predicted; epoch: never
+  std::optional<Backlog> overload;       ///< newest backlog that exceeded the limit
+  std::map<Reason, std::string> faults;  ///< current faults, each with a message
+  std::optional<std::string> disabled_by;  ///< caller that disabled the guard; then nothing else counts
+};
+
+}  // namespace sweep_guard_core

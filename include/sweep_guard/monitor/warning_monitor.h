@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/monitor/warning.h"
+
+namespace sweep_guard_core {
+
+/// Collects the inputs of the warning: which poses and workpieces came, which were refused, and what has been swept.
+/// Each input reports from its own thread. The warning may be computed at any time, so a silent input is noticed, too.
+class WarningMonitor {
+ public:
+  /// State of the monitor when a pose was received. A sweep to that pose clears only faults reported before it.
+  struct Checkpoint {
+    std::uint64_t epoch = 0;   ///< counts restarts: jumps of time, resets, and every enable and disable
+    std::uint64_t faults = 0;  ///< number of faults reported before
+  };
+
+  /// @param on_fault  called after every fault and every restart, in the thread that reports it
+  explicit WarningMonitor(
+      const WarningLimits& limits, std::function<void()> on_fault = [] {});
+
+  Checkpoint checkpoint() const;
+
+  /// Reports that an input was refused or failed. The warning is not clear until a later pose has been swept.
+  void fault(Reason reason, const std::string& message);
+
+  /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), for the workpiece that the
+  /// mesh describes is unknown.
+  void meshRefused(const std::string& id, const std::string& message);
+
+  /// Reports that a good mesh came, or that the workpiece was removed. Clears all refusals of this id.
+  void meshAccepted(const std::string& id);
+
+  /// Reports that vertices were refused. The warning is not clear until verticesAccepted() or meshAccepted().
+  void verticesRefused(const std::string& id, const std::string& message);
+
+  /// Reports that good vertices came. They belong to the mesh before: a mesh refused since stays refused.
+  void verticesAccepted(const std::string& id);
+
+  /// Sets the newest snapshots of all workpieces.
+  void setWorkpieces(const Workpieces& workpieces);
+
+  /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor was
+  /// restarted since the checkpoint.
+  void swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint, SteadyTime now);
+
+  /// Reports that the path predicted from a swept pose was tested. Does nothing if the monitor was restarted since the
+  /// checkpoint.
+  void predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint,
+                 const Instant& now);
+
+  /// Reports that time went back. Forgets poses, predictions and faults; kTimeJump lasts until a new pose is swept.
+  void timeJumped(const std::string& message);
+
+  /// Forgets everything but the workpieces and refused meshes.
+  void restart();
+
+  /// Makes the warning unknown until enable(), whatever is reported. Does nothing if disabled already.
+  /// @param asked_by  name of the caller, for the text
+  void disable(const std::string& asked_by);
+
+  /// Ends disable() with a restart(): motion while disabled was not swept. Does nothing if enabled already.
+  void enable();
+
+  std::optional<std::string> disabledBy() const;  ///< empty: enabled
+
+  /// Returns whether a pose received at this checkpoint is still to be swept: the guard is enabled and was not restarted.
+  bool counts(const Checkpoint& checkpoint) const;
+
+  /// Sets the limits of the next warning.
+  void setLimits(const WarningLimits& limits);
+
+  /// Computes the warning as of now.
+  /// @param[out] warning  overwritten; its buffers are used again
+  void warning(const Instant& now, Warning& warning) const;
+
+ private:
+  struct Coverage {
+    Timestamps pose;     // where the prediction began
+    Time covered_until;  // for the workpieces tested
+    Workpieces tested;
+  };
+  using Messages = std::map<std::string, std::string>;  // by id
+
+  void restartLocked();
+  void addFault(Reason reason, const std::string& message);
+  void refuse(Messages& refusals, const std::string& id, const std::string& message);
+  void updateRefusals();
+  void updateObjects();
+  void updateContact(const SweepReport& report, SteadyTime now);
+  void updatePredicted(const Instant& now);
+  void updateAlarms(const Instant& now);
+  Time coveredUntil(const Instant& now) const;
+
+  const std::function<void()> on_fault_;
+  mutable std::mutex mutex_;
+  WarningLimits limits_;
+  Checkpoint checkpoint_;
+  mutable WarningInputs inputs_;  // covered_until is that of the last warning
+  Time swept_until_;              // every workpiece
+  Workpieces swept_;              // at the newest pose
+  std::optional<Coverage> coverage_;
+  std::optional<PredictedContact> next_;  // of the newest prediction
+  Workpieces workpieces_;
+  std::map<Reason, std::uint64_t> fault_numbers_;
+  Messages refused_meshes_;
+  Messages refused_vertices_;
+};
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,63 @@
+#include "sweep_guard/detection/culler.h"
+
+#include <algorithm>
+
+namespace sweep_guard_core {
+namespace {
+
+std::uint64_t allOf(const Cluster& cluster) { return ~std::uint64_t{0} >> (simd::kCluster - cluster.count); }
+
+template <typename Value>
+void fetch(const Value* from, size_t count = 1) {
+  constexpr size_t kLine = 64;
+  for (size_t i = 0; i < count * sizeof(Value); i += kLine) __builtin_prefetch(reinterpret_cast<const char*>(from) + i);
+}
+
+}  // namespace
+
+const std::vector<RemainingTriangle>& Culler::cull(const Submesh& part, const simd::Planes& planes) {
+  remaining_.clear();
+  if (part.empty() || whollyBeyond(part.mesh_M(), planes)) return remaining_;
+  findLeft(part, planes);
+  for (const std::uint32_t block : blocks_) {
+    withBlock(part.mesh_M().places(), part.blocks()[block], [&](const float* vertices) {
+      kernels_->classifyBlock(vertices, planes, &vertex_bits_[block * simd::kBlock]);
+    });
+  }
+  for (const Cluster* cluster : clusters_) look(part.mesh_M().order(), *cluster);
+  if (!part.mesh_M().order().triangle_at.empty()) {
+    std::sort(remaining_.begin(), remaining_.end(),
+              [](const RemainingTriangle& a, const RemainingTriangle& b) { return a.triangle < b.triangle; });
+  }
+  return remaining_;
+}
+
+// Clusters that are not wholly beyond a plane, and their blocks. What these need of memory comes meanwhile.
+void Culler::findLeft(const Submesh& part, const simd::Planes& planes) {
+  clusters_.clear();
+  blocks_.clear();
+  vertex_bits_.resize(std::max(vertex_bits_.size(), part.blocks().size() * simd::kBlock));
+  bits_.classify(part, planes);
+  bits_.forEachLeft(part, [&](const Cluster& cluster) {
+    clusters_.push_back(&cluster);
+    fetch(&part.mesh_M().order().corners[cluster.number]);
+    for (const std::uint32_t block : cluster.blocks) {
+      if (!bits_.firstAsked(block)) continue;
+      blocks_.push_back(block);
+      fetch(part.mesh_M().places().data() + part.blocks()[block] * kBlockFloats, kBlockFloats);
+    }
+  });
+}
+
+void Culler::look(const MeshOrder& order, const Cluster& cluster) {
+  const auto bits = [&](size_t i) { return &vertex_bits_[cluster.blocks[i] * simd::kBlock]; };
+  const simd::TriangleBits found =
+      kernels_->classifyTriangles(order.corners[cluster.number], {bits(0), bits(1), bits(2), bits(3)});
+  for (std::uint64_t left = found.left & allOf(cluster); left != 0; left &= left - 1) {
+    const auto i = static_cast<std::uint32_t>(__builtin_ctzll(left));
+    const std::uint32_t place = cluster.first + i;
+    remaining_.push_back({order.triangle_at.empty() ? place : order.triangle_at[place], (found.met >> i & 1U) != 0});
+  }
+}
+
+}  // namespace sweep_guard_core

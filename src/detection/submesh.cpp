@@ -1,0 +1,99 @@
+#include "sweep_guard/detection/submesh.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint16_t kAsked = simd::kInsideAll;  // no plane's, and boxes have no use for it
+constexpr std::uint16_t kAll = std::numeric_limits<std::uint16_t>::max();
+
+}  // namespace
+
+bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes) {
+  const Eigen::Vector3f lower = mesh_M.blocks().bounds().min().cast<float>();
+  const Eigen::Vector3f upper = mesh_M.blocks().bounds().max().cast<float>();
+  for (size_t i = 0; i < planes.count; ++i) {
+    const Eigen::Vector3f normal(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i]);
+    const Eigen::Vector3f nearest = (normal.array() < 0.0F).select(upper, lower);
+    if (normal.dot(nearest) > planes.outside[i]) return true;
+  }
+  return false;
+}
+
+void BlockBits::classify(const Submesh& part, const simd::Planes& planes) {
+  const size_t count = part.blocks().size();
+  bits_.resize(std::max(bits_.size(), simd::padded(count)));
+  kernels_->classifyBoxes(part.boxes(), count, planes, bits_.data());
+  if (part.groups() != nullptr) classifyGroups(count);
+}
+
+void BlockBits::classifyGroups(size_t blocks) {
+  const size_t whole = blocks / kBlocksTogether;
+  group_bits_.resize(std::max(group_bits_.size(), whole + 1));
+  const auto common = [&](size_t first, size_t last) {
+    std::uint16_t bits = kAll;
+    for (size_t i = first; i < last; ++i) bits &= bits_[i];
+    return bits;
+  };
+  for (size_t group = 0; group < whole; ++group) {
+    group_bits_[group] = common(group * kBlocksTogether, (group + 1) * kBlocksTogether);
+  }
+  group_bits_[whole] = common(whole * kBlocksTogether, blocks);
+}
+
+bool BlockBits::firstAsked(std::uint32_t block) {
+  const bool first = (bits_[block] & kAsked) == 0;
+  bits_[block] |= kAsked;
+  return first;
+}
+
+Submesh SubmeshFinder::find(const Submesh& part, const simd::Planes& planes) {
+  assert(part.clusters_ != &clusters_);
+  blocks_.clear();
+  clusters_.clear();
+  old_index_.clear();
+  if (!whollyBeyond(part.mesh_M(), planes)) {
+    bits_.classify(part, planes);
+    new_index_.assign(part.blocks().size(), kNone);
+    bits_.forEachLeft(part, [&](const Cluster& cluster) { keep(part, cluster); });
+  }
+  Submesh found = part;
+  found.blocks_ = &blocks_;
+  found.clusters_ = &clusters_;
+  found.groups_ = nullptr;
+  gatherBoxes(found);
+  return found;
+}
+
+void SubmeshFinder::keep(const Submesh& part, Cluster cluster) {
+  for (std::uint32_t& block : cluster.blocks) {
+    std::uint32_t& index = new_index_[block];
+    if (index == kNone) {
+      index = static_cast<std::uint32_t>(blocks_.size());
+      blocks_.push_back(part.blocks()[block]);
+      old_index_.push_back(block);
+    }
+    block = index;
+  }
+  clusters_.push_back(cluster);
+}
+
+// Takes the boxes of the part that it was found in.
+void SubmeshFinder::gatherBoxes(Submesh& found) {
+  const size_t stride = simd::padded(blocks_.size());
+  sides_.resize(std::max(sides_.size(), 6 * stride));
+  float* to = sides_.data();
+  for (auto* sides : {&found.boxes_.lower, &found.boxes_.upper}) {
+    for (const float*& side : *sides) {
+      std::transform(old_index_.begin(), old_index_.end(), to, [&](std::uint32_t i) { return side[i]; });
+      side = to;
+      to += stride;
+    }
+  }
+}
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,177 @@
+#include "evaluation/simulate_guard.h"
+
+#include <algorithm>
+#include <deque>
+#include <list>
+#include <utility>
+
+#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/monitor/warning_monitor.h"
+
+namespace sweep_guard_evaluation {
+
+using sweep_guard_core::Duration;
+using sweep_guard_core::Guard;
+using sweep_guard_core::Instant;
+using sweep_guard_core::Prediction;
+using sweep_guard_core::StampedPose;
+using sweep_guard_core::SteadyTime;
+using sweep_guard_core::SweepReport;
+using sweep_guard_core::Time;
+using sweep_guard_core::WarningLimits;
+using sweep_guard_core::WarningMonitor;
+using sweep_guard_core::Workpiece;
+
+namespace {
+
+constexpr Duration kWatchPeriod = std::chrono::milliseconds(10);  // of the node
+constexpr size_t kProgressStep = 64;
+constexpr const char* kFrame = "world";
+
+/// Both clocks go with the recording.
+Instant instantOf(Time time) { return {time, SteadyTime(time.time_since_epoch())}; }
+
+/// One placement while it is there.
+class Watched {
+ public:
+  Watched(size_t index, const ObstaclePlacement& placement, const GuardSimulationOptions& options)
+      : index_(index), end_(placement.end) {
+    const Instant at = instantOf(placement.begin);
+    workpiece_ = std::make_shared<const Workpiece>(
+        Workpiece{std::to_string(index), 1, at.stamp, at.steady, kFrame, meshOf(placement.obstacle)});
+    for (const double min_probability : options.min_probabilities) {
+      WarningLimits limits = options.limits;
+      limits.min_probability = min_probability;
+      monitors_.emplace_back(limits).setWorkpieces({workpiece_});
+      shown_.emplace_back();
+    }
+  }
+
+  size_t index() const { return index_; }
+  Time end() const { return end_; }
+  const std::shared_ptr<const Workpiece>& workpiece() const { return workpiece_; }
+  const std::vector<LevelTrace>& shown() const { return shown_; }
+
+  void take(const SweepReport& report, const Prediction& prediction) {
+    const Instant at = instantOf(report.end);
+    for (WarningMonitor& monitor : monitors_) {
+      monitor.swept(report, {at.stamp, at.steady}, {}, at.steady);
+      monitor.predicted(prediction, {at.stamp, at.steady}, {}, at);
+    }
+  }
+
+  void look(Time time) {
+    for (size_t i = 0; i < shown_.size(); ++i) {
+      monitors_[i].warning(instantOf(time), warning_);
+      shown_[i].show(time, warning_.level);
+    }
+  }
+
+ private:
+  size_t index_;
+  Time end_;
+  std::shared_ptr<const Workpiece> workpiece_;
+  std::deque<WarningMonitor> monitors_;  // by threshold
+  sweep_guard_core::Warning warning_;
+  std::vector<LevelTrace> shown_;
+};
+
+sweep_guard_core::GuardOptions unhurried(sweep_guard_core::GuardOptions options) {
+  options.clock = [] { return SteadyTime(); };
+  return options;
+}
+
+class GuardSimulation {
+ public:
+  GuardSimulation(const std::vector<ObstaclePlacement>& placements, const GuardSimulationOptions& options)
+      : placements_(placements),
+        options_(options),
+        guard_(sweep_guard_core::Tool(options.tool), sweep_guard_core::makeDetector("reference"),
+               unhurried(options.guard)),
+        episodes_(options.min_probabilities.size(), std::vector<Episode>(placements.size())) {}
+
+  void take(const StampedPose& pose) {
+    lookBefore(pose.stamp);
+    begin(pose.stamp);
+    sweep(pose);
+    end(pose.stamp);
+    newest_ = pose.stamp;
+  }
+
+  std::vector<std::vector<Episode>> episodes() && { return std::move(episodes_); }
+
+ private:
+  void lookBefore(Time stamp) {
+    for (Time time = newest_ + kWatchPeriod; !watched_.empty() && time < stamp; time += kWatchPeriod) {
+      for (Watched& watched : watched_) watched.look(time);
+    }
+  }
+
+  void begin(Time stamp) {
+    for (; next_ < placements_.size() && placements_[next_].begin <= stamp; ++next_) {
+      watched_.emplace_back(next_, placements_[next_], options_);
+    }
+  }
+
+  void sweep(const StampedPose& pose) {
+    sweep_guard_core::Workpieces workpieces;
+    for (const Watched& watched : watched_) workpieces.push_back(watched.workpiece());
+    const Instant at = instantOf(pose.stamp);
+    SweepReport report =
+        guard_.sweep({at.stamp, at.steady, pose.X_WT, {{kFrame, Eigen::Isometry3d::Identity()}}}, workpieces);
+    if (watched_.empty()) return;
+    Prediction prediction = guard_.predict(Duration(0), workpieces);
+    handOut(report, prediction);
+    for (Watched& watched : watched_) watched.look(pose.stamp);
+  }
+
+  /// To each placement what concerns it; guard and predictor see them all.
+  void handOut(SweepReport& report, Prediction& prediction) {
+    auto swept = std::exchange(report.objects, {});
+    auto predicted = std::exchange(prediction.objects, {});
+    size_t i = 0;
+    for (Watched& watched : watched_) {
+      report.objects.clear();
+      report.objects.push_back(std::move(swept[i]));
+      prediction.objects.clear();
+      if (!predicted.empty()) prediction.objects.push_back(std::move(predicted[i]));
+      watched.take(report, prediction);
+      ++i;
+    }
+  }
+
+  void end(Time stamp) {
+    for (const Watched& watched : watched_) {
+      if (watched.end() > stamp) continue;
+      for (size_t i = 0; i < episodes_.size(); ++i) {
+        episodes_[i][watched.index()] = {placements_[watched.index()], watched.shown()[i]};
+      }
+    }
+    const auto over = [&](const Watched& watched) { return watched.end() <= stamp; };
+    watched_.remove_if(over);
+  }
+
+  const std::vector<ObstaclePlacement>& placements_;
+  const GuardSimulationOptions& options_;
+  Guard guard_;
+  Time newest_;
+  size_t next_ = 0;  // placement
+  std::list<Watched> watched_;
+  std::vector<std::vector<Episode>> episodes_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Episode>> simulateGuard(const std::vector<StampedPose>& poses,
+                                                const std::vector<ObstaclePlacement>& placements,
+                                                const GuardSimulationOptions& options, const Progress& progress) {
+  GuardSimulation simulation(placements, options);
+  for (size_t i = 0; i < poses.size(); ++i) {
+    simulation.take(poses[i]);
+    if ((i + 1) % kProgressStep == 0) progress(kProgressStep);
+  }
+  progress(poses.size() % kProgressStep);
+  return std::move(simulation).episodes();
+}
+
+}  // namespace sweep_guard_evaluation

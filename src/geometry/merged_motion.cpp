@@ -1,0 +1,53 @@
+#include "sweep_guard/geometry/merged_motion.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace sweep_guard_core {
+namespace {
+
+// How far a tool point is from one pose to another at most. Two rotations by an angle apart differ by 2 sin(angle / 2)
+// as an operator, and by sqrt(2) times that in the Frobenius norm.
+double apart(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double tool_radius) {
+  return (a.translation() - b.translation()).norm() + tool_radius * M_SQRT1_2 * (a.linear() - b.linear()).norm();
+}
+
+}  // namespace
+
+// From one waypoint to the next both the path and the chord are straight but for their arcs: no point is farther off
+// than at one of the two, arcs apart. The last arc is that of the chord itself.
+Motion mergedMotion(const Path& path, size_t first, size_t last, double tool_radius) {
+  assert(first < last && last < path.size());
+  Motion merged_M{path[first].X_MT, path[last].X_MT};
+  const double turn = merged_M.angle();
+  const double time = toSeconds(path[last].time - path[first].time);
+  const auto along = [&](size_t i) {
+    if (time > 0.0) return toSeconds(path[i].time - path[first].time) / time;
+    return static_cast<double>(i - first) / static_cast<double>(last - first);
+  };
+  double off = 0.0;
+  double arc = 0.0;
+  for (size_t i = first + 1; i <= last; ++i) {
+    if (i < last) off = std::max(off, apart(merged_M.at(along(i)), path[i].X_MT, tool_radius));
+    arc = std::max(arc, path[i].deviation_bound + chordError(tool_radius, (along(i) - along(i - 1)) * turn));
+  }
+  merged_M.deviation_bound = off + arc + chordError(tool_radius, turn);
+  return merged_M;
+}
+
+size_t endOfMergedMotion(const Path& path, size_t first, size_t last, double tool_radius, const MergeLimits& limits) {
+  const auto fits = [&](size_t end) {
+    const Motion merged_M = mergedMotion(path, first, end, tool_radius);
+    return merged_M.deviation_bound <= limits.max_deviation && merged_M.angle() <= limits.max_rotation;
+  };
+  size_t end = first + 1;
+  size_t step = 1;
+  for (; end < last && fits(std::min(end + step, last)); step *= 2) end = std::min(end + step, last);
+  for (step /= 2; step > 0; step /= 2) {
+    if (end + step < last && fits(end + step)) end += step;
+  }
+  return end;
+}
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,126 @@
+#include "sweep_guard/guard/path_in_mesh.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr double kMaxTurn = 1.5;  // [rad], of steps that are joined
+
+Matrix6d turned(const Matrix6d& covariance_W, const Eigen::Matrix3d& R_MW) {
+  Matrix6d R = Matrix6d::Zero();
+  R.topLeftCorner<3, 3>() = R_MW;
+  R.bottomRightCorner<3, 3>() = R_MW;
+  return R * covariance_W * R.transpose();
+}
+
+double share(Duration part, Duration whole) { return toSeconds(part) / toSeconds(whole); }
+
+// Along the axes of M, of a point at r from the tool's origin: it moves by dx + dtheta x r.
+Eigen::Vector3d pointDeviations(const Eigen::Vector3d& r_M, const Matrix6d& covariance_M) {
+  Eigen::Matrix<double, 3, 6> J;
+  J << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) J.row(axis).tail<3>() = r_M.cross(Eigen::Vector3d::Unit(axis));
+  return (J * covariance_M * J.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
+// Holds every tool point at a pose that is off by up to so many standard deviations. How far a point may be off along
+// an axis is convex in the point: the corners of a box around the tool bound it.
+Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& tool_T, const Eigen::Isometry3d& X_MT,
+                              const Matrix6d& covariance_M, double most) {
+  Eigen::AlignedBox3d box_M;
+  for (int i = 0; i < 8; ++i) {
+    const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
+    const Eigen::Vector3d r_M = X_MT.linear() * tool_T.corner(corner);
+    const Eigen::Vector3d p_M = X_MT.translation() + r_M;
+    const Eigen::Vector3d off = most * pointDeviations(r_M, covariance_M);
+    box_M.extend(Eigen::AlignedBox3d(p_M - off, p_M + off));
+  }
+  return box_M;
+}
+
+}  // namespace
+
+void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
+                        const Eigen::Isometry3d& X_WM) {
+  assert(!path.empty());
+  tool_T_ = tool.bounds_T();
+  tool_radius_ = tool.boundingRadius();
+  path_M_.clear();
+  covariances_M_.clear();
+  const Eigen::Isometry3d X_MW = X_WM.inverse();
+  path_M_.push_back({Duration::zero(), X_MW * X_WT, 0.0});
+  covariances_M_.push_back(Matrix6d::Zero());
+  for (const PredictedPose& pose : path) {
+    const Motion step_M{path_M_.back().X_MT, X_MW * pose.X_WT};
+    path_M_.push_back({pose.ahead, step_M.X_MT_end, chordError(tool_radius_, step_M.angle())});
+    covariances_M_.push_back(turned(pose.covariance, X_MW.linear()));
+  }
+}
+
+std::pair<PathSegment, PathSegment> PathInMesh::halves(const PathSegment& segment) const {
+  const auto& [from, to, first, last] = segment;
+  if (last - first > 1) return {between(first, (first + last) / 2), between((first + last) / 2, last)};
+  const Duration middle = from + (to - from) / 2;
+  return {{from, middle, first, last}, {middle, to, first, last}};
+}
+
+PathInMesh::Pose PathInMesh::at(Duration time, size_t first) const {
+  const PathPoint& before = path_M_[first];
+  const PathPoint& after = path_M_[first + 1];
+  if (time == before.time) return {before.X_MT, covariances_M_[first]};
+  if (time == after.time) return {after.X_MT, covariances_M_[first + 1]};
+  const double along = share(time - before.time, after.time - before.time);
+  return {Motion{before.X_MT, after.X_MT}.at(along),
+          (1.0 - along) * covariances_M_[first] + along * covariances_M_[first + 1]};
+}
+
+void PathInMesh::motions_M(const PathSegment& segment, double max_rotation, std::vector<Motion>& motions_M) const {
+  if (segment.last - segment.first > 1) {
+    motions_M.assign(1, mergedMotion(path_M_, segment.first, segment.last, tool_radius_));
+  } else {
+    split(Motion{at(segment.from, segment.first).X_MT, end_M(segment)}, max_rotation, motions_M);
+  }
+}
+
+Eigen::AlignedBox3d PathInMesh::reach_M(const PathSegment& segment, double most, double margin) const {
+  Pose pose = at(segment.from, segment.first);
+  Eigen::AlignedBox3d box_M = boxAround(tool_T_, pose.X_MT, pose.covariance_M, most);
+  double arc = 0.0;
+  const auto goOnTo = [&](const Pose& next) {
+    // In between, covariances lie between those of both ends: so do deviations below the larger one.
+    box_M.extend(boxAround(tool_T_, pose.X_MT, next.covariance_M, most));
+    box_M.extend(boxAround(tool_T_, next.X_MT, pose.covariance_M, most));
+    box_M.extend(boxAround(tool_T_, next.X_MT, next.covariance_M, most));
+    arc = std::max(arc, chordError(tool_radius_, Motion{pose.X_MT, next.X_MT}.angle()));
+    pose = next;
+  };
+  for (size_t i = segment.first + 1; i < segment.last; ++i) goOnTo({path_M_[i].X_MT, covariances_M_[i]});
+  goOnTo(at(segment.to, segment.last - 1));
+  return {box_M.min().array() - (arc + margin), box_M.max().array() + (arc + margin)};
+}
+
+void sweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t reflex_sweeps, size_t considered_sweeps,
+               std::vector<size_t>& ends) {
+  assert(considered_sweeps >= 1 && reflex_sweeps <= path.size());
+  ends.resize(reflex_sweeps);
+  std::iota(ends.begin(), ends.end(), 1);
+  const size_t steps = path.size() - reflex_sweeps;
+  const auto due = [&](size_t end) { return (end - reflex_sweeps) * considered_sweeps / steps; };
+  size_t begin = reflex_sweeps;
+  double turn = 0.0;
+  for (size_t end = begin + 1; end <= path.size(); ++end) {
+    const double step = Motion{end == 1 ? X_WT : path[end - 2].X_WT, path[end - 1].X_WT}.angle();
+    const bool too_far = turn + step > kMaxTurn && begin < end - 1;
+    if (too_far) ends.push_back(end - 1);
+    if (due(end) > due(end - 1)) ends.push_back(end);
+    turn = too_far ? step : turn + step;
+    if (due(end) > due(end - 1)) turn = 0.0;
+    begin = ends.empty() ? 0 : ends.back();
+  }
+}
+
+}  // namespace sweep_guard_core

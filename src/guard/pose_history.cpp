@@ -1,0 +1,57 @@
+#include "sweep_guard/guard/pose_history.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace sweep_guard_core {
+namespace {
+
+template <typename PoseSample, typename Key, typename KeyOf>
+size_t lastUpToKey(const PoseSample* first, const PoseSample* end, const Key& key, const KeyOf& key_of) {
+  const auto* beyond =
+      std::upper_bound(first, end, key, [&](const Key& a, const PoseSample& placed) { return a < key_of(placed); });
+  return static_cast<size_t>(std::max<std::ptrdiff_t>(beyond - first, 1) - 1);
+}
+
+}  // namespace
+
+void PoseHistory::add(const PoseSample& placed) {
+  if (size() >= kMaxSize) {
+    all_[begin_ + 1] = all_[begin_];
+    ++begin_;
+  }
+  if (all_.size() == all_.capacity() && begin_ >= all_.size() / 2) {
+    all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(begin_));
+    begin_ = 0;
+  }
+  all_.push_back(placed);
+}
+
+size_t PoseHistory::lastUpTo(std::uint64_t number) const {
+  return lastUpToKey(&all_[begin_], &all_[begin_] + size(), number,
+                     [](const PoseSample& placed) { return placed.number; });
+}
+
+size_t PoseHistory::lastUpTo(Time stamp) const {
+  return lastUpToKey(&all_[begin_], &all_[begin_] + size(), stamp,
+                     [](const PoseSample& placed) { return placed.stamp; });
+}
+
+double PoseHistory::share(size_t from, size_t i) const {
+  if (i <= from) return 0.0;
+  const double time = toSeconds(newest().stamp - (*this)[from].stamp);
+  return time > 0.0 ? toSeconds((*this)[i].stamp - (*this)[from].stamp) / time : 1.0;
+}
+
+void PoseHistory::path_M(size_t first, size_t last, double tool_radius, Path& path_M) const {
+  assert(first <= last && last < size());
+  path_M.clear();
+  for (size_t i = first; i <= last; ++i) {
+    const PoseSample& to = (*this)[i];
+    const PoseSample& from = (*this)[std::max(i, first + 1) - 1];
+    const double off = i == first ? 0.0 : chordError({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, tool_radius);
+    path_M.push_back({to.stamp - (*this)[first].stamp, to.X_WM.inverse() * to.X_WT, off});
+  }
+}
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,50 @@
+#include "sweep_guard/guard/prediction.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace sweep_guard_core {
+std::vector<std::uint32_t> PredictedObject::triangles() const {
+  std::vector<std::uint32_t> all;
+  std::merge(reflex.begin(), reflex.end(), considered.begin(), considered.end(), std::back_inserter(all));
+  return all;
+}
+
+std::optional<Duration> PredictedObject::firstContact() const {
+  const auto first = std::find_if(sweeps.begin(), sweeps.end(), [](const auto& sweep) { return sweep.contact; });
+  return first == sweeps.end() ? std::nullopt : std::optional(first->from);
+}
+
+void PredictedObject::clear() {
+  workpiece.reset();
+  sweeps.clear();
+  reflex.clear();
+  considered.clear();
+  volumes_M.clear();
+  volumes_tested = 0;
+}
+
+Time Prediction::coveredUntil() const {
+  return path.empty() || !unplaced.empty() || !failures.empty() ? stamp : stamp + path.back().ahead;
+}
+
+bool Prediction::complete() const { return !path.empty() && !objects.empty() && unplaced.empty() && failures.empty(); }
+
+double Prediction::probability() const {
+  double largest = 0.0;
+  for (const PredictedObject& object : objects) {
+    for (const PredictedSweep& sweep : object.sweeps) largest = std::max(largest, sweep.probability);
+  }
+  return largest;
+}
+
+std::optional<Duration> Prediction::firstContact() const {
+  std::optional<Duration> first;
+  for (const PredictedObject& object : objects) {
+    const std::optional<Duration> contact = object.firstContact();
+    if (contact && (!first || *contact < *first)) first = contact;
+  }
+  return first;
+}
+
+}  // namespace sweep_guard_core

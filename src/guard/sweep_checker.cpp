@@ -1,0 +1,160 @@
+#include "sweep_guard/guard/sweep_checker.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "detection/inside.h"
+#include "sweep_guard/detection/float_planes.h"
+#include "sweep_guard/guard/swept_body.h"
+#include "sweep_guard/guard/triangle_set.h"
+
+namespace sweep_guard_core {
+namespace {
+
+bool anyPieceInside(const Tool& tool, const Eigen::Isometry3d& X_MT, const TriangleMesh& mesh_M) {
+  return mesh_M.closed() && std::any_of(tool.pieces().begin(), tool.pieces().end(), [&](const ConvexPiece& part) {
+           return inside(mesh_M, X_MT * part.shape_T.moments_T().mean);
+         });
+}
+
+bool ascending(const TriangleContact& a, const TriangleContact& b) { return a.triangle < b.triangle; }
+
+// Time and point are those of the first contact, normal and depth those of the last.
+void join(std::vector<TriangleContact>& all, const std::vector<TriangleContact>& later) {
+  for (TriangleContact& one : all) {
+    const auto again = std::lower_bound(later.begin(), later.end(), one, ascending);
+    const bool touches = again != later.end() && again->triangle == one.triangle;
+    if (touches) one.impact.normal_M = again->impact.normal_M;
+    one.impact.depth = touches ? again->impact.depth : 0.0;
+  }
+  unite(all, later, ascending);
+}
+
+}  // namespace
+
+// A body that does not meet a box meets none of the bodies inside. The planes decide about boxes; the detector, which costs
+// more per triangle named, decides about the convex pieces.
+struct SweepChecker::TreeWalk {
+  Detector& detector;
+  const SweepRequest& request;
+  Motion motion_M;
+  SweepChecker& checker;
+
+  void visit(size_t index, const Submesh& around, size_t depth) {
+    const Tool::Node& node = request.tool.tree()[index];
+    const double margin = request.options.margin + request.mesh.spread();
+    const SweptBody body = sweptBody(node.shape_T, motion_M, request.options.volume, margin);
+    SweepResult& result = checker.result_;
+    double inflation = 0.0;
+    if (node.piece) {
+      detect(detector, around, body, checker.detection_);
+      inflation = checker.detection_.inflation;
+      unite(checker.candidates_[*node.piece], checker.detection_.triangles);
+      unite(result.triangles, checker.detection_.triangles);
+    } else if (visitBelow(node, body.volume_M, around, depth)) {
+      return;
+    }
+    result.margin = std::max(result.margin, body.volume_M.margin + inflation);
+    result.volumes_M.push_back(body.volume_M);
+  }
+
+  bool visitBelow(const Tool::Node& node, const SweptVolume& volume_M, const Submesh& around, size_t depth) {
+    const simd::Planes planes = floatPlanes(request.mesh.mesh_M(), volume_M);
+    while (checker.finders_.size() <= depth) checker.finders_.emplace_back();
+    const Submesh near = checker.finders_[depth].find(around, planes);
+    if (checker.culler_.cull(near, planes).empty()) return false;
+    for (const size_t below : node.below) visit(below, near, depth + 1);
+    return true;
+  }
+};
+
+void SweepResult::clear() {
+  triangles.clear();
+  margin = 0.0;
+  volumes_M.clear();
+  fine = false;
+  not_ruled_out.clear();
+  in_contact.clear();
+  inside = false;
+}
+
+void unite(SweepResult& all, const SweepResult& later) {
+  unite(all.triangles, later.triangles);
+  all.margin = std::max(all.margin, later.margin);
+  all.volumes_M.insert(all.volumes_M.end(), later.volumes_M.begin(), later.volumes_M.end());
+  all.fine = later.fine;
+  unite(all.not_ruled_out, later.not_ruled_out);
+  join(all.in_contact, later.in_contact);
+  all.inside = all.inside || later.inside;
+}
+
+SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request) {
+  result_.clear();
+  candidates_.resize(request.tool.pieces().size());
+  for (TriangleSet& candidates : candidates_) candidates.clear();
+  for (Motion motion_M : request.sub_motions) {
+    motion_M.mesh_translation = request.mesh.translation_M();
+    TreeWalk{detector, request, motion_M, *this}.visit(0, request.mesh.mesh_M(), 0);
+  }
+  result_.fine = request.options.fine;
+  result_.not_ruled_out = result_.triangles;
+  if (request.options.fine) narrow(request);
+  if (result_.not_ruled_out.empty() && !request.cache.outside) {
+    result_.inside = anyPieceInside(request.tool, request.sub_motions.back().X_MT_end, request.mesh.mesh_M());
+  }
+  return result_;
+}
+
+void SweepChecker::narrow(const SweepRequest& request) {
+  const TriangleSet& confirmed = request.cache.already_confirmed;
+  for (TriangleSet& candidates : candidates_) remove(candidates, confirmed);
+  runNarrowPhase({request.tool, request.sub_motions, request.mesh, candidates_, request.options.margin,
+                  request.cache.contact_normals},
+                 narrow_phase_result_);
+  keepOnly(result_.not_ruled_out, confirmed);
+  unite(result_.not_ruled_out, narrow_phase_result_.not_ruled_out);
+  result_.in_contact = narrow_phase_result_.in_contact;
+}
+
+SweepResult checkSweep(Detector& detector, const SweepRequest& request) {
+  return SweepChecker().check(detector, request);
+}
+
+PathResult checkPath(Detector& detector, const Tool& tool, const std::vector<Eigen::Isometry3d>& path,
+                     const TriangleMesh& mesh_M, const SweepOptions& options,
+                     const std::function<void()>& before_sweep) {
+  assert(!path.empty());
+  PathResult along;
+  SweepCache cache;
+  for (size_t i = 0; i < std::max<size_t>(path.size() - 1, 1); ++i) {
+    before_sweep();
+    const Motion motion{path[i], path[std::min(i + 1, path.size() - 1)]};
+    const SweepResult sweep = checkSweep(detector, {tool, split(motion, options.max_rotation), mesh_M, options, cache});
+    if (sweep.contact() && !along.first_contact) {
+      along.first_contact = i;
+      along.time_of_impact = firstTimeOfImpact(sweep);
+    }
+    cache = sweepCache(sweep);
+    unite(along.all, sweep);
+  }
+  return along;
+}
+
+SweepCache sweepCache(const SweepResult& result) {
+  SweepCache cache{{}, !result.contact(), {}};
+  for (const TriangleContact& one : result.in_contact)
+    cache.contact_normals.emplace_hint(cache.contact_normals.end(), one.triangle, one.impact.normal_M);
+  return cache;
+}
+
+std::optional<double> firstTimeOfImpact(const SweepResult& result) {
+  if (!result.fine) return std::nullopt;
+  if (result.inside) return 0.0;
+  std::optional<double> first;
+  for (const TriangleContact& one : result.in_contact) {
+    first = std::min(first.value_or(1.0), one.impact.time_of_impact);
+  }
+  return first;
+}
+
+}  // namespace sweep_guard_core

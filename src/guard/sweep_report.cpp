@@ -1,0 +1,19 @@
+#include "sweep_guard/guard/sweep_report.h"
+
+#include <algorithm>
+
+namespace sweep_guard_core {
+
+double SweepReport::margin() const {
+  double largest = 0.0;
+  for (const SweptObject& object : objects) largest = std::max(largest, object.result.margin);
+  return largest;
+}
+
+bool SweepReport::contact() const {
+  return std::any_of(objects.begin(), objects.end(), [](const SweptObject& object) { return object.result.contact(); });
+}
+
+bool SweepReport::complete() const { return !objects.empty() && unplaced.empty() && failures.empty(); }
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,41 @@
+#include "sweep_guard/guard/time_budget.h"
+
+#include <algorithm>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr double kFall = 0.98;       // per cycle: half in 35 of them
+constexpr double kFirstGuess = 2.5;  // measured sweeps; near a workpiece its probability is looked for, too
+constexpr double kPlanned = 0.75;    // of the cycle: the next one may cost more
+
+}  // namespace
+
+TimeBudget::TimeBudget(const HorizonOptions& horizon, Duration cycle) : horizon_(horizon), cycle_(cycle) {
+  check(horizon_);
+  if (cycle_ <= Duration::zero()) throw InvalidInput("cycle: must be > 0 s");
+}
+
+size_t TimeBudget::consideredSweeps(size_t reflex_volumes, size_t considered_volumes) const {
+  const double per_volume = per_volume_.value_or(kFirstGuess * measured_);
+  const double left = toSeconds(forPrediction()) - static_cast<double>(reflex_volumes) * per_volume;
+  const size_t most = sweep_guard_core::consideredSweeps(horizon_);
+  if (left >= static_cast<double>(considered_volumes) * per_volume) return most;
+  return static_cast<size_t>(std::clamp(left / per_volume, 1.0, static_cast<double>(most)));
+}
+
+Duration TimeBudget::forPrediction() const {
+  return fromSeconds(std::max(0.0, kPlanned * toSeconds(cycle_) - measured_));
+}
+
+void TimeBudget::spentOnMeasured(Duration time) { measured_ = std::max(toSeconds(time), kFall * measured_); }
+
+void TimeBudget::spentOnPredicted(Duration time, size_t volumes) {
+  if (volumes == 0) return;
+  const double per_volume = toSeconds(time) / static_cast<double>(volumes);
+  per_volume_ = std::max(per_volume, kFall * per_volume_.value_or(0.0));
+}
+
+}  // namespace sweep_guard_core

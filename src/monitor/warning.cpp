@@ -1,0 +1,193 @@
+#include "sweep_guard/monitor/warning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <initializer_list>
+#include <string_view>
+
+namespace sweep_guard_core {
+namespace {
+
+std::string inSeconds(Duration duration) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f s", toSeconds(duration));
+  return text;
+}
+
+// Assembled where the text is kept: a repeated warning allocates nothing.
+using TextPieces = std::initializer_list<std::string_view>;
+
+void insert(std::string& text, size_t place, TextPieces pieces) {
+  for (const std::string_view piece : pieces) {
+    text.insert(place, piece);
+    place += piece.size();
+  }
+}
+
+void add(Warning& warning, Reason reason, TextPieces message) {
+  warning.reasons |= reason;
+  if (!warning.text.empty()) warning.text += "; ";
+  insert(warning.text, warning.text.size(), message);
+}
+
+void addPoseReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
+  if (!inputs.pose) {
+    add(warning, kNoPose, {"no tool pose yet"});
+  } else if (stale(*inputs.pose, now, limits.pose_timeout)) {
+    add(warning, kPoseStale, {"newest tool pose is ", inSeconds(age(*inputs.pose, now)), " old"});
+  }
+}
+
+void addCoverageReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits,
+                        Warning& warning) {
+  if (inputs.objects.empty() || !inputs.pose || stale(*inputs.pose, now, limits.pose_timeout)) return;
+  const Duration ahead = inputs.covered_until - inputs.pose->stamp - age(*inputs.pose, now);
+  if (ahead >= limits.considered) return;
+  if (ahead <= Duration::zero()) return add(warning, kNotCovered, {"predicted path not tested"});
+  add(warning, kNotCovered, {"predicted path tested for ", inSeconds(ahead), " only"});
+}
+
+void addObjectReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
+  if (inputs.objects.empty()) add(warning, kNoMesh, {"no workpiece yet"});
+  for (const WarningInputs::Object& object : inputs.objects) {
+    if (stale(object.timestamps, now, limits.mesh_timeout)) {
+      add(warning, kMeshStale, {"workpiece '", object.id, "' is ", inSeconds(age(object.timestamps, now)), " old"});
+    }
+    if (inputs.pose && !object.swept) {
+      add(warning, kNotSwept, {"workpiece '", object.id, "' not swept yet"});
+    }
+  }
+}
+
+void addLoadReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
+  if (!inputs.overload || now.steady - inputs.overload->found > limits.hold_time) return;
+  add(warning, kOverload, {"overload: poses of ", inSeconds(inputs.overload->span), " swept at once"});
+}
+
+// The strongest current or held warning, and the contact that it is about.
+struct Strongest {
+  WarningLevel level = WarningLevel::kClear;
+  const PredictedContact* contact = nullptr;
+
+  void raise(WarningLevel to, const PredictedContact& about) {
+    if (to > level) *this = {to, &about};
+  }
+};
+
+Strongest strongestWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits) {
+  Strongest strongest;
+  if (inputs.predicted && timeSinceEnd(*inputs.predicted, now) <= limits.hold_time) {
+    strongest.raise(warningLevel(*inputs.predicted, now, limits), *inputs.predicted);
+  }
+  const auto held = [&](const auto& alarm) { return alarm && now.steady - alarm->ended <= limits.hold_time; };
+  if (held(inputs.reflex)) strongest.raise(WarningLevel::kReflex, inputs.reflex->contact);
+  if (held(inputs.considered)) strongest.raise(WarningLevel::kConsidered, inputs.considered->contact);
+  return strongest;
+}
+
+void prepend(Warning& warning, TextPieces message) {
+  if (!warning.text.empty()) warning.text.insert(0, "; ");
+  insert(warning.text, 0, message);
+}
+
+Duration timeTo(Time moment, const Timestamps& pose, const Instant& now) {
+  return moment - pose.stamp - age(pose, now);
+}
+
+void describePrediction(Warning& warning) {
+  const auto describe = [&](std::string_view how, const std::string& much, std::string_view more = {}) {
+    prepend(warning, {"collision with '", warning.mesh_id, "' ", how, much, more});
+  };
+  if (warning.time_to_collision) return describe("expected in ", inSeconds(*warning.time_to_collision));
+  if (warning.probability == 0.0) return describe("was expected", "");
+  describe("", std::to_string(std::lround(100.0 * warning.probability)), " % probable");
+}
+
+void describeContact(Warning& warning, bool inside) {
+  const size_t count = warning.triangles.size();
+  const std::string_view how = inside ? "tool is inside '" : "tool meets '";
+  if (count == 0) return prepend(warning, {how, warning.mesh_id, "'"});
+  prepend(warning, {how, warning.mesh_id, "', ", std::to_string(count), count == 1 ? " triangle" : " triangles"});
+}
+
+void setPrediction(const PredictedContact& predicted, const Instant& now, Warning& warning) {
+  if (predicted.contact) {
+    warning.time_to_collision = std::max(Duration::zero(), timeTo(*predicted.contact, predicted.pose, now));
+  }
+  warning.probability = predicted.probability;
+}
+
+void warn(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
+  const auto& predicted = inputs.predicted;
+  const bool current = predicted && timeSinceEnd(*predicted, now) == Duration::zero();
+  const Strongest strongest = strongestWarning(inputs, now, limits);
+  if (current && (!strongest.contact || strongest.contact->mesh_id == predicted->mesh_id)) {
+    setPrediction(*predicted, now, warning);
+  }
+  if (!strongest.contact) return;
+  warning.level = strongest.level;
+  warning.mesh_id = strongest.contact->mesh_id;
+  warning.tool_piece = strongest.contact->tool_piece;
+  warning.triangles = strongest.contact->triangles;
+  describePrediction(warning);
+}
+
+void reportDisabled(const std::string& disabled_by, Warning& warning) {
+  add(warning, kDisabled, {styleOf(warning.level).name, ": disabled by ", disabled_by, ": nothing is tested"});
+}
+
+}  // namespace
+
+void Warning::clear() {
+  level = WarningLevel::kUnknown;
+  reasons = 0;
+  text.clear();
+  mesh_id.clear();
+  tool_piece.reset();
+  triangles.clear();
+  time_to_collision.reset();
+  probability = 0.0;
+  pose_stamp = {};
+  covered_until = {};
+}
+
+void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
+  warning.clear();
+  if (inputs.disabled_by) return reportDisabled(*inputs.disabled_by, warning);
+  addPoseReasons(inputs, now, limits, warning);
+  addObjectReasons(inputs, now, limits, warning);
+  addCoverageReasons(inputs, now, limits, warning);
+  addLoadReasons(inputs, now, limits, warning);
+  for (const auto& [reason, message] : inputs.faults) add(warning, reason, {message});
+
+  warning.level = (warning.reasons & ~kDegraded) == 0 ? WarningLevel::kClear : WarningLevel::kUnknown;
+  if (inputs.pose) warning.pose_stamp = inputs.pose->stamp;
+  warning.covered_until = inputs.covered_until;
+  const size_t length = warning.text.size();
+  warn(inputs, now, limits, warning);
+  if (inputs.contact && (inputs.contact->lasting || now.steady - inputs.contact->found <= limits.hold_time)) {
+    warning.level = WarningLevel::kContact;
+    warning.mesh_id = inputs.contact->id;
+    warning.triangles = inputs.contact->triangles;
+    warning.tool_piece = inputs.contact->tool_piece;
+    warning.text.erase(0, warning.text.size() - length);
+    describeContact(warning, inputs.contact->inside);
+  }
+  insert(warning.text, 0, {styleOf(warning.level).name, warning.text.empty() ? "" : ": "});
+}
+
+WarningLevel warningLevel(Duration time_left, const WarningLimits& limits) {
+  if (time_left <= limits.reflex + limits.tick) return WarningLevel::kReflex;
+  return time_left <= limits.considered + limits.tick ? WarningLevel::kConsidered : WarningLevel::kClear;
+}
+
+WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits) {
+  return warningLevel(timeTo(predicted.earliest, predicted.pose, now) + timeSinceEnd(predicted, now), limits);
+}
+
+Duration timeSinceEnd(const PredictedContact& predicted, const Instant& now) {
+  return std::max(Duration::zero(), age(predicted.pose, now) - predicted.duration);
+}
+
+}  // namespace sweep_guard_core

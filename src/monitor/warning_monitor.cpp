@@ -1,0 +1,284 @@
+#include "sweep_guard/monitor/warning_monitor.h"
+
+#include <algorithm>
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr size_t kRefusalsKept = 64;  // bounds the memory that invalid ids can take
+
+bool sameTriangles(const Workpiece& a, const Workpiece& b) {
+  return a.id == b.id && a.frame == b.frame && &a.mesh_M.triangles() == &b.mesh_M.triangles();
+}
+
+bool holds(const Workpieces& workpieces, const Workpiece& workpiece) {
+  return std::any_of(workpieces.begin(), workpieces.end(),
+                     [&](const auto& one) { return sameTriangles(*one, workpiece); });
+}
+
+std::optional<size_t> firstPiece(const SweepResult& result) {
+  const auto sooner = [](const TriangleContact& a, const TriangleContact& b) {
+    return a.impact.time_of_impact < b.impact.time_of_impact;
+  };
+  const auto first = std::min_element(result.in_contact.begin(), result.in_contact.end(), sooner);
+  return first == result.in_contact.end() ? std::nullopt : std::optional(first->piece);
+}
+
+void setAlarm(std::optional<WarningInputs::Alarm>& alarm, const PredictedContact& contact, SteadyTime ended) {
+  if (!alarm) alarm.emplace();
+  alarm->contact = contact;
+  alarm->ended = ended;
+}
+
+bool notSwept(const SweepReport& report, const std::string& id) {
+  const auto unplaced = [&](const auto& workpiece) { return workpiece->id == id; };
+  const auto failed = [&](const SweepFailure& failure) { return failure.workpiece->id == id; };
+  return std::any_of(report.unplaced.begin(), report.unplaced.end(), unplaced) ||
+         std::any_of(report.failures.begin(), report.failures.end(), failed);
+}
+
+}  // namespace
+
+WarningMonitor::WarningMonitor(const WarningLimits& limits, std::function<void()> on_fault)
+    : on_fault_(std::move(on_fault)), limits_(limits) {}
+
+WarningMonitor::Checkpoint WarningMonitor::checkpoint() const {
+  const std::lock_guard lock(mutex_);
+  return checkpoint_;
+}
+
+void WarningMonitor::fault(Reason reason, const std::string& message) {
+  {
+    const std::lock_guard lock(mutex_);
+    addFault(reason, message);
+  }
+  on_fault_();
+}
+
+void WarningMonitor::addFault(Reason reason, const std::string& message) {
+  inputs_.faults[reason] = message;
+  fault_numbers_[reason] = ++checkpoint_.faults;
+}
+
+void WarningMonitor::meshRefused(const std::string& id, const std::string& message) {
+  refuse(refused_meshes_, id, message);
+}
+
+void WarningMonitor::verticesRefused(const std::string& id, const std::string& message) {
+  refuse(refused_vertices_, id, message);
+}
+
+void WarningMonitor::refuse(Messages& refusals, const std::string& id, const std::string& message) {
+  {
+    const std::lock_guard lock(mutex_);
+    const bool room = refusals.size() < kRefusalsKept || refusals.count(id) != 0;
+    refusals[room ? id : refusals.rbegin()->first] = message;
+    updateRefusals();
+  }
+  on_fault_();
+}
+
+void WarningMonitor::meshAccepted(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  if (refused_meshes_.erase(id) + refused_vertices_.erase(id) > 0) updateRefusals();
+}
+
+void WarningMonitor::verticesAccepted(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  if (refused_vertices_.erase(id) > 0) updateRefusals();
+}
+
+void WarningMonitor::updateRefusals() {
+  const Messages& messages = refused_meshes_.empty() ? refused_vertices_ : refused_meshes_;
+  inputs_.faults.erase(kMeshInvalid);
+  if (!messages.empty()) inputs_.faults[kMeshInvalid] = messages.rbegin()->second;
+}
+
+void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
+  const std::lock_guard lock(mutex_);
+  workpieces_ = workpieces;
+  updateObjects();
+}
+
+void WarningMonitor::updateObjects() {
+  inputs_.objects.resize(workpieces_.size());
+  for (size_t i = 0; i < workpieces_.size(); ++i) {
+    const Workpiece& workpiece = *workpieces_[i];
+    WarningInputs::Object& object = inputs_.objects[i];
+    object.id = workpiece.id;
+    object.timestamps = {workpiece.stamp, workpiece.received};
+    object.swept = holds(swept_, workpiece);
+  }
+}
+
+void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint,
+                           SteadyTime now) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (checkpoint.epoch != checkpoint_.epoch) return;
+    for (auto fault = fault_numbers_.begin(); fault != fault_numbers_.end();) {
+      const auto& [reason, number] = *fault;
+      const bool cleared = number <= checkpoint.faults;
+      if (cleared) inputs_.faults.erase(reason);
+      fault = cleared ? fault_numbers_.erase(fault) : std::next(fault);
+    }
+    for (const SweepFailure& failure : report.failures) {
+      addFault(kDetectorFault, "detection on '" + failure.workpiece->id + "' failed: " + failure.reason);
+    }
+    inputs_.pose = pose;
+    swept_.clear();
+    for (const SweptObject& object : report.objects) swept_.push_back(object.workpiece);
+    updateObjects();
+    if (report.complete()) swept_until_ = report.end;
+    updateContact(report, now);
+    if (report.backlog > limits_.overload) inputs_.overload = WarningInputs::Backlog{report.backlog, now};
+  }
+  if (!report.failures.empty()) on_fault_();
+}
+
+void WarningMonitor::updateContact(const SweepReport& report, SteadyTime now) {
+  auto& contact = inputs_.contact;
+  if (contact) contact->lasting = contact->lasting && notSwept(report, contact->id);
+  for (const SweptObject& object : report.objects) {
+    if (!object.result.contact()) continue;
+    const SweepResult& found = object.result;
+    if (!contact) contact.emplace();
+    contact->id = object.workpiece->id;
+    contact->triangles = found.not_ruled_out;
+    contact->found = now;
+    contact->lasting = true;
+    contact->inside = found.inside;
+    contact->tool_piece = firstPiece(found);
+    return;
+  }
+}
+
+void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint,
+                               const Instant& now) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (checkpoint.epoch != checkpoint_.epoch) return;
+    for (const SweepFailure& failure : prediction.failures) {
+      addFault(kDetectorFault, "predicting contact with '" + failure.workpiece->id + "' failed: " + failure.reason);
+    }
+    if (!coverage_) coverage_.emplace();
+    coverage_->pose = pose;
+    coverage_->covered_until = prediction.coveredUntil();
+    coverage_->tested.clear();
+    for (const PredictedObject& object : prediction.objects) coverage_->tested.push_back(object.workpiece);
+    findPredictedContact(prediction, pose, limits_.min_probability, next_);
+    updatePredicted(now);
+  }
+  if (!prediction.failures.empty()) on_fault_();
+}
+
+// The contact predicted with a workpiece that could not be tested again stands until its prediction ends.
+void WarningMonitor::updatePredicted(const Instant& now) {
+  auto& predicted = inputs_.predicted;
+  if (predicted) {
+    const auto same = [&](const auto& workpiece) { return workpiece->id == predicted->mesh_id; };
+    const bool known = std::any_of(workpieces_.begin(), workpieces_.end(), same);
+    const bool tested = std::any_of(coverage_->tested.begin(), coverage_->tested.end(), same);
+    const bool stands = known && !tested && timeSinceEnd(*predicted, now) == Duration::zero();
+    if (stands && (!next_ || predicted->earliest <= next_->earliest)) return;
+    updateAlarms(now);
+  }
+  std::swap(predicted, next_);
+}
+
+void WarningMonitor::updateAlarms(const Instant& now) {
+  const PredictedContact& predicted = *inputs_.predicted;
+  const SteadyTime ended = now.steady - timeSinceEnd(predicted, now);
+  const WarningLevel level = warningLevel(predicted, now, limits_);
+  if (level >= WarningLevel::kConsidered) setAlarm(inputs_.considered, predicted, ended);
+  if (level >= WarningLevel::kReflex) setAlarm(inputs_.reflex, predicted, ended);
+}
+
+void WarningMonitor::timeJumped(const std::string& message) {
+  {
+    const std::lock_guard lock(mutex_);
+    restartLocked();
+    if (inputs_.contact) inputs_.contact->lasting = false;
+    addFault(kTimeJump, message);
+  }
+  on_fault_();
+}
+
+void WarningMonitor::restartLocked() {
+  ++checkpoint_.epoch;
+  inputs_.pose.reset();
+  inputs_.predicted.reset();
+  inputs_.reflex.reset();
+  inputs_.considered.reset();
+  inputs_.overload.reset();
+  inputs_.faults.clear();
+  swept_until_ = {};
+  coverage_.reset();
+  swept_.clear();
+  fault_numbers_.clear();
+  updateObjects();
+  updateRefusals();
+}
+
+void WarningMonitor::restart() {
+  {
+    const std::lock_guard lock(mutex_);
+    restartLocked();
+    inputs_.contact.reset();
+  }
+  on_fault_();
+}
+
+void WarningMonitor::disable(const std::string& asked_by) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (inputs_.disabled_by) return;
+    restartLocked();
+    inputs_.contact.reset();
+    inputs_.disabled_by = asked_by;
+  }
+  on_fault_();
+}
+
+void WarningMonitor::enable() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!inputs_.disabled_by) return;
+    restartLocked();
+    inputs_.disabled_by.reset();
+  }
+  on_fault_();
+}
+
+std::optional<std::string> WarningMonitor::disabledBy() const {
+  const std::lock_guard lock(mutex_);
+  return inputs_.disabled_by;
+}
+
+bool WarningMonitor::counts(const Checkpoint& checkpoint) const {
+  const std::lock_guard lock(mutex_);
+  return checkpoint.epoch == checkpoint_.epoch && !inputs_.disabled_by;
+}
+
+void WarningMonitor::setLimits(const WarningLimits& limits) {
+  const std::lock_guard lock(mutex_);
+  limits_ = limits;
+}
+
+void WarningMonitor::warning(const Instant& now, Warning& warning) const {
+  const std::lock_guard lock(mutex_);
+  inputs_.covered_until = coveredUntil(now);
+  computeWarning(inputs_, now, limits_, warning);
+}
+
+// Poses may come faster than predictions: an older prediction counts while its pose is not stale.
+Time WarningMonitor::coveredUntil(const Instant& now) const {
+  if (!coverage_ || coverage_->pose.stamp > swept_until_ || stale(coverage_->pose, now, limits_.pose_timeout)) {
+    return swept_until_;
+  }
+  const auto tested = [&](const auto& workpiece) { return holds(coverage_->tested, *workpiece); };
+  const bool all = std::all_of(workpieces_.begin(), workpieces_.end(), tested);
+  return all ? std::max(swept_until_, coverage_->covered_until) : swept_until_;
+}
+
+}  // namespace sweep_guard_core

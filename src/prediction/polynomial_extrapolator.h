@@ -1,0 +1,26 @@
+#pragma once
+
+#include "prediction/extrapolator.h"
+#include "prediction/velocity.h"
+
+namespace sweep_guard_core {
+
+/// The paper's predictor [P, Sec. 3.2]: one polynomial in time per degree of freedom, mutually independent, by
+/// recursive least squares on an observation period. Degrees above 1 wait until half of that period has been observed.
+class PolynomialExtrapolator : public Extrapolator {
+ public:
+  explicit PolynomialExtrapolator(const PredictorOptions& options);
+
+  void observe(const PoseTracker& tracker) override;
+  Vector6d displacementIn(double ahead) const override;
+
+ private:
+  std::array<int, 6> degree_;
+  Duration window_;
+  PolynomialFit fit_;
+  PolynomialFit::Curve curve_;
+  Time newest_;
+  Vector6d coordinates_ = Vector6d::Zero();
+};
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace sweep_guard_core {
+
+/// Recursive least squares [P, Sec. 3.2]: fits M outputs, each a weighted sum of the same N regressors, one observation
+/// at a time. It recurs on the information matrix and not on its inverse: symmetry cannot be lost, an observation can
+/// be taken out again, and with a prior nothing winds up where the regressors do not move.
+template <int N, int M>
+class Rls {
+ public:
+  using Regressors = Eigen::Matrix<double, N, 1>;
+  using Outputs = Eigen::Matrix<double, M, 1>;
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, N, N>;
+  using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, M, Eigen::ColMajor, N, M>;
+
+  /// Multiplies the weight of everything observed so far.
+  /// @param factor  in (0, 1]
+  void forget(double factor) {
+    information_ *= factor;
+    projection_ *= factor;
+    squares_ *= factor;
+    weight_ *= factor;
+  }
+
+  /// @param weight  of the observation; negative takes it out again
+  void add(const Regressors& regressors, const Outputs& outputs, double weight = 1.0) {
+    information_.template selfadjointView<Eigen::Lower>().rankUpdate(regressors, weight);
+    projection_.noalias() += weight * regressors * outputs.transpose();
+    squares_ += weight * outputs.cwiseAbs2();
+    weight_ += weight;
+  }
+
+  /// The best coefficients: one column per output.
+  /// @param n      only the first n regressors take part, 1 to N
+  /// @param prior  information that every coefficient is 0, >= 0
+  Coefficients coefficients(int n = N, double prior = 0.0) const {
+    return solver(n, prior).solve(projection_.topRows(n));
+  }
+
+  /// How far these coefficients can be trusted: their covariance for an output whose observations err by 1.
+  Square covariance(int n = N, double prior = 0.0) const { return solver(n, prior).solve(Square::Identity(n, n)); }
+
+  /// Variance of the observations about the fit by all regressors; 0 without observations to spare.
+  Outputs variance() const {
+    const double spare = weight_ - N;
+    if (spare <= 0.0) return Outputs::Zero();
+    const Outputs explained = coefficients().cwiseProduct(projection_).colwise().sum().transpose();
+    return (squares_ - explained).cwiseMax(0.0) / spare;
+  }
+
+ private:
+  Eigen::LDLT<Square> solver(int n, double prior) const {
+    Square information = information_.topLeftCorner(n, n).template selfadjointView<Eigen::Lower>();
+    information.diagonal().array() += prior;
+    return Eigen::LDLT<Square>(information);
+  }
+
+  Eigen::Matrix<double, N, N> information_ = Eigen::Matrix<double, N, N>::Zero();  // lower triangle
+  Eigen::Matrix<double, N, M> projection_ = Eigen::Matrix<double, N, M>::Zero();
+  Outputs squares_ = Outputs::Zero();
+  double weight_ = 0.0;
+};
+
+}  // namespace sweep_guard_core

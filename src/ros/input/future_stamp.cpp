@@ -1,0 +1,26 @@
+#include "ros/input/future_stamp.h"
+
+#include <ros/time.h>
+
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr auto kClockMayBeLate = std::chrono::milliseconds(500);
+constexpr double kPause = 0.001;  // [s]
+
+}  // namespace
+
+bool liesInFuture(sweep_guard_core::Time stamp) {
+  const sweep_guard_core::Instant begin = now();
+  const bool may_wait = ros::Time::isSimTime() && stamp <= begin.stamp + kClockMayBeLate;
+  sweep_guard_core::Instant at = begin;
+  while (may_wait && stamp > at.stamp + kFutureTolerance && at.steady < begin.steady + kClockMayBeLate) {
+    ros::WallDuration(kPause).sleep();
+    at = now();
+  }
+  return stamp > at.stamp + kFutureTolerance;
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,167 @@
+#include "ros/output/marker_shapes.h"
+
+#include <algorithm>
+
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::WarningLevel;
+using visualization_msgs::Marker;
+
+constexpr double kLifetime = 0.5;  // [s]
+
+const Eigen::Vector3d kLight(0.48, 0.14, 0.866);  // towards it
+
+// rviz's own light leaves the side that one looks at in the dark.
+void addShaded(Marker& list, const sweep_guard_core::ConvexShape& shape_T, const Eigen::Matrix3d& R_WT) {
+  const sweep_guard_core::TriangleMesh& mesh_T = shape_T.mesh_T();
+  for (const auto& [a, b, c] : mesh_T.triangles()) {
+    const Eigen::Vector3d p = mesh_T.vertex(a);
+    const Eigen::Vector3d normal = (mesh_T.vertex(b) - p).cross(mesh_T.vertex(c) - p).stableNormalized();
+    const double outward = normal.dot(p - shape_T.moments_T().mean) < 0.0 ? -1.0 : 1.0;
+    const auto light = static_cast<float>(0.65 + 0.35 * outward * (R_WT * normal).dot(kLight));
+    std_msgs::ColorRGBA shaded = list.color;
+    for (float* const component : {&shaded.r, &shaded.g, &shaded.b})
+      *component = std::min(1.0F, 1.2F * light * *component);
+    list.colors.insert(list.colors.end(), 3, shaded);
+    for (const std::uint32_t corner : {a, b, c}) list.points.push_back(point(mesh_T.vertex(corner)));
+  }
+}
+
+}  // namespace
+
+std_msgs::ColorRGBA color(double r, double g, double b, double alpha) {
+  std_msgs::ColorRGBA color;
+  color.r = static_cast<float>(r);
+  color.g = static_cast<float>(g);
+  color.b = static_cast<float>(b);
+  color.a = static_cast<float>(alpha);
+  return color;
+}
+
+std_msgs::ColorRGBA levelColor(WarningLevel level, double alpha) {
+  switch (level) {
+    case WarningLevel::kClear:
+      return color(0.2, 0.75, 0.3, alpha);
+    case WarningLevel::kConsidered:
+      return color(1.0, 0.7, 0.1, alpha);
+    case WarningLevel::kReflex:
+    case WarningLevel::kContact:
+      return color(0.95, 0.15, 0.1, alpha);
+    case WarningLevel::kUnknown:
+      break;
+  }
+  return color(0.55, 0.55, 0.55, alpha);
+}
+
+std_msgs::ColorRGBA unlessUnknown(WarningLevel level, const std_msgs::ColorRGBA& color) {
+  return level == WarningLevel::kUnknown ? levelColor(level, static_cast<double>(color.a)) : color;
+}
+
+geometry_msgs::Point point(const Eigen::Vector3d& p) {
+  geometry_msgs::Point msg;
+  msg.x = p.x();
+  msg.y = p.y();
+  msg.z = p.z();
+  return msg;
+}
+
+Marker marker(const std::string& ns, int id, int type, const std::string& frame, sweep_guard_core::Time stamp) {
+  Marker marker;
+  marker.header.frame_id = frame;
+  marker.header.stamp = toMsg(stamp);
+  marker.ns = ns;
+  marker.id = id;
+  marker.type = type;
+  marker.action = Marker::ADD;
+  marker.lifetime = ros::Duration(kLifetime);
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  return marker;
+}
+
+int toolMarkers(const sweep_guard_core::Tool& tool) {
+  int cylinders = 0;
+  for (const sweep_guard_core::ConvexPiece& part : tool.pieces()) cylinders += part.shape_T.asCylinder() ? 1 : 0;
+  return cylinders + (static_cast<size_t>(cylinders) < tool.pieces().size() ? 1 : 0);
+}
+
+void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing, const sweep_guard_core::Tool& tool,
+             const Eigen::Isometry3d& X_WT) {
+  int id = drawing.index * toolMarkers(tool);
+  Marker others = marker(drawing.ns, id, Marker::TRIANGLE_LIST, drawing.frame, drawing.stamp);
+  others.pose = toMsg(X_WT);
+  others.color = drawing.color;
+  for (const sweep_guard_core::ConvexPiece& part : tool.pieces()) {
+    if (const auto cylinder = part.shape_T.asCylinder()) {
+      Marker drawn = marker(drawing.ns, id++, Marker::CYLINDER, drawing.frame, drawing.stamp);
+      drawn.pose = toMsg(X_WT * cylinder->X_TC * Eigen::Translation3d(0.0, 0.0, -0.5 * cylinder->length));
+      drawn.scale.x = drawn.scale.y = 2.0 * cylinder->radius;
+      drawn.scale.z = cylinder->length;
+      drawn.color = drawing.color;
+      array.markers.push_back(drawn);
+      continue;
+    }
+    addShaded(others, part.shape_T, X_WT.linear());
+  }
+  others.id = id;
+  if (!others.points.empty()) array.markers.push_back(std::move(others));
+}
+
+double liftOff(const sweep_guard_core::Tool& tool) {
+  return std::min(0.001, 0.05 * tool.bounds_T().sizes().minCoeff());
+}
+
+Surface::Surface(const std::string& ns, int index, const std::string& frame, sweep_guard_core::Time stamp,
+                 double line_width)
+    : faces_(marker(ns, 2 * index, Marker::TRIANGLE_LIST, frame, stamp)),
+      edges_(marker(ns, 2 * index + 1, Marker::LINE_LIST, frame, stamp)) {
+  edges_.scale.x = line_width;
+}
+
+void Surface::paint(const std_msgs::ColorRGBA& faces, const std_msgs::ColorRGBA& edges) {
+  faces_.color = faces;
+  edges_.color = edges;
+}
+
+void Surface::add(const sweep_guard_core::Polygon& polygon) {
+  for (size_t i = 2; i < polygon.size(); ++i) {
+    for (const size_t corner : {size_t{0}, i - 1, i}) faces_.points.push_back(point(polygon[corner]));
+  }
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    edges_.points.push_back(point(polygon[i]));
+    edges_.points.push_back(point(polygon[(i + 1) % polygon.size()]));
+  }
+}
+
+void Surface::add(const sweep_guard_core::SweptVolume& volume_M) {
+  const sweep_guard_core::OrientedBox& box = volume_M.box;
+  for (sweep_guard_core::Polygon polygon :
+       sweep_guard_core::polytopeFaces(volume_M.halfSpaces_B(), box.half_extents.norm())) {
+    for (Eigen::Vector3d& p : polygon) p = box.X_MB * p;
+    add(polygon);
+  }
+}
+
+void Surface::add(const sweep_guard_core::TriangleMesh& mesh_M, const std::vector<std::uint32_t>& triangles,
+                  double lift) {
+  for (const std::uint32_t triangle : triangles) {
+    const auto& [a, b, c] = mesh_M.triangles()[triangle];
+    const Eigen::Vector3d p = mesh_M.vertex(a);
+    const Eigen::Vector3d q = mesh_M.vertex(b);
+    const Eigen::Vector3d r = mesh_M.vertex(c);
+    const Eigen::Vector3d off = lift * (q - p).cross(r - p).stableNormalized();
+    add({p + off, q + off, r + off});
+    add({p - off, r - off, q - off});
+  }
+}
+
+void Surface::moveInto(visualization_msgs::MarkerArray& array) {
+  if (faces_.points.empty()) return;
+  array.markers.push_back(std::move(faces_));
+  array.markers.push_back(std::move(edges_));
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include "ros/parameters/parameters.h"
+#include "sweep_guard/guard/guard.h"
+
+namespace sweep_guard_ros {
+
+/// Publishes what every sweep and every look ahead has found: `~contacts`, `~prediction` and `~time_to_collision`.
+class ResultPublisher {
+ public:
+  ResultPublisher(ros::NodeHandle private_node, const LiveParameters& parameters);
+
+  /// @param tool  that was swept
+  void publish(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool) const;
+  /// @param age  of the pose that the prediction begins at, at the moment of the prediction
+  void publish(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age) const;
+
+ private:
+  const LiveParameters& parameters_;
+  ros::Publisher contacts_publisher_;
+  ros::Publisher prediction_publisher_;
+  ros::Publisher time_to_collision_publisher_;
+};
+
+}  // namespace sweep_guard_ros

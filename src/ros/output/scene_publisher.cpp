@@ -1,0 +1,65 @@
+#include "ros/output/scene_publisher.h"
+
+#include <utility>
+
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+
+ScenePublisher::ScenePublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
+                               const sweep_guard_core::WarningMonitor& monitor)
+    : parameters_(parameters),
+      monitor_(monitor),
+      markers_(parameters.initial().fixed_frame),
+      marker_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
+      view_(private_node, parameters.initial().fixed_frame, parameters.initial().tool_frame,
+            *parameters.initial().tool) {}
+
+void ScenePublisher::passed(const sweep_guard_core::PoseWithFrames& pose) {
+  const std::lock_guard lock(mutex_);
+  scene_.trail.add(pose.stamp, pose.X_WT.translation());
+}
+
+void ScenePublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
+                           std::shared_ptr<const sweep_guard_core::SweepReport> report) {
+  const std::lock_guard lock(mutex_);
+  scene_.X_WT = pose.X_WT;
+  scene_.trail.add(pose.stamp, pose.X_WT.translation());
+  if (report->contact()) scene_.contact = report;
+  scene_.newest = std::move(report);
+}
+
+void ScenePublisher::predicted(const sweep_guard_core::PoseWithFrames& from,
+                               std::shared_ptr<const sweep_guard_core::Prediction> prediction) {
+  const std::lock_guard lock(mutex_);
+  scene_.prediction_from_W = from.X_WT.translation();
+  scene_.prediction = std::move(prediction);
+}
+
+void ScenePublisher::clear() {
+  const std::lock_guard lock(mutex_);
+  scene_ = {};
+}
+
+void ScenePublisher::publishMarkers() {
+  if (marker_publisher_.getNumSubscribers() > 0) marker_publisher_.publish(markers_.draw(sceneNow()));
+}
+
+void ScenePublisher::publishView() const {
+  if (view_.wanted()) view_.publish(sceneNow());
+}
+
+MarkerScene ScenePublisher::sceneNow() const {
+  MarkerScene scene;
+  {
+    const std::lock_guard lock(mutex_);
+    scene = scene_;
+  }
+  const auto parameters = parameters_.get();
+  scene.tool = parameters->tool;
+  scene.namespaces = parameters->marker_namespaces;
+  monitor_.warning(now(), scene.warning);
+  return scene;
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,112 @@
+#include "ros/output/view_publisher.h"
+
+#include <algorithm>
+
+#include "ros/output/marker_shapes.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::ObjectView;
+
+sweep_guard::TestedVolume volumeMsg(const sweep_guard_core::SweptVolume& volume_M) {
+  sweep_guard::TestedVolume msg;
+  msg.pose = toMsg(volume_M.box.X_MB);
+  msg.half_extents.x = volume_M.box.half_extents.x();
+  msg.half_extents.y = volume_M.box.half_extents.y();
+  msg.half_extents.z = volume_M.box.half_extents.z();
+  for (const sweep_guard_core::HalfSpace& clip_B : volume_M.clips_B) {
+    const Eigen::Vector3d& n = clip_B.normal();
+    msg.clips.emplace_back().coef = {n.x(), n.y(), n.z(), -clip_B.offset()};
+  }
+  return msg;
+}
+
+std::vector<sweep_guard::TestedVolume> volumeMsgs(const std::vector<sweep_guard_core::SweptVolume>& volumes_M) {
+  std::vector<sweep_guard::TestedVolume> msgs;
+  msgs.reserve(volumes_M.size());
+  for (const sweep_guard_core::SweptVolume& volume_M : volumes_M) msgs.push_back(volumeMsg(volume_M));
+  return msgs;
+}
+
+ObjectView& viewOf(const sweep_guard_core::Workpiece& workpiece, std::vector<ObjectView>& objects) {
+  const auto known = std::find_if(objects.begin(), objects.end(),
+                                  [&](const ObjectView& object) { return object.mesh_id == workpiece.id; });
+  if (known != objects.end()) return *known;
+  ObjectView& object = objects.emplace_back();
+  object.mesh_id = workpiece.id;
+  object.revision = workpiece.revision;
+  object.frame_id = workpiece.frame;
+  return object;
+}
+
+void addContact(const MarkerScene& scene, std::vector<ObjectView>& objects) {
+  for (const sweep_guard_core::SweptObject& object : scene.contact->objects) {
+    ObjectView& view = viewOf(*object.workpiece, objects);
+    if (view.revision != object.workpiece->revision) continue;
+    view.touched = object.result.not_ruled_out;
+    view.impacts = toMsg(*object.workpiece, object.result, *scene.tool).impacts;
+  }
+}
+
+void addPredicted(const sweep_guard_core::Prediction& prediction, std::vector<ObjectView>& objects) {
+  for (const sweep_guard_core::PredictedObject& object : prediction.objects) {
+    ObjectView& view = viewOf(*object.workpiece, objects);
+    if (view.revision != object.workpiece->revision) continue;
+    view.predicted = volumeMsgs(object.volumes_M);
+    view.reflex = object.reflex;
+    view.considered = object.considered;
+  }
+}
+
+}  // namespace
+
+sweep_guard::View toMsg(const MarkerScene& scene) {
+  sweep_guard::View msg;
+  msg.level = static_cast<std::uint8_t>(scene.warning.level);
+  msg.pose = toMsg(scene.X_WT);
+  if (!scene.newest) return msg;
+  msg.header.stamp = toMsg(scene.newest->end);
+  for (const sweep_guard_core::SweptObject& object : scene.newest->objects) {
+    viewOf(*object.workpiece, msg.objects).measured = volumeMsgs(object.result.volumes_M);
+  }
+  if (scene.contact && scene.warning.level == sweep_guard_core::WarningLevel::kContact) addContact(scene, msg.objects);
+  if (!scene.prediction) return msg;
+  addPredicted(*scene.prediction, msg.objects);
+  for (const sweep_guard_core::PredictedPose& expected : scene.prediction->path)
+    msg.path.push_back(toMsg(expected.X_WT));
+  return msg;
+}
+
+sweep_guard::ToolShape toMsg(const sweep_guard_core::Tool& tool) {
+  sweep_guard::ToolShape msg;
+  for (const sweep_guard_core::ConvexPiece& part : tool.pieces()) {
+    const sweep_guard_core::TriangleMesh& mesh_T = part.shape_T.mesh_T();
+    shape_msgs::Mesh& surface = msg.parts.emplace_back();
+    for (size_t i = 0; i < mesh_T.vertexCount(); ++i) surface.vertices.push_back(point(mesh_T.vertex(i)));
+    for (const auto& [a, b, c] : mesh_T.triangles()) surface.triangles.emplace_back().vertex_indices = {a, b, c};
+    msg.links.push_back(part.link);
+  }
+  return msg;
+}
+
+ViewPublisher::ViewPublisher(ros::NodeHandle private_node, std::string fixed_frame, std::string tool_frame,
+                             const sweep_guard_core::Tool& tool)
+    : fixed_frame_(std::move(fixed_frame)),
+      tool_frame_(std::move(tool_frame)),
+      view_publisher_(private_node.advertise<sweep_guard::View>("view", 1)),
+      tool_publisher_(private_node.advertise<sweep_guard::ToolShape>("tool", 1, /*latch=*/true)) {
+  sweep_guard::ToolShape shape = toMsg(tool);
+  shape.header.frame_id = tool_frame_;
+  tool_publisher_.publish(shape);
+}
+
+void ViewPublisher::publish(const MarkerScene& scene) const {
+  sweep_guard::View view = toMsg(scene);
+  view.header.frame_id = fixed_frame_;
+  view.tool = tool_frame_;
+  view_publisher_.publish(view);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <sweep_guard/ToolShape.h>
+#include <sweep_guard/View.h>
+
+#include <string>
+
+#include "ros/output/markers.h"
+
+namespace sweep_guard_ros {
+
+/// What markers show, as values; header's frame and tool are the sender's.
+/// @param scene  with its tool
+sweep_guard::View toMsg(const MarkerScene& scene);
+sweep_guard::ToolShape toMsg(const sweep_guard_core::Tool& tool);  ///< without padding: it does not change
+
+/// Publishes `~view`, and once `~tool`, for displays that draw the workpiece themselves.
+class ViewPublisher {
+ public:
+  ViewPublisher(ros::NodeHandle private_node, std::string fixed_frame, std::string tool_frame,
+                const sweep_guard_core::Tool& tool);
+
+  bool wanted() const { return view_publisher_.getNumSubscribers() > 0; }
+  void publish(const MarkerScene& scene) const;
+
+ private:
+  const std::string fixed_frame_;
+  const std::string tool_frame_;
+  ros::Publisher view_publisher_;
+  ros::Publisher tool_publisher_;
+};
+
+}  // namespace sweep_guard_ros

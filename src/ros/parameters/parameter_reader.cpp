@@ -1,0 +1,294 @@
+#include "sweep_guard/ros/parameters/parameter_reader.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr double kMaxDistance = 1e6;
+constexpr const char* kAroundWords = " '\"";
+
+double toNumber(const XmlRpc::XmlRpcValue& value) {
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) return static_cast<double>(value);
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) return static_cast<int>(value);
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+bool within(double number, const ParameterReader::Range& range) {
+  return number >= range.lowest && number <= range.highest;
+}
+
+bool within(const XmlRpc::XmlRpcValue& value, int lowest, int highest) {
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeInt) return false;
+  return static_cast<int>(value) >= lowest && static_cast<int>(value) <= highest;
+}
+
+std::string shown(const ParameterReader::Range& range) {
+  std::ostringstream text;
+  text << "a number from " << range.lowest << " to " << range.highest;
+  return text.str();
+}
+
+std::string described(const ParameterReader::Range& range) {
+  const std::string unit = range.unit;
+  return (unit.empty() ? "" : "[" + unit + "] ") + shown(range);
+}
+
+std::string shown(int lowest, int highest) {
+  return " from " + std::to_string(lowest) + " to " + std::to_string(highest);
+}
+
+std::string listed(const std::vector<std::string>& choices) {
+  std::string list;
+  for (const std::string& one : choices) list += (list.empty() ? "" : ", ") + one;
+  return list;
+}
+
+// A list as a command line gives it: a, b or [a, b].
+XmlRpc::XmlRpcValue split(std::string text) {
+  if (text.size() >= 2 && text.front() == '[' && text.back() == ']') text = text.substr(1, text.size() - 2);
+  XmlRpc::XmlRpcValue list;
+  list.setSize(0);
+  if (text.empty()) return list;
+  std::istringstream words(text + ',');
+  for (std::string word; std::getline(words, word, ',');) {
+    const size_t begin = std::min(word.find_first_not_of(kAroundWords), word.size());
+    list[list.size()] = word.substr(begin, word.find_last_not_of(kAroundWords) + 1 - begin);
+  }
+  return list;
+}
+
+// What a list in a text holds stays text.
+XmlRpc::XmlRpcValue toInteger(const XmlRpc::XmlRpcValue& value) {
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeString) return value;
+  const std::string text = static_cast<std::string>(value);
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? XmlRpc::XmlRpcValue(number) : value;
+}
+
+std::string bracketed(const std::vector<std::string>& words) { return "[" + listed(words) + "]"; }
+
+std::string bracketed(const std::vector<int>& integers) {
+  std::vector<std::string> words;
+  words.reserve(integers.size());
+  for (const int integer : integers) words.push_back(std::to_string(integer));
+  return bracketed(words);
+}
+
+}  // namespace
+
+std::string shown(const ParameterValue& value) {
+  std::ostringstream text;
+  text << std::boolalpha;
+  std::visit([&](const auto& held) { text << held; }, value);
+  return text.str();
+}
+
+double ParameterReader::number(const std::string& key, double fallback, const Range& range, const std::string& effect,
+                               const std::optional<Bound>& bound) {
+  XmlRpc::XmlRpcValue value;
+  if (!get(key, value)) value = fallback;
+  const Range& narrowest = bound ? bound->range : range;
+  if (!within(toNumber(value), narrowest))
+    refuse(key, value, shown(narrowest) + (bound ? std::string(": ") + bound->note : ""));
+  described_.push_back(
+      {key, toNumber(value), fallback, range.lowest, range.highest, {}, sweep_guard_ros::described(range), effect});
+  return toNumber(value);
+}
+
+int ParameterReader::integer(const std::string& key, int fallback, int lowest, int highest, const std::string& effect) {
+  XmlRpc::XmlRpcValue value;
+  if (!get(key, value)) value = fallback;
+  const std::string wanted = "an integer" + shown(lowest, highest);
+  if (!within(value, lowest, highest)) refuse(key, value, wanted);
+  const int integer = static_cast<int>(value);
+  described_.push_back(
+      {key, integer, fallback, static_cast<double>(lowest), static_cast<double>(highest), {}, wanted, effect});
+  return integer;
+}
+
+std::vector<int> ParameterReader::integers(const std::string& key, const std::vector<int>& fallback, int lowest,
+                                           int highest, const std::string& effect) {
+  XmlRpc::XmlRpcValue list;
+  const std::string wanted = "a list of " + std::to_string(fallback.size()) + " integers" + shown(lowest, highest);
+  std::vector<int> integers;
+  const bool set = getList(key, wanted, list);
+  for (int i = 0; set && i < list.size(); ++i) {
+    XmlRpc::XmlRpcValue integer = toInteger(list[i]);
+    if (!within(integer, lowest, highest)) refuse(key, list, wanted);
+    integers.push_back(static_cast<int>(integer));
+  }
+  if (!set) integers = fallback;
+  if (integers.size() != fallback.size()) refuse(key, list, wanted);
+  described_.push_back({key, bracketed(integers), bracketed(fallback), 0.0, 0.0, {}, wanted, effect});
+  return integers;
+}
+
+bool ParameterReader::flag(const std::string& key, bool fallback, const std::string& effect) {
+  XmlRpc::XmlRpcValue value;
+  if (!get(key, value)) value = fallback;
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeBoolean) refuse(key, value, "true or false");
+  described_.push_back({key, static_cast<bool>(value), fallback, 0.0, 1.0, {}, "true or false", effect});
+  return static_cast<bool>(value);
+}
+
+std::string ParameterReader::text(const std::string& key, const std::string& fallback) {
+  XmlRpc::XmlRpcValue value;
+  if (!get(key, value)) return fallback;
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeString) refuse(key, value, "a text; put it in quotes");
+  return static_cast<std::string>(value);
+}
+
+std::string ParameterReader::name(const std::string& key, const std::string& fallback, const std::string& effect) {
+  std::string name = text(key, fallback);
+  const std::string wanted = "a name, not empty";
+  if (name.empty()) refuse(key, XmlRpc::XmlRpcValue(name), wanted);
+  described_.push_back({key, name, fallback, 0.0, 0.0, {}, wanted, effect});
+  return name;
+}
+
+std::string ParameterReader::choice(const std::string& key, const std::string& fallback,
+                                    const std::vector<std::string>& choices, const std::string& effect) {
+  std::string chosen = text(key, fallback);
+  const std::string wanted = "one of " + listed(choices);
+  if (std::count(choices.begin(), choices.end(), chosen) == 0) refuse(key, XmlRpc::XmlRpcValue(chosen), wanted);
+  described_.push_back({key, chosen, fallback, 0.0, 0.0, choices, wanted, effect});
+  return chosen;
+}
+
+std::vector<std::string> ParameterReader::selection(const std::string& key, const std::vector<std::string>& choices,
+                                                    const std::string& effect) {
+  XmlRpc::XmlRpcValue list;
+  const std::string wanted = "a list of some of " + listed(choices) + ", or []";
+  std::vector<std::string> selection;
+  const bool set = getList(key, wanted, list);
+  for (int i = 0; set && i < list.size(); ++i) {
+    if (list[i].getType() != XmlRpc::XmlRpcValue::TypeString) refuse(key, list, wanted);
+    selection.push_back(static_cast<std::string>(list[i]));
+    if (std::count(choices.begin(), choices.end(), selection.back()) == 0) refuse(key, list, wanted);
+  }
+  described_.push_back({key, bracketed(selection), std::string("[]"), 0.0, 0.0, {}, wanted, effect});
+  return selection;
+}
+
+std::vector<std::string> ParameterReader::texts(const std::string& key, const std::string& effect) {
+  XmlRpc::XmlRpcValue value;
+  const std::string wanted = "a list of texts, or []";
+  std::vector<std::string> texts;
+  const bool set = getList(key, wanted, value);
+  for (int i = 0; set && i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpc::XmlRpcValue::TypeString) refuse(key, value, wanted);
+    texts.push_back(static_cast<std::string>(value[i]));
+    if (texts.back().empty()) refuse(key, value, wanted + ", none of them empty");
+  }
+  described_.push_back({key, bracketed(texts), std::string("[]"), 0.0, 0.0, {}, wanted, effect});
+  return texts;
+}
+
+std::map<std::string, double> ParameterReader::numbers(const std::string& key, const std::string& effect) {
+  XmlRpc::XmlRpcValue value;
+  const std::string wanted = "a group of numbers, or {}";
+  std::map<std::string, double> numbers;
+  std::string entries;
+  if (get(key, value)) {
+    if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) refuse(key, value, wanted);
+    for (auto& [name, entry] : value) {
+      const std::string entry_key = std::string(key).append("/").append(name);
+      read_.insert(entry_key);
+      const double number = toNumber(entry);
+      if (!std::isfinite(number)) refuse(entry_key, entry, "a finite number");
+      numbers[name] = number;
+      entries += (entries.empty() ? "" : ", ") + name + ": " + shown(ParameterValue(number));
+    }
+  }
+  described_.push_back({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
+  return numbers;
+}
+
+std::string ParameterReader::textAbove(const std::string& name) {
+  std::string key;
+  XmlRpc::XmlRpcValue value;
+  read_.insert(name);
+  const auto known = settings_.find(name);
+  if (known != settings_.end()) return known->second ? static_cast<std::string>(*known->second) : "";
+  settings_[name] = std::nullopt;
+  if (!node_.searchParam(name, key) || !node_.getParam(key, value)) return "";
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeString) {
+    throw sweep_guard_core::InvalidInput("parameter " + key + " must be a text");
+  }
+  settings_[name] = value;
+  return static_cast<std::string>(value);
+}
+
+void ParameterReader::refuseIfSet(const std::string& key, const std::string& instead) {
+  XmlRpc::XmlRpcValue value;
+  if (get(key, value)) refuse(key, value, "left out: " + instead);
+}
+
+Eigen::Vector3d ParameterReader::position(const std::string& key, const Eigen::Vector3d& fallback) {
+  XmlRpc::XmlRpcValue value;
+  if (!get(key, value)) return fallback;
+  const Range range{-kMaxDistance, kMaxDistance};
+  const std::string wanted = "three times " + shown(range);
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray || value.size() != 3) refuse(key, value, wanted);
+  Eigen::Vector3d position(toNumber(value[0]), toNumber(value[1]), toNumber(value[2]));
+  for (const double coordinate : position) {
+    if (!within(coordinate, range)) refuse(key, value, wanted);
+  }
+  return position;
+}
+
+void ParameterReader::warnOfUnread() const {
+  std::vector<std::string> names;
+  node_.getParamNames(names);
+  const std::string prefix = node_.getNamespace() + "/";
+  for (const std::string& name : names) {
+    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string key = name.substr(prefix.size());
+    XmlRpc::XmlRpcValue value;
+    if (isGroup(key) && node_.getParam(key, value)) refuse(key, value, "a group of parameters");
+    if (read_.count(key) == 0) ROS_WARN("parameter %s is unknown and has no effect", name.c_str());
+  }
+}
+
+bool ParameterReader::isGroup(const std::string& key) const {
+  const auto first_inside = read_.lower_bound(key + "/");
+  return first_inside != read_.end() && first_inside->compare(0, key.size() + 1, key + "/") == 0;
+}
+
+bool ParameterReader::get(const std::string& key, XmlRpc::XmlRpcValue& value) {
+  read_.insert(key);
+  auto setting = settings_.find(key);
+  if (setting == settings_.end()) {
+    setting = settings_.emplace(key, std::nullopt).first;
+    if (node_.getParam(key, value)) setting->second = value;
+  }
+  if (setting->second) value = *setting->second;
+  return setting->second.has_value();
+}
+
+bool ParameterReader::getList(const std::string& key, const std::string& wanted, XmlRpc::XmlRpcValue& list) {
+  if (!get(key, list)) return false;
+  if (list.getType() == XmlRpc::XmlRpcValue::TypeString) list = split(static_cast<std::string>(list));
+  if (list.getType() != XmlRpc::XmlRpcValue::TypeArray) refuse(key, list, wanted);
+  return true;
+}
+
+void ParameterReader::refuse(const std::string& key, const XmlRpc::XmlRpcValue& value,
+                             const std::string& wanted) const {
+  std::ostringstream shown_value;
+  value.write(shown_value);
+  throw sweep_guard_core::InvalidInput("parameter " + node_.resolveName(key) + " is " + shown_value.str() +
+                                       ", but must be " + wanted);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,317 @@
+#include "ros/parameters/parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "ros/output/markers.h"
+#include "ros/tool/tool_model.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/detection/offscreen_context.h"
+#include "sweep_guard/simd/kernels.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::Duration;
+using sweep_guard_core::toSeconds;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMinStep = 0.001;   // [s]
+constexpr double kMaxHorizon = 5.0;  // [s]
+
+// What may change while the guard runs: tools, topics and devices stay what they were made as.
+const std::vector<std::string> kTunable = {"tool/padding",
+                                           "volume",
+                                           "detector",
+                                           "cull",
+                                           "fine",
+                                           "max_rotation_per_sweep",
+                                           "prediction/predictor",
+                                           "prediction/degree",
+                                           "prediction/constrained",
+                                           "prediction/forgetting_factor",
+                                           "prediction/window",
+                                           "horizon/reflex",
+                                           "horizon/reflex_step",
+                                           "horizon/considered",
+                                           "horizon/considered_step",
+                                           "warning/min_probability",
+                                           "warning/hold_time",
+                                           "timing/min_rate",
+                                           "timing/pose_timeout",
+                                           "timing/mesh_timeout",
+                                           "timing/marker_rate",
+                                           "limits/max_speed",
+                                           "limits/max_turn_rate"};
+const std::string kMarkers = "markers/";
+
+Duration duration(double seconds) {
+  return std::isinf(seconds) ? Duration::max() : sweep_guard_core::fromSeconds(seconds);
+}
+
+sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
+  const std::vector<std::string> axes = {"x", "y", "z", "rx", "ry", "rz"};
+  sweep_guard_core::PredictorOptions options;
+  options.predictor =
+      read.choice("prediction/predictor", options.predictor, sweep_guard_core::predictorNames(),
+                  "direct: learns for each horizon how far the operator's velocities carry. polynomial: "
+                  "fits one polynomial per axis. constant_velocity: continues at the newest velocity. "
+                  "hold: the tool stays where it is.");
+  const std::vector<int> degree =
+      read.integers("prediction/degree", {options.degree.begin(), options.degree.end()}, 0, 5,
+                    "polynomial only: degree along x y z of the fixed frame, then about x y z of the tool. Higher "
+                    "degrees follow curves and overshoot.");
+  std::copy(degree.begin(), degree.end(), options.degree.begin());
+  for (const std::string& axis : read.selection("prediction/constrained", axes,
+                                                "Axes that the operator cannot move: their prediction is to stay.")) {
+    options.constrained[static_cast<size_t>(std::find(axes.begin(), axes.end(), axis) - axes.begin())] = true;
+  }
+  options.forgetting_factor = read.number("prediction/forgetting_factor", options.forgetting_factor, {0.01, 1.0},
+                                          "Weight of a sample relative to the next one. Smaller follows turns sooner, "
+                                          "larger filters more noise.");
+  options.window = duration(read.number("prediction/window", toSeconds(options.window), {0.02, 10.0, "s"},
+                                        "Polynomials ignore samples that are older."));
+  options.max_speed = read.number("limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
+                                  "No prediction moves the tip faster. A faster pose is a jump: the motion is learned "
+                                  "anew.");
+  options.max_turn_rate = read.number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0, "rad/s"},
+                                      "No prediction turns faster. A pose that does is a jump: the motion is learned "
+                                      "anew.");
+  return options;
+}
+
+sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pose_timeout) {
+  const ParameterReader::Range any{kMinStep, kMaxHorizon, "s"};
+  const double reflex = read.number("horizon/reflex", 0.1, {0.01, 1.0, "s"},
+                                    "A collision predicted within this time from now raises REFLEX.");
+  const double reflex_step = read.number("horizon/reflex_step", 0.01, any,
+                                         "Duration of a predicted sweep within horizon/reflex; not longer than that.",
+                                         ParameterReader::Bound{{kMinStep, reflex}, "at most horizon/reflex"});
+  const double considered = read.number(
+      "horizon/considered", 1.0, any,
+      "A collision predicted within this time from now raises CONSIDERED. Must be later than horizon/reflex.",
+      ParameterReader::Bound{{reflex + kMinStep, kMaxHorizon}, "later than horizon/reflex"});
+  const double considered_step = read.number(
+      "horizon/considered_step", 0.1, any,
+      "Duration of a predicted sweep after horizon/reflex; at most horizon/considered less horizon/reflex. The sweeps "
+      "become longer where the detector is too slow for timing/min_rate.",
+      ParameterReader::Bound{{kMinStep, considered - reflex}, "at most horizon/considered less horizon/reflex"});
+  return {duration(reflex), duration(reflex_step), duration(considered), duration(considered_step), pose_timeout};
+}
+
+// What a cylinder is made of is checked for a tool of another type, too.
+sweep_guard_core::Tool readCylinder(ParameterReader& read, double padding) {
+  const double radius = read.number("tool/radius", 0.01, {1e-6, 100.0, "m"}, "Radius of the cylinder.");
+  const double length = read.number("tool/length", 0.15, {1e-6, 100.0, "m"}, "Length of the cylinder.");
+  const int sides =
+      read.integer("tool/sides", 32, 3, 1000,
+                   "Sides of the polygonal cylinder that decides how the box is turned. The tool itself is "
+                   "round.");
+  return sweep_guard_core::Tool(sweep_guard_core::ConvexShape::cylinder(radius, length, sides).padded(padding));
+}
+
+ToolModelOptions readModelOptions(ParameterReader& read, const std::string& frame, double padding) {
+  ToolModelOptions options;
+  options.frame = frame;
+  options.padding = padding;
+  options.links = read.texts("tool/links",
+                             "urdf only: links that are the tool. []: the link tool_frame and all that is attached to "
+                             "it.");
+  options.mesh_depth =
+      read.integer("tool/mesh_depth", options.mesh_depth, 0, 16,
+                   "urdf only: a mesh is cut in two up to this many times where that makes the tool "
+                   "tighter; 0: one convex hull for each mesh. More parts follow hollows and cost time.");
+  options.joints = read.numbers("tool/joints",
+                                "urdf only: position [rad or m] of moving joints within the tool, by name, within the "
+                                "joint's limits. The other joints are as close to 0 as they can be. The guard does not "
+                                "follow a joint that moves.");
+  options.mesh_roots = read.texts("tool/mesh_roots",
+                                  "urdf only: absolute folders that file:// meshes may be in, besides packages on "
+                                  "ROS_PACKAGE_PATH.");
+  read.refuseIfSet("tool/joint_states",
+                   "a tool that changes its shape while it moves is not supported; set tool/joints");
+  return options;
+}
+
+std::string told(const ToolModel& model, const std::string& parameter) {
+  std::ostringstream text;
+  text << model.parts.size() << " parts from " << parameter << " in the frame of '" << model.frame << "'";
+  for (const auto& [joint, position] : model.held) text << ", joint '" << joint << "' at " << position;
+  return text.str();
+}
+
+sweep_guard_core::Tool toolFromRobot(ParameterReader& read, const std::string& parameter,
+                                     const ToolModelOptions& options, std::string& story) {
+  const std::string urdf = read.textAbove(parameter);
+  if (urdf.empty()) {
+    throw sweep_guard_core::InvalidInput("tool/type is urdf, but there is no robot description in the parameter '" +
+                                         parameter + "': load one, or name it in tool/robot_description");
+  }
+  try {
+    ToolModel model = loadToolModel(urdf, options);
+    story = told(model, parameter);
+    return sweep_guard_core::Tool(std::move(model.parts));
+  } catch (const sweep_guard_core::InvalidInput& error) {
+    throw sweep_guard_core::InvalidInput("no tool from the parameter '" + parameter + "': " + error.what());
+  }
+}
+
+// @param before  has the same tool, but for its padding; null: there is none yet
+void readTool(ParameterReader& read, const Parameters* before, Parameters& parameters) {
+  const std::string type = read.choice("tool/type", "cylinder", {"cylinder", "urdf"},
+                                       "cylinder: the tool fills z in [-tool/length, 0] of its frame; z points out of "
+                                       "the tip. urdf: the tool is the collision geometry of a robot description.");
+  const double padding = read.number("tool/padding", 0.0, {0.0, 1.0, "m"}, "Grows the tool on all sides.");
+  const sweep_guard_core::Tool cylinder = readCylinder(read, padding);
+  const std::string description = read.name("tool/robot_description", "robot_description",
+                                            "urdf only: name of the parameter that holds the URDF, searched from the "
+                                            "node's namespace upwards.");
+  const ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
+  parameters.tool_padding = padding;
+  if (before != nullptr && before->tool_padding == padding) {
+    parameters.tool = before->tool;
+    parameters.tool_description_text = before->tool_description_text;
+    return;
+  }
+  parameters.tool_description_text = "a cylinder";
+  parameters.tool = std::make_shared<const sweep_guard_core::Tool>(
+      type == "urdf" ? toolFromRobot(read, description, options, parameters.tool_description_text) : cylinder);
+}
+
+Parameters readAll(ParameterReader& read, const Parameters* before) {
+  Parameters parameters;
+  parameters.fixed_frame = read.name("fixed_frame", "world", "tf frame in which motion is measured.");
+  const std::string source =
+      read.choice("tool_source", "topic", {"topic", "tf"},
+                  "topic: poses of the tool arrive on `tool_pose`. tf: the tool is the frame tool_frame in tf.");
+  parameters.tool_source = source == "tf" ? ToolSource::kTf : ToolSource::kTopic;
+  parameters.tool_frame = read.name("tool_frame", "tool",
+                                    "tf frame of the tool, and the tool's name in messages. With tool/type urdf: the "
+                                    "link that the poses are of; `tool` means the first of tool/links.");
+  readTool(read, before, parameters);
+  parameters.detector = read.choice("detector", "select", sweep_guard_core::detectorNames(),
+                                    "select: OpenGL selection off screen. halfspace: the same test on the processor's "
+                                    "vector units, the fastest. reference: clips every triangle in double precision, "
+                                    "slow.");
+  parameters.detector_options.cull = read.flag(
+      "cull", true, "select only: draws only triangles that do not lie wholly beyond one plane of the volume.");
+  parameters.detector_options.gl_context =
+      read.choice("gl_context", "osmesa", sweep_guard_core::offscreenContextNames(),
+                  "select only: library that gives it OpenGL. Both are Mesa, "
+                  "render in software and answer alike; Mesa has no OSMesa from "
+                  "version 25.1 on.");
+  parameters.detector_description = parameters.detector;
+  if (parameters.detector == "select")
+    parameters.detector_description += " on " + parameters.detector_options.gl_context;
+  if (parameters.detector == "halfspace")
+    parameters.detector_description += std::string(" on ") + sweep_guard_core::simd::kernels().name;
+  parameters.guard.sweep.fine =
+      read.flag("fine", true,
+                "Confirms the triangles that a volume meets: when, where and how deep the tool "
+                "touches them. A triangle that is proven to be missed is no contact.");
+  parameters.guard.sweep.volume = sweep_guard_core::volumeKind(
+      read.choice("volume", "obb_planes", {"obb", "obb_planes", "hull"},
+                  "Volume around the tool at two poses. obb: oriented box. obb_planes: box cut by two side planes and "
+                  "two front planes, tighter. hull: convex hull, tightest and slower."));
+  parameters.guard.sweep.max_rotation = read.number("max_rotation_per_sweep", 0.175, {0.01, 0.5, "rad"},
+                                                    "A motion that turns more is swept in several steps. Smaller is "
+                                                    "tighter and slower.");
+  parameters.limits.min_probability = read.number("warning/min_probability", 0.1, {0.001, 1.0},
+                                                  "A contact off the predicted path raises a warning from this "
+                                                  "probability on. Smaller warns earlier, with more false alarms.");
+  parameters.limits.hold_time = duration(read.number("warning/hold_time", 0.5, {0.0, 60.0, "s"},
+                                                     "A warning stays for this long after its cause is over."));
+  parameters.limits.pose_timeout = duration(
+      read.number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"}, "An older tool pose makes the warning UNKNOWN."));
+  parameters.limits.mesh_timeout = duration(read.number(
+      "timing/mesh_timeout", 0.5, {0.01, kInfinity, "s"},
+      "An older workpiece makes the warning UNKNOWN. .inf (inf on a command line): workpieces do not age."));
+  parameters.guard.predictor = readPredictor(read);
+  parameters.guard.horizon = readHorizon(read, parameters.limits.pose_timeout);
+  parameters.limits.reflex = parameters.guard.horizon.reflex;
+  parameters.limits.considered = parameters.guard.horizon.considered;
+  parameters.guard.cycle = duration(1.0 / read.number("timing/min_rate", 15.0, {1.0, 1000.0, "Hz"},
+                                                      "Poses are swept, and the path ahead is tested, at least this "
+                                                      "often."));
+  parameters.marker_rate = read.number("timing/marker_rate", 15.0, {0.1, 100.0, "Hz"},
+                                       "~markers are published at most this often, and only to subscribers.");
+  for (const std::string& part : markerNamespaces()) {
+    if (read.flag(kMarkers + part, true, "Publishes the namespace " + part + " of ~markers."))
+      parameters.marker_namespaces.insert(part);
+  }
+  parameters.realtime_priority = read.integer("timing/realtime_priority", 0, 0, 99,
+                                              "Above 0 the sweeping thread asks for this real-time priority "
+                                              "(SCHED_FIFO). If the system refuses, the log says what to set.");
+  parameters.max_triangles = static_cast<size_t>(
+      read.integer("limits/max_triangles", 1000000, 1, 10000000, "A mesh with more triangles is refused."));
+  read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // diagnostic_updater leaves it there
+  parameters.settings = read.settings();
+  parameters.described = read.described();
+  return parameters;
+}
+
+}  // namespace
+
+Parameters loadParameters(const ros::NodeHandle& private_node) {
+  ParameterReader read(private_node);
+  Parameters parameters = readAll(read, nullptr);
+  read.warnOfUnread();
+  return parameters;
+}
+
+bool changesWhileRunning(const std::string& key) {
+  return std::count(kTunable.begin(), kTunable.end(), key) != 0 || key.compare(0, kMarkers.size(), kMarkers) == 0;
+}
+
+Parameters changeParameters(const ros::NodeHandle& private_node, const Parameters& before,
+                            const std::map<std::string, ParameterValue>& changes) {
+  ParameterReader::Settings settings = before.settings;
+  for (const auto& [key, value] : changes) {
+    const std::string name = private_node.resolveName(key);
+    if (settings.count(key) == 0) throw sweep_guard_core::InvalidInput("there is no parameter " + name);
+    if (!changesWhileRunning(key)) {
+      throw sweep_guard_core::InvalidInput("parameter " + name + " does not change while the guard runs: restart it");
+    }
+    std::visit([&, key = key](const auto& held) { settings[key] = XmlRpc::XmlRpcValue(held); }, value);
+  }
+  ParameterReader read(private_node, std::move(settings));
+  return readAll(read, &before);
+}
+
+std::vector<ParameterChange> differences(const Parameters& before, const Parameters& after) {
+  std::vector<ParameterChange> changes;
+  for (size_t i = 0; i < after.described.size(); ++i) {
+    const ParameterInfo& was = before.described[i];
+    const ParameterInfo& is = after.described[i];
+    if (was.value != is.value) changes.push_back({is.key, was.value, is.value});
+  }
+  return changes;
+}
+
+bool differ(const Parameters& before, const Parameters& after, const std::string& beginning) {
+  const std::vector<ParameterChange> changes = differences(before, after);
+  return std::any_of(changes.begin(), changes.end(), [&](const ParameterChange& change) {
+    return change.key.compare(0, beginning.size(), beginning) == 0;
+  });
+}
+
+bool detectorsDiffer(const Parameters& before, const Parameters& after) {
+  return differ(before, after, "detector") || differ(before, after, "cull");
+}
+
+LiveParameters::LiveParameters(Parameters initial)
+    : initial_(std::make_shared<const Parameters>(std::move(initial))), current_(initial_) {}
+
+std::shared_ptr<const Parameters> LiveParameters::get() const {
+  const std::lock_guard lock(mutex_);
+  return current_;
+}
+
+void LiveParameters::set(std::shared_ptr<const Parameters> parameters) {
+  const std::lock_guard lock(mutex_);
+  std::swap(current_, parameters);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,186 @@
+#include "ros/parameters/reconfigure_server.h"
+
+#include <dynamic_reconfigure/ConfigDescription.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using dynamic_reconfigure::Config;
+using dynamic_reconfigure::ConfigDescription;
+
+const std::string kRoot = "Default";  // the name that clients know
+
+std::string typeOf(const ParameterValue& value) {
+  static const std::vector<std::string> types = {"bool", "int", "double", "str"};
+  return types[value.index()];
+}
+
+template <typename Parameter, typename Value>
+void append(std::vector<Parameter>& list, const std::string& key, const Value& value) {
+  list.emplace_back();
+  list.back().name = key;
+  list.back().value = value;
+}
+
+void append(Config& config, const std::string& key, const ParameterValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value)) append(config.bools, key, *flag);
+  if (const auto* integer = std::get_if<int>(&value)) append(config.ints, key, *integer);
+  if (const auto* number = std::get_if<double>(&value)) append(config.doubles, key, *number);
+  if (const auto* text = std::get_if<std::string>(&value)) append(config.strs, key, *text);
+}
+
+// Of a value's own type; texts have none.
+ParameterValue limit(const ParameterInfo& info, double bound) {
+  if (std::holds_alternative<bool>(info.value)) return bound > 0.5;
+  if (std::holds_alternative<int>(info.value)) return static_cast<int>(bound);
+  if (std::holds_alternative<double>(info.value)) return bound;
+  return std::string();
+}
+
+// As a Python expression, which is what clients read.
+std::string enumeration(const std::vector<std::string>& choices) {
+  if (choices.empty()) return "";
+  std::ostringstream list;
+  for (const std::string& choice : choices) {
+    list << "{'name': '" << choice << "', 'value': '" << choice
+         << "', 'type': 'str', 'description': '', 'ctype': 'std::string', 'cconsttype': 'const char * const', "
+            "'srcfile': '', 'srcline': 0}, ";
+  }
+  return "{'enum': [" + list.str() + "], 'enum_description': ''}";
+}
+
+std::string groupOf(const std::string& key) {
+  const size_t slash = key.find('/');
+  return slash == std::string::npos ? kRoot : key.substr(0, slash);
+}
+
+// In the order in which they are read; a key's group is what stands before its slash.
+std::vector<dynamic_reconfigure::Group> groups(const std::vector<ParameterInfo>& tunable) {
+  std::vector<dynamic_reconfigure::Group> groups(1);
+  groups[0].name = kRoot;
+  for (const ParameterInfo& info : tunable) {
+    const auto same = [name = groupOf(info.key)](const auto& group) { return group.name == name; };
+    auto group = std::find_if(groups.begin(), groups.end(), same);
+    if (group == groups.end()) {
+      group = groups.emplace(group);
+      group->name = groupOf(info.key);
+      group->id = static_cast<int>(groups.size()) - 1;
+    }
+    dynamic_reconfigure::ParamDescription parameter;
+    parameter.name = info.key;
+    parameter.type = typeOf(info.value);
+    parameter.description = info.effect + " (" + info.wanted + ")";
+    parameter.edit_method = enumeration(info.choices);
+    group->parameters.push_back(parameter);
+  }
+  return groups;
+}
+
+std::vector<ParameterInfo> tunable(const Parameters& parameters) {
+  std::vector<ParameterInfo> tunable;
+  for (const ParameterInfo& info : parameters.described) {
+    if (changesWhileRunning(info.key)) tunable.push_back(info);
+  }
+  return tunable;
+}
+
+void appendGroups(Config& config, const std::vector<ParameterInfo>& tunable) {
+  for (const dynamic_reconfigure::Group& group : groups(tunable)) {
+    config.groups.emplace_back();
+    config.groups.back().name = group.name;
+    config.groups.back().state = true;
+    config.groups.back().id = group.id;
+    config.groups.back().parent = group.parent;
+  }
+}
+
+Config values(const Parameters& parameters) {
+  Config config;
+  const std::vector<ParameterInfo> infos = tunable(parameters);
+  for (const ParameterInfo& info : infos) append(config, info.key, info.value);
+  appendGroups(config, infos);
+  return config;
+}
+
+ConfigDescription description(const Parameters& parameters) {
+  ConfigDescription description;
+  const std::vector<ParameterInfo> infos = tunable(parameters);
+  for (const ParameterInfo& info : infos) {
+    append(description.min, info.key, limit(info, info.lowest));
+    append(description.max, info.key, limit(info, info.highest));
+    append(description.dflt, info.key, info.fallback);
+  }
+  description.groups = groups(infos);
+  for (Config* config : {&description.min, &description.max, &description.dflt}) appendGroups(*config, infos);
+  return description;
+}
+
+std::map<std::string, ParameterValue> asked(const Config& request) {
+  std::map<std::string, ParameterValue> changes;
+  for (const auto& flag : request.bools) changes[flag.name] = flag.value != 0;
+  for (const auto& integer : request.ints) changes[integer.name] = integer.value;
+  for (const auto& number : request.doubles) changes[number.name] = number.value;
+  for (const auto& text : request.strs) changes[text.name] = text.value;
+  return changes;
+}
+
+}  // namespace
+
+ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_node, const LiveParameters& parameters, Adopt adopt)
+    : private_node_(private_node),
+      parameters_(parameters),
+      adopt_(std::move(adopt)),
+      descriptions_(private_node_.advertise<ConfigDescription>("parameter_descriptions", 1, /*latch=*/true)),
+      values_(private_node_.advertise<Config>("parameter_updates", 1, /*latch=*/true)),
+      server_(thread_.on(private_node).advertiseService("set_parameters", &ReconfigureServer::onSet, this)) {
+  descriptions_.publish(description(parameters_.initial()));
+  publishValues();
+}
+
+ReconfigureServer::History ReconfigureServer::history() const {
+  const std::lock_guard lock(mutex_);
+  return history_;
+}
+
+// What is thrown goes to the caller as the reason of a failed call, and to the log.
+bool ReconfigureServer::onSet(Event& event) {
+  const std::string& caller = event.getCallerName();
+  try {
+    change(event.getRequest().config, caller);
+  } catch (const std::exception& error) {
+    const std::lock_guard lock(mutex_);
+    history_.last_refusal = std::string(error.what()) + " (asked for by " + caller + ")";
+    publishValues();  // whoever shows what was asked for sees what is in force
+    throw;
+  }
+  event.getResponse().config = values(*parameters_.get());
+  publishValues();
+  return true;
+}
+
+void ReconfigureServer::change(const Config& request, const std::string& caller) {
+  const std::shared_ptr<const Parameters> before = parameters_.get();
+  const auto next = std::make_shared<const Parameters>(changeParameters(private_node_, *before, asked(request)));
+  const std::vector<ParameterChange> changes = differences(*before, *next);
+  if (changes.empty()) return;
+  adopt_(next);
+  std::string history;
+  for (const ParameterChange& change : changes) {
+    std::visit([&](const auto& value) { private_node_.setParam(change.key, value); }, change.after);
+    history +=
+        (history.empty() ? "" : ", ") + change.key + " from " + shown(change.before) + " to " + shown(change.after);
+  }
+  ROS_INFO("%s changed %s", caller.c_str(), history.c_str());
+  const std::lock_guard lock(mutex_);
+  history_.last_change = history + " (by " + caller + ")";
+}
+
+void ReconfigureServer::publishValues() { values_.publish(values(*parameters_.get())); }
+
+}  // namespace sweep_guard_ros

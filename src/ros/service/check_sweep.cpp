@@ -1,0 +1,137 @@
+#include "ros/service/check_sweep.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::CheckSweep;
+using sweep_guard_core::InvalidInput;
+
+constexpr size_t kMaxPoses = 1024;
+constexpr auto kTransformMayBeLate = std::chrono::milliseconds(100);
+
+// When a path first meets something.
+struct Moment {
+  size_t segment;
+  std::optional<double> time_of_impact;  // in that segment
+};
+
+Moment earlier(const std::optional<Moment>& a, const Moment& b) {
+  return a && std::tie(a->segment, a->time_of_impact) < std::tie(b.segment, b.time_of_impact) ? *a : b;
+}
+
+}  // namespace
+
+CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const LiveParameters& live,
+                                     const Frames& frames, const WorkpieceStore& workpieces)
+    : live_(live),
+      frames_(frames),
+      workpieces_(workpieces),
+      server_(thread_.on(private_node).advertiseService("check_sweep", &CheckSweepService::onCall, this)) {}
+
+// What cannot be tested is answered, not thrown away: a failed ROS call tells the caller nothing.
+bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Response& response) {
+  const auto begin = std::chrono::steady_clock::now();
+  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
+  try {
+    refreshParameters();
+    check(request, response);
+    response.success = true;
+  } catch (const std::exception& error) {
+    response = CheckSweep::Response();
+    response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
+    response.message = error.what();
+  }
+  response.compute_time = ros::Duration(sweep_guard_core::toSeconds(std::chrono::steady_clock::now() - begin));
+  return true;
+}
+
+void CheckSweepService::refreshParameters() {
+  const auto current = live_.get();
+  if (current == parameters_) return;
+  if (parameters_ && detectorsDiffer(*parameters_, *current)) detectors_.clear();
+  parameters_ = current;
+}
+
+void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
+  if (request.path.empty()) throw InvalidInput("the path is empty: send one pose or more");
+  if (request.path.size() > kMaxPoses) {
+    throw InvalidInput("the path has " + std::to_string(request.path.size()) + " poses: send at most 1024");
+  }
+  if (!(request.margin >= 0.0 && request.margin <= sweep_guard_core::kMaxCoordinate)) {
+    throw InvalidInput("the margin must be a length >= 0 m");
+  }
+  sweep_guard_core::SweepOptions options = parameters_->guard.sweep;
+  if (!request.volume.empty()) options.volume = sweep_guard_core::volumeKind(request.volume);
+  options.margin = request.margin;
+  options.fine = request.fine;
+  sweep_guard_core::Detector& used = detector(request.detector.empty() ? parameters_->detector : request.detector);
+
+  const auto give_up = [this] {
+    if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
+  };
+  std::optional<Moment> first;
+  response.clear = true;
+  for (const auto& workpiece : choose(request.mesh_ids)) {
+    auto path = sweep_guard_core::checkPath(used, *parameters_->tool, pathIn(workpiece->frame, request.path),
+                                            workpiece->mesh_M, options, give_up);
+    response.margin = std::max(response.margin, path.all.margin);
+    response.clear = response.clear && fresh(*workpiece);
+    if (!path.all.triangles.empty() || path.all.inside)
+      response.objects.push_back(toMsg(*workpiece, path.all, *parameters_->tool));
+    if (path.first_contact) first = earlier(first, {*path.first_contact, path.time_of_impact});
+  }
+  response.collision = first.has_value();
+  response.clear = response.clear && !response.collision;
+  if (!first) return;
+  response.segment = static_cast<std::uint32_t>(first->segment);
+  if (first->time_of_impact) response.time_of_impact = *first->time_of_impact;
+}
+
+sweep_guard_core::Workpieces CheckSweepService::choose(const std::vector<std::string>& ids) const {
+  sweep_guard_core::Workpieces all = workpieces_.snapshot();
+  if (all.empty()) throw InvalidInput("no workpiece yet: nothing can be promised");
+  if (ids.empty()) return all;
+  sweep_guard_core::Workpieces chosen;
+  for (const std::string& id : std::set<std::string>(ids.begin(), ids.end())) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& workpiece) { return workpiece->id == id; });
+    if (found == all.end()) throw InvalidInput("there is no workpiece '" + id + "'");
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh_frame,
+                                                         const std::vector<geometry_msgs::PoseStamped>& path) const {
+  std::vector<Eigen::Isometry3d> path_M;
+  for (size_t i = 0; i < path.size(); ++i) {
+    try {
+      path_M.push_back(
+          frames_.lookup(mesh_frame, path[i].header.frame_id, fromMsg(path[i].header.stamp), kTransformMayBeLate) *
+          fromMsg(path[i].pose));
+    } catch (const sweep_guard_core::Error& error) {
+      throw InvalidInput("pose " + std::to_string(i) + ": " + error.what());
+    }
+  }
+  return path_M;
+}
+
+bool CheckSweepService::fresh(const sweep_guard_core::Workpiece& workpiece) const {
+  return !sweep_guard_core::stale({workpiece.stamp, workpiece.received}, now(), parameters_->limits.mesh_timeout);
+}
+
+sweep_guard_core::Detector& CheckSweepService::detector(const std::string& name) {
+  const auto made = detectors_.find(name);
+  if (made != detectors_.end()) return *made->second;
+  return *detectors_.emplace(name, sweep_guard_core::makeDetector(name, parameters_->detector_options)).first->second;
+}
+
+}  // namespace sweep_guard_ros

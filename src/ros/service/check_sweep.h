@@ -1,0 +1,51 @@
+#pragma once
+
+#include <ros/service_server.h>
+#include <sweep_guard/CheckSweep.h>
+
+#include <atomic>
+#include <map>
+#include <memory>
+
+#include "ros/input/frames.h"
+#include "ros/input/workpiece_store.h"
+#include "ros/parameters/parameters.h"
+#include "sweep_guard/ros/queue_thread.h"
+
+namespace sweep_guard_ros {
+
+/// The service `~check_sweep`: sweeps a path of poses against the workpieces as they are now. Own thread, own
+/// detectors, a snapshot of the meshes: it never delays the guard.
+class CheckSweepService {
+ public:
+  CheckSweepService(const ros::NodeHandle& private_node, const LiveParameters& live, const Frames& frames,
+                    const WorkpieceStore& workpieces);
+
+  ~CheckSweepService() { stopping_ = true; }
+  CheckSweepService(const CheckSweepService&) = delete;
+  CheckSweepService& operator=(const CheckSweepService&) = delete;
+
+  void start() { thread_.start(); }
+
+ private:
+  bool onCall(sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
+  void refreshParameters();
+  void check(const sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
+  sweep_guard_core::Workpieces choose(const std::vector<std::string>& ids) const;
+  std::vector<Eigen::Isometry3d> pathIn(const std::string& mesh_frame,
+                                        const std::vector<geometry_msgs::PoseStamped>& path) const;
+  bool fresh(const sweep_guard_core::Workpiece& workpiece) const;
+  sweep_guard_core::Detector& detector(const std::string& name);
+
+  const LiveParameters& live_;
+  std::shared_ptr<const Parameters> parameters_;  // of the newest call
+  const Frames& frames_;
+  const WorkpieceStore& workpieces_;
+  std::map<std::string, std::unique_ptr<sweep_guard_core::Detector>>
+      detectors_;  // made when first asked for, with these
+  std::atomic<bool> stopping_ = false;
+  QueueThread thread_;  // outlives what calls back on it
+  ros::ServiceServer server_;
+};
+
+}  // namespace sweep_guard_ros

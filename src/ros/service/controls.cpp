@@ -1,0 +1,66 @@
+#include "ros/service/controls.h"
+
+#include <ros/console.h>
+
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+
+Controls::Controls(const ros::NodeHandle& private_node, sweep_guard_core::WarningMonitor& monitor,
+                   const WorkpieceStore& workpieces, std::function<void()> reset)
+    : monitor_(monitor),
+      workpieces_(workpieces),
+      reset_(std::move(reset)),
+      enable_server_(thread_.on(private_node).advertiseService("enable", &Controls::onEnable, this)),
+      reset_server_(thread_.on(private_node).advertiseService("reset", &Controls::onReset, this)) {}
+
+bool Controls::onEnable(EnableEvent& event) {
+  if (event.getRequest().data) {
+    enable(event.getResponse());
+  } else {
+    disable(event.getCallerName(), event.getResponse());
+  }
+  ROS_WARN("~enable called by %s: %s", event.getCallerName().c_str(), event.getResponse().message.c_str());
+  return true;
+}
+
+void Controls::enable(std_srvs::SetBool::Response& response) {
+  response.success = true;
+  const auto asked_by = monitor_.disabledBy();
+  response.message = "it is enabled already";
+  if (!asked_by) return;
+  monitor_.enable();
+  response.message = "enabled after " + *asked_by + " had it disabled: coverage begins with the next tool pose";
+}
+
+void Controls::disable(const std::string& asked_by, std_srvs::SetBool::Response& response) {
+  sweep_guard_core::Warning warning;
+  monitor_.warning(now(), warning);
+  if (warning.level >= sweep_guard_core::WarningLevel::kReflex) {
+    response.message = "not disabled while this is warned of: " + warning.text;
+    return;
+  }
+  monitor_.disable(asked_by);
+  response.success = true;
+  response.message =
+      "disabled by " + monitor_.disabledBy().value_or(asked_by) + ": nothing is tested, nothing is clear";
+}
+
+bool Controls::onReset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  try {
+    reset_();
+    response.success = true;
+    response.message =
+        "forgotten: tool poses, what was swept, the prediction and what it had learned, warnings held, faults, what "
+        "the "
+        "diagnostics counted of sweeps. Kept: the workpieces (" +
+        std::to_string(workpieces_.snapshot().size()) + "), the parameters, the counts of the warning";
+    if (monitor_.disabledBy()) response.message += "; and the guard stays disabled";
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+  ROS_WARN("~reset called: %s", response.message.c_str());
+  return true;
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,224 @@
+// Reads a mesh file for the guard, in a process of its own: assimp crashes on some broken files.
+#include <assimp/config.h>
+#include <assimp/scene.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ros/tool/mesh_text.h"
+#include "ros/tool/mesh_wire.h"
+
+namespace {
+
+using sweep_guard_ros::kMaxMeshTriangles;
+using Point = std::array<double, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr rlim_t kMemory = rlim_t{1} << 30U;  // [byte]
+constexpr rlim_t kProcessorTime = 10;         // [s]
+constexpr int kDeepestNode = 100;
+constexpr double kFlattest = 1e-6;  // volume of what a transform makes of a cube, per product of its edges
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kMemoryIsLimited = false;  // sanitizers reserve terabytes of addresses
+#else
+constexpr bool kMemoryIsLimited = true;
+#endif
+
+void limit(__rlimit_resource resource, rlim_t most) {
+  const rlimit both{most, most};
+  if (setrlimit(resource, &both) != 0) throw std::runtime_error("the reader cannot limit itself");
+}
+
+// From here on no file can be opened: a mesh may name others, and what they are is not known.
+void confine() {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  close_range(3, ~0U, 0);
+  limit(RLIMIT_NOFILE, 0);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, kProcessorTime);
+  if (kMemoryIsLimited) limit(RLIMIT_AS, kMemory);
+}
+
+struct Surface {
+  std::vector<Point> vertices;
+  std::vector<Triangle> triangles;
+  size_t faces = 0;
+  size_t polygons = 0;  // faces of three corners or more
+  bool solid = false;   // one of them has three different corners
+
+  std::uint32_t add(const Point& point) {
+    const auto [known, is_new] = index_.try_emplace(point, static_cast<std::uint32_t>(vertices.size()));
+    if (is_new) vertices.push_back(point);
+    return known->second;
+  }
+
+ private:
+  std::map<Point, std::uint32_t> index_;
+};
+
+Point transformed(const aiMatrix4x4& X, const aiVector3D& p) {
+  const auto x = static_cast<double>(p.x);
+  const auto y = static_cast<double>(p.y);
+  const auto z = static_cast<double>(p.z);
+  const auto row = [&](ai_real a, ai_real b, ai_real c, ai_real d) {
+    return static_cast<double>(a) * x + static_cast<double>(b) * y + static_cast<double>(c) * z +
+           static_cast<double>(d);
+  };
+  return {row(X.a1, X.a2, X.a3, X.a4), row(X.b1, X.b2, X.b3, X.b4), row(X.c1, X.c2, X.c3, X.c4)};
+}
+
+bool finite(const Point& point) {
+  for (const double coordinate : point) {
+    if (!(coordinate > -1e30 && coordinate < 1e30)) return false;
+  }
+  return true;
+}
+
+// A fan covers the polygon, be it concave. Points and edges become triangles without an area.
+void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, Surface& surface) {
+  if (face.mNumIndices == 0) return;
+  std::vector<std::uint32_t> corners;
+  for (unsigned i = 0; i < face.mNumIndices; ++i) {
+    if (face.mIndices[i] >= vertex.size()) throw std::runtime_error("a face names a missing vertex");
+    corners.push_back(vertex[face.mIndices[i]]);
+  }
+  ++surface.faces;
+  if (corners.size() >= 3) ++surface.polygons;
+  surface.solid = surface.solid || std::set<std::uint32_t>(corners.begin(), corners.end()).size() >= 3;
+  while (corners.size() < 3) corners.push_back(corners.back());
+  for (size_t i = 2; i < corners.size(); ++i) surface.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+  if (surface.triangles.size() > kMaxMeshTriangles) throw std::runtime_error("it has more than a million triangles");
+}
+
+void addMesh(const aiMesh& mesh, const aiMatrix4x4& X, Surface& surface) {
+  std::vector<std::uint32_t> vertex;
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    const Point point = transformed(X, mesh.mVertices[i]);
+    if (!finite(point)) throw std::runtime_error("a vertex is NaN or infinite");
+    vertex.push_back(surface.add(point));
+  }
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) addFace(mesh.mFaces[i], vertex, surface);
+}
+
+// No part may become flat, or a point, on its way to where it belongs.
+bool collapsesSpace(const aiMatrix4x4& X) {
+  const Eigen::Matrix3d linear{{X.a1, X.a2, X.a3}, {X.b1, X.b2, X.b3}, {X.c1, X.c2, X.c3}};
+  return !(std::abs(linear.determinant()) > kFlattest * linear.colwise().norm().prod());
+}
+
+void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_parent, int depth, Surface& surface) {
+  if (depth > kDeepestNode) throw std::runtime_error("its nodes are nested too deeply");
+  const aiMatrix4x4 X = X_parent * node.mTransformation;
+  if (node.mNumMeshes > 0 && collapsesSpace(X)) throw std::runtime_error("a transform in it collapses space");
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene.mMeshes[node.mMeshes[i]], X, surface);
+  for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], X, depth + 1, surface);
+}
+
+// Some of what assimp leaves out is but a warning to it; most warnings are about materials.
+bool tellsOfLoss(const std::string& message) {
+  return message.rfind("Warn", 0) != 0 || message.find("Skipping") != std::string::npos;
+}
+
+// assimp goes on after an error and leaves out what it did not understand: a tool must not lose a part that way.
+class FirstError : public Assimp::LogStream {
+ public:
+  explicit FirstError(std::string& text) : text_(text) {}
+  void write(const char* message) override {
+    if (text_.empty() && tellsOfLoss(message)) text_ = message;
+  }
+
+ private:
+  std::string& text_;
+};
+
+void requireComplete(const std::string& bytes, const std::string& format, const Surface& surface) {
+  if (surface.polygons == 0) throw std::runtime_error("it has no triangles");
+  if (!surface.solid) throw std::runtime_error("all its triangles are points or lines");
+  const size_t announced = sweep_guard_ros::facesAnnounced(bytes, format);
+  if (surface.faces < announced) {
+    throw std::runtime_error("only " + std::to_string(surface.faces) + " of its " + std::to_string(announced) +
+                             " faces can be read");
+  }
+}
+
+// Without what only assimp knows of: its log's prefix, and the name that it gives to bytes in memory.
+std::string plain(std::string text) {
+  for (const std::string& noise :
+       {std::string("Error, T0: "), std::string("Warn,  T0: "), std::string(" for $$$___magic___$$$.stl")}) {
+    const size_t at = text.find(noise);
+    if (at != std::string::npos) text.erase(at, noise.size());
+  }
+  return text;
+}
+
+Surface read(std::string bytes, const std::string& format) {
+  if (bytes.empty()) throw std::runtime_error("it is empty");
+  if (bytes.compare(0, 19, "version https://git") == 0) {
+    throw std::runtime_error("it is a git-lfs pointer, not the mesh: run git lfs pull");
+  }
+  sweep_guard_ros::simplify(bytes, format);
+  std::string error;
+  Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
+  Assimp::DefaultLogger::get()->attachStream(new FirstError(error), Assimp::Logger::Err | Assimp::Logger::Warn);
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as rviz: axes as they stand
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);           // a file without a mesh has none
+  const aiScene* const scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
+  if (scene == nullptr || scene->mRootNode == nullptr) throw std::runtime_error(plain(importer.GetErrorString()));
+  if (!error.empty()) throw std::runtime_error(plain(error));
+  sweep_guard_ros::requireReadable(bytes, format);
+  Surface surface;
+  addNode(*scene, *scene->mRootNode, aiMatrix4x4(), 0, surface);
+  requireComplete(bytes, format, surface);
+  return surface;
+}
+
+template <typename Value>
+void write(const std::vector<Value>& values) {
+  std::cout.write(reinterpret_cast<const char*>(values.data()),
+                  static_cast<std::streamsize>(values.size() * sizeof(Value)));
+}
+
+void write(const Surface& surface) {
+  write(std::vector<sweep_guard_ros::MeshWireHeader>{
+      {static_cast<std::uint32_t>(surface.vertices.size()), static_cast<std::uint32_t>(surface.triangles.size())}});
+  write(surface.vertices);
+  write(surface.triangles);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: mesh_reader stl|obj|dae <FILE\n";
+    return 2;
+  }
+  try {
+    confine();
+    write(read({std::istreambuf_iterator<char>(std::cin), {}}, argv[1]));
+    std::cout.flush();
+    return std::cout ? 0 : 2;
+  } catch (const std::bad_alloc&) {
+    std::cout << "reading it takes more than 1 GiB of memory";
+  } catch (const std::exception& error) {
+    std::cout << error.what();
+  }
+  std::cout.flush();
+  return 1;
+}

@@ -1,0 +1,257 @@
+#include "ros/tool/robot_description.h"
+
+#include <console_bridge/console.h>
+#include <tinyxml2.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::InvalidInput;
+using tinyxml2::XMLElement;
+
+constexpr size_t kMaxDescription = size_t{8} << 20U;  // [byte]
+constexpr int kMaxMimicry = 16;
+constexpr double kMaxTurned = 1e4;  // [rad] of a continuous joint
+
+/// urdfdom tells what is wrong through console_bridge, from the detail to the link, and goes on after some errors.
+class Complaints : public console_bridge::OutputHandler {
+ public:
+  Complaints() { console_bridge::useOutputHandler(this); }
+  ~Complaints() override { console_bridge::restorePreviousOutputHandler(); }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) text_ += (text_.empty() ? "" : "; ") + text;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string oneLine(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return text.substr(0, 300);
+}
+
+std::string nameOf(const XMLElement& element) {
+  const char* const name = element.Attribute("name");
+  return name == nullptr ? "" : name;
+}
+
+int elements(const XMLElement& parent, const char* name = nullptr) {
+  int count = 0;
+  for (const XMLElement* e = parent.FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) ++count;
+  return count;
+}
+
+// Of several, urdfdom reads the first and says nothing.
+void requireOneGeometry(const XMLElement& collision, const std::string& link) {
+  const XMLElement* const geometry = collision.FirstChildElement("geometry");
+  if (geometry != nullptr && elements(collision, "geometry") == 1 && elements(*geometry) == 1) return;
+  throw InvalidInput("link '" + link + "': a collision must have one geometry of one shape; give each shape its own");
+}
+
+class PrinterWithoutComments : public tinyxml2::XMLPrinter {
+ public:
+  using tinyxml2::XMLPrinter::Visit;
+  bool Visit(const tinyxml2::XMLComment&) override { return true; }
+};
+
+// urdfdom's complaints take what they quote for a format of printf().
+std::string withoutFormats(std::string xml) {
+  const std::string full_width = "\xEF\xBC\x85";
+  for (size_t at = xml.find('%'); at != std::string::npos; at = xml.find('%', at)) xml.replace(at, 1, full_width);
+  return xml;
+}
+
+// tinyxml2 bounds how deeply elements nest, which TinyXML, and so urdfdom, does not.
+std::string checkedXml(const std::string& urdf) {
+  if (urdf.size() > kMaxDescription) throw InvalidInput("it is larger than 8 MiB");
+  tinyxml2::XMLDocument document;
+  if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) {
+    throw InvalidInput("it is no XML: " + oneLine(document.ErrorStr()));
+  }
+  const XMLElement* const robot = document.FirstChildElement("robot");
+  if (robot == nullptr) throw InvalidInput("it has no element <robot>");
+  for (const XMLElement* link = robot->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    for (const XMLElement* collision = link->FirstChildElement("collision"); collision != nullptr;
+         collision = collision->NextSiblingElement("collision")) {
+      requireOneGeometry(*collision, nameOf(*link));
+    }
+  }
+  PrinterWithoutComments printer;
+  document.Accept(&printer);
+  return withoutFormats(printer.CStr());
+}
+
+std::shared_ptr<const urdf::ModelInterface> parse(const std::string& xml) {
+  const Complaints complaints;
+  std::shared_ptr<const urdf::ModelInterface> model;
+  std::string reason;
+  try {
+    model = urdf::parseURDF(xml);
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (!complaints.text().empty()) reason = complaints.text();
+  if (reason.empty() && (!model || !model->getRoot())) reason = "there is no root link";
+  if (!reason.empty()) throw InvalidInput("it is no URDF: " + oneLine(reason));
+  return model;
+}
+
+void requireOneParentEach(const urdf::ModelInterface& model) {
+  std::map<std::string, std::string> parent_joint;
+  for (const auto& [name, joint] : model.joints_) {
+    const auto [other, is_first] = parent_joint.emplace(joint->child_link_name, name);
+    if (!is_first) {
+      throw InvalidInput("link '" + joint->child_link_name + "' is the child of two joints, '" + other->second +
+                         "' and '" + name + "'");
+    }
+  }
+}
+
+std::string shown(double lower, double upper) {
+  std::ostringstream text;
+  text << lower << " to " << upper;
+  return text.str();
+}
+
+bool hasLimits(const urdf::Joint& joint) {
+  return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC;
+}
+
+std::pair<double, double> limitsOf(const urdf::Joint& joint) {
+  if (!hasLimits(joint)) return {-kMaxTurned, kMaxTurned};
+  const bool usable = joint.limits && std::isfinite(joint.limits->lower) && std::isfinite(joint.limits->upper) &&
+                      joint.limits->lower <= joint.limits->upper;
+  if (!usable)
+    throw InvalidInput("joint '" + joint.name + "': its limits are missing, or the lower is above the upper");
+  return {joint.limits->lower, joint.limits->upper};
+}
+
+Eigen::Vector3d axisOf(const urdf::Joint& joint) {
+  const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
+  const double length = axis.stableNorm();
+  if (!(length > 1e-6 && length < 1e6)) throw InvalidInput("joint '" + joint.name + "': its axis must not be 0");
+  return axis / length;
+}
+
+}  // namespace
+
+RobotDescription::RobotDescription(const std::string& urdf) : model_(parse(checkedXml(urdf))) {
+  requireOneParentEach(*model_);
+}
+
+const urdf::Link* RobotDescription::link(const std::string& name) const {
+  const auto found = model_->links_.find(name);
+  return found == model_->links_.end() ? nullptr : found->second.get();
+}
+
+std::vector<const urdf::Link*> RobotDescription::below(const urdf::Link& link) {
+  std::vector<const urdf::Link*> links;
+  std::vector<const urdf::Link*> open{&link};
+  while (!open.empty()) {
+    links.push_back(open.back());
+    open.pop_back();
+    const auto& children = links.back()->child_links;
+    for (auto child = children.rbegin(); child != children.rend(); ++child) open.push_back(child->get());
+  }
+  return links;
+}
+
+LinkPoses::LinkPoses(const RobotDescription& robot, std::map<std::string, double> positions)
+    : robot_(robot), positions_(std::move(positions)) {
+  for (const auto& [name, position] : positions_) {
+    if (!robot_.hasJoint(name)) throw InvalidInput("there is no joint '" + name + "' that tool/joints could set");
+    if (!std::isfinite(position)) throw InvalidInput("the position of joint '" + name + "' is not finite");
+  }
+}
+
+// Ends in a loop, too: urdfdom lets one pass that hangs on nothing.
+std::vector<const urdf::Joint*> LinkPoses::pathToRoot(const urdf::Link& link) const {
+  std::vector<const urdf::Joint*> path;
+  const urdf::Link* at = &link;
+  while (at->parent_joint) {
+    path.push_back(at->parent_joint.get());
+    at = robot_.link(path.back()->parent_link_name);
+    if (at == nullptr || path.size() > robot_.model_->joints_.size()) {
+      throw InvalidInput("link '" + link.name + "' does not hang on the root link '" + robot_.root().name + "'");
+    }
+  }
+  return path;
+}
+
+Eigen::Isometry3d LinkPoses::X_FL(const urdf::Link& frame, const urdf::Link& link) {
+  const std::vector<const urdf::Joint*> to_frame = pathToRoot(frame);
+  const std::vector<const urdf::Joint*> to_link = pathToRoot(link);
+  size_t shared = 0;  // joints above both: they move both alike
+  while (shared < std::min(to_frame.size(), to_link.size()) &&
+         to_frame[to_frame.size() - 1 - shared] == to_link[to_link.size() - 1 - shared]) {
+    ++shared;
+  }
+  return X_RL(to_frame, shared).inverse() * X_RL(to_link, shared);
+}
+
+Eigen::Isometry3d LinkPoses::X_RL(const std::vector<const urdf::Joint*>& path, size_t above) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  for (size_t i = path.size() - above; i > 0; --i) X = X * X_PC(*path[i - 1]);
+  return X;
+}
+
+Eigen::Isometry3d LinkPoses::X_PC(const urdf::Joint& joint) {
+  Eigen::Isometry3d X_PJ;
+  try {
+    X_PJ = fromUrdf(joint.parent_to_joint_origin_transform);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput("joint '" + joint.name + "': " + error.what());
+  }
+  if (joint.type == urdf::Joint::FIXED) return X_PJ;
+  const double at = position(joint);
+  held_[joint.name] = at;
+  if (joint.type == urdf::Joint::PRISMATIC) return X_PJ * Eigen::Translation3d(at * axisOf(joint));
+  return X_PJ * Eigen::AngleAxisd(at, axisOf(joint));
+}
+
+double LinkPoses::position(const urdf::Joint& joint, int depth) const {
+  if (!hasLimits(joint) && joint.type != urdf::Joint::CONTINUOUS) {
+    throw InvalidInput("joint '" + joint.name +
+                       "' lies within the tool, but only fixed, revolute, continuous and prismatic joints may");
+  }
+  const auto given = positions_.find(joint.name);
+  if (joint.mimic) {
+    const auto followed = robot_.model_->joints_.find(joint.mimic->joint_name);
+    if (followed == robot_.model_->joints_.end() || depth > kMaxMimicry) {
+      throw InvalidInput("joint '" + joint.name + "' mimics '" + joint.mimic->joint_name + "', which leads nowhere");
+    }
+    if (given != positions_.end()) {
+      throw InvalidInput("joint '" + joint.name + "' mimics '" + followed->first + "': set that one in tool/joints");
+    }
+    return joint.mimic->multiplier * position(*followed->second, depth + 1) + joint.mimic->offset;
+  }
+  const auto [lower, upper] = limitsOf(joint);
+  if (given == positions_.end()) return std::clamp(0.0, lower, upper);
+  if (given->second < lower || given->second > upper) {
+    throw InvalidInput("tool/joints/" + joint.name + " is beyond the joint's limits, " + shown(lower, upper));
+  }
+  return given->second;
+}
+
+Eigen::Isometry3d fromUrdf(const urdf::Pose& pose) {
+  const Eigen::Quaterniond rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
+  const Eigen::Vector3d position(pose.position.x, pose.position.y, pose.position.z);
+  if (!rotation.coeffs().allFinite() || !position.allFinite()) throw InvalidInput("its origin is not finite");
+  return Eigen::Translation3d(position) * rotation.normalized();
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,183 @@
+#include "ros/tool/tool_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "ros/tool/robot_description.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/tool/mesh_file.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::ConvexPiece;
+using sweep_guard_core::ConvexShape;
+using sweep_guard_core::InvalidInput;
+
+const std::string kAnyFrame = "tool";   // what tool_frame is where nobody has set it
+constexpr double kMaxDistance = 100.0;  // [m]
+
+std::string list(const std::vector<const urdf::Link*>& links) {
+  constexpr size_t kMaxCount = 20;
+  std::string text;
+  for (size_t i = 0; i < std::min(links.size(), kMaxCount); ++i) text += (i == 0 ? "" : ", ") + links[i]->name;
+  return text + (links.size() > kMaxCount ? ", ..." : "");
+}
+
+const urdf::Link& linkNamed(const RobotDescription& robot, const std::string& name, const std::string& parameter) {
+  const urdf::Link* const link = robot.link(name);
+  if (link != nullptr) return *link;
+  throw InvalidInput(parameter + " names '" + name + "', which is no link of the robot; its links are " +
+                     list(RobotDescription::below(robot.root())));
+}
+
+const urdf::Link& frameOf(const RobotDescription& robot, const ToolModelOptions& options) {
+  if (options.frame != kAnyFrame || robot.link(kAnyFrame) != nullptr) {
+    return linkNamed(robot, options.frame, "tool_frame");
+  }
+  return options.links.empty() ? robot.root() : linkNamed(robot, options.links.front(), "tool/links");
+}
+
+bool isBare(const urdf::Link& link) { return link.collision_array.empty() && link.visual_array.empty(); }
+
+std::vector<const urdf::Link*> linksOf(const RobotDescription& robot, const ToolModelOptions& options,
+                                       const urdf::Link& frame) {
+  if (options.links.empty()) {
+    std::vector<const urdf::Link*> links = RobotDescription::below(frame);
+    links.erase(std::remove_if(links.begin(), links.end(), [](const urdf::Link* link) { return isBare(*link); }),
+                links.end());
+    if (links.empty()) throw InvalidInput("neither link '" + frame.name + "' nor what hangs on it has a shape");
+    return links;
+  }
+  std::vector<const urdf::Link*> links;
+  for (const std::string& name : options.links) {
+    links.push_back(&linkNamed(robot, name, "tool/links"));
+    if (std::count(links.begin(), links.end(), links.back()) > 1) {
+      throw InvalidInput("tool/links names '" + name + "' twice");
+    }
+  }
+  return links;
+}
+
+double size(double value, const std::string& what) {
+  if (value > 0.0 && value <= kMaxDistance) return value;
+  std::ostringstream text;
+  text << "its " << what << " is " << value << " m, but must be above 0 and at most 100";
+  throw InvalidInput(text.str());
+}
+
+Eigen::Vector3d scaleOf(const urdf::Mesh& mesh) {
+  Eigen::Vector3d scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
+  for (const double factor : scale) {
+    if (!(std::abs(factor) >= 1e-9 && std::abs(factor) <= 1e9)) {
+      throw InvalidInput(mesh.filename + ": its scale must not be 0, nor beyond 1e9");
+    }
+  }
+  return scale;
+}
+
+// Of the corners as they were read: in the mesh that is cut they are rounded.
+ConvexShape hullOf(const MeshSurface& surface, const std::vector<std::uint32_t>& triangles) {
+  std::vector<Eigen::Vector3d> corners;
+  for (const std::uint32_t triangle : triangles) {
+    for (const std::uint32_t corner : surface.triangles[triangle]) corners.push_back(surface.vertices[corner]);
+  }
+  return ConvexShape::hull(corners);
+}
+
+std::vector<ConvexShape> meshParts(const urdf::Mesh& mesh, const ToolModelOptions& options) {
+  const Eigen::Vector3d scale = scaleOf(mesh);
+  MeshSurface surface = readMesh(locateMesh(mesh.filename, options.mesh_roots));
+  for (Eigen::Vector3d& p : surface.vertices) p = p.cwiseProduct(scale);
+  try {
+    const sweep_guard_core::TriangleMesh rounded(surface.vertices, surface.triangles);
+    sweep_guard_core::DecompositionOptions cuts;
+    cuts.max_depth = options.mesh_depth;
+    std::vector<ConvexShape> parts;
+    for (const auto& triangles : sweep_guard_core::decompose(rounded, cuts))
+      parts.push_back(hullOf(surface, triangles));
+    return parts;
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(mesh.filename + ": " + error.what());
+  }
+}
+
+std::vector<ConvexShape> partsOf(const urdf::Geometry& geometry, const ToolModelOptions& options) {
+  switch (geometry.type) {
+    case urdf::Geometry::SPHERE:
+      return {ConvexShape::sphere(size(static_cast<const urdf::Sphere&>(geometry).radius, "sphere's radius"))};
+    case urdf::Geometry::BOX: {
+      const urdf::Vector3& dim = static_cast<const urdf::Box&>(geometry).dim;
+      return {ConvexShape::box(0.5 * Eigen::Vector3d(size(dim.x, "box's size in x"), size(dim.y, "box's size in y"),
+                                                     size(dim.z, "box's size in z")))};
+    }
+    case urdf::Geometry::CYLINDER: {
+      const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+      const double length = size(cylinder.length, "cylinder's length");
+      return {ConvexShape::cylinder(size(cylinder.radius, "cylinder's radius"), length)
+                  .placed(Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.5 * length)))};
+    }
+    case urdf::Geometry::MESH:
+      return meshParts(static_cast<const urdf::Mesh&>(geometry), options);
+  }
+  throw InvalidInput("its geometry is of an unknown kind");
+}
+
+void requireWithinReach(double distance, const std::string& frame) {
+  if (distance <= kMaxDistance) return;  // false for NaN too
+  std::ostringstream text;
+  text << "it reaches " << distance << " m from the frame of '" << frame << "', but at most 100 is taken; "
+       << "is a mesh in millimetres? Then set its scale";
+  throw InvalidInput(text.str());
+}
+
+void addParts(const urdf::Link& link, const Eigen::Isometry3d& X_TL, const ToolModelOptions& options,
+              const std::string& frame, std::vector<ConvexPiece>& parts) {
+  for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
+    const Eigen::Isometry3d X_TC = X_TL * fromUrdf(collision->origin);
+    requireWithinReach(X_TC.translation().norm(), frame);
+    for (const ConvexShape& shape_C : partsOf(*collision->geometry, options)) {
+      requireWithinReach(shape_C.boundingRadius(), frame);
+      const ConvexShape shape_T = shape_C.placed(X_TC).padded(options.padding);
+      requireWithinReach(shape_T.boundingRadius(), frame);
+      parts.push_back({link.name, shape_T});
+    }
+  }
+}
+
+template <typename Work>
+void naming(const urdf::Link& link, Work work) {
+  try {
+    work();
+  } catch (const InvalidInput& error) {
+    throw InvalidInput("link '" + link.name + "': " + error.what());
+  }
+}
+
+void requireCollision(const urdf::Link& link) {
+  if (!link.collision_array.empty()) return;
+  const std::string found =
+      link.visual_array.empty() ? "it has no geometry" : "it has visual geometry, but no collision";
+  throw InvalidInput("link '" + link.name + "': " + found +
+                     "; give it a <collision>, or name in tool/links only links that have one");
+}
+
+}  // namespace
+
+ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options) {
+  const RobotDescription robot(urdf);
+  const urdf::Link& frame = frameOf(robot, options);
+  const std::vector<const urdf::Link*> links = linksOf(robot, options, frame);
+  LinkPoses poses(robot, options.joints);
+  ToolModel model{{}, frame.name, {}};
+  for (const urdf::Link* link : links) {
+    const Eigen::Isometry3d X_TL = poses.X_FL(frame, *link);
+    naming(*link, [&] { addParts(*link, X_TL, options, frame.name, model.parts); });
+  }
+  for (const urdf::Link* link : links) requireCollision(*link);  // last: a mesh that is missing is told of before
+  model.held = poses.held();
+  return model;
+}
+
+}  // namespace sweep_guard_ros

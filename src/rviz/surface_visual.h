@@ -1,0 +1,70 @@
+#pragma once
+
+#include <OgreColourValue.h>
+#include <OgreHardwareVertexBuffer.h>
+#include <OgreMaterial.h>
+#include <OgreMesh.h>
+#include <OgreVector.h>
+#include <shape_msgs/MeshTriangle.h>
+
+#include <vector>
+
+#include "rviz/highlights.h"
+
+namespace Ogre {
+class Entity;
+class SceneManager;
+class SceneNode;
+}  // namespace Ogre
+
+namespace sweep_guard_rviz {
+
+/// A deforming surface, some of whose triangles stand out. One buffer of vertices serves all; a deformation is written
+/// into it, highlights are indices.
+class SurfaceVisual {
+ public:
+  /// What is drawn over what, the last on top.
+  enum Layer { kSurface, kConsidered, kReflex, kTouched, kLayers };
+
+  SurfaceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node);
+  ~SurfaceVisual();
+  SurfaceVisual(const SurfaceVisual&) = delete;
+  SurfaceVisual& operator=(const SurfaceVisual&) = delete;
+
+  /// @param triangles  whose corners are below `vertices`
+  void setTriangles(std::vector<shape_msgs::MeshTriangle> triangles, size_t vertices);
+  size_t triangleCount() const { return triangles_.size(); }
+  size_t vertexCount() const { return vertices_; }
+
+  /// @param positions  x0 y0 z0 x1 ... of all vertices, in the frame of the node [m]
+  void setVertices(const float* positions);
+  void highlight(const Highlights& highlights);  ///< triangles below triangleCount()
+
+  /// @param edges  of the triangles are drawn, too
+  void paintLayer(Layer layer, const Ogre::ColourValue& color, bool shown, bool edges);
+
+  size_t drawnTriangles(Layer layer) const;  ///< that a layer shows
+
+ private:
+  void build();
+  void clear();
+  void setIndices(Layer layer, const std::vector<std::uint32_t>& triangles);
+  std::vector<Ogre::Vector3> normals() const;
+  void writeVertices();
+  void updateVisibility();
+
+  Ogre::SceneManager& scene_;
+  Ogre::SceneNode& node_;
+  std::vector<shape_msgs::MeshTriangle> triangles_;
+  size_t vertices_ = 0;
+  Ogre::MeshPtr mesh_;
+  Ogre::Entity* entity_ = nullptr;
+  Ogre::HardwareVertexBufferSharedPtr buffer_;
+  std::vector<Ogre::MaterialPtr> materials_;
+  bool wanted_[kLayers] = {};
+  size_t counts_[kLayers] = {};
+  std::vector<float> positions_;  // empty: none have come
+  Ogre::ColourValue color_;
+};
+
+}  // namespace sweep_guard_rviz

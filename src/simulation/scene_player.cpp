@@ -1,0 +1,227 @@
+// Plays a scene to a guard and to whoever looks on, as often as one likes the same, and holds its last moment for a
+// picture.
+//
+// It makes the time of its master, and takes a step only when the guard has answered the one before: neither a slow
+// machine nor a slow picture changes what is seen. What the guard says is passed on until the scene holds; then its
+// last words are repeated, so that they do not grow old.
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <cstdio>
+#include <functional>
+#include <string>
+
+#include "simulation/run_node.h"
+#include "simulation/tip_script.h"
+#include "simulation/workpiece.h"
+#include "simulation/workpiece_messages.h"
+#include "simulation/workpiece_parameters.h"
+#include "sweep_guard/Prediction.h"
+#include "sweep_guard/ToolShape.h"
+#include "sweep_guard/View.h"
+#include "sweep_guard/Warning.h"
+
+namespace sweep_guard_simulation {
+namespace {
+
+constexpr double kStart = 1000.0;   // [s]; of the scene, on its clock
+constexpr double kPatience = 30.0;  // [s]; for the guard and the spectators to come, and for an answer
+constexpr double kRepeated = 0.05;  // [s]
+constexpr double kFirstLook = 1.0;  // [s]; it takes longer to draw
+constexpr int kViewsToSettle = 3;   // the first may be older than the prediction that goes with its pose
+constexpr std::uint32_t kNotReady =
+    sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
+const char* const kEnd = "END";  // instead of a level
+const char* const kLevels[] = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};
+
+class Stage {
+ public:
+  explicit Stage(sweep_guard_ros::ParameterReader& parameters)
+      : frame_(parameters.name("frame", "world")),
+        workpiece_(makeWorkpiece(parameters)),
+        script_(parameters.texts("poses")),
+        step_(1.0 / parameters.number("rate", 50.0, {1.0, 1000.0})),
+        slowdown_(parameters.number("slowdown", 1.0, {0.01, 100.0})),
+        level_(parameters.choice("until", kEnd, {kEnd, "UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"})),
+        from_(parameters.number("from", 0.0, {0.0, 1000.0})),
+        silent_from_(parameters.number("silent_from", 1000.0, {0.0, 1000.0})) {
+    node_.setParam("/use_sim_time", true);
+    broadcastFrame(parameters);
+    clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+    mesh_publisher_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
+    vertices_publisher_ = node_.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);
+    pose_publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 10);
+    view_publisher_ = node_.advertise<sweep_guard::View>("shown/view", 10);
+    warning_publisher_ = node_.advertise<sweep_guard::Warning>("shown/warning", 10);
+    tool_publisher_ = node_.advertise<sweep_guard::ToolShape>("shown/tool", 1, /*latch=*/true);
+    view_subscriber_ = node_.subscribe("guard/view", 10, &Stage::onView, this);
+    warning_subscriber_ = node_.subscribe("guard/warning", 10, &Stage::onWarning, this);
+    prediction_subscriber_ = node_.subscribe<sweep_guard::Prediction>(
+        "guard/prediction", 10,
+        [this](const sweep_guard::Prediction::ConstPtr& message) { predicted_ = message->header.stamp; });
+    tool_subscriber_ = node_.subscribe<sweep_guard::ToolShape>(
+        "guard/tool", 1, [this](const sweep_guard::ToolShape::ConstPtr& shape) { tool_publisher_.publish(shape); });
+  }
+
+  void run() {
+    await("the guard and for spectators of the workpiece, of the tool and of the guard's view", [this] {
+      return warned_ && pose_publisher_.getNumSubscribers() > 0 && view_subscriber_.getNumPublishers() > 0 &&
+             mesh_publisher_.getNumSubscribers() > 1 && vertices_publisher_.getNumSubscribers() > 1 &&
+             view_publisher_.getNumSubscribers() > 0 && tool_publisher_.getNumSubscribers() > 0;
+    });
+    publishMesh();
+    await("the guard to know the workpiece", [this] { return (warning_.reasons & kNotReady) == 0; });
+    play();
+    hold();
+  }
+
+ private:
+  void broadcastFrame(sweep_guard_ros::ParameterReader& parameters) {
+    const Eigen::Vector3d turn = parameters.position("turn", {0.0, 0.0, 0.0});
+    const Eigen::Isometry3d X_WM = Eigen::Translation3d(parameters.position("position", {0.0, 0.0, 0.3})) *
+                                   Eigen::AngleAxisd(turn.norm(), turn.stableNormalized());
+    geometry_msgs::TransformStamped transform = tf2::eigenToTransform(X_WM);
+    transform.header.frame_id = frame_;
+    transform.child_frame_id = "workpiece";
+    broadcaster_.sendTransform(transform);
+  }
+
+  ros::Time now() const { return ros::Time(kStart + t_); }
+
+  template <typename Message>
+  void send(const ros::Publisher& publisher, Message message, const std::string& frame) const {
+    message.header.stamp = now();
+    message.header.frame_id = frame;
+    publisher.publish(message);
+  }
+
+  void publishClock() const {
+    rosgraph_msgs::Clock clock;
+    clock.clock = now();
+    clock_publisher_.publish(clock);
+  }
+
+  void publishMesh() const {
+    sweep_guard::DeformableMesh mesh = meshMessage(workpiece_, t_);
+    mesh.id = "workpiece";
+    send(mesh_publisher_, mesh, "workpiece");
+  }
+
+  void publishVertices() const {
+    sweep_guard::MeshVertices vertices = verticesMessage(workpiece_, t_);
+    vertices.id = "workpiece";
+    send(vertices_publisher_, vertices, "workpiece");
+  }
+
+  void publishPose() const {
+    geometry_msgs::PoseStamped pose;
+    pose.pose = tf2::toMsg(script_.pose(t_));
+    send(pose_publisher_, pose, frame_);
+  }
+
+  void onView(const sweep_guard::View::ConstPtr& view) {
+    if (holding_) return;
+    views_ = predicted_ == now() && view->header.stamp == predicted_ ? views_ + 1 : 0;
+    view_ = *view;
+    view_publisher_.publish(view_);
+  }
+
+  void onWarning(const sweep_guard::Warning::ConstPtr& warning) {
+    if (holding_) return;
+    warning_ = *warning;
+    warned_ = true;
+    warning_publisher_.publish(warning_);
+  }
+
+  void await(const std::string& what, const std::function<bool()>& condition) const {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+    for (; !condition(); ros::WallDuration(0.005).sleep()) {
+      if (!ros::ok() || ros::WallTime::now() > end) throw sweep_guard_core::InvalidInput("waited in vain for " + what);
+      publishClock();
+      ros::spinOnce();
+    }
+  }
+
+  void play() {
+    t_ = script_.begin();
+    ros::WallTime due = ros::WallTime::now() + ros::WallDuration(kFirstLook);
+    while (true) {
+      publishClock();
+      publishVertices();
+      const bool silent = t_ >= silent_from_;
+      if (!silent) {
+        publishPose();
+        await("the guard's answer", [this] { return view_.header.stamp == now(); });
+      }
+      if (isOver()) return;
+      due += ros::WallDuration(slowdown_ * step_);
+      await("its time", [&] { return ros::WallTime::now() >= due; });
+      t_ += step_;
+    }
+  }
+
+  bool isOver() const {
+    if (t_ >= from_ && warning_.level < std::size(kLevels) && level_ == kLevels[warning_.level]) return true;
+    const bool ended = t_ + 0.5 * step_ > script_.end();
+    if (ended && level_ != kEnd) {
+      throw sweep_guard_core::InvalidInput("the scene has ended without " + level_ +
+                                           "; its last words: " + warning_.text);
+    }
+    return ended;
+  }
+
+  void hold() {
+    if (t_ < silent_from_) {
+      await("the guard's view of the end", [this] { return views_ >= kViewsToSettle; });
+    }
+    holding_ = true;
+    std::printf("holding at %.3f s: %s\n", t_, warning_.text.c_str());
+    std::fflush(stdout);
+    for (; ros::ok(); ros::WallDuration(kRepeated).sleep()) {
+      publishClock();
+      view_publisher_.publish(view_);
+      warning_publisher_.publish(warning_);
+      ros::spinOnce();
+    }
+  }
+
+  std::string frame_;
+  Workpiece workpiece_;
+  TipScript script_;
+  double step_;         // [s]
+  double slowdown_;     // how much longer than the scene it takes to play it
+  std::string level_;   // of the warning that ends the scene
+  double from_;         // [s] when it may
+  double silent_from_;  // [s] from then on without poses
+  double t_ = 0.0;      // [s]
+  bool warned_ = false;
+  bool holding_ = false;
+  int views_ = 0;  // that went with the newest pose and its prediction
+  ros::Time predicted_;
+  sweep_guard::View view_;
+  sweep_guard::Warning warning_;
+  ros::NodeHandle node_;
+  tf2_ros::StaticTransformBroadcaster broadcaster_;
+  ros::Publisher clock_publisher_;
+  ros::Publisher mesh_publisher_;
+  ros::Publisher vertices_publisher_;
+  ros::Publisher pose_publisher_;
+  ros::Publisher view_publisher_;
+  ros::Publisher warning_publisher_;
+  ros::Publisher tool_publisher_;
+  ros::Subscriber view_subscriber_;
+  ros::Subscriber warning_subscriber_;
+  ros::Subscriber prediction_subscriber_;
+  ros::Subscriber tool_subscriber_;
+};
+
+}  // namespace
+}  // namespace sweep_guard_simulation
+
+int main(int argc, char** argv) {
+  return sweep_guard_simulation::runNode<sweep_guard_simulation::Stage>(argc, argv, "stage");
+}

@@ -1,0 +1,144 @@
+#include "sweep_guard/geometry/merged_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geometry/round_tool.h"
+#include "scenes.h"
+
+namespace sweep_guard_core {
+namespace {
+
+using namespace std::chrono_literals;
+
+Eigen::Isometry3d at(double x, double y = 0.0) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, 0)); }
+
+// A millisecond apart, along an axis.
+Path wayAlong(const std::vector<double>& x) {
+  Path path;
+  for (const double place : x) path.push_back({static_cast<std::int64_t>(path.size()) * 1ms, at(place), 0.0});
+  return path;
+}
+
+size_t lastOf(const Path& path, size_t first, double max_deviation) {
+  return endOfMergedMotion(path, first, path.size() - 1, /*tool_radius=*/0.1, {max_deviation, /*max_rotation=*/0.175});
+}
+
+TEST(ChordTest, OfASteadyMotionDoesNotBulge) {
+  const Motion motion = mergedMotion(wayAlong({0, 1, 2, 3, 4}), 1, 4, 0.1);
+  EXPECT_EQ(motion.X_MT_start.translation().x(), 1.0);
+  EXPECT_EQ(motion.X_MT_end.translation().x(), 4.0);
+  EXPECT_NEAR(motion.deviation_bound, 0.0, 1e-12);
+}
+
+TEST(ChordTest, BulgesAsFarAsTheWayIsAside) {
+  Path path = wayAlong({0, 1, 2});
+  path[1].X_MT = at(1, 0.25);
+  EXPECT_NEAR(mergedMotion(path, 0, 2, 0.1).deviation_bound, 0.25, 1e-12);
+}
+
+// A time of impact on the chord would be late otherwise.
+TEST(ChordTest, BulgesAsFarAsTheWayIsAheadOfIt) {
+  EXPECT_NEAR(mergedMotion(wayAlong({0, 1.5, 2}), 0, 2, 0.1).deviation_bound, 0.5, 1e-12);
+}
+
+TEST(ChordTest, BulgesByTheArcsOfTheWay) {
+  Path path = wayAlong({0, 1, 2});
+  path[2].deviation_bound = 0.125;
+  EXPECT_NEAR(mergedMotion(path, 0, 2, 0.1).deviation_bound, 0.125, 1e-12);
+}
+
+TEST(ChordTest, HoldsAWayThatTakesNoTime) {
+  Path path = wayAlong({0, 0.5, 2});
+  for (PathPoint& waypoint : path) waypoint.time = 1ms;
+  EXPECT_NEAR(mergedMotion(path, 0, 2, 0.1).deviation_bound, 0.5, 1e-12);
+}
+
+// A path of segments on which tool and frame both go and turn, and its points at 20 times each.
+struct RandomWay {
+  Path path_M;
+  std::vector<std::pair<Duration, Eigen::Isometry3d>> poses_M;
+
+  RandomWay(Random& random, const ConvexShape& tool) {
+    RelativeMotion segment{randomMotion(random, tool, 3.0 * random.direction(), /*max_angle=*/0.3),
+                           randomMotion(random, tool, 3.0 * random.direction(), /*max_angle=*/0.3)};
+    if (random.chance(0.5)) segment.frame_W.X_MT_end = segment.frame_W.X_MT_start;
+    const auto pose_M = [&](double f) -> Eigen::Isometry3d {
+      return segment.frame_W.at(f).inverse() * segment.tool_W.at(f);
+    };
+    Duration time = 5ms;
+    path_M.push_back({time, pose_M(0.0), 0.0});
+    for (int i = 0; i < 6; ++i) {
+      const Duration takes = random.below(4) * 1ms;
+      for (int step = 0; step <= 20; ++step) poses_M.emplace_back(time + takes * step / 20, pose_M(step / 20.0));
+      time += takes;
+      path_M.push_back({time, pose_M(1.0), chordError(segment, tool.boundingRadius())});
+      for (Motion* motion : {&segment.tool_W, &segment.frame_W}) {
+        motion->X_MT_start = motion->X_MT_end;
+        motion->X_MT_end.translation() += tool.boundingRadius() * random.uniform(0.0, 0.5) * random.direction();
+        motion->X_MT_end.linear() = random.turn(random.uniform(0.0, 0.3)) * motion->X_MT_start.linear();
+      }
+    }
+  }
+};
+
+// Against the path itself: where a tool point is, and where the chord has it at that time, as a motion that turns and as
+// a straight line.
+TEST(ChordTest, BoundsHowFarEveryToolPointLeavesIt) {
+  Random random(/*seed=*/5);
+  double closest = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE("path " + std::to_string(i));
+    const ConvexShape tool = randomTool(random, 1.0);
+    const auto [path_M, poses_M] = RandomWay(random, tool);
+    const auto last = static_cast<size_t>(2 + random.below(5));
+    const Motion motion_M = mergedMotion(path_M, 0, last, tool.boundingRadius());
+    const double time = toSeconds(path_M[last].time - path_M[0].time);
+    if (time == 0.0) continue;
+    for (size_t k = 0; k < last * 21; ++k) {
+      const double f = toSeconds(poses_M[k].first - path_M[0].time) / time;
+      for (const Eigen::Vector3d& p_T : roundToolPoints_T(tool, 8)) {
+        const Eigen::Vector3d p_M = poses_M[k].second * p_T;
+        const Eigen::Vector3d straight_M = (1.0 - f) * (motion_M.X_MT_start * p_T) + f * (motion_M.X_MT_end * p_T);
+        ASSERT_LE((p_M - straight_M).norm(), motion_M.deviation_bound + 1e-12) << "pose " << k;
+        ASSERT_LE((p_M - motion_M.at(f) * p_T).norm(), motion_M.deviation_bound + 1e-12) << "pose " << k;
+        closest = std::max(closest, (p_M - straight_M).norm() / motion_M.deviation_bound);
+      }
+    }
+  }
+  EXPECT_GT(closest, 0.9);
+}
+
+TEST(LastOfChordTest, IsTheEndOfASteadyMotion) {
+  for (size_t count = 2; count < 40; ++count) {
+    std::vector<double> x(count);
+    for (size_t i = 0; i < count; ++i) x[i] = 0.01 * static_cast<double>(i);
+    EXPECT_EQ(lastOf(wayAlong(x), 0, 1e-9), count - 1);
+    EXPECT_EQ(lastOf(wayAlong(x), count - 2, 1e-9), count - 1);
+  }
+}
+
+// Rest, there and back, rest: wherever it begins, the chord ends at the flick's next corner.
+TEST(LastOfChordTest, StopsAtAFlick) {
+  for (size_t rest = 2; rest < 40; ++rest) {
+    std::vector<double> x(2 * rest + 1, 0.0);
+    x[rest] = 1.0;
+    EXPECT_EQ(lastOf(wayAlong(x), 0, 0.01), rest - 1);
+    EXPECT_EQ(lastOf(wayAlong(x), rest - 1, 0.01), rest);
+    EXPECT_EQ(lastOf(wayAlong(x), rest, 0.01), rest + 1);
+    EXPECT_EQ(lastOf(wayAlong(x), rest + 1, 0.01), 2 * rest);
+  }
+}
+
+TEST(LastOfChordTest, TurnsByNoMoreThanItMay) {
+  Path path;
+  for (int i = 0; i < 20; ++i)
+    path.push_back({i * 1ms, Eigen::Isometry3d(Eigen::AngleAxisd(0.05 * i, Eigen::Vector3d::UnitZ()))});
+  const size_t last = lastOf(path, 0, /*max_deviation=*/1.0);
+  EXPECT_EQ(last, 3U);
+  EXPECT_LE((Motion{path[0].X_MT, path[last].X_MT}.angle()), 0.175);
+}
+
+}  // namespace
+}  // namespace sweep_guard_core

@@ -1,0 +1,148 @@
+#include "sweep_guard/guard/prediction.h"
+#include "monitor/warnings.h"
+
+#include <gtest/gtest.h>
+
+namespace sweep_guard_core {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::shared_ptr<const Workpiece> workpiece(const std::string& id) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  return std::make_shared<const Workpiece>(Workpiece{id, 1, Time(1s), SteadyTime(1s), "table", mesh});
+}
+
+// Three sweeps of 100 ms.
+PredictedObject object(const std::string& id, const std::vector<PredictedSweep>& sweeps) {
+  return {workpiece(id), sweeps, {}, {}, {}};
+}
+
+const PredictedSweep kFree0{0ms, false, 0.0};
+const PredictedSweep kFree1{100ms, false, 0.0};
+const PredictedSweep kFree2{200ms, false, 0.0};
+
+Prediction outlookOf(const std::vector<PredictedObject>& objects) {
+  Prediction prediction;
+  prediction.stamp = Time(5s);
+  prediction.path.resize(3);
+  for (int i = 0; i < 3; ++i) prediction.path[static_cast<size_t>(i)].ahead = (i + 1) * 100ms;
+  prediction.reflex_sweeps = 1;
+  prediction.objects = objects;
+  return prediction;
+}
+
+TEST(OutlookTest, CoversThePathOnlyIfEveryWorkpieceWasTested) {
+  Prediction prediction = outlookOf({object("liver", {kFree0, kFree1, kFree2})});
+  EXPECT_EQ(prediction.coveredUntil(), Time(5300ms));
+  prediction.unplaced = {workpiece("spleen")};
+  EXPECT_EQ(prediction.coveredUntil(), Time(5s));
+  prediction.unplaced.clear();
+  prediction.failures = {{workpiece("spleen"), "no canary"}};
+  EXPECT_EQ(prediction.coveredUntil(), Time(5s));
+  prediction.failures.clear();
+  prediction.path.clear();
+  EXPECT_EQ(prediction.coveredUntil(), Time(5s));
+}
+
+TEST(OutlookTest, IsCompleteOnlyWithAPathAndAWorkpieceAndEveryWorkpieceTested) {
+  const Prediction complete = outlookOf({object("liver", {kFree0, kFree1, kFree2})});
+  EXPECT_TRUE(complete.complete());
+  EXPECT_FALSE(outlookOf({}).complete());
+  Prediction prediction = complete;
+  prediction.unplaced = {workpiece("spleen")};
+  EXPECT_FALSE(prediction.complete());
+  prediction = complete;
+  prediction.failures = {{workpiece("spleen"), "no canary"}};
+  EXPECT_FALSE(prediction.complete());
+  prediction = complete;
+  prediction.path.clear();
+  EXPECT_FALSE(prediction.complete());
+}
+
+TEST(OutlookTest, IsAsProbableAsItsLikeliestSweep) {
+  EXPECT_EQ(outlookOf({}).probability(), 0.0);
+  EXPECT_EQ(outlookOf({object("liver", {kFree0, {100ms, false, 0.3}, kFree2}),
+                       object("spleen", {kFree0, {100ms, false, 0.2}, {200ms, true, 0.6}})})
+                .probability(),
+            0.6);
+}
+
+TEST(OutlookTest, IsMetWhereThePathFirstMeetsAnyWorkpiece) {
+  EXPECT_FALSE(outlookOf({}).firstContact());
+  EXPECT_FALSE(outlookOf({object("liver", {{0ms, false, 0.4}, kFree1, kFree2})}).firstContact());
+  EXPECT_EQ(outlookOf({object("liver", {{0ms, false, 0.4}, kFree1, kFree2}),
+                       object("spleen", {kFree0, kFree1, {205ms, true, 0.9}}),
+                       object("kidney", {kFree0, {103ms, true, 0.6}, {205ms, true, 0.9}})})
+                .firstContact(),
+            103ms);
+}
+
+TEST(ExpectedContactTest, NothingIsExpectedWhereNothingIsMetOrProbable) {
+  EXPECT_FALSE(predictedContact(outlookOf({}), 0.1));
+  EXPECT_FALSE(predictedContact(outlookOf({object("liver", {kFree0, kFree1, kFree2})}), 0.1));
+  EXPECT_FALSE(predictedContact(outlookOf({object("liver", {kFree0, {100ms, false, 0.0999}, kFree2})}), 0.1));
+}
+
+TEST(ExpectedContactTest, IsTheEarliestOfAllWorkpieces) {
+  const auto expected = predictedContact(outlookOf({object("liver", {kFree0, kFree1, {210ms, true, 0.9}}),
+                                                    object("spleen", {kFree0, {150ms, true, 0.8}, kFree2})}),
+                                         0.1);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(expected->mesh_id, "spleen");
+  EXPECT_EQ(expected->earliest, Time(5150ms));
+  EXPECT_EQ(expected->contact, Time(5150ms));
+  EXPECT_EQ(expected->probability, 0.8);
+}
+
+TEST(ExpectedContactTest, MayBeMerelyProbable) {
+  const auto expected =
+      predictedContact(outlookOf({object("liver", {kFree0, {100ms, false, 0.1}, {200ms, false, 0.3}})}), 0.1);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(expected->earliest, Time(5100ms));
+  EXPECT_FALSE(expected->contact);
+  EXPECT_EQ(expected->probability, 0.3);
+  EXPECT_TRUE(expected->triangles.empty());
+}
+
+// Probable first, met later: one collision, which may begin with the former and has the triangles of the latter.
+TEST(ExpectedContactTest, TellsWhenThePathMeetsTheWorkpieceLater) {
+  PredictedObject liver = object("liver", {kFree0, {100ms, false, 0.2}, {205ms, true, 0.9}});
+  liver.reflex = {1, 7};
+  liver.considered = {3};
+  const auto expected = predictedContact(outlookOf({liver}), 0.1);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(expected->earliest, Time(5100ms));
+  EXPECT_EQ(expected->contact, Time(5205ms));
+  EXPECT_EQ(expected->probability, 0.9);
+  EXPECT_EQ(expected->triangles, (std::vector<std::uint32_t>{1, 3, 7}));
+}
+
+// What is merely probable before it is met is one collision with it: the part is the one that the time and the
+// triangles are of.
+TEST(ExpectedContactTest, NamesThePartOfTheToolThatMeetsFirst) {
+  const auto expected = predictedContact(
+      outlookOf({object("liver", {{0ms, false, 0.2, 0}, {100ms, true, 0.9, 1}, {200ms, true, 0.9, 2}})}), 0.1);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(expected->earliest, Time(5000ms));
+  EXPECT_EQ(expected->tool_piece, 1U);
+}
+
+TEST(ExpectedContactTest, NamesThePartThatIsLikeliestToMeetWhereNoneDoes) {
+  const auto expected =
+      predictedContact(outlookOf({object("liver", {kFree0, {100ms, false, 0.2, 3}, {200ms, false, 0.3, 1}}),
+                                  object("spleen", {kFree0, kFree1, {200ms, false, 0.9, 2}})}),
+                       0.1);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(expected->tool_piece, 3U);
+}
+
+// A path that meets is told of however small a probability its volume gives.
+TEST(ExpectedContactTest, APathThatMeetsNeedsNoProbability) {
+  const auto expected = predictedContact(outlookOf({object("liver", {{0ms, true, 0.0}, kFree1, kFree2})}), 1.0);
+  ASSERT_TRUE(expected);
+  EXPECT_TRUE(expected->contact);
+}
+
+}  // namespace
+}  // namespace sweep_guard_core

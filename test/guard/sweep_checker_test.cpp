@@ -1,0 +1,298 @@
+#include "sweep_guard/guard/sweep_checker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "guard/fake_detector.h"
+#include "scenes.h"
+
+namespace sweep_guard_core {
+namespace {
+
+SweepResult testMotion(Detector& detector, const ConvexShape& tool, const Motion& motion, const TriangleMesh& mesh_M,
+                       const SweepOptions& options) {
+  return checkSweep(detector, {Tool(tool), split(motion, options.max_rotation), mesh_M, options});
+}
+
+using Indices = std::vector<std::uint32_t>;
+
+const ConvexShape kDrill = ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
+
+Eigen::Isometry3d at(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
+
+// A square of 1 m in the plane at height z, and one 1 m to the side.
+TriangleMesh sheet(double z) {
+  return TriangleMesh({{-0.5, -0.5, z}, {0.5, -0.5, z}, {0.5, 0.5, z}, {-0.5, 0.5, z}, {1.5, -0.5, z}, {2.5, 0.5, z}},
+                      {{0, 1, 2}, {0, 2, 3}, {4, 5, 4}});
+}
+
+class SweepTestTest : public testing::TestWithParam<std::string> {
+ protected:
+  SweepResult test(const Motion& motion, const TriangleMesh& mesh, const SweepOptions& options = {}) {
+    return testMotion(*detector_, kDrill, motion, mesh, options);
+  }
+
+  std::unique_ptr<Detector> detector_ = makeDetector(GetParam());
+};
+
+// 0.1 mm thin; 2 m between the poses.
+TEST_P(SweepTestTest, MeetsAThinSheetBetweenTwoPosesFarApart) {
+  const Motion through{at(0.1, 0.1, 1.0), at(0.1, 0.1, -0.9)};
+  EXPECT_EQ(test(through, sheet(0.0)).triangles, (Indices{0, 1}));
+  EXPECT_EQ(test(through, sheet(0.0001)).triangles, (Indices{0, 1}));
+  EXPECT_TRUE(test({at(0.1, 0.1, 1.0), at(0.1, 0.1, 1.0)}, sheet(0.0)).triangles.empty());
+  EXPECT_TRUE(test({at(0.1, 0.1, -0.9), at(0.1, 0.1, -0.9)}, sheet(0.0)).triangles.empty());
+}
+
+// The drill turns by 90 degrees about its tip: its far end runs along an arc of 0.1 m, which bulges 0.029 m out of the
+// chord. The point of the triangle is on the arc, 0.02 m from the chord.
+TEST_P(SweepTestTest, MeetsATriangleThatOnlyTheArcReaches) {
+  Motion turn;
+  turn.X_MT_end.linear() = Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const double reached = 0.095 * std::sqrt(0.5);
+  const TriangleMesh spike({{0, reached, -reached}, {0, 1, -1.1}, {0, 1.1, -1}}, {{0, 1, 2}});
+  const double from_chord = 0.095 - (0.1 + 0.005) * std::sqrt(0.5);
+  ASSERT_GT(from_chord, 0.02);
+  EXPECT_EQ(test(turn, spike).triangles, Indices{0});
+
+  const TriangleMesh beyond({{0, 0.09, -0.09}, {0, 1, -1.1}, {0, 1.1, -1}}, {{0, 1, 2}});
+  EXPECT_TRUE(test(turn, beyond).triangles.empty());
+}
+
+TEST_P(SweepTestTest, NamesEachTriangleOnceThoughSeveralPartsMeetIt) {
+  Motion turn{at(0, 0, 0.01), at(0, 0, -0.01)};
+  turn.X_MT_end.linear() = Eigen::AngleAxisd(1.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const SweepResult result = test(turn, sheet(0.0));
+  EXPECT_EQ(result.volumes_M.size(), 9U);  // 1.5 / 0.175 = 8.6
+  EXPECT_EQ(result.triangles, (Indices{0, 1}));
+}
+
+TEST_P(SweepTestTest, GrowsTheToolByTheMargin) {
+  const Motion below{at(0, 0, -0.011), at(0.1, 0, -0.011)};
+  SweepOptions options;
+  options.margin = 0.010;
+  EXPECT_TRUE(test(below, sheet(0.0), options).triangles.empty());
+  options.margin = 0.012;
+  EXPECT_EQ(test(below, sheet(0.0), options).triangles, (Indices{0, 1}));
+}
+
+INSTANTIATE_TEST_SUITE_P(AllDetectors, SweepTestTest, testing::ValuesIn(detectorNames()),
+                         [](const auto& test) { return test.param; });
+
+TEST(SweepFindingsTest, PartsAreEndToEndFromPoseToPose) {
+  FakeDetector::Record record;
+  FakeDetector detector(record);
+  Random random(/*seed=*/1);
+  const Motion motion{random.pose({0, 0, 0}), random.pose({1, 0, 0})};
+  const SweepResult result = testMotion(detector, kDrill, motion, sheet(0.0), {});
+  const std::vector<Motion> parts = split(motion, SweepOptions{}.max_rotation);
+  ASSERT_EQ(result.volumes_M.size(), parts.size());
+  ASSERT_EQ(record.volumes.size(), parts.size());
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const SweptVolume expected = sweptVolume(kDrill, parts[i], VolumeKind::kObbPlanes);
+    EXPECT_TRUE(record.volumes[i].box.X_MB.isApprox(expected.box.X_MB, 1e-9)) << "part " << i;
+  }
+}
+
+TEST(SweepFindingsTest, UsesTheVolumeAskedFor) {
+  FakeDetector::Record record;
+  FakeDetector detector(record);
+  const Motion motion{at(0, 0, 0), at(0.1, 0.05, 0.02)};
+  SweepOptions options;
+  options.volume = VolumeKind::kObb;
+  testMotion(detector, kDrill, motion, sheet(0.0), options);
+  EXPECT_TRUE(record.volumes.back().clips_B.empty());
+  options.volume = VolumeKind::kObbPlanes;
+  testMotion(detector, kDrill, motion, sheet(0.0), options);
+  EXPECT_FALSE(record.volumes.back().clips_B.empty());
+}
+
+// What is reported holds: chord error, the margin asked for, the mesh's own rounding and the detector's inflation.
+TEST(SweepFindingsTest, ReportsAMarginThatAddsUp) {
+  FakeDetector::Record record;
+  record.inflation = 0.5;
+  FakeDetector detector(record);
+  Motion turn;
+  turn.X_MT_end.linear() = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  SweepOptions options;
+  options.margin = 0.25;
+  const TriangleMesh mesh({{0.1, 0.2, 0.3}, {1e3, 0, 0}, {0, 1e3, 0}}, {{0, 1, 2}});
+  ASSERT_GT(mesh.rounding(), 1e-6);
+  const double margin = testMotion(detector, kDrill, turn, mesh, options).margin;
+  EXPECT_NEAR(margin, 0.25 + 0.5 + 0.105 * 0.1 * 0.1 / 8.0 + mesh.rounding(), 1e-9);
+}
+
+// A vertex on the drill's rim is met as it was given, though the mesh, 1 km large, keeps it up to 0.04 mm off.
+TEST(SweepFindingsTest, MeetsVerticesWhereTheyWereGiven) {
+  const auto detector = makeDetector("reference");
+  int kept_outside = 0;
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    const double angle = degrees * std::acos(-1.0) / 180.0;
+    const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0.0);
+    const TriangleMesh mesh({kDrill.radius() * out, 1000.0 * out, 1000.0 * out + Eigen::Vector3d::UnitZ()},
+                            {{0, 1, 2}});
+    if (mesh.vertex(0).head<2>().norm() > kDrill.radius() + 1e-6) ++kept_outside;
+    EXPECT_EQ(testMotion(*detector, kDrill, Motion{}, mesh, {}).triangles, Indices{0}) << degrees << " degrees";
+  }
+  EXPECT_GT(kept_outside, 50);
+}
+
+// Every triangle named lies within the reported margin of the tool, of its volume that is: here against the box that
+// the drill itself is, at rest.
+TEST(SweepFindingsTest, NamesNothingFartherThanItsMargin) {
+  const auto detector = makeDetector("select");
+  for (int exponent = -12; exponent < 0; ++exponent) {
+    const double gap = std::pow(10.0, exponent);
+    const TriangleMesh ahead = sheet(gap);
+    const SweepResult result = testMotion(*detector, kDrill, Motion{}, ahead, {});
+    if (!result.triangles.empty()) {
+      EXPECT_LE(gap, result.margin);
+    }
+    if (gap > result.margin) {
+      EXPECT_TRUE(result.triangles.empty()) << gap;
+    }
+  }
+}
+
+// The box around a drill that goes aslant holds corners that the drill never comes to. Whoever looks closely sees that.
+TEST(FineTest, RulesOutWhatOnlyTheVolumeMeets) {
+  const auto detector = makeDetector("reference");
+  const Motion aslant{at(0, 0, 0), at(0.1, 0.02, 0.05)};
+  const SweptVolume volume = sweptVolume(kDrill, aslant, VolumeKind::kObb);
+  const Eigen::Vector3d corner = volume.box.X_MB * (0.999 * volume.box.half_extents);
+  const TriangleMesh dot({corner, corner, corner}, {{0, 1, 2}});
+  SweepOptions options;
+  options.volume = VolumeKind::kObb;
+  const SweepResult fine = testMotion(*detector, kDrill, aslant, dot, options);
+  EXPECT_EQ(fine.triangles, Indices{0});
+  EXPECT_TRUE(fine.fine && fine.not_ruled_out.empty() && fine.in_contact.empty() && !fine.contact());
+  EXPECT_EQ(firstTimeOfImpact(fine), std::nullopt);
+  options.fine = false;
+  EXPECT_TRUE(testMotion(*detector, kDrill, aslant, dot, options).contact());
+}
+
+TEST(FineTest, TellsWhenWhereAndHowDeep) {
+  const auto detector = makeDetector("reference");
+  const SweepResult down = testMotion(*detector, kDrill, {at(0.2, 0.1, 0.3), at(0.2, 0.1, -0.1)}, sheet(0.0), {});
+  EXPECT_EQ(down.not_ruled_out, (Indices{0}));
+  ASSERT_EQ(down.in_contact.size(), 1U);
+  // The drill points up: its far end, 0.1 m below the tip, comes first, after 0.2 of 0.4 m.
+  EXPECT_NEAR(down.in_contact[0].impact.time_of_impact, 0.5, 1e-6);
+  EXPECT_TRUE(down.in_contact[0].impact.normal_M.isApprox(Eigen::Vector3d::UnitZ(), 1e-6));
+  EXPECT_NEAR(down.in_contact[0].impact.depth, 0.2, 1e-9);
+  EXPECT_NEAR(down.in_contact[0].impact.point_M.z(), 0.0, 1e-9);
+  EXPECT_NEAR(*firstTimeOfImpact(down), 0.5, 1e-6);
+}
+
+TEST(FineTest, LooksNoCloserAtWhatIsSettled) {
+  const auto detector = makeDetector("reference");
+  const std::vector<Motion> down = {{at(0.2, 0.1, 0.3), at(0.2, 0.1, -0.1)}};
+  const SweepCache confirmed{{}, false, {0, 7}};
+  const SweepResult already_confirmed = checkSweep(*detector, {Tool(kDrill), down, sheet(0.0), {}, confirmed});
+  EXPECT_EQ(already_confirmed.not_ruled_out, (Indices{0}));
+  EXPECT_TRUE(already_confirmed.in_contact.empty());
+  const std::vector<Motion> above = {{at(0.2, 0.1, 0.5), at(0.2, 0.1, 0.3)}};
+  EXPECT_FALSE(checkSweep(*detector, {Tool(kDrill), above, sheet(0.0), {}, confirmed}).contact());
+}
+
+// Pushed in further, it goes on along the normal that it came in by, though the sheet's other side is nearer by then.
+TEST(FineTest, GoesOnAlongTheWayIn) {
+  const auto detector = makeDetector("reference");
+  SweepCache before;
+  double depth = 0.0;
+  for (double z = 0.11; z > -0.05; z -= 0.01) {
+    const std::vector<Motion> push = split({at(0.2, 0.1, z), at(0.2, 0.1, z - 0.01)}, 0.1);
+    const SweepResult result = checkSweep(*detector, {Tool(kDrill), push, sheet(0.0), {}, before});
+    before = sweepCache(result);
+    if (result.in_contact.empty()) continue;
+    EXPECT_TRUE(result.in_contact[0].impact.normal_M.isApprox(Eigen::Vector3d::UnitZ(), 1e-6)) << z;
+    EXPECT_NEAR(result.in_contact[0].impact.depth, 0.11 - z, 1e-9);
+    EXPECT_GE(result.in_contact[0].impact.depth, depth);
+    depth = result.in_contact[0].impact.depth;
+  }
+  EXPECT_NEAR(depth, 0.11, 1e-9);  // the whole drill, and the last step
+}
+
+TEST(VolumeTest, HullIsTighterThanPlanesAndPlanesThanTheBoxAndNoneMissesWhatIsTouched) {
+  const auto detector = makeDetector("reference");
+  Random random(/*seed=*/21);
+  const TriangleMesh mesh = wavyHull(24, 40, 0.5);
+  size_t named[] = {0, 0, 0};
+  for (int i = 0; i < 60; ++i) {
+    const Motion motion{random.pose(0.12 * random.direction()), random.pose(0.12 * random.direction())};
+    Indices before;
+    Indices in_contact;
+    for (const VolumeKind kind : {VolumeKind::kObb, VolumeKind::kObbPlanes, VolumeKind::kHull}) {
+      SweepOptions options;
+      options.volume = kind;
+      const SweepResult result = testMotion(*detector, kDrill, motion, mesh, options);
+      named[static_cast<size_t>(kind)] += result.triangles.size();
+      if (kind == VolumeKind::kObb) in_contact = result.not_ruled_out;
+      EXPECT_EQ(result.not_ruled_out, in_contact);
+      if (kind != VolumeKind::kObb) {
+        const Indices& found = result.triangles;
+        EXPECT_TRUE(std::includes(before.begin(), before.end(), found.begin(), found.end()));
+      }
+      before = result.triangles;
+    }
+  }
+  EXPECT_LT(named[1], 0.95 * static_cast<double>(named[0]));
+  EXPECT_LT(named[2], 0.95 * static_cast<double>(named[1]));
+}
+
+// Two fingers, open: what is between them meets the box around both, and neither finger.
+TEST(SeveralPartsTest, MeetWhatTheyMeetTogetherAndNotWhatIsBetweenThem) {
+  const auto finger = [](double y) {
+    return ConvexPiece{
+        "finger",
+        ConvexShape::box({0.005, 0.005, 0.05}).placed(Eigen::Isometry3d(Eigen::Translation3d(0.0, y, -0.05)))};
+  };
+  const Tool gripper({finger(-0.04), finger(0.04)});
+  const TriangleMesh three({{0, -0.04, -0.01}, {0, 0, -0.01}, {0, 0.04, -0.01}}, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
+  for (const std::string& name : detectorNames()) {
+    const auto detector = makeDetector(name);
+    const SweepResult result = checkSweep(*detector, {gripper, {Motion{}}, three, {}});
+    EXPECT_EQ(result.triangles, (Indices{0, 2})) << name;
+    ASSERT_EQ(result.in_contact.size(), 2U);
+    EXPECT_EQ(result.in_contact[0].piece, 0U);
+    EXPECT_EQ(result.in_contact[1].piece, 1U);
+    EXPECT_EQ(result.volumes_M.size(), 2U);
+    const SweepResult aside = checkSweep(*detector, {gripper, {{at(1, 0, 0), at(1.1, 0, 0)}}, three, {}});
+    EXPECT_TRUE(aside.triangles.empty());
+    EXPECT_EQ(aside.volumes_M.size(), 1U);  // of the box around both
+  }
+}
+
+TEST(InsideOfAWorkpieceTest, IsContactOfAClosedMeshAlone) {
+  const auto detector = makeDetector("reference");
+  const TriangleMesh closed = wavyHull(24, 40, 0.0);
+  std::vector<Eigen::Vector3d> corners;
+  for (size_t i = 0; i < closed.vertexCount(); ++i) corners.push_back(closed.vertex(i));
+  std::vector<Triangle> but_one = closed.triangles();
+  but_one.pop_back();
+  const TriangleMesh open(corners, but_one);
+  const ConvexShape bead = ConvexShape::cylinder(0.005, 0.01);
+  const SweepResult within = testMotion(*detector, bead, Motion{}, closed, {});
+  EXPECT_TRUE(within.triangles.empty());
+  EXPECT_TRUE(within.inside && within.contact());
+  EXPECT_EQ(firstTimeOfImpact(within), 0.0);
+  EXPECT_FALSE(testMotion(*detector, bead, Motion{}, open, {}).contact());
+  EXPECT_FALSE(testMotion(*detector, bead, {at(1, 0, 0), at(1, 0, 0)}, closed, {}).contact());
+}
+
+TEST(InsideOfAWorkpieceTest, IsAskedAgainOnlyAfterContact) {
+  const auto detector = makeDetector("reference");
+  const TriangleMesh closed = wavyHull(24, 40, 0.0);
+  const Tool bead = Tool::cylinder(0.005, 0.01);
+  const SweepResult outside = checkSweep(*detector, {bead, {{at(1, 0, 0), at(1, 0, 0)}}, closed, {}});
+  EXPECT_TRUE(sweepCache(outside).outside);
+  const SweepResult in = checkSweep(*detector, {bead, {{at(1, 0, 0), at(0, 0, 0)}}, closed, {}, sweepCache(outside)});
+  EXPECT_FALSE(in.not_ruled_out.empty());
+  EXPECT_FALSE(sweepCache(in).outside);
+  EXPECT_TRUE(checkSweep(*detector, {bead, {Motion{}}, closed, {}, sweepCache(in)}).inside);
+}
+
+}  // namespace
+}  // namespace sweep_guard_core

@@ -1,0 +1,472 @@
+#include "sweep_guard/monitor/warning_monitor.h"
+#include "monitor/warnings.h"
+
+#include <gtest/gtest.h>
+
+#include "refusal.h"
+
+namespace sweep_guard_core {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr WarningLimits kLimits = {milliseconds(100), milliseconds(500), milliseconds(500)};
+
+Instant at(int ms) { return {Time(milliseconds(ms)), SteadyTime(milliseconds(ms))}; }
+Timestamps seenAt(int ms) { return {at(ms).stamp, at(ms).steady}; }
+
+std::shared_ptr<const Workpiece> workpiece(const std::string& id, int ms, std::uint32_t revision = 1) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  return std::make_shared<const Workpiece>(Workpiece{id, revision, at(ms).stamp, at(ms).steady, "table", mesh});
+}
+
+SweepReport reportOf(const Workpieces& workpieces, const std::vector<std::uint32_t>& met = {}) {
+  SweepReport report;
+  report.end = at(1000).stamp;
+  for (const auto& one : workpieces) report.objects.push_back({one, {}, {met, 0.0, {}, false, met}});
+  return report;
+}
+
+// From a pose on, 1.1 s ahead in two sweeps.
+Prediction outlookOn(const Workpieces& workpieces, int ms) {
+  Prediction prediction;
+  prediction.stamp = at(ms).stamp;
+  prediction.path.resize(2);
+  prediction.path[0].ahead = milliseconds(100);
+  prediction.path[1].ahead = milliseconds(1100);
+  for (const auto& one : workpieces)
+    prediction.objects.push_back({one, {{milliseconds(0)}, {milliseconds(100)}}, {}, {}, {}});
+  return prediction;
+}
+
+// One that meets its first workpiece after so long.
+Prediction collisionOn(const Workpieces& workpieces, int ms, int after_ms) {
+  Prediction prediction = outlookOn(workpieces, ms);
+  prediction.objects[0].sweeps[1] = {milliseconds(after_ms), /*met=*/true, /*probability=*/0.75};
+  prediction.objects[0].considered = {4};
+  return prediction;
+}
+
+class WarningMonitorTest : public testing::Test {
+ protected:
+  // A fresh workpiece, swept at a fresh pose and looked ahead from there.
+  WarningMonitorTest() {
+    monitor_.setWorkpieces(workpieces_);
+    sweep(reportOf(workpieces_), 1000);
+  }
+
+  void sweep(const SweepReport& report, int ms) {
+    sweepOnly(report, ms);
+    Workpieces tested;
+    for (const SweptObject& object : report.objects) tested.push_back(object.workpiece);
+    predict(outlookOn(tested, ms), ms);
+  }
+  void sweepOnly(SweepReport report, int ms) {
+    report.end = at(ms).stamp;
+    monitor_.swept(report, seenAt(ms), monitor_.checkpoint(), at(ms).steady);
+  }
+  void predict(const Prediction& prediction, int pose_ms) {
+    monitor_.predicted(prediction, seenAt(pose_ms), monitor_.checkpoint(), at(pose_ms));
+  }
+
+  WarningLevel levelAt(int ms) const { return warningOf(monitor_, at(ms)).level; }
+  std::uint32_t reasonsAt(int ms) const { return warningOf(monitor_, at(ms)).reasons; }
+
+  const Workpieces workpieces_ = {workpiece("liver", 1000)};
+  WarningMonitor monitor_{kLimits};
+};
+
+TEST_F(WarningMonitorTest, AnOverloadIsToldAndHeldButLeavesTheLevel) {
+  SweepReport report = reportOf(workpieces_);
+  report.backlog = milliseconds(20);
+  sweep(report, 1010);
+  EXPECT_EQ(reasonsAt(1010), 0U);
+  report.backlog = milliseconds(21);
+  sweep(report, 1020);
+  sweep(reportOf(workpieces_), 1030);
+  EXPECT_EQ(reasonsAt(1030), kOverload);
+  EXPECT_EQ(levelAt(1030), WarningLevel::kClear);
+  sweep(reportOf(workpieces_), 1480);
+  EXPECT_EQ(reasonsAt(1480), kOverload);
+  monitor_.setWorkpieces({workpiece("liver", 1500)});
+  sweep(reportOf({workpiece("liver", 1500)}), 1521);
+  EXPECT_EQ(reasonsAt(1521) & kOverload, 0U);
+}
+
+TEST_F(WarningMonitorTest, AnOverloadIsForgottenWhenTimeJumps) {
+  SweepReport report = reportOf(workpieces_);
+  report.backlog = milliseconds(50);
+  sweep(report, 1010);
+  monitor_.timeJumped("time went back");
+  EXPECT_EQ(reasonsAt(1010) & kOverload, 0U);
+}
+
+TEST(EmptyWarningMonitorTest, KnowsNothing) {
+  const Warning warning = warningOf(WarningMonitor(kLimits), at(0));
+  EXPECT_EQ(warning.level, WarningLevel::kUnknown);
+  EXPECT_EQ(warning.reasons, kNoPose | kNoMesh);
+  EXPECT_EQ(warning.covered_until, Time());
+}
+
+TEST_F(WarningMonitorTest, IsClearUntilTheInputsAgeOut) {
+  EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).covered_until, at(2100).stamp);
+  EXPECT_EQ(levelAt(1100), WarningLevel::kClear);
+  EXPECT_EQ(reasonsAt(1101), kPoseStale);
+  EXPECT_EQ(reasonsAt(1501), kPoseStale | kMeshStale);
+}
+
+TEST_F(WarningMonitorTest, AFaultLastsUntilALaterPoseIsSwept) {
+  monitor_.fault(kPoseInvalid, "NaN");
+  EXPECT_EQ(reasonsAt(1000), kPoseInvalid);
+  EXPECT_TRUE(has(warningOf(monitor_, at(1000)).text, "NaN"));
+  sweep(reportOf(workpieces_), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
+}
+
+// A pose that came before the bad one cannot vouch for what came after it.
+TEST_F(WarningMonitorTest, AFaultIsNotMendedByWhatCameBeforeIt) {
+  const WarningMonitor::Checkpoint before = monitor_.checkpoint();
+  monitor_.fault(kPoseInvalid, "NaN");
+  monitor_.swept(reportOf(workpieces_), seenAt(1010), before, at(1010).steady);
+  EXPECT_EQ(reasonsAt(1010), kPoseInvalid);
+}
+
+TEST(LedgerFaultTest, EveryFaultIsToldAtOnce) {
+  int told = 0;
+  WarningMonitor monitor(kLimits, [&] { ++told; });
+  monitor.fault(kPoseInvalid, "NaN");
+  EXPECT_EQ(told, 1);
+  monitor.meshRefused("liver", "NaN");
+  monitor.verticesRefused("liver", "NaN");
+  EXPECT_EQ(told, 3);
+  SweepReport failed;
+  failed.failures.push_back({workpiece("liver", 1000), "no canary"});
+  monitor.swept(failed, seenAt(1000), monitor.checkpoint(), at(1000).steady);
+  EXPECT_EQ(told, 4);
+  Prediction prediction;
+  prediction.failures = failed.failures;
+  monitor.predicted(prediction, seenAt(1000), monitor.checkpoint(), at(1000));
+  EXPECT_EQ(told, 5);
+  EXPECT_NE(warningOf(monitor, at(1000)).reasons & kDetectorFault, 0U);
+}
+
+TEST_F(WarningMonitorTest, ARefusedMeshCountsUntilItsNextGoodOne) {
+  monitor_.meshRefused("liver", "NaN vertex");
+  EXPECT_EQ(reasonsAt(1000), kMeshInvalid);
+  monitor_.meshAccepted("spleen");
+  sweep(reportOf(workpieces_), 1050);
+  EXPECT_EQ(reasonsAt(1050), kMeshInvalid);
+  monitor_.meshAccepted("liver");
+  EXPECT_EQ(levelAt(1050), WarningLevel::kClear);
+}
+
+// What the refused mesh announced is still not seen, however good the vertices of the one before are.
+TEST_F(WarningMonitorTest, ARefusedMeshIsNotMendedByVertices) {
+  monitor_.meshRefused("liver", "too large");
+  monitor_.verticesRefused("liver", "wrong revision");
+  monitor_.verticesAccepted("liver");
+  sweep(reportOf(workpieces_), 1050);
+  EXPECT_EQ(reasonsAt(1050), kMeshInvalid);
+  EXPECT_TRUE(has(warningOf(monitor_, at(1050)).text, "too large"));
+  monitor_.meshAccepted("liver");
+  EXPECT_EQ(levelAt(1050), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, RefusedVerticesAreMendedByGoodOnesAndByAMesh) {
+  monitor_.verticesRefused("liver", "NaN vertex");
+  EXPECT_EQ(reasonsAt(1000), kMeshInvalid);
+  monitor_.verticesAccepted("liver");
+  EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
+  monitor_.verticesRefused("liver", "NaN vertex");
+  monitor_.meshAccepted("liver");
+  EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
+}
+
+// Nobody knows where it is: as long as it is neither sent well nor removed, nothing is clear.
+TEST_F(WarningMonitorTest, ARefusedMeshOfAnUnknownWorkpieceIsNotForgotten) {
+  monitor_.meshRefused("ghost", "NaN vertex");
+  EXPECT_NE(reasonsAt(1000000) & kMeshInvalid, 0U);
+}
+
+TEST_F(WarningMonitorTest, AFloodOfRefusedMeshesIsNotClearWhenSomeAreMended) {
+  for (int i = 0; i < 1000; ++i) monitor_.meshRefused("ghost" + std::to_string(i), "no mesh");
+  for (int i = 0; i < 50; ++i) monitor_.meshAccepted("ghost" + std::to_string(i));
+  EXPECT_NE(reasonsAt(1000) & kMeshInvalid, 0U);
+}
+
+TEST_F(WarningMonitorTest, CoverageEndsWhereAWorkpieceCouldNotBeSwept) {
+  SweepReport report = reportOf(workpieces_);
+  report.end = at(1010).stamp;
+  report.failures.push_back({workpiece("spleen", 1000), "no canary"});
+  sweep(report, 1010);
+  EXPECT_EQ(warningOf(monitor_, at(1010)).covered_until, at(1000).stamp);  // what lies before the prediction is a hole
+  EXPECT_EQ(warningOf(monitor_, at(1010)).pose_stamp, at(1010).stamp);
+}
+
+TEST_F(WarningMonitorTest, ANewWorkpieceOrRevisionIsNotClearBeforeItIsSwept) {
+  const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
+  monitor_.setWorkpieces(two);
+  EXPECT_EQ(reasonsAt(1000), kNotSwept | kNotCovered);
+  sweep(reportOf(two), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
+  monitor_.setWorkpieces({workpieces_[0], workpiece("spleen", 1010, /*revision=*/2)});
+  EXPECT_EQ(reasonsAt(1010), kNotSwept | kNotCovered);
+}
+
+TEST_F(WarningMonitorTest, AContactIsHeldWhileLaterSweepsAreFree) {
+  sweep(reportOf(workpieces_, {3, 5}), 1010);
+  EXPECT_EQ(levelAt(1000000), WarningLevel::kContact);  // as far as is known it lasts
+  sweep(reportOf(workpieces_), 1020);
+  const Warning held = warningOf(monitor_, at(1510));
+  EXPECT_EQ(held.level, WarningLevel::kContact);
+  EXPECT_EQ(held.mesh_id, "liver");
+  EXPECT_EQ(held.triangles, (std::vector<std::uint32_t>{3, 5}));
+  EXPECT_NE(levelAt(1511), WarningLevel::kContact);
+}
+
+TEST_F(WarningMonitorTest, AContactLastsWhileItsWorkpieceCannotBeSwept) {
+  sweep(reportOf(workpieces_, {3}), 1010);
+  SweepReport failed;
+  failed.failures.push_back({workpieces_[0], "no canary"});
+  sweep(failed, 1020);
+  EXPECT_EQ(levelAt(5000), WarningLevel::kContact);
+  monitor_.setWorkpieces({});
+  sweep({}, 1030);  // it has been removed
+  EXPECT_EQ(levelAt(5000), WarningLevel::kUnknown);
+}
+
+TEST_F(WarningMonitorTest, TimeThatJumpedForgetsPoseAndFaults) {
+  monitor_.fault(kTfFail, "no transform");
+  monitor_.timeJumped("time went back");
+  const Warning warning = warningOf(monitor_, at(1010));
+  EXPECT_EQ(warning.level, WarningLevel::kUnknown);
+  EXPECT_EQ(warning.reasons, kTimeJump | kNoPose);
+  EXPECT_EQ(warning.covered_until, Time());
+}
+
+TEST_F(WarningMonitorTest, APoseFromBeforeAJumpOfTimeVouchesForNothing) {
+  const WarningMonitor::Checkpoint before = monitor_.checkpoint();
+  monitor_.timeJumped("time went back");
+  monitor_.swept(reportOf(workpieces_), seenAt(1010), before, at(1010).steady);
+  monitor_.predicted(collisionOn(workpieces_, 1010, 0), seenAt(1010), before, at(1010));
+  EXPECT_EQ(levelAt(1010), WarningLevel::kUnknown);
+  EXPECT_EQ(reasonsAt(1010), kTimeJump | kNoPose);
+  sweep(reportOf(workpieces_), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
+}
+
+// Poses may come faster than predictions: one serves until the pose that it began at is stale.
+TEST_F(WarningMonitorTest, APredictionVouchesForLaterPosesUntilItsOwnIsStale) {
+  for (int ms = 1001; ms <= 1100; ++ms) {
+    sweepOnly(reportOf(workpieces_), ms);
+    ASSERT_EQ(levelAt(ms), WarningLevel::kClear) << ms;
+  }
+  sweepOnly(reportOf(workpieces_), 1101);
+  EXPECT_EQ(reasonsAt(1101), kNotCovered);
+  EXPECT_EQ(warningOf(monitor_, at(1101)).covered_until, at(1101).stamp);
+  predict(outlookOn(workpieces_, 1101), 1101);
+  EXPECT_EQ(levelAt(1101), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, APredictionThatBeginsBeyondWhatWasSweptLeavesAHole) {
+  predict(outlookOn(workpieces_, 1001), 1001);
+  EXPECT_EQ(reasonsAt(1001), kNotCovered);
+  sweepOnly(reportOf(workpieces_), 1001);
+  EXPECT_EQ(levelAt(1001), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, APredictionThatDoesNotReachTheEndOfTheConsideredIntervalIsNotClear) {
+  Prediction prediction = outlookOn(workpieces_, 1000);
+  prediction.path.pop_back();
+  predict(prediction, 1000);
+  EXPECT_EQ(reasonsAt(1000), kNotCovered);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).covered_until, at(1100).stamp);
+  prediction.path.clear();
+  predict(prediction, 1000);
+  EXPECT_EQ(reasonsAt(1000), kNotCovered);
+}
+
+TEST_F(WarningMonitorTest, APredictionThatLeftOutAWorkpieceIsNotClear) {
+  const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
+  monitor_.setWorkpieces(two);
+  sweepOnly(reportOf(two), 1010);
+  predict(outlookOn(workpieces_, 1010), 1010);
+  EXPECT_EQ(reasonsAt(1010), kNotCovered);
+  Prediction unplaced = outlookOn(workpieces_, 1010);
+  unplaced.unplaced = {two[1]};
+  predict(unplaced, 1010);
+  EXPECT_EQ(reasonsAt(1010), kNotCovered);
+  predict(outlookOn(two, 1010), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, AFailedPredictionIsAFaultUntilALaterPose) {
+  Prediction failed = outlookOn({}, 1000);
+  failed.failures.push_back({workpieces_[0], "no canary"});
+  predict(failed, 1000);
+  EXPECT_EQ(reasonsAt(1000), kDetectorFault | kNotCovered);
+  EXPECT_TRUE(has(warningOf(monitor_, at(1000)).text, "no canary"));
+  sweep(reportOf(workpieces_), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
+}
+
+// No prediction comes between, only time.
+TEST_F(WarningMonitorTest, AWarningRisesByItself) {
+  predict(collisionOn(workpieces_, 1000, 1050), 1000);
+  EXPECT_EQ(levelAt(1034), WarningLevel::kClear);
+  EXPECT_EQ(levelAt(1035), WarningLevel::kConsidered);
+  EXPECT_EQ(levelAt(1934), WarningLevel::kConsidered);
+  EXPECT_EQ(levelAt(1935), WarningLevel::kReflex);
+  const Warning warning = warningOf(monitor_, at(1100));
+  EXPECT_EQ(warning.time_to_collision, milliseconds(950));
+  EXPECT_EQ(warning.probability, 0.75);
+  EXPECT_EQ(warning.mesh_id, "liver");
+  EXPECT_EQ(warning.triangles, (std::vector<std::uint32_t>{4}));
+}
+
+TEST_F(WarningMonitorTest, AWarningIsHeldFromWhenALaterPredictionIsFree) {
+  predict(collisionOn(workpieces_, 1000, 100), 1000);
+  EXPECT_EQ(levelAt(1000), WarningLevel::kReflex);
+  sweep(reportOf(workpieces_), 1090);
+  EXPECT_FALSE(warningOf(monitor_, at(1090)).time_to_collision);
+  for (int ms = 1100; ms <= 1590; ms += 10) {
+    sweep(reportOf(workpieces_), ms);
+    ASSERT_EQ(levelAt(ms), WarningLevel::kReflex) << ms;
+  }
+  EXPECT_NE(levelAt(1591), WarningLevel::kReflex);
+}
+
+// Farther off than before: what was urgent is held, then what is less so.
+TEST_F(WarningMonitorTest, AReflexWarningIsHeldWhileAConsideredOneIsInForce) {
+  predict(collisionOn(workpieces_, 1000, 100), 1000);
+  for (int ms = 1010; ms <= 1510; ms += 10) {
+    sweepOnly(reportOf(workpieces_), ms);
+    predict(collisionOn(workpieces_, ms, 500), ms);
+    ASSERT_EQ(levelAt(ms), WarningLevel::kReflex) << ms;
+  }
+  EXPECT_EQ(levelAt(1511), WarningLevel::kConsidered);
+}
+
+TEST_F(WarningMonitorTest, AnExpectationThatWasNeverDueIsNotHeld) {
+  predict(collisionOn(workpieces_, 1000, 1050), 1000);
+  sweep(reportOf(workpieces_), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, AnExpectationStandsWhileItsWorkpieceCannotBeTested) {
+  predict(collisionOn(workpieces_, 1000, 100), 1000);
+  Prediction failed = outlookOn({}, 1010);
+  failed.failures.push_back({workpieces_[0], "no canary"});
+  predict(failed, 1010);
+  EXPECT_EQ(warningOf(monitor_, at(1010)).time_to_collision, milliseconds(90));
+  EXPECT_EQ(levelAt(1000 + 1100 + 500), WarningLevel::kReflex);  // to the end of its prediction, and held
+  EXPECT_EQ(levelAt(1000 + 1100 + 501), WarningLevel::kUnknown);
+  monitor_.setWorkpieces({});
+  predict(failed, 1020);  // it has been removed
+  EXPECT_FALSE(warningOf(monitor_, at(1020)).time_to_collision);
+}
+
+TEST_F(WarningMonitorTest, AnExpectationThatCannotBeTestedDoesNotHideASoonerOne) {
+  const Workpieces two = {workpiece("spleen", 1000), workpieces_[0]};
+  monitor_.setWorkpieces(two);
+  predict(collisionOn(two, 1000, 300), 1000);
+  predict(collisionOn(workpieces_, 1010, 100), 1010);
+  EXPECT_EQ(warningOf(monitor_, at(1010)).mesh_id, "liver");
+  EXPECT_EQ(warningOf(monitor_, at(1010)).time_to_collision, milliseconds(100));
+}
+
+// Once the prediction is over that the first was expected by, the second is warned of however long the first is lost.
+TEST_F(WarningMonitorTest, AnExpectationThatCannotBeTestedDoesNotHideALaterOneForGood) {
+  const Workpieces two = {workpiece("spleen", 1000), workpieces_[0]};
+  monitor_.setWorkpieces(two);
+  predict(collisionOn(two, 1000, 100), 1000);
+  for (int ms = 1010; ms <= 5000; ms += 10) {
+    const int left = 4500 - ms;
+    if (left <= 0) break;
+    sweepOnly(reportOf(workpieces_), ms);
+    predict(collisionOn(workpieces_, ms, left), ms);
+    if (ms > 1000 + 1100 + 500) {
+      ASSERT_EQ(levelAt(ms) >= WarningLevel::kConsidered, left <= 1015) << ms;
+      ASSERT_EQ(levelAt(ms) == WarningLevel::kReflex, left <= 115) << ms;
+    }
+  }
+  EXPECT_EQ(warningOf(monitor_, at(4490)).mesh_id, "liver");
+}
+
+TEST_F(WarningMonitorTest, WarnsOfWhatIsProbableEnough) {
+  Prediction prediction = outlookOn(workpieces_, 1000);
+  prediction.objects[0].sweeps[1].probability = kLimits.min_probability - 1e-9;
+  predict(prediction, 1000);
+  EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
+  prediction.objects[0].sweeps[1].probability = kLimits.min_probability;
+  predict(prediction, 1000);
+  EXPECT_EQ(levelAt(1000), WarningLevel::kReflex);
+}
+
+TEST_F(WarningMonitorTest, TimeThatJumpedForgetsWhatWasExpectedAndWarnedOf) {
+  predict(collisionOn(workpieces_, 1000, 100), 1000);
+  predict(collisionOn(workpieces_, 1010, 500), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kReflex);
+  monitor_.timeJumped("time went back");
+  const Warning warning = warningOf(monitor_, at(1010));
+  EXPECT_EQ(warning.level, WarningLevel::kUnknown);
+  EXPECT_FALSE(warning.time_to_collision);
+  sweepOnly(reportOf(workpieces_), 1020);
+  EXPECT_EQ(reasonsAt(1020), kNotCovered);
+}
+
+TEST_F(WarningMonitorTest, DisabledIsUnknownByWhomItWasAskedWhateverCame) {
+  sweep(reportOf(workpieces_, {3}), 1010);
+  monitor_.disable("/somebody");
+  monitor_.disable("/somebody_else");
+  monitor_.fault(kTfFail, "no transform");
+  const Warning warning = warningOf(monitor_, at(1010));
+  EXPECT_EQ(warning.level, WarningLevel::kUnknown);
+  EXPECT_EQ(warning.reasons, kDisabled);
+  EXPECT_EQ(warning.text, "UNKNOWN: disabled by /somebody: nothing is tested");
+  EXPECT_EQ(warning.covered_until, Time());
+}
+
+TEST_F(WarningMonitorTest, WhatCameBeforeOrWhileItWasDisabledDoesNotCount) {
+  const WarningMonitor::Checkpoint before = monitor_.checkpoint();
+  EXPECT_TRUE(monitor_.counts(before));
+  monitor_.disable("/somebody");
+  const WarningMonitor::Checkpoint meanwhile = monitor_.checkpoint();
+  EXPECT_FALSE(monitor_.counts(before));
+  EXPECT_FALSE(monitor_.counts(meanwhile));
+  monitor_.enable();
+  EXPECT_FALSE(monitor_.counts(before));
+  EXPECT_FALSE(monitor_.counts(meanwhile));
+  EXPECT_TRUE(monitor_.counts(monitor_.checkpoint()));
+  monitor_.swept(reportOf(workpieces_), seenAt(1010), meanwhile, at(1010).steady);
+  EXPECT_EQ(reasonsAt(1010), kNoPose);
+  sweep(reportOf(workpieces_), 1020);
+  EXPECT_EQ(levelAt(1020), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, ToEnableWhatIsEnabledForgetsNothing) {
+  monitor_.enable();
+  EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, RestartEndsWhatIsHeldButNotARefusedMesh) {
+  sweep(reportOf(workpieces_, {3}), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kContact);
+  monitor_.restart();
+  EXPECT_EQ(reasonsAt(1010), kNoPose);
+  monitor_.meshRefused("liver", "workpiece 'liver' refused");
+  monitor_.restart();
+  EXPECT_EQ(reasonsAt(1010), kNoPose | kMeshInvalid);
+}
+
+TEST_F(WarningMonitorTest, NewLimitsCountFromTheNextVerdictOn) {
+  EXPECT_EQ(levelAt(1050), WarningLevel::kClear);
+  WarningLimits limits = kLimits;
+  limits.pose_timeout = milliseconds(40);
+  monitor_.setLimits(limits);
+  EXPECT_NE(reasonsAt(1050) & kPoseStale, 0U);
+}
+
+}  // namespace
+}  // namespace sweep_guard_core

@@ -1,0 +1,88 @@
+#include "ros/parameter_documents.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <sstream>
+
+#include "ros/parameters/parameters.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr size_t kLineLength = 118;
+const std::string kHead =
+    "# Every parameter of sweep_guard_node with its default. The comment above a key tells type, unit, range and "
+    "effect.\n"
+    "# A wrong type, NaN or a value out of range stops the node at start with one line. An unknown key raises a "
+    "warning.\n"
+    "# doc/interface.md tells which parameters can change while the node runs.\n"
+    "# This file is written from src/ros/parameters/parameters.cpp, as CONTRIBUTING.md explains.\n";
+
+std::string groupOf(const std::string& key) {
+  const size_t slash = key.find('/');
+  return slash == std::string::npos ? "" : key.substr(0, slash);
+}
+
+// Those without a group come first; the groups follow in the order in which they are read.
+std::vector<ParameterInfo> grouped(const std::vector<ParameterInfo>& infos) {
+  std::vector<std::string> groups = {""};
+  for (const ParameterInfo& info : infos) {
+    if (std::count(groups.begin(), groups.end(), groupOf(info.key)) == 0) groups.push_back(groupOf(info.key));
+  }
+  std::vector<ParameterInfo> ordered;
+  for (const std::string& group : groups) {
+    std::copy_if(infos.begin(), infos.end(), std::back_inserter(ordered),
+                 [&](const ParameterInfo& info) { return groupOf(info.key) == group && !info.effect.empty(); });
+  }
+  return ordered;
+}
+
+std::string commented(const std::string& text, const std::string& indent) {
+  std::string comment;
+  std::string line = indent + "#";
+  std::istringstream words(text);
+  for (std::string word; words >> word; line += " " + word) {
+    if (line.size() + 1 + word.size() <= kLineLength) continue;
+    comment += line + "\n";
+    line = indent + "#";
+  }
+  return comment + line + "\n";
+}
+
+std::string capitalized(std::string text) {
+  const size_t first = text.front() == '[' ? text.find(' ') + 1 : 0;
+  text[first] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[first])));
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> parameterRows(const std::vector<ParameterInfo>& infos) {
+  std::vector<std::string> rows;
+  for (const ParameterInfo& info : grouped(infos)) {
+    rows.push_back("| `" + info.key + "` | `" + shown(info.fallback) + "` | " + info.wanted + " | " +
+                   (changesWhileRunning(info.key) ? "yes" : "no") + " | " + info.effect + " |");
+  }
+  return rows;
+}
+
+std::string configurationFile(const std::vector<ParameterInfo>& infos) {
+  std::string text = kHead;
+  std::string group;
+  for (const ParameterInfo& info : grouped(infos)) {
+    if (groupOf(info.key) != group) {
+      group = groupOf(info.key);
+      text += "\n" + group + ":\n";
+    } else if (group.empty()) {
+      text += "\n";
+    }
+    const std::string indent = group.empty() ? "" : "  ";
+    const std::string name = info.key.substr(group.empty() ? 0 : group.size() + 1);
+    text += commented(capitalized(info.wanted) + ". " + info.effect, indent);
+    text += indent + name + ": " + shown(info.fallback) + "\n";
+  }
+  return text;
+}
+
+}  // namespace sweep_guard_ros

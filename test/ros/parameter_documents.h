@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sweep_guard/ros/parameters/parameter_reader.h"
+
+namespace sweep_guard_ros {
+
+/// Returns the rows of doc/interface.md's table of parameters: key, default, type with unit and range, whether it
+/// changes while the guard runs, effect. A parameter without an effect is left out.
+std::vector<std::string> parameterRows(const std::vector<ParameterInfo>& infos);
+
+/// Returns the text of config/sweep_guard.yaml.
+std::string configurationFile(const std::vector<ParameterInfo>& infos);
+
+}  // namespace sweep_guard_ros
