@@ -1,6 +1,6 @@
-// Compares the detectors with what else could do their work, on one size of a deforming hull.
+// Compares the detectors with other methods for the same task, on one size of a deforming hull.
 //   compare --help
-// Exit status 1: a detector of ours missed a triangle, or named one beyond its stated inflation.
+// Exit status 1: one of our detectors missed a triangle, or named one beyond its stated inflation.
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <cmath>
@@ -16,6 +16,7 @@
 #include "race.h"
 #include "row.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/quantile.h"
 #include "sweep_guard/detection/detector.h"
 
 namespace sweep_guard_benchmark {
@@ -23,7 +24,7 @@ namespace {
 
 namespace po = boost::program_options;
 using sweep_guard_core::InvalidInput;
-using sweep_guard_core::Sample;
+using sweep_guard_core::quantile;
 
 struct Options {
   size_t triangles = 1600;
@@ -34,38 +35,39 @@ struct Options {
   bool help = false;
 };
 
-po::options_description described(Options& options) {
-  po::options_description described("Options");
-  described.add_options()("help,h", po::bool_switch(&options.help), "say this")(
-      "triangles", po::value(&options.triangles)->default_value(options.triangles), "of the hull, about")(
-      "csv", po::value(&options.csv)->value_name("FILE"), "results are added to this file")(
+po::options_description description(Options& options) {
+  po::options_description description("Options");
+  description.add_options()("help,h", po::bool_switch(&options.help), "print this text")(
+      "triangles", po::value(&options.triangles)->default_value(options.triangles),
+      "approximate number of triangles of the hull")("csv", po::value(&options.csv)->value_name("FILE"),
+                                                     "append the results to this file")(
       "peers", po::value(&options.peers)->default_value(options.peers), "all, scalar or none")(
       "deformations", po::value(&options.deformations)->default_value(0),
-      "different ones; 0: as many as fit into 50 MB")(
-      "frames", po::value(&options.limits.frames)->default_value(options.limits.frames), "of each pair")(
+      "number of different deformations; 0: as many as fit into 50 MB")(
+      "frames", po::value(&options.limits.frames)->default_value(options.limits.frames), "frames of each pair")(
       "seconds", po::value(&options.limits.seconds)->default_value(options.limits.seconds),
-      "of each pair: no more frames then, but for the first three");
-  return described;
+      "time limit of each pair; the first three frames are always completed");
+  return description;
 }
 
-struct Contender {
+struct Method {
   std::string name;
   Entrant::Factory make;
-  bool ours = false;
+  bool is_ours = false;
 };
 
-Contender detector(const std::string& name) {
+Method detector(const std::string& name) {
   return {name, [name](Surface& surface) { return makeDetectorPeer(name, surface); }, true};
 }
 
-// Every position is read once: the limit, of a plain loop and of one that fetches ahead.
-const std::vector<Contender> kMemoryReads = {{"memory read", makeMemoryRead},
-                                             {"memory read fetched ahead", makeMemoryReadAhead}};
+// The lower limit: every position is read once.
+const std::vector<Method> kMemoryReads = {{"memory read", makeMemoryRead},
+                                          {"memory read fetched ahead", makeMemoryReadAhead}};
 
-std::vector<Contender> others(const std::string& peers) {
-  const auto whole = [](Surface& surface) { return makeWholeDetectorPeer(kOurs, surface); };
-  std::vector<Contender> all = kMemoryReads;
-  all.push_back({kOurs + " with set-up", whole, true});
+std::vector<Method> otherMethods(const std::string& peers) {
+  const auto with_set_up = [](Surface& surface) { return makeDetectorPeerWithSetUp(kOurs, surface); };
+  std::vector<Method> all = kMemoryReads;
+  all.push_back({kOurs + " with set-up", with_set_up, true});
   for (const std::string& name : sweep_guard_core::detectorNames()) {
     if (name != kOurs) all.push_back(detector(name));
   }
@@ -75,18 +77,18 @@ std::vector<Contender> others(const std::string& peers) {
     if (kind.make) {
       all.push_back({kind.name, kind.make});
     } else {
-      std::printf("skipped: %s, which was built without %s\n", kind.name.c_str(), kind.package.c_str());
+      std::printf("skipped: %s, built without %s\n", kind.name.c_str(), kind.package.c_str());
     }
   }
   if (peers == "all") all.push_back({"OSMesa", makePlainSelectPeer});
   return all;
 }
 
-// The ones that matter where the order or the number of hits is what is looked at.
-bool chief(const Contender& contender) {
+// Methods that also run on shuffled meshes and on sweeps with no hit or one.
+bool runsOnEveryWorkload(const Method& method) {
   static const std::vector<std::string> kNames = {"memory read", "select", "scalar", "scalar box first",
                                                   "FCL AABB",    "Bullet", "Embree"};
-  return std::find(kNames.begin(), kNames.end(), contender.name) != kNames.end();
+  return std::find(kNames.begin(), kNames.end(), method.name) != kNames.end();
 }
 
 class Comparison {
@@ -94,25 +96,25 @@ class Comparison {
   explicit Comparison(const Options& options) : options_(options), hull_(rings(options.triangles)) {
     if (options.csv.empty()) return;
     csv_.open(options.csv, std::ios::app);
-    if (!csv_) throw InvalidInput(options.csv + ": cannot be written");
+    if (!csv_) throw InvalidInput(options.csv + ": cannot write");
     if (csv_.tellp() == 0) csv_ << csvHeader();
   }
 
-  /// @return whether all answers of ours are right
+  /// @returns whether our detectors made no error
   bool run() {
-    const std::vector<Contender> contenders = others(options_.peers);
-    std::vector<Contender> chiefs;
-    std::copy_if(contenders.begin(), contenders.end(), std::back_inserter(chiefs), chief);
-    compare(ordinary(hull_, Question::kNothing, deformations()), "update", kMemoryReads);
-    const Workload sweep = ordinary(hull_, Question::kSweep, deformations());
-    const Workload sweeps = ordinary(hull_, Question::kTwentySweeps, deformations());
-    compare(sweep, sweep.name, contenders);
-    compare(sweeps, sweeps.name, contenders);
-    for (const Workload* workload : {&sweep, &sweeps}) compare(shuffled(*workload), "shuffled", chiefs);
+    const std::vector<Method> all = otherMethods(options_.peers);
+    std::vector<Method> some;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(some), runsOnEveryWorkload);
+    compare(ordinary(hull_, Queries::kNone, deformations()), "update", kMemoryReads);
+    const Workload sweep = ordinary(hull_, Queries::kSweep, deformations());
+    const Workload sweeps = ordinary(hull_, Queries::kTwentySweeps, deformations());
+    compare(sweep, sweep.name, all);
+    compare(sweeps, sweeps.name, all);
+    for (const Workload* workload : {&sweep, &sweeps}) compare(shuffled(*workload), "shuffled", some);
     if (options_.triangles > 200000) return right_;
     for (const size_t hits : {size_t{0}, size_t{1}}) {
       const Workload workload = grazing(hull_, hits, std::min<size_t>(8, deformations()));
-      compare(workload, workload.name, chiefs);
+      compare(workload, workload.name, some);
     }
     return right_;
   }
@@ -129,30 +131,30 @@ class Comparison {
     return std::clamp<size_t>(50000000 / (6 * options_.triangles), 8, 32);
   }
 
-  void compare(const Workload& workload, const std::string& work, const std::vector<Contender>& contenders) {
+  void compare(const Workload& workload, const std::string& work, const std::vector<Method>& methods) {
     std::printf("\n%s, %zu triangles, %zu queries, %.1f hits per frame (load %.1f)\n", work.c_str(),
                 workload.surface.triangles.size(), workload.queries, workload.hits(), load());
     std::printf("%-26s %12s %12s %12s %9s %9s %7s %7s %7s\n", "method", "median us", "p10", "p90", "ratio", "p10",
                 "misses", "extras", "frames");
-    Sample ours_us;
+    std::vector<double> ours_us;
     size_t misses = 0;
     size_t extras = 0;
-    for (const Contender& contender : contenders) {
+    for (const Method& method : methods) {
       Entrant ours(workload, detector(kOurs).make);
-      Entrant peer(workload, contender.make);
+      Entrant peer(workload, method.make);
       const Race result = race(workload, ours, peer, options_.limits);
-      for (const double time : result.ours_us.values()) ours_us.add(time);
+      ours_us.insert(ours_us.end(), result.ours_us.begin(), result.ours_us.end());
       misses += ours.misses();
       extras += ours.extras();
-      Row row = rowOf(work, workload, contender.name, result.peer_us);
-      row.ratio_median = result.ratio.quantile(0.5);
-      row.ratio_p10 = result.ratio.quantile(0.1);
+      Row row = rowOf(work, workload, method.name, result.peer_us);
+      row.ratio_median = quantile(result.ratio, 0.5);
+      row.ratio_p10 = quantile(result.ratio, 0.1);
       if (peer.answers() && workload.queries > 0) {
         row.misses = peer.misses();
         row.extras = peer.extras();
       }
-      if (contender.ours) judge(row);
-      write(row, result.ratio.count());
+      if (method.is_ours) judge(row);
+      write(row, result.ratio.size());
       if (!peer.answers()) printBandwidth(workload, row.median_us);
     }
     Row row = rowOf(work, workload, kOurs, ours_us);
@@ -162,24 +164,17 @@ class Comparison {
       row.extras = extras;
     }
     judge(row);
-    write(row, ours_us.count());
+    write(row, ours_us.size());
   }
 
-  static Row rowOf(const std::string& work, const Workload& workload, const std::string& method, const Sample& us) {
-    Row row;
-    row.work = work;
-    row.method = method;
-    row.triangles = workload.surface.triangles.size();
-    row.queries = workload.queries;
-    row.median_us = us.quantile(0.5);
-    row.p10_us = us.quantile(0.1);
-    row.p90_us = us.quantile(0.9);
-    return row;
+  static Row rowOf(const std::string& work, const Workload& workload, const std::string& method,
+                   const std::vector<double>& times) {
+    return makeRow(work, method, workload.surface.triangles.size(), workload.queries, times);
   }
 
   static void printBandwidth(const Workload& workload, double us) {
     const auto bytes = static_cast<double>(sizeof(float) * workload.surface.positions_M.size());
-    std::printf("    %.1f GB/s of two buffers in turn, of %.0f KB, just written\n", 1e-3 * bytes / us, 1e-3 * bytes);
+    std::printf("    %.1f GB/s, from two buffers of %.0f KB in turn, just written\n", 1e-3 * bytes / us, 1e-3 * bytes);
   }
 
   void judge(const Row& row) {
@@ -205,7 +200,7 @@ class Comparison {
 
 int run(int argc, char** argv) {
   Options options;
-  const po::options_description known = described(options);
+  const po::options_description known = description(options);
   po::variables_map values;
   po::store(po::parse_command_line(argc, argv, known), values);
   po::notify(values);

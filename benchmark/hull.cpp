@@ -1,7 +1,6 @@
 #include "hull.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace sweep_guard_benchmark {
 namespace {
@@ -14,14 +13,6 @@ constexpr double kCap = 0.03;         // [rad]
 constexpr double kRadius = 0.01;      // of the drill [m]
 constexpr double kLength = 0.15;      // of the drill [m]
 constexpr double kTilt = kPi / 6.0;   // of the drill [rad]
-
-std::vector<std::uint32_t> shuffled(size_t count, sweep_guard_core::Random& random) {
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0U);
-  for (size_t i = count; i > 1; --i)
-    std::swap(order[i - 1], order[static_cast<size_t>(random.below(static_cast<int>(i)))]);
-  return order;
-}
 
 }  // namespace
 
@@ -78,7 +69,7 @@ sweep_guard_core::ConvexShape drill() { return sweep_guard_core::ConvexShape::cy
 
 Order randomOrder(const Surface& surface) {
   sweep_guard_core::Random random(/*seed=*/surface.triangles.size());
-  return {shuffled(surface.positions_M.size() / 3, random), shuffled(surface.triangles.size(), random)};
+  return {random.permutation(surface.positions_M.size() / 3), random.permutation(surface.triangles.size())};
 }
 
 Surface reordered(const Surface& surface, const Order& order) {

@@ -10,20 +10,20 @@
 
 namespace sweep_guard_benchmark {
 
-/// A workpiece that deforms: an ellipsoid of 0.60 x 0.60 x 0.44 m about the origin, open at two small caps about its
-/// poles, with waves of 5 % that run over it.
+/// A workpiece that deforms: an ellipsoid of 0.60 x 0.60 x 0.44 m around the origin, with small openings at its poles
+/// and waves of 5 % that run over it.
 class Hull {
  public:
   /// @param rings  4 * rings * rings triangles
   explicit Hull(size_t rings) : rings_(rings) {}
 
-  /// At a phase of the waves [rad].
+  /// Returns the surface at a phase of the waves [rad].
   Surface surface(double phase) const;
 
-  /// A drill of 20 x 150 mm, 30 degrees from the surface's normal, somewhere at the surface, which moves in any
-  /// direction and turns about its tip.
+  /// Returns a motion of the drill at a random place of the surface: the drill is tilted by 30 degrees against the
+  /// normal, moves in a random direction and turns about its tip.
   /// @param phase   of the waves [rad]
-  /// @param depth   of the tip inside of the surface at the start [m]; negative: outside
+  /// @param depth   of the tip inside the surface at the start [m]; negative: outside
   /// @param length  of the step [m]
   /// @param angle   of the turn [rad]
   sweep_guard_core::Motion drilling(sweep_guard_core::Random& random, double phase, double depth, double length,
@@ -35,19 +35,19 @@ class Hull {
   size_t rings_;
 };
 
-/// The drill of Hull::drilling().
+/// Returns the drill of Hull::drilling(): 20 x 150 mm.
 sweep_guard_core::ConvexShape drill();
 
-/// Vertices and triangles in another order.
+/// An order of vertices and triangles: the old index at each new place.
 struct Order {
-  std::vector<std::uint32_t> vertices;   ///< where each vertex comes from
-  std::vector<std::uint32_t> triangles;  ///< where each triangle comes from
+  std::vector<std::uint32_t> vertices;
+  std::vector<std::uint32_t> triangles;
 };
 
-/// A random one, for every size of mesh another.
+/// Returns a random order, which depends on the number of triangles alone.
 Order randomOrder(const Surface& surface);
 
-/// The same surface in that order.
+/// Returns the same surface in another order.
 Surface reordered(const Surface& surface, const Order& order);
 
 }  // namespace sweep_guard_benchmark

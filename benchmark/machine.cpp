@@ -20,8 +20,8 @@ std::string processor() {
 }  // namespace
 
 std::string machineText() {
-  return "processor: " + processor() + ", of which we use " + sweep_guard_core::simd::kernels().name +
-         "\ncompiler: " SWEEP_GUARD_COMPILER "; peers but FCL, and the clip: with -march=native besides\n";
+  return "processor: " + processor() + ", instruction set: " + sweep_guard_core::simd::kernels().name +
+         "\ncompiler: " SWEEP_GUARD_COMPILER "; peers except FCL, and the clipping: also -march=native\n";
 }
 
 double load() {

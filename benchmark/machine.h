@@ -4,10 +4,10 @@
 
 namespace sweep_guard_benchmark {
 
-/// Processor, instructions that it has and that we use, compiler with its flags: a few lines.
+/// Returns a few lines: the processor, the instruction set that the detectors use, the compiler and its flags.
 std::string machineText();
 
-/// The machine's load over the last minute.
+/// Returns the load of the machine, averaged over the last minute.
 double load();
 
 }  // namespace sweep_guard_benchmark

@@ -4,7 +4,7 @@
 
 namespace sweep_guard_core {
 
-/// How long some work takes, done once [us].
+/// Runs `work` once and returns the time that it takes [us].
 template <typename Work>
 double microseconds(const Work& work) {
   const auto start = std::chrono::steady_clock::now();

@@ -1,13 +1,11 @@
-// Prints what the fine phase costs per candidate [us]: a drill that moves as a hand does, and triangles about it.
-#include "sweep_guard/detection/time_of_impact.h"
+// Measures what the narrow phase costs per candidate: a drill that moves like a hand, and triangles around it.
+#include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <string>
 #include <vector>
 
-#include "microseconds.h"
 #include "scenes.h"
+#include "sweep_guard/detection/time_of_impact.h"
 #include "sweep_guard/geometry/separation.h"
 
 namespace sweep_guard_core {
@@ -16,11 +14,10 @@ namespace {
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 constexpr int kCandidates = 20000;
-constexpr int kRepetitions = 10;
 constexpr double kMaxRotation = 0.17453292519943295;  // 10 degrees [rad]
 
 struct Candidate {
-  std::vector<Motion> parts;
+  std::vector<Motion> sub_motions;
   MovingTriangle triangle;
 };
 
@@ -34,15 +31,15 @@ struct Drill {
 
 ConvexShape drill() { return ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1); }
 
-// Triangles of 3 mm beside the drill's axis, up to `away` [m] from it.
-std::vector<Candidate> candidates(double away, bool turning) {
+// Triangles of 3 mm up to `away` [mm] from the drill's axis.
+std::vector<Candidate> candidates(std::int64_t away, bool turning) {
   Random random(/*seed=*/1);
   std::vector<Candidate> all;
   for (int i = 0; i < kCandidates; ++i) {
     Motion motion = handMotion(random);
     if (!turning) motion.X_MT_end.linear() = motion.X_MT_start.linear();
     const Eigen::Vector3d on_axis = motion.X_MT_start * Eigen::Vector3d(0, 0, random.uniform(-0.1, 0.0));
-    const Eigen::Vector3d place = on_axis + random.uniform(0.0, away) * random.direction();
+    const Eigen::Vector3d place = on_axis + random.uniform(0.0, 1e-3 * static_cast<double>(away)) * random.direction();
     Corners corners;
     for (Eigen::Vector3d& p : corners) p = place + 0.003 * random.direction();
     all.push_back({split(motion, kMaxRotation), {corners, corners}});
@@ -50,70 +47,62 @@ std::vector<Candidate> candidates(double away, bool turning) {
   return all;
 }
 
-// The least time of several [us], for each of so many.
-template <typename Work>
-double timePerEach(size_t count, const Work& work) {
-  double best = microseconds(work);
-  for (int repetition = 1; repetition < kRepetitions; ++repetition) best = std::min(best, microseconds(work));
-  return best / static_cast<double>(count);
-}
-
-void printSeparation(double away) {
-  const ConvexShape shape = drill();
-  const std::vector<Candidate> all = candidates(away, /*turning=*/false);
-  const auto each = [&](const auto& ask) {
-    return timePerEach(all.size(), [&] {
-      for (const Candidate& c : all) {
-        const Eigen::Isometry3d& X_MT = c.parts[0].X_MT_start;
-        ask(Drill{shape, X_MT}, PointHull(c.triangle.start_M), X_MT.translation() - c.triangle.start_M[0]);
-      }
-    });
-  };
-  double sum = 0.0;
-  const double exact =
-      each([&](const Drill& a, const PointHull& b, const auto& n) { sum += separation(a, b, 0, n).gap; });
-  const double rough =
-      each([&](const Drill& a, const PointHull& b, const auto& n) { sum += separation(a, b, 1e-9, n).gap; });
-  const double farther = each(
-      [&](const Drill& a, const PointHull& b, const auto& n) { sum += distanceExceeds(a, b, 0.001, n) ? 1.0 : 0.0; });
-  std::printf("separation, up to %3.0f mm: exact %.2f, to 1 nm %.2f, farther apart than 1 mm %.2f%s\n", 1e3 * away,
-              exact, rough, farther, sum == 0.0 ? " (nothing)" : "");
-}
-
-// Misses, hits and overlapping starts apart.
-void printImpacts(double away, bool turning) {
-  const ConvexShape shape = drill();
-  std::vector<Candidate> misses;
-  std::vector<Candidate> hits;
-  std::vector<Candidate> starts;
-  for (const Candidate& c : candidates(away, turning)) {
-    const std::optional<Impact> impact = timeOfImpact(shape, c.parts, c.triangle, 0.0);
-    (!impact ? misses : impact->time_of_impact > 0.0 ? hits : starts).push_back(c);
+template <typename Query>
+void measure(benchmark::State& state, const std::vector<Candidate>& all, const Query& query) {
+  for ([[maybe_unused]] const auto iteration : state) {
+    for (const Candidate& candidate : all) benchmark::DoNotOptimize(query(candidate));
   }
-  std::printf("first impact, %s, up to %3.0f mm:", turning ? "turning" : "straight", 1e3 * away);
-  const auto print = [&](const char* what, const std::vector<Candidate>& some, const auto& contact_normal) {
-    if (some.empty()) return;
-    double sum = 0.0;
-    const double time = timePerEach(some.size(), [&] {
-      for (const Candidate& c : some) sum += timeOfImpact(shape, c.parts, c.triangle, 0.0, contact_normal) ? 1.0 : 0.0;
-    });
-    std::printf("  %s %.2f (%zu%s)", what, time, some.size(), sum < 0.0 ? "!" : "");
-  };
-  print("miss", misses, std::nullopt);
-  print("hit", hits, std::nullopt);
-  print("overlapping start", starts, std::nullopt);
-  print("the same with its way in", starts, std::optional<Eigen::Vector3d>(Eigen::Vector3d::UnitZ()));
-  std::printf("\n");
+  const auto count = static_cast<double>(all.size());
+  state.counters["candidates"] = count;
+  state.counters["each"] = {count, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
 }
+
+template <typename Query>
+void separate(benchmark::State& state, const Query& query) {
+  const ConvexShape shape = drill();
+  measure(state, candidates(state.range(0), /*turning=*/false), [&](const Candidate& c) {
+    const Eigen::Isometry3d& X_MT = c.sub_motions[0].X_MT_start;
+    return query(Drill{shape, X_MT}, PointHull(c.triangle.start_M), X_MT.translation() - c.triangle.start_M[0]);
+  });
+}
+
+enum class Outcome { kMiss, kHit, kOverlappingStart };
+
+void findImpact(benchmark::State& state, Outcome outcome, const std::optional<Eigen::Vector3d>& contact_normal = {}) {
+  const ConvexShape shape = drill();
+  std::vector<Candidate> some = candidates(state.range(0), state.range(1) != 0);
+  const auto differs = [&](const Candidate& c) {
+    const std::optional<Impact> impact = timeOfImpact(shape, c.sub_motions, c.triangle, 0.0);
+    const Outcome hit = impact && impact->time_of_impact > 0.0 ? Outcome::kHit : Outcome::kOverlappingStart;
+    return (impact ? hit : Outcome::kMiss) != outcome;
+  };
+  some.erase(std::remove_if(some.begin(), some.end(), differs), some.end());
+  measure(state, some, [&](const Candidate& c) {
+    return timeOfImpact(shape, c.sub_motions, c.triangle, 0.0, contact_normal).has_value();
+  });
+}
+
+const auto exact = [](const auto& a, const auto& b, const auto& guess) { return separation(a, b, 0.0, guess).gap; };
+const auto to_1_nm = [](const auto& a, const auto& b, const auto& guess) { return separation(a, b, 1e-9, guess).gap; };
+const auto exceeds_1_mm = [](const auto& a, const auto& b, const auto& guess) {
+  return distanceExceeds(a, b, 0.001, guess);
+};
+
+BENCHMARK_CAPTURE(separate, exact, exact)->ArgName("mm")->Arg(20)->Arg(100);
+BENCHMARK_CAPTURE(separate, to_1_nm, to_1_nm)->ArgName("mm")->Arg(20)->Arg(100);
+BENCHMARK_CAPTURE(separate, exceeds_1_mm, exceeds_1_mm)->ArgName("mm")->Arg(20)->Arg(100);
+
+const std::vector<std::vector<std::int64_t>> kArguments = {{20, 100}, {0, 1}};
+BENCHMARK_CAPTURE(findImpact, miss, Outcome::kMiss)->ArgNames({"mm", "turning"})->ArgsProduct(kArguments);
+BENCHMARK_CAPTURE(findImpact, hit, Outcome::kHit)->ArgNames({"mm", "turning"})->ArgsProduct(kArguments);
+BENCHMARK_CAPTURE(findImpact, overlapping_start, Outcome::kOverlappingStart)
+    ->ArgNames({"mm", "turning"})
+    ->ArgsProduct(kArguments);
+BENCHMARK_CAPTURE(findImpact, contact_normal, Outcome::kOverlappingStart, Eigen::Vector3d::UnitZ().eval())
+    ->ArgNames({"mm", "turning"})
+    ->ArgsProduct(kArguments);
 
 }  // namespace
 }  // namespace sweep_guard_core
 
-int main() {
-  std::printf("us per candidate (number of candidates)\n");
-  for (const double away : {0.02, 0.1}) sweep_guard_core::printSeparation(away);
-  for (const double away : {0.02, 0.1}) {
-    for (const bool turning : {false, true}) sweep_guard_core::printImpacts(away, turning);
-  }
-  return 0;
-}
+BENCHMARK_MAIN();

@@ -5,14 +5,16 @@
 #include <cstring>
 #include <iterator>
 
+#include "microseconds.h"
+
 namespace sweep_guard_benchmark {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t kWarmUp = 3;       // frames
-constexpr size_t kFewest = 3;       // frames
-constexpr double kRounding = 1e-9;  // of the polytope in M and of its clip [m]
+constexpr size_t kWarmUpFrames = 3;
+constexpr size_t kMinFrames = 3;
+constexpr double kRounding = 1e-9;  // of the polytope in M and of its clipping [m]
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -25,10 +27,10 @@ double Entrant::run(const Frame& frame) {
   peer_->prepare(frame.volumes_M);
   for (TriangleIds& ids : ids_) ids.clear();
   std::memcpy(surface_->positions_M.data(), frame.positions_M.data(), sizeof(float) * frame.positions_M.size());
-  const auto start = Clock::now();
-  peer_->update();
-  peer_->queryAll(ids_);
-  const double time = 1e6 * secondsSince(start);
+  const double time = sweep_guard_core::microseconds([&] {
+    peer_->update();
+    peer_->queryAll(ids_);
+  });
   if (peer_->answers()) check(frame);
   return time;
 }
@@ -56,20 +58,20 @@ void Entrant::check(const Frame& frame) {
 Race race(const Workload& workload, Entrant& ours, Entrant& peer, const Limits& limits) {
   const auto start = Clock::now();
   const auto frame = [&](size_t i) -> const Frame& { return workload.frames[i % workload.frames.size()]; };
-  for (size_t i = 0; i < kWarmUp && secondsSince(start) < 0.1 * limits.seconds; ++i) {
+  for (size_t i = 0; i < kWarmUpFrames && secondsSince(start) < 0.1 * limits.seconds; ++i) {
     ours.run(frame(i));
     peer.run(frame(i));
   }
   Race race;
   for (size_t i = 0; i < limits.frames; ++i) {
-    if (race.ratio.count() >= kFewest && secondsSince(start) > limits.seconds) break;
+    if (race.ratio.size() >= kMinFrames && secondsSince(start) > limits.seconds) break;
     const bool ours_first = i % 2 == 0;
     double ours_us = ours_first ? ours.run(frame(i)) : 0.0;
     const double peer_us = peer.run(frame(i));
     if (!ours_first) ours_us = ours.run(frame(i));
-    race.ours_us.add(ours_us);
-    race.peer_us.add(peer_us);
-    race.ratio.add(peer_us / ours_us);
+    race.ours_us.push_back(ours_us);
+    race.peer_us.push_back(peer_us);
+    race.ratio.push_back(peer_us / ours_us);
   }
   return race;
 }

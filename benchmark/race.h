@@ -4,22 +4,21 @@
 #include <memory>
 
 #include "peers/peer.h"
-#include "sample.h"
 #include "workload.h"
 
 namespace sweep_guard_benchmark {
 
-/// What one peer took for the frames of a workload, and answered.
+/// Runs one peer on the frames of a workload, and counts its errors.
 class Entrant {
  public:
   using Factory = std::function<std::unique_ptr<Peer>(Surface&)>;
   Entrant(const Workload& workload, const Factory& make);
 
-  /// Writes the positions of a frame, which is not timed, and has the peer take them in and answer.
-  /// @return the time for that [us]
+  /// Writes the positions of a frame, which is not timed; then lets the peer update and answer.
+  /// @returns the time for both [us]
   double run(const Frame& frame);
 
-  size_t misses() const { return misses_; }  ///< triangles met that were not named, over all frames
+  size_t misses() const { return misses_; }  ///< triangles met and not named, over all frames
   size_t extras() const { return extras_; }  ///< triangles named that lie beyond the stated inflation
   bool answers() const { return peer_->answers(); }
 
@@ -33,20 +32,20 @@ class Entrant {
   size_t extras_ = 0;
 };
 
-/// How long to race.
+/// How long a race lasts.
 struct Limits {
   size_t frames = 100;    ///< of each peer
-  double seconds = 20.0;  ///< no more frames then, but for the first three
+  double seconds = 20.0;  ///< after this time only the first three frames are completed
 };
 
-/// Two entrants on the same frames.
+/// The times of two entrants, frame by frame.
 struct Race {
-  sweep_guard_core::Sample ours_us;
-  sweep_guard_core::Sample peer_us;
-  sweep_guard_core::Sample ratio;  ///< peer's time over ours, frame by frame
+  std::vector<double> ours_us;
+  std::vector<double> peer_us;
+  std::vector<double> ratio;  ///< peer's time over ours
 };
 
-/// Lets both run each frame, one after the other, in alternating order.
+/// Lets both entrants run each frame in turn; they alternate in who goes first.
 Race race(const Workload& workload, Entrant& ours, Entrant& peer, const Limits& limits);
 
 }  // namespace sweep_guard_benchmark

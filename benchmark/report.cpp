@@ -1,6 +1,6 @@
-// Prints the results of comparisons as tables, holds them against what is promised, and draws them.
+// Prints the results of comparisons as tables, checks them against the requirements, and plots them.
 //   report FILE.csv [--plots DIR]
-// Exit status 1: a detector of ours missed a triangle, or named one beyond its stated inflation.
+// Exit status 1: one of our detectors missed a triangle, or named one beyond its stated inflation.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -30,7 +30,7 @@ class Results {
 
   const std::vector<Row>& rows() const { return rows_; }
 
-  /// Null if there is none.
+  /// @returns null if there is no such row
   const Row* find(const std::string& work, const std::string& method, size_t triangles, size_t queries) const {
     for (const Row& row : rows_) {
       if (row.work == work && row.method == method && row.triangles == triangles && row.queries == queries) return &row;
@@ -38,7 +38,7 @@ class Results {
     return nullptr;
   }
 
-  /// In the order in which they were measured.
+  /// Returns the methods in the order in which they were measured.
   std::vector<std::string> methods(const std::string& work, size_t queries) const {
     std::vector<std::string> methods;
     for (const Row& row : rows_) {
@@ -91,8 +91,8 @@ void printTable(const Results& results, const std::string& work, size_t queries)
   }
 }
 
-/// Something that a number has to keep to.
-struct Promise {
+/// A bound on one result.
+struct Requirement {
   std::string text;
   std::optional<double> value;
   double bound;
@@ -103,7 +103,7 @@ constexpr size_t kSmall = 1600;
 constexpr size_t kLarge = 99856;
 constexpr size_t kHuge = 1000000;
 
-std::vector<Promise> peerPromises(const Results& results) {
+std::vector<Requirement> peerRequirements(const Results& results) {
   struct Bounds {
     std::string method;
     double small_1, large_1, large_20;
@@ -113,10 +113,10 @@ std::vector<Promise> peerPromises(const Results& results) {
                                               {"Bullet", 7, 33, 6},
                                               {"scalar", 2.4, 6.5, 22},
                                               {"OSMesa", 300, 1000, 2000}};
-  std::vector<Promise> promises;
+  std::vector<Requirement> requirements;
   const auto add = [&](const std::string& method, size_t triangles, size_t queries, double bound) {
     const Row* const row = results.find("ordered", method, triangles, queries);
-    promises.push_back(
+    requirements.push_back(
         {method + " / ours, " + std::to_string(triangles) + " triangles, queries " + std::to_string(queries) + ", p10",
          row == nullptr ? std::nullopt : row->ratio_p10, bound, true});
   };
@@ -125,7 +125,7 @@ std::vector<Promise> peerPromises(const Results& results) {
     add(bounds.method, kLarge, 1, bounds.large_1);
     add(bounds.method, kLarge, 20, bounds.large_20);
   }
-  return promises;
+  return requirements;
 }
 
 std::optional<double> inverse(const Row* row) {
@@ -138,7 +138,7 @@ std::optional<double> exponent(const Row* small, const Row* huge) {
   return std::log(huge->median_us / small->median_us) / std::log(triangles);
 }
 
-std::vector<Promise> limitPromises(const Results& results) {
+std::vector<Requirement> memoryRequirements(const Results& results) {
   const auto read = [&](const std::string& work, size_t triangles, size_t queries) {
     return results.find(work, "memory read", triangles, queries);
   };
@@ -157,24 +157,25 @@ std::vector<Promise> limitPromises(const Results& results) {
           {"select / halfspace, 99856 triangles, queries 20", select(20), 5.0, false}};
 }
 
-void print(const Promise& promise) {
-  const char* const relation = promise.at_least ? ">=" : "<=";
-  if (!promise.value) {
-    std::printf("not measured  %s %s %g\n", promise.text.c_str(), relation, promise.bound);
+void print(const Requirement& requirement) {
+  const char* const relation = requirement.at_least ? ">=" : "<=";
+  if (!requirement.value) {
+    std::printf("not measured  %s %s %g\n", requirement.text.c_str(), relation, requirement.bound);
     return;
   }
-  const bool kept = promise.at_least ? *promise.value >= promise.bound : *promise.value <= promise.bound;
-  std::printf("%-12s  %s: %.3g %s %g\n", kept ? "pass" : "FAIL", promise.text.c_str(), *promise.value, relation,
-              promise.bound);
+  const bool passes =
+      requirement.at_least ? *requirement.value >= requirement.bound : *requirement.value <= requirement.bound;
+  std::printf("%-12s  %s: %.3g %s %g\n", passes ? "pass" : "FAIL", requirement.text.c_str(), *requirement.value,
+              relation, requirement.bound);
 }
 
-void printPromises(const Results& results) {
-  std::printf("\nWhat is promised, with AVX-512, on a quiet machine; medians where nothing else is said:\n");
-  for (const Promise& promise : peerPromises(results)) print(promise);
-  for (const Promise& promise : limitPromises(results)) print(promise);
+void printRequirements(const Results& results) {
+  std::printf("\nRequirements, with AVX-512, on a quiet machine; medians unless marked p10:\n");
+  for (const Requirement& requirement : peerRequirements(results)) print(requirement);
+  for (const Requirement& requirement : memoryRequirements(results)) print(requirement);
 }
 
-// @return whether there was none
+// @returns whether there were none
 bool printErrors(const Results& results) {
   bool right = true;
   for (const Row& row : results.rows()) {
@@ -184,17 +185,17 @@ bool printErrors(const Results& results) {
     std::printf("WRONG: %s: %s, %zu triangles, %zu queries: %zu misses, %zu extras\n", row.method.c_str(),
                 row.work.c_str(), row.triangles, row.queries, *row.misses, *row.extras);
   }
-  std::printf("%s\n", right ? "detectors of ours: no misses, no extras" : "detectors of ours: WRONG, see above");
+  std::printf("%s\n", right ? "our detectors: no misses, no extras" : "our detectors: WRONG, see above");
   return right;
 }
 
-// One of Okabe and Ito's, which colour-blind people can tell apart; dashed from the ninth on.
+// One of the colors of Okabe and Ito, which color-blind people can tell apart; dashed from the ninth on.
 std::string style(size_t index) {
-  static const std::vector<std::string> kColours = {"#000000", "#E69F00", "#56B4E9", "#009E73",
-                                                    "#B0A000", "#0072B2", "#D55E00", "#CC79A7"};
+  static const std::vector<std::string> kColors = {"#000000", "#E69F00", "#56B4E9", "#009E73",
+                                                   "#B0A000", "#0072B2", "#D55E00", "#CC79A7"};
   std::ostringstream style;
-  style << "lw 2 lc rgb '" << kColours[index % kColours.size()] << "' pt " << 1 + index << " ps 1.2";
-  if (index >= kColours.size()) style << " dt 2";
+  style << "lw 2 lc rgb '" << kColors[index % kColors.size()] << "' pt " << 1 + index << " ps 1.2";
+  if (index >= kColors.size()) style << " dt 2";
   return style.str();
 }
 
@@ -216,8 +217,8 @@ void plot(const Results& results, const std::string& work, size_t queries, const
   size_t index = 0;
   for (const std::string& method : methods) {
     const bool limit = method.rfind("memory read", 0) == 0;
-    const std::string grey = method == "memory read" ? "#808080" : "#b0b0b0";
-    const std::string look = limit ? "lw 3 dt 3 lc rgb '" + grey + "'" : style(index);
+    const std::string gray = method == "memory read" ? "#808080" : "#b0b0b0";
+    const std::string look = limit ? "lw 3 dt 3 lc rgb '" + gray + "'" : style(index);
     script << (method == methods.front() ? "plot " : ", ") << "'-' with " << (limit ? "lines " : "yerrorlines ") << look
            << " title " << gnuplotText(method);
     for (const size_t size : results.sizes(work)) {
@@ -232,18 +233,18 @@ void plot(const Results& results, const std::string& work, size_t queries, const
 }
 
 int run(const std::vector<std::string>& arguments) {
-  const bool drawn = arguments.size() == 3 && arguments[1] == "--plots";
-  if (arguments.size() != 1 && !drawn) throw InvalidInput("usage: report FILE.csv [--plots DIR]");
+  const bool plots = arguments.size() == 3 && arguments[1] == "--plots";
+  if (arguments.size() != 1 && !plots) throw InvalidInput("usage: report FILE.csv [--plots DIR]");
   std::ifstream csv(arguments[0]);
-  if (!csv) throw InvalidInput(arguments[0] + ": cannot be read");
+  if (!csv) throw InvalidInput(arguments[0] + ": cannot read");
   const Results results(readCsv(csv));
   printTable(results, "update", 0);
   for (const char* const work : {"ordered", "shuffled", "no hit", "one hit"}) {
     for (const size_t queries : {size_t{1}, size_t{20}}) printTable(results, work, queries);
   }
-  printPromises(results);
+  printRequirements(results);
   const bool right = printErrors(results);
-  if (drawn) {
+  if (plots) {
     sweep_guard_evaluation::requireGnuplot();
     for (const char* const work : {"ordered", "shuffled"}) {
       for (const size_t queries : {size_t{1}, size_t{20}}) plot(results, work, queries, arguments[2]);

@@ -6,6 +6,7 @@
 
 #include "evaluation/csv.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_benchmark {
 namespace {
@@ -30,22 +31,26 @@ Row rowIn(const std::string& line) {
   std::istringstream stream(line + ',');
   for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
   if (fields.size() != 11) throw std::invalid_argument("11 fields expected");
-  Row row;
-  row.work = fields[0];
-  row.method = fields[1];
-  row.triangles = std::stoul(fields[2]);
-  row.queries = std::stoul(fields[3]);
-  row.median_us = std::stod(fields[4]);
-  row.p10_us = std::stod(fields[5]);
-  row.p90_us = std::stod(fields[6]);
-  row.ratio_median = numberIn(fields[7]);
-  row.ratio_p10 = numberIn(fields[8]);
-  row.misses = countIn(fields[9]);
-  row.extras = countIn(fields[10]);
-  return row;
+  return {fields[0],
+          fields[1],
+          std::stoul(fields[2]),
+          std::stoul(fields[3]),
+          std::stod(fields[4]),
+          std::stod(fields[5]),
+          std::stod(fields[6]),
+          numberIn(fields[7]),
+          numberIn(fields[8]),
+          countIn(fields[9]),
+          countIn(fields[10])};
 }
 
 }  // namespace
+
+Row makeRow(const std::string& work, const std::string& method, size_t triangles, size_t queries,
+            const std::vector<double>& times) {
+  const auto at = [&](double fraction) { return sweep_guard_core::quantile(times, fraction); };
+  return {work, method, triangles, queries, at(0.5), at(0.1), at(0.9)};
+}
 
 std::string csvHeader() {
   return "work,method,triangles,queries,median_us,p10_us,p90_us,ratio_median,ratio_p10,misses,extras\n";

@@ -2,7 +2,6 @@
 //   table1 [--csv FILE]
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -10,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "detection/select_detector.h"
-#include "sample.h"
+#include "microseconds.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/quantile.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
@@ -26,7 +25,7 @@ constexpr std::array<VolumeKind, 2> kKinds = {VolumeKind::kObb, VolumeKind::kObb
 
 ConvexShape drill() { return ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1); }
 
-// A drill that points into the hull, its tip from 5 mm below to 20 mm above the surface, and moves as a hand does.
+// A drill points into the hull and moves like a hand. Its tip is from 5 mm below to 20 mm above the surface.
 Motion drilling(Random& random) {
   const Eigen::Vector3d outwards = random.direction();
   const Eigen::Vector3d axis = (-outwards + 0.5 * random.direction()).normalized();
@@ -44,41 +43,37 @@ struct Variant {
   std::string name;
   std::unique_ptr<Detector> detector;
   VolumeKind kind;
-  Sample set_up;  // [ms]
-  Sample query;   // [ms]
-  Sample both;    // [ms]
+  std::vector<double> set_up = {};  // [ms]
+  std::vector<double> query = {};   // [ms]
+  std::vector<double> both = {};    // [ms]
   size_t hits = 0;
 };
 
 std::vector<Variant> variants() {
   std::vector<Variant> all;
   for (const VolumeKind kind : kKinds) {
-    for (const std::string& name : detectorNames()) all.push_back({name, makeDetector(name), kind, {}, {}, {}, 0});
-    all.push_back({"select, no cull", makeDetector("select", {/*cull=*/false}), kind, {}, {}, {}, 0});
-    all.push_back({"select, on egl", makeDetector("select", {/*cull=*/true, "egl"}), kind, {}, {}, {}, 0});
-    // A name for each triangle, and every triangle drawn.
-    const SelectDetector::Options papers{{/*cull=*/false}, /*block=*/1};
-    all.push_back({"select, the paper's way", std::make_unique<SelectDetector>(papers), kind, {}, {}, {}, 0});
+    for (const std::string& name : detectorNames()) all.push_back({name, makeDetector(name), kind});
+    all.push_back({"select, no cull", makeDetector("select", {/*cull=*/false}), kind});
+    all.push_back({"select, on egl", makeDetector("select", {/*cull=*/true, "egl"}), kind});
+    // Every triangle is drawn under a name of its own.
+    const DetectorOptions paper{/*cull=*/false, "osmesa", /*triangles_per_name=*/1};
+    all.push_back({"select, as in the paper", makeDetector("select", paper), kind});
   }
   std::stable_sort(all.begin(), all.end(), [](const Variant& a, const Variant& b) { return a.name < b.name; });
   return all;
 }
 
 void measure(Variant& variant, const ConvexShape& tool, const TriangleMesh& mesh, const Motion& motion) {
-  using Clock = std::chrono::steady_clock;
-  using Milliseconds = std::chrono::duration<double, std::milli>;
-  const auto start = Clock::now();
-  const SweptVolume swept_M = sweptVolume(tool, motion, variant.kind, mesh.rounding());
-  const auto set_up = Clock::now();
-  const Detection detection = variant.detector->detect(mesh, swept_M);
-  const auto end = Clock::now();
-  variant.set_up.add(Milliseconds(set_up - start).count());
-  variant.query.add(Milliseconds(end - set_up).count());
-  variant.both.add(Milliseconds(end - start).count());
-  variant.hits += detection.triangles.size();
+  SweptVolume swept_M;
+  variant.set_up.push_back(1e-3 *
+                           microseconds([&] { swept_M = sweptVolume(tool, motion, variant.kind, mesh.rounding()); }));
+  const Detection* found = nullptr;
+  variant.query.push_back(1e-3 * microseconds([&] { found = &variant.detector->detect(mesh, swept_M); }));
+  variant.both.push_back(variant.set_up.back() + variant.query.back());
+  variant.hits += found->triangles.size();
 }
 
-// The variants take turns, each repetition in another order, so that a busy machine slows them all alike.
+// The variants take turns, in another order in each repetition, so that a busy machine slows all of them equally.
 std::vector<Variant> run(const TriangleMesh& mesh) {
   const ConvexShape tool = drill();
   Random random(/*seed=*/1);
@@ -113,12 +108,14 @@ void printTimes(const TriangleMesh& mesh, std::ostream& csv) {
   for (const Variant& variant : run(mesh)) {
     const double hits = static_cast<double>(variant.hits) / (kMotions * kRepetitions);
     const double paper = papersTime(triangles, variant.kind);
+    const std::array<double, 5> times = {quantile(variant.set_up, 0.5), quantile(variant.query, 0.5),
+                                         quantile(variant.both, 0.5), quantile(variant.both, 0.1),
+                                         quantile(variant.both, 0.9)};
     std::printf("%-24s  %-10s %8.4f %8.4f %8.4f (%.4f to %.4f) %6.1f %7.2f\n", variant.name.c_str(),
-                nameOf(variant.kind).c_str(), variant.set_up.quantile(0.5), variant.query.quantile(0.5),
-                variant.both.quantile(0.5), variant.both.quantile(0.1), variant.both.quantile(0.9), hits, paper);
-    csv << triangles << ",\"" << variant.name << "\"," << nameOf(variant.kind) << ',' << variant.set_up.quantile(0.5)
-        << ',' << variant.query.quantile(0.5) << ',' << variant.both.quantile(0.5) << ',' << variant.both.quantile(0.1)
-        << ',' << variant.both.quantile(0.9) << ',' << hits << ',' << paper << '\n';
+                nameOf(variant.kind).c_str(), times[0], times[1], times[2], times[3], times[4], hits, paper);
+    csv << triangles << ",\"" << variant.name << "\"," << nameOf(variant.kind);
+    for (const double time : times) csv << ',' << time;
+    csv << ',' << hits << ',' << paper << '\n';
   }
 }
 

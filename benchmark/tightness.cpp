@@ -1,12 +1,12 @@
-// Prints how much larger the volumes that are tested are than what the tool sweeps, over motions of a hand.
+// Prints how much larger the tested volumes are than the volume that the tool sweeps, for motions of a hand.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
 
-#include "sample.h"
 #include "scenes.h"
+#include "sweep_guard/common/quantile.h"
 #include "sweep_guard/geometry/convex_hull.h"
 #include "sweep_guard/geometry/convex_polytope.h"
 #include "sweep_guard/geometry/swept_volume.h"
@@ -28,9 +28,9 @@ double distanceToDrill(const Eigen::Vector3d& p_T) {
   return std::hypot(beside, beyond);
 }
 
-// Whether the drill comes to a point at any time. No time is passed over: in between it goes no farther than it was
-// away.
-bool comesTo(const Motion& motion, const Eigen::Vector3d& p_M) {
+// Whether the drill reaches a point at any time. No time is left out: in one step the drill moves no farther than it
+// was away from the point.
+bool reaches(const Motion& motion, const Eigen::Vector3d& p_M) {
   const Eigen::Vector3d step = motion.X_MT_end.translation() - motion.X_MT_start.translation();
   const double farthest = (p_M - motion.X_MT_start.translation()).norm() + step.norm();
   const double speed = step.norm() + motion.angle() * farthest;
@@ -48,7 +48,7 @@ struct Estimate {
   double standard_error;  // [m^3]
 };
 
-// Of what the drill covers at any time, which is all inside of the polytope.
+// Estimates the volume that the drill sweeps; all of it lies inside `bounds`.
 Estimate sweptVolumeIn(const SweptVolume& bounds, const Motion& motion, Random& random) {
   const Clips clips_B = bounds.clips_B;
   int hits = 0;
@@ -56,7 +56,7 @@ Estimate sweptVolumeIn(const SweptVolume& bounds, const Motion& motion, Random& 
     const Eigen::Vector3d p_B = random.inBox(bounds.box.half_extents);
     const bool cut_off = std::any_of(clips_B.begin(), clips_B.end(),
                                      [&](const HalfSpace& clip_B) { return clip_B.signedDistance(p_B) > 0.0; });
-    if (!cut_off && comesTo(motion, bounds.box.X_MB * p_B)) ++hits;
+    if (!cut_off && reaches(motion, bounds.box.X_MB * p_B)) ++hits;
   }
   const double box = 8.0 * bounds.box.half_extents.prod();
   const double share = static_cast<double>(hits) / kPoints;
@@ -67,7 +67,7 @@ double volumeOf(const SweptVolume& volume) {
   return polytopeVolume(polytopeFaces(volume.halfSpaces_B(), volume.box.half_extents.norm()));
 }
 
-// The drill with 64 corners on each rim, as large in section as the round one.
+// The corners of a prism with 64 sides whose cross section is as large as the drill's.
 std::vector<Eigen::Vector3d> cornersOfDrill() {
   const double angle = 2.0 * kPi / kSides;
   const double radius = kRadius * std::sqrt(angle / std::sin(angle));
@@ -89,7 +89,7 @@ ConvexHull hullOfBothPoses(const Motion& motion) {
   return convexHull(points);
 }
 
-// Steiner's formula: volume, surface and mean width of a convex body tell its volume when it is grown.
+// The volume of a grown convex body by Steiner's formula: from its volume, surface and mean width.
 double volumeOfGrown(const ConvexHull& hull, double distance, Random& random) {
   constexpr int kDirections = 100;
   double mean_width = 0.0;
@@ -109,12 +109,16 @@ double volumeOfGrown(const ConvexHull& hull, double distance, Random& random) {
 
 struct Row {
   std::string name;
-  Sample ratio;
+  std::vector<double> ratios = {};
   double sum = 0.0;
 
   void add(double volume, double truth) {
-    ratio.add(volume / truth);
+    ratios.push_back(volume / truth);
     sum += volume;
+  }
+  void print() const {
+    std::printf("%-30s %6.3f %6.3f %6.3f", name.c_str(), quantile(ratios, 0.1), quantile(ratios, 0.5),
+                quantile(ratios, 0.9));
   }
 };
 
@@ -122,11 +126,11 @@ int main() {
   const ConvexShape tool = ConvexShape::cylinder(kRadius, kLength);
   Random motions(/*seed=*/1);
   Random points(/*seed=*/2);
-  std::vector<Row> rows = {{"obb", {}}, {"obb_planes", {}}, {"hull", {}}, {"hull of both poses, not grown", {}}};
-  Row planes_to_box{"obb_planes / obb", {}};
+  std::vector<Row> rows = {{"obb"}, {"obb_planes"}, {"hull"}, {"hull of both poses, not grown"}};
+  Row planes_to_box{"obb_planes / obb"};
   double truth = 0.0;
   double variance = 0.0;
-  Sample relative_error;
+  std::vector<double> relative_errors;
   for (int i = 0; i < kMotions; ++i) {
     const Motion motion = handMotion(motions);
     const SweptVolume box = sweptVolume(tool, motion, VolumeKind::kObb);
@@ -135,26 +139,27 @@ int main() {
     const Estimate swept = sweptVolumeIn(planes, motion, points);
     truth += swept.volume;
     variance += std::pow(swept.standard_error, 2);
-    relative_error.add(swept.standard_error / swept.volume);
+    relative_errors.push_back(swept.standard_error / swept.volume);
     rows[0].add(volumeOf(box), swept.volume);
     rows[1].add(volumeOf(planes), swept.volume);
     rows[2].add(volumeOfGrown(hull, planes.margin, points), swept.volume);
     rows[3].add(volume(hull), swept.volume);
     planes_to_box.add(volumeOf(planes), volumeOf(box));
   }
-  std::printf("Volumes over what a drill of %.0f x %.0f mm sweeps, arcs included, over %d motions of 1 to 20 mm and\n",
-              2e3 * kRadius, 1e3 * kLength, kMotions);
-  std::printf("0 to 10 degrees. What it sweeps is an estimate from %d points for each motion; its standard error is\n",
+  std::printf(
+      "Tested volume / volume swept by a drill of %.0f x %.0f mm, arcs included. %d motions of 1 to 20 mm and\n",
+      2e3 * kRadius, 1e3 * kLength, kMotions);
+  std::printf("0 to 10 degrees. The swept volume is estimated from %d points per motion; its standard error is\n",
               kPoints);
-  std::printf("%.1f %% of one (median), %.2f %% of the sum.\n\n", 1e2 * relative_error.quantile(0.5),
+  std::printf("%.1f %% of one (median), %.2f %% of the sum.\n\n", 1e2 * quantile(relative_errors, 0.5),
               1e2 * std::sqrt(variance) / truth);
   std::printf("%-30s %6s %6s %6s %8s\n", "", "p10", "median", "p90", "of sums");
   for (const Row& row : rows) {
-    std::printf("%-30s %6.3f %6.3f %6.3f %8.3f\n", row.name.c_str(), row.ratio.quantile(0.1), row.ratio.quantile(0.5),
-                row.ratio.quantile(0.9), row.sum / truth);
+    row.print();
+    std::printf(" %8.3f\n", row.sum / truth);
   }
-  std::printf("%-30s %6.3f %6.3f %6.3f\n", planes_to_box.name.c_str(), planes_to_box.ratio.quantile(0.1),
-              planes_to_box.ratio.quantile(0.5), planes_to_box.ratio.quantile(0.9));
+  planes_to_box.print();
+  std::printf("\n");
   return 0;
 }
 

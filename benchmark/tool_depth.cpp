@@ -1,7 +1,6 @@
-// Prints what cutting real tools into convex parts brings and costs, by the depth of the cuts.
+// Prints what cutting real tools into convex pieces saves and costs, by the depth of the cuts.
 //   tool_depth [DATA]    the folder with mesh/ and urdf/; default: SWEEP_GUARD_DATA
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -11,13 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "sample.h"
+#include "microseconds.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/quantile.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/geometry/convex_hull.h"
 #include "sweep_guard/geometry/decomposition.h"
-#include "sweep_guard/guard/sweep_checker.h"
+#include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/ros/tool/mesh_file.h"
 
 namespace sweep_guard_core {
@@ -47,7 +47,7 @@ double sizeOf(const Surface& surface) {
   return box.sizes().maxCoeff();
 }
 
-TriangleMesh centred(Surface surface) {
+TriangleMesh centered(Surface surface) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : surface.vertices) box.extend(p);
   for (Eigen::Vector3d& p : surface.vertices) p -= box.center();
@@ -76,27 +76,27 @@ std::vector<NamedMesh> tools(const std::string& data) {
   const std::string franka = data + "/urdf/franka_description/meshes";
   const std::string instruments = data + "/urdf/dvrk_model/meshes/instruments/";
   std::vector<NamedMesh> all;
-  all.push_back({"Franka gripper, open", centred(gripper(franka))});
-  all.push_back({"Franka finger", centred(readSurface(franka + "/visual/finger.dae", 1.0))});
-  all.push_back({"Costar drill", centred(readSurface(data + "/urdf/costar_simulation/urdf/drill/drill.stl", 1.0))});
-  all.push_back({"pliers", centred(readSurface(mesh + "sofa_pliers_binary.stl", 0.01))});
-  all.push_back({"dental instrument", centred(readSurface(mesh + "sofa_dental_instrument_light.obj", 0.01))});
-  all.push_back({"stylus", centred(readSurface(mesh + "sofa_stylus.obj", 0.1))});
+  all.push_back({"Franka gripper, open", centered(gripper(franka))});
+  all.push_back({"Franka finger", centered(readSurface(franka + "/visual/finger.dae", 1.0))});
+  all.push_back({"Costar drill", centered(readSurface(data + "/urdf/costar_simulation/urdf/drill/drill.stl", 1.0))});
+  all.push_back({"pliers", centered(readSurface(mesh + "sofa_pliers_binary.stl", 0.01))});
+  all.push_back({"dental instrument", centered(readSurface(mesh + "sofa_dental_instrument_light.obj", 0.01))});
+  all.push_back({"stylus", centered(readSurface(mesh + "sofa_stylus.obj", 0.1))});
   all.push_back(
-      {"dVRK shaft, housing", centred(readSurface(instruments + "housing/Classic/housing_Classic.dae", 1.0))});
-  all.push_back({"dVRK tip", centred(readSurface(instruments + "tip/006/Classic/tip_006.dae", 1.0))});
+      {"dVRK shaft, housing", centered(readSurface(instruments + "housing/Classic/housing_Classic.dae", 1.0))});
+  all.push_back({"dVRK tip", centered(readSurface(instruments + "tip/006/Classic/tip_006.dae", 1.0))});
   return all;
 }
 
-NamedMesh workpiece(const std::string& name, const std::string& path, double size) {
+NamedMesh workpieceOf(const std::string& name, const std::string& path, double size) {
   const double unit = sizeOf(readSurface(path, 1.0));
-  return {name, centred(readSurface(path, size / unit))};
+  return {name, centered(readSurface(path, size / unit))};
 }
 
 Tool toolOf(const TriangleMesh& mesh_T, const DecompositionOptions& options) {
-  std::vector<ConvexPiece> parts;
-  for (const ConvexShape& shape_T : convexPieces(mesh_T, options)) parts.push_back({"", shape_T});
-  return Tool(std::move(parts));
+  std::vector<ConvexPiece> pieces;
+  for (const ConvexShape& shape_T : convexPieces(mesh_T, options)) pieces.push_back({"", shape_T});
+  return Tool(std::move(pieces));
 }
 
 struct SurfacePoint {
@@ -113,8 +113,8 @@ SurfacePoint randomPoint(const TriangleMesh& mesh, Random& random) {
   }
 }
 
-// A point of the tool's surface 0.2 to 5 mm off a point of the workpiece's, face to face.
-Motion closeBy(const TriangleMesh& tool_T, const TriangleMesh& mesh_M, Random& random) {
+// Puts a point of the tool's surface face to face with a point of the workpiece, 0.2 to 5 mm away.
+Motion restCloseTo(const TriangleMesh& tool_T, const TriangleMesh& mesh_M, Random& random) {
   const SurfacePoint on_tool = randomPoint(tool_T, random);
   const SurfacePoint on_mesh = randomPoint(mesh_M, random);
   Motion motion;
@@ -128,19 +128,19 @@ Motion closeBy(const TriangleMesh& tool_T, const TriangleMesh& mesh_M, Random& r
 }
 
 bool isFree(Detector& detector, const Tool& tool, const Motion& motion, const TriangleMesh& mesh_M) {
-  return std::all_of(tool.pieces().begin(), tool.pieces().end(), [&](const ConvexPiece& part) {
-    const SweptVolume swept_M = sweptVolume(part.shape_T, motion, VolumeKind::kObbPlanes);
+  return std::all_of(tool.pieces().begin(), tool.pieces().end(), [&](const ConvexPiece& piece) {
+    const SweptVolume swept_M = sweptVolume(piece.shape_T, motion, VolumeKind::kObbPlanes);
     return detector.detect(mesh_M, swept_M).triangles.empty();
   });
 }
 
-// Motions of 0.2 to 5 mm and up to 2 degrees, from poses where not even the finest cover of the tool meets anything.
+// Motions of 0.2 to 5 mm and up to 2 degrees, from poses where the finest pieces of the tool are free.
 std::vector<Motion> freeMotions(Detector& detector, const TriangleMesh& tool_T, const TriangleMesh& mesh_M) {
   const Tool finest = toolOf(tool_T, {/*max_depth=*/9, /*step=*/0.0002, /*least_saving=*/0.0});
   Random random(/*seed=*/1);
   std::vector<Motion> motions;
   for (int i = 0; i < kMaxTries && motions.size() < kMotions; ++i) {
-    Motion motion = closeBy(tool_T, mesh_M, random);
+    Motion motion = restCloseTo(tool_T, mesh_M, random);
     if (!isFree(detector, finest, motion, mesh_M)) continue;
     motion.X_MT_end.linear() = random.turn(random.uniform(0.0, 2.0 * kDegree)) * motion.X_MT_start.linear();
     motion.X_MT_end.translation() += random.logUniform(0.0002, 0.005) * random.direction();
@@ -150,26 +150,25 @@ std::vector<Motion> freeMotions(Detector& detector, const TriangleMesh& tool_T, 
 }
 
 struct Cost {
-  Sample candidates;
-  Sample volumes;
-  Sample time;  // [us]
+  std::vector<double> times;  // [us]
+  size_t candidates = 0;
+  size_t volumes = 0;
   int met = 0;
 };
 
 Cost measure(Detector& detector, const Tool& tool, const TriangleMesh& mesh_M, const std::vector<Motion>& motions) {
-  using Clock = std::chrono::steady_clock;
   Cost cost;
   for (const Motion& motion : motions) {
-    Sample times;
+    std::vector<double> times;
     SweepResult result;
     for (int i = 0; i < kRepetitions; ++i) {
-      const auto start = Clock::now();
-      result = checkSweep(detector, {tool, {motion}, mesh_M});
-      times.add(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
+      times.push_back(microseconds([&] {
+        result = checkPath(detector, {tool, {motion.X_MT_start, motion.X_MT_end}, mesh_M}).all;
+      }));
     }
-    cost.time.add(times.quantile(0.5));
-    cost.candidates.add(static_cast<double>(result.triangles.size()));
-    cost.volumes.add(static_cast<double>(result.volumes_M.size()));
+    cost.times.push_back(quantile(times, 0.5));
+    cost.candidates += result.triangles.size();
+    cost.volumes += result.volumes_M.size();
     if (!result.triangles.empty()) ++cost.met;
   }
   return cost;
@@ -188,23 +187,23 @@ double volumeOfHulls(const TriangleMesh& mesh_T, const DecompositionOptions& opt
 }
 
 void printRow(const std::string& name, const NamedMesh& tool_T, const DecompositionOptions& options, Detector& detector,
-              const std::vector<NamedMesh>& pieces, const std::vector<std::vector<Motion>>& motions) {
-  const auto start = std::chrono::steady_clock::now();
-  const Tool tool = toolOf(tool_T.mesh, options);
-  const double load = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%-8s %5zu %9.3f %6.2f", name.c_str(), tool.pieces().size(), 1e6 * volumeOfHulls(tool_T.mesh, options),
+              const std::vector<NamedMesh>& workpieces, const std::vector<std::vector<Motion>>& motions) {
+  std::optional<Tool> tool;
+  const double load = 1e-6 * microseconds([&] { tool = toolOf(tool_T.mesh, options); });
+  std::printf("%-8s %6zu %9.3f %6.2f", name.c_str(), tool->pieces().size(), 1e6 * volumeOfHulls(tool_T.mesh, options),
               load);
-  for (size_t i = 0; i < pieces.size(); ++i) {
-    const Cost cost = measure(detector, tool, pieces[i].mesh, motions[i]);
-    std::printf("   %5.1f %8.1f %6.1f %6.1f %6.1f", 100.0 * cost.met / static_cast<double>(motions[i].size()),
-                cost.candidates.mean(), cost.volumes.mean(), cost.time.quantile(0.5), cost.time.quantile(0.9));
+  for (size_t i = 0; i < workpieces.size(); ++i) {
+    const Cost cost = measure(detector, *tool, workpieces[i].mesh, motions[i]);
+    const auto perMotion = [&](auto sum) { return static_cast<double>(sum) / static_cast<double>(motions[i].size()); };
+    std::printf("   %5.1f %8.1f %6.1f %6.1f %6.1f", 100.0 * perMotion(cost.met), perMotion(cost.candidates),
+                perMotion(cost.volumes), quantile(cost.times, 0.5), quantile(cost.times, 0.9));
   }
   std::printf("\n");
 }
 
-void study(const NamedMesh& tool_T, const std::vector<NamedMesh>& pieces, Detector& detector) {
+void study(const NamedMesh& tool_T, const std::vector<NamedMesh>& workpieces, Detector& detector) {
   std::vector<std::vector<Motion>> motions;
-  for (const NamedMesh& piece : pieces) motions.push_back(freeMotions(detector, tool_T.mesh, piece.mesh));
+  for (const NamedMesh& workpiece : workpieces) motions.push_back(freeMotions(detector, tool_T.mesh, workpiece.mesh));
   std::printf("\n%s, %zu triangles, %.0f mm; %zu and %zu motions\n", tool_T.name.c_str(),
               tool_T.mesh.triangles().size(), 2e3 * tool_T.mesh.radius(), motions[0].size(), motions[1].size());
   if (motions[0].empty() || motions[1].empty()) return;
@@ -212,11 +211,11 @@ void study(const NamedMesh& tool_T, const std::vector<NamedMesh>& pieces, Detect
   options.least_saving = 0.0;
   for (int depth = 0; depth <= 6; ++depth) {
     options.max_depth = depth;
-    printRow(std::to_string(depth), tool_T, options, detector, pieces, motions);
+    printRow(std::to_string(depth), tool_T, options, detector, workpieces, motions);
   }
   for (const double least_saving : {0.001, 0.003, 0.01}) {
     options.least_saving = least_saving;
-    printRow("6, " + std::to_string(least_saving).substr(0, 5), tool_T, options, detector, pieces, motions);
+    printRow("6, " + std::to_string(least_saving).substr(0, 5), tool_T, options, detector, workpieces, motions);
   }
 }
 
@@ -227,19 +226,20 @@ int main(const std::vector<std::string>& arguments) {
   }
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const std::string data = arguments.empty() ? variable : arguments[0];
-  std::vector<NamedMesh> pieces;
-  pieces.push_back(workpiece("torus", data + "/mesh/sofa_torus.obj", 0.2));
-  pieces.push_back(workpiece("raptor", data + "/mesh/sofa_raptor_8kp.obj", 0.3));
+  std::vector<NamedMesh> workpieces;
+  workpieces.push_back(workpieceOf("torus", data + "/mesh/sofa_torus.obj", 0.2));
+  workpieces.push_back(workpieceOf("raptor", data + "/mesh/sofa_raptor_8kp.obj", 0.3));
   const std::unique_ptr<Detector> detector = makeDetector("select");
   std::printf(
-      "Tools cut into convex parts, close to a torus of 1600 triangles and 200 mm (left) and a raptor of 17632\n");
-  std::printf("triangles and 300 mm (right). Motions of 0.2 to 5 mm and up to 2 degrees, from poses that are free.\n");
+      "Tools cut into convex pieces, close to a torus of 1600 triangles and 200 mm (left) and a raptor of 17632\n");
+  std::printf(
+      "triangles and 300 mm (right). Motions of 0.2 to 5 mm and up to 2 degrees, from poses without contact.\n");
   std::printf("A depth alone: all cuts that gain anything; with a second number: least_saving.\n\n");
-  std::printf("%-8s %5s %9s %6s   %5s %8s %6s %6s %6s   (twice)\n", "depth", "parts", "hulls", "load", "met", "met",
+  std::printf("%-8s %6s %9s %6s   %5s %8s %6s %6s %6s   (twice)\n", "depth", "pieces", "hulls", "load", "met", "met",
               "volumes", "time", "p90");
-  std::printf("%-8s %5s %9s %6s   %5s %8s %6s %6s %6s\n", "", "", "[cm^3]", "[s]", "[%]", "triang.", "", "[us]",
+  std::printf("%-8s %6s %9s %6s   %5s %8s %6s %6s %6s\n", "", "", "[cm^3]", "[s]", "[%]", "triang.", "", "[us]",
               "[us]");
-  for (const NamedMesh& tool_T : tools(data)) study(tool_T, pieces, *detector);
+  for (const NamedMesh& tool_T : tools(data)) study(tool_T, workpieces, *detector);
   return 0;
 }
 

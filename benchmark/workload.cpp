@@ -16,14 +16,14 @@ constexpr int kTries = 40;
 
 double phaseOf(size_t frame) { return kPhaseStep * static_cast<double>(frame); }
 
-std::vector<Motion> motionsOf(Question question, const Hull& hull, Random& random, double phase, double depth) {
-  if (question == Question::kNothing) return {};
-  if (question == Question::kSweep) return {hull.drilling(random, phase, depth, 0.02, 5.0 * kDegree)};
+std::vector<Motion> motionsOf(Queries queries, const Hull& hull, Random& random, double phase, double depth) {
+  if (queries == Queries::kNone) return {};
+  if (queries == Queries::kSweep) return {hull.drilling(random, phase, depth, 0.02, 5.0 * kDegree)};
   return split(hull.drilling(random, phase, depth, 0.20, 50.0 * kDegree), 2.501 * kDegree);
 }
 
-// Everything there is to know of a frame but its truth.
-Frame frameOf(std::vector<float> positions_M, std::vector<Motion> motions_M) {
+// Makes a frame without its truth.
+Frame makeFrame(std::vector<float> positions_M, std::vector<Motion> motions_M) {
   Frame frame;
   frame.positions_M = std::move(positions_M);
   frame.motions_M = std::move(motions_M);
@@ -36,7 +36,7 @@ Frame frameOf(std::vector<float> positions_M, std::vector<Motion> motions_M) {
   return frame;
 }
 
-/// The detector that clips every triangle.
+// Finds the triangles that each volume meets by clipping every triangle.
 class Truth {
  public:
   explicit Truth(const Surface& surface)
@@ -44,7 +44,7 @@ class Truth {
                 {surface.triangles.begin(), surface.triangles.end()}),
         reference_(sweep_guard_core::makeDetector("reference")) {}
 
-  std::vector<TriangleIds> operator()(const Frame& frame) {
+  std::vector<TriangleIds> find(const Frame& frame) {
     std::vector<TriangleIds> truth;
     if (frame.swept_M.empty()) return truth;
     std::vector<float> positions_M = frame.positions_M;
@@ -70,15 +70,15 @@ double Workload::hits() const {
   return static_cast<double>(hits) / static_cast<double>(frames.size());
 }
 
-Workload ordinary(const Hull& hull, Question question, size_t frames) {
+Workload ordinary(const Hull& hull, Queries queries, size_t frames) {
   Random random(/*seed=*/1);
   Workload workload{"ordered", hull.surface(phaseOf(0)), 0, {}};
   Truth truth(workload.surface);
   for (size_t i = 0; i < frames; ++i) {
     const double depth = random.uniform(-0.005, 0.015);
-    std::vector<Motion> motions_M = motionsOf(question, hull, random, phaseOf(i), depth);
-    workload.frames.push_back(frameOf(hull.surface(phaseOf(i)).positions_M, std::move(motions_M)));
-    workload.frames.back().truth = truth(workload.frames.back());
+    std::vector<Motion> motions_M = motionsOf(queries, hull, random, phaseOf(i), depth);
+    workload.frames.push_back(makeFrame(hull.surface(phaseOf(i)).positions_M, std::move(motions_M)));
+    workload.frames.back().truth = truth.find(workload.frames.back());
   }
   workload.queries = workload.frames.front().volumes_M.size();
   return workload;
@@ -110,8 +110,8 @@ Workload grazing(const Hull& hull, size_t hits, size_t frames) {
     for (int i = 0; i < kTries; ++i) {
       Random random(seed);
       const double depth = 0.5 * (outside + inside);
-      Frame frame = frameOf(hull.surface(phase).positions_M, motionsOf(Question::kSweep, hull, random, phase, depth));
-      frame.truth = truth(frame);
+      Frame frame = makeFrame(hull.surface(phase).positions_M, motionsOf(Queries::kSweep, hull, random, phase, depth));
+      frame.truth = truth.find(frame);
       const size_t found = frame.truth[0].size();
       if (found == hits) {
         workload.frames.push_back(std::move(frame));

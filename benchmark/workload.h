@@ -9,13 +9,13 @@
 
 namespace sweep_guard_benchmark {
 
-/// One deformation, and what is asked about it.
+/// One deformation and its queries.
 struct Frame {
   std::vector<float> positions_M;
   std::vector<sweep_guard_core::Motion> motions_M;
   std::vector<sweep_guard_core::SweptVolume> swept_M;  ///< of the motions
-  std::vector<Polytope> volumes_M;                     ///< the same
-  std::vector<TriangleIds> truth;                      ///< what each meets, ascending
+  std::vector<Polytope> volumes_M;                     ///< the same volumes for the peers
+  std::vector<TriangleIds> truth;                      ///< triangles that each volume meets, ascending
 };
 
 /// Frames of one kind.
@@ -25,20 +25,20 @@ struct Workload {
   size_t queries;   ///< in each frame
   std::vector<Frame> frames;
 
-  /// Triangles met per frame.
+  /// Returns the mean number of triangles met per frame.
   double hits() const;
 };
 
-/// What a frame asks: nothing, one sweep of 2 cm and 5 degrees, or twenty one after the other of 1 cm and 2.5 degrees.
-enum class Question { kNothing, kSweep, kTwentySweeps };
+/// The queries of a frame: none, one sweep of 2 cm and 5 degrees, or twenty successive ones of 1 cm and 2.5 degrees.
+enum class Queries { kNone, kSweep, kTwentySweeps };
 
-/// Tips from 15 mm inside to 5 mm outside of the surface.
-Workload ordinary(const Hull& hull, Question question, size_t frames);
+/// Makes sweeps whose tips start 15 mm inside to 5 mm outside the surface.
+Workload ordinary(const Hull& hull, Queries queries, size_t frames);
 
-/// The same frames of a mesh whose vertices and triangles are in random order.
+/// Returns the same frames with vertices and triangles in random order.
 Workload shuffled(Workload workload);
 
-/// Single sweeps that meet exactly `hits` triangles, 0 or 1.
+/// Makes single sweeps that meet exactly `hits` triangles, 0 or 1.
 Workload grazing(const Hull& hull, size_t hits, size_t frames);
 
 }  // namespace sweep_guard_benchmark

@@ -30,6 +30,7 @@ clean_environment() {
   unset ROS_PACKAGE_PATH ROS_ROOT ROS_DISTRO ROS_NAMESPACE ROS_LOG_DIR
   export ROS_HOME="$build/ros"  # logs belong to the build, not to ~/.ros
   export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1  # the copies of scripts/mutation find what is compiled here
+  export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}  # else it does without precompiled headers
 }
 
 as_root() {
@@ -69,20 +70,37 @@ install_listed() {
   install_packages "${packages[@]}"
 }
 
-# build_targets TARGET... - what goes well shows only on a terminal
+# show_progress - of Ninja: each line on a terminal; elsewhere one line for each twentieth, and whatever else it says
+show_progress() {
+  local line shown=0
+  while IFS= read -r line; do
+    if [[ ! $line =~ ^\[([0-9]+)/([0-9]+)\] ]]; then
+      echo "$line"
+    elif ((20 * BASH_REMATCH[1] / BASH_REMATCH[2] > shown)); then
+      shown=$((20 * BASH_REMATCH[1] / BASH_REMATCH[2]))
+      say "${BASH_REMATCH[1]} of ${BASH_REMATCH[2]} steps, $SECONDS s"
+    fi
+  done
+}
+
+# build_targets [-DOPTION=VALUE...] TARGET...
 build_targets() {
-  local quiet=()
-  [[ -t 1 ]] || quiet=(--quiet)
+  local options=()
+  while [[ $1 == -D* ]]; do options+=("$1") && shift; done
   mkdir -p "$build"
   say "configuring $build"
   cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
-    -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" >"$build/configure.log" 2>&1 || {
+    -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" -DSWEEP_GUARD_WERROR=ON "${options[@]}" >"$build/configure.log" 2>&1 || {
     cat "$build/configure.log" >&2
     fail "configuring failed. If something other than these scripts made $build, remove it and try again"
   }
   say "building $*"
-  cmake --build "$build" --target "$@" -- "${quiet[@]}" || fail "the build failed"
+  if [[ -t 1 ]]; then
+    cmake --build "$build" --target "$@" || fail "the build failed"
+  else
+    cmake --build "$build" --target "$@" | show_progress || fail "the build failed"
+  fi
 }
 
 enter_workspace() {

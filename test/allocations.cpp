@@ -12,28 +12,28 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr size_t kKept = 1000;
-constexpr int kDeepest = 24;
+constexpr size_t kMaxStacks = 1000;
+constexpr int kMaxDepth = 24;
 
 struct Stack {
-  std::array<void*, kDeepest> frames;
+  std::array<void*, kMaxDepth> frames;
   int depth;
 };
 
 thread_local bool counting = false;
 size_t counted = 0;
-std::array<Stack, kKept> kept;
+std::array<Stack, kMaxStacks> recorded;
 
-void note() {
+void record() {
   if (!counting) return;
-  counting = false;  // what looks for the stack may allocate
-  if (counted < kKept) kept[counted].depth = backtrace(kept[counted].frames.data(), kDeepest);
+  counting = false;  // backtrace() may allocate
+  if (counted < kMaxStacks) recorded[counted].depth = backtrace(recorded[counted].frames.data(), kMaxDepth);
   ++counted;
   counting = true;
 }
 
 void* allocate(size_t size, size_t alignment) {
-  note();
+  record();
   const size_t whole = (size + alignment - 1) / alignment * alignment;
   void* memory =
       alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size) : std::aligned_alloc(alignment, whole);
@@ -65,7 +65,7 @@ std::string textOf(const Stack& stack) {
 
 Allocations::Allocations() {
   void* frame = nullptr;
-  backtrace(&frame, 1);  // loads its library
+  backtrace(&frame, 1);  // loads the library of backtrace()
   counted = 0;
   counting = true;
 }
@@ -77,7 +77,7 @@ size_t Allocations::count() const { return counted; }
 std::string Allocations::stacks() const {
   counting = false;
   std::map<std::string, size_t> times;
-  for (size_t i = 0; i < std::min(counted, kKept); ++i) ++times[textOf(kept[i])];
+  for (size_t i = 0; i < std::min(counted, kMaxStacks); ++i) ++times[textOf(recorded[i])];
   std::string text;
   for (const auto& [stack, count] : times) text += std::to_string(count) + "  " + stack + "\n";
   return text;

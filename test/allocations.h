@@ -5,8 +5,8 @@
 
 namespace sweep_guard_core {
 
-/// Counts what this thread allocates by operator new while it lives; one at a time. Replaces the operators of the
-/// program that is linked to it.
+/// Counts the allocations of this thread by operator new during its own lifetime; at most one object at a time. Replaces
+/// the operators of the program that links it.
 class Allocations {
  public:
   Allocations();
@@ -14,8 +14,8 @@ class Allocations {
   Allocations(const Allocations&) = delete;
   Allocations& operator=(const Allocations&) = delete;
 
-  size_t count() const;        ///< so far
-  std::string stacks() const;  ///< of where they were made, each once, with how many; the first thousand
+  size_t count() const;        ///< since the construction
+  std::string stacks() const;  ///< call stacks of the first thousand, each once, with its count
 };
 
 }  // namespace sweep_guard_core

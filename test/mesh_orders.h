@@ -9,16 +9,17 @@
 
 namespace sweep_guard_core {
 
-/// One of the orders in which the same mesh may come.
+/// An order of the vertices and triangles of a mesh.
 struct MeshOrdering {
   std::string name;
   bool vertices_shuffled;
   bool triangles_shuffled;
 
+  /// Returns the mesh in this order.
   TriangleMesh of(const TriangleMesh& mesh) const {
     Random random(/*seed=*/7);
-    const std::vector<std::uint32_t> places = permutation(mesh.vertexCount(), vertices_shuffled, random);
-    const std::vector<std::uint32_t> order = permutation(mesh.triangles().size(), triangles_shuffled, random);
+    const std::vector<std::uint32_t> places = indices(mesh.vertexCount(), vertices_shuffled, random);
+    const std::vector<std::uint32_t> order = indices(mesh.triangles().size(), triangles_shuffled, random);
     std::vector<Eigen::Vector3d> vertices(places.size());
     for (size_t i = 0; i < places.size(); ++i) vertices[places[i]] = mesh.vertex(i);
     std::vector<Triangle> triangles;
@@ -30,13 +31,11 @@ struct MeshOrdering {
   }
 
  private:
-  static std::vector<std::uint32_t> permutation(size_t count, bool shuffled, Random& random) {
-    std::vector<std::uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0U);
-    for (size_t i = count; shuffled && i > 1; --i) {
-      std::swap(order[i - 1], order[static_cast<size_t>(random.below(static_cast<int>(i)))]);
-    }
-    return order;
+  static std::vector<std::uint32_t> indices(size_t count, bool shuffled, Random& random) {
+    if (shuffled) return random.permutation(count);
+    std::vector<std::uint32_t> in_order(count);
+    std::iota(in_order.begin(), in_order.end(), 0U);
+    return in_order;
   }
 };
 

@@ -11,7 +11,7 @@ inline testing::AssertionResult has(const std::string& text, const std::string& 
          << "'" << part << "' in: " << text;
 }
 
-/// The message that some work is refused with; empty if it is not refused.
+/// Returns the message of the exception that `work` throws; empty if it throws none.
 template <typename Refused = sweep_guard_core::InvalidInput, typename Work>
 std::string refusal(Work work) {
   try {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <vector>
+#include <numeric>
 
 #include "sweep_guard/geometry/convex_polytope.h"
 
@@ -13,7 +13,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
-constexpr double kTiny = 1e-6;  // of the volume's size: too small to have a direction worth a test
+constexpr double kTiny = 1e-6;  // of the volume's size: too small to have a useful direction
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
@@ -28,22 +28,14 @@ TriangleMesh separateTriangles(const std::vector<Corners>& triangles_M) {
   return TriangleMesh(vertices, std::move(triangles));
 }
 
-// The same triangles as if they had come in a MeshVertices message: float32 about the frame's origin.
-TriangleMesh asStreamed(const TriangleMesh& mesh) {
-  std::vector<float> positions;
-  for (size_t i = 0; i < mesh.vertexCount(); ++i) {
-    const Eigen::Vector3f p = mesh.vertex(i).cast<float>();
-    positions.insert(positions.end(), p.begin(), p.end());
-  }
-  return mesh.deformed(std::move(positions));
-}
+TriangleMesh asStreamed(const TriangleMesh& mesh) { return deformed(mesh, streamedPositions(mesh)); }
 
 Eigen::Vector3d randomPlace(Random& random) {
   const double distance = random.chance(0.3) ? 0.0 : random.logUniform(1e-3, 1e6);
   return distance * random.direction();
 }
 
-// The largest triangle, in sizes of the volume, that stays within the mesh's bounds wherever it is.
+// Largest triangle, in sizes of the volume, that stays within the bounds of a mesh.
 double largestIn(double size) { return std::min(1e4, 1e6 / size); }
 
 VolumeKind randomKind(Random& random) { return random.chance(0.3) ? VolumeKind::kObb : VolumeKind::kObbPlanes; }
@@ -105,17 +97,17 @@ std::vector<Polygon> largeFaces(const SweptVolume& volume) {
   return faces;
 }
 
-// Between two points, mostly not at them.
+// A random point between two points.
 Eigen::Vector3d between(Random& random, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a + random.uniform(0.0, 1.0) * (b - a);
 }
 
-// A triangle on the far side of a plane that touches a convex volume, and touching it too. In B.
+// A triangle that touches a convex volume, on the other side of a plane that touches the volume too. In B.
 struct Touch {
   enum class Kind { kCornerOnFace, kEdgeOnEdge, kFaceOnCorner };
   Kind kind;
   Corners corners;
-  Eigen::Vector3d normal;  // of the plane, out of the volume
+  Eigen::Vector3d normal;  // of the plane, outward
   Eigen::Vector3d edge;    // of the volume, for kEdgeOnEdge
 };
 
@@ -123,7 +115,7 @@ Eigen::Vector3d across(Random& random, const Eigen::Vector3d& normal) {
   return normal.cross(random.direction()).normalized();
 }
 
-// A direction out of the plane, or along it: then an edge or all of the triangle lies in the plane.
+// A direction out of the plane, or in the plane: then an edge or the whole triangle lies in it.
 Eigen::Vector3d outOf(Random& random, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d along = across(random, normal);
   return random.chance(0.3) ? along : (along + random.logUniform(1e-6, 10.0) * normal).normalized();
@@ -149,7 +141,7 @@ Touch edgeOnEdge(Random& random, const std::vector<Polygon>& faces, double side,
   const Eigen::Vector3d edge = (face[second] - a).normalized();
   const Eigen::Vector3d face_normal = faceNormal(face);
   const Eigen::Vector3d into_face = face_normal.cross(edge);
-  // Leaning out by less than the neighbouring face does, the plane touches the edge alone.
+  // A plane that leans less than the neighboring face touches only the edge.
   double lean = kPi;
   for (const Eigen::Vector3d& p : cornersOf(faces)) {
     const double depth = -face_normal.dot(p - a);
@@ -186,7 +178,7 @@ Touch randomTouch(Random& random, const std::vector<Polygon>& faces, double size
   }
 }
 
-// How far apart triangle and volume shall be, in units of the volume's size; negative: so deep.
+// Distance of triangle and volume in sizes of the volume; negative: depth.
 double randomGap(Random& random) {
   const double sign = random.chance(0.5) ? 1.0 : -1.0;
   constexpr std::array<double, 4> kRoundings = {0.0, 1.0, 2.0, 8.0};
@@ -194,7 +186,7 @@ double randomGap(Random& random) {
   return sign * random.logUniform(1e-10, 1e-2);
 }
 
-// The normal of the plane between volume and triangle, after float32 has moved the triangle's corners a little.
+// The normal of the plane between volume and triangle after the corners were rounded to float32.
 Eigen::Vector3d separatingNormal(const Touch& touch, const Corners& corners) {
   Eigen::Vector3d normal = touch.normal;
   if (touch.kind == Touch::Kind::kFaceOnCorner) normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
@@ -203,7 +195,7 @@ Eigen::Vector3d separatingNormal(const Touch& touch, const Corners& corners) {
   return (normal.dot(touch.normal) < 0.0 ? -normal : normal).normalized();
 }
 
-// A box of dyadic numbers along the axes of M: positions on its faces are the same numbers in float32 and in double.
+// An axis-aligned box of dyadic numbers: positions on its faces are equal in float32 and in double.
 SweptVolume alignedVolume(Random& random) {
   SweptVolume volume;
   for (int i = 0; i < 3; ++i) volume.box.X_MB.translation()[i] = random.below(2049) - 1024;
@@ -276,6 +268,13 @@ Eigen::Isometry3d Random::pose(const Eigen::Vector3d& place) {
   pose.linear() = rotation();
   pose.translation() = place;
   return pose;
+}
+
+std::vector<std::uint32_t> Random::permutation(size_t count) {
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  for (size_t i = count; i > 1; --i) std::swap(order[i - 1], order[static_cast<size_t>(below(static_cast<int>(i)))]);
+  return order;
 }
 
 ConvexShape randomTool(Random& random, double scale) {
@@ -374,7 +373,7 @@ std::string describe(const Scene& scene, std::uint32_t triangle) {
   }
   text += "\norigin of the mesh: " + inDigits(scene.mesh_M.origin());
   for (int i = 0; i < 3; ++i) text += "\naxis of the box: " + inDigits(box.X_MB.linear().col(i));
-  text += "\ncentre of the box: " + inDigits(box.X_MB.translation());
+  text += "\ncenter of the box: " + inDigits(box.X_MB.translation());
   text += "\nhalf extents of the box: " + inDigits(box.half_extents);
   text += "\ninterior point: " + inDigits(scene.swept_M.interior_B);
   for (const HalfSpace& clip : scene.swept_M.clips_B) {
@@ -409,6 +408,15 @@ TriangleMesh wavyHull(int rings, int sectors, double phase) {
     triangles.push_back({1, at(rings - 1, sector + 1), at(rings - 1, sector)});
   }
   return TriangleMesh(vertices, std::move(triangles));
+}
+
+std::vector<float> streamedPositions(const TriangleMesh& mesh) {
+  std::vector<float> positions;
+  for (size_t i = 0; i < mesh.vertexCount(); ++i) {
+    const Eigen::Vector3f p = mesh.vertex(i).cast<float>();
+    positions.insert(positions.end(), p.begin(), p.end());
+  }
+  return positions;
 }
 
 int sceneCount(int full_size, double default_percent) {

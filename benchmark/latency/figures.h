@@ -8,26 +8,27 @@ namespace sweep_guard_benchmark {
 
 using Nanoseconds = std::int64_t;  ///< since the epoch of the ROS clock
 
-/// What the guard said of the poses after `begin` up to `stamp`, and when it was heard.
-struct Heard {
+/// A message of the guard about the poses after `begin` up to `stamp`, and when it was received.
+struct ReceivedMessage {
   Nanoseconds begin;
   Nanoseconds stamp;
   Nanoseconds received;
 };
 
-/// From each pose until a message was heard that covers it [ms]; poses that none covers are left out.
-/// @param poses  stamps, ascending
-/// @param heard  stamps ascending
-std::vector<double> latencies(const std::vector<Nanoseconds>& poses, const std::vector<Heard>& heard);
+/// Returns the time from each pose until the first message that covers it was received [ms]. Poses that no message
+/// covers are left out.
+/// @param poses     stamps, ascending
+/// @param messages  ascending in their stamps
+std::vector<double> latencies(const std::vector<Nanoseconds>& poses, const std::vector<ReceivedMessage>& messages);
 
-/// From the pose that each message rests on until it was heard [ms]. Of messages with the same stamp the first counts:
-/// the others repeat it.
-std::vector<double> ages(const std::vector<Heard>& heard);
+/// Returns the time from the newest pose of each message until the message was received [ms]. Of messages with the same
+/// stamp only the first counts; the others repeat it.
+std::vector<double> ages(const std::vector<ReceivedMessage>& messages);
 
-/// How often a message begins later than the one before ended: motion that no one looked at.
-std::size_t holes(const std::vector<Heard>& heard);
+/// Returns how often a message begins after the end of the previous one: motion that was not swept.
+std::size_t holes(const std::vector<ReceivedMessage>& messages);
 
-/// What lies in [begin, end), by its stamp.
-std::vector<Heard> within(const std::vector<Heard>& heard, Nanoseconds begin, Nanoseconds end);
+/// Returns the messages whose stamp lies in [begin, end).
+std::vector<ReceivedMessage> within(const std::vector<ReceivedMessage>& messages, Nanoseconds begin, Nanoseconds end);
 
 }  // namespace sweep_guard_benchmark

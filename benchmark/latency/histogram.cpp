@@ -16,7 +16,7 @@ constexpr double kMin = 1e-3;      // [ms]
 
 }  // namespace
 
-// Tab-separated: the names have commas in them.
+// Tab-separated, because the names contain commas.
 void appendHistogram(const std::string& path, const HistogramTitle& title, const std::vector<double>& milliseconds) {
   std::map<int, double> counts;
   for (const double value : milliseconds) {
@@ -45,7 +45,7 @@ std::vector<Histogram> readHistograms(const std::string& path) {
     std::getline(fields, title.method, '\t');
     std::getline(fields, triangles, '\t');
     std::getline(fields, title.work, '\t');
-    if (!(fields >> middle >> share)) throw sweep_guard_core::InvalidInput(path + " holds a line that is no class");
+    if (!(fields >> middle >> share)) throw sweep_guard_core::InvalidInput(path + ": a line is not a class");
     title.triangles = std::stoi(triangles);
     const bool same = !histograms.empty() && histograms.back().title.work == title.work &&
                       histograms.back().title.method == title.method &&

@@ -5,26 +5,26 @@
 
 namespace sweep_guard_benchmark {
 
-/// What a distribution is of.
+/// Names the measurements of a distribution.
 struct HistogramTitle {
   std::string method;
   int triangles;
   std::string work;
 };
 
-/// Counts in twenty classes per decade, for a log scale.
+/// A distribution in twenty classes per decade, for a log scale.
 struct Histogram {
   HistogramTitle title;
   std::vector<double> ms;      ///< middle of each class, ascending [ms]
-  std::vector<double> shares;  ///< of the whole, in each class
+  std::vector<double> shares;  ///< fraction of all measurements in each class
 };
 
-/// Adds a distribution to a file, which is made where it is missing.
-/// @throws sweep_guard_core::InvalidInput if it cannot be written
+/// Appends a distribution to a file, or creates the file.
+/// @throws sweep_guard_core::InvalidInput if the file cannot be written
 void appendHistogram(const std::string& path, const HistogramTitle& title, const std::vector<double>& milliseconds);
 
-/// All of a file, in its order.
-/// @throws sweep_guard_core::InvalidInput if it cannot be read
+/// Reads all distributions of a file, in its order.
+/// @throws sweep_guard_core::InvalidInput if the file cannot be read
 std::vector<Histogram> readHistograms(const std::string& path);
 
 }  // namespace sweep_guard_benchmark

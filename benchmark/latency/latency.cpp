@@ -1,5 +1,5 @@
-// Measures a running guard end to end: from the stamp of a tool's pose until what the guard says of it is heard. Poses
-// come at 1 kHz, new vertices of a deforming hull at 60 Hz. Needs a ROS master; scripts/latency brings its own.
+// Measures the latency of a running guard: from the stamp of a tool pose until its messages are received. Sends poses
+// at 1 kHz and new vertices of a deforming hull at 60 Hz. Needs a ROS master; scripts/latency starts one.
 #include <ros/ros.h>
 
 #include <boost/program_options.hpp>
@@ -17,15 +17,15 @@ using sweep_guard_core::InvalidInput;
 Settings settingsOf(int argc, char** argv) {
   Settings settings;
   options::options_description known("latency [options]");
-  known.add_options()("help", "this text")                                 //
-      ("triangles", options::value(&settings.triangles), "of the hull")    //
-      ("seconds", options::value(&settings.seconds), "to measure for")     //
-      ("pose-rate", options::value(&settings.rates.poses), "[Hz]")         //
-      ("vertices-rate", options::value(&settings.rates.vertices), "[Hz]")  //
+  known.add_options()("help", "print this text")                                             //
+      ("triangles", options::value(&settings.triangles), "number of triangles of the hull")  //
+      ("seconds", options::value(&settings.seconds), "time to measure")                      //
+      ("pose-rate", options::value(&settings.rates.poses), "[Hz]")                           //
+      ("vertices-rate", options::value(&settings.rates.vertices), "[Hz]")                    //
       ("transport", options::value(&settings.transport),
        "tcpros: the guard is a node; nodelet: it runs in this process")                                               //
-      ("detector", options::value(&settings.detector), "of the guard")                                                //
-      ("label", options::value(&settings.label), "named in the tables beside the transport")                          //
+      ("detector", options::value(&settings.detector), "detector of the guard")                                       //
+      ("label", options::value(&settings.label), "text for the tables, beside the transport")                         //
       ("set", options::value(&settings.parameters), "parameter of the guard, as in gl_context=egl; may be repeated")  //
       ("csv", options::value(&settings.csv), "append the figures to this file")                                       //
       ("histogram", options::value(&settings.histogram), "append the distribution to this file");
@@ -39,13 +39,13 @@ Settings settingsOf(int argc, char** argv) {
   if (settings.transport != "tcpros" && settings.transport != "nodelet") {
     throw InvalidInput("--transport: '" + settings.transport + "' is unknown: use tcpros or nodelet");
   }
-  if (!(settings.rates.poses > 0.0 && settings.rates.vertices > 0.0)) throw InvalidInput("rates: use some > 0");
+  if (!(settings.rates.poses > 0.0 && settings.rates.vertices > 0.0)) throw InvalidInput("the rates must be > 0");
   if (settings.triangles < 6 || settings.triangles % 2 != 0) throw InvalidInput("--triangles: use an even number >= 6");
   return settings;
 }
 
 int run(int argc, char** argv) {
-  ros::init(argc, argv, "latency", ros::init_options::NoSigintHandler);  // a measurement that is cut short is none
+  ros::init(argc, argv, "latency", ros::init_options::NoSigintHandler);  // an interrupted measurement is useless
   const Settings settings = settingsOf(argc, argv);
   const ros::NodeHandle alive;
   const Measurement measured = measure(settings);
@@ -53,7 +53,7 @@ int run(int argc, char** argv) {
   print(settings, measured, rows);
   save(settings, measured, rows);
   const bool covered = rows[0].milliseconds.size() == posesOf(measured).size();
-  return covered && holes(measured.said.contacts) == 0 ? 0 : 1;
+  return covered && holes(measured.messages.contacts) == 0 ? 0 : 1;
 }
 
 }  // namespace

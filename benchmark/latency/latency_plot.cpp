@@ -1,4 +1,4 @@
-// Draws the distributions that `latency --histogram` wrote: one panel for each method and size.
+// Plots the distributions that `latency --histogram` wrote: one panel for each method and size.
 //   latency_plot HISTOGRAMS PNG
 #include <algorithm>
 #include <iostream>
@@ -15,11 +15,11 @@ namespace {
 using sweep_guard_evaluation::gnuplotText;
 using sweep_guard_evaluation::PlotPage;
 
-// Of Okabe and Ito's, which colour-blind people can tell apart.
-const std::map<std::string, std::string> kColours = {
+// Colors of Okabe and Ito, which color-blind people can tell apart.
+const std::map<std::string, std::string> kColors = {
     {"pose to contacts", "#0072B2"}, {"pose to prediction", "#E69F00"}, {"pose to warning", "#D55E00"}};
 
-std::string lineOf(const std::string& work) { return "with histeps lw 2 lc rgb '" + kColours.at(work) + "'"; }
+std::string lineOf(const std::string& work) { return "with histeps lw 2 lc rgb '" + kColors.at(work) + "'"; }
 
 std::string panel(const std::string& title, const std::vector<Histogram>& histograms) {
   std::ostringstream data;
@@ -42,19 +42,19 @@ void draw(const std::string& source, const std::string& path) {
   std::vector<std::string> methods;
   std::vector<int> sizes;
   for (const Histogram& histogram : readHistograms(source)) {
-    if (kColours.count(histogram.title.work) == 0) continue;
+    if (kColors.count(histogram.title.work) == 0) continue;
     panels[{histogram.title.triangles, histogram.title.method}].push_back(histogram);
-    const auto note = [](auto& all, const auto& one) {
+    const auto addNew = [](auto& all, const auto& one) {
       if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
     };
-    note(methods, histogram.title.method);
-    note(sizes, histogram.title.triangles);
+    addNew(methods, histogram.title.method);
+    addNew(sizes, histogram.title.triangles);
   }
   PlotPage page(path, sizes.size(), methods.size());
   std::vector<std::string> key;
-  key.reserve(kColours.size());
-  for (const auto& [work, colour] : kColours)
-    key.push_back("with lines lw 4 lc rgb '" + colour + "' title " + gnuplotText(work));
+  key.reserve(kColors.size());
+  for (const auto& [work, color] : kColors)
+    key.push_back("with lines lw 4 lc rgb '" + color + "' title " + gnuplotText(work));
   page.addKey({}, key);
   for (size_t row = 0; row < sizes.size(); ++row) {
     for (size_t column = 0; column < methods.size(); ++column) {

@@ -3,7 +3,7 @@
 namespace sweep_guard_benchmark {
 namespace {
 
-constexpr std::uint32_t kQueued = 100'000;  // nothing is lost here
+constexpr std::uint32_t kQueued = 100'000;  // no message is lost here
 
 Nanoseconds nanoseconds(const ros::Time& time) { return static_cast<Nanoseconds>(time.toNSec()); }
 
@@ -20,39 +20,39 @@ Listener::Listener(const std::string& guard) {
   thread_.start();
 }
 
-Said Listener::said() const {
+ReceivedMessages Listener::messages() const {
   const std::lock_guard lock(mutex_);
-  return said_;
+  return messages_;
 }
 
 Nanoseconds Listener::newestContacts() const {
   const std::lock_guard lock(mutex_);
-  return said_.contacts.empty() ? 0 : said_.contacts.back().stamp;
+  return messages_.contacts.empty() ? 0 : messages_.contacts.back().stamp;
 }
 
 void Listener::onContacts(const sweep_guard::Contacts& contacts) {
   const Nanoseconds received = now();
   const std::lock_guard lock(mutex_);
-  said_.contacts.push_back({nanoseconds(contacts.interval_start), nanoseconds(contacts.header.stamp), received});
-  said_.met += contacts.objects.empty() ? 0 : 1;
+  messages_.contacts.push_back({nanoseconds(contacts.interval_start), nanoseconds(contacts.header.stamp), received});
+  messages_.met += contacts.objects.empty() ? 0 : 1;
 }
 
 void Listener::onPrediction(const sweep_guard::Prediction& prediction) {
   const Nanoseconds received = now();
   const Nanoseconds stamp = nanoseconds(prediction.header.stamp);
   const std::lock_guard lock(mutex_);
-  said_.predictions.push_back({stamp, stamp, received});
-  said_.sweeps_asked += prediction.sweeps_asked;
-  said_.sweeps_made += prediction.sweeps_made;
-  said_.whole_predictions += prediction.sweeps_made == prediction.sweeps_asked ? 1 : 0;
+  messages_.predictions.push_back({stamp, stamp, received});
+  messages_.sweeps_asked += prediction.sweeps_asked;
+  messages_.sweeps_made += prediction.sweeps_made;
+  messages_.whole_predictions += prediction.sweeps_made == prediction.sweeps_asked ? 1 : 0;
 }
 
 void Listener::onWarning(const sweep_guard::Warning& warning) {
   const Nanoseconds received = now();
   const Nanoseconds stamp = nanoseconds(warning.header.stamp);
   const std::lock_guard lock(mutex_);
-  said_.warnings.push_back({stamp, stamp, received});
-  if (warning.level != level_) said_.changes.push_back({stamp, stamp, received});
+  messages_.warnings.push_back({stamp, stamp, received});
+  if (warning.level != level_) messages_.changes.push_back({stamp, stamp, received});
   level_ = warning.level;
 }
 

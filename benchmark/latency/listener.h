@@ -13,28 +13,28 @@
 
 namespace sweep_guard_benchmark {
 
-/// What a guard has said.
-struct Said {
-  std::vector<Heard> contacts;
-  std::vector<Heard> predictions;
-  std::vector<Heard> warnings;
-  std::vector<Heard> changes;    ///< the warnings that changed the level
-  std::size_t met = 0;           ///< contacts that are not empty
-  std::size_t sweeps_asked = 0;  ///< of all predictions
+/// The messages received from a guard.
+struct ReceivedMessages {
+  std::vector<ReceivedMessage> contacts;
+  std::vector<ReceivedMessage> predictions;
+  std::vector<ReceivedMessage> warnings;
+  std::vector<ReceivedMessage> changes;  ///< the warnings that changed the level
+  std::size_t met = 0;                   ///< number of contacts messages that are not empty
+  std::size_t sweeps_asked = 0;          ///< in all predictions
   std::size_t sweeps_made = 0;
-  std::size_t whole_predictions = 0;  ///< those with all sweeps that were asked for
+  std::size_t whole_predictions = 0;  ///< predictions with all sweeps that were asked for
 };
 
-/// Hears what a guard says, and when.
+/// Receives the messages of a guard.
 class Listener {
  public:
   /// @param guard  name of the guard's node
   explicit Listener(const std::string& guard);
 
-  /// So far.
-  Said said() const;
+  /// Returns all messages received since the start.
+  ReceivedMessages messages() const;
 
-  /// Stamp of the newest contacts; 0: none so far.
+  /// Returns the stamp of the newest contacts message; 0: none yet.
   Nanoseconds newestContacts() const;
 
  private:
@@ -43,7 +43,7 @@ class Listener {
   void onWarning(const sweep_guard::Warning& warning);
 
   mutable std::mutex mutex_;
-  Said said_;
+  ReceivedMessages messages_;
   int level_ = -1;
   sweep_guard_ros::QueueThread thread_;
   ros::Subscriber contacts_;

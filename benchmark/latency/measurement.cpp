@@ -15,8 +15,8 @@ namespace {
 
 using sweep_guard_core::InvalidInput;
 
-constexpr double kPatience = 15.0;  // [s] with a guard that takes in the mesh, or has fallen behind
-constexpr double kWarmUp = 2.0;     // [s]
+constexpr double kTimeout = 15.0;  // for reading the mesh, or for a backlog [s]
+constexpr double kWarmUp = 2.0;    // [s]
 const std::string kGuard = "sweep_guard";
 
 void setParameters(const Settings& settings) {
@@ -38,18 +38,18 @@ void setParameters(const Settings& settings) {
   }
 }
 
-// The guard: a program of its own, or in this one.
+// Runs the guard as a program of its own, or in this process.
 class GuardProcess {
  public:
   explicit GuardProcess(const std::string& transport) {
     if (transport == "tcpros") {
-      child_ =
-          std::make_unique<ChildProcess>(std::vector<std::string>{neighbour("sweep_guard_node"), "__name:=" + kGuard});
+      child_ = std::make_unique<ChildProcess>(
+          std::vector<std::string>{programBeside("sweep_guard_node"), "__name:=" + kGuard});
       return;
     }
     loader_ = std::make_unique<nodelet::Loader>(/*provide_ros_api=*/false);
     if (!loader_->load(ros::names::resolve(kGuard), "sweep_guard/SweepGuardNodelet", {}, {})) {
-      throw sweep_guard_core::DeviceError("the nodelet cannot be loaded");
+      throw sweep_guard_core::DeviceError("cannot load the nodelet");
     }
   }
 
@@ -61,15 +61,15 @@ class GuardProcess {
   std::unique_ptr<nodelet::Loader> loader_;
 };
 
-// Until the contacts cover that pose, or for so long.
+// Waits until the contacts cover the pose, or for kTimeout.
 void waitFor(const Listener& listener, Nanoseconds pose) {
-  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(kPatience);
+  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(kTimeout);
   while (listener.newestContacts() < pose && ros::ok() && ros::WallTime::now() < give_up) {
     ros::WallDuration(0.1).sleep();
   }
 }
 
-// Without what the sending takes, where that is in the guard's process.
+// Leaves out the processor time of the sender if it runs in the guard's process.
 Usage usage(const GuardProcess& guard, const Sender& sender) {
   Usage used = usageOf(guard.id());
   if (guard.isOurs()) used.processor_s -= sender.processor();
@@ -85,11 +85,11 @@ Measurement measure(const Settings& settings) {
   const GuardProcess guard(settings.transport);
   Sender sender(scene, settings.rates);
   waitFor(listener, /*pose=*/1);
-  if (listener.newestContacts() == 0) throw sweep_guard_core::DeviceError("the guard says nothing");
+  if (listener.newestContacts() == 0) throw sweep_guard_core::DeviceError("the guard publishes nothing");
   ros::WallDuration(kWarmUp).sleep();
 
   Measurement measured;
-  const Said before = listener.said();
+  const ReceivedMessages before = listener.messages();
   measured.before = usage(guard, sender);
   measured.begin = static_cast<Nanoseconds>(ros::Time::now().toNSec());
   ros::WallDuration(settings.seconds).sleep();
@@ -98,11 +98,11 @@ Measurement measure(const Settings& settings) {
   getloadavg(&measured.load, 1);
   measured.poses = sender.poses();
   waitFor(listener, measured.poses.back());
-  measured.said = listener.said();
-  measured.said.sweeps_asked -= before.sweeps_asked;
-  measured.said.sweeps_made -= before.sweeps_made;
-  measured.said.whole_predictions -= before.whole_predictions;
-  measured.said.met -= before.met;
+  measured.messages = listener.messages();
+  measured.messages.sweeps_asked -= before.sweeps_asked;
+  measured.messages.sweeps_made -= before.sweeps_made;
+  measured.messages.whole_predictions -= before.whole_predictions;
+  measured.messages.met -= before.met;
   return measured;
 }
 
@@ -114,11 +114,13 @@ std::vector<Nanoseconds> posesOf(const Measurement& measured) {
 }
 
 std::vector<LatencyRow> rowsOf(const Measurement& measured) {
-  const auto during = [&](const std::vector<Heard>& heard) { return within(heard, measured.begin, measured.end); };
-  return {{"pose to contacts", latencies(posesOf(measured), measured.said.contacts)},
-          {"pose to prediction", ages(during(measured.said.predictions))},
-          {"pose to warning", ages(during(measured.said.warnings))},
-          {"pose to change of level", ages(during(measured.said.changes))}};
+  const auto during = [&](const std::vector<ReceivedMessage>& messages) {
+    return within(messages, measured.begin, measured.end);
+  };
+  return {{"pose to contacts", latencies(posesOf(measured), measured.messages.contacts)},
+          {"pose to prediction", ages(during(measured.messages.predictions))},
+          {"pose to warning", ages(during(measured.messages.warnings))},
+          {"pose to change of level", ages(during(measured.messages.changes))}};
 }
 
 }  // namespace sweep_guard_benchmark

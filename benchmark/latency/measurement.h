@@ -9,46 +9,49 @@
 
 namespace sweep_guard_benchmark {
 
-/// What is measured.
+/// Settings of one measurement.
 struct Settings {
   int triangles = 1600;   ///< of the hull; even, >= 6
-  double seconds = 10.0;  ///< to measure for
+  double seconds = 10.0;  ///< duration of the measurement [s]
   Rates rates;
   std::string transport = "tcpros";  ///< tcpros: the guard is a node; nodelet: it runs in this process
   std::string detector = "select";
-  std::string label;                    ///< said beside the transport, as in "rviz looks on"; empty: nothing
-  std::string csv;                      ///< file that the figures are appended to; empty: none
-  std::string histogram;                ///< file that the distributions are appended to; empty: none
-  std::vector<std::string> parameters;  ///< of the guard, as in gl_context=egl
+  std::string label;                    ///< text for the tables beside the transport, such as "rviz looks on"
+  std::string csv;                      ///< figures are appended to this file; empty: none
+  std::string histogram;                ///< distributions are appended to this file; empty: none
+  std::vector<std::string> parameters;  ///< parameters of the guard, such as gl_context=egl
 };
 
-/// What came of it.
+/// Result of one measurement.
 struct Measurement {
   Nanoseconds begin = 0;
   Nanoseconds end = 0;
   Usage before = {};
   Usage after = {};
   double load = 0.0;
-  std::vector<Nanoseconds> poses;  ///< all that were sent
-  Said said;                       ///< the counts: meanwhile; the rest: from the start
+  std::vector<Nanoseconds> poses;  ///< stamps of all poses sent
+  ReceivedMessages messages;       ///< counts of the measurement; messages since the start
 
   double seconds() const { return 1e-9 * static_cast<double>(end - begin); }
+  double perSecond(std::size_t count) const { return static_cast<double>(count) / seconds(); }
+  double processorShare() const { return (after.processor_s - before.processor_s) / seconds(); }
+  double growthMb() const { return after.resident_mb - before.resident_mb; }
 };
 
-/// Starts a guard, sends it the scene, and listens. Needs a ROS master.
-/// @throws sweep_guard_core::DeviceError if the guard cannot be started or says nothing
+/// Starts a guard, sends it the scene and receives its messages. Needs a ROS master.
+/// @throws sweep_guard_core::DeviceError if the guard cannot be started or publishes nothing
 Measurement measure(const Settings& settings);
 
-/// One line of the table, and of the CSV file.
+/// The latencies of one line of the table.
 struct LatencyRow {
   std::string work;
   std::vector<double> milliseconds;
 };
 
-/// From the stamp of a pose to the contacts, the prediction, the warning and the change of level, in this order.
+/// Returns the latencies from a pose to contacts, prediction, warning and change of level, in this order.
 std::vector<LatencyRow> rowsOf(const Measurement& measured);
 
-/// The poses sent meanwhile.
+/// Returns the poses sent during the measurement.
 std::vector<Nanoseconds> posesOf(const Measurement& measured);
 
 }  // namespace sweep_guard_benchmark

@@ -12,11 +12,12 @@
 namespace sweep_guard_benchmark {
 namespace {
 
-std::string wordsAfterName(pid_t process) {
+// The part of /proc/PID/stat after the name, which may contain spaces.
+std::string statusOf(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string stat;
   std::getline(file, stat);
-  if (!file) throw sweep_guard_core::DeviceError("process " + std::to_string(process) + " is gone");
+  if (!file) throw sweep_guard_core::DeviceError("process " + std::to_string(process) + " does not exist");
   return stat.substr(stat.rfind(')') + 1);
 }
 
@@ -43,7 +44,7 @@ Usage usageOf(pid_t process) {
   constexpr int kSystemTime = 13;
   constexpr int kResidentPages = 22;
   std::vector<std::string> words(1);
-  for (const char c : wordsAfterName(process)) {
+  for (const char c : statusOf(process)) {
     if (c == ' ') {
       words.emplace_back();
     } else {
@@ -55,7 +56,7 @@ Usage usageOf(pid_t process) {
           1e-6 * number(kResidentPages) * static_cast<double>(sysconf(_SC_PAGESIZE))};
 }
 
-std::string neighbour(const std::string& program) {
+std::string programBeside(const std::string& program) {
   return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / program).string();
 }
 

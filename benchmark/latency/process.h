@@ -7,7 +7,7 @@
 
 namespace sweep_guard_benchmark {
 
-/// A program that runs while this object lives.
+/// Runs a program during the lifetime of this object.
 class ChildProcess {
  public:
   /// @param command  path of the program, then its arguments
@@ -15,7 +15,7 @@ class ChildProcess {
   explicit ChildProcess(const std::vector<std::string>& command);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
-  ~ChildProcess();  ///< ends it as Ctrl-C does, and waits
+  ~ChildProcess();  ///< interrupts the program and waits for its end
 
   pid_t id() const { return id_; }
 
@@ -23,16 +23,17 @@ class ChildProcess {
   pid_t id_ = 0;
 };
 
-/// What a process has used so far.
+/// Resources that a process has used since its start.
 struct Usage {
   double processor_s;
   double resident_mb;
 };
 
+/// Returns the resources used by a process.
 /// @throws sweep_guard_core::DeviceError if there is no such process
 Usage usageOf(pid_t process);
 
-/// Path of a program beside this one.
-std::string neighbour(const std::string& program);
+/// Returns the path of a program in the folder of this program.
+std::string programBeside(const std::string& program);
 
 }  // namespace sweep_guard_benchmark

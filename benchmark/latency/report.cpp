@@ -1,5 +1,6 @@
 #include "latency/report.h"
 
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <optional>
@@ -25,12 +26,16 @@ std::string methodOf(const Settings& settings) {
 }
 
 double sweepsPerSecond(const Measurement& measured) {
-  const std::vector<Heard> swept = within(measured.said.contacts, measured.begin, measured.end);
-  return static_cast<double>(swept.size()) / measured.seconds();
+  return measured.perSecond(within(measured.messages.contacts, measured.begin, measured.end).size());
 }
 
-// Of the warning, p99 over TCPROS on a quiet machine [ms].
-std::optional<double> goal(const Settings& settings) {
+std::array<double, 4> quantilesOf(const LatencyRow& row) {
+  const auto at = [&](double fraction) { return quantile(row.milliseconds, fraction); };
+  return {at(0.5), at(0.9), at(0.99), at(1.0)};
+}
+
+// Required p99 from pose to warning over TCPROS on a quiet machine [ms].
+std::optional<double> requiredP99(const Settings& settings) {
   if (settings.transport != "tcpros") return std::nullopt;
   if (settings.triangles <= 1600) return 2.0;
   if (settings.triangles <= 20'000) return 4.0;
@@ -38,14 +43,14 @@ std::optional<double> goal(const Settings& settings) {
   return std::nullopt;
 }
 
-void printPromises(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows) {
-  const auto print_one = [](bool kept, const std::string& what, double value, const std::string& bound) {
-    std::printf("%s  %s: %.3g %s\n", kept ? "pass" : "FAIL", what.c_str(), value, bound.c_str());
+void printRequirements(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows) {
+  const auto print_one = [](bool passes, const std::string& what, double value, const std::string& bound) {
+    std::printf("%s  %s: %.3g %s\n", passes ? "pass" : "FAIL", what.c_str(), value, bound.c_str());
   };
-  const auto unswept = static_cast<double>(holes(measured.said.contacts));
+  const auto unswept = static_cast<double>(holes(measured.messages.contacts));
   print_one(unswept == 0.0, "intervals unswept", unswept, "= 0");
-  if (const std::optional<double> bound = goal(settings)) {
-    const double p99 = sweep_guard_core::quantile(rows[2].milliseconds, 0.99);
+  if (const std::optional<double> bound = requiredP99(settings)) {
+    const double p99 = quantilesOf(rows[2])[2];
     const std::string samples = std::to_string(rows[2].milliseconds.size());
     print_one(p99 <= *bound, "pose to warning, p99 of " + samples + " [ms], on a quiet machine", p99,
               "<= " + csvNumber(*bound));
@@ -63,16 +68,13 @@ void appendFigures(const Settings& settings, const Measurement& measured, const 
                      "unswept", "sweeps_made", "sweeps_asked", "processor_share", "resident_mb", "growth_mb", "load"});
   }
   for (const LatencyRow& row : rows) {
-    const auto at = [&](double fraction) { return csvNumber(sweep_guard_core::quantile(row.milliseconds, fraction)); };
-    const double seconds = measured.seconds();
+    const auto [p50, p90, p99, max] = quantilesOf(row);
     file << csvLine({row.work, methodOf(settings), std::to_string(settings.triangles),
-                     std::to_string(row.milliseconds.size()),
-                     csvNumber(static_cast<double>(row.milliseconds.size()) / seconds), at(0.5), at(0.9), at(0.99),
-                     at(1.0), std::to_string(holes(measured.said.contacts)), std::to_string(measured.said.sweeps_made),
-                     std::to_string(measured.said.sweeps_asked),
-                     csvNumber((measured.after.processor_s - measured.before.processor_s) / seconds),
-                     csvNumber(measured.after.resident_mb),
-                     csvNumber(measured.after.resident_mb - measured.before.resident_mb), csvNumber(measured.load)});
+                     std::to_string(row.milliseconds.size()), csvNumber(measured.perSecond(row.milliseconds.size())),
+                     csvNumber(p50), csvNumber(p90), csvNumber(p99), csvNumber(max),
+                     std::to_string(holes(measured.messages.contacts)), std::to_string(measured.messages.sweeps_made),
+                     std::to_string(measured.messages.sweeps_asked), csvNumber(measured.processorShare()),
+                     csvNumber(measured.after.resident_mb), csvNumber(measured.growthMb()), csvNumber(measured.load)});
   }
   if (!file) throw InvalidInput("--csv: cannot write " + settings.csv);
 }
@@ -85,25 +87,23 @@ void print(const Settings& settings, const Measurement& measured, const std::vec
       "|\n|---|---|---|---|---|---|---|\n",
       settings.triangles, methodOf(settings).c_str(), measured.load);
   for (const LatencyRow& row : rows) {
+    const auto [p50, p90, p99, max] = quantilesOf(row);
     std::printf("| %s | %zu | %.1f | %.2f | %.2f | %.2f | %.2f |\n", row.work.c_str(), row.milliseconds.size(),
-                static_cast<double>(row.milliseconds.size()) / measured.seconds(),
-                sweep_guard_core::quantile(row.milliseconds, 0.5), sweep_guard_core::quantile(row.milliseconds, 0.9),
-                sweep_guard_core::quantile(row.milliseconds, 0.99), sweep_guard_core::quantile(row.milliseconds, 1.0));
+                measured.perSecond(row.milliseconds.size()), p50, p90, p99, max);
   }
   std::printf(
-      "pose to warning: the age of the newest warning when a warning is heard, mostly one of the repeats at 20 Hz; p99 "
+      "pose to warning: the age of a warning when it is received, mostly one repeated at 20 Hz; p99 "
       "of %zu\n",
       rows[2].milliseconds.size());
   std::printf(
       "poses: %zu sent, %zu covered; sweeps: %.1f per second, %zu of them met something; intervals unswept: %zu\n",
-      posesOf(measured).size(), rows[0].milliseconds.size(), sweepsPerSecond(measured), measured.said.met,
-      holes(measured.said.contacts));
-  std::printf("predicted sweeps: %zu made of %zu; predictions with all of them: %zu\n", measured.said.sweeps_made,
-              measured.said.sweeps_asked, measured.said.whole_predictions);
-  std::printf("guard's process: %.0f %% of a processor, %.1f MB, %+.1f MB meanwhile\n",
-              100.0 * (measured.after.processor_s - measured.before.processor_s) / measured.seconds(),
-              measured.after.resident_mb, measured.after.resident_mb - measured.before.resident_mb);
-  printPromises(settings, measured, rows);
+      posesOf(measured).size(), rows[0].milliseconds.size(), sweepsPerSecond(measured), measured.messages.met,
+      holes(measured.messages.contacts));
+  std::printf("predicted sweeps: %zu made of %zu; predictions with all sweeps: %zu\n", measured.messages.sweeps_made,
+              measured.messages.sweeps_asked, measured.messages.whole_predictions);
+  std::printf("guard's process: %.0f %% of a processor, %.1f MB, %+.1f MB during the measurement\n",
+              100.0 * measured.processorShare(), measured.after.resident_mb, measured.growthMb());
+  printRequirements(settings, measured, rows);
   std::fflush(stdout);
 }
 

@@ -11,16 +11,16 @@ namespace {
 
 constexpr double kTurn = 2.0 * 3.14159265358979323846;
 constexpr int kFrames = 12;
-constexpr double kWaves = 0.3;  // [rad] of their phase
+constexpr double kPhase = 0.3;  // of the waves [rad]
 
 sweep_guard_core::TriangleMesh hull(int triangles, int frame) {
   int sectors = static_cast<int>(std::sqrt(triangles));
   while (triangles / 2 % sectors != 0) --sectors;
-  return sweep_guard_core::wavyHull(triangles / 2 / sectors + 1, sectors, kWaves * std::sin(kTurn * frame / kFrames));
+  return sweep_guard_core::wavyHull(triangles / 2 / sectors + 1, sectors, kPhase * std::sin(kTurn * frame / kFrames));
 }
 
 template <typename Message>
-Message labelled() {
+Message withId() {
   Message message;
   message.header.frame_id = "world";
   message.id = "hull";
@@ -29,7 +29,7 @@ Message labelled() {
 }
 
 sweep_guard::DeformableMesh wholeMesh(const sweep_guard_core::TriangleMesh& mesh_M) {
-  auto message = labelled<sweep_guard::DeformableMesh>();
+  auto message = withId<sweep_guard::DeformableMesh>();
   for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
     const Eigen::Vector3d p_M = mesh_M.vertex(i);
     geometry_msgs::Point point;
@@ -47,11 +47,8 @@ sweep_guard::DeformableMesh wholeMesh(const sweep_guard_core::TriangleMesh& mesh
 }
 
 sweep_guard::MeshVertices::Ptr verticesOf(const sweep_guard_core::TriangleMesh& mesh_M) {
-  auto message = boost::make_shared<sweep_guard::MeshVertices>(labelled<sweep_guard::MeshVertices>());
-  for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
-    const Eigen::Vector3f p_M = mesh_M.vertex(i).cast<float>();
-    message->positions.insert(message->positions.end(), p_M.begin(), p_M.end());
-  }
+  auto message = boost::make_shared<sweep_guard::MeshVertices>(withId<sweep_guard::MeshVertices>());
+  message->positions = sweep_guard_core::streamedPositions(mesh_M);
   return message;
 }
 
@@ -61,7 +58,7 @@ LatencyScene::LatencyScene(int triangles) : mesh_(wholeMesh(hull(triangles, 0)))
   for (int frame = 0; frame < kFrames; ++frame) frames_.push_back(verticesOf(hull(triangles, frame)));
 }
 
-// From 22 mm off the hull's mean surface to 2 mm inside of it, every 3 s, with a little swing; the waves reach 10 mm.
+// Moves every 3 s from 22 mm to -2 mm above the hull's mean surface, with a small swing; the waves reach 10 mm.
 geometry_msgs::Pose LatencyScene::tool(double t) {
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
   X_WT.translation() << 0.110 + 0.012 * std::cos(kTurn * t / 3.0), 0.004 * std::sin(0.7 * kTurn * t),

@@ -8,19 +8,19 @@
 
 namespace sweep_guard_benchmark {
 
-/// A drill that hovers near a wavy hull and goes into it, and the hull, whose waves run to and fro. All of it is
-/// computed before it is needed: who sends it takes next to nothing of the processors that the guard is measured on.
+/// A drill that hovers above a wavy hull and enters it, and the hull, whose waves run to and fro. The deformations are
+/// computed in advance, so that the sender takes little time from the processors on which the guard is measured.
 class LatencyScene {
  public:
   /// @param triangles  even, >= 6
   explicit LatencyScene(int triangles);
 
-  /// Of the drill's tip, after `t` [s].
+  /// Returns the pose of the drill after `t` [s].
   static geometry_msgs::Pose tool(double t);
 
   const sweep_guard::DeformableMesh& mesh() const { return mesh_; }
 
-  /// The next of a dozen deformations, with that stamp. It is copied only if who was given it before is not done yet.
+  /// Returns the next of twelve deformations with this stamp. Copies it only if the previous receiver still holds it.
   sweep_guard::MeshVertices::Ptr frame(const ros::Time& stamp);
 
  private:

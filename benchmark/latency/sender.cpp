@@ -14,9 +14,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t kPosesKept = 1'000'000;
+constexpr size_t kReservedPoses = 1'000'000;
 
-// Calls `send` at that rate with the time since the first call [s].
+// Calls `send` at the given rate with the time since the first call [s].
 template <typename Send>
 void repeat(const std::atomic<bool>& stopping, double rate, const Send& send) {
   const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate));
@@ -42,7 +42,7 @@ Sender::Sender(LatencyScene& scene, const Rates& rates) : scene_(scene), rates_(
   mesh_ = node.advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
   vertices_ = node.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);
   poses_ = node.advertise<geometry_msgs::PoseStamped>("tool_pose", 1000);
-  stamps_.reserve(kPosesKept);
+  stamps_.reserve(kReservedPoses);
   auto mesh = boost::make_shared<sweep_guard::DeformableMesh>(scene_.mesh());
   mesh->header.stamp = ros::Time::now();
   mesh_.publish(mesh);

@@ -11,14 +11,14 @@
 
 namespace sweep_guard_benchmark {
 
-/// How often things are sent [Hz].
+/// Rates of the messages [Hz].
 struct Rates {
   double poses = 1000.0;
   double vertices = 60.0;
 };
 
-/// Sends the scene from the moment it is made on: the mesh once, its vertices and the tool's pose again and again, each
-/// stamped with the time at which it is sent. What comes too late is left out, not made up for.
+/// Sends the scene from its construction on: the mesh once, its vertices and the tool's pose at their rates, each stamped
+/// with the time at which it is sent. A late message is skipped, not made up for.
 class Sender {
  public:
   Sender(LatencyScene& scene, const Rates& rates);
@@ -26,10 +26,10 @@ class Sender {
   Sender& operator=(const Sender&) = delete;
   ~Sender();
 
-  /// Stamps of all poses sent. Ends the sending.
+  /// Stops sending and returns the stamps of all poses sent.
   const std::vector<Nanoseconds>& poses();
 
-  double processor() const;  ///< used by the sending so far [s]
+  double processor() const;  ///< processor time used for sending [s]
 
  private:
   void sendPoses();

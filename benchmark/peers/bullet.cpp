@@ -7,7 +7,7 @@ namespace {
 
 static_assert(sizeof(btScalar) == sizeof(float), "Bullet reads the positions where they are");
 
-const btVector3 kMaxDistance(0.4F, 0.4F, 0.4F);  // around the hull; Bullet adds a metre, and divides by 65533 [m]
+const btVector3 kMaxDistance(0.4F, 0.4F, 0.4F);  // around the hull; Bullet adds 1 m and divides by 65533 [m]
 
 btVector3 toBullet(const Point& p) {
   return {static_cast<btScalar>(p[0]), static_cast<btScalar>(p[1]), static_cast<btScalar>(p[2])};
@@ -19,7 +19,7 @@ std::vector<int> indicesOf(const Surface& surface) {
   return indices;
 }
 
-// btBvhTriangleMeshShape::refitTree() would also look at every triangle six times over.
+// Not btBvhTriangleMeshShape::refitTree(): it also visits every triangle six times.
 class BulletPeer : public Peer {
  public:
   void update() override { shape_.getOptimizedBvh()->refit(&mesh_, -kMaxDistance, kMaxDistance); }

@@ -31,7 +31,7 @@ std::uint32_t planesBeyond(const Polytope& polytope_M, const Point& p_M, double 
   return beyond;
 }
 
-// False if nothing is cut off: `inside` is not touched then.
+// Returns false if nothing is cut off, and then leaves `inside` as it is.
 bool cut(const Corners& polygon, const Polytope::Plane& plane, double grown, Corners& inside) {
   std::array<double, kMaxCorners> distances;
   bool beyond = false;

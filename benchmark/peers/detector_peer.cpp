@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-#include "detection/select_detector.h"
 #include "hull.h"
 #include "sweep_guard/detection/detector.h"
-#include "sweep_guard/detection/float_planes.h"
 #include "sweep_guard/detection/submesh.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
@@ -28,8 +26,8 @@ TriangleMesh meshOf(const Surface& surface) {
 class DetectorPeer : public Peer {
  public:
   struct Options {
-    bool sets_up = false;  ///< the volumes, too
-    bool narrows = true;   ///< several queries are asked of the part of the mesh about all of them
+    bool computes_volumes = false;  ///< in the time of the query
+    bool uses_submesh = true;       ///< several queries share the submesh around all of them
   };
 
   DetectorPeer(Surface& surface, std::unique_ptr<Detector> detector, const Options& options)
@@ -43,10 +41,10 @@ class DetectorPeer : public Peer {
   void update() override { mesh_M_.deform(surface_.positions_M); }
 
   void queryAll(std::vector<TriangleIds>& ids) override {
-    if (ids.size() <= 1 || !options_.narrows) return Peer::queryAll(ids);
+    if (ids.size() <= 1 || !options_.uses_submesh) return Peer::queryAll(ids);
     const Eigen::AlignedBox3d box_M = boxAroundAll();
-    const Submesh part = finder_.find(mesh_M_, floatPlanes(mesh_M_, box_M));
-    for (size_t volume = 0; volume < ids.size(); ++volume) detect(part, volume, ids[volume]);
+    const Submesh submesh = finder_.find(mesh_M_, box_M);
+    for (size_t volume = 0; volume < ids.size(); ++volume) detect(submesh, volume, ids[volume]);
   }
 
   void query(size_t volume, TriangleIds& ids) override { detect(mesh_M_, volume, ids); }
@@ -54,8 +52,8 @@ class DetectorPeer : public Peer {
   double inflation() const override { return inflation_; }
 
  private:
-  void detect(const Submesh& part, size_t volume, TriangleIds& ids) {
-    const sweep_guard_core::Detection& detection = detector_->detect(part, sweptVolumeOf((*volumes_M_)[volume]));
+  void detect(const Submesh& submesh, size_t volume, TriangleIds& ids) {
+    const sweep_guard_core::Detection& detection = detector_->detect(submesh, sweptVolumeOf((*volumes_M_)[volume]));
     ids.assign(detection.triangles.begin(), detection.triangles.end());
     inflation_ = std::max(inflation_, detection.inflation);
   }
@@ -72,7 +70,7 @@ class DetectorPeer : public Peer {
   }
 
   const SweptVolume& sweptVolumeOf(const Polytope& volume_M) {
-    if (!options_.sets_up) return *volume_M.swept_M;
+    if (!options_.computes_volumes) return *volume_M.swept_M;
     swept_M_ = sweptVolume(tool_, *volume_M.motion_M, sweep_guard_core::VolumeKind::kObbPlanes);
     return swept_M_;
   }
@@ -94,16 +92,15 @@ std::unique_ptr<Peer> makeDetectorPeer(const std::string& name, Surface& surface
   return std::make_unique<DetectorPeer>(surface, sweep_guard_core::makeDetector(name), DetectorPeer::Options{});
 }
 
-std::unique_ptr<Peer> makeWholeDetectorPeer(const std::string& name, Surface& surface) {
+std::unique_ptr<Peer> makeDetectorPeerWithSetUp(const std::string& name, Surface& surface) {
   return std::make_unique<DetectorPeer>(surface, sweep_guard_core::makeDetector(name),
-                                        DetectorPeer::Options{/*sets_up=*/true});
+                                        DetectorPeer::Options{/*computes_volumes=*/true});
 }
 
 std::unique_ptr<Peer> makePlainSelectPeer(Surface& surface) {
-  const sweep_guard_core::SelectDetector::Options papers{/*cull=*/false, /*block=*/1};
-  auto detector = std::make_unique<sweep_guard_core::SelectDetector>(papers);
+  auto detector = sweep_guard_core::makeDetector("select", {/*cull=*/false, "osmesa", /*triangles_per_name=*/1});
   return std::make_unique<DetectorPeer>(surface, std::move(detector),
-                                        DetectorPeer::Options{/*sets_up=*/false, /*narrows=*/false});
+                                        DetectorPeer::Options{/*computes_volumes=*/false, /*uses_submesh=*/false});
 }
 
 }  // namespace sweep_guard_benchmark

@@ -7,13 +7,13 @@
 
 namespace sweep_guard_benchmark {
 
-/// The detector of this name behind the interface of the peers.
+/// Wraps the detector of this name.
 std::unique_ptr<Peer> makeDetectorPeer(const std::string& name, Surface& surface);
 
-/// The same, which also sets up the volume of each query, in the time that is taken.
-std::unique_ptr<Peer> makeWholeDetectorPeer(const std::string& name, Surface& surface);
+/// Wraps the detector of this name; the time of a query includes that of computing its volume.
+std::unique_ptr<Peer> makeDetectorPeerWithSetUp(const std::string& name, Surface& surface);
 
-/// OpenGL's selection as [P] has it: every triangle drawn, each with a name of its own.
+/// Wraps OpenGL's selection as in [P]: every triangle is drawn under a name of its own.
 std::unique_ptr<Peer> makePlainSelectPeer(Surface& surface);
 
 }  // namespace sweep_guard_benchmark

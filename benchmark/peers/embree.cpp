@@ -15,7 +15,7 @@ struct Release {
 using Device = std::unique_ptr<RTCDeviceTy, Release>;
 using Scene = std::unique_ptr<RTCSceneTy, Release>;
 
-// A scene of boxes: rtcCollide() takes nothing else. Only a scene of low quality has a tree for each geometry, which
+// A scene of boxes, because rtcCollide() takes nothing else. Only a scene of low quality has a tree per geometry that
 // can be refitted.
 Scene sceneOf(const Device& device, size_t boxes, RTCBoundsFunction bounds, void* data) {
   Scene scene(rtcNewScene(device.get()));

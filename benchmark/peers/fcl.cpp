@@ -26,7 +26,7 @@ std::unique_ptr<Shape> shapeOf(const Polytope& volume_M) {
   return shape;
 }
 
-// With beginUpdateModel() the boxes would hold the positions before, too.
+// Not beginUpdateModel(): its boxes also contain the previous positions.
 template <typename Box>
 class Model {
  public:

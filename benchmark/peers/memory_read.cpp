@@ -5,9 +5,8 @@
 namespace sweep_guard_benchmark {
 namespace {
 
-// Reads every position once, and does nothing with it: no update in such a loop can take less. It takes the buffer that
-// they came in, and gives back the one before, as a mesh does: two buffers in turn find less of themselves in the
-// caches than one.
+// No update can take less time than reading every position once. The buffer is exchanged for the previous one, as a
+// mesh does: less of two alternating buffers stays in the caches than of one.
 template <bool kFetchesAhead>
 class MemoryRead : public Peer {
  public:
@@ -36,7 +35,7 @@ class MemoryRead : public Peer {
 
  private:
   using Register = std::uint32_t __attribute__((vector_size(64)));
-  static constexpr size_t kStep = 4 * sizeof(Register) / sizeof(float);  // no load waits for the addition before
+  static constexpr size_t kStep = 4 * sizeof(Register) / sizeof(float);  // no load waits for the previous addition
   static constexpr size_t kAhead = 12 * 1024 / sizeof(float);            // as far as the update of a mesh does
 
   static void fetch(const float* from) {

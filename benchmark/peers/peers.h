@@ -9,45 +9,45 @@
 
 namespace sweep_guard_benchmark {
 
-/// Another way to do the same work.
+/// A peer that compare can run.
 struct PeerKind {
   std::string name;
-  std::string package;                                  ///< of Debian that it needs; empty: none
-  std::function<std::unique_ptr<Peer>(Surface&)> make;  ///< empty if the package was missing when this was built
+  std::string package;                                  ///< Debian package that it needs; empty: none
+  std::function<std::unique_ptr<Peer>(Surface&)> make;  ///< empty if the package was missing at build time
 };
 
-/// All there are, the missing ones too.
+/// Returns all peers, including those that are missing.
 const std::vector<PeerKind>& peerKinds();
 
-/// Every position is read once, nothing is answered: the limit of a plain loop.
+/// Reads every position once and answers nothing: the lower limit of a plain loop.
 std::unique_ptr<Peer> makeMemoryRead(Surface& surface);
 
-/// The same, and 12 KB ahead are fetched into the cache, as the update of a mesh does: the limit.
+/// Does the same and prefetches 12 KB, as the update of a mesh does: the lower limit.
 std::unique_ptr<Peer> makeMemoryReadAhead(Surface& surface);
 
-/// Every triangle, one after the other, against every plane, until it is beyond one; what is beyond none is clipped.
+/// Tests each triangle against each plane until it lies beyond one; clips it if it lies beyond none.
 std::unique_ptr<Peer> makeScalar(Surface& surface);
 
-/// The same, against the box along the axes before.
+/// Does the same after a test against the axis-aligned box.
 std::unique_ptr<Peer> makeScalarBoxFirst(Surface& surface);
 
-/// A tree of boxes along the axes: refitted, then traversed by FCL's node for a mesh and a shape.
+/// Refits a tree of axis-aligned boxes and traverses it with FCL's node for a mesh and a shape.
 std::unique_ptr<Peer> makeFclAabb(Surface& surface);
 
-/// A tree of FCL's OBBRSS, refitted, and fcl::collide().
+/// Refits a tree of FCL's OBBRSS and calls fcl::collide().
 std::unique_ptr<Peer> makeFclObbRss(Surface& surface);
 
-/// Bullet's quantised tree, refitted, its candidates clipped by us.
+/// Refits Bullet's quantized tree; meets() tests its candidates.
 std::unique_ptr<Peer> makeBulletCallback(Surface& surface);
 
-/// Bullet's quantised tree, refitted, and contactPairTest().
+/// Refits Bullet's quantized tree and calls contactPairTest().
 std::unique_ptr<Peer> makeBulletContactTest(Surface& surface);
 
-/// Embree's tree over the boxes of the triangles, refitted, rtcCollide() with the volume's box, the candidates clipped
-/// by us.
+/// Refits Embree's tree over the boxes of the triangles and calls rtcCollide() with the volume's box; meets() tests the
+/// candidates.
 std::unique_ptr<Peer> makeEmbree(Surface& surface);
 
-/// CGAL's tree, rebuilt, what meets the volume's box clipped by us.
+/// Rebuilds CGAL's tree; meets() tests the triangles that meet the volume's box.
 std::unique_ptr<Peer> makeCgal(Surface& surface);
 
 }  // namespace sweep_guard_benchmark

@@ -5,13 +5,12 @@
 namespace sweep_guard_benchmark {
 namespace {
 
-constexpr float kRounding = 1e-6F;  // of float32 at a metre, several times over [m]
+constexpr float kRounding = 1e-6F;  // several times that of float32 at 1 m [m]
 
 struct Plane {
   float x, y, z, offset;
 };
 
-// Every triangle plane by plane; clipped is what is beyond none.
 template <bool kBoxFirst>
 class Scalar : public Peer {
  public:

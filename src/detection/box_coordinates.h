@@ -7,8 +7,8 @@
 
 namespace sweep_guard_core {
 
-/// Takes the vertices of a mesh into the frame B of a box, in double: first the centre is subtracted, then the axes are
-/// turned, so that a workpiece far from its frame's origin keeps its digits. What goes to float32 afterwards is small.
+/// Transforms the vertices of a mesh to the frame B of a box, in double. Subtracts the center before it rotates, so that a
+/// workpiece far from its frame's origin loses no digits, and coordinates are small before they are rounded to float32.
 class BoxCoordinates {
  public:
   BoxCoordinates(const TriangleMesh& mesh_M, const OrientedBox& box_M)
@@ -18,14 +18,14 @@ class BoxCoordinates {
     rounding_ = largest * 0x1p-48;
   }
 
-  /// Position of a vertex in B [m].
+  /// Returns the position of a vertex in B [m].
   Eigen::Vector3d position(std::uint32_t vertex) const { return R_BM_ * (mesh_.offset(vertex) - center_); }
 
-  /// Position of the mesh's origin in B [m].
+  /// Returns the position of the mesh's origin in B [m].
   Eigen::Vector3d origin() const { return R_BM_ * -center_; }
 
-  /// Bound [m] on the rounding of any of these positions, of the box itself, and of a point that clipping makes between
-  /// them: a dozen roundings of 2^-53, with a margin.
+  /// Returns a bound [m] on the rounding of these positions, of the box, and of points that clipping computes between
+  /// them: a dozen roundings of 2^-53, with a reserve.
   double rounding() const { return rounding_; }
 
  private:

@@ -16,19 +16,19 @@ void ClippedTriangle::cut(const Eigen::Vector3d& normal, double offset) {
     if (i > 0 && (out[i] > 0.0) != (out[i - 1] > 0.0)) ++crossings;
   }
   if ((out[0] > 0.0) != (out[count_ - 1] > 0.0)) ++crossings;
-  // A line crosses a convex outline twice: what is more is rounding, of corners in the plane.
+  // A line crosses a convex outline twice. More crossings come from rounding, of corners in the plane.
   if (crossings > 2) return;
 
-  size_t left = 0;
+  size_t kept = 0;
   for (size_t i = 0; i < count_; ++i) {
     const size_t before = (i + count_ - 1) % count_;
     if ((out[i] > 0.0) != (out[before] > 0.0)) {
-      corners_[left++] = whole[before] + out[before] / (out[before] - out[i]) * (whole[i] - whole[before]);
+      corners_[kept++] = whole[before] + out[before] / (out[before] - out[i]) * (whole[i] - whole[before]);
     }
-    if (!(out[i] > 0.0)) corners_[left++] = whole[i];
+    if (!(out[i] > 0.0)) corners_[kept++] = whole[i];
   }
-  assert(left <= count_ + 1);
-  count_ = left;
+  assert(kept <= count_ + 1);
+  count_ = kept;
 }
 
 ConvexClip::ConvexClip(const SweptVolume& volume) {
@@ -71,15 +71,15 @@ bool ConvexClip::meets(const std::array<Eigen::Vector3d, 3>& corners_B) const {
   }
   const auto& [a, b, c] = corners;
   if ((a.beyond & b.beyond & c.beyond) != 0) return false;
-  // Most triangles that meet the volume do so along an edge: cheaper to see than to cut them.
+  // Most triangles that meet the volume do so along an edge, and testing edges costs less than clipping.
   if (meetsEdge(a, b) || meetsEdge(b, c) || meetsEdge(c, a)) return true;
 
-  ClippedTriangle left(corners_B);
+  ClippedTriangle remaining(corners_B);
   const unsigned separating = a.beyond | b.beyond | c.beyond;
-  for (Eigen::Index i = 0; i < count_ && !left.empty(); ++i) {
-    if ((separating >> i & 1U) != 0) left.cut(normals_.row(i).matrix(), offsets_[i]);
+  for (Eigen::Index i = 0; i < count_ && !remaining.empty(); ++i) {
+    if ((separating >> i & 1U) != 0) remaining.cut(normals_.row(i).matrix(), offsets_[i]);
   }
-  return !left.empty();
+  return !remaining.empty();
 }
 
 }  // namespace sweep_guard_core

@@ -7,14 +7,13 @@
 
 namespace sweep_guard_core {
 
-/// What is left of a triangle when it is cut by planes, one after the other [Sutherland and Hodgman 1974]. In double
-/// precision, without a buffer.
+/// Clips a triangle by planes, one after the other, in double precision [Sutherland and Hodgman 1974]. Allocates nothing.
 class ClippedTriangle {
  public:
   explicit ClippedTriangle(const std::array<Eigen::Vector3d, 3>& corners)
       : corners_{corners[0], corners[1], corners[2]}, count_(3) {}
 
-  /// Keeps what lies within n·p <= d: its boundary, too. At most kMaxHalfSpaces times; not of nothing.
+  /// Keeps what lies within n·p <= d, boundary included. Callable kMaxHalfSpaces times, and only while not empty.
   void cut(const Eigen::Vector3d& normal, double offset);
   bool empty() const { return count_ == 0; }
 
@@ -26,24 +25,24 @@ class ClippedTriangle {
   size_t count_;
 };
 
-/// Tells whether triangles meet a convex volume.
+/// Tests whether triangles meet a convex volume.
 class ConvexClip {
  public:
   explicit ConvexClip(const SweptVolume& volume);
 
-  /// @param corners_B  in the frame of the volume's box [m]
+  /// @param corners_B  in the frame B of the volume's box [m]
   bool meets(const std::array<Eigen::Vector3d, 3>& corners_B) const;
 
  private:
   struct Corner {
-    Eigen::Array<double, kMaxHalfSpaces, 1> out;  // beyond each plane [m]
+    Eigen::Array<double, kMaxHalfSpaces, 1> out;  // distance beyond each plane [m]
     unsigned beyond = 0;                          // one bit for each plane
   };
 
   Corner corner(const Eigen::Vector3d& p_B) const;
   static bool meetsEdge(const Corner& a, const Corner& b);  // [Cyrus and Beck 1978]
 
-  // Structure of arrays: all planes are looked at for each corner.
+  // A structure of arrays: each corner is tested against all planes.
   Eigen::Array<double, kMaxHalfSpaces, 3> normals_;
   Eigen::Array<double, kMaxHalfSpaces, 1> offsets_;
   Eigen::Index count_ = 0;

@@ -1,4 +1,4 @@
-#include "sweep_guard/detection/culler.h"
+#include "detection/culler.h"
 
 #include <algorithm>
 
@@ -15,48 +15,49 @@ void fetch(const Value* from, size_t count = 1) {
 
 }  // namespace
 
-const std::vector<RemainingTriangle>& Culler::cull(const Submesh& part, const simd::Planes& planes) {
+const std::vector<RemainingTriangle>& Culler::cull(const Submesh& submesh, const simd::Planes& planes) {
   remaining_.clear();
-  if (part.empty() || whollyBeyond(part.mesh_M(), planes)) return remaining_;
-  findLeft(part, planes);
+  if (submesh.empty() || whollyBeyond(submesh.mesh_M(), planes)) return remaining_;
+  findClusters(submesh, planes);
   for (const std::uint32_t block : blocks_) {
-    withBlock(part.mesh_M().places(), part.blocks()[block], [&](const float* vertices) {
+    withBlock(submesh.mesh_M().places(), submesh.blocks()[block], [&](const float* vertices) {
       kernels_->classifyBlock(vertices, planes, &vertex_bits_[block * simd::kBlock]);
     });
   }
-  for (const Cluster* cluster : clusters_) look(part.mesh_M().order(), *cluster);
-  if (!part.mesh_M().order().triangle_at.empty()) {
+  for (const Cluster* cluster : clusters_) cullCluster(submesh.mesh_M().order(), *cluster);
+  if (!submesh.mesh_M().order().triangle_at.empty()) {
     std::sort(remaining_.begin(), remaining_.end(),
               [](const RemainingTriangle& a, const RemainingTriangle& b) { return a.triangle < b.triangle; });
   }
   return remaining_;
 }
 
-// Clusters that are not wholly beyond a plane, and their blocks. What these need of memory comes meanwhile.
-void Culler::findLeft(const Submesh& part, const simd::Planes& planes) {
+// Finds the clusters that do not lie wholly beyond one plane, and prefetches their corners and vertices.
+void Culler::findClusters(const Submesh& submesh, const simd::Planes& planes) {
   clusters_.clear();
   blocks_.clear();
-  vertex_bits_.resize(std::max(vertex_bits_.size(), part.blocks().size() * simd::kBlock));
-  bits_.classify(part, planes);
-  bits_.forEachLeft(part, [&](const Cluster& cluster) {
+  vertex_bits_.resize(std::max(vertex_bits_.size(), submesh.blocks().size() * simd::kBlock));
+  bits_.classify(submesh, planes);
+  bits_.forEachRemaining(submesh, [&](const Cluster& cluster) {
     clusters_.push_back(&cluster);
-    fetch(&part.mesh_M().order().corners[cluster.number]);
+    fetch(&submesh.mesh_M().order().corners[cluster.number]);
     for (const std::uint32_t block : cluster.blocks) {
       if (!bits_.firstAsked(block)) continue;
       blocks_.push_back(block);
-      fetch(part.mesh_M().places().data() + part.blocks()[block] * kBlockFloats, kBlockFloats);
+      fetch(submesh.mesh_M().places().data() + submesh.blocks()[block] * kBlockFloats, kBlockFloats);
     }
   });
 }
 
-void Culler::look(const MeshOrder& order, const Cluster& cluster) {
+void Culler::cullCluster(const MeshOrder& order, const Cluster& cluster) {
   const auto bits = [&](size_t i) { return &vertex_bits_[cluster.blocks[i] * simd::kBlock]; };
   const simd::TriangleBits found =
       kernels_->classifyTriangles(order.corners[cluster.number], {bits(0), bits(1), bits(2), bits(3)});
-  for (std::uint64_t left = found.left & allOf(cluster); left != 0; left &= left - 1) {
+  for (std::uint64_t left = found.not_beyond & allOf(cluster); left != 0; left &= left - 1) {
     const auto i = static_cast<std::uint32_t>(__builtin_ctzll(left));
     const std::uint32_t place = cluster.first + i;
-    remaining_.push_back({order.triangle_at.empty() ? place : order.triangle_at[place], (found.met >> i & 1U) != 0});
+    remaining_.push_back(
+        {order.triangle_at.empty() ? place : order.triangle_at[place], (found.corner_inside >> i & 1U) != 0});
   }
 }
 

@@ -9,7 +9,7 @@ namespace sweep_guard_core {
 
 std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOptions& options) {
   if (name == "select") {
-    return std::make_unique<SelectDetector>(SelectDetector::Options{options.cull},
+    return std::make_unique<SelectDetector>(SelectDetector::Options{options.cull, options.triangles_per_name},
                                             [name = options.gl_context] { return makeOffscreenContext(name); });
   }
   if (name == "halfspace") return std::make_unique<HalfspaceDetector>();

@@ -5,31 +5,21 @@
 #include <GL/glext.h>
 
 #include <cstring>
+#include <vector>
 
 #include "detection/gl_library.h"
-#include "sweep_guard/detection/offscreen_context.h"
+#include "detection/offscreen_context.h"
 
 namespace sweep_guard_core {
 namespace {
 
 constexpr GLsizei kFramebufferSize = 16;  // pixels; selection draws nothing
 
-// Mesa's software renderer by name, where EGL's surfaceless platform would take the graphics card, and warn on stderr
-// of one that it may not open: selection is to answer alike everywhere.
+// Selects Mesa's software renderer by name, so that results are equal on all machines. EGL's surfaceless platform would
+// use the graphics card, and write to stderr if it may not open the card.
 class Egl {
  public:
-  Egl() {
-    load("eglBindAPI", bindApi);
-    load("eglCreateContext", createContext);
-    load("eglDestroyContext", destroyContext);
-    load("eglGetPlatformDisplayEXT", get_platform_display_);
-    load("eglInitialize", initialize);
-    load("eglMakeCurrent", makeCurrent);
-    load("eglQueryDevicesEXT", query_devices_);
-    load("eglQueryDeviceStringEXT", query_device_string_);
-  }
-
-  // Initialized once more each time: that costs nothing, and someone else may have terminated it.
+  // Initializes every time: this costs nothing, and other code in the process may have terminated the display.
   EGLDisplay softwareDisplay() const {
     EGLDisplay display = get_platform_display_(EGL_PLATFORM_DEVICE_EXT, softwareDevice(), nullptr);
     if (initialize(display, nullptr, nullptr) != EGL_TRUE) throw library.unusable("its software device does not start");
@@ -39,17 +29,18 @@ class Egl {
   GlLibrary library{"libEGL.so.1",
                     "install libegl1 and libegl-mesa0, or set gl_context to osmesa, or detector to reference"};
   decltype(::eglGetProcAddress)* getProcAddress = library.function<decltype(::eglGetProcAddress)>("eglGetProcAddress");
-  decltype(::eglBindAPI)* bindApi;
-  decltype(::eglCreateContext)* createContext;
-  decltype(::eglDestroyContext)* destroyContext;
-  decltype(::eglInitialize)* initialize;
-  decltype(::eglMakeCurrent)* makeCurrent;
+  decltype(&::eglBindAPI) bindApi = load<decltype(&::eglBindAPI)>("eglBindAPI");
+  decltype(&::eglCreateContext) createContext = load<decltype(&::eglCreateContext)>("eglCreateContext");
+  decltype(&::eglDestroyContext) destroyContext = load<decltype(&::eglDestroyContext)>("eglDestroyContext");
+  decltype(&::eglInitialize) initialize = load<decltype(&::eglInitialize)>("eglInitialize");
+  decltype(&::eglMakeCurrent) makeCurrent = load<decltype(&::eglMakeCurrent)>("eglMakeCurrent");
 
  private:
-  template <typename Type>
-  void load(const char* name, Type*& loaded) {
-    loaded = reinterpret_cast<Type*>(getProcAddress(name));
+  template <typename Pointer>
+  Pointer load(const char* name) const {
+    const auto loaded = getProcAddress(name);
     if (loaded == nullptr) throw library.unusable(std::string("it has no ") + name);
+    return reinterpret_cast<Pointer>(loaded);
   }
 
   EGLDeviceEXT softwareDevice() const {
@@ -64,9 +55,10 @@ class Egl {
     throw library.unusable("it has no software device");
   }
 
-  std::remove_pointer_t<PFNEGLGETPLATFORMDISPLAYEXTPROC>* get_platform_display_;
-  std::remove_pointer_t<PFNEGLQUERYDEVICESEXTPROC>* query_devices_;
-  std::remove_pointer_t<PFNEGLQUERYDEVICESTRINGEXTPROC>* query_device_string_;
+  PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display_ =
+      load<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+  PFNEGLQUERYDEVICESEXTPROC query_devices_ = load<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+  PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string_ = load<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
 };
 
 const Egl& egl() {
@@ -86,7 +78,7 @@ class EglContext : public OffscreenContext {
   ~EglContext() override { egl().destroyContext(display_, context_); }
 
   void makeCurrent() override {
-    egl().bindApi(EGL_OPENGL_API);  // a thread's own choice
+    egl().bindApi(EGL_OPENGL_API);  // the API is bound per thread
     if (egl().makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
       throw DeviceError("EGL refuses to make its context current");
     }
@@ -101,24 +93,16 @@ class EglContext : public OffscreenContext {
   EGLContext context_;
 };
 
-// Without one, selection sees nothing, and OpenGL reports an invalid framebuffer.
+// Without a framebuffer, selection finds no hits, and OpenGL reports an invalid framebuffer.
 void bindFramebuffer(OffscreenContext& context) {
-  std::remove_pointer_t<PFNGLGENFRAMEBUFFERSPROC>* genFramebuffers;
-  std::remove_pointer_t<PFNGLBINDFRAMEBUFFERPROC>* bindFramebuffer;
-  std::remove_pointer_t<PFNGLGENRENDERBUFFERSPROC>* genRenderbuffers;
-  std::remove_pointer_t<PFNGLBINDRENDERBUFFERPROC>* bindRenderbuffer;
-  std::remove_pointer_t<PFNGLRENDERBUFFERSTORAGEPROC>* renderbufferStorage;
-  std::remove_pointer_t<PFNGLFRAMEBUFFERRENDERBUFFERPROC>* framebufferRenderbuffer;
-  std::remove_pointer_t<PFNGLCHECKFRAMEBUFFERSTATUSPROC>* checkFramebufferStatus;
-  decltype(::glViewport)* viewport;
-  context.load("glGenFramebuffers", genFramebuffers);
-  context.load("glBindFramebuffer", bindFramebuffer);
-  context.load("glGenRenderbuffers", genRenderbuffers);
-  context.load("glBindRenderbuffer", bindRenderbuffer);
-  context.load("glRenderbufferStorage", renderbufferStorage);
-  context.load("glFramebufferRenderbuffer", framebufferRenderbuffer);
-  context.load("glCheckFramebufferStatus", checkFramebufferStatus);
-  context.load("glViewport", viewport);
+  const auto genFramebuffers = context.load<PFNGLGENFRAMEBUFFERSPROC>("glGenFramebuffers");
+  const auto bindFramebuffer = context.load<PFNGLBINDFRAMEBUFFERPROC>("glBindFramebuffer");
+  const auto genRenderbuffers = context.load<PFNGLGENRENDERBUFFERSPROC>("glGenRenderbuffers");
+  const auto bindRenderbuffer = context.load<PFNGLBINDRENDERBUFFERPROC>("glBindRenderbuffer");
+  const auto renderbufferStorage = context.load<PFNGLRENDERBUFFERSTORAGEPROC>("glRenderbufferStorage");
+  const auto framebufferRenderbuffer = context.load<PFNGLFRAMEBUFFERRENDERBUFFERPROC>("glFramebufferRenderbuffer");
+  const auto checkFramebufferStatus = context.load<PFNGLCHECKFRAMEBUFFERSTATUSPROC>("glCheckFramebufferStatus");
+  const auto viewport = context.load<decltype(&::glViewport)>("glViewport");
 
   GLuint framebuffer = 0;
   GLuint colors = 0;

@@ -1,4 +1,4 @@
-#include "sweep_guard/detection/float_planes.h"
+#include "detection/float_planes.h"
 
 #include <cassert>
 #include <cmath>
@@ -8,14 +8,14 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kFloatError = 0x1p-20;  // six roundings of 2^-24 at most: normal, offset, three products, two sums
-constexpr double kMaxSize = 1e30;        // farther than any vertex, finite in float
+constexpr double kFloatError = 0x1p-20;  // at most six roundings of 2^-24: normal, offset, three products, two sums
+constexpr double kMaxSize = 1e30;        // larger than any coordinate, finite in float32
 
 class FloatPlanes {
  public:
   FloatPlanes(double radius, double rounding) : radius_(radius), rounding_(rounding) {}
 
-  // n·p <= d, relative to the mesh's origin.
+  // Adds n·p <= d, relative to the mesh's origin.
   void add(const Eigen::Vector3d& normal, double d) {
     const size_t i = planes_.count++;
     assert(planes_.count <= simd::kMaxPlanes);

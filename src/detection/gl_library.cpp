@@ -8,8 +8,8 @@
 namespace sweep_guard_core {
 namespace {
 
-// Mesa ends the process over a driver name it does not know. Selection never rasterises, so it needs no worker threads.
-// It complains on stderr where there is no home for its cache.
+// Mesa ends the process if it does not know the driver's name. Selection never rasterizes, so it needs no worker threads.
+// Mesa writes to stderr if its cache has no home directory.
 void chooseDriver() {
   const char* driver = std::getenv("GALLIUM_DRIVER");
   const bool known = driver != nullptr && (std::string(driver) == "llvmpipe" || std::string(driver) == "softpipe");

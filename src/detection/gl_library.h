@@ -6,26 +6,27 @@
 
 namespace sweep_guard_core {
 
-/// A library that makes OpenGL contexts, loaded by name when the first is asked for: a machine without it runs
-/// everything else, and what it exports (OSMesa: all of OpenGL) is hidden from the rest of the process. It stays
-/// loaded.
+/// Loads a library that makes OpenGL contexts by name, when the first context is requested. A machine without the library
+/// runs everything else, and its symbols (OSMesa: all of OpenGL) stay hidden from the rest of the process. The library
+/// stays loaded.
 ///
-/// Has Mesa render in software, in the calling thread, and keep nothing on disk, where the environment does not say
-/// otherwise: GALLIUM_DRIVER, LP_NUM_THREADS, MESA_SHADER_CACHE_DISABLE.
+/// Sets Mesa to render in software in the calling thread and to keep no cache on disk, unless the environment variables
+/// GALLIUM_DRIVER, LP_NUM_THREADS and MESA_SHADER_CACHE_DISABLE say otherwise.
 class GlLibrary {
  public:
-  /// @param file    as the linker knows it, with its version
-  /// @param advice  what to do if it is of no use
-  /// @throws DeviceError if it cannot be loaded
+  /// @param file    file name with version, as the dynamic linker finds it
+  /// @param advice  what the user can do if the library is unusable
+  /// @throws DeviceError if the library cannot be loaded
   GlLibrary(const char* file, std::string advice);
 
-  /// @throws DeviceError if it has no such function
+  /// Returns a function of the library.
+  /// @throws DeviceError if there is no such function
   template <typename Type>
   Type* function(const char* name) const {
     return reinterpret_cast<Type*>(symbol(name));
   }
 
-  /// That the library is of no use, why, and what to do.
+  /// Makes an error that says why the library is unusable, and what the user can do.
   DeviceError unusable(const std::string& reason) const;
 
  private:

@@ -12,51 +12,35 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr size_t kWordsPerRecord = 4;  // number of names, nearest and farthest depth, the one name
+constexpr size_t kWordsPerRecord = 4;  // number of names, smallest and largest depth, the name
 constexpr int kClipPlanes = 6;
 
 }  // namespace
 
 struct GlSelect::Functions {
-  explicit Functions(OffscreenContext& context) {
-    context.load("glClipPlane", clipPlane);
-    context.load("glDisable", disable);
-    context.load("glDrawArrays", drawArrays);
-    context.load("glEnable", enable);
-    context.load("glEnableClientState", enableClientState);
-    context.load("glGetError", getError);
-    context.load("glInitNames", initNames);
-    context.load("glLoadIdentity", loadIdentity);
-    context.load("glLoadName", loadName);
-    context.load("glMatrixMode", matrixMode);
-    context.load("glPolygonMode", polygonMode);
-    context.load("glPushName", pushName);
-    context.load("glRenderMode", renderMode);
-    context.load("glSelectBuffer", selectBuffer);
-    context.load("glVertexPointer", vertexPointer);
-  }
-
-  decltype(::glClipPlane)* clipPlane;
-  decltype(::glDisable)* disable;
-  decltype(::glDrawArrays)* drawArrays;
-  decltype(::glEnable)* enable;
-  decltype(::glEnableClientState)* enableClientState;
-  decltype(::glGetError)* getError;
-  decltype(::glInitNames)* initNames;
-  decltype(::glLoadIdentity)* loadIdentity;
-  decltype(::glLoadName)* loadName;
-  decltype(::glMatrixMode)* matrixMode;
-  decltype(::glPolygonMode)* polygonMode;
-  decltype(::glPushName)* pushName;
-  decltype(::glRenderMode)* renderMode;
-  decltype(::glSelectBuffer)* selectBuffer;
-  decltype(::glVertexPointer)* vertexPointer;
+  OffscreenContext& context;
+  decltype(&::glClipPlane) clipPlane = context.load<decltype(&::glClipPlane)>("glClipPlane");
+  decltype(&::glDisable) disable = context.load<decltype(&::glDisable)>("glDisable");
+  decltype(&::glDrawArrays) drawArrays = context.load<decltype(&::glDrawArrays)>("glDrawArrays");
+  decltype(&::glEnable) enable = context.load<decltype(&::glEnable)>("glEnable");
+  decltype(&::glEnableClientState) enableClientState =
+      context.load<decltype(&::glEnableClientState)>("glEnableClientState");
+  decltype(&::glGetError) getError = context.load<decltype(&::glGetError)>("glGetError");
+  decltype(&::glInitNames) initNames = context.load<decltype(&::glInitNames)>("glInitNames");
+  decltype(&::glLoadIdentity) loadIdentity = context.load<decltype(&::glLoadIdentity)>("glLoadIdentity");
+  decltype(&::glLoadName) loadName = context.load<decltype(&::glLoadName)>("glLoadName");
+  decltype(&::glMatrixMode) matrixMode = context.load<decltype(&::glMatrixMode)>("glMatrixMode");
+  decltype(&::glPolygonMode) polygonMode = context.load<decltype(&::glPolygonMode)>("glPolygonMode");
+  decltype(&::glPushName) pushName = context.load<decltype(&::glPushName)>("glPushName");
+  decltype(&::glRenderMode) renderMode = context.load<decltype(&::glRenderMode)>("glRenderMode");
+  decltype(&::glSelectBuffer) selectBuffer = context.load<decltype(&::glSelectBuffer)>("glSelectBuffer");
+  decltype(&::glVertexPointer) vertexPointer = context.load<decltype(&::glVertexPointer)>("glVertexPointer");
 };
 
 GlSelect::GlSelect(std::unique_ptr<OffscreenContext> context, size_t hit_records)
     : context_(std::move(context)), hit_buffer_(kWordsPerRecord * std::max<size_t>(hit_records, 1)) {
   const CurrentContext current(*context_);
-  gl_ = std::make_unique<const Functions>(*context_);
+  gl_.reset(new Functions{*context_});
 }
 
 GlSelect::~GlSelect() = default;
@@ -69,7 +53,7 @@ const std::vector<std::uint32_t>& GlSelect::hits(const Query& query) {
 
   const CurrentContext current(*context_);
   int records = draw(query, canary_name);
-  while (records < 0) {  // more hits than room: what was written is cut short, so it is thrown away
+  while (records < 0) {  // the buffer overflowed; its contents are incomplete
     if (hit_buffer_.size() > kWordsPerRecord * canary_name) {
       throw DeviceError("OpenGL selection overflows a buffer with room for every name");
     }

@@ -5,36 +5,34 @@
 #include <memory>
 #include <vector>
 
-#include "sweep_guard/detection/offscreen_context.h"
+#include "detection/offscreen_context.h"
 
 namespace sweep_guard_core {
 
-/// OpenGL's selection mode [P, Sec. 2]: draws triangles under names and learns which names left something in the
-/// viewing volume.
+/// Runs OpenGL's selection mode [P, Sec. 2]: draws triangles under names, and reads which names reach into the viewing
+/// volume.
 ///
-/// The viewing volume is the cube [-1, 1]^3 of the coordinates handed in, cut by clipping planes. The caller scales its
-/// box to that cube in double precision: the same as glOrtho and gluLookAt [P, Sec. 3.1, Fig. 4], which would round in
-/// float32.
+/// The viewing volume is the cube [-1, 1]^3 of the given coordinates, cut by clipping planes. The caller scales its box to
+/// that cube in double precision; glOrtho and gluLookAt [P, Sec. 3.1, Fig. 4] do the same but round to float32.
 ///
-/// Selection fails in silence: without a current context, with culling on or with a vertex that is not a number it
-/// reports no hit and no error. So the whole state is set for every query, and each query draws a canary that must hit.
+/// Selection fails silently: without a current context, with culling on or with a NaN vertex it reports neither a hit nor
+/// an error. Every query therefore sets the whole state, and draws a canary that must hit.
 class GlSelect {
  public:
   struct Query {
     const std::vector<float>& corners;          ///< nine per triangle: x y z of its three corners, finite [-]
     int triangles_per_name;                     ///< >= 1; triangle i is drawn under name i / triangles_per_name
-    const std::vector<Eigen::Vector4d>& clips;  ///< kept: (x, y, z, 1) · clip >= 0; at most 6 [-]
-    const Eigen::Vector3d& canary;              ///< a point inside of the cube and of every clip [-]
+    const std::vector<Eigen::Vector4d>& clips;  ///< keep (x, y, z, 1) · clip >= 0; at most 6 [-]
+    const Eigen::Vector3d& canary;              ///< a point inside the cube and every clip [-]
   };
 
-  /// @param hit_records  room for so many hits at first; grows when it does not suffice
+  /// @param hit_records  initial number of hits that the buffer holds; it grows when necessary
   /// @throws DeviceError if an OpenGL function is missing
   explicit GlSelect(std::unique_ptr<OffscreenContext> context, size_t hit_records = 256);
   ~GlSelect();
 
-  /// The names that hit, ascending, each once. Valid until the next call.
-  /// @throws DeviceError if OpenGL reports an error, the canary does not hit, or a hit has no name: nothing is known
-  /// then
+  /// Returns the names that hit, ascending, each once. Valid until the next call.
+  /// @throws DeviceError if OpenGL reports an error, the canary does not hit, or a hit has no name: then nothing is known
   const std::vector<std::uint32_t>& hits(const Query& query);
 
  private:

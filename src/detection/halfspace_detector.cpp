@@ -2,20 +2,20 @@
 
 #include "detection/box_coordinates.h"
 #include "detection/convex_clip.h"
-#include "sweep_guard/detection/float_planes.h"
+#include "detection/float_planes.h"
 
 namespace sweep_guard_core {
 
-void HalfspaceDetector::find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) {
-  const TriangleMesh& mesh_M = part.mesh_M();
+void HalfspaceDetector::find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) {
+  const TriangleMesh& mesh_M = submesh.mesh_M();
   const BoxCoordinates coordinates(mesh_M, swept_M.box);
-  detection.inflation = 2.0 * coordinates.rounding();  // clipping itself can let in what is a little farther out, too
+  detection.inflation = 2.0 * coordinates.rounding();  // the rounding of clipping can add triangles beyond the rounding
   const ConvexClip clip(swept_M.grown(coordinates.rounding()));
   const auto meets = [&](const Triangle& triangle) {
     return clip.meets(
         {coordinates.position(triangle[0]), coordinates.position(triangle[1]), coordinates.position(triangle[2])});
   };
-  for (const RemainingTriangle& candidate : culler_.cull(part, floatPlanes(mesh_M, swept_M))) {
+  for (const RemainingTriangle& candidate : culler_.cull(submesh, floatPlanes(mesh_M, swept_M))) {
     if (candidate.met || meets(mesh_M.triangles()[candidate.triangle]))
       detection.triangles.push_back(candidate.triangle);
   }

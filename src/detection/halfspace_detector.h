@@ -1,19 +1,19 @@
 #pragma once
 
-#include "sweep_guard/detection/culler.h"
+#include "detection/culler.h"
 #include "sweep_guard/detection/detector.h"
 
 namespace sweep_guard_core {
 
-/// Decides on the processor's vector units what is certain in float32, and clips what is left in double. Names what the
-/// reference names, but for the rounding of double precision.
+/// Decides on the processor's vector units what is certain in float32, and clips the other triangles in double. Finds the
+/// same triangles as the reference, up to the rounding of double precision.
 class HalfspaceDetector : public Detector {
  public:
-  /// @param kernels  what they are makes no difference but in time
+  /// @param kernels  change the run time only
   explicit HalfspaceDetector(const simd::Kernels& kernels = simd::kernels()) : culler_(kernels) {}
 
  private:
-  void find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) override;
+  void find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) override;
 
   Culler culler_;
 };

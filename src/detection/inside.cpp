@@ -7,12 +7,11 @@
 namespace sweep_guard_core {
 namespace {
 
-// A mesh seen along x, from a point.
-class View {
+// Casts a ray from a point towards +x.
+class Ray {
  public:
-  View(const TriangleMesh& mesh, const Eigen::Vector3d& p) : mesh_(mesh), p_(p - mesh.origin()) {}
+  Ray(const TriangleMesh& mesh, const Eigen::Vector3d& p) : mesh_(mesh), p_(p - mesh.origin()) {}
 
-  // The ray towards +x crosses the triangle.
   bool crosses(const Triangle& triangle) const {
     const Eigen::Vector3d a = corner(triangle[0]);
     const Eigen::Vector3d b = corner(triangle[1]);
@@ -27,8 +26,8 @@ class View {
  private:
   Eigen::Vector3d corner(std::uint32_t vertex) const { return mesh_.offset(vertex) - p_; }
 
-  // On which hand of an edge the ray runs, +1 or -1: one that runs through it is thought of as moved by (e, e^2) in y,
-  // z.
+  // Returns on which side of an edge the ray passes, +1 or -1. A ray through the edge counts as shifted by (e, e^2) in y
+  // and z, for an infinitesimal e.
   int sideOf(std::uint32_t from, std::uint32_t to) const {
     if (from > to) return -sideOf(to, from);
     const Eigen::Vector3d a = corner(from);
@@ -48,10 +47,10 @@ class View {
 bool inside(const TriangleMesh& mesh_M, const Eigen::Vector3d& p_M) {
   assert(mesh_M.closed());
   if (!mesh_M.bounds_M().contains(p_M)) return false;
-  const View view(mesh_M, p_M);
+  const Ray ray(mesh_M, p_M);
   const auto& triangles = mesh_M.triangles();
   const auto crossings = std::count_if(triangles.begin(), triangles.end(),
-                                       [&](const Triangle& triangle) { return view.crosses(triangle); });
+                                       [&](const Triangle& triangle) { return ray.crosses(triangle); });
   return crossings % 2 == 1;
 }
 

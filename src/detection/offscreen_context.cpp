@@ -1,4 +1,6 @@
-#include "sweep_guard/detection/offscreen_context.h"
+#include "detection/offscreen_context.h"
+
+#include "sweep_guard/detection/detector.h"
 
 namespace sweep_guard_core {
 

@@ -3,12 +3,12 @@
 #include <array>
 
 #include "detection/gl_library.h"
-#include "sweep_guard/detection/offscreen_context.h"
+#include "detection/offscreen_context.h"
 
 namespace sweep_guard_core {
 namespace {
 
-// OSMesa's own header is not asked for: it goes with the library.
+// Declares what is used of OSMesa, whose header disappears together with the library.
 struct OsMesa {
   using Context = struct osmesa_context*;
   using CreateContext = Context(GLenum format, Context shared);
@@ -49,7 +49,7 @@ class OsMesaContext : public OffscreenContext {
 
  private:
   OsMesa::Context context_;
-  std::array<unsigned char, 4> pixel_ = {};  // selection draws nothing; OSMesa wants a buffer all the same
+  std::array<unsigned char, 4> pixel_ = {};  // selection draws nothing, but OSMesa requires a buffer
 };
 
 }  // namespace

@@ -17,12 +17,12 @@ bool meets(Polygon polygon, const std::vector<HalfSpace>& half_spaces) {
 
 }  // namespace
 
-void ReferenceDetector::find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) {
-  const TriangleMesh& mesh_M = part.mesh_M();
+void ReferenceDetector::find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) {
+  const TriangleMesh& mesh_M = submesh.mesh_M();
   const BoxCoordinates coordinates(mesh_M, swept_M.box);
-  detection.inflation = 2.0 * coordinates.rounding();  // clipping itself can let in what is a little farther out, too
+  detection.inflation = 2.0 * coordinates.rounding();  // the rounding of clipping can add triangles beyond the rounding
   const std::vector<HalfSpace> half_spaces = swept_M.grown(coordinates.rounding()).halfSpaces_B();
-  part.forEachTriangle([&](std::uint32_t i) {
+  submesh.forEachTriangle([&](std::uint32_t i) {
     const auto& [a, b, c] = mesh_M.triangles()[i];
     if (meets({coordinates.position(a), coordinates.position(b), coordinates.position(c)}, half_spaces))
       detection.triangles.push_back(i);

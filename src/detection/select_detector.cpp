@@ -5,15 +5,16 @@
 #include <cmath>
 
 #include "detection/box_coordinates.h"
+#include "detection/float_planes.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/detection/float_planes.h"
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kFloatError = 0x1p-22;  // per metre of distance from the box centre; the worst found is 1 to 2e-8
+constexpr double kFloatError =
+    0x1p-22;  // per meter of distance from the center of the box; the largest found is 1 to 2e-8
 
-// The half-space n·p <= d in coordinates scaled to the cube, as OpenGL wants it: what is kept is positive.
+// Converts the half-space n·p <= d to a plane in coordinates scaled to the cube; OpenGL keeps the positive side.
 Eigen::Vector4d clipPlane(const HalfSpace& clip_B, const Eigen::Vector3d& half_extents) {
   Eigen::Vector4d plane;
   plane << -clip_B.normal().cwiseProduct(half_extents), clip_B.offset();
@@ -24,7 +25,7 @@ Eigen::Vector4d clipPlane(const HalfSpace& clip_B, const Eigen::Vector3d& half_e
 
 SelectDetector::SelectDetector(const Options& options, ContextFactory make_context)
     : options_(options), make_context_(std::move(make_context)) {
-  assert(options_.block >= 1);
+  assert(options_.triangles_per_name >= 1);
   makeSelection();
 }
 
@@ -33,14 +34,14 @@ void SelectDetector::makeSelection() {
   gl_ = std::make_unique<GlSelect>(make_context_(), options_.hit_records);
 }
 
-void SelectDetector::find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) {
+void SelectDetector::find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) {
   const std::vector<RemainingTriangle>& remaining =
-      options_.cull ? culler_.cull(part, floatPlanes(part.mesh_M(), swept_M)) : all(part);
-  takeCorners(part.mesh_M(), swept_M.box, remaining);
+      options_.cull ? culler_.cull(submesh, floatPlanes(submesh.mesh_M(), swept_M)) : all(submesh);
+  collectCorners(submesh.mesh_M(), swept_M.box, remaining);
   names_.clear();
-  if (!corners_B_.empty()) {  // the clear case and the far case cost nothing
-    const double inflation = inflationFor(part.mesh_M(), swept_M.box);
-    detection.inflation = 2.0 * inflation;  // OpenGL's rounding can let in what is a little farther out, too
+  if (!corners_B_.empty()) {  // without triangles in doubt, OpenGL is not used
+    const double inflation = computeInflation(submesh.mesh_M(), swept_M.box);
+    detection.inflation = 2.0 * inflation;  // OpenGL's rounding can add triangles as far outside of the inflated volume
     const SweptVolume inflated_M = swept_M.grown(inflation);
     try {
       select(inflated_M);
@@ -49,7 +50,7 @@ void SelectDetector::find(const Submesh& part, const SweptVolume& swept_M, Detec
       select(inflated_M);
     }
   }
-  std::uint32_t number = 0;  // of those in doubt
+  std::uint32_t number = 0;  // among the triangles in doubt
   auto name = names_.begin();
   for (const RemainingTriangle& candidate : remaining) {
     const bool hit = !candidate.met && name != names_.end() && *name == number;
@@ -59,9 +60,9 @@ void SelectDetector::find(const Submesh& part, const SweptVolume& swept_M, Detec
   }
 }
 
-// Of the triangles in doubt.
-void SelectDetector::takeCorners(const TriangleMesh& mesh_M, const OrientedBox& box_M,
-                                 const std::vector<RemainingTriangle>& remaining) {
+// Collects the corners of the triangles in doubt.
+void SelectDetector::collectCorners(const TriangleMesh& mesh_M, const OrientedBox& box_M,
+                                    const std::vector<RemainingTriangle>& remaining) {
   const BoxCoordinates coordinates(mesh_M, box_M);
   corners_B_.clear();
   for (const RemainingTriangle& candidate : remaining) {
@@ -71,13 +72,13 @@ void SelectDetector::takeCorners(const TriangleMesh& mesh_M, const OrientedBox& 
   }
 }
 
-double SelectDetector::inflationFor(const TriangleMesh& mesh_M, const OrientedBox& box_M) const {
+double SelectDetector::computeInflation(const TriangleMesh& mesh_M, const OrientedBox& box_M) const {
   double squared = box_M.half_extents.squaredNorm();
   for (const Eigen::Vector3d& corner : corners_B_) squared = std::max(squared, corner.squaredNorm());
   return kFloatError * std::sqrt(squared) + BoxCoordinates(mesh_M, box_M).rounding();
 }
 
-// Names of those that hit, by their number among the triangles in doubt: first whole blocks, then one by one.
+// Finds the triangles that hit, counted among those in doubt: first in blocks, then one by one.
 void SelectDetector::select(const SweptVolume& inflated_M) {
   if (!gl_) makeSelection();
   const Eigen::Vector3d& half_extents = inflated_M.box.half_extents;
@@ -90,29 +91,29 @@ void SelectDetector::select(const SweptVolume& inflated_M) {
     corners_.insert(corners_.end(), corner.begin(), corner.end());
   }
 
-  if (options_.block == 1) {
+  if (options_.triangles_per_name == 1) {
     names_ = gl_->hits({corners_, 1, clips_, canary});
     return;
   }
   in_blocks_.clear();
   const auto count = static_cast<std::uint32_t>(corners_B_.size() / 3);
-  const auto block = static_cast<std::uint32_t>(options_.block);
-  for (const std::uint32_t name : gl_->hits({corners_, options_.block, clips_, canary})) {
+  const auto block = static_cast<std::uint32_t>(options_.triangles_per_name);
+  for (const std::uint32_t name : gl_->hits({corners_, options_.triangles_per_name, clips_, canary})) {
     for (std::uint32_t i = name * block; i < std::min(count, (name + 1) * block); ++i) in_blocks_.push_back(i);
   }
   names_.clear();
   if (in_blocks_.empty()) return;
-  for (size_t i = 0; i < in_blocks_.size(); ++i) {  // closed up: blocks ascend
+  for (size_t i = 0; i < in_blocks_.size(); ++i) {  // moves corners forward only: blocks ascend
     std::copy_n(corners_.begin() + 9 * in_blocks_[i], 9, corners_.begin() + 9 * static_cast<std::ptrdiff_t>(i));
   }
   corners_.resize(9 * in_blocks_.size());
   for (const std::uint32_t name : gl_->hits({corners_, 1, clips_, canary})) names_.push_back(in_blocks_[name]);
 }
 
-const std::vector<RemainingTriangle>& SelectDetector::all(const Submesh& part) {
+const std::vector<RemainingTriangle>& SelectDetector::all(const Submesh& submesh) {
   all_.clear();
-  part.forEachTriangle([&](std::uint32_t triangle) { all_.push_back({triangle, false}); });
-  if (!part.mesh_M().order().triangle_at.empty()) {
+  submesh.forEachTriangle([&](std::uint32_t triangle) { all_.push_back({triangle, false}); });
+  if (!submesh.mesh_M().order().triangle_at.empty()) {
     std::sort(all_.begin(), all_.end(),
               [](const RemainingTriangle& a, const RemainingTriangle& b) { return a.triangle < b.triangle; });
   }

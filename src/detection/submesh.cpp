@@ -4,11 +4,13 @@
 #include <cassert>
 #include <limits>
 
+#include "detection/float_planes.h"
+
 namespace sweep_guard_core {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint16_t kAsked = simd::kInsideAll;  // no plane's, and boxes have no use for it
+constexpr std::uint16_t kAsked = simd::kInsideAll;  // the bit of no plane; boxes do not use it
 constexpr std::uint16_t kAll = std::numeric_limits<std::uint16_t>::max();
 
 }  // namespace
@@ -24,11 +26,11 @@ bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes) {
   return false;
 }
 
-void BlockBits::classify(const Submesh& part, const simd::Planes& planes) {
-  const size_t count = part.blocks().size();
+void BlockBits::classify(const Submesh& submesh, const simd::Planes& planes) {
+  const size_t count = submesh.blocks().size();
   bits_.resize(std::max(bits_.size(), simd::padded(count)));
-  kernels_->classifyBoxes(part.boxes(), count, planes, bits_.data());
-  if (part.groups() != nullptr) classifyGroups(count);
+  kernels_->classifyBoxes(submesh.boxes(), count, planes, bits_.data());
+  if (submesh.groups() != nullptr) classifyGroups(count);
 }
 
 void BlockBits::classifyGroups(size_t blocks) {
@@ -51,17 +53,17 @@ bool BlockBits::firstAsked(std::uint32_t block) {
   return first;
 }
 
-Submesh SubmeshFinder::find(const Submesh& part, const simd::Planes& planes) {
-  assert(part.clusters_ != &clusters_);
+Submesh SubmeshFinder::find(const Submesh& around, const simd::Planes& planes) {
+  assert(around.clusters_ != &clusters_);
   blocks_.clear();
   clusters_.clear();
   old_index_.clear();
-  if (!whollyBeyond(part.mesh_M(), planes)) {
-    bits_.classify(part, planes);
-    new_index_.assign(part.blocks().size(), kNone);
-    bits_.forEachLeft(part, [&](const Cluster& cluster) { keep(part, cluster); });
+  if (!whollyBeyond(around.mesh_M(), planes)) {
+    bits_.classify(around, planes);
+    new_index_.assign(around.blocks().size(), kNone);
+    bits_.forEachRemaining(around, [&](const Cluster& cluster) { keep(around, cluster); });
   }
-  Submesh found = part;
+  Submesh found = around;
   found.blocks_ = &blocks_;
   found.clusters_ = &clusters_;
   found.groups_ = nullptr;
@@ -69,12 +71,16 @@ Submesh SubmeshFinder::find(const Submesh& part, const simd::Planes& planes) {
   return found;
 }
 
-void SubmeshFinder::keep(const Submesh& part, Cluster cluster) {
+Submesh SubmeshFinder::find(const Submesh& around, const Eigen::AlignedBox3d& box_M) {
+  return find(around, floatPlanes(around.mesh_M(), box_M));
+}
+
+void SubmeshFinder::keep(const Submesh& around, Cluster cluster) {
   for (std::uint32_t& block : cluster.blocks) {
     std::uint32_t& index = new_index_[block];
     if (index == kNone) {
       index = static_cast<std::uint32_t>(blocks_.size());
-      blocks_.push_back(part.blocks()[block]);
+      blocks_.push_back(around.blocks()[block]);
       old_index_.push_back(block);
     }
     block = index;
@@ -82,7 +88,7 @@ void SubmeshFinder::keep(const Submesh& part, Cluster cluster) {
   clusters_.push_back(cluster);
 }
 
-// Takes the boxes of the part that it was found in.
+// Replaces the boxes of the submesh that it was found in.
 void SubmeshFinder::gatherBoxes(Submesh& found) {
   const size_t stride = simd::padded(blocks_.size());
   sides_.resize(std::max(sides_.size(), 6 * stride));

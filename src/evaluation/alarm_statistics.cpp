@@ -8,6 +8,7 @@ using std::chrono::milliseconds;
 using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
 using sweep_guard_core::WarningLevel;
+using sweep_guard_recording::Alarm;
 
 const std::array<AlarmRule, 2>& alarmRules() {
   static const std::array<AlarmRule, 2> kRules = {
@@ -18,7 +19,7 @@ const std::array<AlarmRule, 2>& alarmRules() {
 
 std::optional<Duration> leadOf(const Episode& episode, const AlarmRule& rule) {
   const Time contact = episode.placement.contact.value();
-  const std::vector<Alarm> alarms = episode.shown.alarms(rule.least);
+  const std::vector<Alarm> alarms = episode.levels.alarms(rule.min_level);
   const auto on = std::find_if(alarms.begin(), alarms.end(), [&](const Alarm& alarm) {
     return alarm.end >= contact && (alarm.begin <= contact || rule.at_contact);
   });
@@ -26,11 +27,11 @@ std::optional<Duration> leadOf(const Episode& episode, const AlarmRule& rule) {
   return contact - on->begin;
 }
 
-size_t falseAlarmsOf(const Episode& episode, const AlarmRule& rule) {
+size_t countFalseAlarms(const Episode& episode, const AlarmRule& rule) {
   const ObstaclePlacement& placement = episode.placement;
   const Time justified = placement.contact ? *placement.contact - rule.window : placement.end;
   size_t count = 0;
-  for (const Alarm& alarm : episode.shown.alarms(rule.least)) {
+  for (const Alarm& alarm : episode.levels.alarms(rule.min_level)) {
     if (alarm.begin >= justified) continue;
     const Duration unjustified = std::min(alarm.end, justified) - alarm.begin;
     count += 1 + static_cast<size_t>(unjustified / rule.window);
@@ -49,7 +50,7 @@ AlarmStatistics alarmStatistics(const std::vector<Episode>& episodes, const Alar
   AlarmStatistics statistics;
   for (const Episode& episode : episodes) {
     statistics.minutes += sweep_guard_core::toSeconds(episode.placement.end - episode.placement.begin) / 60.0;
-    statistics.false_alarms += falseAlarmsOf(episode, rule);
+    statistics.false_alarms += countFalseAlarms(episode, rule);
     if (!episode.placement.contact) continue;
     ++statistics.contacts;
     if (const auto lead = leadOf(episode, rule)) statistics.leads.push_back(sweep_guard_core::toSeconds(*lead));

@@ -1,6 +1,6 @@
 #include "evaluation/csv.h"
 
-#include "evaluation/format.h"
+#include <fmt/format.h>
 
 namespace sweep_guard_evaluation {
 namespace {
@@ -14,7 +14,7 @@ std::string field(const std::string& text) {
 
 }  // namespace
 
-std::string csvNumber(double value) { return format("%.6g", value); }
+std::string csvNumber(double value) { return fmt::format("{:.6g}", value); }
 
 std::string csvLine(const std::vector<std::string>& fields) {
   std::string line;

@@ -5,10 +5,11 @@
 
 namespace sweep_guard_evaluation {
 
-/// A number in six digits; `nan`, `inf`.
+/// Formats a number with six significant digits; `nan` and `inf` for the others.
 std::string csvNumber(double value);
 
-/// One line of a CSV file, its end included. A field with a comma, a quote or a line's end in it is quoted (RFC 4180).
+/// Formats one line of a CSV file with its line feed. Quotes a field that contains a comma, a quote or a line break
+/// (RFC 4180).
 std::string csvLine(const std::vector<std::string>& fields);
 
 }  // namespace sweep_guard_evaluation

@@ -1,11 +1,12 @@
 #include "evaluation/error_report.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "evaluation/csv.h"
-#include "evaluation/format.h"
 #include "evaluation/gnuplot.h"
 
 namespace sweep_guard_evaluation {
@@ -14,13 +15,12 @@ using sweep_guard_core::toSeconds;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 const std::string kAxes =
     "set logscale xy\nset xrange [0.02:*] noextend\nset xtics (0.02, 0.05, 0.1, 0.2, 0.5, 1)\nset format y '%g'\n";
 
 using Field = double ErrorSummary::*;
 
-/// What is shown of the errors, in units for a reader.
+/// A row of the report, in units for a reader.
 struct Quantity {
   const char* name;
   const char* unit;
@@ -31,11 +31,11 @@ struct Quantity {
 
 constexpr std::array<Quantity, 2> kQuantities = {{
     {"position", "mm", 1e3, &ErrorSummary::position_median, &ErrorSummary::position_p95},
-    {"rotation", "deg", 180.0 / kPi, &ErrorSummary::rotation_median, &ErrorSummary::rotation_p95},
+    {"rotation", "deg", 180.0 / M_PI, &ErrorSummary::rotation_median, &ErrorSummary::rotation_p95},
 }};
 
-/// The smaller error of `hold` and `constant_velocity`; NaN if one of them is not there.
-double simplest(const ErrorReport& report, size_t horizon, Field field) {
+/// Returns the smaller error of `hold` and `constant_velocity`; NaN if one of them is missing.
+double bestBaseline(const ErrorReport& report, size_t horizon, Field field) {
   double least = std::numeric_limits<double>::infinity();
   for (const char* const name : {"hold", "constant_velocity"}) {
     const auto found = std::find(report.predictors.begin(), report.predictors.end(), name);
@@ -50,21 +50,21 @@ std::string cell(const ErrorReport& report, size_t predictor, size_t horizon, co
   const ErrorSummary& errors = report.errors[predictor][horizon];
   const double median = errors.*quantity.median;
   const double p95 = errors.*quantity.p95;
-  const double median_ratio = median / simplest(report, horizon, quantity.median);
-  const double p95_ratio = p95 / simplest(report, horizon, quantity.p95);
-  const std::string error = format("%.3g/%.3g", quantity.scale * median, quantity.scale * p95);
-  return median_ratio > 0.0 ? error + format(" (%.2f/%.2f)", median_ratio, p95_ratio) : error;
+  const double median_ratio = median / bestBaseline(report, horizon, quantity.median);
+  const double p95_ratio = p95 / bestBaseline(report, horizon, quantity.p95);
+  const std::string error = fmt::format("{:.3g}/{:.3g}", quantity.scale * median, quantity.scale * p95);
+  return median_ratio > 0.0 ? error + fmt::format(" ({:.2f}/{:.2f})", median_ratio, p95_ratio) : error;
 }
 
 std::string quantityTable(const ErrorReport& report, const Quantity& quantity) {
-  std::string table = format("  %-19s", format("%s [%s]", quantity.name, quantity.unit).c_str());
+  std::string table = fmt::format("  {:<19}", fmt::format("{} [{}]", quantity.name, quantity.unit));
   for (const sweep_guard_core::Duration horizon : report.horizons) {
-    table += format(" %23s", format("%.3g s", toSeconds(horizon)).c_str());
+    table += fmt::format(" {:>23}", fmt::format("{:.3g} s", toSeconds(horizon)));
   }
   for (size_t predictor = 0; predictor < report.predictors.size(); ++predictor) {
-    table += format("\n    %-17s", report.predictors[predictor].c_str());
+    table += fmt::format("\n    {:<17}", report.predictors[predictor]);
     for (size_t horizon = 0; horizon < report.horizons.size(); ++horizon) {
-      table += format(" %23s", cell(report, predictor, horizon, quantity).c_str());
+      table += fmt::format(" {:>23}", cell(report, predictor, horizon, quantity));
     }
   }
   return table + '\n';
@@ -74,8 +74,8 @@ std::string dataBlock(const ErrorReport& report, size_t predictor, const Quantit
   std::string block;
   for (size_t horizon = 0; horizon < report.horizons.size(); ++horizon) {
     const ErrorSummary& errors = report.errors[predictor][horizon];
-    block += format("%.6g %.6g %.6g\n", toSeconds(report.horizons[horizon]), quantity.scale * errors.*quantity.median,
-                    quantity.scale * errors.*quantity.p95);
+    block += fmt::format("{:.6g} {:.6g} {:.6g}\n", toSeconds(report.horizons[horizon]),
+                         quantity.scale * errors.*quantity.median, quantity.scale * errors.*quantity.p95);
   }
   return block;
 }
@@ -84,29 +84,27 @@ std::string panel(const ErrorReport& report, const Quantity& quantity) {
   std::string commands;
   std::string curves;
   for (size_t i = 0; i < report.predictors.size(); ++i) {
-    commands += format("$curve%zu << END\n", i) + dataBlock(report, i, quantity) + "END\n";
-    const std::string colour = colourOf(report.predictors[i]);
-    curves += (i == 0 ? "plot " : ", ") + format(
-                                              "$curve%zu using 1:3 with lines lw 2 dt 2 lc rgb '%s', "
-                                              "$curve%zu using 1:2 with lines lw 3 lc rgb '%s'",
-                                              i, colour.c_str(), i, colour.c_str());
+    commands += fmt::format("$curve{} << END\n{}END\n", i, dataBlock(report, i, quantity));
+    curves += fmt::format(
+        "{0} $curve{1} using 1:3 with lines lw 2 dt 2 lc rgb '{2}', $curve{1} using 1:2 with lines lw 3 lc rgb '{2}'",
+        i == 0 ? "plot" : ",", i, colorOf(report.predictors[i]));
   }
-  commands += "set title " + gnuplotText(report.recording) + " noenhanced offset 0,-0.6\n";
-  return commands + format("set ylabel '%s error [%s]'\n", quantity.name, quantity.unit) + curves;
+  return fmt::format("{}set title {} noenhanced offset 0,-0.6\nset ylabel '{} error [{}]'\n{}", commands,
+                     gnuplotText(report.recording), quantity.name, quantity.unit, curves);
 }
 
 }  // namespace
 
 ErrorReport atHorizons(const ErrorReport& report, const std::vector<sweep_guard_core::Duration>& horizons) {
-  ErrorReport some{report.recording, report.predictors, horizons, {}};
-  for (const std::vector<ErrorSummary>& of_one : report.errors) {
-    some.errors.emplace_back();
+  ErrorReport selected{report.recording, report.predictors, horizons, {}};
+  for (const std::vector<ErrorSummary>& of_predictor : report.errors) {
+    selected.errors.emplace_back();
     for (const sweep_guard_core::Duration horizon : horizons) {
       const auto found = std::find(report.horizons.begin(), report.horizons.end(), horizon);
-      some.errors.back().push_back(of_one[static_cast<size_t>(found - report.horizons.begin())]);
+      selected.errors.back().push_back(of_predictor[static_cast<size_t>(found - report.horizons.begin())]);
     }
   }
-  return some;
+  return selected;
 }
 
 std::string errorCsv(const std::vector<ErrorReport>& reports) {
@@ -127,9 +125,10 @@ std::string errorCsv(const std::vector<ErrorReport>& reports) {
 }
 
 std::string errorTable(const ErrorReport& report) {
-  std::string table = report.recording + format(", %zu samples: errors ahead, median/95th percentile (relative to the ",
-                                                report.errors.front().front().samples);
-  table += "better of hold and constant_velocity)\n";
+  std::string table = fmt::format(
+      "{}, {} samples: prediction error, median/95th percentile (relative to the better of hold and "
+      "constant_velocity)\n",
+      report.recording, report.errors.front().front().samples);
   for (const Quantity& quantity : kQuantities) table += quantityTable(report, quantity);
   return table;
 }

@@ -15,10 +15,10 @@ namespace {
 constexpr Duration kHistory = std::chrono::seconds(1);
 constexpr Duration kFuture = std::chrono::seconds(1);
 
-/// A recording with what all predictors are judged on.
-struct Case {
-  Case(const Recording& of, Duration future)
-      : recording(of), motion(of.poses), samples(samplesOf(of.poses, motion, kHistory, future)) {}
+/// A recording, its samples and the errors of all predictors.
+struct RecordingErrors {
+  RecordingErrors(const Recording& source, Duration future)
+      : recording(source), motion(source.poses), samples(samplesOf(source.poses, motion, kHistory, future)) {}
 
   const Recording& recording;
   RecordedMotion motion;
@@ -26,7 +26,8 @@ struct Case {
   std::vector<std::vector<ErrorsAhead>> errors;  // by predictor, then by horizon
 };
 
-sweep_guard_core::PredictorOptions named(sweep_guard_core::PredictorOptions options, const std::string& predictor) {
+sweep_guard_core::PredictorOptions withPredictor(sweep_guard_core::PredictorOptions options,
+                                                 const std::string& predictor) {
   options.predictor = predictor;
   return options;
 }
@@ -38,7 +39,7 @@ std::array<AlarmStatistics, 2> statisticsOf(const std::vector<Episode>& episodes
 WarningReport emptyReport(const std::string& recording, size_t placements, const Options& options) {
   const double chosen = options.simulation.limits.min_probability;
   WarningReport report{recording, placements, options.predictors, {chosen}, 0, {}};
-  if (options.wantTradeoff()) report.min_probabilities = tradeoffThresholds(chosen);
+  if (options.wantsTradeoff()) report.min_probabilities = tradeoffThresholds(chosen);
   const auto& all = report.min_probabilities;
   report.chosen = static_cast<size_t>(std::find(all.begin(), all.end(), chosen) - all.begin());
   report.statistics.resize(options.predictors.size());
@@ -49,21 +50,22 @@ WarningReport emptyReport(const std::string& recording, size_t placements, const
 
 std::vector<ErrorReport> reportErrors(const std::vector<Recording>& recordings, const Options& options,
                                       const std::vector<Duration>& horizons, const Progress& progress) {
-  std::vector<Case> cases;
+  std::vector<RecordingErrors> cases;
   for (const Recording& recording : recordings) {
     cases.emplace_back(recording, std::max(kFuture, horizons.back()));
     cases.back().errors.resize(options.predictors.size());
   }
   inParallel(cases.size() * options.predictors.size(), [&](size_t i) {
-    Case& of = cases[i / options.predictors.size()];
+    RecordingErrors& current = cases[i / options.predictors.size()];
     const size_t predictor = i % options.predictors.size();
-    of.errors[predictor] = predictionErrors(of.recording.poses, of.motion, of.samples, horizons,
-                                            named(options.predictor, options.predictors[predictor]), progress);
+    current.errors[predictor] = predictionErrors({current.recording.poses, current.motion, current.samples, horizons,
+                                                  withPredictor(options.predictor, options.predictors[predictor])},
+                                                 progress);
   });
   std::vector<ErrorReport> reports;
   reports.reserve(cases.size());
-  for (const Case& of : cases)
-    reports.push_back({of.recording.name, options.predictors, horizons, summaries(of.errors)});
+  for (const RecordingErrors& current : cases)
+    reports.push_back({current.recording.name, options.predictors, horizons, summaries(current.errors)});
   return reports;
 }
 
@@ -79,10 +81,11 @@ std::vector<WarningReport> reportWarnings(const std::vector<Recording>& recordin
     const size_t recording = i / options.predictors.size();
     const size_t predictor = i % options.predictors.size();
     WarningReport& report = reports[recording];
-    GuardSimulationOptions watching = options.simulation;
-    watching.guard.predictor = named(options.predictor, options.predictors[predictor]);
-    watching.min_probabilities = report.min_probabilities;
-    for (const auto& episodes : simulateGuard(recordings[recording].poses, placements[recording], watching, progress)) {
+    GuardSimulationOptions simulation = options.simulation;
+    simulation.guard.predictor = withPredictor(options.predictor, options.predictors[predictor]);
+    simulation.min_probabilities = report.min_probabilities;
+    for (const auto& episodes :
+         simulateGuard(recordings[recording].poses, placements[recording], simulation, progress)) {
       report.statistics[predictor].push_back(statisticsOf(episodes));
     }
   });

@@ -9,15 +9,15 @@
 
 namespace sweep_guard_evaluation {
 
-/// The errors ahead of every predictor on every recording, where there is 1 s before and 1 s (or the longest horizon)
-/// after without a gap.
+/// Computes the prediction errors of every predictor on every recording. Samples have 1 s before and 1 s (or the
+/// longest horizon, if it is longer) after them without a gap.
 /// @param horizons  ascending, > 0
 std::vector<ErrorReport> reportErrors(const std::vector<sweep_guard_recording::Recording>& recordings,
                                       const Options& options, const std::vector<sweep_guard_core::Duration>& horizons,
                                       const Progress& progress);
 
-/// What warnings are worth with every predictor on every recording: at the threshold asked for, and at all those of the
-/// trade-off if that is wanted.
+/// Computes leads and false alarms of every predictor on every recording, at the requested threshold and, if a
+/// trade-off is requested, at all its thresholds.
 std::vector<WarningReport> reportWarnings(const std::vector<sweep_guard_recording::Recording>& recordings,
                                           const Options& options, const Progress& progress);
 

@@ -21,7 +21,7 @@ using sweep_guard_core::Duration;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_recording::Recording;
 
-/// A file that is written at the end, but refused at the beginning if it cannot be, or if it is one of the inputs.
+/// Opens a file for the results before the work begins. Refuses it if it is not writable or is one of the inputs.
 class OutputFile {
  public:
   OutputFile(const std::string& path, const std::vector<std::string>& inputs) : path_(path) {
@@ -29,12 +29,12 @@ class OutputFile {
     std::error_code none;
     for (const std::string& input : inputs) {
       if (!std::filesystem::equivalent(path, input, none)) continue;
-      throw InvalidInput(path + ": is a recording and would be overwritten; name another file to write");
+      throw InvalidInput(path + ": is an input and would be overwritten; give another file");
     }
     stream_.open(path);
     if (!stream_) throw InvalidInput(path + ": cannot be written; check folder and permissions");
   }
-  bool wanted() const { return !path_.empty(); }
+  bool requested() const { return !path_.empty(); }
   const std::string& path() const { return path_; }
   void write(const std::string& text) {
     stream_ << text << std::flush;
@@ -74,7 +74,7 @@ class Evaluation {
     for (const Recording& recording : recordings_) steps_ += recording.poses.size() * options.predictors.size();
   }
 
-  /// The result of some work, while a progress bar is shown.
+  /// Shows a progress bar during some work and returns its result.
   template <typename Work>
   auto withProgress(const std::string& title, const Work& work) {
     ProgressBar bar(title, steps_);
@@ -82,24 +82,24 @@ class Evaluation {
   }
 
   void evaluateErrors() {
-    const std::vector<Duration> horizons = plot_.wanted() ? withPlotted(options_.horizons) : options_.horizons;
+    const std::vector<Duration> horizons = plot_.requested() ? withPlotted(options_.horizons) : options_.horizons;
     std::vector<ErrorReport> reports = withProgress(
         "errors  ", [&](const Progress& progress) { return reportErrors(recordings_, options_, horizons, progress); });
-    if (plot_.wanted()) runGnuplot(errorPlot(reports, plot_.path()));
+    if (plot_.requested()) runGnuplot(errorPlot(reports, plot_.path()));
     for (ErrorReport& report : reports) report = atHorizons(report, options_.horizons);
-    if (csv_.wanted()) csv_.write(errorCsv(reports));
+    if (csv_.requested()) csv_.write(errorCsv(reports));
     for (const ErrorReport& report : reports) std::cout << errorTable(report) << '\n';
   }
 
   void evaluateWarnings() {
     const std::vector<WarningReport> reports = withProgress(
         "warnings", [&](const Progress& progress) { return reportWarnings(recordings_, options_, progress); });
-    if (warnings_csv_.wanted()) warnings_csv_.write(warningCsv(reports));
-    if (tradeoff_csv_.wanted()) tradeoff_csv_.write(tradeoffCsv(reports));
-    if (tradeoff_plot_.wanted()) runGnuplot(tradeoffPlot(reports, tradeoff_plot_.path()));
+    if (warnings_csv_.requested()) warnings_csv_.write(warningCsv(reports));
+    if (tradeoff_csv_.requested()) tradeoff_csv_.write(tradeoffCsv(reports));
+    if (tradeoff_plot_.requested()) runGnuplot(tradeoffPlot(reports, tradeoff_plot_.path()));
     for (const WarningReport& report : reports) {
       std::cout << warningTable(report) << '\n';
-      if (options_.wantTradeoff()) std::cout << tradeoffTable(report, options_.most_false_alarms) << '\n';
+      if (options_.wantsTradeoff()) std::cout << tradeoffTable(report, options_.max_false_alarms) << '\n';
     }
   }
 
@@ -117,8 +117,8 @@ class Evaluation {
 void run(const Options& options) {
   if (!options.plot.empty() || !options.tradeoff_plot.empty()) requireGnuplot();
   Evaluation evaluation(options);
-  if (options.wantErrors()) evaluation.evaluateErrors();
-  if (options.wantWarnings()) evaluation.evaluateWarnings();
+  if (options.wantsErrors()) evaluation.evaluateErrors();
+  if (options.wantsWarnings()) evaluation.evaluateWarnings();
 }
 
 }  // namespace

@@ -13,17 +13,17 @@ using sweep_guard_core::Time;
 
 namespace {
 
-/// Distance [m] that the tool is clear of the obstacle by, at least; 0 if it touches.
+/// Returns a lower bound on the distance [m] between tool and obstacle; 0 in contact.
 class Clearance {
  public:
   Clearance(const ConvexShape& tool, const SquareObstacle& obstacle) : tool_(tool), obstacle_(obstacle) {}
 
   double at(const Eigen::Isometry3d& X_WT) {
-    const double apart = (X_WT.translation() - obstacle_.X_WS.translation()).norm();
-    const double sure = apart - tool_.boundingRadius() - std::sqrt(2.0) * obstacle_.half_side;
-    if (sure > kContactTolerance) return last_ = sure;
+    const double distance = (X_WT.translation() - obstacle_.X_WS.translation()).norm();
+    const double bound = distance - tool_.boundingRadius() - std::sqrt(2.0) * obstacle_.half_side;
+    if (bound > kContactTolerance) return last_ = bound;
     last_ = std::max(2.0 * last_, kContactTolerance);
-    while (meets(tool_, X_WT, obstacle_, last_)) {
+    while (intersects(tool_, X_WT, obstacle_, last_)) {
       if (last_ == kContactTolerance) return 0.0;
       last_ = std::max(0.5 * last_, kContactTolerance);
     }
@@ -33,22 +33,23 @@ class Clearance {
  private:
   const ConvexShape& tool_;
   const SquareObstacle& obstacle_;
-  double last_ = 1.0;  // the next one is likely to be near it
+  double last_ = 1.0;  // first guess for the next call
 };
 
-/// Bound on how far a point of the tool goes per second [m/s].
-double fastest(const StampedPose& from, const StampedPose& to, const ConvexShape& tool) {
+/// Returns an upper bound on the speed of any tool point [m/s].
+double maxSpeed(const StampedPose& from, const StampedPose& to, const ConvexShape& tool) {
   const sweep_guard_core::Motion motion{from.X_WT, to.X_WT};
-  const double way = (to.X_WT.translation() - from.X_WT.translation()).norm() + motion.angle() * tool.boundingRadius();
-  return way / sweep_guard_core::toSeconds(to.stamp - from.stamp);
+  const double distance =
+      (to.X_WT.translation() - from.X_WT.translation()).norm() + motion.angle() * tool.boundingRadius();
+  return distance / sweep_guard_core::toSeconds(to.stamp - from.stamp);
 }
 
-/// When the tool may have gone `distance` [m] at the earliest, rounded down.
-Time reached(const RecordedMotion& motion, const ConvexShape& tool, Time from, Time limit, double distance) {
+/// Returns the earliest time at which a tool point may have moved by `distance` [m], rounded down.
+Time earliestArrival(const RecordedMotion& motion, const ConvexShape& tool, Time from, Time limit, double distance) {
   const std::vector<StampedPose>& poses = motion.poses();
   Time time = from;
   for (size_t i = motion.newestAt(from); time < limit && i + 1 < poses.size(); ++i) {
-    const double speed = fastest(poses[i], poses[i + 1], tool);
+    const double speed = maxSpeed(poses[i], poses[i + 1], tool);
     const double left = sweep_guard_core::toSeconds(poses[i + 1].stamp - time);
     if (speed * left > distance) {
       return time + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(distance / speed));
@@ -68,7 +69,7 @@ std::optional<Time> firstContact(const RecordedMotion& motion, const ConvexShape
     const double clear = clearance.at(motion.at(time));
     if (clear == 0.0) return time;
     if (time == to) break;
-    time = std::clamp(reached(motion, tool, time, to, clear), time + Duration(1), to);
+    time = std::clamp(earliestArrival(motion, tool, time, to, clear), time + Duration(1), to);
   }
   return std::nullopt;
 }

@@ -7,15 +7,14 @@
 
 namespace sweep_guard_evaluation {
 
-/// A obstacle as near as this is touched [m].
+/// The tool touches an obstacle that is closer than this [m].
 constexpr double kContactTolerance = 1e-6;
 
-/// When the recorded motion first brings the tool into contact with a obstacle: the truth that warnings are compared with.
-/// Conservative advancement: as far as the tool is clear of the obstacle it may move unseen, for no point of it goes
-/// farther than its origin goes and its turn takes the farthest point. So no contact is missed, and the one found is
-/// early by no more than the tool needs for sqrt(2) * kContactTolerance.
+/// Returns when the recorded motion first brings the tool into contact with an obstacle; empty: never. Warnings are
+/// compared with this time. Conservative advancement: the tool advances by its clearance, because no point of the tool
+/// moves farther than the origin moves plus the rotation times the bounding radius. So no contact is missed, and the
+/// result is early by at most the time in which the tool moves sqrt(2) * kContactTolerance.
 /// @param from, to  within the recording
-/// @returns empty: none
 std::optional<sweep_guard_core::Time> firstContact(const RecordedMotion& motion,
                                                    const sweep_guard_core::ConvexShape& tool,
                                                    const SquareObstacle& obstacle, sweep_guard_core::Time from,

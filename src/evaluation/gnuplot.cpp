@@ -20,7 +20,7 @@ constexpr double kBottom = 35.0;  // for the label of the axis
 constexpr double kLeft = 110.0;
 constexpr double kRight = 25.0;
 
-// Lent for a while: a gnuplot that ends early must not end this program.
+// A gnuplot that ends early must not end this program.
 class IgnoredPipeSignal {
  public:
   IgnoredPipeSignal() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
@@ -45,7 +45,7 @@ void runGnuplot(const std::string& script) {
   FILE* const pipe = popen("gnuplot", "w");
   if (pipe == nullptr) throw sweep_guard_core::DeviceError("gnuplot cannot be started");
   const bool written = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-  if (pclose(pipe) != 0 || !written) throw sweep_guard_core::DeviceError("gnuplot failed; its message stands above");
+  if (pclose(pipe) != 0 || !written) throw sweep_guard_core::DeviceError("gnuplot failed; see its message above");
 }
 
 std::string gnuplotText(const std::string& text) {
@@ -54,11 +54,11 @@ std::string gnuplotText(const std::string& text) {
   return quoted + "'";
 }
 
-std::string colourOf(const std::string& predictor) {
-  static const std::map<std::string, std::string> kColours = {
+std::string colorOf(const std::string& predictor) {
+  static const std::map<std::string, std::string> kColors = {
       {"direct", "#0072B2"}, {"polynomial", "#D55E00"}, {"constant_velocity", "#009E73"}, {"hold", "#777777"}};
-  const auto found = kColours.find(predictor);
-  return found == kColours.end() ? "#CC79A7" : found->second;
+  const auto found = kColors.find(predictor);
+  return found == kColors.end() ? "#CC79A7" : found->second;
 }
 
 PlotPage::PlotPage(const std::string& path, size_t rows, size_t columns)
@@ -74,7 +74,7 @@ void PlotPage::addKey(const std::vector<std::string>& predictors, const std::vec
   script_ +=
       "set key center center horizontal maxrows 1 noenhanced\nunset tics\nunset border\nplot [0:1] [0:1] NaN notitle";
   for (const std::string& predictor : predictors) {
-    script_ += ", keyentry with lines lw 4 lc rgb '" + colourOf(predictor) + "' title " + gnuplotText(predictor);
+    script_ += ", keyentry with lines lw 4 lc rgb '" + colorOf(predictor) + "' title " + gnuplotText(predictor);
   }
   for (const std::string& entry : entries) script_ += ", keyentry " + entry;
   script_ += "\nunset key\nset tics\nset border\nset grid xtics ytics lt 1 lw 1 lc rgb '#d0d0d0'\n";

@@ -19,16 +19,13 @@ constexpr Duration kHistory = seconds(1);
 constexpr Duration kBefore = seconds(4);
 constexpr Duration kUntouched = seconds(2);
 constexpr Duration kAfter = seconds(4);
-constexpr Duration kUntouchedAfter =
-    seconds(2);  // whoever warns at the end of a near miss has no contact to show for it
+constexpr Duration kUntouchedAfter = seconds(2);  // makes a warning at the end of a near miss false
 constexpr Duration kHalfVelocityWindow = milliseconds(25);
-constexpr double kSlowest = 0.01;        // [m/s] what moves slower is taken to rest
-constexpr double kMaxGap = 0.1;          // [m] of a near miss
-constexpr double kTiltOfContact = 60.0;  // [deg]
-constexpr double kTiltOfMiss = 90.0;     // [deg]
-constexpr int kTries = 1000;             // for each placement, on average
+constexpr double kMinSpeed = 0.01;  // [m/s] below, the tool rests
+constexpr double kMaxGap = 0.1;     // [m] of a near miss
+constexpr int kTries = 1000;        // for each placement, on average
 
-/// A moment of the motion with room for an episode around it.
+/// A moment of the motion that has room for an episode.
 struct Moment {
   Time time;
   Eigen::Isometry3d X_WT;
@@ -39,44 +36,51 @@ std::optional<Moment> randomMoment(const RecordedMotion& motion, Duration after,
   const Duration length = motion.poses().back().stamp - motion.poses().front().stamp;
   const Time time = motion.poses().front().stamp +
                     sweep_guard_core::fromSeconds(random.uniform(0.0, sweep_guard_core::toSeconds(length)));
-  if (!motion.unbroken(time - kBefore - kHistory, time + after + kHalfVelocityWindow)) return std::nullopt;
-  const Eigen::Vector3d way_W =
+  if (!motion.isContinuous(time - kBefore - kHistory, time + after + kHalfVelocityWindow)) return std::nullopt;
+  const Eigen::Vector3d displacement_W =
       motion.at(time + kHalfVelocityWindow).translation() - motion.at(time - kHalfVelocityWindow).translation();
-  const Eigen::Vector3d velocity_W = way_W / sweep_guard_core::toSeconds(2 * kHalfVelocityWindow);
-  if (velocity_W.norm() < kSlowest) return std::nullopt;
+  const Eigen::Vector3d velocity_W = displacement_W / sweep_guard_core::toSeconds(2 * kHalfVelocityWindow);
+  if (velocity_W.norm() < kMinSpeed) return std::nullopt;
   return Moment{time, motion.at(time), velocity_W};
 }
 
-/// The point of the tool that is farthest along a direction.
-Eigen::Vector3d foremost(const ConvexShape& tool, const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& direction_W) {
+/// Returns the tool point that is farthest along a direction.
+Eigen::Vector3d frontPoint(const ConvexShape& tool, const Eigen::Isometry3d& X_WT, const Eigen::Vector3d& direction_W) {
   const Eigen::Vector3d direction_T = X_WT.linear().transpose() * direction_W;
   const Eigen::Vector3d front = tool.frontSupport(direction_T);
   const Eigen::Vector3d rear = tool.rearSupport(direction_T);
   return X_WT * (direction_T.dot(front) >= direction_T.dot(rear) ? front : rear);
 }
 
-/// A obstacle in the tangent plane of the tool that faces its velocity, moved along itself by up to `aside` of its half
-/// side and away from the tool by up to `away` [m].
-SquareObstacle randomSheet(const ConvexShape& tool, const Moment& moment, double tilt, double aside, double away,
-                           Random& random) {
+struct ObstacleRange {
+  double tilt;      // of the normal against the velocity, at most [deg]
+  double shift;     // in the plane of the obstacle, at most [half sides]
+  double distance;  // from the tool, at most [m]
+};
+constexpr ObstacleRange kContactRange = {60.0, 0.9, 0.0};
+constexpr ObstacleRange kMissRange = {90.0, 2.0, kMaxGap};
+
+/// Returns an obstacle in a tangent plane of the tool that faces its velocity, shifted at random.
+SquareObstacle randomObstacle(const ConvexShape& tool, const Moment& moment, const ObstacleRange& range,
+                              Random& random) {
   const Eigen::Matrix3d R_WV = random.frameWithZ(moment.velocity_W.normalized());
-  const double angle = random.uniform(0.0, tilt * kPi / 180.0);
+  const double angle = random.uniform(0.0, range.tilt * kPi / 180.0);
   const Eigen::Vector3d normal_W = R_WV * Eigen::Vector3d(std::sin(angle), 0.0, std::cos(angle));
   SquareObstacle obstacle;
   obstacle.half_side = random.uniform(0.05, 0.15);
   obstacle.X_WS.linear() = random.frameWithZ(normal_W);
-  const double x = random.uniform(-aside, aside) * obstacle.half_side;
-  const double y = random.uniform(-aside, aside) * obstacle.half_side;
-  const double z = random.uniform(0.0, away);
+  const double x = random.uniform(-range.shift, range.shift) * obstacle.half_side;
+  const double y = random.uniform(-range.shift, range.shift) * obstacle.half_side;
+  const double z = random.uniform(0.0, range.distance);
   obstacle.X_WS.translation() =
-      foremost(tool, moment.X_WT, normal_W) + obstacle.X_WS.linear() * Eigen::Vector3d(x, y, z);
+      frontPoint(tool, moment.X_WT, normal_W) + obstacle.X_WS.linear() * Eigen::Vector3d(x, y, z);
   return obstacle;
 }
 
 std::optional<ObstaclePlacement> tryContact(const RecordedMotion& motion, const ConvexShape& tool, Random& random) {
   const std::optional<Moment> moment = randomMoment(motion, Duration(0), random);
   if (!moment) return std::nullopt;
-  const SquareObstacle obstacle = randomSheet(tool, *moment, kTiltOfContact, /*aside=*/0.9, /*away=*/0.0, random);
+  const SquareObstacle obstacle = randomObstacle(tool, *moment, kContactRange, random);
   const Time begin = moment->time - kBefore;
   const std::optional<Time> contact = firstContact(motion, tool, obstacle, begin, moment->time);
   if (!contact || *contact < begin + kUntouched) return std::nullopt;
@@ -86,8 +90,8 @@ std::optional<ObstaclePlacement> tryContact(const RecordedMotion& motion, const 
 std::optional<ObstaclePlacement> tryMiss(const RecordedMotion& motion, const ConvexShape& tool, Random& random) {
   const std::optional<Moment> moment = randomMoment(motion, kAfter + kUntouchedAfter, random);
   if (!moment) return std::nullopt;
-  const SquareObstacle obstacle = randomSheet(tool, *moment, kTiltOfMiss, /*aside=*/2.0, kMaxGap, random);
-  if (!meets(tool, moment->X_WT, obstacle, kMaxGap)) return std::nullopt;
+  const SquareObstacle obstacle = randomObstacle(tool, *moment, kMissRange, random);
+  if (!intersects(tool, moment->X_WT, obstacle, kMaxGap)) return std::nullopt;
   const Time begin = moment->time - kBefore;
   const Time end = moment->time + kAfter;
   if (firstContact(motion, tool, obstacle, begin, end + kUntouchedAfter)) return std::nullopt;

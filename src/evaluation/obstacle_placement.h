@@ -10,27 +10,27 @@
 namespace sweep_guard_evaluation {
 
 struct ObstaclePlacementOptions {
-  size_t count = 80;       ///< half of them to be run into, half to be missed
-  std::uint64_t seed = 1;  ///< the same placements every time
+  size_t count = 80;       ///< number of obstacles; the motion runs into one half and misses the other half
+  std::uint64_t seed = 1;  ///< equal seeds give equal placements
 };
 
-/// A obstacle in the way of a recorded motion, or beside it, and the episode in which it is there.
+/// An obstacle on or near the path of a recorded motion, and the episode in which it is there.
 struct ObstaclePlacement {
   SquareObstacle obstacle;
   sweep_guard_core::Time begin;
-  sweep_guard_core::Time end;                     ///< that of the contact, if there is one
-  std::optional<sweep_guard_core::Time> contact;  ///< the first, of the recorded motion itself
+  sweep_guard_core::Time end;                     ///< time of the contact, if there is one
+  std::optional<sweep_guard_core::Time> contact;  ///< first contact of the recorded motion
 };
 
-/// Places sheets along a motion: squares of 0.1 to 0.3 m.
+/// Places obstacles along a motion: squares with sides of 0.1 to 0.3 m.
 ///
-/// Every other one is to be run into: it touches the tool where that is at a random moment, tilted by 0 to 60 degrees
-/// against its velocity; it is there from 4 s before, and untouched for the first 2 s at least. The others are near
-/// misses: tilted by 0 to 90 degrees, they are within 0.1 m of the tool at a random moment but not touched from 4 s
-/// before to 6 s after; they are there until 4 s after. An episode and the second before it are without a gap.
+/// The motion runs into every other obstacle: it touches the tool at a random moment, tilted by 0 to 60 degrees against
+/// the tool's velocity. Its episode begins 4 s earlier, and there is no contact in the first 2 s. The others are near
+/// misses: tilted by 0 to 90 degrees, within 0.1 m of the tool at a random moment, without contact from 4 s before to
+/// 6 s after this moment; the episode ends 4 s after it. An episode and the second before it have no gap.
 ///
-/// @returns ordered by begin; fewer than asked for where the recording has no room: the tool rests, is too short, has
-/// gaps
+/// @return ordered by begin; fewer than requested if the recording has no room for them: it is short, has gaps, or the
+///     tool rests
 std::vector<ObstaclePlacement> placeObstacles(const RecordedMotion& motion, const sweep_guard_core::ConvexShape& tool,
                                               const ObstaclePlacementOptions& options);
 

@@ -5,8 +5,8 @@
 
 namespace sweep_guard_evaluation {
 
-/// Calls task(0) to task(count - 1) on as many threads as the machine has cores, and returns when all are done.
-/// @throws what a task throws; of several one
+/// Calls task(0) to task(count - 1) on one thread per core, and returns when all have finished.
+/// @throws what a task throws; if several throw, one of the exceptions
 void inParallel(size_t count, const std::function<void(size_t)>& task);
 
 }  // namespace sweep_guard_evaluation

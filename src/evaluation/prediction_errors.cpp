@@ -34,24 +34,18 @@ class Comparison {
 
   void add(sweep_guard_core::Time stamp, const PredictedPath& path) {
     for (size_t i = 0; i < horizons_.size(); ++i) {
-      if (path.empty()) {
-        addTo(errors_[i], std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
-        continue;
-      }
-      const Eigen::Isometry3d came = motion_.at(stamp + horizons_[i]);
-      const double distance = (path[i].X_WT.translation() - came.translation()).norm();
-      addTo(errors_[i], distance, angleBetween(path[i].X_WT, came));
+      errors_[i].position.push_back(std::numeric_limits<float>::quiet_NaN());
+      errors_[i].rotation.push_back(std::numeric_limits<float>::quiet_NaN());
+      if (path.empty()) continue;
+      const Eigen::Isometry3d measured = motion_.at(stamp + horizons_[i]);
+      errors_[i].position.back() = static_cast<float>((path[i].X_WT.translation() - measured.translation()).norm());
+      errors_[i].rotation.back() = static_cast<float>(angleBetween(path[i].X_WT, measured));
     }
   }
 
   std::vector<ErrorsAhead> errors() && { return std::move(errors_); }
 
  private:
-  static void addTo(ErrorsAhead& errors, double position, double rotation) {
-    errors.position.push_back(static_cast<float>(position));
-    errors.rotation.push_back(static_cast<float>(rotation));
-  }
-
   const RecordedMotion& motion_;
   const std::vector<Duration>& horizons_;
   std::vector<ErrorsAhead> errors_;
@@ -67,8 +61,8 @@ std::vector<double> keptOf(const std::vector<float>& errors, const std::vector<b
 
 std::vector<bool> predictedByAll(const std::vector<std::vector<ErrorsAhead>>& errors) {
   std::vector<bool> kept(errors.front().front().position.size(), true);
-  for (const std::vector<ErrorsAhead>& of_one : errors) {
-    const std::vector<float>& position = of_one.front().position;  // all horizons are predicted, or none
+  for (const std::vector<ErrorsAhead>& of_predictor : errors) {
+    const std::vector<float>& position = of_predictor.front().position;  // a prediction covers all horizons
     for (size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] && !std::isnan(position[i]);
   }
   return kept;
@@ -82,21 +76,22 @@ std::vector<size_t> samplesOf(const std::vector<StampedPose>& poses, const Recor
   for (size_t i = 0; i < poses.size(); ++i) {
     const sweep_guard_core::Time stamp = poses[i].stamp;
     if (i > 0 && poses[i - 1].stamp == stamp) continue;
-    if (motion.unbroken(stamp - history, stamp + future)) samples.push_back(i);
+    if (motion.isContinuous(stamp - history, stamp + future)) samples.push_back(i);
   }
   return samples;
 }
 
-std::vector<ErrorsAhead> predictionErrors(const std::vector<StampedPose>& poses, const RecordedMotion& motion,
-                                          const std::vector<size_t>& samples, const std::vector<Duration>& horizons,
-                                          const sweep_guard_core::PredictorOptions& options, const Progress& progress) {
-  PosePredictor predictor(options);
-  Comparison comparison(motion, horizons, samples.size());
-  auto sample = samples.begin();
+std::vector<ErrorsAhead> predictionErrors(const PredictionErrorRequest& request, const Progress& progress) {
+  const std::vector<StampedPose>& poses = request.poses;
+  PosePredictor predictor(request.predictor);
+  sweep_guard_core::PredictedPath path;
+  Comparison comparison(request.motion, request.horizons, request.samples.size());
+  auto sample = request.samples.begin();
   for (size_t i = 0; i < poses.size(); ++i) {
     predictor.observe(poses[i]);
-    if (sample != samples.end() && *sample == i) {
-      comparison.add(poses[i].stamp, predictor.predict(horizons));
+    if (sample != request.samples.end() && *sample == i) {
+      predictor.predict(request.horizons, path);
+      comparison.add(poses[i].stamp, path);
       ++sample;
     }
     if ((i + 1) % kProgressStep == 0) progress(kProgressStep);
@@ -108,9 +103,9 @@ std::vector<ErrorsAhead> predictionErrors(const std::vector<StampedPose>& poses,
 std::vector<std::vector<ErrorSummary>> summaries(const std::vector<std::vector<ErrorsAhead>>& errors) {
   const std::vector<bool> kept = predictedByAll(errors);
   std::vector<std::vector<ErrorSummary>> all;
-  for (const std::vector<ErrorsAhead>& of_one : errors) {
+  for (const std::vector<ErrorsAhead>& of_predictor : errors) {
     all.emplace_back();
-    for (const ErrorsAhead& ahead : of_one) {
+    for (const ErrorsAhead& ahead : of_predictor) {
       const std::vector<double> position = keptOf(ahead.position, kept);
       const std::vector<double> rotation = keptOf(ahead.rotation, kept);
       all.back().push_back({quantile(position, 0.5), quantile(position, 0.95), quantile(rotation, 0.5),

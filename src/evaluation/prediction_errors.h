@@ -8,31 +8,35 @@
 
 namespace sweep_guard_evaluation {
 
-/// Told how many more poses have been dealt with; from any thread.
+/// Receives the number of poses processed since the last call; from any thread.
 using Progress = std::function<void(size_t)>;
 
-/// Where predictions are compared with what came: poses that have so much of the recording before and after them
-/// without a gap. Of poses that share a stamp the first may be one; the others are fed to the predictor, no more.
-/// @param poses  of `motion`, those that share a stamp included
-/// @returns indices of `poses`, ascending
+/// Returns the poses at which predictions are compared with the motion: those with `history` before and `future` after
+/// them without a gap. Of poses with equal stamps only the first can be a sample.
+/// @param poses  of `motion`, including those with equal stamps
+/// @return indices of `poses`, ascending
 std::vector<size_t> samplesOf(const std::vector<sweep_guard_core::StampedPose>& poses, const RecordedMotion& motion,
                               sweep_guard_core::Duration history, sweep_guard_core::Duration future);
 
-/// Errors of one predictor at one horizon, one per sample, NaN where it predicted nothing.
+/// Errors of one predictor at one horizon: one per sample, NaN if there was no prediction.
 struct ErrorsAhead {
   std::vector<float> position;  ///< distance [m]
   std::vector<float> rotation;  ///< angle [rad], in [0, pi]
 };
 
-/// Feeds every pose to a predictor, in their order, and compares what it expects after each sample with the motion.
-/// @param horizons  ascending, > 0; the motion goes on for as long after every sample
-/// @returns one for each horizon
-std::vector<ErrorsAhead> predictionErrors(const std::vector<sweep_guard_core::StampedPose>& poses,
-                                          const RecordedMotion& motion, const std::vector<size_t>& samples,
-                                          const std::vector<sweep_guard_core::Duration>& horizons,
-                                          const sweep_guard_core::PredictorOptions& options, const Progress& progress);
+struct PredictionErrorRequest {
+  const std::vector<sweep_guard_core::StampedPose>& poses;
+  const RecordedMotion& motion;                             ///< of the poses
+  const std::vector<size_t>& samples;                       ///< indices of poses, ascending
+  const std::vector<sweep_guard_core::Duration>& horizons;  ///< ascending, > 0; within the motion at every sample
+  sweep_guard_core::PredictorOptions predictor;
+};
 
-/// Median and 95th percentile; NaN if there is no sample.
+/// Passes every pose to a predictor and compares its prediction at each sample with the motion.
+/// @return one for each horizon
+std::vector<ErrorsAhead> predictionErrors(const PredictionErrorRequest& request, const Progress& progress);
+
+/// Median and 95th percentile; NaN without samples.
 struct ErrorSummary {
   double position_median;  ///< [m]
   double position_p95;     ///< [m]
@@ -41,9 +45,9 @@ struct ErrorSummary {
   size_t samples;
 };
 
-/// Judges predictors on the same samples: those at which each of them predicted.
+/// Summarizes the errors of all predictors over the samples at which every predictor has a prediction.
 /// @param errors  by predictor, then by horizon
-/// @returns by predictor, then by horizon
+/// @return by predictor, then by horizon
 std::vector<std::vector<ErrorSummary>> summaries(const std::vector<std::vector<ErrorsAhead>>& errors);
 
 }  // namespace sweep_guard_evaluation

@@ -13,14 +13,14 @@ constexpr size_t kWidth = 50;
 }  // namespace
 
 ProgressBar::ProgressBar(const std::string& title, size_t total)
-    : title_(title), total_(std::max<size_t>(total, 1)), shown_(isatty(STDERR_FILENO) != 0) {}
+    : title_(title), total_(std::max<size_t>(total, 1)), visible_(isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() {
-  if (shown_) std::cerr << "\r\033[K" << std::flush;
+  if (visible_) std::cerr << "\r\033[K" << std::flush;
 }
 
 void ProgressBar::advance(size_t steps) {
-  if (!shown_) return;
+  if (!visible_) return;
   const std::lock_guard lock(mutex_);
   done_ += steps;
   const size_t percent = std::min<size_t>(100 * done_ / total_, 100);

@@ -6,11 +6,11 @@
 
 namespace sweep_guard_evaluation {
 
-/// How far a long computation is, in one line on stderr where that is a terminal, and nowhere else. Any thread.
+/// Shows the progress of a long computation in one line on stderr, if that is a terminal. Any thread may advance it.
 class ProgressBar {
  public:
   ProgressBar(const std::string& title, size_t total);
-  ~ProgressBar();  ///< takes the line away
+  ~ProgressBar();  ///< erases the line
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
@@ -19,7 +19,7 @@ class ProgressBar {
  private:
   const std::string title_;
   const size_t total_;
-  const bool shown_;
+  const bool visible_;
   std::mutex mutex_;
   size_t done_ = 0;
   size_t percent_ = 0;

@@ -8,17 +8,18 @@ namespace sweep_guard_evaluation {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Random numbers that a seed gives on every machine alike: the standard fixes its engines, not its distributions.
+/// Draws random numbers that are equal on every machine for equal seeds: the standard fixes the engines, but not the
+/// distributions.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  /// In [lower, upper).
+  /// Returns a number in [lower, upper).
   double uniform(double lower, double upper) {
     return lower + (upper - lower) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
   }
 
-  /// A rotation that takes z to `z_W`, turned anyhow about it.
+  /// Returns a rotation that takes z to `z_W`, with a random angle about it.
   Eigen::Matrix3d frameWithZ(const Eigen::Vector3d& z_W) {
     const Eigen::AngleAxisd turn(uniform(0.0, 2.0 * kPi), Eigen::Vector3d::UnitZ());
     return (Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z_W) * turn).toRotationMatrix();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "sweep_guard/common/quantile.h"
 #include "sweep_guard/geometry/motion.h"
 
 namespace sweep_guard_evaluation {
@@ -27,12 +28,12 @@ std::vector<StampedPose> lastOfEachStamp(const std::vector<StampedPose>& poses) 
 }
 
 Duration longestPeriod(const std::vector<StampedPose>& poses) {
-  std::vector<Duration> periods;
-  for (size_t i = 1; i < poses.size(); ++i) periods.push_back(poses[i].stamp - poses[i - 1].stamp);
-  if (periods.empty()) return kMinGap;
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return std::max(kMinGap, kPeriodsOfGap * *middle);
+  if (poses.size() < 2) return kMinGap;
+  std::vector<double> periods;
+  for (size_t i = 1; i < poses.size(); ++i) {
+    periods.push_back(sweep_guard_core::toSeconds(poses[i].stamp - poses[i - 1].stamp));
+  }
+  return std::max(kMinGap, sweep_guard_core::fromSeconds(kPeriodsOfGap * sweep_guard_core::quantile(periods, 0.5)));
 }
 
 bool isEarlier(Time time, const StampedPose& pose) { return time < pose.stamp; }
@@ -48,7 +49,7 @@ RecordedMotion::RecordedMotion(const std::vector<StampedPose>& poses) : poses_(l
   }
 }
 
-bool RecordedMotion::unbroken(Time from, Time to) const {
+bool RecordedMotion::isContinuous(Time from, Time to) const {
   const auto after = std::upper_bound(segments_.begin(), segments_.end(), from,
                                       [](Time time, const Segment& segment) { return time < segment.begin; });
   return after != segments_.begin() && to <= std::prev(after)->end;

@@ -6,11 +6,11 @@
 
 namespace sweep_guard_evaluation {
 
-/// The motion that a recording is taken for: between its poses the tool goes straight and turns about one axis at
-/// constant rate (lerp and slerp), as in the guard. Of poses that share a stamp the last one holds.
+/// Interpolates a recording as the guard does: between two poses the tool moves straight and turns about one axis, both
+/// at constant rate (lerp and slerp). Of poses with equal stamps the last one counts.
 class RecordedMotion {
  public:
-  /// A part of the recording without a gap.
+  /// An interval of the recording without a gap.
   struct Segment {
     sweep_guard_core::Time begin;
     sweep_guard_core::Time end;
@@ -19,18 +19,19 @@ class RecordedMotion {
   /// @param poses  at least one, stamps not decreasing
   explicit RecordedMotion(const std::vector<sweep_guard_core::StampedPose>& poses);
 
-  const std::vector<sweep_guard_core::StampedPose>& poses() const { return poses_; }  ///< stamps ascending, each once
+  const std::vector<sweep_guard_core::StampedPose>& poses() const { return poses_; }  ///< stamps strictly ascending
 
-  /// Ascending. A gap is an interval of more than 0.25 s and three median ones, as for PosePredictor.
+  /// Returns the segments in ascending order. A gap is an interval longer than both 0.25 s and three median intervals,
+  /// as for PosePredictor.
   const std::vector<Segment>& segments() const { return segments_; }
 
-  /// No gap and no end of the recording between the two.
-  bool unbroken(sweep_guard_core::Time from, sweep_guard_core::Time to) const;
+  /// Returns whether one segment contains both times.
+  bool isContinuous(sweep_guard_core::Time from, sweep_guard_core::Time to) const;
 
-  /// Index of the newest pose at a time not before the first pose.
+  /// Returns the index of the newest pose at `time`, which must not be before the first pose.
   size_t newestAt(sweep_guard_core::Time time) const;
 
-  /// Where the tool was.
+  /// Returns the pose X_WT at a time.
   /// @param time  from the first to the last stamp
   Eigen::Isometry3d at(sweep_guard_core::Time time) const;
 

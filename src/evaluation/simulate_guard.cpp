@@ -21,20 +21,21 @@ using sweep_guard_core::Time;
 using sweep_guard_core::WarningLimits;
 using sweep_guard_core::WarningMonitor;
 using sweep_guard_core::Workpiece;
+using sweep_guard_recording::LevelTrace;
 
 namespace {
 
-constexpr Duration kWatchPeriod = std::chrono::milliseconds(10);  // of the node
+constexpr Duration kWatchdogPeriod = std::chrono::milliseconds(10);  // of the node's watchdog
 constexpr size_t kProgressStep = 64;
 constexpr const char* kFrame = "world";
 
-/// Both clocks go with the recording.
+/// Returns a time of the recording on both clocks.
 Instant instantOf(Time time) { return {time, SteadyTime(time.time_since_epoch())}; }
 
-/// One placement while it is there.
-class Watched {
+/// Monitors one placement during its episode.
+class ActivePlacement {
  public:
-  Watched(size_t index, const ObstaclePlacement& placement, const GuardSimulationOptions& options)
+  ActivePlacement(size_t index, const ObstaclePlacement& placement, const GuardSimulationOptions& options)
       : index_(index), end_(placement.end) {
     const Instant at = instantOf(placement.begin);
     workpiece_ = std::make_shared<const Workpiece>(
@@ -43,16 +44,16 @@ class Watched {
       WarningLimits limits = options.limits;
       limits.min_probability = min_probability;
       monitors_.emplace_back(limits).setWorkpieces({workpiece_});
-      shown_.emplace_back();
+      traces_.emplace_back();
     }
   }
 
   size_t index() const { return index_; }
   Time end() const { return end_; }
   const std::shared_ptr<const Workpiece>& workpiece() const { return workpiece_; }
-  const std::vector<LevelTrace>& shown() const { return shown_; }
+  const std::vector<LevelTrace>& traces() const { return traces_; }
 
-  void take(const SweepReport& report, const Prediction& prediction) {
+  void report(const SweepReport& report, const Prediction& prediction) {
     const Instant at = instantOf(report.end);
     for (WarningMonitor& monitor : monitors_) {
       monitor.swept(report, {at.stamp, at.steady}, {}, at.steady);
@@ -60,10 +61,10 @@ class Watched {
     }
   }
 
-  void look(Time time) {
-    for (size_t i = 0; i < shown_.size(); ++i) {
+  void recordLevel(Time time) {
+    for (size_t i = 0; i < traces_.size(); ++i) {
       monitors_[i].warning(instantOf(time), warning_);
-      shown_[i].show(time, warning_.level);
+      traces_[i].add(time, warning_.level);
     }
   }
 
@@ -73,10 +74,10 @@ class Watched {
   std::shared_ptr<const Workpiece> workpiece_;
   std::deque<WarningMonitor> monitors_;  // by threshold
   sweep_guard_core::Warning warning_;
-  std::vector<LevelTrace> shown_;
+  std::vector<LevelTrace> traces_;
 };
 
-sweep_guard_core::GuardOptions unhurried(sweep_guard_core::GuardOptions options) {
+sweep_guard_core::GuardOptions withoutTimeLimit(sweep_guard_core::GuardOptions options) {
   options.clock = [] { return SteadyTime(); };
   return options;
 }
@@ -87,11 +88,11 @@ class GuardSimulation {
       : placements_(placements),
         options_(options),
         guard_(sweep_guard_core::Tool(options.tool), sweep_guard_core::makeDetector("reference"),
-               unhurried(options.guard)),
+               withoutTimeLimit(options.guard)),
         episodes_(options.min_probabilities.size(), std::vector<Episode>(placements.size())) {}
 
-  void take(const StampedPose& pose) {
-    lookBefore(pose.stamp);
+  void addPose(const StampedPose& pose) {
+    recordLevelsBefore(pose.stamp);
     begin(pose.stamp);
     sweep(pose);
     end(pose.stamp);
@@ -101,54 +102,54 @@ class GuardSimulation {
   std::vector<std::vector<Episode>> episodes() && { return std::move(episodes_); }
 
  private:
-  void lookBefore(Time stamp) {
-    for (Time time = newest_ + kWatchPeriod; !watched_.empty() && time < stamp; time += kWatchPeriod) {
-      for (Watched& watched : watched_) watched.look(time);
+  void recordLevelsBefore(Time stamp) {
+    for (Time time = newest_ + kWatchdogPeriod; !active_.empty() && time < stamp; time += kWatchdogPeriod) {
+      for (ActivePlacement& placement : active_) placement.recordLevel(time);
     }
   }
 
   void begin(Time stamp) {
     for (; next_ < placements_.size() && placements_[next_].begin <= stamp; ++next_) {
-      watched_.emplace_back(next_, placements_[next_], options_);
+      active_.emplace_back(next_, placements_[next_], options_);
     }
   }
 
   void sweep(const StampedPose& pose) {
     sweep_guard_core::Workpieces workpieces;
-    for (const Watched& watched : watched_) workpieces.push_back(watched.workpiece());
+    for (const ActivePlacement& placement : active_) workpieces.push_back(placement.workpiece());
     const Instant at = instantOf(pose.stamp);
-    SweepReport report =
-        guard_.sweep({at.stamp, at.steady, pose.X_WT, {{kFrame, Eigen::Isometry3d::Identity()}}}, workpieces);
-    if (watched_.empty()) return;
-    Prediction prediction = guard_.predict(Duration(0), workpieces);
-    handOut(report, prediction);
-    for (Watched& watched : watched_) watched.look(pose.stamp);
+    SweepReport report;
+    guard_.sweep({at.stamp, at.steady, pose.X_WT, {{kFrame, Eigen::Isometry3d::Identity()}}}, workpieces, report);
+    if (active_.empty()) return;
+    Prediction prediction;
+    guard_.predict(Duration(0), workpieces, prediction);
+    distribute(report, prediction);
+    for (ActivePlacement& placement : active_) placement.recordLevel(pose.stamp);
   }
 
-  /// To each placement what concerns it; guard and predictor see them all.
-  void handOut(SweepReport& report, Prediction& prediction) {
+  /// Passes to each placement the results of its own workpiece.
+  void distribute(SweepReport& report, Prediction& prediction) {
     auto swept = std::exchange(report.objects, {});
     auto predicted = std::exchange(prediction.objects, {});
     size_t i = 0;
-    for (Watched& watched : watched_) {
+    for (ActivePlacement& placement : active_) {
       report.objects.clear();
       report.objects.push_back(std::move(swept[i]));
       prediction.objects.clear();
       if (!predicted.empty()) prediction.objects.push_back(std::move(predicted[i]));
-      watched.take(report, prediction);
+      placement.report(report, prediction);
       ++i;
     }
   }
 
   void end(Time stamp) {
-    for (const Watched& watched : watched_) {
-      if (watched.end() > stamp) continue;
+    for (const ActivePlacement& placement : active_) {
+      if (placement.end() > stamp) continue;
       for (size_t i = 0; i < episodes_.size(); ++i) {
-        episodes_[i][watched.index()] = {placements_[watched.index()], watched.shown()[i]};
+        episodes_[i][placement.index()] = {placements_[placement.index()], placement.traces()[i]};
       }
     }
-    const auto over = [&](const Watched& watched) { return watched.end() <= stamp; };
-    watched_.remove_if(over);
+    active_.remove_if([&](const ActivePlacement& placement) { return placement.end() <= stamp; });
   }
 
   const std::vector<ObstaclePlacement>& placements_;
@@ -156,7 +157,7 @@ class GuardSimulation {
   Guard guard_;
   Time newest_;
   size_t next_ = 0;  // placement
-  std::list<Watched> watched_;
+  std::list<ActivePlacement> active_;
   std::vector<std::vector<Episode>> episodes_;
 };
 
@@ -167,7 +168,7 @@ std::vector<std::vector<Episode>> simulateGuard(const std::vector<StampedPose>& 
                                                 const GuardSimulationOptions& options, const Progress& progress) {
   GuardSimulation simulation(placements, options);
   for (size_t i = 0; i < poses.size(); ++i) {
-    simulation.take(poses[i]);
+    simulation.addPose(poses[i]);
     if ((i + 1) % kProgressStep == 0) progress(kProgressStep);
   }
   progress(poses.size() % kProgressStep);

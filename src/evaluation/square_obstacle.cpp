@@ -28,7 +28,7 @@ double distanceToSegment(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return (a + fraction * along).norm();
 }
 
-bool comesNearAxis(const Polygon& polygon, double radius) {
+bool isNearAxis(const Polygon& polygon, double radius) {
   bool left = true;
   bool right = true;
   for (size_t i = 0; i < polygon.size(); ++i) {
@@ -38,7 +38,7 @@ bool comesNearAxis(const Polygon& polygon, double radius) {
     left = left && cross(a, b) > 0.0;
     right = right && cross(a, b) < 0.0;
   }
-  return !polygon.empty() && (left || right);  // the axis goes through the polygon's inside
+  return !polygon.empty() && (left || right);  // the axis passes through the polygon
 }
 
 }  // namespace
@@ -47,11 +47,11 @@ sweep_guard_core::TriangleMesh meshOf(const SquareObstacle& obstacle) {
   return sweep_guard_core::TriangleMesh(cornersOf(obstacle, obstacle.X_WS), {{0, 1, 2}, {0, 2, 3}});
 }
 
-bool meets(const ConvexShape& tool, const Eigen::Isometry3d& X_WT, const SquareObstacle& obstacle, double margin) {
-  Polygon part_T = cornersOf(obstacle, X_WT.inverse() * obstacle.X_WS);
-  part_T = clip(part_T, HalfSpace(Eigen::Vector3d::UnitZ(), margin));
-  part_T = clip(part_T, HalfSpace(-Eigen::Vector3d::UnitZ(), tool.length() + margin));
-  return comesNearAxis(part_T, tool.radius() + margin);
+bool intersects(const ConvexShape& tool, const Eigen::Isometry3d& X_WT, const SquareObstacle& obstacle, double margin) {
+  Polygon clipped_T = cornersOf(obstacle, X_WT.inverse() * obstacle.X_WS);
+  clipped_T = clip(clipped_T, HalfSpace(Eigen::Vector3d::UnitZ(), margin));
+  clipped_T = clip(clipped_T, HalfSpace(-Eigen::Vector3d::UnitZ(), tool.length() + margin));
+  return isNearAxis(clipped_T, tool.radius() + margin);
 }
 
 }  // namespace sweep_guard_evaluation

@@ -5,21 +5,21 @@
 
 namespace sweep_guard_evaluation {
 
-/// A flat square surface that the tool may run into. Frame S: origin at its centre, x and y along its sides.
+/// A flat square. Frame S: origin at the center, x and y along the sides.
 struct SquareObstacle {
   Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
   double half_side = 0.1;  ///< [m], > 0
 };
 
-/// Two triangles, in W.
+/// Returns the square as two triangles in W.
 sweep_guard_core::TriangleMesh meshOf(const SquareObstacle& obstacle);
 
-/// Whether a tool meets a obstacle, in closed form and without the guard's boxes: the obstacle is clipped to the slab between
-/// the ends of the round cylinder, and what is left has a point within the radius of the axis, or has not.
-/// @param margin  grows the cylinder by so much in radius and at both ends [m], >= 0; a obstacle that is nearer than this
-/// to
-///                the tool is met, one farther than sqrt(2) times this is not
-bool meets(const sweep_guard_core::ConvexShape& tool, const Eigen::Isometry3d& X_WT, const SquareObstacle& obstacle,
-           double margin);
+/// Returns whether a round cylinder intersects an obstacle. Computed in closed form, independently of the guard: clips
+/// the square to the slab between the ends of the cylinder, and compares its distance from the axis with the radius.
+/// @param tool    a cylinder
+/// @param margin  grows radius and both ends of the cylinder [m], >= 0. Obstacles closer to the tool than `margin`
+///                intersect, those farther than sqrt(2) * `margin` do not.
+bool intersects(const sweep_guard_core::ConvexShape& tool, const Eigen::Isometry3d& X_WT,
+                const SquareObstacle& obstacle, double margin);
 
 }  // namespace sweep_guard_evaluation

@@ -1,12 +1,13 @@
 #include "evaluation/tradeoff_report.h"
 
+#include <fmt/format.h>
 #include <algorithm>
+
 #include <cassert>
 #include <limits>
 #include <utility>
 
 #include "evaluation/csv.h"
-#include "evaluation/format.h"
 #include "evaluation/gnuplot.h"
 
 namespace sweep_guard_evaluation {
@@ -20,7 +21,7 @@ std::string dataBlock(const WarningReport& report, size_t predictor, double lead
   std::string block;
   for (size_t threshold = 0; threshold < report.min_probabilities.size(); ++threshold) {
     const AlarmStatistics& statistics = report.considered(predictor, threshold);
-    block += format("%.6g %.6g\n", statistics.falseAlarmsPerMinute(), statistics.warnedAhead(lead));
+    block += fmt::format("{:.6g} {:.6g}\n", statistics.falseAlarmsPerMinute(), statistics.warnedAhead(lead));
   }
   return block;
 }
@@ -29,15 +30,14 @@ std::string panel(const WarningReport& report, double lead) {
   std::string data;
   std::string curves;
   for (size_t i = 0; i < report.predictors.size(); ++i) {
-    const std::string colour = colourOf(report.predictors[i]);
-    data += format("$curve%zu << END\n", i) + dataBlock(report, i, lead) + "END\n";
-    curves += (i == 0 ? "plot " : ", ") + format(
-                                              "$curve%zu with linespoints lw 2 pt 7 ps 0.4 lc rgb '%s', "
-                                              "$curve%zu every ::%zu::%zu with points pt 6 lw 3 ps 2 lc rgb '%s'",
-                                              i, colour.c_str(), i, report.chosen, report.chosen, colour.c_str());
+    data += fmt::format("$curve{} << END\n{}END\n", i, dataBlock(report, i, lead));
+    curves += fmt::format(
+        "{0} $curve{1} with linespoints lw 2 pt 7 ps 0.4 lc rgb '{2}', "
+        "$curve{1} every ::{3}::{3} with points pt 6 lw 3 ps 2 lc rgb '{2}'",
+        i == 0 ? "plot" : ",", i, colorOf(report.predictors[i]), report.chosen);
   }
-  const std::string title = report.recording + format(", %.1f s ahead", lead);
-  return data + "set title " + gnuplotText(title) + " noenhanced font ',12' offset 0,-0.6\n" + curves;
+  return fmt::format("{}set title {} noenhanced font ',12' offset 0,-0.6\n{}", data,
+                     gnuplotText(fmt::format("{}, {:.1f} s ahead", report.recording, lead)), curves);
 }
 
 }  // namespace
@@ -51,8 +51,8 @@ std::vector<double> tradeoffThresholds(double chosen) {
   return thresholds;
 }
 
-double meanShareWarned(const WarningReport& report, size_t predictor, double lead, double most_false_alarms) {
-  assert(most_false_alarms > 0.0);
+double meanShareWarned(const WarningReport& report, size_t predictor, double lead, double max_false_alarms) {
+  assert(max_false_alarms > 0.0);
   if (report.considered(predictor, report.chosen).contacts == 0) return std::numeric_limits<double>::quiet_NaN();
   std::vector<std::pair<double, double>> points;  // false alarms, share
   for (size_t threshold = 0; threshold < report.min_probabilities.size(); ++threshold) {
@@ -64,12 +64,12 @@ double meanShareWarned(const WarningReport& report, size_t predictor, double lea
   double share = 0.0;
   double from = 0.0;
   for (const auto& [false_alarms, next_share] : points) {
-    if (false_alarms >= most_false_alarms) break;
+    if (false_alarms >= max_false_alarms) break;
     area += share * (false_alarms - from);
     from = false_alarms;
     share = std::max(share, next_share);
   }
-  return (area + share * (most_false_alarms - from)) / most_false_alarms;
+  return (area + share * (max_false_alarms - from)) / max_false_alarms;
 }
 
 std::string tradeoffCsv(const std::vector<WarningReport>& reports) {
@@ -90,15 +90,15 @@ std::string tradeoffCsv(const std::vector<WarningReport>& reports) {
   return csv;
 }
 
-std::string tradeoffTable(const WarningReport& report, double most_false_alarms) {
-  std::string table =
-      report.recording +
-      format(", share of contacts warned of, averaged over 0 to %g false alarms per min:\n", most_false_alarms) +
-      "  predictor         at least   0.1 s  0.5 s  1.0 s ahead\n";
+std::string tradeoffTable(const WarningReport& report, double max_false_alarms) {
+  std::string table = fmt::format(
+      "{}, share of contacts warned of, averaged over 0 to {:g} false alarms per min:\n"
+      "  predictor         at least   0.1 s  0.5 s  1.0 s ahead\n",
+      report.recording, max_false_alarms);
   for (size_t predictor = 0; predictor < report.predictors.size(); ++predictor) {
-    table += format("  %-26s", report.predictors[predictor].c_str());
+    table += fmt::format("  {:<26}", report.predictors[predictor]);
     for (const double lead : comparedLeads()) {
-      table += format("  %.3f", meanShareWarned(report, predictor, lead, most_false_alarms));
+      table += fmt::format("  {:.3f}", meanShareWarned(report, predictor, lead, max_false_alarms));
     }
     table += '\n';
   }
@@ -108,8 +108,8 @@ std::string tradeoffTable(const WarningReport& report, double most_false_alarms)
 std::string tradeoffPlot(const std::vector<WarningReport>& reports, const std::string& path) {
   PlotPage page(path, reports.size(), comparedLeads().size());
   const WarningReport& first = reports.front();
-  page.addKey(first.predictors, {format("with points pt 6 lw 3 ps 2 lc rgb 'black' title 'probability %g'",
-                                        first.min_probabilities[first.chosen])});
+  page.addKey(first.predictors, {fmt::format("with points pt 6 lw 3 ps 2 lc rgb 'black' title 'probability {:g}'",
+                                             first.min_probabilities[first.chosen])});
   for (size_t row = 0; row < reports.size(); ++row) {
     for (size_t column = 0; column < comparedLeads().size(); ++column) {
       const std::string label = row + 1 == reports.size() ? "set xlabel 'false alarms per minute'\n" : "";

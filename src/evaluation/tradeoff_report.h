@@ -7,24 +7,26 @@
 
 namespace sweep_guard_evaluation {
 
-/// The thresholds that a trade-off is drawn over: from 0.001, below which a probability is taken for 0, to 1, where
-/// nothing but the predicted path itself warns. The one chosen is among them.
+/// Returns the thresholds of a trade-off: from 0.001, below which a probability counts as 0, to 1, where only the
+/// predicted path warns. Includes `chosen`.
 std::vector<double> tradeoffThresholds(double chosen);
 
-/// How much a predictor warns for how many false alarms: the largest share of contacts that some threshold gives at
-/// least `lead` ahead [s] at no more than x false alarms per minute, averaged over x from 0 to `most_false_alarms` (the
-/// area under the curve, divided by its width). 1 is the best; where no threshold gives so few false alarms, the share
-/// is 0. NaN without contacts.
-double meanShareWarned(const WarningReport& report, size_t predictor, double lead, double most_false_alarms);
+/// Returns the area under the trade-off curve of a predictor, divided by its width: the largest share of contacts with
+/// a lead of at least `lead` [s] that some threshold gives with at most x false alarms per minute, averaged over x from
+/// 0 to `max_false_alarms`. 1 is best. The share is 0 where no threshold gives so few false alarms. NaN without
+/// contacts.
+double meanShareWarned(const WarningReport& report, size_t predictor, double lead, double max_false_alarms);
 
-/// Of all thresholds: recording,predictor,min_probability,false_alarms_per_min,warned_0.1,warned_0.5,warned_1.0
+/// Returns a CSV file of all thresholds with the columns
+/// recording,predictor,min_probability,false_alarms_per_min,warned_0.1,warned_0.5,warned_1.0.
 std::string tradeoffCsv(const std::vector<WarningReport>& reports);
 
-/// meanShareWarned() of all predictors.
-std::string tradeoffTable(const WarningReport& report, double most_false_alarms);
+/// Returns meanShareWarned() of all predictors as a table for the terminal.
+std::string tradeoffTable(const WarningReport& report, double max_false_alarms);
 
-/// A script for gnuplot that draws the share of contacts warned of in time against false alarms per minute: one row of
-/// panels for each recording, one column for each lead, one curve for each predictor, the threshold chosen marked.
+/// Returns a gnuplot script that plots the share of contacts with a warning in time against the false alarms per
+/// minute: one row of panels for each recording, one column for each lead, one curve for each predictor, with a mark at
+/// the chosen threshold.
 /// @param path  of the PNG file
 std::string tradeoffPlot(const std::vector<WarningReport>& reports, const std::string& path);
 

@@ -1,7 +1,8 @@
 #include "evaluation/warning_report.h"
 
+#include <fmt/format.h>
+
 #include "evaluation/csv.h"
-#include "evaluation/format.h"
 #include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_evaluation {
@@ -10,13 +11,12 @@ using sweep_guard_core::quantile;
 
 namespace {
 
-std::string percent(double share) { return format("%5.1f %%", 100.0 * share); }
-
 std::string tableLine(const AlarmRule& rule, const AlarmStatistics& statistics) {
-  std::string line = format("%-10s %4zu of %-4zu %6.2f %6.2f", rule.interval.c_str(), statistics.leads.size(),
-                            statistics.contacts, quantile(statistics.leads, 0.5), quantile(statistics.leads, 0.05));
-  for (const double lead : comparedLeads()) line += "  " + percent(statistics.warnedAhead(lead));
-  return line + format("  %8.2f\n", statistics.falseAlarmsPerMinute());
+  std::string line =
+      fmt::format("{:<10} {:4} of {:<4} {:6.2f} {:6.2f}", rule.interval, statistics.leads.size(), statistics.contacts,
+                  quantile(statistics.leads, 0.5), quantile(statistics.leads, 0.05));
+  for (const double lead : comparedLeads()) line += fmt::format("  {:5.1f} %", 100.0 * statistics.warnedAhead(lead));
+  return line + fmt::format("  {:8.2f}\n", statistics.falseAlarmsPerMinute());
 }
 
 }  // namespace
@@ -44,14 +44,14 @@ std::string warningCsv(const std::vector<WarningReport>& reports) {
 }
 
 std::string warningTable(const WarningReport& report) {
-  std::string table = report.recording + format(", %zu placements, warnings at a probability of %g:\n",
-                                                report.placements, report.min_probabilities[report.chosen]);
-  table +=
+  std::string table = fmt::format(
+      "{}, {} placements, warnings at a probability of {:g}:\n"
       "  predictor         interval   contacts    lead [s]       contacts warned of at least      false alarms\n"
-      "                               warned of   median    5%      0.1 s    0.5 s    1.0 s ahead   per min\n";
+      "                               warned of   median    5%      0.1 s    0.5 s    1.0 s ahead   per min\n",
+      report.recording, report.placements, report.min_probabilities[report.chosen]);
   for (size_t predictor = 0; predictor < report.predictors.size(); ++predictor) {
     for (size_t rule = 0; rule < alarmRules().size(); ++rule) {
-      table += format("  %-17s ", report.predictors[predictor].c_str()) +
+      table += fmt::format("  {:<17} ", report.predictors[predictor]) +
                tableLine(alarmRules()[rule], report.statistics[predictor][report.chosen][rule]);
     }
   }

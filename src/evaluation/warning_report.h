@@ -7,13 +7,13 @@
 
 namespace sweep_guard_evaluation {
 
-/// What the warnings of several predictors were worth on one recording, on the same placements.
+/// Leads and false alarms of several predictors on one recording, with the same placements.
 struct WarningReport {
   std::string recording;
   size_t placements = 0;
   std::vector<std::string> predictors;
   std::vector<double> min_probabilities;  ///< thresholds, ascending
-  size_t chosen = 0;                      ///< index of the one that the guard is run with
+  size_t chosen = 0;                      ///< index of the threshold that the guard uses
   /// By predictor, by threshold, then in the order of alarmRules().
   std::vector<std::vector<std::array<AlarmStatistics, 2>>> statistics;
 
@@ -22,13 +22,14 @@ struct WarningReport {
   }
 };
 
-/// The leads at which warnings are compared [s].
+/// Returns the leads at which warnings are compared [s].
 const std::vector<double>& comparedLeads();
 
-/// At the threshold chosen: recording,predictor,interval,contacts,warned,lead_median_s,lead_p5_s,false_alarms_per_min
+/// Returns a CSV file for the chosen threshold with the columns
+/// recording,predictor,interval,contacts,warned,lead_median_s,lead_p5_s,false_alarms_per_min.
 std::string warningCsv(const std::vector<WarningReport>& reports);
 
-/// The same for a reader, with the shares of contacts warned ahead.
+/// Returns the same as a table for the terminal, with the shares of contacts warned of in time.
 std::string warningTable(const WarningReport& report);
 
 }  // namespace sweep_guard_evaluation

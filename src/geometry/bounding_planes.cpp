@@ -1,4 +1,4 @@
-#include "sweep_guard/geometry/bounding_planes.h"
+#include "geometry/bounding_planes.h"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace sweep_guard_core {
 namespace {
 
-// A point of the body at one pose, in the plane (Y, Z) of the box.
+// A point of the body at one pose, projected into the (Y, Z) plane of the box.
 using PlanePoint = Eigen::Vector2d;
 
 struct Face {
@@ -24,14 +24,13 @@ Face projectFace(const ConvexShape& shape, ExtremeOfFace extreme, const Eigen::I
   return {highest.tail<2>(), lowest.tail<2>()};
 }
 
-struct Candidate {
+struct Line {
   PlanePoint from;
   PlanePoint to;
 };
 
-// Area that the line a y + b z = d cuts off the rectangle |y| <= h.y, |z| <= h.z, outside of it: with c = a h.y + b h.z
-// - d, the reach of the corner beyond the line, a triangle of legs c / a and c / b, less what of it lies beyond the
-// other corners.
+// Area of the rectangle |y| <= h.y, |z| <= h.z beyond the line a y + b z = d: with c = a h.y + b h.z - d, the distance
+// of the corner beyond the line, this is a triangle with legs c / a and c / b minus its parts outside of the rectangle.
 double areaCutOff(const Eigen::Vector2d& normal, double offset, const Eigen::Vector2d& h) {
   const double a = std::abs(normal.x());
   const double b = std::abs(normal.y());
@@ -44,20 +43,19 @@ double areaCutOff(const Eigen::Vector2d& normal, double offset, const Eigen::Vec
   return (c * c - squareBeyond(c - 2.0 * a * h.x()) - squareBeyond(c - 2.0 * b * h.y())) / (2.0 * a * b);
 }
 
-// Of the planes through the candidate lines, each with the normal that points the way of `outward`, the one that cuts
-// most off.
-std::optional<HalfSpace> tightestPlane(const std::array<Candidate, 4>& lines, const Eigen::Vector2d& outward,
+// Returns the plane through one of the lines, with its normal towards `outward`, that cuts off the largest area.
+std::optional<HalfSpace> tightestPlane(const std::array<Line, 4>& lines, const Eigen::Vector2d& outward,
                                        const ConvexShape& shape, const Motion& motion_B,
                                        const Eigen::Vector3d& half_extents) {
   const double negligible = 1e-9 * half_extents.norm();
   std::optional<HalfSpace> tightest;
   double largest = negligible * half_extents.norm();
-  for (const Candidate& line : lines) {
+  for (const Line& line : lines) {
     const Eigen::Vector2d along = line.to - line.from;
-    if (along.norm() <= negligible) continue;  // one point gives no line
+    if (along.norm() <= negligible) continue;  // the points coincide
     const Eigen::Vector2d across = Eigen::Vector2d(along.y(), -along.x()).normalized();
     const Eigen::Vector2d facing = across.dot(outward) < 0.0 ? Eigen::Vector2d(-across) : across;
-    // The line runs through points of the body: pushed out, it cuts off no more than this.
+    // The line runs through points of the body: moved outwards, it cuts off no more than here.
     if (areaCutOff(facing, facing.dot(line.from), half_extents.tail<2>()) <= largest) continue;
     const Eigen::Vector3d normal(0.0, facing.x(), facing.y());
     const double offset = support(shape, motion_B, normal);
@@ -81,13 +79,13 @@ Clips boundingPlanes(const ConvexShape& shape, const Motion& motion, const Orien
   const Face rear_end = projectFace(shape, &ConvexShape::rearSupport, motion_B.X_MT_end);
 
   const auto sides = [&](PlanePoint Face::*y) {
-    return std::array<Candidate, 4>{{{rear_start.*y, front_start.*y},
-                                     {rear_end.*y, front_end.*y},
-                                     {rear_start.*y, front_end.*y},
-                                     {rear_end.*y, front_start.*y}}};
+    return std::array<Line, 4>{{{rear_start.*y, front_start.*y},
+                                {rear_end.*y, front_end.*y},
+                                {rear_start.*y, front_end.*y},
+                                {rear_end.*y, front_start.*y}}};
   };
   const auto fronts = [](const Face& start, const Face& end) {
-    return std::array<Candidate, 4>{
+    return std::array<Line, 4>{
         {{start.y_max, end.y_max}, {start.y_max, end.y_min}, {start.y_min, end.y_max}, {start.y_min, end.y_min}}};
   };
   const Eigen::Vector3d axis_T = shape.axis_T();
@@ -95,7 +93,7 @@ Clips boundingPlanes(const ConvexShape& shape, const Motion& motion, const Orien
   const Eigen::Vector2d side = std::copysign(1.0, tip.y()) * Eigen::Vector2d(tip.y(), -tip.x());  // towards +Y
 
   Clips planes;
-  const auto add = [&](const std::array<Candidate, 4>& lines, const Eigen::Vector2d& outward) {
+  const auto add = [&](const std::array<Line, 4>& lines, const Eigen::Vector2d& outward) {
     if (const auto plane = tightestPlane(lines, outward, shape, motion_B, box.half_extents)) planes.push_back(*plane);
   };
   add(sides(&Face::y_max), side);

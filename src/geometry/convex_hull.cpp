@@ -21,16 +21,17 @@ namespace sweep_guard_core {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-using Facet = std::vector<std::uint32_t>;  // as many points as the hull has dimensions
+using Facet = std::vector<std::uint32_t>;  // indices of its corners, as many as the hull has dimensions
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
-constexpr double kMaxHullTolerance = 1e-9;  // of the extent
+constexpr double kMaxHullTolerance = 1e-9;  // relative to the extent
 
-// What Qhull makes of the points: facets with the indices of their corners.
+// Runs Qhull. Not libqhullcpp: on flat points it crashes where another plugin of the process has loaded libqhull_r
+// before.
 class Qhull {
  public:
   Qhull() : messages_(std::fopen("/dev/null", "w")) {
-    if (!messages_) throw DeviceError("cannot open /dev/null, where the messages of Qhull go");
+    if (!messages_) throw DeviceError("cannot open /dev/null for the messages of Qhull");
     qh_zero(&qh_, messages_.get());
   }
   ~Qhull() {
@@ -42,7 +43,7 @@ class Qhull {
   Qhull(const Qhull&) = delete;
   Qhull& operator=(const Qhull&) = delete;
 
-  // Nothing if the points have fewer dimensions than that, or if Qhull gives up.
+  // Returns no facets if the points span fewer dimensions or Qhull fails.
   std::optional<std::vector<Facet>> facets(std::vector<double> coordinates, int dimensions) {
     std::string command = "qhull Qt";
     const int count = static_cast<int>(coordinates.size()) / dimensions;
@@ -91,8 +92,8 @@ Points distinct(Points points) {
   return points;
 }
 
-// The points about their middle: what is far away is as exact as what is near.
-Eigen::Matrix3Xd centred(const Points& points) {
+// The points relative to their center, to keep their digits.
+Eigen::Matrix3Xd centered(const Points& points) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : points) box.extend(p);
   Eigen::Matrix3Xd about(3, points.size());
@@ -102,7 +103,7 @@ Eigen::Matrix3Xd centred(const Points& points) {
 
 double extentOf(const Eigen::Matrix3Xd& about) { return std::sqrt(about.colwise().squaredNorm().maxCoeff()); }
 
-// Their coordinates along their own principal axes, the longest first, of about 1: Qhull has absolute tolerances.
+// The coordinates along the principal axes, the longest first, scaled to about 1: Qhull has absolute tolerances.
 Eigen::Matrix3Xd principalCoordinates(const Eigen::Matrix3Xd& about) {
   const Eigen::Matrix3Xd scaled = about / extentOf(about);
   const Eigen::Vector3d mean = scaled.rowwise().mean();
@@ -135,22 +136,22 @@ Facet cornersOf(const std::vector<Facet>& facets) {
   return corners;
 }
 
-// The hull as simplices from its middle to its facets: a point is near one of their convex combinations.
+// The hull as simplices from its center to its facets, for convex combinations near a point.
 class Simplices {
  public:
   Simplices(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
     const Facet corners = cornersOf(facets);
-    for (const std::uint32_t corner : corners) middle_ += about.col(corner) / static_cast<double>(corners.size());
+    for (const std::uint32_t corner : corners) center_ += about.col(corner) / static_cast<double>(corners.size());
     for (const Facet& facet : facets) add(about, facet);
   }
 
-  // Bound on the distance of a point from the hull, but for the rounding of the sums.
-  double hull_tolerance(const Eigen::Vector3d& p, double negligible) const {
-    double least = (p - middle_).norm();
+  // Returns a bound on the distance of a point from the hull, except for the rounding of the sums.
+  double distanceBound(const Eigen::Vector3d& p, double negligible) const {
+    double least = (p - center_).norm();
     for (size_t i = 0; i < spans_.size() && least > negligible; ++i) {
-      Eigen::VectorXd weights = (inverses_[i] * (p - middle_)).cwiseMax(0.0);
+      Eigen::VectorXd weights = (inverses_[i] * (p - center_)).cwiseMax(0.0);
       weights /= std::max(1.0, weights.sum());
-      const double distance = (p - middle_ - spans_[i] * weights).norm();
+      const double distance = (p - center_ - spans_[i] * weights).norm();
       if (distance < least) least = distance;
     }
     return least;
@@ -159,14 +160,14 @@ class Simplices {
  private:
   void add(const Eigen::Matrix3Xd& about, const Facet& facet) {
     Eigen::MatrixXd span(3, facet.size());
-    for (size_t i = 0; i < facet.size(); ++i) span.col(static_cast<Eigen::Index>(i)) = about.col(facet[i]) - middle_;
+    for (size_t i = 0; i < facet.size(); ++i) span.col(static_cast<Eigen::Index>(i)) = about.col(facet[i]) - center_;
     const Eigen::MatrixXd inverse = span.completeOrthogonalDecomposition().pseudoInverse();
     if (!inverse.allFinite()) return;
     spans_.push_back(span);
     inverses_.push_back(inverse);
   }
 
-  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   std::vector<Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>> spans_;
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3>> inverses_;
 };
@@ -178,9 +179,9 @@ double hullTolerance(const Eigen::Matrix3Xd& about, const std::vector<Facet>& fa
   double hull_tolerance = 0.0;
   for (std::uint32_t i = 0; i < about.cols(); ++i) {
     if (std::binary_search(corners.begin(), corners.end(), i)) continue;
-    hull_tolerance = std::max(hull_tolerance, simplices.hull_tolerance(about.col(i), 4.0 * rounding));
+    hull_tolerance = std::max(hull_tolerance, simplices.distanceBound(about.col(i), 4.0 * rounding));
   }
-  // Each weight and each sum may be off by one rounding per corner.
+  // Each weight and each sum may have one rounding error per corner.
   return hull_tolerance + static_cast<double>(corners.size() + 32) * rounding;
 }
 
@@ -194,12 +195,12 @@ std::vector<Triangle> fan(size_t corners) {
 
 ConvexHull everyPoint(const Points& points) { return {points, fan(points.size()), 0.0, false}; }
 
-// Corners of a flat hull in their order around it.
-Facet around(const Eigen::Matrix3Xd& principal, Facet corners) {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const std::uint32_t i : corners) middle += principal.col(i).head<2>() / static_cast<double>(corners.size());
+// Returns the corners of a flat hull in order around it.
+Facet sortedAround(const Eigen::Matrix3Xd& principal, Facet corners) {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  for (const std::uint32_t i : corners) center += principal.col(i).head<2>() / static_cast<double>(corners.size());
   const auto angle = [&](std::uint32_t i) {
-    return std::atan2(principal(1, i) - middle.y(), principal(0, i) - middle.x());
+    return std::atan2(principal(1, i) - center.y(), principal(0, i) - center.x());
   };
   std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) { return angle(a) < angle(b); });
   return corners;
@@ -214,7 +215,7 @@ std::vector<Triangle> renumbered(const std::vector<Facet>& facets, const Facet& 
   return triangles;
 }
 
-// The hull of that many dimensions; nothing if there is none, or none near enough to the points.
+// Returns no hull if the points span fewer dimensions or the hull is not near enough to them.
 std::optional<ConvexHull> hullOf(const Points& points, const Eigen::Matrix3Xd& about, const Eigen::Matrix3Xd& principal,
                                  int dimensions) {
   const std::optional<std::vector<Facet>> facets =
@@ -225,7 +226,7 @@ std::optional<ConvexHull> hullOf(const Points& points, const Eigen::Matrix3Xd& a
   Facet corners = cornersOf(*facets);
   ConvexHull hull{{}, {}, hull_tolerance, dimensions == 3};
   hull.triangles = hull.solid ? renumbered(*facets, corners) : fan(corners.size());
-  if (dimensions == 2) corners = around(principal, corners);
+  if (dimensions == 2) corners = sortedAround(principal, corners);
   for (const std::uint32_t i : corners) hull.corners.push_back(points[i]);
   return hull;
 }
@@ -236,7 +237,7 @@ ConvexHull convexHull(const std::vector<Eigen::Vector3d>& points) {
   checkPoints(points);
   const Points given = distinct(points);
   if (given.size() == 1) return everyPoint(given);
-  const Eigen::Matrix3Xd about = centred(given);
+  const Eigen::Matrix3Xd about = centered(given);
   const Eigen::Matrix3Xd principal = principalCoordinates(about);
   for (const int dimensions : {3, 2, 1}) {
     if (std::optional<ConvexHull> hull = hullOf(given, about, principal, dimensions)) return *std::move(hull);

@@ -75,7 +75,7 @@ Surface sphereSurface(double radius) {
   return surface;
 }
 
-// Corner i has the sign of bit k along axis k.
+// Corner i is on the positive side of axis k if bit k of i is set.
 std::array<Eigen::Vector3d, 8> boxCorners(const Eigen::Vector3d& h) {
   std::array<Eigen::Vector3d, 8> corners;
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -116,7 +116,7 @@ Moments triangleMoments(const TriangleMesh& mesh) {
   return moments;
 }
 
-Eigen::Vector3d discExtreme(double z, double radius, const Eigen::Vector3d& direction) {
+Eigen::Vector3d discSupport(double z, double radius, const Eigen::Vector3d& direction) {
   const Eigen::Vector2d radial = direction.head<2>();
   const double length = radial.norm();
   if (length == 0.0) return {0.0, 0.0, z};
@@ -218,7 +218,7 @@ double ConvexShape::support(const Eigen::Vector3d& direction_T) const {
 Eigen::Vector3d ConvexShape::supportPoint(const Eigen::Vector3d& direction_T) const {
   const Eigen::Vector3d d = R_TS_.transpose() * direction_T;
   const Eigen::Vector3d p_S = std::visit(
-      Overloaded{[&](const Round& round) { return discExtreme(d.z() < 0.0 ? -round.length : 0.0, round.radius, d); },
+      Overloaded{[&](const Round& round) { return discSupport(d.z() < 0.0 ? -round.length : 0.0, round.radius, d); },
                  [&](const Box& box) -> Eigen::Vector3d { return box.half_extents.cwiseProduct(d.unaryExpr(&sign)); },
                  [&](const Points& points) { return farthest(points.corners, d); }},
       body_S_);
@@ -296,7 +296,7 @@ ConvexShape::Faces ConvexShape::facesOfBox(const Eigen::Matrix3d& axes_T) const 
 Eigen::Vector3d ConvexShape::faceSupport(double z, const Eigen::Vector3d& direction_T) const {
   const Eigen::Vector3d d = faces_.R_TF.transpose() * direction_T;
   const Eigen::Vector3d p_F =
-      faces_.round ? discExtreme(z, faces_.half_sides.x(), d)
+      faces_.round ? discSupport(z, faces_.half_sides.x(), d)
                    : Eigen::Vector3d(sign(d.x()) * faces_.half_sides.x(), sign(d.y()) * faces_.half_sides.y(), z);
   const double length = direction_T.norm();
   const Eigen::Vector3d p_T = faces_.p_T + faces_.R_TF * p_F;

@@ -44,7 +44,7 @@ std::vector<Eigen::Vector3d> cornersOf(const TriangleMesh& mesh, const Set& set)
   return corners;
 }
 
-// The corners of the triangles as columns, each as often as it is used.
+// Returns the corners of the triangles as columns, each once per triangle.
 Eigen::Matrix3Xd usesOf(const TriangleMesh& mesh, const Set& set) {
   Eigen::Matrix3Xd uses(3, 3 * set.size());
   Eigen::Index column = 0;
@@ -54,7 +54,7 @@ Eigen::Matrix3Xd usesOf(const TriangleMesh& mesh, const Set& set) {
   return uses;
 }
 
-// The normal of a triangle, as long as its area is large [m^2].
+// Returns the normal of a triangle with its area as length [m^2].
 Eigen::Vector3d areaNormal(const TriangleMesh& mesh, std::uint32_t triangle) {
   const auto& [a, b, c] = mesh.triangles()[triangle];
   return 0.5 * (mesh.offset(b) - mesh.offset(a)).cross(mesh.offset(c) - mesh.offset(a));
@@ -65,7 +65,7 @@ Eigen::Vector3d centroid(const TriangleMesh& mesh, std::uint32_t triangle) {
   return (mesh.offset(a) + mesh.offset(b) + mesh.offset(c)) / 3.0;
 }
 
-// The axes of the box of the moments, that of its longest side first.
+// Returns the principal axes, sorted by descending extent.
 std::array<Eigen::Vector3d, 3> axesOf(const Eigen::Matrix3Xd& about_mean) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> moments(about_mean * about_mean.transpose());
   std::array<Eigen::Vector3d, 3> axes = {moments.eigenvectors().col(2), moments.eigenvectors().col(1),
@@ -101,7 +101,7 @@ std::vector<HalfSpace> facesOf(const ConvexHull& hull, const Eigen::Vector3d& or
   return faces;
 }
 
-// How far it is from a point inside of the faces to where a line along a unit direction leaves them, the shorter way.
+// Returns the shorter distance from a point inside of the faces, along a line with a unit direction, to the faces.
 double depth(const std::vector<HalfSpace>& faces, const Eigen::Vector3d& p, const Eigen::Vector3d& direction) {
   double ahead = std::numeric_limits<double>::infinity();
   double behind = std::numeric_limits<double>::infinity();
@@ -114,7 +114,7 @@ double depth(const std::vector<HalfSpace>& faces, const Eigen::Vector3d& p, cons
   return std::min(ahead, behind);
 }
 
-// The space between the triangles and the surface of their hull [m^3]; an estimate.
+// Estimates the space between the triangles and the surface of their hull [m^3].
 double spaceBetween(const TriangleMesh& mesh, const Set& set, const ConvexHull& hull) {
   if (!hull.solid) return 0.0;
   const std::vector<HalfSpace> faces = facesOf(hull, mesh.origin());
@@ -127,16 +127,16 @@ double spaceBetween(const TriangleMesh& mesh, const Set& set, const ConvexHull& 
   return space;
 }
 
-bool before(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+bool lexicographicallyLess(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-// For each vertex the first that lies at the same place: files often have one for each triangle that uses it.
+// Returns for each vertex the first one at the same place: files often have one vertex per triangle and corner.
 Set placesOf(const TriangleMesh& mesh) {
   Set order(mesh.vertexCount());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return before(mesh.offset(a), mesh.offset(b)); });
+            [&](std::uint32_t a, std::uint32_t b) { return lexicographicallyLess(mesh.offset(a), mesh.offset(b)); });
   Set places(order.size());
   for (size_t i = 0; i < order.size(); ++i) {
     const bool same = i > 0 && mesh.offset(order[i]) == mesh.offset(order[i - 1]);
@@ -145,8 +145,8 @@ Set placesOf(const TriangleMesh& mesh) {
   return places;
 }
 
-// The pieces that hang together by vertices, ordered by their first triangle.
-std::vector<Set> piecesOf(const TriangleMesh& mesh) {
+// Returns the components that are connected by vertices, ordered by their first triangle.
+std::vector<Set> componentsOf(const TriangleMesh& mesh) {
   Set root = placesOf(mesh);
   const auto rootOf = [&root](std::uint32_t vertex) {
     while (root[vertex] != vertex) vertex = root[vertex] = root[root[vertex]];
@@ -158,15 +158,15 @@ std::vector<Set> piecesOf(const TriangleMesh& mesh) {
   }
   std::map<std::uint32_t, Set> by_root;
   for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) by_root[rootOf(mesh.triangles()[i][0])].push_back(i);
-  std::vector<Set> pieces;
-  for (auto& [vertex, piece] : by_root) pieces.push_back(std::move(piece));
-  return pieces;
+  std::vector<Set> components;
+  for (auto& [vertex, component] : by_root) components.push_back(std::move(component));
+  return components;
 }
 
 struct Cover {
   std::vector<Set> sets;
-  double swept = 0.0;   // what the hulls sweep in a step [m^3]
-  double wasted = 0.0;  // as much of that as is not the mesh
+  double swept = 0.0;   // volume that the hulls cover in a step [m^3]
+  double wasted = 0.0;  // part of it that the mesh does not need [m^3]
 };
 
 int levelsFor(size_t count) {
@@ -185,14 +185,14 @@ class Decomposition {
   Decomposition(const TriangleMesh& mesh, const DecompositionOptions& options) : mesh_(mesh), step_(options.step) {
     Set all(mesh.triangles().size());
     std::iota(all.begin(), all.end(), 0U);
-    price_of_a_part_ = options.least_saving * whole(all).swept;
+    price_per_piece_ = options.least_saving * whole(all).swept;
     cover_ = bestCover(all, options.max_depth);
-    const std::vector<Set> pieces = piecesOf(mesh);
-    const int depth = options.max_depth - levelsFor(pieces.size());
-    if (depth < 0 || pieces.size() == 1) return;
-    Cover apart;
-    for (const Set& piece : pieces) apart = joined(std::move(apart), bestCover(piece, depth));
-    if (pays(apart, cover_)) cover_ = std::move(apart);
+    const std::vector<Set> components = componentsOf(mesh);
+    const int depth = options.max_depth - levelsFor(components.size());
+    if (depth < 0 || components.size() == 1) return;
+    Cover separate;
+    for (const Set& component : components) separate = joined(std::move(separate), bestCover(component, depth));
+    if (pays(separate, cover_)) cover_ = std::move(separate);
   }
 
   std::vector<Set> sets() && { return std::move(cover_.sets); }
@@ -205,23 +205,23 @@ class Decomposition {
   }
 
   Cover bestCover(const Set& set, int depth) const {
-    Cover one = whole(set);
-    if (depth == 0 || one.wasted <= price_of_a_part_) return one;
+    Cover undivided = whole(set);
+    if (depth == 0 || undivided.wasted <= price_per_piece_) return undivided;
     std::optional<Halves> halves = cut(mesh_, set);
-    if (!halves) return one;
-    Cover parts = joined(bestCover(halves->first, depth - 1), bestCover(halves->second, depth - 1));
-    return pays(parts, one) ? parts : one;
+    if (!halves) return undivided;
+    Cover divided = joined(bestCover(halves->first, depth - 1), bestCover(halves->second, depth - 1));
+    return pays(divided, undivided) ? divided : undivided;
   }
 
-  bool pays(const Cover& parts, const Cover& instead_of) const {
-    const double more = static_cast<double>(parts.sets.size()) - static_cast<double>(instead_of.sets.size());
-    const double price = price_of_a_part_ * more;
-    return parts.swept + price < instead_of.swept && parts.wasted + price < instead_of.wasted;
+  bool pays(const Cover& divided, const Cover& undivided) const {
+    const double more = static_cast<double>(divided.sets.size()) - static_cast<double>(undivided.sets.size());
+    const double price = price_per_piece_ * more;
+    return divided.swept + price < undivided.swept && divided.wasted + price < undivided.wasted;
   }
 
   const TriangleMesh& mesh_;
   double step_;
-  double price_of_a_part_ = 0.0;
+  double price_per_piece_ = 0.0;
   Cover cover_;
 };
 
@@ -233,11 +233,11 @@ std::vector<std::vector<std::uint32_t>> decompose(const TriangleMesh& mesh, cons
 }
 
 std::vector<ConvexShape> convexPieces(const TriangleMesh& mesh_T, const DecompositionOptions& options) {
-  std::vector<ConvexShape> parts;
+  std::vector<ConvexShape> pieces;
   for (const Set& set : decompose(mesh_T, options)) {
-    parts.push_back(ConvexShape::hull(cornersOf(mesh_T, set)).padded(mesh_T.rounding()));
+    pieces.push_back(ConvexShape::hull(cornersOf(mesh_T, set)).padded(mesh_T.rounding()));
   }
-  return parts;
+  return pieces;
 }
 
 }  // namespace sweep_guard_core

@@ -1,4 +1,4 @@
-#include "sweep_guard/geometry/merged_motion.h"
+#include "geometry/merged_motion.h"
 
 #include <algorithm>
 #include <cassert>
@@ -7,16 +7,16 @@
 namespace sweep_guard_core {
 namespace {
 
-// How far a tool point is from one pose to another at most. Two rotations by an angle apart differ by 2 sin(angle / 2)
-// as an operator, and by sqrt(2) times that in the Frobenius norm.
-double apart(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double tool_radius) {
+// Bounds the distance of a tool point between two poses. The difference of two rotations that are an angle apart has
+// the operator norm 2 sin(angle / 2), and sqrt(2) times that as Frobenius norm.
+double distanceBound(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double tool_radius) {
   return (a.translation() - b.translation()).norm() + tool_radius * M_SQRT1_2 * (a.linear() - b.linear()).norm();
 }
 
 }  // namespace
 
-// From one waypoint to the next both the path and the chord are straight but for their arcs: no point is farther off
-// than at one of the two, arcs apart. The last arc is that of the chord itself.
+// Between two points, path and merged motion are straight except for their arcs: without arcs, the deviation is largest
+// at one of the two points. The last arc is that of the merged motion.
 Motion mergedMotion(const Path& path, size_t first, size_t last, double tool_radius) {
   assert(first < last && last < path.size());
   Motion merged_M{path[first].X_MT, path[last].X_MT};
@@ -26,13 +26,13 @@ Motion mergedMotion(const Path& path, size_t first, size_t last, double tool_rad
     if (time > 0.0) return toSeconds(path[i].time - path[first].time) / time;
     return static_cast<double>(i - first) / static_cast<double>(last - first);
   };
-  double off = 0.0;
+  double deviation = 0.0;
   double arc = 0.0;
   for (size_t i = first + 1; i <= last; ++i) {
-    if (i < last) off = std::max(off, apart(merged_M.at(along(i)), path[i].X_MT, tool_radius));
+    if (i < last) deviation = std::max(deviation, distanceBound(merged_M.at(along(i)), path[i].X_MT, tool_radius));
     arc = std::max(arc, path[i].deviation_bound + chordError(tool_radius, (along(i) - along(i - 1)) * turn));
   }
-  merged_M.deviation_bound = off + arc + chordError(tool_radius, turn);
+  merged_M.deviation_bound = deviation + arc + chordError(tool_radius, turn);
   return merged_M;
 }
 

@@ -9,9 +9,9 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kWorthwhile = 0.5;  // of what it was: renumbering costs every deformation a gather
+constexpr double kWorthwhile = 0.5;  // largest ratio that justifies renumbering, which costs every deformation a gather
 
-// The low 21 bits of a number, each followed by two zeros.
+// Inserts two zeros after each of the low 21 bits.
 std::uint64_t spread(std::uint64_t bits) {
   bits = (bits | bits << 32U) & 0x1f00000000ffffU;
   bits = (bits | bits << 16U) & 0x1f0000ff0000ffU;
@@ -20,7 +20,7 @@ std::uint64_t spread(std::uint64_t bits) {
   return (bits | bits << 2U) & 0x1249249249249249U;
 }
 
-// Places along the Z-order curve [Morton 1966] through the box of all.
+// Returns places along the Z-order curve [Morton 1966] through the bounding box.
 std::vector<std::uint32_t> placesAlongCurve(const std::vector<float>& positions, const Eigen::AlignedBox3d& bounds) {
   const double scale = 0x1fffff / std::max(bounds.sizes().maxCoeff(), 1e-30);
   std::vector<std::uint64_t> codes(positions.size() / 3);
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> placesAlongCurve(const std::vector<float>& positions,
   return places;
 }
 
-// Not empty if it makes the boxes of the blocks much smaller.
+// Returns new places if they make the boxes of the blocks much smaller, and no places otherwise.
 std::vector<std::uint32_t> betterPlaces(const std::vector<float>& positions) {
   VertexBlocks blocks;
   blocks.measure(positions);
@@ -48,16 +48,16 @@ std::vector<std::uint32_t> betterPlaces(const std::vector<float>& positions) {
   place(places, positions, kept);
   const double as_sent = blocks.totalSize();
   blocks.measure(kept);
-  if (blocks.totalSize() >= kWorthwhile * as_sent) places.clear();  // all in one point: neither helps
+  if (blocks.totalSize() >= kWorthwhile * as_sent) places.clear();  // also if all vertices coincide
   return places;
 }
 
-// Few numbers, each once.
-class FewNumbers {
+// A set of few numbers.
+class SmallSet {
  public:
   using Array = std::array<std::uint32_t, simd::kClusterBlocks>;
 
-  // False, and nothing changes, if there are too many then.
+  // Returns false and changes nothing if the set would be too large.
   template <typename Numbers>
   bool add(const Numbers& numbers) {
     const size_t before = count_;
@@ -73,7 +73,7 @@ class FewNumbers {
     return true;
   }
 
-  // The last one fills the rest.
+  // Returns the numbers; the last one fills the rest.
   Array filled() const {
     Array filled = numbers_;
     std::fill(filled.begin() + count_, filled.end(), numbers_[count_ - 1]);
@@ -91,9 +91,9 @@ Numbers divided(Numbers numbers, std::uint32_t by) {
   return numbers;
 }
 
-// The cluster that begins at a triangle: as long as it needs no fifth block.
+// Returns the longest cluster from a triangle on, limited by its number of blocks.
 Cluster clusterFrom(std::uint32_t first, const std::vector<Triangle>& corners) {
-  FewNumbers blocks;
+  SmallSet blocks;
   std::uint32_t count = 0;
   while (first + count < corners.size() && count < simd::kCluster &&
          blocks.add(divided(corners[first + count], simd::kBlock))) {
@@ -103,7 +103,7 @@ Cluster clusterFrom(std::uint32_t first, const std::vector<Triangle>& corners) {
 }
 
 ClusterGroup groupFrom(std::uint32_t first, const std::vector<Cluster>& clusters) {
-  FewNumbers block_groups;
+  SmallSet block_groups;
   std::uint32_t count = 0;
   while (first + count < clusters.size() && count < kClustersTogether &&
          block_groups.add(divided(clusters[first + count].blocks, kBlocksTogether))) {

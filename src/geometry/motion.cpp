@@ -33,44 +33,35 @@ size_t subMotionCount(double angle, double max_rotation) {
   return std::max<size_t>(1, static_cast<size_t>(std::ceil(angle / max_rotation)));
 }
 
-void split(const Motion& motion, double max_rotation, std::vector<Motion>& parts) {
+std::vector<Motion> split(const Motion& motion, double max_rotation, std::vector<Motion> buffer) {
   const size_t count = subMotionCount(motion.angle(), max_rotation);
-  parts.clear();
+  buffer.clear();
   Eigen::Isometry3d start = motion.X_MT_start;
   for (size_t i = 1; i < count; ++i) {
     const Eigen::Isometry3d end = motion.at(static_cast<double>(i) / static_cast<double>(count));
-    parts.push_back({start, end});
+    buffer.push_back({start, end});
     start = end;
   }
-  parts.push_back({start, motion.X_MT_end});
+  buffer.push_back({start, motion.X_MT_end});
+  return buffer;
 }
 
-std::vector<Motion> split(const Motion& motion, double max_rotation) {
-  std::vector<Motion> parts;
-  split(motion, max_rotation, parts);
-  return parts;
-}
-
-std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_radius) {
-  std::vector<Motion> sub_motions_M;
-  split(motion, max_rotation, tool_radius, sub_motions_M);
-  return sub_motions_M;
-}
-
-void split(const RelativeMotion& motion, double max_rotation, double tool_radius, std::vector<Motion>& sub_motions_M) {
+std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_radius,
+                          std::vector<Motion> buffer) {
   const double frame_angle = motion.frame_W.angle();
   const size_t count = subMotionCount(motion.tool_W.angle() + frame_angle, max_rotation);
-  const auto parts = static_cast<double>(count);
-  const double deviation_bound = frame_angle == 0.0 ? 0.0 : chordError(motion, tool_radius) / (parts * parts);
+  const auto divisor = static_cast<double>(count);
+  const double deviation_bound = frame_angle == 0.0 ? 0.0 : chordError(motion, tool_radius) / (divisor * divisor);
 
   const auto pose_M = [&](double fraction) {
     return motion.frame_W.at(fraction).inverse() * motion.tool_W.at(fraction);
   };
-  sub_motions_M.clear();
+  buffer.clear();
   for (size_t i = 0; i < count; ++i) {
-    sub_motions_M.push_back(
-        {pose_M(static_cast<double>(i) / parts), pose_M(static_cast<double>(i + 1) / parts), deviation_bound});
+    buffer.push_back(
+        {pose_M(static_cast<double>(i) / divisor), pose_M(static_cast<double>(i + 1) / divisor), deviation_bound});
   }
+  return buffer;
 }
 
 // A tool point in M is x = R_MW (d + R_WT p): |x''| <= turn^2 |d| + 2 turn |d'| + (turn + tool's turn)^2 |p|, and the

@@ -8,8 +8,8 @@
 namespace sweep_guard_core {
 namespace {
 
-// The sums of [P, Sec. 3.1] over both poses, from those over one body: moments of a union of equal sets. A mesh_translation
-// doubles the sets once more.
+// The sums of [P, Sec. 3.1] over both poses follow from those over one body: moments of a union of equal sets. A
+// mesh_translation doubles the sets once more.
 Eigen::Matrix3d covarianceOfBoth(const Moments& moments_T, const Motion& motion) {
   const Eigen::Matrix3d& R_start = motion.X_MT_start.linear();
   const Eigen::Matrix3d& R_end = motion.X_MT_end.linear();

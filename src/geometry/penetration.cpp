@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMaxImprovements = 50;
 
-// libccd's tolerances are lengths, so it is given bodies of about unit size.
+// libccd's tolerances are lengths: its bodies must have about unit size.
 struct UnitBody {
   const SupportMapping& body;
   double size;
@@ -45,10 +45,12 @@ std::optional<Eigen::Vector3d> polytopeDirection(const SupportMapping& tool, con
   return Eigen::Vector3d(-out / length);
 }
 
-struct Drawn {
+struct Translated {
   const SupportMapping& body;
-  Eigen::Vector3d by;
-  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const { return body.supportPoint(direction) + by; }
+  Eigen::Vector3d translation;
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const {
+    return body.supportPoint(direction) + translation;
+  }
 };
 
 }  // namespace
@@ -62,9 +64,9 @@ Eigen::Vector3d minimumTranslationDirection(const SupportMapping& tool, const Su
   assert(!proposals.empty());
   Eigen::Vector3d best = proposals.front();
   double depth = depthAlong(best, tool, obstacle);
-  const auto improves = [&](const Eigen::Vector3d& direction, double by) {
+  const auto improves = [&](const Eigen::Vector3d& direction, double least) {
     const double new_depth = depthAlong(direction, tool, obstacle);
-    if (!(new_depth < depth - by)) return false;
+    if (!(new_depth < depth - least)) return false;
     depth = new_depth;
     best = direction;
     return true;
@@ -74,8 +76,8 @@ Eigen::Vector3d minimumTranslationDirection(const SupportMapping& tool, const Su
     if (!improves(*direction, 0.0)) improves(-*direction, 0.0);
   }
   for (int i = 0; i < kMaxImprovements; ++i) {
-    const Drawn drawn{tool, (1.01 * depth + 1e-6 * size) * best};
-    if (!improves(separation(drawn, obstacle, /*accuracy=*/0.0, best).normal, 1e-9 * size)) break;
+    const Translated moved_out{tool, (1.01 * depth + 1e-6 * size) * best};
+    if (!improves(separation(moved_out, obstacle, /*accuracy=*/0.0, best).normal, 1e-9 * size)) break;
   }
   return best;
 }

@@ -10,19 +10,19 @@ namespace {
 
 constexpr int kMaxSteps = 64;
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
-constexpr double kNeedle = 1e-8;  // squared sine below which a face's weights lose digits
-constexpr double kShare = 0.125;  // of the gap beyond the margin that roughSeparation() may miss
+constexpr double kNeedle = 1e-8;  // squared sine below which the weights of a face lose digits
+constexpr double kShare = 0.125;  // share of the gap beyond the margin that roughSeparation() may underestimate
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A point of the Minkowski difference, and the two points whose difference it is.
+// A point of the Minkowski difference, and its two points.
 struct Vertex {
   Eigen::Vector3d w;
   Eigen::Vector3d on_tool;
   Eigen::Vector3d on_obstacle;
 };
 
-// The point of a simplex closest to the origin: which vertices hold it, and their weights. An empty one is infinitely
-// far.
+// The point of a simplex closest to the origin, as a convex combination of vertices. That of an empty simplex is
+// infinitely far.
 struct Closest {
   std::array<int, 4> vertices = {};
   std::array<double, 4> weights = {};
@@ -92,8 +92,8 @@ Closest Simplex::onFace(int i, int j, int k) const {
   return best;
 }
 
-// The origin lies beyond a face if that face's signed volume has another sign than the whole; a volume that may be
-// rounding counts as beyond, so that only what is inside beyond doubt is called inside.
+// The origin lies beyond a face if the signed volumes of that face and of the whole differ in sign. A volume within its
+// rounding error counts as beyond.
 Closest Simplex::inTetrahedron() const {
   constexpr std::array<std::array<int, 4>, 4> kFaces = {{{1, 2, 3, 0}, {0, 3, 2, 1}, {0, 1, 3, 2}, {0, 2, 1, 3}}};
   const double whole = (w(1) - w(0)).dot((w(2) - w(0)).cross(w(3) - w(0)));
@@ -136,8 +136,8 @@ void Simplex::keep(const Closest& closest) {
   std::copy_n(kept.begin(), size_, vertices_.begin());
 }
 
-// The direction from the origin to the closest point. It is orthogonal to the simplex, but for the rounding that a
-// short vector between long ones carries; what is left along the simplex is taken off.
+// Returns the direction from the origin to the closest point. It is orthogonal to the simplex except for rounding,
+// which is removed.
 Eigen::Vector3d outwards(const Simplex& simplex, const Eigen::Vector3d& point) {
   Eigen::Vector3d normal = point.normalized();
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -153,12 +153,12 @@ Eigen::Vector3d outwards(const Simplex& simplex, const Eigen::Vector3d& point) {
   return normal.normalized();
 }
 
-// When to end.
+// The conditions for the end of a search.
 struct Goal {
-  double accuracy = 0.0;      // the gap stays no farther behind the distance [m]
-  double margin = kInfinity;  // or no farther than a share of what the gap exceeds this by [m]
-  double proven = kInfinity;  // the gap is more [m]
-  double met = 0.0;           // the distance is no more [m]
+  double accuracy = 0.0;         // the gap differs from the distance by no more [m]
+  double margin = kInfinity;     // or by no more than kShare of what the gap exceeds this by [m]
+  double gap_above = kInfinity;  // the gap is larger [m]
+  double distance_within = 0.0;  // the distance is not larger [m]
 };
 
 class Search {
@@ -169,8 +169,7 @@ class Search {
   Separation run(const Eigen::Vector3d& guess) {
     const double length = guess.norm();
     Eigen::Vector3d direction = length > 0.0 ? Eigen::Vector3d(guess / length) : Eigen::Vector3d::UnitZ();
-    for (int step = 0; step < kMaxSteps && testPredictedMotion(direction); ++step)
-      direction = outwards(simplex_, closest_.point);
+    for (int step = 0; step < kMaxSteps && advance(direction); ++step) direction = outwards(simplex_, closest_.point);
     for (int i = 0; i < simplex_.size(); ++i) {
       const double weight = closest_.weights[static_cast<std::size_t>(i)];
       best_.on_tool += weight * simplex_[i].on_tool;
@@ -180,8 +179,8 @@ class Search {
   }
 
  private:
-  // False if nothing more is to be learnt.
-  bool testPredictedMotion(const Eigen::Vector3d& direction) {
+  // Returns false at the end of the search.
+  bool advance(const Eigen::Vector3d& direction) {
     Vertex vertex{{}, tool_.supportPoint(-direction), obstacle_.supportPoint(direction)};
     vertex.w = vertex.on_tool - vertex.on_obstacle;
     size_ = std::max(size_, vertex.w.norm());
@@ -190,15 +189,15 @@ class Search {
       best_.gap = gap;
       best_.normal = direction;
     }
-    if (simplex_.size() == 0) return approach(vertex) && best_.gap <= goal_.proven;
+    if (simplex_.size() == 0) return approach(vertex) && best_.gap <= goal_.gap_above;
     const double distance = std::sqrt(closest_.squared_distance);
     const double left = distance - best_.gap;
-    if (best_.gap > goal_.proven || left <= std::max(kRounding * size_, goal_.accuracy)) return false;
+    if (best_.gap > goal_.gap_above || left <= std::max(kRounding * size_, goal_.accuracy)) return false;
     if (left <= kShare * (best_.gap - goal_.margin)) return false;
     return !simplex_.has(vertex.w) && approach(vertex);
   }
 
-  // False if the vertex brings the simplex no closer to the origin, or close enough.
+  // Returns false if the vertex brings the simplex no closer to the origin, or close enough.
   bool approach(const Vertex& vertex) {
     simplex_.add(vertex);
     const Closest closest = simplex_.closest();
@@ -208,13 +207,13 @@ class Search {
     }
     simplex_.keep(closest);
     closest_ = closest;
-    return std::sqrt(closest_.squared_distance) > std::max(4.0 * kRounding * size_, goal_.met);
+    return std::sqrt(closest_.squared_distance) > std::max(4.0 * kRounding * size_, goal_.distance_within);
   }
 
   const SupportMapping& tool_;
   const SupportMapping& obstacle_;
   Goal goal_;
-  double size_ = 0.0;  // of the Minkowski difference, as far as it is known [m]
+  double size_ = 0.0;  // known size of the Minkowski difference [m]
   Simplex simplex_;
   Closest closest_;
   Separation best_ = {Eigen::Vector3d::UnitZ(), -kInfinity, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
@@ -254,8 +253,8 @@ Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obs
 bool distanceExceeds(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
                      const Eigen::Vector3d& guess) {
   Goal goal;
-  goal.proven = distance;
-  goal.met = distance;
+  goal.gap_above = distance;
+  goal.distance_within = distance;
   return Search(tool, obstacle, goal).run(guess).gap > distance;
 }
 

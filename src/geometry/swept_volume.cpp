@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "geometry/bounding_planes.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/geometry/bounding_planes.h"
 
 namespace sweep_guard_core {
 
@@ -40,7 +40,7 @@ double deviationBound(const ConvexShape& shape, const Motion& motion) {
 
 SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKind kind, double extra_margin) {
   assert(motion.angle() < 1.6 && extra_margin >= 0.0);
-  // Far from the mesh's origin the extents would lose digits: they are taken near the tool, and moved there at the end.
+  // The volume is computed relative to the tool and moved at the end: far from the mesh's origin it would lose digits.
   const Eigen::Translation3d there(motion.X_MT_start.translation());
   const Motion near{there.inverse() * motion.X_MT_start, there.inverse() * motion.X_MT_end, 0.0,
                     motion.mesh_translation};

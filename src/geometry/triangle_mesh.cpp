@@ -16,7 +16,7 @@ bool usable(Coordinate coordinate) {
 
 [[noreturn]] void refuseVertex(size_t vertex) {
   throw InvalidInput("vertex " + std::to_string(vertex) +
-                     " is NaN, infinite or beyond 1e7 m: send finite positions in metres");
+                     " is NaN, infinite or beyond 1e7 m: send finite positions in meters");
 }
 
 void checkTriangles(const std::vector<Triangle>& triangles, size_t vertex_count) {
@@ -90,7 +90,8 @@ TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::
   exchange(sent);
 }
 
-// Takes offsets as sent, and gives back those of before. False, and nothing changed, if one cannot be used.
+// Takes the offsets in the sender's order and returns the previous ones in the buffer. Returns false and changes
+// nothing if an offset is unusable.
 bool TriangleMesh::exchange(std::vector<float>& sent) {
   const std::vector<std::uint32_t>& places = topology_->order.vertex_places;
   if (!places.empty()) {
@@ -117,13 +118,6 @@ void TriangleMesh::deform(std::vector<float>& positions_M) {
   if (!exchange(positions_M)) refuse(positions_M);
   origin_.setZero();
   rounding_ = 0.0;
-}
-
-TriangleMesh TriangleMesh::deformed(std::vector<float> positions_M) const {
-  checkCount(positions_M, vertexCount());
-  TriangleMesh after(topology_);
-  if (!after.exchange(positions_M)) refuse(positions_M);
-  return after;
 }
 
 }  // namespace sweep_guard_core

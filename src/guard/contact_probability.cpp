@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/contact_probability.h"
+#include "guard/contact_probability.h"
 
 #include <algorithm>
 #include <cassert>
@@ -7,14 +7,14 @@
 
 #include "detection/box_coordinates.h"
 #include "detection/convex_clip.h"
-#include "sweep_guard/detection/float_planes.h"
+#include "detection/float_planes.h"
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kMinDeviation = 1e-9;  // [m]; what is surer than this is sure
+constexpr double kMinDeviation = 1e-9;  // [m]; smaller deviations are rounded up
 constexpr double kTolerance = 1e-3;     // [standard deviations]
-constexpr double kRounding = 1e-6;      // of clipping [standard deviations]
+constexpr double kRounding = 1e-6;      // [standard deviations], of clipping
 
 double deviationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& r, const Matrix6d& covariance) {
   Eigen::Matrix<double, 6, 1> J;
@@ -22,8 +22,8 @@ double deviationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& r, const 
   return std::sqrt(std::max(0.0, J.dot(covariance * J)));
 }
 
-// Of the tool's support along a unit direction. The farther end lags behind by `gap`; within kMaxDeviations of its own
-// it catches up with whichever is larger of these.
+// Returns the standard deviation of the tool's support along a unit direction. The other end of the tool is behind by
+// `gap`; within kMaxDeviations of its own deviation it may become the support.
 double supportDeviation(const ConvexShape& shape, const Eigen::Matrix3d& R_MT, const Eigen::Vector3d& n_M,
                         const Matrix6d& covariance_M) {
   const Eigen::Vector3d n_T = R_MT.transpose() * n_M;
@@ -67,17 +67,17 @@ struct ClearanceMeter::Planes {
   }
 };
 
-std::optional<Clearance> ClearanceMeter::measure(const Submesh& part, const SweptVolume& swept_M,
+std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const SweptVolume& swept_M,
                                                  const PerHalfSpace& sigmas) {
-  const BoxCoordinates coordinates(part.mesh_M(), swept_M.box);
-  Planes planes{part.mesh_M(), coordinates, {}, sigmas};
+  const BoxCoordinates coordinates(submesh.mesh_M(), swept_M.box);
+  Planes planes{submesh.mesh_M(), coordinates, {}, sigmas};
   swept_M.grown(2.0 * coordinates.rounding()).forEachHalfSpace([&](const Eigen::Vector3d& normal, double offset) {
     planes.half_spaces_B.emplace_back(normal, offset);
   });
   assert(planes.half_spaces_B.size() == planes.count());
   PerHalfSpace farthest = sigmas;
   for (double& sigma : farthest) sigma *= kMaxDeviations;
-  remaining_ = &culler_.cull(part, floatPlanes(part.mesh_M(), swept_M, farthest));
+  remaining_ = &culler_.cull(submesh, floatPlanes(submesh.mesh_M(), swept_M, farthest));
   scoreCorners(planes);
   collectCandidates(planes);
   if (candidates_.empty()) return {};
@@ -89,7 +89,7 @@ std::optional<Clearance> ClearanceMeter::measure(const Submesh& part, const Swep
     if (candidate.at_least <= 0.0 && reaches(kRounding, candidate, planes)) {
       return Clearance{separated, std::max(candidate.at_least, -kMaxDeviations)};
     }
-    nearest = std::min(nearest, outwards(nearest, candidate, planes));
+    nearest = std::min(nearest, deviationsTo(nearest, candidate, planes));
   }
   if (nearest > kMaxDeviations) return {};
   return Clearance{separated, nearest};
@@ -104,8 +104,8 @@ const TriangleSet& ClearanceMeter::notSeparated() {
   return not_separated_;
 }
 
-// By bisection; not less than `nearest` if it makes no difference.
-double ClearanceMeter::outwards(double nearest, const Candidate& candidate, const Planes& planes) const {
+// Bisects. Returns `nearest` if the candidate is not nearer.
+double ClearanceMeter::deviationsTo(double nearest, const Candidate& candidate, const Planes& planes) const {
   double lower = std::max(candidate.at_least, 0.0);
   double upper = std::min(nearest - kTolerance, candidate.at_most);
   if (lower > upper || (upper < candidate.at_most && !reaches(upper, candidate, planes))) return nearest;
@@ -117,18 +117,17 @@ double ClearanceMeter::outwards(double nearest, const Candidate& candidate, cons
   return upper;
 }
 
-// Whether the planes enclose anything of a triangle once they are moved out. Most enclose it wholly: their scores say
-// so.
+// Returns whether the planes, moved out by z, enclose some of the triangle. Skips planes that enclose it wholly.
 bool ClearanceMeter::reaches(double z, const Candidate& candidate, const Planes& planes) const {
   const size_t count = planes.count();
   const double* scores = &scores_[3 * candidate.number * count];
-  ClippedTriangle left(planes.corners_B((*remaining_)[candidate.number].triangle));
-  for (size_t i = 0; i < count && !left.empty(); ++i) {
+  ClippedTriangle remaining(planes.corners_B((*remaining_)[candidate.number].triangle));
+  for (size_t i = 0; i < count && !remaining.empty(); ++i) {
     if (std::max({scores[i], scores[count + i], scores[2 * count + i]}) <= z) continue;
     const HalfSpace& half_space = planes.half_spaces_B[i];
-    left.cut(half_space.normal(), half_space.offset() + z * planes.sigmas[i]);
+    remaining.cut(half_space.normal(), half_space.offset() + z * planes.sigmas[i]);
   }
-  return !left.empty();
+  return !remaining.empty();
 }
 
 void ClearanceMeter::scoreCorners(const Planes& planes) {
@@ -142,7 +141,7 @@ void ClearanceMeter::scoreCorners(const Planes& planes) {
   }
 }
 
-// Those that may need fewest deviations, in this order: at the limit a corner of one of them is enclosed.
+// Collects the triangles that may need the fewest deviations, in this order. At the limit, a corner of one is enclosed.
 void ClearanceMeter::collectCandidates(const Planes& planes) {
   const size_t count = planes.count();
   double limit = kMaxDeviations + kTolerance;

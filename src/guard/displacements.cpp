@@ -1,23 +1,23 @@
-#include "sweep_guard/guard/displacements.h"
+#include "guard/displacements.h"
 
 #include <limits>
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr Eigen::Index kLanes = 24;  // x y z of eight vertices: whole registers of any width
+constexpr Eigen::Index kLanes = 24;  // x y z of eight vertices: fills registers of any width
 using Lanes = Eigen::Array<float, kLanes, 1>;
 
-// Of differences of coordinates, x y z x ...: each is rounded by half a unit in the last of 24 digits.
+// Bounds the differences of coordinates x y z x ... Each is rounded by half a unit in the last of 24 digits.
 Eigen::AlignedBox3d boxOfDifferences(const float* from, const float* to, size_t vertices) {
   Eigen::AlignedBox3f box;
   Lanes least = Lanes::Constant(std::numeric_limits<float>::infinity());
   Lanes most = -least;
   size_t i = 0;
   for (; i + kLanes <= 3 * vertices; i += kLanes) {
-    const Lanes way = Eigen::Map<const Lanes>(to + i) - Eigen::Map<const Lanes>(from + i);
-    least = least.min(way);
-    most = most.max(way);
+    const Lanes difference = Eigen::Map<const Lanes>(to + i) - Eigen::Map<const Lanes>(from + i);
+    least = least.min(difference);
+    most = most.max(difference);
   }
   for (Eigen::Index lane = 0; lane < kLanes && i > 0; lane += 3) {
     box.extend(least.segment<3>(lane).matrix()).extend(most.segment<3>(lane).matrix());
@@ -39,11 +39,11 @@ Eigen::AlignedBox3d boxOfEach(const TriangleMesh& from_M, const TriangleMesh& to
 
 }  // namespace
 
-// Meshes of one topology keep their vertices in the same places.
+// Meshes that share their triangles keep their vertices in the same order.
 Displacements::Displacements(const TriangleMesh& from_M, const TriangleMesh& to_M) {
-  const bool alike = &from_M.triangles() == &to_M.triangles();
-  box_M_ = alike ? boxOfDifferences(from_M.places().data(), to_M.places().data(), to_M.vertexCount())
-                 : boxOfEach(from_M, to_M);
+  const bool same_order = &from_M.triangles() == &to_M.triangles();
+  box_M_ = same_order ? boxOfDifferences(from_M.places().data(), to_M.places().data(), to_M.vertexCount())
+                      : boxOfEach(from_M, to_M);
   if (from_M.origin() == to_M.origin()) return;
   const Eigen::Vector3d shift_M = to_M.origin() - from_M.origin();
   const Eigen::Vector3d rounding = (to_M.origin().cwiseAbs() + from_M.origin().cwiseAbs()) * 0x1p-50;

@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/moving_mesh.h"
+#include "guard/moving_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +28,9 @@ MovingTriangle MovingMesh::triangle(std::uint32_t index) const {
   return {moved() ? corners(*before_M_, triangle) : now_M, now_M};
 }
 
-// The farthest from the straight way that a path of this length reaches, is the height of an isosceles triangle on it.
-double pathDeviation(double way, double straight) {
-  return 0.5 * std::sqrt(std::max(0.0, (way - straight) * (way + straight)));
+// A path of this length deviates most if it forms an isosceles triangle with the straight path.
+double pathDeviation(double path_length, double displacement) {
+  return 0.5 * std::sqrt(std::max(0.0, (path_length - displacement) * (path_length + displacement)));
 }
 
 }  // namespace sweep_guard_core

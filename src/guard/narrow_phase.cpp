@@ -1,8 +1,8 @@
-#include "sweep_guard/guard/narrow_phase.h"
+#include "guard/narrow_phase.h"
 
 #include <algorithm>
 
-#include "sweep_guard/guard/swept_body.h"
+#include "guard/swept_body.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -18,8 +18,8 @@ class NarrowPhase {
   void check(std::uint32_t index, size_t piece) {
     const ConvexShape& shape_T = request_.tool.pieces()[piece].shape_T;
     const MovingTriangle triangle = request_.mesh.triangle(index);
-    const auto known = request_.contact_normals.find(index);
-    const auto normal = known == request_.contact_normals.end() ? std::nullopt : std::optional(known->second);
+    const auto earlier = request_.contact_normals.find(index);
+    const auto normal = earlier == request_.contact_normals.end() ? std::nullopt : std::optional(earlier->second);
     if (const auto impact = timeOfImpact(shape_T, request_.sub_motions, triangle, margin_, normal)) {
       result_.not_ruled_out.push_back(index);
       keepFirst({index, piece, *impact});
@@ -37,12 +37,12 @@ class NarrowPhase {
  private:
   void keepFirst(const TriangleContact& contact) {
     std::vector<TriangleContact>& all = result_.in_contact;
-    const auto below = [](const TriangleContact& one, std::uint32_t triangle) { return one.triangle < triangle; };
-    const auto known = std::lower_bound(all.begin(), all.end(), contact.triangle, below);
-    if (known == all.end() || known->triangle != contact.triangle) {
-      all.insert(known, contact);
-    } else if (contact.impact.time_of_impact < known->impact.time_of_impact) {
-      *known = contact;
+    const auto below = [](const TriangleContact& other, std::uint32_t triangle) { return other.triangle < triangle; };
+    const auto place = std::lower_bound(all.begin(), all.end(), contact.triangle, below);
+    if (place == all.end() || place->triangle != contact.triangle) {
+      all.insert(place, contact);
+    } else if (contact.impact.time_of_impact < place->impact.time_of_impact) {
+      *place = contact;
     }
   }
 

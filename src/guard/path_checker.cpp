@@ -1,9 +1,9 @@
-#include "sweep_guard/guard/path_checker.h"
+#include "guard/path_checker.h"
 
 #include <algorithm>
 
-#include "sweep_guard/detection/float_planes.h"
-#include "sweep_guard/guard/triangle_set.h"
+#include "guard/placed_workpieces.h"
+#include "guard/triangle_set.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -15,7 +15,6 @@ constexpr Duration kFinestProbable = std::chrono::milliseconds(25);  // shortest
 struct PathChecker::Scene {
   Detector& detector;
   const Tool& tool;
-  const TriangleMesh& mesh_M;
   double margin;        // the tool is grown by this
   Duration reflex_end;  // after the newest pose
   const std::function<bool()>& out_of_time;
@@ -31,7 +30,7 @@ struct PathChecker::Progress {
   bool contact = false;    // found in an earlier segment
 };
 
-void PathChecker::check(Detector& detector, const PathRequest& request, PredictedObject& object) {
+void PathChecker::check(Detector& detector, const PredictedPathRequest& request, PredictedObject& object) {
   object.clear();
   object.workpiece = request.workpiece;
   path_M_.follow(request.tool, request.X_WT, request.path, request.X_WM);
@@ -39,7 +38,7 @@ void PathChecker::check(Detector& detector, const PathRequest& request, Predicte
   const double margin = options_.sweep.margin + mesh_M.rounding();
   const size_t reflex_sweeps = request.reflex_sweeps;
   const Duration reflex_end = reflex_sweeps == 0 ? Duration::zero() : request.path[reflex_sweeps - 1].ahead;
-  const Scene scene{detector, request.tool, mesh_M, margin, reflex_end, request.plan.out_of_time};
+  const Scene scene{detector, request.tool, margin, reflex_end, request.plan.out_of_time};
   const Submesh submesh = submeshInReach(scene, mesh_M, path_M_.whole(), 0);
   Progress progress{object, &object.reflex};
   size_t begin = 0;
@@ -55,41 +54,26 @@ void PathChecker::check(Detector& detector, const PathRequest& request, Predicte
   remove(object.considered, object.reflex);
 }
 
-void PathChecker::predict(Detector& detector, const PredictionRequest& request, Prediction& prediction) {
+void PathChecker::predict(Detector& detector, const PredictionRequest& request, const SweepPlan& plan,
+                          Prediction& prediction) {
+  static const Workpieces kNone;
   const PredictedMotion& motion = request.motion;
   prediction.stamp = motion.from.stamp;
   prediction.path = motion.path;
   prediction.reflex_sweeps = motion.reflex_sweeps;
   prediction.sweeps_asked = motion.path.size();
-  prediction.sweeps_made = request.plan.sweepCount(motion.path);
-  prediction.unplaced.clear();
-  prediction.failures.clear();
-  size_t tested = 0;
-  for (const auto& workpiece : request.workpieces) {
-    if (motion.path.empty()) break;
-    const auto X_WM = motion.from.X_WM.find(workpiece->frame);
-    if (X_WM == motion.from.X_WM.end()) {
-      prediction.unplaced.push_back(workpiece);
-      continue;
-    }
-    try {
-      if (tested == prediction.objects.size()) prediction.objects.emplace_back();
-      check(detector,
-            {request.tool, motion.from.X_WT, motion.path, motion.reflex_sweeps, X_WM->second, workpiece, request.plan},
-            prediction.objects[tested]);
-      ++tested;
-    } catch (const std::exception& error) {  // of the detector, or no memory: the other workpieces are tested
-      prediction.failures.push_back({workpiece, error.what()});
-    }
-  }
-  prediction.objects.resize(tested);
+  prediction.sweeps_made = plan.sweepCount(motion.path);
+  const auto test = [&](const auto& workpiece, const Eigen::Isometry3d& X_WM, PredictedObject& object) {
+    check(detector, {request.tool, motion.from.X_WT, motion.path, motion.reflex_sweeps, X_WM, workpiece, plan}, object);
+  };
+  testPlaced(motion.path.empty() ? kNone : request.workpieces, motion.from, prediction, test);
 }
 
 Submesh PathChecker::submeshInReach(const Scene& scene, const Submesh& around, const PathSegment& segment,
                                     size_t halvings) {
   while (finders_.size() <= halvings) finders_.emplace_back();
   const Eigen::AlignedBox3d reach_M = path_M_.reach_M(segment, kMaxDeviations, scene.margin);
-  return finders_[halvings].find(around, floatPlanes(scene.mesh_M, reach_M));
+  return finders_[halvings].find(around, reach_M);
 }
 
 void PathChecker::sweepSegment(const Scene& scene, const PathSegment& segment) {
@@ -100,7 +84,7 @@ void PathChecker::sweepSegment(const Scene& scene, const PathSegment& segment) {
   }
 }
 
-// Of two equal ones, the first.
+// Returns the likelier candidate; of two equal ones, the first.
 const PathChecker::Candidate& PathChecker::likelier(const Candidate& one, const Candidate& other) {
   return other.probability > one.probability ? other : one;
 }
@@ -179,6 +163,13 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, const 
   progress.object.sweeps.push_back({segment.from, !not_ruled_out_.empty(), candidate.probability, tool_piece});
   progress.contact = progress.contact || !not_ruled_out_.empty();
   unite(*progress.triangles, not_ruled_out_);
+}
+
+Prediction predictContacts(Detector& detector, const PredictionRequest& request, const GuardOptions& options,
+                           const std::function<bool()>& out_of_time) {
+  Prediction prediction;
+  PathChecker(PathChecker::optionsOf(options)).predict(detector, request, {{}, out_of_time}, prediction);
+  return prediction;
 }
 
 }  // namespace sweep_guard_core

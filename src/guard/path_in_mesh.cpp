@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/path_in_mesh.h"
+#include "guard/path_in_mesh.h"
 
 #include <algorithm>
 #include <cassert>
@@ -8,7 +8,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kMaxTurn = 1.5;  // [rad], of steps that are joined
+constexpr double kMaxTurn = 1.5;  // [rad], of joined steps together
 
 Matrix6d turned(const Matrix6d& covariance_W, const Eigen::Matrix3d& R_MW) {
   Matrix6d R = Matrix6d::Zero();
@@ -17,9 +17,9 @@ Matrix6d turned(const Matrix6d& covariance_W, const Eigen::Matrix3d& R_MW) {
   return R * covariance_W * R.transpose();
 }
 
-double share(Duration part, Duration whole) { return toSeconds(part) / toSeconds(whole); }
+double fraction(Duration elapsed, Duration whole) { return toSeconds(elapsed) / toSeconds(whole); }
 
-// Along the axes of M, of a point at r from the tool's origin: it moves by dx + dtheta x r.
+// Standard deviations along the axes of M of a point at r from the tool's origin: the point moves by dx + dtheta x r.
 Eigen::Vector3d pointDeviations(const Eigen::Vector3d& r_M, const Matrix6d& covariance_M) {
   Eigen::Matrix<double, 3, 6> J;
   J << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
@@ -27,17 +27,17 @@ Eigen::Vector3d pointDeviations(const Eigen::Vector3d& r_M, const Matrix6d& cova
   return (J * covariance_M * J.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
-// Holds every tool point at a pose that is off by up to so many standard deviations. How far a point may be off along
-// an axis is convex in the point: the corners of a box around the tool bound it.
+// Holds every tool point at a pose that errs by up to `max_deviations` standard deviations. A point's standard deviation
+// along an axis is convex in the point, so the corners of a box around the tool bound it.
 Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& tool_T, const Eigen::Isometry3d& X_MT,
-                              const Matrix6d& covariance_M, double most) {
+                              const Matrix6d& covariance_M, double max_deviations) {
   Eigen::AlignedBox3d box_M;
   for (int i = 0; i < 8; ++i) {
     const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
     const Eigen::Vector3d r_M = X_MT.linear() * tool_T.corner(corner);
     const Eigen::Vector3d p_M = X_MT.translation() + r_M;
-    const Eigen::Vector3d off = most * pointDeviations(r_M, covariance_M);
-    box_M.extend(Eigen::AlignedBox3d(p_M - off, p_M + off));
+    const Eigen::Vector3d error = max_deviations * pointDeviations(r_M, covariance_M);
+    box_M.extend(Eigen::AlignedBox3d(p_M - error, p_M + error));
   }
   return box_M;
 }
@@ -73,47 +73,47 @@ PathInMesh::Pose PathInMesh::at(Duration time, size_t first) const {
   const PathPoint& after = path_M_[first + 1];
   if (time == before.time) return {before.X_MT, covariances_M_[first]};
   if (time == after.time) return {after.X_MT, covariances_M_[first + 1]};
-  const double along = share(time - before.time, after.time - before.time);
-  return {Motion{before.X_MT, after.X_MT}.at(along),
-          (1.0 - along) * covariances_M_[first] + along * covariances_M_[first + 1]};
+  const double share = fraction(time - before.time, after.time - before.time);
+  return {Motion{before.X_MT, after.X_MT}.at(share),
+          (1.0 - share) * covariances_M_[first] + share * covariances_M_[first + 1]};
 }
 
 void PathInMesh::motions_M(const PathSegment& segment, double max_rotation, std::vector<Motion>& motions_M) const {
   if (segment.last - segment.first > 1) {
     motions_M.assign(1, mergedMotion(path_M_, segment.first, segment.last, tool_radius_));
   } else {
-    split(Motion{at(segment.from, segment.first).X_MT, end_M(segment)}, max_rotation, motions_M);
+    motions_M = split({at(segment.from, segment.first).X_MT, end_M(segment)}, max_rotation, std::move(motions_M));
   }
 }
 
-Eigen::AlignedBox3d PathInMesh::reach_M(const PathSegment& segment, double most, double margin) const {
+Eigen::AlignedBox3d PathInMesh::reach_M(const PathSegment& segment, double deviations, double margin) const {
   Pose pose = at(segment.from, segment.first);
-  Eigen::AlignedBox3d box_M = boxAround(tool_T_, pose.X_MT, pose.covariance_M, most);
+  Eigen::AlignedBox3d box_M = boxAround(tool_T_, pose.X_MT, pose.covariance_M, deviations);
   double arc = 0.0;
-  const auto goOnTo = [&](const Pose& next) {
-    // In between, covariances lie between those of both ends: so do deviations below the larger one.
-    box_M.extend(boxAround(tool_T_, pose.X_MT, next.covariance_M, most));
-    box_M.extend(boxAround(tool_T_, next.X_MT, pose.covariance_M, most));
-    box_M.extend(boxAround(tool_T_, next.X_MT, next.covariance_M, most));
+  const auto extendTo = [&](const Pose& next) {
+    // Every covariance between the poses lies between theirs, so no deviation exceeds the larger of both.
+    box_M.extend(boxAround(tool_T_, pose.X_MT, next.covariance_M, deviations));
+    box_M.extend(boxAround(tool_T_, next.X_MT, pose.covariance_M, deviations));
+    box_M.extend(boxAround(tool_T_, next.X_MT, next.covariance_M, deviations));
     arc = std::max(arc, chordError(tool_radius_, Motion{pose.X_MT, next.X_MT}.angle()));
     pose = next;
   };
-  for (size_t i = segment.first + 1; i < segment.last; ++i) goOnTo({path_M_[i].X_MT, covariances_M_[i]});
-  goOnTo(at(segment.to, segment.last - 1));
+  for (size_t i = segment.first + 1; i < segment.last; ++i) extendTo({path_M_[i].X_MT, covariances_M_[i]});
+  extendTo(at(segment.to, segment.last - 1));
   return {box_M.min().array() - (arc + margin), box_M.max().array() + (arc + margin)};
 }
 
-void sweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t reflex_sweeps, size_t considered_sweeps,
-               std::vector<size_t>& ends) {
+void findSweepEnds(const PredictedMotion& motion, size_t considered_sweeps, std::vector<size_t>& ends) {
+  const auto& [from, path, reflex_sweeps] = motion;
   assert(considered_sweeps >= 1 && reflex_sweeps <= path.size());
   ends.resize(reflex_sweeps);
   std::iota(ends.begin(), ends.end(), 1);
   const size_t steps = path.size() - reflex_sweeps;
-  const auto due = [&](size_t end) { return (end - reflex_sweeps) * considered_sweeps / steps; };
+  const auto due = [&, first = reflex_sweeps](size_t end) { return (end - first) * considered_sweeps / steps; };
   size_t begin = reflex_sweeps;
   double turn = 0.0;
   for (size_t end = begin + 1; end <= path.size(); ++end) {
-    const double step = Motion{end == 1 ? X_WT : path[end - 2].X_WT, path[end - 1].X_WT}.angle();
+    const double step = Motion{end == 1 ? from.X_WT : path[end - 2].X_WT, path[end - 1].X_WT}.angle();
     const bool too_far = turn + step > kMaxTurn && begin < end - 1;
     if (too_far) ends.push_back(end - 1);
     if (due(end) > due(end - 1)) ends.push_back(end);

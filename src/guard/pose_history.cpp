@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/pose_history.h"
+#include "guard/pose_history.h"
 
 #include <algorithm>
 #include <cassert>
@@ -6,16 +6,16 @@
 namespace sweep_guard_core {
 namespace {
 
-template <typename PoseSample, typename Key, typename KeyOf>
+template <typename Key, typename KeyOf>
 size_t lastUpToKey(const PoseSample* first, const PoseSample* end, const Key& key, const KeyOf& key_of) {
   const auto* beyond =
-      std::upper_bound(first, end, key, [&](const Key& a, const PoseSample& placed) { return a < key_of(placed); });
+      std::upper_bound(first, end, key, [&](const Key& a, const PoseSample& sample) { return a < key_of(sample); });
   return static_cast<size_t>(std::max<std::ptrdiff_t>(beyond - first, 1) - 1);
 }
 
 }  // namespace
 
-void PoseHistory::add(const PoseSample& placed) {
+void PoseHistory::add(const PoseSample& sample) {
   if (size() >= kMaxSize) {
     all_[begin_ + 1] = all_[begin_];
     ++begin_;
@@ -24,17 +24,17 @@ void PoseHistory::add(const PoseSample& placed) {
     all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(begin_));
     begin_ = 0;
   }
-  all_.push_back(placed);
+  all_.push_back(sample);
 }
 
 size_t PoseHistory::lastUpTo(std::uint64_t number) const {
   return lastUpToKey(&all_[begin_], &all_[begin_] + size(), number,
-                     [](const PoseSample& placed) { return placed.number; });
+                     [](const PoseSample& sample) { return sample.number; });
 }
 
 size_t PoseHistory::lastUpTo(Time stamp) const {
   return lastUpToKey(&all_[begin_], &all_[begin_] + size(), stamp,
-                     [](const PoseSample& placed) { return placed.stamp; });
+                     [](const PoseSample& sample) { return sample.stamp; });
 }
 
 double PoseHistory::share(size_t from, size_t i) const {
@@ -49,8 +49,8 @@ void PoseHistory::path_M(size_t first, size_t last, double tool_radius, Path& pa
   for (size_t i = first; i <= last; ++i) {
     const PoseSample& to = (*this)[i];
     const PoseSample& from = (*this)[std::max(i, first + 1) - 1];
-    const double off = i == first ? 0.0 : chordError({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, tool_radius);
-    path_M.push_back({to.stamp - (*this)[first].stamp, to.X_WM.inverse() * to.X_WT, off});
+    const double deviation = i == first ? 0.0 : chordError({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, tool_radius);
+    path_M.push_back({to.stamp - (*this)[first].stamp, to.X_WM.inverse() * to.X_WT, deviation});
   }
 }
 

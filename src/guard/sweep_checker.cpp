@@ -1,39 +1,39 @@
-#include "sweep_guard/guard/sweep_checker.h"
+#include "guard/sweep_checker.h"
 
 #include <algorithm>
 #include <cassert>
 
+#include "detection/float_planes.h"
 #include "detection/inside.h"
-#include "sweep_guard/detection/float_planes.h"
-#include "sweep_guard/guard/swept_body.h"
-#include "sweep_guard/guard/triangle_set.h"
+#include "guard/swept_body.h"
+#include "guard/triangle_set.h"
 
 namespace sweep_guard_core {
 namespace {
 
 bool anyPieceInside(const Tool& tool, const Eigen::Isometry3d& X_MT, const TriangleMesh& mesh_M) {
-  return mesh_M.closed() && std::any_of(tool.pieces().begin(), tool.pieces().end(), [&](const ConvexPiece& part) {
-           return inside(mesh_M, X_MT * part.shape_T.moments_T().mean);
+  return mesh_M.closed() && std::any_of(tool.pieces().begin(), tool.pieces().end(), [&](const ConvexPiece& piece) {
+           return inside(mesh_M, X_MT * piece.shape_T.moments_T().mean);
          });
 }
 
 bool ascending(const TriangleContact& a, const TriangleContact& b) { return a.triangle < b.triangle; }
 
-// Time and point are those of the first contact, normal and depth those of the last.
-void join(std::vector<TriangleContact>& all, const std::vector<TriangleContact>& later) {
-  for (TriangleContact& one : all) {
-    const auto again = std::lower_bound(later.begin(), later.end(), one, ascending);
-    const bool touches = again != later.end() && again->triangle == one.triangle;
-    if (touches) one.impact.normal_M = again->impact.normal_M;
-    one.impact.depth = touches ? again->impact.depth : 0.0;
+// Keeps time and point of the first contact, and normal and depth of the last.
+void unite(std::vector<TriangleContact>& all, const std::vector<TriangleContact>& later) {
+  for (TriangleContact& contact : all) {
+    const auto again = std::lower_bound(later.begin(), later.end(), contact, ascending);
+    const bool touches = again != later.end() && again->triangle == contact.triangle;
+    if (touches) contact.impact.normal_M = again->impact.normal_M;
+    contact.impact.depth = touches ? again->impact.depth : 0.0;
   }
   unite(all, later, ascending);
 }
 
 }  // namespace
 
-// A body that does not meet a box meets none of the bodies inside. The planes decide about boxes; the detector, which costs
-// more per triangle named, decides about the convex pieces.
+// A triangle that does not meet a box meets no piece inside the box. The planes decide about the boxes, and the detector,
+// which costs more for each triangle that it names, decides about the pieces.
 struct SweepChecker::TreeWalk {
   Detector& detector;
   const SweepRequest& request;
@@ -84,7 +84,7 @@ void unite(SweepResult& all, const SweepResult& later) {
   all.volumes_M.insert(all.volumes_M.end(), later.volumes_M.begin(), later.volumes_M.end());
   all.fine = later.fine;
   unite(all.not_ruled_out, later.not_ruled_out);
-  join(all.in_contact, later.in_contact);
+  unite(all.in_contact, later.in_contact);
   all.inside = all.inside || later.inside;
 }
 
@@ -120,30 +120,31 @@ SweepResult checkSweep(Detector& detector, const SweepRequest& request) {
   return SweepChecker().check(detector, request);
 }
 
-PathResult checkPath(Detector& detector, const Tool& tool, const std::vector<Eigen::Isometry3d>& path,
-                     const TriangleMesh& mesh_M, const SweepOptions& options,
-                     const std::function<void()>& before_sweep) {
+PathResult checkPath(Detector& detector, const PathRequest& request) {
+  const std::vector<Eigen::Isometry3d>& path = request.path;
   assert(!path.empty());
-  PathResult along;
+  PathResult result;
   SweepCache cache;
   for (size_t i = 0; i < std::max<size_t>(path.size() - 1, 1); ++i) {
-    before_sweep();
+    request.before_sweep();
     const Motion motion{path[i], path[std::min(i + 1, path.size() - 1)]};
-    const SweepResult sweep = checkSweep(detector, {tool, split(motion, options.max_rotation), mesh_M, options, cache});
-    if (sweep.contact() && !along.first_contact) {
-      along.first_contact = i;
-      along.time_of_impact = firstTimeOfImpact(sweep);
+    const std::vector<Motion> sub_motions = split(motion, request.options.max_rotation);
+    const SweepResult sweep = checkSweep(detector, {request.tool, sub_motions, request.mesh_M, request.options, cache});
+    if (sweep.contact() && !result.first_contact) {
+      result.first_contact = i;
+      result.time_of_impact = firstTimeOfImpact(sweep);
     }
     cache = sweepCache(sweep);
-    unite(along.all, sweep);
+    unite(result.all, sweep);
   }
-  return along;
+  return result;
 }
 
 SweepCache sweepCache(const SweepResult& result) {
   SweepCache cache{{}, !result.contact(), {}};
-  for (const TriangleContact& one : result.in_contact)
-    cache.contact_normals.emplace_hint(cache.contact_normals.end(), one.triangle, one.impact.normal_M);
+  for (const TriangleContact& contact : result.in_contact) {
+    cache.contact_normals.emplace_hint(cache.contact_normals.end(), contact.triangle, contact.impact.normal_M);
+  }
   return cache;
 }
 
@@ -151,8 +152,8 @@ std::optional<double> firstTimeOfImpact(const SweepResult& result) {
   if (!result.fine) return std::nullopt;
   if (result.inside) return 0.0;
   std::optional<double> first;
-  for (const TriangleContact& one : result.in_contact) {
-    first = std::min(first.value_or(1.0), one.impact.time_of_impact);
+  for (const TriangleContact& contact : result.in_contact) {
+    first = std::min(first.value_or(1.0), contact.impact.time_of_impact);
   }
   return first;
 }

@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/time_budget.h"
+#include "guard/time_budget.h"
 
 #include <algorithm>
 
@@ -7,9 +7,9 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kFall = 0.98;       // per cycle: half in 35 of them
-constexpr double kFirstGuess = 2.5;  // measured sweeps; near a workpiece its probability is looked for, too
-constexpr double kPlanned = 0.75;    // of the cycle: the next one may cost more
+constexpr double kDecay = 0.98;      // per cycle: half in 35 cycles
+constexpr double kFirstGuess = 2.5;  // measured sweeps; near a workpiece its probability is computed, too
+constexpr double kPlanned = 0.75;    // of the cycle: the next cycle may cost more
 
 }  // namespace
 
@@ -30,12 +30,12 @@ Duration TimeBudget::forPrediction() const {
   return fromSeconds(std::max(0.0, kPlanned * toSeconds(cycle_) - measured_));
 }
 
-void TimeBudget::spentOnMeasured(Duration time) { measured_ = std::max(toSeconds(time), kFall * measured_); }
+void TimeBudget::spentOnMeasured(Duration time) { measured_ = std::max(toSeconds(time), kDecay * measured_); }
 
 void TimeBudget::spentOnPredicted(Duration time, size_t volumes) {
   if (volumes == 0) return;
   const double per_volume = toSeconds(time) / static_cast<double>(volumes);
-  per_volume_ = std::max(per_volume, kFall * per_volume_.value_or(0.0));
+  per_volume_ = std::max(per_volume, kDecay * per_volume_.value_or(0.0));
 }
 
 }  // namespace sweep_guard_core

@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/triangle_set.h"
+#include "guard/triangle_set.h"
 
 #include <algorithm>
 #include <functional>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "sweep_guard/guard/triangle_set.h"
+#include "guard/triangle_set.h"
 
 namespace sweep_guard_core {
 

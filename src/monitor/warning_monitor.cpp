@@ -115,7 +115,7 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
                            SteadyTime now) {
   {
     const std::lock_guard lock(mutex_);
-    if (checkpoint.epoch != checkpoint_.epoch) return;
+    if (!checkpoint_.continues(checkpoint)) return;
     for (auto fault = fault_numbers_.begin(); fault != fault_numbers_.end();) {
       const auto& [reason, number] = *fault;
       const bool cleared = number <= checkpoint.faults;
@@ -157,7 +157,7 @@ void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& p
                                const Instant& now) {
   {
     const std::lock_guard lock(mutex_);
-    if (checkpoint.epoch != checkpoint_.epoch) return;
+    if (!checkpoint_.continues(checkpoint)) return;
     for (const SweepFailure& failure : prediction.failures) {
       addFault(kDetectorFault, "predicting contact with '" + failure.workpiece->id + "' failed: " + failure.reason);
     }
@@ -257,7 +257,7 @@ std::optional<std::string> WarningMonitor::disabledBy() const {
 
 bool WarningMonitor::counts(const Checkpoint& checkpoint) const {
   const std::lock_guard lock(mutex_);
-  return checkpoint.epoch == checkpoint_.epoch && !inputs_.disabled_by;
+  return checkpoint_.continues(checkpoint) && !inputs_.disabled_by;
 }
 
 void WarningMonitor::setLimits(const WarningLimits& limits) {

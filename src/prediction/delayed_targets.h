@@ -8,46 +8,46 @@
 
 namespace sweep_guard_core {
 
-/// How far ahead [s] predictors learn; between these they interpolate.
+/// Horizons [s] for which predictors learn; they interpolate between these.
 constexpr std::array<double, 8> kLearnedHorizons = {0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0};
 
-/// Keeps what was known at every pose until it shows how far the tool really went from there within each of
-/// kLearnedHorizons.
-template <typename Known>
+/// Keeps the features of every pose until the displacement of the tool within each of kLearnedHorizons is known.
+template <typename Features>
 class DelayedTargets {
  public:
-  /// Tells what has come true with the newest pose, and keeps what is known at it.
-  /// @param on_target  called as on_target(known, i, displacement) for kLearnedHorizons[i] after the pose it was known at
+  /// Reports the targets that the newest pose completes, and keeps its features.
+  /// @param on_target  called as on_target(features, i, displacement): features of an earlier pose, and the displacement
+  ///                   from that pose within kLearnedHorizons[i]
   template <typename OnTarget>
-  void add(const StampedPose& newest, const Known& known, OnTarget&& on_target) {
+  void add(const StampedPose& newest, const Features& features, OnTarget&& on_target) {
     for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-      for (; next_[i] < moments_.size(); ++next_[i]) {
-        const Moment& moment = moments_[next_[i]];
-        const Time then = moment.pose.stamp + fromSeconds(kLearnedHorizons[i]);
+      for (; next_[i] < samples_.size(); ++next_[i]) {
+        const Sample& sample = samples_[next_[i]];
+        const Time then = sample.pose.stamp + fromSeconds(kLearnedHorizons[i]);
         if (then > newest.stamp) break;
-        on_target(moment.known, i, displacement(moment.pose.X_WT, between(moments_.back().pose, newest, then)));
+        on_target(sample.features, i, displacement(sample.pose.X_WT, between(samples_.back().pose, newest, then)));
       }
     }
-    dropSettled();
-    if (moments_.full()) moments_.set_capacity(2 * moments_.capacity());
-    moments_.push_back({newest, known});
+    dropCompleted();
+    if (samples_.full()) samples_.set_capacity(2 * samples_.capacity());
+    samples_.push_back({newest, features});
   }
 
-  /// The newest pose was wrong.
-  void correctNewest(const StampedPose& pose, const Known& known) {
-    if (!moments_.empty()) moments_.back() = {pose, known};
+  /// Replaces the newest pose and its features.
+  void correctNewest(const StampedPose& pose, const Features& features) {
+    if (!samples_.empty()) samples_.back() = {pose, features};
   }
 
-  /// The motion has been interrupted: what has not come true will not be known.
+  /// Forgets all poses: after an interruption their targets are never completed.
   void clear() {
-    moments_.clear();
+    samples_.clear();
     next_.fill(0);
   }
 
  private:
-  struct Moment {
+  struct Sample {
     StampedPose pose;
-    Known known;
+    Features features;
   };
 
   static Eigen::Isometry3d between(const StampedPose& from, const StampedPose& to, Time stamp) {
@@ -55,14 +55,14 @@ class DelayedTargets {
     return displaced(from.X_WT, share * displacement(from.X_WT, to.X_WT));
   }
 
-  void dropSettled() {
-    const size_t settled = next_.back();
-    moments_.erase_begin(settled);
-    for (size_t& next : next_) next -= settled;
+  void dropCompleted() {
+    const size_t completed = next_.back();
+    samples_.erase_begin(completed);
+    for (size_t& next : next_) next -= completed;
   }
 
-  boost::circular_buffer<Moment> moments_{64};
-  std::array<size_t, kLearnedHorizons.size()> next_{};  // first moment that has not come true that far ahead
+  boost::circular_buffer<Sample> samples_{64};
+  std::array<size_t, kLearnedHorizons.size()> next_{};  // first sample whose target for this horizon is open
 };
 
 }  // namespace sweep_guard_core

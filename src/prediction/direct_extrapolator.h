@@ -10,9 +10,9 @@
 
 namespace sweep_guard_core {
 
-/// Learns from the operator how far velocities carry: for each of kLearnedHorizons its own recursive least squares fit of
-/// the displacement that came on the velocities measured over windows of 0.05, 0.12, 0.3 and 0.8 s, and on the second
-/// of them times its speed, for fast motions end sooner.
+/// Learns the operator's displacements from velocities. For each of kLearnedHorizons, a recursive least squares fit
+/// regresses the displacement on the velocities measured over windows of 0.05, 0.12, 0.3 and 0.8 s, and on the second of
+/// these velocities times its speed, because fast motions end sooner.
 class DirectExtrapolator : public Extrapolator {
  public:
   DirectExtrapolator();
@@ -25,8 +25,8 @@ class DirectExtrapolator : public Extrapolator {
   using Regressions = std::array<DisplacementRegression, kLearnedHorizons.size()>;
 
   void measure(const PoseTracker& tracker);
-  static Eigen::Vector3d carried(const Regressions& carries, const DisplacementRegression::Velocities& velocities,
-                                 double ahead);
+  static Eigen::Vector3d displacementIn(double ahead, const Regressions& regressions,
+                                        const DisplacementRegression::Velocities& velocities);
 
   std::vector<Velocity> windows_;
   Velocities velocities_ = Velocities::Zero();

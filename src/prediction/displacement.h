@@ -6,8 +6,8 @@
 
 namespace sweep_guard_core {
 
-/// How far a tool goes from one pose to another: translation along the axes of W [m], then the rotation vector about
-/// the tool's own axes [rad], the shorter way round, so that a wrap or a sign of a quaternion cannot show.
+/// Returns the displacement of a tool from one pose to another: translation along the axes of W [m], then the rotation
+/// vector about the tool's own axes [rad]. The rotation is at most pi, whatever wraps and the signs of quaternions are.
 inline Vector6d displacement(const Eigen::Isometry3d& X_WT_from, const Eigen::Isometry3d& X_WT_to) {
   const Eigen::AngleAxisd turn(X_WT_from.linear().transpose() * X_WT_to.linear());
   Vector6d moved;
@@ -15,13 +15,13 @@ inline Vector6d displacement(const Eigen::Isometry3d& X_WT_from, const Eigen::Is
   return moved;
 }
 
-/// The vector, shortened to a length where it is longer.
+/// Returns the vector, shortened to `length` if it is longer.
 inline Eigen::Vector3d limited(const Eigen::Vector3d& vector, double length) {
   const double norm = vector.norm();
   return norm > length ? Eigen::Vector3d(length / norm * vector) : vector;
 }
 
-/// The pose so far away.
+/// Returns the pose after a displacement.
 inline Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WT, const Vector6d& displacement) {
   const Eigen::Vector3d turn = displacement.tail<3>();
   const double angle = turn.norm();

@@ -5,11 +5,11 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kPriorShare = 0.3;      // of the way at present speed: what is taken for the error before any is known
-constexpr double kPriorSpeed = 0.02;     // [m/s] a second at this speed outweighs it
-constexpr double kPriorTurnRate = 0.15;  // [rad/s] likewise
+constexpr double kPriorShare = 0.3;      // of the displacement at the current speed: error assumed before any is known
+constexpr double kPriorSpeed = 0.02;     // [m/s]; one second at this speed outweighs the assumed error
+constexpr double kPriorTurnRate = 0.15;  // [rad/s]; one second at this rate outweighs the assumed error
 
-// Per axis: along a direction, across it, in rotation.
+// Returns squares per axis: along a direction, across it, in rotation.
 Eigen::Array3d squares(const Vector6d& error, const Eigen::Vector3d& direction) {
   const double along = error.head<3>().dot(direction);
   const double across = error.head<3>().squaredNorm() - along * along;
@@ -22,13 +22,13 @@ Eigen::Array3d speedSquares(const Vector6d& velocity) {
 }
 
 Vector6d errorOf(const Vector6d& predicted, const Vector6d& moved) {
-  const auto pose = [](const Vector6d& way) { return displaced(Eigen::Isometry3d::Identity(), way); };
+  const auto pose = [](const Vector6d& moved_by) { return displaced(Eigen::Isometry3d::Identity(), moved_by); };
   return displacement(pose(predicted), pose(moved));
 }
 
 }  // namespace
 
-ErrorModel::Record ErrorModel::recordBefore(double ahead) {
+ErrorModel::ErrorStatistics ErrorModel::priorStatistics(double ahead) {
   const Squares activity = Squares(kPriorSpeed, kPriorSpeed, kPriorTurnRate).square();
   const double share = kPriorShare * ahead;
   return {ExponentialMovingAverage<Squares>(share * share * activity, 1.0),
@@ -36,11 +36,11 @@ ErrorModel::Record ErrorModel::recordBefore(double ahead) {
 }
 
 ErrorModel::ErrorModel() {
-  for (const double ahead : kLearnedHorizons) records_.push_back(recordBefore(ahead));
+  for (const double ahead : kLearnedHorizons) statistics_.push_back(priorStatistics(ahead));
 }
 
-// Errors are taken relative to the speed they came with: that known before or, where rest ended or a predicted went
-// astray, that of the motion that came or was predicted.
+// Errors are relative to a speed: the largest of the speed at the pose, that of the motion that followed, and that of the
+// predicted motion. The speed at the pose alone would fail when the tool starts from rest.
 void ErrorModel::observe(const PoseTracker& tracker, const Vector6d& velocity,
                          const PredictedDisplacements& predicted) {
   const double period = toSeconds(tracker.period());
@@ -48,19 +48,19 @@ void ErrorModel::observe(const PoseTracker& tracker, const Vector6d& velocity,
   if (tracker.step() == PoseTracker::Step::kContinues) speeds_.add(speedSquares(velocity), period);
   activity_ = speedSquares(velocity) + speeds_.mean();
   direction_ = velocity.head<3>().stableNormalized();
-  const Known newest{predicted, activity_, direction_};
+  const Features newest{predicted, activity_, direction_};
   if (tracker.step() == PoseTracker::Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
   if (tracker.step() != PoseTracker::Step::kContinues) return;
-  targets_.add(tracker.newest(), newest, [&](const Known& known, size_t i, const Vector6d& moved) {
-    records_[i].errors.add(squares(errorOf(known.predicted[i], moved), known.direction), period);
-    const auto speed = [&](const Vector6d& way) { return speedSquares(way / kLearnedHorizons[i]); };
-    records_[i].activity.add(known.activity.max(speed(moved)).max(speed(known.predicted[i])), period);
+  targets_.add(tracker.newest(), newest, [&](const Features& features, size_t i, const Vector6d& moved) {
+    statistics_[i].errors.add(squares(errorOf(features.predicted[i], moved), features.direction), period);
+    const auto speed = [&](const Vector6d& displacement) { return speedSquares(displacement / kLearnedHorizons[i]); };
+    statistics_[i].activity.add(features.activity.max(speed(moved)).max(speed(features.predicted[i])), period);
   });
 }
 
 Matrix6d ErrorModel::covariance(double ahead) const {
   const auto share = interpolateOverHorizons<Squares>(ahead, [&](size_t i) -> Squares {
-    return (records_[i].errors.mean() / records_[i].activity.mean()).sqrt() / kLearnedHorizons[i];
+    return (statistics_[i].errors.mean() / statistics_[i].activity.mean()).sqrt() / kLearnedHorizons[i];
   });
   const Squares variance = (share * ahead).square() * activity_;
   Matrix6d covariance = Matrix6d::Zero();

@@ -4,22 +4,22 @@
 
 namespace sweep_guard_core {
 
-constexpr double kAveragingTime =
-    20.0;  ///< [s] time constant with which the past fades from what is learned of an operator
+/// Time constant [s] with which older observations of an operator lose weight.
+constexpr double kAveragingTime = 20.0;
 
-/// What is left after a while of the weight of what was before.
+/// Returns the factor by which older observations lose weight within a period.
 /// @param period  [s], >= 0
 inline double decay(double period) { return std::exp(-period / kAveragingTime); }
 
-/// Mean over the recent past, weighted by time.
+/// Computes an exponential moving average, weighted by time.
 template <typename Value>
 class ExponentialMovingAverage {
  public:
-  /// @param prior  the mean before anything has been added
-  /// @param weight [s] it takes so much time to outweigh it, > 0
+  /// @param prior   mean before any value is added
+  /// @param weight  time that outweighs the prior [s], > 0
   explicit ExponentialMovingAverage(const Value& prior, double weight = 1e-3) : sum_(weight * prior), weight_(weight) {}
 
-  /// @param period  that the value stands for [s], >= 0
+  /// @param period  time that the value represents [s], >= 0
   void add(const Value& value, double period) {
     sum_ = decay(period) * sum_ + period * value;
     weight_ = decay(period) * weight_ + period;

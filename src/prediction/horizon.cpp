@@ -22,7 +22,7 @@ void checkStep(const std::string& key, Duration interval, Duration step) {
 
 size_t steps(Duration interval, Duration step) { return static_cast<size_t>((interval + step - Duration(1)) / step); }
 
-// In whole nanoseconds; the last is exactly `to`.
+// Appends whole nanoseconds; the last end is exactly `to`.
 void appendEqual(std::vector<Duration>& ends, Duration from, Duration to, size_t count) {
   for (size_t i = 1; i <= count; ++i) {
     const auto [quotient, rest] = std::div((to - from).count(), static_cast<std::int64_t>(count));
@@ -50,7 +50,7 @@ size_t consideredSweeps(const HorizonOptions& options) {
   return steps(options.considered + options.reserve - options.reflex, options.considered_step);
 }
 
-void horizon(const HorizonOptions& options, Duration age, Horizon& horizon) {
+void computeHorizon(const HorizonOptions& options, Duration age, Horizon& horizon) {
   horizon.ends.clear();
   horizon.reflex_sweeps = reflexSweeps(options, age);
   const Duration reflex_end = age + options.reflex;
@@ -58,20 +58,15 @@ void horizon(const HorizonOptions& options, Duration age, Horizon& horizon) {
   appendEqual(horizon.ends, reflex_end, age + options.considered + options.reserve, consideredSweeps(options));
 }
 
-Horizon horizon(const HorizonOptions& options, Duration age) {
-  Horizon all;
-  horizon(options, age, all);
-  return all;
-}
-
 Horizon horizonUpTo(Duration end, HorizonOptions options, Duration age) {
   assert(end > Duration::zero());
   options.considered = std::max(end, options.reflex + options.considered_step);
-  Horizon all = horizon(options, age);
-  while (!all.ends.empty() && all.ends.back() >= age + end) all.ends.pop_back();
-  all.ends.push_back(age + end);
-  all.reflex_sweeps = std::min(all.reflex_sweeps, all.ends.size());
-  return all;
+  Horizon horizon;
+  computeHorizon(options, age, horizon);
+  while (!horizon.ends.empty() && horizon.ends.back() >= age + end) horizon.ends.pop_back();
+  horizon.ends.push_back(age + end);
+  horizon.reflex_sweeps = std::min(horizon.reflex_sweeps, horizon.ends.size());
+  return horizon;
 }
 
 }  // namespace sweep_guard_core

@@ -6,9 +6,10 @@
 
 namespace sweep_guard_core {
 
-/// A value between those of kLearnedHorizons, linear in time; beyond the first and the last of them it stays.
+/// Interpolates linearly in time between values at kLearnedHorizons; before the first and after the last, the value is
+/// constant.
 /// @param ahead  [s]
-/// @param at     the value at kLearnedHorizons[i], called as at(i)
+/// @param at     called as at(i); returns the value at kLearnedHorizons[i]
 template <typename Value, typename At>
 Value interpolateOverHorizons(double ahead, At&& at) {
   const auto upper = std::lower_bound(kLearnedHorizons.begin(), kLearnedHorizons.end(), ahead);

@@ -5,8 +5,8 @@
 
 namespace sweep_guard_core {
 
-/// The paper's predictor [P, Sec. 3.2]: one polynomial in time per degree of freedom, mutually independent, by
-/// recursive least squares on an observation period. Degrees above 1 wait until half of that period has been observed.
+/// Extrapolates by the paper's predictor [P, Sec. 3.2]: an independent polynomial in time for each degree of freedom, fitted
+/// by recursive least squares over an observation period. Degrees above 1 are used once half of that period is observed.
 class PolynomialExtrapolator : public Extrapolator {
  public:
   explicit PolynomialExtrapolator(const PredictorOptions& options);

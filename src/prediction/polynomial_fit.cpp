@@ -10,7 +10,7 @@ namespace {
 constexpr int kTerms = PolynomialFit::kMaxDegree + 1;
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 
-// Bonnet's recursion.
+// Computes Legendre polynomials by Bonnet's recursion.
 Terms legendre(double x) {
   Terms p = Terms::Ones();
   p[1] = x;
@@ -56,8 +56,8 @@ void PolynomialFit::add(Time stamp, const Vector6d& values) {
   fit_.forget(options_.forgetting_factor);
   include(samples_.back());
   dropOld();
-  const Time wanted_middle = samples_.front().stamp + span() / 2;
-  if (std::abs(toSeconds(wanted_middle - middle_)) > half_width_ / 4.0 ||
+  const Time middle = samples_.front().stamp + span() / 2;
+  if (std::abs(toSeconds(middle - middle_)) > half_width_ / 4.0 ||
       std::abs(toSeconds(span()) / 2.0 - half_width_) > half_width_ / 4.0) {
     rebuild();
   }

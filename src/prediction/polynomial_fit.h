@@ -12,21 +12,20 @@ namespace sweep_guard_core {
 /// Fits six values by polynomials in time over a sliding window: recursive least squares with exponential forgetting on
 /// an observation period [P, Sec. 3.2].
 ///
-/// The fit is held in Legendre polynomials about the middle of the window, and made anew from the window's samples when
-/// the window has moved on by an eighth: so it stays as well conditioned as at first, however long it runs, at constant
-/// cost per sample.
+/// The fit uses Legendre polynomials about the middle of the window. When the window has moved by an eighth, the fit is
+/// rebuilt from its samples. It therefore stays well conditioned however long it runs, at constant cost per sample.
 class PolynomialFit {
  public:
   static constexpr int kMaxDegree = 5;
   using Degrees = std::array<int, 6>;  ///< one for each value, 0 to kMaxDegree
 
   struct Options {
-    int degree = 1;                  ///< highest that will be asked for, 0 to kMaxDegree
-    Duration window{};               ///< no older sample counts, but for the newest degree + 1; > 0
-    double forgetting_factor = 1.0;  ///< weight of a sample over that of the next one, in (0, 1]
+    int degree = 1;                  ///< largest degree that curve() may use, 0 to kMaxDegree
+    Duration window{};               ///< older samples are dropped, except the newest degree + 1; > 0
+    double forgetting_factor = 1.0;  ///< weight of a sample relative to the next one, in (0, 1]
   };
 
-  /// What was fitted. A snapshot: later samples do not change it.
+  /// The fitted polynomials. A snapshot: later samples do not change it.
   class Curve {
    public:
     Vector6d at(Time stamp) const;       ///< the values
@@ -42,21 +41,23 @@ class PolynomialFit {
     double half_width_ = 1.0;
     Vector6d origin_;
     Degrees degrees_;
-    std::array<Fit::Coefficients, kMaxDegree + 1> by_degree_;  // of the degrees that are used
+    std::array<Fit::Coefficients, kMaxDegree + 1> by_degree_;  // for the degrees in use
   };
 
   explicit PolynomialFit(const Options& options);
 
-  /// @param stamp  later than that of the sample before
+  /// Adds a sample.
+  /// @param stamp  later than the previous sample's
   void add(Time stamp, const Vector6d& values);
-  /// Corrects the newest sample.
+  /// Replaces the values of the newest sample.
   void replaceNewest(const Vector6d& values);
   void clear();
 
-  size_t size() const { return samples_.size(); }  ///< samples in the window
-  Duration span() const;                           ///< from the oldest to the newest of them
+  size_t size() const { return samples_.size(); }  ///< number of samples in the window
+  Duration span() const;                           ///< from the oldest sample to the newest
 
-  /// @param degrees  each at most Options::degree; lowered where there are too few samples. There must be a sample
+  /// Returns the fitted polynomials. There must be a sample.
+  /// @param degrees  each at most Options::degree; lowered if there are too few samples
   Curve curve(const Degrees& degrees) const;
 
  private:

@@ -34,8 +34,8 @@ const PredictorOptions& checked(const PredictorOptions& options) {
 
 }  // namespace
 
-struct PosePredictor::Parts {
-  explicit Parts(const PredictorOptions& options)
+struct PosePredictor::Impl {
+  explicit Impl(const PredictorOptions& options)
       : constrained(checked(options).constrained),
         tracker(options.max_speed, options.max_turn_rate),
         extrapolator(makeExtrapolator(options)) {}
@@ -58,40 +58,34 @@ struct PosePredictor::Parts {
   ErrorModel errors;
 };
 
-PosePredictor::PosePredictor(const PredictorOptions& options) : parts_(std::make_unique<Parts>(options)) {}
+PosePredictor::PosePredictor(const PredictorOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 PosePredictor::~PosePredictor() = default;
 PosePredictor::PosePredictor(PosePredictor&&) noexcept = default;
 PosePredictor& PosePredictor::operator=(PosePredictor&&) noexcept = default;
 
 void PosePredictor::observe(const StampedPose& pose) {
-  parts_->tracker.add(pose);
-  parts_->velocity.observe(parts_->tracker);
-  parts_->extrapolator->observe(parts_->tracker);
+  impl_->tracker.add(pose);
+  impl_->velocity.observe(impl_->tracker);
+  impl_->extrapolator->observe(impl_->tracker);
   PredictedDisplacements predicted;
-  for (size_t i = 0; i < predicted.size(); ++i) predicted[i] = parts_->displacementIn(kLearnedHorizons[i]);
-  parts_->errors.observe(parts_->tracker, parts_->velocity.value(), predicted);
+  for (size_t i = 0; i < predicted.size(); ++i) predicted[i] = impl_->displacementIn(kLearnedHorizons[i]);
+  impl_->errors.observe(impl_->tracker, impl_->velocity.value(), predicted);
 }
 
 void PosePredictor::predict(const std::vector<Duration>& ahead, PredictedPath& path) const {
   path.clear();
-  if (parts_->tracker.poses() < 2) return;
+  if (impl_->tracker.poses() < 2) return;
   for (const Duration& duration : ahead) {
     assert(duration > (path.empty() ? Duration::zero() : path.back().ahead));
     const double seconds = toSeconds(duration);
     PredictedPose pose;
     pose.ahead = duration;
-    pose.X_WT = displaced(parts_->tracker.newest().X_WT, parts_->displacementIn(seconds));
-    pose.covariance = parts_->errors.covariance(seconds);
+    pose.X_WT = displaced(impl_->tracker.newest().X_WT, impl_->displacementIn(seconds));
+    pose.covariance = impl_->errors.covariance(seconds);
     path.push_back(pose);
   }
 }
 
-PredictedPath PosePredictor::predict(const std::vector<Duration>& ahead) const {
-  PredictedPath path;
-  predict(ahead, path);
-  return path;
-}
-
-void PosePredictor::restart() { parts_->tracker.interrupt(); }
+void PosePredictor::restart() { impl_->tracker.interrupt(); }
 
 }  // namespace sweep_guard_core

@@ -7,8 +7,8 @@ namespace {
 
 constexpr auto kGap = std::chrono::milliseconds(250);
 constexpr Duration kMaxGap = std::chrono::seconds(1);
-constexpr Duration kMinPeriod = std::chrono::microseconds(500);  // less says nothing of the speed
-constexpr Duration kJitter = std::chrono::milliseconds(10);      // stamps cut or late by this do not make a jump
+constexpr Duration kMinPeriod = std::chrono::microseconds(500);  // too short to compute a speed
+constexpr Duration kJitter = std::chrono::milliseconds(10);      // error of a stamp that does not make a jump
 
 }  // namespace
 

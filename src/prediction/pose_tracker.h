@@ -5,14 +5,14 @@
 
 namespace sweep_guard_core {
 
-/// Follows the poses of a tool, and tells where its motion is interrupted: by a gap of 0.25 s, of three periods where
-/// poses come more slowly, of 1 s in any case, or by a jump that is faster than a tool can be.
+/// Tracks the poses of a tool and detects interruptions of its motion: a gap of 0.25 s, or three periods of slower poses
+/// but at most 1 s, or a jump faster than the limits.
 class PoseTracker {
  public:
   enum class Step {
     kBegins,     ///< the first pose, or the first after an interruption
-    kContinues,  ///< the motion goes on from the pose before
-    kCorrects,   ///< the stamp is not later by 0.5 ms: the pose takes the place of the pose before
+    kContinues,  ///< the motion continues from the previous pose
+    kCorrects,   ///< the stamp is later by less than 0.5 ms: the pose replaces the previous one
   };
 
   /// @param max_speed      [m/s], > 0
@@ -21,21 +21,21 @@ class PoseTracker {
 
   Step add(const StampedPose& pose);
 
-  /// The next pose begins a motion.
+  /// Ends the motion: the next pose begins another one.
   void interrupt() {
     poses_ = 0;
     period_ = Duration::zero();
   }
 
-  Step step() const { return step_; }                    ///< of the newest pose
+  Step step() const { return step_; }                    ///< what the newest pose did
   double maxSpeed() const { return max_speed_; }         ///< [m/s]
   double maxTurnRate() const { return max_turn_rate_; }  ///< [rad/s]
-  int poses() const { return poses_; }                   ///< since the motion began
+  int poses() const { return poses_; }                   ///< number of poses since the motion began
   const StampedPose& newest() const { return newest_; }  ///< there must be one
-  Duration period() const { return period_; }            ///< from the pose before to the newest
+  Duration period() const { return period_; }            ///< from the previous pose to the newest
 
-  /// The newest pose in numbers that never wrap: translation in W [m], then the turns about the tool's own axes, added
-  /// up from pose to pose [rad].
+  /// Returns coordinates of the newest pose that never wrap: translation in W [m], then the rotations about the tool's own
+  /// axes, summed from pose to pose [rad].
   const Vector6d& coordinates() const { return coordinates_; }
 
  private:

@@ -6,8 +6,8 @@
 namespace sweep_guard_core {
 
 /// Recursive least squares [P, Sec. 3.2]: fits M outputs, each a weighted sum of the same N regressors, one observation
-/// at a time. It recurs on the information matrix and not on its inverse: symmetry cannot be lost, an observation can
-/// be taken out again, and with a prior nothing winds up where the regressors do not move.
+/// at a time. The recursion updates the information matrix, not its inverse: it stays symmetric, an observation can be
+/// removed again, and with a prior nothing winds up while the regressors do not change.
 template <int N, int M>
 class Rls {
  public:
@@ -16,7 +16,7 @@ class Rls {
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, N, N>;
   using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, M, Eigen::ColMajor, N, M>;
 
-  /// Multiplies the weight of everything observed so far.
+  /// Multiplies the weight of all observations.
   /// @param factor  in (0, 1]
   void forget(double factor) {
     information_ *= factor;
@@ -25,7 +25,8 @@ class Rls {
     weight_ *= factor;
   }
 
-  /// @param weight  of the observation; negative takes it out again
+  /// Adds an observation.
+  /// @param weight  a negative weight removes the observation again
   void add(const Regressors& regressors, const Outputs& outputs, double weight = 1.0) {
     information_.template selfadjointView<Eigen::Lower>().rankUpdate(regressors, weight);
     projection_.noalias() += weight * regressors * outputs.transpose();
@@ -33,22 +34,22 @@ class Rls {
     weight_ += weight;
   }
 
-  /// The best coefficients: one column per output.
-  /// @param n      only the first n regressors take part, 1 to N
+  /// Returns the coefficients that fit best: one column per output.
+  /// @param n      number of regressors used, from the first; 1 to N
   /// @param prior  information that every coefficient is 0, >= 0
   Coefficients coefficients(int n = N, double prior = 0.0) const {
     return solver(n, prior).solve(projection_.topRows(n));
   }
 
-  /// How far these coefficients can be trusted: their covariance for an output whose observations err by 1.
+  /// Returns the covariance of these coefficients for an output whose observations have variance 1.
   Square covariance(int n = N, double prior = 0.0) const { return solver(n, prior).solve(Square::Identity(n, n)); }
 
-  /// Variance of the observations about the fit by all regressors; 0 without observations to spare.
+  /// Returns the variance of the observations about the fit by all regressors; 0 if there are at most N observations.
   Outputs variance() const {
-    const double spare = weight_ - N;
-    if (spare <= 0.0) return Outputs::Zero();
+    const double freedom = weight_ - N;
+    if (freedom <= 0.0) return Outputs::Zero();
     const Outputs explained = coefficients().cwiseProduct(projection_).colwise().sum().transpose();
-    return (squares_ - explained).cwiseMax(0.0) / spare;
+    return (squares_ - explained).cwiseMax(0.0) / freedom;
   }
 
  private:

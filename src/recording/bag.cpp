@@ -30,26 +30,26 @@ struct FramedPose {
   StampedPose pose;
 };
 
-std::string listed(const std::set<std::string>& topics) {
+std::string joinNames(const std::set<std::string>& topics) {
   std::string list;
   for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
   return list;
 }
 
-std::string chooseTopic(const rosbag::Bag& bag, const std::string& wanted) {
+std::string chooseTopic(const rosbag::Bag& bag, const std::string& requested) {
   std::set<std::string> topics;
   for (const rosbag::ConnectionInfo* connection : rosbag::View(bag, rosbag::TypeQuery(kTypes)).getConnections()) {
     topics.insert(connection->topic);
   }
-  if (topics.empty()) throw InvalidInput("there is no PoseStamped or TransformStamped in it; record one of them");
-  if (!wanted.empty() && topics.count(wanted) == 0) {
-    throw InvalidInput("no PoseStamped or TransformStamped on " + wanted + "; there are: " + listed(topics));
+  if (topics.empty()) throw InvalidInput("no PoseStamped or TransformStamped in the bag; record one of them");
+  if (!requested.empty() && topics.count(requested) == 0) {
+    throw InvalidInput("no PoseStamped or TransformStamped on " + requested + "; there are: " + joinNames(topics));
   }
-  if (wanted.empty() && topics.size() != 1) {
+  if (requested.empty() && topics.size() != 1) {
     throw InvalidInput("choose one topic (motion_topic:=TOPIC, or --topic of evaluate_prediction); there are: " +
-                       listed(topics));
+                       joinNames(topics));
   }
-  return wanted.empty() ? *topics.begin() : wanted;
+  return requested.empty() ? *topics.begin() : requested;
 }
 
 FramedPose read(const rosbag::MessageInstance& message) {
@@ -65,10 +65,10 @@ FramedPose read(const rosbag::MessageInstance& message) {
 void append(std::vector<StampedPose>* poses, std::string* frames, const FramedPose& next) {
   if (poses->empty()) *frames = next.frames;
   if (next.frames != *frames) {
-    throw InvalidInput("gives " + next.frames + " where it gave " + *frames + " before; record one frame per topic");
+    throw InvalidInput("frame is " + next.frames + ", was " + *frames + " before; record one frame per topic");
   }
   if (!poses->empty() && next.pose.stamp < poses->back().stamp) {
-    throw InvalidInput("stamp is earlier than the one before; give a bag of one run");
+    throw InvalidInput("stamp is earlier than the previous one; give a bag of one run");
   }
   poses->push_back(next.pose);
 }
@@ -107,7 +107,7 @@ std::vector<StampedPose> readBag(const std::string& path, const std::string& top
     throw InvalidInput(path + ": " + error.what());
   } catch (const rosbag::BagUnindexedException&) {
     throw InvalidInput(path + ": the bag has no index; run rosbag reindex on it");
-  } catch (const std::exception& error) {  // rosbag's own, ROS's, no memory for what a broken header asks for
+  } catch (const std::exception& error) {  // of rosbag or ROS, or no memory for the size in a broken header
     throw InvalidInput(path + ": the bag is broken: " + firstLine(error.what()));
   }
 }

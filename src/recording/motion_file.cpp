@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kColumns = 8;
 constexpr std::string_view kBlanks = " \t\r";
-constexpr std::size_t kMaxShown = 40;
+constexpr std::size_t kMaxPrinted = 40;
 constexpr double kMinQuaternion = 1e-10;
 
 using Columns = std::array<long double, kColumns>;
@@ -35,12 +35,12 @@ std::string_view nextWord(std::string_view* line) {
   return word;
 }
 
-/// As it may stand in a message: not too long, and nothing that a terminal would obey.
-std::string shown(std::string_view word) {
-  std::string text(word.substr(0, kMaxShown));
+/// Shortens a word and replaces control characters, which a terminal would obey.
+std::string printable(std::string_view word) {
+  std::string text(word.substr(0, kMaxPrinted));
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return word.size() > kMaxShown ? text + "..." : text;
+  return word.size() > kMaxPrinted ? text + "..." : text;
 }
 
 long double toNumber(std::string_view word) {
@@ -48,7 +48,7 @@ long double toNumber(std::string_view word) {
   const char* const end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, number);
   if (error != std::errc() || stop != end || !std::isfinite(static_cast<double>(number))) {
-    throw InvalidInput("'" + shown(word) + "' is not a finite number; correct or remove the line");
+    throw InvalidInput("'" + printable(word) + "' is not a finite number; correct or remove the line");
   }
   return number;
 }
@@ -98,7 +98,7 @@ std::vector<StampedPose> readMotionFile(const std::string& path) {
     try {
       const StampedPose pose = toPose(toColumns(line));
       if (!poses.empty() && pose.stamp < poses.back().stamp) {
-        throw InvalidInput("stamp is earlier than the one before; sort the lines by their stamps");
+        throw InvalidInput("stamp is earlier than the previous one; sort the lines by their stamps");
       }
       poses.push_back(pose);
     } catch (const InvalidInput& error) {

@@ -7,14 +7,14 @@
 
 namespace sweep_guard_recording {
 
-/// A recorded motion, and what it is called in tables and plots.
+/// A recorded motion and its name in tables and plots.
 struct Recording {
-  std::string name;                                  ///< of the file, without folder and extension
+  std::string name;                                  ///< file name without folder and extension
   std::vector<sweep_guard_core::StampedPose> poses;  ///< at least one; stamps do not decrease
 };
 
-/// Reads a motion file or a rosbag, whichever it is.
-/// @param topic  of a rosbag; empty: the only one that has poses
+/// Reads a motion file or a rosbag.
+/// @param topic  of a rosbag; empty: the only topic with poses
 /// @throws sweep_guard_core::InvalidInput as readMotionFile() and readBag() do
 Recording readRecording(const std::string& path, const std::string& topic);
 

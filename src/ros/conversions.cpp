@@ -13,29 +13,29 @@ using sweep_guard::Warning;
 using sweep_guard_core::InvalidInput;
 
 template <typename MessageConstant, typename CoreConstant>
-constexpr bool same(MessageConstant in_message, CoreConstant in_core) {
+constexpr bool equal(MessageConstant in_message, CoreConstant in_core) {
   return static_cast<std::uint32_t>(in_message) == static_cast<std::uint32_t>(in_core);
 }
 
-static_assert(same(Warning::NO_POSE, sweep_guard_core::kNoPose));
-static_assert(same(Warning::POSE_STALE, sweep_guard_core::kPoseStale));
-static_assert(same(Warning::POSE_INVALID, sweep_guard_core::kPoseInvalid));
-static_assert(same(Warning::OUT_OF_ORDER, sweep_guard_core::kOutOfOrder));
-static_assert(same(Warning::FUTURE_STAMP, sweep_guard_core::kFutureStamp));
-static_assert(same(Warning::NO_MESH, sweep_guard_core::kNoMesh));
-static_assert(same(Warning::MESH_STALE, sweep_guard_core::kMeshStale));
-static_assert(same(Warning::MESH_INVALID, sweep_guard_core::kMeshInvalid));
-static_assert(same(Warning::TF_FAIL, sweep_guard_core::kTfFail));
-static_assert(same(Warning::TIME_JUMP, sweep_guard_core::kTimeJump));
-static_assert(same(Warning::DETECTOR_FAULT, sweep_guard_core::kDetectorFault));
-static_assert(same(Warning::NOT_SWEPT, sweep_guard_core::kNotSwept));
-static_assert(same(Warning::NOT_COVERED, sweep_guard_core::kNotCovered));
-static_assert(same(Warning::OVERLOAD, sweep_guard_core::kOverload));
-static_assert(same(Warning::UNKNOWN, sweep_guard_core::WarningLevel::kUnknown));
-static_assert(same(Warning::CLEAR, sweep_guard_core::WarningLevel::kClear));
-static_assert(same(Warning::CONSIDERED, sweep_guard_core::WarningLevel::kConsidered));
-static_assert(same(Warning::REFLEX, sweep_guard_core::WarningLevel::kReflex));
-static_assert(same(Warning::CONTACT, sweep_guard_core::WarningLevel::kContact));
+static_assert(equal(Warning::NO_POSE, sweep_guard_core::kNoPose));
+static_assert(equal(Warning::POSE_STALE, sweep_guard_core::kPoseStale));
+static_assert(equal(Warning::POSE_INVALID, sweep_guard_core::kPoseInvalid));
+static_assert(equal(Warning::OUT_OF_ORDER, sweep_guard_core::kOutOfOrder));
+static_assert(equal(Warning::FUTURE_STAMP, sweep_guard_core::kFutureStamp));
+static_assert(equal(Warning::NO_MESH, sweep_guard_core::kNoMesh));
+static_assert(equal(Warning::MESH_STALE, sweep_guard_core::kMeshStale));
+static_assert(equal(Warning::MESH_INVALID, sweep_guard_core::kMeshInvalid));
+static_assert(equal(Warning::TF_FAIL, sweep_guard_core::kTfFail));
+static_assert(equal(Warning::TIME_JUMP, sweep_guard_core::kTimeJump));
+static_assert(equal(Warning::DETECTOR_FAULT, sweep_guard_core::kDetectorFault));
+static_assert(equal(Warning::NOT_SWEPT, sweep_guard_core::kNotSwept));
+static_assert(equal(Warning::NOT_COVERED, sweep_guard_core::kNotCovered));
+static_assert(equal(Warning::OVERLOAD, sweep_guard_core::kOverload));
+static_assert(equal(Warning::UNKNOWN, sweep_guard_core::WarningLevel::kUnknown));
+static_assert(equal(Warning::CLEAR, sweep_guard_core::WarningLevel::kClear));
+static_assert(equal(Warning::CONSIDERED, sweep_guard_core::WarningLevel::kConsidered));
+static_assert(equal(Warning::REFLEX, sweep_guard_core::WarningLevel::kReflex));
+static_assert(equal(Warning::CONTACT, sweep_guard_core::WarningLevel::kContact));
 
 template <typename Vector>
 Eigen::Vector3d toEigen(const Vector& v) {
@@ -54,30 +54,24 @@ Eigen::Isometry3d rigid(const Eigen::Vector3d& translation, const geometry_msgs:
   return pose;
 }
 
-sweep_guard::TriangleContact contact(const sweep_guard_core::TriangleContact& touched,
-                                     const sweep_guard_core::Tool& tool) {
+sweep_guard::TriangleContact contactMsg(const sweep_guard_core::TriangleContact& contact,
+                                        const sweep_guard_core::Tool& tool) {
   sweep_guard::TriangleContact msg;
-  msg.triangle = touched.triangle;
-  msg.tool_link = tool.pieces()[touched.piece].link;
-  msg.time_of_impact = touched.impact.time_of_impact;
-  const auto& [p_M, n_M] = std::pair(touched.impact.point_M, touched.impact.normal_M);
-  msg.point.x = p_M.x();
-  msg.point.y = p_M.y();
-  msg.point.z = p_M.z();
-  msg.normal.x = n_M.x();
-  msg.normal.y = n_M.y();
-  msg.normal.z = n_M.z();
-  msg.depth = touched.impact.depth;
+  msg.triangle = contact.triangle;
+  msg.tool_link = tool.pieces()[contact.piece].link;
+  msg.time_of_impact = contact.impact.time_of_impact;
+  msg.point = vectorMsg<geometry_msgs::Point>(contact.impact.point_M);
+  msg.normal = vectorMsg<geometry_msgs::Vector3>(contact.impact.normal_M);
+  msg.depth = contact.impact.depth;
   return msg;
 }
 
-sweep_guard::PredictedPose predictedPose(const sweep_guard_core::PredictedPose& expected,
-                                         sweep_guard_core::Duration age) {
+sweep_guard::PredictedPose poseMsg(const sweep_guard_core::PredictedPose& pose, sweep_guard_core::Duration age) {
   using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
   sweep_guard::PredictedPose msg;
-  msg.from_now = toMsg(expected.ahead - age);
-  msg.pose = toMsg(expected.X_WT);
-  Eigen::Map<RowMajor>(msg.covariance.data()) = expected.covariance;
+  msg.from_now = toMsg(pose.ahead - age);
+  msg.pose = toMsg(pose.X_WT);
+  Eigen::Map<RowMajor>(msg.covariance.data()) = pose.covariance;
   return msg;
 }
 
@@ -106,9 +100,7 @@ Eigen::Isometry3d fromMsg(const geometry_msgs::Transform& transform) {
 geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond q(pose.linear());
   geometry_msgs::Pose msg;
-  msg.position.x = pose.translation().x();
-  msg.position.y = pose.translation().y();
-  msg.position.z = pose.translation().z();
+  msg.position = vectorMsg<geometry_msgs::Point>(pose.translation());
   msg.orientation.w = q.w();
   msg.orientation.x = q.x();
   msg.orientation.y = q.y();
@@ -118,12 +110,11 @@ geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose) {
 
 sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles) {
   if (mesh.triangles.size() > max_triangles) {
-    throw InvalidInput(std::to_string(mesh.triangles.size()) + " triangles: limits/max_triangles is " +
+    throw InvalidInput(std::to_string(mesh.triangles.size()) + " triangles exceed limits/max_triangles, " +
                        std::to_string(max_triangles));
   }
   if (mesh.vertices.size() > 3 * max_triangles) {
-    throw InvalidInput(std::to_string(mesh.vertices.size()) +
-                       " vertices: more than three for each of limits/max_triangles");
+    throw InvalidInput(std::to_string(mesh.vertices.size()) + " vertices exceed three times limits/max_triangles");
   }
   std::vector<Eigen::Vector3d> vertices;
   vertices.reserve(mesh.vertices.size());
@@ -153,8 +144,8 @@ sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
   msg.fine = result.fine;
   msg.inside = result.inside;
   msg.inside_tested = workpiece.mesh_M.closed();
-  for (const sweep_guard_core::TriangleContact& touched : result.in_contact)
-    msg.impacts.push_back(contact(touched, tool));
+  for (const sweep_guard_core::TriangleContact& contact : result.in_contact)
+    msg.impacts.push_back(contactMsg(contact, tool));
   return msg;
 }
 
@@ -174,17 +165,17 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
                               const sweep_guard_core::WarningLimits& limits) {
   sweep_guard::Prediction msg;
   msg.header.stamp = toMsg(prediction.stamp);
-  for (const sweep_guard_core::PredictedPose& expected : prediction.path) {
-    if (expected.ahead > age) msg.poses.push_back(predictedPose(expected, age));
+  for (const sweep_guard_core::PredictedPose& pose : prediction.path) {
+    if (pose.ahead > age) msg.poses.push_back(poseMsg(pose, age));
   }
   msg.sweeps_asked = static_cast<std::uint32_t>(prediction.sweeps_asked);
   msg.sweeps_made = static_cast<std::uint32_t>(prediction.sweeps_made);
   msg.valid = prediction.complete();
   msg.probability = msg.valid ? prediction.probability() : std::numeric_limits<double>::quiet_NaN();
   msg.time_to_collision = ros::Duration(-1.0);
-  if (const auto met = prediction.firstContact()) {
+  if (const auto first = prediction.firstContact()) {
     msg.collision = true;
-    msg.time_to_collision = toMsg(std::max(*met - age, sweep_guard_core::Duration::zero()));
+    msg.time_to_collision = toMsg(std::max(*first - age, sweep_guard_core::Duration::zero()));
   }
   std::optional<sweep_guard_core::PredictedContact> contact;
   sweep_guard_core::findPredictedContact(prediction, {prediction.stamp, {}}, limits.min_probability, contact);

@@ -7,48 +7,51 @@
 
 #include "ros/real_time.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/guard/guard.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
 
-// A pose that is passed is swept where the next one is.
-bool knowsAllFramesOf(const QueuedPose& placed, const QueuedPose& next) {
-  const auto& frames = placed.pose.X_WM;
+using sweep_guard_core::Duration;
+using sweep_guard_core::Error;
+using sweep_guard_core::Instant;
+using sweep_guard_core::SteadyTime;
+using sweep_guard_core::Timestamps;
+
+// A passed pose is swept as a part of the motion to the next one.
+bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
+  const auto& frames = queued.pose.X_WM;
   return std::all_of(frames.begin(), frames.end(),
                      [&](const auto& frame) { return next.pose.X_WM.count(frame.first) != 0; });
 }
 
+Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(pose, at), Duration::zero()); }
+
 }  // namespace
 
-GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadDependencies& parts)
-    : parts_(parts),
-      findings_(private_node, parts.parameters),
-      guard_(*parts.parameters.initial().tool,
-             sweep_guard_core::makeDetector(parts.parameters.initial().detector,
-                                            parts.parameters.initial().detector_options),
-             parts.parameters.initial().guard) {}
+GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies)
+    : dependencies_(dependencies),
+      results_(private_node, dependencies.parameters),
+      guard_(*dependencies.parameters.initial().tool,
+             sweep_guard_core::makeDetector(dependencies.parameters.initial().detector,
+                                            dependencies.parameters.initial().detector_options),
+             dependencies.parameters.initial().guard) {}
 
 void GuardThread::start() {
-  thread_ = std::thread([this] { work(); });
+  thread_ = std::thread([this] { run(); });
 }
 
 void GuardThread::stop() {
-  queue_.stop();
+  dependencies_.queue.stop();
   if (thread_.joinable()) thread_.join();
 }
 
-void GuardThread::sweepTo(QueuedPose pose) {
-  if (parts_.monitor.counts(pose.came)) queue_.push(std::move(pose));
-}
-
-// What takes time is made here, and what it replaces is destroyed here: the sweeping thread only exchanges them.
-void GuardThread::adopt(const std::shared_ptr<const Parameters>& next) {
-  const std::lock_guard alone(adopting_mutex_);
+// Makes the new parts and destroys the old ones here: the guard's thread only exchanges them.
+void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
+  const std::lock_guard lock(change_mutex_);
   sweep_guard_core::GuardChange change;
   change.options = next->guard;
-  const auto before = parts_.parameters.get();
+  const auto before = dependencies_.parameters.get();
   if (detectorsDiffer(*before, *next)) {
     change.detector = sweep_guard_core::makeDetector(next->detector, next->detector_options);
   }
@@ -58,141 +61,134 @@ void GuardThread::adopt(const std::shared_ptr<const Parameters>& next) {
   if (differ(*before, *next, "tool/")) change.tool = *next->tool;
   const auto exchange = [&] {
     guard_.exchange(change);
-    parts_.monitor.setLimits(next->limits);
-    parts_.statistics.setCycle(next->guard.cycle);
-    parts_.parameters.set(next);
+    dependencies_.monitor.setLimits(next->limits);
+    dependencies_.statistics.setCycle(next->guard.cycle);
+    dependencies_.parameters.set(next);
   };
-  queue_.ask<void>(exchange).get();
+  dependencies_.queue.submit<void>(exchange).get();
 }
 
 void GuardThread::reset() {
-  const std::lock_guard alone(adopting_mutex_);
+  const std::lock_guard lock(change_mutex_);
   sweep_guard_core::GuardChange change;
-  change.options = parts_.parameters.get()->guard;
+  change.options = dependencies_.parameters.get()->guard;
   change.predictor.emplace(change.options.predictor);
-  parts_.monitor.restart();
+  dependencies_.monitor.restart();
   const auto forget = [&] {
     guard_.reset();
     guard_.exchange(change);
     passed_.clear();
     swept_.reset();
-    parts_.scene.clear();
+    dependencies_.scene.clear();
   };
-  queue_.ask<void>(forget).get();
-  parts_.statistics.restart();
+  dependencies_.queue.submit<void>(forget).get();
+  dependencies_.statistics.restart();
 }
 
-std::future<PredictService::Answer> GuardThread::predictMotion(sweep_guard_core::Duration horizon) {
-  return queue_.ask<PredictService::Answer>([this, horizon] { return answer(horizon); });
+std::future<PredictService::Motion> GuardThread::predictMotion(Duration horizon) {
+  return dependencies_.queue.submit<PredictService::Motion>([this, horizon] { return motion(horizon); });
 }
 
-void GuardThread::work() {
-  const int priority = parts_.parameters.initial().realtime_priority;
+void GuardThread::run() {
+  const int priority = dependencies_.parameters.initial().realtime_priority;
   if (priority > 0) {
-    const std::string refusal = askForRealTime(priority);
+    const std::string refusal = requestRealTime(priority);
     if (!refusal.empty()) ROS_WARN("%s", refusal.c_str());
   }
-  WorkQueue::Work waiting;
-  while (queue_.take(waiting)) {
-    for (const auto& task : waiting.tasks) task();
-    process(waiting.poses);
+  WorkQueue::Work work;
+  while (dependencies_.queue.take(work)) {
+    for (const auto& task : work.tasks) task();
+    const std::vector<QueuedPose>& poses = work.poses;
+    for (size_t i = 0; i < poses.size(); ++i) process(poses[i], i + 1 < poses.size() ? &poses[i + 1] : nullptr);
   }
 }
 
-void GuardThread::process(const std::vector<QueuedPose>& poses) {
-  for (size_t i = 0; i < poses.size(); ++i) process(poses[i], i + 1 < poses.size() ? &poses[i + 1] : nullptr);
-}
-
-// @param next  if it waits already
-void GuardThread::process(const QueuedPose& placed, const QueuedPose* next) {
-  if (!parts_.monitor.counts(placed.came)) return;
-  if (placed.came.epoch != guard_epoch_) {
+void GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
+  if (!dependencies_.monitor.counts(queued.checkpoint)) return;
+  if (!queued.checkpoint.continues(checkpoint_)) {
     guard_.reset();
     passed_.clear();
   }
-  guard_epoch_ = placed.came.epoch;
+  checkpoint_ = queued.checkpoint;
   try {
-    if (next != nullptr && knowsAllFramesOf(placed, *next)) return pass(placed);
-    sweep(placed);
-    if (timeToPredict()) predict(placed);
-  } catch (const std::exception& error) {  // no memory for the report or its messages
-    const std::string story = std::string("sweeping failed: ") + error.what();
-    parts_.monitor.fault(sweep_guard_core::kDetectorFault, story);
-    parts_.statistics.failed(story);
+    if (next != nullptr && knowsAllFramesOf(queued, *next)) return pass(queued.pose);
+    sweep(queued);
+    if (timeToPredict()) predict(queued);
+  } catch (const std::exception& error) {  // out of memory for the report or its messages
+    const std::string message = std::string("sweep failed: ") + error.what();
+    dependencies_.monitor.fault(sweep_guard_core::kDetectorFault, message);
+    dependencies_.statistics.fault(message);
   }
 }
 
-void GuardThread::pass(const QueuedPose& placed) {
-  guard_.pass(placed.pose);
-  passed_.push_back(placed.pose.received);
-  parts_.scene.passed(placed.pose);
+void GuardThread::pass(const sweep_guard_core::PoseWithFrames& pose) {
+  guard_.pass(pose);
+  passed_.push_back(pose.received);
+  dependencies_.scene.passed(pose);
 }
 
-void GuardThread::sweep(const QueuedPose& placed) {
-  const sweep_guard_core::PoseWithFrames& pose = placed.pose;
-  const sweep_guard_core::SteadyTime begin = std::chrono::steady_clock::now();
+void GuardThread::sweep(const QueuedPose& queued) {
+  const sweep_guard_core::PoseWithFrames& pose = queued.pose;
+  const SteadyTime begin = std::chrono::steady_clock::now();
   const auto report = reports_.take();
-  guard_.sweep(pose, parts_.workpieces.snapshot(), *report);
-  const sweep_guard_core::SteadyTime swept = std::chrono::steady_clock::now();
+  guard_.sweep(pose, dependencies_.workpieces.snapshot(), *report);
+  const SteadyTime end = std::chrono::steady_clock::now();
   swept_ = {pose.stamp, pose.received};
-  if (!report->objects.empty()) findings_.publish(*report, guard_.tool());
-  parts_.monitor.swept(*report, *swept_, placed.came, swept);
-  parts_.warnings.warnOfChange();
+  if (!report->objects.empty()) results_.publish(*report, guard_.tool());
+  dependencies_.monitor.swept(*report, *swept_, queued.checkpoint, end);
+  dependencies_.warnings.publishIfChanged();
 
-  const sweep_guard_core::SteadyTime warned = std::chrono::steady_clock::now();
-  for (const sweep_guard_core::SteadyTime received : passed_) parts_.statistics.swept(warned - received, {});
+  const SteadyTime warned = std::chrono::steady_clock::now();
+  for (const SteadyTime received : passed_) dependencies_.statistics.swept(warned - received, {});
   passed_.clear();
-  parts_.statistics.swept(warned - pose.received, swept - begin);
-  for (const auto& failure : report->failures) reportFailure(failure);
-  parts_.scene.swept(pose, report);
+  dependencies_.statistics.swept(warned - pose.received, end - begin);
+  reportFailures(report->failures);
+  dependencies_.scene.swept(pose, report);
 }
 
-void GuardThread::reportFailure(const sweep_guard_core::SweepFailure& failure) {
-  parts_.statistics.failed("'" + failure.workpiece->id + "': " + failure.reason);
-  log_.error(failure.workpiece->id, "detection failed: " + failure.reason);
-}
-
-// Poses that wait go first, so that each is swept at most one look ahead late; but not for longer than a cycle.
-bool GuardThread::timeToPredict() const {
-  const sweep_guard_core::Duration cycle = parts_.parameters.get()->guard.cycle;
-  return std::chrono::steady_clock::now() - predicted_at_ >= cycle || queue_.noPoseWaits();
-}
-
-void GuardThread::predict(const QueuedPose& placed) {
-  const sweep_guard_core::Instant at = now();
-  predicted_at_ = at.steady;
-  const sweep_guard_core::Duration age =
-      std::max(sweep_guard_core::age(*swept_, at), sweep_guard_core::Duration::zero());
-  const auto prediction = predictions_.take();
-  guard_.predict(age, parts_.workpieces.snapshot(), *prediction);
-  const sweep_guard_core::SteadyTime looked = std::chrono::steady_clock::now();
-  parts_.monitor.predicted(*prediction, *swept_, placed.came, now());
-  parts_.warnings.warnOfChange();
-  findings_.publish(*prediction, age);
-
-  parts_.statistics.predicted({std::chrono::steady_clock::now() - placed.pose.received, looked - at.steady,
-                               prediction->sweeps_made, prediction->sweeps_asked,
-                               prediction->coveredUntil() - prediction->stamp - age, prediction->probability()});
-  for (const auto& failure : prediction->failures) reportFailure(failure);
-  parts_.scene.predicted(placed.pose, prediction);
-}
-
-PredictService::Answer GuardThread::answer(sweep_guard_core::Duration horizon) const {
-  const sweep_guard_core::Instant at = now();
-  const sweep_guard_core::WarningMonitor& monitor = parts_.monitor;
-  if (const auto asked_by = monitor.disabledBy())
-    throw sweep_guard_core::Error("the guard is disabled by " + *asked_by);
-  if (!swept_ || guard_epoch_ != monitor.checkpoint().epoch)
-    throw sweep_guard_core::Error("no tool pose yet: nothing is known");
-  if (sweep_guard_core::stale(*swept_, at, parts_.parameters.get()->limits.pose_timeout)) {
-    throw sweep_guard_core::Error("the newest tool pose is stale: nothing is known of the tool now");
+void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures) {
+  for (const sweep_guard_core::SweepFailure& failure : failures) {
+    dependencies_.statistics.fault("'" + failure.workpiece->id + "': " + failure.reason);
+    log_.error(failure.workpiece->id, "detection on '" + failure.workpiece->id + "' failed: " + failure.reason);
   }
-  const sweep_guard_core::Duration age =
-      std::max(sweep_guard_core::age(*swept_, at), sweep_guard_core::Duration::zero());
-  sweep_guard_core::PredictedMotion predictMotion = guard_.predictMotion(age, horizon);
-  if (predictMotion.path.empty())
-    throw sweep_guard_core::Error("the motion is not known yet: two tool poses in a row are needed");
-  return {std::move(predictMotion), age};
+}
+
+// Sweeps of queued poses go first, but delay the prediction by at most a cycle.
+bool GuardThread::timeToPredict() const {
+  const Duration cycle = dependencies_.parameters.get()->guard.cycle;
+  return std::chrono::steady_clock::now() - predicted_at_ >= cycle || !dependencies_.queue.hasPoses();
+}
+
+void GuardThread::predict(const QueuedPose& queued) {
+  const Instant at = now();
+  predicted_at_ = at.steady;
+  const Duration age = ageOf(*swept_, at);
+  const auto prediction = predictions_.take();
+  guard_.predict(age, dependencies_.workpieces.snapshot(), *prediction);
+  const SteadyTime end = std::chrono::steady_clock::now();
+  dependencies_.monitor.predicted(*prediction, *swept_, queued.checkpoint, now());
+  dependencies_.warnings.publishIfChanged();
+  results_.publish(*prediction, age);
+
+  dependencies_.statistics.predicted({std::chrono::steady_clock::now() - queued.pose.received, end - at.steady,
+                                      prediction->sweeps_made, prediction->sweeps_asked,
+                                      prediction->coveredUntil() - prediction->stamp - age, prediction->probability()});
+  reportFailures(prediction->failures);
+  dependencies_.scene.predicted(queued.pose, prediction);
+}
+
+PredictService::Motion GuardThread::motion(Duration horizon) const {
+  const Instant at = now();
+  const sweep_guard_core::WarningMonitor& monitor = dependencies_.monitor;
+  if (const auto asked_by = monitor.disabledBy()) throw Error("the guard is disabled by " + *asked_by);
+  if (!swept_ || !monitor.checkpoint().continues(checkpoint_)) throw Error("no tool pose yet");
+  if (stale(*swept_, at, dependencies_.parameters.get()->limits.pose_timeout)) {
+    throw Error("newest tool pose is stale: motion is unknown");
+  }
+  const Duration age = ageOf(*swept_, at);
+  sweep_guard_core::PredictedMotion motion = guard_.predictMotion(age, horizon);
+  if (motion.path.empty()) throw Error("motion is not known yet: two tool poses in a row are needed");
+  return {std::move(motion), age};
 }
 
 }  // namespace sweep_guard_ros

@@ -8,7 +8,7 @@
 int main(int argc, char** argv) {
   try {
     ros::init(argc, argv, "sweep_guard");
-    const ros::NodeHandle alive;  // without any handle the console is silent
+    const ros::NodeHandle alive;  // the console is silent without a handle
     try {
       const sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~")};
       ros::waitForShutdown();
@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
       ROS_FATAL("%s", error.what());
       return 2;
     }
-  } catch (const ros::Exception& error) {  // a name or remapping that ROS refuses
+  } catch (const ros::Exception& error) {  // a refused name or remapping
     std::cerr << "sweep_guard_node: " << error.what() << std::endl;
     return 2;
   }

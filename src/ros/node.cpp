@@ -14,24 +14,23 @@ const ros::WallDuration kDiagnosticsPeriod(1.0);
 
 SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : parameters_(loadParameters(private_node)),
-      monitor_(parameters_.initial().limits, [this] { warnings_.warnOfChange(); }),
+      monitor_(parameters_.initial().limits, [this] { warnings_.publishIfChanged(); }),
       warnings_(private_node, parameters_, monitor_),
       scene_(private_node, parameters_, monitor_),
       statistics_(parameters_.initial().guard.cycle),
-      workpieces_(parameters_.initial().max_triangles, monitor_),
-      guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, warnings_, scene_}),
-      poses_(node, parameters_.initial(), frames_, workpieces_, monitor_,
-             [this](QueuedPose pose) { guard_thread_.sweepTo(std::move(pose)); }),
-      meshes_(node, workpieces_),
+      workpieces_([this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }),
+      guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_}),
+      poses_(node, parameters_.initial(), {frames_, workpieces_, monitor_, queue_}),
+      meshes_(node, parameters_.initial().max_triangles, workpieces_, monitor_),
       check_sweep_(private_node, parameters_, frames_, workpieces_),
       predict_(private_node, parameters_, workpieces_,
                [this](sweep_guard_core::Duration horizon) { return guard_thread_.predictMotion(horizon); }),
       controls_(private_node, monitor_, workpieces_, [this] { guard_thread_.reset(); }),
-      reconfigure_server_(private_node, parameters_, [this](const auto& next) { adopt(next); }),
+      reconfigure_server_(private_node, parameters_, [this](const auto& next) { apply(next); }),
       diagnostics_(node, private_node,
                    {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_}),
       watchdog_(node, monitor_, workpieces_, warnings_) {
-  makeReports(node);
+  createTimers(node);
   guard_thread_.start();
   watchdog_.start();
   meshes_.start();
@@ -40,31 +39,31 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
   predict_.start();
   controls_.start();
   reconfigure_server_.start();
-  report_thread_.start();
-  greet();
+  timer_thread_.start();
+  logStart();
 }
 
 SweepGuardNode::~SweepGuardNode() { guard_thread_.stop(); }
 
-void SweepGuardNode::adopt(const std::shared_ptr<const Parameters>& next) {
-  guard_thread_.adopt(next);
+void SweepGuardNode::apply(const std::shared_ptr<const Parameters>& next) {
+  guard_thread_.apply(next);
   marker_timer_.setPeriod(ros::WallDuration(1.0 / next->marker_rate));
-  warnings_.warnOfChange();
+  warnings_.publishIfChanged();
 }
 
-void SweepGuardNode::makeReports(const ros::NodeHandle& node) {
-  ros::NodeHandle here = report_thread_.on(node);
-  marker_timer_ = here.createSteadyTimer(ros::WallDuration(1.0 / parameters_.initial().marker_rate),
-                                         [this](const ros::SteadyTimerEvent&) { scene_.publishMarkers(); });
-  view_timer_ = here.createSteadyTimer(kViewPeriod, [this](const ros::SteadyTimerEvent&) { scene_.publishView(); });
+void SweepGuardNode::createTimers(const ros::NodeHandle& node) {
+  ros::NodeHandle timers = timer_thread_.on(node);
+  marker_timer_ = timers.createSteadyTimer(ros::WallDuration(1.0 / parameters_.initial().marker_rate),
+                                           [this](const ros::SteadyTimerEvent&) { scene_.publishMarkers(); });
+  view_timer_ = timers.createSteadyTimer(kViewPeriod, [this](const ros::SteadyTimerEvent&) { scene_.publishView(); });
   diagnostics_timer_ =
-      here.createSteadyTimer(kDiagnosticsPeriod, [this](const ros::SteadyTimerEvent&) { diagnostics_.publish(); });
+      timers.createSteadyTimer(kDiagnosticsPeriod, [this](const ros::SteadyTimerEvent&) { diagnostics_.publish(); });
 }
 
-void SweepGuardNode::greet() const {
+void SweepGuardNode::logStart() const {
   const Parameters& initial = parameters_.initial();
   ROS_INFO("guarding '%s' (%s) in '%s' by %s, %s; poses from %s, meshes from %s and %s", initial.tool_frame.c_str(),
-           initial.tool_description_text.c_str(), initial.fixed_frame.c_str(), initial.detector_description.c_str(),
+           initial.tool_description.c_str(), initial.fixed_frame.c_str(), initial.detector_description.c_str(),
            sweep_guard_core::nameOf(initial.guard.sweep.volume).c_str(), poses_.source().c_str(),
            meshes_.meshTopic().c_str(), meshes_.verticesTopic().c_str());
 }

@@ -3,6 +3,8 @@
 #include <ros/steady_timer.h>
 
 #include "ros/guard_thread.h"
+#include "ros/input/mesh_input.h"
+#include "ros/input/pose_input.h"
 #include "ros/output/diagnostics.h"
 #include "ros/output/scene_publisher.h"
 #include "ros/output/warning_publisher.h"
@@ -14,32 +16,34 @@
 
 namespace sweep_guard_ros {
 
-/// The guard of one tool as a ROS node, and as a nodelet: inputs on threads of their own, one thread that sweeps, and
-/// steady timers that warn whatever the inputs do. Topics, services and parameters: doc/interface.md.
+/// Guards one tool, as a ROS node or a nodelet: each input has its own thread, one thread sweeps, and steady timers warn
+/// even if the inputs are silent. doc/interface.md lists topics, services and parameters.
 class SweepGuardNode {
  public:
-  /// @throws sweep_guard_core::InvalidInput if a parameter is refused, sweep_guard_core::DeviceError if there is no detector
+  /// @throws sweep_guard_core::InvalidInput if a parameter is refused
+  /// @throws sweep_guard_core::DeviceError if the detector cannot be created
   SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
   ~SweepGuardNode();
   SweepGuardNode(const SweepGuardNode&) = delete;
   SweepGuardNode& operator=(const SweepGuardNode&) = delete;
 
  private:
-  void adopt(const std::shared_ptr<const Parameters>& next);
-  void makeReports(const ros::NodeHandle& node);
-  void greet() const;
+  void apply(const std::shared_ptr<const Parameters>& next);
+  void createTimers(const ros::NodeHandle& node);
+  void logStart() const;
 
-  // What stands below calls back on what stands above; the monitor on the warnings, too.
+  // A member uses only members above it, but for the monitor, which reports faults to warnings_.
   LiveParameters parameters_;
   sweep_guard_core::WarningMonitor monitor_;
   WarningPublisher warnings_;
   ScenePublisher scene_;
-  QueueThread report_thread_;
+  QueueThread timer_thread_;
   ros::SteadyTimer marker_timer_;
   ros::SteadyTimer view_timer_;
-  SweepStatistics statistics_;
+  sweep_guard_core::SweepStatistics statistics_;
   Frames frames_;
-  WorkpieceStore workpieces_;
+  sweep_guard_core::WorkpieceStore workpieces_;
+  WorkQueue queue_;
   GuardThread guard_thread_;
   PoseInput poses_;
   MeshInput meshes_;

@@ -4,9 +4,9 @@
 
 namespace sweep_guard_ros {
 
-/// Asks the system to run the calling thread before all ordinary ones, first in, first out (SCHED_FIFO).
+/// Gives the calling thread a real-time priority (SCHED_FIFO).
 /// @param priority  1 to 99
-/// @returns why the system refuses, and what to set so that it does not; empty: it does so from now on
-std::string askForRealTime(int priority);
+/// @returns the reason of a refusal, and what to set; empty if granted
+std::string requestRealTime(int priority);
 
 }  // namespace sweep_guard_ros

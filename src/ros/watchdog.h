@@ -2,30 +2,30 @@
 
 #include <ros/steady_timer.h>
 
-#include "ros/input/workpiece_store.h"
 #include "ros/output/warning_publisher.h"
+#include "sweep_guard/guard/workpiece_store.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 #include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
-/// Steady timers that warn and repeat the flags whatever the inputs do, and watch the clock of the stamps: when it goes
-/// back (a bag that loops, a simulation that starts again), every stamp of before is meaningless. Its own thread.
+/// Publishes warning and flags periodically, even if the inputs are silent, and watches the clock of the stamps: if it
+/// goes back (a bag loops, a simulation restarts), the stamps from before are meaningless. Has its own thread.
 class Watchdog {
  public:
-  Watchdog(const ros::NodeHandle& node, sweep_guard_core::WarningMonitor& monitor, WorkpieceStore& workpieces,
-           WarningPublisher& warnings);
+  Watchdog(const ros::NodeHandle& node, sweep_guard_core::WarningMonitor& monitor,
+           sweep_guard_core::WorkpieceStore& workpieces, WarningPublisher& warnings);
 
   void start() { thread_.start(); }
 
  private:
-  void watchClock();
+  void checkClock();
 
   sweep_guard_core::WarningMonitor& monitor_;
-  WorkpieceStore& workpieces_;
+  sweep_guard_core::WorkpieceStore& workpieces_;
   WarningPublisher& warnings_;
-  sweep_guard_core::Time clock_seen_;
-  QueueThread thread_;  // outlives what calls back on it
+  sweep_guard_core::Time last_stamp_;
+  QueueThread thread_;  // before the timers, which use its queue
   ros::SteadyTimer timer_;
   ros::SteadyTimer reflex_timer_;
   ros::SteadyTimer considered_timer_;

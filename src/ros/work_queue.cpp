@@ -5,15 +5,15 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr size_t kPosesQueued = 4096;  // what is swept at once; the others wait with the input, which loses none
-constexpr size_t kTasksQueued = 16;
+constexpr size_t kMaxPoses = 4096;  // swept at once; later poses wait in the input, which drops none
+constexpr size_t kMaxTasks = 16;
 
 }  // namespace
 
 void WorkQueue::push(QueuedPose pose) {
   {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return stopping_ || work_.poses.size() < kPosesQueued; });
+    changed_.wait(lock, [this] { return stopping_ || work_.poses.size() < kMaxPoses; });
     work_.poses.push_back(std::move(pose));
   }
   changed_.notify_all();
@@ -23,7 +23,7 @@ void WorkQueue::pushTask(std::function<void()> task) {
   {
     const std::lock_guard lock(mutex_);
     if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
-    if (work_.tasks.size() >= kTasksQueued) throw sweep_guard_core::Error("the guard is busy: ask again");
+    if (work_.tasks.size() >= kMaxTasks) throw sweep_guard_core::Error("the guard is busy: ask again");
     work_.tasks.push_back(std::move(task));
   }
   changed_.notify_all();
@@ -42,9 +42,9 @@ bool WorkQueue::take(Work& taken) {
   return true;
 }
 
-bool WorkQueue::noPoseWaits() const {
+bool WorkQueue::hasPoses() const {
   const std::lock_guard lock(mutex_);
-  return work_.poses.empty();
+  return !work_.poses.empty();
 }
 
 void WorkQueue::stop() {

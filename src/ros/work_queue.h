@@ -8,11 +8,18 @@
 #include <utility>
 #include <vector>
 
-#include "ros/input/pose_input.h"
+#include "sweep_guard/guard/pose_with_frames.h"
+#include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
 
-/// What waits for the thread that sweeps: poses in their order, and tasks to be done between two sweeps.
+/// A checked tool pose with the frames of the workpieces, and the monitor's state when it was received.
+struct QueuedPose {
+  sweep_guard_core::PoseWithFrames pose;
+  sweep_guard_core::WarningMonitor::Checkpoint checkpoint;
+};
+
+/// Holds the work of the guard's thread: poses in their order, and tasks to run between two sweeps. Any thread.
 class WorkQueue {
  public:
   struct Work {
@@ -20,22 +27,25 @@ class WorkQueue {
     std::vector<QueuedPose> poses;
   };
 
-  void push(QueuedPose pose);  ///< waits while there is no room
+  void push(QueuedPose pose);  ///< waits while the queue is full
 
-  /// @throws sweep_guard_core::Error if too many tasks wait already, or after stop()
+  /// Queues a task and returns its result to come.
+  /// @throws sweep_guard_core::Error if too many tasks are queued, or after stop()
   template <typename Result>
-  std::future<Result> ask(std::function<Result()> task) {
+  std::future<Result> submit(std::function<Result()> task) {
     const auto packaged = std::make_shared<std::packaged_task<Result()>>(std::move(task));
     pushTask([packaged] { (*packaged)(); });
     return packaged->get_future();
   }
 
-  /// All there is, as soon as there is any, instead of what was taken before.
-  /// @return false after stop()
+  /// Waits for work, and takes all of it.
+  /// @param[out] taken  overwritten
+  /// @returns false after stop()
   bool take(Work& taken);
-  bool noPoseWaits() const;
+  bool hasPoses() const;
 
-  void stop();  ///< lets everybody go; whoever waits for a task hears that it is not done
+  /// Drops all work and ends every wait. A dropped task's future throws std::future_error.
+  void stop();
 
  private:
   void pushTask(std::function<void()> task);

@@ -4,7 +4,7 @@
 
 namespace sweep_guard_rviz {
 
-/// Shows a node below its parent, or takes it out. Its visibility would be that of everything below it, too.
+/// Shows a node below its parent or detaches it. Setting its visibility instead would overwrite that of its children.
 inline void attach(Ogre::SceneNode& parent, Ogre::SceneNode& node, bool shown) {
   if (shown == (node.getParent() != nullptr)) return;
   if (shown) {

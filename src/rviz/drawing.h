@@ -14,23 +14,26 @@ class SceneNode;
 
 namespace sweep_guard_rviz {
 
-/// Triangles and lines that are drawn anew whenever they change: few.
+/// Draws a small number of triangles and lines that are replaced whenever they change.
 class Drawing {
  public:
-  enum class Depth { kInTheScene, kOnTop };  ///< on top: nothing hides it
+  enum class Depth { kInTheScene, kOnTop };  ///< kOnTop: nothing hides the drawing
 
   Drawing(Ogre::SceneManager& scene, Ogre::SceneNode& node, Depth depth = Depth::kInTheScene);
   ~Drawing();
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;
 
-  void addFace(const std::vector<Ogre::Vector3>& corners);  ///< convex, with its outline
-  /// A slender pyramid from a base of this radius to a tip.
+  /// Adds a convex polygon and its outline.
+  void addFace(const std::vector<Ogre::Vector3>& corners);
+  /// Adds a four-sided pyramid from a base of this radius to a tip.
   void addSpike(const Ogre::Vector3& base, const Ogre::Vector3& tip, float radius);
+  /// Adds a small octahedron.
   void addBead(const Ogre::Vector3& center, float radius);
 
   void paint(const Ogre::ColourValue& faces, const Ogre::ColourValue& lines);
-  void show();  ///< what was added since the last time, instead of what is there
+  /// Replaces the shown triangles and lines by those added since the last call.
+  void show();
 
  private:
   void addTriangle(const Ogre::Vector3& a, const Ogre::Vector3& b, const Ogre::Vector3& c);

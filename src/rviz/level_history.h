@@ -7,25 +7,26 @@
 
 namespace sweep_guard_rviz {
 
-/// How long the strip chart looks back.
+/// The time span of the strip chart.
 constexpr auto kHistory = std::chrono::seconds(20);
 
-/// Levels and times to collision of late.
+/// Keeps the levels and times to collision of the last kHistory.
 class LevelHistory {
  public:
   struct Sample {
-    SteadyTime since;  ///< in force from here to the next sample
-    Light light;
-    std::optional<double> time;  ///< to the collision [s], >= 0; empty: none, or not known
+    SteadyTime since;  ///< start; the sample holds until the next one
+    WarningLevel level;
+    std::optional<double> time;  ///< time to collision [s], >= 0; empty: none or not known
   };
 
-  /// A sample earlier than the newest is taken for as late as that. What was over before kHistory ago is forgotten.
+  /// Adds a sample; one that is earlier than the newest gets the time of the newest. Drops samples that ended more than
+  /// kHistory ago.
   void add(Sample sample);
   void clear() { samples_.clear(); }
 
   const std::deque<Sample>& samples() const { return samples_; }  ///< ascending in time
 
-  /// Largest time to collision kept [s]; 0 without one.
+  /// Returns the largest time to collision kept [s], or 0 if there is none.
   double longestTime() const;
 
  private:

@@ -4,15 +4,19 @@
 #include <OgreVector.h>
 #include <geometry_msgs/Pose.h>
 
+#include <Eigen/Core>
+
 namespace sweep_guard_rviz {
 
-/// Points and vectors alike.
+/// Converts a point or a vector message.
 template <typename Vector>
 Ogre::Vector3 toOgre(const Vector& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// A message whose quaternion is all zero turns nothing.
+inline Ogre::Vector3 toOgre(const Eigen::Vector3d& v) { return Ogre::Vector3(v.cast<float>().eval().data()); }
+
+/// Converts a rotation; a quaternion of four zeros becomes the identity.
 inline Ogre::Quaternion toOgre(const geometry_msgs::Quaternion& q) {
   Ogre::Quaternion rotation(static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
                             static_cast<float>(q.z));

@@ -5,22 +5,23 @@
 
 namespace sweep_guard_rviz {
 
-/// Where everything drawn here keeps its resources: Ogre's default.
+/// The Ogre resource group of everything drawn here: Ogre's default.
 constexpr const char* kResources = "General";
 
-/// A material that ignores the light, seen from both sides. One pass; more may be added.
-/// @param lifted  how far it is drawn towards the eye, so that what lies in one plane does not flicker: 0 not, 1, 2...
+/// Makes a material that ignores light and is visible from both sides. It has one pass; more may be added.
+/// @param lifted  depth bias towards the eye that keeps coplanar surfaces from flickering: 0 is none
 Ogre::MaterialPtr makeMaterial(int lifted = 0);
 
-/// One that is shaded by rviz's light, dimly on the side away from it.
+/// Makes a material that is shaded by rviz's light, dimly on its dark side.
 Ogre::MaterialPtr makeShadedMaterial();
 
-/// Ogre keeps it until then.
+/// Removes a material from Ogre, which otherwise keeps it.
 void drop(const Ogre::MaterialPtr& material);
 
-/// In one colour. What is transparent hides nothing.
+/// Paints in one color. Transparent surfaces hide nothing.
 void paint(Ogre::Pass& pass, const Ogre::ColourValue& color);
-void paintByVertices(Ogre::Pass& pass, float alpha);  ///< in the colours of the vertices, of this alpha
+/// Paints in the colors of the vertices with this alpha.
+void paintByVertices(Ogre::Pass& pass, float alpha);
 void paintShaded(Ogre::Pass& pass, const Ogre::ColourValue& color);
 
 }  // namespace sweep_guard_rviz

@@ -2,23 +2,13 @@
 
 namespace sweep_guard_rviz {
 
-QColor colorOf(Light light) {
-  switch (light) {
-    case Light::kClear:
-      return {46, 176, 92};
-    case Light::kConsidered:
-      return {255, 176, 0};
-    case Light::kReflex:
-    case Light::kContact:
-      return {222, 26, 26};
-    case Light::kUnknown:
-      break;
-  }
-  return {140, 144, 150};
+QColor colorOf(WarningLevel level) {
+  const auto& [red, green, blue] = styleOf(level).rgb;
+  return {red, green, blue};
 }
 
-QColor inkOn(Light light) {
-  const bool pale = light == Light::kUnknown || light == Light::kConsidered;
+QColor inkOn(WarningLevel level) {
+  const bool pale = level == WarningLevel::kUnknown || level == WarningLevel::kConsidered;
   return pale ? QColor(16, 16, 18) : QColor(255, 255, 255);
 }
 

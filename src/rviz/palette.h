@@ -6,16 +6,13 @@
 
 namespace sweep_guard_rviz {
 
-/// Grey, green, amber, red, red.
-QColor colorOf(Light light);
+/// Returns the color of a level (kLevelStyles).
+QColor colorOf(WarningLevel level);
 
-/// What is read best on that colour.
-QColor inkOn(Light light);
+/// Returns the color of text that is easiest to read on the color of a level.
+QColor inkOn(WarningLevel level);
 
-/// Behind everything that is not lit.
-QColor backdrop();
-
-/// What is there, but not lit.
-QColor unlit();
+QColor backdrop();  ///< behind the lamps
+QColor unlit();     ///< of a lamp that is off
 
 }  // namespace sweep_guard_rviz

@@ -16,7 +16,7 @@ constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
     {Warning::NO_POSE, "no tool pose yet"},
     {Warning::POSE_STALE, "the tool pose is out of date"},
     {Warning::POSE_INVALID, "a tool pose was refused: not valid"},
-    {Warning::OUT_OF_ORDER, "a tool pose was refused: older than the one before"},
+    {Warning::OUT_OF_ORDER, "a tool pose was refused: older than the previous one"},
     {Warning::FUTURE_STAMP, "a tool pose was refused: its stamp lies in the future"},
     {Warning::NO_MESH, "no workpiece yet"},
     {Warning::MESH_STALE, "a workpiece is out of date"},
@@ -25,8 +25,8 @@ constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
     {Warning::TIME_JUMP, "time went back"},
     {Warning::DETECTOR_FAULT, "the detector failed"},
     {Warning::NOT_SWEPT, "a workpiece has not been swept yet"},
-    {Warning::NOT_COVERED, "what comes has not been tested"},
-    {Warning::OVERLOAD, "overload: poses were swept at once"},
+    {Warning::NOT_COVERED, "predicted path not tested"},
+    {Warning::OVERLOAD, "overload: several poses swept at once"},
     {Warning::DISABLED, "the guard is disabled: nothing is tested"},
 };
 
@@ -36,27 +36,22 @@ std::string seconds(double value) {
   return text;
 }
 
-const char* nameOf(Light light) {
-  constexpr const char* kNames[] = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};
-  return kNames[static_cast<size_t>(light)];
-}
-
-const char* meaningOf(Light light, bool timed) {
-  switch (light) {
-    case Light::kContact:
+const char* meaningOf(WarningLevel level, bool timed) {
+  switch (level) {
+    case WarningLevel::kContact:
       return "the tool touches";
-    case Light::kReflex:
-    case Light::kConsidered:
+    case WarningLevel::kReflex:
+    case WarningLevel::kConsidered:
       return timed ? "to collision" : "collision is probable";
-    case Light::kClear:
+    case WarningLevel::kClear:
       return timed ? "to collision" : "no collision ahead";
-    case Light::kUnknown:
+    case WarningLevel::kUnknown:
       break;
   }
-  return "nothing is promised";
+  return "nothing is guaranteed";
 }
 
-// What target and time say already.
+// Tells whether target and time already show the sentence.
 bool isRepeated(const std::string& sentence) {
   return sentence.rfind("tool meets '", 0) == 0 || sentence.find("' expected in ") != std::string::npos;
 }
@@ -74,15 +69,15 @@ std::vector<std::string> sentences(std::string text) {
   return parts;
 }
 
-// The guard's own words, which have figures; ours where it has none.
-std::vector<std::string> whysOf(const Warning& warning) {
+// Takes the guard's own text, which has figures, where there is one.
+std::vector<std::string> reasonsOf(const Warning& warning) {
   if (warning.level == Warning::CLEAR && warning.reasons == 0) return {};
   if (warning.text.find(": ") != std::string::npos) return sentences(warning.text);
-  std::vector<std::string> whys;
+  std::vector<std::string> reasons;
   for (const auto& [bit, words] : kReasons) {
-    if ((warning.reasons & bit) != 0) whys.emplace_back(words);
+    if ((warning.reasons & bit) != 0) reasons.emplace_back(words);
   }
-  return whys;
+  return reasons;
 }
 
 std::string targetOf(const Warning& warning) {
@@ -94,12 +89,12 @@ std::string targetOf(const Warning& warning) {
   return target;
 }
 
-PanelState unknown(std::vector<std::string> whys) {
+PanelState unknown(std::vector<std::string> reasons) {
   PanelState state;
-  state.word = nameOf(Light::kUnknown);
+  state.title = styleOf(WarningLevel::kUnknown).name;
   state.time = "-";
-  state.meaning = meaningOf(Light::kUnknown, false);
-  state.whys = std::move(whys);
+  state.meaning = meaningOf(WarningLevel::kUnknown, false);
+  state.reasons = std::move(reasons);
   return state;
 }
 
@@ -109,29 +104,29 @@ PanelState silent(const std::string& why) {
   return state;
 }
 
-// Two halves of a period, on the clock that all panels of a machine share.
+// All panels of a machine share the steady clock: they flash together.
 bool brightAt(SteadyTime now) { return now.time_since_epoch() / kFlashHalf % 2 == 0; }
 
 }  // namespace
 
 bool PanelState::operator==(const PanelState& other) const {
   const auto all = [](const PanelState& s) {
-    return std::tie(s.light, s.bright, s.disabled, s.silent, s.word, s.time, s.meaning, s.target, s.whys);
+    return std::tie(s.level, s.bright, s.disabled, s.silent, s.title, s.time, s.meaning, s.target, s.reasons);
   };
   return all(*this) == all(other);
 }
 
 Moment currentMoment() { return {std::chrono::steady_clock::now(), ros::Time::now()}; }
 
-Light lightOf(const Warning& warning) {
+WarningLevel levelOf(const Warning& warning) {
   const bool says_clear = warning.level == Warning::CLEAR;
   const bool is_clear = warning.clear && (warning.reasons & ~std::uint32_t{Warning::OVERLOAD}) == 0;
-  if (warning.level > Warning::CONTACT || says_clear != is_clear) return Light::kUnknown;
-  return static_cast<Light>(warning.level);
+  if (warning.level > Warning::CONTACT || says_clear != is_clear) return WarningLevel::kUnknown;
+  return static_cast<WarningLevel>(warning.level);
 }
 
 std::optional<double> timeToCollision(const Warning& warning) {
-  if (lightOf(warning) == Light::kUnknown || warning.time_to_collision < ros::Duration(0)) return std::nullopt;
+  if (levelOf(warning) == WarningLevel::kUnknown || warning.time_to_collision < ros::Duration(0)) return std::nullopt;
   return warning.time_to_collision.toSec();
 }
 
@@ -141,25 +136,25 @@ PanelState panelState(const std::optional<ReceivedWarning>& newest, const Moment
   const std::chrono::duration<double> age = now.steady - newest->received.steady;
   if (age > kSilence) return silent("the guard has been silent for " + seconds(age.count()));
   if (warning.valid_until < now.stamp) {
-    return silent("the warning ran out " + seconds((now.stamp - warning.valid_until).toSec()) + " ago");
+    return silent("the warning expired " + seconds((now.stamp - warning.valid_until).toSec()) + " ago");
   }
 
   PanelState state;
-  state.light = lightOf(warning);
-  if (state.light == Light::kUnknown) {
-    state = unknown(whysOf(warning));
-    if (warning.level != Warning::UNKNOWN) state.whys.emplace_back("the warning contradicts itself");
+  state.level = levelOf(warning);
+  if (state.level == WarningLevel::kUnknown) {
+    state = unknown(reasonsOf(warning));
+    if (warning.level != Warning::UNKNOWN) state.reasons.emplace_back("the warning contradicts itself");
     state.disabled = (warning.reasons & Warning::DISABLED) != 0;
-    if (state.disabled) state.word = "DISABLED";
+    if (state.disabled) state.title = "DISABLED";
     return state;
   }
   const std::optional<double> left = timeToCollision(warning);
-  state.bright = state.light != Light::kContact || brightAt(now.steady);
-  state.word = nameOf(state.light);
-  state.time = !left ? "-" : state.light == Light::kContact ? "now" : seconds(*left);
-  state.meaning = meaningOf(state.light, left.has_value());
+  state.bright = state.level != WarningLevel::kContact || brightAt(now.steady);
+  state.title = styleOf(state.level).name;
+  state.time = !left ? "-" : state.level == WarningLevel::kContact ? "now" : seconds(*left);
+  state.meaning = meaningOf(state.level, left.has_value());
   state.target = targetOf(warning);
-  state.whys = whysOf(warning);
+  state.reasons = reasonsOf(warning);
   return state;
 }
 

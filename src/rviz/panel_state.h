@@ -4,19 +4,18 @@
 #include <sweep_guard/Warning.h>
 
 #include <chrono>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/warning_level.h"
+
 namespace sweep_guard_rviz {
 
 using SteadyTime = std::chrono::steady_clock::time_point;
+using sweep_guard_core::WarningLevel;
 
-/// What the traffic light shows. The order is that of the levels of a Warning.
-enum class Light : std::uint8_t { kUnknown = 0, kClear = 1, kConsidered = 2, kReflex = 3, kContact = 4 };
-
-/// A time on both clocks.
+/// One moment on both clocks.
 struct Moment {
   SteadyTime steady;
   ros::Time stamp;
@@ -24,40 +23,42 @@ struct Moment {
 
 Moment currentMoment();
 
-/// A warning, and when it came in.
+/// A warning with its time of arrival.
 struct ReceivedWarning {
   sweep_guard::Warning warning;
   Moment received;
 };
 
-/// A warning older than this is no longer shown: two periods of the warning, and some. With the period in which the
-/// panel looks, and the frame that rviz may be drawing then, less than 0.2 s at 20 frames per second or more.
+/// Age above which a warning is no longer shown: a little more than two periods of the warning. Together with the
+/// panel's period and one frame of rviz this stays below 0.2 s at 20 frames per second or more.
 constexpr auto kSilence = std::chrono::milliseconds(120);
 
-/// Everything the panel says, in words. Silence, what contradicts itself and what is out of date are unknown.
+/// Holds everything that the panel shows. A silent guard and a warning that is expired or contradicts itself give
+/// kUnknown.
 struct PanelState {
-  Light light = Light::kUnknown;
-  bool bright = true;             ///< half of the time in contact, which flashes at 2 Hz; else always
-  bool disabled = false;          ///< the guard says that it is switched off
-  bool silent = false;            ///< there is no warning to go by
-  std::string word;               ///< the level: `UNKNOWN`, `CLEAR`, ...
-  std::string time;               ///< to the collision: `0.42 s`, `now`, or `-` for none or not known
-  std::string meaning;            ///< of the time, or what to make of its absence
-  std::string target;             ///< what is or will be hit: object, triangles, tool link; empty: nothing
-  std::vector<std::string> whys;  ///< why it is not clear, or what is degraded; one sentence each
+  WarningLevel level = WarningLevel::kUnknown;
+  bool bright = true;                ///< alternates at 2 Hz in contact; otherwise always true
+  bool disabled = false;             ///< the guard reports that it is disabled
+  bool silent = false;               ///< there is no valid warning
+  std::string title;                 ///< name of the level, or `DISABLED`
+  std::string time;                  ///< time to collision: `0.42 s`, `now`, or `-` for none or not known
+  std::string meaning;               ///< explanation of `time`
+  std::string target;                ///< object, triangles and tool link of the contact; empty: no contact
+  std::vector<std::string> reasons;  ///< one sentence for each reason of the warning
 
   bool operator==(const PanelState& other) const;
   bool operator!=(const PanelState& other) const { return !(*this == other); }
 };
 
-/// @param newest  empty: none has come
-/// @param topic   where they come from, for the words
+/// Computes what the panel shows.
+/// @param newest  the newest warning; empty if none has arrived
+/// @param topic   topic of the warnings, named in the text
 PanelState panelState(const std::optional<ReceivedWarning>& newest, const Moment& now, const std::string& topic);
 
-/// The light of a warning as it stands, whatever its age.
-Light lightOf(const sweep_guard::Warning& warning);
+/// Returns the level of a warning of any age; kUnknown if the warning contradicts itself.
+WarningLevel levelOf(const sweep_guard::Warning& warning);
 
-/// Time to collision [s]; empty: none, or not known.
+/// Returns the time to collision [s]; empty if there is none or it is not known.
 std::optional<double> timeToCollision(const sweep_guard::Warning& warning);
 
 }  // namespace sweep_guard_rviz

@@ -56,7 +56,7 @@ void ServiceCall::start(const std::string& name, Service service) {
 
 template <typename Service>
 std::string ServiceCall::call(const std::string& name, Service& service) {
-  // Persistent: only such a call ends when its client is shut down.
+  // Persistent: only a persistent call ends when its client is shut down.
   ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>(name, /*persistent=*/true);
   {
     const std::lock_guard lock(mutex_);

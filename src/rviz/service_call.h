@@ -11,7 +11,7 @@
 
 namespace sweep_guard_rviz {
 
-/// Calls services of the guard on a thread of its own, one at a time: a guard that does not answer stops nobody.
+/// Calls services of the guard on a thread of its own, one at a time: a guard that does not answer blocks nothing.
 class ServiceCall {
  public:
   ServiceCall() = default;
@@ -19,16 +19,16 @@ class ServiceCall {
   ServiceCall(const ServiceCall&) = delete;
   ServiceCall& operator=(const ServiceCall&) = delete;
 
-  /// std_srvs/SetBool and std_srvs/Trigger. Nothing happens while a call is under way.
-  /// @param service  its name, absolute
+  /// Starts a call of a std_srvs/SetBool or std_srvs/Trigger service. Does nothing while another call runs.
+  /// @param service  absolute name
   void setBool(const std::string& service, bool value);
   void trigger(const std::string& service);
 
-  /// Ends the call under way, if its service has been found; its outcome, and one not taken yet, are forgotten.
+  /// Ends the running call if its service has been found, and forgets all outcomes.
   void drop();
 
   bool busy() const;
-  std::optional<std::string> takeOutcome();  ///< of the call that has ended since, in words
+  std::optional<std::string> takeOutcome();  ///< text about a call that ended since the last query
 
  private:
   template <typename Service>
@@ -37,7 +37,7 @@ class ServiceCall {
   std::string call(const std::string& name, Service& service);
 
   mutable std::mutex mutex_;
-  ros::ServiceClient client_;  // of the call under way: shutting it down ends that
+  ros::ServiceClient client_;  // of the running call: its shutdown ends the call
   bool dropped_ = false;
   bool busy_ = false;
   std::optional<std::string> outcome_;

@@ -14,7 +14,7 @@ constexpr double kLeft = 30.0;
 constexpr double kRight = 6.0;
 constexpr double kTop = 16.0;
 constexpr double kBottom = 16.0;
-constexpr double kSteps = 26.0;  // height of the levels
+constexpr double kSteps = 26.0;  // height of the level steps
 constexpr double kGap = 8.0;
 
 const QColor kPaper(22, 24, 27);
@@ -24,12 +24,12 @@ const QColor kCurve(235, 238, 242);
 
 double secondsBetween(SteadyTime from, SteadyTime to) { return std::chrono::duration<double>(to - from).count(); }
 
-double step(Light light) {
-  constexpr double kShares[] = {0.3, 0.12, 0.55, 0.8, 1.0};  // of the height; unknown is hatched
-  return kShares[static_cast<size_t>(light)];
+double step(WarningLevel level) {
+  constexpr double kShares[] = {0.3, 0.12, 0.55, 0.8, 1.0};  // of kSteps; unknown is hatched
+  return kShares[static_cast<size_t>(level)];
 }
 
-// Where times and levels are on the widget.
+// Maps times and levels to places on the widget.
 class Axes {
  public:
   Axes(const QSize& size, double longest, SteadyTime now)
@@ -76,28 +76,29 @@ void drawRules(QPainter& painter, const Axes& axes) {
   painter.drawText(below, Qt::AlignRight | Qt::AlignVCenter, "now");
 }
 
-void drawLevel(QPainter& painter, const Axes& axes, Light light, double from, double to) {
+void drawLevel(QPainter& painter, const Axes& axes, WarningLevel level, double from, double to) {
   const QRectF& place = axes.steps();
-  const double height = step(light) * place.height();
+  const double height = step(level) * place.height();
   const QRectF bar(from, place.bottom() - height, std::max(1.0, to - from), height);
-  painter.fillRect(bar, light == Light::kUnknown ? QBrush(colorOf(light), Qt::BDiagPattern) : QBrush(colorOf(light)));
-  QColor shade = colorOf(light);
-  shade.setAlpha(light == Light::kClear || light == Light::kUnknown ? 0 : 50);
+  painter.fillRect(bar,
+                   level == WarningLevel::kUnknown ? QBrush(colorOf(level), Qt::BDiagPattern) : QBrush(colorOf(level)));
+  QColor shade = colorOf(level);
+  shade.setAlpha(level == WarningLevel::kClear || level == WarningLevel::kUnknown ? 0 : 50);
   painter.fillRect(QRectF(from, axes.curve().top(), bar.width(), axes.curve().height()), shade);
 }
 
 void drawLevels(QPainter& painter, const Axes& axes, const std::deque<LevelHistory::Sample>& samples) {
   for (size_t begin = 0; begin < samples.size();) {
-    const Light light = samples[begin].light;
+    const WarningLevel level = samples[begin].level;
     size_t end = begin + 1;
-    while (end < samples.size() && samples[end].light == light) ++end;
-    drawLevel(painter, axes, light, axes.x(samples[begin].since),
+    while (end < samples.size() && samples[end].level == level) ++end;
+    drawLevel(painter, axes, level, axes.x(samples[begin].since),
               end < samples.size() ? axes.x(samples[end].since) : axes.xBefore(0.0));
     begin = end;
   }
 }
 
-// A line as long as there is a time.
+// The line has gaps where there is no time to collision.
 void drawTimes(QPainter& painter, const Axes& axes, const std::deque<LevelHistory::Sample>& samples) {
   QPolygonF line;
   for (const LevelHistory::Sample& sample : samples) {

@@ -6,8 +6,8 @@
 
 namespace sweep_guard_rviz {
 
-/// The last 20 s: above, the time to the collision as a line that sinks towards 0; below, the level as a step whose
-/// height tells it as well as its colour. Now is at the right.
+/// Draws the last 20 s, with the present at the right: above, the time to collision as a line; below, the level as
+/// steps that differ by height and color.
 class StripChart : public QWidget {
  public:
   explicit StripChart(QWidget* parent = nullptr);

@@ -23,9 +23,9 @@ namespace {
 
 using Ogre::Vector3;
 
-const Vector3 kLight(0.48F, 0.14F, 0.866F);  // towards it
+const Vector3 kLight(0.48F, 0.14F, 0.866F);  // direction towards the light
 
-// As it lies in the buffer.
+// Memory layout of the vertex buffer.
 struct Vertex {
   float position[3];
   std::uint8_t color[4];  // red first
@@ -81,7 +81,7 @@ void SurfaceVisual::setTriangles(std::vector<shape_msgs::MeshTriangle> triangles
 void SurfaceVisual::build() {
   static int made = 0;
   mesh_ = Ogre::MeshManager::getSingleton().createManual("sweep_guard_surface_" + std::to_string(made++), kResources);
-  auto* const data = new Ogre::VertexData();  // the mesh's
+  auto* const data = new Ogre::VertexData();  // owned by the mesh
   mesh_->sharedVertexData = data;
   data->vertexCount = vertices_;
   data->vertexDeclaration->addElement(0, offsetof(Vertex, position), Ogre::VET_FLOAT3, Ogre::VES_POSITION);
@@ -90,9 +90,9 @@ void SurfaceVisual::build() {
       sizeof(Vertex), vertices_, Ogre::HardwareBuffer::HBU_DYNAMIC_WRITE_ONLY_DISCARDABLE);
   data->vertexBufferBinding->setBinding(0, buffer_);
   for (int layer = 0; layer < kLayers; ++layer) {
-    Ogre::SubMesh& part = *mesh_->createSubMesh();
-    part.useSharedVertices = true;
-    part.setMaterialName(materials_[static_cast<size_t>(layer)]->getName(), kResources);
+    Ogre::SubMesh& submesh = *mesh_->createSubMesh();
+    submesh.useSharedVertices = true;
+    submesh.setMaterialName(materials_[static_cast<size_t>(layer)]->getName(), kResources);
   }
   std::vector<std::uint32_t> all(triangles_.size());
   for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -124,7 +124,7 @@ void SurfaceVisual::setIndices(Layer layer, const std::vector<std::uint32_t>& tr
   if (!corners.empty()) writeTo(*data.indexBuffer, corners.data(), corners.size() * sizeof(std::uint32_t));
 }
 
-// Outwards where the surface is closed, whatever its winding.
+// The normals point outwards where the surface is closed, whatever its winding.
 std::vector<Vector3> SurfaceVisual::normals() const {
   std::vector<Vector3> normals(vertices_, Vector3::ZERO);
   const Vector3 inside = at(positions_, 0);
@@ -151,7 +151,7 @@ void SurfaceVisual::setVertices(const float* positions) {
   updateVisibility();
 }
 
-// With their shades: the light is the workpiece's own, so that no side of it is dark.
+// Shades each vertex: with rviz's own light, one side of the workpiece would be dark.
 void SurfaceVisual::writeVertices() {
   if (entity_ == nullptr || positions_.empty()) return;
   const std::vector<Vector3> normals = this->normals();

@@ -19,11 +19,11 @@ class SceneNode;
 
 namespace sweep_guard_rviz {
 
-/// A deforming surface, some of whose triangles stand out. One buffer of vertices serves all; a deformation is written
-/// into it, highlights are indices.
+/// Draws a deforming surface with highlighted triangles. All layers share one vertex buffer, which a deformation
+/// overwrites; each layer has an index buffer.
 class SurfaceVisual {
  public:
-  /// What is drawn over what, the last on top.
+  /// The layers in drawing order, the last on top.
   enum Layer { kSurface, kConsidered, kReflex, kTouched, kLayers };
 
   SurfaceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node);
@@ -31,19 +31,21 @@ class SurfaceVisual {
   SurfaceVisual(const SurfaceVisual&) = delete;
   SurfaceVisual& operator=(const SurfaceVisual&) = delete;
 
-  /// @param triangles  whose corners are below `vertices`
+  /// Replaces the surface.
+  /// @param triangles  with vertex indices below `vertices`
   void setTriangles(std::vector<shape_msgs::MeshTriangle> triangles, size_t vertices);
   size_t triangleCount() const { return triangles_.size(); }
   size_t vertexCount() const { return vertices_; }
 
+  /// Deforms the surface.
   /// @param positions  x0 y0 z0 x1 ... of all vertices, in the frame of the node [m]
   void setVertices(const float* positions);
-  void highlight(const Highlights& highlights);  ///< triangles below triangleCount()
+  void highlight(const Highlights& highlights);  ///< indices below triangleCount()
 
-  /// @param edges  of the triangles are drawn, too
+  /// @param edges  draws the edges of the triangles, too
   void paintLayer(Layer layer, const Ogre::ColourValue& color, bool shown, bool edges);
 
-  size_t drawnTriangles(Layer layer) const;  ///< that a layer shows
+  size_t drawnTriangles(Layer layer) const;  ///< number of triangles that a layer shows
 
  private:
   void build();
@@ -63,7 +65,7 @@ class SurfaceVisual {
   std::vector<Ogre::MaterialPtr> materials_;
   bool wanted_[kLayers] = {};
   size_t counts_[kLayers] = {};
-  std::vector<float> positions_;  // empty: none have come
+  std::vector<float> positions_;  // empty: none received
   Ogre::ColourValue color_;
 };
 

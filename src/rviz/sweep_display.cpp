@@ -20,7 +20,7 @@ namespace {
 using rviz::StatusProperty;
 
 constexpr auto kSilent = std::chrono::milliseconds(500);
-constexpr std::uint32_t kMeshesQueued = 10;  // of several workpieces
+constexpr std::uint32_t kMeshesQueued = 10;  // for several workpieces
 
 template <typename Message>
 rviz::RosTopicProperty* topic(const char* name, const char* value, const char* description, rviz::Property& parent) {
@@ -29,12 +29,12 @@ rviz::RosTopicProperty* topic(const char* name, const char* value, const char* d
 
 bool hasPose(const sweep_guard::View& view) { return !view.header.stamp.isZero(); }
 
-std::string complaintOf(const sweep_guard::View& view) {
-  if (!hasPose(view)) return "the guard knows no pose";
+std::string problemOf(const sweep_guard::View& view) {
+  if (!hasPose(view)) return "the guard has no pose";
   if (view.level != sweep_guard::Warning::UNKNOWN) return "";
   char text[80];
   const double age = (ros::Time::now() - view.header.stamp).toSec();
-  std::snprintf(text, sizeof text, "the guard promises nothing; its newest pose is %.1f s old", age);
+  std::snprintf(text, sizeof text, "the level is UNKNOWN; the newest pose is %.1f s old", age);
   return text;
 }
 
@@ -42,7 +42,7 @@ std::string complaintOf(const sweep_guard::View& view) {
 
 SweepDisplay::SweepDisplay() {
   addTopics();
-  look_ = std::make_unique<LookProperties>(*this, [this] { stale_ = true; });
+  style_ = std::make_unique<StyleProperties>(*this, [this] { stale_ = true; });
 }
 
 SweepDisplay::~SweepDisplay() {
@@ -54,10 +54,12 @@ SweepDisplay::~SweepDisplay() {
 }
 
 void SweepDisplay::addTopics() {
-  view_topic_ = topic<sweep_guard::View>("View Topic", "/sweep_guard/view", "What the guard tests and finds.", *this);
-  tool_topic_ = topic<sweep_guard::ToolShape>("Tool Topic", "/sweep_guard/tool", "Shape of its tool.", *this);
-  mesh_topic_ = topic<sweep_guard::DeformableMesh>("Mesh Topic", "/mesh", "Workpieces that it guards.", *this);
-  vertices_topic_ = topic<sweep_guard::MeshVertices>("Vertices Topic", "/mesh_vertices", "How they deform.", *this);
+  view_topic_ =
+      topic<sweep_guard::View>("View Topic", "/sweep_guard/view", "Tested volumes and results of the guard.", *this);
+  tool_topic_ = topic<sweep_guard::ToolShape>("Tool Topic", "/sweep_guard/tool", "Shape of the tool.", *this);
+  mesh_topic_ = topic<sweep_guard::DeformableMesh>("Mesh Topic", "/mesh", "Meshes of the workpieces.", *this);
+  vertices_topic_ =
+      topic<sweep_guard::MeshVertices>("Vertices Topic", "/mesh_vertices", "Deformations of the meshes.", *this);
   for (rviz::RosTopicProperty* each : {view_topic_, tool_topic_, mesh_topic_, vertices_topic_}) {
     connect(each, &rviz::Property::changed, this, [this] {
       if (initialized()) reset();
@@ -101,9 +103,9 @@ void SweepDisplay::subscribe() {
     subscribers_[3] = update_nh_.subscribe<sweep_guard::MeshVertices>(
         vertices_topic_->getTopicStd(), kMeshesQueued,
         [this](const sweep_guard::MeshVertices::ConstPtr& vertices) { workpieces_->take(vertices); });
-    tell("Topics", "", "subscribed");
+    report("Topics", "", "subscribed");
   } catch (const ros::Exception& error) {
-    tell("Topics", error.what(), "", StatusProperty::Error);
+    report("Topics", error.what(), "", StatusProperty::Error);
   }
 }
 
@@ -113,7 +115,7 @@ void SweepDisplay::unsubscribe() {
 
 void SweepDisplay::reset() {
   rviz::Display::reset();
-  told_.clear();
+  reported_.clear();
   view_.reset();
   if (initialized()) {
     workpieces_->clear();
@@ -122,46 +124,47 @@ void SweepDisplay::reset() {
   }
   stale_ = true;
   if (!isEnabled()) return;
-  unsubscribe();  // what is latched is to come again
+  unsubscribe();  // to receive latched messages again
   subscribe();
 }
 
 void SweepDisplay::takeView(const sweep_guard::View::ConstPtr& view) {
   view_ = view;
-  seen_ = std::chrono::steady_clock::now();
+  view_received_ = std::chrono::steady_clock::now();
   stale_ = true;
   hasPose(*view) ? path_->add(view->header.stamp, view->pose) : path_->clear();
 }
 
-bool SweepDisplay::silent() const { return !view_ || std::chrono::steady_clock::now() - seen_ > kSilent; }
+bool SweepDisplay::silent() const { return !view_ || std::chrono::steady_clock::now() - view_received_ > kSilent; }
 
 void SweepDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
   workpieces_->deform();
   if (silent() != was_silent_) stale_ = true;
   if (stale_) draw();
   place();
-  tellInputs();
+  reportInputs();
 }
 
 void SweepDisplay::draw() {
   stale_ = false;
   was_silent_ = silent();
-  Look look = look_->look();
-  if (was_silent_) look = look.surfaceOnly();
-  if (!view_) return workpieces_->draw({}, look);
-  if (view_->level == sweep_guard::Warning::UNKNOWN) look = look.greyed();
-  workpieces_->draw(view_->objects, look);
-  drawTools(look);
-  path_->show(view_->path, look.path);
+  DisplayStyle style = style_->style();
+  if (was_silent_) style = style.surfaceOnly();
+  if (!view_) return workpieces_->draw({}, style);
+  if (view_->level == sweep_guard::Warning::UNKNOWN) style = style.grayed();
+  workpieces_->draw(view_->objects, style);
+  drawTools(style);
+  path_->show(view_->path, style.path);
 }
 
-void SweepDisplay::drawTools(const Look& look) {
-  std::vector<ToolVisual::Placed> places;
+void SweepDisplay::drawTools(const DisplayStyle& style) {
+  std::vector<ToolVisual::PlacedTool> places;
   const bool posed = hasPose(*view_);
-  if (posed && look.tool.shown) places.push_back({view_->pose, look.tool.color});
-  if (posed && look.ghosts.shown) {
-    for (const size_t i : pickGhosts(view_->path, look.most_ghosts, tool_->reach(), 0.5 * tool_->thickness())) {
-      Ogre::ColourValue color = look.ghosts.color;
+  if (posed && style.tool.shown) places.push_back({view_->pose, style.tool.color});
+  if (posed && style.ghosts.shown) {
+    for (const size_t i :
+         pickGhosts(view_->path, style.max_ghosts, tool_->boundingRadius(), 0.5 * tool_->thickness())) {
+      Ogre::ColourValue color = style.ghosts.color;
       color.a *= 1.0F - 0.8F * static_cast<float>(i) / static_cast<float>(view_->path.size());
       places.push_back({view_->path[i], color});
     }
@@ -170,11 +173,11 @@ void SweepDisplay::drawTools(const Look& look) {
 }
 
 void SweepDisplay::place() {
-  std::string unknown;
+  std::string problem;
   const auto find = [&](const std::string& frame, Ogre::Vector3& position, Ogre::Quaternion& rotation) {
     const bool found = context_->getFrameManager()->getTransform(frame, ros::Time(), position, rotation);
     if (!found)
-      unknown += (unknown.empty() ? "no transform to " : ", ") + fixed_frame_.toStdString() + " from " + frame;
+      problem += (problem.empty() ? "no transform to " : ", ") + fixed_frame_.toStdString() + " from " + frame;
     return found;
   };
   workpieces_->place(find);
@@ -186,25 +189,25 @@ void SweepDisplay::place() {
     guard_node_->setPosition(position);
     guard_node_->setOrientation(rotation);
   }
-  tell("Frames", unknown, "known", StatusProperty::Error);
+  report("Frames", problem, "known", StatusProperty::Error);
 }
 
-void SweepDisplay::tellInputs() {
-  tell("View",
-       !view_        ? "none has come from " + view_topic_->getTopicStd()
-       : was_silent_ ? "the guard is silent"
-                     : complaintOf(*view_),
-       "comes");
-  tell("Tool", tool_->hasShape() ? "" : "no shape has come from " + tool_topic_->getTopicStd(), "known");
-  tell("Mesh", workpieces_->complaint(mesh_topic_->getTopicStd()),
-       std::to_string(drawnTriangles(SurfaceVisual::kSurface)) + " triangles");
+void SweepDisplay::reportInputs() {
+  report("View",
+         !view_        ? "no view from " + view_topic_->getTopicStd()
+         : was_silent_ ? "the guard is silent"
+                       : problemOf(*view_),
+         "received");
+  report("Tool", tool_->hasShape() ? "" : "no tool shape from " + tool_topic_->getTopicStd(), "known");
+  report("Mesh", workpieces_->problem(mesh_topic_->getTopicStd()),
+         std::to_string(drawnTriangles(SurfaceVisual::kSurface)) + " triangles");
 }
 
-void SweepDisplay::tell(const std::string& name, const std::string& wrong, const std::string& fine,
-                        StatusProperty::Level if_wrong) {
-  const std::string& text = wrong.empty() ? fine : wrong;
-  if (std::exchange(told_[name], text) == text) return;
-  setStatusStd(wrong.empty() ? StatusProperty::Ok : if_wrong, name, text);
+void SweepDisplay::report(const std::string& name, const std::string& problem, const std::string& ok_text,
+                          StatusProperty::Level severity) {
+  const std::string& text = problem.empty() ? ok_text : problem;
+  if (std::exchange(reported_[name], text) == text) return;
+  setStatusStd(problem.empty() ? StatusProperty::Ok : severity, name, text);
 }
 
 size_t SweepDisplay::drawnTriangles(SurfaceVisual::Layer layer) const { return workpieces_->drawnTriangles(layer); }

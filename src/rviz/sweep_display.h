@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "rviz/look_properties.h"
+#include "rviz/style_properties.h"
 #include "rviz/tip_path.h"
 #include "rviz/tool_visual.h"
 #include "rviz/workpieces.h"
@@ -20,9 +20,8 @@ class RosTopicProperty;
 
 namespace sweep_guard_rviz {
 
-/// Draws the workpieces as they deform, with what the guard tests and finds: `~view` on the meshes that it is fed with.
-/// Without `~view` for half a second, the workpieces alone; no tool while its pose is not known. Nothing is subscribed
-/// to while it is disabled.
+/// Draws the deforming workpieces together with the content of a guard's `~view`. Draws only the workpieces when no
+/// `~view` has arrived for 0.5 s, and no tool while its pose is not known. Subscribes to nothing while it is disabled.
 class SweepDisplay : public rviz::Display {
  public:
   SweepDisplay();
@@ -30,12 +29,12 @@ class SweepDisplay : public rviz::Display {
 
   void update(float wall_dt, float ros_dt) override;
   void reset() override;
-  /// The `~view` of a guard, and the `~tool` beside it.
+  /// Selects the guard that publishes this `~view`, and its `~tool`.
   void setTopic(const QString& topic, const QString& datatype) override;
 
-  /// Triangles that are drawn in a layer, of all workpieces.
+  /// Returns the number of triangles that a layer shows, of all workpieces.
   size_t drawnTriangles(SurfaceVisual::Layer layer) const;
-  size_t drawnTools() const { return tool_ ? tool_->shown() : 0; }  ///< the tool and its ghosts
+  size_t drawnTools() const { return tool_ ? tool_->shown() : 0; }  ///< number of drawn tools, ghosts included
 
  protected:
   void onInitialize() override;
@@ -51,31 +50,32 @@ class SweepDisplay : public rviz::Display {
   void takeView(const sweep_guard::View::ConstPtr& view);
 
   void draw();
-  void drawTools(const Look& look);
+  void drawTools(const DisplayStyle& style);
   void place();
-  void tellInputs();
-  /// One line of the status. @param wrong  empty: nothing is, which `fine` says then
-  void tell(const std::string& name, const std::string& wrong, const std::string& fine,
-            rviz::StatusProperty::Level if_wrong = rviz::StatusProperty::Warn);
+  void reportInputs();
+  /// Sets one line of the status.
+  /// @param problem  empty: none, and the line shows `ok_text`
+  void report(const std::string& name, const std::string& problem, const std::string& ok_text,
+              rviz::StatusProperty::Level severity = rviz::StatusProperty::Warn);
   bool silent() const;
 
   rviz::RosTopicProperty* view_topic_ = nullptr;
   rviz::RosTopicProperty* tool_topic_ = nullptr;
   rviz::RosTopicProperty* mesh_topic_ = nullptr;
   rviz::RosTopicProperty* vertices_topic_ = nullptr;
-  std::unique_ptr<LookProperties> look_;
+  std::unique_ptr<StyleProperties> style_;
 
-  Ogre::SceneNode* guard_node_ = nullptr;  // of the fixed frame of the guard
+  Ogre::SceneNode* guard_node_ = nullptr;  // at the fixed frame of the guard
   std::unique_ptr<ToolVisual> tool_;
   std::unique_ptr<TipPath> path_;
   std::unique_ptr<Workpieces> workpieces_;
 
   ros::Subscriber subscribers_[4];
   sweep_guard::View::ConstPtr view_;
-  SteadyTime seen_;
+  SteadyTime view_received_;
   bool was_silent_ = true;
-  bool stale_ = true;  // what is drawn is not what is known
-  std::map<std::string, std::string> told_;
+  bool stale_ = true;  // the drawing is out of date
+  std::map<std::string, std::string> reported_;
 };
 
 }  // namespace sweep_guard_rviz

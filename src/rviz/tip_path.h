@@ -1,36 +1,30 @@
 #pragma once
 
-#include <OgreVector.h>
 #include <geometry_msgs/Pose.h>
 #include <ros/time.h>
 #include <rviz/ogre_helpers/billboard_line.h>
 
-#include <deque>
 #include <vector>
 
-#include "rviz/look.h"
+#include "common/trail.h"
+#include "rviz/display_style.h"
 
 namespace sweep_guard_rviz {
 
-/// The way of the tip: where it has been for 2 s, and where it is expected.
+/// Draws the path of the tool's tip: measured (the last 2 s) and predicted.
 class TipPath {
  public:
   TipPath(Ogre::SceneManager& scene, Ogre::SceneNode& node);
 
-  /// A stamp that goes back begins anew.
+  /// Adds a measured pose; first forgets all others if its stamp is older than the newest one's.
   void add(ros::Time stamp, const geometry_msgs::Pose& pose);
-  void show(const std::vector<geometry_msgs::Pose>& expected, const Part& part);
+  void show(const std::vector<geometry_msgs::Pose>& predicted, const ElementStyle& element);
   void clear();
 
  private:
-  struct Point {
-    ros::Time stamp;
-    Ogre::Vector3 position;
-  };
-
-  std::deque<Point> points_;
+  sweep_guard_core::Trail trail_;
   rviz::BillboardLine measured_;
-  rviz::BillboardLine expected_;
+  rviz::BillboardLine predicted_;
 };
 
 }  // namespace sweep_guard_rviz

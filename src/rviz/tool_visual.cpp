@@ -26,18 +26,18 @@ std::string newName() {
   return "sweep_guard_tool_" + std::to_string(made++);
 }
 
-Vector3 centerOf(const shape_msgs::Mesh& part) {
+Vector3 centerOf(const shape_msgs::Mesh& piece) {
   Vector3 sum = Vector3::ZERO;
-  for (const geometry_msgs::Point& vertex : part.vertices) sum += toOgre(vertex);
-  return sum / static_cast<float>(std::max<size_t>(1, part.vertices.size()));
+  for (const geometry_msgs::Point& vertex : piece.vertices) sum += toOgre(vertex);
+  return sum / static_cast<float>(std::max<size_t>(1, piece.vertices.size()));
 }
 
-// Of a convex part: normals point away from its centre.
-void add(Ogre::ManualObject& drawing, const shape_msgs::Mesh& part) {
-  const Vector3 center = centerOf(part);
-  for (const shape_msgs::MeshTriangle& triangle : part.triangles) {
+// The piece is convex: its normals point away from its center.
+void add(Ogre::ManualObject& drawing, const shape_msgs::Mesh& piece) {
+  const Vector3 center = centerOf(piece);
+  for (const shape_msgs::MeshTriangle& triangle : piece.triangles) {
     Vector3 corners[3];
-    for (size_t i = 0; i < 3; ++i) corners[i] = toOgre(part.vertices[triangle.vertex_indices[i]]);
+    for (size_t i = 0; i < 3; ++i) corners[i] = toOgre(piece.vertices[triangle.vertex_indices[i]]);
     Vector3 normal = (corners[1] - corners[0]).crossProduct(corners[2] - corners[0]).normalisedCopy();
     if (normal.dotProduct(corners[0] - center) < 0.0F) normal = -normal;
     for (const Vector3& corner : corners) {
@@ -73,8 +73,8 @@ void ToolVisual::setShape(const sweep_guard::ToolShape& shape) {
   clear();
   Ogre::ManualObject drawing(newName());
   drawing.begin(material_->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST, kResources);
-  for (const shape_msgs::Mesh& part : shape.parts) {
-    if (haveTheirCorners(part.triangles, part.vertices.size())) add(drawing, part);
+  for (const shape_msgs::Mesh& piece : shape.parts) {
+    if (indicesInRange(piece.triangles, piece.vertices.size())) add(drawing, piece);
   }
   if (drawing.getCurrentVertexCount() == 0) return;
   drawing.end();
@@ -82,7 +82,7 @@ void ToolVisual::setShape(const sweep_guard::ToolShape& shape) {
   const Ogre::AxisAlignedBox& box = drawing.getBoundingBox();
   const Vector3 size = box.getSize();
   thickness_ = static_cast<double>(std::min({size.x, size.y, size.z}));
-  reach_ = static_cast<double>(Ogre::Math::boundingRadiusFromAABB(box));
+  bounding_radius_ = static_cast<double>(Ogre::Math::boundingRadiusFromAABB(box));
 }
 
 ToolVisual::Instance ToolVisual::make() {
@@ -92,7 +92,7 @@ ToolVisual::Instance ToolVisual::make() {
   return instance;
 }
 
-void ToolVisual::show(const std::vector<Placed>& places) {
+void ToolVisual::show(const std::vector<PlacedTool>& places) {
   if (!mesh_) return;
   while (instances_.size() < places.size()) instances_.push_back(make());
   for (size_t i = 0; i < instances_.size(); ++i) {
@@ -105,17 +105,17 @@ void ToolVisual::show(const std::vector<Placed>& places) {
   shown_ = places.size();
 }
 
-std::vector<size_t> pickGhosts(const std::vector<geometry_msgs::Pose>& path, size_t most, double reach,
+std::vector<size_t> pickGhosts(const std::vector<geometry_msgs::Pose>& path, size_t max_count, double tool_radius,
                                double spacing) {
   std::vector<size_t> picked;
-  for (size_t i = 1; i <= most && !path.empty(); ++i) {
-    const size_t next = (path.size() * i + most - 1) / most - 1;
+  for (size_t i = 1; i <= max_count && !path.empty(); ++i) {
+    const size_t next = (path.size() * i + max_count - 1) / max_count - 1;
     if (!picked.empty()) {
-      const geometry_msgs::Pose& before = path[picked.back()];
-      const Ogre::Quaternion turn = toOgre(before.orientation).Inverse() * toOgre(path[next].orientation);
+      const geometry_msgs::Pose& previous = path[picked.back()];
+      const Ogre::Quaternion turn = toOgre(previous.orientation).Inverse() * toOgre(path[next].orientation);
       const double angle = 2.0 * std::acos(std::min(1.0, static_cast<double>(std::abs(turn.w))));
-      const float way = toOgre(before.position).distance(toOgre(path[next].position));
-      if (next == picked.back() || static_cast<double>(way) + reach * angle < spacing) continue;
+      const float distance = toOgre(previous.position).distance(toOgre(path[next].position));
+      if (next == picked.back() || static_cast<double>(distance) + tool_radius * angle < spacing) continue;
     }
     picked.push_back(next);
   }

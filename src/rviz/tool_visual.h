@@ -16,10 +16,10 @@ class SceneNode;
 
 namespace sweep_guard_rviz {
 
-/// The tool at several places at once, each in a colour of its own.
+/// Draws the tool at several poses at once, each in a color of its own.
 class ToolVisual {
  public:
-  struct Placed {
+  struct PlacedTool {
     geometry_msgs::Pose pose;  ///< in the frame of the node
     Ogre::ColourValue color;
   };
@@ -31,11 +31,14 @@ class ToolVisual {
 
   void setShape(const sweep_guard::ToolShape& shape);
   bool hasShape() const { return mesh_ != nullptr; }
-  double reach() const { return reach_; }          ///< largest distance of a point from the tool's origin [m]
+  double boundingRadius() const {
+    return bounding_radius_;
+  }                                                ///< bound on the distance of a point from the tool's origin [m]
   double thickness() const { return thickness_; }  ///< smallest extent along an axis of the tool frame [m]
 
-  void show(const std::vector<Placed>& places);  ///< there, and nowhere else
-  size_t shown() const { return shown_; }
+  /// Shows the tool at these poses only.
+  void show(const std::vector<PlacedTool>& places);
+  size_t shown() const { return shown_; }  ///< number of tools shown
 
  private:
   struct Instance {
@@ -51,16 +54,18 @@ class ToolVisual {
   Ogre::SceneNode& node_;
   Ogre::MaterialPtr material_;  // of the mesh; each instance has its own
   Ogre::MeshPtr mesh_;
-  double reach_ = 0.0;
+  double bounding_radius_ = 0.0;
   double thickness_ = 0.0;
   std::vector<Instance> instances_;
   size_t shown_ = 0;
 };
 
-/// Indices of the poses of a path that are worth a ghost: evenly spread, none that has hardly moved since the one
-/// before.
-/// @param reach    of the tool [m]
-/// @param spacing  that some point of the tool has to move [m]
-std::vector<size_t> pickGhosts(const std::vector<geometry_msgs::Pose>& path, size_t most, double reach, double spacing);
+/// Returns the indices of the poses at which ghosts are drawn: evenly spread, without those that hardly differ from the
+/// previous one.
+/// @param max_count    largest number of ghosts
+/// @param tool_radius  bounding radius of the tool [m]
+/// @param spacing      distance that some point of the tool must move between two ghosts [m]
+std::vector<size_t> pickGhosts(const std::vector<geometry_msgs::Pose>& path, size_t max_count, double tool_radius,
+                               double spacing);
 
 }  // namespace sweep_guard_rviz

@@ -11,10 +11,10 @@
 namespace sweep_guard_rviz {
 namespace {
 
-constexpr double kHeight = 170.0;  // everything is drawn for this, and scaled
+constexpr double kHeight = 170.0;  // everything is drawn for this height and then scaled
 constexpr double kNarrowest = 300.0;
 
-// The colours of one picture. In contact, ground and ink change places twice a second.
+// The colors of one picture. In contact, ground and ink are swapped twice a second.
 struct Paints {
   QColor ground;
   QColor ink;
@@ -23,10 +23,10 @@ struct Paints {
 };
 
 Paints paintsOf(const PanelState& state) {
-  const QColor color = colorOf(state.light);
-  if (state.light == Light::kClear) return {backdrop(), QColor(225, 228, 232), color, inkOn(state.light)};
-  if (!state.bright) return {inkOn(state.light), color, color, inkOn(state.light)};
-  return {color, inkOn(state.light), color, inkOn(state.light)};
+  const QColor color = colorOf(state.level);
+  if (state.level == WarningLevel::kClear) return {backdrop(), QColor(225, 228, 232), color, inkOn(state.level)};
+  if (!state.bright) return {inkOn(state.level), color, color, inkOn(state.level)};
+  return {color, inkOn(state.level), color, inkOn(state.level)};
 }
 
 QPainterPath polygon(const QPointF& center, double radius, int corners, double first_angle) {
@@ -47,49 +47,49 @@ QPainterPath disc(const QPointF& center, double radius) {
   return path;
 }
 
-QPainterPath lampShape(Light light, const QPointF& c) {
-  switch (light) {
-    case Light::kClear:
+QPainterPath lampShape(WarningLevel level, const QPointF& c) {
+  switch (level) {
+    case WarningLevel::kClear:
       return disc(c, 15.0);
-    case Light::kConsidered:
+    case WarningLevel::kConsidered:
       return polygon(c + QPointF(0.0, 5.0), 27.0, 3, -M_PI / 2);
-    case Light::kReflex:
+    case WarningLevel::kReflex:
       return polygon(c, 25.0, 8, M_PI / 8);
-    case Light::kContact:
+    case WarningLevel::kContact:
       return polygon(c, 30.0, 4, M_PI / 4);
-    case Light::kUnknown:
+    case WarningLevel::kUnknown:
       break;
   }
   return {};
 }
 
-QPainterPath lampMark(Light light, const QPointF& c) {
+QPainterPath lampMark(WarningLevel level, const QPointF& c) {
   QPainterPath path;
   const auto line = [&](double x1, double y1, double x2, double y2) {
     path.moveTo(c + QPointF(x1, y1));
     path.lineTo(c + QPointF(x2, y2));
   };
-  if (light == Light::kClear) {
+  if (level == WarningLevel::kClear) {
     line(-6.0, 0.5, -1.5, 5.5);
     path.lineTo(c + QPointF(7.0, -5.0));
-  } else if (light == Light::kConsidered) {
+  } else if (level == WarningLevel::kConsidered) {
     line(0.0, -7.0, 0.0, 6.0);
     line(0.0, 13.0, 0.0, 13.2);
-  } else if (light == Light::kReflex) {
+  } else if (level == WarningLevel::kReflex) {
     line(-12.0, 0.0, 12.0, 0.0);
-  } else if (light == Light::kContact) {
+  } else if (level == WarningLevel::kContact) {
     line(-10.0, -10.0, 10.0, 10.0);
     line(-10.0, 10.0, 10.0, -10.0);
   }
   return path;
 }
 
-QPointF lampPlace(Light light) {
-  const double row = light == Light::kClear ? 2.0 : light == Light::kConsidered ? 1.0 : 0.0;
+QPointF lampPlace(WarningLevel level) {
+  const double row = level == WarningLevel::kClear ? 2.0 : level == WarningLevel::kConsidered ? 1.0 : 0.0;
   return {44.0, 33.0 + 52.0 * row};
 }
 
-// As large as fits, up to `size`.
+// Writes as large as fits, up to `size`.
 void write(QPainter& painter, const QRectF& place, const QString& text, double size, bool bold) {
   QFont font = painter.font();
   font.setBold(bold);
@@ -107,19 +107,19 @@ void drawHousing(QPainter& painter, const PanelState& state, const Paints& paint
   painter.setPen(Qt::NoPen);
   painter.setBrush(backdrop());
   painter.drawRoundedRect(QRectF(9.0, 4.0, 70.0, 162.0), 16.0, 16.0);
-  if (state.light == Light::kUnknown) {
+  if (state.level == WarningLevel::kUnknown) {
     painter.setPen(paints.lamp);
     write(painter, QRectF(16.0, 20.0, 60.0, 130.0), "?", 96.0, /*bold=*/true);
     return;
   }
   painter.setBrush(unlit());
-  for (const Light light : {Light::kReflex, Light::kConsidered, Light::kClear}) {
-    if (light != state.light) painter.drawPath(disc(lampPlace(light), light == Light::kClear ? 15.0 : 22.0));
+  for (const WarningLevel level : {WarningLevel::kReflex, WarningLevel::kConsidered, WarningLevel::kClear}) {
+    if (level != state.level) painter.drawPath(disc(lampPlace(level), level == WarningLevel::kClear ? 15.0 : 22.0));
   }
-  const QPointF place = lampPlace(state.light);
-  painter.fillPath(lampShape(state.light, place), paints.lamp);
-  painter.strokePath(lampMark(state.light, place),
-                     QPen(paints.mark, state.light == Light::kClear ? 3.5 : 6.0, Qt::SolidLine, Qt::RoundCap));
+  const QPointF place = lampPlace(state.level);
+  painter.fillPath(lampShape(state.level, place), paints.lamp);
+  painter.strokePath(lampMark(state.level, place),
+                     QPen(paints.mark, state.level == WarningLevel::kClear ? 3.5 : 6.0, Qt::SolidLine, Qt::RoundCap));
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ void TrafficLight::paintEvent(QPaintEvent* /*event*/) {
 
   const double width_left = width() / scale - 94.0 - 8.0;
   painter.setPen(paints.ink);
-  write(painter, {94.0, 8.0, width_left, 40.0}, QString::fromStdString(state_.word), 34.0, /*bold=*/true);
+  write(painter, {94.0, 8.0, width_left, 40.0}, QString::fromStdString(state_.title), 34.0, /*bold=*/true);
   write(painter, {94.0, 50.0, width_left, 80.0}, QString::fromStdString(state_.time), 72.0, /*bold=*/true);
   write(painter, {94.0, 134.0, width_left, 26.0}, QString::fromStdString(state_.meaning), 17.0, /*bold=*/false);
 }

@@ -6,11 +6,12 @@
 
 namespace sweep_guard_rviz {
 
-/// The level as a colour that fills the widget, a lamp of its own place and shape, and a word, with the time to the
-/// collision beside it. Clear is a small green lamp on a dark ground: what fills the widget asks for attention.
+/// Shows the level by a lamp of its own place and shape, by name and, except for CLEAR, by a color that fills the
+/// widget. Shows the time to collision beside it.
 ///
-/// Lamps from above: contact a cross in a square, reflex a bar in an octagon, both on top; considered a triangle in the
-/// middle; clear a tick in a small disc below. Unknown lights none of them: a question mark stands across.
+/// Lamps: CONTACT is a cross in a square and REFLEX a bar in an octagon, both at the top; CONSIDERED is a triangle in
+/// the middle; CLEAR is a tick in a small disc at the bottom, on a dark ground. UNKNOWN is a question mark instead of a
+/// lamp.
 class TrafficLight : public QWidget {
  public:
   explicit TrafficLight(QWidget* parent = nullptr);

@@ -7,8 +7,8 @@
 
 namespace sweep_guard_rviz {
 
-/// Whether every corner is one of so many vertices.
-inline bool haveTheirCorners(const std::vector<shape_msgs::MeshTriangle>& triangles, size_t vertices) {
+/// Tells whether all vertex indices are below the number of vertices.
+inline bool indicesInRange(const std::vector<shape_msgs::MeshTriangle>& triangles, size_t vertices) {
   return std::all_of(triangles.begin(), triangles.end(), [&](const shape_msgs::MeshTriangle& triangle) {
     const auto& corners = triangle.vertex_indices;
     return std::all_of(corners.begin(), corners.end(), [&](auto corner) { return corner < vertices; });

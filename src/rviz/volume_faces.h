@@ -7,10 +7,10 @@
 
 namespace sweep_guard_rviz {
 
-/// Corners of a convex face in their order, in the frame of the workpiece [m].
+/// The corners of a convex face in order, in the frame of the workpiece [m].
 using Face = std::vector<Ogre::Vector3>;
 
-/// The faces of a box that is cut by planes. A plane that cuts nothing off has none.
+/// Returns the faces of a box that is clipped by planes. A plane that clips nothing has no face.
 std::vector<Face> facesOf(const sweep_guard::TestedVolume& volume);
 
 }  // namespace sweep_guard_rviz

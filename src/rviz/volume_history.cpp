@@ -10,7 +10,7 @@ namespace {
 
 using sweep_guard::TestedVolume;
 
-// As far as one reaches across its thinnest side.
+// Nearer than half the least width.
 bool isNear(const TestedVolume& volume, const TestedVolume& other) {
   const auto& half = volume.half_extents;
   const auto reach = static_cast<float>(std::min({half.x, half.y, half.z}));
@@ -24,11 +24,11 @@ bool isNearAny(const TestedVolume& volume, const Volumes& others) {
 
 }  // namespace
 
-void VolumeHistory::add(const Volumes& volumes, size_t most) {
+void VolumeHistory::add(const Volumes& volumes, size_t max_count) {
   for (const TestedVolume& volume : volumes) {
     if (!isNearAny(volume, kept_)) kept_.push_back(volume);
   }
-  while (kept_.size() > most) kept_.pop_front();
+  while (kept_.size() > max_count) kept_.pop_front();
 }
 
 VolumeHistory::Volumes VolumeHistory::beside(const Volumes& newest) const {

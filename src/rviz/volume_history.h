@@ -7,18 +7,17 @@
 
 namespace sweep_guard_rviz {
 
-/// Volumes of earlier sweeps, for the eye: close enough to leave no gap, and far enough apart to be told from each
-/// other.
+/// Keeps volumes of earlier sweeps for drawing: close enough to leave no gap, far enough apart to be distinguished.
 class VolumeHistory {
  public:
   using Volumes = std::vector<sweep_guard::TestedVolume>;
 
-  /// Keeps those that lie farther than half their least width from each one kept, and the last `most` of all. A sweep
-  /// in parts tells them all again and again: each is kept once.
-  void add(const Volumes& volumes, size_t most);
+  /// Adds the volumes that lie farther than half their least width from each one kept, so that repeated volumes are
+  /// kept once. Then drops the oldest ones above `max_count`.
+  void add(const Volumes& volumes, size_t max_count);
   void clear() { kept_.clear(); }
 
-  /// What is to be drawn beside the newest volumes, the oldest first: those whose place none of these has taken.
+  /// Returns the volumes kept that are not near one of the newest volumes, the oldest first.
   Volumes beside(const Volumes& newest) const;
 
  private:

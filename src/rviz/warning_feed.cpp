@@ -6,7 +6,7 @@ namespace sweep_guard_rviz {
 namespace {
 
 constexpr std::uint32_t kQueued = 100;
-constexpr size_t kKept = 10000;  // while nobody takes them
+constexpr size_t kKept = 10000;  // until they are taken
 
 }  // namespace
 

@@ -12,7 +12,7 @@
 
 namespace sweep_guard_rviz {
 
-/// Receives warnings on a thread of its own: however busy rviz is, each is as old as it says.
+/// Receives warnings on a thread of its own, so that a busy rviz does not delay their time of arrival.
 class WarningFeed {
  public:
   WarningFeed();
@@ -20,11 +20,11 @@ class WarningFeed {
   WarningFeed(const WarningFeed&) = delete;
   WarningFeed& operator=(const WarningFeed&) = delete;
 
-  /// Instead of the topic before; what came from that is forgotten. Empty: none.
-  /// @throws ros::InvalidNameException if it is no name of a topic
+  /// Switches to another topic and drops the warnings of the previous one. An empty topic ends listening.
+  /// @throws ros::InvalidNameException if `topic` is not a valid name
   void listen(const std::string& topic);
 
-  std::vector<ReceivedWarning> take();  ///< those that came since it was last called, in their order
+  std::vector<ReceivedWarning> take();  ///< warnings received since the last call, in order
 
  private:
   void receive(const sweep_guard::Warning& warning);

@@ -18,14 +18,15 @@
 namespace sweep_guard_rviz {
 namespace {
 
-constexpr unsigned kLooksPerChart = 3;
-constexpr size_t kMaxWhys = 4;
+constexpr unsigned kRefreshesPerChart = 3;
+constexpr size_t kMaxReasons = 4;
 const char* const kTopic = "Warning Topic";
 
-QString bullets(const std::vector<std::string>& whys, size_t most) {
+QString bullets(const std::vector<std::string>& reasons, size_t max_count) {
   QStringList lines;
-  for (size_t i = 0; i < std::min(most, whys.size()); ++i) lines << QString::fromUtf8("\u2022 ") + whys[i].c_str();
-  if (whys.size() > most) lines << QString("and %1 more").arg(whys.size() - most);
+  for (size_t i = 0; i < std::min(max_count, reasons.size()); ++i)
+    lines << QString::fromUtf8("\u2022 ") + reasons[i].c_str();
+  if (reasons.size() > max_count) lines << QString("and %1 more").arg(reasons.size() - max_count);
   return lines.join('\n');
 }
 
@@ -43,7 +44,7 @@ WarningPanel::WarningPanel(QWidget* parent)
     : rviz::Panel(parent),
       light_(new TrafficLight(this)),
       target_(makeLabel(this)),
-      whys_(makeLabel(this)),
+      reasons_(makeLabel(this)),
       chart_(new StripChart(this)),
       enable_(new QPushButton(this)),
       reset_(new QPushButton("Reset", this)),
@@ -54,38 +55,39 @@ WarningPanel::WarningPanel(QWidget* parent)
   reset_->setObjectName("reset");
   outcome_->setObjectName("outcome");
   layOut();
-  connect(enable_, &QPushButton::clicked, this, [this] { call_.setBool(announced("enable"), state_.disabled); });
-  connect(reset_, &QPushButton::clicked, this, [this] { call_.trigger(announced("reset")); });
+  connect(enable_, &QPushButton::clicked, this, [this] { call_.setBool(announceCall("enable"), state_.disabled); });
+  connect(reset_, &QPushButton::clicked, this, [this] { call_.trigger(announceCall("reset")); });
   connect(topic_edit_, &QLineEdit::editingFinished, this, [this] {
     if (topic_edit_->text().toStdString() == topic_) return;
     setTopic(topic_edit_->text().toStdString());
     Q_EMIT configChanged();
   });
   setTopic("/sweep_guard/warning");
-  connect(&timer_, &QTimer::timeout, this, [this] { look(currentMoment()); });
+  connect(&timer_, &QTimer::timeout, this, [this] { refresh(currentMoment()); });
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.start(kPeriod);
 }
 
 WarningPanel::~WarningPanel() {
-  disconnect(topic_edit_, nullptr, this, nullptr);  // it loses the focus, and tells, when the rest of this is gone
+  // It emits editingFinished when it loses the focus, after the rest of the panel is destroyed.
+  disconnect(topic_edit_, nullptr, this, nullptr);
 }
 
 void WarningPanel::layOut() {
   QFont bold = target_->font();
   bold.setBold(true);
   target_->setFont(bold);
-  const int line = whys_->fontMetrics().lineSpacing();
+  const int line = reasons_->fontMetrics().lineSpacing();
   topic_edit_->setFocusPolicy(Qt::ClickFocus);
-  reset_->setToolTip("Forgets faults and the poses so far, as after a start");
+  reset_->setToolTip("Clears faults and forgets all poses, as after a start");
 
   auto* const place = new QWidget(this);
-  place->setMinimumHeight(6 * line);  // what stands below does not jump
-  auto* const words = new QVBoxLayout(place);
-  words->setContentsMargins(9, 4, 9, 0);
-  words->addWidget(target_);
-  words->addWidget(whys_);
-  words->addStretch();
+  place->setMinimumHeight(6 * line);  // keeps the widgets below in place
+  auto* const texts = new QVBoxLayout(place);
+  texts->setContentsMargins(9, 4, 9, 0);
+  texts->addWidget(target_);
+  texts->addWidget(reasons_);
+  texts->addStretch();
   auto* const buttons = new QHBoxLayout;
   buttons->setContentsMargins(9, 0, 9, 0);
   buttons->addWidget(enable_);
@@ -128,48 +130,49 @@ void WarningPanel::setTopic(const std::string& topic) {
     feed_.listen(topic);
     if (!topic.empty()) guard_ = ros::names::parentNamespace(ros::names::resolve(topic));
   } catch (const ros::InvalidNameException& error) {
-    tell(error.what());
+    showOutcome(error.what());
   }
-  look(currentMoment());
+  refresh(currentMoment());
 }
 
-std::string WarningPanel::announced(const std::string& service) {
+std::string WarningPanel::announceCall(const std::string& service) {
   std::string name = ros::names::append(guard_, service);
-  tell("waiting for " + name);
+  showOutcome("waiting for " + name);
   return name;
 }
 
-void WarningPanel::tell(const std::string& outcome) {
+void WarningPanel::showOutcome(const std::string& outcome) {
   outcome_->setText(QString::fromStdString(outcome));
   outcome_->show();
 }
 
-void WarningPanel::look(const Moment& now) {
+void WarningPanel::refresh(const Moment& now) {
   const std::vector<ReceivedWarning> warnings = feed_.take();
   if (!warnings.empty()) newest_ = warnings.back();
   state_ = panelState(newest_, now, topic_);
   remember(warnings, now.steady);
   showState(now.steady);
-  if (const auto outcome = call_.takeOutcome()) tell(*outcome);
+  if (const auto outcome = call_.takeOutcome()) showOutcome(*outcome);
 }
 
 void WarningPanel::remember(const std::vector<ReceivedWarning>& warnings, SteadyTime now) {
   for (const ReceivedWarning& each : warnings) {
     const PanelState shown = panelState(each, each.received, topic_);
-    history_.add({each.received.steady, shown.light, shown.silent ? std::nullopt : timeToCollision(each.warning)});
+    history_.add({each.received.steady, shown.level, shown.silent ? std::nullopt : timeToCollision(each.warning)});
   }
-  if (state_.silent) history_.add({now, Light::kUnknown, std::nullopt});
+  if (state_.silent) history_.add({now, WarningLevel::kUnknown, std::nullopt});
 }
 
 void WarningPanel::showState(SteadyTime now) {
   light_->show(state_);
   target_->setText(QString::fromStdString(state_.target));
   target_->setVisible(!state_.target.empty());
-  whys_->setText(bullets(state_.whys, kMaxWhys));
-  whys_->setToolTip(state_.whys.size() > kMaxWhys ? bullets(state_.whys, state_.whys.size()) : QString());
+  reasons_->setText(bullets(state_.reasons, kMaxReasons));
+  reasons_->setToolTip(state_.reasons.size() > kMaxReasons ? bullets(state_.reasons, state_.reasons.size())
+                                                           : QString());
   enable_->setText(state_.disabled ? "Enable" : "Disable");
   for (QPushButton* const button : {enable_, reset_}) button->setEnabled(!guard_.empty() && !call_.busy());
-  if (looks_++ % kLooksPerChart == 0) chart_->show(history_, now);
+  if (refreshes_++ % kRefreshesPerChart == 0) chart_->show(history_, now);
 }
 
 }  // namespace sweep_guard_rviz

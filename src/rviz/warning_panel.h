@@ -19,11 +19,11 @@ namespace sweep_guard_rviz {
 class StripChart;
 class TrafficLight;
 
-/// Shows the warnings of one guard to its operator, and switches it off and on. Saved with rviz's configuration: the
-/// topic, from which the names of the services follow.
+/// Shows the warnings of one guard to its operator, and disables, enables and resets it. Saves the topic in rviz's
+/// configuration; the names of the services follow from the topic.
 class WarningPanel : public rviz::Panel {
  public:
-  /// How often it looks at the clock: with kSilence, what a dead guard takes to turn it grey.
+  /// Period of refresh(). Together with kSilence it is the delay until a dead guard turns the panel gray.
   static constexpr auto kPeriod = std::chrono::milliseconds(25);
 
   explicit WarningPanel(QWidget* parent = nullptr);
@@ -32,10 +32,10 @@ class WarningPanel : public rviz::Panel {
   void load(const rviz::Config& config) override;
   void save(rviz::Config config) const override;
 
-  /// Shows what there is to show at a time. Its timer calls this every kPeriod.
-  void look(const Moment& now);
+  /// Shows the state at a moment. The panel's timer calls this every kPeriod.
+  void refresh(const Moment& now);
 
-  const PanelState& state() const { return state_; }  ///< what is shown
+  const PanelState& state() const { return state_; }  ///< the state shown
   const LevelHistory& history() const { return history_; }
 
  private:
@@ -43,21 +43,21 @@ class WarningPanel : public rviz::Panel {
   void setTopic(const std::string& topic);
   void remember(const std::vector<ReceivedWarning>& warnings, SteadyTime now);
   void showState(SteadyTime now);
-  std::string announced(const std::string& service);
-  void tell(const std::string& outcome);
+  std::string announceCall(const std::string& service);
+  void showOutcome(const std::string& outcome);
 
   std::string topic_;
-  std::string guard_;  // namespace of its services; empty: none that could be called
+  std::string guard_;  // namespace of its services; empty: no guard
   WarningFeed feed_;
   ServiceCall call_;
   std::optional<ReceivedWarning> newest_;
   LevelHistory history_;
   PanelState state_;
-  unsigned looks_ = 0;
+  unsigned refreshes_ = 0;
 
   TrafficLight* light_;
   QLabel* target_;
-  QLabel* whys_;
+  QLabel* reasons_;
   StripChart* chart_;
   QPushButton* enable_;
   QPushButton* reset_;

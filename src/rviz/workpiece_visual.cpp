@@ -33,9 +33,9 @@ std::vector<float> positionsOf(const shape_msgs::Mesh& mesh) {
   return positions;
 }
 
-Ogre::ColourValue outline(const Part& part) {
-  Ogre::ColourValue color = part.color;
-  color.a = part.shown ? std::min(1.0F, 3.0F * color.a) : 0.0F;
+Ogre::ColourValue outline(const ElementStyle& element) {
+  Ogre::ColourValue color = element.color;
+  color.a = element.shown ? std::min(1.0F, 3.0F * color.a) : 0.0F;
   return color;
 }
 
@@ -72,8 +72,7 @@ WorkpieceVisual::~WorkpieceVisual() {
 
 std::string WorkpieceVisual::setMesh(const sweep_guard::DeformableMesh& message) {
   const std::vector<float> positions = positionsOf(message.mesh);
-  if (!haveTheirCorners(message.mesh.triangles, message.mesh.vertices.size()))
-    return "a triangle has a corner that is not there";
+  if (!indicesInRange(message.mesh.triangles, message.mesh.vertices.size())) return "a triangle index is out of range";
   if (!allFinite(positions)) return "a vertex is NaN or infinite";
   surface_.setTriangles(message.mesh.triangles, message.mesh.vertices.size());
   surface_.setVertices(positions.data());
@@ -84,80 +83,80 @@ std::string WorkpieceVisual::setMesh(const sweep_guard::DeformableMesh& message)
 }
 
 std::string WorkpieceVisual::setVertices(const sweep_guard::MeshVertices& message) {
-  if (!revision_ || message.revision != *revision_) return "its triangles have not come: vertices of another revision";
-  if (message.positions.size() != 3 * surface_.vertexCount()) return "vertices of another number than the mesh has";
+  if (!revision_ || message.revision != *revision_) return "no mesh yet for this revision of vertices";
+  if (message.positions.size() != 3 * surface_.vertexCount()) return "the number of vertices differs from the mesh's";
   if (!allFinite(message.positions)) return "a vertex is NaN or infinite";
   surface_.setVertices(message.positions.data());
   frame_ = message.header.frame_id;
   return "";
 }
 
-void WorkpieceVisual::show(const sweep_guard::ObjectView& view, const Look& look) {
+void WorkpieceVisual::show(const sweep_guard::ObjectView& view, const DisplayStyle& style) {
   if (frame_.empty()) frame_ = view.frame_id;
   Highlights highlights;
   if (fits(view)) highlights = highlightsOf(view, surface_.triangleCount());
   if (!highlights_ || !(*highlights_ == highlights)) surface_.highlight(highlights);
   highlights_ = std::move(highlights);
-  showVolumes(view, look);
-  showContacts(view, look);
+  showVolumes(view, style);
+  showContacts(view, style);
 }
 
 void WorkpieceVisual::showSurfaceOnly() {
   history_.clear();
-  show(sweep_guard::ObjectView(), Look());
+  show(sweep_guard::ObjectView(), DisplayStyle());
 }
 
-void WorkpieceVisual::paint(const Look& look) {
-  const bool edges = surface_.triangleCount() <= look.most_edged;
-  surface_.paintLayer(SurfaceVisual::kSurface, look.surface.color, look.surface.shown, edges);
-  surface_.paintLayer(SurfaceVisual::kTouched, look.touched.color, look.touched.shown, true);
-  surface_.paintLayer(SurfaceVisual::kReflex, look.reflex.color, look.reflex.shown, true);
-  surface_.paintLayer(SurfaceVisual::kConsidered, look.considered.color, look.considered.shown, true);
-  measured_.paint(look.measured.color, outline(look.measured));
-  predicted_.paint(look.predicted.color, outline(look.predicted));
-  points_.paint(look.contacts.color, look.contacts.color);
-  normals_.paint(look.normals.color, look.normals.color);
-  depths_.paint(look.depths.color, look.depths.color);
+void WorkpieceVisual::paint(const DisplayStyle& style) {
+  const bool edges = surface_.triangleCount() <= style.max_edged;
+  surface_.paintLayer(SurfaceVisual::kSurface, style.surface.color, style.surface.shown, edges);
+  surface_.paintLayer(SurfaceVisual::kTouched, style.touched.color, style.touched.shown, true);
+  surface_.paintLayer(SurfaceVisual::kReflex, style.reflex.color, style.reflex.shown, true);
+  surface_.paintLayer(SurfaceVisual::kConsidered, style.considered.color, style.considered.shown, true);
+  measured_.paint(style.measured.color, outline(style.measured));
+  predicted_.paint(style.predicted.color, outline(style.predicted));
+  points_.paint(style.contacts.color, style.contacts.color);
+  normals_.paint(style.normals.color, style.normals.color);
+  depths_.paint(style.depths.color, style.depths.color);
 }
 
-void WorkpieceVisual::showVolumes(const sweep_guard::ObjectView& view, const Look& look) {
-  if (look.measured.shown) {
+void WorkpieceVisual::showVolumes(const sweep_guard::ObjectView& view, const DisplayStyle& style) {
+  if (style.measured.shown) {
     showAll(measured_, view.measured);
     showAll(measured_, history_.beside(view.measured));
-    history_.add(view.measured, look.history);
+    history_.add(view.measured, style.history);
   }
   measured_.show();
-  if (look.predicted.shown) showAll(predicted_, view.predicted);
+  if (style.predicted.shown) showAll(predicted_, view.predicted);
   predicted_.show();
 }
 
-void WorkpieceVisual::showContacts(const sweep_guard::ObjectView& view, const Look& look) {
+void WorkpieceVisual::showContacts(const sweep_guard::ObjectView& view, const DisplayStyle& style) {
   const TriangleContact* deepest = nullptr;
   for (size_t i = 0; i < std::min(kMaxContacts, view.impacts.size()); ++i) {
     const TriangleContact& contact = view.impacts[i];
     const Ogre::Vector3 point = toOgre(contact.point);
     const Ogre::Vector3 normal = toOgre(contact.normal);
-    if (look.contacts.shown) points_.addBead(point, 0.5F * look.point_size);
-    if (look.normals.shown) normals_.addSpike(point, point + look.normal_length * normal, 0.25F * look.point_size);
-    if (!look.depths.shown || !(contact.depth > 0.0)) continue;
-    depths_.addSpike(point, point - static_cast<float>(contact.depth) * normal, 0.25F * look.point_size);
+    if (style.contacts.shown) points_.addBead(point, 0.5F * style.point_size);
+    if (style.normals.shown) normals_.addSpike(point, point + style.normal_length * normal, 0.25F * style.point_size);
+    if (!style.depths.shown || !(contact.depth > 0.0)) continue;
+    depths_.addSpike(point, point - static_cast<float>(contact.depth) * normal, 0.25F * style.point_size);
     if (deepest == nullptr || contact.depth > deepest->depth) deepest = &contact;
   }
   points_.show();
   normals_.show();
   depths_.show();
-  label(deepest, look);
+  label(deepest, style);
 }
 
-void WorkpieceVisual::label(const TriangleContact* deepest, const Look& look) {
+void WorkpieceVisual::label(const TriangleContact* deepest, const DisplayStyle& style) {
   label_node_->setVisible(deepest != nullptr);
   if (deepest == nullptr) return;
   char text[32];
   std::snprintf(text, sizeof text, "%.1f mm deep", 1e3 * deepest->depth);
   label_.setCaption(text);
-  label_.setCharacterHeight(0.5F * look.normal_length);
-  label_.setColor(look.depths.color);
-  label_node_->setPosition(toOgre(deepest->point) + 1.7F * look.normal_length * toOgre(deepest->normal));
+  label_.setCharacterHeight(0.5F * style.normal_length);
+  label_.setColor(style.depths.color);
+  label_node_->setPosition(toOgre(deepest->point) + 1.7F * style.normal_length * toOgre(deepest->normal));
 }
 
 void WorkpieceVisual::place(const Ogre::Vector3& position, const Ogre::Quaternion& orientation) {

@@ -10,14 +10,14 @@
 #include <optional>
 #include <string>
 
+#include "rviz/display_style.h"
 #include "rviz/drawing.h"
-#include "rviz/look.h"
 #include "rviz/surface_visual.h"
 #include "rviz/volume_history.h"
 
 namespace sweep_guard_rviz {
 
-/// One workpiece, what it is tested with and what is met of it.
+/// Draws one workpiece with the volumes it is tested with, highlighted triangles and contacts.
 class WorkpieceVisual {
  public:
   WorkpieceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& root);
@@ -25,27 +25,28 @@ class WorkpieceVisual {
   WorkpieceVisual(const WorkpieceVisual&) = delete;
   WorkpieceVisual& operator=(const WorkpieceVisual&) = delete;
 
-  /// What does not fit is left out. @return what is wrong with it, in words; empty: nothing
+  /// Takes a mesh, or vertices of the same revision; ignores invalid ones.
+  /// @returns the problem as text; empty if there is none
   std::string setMesh(const sweep_guard::DeformableMesh& mesh);
   std::string setVertices(const sweep_guard::MeshVertices& vertices);
 
-  void show(const sweep_guard::ObjectView& view, const Look& look);
+  void show(const sweep_guard::ObjectView& view, const DisplayStyle& style);
   void showSurfaceOnly();
-  void paint(const Look& look);
+  void paint(const DisplayStyle& style);
 
   bool hasMesh() const { return revision_.has_value(); }
-  /// Triangles are highlighted only in the revision that they were counted in.
+  /// Tells whether the triangle indices of a view refer to the mesh.
   bool fits(const sweep_guard::ObjectView& view) const { return revision_ == view.revision; }
-  const std::string& frame() const { return frame_; }  ///< that it is to be placed in; empty: not known
+  const std::string& frame() const { return frame_; }  ///< frame of the workpiece; empty: not known
   void place(const Ogre::Vector3& position, const Ogre::Quaternion& orientation);
   void setVisible(bool visible);
 
   size_t drawnTriangles(SurfaceVisual::Layer layer) const { return surface_.drawnTriangles(layer); }
 
  private:
-  void showVolumes(const sweep_guard::ObjectView& view, const Look& look);
-  void showContacts(const sweep_guard::ObjectView& view, const Look& look);
-  void label(const sweep_guard::TriangleContact* deepest, const Look& look);
+  void showVolumes(const sweep_guard::ObjectView& view, const DisplayStyle& style);
+  void showContacts(const sweep_guard::ObjectView& view, const DisplayStyle& style);
+  void label(const sweep_guard::TriangleContact* deepest, const DisplayStyle& style);
 
   Ogre::SceneManager& scene_;
   Ogre::SceneNode& root_;
@@ -58,7 +59,7 @@ class WorkpieceVisual {
   Drawing points_;
   Drawing normals_;
   Drawing depths_;
-  rviz::MovableText label_;  // of the deepest contact
+  rviz::MovableText label_;  // at the deepest contact
   Ogre::SceneNode* label_node_;
   VolumeHistory history_;
   std::optional<Highlights> highlights_;

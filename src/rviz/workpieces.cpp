@@ -6,7 +6,7 @@ namespace sweep_guard_rviz {
 
 void Workpieces::clear() {
   visuals_.clear();
-  wrong_.clear();
+  problems_.clear();
   vertices_.clear();
 }
 
@@ -16,18 +16,18 @@ WorkpieceVisual& Workpieces::visual(const std::string& id) {
   return *visual;
 }
 
-void Workpieces::note(const std::string& id, const std::string& wrong) {
-  wrong_.erase(id);
-  if (!wrong.empty()) wrong_[id] = wrong;
+void Workpieces::setProblem(const std::string& id, const std::string& problem) {
+  problems_.erase(id);
+  if (!problem.empty()) problems_[id] = problem;
 }
 
 void Workpieces::take(const sweep_guard::DeformableMesh& mesh) {
   vertices_.erase(mesh.id);
-  wrong_.erase(mesh.id);
+  problems_.erase(mesh.id);
   if (mesh.mesh.vertices.empty() && mesh.mesh.triangles.empty()) {
     visuals_.erase(mesh.id);
   } else {
-    note(mesh.id, visual(mesh.id).setMesh(mesh));
+    setProblem(mesh.id, visual(mesh.id).setMesh(mesh));
   }
 }
 
@@ -36,12 +36,12 @@ void Workpieces::take(const sweep_guard::MeshVertices::ConstPtr& vertices) { ver
 void Workpieces::deform() {
   for (const auto& [id, vertices] : vertices_) {
     const auto known = visuals_.find(id);
-    note(id, known != visuals_.end() ? known->second->setVertices(*vertices) : "its triangles have not come");
+    setProblem(id, known != visuals_.end() ? known->second->setVertices(*vertices) : "no mesh yet");
   }
   vertices_.clear();
 }
 
-void Workpieces::draw(const std::vector<sweep_guard::ObjectView>& objects, const Look& look) {
+void Workpieces::draw(const std::vector<sweep_guard::ObjectView>& objects, const DisplayStyle& style) {
   std::map<std::string, const sweep_guard::ObjectView*> views;
   for (const sweep_guard::ObjectView& object : objects) {
     views[object.mesh_id] = &object;
@@ -54,8 +54,8 @@ void Workpieces::draw(const std::vector<sweep_guard::ObjectView>& objects, const
       each = visuals_.erase(each);
       continue;
     }
-    visual.paint(look);
-    view != views.end() ? visual.show(*view->second, look) : visual.showSurfaceOnly();
+    visual.paint(style);
+    view != views.end() ? visual.show(*view->second, style) : visual.showSurfaceOnly();
     ++each;
   }
 }
@@ -76,11 +76,11 @@ size_t Workpieces::drawnTriangles(SurfaceVisual::Layer layer) const {
   return count;
 }
 
-std::string Workpieces::complaint(const std::string& topic) const {
-  if (!wrong_.empty()) return "'" + wrong_.begin()->first + "': " + wrong_.begin()->second;
-  if (visuals_.empty()) return "none has come from " + topic;
+std::string Workpieces::problem(const std::string& topic) const {
+  if (!problems_.empty()) return "'" + problems_.begin()->first + "': " + problems_.begin()->second;
+  if (visuals_.empty()) return "no mesh from " + topic;
   const auto missing = std::find_if(visuals_.begin(), visuals_.end(), [](auto& one) { return !one.second->hasMesh(); });
-  return missing == visuals_.end() ? "" : "'" + missing->first + "' has not come from " + topic;
+  return missing == visuals_.end() ? "" : "no mesh '" + missing->first + "' from " + topic;
 }
 
 }  // namespace sweep_guard_rviz

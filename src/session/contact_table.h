@@ -8,26 +8,25 @@
 
 namespace sweep_guard_session {
 
-/// The contacts of a session for people: a line each, and a last one that says how many were left out.
+/// Formats the contacts of a session as a table. A last line says how many contacts were omitted.
 class ContactTable {
  public:
-  /// @param begin  of the session, from which the times count
-  /// @param most   contacts that are listed, the first ones
-  ContactTable(const std::vector<Contact>& contacts, sweep_guard_core::Time begin, std::size_t most);
+  /// @param begin         of the session; times count from here
+  /// @param max_contacts  number of contacts in the table; later ones are omitted
+  ContactTable(const std::vector<Contact>& contacts, sweep_guard_core::Time begin, std::size_t max_contacts);
 
-  /// For a terminal, indented; ends with a line feed.
+  /// Returns the table for a terminal, indented, with a line feed at the end.
   std::string text() const;
 
-  /// A script of gnuplot.
-  /// @param title  of the picture
-  /// @param path   of the PNG file
+  /// Returns a gnuplot script that draws the table.
+  /// @param path  of the PNG file
   std::string plot(const std::string& title, const std::string& path) const;
 
  private:
-  std::string leftOut() const;
+  std::string omittedText() const;
 
   std::vector<std::vector<std::string>> rows_;  // by column
-  std::size_t left_out_;
+  std::size_t omitted_;
 };
 
 }  // namespace sweep_guard_session

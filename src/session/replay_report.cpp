@@ -1,4 +1,4 @@
-// Lets a bag play to a guard, and reports what the guard told.
+// Starts the player of a bag, records the messages of the guard, and reports them.
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
@@ -16,7 +16,8 @@
 #include <vector>
 
 #include "evaluation/gnuplot.h"
-#include "recording/touched.h"
+#include "recording/object_contacts.h"
+#include "ros/run_node.h"
 #include "session/session_bag.h"
 #include "session/session_log.h"
 #include "session/session_report.h"
@@ -33,38 +34,38 @@ using sweep_guard_core::InvalidInput;
 using sweep_guard_ros::fromMsg;
 
 constexpr std::uint32_t kQueue = 100000;
-constexpr double kPatience = 60.0;  // [s] on the wall, until everybody is there
-constexpr double kGrace = 2.0;      // [s] on the wall, for the last answers
+constexpr double kConnectTimeout = 60.0;  // [s] of wall time, for guard and player
+constexpr double kAnswerTimeout = 2.0;    // [s] of wall time, for the last answers
 
 sweep_guard_core::Time now() { return fromMsg(ros::Time::now()); }
 
 void handleMessages() { ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01)); }
 
-/// @return false when it takes longer, or the node is to end
-bool waitUntil(const std::function<bool()>& condition, double patience) {
+/// Returns whether the condition was met within the timeout [s] and before the node shuts down.
+bool waitUntil(const std::function<bool()>& condition, double timeout) {
   for (const ros::WallTime begin = ros::WallTime::now(); ros::ok(); handleMessages()) {
     if (condition()) return true;
-    if ((ros::WallTime::now() - begin).toSec() > patience) return false;
+    if ((ros::WallTime::now() - begin).toSec() > timeout) return false;
   }
   return false;
 }
 
-Touch toTouch(const sweep_guard::Contacts& contacts, const sweep_guard::ObjectContacts& object) {
-  Touch touch;
-  touch.heard = now();
-  touch.first = fromMsg(contacts.interval_start);
-  touch.stamp = fromMsg(contacts.header.stamp);
-  touch.mesh_id = object.mesh_id;
-  touch.triangles = sweep_guard_recording::trianglesTouched(object);
+SweepContact toSweepContact(const sweep_guard::Contacts& contacts, const sweep_guard::ObjectContacts& object) {
+  SweepContact contact;
+  contact.received = now();
+  contact.first = fromMsg(contacts.interval_start);
+  contact.stamp = fromMsg(contacts.header.stamp);
+  contact.mesh_id = object.mesh_id;
+  contact.triangles = sweep_guard_recording::trianglesInContact(object);
   double first = std::numeric_limits<double>::infinity();
   for (const sweep_guard::TriangleContact& impact : object.impacts) {
-    touch.depth = std::fmax(touch.depth, impact.depth);
+    contact.depth = std::fmax(contact.depth, impact.depth);
     if (impact.time_of_impact >= first) continue;
     first = impact.time_of_impact;
-    touch.first = fromMsg(contacts.interval_start + (contacts.header.stamp - contacts.interval_start) * first);
-    touch.tool_link = impact.tool_link;
+    contact.first = fromMsg(contacts.interval_start + (contacts.header.stamp - contacts.interval_start) * first);
+    contact.tool_link = impact.tool_link;
   }
-  return touch;
+  return contact;
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {
@@ -77,7 +78,7 @@ class ReplayReport {
  public:
   explicit ReplayReport(sweep_guard_ros::ParameterReader& parameters)
       : path_(parameters.name("bag", "")), output_(parameters.name("output", path_ + ".report")) {
-    parameters.number("rate", 1.0, {1e-3, 1e3});  // the player's: it would not say what is wrong
+    parameters.number("rate", 1.0, {1e-3, 1e3});  // of the player, which reports no range
     SessionTopics topics;
     topics.tool_pose = parameters.text("tool_pose", "/tool_pose");
     topics.mesh = parameters.text("mesh", "/mesh");
@@ -91,9 +92,8 @@ class ReplayReport {
     bag_ = inspectBag(path_, topics);
     if (bag_.meshes == 1 && bag_.vertices == 0 && std::isfinite(guard.param("timing/mesh_timeout", 0.5))) {
       ROS_WARN(
-          "there are no vertices on %s: the workpiece will be stale, and the level UNKNOWN, after "
-          "timing/mesh_timeout. Give mesh_vertices:=TOPIC, or, if it does not deform, set timing/mesh_timeout: .inf "
-          "in your config",
+          "there are no vertices on %s: after timing/mesh_timeout the workpiece is stale and the level UNKNOWN. Give "
+          "mesh_vertices:=TOPIC, or set timing/mesh_timeout: .inf in your config if the workpiece is rigid",
           topics.mesh_vertices.c_str());
     }
     listenTo(parameters.text("topics", ""));
@@ -104,9 +104,8 @@ class ReplayReport {
   void run() {
     startPlayer();
     await([this] { return clock_.getNumPublishers() == 0 || contacts_.getNumPublishers() == 0; });
-    if (contacts_.getNumPublishers() == 0)
-      throw InvalidInput("the guard has ended during the session; see its message");
-    waitUntil([this] { return sweptToTheEnd(); }, kGrace);
+    if (contacts_.getNumPublishers() == 0) throw InvalidInput("the guard ended during the session; see its log");
+    waitUntil([this] { return sweptToTheEnd(); }, kAnswerTimeout);
     log_.end(now());
     if (ros::ok()) report();
   }
@@ -117,13 +116,13 @@ class ReplayReport {
     return last && (bag_.poses.empty() || *last >= bag_.poses.back());
   }
 
-  // The player waits for a listener on each topic: somebody else's may come later, or not at all.
+  // The player waits for a subscriber on each topic. Others may come later or never.
   void listenTo(const std::string& topics) {
     std::istringstream words(topics);
-    for (std::string topic; words >> topic;) others_.push_back(subscribe(topic));
+    for (std::string topic; words >> topic;) subscribers_.push_back(subscribe(topic));
   }
 
-  // To nothing but the connection.
+  // Ignores the messages.
   ros::Subscriber subscribe(const std::string& topic) {
     const boost::function<void(const topic_tools::ShapeShifter::ConstPtr&)> ignore = [](const auto&) {};
     return node_.subscribe<topic_tools::ShapeShifter>(topic, 1, ignore);
@@ -136,7 +135,7 @@ class ReplayReport {
   }
 
   void require(const std::function<bool()>& condition, const std::string& problem) {
-    if (!waitUntil(condition, kPatience) && ros::ok()) throw InvalidInput(problem);
+    if (!waitUntil(condition, kConnectTimeout) && ros::ok()) throw InvalidInput(problem);
   }
 
   static void await(const std::function<bool()>& condition) {
@@ -149,23 +148,22 @@ class ReplayReport {
         node_.subscribe("contacts", kQueue, &ReplayReport::onContacts, this, ros::TransportHints().tcpNoDelay());
     warning_ = node_.subscribe("warning", kQueue, &ReplayReport::onWarning, this, ros::TransportHints().tcpNoDelay());
     require([this] { return contacts_.getNumPublishers() > 0 && warned_; },
-            "no guard on " + contacts_.getTopic() + "; see why it has ended");
-    require([this] { return mesh_in_bag_ || knows_mesh_; },
-            "the guard got no workpiece; see why static_mesh has ended");
+            "no guard on " + contacts_.getTopic() + "; see its log");
+    require([this] { return mesh_in_bag_ || knows_mesh_; }, "the guard got no workpiece; see the log of static_mesh");
     const std::string service = ros::names::resolve("pause_playback");
     require([this, &service] { return clock_.getNumPublishers() > 0 && ros::service::exists(service, false); },
-            "the bag is not played: no service " + service + ". Somebody has to listen to each of its topics");
-    std_srvs::SetBool let_go;
-    let_go.request.data = 0;
+            "the bag is not played: no service " + service + ". Each topic of the player needs a subscriber");
+    std_srvs::SetBool pause;
+    pause.request.data = 0;
     playing_ = true;
-    if (!ros::service::call(service, let_go) && ros::ok()) throw InvalidInput("the player does not answer " + service);
-    ROS_INFO("guarding %s: %.1f s", path_.c_str(), sweep_guard_core::toSeconds(bag_.end - bag_.begin));
+    if (!ros::service::call(service, pause) && ros::ok()) throw InvalidInput("the player does not answer " + service);
+    ROS_INFO("playing %s: %.1f s", path_.c_str(), sweep_guard_core::toSeconds(bag_.end - bag_.begin));
   }
 
   void onContacts(const sweep_guard::Contacts::ConstPtr& contacts) {
     log_.addSweep(fromMsg(contacts->interval_start), fromMsg(contacts->header.stamp));
     for (const sweep_guard::ObjectContacts& object : contacts->objects) {
-      if (sweep_guard_recording::isTouched(object)) log_.add(toTouch(*contacts, object));
+      if (sweep_guard_recording::isInContact(object)) log_.add(toSweepContact(*contacts, object));
     }
   }
 
@@ -173,11 +171,12 @@ class ReplayReport {
     warned_ = true;
     knows_mesh_ = (warning->reasons & sweep_guard::Warning::NO_MESH) == 0;
     if (!playing_) return;
-    Told told{std::max(now(), bag_.begin), static_cast<sweep_guard_core::WarningLevel>(warning->level), warning->text};
+    ReceivedWarning received{std::max(now(), bag_.begin), static_cast<sweep_guard_core::WarningLevel>(warning->level),
+                             warning->text};
     if (warning->time_to_collision >= ros::Duration(0)) {
-      told.time_to_collision = sweep_guard_core::Duration(warning->time_to_collision.toNSec());
+      received.time_to_collision = sweep_guard_core::Duration(warning->time_to_collision.toNSec());
     }
-    log_.add(told);
+    log_.add(received);
   }
 
   void report() const {
@@ -203,22 +202,13 @@ class ReplayReport {
   ros::Subscriber clock_;
   ros::Subscriber contacts_;
   ros::Subscriber warning_;
-  std::vector<ros::Subscriber> others_;
+  std::vector<ros::Subscriber> subscribers_;
 };
 
 }  // namespace
+
 }  // namespace sweep_guard_session
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "replay_report");
-  sweep_guard_ros::ParameterReader parameters{ros::NodeHandle("~")};  // without a handle the console is silent
-  try {
-    sweep_guard_session::ReplayReport report(parameters);
-    parameters.warnOfUnread();
-    report.run();
-  } catch (const sweep_guard_core::Error& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
+  return sweep_guard_ros::runNode<sweep_guard_session::ReplayReport>(argc, argv, "replay_report");
 }

@@ -4,11 +4,12 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
 
-#include "evaluation/format.h"
 #include "recording/bag.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
@@ -21,9 +22,9 @@ using sweep_guard_ros::fromMsg;
 
 namespace {
 
-// A guard takes no pose from farther ahead, and none that is older as fresh, whatever its configuration.
+// No configuration of the guard accepts poses from farther ahead, or takes older poses for fresh.
 constexpr Duration kMaxAhead = std::chrono::milliseconds(50);
-constexpr Duration kMaxBehind = std::chrono::seconds(2);
+constexpr Duration kMaxDelay = std::chrono::seconds(2);
 constexpr const char* kPoseType = "geometry_msgs/PoseStamped";
 
 using Types = std::map<std::string, std::string>;  // by topic
@@ -36,9 +37,9 @@ Types typesIn(const rosbag::Bag& bag) {
   return types;
 }
 
-std::string listed(const Types& types) {
+std::string joinNames(const Types& types) {
   std::string list;
-  for (const auto& [topic, type] : types) list.append("\n  ").append(topic).append(" (").append(type).append(")");
+  for (const auto& [topic, type] : types) list += fmt::format("\n  {} ({})", topic, type);
   return list;
 }
 
@@ -46,8 +47,9 @@ void require(const Types& types, const std::string& argument, const std::string&
              const std::string& remedy) {
   const auto found = types.find(topic);
   if (found != types.end() && found->second == type) return;
-  throw InvalidInput((found == types.end() ? "there is no " + topic : topic + " is " + found->second) + ", and " +
-                     argument + " must be " + type + "; " + remedy + ". The bag has:" + listed(types));
+  throw InvalidInput(fmt::format("{}, {} must be {}; {}. The bag has:{}",
+                                 found == types.end() ? "no topic " + topic : topic + " is " + found->second, argument,
+                                 type, remedy, joinNames(types)));
 }
 
 void requireTopics(const Types& types, const SessionTopics& topics) {
@@ -60,34 +62,33 @@ void requireTopics(const Types& types, const SessionTopics& topics) {
 }
 
 void readPoses(const rosbag::Bag& bag, const std::string& topic, SessionBag& session) {
-  Duration least_behind = Duration::max();
+  Duration min_delay = Duration::max();
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
     const auto pose = message.instantiate<geometry_msgs::PoseStamped>();
     if (!pose) throw InvalidInput("a message on " + topic + " cannot be read; record it again");
     const sweep_guard_core::Time stamp = fromMsg(pose->header.stamp);
     session.poses.push_back(stamp);
-    const Duration behind = fromMsg(message.getTime()) - stamp;
-    if (std::chrono::abs(behind) < std::chrono::abs(least_behind)) least_behind = behind;
+    const Duration delay = fromMsg(message.getTime()) - stamp;
+    if (std::chrono::abs(delay) < std::chrono::abs(min_delay)) min_delay = delay;
   }
-  if (session.poses.empty()) throw InvalidInput("there is no message on " + topic + "; record it again");
+  if (session.poses.empty()) throw InvalidInput("no message on " + topic + "; record it again");
   std::sort(session.poses.begin(), session.poses.end());
   if (session.poses.back() == sweep_guard_core::Time()) {
-    throw InvalidInput("the poses on " + topic + " have no stamps, and without them nothing is known of the motion; " +
-                       "stamp each pose when the tool is there");
+    throw InvalidInput("the poses on " + topic + " have no stamps; stamp each pose with the time of its measurement");
   }
-  if (least_behind > kMaxBehind || least_behind < -kMaxAhead) {
-    throw InvalidInput(sweep_guard_evaluation::format(
-        "the poses on %s are stamped %.1f s %s they were recorded, by another clock: to the guard they would all be "
-        "%s; "
-        "synchronise the clocks, or correct the stamps",
-        topic.c_str(), std::abs(sweep_guard_core::toSeconds(least_behind)),
-        least_behind > Duration(0) ? "before" : "after", least_behind > Duration(0) ? "stale" : "from the future"));
+  if (min_delay > kMaxDelay || min_delay < -kMaxAhead) {
+    throw InvalidInput(fmt::format(
+        "the poses on {} are stamped {:.1f} s {} they were recorded, by another clock: all would be {}; synchronize "
+        "the "
+        "clocks, or correct the stamps",
+        topic, std::abs(sweep_guard_core::toSeconds(min_delay)), min_delay > Duration(0) ? "before" : "after",
+        min_delay > Duration(0) ? "stale" : "from the future"));
   }
 }
 
 SessionBag inspect(const rosbag::Bag& bag, const SessionTopics& topics) {
   rosbag::View all(bag);
-  if (all.size() == 0) throw InvalidInput("the bag is empty; record the session again, until rosbag record is ended");
+  if (all.size() == 0) throw InvalidInput("the bag is empty; record the session again, until rosbag record ends");
   requireTopics(typesIn(bag), topics);
   SessionBag session;
   session.begin = fromMsg(all.getBeginTime());
@@ -113,7 +114,7 @@ SessionBag inspectBag(const std::string& path, const SessionTopics& topics) {
     throw InvalidInput(path + ": " + error.what());
   } catch (const rosbag::BagUnindexedException&) {
     throw InvalidInput(path + ": the bag has no index, its recorder did not end; run rosbag reindex on it");
-  } catch (const std::exception& error) {  // rosbag's own, ROS's, no memory for what a broken header asks for
+  } catch (const std::exception& error) {  // of rosbag or ROS, or no memory for the size in a broken header
     throw InvalidInput(path + ": the bag is broken: " + error.what());
   }
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "recording/level_trace.h"
+
 namespace sweep_guard_session {
 
 using sweep_guard_core::Duration;
@@ -14,77 +16,70 @@ namespace {
 
 constexpr double kUnknownDepth = std::numeric_limits<double>::quiet_NaN();
 
-// What is left of a warning after a contact does not warn of the next: the way back ends there.
-Time onSince(const std::vector<Segment>& segments, std::size_t contact, WarningLevel least) {
-  std::size_t first = contact;
-  while (first > 0 && segments[first - 1].level >= least && segments[first - 1].level < WarningLevel::kContact) --first;
-  return segments[first].begin;
-}
-
-void take(Contact& contact, const Touch& touch) {
+void extend(Contact& contact, const SweepContact& sweep_contact) {
   if (contact.triangles.empty() && contact.mesh_id.empty()) {
-    contact.begin = touch.first;
-    contact.mesh_id = touch.mesh_id;
-    contact.tool_link = touch.tool_link;
+    contact.begin = sweep_contact.first;
+    contact.mesh_id = sweep_contact.mesh_id;
+    contact.tool_link = sweep_contact.tool_link;
   }
-  if (touch.mesh_id != contact.mesh_id) return;
-  contact.triangles.insert(touch.triangles.begin(), touch.triangles.end());
-  contact.depth = std::fmax(contact.depth, touch.depth);  // of a number and NaN, the number
+  if (sweep_contact.mesh_id != contact.mesh_id) return;
+  contact.triangles.insert(sweep_contact.triangles.begin(), sweep_contact.triangles.end());
+  contact.depth = std::fmax(contact.depth, sweep_contact.depth);  // fmax() ignores NaN
 }
 
-// To each contact the touches heard in it, and those heard later of poses within it.
-void share(const std::vector<Touch>& touches, std::vector<Contact>& contacts) {
+// A sweep belongs to the contact in which it is received, or to the previous contact if its pose lies in that one.
+void assign(const std::vector<SweepContact>& sweep_contacts, std::vector<Contact>& contacts) {
   std::size_t i = 0;
-  for (const Touch& touch : touches) {
-    while (i < contacts.size() && touch.heard > contacts[i].end) ++i;
-    const bool late = i > 0 && touch.stamp <= contacts[i - 1].end;
-    if (late || i < contacts.size()) take(contacts[late ? i - 1 : i], touch);
+  for (const SweepContact& sweep_contact : sweep_contacts) {
+    while (i < contacts.size() && sweep_contact.received > contacts[i].end) ++i;
+    const bool late = i > 0 && sweep_contact.stamp <= contacts[i - 1].end;
+    if (late || i < contacts.size()) extend(contacts[late ? i - 1 : i], sweep_contact);
   }
 }
 
 }  // namespace
 
-void SessionLog::add(const Told& told) {
-  told_.push_back(told);
-  end_ = told.at;
+void SessionLog::add(const ReceivedWarning& warning) {
+  warnings_.push_back(warning);
+  end_ = warning.received;
 }
 
-void SessionLog::end(Time at) { end_ = std::max(end_, at); }
+void SessionLog::end(Time time) { end_ = std::max(end_, time); }
 
 std::vector<Segment> SessionLog::segments() const {
   std::vector<Segment> segments;
   Duration longest{0};
-  for (std::size_t i = 0; i < told_.size(); ++i) {
-    const Time until = i + 1 < told_.size() ? told_[i + 1].at : end_;
-    const Duration lasted = until - told_[i].at;
+  for (std::size_t i = 0; i < warnings_.size(); ++i) {
+    const ReceivedWarning& warning = warnings_[i];
+    const Time until = i + 1 < warnings_.size() ? warnings_[i + 1].received : end_;
+    const Duration lasted = until - warning.received;
     if (lasted == Duration(0)) continue;
-    if (segments.empty() || segments.back().level != told_[i].level) {
-      segments.push_back({told_[i].level, told_[i].at, until, told_[i].text});
+    if (segments.empty() || segments.back().level != warning.level) {
+      segments.push_back({warning.level, warning.received, until, warning.text});
       longest = lasted;
     }
     segments.back().end = until;
-    if (lasted > longest) segments.back().text = told_[i].text;
+    if (lasted > longest) segments.back().text = warning.text;
     longest = std::max(longest, lasted);
   }
   return segments;
 }
 
 std::vector<Contact> SessionLog::contacts() const {
-  const std::vector<Segment> segments = this->segments();
-  std::vector<Contact> contacts;
-  std::vector<std::size_t> places;  // among the segments
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (segments[i].level != WarningLevel::kContact) continue;
-    contacts.push_back({segments[i].begin, segments[i].end, "", "", {}, kUnknownDepth, {}, {}});
-    places.push_back(i);
+  sweep_guard_recording::LevelTrace trace;
+  for (const Segment& segment : segments()) {
+    trace.add(segment.begin, segment.level);
+    trace.add(segment.end, segment.level);
   }
-  share(touches_, contacts);
+  const std::vector<sweep_guard_recording::WarnedContact> warned = trace.contacts();
+  std::vector<Contact> contacts;
+  for (const auto& [contact, considered, reflex] : warned) {
+    contacts.push_back({contact.begin, contact.end, "", "", {}, kUnknownDepth, {}, {}});
+  }
+  assign(sweep_contacts_, contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto lead = [&](WarningLevel least) {
-      return std::max(contacts[i].begin - onSince(segments, places[i], least), Duration(0));
-    };
-    contacts[i].considered_lead = lead(WarningLevel::kConsidered);
-    contacts[i].reflex_lead = lead(WarningLevel::kReflex);
+    contacts[i].considered_lead = std::max(contacts[i].begin - warned[i].considered_since, Duration(0));
+    contacts[i].reflex_lead = std::max(contacts[i].begin - warned[i].reflex_since, Duration(0));
   }
   return contacts;
 }

@@ -9,69 +9,67 @@
 #include <vector>
 
 #include "recording/swept_intervals.h"
-#include "sweep_guard/monitor/warning.h"
+#include "sweep_guard/common/warning_level.h"
 
 namespace sweep_guard_session {
 
-/// What a warning told.
-struct Told {
-  sweep_guard_core::Time at;  ///< when it was heard, on the session's clock; not before that of the warning before
+/// A warning and the time when it was received.
+struct ReceivedWarning {
+  sweep_guard_core::Time received;  ///< on the session's clock; not earlier than that of the previous warning
   sweep_guard_core::WarningLevel level = sweep_guard_core::WarningLevel::kUnknown;
   std::string text;                                               ///< level and reasons in words
-  std::optional<sweep_guard_core::Duration> time_to_collision{};  ///< empty: none, or not known
+  std::optional<sweep_guard_core::Duration> time_to_collision{};  ///< empty: no collision predicted, or not known
 };
 
-/// A segment of the session through which the level stayed the same.
+/// An interval of the session in which the level did not change.
 struct Segment {
   sweep_guard_core::WarningLevel level;
   sweep_guard_core::Time begin;
   sweep_guard_core::Time end;
-  std::string text;  ///< of the warning that lasted longest in it
+  std::string text;  ///< text that lasted longest in the interval
 };
 
-/// What one sweep met of one workpiece.
-struct Touch {
-  sweep_guard_core::Time heard;  ///< on the session's clock
-  /// Moment of the first touch between the two poses, or the first pose's where that is unknown.
-  sweep_guard_core::Time first;
-  sweep_guard_core::Time stamp;  ///< of the pose that was swept to
+/// The contact of one sweep with one workpiece.
+struct SweepContact {
+  sweep_guard_core::Time received;  ///< on the session's clock
+  sweep_guard_core::Time first;  ///< first contact between the two poses, or the stamp of the first pose if not known
+  sweep_guard_core::Time stamp;  ///< of the second pose
   std::string mesh_id;
-  std::string tool_link;  ///< that touched first; empty: not known
+  std::string tool_link;  ///< link that touched first; empty: not known
   std::vector<std::uint32_t> triangles;
   double depth = std::numeric_limits<double>::quiet_NaN();  ///< [m], NaN: not known
 };
 
-/// A contact as the operator saw it: one segment of level CONTACT. The guard holds a contact for a while, so that a
-/// tool that bounces is one.
+/// A contact as the operator saw it: one segment of level CONTACT. The guard holds the level for a while, so a tool
+/// that bounces makes one contact.
 struct Contact {
-  sweep_guard_core::Time begin;  ///< first touch
-  sweep_guard_core::Time end;    ///< of the level
-  std::string mesh_id;           ///< that was touched first, as the tool's link
-  std::string tool_link;
-  std::set<std::uint32_t> triangles;  ///< of that workpiece
-  double depth;                       ///< greatest [m], NaN: not known
-  /// How long before the first touch that level or a higher one came on and stayed; 0: not before it.
-  sweep_guard_core::Duration considered_lead;
-  sweep_guard_core::Duration reflex_lead;
+  sweep_guard_core::Time begin;                ///< first contact of a sweep
+  sweep_guard_core::Time end;                  ///< end of the segment
+  std::string mesh_id;                         ///< workpiece of the first contact
+  std::string tool_link;                       ///< link of the first contact
+  std::set<std::uint32_t> triangles;           ///< of this workpiece
+  double depth;                                ///< largest depth [m], NaN: not known
+  sweep_guard_core::Duration considered_lead;  ///< from the begin of the warning to the first contact; 0: no warning
+  sweep_guard_core::Duration reflex_lead;      ///< the same for REFLEX and CONTACT
 };
 
-/// What a guard told of a session, in the order in which it was heard.
+/// Collects the messages of a guard during a session, in the order of arrival.
 class SessionLog {
  public:
-  void add(const Told& told);
-  void add(Touch touch) { touches_.push_back(std::move(touch)); }
+  void add(const ReceivedWarning& warning);
+  void add(SweepContact contact) { sweep_contacts_.push_back(std::move(contact)); }
   void addSweep(sweep_guard_core::Time start, sweep_guard_core::Time stamp) { swept_.add(start, stamp); }
-  void end(sweep_guard_core::Time at);  ///< what was told last holds until then
+  void end(sweep_guard_core::Time time);  ///< ends the last warning
 
-  const std::vector<Told>& told() const { return told_; }
-  std::vector<Segment> segments() const;  ///< one after the other, none without duration
+  const std::vector<ReceivedWarning>& warnings() const { return warnings_; }
+  std::vector<Segment> segments() const;  ///< without gaps; none is empty
   std::vector<Contact> contacts() const;
-  sweep_guard_core::Duration duration(sweep_guard_core::WarningLevel level) const;  ///< of all segments of that level
+  sweep_guard_core::Duration duration(sweep_guard_core::WarningLevel level) const;  ///< of all segments of a level
   const sweep_guard_recording::SweptIntervals& swept() const { return swept_; }
 
  private:
-  std::vector<Told> told_;
-  std::vector<Touch> touches_;
+  std::vector<ReceivedWarning> warnings_;
+  std::vector<SweepContact> sweep_contacts_;
   sweep_guard_core::Time end_;
   sweep_guard_recording::SweptIntervals swept_;
 };

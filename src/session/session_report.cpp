@@ -1,15 +1,16 @@
 #include "session/session_report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 #include "evaluation/csv.h"
-#include "evaluation/format.h"
 #include "evaluation/gnuplot.h"
 #include "session/contact_table.h"
+#include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_session {
 
@@ -19,7 +20,6 @@ using sweep_guard_core::toSeconds;
 using sweep_guard_core::WarningLevel;
 using sweep_guard_evaluation::csvLine;
 using sweep_guard_evaluation::csvNumber;
-using sweep_guard_evaluation::format;
 using sweep_guard_evaluation::gnuplotText;
 
 namespace {
@@ -30,40 +30,26 @@ constexpr std::array<WarningLevel, 5> kLevels = {WarningLevel::kUnknown, Warning
                                                  WarningLevel::kConsidered, WarningLevel::kReflex,
                                                  WarningLevel::kContact};
 
-const char* colourOf(WarningLevel level) {
-  switch (level) {
-    case WarningLevel::kClear:
-      return "#009E73";
-    case WarningLevel::kConsidered:
-      return "#E69F00";
-    case WarningLevel::kReflex:
-      return "#D00000";
-    case WarningLevel::kContact:
-      return "#7B0099";
-    default:
-      return "#888888";
-  }
+std::string colorOf(WarningLevel level) {
+  const auto& [red, green, blue] = sweep_guard_core::styleOf(level).rgb;
+  return fmt::format("#{:02x}{:02x}{:02x}", red, green, blue);
 }
+
+const char* nameOf(WarningLevel level) { return sweep_guard_core::styleOf(level).name; }
 
 double seconds(Time time, Time begin) { return toSeconds(time - begin); }
 
-std::string fixed(double value) { return std::isnan(value) ? "nan" : format("%.4f", value); }
+std::string fixed(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.4f}", value); }
 
-Duration median(std::vector<Duration> durations) {
-  const auto middle = durations.begin() + static_cast<std::ptrdiff_t>(durations.size() / 2);
-  std::nth_element(durations.begin(), middle, durations.end());
-  return *middle;
-}
-
-// REFLEX     12 of 12, 0.21 s in the median, 0.12 s at the least
+// REFLEX     ahead of 12 of 12, by 0.21 s in the median, 0.12 s at the least
 std::string leadLine(const std::vector<Contact>& contacts, WarningLevel level, Duration Contact::*lead) {
-  std::vector<Duration> leads;
+  std::vector<double> leads;
   leads.reserve(contacts.size());
-  for (const Contact& contact : contacts) leads.push_back(contact.*lead);
-  const auto ahead = std::count_if(leads.begin(), leads.end(), [](Duration d) { return d > Duration(0); });
-  return format("  %-10s ahead of %td of %zu, by %.2f s in the median, %.2f s at the least\n",
-                sweep_guard_core::styleOf(level).name, ahead, leads.size(), toSeconds(median(leads)),
-                toSeconds(*std::min_element(leads.begin(), leads.end())));
+  for (const Contact& contact : contacts) leads.push_back(toSeconds(contact.*lead));
+  const auto ahead = std::count_if(leads.begin(), leads.end(), [](double seconds) { return seconds > 0.0; });
+  return fmt::format("  {:<10} ahead of {} of {}, by {:.2f} s in the median, {:.2f} s at the least\n", nameOf(level),
+                     ahead, leads.size(), sweep_guard_core::quantile(leads, 0.5),
+                     *std::min_element(leads.begin(), leads.end()));
 }
 
 std::string levelTable(const SessionLog& log) {
@@ -72,28 +58,27 @@ std::string levelTable(const SessionLog& log) {
   std::string table = "levels\n";
   for (const WarningLevel level : kLevels) {
     const double lasted = toSeconds(log.duration(level));
-    table +=
-        format("  %-10s %8.1f s %5.1f %%\n", sweep_guard_core::styleOf(level).name, lasted, 100.0 * lasted / whole);
+    table += fmt::format("  {:<10} {:8.1f} s {:5.1f} %\n", nameOf(level), lasted, 100.0 * lasted / whole);
   }
   return table;
 }
 
-// A backlog is swept at once, through all of its poses.
+// Poses that waited are swept at once.
 std::string sweptLine(const SessionLog& log, const SessionBag& bag) {
   const sweep_guard_recording::SweptIntervals& swept = log.swept();
-  if (swept.size() == 0) return "swept      NOTHING WAS SWEPT; what was UNKNOWN tells why\n";
-  std::string line = format("swept      %zu times, ", swept.size());
-  line += swept.holes() > Duration(0) ? format("%.3f s between two poses NOT SWEPT", toSeconds(swept.holes()))
-                                      : std::string("without a gap");
+  if (swept.size() == 0) return "swept      NOTHING WAS SWEPT; see the reasons for UNKNOWN\n";
+  std::string line = fmt::format("swept      {} times, ", swept.size());
+  line += swept.gaps() > Duration(0) ? fmt::format("{:.3f} s between two poses NOT SWEPT", toSeconds(swept.gaps()))
+                                     : "without a gap";
   const auto covered = static_cast<std::size_t>(
-      std::count_if(bag.poses.begin(), bag.poses.end(), [&swept](Time pose) { return swept.cover(pose); }));
+      std::count_if(bag.poses.begin(), bag.poses.end(), [&swept](Time pose) { return swept.covers(pose); }));
   if (covered > swept.size()) {
-    line += format("; %zu poses waited for the next, or were refused: rate:=0.5 gives this machine more time",
-                   covered - swept.size());
+    line += fmt::format("; {} poses waited for the next, or were refused: rate:=0.5 gives this machine more time",
+                        covered - swept.size());
   }
-  if (covered < bag.poses.size()) line += format("\n           %zu poses NOT SWEPT", bag.poses.size() - covered);
+  if (covered < bag.poses.size()) line += fmt::format("\n           {} poses NOT SWEPT", bag.poses.size() - covered);
   if (!bag.poses.empty() && *swept.last() < bag.poses.back()) {
-    line += format(", all of the last %.3f s", toSeconds(bag.poses.back() - *swept.last()));
+    line += fmt::format(", including the last {:.3f} s", toSeconds(bag.poses.back() - *swept.last()));
   }
   return line + '\n';
 }
@@ -106,67 +91,66 @@ std::string longestUnknown(const SessionLog& log, Time begin) {
     if (longest == nullptr || segment.end - segment.begin > longest->end - longest->begin) longest = &segment;
   }
   if (longest == nullptr) return "";
-  return format("  longest UNKNOWN: %.1f s, from %.1f s on: %s\n", toSeconds(longest->end - longest->begin),
-                seconds(longest->begin, begin), longest->text.c_str());
+  return fmt::format("  longest UNKNOWN: {:.1f} s, from {:.1f} s on: {}\n", toSeconds(longest->end - longest->begin),
+                     seconds(longest->begin, begin), longest->text);
 }
 
-// A box from tic to tic for each segment: middle, row, half width, half height, colour.
+// One box per segment: middle, row, half width, half height, color.
 std::string levelPanel(const SessionLog& log, Time begin) {
-  std::ostringstream panel;
-  panel << "$levels << EOD\n";
+  std::string boxes;
   for (const Segment& segment : log.segments()) {
     const double from = seconds(segment.begin, begin);
     const double to = seconds(segment.end, begin);
-    panel << 0.5 * (from + to) << ' ' << static_cast<int>(segment.level) << ' ' << 0.5 * (to - from) << " 0.4 \""
-          << colourOf(segment.level) << "\"\n";
+    boxes += fmt::format("{:.6g} {} {:.6g} 0.4 \"{}\"\n", 0.5 * (from + to), static_cast<int>(segment.level),
+                         0.5 * (to - from), colorOf(segment.level));
   }
-  panel << "EOD\nset ylabel ''\nset yrange [-0.6:4.6]\nset format x ''\nset ytics font ',11' (";
+  std::string tics;
   for (const WarningLevel level : kLevels) {
-    panel << (level == WarningLevel::kUnknown ? "" : ", ") << "'" << sweep_guard_core::styleOf(level).name << "' "
-          << static_cast<int>(level);
+    tics += fmt::format("{}'{}' {}", tics.empty() ? "" : ", ", nameOf(level), static_cast<int>(level));
   }
-  panel << ")\nset style fill solid 1.0 noborder\n"
-        << "rgb(text) = int(sprintf('0x%s', substr(text, 2, 7)))\n"
-        << "plot -1 notitle, $levels using 1:2:3:4:(rgb(strcol(5))) with boxxyerror lc rgb variable notitle";
-  return panel.str();
+  return fmt::format(
+      "$levels << EOD\n{}EOD\nset ylabel ''\nset yrange [-0.6:4.6]\nset format x ''\nset ytics font ',11' ({})\n"
+      "set style fill solid 1.0 noborder\nrgb(text) = int(sprintf('0x%s', substr(text, 2, 7)))\n"
+      "plot -1 notitle, $levels using 1:2:3:4:(rgb(strcol(5))) with boxxyerror lc rgb variable notitle",
+      boxes, tics);
 }
 
-// Where none is expected, the line is interrupted.
+// An empty line interrupts the curve.
 std::string collisionPanel(const SessionLog& log, Time begin) {
-  std::ostringstream panel;
+  std::string points;
   double highest = 1.0;
-  panel << "$collision << EOD\n";
-  for (const Told& told : log.told()) {
-    if (told.time_to_collision) {
-      highest = std::max(highest, toSeconds(*told.time_to_collision));
-      panel << seconds(told.at, begin) << ' ' << toSeconds(*told.time_to_collision);
+  for (const ReceivedWarning& warning : log.warnings()) {
+    if (warning.time_to_collision) {
+      highest = std::max(highest, toSeconds(*warning.time_to_collision));
+      points += fmt::format("{:.6g} {:.6g}", seconds(warning.received, begin), toSeconds(*warning.time_to_collision));
     }
-    panel << '\n';
+    points += '\n';
   }
-  panel << "EOD\nset title 'Time until the predicted path meets a workpiece (0: in contact; no line: it meets none)'\n"
-        << "set ytics auto font ',14'\nset ylabel '[s]'\nset yrange [-0.05:" << 1.05 * highest << "]\n"
-        << "plot -1 notitle, $collision using 1:2 with linespoints pt 7 ps 0.3 lw 2 lc rgb '#0072B2' notitle";
-  return panel.str();
+  return fmt::format(
+      "$collision << EOD\n{}EOD\n"
+      "set title 'Time until the predicted path meets a workpiece (0: in contact; no line: it meets none)'\n"
+      "set ytics auto font ',14'\nset ylabel '[s]'\nset yrange [-0.05:{:g}]\n"
+      "plot -1 notitle, $collision using 1:2 with linespoints pt 7 ps 0.3 lw 2 lc rgb '#0072B2' notitle",
+      points, 1.05 * highest);
 }
 
 std::string leadPanel(const std::vector<Contact>& contacts, Time begin) {
-  std::ostringstream panel;
-  panel << "set title 'How long before each contact the warnings came on (numbers: contacts.png; no bar: not before "
-           "it)'\n"
-        << "set format x '%g'\nset ylabel '[s]'\nset yrange [0:0.2<*]\nset xlabel 'time since the begin of the session "
-           "[s]'\n";
-  if (contacts.empty())
-    return panel.str() + "set yrange [0:1]\nset label 'no contact' at graph 0.5, 0.5 center\nplot -1 notitle";
-  panel << "$leads << EOD\n";
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    panel << seconds(contacts[i].begin, begin) << ' ' << toSeconds(contacts[i].considered_lead) << ' '
-          << toSeconds(contacts[i].reflex_lead) << ' ' << i + 1 << '\n';
+  const std::string axes =
+      "set title 'Lead of the warnings before each contact (numbers: contacts.png; no bar: no warning before it)'\n"
+      "set format x '%g'\nset ylabel '[s]'\nset yrange [0:0.2<*]\nset xlabel 'time since the session began [s]'\n";
+  if (contacts.empty()) {
+    return axes + "set yrange [0:1]\nset label 'no contact' at graph 0.5, 0.5 center\nplot -1 notitle";
   }
-  panel << "EOD\nset offsets 0, 0, graph 0.15, 0\n"
-        << "plot $leads using 1:2 with impulses lw 6 lc rgb '" << colourOf(WarningLevel::kConsidered) << "' notitle, "
-        << "$leads using 1:3 with impulses lw 6 lc rgb '" << colourOf(WarningLevel::kReflex) << "' notitle, "
-        << "$leads using 1:2:4 with labels offset 0, 0.7 notitle";
-  return panel.str();
+  std::string bars;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    bars += fmt::format("{:.6g} {:.6g} {:.6g} {}\n", seconds(contacts[i].begin, begin),
+                        toSeconds(contacts[i].considered_lead), toSeconds(contacts[i].reflex_lead), i + 1);
+  }
+  return fmt::format(
+      "{}$leads << EOD\n{}EOD\nset offsets 0, 0, graph 0.15, 0\n"
+      "plot $leads using 1:2 with impulses lw 6 lc rgb '{}' notitle, "
+      "$leads using 1:3 with impulses lw 6 lc rgb '{}' notitle, $leads using 1:2:4 with labels offset 0, 0.7 notitle",
+      axes, bars, colorOf(WarningLevel::kConsidered), colorOf(WarningLevel::kReflex));
 }
 
 }  // namespace
@@ -177,8 +161,8 @@ std::string contactsCsv(const SessionLog& log, Time begin) {
   std::size_t number = 0;
   for (const Contact& contact : log.contacts()) {
     csv += csvLine({std::to_string(++number), fixed(seconds(contact.begin, begin)), fixed(seconds(contact.end, begin)),
-                    format("%.6f", toSeconds(contact.begin.time_since_epoch())), contact.mesh_id, contact.tool_link,
-                    std::to_string(contact.triangles.size()), csvNumber(1e3 * contact.depth),
+                    fmt::format("{:.6f}", toSeconds(contact.begin.time_since_epoch())), contact.mesh_id,
+                    contact.tool_link, std::to_string(contact.triangles.size()), csvNumber(1e3 * contact.depth),
                     fixed(toSeconds(contact.considered_lead)), fixed(toSeconds(contact.reflex_lead))});
   }
   return csv;
@@ -187,19 +171,19 @@ std::string contactsCsv(const SessionLog& log, Time begin) {
 std::string levelsCsv(const SessionLog& log, Time begin) {
   std::string csv = csvLine({"begin_s", "end_s", "level", "text"});
   for (const Segment& segment : log.segments()) {
-    csv += csvLine({fixed(seconds(segment.begin, begin)), fixed(seconds(segment.end, begin)),
-                    sweep_guard_core::styleOf(segment.level).name, segment.text});
+    csv += csvLine({fixed(seconds(segment.begin, begin)), fixed(seconds(segment.end, begin)), nameOf(segment.level),
+                    segment.text});
   }
   return csv;
 }
 
 std::string summary(const SessionLog& log, const SessionBag& bag) {
   const std::vector<Contact> contacts = log.contacts();
-  std::string text = format("session    %.1f s, %zu poses, %zu meshes, %zu updates of vertices\n",
-                            toSeconds(bag.end - bag.begin), bag.poses.size(), bag.meshes, bag.vertices);
+  std::string text = fmt::format("session    {:.1f} s, {} poses, {} meshes, {} updates of vertices\n",
+                                 toSeconds(bag.end - bag.begin), bag.poses.size(), bag.meshes, bag.vertices);
   text += sweptLine(log, bag);
   text += levelTable(log) + longestUnknown(log, bag.begin);
-  text += format("contacts   %zu\n", contacts.size());
+  text += fmt::format("contacts   {}\n", contacts.size());
   if (contacts.empty()) return text;
   text += leadLine(contacts, WarningLevel::kConsidered, &Contact::considered_lead);
   text += leadLine(contacts, WarningLevel::kReflex, &Contact::reflex_lead);
@@ -212,12 +196,12 @@ std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std
   std::vector<std::string> key;
   key.reserve(kLevels.size());
   for (const WarningLevel level : kLevels) {
-    key.push_back(
-        format("with lines lw 8 lc rgb '%s' title '%s'", colourOf(level), sweep_guard_core::styleOf(level).name));
+    key.push_back(fmt::format("with lines lw 8 lc rgb '{}' title '{}'", colorOf(level), nameOf(level)));
   }
   page.addKey({}, key);
-  const std::string frame = format("set xrange [0:%g]\n", std::max(toSeconds(bag.end - bag.begin), 0.01)) +
-                            "set title " + gnuplotText("What the guard told: " + title) + " noenhanced\n";
+  const std::string frame =
+      fmt::format("set xrange [0:{:g}]\nset title {} noenhanced\n", std::max(toSeconds(bag.end - bag.begin), 0.01),
+                  gnuplotText("Level of the warning: " + title));
   page.addPanel(0, 0, frame + levelPanel(log, bag.begin));
   page.addPanel(1, 0, collisionPanel(log, bag.begin));
   page.addPanel(2, 0, leadPanel(log.contacts(), bag.begin));
@@ -227,7 +211,7 @@ std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std
 std::string contactsPlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
                          const std::string& path) {
   return ContactTable(log.contacts(), bag.begin, kMaxContactsDrawn)
-      .plot("Contacts of " + title + ", and how long before them CONSIDERED and REFLEX came on", path);
+      .plot("Contacts of " + title + " and leads of CONSIDERED and REFLEX", path);
 }
 
 }  // namespace sweep_guard_session

@@ -39,14 +39,14 @@ std::vector<Kernels> findKernels() {
 }
 
 const Kernels& chooseKernels() {
-  const char* asked = std::getenv("SWEEP_GUARD_SIMD");
-  if (asked == nullptr || *asked == '\0') return availableKernels().front();
+  const char* requested = std::getenv("SWEEP_GUARD_SIMD");
+  if (requested == nullptr || *requested == '\0') return availableKernels().front();
   std::string names;
   for (const Kernels& kernels : availableKernels()) {
-    if (std::string(asked) == kernels.name) return kernels;
+    if (std::string(requested) == kernels.name) return kernels;
     names += std::string(names.empty() ? "" : " or ") + kernels.name;
   }
-  throw InvalidInput("SWEEP_GUARD_SIMD=" + std::string(asked) + " is not of this machine: use " + names);
+  throw InvalidInput("SWEEP_GUARD_SIMD=" + std::string(requested) + " is not available on this machine: use " + names);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Compiled once for every instruction set. So nothing that another file might define too may come out of it: an inline
-// function compiled for AVX-512 could be linked into code that runs everywhere.
+// Compiled once for every instruction set. The object may not define anything that another file could define, too: the
+// linker could use an inline function compiled for AVX-512 in code that runs everywhere.
 #include <experimental/simd>
 #include <utility>
 #ifdef __AVX512BW__
@@ -18,12 +18,12 @@ constexpr std::size_t kWidth = Float::size();
 using Ints [[gnu::vector_size(sizeof(Float))]] = std::int32_t;
 using Words [[gnu::vector_size(sizeof(Float) / 2)]] = std::uint16_t;
 constexpr std::size_t kFloats = 3 * kBlock;
-constexpr std::size_t kInPhase = kWidth / 3 * 3;  // lanes of whole vertices: a load of these begins with an x
-constexpr std::size_t kAhead = 32;  // blocks, 12 KB; what the hardware fetches alone does not fill the memory's time
+constexpr std::size_t kInPhase = kWidth / 3 * 3;  // lanes of whole vertices: each load begins with an x
+constexpr std::size_t kAhead = 32;  // blocks, 12 KB: the hardware's prefetching alone does not saturate the memory
 
 static_assert(kWidth == 4 || kWidth == 8 || kWidth == 16);
 
-// A load that stays one: GCC repeats it as an operand of each use, and these cross cache lines.
+// Loads once: otherwise GCC repeats the load for each use, across cache lines.
 [[gnu::always_inline]] inline Float load(const float* from) {
   auto lanes = static_cast<Vector>(Float(from, stdx::element_aligned));
 #ifdef __x86_64__
@@ -38,13 +38,13 @@ template <std::size_t by, std::size_t... lane>
   return Float(__builtin_shufflevector(from, from, static_cast<int>((lane + by) % kWidth)...));
 }
 
-// Lane i becomes what lane i + by was.
+// Lane i takes the value of lane i + by.
 template <std::size_t by>
 [[gnu::always_inline]] inline Float turned(const Float& lanes) {
   return turned<by>(lanes, std::make_index_sequence<kWidth>());
 }
 
-// The best of all x, all y, all z among the lanes in phase.
+// Reduces the lanes in phase to the best x, y and z.
 template <typename Best>
 [[gnu::always_inline]] inline Float perAxis(const Float& lanes, const Best& best) {
   if (kWidth == 4) return lanes;
@@ -80,7 +80,7 @@ struct Bounds {
 bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, Extremes& extremes) {
   Bounds all{Float([&](std::size_t lane) { return extremes.lower[lane % 3]; }),
              Float([&](std::size_t lane) { return extremes.upper[lane % 3]; })};
-  Float sums[4] = {};  // NaN and infinity stay in a sum; four, so that none waits for the one before
+  Float sums[4] = {};  // NaN and infinity stay in a sum; four independent sums are faster
   for (std::size_t block = 0; block < blocks; ++block, vertices += kFloats) {
     for (std::size_t line = 0; line < kFloats; line += 16) __builtin_prefetch(vertices + kAhead * kFloats + line);
     const Float last = load(vertices + kFloats - kInPhase);
@@ -109,7 +109,7 @@ bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& bo
   __builtin_memcpy(bits, &words, sizeof(words));
 }
 
-// Of each box, the corner that lies least far beyond each plane.
+// The corner of each box that is least far beyond each plane.
 struct NearestCorners {
   NearestCorners(const BoxArrays<const float>& boxes, const Planes& planes) {
     for (std::size_t i = 0; i < planes.count; ++i) {
@@ -122,7 +122,7 @@ struct NearestCorners {
   const float* from[kMaxPlanes][3];
 };
 
-// So many registers of boxes at a time: none need wait for another.
+// Handles several independent registers of boxes at a time.
 template <std::size_t registers>
 void classifyBoxesFrom(std::size_t first, const NearestCorners& nearest, const Planes& planes, std::uint16_t* bits) {
   Float found[registers];  // sums of powers of two: lanes of float select faster than those of int
@@ -148,7 +148,7 @@ void classifyBoxes(const BoxArrays<const float>& boxes, std::size_t count, const
   for (; first < count; first += kWidth) classifyBoxesFrom<1>(first, nearest, planes, bits);
 }
 
-// One axis of as many vertices as a register has lanes, from the three registers that hold them.
+// Gathers one axis of kWidth vertices from the three registers that contain them.
 template <std::size_t axis, std::size_t... lane>
 [[gnu::always_inline]] inline Float oneAxis(const Float (&of)[3], std::index_sequence<lane...> /*all*/) {
   const auto first = static_cast<Vector>(of[0]);
@@ -173,7 +173,7 @@ struct Points {
   Float z;
 };
 
-// Two registers of vertices at a time: the next plane need not wait for the one before.
+// Handles two independent registers of vertices at a time.
 void classifyBlock(const float* vertices, const Planes& planes, std::uint16_t* bits) {
   for (std::size_t first = 0; first < kBlock; first += 2 * kWidth) {
     const Points at[2] = {Points(vertices + 3 * first), Points(vertices + 3 * (first + kWidth))};
@@ -199,7 +199,7 @@ static_assert(kInsideAll == 1U << 15U);  // the sign of a word
 
 #ifdef __AVX512BW__
 
-// The bits of a cluster's vertices fit into four registers: corners are picked out of these, not out of memory.
+// The bits of a cluster's vertices fit into four registers: corners are looked up there instead of in memory.
 class VertexBits {
  public:
   explicit VertexBits(const std::array<const std::uint16_t*, kClusterBlocks>& bits)
@@ -208,7 +208,7 @@ class VertexBits {
     static_assert(kClusterBlocks == 4 && kBlock == 32 && sizeof(__m512i) == kBlock * sizeof(std::uint16_t));
   }
 
-  // Of the vertices at kBlock places.
+  // Returns the bits of the vertices at kBlock places.
   __m512i operator()(const std::uint8_t* places) const {
     const __m512i at = _mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(places)));
     const __mmask32 in_last_two = _mm512_test_epi16_mask(at, _mm512_set1_epi16(2 * kBlock));
@@ -229,9 +229,9 @@ TriangleBits classifyTriangles(const ClusterCorners& corners,
     const __m512i b = bits_of(&corners.places[1][first]);
     const __m512i c = bits_of(&corners.places[2][first]);
     const __mmask32 left = _mm512_testn_epi16_mask(a & b & c, _mm512_set1_epi16(kBeyondAny));
-    const __mmask32 met = _mm512_movepi16_mask(a | b | c);
-    found.left |= std::uint64_t{left} << first;
-    found.met |= std::uint64_t{met} << first;
+    const __mmask32 inside = _mm512_movepi16_mask(a | b | c);
+    found.not_beyond |= std::uint64_t{left} << first;
+    found.corner_inside |= std::uint64_t{inside} << first;
   }
   return found;
 }
@@ -248,8 +248,8 @@ TriangleBits classifyTriangles(const ClusterCorners& corners,
     const unsigned a = of[corners.places[0][i]];
     const unsigned b = of[corners.places[1][i]];
     const unsigned c = of[corners.places[2][i]];
-    found.left |= std::uint64_t{(a & b & c & kBeyondAny) == 0} << i;
-    found.met |= std::uint64_t{((a | b | c) & kInsideAll) != 0} << i;
+    found.not_beyond |= std::uint64_t{(a & b & c & kBeyondAny) == 0} << i;
+    found.corner_inside |= std::uint64_t{((a | b | c) & kInsideAll) != 0} << i;
   }
   return found;
 }

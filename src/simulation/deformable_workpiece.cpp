@@ -1,5 +1,6 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/ros.h>
+#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <visualization_msgs/Marker.h>
 
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/run_node.h"
+#include "ros/run_node.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
 #include "simulation/workpiece_parameters.h"
@@ -22,18 +23,8 @@ namespace {
 
 constexpr double kMarkerPeriod = 1.0 / 15.0;  // [s]
 
-geometry_msgs::Point toPoint(const float* p) {
-  geometry_msgs::Point point;
-  point.x = static_cast<double>(p[0]);
-  point.y = static_cast<double>(p[1]);
-  point.z = static_cast<double>(p[2]);
-  return point;
-}
-
-std_msgs::ColorRGBA shade(const float* a, const float* b, const float* c) {
-  const auto vertex = [](const float* p) { return Eigen::Map<const Eigen::Vector3f>(p); };
-  const Eigen::Vector3f normal = (vertex(b) - vertex(a)).cross(vertex(c) - vertex(a)).stableNormalized();
-  const float light = 0.5F + 0.5F * normal.dot(Eigen::Vector3f(0.48F, 0.14F, 0.866F));
+std_msgs::ColorRGBA shade(const Eigen::Vector3d& normal) {
+  const auto light = static_cast<float>(0.5 + 0.5 * normal.dot(Eigen::Vector3d(0.48, 0.14, 0.866)));
   std_msgs::ColorRGBA color;
   color.r = 0.15F + 0.75F * light;
   color.g = 0.15F + 0.72F * light;
@@ -42,7 +33,7 @@ std_msgs::ColorRGBA shade(const float* a, const float* b, const float* c) {
   return color;
 }
 
-/// Publishes a workpiece: its triangles once, its vertices at a rate, a marker for rviz while somebody looks.
+/// Publishes a workpiece: its triangles once, its vertices at a rate, and a marker for rviz if there are subscribers.
 class WorkpieceNode {
  public:
   explicit WorkpieceNode(sweep_guard_ros::ParameterReader& parameters)
@@ -50,6 +41,7 @@ class WorkpieceNode {
         id_(parameters.name("id", "workpiece")),
         frame_(parameters.name("frame", "workpiece")),
         rate_(parameters.number("rate", 60.0, {0.1, 1000.0})) {
+    ros::Time::waitForValid();
     broadcastFrame(parameters.name("parent_frame", "world"), parameters.position("position", {0.0, 0.0, 0.3}));
     mesh_publisher_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
     vertices_publisher_ = node_.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);
@@ -67,14 +59,11 @@ class WorkpieceNode {
 
  private:
   void broadcastFrame(const std::string& parent, const Eigen::Vector3d& position) {
-    geometry_msgs::TransformStamped transform;
+    geometry_msgs::TransformStamped transform =
+        tf2::eigenToTransform(Eigen::Isometry3d(Eigen::Translation3d(position)));
     transform.header.stamp = ros::Time::now();
     transform.header.frame_id = parent;
     transform.child_frame_id = frame_;
-    transform.transform.translation.x = position.x();
-    transform.transform.translation.y = position.y();
-    transform.transform.translation.z = position.z();
-    transform.transform.rotation.w = 1.0;
     broadcaster_.sendTransform(transform);
   }
 
@@ -110,11 +99,15 @@ class WorkpieceNode {
     marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
     marker.color.a = 1.0F;
     marker.lifetime = ros::Duration(0.5);
-    const auto cornerOf = [&vertices](std::size_t i) { return &vertices.positions[3 * i]; };
-    for (const auto& [a, b, c] : workpiece_.triangles()) {
-      const float* const corners[] = {cornerOf(a), cornerOf(b), cornerOf(c)};
-      for (const float* corner : corners) marker.points.push_back(toPoint(corner));
-      marker.colors.insert(marker.colors.end(), 3, shade(corners[0], corners[1], corners[2]));
+    const auto vertex = [&vertices](std::size_t i) {
+      return Eigen::Map<const Eigen::Vector3f>(&vertices.positions[3 * i]).cast<double>().eval();
+    };
+    for (const auto& triangle : workpiece_.triangles()) {
+      const Eigen::Vector3d a = vertex(triangle[0]);
+      const Eigen::Vector3d b = vertex(triangle[1]);
+      const Eigen::Vector3d c = vertex(triangle[2]);
+      for (const Eigen::Vector3d& corner : {a, b, c}) marker.points.push_back(tf2::toMsg(corner));
+      marker.colors.insert(marker.colors.end(), 3, shade((b - a).cross(c - a).stableNormalized()));
     }
     marker_publisher_.publish(marker);
   }
@@ -138,5 +131,5 @@ class WorkpieceNode {
 }  // namespace sweep_guard_simulation
 
 int main(int argc, char** argv) {
-  return sweep_guard_simulation::runNode<sweep_guard_simulation::WorkpieceNode>(argc, argv, "deformable_workpiece");
+  return sweep_guard_ros::runNode<sweep_guard_simulation::WorkpieceNode>(argc, argv, "deformable_workpiece");
 }

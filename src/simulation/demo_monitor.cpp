@@ -1,10 +1,11 @@
+#include <fmt/format.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <unistd.h>
 
+#include <boost/program_options.hpp>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstring>
 #include <fstream>
@@ -14,14 +15,17 @@
 #include <string>
 #include <vector>
 
-#include "recording/touched.h"
-#include "simulation/demo_report.h"
+#include "recording/object_contacts.h"
+#include "simulation/demo_statistics.h"
 #include "sweep_guard/Contacts.h"
 #include "sweep_guard/MeshVertices.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_simulation {
+
+namespace po = boost::program_options;
 
 namespace {
 
@@ -29,79 +33,59 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using sweep_guard_core::Duration;
 using sweep_guard_core::InvalidInput;
+using sweep_guard_ros::fromMsg;
 
 constexpr std::uint32_t kQueue = 100000;
-constexpr Duration kPatience = seconds(60);
-constexpr Duration kGrace = seconds(1);
+constexpr Duration kConnectTimeout = seconds(60);
+constexpr Duration kAnswerTimeout = seconds(1);
 constexpr Duration kLivePeriod = milliseconds(500);
-constexpr const char* kUsage =
-    "Usage: demo_monitor [--duration S] [--latency-csv FILE]\n"
-    "Watches a demo and reports what the guard did with every tool pose.\n"
-    "  --duration S        seconds from the first pose; 0 (default): until the operator ends or Ctrl-C\n"
-    "  --latency-csv FILE  write stamp [s], latency [ms] and triangles touched of every sweep\n"
-    "Topics: tool_pose, mesh_vertices, contacts, warning\n";
-
 volatile std::sig_atomic_t interrupted = 0;
 
 void interrupt(int) { interrupted = 1; }
 
 struct Arguments {
-  Duration duration{0};
+  double duration = 0.0;  // [s]
   std::string latency_csv;
   bool help = false;
 };
 
-Duration toDuration(const std::string& text) {
-  double value = -1.0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size() || !(value >= 0.0 && value <= 1e6)) {
-    throw InvalidInput("--duration is '" + text + "', must be seconds in [0, 1e6]");
-  }
-  return sweep_guard_core::fromSeconds(value);
+po::options_description describe(Arguments& arguments) {
+  po::options_description options(
+      "Usage: demo_monitor [options]\n"
+      "Counts the poses of a demo and the answers of the guard, and reports them.\n"
+      "Topics: tool_pose, mesh_vertices, contacts, warning");
+  options.add_options()("help,h", po::bool_switch(&arguments.help), "print this text")(
+      "duration", po::value(&arguments.duration)->value_name("S"),
+      "seconds from the first pose, at most 1e6; 0 (default): until the operator ends or Ctrl-C")(
+      "latency-csv", po::value(&arguments.latency_csv)->value_name("FILE"),
+      "write stamp [s], latency [ms] and number of triangles touched of every sweep");
+  return options;
 }
 
 Arguments parse(const std::vector<std::string>& words) {
   Arguments arguments;
-  for (size_t i = 1; i < words.size(); ++i) {
-    const bool has_value = i + 1 < words.size();
-    if (words[i] == "--help" || words[i] == "-h") {
-      arguments.help = true;
-    } else if (words[i] == "--duration" && has_value) {
-      arguments.duration = toDuration(words[++i]);
-    } else if (words[i] == "--latency-csv" && has_value) {
-      arguments.latency_csv = words[++i];
-    } else {
-      throw InvalidInput("argument '" + words[i] + "' is unknown or lacks its value\n" + kUsage);
-    }
+  try {
+    po::variables_map values;
+    const po::options_description options = describe(arguments);
+    po::store(po::command_line_parser({words.begin() + 1, words.end()}).options(options).positional({}).run(), values);
+    po::notify(values);
+  } catch (const po::error& error) {
+    throw InvalidInput(std::string(error.what()) + "; --help lists the options");
+  }
+  if (!(arguments.duration >= 0.0 && arguments.duration <= 1e6)) {
+    throw InvalidInput("--duration must be seconds in [0, 1e6]");
   }
   return arguments;
 }
 
-sweep_guard_core::Time toTime(const ros::Time& time) { return sweep_guard_core::Time(Duration(time.toNSec())); }
-
 Duration steadyNow() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
-const char* levelName(std::uint8_t level) {
-  switch (level) {
-    case sweep_guard::Warning::CLEAR:
-      return "CLEAR";
-    case sweep_guard::Warning::CONSIDERED:
-      return "CONSIDERED";
-    case sweep_guard::Warning::REFLEX:
-      return "REFLEX";
-    case sweep_guard::Warning::CONTACT:
-      return "CONTACT";
-    default:
-      return "UNKNOWN";
-  }
-}
-
-/// Waits until `condition`, or Ctrl-C (false).
-/// @throws InvalidInput with `problem` when it takes longer than a minute
+/// Waits for a condition. Returns false after Ctrl-C.
+/// @throws InvalidInput with `problem` after a minute
 bool waitUntil(const std::function<bool()>& condition, const std::string& problem) {
   for (const Duration begin = steadyNow(); interrupted == 0; ros::WallDuration(0.01).sleep()) {
     if (condition()) return true;
-    if (steadyNow() - begin > kPatience) throw InvalidInput(problem);
+    if (steadyNow() - begin > kConnectTimeout) throw InvalidInput(problem);
   }
   return false;
 }
@@ -115,50 +99,48 @@ class DemoMonitor {
     warning_ = node_.subscribe("warning", kQueue, &DemoMonitor::onWarning, this, hints);
   }
 
-  /// Counts until the duration is over, the operator is gone or Ctrl-C.
-  void watch() {
-    const auto connected = [this] {
-      ros::spinOnce();
-      return contacts_.getNumPublishers() > 0;
+  /// Counts until the duration is over, the operator ends, or Ctrl-C.
+  void run() {
+    const auto waitFor = [](const auto& condition, const std::string& problem) {
+      return waitUntil([&] { return ros::spinOnce(), condition(); }, problem);
     };
-    if (!waitUntil(connected,
-                   "nobody publishes " + contacts_.getTopic() + "; start the guard, or remap contacts to it"))
+    if (!waitFor([this] { return contacts_.getNumPublishers() > 0; },
+                 "no publisher of " + contacts_.getTopic() + "; start the guard, or remap contacts to it")) {
       return;
+    }
     tool_pose_ = node_.subscribe("tool_pose", kQueue, &DemoMonitor::onPose, this, ros::TransportHints().tcpNoDelay());
-    const auto moving = [this] {
-      ros::spinOnce();
-      return report_.poses() > 0;
-    };
-    if (!waitUntil(moving,
-                   "no pose came on " + tool_pose_.getTopic() + "; start the operator, or see what it waits for"))
+    if (!waitFor([this] { return statistics_.poses() > 0; },
+                 "no pose on " + tool_pose_.getTopic() + "; start the operator, or see its log")) {
       return;
+    }
     count();
     settle();
   }
 
-  const DemoReport& report() const { return report_; }
+  const DemoStatistics& statistics() const { return statistics_; }
 
  private:
   void onPose(const geometry_msgs::PoseStamped::ConstPtr& pose) {
-    report_.addPose(toTime(pose->header.stamp), pose->header.seq);
+    statistics_.addPose(fromMsg(pose->header.stamp), pose->header.seq);
   }
-  void onMeshVertices(const sweep_guard::MeshVertices::ConstPtr&) { report_.addMeshUpdate(); }
+  void onMeshVertices(const sweep_guard::MeshVertices::ConstPtr&) { statistics_.addMeshUpdate(); }
   void onWarning(const sweep_guard::Warning::ConstPtr& warning) {
-    level_ = levelName(warning->level);
-    report_.addWarning(toTime(ros::Time::now()), static_cast<sweep_guard_core::WarningLevel>(warning->level));
+    const auto level = static_cast<sweep_guard_core::WarningLevel>(warning->level);
+    level_ = sweep_guard_core::styleOf(level).name;
+    statistics_.addWarning(fromMsg(ros::Time::now()), level);
   }
 
   void onContacts(const sweep_guard::Contacts::ConstPtr& contacts) {
-    const sweep_guard_core::Time arrival = toTime(ros::Time::now());
-    const sweep_guard_core::Time start = toTime(contacts->interval_start);
-    const sweep_guard_core::Time stamp = toTime(contacts->header.stamp);
-    if (settling_ && !report_.awaits(start, stamp)) return;
-    std::vector<TouchedObject> objects;
+    const sweep_guard_core::Time arrival = fromMsg(ros::Time::now());
+    const sweep_guard_core::Time start = fromMsg(contacts->interval_start);
+    const sweep_guard_core::Time stamp = fromMsg(contacts->header.stamp);
+    if (settling_ && !statistics_.expects(start, stamp)) return;
+    std::vector<ContactObject> objects;
     for (const sweep_guard::ObjectContacts& object : contacts->objects) {
-      if (!sweep_guard_recording::isTouched(object)) continue;
-      objects.push_back({object.mesh_id, sweep_guard_recording::trianglesTouched(object)});
+      if (!sweep_guard_recording::isInContact(object)) continue;
+      objects.push_back({object.mesh_id, sweep_guard_recording::trianglesInContact(object)});
     }
-    report_.addContacts(start, stamp, arrival, objects);
+    statistics_.addContacts(start, stamp, arrival, objects);
   }
 
   void handleMessages() { ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01)); }
@@ -183,13 +165,13 @@ class DemoMonitor {
     handleMessages();
     tool_pose_.shutdown();
     settling_ = true;
-    for (const Duration begin = steadyNow(); report_.posesNotSwept() > 0 && steadyNow() - begin < kGrace;) {
+    for (const Duration begin = steadyNow(); statistics_.posesNotSwept() > 0 && steadyNow() - begin < kAnswerTimeout;) {
       handleMessages();
     }
   }
 
   void showLive(Duration elapsed) const {
-    const std::string line = report_.liveLine(elapsed, level_);
+    const std::string line = statistics_.liveLine(elapsed, level_);
     if (isatty(STDOUT_FILENO) != 0) {
       std::cout << '\r' << line << "\033[K" << std::flush;
     } else {
@@ -198,8 +180,8 @@ class DemoMonitor {
   }
 
   Duration duration_;
-  DemoReport report_;
-  bool settling_ = false;  // the count is over, late answers still come
+  DemoStatistics statistics_;
+  bool settling_ = false;  // only late answers count
   std::string level_ = "-";
   ros::NodeHandle node_;
   ros::Subscriber tool_pose_;
@@ -210,10 +192,10 @@ class DemoMonitor {
 
 void writeLatencies(const std::string& path, const std::vector<Latency>& latencies) {
   std::ofstream csv(path);
-  csv << "stamp_s,latency_ms,triangles\n" << std::fixed;
+  csv << "stamp_s,latency_ms,triangles\n";
   for (const Latency& latency : latencies) {
-    csv << sweep_guard_core::toSeconds(latency.stamp.time_since_epoch()) << ','
-        << sweep_guard_core::toSeconds(latency.delay) * 1e3 << ',' << latency.triangles << '\n';
+    csv << fmt::format("{:.6f},{:.6f},{}\n", sweep_guard_core::toSeconds(latency.stamp.time_since_epoch()),
+                       1e3 * sweep_guard_core::toSeconds(latency.delay), latency.triangles);
   }
   csv.flush();
   if (!csv) throw InvalidInput(path + ": cannot be written: " + std::strerror(errno));
@@ -223,11 +205,11 @@ int run(const Arguments& arguments) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   if (!waitUntil(ros::master::check, "no ROS master at " + ros::master::getURI() + "; start the demo")) return 1;
-  DemoMonitor monitor(arguments.duration);
-  monitor.watch();
-  std::cout << monitor.report().summary() << std::endl;
-  if (!arguments.latency_csv.empty()) writeLatencies(arguments.latency_csv, monitor.report().latencies());
-  const std::optional<std::string> fault = monitor.report().fault();
+  DemoMonitor monitor(sweep_guard_core::fromSeconds(arguments.duration));
+  monitor.run();
+  std::cout << monitor.statistics().summary() << std::endl;
+  if (!arguments.latency_csv.empty()) writeLatencies(arguments.latency_csv, monitor.statistics().latencies());
+  const std::optional<std::string> fault = monitor.statistics().fault();
   if (fault) std::cout << "FAILED: " << *fault << std::endl;
   return fault ? 1 : 0;
 }
@@ -241,9 +223,9 @@ int main(int argc, char** argv) {
   std::vector<std::string> words;
   ros::removeROSArgs(argc, argv, words);
   try {
-    const sweep_guard_simulation::Arguments arguments = sweep_guard_simulation::parse(words);
+    sweep_guard_simulation::Arguments arguments = sweep_guard_simulation::parse(words);
     if (arguments.help) {
-      std::cout << sweep_guard_simulation::kUsage;
+      std::cout << sweep_guard_simulation::describe(arguments);
       return 0;
     }
     return sweep_guard_simulation::run(arguments);

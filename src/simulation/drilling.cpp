@@ -14,21 +14,13 @@ using sweep_guard_core::InvalidInput;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 double smoothStep(double x) {
   const double s = std::clamp(x, 0.0, 1.0);
   return s * s * s * (10.0 + s * (6.0 * s - 15.0));
 }
 
 Eigen::Vector3d sines(double t, const Eigen::Vector3d& frequencies) {
-  return (2.0 * kPi * t * frequencies + Eigen::Vector3d(0.3, 1.1, 2.2)).array().sin();
-}
-
-Eigen::Matrix3d rotation(const Eigen::Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  if (angle == 0.0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
+  return (2.0 * M_PI * t * frequencies + Eigen::Vector3d(0.3, 1.1, 2.2)).array().sin();
 }
 
 void requireWithin(const char* name, double value, double min, double max) {
@@ -70,13 +62,14 @@ Eigen::Isometry3d Drilling::pose(double t) const {
 
   const double height = heightAt(t_hole);
   const double freedom = smoothStep(height / options_.clearance);
-  const Eigen::Vector3d stray_W = options_.wander * freedom * sines(t, {0.41, 0.53, 0.67});
-  const Eigen::Vector3d stray_T = options_.tilt * freedom * sines(t, {0.37, 0.47, 0.29});
+  const Eigen::Vector3d wander_W = options_.wander * freedom * sines(t, {0.41, 0.53, 0.67});
+  const Eigen::Vector3d tilt_T = options_.tilt * freedom * sines(t, {0.37, 0.47, 0.29});
 
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
-  X_WT.translation() = from_W + smoothStep(t_hole / options_.travel_time) * (to_W - from_W) + stray_W;
+  X_WT.translation() = from_W + smoothStep(t_hole / options_.travel_time) * (to_W - from_W) + wander_W;
   X_WT.translation().z() += height;
-  X_WT.linear() = Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitX()).toRotationMatrix() * rotation(stray_T);
+  X_WT.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix() *
+                  Eigen::AngleAxisd(tilt_T.norm(), tilt_T.stableNormalized());
   return X_WT;
 }
 
@@ -84,7 +77,7 @@ std::vector<Eigen::Vector3d> holesAround(const TopSurface& surface, double radiu
   const Eigen::Vector3d& highest_W = surface.highestPoint();
   std::vector<Eigen::Vector3d> holes_W = {highest_W};
   for (int i = 0; i < count; ++i) {
-    const double angle = 2.0 * kPi * i / count;
+    const double angle = 2.0 * M_PI * i / count;
     const double x = highest_W.x() + radius * std::cos(angle);
     const double y = highest_W.y() + radius * std::sin(angle);
     const std::optional<double> height = surface.height(x, y);

@@ -11,30 +11,24 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kApproachTime = 0.1;  // [s] time constant of the last part of the way
+constexpr double kApproachTime = 0.1;  // [s] time constant at the end of the approach
 
 Vector3d bounded(const Vector3d& vector, double length) {
   const double norm = vector.norm();
   return norm > length ? Vector3d(vector * (length / norm)) : vector;
 }
 
-// Both parts can be followed with half of the acceleration: v = sqrt(a d) and, where that would stop late, v = d / tau.
-Vector3d velocityOver(const Vector3d& way, double acceleration, double dt) {
-  const double distance = way.norm();
+// Both branches need at most half of the acceleration: v = sqrt(a d), and v = d / tau where that would stop late.
+Vector3d approachVelocity(const Vector3d& offset, double acceleration, double dt) {
+  const double distance = offset.norm();
   if (distance == 0.0) return Vector3d::Zero();
   const double time_constant = std::max(kApproachTime, 2.0 * dt);
-  return way / distance * std::min(distance / time_constant, std::sqrt(acceleration * distance));
+  return offset / distance * std::min(distance / time_constant, std::sqrt(acceleration * distance));
 }
 
 Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
   const Eigen::AngleAxisd turn(rotation);
   return turn.angle() * turn.axis();
-}
-
-Eigen::Quaterniond rotation(const Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  if (angle == 0.0) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle));
 }
 
 }  // namespace
@@ -45,20 +39,23 @@ GuidedTip::GuidedTip(const Eigen::Isometry3d& X_WT, const Limits& limits) : X_WT
   }
 }
 
-void GuidedTip::moveAt(const Twist& wanted, double dt) {
-  const Vector3d linear = bounded(wanted.linear, limits_.speed);
-  const Vector3d angular = bounded(wanted.angular, limits_.turn_rate);
+void GuidedTip::moveAt(const Twist& desired, double dt) {
+  const Vector3d linear = bounded(desired.linear, limits_.speed);
+  const Vector3d angular = bounded(desired.angular, limits_.turn_rate);
   velocity_.linear += bounded(linear - velocity_.linear, limits_.acceleration * dt);
   velocity_.angular += bounded(angular - velocity_.angular, limits_.turn_acceleration * dt);
   X_WT_.translation() += velocity_.linear * dt;
-  const Eigen::Quaterniond turned = rotation(velocity_.angular * dt) * Eigen::Quaterniond(X_WT_.linear());
+  const Vector3d turn = velocity_.angular * dt;
+  const Eigen::Quaterniond turned =
+      Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()) * Eigen::Quaterniond(X_WT_.linear());
   X_WT_.linear() = turned.normalized().toRotationMatrix();
 }
 
 void GuidedTip::moveTowards(const Eigen::Isometry3d& goal_W, double dt) {
-  const Vector3d way = goal_W.translation() - X_WT_.translation();
+  const Vector3d offset = goal_W.translation() - X_WT_.translation();
   const Vector3d turn = rotationVector(goal_W.linear() * X_WT_.linear().transpose());
-  moveAt({velocityOver(way, limits_.acceleration, dt), velocityOver(turn, limits_.turn_acceleration, dt)}, dt);
+  moveAt({approachVelocity(offset, limits_.acceleration, dt), approachVelocity(turn, limits_.turn_acceleration, dt)},
+         dt);
 }
 
 }  // namespace sweep_guard_simulation

@@ -6,8 +6,8 @@
 
 namespace sweep_guard_simulation {
 
-/// The tip of a tool that a hand guides from one moment to the next. Whatever is asked of it, it moves as a body can:
-/// speed and acceleration are bounded, so that a target which jumps is a motion and not a leap.
+/// Moves the tip of a tool that is guided by hand. Bounds speed and acceleration, so the tip moves smoothly even if its
+/// target jumps.
 class GuidedTip {
  public:
   struct Limits {
@@ -17,21 +17,20 @@ class GuidedTip {
     double turn_acceleration = 6.0;  ///< [rad/s^2] > 0
   };
 
-  /// At rest.
-  /// @param X_WT  of the frame whose origin is the tip
+  /// Starts at rest.
+  /// @param X_WT  of a frame with its origin at the tip
   /// @throws sweep_guard_core::InvalidInput if a limit is not above 0
   GuidedTip(const Eigen::Isometry3d& X_WT, const Limits& limits);
 
   const Eigen::Isometry3d& pose() const { return X_WT_; }
 
-  /// At rest again: nobody saw it move for a while.
-  void rest() { velocity_ = Twist(); }
+  void stop() { velocity_ = Twist(); }  ///< sets the velocity to zero at once
 
-  /// Moves on by `dt` [s] > 0 at this velocity, or as near to it as the limits allow.
-  void moveAt(const Twist& wanted, double dt);
+  /// Moves for `dt` [s] > 0 at a velocity, as far as the limits allow.
+  void moveAt(const Twist& desired, double dt);
 
-  /// Moves on by `dt` [s] > 0 towards a pose, at the highest speed from which it can still stop there. Without
-  /// overshooting one that rests, from rest; the rotation takes the shorter way.
+  /// Moves for `dt` [s] > 0 towards a goal, at the highest speed from which the tip can still stop there. From rest, it
+  /// does not overshoot a goal at rest. Rotates by the smaller angle.
   void moveTowards(const Eigen::Isometry3d& goal_W, double dt);
 
  private:

@@ -9,16 +9,16 @@ namespace {
 
 constexpr double kReminderPeriod = 10.0;  // [s]
 constexpr sweep_guard_core::Duration kBacklog =
-    std::chrono::milliseconds(100);  // in which roscpp reads what has waited
+    std::chrono::milliseconds(100);  // time in which roscpp delivers waiting messages
 
-// When it came: the device may stamp by another clock.
+// Time of arrival: the device may use another clock.
 sweep_guard_core::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
 
 }  // namespace
 
 JoyGuide::JoyGuide(ros::NodeHandle node, const Joystick::Options& options)
     : joystick_(options), subscriber_(node.subscribe("joy", 1, &JoyGuide::onJoy, this)) {
-  ROS_INFO("lead the tool with the device that publishes %s", subscriber_.getTopic().c_str());
+  ROS_INFO("guide the tool with the device that publishes %s", subscriber_.getTopic().c_str());
 }
 
 void JoyGuide::move(GuidedTip& tip, double dt) const {
@@ -29,11 +29,11 @@ void JoyGuide::move(GuidedTip& tip, double dt) const {
   tip.moveAt(joystick_.velocity(now()), dt);
 }
 
-void JoyGuide::release() { joystick_.releaseUntil(now() + kBacklog); }
+void JoyGuide::release() { joystick_.ignoreUntil(now() + kBacklog); }
 
 void JoyGuide::onJoy(const sensor_msgs::Joy::ConstPtr& joy) {
   try {
-    joystick_.take(joy->axes, now());
+    joystick_.setAxes(joy->axes, now());
   } catch (const sweep_guard_core::InvalidInput& error) {
     ROS_ERROR_THROTTLE(kReminderPeriod, "message on %s refused: %s", subscriber_.getTopic().c_str(), error.what());
   }

@@ -8,14 +8,14 @@
 
 namespace sweep_guard_simulation {
 
-/// Leads a tip by the messages of an input device on the topic `joy`.
+/// Guides a tip by the messages of an input device on the topic `joy`.
 class JoyGuide {
  public:
   JoyGuide(ros::NodeHandle node, const Joystick::Options& options);
 
   void move(GuidedTip& tip, double dt) const;
 
-  /// After a stall: the tool rests until a message comes that has not waited meanwhile.
+  /// Stops the tool after a stall, until a message arrives that was not waiting during the stall.
   void release();
 
  private:

@@ -17,7 +17,7 @@ double deflection(const std::vector<float>& axes, int axis, double dead_zone) {
   if (axis < 0) return 0.0;
   const auto index = static_cast<std::size_t>(axis);
   if (index >= axes.size()) {
-    throw InvalidInput("axis " + std::to_string(axis) + " is used, and the device has " + std::to_string(axes.size()) +
+    throw InvalidInput("axis " + std::to_string(axis) + " is missing: the device has " + std::to_string(axes.size()) +
                        " axes; correct the mapping");
   }
   const auto value = static_cast<double>(axes[index]);
@@ -32,21 +32,21 @@ Joystick::Joystick(const Options& options) : options_(options) {
   if (!(options.timeout > sweep_guard_core::Duration(0))) throw InvalidInput("the timeout is not above 0");
 }
 
-void Joystick::take(const std::vector<float>& axes, sweep_guard_core::Time at) {
+void Joystick::setAxes(const std::vector<float>& axes, sweep_guard_core::Time at) {
   Twist twist;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     twist.linear[k] = options_.linear[k] * deflection(axes, options_.linear_axes[i], options_.dead_zone);
     twist.angular[k] = options_.angular[k] * deflection(axes, options_.angular_axes[i], options_.dead_zone);
   }
-  if (at < released_until_) return;
+  if (at < ignored_until_) return;
   newest_ = twist;
   newest_at_ = at;
 }
 
-void Joystick::releaseUntil(sweep_guard_core::Time until) {
+void Joystick::ignoreUntil(sweep_guard_core::Time until) {
   newest_at_.reset();
-  released_until_ = until;
+  ignored_until_ = until;
 }
 
 Twist Joystick::velocity(sweep_guard_core::Time at) const {

@@ -16,9 +16,9 @@ using visualization_msgs::InteractiveMarkerControl;
 namespace {
 
 constexpr double kReminderPeriod = 5.0;  // [s]
-constexpr float kSize = 0.2F;            // [m] outside of the tool, inside of what rviz shows
+constexpr float kSize = 0.2F;            // [m] larger than the tool, smaller than the view of rviz
 
-// rviz takes the x axis of the control's orientation.
+// rviz uses the x axis of the control's orientation.
 InteractiveMarkerControl control(const std::string& name, std::uint8_t mode, const Eigen::Vector3d& axis) {
   InteractiveMarkerControl control;
   control.name = name;
@@ -51,7 +51,7 @@ MarkerGuide::MarkerGuide(const std::string& topic, const std::string& frame, con
     : frame_(frame), goal_W_(X_WTip), buffer_(buffer), server_(topic) {
   server_.insert(sixDofMarker(frame, X_WTip), [this](const Feedback::ConstPtr& feedback) { onFeedback(feedback); });
   server_.applyChanges();
-  ROS_INFO("lead the tool with the marker on %s: in rviz, choose Interact and drag it", topic.c_str());
+  ROS_INFO("guide the tool with the marker on %s: in rviz, choose Interact and drag it", topic.c_str());
 }
 
 void MarkerGuide::onFeedback(const Feedback::ConstPtr& feedback) {
@@ -61,9 +61,9 @@ void MarkerGuide::onFeedback(const Feedback::ConstPtr& feedback) {
         tf2::transformToEigen(buffer_.lookupTransform(frame_, feedback->header.frame_id, ros::Time(0)));
     goal_W_ = X_WF * sweep_guard_ros::fromMsg(feedback->pose);
   } catch (const tf2::TransformException& error) {
-    ROS_ERROR_THROTTLE(kReminderPeriod, "the marker's pose is not followed: %s", error.what());
+    ROS_ERROR_THROTTLE(kReminderPeriod, "pose of the marker refused: %s", error.what());
   } catch (const sweep_guard_core::InvalidInput& error) {
-    ROS_ERROR_THROTTLE(kReminderPeriod, "the marker's pose is not followed: %s", error.what());
+    ROS_ERROR_THROTTLE(kReminderPeriod, "pose of the marker refused: %s", error.what());
   }
 }
 

@@ -10,12 +10,12 @@
 
 namespace sweep_guard_simulation {
 
-/// Leads a tip after an interactive marker, which somebody drags and turns in rviz.
+/// Guides a tip by an interactive marker that the user drags and turns in rviz.
 class MarkerGuide {
  public:
-  /// @param topic   that the marker's topics are below
-  /// @param frame   fixed frame W; rviz may show another one
-  /// @param X_WTip  where the marker is at first
+  /// @param topic   namespace of the marker's topics
+  /// @param frame   fixed frame W; rviz may use another one
+  /// @param X_WTip  first pose of the marker
   MarkerGuide(const std::string& topic, const std::string& frame, const Eigen::Isometry3d& X_WTip,
               const tf2_ros::Buffer& buffer);
 

@@ -15,6 +15,7 @@
 
 #include "recording/recording.h"
 #include "ros/parameters/parameters.h"
+#include "ros/run_node.h"
 #include "simulation/drilling.h"
 #include "simulation/guided_tip.h"
 #include "simulation/joy_guide.h"
@@ -23,7 +24,6 @@
 #include "simulation/pose_scheduler.h"
 #include "simulation/pose_stream.h"
 #include "simulation/replay.h"
-#include "simulation/run_node.h"
 #include "simulation/tip.h"
 #include "simulation/top_surface.h"
 #include "sweep_guard/DeformableMesh.h"
@@ -40,13 +40,13 @@ namespace {
 using sweep_guard_core::StampedPose;
 
 constexpr int kQueue = 10000;
-constexpr double kMaxSleep = 0.1;         // [s] so that a long gap in a recording does not delay the end of the node
-constexpr double kLongGap = 5.0;          // [s] that is told of
+constexpr double kMaxSleep = 0.1;         // [s] of one sleep, so that the node ends soon during a long gap
+constexpr double kLongGap = 5.0;          // [s] reported in the log
 constexpr double kReminderPeriod = 10.0;  // [s]
-constexpr double kLinger = 1.0;           // [s] for the last poses to leave
-constexpr double kSlant = 0.45;           // more than the drill tilts: rise per width of the tool between two holes
-constexpr double kDepth = 0.010;          // [m] below the surface, in both kinds of motion
-constexpr double kClearance = 0.1;        // [m] above the surface, where a hand takes the tool over
+constexpr double kFinalDelay = 1.0;       // [s] for the last poses to be sent
+constexpr double kRisePerWidth = 0.45;    // clearance per radial extent of the tool, as the drill tilts
+constexpr double kDepth = 0.010;          // [m] below the surface, in scripted and recorded motion
+constexpr double kClearance = 0.1;        // [m] above the surface, at the start of a guided motion
 constexpr int kMaxAxis = 63;              // of an input device
 constexpr double kHoleCircle = 0.06;      // [m] radius
 constexpr int kHolesOnCircle = 5;
@@ -65,7 +65,7 @@ sweep_guard_core::TriangleMesh toMesh(const sweep_guard::DeformableMesh& message
   return sweep_guard_core::TriangleMesh(vertices_W, std::move(triangles));
 }
 
-/// Leads the tool: waits for the workpiece and for the guard, then publishes one pose after the other when it is due.
+/// Moves the tool: waits for the workpiece and for the guard, then publishes each pose when it is due.
 class OperatorNode {
  public:
   explicit OperatorNode(sweep_guard_ros::ParameterReader& parameters)
@@ -89,9 +89,10 @@ class OperatorNode {
   }
 
   void run() {
+    ros::Time::waitForValid();
     if (!waitUntil([this] { return surface_.has_value(); }, "the workpiece and its frame")) return;
     if (wait_for_guard_ && !waitUntil([this] { return guard_ready_; }, "the guard to know the workpiece")) return;
-    if (!guard_.empty()) takeHold(*sweep_guard_ros::loadParameters(ros::NodeHandle(guard_)).tool);
+    if (!guard_.empty()) setTool(*sweep_guard_ros::loadParameters(ros::NodeHandle(guard_)).tool);
     const PoseStream motion = makePoses();
     const auto connected = [this] { return static_cast<int>(publisher_.getNumSubscribers()) >= min_subscribers_; };
     if (!waitUntil(connected, std::to_string(min_subscribers_) + " subscribers of the tool pose")) return;
@@ -100,7 +101,7 @@ class OperatorNode {
     ROS_INFO("the operator starts to move");
     if (perform(motion)) {
       ROS_INFO("the motion is over");
-      ros::Duration(kLinger).sleep();
+      ros::Duration(kFinalDelay).sleep();
     }
   }
 
@@ -138,9 +139,9 @@ class OperatorNode {
     recording_ = sweep_guard_recording::readRecording(motion_file_, motion_topic_).poses;
   }
 
-  void takeHold(const sweep_guard_core::Tool& tool) {
+  void setTool(const sweep_guard_core::Tool& tool) {
     p_TTip_ = tipOf(tool);
-    girth_ = radialExtent(tool);
+    radial_extent_ = radialExtent(tool);
   }
 
   void onMesh(const sweep_guard::DeformableMesh::ConstPtr& mesh) {
@@ -176,23 +177,23 @@ class OperatorNode {
     const GuidedTip tip(aboveTheWorkpiece(), limits_);
     if (input_ == "joy") {
       joy_guide_.emplace(node_, joystick_);
-      return ledBy(tip, [this](GuidedTip& led, double dt) { joy_guide_->move(led, dt); });
+      return guidedBy(tip, [this](GuidedTip& moving, double dt) { joy_guide_->move(moving, dt); });
     }
     marker_guide_ = std::make_unique<MarkerGuide>(ros::names::resolve("~marker"), frame_, tip.pose(), buffer_);
-    return ledBy(tip, [this](GuidedTip& led, double dt) { marker_guide_->move(led, dt); });
+    return guidedBy(tip, [this](GuidedTip& moving, double dt) { marker_guide_->move(moving, dt); });
   }
 
-  PoseStream ledBy(const GuidedTip& tip, const Guide& guide) {
-    return guided(tip, rate_, [this, guide](GuidedTip& led, double dt) {
-      if (std::exchange(stalled_, false)) led.rest();
-      guide(led, dt);
+  PoseStream guidedBy(const GuidedTip& tip, const Guide& guide) {
+    return guided(tip, rate_, [this, guide](GuidedTip& moving, double dt) {
+      if (std::exchange(stalled_, false)) moving.stop();
+      guide(moving, dt);
     });
   }
 
   PoseStream drill() const {
     Drilling::Options options;
     options.depth = kDepth;
-    options.clearance += kSlant * girth_;
+    options.clearance += kRisePerWidth * radial_extent_;
     return sampled(Drilling(holesAround(*surface_, kHoleCircle, kHolesOnCircle), options), rate_, loop_);
   }
 
@@ -203,9 +204,9 @@ class OperatorNode {
     return replayed(recording_, options);
   }
 
-  // Of the tip, which points down.
+  // Returns a pose of the tip that points down.
   Eigen::Isometry3d aboveTheWorkpiece() const {
-    const double clearance = kClearance + kSlant * girth_;
+    const double clearance = kClearance + kRisePerWidth * radial_extent_;
     return Eigen::Translation3d(surface_->highestPoint() + clearance * Eigen::Vector3d::UnitZ()) *
            Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
   }
@@ -216,7 +217,7 @@ class OperatorNode {
       const double gap = sweep_guard_core::toSeconds(scheduler.due(pose->stamp) - now());
       if (gap > kLongGap) ROS_INFO("the motion has a gap: waiting for %.0f s", gap);
       if (!sleepUntil(sweep_guard_ros::toMsg(scheduler.due(pose->stamp)))) return false;
-      if (scheduler.resume(pose->stamp, now())) goOnAfterStall();
+      if (scheduler.resume(pose->stamp, now())) resumeAfterStall();
       publish(pose->X_WT * Eigen::Translation3d(-p_TTip_), sweep_guard_ros::toMsg(scheduler.due(pose->stamp)));
       ros::spinOnce();
     }
@@ -225,16 +226,16 @@ class OperatorNode {
 
   static sweep_guard_core::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
 
-  void goOnAfterStall() {
-    ROS_WARN_THROTTLE(kReminderPeriod, "the operator stalled: the tool goes on from now, and from rest");
+  void resumeAfterStall() {
+    ROS_WARN_THROTTLE(kReminderPeriod, "the operator stalled: the tool continues from rest");
     stalled_ = true;
     if (joy_guide_) joy_guide_->release();
   }
 
   static bool sleepUntil(const ros::Time& due) {
     while (ros::ok() && ros::Time::now() < due) {
-      const ros::Duration rest = due - ros::Time::now();
-      std::min(rest, ros::Duration(kMaxSleep)).sleep();
+      const ros::Duration left = due - ros::Time::now();
+      std::min(left, ros::Duration(kMaxSleep)).sleep();
     }
     return ros::ok();
   }
@@ -257,20 +258,20 @@ class OperatorNode {
   bool loop_;
   bool wait_for_guard_;
   int min_subscribers_;
-  std::string guard_;  // whose tool it leads; empty: one with the tip in the origin
+  std::string guard_;  // the operator moves its tool; empty: a tool with the tip at the origin
   std::vector<StampedPose> recording_;
   sweep_guard::DeformableMesh::ConstPtr mesh_;
   std::optional<TopSurface> surface_;
   bool guard_ready_ = false;
   Eigen::Vector3d p_TTip_ = Eigen::Vector3d::Zero();  // [m]; the motion is that of the tip
-  double girth_ = 0.0;                                // [m]
+  double radial_extent_ = 0.0;                        // [m]
   ros::NodeHandle node_;
   ros::Publisher publisher_;
   ros::Subscriber mesh_subscriber_;
   ros::Subscriber warning_subscriber_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
-  bool stalled_ = false;  // since the tip moved last
+  bool stalled_ = false;  // since the last motion of the tip
   std::optional<JoyGuide> joy_guide_;
   std::unique_ptr<MarkerGuide> marker_guide_;
 };
@@ -280,5 +281,5 @@ class OperatorNode {
 }  // namespace sweep_guard_simulation
 
 int main(int argc, char** argv) {
-  return sweep_guard_simulation::runNode<sweep_guard_simulation::OperatorNode>(argc, argv, "operator");
+  return sweep_guard_ros::runNode<sweep_guard_simulation::OperatorNode>(argc, argv, "operator");
 }

@@ -4,21 +4,22 @@
 
 namespace sweep_guard_simulation {
 
-/// When the poses of a motion are due. What a stall of the machine held up is made up for, pose by pose, unless a hand
-/// leads the motion: that goes on from now, as the hand never led what was missed.
+/// Schedules the poses of a motion. After a stall of the machine, a recorded or scripted motion catches up pose by
+/// pose; a live motion continues from now, because the operator never made the missed motion.
 class PoseScheduler {
  public:
-  static constexpr sweep_guard_core::Duration kStall = std::chrono::milliseconds(100);  ///< what is later has stalled
+  static constexpr sweep_guard_core::Duration kStall = std::chrono::milliseconds(100);  ///< a longer delay is a stall
 
-  /// @param live  a hand leads the motion
+  /// @param live  an operator guides the motion
   PoseScheduler(sweep_guard_core::Time start, bool live) : start_(start), live_(live) {}
 
+  /// Returns when a pose is due.
   /// @param stamp  of the pose, counted from the start of the motion (0)
   sweep_guard_core::Time due(sweep_guard_core::Time stamp) const { return start_ + stamp.time_since_epoch(); }
 
-  /// To be called when a pose goes out. After a stall of a live motion this pose is due now, and those that follow are
-  /// put off by as much.
-  /// @return whether that is so
+  /// Reports that a pose is published at `now`. After a stall of a live motion, this pose becomes due now and later
+  /// poses are delayed by the same time.
+  /// @return whether there was such a stall
   bool resume(sweep_guard_core::Time stamp, sweep_guard_core::Time now);
 
  private:

@@ -27,10 +27,11 @@ PoseStream replayed(std::vector<StampedPose> poses, const Replay::Options& optio
 }
 
 PoseStream guided(const GuidedTip& tip, double rate, Guide guide) {
-  return [led = GuidedTip(tip), rate, guide = std::move(guide), sample = 0L]() mutable -> std::optional<StampedPose> {
-    if (sample > 0) guide(led, 1.0 / rate);
-    return StampedPose{stampOf(sample++, rate), led.pose()};
-  };
+  return
+      [moving = GuidedTip(tip), rate, guide = std::move(guide), sample = 0L]() mutable -> std::optional<StampedPose> {
+        if (sample > 0) guide(moving, 1.0 / rate);
+        return StampedPose{stampOf(sample++, rate), moving.pose()};
+      };
 }
 
 }  // namespace sweep_guard_simulation

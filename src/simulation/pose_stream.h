@@ -11,19 +11,21 @@
 
 namespace sweep_guard_simulation {
 
-/// The next pose of the tip, its stamp counted from the start of the motion (0); empty at the end.
+/// Returns the next pose of the tip, with its stamp counted from the start of the motion (0); empty at the end.
 using PoseStream = std::function<std::optional<sweep_guard_core::StampedPose>()>;
 
+/// Samples a scripted motion.
 /// @param rate  [Hz] > 0
-/// @param loop  go round for ever; false: once
+/// @param loop  true: repeats forever; false: plays once
 PoseStream sampled(const Drilling& drilling, double rate, bool loop);
 
+/// Plays a recorded motion.
 PoseStream replayed(std::vector<sweep_guard_core::StampedPose> poses, const Replay::Options& options);
 
-/// Moves a tip on by `dt` [s], as its input has it at that moment.
+/// Moves a tip for `dt` [s] by its current input.
 using Guide = std::function<void(GuidedTip& tip, double dt)>;
 
-/// Without end, and at an even rate, as a device's: it goes on while the tip rests.
+/// Streams the poses of a guided tip without end, at a constant rate even while the tip rests.
 /// @param rate  [Hz] > 0
 PoseStream guided(const GuidedTip& tip, double rate, Guide guide);
 

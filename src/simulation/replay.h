@@ -8,21 +8,21 @@
 
 namespace sweep_guard_simulation {
 
-/// A recorded motion moved to the workpiece and played pose by pose at the intervals it was recorded at. Every pose is
-/// given, also those that share a stamp.
+/// Plays a recorded motion pose by pose at the recorded intervals, moved to the workpiece. Keeps poses with equal
+/// stamps.
 class Replay {
  public:
   struct Options {
-    bool loop = true;  ///< at the end play backwards, then forwards again, without a jump; false: play once
-    Eigen::Vector3d target_W = Eigen::Vector3d::Zero();  ///< [m] where the lowest tip position of the window shall lie
+    bool loop = true;  ///< at the end plays backwards, then forwards again, without a jump; false: plays once
+    Eigen::Vector3d target_W = Eigen::Vector3d::Zero();           ///< [m] lowest tip position within the window
     sweep_guard_core::Duration window = std::chrono::seconds(5);  ///< >= 0; from the first pose
   };
 
   /// @param motion  stamps not decreasing
-  /// @throws sweep_guard_core::InvalidInput if the motion has no poses, or is to loop and lasts no time
+  /// @throws sweep_guard_core::InvalidInput if the motion has no poses, or has no duration and shall loop
   Replay(std::vector<sweep_guard_core::StampedPose> motion, const Options& options);
 
-  /// The next pose, its stamp counted from the first pose (0); empty after the last.
+  /// Returns the next pose, with its stamp counted from the first pose (0); empty after the last pose.
   std::optional<sweep_guard_core::StampedPose> next();
 
  private:

@@ -1,9 +1,8 @@
-// Plays a scene to a guard and to whoever looks on, as often as one likes the same, and holds its last moment for a
-// picture.
+// Plays a scene to a guard and to rviz, always in the same way, and holds its last moment for a picture.
 //
-// It makes the time of its master, and takes a step only when the guard has answered the one before: neither a slow
-// machine nor a slow picture changes what is seen. What the guard says is passed on until the scene holds; then its
-// last words are repeated, so that they do not grow old.
+// It publishes the clock, and takes a step only after the guard has answered the previous one: neither a slow machine
+// nor a slow display changes the picture. It relays the messages of the guard until the scene holds. Then it repeats
+// the last messages, so that they do not expire.
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/ros.h>
@@ -14,8 +13,9 @@
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <vector>
 
-#include "simulation/run_node.h"
+#include "ros/run_node.h"
 #include "simulation/tip_script.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
@@ -24,29 +24,39 @@
 #include "sweep_guard/ToolShape.h"
 #include "sweep_guard/View.h"
 #include "sweep_guard/Warning.h"
+#include "sweep_guard/common/warning_level.h"
 
 namespace sweep_guard_simulation {
 namespace {
 
-constexpr double kStart = 1000.0;   // [s]; of the scene, on its clock
-constexpr double kPatience = 30.0;  // [s]; for the guard and the spectators to come, and for an answer
-constexpr double kRepeated = 0.05;  // [s]
-constexpr double kFirstLook = 1.0;  // [s]; it takes longer to draw
-constexpr int kViewsToSettle = 3;   // the first may be older than the prediction that goes with its pose
+constexpr double kStart = 1000.0;       // [s]; start of the scene on its clock
+constexpr double kTimeout = 30.0;       // [s]; for guard and rviz to connect, and for an answer
+constexpr double kRepeatPeriod = 0.05;  // [s]
+constexpr double kFirstDelay = 1.0;     // [s]; drawing takes longer at first
+constexpr int kViewsToSettle = 3;       // the first view may be older than the prediction from its pose
 constexpr std::uint32_t kNotReady =
     sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
-const char* const kEnd = "END";  // instead of a level
-const char* const kLevels[] = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};
+const std::string kEnd = "END";  // instead of a level
 
-class Stage {
+const char* nameOf(std::uint8_t level) {
+  return sweep_guard_core::styleOf(static_cast<sweep_guard_core::WarningLevel>(level)).name;
+}
+
+std::vector<std::string> endConditions() {
+  std::vector<std::string> names = {kEnd};
+  for (const sweep_guard_core::LevelStyle& style : sweep_guard_core::kLevelStyles) names.emplace_back(style.name);
+  return names;
+}
+
+class ScenePlayer {
  public:
-  explicit Stage(sweep_guard_ros::ParameterReader& parameters)
+  explicit ScenePlayer(sweep_guard_ros::ParameterReader& parameters)
       : frame_(parameters.name("frame", "world")),
         workpiece_(makeWorkpiece(parameters)),
         script_(parameters.texts("poses")),
         step_(1.0 / parameters.number("rate", 50.0, {1.0, 1000.0})),
         slowdown_(parameters.number("slowdown", 1.0, {0.01, 100.0})),
-        level_(parameters.choice("until", kEnd, {kEnd, "UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"})),
+        level_(parameters.choice("until", kEnd, endConditions())),
         from_(parameters.number("from", 0.0, {0.0, 1000.0})),
         silent_from_(parameters.number("silent_from", 1000.0, {0.0, 1000.0})) {
     node_.setParam("/use_sim_time", true);
@@ -58,8 +68,8 @@ class Stage {
     view_publisher_ = node_.advertise<sweep_guard::View>("shown/view", 10);
     warning_publisher_ = node_.advertise<sweep_guard::Warning>("shown/warning", 10);
     tool_publisher_ = node_.advertise<sweep_guard::ToolShape>("shown/tool", 1, /*latch=*/true);
-    view_subscriber_ = node_.subscribe("guard/view", 10, &Stage::onView, this);
-    warning_subscriber_ = node_.subscribe("guard/warning", 10, &Stage::onWarning, this);
+    view_subscriber_ = node_.subscribe("guard/view", 10, &ScenePlayer::onView, this);
+    warning_subscriber_ = node_.subscribe("guard/warning", 10, &ScenePlayer::onWarning, this);
     prediction_subscriber_ = node_.subscribe<sweep_guard::Prediction>(
         "guard/prediction", 10,
         [this](const sweep_guard::Prediction::ConstPtr& message) { predicted_ = message->header.stamp; });
@@ -68,7 +78,7 @@ class Stage {
   }
 
   void run() {
-    await("the guard and for spectators of the workpiece, of the tool and of the guard's view", [this] {
+    await("the guard and for subscribers of the workpiece, of the tool and of the guard's view", [this] {
       return warned_ && pose_publisher_.getNumSubscribers() > 0 && view_subscriber_.getNumPublishers() > 0 &&
              mesh_publisher_.getNumSubscribers() > 1 && vertices_publisher_.getNumSubscribers() > 1 &&
              view_publisher_.getNumSubscribers() > 0 && tool_publisher_.getNumSubscribers() > 0;
@@ -138,9 +148,10 @@ class Stage {
   }
 
   void await(const std::string& what, const std::function<bool()>& condition) const {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kTimeout);
     for (; !condition(); ros::WallDuration(0.005).sleep()) {
-      if (!ros::ok() || ros::WallTime::now() > end) throw sweep_guard_core::InvalidInput("waited in vain for " + what);
+      if (!ros::ok() || ros::WallTime::now() > end)
+        throw sweep_guard_core::InvalidInput("timeout while waiting for " + what);
       publishClock();
       ros::spinOnce();
     }
@@ -148,7 +159,7 @@ class Stage {
 
   void play() {
     t_ = script_.begin();
-    ros::WallTime due = ros::WallTime::now() + ros::WallDuration(kFirstLook);
+    ros::WallTime due = ros::WallTime::now() + ros::WallDuration(kFirstDelay);
     while (true) {
       publishClock();
       publishVertices();
@@ -159,17 +170,16 @@ class Stage {
       }
       if (isOver()) return;
       due += ros::WallDuration(slowdown_ * step_);
-      await("its time", [&] { return ros::WallTime::now() >= due; });
+      await("the next step", [&] { return ros::WallTime::now() >= due; });
       t_ += step_;
     }
   }
 
   bool isOver() const {
-    if (t_ >= from_ && warning_.level < std::size(kLevels) && level_ == kLevels[warning_.level]) return true;
+    if (t_ >= from_ && level_ == nameOf(warning_.level)) return true;
     const bool ended = t_ + 0.5 * step_ > script_.end();
     if (ended && level_ != kEnd) {
-      throw sweep_guard_core::InvalidInput("the scene has ended without " + level_ +
-                                           "; its last words: " + warning_.text);
+      throw sweep_guard_core::InvalidInput("the scene ended without " + level_ + "; last warning: " + warning_.text);
     }
     return ended;
   }
@@ -181,7 +191,7 @@ class Stage {
     holding_ = true;
     std::printf("holding at %.3f s: %s\n", t_, warning_.text.c_str());
     std::fflush(stdout);
-    for (; ros::ok(); ros::WallDuration(kRepeated).sleep()) {
+    for (; ros::ok(); ros::WallDuration(kRepeatPeriod).sleep()) {
       publishClock();
       view_publisher_.publish(view_);
       warning_publisher_.publish(warning_);
@@ -193,14 +203,14 @@ class Stage {
   Workpiece workpiece_;
   TipScript script_;
   double step_;         // [s]
-  double slowdown_;     // how much longer than the scene it takes to play it
-  std::string level_;   // of the warning that ends the scene
-  double from_;         // [s] when it may
-  double silent_from_;  // [s] from then on without poses
+  double slowdown_;     // duration of the playback relative to the scene
+  std::string level_;   // that ends the scene
+  double from_;         // [s] when it may end
+  double silent_from_;  // [s] end of the poses
   double t_ = 0.0;      // [s]
   bool warned_ = false;
   bool holding_ = false;
-  int views_ = 0;  // that went with the newest pose and its prediction
+  int views_ = 0;  // of the newest pose and its prediction
   ros::Time predicted_;
   sweep_guard::View view_;
   sweep_guard::Warning warning_;
@@ -223,5 +233,5 @@ class Stage {
 }  // namespace sweep_guard_simulation
 
 int main(int argc, char** argv) {
-  return sweep_guard_simulation::runNode<sweep_guard_simulation::Stage>(argc, argv, "stage");
+  return sweep_guard_ros::runNode<sweep_guard_simulation::ScenePlayer>(argc, argv, "scene_player");
 }

@@ -9,19 +9,19 @@ namespace {
 using Eigen::Vector3d;
 using sweep_guard_core::ConvexPiece;
 
-constexpr int kDirections = 8;  // in pairs that are opposite
-constexpr double kAside = 1e-3;
+constexpr int kDirections = 8;  // in opposite pairs
+constexpr double kTilt = 1e-3;
 
 }  // namespace
 
 Vector3d tipOf(const sweep_guard_core::Tool& tool) {
-  const auto reach = [](const ConvexPiece& part) { return part.shape_T.support(Vector3d::UnitZ()); };
+  const auto reach = [](const ConvexPiece& piece) { return piece.shape_T.support(Vector3d::UnitZ()); };
   const auto front = std::max_element(tool.pieces().begin(), tool.pieces().end(),
                                       [&](const ConvexPiece& a, const ConvexPiece& b) { return reach(a) < reach(b); });
   Vector3d sum = Vector3d::Zero();
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * M_PI * (i + 0.5) / kDirections;
-    sum += front->shape_T.supportPoint(Vector3d(kAside * std::cos(angle), kAside * std::sin(angle), 1.0).normalized());
+    sum += front->shape_T.supportPoint(Vector3d(kTilt * std::cos(angle), kTilt * std::sin(angle), 1.0).normalized());
   }
   return sum / kDirections;
 }

@@ -12,12 +12,12 @@ namespace sweep_guard_simulation {
 using sweep_guard_core::InvalidInput;
 
 TipScript::TipScript(const std::vector<std::string>& poses) {
-  if (poses.size() < 2) throw InvalidInput("a motion needs two poses at least");
+  if (poses.size() < 2) throw InvalidInput("a motion needs at least two poses");
   for (const std::string& line : poses) {
     poses_.push_back(parse(line));
     const size_t count = poses_.size();
     if (count > 1 && !(poses_[count - 2].t < poses_[count - 1].t)) {
-      throw InvalidInput("pose '" + line + "' is not later than the one before");
+      throw InvalidInput("pose '" + line + "' is not later than the previous pose");
     }
   }
   chooseRates();
@@ -36,7 +36,7 @@ TipScript::Pose TipScript::parse(const std::string& line) {
   return pose;
 }
 
-// That of the way between both neighbours, where there are two.
+// Mean rate between the neighbors.
 void TipScript::chooseRates() {
   for (size_t i = 0; i < poses_.size(); ++i) {
     const Pose& from = poses_[i == 0 ? 0 : i - 1];

@@ -6,20 +6,18 @@
 
 namespace sweep_guard_simulation {
 
-/// A motion of the tip through given poses at given times: a cubic from each to the next, smooth where they join.
+/// Interpolates a motion of the tip through given poses at given times by smoothly joined cubics.
 class TipScript {
  public:
-  /// @param poses  a line each: `t x y z rx ry rz`; t [s] ascending, x y z [m] of the tip in the fixed frame W, rx ry
-  /// rz
-  ///     the rotation vector [rad] in W by which the tool is turned from pointing down
-  /// @throws sweep_guard_core::InvalidInput if there are fewer than two lines, one is not seven finite numbers, or a time
-  /// does
-  ///     not ascend
+  /// @param poses  lines `t x y z rx ry rz`: t [s] ascending; x y z [m] of the tip in the fixed frame W; rx ry rz
+  ///     [rad] the rotation vector in W that turns the tool from pointing down
+  /// @throws sweep_guard_core::InvalidInput if there are fewer than two lines, a line is not seven finite numbers, or a
+  ///     time is not later than the previous one
   explicit TipScript(const std::vector<std::string>& poses);
 
   double begin() const { return poses_.front().t; }  ///< [s]
   double end() const { return poses_.back().t; }     ///< [s]
-  /// X_WT at `t` [s]; before the first time the first pose, after the last the last one.
+  /// Returns X_WT at `t` [s], clamped to the first and the last pose.
   Eigen::Isometry3d pose(double t) const;
 
  private:

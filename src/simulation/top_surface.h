@@ -6,15 +6,14 @@
 
 namespace sweep_guard_simulation {
 
-/// What one sees of a workpiece from above (along -z of the fixed frame W): where a tool that comes from there meets
-/// it.
+/// Surface of a workpiece as seen from above (along -z of the fixed frame W).
 class TopSurface {
  public:
-  /// @param mesh_W  the workpiece, its frame M being W
+  /// @param mesh_W  the workpiece; its frame M is W
   explicit TopSurface(sweep_guard_core::TriangleMesh mesh_W);
 
   const Eigen::Vector3d& highestPoint() const { return highest_W_; }  ///< [m], of the triangles
-  std::optional<double> height(double x, double y) const;  ///< [m] of the surface over (x, y), empty beside it
+  std::optional<double> height(double x, double y) const;             ///< [m] at (x, y); empty: no surface there
 
  private:
   sweep_guard_core::TriangleMesh mesh_W_;

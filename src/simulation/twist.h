@@ -4,10 +4,10 @@
 
 namespace sweep_guard_simulation {
 
-/// Velocity of a tool that is led by its tip.
+/// Velocity of a tool.
 struct Twist {
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< of the tip along the axes of W [m/s]
-  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< about the tip and the axes of W [rad/s]
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< of the tip, in W [m/s]
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< in W [rad/s]
 };
 
 }  // namespace sweep_guard_simulation

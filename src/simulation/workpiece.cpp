@@ -16,7 +16,6 @@ using sweep_guard_core::Triangle;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kHeight = 0.44 / 0.6;
 constexpr double kWavesAcross = 3.0;
 
@@ -41,7 +40,7 @@ Grid gridFor(int triangles) {
   return best;
 }
 
-// The poles lie on the x axis, so that the top, where the tool comes down, has no fan of slivers.
+// The poles lie on the x axis, so that the top, where the tool comes down, has no fan of thin triangles.
 Eigen::Vector3d ellipsoidPoint(double polar, double azimuth) {
   const Eigen::Vector3d direction(std::cos(polar), std::sin(polar) * std::cos(azimuth),
                                   std::sin(polar) * std::sin(azimuth));
@@ -53,11 +52,11 @@ std::vector<Eigen::Vector3d> gridPoints(const Grid& grid) {
   std::vector<Eigen::Vector3d> points;
   for (int ring = 1; ring <= grid.rings; ++ring) {
     for (int sector = 0; sector < grid.sectors; ++sector) {
-      points.push_back(ellipsoidPoint(kPi * ring / (grid.rings + 1), 2.0 * kPi * sector / grid.sectors));
+      points.push_back(ellipsoidPoint(M_PI * ring / (grid.rings + 1), 2.0 * M_PI * sector / grid.sectors));
     }
   }
   points.push_back(ellipsoidPoint(0.0, 0.0));
-  points.push_back(ellipsoidPoint(kPi, 0.0));
+  points.push_back(ellipsoidPoint(M_PI, 0.0));
   return points;
 }
 
@@ -90,7 +89,7 @@ Workpiece::Workpiece(const std::vector<Eigen::Vector3d>& points, std::vector<Tri
                      const Options& options)
     : triangles_(std::move(triangles)),
       amplitude_(options.amplitude * options.size),
-      angular_rate_(2.0 * kPi / options.period) {
+      angular_rate_(2.0 * M_PI / options.period) {
   requireWithin("size", options.size, 1e-3, 100.0);
   requireWithin("amplitude", options.amplitude, 0.0, 0.05);
   requireWithin("period", options.period, 0.01, 1000.0);
@@ -116,7 +115,7 @@ Workpiece Workpiece::hull(int triangles, const Options& options) {
 }
 
 Workpiece Workpiece::fromFile(const std::string& path, const Options& options) {
-  sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path, sweep_guard_ros::Links::kFollow);
+  sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path, sweep_guard_ros::SymbolicLinks::kFollow);
   try {
     Workpiece workpiece(surface.vertices, std::move(surface.triangles), options);
     workpiece.makeSway(options);
@@ -130,12 +129,12 @@ void Workpiece::makeWaves(const Options& options) {
   for (Vertex& vertex : vertices_) {
     vertex.along = vertex.rest.normalized();
     vertex.across = Eigen::Vector3d::UnitX() - vertex.along.x() * vertex.along;
-    vertex.phase = 2.0 * kPi * kWavesAcross * vertex.rest.x() / options.size;
+    vertex.phase = 2.0 * M_PI * kWavesAcross * vertex.rest.x() / options.size;
   }
 }
 
 void Workpiece::makeSway(const Options& options) {
-  for (Vertex& vertex : vertices_) vertex.phase = kPi * vertex.rest.sum() / options.size;
+  for (Vertex& vertex : vertices_) vertex.phase = M_PI * vertex.rest.sum() / options.size;
 }
 
 std::vector<float> Workpiece::positions(double t) const {

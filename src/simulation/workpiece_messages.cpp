@@ -1,5 +1,7 @@
 #include "simulation/workpiece_messages.h"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 namespace sweep_guard_simulation {
 namespace {
 
@@ -12,10 +14,8 @@ sweep_guard::DeformableMesh meshMessage(const Workpiece& workpiece, double t) {
   message.revision = kRevision;
   const std::vector<float> positions = workpiece.positions(t);
   for (size_t i = 0; i < positions.size(); i += 3) {
-    geometry_msgs::Point& point = message.mesh.vertices.emplace_back();
-    point.x = static_cast<double>(positions[i]);
-    point.y = static_cast<double>(positions[i + 1]);
-    point.z = static_cast<double>(positions[i + 2]);
+    message.mesh.vertices.push_back(
+        tf2::toMsg(Eigen::Vector3d(Eigen::Map<const Eigen::Vector3f>(&positions[i]).cast<double>())));
   }
   for (const auto& [a, b, c] : workpiece.triangles()) {
     message.mesh.triangles.emplace_back().vertex_indices = {a, b, c};

@@ -6,10 +6,10 @@
 
 namespace sweep_guard_simulation {
 
-/// The whole workpiece as it is at time `t` [s], as revision 1. The header and the id are the caller's.
+/// Returns the mesh at time `t` [s] as revision 1. The caller sets header and id.
 sweep_guard::DeformableMesh meshMessage(const Workpiece& workpiece, double t);
 
-/// Its vertices at time `t` [s], of the same revision.
+/// Returns the vertices at time `t` [s] of the same revision. The caller sets header and id.
 sweep_guard::MeshVertices verticesMessage(const Workpiece& workpiece, double t);
 
 }  // namespace sweep_guard_simulation

@@ -12,13 +12,13 @@ namespace {
 constexpr Nanoseconds kMs = 1'000'000;
 
 TEST(LatencyFiguresTest, APoseIsAnsweredByTheFirstMessageThatCoversIt) {
-  const std::vector<Heard> heard = {{0, 1 * kMs, 4 * kMs}, {1 * kMs, 3 * kMs, 9 * kMs}};
-  EXPECT_EQ(latencies({1 * kMs, 2 * kMs, 3 * kMs}, heard), (std::vector<double>{3.0, 7.0, 6.0}));
+  const std::vector<ReceivedMessage> messages = {{0, 1 * kMs, 4 * kMs}, {1 * kMs, 3 * kMs, 9 * kMs}};
+  EXPECT_EQ(latencies({1 * kMs, 2 * kMs, 3 * kMs}, messages), (std::vector<double>{3.0, 7.0, 6.0}));
 }
 
 TEST(LatencyFiguresTest, APoseThatNoMessageCoversIsLeftOut) {
-  const std::vector<Heard> heard = {{1 * kMs, 2 * kMs, 3 * kMs}, {5 * kMs, 6 * kMs, 8 * kMs}};
-  EXPECT_EQ(latencies({1 * kMs, 2 * kMs, 4 * kMs, 6 * kMs, 7 * kMs}, heard), (std::vector<double>{1.0, 2.0}));
+  const std::vector<ReceivedMessage> messages = {{1 * kMs, 2 * kMs, 3 * kMs}, {5 * kMs, 6 * kMs, 8 * kMs}};
+  EXPECT_EQ(latencies({1 * kMs, 2 * kMs, 4 * kMs, 6 * kMs, 7 * kMs}, messages), (std::vector<double>{1.0, 2.0}));
 }
 
 // The first message after the start is of one pose: it begins where it ends.
@@ -27,8 +27,9 @@ TEST(LatencyFiguresTest, AMessageOfNoMotionCoversItsPose) {
 }
 
 TEST(LatencyFiguresTest, AMessageThatRepeatsAnotherIsNotOlder) {
-  const std::vector<Heard> heard = {{0, 1 * kMs, 2 * kMs}, {0, 1 * kMs, 50 * kMs}, {0, 52 * kMs, 54 * kMs}};
-  EXPECT_EQ(ages(heard), (std::vector<double>{1.0, 2.0}));
+  const std::vector<ReceivedMessage> messages = {
+      {0, 1 * kMs, 2 * kMs}, {0, 1 * kMs, 50 * kMs}, {0, 52 * kMs, 54 * kMs}};
+  EXPECT_EQ(ages(messages), (std::vector<double>{1.0, 2.0}));
 }
 
 TEST(LatencyFiguresTest, AHoleIsWhereAMessageBeginsAfterTheEndOfTheOneBefore) {
@@ -38,7 +39,7 @@ TEST(LatencyFiguresTest, AHoleIsWhereAMessageBeginsAfterTheEndOfTheOneBefore) {
 }
 
 TEST(LatencyFiguresTest, WhatIsWithinGoesByItsStamp) {
-  const std::vector<Heard> inside = within({{0, 1, 9}, {1, 2, 9}, {2, 3, 9}}, 2, 3);
+  const std::vector<ReceivedMessage> inside = within({{0, 1, 9}, {1, 2, 9}, {2, 3, 9}}, 2, 3);
   ASSERT_EQ(inside.size(), 1U);
   EXPECT_EQ(inside.front().stamp, 2);
 }

@@ -8,7 +8,7 @@
 namespace sweep_guard_core {
 namespace {
 
-TEST(PoolTest, UsesAgainWhatNobodyHolds) {
+TEST(PoolTest, ReusesValuesWithoutOtherOwners) {
   Pool<std::string> pool;
   std::string* first = nullptr;
   {
@@ -22,7 +22,7 @@ TEST(PoolTest, UsesAgainWhatNobodyHolds) {
   EXPECT_EQ(pool.size(), 1U);
 }
 
-TEST(PoolTest, LeavesAloneWhatSomebodyHolds) {
+TEST(PoolTest, DoesNotReuseOwnedValues) {
   Pool<std::string> pool;
   const std::shared_ptr<const std::string> held = pool.take();
   const auto other = pool.take();
@@ -30,15 +30,15 @@ TEST(PoolTest, LeavesAloneWhatSomebodyHolds) {
   EXPECT_EQ(pool.size(), 2U);
 }
 
-TEST(PoolTest, TakesOnlyWhatFits) {
+TEST(PoolTest, TakesOnlyFittingValues) {
   Pool<std::string> pool;
   pool.add("one");
   EXPECT_FALSE(pool.take([](const std::string& value) { return value == "two"; }));
   EXPECT_TRUE(pool.take([](const std::string& value) { return value == "one"; }));
 }
 
-// The reader lets go only when it has read all; the writer never writes before.
-TEST(PoolTest, DoesNotChangeWhatAnotherThreadReads) {
+// The reader releases the value after reading it; the writer does not write before that.
+TEST(PoolTest, DoesNotReuseAValueThatAnotherThreadReads) {
   Pool<std::vector<int>> pool;
   std::atomic<std::shared_ptr<const std::vector<int>>*> handed = nullptr;
   std::atomic<bool> done = false;

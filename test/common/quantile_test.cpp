@@ -15,7 +15,7 @@ TEST(QuantileTest, InterpolatesBetweenTheSortedValues) {
   EXPECT_DOUBLE_EQ(quantile({7}, 0.95), 7.0);
 }
 
-TEST(QuantileTest, IsUnknownOfNothing) { EXPECT_TRUE(std::isnan(quantile({}, 0.5))); }
+TEST(QuantileTest, OfAnEmptySampleIsNaN) { EXPECT_TRUE(std::isnan(quantile({}, 0.5))); }
 
 }  // namespace
 }  // namespace sweep_guard_core

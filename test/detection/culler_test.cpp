@@ -1,14 +1,14 @@
-#include "sweep_guard/detection/culler.h"
+#include "detection/culler.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "detection/exact_oracle.h"
+#include "detection/float_planes.h"
 #include "detection/reference_detector.h"
 #include "mesh_orders.h"
 #include "scenes.h"
-#include "sweep_guard/detection/float_planes.h"
 
 namespace sweep_guard_core {
 namespace {

@@ -4,8 +4,9 @@
 
 #include <string>
 
+#include "detection/offscreen_context.h"
 #include "refusal.h"
-#include "sweep_guard/detection/offscreen_context.h"
+#include "sweep_guard/detection/detector.h"
 
 namespace sweep_guard_core {
 

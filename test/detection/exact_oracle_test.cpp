@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scenes.h"
+
 namespace sweep_guard_core {
 namespace {
 
@@ -17,7 +19,7 @@ bool meetsCube(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::
     }
     return positions;
   };
-  return meetsExactly(TriangleMesh({a, b, c}, {{0, 1, 2}}).deformed(streamed()), 0, cube, growth);
+  return meetsExactly(deformed({{a, b, c}, {{0, 1, 2}}}, streamed()), 0, cube, growth);
 }
 
 TEST(ExactOracleTest, SeesCornersInside) { EXPECT_TRUE(meetsCube({0, 0, 0}, {5, 0, 0}, {0, 5, 0})); }

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "detection/offscreen_context.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/detection/offscreen_context.h"
 
 namespace sweep_guard_core {
 

@@ -36,7 +36,7 @@ TEST(ClosedTest, StaysSoWhenTheMeshDeforms) {
   for (size_t i = 0; i < 8; ++i) {
     for (const double x : cube(2.0).vertex(i)) positions.push_back(static_cast<float>(x));
   }
-  EXPECT_TRUE(cube(1.0).deformed(positions).closed());
+  EXPECT_TRUE(deformed(cube(1.0), positions).closed());
 }
 
 TEST(InsideTest, OfACubeIsWhereItIsWhateverEdgesTheRayMeets) {
@@ -61,7 +61,7 @@ TEST(InsideTest, OfAHullIsWithinItsSurfaceOnEveryRayThroughItsVertices) {
   for (size_t i = 0; i < hull.vertexCount(); ++i) {
     for (const double x : hull.vertex(i)) positions.push_back(static_cast<float>(x));
   }
-  const TriangleMesh mesh = hull.deformed(positions);
+  const TriangleMesh mesh = deformed(hull, positions);
   int rays = 0;
   for (size_t i = 0; i < mesh.vertexCount(); ++i) {
     const Eigen::Vector3d p = mesh.vertex(i);

@@ -1,4 +1,4 @@
-#include "sweep_guard/detection/offscreen_context.h"
+#include "detection/offscreen_context.h"
 
 #include <gtest/gtest.h>
 

@@ -155,13 +155,7 @@ TEST_P(SelectDetectorTest, FollowsADeformation) {
   SelectDetector detector({}, contexts());
   TriangleMesh mesh = hull();
   for (int step = 0; step < 20; ++step) {
-    const TriangleMesh target = wavyHull(21, 40, /*phase=*/0.3 * step);
-    std::vector<float> positions;
-    for (size_t i = 0; i < target.vertexCount(); ++i) {
-      const Eigen::Vector3f p = target.vertex(i).cast<float>();
-      positions.insert(positions.end(), p.begin(), p.end());
-    }
-    mesh = mesh.deformed(std::move(positions));
+    mesh = deformed(mesh, streamedPositions(wavyHull(21, 40, /*phase=*/0.3 * step)));
     EXPECT_EQ(detector.detect(mesh, sweptDrill()).triangles, expected(mesh)) << "step " << step;
   }
 }

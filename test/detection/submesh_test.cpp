@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "detection/float_planes.h"
 #include "mesh_orders.h"
 #include "scenes.h"
-#include "sweep_guard/detection/float_planes.h"
 
 namespace sweep_guard_core {
 namespace {

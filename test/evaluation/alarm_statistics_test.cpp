@@ -16,7 +16,7 @@ Time at(int ms) { return Time(milliseconds(ms)); }
 const AlarmRule& kReflex = alarmRules()[0];
 const AlarmRule& kConsidered = alarmRules()[1];
 
-/// From 0 to 8 s, or to a contact, with these levels from these times [ms] on, looked at every 100 ms and once after.
+/// From 0 to 8 s, or to a contact, with these levels from these times [ms] on, recorded every 100 ms and once after.
 Episode episode(const std::vector<std::pair<int, WarningLevel>>& levels, std::optional<int> contact = std::nullopt) {
   Episode episode;
   episode.placement.begin = at(0);
@@ -26,7 +26,7 @@ Episode episode(const std::vector<std::pair<int, WarningLevel>>& levels, std::op
   int ms = 0;
   for (; at(ms - 100) < episode.placement.end; ms += 100) {
     for (const auto& [from, to] : levels) level = from == ms ? to : level;
-    episode.shown.show(at(ms), level);
+    episode.levels.add(at(ms), level);
   }
   return episode;
 }
@@ -55,34 +55,34 @@ TEST(AlarmStatisticsTest, TheReflexAlarmMayComeWithTheContactAndTheConsideredOne
 }
 
 TEST(AlarmStatisticsTest, AnAlarmIsJustifiedBeforeAContactOnly) {
-  EXPECT_EQ(falseAlarmsOf(episode({{2100, WarningLevel::kConsidered}}, 4050), kConsidered), 0U);
-  EXPECT_EQ(falseAlarmsOf(episode({{2000, WarningLevel::kConsidered}}, 4050), kConsidered), 1U);
-  EXPECT_EQ(falseAlarmsOf(episode({{3600, WarningLevel::kReflex}}, 4050), kReflex), 0U);
-  EXPECT_EQ(falseAlarmsOf(episode({{3500, WarningLevel::kReflex}}, 4050), kReflex), 1U);
-  EXPECT_EQ(falseAlarmsOf(episode({{3500, WarningLevel::kConsidered}, {3600, WarningLevel::kReflex}}, 4050), kReflex),
-            0U);
+  EXPECT_EQ(countFalseAlarms(episode({{2100, WarningLevel::kConsidered}}, 4050), kConsidered), 0U);
+  EXPECT_EQ(countFalseAlarms(episode({{2000, WarningLevel::kConsidered}}, 4050), kConsidered), 1U);
+  EXPECT_EQ(countFalseAlarms(episode({{3600, WarningLevel::kReflex}}, 4050), kReflex), 0U);
+  EXPECT_EQ(countFalseAlarms(episode({{3500, WarningLevel::kReflex}}, 4050), kReflex), 1U);
+  EXPECT_EQ(
+      countFalseAlarms(episode({{3500, WarningLevel::kConsidered}, {3600, WarningLevel::kReflex}}, 4050), kReflex), 0U);
 }
 
-TEST(AlarmStatisticsTest, EveryStretchCountsOnce) {
+TEST(AlarmStatisticsTest, EveryIntervalCountsOnce) {
   const Episode blinking = episode({{1000, WarningLevel::kConsidered},
                                     {1500, WarningLevel::kClear},
                                     {2000, WarningLevel::kReflex},
                                     {2400, WarningLevel::kUnknown},
                                     {5000, WarningLevel::kConsidered},
                                     {6900, WarningLevel::kClear}});
-  EXPECT_EQ(falseAlarmsOf(blinking, kConsidered), 3U);
-  EXPECT_EQ(falseAlarmsOf(blinking, kReflex), 1U);
+  EXPECT_EQ(countFalseAlarms(blinking, kConsidered), 3U);
+  EXPECT_EQ(countFalseAlarms(blinking, kReflex), 1U);
 }
 
 // 8 s without contact: once, and once more for each further 2 s or 0.5 s.
 TEST(AlarmStatisticsTest, AnAlarmThatIsAlwaysOnCountsOnAndOn) {
   const Episode always = episode({{0, WarningLevel::kReflex}});
-  EXPECT_EQ(falseAlarmsOf(always, kConsidered), 1U + 4U);
-  EXPECT_EQ(falseAlarmsOf(always, kReflex), 1U + 16U);
+  EXPECT_EQ(countFalseAlarms(always, kConsidered), 1U + 4U);
+  EXPECT_EQ(countFalseAlarms(always, kReflex), 1U + 16U);
 }
 
 TEST(AlarmStatisticsTest, AnAlarmThatBeginsAfterTheEpisodeIsNoneOfIt) {
-  EXPECT_EQ(falseAlarmsOf(episode({{8000, WarningLevel::kReflex}}), kReflex), 0U);
+  EXPECT_EQ(countFalseAlarms(episode({{8000, WarningLevel::kReflex}}), kReflex), 0U);
 }
 
 TEST(AlarmStatisticsTest, SumUpEpisodes) {

@@ -152,7 +152,7 @@ TEST_F(EvaluatePredictionTest, DrawsAPngAndLeavesNothingElse) {
 TEST_F(EvaluatePredictionTest, DoesNotOverwriteARecording) {
   writeMotion("hand.txt");
   const std::string before = read("hand.txt");
-  expectOneLine("--csv hand.txt hand.txt", "hand.txt: is a recording");
+  expectOneLine("--csv hand.txt hand.txt", "hand.txt: is an input");
   EXPECT_EQ(read("hand.txt"), before);
 }
 

@@ -20,10 +20,10 @@ constexpr double kTimeTolerance = 2e-5;  // [s]
 
 class FirstContactTest : public testing::Test {
  protected:
-  static SquareObstacle wall(const Eigen::Vector3d& centre, const Eigen::Vector3d& normal) {
+  static SquareObstacle wall(const Eigen::Vector3d& center, const Eigen::Vector3d& normal) {
     SquareObstacle obstacle;
     obstacle.half_side = 0.1;
-    obstacle.X_WS.translation() = centre;
+    obstacle.X_WS.translation() = center;
     obstacle.X_WS.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix();
     return obstacle;
   }

@@ -7,7 +7,7 @@
 
 namespace sweep_guard_evaluation {
 
-/// A tool that points along x (its tip first) and is at x = speed * t; a pose every `period` from 0 to `length`.
+/// Returns a motion along x with the tip ahead, at x = speed * t, with a pose every `period` from 0 to `length`.
 inline std::vector<sweep_guard_core::StampedPose> straightMotion(double speed, sweep_guard_core::Duration period,
                                                                  sweep_guard_core::Duration length) {
   std::vector<sweep_guard_core::StampedPose> poses;

@@ -46,14 +46,14 @@ TEST_F(PlacementTest, LeavesTwoSecondsBeforeAContactAndNoneInANearMiss) {
       EXPECT_EQ(placement.end, *contact);
       EXPECT_GE(*contact - placement.begin, seconds(2));
     }
-    EXPECT_TRUE(motion_.unbroken(placement.begin - seconds(1), placement.end));
+    EXPECT_TRUE(motion_.isContinuous(placement.begin - seconds(1), placement.end));
   }
 }
 
-TEST_F(PlacementTest, PutsNearMissesWithinTenCentimetres) {
+TEST_F(PlacementTest, PutsNearMissesWithinTenCentimeters) {
   for (const ObstaclePlacement& placement : placeObstacles(motion_, tool_, {50, 1})) {
     if (placement.contact) continue;
-    EXPECT_TRUE(meets(tool_, motion_.at(placement.begin + seconds(4)), placement.obstacle, 0.1));
+    EXPECT_TRUE(intersects(tool_, motion_.at(placement.begin + seconds(4)), placement.obstacle, 0.1));
   }
 }
 

@@ -43,11 +43,11 @@ TEST(OptionsTest, TakeADegreeForAllAxesOrForEach) {
 
 TEST(OptionsTest, NameWhatIsWrong) {
   EXPECT_TRUE(has(refusal({}), "no recording"));
-  EXPECT_TRUE(has(refusal({"--colour", "a.txt"}), "--colour"));
+  EXPECT_TRUE(has(refusal({"--color", "a.txt"}), "--color"));
   EXPECT_TRUE(has(refusal({"--placement", "9", "a.txt"}), "--placement"));  // no guessing
   EXPECT_TRUE(has(refusal({"a.txt", "--csv"}), "--csv"));
-  EXPECT_TRUE(has(refusal({"--predictors", "direct,psychic", "a.txt"}), "'psychic' is none of"));
-  EXPECT_TRUE(has(refusal({"--predictors", "", "a.txt"}), "'' is none of"));
+  EXPECT_TRUE(has(refusal({"--predictors", "direct,psychic", "a.txt"}), "'psychic' must be one of"));
+  EXPECT_TRUE(has(refusal({"--predictors", "", "a.txt"}), "'' must be one of"));
   for (const char* const horizons : {"0", "-1", "nan", "1e9", "0.1,", "0.1 0.2", "1s"}) {
     EXPECT_TRUE(has(refusal({"--horizons", horizons, "a.txt"}), "--horizons")) << horizons;
   }
@@ -75,13 +75,13 @@ TEST(OptionsTest, RunTheGuardAsTheNodeDoes) {
 
 TEST(OptionsTest, ComputeWhatIsToBeWrittenOrEverything) {
   const Options everything = parse({"a.txt"});
-  EXPECT_TRUE(everything.wantErrors() && everything.wantWarnings() && !everything.wantTradeoff());
+  EXPECT_TRUE(everything.wantsErrors() && everything.wantsWarnings() && !everything.wantsTradeoff());
   const Options errors = parse({"--csv", "e.csv", "a.txt"});
-  EXPECT_TRUE(errors.wantErrors() && !errors.wantWarnings() && !errors.wantTradeoff());
+  EXPECT_TRUE(errors.wantsErrors() && !errors.wantsWarnings() && !errors.wantsTradeoff());
   const Options warnings = parse({"--warnings-csv", "w.csv", "a.txt"});
-  EXPECT_TRUE(!warnings.wantErrors() && warnings.wantWarnings() && !warnings.wantTradeoff());
+  EXPECT_TRUE(!warnings.wantsErrors() && warnings.wantsWarnings() && !warnings.wantsTradeoff());
   const Options tradeoff = parse({"--tradeoff-plot", "t.png", "a.txt"});
-  EXPECT_TRUE(!tradeoff.wantErrors() && tradeoff.wantWarnings() && tradeoff.wantTradeoff());
+  EXPECT_TRUE(!tradeoff.wantsErrors() && tradeoff.wantsWarnings() && tradeoff.wantsTradeoff());
 }
 
 TEST(OptionsTest, HelpNeedsNoFile) {

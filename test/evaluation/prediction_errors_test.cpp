@@ -22,7 +22,7 @@ std::vector<ErrorSummary> errorsOf(const std::string& predictor, const std::vect
   sweep_guard_core::PredictorOptions options;
   options.predictor = predictor;
   const std::vector<size_t> samples = samplesOf(poses, motion, seconds(1), seconds(1));
-  return summaries({predictionErrors(poses, motion, samples, kHorizons, options, [](size_t) {})})[0];
+  return summaries({predictionErrors({poses, motion, samples, kHorizons, options}, [](size_t) {})})[0];
 }
 
 TEST(PredictionErrorsTest, AreZeroForConstantVelocityOnSuchAMotion) {
@@ -33,7 +33,7 @@ TEST(PredictionErrorsTest, AreZeroForConstantVelocityOnSuchAMotion) {
   }
 }
 
-TEST(PredictionErrorsTest, AreTheWayThatTheToolGoesForHold) {
+TEST(PredictionErrorsTest, AreTheDisplacementOfTheToolForHold) {
   const std::vector<ErrorSummary> errors = errorsOf("hold", straightMotion(0.3, milliseconds(10), seconds(4)));
   EXPECT_NEAR(errors[0].position_median, 0.03, 1e-6);
   EXPECT_NEAR(errors[1].position_median, 0.3, 1e-6);
@@ -41,11 +41,11 @@ TEST(PredictionErrorsTest, AreTheWayThatTheToolGoesForHold) {
   EXPECT_LT(errors[1].rotation_p95, 1e-6);
 }
 
-TEST(PredictionErrorsTest, TellHowManyPosesAreDone) {
+TEST(PredictionErrorsTest, ReportTheirProgress) {
   const std::vector<StampedPose> poses = straightMotion(0.3, milliseconds(10), seconds(4));
   const RecordedMotion motion(poses);
   size_t done = 0;
-  predictionErrors(poses, motion, {}, kHorizons, {}, [&](size_t count) { done += count; });
+  predictionErrors({poses, motion, {}, kHorizons, {}}, [&](size_t count) { done += count; });
   EXPECT_EQ(done, poses.size());
 }
 

@@ -46,12 +46,12 @@ TEST(RecordedMotionTest, EndsAStretchAtAnIntervalOfMoreThanAQuarterOfASecond) {
   ASSERT_EQ(motion.segments().size(), 2U);
   EXPECT_EQ(motion.segments()[0].end, at(270));
   EXPECT_EQ(motion.segments()[1].begin, at(521));
-  EXPECT_TRUE(motion.unbroken(at(0), at(270)));
-  EXPECT_FALSE(motion.unbroken(at(0), at(271)));
-  EXPECT_FALSE(motion.unbroken(at(300), at(310)));
-  EXPECT_FALSE(motion.unbroken(at(270), at(521)));
-  EXPECT_TRUE(motion.unbroken(at(521), at(531)));
-  EXPECT_FALSE(motion.unbroken(at(-1), at(10)));
+  EXPECT_TRUE(motion.isContinuous(at(0), at(270)));
+  EXPECT_FALSE(motion.isContinuous(at(0), at(271)));
+  EXPECT_FALSE(motion.isContinuous(at(300), at(310)));
+  EXPECT_FALSE(motion.isContinuous(at(270), at(521)));
+  EXPECT_TRUE(motion.isContinuous(at(521), at(531)));
+  EXPECT_FALSE(motion.isContinuous(at(-1), at(10)));
 }
 
 TEST(RecordedMotionTest, AllowsSlowPosesThreeOfTheirPeriods) {

@@ -13,8 +13,9 @@ using std::chrono::seconds;
 using sweep_guard_core::StampedPose;
 using sweep_guard_core::Time;
 using sweep_guard_core::WarningLevel;
+using sweep_guard_recording::Alarm;
 
-class WatchTest : public testing::Test {
+class SimulateGuardTest : public testing::Test {
  protected:
   static SquareObstacle wallAt(double x, double y = 0.0) {
     SquareObstacle obstacle;
@@ -23,7 +24,7 @@ class WatchTest : public testing::Test {
     return obstacle;
   }
 
-  /// There from 4 s before it is met, or for all the time.
+  /// The episode begins 4 s before the contact; without contact it lasts for the whole motion.
   ObstaclePlacement place(const SquareObstacle& obstacle) const {
     const RecordedMotion motion(poses_);
     const auto contact = firstContact(motion, options_.tool, obstacle, Time(seconds(0)), poses_.back().stamp);
@@ -31,7 +32,7 @@ class WatchTest : public testing::Test {
     return {obstacle, *contact - seconds(4), *contact, contact};
   }
 
-  std::vector<Episode> watchAt(double min_probability, const std::vector<ObstaclePlacement>& placements) {
+  std::vector<Episode> simulateAt(double min_probability, const std::vector<ObstaclePlacement>& placements) {
     options_.min_probabilities = {min_probability};
     options_.guard.predictor.predictor = "constant_velocity";
     return simulateGuard(poses_, placements, options_, [](size_t) {}).front();
@@ -42,26 +43,26 @@ class WatchTest : public testing::Test {
 };
 
 // A motion that is predicted without error warns as early as the intervals reach, and not for a wall beside.
-TEST_F(WatchTest, AConstantVelocityIsWarnedOfInTimeAndAWallBesideIsNot) {
-  const auto episodes = watchAt(1.0, {place(wallAt(0.5)), place(wallAt(0.7)), place(wallAt(0.6, 0.2))});
+TEST_F(SimulateGuardTest, AConstantVelocityIsWarnedOfInTimeAndAWallBesideIsNot) {
+  const auto episodes = simulateAt(1.0, {place(wallAt(0.5)), place(wallAt(0.7)), place(wallAt(0.6, 0.2))});
   for (size_t i = 0; i < 2; ++i) {
     EXPECT_NEAR(sweep_guard_core::toSeconds(leadOf(episodes[i], alarmRules()[0]).value()), 0.1, 0.05);
     EXPECT_NEAR(sweep_guard_core::toSeconds(leadOf(episodes[i], alarmRules()[1]).value()), 1.0, 0.15);
     EXPECT_GE(leadOf(episodes[i], alarmRules()[0]), milliseconds(100));
     EXPECT_GE(leadOf(episodes[i], alarmRules()[1]), seconds(1));
   }
-  EXPECT_TRUE(episodes[2].shown.alarms(WarningLevel::kConsidered).empty());
+  EXPECT_TRUE(episodes[2].levels.alarms(WarningLevel::kConsidered).empty());
   EXPECT_EQ(episodes[2].placement.contact, std::nullopt);
 }
 
-TEST_F(WatchTest, EndsWithTheContactThatTheGuardFinds) {
-  const auto episodes = watchAt(0.1, {place(wallAt(0.5))});
-  const auto contact = episodes[0].shown.alarms(WarningLevel::kContact);
+TEST_F(SimulateGuardTest, EndsWithTheContactThatTheGuardFinds) {
+  const auto episodes = simulateAt(0.1, {place(wallAt(0.5))});
+  const auto contact = episodes[0].levels.alarms(WarningLevel::kContact);
   ASSERT_EQ(contact.size(), 1U);
   EXPECT_NEAR(sweep_guard_core::toSeconds(contact[0].begin.time_since_epoch()), 5.0, 0.021);
 }
 
-TEST_F(WatchTest, GivesEveryThresholdItsOwnVerdict) {
+TEST_F(SimulateGuardTest, ComputesAWarningForEveryThreshold) {
   poses_ = straightMotion(0.1, milliseconds(20), seconds(12));
   for (size_t i = 0; i < poses_.size(); ++i) {
     poses_[i].X_WT.translation().y() = 0.05 * std::sin(0.2 * static_cast<double>(i));
@@ -69,23 +70,23 @@ TEST_F(WatchTest, GivesEveryThresholdItsOwnVerdict) {
   options_.min_probabilities = {0.01, 1.0};
   options_.guard.predictor.predictor = "constant_velocity";
   const auto by_threshold = simulateGuard(poses_, {place(wallAt(0.6, 0.2))}, options_, [](size_t) {});
-  EXPECT_GT(by_threshold[0][0].shown.alarms(WarningLevel::kConsidered).size(), 0U);
+  EXPECT_GT(by_threshold[0][0].levels.alarms(WarningLevel::kConsidered).size(), 0U);
   const auto seconds_of = [](const Episode& episode) {
     sweep_guard_core::Duration sum{0};
-    for (const Alarm& alarm : episode.shown.alarms(WarningLevel::kConsidered)) sum += alarm.end - alarm.begin;
+    for (const Alarm& alarm : episode.levels.alarms(WarningLevel::kConsidered)) sum += alarm.end - alarm.begin;
     return sum;
   };
   EXPECT_GT(seconds_of(by_threshold[0][0]), seconds_of(by_threshold[1][0]));
 }
 
-// Whatever else is there: placements share a guard, and each has its own warning.
-TEST_F(WatchTest, OnePlacementDoesNotDisturbAnother) {
+// Placements share a guard, and each has its own warning.
+TEST_F(SimulateGuardTest, OnePlacementDoesNotDisturbAnother) {
   const ObstaclePlacement first = place(wallAt(0.5));
   const ObstaclePlacement second = place(wallAt(0.52, 0.05));
-  const auto together = watchAt(0.1, {first, second});
-  const auto alone = watchAt(0.1, {second});
-  const auto a = together[1].shown.alarms(WarningLevel::kConsidered);
-  const auto b = alone[0].shown.alarms(WarningLevel::kConsidered);
+  const auto together = simulateAt(0.1, {first, second});
+  const auto alone = simulateAt(0.1, {second});
+  const auto a = together[1].levels.alarms(WarningLevel::kConsidered);
+  const auto b = alone[0].levels.alarms(WarningLevel::kConsidered);
   ASSERT_EQ(a.size(), b.size());
   for (size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].begin, b[i].begin);
@@ -93,7 +94,7 @@ TEST_F(WatchTest, OnePlacementDoesNotDisturbAnother) {
   }
 }
 
-TEST_F(WatchTest, TellsHowManyPosesAreDone) {
+TEST_F(SimulateGuardTest, ReportsItsProgress) {
   size_t done = 0;
   options_.min_probabilities = {0.1};
   simulateGuard(poses_, {}, options_, [&](size_t count) { done += count; });

@@ -10,71 +10,73 @@ namespace {
 using sweep_guard_core::ConvexShape;
 
 // A tool along z from -0.1 to 0 with a radius of 5 mm.
-class MeetsTest : public testing::Test {
+class SquareObstacleIntersectsTest : public testing::Test {
  protected:
-  static SquareObstacle sheetAt(const Eigen::Vector3d& centre, const Eigen::Vector3d& normal) {
+  static SquareObstacle obstacleAt(const Eigen::Vector3d& center, const Eigen::Vector3d& normal) {
     SquareObstacle obstacle;
     obstacle.half_side = 0.05;
-    obstacle.X_WS.translation() = centre;
+    obstacle.X_WS.translation() = center;
     obstacle.X_WS.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix();
     return obstacle;
   }
 
-  bool met(const SquareObstacle& obstacle, double margin = 0.0) const {
-    return meets(tool_, Eigen::Isometry3d::Identity(), obstacle, margin);
+  bool intersectsTool(const SquareObstacle& obstacle, double margin = 0.0) const {
+    return intersects(tool_, Eigen::Isometry3d::Identity(), obstacle, margin);
   }
 
   ConvexShape tool_ = ConvexShape::cylinder(0.005, 0.1);
 };
 
-TEST_F(MeetsTest, AWallBeforeTheTipAtTheTip) {
-  EXPECT_TRUE(met(sheetAt({0, 0, -1e-9}, Eigen::Vector3d::UnitZ())));
-  EXPECT_FALSE(met(sheetAt({0, 0, 1e-9}, Eigen::Vector3d::UnitZ())));
-  EXPECT_FALSE(met(sheetAt({0, 0, -0.1 - 1e-9}, Eigen::Vector3d::UnitZ())));
+TEST_F(SquareObstacleIntersectsTest, AWallInFrontOfTheTip) {
+  EXPECT_TRUE(intersectsTool(obstacleAt({0, 0, -1e-9}, Eigen::Vector3d::UnitZ())));
+  EXPECT_FALSE(intersectsTool(obstacleAt({0, 0, 1e-9}, Eigen::Vector3d::UnitZ())));
+  EXPECT_FALSE(intersectsTool(obstacleAt({0, 0, -0.1 - 1e-9}, Eigen::Vector3d::UnitZ())));
 }
 
-TEST_F(MeetsTest, AWallBesideTheToolAtItsRadiusInEveryDirection) {
+TEST_F(SquareObstacleIntersectsTest, AWallBesideTheToolAtItsRadiusInEveryDirection) {
   for (double angle = 0.0; angle < 6.3; angle += 0.1) {
     const Eigen::Vector3d normal(std::cos(angle), std::sin(angle), 0.0);
-    EXPECT_TRUE(met(sheetAt((0.005 - 1e-9) * normal, normal))) << angle;
-    EXPECT_FALSE(met(sheetAt((0.005 + 1e-9) * normal, normal))) << angle;
+    EXPECT_TRUE(intersectsTool(obstacleAt((0.005 - 1e-9) * normal, normal))) << angle;
+    EXPECT_FALSE(intersectsTool(obstacleAt((0.005 + 1e-9) * normal, normal))) << angle;
   }
 }
 
 // The rim's lowest point lies at 5 mm sideways and 0 ahead: (sin a, 0, cos a) reaches 5 mm * sin a.
-TEST_F(MeetsTest, ATiltedWallAtTheRim) {
+TEST_F(SquareObstacleIntersectsTest, ATiltedWallAtTheRim) {
   const Eigen::Vector3d normal(std::sin(0.7), 0.0, std::cos(0.7));
-  EXPECT_TRUE(met(sheetAt((0.005 * std::sin(0.7) - 1e-9) * normal, normal)));
-  EXPECT_FALSE(met(sheetAt((0.005 * std::sin(0.7) + 1e-9) * normal, normal)));
+  EXPECT_TRUE(intersectsTool(obstacleAt((0.005 * std::sin(0.7) - 1e-9) * normal, normal)));
+  EXPECT_FALSE(intersectsTool(obstacleAt((0.005 * std::sin(0.7) + 1e-9) * normal, normal)));
 }
 
-TEST_F(MeetsTest, AnEdgeThatPassesTheRoundSide) {
-  EXPECT_TRUE(met(sheetAt({0.055 - 1e-9, 0, -0.05}, Eigen::Vector3d::UnitZ())));
-  EXPECT_FALSE(met(sheetAt({0.055 + 1e-9, 0, -0.05}, Eigen::Vector3d::UnitZ())));
+TEST_F(SquareObstacleIntersectsTest, AnEdgeThatPassesTheRoundSide) {
+  EXPECT_TRUE(intersectsTool(obstacleAt({0.055 - 1e-9, 0, -0.05}, Eigen::Vector3d::UnitZ())));
+  EXPECT_FALSE(intersectsTool(obstacleAt({0.055 + 1e-9, 0, -0.05}, Eigen::Vector3d::UnitZ())));
 }
 
-TEST_F(MeetsTest, ACornerThatPassesTheRoundSide) {
+TEST_F(SquareObstacleIntersectsTest, ACornerThatPassesTheRoundSide) {
   const double diagonal = 0.05 + 0.005 / std::sqrt(2.0);
-  EXPECT_TRUE(met(sheetAt({diagonal - 1e-9, diagonal - 1e-9, -0.05}, Eigen::Vector3d::UnitZ())));
-  EXPECT_FALSE(met(sheetAt({diagonal + 1e-9, diagonal + 1e-9, -0.05}, Eigen::Vector3d::UnitZ())));
+  EXPECT_TRUE(intersectsTool(obstacleAt({diagonal - 1e-9, diagonal - 1e-9, -0.05}, Eigen::Vector3d::UnitZ())));
+  EXPECT_FALSE(intersectsTool(obstacleAt({diagonal + 1e-9, diagonal + 1e-9, -0.05}, Eigen::Vector3d::UnitZ())));
 }
 
-TEST_F(MeetsTest, ASheetThatTheAxisRunsIn) { EXPECT_TRUE(met(sheetAt({0, 0, -0.05}, Eigen::Vector3d::UnitX()))); }
+TEST_F(SquareObstacleIntersectsTest, AnObstacleThatContainsTheAxis) {
+  EXPECT_TRUE(intersectsTool(obstacleAt({0, 0, -0.05}, Eigen::Vector3d::UnitX())));
+}
 
-TEST_F(MeetsTest, GrowsByTheMargin) {
-  EXPECT_TRUE(met(sheetAt({0, 0, 0.02 - 1e-9}, Eigen::Vector3d::UnitZ()), 0.02));
-  EXPECT_FALSE(met(sheetAt({0, 0, 0.02 + 1e-9}, Eigen::Vector3d::UnitZ()), 0.02));
-  EXPECT_TRUE(met(sheetAt({0.025 - 1e-9, 0, 0}, Eigen::Vector3d::UnitX()), 0.02));
+TEST_F(SquareObstacleIntersectsTest, GrowsByTheMargin) {
+  EXPECT_TRUE(intersectsTool(obstacleAt({0, 0, 0.02 - 1e-9}, Eigen::Vector3d::UnitZ()), 0.02));
+  EXPECT_FALSE(intersectsTool(obstacleAt({0, 0, 0.02 + 1e-9}, Eigen::Vector3d::UnitZ()), 0.02));
+  EXPECT_TRUE(intersectsTool(obstacleAt({0.025 - 1e-9, 0, 0}, Eigen::Vector3d::UnitX()), 0.02));
 }
 
 // Against points of the obstacle, each tested by the inequalities of a cylinder.
-TEST_F(MeetsTest, AgreesWithPointsOfTheSheet) {
+TEST_F(SquareObstacleIntersectsTest, AgreesWithPointsOfTheObstacle) {
   Random random(/*seed=*/3);
-  int met_count = 0;
+  int hits = 0;
   for (int i = 0; i < 300; ++i) {
     SquareObstacle obstacle =
-        sheetAt({random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), random.uniform(-0.15, 0.05)},
-                {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+        obstacleAt({random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), random.uniform(-0.15, 0.05)},
+                   {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
     bool point_inside = false;
     bool point_near = false;
     constexpr int kSteps = 200;
@@ -86,15 +88,15 @@ TEST_F(MeetsTest, AgreesWithPointsOfTheSheet) {
         point_near = point_near || beyond <= obstacle.half_side / kSteps;
       }
     }
-    met_count += met(obstacle) ? 1 : 0;
-    EXPECT_TRUE(met(obstacle) || !point_inside) << i;
-    EXPECT_TRUE(!met(obstacle) || point_near) << i;
+    hits += intersectsTool(obstacle) ? 1 : 0;
+    EXPECT_TRUE(intersectsTool(obstacle) || !point_inside) << i;
+    EXPECT_TRUE(!intersectsTool(obstacle) || point_near) << i;
   }
-  EXPECT_GT(met_count, 50);
-  EXPECT_LT(met_count, 250);
+  EXPECT_GT(hits, 50);
+  EXPECT_LT(hits, 250);
 }
 
-TEST(SheetTest, HasAMeshOfItsSize) {
+TEST(SquareObstacleTest, HasAMeshOfItsSize) {
   SquareObstacle obstacle;
   obstacle.half_side = 0.25;
   obstacle.X_WS.translation() << 1, 2, 3;

@@ -1,4 +1,4 @@
-#include "sweep_guard/geometry/bounding_planes.h"
+#include "geometry/bounding_planes.h"
 
 #include <gtest/gtest.h>
 
@@ -21,10 +21,10 @@ void expectPlane(const HalfSpace& plane, const Eigen::Vector2d& normal_yz, const
   EXPECT_NEAR(plane.signedDistance({0, touched_yz.x(), touched_yz.y()}), 0.0, 1e-12);
 }
 
-// Figure 5 of the paper in numbers. At the start the drill (radius 1, length 10) points along z, its tip at the origin;
-// at the end along (0, 0.6, 0.8), its tip at (0, 6, 0). In (y, z), its faces' extremes are
+// Figure 5 of the paper in numbers. The drill (radius 1, length 10) points along z at the start, with its tip at the
+// origin, and along (0, 0.6, 0.8) at the end, with its tip at (0, 6, 0). In (y, z), the extreme points of its faces are
 //   front: (-1, 0), (1, 0) and (5.2, 0.6), (6.8, -0.6)    rear: (-1, -10), (1, -10) and (-0.8, -7.4), (0.8, -8.6)
-// and the box given is the one along the axes: y in [-1, 6.8], z in [-10, 0.6].
+// and the given box is the one along the axes: y in [-1, 6.8], z in [-10, 0.6].
 TEST(BoundingPlanesTest, AreTheSideAndFrontalPlanesOfFigureFive) {
   Motion motion;
   motion.X_MT_end.linear() = Eigen::AngleAxisd(-std::acos(0.8), Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -44,7 +44,7 @@ TEST(BoundingPlanesTest, AreTheSideAndFrontalPlanesOfFigureFive) {
   expectPlane(planes_B[3], {1.4, -1.8}, in_B(1, -10));  // FCP: under both rear faces
 }
 
-TEST(BoundingPlanesTest, LeaveTheBoxOfADrillAlongItsAxisAlone) {
+TEST(BoundingPlanesTest, CutNothingOffTheBoxOfADrillAlongItsAxis) {
   Motion ahead;
   ahead.X_MT_end.translation() = Eigen::Vector3d(0, 0, 0.5);
   const ConvexShape drill = ConvexShape::cylinder(1, 10);
@@ -52,7 +52,7 @@ TEST(BoundingPlanesTest, LeaveTheBoxOfADrillAlongItsAxisAlone) {
   EXPECT_TRUE(boundingPlanes(drill, Motion{}, boundingBox(drill, Motion{})).empty());
 }
 
-// So no plane need ever be dropped for cutting off a point of the tool.
+// So no plane has to be dropped.
 TEST(BoundingPlanesTest, CutOffNoPointOfTheRoundToolWhateverItsMotion) {
   Random random(/*seed=*/1);
   int planes = 0;

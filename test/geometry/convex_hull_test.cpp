@@ -49,13 +49,13 @@ double reach(const Points& points, const Eigen::Vector3d& direction) {
   return farthest + direction.dot(points.front());
 }
 
-// How far a point lies out of the plane of a triangle [m]; not a number for one without area.
+// Returns the distance [m] of a point outside of the plane of a triangle; NaN for a triangle without area.
 double outside(const ConvexHull& hull, const Triangle& triangle, const Eigen::Vector3d& p) {
   const Eigen::Vector3d& a = hull.corners[triangle[0]];
   return (hull.corners[triangle[1]] - a).cross(hull.corners[triangle[2]] - a).normalized().dot(p - a);
 }
 
-// Every edge is run through once each way, and vertices - edges + faces is 2.
+// Every edge occurs once in each direction, and vertices - edges + faces is 2.
 void expectClosed(const ConvexHull& hull) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const auto& [a, b, c] : hull.triangles) {
@@ -68,7 +68,7 @@ void expectClosed(const ConvexHull& hull) {
   EXPECT_EQ(hull.corners.size() + hull.triangles.size(), 2 + edges.size() / 2);
 }
 
-// Where the points reach farther than the corners they do so by no more than the hull admits.
+// The points reach farther than the corners by no more than the hull tolerance.
 void expectHolds(const ConvexHull& hull, const Points& points, Random& random, double rounding) {
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d direction = random.direction();
@@ -83,7 +83,7 @@ void expectCornersAreAmong(const Points& points, const ConvexHull& hull) {
   }
 }
 
-TEST(ConvexHullTest, OfACubeIsItsCornersWhateverIsInside) {
+TEST(ConvexHullTest, OfACubeIsItsCorners) {
   Random random(/*seed=*/1);
   Points points = cloud(random, 100, 0.4, Eigen::Vector3d::Constant(0.5));
   for (const Eigen::Vector3d& corner : cubeCorners()) points.push_back(corner);
@@ -96,7 +96,7 @@ TEST(ConvexHullTest, OfACubeIsItsCornersWhateverIsInside) {
   expectClosed(hull);
 }
 
-// Its surface, seen from outside, runs counter-clockwise: all the points lie behind each triangle.
+// The triangles are counter-clockwise seen from outside: all points lie behind each triangle.
 TEST(ConvexHullTest, HoldsEveryPointOfAnyCloudAnywhere) {
   Random random(/*seed=*/2);
   for (int i = 0; i < 200; ++i) {
@@ -104,13 +104,13 @@ TEST(ConvexHullTest, HoldsEveryPointOfAnyCloudAnywhere) {
     const Eigen::Vector3d place = random.chance(0.5) ? 1e6 * random.direction() : Eigen::Vector3d::Zero().eval();
     const Points points = cloud(random, 4 + random.below(200), size, place);
     const ConvexHull hull = convexHull(points);
-    SCOPED_TRACE("cloud " + std::to_string(i) + " of size " + std::to_string(size) + " with an hull_tolerance of " +
+    SCOPED_TRACE("cloud " + std::to_string(i) + " of size " + std::to_string(size) + " with a hull tolerance of " +
                  std::to_string(hull.hull_tolerance));
     const double rounding = 1e-15 * (place.norm() + size);
     expectCornersAreAmong(points, hull);
     expectHolds(hull, points, random, rounding);
     EXPECT_LT(hull.hull_tolerance, 1e-12 * size);
-    if (place.norm() / size > 1e10) continue;  // nearer to each other than their own digits: may be flat
+    if (place.norm() / size > 1e10) continue;  // nearer to each other than their rounding: may be flat
     ASSERT_TRUE(hull.solid);
     EXPECT_GT(volume(hull), 0.0);
     expectClosed(hull);
@@ -121,8 +121,8 @@ TEST(ConvexHullTest, HoldsEveryPointOfAnyCloudAnywhere) {
   }
 }
 
-// Points on the faces and edges are no corners, though rounding puts some of them outside.
-TEST(ConvexHullTest, LeavesOutWhatLiesOnTheFacesOfATurnedBox) {
+// Points on faces and edges are not corners, although rounding puts some of them outside.
+TEST(ConvexHullTest, LeavesOutPointsOnTheFacesOfATurnedBox) {
   Random random(/*seed=*/3);
   for (int i = 0; i < 20; ++i) {
     const Eigen::Isometry3d pose = random.pose(10.0 * random.direction());
@@ -146,7 +146,7 @@ TEST(ConvexHullTest, CountsEachPointOnce) {
   EXPECT_EQ(sorted(convexHull(points).corners), sorted(cubeCorners()));
 }
 
-// A square of 5 x 5 points, turned: its hull is its four corners, in their order around it.
+// The hull of a turned square of 5 x 5 points is its four corners in order.
 TEST(ConvexHullTest, OfPointsInAPlaneIsAFan) {
   Random random(/*seed=*/4);
   for (int i = 0; i < 50; ++i) {
@@ -192,7 +192,7 @@ TEST(ConvexHullTest, OfOnePointIsThatPoint) {
   EXPECT_EQ(hull.hull_tolerance, 0.0);
 }
 
-// From plainly solid to plainly flat and on to a line: whatever is made of them, it holds them.
+// From clearly solid to clearly flat to a line: any hull contains the points.
 TEST(ConvexHullTest, HoldsPointsThatAreNearlyFlatOrNearlyInLine) {
   Random random(/*seed=*/5);
   for (int i = 0; i < 300; ++i) {

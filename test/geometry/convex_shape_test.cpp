@@ -48,7 +48,7 @@ TEST(ConvexShapeTest, SupportAtAPoseFollowsThePose) {
   EXPECT_NEAR(support(drill, motion, -Eigen::Vector3d::UnitX()), -8.0, 1e-12);
 }
 
-TEST(ConvexShapeTest, ReachBoundsTheDistanceFromAnyAxisThroughTheTip) {
+TEST(ConvexShapeTest, RadiusAboutBoundsTheDistanceFromAnyAxisThroughTheTip) {
   Random random(/*seed=*/2);
   for (int i = 0; i < 1000; ++i) {
     const ConvexShape tool = randomTool(random, 1.0);
@@ -60,21 +60,21 @@ TEST(ConvexShapeTest, ReachBoundsTheDistanceFromAnyAxisThroughTheTip) {
   }
 }
 
-// A drill that spins about its own axis leaves its place by its radius alone.
-TEST(ConvexShapeTest, ReachAboutItsOwnAxisIsItsRadius) {
+// A point of a drill that spins about its own axis moves within its radius.
+TEST(ConvexShapeTest, RadiusAboutItsOwnAxisIsItsRadius) {
   EXPECT_EQ(ConvexShape::cylinder(0.5, 2.0).radiusAbout(Eigen::Vector3d::UnitZ()), 0.5);
   EXPECT_EQ(ConvexShape::cylinder(0.5, 2.0).radiusAbout(Eigen::Vector3d::UnitY()), 2.5);
 }
 
-TEST(ConvexShapeTest, ExtremesOfItsFacesAreOnTheirRims) {
+TEST(ConvexShapeTest, SupportPointsOfItsFacesAreOnTheirRims) {
   const ConvexShape drill = ConvexShape::cylinder(0.5, 2.0);
   EXPECT_TRUE(drill.frontSupport({3, 4, 7}).isApprox(Eigen::Vector3d(0.3, 0.4, 0.0), 1e-15));
   EXPECT_TRUE(drill.rearSupport({-3, 4, 7}).isApprox(Eigen::Vector3d(-0.3, 0.4, -2.0), 1e-15));
   EXPECT_EQ(drill.frontSupport(Eigen::Vector3d::UnitZ()), Eigen::Vector3d(0, 0, 0));
 }
 
-// A prism of 4 sides, radius 1, length 2: 16 triangles, 48 corners; 5 at each of its 8 rim vertices, 4 at each centre.
-// So x^2 sums to 5 * 4, and every z is 1 from the mean.
+// A prism of 4 sides, radius 1, length 2: 16 triangles, 48 corners; 5 at each of its 8 rim vertices, 4 at each center.
+// So the sum of x^2 is 5 * 4, and every z differs from the mean by 1.
 TEST(ConvexShapeTest, MomentsAreThePapersSumsOverTriangleCorners) {
   const ConvexShape prism = ConvexShape::cylinder(/*radius=*/1.0, /*length=*/2.0, /*sides=*/4);
   ASSERT_EQ(prism.mesh_T().triangles().size(), 16U);

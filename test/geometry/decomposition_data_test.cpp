@@ -1,4 +1,4 @@
-// Real meshes, as files give them: open ones, slivers, several pieces, quads cut in two.
+// Real meshes from files: open meshes, slivers, several components, halved quads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// How far a triangle reaches out of a convex part in any of the directions [m].
+// Returns how far a triangle lies outside of a convex piece along any of the directions [m].
 double outside(const ConvexShape& part, const TriangleMesh& mesh, const std::vector<std::uint32_t>& set,
                const Eigen::Vector3d& direction) {
   double reach = -std::numeric_limits<double>::infinity();
@@ -27,7 +27,7 @@ double outside(const ConvexShape& part, const TriangleMesh& mesh, const std::vec
 
 class DecompositionDataTest : public testing::TestWithParam<const char*> {};
 
-TEST_P(DecompositionDataTest, PartsHoldEveryTriangle) {
+TEST_P(DecompositionDataTest, PiecesContainEveryTriangle) {
   const fs::path path = dataPath(GetParam());
   if (!fs::exists(path)) GTEST_SKIP() << path << " is missing; set SWEEP_GUARD_DATA";
   const sweep_guard_ros::MeshSurface surface = sweep_guard_ros::readMesh(path);

@@ -22,7 +22,7 @@ struct Surface {
   TriangleMesh mesh() const { return TriangleMesh(vertices, triangles); }
 };
 
-// A box whose sides are grids of `cells` x `cells` squares.
+// Adds a box with sides of `cells` x `cells` squares.
 void addBox(Surface& surface, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, int cells) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double level : {0.0, 1.0}) {
@@ -50,7 +50,7 @@ TriangleMesh boxMesh() {
   return surface.mesh();
 }
 
-// An L of two bars, each 100 mm long and 10 mm thick.
+// Makes an L of two bars, each 100 mm long and 10 mm thick.
 TriangleMesh angleMesh() {
   Surface surface;
   addBox(surface, {0, 0, 0}, {0.1, 0.01, 0.01}, /*cells=*/10);
@@ -112,8 +112,8 @@ TEST(DecompositionTest, PutsEveryTriangleIntoOneSet) {
   }
 }
 
-// Each in every direction as far out as the corners of its triangles: being convex, it holds all of them.
-TEST(DecompositionTest, PartsHoldTheirTriangles) {
+// Each convex piece reaches in every direction at least as far as the corners of its triangles.
+TEST(DecompositionTest, PiecesContainTheirTriangles) {
   Random random(/*seed=*/2);
   for (int i = 0; i < 30; ++i) {
     const double size = random.logUniform(1e-4, 10.0);
@@ -150,7 +150,7 @@ double sumOfHulls(const TriangleMesh& mesh, const Sets& sets) {
   return sum;
 }
 
-// Its bars have 19 cm^3 together; its hull 10 mm times the 100 mm square less half a square of 90 mm: 59.5 cm^3.
+// The bars have 19 cm^3 together; the hull is 10 mm times the 100 mm square minus half a square of 90 mm: 59.5 cm^3.
 TEST(DecompositionTest, CutsAnAngleIntoItsBars) {
   const TriangleMesh mesh = angleMesh();
   const Sets sets = decompose(mesh);
@@ -160,8 +160,8 @@ TEST(DecompositionTest, CutsAnAngleIntoItsBars) {
   EXPECT_LT(sumOfHulls(mesh, sets), 22e-6);
 }
 
-// The first cut gains nothing: both halves of the ring have half of its hull. Those after it do.
-TEST(DecompositionTest, OpensARing) {
+// The first cut gains nothing, because each half of the ring has half of the hull; later cuts do.
+TEST(DecompositionTest, CutsARing) {
   Surface ring;
   for (const double side : {-1.0, 1.0}) {
     addBox(ring, {-0.05, 0.05 * side - 0.005, 0}, {0.05, 0.05 * side + 0.005, 0.01}, /*cells=*/8);
@@ -171,28 +171,28 @@ TEST(DecompositionTest, OpensARing) {
   EXPECT_LT(sumOfHulls(mesh, decompose(mesh)), 0.7 * sumOfHulls(mesh, decompose(mesh, {/*max_depth=*/0})));
 }
 
-TEST(DecompositionTest, MakesNoHollowOfABall) {
+TEST(DecompositionTest, LeavesABallWhole) {
   Surface ball;
   addBox(ball, {-1, -1, -1}, {1, 1, 1}, /*cells=*/12);
   for (Eigen::Vector3d& p : ball.vertices) p *= 0.1 / p.norm();
   EXPECT_EQ(decompose(ball.mesh()).size(), 1U);
 }
 
-// A casing and what is in it: nothing is gained by parting them.
-TEST(DecompositionTest, LeavesWhatIsInsideOfACasing) {
+// Separating a casing from its contents gains nothing.
+TEST(DecompositionTest, DoesNotSeparateACasingFromItsContents) {
   Surface casing;
   addBox(casing, {0, 0, 0}, {0.1, 0.06, 0.04}, /*cells=*/6);
   addBox(casing, {0.02, 0.01, 0.01}, {0.03, 0.05, 0.02}, /*cells=*/6);
   EXPECT_EQ(decompose(casing.mesh()).size(), 1U);
 }
 
-// A hand and two fingers: a cut across the hand would leave each finger with half of it.
-TEST(DecompositionTest, TakesPiecesApart) {
+// A hand and two fingers: a cut across the hand would join each finger to half of the hand.
+TEST(DecompositionTest, SeparatesComponents) {
   Surface hand;
   addBox(hand, {-0.1, -0.03, -0.06}, {0.1, 0.03, 0}, /*cells=*/6);
   addBox(hand, {-0.05, -0.01, 0.001}, {-0.03, 0.01, 0.05}, /*cells=*/6);
   addBox(hand, {0.03, -0.01, 0.001}, {0.05, 0.01, 0.05}, /*cells=*/6);
-  for (Triangle& triangle : hand.triangles) {  // each with vertices of its own, as in STL files
+  for (Triangle& triangle : hand.triangles) {  // each triangle has vertices of its own, as in STL files
     for (std::uint32_t& vertex : triangle) {
       hand.vertices.push_back(Eigen::Vector3d(hand.vertices[vertex]));
       vertex = static_cast<std::uint32_t>(hand.vertices.size() - 1);
@@ -201,8 +201,8 @@ TEST(DecompositionTest, TakesPiecesApart) {
   EXPECT_EQ(decompose(hand.mesh()).size(), 3U);
 }
 
-// Two sheets in one plane have no volume, but what they sweep together is more than what each does.
-TEST(DecompositionTest, PartsFlatSheets) {
+// Two sheets in one plane have no volume, but their common hull sweeps more than both sheets.
+TEST(DecompositionTest, SeparatesFlatSheets) {
   Surface sheets;
   addBox(sheets, {0, 0, 0}, {0.01, 0.01, 0}, /*cells=*/3);
   addBox(sheets, {0.09, 0, 0}, {0.1, 0.01, 0}, /*cells=*/3);
@@ -218,7 +218,7 @@ TEST(DecompositionTest, IsNoLooserWithMoreDepth) {
   }
 }
 
-// One triangle many times over: no cut takes them apart.
+// No cut separates copies of one triangle.
 TEST(DecompositionTest, EndsWhereNothingCanBeCut) {
   const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 1}};
   const TriangleMesh mesh(corners, std::vector<Triangle>(50, {0, 1, 2}));

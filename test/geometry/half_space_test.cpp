@@ -49,7 +49,7 @@ TEST(ClipTest, CutsWhereTheEdgesCrossThePlane) {
   EXPECT_EQ(cut, (Polygon{{0, 0, 0}, {4, 0, 0}, {3, 0, 1}, {0, 0, 1}}));
 }
 
-// Touching is meeting: a detector that asks whether something is left must find something.
+// Touching counts as intersecting: something must remain.
 TEST(ClipTest, KeepsWhatTouchesThePlane) {
   EXPECT_EQ(clip({{0, 0, 1}, {1, 0, 2}, {0, 1, 2}}, kBelowOne), (Polygon{{0, 0, 1}}));
   EXPECT_EQ(clip({{0, 0, 1}, {1, 0, 1}, {0, 1, 2}}, kBelowOne), (Polygon{{0, 0, 1}, {1, 0, 1}}));
@@ -59,7 +59,7 @@ TEST(ClipTest, KeepsWhatTouchesThePlane) {
 TEST(ClipTest, ClipsPointsAndSegments) {
   EXPECT_EQ(clip({{0, 0, 1}}, kBelowOne).size(), 1U);
   EXPECT_TRUE(clip({{0, 0, 2}}, kBelowOne).empty());
-  // There and back: a triangle with two equal corners.
+  // A triangle with two equal corners.
   const Polygon needle = clip({{0, 0, 0}, {0, 0, 2}, {0, 0, 2}}, kBelowOne);
   ASSERT_EQ(needle.size(), 3U);
   EXPECT_EQ(needle[0], Eigen::Vector3d(0, 0, 0));

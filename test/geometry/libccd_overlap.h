@@ -6,7 +6,7 @@
 
 namespace sweep_guard_core {
 
-/// Whether two convex bodies overlap, as libccd's GJK has it: an oracle that shares nothing with separation().
+/// Tells by libccd's GJK whether two convex bodies overlap: an oracle that shares no code with separation().
 inline bool overlapByLibccd(const SupportMapping& a, const SupportMapping& b) {
   const auto support_of = [](const void* body, const ccd_vec3_t* direction, ccd_vec3_t* point) {
     const Eigen::Vector3d along(direction->v[0], direction->v[1], direction->v[2]);

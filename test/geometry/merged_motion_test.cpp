@@ -1,4 +1,4 @@
-#include "sweep_guard/geometry/merged_motion.h"
+#include "geometry/merged_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ using namespace std::chrono_literals;
 
 Eigen::Isometry3d at(double x, double y = 0.0) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, 0)); }
 
-// A millisecond apart, along an axis.
-Path wayAlong(const std::vector<double>& x) {
+// Points a millisecond apart, along an axis.
+Path pathAlong(const std::vector<double>& x) {
   Path path;
   for (const double place : x) path.push_back({static_cast<std::int64_t>(path.size()) * 1ms, at(place), 0.0});
   return path;
@@ -25,37 +25,37 @@ size_t lastOf(const Path& path, size_t first, double max_deviation) {
   return endOfMergedMotion(path, first, path.size() - 1, /*tool_radius=*/0.1, {max_deviation, /*max_rotation=*/0.175});
 }
 
-TEST(ChordTest, OfASteadyMotionDoesNotBulge) {
-  const Motion motion = mergedMotion(wayAlong({0, 1, 2, 3, 4}), 1, 4, 0.1);
+TEST(MergedMotionTest, OfASteadyMotionHasNoDeviation) {
+  const Motion motion = mergedMotion(pathAlong({0, 1, 2, 3, 4}), 1, 4, 0.1);
   EXPECT_EQ(motion.X_MT_start.translation().x(), 1.0);
   EXPECT_EQ(motion.X_MT_end.translation().x(), 4.0);
   EXPECT_NEAR(motion.deviation_bound, 0.0, 1e-12);
 }
 
-TEST(ChordTest, BulgesAsFarAsTheWayIsAside) {
-  Path path = wayAlong({0, 1, 2});
+TEST(MergedMotionTest, DeviatesWhereThePathIsAside) {
+  Path path = pathAlong({0, 1, 2});
   path[1].X_MT = at(1, 0.25);
   EXPECT_NEAR(mergedMotion(path, 0, 2, 0.1).deviation_bound, 0.25, 1e-12);
 }
 
-// A time of impact on the chord would be late otherwise.
-TEST(ChordTest, BulgesAsFarAsTheWayIsAheadOfIt) {
-  EXPECT_NEAR(mergedMotion(wayAlong({0, 1.5, 2}), 0, 2, 0.1).deviation_bound, 0.5, 1e-12);
+// Otherwise a time of impact on the merged motion would be late.
+TEST(MergedMotionTest, DeviatesWhereThePathIsAhead) {
+  EXPECT_NEAR(mergedMotion(pathAlong({0, 1.5, 2}), 0, 2, 0.1).deviation_bound, 0.5, 1e-12);
 }
 
-TEST(ChordTest, BulgesByTheArcsOfTheWay) {
-  Path path = wayAlong({0, 1, 2});
+TEST(MergedMotionTest, DeviatesByTheArcsOfThePath) {
+  Path path = pathAlong({0, 1, 2});
   path[2].deviation_bound = 0.125;
   EXPECT_NEAR(mergedMotion(path, 0, 2, 0.1).deviation_bound, 0.125, 1e-12);
 }
 
-TEST(ChordTest, HoldsAWayThatTakesNoTime) {
-  Path path = wayAlong({0, 0.5, 2});
+TEST(MergedMotionTest, BoundsAPathWithoutDuration) {
+  Path path = pathAlong({0, 0.5, 2});
   for (PathPoint& waypoint : path) waypoint.time = 1ms;
   EXPECT_NEAR(mergedMotion(path, 0, 2, 0.1).deviation_bound, 0.5, 1e-12);
 }
 
-// A path of segments on which tool and frame both go and turn, and its points at 20 times each.
+// A path on whose segments tool and frame both move and turn, with samples at 20 times of each segment.
 struct RandomWay {
   Path path_M;
   std::vector<std::pair<Duration, Eigen::Isometry3d>> poses_M;
@@ -83,9 +83,8 @@ struct RandomWay {
   }
 };
 
-// Against the path itself: where a tool point is, and where the chord has it at that time, as a motion that turns and as
-// a straight line.
-TEST(ChordTest, BoundsHowFarEveryToolPointLeavesIt) {
+// Compares tool points on the path with those on the merged motion at the same time, with and without its rotation.
+TEST(MergedMotionTest, BoundsTheDeviationOfEveryToolPoint) {
   Random random(/*seed=*/5);
   double closest = 0.0;
   for (int i = 0; i < 300; ++i) {
@@ -110,28 +109,28 @@ TEST(ChordTest, BoundsHowFarEveryToolPointLeavesIt) {
   EXPECT_GT(closest, 0.9);
 }
 
-TEST(LastOfChordTest, IsTheEndOfASteadyMotion) {
+TEST(EndOfMergedMotionTest, IsTheEndOfASteadyMotion) {
   for (size_t count = 2; count < 40; ++count) {
     std::vector<double> x(count);
     for (size_t i = 0; i < count; ++i) x[i] = 0.01 * static_cast<double>(i);
-    EXPECT_EQ(lastOf(wayAlong(x), 0, 1e-9), count - 1);
-    EXPECT_EQ(lastOf(wayAlong(x), count - 2, 1e-9), count - 1);
+    EXPECT_EQ(lastOf(pathAlong(x), 0, 1e-9), count - 1);
+    EXPECT_EQ(lastOf(pathAlong(x), count - 2, 1e-9), count - 1);
   }
 }
 
-// Rest, there and back, rest: wherever it begins, the chord ends at the flick's next corner.
-TEST(LastOfChordTest, StopsAtAFlick) {
+// Rest, there and back, rest: from any start, the merged motion ends at the next corner of the flick.
+TEST(EndOfMergedMotionTest, StopsAtAFlick) {
   for (size_t rest = 2; rest < 40; ++rest) {
     std::vector<double> x(2 * rest + 1, 0.0);
     x[rest] = 1.0;
-    EXPECT_EQ(lastOf(wayAlong(x), 0, 0.01), rest - 1);
-    EXPECT_EQ(lastOf(wayAlong(x), rest - 1, 0.01), rest);
-    EXPECT_EQ(lastOf(wayAlong(x), rest, 0.01), rest + 1);
-    EXPECT_EQ(lastOf(wayAlong(x), rest + 1, 0.01), 2 * rest);
+    EXPECT_EQ(lastOf(pathAlong(x), 0, 0.01), rest - 1);
+    EXPECT_EQ(lastOf(pathAlong(x), rest - 1, 0.01), rest);
+    EXPECT_EQ(lastOf(pathAlong(x), rest, 0.01), rest + 1);
+    EXPECT_EQ(lastOf(pathAlong(x), rest + 1, 0.01), 2 * rest);
   }
 }
 
-TEST(LastOfChordTest, TurnsByNoMoreThanItMay) {
+TEST(EndOfMergedMotionTest, TurnsByNoMoreThanItMay) {
   Path path;
   for (int i = 0; i < 20; ++i)
     path.push_back({i * 1ms, Eigen::Isometry3d(Eigen::AngleAxisd(0.05 * i, Eigen::Vector3d::UnitZ()))});

@@ -42,8 +42,7 @@ TEST(MotionTest, TurnsTheShorterWay) {
   EXPECT_TRUE(motion.at(0.5).isApprox(turnedAboutZ(180), 1e-14));
 }
 
-// A quaternion and its negative are one rotation, and a rotation matrix gives either: whichever it is, halfway is half
-// the angle from both ends.
+// A rotation matrix gives a quaternion or its negative; with either, halfway is half the angle from both ends.
 TEST(MotionTest, IsHalfwayBetweenAnyTwoRotations) {
   Random random(/*seed=*/1);
   for (int i = 0; i < 10'000; ++i) {
@@ -55,7 +54,7 @@ TEST(MotionTest, IsHalfwayBetweenAnyTwoRotations) {
   }
 }
 
-// There the axis is one of many.
+// The axis is not unique there.
 TEST(MotionTest, HasAUnitAxisWithoutARotationAndAtHalfATurn) {
   for (const double degrees : {0.0, 1e-9, 179.999999, 180.0, 180.000001}) {
     const Motion motion{turnedAboutZ(0), turnedAboutZ(degrees)};
@@ -64,7 +63,7 @@ TEST(MotionTest, HasAUnitAxisWithoutARotationAndAtHalfATurn) {
   }
 }
 
-TEST(SplitTest, MakesTheFewestPartsThatTurnAtMostTheMaximum) {
+TEST(SplitTest, MakesTheFewestSubMotionsWithinTheMaximum) {
   const Motion motion{turnedAboutZ(0), turnedAboutZ(90, {9, 0, 0})};
   EXPECT_EQ(split(motion, 91 * kDegree).size(), 1U);
   EXPECT_EQ(split(motion, 46 * kDegree).size(), 2U);
@@ -76,23 +75,23 @@ TEST(SplitTest, LeavesAMotionWithoutRotationWhole) {
   EXPECT_EQ(split({turnedAboutZ(30), turnedAboutZ(30, {1e6, 0, 0})}, 0.175).size(), 1U);
 }
 
-TEST(SplitTest, PartsAreEndToEndAndCoverTheMotion) {
+TEST(SplitTest, SubMotionsAreEndToEndAndCoverTheMotion) {
   Random random(/*seed=*/2);
   for (int i = 0; i < 1000; ++i) {
     SCOPED_TRACE("motion " + std::to_string(i));
     const Motion motion{random.pose(10.0 * random.direction()), random.pose(10.0 * random.direction())};
     const double max_rotation = random.uniform(0.05, 1.5);
-    const std::vector<Motion> parts = split(motion, max_rotation);
-    const auto count = static_cast<double>(parts.size());
-    EXPECT_EQ(parts.front().X_MT_start.matrix(), motion.X_MT_start.matrix());
-    EXPECT_EQ(parts.back().X_MT_end.matrix(), motion.X_MT_end.matrix());
-    for (size_t k = 0; k < parts.size(); ++k) {
-      EXPECT_LE(parts[k].angle(), max_rotation * (1.0 + 1e-9));
+    const std::vector<Motion> sub_motions = split(motion, max_rotation);
+    const auto count = static_cast<double>(sub_motions.size());
+    EXPECT_EQ(sub_motions.front().X_MT_start.matrix(), motion.X_MT_start.matrix());
+    EXPECT_EQ(sub_motions.back().X_MT_end.matrix(), motion.X_MT_end.matrix());
+    for (size_t k = 0; k < sub_motions.size(); ++k) {
+      EXPECT_LE(sub_motions[k].angle(), max_rotation * (1.0 + 1e-9));
       if (k > 0) {
-        EXPECT_EQ(parts[k].X_MT_start.matrix(), parts[k - 1].X_MT_end.matrix());
+        EXPECT_EQ(sub_motions[k].X_MT_start.matrix(), sub_motions[k - 1].X_MT_end.matrix());
       }
       const double middle = (static_cast<double>(k) + 0.5) / count;
-      EXPECT_TRUE(parts[k].at(0.5).isApprox(motion.at(middle), 1e-9));
+      EXPECT_TRUE(sub_motions[k].at(0.5).isApprox(motion.at(middle), 1e-9));
     }
   }
 }
@@ -103,7 +102,7 @@ TEST(ChordErrorTest, IsAnEighthOfRadiusTimesAngleSquared) {
   EXPECT_EQ(chordError(0.0, 1.0), 0.0);
 }
 
-// Against the motion itself in 1000 steps: every point of the rim is within the bound of the chord it is replaced by.
+// Samples the motion in 1000 steps: every point of the rim is within the bound from its chord.
 TEST(ChordErrorTest, BoundsTheArcsOfEveryToolPoint) {
   Random random(/*seed=*/3);
   double closest = 0.0;
@@ -124,28 +123,28 @@ TEST(ChordErrorTest, BoundsTheArcsOfEveryToolPoint) {
       }
     }
   }
-  EXPECT_GT(closest, 0.9);  // the bound is nearly reached, so half of it would not do
+  EXPECT_GT(closest, 0.9);  // the bound is nearly reached: half of it would be too small
 }
 
-// A frame that turns by 0.5 rad under a needle of 0.2 m that stands 1 m from its origin: (0.25 * 1 + 0.25 * 0.2) / 8.
-TEST(RelativeMotionTest, BulgesBecauseTheFrameTurns) {
+// A frame turns by 0.5 rad under a needle of 0.2 m at rest, 1 m from its origin: (0.25 * 1 + 0.25 * 0.2) / 8.
+TEST(RelativeMotionTest, DeviatesBecauseTheFrameTurns) {
   const Eigen::Isometry3d beside = turnedAboutZ(0, {1, 0, 0});
   const Motion turning{turnedAboutZ(0), turnedAboutZ(0.5 / kDegree)};
-  const std::vector<Motion> parts = split({{beside, beside}, turning}, /*max_rotation=*/1.0, /*tool_radius=*/0.2);
-  ASSERT_EQ(parts.size(), 1U);
-  EXPECT_NEAR(parts[0].deviation_bound, 0.3 / 8.0, 1e-12);
-  EXPECT_TRUE(parts[0].X_MT_end.translation().isApprox(Eigen::Vector3d(std::cos(0.5), -std::sin(0.5), 0), 1e-12));
+  const std::vector<Motion> sub_motions = split({{beside, beside}, turning}, /*max_rotation=*/1.0, /*tool_radius=*/0.2);
+  ASSERT_EQ(sub_motions.size(), 1U);
+  EXPECT_NEAR(sub_motions[0].deviation_bound, 0.3 / 8.0, 1e-12);
+  EXPECT_TRUE(sub_motions[0].X_MT_end.translation().isApprox(Eigen::Vector3d(std::cos(0.5), -std::sin(0.5), 0), 1e-12));
 }
 
-TEST(RelativeMotionTest, DoesNotBulgeWhereTheFrameOnlyMoves) {
+TEST(RelativeMotionTest, HasNoDeviationWhereTheFrameOnlyMoves) {
   const Motion tool{turnedAboutZ(0), turnedAboutZ(10, {1, 0, 0})};
   const Motion frame{turnedAboutZ(30), turnedAboutZ(30, {0, 5, 0})};
-  for (const Motion& part : split({tool, frame}, /*max_rotation=*/0.1, /*tool_radius=*/0.2)) {
-    EXPECT_LT(part.deviation_bound, 1e-9);
+  for (const Motion& sub_motion : split({tool, frame}, /*max_rotation=*/0.1, /*tool_radius=*/0.2)) {
+    EXPECT_LT(sub_motion.deviation_bound, 1e-9);
   }
 }
 
-// Against the motion itself: both turn and go at once, seen from the frame.
+// Samples the motion seen from the frame while both turn and move.
 TEST(RelativeMotionTest, BoundsTheArcsOfEveryToolPoint) {
   Random random(/*seed=*/4);
   for (int i = 0; i < 300; ++i) {
@@ -154,18 +153,20 @@ TEST(RelativeMotionTest, BoundsTheArcsOfEveryToolPoint) {
     const RelativeMotion motion{randomMotion(random, tool, 5.0 * random.direction(), /*max_angle=*/3.1),
                                 randomMotion(random, tool, 5.0 * random.direction(), /*max_angle=*/3.1)};
     const double max_rotation = random.uniform(0.05, 0.5);
-    const std::vector<Motion> parts = split(motion, max_rotation, tool.boundingRadius());
-    for (size_t k = 0; k < parts.size(); ++k) {
-      const Motion& part = parts[k];
-      const double bound = std::max(chordError(tool.radiusAbout(part.axis_T()), part.angle()), part.deviation_bound);
-      EXPECT_LE(part.angle(), max_rotation * (1.0 + 1e-9));
+    const std::vector<Motion> sub_motions = split(motion, max_rotation, tool.boundingRadius());
+    for (size_t k = 0; k < sub_motions.size(); ++k) {
+      const Motion& sub_motion = sub_motions[k];
+      const double bound =
+          std::max(chordError(tool.radiusAbout(sub_motion.axis_T()), sub_motion.angle()), sub_motion.deviation_bound);
+      EXPECT_LE(sub_motion.angle(), max_rotation * (1.0 + 1e-9));
       for (int step = 0; step <= 20; ++step) {
         const double fraction = step / 20.0;
-        const double along = (static_cast<double>(k) + fraction) / static_cast<double>(parts.size());
+        const double along = (static_cast<double>(k) + fraction) / static_cast<double>(sub_motions.size());
         const Eigen::Isometry3d X_MT = motion.frame_W.at(along).inverse() * motion.tool_W.at(along);
         for (const Eigen::Vector3d& p_T : roundToolPoints_T(tool, 8)) {
-          const Eigen::Vector3d chord = (1.0 - fraction) * (part.X_MT_start * p_T) + fraction * (part.X_MT_end * p_T);
-          ASSERT_LE((X_MT * p_T - chord).norm(), bound + 1e-12) << "part " << k;
+          const Eigen::Vector3d chord =
+              (1.0 - fraction) * (sub_motion.X_MT_start * p_T) + fraction * (sub_motion.X_MT_end * p_T);
+          ASSERT_LE((X_MT * p_T - chord).norm(), bound + 1e-12) << "sub_motion " << k;
         }
       }
     }

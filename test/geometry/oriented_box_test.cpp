@@ -28,7 +28,7 @@ void expectValid(const OrientedBox& box) {
   EXPECT_LE(box.half_extents.y(), box.half_extents.z());
 }
 
-// The sums of [P, Sec. 3.1], written down once more: over the corners of the triangles of both tools.
+// The sums of [P, Sec. 3.1], directly over the corners of the triangles of both tools.
 Eigen::Matrix3d papersCovariance(const ConvexShape& tool, const Motion& motion) {
   std::vector<Eigen::Vector3d> corners;
   for (const Eigen::Isometry3d& X_MT : {motion.X_MT_start, motion.X_MT_end}) {
@@ -45,7 +45,7 @@ Eigen::Matrix3d papersCovariance(const ConvexShape& tool, const Motion& motion) 
   return covariance;
 }
 
-// Straight ahead, the drill covers a longer drill.
+// A drill that moves along its axis covers a longer drill.
 TEST(OrientedBoxTest, EnclosesADrillThatMovesAlongItsAxis) {
   const OrientedBox box = boundingBox(ConvexShape::cylinder(0.5, 2.0), translation({0, 0, 4}));
   EXPECT_TRUE(box.half_extents.isApprox(Eigen::Vector3d(0.5, 0.5, 3.0), 1e-9));
@@ -53,7 +53,7 @@ TEST(OrientedBoxTest, EnclosesADrillThatMovesAlongItsAxis) {
   EXPECT_NEAR(std::abs(box.X_MB.linear()(2, 2)), 1.0, 1e-12);
 }
 
-// Sideways by more than its length: now the way is the longest axis, the drill's axis the second.
+// Sideways by more than its length: the direction of motion is the longest axis, the drill's axis the second.
 TEST(OrientedBoxTest, OrdersItsAxesByExtent) {
   const OrientedBox box = boundingBox(ConvexShape::cylinder(0.5, 2.0), translation({6, 0, 0}));
   EXPECT_TRUE(box.half_extents.isApprox(Eigen::Vector3d(0.5, 1.0, 3.5), 1e-9));
@@ -72,8 +72,8 @@ TEST(OrientedBoxTest, IsValidForDegenerateTools) {
   }
 }
 
-// The variances of the corners are equal along all axes where length^2 = 10/6 radius^2 (as of ToolTest's prism): any
-// axes are eigenvectors, and must be a valid box.
+// The variances of the corners are equal along all axes if length^2 = 10/6 radius^2 (see ConvexShapeTest's prism): any
+// axes are eigenvectors.
 TEST(OrientedBoxTest, IsValidForEqualEigenvalues) {
   const ConvexShape cube_like = ConvexShape::cylinder(1.0, std::sqrt(10.0 / 6.0), /*sides=*/4);
   const Eigen::Matrix3d covariance = cube_like.moments_T().covariance;

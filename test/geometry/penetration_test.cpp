@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 
-// Ellipsoid: smooth, and of any proportions.
+// An ellipsoid: smooth, with any proportions.
 struct Ellipsoid {
   Eigen::Matrix3d axes;  // columns: directions times half lengths [m]
   Vector3d center;
@@ -31,7 +31,7 @@ Proposals axesBothWays() {
   return directions;
 }
 
-TEST(WayOutTest, IsTheLeastOfManyDirections) {
+TEST(MinimumTranslationDirectionTest, IsTheLeastOfManyDirections) {
   Random random(/*seed=*/1);
   int least = 0;
   int overlapping = 0;
@@ -63,8 +63,8 @@ TEST(WayOutTest, IsTheLeastOfManyDirections) {
   EXPECT_GE(least, overlapping * 99 / 100);
 }
 
-// libccd makes no polytope of flat bodies; the proposals carry the answer.
-TEST(WayOutTest, TakesFlatBodies) {
+// libccd makes no polytope for flat bodies; the proposals give the result.
+TEST(MinimumTranslationDirectionTest, TakesFlatBodies) {
   const PointHull sheet(Corners{Vector3d(-1, -1, 0), Vector3d(2, -1, 0), Vector3d(-1, 2, 0)});
   const PointHull cut(Corners{Vector3d(0, 0, -0.1), Vector3d(0.2, 0, 0.3), Vector3d(-0.1, 0, 0.3)});
   const Vector3d out = minimumTranslationDirection(cut, sheet, axesBothWays(), /*size=*/1.0);

@@ -7,7 +7,7 @@
 
 namespace sweep_guard_core {
 
-/// Points on both rims of the round tool, in T [m]: their convex hull is the tool, but for slivers between them.
+/// Returns points on both rims of the round tool, in T [m]: their convex hull is the tool except for slivers.
 inline std::vector<Eigen::Vector3d> roundToolPoints_T(const ConvexShape& tool, int points_per_rim) {
   constexpr double kTwoPi = 6.283185307179586;
   std::vector<Eigen::Vector3d> points;

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A body whose distance to points, lines and planes is known in closed form: z from -length to 0 about its axis.
+// A cylinder with z from -length to 0: its distances to points, lines and planes have a closed form.
 struct Cylinder {
   double radius;
   double length;
@@ -59,7 +59,7 @@ Corners randomCorners(Random& random, double size) {
   return corners;
 }
 
-// Of every kind: one in eight a needle, one in eight a segment, one in eight a point.
+// Makes a random body: one in eight is a needle, one in eight a segment, one in eight a point.
 Corners randomTriangle(Random& random, double size) {
   Corners corners = randomCorners(random, size);
   switch (random.below(8)) {
@@ -119,8 +119,8 @@ TEST(SeparationTest, MeasuresACylinderToAPoint) {
   }
 }
 
-// The two bounds enclose the distance, so their agreement proves both. Near or far, flat or not.
-TEST(SeparationTest, ProvesWhatItsPointsShow) {
+// The two bounds enclose the distance, so their agreement proves both.
+TEST(SeparationTest, GapEqualsTheDistanceOfItsPoints) {
   Random random(/*seed=*/2);
   for (const double away : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10}) {
     for (int i = 0; i < 2000 && !HasFailure(); ++i) {
@@ -170,12 +170,12 @@ TEST(SeparationTest, ProvesNothingWhereBodiesOverlap) {
     cylinder.X.translation() += (corners[0] + corners[1] + corners[2]) / 3.0 - inside;
     const Separation answer = separation(cylinder, PointHull(corners));
     EXPECT_LE(answer.gap, 1e-14) << i;
-    EXPECT_LE(pointDistance(answer), 1e-5) << i;  // a needle's weights hold few digits
+    EXPECT_LE(pointDistance(answer), 1e-5) << i;  // the weights of a needle have few digits
     EXPECT_FALSE(distanceExceeds(cylinder, PointHull(corners), 1e-14)) << i;
   }
 }
 
-// Of a triangle before and after its move, and of a tool at two poses.
+// The hulls of a triangle before and after a deformation and of a tool at two poses.
 TEST(SeparationTest, TakesHullsOfTwoBodies) {
   PointHull prism(Corners{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)});
   for (const Vector3d& p : {Vector3d(0, 0, 2), Vector3d(1, 0, 2), Vector3d(0, 1, 2)}) prism.add(p);
@@ -185,7 +185,7 @@ TEST(SeparationTest, TakesHullsOfTwoBodies) {
   EXPECT_NEAR(separation(Ball{0.5, {2, 2, 1}}, prism).gap, std::sqrt(4.5) - 0.5, 1e-12);
 }
 
-TEST(SeparationTest, StopsAtTheAccuracyAskedFor) {
+TEST(SeparationTest, StopsAtTheRequestedAccuracy) {
   Random random(/*seed=*/5);
   for (int i = 0; i < 2000; ++i) {
     const PointHull triangle(randomTriangle(random, 1.0));
@@ -197,7 +197,7 @@ TEST(SeparationTest, StopsAtTheAccuracyAskedFor) {
   }
 }
 
-TEST(RoughSeparationTest, MissesAnEighthOfWhatIsBeyondTheMargin) {
+TEST(RoughSeparationTest, UnderestimatesByAnEighthBeyondTheMargin) {
   Random random(/*seed=*/8);
   for (int i = 0; i < 2000; ++i) {
     const PointHull triangle(randomTriangle(random, 1.0));
@@ -210,7 +210,7 @@ TEST(RoughSeparationTest, MissesAnEighthOfWhatIsBeyondTheMargin) {
   }
 }
 
-TEST(FartherApartTest, IsWhetherTheGapIsMore) {
+TEST(DistanceExceedsTest, ComparesTheGap) {
   Random random(/*seed=*/6);
   for (int i = 0; i < 5000; ++i) {
     const PointHull triangle(randomTriangle(random, 1.0));
@@ -223,7 +223,7 @@ TEST(FartherApartTest, IsWhetherTheGapIsMore) {
   }
 }
 
-// Where the distance is more than what libccd takes for zero.
+// Skips distances that libccd takes for zero.
 TEST(SeparationTest, AgreesWithLibccd) {
   Random random(/*seed=*/7);
   int overlapping = 0;

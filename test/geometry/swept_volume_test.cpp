@@ -11,7 +11,7 @@
 namespace sweep_guard_core {
 namespace {
 
-// How far a point lies outside of the volume [m]; negative: inside.
+// Returns the distance of a point outside of the volume [m]; negative inside.
 double outside(const SweptVolume& volume, const Eigen::Vector3d& p_B) {
   double farthest = -std::numeric_limits<double>::infinity();
   for (const HalfSpace& half_space : volume.halfSpaces_B()) {
@@ -20,7 +20,7 @@ double outside(const SweptVolume& volume, const Eigen::Vector3d& p_B) {
   return farthest;
 }
 
-// The same for the round tool, over the exact motion in steps.
+// Returns the largest such distance of the round tool over samples of the exact motion.
 double outside(const SweptVolume& volume, const ConvexShape& tool, const Motion& motion, int steps) {
   double farthest = -std::numeric_limits<double>::infinity();
   for (int step = 0; step <= steps; ++step) {
@@ -58,7 +58,7 @@ TEST(SweptVolumeTest, IsGrownByTheChordErrorAndTheExtraMargin) {
   EXPECT_TRUE(still.box.half_extents.isApprox(Eigen::Vector3d(0.75, 0.75, 1.25), 1e-12));
 }
 
-// Both kinds, at rest, in a straight line and turning by as much as it may.
+// With and without planes, at rest, straight and with the largest rotation.
 TEST(SweptVolumeTest, HoldsTheToolAllAlongTheExactMotion) {
   Random random(/*seed=*/2);
   for (int i = 0; i < 1000 && !HasFailure(); ++i) {
@@ -72,7 +72,7 @@ TEST(SweptVolumeTest, HoldsTheToolAllAlongTheExactMotion) {
   }
 }
 
-// The chords alone would lose the arcs.
+// The chords alone would not contain the arcs.
 TEST(SweptVolumeTest, WouldNotHoldTheArcsWithoutItsMargin) {
   const ConvexShape drill = ConvexShape::cylinder(0.005, 0.1);
   Motion turn;
@@ -82,8 +82,8 @@ TEST(SweptVolumeTest, WouldNotHoldTheArcsWithoutItsMargin) {
   EXPECT_GT(outside(volume, drill, turn, /*steps=*/50), 0.5 * volume.margin);
 }
 
-// A double has 1.2e-10 m between two numbers there, and the poses themselves are no better.
-TEST(SweptVolumeTest, HoldsTheToolAThousandKilometresOut) {
+// Doubles are 1.2e-10 m apart there, and so are the poses.
+TEST(SweptVolumeTest, HoldsTheToolAThousandKilometersOut) {
   Random random(/*seed=*/3);
   for (int i = 0; i < 1000; ++i) {
     const ConvexShape tool = randomTool(random, 0.1);
@@ -93,7 +93,7 @@ TEST(SweptVolumeTest, HoldsTheToolAThousandKilometresOut) {
   }
 }
 
-TEST(SweptVolumeTest, IsAsTightAThousandKilometresOutAsAtTheOrigin) {
+TEST(SweptVolumeTest, IsAsTightAThousandKilometersOutAsAtTheOrigin) {
   Random random(/*seed=*/4);
   for (int i = 0; i < 100; ++i) {
     const ConvexShape tool = randomTool(random, 0.1);
@@ -106,7 +106,7 @@ TEST(SweptVolumeTest, IsAsTightAThousandKilometresOutAsAtTheOrigin) {
   }
 }
 
-// The canary stands there: a point on a plane would be lost to the next rounding.
+// The canary is there: rounding could lose a point on a plane.
 TEST(SweptVolumeTest, HasItsInteriorPointStrictlyInside) {
   Random random(/*seed=*/5);
   for (int i = 0; i < 20'000; ++i) {

@@ -33,7 +33,7 @@ Tool randomParts(Random& random, int count) {
   return Tool(std::move(parts));
 }
 
-TEST(ToolTest, OfOnePartIsThatPart) {
+TEST(ToolTest, OfOnePieceIsThatPiece) {
   const Tool drill = Tool::cylinder(0.005, 0.1);
   ASSERT_EQ(drill.tree().size(), 1U);
   EXPECT_EQ(drill.tree()[0].piece, 0U);
@@ -42,9 +42,9 @@ TEST(ToolTest, OfOnePartIsThatPart) {
       Eigen::AlignedBox3d(Eigen::Vector3d(-0.005, -0.005, -0.1), Eigen::Vector3d(0.005, 0.005, 0.0))));
 }
 
-TEST(ToolTest, OfNoPartIsRefused) { EXPECT_THROW(Tool(std::vector<ConvexPiece>{}), InvalidInput); }
+TEST(ToolTest, RefusesNoPiece) { EXPECT_THROW(Tool(std::vector<ConvexPiece>{}), InvalidInput); }
 
-TEST(ToolTest, EveryPartIsALeafOfTheTreeOnce) {
+TEST(ToolTest, EveryPieceIsALeafOfTheTreeOnce) {
   Random random(/*seed=*/11);
   for (int count = 1; count <= 33; ++count) {
     const Tool tool = randomParts(random, count);
@@ -56,7 +56,7 @@ TEST(ToolTest, EveryPartIsALeafOfTheTreeOnce) {
     }
     EXPECT_EQ(leaves.size(), static_cast<size_t>(count));
     EXPECT_EQ(std::set<size_t>(leaves.begin(), leaves.end()).size(), leaves.size());
-    EXPECT_EQ(below.size(), tool.tree().size() - 1);  // every node but the root is below one other
+    EXPECT_EQ(below.size(), tool.tree().size() - 1);  // every node except the root is below one other
     EXPECT_EQ(std::set<size_t>(below.begin(), below.end()).size(), below.size());
   }
 }
@@ -69,7 +69,7 @@ void expectHeld(const Tool& tool, const Tool::Node& above, const Tool::Node& nod
   for (const size_t below : node.below) expectHeld(tool, above, tool.tree()[below], direction);
 }
 
-TEST(ToolTest, EveryNodeHoldsThePartsBelowIt) {
+TEST(ToolTest, EveryNodeContainsThePiecesBelowIt) {
   Random random(/*seed=*/12);
   for (int i = 0; i < 50; ++i) {
     const Tool tool = randomParts(random, 1 + random.below(20));
@@ -79,7 +79,7 @@ TEST(ToolTest, EveryNodeHoldsThePartsBelowIt) {
   }
 }
 
-TEST(ToolTest, ExtentAndBoundsHoldEveryPart) {
+TEST(ToolTest, BoundingRadiusAndBoundsContainEveryPiece) {
   Random random(/*seed=*/13);
   for (int i = 0; i < 200; ++i) {
     const Tool tool = randomParts(random, 1 + random.below(5));
@@ -93,8 +93,8 @@ TEST(ToolTest, ExtentAndBoundsHoldEveryPart) {
   }
 }
 
-// A support function is that of its own support point, and no point of the body reaches farther.
-TEST(ToolTest, PartsReachAsFarAsTheirSupportPoints) {
+// The support function is the value at the support point, and no point of the body reaches farther.
+TEST(ToolTest, PiecesReachAsFarAsTheirSupportPoints) {
   Random random(/*seed=*/14);
   for (int i = 0; i < 300; ++i) {
     const ConvexShape shape = randomShape(random);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "refusal.h"
+#include "scenes.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
@@ -15,11 +16,11 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// One triangle, and a vertex that none uses.
+// One triangle and an unused vertex.
 const std::vector<Eigen::Vector3d> kVertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const std::vector<Triangle> kTriangles = {{0, 1, 2}};
 
-// The complaint about a mesh; empty if it is accepted.
+// Returns the error text for a mesh; empty if it is accepted.
 std::string complaint(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Triangle>& triangles) {
   return ::refusal([&] { const TriangleMesh mesh(vertices, triangles); });
 }
@@ -30,7 +31,7 @@ std::string complaintAboutCoordinate(size_t vertex, int axis, double coordinate)
   return complaint(vertices, kTriangles);
 }
 
-TEST(TriangleMeshTest, KeepsWhatItIsGiven) {
+TEST(TriangleMeshTest, KeepsVerticesAndTriangles) {
   const TriangleMesh mesh(kVertices, kTriangles);
   ASSERT_EQ(mesh.triangles(), kTriangles);
   ASSERT_EQ(mesh.vertexCount(), 4U);
@@ -38,8 +39,8 @@ TEST(TriangleMeshTest, KeepsWhatItIsGiven) {
   EXPECT_EQ(mesh.rounding(), 0.0);
 }
 
-// Vertex 0, the last that is used, and one that no triangle uses.
-TEST(TriangleMeshTest, RefusesCoordinatesThatAreNoNumbersWhereverTheyAre) {
+// Vertex 0, the last used vertex and an unused one.
+TEST(TriangleMeshTest, RefusesCoordinatesThatAreNotFinite) {
   for (const double bad : {kNaN, kInfinity, -kInfinity}) {
     for (const size_t vertex : {0U, 2U, 3U}) {
       for (const int axis : {0, 1, 2}) {
@@ -69,13 +70,13 @@ TEST(TriangleMeshTest, RefusesAMeshWithoutTriangles) {
   EXPECT_TRUE(has(complaint({}, {}), "no triangles"));
 }
 
-// Dropping them could lose a wire or a tip.
+// They may be a wire or a tip.
 TEST(TriangleMeshTest, KeepsDegenerateTriangles) {
   const std::vector<Triangle> point_and_needle = {{0, 0, 0}, {0, 1, 1}};
   EXPECT_EQ(TriangleMesh(kVertices, point_and_needle).triangles(), point_and_needle);
 }
 
-// 1e6 m out, a float32 of its own would be off by up to 0.03 m.
+// A float32 coordinate of 1e6 m would have an error of up to 0.03 m.
 TEST(TriangleMeshTest, KeepsPositionsFarOutToWithinItsRounding) {
   const Eigen::Vector3d far(1e6, -1e6, 1e6);
   const std::vector<Eigen::Vector3d> vertices = {far + Eigen::Vector3d(0.1, 0.2, 0.3), far,
@@ -93,42 +94,34 @@ TEST(TriangleMeshTest, MeasuresItsRadiusFromItsOrigin) {
 }
 
 TEST(TriangleMeshTest, DeformsToTheGivenPositions) {
-  const TriangleMesh deformed =
-      TriangleMesh(kVertices, kTriangles).deformed({0.1F, 0, 0, 1, 0, 0, 0, 1, 0, 1e6F, 0, 0.3F});
-  EXPECT_EQ(deformed.vertex(0), Eigen::Vector3d(0.1F, 0, 0));
-  EXPECT_EQ(deformed.vertex(3), Eigen::Vector3d(1e6F, 0, 0.3F));
-  EXPECT_EQ(deformed.rounding(), 0.0);
-  EXPECT_DOUBLE_EQ(deformed.radius(), Eigen::Vector3d(1e6F, 1.0, 0.3F).norm());
+  const TriangleMesh mesh = deformed({kVertices, kTriangles}, {0.1F, 0, 0, 1, 0, 0, 0, 1, 0, 1e6F, 0, 0.3F});
+  EXPECT_EQ(mesh.vertex(0), Eigen::Vector3d(0.1F, 0, 0));
+  EXPECT_EQ(mesh.vertex(3), Eigen::Vector3d(1e6F, 0, 0.3F));
+  EXPECT_EQ(mesh.rounding(), 0.0);
+  EXPECT_DOUBLE_EQ(mesh.radius(), Eigen::Vector3d(1e6F, 1.0, 0.3F).norm());
 }
 
-// Nothing is rebuilt at 60 Hz: not even the list of triangles is copied.
+// The list of triangles is not copied at 60 Hz.
 TEST(TriangleMeshTest, SharesItsTrianglesWithItsDeformations) {
   const TriangleMesh mesh(kVertices, kTriangles);
-  const TriangleMesh deformed = mesh.deformed(std::vector<float>(12, 0.0F));
-  EXPECT_EQ(&deformed.triangles(), &mesh.triangles());
-  EXPECT_EQ(&deformed.deformed(std::vector<float>(12, 1.0F)).triangles(), &mesh.triangles());
-}
-
-TEST(TriangleMeshTest, OutlivesTheMeshItWasDeformedFrom) {
-  const TriangleMesh deformed = TriangleMesh(kVertices, kTriangles).deformed(std::vector<float>(12, 0.0F));
-  EXPECT_EQ(deformed.triangles(), kTriangles);
+  EXPECT_EQ(&deformed(mesh, std::vector<float>(12, 0.0F)).triangles(), &mesh.triangles());
 }
 
 TEST(TriangleMeshTest, RefusesADeformationOfAnotherSize) {
   const TriangleMesh mesh(kVertices, kTriangles);
-  EXPECT_THROW(mesh.deformed(std::vector<float>(11)), InvalidInput);
-  EXPECT_THROW(mesh.deformed(std::vector<float>(15)), InvalidInput);
-  EXPECT_THROW(mesh.deformed({}), InvalidInput);
+  EXPECT_THROW(deformed(mesh, std::vector<float>(11)), InvalidInput);
+  EXPECT_THROW(deformed(mesh, std::vector<float>(15)), InvalidInput);
+  EXPECT_THROW(deformed(mesh, {}), InvalidInput);
 }
 
-TEST(TriangleMeshTest, RefusesADeformationThatIsNoNumber) {
+TEST(TriangleMeshTest, RefusesADeformationThatIsNotFinite) {
   const TriangleMesh mesh(kVertices, kTriangles);
   constexpr float kTooFar = 1.1e7F;
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -kTooFar}) {
     for (const size_t i : {0U, 8U, 11U}) {
       std::vector<float> positions(12, 0.0F);
       positions[i] = bad;
-      EXPECT_TRUE(has(refusal([&] { mesh.deformed(positions); }), "vertex " + std::to_string(i / 3) + " ")) << bad;
+      EXPECT_TRUE(has(refusal([&] { deformed(mesh, positions); }), "vertex " + std::to_string(i / 3) + " ")) << bad;
     }
   }
 }

@@ -11,7 +11,8 @@ namespace {
 
 std::vector<float> randomPositions(Random& random, size_t vertices) {
   std::vector<float> positions(3 * vertices);
-  for (float& x : positions) x = static_cast<float>(random.uniform(1.0, 2.0));  // not about 0: filling up would show
+  for (float& x : positions)
+    x = static_cast<float>(random.uniform(1.0, 2.0));  // away from 0: filling with zeros would show
   return positions;
 }
 
@@ -44,7 +45,7 @@ TEST(VertexBlocksTest, HaveTheTightestBoxesForAnyNumberOfVertices) {
   }
 }
 
-TEST(VertexBlocksTest, NoCoordinateThatIsNotFiniteGoesUnseen) {
+TEST(VertexBlocksTest, ReportsEveryCoordinateThatIsNotFinite) {
   Random random(2);
   for (const size_t vertices : {1U, 33U, 100U}) {
     for (size_t i = 0; i < 3 * vertices; ++i) {
@@ -56,7 +57,7 @@ TEST(VertexBlocksTest, NoCoordinateThatIsNotFiniteGoesUnseen) {
   }
 }
 
-TEST(VertexBlocksTest, AreMeasuredAnewEachTime) {
+TEST(VertexBlocksTest, AreMeasuredAgainEachTime) {
   Random random(3);
   VertexBlocks blocks;
   for (const size_t vertices : {1000U, 40U, 3000U}) {

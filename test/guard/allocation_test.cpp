@@ -9,7 +9,6 @@
 #include "scenes.h"
 #include "sweep_guard/common/pool.h"
 #include "sweep_guard/detection/detector.h"
-#include "sweep_guard/guard/displacements.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
@@ -61,7 +60,7 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
     for (int ms = 0; ms < kEnd; ms += kPeriod) sent_.push_back(positions(ms));
     const TriangleMesh mesh_M = wavyWorkpiece(/*phase=*/0.0);
     workpieces_.push_back(
-        snapshots_.add({"a workpiece of a long name", 1, Time(100s), {}, kFrame, mesh_M.deformed(sent_[0])}));
+        snapshots_.add({"a workpiece of a long name", 1, Time(100s), {}, kFrame, deformed(mesh_M, sent_[0])}));
   }
 
   // The large one has clusters in groups, and is renumbered.
@@ -108,8 +107,7 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
     next->mesh_M.deform(positions_);
     next->stamp = now(ms).stamp;
     next->received = now(ms).steady;
-    next->updates = workpieces_[0]->updates + 1;
-    next->path_length = workpieces_[0]->path_length + Displacements(workpieces_[0]->mesh_M, next->mesh_M).farthest();
+    countUpdate(*workpieces_[0], *next);
     workpieces_[0] = next;
     monitor_.setWorkpieces(workpieces_);
   }

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "detection/reference_detector.h"
+#include "guard/guard_results.h"
 #include "monitor/warnings.h"
 #include "scenes.h"
-#include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_core {
@@ -111,8 +111,8 @@ class Loop {
     const WarningMonitor::Checkpoint checkpoint = monitor_.checkpoint();
     const Workpieces all = {wall_.workpiece};
     const PoseWithFrames pose{seen.stamp, seen.received, X_WT, {{"table", wall_.X_WM}}};
-    monitor_.swept(guard_.sweep(pose, sweep ? all : Workpieces()), seen, checkpoint, came.steady);
-    if (look_ahead) monitor_.predicted(guard_.predict(age(seen, came), all), seen, checkpoint, came);
+    monitor_.swept(reportOf(guard_, pose, sweep ? all : Workpieces()), seen, checkpoint, came.steady);
+    if (look_ahead) monitor_.predicted(predictionOf(guard_, age(seen, came), all), seen, checkpoint, came);
   }
 
   void tick(Duration time) { alarms.note(time, warningOf(monitor_, instant(time)).level); }

@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/contact_probability.h"
+#include "guard/contact_probability.h"
 
 #include <gtest/gtest.h>
 

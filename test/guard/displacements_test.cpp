@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/displacements.h"
+#include "guard/displacements.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TriangleMesh moved(const TriangleMesh& mesh, Random& random, double most) {
     const Eigen::Vector3d p = mesh.vertex(i) + random.inBox({most, most, most});
     for (const double x : p) positions.push_back(static_cast<float>(x));
   }
-  return mesh.deformed(positions);
+  return deformed(mesh, positions);
 }
 
 // Every vertex in long double; none is outside, and the box is that of the vertices but for rounding.
@@ -48,8 +48,8 @@ void expectTight(const TriangleMesh& from, const TriangleMesh& to, double roundi
   }
   EXPECT_LE((displacements.box_M().min() - tight.min()).cwiseAbs().maxCoeff(), rounding);
   EXPECT_LE((displacements.box_M().max() - tight.max()).cwiseAbs().maxCoeff(), rounding);
-  EXPECT_GE(displacements.farthest() * (1.0 + 1e-15), farthest);
-  EXPECT_LE(displacements.least() * (1.0 - 1e-15), least);
+  EXPECT_GE(displacements.upperBound() * (1.0 + 1e-15), farthest);
+  EXPECT_LE(displacements.lowerBound() * (1.0 - 1e-15), least);
 }
 
 TEST(DisplacementsTest, HoldThatOfEveryVertexOfAnyMesh) {
@@ -73,11 +73,11 @@ TEST(DisplacementsTest, SeeEachVertex) {
   for (size_t i = 0; i < positions.size(); ++i) {
     const float before = positions[i];
     positions[i] = 7.0F;
-    EXPECT_EQ(Displacements(mesh, mesh.deformed(positions)).box_M().max()[static_cast<int>(i % 3)] > 5.0, true) << i;
+    EXPECT_EQ(Displacements(mesh, deformed(mesh, positions)).box_M().max()[static_cast<int>(i % 3)] > 5.0, true) << i;
     positions[i] = before;
   }
-  EXPECT_FALSE(Displacements(mesh, mesh.deformed(positions)).any());
-  EXPECT_EQ(Displacements(mesh, mesh).farthest(), 0.0);
+  EXPECT_FALSE(Displacements(mesh, deformed(mesh, positions)).any());
+  EXPECT_EQ(Displacements(mesh, mesh).upperBound(), 0.0);
 }
 
 TEST(DisplacementsTest, AreBoundedByTheCornersOfTheirBox) {
@@ -85,8 +85,8 @@ TEST(DisplacementsTest, AreBoundedByTheCornersOfTheirBox) {
   const TriangleMesh bent({{0, 0, 3}, {1, 0, 1}, {0, 1, 2}}, {{0, 1, 2}});
   const Displacements displacements(flat, bent);
   EXPECT_TRUE(displacements.any());
-  EXPECT_NEAR(displacements.farthest(), 3.0, 1e-6);
-  EXPECT_NEAR(displacements.least(), 1.0, 1e-6);
+  EXPECT_NEAR(displacements.upperBound(), 3.0, 1e-6);
+  EXPECT_NEAR(displacements.lowerBound(), 1.0, 1e-6);
 }
 
 }  // namespace

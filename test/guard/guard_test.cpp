@@ -1,11 +1,12 @@
-#include "sweep_guard/guard/guard.h"
+#include "guard/guard_results.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "guard/fake_detector.h"
-#include "sweep_guard/guard/moving_mesh.h"
+#include "guard/moving_mesh.h"
+#include "scenes.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -34,7 +35,7 @@ std::shared_ptr<const Workpiece> sheet(const std::string& id, const std::string&
 // A drill that is 0.1 m long and guarded in the frame `table`, unless told otherwise.
 class GuardTest : public testing::Test {
  protected:
-  SweepReport sweepTo(double seconds, double z) { return guard_.sweep(pose(seconds, {{"table", up(z)}}), table_); }
+  SweepReport sweepTo(double seconds, double z) { return reportOf(guard_, pose(seconds, {{"table", up(z)}}), table_); }
 
   void passTo(double seconds, double z) { guard_.pass(pose(seconds, {{"table", up(z)}})); }
 
@@ -86,7 +87,7 @@ TEST_F(GuardTest, SweepsEveryIntervalEndToEnd) {
 
 // The drill of 5 mm passes the sheet's edge in 7 mm.
 TEST_F(GuardTest, SweepsTheWayOnWithWhatItAdopts) {
-  guard_.sweep(pose(1.0, {{"table", Eigen::Isometry3d(Eigen::Translation3d(0.0, -1.007, 0.5))}}), table_);
+  reportOf(guard_, pose(1.0, {{"table", Eigen::Isometry3d(Eigen::Translation3d(0.0, -1.007, 0.5))}}), table_);
   FakeDetector::Record record;
   GuardChange change;
   change.tool = Tool::cylinder(0.01, 0.1);
@@ -97,7 +98,7 @@ TEST_F(GuardTest, SweepsTheWayOnWithWhatItAdopts) {
   EXPECT_NEAR(change.tool->bounds_T().max().x(), 0.005, 1e-9);
   record_.volumes.clear();
   const Eigen::Isometry3d below(Eigen::Translation3d(0.0, -1.007, -0.5));
-  const SweepReport report = guard_.sweep(pose(1.1, {{"table", below}}), table_);
+  const SweepReport report = reportOf(guard_, pose(1.1, {{"table", below}}), table_);
   EXPECT_EQ(report.start, at(1.0));
   EXPECT_TRUE(report.contact());
   EXPECT_TRUE(record_.volumes.empty());
@@ -111,9 +112,9 @@ TEST_F(GuardTest, PredictsWithAnAdoptedPredictorFromTheNextPoseOn) {
   GuardChange change;
   change.predictor.emplace(PredictorOptions());
   guard_.exchange(change);
-  EXPECT_TRUE(guard_.predict({}, table_).path.empty());
+  EXPECT_TRUE(predictionOf(guard_, {}, table_).path.empty());
   sweepTo(1.1, 0.5);
-  EXPECT_FALSE(guard_.predict({}, table_).path.empty());
+  EXPECT_FALSE(predictionOf(guard_, {}, table_).path.empty());
 }
 
 TEST_F(GuardTest, SweepsBetweenTwoPosesOfTheSameStamp) {
@@ -181,13 +182,13 @@ TEST_F(GuardTest, SweepsTheWayThroughAFailureThoughTheTrianglesAreNewSince) {
   sweepTo(1.0, 0.5);
   record_.failures_left = 1;
   sweepTo(1.1, -0.2);
-  EXPECT_TRUE(guard_.sweep(pose(1.2, {{"table", up(-0.3)}}), remeshed).contact());
+  EXPECT_TRUE(reportOf(guard_, pose(1.2, {{"table", up(-0.3)}}), remeshed).contact());
 }
 
 TEST_F(GuardTest, AFailureOnOneWorkpieceDoesNotHideAContactWithAnother) {
   const Workpieces both = {sheet("first", "table"), sheet("second", "table")};
   record_.failures_left = 1;
-  const SweepReport report = guard_.sweep(pose(1.0, {{"table", up(0.05)}}), both);
+  const SweepReport report = reportOf(guard_, pose(1.0, {{"table", up(0.05)}}), both);
   ASSERT_EQ(report.failures.size(), 1U);
   EXPECT_EQ(report.failures[0].workpiece, both[0]);
   EXPECT_TRUE(report.contact());
@@ -224,7 +225,7 @@ TEST_F(GuardTest, MeetsWhatAFlickInABacklogMeets) {
 }
 
 TEST_F(GuardTest, SweepsAWorkpieceThatComesDuringABacklogAllAlongIt) {
-  guard_.sweep(pose(1.0, {{"table", up(0.5)}}), {});
+  reportOf(guard_, pose(1.0, {{"table", up(0.5)}}), {});
   passTo(1.1, -0.2);
   passTo(1.2, -0.5);
   EXPECT_TRUE(sweepTo(1.3, -0.6).contact());
@@ -233,7 +234,7 @@ TEST_F(GuardTest, SweepsAWorkpieceThatComesDuringABacklogAllAlongIt) {
 TEST_F(GuardTest, SweepsABacklogWhereItsFrameIsKnownAgain) {
   sweepTo(1.0, 0.5);
   passTo(1.1, -0.2);
-  const SweepReport unplaced = guard_.sweep(pose(1.2, {}), table_);
+  const SweepReport unplaced = reportOf(guard_, pose(1.2, {}), table_);
   EXPECT_EQ(unplaced.unplaced.size(), 1U);
   passTo(1.3, 0.4);
   const SweepReport report = sweepTo(1.4, 0.5);
@@ -248,9 +249,9 @@ TEST_F(GuardTest, ABacklogLeavesThePredictionAsItIs) {
   Guard prompt(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options);
   for (int ms = 0; ms <= 300; ++ms) {
     const PoseWithFrames pose{at(1.0 + 1e-3 * ms), SteadyTime{}, up(0.5 + 0.1 * std::sin(0.01 * ms)), {}};
-    prompt.sweep(pose, {});
+    reportOf(prompt, pose, {});
     if (ms % 10 == 0) {
-      backlogged.sweep(pose, {});
+      reportOf(backlogged, pose, {});
     } else {
       backlogged.pass(pose);
     }
@@ -273,8 +274,8 @@ TEST_F(GuardTest, SweepsTheArcThatATurningTableMakesOfARestingTool) {
   const TriangleMesh dot({on_arc, on_arc, on_arc}, {{0, 1, 2}});
   const Workpieces table = {
       std::make_shared<const Workpiece>(Workpiece{"dot", 0, at(0.0), SteadyTime{}, "table", dot})};
-  EXPECT_FALSE(guard_.sweep(tableTurnedBy(0.0), table).contact());
-  EXPECT_TRUE(guard_.sweep(tableTurnedBy(0.5), table).contact());
+  EXPECT_FALSE(reportOf(guard_, tableTurnedBy(0.0), table).contact());
+  EXPECT_TRUE(reportOf(guard_, tableTurnedBy(0.5), table).contact());
 }
 
 TEST_F(GuardTest, TestsThePoseAloneAfterForgetting) {
@@ -286,7 +287,7 @@ TEST_F(GuardTest, TestsThePoseAloneAfterForgetting) {
 }
 
 TEST_F(GuardTest, HasNothingToReportWithoutWorkpieces) {
-  const SweepReport report = guard_.sweep(pose(1.0, {{"table", up(0.0)}}), {});
+  const SweepReport report = reportOf(guard_, pose(1.0, {{"table", up(0.0)}}), {});
   EXPECT_TRUE(report.objects.empty());
   EXPECT_TRUE(report.unplaced.empty());
   EXPECT_FALSE(report.contact());
@@ -295,7 +296,7 @@ TEST_F(GuardTest, HasNothingToReportWithoutWorkpieces) {
 
 TEST_F(GuardTest, NamesWorkpiecesWhoseFrameIsMissing) {
   const Workpieces both = {sheet("on table", "table"), sheet("on turntable", "turntable")};
-  const SweepReport report = guard_.sweep(pose(1.0, {{"table", up(0.5)}}), both);
+  const SweepReport report = reportOf(guard_, pose(1.0, {{"table", up(0.5)}}), both);
   ASSERT_EQ(report.objects.size(), 1U);
   EXPECT_EQ(report.objects[0].workpiece, both[0]);
   ASSERT_EQ(report.unplaced.size(), 1U);
@@ -305,9 +306,9 @@ TEST_F(GuardTest, NamesWorkpiecesWhoseFrameIsMissing) {
 // For one pose the turntable's transform is missing. The next sweep there starts at the pose before.
 TEST_F(GuardTest, SweepsFromTheLastPoseThatWasKnownInAFrame) {
   const Workpieces both = {sheet("on table", "table"), sheet("on turntable", "turntable")};
-  guard_.sweep(pose(1.0, {{"table", up(0.5)}, {"turntable", up(0.5)}}), both);
-  guard_.sweep(pose(1.1, {{"table", up(0.4)}}), both);
-  const SweepReport report = guard_.sweep(pose(1.2, {{"table", up(0.3)}, {"turntable", up(-0.1)}}), both);
+  reportOf(guard_, pose(1.0, {{"table", up(0.5)}, {"turntable", up(0.5)}}), both);
+  reportOf(guard_, pose(1.1, {{"table", up(0.4)}}), both);
+  const SweepReport report = reportOf(guard_, pose(1.2, {{"table", up(0.3)}, {"turntable", up(-0.1)}}), both);
   ASSERT_EQ(report.objects.size(), 2U);
   EXPECT_EQ(report.objects[0].interval_start, at(1.1));
   EXPECT_TRUE(report.objects[0].result.triangles.empty());
@@ -321,13 +322,13 @@ TEST_F(GuardTest, SweepsFromTheLastPoseThatWasKnownInAFrame) {
 TEST_F(GuardTest, MeetsAWorkpieceThatMovesWithItsFrame) {
   const Eigen::Isometry3d X_WT = up(0.0);
   const auto seenFrom = [&](const Eigen::Isometry3d& X_WM) { return X_WM.inverse() * X_WT; };
-  guard_.sweep(pose(1.0, {{"table", seenFrom(up(-0.5))}}), table_);
-  EXPECT_TRUE(guard_.sweep(pose(1.1, {{"table", seenFrom(up(0.5))}}), table_).contact());
+  reportOf(guard_, pose(1.0, {{"table", seenFrom(up(-0.5))}}), table_);
+  EXPECT_TRUE(reportOf(guard_, pose(1.1, {{"table", seenFrom(up(0.5))}}), table_).contact());
 }
 
 // A pose is remembered in every frame, so a workpiece that comes later is swept over the interval it came in.
 TEST_F(GuardTest, SweepsAWorkpieceThatComesLaterFromThePoseBefore) {
-  guard_.sweep(pose(1.0, {{"table", up(0.5)}}), {});
+  reportOf(guard_, pose(1.0, {{"table", up(0.5)}}), {});
   const SweepReport report = sweepTo(1.1, -0.1);
   EXPECT_TRUE(report.contact());
   EXPECT_EQ(report.objects[0].interval_start, at(1.0));
@@ -336,7 +337,7 @@ TEST_F(GuardTest, SweepsAWorkpieceThatComesLaterFromThePoseBefore) {
 // What comes to live in a frame later was not there when the tool moved before.
 TEST_F(GuardTest, ForgetsAFrameThatNothingLivesIn) {
   sweepTo(1.0, 0.5);
-  guard_.sweep(pose(1.1, {}), {});
+  reportOf(guard_, pose(1.1, {}), {});
   const SweepReport report = sweepTo(1.2, -0.1);
   EXPECT_EQ(report.objects[0].interval_start, at(1.2));
   EXPECT_FALSE(report.contact());
@@ -359,14 +360,15 @@ class MovingSheetTest : public testing::Test {
       const Eigen::Vector3d p = before.vertex(i);
       for (const double x : {p.x(), p.y(), z}) positions.push_back(static_cast<float>(x));
     }
-    TriangleMesh mesh = before.deformed(positions);
-    const double history = newest_ ? newest_->path_length + Displacements(before, mesh).farthest() : 0.0;
-    const std::uint64_t updates = newest_ ? newest_->updates + 1 : 0;
-    newest_ = std::make_shared<const Workpiece>(
-        Workpiece{"sheet", 0, at(seconds), SteadyTime{}, "table", std::move(mesh), updates, history});
+    const auto next = std::make_shared<Workpiece>(
+        Workpiece{"sheet", 0, at(seconds), SteadyTime{}, "table", deformed(before, positions)});
+    if (newest_) countUpdate(*newest_, *next);
+    newest_ = next;
   }
 
-  SweepReport sweepTo(double seconds, double z) { return guard_.sweep(pose(seconds, {{"table", up(z)}}), {newest_}); }
+  SweepReport sweepTo(double seconds, double z) {
+    return reportOf(guard_, pose(seconds, {{"table", up(z)}}), {newest_});
+  }
 
   std::shared_ptr<const Workpiece> newest_;
   Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), {}};
@@ -478,8 +480,8 @@ TEST_F(MovingSheetTest, IsFollowedThroughAFailureOfTheFirstSweep) {
   record.failures_left = 1;
   Guard guard{Tool::cylinder(0.005, 0.1), std::make_unique<FakeDetector>(record), {}};
   place(1.0, 0.0);
-  EXPECT_EQ(guard.sweep(pose(1.0, {{"table", up(0.5)}}), {newest_}).failures.size(), 1U);
-  EXPECT_TRUE(guard.sweep(pose(1.1, {{"table", up(-0.5)}}), {newest_}).contact());
+  EXPECT_EQ(reportOf(guard, pose(1.0, {{"table", up(0.5)}}), {newest_}).failures.size(), 1U);
+  EXPECT_TRUE(reportOf(guard, pose(1.1, {{"table", up(-0.5)}}), {newest_}).contact());
 }
 
 // As a publisher does that sends the whole mesh each time.

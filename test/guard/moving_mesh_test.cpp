@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/moving_mesh.h"
+#include "guard/moving_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/path_in_mesh.h"
+#include "guard/path_in_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 
 #include "detection/reference_detector.h"
 #include "geometry/round_tool.h"
+#include "guard/path_checker.h"
 #include "scenes.h"
-#include "sweep_guard/guard/path_checker.h"
 
 namespace sweep_guard_core {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/pose_history.h"
+#include "guard/pose_history.h"
 
 #include <gtest/gtest.h>
 

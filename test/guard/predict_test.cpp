@@ -5,9 +5,10 @@
 
 #include "geometry/round_tool.h"
 #include "guard/fake_detector.h"
+#include "guard/guard_results.h"
+#include "guard/path_checker.h"
 #include "monitor/warnings.h"
 #include "scenes.h"
-#include "sweep_guard/guard/guard.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -58,11 +59,11 @@ class LookAheadTest : public testing::Test {
   void follow(const Steady& motion,
               const std::map<std::string, Eigen::Isometry3d>& X_WM = {{"table", Eigen::Isometry3d::Identity()}}) {
     for (int i = -9; i <= 0; ++i) {
-      guard_.sweep({Time(10s + i * 10ms), SteadyTime(), motion.at(0.01 * i), X_WM}, workpieces_);
+      reportOf(guard_, {Time(10s + i * 10ms), SteadyTime(), motion.at(0.01 * i), X_WM}, workpieces_);
     }
   }
 
-  Prediction predict(Duration age = 0ms) { return guard_.predict(age, workpieces_); }
+  Prediction predict(Duration age = 0ms) { return predictionOf(guard_, age, workpieces_); }
 
   Workpieces workpieces_;
   FakeDetector::Record record_;
@@ -71,10 +72,10 @@ class LookAheadTest : public testing::Test {
 
 TEST_F(LookAheadTest, ExpectsNothingBeforeAMotionIsKnown) {
   workpieces_ = {workpiece("sheet", sheetAt(0.0))};
-  EXPECT_TRUE(guard_.predict(0ms, workpieces_).path.empty());
-  guard_.sweep({Time(10s), SteadyTime(), Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}},
-               workpieces_);
-  const Prediction prediction = guard_.predict(0ms, workpieces_);
+  EXPECT_TRUE(predictionOf(guard_, 0ms, workpieces_).path.empty());
+  reportOf(guard_, {Time(10s), SteadyTime(), Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}},
+           workpieces_);
+  const Prediction prediction = predictionOf(guard_, 0ms, workpieces_);
   EXPECT_TRUE(prediction.path.empty());
   EXPECT_TRUE(prediction.objects.empty());
   EXPECT_EQ(prediction.coveredUntil(), Time(10s));
@@ -187,7 +188,7 @@ TEST_F(LookAheadTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
   workpieces_ = {workpiece("first", sheetAt(0.0)), workpiece("second", sheetAt(-0.01))};
   follow(comingDown(0.05, 0.1));
   record_.failures_left = 1;
-  const Prediction prediction = guard_.predict(0ms, workpieces_);
+  const Prediction prediction = predictionOf(guard_, 0ms, workpieces_);
   ASSERT_EQ(prediction.failures.size(), 1U);
   EXPECT_EQ(prediction.failures[0].workpiece, workpieces_[0]);
   EXPECT_EQ(prediction.coveredUntil(), Time(10s));
@@ -243,14 +244,19 @@ TEST_F(LookAheadTest, TheVolumesCoverThePathWithoutHoles) {
 // Ten steps of 10 ms, then ten of 100 ms.
 PredictedPath pathAlong(const std::function<Eigen::Isometry3d(double)>& X_WT) {
   PredictedPath path;
-  for (const Duration ahead : horizon({}, 0ms).ends) path.push_back({ahead, X_WT(toSeconds(ahead)), Matrix6d::Zero()});
+  for (const Duration ahead : horizonUpTo(1100ms, {}, 0ms).ends)
+    path.push_back({ahead, X_WT(toSeconds(ahead)), Matrix6d::Zero()});
   return path;
 }
 
 // Of a reflex interval of ten sweeps.
 std::vector<size_t> endsOf(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t considered_sweeps) {
   std::vector<size_t> ends;
-  sweepEnds(X_WT, path, 10, considered_sweeps, ends);
+  PredictedMotion motion;
+  motion.from.X_WT = X_WT;
+  motion.path = path;
+  motion.reflex_sweeps = 10;
+  findSweepEnds(motion, considered_sweeps, ends);
   return ends;
 }
 
@@ -478,8 +484,8 @@ class SlowGuard {
     pose_.X_WT.translation().x() += 0.0001;
     pose_.X_WT.rotate(Eigen::AngleAxisd(0.066 * turn_rate, Eigen::Vector3d::UnitX()));
     pose_.stamp += 66ms;
-    guard_->sweep(pose_, workpieces_);
-    prediction = guard_->predict(5ms, workpieces_);
+    reportOf(*guard_, pose_, workpieces_);
+    prediction = predictionOf(*guard_, 5ms, workpieces_);
     return clock_ - begin;
   }
 

@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/sweep_checker.h"
+#include "guard/sweep_checker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/time_budget.h"
+#include "guard/time_budget.h"
 
 #include <gtest/gtest.h>
 

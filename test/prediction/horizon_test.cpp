@@ -17,9 +17,15 @@ Duration longest(const std::vector<Duration>& ends, size_t first, size_t last) {
   return longest;
 }
 
+Horizon horizonOf(const HorizonOptions& options, Duration age) {
+  Horizon horizon;
+  computeHorizon(options, age, horizon);
+  return horizon;
+}
+
 // [P, Sec. 3.2, Fig. 6] from a pose that has just come: ten steps of 10 ms, then ten of 100 ms.
 TEST(HorizonTest, CutsBothIntervalsIntoTheirSteps) {
-  const Horizon ahead = horizon({}, 0ms);
+  const Horizon ahead = horizonOf({}, 0ms);
   EXPECT_EQ(ahead.reflex_sweeps, 10U);
   const std::vector<Duration> expected = {10ms,  20ms,  30ms,  40ms,  50ms,  60ms,  70ms,  80ms,  90ms,   100ms,
                                           200ms, 300ms, 400ms, 500ms, 600ms, 700ms, 800ms, 900ms, 1000ms, 1100ms};
@@ -41,7 +47,7 @@ TEST(HorizonTest, EndsAnywhere) {
 }
 
 TEST(HorizonTest, CountsFromNowNotFromThePose) {
-  const Horizon ahead = horizon({}, 35ms);
+  const Horizon ahead = horizonOf({}, 35ms);
   EXPECT_EQ(ahead.ends[ahead.reflex_sweeps - 1], 135ms);
   EXPECT_EQ(ahead.ends.back(), 1135ms);
 }
@@ -57,7 +63,7 @@ TEST(HorizonTest, LeavesNothingOutAndTakesNoLongerStepsThanAskedFor) {
     options.considered_step = fromSeconds(random.logUniform(0.01, 5.0));
     options.reserve = fromSeconds(random.uniform(0.0, 0.3));
     const Duration age = fromSeconds(random.uniform(0.0, toSeconds(options.reserve)));
-    const Horizon ahead = horizon(options, age);
+    const Horizon ahead = horizonOf(options, age);
     ASSERT_EQ(ahead.ends.size(), ahead.reflex_sweeps + consideredSweeps(options));
     EXPECT_GT(ahead.ends.front(), Duration::zero());
     EXPECT_TRUE(std::is_sorted(ahead.ends.begin(), ahead.ends.end(), std::less_equal<>()));
@@ -70,7 +76,7 @@ TEST(HorizonTest, LeavesNothingOutAndTakesNoLongerStepsThanAskedFor) {
 
 // Such a pose is stale: the work that it makes is bounded, what it covers is not cut.
 TEST(HorizonTest, APoseOlderThanTheReserveTakesNoMoreSweeps) {
-  const Horizon ahead = horizon({}, std::chrono::hours(1));
+  const Horizon ahead = horizonOf({}, std::chrono::hours(1));
   EXPECT_EQ(ahead.reflex_sweeps, reflexSweeps({}, 100ms));
   EXPECT_EQ(ahead.ends[ahead.reflex_sweeps - 1], std::chrono::hours(1) + 100ms);
   EXPECT_EQ(ahead.ends.back(), std::chrono::hours(1) + 1100ms);

@@ -12,6 +12,12 @@
 namespace sweep_guard_core {
 namespace {
 
+PredictedPath pathOf(const PosePredictor& predictor, const std::vector<Duration>& ahead) {
+  PredictedPath path;
+  predictor.predict(ahead, path);
+  return path;
+}
+
 using std::chrono::milliseconds;
 
 const std::vector<Duration> kAhead = {milliseconds(10),  milliseconds(50),  milliseconds(100),
@@ -34,7 +40,7 @@ void follow(PosePredictor& predictor, const PoseAt& truth, double from, double u
 }
 
 void expectExact(const PosePredictor& predictor, const PoseAt& truth, double now, double tolerance) {
-  const PredictedPath path = predictor.predict(kAhead);
+  const PredictedPath path = pathOf(predictor, kAhead);
   ASSERT_EQ(path.size(), kAhead.size());
   for (const PredictedPose& pose : path) {
     const Vector6d error = displacement(pose.X_WT, truth(now + toSeconds(pose.ahead)));
@@ -82,7 +88,7 @@ TEST(PosePredictorTest, ConstantVelocityIsPredictedExactlyByAllThatMove) {
 TEST(PosePredictorTest, HoldStaysWhereTheToolIs) {
   PosePredictor predictor = predictorOf("hold");
   follow(predictor, steadyMotion, 0.0, 1.0, 0.01);
-  for (const PredictedPose& pose : predictor.predict(kAhead)) {
+  for (const PredictedPose& pose : pathOf(predictor, kAhead)) {
     EXPECT_TRUE(pose.X_WT.isApprox(steadyMotion(1.0), 1e-12));
     EXPECT_GT(pose.covariance(0, 0), 0.0);
   }
@@ -95,7 +101,7 @@ TEST(PosePredictorTest, AConstrainedAxisIsHeld) {
     options.constrained = {false, true, false, false, true, false};
     PosePredictor predictor(options);
     follow(predictor, steadyMotion, 0.0, 1.0, 0.01);
-    const Eigen::Isometry3d X_WT = predictor.predict(kAhead).back().X_WT;
+    const Eigen::Isometry3d X_WT = pathOf(predictor, kAhead).back().X_WT;
     EXPECT_NEAR(X_WT.translation().x(), steadyMotion(2.0).translation().x(), 1e-9) << name;
     EXPECT_NEAR(X_WT.translation().y(), steadyMotion(1.0).translation().y(), 1e-9) << name;
     EXPECT_TRUE(X_WT.linear().isApprox(steadyMotion(1.0).linear(), 1e-9)) << name;
@@ -105,11 +111,11 @@ TEST(PosePredictorTest, AConstrainedAxisIsHeld) {
 TEST(PosePredictorTest, KnowsNothingBeforeTheSecondPose) {
   for (const std::string& name : predictorNames()) {
     PosePredictor predictor = predictorOf(name);
-    EXPECT_TRUE(predictor.predict(kAhead).empty());
+    EXPECT_TRUE(pathOf(predictor, kAhead).empty());
     predictor.observe({at(0.0), steadyMotion(0.0)});
-    EXPECT_TRUE(predictor.predict(kAhead).empty());
+    EXPECT_TRUE(pathOf(predictor, kAhead).empty());
     predictor.observe({at(0.01), steadyMotion(0.01)});
-    EXPECT_EQ(predictor.predict(kAhead).size(), kAhead.size()) << name;
+    EXPECT_EQ(pathOf(predictor, kAhead).size(), kAhead.size()) << name;
   }
 }
 
@@ -118,15 +124,15 @@ TEST(PosePredictorTest, BeginsAnewAfterAGapAJumpOrARestart) {
     PosePredictor predictor = predictorOf(name);
     follow(predictor, steadyMotion, 0.0, 1.0, 0.01);
     predictor.observe({at(3.0), steadyMotion(3.0)});
-    EXPECT_TRUE(predictor.predict(kAhead).empty()) << name << ": a gap of 2 s";
+    EXPECT_TRUE(pathOf(predictor, kAhead).empty()) << name << ": a gap of 2 s";
     follow(predictor, steadyMotion, 3.01, 3.1, 0.01);
     predictor.observe({at(3.11), Eigen::Translation3d(9.0, 0.0, 0.0) * steadyMotion(3.11)});
-    EXPECT_TRUE(predictor.predict(kAhead).empty()) << name << ": a jump of 9 m";
+    EXPECT_TRUE(pathOf(predictor, kAhead).empty()) << name << ": a jump of 9 m";
     follow(predictor, steadyMotion, 3.12, 3.3, 0.01);
-    EXPECT_FALSE(predictor.predict(kAhead).empty());
+    EXPECT_FALSE(pathOf(predictor, kAhead).empty());
     predictor.restart();
     predictor.observe({at(0.0), steadyMotion(0.0)});
-    EXPECT_TRUE(predictor.predict(kAhead).empty()) << name << ": restarted";
+    EXPECT_TRUE(pathOf(predictor, kAhead).empty()) << name << ": restarted";
   }
 }
 
@@ -137,7 +143,7 @@ TEST(PosePredictorTest, WhatWasLearnedSurvivesAGap) {
   follow(predictor, shake, 0.0, 30.0, 0.01);
   follow(predictor, shake, 33.0, 33.05, 0.01);
   const double speed = 0.3 * std::cos(6.0 * 33.05);
-  const double far = predictor.predict(kAhead).back().X_WT.translation().x() - shake(33.05).translation().x();
+  const double far = pathOf(predictor, kAhead).back().X_WT.translation().x() - shake(33.05).translation().x();
   EXPECT_LT(std::abs(far), 0.5 * std::abs(speed));
 }
 
@@ -153,7 +159,7 @@ TEST(PosePredictorTest, IsNeverFasterThanTheLimits) {
       return Eigen::Translation3d(0.4 * t * t, 0, 0) * Eigen::AngleAxisd(1.5 * t * t, Eigen::Vector3d::UnitZ());
     };
     follow(predictor, rush, 0.0, 0.6, 0.01);
-    for (const PredictedPose& pose : predictor.predict(kAhead)) {
+    for (const PredictedPose& pose : pathOf(predictor, kAhead)) {
       const Vector6d moved = displacement(rush(0.6), pose.X_WT);
       EXPECT_LE(moved.head<3>().norm(), 0.5 * toSeconds(pose.ahead) + 1e-12) << name;
       EXPECT_LE(moved.tail<3>().norm(), 2.0 * toSeconds(pose.ahead) + 1e-9) << name;
@@ -181,7 +187,7 @@ TEST(PosePredictorTest, NothingThatComesMakesItExplode) {
       const Eigen::Isometry3d outlier = random.pose(100.0 * random.direction());
       const StampedPose pose{at(t), random.chance(0.01) ? outlier : X_WT};
       predictor.observe(pose);
-      for (const PredictedPose& expected : predictor.predict(kAhead)) {
+      for (const PredictedPose& expected : pathOf(predictor, kAhead)) {
         const double ahead = toSeconds(expected.ahead);
         ASSERT_TRUE(expected.X_WT.matrix().allFinite()) << name << ", pose " << i;
         ASSERT_NEAR(expected.X_WT.linear().determinant(), 1.0, 1e-9);
@@ -205,7 +211,7 @@ TEST(PosePredictorTest, FollowsAToolThatHasRested) {
     follow(predictor, start, 0.0, 30.0, 0.01);
     for (int i = 3001; i < 3500; ++i) {
       predictor.observe({at(0.01 * i), start(0.01 * i)});
-      const PredictedPose pose = predictor.predict({milliseconds(1000)})[0];
+      const PredictedPose pose = pathOf(predictor, {milliseconds(1000)})[0];
       const double way = pose.X_WT.translation().x() - start(0.01 * i).translation().x();
       if (i > 3010) {
         ASSERT_GT(way, 0.2) << name << " at " << 0.01 * i << " s";
@@ -225,8 +231,8 @@ TEST(PosePredictorTest, AStutterOfTheStampsDoesNotPoisonWhatIsLearned) {
     follow(stuttering, sway, 0.0, 5.0, 0.01);
     stuttering.observe({at(5.000001), Eigen::Translation3d(0.0005, 0.0, 0.0) * sway(5.0)});
     follow(stuttering, sway, 5.01, 10.0, 0.01);
-    const PredictedPose expected = steady.predict({milliseconds(500)})[0];
-    const PredictedPose disturbed = stuttering.predict({milliseconds(500)})[0];
+    const PredictedPose expected = pathOf(steady, {milliseconds(500)})[0];
+    const PredictedPose disturbed = pathOf(stuttering, {milliseconds(500)})[0];
     EXPECT_LT((expected.X_WT.translation() - disturbed.X_WT.translation()).norm(), 0.002) << name;
     EXPECT_LT(disturbed.covariance(0, 0), 1.2 * expected.covariance(0, 0)) << name;
   }
@@ -242,7 +248,7 @@ TEST(PosePredictorTest, SpinsThroughHalfTurnsSmoothly) {
     follow(predictor, spin, 0.0, 0.3, 0.01);
     for (int i = 31; i < 300; ++i) {
       predictor.observe({at(0.01 * i), spin(0.01 * i)});
-      const PredictedPose pose = predictor.predict({milliseconds(100)})[0];
+      const PredictedPose pose = pathOf(predictor, {milliseconds(100)})[0];
       ASSERT_LT(displacement(pose.X_WT, spin(0.01 * i + 0.1)).norm(), 1e-6) << name << " at " << 0.01 * i << " s";
     }
   }
@@ -260,7 +266,7 @@ TEST(PosePredictorTest, ItsCovarianceTellsHowFarItErrs) {
     double expected = 0.0;
     for (int i = 3001; i < 6000; ++i) {
       predictor.observe({at(0.01 * i), sway(0.01 * i)});
-      const PredictedPose pose = predictor.predict({milliseconds(500)})[0];
+      const PredictedPose pose = pathOf(predictor, {milliseconds(500)})[0];
       errors += displacement(pose.X_WT, sway(0.01 * i + 0.5)).head<3>().squaredNorm();
       expected += pose.covariance.topLeftCorner<3, 3>().trace();
     }

@@ -119,8 +119,8 @@ TEST_F(BagTest, SaysWhichTopicsThereAreInsteadOfTheOneAskedFor) {
 
 TEST_F(BagTest, RefusesABagWithoutPoses) {
   write("header", std_msgs::Header());
-  EXPECT_TRUE(has(refusal(), "there is no PoseStamped or TransformStamped in it"));
-  EXPECT_TRUE(has(refusal("tool_pose"), "there is no PoseStamped or TransformStamped in it"));
+  EXPECT_TRUE(has(refusal(), "no PoseStamped or TransformStamped in the bag"));
+  EXPECT_TRUE(has(refusal("tool_pose"), "no PoseStamped or TransformStamped in the bag"));
 }
 
 TEST_F(BagTest, NamesTheMessageThatItRefuses) {
@@ -138,7 +138,7 @@ TEST_F(BagTest, RefusesAStampThatGoesBack) {
 TEST_F(BagTest, RefusesFramesThatChange) {
   write("vicon", transform(1.0, 0.5, "tool"));
   write("vicon", transform(2.0, 0.5, "camera"));
-  EXPECT_TRUE(has(refusal(), "gives 'camera' in '' where it gave 'tool' in '' before"));
+  EXPECT_TRUE(has(refusal(), "frame is 'camera' in '', was 'tool' in '' before"));
 }
 
 TEST_F(BagTest, RefusesABagThatIsCutOff) {

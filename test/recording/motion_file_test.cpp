@@ -51,7 +51,7 @@ TEST_F(MotionFileTest, KeepsTheNanosecondsOfAnAbsoluteStamp) {
   EXPECT_EQ(nanoseconds(read("1311868164.363181123 0 0 0 0 0 0 1").front()), 1311868164363181123);
 }
 
-TEST_F(MotionFileTest, NormalisesQuaternions) {
+TEST_F(MotionFileTest, NormalizesQuaternions) {
   const auto poses = read("0 0 0 0 0 0 3 4\n");
   const Eigen::Matrix3d& rotation = poses.front().X_WT.linear();
   EXPECT_TRUE((rotation * rotation.transpose()).isIdentity(1e-14));

@@ -27,8 +27,8 @@ TEST_F(ControlsTest, DisabledIsUnknownForThatReasonAloneAndNotClear) {
   EXPECT_TRUE(has(warning.text, "disabled by " + ros::this_node::getName()));
 }
 
-// The pose that comes while it is disabled is never swept: not at once, and not as part of the way afterwards.
-TEST_F(ControlsTest, NothingIsSweptWhileDisabledAndCoverageBeginsAnew) {
+// A pose received while disabled is never swept, not even as a part of a later motion.
+TEST_F(ControlsTest, NothingIsSweptWhileDisabledAndCoverageRestarts) {
   placeSheet("sheet", {0.0, 0.0, 0.0});
   restAt({0.0, 0.0, 0.5});
   ASSERT_TRUE(probe().enable(false).success);
@@ -53,7 +53,7 @@ TEST_F(ControlsTest, NothingIsSweptWhileDisabledAndCoverageBeginsAnew) {
   restAt({0.0, 0.0, -0.5});
 }
 
-TEST_F(ControlsTest, ToEnableWhatIsEnabledChangesNothing) {
+TEST_F(ControlsTest, EnablingTwiceChangesNothing) {
   placeSheet("sheet", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
   const size_t clear_since = probe().warnings().size();
@@ -75,7 +75,7 @@ TEST_F(ControlsTest, ContactIsNotHiddenByDisabling) {
   EXPECT_TRUE(probe().warnings().back().contact);
 }
 
-// While the clock of the stamps stands still, too, the guard stays disabled, and an input that is refused is no news.
+// Also while the clock of the stamps stands still. A refused input changes nothing.
 TEST_F(ControlsTest, DisabledOutlastsResetAndJumpsOfTime) {
   ASSERT_TRUE(probe().enable(false).success);
   const auto response = probe().reset();
@@ -87,7 +87,7 @@ TEST_F(ControlsTest, DisabledOutlastsResetAndJumpsOfTime) {
   EXPECT_EQ(probe().awaitWarning([](const Warning&) { return true; }).reasons, Warning::DISABLED);
 }
 
-TEST_F(ControlsTest, ResetEndsAHeldContactAndBeginsAnewWithTheWorkpiecesThereAre) {
+TEST_F(ControlsTest, ResetEndsAHeldContactAndKeepsTheWorkpieces) {
   placeSheet("sheet", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   moveTo({0.0, 0.0, -0.01});
@@ -96,11 +96,11 @@ TEST_F(ControlsTest, ResetEndsAHeldContactAndBeginsAnewWithTheWorkpiecesThereAre
   probe().skipWarnings();
   const auto response = probe().reset();
   EXPECT_TRUE(response.success) << response.message;
-  EXPECT_TRUE(has(response.message, "Kept: the workpieces (1)"));
-  const Warning anew = probe().awaitWarning([](const Warning& warning) { return !warning.contact; });
-  EXPECT_EQ(anew.level, Warning::UNKNOWN);
-  EXPECT_EQ(anew.reasons, Warning::NO_POSE) << anew.text;
-  EXPECT_GT(anew.sequence, contact.sequence);
+  EXPECT_TRUE(has(response.message, "Kept: workpieces (1)"));
+  const Warning restarted = probe().awaitWarning([](const Warning& warning) { return !warning.contact; });
+  EXPECT_EQ(restarted.level, Warning::UNKNOWN);
+  EXPECT_EQ(restarted.reasons, Warning::NO_POSE) << restarted.text;
+  EXPECT_GT(restarted.sequence, contact.sequence);
   restAt({0.0, 0.0, 0.5});
 }
 
@@ -113,7 +113,7 @@ TEST_F(ControlsTest, ResetDoesNotHideAContactThatIsStillThere) {
   probe().awaitWarning([](const Warning& warning) { return warning.contact; });
 }
 
-// Two poses make a motion: those before the reset do not count.
+// Two poses make a motion, and poses before the reset do not count.
 TEST_F(ControlsTest, ResetForgetsTheMotion) {
   placeSheet("sheet", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
@@ -127,8 +127,7 @@ TEST_F(ControlsTest, ResetForgetsTheMotion) {
   EXPECT_TRUE(probe().predict(1.0).success);
 }
 
-// What cannot be seen is not forgotten.
-TEST_F(ControlsTest, ResetKeepsARefusedWorkpieceInMind) {
+TEST_F(ControlsTest, ResetKeepsTheRefusalOfAWorkpiece) {
   auto bad = sheetAt("bad", {0.0, 0.0, -1.0}, probe().time());
   bad.mesh.triangles.clear();
   probe().publish(bad);

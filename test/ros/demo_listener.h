@@ -12,20 +12,20 @@
 
 namespace sweep_guard_ros {
 
-/// Listens to what the demo's operator does with the tool, and to what the guard says of it.
+/// Records the tool poses of the demo's operator and the contacts of the guard.
 class DemoListener {
  public:
   DemoListener();
 
-  /// All poses so far, as soon as they fit. @throws std::runtime_error after 20 s
+  /// Waits until the poses fit, and returns them all. @throws std::runtime_error after 20 s
   using Poses = std::vector<geometry_msgs::PoseStamped>;
   Poses awaitPoses(const std::function<bool(const Poses&)>& fit) const;
   Poses awaitPoses(size_t count) const;
-  /// The poses from the first one on that as many others follow which are equal to it.
+  /// Returns the poses up to the first one that this many equal poses follow.
   Poses awaitRest(size_t count) const;
 
-  bool touched() const;       ///< the guard has told of a contact
-  void awaitContact() const;  ///< returns when it has. @throws std::runtime_error after 20 s
+  bool touched() const;       ///< the guard has reported a contact
+  void awaitContact() const;  ///< waits for a contact. @throws std::runtime_error after 20 s
 
  private:
   mutable std::mutex mutex_;
@@ -40,10 +40,10 @@ class DemoListener {
 
 Eigen::Vector3d positionOf(const geometry_msgs::PoseStamped& pose);
 
-/// Farthest way between one pose and the next [m].
+/// Returns the largest distance between two successive poses [m].
 double longestStep(const DemoListener::Poses& poses);
 
-/// Whether the stamps are so far apart, all of them, to the nanosecond; farther only where the operator stalled.
+/// Returns whether all stamps have this distance to the nanosecond; a larger one only where the operator stalled.
 bool isEven(const DemoListener::Poses& poses, const ros::Duration& period);
 
 }  // namespace sweep_guard_ros

@@ -1,4 +1,4 @@
-// What /diagnostics answer to "why is there no warning". Part of node_test.
+// /diagnostics of a running guard. Part of node_test.
 #include <cmath>
 
 #include "node_fixture.h"
@@ -9,7 +9,7 @@ namespace sweep_guard_ros {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-using sweep_guard::Warning;
+using sweep_guard_core::SweepStatistics;
 
 class DiagnosticsTest : public NodeTest {
  protected:
@@ -28,11 +28,11 @@ DiagnosticStatus detectorOf(SweepStatistics& statistics) {
   return status;
 }
 
-// A failure takes no longer than a sweep: it keeps up with the poses.
+// A failing detector is fast enough.
 TEST(DetectorStatusTest, IsAnErrorInThePeriodInWhichTheDetectorFails) {
   SweepStatistics statistics(std::chrono::milliseconds(66));
   statistics.swept(std::chrono::milliseconds(1), std::chrono::milliseconds(1));
-  statistics.failed("'liver': no canary");
+  statistics.fault("'liver': no canary");
   const DiagnosticStatus failing = detectorOf(statistics);
   EXPECT_EQ(failing.level, DiagnosticStatus::ERROR);
   EXPECT_EQ(failing.message, "failed: 'liver': no canary");
@@ -44,13 +44,13 @@ TEST(DetectorStatusTest, IsAnErrorInThePeriodInWhichTheDetectorFails) {
   EXPECT_EQ(valueOf(cleared, "last error"), "'liver': no canary");
 }
 
-TEST(DetectorStatusTest, AFailureOfEachSweepIsNoLackOfPoses) {
+TEST(DetectorStatusTest, AFailureOfEverySweepIsNoLackOfPoses) {
   SweepStatistics statistics(std::chrono::milliseconds(66));
-  statistics.failed("sweeping failed: no memory");
-  EXPECT_EQ(detectorOf(statistics).message, "failed: sweeping failed: no memory");
+  statistics.fault("sweep failed: no memory");
+  EXPECT_EQ(detectorOf(statistics).message, "failed: sweep failed: no memory");
 }
 
-TEST_F(DiagnosticsTest, EachInputTellsItsTopicItsPublishersAndItsAge) {
+TEST_F(DiagnosticsTest, EachInputReportsTopicPublishersAndAge) {
   placeSheet("sheet", {0.0, 0.0, -1.0});
   probe().place(sheetMovedTo("sheet", {0.0, 0.0, -1.0}, probe().time()));
   restAt({0.0, 0.0, 0.5});
@@ -88,7 +88,7 @@ TEST_F(DiagnosticsTest, PosesThatHaveStoppedAreAnErrorAndVerticesAreNot) {
   EXPECT_EQ(probe().awaitStatus("mesh vertices", any).level, DiagnosticStatus::OK);
 }
 
-TEST_F(DiagnosticsTest, TellTheDetectorThePredictorAndTheirDeadlines) {
+TEST_F(DiagnosticsTest, ReportDetectorPredictorAndDeadlines) {
   const DiagnosticStatus detector = probe().awaitStatus("detector", any);
   EXPECT_EQ(valueOf(detector, "detector"), "select");
   EXPECT_EQ(valueOf(detector, "deadline [ms]"), "1000.0");
@@ -99,7 +99,7 @@ TEST_F(DiagnosticsTest, TellTheDetectorThePredictorAndTheirDeadlines) {
   EXPECT_EQ(valueOf(probe().awaitStatus("parameters", any), "last refusal"), "none");
 }
 
-TEST_F(DiagnosticsTest, TellThatTheGuardIsDisabledAndByWhom) {
+TEST_F(DiagnosticsTest, ReportThatTheGuardIsDisabledAndByWhom) {
   ASSERT_TRUE(probe().enable(false).success);
   awaitValue("warning", "enabled", "no: disabled by " + ros::this_node::getName());
   EXPECT_EQ(probe().awaitStatus("detector", any).message, "disabled: nothing is swept");

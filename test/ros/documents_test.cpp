@@ -1,6 +1,5 @@
-// Holds the documents against a running guard and the sources: topics, services, parameters, arguments of launch files
-// and scripts, quoted messages, links. With SWEEP_GUARD_WRITE_DOCUMENTS set it writes the tables that follow from the
-// sources.
+// Compares the documents to a running guard and the sources: topics, services, parameters, arguments of launch files and
+// scripts, quoted messages, links. With SWEEP_GUARD_WRITE_DOCUMENTS set it writes the tables that follow from the sources.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <ros/topic.h>
@@ -54,7 +53,7 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
   return parts;
 }
 
-// Cells, from 1 on, of the tables that begin with this line.
+// Returns the cells, from 1 on, of the tables that begin with this line.
 std::vector<Row> table(const std::string& document, const std::string& head) {
   std::vector<Row> rows;
   bool inside = false;
@@ -72,7 +71,7 @@ std::string joined(const std::vector<std::string>& parts, const std::string& sep
   return text;
 }
 
-// The document with these rows in the table that begins with the line `head`.
+// Replaces the rows of the table that begins with the line `head`.
 std::string withRows(const std::string& document, const std::string& head, const std::vector<std::string>& rows) {
   const size_t begin = document.find("\n" + head + "\n|---");
   EXPECT_NE(begin, std::string::npos) << "no table " << head;
@@ -84,10 +83,10 @@ std::string withRows(const std::string& document, const std::string& head, const
 
 void expectContents(const std::filesystem::path& file, const std::string& expected) {
   if (std::getenv("SWEEP_GUARD_WRITE_DOCUMENTS") != nullptr) std::ofstream(file) << expected;
-  EXPECT_EQ(contents(file), expected) << "SWEEP_GUARD_WRITE_DOCUMENTS=1 scripts/test -R documents writes it anew";
+  EXPECT_EQ(contents(file), expected) << "SWEEP_GUARD_WRITE_DOCUMENTS=1 scripts/test -R documents writes it again";
 }
 
-// What stands in `code`.
+// Returns the texts in `code`.
 std::vector<std::string> codes(const std::string& cell) {
   const std::vector<std::string> parts = split(cell, "`");
   std::vector<std::string> codes;
@@ -116,7 +115,7 @@ XmlRpc::XmlRpcValue askMaster(const std::string& what) {
 enum Graph { kPublished, kSubscribed, kServed };
 
 Names namesOfTheGuard(Graph part) {
-  ros::topic::waitForMessage<sweep_guard::Warning>(kGuard + "/warning");  // it is there as a whole
+  ros::topic::waitForMessage<sweep_guard::Warning>(kGuard + "/warning");  // the guard has started
   XmlRpc::XmlRpcValue entries = askMaster("getSystemState")[part];
   Names names;
   for (int i = 0; i < entries.size(); ++i) {
@@ -130,7 +129,7 @@ Names namesOfTheGuard(Graph part) {
   return names;
 }
 
-// Those that stand in the table, each with its type.
+// Returns the topics of the table, each with its type.
 Names topicsOfTheGuard(Graph part) {
   const Names names = namesOfTheGuard(part);
   XmlRpc::XmlRpcValue types = askMaster("getTopicTypes");
@@ -225,10 +224,10 @@ std::string sources(const std::vector<std::string>& folders) {
   std::string all;
   for (const std::string& folder : folders) {
     for (const auto& file : std::filesystem::recursive_directory_iterator(kRoot / folder)) {
-      if (file.path().extension() == ".cpp") all += contents(file.path());
+      if (file.path().extension() == ".cpp" || file.path().extension() == ".h") all += contents(file.path());
     }
   }
-  return std::regex_replace(all, std::regex("\"\\s*\n\\s*\""), "");  // texts that go on in the next line
+  return std::regex_replace(all, std::regex("\"\\s*\n\\s*\""), "");  // texts that continue on the next line
 }
 
 TEST(DocumentsTest, TroubleshootingQuotesWhatTheCodeSays) {
@@ -257,7 +256,7 @@ std::vector<std::filesystem::path> documents() {
   return documents;
 }
 
-// As it is linked to.
+// Returns the anchor of a heading in a link.
 std::string anchor(const std::string& heading) {
   std::string anchor;
   for (const char c : heading) {
@@ -308,7 +307,7 @@ TEST(DocumentsTest, NameParametersThatThereAre) {
   EXPECT_GT(named, 0U);
 }
 
-// Not as the beginning of a longer one.
+// Ignores a longer option that begins like this.
 bool hasOption(const std::string& text, const std::string& option) {
   for (size_t at = text.find(option); at != std::string::npos; at = text.find(option, at + 1)) {
     const char next = text.c_str()[at + option.size()];
@@ -317,14 +316,14 @@ bool hasOption(const std::string& text, const std::string& option) {
   return false;
 }
 
-// The script does, or the program that it hands its arguments to.
+// Searches the script, and the programs that it passes its arguments to.
 bool takes(const std::filesystem::path& script, const std::string& option) {
   static const std::string programs = sources({"src", "test", "benchmark"});
   return hasOption(contents(script), option) || hasOption(programs, option);
 }
 
 TEST(DocumentsTest, NameScriptsAndOptionsThatThereAre) {
-  const std::regex call("scripts/([a-z]+)( [^`\n#]*)?");
+  const std::regex call("scripts/([a-z]+)(?![-.a-z])( [^`\n#]*)?");
   const std::regex option("--[a-z-]+");
   for (const auto& file : documents()) {
     const std::string text = contents(file);

@@ -1,4 +1,4 @@
-// On the wall clock: how often ~reflex_warning and ~considered_warning come, and that they do not wait when they rise.
+// ~reflex_warning and ~considered_warning on the wall clock: their rates, and that a rising flag is not delayed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,14 +11,14 @@ namespace {
 using std::chrono::duration;
 using sweep_guard::Warning;
 
-// Of the last messages, which all say the same: no edge came in between.
+// Rate of the last messages, which have the same value: no edge is among them.
 double rate(const std::vector<GuardProbe::Flag>& flags, size_t intervals) {
   const auto first = flags.end() - static_cast<std::ptrdiff_t>(intervals) - 1;
   for (auto flag = first; flag != flags.end(); ++flag) EXPECT_TRUE(flag->raised);
-  return static_cast<double>(intervals) / duration<double>(flags.back().came - first->came).count();
+  return static_cast<double>(intervals) / duration<double>(flags.back().received - first->received).count();
 }
 
-TEST(FlagsTest, ComeAtTheirRatesWithoutAnyInput) {
+TEST(FlagsTest, HaveTheirRatesWithoutAnyInput) {
   const GuardProbe probe(/*drives_clock=*/false);
   EXPECT_NEAR(rate(probe.awaitConsideredFlags(6), 5), 1.0, 0.1);
   EXPECT_NEAR(rate(probe.awaitReflexFlags(41), 40), 10.0, 1.0);
@@ -28,7 +28,7 @@ std::chrono::steady_clock::time_point firstRaised(const std::function<std::vecto
                                                   size_t since) {
   for (size_t i = since;; ++i) {
     const GuardProbe::Flag flag = await(i + 1)[i];
-    if (flag.raised) return flag.came;
+    if (flag.raised) return flag.received;
   }
 }
 
@@ -38,8 +38,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// A tick of the timers comes so soon after an edge by chance too, but not after most of 21; load delays a few.
-TEST(FlagsTest, ComeAtOnceWhenTheyRise) {
+// A timer may fire soon after an edge by chance, but not after most of 21 edges. Load delays a few.
+TEST(FlagsTest, ArePublishedAtOnceWhenTheyRise) {
   GuardProbe probe(/*drives_clock=*/false);
   const auto reflex = [&](size_t count) { return probe.awaitReflexFlags(count); };
   const auto considered = [&](size_t count) { return probe.awaitConsideredFlags(count); };
@@ -47,7 +47,7 @@ TEST(FlagsTest, ComeAtOnceWhenTheyRise) {
   std::vector<double> reflex_late;      // [s]
   std::vector<double> considered_late;  // [s]
   for (int i = 0; i < 21; ++i) {
-    do {  // until it is clear: on a machine that is busy a pose may be stale before
+    do {  // until it is clear: on a busy machine a pose may be stale before
       probe.place(sheetMovedTo("sheet", {0.0, 0.0, -1.0}, ros::Time::now()));
       probe.publish(poseAt({0.0, 0.0, 0.5}, ros::Time::now()));
       probe.skipWarnings();

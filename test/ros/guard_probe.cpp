@@ -227,8 +227,7 @@ std::vector<sweep_guard::Prediction> GuardProbe::predictions() const {
   return predictions_;
 }
 
-// A prediction and its time come one after the other: half of a pair, forgotten, would leave the lists unequal for
-// good.
+// A prediction and its time arrive one after the other. Forgetting half of a pair would leave lists of unequal lengths.
 void GuardProbe::forgetPredictions() {
   await("the time to collision of each prediction", [&] {
     if (predictions_.size() != times_to_collision_.size()) return false;
@@ -305,7 +304,7 @@ GuardProbe::Status GuardProbe::awaitStatus(const std::string& name, const std::f
   return found;
 }
 
-size_t GuardProbe::markersSoFar() const {
+size_t GuardProbe::markersReceived() const {
   const std::lock_guard lock(mutex_);
   return markers_.size();
 }

@@ -29,18 +29,17 @@ namespace sweep_guard_ros {
 /// Where the guard is configured to take the tool's pose from.
 enum class PoseSource { kTopic, kTf };
 
-/// Stands on both sides of a running guard: publishes its inputs, keeps its outputs, and waits for events among them.
-/// Under simulated time it is the clock.
+/// Publishes the inputs of a running guard, keeps its outputs, and waits for events. Drives the clock under simulated
+/// time.
 class GuardProbe {
  public:
-  /// Returns when every connection to the guard stands. @throws std::runtime_error if that takes more than 20 s
+  /// Returns when all connections to the guard exist. @throws std::runtime_error after 20 s
   explicit GuardProbe(bool drives_clock, PoseSource pose_source = PoseSource::kTopic);
 
   /// Moves the clock and returns when the guard has noticed.
   void setClock(ros::Time time);
   void advance(double seconds) { setClock(time_ + ros::Duration(seconds)); }
-  /// Moves the clock by a little. The guard may notice later, but is never more than 40 ms behind: stamps may be ahead
-  /// of its clock by 50 ms.
+  /// Moves the clock by a small step. The guard may notice later, by at most 40 ms: it accepts stamps 50 ms ahead.
   void tick(double seconds);
   ros::Time time() const { return time_; }
 
@@ -48,43 +47,43 @@ class GuardProbe {
   void publish(const sweep_guard::DeformableMesh& mesh) { mesh_publisher_.publish(mesh); }
   void publish(const sweep_guard::MeshVertices& vertices) { vertices_publisher_.publish(vertices); }
 
-  /// Tells tf where a frame is in `world` now.
+  /// Publishes the pose of a frame in `world` now.
   void placeFrame(const std::string& frame, const Eigen::Isometry3d& X_WF);
 
-  /// Publishes, and returns when the guard has the workpiece in this state: ~check_sweep finds its first vertex.
+  /// Publishes, and returns when the guard has this workpiece: ~check_sweep finds its first vertex.
   void place(const sweep_guard::DeformableMesh& mesh);
   void place(const sweep_guard::MeshVertices& vertices);
   void remove(const std::string& mesh_id);
 
-  /// Publishes the pose and returns what the guard found on the way to it.
+  /// Publishes the pose, and returns the contacts of the sweep to it.
   sweep_guard::Contacts move(const geometry_msgs::PoseStamped& pose);
 
-  /// The first warning that fits, of those that came since the one returned last or since skipWarnings().
+  /// Returns the first warning that fits, after the one returned before and after skipWarnings().
   /// @throws std::runtime_error after 20 s
   using Fits = std::function<bool(const sweep_guard::Warning&)>;
   sweep_guard::Warning awaitWarning(const Fits& fits);
   void skipWarnings();
   std::vector<sweep_guard::Warning> warnings() const;
   std::vector<sweep_guard::Contacts> awaitContacts(size_t count);  ///< all since the last call of forgetContacts()
-  /// Likewise, up to the ones at the pose of this stamp: of poses that wait for each other only the last has any.
+  /// Returns them up to the pose of this stamp. Of queued poses only the last has contacts.
   std::vector<sweep_guard::Contacts> awaitContactsUpTo(ros::Time stamp);
   void forgetContacts();
-  /// The first that fit, of those that came since the ones returned last. @throws std::runtime_error after 20 s
+  /// Returns the first markers that fit, after the ones returned before. @throws std::runtime_error after 20 s
   using MarkersFit = std::function<bool(const visualization_msgs::MarkerArray&)>;
   visualization_msgs::MarkerArray awaitMarkers(const MarkersFit& fit);
 
-  /// The prediction from the pose of this stamp. @throws std::runtime_error after 20 s
+  /// Returns the prediction from the pose of this stamp. @throws std::runtime_error after 20 s
   sweep_guard::Prediction awaitPrediction(ros::Time stamp) const;
-  std::vector<double> timesToCollision() const;  ///< as many as there are predictions, in their order
+  std::vector<double> timesToCollision() const;  ///< one per prediction, in their order
   std::vector<sweep_guard::Prediction> predictions() const;
   void forgetPredictions();
 
-  /// A flag, and when it came.
+  /// A flag, and when it was received.
   struct Flag {
     bool raised;
-    std::chrono::steady_clock::time_point came;
+    std::chrono::steady_clock::time_point received;
   };
-  /// Those since the start, as soon as there are so many. @throws std::runtime_error after 20 s
+  /// Waits for this many flags, and returns all since the start. @throws std::runtime_error after 20 s
   std::vector<Flag> awaitReflexFlags(size_t count) const;
   std::vector<Flag> awaitConsideredFlags(size_t count) const;
 
@@ -93,15 +92,15 @@ class GuardProbe {
   std_srvs::SetBool::Response enable(bool enabled);
   std_srvs::Trigger::Response reset();
 
-  /// Changes parameters while the guard runs; false: it refuses.
+  /// Changes parameters while the guard runs; false: refused.
   bool configure(const dynamic_reconfigure::Config& changes);
-  dynamic_reconfigure::Config configuration() const;  ///< the newest that the guard has told
+  dynamic_reconfigure::Config configuration() const;  ///< newest one published by the guard
 
-  /// The first status of that name that fits, of those that come from now on. @throws std::runtime_error after 20 s
+  /// Waits for a status of this name that fits. @throws std::runtime_error after 20 s
   using Status = diagnostic_msgs::DiagnosticStatus;
   Status awaitStatus(const std::string& name, const std::function<bool(const Status&)>& fits);
 
-  size_t markersSoFar() const;
+  size_t markersReceived() const;
 
  private:
   template <typename Message, typename Take>
@@ -141,19 +140,19 @@ class GuardProbe {
   ros::AsyncSpinner spinner_{1};
 };
 
-/// Each interval begins where the one before ended: no motion was left out.
+/// Returns whether each interval begins where the previous one ended, so that no motion was left out.
 bool endToEnd(const std::vector<sweep_guard::Contacts>& contacts);
-size_t objectsMet(const std::vector<sweep_guard::Contacts>& contacts);  ///< in all of them
+size_t objectsMet(const std::vector<sweep_guard::Contacts>& contacts);  ///< number of contacts with objects
 
-/// What a status says for a key; empty if it says nothing.
+/// Returns the value of a key in a status; empty if missing.
 std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key);
 
-/// Tool with its tip at a point [m] in `world`, pointing down unless turned.
+/// Returns a tool pose with the tip at a point [m] in `world`, pointing down unless rotated.
 geometry_msgs::PoseStamped poseAt(
     const Eigen::Vector3d& tip_W, ros::Time stamp,
     const Eigen::Quaterniond& rotation = Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX())));
 
-/// A square sheet of two triangles, parallel to x and y, its centre at a point [m].
+/// Returns a square sheet of two triangles, parallel to x and y, with its center at a point [m].
 sweep_guard::DeformableMesh sheetAt(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
                                     double half_side = 0.1);
 sweep_guard::MeshVertices sheetMovedTo(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,

@@ -28,7 +28,7 @@ TEST(ToolDrawingTest, ShowsACylinderAsACylinder) {
   EXPECT_NEAR(markers[0].pose.position.z, 2.9, 1e-12);
 }
 
-TEST(ToolDrawingTest, ShowsOtherPartsTogetherAsTriangles) {
+TEST(ToolDrawingTest, ShowsAllOtherPiecesAsTriangles) {
   const Eigen::Isometry3d aside(Eigen::Translation3d(0.5, 0.0, 0.0));
   const Tool tool({{"a", ConvexShape::box({0.1, 0.1, 0.1})},
                    {"b", ConvexShape::cylinder(0.01, 0.2).placed(aside)},

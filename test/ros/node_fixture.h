@@ -10,7 +10,7 @@
 
 namespace sweep_guard_ros {
 
-/// The one probe of the test program, which is the clock of the guard.
+/// Returns the probe of the test program, which is the clock of the guard.
 inline GuardProbe& probe() {
   static GuardProbe probe(/*drives_clock=*/true);
   return probe;
@@ -18,17 +18,17 @@ inline GuardProbe& probe() {
 
 inline bool isClear(const sweep_guard::Warning& warning) { return warning.level == sweep_guard::Warning::CLEAR; }
 
-/// Unknown for this reason, among others.
+/// Returns whether a warning is unknown for this reason, among others.
 inline std::function<bool(const sweep_guard::Warning&)> hasReason(std::uint32_t reason) {
   return [reason](const sweep_guard::Warning& warning) {
     return warning.level == sweep_guard::Warning::UNKNOWN && !warning.clear && (warning.reasons & reason) != 0;
   };
 }
 
-/// Stands beside a running guard. One test follows on the other: the guard goes on.
+/// Tests a running guard, which is not restarted between tests.
 class NodeTest : public ::testing::Test {
  protected:
-  // Each test has a guard that has seen a fresh pose high above, no workpiece, and no contact any more.
+  // Each test begins with a fresh pose high above, no workpiece, and no contact.
   void SetUp() override {
     probe().advance(1.0);
     sweep_guard::Warning warning;
@@ -51,13 +51,13 @@ class NodeTest : public ::testing::Test {
     placed_.insert(id);
   }
 
-  // Moves on by 10 ms.
+  // Advances the clock by 10 ms and moves the tool.
   sweep_guard::Contacts moveTo(const Eigen::Vector3d& tip) {
     probe().tick(0.01);
     return probe().move(poseAt(tip, probe().time()));
   }
 
-  // The motion is known from two poses. On a machine that is busy they may be stale before they are told to be clear.
+  // The motion is known from two poses. On a busy machine they may be stale before the guard is clear.
   void restAt(const Eigen::Vector3d& tip) {
     moveTo(tip);
     sweep_guard::Warning warning;

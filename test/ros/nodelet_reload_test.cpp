@@ -1,4 +1,4 @@
-// Loads and unloads the guard in a nodelet manager while poses and meshes pour in: the manager must outlive it.
+// Loads and unloads the guard in a nodelet manager under a stream of poses and meshes: the manager must survive.
 #include <gtest/gtest.h>
 #include <nodelet/NodeletLoad.h>
 #include <nodelet/NodeletUnload.h>

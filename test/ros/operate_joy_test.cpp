@@ -1,4 +1,4 @@
-// The demo led by an input device whose messages are those of a SpaceMouse.
+// The demo led by a device with the messages of a SpaceMouse.
 #include <gtest/gtest.h>
 #include <sensor_msgs/Joy.h>
 
@@ -15,7 +15,7 @@ constexpr double kSpeed = 0.15;  // [m/s] of config/operator.yaml
 
 class OperateJoyTest : public ::testing::Test {
  protected:
-  // Latched: what comes before the connection stands is not lost.
+  // Latched: a message before the connection is not lost.
   OperateJoyTest() : publisher_(node_.advertise<sensor_msgs::Joy>("spacenav/joy", 1, /*latch=*/true)) {}
 
   void push(const std::vector<float>& axes) {
@@ -29,7 +29,7 @@ class OperateJoyTest : public ::testing::Test {
   DemoListener listener_;
 };
 
-// One message, and then silence: the tool goes left, and stops. What lies in the dead zone moves nothing.
+// One message and then silence: the tool moves left and stops. The dead zone moves nothing.
 TEST_F(OperateJoyTest, TheToolMovesWhileMessagesComeAndStopsWithThem) {
   const Vector3d start = positionOf(listener_.awaitRest(10).back());
   push({0.05F, 1.0F, -0.05F, 0.0F, 0.0F, 0.09F});
@@ -43,7 +43,7 @@ TEST_F(OperateJoyTest, TheToolMovesWhileMessagesComeAndStopsWithThem) {
   EXPECT_LE(longestStep(all), kSpeed * kPeriod.toSec() + 1e-9);
 }
 
-// As a device does that is held: message after message, here after every fifth pose.
+// A held device sends messages steadily, here after every fifth pose.
 TEST_F(OperateJoyTest, TheToolIsLedIntoTheWorkpiece) {
   size_t poses = 0;
   while (!listener_.touched() && poses < 1000) {

@@ -1,4 +1,4 @@
-// The demo led by its interactive marker, whose feedback is rviz's.
+// The demo led by its interactive marker, with the feedback of rviz.
 #include <gtest/gtest.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 #include <visualization_msgs/InteractiveMarkerInit.h>
@@ -15,7 +15,7 @@ using Poses = DemoListener::Poses;
 const ros::Duration kPeriod(0.004);
 constexpr double kSpeed = 0.25;  // [m/s] of config/operator.yaml
 
-// Latched: what is dragged before the connection stands is not lost.
+// Latched: feedback before the connection is not lost.
 class Mouse {
  public:
   Mouse() : publisher_(node_.advertise<InteractiveMarkerFeedback>("operator/marker/feedback", 1, /*latch=*/true)) {
@@ -55,8 +55,8 @@ TEST(OperateMarkerTest, TheToolFollowsTheMarkerAsADeviceWould) {
   mouse.dragTo(goal);
   const Poses led =
       listener.awaitPoses([&goal](const Poses& poses) { return (positionOf(poses.back()) - goal).norm() < 1e-6; });
-  const Poses held = listener.awaitRest(100);
-  EXPECT_TRUE(positionOf(held.back()).isApprox(goal, 1e-5));
+  const Poses after = listener.awaitRest(100);
+  EXPECT_TRUE(positionOf(after.back()).isApprox(goal, 1e-5));
 
   const Poses all = listener.awaitPoses(0);
   EXPECT_TRUE(isEven(all, kPeriod));

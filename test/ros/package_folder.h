@@ -10,8 +10,8 @@
 
 namespace sweep_guard_ros {
 
-/// A folder for one test, on ROS_PACKAGE_PATH with the package `robot` in it; gone with the test, and so is what the
-/// test has done to ROS_PACKAGE_PATH.
+/// Makes a folder for one test, on ROS_PACKAGE_PATH and with the package `robot` in it. The destructor removes it and
+/// restores ROS_PACKAGE_PATH.
 class PackageFolder {
  public:
   PackageFolder() : path_(std::filesystem::canonical(testing::TempDir()) / ("tool_" + std::to_string(getpid()))) {
@@ -46,7 +46,7 @@ class PackageFolder {
   std::string before_;
 };
 
-/// A tetrahedron with corners at the origin and at 1 along each axis.
+/// Returns a tetrahedron with corners at the origin and at 1 on each axis.
 inline std::string tetrahedronObj() {
   return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
 }

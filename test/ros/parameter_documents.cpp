@@ -24,7 +24,7 @@ std::string groupOf(const std::string& key) {
   return slash == std::string::npos ? "" : key.substr(0, slash);
 }
 
-// Those without a group come first; the groups follow in the order in which they are read.
+// Parameters without a group are first; the groups follow in the order of reading.
 std::vector<ParameterInfo> grouped(const std::vector<ParameterInfo>& infos) {
   std::vector<std::string> groups = {""};
   for (const ParameterInfo& info : infos) {

@@ -24,12 +24,12 @@ class ParametersTest : public ::testing::Test {
   ros::NodeHandle node_{"/guarded"};
 };
 
-// How far the tool's first part reaches [m].
+// Returns how far the tool's first piece extends in a direction [m].
 double reach(const Parameters& parameters, const Eigen::Vector3d& direction_T) {
   return parameters.tool->pieces().front().shape_T.support(direction_T);
 }
 
-// Of the mesh that stands for the tool's first part.
+// Returns the number of vertices of the first piece's mesh.
 size_t corners(const Parameters& parameters) {
   return parameters.tool->pieces().front().shape_T.mesh_T().vertexCount();
 }
@@ -42,7 +42,7 @@ const std::string kGripper =
     "<robot name='r'><link name='hand'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>"
     "<link name='finger'><collision><geometry><box size='0.02 0.02 0.02'/></geometry></collision></link>"
     "<joint name='opening' type='prismatic'><parent link='hand'/><child link='finger'/><axis xyz='1 0 0'/>"
-    "<limit lower='0' upper='0.5' plan='1' velocity='1'/></joint></robot>";
+    "<limit lower='0' upper='0.5' effort='1' velocity='1'/></joint></robot>";
 
 TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
   const Parameters defaults = loadParameters(node_);
@@ -83,7 +83,7 @@ TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
   for (const ParameterInfo& info : loaded.described) EXPECT_EQ(info.value, info.fallback) << info.key;
 }
 
-TEST_F(ParametersTest, TakeWhatIsSet) {
+TEST_F(ParametersTest, HaveTheValuesThatAreSet) {
   node_.setParam("tool/radius", 0.002);
   node_.setParam("tool/length", 1);  // an integer is a number too
   node_.setParam("detector", "reference");
@@ -157,7 +157,7 @@ TEST_F(ParametersTest, TakeNumbersAndAxesAsText) {
   EXPECT_EQ(parameters.guard.predictor.constrained, (std::array<bool, 6>{true, false, false, false, false, true}));
 }
 
-TEST_F(ParametersTest, ChangeInWhatIsAskedForAndNothingElse) {
+TEST_F(ParametersTest, ChangeAsRequestedAndNoOthers) {
   node_.setParam("horizon/reflex", 0.2);
   node_.setParam("tool/radius", 0.02);
   const Parameters before = loadParameters(node_);
@@ -186,7 +186,7 @@ TEST_F(ParametersTest, ChangeThePaddingOfARobot) {
   EXPECT_EQ(after.tool->pieces().size(), before.tool->pieces().size());
 }
 
-TEST_F(ParametersTest, AreNotChangedToWhatTheStartWouldRefuse) {
+TEST_F(ParametersTest, AreNotChangedToValuesThatTheStartRefuses) {
   const Parameters before = loadParameters(node_);
   const auto refused = [&](const std::string& key, const ParameterValue& value, const std::string& expected) {
     const std::string message = ::refusal([&] { changeParameters(node_, before, {{key, value}}); });
@@ -203,7 +203,7 @@ TEST_F(ParametersTest, AreNotChangedToWhatTheStartWouldRefuse) {
   refused("nonsense", 1.0, "there is no parameter");
 }
 
-// doc/interface.md and config/sweep_guard.yaml are written from the descriptions.
+// doc/interface.md and config/sweep_guard.yaml are generated from the descriptions.
 TEST_F(ParametersTest, AreAllDescribedWithTheirEffect) {
   const Parameters loaded = loadParameters(node_);
   std::set<std::string> read;
@@ -216,8 +216,8 @@ TEST_F(ParametersTest, AreAllDescribedWithTheirEffect) {
   EXPECT_EQ(described, read);
 }
 
-// A prediction has to serve until the next one comes, which is until the pose is stale.
-TEST_F(ParametersTest, MakeThePredictionReachAsFarAsThePoseCounts) {
+// A prediction is used until the next one, at most until its pose is stale.
+TEST_F(ParametersTest, MakeThePredictionCoverThePoseTimeout) {
   node_.setParam("timing/pose_timeout", 0.25);
   EXPECT_EQ(loadParameters(node_).guard.horizon.reserve, std::chrono::milliseconds(250));
 }
@@ -293,8 +293,8 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("timing", 3, "a group");
 }
 
-// A value can be fine by itself, and out of range for what another key is set to or falls back to.
-TEST_F(ParametersTest, AreRefusedWhereTheyContradictEachOther) {
+// A valid value may be out of range for the value of another key.
+TEST_F(ParametersTest, AreRefusedIfTheyContradictEachOther) {
   node_.setParam("horizon/reflex", 1.0);
   EXPECT_EQ(
       refusal(node_),
@@ -303,7 +303,7 @@ TEST_F(ParametersTest, AreRefusedWhereTheyContradictEachOther) {
   EXPECT_EQ(loadParameters(node_).guard.horizon.reflex, std::chrono::seconds(1));
 }
 
-/// What the node says, and its exit status.
+/// Output and exit status of the node.
 std::pair<std::string, int> runNode(const std::string& arguments) {
   const std::string node = std::filesystem::read_symlink("/proc/self/exe").replace_filename("sweep_guard_node");
   FILE* run = popen((node + " " + arguments + " 2>&1").c_str(), "r");
@@ -321,7 +321,7 @@ TEST_F(ParametersTest, StopTheNodeWithOneLineAndStatusTwo) {
   EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
 }
 
-// urdfdom and rospack would have lines of their own.
+// urdfdom and rospack would add lines.
 TEST_F(ParametersTest, StopTheNodeWithOneLineForARobotThatMakesNoTool) {
   const std::string start = "<robot name='r'><link name='a'><collision><geometry>";
   const std::string end = "</geometry></collision></link></robot>";

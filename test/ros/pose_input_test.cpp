@@ -1,12 +1,10 @@
-// The input of poses by itself, in one process with their publisher: a message waits as soon as it is published.
+// The input of poses in one process with their publisher, where a published message is queued at once.
 #include "ros/input/pose_input.h"
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
 #include <boost/make_shared.hpp>
-#include <future>
-#include <vector>
 
 #include "sweep_guard/ros/conversions.h"
 
@@ -21,34 +19,30 @@ boost::shared_ptr<geometry_msgs::PoseStamped> poseAt(const std::string& frame, r
   return pose;
 }
 
-// 20 s at 1 kHz wait for the first pose to be swept.
+// 20 s at 1 kHz are published before the first pose is taken from the queue.
 TEST(PoseInputTest, NoPoseOfALongBacklogIsLost) {
   constexpr int kPoses = 20000;
   ros::NodeHandle node;
   const ros::Time end = ros::Time::now();
-  std::promise<void> published;
-  std::promise<void> last_came;
-  std::vector<sweep_guard_core::Time> came;
-  const auto sweep = [&, all_wait = published.get_future().share()](const QueuedPose& placed) {
-    all_wait.wait();
-    came.push_back(placed.pose.stamp);
-    if (placed.pose.stamp == fromMsg(end)) last_came.set_value();
-  };
-
   const Parameters parameters = loadParameters(ros::NodeHandle("~"));
   Frames frames;
   sweep_guard_core::WarningMonitor monitor(parameters.limits);
-  const WorkpieceStore workpieces(parameters.max_triangles, monitor);
-  PoseInput input(node, parameters, frames, workpieces, monitor, sweep);
+  const sweep_guard_core::WorkpieceStore workpieces;
+  WorkQueue queue;
+  PoseInput input(node, parameters, {frames, workpieces, monitor, queue});
   const ros::Publisher publisher = node.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
   ASSERT_EQ(publisher.getNumSubscribers(), 1U);
   input.start();
   for (int i = 1; i <= kPoses; ++i) {
     publisher.publish(poseAt(parameters.fixed_frame, end - ros::Duration(0.001 * (kPoses - i))));
   }
-  published.set_value();
-  last_came.get_future().wait();
-  EXPECT_EQ(came.size(), static_cast<size_t>(kPoses));
+  size_t poses = 0;
+  WorkQueue::Work work;
+  do {
+    queue.take(work);
+    poses += work.poses.size();
+  } while (work.poses.back().pose.stamp != fromMsg(end));
+  EXPECT_EQ(poses, static_cast<size_t>(kPoses));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the guard says of motion to come, through its topics and ~predict, under a clock of its own.
+// Predictions of a running guard, by topic and by ~predict. The test is the clock.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ TEST_F(PredictionTest, ALonePoseIsNoMotion) {
   probe().awaitWarning(isClear);
 }
 
-TEST_F(PredictionTest, TellsWhereTheToolWillBe) {
+TEST_F(PredictionTest, PredictsThePosesOfTheTool) {
   descend(0.9, 0.8);
   const Prediction prediction = glideTo(0.8 - kSpeed * kStep);
   EXPECT_EQ(prediction.header.stamp, probe().time());
@@ -110,18 +110,19 @@ TEST_F(PredictionTest, AnApproachIsConsideredThenReflexThenContact) {
   const auto times = probe().timesToCollision();
   EXPECT_EQ(times[2], INFINITY);
   EXPECT_EQ(times.back(), 0.0);
-  std::array<double, 10> longest{};  // time told, for each tenth of a second before the contact: load only shortens it
+  std::array<double, 10>
+      longest{};  // reported time, for each tenth of a second before the contact: load only shortens it
   for (size_t i = 0; i < predictions.size(); ++i) {
     const double left = (contact - predictions[i].header.stamp).toSec();
     if (left < 0.005 || left > 0.995) continue;
     EXPECT_LE(times[i], left + 1e-3);
-    double& told = longest.at(static_cast<size_t>(10.0 * left));
-    told = std::max(told, times[i]);
+    double& reported = longest.at(static_cast<size_t>(10.0 * left));
+    reported = std::max(reported, times[i]);
   }
   for (size_t i = 1; i < longest.size(); ++i) EXPECT_LT(longest[i - 1], longest[i]);
 }
 
-TEST_F(PredictionTest, AWarningNamesWhatIsExpected) {
+TEST_F(PredictionTest, AWarningNamesThePredictedContact) {
   restAt({0.0, 0.0, 0.6});
   descend(0.6, 0.1);
   const Prediction prediction = glideTo(0.1 - kSpeed * kStep);  // 0.39 s before the contact

@@ -17,11 +17,11 @@ struct Asked {
   int priority;
 };
 
-// In a thread of its own, which alone is to get it.
+// Requests it in a separate thread.
 Asked ask(int priority) {
   Asked asked;
   std::thread([&] {
-    asked.refusal = askForRealTime(priority);
+    asked.refusal = requestRealTime(priority);
     sched_param parameters{};
     pthread_getschedparam(pthread_self(), &asked.policy, &parameters);
     asked.policy &= ~SCHED_RESET_ON_FORK;
@@ -30,7 +30,7 @@ Asked ask(int priority) {
   return asked;
 }
 
-TEST(AskForRealTimeTest, IsGrantedOrSaysWhatToSet) {
+TEST(RequestRealTimeTest, IsGrantedOrNamesTheSetting) {
   const Asked asked = ask(10);
   if (asked.refusal.empty()) {
     EXPECT_EQ(asked.policy, SCHED_FIFO);
@@ -42,14 +42,14 @@ TEST(AskForRealTimeTest, IsGrantedOrSaysWhatToSet) {
   }
 }
 
-TEST(AskForRealTimeTest, SaysWhyItIsRefusedAndLeavesTheThreadAsItIs) {
+TEST(RequestRealTimeTest, ARefusalNamesTheReasonAndChangesNothing) {
   const Asked asked = ask(1000);
   EXPECT_TRUE(has(asked.refusal, "real-time priority 1000 is refused"));
   EXPECT_TRUE(has(asked.refusal, "timing/realtime_priority"));
   EXPECT_EQ(asked.policy, SCHED_OTHER);
 }
 
-TEST(AskForRealTimeTest, ConcernsTheThreadThatAsks) {
+TEST(RequestRealTimeTest, ConcernsOnlyTheCallingThread) {
   ask(10);
   sched_param parameters{};
   int policy = 0;

@@ -1,4 +1,4 @@
-// On the wall clock, with the default timeouts of 0.1 s for a pose and 0.5 s for a mesh: how soon silence is noticed.
+// How soon silence is noticed, on the wall clock, with the default timeouts: 0.1 s for a pose, 0.5 s for a mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace {
 
 using sweep_guard::Warning;
 
-// When the warning was sent: it is valid for 0.2 s.
+// Returns when the warning was sent: it is valid for 0.2 s.
 ros::Time sent(const Warning& warning) { return warning.valid_until - ros::Duration(0.2); }
 
-// Sends a pose and the sheet until the guard says that all is clear, and returns their newest stamps.
+// Sends a pose and the sheet until the guard is clear, and returns their newest stamps.
 std::pair<ros::Time, ros::Time> stampsOfAClearScene(GuardProbe& probe) {
   while (true) {
     const auto vertices = sheetMovedTo("sheet", {0.0, 0.0, -1.0}, ros::Time::now());
@@ -22,14 +22,14 @@ std::pair<ros::Time, ros::Time> stampsOfAClearScene(GuardProbe& probe) {
     probe.skipWarnings();
     const auto pose = poseAt({0.0, 0.0, 0.5}, ros::Time::now());
     probe.publish(pose);
-    const Warning told = probe.awaitWarning([&](const Warning& warning) {
+    const Warning next = probe.awaitWarning([&](const Warning& warning) {
       return warning.clear || sent(warning) > pose.header.stamp + ros::Duration(0.1);
     });
-    if (told.clear) return {pose.header.stamp, vertices.header.stamp};
+    if (next.clear) return {pose.header.stamp, vertices.header.stamp};
   }
 }
 
-// Load only delays: the soonest of ten times has to be in time.
+// Load only delays: the shortest of ten times must be in time.
 TEST(StalenessTest, SilenceIsUnknownInTime) {
   GuardProbe probe(/*drives_clock=*/false);
   probe.place(sheetAt("sheet", {0.0, 0.0, -1.0}, ros::Time::now()));

@@ -1,4 +1,4 @@
-// The tool's pose comes from tf: every transform that tf receives is swept to, like a pose on the topic.
+// With the tool pose from tf, every received transform is swept like a pose on the topic.
 #include <gtest/gtest.h>
 
 #include "guard_probe.h"

@@ -1,4 +1,4 @@
-// A tool of two links, a drill and a camera beside it: every warning names the link that it is about.
+// A tool of two links, a drill and a camera beside it: every warning names its link.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -13,18 +13,18 @@ using sweep_guard::Warning;
 
 struct Link {
   std::string name;
-  double x;  // where its middle is when the tip is at 0 [m]
+  double x;  // of its center when the tip is at 0 [m]
 };
 void PrintTo(const Link& link, std::ostream* out) { *out << link.name; }
 
 class ToolLinkTest : public NodeTest, public ::testing::WithParamInterface<Link> {};
 
-// The tool points down and comes down to the sheet, which is small enough to lie under the one link alone.
+// The tool points down and descends to the sheet, which is under one link only.
 TEST_P(ToolLinkTest, IsNamedBeforeAndInContact) {
   probe().place(sheetAt("sheet", {GetParam().x, 0.0, 0.0}, probe().time(), /*half_side=*/0.008));
   placed_.insert("sheet");
   const size_t before = probe().warnings().size();
-  for (int mm = 60; mm >= -5; --mm) {  // in 10 ms each
+  for (int mm = 60; mm >= -5; --mm) {  // every 10 ms
     moveTo({0.0, 0.0, 0.001 * mm});
     probe().awaitPrediction(probe().time());
   }

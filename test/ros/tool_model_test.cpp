@@ -1,4 +1,4 @@
-// A tool is what the collision geometry of a robot description says, all of it, or it is refused.
+// A tool is the complete collision geometry of its links, or it is refused.
 #include "ros/tool/tool_model.h"
 #include "data_path.h"
 #include "refusal.h"
@@ -47,17 +47,17 @@ ToolModelOptions toolOf(const std::string& frame, const std::vector<std::string>
   return options;
 }
 
-double support(const std::vector<ConvexPiece>& parts, const Vector3d& direction) {
-  double most = -std::numeric_limits<double>::infinity();
-  for (const ConvexPiece& part : parts) most = std::max(most, part.shape_T.support(direction));
-  return most;
+double support(const std::vector<ConvexPiece>& pieces, const Vector3d& direction) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const ConvexPiece& piece : pieces) largest = std::max(largest, piece.shape_T.support(direction));
+  return largest;
 }
 
-void expectBox(const std::vector<ConvexPiece>& parts, const Vector3d& lowest, const Vector3d& highest,
+void expectBox(const std::vector<ConvexPiece>& pieces, const Vector3d& lowest, const Vector3d& highest,
                double tolerance = 1e-9) {
   for (int axis = 0; axis < 3; ++axis) {
-    EXPECT_NEAR(support(parts, Vector3d::Unit(axis)), highest[axis], tolerance) << "axis " << axis;
-    EXPECT_NEAR(-support(parts, -Vector3d::Unit(axis)), lowest[axis], tolerance) << "axis " << axis;
+    EXPECT_NEAR(support(pieces, Vector3d::Unit(axis)), highest[axis], tolerance) << "axis " << axis;
+    EXPECT_NEAR(-support(pieces, -Vector3d::Unit(axis)), lowest[axis], tolerance) << "axis " << axis;
   }
 }
 
@@ -66,27 +66,27 @@ std::string refusal(const std::string& urdf, const ToolModelOptions& options) {
 }
 
 TEST(ToolModelTest, PutsPrimitivesWhereTheirOriginsAre) {
-  const auto parts = loadToolModel(robot(link("a", collision("<cylinder radius='0.1' length='0.6'/>",
-                                                             "<origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>"))),
-                                   toolOf("a", {}))
-                         .parts;
-  ASSERT_EQ(parts.size(), 1U);
-  EXPECT_EQ(parts[0].link, "a");
-  expectBox(parts, {0.7, 1.9, 2.9}, {1.3, 2.1, 3.1});
-  expectBox(loadToolModel(robot(link("a", collision("<box size='0.2 0.4 0.6'/>"))), toolOf("a", {})).parts,
+  const auto pieces = loadToolModel(robot(link("a", collision("<cylinder radius='0.1' length='0.6'/>",
+                                                              "<origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>"))),
+                                    toolOf("a", {}))
+                          .pieces;
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].link, "a");
+  expectBox(pieces, {0.7, 1.9, 2.9}, {1.3, 2.1, 3.1});
+  expectBox(loadToolModel(robot(link("a", collision("<box size='0.2 0.4 0.6'/>"))), toolOf("a", {})).pieces,
             {-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3});
   expectBox(
       loadToolModel(robot(link("a", collision("<sphere radius='0.5'/>", "<origin xyz='0 0 1'/>"))), toolOf("a", {}))
-          .parts,
+          .pieces,
       {-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5});
 }
 
 // A polygon with 32 sides would fall short of the circle by half a per cent.
 TEST(ToolModelTest, KeepsCylindersRound) {
-  const auto parts =
-      loadToolModel(robot(link("a", collision("<cylinder radius='1' length='1'/>"))), toolOf("a", {})).parts;
+  const auto pieces =
+      loadToolModel(robot(link("a", collision("<cylinder radius='1' length='1'/>"))), toolOf("a", {})).pieces;
   for (double angle = 0.0; angle < 6.3; angle += 0.01) {
-    EXPECT_NEAR(support(parts, Vector3d(std::cos(angle), std::sin(angle), 0.0)), 1.0, 1e-12);
+    EXPECT_NEAR(support(pieces, Vector3d(std::cos(angle), std::sin(angle), 0.0)), 1.0, 1e-12);
   }
 }
 
@@ -94,11 +94,11 @@ TEST(ToolModelTest, TakesEveryCollisionOfEveryLinkListed) {
   const std::string urdf = robot(link("a", kBall + collision("<box size='1 1 1'/>")) + link("b", kBall) +
                                  link("c", kBall) + joint("ab", "fixed", "a", "b", "<origin xyz='0 0 2'/>") +
                                  joint("bc", "fixed", "b", "c", "<origin xyz='0 0 2'/>"));
-  const auto parts = loadToolModel(urdf, toolOf("b", {"a", "b"})).parts;
-  ASSERT_EQ(parts.size(), 3U);
-  EXPECT_EQ(parts[1].link, "a");
-  EXPECT_EQ(parts[2].link, "b");
-  expectBox(parts, {-0.5, -0.5, -2.5}, {0.5, 0.5, 0.1});
+  const auto pieces = loadToolModel(urdf, toolOf("b", {"a", "b"})).pieces;
+  ASSERT_EQ(pieces.size(), 3U);
+  EXPECT_EQ(pieces[1].link, "a");
+  EXPECT_EQ(pieces[2].link, "b");
+  expectBox(pieces, {-0.5, -0.5, -2.5}, {0.5, 0.5, 0.1});
 }
 
 TEST(ToolModelTest, TakesWhatHangsOnTheToolFrameWhereNoLinkIsListed) {
@@ -106,41 +106,41 @@ TEST(ToolModelTest, TakesWhatHangsOnTheToolFrameWhereNoLinkIsListed) {
                                  joint("wrist", "fixed", "arm", "hand") + joint("mount", "fixed", "hand", "tip") +
                                  joint("knuckle", "fixed", "hand", "finger"));
   std::set<std::string> links;
-  for (const ConvexPiece& part : loadToolModel(urdf, toolOf("hand", {})).parts) links.insert(part.link);
+  for (const ConvexPiece& piece : loadToolModel(urdf, toolOf("hand", {})).pieces) links.insert(piece.link);
   EXPECT_EQ(links, (std::set<std::string>{"finger", "hand"}));
 }
 
-// The frame that nobody has named is that of the first link, and not a guess where one has been named.
+// Only the default frame is replaced by the first link.
 TEST(ToolModelTest, TakesTheFirstLinkForAToolFrameThatNobodyNamed) {
   const std::string urdf =
       robot(link("a", kBall) + link("b", kBall) + joint("ab", "fixed", "a", "b", "<origin xyz='0 0 2'/>"));
   const ToolModel model = loadToolModel(urdf, toolOf("tool", {"b"}));
   EXPECT_EQ(model.frame, "b");
-  expectBox(model.parts, Vector3d::Constant(-0.1), Vector3d::Constant(0.1));
+  expectBox(model.pieces, Vector3d::Constant(-0.1), Vector3d::Constant(0.1));
   EXPECT_TRUE(has(refusal(urdf, toolOf("tol", {"b"})), "tool_frame names 'tol'"));
 }
 
 TEST(ToolModelTest, HoldsJointsWhereTheyAreSet) {
-  const std::string urdf = robot(
-      link("a", kBall) + link("b") + link("c", kBall) +
-      joint("turn", "revolute", "a", "b",
-            "<origin xyz='1 0 0'/><axis xyz='0 0 2'/>"
-            "<limit lower='-2' upper='2' plan='1' velocity='1'/>") +
-      joint("slide", "prismatic", "b", "c", "<axis xyz='1 0 0'/><limit lower='0.5' upper='3' plan='1' velocity='1'/>"));
+  const std::string urdf = robot(link("a", kBall) + link("b") + link("c", kBall) +
+                                 joint("turn", "revolute", "a", "b",
+                                       "<origin xyz='1 0 0'/><axis xyz='0 0 2'/>"
+                                       "<limit lower='-2' upper='2' effort='1' velocity='1'/>") +
+                                 joint("slide", "prismatic", "b", "c",
+                                       "<axis xyz='1 0 0'/><limit lower='0.5' upper='3' effort='1' velocity='1'/>"));
   ToolModelOptions options = toolOf("a", {"c"});
-  expectBox(loadToolModel(urdf, options).parts, {1.4, -0.1, -0.1}, {1.6, 0.1, 0.1});  // 0 is below the slide's limits
+  expectBox(loadToolModel(urdf, options).pieces, {1.4, -0.1, -0.1}, {1.6, 0.1, 0.1});  // 0 is below the slide's limits
   options.joints = {{"turn", M_PI / 2}, {"slide", 2.0}};
   const ToolModel model = loadToolModel(urdf, options);
-  expectBox(model.parts, {0.9, 1.9, -0.1}, {1.1, 2.1, 0.1});
-  EXPECT_EQ(model.held, options.joints);
+  expectBox(model.pieces, {0.9, 1.9, -0.1}, {1.1, 2.1, 0.1});
+  EXPECT_EQ(model.joints, options.joints);
   options.joints = {{"slide", 3.5}};
   EXPECT_TRUE(has(refusal(urdf, options), "tool/joints/slide is beyond the joint's limits, 0.5 to 3"));
   options.joints = {{"slid", 1.0}};
-  EXPECT_TRUE(has(refusal(urdf, options), "no joint 'slid'"));
+  EXPECT_TRUE(has(refusal(urdf, options), "names 'slid', which is not a joint"));
 }
 
 TEST(ToolModelTest, ClosesBothFingersOfAGripper) {
-  const std::string limit = "<limit lower='0' upper='0.04' plan='1' velocity='1'/>";
+  const std::string limit = "<limit lower='0' upper='0.04' effort='1' velocity='1'/>";
   const std::string urdf =
       robot(link("hand", kBall) + link("left", kBall) + link("right", kBall) +
             joint("l", "prismatic", "hand", "left", "<axis xyz='0 1 0'/>" + limit) +
@@ -148,16 +148,16 @@ TEST(ToolModelTest, ClosesBothFingersOfAGripper) {
                   "<axis xyz='0 -1 0'/>" + limit + "<mimic joint='l' multiplier='2' offset='0.01'/>"));
   ToolModelOptions options = toolOf("hand", {"left", "right"});
   options.joints = {{"l", 0.04}};
-  expectBox(loadToolModel(urdf, options).parts, {-0.1, -0.19, -0.1}, {0.1, 0.14, 0.1});
+  expectBox(loadToolModel(urdf, options).pieces, {-0.1, -0.19, -0.1}, {0.1, 0.14, 0.1});
   options.joints = {{"r", 0.01}};
   EXPECT_TRUE(has(refusal(urdf, options), "mimics 'l'"));
 }
 
-// A joint above the tool moves all of it alike.
+// A joint above the tool moves the whole tool.
 TEST(ToolModelTest, LeavesOutJointsThatMoveTheToolAsAWhole) {
   const std::string urdf = robot(link("base", kBall) + link("hand", kBall) + link("tip") +
                                  joint("float", "floating", "base", "hand") + joint("mount", "fixed", "hand", "tip"));
-  EXPECT_TRUE(loadToolModel(urdf, toolOf("tip", {"hand"})).held.empty());
+  EXPECT_TRUE(loadToolModel(urdf, toolOf("tip", {"hand"})).joints.empty());
   EXPECT_TRUE(has(refusal(urdf, toolOf("tip", {"base"})), "joint 'float'"));
 }
 
@@ -167,7 +167,7 @@ TEST(ToolModelTest, MakesHullsOfMeshesToScale) {
   const auto tool = [](const std::string& scale) {
     return loadToolModel(robot(link("a", collision("<mesh filename='package://robot/t.obj' scale='" + scale + "'/>"))),
                          toolOf("a", {}))
-        .parts;
+        .pieces;
   };
   expectBox(tool("1 1 1"), {0, 0, 0}, {1, 1, 1});
   expectBox(tool("0.1 2 -3"), {0, 0, -3}, {0.1, 2, 0});
@@ -178,7 +178,7 @@ TEST(ToolModelTest, GrowsEveryPartByThePadding) {
   ToolModelOptions options = toolOf("a", {});
   options.padding = 0.05;
   const std::string urdf = robot(link("a", kBall + collision("<box size='1 1 1'/>", "<origin xyz='2 0 0'/>")));
-  expectBox(loadToolModel(urdf, options).parts, {-0.15, -0.55, -0.55}, {2.55, 0.55, 0.55});
+  expectBox(loadToolModel(urdf, options).pieces, {-0.15, -0.55, -0.55}, {2.55, 0.55, 0.55});
 }
 
 struct Bad {
@@ -195,12 +195,12 @@ TEST(ToolModelTest, RefusesBadDescriptionsInOneLine) {
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<e>";
   const std::vector<Bad> cases = {
-      {"", "no XML"},
-      {"<robot name='r'><link name='a'>", "no XML"},
-      {deep, "no XML"},
+      {"", "not XML"},
+      {"<robot name='r'><link name='a'>", "not XML"},
+      {deep, "not XML"},
       {"<sdf/>", "no element <robot>"},
       {std::string(size_t{9} << 20U, ' '), "larger than 8 MiB"},
-      {robot(""), "no URDF"},
+      {robot(""), "not a URDF"},
       {"<robot>" + link("a", kBall) + "</robot>", "name"},
       {robot(link("a", kBall) + link("a", kBall)), "'a' is not unique"},
       {robot(link("a", kBall) + link("b", kBall)), "wo root links"},
@@ -210,7 +210,7 @@ TEST(ToolModelTest, RefusesBadDescriptionsInOneLine) {
        "root"},
       {robot(link("a", kBall) + link("b") + joint("j", "fixed", "a", "b") + joint("k", "fixed", "a", "b")),
        "child of two joints"},
-      {robot(link("a")), "neither link 'a' nor what hangs on it has a shape"},
+      {robot(link("a")), "link 'a' and the links below it have no shape"},
       {robot(link("a", "<visual><geometry><sphere radius='1'/></geometry></visual>")),
        "link 'a': it has visual geometry, but no collision"},
       {robot(link("a", "<collision/>")), "link 'a'"},
@@ -220,15 +220,15 @@ TEST(ToolModelTest, RefusesBadDescriptionsInOneLine) {
       {robot(link("a", collision("<sphere radius='-1'/>"))), "link 'a': its sphere's radius is -1"},
       {robot(link("a", collision("<sphere radius='wide'/>"))), "Link [a]"},
       {robot(link("a", collision("<sphere radius='nan'/>"))), "nan"},
-      {robot(link("a", collision("<sphere radius='%n%s%s%s%s%s%s'/>"))), "radius"},  // a format, to printf()
-      {robot(link("a", collision("<&#37;n&#37;s/>"))), "no XML"},
+      {robot(link("a", collision("<sphere radius='%n%s%s%s%s%s%s'/>"))), "radius"},  // a format of printf()
+      {robot(link("a", collision("<&#37;n&#37;s/>"))), "not XML"},
       {robot(link("&#37;n%s%s%s%s%s%s", collision("<sphere radius='wide'/>"))), "wide"},
       {robot(link("a", collision("<box size='1 0 1'/>"))), "link 'a': its box's size in y is 0"},
       {robot(link("a", collision("<box size='1 1'/>"))), "3 expected"},
       {robot(link("a", collision("<cylinder radius='1' length='1e9'/>"))), "link 'a': its cylinder's length is 1e+09"},
       {robot(link("a", collision("<sphere radius='1'/>", "<origin xyz='1e300 0 0'/>"))), "link 'a': it reaches"},
-      {mesh("filename='package://robot/missing.stl'"), "link 'a': package://robot/missing.stl: there is no such file"},
-      {mesh("filename='package://missing/a.stl'"), "link 'a': package://missing/a.stl: there is no package"},
+      {mesh("filename='package://robot/missing.stl'"), "link 'a': package://robot/missing.stl: no such file"},
+      {mesh("filename='package://missing/a.stl'"), "link 'a': package://missing/a.stl: no package"},
       {mesh("filename='package://robot/../../../../etc/passwd'"), "leads out of the package"},
       {mesh("filename='http://example.org/a.stl'"), "only package:// and file://"},
       {mesh("filename='package://robot/flat.obj'"), "robot/flat.obj: cannot be read: OBJ-file is too small"},
@@ -246,12 +246,12 @@ TEST(ToolModelTest, RefusesBadDescriptionsInOneLine) {
 
 TEST(ToolModelTest, RefusesLinksThatAreNone) {
   const std::string urdf = robot(link("a", kBall) + link("b") + joint("ab", "fixed", "a", "b"));
-  EXPECT_TRUE(has(refusal(urdf, toolOf("tool", {"c"})), "'c', which is no link of the robot; its links are a, b"));
+  EXPECT_TRUE(has(refusal(urdf, toolOf("tool", {"c"})), "'c', which is not a link of the robot; its links are a, b"));
   EXPECT_TRUE(has(refusal(urdf, toolOf("tool", {"a", "a"})), "twice"));
   EXPECT_TRUE(has(refusal(urdf, toolOf("tool", {"b"})), "link 'b': it has no geometry"));
 }
 
-/// Robots that nobody on the project made.
+// Robots made by others.
 class RealRobotTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -272,13 +272,13 @@ class RealRobotTest : public testing::Test {
 TEST_F(RealRobotTest, FrankaHandIsAMeshAndTwoFingersOfFourBoxes) {
   ToolModelOptions options = toolOf("panda_hand_tcp", {"panda_hand", "panda_leftfinger", "panda_rightfinger"});
   const ToolModel closed = loadToolModel(read("franka_hand.urdf"), options);
-  EXPECT_EQ(closed.parts.size(), 9U);
-  EXPECT_EQ(closed.held.at("panda_finger_joint1"), 0.0);
-  EXPECT_NEAR(support(closed.parts, Vector3d::UnitZ()), 0.0584 + 0.04525 + 0.00925 - 0.1034, 1e-9);
+  EXPECT_EQ(closed.pieces.size(), 9U);
+  EXPECT_EQ(closed.joints.at("panda_finger_joint1"), 0.0);
+  EXPECT_NEAR(support(closed.pieces, Vector3d::UnitZ()), 0.0584 + 0.04525 + 0.00925 - 0.1034, 1e-9);
   options.joints["panda_finger_joint1"] = 0.04;
   const ToolModel open = loadToolModel(read("franka_hand.urdf"), options);
   const auto fingers = [](const ToolModel& model) {
-    return std::vector<ConvexPiece>(model.parts.begin() + 1, model.parts.end());
+    return std::vector<ConvexPiece>(model.pieces.begin() + 1, model.pieces.end());
   };
   for (const Vector3d& side : {Vector3d(Vector3d::UnitY()), Vector3d(-Vector3d::UnitY())}) {
     EXPECT_NEAR(support(fingers(open), side), support(fingers(closed), side) + 0.04, 1e-9);
@@ -290,7 +290,7 @@ TEST_F(RealRobotTest, EveryCompleteRobotLoads) {
     std::string file;
     std::string frame;
     std::vector<std::string> links;
-    size_t parts;
+    size_t pieces;
     double extent;  // [m], roughly
   } cases[] = {
       {"franka_hand.urdf", "panda_hand", {}, 15, 0.2},
@@ -303,9 +303,9 @@ TEST_F(RealRobotTest, EveryCompleteRobotLoads) {
     ToolModelOptions options = toolOf(one.frame, one.links);
     options.mesh_depth = 0;
     const ToolModel model = loadToolModel(read(one.file), options);
-    EXPECT_EQ(model.parts.size(), one.parts) << one.file;
+    EXPECT_EQ(model.pieces.size(), one.pieces) << one.file;
     double extent = 0.0;
-    for (const ConvexPiece& part : model.parts) extent = std::max(extent, part.shape_T.boundingRadius());
+    for (const ConvexPiece& part : model.pieces) extent = std::max(extent, part.shape_T.boundingRadius());
     EXPECT_GT(extent, 0.3 * one.extent) << one.file;
     EXPECT_LT(extent, 2.0 * one.extent) << one.file;
   }
@@ -313,9 +313,9 @@ TEST_F(RealRobotTest, EveryCompleteRobotLoads) {
 
 TEST_F(RealRobotTest, DrillIsCutWhereItIsHollow) {
   ToolModelOptions options = toolOf("drill", {"drill"});
-  const auto whole = loadToolModel(read("costar_drill.urdf"), options).parts;
+  const auto whole = loadToolModel(read("costar_drill.urdf"), options).pieces;
   options.mesh_depth = 0;
-  const auto hull = loadToolModel(read("costar_drill.urdf"), options).parts;
+  const auto hull = loadToolModel(read("costar_drill.urdf"), options).pieces;
   EXPECT_EQ(hull.size(), 1U);
   EXPECT_GT(whole.size(), 2U);
   for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(0.6, 0, 0.8)}) {
@@ -327,7 +327,7 @@ TEST_F(RealRobotTest, DvrkInstrumentIsRefusedByTheNameOfTheMissingMesh) {
   for (const std::vector<std::string>& links :
        {std::vector<std::string>{}, {"PSM1_roll_link"}, {"PSM1_roll_link", "PSM1_wrist_pitch_link"}}) {
     EXPECT_TRUE(has(refusal(read("dvrk_psm1.urdf"), toolOf("tool", links)),
-                    "link 'PSM1_roll_link': package://dvrk_model/meshes/instruments/roll/4670/roll_4670.obj: there is "
+                    "link 'PSM1_roll_link': package://dvrk_model/meshes/instruments/roll/4670/roll_4670.obj: "
                     "no such file"));
   }
 }

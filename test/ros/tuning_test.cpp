@@ -1,4 +1,4 @@
-// Every parameter that may change while the guard runs is changed, and what the guard does changes with it.
+// Changes every changeable parameter of a running guard, and checks its effect.
 #include <dynamic_reconfigure/ConfigDescription.h>
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ auto valueIn(const Parameters& parameters, const std::string& key) {
   return found->value;
 }
 
-// The guard is as it was at the start before and after each test.
+// The parameters are those of the start before and after each test.
 class TuningTest : public NodeTest {
  protected:
   static void SetUpTestSuite() { at_start_ = probe().configuration(); }
@@ -68,7 +68,7 @@ class TuningTest : public NodeTest {
     changed_.insert(key);
   }
 
-  // One step of a motion, and what is expected after it.
+  // Makes one step of a motion, and returns the prediction after it.
   Prediction predictAt(const Eigen::Vector3d& tip) {
     moveTo(tip);
     return probe().awaitPrediction(probe().time());
@@ -107,7 +107,7 @@ class TuningTest : public NodeTest {
     return probe().awaitWarning([](const Warning&) { return true; });
   }
 
-  // From a standstill through this motion; the sheet is thin and small, its centre at a point.
+  // Moves from rest. The sheet is small, with its center at a point.
   Contacts sweep(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
     moveTo(from);
     return moveTo(to);
@@ -128,7 +128,7 @@ TEST_F(TuningTest, PaddingGrowsTheTool) {
 }
 
 // In a corner of the box about a slanting motion, and outside of the hull.
-TEST_F(TuningTest, TheVolumeIsTheOneThatIsTested) {
+TEST_F(TuningTest, TheVolumeChanges) {
   placeSheet("corner", {0.2, 0.0, -0.1}, "world", /*half_side=*/0.005);
   change("volume", "obb");
   EXPECT_EQ(sweep({0.0, 0.0, 0.0}, {0.15, 0.0, -0.15}).objects.size(), 1U);
@@ -138,8 +138,8 @@ TEST_F(TuningTest, TheVolumeIsTheOneThatIsTested) {
   EXPECT_EQ(contacts.volume, "hull");
 }
 
-// What a detector adds for its rounding tells which one it is; the cull decides a triangle with a corner in the volume.
-TEST_F(TuningTest, TheDetectorAndItsCullAreTheOnesThatAnswer) {
+// The margin for rounding identifies the detector. The cull decides on a triangle with a corner in the volume.
+TEST_F(TuningTest, TheDetectorAndItsCullChange) {
   placeSheet("small", {0.0, 0.0, 0.0}, "world", /*half_side=*/0.002);
   const auto margin = [&] { return sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05}).margin; };
   const double culled = margin();
@@ -153,15 +153,15 @@ TEST_F(TuningTest, TheDetectorAndItsCullAreTheOnesThatAnswer) {
   EXPECT_TRUE(probe().predict(1.0).success);
 }
 
-TEST_F(TuningTest, TheFinePhaseIsLeftOut) {
+TEST_F(TuningTest, TheNarrowPhaseIsLeftOut) {
   placeSheet("sheet", {0.0, 0.0, 0.0});
   EXPECT_TRUE(sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05}).objects.at(0).fine);
   change("fine", false);
   EXPECT_FALSE(sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05}).objects.at(0).fine);
 }
 
-// The margin pays for the arc, which falls with the square of the angle.
-TEST_F(TuningTest, TurnsAreSplitInSmallerParts) {
+// The margin covers the deviation bound, which falls with the square of the angle.
+TEST_F(TuningTest, TurnsAreSplitIntoSmallerSteps) {
   placeSheet("sheet", {0.0, 0.0, 0.0});
   const auto margin = [&] {
     moveTo({0.0, 0.0, 1.0});
@@ -204,21 +204,21 @@ TEST_F(TuningTest, ThePolynomialForgetsSooner) {
   EXPECT_GT(end(restAndGo(0.2, 5)), slowly + 0.05);
 }
 
-TEST_F(TuningTest, ThePolynomialLooksBackLess) {
+TEST_F(TuningTest, ThePolynomialHasAShorterWindow) {
   change("prediction/predictor", "polynomial");
   const double long_back = end(restAndGo(0.2, 5));
   change("prediction/window", 0.04);
   EXPECT_GT(end(restAndGo(0.2, 5)), long_back + 0.05);
 }
 
-// What is faster is a jump, and what comes after one is not known.
-TEST_F(TuningTest, TheLimitOfSpeedTellsAJump) {
+// A faster motion is a jump, after which the motion is unknown.
+TEST_F(TuningTest, TheSpeedLimitDetectsAJump) {
   EXPECT_FALSE(restAndGo(0.2, 3).poses.empty());
   change("limits/max_speed", 0.1);
   EXPECT_TRUE(restAndGo(0.2, 3).poses.empty());
 }
 
-TEST_F(TuningTest, TheLimitOfTurningTellsAJump) {
+TEST_F(TuningTest, TheTurnRateLimitDetectsAJump) {
   placeSheet("far", {0.0, 0.0, -2.0});
   const auto turn = [&] {
     probe().reset();
@@ -260,8 +260,8 @@ TEST_F(TuningTest, ThePredictedStepsAreLonger) {
   EXPECT_NEAR(lastStep(after), 0.5, 0.06);
 }
 
-// Beside the way, where contact is merely probable.
-TEST_F(TuningTest, WhatIsProbableEnoughIsWarnedOf) {
+// Beside the path, where contact is only probable.
+TEST_F(TuningTest, TheProbabilityThatIsWarnedOfChanges) {
   placeSheet("sheet", {0.0, 0.0, 0.0});
   const auto rest = [&] {
     Prediction prediction;
@@ -279,7 +279,7 @@ TEST_F(TuningTest, WhatIsProbableEnoughIsWarnedOf) {
   EXPECT_NE(rest().interval, Prediction::NONE);
 }
 
-TEST_F(TuningTest, AContactIsHeldAndLetGo) {
+TEST_F(TuningTest, TheHoldTimeOfAContactChanges) {
   placeSheet("sheet", {0.0, 0.0, 0.0});
   change("warning/hold_time", 60.0);
   sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05});
@@ -305,7 +305,7 @@ TEST_F(TuningTest, TheRateDecidesHowManySweepsThereIsTimeFor) {
   EXPECT_LT(fast.sweeps_made, slow.sweeps_made);
 }
 
-TEST_F(TuningTest, PosesGrowStaleLater) {
+TEST_F(TuningTest, PosesBecomeStaleLater) {
   placeSheet("sheet", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
   probe().advance(1.1);
@@ -316,7 +316,7 @@ TEST_F(TuningTest, PosesGrowStaleLater) {
   EXPECT_EQ(later.reasons & Warning::POSE_STALE, 0U) << later.text;
 }
 
-TEST_F(TuningTest, MeshesNeverGrowStale) {
+TEST_F(TuningTest, MeshesNeverBecomeStale) {
   placeSheet("sheet", {0.0, 0.0, -1.0});
   probe().advance(10.1);
   probe().awaitWarning(hasReason(Warning::MESH_STALE));
@@ -326,13 +326,13 @@ TEST_F(TuningTest, MeshesNeverGrowStale) {
   EXPECT_EQ(later.reasons & Warning::MESH_STALE, 0U) << later.text;
 }
 
-// Against the warnings, which keep their rate of 20 Hz.
-TEST_F(TuningTest, MarkersComeAtAnotherRate) {
+// Compared to the warnings, which keep their 20 Hz.
+TEST_F(TuningTest, TheMarkerRateChanges) {
   const auto count = [] {
-    const size_t before = probe().markersSoFar();
+    const size_t before = probe().markersReceived();
     probe().skipWarnings();
     probe().awaitWarning([left = 20](const Warning&) mutable { return --left == 0; });
-    return probe().markersSoFar() - before;
+    return probe().markersReceived() - before;
   };
   change("timing/marker_rate", 0.1);
   EXPECT_LE(count(), 1U);
@@ -340,7 +340,7 @@ TEST_F(TuningTest, MarkersComeAtAnotherRate) {
   EXPECT_GE(count(), 20U);
 }
 
-TEST_F(TuningTest, EachPartOfTheMarkersIsLeftOut) {
+TEST_F(TuningTest, EachNamespaceOfTheMarkersCanBeHidden) {
   placeSheet("sheet", {0.0, 0.0, 0.0});
   placeSheet("below", {0.0, 0.0, -0.1});
   change("warning/hold_time", 60.0);
@@ -356,18 +356,18 @@ TEST_F(TuningTest, EachPartOfTheMarkersIsLeftOut) {
   };
   const std::set<std::string> all(markerNamespaces().begin(), markerNamespaces().end());
   probe().awaitMarkers([&](const auto& array) { return drawn(array) == all; });
-  for (const std::string& part : markerNamespaces()) {
+  for (const std::string& name : markerNamespaces()) {
     std::set<std::string> others = all;
-    others.erase(part);
-    change("markers/" + part, false);
+    others.erase(name);
+    change("markers/" + name, false);
     probe().awaitMarkers([&](const auto& array) { return drawn(array) == others; });
-    change("markers/" + part, true);
+    change("markers/" + name, true);
     probe().awaitMarkers([&](const auto& array) { return drawn(array) == all; });
   }
 }
 
-// The way through the sheet begins under one configuration and ends under another.
-TEST_F(TuningTest, TheWayDuringAChangeIsSwept) {
+// The path through the sheet begins before the change and ends after it.
+TEST_F(TuningTest, TheMotionDuringAChangeIsSwept) {
   placeSheet("sheet", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   const ros::Time before = probe().time();
@@ -382,8 +382,8 @@ TEST_F(TuningTest, TheWayDuringAChangeIsSwept) {
   EXPECT_EQ(contacts.objects.size(), 1U);
 }
 
-// However poses and changes come to stand between each other.
-TEST_F(TuningTest, ManyChangesLeaveNoHole) {
+// Whatever the order of poses and changes.
+TEST_F(TuningTest, ManyChangesLeaveNoGap) {
   placeSheet("sheet", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.5});
   probe().forgetContacts();
@@ -401,7 +401,7 @@ TEST_F(TuningTest, ManyChangesLeaveNoHole) {
 }
 
 TEST_F(TuningTest, AChangeAloneMakesNothingUnknown) {
-  change("timing/pose_timeout", 2.0);  // on a machine that is busy it takes a while
+  change("timing/pose_timeout", 2.0);  // a busy machine takes a while
   placeSheet("sheet", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
   const size_t since = probe().warnings().size();
@@ -414,7 +414,7 @@ TEST_F(TuningTest, AChangeAloneMakesNothingUnknown) {
   for (size_t i = since; i < warnings.size(); ++i) EXPECT_TRUE(warnings[i].clear) << warnings[i].text;
 }
 
-TEST_F(TuningTest, BadValuesAreRefusedAndLeaveEverythingAsItWas) {
+TEST_F(TuningTest, BadValuesAreRefusedAndChangeNothing) {
   placeSheet("sheet", {0.0, 0.0, -1.0});
   const Config before = probe().configuration();
   for (const Config& bad :
@@ -433,8 +433,8 @@ TEST_F(TuningTest, BadValuesAreRefusedAndLeaveEverythingAsItWas) {
   restAt({0.0, 0.0, 0.5});
 }
 
-// One of the two would be good by itself.
-TEST_F(TuningTest, ARequestComesIntoForceAsAWholeOrNotAtAll) {
+// One of the two is valid alone.
+TEST_F(TuningTest, ARequestIsAppliedAsAWholeOrNotAtAll) {
   Config config;
   add(config, "horizon/considered_step", 0.2);
   add(config, "horizon/considered", 0.05);
@@ -444,7 +444,7 @@ TEST_F(TuningTest, ARequestComesIntoForceAsAWholeOrNotAtAll) {
   EXPECT_TRUE(probe().configure(config));
 }
 
-TEST_F(TuningTest, DiagnosticsAndTheParameterServerTellWhatWasChangedAndRefused) {
+TEST_F(TuningTest, DiagnosticsAndParameterServerReportChangesAndRefusals) {
   change("horizon/reflex", 0.2);
   EXPECT_FALSE(probe().configure(one("horizon/reflex", 3.0)));
   const auto status = probe().awaitStatus("parameters", [](const auto& next) {
@@ -459,7 +459,7 @@ TEST_F(TuningTest, DiagnosticsAndTheParameterServerTellWhatWasChangedAndRefused)
   EXPECT_EQ(set, 0.2);
 }
 
-// What reads the description, and sends each value in the type that it tells.
+// dynparam reads the description and sends each value in its type.
 TEST_F(TuningTest, TheCommandLineToolChangesThem) {
   const auto set = [](const std::string& what) {
     return std::system(("rosrun dynamic_reconfigure dynparam set /sweep_guard " + what).c_str());
@@ -473,7 +473,7 @@ TEST_F(TuningTest, TheCommandLineToolChangesThem) {
   EXPECT_NE(set("horizon/considered 0.01"), 0);
 }
 
-// Clients build their sliders and their choices from it.
+// Clients build their sliders and choices from it.
 TEST_F(TuningTest, TheDescriptionHasEachParameterInAGroupWithRangeAndDefault) {
   const auto description =
       ros::topic::waitForMessage<ConfigDescription>("/sweep_guard/parameter_descriptions", ros::Duration(1e6));

@@ -38,7 +38,7 @@ MarkerScene touching() {
   return scene;
 }
 
-TEST(ViewTest, TellsWhatWasSweptTouchedAndExpected) {
+TEST(ViewTest, ShowsSweepsContactsAndPrediction) {
   const sweep_guard::View view = toMsg(touching());
   ASSERT_EQ(view.objects.size(), 1U);
   const sweep_guard::ObjectView& object = view.objects[0];
@@ -66,7 +66,7 @@ TEST(ViewTest, ShowsNoContactThatIsOver) {
   EXPECT_TRUE(toMsg(scene).objects[0].touched.empty());
 }
 
-TEST(ViewTest, KnowsNothingBeforeTheFirstSweep) {
+TEST(ViewTest, IsEmptyBeforeTheFirstSweep) {
   const sweep_guard::View view = toMsg(MarkerScene());
   EXPECT_TRUE(view.header.stamp.isZero());
   EXPECT_TRUE(view.objects.empty());
@@ -74,7 +74,7 @@ TEST(ViewTest, KnowsNothingBeforeTheFirstSweep) {
   EXPECT_EQ(view.level, static_cast<std::uint8_t>(WarningLevel::kUnknown));
 }
 
-TEST(ToolShapeTest, HasTheSurfaceOfEveryPart) {
+TEST(ToolShapeTest, HasTheSurfaceOfEveryPiece) {
   const sweep_guard::ToolShape shape = toMsg(kTool);
   ASSERT_EQ(shape.parts.size(), 1U);
   EXPECT_EQ(shape.parts[0].triangles.size(), kTool.pieces()[0].shape_T.mesh_T().triangles().size());

@@ -16,18 +16,18 @@ void fill(WorkQueue& queue) {
   for (size_t i = 0; i < kPoses; ++i) queue.push({});
 }
 
-std::future<int> ask(WorkQueue& queue, int answer) {
-  return queue.ask<int>([answer] { return answer; });
+std::future<int> submit(WorkQueue& queue, int answer) {
+  return queue.submit<int>([answer] { return answer; });
 }
 
-TEST(WorkQueueTest, GivesWhatWaitsAllAtOnceAndEachOnce) {
+TEST(WorkQueueTest, TakesAllWorkAtOnceAndEachOnce) {
   WorkQueue queue;
   WorkQueue::Work taken;
   queue.push({});
   queue.push({});
-  std::future<int> answer = ask(queue, 7);
+  std::future<int> answer = submit(queue, 7);
   ASSERT_TRUE(queue.take(taken));
-  EXPECT_TRUE(queue.noPoseWaits());
+  EXPECT_FALSE(queue.hasPoses());
   EXPECT_EQ(taken.poses.size(), 2U);
   ASSERT_EQ(taken.tasks.size(), 1U);
   taken.tasks.front()();
@@ -39,7 +39,7 @@ TEST(WorkQueueTest, GivesWhatWaitsAllAtOnceAndEachOnce) {
   EXPECT_TRUE(taken.tasks.empty());
 }
 
-TEST(WorkQueueTest, APoseWithoutRoomWaitsAndIsNotLost) {
+TEST(WorkQueueTest, APoseWaitsForRoomAndIsNotLost) {
   WorkQueue queue;
   fill(queue);
   std::thread input([&] { queue.push({}); });
@@ -48,27 +48,27 @@ TEST(WorkQueueTest, APoseWithoutRoomWaitsAndIsNotLost) {
   while (poses < kPoses + 1 && queue.take(taken)) poses += taken.poses.size();
   input.join();
   EXPECT_EQ(poses, kPoses + 1);
-  EXPECT_TRUE(queue.noPoseWaits());
+  EXPECT_FALSE(queue.hasPoses());
 }
 
-TEST(WorkQueueTest, RefusesMoreTasksThanItHasRoomFor) {
+TEST(WorkQueueTest, RefusesTooManyTasks) {
   WorkQueue queue;
-  for (int i = 0; i < kTasks; ++i) ask(queue, i);
-  EXPECT_THROW(ask(queue, 0), sweep_guard_core::Error);
+  for (int i = 0; i < kTasks; ++i) submit(queue, i);
+  EXPECT_THROW(submit(queue, 0), sweep_guard_core::Error);
   WorkQueue::Work taken;
   ASSERT_TRUE(queue.take(taken));
-  EXPECT_NO_THROW(ask(queue, 0));
+  EXPECT_NO_THROW(submit(queue, 0));
 }
 
-TEST(WorkQueueTest, StoppingLetsEverybodyGo) {
+TEST(WorkQueueTest, StoppingEndsEveryWait) {
   WorkQueue queue;
   fill(queue);
-  std::future<int> answer = ask(queue, 7);
+  std::future<int> answer = submit(queue, 7);
   std::thread input([&] { queue.push({}); });
   queue.stop();
   input.join();
   EXPECT_THROW(answer.get(), std::future_error);
-  EXPECT_THROW(ask(queue, 0), sweep_guard_core::Error);
+  EXPECT_THROW(submit(queue, 0), sweep_guard_core::Error);
   WorkQueue::Work taken;
   EXPECT_FALSE(queue.take(taken));
 }

@@ -46,7 +46,7 @@ void SweepDisplayTest::SetUp() {
   view_publisher_ = node_.advertise<sweep_guard::View>("/sweep_guard/view", 1);
   tool_publisher_ = node_.advertise<sweep_guard::ToolShape>("/sweep_guard/tool", 1, /*latch=*/true);
   tool_publisher_.publish(tetrahedron());
-  display_ = new SweepDisplay;  // the manager's
+  display_ = new SweepDisplay;  // owned by the manager
   Rviz::only().setDistance(10.0F);
   Rviz::only().manager.addDisplay(display_, /*enabled=*/true);
   QObject::connect(&timer_, &QTimer::timeout, [this] {

@@ -14,20 +14,20 @@
 
 namespace sweep_guard_rviz {
 
-/// rviz without its frame: one for all tests, for Ogre begins once.
+/// rviz without its window: one for all tests, because Ogre starts once.
 class Rviz {
  public:
-  Rviz();  ///< which only() is from now on
+  Rviz();  ///< only() returns this object from now on
   static Rviz& only();
 
   QImage picture();
-  void setDistance(float distance);  ///< of the eye from the origin [m]
+  void setDistance(float distance);  ///< distance of the camera from the origin [m]
 
   rviz::RenderPanel panel;
   rviz::VisualizationManager manager;
 };
 
-/// A display, and a guard that shows the same all the time.
+/// A display and a guard that repeats one view.
 class SweepDisplayTest : public ::testing::Test {
  protected:
   void SetUp() override;
@@ -38,7 +38,7 @@ class SweepDisplayTest : public ::testing::Test {
   void fallSilent() { timer_.stop(); }
 
   size_t drawn(SurfaceVisual::Layer layer) const { return display_->drawnTriangles(layer); }
-  std::string status(const QString& name) const;  ///< what the status list says under a name; empty: nothing
+  std::string status(const QString& name) const;  ///< text of a line of the status list; empty if there is none
 
   ros::NodeHandle node_;
   ros::Publisher mesh_publisher_;

@@ -20,7 +20,7 @@ TEST(GhostsTest, AreSpreadEvenlyUpToTheEnd) {
   EXPECT_EQ(pickGhosts(straight(20, 1.0), 4, 0.1, 0.5), (std::vector<size_t>{4, 9, 14, 19}));
 }
 
-TEST(GhostsTest, OfAToolThatRestsThereIsOne) { EXPECT_EQ(pickGhosts(straight(20, 0.0), 10, 0.1, 0.5).size(), 1U); }
+TEST(GhostsTest, AToolAtRestHasOne) { EXPECT_EQ(pickGhosts(straight(20, 0.0), 10, 0.1, 0.5).size(), 1U); }
 
 TEST(GhostsTest, AToolThatOnlyTurnsHasThem) {
   std::vector<geometry_msgs::Pose> path = straight(2, 0.0);
@@ -28,7 +28,7 @@ TEST(GhostsTest, AToolThatOnlyTurnsHasThem) {
   EXPECT_EQ(pickGhosts(path, 2, 0.1, 0.05).size(), 2U);
 }
 
-TEST(GhostsTest, OfNoPathThereAreNone) { EXPECT_TRUE(pickGhosts({}, 10, 0.1, 0.5).empty()); }
+TEST(GhostsTest, AnEmptyPathHasNone) { EXPECT_TRUE(pickGhosts({}, 10, 0.1, 0.5).empty()); }
 
 TEST(GhostsTest, ThereAreNoMoreThanPoses) { EXPECT_EQ(pickGhosts(straight(3, 1.0), 10, 0.1, 0.5).size(), 3U); }
 

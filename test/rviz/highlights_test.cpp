@@ -7,7 +7,7 @@ namespace {
 
 using Triangles = std::vector<std::uint32_t>;
 
-TEST(HighlightsTest, ATriangleIsShownAsTheMostUrgentOfWhatItIs) {
+TEST(HighlightsTest, ShowsATriangleOnceInItsMostUrgentList) {
   sweep_guard::ObjectView view;
   view.touched = {3};
   view.reflex = {3, 4};
@@ -18,7 +18,7 @@ TEST(HighlightsTest, ATriangleIsShownAsTheMostUrgentOfWhatItIs) {
   EXPECT_EQ(shown.considered, Triangles{5});
 }
 
-TEST(HighlightsTest, WhatTheWorkpieceDoesNotHaveIsLeftOut) {
+TEST(HighlightsTest, DropsTrianglesThatTheWorkpieceDoesNotHave) {
   sweep_guard::ObjectView view;
   view.touched = {1, 9, 10, 4000000000U};
   EXPECT_EQ(highlightsOf(view, 10).touched, (Triangles{1, 9}));

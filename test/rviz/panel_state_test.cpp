@@ -25,70 +25,72 @@ PanelState shown(const Warning& warning, milliseconds age = milliseconds(10)) {
   return panelState(ReceivedWarning{warning, {kNow.steady - age, kNow.stamp}}, kNow, "/guard/warning");
 }
 
-TEST(PanelStateTest, EveryLevelHasItsLightAndItsWord) {
-  const char* const words[] = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};
+TEST(PanelStateTest, EveryLevelHasItsName) {
+  const char* const names[] = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};
   for (std::uint8_t level = Warning::UNKNOWN; level <= Warning::CONTACT; ++level) {
     const PanelState state = shown(warningLevel(level));
-    EXPECT_EQ(static_cast<int>(state.light), level);
-    EXPECT_EQ(state.word, words[level]);
+    EXPECT_EQ(static_cast<int>(state.level), level);
+    EXPECT_EQ(state.title, names[level]);
     EXPECT_FALSE(state.silent);
   }
 }
 
 TEST(PanelStateTest, NoWarningIsUnknownAndNamesTheTopic) {
   const PanelState state = panelState(std::nullopt, kNow, "/guard/warning");
-  EXPECT_EQ(state.light, Light::kUnknown);
+  EXPECT_EQ(state.level, WarningLevel::kUnknown);
   EXPECT_TRUE(state.silent);
-  EXPECT_EQ(state.whys, std::vector<std::string>{"no warning from /guard/warning"});
+  EXPECT_EQ(state.reasons, std::vector<std::string>{"no warning from /guard/warning"});
 }
 
 TEST(PanelStateTest, SilenceIsUnknown) {
-  EXPECT_EQ(shown(warningLevel(Warning::CLEAR), kSilence).light, Light::kClear);
+  EXPECT_EQ(shown(warningLevel(Warning::CLEAR), kSilence).level, WarningLevel::kClear);
   const PanelState state = shown(warningLevel(Warning::CLEAR), kSilence + milliseconds(1));
-  EXPECT_EQ(state.light, Light::kUnknown);
+  EXPECT_EQ(state.level, WarningLevel::kUnknown);
   EXPECT_TRUE(state.silent);
 }
 
 TEST(PanelStateTest, AWarningThatRanOutIsUnknownHoweverFreshItCame) {
   Warning warning = warningLevel(Warning::CLEAR);
   warning.valid_until = kNow.stamp - ros::Duration(0.01);
-  EXPECT_EQ(shown(warning).light, Light::kUnknown);
+  EXPECT_EQ(shown(warning).level, WarningLevel::kUnknown);
 }
 
-TEST(PanelStateTest, AZeroInitialisedWarningIsUnknown) { EXPECT_EQ(shown(Warning()).light, Light::kUnknown); }
+TEST(PanelStateTest, AZeroInitializedWarningIsUnknown) { EXPECT_EQ(shown(Warning()).level, WarningLevel::kUnknown); }
 
 TEST(PanelStateTest, ClearWithAReasonOrWithoutPermissionIsUnknown) {
   Warning warning = warningLevel(Warning::CLEAR);
   warning.reasons = Warning::MESH_STALE;
-  EXPECT_EQ(shown(warning).light, Light::kUnknown);
+  EXPECT_EQ(shown(warning).level, WarningLevel::kUnknown);
   warning = warningLevel(Warning::CLEAR);
   warning.clear = false;
-  EXPECT_EQ(shown(warning).light, Light::kUnknown);
+  EXPECT_EQ(shown(warning).level, WarningLevel::kUnknown);
 }
 
-TEST(PanelStateTest, OverloadLeavesClearAsItIsAndIsTold) {
+TEST(PanelStateTest, OverloadKeepsClearAndIsShown) {
   Warning warning = warningLevel(Warning::CLEAR);
   warning.reasons = Warning::OVERLOAD;
   const PanelState state = shown(warning);
-  EXPECT_EQ(state.light, Light::kClear);
-  EXPECT_EQ(state.whys.size(), 1U);
+  EXPECT_EQ(state.level, WarningLevel::kClear);
+  EXPECT_EQ(state.reasons.size(), 1U);
 }
 
-TEST(PanelStateTest, ALevelThatDoesNotExistIsUnknown) { EXPECT_EQ(shown(warningLevel(5)).light, Light::kUnknown); }
+TEST(PanelStateTest, ALevelThatDoesNotExistIsUnknown) {
+  EXPECT_EQ(shown(warningLevel(5)).level, WarningLevel::kUnknown);
+}
 
-TEST(PanelStateTest, EveryReasonHasWordsWhereTheGuardHasNone) {
+TEST(PanelStateTest, EveryReasonHasATextWhereTheWarningHasNone) {
   for (std::uint32_t bit = 1; bit <= Warning::DISABLED; bit <<= 1U) {
     Warning warning = warningLevel(Warning::UNKNOWN);
     warning.reasons = bit;
-    EXPECT_EQ(shown(warning).whys.size(), 1U) << bit;
+    EXPECT_EQ(shown(warning).reasons.size(), 1U) << bit;
   }
 }
 
-TEST(PanelStateTest, TheGuardsOwnWordsStandInLinesOfTheirOwn) {
+TEST(PanelStateTest, TheSentencesOfTheWarningBecomeReasons) {
   Warning warning = warningLevel(Warning::UNKNOWN);
   warning.reasons = Warning::POSE_STALE | Warning::NO_MESH;
   warning.text = "UNKNOWN: newest tool pose tested is 0.52 s old; no workpiece yet";
-  EXPECT_EQ(shown(warning).whys,
+  EXPECT_EQ(shown(warning).reasons,
             (std::vector<std::string>{"newest tool pose tested is 0.52 s old", "no workpiece yet"}));
 }
 
@@ -96,10 +98,10 @@ TEST(PanelStateTest, NothingIsSaidTwice) {
   Warning warning = warningLevel(Warning::CONTACT);
   warning.reasons = Warning::POSE_STALE;
   warning.text = "CONTACT: tool meets 'liver', 3 triangles; newest tool pose tested is 0.52 s old";
-  EXPECT_EQ(shown(warning).whys, std::vector<std::string>{"newest tool pose tested is 0.52 s old"});
+  EXPECT_EQ(shown(warning).reasons, std::vector<std::string>{"newest tool pose tested is 0.52 s old"});
 }
 
-TEST(PanelStateTest, WhatWillBeHitIsNamed) {
+TEST(PanelStateTest, NamesWhatWillBeHit) {
   Warning warning = warningLevel(Warning::REFLEX);
   warning.time_to_collision = ros::Duration(0.084);
   warning.mesh_id = "liver";
@@ -139,30 +141,30 @@ TEST(PanelStateTest, DisabledIsNotClearAndSaysSo) {
   Warning warning = warningLevel(Warning::UNKNOWN);
   warning.reasons = Warning::DISABLED;
   const PanelState state = shown(warning);
-  EXPECT_EQ(state.light, Light::kUnknown);
+  EXPECT_EQ(state.level, WarningLevel::kUnknown);
   EXPECT_TRUE(state.disabled);
-  EXPECT_EQ(state.word, "DISABLED");
+  EXPECT_EQ(state.title, "DISABLED");
 }
 
-TEST(LevelHistoryTest, KeepsWhatWasInForceTwentySecondsAgo) {
+TEST(LevelHistoryTest, KeepsTheLevelOfTwentySecondsAgo) {
   LevelHistory history;
   const auto at = [](double seconds) {
     return SteadyTime(std::chrono::hours(1)) + milliseconds(static_cast<int>(1000 * seconds));
   };
-  history.add({at(0.0), Light::kClear, {}});
-  history.add({at(5.0), Light::kConsidered, 0.8});
-  history.add({at(24.0), Light::kReflex, 0.1});
+  history.add({at(0.0), WarningLevel::kClear, {}});
+  history.add({at(5.0), WarningLevel::kConsidered, 0.8});
+  history.add({at(24.0), WarningLevel::kReflex, 0.1});
   ASSERT_EQ(history.samples().size(), 3U);
-  history.add({at(26.0), Light::kContact, 0.0});
+  history.add({at(26.0), WarningLevel::kContact, 0.0});
   ASSERT_EQ(history.samples().size(), 3U);
-  EXPECT_EQ(history.samples().front().light, Light::kConsidered);
+  EXPECT_EQ(history.samples().front().level, WarningLevel::kConsidered);
   EXPECT_EQ(history.longestTime(), 0.8);
 }
 
 TEST(LevelHistoryTest, TimeDoesNotGoBack) {
   LevelHistory history;
-  history.add({kNow.steady, Light::kClear, {}});
-  history.add({kNow.steady - milliseconds(5), Light::kReflex, {}});
+  history.add({kNow.steady, WarningLevel::kClear, {}});
+  history.add({kNow.steady - milliseconds(5), WarningLevel::kReflex, {}});
   EXPECT_EQ(history.samples().back().since, kNow.steady);
 }
 

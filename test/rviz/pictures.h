@@ -7,14 +7,14 @@
 
 namespace sweep_guard_rviz {
 
-/// Keeps a picture, for people, in the folder that SWEEP_GUARD_PICTURES names, if it does.
+/// Saves a picture in the folder SWEEP_GUARD_PICTURES, if that is set.
 inline void keepPicture(const QImage& image, const std::string& name) {
   const QString folder = qEnvironmentVariable("SWEEP_GUARD_PICTURES");
   if (folder.isEmpty() || !QDir().mkpath(folder)) return;
   image.save(QDir(folder).filePath(QString::fromStdString(name + ".png")));
 }
 
-/// Share of the pixels [-] that a colour fits.
+/// Returns the share [-] of pixels whose color fits.
 template <typename Fits>
 double shareOf(const QImage& image, Fits&& fits) {
   int count = 0;
@@ -28,7 +28,7 @@ inline bool isGreen(const QColor& c) { return c.green() > c.red() + 40 && c.gree
 inline bool isRed(const QColor& c) { return c.red() > 150 && c.green() < 90 && c.blue() < 90; }
 inline bool isAmber(const QColor& c) { return c.red() > 200 && c.green() > 120 && c.green() < 210 && c.blue() < 90; }
 
-inline bool isGrey(const QColor& c) {
+inline bool isGray(const QColor& c) {
   return c.red() > 120 && c.red() < 160 && std::abs(c.red() - c.green()) < 6 && std::abs(c.red() - c.blue()) < 6;
 }
 inline bool isMagenta(const QColor& c) { return c.red() > c.green() + 50 && c.blue() > c.green() + 50; }

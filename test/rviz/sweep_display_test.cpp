@@ -18,7 +18,7 @@ using sweep_guard::DeformableMesh;
 using sweep_guard::View;
 using sweep_guard::Warning;
 
-TEST_F(SweepDisplayTest, HighlightsEveryTriangleOnceAsTheMostUrgentOfWhatItIs) {
+TEST_F(SweepDisplayTest, HighlightsEveryTriangleOnce) {
   place(sheet(0.0));
   show(viewOf(Warning::CONTACT));
   await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
@@ -31,18 +31,18 @@ TEST_F(SweepDisplayTest, HighlightsEveryTriangleOnceAsTheMostUrgentOfWhatItIs) {
   EXPECT_GT(shareOf(picture, isAmber), 0.01);
 }
 
-TEST_F(SweepDisplayTest, IsGreyWhileNothingIsPromised) {
+TEST_F(SweepDisplayTest, IsGrayWhileTheLevelIsUnknown) {
   place(sheet(0.0));
   show(viewOf(Warning::UNKNOWN));
   await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
   const QImage picture = Rviz::only().picture();
   keepPicture(picture, "display_unknown");
-  EXPECT_GT(shareOf(picture, isGrey), 0.01);
+  EXPECT_GT(shareOf(picture, isGray), 0.01);
   EXPECT_EQ(shareOf(picture, isRed), 0.0);
   EXPECT_EQ(shareOf(picture, isAmber), 0.0);
 }
 
-TEST_F(SweepDisplayTest, ShowsTheWorkpieceAloneOnceTheGuardIsSilent) {
+TEST_F(SweepDisplayTest, ShowsOnlyTheWorkpieceWhenTheGuardIsSilent) {
   place(sheet(0.0));
   show(viewOf(Warning::CONTACT));
   await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
@@ -70,7 +70,7 @@ TEST_F(SweepDisplayTest, HighlightsNothingOfAnotherRevision) {
   EXPECT_EQ(drawn(SurfaceVisual::kTouched), 0U);
 }
 
-TEST_F(SweepDisplayTest, AWorkpieceThatTheGuardIsSilentAboutHasNoHighlights) {
+TEST_F(SweepDisplayTest, AWorkpieceThatTheViewOmitsHasNoHighlights) {
   place(sheet(0.0));
   show(viewOf(Warning::CONTACT));
   await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
@@ -81,7 +81,7 @@ TEST_F(SweepDisplayTest, AWorkpieceThatTheGuardIsSilentAboutHasNoHighlights) {
   EXPECT_EQ(drawn(SurfaceVisual::kSurface), kTriangles);
 }
 
-TEST_F(SweepDisplayTest, AResetKeepsWhatIsLatched) {
+TEST_F(SweepDisplayTest, AResetReceivesLatchedMessagesAgain) {
   place(sheet(0.0));
   display_->reset();
   EXPECT_EQ(drawn(SurfaceVisual::kSurface), 0U);
@@ -106,7 +106,7 @@ TEST_F(SweepDisplayTest, DrawsNoToolWhileNoPoseIsKnown) {
   view.path.assign(5, view.pose);
   show(view, /*posed=*/false);
   await("the shape", [this] { return status("Tool") == "known"; });
-  await("the status", [this] { return status("View") == "the guard knows no pose"; });
+  await("the status", [this] { return status("View") == "the guard has no pose"; });
   EXPECT_EQ(display_->drawnTools(), 0U);
   show(view);
   await("the tool", [this] { return display_->drawnTools() > 0; });
@@ -114,25 +114,24 @@ TEST_F(SweepDisplayTest, DrawsNoToolWhileNoPoseIsKnown) {
   await("that it goes", [this] { return display_->drawnTools() == 0; });
 }
 
-TEST_F(SweepDisplayTest, TheToolOfAnotherTopicIsNotKeptFromTheOneBefore) {
+TEST_F(SweepDisplayTest, ForgetsTheToolWhenItsTopicChanges) {
   show(viewOf(Warning::CLEAR));
   await("the tool", [this] { return display_->drawnTools() > 0; });
   display_->subProp("Tool Topic")->setValue("/nobody/tool");
-  await("the status", [this] { return status("Tool") == "no shape has come from /nobody/tool"; });
-  await("a view", [this] { return status("View") == "comes"; });
+  await("the status", [this] { return status("Tool") == "no tool shape from /nobody/tool"; });
+  await("a view", [this] { return status("View") == "received"; });
   EXPECT_EQ(display_->drawnTools(), 0U);
 }
 
-TEST_F(SweepDisplayTest, AddedByTopicItListensToThatGuard) {
+TEST_F(SweepDisplayTest, AddedByTopicListensToThatGuard) {
   display_->setTopic("/other/view", "sweep_guard/View");
   EXPECT_EQ(display_->subProp("View Topic")->getValue().toString(), "/other/view");
   EXPECT_EQ(display_->subProp("Tool Topic")->getValue().toString(), "/other/tool");
 }
 
-TEST_F(SweepDisplayTest, TellsHowOldThePoseIsWhileNothingIsPromised) {
+TEST_F(SweepDisplayTest, ReportsTheAgeOfThePoseWhileTheLevelIsUnknown) {
   show(viewOf(Warning::UNKNOWN));
-  await("the status",
-        [this] { return status("View").rfind("the guard promises nothing; its newest pose is ", 0) == 0; });
+  await("the status", [this] { return status("View").rfind("the level is UNKNOWN; the newest pose is ", 0) == 0; });
 }
 
 TEST_F(SweepDisplayTest, ListensToNothingWhileDisabled) {
@@ -145,18 +144,18 @@ TEST_F(SweepDisplayTest, ListensToNothingWhileDisabled) {
   await("none", [&] { return listeners() == 0; });
 }
 
-TEST_F(SweepDisplayTest, TellsThatThereIsNoMesh) {
-  await("the status", [this] { return status("Mesh") == "none has come from /mesh"; });
+TEST_F(SweepDisplayTest, ReportsAMissingMesh) {
+  await("the status", [this] { return status("Mesh") == "no mesh from /mesh"; });
 }
 
-TEST_F(SweepDisplayTest, TellsWhichFrameIsUnknown) {
+TEST_F(SweepDisplayTest, ReportsAnUnknownFrame) {
   DeformableMesh mesh = sheet(0.0);
   mesh.header.frame_id = "nowhere";
   mesh_publisher_.publish(mesh);
   await("the status", [this] { return status("Frames") == "no transform to world from nowhere"; });
 }
 
-TEST_F(SweepDisplayTest, AMeshThatCannotBeIsRefusedAndNamed) {
+TEST_F(SweepDisplayTest, RefusesAndReportsAnInvalidMesh) {
   DeformableMesh mesh = sheet(0.0);
   mesh.mesh.vertices[3].x = std::nan("");
   mesh_publisher_.publish(mesh);
@@ -164,13 +163,13 @@ TEST_F(SweepDisplayTest, AMeshThatCannotBeIsRefusedAndNamed) {
   EXPECT_EQ(drawn(SurfaceVisual::kSurface), 0U);
 }
 
-TEST_F(SweepDisplayTest, VerticesWhoseTrianglesHaveNotComeAreNamed) {
+TEST_F(SweepDisplayTest, ReportsVerticesWithoutAMesh) {
   await("the display", [this] { return vertices_publisher_.getNumSubscribers() > 0; });
   vertices_publisher_.publish(verticesOf(sheet(0.0)));
-  await("the status", [this] { return status("Mesh") == "'sheet': its triangles have not come"; });
+  await("the status", [this] { return status("Mesh") == "'sheet': no mesh yet"; });
 }
 
-TEST_F(SweepDisplayTest, AWorkpieceThatIsRemovedIsGone) {
+TEST_F(SweepDisplayTest, RemovesAWorkpiece) {
   place(sheet(0.0));
   DeformableMesh none;
   none.id = "sheet";

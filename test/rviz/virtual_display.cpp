@@ -9,19 +9,19 @@
 namespace sweep_guard_rviz {
 
 VirtualDisplay::VirtualDisplay() {
-  int tells[2];
-  if (pipe(tells) != 0) return;
+  int pipe_ends[2];
+  if (pipe(pipe_ends) != 0) return;
   server_ = fork();
   if (server_ == 0) {
-    close(tells[0]);
-    const std::string number = std::to_string(tells[1]);
+    close(pipe_ends[0]);
+    const std::string number = std::to_string(pipe_ends[1]);
     execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1024x768x24", "-nolisten", "tcp", nullptr);
     _exit(127);
   }
-  close(tells[1]);
+  close(pipe_ends[1]);
   char character = 0;
-  while (read(tells[0], &character, 1) == 1 && character != '\n') name_ += character;
-  close(tells[0]);
+  while (read(pipe_ends[0], &character, 1) == 1 && character != '\n') name_ += character;
+  close(pipe_ends[0]);
   if (name_.empty()) return;
   name_ = ":" + name_;
   setenv("DISPLAY", name_.c_str(), 1);

@@ -6,7 +6,7 @@
 
 namespace sweep_guard_rviz {
 
-/// An X server without a screen, of this process alone: DISPLAY names it as long as it lives.
+/// Runs an X server without a screen for this process, and sets DISPLAY to it.
 class VirtualDisplay {
  public:
   VirtualDisplay();
@@ -14,7 +14,7 @@ class VirtualDisplay {
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
 
-  bool running() const { return !name_.empty(); }  ///< false: there is no Xvfb here
+  bool running() const { return !name_.empty(); }  ///< false if Xvfb is not installed
 
  private:
   pid_t server_ = -1;

@@ -7,7 +7,7 @@ namespace {
 
 using Volumes = VolumeHistory::Volumes;
 
-// Boxes of 4 x 2 x 2, whose centres lie on the x axis.
+// Boxes of 4 x 2 x 2 with centers on the x axis.
 Volumes boxesAt(const std::vector<double>& positions) {
   Volumes boxes(positions.size());
   for (size_t i = 0; i < boxes.size(); ++i) {
@@ -24,26 +24,26 @@ std::vector<double> kept(const VolumeHistory& history) {
   return positions;
 }
 
-TEST(VolumeHistoryTest, LeavesNoneOutOfASweepInParts) {
+TEST(VolumeHistoryTest, KeepsAllVolumesOfOneSweep) {
   VolumeHistory history;
   history.add(boxesAt({0.0, 3.0, 6.0}), 10);
   EXPECT_EQ(kept(history), (std::vector<double>{0.0, 3.0, 6.0}));
 }
 
-TEST(VolumeHistoryTest, LeavesNoneOutOfAFastTool) {
+TEST(VolumeHistoryTest, KeepsAllVolumesOfAFastTool) {
   VolumeHistory history;
   for (const double x : {0.0, 50.0, -50.0, 100.0}) history.add(boxesAt({x}), 10);
   EXPECT_EQ(kept(history), (std::vector<double>{0.0, 50.0, -50.0, 100.0}));
 }
 
-// Parts of one sweep are told again with the next, and a tool at rest tells the same for ever.
-TEST(VolumeHistoryTest, KeepsEachOnce) {
+// A tool at rest has the same volumes again and again.
+TEST(VolumeHistoryTest, KeepsEachVolumeOnce) {
   VolumeHistory history;
   for (int times = 0; times < 5; ++times) history.add(boxesAt({0.0, 3.0, 0.01}), 10);
   EXPECT_EQ(kept(history), (std::vector<double>{0.0, 3.0}));
 }
 
-TEST(VolumeHistoryTest, OfASlowToolTheyTouch) {
+TEST(VolumeHistoryTest, LeavesNoGapsForASlowTool) {
   VolumeHistory history;
   for (int i = 0; i <= 40; ++i) history.add(boxesAt({0.1 * i}), 100);
   const std::vector<double> positions = kept(history);
@@ -54,7 +54,7 @@ TEST(VolumeHistoryTest, OfASlowToolTheyTouch) {
   }
 }
 
-TEST(VolumeHistoryTest, KeepsTheLastOfThemAndNoMoreThanItIsTold) {
+TEST(VolumeHistoryTest, KeepsTheNewestUpToTheLimit) {
   VolumeHistory history;
   for (const double x : {0.0, 10.0, 20.0, 30.0, 40.0}) history.add(boxesAt({x}), 3);
   EXPECT_EQ(kept(history), (std::vector<double>{20.0, 30.0, 40.0}));

@@ -45,7 +45,7 @@ Warning warningLevel(std::uint8_t level) {
   return warning;
 }
 
-/// A panel, and a guard that says the same all the time.
+/// A panel and a guard that repeats one warning.
 class WarningPanelTest : public ::testing::Test {
  protected:
   WarningPanelTest() : publisher_(node_.advertise<Warning>(kTopic, 10)) {
@@ -67,7 +67,7 @@ class WarningPanelTest : public ::testing::Test {
   }
   void say(const Warning& warning, double valid_for = 0.2) {
     speak(warning, valid_for);
-    await("the light", [&] { return !panel_.state().silent && panel_.state().light == lightOf(warning); });
+    await("the light", [&] { return !panel_.state().silent && panel_.state().level == levelOf(warning); });
   }
   void fallSilent() { timer_.stop(); }
 
@@ -97,12 +97,12 @@ auto isLike(const Color& color) {
   };
 }
 
-TEST_F(WarningPanelTest, WarningsFillTheLightWithTheirColour) {
+TEST_F(WarningPanelTest, WarningsFillTheLightWithTheirColor) {
   for (const std::uint8_t level : kLoud) {
     say(warningLevel(level));
     await("the bright half", [this] { return panel_.state().bright; });
-    EXPECT_GT(shareOf(light(), isLike(colorOf(static_cast<Light>(level)))), 0.4) << panel_.state().word;
-    keepPicture(panel_.grab().toImage(), "panel_" + panel_.state().word);
+    EXPECT_GT(shareOf(light(), isLike(colorOf(static_cast<WarningLevel>(level)))), 0.4) << panel_.state().title;
+    keepPicture(panel_.grab().toImage(), "panel_" + panel_.state().title);
   }
 }
 
@@ -117,7 +117,7 @@ TEST_F(WarningPanelTest, ClearIsASmallGreenLamp) {
 TEST_F(WarningPanelTest, NothingButClearIsGreenAnywhereInTheLight) {
   for (const std::uint8_t level : kLoud) {
     say(warningLevel(level));
-    EXPECT_EQ(shareOf(light(), isGreen), 0.0) << panel_.state().word;
+    EXPECT_EQ(shareOf(light(), isGreen), 0.0) << panel_.state().title;
   }
 }
 
@@ -130,8 +130,8 @@ TEST_F(WarningPanelTest, ContactFlashes) {
   keepPicture(panel_.grab().toImage(), "panel_CONTACT_dark");
 }
 
-// On a clock of ours: its timer does not run meanwhile, for Qt does not. A warning may still come in, and counts.
-TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGreyWithinAFifthOfASecondAtTwentyFramesASecond) {
+// On a simulated clock: Qt, and so the panel's timer, does not run meanwhile. A warning may still arrive, and counts.
+TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGrayWithinAFifthOfASecondAtTwentyFramesASecond) {
   constexpr auto kFrame = std::chrono::milliseconds(50);
   say(warningLevel(Warning::CLEAR), /*valid_for=*/3600.0);
   fallSilent();
@@ -139,31 +139,31 @@ TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGreyWithinAFifthOfASecondAtTwentyF
   Moment now{samples.back().since, ros::Time::now()};
   while (!panel_.state().silent) {
     now.steady += WarningPanel::kPeriod;
-    panel_.look(now);
+    panel_.refresh(now);
   }
   const LevelHistory::Sample& last = samples[samples.size() - 2];
-  EXPECT_EQ(last.light, Light::kClear);
+  EXPECT_EQ(last.level, WarningLevel::kClear);
   EXPECT_LE(samples.back().since - last.since + kFrame, std::chrono::milliseconds(200));
   EXPECT_EQ(shareOf(light(), isGreen), 0.0);
 }
 
-TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGrey) {
+TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGray) {
   say(warningLevel(Warning::CLEAR));
   fallSilent();
-  await("grey", [this] { return panel_.state().silent; });
+  await("gray", [this] { return panel_.state().silent; });
   EXPECT_EQ(shareOf(light(), isGreen), 0.0);
-  EXPECT_EQ(panel_.history().samples().back().light, Light::kUnknown);
+  EXPECT_EQ(panel_.history().samples().back().level, WarningLevel::kUnknown);
 }
 
-TEST_F(WarningPanelTest, TheChartKnowsWhatTheGuardSaid) {
+TEST_F(WarningPanelTest, TheChartShowsTheLevelsOfTheWarnings) {
   say(warningLevel(Warning::CLEAR));
   say(warningLevel(Warning::CONSIDERED));
   const auto& samples = panel_.history().samples();
-  const auto has = [&](Light light) {
-    return std::any_of(samples.begin(), samples.end(), [&](const auto& sample) { return sample.light == light; });
+  const auto has = [&](WarningLevel level) {
+    return std::any_of(samples.begin(), samples.end(), [&](const auto& sample) { return sample.level == level; });
   };
-  EXPECT_TRUE(has(Light::kClear));
-  EXPECT_TRUE(has(Light::kConsidered));
+  EXPECT_TRUE(has(WarningLevel::kClear));
+  EXPECT_TRUE(has(WarningLevel::kConsidered));
   EXPECT_EQ(samples.back().time, 0.62);
 }
 
@@ -175,13 +175,13 @@ TEST_F(WarningPanelTest, TheTopicIsSavedWithTheConfiguration) {
   EXPECT_EQ(topic, kTopic);
 }
 
-TEST_F(WarningPanelTest, WhereTheClockDiffersTheChartIsAsGreyAsTheLight) {
+TEST_F(WarningPanelTest, WithADifferentClockTheChartIsAsGrayAsTheLight) {
   speak(warningLevel(Warning::CLEAR), /*valid_for=*/-1.0);
   await("a warning", [this] {
-    const auto& whys = panel_.state().whys;
-    return !whys.empty() && whys[0].rfind("the warning ran out", 0) == 0;
+    const auto& reasons = panel_.state().reasons;
+    return !reasons.empty() && reasons[0].rfind("the warning expired", 0) == 0;
   });
-  for (const LevelHistory::Sample& sample : panel_.history().samples()) EXPECT_EQ(sample.light, Light::kUnknown);
+  for (const LevelHistory::Sample& sample : panel_.history().samples()) EXPECT_EQ(sample.level, WarningLevel::kUnknown);
 }
 
 TEST_F(WarningPanelTest, AnImpossibleTopicIsUnknownAndDoesNoHarm) {
@@ -197,25 +197,25 @@ TEST_F(WarningPanelTest, AnImpossibleTopicIsUnknownAndDoesNoHarm) {
   EXPECT_TRUE(button("enable")->isEnabled());
 }
 
-// Twenty seconds in which the tool comes near twice, and touches.
+// Twenty seconds in which the tool approaches twice and touches.
 LevelHistory approach() {
   LevelHistory history;
   const SteadyTime begin = SteadyTime(std::chrono::hours(1));
   const auto at = [&](double seconds) { return begin + std::chrono::milliseconds(std::lround(1000.0 * seconds)); };
   for (double t = 0.0; t < 20.0; t += 0.05) {
     const double left = t < 3.0 ? 9.0 : std::abs(std::fmod(t - 3.0, 8.0) - 3.0) * (t < 11.0 ? 0.5 : 0.3) - 0.1;
-    const Light light = t < 1.0      ? Light::kUnknown
-                        : left > 1.0 ? Light::kClear
-                        : left > 0.1 ? Light::kConsidered
-                        : left > 0.0 ? Light::kReflex
-                                     : Light::kContact;
-    const bool timed = light >= Light::kConsidered;
-    history.add({at(t), light, timed ? std::optional<double>(std::max(0.0, left)) : std::nullopt});
+    const WarningLevel level = t < 1.0      ? WarningLevel::kUnknown
+                               : left > 1.0 ? WarningLevel::kClear
+                               : left > 0.1 ? WarningLevel::kConsidered
+                               : left > 0.0 ? WarningLevel::kReflex
+                                            : WarningLevel::kContact;
+    const bool timed = level >= WarningLevel::kConsidered;
+    history.add({at(t), level, timed ? std::optional<double>(std::max(0.0, left)) : std::nullopt});
   }
   return history;
 }
 
-TEST(StripChartTest, TellsLevelsByColour) {
+TEST(StripChartTest, ShowsLevelsByColor) {
   StripChart chart;
   chart.resize(320, 150);
   const LevelHistory history = approach();
@@ -233,7 +233,7 @@ TEST(StripChartTest, IsEmptyWithoutHistory) {
   EXPECT_EQ(shareOf(image, isAmber) + shareOf(image, isRed) + shareOf(image, isGreen), 0.0);
 }
 
-/// The services of a guard, on a thread of their own, which answer when they are let.
+/// Services of a guard on a thread of their own; they answer after answer().
 class SlowGuard {
  public:
   SlowGuard() {
@@ -269,7 +269,7 @@ class SlowGuard {
   ros::ServiceServer enable_;
 };
 
-TEST_F(WarningPanelTest, GoesOnWhileTheGuardThinksAboutDisabling) {
+TEST_F(WarningPanelTest, GoesOnWhileTheGuardHasNotAnswered) {
   SlowGuard guard;
   say(warningLevel(Warning::CLEAR));
   button("enable")->click();
@@ -297,7 +297,7 @@ TEST_F(WarningPanelTest, TheButtonOfADisabledGuardEnablesIt) {
   warning.reasons = Warning::DISABLED;
   warning.text = "UNKNOWN: disabled by /operator: nothing is tested";
   say(warning);
-  await("the word", [this] { return panel_.state().disabled; });
+  await("the level", [this] { return panel_.state().disabled; });
   EXPECT_EQ(button("enable")->text(), "Enable");
   keepPicture(panel_.grab().toImage(), "panel_DISABLED");
   button("enable")->click();

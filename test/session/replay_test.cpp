@@ -1,4 +1,4 @@
-// Makes a bag of which the contacts are known, lets replay.launch guard it, and reads the report.
+// Writes a bag with known contacts, plays it with replay.launch, and reads the report.
 #include <arpa/inet.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr double kBegin = 1000.0;                 // [s]
 constexpr double kDuration = 4.0;                 // [s]
 constexpr double kRate = 1000.0;                  // [Hz] of the poses
-constexpr double kHeight = 0.15;                  // [m] of the tip above the sheet, at first
+constexpr double kHeight = 0.15;                  // [m] of the tip above the plate, at first
 constexpr double kPeriod = 2.0;                   // [s] down, and up again
 constexpr double kSpeed = 0.16;                   // [m/s]
 constexpr double kFirstTouch = kHeight / kSpeed;  // [s] after the tip begins to come down
@@ -45,11 +45,11 @@ geometry_msgs::PoseStamped poseAt(double t) {
   return pose;
 }
 
-sweep_guard::DeformableMesh sheet() {
+sweep_guard::DeformableMesh plate() {
   sweep_guard::DeformableMesh mesh;
   mesh.header.stamp = ros::Time(kBegin);
   mesh.header.frame_id = "world";
-  mesh.id = "sheet";
+  mesh.id = "plate";
   mesh.revision = 1;
   for (const auto& [x, y] :
        std::vector<std::pair<double, double>>{{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}) {
@@ -64,11 +64,11 @@ sweep_guard::DeformableMesh sheet() {
   return mesh;
 }
 
-sweep_guard::MeshVertices sheetAt(double t) {
+sweep_guard::MeshVertices verticesAt(double t) {
   sweep_guard::MeshVertices vertices;
   vertices.header.stamp = ros::Time(kBegin + t);
   vertices.header.frame_id = "world";
-  vertices.id = "sheet";
+  vertices.id = "plate";
   vertices.revision = 1;
   vertices.positions = {-0.1F, -0.1F, 0.0F, 0.1F, -0.1F, 0.0F, 0.1F, 0.1F, 0.0F, -0.1F, 0.1F, 0.0F};
   return vertices;
@@ -149,10 +149,10 @@ class ReplayTest : public testing::Test {
 
 TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
   rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
-  bag.write("/mesh", ros::Time(kBegin), sheet());
+  bag.write("/mesh", ros::Time(kBegin), plate());
   writePoses(bag);
   for (double t = 0.0; t < kDuration; t += 1.0 / 60.0) {
-    bag.write("/mesh_vertices", ros::Time(kBegin + t), sheetAt(t));
+    bag.write("/mesh_vertices", ros::Time(kBegin + t), verticesAt(t));
   }
   bag.close();
   const std::string printed = replay("");
@@ -165,7 +165,7 @@ TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
     const double considered = std::stod(contacts[i][8]);
     const double reflex = std::stod(contacts[i][9]);
     EXPECT_NEAR(std::stod(contacts[i][1]), kFirstTouch + kPeriod * static_cast<double>(i - 1), 0.005);
-    EXPECT_EQ(contacts[i][4], "sheet");
+    EXPECT_EQ(contacts[i][4], "plate");
     EXPECT_EQ(contacts[i][6], "2");
     EXPECT_NEAR(std::stod(contacts[i][7]), 1e3 * (kSpeed * kPeriod / 2.0 - kHeight), 1.0);
     EXPECT_GT(reflex, 0.0);
@@ -176,21 +176,21 @@ TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
   EXPECT_GT(fs::file_size(folder_ / "report/contacts.png"), 10000U);
 }
 
-// In millimetres, as parts often are.
+// The file is in millimeters.
 TEST_F(ReplayTest, TakesAWorkpieceFromAFileWhereTheBagHasNone) {
   rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
   writePoses(bag);
   bag.close();
-  const fs::path file = folder_ / "sheet.obj";
+  const fs::path file = folder_ / "plate.obj";
   std::ofstream(file) << "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\nf 1 2 3\nf 1 3 4\n";
   const std::string printed = replay("mesh_file:=" + file.string() + " mesh_scale:=0.001");
   ASSERT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 3U) << printed;
 }
 
-// The guard does not listen to poses then, and the player waits for a listener of each topic.
+// The guard does not subscribe to the poses, and the player waits for a subscriber of each topic.
 TEST_F(ReplayTest, TakesTheToolFromTfAlthoughTheBagHasItsPoses) {
   rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
-  bag.write("/mesh", ros::Time(kBegin), sheet());
+  bag.write("/mesh", ros::Time(kBegin), plate());
   writePoses(bag);
   writeTransforms(bag);
   bag.close();
@@ -203,16 +203,16 @@ TEST_F(ReplayTest, TakesTheToolFromTfAlthoughTheBagHasItsPoses) {
 
 TEST_F(ReplayTest, ABagThatCannotBeGuardedEndsItWithALineThatSaysWhy) {
   rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
-  bag.write("/mesh", ros::Time(kBegin), sheet());
+  bag.write("/mesh", ros::Time(kBegin), plate());
   bag.close();
   const std::string printed = replay("");
-  EXPECT_TRUE(has(printed, "there is no /tool_pose")) << printed;
+  EXPECT_TRUE(has(printed, "no topic /tool_pose")) << printed;
   EXPECT_FALSE(fs::exists(folder_ / "report/contacts.csv"));
 }
 
 TEST_F(ReplayTest, ARateThatIsNoneEndsItWithALineThatNamesIt) {
   rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
-  bag.write("/mesh", ros::Time(kBegin), sheet());
+  bag.write("/mesh", ros::Time(kBegin), plate());
   writePoses(bag);
   bag.close();
   for (const char* const rate : {"0", "-1"}) {
@@ -223,7 +223,7 @@ TEST_F(ReplayTest, ARateThatIsNoneEndsItWithALineThatNamesIt) {
   }
 }
 
-// Killed, it would not have ended by itself, and its player would not have been told to.
+// If roslaunch had to kill it, the log would say so.
 TEST_F(ReplayTest, APipeEndsItWithALineThatSaysWhyAndLeavesNobodyHanging) {
   ASSERT_EQ(mkfifo(bag_.c_str(), 0600), 0);
   const std::string printed = replay("");

@@ -40,7 +40,7 @@ class SessionBagTest : public testing::Test {
     return inspectBag(path_, {"/tool_pose", "/mesh", "/mesh_vertices"});
   }
 
-  // The message with which it is refused.
+  // Returns the message of the refusal.
   std::string refusal() {
     return ::refusal([&] { inspect(); });
   }
@@ -63,7 +63,7 @@ TEST_F(SessionBagTest, CountsWhatIsGuarded) {
   EXPECT_EQ(bag.poses.back(), sweep_guard_core::Time(std::chrono::milliseconds(101990)));
 }
 
-TEST_F(SessionBagTest, TellsOfAFileThatIsMissingOrNoBag) {
+TEST_F(SessionBagTest, RefusesAFileThatIsMissingOrNoBag) {
   const SessionTopics topics{"/tool_pose", "/mesh", "/mesh_vertices"};
   bag_.close();
   EXPECT_THROW(inspectBag(path_ + ".not", topics), sweep_guard_core::InvalidInput);
@@ -71,27 +71,27 @@ TEST_F(SessionBagTest, TellsOfAFileThatIsMissingOrNoBag) {
   EXPECT_TRUE(has(refusal(), "not a rosbag"));
 }
 
-// To open it would take until somebody writes.
-TEST_F(SessionBagTest, TellsOfAPipe) {
+// Opening it would wait for a writer.
+TEST_F(SessionBagTest, RefusesAPipe) {
   bag_.close();
   std::filesystem::remove(path_);
   ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
   EXPECT_TRUE(has(refusal(), "not a regular file"));
 }
 
-TEST_F(SessionBagTest, TellsOfAnEmptyBag) { EXPECT_TRUE(has(refusal(), "the bag is empty")); }
+TEST_F(SessionBagTest, RefusesAnEmptyBag) { EXPECT_TRUE(has(refusal(), "the bag is empty")); }
 
 TEST_F(SessionBagTest, ListsTheTopicsThatAreThereWhereOneIsMissing) {
   writeMesh();
   writePose(101.0, 101.0, "/stylus");
   const std::string text = refusal();
-  EXPECT_TRUE(has(text, "there is no /tool_pose"));
+  EXPECT_TRUE(has(text, "no topic /tool_pose"));
   EXPECT_TRUE(has(text, "give tool_pose:=TOPIC"));
   EXPECT_TRUE(has(text, "/stylus (geometry_msgs/PoseStamped)"));
   EXPECT_TRUE(has(text, "/mesh (sweep_guard/DeformableMesh)"));
 }
 
-TEST_F(SessionBagTest, TellsHowToGuardABagWithoutAMesh) {
+TEST_F(SessionBagTest, SaysHowToGuardABagWithoutAMesh) {
   writePose(101.0, 101.0);
   EXPECT_TRUE(has(refusal(), "mesh_file:=FILE"));
 }
@@ -103,19 +103,19 @@ TEST_F(SessionBagTest, NeedsNoMeshThatComesFromElsewhereAndNoPoseThatComesFromTf
   EXPECT_TRUE(inspectBag(path_, {"", "", ""}).poses.empty());
 }
 
-TEST_F(SessionBagTest, TellsOfATopicOfAnotherType) {
+TEST_F(SessionBagTest, RefusesATopicOfAnotherType) {
   writeMesh();
   bag_.write("/tool_pose", ros::Time(101.0), std_msgs::Header());
   EXPECT_TRUE(has(refusal(), "/tool_pose is std_msgs/Header"));
 }
 
-TEST_F(SessionBagTest, TellsOfPosesWithoutStamps) {
+TEST_F(SessionBagTest, RefusesPosesWithoutStamps) {
   writeMesh();
   writePose(101.0, 0.0);
   EXPECT_TRUE(has(refusal(), "no stamps"));
 }
 
-TEST_F(SessionBagTest, TellsOfPosesThatAnotherClockHasStamped) {
+TEST_F(SessionBagTest, RefusesPosesWithStampsOfAnotherClock) {
   writeMesh();
   writePose(101.0, 41.0);
   writePose(102.0, 42.5);

@@ -18,7 +18,7 @@ const Time kBegin(std::chrono::seconds(100));
 
 Time at(int ms) { return kBegin + milliseconds(ms); }
 
-// The last pose is where the contact is, those before every 10 ms.
+// The last pose is in contact, and there is a pose every 10 ms before it.
 SessionBag bagOf(int poses) {
   SessionBag bag;
   for (int i = poses; i > 0; --i) bag.poses.push_back(at(1320 - 10 * i));
@@ -40,13 +40,13 @@ SessionLog oneContact() {
   return log;
 }
 
-TEST(SessionReportTest, ContactsAreALineEachWithTheirLeads) {
+TEST(SessionReportTest, WritesALineForEachContact) {
   EXPECT_EQ(contactsCsv(oneContact(), kBegin),
             "contact,begin_s,end_s,stamp_s,mesh,tool_link,triangles,depth_mm,considered_lead_s,reflex_lead_s\n"
             "1,1.3000,2.0000,101.300000,\"a, b\",tip,2,2.5,0.8000,0.1000\n");
 }
 
-TEST(SessionReportTest, LevelsAreALineEach) {
+TEST(SessionReportTest, WritesALineForEachSegment) {
   EXPECT_EQ(levelsCsv(oneContact(), kBegin),
             "begin_s,end_s,level,text\n"
             "0.0000,0.1000,UNKNOWN,UNKNOWN: no tool pose yet\n"
@@ -56,7 +56,7 @@ TEST(SessionReportTest, LevelsAreALineEach) {
             "1.3100,2.0000,CONTACT,\"CONTACT: tool meets 'a, b'\"\n");
 }
 
-TEST(SessionReportTest, SummaryTellsOfContactsAndOfWhatWasNotSwept) {
+TEST(SessionReportTest, SummaryNamesContactsAndPosesNotSwept) {
   SessionLog log = oneContact();
   EXPECT_TRUE(has(summary(log, bagOf(1)), "swept      1 times, without a gap\n"));
   EXPECT_TRUE(has(summary(log, bagOf(2)), "; 1 poses waited for the next, or were refused"));
@@ -65,13 +65,13 @@ TEST(SessionReportTest, SummaryTellsOfContactsAndOfWhatWasNotSwept) {
   EXPECT_TRUE(has(summary(log, bagOf(2)), "0.050 s between two poses NOT SWEPT"));
 }
 
-TEST(SessionReportTest, SummaryDoesNotCallPosesSweptThatNoIntervalCovers) {
+TEST(SessionReportTest, SummaryCountsAPoseAsSweptOnlyWithinAnInterval) {
   const SessionLog log = oneContact();
   SessionBag bag = bagOf(5);
   EXPECT_TRUE(has(summary(log, bag), "1 poses waited"));
   EXPECT_TRUE(has(summary(log, bag), "\n           3 poses NOT SWEPT\n"));
   bag.poses.push_back(at(1560));
-  EXPECT_TRUE(has(summary(log, bag), "\n           4 poses NOT SWEPT, all of the last 0.250 s\n"));
+  EXPECT_TRUE(has(summary(log, bag), "\n           4 poses NOT SWEPT, including the last 0.250 s\n"));
   SessionLog blind;
   blind.add({at(0), WarningLevel::kUnknown, "UNKNOWN: no workpiece yet"});
   blind.end(at(2000));
@@ -79,7 +79,7 @@ TEST(SessionReportTest, SummaryDoesNotCallPosesSweptThatNoIntervalCovers) {
   EXPECT_FALSE(has(summary(blind, bag), "waited"));
 }
 
-TEST(SessionReportTest, ASessionOfOneInstantIsReportedToo) {
+TEST(SessionReportTest, ReportsASessionOfOneInstant) {
   SessionLog instant;
   instant.add({at(0), WarningLevel::kUnknown, "UNKNOWN: no tool pose yet"});
   instant.end(at(0));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kFloats = 3 * kBlock;
 
-// Room for boxes, and the arrays in it.
+// Memory for boxes, and its arrays.
 struct Boxes {
   explicit Boxes(size_t count) : stride(padded(count)), sides(6 * stride) {}
 
@@ -54,7 +54,7 @@ Extremes nothing() {
   return {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 }
 
-// How far a point is beyond a plane's `outside`, in double, and what float may err by.
+// The distance of a point beyond a plane's `outside`, in double, and the bound on the float error.
 double beyond(const Planes& planes, size_t plane, const float* p) {
   double sum = -static_cast<double>(planes.outside[plane]);
   for (size_t axis = 0; axis < 3; ++axis) sum += static_cast<double>(planes.normal[axis][plane]) * p[axis];
@@ -90,7 +90,7 @@ TEST_P(KernelsTest, BoundsEveryBlockAndAll) {
   }
 }
 
-TEST_P(KernelsTest, WidensTheExtremesThatItIsGiven) {
+TEST_P(KernelsTest, WidensTheGivenExtremes) {
   Random random(2);
   const std::vector<float> vertices = randomBlocks(random, 1);
   Boxes boxes(1);
@@ -104,7 +104,7 @@ TEST_P(KernelsTest, WidensTheExtremesThatItIsGiven) {
   EXPECT_EQ(extremes.upper[2], 5.0F);
 }
 
-TEST_P(KernelsTest, SeesWhatIsNotFiniteWhereverItStands) {
+TEST_P(KernelsTest, ReportsEveryCoordinateThatIsNotFinite) {
   Random random(3);
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                           -std::numeric_limits<float>::infinity()}) {
@@ -118,7 +118,7 @@ TEST_P(KernelsTest, SeesWhatIsNotFiniteWhereverItStands) {
   }
 }
 
-TEST_P(KernelsTest, TellsThePlanesThatAllOfABoxIsBeyond) {
+TEST_P(KernelsTest, FindsThePlanesThatAWholeBoxIsBeyond) {
   Random random(4);
   int set = 0;
   int clear = 0;
@@ -154,7 +154,7 @@ TEST_P(KernelsTest, TellsThePlanesThatAllOfABoxIsBeyond) {
   EXPECT_GT(clear, 100);
 }
 
-TEST_P(KernelsTest, TellsThePlanesThatAVertexIsBeyondAndWhatIsInsideOfAll) {
+TEST_P(KernelsTest, FindsThePlanesThatAVertexIsBeyondAndVerticesInsideOfAll) {
   Random random(5);
   int inside_all = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -183,7 +183,7 @@ TEST_P(KernelsTest, TellsThePlanesThatAVertexIsBeyondAndWhatIsInsideOfAll) {
   EXPECT_GT(inside_all, 100);
 }
 
-TEST_P(KernelsTest, TellsTheTrianglesWhollyBeyondAPlaneAndThoseWithACornerInside) {
+TEST_P(KernelsTest, FindsTrianglesWhollyBeyondAPlaneAndWithACornerInside) {
   Random random(6);
   int left = 0;
   int met = 0;
@@ -204,8 +204,8 @@ TEST_P(KernelsTest, TellsTheTrianglesWhollyBeyondAPlaneAndThoseWithACornerInside
       const auto corner = [&](size_t k) { return bits[corners.places[k][i] / kBlock][corners.places[k][i] % kBlock]; };
       const bool beyond = (corner(0) & corner(1) & corner(2) & (kInsideAll - 1)) != 0;
       const bool inside = ((corner(0) | corner(1) | corner(2)) & kInsideAll) != 0;
-      EXPECT_EQ((found.left >> i & 1) != 0, !beyond);
-      EXPECT_EQ((found.met >> i & 1) != 0, inside);
+      EXPECT_EQ((found.not_beyond >> i & 1) != 0, !beyond);
+      EXPECT_EQ((found.corner_inside >> i & 1) != 0, inside);
       left += beyond ? 0 : 1;
       met += inside ? 1 : 0;
     }

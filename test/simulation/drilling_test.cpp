@@ -15,7 +15,7 @@ std::vector<Eigen::Vector3d> holes() { return {{0, 0, 0.5}, {0.06, 0, 0.48}, {0,
 
 Drilling drilling() { return Drilling(holes(), {}); }
 
-TEST(DrillingTest, PlungesTenMillimetresIntoEveryHole) {
+TEST(DrillingTest, PlungesTenMillimetersIntoEveryHole) {
   const Drilling motion = drilling();
   for (const Eigen::Vector3d& hole : holes()) {
     const Eigen::Vector3d bottom = hole - 0.010 * Eigen::Vector3d::UnitZ();

@@ -84,11 +84,11 @@ TEST(GuidedTipTest, StaysWhereItIsWhenItIsThere) {
 // From rest to 0.1 m/s at 1 m/s^2 takes 10 steps, and as many to stop.
 TEST(GuidedTipTest, TakesUpAVelocityAndStops) {
   GuidedTip tip(poseAt({0, 0, 0}), {});
-  Twist wanted;
-  wanted.linear.x() = 0.1;
-  for (int i = 0; i < 20; ++i) tip.moveAt(wanted, kStep);
+  Twist desired;
+  desired.linear.x() = 0.1;
+  for (int i = 0; i < 20; ++i) tip.moveAt(desired, kStep);
   Vector3d before = tip.pose().translation();
-  tip.moveAt(wanted, kStep);
+  tip.moveAt(desired, kStep);
   EXPECT_TRUE((tip.pose().translation() - before).isApprox(Vector3d(0.001, 0, 0), 1e-9));
   for (int i = 0; i < 10; ++i) tip.moveAt({}, kStep);
   before = tip.pose().translation();
@@ -99,21 +99,21 @@ TEST(GuidedTipTest, TakesUpAVelocityAndStops) {
 // The first step from rest: 1 m/s^2 over 0.01 s.
 TEST(GuidedTipTest, StartsFromRestAfterwardsAsAtFirst) {
   GuidedTip tip(poseAt({0, 0, 0}), {});
-  Twist wanted;
-  wanted.linear.x() = 0.1;
-  for (int i = 0; i < 20; ++i) tip.moveAt(wanted, kStep);
-  tip.rest();
+  Twist desired;
+  desired.linear.x() = 0.1;
+  for (int i = 0; i < 20; ++i) tip.moveAt(desired, kStep);
+  tip.stop();
   const Vector3d before = tip.pose().translation();
-  tip.moveAt(wanted, kStep);
+  tip.moveAt(desired, kStep);
   EXPECT_TRUE((tip.pose().translation() - before).isApprox(Vector3d(0.0001, 0, 0), 1e-9));
 }
 
 TEST(GuidedTipTest, TurnsAboutTheAxesOfTheWorldAndItsTip) {
   GuidedTip tip(Isometry3d(Eigen::Translation3d(1, 2, 3) * AngleAxisd(M_PI, Vector3d::UnitX())), {});
   const Isometry3d before = tip.pose();
-  Twist wanted;
-  wanted.angular.z() = 1.0;
-  for (int i = 0; i < 100; ++i) tip.moveAt(wanted, kStep);
+  Twist desired;
+  desired.angular.z() = 1.0;
+  for (int i = 0; i < 100; ++i) tip.moveAt(desired, kStep);
   const AngleAxisd turn(tip.pose().linear() * before.linear().transpose());
   EXPECT_TRUE(turn.axis().isApprox(Vector3d::UnitZ(), 1e-9));
   EXPECT_GT(turn.angle(), 0.8);
@@ -122,9 +122,9 @@ TEST(GuidedTipTest, TurnsAboutTheAxesOfTheWorldAndItsTip) {
 
 TEST(GuidedTipTest, RotationsStayRotations) {
   GuidedTip tip(poseAt({0, 0, 0}), {});
-  Twist wanted;
-  wanted.angular << 1, -1, 1;
-  for (int i = 0; i < 100000; ++i) tip.moveAt(wanted, kStep);
+  Twist desired;
+  desired.angular << 1, -1, 1;
+  for (int i = 0; i < 100000; ++i) tip.moveAt(desired, kStep);
   EXPECT_TRUE((tip.pose().linear().transpose() * tip.pose().linear()).isIdentity(1e-12));
 }
 

@@ -24,14 +24,14 @@ Joystick::Options plain() {
 
 TEST(JoystickTest, MovesAndTurnsAlongTheAxesOfTheDevice) {
   Joystick joystick(plain());
-  joystick.take({1, 1, 1, 1, -1, 1}, kNow);
+  joystick.setAxes({1, 1, 1, 1, -1, 1}, kNow);
   EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d(1, 2, 4));
   EXPECT_EQ(joystick.velocity(kNow).angular, Vector3d(10, -20, 40));
 }
 
 TEST(JoystickTest, RisesFromNothingAtTheBorderOfTheDeadZone) {
   Joystick joystick(plain());
-  joystick.take({0.5F, -0.75F, 0.25F, -0.5F, 0.75F, 3.0F}, kNow);
+  joystick.setAxes({0.5F, -0.75F, 0.25F, -0.5F, 0.75F, 3.0F}, kNow);
   EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d(0, -1, 0));
   EXPECT_EQ(joystick.velocity(kNow).angular, Vector3d(0, 10, 40));
 }
@@ -41,33 +41,33 @@ TEST(JoystickTest, MappingSwapsReversesAndLeavesOut) {
   options.linear_axes = {2, -1, 0};
   options.linear.z() = -4;
   Joystick joystick(options);
-  joystick.take({1, 1, 0, 0, 0, 0}, kNow);
+  joystick.setAxes({1, 1, 0, 0, 0, 0}, kNow);
   EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d(0, 0, -4));
 }
 
 TEST(JoystickTest, RestsBeforeTheFirstMessageAndWhenMessagesStop) {
   Joystick joystick(plain());
   EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d::Zero());
-  joystick.take({1, 0, 0, 0, 0, 0}, kNow);
+  joystick.setAxes({1, 0, 0, 0, 0, 0}, kNow);
   EXPECT_EQ(joystick.velocity(kNow + milliseconds(250)).linear, Vector3d(1, 0, 0));
   EXPECT_EQ(joystick.velocity(kNow + milliseconds(251)).linear, Vector3d::Zero());
 }
 
 TEST(JoystickTest, RestsWhenReleasedUntilAMessageComesAfterwards) {
   Joystick joystick(plain());
-  joystick.take({1, 0, 0, 0, 0, 0}, kNow);
-  joystick.releaseUntil(kNow + milliseconds(100));
+  joystick.setAxes({1, 0, 0, 0, 0, 0}, kNow);
+  joystick.ignoreUntil(kNow + milliseconds(100));
   EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d::Zero());
-  joystick.take({1, 0, 0, 0, 0, 0}, kNow + milliseconds(99));
+  joystick.setAxes({1, 0, 0, 0, 0, 0}, kNow + milliseconds(99));
   EXPECT_EQ(joystick.velocity(kNow + milliseconds(99)).linear, Vector3d::Zero());
-  joystick.take({1, 0, 0, 0, 0, 0}, kNow + milliseconds(100));
+  joystick.setAxes({1, 0, 0, 0, 0, 0}, kNow + milliseconds(100));
   EXPECT_EQ(joystick.velocity(kNow + milliseconds(100)).linear, Vector3d(1, 0, 0));
 }
 
 TEST(JoystickTest, RefusesADeviceOfFewerAxesAndNumbersThatAreNone) {
   Joystick joystick(plain());
-  EXPECT_THROW(joystick.take({1, 1}, kNow), sweep_guard_core::InvalidInput);
-  EXPECT_THROW(joystick.take({1, 1, 1, 1, 1, NAN}, kNow), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(joystick.setAxes({1, 1}, kNow), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(joystick.setAxes({1, 1, 1, 1, 1, NAN}, kNow), sweep_guard_core::InvalidInput);
   EXPECT_EQ(joystick.velocity(kNow).linear, Vector3d::Zero());
 }
 

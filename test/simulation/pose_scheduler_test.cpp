@@ -10,12 +10,12 @@ using sweep_guard_core::Time;
 
 const Time kStart(std::chrono::seconds(100));
 
-TEST(PaceTest, PosesAreDueAtTheirStampsFromTheStartOn) {
+TEST(PoseSchedulerTest, PosesAreDueAtTheirStampsFromTheStartOn) {
   const PoseScheduler scheduler(kStart, /*live=*/true);
   EXPECT_EQ(scheduler.due(Time(milliseconds(30))), kStart + milliseconds(30));
 }
 
-TEST(PaceTest, AfterAStallAHandGoesOnFromNow) {
+TEST(PoseSchedulerTest, AfterAStallAHandGoesOnFromNow) {
   PoseScheduler scheduler(kStart, /*live=*/true);
   EXPECT_TRUE(scheduler.resume(Time(milliseconds(30)), kStart + milliseconds(3030)));
   EXPECT_EQ(scheduler.due(Time(milliseconds(30))), kStart + milliseconds(3030));
@@ -23,13 +23,13 @@ TEST(PaceTest, AfterAStallAHandGoesOnFromNow) {
   EXPECT_FALSE(scheduler.resume(Time(milliseconds(40)), kStart + milliseconds(3040)));
 }
 
-TEST(PaceTest, AShortDelayIsMadeUpFor) {
+TEST(PoseSchedulerTest, AShortDelayIsMadeUpFor) {
   PoseScheduler scheduler(kStart, /*live=*/true);
   EXPECT_FALSE(scheduler.resume(Time(milliseconds(30)), kStart + milliseconds(130)));
   EXPECT_EQ(scheduler.due(Time(milliseconds(40))), kStart + milliseconds(40));
 }
 
-TEST(PaceTest, AMotionThatIsLaidDownKeepsItsStampsWhateverTheDelay) {
+TEST(PoseSchedulerTest, AMotionThatIsLaidDownKeepsItsStampsWhateverTheDelay) {
   PoseScheduler scheduler(kStart, /*live=*/false);
   EXPECT_FALSE(scheduler.resume(Time(milliseconds(30)), kStart + milliseconds(3030)));
   EXPECT_EQ(scheduler.due(Time(milliseconds(40))), kStart + milliseconds(40));

@@ -20,10 +20,10 @@ TEST(PoseStreamTest, GuidedPosesComeAtAnEvenRateAlsoWhileTheTipRests) {
 }
 
 TEST(PoseStreamTest, GuidedPosesBeginWhereTheTipIsAndFollowTheGuide) {
-  Twist wanted;
-  wanted.linear.x() = 0.01;
+  Twist desired;
+  desired.linear.x() = 0.01;
   const PoseStream stream = guided(GuidedTip(Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3)), {}), /*rate=*/100.0,
-                                   [wanted](GuidedTip& tip, double dt) { tip.moveAt(wanted, dt); });
+                                   [desired](GuidedTip& tip, double dt) { tip.moveAt(desired, dt); });
   EXPECT_EQ(stream()->X_WT.translation(), Eigen::Vector3d(1, 2, 3));
   EXPECT_TRUE(stream()->X_WT.translation().isApprox(Eigen::Vector3d(1.0001, 2, 3), 1e-9));
 }

@@ -27,7 +27,7 @@ TEST(TipScriptTest, PointsDownAndTurnsAboutTheAxesOfTheWorld) {
   EXPECT_TRUE((script().pose(2.0).linear() * z).isApprox(turn * -z, 1e-12));
 }
 
-// A jump of the rate would be three tenths of a metre per second.
+// A jump of the rate would be three tenths of a meter per second.
 TEST(TipScriptTest, HasOneVelocityOnBothSidesOfAPose) {
   const double h = 1e-6;
   const Eigen::Vector3d at = script().pose(2.0).translation();

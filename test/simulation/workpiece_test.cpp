@@ -71,7 +71,7 @@ TEST(WorkpieceTest, HullIsClosedAndWoundOutwards) {
   EXPECT_GT(volume, 0.05F);
 }
 
-TEST(WorkpieceTest, HullHasTheSizeAskedForAndIsCentred) {
+TEST(WorkpieceTest, HullHasTheRequestedSizeAndIsCentered) {
   const std::vector<float> positions = Workpiece::hull(1600, resting()).positions(0.0);
   const auto points = toMatrix(positions);
   const Eigen::Vector3f sizes = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
@@ -100,7 +100,7 @@ TEST(WorkpieceTest, RefusesNumbersOutOfRange) {
   EXPECT_THROW(Workpiece::hull(1600, {/*size=*/0.6, /*amplitude=*/0.01, /*period=*/0.0}), InvalidInput);
 }
 
-TEST_F(WorkpieceFileTest, ScalesAndCentresAFile) {
+TEST_F(WorkpieceFileTest, ScalesAndCentersAFile) {
   const Workpiece workpiece = load(kTetrahedron, resting());
   const std::vector<float> positions = workpiece.positions(0.0);
   EXPECT_EQ(workpiece.triangles().size(), 4U);

@@ -16,7 +16,7 @@ Vector3r inTool(const Body& body, const Vector3r& p_S) {
   return body.X_TS.linear().cast<Real>() * p_S + body.X_TS.translation().cast<Real>();
 }
 
-// All but a sphere's core have no padding of their own.
+// A sphere is a point with padding.
 Real paddingOf(const Body& body) {
   return static_cast<Real>(body.padding + (body.kind == Kind::kSphere ? body.radius : 0.0));
 }
@@ -45,9 +45,9 @@ Vector3r coreSupport(const Body& body, const Vector3r& direction, Real inset) {
       ->template cast<Real>();
 }
 
-// Of a vector of excesses over the sides of a body, all negative inside: how deep, or how far outside.
-Real depthBelow(const Vector3r& excess) {
-  return excess.maxCoeff() <= 0 ? -excess.maxCoeff() : -excess.cwiseMax(Real{0}).norm();
+// The depth, or minus the distance, from the signed distances to the sides.
+Real depthFrom(const Vector3r& distances) {
+  return distances.maxCoeff() <= 0 ? -distances.maxCoeff() : -distances.cwiseMax(Real{0}).norm();
 }
 
 Real hullDepth(const Body& body, const Vector3r& p) {
@@ -59,9 +59,9 @@ Real hullDepth(const Body& body, const Vector3r& p) {
 Real coreDepth(const Body& body, const Vector3r& p) {
   if (body.kind == Kind::kSphere) return -p.norm();
   if (body.kind == Kind::kHull) return hullDepth(body, p);
-  if (body.kind == Kind::kBox) return depthBelow(p.cwiseAbs() - body.half_extents.cast<Real>());
+  if (body.kind == Kind::kBox) return depthFrom(p.cwiseAbs() - body.half_extents.cast<Real>());
   const Real half = static_cast<Real>(body.length) / 2;
-  return depthBelow({std::hypot(p.x(), p.y()) - static_cast<Real>(body.radius), std::abs(p.z() + half) - half, -half});
+  return depthFrom({std::hypot(p.x(), p.y()) - static_cast<Real>(body.radius), std::abs(p.z() + half) - half, -half});
 }
 
 Vector3r coreNearest(const Body& body, Vector3r p) {
@@ -140,11 +140,11 @@ Body withFacets(Body hull) {
 }
 
 bool hasInset(const Body& body, Real inset) {
-  const Real of_core = inset - paddingOf(body);
-  if (of_core <= 0) return true;
-  if (body.kind == Kind::kBox) return of_core <= static_cast<Real>(body.half_extents.minCoeff());
-  return body.kind == Kind::kCylinder && of_core <= static_cast<Real>(body.radius) &&
-         2 * of_core <= static_cast<Real>(body.length);
+  const Real core_inset = inset - paddingOf(body);
+  if (core_inset <= 0) return true;
+  if (body.kind == Kind::kBox) return core_inset <= static_cast<Real>(body.half_extents.minCoeff());
+  return body.kind == Kind::kCylinder && core_inset <= static_cast<Real>(body.radius) &&
+         2 * core_inset <= static_cast<Real>(body.length);
 }
 
 Vector3r support(const Body& body, const Vector3r& direction_T, Real inset) {
@@ -157,7 +157,7 @@ Vector3r support(const Body& body, const Vector3r& direction_T, Real inset) {
 Real depth(const Body& body, const Vector3r& p_T) {
   const Real padding = paddingOf(body);
   const Real core = coreDepth(body, inBody(body, p_T));
-  // Of a hull, the distance outside of it is known from below only.
+  // Outside a hull, only a lower bound of the distance is known.
   if (body.kind == Kind::kHull && core <= 0) return std::min(core + padding, Real{0});
   return core + padding;
 }
@@ -204,9 +204,9 @@ Body enlarged(Body body, double more) {
 
 Tool toolOf(const Bodies& bodies) {
   if (bodies.size() == 1) return Tool(shapeOf(bodies.front()));
-  std::vector<ConvexPiece> parts;
-  for (const Body& body : bodies) parts.push_back({"", shapeOf(body)});
-  return Tool(std::move(parts));
+  std::vector<ConvexPiece> pieces;
+  for (const Body& body : bodies) pieces.push_back({"", shapeOf(body)});
+  return Tool(std::move(pieces));
 }
 
 Bodies randomBodies(Random& random, double scale) {

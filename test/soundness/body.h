@@ -9,8 +9,8 @@
 
 namespace sweep_guard_core::soundness {
 
-/// A convex part of a tool, in the tool frame T, told in numbers: what the product's shapes are made from, and all that
-/// the checks know of it. Nothing here asks the product.
+/// A convex piece of a tool, in the tool frame T, described by numbers. Both the product's shapes and the checks start from
+/// these numbers; nothing here uses the product.
 struct Body {
   enum class Kind { kCylinder, kSphere, kBox, kHull };
   struct Facet {
@@ -19,46 +19,47 @@ struct Body {
   };
 
   Kind kind = Kind::kCylinder;
-  double radius = 0.0;                                     ///< of a cylinder or a sphere [m]
-  double length = 0.0;                                     ///< a cylinder fills z in [-length, 0] [m]
-  int sides = 12;                                          ///< of the polygon that stands for a cylinder in statistics
+  double radius = 0.0;  ///< of a cylinder or a sphere [m]
+  double length = 0.0;  ///< a cylinder fills z in [-length, 0] [m]
+  int sides = 12;       ///< of the polygon that approximates a cylinder in the moments
   Eigen::Vector3d half_extents = Eigen::Vector3d::Zero();  ///< of a box [m]
-  std::vector<Eigen::Vector3d> points;                     ///< a hull is that of these [m]
-  std::vector<Facet> facets;                               ///< of a hull: see withFacets()
-  Eigen::Isometry3d X_TS = Eigen::Isometry3d::Identity();  ///< where all this is
-  double padding = 0.0;                                    ///< grown by this [m]
+  std::vector<Eigen::Vector3d> points;                     ///< points of a hull [m]
+  std::vector<Facet> facets;                               ///< facets of a hull, from withFacets()
+  Eigen::Isometry3d X_TS = Eigen::Isometry3d::Identity();  ///< pose of the shape
+  double padding = 0.0;                                    ///< the shape is grown by this [m]
 };
 
 using Bodies = std::vector<Body>;
 
-/// A hull with the planes that bound it, found by trying every three points; without any if the points lie in a plane.
+/// Adds the planes that bound a hull; tries every three points. Adds none if all points lie in one plane.
 Body withFacets(Body hull);
 
-/// Whether some points of the body have all points within `inset` [m] of them in the body, too.
+/// Returns whether some point lies at least `inset` [m] deep in the body.
 bool hasInset(const Body& body, Real inset);
 
-/// Of the points that lie at least `inset` [m] deep in the body, one that is farthest along a direction of any length.
+/// Returns the farthest point along a direction of any length, among the points at least `inset` [m] deep in the body.
 Vector3r support(const Body& body, const Vector3r& direction_T, Real inset = 0);
 
-/// How deep a point lies in the body [m], for certain; negative: it is outside, at least so far away. 0: not known.
+/// Returns a lower bound of a point's depth in the body [m]. Negative: minus a lower bound of its distance. 0: unknown.
 Real depth(const Body& body, const Vector3r& p_T);
 
-/// A point of the body or close to it that is about as near to a point as any.
+/// Returns approximately the nearest point of the body.
 Vector3r nearest(const Body& body, const Vector3r& p_T);
 
-/// Bound on the distance of a point of the bodies from the origin of T [m].
+/// Returns a bound on the distance of the bodies' points from the origin of T [m].
 double extentOf(const Bodies& bodies);
 
-/// The body with all lengths times a power of two.
+/// Returns the body with all lengths multiplied by a power of two.
 Body scaled(Body body, double scale);
 
-/// A body that holds this one, larger by up to `more` [m] on every side.
+/// Returns a body that contains this one and is larger by up to `more` [m] on every side.
 Body enlarged(Body body, double more);
 
-/// The product's tool made of these bodies.
+/// Returns the product's tool made of these bodies.
 Tool toolOf(const Bodies& bodies);
 
-/// About the size `scale` [m]: a cylinder, flat ones and needles too; or one to five bodies of any kind, anywhere.
+/// Returns bodies of about the size `scale` [m]: one cylinder, possibly flat or a needle; or one to five bodies of any kind
+/// in random places.
 Bodies randomBodies(Random& random, double scale);
 
 }  // namespace sweep_guard_core::soundness

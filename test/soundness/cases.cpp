@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "guard/sweep_checker.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core::soundness {
@@ -57,7 +58,7 @@ std::string textOf(const Body& body) {
   return text + '\n';
 }
 
-// The numbers of one line.
+// Reads the numbers of one line.
 class Line {
  public:
   explicit Line(const std::string& line) : stream_(line) { stream_ >> word_; }
@@ -77,7 +78,7 @@ class Line {
     const std::string text = next();
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
-    if (*end != '\0') throw InvalidInput("soundness case: '" + text + "' is no number");
+    if (*end != '\0') throw InvalidInput("soundness case: '" + text + "' is not a number");
     return value;
   }
   Eigen::Vector3d vector() {
@@ -114,7 +115,7 @@ class Line {
   Body::Kind kind() {
     const std::string name = next();
     const auto* const known = std::find(kKinds.begin(), kKinds.end(), name);
-    if (known == kKinds.end()) throw InvalidInput("soundness case: there is no body '" + name + "'");
+    if (known == kKinds.end()) throw InvalidInput("soundness case: body '" + name + "' is unknown");
     return static_cast<Body::Kind>(known - kKinds.begin());
   }
 
@@ -150,7 +151,7 @@ void readPair(Line& line, PairCase& pair) {
     const Eigen::Vector3d normal = line.vector();
     volume.clips_B.emplace_back(normal, line.number());
   } else {
-    throw InvalidInput("soundness case: '" + line.word() + "' means nothing in a pair");
+    throw InvalidInput("soundness case: '" + line.word() + "' is unknown in a pair");
   }
 }
 
@@ -171,11 +172,11 @@ void readSweep(Line& line, SweepCase& sweep) {
     const double fraction = line.number();
     sweep.contacts.push_back({triangle, fraction, line.number()});
   } else {
-    throw InvalidInput("soundness case: '" + line.word() + "' means nothing in a sweep");
+    throw InvalidInput("soundness case: '" + line.word() + "' is unknown in a sweep");
   }
 }
 
-// Of the corners of one moment. Corners that are welded are so by their places at the end.
+// Makes the mesh of one moment. Corners are welded if they are equal at the end of the motion.
 TriangleMesh meshOf(const Triangles& all, const std::vector<Eigen::Vector3d>& corners) {
   std::map<std::array<double, 3>, std::uint32_t> known;
   std::vector<Eigen::Vector3d> vertices;
@@ -195,7 +196,7 @@ TriangleMesh meshOf(const Triangles& all, const std::vector<Eigen::Vector3d>& co
     const Eigen::Vector3f kept = p.cast<float>();
     positions.insert(positions.end(), kept.begin(), kept.end());
   }
-  return mesh.deformed(std::move(positions));
+  return deformed(mesh, std::move(positions));
 }
 
 }  // namespace
@@ -209,7 +210,7 @@ std::vector<Motion> SweepCase::subMotions() const {
   return split(RelativeMotion{motion, *frame_W}, options.max_rotation, toolOf(tool).boundingRadius());
 }
 
-SweepResult findingsOf(Detector& detector, const SweepCase& sweep) {
+SweepResult checkCase(Detector& detector, const SweepCase& sweep) {
   const TriangleMesh mesh_M = sweep.triangles.mesh();
   const TriangleMesh before_M = sweep.triangles.meshBefore();
   return checkSweep(detector,
@@ -239,8 +240,8 @@ std::string textOf(const SweepCase& sweep, const std::string& about) {
           hex(sweep.options.margin) + '\n';
   text += textOf(sweep.triangles);
   for (const Contact& contact : sweep.contacts) {
-    text +=
-        "contact " + std::to_string(contact.triangle) + ' ' + hex(contact.fraction) + ' ' + hex(contact.pace) + '\n';
+    text += "contact " + std::to_string(contact.triangle) + ' ' + hex(contact.fraction) + ' ' +
+            hex(contact.mesh_fraction) + '\n';
   }
   return text + "end\n";
 }
@@ -267,7 +268,7 @@ std::optional<AnyCase> readCase(std::istream& stream) {
   return std::nullopt;
 }
 
-SweptVolume settled(SweptVolume volume) {
+SweptVolume normalized(SweptVolume volume) {
   for (HalfSpace& clip_B : volume.clips_B) {
     for (int i = 0; i < 8; ++i) clip_B = HalfSpace(clip_B.normal(), clip_B.offset());
   }

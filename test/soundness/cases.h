@@ -10,15 +10,15 @@
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
-#include "sweep_guard/guard/sweep_checker.h"
+#include "sweep_guard/guard/sweep.h"
 
 namespace sweep_guard_core::soundness {
 
-/// Triangles as the product gets them.
+/// The triangles of a case.
 struct Triangles {
   std::vector<Eigen::Vector3d> corners_M;  ///< three for each [m]
-  std::vector<Eigen::Vector3d> before_M;   ///< where they came from meanwhile [m]; empty if they rest
-  bool streamed = false;                   ///< handed over in float32, as in a MeshVertices message
+  std::vector<Eigen::Vector3d> before_M;   ///< corners at the start of the motion [m]; empty if they rest
+  bool streamed = false;                   ///< passed in float32, as in a MeshVertices message
   bool welded = false;                     ///< equal corners are one vertex
 
   size_t count() const { return corners_M.size() / 3; }
@@ -26,7 +26,7 @@ struct Triangles {
   TriangleMesh meshBefore() const;  ///< mesh(), if they rest
 };
 
-/// Triangles against one volume: which of them a detector has to name, an oracle tells.
+/// Triangles and one volume. An oracle finds the triangles that a detector must name.
 struct PairCase {
   Triangles triangles;
   SweptVolume swept_M;
@@ -35,45 +35,46 @@ struct PairCase {
 /// A point of the moving tool that lies on a triangle.
 struct Contact {
   std::uint32_t triangle;
-  double fraction;    ///< of the motion, in [0, 1]
-  double pace = 0.0;  ///< fraction of its way that the triangle has gone by then, in [0, 1]
+  double fraction;             ///< of the motion, in [0, 1]
+  double mesh_fraction = 0.0;  ///< of the triangle's path at that time, in [0, 1]
 };
 
-/// Triangles against the whole motion of a tool.
+/// Triangles and a motion of a tool.
 struct SweepCase {
   Triangles triangles;
   Bodies tool;
   Motion motion;                  ///< of the tool in M, or in W if the frame M moves
   std::optional<Motion> frame_W;  ///< of M in W
-  SweepOptions options;           ///< its volume is the checker's choice
-  std::vector<Contact> contacts;  ///< these triangles are met for certain, in ascending order
+  SweepOptions options;           ///< checks may replace its volume
+  std::vector<Contact> contacts;  ///< certain contacts, ascending in their triangles
 
-  /// The motion cut for checkSweep().
+  /// Returns the sub-motions for checkSweep().
   std::vector<Motion> subMotions() const;
 };
 
-/// What checkSweep() finds.
-SweepResult findingsOf(Detector& detector, const SweepCase& sweep);
+/// Runs checkSweep() on a case.
+SweepResult checkCase(Detector& detector, const SweepCase& sweep);
 
-/// All kinds of volume that the product knows.
+/// Returns all kinds of volume.
 std::vector<VolumeKind> volumeKinds();
 
-/// As text, numbers in hexadecimal, so that readCase() gives the same bits. `about` names family, seed and detector.
+/// Writes a case with hexadecimal numbers, so that readCase() returns the same bits.
+/// @param about  family, seed and detector
 std::string textOf(const PairCase& pair, const std::string& about);
 std::string textOf(const SweepCase& sweep, const std::string& about);
 
-/// A case read from text; one of both is there.
+/// A case read from text: either `pair` or `sweep` is set.
 struct AnyCase {
   std::string about;
   std::optional<PairCase> pair;
   std::optional<SweepCase> sweep;
 };
 
-/// The next case of a stream, what stands around it skipped; empty at the end.
-/// @throws InvalidInput if a case is cut off or has an unknown word
+/// Reads the next case of a stream and skips other lines; empty at the end.
+/// @throws InvalidInput if a case is cut off or contains an unknown word
 std::optional<AnyCase> readCase(std::istream& stream);
 
-/// The same volume with normals that survive being written down: normalising them again changes nothing.
-SweptVolume settled(SweptVolume volume);
+/// Returns the volume with normals that do not change when they are normalized again, as when they are read.
+SweptVolume normalized(SweptVolume volume);
 
 }  // namespace sweep_guard_core::soundness

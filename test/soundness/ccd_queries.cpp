@@ -42,7 +42,7 @@ Integer integer(const std::string& word, size_t line) {
   const size_t sign = word.rfind('-', 0) == 0 ? 1 : 0;
   const bool digits = word.size() > sign && std::all_of(word.begin() + static_cast<std::ptrdiff_t>(sign), word.end(),
                                                         [](char c) { return c >= '0' && c <= '9'; });
-  if (!digits) refuse(line, "'" + word + "' is no integer");
+  if (!digits) refuse(line, "'" + word + "' is not an integer");
   return Integer(word, 10);
 }
 
@@ -65,10 +65,10 @@ Row row(const std::string& text, size_t line) {
           words[6] == "1"};
 }
 
-// a - b, and what rounding it cost is added up (Knuth's exact sum of two).
-class Difference {
+// Computes differences and the bound of their rounding errors (Knuth's exact sum of two).
+class Subtraction {
  public:
-  Eigen::Vector3d operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  Eigen::Vector3d subtract(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     Eigen::Vector3d error;
     const Eigen::Vector3d difference = a - b;
     for (int i = 0; i < 3; ++i) {
@@ -84,12 +84,14 @@ class Difference {
   double rounding_ = 0.0;
 };
 
-std::array<Eigen::Vector3d, 4> cornersSeen(CcdQuery::Kind kind, const std::array<Eigen::Vector3d, 4>& p,
-                                           Difference& difference) {
+std::array<Eigen::Vector3d, 4> relativeCorners(CcdQuery::Kind kind, const std::array<Eigen::Vector3d, 4>& p,
+                                               Subtraction& subtraction) {
   if (kind == CcdQuery::Kind::kVertexFace) {
-    return {difference(p[1], p[0]), difference(p[2], p[0]), difference(p[3], p[0]), Eigen::Vector3d::Zero()};
+    return {subtraction.subtract(p[1], p[0]), subtraction.subtract(p[2], p[0]), subtraction.subtract(p[3], p[0]),
+            Eigen::Vector3d::Zero()};
   }
-  return {difference(p[2], p[0]), difference(p[3], p[0]), difference(p[3], p[1]), difference(p[2], p[1])};
+  return {subtraction.subtract(p[2], p[0]), subtraction.subtract(p[3], p[0]), subtraction.subtract(p[3], p[1]),
+          subtraction.subtract(p[2], p[1])};
 }
 
 }  // namespace
@@ -111,33 +113,33 @@ std::vector<CcdQuery> readCcdQueries(std::istream& stream, CcdQuery::Kind kind) 
     queries.push_back(query);
     rows.clear();
   }
-  if (!rows.empty()) refuse(line, "the last query is cut off: eight rows each");
+  if (!rows.empty()) refuse(line, "the last query has less than eight rows");
   return queries;
 }
 
-PosedQuery posed(const CcdQuery& query) {
-  Difference difference;
-  const std::array<Eigen::Vector3d, 4> start = cornersSeen(query.kind, query.start, difference);
-  const std::array<Eigen::Vector3d, 4> end = cornersSeen(query.kind, query.end, difference);
-  PosedQuery posed{{{{start[0], start[1], start[2]}, {end[0], end[1], end[2]}}}, difference.rounding()};
+RelativeQuery relative(const CcdQuery& query) {
+  Subtraction subtraction;
+  const std::array<Eigen::Vector3d, 4> start = relativeCorners(query.kind, query.start, subtraction);
+  const std::array<Eigen::Vector3d, 4> end = relativeCorners(query.kind, query.end, subtraction);
+  RelativeQuery result{{{{start[0], start[1], start[2]}, {end[0], end[1], end[2]}}}, subtraction.rounding()};
   if (query.kind == CcdQuery::Kind::kEdgeEdge) {
-    posed.triangles.push_back({{start[0], start[2], start[3]}, {end[0], end[2], end[3]}});
+    result.triangles.push_back({{start[0], start[2], start[3]}, {end[0], end[2], end[3]}});
   }
-  return posed;
+  return result;
 }
 
-bool named(const CcdQuery& query) {
+bool hasImpact(const CcdQuery& query) {
   const ConvexShape point = ConvexShape::hull({Eigen::Vector3d::Zero()});
-  const PosedQuery seen = posed(query);
+  const RelativeQuery seen = relative(query);
   return std::any_of(seen.triangles.begin(), seen.triangles.end(), [&](const MovingTriangle& triangle) {
     return timeOfImpact(point, {Motion{}}, triangle, seen.rounding).has_value();
   });
 }
 
-double closest(const CcdQuery& query) {
+double leastDistance(const CcdQuery& query) {
   Real least = std::numeric_limits<Real>::infinity();
   Real size = 0;
-  for (const MovingTriangle& triangle : posed(query).triangles) {
+  for (const MovingTriangle& triangle : relative(query).triangles) {
     for (size_t i = 0; i < 3; ++i) {
       const size_t next = (i + 1) % 3;
       size = std::max({size, static_cast<Real>((triangle.start_M[i] - triangle.start_M[next]).norm()),
@@ -176,10 +178,10 @@ void CcdTally::add(const CcdTally& more) {
 CcdTally checkCcdQueries(const std::string& file, std::ostream& out) {
   const bool edges = file.find("edge-edge") != std::string::npos;
   if (edges == (file.find("vertex-face") != std::string::npos)) {
-    throw InvalidInput(file + ": edge-edge or vertex-face? Its path has to tell");
+    throw InvalidInput(file + ": the path contains neither edge-edge nor vertex-face, or both");
   }
   std::ifstream stream(file);
-  if (!stream) throw InvalidInput(file + ": cannot be read");
+  if (!stream) throw InvalidInput(file + ": cannot read");
   std::vector<CcdQuery> queries;
   try {
     queries = readCcdQueries(stream, edges ? CcdQuery::Kind::kEdgeEdge : CcdQuery::Kind::kVertexFace);
@@ -188,14 +190,14 @@ CcdTally checkCcdQueries(const std::string& file, std::ostream& out) {
   }
   CcdTally tally;
   for (const CcdQuery& query : queries) {
-    const bool is_named = named(query);
+    const bool found = hasImpact(query);
     ++tally.queries;
     if (query.truth) ++tally.positives;
-    if (is_named && !query.truth) {
+    if (found && !query.truth) {
       ++tally.extras;
-      tally.farthest_extra = std::max(tally.farthest_extra, closest(query));
+      tally.farthest_extra = std::max(tally.farthest_extra, leastDistance(query));
     }
-    if (is_named || !query.truth) continue;
+    if (found || !query.truth) continue;
     ++tally.misses;
     out << "missed: " << file << " line " << 8 * (tally.queries - 1) + 1 << '\n';
   }

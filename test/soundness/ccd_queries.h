@@ -9,8 +9,8 @@
 
 namespace sweep_guard_core::soundness {
 
-/// Two edges, or a vertex and a face, whose four points go straight from one place to another; and whether they meet.
-/// A query of the Sample Queries of Wang et al. 2021: everybody's test of continuous collision detection.
+/// Two edges, or a vertex and a face, whose four points move straight; and whether they meet. A query of the Sample Queries
+/// (Wang et al. 2021), the common benchmark of continuous collision detection.
 struct CcdQuery {
   enum class Kind { kEdgeEdge, kVertexFace };
   Kind kind;
@@ -19,43 +19,42 @@ struct CcdQuery {
   bool truth;  ///< as computed exactly by the authors of the data
 };
 
-/// Reads a file of queries: eight rows each, the four points at the start and at the end; x, y, z as a numerator and a
-/// denominator of any length each, then the truth.
-/// @throws InvalidInput with the line of what is no such row, and if a number is not exactly a double
+/// Reads a file of queries. Each has eight rows: the four points at the start, then at the end. A row contains x, y and z
+/// as numerator and denominator of any length, then the truth.
+/// @throws InvalidInput with the line number if a row is malformed or a number is not exactly a double
 std::vector<CcdQuery> readCcdQueries(std::istream& stream, CcdQuery::Kind kind);
 
-/// A query seen from one of its points: then a point at rest is left for a tool, and moving triangles.
-struct PosedQuery {
-  std::vector<MovingTriangle> triangles;  ///< the query is met where one of them meets the origin
-  double rounding;                        ///< bound on what taking the differences cost [m]
+/// A query relative to one of its points: the tool is a point at rest, the obstacle are moving triangles.
+struct RelativeQuery {
+  std::vector<MovingTriangle> triangles;  ///< the query is met if one of them meets the origin
+  double rounding;                        ///< error bound of the differences [m]
 };
 
-/// A vertex meets a face where the face, less the vertex, holds the origin. Two edges meet where the difference of some
-/// points of theirs is zero; all these differences are a parallelogram at any time, its corners the differences of the
-/// ends: two triangles, whose corners go straight as well. So nothing is approximated.
-PosedQuery posed(const CcdQuery& query);
+/// Makes a query relative. A vertex meets a face if the face minus the vertex contains the origin. Two edges meet if the
+/// difference of two of their points is zero: at any time the differences form a parallelogram, whose corners are the
+/// differences of the ends. These are two triangles whose corners move straight, so nothing is approximated.
+RelativeQuery relative(const CcdQuery& query);
 
-/// Whether the product's fine phase says that the query is met.
-bool named(const CcdQuery& query);
+/// Returns whether timeOfImpact() finds an impact.
+bool hasImpact(const CcdQuery& query);
 
-/// How close the query comes to being met, in sizes of its triangles: the least distance found at 4 096 times and
-/// around the best of these.
-double closest(const CcdQuery& query);
+/// Returns the least distance found at 4 096 times and around the best of them, in sizes of the triangles.
+double leastDistance(const CcdQuery& query);
 
-/// What came of some queries.
+/// Counts of queries.
 struct CcdTally {
   int queries = 0;
   int positives = 0;
   int misses = 0;
   int extras = 0;
-  double farthest_extra = 0.0;  ///< how close the extra came that stayed farthest away, in its sizes
+  double farthest_extra = 0.0;  ///< largest leastDistance() of an extra
 
   void add(const CcdTally& more);
 };
 
-/// Runs the queries of a file; edge-edge or vertex-face is told by its name or that of its folder.
-/// @param out  gets a line for each miss
-/// @throws InvalidInput if the file cannot be read or does not tell its kind
+/// Runs the queries of a file; its path must contain edge-edge or vertex-face.
+/// @param out  receives a line for each miss
+/// @throws InvalidInput if the file cannot be read or its path does not contain one of these
 CcdTally checkCcdQueries(const std::string& file, std::ostream& out);
 
 }  // namespace sweep_guard_core::soundness

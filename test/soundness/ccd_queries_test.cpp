@@ -18,7 +18,7 @@ std::vector<CcdQuery> read(const std::string& text, Kind kind) {
   return readCcdQueries(stream, kind);
 }
 
-// Eight rows of whole numbers.
+// Eight rows of integers.
 std::string rows(const std::array<std::array<int, 3>, 8>& points, int truth) {
   std::string text;
   for (const auto& p : points) {
@@ -39,7 +39,7 @@ TEST(ReadCcdQueriesTest, TakesIntegersOfAnyLength) {
   EXPECT_TRUE(queries[0].truth);
 }
 
-TEST(ReadCcdQueriesTest, RefusesWhatIsNoQuery) {
+TEST(ReadCcdQueriesTest, RefusesMalformedRows) {
   const std::string good = rows({}, 1);
   EXPECT_EQ(read(good, Kind::kEdgeEdge).size(), 1U);
   EXPECT_TRUE(read("", Kind::kEdgeEdge).empty());
@@ -50,25 +50,25 @@ TEST(ReadCcdQueriesTest, RefusesWhatIsNoQuery) {
   EXPECT_THROW(read("0,1,0,1,0,1,1\n" + rows({}, 0), Kind::kEdgeEdge), InvalidInput);
 }
 
-TEST(CcdQueryTest, AVertexThatPassesAFaceIsNamedAndOneThatPassesBesideItIsNot) {
+TEST(CcdQueryTest, AVertexHitsAFaceThatItPassesThrough) {
   const auto query = [](int x) {
     return read(rows({{{x, 1, 1}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {x, 1, -1}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}}, 1),
                 Kind::kVertexFace)[0];
   };
-  EXPECT_TRUE(named(query(1)));
-  EXPECT_TRUE(named(query(3)));  // on the edge
-  EXPECT_FALSE(named(query(4)));
+  EXPECT_TRUE(hasImpact(query(1)));
+  EXPECT_TRUE(hasImpact(query(3)));  // on the edge
+  EXPECT_FALSE(hasImpact(query(4)));
 }
 
-// The second edge gets longer and turns while it passes, so that no rigid tool could stand for it.
-TEST(CcdQueryTest, EdgesThatCrossAreNamedAndOthersAreNot) {
+// The second edge grows and turns while it passes, as no rigid tool does.
+TEST(CcdQueryTest, EdgesHitIfTheyCross) {
   const auto query = [](int reach) {
     return read(
         rows({{{0, 0, 0}, {8, 0, 0}, {1, -1, 1}, {2, 1, 3}, {0, 0, 0}, {8, 0, 0}, {reach, -4, -1}, {5, 4, -5}}}, 1),
         Kind::kEdgeEdge)[0];
   };
-  EXPECT_TRUE(named(query(4)));
-  EXPECT_FALSE(named(query(-90)));
+  EXPECT_TRUE(hasImpact(query(4)));
+  EXPECT_FALSE(hasImpact(query(-90)));
 }
 
 TEST(CcdDataTest, MissesNoneOfTheSampleQueries) {
@@ -82,7 +82,7 @@ TEST(CcdDataTest, MissesNoneOfTheSampleQueries) {
   }
   EXPECT_GT(all.positives, 100);
   EXPECT_EQ(all.misses, 0) << misses.str();
-  EXPECT_LT(all.farthest_extra, 1e-6);  // where the fine phase ran out of steps; else 2e-9
+  EXPECT_LT(all.farthest_extra, 1e-6);  // where the narrow phase ran out of steps; else 2e-9
 }
 
 }  // namespace

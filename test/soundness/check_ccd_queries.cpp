@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') {
     std::cerr
         << "usage: check_ccd_queries FILE...\n"
-           "Asks the fine phase about queries of continuous collision detection whose truth is known: files of\n"
+           "Runs the narrow phase on queries of continuous collision detection with known truth: files of\n"
            "Sample-Queries, in folders edge-edge or vertex-face. Exit status: 0, 1 if one was missed, 2 wrong usage.\n";
     return 2;
   }

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <iostream>
 
+#include "guard/sweep_checker.h"
 #include "soundness/oracle.h"
 #include "soundness/sampled_sweep.h"
-#include "sweep_guard/detection/offscreen_context.h"
+#include "sweep_guard/common/error.h"
 #include "sweep_guard/detection/time_of_impact.h"
 
 namespace sweep_guard_core::soundness {
 namespace {
-
-bool contains(const std::vector<std::uint32_t>& triangles, std::uint32_t triangle) {
-  return std::binary_search(triangles.begin(), triangles.end(), triangle);
-}
 
 std::string about(const Context& context, const std::string& detector) {
   return context.family + ' ' + context.about + " detector " + detector;
@@ -21,20 +18,24 @@ std::string about(const Context& context, const std::string& detector) {
 
 }  // namespace
 
-std::vector<Suspect> allSuspects() {
-  std::vector<Suspect> suspects;
+bool contains(const std::vector<std::uint32_t>& triangles, std::uint32_t triangle) {
+  return std::binary_search(triangles.begin(), triangles.end(), triangle);
+}
+
+std::vector<TestedDetector> allDetectors() {
+  std::vector<TestedDetector> detectors;
   for (const std::string& name : detectorNames()) {
-    if (name != "select") suspects.push_back({name, makeDetector(name)});
+    if (name != "select") detectors.push_back({name, makeDetector(name)});
   }
   for (const std::string& gl_context : offscreenContextNames()) {
     const std::string name = gl_context == "osmesa" ? "select" : "select_" + gl_context;
     try {
-      suspects.push_back({name, makeDetector("select", {/*cull=*/true, gl_context})});
+      detectors.push_back({name, makeDetector("select", {/*cull=*/true, gl_context})});
     } catch (const DeviceError& error) {
       std::cout << name << " is skipped: " << error.what() << std::endl;
     }
   }
-  return suspects;
+  return detectors;
 }
 
 void checkPair(const Context& context, const PairCase& pair) {
@@ -50,13 +51,13 @@ void checkPair(const Context& context, const PairCase& pair) {
     }
   }
 
-  for (Suspect& suspect : context.suspects) {
-    Tally& tally = context.report.of(suspect.name, context.family);
+  for (TestedDetector& tested : context.detectors) {
+    Tally& tally = context.report.of(tested.name, context.family);
     const auto fail = [&](const std::string& what, std::uint32_t triangle) {
       context.report.fail(what + " triangle " + std::to_string(triangle),
-                          [&] { return textOf(pair, about(context, suspect.name)); });
+                          [&] { return textOf(pair, about(context, tested.name)); });
     };
-    const Detection found = suspect.detector->detect(mesh_M, swept_M);
+    const Detection found = tested.detector->detect(mesh_M, swept_M);
     for (std::uint32_t i = 0; i < count; ++i) {
       ++tally.cases;
       if (met[i]) {
@@ -75,12 +76,12 @@ void checkPair(const Context& context, const PairCase& pair) {
 }
 
 void checkPositives(const Context& context, const SweepCase& sweep) {
-  for (Suspect& suspect : context.suspects) {
+  for (TestedDetector& tested : context.detectors) {
     for (const VolumeKind kind : volumeKinds()) {
       SweepCase seen = sweep;
       seen.options.volume = kind;
-      Tally& tally = context.report.of(suspect.name + '/' + nameOf(kind), context.family);
-      const SweepResult result = findingsOf(*suspect.detector, seen);
+      Tally& tally = context.report.of(tested.name + '/' + nameOf(kind), context.family);
+      const SweepResult result = checkCase(*tested.detector, seen);
       for (const Contact& contact : sweep.contacts) {
         ++tally.cases;
         ++tally.positives;
@@ -89,7 +90,7 @@ void checkPositives(const Context& context, const SweepCase& sweep) {
         ++tally.misses;
         context.report.fail(
             (named ? "not confirmed: triangle " : "missed triangle ") + std::to_string(contact.triangle),
-            [&] { return textOf(seen, about(context, suspect.name)); });
+            [&] { return textOf(seen, about(context, tested.name)); });
       }
     }
   }
@@ -100,14 +101,14 @@ void checkImpacts(const Context& context, const SweepCase& sweep) {
   const TriangleMesh before_M = sweep.triangles.meshBefore();
   const MovingMesh mesh(mesh_M, before_M, {before_M, mesh_M}, /*path_deviation=*/0.0);
   const Tool tool = toolOf(sweep.tool);
-  const std::vector<Motion> parts = sweep.subMotions();
+  const std::vector<Motion> sub_motions = sweep.subMotions();
   Tally& tally = context.report.of("fine", context.family);
   for (const Contact& contact : sweep.contacts) {
-    if (mesh.moved() && contact.pace != contact.fraction) continue;  // not at an even pace
+    if (mesh.moved() && contact.mesh_fraction != contact.fraction) continue;  // not at constant speed
     std::optional<double> first;
-    for (const ConvexPiece& part : tool.pieces()) {
-      const auto impact =
-          timeOfImpact(part.shape_T, parts, mesh.triangle(contact.triangle), sweep.options.margin + mesh.uncertainty());
+    for (const ConvexPiece& piece : tool.pieces()) {
+      const auto impact = timeOfImpact(piece.shape_T, sub_motions, mesh.triangle(contact.triangle),
+                                       sweep.options.margin + mesh.uncertainty());
       if (impact && (!first || impact->time_of_impact < *first)) first = impact->time_of_impact;
     }
     ++tally.cases;
@@ -123,34 +124,34 @@ void checkImpacts(const Context& context, const SweepCase& sweep) {
 void checkWholeSweep(const Context& context, const SweepCase& sweep) {
   const TriangleMesh mesh_M = sweep.triangles.mesh();
   const SampledSweep sampled(sweep);
-  std::vector<std::optional<Real>> apart;  // empty: met
+  std::vector<std::optional<Real>> distances;  // empty: met
   for (size_t i = 0; i < sweep.triangles.count(); ++i) {
     const Eigen::Vector3d* corners = &sweep.triangles.corners_M[3 * i];
-    apart.push_back(sampled.apart({corners[0], corners[1], corners[2]}));
+    distances.push_back(sampled.distance({corners[0], corners[1], corners[2]}));
   }
-  const bool any_met = std::any_of(apart.begin(), apart.end(), [](const auto& distance) { return !distance; });
-  const bool within = !any_met && sampled.endsWithin(sweep.triangles);
+  const bool any_met = std::any_of(distances.begin(), distances.end(), [](const auto& distance) { return !distance; });
+  const bool is_inside = !any_met && sampled.endsInside(sweep.triangles);
   const Tool tool = toolOf(sweep.tool);
-  const std::vector<Motion> parts = sweep.subMotions();
-  for (Suspect& suspect : context.suspects) {
-    const SweepResult result = checkSweep(*suspect.detector, {tool, parts, mesh_M, sweep.options});
-    Tally& tally = context.report.of(suspect.name + '/' + nameOf(sweep.options.volume), context.family);
+  const std::vector<Motion> sub_motions = sweep.subMotions();
+  for (TestedDetector& tested : context.detectors) {
+    const SweepResult result = checkSweep(*tested.detector, {tool, sub_motions, mesh_M, sweep.options});
+    Tally& tally = context.report.of(tested.name + '/' + nameOf(sweep.options.volume), context.family);
     const auto fail = [&](const std::string& what, std::uint32_t triangle) {
       context.report.fail(what + " triangle " + std::to_string(triangle),
-                          [&] { return textOf(sweep, about(context, suspect.name)); });
+                          [&] { return textOf(sweep, about(context, tested.name)); });
     };
     ++tally.cases;
-    for (std::uint32_t i = 0; i < apart.size(); ++i) {
-      if (!apart[i]) {
+    for (std::uint32_t i = 0; i < distances.size(); ++i) {
+      if (!distances[i]) {
         ++tally.positives;
         if (contains(result.triangles, i) && contains(result.not_ruled_out, i)) continue;
         ++tally.misses;
         fail("missed", i);
       } else if (contains(result.not_ruled_out, i)) {
         ++tally.extras;
-        if (*apart[i] <= 0) continue;
+        if (*distances[i] <= 0) continue;
         ++tally.unexplained;
-        fail("said to be met, and is apart:", i);
+        fail("reported as met, but free:", i);
       }
     }
     for (const std::uint32_t triangle : unexplained(mesh_M, result)) {
@@ -158,10 +159,10 @@ void checkWholeSweep(const Context& context, const SweepCase& sweep) {
       fail("farther away than the margin:", triangle);
     }
     if (any_met || !result.not_ruled_out.empty()) continue;
-    if (within) ++tally.positives;
-    if (within == result.inside) continue;
-    ++(within ? tally.misses : tally.unexplained);
-    fail(within ? "not said to be inside, of a mesh with" : "said to be inside, of a mesh with", 0);
+    if (is_inside) ++tally.positives;
+    if (is_inside == result.inside) continue;
+    ++(is_inside ? tally.misses : tally.unexplained);
+    fail(is_inside ? "not reported inside a mesh with" : "reported inside a mesh with", 0);
   }
 }
 

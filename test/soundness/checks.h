@@ -10,38 +10,41 @@
 
 namespace sweep_guard_core::soundness {
 
-/// A detector under test, and its name.
-struct Suspect {
+/// A detector under test.
+struct TestedDetector {
   std::string name;
   std::unique_ptr<Detector> detector;
 };
 
-/// All of detectorNames(), and `select_egl`: `select` on EGL. What the machine has no context for is said to be
-/// skipped.
-std::vector<Suspect> allSuspects();
+/// Makes all of detectorNames(), and `select_egl`: `select` on EGL. Prints which ones are skipped for lack of a context.
+std::vector<TestedDetector> allDetectors();
 
-/// Where a case came from, and where to say what is wrong with it.
+/// The origin of a case, the detectors to test and the report.
 struct Context {
   std::string family;
   std::string about;  ///< seed and index
-  std::vector<Suspect>& suspects;
+  std::vector<TestedDetector>& detectors;
   Report& report;
 };
 
-/// Every triangle that exact arithmetic says is met is named; what is named besides is nearer than the inflation. Of
-/// one in a hundred triangles the second oracle has to say the same as the first.
+/// Returns whether ascending indices contain a triangle.
+bool contains(const std::vector<std::uint32_t>& triangles, std::uint32_t triangle);
+
+/// Checks that every triangle that is met exactly is named, and that every other triangle named is nearer than the
+/// inflation. Compares both oracles on one triangle in a hundred.
 void checkPair(const Context& context, const PairCase& pair);
 
-/// Every contact is named, with every kind of volume.
+/// Checks that every contact is named, with every kind of volume.
 void checkPositives(const Context& context, const SweepCase& sweep);
 
-/// The fine phase finds every contact, and no later than it happens.
+/// Checks that timeOfImpact() finds every contact, and no later than it happens.
 void checkImpacts(const Context& context, const SweepCase& sweep);
 
-/// Every triangle found to meet the tool at one of many exact poses is named; what is named is within its margin.
+/// Checks that every triangle that meets the tool at one of many exact poses is named, and that every triangle named is
+/// within its margin.
 void checkWholeSweep(const Context& context, const SweepCase& sweep);
 
-/// The triangles named that are no nearer than `result.margin` to any volume tested.
+/// Returns the triangles named that are not nearer than `result.margin` to any tested volume.
 std::vector<std::uint32_t> unexplained(const TriangleMesh& mesh_M, const SweepResult& result);
 
 }  // namespace sweep_guard_core::soundness

@@ -19,7 +19,7 @@ ExactMotion::Path::Path(const Motion& motion)
       start(quaternionOf(motion.X_MT_start)),
       end(quaternionOf(motion.X_MT_end)) {
   if (start.dot(end) < 0) end.coeffs() *= -1;
-  constexpr Real kHalfATurn = 1e-12L;  // closer than this, rounding decides which way is shorter
+  constexpr Real kHalfATurn = 1e-12L;  // below this, rounding decides which way is shorter
   if (start.dot(end) > kHalfATurn) return;
   const Quaternion middle = quaternionOf(motion.at(0.5));
   const Real one_way = std::abs((start.coeffs() + end.coeffs()).dot(middle.coeffs()));
@@ -30,7 +30,7 @@ ExactMotion::Path::Path(const Motion& motion)
 Matrix3r ExactMotion::Path::rotation(Real fraction) const {
   const Real half_angle =
       2 * std::atan2((end.coeffs() - start.coeffs()).norm(), (end.coeffs() + start.coeffs()).norm());
-  constexpr Real kSmall = 1e-9L;  // the chord is the arc, to 1e-27
+  constexpr Real kSmall = 1e-9L;  // chord and arc differ by 1e-27
   const bool small = half_angle < kSmall;
   const Real a = small ? 1 - fraction : std::sin((1 - fraction) * half_angle);
   const Real b = small ? fraction : std::sin(fraction * half_angle);

@@ -7,22 +7,22 @@
 
 namespace sweep_guard_core::soundness {
 
-/// Where the points of a tool really are during a motion: the origin goes straight, the orientation turns at constant
-/// rate, in long double and without the product's interpolation. The rotation matrices are orthonormal only as far as
-/// double goes; the motion is that of the rotations nearest to them, which is another 1e-16 of the lever apart.
+/// Computes the positions of a tool's points during a motion in long double, without the product's interpolation: the
+/// origin moves straight, the orientation turns at constant rate. The rotation matrices are orthonormal only in double; the
+/// motion uses the nearest rotations, which differ by 1e-16 of the lever.
 ///
-/// Half a turn apart, two ways are equally short: there the product's choice is taken over.
+/// At half a turn both ways are equally short: there it takes the product's choice.
 class ExactMotion {
  public:
   explicit ExactMotion(const Motion& motion);
-  /// As seen from a frame M that moves, too.
+  /// Describes the motion relative to a moving frame M.
   explicit ExactMotion(const RelativeMotion& motion);
 
-  /// Position [m] in M of a point of the tool, at a fraction of the motion in [0, 1].
+  /// Returns the position in M [m] of a point of the tool, at a fraction of the motion in [0, 1].
   Vector3r at(Real fraction, const Vector3r& p_T) const;
-  /// Position in T of a point of M.
+  /// Returns the position in T [m] of a point of M.
   Vector3r inTool(Real fraction, const Vector3r& p_M) const;
-  /// Direction in T of a direction of M.
+  /// Returns the direction in T of a direction in M.
   Vector3r directionInTool(Real fraction, const Vector3r& direction_M) const;
 
  private:

@@ -42,7 +42,7 @@ void runWholeSweep(const Context& context, std::uint64_t seed) { checkWholeSweep
 
 void replayWholeSweep(const Context& context, const AnyCase& any) { checkWholeSweep(context, any.sweep.value()); }
 
-// Every seed of every family is the start of a sequence of its own (splitmix64, Steele et al. 2014).
+// Gives each case a sequence of its own (splitmix64, Steele et al. 2014).
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t index) {
   std::uint64_t z = seed * 0x9e3779b97f4a7c15U + index * 0xbf58476d1ce4e5b9U + 0x94d049bb133111ebU;
   z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
@@ -68,33 +68,34 @@ const std::vector<Family>& families() {
        replayPair},
       {"grazing", "triangles that only just touch a volume, against exact arithmetic", runPairs<grazingPairs>,
        replayPair},
-      {"adversarial", "what is hardest for float32 and for clipping, against exact arithmetic",
+      {"adversarial", "volumes and triangles that are hard for float32 and clipping, against exact arithmetic",
        runPairs<adversarialPairs>, replayPair},
       {"positives", "triangles through known points of a moving tool", runPositives, replayPositives},
-      {"impacts", "the fine phase on such triangles: none is missed, none is found late", runImpacts, replayImpacts},
-      {"metamorphic", "what has to be named still when a scene is told differently", runRelations, replayRelations},
+      {"impacts", "time of impact on the same triangles: none is missed or late", runImpacts, replayImpacts},
+      {"metamorphic", "triangles that must still be named in another description of the scene", runRelations,
+       replayRelations},
       {"sweeps", "a tool about a workpiece of 1 600 triangles, against densely sampled exact poses", runWholeSweep,
        replayWholeSweep},
   };
   return all;
 }
 
-void run(const Family& family, const Extent& extent, std::vector<Suspect>& suspects, Report& report) {
+void run(const Family& family, const Extent& extent, std::vector<TestedDetector>& detectors, Report& report) {
   const std::uint64_t share = extent.cases / extent.parts + (extent.part < extent.cases % extent.parts ? 1 : 0);
   for (std::uint64_t index = extent.part; casesOf(report, family.name) < share; index += extent.parts) {
     const std::string about = "seed " + std::to_string(extent.seed) + " index " + std::to_string(index);
-    family.run({family.name, about, suspects, report}, mixed(extent.seed, index));
+    family.run({family.name, about, detectors, report}, mixed(extent.seed, index));
   }
 }
 
-void replay(const AnyCase& any, std::vector<Suspect>& suspects, Report& report) {
+void replay(const AnyCase& any, std::vector<TestedDetector>& detectors, Report& report) {
   const std::string name = any.about.substr(0, any.about.find(' '));
   for (const Family& family : families()) {
     if (family.name != name) continue;
-    family.replay({name, any.about.substr(std::min(any.about.size(), name.size() + 1)), suspects, report}, any);
+    family.replay({name, any.about.substr(std::min(any.about.size(), name.size() + 1)), detectors, report}, any);
     return;
   }
-  throw InvalidInput("soundness case: there is no family '" + name + "'");
+  throw InvalidInput("soundness case: family '" + name + "' is unknown");
 }
 
 }  // namespace sweep_guard_core::soundness

@@ -8,7 +8,7 @@
 
 namespace sweep_guard_core::soundness {
 
-/// A kind of case, and its check. One call makes and checks a handful of cases from a seed.
+/// A kind of case and its check. One call makes and checks a few cases from a seed.
 struct Family {
   std::string name;
   std::string meaning;
@@ -18,18 +18,18 @@ struct Family {
 
 const std::vector<Family>& families();
 
-/// Which cases to run.
+/// The cases to run.
 struct Extent {
-  std::uint64_t cases = 1000;  ///< at least so many for each detector
+  std::uint64_t cases = 1000;  ///< minimum for each detector
   std::uint64_t seed = 1;
-  std::uint64_t part = 0;   ///< of `parts` that share the work: each takes every parts-th seed
+  std::uint64_t part = 0;   ///< index among `parts` processes; each takes every parts-th seed
   std::uint64_t parts = 1;  ///< >= 1
 };
 
-/// Runs one family; the same extent gives the same cases everywhere.
-void run(const Family& family, const Extent& extent, std::vector<Suspect>& suspects, Report& report);
+/// Runs one family; the same extent gives the same cases on every machine.
+void run(const Family& family, const Extent& extent, std::vector<TestedDetector>& detectors, Report& report);
 
-/// Checks one written case again.
-void replay(const AnyCase& any, std::vector<Suspect>& suspects, Report& report);
+/// Checks a case that was written before.
+void replay(const AnyCase& any, std::vector<TestedDetector>& detectors, Report& report);
 
 }  // namespace sweep_guard_core::soundness

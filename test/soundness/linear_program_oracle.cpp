@@ -31,7 +31,7 @@ Vector inBox(const TriangleMesh& mesh_M, std::uint32_t vertex, const OrientedBox
 
 bool meetsByLinearProgram(const TriangleMesh& mesh_M, std::uint32_t triangle, const SweptVolume& swept_M,
                           double growth) {
-  // Unknown: the weights of the corners, >= 0, their sum 1.
+  // The unknowns are the weights of the corners: >= 0, with sum 1.
   Program program(CGAL::SMALLER, /*default_l=*/true, Rational(0), /*default_u=*/false, Rational(0));
   int row = 0;
   for (int i = 0; i < 3; ++i) program.set_a(i, row, Rational(1));

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <numeric>
 
 #include "soundness/exact_motion.h"
 
@@ -14,7 +13,7 @@ namespace {
 constexpr double kPi = 3.141592653589793;
 constexpr double kMaxDistance = 9.9e6;
 
-// Random numbers that depend on the case alone, so that a replay draws the same.
+// Depends on the case alone, so that a replay draws the same numbers.
 Random randomOf(const Triangles& triangles) {
   std::uint64_t seed = 0;
   const double first = triangles.corners_M.front().sum();
@@ -29,12 +28,8 @@ double largestCoordinate(const Triangles& triangles) {
   return largest;
 }
 
-bool contains(const std::vector<std::uint32_t>& triangles, std::uint32_t triangle) {
-  return std::binary_search(triangles.begin(), triangles.end(), triangle);
-}
-
-// The same triangles told in another way: those of `other` that stand for each of them; any one of these will do.
-struct Retold {
+// Another description of the same triangles. A triangle is represented by any of `stand_for` among `other`.
+struct Restated {
   Triangles other;
   std::vector<std::vector<std::uint32_t>> stand_for;
 };
@@ -43,67 +38,65 @@ void append(Triangles& triangles, const Eigen::Vector3d& a, const Eigen::Vector3
   triangles.corners_M.insert(triangles.corners_M.end(), {a, b, c});
 }
 
-Retold eachTurned(const Triangles& triangles, const std::array<size_t, 3>& order) {
-  Retold retold;
-  retold.other.streamed = triangles.streamed;
+Restated eachTurned(const Triangles& triangles, const std::array<size_t, 3>& order) {
+  Restated restated;
+  restated.other.streamed = triangles.streamed;
   for (std::uint32_t i = 0; i < triangles.count(); ++i) {
     const Eigen::Vector3d* corners = &triangles.corners_M[3 * i];
-    append(retold.other, corners[order[0]], corners[order[1]], corners[order[2]]);
-    retold.stand_for.push_back({i});
+    append(restated.other, corners[order[0]], corners[order[1]], corners[order[2]]);
+    restated.stand_for.push_back({i});
   }
-  return retold;
+  return restated;
 }
 
-Retold shuffled(const Triangles& triangles, Random& random) {
-  std::vector<std::uint32_t> order(triangles.count());
-  std::iota(order.begin(), order.end(), 0U);
-  for (size_t i = order.size(); i > 1; --i)
-    std::swap(order[i - 1], order[static_cast<size_t>(random.below(static_cast<int>(i)))]);
-  Retold retold;
-  retold.other.streamed = triangles.streamed;
-  retold.stand_for.resize(order.size());
+Restated shuffled(const Triangles& triangles, Random& random) {
+  const std::vector<std::uint32_t> order = random.permutation(triangles.count());
+  Restated restated;
+  restated.other.streamed = triangles.streamed;
+  restated.stand_for.resize(order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     const Eigen::Vector3d* corners = &triangles.corners_M[3 * order[i]];
-    append(retold.other, corners[0], corners[1], corners[2]);
-    retold.stand_for[order[i]] = {i};
+    append(restated.other, corners[0], corners[1], corners[2]);
+    restated.stand_for[order[i]] = {i};
   }
-  return retold;
+  return restated;
 }
 
-// `which` of both copies has to be named.
-Retold twice(const Triangles& triangles, std::uint32_t which) {
-  Retold retold;
-  retold.other = triangles;
-  retold.other.corners_M.insert(retold.other.corners_M.end(), triangles.corners_M.begin(), triangles.corners_M.end());
+// Copy `which` must be named.
+Restated twice(const Triangles& triangles, std::uint32_t which) {
+  Restated restated;
+  restated.other = triangles;
+  restated.other.corners_M.insert(restated.other.corners_M.end(), triangles.corners_M.begin(),
+                                  triangles.corners_M.end());
   const auto count = static_cast<std::uint32_t>(triangles.count());
-  for (std::uint32_t i = 0; i < count; ++i) retold.stand_for.push_back({i + which * count});
-  return retold;
+  for (std::uint32_t i = 0; i < count; ++i) restated.stand_for.push_back({i + which * count});
+  return restated;
 }
 
-Retold cutInFour(const Triangles& triangles) {
-  Retold retold;
+Restated cutInFour(const Triangles& triangles) {
+  Restated restated;
   for (std::uint32_t i = 0; i < triangles.count(); ++i) {
     const Eigen::Vector3d* p = &triangles.corners_M[3 * i];
     const Eigen::Vector3d ab = 0.5 * (p[0] + p[1]);
     const Eigen::Vector3d bc = 0.5 * (p[1] + p[2]);
     const Eigen::Vector3d ca = 0.5 * (p[2] + p[0]);
-    append(retold.other, p[0], ab, ca);
-    append(retold.other, ab, p[1], bc);
-    append(retold.other, ca, bc, p[2]);
-    append(retold.other, ab, bc, ca);
-    retold.stand_for.push_back({4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3});
+    append(restated.other, p[0], ab, ca);
+    append(restated.other, ab, p[1], bc);
+    append(restated.other, ca, bc, p[2]);
+    append(restated.other, ab, bc, ca);
+    restated.stand_for.push_back({4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3});
   }
-  return retold;
+  return restated;
 }
 
-Retold withMore(const Triangles& triangles, Random& random) {
-  Retold retold = eachTurned(triangles, {0, 1, 2});
+Restated withMore(const Triangles& triangles, Random& random) {
+  Restated restated = eachTurned(triangles, {0, 1, 2});
   const double largest = std::min(kMaxDistance, 2.0 * largestCoordinate(triangles));
   for (int count = 1 + random.below(10); count > 0; --count) {
     const Eigen::Vector3d half = Eigen::Vector3d::Constant(largest);
-    append(retold.other, random.inBox(half), random.inBox(half), random.inBox(half));
+    append(restated.other, random.inBox(half), random.inBox(half), random.inBox(half));
   }
-  return retold;
+  return restated;
 }
 
 Eigen::Isometry3d randomMove(Random& random, const Triangles& triangles) {
@@ -118,7 +111,7 @@ Triangles moved(const Eigen::Isometry3d& move, Triangles triangles) {
   return triangles;
 }
 
-// A power of two that keeps everything within bounds.
+// A power of two that keeps all coordinates within bounds.
 double randomScale(Random& random, double largest) {
   const int most = std::min(20, static_cast<int>(std::floor(std::log2(kMaxDistance / std::max(largest, 1e-9)))) - 2);
   return std::ldexp(1.0, most - random.below(30));
@@ -152,19 +145,19 @@ Motion moved(const Eigen::Isometry3d& move, const Motion& motion) {
 // Checks relations of one case with one detector.
 class Relations {
  public:
-  Relations(const Context& context, Suspect& suspect, std::function<std::string(const std::string&)> text)
+  Relations(const Context& context, TestedDetector& tested, std::function<std::string(const std::string&)> text)
       : context_(context),
-        suspect_(suspect),
+        tested_(tested),
         text_(std::move(text)),
-        tally_(context.report.of(suspect.name, context.family)) {}
+        tally_(context.report.of(tested.name, context.family)) {}
 
-  // Something has to be named, and is or is not.
+  // Counts a triangle that must be named.
   void demand(bool named, const std::string& relation, std::uint32_t triangle) {
     ++tally_.positives;
     if (named) return;
     ++tally_.misses;
     context_.report.fail("relation '" + relation + "', triangle " + std::to_string(triangle),
-                         [&] { return text_(context_.family + ' ' + context_.about + " detector " + suspect_.name); });
+                         [&] { return text_(context_.family + ' ' + context_.about + " detector " + tested_.name); });
   }
 
   void demandSame(bool same, const std::string& relation) {
@@ -172,34 +165,34 @@ class Relations {
     demand(same, relation, 0);
   }
 
-  // What is named among `triangles` is named among those that stand for it, once the volume there is grown by what it
-  // may be away here.
-  void implies(const std::string& relation, const PairCase& pair, const Retold& retold, const SweptVolume& other_M) {
+  // Demands that a triangle named here is named there too, in a volume grown by the error bounds of both.
+  void implies(const std::string& relation, const PairCase& pair, const Restated& restated,
+               const SweptVolume& other_M) {
     ++tally_.cases;
     const TriangleMesh mesh = pair.triangles.mesh();
-    const TriangleMesh other_mesh = retold.other.mesh();
+    const TriangleMesh other_mesh = restated.other.mesh();
     const Detection here = detect(mesh, pair.swept_M);
     const double rounding =
-        0x1p-49 * (largestCoordinate(pair.triangles) + largestCoordinate(retold.other) +
+        0x1p-49 * (largestCoordinate(pair.triangles) + largestCoordinate(restated.other) +
                    pair.swept_M.box.X_MB.translation().norm() + other_M.box.X_MB.translation().norm());
-    const double kept = pair.triangles.streamed == retold.other.streamed && !pair.triangles.streamed
+    const double kept = pair.triangles.streamed == restated.other.streamed && !pair.triangles.streamed
                             ? mesh.rounding() + other_mesh.rounding()
-                            : floatRounding(pair.triangles) + floatRounding(retold.other);
+                            : floatRounding(pair.triangles) + floatRounding(restated.other);
     const Detection there = detect(other_mesh, other_M.grown(here.inflation + rounding + kept));
     for (const std::uint32_t triangle : here.triangles) {
-      const auto& stand_for = retold.stand_for[triangle];
+      const auto& stand_for = restated.stand_for[triangle];
       demand(std::any_of(stand_for.begin(), stand_for.end(), [&](auto i) { return contains(there.triangles, i); }),
              relation, triangle);
     }
   }
 
   Detection detect(const TriangleMesh& mesh, const SweptVolume& volume) const {
-    return suspect_.detector->detect(mesh, volume);
+    return tested_.detector->detect(mesh, volume);
   }
 
-  SweepResult sweep(const SweepCase& sweep) const { return findingsOf(*suspect_.detector, sweep); }
+  SweepResult sweep(const SweepCase& sweep) const { return checkCase(*tested_.detector, sweep); }
 
-  // What the first poses of a path meet, all of it meets: a longer horizon contains a shorter one.
+  // A path meets everything that its first poses meet.
   void keepsTheBeginning(const SweepCase& sweep, int count) {
     ++tally_.cases;
     constexpr int kPoses = 8;
@@ -207,7 +200,7 @@ class Relations {
     for (int i = 0; i < kPoses; ++i) path.push_back(sweep.motion.at(static_cast<double>(i) / (kPoses - 1)));
     const TriangleMesh mesh = sweep.triangles.mesh();
     const auto metBy = [&](const std::vector<Eigen::Isometry3d>& poses) {
-      return checkPath(*suspect_.detector, toolOf(sweep.tool), poses, mesh, sweep.options).all.not_ruled_out;
+      return checkPath(*tested_.detector, {toolOf(sweep.tool), poses, mesh, sweep.options}).all.not_ruled_out;
     };
     const std::vector<std::uint32_t> all = metBy(path);
     for (const std::uint32_t triangle : metBy({path.begin(), path.begin() + count})) {
@@ -215,7 +208,7 @@ class Relations {
     }
   }
 
-  // The contacts at fractions from `from` to `to` are named.
+  // Demands that contacts at fractions from `from` to `to` are named.
   void keepsContacts(const std::string& relation, const SweepCase& sweep, double from = 0.0, double to = 1.0) {
     ++tally_.cases;
     const std::vector<std::uint32_t> triangles = this->sweep(sweep).not_ruled_out;
@@ -231,7 +224,7 @@ class Relations {
   }
 
   const Context& context_;
-  Suspect& suspect_;
+  TestedDetector& tested_;
   std::function<std::string(const std::string&)> text_;
   Tally& tally_;
 };
@@ -246,18 +239,17 @@ void checkOne(Relations& relations, const PairCase& pair) {
   relations.implies("every triangle twice, the second", pair, twice(pair.triangles, 1), volume);
   relations.implies("each triangle cut in four", pair, cutInFour(pair.triangles), volume);
   relations.implies("more triangles", pair, withMore(pair.triangles, random), volume);
-  const Retold same = eachTurned(pair.triangles, {0, 1, 2});
+  const Restated same = eachTurned(pair.triangles, {0, 1, 2});
   relations.implies("larger volume", pair, same,
                     volume.grown(volume.box.half_extents.norm() * random.logUniform(1e-12, 1.0)));
 
-  // The four parts belong to the whole.
-  Retold parts = cutInFour(pair.triangles);
-  Retold whole{pair.triangles, {}};
-  for (std::uint32_t i = 0; i < parts.other.count(); ++i) whole.stand_for.push_back({i / 4});
-  relations.implies("whole of a cut triangle", {parts.other, volume}, whole, volume);
+  Restated quarters = cutInFour(pair.triangles);
+  Restated whole{pair.triangles, {}};
+  for (std::uint32_t i = 0; i < quarters.other.count(); ++i) whole.stand_for.push_back({i / 4});
+  relations.implies("whole of a cut triangle", {quarters.other, volume}, whole, volume);
 
   const Eigen::Isometry3d move = randomMove(random, pair.triangles);
-  Retold elsewhere = same;
+  Restated elsewhere = same;
   elsewhere.other = moved(move, pair.triangles);
   SweptVolume volume_elsewhere = volume;
   volume_elsewhere.box.X_MB = move * volume.box.X_MB;
@@ -271,8 +263,8 @@ void checkOne(Relations& relations, const PairCase& pair) {
                        "scaled by a power of two");
 }
 
-// Then a rounding decides which way the tool turns.
-bool aboutHalfATurn(const Motion& motion) { return motion.angle() > kPi - 1e-7; }
+// At half a turn, rounding decides which way the tool turns.
+bool isHalfATurn(const Motion& motion) { return motion.angle() > kPi - 1e-7; }
 
 SweepCase reversed(SweepCase sweep) {
   std::swap(sweep.motion.X_MT_start, sweep.motion.X_MT_end);
@@ -311,7 +303,7 @@ void checkOne(Relations& relations, const SweepCase& sweep) {
 
   relations.keepsTheBeginning(sweep, 1 + random.below(8));
 
-  if (!sweep.frame_W && !aboutHalfATurn(sweep.motion)) {
+  if (!sweep.frame_W && !isHalfATurn(sweep.motion)) {
     const Eigen::Isometry3d move = randomMove(random, sweep.triangles);
     SweepCase elsewhere = sweep;
     elsewhere.triangles = moved(move, sweep.triangles);
@@ -338,18 +330,18 @@ void checkOne(Relations& relations, const SweepCase& sweep) {
 }  // namespace
 
 void checkRelations(const Context& context, const PairCase& pair) {
-  for (Suspect& suspect : context.suspects) {
-    Relations relations(context, suspect, [&](const std::string& about) { return textOf(pair, about); });
+  for (TestedDetector& tested : context.detectors) {
+    Relations relations(context, tested, [&](const std::string& about) { return textOf(pair, about); });
     checkOne(relations, pair);
   }
 }
 
 void checkRelations(const Context& context, const SweepCase& sweep) {
-  for (Suspect& suspect : context.suspects) {
+  for (TestedDetector& tested : context.detectors) {
     for (const VolumeKind kind : volumeKinds()) {
       SweepCase seen = sweep;
       seen.options.volume = kind;
-      Relations relations(context, suspect, [&](const std::string& about) { return textOf(seen, about); });
+      Relations relations(context, tested, [&](const std::string& about) { return textOf(seen, about); });
       checkOne(relations, seen);
     }
   }

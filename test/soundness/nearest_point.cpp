@@ -2,7 +2,7 @@
 
 namespace sweep_guard_core::soundness {
 
-// Ericson, Real-Time Collision Detection, 5.1.5: by the region of the plane in which the point lies.
+// Ericson, Real-Time Collision Detection, 5.1.5.
 Vector3r nearestOfTriangle(const std::array<Vector3r, 3>& corners, const Vector3r& p) {
   const auto& [a, b, c] = corners;
   const Vector3r ab = b - a;

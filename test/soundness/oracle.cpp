@@ -11,12 +11,12 @@
 namespace sweep_guard_core::soundness {
 namespace {
 
-using Distances = std::array<Real, 3>;  // of the corners from one plane; positive: outside
-using Weights = std::array<Real, 3>;    // of the corners in a point of the triangle
+using Distances = std::array<Real, 3>;  // of the corners from one plane [m]; positive: outside
+using Weights = std::array<Real, 3>;    // barycentric weights of a point of the triangle
 
 struct Problem {
   std::vector<Distances> planes;
-  Real error;  // bound on that of any distance
+  Real error;  // error bound of all distances
 };
 
 Real at(const Distances& plane, const Weights& w) { return w[0] * plane[0] + w[1] * plane[1] + w[2] * plane[2]; }
@@ -46,12 +46,12 @@ Problem problemOf(const TriangleMesh& mesh_M, std::uint32_t triangle, const Swep
   for (const HalfSpace& half_space : swept_M.halfSpaces_B()) {
     add(half_space.normal().cast<Real>(), half_space.offset());
   }
-  // A dozen sums and products, each good to 2^-64 of the largest number in it: 2^-58 is four times what they can do.
+  // Twelve sums and products, each with an error of 2^-64 of its largest number: 2^-58 is four times their sum.
   problem.error = 0x1p-58L * (largest + deepest);
   return problem;
 }
 
-// A point of the triangle well inside of every plane, found by clipping and then checked.
+// Finds a point by clipping and checks that it lies well inside every plane.
 bool surelyMeets(const Problem& problem) {
   std::vector<Weights> polygon = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   std::vector<Weights> inside;
@@ -83,11 +83,11 @@ bool surelyMeets(const Problem& problem) {
 
 bool allBeyond(const Distances& plane, Real error) { return plane[0] > error && plane[1] > error && plane[2] > error; }
 
-// Some mean of both planes that the whole triangle lies beyond: then no point of it is inside of both.
+// If the whole triangle lies beyond a mean of both planes, no point of it is inside both.
 bool beyondMean(const Distances& a, const Distances& b, Real error) {
   for (size_t i = 0; i < 3; ++i) {
     const size_t j = (i + 1) % 3;
-    // Where the distances of two corners from the mean are equal.
+    // The mean from which two corners have equal distances.
     const Real share = (b[j] - b[i]) / ((a[i] - b[i]) - (a[j] - b[j]));
     if (!(share >= 0 && share <= 1)) continue;
     Distances mean;

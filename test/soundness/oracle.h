@@ -7,12 +7,12 @@
 
 namespace sweep_guard_core::soundness {
 
-/// Whether a triangle meets a volume grown by `growth` [m]. Exact: long double answers where its rounding, bounded
-/// safely, cannot matter; the rest is decided by meetsExactly() in integers. Thousands of times faster than that.
+/// Returns exactly whether a triangle meets a volume grown by `growth` [m]. Long double decides where its error bound
+/// allows; meetsExactly() decides the rest in integers. Thousands of times faster than meetsExactly() alone.
 bool meets(const TriangleMesh& mesh_M, std::uint32_t triangle, const SweptVolume& swept_M, double growth = 0.0);
 
-/// The same question to CGAL: is there a point of the triangle inside of all planes? A linear program, solved by CGAL's
-/// exact solver over rationals. Shares nothing with meets() but the numbers.
+/// Decides the same with CGAL: a linear program over rationals for a point of the triangle inside all planes. Shares only
+/// the numbers with meets().
 bool meetsByLinearProgram(const TriangleMesh& mesh_M, std::uint32_t triangle, const SweptVolume& swept_M,
                           double growth = 0.0);
 

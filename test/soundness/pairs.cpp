@@ -13,7 +13,7 @@ using Corners = std::array<Eigen::Vector3d, 3>;
 
 PairCase pairOf(const Scene& scene) {
   PairCase pair;
-  pair.swept_M = settled(scene.swept_M);
+  pair.swept_M = normalized(scene.swept_M);
   for (const Triangle& triangle : scene.mesh_M.triangles()) {
     for (const std::uint32_t vertex : triangle) pair.triangles.corners_M.push_back(scene.mesh_M.vertex(vertex));
   }
@@ -42,7 +42,7 @@ Eigen::Vector3d anySigns(Random& random, const Eigen::Vector3d& half) {
   return corner;
 }
 
-// A point of the surface: on a clipping plane, a face, an edge or a corner of the box; and the way out there.
+// A point of the surface (on a clip, a face, an edge or a corner of the box) and an outward direction.
 struct Spot {
   Eigen::Vector3d p_B;
   Eigen::Vector3d outward;
@@ -85,11 +85,11 @@ Corners touching(Random& random, const SweptVolume& volume, double size, double 
     return Eigen::Vector3d(side * (along + lean * spot.outward).normalized());
   };
   switch (random.below(7)) {
-    case 0: {  // touches with its inside, or the box is all inside of it
+    case 0: {  // touches with its interior, or encloses the box
       const Eigen::Vector3d a = edge();
       return {p - a, p + a, p + side * random.direction()};
     }
-    case 1: {  // around the spot, in a plane
+    case 1: {  // around the spot, in its plane
       const Eigen::Vector3d a = side * spot.outward.cross(random.direction()).normalized();
       const Eigen::Vector3d b = spot.outward.cross(a);
       return {p + a, p - 0.5 * a + b, p - 0.5 * a - b};
@@ -127,7 +127,7 @@ PairCase adversarialPairs(std::uint64_t seed) {
   const VolumeKind kind = kinds[static_cast<size_t>(random.below(static_cast<int>(kinds.size())))];
 
   PairCase pair;
-  pair.swept_M = settled(sweptVolume(toolOf(tool).whole(), motion, kind, random.chance(0.5) ? 0.0 : 1e-3 * scale));
+  pair.swept_M = normalized(sweptVolume(toolOf(tool).whole(), motion, kind, random.chance(0.5) ? 0.0 : 1e-3 * scale));
   const double size = pair.swept_M.box.half_extents.norm();
   const double largest = pair.swept_M.box.X_MB.translation().cwiseAbs().maxCoeff() + size;
   for (int count = 1 + random.below(30); count > 0; --count) {

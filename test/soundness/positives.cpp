@@ -11,12 +11,12 @@ namespace {
 constexpr double kPi = 3.141592653589793;
 constexpr double kMaxDistance = 9.9e6;  // leaves room for a tool
 
-// A point of the tool at a fraction of the motion, so deep inside.
+// A point of the tool at a fraction of the motion.
 struct ToolPoint {
   Real fraction;
-  Real pace;  // fraction of the way that the mesh has gone by then
+  Real mesh_fraction;  // of the mesh's path at that time
   Vector3r p_T;
-  Eigen::Vector3d outward_M;  // a direction in which the sweep ends there, or any
+  Eigen::Vector3d outward_M;  // in which the sweep ends at the point, or random
 };
 
 Motion randomPath(Random& random, const Eigen::Vector3d& place, double size) {
@@ -37,55 +37,55 @@ Vector3r randomPointOf(Random& random, const Body& body, Real inset) {
   return p + static_cast<Real>(random.uniform(0.0, 1.0)) * (q - p);
 }
 
-// The point of the body that gets farthest in a direction, at the dyadic fraction at which it does.
-ToolPoint farthestOfSweep(Random& random, const Body& body, const ExactMotion& motion, const Eigen::Vector3d& way,
-                          Real inset) {
-  // Every other time from the tool's origin through a point of the tool on its way: there an arc is widest.
-  const auto on_the_way = static_cast<Real>(random.uniform(0.0, 1.0));
+// The point of the body that moves farthest in a direction, at a dyadic fraction.
+ToolPoint farthestOfSweep(Random& random, const Body& body, const ExactMotion& motion,
+                          const Eigen::Vector3d& translation, Real inset) {
+  // In half of the cases the direction is radial, where an arc is widest.
+  const auto during = static_cast<Real>(random.uniform(0.0, 1.0));
   const Vector3r p_T = support(body, random.direction().cast<Real>(), inset);
-  const Vector3r radial = motion.at(on_the_way, p_T) - motion.at(on_the_way, Vector3r::Zero());
+  const Vector3r radial = motion.at(during, p_T) - motion.at(during, Vector3r::Zero());
   const Eigen::Vector3d outward = radial.norm() > 0 && random.chance(0.5)
                                       ? Eigen::Vector3d(radial.normalized().cast<double>())
                                       : random.direction();
   const Vector3r direction = outward.cast<Real>();
   const auto pointAt = [&](Real fraction) { return support(body, motion.directionInTool(fraction, direction), inset); };
-  const auto reachAt = [&](Real fraction) { return direction.dot(motion.at(fraction, pointAt(fraction))); };
+  const auto extentAt = [&](Real fraction) { return direction.dot(motion.at(fraction, pointAt(fraction))); };
   Real best = 0;
-  Real reach = reachAt(0);
+  Real farthest = extentAt(0);
   Real step = 1.0L / 16;
   for (int i = 1; i <= 16; ++i) {
-    if (const Real here = reachAt(i * step); here > reach) {
-      reach = here;
+    if (const Real here = extentAt(i * step); here > farthest) {
+      farthest = here;
       best = i * step;
     }
   }
   for (; step > 1e-5L; step /= 2) {
     for (const Real fraction : {best - step / 2, best + step / 2}) {
       if (fraction < 0 || fraction > 1) continue;
-      if (const Real here = reachAt(fraction); here > reach) {
-        reach = here;
+      if (const Real here = extentAt(fraction); here > farthest) {
+        farthest = here;
         best = fraction;
       }
     }
   }
-  return {best, outward.dot(way) > 0.0 ? Real{0} : Real{1}, pointAt(best), outward};
+  return {best, outward.dot(translation) > 0.0 ? Real{0} : Real{1}, pointAt(best), outward};
 }
 
-ToolPoint randomToolPoint(Random& random, const Body& body, const ExactMotion& motion, const Eigen::Vector3d& way,
-                          size_t parts, Real inset) {
-  if (random.chance(0.4)) return farthestOfSweep(random, body, motion, way, inset);
+ToolPoint randomToolPoint(Random& random, const Body& body, const ExactMotion& motion,
+                          const Eigen::Vector3d& translation, size_t sub_motions, Real inset) {
+  if (random.chance(0.4)) return farthestOfSweep(random, body, motion, translation, inset);
   Real fraction = static_cast<Real>(random.below(1 + (1 << 12))) / (1 << 12);
   if (random.chance(0.2)) fraction = random.below(2);
   if (random.chance(0.2)) {
-    fraction = static_cast<Real>(random.below(static_cast<int>(parts) + 1)) / static_cast<Real>(parts);
+    fraction = static_cast<Real>(random.below(static_cast<int>(sub_motions) + 1)) / static_cast<Real>(sub_motions);
   }
-  const Real pace = random.chance(0.5) ? fraction : static_cast<Real>(random.below(17)) / 16;
-  return {fraction, pace, randomPointOf(random, body, inset), random.direction()};
+  const Real mesh_fraction = random.chance(0.5) ? fraction : static_cast<Real>(random.below(17)) / 16;
+  return {fraction, mesh_fraction, randomPointOf(random, body, inset), random.direction()};
 }
 
-// A triangle about a point of it.
+// A triangle around one of its points.
 struct Shape {
-  std::array<Real, 3> weights;  // of the corners in the point
+  std::array<Real, 3> weights;  // barycentric weights of the point
   Eigen::Vector3d first_edge;   // from corner 0
   Eigen::Vector3d second_edge;
 };
@@ -137,29 +137,31 @@ Shape randomShape(Random& random, const Eigen::Vector3d& outward, double size) {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-// The triangle at the end, and where it came from.
-struct Placed {
+// A triangle at both ends of the motion.
+struct MovedTriangle {
   Corners now;
   Corners before;
 };
 
-Placed cornersAbout(const Shape& shape, const Vector3r& p, const std::array<Eigen::Vector3d, 3>& ways, Real pace) {
+MovedTriangle cornersAbout(const Shape& shape, const Vector3r& p, const std::array<Eigen::Vector3d, 3>& translations,
+                           Real mesh_fraction) {
   const Vector3r first =
       p - shape.weights[1] * shape.first_edge.cast<Real>() - shape.weights[2] * shape.second_edge.cast<Real>();
   const std::array<Vector3r, 3> corners = {first, first + shape.first_edge.cast<Real>(),
                                            first + shape.second_edge.cast<Real>()};
-  Placed placed;
+  MovedTriangle moved;
   for (size_t i = 0; i < 3; ++i) {
-    placed.now[i] = (corners[i] + (1 - pace) * ways[i].cast<Real>()).cast<double>();
-    placed.before[i] = (corners[i] - pace * ways[i].cast<Real>()).cast<double>();
+    moved.now[i] = (corners[i] + (1 - mesh_fraction) * translations[i].cast<Real>()).cast<double>();
+    moved.before[i] = (corners[i] - mesh_fraction * translations[i].cast<Real>()).cast<double>();
   }
-  return placed;
+  return moved;
 }
 
-Vector3r pointOf(const Shape& shape, const Placed& placed, Real pace) {
+Vector3r pointOf(const Shape& shape, const MovedTriangle& moved, Real mesh_fraction) {
   Vector3r p = Vector3r::Zero();
   for (size_t i = 0; i < 3; ++i) {
-    p += shape.weights[i] * ((1 - pace) * placed.before[i].cast<Real>() + pace * placed.now[i].cast<Real>());
+    p += shape.weights[i] *
+         ((1 - mesh_fraction) * moved.before[i].cast<Real>() + mesh_fraction * moved.now[i].cast<Real>());
   }
   return p;
 }
@@ -169,7 +171,7 @@ double largestCoordinate(const Motion& motion) {
                   motion.X_MT_end.translation().cwiseAbs().maxCoeff());
 }
 
-// How far inside the points are: 2 to 64 roundings of the numbers at hand, or deep.
+// Depth of the points: 2 to 64 roundings of the largest number, or more.
 double randomInset(Random& random, double size, double largest) {
   const double rounding = 0x1p-52 * (largest + size);
   constexpr std::array<double, 4> kRoundings = {2.0, 4.0, 8.0, 64.0};
@@ -177,7 +179,7 @@ double randomInset(Random& random, double size, double largest) {
   return kRoundings[static_cast<size_t>(random.below(4))] * rounding;
 }
 
-// GCC 12 at -O3 leaves out this conversion of the last of several numbers in a row, unless they have to be stored.
+// GCC 12 at -O3 omits this conversion for the last of several numbers in a row unless they must be stored.
 double inFloat(double x) {
   const volatile auto kept = static_cast<float>(x);
   return kept;
@@ -185,32 +187,32 @@ double inFloat(double x) {
 
 class Builder {
  public:
-  Builder(Random& random, SweepCase& sweep, const Eigen::Vector3d& way)
-      : random_(random), sweep_(sweep), size_(extentOf(sweep.tool)), way_(way) {}
+  Builder(Random& random, SweepCase& sweep, const Eigen::Vector3d& translation)
+      : random_(random), sweep_(sweep), size_(extentOf(sweep.tool)), translation_(translation) {}
 
-  // Moves the tool to a triangle whose corners are the same numbers in float32.
-  void addOneInFloat(double triangle_size) {
+  // Adds a triangle whose corners are float32 numbers, and moves the tool to it.
+  void addTriangleInFloat(double triangle_size) {
     sweep_.triangles.streamed = true;
     choosePoint(largestCoordinate(sweep_.motion) + triangle_size);
     const Shape shape = randomShape(random_, point_.outward_M, triangle_size);
-    Placed placed = cornersAbout(shape, position(), randomWays(), point_.pace);
+    MovedTriangle moved = cornersAbout(shape, position(), randomTranslations(), point_.mesh_fraction);
     for (size_t i = 0; i < 3; ++i) {
-      placed.now[i] = placed.now[i].unaryExpr(&inFloat);
-      placed.before[i] = placed.before[i].unaryExpr(&inFloat);
+      moved.now[i] = moved.now[i].unaryExpr(&inFloat);
+      moved.before[i] = moved.before[i].unaryExpr(&inFloat);
     }
-    const Eigen::Vector3d shift = (pointOf(shape, placed, point_.pace) - position()).cast<double>();
+    const Eigen::Vector3d shift = (pointOf(shape, moved, point_.mesh_fraction) - position()).cast<double>();
     sweep_.motion.X_MT_start.translation() += shift;
     sweep_.motion.X_MT_end.translation() += shift;
-    addIfMet(shape, placed);
+    addIfMet(shape, moved);
   }
 
-  void addThroughTheTool(int count, double triangle_size) {
+  void addTriangles(int count, double triangle_size) {
     const double largest = largestCoordinate(sweep_.motion) + (sweep_.frame_W ? largestCoordinate(*sweep_.frame_W) : 0);
     choosePoint(largest + triangle_size);
     while (count-- > 0) {
-      point_ = randomToolPoint(random_, body(), motion(), way_, parts_, inset_);
+      point_ = randomToolPoint(random_, body(), motion(), translation_, sub_motions_, inset_);
       const Shape shape = randomShape(random_, point_.outward_M, triangle_size);
-      addIfMet(shape, cornersAbout(shape, position(), randomWays(), point_.pace));
+      addIfMet(shape, cornersAbout(shape, position(), randomTranslations(), point_.mesh_fraction));
     }
   }
 
@@ -221,42 +223,43 @@ class Builder {
   }
   Vector3r position() const { return motion().at(point_.fraction, point_.p_T); }
 
-  // Of the corners: that of the mesh, and one in two times a little of their own.
-  std::array<Eigen::Vector3d, 3> randomWays() {
-    std::array<Eigen::Vector3d, 3> ways = {way_, way_, way_};
-    if (way_.isZero(0.0) || random_.chance(0.5)) return ways;
-    const double own = way_.norm() * random_.logUniform(1e-6, 1.0);
-    for (Eigen::Vector3d& way : ways) way += own * random_.direction();
-    return ways;
+  // Translations of the corners: that of the mesh, in half of the cases with a small difference.
+  std::array<Eigen::Vector3d, 3> randomTranslations() {
+    std::array<Eigen::Vector3d, 3> translations = {translation_, translation_, translation_};
+    if (translation_.isZero(0.0) || random_.chance(0.5)) return translations;
+    const double own = translation_.norm() * random_.logUniform(1e-6, 1.0);
+    for (Eigen::Vector3d& translation : translations) translation += own * random_.direction();
+    return translations;
   }
 
   void choosePoint(double largest) {
     body_ = static_cast<size_t>(random_.below(static_cast<int>(sweep_.tool.size())));
     depth_ = static_cast<Real>(randomInset(random_, size_, largest));
     inset_ = hasInset(body(), depth_) ? depth_ : Real{0};
-    // A body without an inside is grown instead: that, too, puts the point so deep into it.
+    // A body without interior is grown instead, which also makes the point that deep.
     if (inset_ == 0) sweep_.options.margin = static_cast<double>(depth_);
-    parts_ = sweep_.subMotions().size();
-    point_ = randomToolPoint(random_, body(), motion(), way_, parts_, inset_);
+    sub_motions_ = sweep_.subMotions().size();
+    point_ = randomToolPoint(random_, body(), motion(), translation_, sub_motions_, inset_);
   }
 
-  void addIfMet(const Shape& shape, const Placed& placed) {
-    if ((pointOf(shape, placed, point_.pace) - position()).norm() >= depth_) return;
+  void addIfMet(const Shape& shape, const MovedTriangle& moved) {
+    if ((pointOf(shape, moved, point_.mesh_fraction) - position()).norm() >= depth_) return;
     Triangles& triangles = sweep_.triangles;
     const auto triangle = static_cast<std::uint32_t>(triangles.count());
-    triangles.corners_M.insert(triangles.corners_M.end(), placed.now.begin(), placed.now.end());
-    if (!way_.isZero(0.0)) {
-      triangles.before_M.insert(triangles.before_M.end(), placed.before.begin(), placed.before.end());
+    triangles.corners_M.insert(triangles.corners_M.end(), moved.now.begin(), moved.now.end());
+    if (!translation_.isZero(0.0)) {
+      triangles.before_M.insert(triangles.before_M.end(), moved.before.begin(), moved.before.end());
     }
-    sweep_.contacts.push_back({triangle, static_cast<double>(point_.fraction), static_cast<double>(point_.pace)});
+    sweep_.contacts.push_back(
+        {triangle, static_cast<double>(point_.fraction), static_cast<double>(point_.mesh_fraction)});
   }
 
   Random& random_;
   SweepCase& sweep_;
   double size_;
-  Eigen::Vector3d way_;  // of the mesh
+  Eigen::Vector3d translation_;  // of the mesh [m]
   size_t body_ = 0;
-  size_t parts_ = 1;
+  size_t sub_motions_ = 1;
   Real depth_ = 0;
   Real inset_ = 0;
   ToolPoint point_;
@@ -302,19 +305,19 @@ SweepCase constructedPositives(std::uint64_t seed) {
     const double distance = largestCoordinate(sweep.motion);
     const double triangle_size = std::min(size * random.logUniform(1e-6, 1e6), 0.3 * (kMaxDistance - distance));
     const bool moves = random.chance(0.3);
-    const Eigen::Vector3d way = size * random.logUniform(1e-6, 3.0) * random.direction();
-    Builder builder(random, sweep, moves ? way : Eigen::Vector3d::Zero());
+    const Eigen::Vector3d translation = size * random.logUniform(1e-6, 3.0) * random.direction();
+    Builder builder(random, sweep, moves ? translation : Eigen::Vector3d::Zero());
     if (random.chance(0.5)) {
-      builder.addOneInFloat(triangle_size);
+      builder.addTriangleInFloat(triangle_size);
     } else {
       if (random.chance(0.2)) {
-        // Both may be far from the origin of W, wherever they are from each other.
+        // Both may be far from the origin of W.
         const Eigen::Vector3d place = (random.chance(0.5) ? 0.0 : random.logUniform(1.0, 1e6)) * random.direction();
         sweep.frame_W = randomPath(random, place, size);
         sweep.motion.X_MT_start.pretranslate(place);
         sweep.motion.X_MT_end.pretranslate(place);
       }
-      builder.addThroughTheTool(1 + random.below(8), triangle_size);
+      builder.addTriangles(1 + random.below(8), triangle_size);
     }
   } while (sweep.triangles.count() == 0);
   return sweep;

@@ -5,22 +5,22 @@
 
 namespace sweep_guard_core::soundness {
 
-/// A moving tool and triangles through exactly known points of it: at a known fraction of the motion a point of the
-/// tool, `k` roundings inside of its surface, lies on the triangle to within those. So each triangle is met, and
-/// nothing of the product was asked to know it.
+/// Returns a moving tool and triangles through exactly known points of it: at a known fraction of the motion, a point of
+/// the tool lies on the triangle. The point is some roundings deep in the tool, and its distance from the triangle is less
+/// than that. So each triangle is met, and the product was not used to find out.
 ///
-/// Tools from 1e-6 to 1e3 m: cylinders, flat ones and needles, and up to five bodies of any kind; rotations 0, 1e-9
-/// rad, any, 90, 179.999 and 180 degrees; at rest, going, turning, meshes that move meanwhile, all this seen from a
-/// frame that turns; up to 1e7 m from the origin. Points on the hull of the whole sweep, on silhouettes, at the joints
-/// of split(), anywhere in the tool. Triangles of 1e-6 to 1e6 tool sizes touching with a corner, an edge or their
-/// inside: across, tangent, leaning away; slivers, needles, points. One in two cases has one triangle in float32, and
-/// the tool is moved to it: then only the last digits are in doubt.
+/// Tools: 1e-6 to 1e3 m; cylinders, also flat ones and needles, and up to five bodies of any kind. Motions: up to 1e7 m from
+/// the origin; at rest, translating, turning by 0, 1e-12 rad to 180 degrees; meshes that move; a frame that turns. Points:
+/// on the hull of the whole sweep, on silhouettes, at the joints of split(), anywhere in the tool. Triangles: 1e-6 to 1e6
+/// tool sizes; touching with a corner, an edge or their interior; across, tangent, leaning away; slivers, needles, points.
+/// In one of two cases the only triangle is in float32 and the tool is moved to it, so that only the last digits are
+/// uncertain.
 SweepCase constructedPositives(std::uint64_t seed);
 
-/// A rotation angle in [0, pi]: none, tiny, any, a right angle, almost or exactly half a turn.
+/// Returns a rotation angle in [0, pi]: zero, tiny, random, a right angle, almost or exactly half a turn.
 double randomAngle(Random& random);
 
-/// The motions and options alone, without a triangle.
+/// Returns tool, motion and options without triangles.
 SweepCase randomSweep(Random& random);
 
 }  // namespace sweep_guard_core::soundness

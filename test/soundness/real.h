@@ -4,7 +4,7 @@
 
 namespace sweep_guard_core::soundness {
 
-/// What the checks compute in: 64 bits of mantissa, eleven more than the product has.
+/// Number type of the checks: 64 bits of mantissa, eleven more than double.
 using Real = long double;
 using Vector3r = Eigen::Matrix<Real, 3, 1>;
 using Matrix3r = Eigen::Matrix<Real, 3, 3>;

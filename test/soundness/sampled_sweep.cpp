@@ -27,40 +27,41 @@ SampledSweep::SampledSweep(const SweepCase& sweep) : tool_(sweep.tool) {
     }
     poses_.push_back(pose);
   }
-  way_ = (poses_.back().p_M - poses_.front().p_M).norm();
+  length_ = (poses_.back().p_M - poses_.front().p_M).norm();
   angle_ = static_cast<Real>(sweep.motion.angle()) * (1 + 1e-9L);
-  slack_ = 1e-12L * static_cast<Real>(extentOf(tool_));
+  tolerance_ = 1e-12L * static_cast<Real>(extentOf(tool_));
 }
 
-std::optional<Real> SampledSweep::apart(const std::array<Eigen::Vector3d, 3>& corners_M) const {
+std::optional<Real> SampledSweep::distance(const std::array<Eigen::Vector3d, 3>& corners_M) const {
   const Corners corners = {corners_M[0].cast<Real>(), corners_M[1].cast<Real>(), corners_M[2].cast<Real>()};
   const Vector3r center = (corners[0] + corners[1] + corners[2]) / 3;
   Real radius = 0;
   for (const Vector3r& p : corners) radius = std::max(radius, (p - center).norm());
   const Real lever = std::max((center - poses_.front().p_M).norm(), (center - poses_.back().p_M).norm()) + radius;
-  const Real way_in_a_step = (way_ + angle_ * lever) / kSteps;  // of any of its points, in the tool frame
+  const Real step_length =
+      (length_ + angle_ * lever) / kSteps;  // bound for any point of the triangle, in the tool frame
 
   Real least = std::numeric_limits<Real>::infinity();
   for (const Body& body : tool_) {
     for (size_t i = 0; i < poses_.size();) {
       const Pose& pose = poses_[i];
       Real distance = -depth(body, pose.R_TM * (center - pose.p_M)) - radius;
-      if (distance <= 4 * way_in_a_step) {
-        const std::optional<Real> closer = apartAt(pose, body, corners);
+      if (distance <= 4 * step_length) {
+        const std::optional<Real> closer = distanceAt(pose, body, corners);
         if (!closer) return std::nullopt;
         distance = *closer;
       }
-      // Goes on by so many steps that half of the distance is left.
-      const Real steps = way_in_a_step > 0 ? std::min<Real>(distance / (2 * way_in_a_step), kSteps + 1) : kSteps + 1;
+      // Advances by half of the distance.
+      const Real steps = step_length > 0 ? std::min<Real>(distance / (2 * step_length), kSteps + 1) : kSteps + 1;
       const auto whole = std::max<size_t>(1, static_cast<size_t>(std::max<Real>(steps, 0)));
-      least = std::min(least, distance - static_cast<Real>(whole) * way_in_a_step);
+      least = std::min(least, distance - static_cast<Real>(whole) * step_length);
       i += whole;
     }
   }
-  return least - slack_;
+  return least - tolerance_;
 }
 
-bool SampledSweep::endsWithin(const Triangles& triangles) const {
+bool SampledSweep::endsInside(const Triangles& triangles) const {
   const Pose& end = poses_.back();
   return std::any_of(tool_.begin(), tool_.end(), [&](const Body& body) {
     const Vector3r p = end.p_M + end.R_TM.transpose() * support(body, Vector3r::UnitZ());
@@ -75,28 +76,28 @@ bool SampledSweep::endsWithin(const Triangles& triangles) const {
   });
 }
 
-std::optional<Real> SampledSweep::apartAt(const Pose& pose, const Body& body, const Corners& corners_M) const {
+std::optional<Real> SampledSweep::distanceAt(const Pose& pose, const Body& body, const Corners& corners_M) const {
   Corners corners_T;
   Vector3r p = Vector3r::Zero();
   for (size_t i = 0; i < 3; ++i) {
     corners_T[i] = pose.R_TM * (corners_M[i] - pose.p_M);
-    if (depth(body, corners_T[i]) > slack_) return std::nullopt;
+    if (depth(body, corners_T[i]) > tolerance_) return std::nullopt;
     p += corners_T[i] / 3;
   }
-  Real apart = 0;
+  Real width = 0;
   constexpr int kTimes = 8;
   for (int i = 0; i < kTimes; ++i) {
-    if (depth(body, p) > slack_) return std::nullopt;
+    if (depth(body, p) > tolerance_) return std::nullopt;
     const Vector3r of_body = nearest(body, p);
     p = nearestOfTriangle(corners_T, of_body);
-    // All of the body on one side of a slab, all of the triangle on the other: so far they are apart.
+    // The width of a slab between them.
     const Vector3r across = (p - of_body).normalized();
     const Real triangle = std::min({across.dot(corners_T[0]), across.dot(corners_T[1]), across.dot(corners_T[2])});
-    apart = std::max(apart, triangle - across.dot(support(body, across)));
-    if (apart > 0.5L * (p - of_body).norm()) return apart;
+    width = std::max(width, triangle - across.dot(support(body, across)));
+    if (width > 0.5L * (p - of_body).norm()) return width;
   }
-  if (depth(body, p) > slack_) return std::nullopt;
-  return apart;
+  if (depth(body, p) > tolerance_) return std::nullopt;
+  return width;
 }
 
 SweepCase randomWholeSweep(std::uint64_t seed) {
@@ -112,7 +113,7 @@ SweepCase randomWholeSweep(std::uint64_t seed) {
   const auto flatHull = [](const Body& body) { return body.kind == Body::Kind::kHull && body.facets.empty(); };
   do {
     sweep.tool = randomBodies(random, random.logUniform(0.01, 0.2));
-  } while (std::any_of(sweep.tool.begin(), sweep.tool.end(), flatHull));  // depth() knows nothing of these
+  } while (std::any_of(sweep.tool.begin(), sweep.tool.end(), flatHull));  // depth() does not know them
   constexpr double kRadius = 0.1;
   sweep.motion.X_MT_start = random.pose(kRadius * random.uniform(0.5, 1.6) * random.direction());
   sweep.motion.X_MT_end = sweep.motion.X_MT_start;

@@ -16,13 +16,13 @@ options::options_description description() {
       "Searches for triangles that a moving tool meets and a detector does not name.\n"
       "Exit status: 0 nothing found, 1 a failure, 2 wrong usage. Options");
   auto add = all.add_options();
-  add("help", "say this");
-  add("cases", options::value<double>()->default_value(1000), "of each family, for each detector");
+  add("help", "print this text");
+  add("cases", options::value<double>()->default_value(1000), "number of cases of each family, for each detector");
   add("seed", options::value<std::uint64_t>()->default_value(1), "the same seed gives the same cases");
-  add("family", options::value<std::vector<std::string>>()->multitoken(), "one or several; all if not given");
-  add("detector", options::value<std::vector<std::string>>()->multitoken(), "one or several; all if not given");
+  add("family", options::value<std::vector<std::string>>()->multitoken(), "one or more; default: all");
+  add("detector", options::value<std::vector<std::string>>()->multitoken(), "one or more; default: all");
   add("part", options::value<std::string>()->default_value("0/1"), "I/N: every N-th seed, from I on");
-  add("replay", options::value<std::string>(), "FILE or -: check the cases written there again");
+  add("replay", options::value<std::string>(), "FILE, or - for standard input: check its cases again");
   return all;
 }
 
@@ -53,19 +53,19 @@ void refuseUnknownFamilies(const options::variables_map& given) {
     if (std::none_of(all.begin(), all.end(), [&](const Family& family) { return family.name == name; })) {
       std::string known;
       for (const Family& family : all) known += "\n  " + family.name + ": " + family.meaning;
-      throw InvalidInput("--family: '" + name + "' is unknown; there are" + known);
+      throw InvalidInput("--family: '" + name + "' is unknown; known are" + known);
     }
   }
 }
 
-void replayFrom(const std::string& name, std::vector<Suspect>& suspects, Report& report) {
+void replayFrom(const std::string& name, std::vector<TestedDetector>& detectors, Report& report) {
   std::ifstream file;
   if (name != "-") {
     file.open(name);
     if (!file) throw InvalidInput("--replay: cannot read " + name);
   }
   std::istream& stream = name == "-" ? std::cin : file;
-  while (const std::optional<AnyCase> any = readCase(stream)) replay(*any, suspects, report);
+  while (const std::optional<AnyCase> any = readCase(stream)) replay(*any, detectors, report);
 }
 
 int search(int argc, char** argv) {
@@ -79,19 +79,19 @@ int search(int argc, char** argv) {
   }
   refuseUnknownFamilies(given);
   const Extent extent = extentOf(given);
-  std::vector<Suspect> suspects = allSuspects();
-  suspects.erase(std::remove_if(suspects.begin(), suspects.end(),
-                                [&](const Suspect& suspect) { return !wanted(given, "detector", suspect.name); }),
-                 suspects.end());
-  if (suspects.empty()) throw InvalidInput("--detector: none of these is known");
+  std::vector<TestedDetector> detectors = allDetectors();
+  detectors.erase(std::remove_if(detectors.begin(), detectors.end(),
+                                 [&](const TestedDetector& tested) { return !wanted(given, "detector", tested.name); }),
+                  detectors.end());
+  if (detectors.empty()) throw InvalidInput("--detector: unknown");
 
   Report report(std::cout);
   if (given.count("replay") != 0) {
-    replayFrom(given["replay"].as<std::string>(), suspects, report);
+    replayFrom(given["replay"].as<std::string>(), detectors, report);
   } else {
     std::cout << "seed " << extent.seed << std::endl;
     for (const Family& family : families()) {
-      if (wanted(given, "family", family.name)) run(family, extent, suspects, report);
+      if (wanted(given, "family", family.name)) run(family, extent, detectors, report);
     }
   }
   report.summarize();

@@ -30,12 +30,12 @@ void compareOracles(PairCase (*make)(std::uint64_t)) {
   }
 }
 
-TEST(OracleTest, ThreeWaysOfDecidingAgreeOnRandomPairs) { compareOracles(randomPairs); }
-TEST(OracleTest, ThreeWaysOfDecidingAgreeOnGrazingPairs) { compareOracles(grazingPairs); }
-TEST(OracleTest, ThreeWaysOfDecidingAgreeOnAdversarialPairs) { compareOracles(adversarialPairs); }
+TEST(OracleTest, ThreeMethodsAgreeOnRandomPairs) { compareOracles(randomPairs); }
+TEST(OracleTest, ThreeMethodsAgreeOnGrazingPairs) { compareOracles(grazingPairs); }
+TEST(OracleTest, ThreeMethodsAgreeOnAdversarialPairs) { compareOracles(adversarialPairs); }
 
-// Two derivations of the same motion; the product's is good to double.
-TEST(ExactMotionTest, IsTheMotionOfTheProduct) {
+// Two independent computations; the product's is accurate to double.
+TEST(ExactMotionTest, EqualsTheMotionOfTheProduct) {
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     Random random(seed);
     const SweepCase sweep = randomSweep(random);
@@ -49,7 +49,7 @@ TEST(ExactMotionTest, IsTheMotionOfTheProduct) {
   }
 }
 
-TEST(CaseTest, SurvivesBeingWrittenDown) {
+TEST(CaseTest, IsReadAsItWasWritten) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const std::string pair = textOf(adversarialPairs(seed), "adversarial seed 1");
     const std::string sweep = textOf(constructedPositives(seed), "positives seed 1");
@@ -73,32 +73,32 @@ TEST(CaseTest, IsRefusedIfItIsCutOffOrUnknown) {
   EXPECT_THROW(readCase(short_of_numbers), InvalidInput);
 }
 
-// Does not name the last triangle that is met.
-class Forgetful : public Detector {
-  void find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) override {
-    detection = honest_->detect(part, swept_M);
+// Misses the last triangle that is met.
+class MissingDetector : public Detector {
+  void find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) override {
+    detection = reference_->detect(submesh, swept_M);
     if (!detection.triangles.empty()) detection.triangles.pop_back();
   }
 
-  std::unique_ptr<Detector> honest_ = makeDetector("reference");
+  std::unique_ptr<Detector> reference_ = makeDetector("reference");
 };
 
-// Names everything.
-class Fearful : public Detector {
-  void find(const Submesh& part, const SweptVolume& /*swept_M*/, Detection& detection) override {
-    part.forEachTriangle([&](std::uint32_t triangle) { detection.triangles.push_back(triangle); });
+// Names every triangle.
+class ExcessiveDetector : public Detector {
+  void find(const Submesh& submesh, const SweptVolume& /*swept_M*/, Detection& detection) override {
+    submesh.forEachTriangle([&](std::uint32_t triangle) { detection.triangles.push_back(triangle); });
     std::sort(detection.triangles.begin(), detection.triangles.end());
   }
 };
 
-// Runs a family on one detector, and then once more what was written down.
+// Runs a family on one detector, then replays the case that it wrote.
 void expectCaught(const std::string& family_name, std::unique_ptr<Detector> detector, const std::string& what) {
-  std::vector<Suspect> suspects;
-  suspects.push_back({"suspect", std::move(detector)});
+  std::vector<TestedDetector> detectors;
+  detectors.push_back({"tested", std::move(detector)});
   std::stringstream out;
   Report report(out);
   for (const Family& family : families()) {
-    if (family.name == family_name) run(family, {/*cases=*/20}, suspects, report);
+    if (family.name == family_name) run(family, {/*cases=*/20}, detectors, report);
   }
   EXPECT_GT(report.failures(), 0U);
   EXPECT_TRUE(has(out.str(), "FAILED: " + what));
@@ -107,46 +107,46 @@ void expectCaught(const std::string& family_name, std::unique_ptr<Detector> dete
   Report second(again);
   const std::optional<AnyCase> first = readCase(out);
   ASSERT_TRUE(first);
-  replay(*first, suspects, second);
+  replay(*first, detectors, second);
   EXPECT_GT(second.failures(), 0U) << first->about;
 }
 
-TEST(SearchTest, CatchesADetectorThatForgetsATriangle) {
-  expectCaught("grazing", std::make_unique<Forgetful>(), "missed triangle");
-  expectCaught("positives", std::make_unique<Forgetful>(), "missed triangle");
-  expectCaught("metamorphic", std::make_unique<Forgetful>(), "relation");
+TEST(SearchTest, CatchesADetectorThatMissesATriangle) {
+  expectCaught("grazing", std::make_unique<MissingDetector>(), "missed triangle");
+  expectCaught("positives", std::make_unique<MissingDetector>(), "missed triangle");
+  expectCaught("metamorphic", std::make_unique<MissingDetector>(), "relation");
 }
 
-TEST(SearchTest, CatchesADetectorThatNamesWhatIsFarAway) {
-  expectCaught("random", std::make_unique<Fearful>(), "farther away than the inflation");
-  expectCaught("sweeps", std::make_unique<Fearful>(), "farther away than the margin");
+TEST(SearchTest, CatchesADetectorThatNamesFarTriangles) {
+  expectCaught("random", std::make_unique<ExcessiveDetector>(), "farther away than the inflation");
+  expectCaught("sweeps", std::make_unique<ExcessiveDetector>(), "farther away than the margin");
 }
 
-// Each of these files is a case that once failed.
-TEST(SearchTest, FindsNothingAnyMoreInWhatWasFound) {
+// Each file is a case that failed before.
+TEST(SearchTest, PassesTheCasesThatFailedBefore) {
   size_t cases = 0;
   for (const auto& entry : std::filesystem::directory_iterator(SWEEP_GUARD_SOURCE_DIR "/test/soundness/found")) {
     std::ifstream file(entry.path());
-    std::vector<Suspect> suspects = allSuspects();
+    std::vector<TestedDetector> detectors = allDetectors();
     std::ostringstream out;
     Report report(out);
-    for (; const std::optional<AnyCase> any = readCase(file); ++cases) replay(*any, suspects, report);
+    for (; const std::optional<AnyCase> any = readCase(file); ++cases) replay(*any, detectors, report);
     EXPECT_EQ(report.failures(), 0U) << entry.path() << '\n' << out.str();
   }
   EXPECT_GT(cases, 0U);
 }
 
-TEST(SearchTest, IsDividedWithoutALoss) {
-  std::vector<Suspect> suspects;
-  suspects.push_back({"reference", makeDetector("reference")});
+TEST(SearchTest, IsDividedWithoutLosingCases) {
+  std::vector<TestedDetector> detectors;
+  detectors.push_back({"reference", makeDetector("reference")});
   std::ostringstream out;
   Report whole(out);
   Report halves(out);
   const Family& family = families().front();
-  run(family, {/*cases=*/4000, /*seed=*/7}, suspects, whole);
+  run(family, {/*cases=*/4000, /*seed=*/7}, detectors, whole);
   for (const std::uint64_t part : {0U, 1U}) {
     Report half(out);
-    run(family, {/*cases=*/4000, /*seed=*/7, part, /*parts=*/2}, suspects, half);
+    run(family, {/*cases=*/4000, /*seed=*/7, part, /*parts=*/2}, detectors, half);
     halves.of("reference", family.name).cases += half.of("reference", family.name).cases;
   }
   EXPECT_GE(halves.of("reference", family.name).cases, 4000U);

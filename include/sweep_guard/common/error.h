@@ -4,7 +4,7 @@
 
 namespace sweep_guard_core {
 
-/// Root of everything the core throws. Its message says what is wrong and what to do.
+/// Root of all errors that the core throws. The message says what is wrong and what to do.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -14,7 +14,7 @@ struct InvalidInput : Error {
   using Error::Error;
 };
 
-/// The machine failed: no off-screen context, a canary that did not answer.
+/// The machine failed: no off-screen context, or a canary was not detected.
 struct DeviceError : Error {
   using Error::Error;
 };

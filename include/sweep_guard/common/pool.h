@@ -7,23 +7,24 @@
 
 namespace sweep_guard_core {
 
-/// Values that are handed out shared, and do not change while anybody holds them. What nobody else holds any more is
-/// used again, buffers and all. One thread takes and adds; any thread may hold and let go. No weak pointers.
+/// Reuses values, with their buffers, once no other owner is left. Values are handed out as shared pointers and must
+/// not change while others own them. One thread calls take() and add(); any thread may own and release values. Weak
+/// pointers are not supported.
 template <typename Value>
 class Pool {
  public:
-  /// One that nobody holds, as it was left; null if there is none that fits.
+  /// Returns a value without other owners that fits, in its last state; null if there is none.
   template <typename Fits>
   std::shared_ptr<Value> take(const Fits& fits) {
-    for (const std::shared_ptr<Value>& one : all_) {
-      if (one.use_count() != 1) continue;
-      std::atomic_thread_fence(std::memory_order_acquire);  // after what the last holder did with it
-      if (fits(*one)) return one;
+    for (const std::shared_ptr<Value>& value : all_) {
+      if (value.use_count() != 1) continue;
+      std::atomic_thread_fence(std::memory_order_acquire);  // pairs with the release by the last owner
+      if (fits(*value)) return value;
     }
     return nullptr;
   }
 
-  /// One that nobody holds, as it was left, or a new one.
+  /// Returns a value without other owners, in its last state, or a new value.
   std::shared_ptr<Value> take() {
     if (auto used = take([](const Value& /*any*/) { return true; })) return used;
     return add(Value{});
@@ -34,7 +35,7 @@ class Pool {
     return all_.back();
   }
 
-  size_t size() const { return all_.size(); }  ///< those held, too
+  size_t size() const { return all_.size(); }  ///< number of all values, with or without other owners
 
  private:
   std::vector<std::shared_ptr<Value>> all_;

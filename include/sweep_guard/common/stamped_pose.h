@@ -6,7 +6,7 @@
 
 namespace sweep_guard_core {
 
-/// Where the tool frame T was at a moment, in the fixed frame W.
+/// The pose of the tool frame T in the fixed frame W at one time.
 struct StampedPose {
   Time stamp;
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< rotation orthonormal, translation [m]

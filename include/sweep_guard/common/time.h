@@ -6,8 +6,8 @@ namespace sweep_guard_core {
 
 using Duration = std::chrono::nanoseconds;
 
-/// The clock that stamps poses and meshes (ROS time in the node). It may stop and jump; it is read by the shell and
-/// handed down as a value, so that the core never waits and a test needs no time.
+/// The clock that stamps poses and meshes (ROS time in the node). It may stop and jump. Only the shell reads it; the
+/// core gets its readings as values.
 struct StampClock {
   using duration = Duration;
   using rep = duration::rep;
@@ -15,14 +15,14 @@ struct StampClock {
   using time_point = std::chrono::time_point<StampClock, Duration>;
 };
 
-/// A stamp, in integer nanoseconds since the epoch of the stamps; 0 means "no stamp".
+/// A stamp in nanoseconds since the epoch of the clock; 0 means "no stamp".
 using Time = StampClock::time_point;
 
-/// A reading of a clock that never stops or jumps.
+/// A reading of the clock that never stops or jumps.
 using SteadyTime = std::chrono::time_point<std::chrono::steady_clock, Duration>;
 
-/// One moment on both clocks. An age is taken on both and the larger counts: a stamp cannot look fresh because its
-/// clock stopped, nor because the message came late.
+/// One moment on both clocks. Ages are computed on both and the larger one counts: neither a stopped clock nor a late
+/// message can make a stamp look fresh.
 struct Instant {
   Time stamp;
   SteadyTime steady;

@@ -10,56 +10,58 @@
 
 namespace sweep_guard_core {
 
-/// What a detector found.
+/// Indices of triangles: ascending, each once.
+using TriangleSet = std::vector<std::uint32_t>;
+
 struct Detection {
-  std::vector<std::uint32_t>
-      triangles;           ///< indices of the triangles met: ascending, each once; empty: the way is clear
-  double inflation = 0.0;  ///< what is named is nearer to the volume than this [m]: the price of rounding
+  TriangleSet triangles;   ///< triangles that the volume meets
+  double inflation = 0.0;  ///< each of them is nearer to the volume than this [m]; covers the rounding of the detector
 };
 
-/// Finds the triangles of a mesh that a swept volume meets. Made once, queried every cycle; holds buffers and devices,
-/// nothing about a deformation. One thread at a time; any thread.
+/// Finds the triangles of a mesh that a swept volume meets. Made once, queried every cycle. Keeps buffers and devices
+/// between queries, but nothing about a deformation. Any thread may use it, one at a time.
 class Detector {
  public:
   virtual ~Detector() = default;
 
-  /// Conservative: may name a triangle that is closer to the volume than `inflation`, never leaves out one that meets
-  /// it. Touching is meeting.
-  /// @param part  of a mesh, or all of one: no other triangles are looked at
+  /// Finds the triangles that the volume meets or touches. Conservative: may also name a triangle that is nearer to the
+  /// volume than `inflation`, and never leaves out one that the volume meets.
+  /// @param submesh  all of a mesh or some of it; other triangles are not tested
   /// @returns valid until the next call
-  /// @throws DeviceError if the answer cannot be trusted: nothing is known then
-  const Detection& detect(const Submesh& part, const SweptVolume& swept_M) {
+  /// @throws DeviceError if the answer cannot be trusted: then nothing is known
+  const Detection& detect(const Submesh& submesh, const SweptVolume& swept_M) {
     detection_.triangles.clear();
     detection_.inflation = 0.0;
-    find(part, swept_M, detection_);
+    find(submesh, swept_M, detection_);
     return detection_;
   }
 
- protected:
-  Detector() = default;
-  Detector(const Detector&) = default;
-  Detector& operator=(const Detector&) = default;
-
  private:
   // Fills an empty detection.
-  virtual void find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) = 0;
+  virtual void find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) = 0;
 
   Detection detection_;
 };
 
-/// What `select` is made with. No other detector looks at it, and the answer does not depend on it but for a smaller
-/// inflation with `cull`.
+/// Options of `select`; the other detectors ignore them. They do not change which triangles are met, but without `cull`
+/// the inflation is larger.
 struct DetectorOptions {
-  bool cull = true;                   ///< show OpenGL only the triangles in doubt after a test against single planes
+  bool cull = true;                   ///< draw only the triangles that tests against single planes leave in doubt
   std::string gl_context = "osmesa";  ///< one of offscreenContextNames()
+  int triangles_per_name = 64;        ///< triangles that share a name in the first selection pass, >= 1
 };
 
+/// Makes a detector.
 /// @param name  `select` (OpenGL's selection mode, [P, Sec. 3.1]), `halfspace` (the same test on the processor's vector
-///              units) or `reference` (every triangle clipped in double precision)
-/// @throws InvalidInput on any other name of a detector or context, DeviceError if there is no off-screen context
+///              units) or `reference` (clips every triangle in double precision)
+/// @throws InvalidInput if the name of the detector or of the context is unknown, DeviceError if there is no off-screen
+/// context
 std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOptions& options = {});
 
-/// The names that makeDetector() knows.
+/// Returns the names that makeDetector() knows.
 const std::vector<std::string>& detectorNames();
+
+/// Returns the names of the off-screen OpenGL contexts that `select` can use: `osmesa` and `egl`.
+const std::vector<std::string>& offscreenContextNames();
 
 }  // namespace sweep_guard_core

@@ -8,11 +8,11 @@
 
 namespace sweep_guard_core {
 
-/// Some clusters of a mesh, and the blocks of vertices that hold their corners: what a detector looks at. A view: the
-/// mesh, and for a part of it its SubmeshFinder, must outlive it unchanged.
+/// Some clusters of a mesh, and the blocks of vertices that hold their corners: the triangles that a detector tests. A
+/// view: the mesh, and for some of it the SubmeshFinder, must outlive the view unchanged.
 class Submesh {
  public:
-  /// All of it.
+  /// Views the whole mesh.
   Submesh(const TriangleMesh& mesh_M)  // NOLINT(google-explicit-constructor)
       : mesh_M_(&mesh_M),
         boxes_(mesh_M.blocks().arrays()),
@@ -23,13 +23,13 @@ class Submesh {
   const TriangleMesh& mesh_M() const { return *mesh_M_; }
   bool empty() const { return clusters_->empty(); }
 
-  /// Numbers of the blocks in mesh_M().blocks().
+  /// Returns the numbers of the blocks in mesh_M().blocks().
   const std::vector<std::uint32_t>& blocks() const { return *blocks_; }
-  /// Their boxes, in this order, padded to simd::kPadding [m].
+  /// Returns the boxes of blocks(), in that order, padded to simd::kPadding [m].
   const simd::BoxArrays<const float>& boxes() const { return boxes_; }
-  /// Ascending. Their `blocks` are indices into blocks().
+  /// Returns the clusters, ascending. Their `blocks` are indices into blocks().
   const std::vector<Cluster>& clusters() const { return *clusters_; }
-  /// Of all clusters of a whole mesh. A part of one has got none.
+  /// Returns the groups of all clusters of a whole mesh; null for a smaller submesh.
   const std::vector<ClusterGroup>* groups() const { return groups_; }
 
   /// Calls a function with the index of each triangle.
@@ -53,31 +53,30 @@ class Submesh {
   const std::vector<ClusterGroup>* groups_;
 };
 
-/// Which planes the blocks of a part lie beyond. Keeps its buffers between calls.
+/// Finds the planes that the blocks of a submesh lie beyond. Keeps its buffers between calls.
 class BlockBits {
  public:
   explicit BlockBits(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels) {}
 
-  /// What follows is about this part and these planes.
-  void classify(const Submesh& part, const simd::Planes& planes);
+  /// Sets the submesh and the planes for the calls that follow.
+  void classify(const Submesh& submesh, const simd::Planes& planes);
 
-  /// Calls a function with each cluster of the part but those that lie wholly beyond one of the planes, by the boxes of
-  /// their blocks.
+  /// Calls a function with each cluster of the submesh, except those whose blocks all lie beyond one of the planes.
   template <typename Function>
-  void forEachLeft(const Submesh& part, const Function& function) const {
+  void forEachRemaining(const Submesh& submesh, const Function& function) const {
     const auto consider = [&](size_t first, size_t count) {
       for (size_t i = first; i < first + count; ++i) {
-        const Cluster& cluster = part.clusters()[i];
+        const Cluster& cluster = submesh.clusters()[i];
         if (!beyondOnePlane(bits_, cluster.blocks)) function(cluster);
       }
     };
-    if (part.groups() == nullptr) return consider(0, part.clusters().size());
-    for (const ClusterGroup& group : *part.groups()) {
+    if (submesh.groups() == nullptr) return consider(0, submesh.clusters().size());
+    for (const ClusterGroup& group : *submesh.groups()) {
       if (!beyondOnePlane(group_bits_, group.block_groups)) consider(group.first, group.count);
     }
   }
 
-  /// Whether it is asked for the first time about this block of the part.
+  /// Returns whether this is the first call for this block of the submesh.
   bool firstAsked(std::uint32_t block);
 
  private:
@@ -92,30 +91,34 @@ class BlockBits {
 
   const simd::Kernels* kernels_;
   std::vector<std::uint16_t> bits_;        // of each block, and a flag
-  std::vector<std::uint16_t> group_bits_;  // what those of a group have in common
+  std::vector<std::uint16_t> group_bits_;  // bits that all blocks of a group have in common
 };
 
-/// Finds the part of a mesh that may reach into a convex region. Keeps its buffers between calls.
+/// Finds the triangles of a mesh that may reach into a convex region. Keeps its buffers between calls.
 class SubmeshFinder {
  public:
-  /// What is left out lies beyond one of the planes. One pass over the boxes of the blocks.
-  /// @param part  not the result of the call before
-  /// @returns a view of buffers of this: valid until the next call
-  Submesh find(const Submesh& part, const simd::Planes& planes);
+  /// Leaves out only triangles that lie beyond one of the planes. One pass over the boxes of the blocks.
+  /// @param around  not the result of the previous call
+  /// @returns a view of this object's buffers: valid until the next call
+  Submesh find(const Submesh& around, const simd::Planes& planes);
+
+  /// Leaves out only triangles that lie beyond one side of the box.
+  /// @param box_M  along the axes of M [m]; may be infinite
+  Submesh find(const Submesh& around, const Eigen::AlignedBox3d& box_M);
 
  private:
-  void keep(const Submesh& part, Cluster cluster);
+  void keep(const Submesh& around, Cluster cluster);
   void gatherBoxes(Submesh& found);
 
   BlockBits bits_;
-  std::vector<std::uint32_t> new_index_;  // per block of the part, among those kept
-  std::vector<std::uint32_t> old_index_;  // and back
+  std::vector<std::uint32_t> new_index_;  // of each block of `around`, among those kept
+  std::vector<std::uint32_t> old_index_;  // of each block kept, in `around`
   std::vector<std::uint32_t> blocks_;
   std::vector<Cluster> clusters_;
   std::vector<float> sides_;
 };
 
-/// A mesh wholly beyond one of the planes, by the box around it.
+/// Returns whether the box around the mesh lies wholly beyond one of the planes.
 bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes);
 
 }  // namespace sweep_guard_core

@@ -16,71 +16,72 @@ struct Moments {
   Eigen::Matrix3d covariance;  ///< about the mean [m^2], positive semi-definite
 };
 
-/// A convex body, fixed in the tool frame T: a round cylinder, a sphere, a box, or the convex hull of points; grown by
-/// a padding, as if a ball rolled over it. Everything asked of it is exact for the body itself, not for the mesh that
-/// stands for it in pictures and statistics. Points and segments are bodies, too: hulls of one or two points.
+/// A convex body, fixed in the tool frame T: a round cylinder, a sphere, a box, or the convex hull of points, grown by
+/// a padding (the Minkowski sum with a ball). All queries are exact for the body itself; only drawings and moments use
+/// its mesh. A point and a segment are bodies, too: hulls of one or two points.
 class ConvexShape {
  public:
-  /// A round cylinder around the z axis of T that fills z in [-length, 0] [P, Sec. 3.1].
+  /// Makes a round cylinder around the z axis of T, with z in [-length, 0] [P, Sec. 3.1].
   /// @param radius  [m], finite, >= 0
   /// @param length  [m], finite, >= 0; not both 0
-  /// @param sides   of the polygonal cylinder of mesh_T(), 3 to 1000
-  /// @throws InvalidInput if one is out of range
+  /// @param sides   number of sides of mesh_T(), 3 to 1000
+  /// @throws InvalidInput if an argument is out of range
   static ConvexShape cylinder(double radius, double length, int sides = 32);
 
-  /// A ball around the origin of T.
+  /// Makes a ball around the origin of T.
   /// @param radius  [m], finite, > 0
-  /// @throws InvalidInput if it is out of range
+  /// @throws InvalidInput if the radius is out of range
   static ConvexShape sphere(double radius);
 
-  /// A box around the origin of T, its edges along the axes.
+  /// Makes a box around the origin of T with edges along the axes.
   /// @param half_extents  [m], finite, >= 0; not all 0
-  /// @throws InvalidInput if one is out of range
+  /// @throws InvalidInput if a half extent is out of range
   static ConvexShape box(const Eigen::Vector3d& half_extents);
 
-  /// The convex hull of points of any number and position.
+  /// Makes the convex hull of points.
   /// @param points_T  [m], at least one, finite and within kMaxCoordinate
-  /// @throws InvalidInput if there is none, or with the index of the first that is not usable
+  /// @throws InvalidInput if there is no point, or with the index of the first unusable point
   static ConvexShape hull(const std::vector<Eigen::Vector3d>& points_T);
 
-  /// The same body elsewhere: what was in T is taken to X_NT.
+  /// Returns the body moved from T to a frame N.
   ConvexShape placed(const Eigen::Isometry3d& X_NT) const;
 
-  /// The body grown on all sides.
-  /// @param distance  [m], >= 0; adds to the padding it has
+  /// Returns the body grown on all sides.
+  /// @param distance  additional padding [m], >= 0
   ConvexShape padded(double distance) const;
 
-  /// How far the body reaches along a unit direction [m]: max over its points p of direction · p.
+  /// Returns the support function for a unit direction [m]: max over points p of the body of direction · p.
   double support(const Eigen::Vector3d& direction_T) const;
 
-  /// A point of the body that reaches farthest along a direction of any length [m].
+  /// Returns a point of the body that lies farthest along a direction of any length [m].
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction_T) const;
 
-  /// Bound [m] on the distance of any point of the body from the line through the origin of T along a unit axis.
+  /// Returns a bound [m] on the distance of any point of the body from the line through the origin of T along a unit
+  /// axis.
   double radiusAbout(const Eigen::Vector3d& axis_T) const;
 
-  /// Bound [m] on the distance of any point of the body from the origin of T.
+  /// Returns a bound [m] on the distance of any point of the body from the origin of T.
   double boundingRadius() const;
 
-  /// Points of the front and rear face farthest along a direction of any length [m]: of a cylinder its two discs; of
-  /// other bodies the two faces, across its longest side, of a box around it.
+  /// Returns the point of the front or rear face that lies farthest along a direction of any length [m]. The faces of a
+  /// cylinder are its discs; those of other bodies are the faces of a box around it, across its longest side.
   Eigen::Vector3d frontSupport(const Eigen::Vector3d& direction_T) const;
   Eigen::Vector3d rearSupport(const Eigen::Vector3d& direction_T) const;
 
-  double length() const { return faces_.front - faces_.rear + 2.0 * padding_; }  ///< across both faces [m]
-  double radius() const { return faces_.half_sides.minCoeff() + padding_; }      ///< least, of a face [m]
+  double length() const { return faces_.front - faces_.rear + 2.0 * padding_; }  ///< from rear to front face [m]
+  double radius() const { return faces_.half_sides.minCoeff() + padding_; }      ///< smallest half side of a face [m]
   Eigen::Vector3d axis_T() const { return faces_.R_TF.col(2); }                  ///< from rear to front, unit
 
-  /// A round cylinder around the z axis of a frame C, filling z in [-length, 0].
+  /// A round cylinder around the z axis of a frame C, with z in [-length, 0].
   struct Cylinder {
     double radius;  ///< [m]
     double length;  ///< [m]
     Eigen::Isometry3d X_TC;
   };
-  std::optional<Cylinder> asCylinder() const;  ///< the body without padding, if it is one
+  std::optional<Cylinder> asCylinder() const;  ///< the body without padding, if it is a cylinder
 
-  const TriangleMesh& mesh_T() const { return mesh_T_; }   ///< its surface without padding; round ones polygonal
-  const Moments& moments_T() const { return moments_T_; }  ///< of the corners of these triangles, as often as used
+  const TriangleMesh& mesh_T() const { return mesh_T_; }   ///< surface without padding; polygonal for round bodies
+  const Moments& moments_T() const { return moments_T_; }  ///< of the triangles' corners, each counted per triangle
 
  private:
   struct Round {
@@ -95,7 +96,7 @@ class ConvexShape {
   };
   using Body = std::variant<Round, Box, Points>;
 
-  // Across the z axis of a frame F; round, or rectangles.
+  // Front and rear face, across the z axis of a frame F: discs or rectangles.
   struct Faces {
     Eigen::Matrix3d R_TF = Eigen::Matrix3d::Identity();
     Eigen::Vector3d p_T = Eigen::Vector3d::Zero();  // origin of F
@@ -119,11 +120,11 @@ class ConvexShape {
   Faces faces_;
 };
 
-/// How far the body at a pose reaches along a unit direction of the pose's parent frame [m].
+/// Returns the support function [m] of the body at a pose for a unit direction of the pose's parent frame.
 double support(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Eigen::Vector3d& direction_M);
 
-/// How far the body reaches in a motion's two poses, before and after the motion's mesh_translation [m]: the support function of
-/// the convex hull of all four.
+/// Returns the support function [m] of the convex hull of the body at both poses of a motion, before and after the
+/// motion's mesh_translation.
 double support(const ConvexShape& shape, const Motion& motion, const Eigen::Vector3d& direction_M);
 
 }  // namespace sweep_guard_core

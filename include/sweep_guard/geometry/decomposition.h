@@ -8,32 +8,32 @@
 
 namespace sweep_guard_core {
 
-/// How finely a mesh is cut.
+/// Controls how finely a mesh is cut.
 struct DecompositionOptions {
-  int max_depth = 6;    ///< of the tree of cuts, 0 to 16: at most 2^max_depth parts; 0 leaves one hull
-  double step = 0.002;  ///< how far the tool goes in one sweep [m], >= 0: small ones make gaps of its size count
-  double least_saving = 0.003;  ///< by how much each part must make the cover tighter, see decompose(); in [0, 1]
+  int max_depth = 6;            ///< depth of the tree of cuts, 0 to 16: at most 2^max_depth pieces; 0 gives one hull
+  double step = 0.002;          ///< distance that the tool moves in one sweep [m], >= 0; see decompose()
+  double least_saving = 0.003;  ///< smallest saving that justifies a piece, in [0, 1]; see decompose()
 };
 
-/// Cuts the triangles of a mesh into sets whose convex hulls are a tight cover of it: recursively as the OBBTree does
-/// [Gottschalk et al. 1996], across the longest side of the box of their moments, at the mean; across the next side if
-/// that leaves all triangles on one hand. A triangle goes where its centroid is; none is cut. Pieces that do not hang
-/// together may be taken apart first, if that is the better start.
+/// Partitions the triangles of a mesh into sets whose convex hulls cover the mesh tightly. Splits recursively as an
+/// OBBTree does [Gottschalk et al. 1996]: at the mean, across the longest side of the box along the principal axes, or
+/// across the next side if all triangles fall on one side. A triangle belongs where its centroid is; no triangle is
+/// cut. Unconnected components may be separated first, if that gives the better result.
 ///
-/// Cuts are undone, from the leaves up, where they do not pay. What a hull with volume V and surface S covers while it
-/// goes a step, averaged over all directions, is V + S * step / 4 (Cauchy: the mean shadow of a convex body is a
-/// quarter of its surface). What of that is wasted is the same with the space between the triangles and the surface of
-/// the hull for V: area times how far the centroid's normal runs before it leaves the hull, the shorter way. Both sums
-/// have to fall by `least_saving` times what the hull of the whole mesh covers, for each part after the first. The
-/// first sum alone would make a hollow of a large ball, the second would go after what is inside of a casing. So a
-/// convex mesh stays whole, and there are at most 1 + 1 / least_saving parts.
-/// @returns sets of triangle indices: none empty, every triangle in one of them, ascending
+/// Cuts that do not pay are undone, from the leaves up. A hull with volume V and surface S that moves by a step covers
+/// on average over all directions V + S * step / 4 (Cauchy: the mean shadow of a convex body is a quarter of its
+/// surface). The wasted part is the same sum with another V: the space between the triangles and the surface of the
+/// hull, that is the area of each triangle times the shorter distance along its normal from its centroid to the hull.
+/// Both sums must fall by `least_saving` times the volume that the hull of the whole mesh covers, for each piece after
+/// the first. The first sum alone would hollow out a large ball; the second alone would separate objects inside a
+/// casing. A convex mesh stays whole, and there are at most 1 + 1 / least_saving pieces.
+/// @returns sets of triangle indices: none empty, each triangle in one set, ascending
 /// @throws InvalidInput if an option is out of range
 std::vector<std::vector<std::uint32_t>> decompose(const TriangleMesh& mesh, const DecompositionOptions& options = {});
 
-/// The convex hulls of these sets, in this order: of ALL corners of their triangles, so that together they hold every
-/// point of every triangle, and of the mesh as it was before it was rounded. What a closed mesh encloses they need not
-/// hold: there they may leave a hollow. Nothing gets there without meeting the surface, as long as motion is swept
+/// Returns the convex hulls of the sets of decompose(), in the same order. Each hull contains all corners of its
+/// triangles, so together they contain every point of every triangle, also before the mesh was rounded. They need not
+/// contain the inside of a closed mesh; nothing gets there without touching the surface as long as motion is swept
 /// without gaps.
 /// @throws InvalidInput if an option is out of range
 std::vector<ConvexShape> convexPieces(const TriangleMesh& mesh_T, const DecompositionOptions& options = {});

@@ -18,7 +18,7 @@ class HalfSpace {
   double offset() const { return offset_; }                                                   ///< [m]
   double signedDistance(const Eigen::Vector3d& p) const { return normal_.dot(p) - offset_; }  ///< [m]
 
-  /// The half-space whose boundary lies `distance` further out [m]; negative: further in.
+  /// Returns the half-space with its boundary moved outwards by `distance` [m]; inwards if negative.
   HalfSpace grown(double distance) const;
 
  private:
@@ -26,11 +26,12 @@ class HalfSpace {
   double offset_;
 };
 
-/// A convex polygon: its corners in order. One corner is a point, two are a segment, none is nothing.
+/// A convex polygon: its corners in order [m]. One corner is a point, two are a segment, none is the empty set.
 using Polygon = std::vector<Eigen::Vector3d>;
 
-/// The part of a convex polygon that lies in a half-space (Sutherland and Hodgman 1974). Its boundary belongs to it: a
-/// polygon that only touches the plane leaves its touching corners.
+/// Returns the part of a convex polygon that lies in a half-space (Sutherland and Hodgman 1974). The boundary plane
+/// belongs to the half-space: of a polygon that only touches it, the touching corners remain. ClippedTriangle does the
+/// same for the detectors, which must not allocate.
 Polygon clip(const Polygon& polygon, const HalfSpace& half_space);
 
 }  // namespace sweep_guard_core

@@ -7,12 +7,12 @@
 
 namespace sweep_guard_core {
 
-/// A convex body as its support mapping: the point of the body [m] that lies farthest along a unit direction. A view
-/// of anything that can be called so; the body must outlive it.
+/// Views any object with a supportPoint() as a convex body: supportPoint() returns the point of the body [m] that lies
+/// farthest along a unit direction. The object must outlive the view.
 class SupportMapping {
  public:
   template <typename Body>
-  SupportMapping(const Body& body)  // NOLINT: a body is given where its mapping is asked for
+  SupportMapping(const Body& body)  // NOLINT: converts implicitly
       : body_(&body), call_([](const void* viewed, const Eigen::Vector3d& direction) -> Eigen::Vector3d {
           return static_cast<const Body*>(viewed)->supportPoint(direction);
         }) {}
@@ -24,7 +24,8 @@ class SupportMapping {
   Eigen::Vector3d (*call_)(const void*, const Eigen::Vector3d&);
 };
 
-/// The convex hull of one to six points [m]: a corner, an edge, a triangle, a triangle before and after a move.
+/// The convex hull of one to six points [m]: a corner, an edge, a triangle, or a triangle before and after a
+/// deformation.
 class PointHull {
  public:
   static constexpr std::size_t kMaxPoints = 6;
@@ -46,37 +47,37 @@ class PointHull {
   std::size_t count_ = 0;
 };
 
-/// How far two convex bodies are apart. `gap` does not rest on how the answer was found: it is evaluated by the support
-/// mappings for `normal` alone, gap = min over the tool of normal · q - max over the obstacle of normal · p. Whatever
-/// the direction, that is a lower bound of the distance, up to the rounding of this one line.
+/// The separation of two convex bodies. `gap` does not rely on the algorithm that found `normal`: it is evaluated from
+/// the support mappings alone, gap = min over the tool of normal · q - max over the obstacle of normal · p. For any
+/// direction this is a lower bound of the distance, up to the rounding of this formula.
 struct Separation {
   Eigen::Vector3d normal;       ///< unit, from the obstacle to the tool
   double gap;                   ///< proven lower bound of the distance [m]; <= 0: nothing is proven
-  Eigen::Vector3d on_tool;      ///< closest points [m]: their distance is an upper bound of the bodies' distance.
-  Eigen::Vector3d on_obstacle;  ///< The same point, to rounding, where the bodies overlap
+  Eigen::Vector3d on_tool;      ///< closest point of the tool [m]
+  Eigen::Vector3d on_obstacle;  ///< closest point of the obstacle [m]; on_tool, to rounding, if they overlap
 };
 
-/// The distance of two convex bodies by the algorithm of Gilbert, Johnson and Keerthi (1988): the point closest to the
-/// origin of a simplex that grows inside of the bodies' Minkowski difference. That point is found face by face through
-/// signed volumes, after Montanari, Petrinic and Barbieri (2017), and the direction is made orthogonal to the simplex
+/// Computes the distance of two convex bodies by the algorithm of Gilbert, Johnson and Keerthi (1988): the point
+/// closest to the origin of a simplex that grows inside the bodies' Minkowski difference. Finds that point face by face
+/// through signed volumes, after Montanari, Petrinic and Barbieri (2017). Orthogonalizes the direction to the simplex
 /// once more, so that it keeps its digits where the distance is small.
 ///
-/// Where the bodies are apart, `gap` and the distance of the points mostly differ by less than 1e-12 of the bodies'
-/// size, and by 1e-9 at the worst that was seen (one pair in 20 000 of round bodies against needles). Bodies may be
-/// flat, needles or points. The steps are limited to 64: then the best so far is returned. Both bodies must be given
-/// relative to a place close to them, lest their coordinates cost digits.
-/// @param accuracy  how far `gap` may stay behind the distance [m], >= 0; the less is asked for, the fewer the steps
-/// @param guess     direction to begin with, from the obstacle to the tool, of any length; zero for none
+/// If the bodies are separated, `gap` and the distance of the closest points mostly differ by less than 1e-12 of the
+/// bodies' size; the largest difference seen is 1e-9 (one pair in 20 000 of round bodies against needles). Bodies may
+/// be flat, needles or points. After 64 steps the best result is returned. The coordinates of both bodies must be
+/// relative to a place near them, to keep their digits.
+/// @param accuracy  allowed difference between `gap` and the distance [m], >= 0; a larger one needs fewer steps
+/// @param guess     initial direction, from the obstacle to the tool, of any length; zero for none
 Separation separation(const SupportMapping& tool, const SupportMapping& obstacle, double accuracy = 0.0,
                       const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());
 
-/// The same, only as exactly as a step forward in time needs: where the bodies are more than `margin` [m] apart, an
-/// eighth of what the distance is more may be missing in `gap`.
+/// Computes the separation only as accurately as conservative advancement needs: beyond `margin` [m], `gap` may
+/// underestimate the distance by (gap - margin) / 8.
 Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obstacle, double margin, double accuracy,
                            const Eigen::Vector3d& guess);
 
-/// Whether the bodies are proven to be farther apart than `distance` [m], >= 0. Cheaper than separation(): it ends with
-/// the first direction that proves it, or with the first two points that are closer.
+/// Tells whether the bodies are proven to be farther apart than `distance` [m], >= 0. Cheaper than separation(): ends
+/// at the first direction that proves it, or at the first two points that are closer.
 bool distanceExceeds(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
                      const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());
 

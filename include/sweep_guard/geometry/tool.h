@@ -10,42 +10,42 @@
 
 namespace sweep_guard_core {
 
-/// One convex part of a tool.
+/// One convex piece of a tool.
 struct ConvexPiece {
-  std::string link;     ///< of the robot's description; empty for a tool without one
+  std::string link;     ///< link of the robot description; empty for a tool without one
   ConvexShape shape_T;  ///< in the tool frame
 };
 
-/// The rigid tool, in its frame T: origin at the tip, z pointing out of the tip. It is the union of convex parts, under
-/// a tree of boxes [P, Sec. 5; Gottschalk et al. 1996]: what does not meet a box does not meet the parts below it.
+/// The rigid tool in its frame T, with the origin at the tip and z pointing out of the tip. The tool is a union of
+/// convex pieces under a tree of boxes [P, Sec. 5; Gottschalk et al. 1996]: a triangle that does not intersect a box
+/// does not intersect the pieces below it.
 class Tool {
  public:
-  /// A node of the tree: a leaf is a part, any other a box around the parts below it.
+  /// A node of the tree: a leaf is a piece, any other node is a box around the pieces below it.
   struct Node {
     ConvexShape shape_T;
-    std::optional<size_t> piece;       ///< of a leaf: index into parts()
-    std::array<size_t, 2> below = {};  ///< of any other: indices into tree()
+    std::optional<size_t> piece;       ///< index into pieces(), for a leaf
+    std::array<size_t, 2> below = {};  ///< indices into tree(), for other nodes
   };
 
-  /// @throws InvalidInput if there is no part
-  explicit Tool(std::vector<ConvexPiece> parts);
-  /// A tool of one part.
+  /// @throws InvalidInput if there is no piece
+  explicit Tool(std::vector<ConvexPiece> pieces);
+  /// Makes a tool of one piece.
   explicit Tool(const ConvexShape& shape_T);
 
-  /// The cylinder of [P, Sec. 3.1]: see ConvexShape::cylinder().
+  /// Makes the cylinder of [P, Sec. 3.1]: see ConvexShape::cylinder().
   static Tool cylinder(double radius, double length, int sides = 32);
 
   const std::vector<ConvexPiece>& pieces() const { return pieces_; }
   const std::vector<Node>& tree() const { return tree_; }          ///< the root first
-  const ConvexShape& whole() const { return tree_[0].shape_T; }    ///< around all parts
-  const Eigen::AlignedBox3d& bounds_T() const { return bounds_; }  ///< of all parts, along the axes of T [m]
-  double boundingRadius() const {
-    return bounding_radius_;
-  }  ///< bound on the distance of a tool point from the origin of T [m]
+  const ConvexShape& whole() const { return tree_[0].shape_T; }    ///< around all pieces
+  const Eigen::AlignedBox3d& bounds_T() const { return bounds_; }  ///< of all pieces, along the axes of T [m]
+  /// Returns a bound on the distance of a tool point from the origin of T [m].
+  double boundingRadius() const { return bounding_radius_; }
 
  private:
-  size_t grow(std::vector<size_t> parts);
-  ConvexShape boxAround(const std::vector<size_t>& parts) const;
+  size_t grow(std::vector<size_t> pieces);
+  ConvexShape boxAround(const std::vector<size_t>& pieces) const;
 
   std::vector<ConvexPiece> pieces_;
   std::vector<Node> tree_;

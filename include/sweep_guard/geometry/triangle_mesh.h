@@ -10,59 +10,56 @@
 
 namespace sweep_guard_core {
 
-/// Largest coordinate accepted [m]. Beyond it double precision loses what a contact needs.
+/// Largest coordinate accepted [m]. Beyond it double precision is too coarse for a contact.
 constexpr double kMaxCoordinate = 1e7;
 
-/// A triangle mesh at one moment, in its frame M, checked. Vertices are kept as float32 offsets from an origin, the
-/// precision and the layout of the stream they come from; rounding() says what that cost. Degenerate triangles and
-/// vertices without a triangle are kept: dropping them could lose a wire or a tip. Indices are the sender's everywhere,
-/// but for places(), order() and blocks().
+/// A checked triangle mesh at one time, in its frame M. Stores vertices as float32 offsets from an origin, in the
+/// precision and layout of MeshVertices messages; rounding() bounds the error. Keeps degenerate triangles and unused
+/// vertices, because they may be a wire or a tip. All indices are the sender's, except in places(), order() and
+/// blocks().
 class TriangleMesh {
  public:
   /// @param vertices_M  positions [m], each coordinate finite and within +-kMaxCoordinate
   /// @param triangles   at least one, each index below vertices_M.size()
-  /// @throws InvalidInput with the index of the first offender
+  /// @throws InvalidInput with the index of the first invalid vertex or triangle
   TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles);
 
-  /// Deforms it. One pass over the positions; no structure is rebuilt. Buffers are exchanged and nothing is allocated,
-  /// but for a spare one the first time, where vertices are renumbered.
-  /// @param[in,out] positions_M  x0 y0 z0 x1 ... [m], one triple per vertex, bounds as above; afterwards room for the
-  ///                             next ones, its contents are of no use
-  /// @throws InvalidInput on a wrong count or a bad coordinate: the mesh stays as it was
+  /// Replaces the positions of all vertices in one pass; rebuilds no structure. Exchanges buffers and allocates
+  /// nothing, except for a spare buffer at the first call on a mesh with renumbered vertices.
+  /// @param[in,out] positions_M  x0 y0 z0 x1 ... [m], one triple per vertex, bounds as above; on return a buffer of the
+  ///                             same size with unspecified contents
+  /// @throws InvalidInput for a wrong count or an invalid coordinate; the mesh does not change
   void deform(std::vector<float>& positions_M);
 
-  /// The same triangles after a deformation, likewise.
-  TriangleMesh deformed(std::vector<float> positions_M) const;
-
   const std::vector<Triangle>& triangles() const { return topology_->triangles; }
-  /// Each edge belongs to an even number of triangles: the surface has no border, and so an inside.
+  /// Tells whether each edge belongs to an even number of triangles: the surface has no border, and so an inside.
   bool closed() const { return topology_->closed; }
   size_t vertexCount() const { return offsets_.size() / 3; }
 
-  /// Position of vertex `i` in M [m].
+  /// Returns the position of vertex `i` in M [m].
   Eigen::Vector3d vertex(size_t i) const { return origin_ + offset(i); }
 
   const Eigen::Vector3d& origin() const { return origin_; }  ///< in M [m]
-  /// Position of vertex `i` relative to origin() [m]; exact in float32.
+  /// Returns the position of vertex `i` relative to origin() [m]; exact in float32.
   Eigen::Vector3d offset(size_t i) const {
     const std::vector<std::uint32_t>& places = topology_->order.vertex_places;
     const size_t place = places.empty() ? i : places[i];
     return Eigen::Map<const Eigen::Vector3f>(&offsets_[3 * place]).cast<double>();
   }
 
-  /// Offsets of the vertices by their places in order(): x0 y0 z0 x1 ... [m].
+  /// Returns the offsets of the vertices at their places in order(): x0 y0 z0 x1 ... [m].
   const std::vector<float>& places() const { return offsets_; }
-  /// Boxes around blocks of these [m].
+  /// Returns the boxes around blocks of places() [m].
   const VertexBlocks& blocks() const { return blocks_; }
-  /// Of vertices and triangles in memory; the same for all deformations.
+  /// Returns the order of vertices and triangles in memory; it is the same for all deformations.
   const MeshOrder& order() const { return topology_->order; }
-  /// Bound on the distance [m] of a vertex from origin(): the farthest corner of the box around all.
+  /// Returns a bound on the distance [m] of a vertex from origin(): the farthest corner of the box around all vertices.
   double radius() const { return radius_; }
 
-  /// The box along the axes of M that holds every vertex [m].
+  /// Returns the box along the axes of M that contains every vertex [m].
   Eigen::AlignedBox3d bounds_M() const { return {origin_ + blocks_.bounds().min(), origin_ + blocks_.bounds().max()}; }
 
-  /// Largest distance [m] between a vertex as it was given and as it is kept. 0 for positions given in float32.
+  /// Returns the largest distance [m] between a vertex as given and as stored; 0 for positions given in float32.
   double rounding() const { return rounding_; }
 
  private:
@@ -72,13 +69,12 @@ class TriangleMesh {
     MeshOrder order;
   };
 
-  explicit TriangleMesh(std::shared_ptr<const Topology> topology) : topology_(std::move(topology)) {}
   bool exchange(std::vector<float>& sent);
   bool measure();
 
   std::shared_ptr<const Topology> topology_;  // shared by all deformations
-  std::vector<float> offsets_;                // in their places
-  std::vector<float> spare_;                  // only where the vertices are renumbered
+  std::vector<float> offsets_;                // at their places
+  std::vector<float> spare_;                  // only if the vertices are renumbered
   VertexBlocks blocks_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double radius_ = 0.0;

@@ -9,23 +9,24 @@
 
 namespace sweep_guard_core {
 
-/// Boxes along the axes around every simd::kBlock consecutive vertices of a mesh: what a deformation is looked at by.
-/// Taken in one pass over the positions.
+/// Boxes along the axes around every simd::kBlock consecutive vertices of a mesh, computed in one pass over the
+/// positions. Sweeps test these boxes first.
 class VertexBlocks {
  public:
+  /// Computes the boxes.
   /// @param positions  x0 y0 z0 x1 ... [m], not empty
-  /// @returns whether all of them are finite; if not, the boxes mean nothing
+  /// @returns whether all positions are finite; if not, the boxes are not valid
   bool measure(const std::vector<float>& positions);
 
   size_t count() const { return count_; }
 
-  /// One array per side, padded to simd::kPadding [m].
+  /// Returns one array per side of the boxes [m], padded to simd::kPadding.
   simd::BoxArrays<const float> arrays() const;
 
-  /// Around all of them [m].
+  /// Returns the box around all positions [m].
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
-  /// Sum of the lengths of their diagonals [m]: the smaller, the better they tell near from far.
+  /// Returns the sum of the lengths of the boxes' diagonals [m]: a small sum means that the boxes are selective.
   double totalSize() const;
 
  private:
@@ -36,8 +37,8 @@ class VertexBlocks {
 
 constexpr size_t kBlockFloats = 3 * simd::kBlock;
 
-/// Calls a function with the vertices of one block: kBlock of them, readable simd::kPadding floats on. The last block
-/// is filled up with its last vertex.
+/// Calls a function with the kBlock vertices of one block; simd::kPadding more floats are readable. The last vertex
+/// fills the last block.
 template <typename Function>
 void withBlock(const std::vector<float>& positions, size_t block, const Function& function) {
   const size_t first = block * kBlockFloats;

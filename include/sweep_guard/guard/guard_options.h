@@ -7,7 +7,7 @@
 
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/geometry/tool.h"
-#include "sweep_guard/guard/sweep_checker.h"
+#include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/prediction/horizon.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 

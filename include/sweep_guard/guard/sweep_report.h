@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sweep_guard/common/time.h"
-#include "sweep_guard/guard/sweep_checker.h"
+#include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {

@@ -10,18 +10,21 @@
 
 namespace sweep_guard_core {
 
-/// One workpiece as it was at a moment. Handed around as a shared snapshot, so that a new deformation never waits for a
-/// sweep.
+/// A workpiece at one moment. Threads share snapshots, so that a new deformation never waits for a sweep.
 struct Workpiece {
   std::string id;
   std::uint32_t revision = 0;  ///< counts changes of the triangles
   Time stamp;                  ///< of the vertex positions
   SteadyTime received;
-  std::string frame;  ///< name of the mesh's frame M
+  std::string frame;  ///< name of the mesh frame M
   TriangleMesh mesh_M;
-  std::uint64_t updates = 0;  ///< of the positions of these triangles, so far
-  double path_length = 0.0;   ///< in these, no vertex has gone farther in all [m]
+  std::uint64_t updates = 0;  ///< number of updates of the vertex positions since the triangles came
+  double path_length = 0.0;   ///< upper bound on any vertex's path length over these updates [m]
 };
+
+/// Counts one update: sets `updates` and `path_length` of a workpiece from those of the same triangles before.
+void countUpdate(const Workpiece& before, Workpiece& updated);
+
 using Workpieces = std::vector<std::shared_ptr<const Workpiece>>;
 
 /// A workpiece that could not be swept, and why.

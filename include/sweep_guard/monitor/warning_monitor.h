@@ -20,6 +20,9 @@ class WarningMonitor {
   struct Checkpoint {
     std::uint64_t epoch = 0;   ///< counts restarts: jumps of time, resets, and every enable and disable
     std::uint64_t faults = 0;  ///< number of faults reported before
+
+    /// Returns whether the monitor was not restarted between the two checkpoints.
+    bool continues(const Checkpoint& previous) const { return epoch == previous.epoch; }
   };
 
   /// @param on_fault  called after every fault and every restart, in the thread that reports it

@@ -10,35 +10,35 @@
 
 namespace sweep_guard_core {
 
-/// Where the tool is expected to be some time after the newest pose observed. (The message of it is PredictedPose.)
+/// The pose of the tool, predicted for a time after the newest observed pose.
 struct PredictedPose {
-  Duration ahead{};                                        ///< after the stamp of the newest pose observed, > 0
-  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the best guess
-  /// Of its error: translation [m], then rotation vector [rad], both along the axes of W; symmetric, positive
+  Duration ahead{};                                        ///< after the stamp of the newest observed pose, > 0
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< most likely pose
+  /// Covariance of its error: translation [m], then rotation vector [rad], both along the axes of W; symmetric, positive
   /// semi-definite.
   Matrix6d covariance = Matrix6d::Zero();
 };
 
-/// Ascending in time. It begins at the newest pose observed, which is no part of it.
+/// Predicted poses, ascending in time. The path begins at the newest observed pose, which is not part of it.
 using PredictedPath = std::vector<PredictedPose>;
 
 struct PredictorOptions {
   std::string predictor = "direct";  ///< one of predictorNames()
-  /// Of the polynomials of `polynomial`: x y z of the tool's origin along the axes of W, then rotation about the tool's
-  /// own axes; each 0 to 5.
+  /// Degrees of the polynomials of `polynomial`: x y z of the tool's origin along the axes of W, then rotation about the
+  /// tool's own axes; each 0 to 5.
   std::array<int, 6> degree = {1, 1, 1, 1, 1, 1};
-  std::array<bool, 6> constrained{};                 ///< axes, in the same order, that no predictor moves
-  double forgetting_factor = 0.98;                   ///< weight of a sample over that of the next one, in (0, 1]
-  Duration window = std::chrono::milliseconds(300);  ///< no older sample counts; > 0
-  double max_speed = 5.0;                            ///< of the tool's origin [m/s], > 0: no prediction is faster
-  double max_turn_rate = 20.0;                       ///< [rad/s], > 0: no prediction turns faster
+  std::array<bool, 6> constrained{};                 ///< axes, in the same order, along which no motion is predicted
+  double forgetting_factor = 0.98;                   ///< weight of a sample relative to the next one, in (0, 1]
+  Duration window = std::chrono::milliseconds(300);  ///< older samples are not used; > 0
+  double max_speed = 5.0;                            ///< largest predicted speed of the tool's origin [m/s], > 0
+  double max_turn_rate = 20.0;                       ///< largest predicted turn rate [rad/s], > 0
 };
 
-/// The names of the predictors: `polynomial`, `constant_velocity`, `hold`, `direct`.
+/// Returns the names of the predictors: `polynomial`, `constant_velocity`, `hold`, `direct`.
 const std::vector<std::string>& predictorNames();
 
-/// Predicts the operator's motion from the poses so far [P, Sec. 3.2], and how far it errs: the covariance comes from
-/// the errors that its own predictions turned out to have. One thread.
+/// Predicts the operator's motion from the observed poses [P, Sec. 3.2]. The covariance comes from the errors of its own
+/// earlier predictions. One thread.
 class PosePredictor {
  public:
   /// @throws InvalidInput if an option is out of range
@@ -47,24 +47,23 @@ class PosePredictor {
   PosePredictor(PosePredictor&&) noexcept;
   PosePredictor& operator=(PosePredictor&&) noexcept;
 
-  /// Takes in the newest pose. A pose whose stamp is not later than that of the pose before replaces it. After a gap
-  /// (0.25 s, or three periods of slower poses, 1 s at most) or a jump faster than the limits the fit begins anew; what
-  /// was learned of the operator is kept.
+  /// Adds the newest pose. A pose whose stamp is not later than the previous one's replaces the previous pose. The fit
+  /// restarts after a gap (0.25 s, or three periods of slower poses, at most 1 s) and after a jump faster than the limits;
+  /// the errors learned of the operator are kept.
   void observe(const StampedPose& pose);
 
-  /// The poses expected after the newest one observed; empty until a motion is known: two poses since the start or a
-  /// gap.
-  /// @param ahead      ascending, > 0
-  /// @param[out] path  what was in it is replaced
+  /// Predicts the poses after the newest observed one. The path is empty until a motion is known: two poses since the
+  /// start or a gap.
+  /// @param ahead      times after the newest observed pose, ascending, > 0
+  /// @param[out] path  overwritten; its buffers are used again
   void predict(const std::vector<Duration>& ahead, PredictedPath& path) const;
-  PredictedPath predict(const std::vector<Duration>& ahead) const;
 
-  /// Begins anew, as if no pose had come; what was learned of the operator is kept.
+  /// Forgets the poses, and keeps what was learned of the operator.
   void restart();
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace sweep_guard_core

@@ -22,36 +22,46 @@ sweep_guard_core::Time fromMsg(const ros::Time& time);
 ros::Time toMsg(sweep_guard_core::Time time);  ///< times before the epoch become 0
 ros::Duration toMsg(sweep_guard_core::Duration duration);
 
-/// Now on both clocks.
+/// Returns the current time on both clocks.
 sweep_guard_core::Instant now();
 
-/// @throws sweep_guard_core::InvalidInput if a field is NaN, infinite or beyond 1e7 m, or if the quaternion's norm is off by
-/// more
-///         than 0.1. A smaller deviation is normalised away.
+/// Converts a vector to a message with the fields x, y and z.
+template <typename Msg>
+Msg vectorMsg(const Eigen::Vector3d& v) {
+  Msg msg;
+  msg.x = v.x();
+  msg.y = v.y();
+  msg.z = v.z();
+  return msg;
+}
+
+/// Converts a pose, and normalizes its quaternion.
+/// @throws sweep_guard_core::InvalidInput if a field is NaN, infinite or beyond 1e7 m, or if the norm of the quaternion is not
+///     within 0.1 of 1
 Eigen::Isometry3d fromMsg(const geometry_msgs::Pose& pose);
 Eigen::Isometry3d fromMsg(const geometry_msgs::Transform& transform);
 geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose);
 
-/// @throws sweep_guard_core::InvalidInput if there are more than `max_triangles`, or the mesh itself is invalid
+/// @throws sweep_guard_core::InvalidInput if there are more than `max_triangles`, or if the mesh is invalid
 sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles);
 
-/// @param triangles  of the workpiece: ascending, each once
+/// @param triangles  indices: ascending, each once
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const std::vector<std::uint32_t>& triangles);
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const sweep_guard_core::SweepResult& result, const sweep_guard_core::Tool& tool);
-/// The objects met, in the report's order; header, tool and volume are the sender's.
+/// Converts the objects in contact, in the report's order. The caller sets frame, tool and volume.
 sweep_guard::Contacts toMsg(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool);
 
-/// What is expected, told at a moment: poses that lie before it are left out. Frame, tool and predictor are the
-/// sender's.
-/// @param age  of the pose that the prediction begins at, at that moment
+/// Converts a prediction as of the time when it was made: omits poses before that. The caller sets frame, tool and
+/// predictor.
+/// @param age  age that the first pose had at that time
 sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age,
                               const sweep_guard_core::WarningLimits& limits);
-/// Seconds until the predicted collision; infinite if there is none, NaN if that is not known.
+/// Returns the time until the predicted collision [s]; infinite if there is none, NaN if unknown.
 double timeToCollision(const sweep_guard::Prediction& prediction);
 
-/// WarningLevel, reasons and what follows from them; frame, tool and counters are the sender's.
+/// Converts a warning. The caller sets frame, tool, counters and `valid_until`.
 sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning);
 
 }  // namespace sweep_guard_ros

@@ -6,10 +6,10 @@
 
 namespace sweep_guard_ros {
 
-/// One callback queue with its one thread, so that no input waits for another.
+/// Runs the callbacks of one queue in one thread, so that no input waits for another.
 class QueueThread {
  public:
-  /// A node handle whose callbacks run in this thread.
+  /// Returns a node handle whose callbacks run in this thread.
   ros::NodeHandle on(ros::NodeHandle node) {
     node.setCallbackQueue(&queue_);
     return node;

@@ -8,9 +8,9 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr auto kPollEvery = std::chrono::milliseconds(1);
+constexpr auto kPollPeriod = std::chrono::milliseconds(1);
 
-// Lets a callback through until it is closed; closing waits for the one inside.
+// Runs a callback until it is closed. Closing waits for a running callback.
 class Gate {
  public:
   explicit Gate(std::function<void()> callback) : callback_(std::move(callback)) {}
@@ -55,7 +55,7 @@ Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& s
     } catch (const FrameError&) {
       if (std::chrono::steady_clock::now() >= deadline) throw;
     }
-    std::this_thread::sleep_for(kPollEvery);
+    std::this_thread::sleep_for(kPollPeriod);
   }
 }
 
@@ -68,7 +68,7 @@ std::optional<sweep_guard_core::Time> Frames::newest(const std::string& target, 
   }
 }
 
-// tf2 does not wait for a callback that is running when it takes it away; the gate does.
+// Removing a callback from tf2 does not wait for one that is running; the gate does.
 std::shared_ptr<void> Frames::onChange(std::function<void()> callback) {
   auto gate = std::make_shared<Gate>(std::move(callback));
   const auto connection = buffer_._addTransformsChangedListener([gate] { gate->pass(); });

@@ -19,23 +19,24 @@ struct FrameError : sweep_guard_core::Error {
   using Error::Error;
 };
 
-/// Poses of tf frames. Never guesses: a transform is taken at its stamp or not at all. Any thread.
+/// Looks up poses of tf frames. Never interpolates beyond the buffer: a transform is taken at its stamp or not at all.
+/// Any thread.
 class Frames {
  public:
   Frames();
 
-  /// Pose of frame `source` in frame `target` at a stamp; stamp 0: the newest there is. Does not wait.
+  /// Returns the pose of frame `source` in frame `target` at a stamp; stamp 0: the newest. Does not wait.
   /// @throws FrameError if there is none
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp) const;
 
-  /// The same, waiting for a transform that is on its way, on the steady clock.
+  /// Returns the same pose, and waits up to `wait` on the steady clock for a transform that is late.
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp,
                            sweep_guard_core::Duration wait) const;
 
-  /// Stamp of the newest transform between two frames; empty if there is none. 0 where it never changes.
+  /// Returns the stamp of the newest transform between two frames; empty if there is none; 0 if it never changes.
   std::optional<sweep_guard_core::Time> newest(const std::string& target, const std::string& source) const;
 
-  /// Calls back after every transform that comes in, in the thread of the listener, until the handle is destroyed.
+  /// Calls back after every transform, in the thread of the listener, until the handle is destroyed.
   std::shared_ptr<void> onChange(std::function<void()> callback);
 
  private:

@@ -7,16 +7,16 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr auto kClockMayBeLate = std::chrono::milliseconds(500);
+constexpr auto kMaxClockDelay = std::chrono::milliseconds(500);
 constexpr double kPause = 0.001;  // [s]
 
 }  // namespace
 
 bool liesInFuture(sweep_guard_core::Time stamp) {
   const sweep_guard_core::Instant begin = now();
-  const bool may_wait = ros::Time::isSimTime() && stamp <= begin.stamp + kClockMayBeLate;
+  const bool may_wait = ros::Time::isSimTime() && stamp <= begin.stamp + kMaxClockDelay;
   sweep_guard_core::Instant at = begin;
-  while (may_wait && stamp > at.stamp + kFutureTolerance && at.steady < begin.steady + kClockMayBeLate) {
+  while (may_wait && stamp > at.stamp + kFutureTolerance && at.steady < begin.steady + kMaxClockDelay) {
     ros::WallDuration(kPause).sleep();
     at = now();
   }

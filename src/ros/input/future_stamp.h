@@ -4,11 +4,14 @@
 
 namespace sweep_guard_ros {
 
-/// So far the clocks of two machines may differ.
+/// Largest accepted difference between the clocks of two machines.
 constexpr auto kFutureTolerance = std::chrono::milliseconds(50);
 
-/// Whether a stamp lies in the future. Simulated time comes by a connection of its own, which a message may overtake: a
-/// stamp that is ahead of it by less than half a second is waited for, and no longer than that on the wall.
+/// Tells the sender of a refused message what to do.
+constexpr const char* kFutureStampText = "stamp lies in the future: are the clocks synchronized?";
+
+/// Returns whether a stamp lies in the future. Simulated time has its own connection, which a message may overtake: a
+/// stamp less than half a second ahead of it is waited for, for at most half a second of wall time.
 bool liesInFuture(sweep_guard_core::Time stamp);
 
 }  // namespace sweep_guard_ros

@@ -11,12 +11,12 @@ namespace {
 
 using sweep_guard_core::Reason;
 
-constexpr auto kTransformMayBeLate = std::chrono::milliseconds(20);
-constexpr size_t kMissingKept = 64;        // made-up frame names must not fill the memory
-constexpr std::uint32_t kQueueLength = 0;  // no bound: a pose that ROS drops for another is a hole nobody hears of
+constexpr auto kMaxTransformDelay = std::chrono::milliseconds(20);
+constexpr size_t kMaxMissing = 64;         // bounds the memory that made-up frame names can take
+constexpr std::uint32_t kQueueLength = 0;  // unbounded: a pose that ROS drops is a gap that nobody notices
 
 struct PoseRefused : sweep_guard_core::InvalidInput {
-  PoseRefused(Reason why, const std::string& story) : InvalidInput(story), reason(why) {}
+  PoseRefused(Reason why, const std::string& message) : InvalidInput(message), reason(why) {}
   Reason reason;
 };
 
@@ -34,14 +34,14 @@ class Call : public ros::CallbackInterface {
 
 }  // namespace
 
-PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters, Frames& frames,
-                     const WorkpieceStore& workpieces, sweep_guard_core::WarningMonitor& monitor, Sink sink)
+PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters,
+                     const PoseInputDependencies& dependencies)
     : fixed_frame_(parameters.fixed_frame),
       tool_frame_(parameters.tool_frame),
-      frames_(frames),
-      workpieces_(workpieces),
-      monitor_(monitor),
-      sink_(std::move(sink)) {
+      frames_(dependencies.frames),
+      workpieces_(dependencies.workpieces),
+      monitor_(dependencies.monitor),
+      queue_(dependencies.queue) {
   if (parameters.tool_source == ToolSource::kTf) {
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
   } else {
@@ -59,71 +59,70 @@ std::optional<std::uint32_t> PoseInput::publishers() const {
 }
 
 void PoseInput::onMessage(const geometry_msgs::PoseStamped& msg) {
-  const sweep_guard_core::SteadyTime received = std::chrono::steady_clock::now();
-  acceptOrRefuse({fromMsg(msg.header.stamp), received}, [&] {
+  const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
+  acceptOrRefuse(timestamps, [&] {
     try {
-      return Incoming{fromMsg(msg.header.stamp), received, msg.header.frame_id, fromMsg(msg.pose)};
+      return ReceivedPose{timestamps, msg.header.frame_id, fromMsg(msg.pose)};
     } catch (const sweep_guard_core::InvalidInput& error) {
       throw PoseRefused(sweep_guard_core::kPoseInvalid, error.what());
     }
   });
 }
 
-// Runs in the thread of the tf listener, which must not wait for transforms: the pose is only read here.
+// Runs in the thread of the tf listener, which must not wait for transforms: only reads the pose.
 void PoseInput::onTransforms() {
   const std::optional<sweep_guard_core::Time> newest = frames_.newest(fixed_frame_, tool_frame_);
-  if (newest == last_transform_) return;  // some other transform has changed
+  if (newest == last_transform_) return;  // another transform has changed
   last_transform_ = newest;
   if (!newest) return;
   try {
-    const Incoming incoming{*newest, std::chrono::steady_clock::now(), fixed_frame_,
-                            frames_.lookup(fixed_frame_, tool_frame_, *newest)};
-    const sweep_guard_core::Timestamps seen{incoming.stamp, incoming.received};
+    const ReceivedPose pose{
+        {*newest, std::chrono::steady_clock::now()}, fixed_frame_, frames_.lookup(fixed_frame_, tool_frame_, *newest)};
     thread_.queue().addCallback(
-        boost::make_shared<Call>([this, seen, incoming] { acceptOrRefuse(seen, [incoming] { return incoming; }); }));
+        boost::make_shared<Call>([this, pose] { acceptOrRefuse(pose.timestamps, [pose] { return pose; }); }));
   } catch (const FrameError& error) {
-    record_.failed(error.what());
+    record_.error(error.what(), /*refused=*/false);
     monitor_.fault(sweep_guard_core::kTfFail, error.what());
   }
 }
 
-void PoseInput::acceptOrRefuse(const sweep_guard_core::Timestamps& seen, const std::function<Incoming()>& read) {
-  record_.came(seen);
+void PoseInput::acceptOrRefuse(const sweep_guard_core::Timestamps& timestamps,
+                               const std::function<ReceivedPose()>& read) {
+  record_.received(timestamps);
   try {
     accept(read());
   } catch (const PoseRefused& error) {
     refuse(error.reason, error.what());
   } catch (const FrameError& error) {
     refuse(sweep_guard_core::kTfFail, error.what());
-  } catch (const std::exception& error) {  // no memory
+  } catch (const std::exception& error) {  // out of memory
     refuse(sweep_guard_core::kPoseInvalid, error.what());
   }
 }
 
-void PoseInput::refuse(Reason reason, const std::string& why) {
-  record_.refused(why);
-  monitor_.fault(reason, "tool pose refused: " + why);
-  log_.error(std::to_string(reason), "tool pose on " + source() + " refused: " + why);
+void PoseInput::refuse(Reason reason, const std::string& message) {
+  record_.error(message, /*refused=*/true);
+  monitor_.fault(reason, "tool pose refused: " + message);
+  log_.error(std::to_string(reason), "tool pose on " + source() + " refused: " + message);
 }
 
-void PoseInput::accept(const Incoming& incoming) {
-  const sweep_guard_core::WarningMonitor::Checkpoint came = monitor_.checkpoint();
-  if (came.epoch != last_epoch_) last_.reset();
-  last_epoch_ = came.epoch;
-  checkStamp(incoming.stamp);
-  const Eigen::Isometry3d X_WT = lookup(fixed_frame_, incoming.frame, incoming.stamp) * incoming.X_FT;
-  last_ = incoming.stamp;
-  sink_({{incoming.stamp, incoming.received, X_WT, locate(*workpieces_.frames(), incoming.stamp)}, came});
+void PoseInput::accept(const ReceivedPose& pose) {
+  const sweep_guard_core::WarningMonitor::Checkpoint checkpoint = monitor_.checkpoint();
+  if (!checkpoint.continues(checkpoint_)) previous_stamp_.reset();
+  checkpoint_ = checkpoint;
+  const auto& [stamp, received] = pose.timestamps;
+  checkStamp(stamp);
+  const Eigen::Isometry3d X_WT = lookup(fixed_frame_, pose.frame, stamp) * pose.X_FT;
+  previous_stamp_ = stamp;
+  queue_.push({{stamp, received, X_WT, locate(*workpieces_.frames(), stamp)}, checkpoint});
 }
 
 void PoseInput::checkStamp(sweep_guard_core::Time stamp) const {
   if (stamp == sweep_guard_core::Time())
-    throw PoseRefused(sweep_guard_core::kPoseInvalid, "its stamp is 0: stamp each pose");
-  if (liesInFuture(stamp)) {
-    throw PoseRefused(sweep_guard_core::kFutureStamp, "its stamp lies in the future: are the clocks synchronised?");
-  }
-  if (last_ && stamp < *last_) {
-    throw PoseRefused(sweep_guard_core::kOutOfOrder, "its stamp goes back behind the pose before");
+    throw PoseRefused(sweep_guard_core::kPoseInvalid, "stamp is 0: stamp each pose");
+  if (liesInFuture(stamp)) throw PoseRefused(sweep_guard_core::kFutureStamp, kFutureStampText);
+  if (previous_stamp_ && stamp < *previous_stamp_) {
+    throw PoseRefused(sweep_guard_core::kOutOfOrder, "stamp is older than the previous pose's");
   }
 }
 
@@ -134,28 +133,28 @@ std::map<std::string, Eigen::Isometry3d> PoseInput::locate(const std::set<std::s
     try {
       X_WM[frame] = lookup(fixed_frame_, frame, stamp);
     } catch (const FrameError& error) {
-      record_.failed("workpieces in '" + frame + "' are not swept: " + error.what());
+      const std::string message = "workpieces in '" + frame + "' not swept: " + error.what();
+      record_.error(message, /*refused=*/false);
       monitor_.fault(sweep_guard_core::kTfFail, error.what());
-      log_.error(frame, "workpieces in '" + frame + "' are not swept: " + error.what());
+      log_.error(frame, message);
     }
   }
   return X_WM;
 }
 
-// Waits for a transform that is late, but not again for one whose publisher has gone silent: that would hold up every
-// pose.
+// Waits for a late transform, but not again while its publisher is silent: that would delay every pose.
 Eigen::Isometry3d PoseInput::lookup(const std::string& target, const std::string& source,
                                     sweep_guard_core::Time stamp) {
-  const FramePair frames(target, source);
+  const std::pair frames(target, source);
   const auto missed = missing_.find(frames);
   const bool silent = missed != missing_.end() && missed->second == frames_.newest(target, source);
   try {
     Eigen::Isometry3d X =
-        frames_.lookup(target, source, stamp, silent ? sweep_guard_core::Duration(0) : kTransformMayBeLate);
+        frames_.lookup(target, source, stamp, silent ? sweep_guard_core::Duration(0) : kMaxTransformDelay);
     if (missed != missing_.end()) missing_.erase(missed);
     return X;
   } catch (const FrameError&) {
-    if (missing_.size() >= kMissingKept) missing_.clear();
+    if (missing_.size() >= kMaxMissing) missing_.clear();
     missing_[frames] = frames_.newest(target, source);
     throw;
   }

@@ -12,71 +12,67 @@
 #include <utility>
 
 #include "ros/input/frames.h"
-#include "ros/input/input_record.h"
-#include "ros/input/workpiece_store.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/monitor/warning_monitor.h"
+#include "ros/work_queue.h"
+#include "sweep_guard/guard/workpiece_store.h"
+#include "sweep_guard/monitor/input_record.h"
 #include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
-/// A tool pose that has been checked, with the frames of the workpieces.
-struct QueuedPose {
-  sweep_guard_core::PoseWithFrames pose;
-  sweep_guard_core::WarningMonitor::Checkpoint came;
+struct PoseInputDependencies {
+  Frames& frames;
+  const sweep_guard_core::WorkpieceStore& workpieces;
+  sweep_guard_core::WarningMonitor& monitor;
+  WorkQueue& queue;
 };
 
-/// Takes tool poses from the topic or from tf, refuses bad ones, looks up their transforms, and hands them on in order.
-/// Its own thread, because a transform may be up to 20 ms late.
+/// Takes tool poses from the topic `tool_pose` or from tf, refuses bad ones, looks up the frames of the workpieces, and
+/// queues the poses in their order. Has its own thread, because a transform may be up to 20 ms late.
 class PoseInput {
  public:
-  using Sink = std::function<void(QueuedPose)>;
-
-  PoseInput(const ros::NodeHandle& node, const Parameters& parameters, Frames& frames, const WorkpieceStore& workpieces,
-            sweep_guard_core::WarningMonitor& monitor, Sink sink);
+  PoseInput(const ros::NodeHandle& node, const Parameters& parameters, const PoseInputDependencies& dependencies);
 
   void start() { thread_.start(); }
 
-  const InputRecord& record() const { return record_; }
+  const sweep_guard_core::InputRecord& record() const { return record_; }
   std::string source() const;                       ///< resolved topic, or the tf frames
   std::optional<std::uint32_t> publishers() const;  ///< of the topic; empty for tf
 
  private:
-  struct Incoming {
-    sweep_guard_core::Time stamp;
-    sweep_guard_core::SteadyTime received;
+  struct ReceivedPose {
+    sweep_guard_core::Timestamps timestamps;
     std::string frame;
     Eigen::Isometry3d X_FT;
   };
 
   void onMessage(const geometry_msgs::PoseStamped& msg);
   void onTransforms();
-  void acceptOrRefuse(const sweep_guard_core::Timestamps& seen, const std::function<Incoming()>& read);
-  void accept(const Incoming& incoming);
+  void acceptOrRefuse(const sweep_guard_core::Timestamps& timestamps, const std::function<ReceivedPose()>& read);
+  void accept(const ReceivedPose& pose);
   void checkStamp(sweep_guard_core::Time stamp) const;
   std::map<std::string, Eigen::Isometry3d> locate(const std::set<std::string>& mesh_frames,
                                                   sweep_guard_core::Time stamp);
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp);
-  void refuse(sweep_guard_core::Reason reason, const std::string& why);
+  void refuse(sweep_guard_core::Reason reason, const std::string& message);
 
   const std::string fixed_frame_;
   const std::string tool_frame_;
   Frames& frames_;
-  const WorkpieceStore& workpieces_;
+  const sweep_guard_core::WorkpieceStore& workpieces_;
   sweep_guard_core::WarningMonitor& monitor_;
-  const Sink sink_;
+  WorkQueue& queue_;
 
-  std::optional<sweep_guard_core::Time> last_;
-  std::uint64_t last_epoch_ = 0;
-  std::optional<sweep_guard_core::Time> last_transform_;  // of the listener's thread
-  using FramePair = std::pair<std::string, std::string>;
-  std::map<FramePair, std::optional<sweep_guard_core::Time>>
-      missing_;  // transforms that did not come, and the newest there was
+  sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the previous pose
+  std::optional<sweep_guard_core::Time> previous_stamp_;
+  std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
+  // Missing transforms by target and source, each with the stamp of the newest one that there was.
+  std::map<std::pair<std::string, std::string>, std::optional<sweep_guard_core::Time>> missing_;
   LogThrottle log_;
-  InputRecord record_;
+  sweep_guard_core::InputRecord record_;
 
-  QueueThread thread_;  // outlives what calls back on it
+  QueueThread thread_;  // before the subscriber, which uses its queue
   std::shared_ptr<void> transforms_changed_;
   ros::Subscriber subscriber_;
 };

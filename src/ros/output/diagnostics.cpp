@@ -3,20 +3,18 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <limits>
 
+#include "sweep_guard/common/quantile.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
+using sweep_guard_core::InputRecord;
+using sweep_guard_core::quantile;
+using sweep_guard_core::SweepStatistics;
 using sweep_guard_core::toSeconds;
-
-double quantile(const std::vector<double>& ascending, double share) {
-  if (ascending.empty()) return std::numeric_limits<double>::quiet_NaN();
-  return ascending[static_cast<size_t>(share * static_cast<double>(ascending.size() - 1))];
-}
 
 double residentMegabytes() {
   std::ifstream statm("/proc/self/statm");
@@ -28,17 +26,9 @@ double residentMegabytes() {
 
 }  // namespace
 
-double RateMeter::update(std::uint64_t count) {
-  const sweep_guard_core::SteadyTime asked = std::chrono::steady_clock::now();
-  const double rate = static_cast<double>(count - count_) / toSeconds(asked - asked_);
-  count_ = count;
-  asked_ = asked;
-  return rate;
-}
-
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                         const DiagnosticsSources& parts)
-    : parts_(parts), updater_(node, private_node, private_node.getNamespace()) {
+                         const DiagnosticsSources& sources)
+    : sources_(sources), updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("warning", [this](Status& status) { warning(status); });
   updater_.add("tool pose", [this](Status& status) { pose(status); });
@@ -52,14 +42,14 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
 }
 
 void Diagnostics::publish() {
-  load_ = parts_.statistics.take();
+  statistics_ = sources_.statistics.take();
   updater_.force_update();
 }
 
 void Diagnostics::warning(Status& status) const {
   sweep_guard_core::Warning warning;
-  parts_.monitor.warning(now(), warning);
-  const auto disabled_by = parts_.monitor.disabledBy();
+  sources_.monitor.warning(now(), warning);
+  const auto disabled_by = sources_.monitor.disabledBy();
   const bool unknown = warning.level == sweep_guard_core::WarningLevel::kUnknown;
   status.summary(unknown ? DiagnosticStatus::WARN : DiagnosticStatus::OK, warning.text);
   status.add("level", sweep_guard_core::styleOf(warning.level).name);
@@ -70,43 +60,47 @@ void Diagnostics::warning(Status& status) const {
 }
 
 void Diagnostics::pose(Status& status) {
-  input(status, {parts_.poses.source(), parts_.poses.publishers(), parts_.poses.record().summary(), /*goes_on=*/true},
+  input(status,
+        {sources_.poses.source(), sources_.poses.publishers(), sources_.poses.record().summary(), /*continuous=*/true},
         poses_);
-  if (parts_.poses.publishers().value_or(1) > 1) {
+  if (sources_.poses.publishers().value_or(1) > 1) {
     status.mergeSummary(DiagnosticStatus::WARN, "several publishers: the tool jumps between their poses");
   }
 }
 
 void Diagnostics::mesh(Status& status) {
-  const InputRecord::Summary record = parts_.workpieces.meshes().summary();
-  input(status, {parts_.meshes.meshTopic(), parts_.meshes.meshPublishers(), record, /*goes_on=*/record.received == 0},
+  const InputRecord::Summary record = sources_.meshes.meshRecord().summary();
+  input(status,
+        {sources_.meshes.meshTopic(), sources_.meshes.meshPublishers(), record, /*continuous=*/record.received == 0},
         meshes_);
 }
 
 void Diagnostics::vertices(Status& status) {
   input(status,
-        {parts_.meshes.verticesTopic(), parts_.meshes.verticesPublishers(), parts_.workpieces.vertices().summary(),
-         /*goes_on=*/false},
+        {sources_.meshes.verticesTopic(), sources_.meshes.verticesPublishers(),
+         sources_.meshes.verticesRecord().summary(),
+         /*continuous=*/false},
         vertices_);
 }
 
-void Diagnostics::input(Status& status, const Input& input, Meter& meter) const {
+void Diagnostics::input(Status& status, const Input& input, Counts& previous) const {
   const InputRecord::Summary& record = input.record;
-  const double rate = meter.received.update(record.received);
-  const auto silence = input.goes_on ? DiagnosticStatus::ERROR : DiagnosticStatus::OK;
-  if (rate > 0.0) {
-    status.summary(DiagnosticStatus::OK, "comes in");
-  } else if (record.newest) {
-    status.summary(silence, input.goes_on ? "has stopped" : "nothing new");
-  } else if (input.publishers == 0U) {
-    status.summary(silence, "nobody publishes " + input.source);
-  } else {
-    status.summary(input.goes_on ? DiagnosticStatus::STALE : DiagnosticStatus::OK, "nothing yet on " + input.source);
-  }
-  if (meter.refused.update(record.refused) > 0.0)
-    status.summary(DiagnosticStatus::ERROR, "refused: " + record.last_error);
-
   const sweep_guard_core::Instant at = now();
+  const double rate = static_cast<double>(record.received - previous.received) / toSeconds(at.steady - previous.time);
+  const auto silence = input.continuous ? DiagnosticStatus::ERROR : DiagnosticStatus::OK;
+  if (rate > 0.0) {
+    status.summary(DiagnosticStatus::OK, "received");
+  } else if (record.newest) {
+    status.summary(silence, input.continuous ? "has stopped" : "nothing new");
+  } else if (input.publishers == 0U) {
+    status.summary(silence, "no publisher on " + input.source);
+  } else {
+    status.summary(input.continuous ? DiagnosticStatus::STALE : DiagnosticStatus::OK,
+                   "nothing received on " + input.source);
+  }
+  if (record.refused > previous.refused) status.summary(DiagnosticStatus::ERROR, "refused: " + record.last_error);
+  previous = {record.received, record.refused, at.steady};
+
   status.add("source", input.source);
   if (input.publishers) status.add("publishers", *input.publishers);
   status.addf("rate [Hz]", "%.1f", rate);
@@ -117,13 +111,13 @@ void Diagnostics::input(Status& status, const Input& input, Meter& meter) const 
   status.add("received", record.received);
   status.add("refused", record.refused);
   status.add("last error", record.last_error.empty() ? "none" : record.last_error);
-  if (!record.last_error.empty()) status.addf("age of the error [s]", "%.1f", toSeconds(at.steady - record.failed));
+  if (!record.last_error.empty()) status.addf("age of the error [s]", "%.1f", toSeconds(at.steady - record.error_time));
 }
 
 void Diagnostics::workpieces(Status& status) const {
-  const sweep_guard_core::Workpieces workpieces = parts_.workpieces.snapshot();
+  const sweep_guard_core::Workpieces workpieces = sources_.workpieces.snapshot();
   const sweep_guard_core::Instant at = now();
-  const sweep_guard_core::Duration timeout = parts_.parameters.get()->limits.mesh_timeout;
+  const sweep_guard_core::Duration timeout = sources_.parameters.get()->limits.mesh_timeout;
   status.summary(DiagnosticStatus::OK, std::to_string(workpieces.size()) + " workpieces");
   if (workpieces.empty()) status.summary(DiagnosticStatus::STALE, "no workpiece yet");
   for (const auto& workpiece : workpieces) {
@@ -138,67 +132,66 @@ void Diagnostics::workpieces(Status& status) const {
 }
 
 void Diagnostics::detector(Status& status) const {
-  reportDetector(load_, *parts_.parameters.get(), status);
-  if (parts_.monitor.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is swept");
+  reportDetector(statistics_, *sources_.parameters.get(), status);
+  if (sources_.monitor.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is swept");
 }
 
-void reportDetector(const SweepStatistics::Summary& load, const Parameters& parameters,
+void reportDetector(const SweepStatistics::Summary& statistics, const Parameters& parameters,
                     diagnostic_updater::DiagnosticStatusWrapper& status) {
   const sweep_guard_core::Duration cycle = parameters.guard.cycle;
   status.summary(DiagnosticStatus::OK, parameters.detector + " keeps up");
-  if (load.latencies.empty() && load.faults == 0) {
+  if (statistics.latencies.empty() && statistics.faults == 0) {
     status.summary(DiagnosticStatus::WARN, "no tool pose to sweep to");
   }
-  if (!load.latencies.empty() && load.latencies.back() > toSeconds(cycle)) {
+  if (!statistics.latencies.empty() && quantile(statistics.latencies, 1.0) > toSeconds(cycle)) {
     status.summary(DiagnosticStatus::WARN,
                    parameters.detector + " is slower than timing/min_rate: use fewer triangles");
   }
-  if (load.faults > 0) status.mergeSummary(DiagnosticStatus::ERROR, "failed: " + load.last_fault);
+  if (statistics.faults > 0) status.mergeSummary(DiagnosticStatus::ERROR, "failed: " + statistics.last_fault);
   status.add("detector", parameters.detector);
   if (parameters.detector == "select") status.add("gl_context", parameters.detector_options.gl_context);
   status.add("volume", sweep_guard_core::nameOf(parameters.guard.sweep.volume));
-  status.add("poses swept", load.sweeps_total);
+  status.add("poses swept", statistics.sweeps_total);
   status.addf("deadline [ms]", "%.1f", 1e3 * toSeconds(cycle));
-  status.add("cycles missed", load.late_total);
-  status.addf("pose to warning [ms]", "p50 %.2f, p99 %.2f, max %.2f", 1e3 * quantile(load.latencies, 0.5),
-              1e3 * quantile(load.latencies, 0.99), 1e3 * quantile(load.latencies, 1.0));
-  status.addf("longest sweep [ms]", "%.2f", 1e3 * load.busiest);
-  status.add("faults", load.faults_total);
-  status.add("last error", load.last_fault.empty() ? "none" : load.last_fault);
+  status.add("cycles missed", statistics.late_total);
+  status.addf("pose to warning [ms]", "p50 %.2f, p99 %.2f, max %.2f", 1e3 * quantile(statistics.latencies, 0.5),
+              1e3 * quantile(statistics.latencies, 0.99), 1e3 * quantile(statistics.latencies, 1.0));
+  status.addf("longest sweep [ms]", "%.2f", 1e3 * statistics.longest_sweep);
+  status.add("faults", statistics.faults_total);
+  status.add("last error", statistics.last_fault.empty() ? "none" : statistics.last_fault);
 }
 
 void Diagnostics::prediction(Status& status) const {
-  const auto parameters = parts_.parameters.get();
+  const auto parameters = sources_.parameters.get();
   const std::string& predictor = parameters->guard.predictor.predictor;
   const sweep_guard_core::HorizonOptions& horizon = parameters->guard.horizon;
-  const SweepStatistics::PredictionTiming& newest = load_.prediction;
-  status.summary(DiagnosticStatus::OK, predictor + " looks ahead");
-  if (load_.coarser) {
+  const SweepStatistics::PredictionTiming& newest = statistics_.prediction;
+  status.summary(DiagnosticStatus::OK, predictor + " predicts");
+  if (statistics_.coarser) {
     status.summary(DiagnosticStatus::WARN,
-                   "the considered interval is swept more coarsely than horizon/considered_step "
-                   "to keep timing/min_rate: use fewer triangles");
+                   "sweeps are longer than horizon/considered_step to keep timing/min_rate: use fewer triangles");
   }
   if (newest.sweeps_made == 0) {
     status.summary(DiagnosticStatus::STALE, "no prediction: two tool poses in a row are needed");
   }
-  if (load_.prediction_times.empty()) status.summary(DiagnosticStatus::STALE, "no tool pose to look ahead from");
-  if (parts_.monitor.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is predicted");
+  if (statistics_.prediction_times.empty()) status.summary(DiagnosticStatus::STALE, "no tool pose to predict from");
+  if (sources_.monitor.disabledBy()) status.summary(DiagnosticStatus::WARN, "disabled: nothing is predicted");
   status.add("predictor", predictor);
   status.addf("horizon [s]", "reflex %g, considered %g", toSeconds(horizon.reflex), toSeconds(horizon.considered));
-  status.add("predictions", load_.predictions_total);
-  status.add("deadlines missed", load_.late_predictions_total);
+  status.add("predictions", statistics_.predictions_total);
+  status.add("deadlines missed", statistics_.late_predictions_total);
   status.addf("sweeps made / asked", "%zu / %zu", newest.sweeps_made, newest.sweeps_asked);
-  status.addf("time [ms]", "p50 %.2f, max %.2f", 1e3 * quantile(load_.prediction_times, 0.5),
-              1e3 * quantile(load_.prediction_times, 1.0));
+  status.addf("time [ms]", "p50 %.2f, max %.2f", 1e3 * quantile(statistics_.prediction_times, 0.5),
+              1e3 * quantile(statistics_.prediction_times, 1.0));
   status.addf("horizon covered [s]", "%.2f", toSeconds(newest.covered));
   status.addf("probability of contact", "%.3f", newest.probability);
 }
 
 void Diagnostics::parameters(Status& status) const {
-  const std::vector<ParameterChange> changes = differences(parts_.parameters.initial(), *parts_.parameters.get());
-  const ReconfigureServer::History history = parts_.reconfigure.history();
-  status.summary(DiagnosticStatus::OK,
-                 changes.empty() ? "as at the start" : std::to_string(changes.size()) + " changed since the start");
+  const std::vector<ParameterChange> changes = differences(sources_.parameters.initial(), *sources_.parameters.get());
+  const ReconfigureServer::History history = sources_.reconfigure.history();
+  status.summary(DiagnosticStatus::OK, changes.empty() ? "unchanged since the start"
+                                                       : std::to_string(changes.size()) + " changed since the start");
   for (const ParameterChange& change : changes) {
     status.add(change.key, shown(change.after) + ", at the start " + shown(change.before));
   }

@@ -12,9 +12,9 @@ using visualization_msgs::Marker;
 
 constexpr double kLifetime = 0.5;  // [s]
 
-const Eigen::Vector3d kLight(0.48, 0.14, 0.866);  // towards it
+const Eigen::Vector3d kLight(0.48, 0.14, 0.866);  // direction to the light
 
-// rviz's own light leaves the side that one looks at in the dark.
+// rviz's own light leaves the visible side dark.
 void addShaded(Marker& list, const sweep_guard_core::ConvexShape& shape_T, const Eigen::Matrix3d& R_WT) {
   const sweep_guard_core::TriangleMesh& mesh_T = shape_T.mesh_T();
   for (const auto& [a, b, c] : mesh_T.triangles()) {
@@ -42,31 +42,15 @@ std_msgs::ColorRGBA color(double r, double g, double b, double alpha) {
 }
 
 std_msgs::ColorRGBA levelColor(WarningLevel level, double alpha) {
-  switch (level) {
-    case WarningLevel::kClear:
-      return color(0.2, 0.75, 0.3, alpha);
-    case WarningLevel::kConsidered:
-      return color(1.0, 0.7, 0.1, alpha);
-    case WarningLevel::kReflex:
-    case WarningLevel::kContact:
-      return color(0.95, 0.15, 0.1, alpha);
-    case WarningLevel::kUnknown:
-      break;
-  }
-  return color(0.55, 0.55, 0.55, alpha);
+  const auto& [red, green, blue] = styleOf(level).rgb;
+  return color(red / 255.0, green / 255.0, blue / 255.0, alpha);
 }
 
 std_msgs::ColorRGBA unlessUnknown(WarningLevel level, const std_msgs::ColorRGBA& color) {
   return level == WarningLevel::kUnknown ? levelColor(level, static_cast<double>(color.a)) : color;
 }
 
-geometry_msgs::Point point(const Eigen::Vector3d& p) {
-  geometry_msgs::Point msg;
-  msg.x = p.x();
-  msg.y = p.y();
-  msg.z = p.z();
-  return msg;
-}
+geometry_msgs::Point point(const Eigen::Vector3d& p) { return vectorMsg<geometry_msgs::Point>(p); }
 
 Marker marker(const std::string& ns, int id, int type, const std::string& frame, sweep_guard_core::Time stamp) {
   Marker marker;
@@ -84,7 +68,7 @@ Marker marker(const std::string& ns, int id, int type, const std::string& frame,
 
 int toolMarkers(const sweep_guard_core::Tool& tool) {
   int cylinders = 0;
-  for (const sweep_guard_core::ConvexPiece& part : tool.pieces()) cylinders += part.shape_T.asCylinder() ? 1 : 0;
+  for (const sweep_guard_core::ConvexPiece& piece : tool.pieces()) cylinders += piece.shape_T.asCylinder() ? 1 : 0;
   return cylinders + (static_cast<size_t>(cylinders) < tool.pieces().size() ? 1 : 0);
 }
 
@@ -94,8 +78,8 @@ void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing,
   Marker others = marker(drawing.ns, id, Marker::TRIANGLE_LIST, drawing.frame, drawing.stamp);
   others.pose = toMsg(X_WT);
   others.color = drawing.color;
-  for (const sweep_guard_core::ConvexPiece& part : tool.pieces()) {
-    if (const auto cylinder = part.shape_T.asCylinder()) {
+  for (const sweep_guard_core::ConvexPiece& piece : tool.pieces()) {
+    if (const auto cylinder = piece.shape_T.asCylinder()) {
       Marker drawn = marker(drawing.ns, id++, Marker::CYLINDER, drawing.frame, drawing.stamp);
       drawn.pose = toMsg(X_WT * cylinder->X_TC * Eigen::Translation3d(0.0, 0.0, -0.5 * cylinder->length));
       drawn.scale.x = drawn.scale.y = 2.0 * cylinder->radius;
@@ -104,7 +88,7 @@ void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing,
       array.markers.push_back(drawn);
       continue;
     }
-    addShaded(others, part.shape_T, X_WT.linear());
+    addShaded(others, piece.shape_T, X_WT.linear());
   }
   others.id = id;
   if (!others.points.empty()) array.markers.push_back(std::move(others));

@@ -15,38 +15,39 @@
 
 namespace sweep_guard_ros {
 
-/// Components and alpha in [0, 1].
+/// Makes a color. Components and alpha are in [0, 1].
 std_msgs::ColorRGBA color(double r, double g, double b, double alpha);
 
-/// Clear is green, considered amber, reflex and contact red, unknown grey.
+/// Returns the color of a level (kLevelStyles) with this alpha.
 std_msgs::ColorRGBA levelColor(sweep_guard_core::WarningLevel level, double alpha);
 
-/// The colour, or grey of the same alpha while the level is unknown.
+/// Returns the color, or gray of the same alpha while the level is unknown.
 std_msgs::ColorRGBA unlessUnknown(sweep_guard_core::WarningLevel level, const std_msgs::ColorRGBA& color);
 
 geometry_msgs::Point point(const Eigen::Vector3d& p);
 
-/// A marker to be added, of scale 1 at the origin of its frame; it lives for 0.5 s.
+/// Makes a marker of action ADD and scale 1 at the origin of its frame, which lives for 0.5 s.
 visualization_msgs::Marker marker(const std::string& ns, int id, int type, const std::string& frame,
                                   sweep_guard_core::Time stamp);
 
-/// A tool in one pose and colour: its cylinders as such, its other parts together as triangles, all without padding.
+/// Describes the markers of a tool in one pose and color: one marker for each cylinder and one for the triangles of all
+/// other pieces, without padding.
 struct ToolDrawing {
   std::string ns;
-  int index;  ///< of several in this namespace: ids are those from index * toolMarkers(tool) on
+  int index;  ///< of the tool in its namespace; ids begin at index * toolMarkers(tool)
   std::string frame;
   sweep_guard_core::Time stamp;
   std_msgs::ColorRGBA color;
 };
-int toolMarkers(const sweep_guard_core::Tool& tool);  ///< number of markers that draw it
+int toolMarkers(const sweep_guard_core::Tool& tool);  ///< number of markers for one tool
 void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing, const sweep_guard_core::Tool& tool,
              const Eigen::Isometry3d& X_WT);
 
-/// How far triangles are lifted off a workpiece, so that they are seen, and are not far from it either, for small tools
-/// [m].
+/// Returns the distance [m] between a workpiece and the triangles drawn on it: enough to see them, small for a small
+/// tool.
 double liftOff(const sweep_guard_core::Tool& tool);
 
-/// A surface and the lines on it: two markers with the ids 2 * index and 2 * index + 1.
+/// Draws a surface and its edges as two markers with the ids 2 * index and 2 * index + 1.
 class Surface {
  public:
   /// @param line_width  [m]
@@ -56,12 +57,11 @@ class Surface {
 
   void add(const sweep_guard_core::Polygon& polygon);
   void add(const sweep_guard_core::SweptVolume& volume_M);
-  /// Triangles of a workpiece, off its surface on either side: in it they would flicker with whoever draws the
-  /// workpiece.
+  /// Adds triangles of a workpiece on both sides of its surface: in the surface they would flicker.
   /// @param lift  [m]
   void add(const sweep_guard_core::TriangleMesh& mesh_M, const std::vector<std::uint32_t>& triangles, double lift);
 
-  /// Hands the markers over, if there is anything to see.
+  /// Moves the markers into the array, if there are any faces.
   void moveInto(visualization_msgs::MarkerArray& array);
 
  private:

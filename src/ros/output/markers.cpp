@@ -15,7 +15,7 @@ using visualization_msgs::Marker;
 
 constexpr double kLineWidth = 0.001;  // [m]
 
-// WarningLevel and reasons, each in a line of its own.
+// Writes the level and each reason in its own line.
 void addText(visualization_msgs::MarkerArray& array, Marker text, const sweep_guard_core::Warning& warning) {
   text.scale.z = 0.025;
   text.color = levelColor(warning.level, 0.95);
@@ -24,13 +24,12 @@ void addText(visualization_msgs::MarkerArray& array, Marker text, const sweep_gu
   array.markers.push_back(std::move(text));
 }
 
-// Behind the rear end.
+// Returns a point behind the rear end.
 Eigen::Vector3d textPosition(const sweep_guard_core::Tool& tool) {
   const Eigen::AlignedBox3d& box = tool.bounds_T();
   return {box.center().x(), box.center().y(), box.min().z() - 0.4 * box.sizes().z()};
 }
 
-// In the frame of each workpiece.
 void addSweptVolumes(visualization_msgs::MarkerArray& array, const sweep_guard_core::SweepReport& report,
                      WarningLevel level) {
   int index = 0;
@@ -70,7 +69,7 @@ visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
   if (scene.prediction) addPredicted(array, scene);
   const auto hidden = [&](const Marker& drawn) { return scene.namespaces.count(drawn.ns) == 0; };
   array.markers.erase(std::remove_if(array.markers.begin(), array.markers.end(), hidden), array.markers.end());
-  deleteGone(array);
+  deleteOld(array);
   return array;
 }
 
@@ -99,14 +98,14 @@ void Markers::addPredicted(visualization_msgs::MarkerArray& array, const MarkerS
   addPredictedTrail(array, predicted, scene.prediction_from_W);
 }
 
-void Markers::deleteGone(visualization_msgs::MarkerArray& array) {
+void Markers::deleteOld(visualization_msgs::MarkerArray& array) {
   std::set<Key> now_shown;
   for (const Marker& drawn : array.markers) now_shown.emplace(drawn.ns, drawn.id);
   for (const auto& [ns, id] : shown_) {
     if (now_shown.count({ns, id}) != 0) continue;
-    Marker gone = marker(ns, id, Marker::CUBE, fixed_frame_, {});
-    gone.action = Marker::DELETE;
-    array.markers.push_back(gone);
+    Marker old = marker(ns, id, Marker::CUBE, fixed_frame_, {});
+    old.action = Marker::DELETE;
+    array.markers.push_back(old);
   }
   shown_ = std::move(now_shown);
 }

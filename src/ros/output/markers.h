@@ -9,32 +9,32 @@
 #include <utility>
 #include <vector>
 
-#include "ros/output/trail.h"
+#include "common/trail.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/guard/prediction.h"
 #include "sweep_guard/monitor/warning.h"
 
 namespace sweep_guard_ros {
 
-/// What the markers show.
+/// Everything that the markers show.
 struct MarkerScene {
   std::shared_ptr<const sweep_guard_core::Tool> tool;
-  std::set<std::string> namespaces;                                ///< only these are drawn
-  std::shared_ptr<const sweep_guard_core::SweepReport> newest;     ///< null: nothing swept yet
-  std::shared_ptr<const sweep_guard_core::SweepReport> contact;    ///< newest with a contact; null: none
-  std::shared_ptr<const sweep_guard_core::Prediction> prediction;  ///< newest; null: none yet
-  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();          ///< of the newest report
-  Eigen::Vector3d prediction_from_W = Eigen::Vector3d::Zero();     ///< where the tip was when it was looked ahead [m]
-  Trail trail;
+  std::set<std::string> namespaces;                                ///< drawn ones
+  std::shared_ptr<const sweep_guard_core::SweepReport> newest;     ///< null: none yet
+  std::shared_ptr<const sweep_guard_core::SweepReport> contact;    ///< newest one with a contact; null: none
+  std::shared_ptr<const sweep_guard_core::Prediction> prediction;  ///< newest one; null: none yet
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();          ///< tool pose of the newest report
+  Eigen::Vector3d prediction_from_W = Eigen::Vector3d::Zero();     ///< tip of the tool where the prediction begins [m]
+  sweep_guard_core::Trail trail;
   sweep_guard_core::Warning warning;
 };
 
-/// The namespaces that markers come in, in the order in which they are documented.
+/// Returns the namespaces of all markers, in the order of the documentation.
 const std::vector<std::string>& markerNamespaces();
 
-/// Draws the tool, its sweep, the triangles met, the same of the prediction, and the warning text for rviz. Ids are
-/// stable, what is gone is deleted once, nothing outlives half a second, and everything is grey while the level is
-/// unknown. One thread.
+/// Draws the tool, its swept volume, the triangles in contact, the prediction, and the warning text for rviz. Ids are
+/// stable. A marker is deleted once when its subject is gone, lives for at most half a second, and is gray while the
+/// level is unknown. One thread.
 class Markers {
  public:
   explicit Markers(std::string fixed_frame);
@@ -46,7 +46,7 @@ class Markers {
 
   void addMeasured(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const;
   void addPredicted(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const;
-  void deleteGone(visualization_msgs::MarkerArray& array);
+  void deleteOld(visualization_msgs::MarkerArray& array);
 
   const std::string fixed_frame_;
   std::set<Key> shown_;

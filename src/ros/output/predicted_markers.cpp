@@ -12,14 +12,14 @@ using visualization_msgs::Marker;
 
 constexpr int kGhosts = 10;
 
-// How far any point of the tool moves between two poses: that of a corner of the box around it.
-double moved(const sweep_guard_core::Tool& tool, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  double most = 0.0;
+// Returns the largest distance that a corner of the tool's bounding box moves between two poses.
+double largestMotion(const sweep_guard_core::Tool& tool, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  double largest = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3d p_T = tool.bounds_T().corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-    most = std::max(most, (to * p_T - from * p_T).norm());
+    largest = std::max(largest, (to * p_T - from * p_T).norm());
   }
-  return most;
+  return largest;
 }
 
 void fade(Marker& strip, const Eigen::Vector3d& p_W, const std_msgs::ColorRGBA& full, double share) {
@@ -38,7 +38,8 @@ void addGhosts(visualization_msgs::MarkerArray& array, const PredictedScene& sce
     const auto pose =
         std::lower_bound(path.begin(), path.end(), due,
                          [](const auto& before, sweep_guard_core::Duration t) { return before.ahead < t; });
-    if (drawn != nullptr && moved(scene.tool, *drawn, pose->X_WT) < 0.5 * scene.tool.bounds_T().sizes().minCoeff())
+    if (drawn != nullptr &&
+        largestMotion(scene.tool, *drawn, pose->X_WT) < 0.5 * scene.tool.bounds_T().sizes().minCoeff())
       continue;
     drawn = &pose->X_WT;
     const std_msgs::ColorRGBA fading = color(0.45, 0.65, 1.0, 0.5 * (kGhosts - i) / kGhosts);
@@ -58,7 +59,7 @@ void addPredictedVolumes(visualization_msgs::MarkerArray& array, const Predicted
 }
 
 void addPredictedTriangles(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
-  const double lift = 0.5 * liftOff(scene.tool);  // half of what contacts are lifted: those are seen above
+  const double lift = 0.5 * liftOff(scene.tool);  // half as high as contacts, which are drawn above
   int index = 0;
   for (const sweep_guard_core::PredictedObject& object : scene.prediction.objects) {
     for (const auto& [level, triangles] :
@@ -72,15 +73,15 @@ void addPredictedTriangles(visualization_msgs::MarkerArray& array, const Predict
   }
 }
 
-void addTrail(visualization_msgs::MarkerArray& array, const Trail& trail, const std::string& fixed_frame,
-              WarningLevel level) {
+void addTrail(visualization_msgs::MarkerArray& array, const sweep_guard_core::Trail& trail,
+              const std::string& fixed_frame, WarningLevel level) {
   if (trail.points().size() < 2) return;  // one point is no line
   const sweep_guard_core::Time newest = trail.points().back().stamp;
   const double span = sweep_guard_core::toSeconds(newest - trail.points().front().stamp);
   Marker strip = marker("trajectory", 0, Marker::LINE_STRIP, fixed_frame, newest);
   strip.scale.x = 0.002;
   strip.color = unlessUnknown(level, color(0.9, 0.9, 0.9, 0.8));
-  for (const Trail::Point& past : trail.points()) {
+  for (const sweep_guard_core::Trail::Point& past : trail.points()) {
     const double age = sweep_guard_core::toSeconds(newest - past.stamp);
     fade(strip, past.p_W, strip.color, span > 0.0 ? 1.0 - age / span : 1.0);
   }

@@ -4,14 +4,14 @@
 
 #include <string>
 
-#include "ros/output/trail.h"
+#include "common/trail.h"
 #include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/guard/prediction.h"
 #include "sweep_guard/monitor/warning.h"
 
 namespace sweep_guard_ros {
 
-/// What the drawings of the prediction share.
+/// Everything that the markers of the prediction share.
 struct PredictedScene {
   const sweep_guard_core::Prediction& prediction;
   const sweep_guard_core::Tool& tool;
@@ -19,18 +19,18 @@ struct PredictedScene {
   sweep_guard_core::WarningLevel level;
 };
 
-/// `predicted_tool`: at most ten ghosts, evenly spread in time, fading with it. One that has hardly moved is left out.
+/// Adds `predicted_tool`: at most ten ghosts at even intervals, fading with time. Omits a ghost that has hardly moved.
 void addGhosts(visualization_msgs::MarkerArray& array, const PredictedScene& scene);
 
-/// `predicted_volume`: the boxes and planes of the predicted sweeps, faint.
+/// Adds `predicted_volume`: the faint boxes and planes of the predicted sweeps.
 void addPredictedVolumes(visualization_msgs::MarkerArray& array, const PredictedScene& scene);
 
-/// `predicted_triangles`: those met within the reflex interval in red, those met later in amber.
+/// Adds `predicted_triangles`: contacts within the reflex interval in red, later ones in amber.
 void addPredictedTriangles(visualization_msgs::MarkerArray& array, const PredictedScene& scene);
 
-/// `trajectory`: the way of the tip, measured (id 0) and predicted (id 1), fading with the time from now.
-void addTrail(visualization_msgs::MarkerArray& array, const Trail& trail, const std::string& fixed_frame,
-              sweep_guard_core::WarningLevel level);
+/// Adds `trajectory`: the path of the tip, measured (id 0) and predicted (id 1), fading with the time from now.
+void addTrail(visualization_msgs::MarkerArray& array, const sweep_guard_core::Trail& trail,
+              const std::string& fixed_frame, sweep_guard_core::WarningLevel level);
 void addPredictedTrail(visualization_msgs::MarkerArray& array, const PredictedScene& scene,
                        const Eigen::Vector3d& from_W);
 

@@ -10,17 +10,16 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr std::uint32_t kContactsQueued = 1000;  // of 1 s at 1 kHz
-constexpr std::uint32_t kPredictionsQueued = 100;
+constexpr std::uint32_t kContactsQueue = 1000;  // 1 s at 1 kHz
+constexpr std::uint32_t kPredictionsQueue = 100;
 
 }  // namespace
 
 ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const LiveParameters& parameters)
     : parameters_(parameters),
-      contacts_publisher_(private_node.advertise<sweep_guard::Contacts>("contacts", kContactsQueued)),
-      prediction_publisher_(private_node.advertise<sweep_guard::Prediction>("message", kPredictionsQueued)),
-      time_to_collision_publisher_(private_node.advertise<std_msgs::Float64>("time_to_collision", kPredictionsQueued)) {
-}
+      contacts_publisher_(private_node.advertise<sweep_guard::Contacts>("contacts", kContactsQueue)),
+      prediction_publisher_(private_node.advertise<sweep_guard::Prediction>("prediction", kPredictionsQueue)),
+      time_to_collision_publisher_(private_node.advertise<std_msgs::Float64>("time_to_collision", kPredictionsQueue)) {}
 
 void ResultPublisher::publish(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool) const {
   if (contacts_publisher_.getNumSubscribers() == 0) return;

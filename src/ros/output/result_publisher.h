@@ -8,14 +8,14 @@
 
 namespace sweep_guard_ros {
 
-/// Publishes what every sweep and every look ahead has found: `~contacts`, `~prediction` and `~time_to_collision`.
+/// Publishes the results of every sweep and every prediction: `~contacts`, `~prediction` and `~time_to_collision`.
 class ResultPublisher {
  public:
   ResultPublisher(ros::NodeHandle private_node, const LiveParameters& parameters);
 
-  /// @param tool  that was swept
+  /// @param tool  the swept tool
   void publish(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool) const;
-  /// @param age  of the pose that the prediction begins at, at the moment of the prediction
+  /// @param age  age that the first pose had at the time of the prediction
   void publish(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age) const;
 
  private:

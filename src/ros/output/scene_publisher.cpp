@@ -42,14 +42,14 @@ void ScenePublisher::clear() {
 }
 
 void ScenePublisher::publishMarkers() {
-  if (marker_publisher_.getNumSubscribers() > 0) marker_publisher_.publish(markers_.draw(sceneNow()));
+  if (marker_publisher_.getNumSubscribers() > 0) marker_publisher_.publish(markers_.draw(currentScene()));
 }
 
 void ScenePublisher::publishView() const {
-  if (view_.wanted()) view_.publish(sceneNow());
+  if (view_.hasSubscribers()) view_.publish(currentScene());
 }
 
-MarkerScene ScenePublisher::sceneNow() const {
+MarkerScene ScenePublisher::currentScene() const {
   MarkerScene scene;
   {
     const std::lock_guard lock(mutex_);

@@ -13,8 +13,8 @@
 
 namespace sweep_guard_ros {
 
-/// Keeps the newest that the guard has found, and publishes it for the eye: `~markers`, `~view` and, once, `~tool`. One
-/// thread tells, another publishes.
+/// Keeps the newest results of the guard and publishes them for displays: `~markers`, `~view` and, once, `~tool`. One
+/// thread reports results, another one publishes.
 class ScenePublisher {
  public:
   ScenePublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
@@ -26,11 +26,11 @@ class ScenePublisher {
                  std::shared_ptr<const sweep_guard_core::Prediction> prediction);
   void clear();
 
-  void publishMarkers();     ///< if somebody listens
-  void publishView() const;  ///< likewise
+  void publishMarkers();     ///< publishes if there is a subscriber
+  void publishView() const;  ///< publishes if there is a subscriber
 
  private:
-  MarkerScene sceneNow() const;
+  MarkerScene currentScene() const;
 
   const LiveParameters& parameters_;
   const sweep_guard_core::WarningMonitor& monitor_;

@@ -13,9 +13,7 @@ using sweep_guard::ObjectView;
 sweep_guard::TestedVolume volumeMsg(const sweep_guard_core::SweptVolume& volume_M) {
   sweep_guard::TestedVolume msg;
   msg.pose = toMsg(volume_M.box.X_MB);
-  msg.half_extents.x = volume_M.box.half_extents.x();
-  msg.half_extents.y = volume_M.box.half_extents.y();
-  msg.half_extents.z = volume_M.box.half_extents.z();
+  msg.half_extents = vectorMsg<geometry_msgs::Vector3>(volume_M.box.half_extents);
   for (const sweep_guard_core::HalfSpace& clip_B : volume_M.clips_B) {
     const Eigen::Vector3d& n = clip_B.normal();
     msg.clips.emplace_back().coef = {n.x(), n.y(), n.z(), -clip_B.offset()};
@@ -74,19 +72,18 @@ sweep_guard::View toMsg(const MarkerScene& scene) {
   if (scene.contact && scene.warning.level == sweep_guard_core::WarningLevel::kContact) addContact(scene, msg.objects);
   if (!scene.prediction) return msg;
   addPredicted(*scene.prediction, msg.objects);
-  for (const sweep_guard_core::PredictedPose& expected : scene.prediction->path)
-    msg.path.push_back(toMsg(expected.X_WT));
+  for (const sweep_guard_core::PredictedPose& pose : scene.prediction->path) msg.path.push_back(toMsg(pose.X_WT));
   return msg;
 }
 
 sweep_guard::ToolShape toMsg(const sweep_guard_core::Tool& tool) {
   sweep_guard::ToolShape msg;
-  for (const sweep_guard_core::ConvexPiece& part : tool.pieces()) {
-    const sweep_guard_core::TriangleMesh& mesh_T = part.shape_T.mesh_T();
+  for (const sweep_guard_core::ConvexPiece& piece : tool.pieces()) {
+    const sweep_guard_core::TriangleMesh& mesh_T = piece.shape_T.mesh_T();
     shape_msgs::Mesh& surface = msg.parts.emplace_back();
     for (size_t i = 0; i < mesh_T.vertexCount(); ++i) surface.vertices.push_back(point(mesh_T.vertex(i)));
     for (const auto& [a, b, c] : mesh_T.triangles()) surface.triangles.emplace_back().vertex_indices = {a, b, c};
-    msg.links.push_back(part.link);
+    msg.links.push_back(piece.link);
   }
   return msg;
 }

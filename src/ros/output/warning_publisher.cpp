@@ -7,7 +7,7 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr auto kPeriod = std::chrono::milliseconds(45);  // with the watchdog's: 20 Hz at least
+constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, polled every 10 ms
 constexpr auto kValid = std::chrono::milliseconds(200);
 
 std_msgs::Bool flagMessage(bool raised) {
@@ -26,33 +26,33 @@ WarningPublisher::WarningPublisher(ros::NodeHandle private_node, const LiveParam
       reflex_publisher_(private_node.advertise<std_msgs::Bool>("reflex_warning", 10)),
       considered_publisher_(private_node.advertise<std_msgs::Bool>("considered_warning", 10)) {}
 
-void WarningPublisher::warnOfChange() {
+void WarningPublisher::publishIfChanged() {
   const std::lock_guard lock(mutex_);
-  warn(/*only_on_change=*/true);
+  publish(/*only_if_changed=*/true);
 }
 
-void WarningPublisher::warnInTime() {
+void WarningPublisher::publishIfDue() {
   const std::lock_guard lock(mutex_);
-  const bool due = std::chrono::steady_clock::now() - warned_ >= kPeriod;
-  warn(/*only_on_change=*/!due);
+  const bool due = std::chrono::steady_clock::now() - published_ >= kPeriod;
+  publish(/*only_if_changed=*/!due);
 }
 
-void WarningPublisher::repeatReflex() { repeat(reflex_publisher_, &sweep_guard::Warning::reflex); }
+void WarningPublisher::publishReflex() { publishFlag(reflex_publisher_, &sweep_guard::Warning::reflex); }
 
-void WarningPublisher::repeatConsidered() { repeat(considered_publisher_, &sweep_guard::Warning::considered); }
+void WarningPublisher::publishConsidered() { publishFlag(considered_publisher_, &sweep_guard::Warning::considered); }
 
-void WarningPublisher::repeat(const ros::Publisher& publisher, Flag flag) {
+void WarningPublisher::publishFlag(const ros::Publisher& publisher, Flag flag) {
   const std::lock_guard lock(mutex_);
-  warn(/*only_on_change=*/true);
+  publish(/*only_if_changed=*/true);
   publisher.publish(flagMessage(message_.*flag != 0));
 }
 
-// Under the lock.
-void WarningPublisher::warn(bool only_on_change) {
+// Called under the lock.
+void WarningPublisher::publish(bool only_if_changed) {
   const sweep_guard_core::Instant at = now();
   monitor_.warning(at, warning_);
   const bool new_level = static_cast<std::uint8_t>(warning_.level) != message_.level;
-  if (only_on_change && !new_level && warning_.reasons == message_.reasons) return;
+  if (only_if_changed && !new_level && warning_.reasons == message_.reasons) return;
   const auto parameters = parameters_.get();
   sweep_guard::Warning next = toMsg(warning_);
   if (warning_.tool_piece) next.tool_link = parameters->tool->pieces()[*warning_.tool_piece].link;
@@ -65,7 +65,7 @@ void WarningPublisher::warn(bool only_on_change) {
   const bool reflex_rises = next.reflex && !message_.reflex;
   const bool considered_rises = next.considered && !message_.considered;
   message_ = next;
-  warned_ = at.steady;
+  published_ = at.steady;
   warning_publisher_.publish(next);
   if (reflex_rises) reflex_publisher_.publish(flagMessage(true));
   if (considered_rises) considered_publisher_.publish(flagMessage(true));

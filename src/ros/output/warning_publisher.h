@@ -11,22 +11,23 @@
 
 namespace sweep_guard_ros {
 
-/// Publishes `~warning`, and the flags `~reflex_warning` and `~considered_warning` at once when they rise. Any thread.
+/// Publishes `~warning`, and publishes the flags `~reflex_warning` and `~considered_warning` at once when they rise. Any
+/// thread.
 class WarningPublisher {
  public:
   WarningPublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
                    const sweep_guard_core::WarningMonitor& monitor);
 
-  void warnOfChange();      ///< of level or reasons, if there is one
-  void warnInTime();        ///< likewise, and of what stays as it is often enough for 20 Hz
-  void repeatReflex();      ///< as it is now, not as it was when the warning was sent last
-  void repeatConsidered();  ///< likewise
+  void publishIfChanged();   ///< publishes if level or reasons have changed
+  void publishIfDue();       ///< publishes on change, and otherwise often enough for 20 Hz
+  void publishReflex();      ///< publishes the flag as it is now
+  void publishConsidered();  ///< publishes the flag as it is now
 
  private:
   using Flag = sweep_guard::Warning::_reflex_type sweep_guard::Warning::*;
 
-  void warn(bool only_on_change);
-  void repeat(const ros::Publisher& publisher, Flag flag);
+  void publish(bool only_if_changed);
+  void publishFlag(const ros::Publisher& publisher, Flag flag);
 
   const LiveParameters& parameters_;
   const sweep_guard_core::WarningMonitor& monitor_;
@@ -35,9 +36,9 @@ class WarningPublisher {
   ros::Publisher considered_publisher_;
 
   std::mutex mutex_;
-  sweep_guard_core::Warning warning_;  // newest
-  sweep_guard::Warning message_;       // counters and level last sent
-  sweep_guard_core::SteadyTime warned_;
+  sweep_guard_core::Warning warning_;       // newest
+  sweep_guard::Warning message_;            // published last
+  sweep_guard_core::SteadyTime published_;  // time of that message
 };
 
 }  // namespace sweep_guard_ros

@@ -13,8 +13,8 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr double kMaxDistance = 1e6;
-constexpr const char* kAroundWords = " '\"";
+constexpr double kMaxPosition = 1e6;
+constexpr const char* kTrimmed = " '\"";
 
 double toNumber(const XmlRpc::XmlRpcValue& value) {
   if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) return static_cast<double>(value);
@@ -48,11 +48,11 @@ std::string shown(int lowest, int highest) {
 
 std::string listed(const std::vector<std::string>& choices) {
   std::string list;
-  for (const std::string& one : choices) list += (list.empty() ? "" : ", ") + one;
+  for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
   return list;
 }
 
-// A list as a command line gives it: a, b or [a, b].
+// Splits a list as given on a command line: a, b or [a, b].
 XmlRpc::XmlRpcValue split(std::string text) {
   if (text.size() >= 2 && text.front() == '[' && text.back() == ']') text = text.substr(1, text.size() - 2);
   XmlRpc::XmlRpcValue list;
@@ -60,13 +60,13 @@ XmlRpc::XmlRpcValue split(std::string text) {
   if (text.empty()) return list;
   std::istringstream words(text + ',');
   for (std::string word; std::getline(words, word, ',');) {
-    const size_t begin = std::min(word.find_first_not_of(kAroundWords), word.size());
-    list[list.size()] = word.substr(begin, word.find_last_not_of(kAroundWords) + 1 - begin);
+    const size_t begin = std::min(word.find_first_not_of(kTrimmed), word.size());
+    list[list.size()] = word.substr(begin, word.find_last_not_of(kTrimmed) + 1 - begin);
   }
   return list;
 }
 
-// What a list in a text holds stays text.
+// Entries of a list given as text are text.
 XmlRpc::XmlRpcValue toInteger(const XmlRpc::XmlRpcValue& value) {
   if (value.getType() != XmlRpc::XmlRpcValue::TypeString) return value;
   const std::string text = static_cast<std::string>(value);
@@ -214,7 +214,7 @@ std::map<std::string, double> ParameterReader::numbers(const std::string& key, c
   return numbers;
 }
 
-std::string ParameterReader::textAbove(const std::string& name) {
+std::string ParameterReader::searchText(const std::string& name) {
   std::string key;
   XmlRpc::XmlRpcValue value;
   read_.insert(name);
@@ -237,7 +237,7 @@ void ParameterReader::refuseIfSet(const std::string& key, const std::string& ins
 Eigen::Vector3d ParameterReader::position(const std::string& key, const Eigen::Vector3d& fallback) {
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) return fallback;
-  const Range range{-kMaxDistance, kMaxDistance};
+  const Range range{-kMaxPosition, kMaxPosition};
   const std::string wanted = "three times " + shown(range);
   if (value.getType() != XmlRpc::XmlRpcValue::TypeArray || value.size() != 3) refuse(key, value, wanted);
   Eigen::Vector3d position(toNumber(value[0]), toNumber(value[1]), toNumber(value[2]));

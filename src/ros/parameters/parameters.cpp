@@ -8,7 +8,6 @@
 #include "ros/output/markers.h"
 #include "ros/tool/tool_model.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/detection/offscreen_context.h"
 #include "sweep_guard/simd/kernels.h"
 
 namespace sweep_guard_ros {
@@ -21,33 +20,33 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMinStep = 0.001;   // [s]
 constexpr double kMaxHorizon = 5.0;  // [s]
 
-// What may change while the guard runs: tools, topics and devices stay what they were made as.
-const std::vector<std::string> kTunable = {"tool/padding",
-                                           "volume",
-                                           "detector",
-                                           "cull",
-                                           "fine",
-                                           "max_rotation_per_sweep",
-                                           "prediction/predictor",
-                                           "prediction/degree",
-                                           "prediction/constrained",
-                                           "prediction/forgetting_factor",
-                                           "prediction/window",
-                                           "horizon/reflex",
-                                           "horizon/reflex_step",
-                                           "horizon/considered",
-                                           "horizon/considered_step",
-                                           "warning/min_probability",
-                                           "warning/hold_time",
-                                           "timing/min_rate",
-                                           "timing/pose_timeout",
-                                           "timing/mesh_timeout",
-                                           "timing/marker_rate",
-                                           "limits/max_speed",
-                                           "limits/max_turn_rate"};
+// May change while the node runs, with all keys of kMarkers.
+const std::vector<std::string> kChangeable = {"tool/padding",
+                                              "volume",
+                                              "detector",
+                                              "cull",
+                                              "fine",
+                                              "max_rotation_per_sweep",
+                                              "prediction/predictor",
+                                              "prediction/degree",
+                                              "prediction/constrained",
+                                              "prediction/forgetting_factor",
+                                              "prediction/window",
+                                              "horizon/reflex",
+                                              "horizon/reflex_step",
+                                              "horizon/considered",
+                                              "horizon/considered_step",
+                                              "warning/min_probability",
+                                              "warning/hold_time",
+                                              "timing/min_rate",
+                                              "timing/pose_timeout",
+                                              "timing/mesh_timeout",
+                                              "timing/marker_rate",
+                                              "limits/max_speed",
+                                              "limits/max_turn_rate"};
 const std::string kMarkers = "markers/";
 
-Duration duration(double seconds) {
+Duration toDuration(double seconds) {
   return std::isinf(seconds) ? Duration::max() : sweep_guard_core::fromSeconds(seconds);
 }
 
@@ -65,20 +64,20 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
                     "degrees follow curves and overshoot.");
   std::copy(degree.begin(), degree.end(), options.degree.begin());
   for (const std::string& axis : read.selection("prediction/constrained", axes,
-                                                "Axes that the operator cannot move: their prediction is to stay.")) {
+                                                "Axes that the operator cannot move: they are predicted to stay.")) {
     options.constrained[static_cast<size_t>(std::find(axes.begin(), axes.end(), axis) - axes.begin())] = true;
   }
   options.forgetting_factor = read.number("prediction/forgetting_factor", options.forgetting_factor, {0.01, 1.0},
                                           "Weight of a sample relative to the next one. Smaller follows turns sooner, "
                                           "larger filters more noise.");
-  options.window = duration(read.number("prediction/window", toSeconds(options.window), {0.02, 10.0, "s"},
-                                        "Polynomials ignore samples that are older."));
+  options.window = toDuration(read.number("prediction/window", toSeconds(options.window), {0.02, 10.0, "s"},
+                                          "Polynomials ignore samples that are older."));
   options.max_speed = read.number("limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
                                   "No prediction moves the tip faster. A faster pose is a jump: the motion is learned "
-                                  "anew.");
+                                  "again.");
   options.max_turn_rate = read.number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0, "rad/s"},
                                       "No prediction turns faster. A pose that does is a jump: the motion is learned "
-                                      "anew.");
+                                      "again.");
   return options;
 }
 
@@ -87,7 +86,7 @@ sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pos
   const double reflex = read.number("horizon/reflex", 0.1, {0.01, 1.0, "s"},
                                     "A collision predicted within this time from now raises REFLEX.");
   const double reflex_step = read.number("horizon/reflex_step", 0.01, any,
-                                         "Duration of a predicted sweep within horizon/reflex; not longer than that.",
+                                         "Duration of a predicted sweep within horizon/reflex; at most horizon/reflex.",
                                          ParameterReader::Bound{{kMinStep, reflex}, "at most horizon/reflex"});
   const double considered = read.number(
       "horizon/considered", 1.0, any,
@@ -98,10 +97,11 @@ sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pos
       "Duration of a predicted sweep after horizon/reflex; at most horizon/considered less horizon/reflex. The sweeps "
       "become longer where the detector is too slow for timing/min_rate.",
       ParameterReader::Bound{{kMinStep, considered - reflex}, "at most horizon/considered less horizon/reflex"});
-  return {duration(reflex), duration(reflex_step), duration(considered), duration(considered_step), pose_timeout};
+  return {toDuration(reflex), toDuration(reflex_step), toDuration(considered), toDuration(considered_step),
+          pose_timeout};
 }
 
-// What a cylinder is made of is checked for a tool of another type, too.
+// The cylinder's parameters are checked for every tool type.
 sweep_guard_core::Tool readCylinder(ParameterReader& read, double padding) {
   const double radius = read.number("tool/radius", 0.01, {1e-6, 100.0, "m"}, "Radius of the cylinder.");
   const double length = read.number("tool/length", 0.15, {1e-6, 100.0, "m"}, "Length of the cylinder.");
@@ -122,43 +122,43 @@ ToolModelOptions readModelOptions(ParameterReader& read, const std::string& fram
   options.mesh_depth =
       read.integer("tool/mesh_depth", options.mesh_depth, 0, 16,
                    "urdf only: a mesh is cut in two up to this many times where that makes the tool "
-                   "tighter; 0: one convex hull for each mesh. More parts follow hollows and cost time.");
+                   "tighter; 0: one convex hull for each mesh. More pieces follow hollows more closely and cost time.");
   options.joints = read.numbers("tool/joints",
                                 "urdf only: position [rad or m] of moving joints within the tool, by name, within the "
                                 "joint's limits. The other joints are as close to 0 as they can be. The guard does not "
                                 "follow a joint that moves.");
   options.mesh_roots = read.texts("tool/mesh_roots",
-                                  "urdf only: absolute folders that file:// meshes may be in, besides packages on "
-                                  "ROS_PACKAGE_PATH.");
+                                  "urdf only: absolute folders that file:// meshes may be in, in addition to packages "
+                                  "on ROS_PACKAGE_PATH.");
   read.refuseIfSet("tool/joint_states",
                    "a tool that changes its shape while it moves is not supported; set tool/joints");
   return options;
 }
 
-std::string told(const ToolModel& model, const std::string& parameter) {
+std::string describe(const ToolModel& model, const std::string& parameter) {
   std::ostringstream text;
-  text << model.parts.size() << " parts from " << parameter << " in the frame of '" << model.frame << "'";
-  for (const auto& [joint, position] : model.held) text << ", joint '" << joint << "' at " << position;
+  text << model.pieces.size() << " convex pieces from " << parameter << " in the frame of '" << model.frame << "'";
+  for (const auto& [joint, position] : model.joints) text << ", joint '" << joint << "' at " << position;
   return text.str();
 }
 
 sweep_guard_core::Tool toolFromRobot(ParameterReader& read, const std::string& parameter,
-                                     const ToolModelOptions& options, std::string& story) {
-  const std::string urdf = read.textAbove(parameter);
+                                     const ToolModelOptions& options, std::string& description) {
+  const std::string urdf = read.searchText(parameter);
   if (urdf.empty()) {
     throw sweep_guard_core::InvalidInput("tool/type is urdf, but there is no robot description in the parameter '" +
                                          parameter + "': load one, or name it in tool/robot_description");
   }
   try {
     ToolModel model = loadToolModel(urdf, options);
-    story = told(model, parameter);
-    return sweep_guard_core::Tool(std::move(model.parts));
+    description = describe(model, parameter);
+    return sweep_guard_core::Tool(std::move(model.pieces));
   } catch (const sweep_guard_core::InvalidInput& error) {
     throw sweep_guard_core::InvalidInput("no tool from the parameter '" + parameter + "': " + error.what());
   }
 }
 
-// @param before  has the same tool, but for its padding; null: there is none yet
+// @param before  has the same tool except for its padding; null: at the start
 void readTool(ParameterReader& read, const Parameters* before, Parameters& parameters) {
   const std::string type = read.choice("tool/type", "cylinder", {"cylinder", "urdf"},
                                        "cylinder: the tool fills z in [-tool/length, 0] of its frame; z points out of "
@@ -172,12 +172,12 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   parameters.tool_padding = padding;
   if (before != nullptr && before->tool_padding == padding) {
     parameters.tool = before->tool;
-    parameters.tool_description_text = before->tool_description_text;
+    parameters.tool_description = before->tool_description;
     return;
   }
-  parameters.tool_description_text = "a cylinder";
+  parameters.tool_description = "a cylinder";
   parameters.tool = std::make_shared<const sweep_guard_core::Tool>(
-      type == "urdf" ? toolFromRobot(read, description, options, parameters.tool_description_text) : cylinder);
+      type == "urdf" ? toolFromRobot(read, description, options, parameters.tool_description) : cylinder);
 }
 
 Parameters readAll(ParameterReader& read, const Parameters* before) {
@@ -221,32 +221,32 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.limits.min_probability = read.number("warning/min_probability", 0.1, {0.001, 1.0},
                                                   "A contact off the predicted path raises a warning from this "
                                                   "probability on. Smaller warns earlier, with more false alarms.");
-  parameters.limits.hold_time = duration(read.number("warning/hold_time", 0.5, {0.0, 60.0, "s"},
-                                                     "A warning stays for this long after its cause is over."));
-  parameters.limits.pose_timeout = duration(
+  parameters.limits.hold_time = toDuration(read.number("warning/hold_time", 0.5, {0.0, 60.0, "s"},
+                                                       "A warning stays for this long after its cause is over."));
+  parameters.limits.pose_timeout = toDuration(
       read.number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"}, "An older tool pose makes the warning UNKNOWN."));
-  parameters.limits.mesh_timeout = duration(read.number(
+  parameters.limits.mesh_timeout = toDuration(read.number(
       "timing/mesh_timeout", 0.5, {0.01, kInfinity, "s"},
       "An older workpiece makes the warning UNKNOWN. .inf (inf on a command line): workpieces do not age."));
   parameters.guard.predictor = readPredictor(read);
   parameters.guard.horizon = readHorizon(read, parameters.limits.pose_timeout);
   parameters.limits.reflex = parameters.guard.horizon.reflex;
   parameters.limits.considered = parameters.guard.horizon.considered;
-  parameters.guard.cycle = duration(1.0 / read.number("timing/min_rate", 15.0, {1.0, 1000.0, "Hz"},
-                                                      "Poses are swept, and the path ahead is tested, at least this "
-                                                      "often."));
+  parameters.guard.cycle = toDuration(1.0 / read.number("timing/min_rate", 15.0, {1.0, 1000.0, "Hz"},
+                                                        "Poses are swept, and the path ahead is tested, at least this "
+                                                        "often."));
   parameters.marker_rate = read.number("timing/marker_rate", 15.0, {0.1, 100.0, "Hz"},
                                        "~markers are published at most this often, and only to subscribers.");
-  for (const std::string& part : markerNamespaces()) {
-    if (read.flag(kMarkers + part, true, "Publishes the namespace " + part + " of ~markers."))
-      parameters.marker_namespaces.insert(part);
+  for (const std::string& name : markerNamespaces()) {
+    if (read.flag(kMarkers + name, true, "Publishes the namespace " + name + " of ~markers."))
+      parameters.marker_namespaces.insert(name);
   }
   parameters.realtime_priority = read.integer("timing/realtime_priority", 0, 0, 99,
                                               "Above 0 the sweeping thread asks for this real-time priority "
                                               "(SCHED_FIFO). If the system refuses, the log says what to set.");
   parameters.max_triangles = static_cast<size_t>(
       read.integer("limits/max_triangles", 1000000, 1, 10000000, "A mesh with more triangles is refused."));
-  read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // diagnostic_updater leaves it there
+  read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
   parameters.settings = read.settings();
   parameters.described = read.described();
   return parameters;
@@ -262,7 +262,7 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
 }
 
 bool changesWhileRunning(const std::string& key) {
-  return std::count(kTunable.begin(), kTunable.end(), key) != 0 || key.compare(0, kMarkers.size(), kMarkers) == 0;
+  return std::count(kChangeable.begin(), kChangeable.end(), key) != 0 || key.compare(0, kMarkers.size(), kMarkers) == 0;
 }
 
 Parameters changeParameters(const ros::NodeHandle& private_node, const Parameters& before,

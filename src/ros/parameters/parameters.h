@@ -17,41 +17,41 @@ namespace sweep_guard_ros {
 
 enum class ToolSource { kTopic, kTf };
 
-/// Every parameter of the node, checked. loadParameters() has key, unit, range, default and effect of each;
-/// doc/interface.md and config/sweep_guard.yaml are written from these.
+/// Holds all parameters of the node, checked. loadParameters() defines key, unit, range, default and effect of each;
+/// doc/interface.md and config/sweep_guard.yaml are generated from them.
 struct Parameters {
   std::string fixed_frame;
   ToolSource tool_source;
   std::string tool_frame;
   std::shared_ptr<const sweep_guard_core::Tool> tool;
-  double tool_padding;                ///< [m]
-  std::string tool_description_text;  ///< what it is and where it comes from, for people
+  double tool_padding;           ///< [m]
+  std::string tool_description;  ///< shape and source of the tool, for people
   std::string detector;
-  std::string detector_description;  ///< its name, and what gives it OpenGL, for people
+  std::string detector_description;  ///< its name and its OpenGL library, for people
   sweep_guard_core::DetectorOptions detector_options;
   sweep_guard_core::GuardOptions guard;
   sweep_guard_core::WarningLimits limits;
   double marker_rate;                       ///< [Hz]
-  std::set<std::string> marker_namespaces;  ///< those that are published
-  int realtime_priority;                    ///< of the thread that sweeps; 0: none
+  std::set<std::string> marker_namespaces;  ///< published ones
+  int realtime_priority;                    ///< of the guard's thread; 0: none
   size_t max_triangles;
-  ParameterReader::Settings settings;    ///< all that is set
+  ParameterReader::Settings settings;    ///< as read
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order
 };
 
-/// Reads the private parameters; a missing one takes its default. Warns of each parameter that no one reads.
-/// Makes the tool, too: of a robot description, if that is what tool/type asks for.
+/// Reads the private parameters, and makes the tool from them or from a robot description. A missing parameter takes its
+/// default. Warns of each parameter that is not read.
 /// @throws sweep_guard_core::InvalidInput naming key, value and range if one has the wrong type, is NaN or is out of range;
 ///     naming link and file if the robot description makes no tool
 Parameters loadParameters(const ros::NodeHandle& private_node);
 
-/// Not all do: tools, topics and devices stay what they were made as.
+/// Returns whether a parameter may change while the node runs. Tools, topics and devices may not.
 bool changesWhileRunning(const std::string& key);
 
-/// The parameters with some of them set anew, checked in the same way as at the start, each by itself and all together.
-/// The others are as they were, whatever the parameter server says by now.
-/// @throws sweep_guard_core::InvalidInput as loadParameters(), or if there is no such parameter or it does not change while
-///     running
+/// Returns the parameters with these changes, checked as at the start. All others stay, whatever the parameter server
+/// holds now.
+/// @throws sweep_guard_core::InvalidInput as loadParameters(), or if a parameter does not exist or may not change while the
+///     node runs
 Parameters changeParameters(const ros::NodeHandle& private_node, const Parameters& before,
                             const std::map<std::string, ParameterValue>& changes);
 
@@ -63,20 +63,20 @@ struct ParameterChange {
 
 std::vector<ParameterChange> differences(const Parameters& before, const Parameters& after);
 
-/// Whether one of those differs whose keys begin so.
+/// Returns whether a parameter differs whose key begins like this.
 bool differ(const Parameters& before, const Parameters& after, const std::string& beginning);
 
-/// Whether a detector made for the one does not fit the other.
+/// Returns whether the two need different detectors.
 bool detectorsDiffer(const Parameters& before, const Parameters& after);
 
-/// The parameters in force. What is handed out does not change; any thread.
+/// Holds the current parameters. A returned snapshot does not change. Any thread.
 class LiveParameters {
  public:
   explicit LiveParameters(Parameters initial);
 
   std::shared_ptr<const Parameters> get() const;
   void set(std::shared_ptr<const Parameters> parameters);
-  const Parameters& initial() const { return *initial_; }  ///< those of the start
+  const Parameters& initial() const { return *initial_; }  ///< parameters at the start
 
  private:
   const std::shared_ptr<const Parameters> initial_;

@@ -14,7 +14,7 @@ namespace {
 using dynamic_reconfigure::Config;
 using dynamic_reconfigure::ConfigDescription;
 
-const std::string kRoot = "Default";  // the name that clients know
+const std::string kRoot = "Default";  // name that clients expect
 
 std::string typeOf(const ParameterValue& value) {
   static const std::vector<std::string> types = {"bool", "int", "double", "str"};
@@ -35,7 +35,7 @@ void append(Config& config, const std::string& key, const ParameterValue& value)
   if (const auto* text = std::get_if<std::string>(&value)) append(config.strs, key, *text);
 }
 
-// Of a value's own type; texts have none.
+// Converts a bound to the type of the value; a text has no bounds.
 ParameterValue limit(const ParameterInfo& info, double bound) {
   if (std::holds_alternative<bool>(info.value)) return bound > 0.5;
   if (std::holds_alternative<int>(info.value)) return static_cast<int>(bound);
@@ -43,7 +43,7 @@ ParameterValue limit(const ParameterInfo& info, double bound) {
   return std::string();
 }
 
-// As a Python expression, which is what clients read.
+// Writes the Python expression that clients evaluate.
 std::string enumeration(const std::vector<std::string>& choices) {
   if (choices.empty()) return "";
   std::ostringstream list;
@@ -60,11 +60,11 @@ std::string groupOf(const std::string& key) {
   return slash == std::string::npos ? kRoot : key.substr(0, slash);
 }
 
-// In the order in which they are read; a key's group is what stands before its slash.
-std::vector<dynamic_reconfigure::Group> groups(const std::vector<ParameterInfo>& tunable) {
+// A key's group is its part before the slash. Groups are in the order of reading.
+std::vector<dynamic_reconfigure::Group> groups(const std::vector<ParameterInfo>& changeable) {
   std::vector<dynamic_reconfigure::Group> groups(1);
   groups[0].name = kRoot;
-  for (const ParameterInfo& info : tunable) {
+  for (const ParameterInfo& info : changeable) {
     const auto same = [name = groupOf(info.key)](const auto& group) { return group.name == name; };
     auto group = std::find_if(groups.begin(), groups.end(), same);
     if (group == groups.end()) {
@@ -82,16 +82,16 @@ std::vector<dynamic_reconfigure::Group> groups(const std::vector<ParameterInfo>&
   return groups;
 }
 
-std::vector<ParameterInfo> tunable(const Parameters& parameters) {
-  std::vector<ParameterInfo> tunable;
+std::vector<ParameterInfo> changeable(const Parameters& parameters) {
+  std::vector<ParameterInfo> changeable;
   for (const ParameterInfo& info : parameters.described) {
-    if (changesWhileRunning(info.key)) tunable.push_back(info);
+    if (changesWhileRunning(info.key)) changeable.push_back(info);
   }
-  return tunable;
+  return changeable;
 }
 
-void appendGroups(Config& config, const std::vector<ParameterInfo>& tunable) {
-  for (const dynamic_reconfigure::Group& group : groups(tunable)) {
+void appendGroups(Config& config, const std::vector<ParameterInfo>& changeable) {
+  for (const dynamic_reconfigure::Group& group : groups(changeable)) {
     config.groups.emplace_back();
     config.groups.back().name = group.name;
     config.groups.back().state = true;
@@ -102,7 +102,7 @@ void appendGroups(Config& config, const std::vector<ParameterInfo>& tunable) {
 
 Config values(const Parameters& parameters) {
   Config config;
-  const std::vector<ParameterInfo> infos = tunable(parameters);
+  const std::vector<ParameterInfo> infos = changeable(parameters);
   for (const ParameterInfo& info : infos) append(config, info.key, info.value);
   appendGroups(config, infos);
   return config;
@@ -110,7 +110,7 @@ Config values(const Parameters& parameters) {
 
 ConfigDescription description(const Parameters& parameters) {
   ConfigDescription description;
-  const std::vector<ParameterInfo> infos = tunable(parameters);
+  const std::vector<ParameterInfo> infos = changeable(parameters);
   for (const ParameterInfo& info : infos) {
     append(description.min, info.key, limit(info, info.lowest));
     append(description.max, info.key, limit(info, info.highest));
@@ -121,7 +121,7 @@ ConfigDescription description(const Parameters& parameters) {
   return description;
 }
 
-std::map<std::string, ParameterValue> asked(const Config& request) {
+std::map<std::string, ParameterValue> requested(const Config& request) {
   std::map<std::string, ParameterValue> changes;
   for (const auto& flag : request.bools) changes[flag.name] = flag.value != 0;
   for (const auto& integer : request.ints) changes[integer.name] = integer.value;
@@ -132,10 +132,10 @@ std::map<std::string, ParameterValue> asked(const Config& request) {
 
 }  // namespace
 
-ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_node, const LiveParameters& parameters, Adopt adopt)
+ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_node, const LiveParameters& parameters, Apply apply)
     : private_node_(private_node),
       parameters_(parameters),
-      adopt_(std::move(adopt)),
+      apply_(std::move(apply)),
       descriptions_(private_node_.advertise<ConfigDescription>("parameter_descriptions", 1, /*latch=*/true)),
       values_(private_node_.advertise<Config>("parameter_updates", 1, /*latch=*/true)),
       server_(thread_.on(private_node).advertiseService("set_parameters", &ReconfigureServer::onSet, this)) {
@@ -148,15 +148,15 @@ ReconfigureServer::History ReconfigureServer::history() const {
   return history_;
 }
 
-// What is thrown goes to the caller as the reason of a failed call, and to the log.
+// roscpp logs the exception and sends it to the caller.
 bool ReconfigureServer::onSet(Event& event) {
   const std::string& caller = event.getCallerName();
   try {
     change(event.getRequest().config, caller);
   } catch (const std::exception& error) {
     const std::lock_guard lock(mutex_);
-    history_.last_refusal = std::string(error.what()) + " (asked for by " + caller + ")";
-    publishValues();  // whoever shows what was asked for sees what is in force
+    history_.last_refusal = std::string(error.what()) + " (requested by " + caller + ")";
+    publishValues();  // clients that show the request see the current values again
     throw;
   }
   event.getResponse().config = values(*parameters_.get());
@@ -166,19 +166,18 @@ bool ReconfigureServer::onSet(Event& event) {
 
 void ReconfigureServer::change(const Config& request, const std::string& caller) {
   const std::shared_ptr<const Parameters> before = parameters_.get();
-  const auto next = std::make_shared<const Parameters>(changeParameters(private_node_, *before, asked(request)));
+  const auto next = std::make_shared<const Parameters>(changeParameters(private_node_, *before, requested(request)));
   const std::vector<ParameterChange> changes = differences(*before, *next);
   if (changes.empty()) return;
-  adopt_(next);
-  std::string history;
+  apply_(next);
+  std::string text;
   for (const ParameterChange& change : changes) {
     std::visit([&](const auto& value) { private_node_.setParam(change.key, value); }, change.after);
-    history +=
-        (history.empty() ? "" : ", ") + change.key + " from " + shown(change.before) + " to " + shown(change.after);
+    text += (text.empty() ? "" : ", ") + change.key + " from " + shown(change.before) + " to " + shown(change.after);
   }
-  ROS_INFO("%s changed %s", caller.c_str(), history.c_str());
+  ROS_INFO("%s changed %s", caller.c_str(), text.c_str());
   const std::lock_guard lock(mutex_);
-  history_.last_change = history + " (by " + caller + ")";
+  history_.last_change = text + " (by " + caller + ")";
 }
 
 void ReconfigureServer::publishValues() { values_.publish(values(*parameters_.get())); }

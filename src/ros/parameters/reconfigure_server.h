@@ -15,21 +15,20 @@
 
 namespace sweep_guard_ros {
 
-/// Parameters that change while the guard runs, in the protocol of dynamic_reconfigure: `~set_parameters`,
-/// `~parameter_descriptions`, `~parameter_updates`. Names, ranges and checks are those of loadParameters(): there is no
-/// other list of them. A request comes into force as a whole or, with a message, not at all.
+/// Changes parameters while the node runs, by the protocol of dynamic_reconfigure: `~set_parameters`,
+/// `~parameter_descriptions`, `~parameter_updates`. Names, ranges and checks are those of loadParameters(). A request is
+/// applied as a whole, or refused as a whole with a message.
 class ReconfigureServer {
  public:
-  /// Brings parameters into force that differ from those before; returns when that is done, or throws and leaves
-  /// everything as it was.
-  using Adopt = std::function<void(const std::shared_ptr<const Parameters>& next)>;
+  /// Applies parameters that differ from the current ones. Returns when that is done, or throws and changes nothing.
+  using Apply = std::function<void(const std::shared_ptr<const Parameters>& next)>;
 
   struct History {
-    std::string last_change;   ///< what and who; empty: none yet
-    std::string last_refusal;  ///< what, who and why; empty: none yet
+    std::string last_change;   ///< change and caller; empty: none yet
+    std::string last_refusal;  ///< reason and caller; empty: none yet
   };
 
-  ReconfigureServer(const ros::NodeHandle& private_node, const LiveParameters& parameters, Adopt adopt);
+  ReconfigureServer(const ros::NodeHandle& private_node, const LiveParameters& parameters, Apply apply);
 
   void start() { thread_.start(); }
 
@@ -45,10 +44,10 @@ class ReconfigureServer {
 
   ros::NodeHandle private_node_;
   const LiveParameters& parameters_;
-  const Adopt adopt_;
+  const Apply apply_;
   mutable std::mutex mutex_;
   History history_;
-  QueueThread thread_;  // outlives what calls back on it
+  QueueThread thread_;  // before the server, which uses its queue
   ros::Publisher descriptions_;
   ros::Publisher values_;
   ros::ServiceServer server_;

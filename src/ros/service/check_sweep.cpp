@@ -16,28 +16,27 @@ using sweep_guard::CheckSweep;
 using sweep_guard_core::InvalidInput;
 
 constexpr size_t kMaxPoses = 1024;
-constexpr auto kTransformMayBeLate = std::chrono::milliseconds(100);
+constexpr auto kMaxTransformDelay = std::chrono::milliseconds(100);
 
-// When a path first meets something.
-struct Moment {
+struct PathContact {
   size_t segment;
-  std::optional<double> time_of_impact;  // in that segment
+  std::optional<double> time_of_impact;  // in the segment
 };
 
-Moment earlier(const std::optional<Moment>& a, const Moment& b) {
+PathContact earlier(const std::optional<PathContact>& a, const PathContact& b) {
   return a && std::tie(a->segment, a->time_of_impact) < std::tie(b.segment, b.time_of_impact) ? *a : b;
 }
 
 }  // namespace
 
 CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const LiveParameters& live,
-                                     const Frames& frames, const WorkpieceStore& workpieces)
+                                     const Frames& frames, const sweep_guard_core::WorkpieceStore& workpieces)
     : live_(live),
       frames_(frames),
       workpieces_(workpieces),
       server_(thread_.on(private_node).advertiseService("check_sweep", &CheckSweepService::onCall, this)) {}
 
-// What cannot be tested is answered, not thrown away: a failed ROS call tells the caller nothing.
+// Answers errors by a message: a failed ROS call gives the caller none.
 bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Response& response) {
   const auto begin = std::chrono::steady_clock::now();
   response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
@@ -62,12 +61,12 @@ void CheckSweepService::refreshParameters() {
 }
 
 void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
-  if (request.path.empty()) throw InvalidInput("the path is empty: send one pose or more");
+  if (request.path.empty()) throw InvalidInput("path is empty: send at least one pose");
   if (request.path.size() > kMaxPoses) {
-    throw InvalidInput("the path has " + std::to_string(request.path.size()) + " poses: send at most 1024");
+    throw InvalidInput("path has " + std::to_string(request.path.size()) + " poses: send at most 1024");
   }
   if (!(request.margin >= 0.0 && request.margin <= sweep_guard_core::kMaxCoordinate)) {
-    throw InvalidInput("the margin must be a length >= 0 m");
+    throw InvalidInput("margin must be a length >= 0 m");
   }
   sweep_guard_core::SweepOptions options = parameters_->guard.sweep;
   if (!request.volume.empty()) options.volume = sweep_guard_core::volumeKind(request.volume);
@@ -75,14 +74,14 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   options.fine = request.fine;
   sweep_guard_core::Detector& used = detector(request.detector.empty() ? parameters_->detector : request.detector);
 
-  const auto give_up = [this] {
+  const auto throw_if_stopping = [this] {
     if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
   };
-  std::optional<Moment> first;
+  std::optional<PathContact> first;
   response.clear = true;
-  for (const auto& workpiece : choose(request.mesh_ids)) {
-    auto path = sweep_guard_core::checkPath(used, *parameters_->tool, pathIn(workpiece->frame, request.path),
-                                            workpiece->mesh_M, options, give_up);
+  for (const auto& workpiece : selected(request.mesh_ids)) {
+    auto path = sweep_guard_core::checkPath(
+        used, {*parameters_->tool, pathIn(workpiece->frame, request.path), workpiece->mesh_M, options, throw_if_stopping});
     response.margin = std::max(response.margin, path.all.margin);
     response.clear = response.clear && fresh(*workpiece);
     if (!path.all.triangles.empty() || path.all.inside)
@@ -96,17 +95,17 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   if (first->time_of_impact) response.time_of_impact = *first->time_of_impact;
 }
 
-sweep_guard_core::Workpieces CheckSweepService::choose(const std::vector<std::string>& ids) const {
+sweep_guard_core::Workpieces CheckSweepService::selected(const std::vector<std::string>& ids) const {
   sweep_guard_core::Workpieces all = workpieces_.snapshot();
-  if (all.empty()) throw InvalidInput("no workpiece yet: nothing can be promised");
+  if (all.empty()) throw InvalidInput("no workpiece yet");
   if (ids.empty()) return all;
-  sweep_guard_core::Workpieces chosen;
+  sweep_guard_core::Workpieces selected;
   for (const std::string& id : std::set<std::string>(ids.begin(), ids.end())) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const auto& workpiece) { return workpiece->id == id; });
-    if (found == all.end()) throw InvalidInput("there is no workpiece '" + id + "'");
-    chosen.push_back(*found);
+    if (found == all.end()) throw InvalidInput("no workpiece '" + id + "'");
+    selected.push_back(*found);
   }
-  return chosen;
+  return selected;
 }
 
 std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh_frame,
@@ -115,7 +114,7 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
   for (size_t i = 0; i < path.size(); ++i) {
     try {
       path_M.push_back(
-          frames_.lookup(mesh_frame, path[i].header.frame_id, fromMsg(path[i].header.stamp), kTransformMayBeLate) *
+          frames_.lookup(mesh_frame, path[i].header.frame_id, fromMsg(path[i].header.stamp), kMaxTransformDelay) *
           fromMsg(path[i].pose));
     } catch (const sweep_guard_core::Error& error) {
       throw InvalidInput("pose " + std::to_string(i) + ": " + error.what());

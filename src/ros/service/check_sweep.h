@@ -8,18 +8,18 @@
 #include <memory>
 
 #include "ros/input/frames.h"
-#include "ros/input/workpiece_store.h"
 #include "ros/parameters/parameters.h"
+#include "sweep_guard/guard/workpiece_store.h"
 #include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
-/// The service `~check_sweep`: sweeps a path of poses against the workpieces as they are now. Own thread, own
-/// detectors, a snapshot of the meshes: it never delays the guard.
+/// Serves `~check_sweep`: sweeps a path of poses against the workpieces as they are now. Has its own thread and detectors
+/// and works on a snapshot of the meshes, so it never delays the guard.
 class CheckSweepService {
  public:
   CheckSweepService(const ros::NodeHandle& private_node, const LiveParameters& live, const Frames& frames,
-                    const WorkpieceStore& workpieces);
+                    const sweep_guard_core::WorkpieceStore& workpieces);
 
   ~CheckSweepService() { stopping_ = true; }
   CheckSweepService(const CheckSweepService&) = delete;
@@ -31,7 +31,7 @@ class CheckSweepService {
   bool onCall(sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
   void refreshParameters();
   void check(const sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
-  sweep_guard_core::Workpieces choose(const std::vector<std::string>& ids) const;
+  sweep_guard_core::Workpieces selected(const std::vector<std::string>& ids) const;
   std::vector<Eigen::Isometry3d> pathIn(const std::string& mesh_frame,
                                         const std::vector<geometry_msgs::PoseStamped>& path) const;
   bool fresh(const sweep_guard_core::Workpiece& workpiece) const;
@@ -40,11 +40,10 @@ class CheckSweepService {
   const LiveParameters& live_;
   std::shared_ptr<const Parameters> parameters_;  // of the newest call
   const Frames& frames_;
-  const WorkpieceStore& workpieces_;
-  std::map<std::string, std::unique_ptr<sweep_guard_core::Detector>>
-      detectors_;  // made when first asked for, with these
+  const sweep_guard_core::WorkpieceStore& workpieces_;
+  std::map<std::string, std::unique_ptr<sweep_guard_core::Detector>> detectors_;  // by name, made on demand
   std::atomic<bool> stopping_ = false;
-  QueueThread thread_;  // outlives what calls back on it
+  QueueThread thread_;  // before the server, which uses its queue
   ros::ServiceServer server_;
 };
 

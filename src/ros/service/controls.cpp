@@ -7,7 +7,7 @@
 namespace sweep_guard_ros {
 
 Controls::Controls(const ros::NodeHandle& private_node, sweep_guard_core::WarningMonitor& monitor,
-                   const WorkpieceStore& workpieces, std::function<void()> reset)
+                   const sweep_guard_core::WorkpieceStore& workpieces, std::function<void()> reset)
     : monitor_(monitor),
       workpieces_(workpieces),
       reset_(std::move(reset)),
@@ -27,23 +27,22 @@ bool Controls::onEnable(EnableEvent& event) {
 void Controls::enable(std_srvs::SetBool::Response& response) {
   response.success = true;
   const auto asked_by = monitor_.disabledBy();
-  response.message = "it is enabled already";
+  response.message = "already enabled";
   if (!asked_by) return;
   monitor_.enable();
-  response.message = "enabled after " + *asked_by + " had it disabled: coverage begins with the next tool pose";
+  response.message = "enabled again after " + *asked_by + " had disabled it: coverage begins with the next tool pose";
 }
 
 void Controls::disable(const std::string& asked_by, std_srvs::SetBool::Response& response) {
   sweep_guard_core::Warning warning;
   monitor_.warning(now(), warning);
   if (warning.level >= sweep_guard_core::WarningLevel::kReflex) {
-    response.message = "not disabled while this is warned of: " + warning.text;
+    response.message = "not disabled during this warning: " + warning.text;
     return;
   }
   monitor_.disable(asked_by);
   response.success = true;
-  response.message =
-      "disabled by " + monitor_.disabledBy().value_or(asked_by) + ": nothing is tested, nothing is clear";
+  response.message = "disabled by " + monitor_.disabledBy().value_or(asked_by) + ": no motion is tested";
 }
 
 bool Controls::onReset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
@@ -51,11 +50,10 @@ bool Controls::onReset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigge
     reset_();
     response.success = true;
     response.message =
-        "forgotten: tool poses, what was swept, the prediction and what it had learned, warnings held, faults, what "
-        "the "
-        "diagnostics counted of sweeps. Kept: the workpieces (" +
-        std::to_string(workpieces_.snapshot().size()) + "), the parameters, the counts of the warning";
-    if (monitor_.disabledBy()) response.message += "; and the guard stays disabled";
+        "reset: tool poses, sweeps, the prediction and its training, held warnings, faults, and the counters of the "
+        "diagnostics. Kept: workpieces (" +
+        std::to_string(workpieces_.snapshot().size()) + "), parameters, level counts of the warning";
+    if (monitor_.disabledBy()) response.message += "; the guard stays disabled";
   } catch (const std::exception& error) {
     response.message = error.what();
   }

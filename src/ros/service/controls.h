@@ -6,21 +6,21 @@
 
 #include <functional>
 
-#include "ros/input/workpiece_store.h"
+#include "sweep_guard/guard/workpiece_store.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 #include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
-/// The services `~enable` and `~reset`. Disabled is not clear: the warning is UNKNOWN, both flags stay raised. While
-/// the level is REFLEX or CONTACT the guard refuses to be disabled: grey light would hide from the operator what he has
-/// to see now. To reset is allowed always: a contact that is still there is found at the next pose. Where none comes,
-/// it is forgotten, and the guard may be disabled: the warning is UNKNOWN, and says so.
+/// Serves `~enable` and `~reset`. While disabled, the warning is UNKNOWN and both flags stay raised. The guard refuses to
+/// be disabled at REFLEX or CONTACT: a gray light would hide the danger from the operator. It can always be reset: a
+/// contact that lasts is found again at the next pose. Without a next pose the contact is forgotten, and the warning is
+/// UNKNOWN.
 class Controls {
  public:
-  /// @param reset  forgets what came before, and returns when that is done
+  /// @param reset  resets the guard and returns when that is done
   Controls(const ros::NodeHandle& private_node, sweep_guard_core::WarningMonitor& monitor,
-           const WorkpieceStore& workpieces, std::function<void()> reset);
+           const sweep_guard_core::WorkpieceStore& workpieces, std::function<void()> reset);
 
   void start() { thread_.start(); }
 
@@ -33,9 +33,9 @@ class Controls {
   void disable(const std::string& asked_by, std_srvs::SetBool::Response& response);
 
   sweep_guard_core::WarningMonitor& monitor_;
-  const WorkpieceStore& workpieces_;
+  const sweep_guard_core::WorkpieceStore& workpieces_;
   const std::function<void()> reset_;
-  QueueThread thread_;  // outlives what calls back on it
+  QueueThread thread_;  // before the servers, which use its queue
   ros::ServiceServer enable_server_;
   ros::ServiceServer reset_server_;
 };

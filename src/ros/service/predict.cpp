@@ -12,15 +12,15 @@ using sweep_guard::Predict;
 using sweep_guard_core::Duration;
 using sweep_guard_core::InvalidInput;
 
-constexpr Duration kMaxDistance = std::chrono::seconds(5);
-constexpr auto kPatience = std::chrono::seconds(1);  // with a guard that is stuck in a sweep
-constexpr auto kEffort = std::chrono::seconds(1);    // after which what comes late is tested coarsely
+constexpr Duration kMaxHorizon = std::chrono::seconds(5);
+constexpr auto kGuardTimeout = std::chrono::seconds(1);  // of a guard that is stuck in a sweep
+constexpr auto kTestTime = std::chrono::seconds(1);      // the rest of the path is tested coarsely
 
-Duration checked(const ros::Duration& horizon, Duration configured) {
+Duration checkedHorizon(const ros::Duration& horizon, Duration configured) {
   const Duration asked(horizon.toNSec());
   if (asked == Duration::zero()) return configured;
-  if (asked < Duration::zero() || asked > kMaxDistance) {
-    throw InvalidInput("the horizon is " + std::to_string(horizon.toSec()) +
+  if (asked < Duration::zero() || asked > kMaxHorizon) {
+    throw InvalidInput("horizon is " + std::to_string(horizon.toSec()) +
                        " s, but must be from 0 (as configured) to 5 s");
   }
   return asked;
@@ -38,17 +38,17 @@ sweep_guard::Prediction predictionMsg(const sweep_guard_core::Prediction& predic
 }
 
 PredictService::PredictService(const ros::NodeHandle& private_node, const LiveParameters& live,
-                               const WorkpieceStore& workpieces, Ask ask)
+                               const sweep_guard_core::WorkpieceStore& workpieces, PredictMotion predict_motion)
     : live_(live),
       workpieces_(workpieces),
-      ask_(std::move(ask)),
+      predict_motion_(std::move(predict_motion)),
       server_(thread_.on(private_node).advertiseService("predict", &PredictService::onCall, this)) {}
 
-// What cannot be predicted is answered, not thrown away: a failed ROS call tells the caller nothing.
+// Answers errors by a message: a failed ROS call gives the caller none.
 bool PredictService::onCall(Predict::Request& request, Predict::Response& response) {
   try {
     refreshParameters();
-    response.prediction = predict(checked(request.horizon, parameters_->guard.horizon.considered));
+    response.prediction = predict(checkedHorizon(request.horizon, parameters_->guard.horizon.considered));
     response.success = true;
   } catch (const std::exception& error) {
     response = Predict::Response();
@@ -65,23 +65,19 @@ void PredictService::refreshParameters() {
   if (!detector_ || detectorsDiffer(*parameters_, *current)) {
     detector_ = sweep_guard_core::makeDetector(current->detector, current->detector_options);
   }
-  checker_.emplace(sweep_guard_core::PathChecker::optionsOf(current->guard));
   parameters_ = current;
 }
 
 sweep_guard::Prediction PredictService::predict(Duration horizon) {
-  std::future<Answer> asked = ask_(horizon);
-  if (asked.wait_for(kPatience) != std::future_status::ready)
+  std::future<Motion> future = predict_motion_(horizon);
+  if (future.wait_for(kGuardTimeout) != std::future_status::ready)
     throw sweep_guard_core::Error("the guard is busy: ask again");
-  const Answer answer = asked.get();
-  sweep_guard_core::Prediction prediction;
-  checker_->predict(*detector_, {*parameters_->tool, answer.motion, workpieces_.snapshot(), plan()}, prediction);
-  return predictionMsg(prediction, answer.age, *parameters_);
-}
-
-sweep_guard_core::SweepPlan PredictService::plan() const {
-  const auto end = std::chrono::steady_clock::now() + kEffort;
-  return {{}, [this, end] { return stopping_ || std::chrono::steady_clock::now() >= end; }};
+  const Motion motion = future.get();
+  const auto end = std::chrono::steady_clock::now() + kTestTime;
+  const auto prediction = sweep_guard_core::predictContacts(
+      *detector_, {*parameters_->tool, motion.predicted, workpieces_.snapshot()}, parameters_->guard,
+      [this, end] { return stopping_ || std::chrono::steady_clock::now() >= end; });
+  return predictionMsg(prediction, motion.age, *parameters_);
 }
 
 }  // namespace sweep_guard_ros

@@ -29,7 +29,7 @@ using std::filesystem::path;
 using sweep_guard_core::DeviceError;
 using sweep_guard_core::InvalidInput;
 
-constexpr auto kPatience = std::chrono::seconds(30);  // with a reader: three times the processor time that it has
+constexpr auto kReaderTimeout = std::chrono::seconds(30);  // three times its limit of processor time
 constexpr size_t kMaxAnswer = wireSize({kMaxMeshVertices, kMaxMeshTriangles});
 constexpr size_t kMaxReason = 200;
 
@@ -54,12 +54,12 @@ std::string formatOf(const path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   if (extension == ".stl" || extension == ".obj" || extension == ".dae") return extension.substr(1);
-  throw InvalidInput(file.string() + ": not a mesh file that is read; give an STL, OBJ or DAE file");
+  throw InvalidInput(file.string() + ": unknown mesh format; give an STL, OBJ or DAE file");
 }
 
-// A pipe must not make the opening wait.
-Descriptor openMesh(const path& file, Links links) {
-  const int follow = links == Links::kFollow ? 0 : O_NOFOLLOW;
+// O_NONBLOCK: opening a pipe must not wait.
+Descriptor openMesh(const path& file, SymbolicLinks links) {
+  const int follow = links == SymbolicLinks::kFollow ? 0 : O_NOFOLLOW;
   Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | follow));
   struct stat status {};
   if (opened.get() < 0 || fstat(opened.get(), &status) != 0) {
@@ -73,14 +73,14 @@ Descriptor openMesh(const path& file, Links links) {
   return opened;
 }
 
-// In the devel space and in an installed one alike, programs are in a folder next to the libraries.
+// In devel space and install space, the programs are in a folder next to the libraries.
 std::string readerProgram() {
   Dl_info here{};
   if (dladdr(reinterpret_cast<const void*>(&readMesh), &here) == 0) throw DeviceError("mesh_reader cannot be found");
   return (path(here.dli_fname).parent_path() / "sweep_guard" / "mesh_reader").string();
 }
 
-/// A running mesh_reader; killed if it has not ended.
+// Runs mesh_reader. The destructor kills it if it has not ended.
 class Reader {
  public:
   Reader(const std::string& program, const std::string& format, const Descriptor& file) {
@@ -106,21 +106,21 @@ class Reader {
     if (process_ > 0) end();
   }
 
-  /// All that it says; nothing if that is too much or takes too long.
+  // Returns its whole answer; empty if that is too long or takes too long.
   std::optional<std::string> answer() {
-    const steady_clock::time_point deadline = steady_clock::now() + kPatience;
+    const steady_clock::time_point deadline = steady_clock::now() + kReaderTimeout;
     std::string bytes;
-    std::array<char, 65536> part{};
+    std::array<char, 65536> buffer{};
     while (bytes.size() <= kMaxAnswer && awaitAnswer(deadline)) {
-      const ssize_t length = read(answer_->get(), part.data(), part.size());
+      const ssize_t length = read(answer_->get(), buffer.data(), buffer.size());
       if (length == 0) return bytes;
-      if (length > 0) bytes.append(part.data(), static_cast<size_t>(length));
+      if (length > 0) bytes.append(buffer.data(), static_cast<size_t>(length));
       if (length < 0 && errno != EINTR) return {};
     }
     return {};
   }
 
-  /// As waitpid() tells it.
+  // Returns the status of waitpid().
   int end() {
     kill(process_, SIGKILL);
     return await();
@@ -156,10 +156,10 @@ std::string printable(std::string text) {
   return text;
 }
 
-std::string complaint(int status, const std::string& answer) {
+std::string failureText(int status, const std::string& answer) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 1) return "cannot be read: " + printable(answer);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return "takes too long to read";
-  if (WIFSIGNALED(status)) return "crashes what reads it (signal " + std::to_string(WTERMSIG(status)) + ")";
+  if (WIFSIGNALED(status)) return "crashes mesh_reader (signal " + std::to_string(WTERMSIG(status)) + ")";
   return "cannot be read: mesh_reader ended with status " + std::to_string(WEXITSTATUS(status));
 }
 
@@ -171,7 +171,7 @@ std::vector<Value> take(const std::string& bytes, size_t& at, size_t count) {
   return values;
 }
 
-// The reader has read hostile bytes: what it says is checked as if it were hostile too.
+// The reader has read hostile bytes, so its answer may be hostile, too.
 std::optional<MeshSurface> decode(const std::string& bytes) {
   size_t at = 0;
   if (bytes.size() < sizeof(MeshWireHeader)) return {};
@@ -192,20 +192,20 @@ std::optional<MeshSurface> decode(const std::string& bytes) {
 
 }  // namespace
 
-MeshSurface readMesh(const path& file, Links links) {
+MeshSurface readMesh(const path& file, SymbolicLinks links) {
   const std::string format = formatOf(file);
   const Descriptor opened = openMesh(file, links);
   Reader reader(readerProgram(), format, opened);
   const std::optional<std::string> answer = reader.answer();
-  const std::string remedy = "; export the mesh anew";
+  const std::string remedy = "; export the mesh again";
   if (!answer) {
     reader.end();
     throw InvalidInput(file.string() + ": takes too long to read" + remedy);
   }
   const int status = reader.await();
-  if (status != 0) throw InvalidInput(file.string() + ": " + complaint(status, *answer) + remedy);
+  if (status != 0) throw InvalidInput(file.string() + ": " + failureText(status, *answer) + remedy);
   std::optional<MeshSurface> surface = decode(*answer);
-  if (!surface) throw InvalidInput(file.string() + ": cannot be read: mesh_reader's answer makes no sense" + remedy);
+  if (!surface) throw InvalidInput(file.string() + ": cannot be read: mesh_reader's answer is malformed" + remedy);
   return *std::move(surface);
 }
 

@@ -18,10 +18,10 @@ const std::string kFileScheme = "file://";
 
 bool startsWith(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
 
-// Without symbolic links; empty if there is nothing.
-path real(const path& some) {
+// Resolves symbolic links; empty if there is no such file.
+path real(const path& file) {
   std::error_code error;
-  path found = std::filesystem::canonical(some, error);
+  path found = std::filesystem::canonical(file, error);
   return error ? path() : found;
 }
 
@@ -41,7 +41,7 @@ std::vector<path> packagePath() {
   return folders;
 }
 
-// As ros::package::getPath(), which prints a line of its own if there is none.
+// ros::package::getPath() prints a line if there is no such package.
 std::string knownFolder(const std::string& package) {
   rospack::Rospack rospack;
   rospack.setQuiet(true);
@@ -79,10 +79,10 @@ path locateInPackage(const std::string& uri) {
   }
   const path folder = packageFolder(package);
   if (folder.empty()) {
-    throw InvalidInput(uri + ": there is no package '" + package + "'; add its folder to ROS_PACKAGE_PATH");
+    throw InvalidInput(uri + ": no package '" + package + "'; add its folder to ROS_PACKAGE_PATH");
   }
   path file = real(folder / rest.substr(package.size() + 1));
-  if (file.empty()) throw InvalidInput(uri + ": there is no such file in " + folder.string() + "; add it");
+  if (file.empty()) throw InvalidInput(uri + ": no such file in " + folder.string() + "; add it");
   if (!inside(file, folder)) {
     throw InvalidInput(uri + ": leads out of the package's folder " + folder.string() + "; put the file into it");
   }
@@ -93,7 +93,7 @@ path locateFile(const std::string& uri, const std::vector<std::string>& roots) {
   const path named = uri.substr(kFileScheme.size());
   if (!named.is_absolute()) throw InvalidInput(uri + ": must be file:///PATH");
   path file = real(named);
-  if (file.empty()) throw InvalidInput(uri + ": there is no such file");
+  if (file.empty()) throw InvalidInput(uri + ": no such file");
   for (const std::string& root : roots) {
     if (inside(file, real(root))) return file;
   }
@@ -105,10 +105,10 @@ path locateFile(const std::string& uri, const std::vector<std::string>& roots) {
 }  // namespace
 
 path locateMesh(const std::string& uri, const std::vector<std::string>& roots) {
-  if (uri.find('\0') != std::string::npos) throw InvalidInput("the name of a mesh holds a null character");
+  if (uri.find('\0') != std::string::npos) throw InvalidInput("the name of a mesh has a null character");
   if (startsWith(uri, kPackageScheme)) return locateInPackage(uri);
   if (startsWith(uri, kFileScheme)) return locateFile(uri, roots);
-  throw InvalidInput(uri + ": only package:// and file:// are read");
+  throw InvalidInput(uri + ": only package:// and file:// are supported");
 }
 
 }  // namespace sweep_guard_ros

@@ -1,4 +1,4 @@
-// Reads a mesh file for the guard, in a process of its own: assimp crashes on some broken files.
+// Reads a mesh file for the guard in a separate process, because assimp crashes on some broken files.
 #include <assimp/config.h>
 #include <assimp/scene.h>
 #include <sys/prctl.h>
@@ -31,8 +31,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr rlim_t kMemory = rlim_t{1} << 30U;  // [byte]
 constexpr rlim_t kProcessorTime = 10;         // [s]
-constexpr int kDeepestNode = 100;
-constexpr double kFlattest = 1e-6;  // volume of what a transform makes of a cube, per product of its edges
+constexpr int kMaxNodeDepth = 100;
+constexpr double kMinVolume = 1e-6;  // of a transformed cube, relative to the product of its edges
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kMemoryIsLimited = false;  // sanitizers reserve terabytes of addresses
@@ -40,12 +40,12 @@ constexpr bool kMemoryIsLimited = false;  // sanitizers reserve terabytes of add
 constexpr bool kMemoryIsLimited = true;
 #endif
 
-void limit(__rlimit_resource resource, rlim_t most) {
-  const rlimit both{most, most};
-  if (setrlimit(resource, &both) != 0) throw std::runtime_error("the reader cannot limit itself");
+void limit(__rlimit_resource resource, rlim_t value) {
+  const rlimit both{value, value};
+  if (setrlimit(resource, &both) != 0) throw std::runtime_error("mesh_reader cannot limit its resources");
 }
 
-// From here on no file can be opened: a mesh may name others, and what they are is not known.
+// Afterwards no file can be opened: a mesh may name any other file.
 void confine() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   close_range(3, ~0U, 0);
@@ -59,8 +59,8 @@ struct Surface {
   std::vector<Point> vertices;
   std::vector<Triangle> triangles;
   size_t faces = 0;
-  size_t polygons = 0;  // faces of three corners or more
-  bool solid = false;   // one of them has three different corners
+  size_t polygons = 0;  // faces with at least three corners
+  bool solid = false;   // a polygon has three different corners
 
   std::uint32_t add(const Point& point) {
     const auto [known, is_new] = index_.try_emplace(point, static_cast<std::uint32_t>(vertices.size()));
@@ -90,7 +90,7 @@ bool finite(const Point& point) {
   return true;
 }
 
-// A fan covers the polygon, be it concave. Points and edges become triangles without an area.
+// A fan covers a polygon, even a concave one. Points and edges become triangles without area.
 void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, Surface& surface) {
   if (face.mNumIndices == 0) return;
   std::vector<std::uint32_t> corners;
@@ -103,7 +103,7 @@ void addFace(const aiFace& face, const std::vector<std::uint32_t>& vertex, Surfa
   surface.solid = surface.solid || std::set<std::uint32_t>(corners.begin(), corners.end()).size() >= 3;
   while (corners.size() < 3) corners.push_back(corners.back());
   for (size_t i = 2; i < corners.size(); ++i) surface.triangles.push_back({corners[0], corners[i - 1], corners[i]});
-  if (surface.triangles.size() > kMaxMeshTriangles) throw std::runtime_error("it has more than a million triangles");
+  if (surface.triangles.size() > kMaxMeshTriangles) throw std::runtime_error("more than a million triangles");
 }
 
 void addMesh(const aiMesh& mesh, const aiMatrix4x4& X, Surface& surface) {
@@ -116,31 +116,30 @@ void addMesh(const aiMesh& mesh, const aiMatrix4x4& X, Surface& surface) {
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) addFace(mesh.mFaces[i], vertex, surface);
 }
 
-// No part may become flat, or a point, on its way to where it belongs.
-bool collapsesSpace(const aiMatrix4x4& X) {
+bool isSingular(const aiMatrix4x4& X) {
   const Eigen::Matrix3d linear{{X.a1, X.a2, X.a3}, {X.b1, X.b2, X.b3}, {X.c1, X.c2, X.c3}};
-  return !(std::abs(linear.determinant()) > kFlattest * linear.colwise().norm().prod());
+  return !(std::abs(linear.determinant()) > kMinVolume * linear.colwise().norm().prod());
 }
 
 void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_parent, int depth, Surface& surface) {
-  if (depth > kDeepestNode) throw std::runtime_error("its nodes are nested too deeply");
+  if (depth > kMaxNodeDepth) throw std::runtime_error("nodes are nested too deeply");
   const aiMatrix4x4 X = X_parent * node.mTransformation;
-  if (node.mNumMeshes > 0 && collapsesSpace(X)) throw std::runtime_error("a transform in it collapses space");
+  if (node.mNumMeshes > 0 && isSingular(X)) throw std::runtime_error("a transform is singular");
   for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene.mMeshes[node.mMeshes[i]], X, surface);
   for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], X, depth + 1, surface);
 }
 
-// Some of what assimp leaves out is but a warning to it; most warnings are about materials.
-bool tellsOfLoss(const std::string& message) {
+// assimp only warns of some omissions; most warnings are about materials.
+bool isOmission(const std::string& message) {
   return message.rfind("Warn", 0) != 0 || message.find("Skipping") != std::string::npos;
 }
 
-// assimp goes on after an error and leaves out what it did not understand: a tool must not lose a part that way.
+// assimp continues after an error and omits what it did not understand, but no part of a tool may be lost.
 class FirstError : public Assimp::LogStream {
  public:
   explicit FirstError(std::string& text) : text_(text) {}
   void write(const char* message) override {
-    if (text_.empty() && tellsOfLoss(message)) text_ = message;
+    if (text_.empty() && isOmission(message)) text_ = message;
   }
 
  private:
@@ -148,16 +147,16 @@ class FirstError : public Assimp::LogStream {
 };
 
 void requireComplete(const std::string& bytes, const std::string& format, const Surface& surface) {
-  if (surface.polygons == 0) throw std::runtime_error("it has no triangles");
-  if (!surface.solid) throw std::runtime_error("all its triangles are points or lines");
-  const size_t announced = sweep_guard_ros::facesAnnounced(bytes, format);
-  if (surface.faces < announced) {
-    throw std::runtime_error("only " + std::to_string(surface.faces) + " of its " + std::to_string(announced) +
+  if (surface.polygons == 0) throw std::runtime_error("no triangles");
+  if (!surface.solid) throw std::runtime_error("all triangles are points or lines");
+  const size_t expected = sweep_guard_ros::expectedFaces(bytes, format);
+  if (surface.faces < expected) {
+    throw std::runtime_error("only " + std::to_string(surface.faces) + " of " + std::to_string(expected) +
                              " faces can be read");
   }
 }
 
-// Without what only assimp knows of: its log's prefix, and the name that it gives to bytes in memory.
+// Removes assimp's log prefix, and its name for bytes in memory.
 std::string plain(std::string text) {
   for (const std::string& noise :
        {std::string("Error, T0: "), std::string("Warn,  T0: "), std::string(" for $$$___magic___$$$.stl")}) {
@@ -168,17 +167,17 @@ std::string plain(std::string text) {
 }
 
 Surface read(std::string bytes, const std::string& format) {
-  if (bytes.empty()) throw std::runtime_error("it is empty");
+  if (bytes.empty()) throw std::runtime_error("file is empty");
   if (bytes.compare(0, 19, "version https://git") == 0) {
-    throw std::runtime_error("it is a git-lfs pointer, not the mesh: run git lfs pull");
+    throw std::runtime_error("file is a git-lfs pointer, not the mesh: run git lfs pull");
   }
   sweep_guard_ros::simplify(bytes, format);
   std::string error;
   Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
   Assimp::DefaultLogger::get()->attachStream(new FirstError(error), Assimp::Logger::Err | Assimp::Logger::Warn);
   Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as rviz: axes as they stand
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);           // a file without a mesh has none
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // keeps the axes, as rviz does
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);           // keeps a file without a mesh empty
   const aiScene* const scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
   if (scene == nullptr || scene->mRootNode == nullptr) throw std::runtime_error(plain(importer.GetErrorString()));
   if (!error.empty()) throw std::runtime_error(plain(error));
@@ -215,7 +214,7 @@ int main(int argc, char** argv) {
     std::cout.flush();
     return std::cout ? 0 : 2;
   } catch (const std::bad_alloc&) {
-    std::cout << "reading it takes more than 1 GiB of memory";
+    std::cout << "reading takes more than 1 GiB of memory";
   } catch (const std::exception& error) {
     std::cout << error.what();
   }

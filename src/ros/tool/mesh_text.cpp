@@ -1,10 +1,13 @@
 #include "ros/tool/mesh_text.h"
 
+#include <tinyxml2.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
 #include <stdexcept>
 #include <string_view>
 
@@ -12,13 +15,14 @@ namespace sweep_guard_ros {
 namespace {
 
 using std::string_view;
+using tinyxml2::XMLElement;
 
-constexpr string_view kBlanks(" \t\r\n\v\f\0", 7);  // some files end with a null
+constexpr string_view kBlanks(" \t\r\n\v\f\0", 7);  // some files end with a null character
 constexpr string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool isOf(string_view text, string_view characters) { return text.find_first_not_of(characters) == string_view::npos; }
 
-/// Takes the first word off the text; empty: there is none.
+// Removes the first word from the text and returns it; empty: none left.
 string_view nextWord(string_view& text) {
   text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
   const string_view word = text.substr(0, text.find_first_of(kBlanks));
@@ -61,13 +65,15 @@ void blankMaterials(std::string& bytes) {
   });
 }
 
+bool isOneOf(std::initializer_list<string_view> words, string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 bool isKeywordOfObj(string_view word) {
-  for (const string_view known :
-       {"v", "vt", "vn",    "vp",       "f",        "fo",  "l",      "p",      "g",          "o",
-        "s", "mg", "bevel", "c_interp", "d_interp", "lod", "usemap", "maplib", "shadow_obj", "trace_obj"}) {
-    if (word == known) return true;
-  }
-  return word.empty() || word.front() == '#';
+  return word.empty() || word.front() == '#' ||
+         isOneOf({"v", "vt", "vn",    "vp",       "f",        "fo",  "l",      "p",      "g",          "o",
+                  "s", "mg", "bevel", "c_interp", "d_interp", "lod", "usemap", "maplib", "shadow_obj", "trace_obj"},
+                 word);
 }
 
 void requireVertex(string_view numbers) {
@@ -79,14 +85,14 @@ void requireVertex(string_view numbers) {
   throw std::runtime_error("a vertex has " + std::to_string(count) + " numbers, not 3, 4 or 6");
 }
 
-// assimp knows a vertex only at the very beginning of its line.
+// assimp ignores a vertex that does not begin its line.
 void requireReadableObj(string_view text) {
   bool continues = false;
   forEachLine(text, [&continues](string_view line) {
     string_view rest = line;
     const string_view keyword = nextWord(rest);
     if (!continues && !isKeywordOfObj(keyword)) {
-      throw std::runtime_error("a line begins with '" + std::string(keyword) + "', which is not read");
+      throw std::runtime_error("a line begins with '" + std::string(keyword) + "', which is not supported");
     }
     if (keyword == "v" && line.front() != 'v') throw std::runtime_error("a vertex is indented");
     if (keyword == "v") requireVertex(rest);
@@ -94,76 +100,57 @@ void requireReadableObj(string_view text) {
   });
 }
 
-struct Element {
-  string_view attributes;
-  string_view body;
-};
-
-template <typename Visit>
-void forEachElement(string_view text, const std::string& name, const Visit& visit) {
-  const std::string opening = "<" + name;
-  for (size_t at = text.find(opening); at != string_view::npos; at = text.find(opening, at + 1)) {
-    const string_view rest = text.substr(at + opening.size());
-    if (rest.find_first_of("/> \t\r\n") != 0) continue;
-    const string_view attributes = rest.substr(0, rest.find('>'));
-    const bool is_empty = attributes.size() == rest.size() || (!attributes.empty() && attributes.back() == '/');
-    const string_view inside = is_empty ? string_view() : rest.substr(attributes.size() + 1);
-    visit(Element{attributes, inside.substr(0, inside.find("</" + name))});
-  }
-}
-
-/// Empty where there is none.
-string_view attribute(string_view attributes, string_view name) {
-  for (size_t at = attributes.find(name); at != string_view::npos; at = attributes.find(name, at + 1)) {
-    if (at == 0 || !isOf(attributes.substr(at - 1, 1), kBlanks)) continue;
-    string_view rest = attributes.substr(at + name.size());
-    const size_t quote = rest.find_first_of("\"'");
-    if (quote == string_view::npos || !isOf(rest.substr(0, quote), "= \t\r\n")) continue;
-    const string_view value = rest.substr(quote + 1);
-    return value.substr(0, value.find(rest[quote]));
-  }
-  return {};
-}
-
-bool isLength(string_view text) {
-  const std::string number(text);
+bool isLength(const std::string& text) {
   char* end = nullptr;
-  const double length = std::strtod(number.c_str(), &end);
+  const double length = std::strtod(text.c_str(), &end);
   return isOf(text, "0123456789+-.eE") && *end == '\0' && length > 0.0 && std::isfinite(length);
 }
 
-void requireUnit(string_view text) {
-  forEachElement(text, "unit", [](const Element& unit) {
-    const string_view metres = attribute(unit.attributes, "meter");
-    if (metres.data() == nullptr || isLength(metres)) return;
-    throw std::runtime_error("its unit is '" + std::string(metres) + "' metres, which is no length");
-  });
+void requireUnit(const XMLElement& unit) {
+  const char* const meters = unit.Attribute("meter");
+  if (meters == nullptr || isLength(meters)) return;
+  throw std::runtime_error("unit of '" + std::string(meters) + "' meters is not a length");
 }
 
-// assimp takes a negative index for 0, and what is not counted for nothing.
-void requireFaces(string_view text) {
-  forEachElement(text, "p", [](const Element& indices) {
-    if (!isOf(indices.body, "0123456789 \t\r\n")) throw std::runtime_error("a face has an index that is none");
-  });
-  for (const char* const faces : {"triangles", "polylist", "polygons", "lines", "linestrips", "trifans", "tristrips"}) {
-    forEachElement(text, faces, [&](const Element& element) {
-      if (!isOf(attribute(element.attributes, "count"), "0")) return;
-      forEachElement(element.body, "p", [&](const Element& indices) {
-        if (isOf(indices.body, kBlanks)) return;
-        throw std::runtime_error(std::string("its <") + faces + "> are more than their count, 0");
-      });
-    });
+// assimp reads a negative index as 0.
+void requireIndices(const XMLElement& indices) {
+  if (indices.NoChildren()) return;
+  const char* const text = indices.FirstChild() == indices.LastChild() ? indices.GetText() : nullptr;
+  if (text == nullptr || !isOf(text, "0123456789 \t\r\n")) throw std::runtime_error("a face has an invalid index");
+}
+
+// assimp omits faces beyond their count.
+void requireCount(const XMLElement& faces) {
+  const char* const count = faces.Attribute("count");
+  if (count != nullptr && !isOf(count, "0")) return;
+  for (const XMLElement* p = faces.FirstChildElement("p"); p != nullptr; p = p->NextSiblingElement("p")) {
+    if (!p->NoChildren()) throw std::runtime_error(std::string("<") + faces.Name() + "> has faces, but count 0");
   }
 }
 
-void requireReadableDae(string_view text) {
-  requireUnit(text);
-  requireFaces(text);
-  for (const char* const unread : {"brep", "convex_mesh", "ph", "spline"}) {
-    forEachElement(text, unread, [unread](const Element&) {
-      throw std::runtime_error(std::string("it has a <") + unread + ">, which is not read");
-    });
+class DaeCheck : public tinyxml2::XMLVisitor {
+ public:
+  bool VisitEnter(const XMLElement& element, const tinyxml2::XMLAttribute* /*first*/) override {
+    const string_view name = element.Name();
+    if (name == "unit") requireUnit(element);
+    if (name == "p") requireIndices(element);
+    if (isOneOf({"triangles", "polylist", "polygons", "lines", "linestrips", "trifans", "tristrips"}, name)) {
+      requireCount(element);
+    }
+    if (isOneOf({"brep", "convex_mesh", "ph", "spline"}, name)) {
+      throw std::runtime_error("<" + std::string(name) + "> is not supported");
+    }
+    return true;
   }
+};
+
+void requireReadableDae(const std::string& text) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error(std::string("not XML: ") + document.ErrorStr());
+  }
+  DaeCheck check;
+  document.Accept(&check);
 }
 
 }  // namespace
@@ -180,11 +167,11 @@ void requireReadable(const std::string& bytes, const std::string& format) {
   if (format == "dae") requireReadableDae(bytes);
 }
 
-std::size_t facesAnnounced(const std::string& bytes, const std::string& format) {
+std::size_t expectedFaces(const std::string& bytes, const std::string& format) {
   if (format == "obj") return linesThatBeginWith("f", bytes);
   if (format != "stl" || isBinaryStl(bytes)) return 0;
   if (linesThatBeginWith("endsolid", bytes) != linesThatBeginWith("solid", bytes)) {
-    throw std::runtime_error("its end is missing");
+    throw std::runtime_error("end is missing");
   }
   return linesThatBeginWith("facet", bytes);
 }

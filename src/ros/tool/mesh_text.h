@@ -5,22 +5,23 @@
 
 namespace sweep_guard_ros {
 
-// The bytes of an STL, OBJ or DAE file (`format`: stl, obj, dae), seen as text: what assimp leaves out or distorts
-// without a word.
+// Functions for the bytes of an STL, OBJ or DAE file that find what assimp silently omits or distorts. `format` is stl,
+// obj or dae.
 
-/// Makes readable what assimp would drop: a byte order mark, and keywords in capitals, which become small letters.
-/// Materials of an OBJ are blanked: they stand in files of their own, which there is no need to open.
+/// Changes text that assimp would omit: removes a byte order mark, and converts to lower case. Blanks the materials of an
+/// OBJ, which are in other files.
 void simplify(std::string& bytes, const std::string& format);
 
+/// Checks a file for contents that assimp does not read.
 /// @param bytes  simplified
-/// @throws std::runtime_error saying what cannot be read: in an OBJ an unknown keyword, or a vertex that is not of 3, 4
-///     or 6 numbers; in a DAE a unit that is no length, an index that is none, faces that are not counted, surfaces
-///     that are no polygons
+/// @throws std::runtime_error naming the contents: in an OBJ an unknown keyword, or a vertex that has not 3, 4 or 6
+///     numbers; in a DAE bad XML, a unit that is not a length, an invalid index, faces beyond their count, or a surface
+///     that has no polygons
 void requireReadable(const std::string& bytes, const std::string& format);
 
-/// Faces that the text has: those of an OBJ, the facets of an STL; 0 where assimp compares them itself.
+/// Returns the number of faces in the text of an OBJ or STL; 0 if assimp checks it itself.
 /// @param bytes  simplified
 /// @throws std::runtime_error if the end of an STL is missing
-std::size_t facesAnnounced(const std::string& bytes, const std::string& format);
+std::size_t expectedFaces(const std::string& bytes, const std::string& format);
 
 }  // namespace sweep_guard_ros

@@ -17,16 +17,16 @@ using sweep_guard_core::InvalidInput;
 using tinyxml2::XMLElement;
 
 constexpr size_t kMaxDescription = size_t{8} << 20U;  // [byte]
-constexpr int kMaxMimicry = 16;
-constexpr double kMaxTurned = 1e4;  // [rad] of a continuous joint
+constexpr int kMaxMimicDepth = 16;
+constexpr double kMaxAngle = 1e4;  // [rad], of a continuous joint
 
-/// urdfdom tells what is wrong through console_bridge, from the detail to the link, and goes on after some errors.
-class Complaints : public console_bridge::OutputHandler {
+// urdfdom reports errors through console_bridge, from the detail to the link, and continues after some of them.
+class ErrorCollector : public console_bridge::OutputHandler {
  public:
-  Complaints() { console_bridge::useOutputHandler(this); }
-  ~Complaints() override { console_bridge::restorePreviousOutputHandler(); }
-  Complaints(const Complaints&) = delete;
-  Complaints& operator=(const Complaints&) = delete;
+  ErrorCollector() { console_bridge::useOutputHandler(this); }
+  ~ErrorCollector() override { console_bridge::restorePreviousOutputHandler(); }
+  ErrorCollector(const ErrorCollector&) = delete;
+  ErrorCollector& operator=(const ErrorCollector&) = delete;
 
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) text_ += (text_.empty() ? "" : "; ") + text;
@@ -54,7 +54,7 @@ int elements(const XMLElement& parent, const char* name = nullptr) {
   return count;
 }
 
-// Of several, urdfdom reads the first and says nothing.
+// urdfdom silently reads only the first of several geometries.
 void requireOneGeometry(const XMLElement& collision, const std::string& link) {
   const XMLElement* const geometry = collision.FirstChildElement("geometry");
   if (geometry != nullptr && elements(collision, "geometry") == 1 && elements(*geometry) == 1) return;
@@ -67,22 +67,22 @@ class PrinterWithoutComments : public tinyxml2::XMLPrinter {
   bool Visit(const tinyxml2::XMLComment&) override { return true; }
 };
 
-// urdfdom's complaints take what they quote for a format of printf().
+// urdfdom passes text that it quotes to printf() as a format.
 std::string withoutFormats(std::string xml) {
   const std::string full_width = "\xEF\xBC\x85";
   for (size_t at = xml.find('%'); at != std::string::npos; at = xml.find('%', at)) xml.replace(at, 1, full_width);
   return xml;
 }
 
-// tinyxml2 bounds how deeply elements nest, which TinyXML, and so urdfdom, does not.
+// tinyxml2 limits the depth of nested elements; TinyXML, and so urdfdom, does not.
 std::string checkedXml(const std::string& urdf) {
-  if (urdf.size() > kMaxDescription) throw InvalidInput("it is larger than 8 MiB");
+  if (urdf.size() > kMaxDescription) throw InvalidInput("larger than 8 MiB");
   tinyxml2::XMLDocument document;
   if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) {
-    throw InvalidInput("it is no XML: " + oneLine(document.ErrorStr()));
+    throw InvalidInput("not XML: " + oneLine(document.ErrorStr()));
   }
   const XMLElement* const robot = document.FirstChildElement("robot");
-  if (robot == nullptr) throw InvalidInput("it has no element <robot>");
+  if (robot == nullptr) throw InvalidInput("no element <robot>");
   for (const XMLElement* link = robot->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
     for (const XMLElement* collision = link->FirstChildElement("collision"); collision != nullptr;
@@ -96,7 +96,7 @@ std::string checkedXml(const std::string& urdf) {
 }
 
 std::shared_ptr<const urdf::ModelInterface> parse(const std::string& xml) {
-  const Complaints complaints;
+  const ErrorCollector errors;
   std::shared_ptr<const urdf::ModelInterface> model;
   std::string reason;
   try {
@@ -104,9 +104,9 @@ std::shared_ptr<const urdf::ModelInterface> parse(const std::string& xml) {
   } catch (const std::exception& error) {
     reason = error.what();
   }
-  if (!complaints.text().empty()) reason = complaints.text();
+  if (!errors.text().empty()) reason = errors.text();
   if (reason.empty() && (!model || !model->getRoot())) reason = "there is no root link";
-  if (!reason.empty()) throw InvalidInput("it is no URDF: " + oneLine(reason));
+  if (!reason.empty()) throw InvalidInput("not a URDF: " + oneLine(reason));
   return model;
 }
 
@@ -132,7 +132,7 @@ bool hasLimits(const urdf::Joint& joint) {
 }
 
 std::pair<double, double> limitsOf(const urdf::Joint& joint) {
-  if (!hasLimits(joint)) return {-kMaxTurned, kMaxTurned};
+  if (!hasLimits(joint)) return {-kMaxAngle, kMaxAngle};
   const bool usable = joint.limits && std::isfinite(joint.limits->lower) && std::isfinite(joint.limits->upper) &&
                       joint.limits->lower <= joint.limits->upper;
   if (!usable)
@@ -158,7 +158,7 @@ const urdf::Link* RobotDescription::link(const std::string& name) const {
   return found == model_->links_.end() ? nullptr : found->second.get();
 }
 
-std::vector<const urdf::Link*> RobotDescription::below(const urdf::Link& link) {
+std::vector<const urdf::Link*> RobotDescription::subtree(const urdf::Link& link) {
   std::vector<const urdf::Link*> links;
   std::vector<const urdf::Link*> open{&link};
   while (!open.empty()) {
@@ -173,12 +173,13 @@ std::vector<const urdf::Link*> RobotDescription::below(const urdf::Link& link) {
 LinkPoses::LinkPoses(const RobotDescription& robot, std::map<std::string, double> positions)
     : robot_(robot), positions_(std::move(positions)) {
   for (const auto& [name, position] : positions_) {
-    if (!robot_.hasJoint(name)) throw InvalidInput("there is no joint '" + name + "' that tool/joints could set");
+    if (!robot_.hasJoint(name))
+      throw InvalidInput("tool/joints names '" + name + "', which is not a joint of the robot");
     if (!std::isfinite(position)) throw InvalidInput("the position of joint '" + name + "' is not finite");
   }
 }
 
-// Ends in a loop, too: urdfdom lets one pass that hangs on nothing.
+// Throws in a loop of joints, which urdfdom accepts.
 std::vector<const urdf::Joint*> LinkPoses::pathToRoot(const urdf::Link& link) const {
   std::vector<const urdf::Joint*> path;
   const urdf::Link* at = &link;
@@ -186,7 +187,7 @@ std::vector<const urdf::Joint*> LinkPoses::pathToRoot(const urdf::Link& link) co
     path.push_back(at->parent_joint.get());
     at = robot_.link(path.back()->parent_link_name);
     if (at == nullptr || path.size() > robot_.model_->joints_.size()) {
-      throw InvalidInput("link '" + link.name + "' does not hang on the root link '" + robot_.root().name + "'");
+      throw InvalidInput("link '" + link.name + "' is not connected to the root link '" + robot_.root().name + "'");
     }
   }
   return path;
@@ -195,7 +196,7 @@ std::vector<const urdf::Joint*> LinkPoses::pathToRoot(const urdf::Link& link) co
 Eigen::Isometry3d LinkPoses::X_FL(const urdf::Link& frame, const urdf::Link& link) {
   const std::vector<const urdf::Joint*> to_frame = pathToRoot(frame);
   const std::vector<const urdf::Joint*> to_link = pathToRoot(link);
-  size_t shared = 0;  // joints above both: they move both alike
+  size_t shared = 0;  // joints above both links, which move both
   while (shared < std::min(to_frame.size(), to_link.size()) &&
          to_frame[to_frame.size() - 1 - shared] == to_link[to_link.size() - 1 - shared]) {
     ++shared;
@@ -218,24 +219,26 @@ Eigen::Isometry3d LinkPoses::X_PC(const urdf::Joint& joint) {
   }
   if (joint.type == urdf::Joint::FIXED) return X_PJ;
   const double at = position(joint);
-  held_[joint.name] = at;
+  joints_[joint.name] = at;
   if (joint.type == urdf::Joint::PRISMATIC) return X_PJ * Eigen::Translation3d(at * axisOf(joint));
   return X_PJ * Eigen::AngleAxisd(at, axisOf(joint));
 }
 
 double LinkPoses::position(const urdf::Joint& joint, int depth) const {
   if (!hasLimits(joint) && joint.type != urdf::Joint::CONTINUOUS) {
-    throw InvalidInput("joint '" + joint.name +
-                       "' lies within the tool, but only fixed, revolute, continuous and prismatic joints may");
+    throw InvalidInput(
+        "joint '" + joint.name +
+        "' is within the tool: only fixed, revolute, continuous and prismatic joints are supported there");
   }
   const auto given = positions_.find(joint.name);
   if (joint.mimic) {
     const auto followed = robot_.model_->joints_.find(joint.mimic->joint_name);
-    if (followed == robot_.model_->joints_.end() || depth > kMaxMimicry) {
-      throw InvalidInput("joint '" + joint.name + "' mimics '" + joint.mimic->joint_name + "', which leads nowhere");
+    if (followed == robot_.model_->joints_.end() || depth > kMaxMimicDepth) {
+      throw InvalidInput("joint '" + joint.name + "' mimics '" + joint.mimic->joint_name +
+                         "', which does not exist or mimics too many others");
     }
     if (given != positions_.end()) {
-      throw InvalidInput("joint '" + joint.name + "' mimics '" + followed->first + "': set that one in tool/joints");
+      throw InvalidInput("joint '" + joint.name + "' mimics '" + followed->first + "': set that joint in tool/joints");
     }
     return joint.mimic->multiplier * position(*followed->second, depth + 1) + joint.mimic->offset;
   }

@@ -10,39 +10,39 @@
 
 namespace sweep_guard_ros {
 
-/// A robot as its URDF describes it, checked beyond what urdfdom checks: a tool must not lose a part in silence.
+/// Holds a robot from a URDF, with more checks than urdfdom's: no part of a tool may be lost silently.
 class RobotDescription {
  public:
-  /// @throws sweep_guard_core::InvalidInput saying what is wrong where: no XML, larger than 8 MiB, refused by urdfdom, a
-  ///     collision of several geometries, a link with two parents
+  /// @throws sweep_guard_core::InvalidInput if the text is no XML, is larger than 8 MiB or is refused by urdfdom; if a
+  ///     collision has several geometries; or if a link has two parents
   explicit RobotDescription(const std::string& urdf);
 
-  const urdf::Link* link(const std::string& name) const;  ///< null: there is none
+  const urdf::Link* link(const std::string& name) const;  ///< null if missing
   const urdf::Link& root() const { return *model_->getRoot(); }
   bool hasJoint(const std::string& name) const { return model_->joints_.count(name) != 0; }
 
-  /// The link and all links that hang on it, through joints of any kind, in the order of the description's tree.
-  static std::vector<const urdf::Link*> below(const urdf::Link& link);
+  /// Returns the link and all links below it, over joints of any type, in the order of the tree.
+  static std::vector<const urdf::Link*> subtree(const urdf::Link& link);
 
  private:
   friend class LinkPoses;
   std::shared_ptr<const urdf::ModelInterface> model_;
 };
 
-/// Where links are when every moving joint stands at a position [rad or m]: the one given, or else the one nearest to 0
-/// that its limits allow. A joint that mimics another follows that.
+/// Computes poses of links. Every moving joint has a position [rad or m]: the given one, or else the one closest to 0
+/// within its limits. A joint that mimics another one follows it.
 class LinkPoses {
  public:
-  /// @throws sweep_guard_core::InvalidInput if a position is not finite, or of a joint that there is not
+  /// @throws sweep_guard_core::InvalidInput if a position is not finite, or its joint does not exist
   LinkPoses(const RobotDescription& robot, std::map<std::string, double> positions);
 
-  /// Pose of a link L in the frame of a link F.
-  /// @throws sweep_guard_core::InvalidInput naming the joint if one between them is beyond its limits, is given although it
-  ///     mimics another, has no axis, or is of a kind that has no one position (planar, floating)
+  /// Returns the pose of a link L in the frame of a link F.
+  /// @throws sweep_guard_core::InvalidInput naming a joint between them that is beyond its limits, is given although it
+  ///     mimics another one, has no axis, or is planar or floating
   Eigen::Isometry3d X_FL(const urdf::Link& frame, const urdf::Link& link);
 
-  /// The moving joints that have been passed so far, and where they stand [rad or m].
-  const std::map<std::string, double>& held() const { return held_; }
+  /// Returns the positions [rad or m] of the moving joints used by X_FL().
+  const std::map<std::string, double>& joints() const { return joints_; }
 
  private:
   std::vector<const urdf::Joint*> pathToRoot(const urdf::Link& link) const;
@@ -52,10 +52,10 @@ class LinkPoses {
 
   const RobotDescription& robot_;
   std::map<std::string, double> positions_;
-  std::map<std::string, double> held_;
+  std::map<std::string, double> joints_;
 };
 
-/// @throws sweep_guard_core::InvalidInput if it is not finite
+/// @throws sweep_guard_core::InvalidInput if the pose is not finite
 Eigen::Isometry3d fromUrdf(const urdf::Pose& pose);
 
 }  // namespace sweep_guard_ros

@@ -15,7 +15,7 @@ using sweep_guard_core::ConvexPiece;
 using sweep_guard_core::ConvexShape;
 using sweep_guard_core::InvalidInput;
 
-const std::string kAnyFrame = "tool";   // what tool_frame is where nobody has set it
+const std::string kDefaultFrame = "tool";
 constexpr double kMaxDistance = 100.0;  // [m]
 
 std::string list(const std::vector<const urdf::Link*>& links) {
@@ -28,26 +28,26 @@ std::string list(const std::vector<const urdf::Link*>& links) {
 const urdf::Link& linkNamed(const RobotDescription& robot, const std::string& name, const std::string& parameter) {
   const urdf::Link* const link = robot.link(name);
   if (link != nullptr) return *link;
-  throw InvalidInput(parameter + " names '" + name + "', which is no link of the robot; its links are " +
-                     list(RobotDescription::below(robot.root())));
+  throw InvalidInput(parameter + " names '" + name + "', which is not a link of the robot; its links are " +
+                     list(RobotDescription::subtree(robot.root())));
 }
 
 const urdf::Link& frameOf(const RobotDescription& robot, const ToolModelOptions& options) {
-  if (options.frame != kAnyFrame || robot.link(kAnyFrame) != nullptr) {
+  if (options.frame != kDefaultFrame || robot.link(kDefaultFrame) != nullptr) {
     return linkNamed(robot, options.frame, "tool_frame");
   }
   return options.links.empty() ? robot.root() : linkNamed(robot, options.links.front(), "tool/links");
 }
 
-bool isBare(const urdf::Link& link) { return link.collision_array.empty() && link.visual_array.empty(); }
+bool hasNoShape(const urdf::Link& link) { return link.collision_array.empty() && link.visual_array.empty(); }
 
 std::vector<const urdf::Link*> linksOf(const RobotDescription& robot, const ToolModelOptions& options,
                                        const urdf::Link& frame) {
   if (options.links.empty()) {
-    std::vector<const urdf::Link*> links = RobotDescription::below(frame);
-    links.erase(std::remove_if(links.begin(), links.end(), [](const urdf::Link* link) { return isBare(*link); }),
+    std::vector<const urdf::Link*> links = RobotDescription::subtree(frame);
+    links.erase(std::remove_if(links.begin(), links.end(), [](const urdf::Link* link) { return hasNoShape(*link); }),
                 links.end());
-    if (links.empty()) throw InvalidInput("neither link '" + frame.name + "' nor what hangs on it has a shape");
+    if (links.empty()) throw InvalidInput("link '" + frame.name + "' and the links below it have no shape");
     return links;
   }
   std::vector<const urdf::Link*> links;
@@ -77,7 +77,7 @@ Eigen::Vector3d scaleOf(const urdf::Mesh& mesh) {
   return scale;
 }
 
-// Of the corners as they were read: in the mesh that is cut they are rounded.
+// Uses the vertices as read: TriangleMesh rounds them.
 ConvexShape hullOf(const MeshSurface& surface, const std::vector<std::uint32_t>& triangles) {
   std::vector<Eigen::Vector3d> corners;
   for (const std::uint32_t triangle : triangles) {
@@ -86,7 +86,7 @@ ConvexShape hullOf(const MeshSurface& surface, const std::vector<std::uint32_t>&
   return ConvexShape::hull(corners);
 }
 
-std::vector<ConvexShape> meshParts(const urdf::Mesh& mesh, const ToolModelOptions& options) {
+std::vector<ConvexShape> meshShapes(const urdf::Mesh& mesh, const ToolModelOptions& options) {
   const Eigen::Vector3d scale = scaleOf(mesh);
   MeshSurface surface = readMesh(locateMesh(mesh.filename, options.mesh_roots));
   for (Eigen::Vector3d& p : surface.vertices) p = p.cwiseProduct(scale);
@@ -94,16 +94,16 @@ std::vector<ConvexShape> meshParts(const urdf::Mesh& mesh, const ToolModelOption
     const sweep_guard_core::TriangleMesh rounded(surface.vertices, surface.triangles);
     sweep_guard_core::DecompositionOptions cuts;
     cuts.max_depth = options.mesh_depth;
-    std::vector<ConvexShape> parts;
+    std::vector<ConvexShape> hulls;
     for (const auto& triangles : sweep_guard_core::decompose(rounded, cuts))
-      parts.push_back(hullOf(surface, triangles));
-    return parts;
+      hulls.push_back(hullOf(surface, triangles));
+    return hulls;
   } catch (const InvalidInput& error) {
     throw InvalidInput(mesh.filename + ": " + error.what());
   }
 }
 
-std::vector<ConvexShape> partsOf(const urdf::Geometry& geometry, const ToolModelOptions& options) {
+std::vector<ConvexShape> shapesOf(const urdf::Geometry& geometry, const ToolModelOptions& options) {
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
       return {ConvexShape::sphere(size(static_cast<const urdf::Sphere&>(geometry).radius, "sphere's radius"))};
@@ -119,35 +119,35 @@ std::vector<ConvexShape> partsOf(const urdf::Geometry& geometry, const ToolModel
                   .placed(Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.5 * length)))};
     }
     case urdf::Geometry::MESH:
-      return meshParts(static_cast<const urdf::Mesh&>(geometry), options);
+      return meshShapes(static_cast<const urdf::Mesh&>(geometry), options);
   }
-  throw InvalidInput("its geometry is of an unknown kind");
+  throw InvalidInput("its geometry is of an unknown type");
 }
 
 void requireWithinReach(double distance, const std::string& frame) {
   if (distance <= kMaxDistance) return;  // false for NaN too
   std::ostringstream text;
-  text << "it reaches " << distance << " m from the frame of '" << frame << "', but at most 100 is taken; "
-       << "is a mesh in millimetres? Then set its scale";
+  text << "it reaches " << distance << " m from the frame of '" << frame << "', but the limit is 100 m; "
+       << "if a mesh is in millimeters, set its scale";
   throw InvalidInput(text.str());
 }
 
-void addParts(const urdf::Link& link, const Eigen::Isometry3d& X_TL, const ToolModelOptions& options,
-              const std::string& frame, std::vector<ConvexPiece>& parts) {
+void addPieces(const urdf::Link& link, const Eigen::Isometry3d& X_TL, const ToolModelOptions& options,
+               const std::string& frame, std::vector<ConvexPiece>& pieces) {
   for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
     const Eigen::Isometry3d X_TC = X_TL * fromUrdf(collision->origin);
     requireWithinReach(X_TC.translation().norm(), frame);
-    for (const ConvexShape& shape_C : partsOf(*collision->geometry, options)) {
+    for (const ConvexShape& shape_C : shapesOf(*collision->geometry, options)) {
       requireWithinReach(shape_C.boundingRadius(), frame);
       const ConvexShape shape_T = shape_C.placed(X_TC).padded(options.padding);
       requireWithinReach(shape_T.boundingRadius(), frame);
-      parts.push_back({link.name, shape_T});
+      pieces.push_back({link.name, shape_T});
     }
   }
 }
 
 template <typename Work>
-void naming(const urdf::Link& link, Work work) {
+void withLinkInErrors(const urdf::Link& link, Work work) {
   try {
     work();
   } catch (const InvalidInput& error) {
@@ -160,7 +160,7 @@ void requireCollision(const urdf::Link& link) {
   const std::string found =
       link.visual_array.empty() ? "it has no geometry" : "it has visual geometry, but no collision";
   throw InvalidInput("link '" + link.name + "': " + found +
-                     "; give it a <collision>, or name in tool/links only links that have one");
+                     "; add a <collision>, or list only links with one in tool/links");
 }
 
 }  // namespace
@@ -173,10 +173,10 @@ ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options
   ToolModel model{{}, frame.name, {}};
   for (const urdf::Link* link : links) {
     const Eigen::Isometry3d X_TL = poses.X_FL(frame, *link);
-    naming(*link, [&] { addParts(*link, X_TL, options, frame.name, model.parts); });
+    withLinkInErrors(*link, [&] { addPieces(*link, X_TL, options, frame.name, model.pieces); });
   }
-  for (const urdf::Link* link : links) requireCollision(*link);  // last: a mesh that is missing is told of before
-  model.held = poses.held();
+  for (const urdf::Link* link : links) requireCollision(*link);  // last, to report a missing mesh first
+  model.joints = poses.joints();
   return model;
 }
 

@@ -13,28 +13,27 @@
 
 namespace sweep_guard_ros {
 
-/// A list is held as text: [x, y, z].
+/// Holds a value. A list is text: [x, y, z].
 using ParameterValue = std::variant<bool, int, double, std::string>;
 
 /// Returns the value as text for people.
 std::string shown(const ParameterValue& value);
 
-/// Describes one parameter. doc/interface.md and config/sweep_guard.yaml are written from this.
+/// Describes one parameter. doc/interface.md and config/sweep_guard.yaml are generated from these.
 struct ParameterInfo {
   std::string key;
-  ParameterValue value;  ///< as set, or the fallback
+  ParameterValue value;  ///< set value, or the fallback
   ParameterValue fallback;
-  double lowest = -std::numeric_limits<double>::infinity();  ///< of a number, where no other parameter narrows it
+  double lowest = -std::numeric_limits<double>::infinity();  ///< bound of a number, if no other parameter narrows it
   double highest = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices;  ///< the texts allowed; empty: any
+  std::vector<std::string> choices;  ///< allowed texts; empty: any
   std::string wanted;                ///< unit, type and range in words
   std::string effect;                ///< sentences for users
 };
 
-/// Reads the private parameters of a node, strictly: each function returns the value set for the key, or the fallback
-/// where nothing is set. (roscpp returns the fallback without a word where the type is wrong.) All throw
-/// sweep_guard_core::InvalidInput naming key, value and range if the value has another type, is NaN or is out of range.
-/// `effect` goes into described(): what the parameter does, in sentences for users.
+/// Reads the private parameters of a node. Each function returns the value that is set, or the fallback if none is, and
+/// throws sweep_guard_core::InvalidInput with key, value and range if the value has another type, is NaN or is out of range.
+/// (roscpp silently returns the fallback if the type is wrong.) `effect` describes the parameter to users.
 class ParameterReader {
  public:
   struct Range {
@@ -43,20 +42,20 @@ class ParameterReader {
     const char* unit = "";
   };
 
-  /// A narrower range that depends on another parameter.
+  /// Narrows a range by another parameter.
   struct Bound {
     Range range;
-    const char* note;  ///< names the other parameter in the message
+    const char* note;  ///< words for the error text that name the other parameter
   };
 
-  /// By key; empty: nothing is set.
+  /// Holds values by key; empty: not set.
   using Settings = std::map<std::string, std::optional<XmlRpc::XmlRpcValue>>;
 
-  /// @param known  settings that are not asked of the parameter server
+  /// @param known  settings that are taken instead of the parameter server's
   explicit ParameterReader(const ros::NodeHandle& private_node, Settings known = {})
       : node_(private_node), settings_(std::move(known)) {}
 
-  /// Accepts an integer, too, and checks the fallback as well.
+  /// Reads a number; accepts an integer. Also checks the fallback.
   double number(const std::string& key, double fallback, const Range& range, const std::string& effect = "",
                 const std::optional<Bound>& bound = {});
   int integer(const std::string& key, int fallback, int lowest, int highest, const std::string& effect = "");
@@ -66,30 +65,31 @@ class ParameterReader {
   std::string name(const std::string& key, const std::string& fallback, const std::string& effect = "");
   std::string choice(const std::string& key, const std::string& fallback, const std::vector<std::string>& choices,
                      const std::string& effect = "");
-  /// Reads as many integers as the fallback has. All lists may be given as text: `1, 2` or `[1, 2]`.
+  /// Reads as many integers as the fallback has. Any list may be given as text: `1, 2` or `[1, 2]`.
   std::vector<int> integers(const std::string& key, const std::vector<int>& fallback, int lowest, int highest,
                             const std::string& effect = "");
-  /// Reads a list of some of the choices; [] where nothing is set.
+  /// Reads a list of some of the choices; [] if not set.
   std::vector<std::string> selection(const std::string& key, const std::vector<std::string>& choices,
                                      const std::string& effect = "");
-  /// Reads a list of texts that are not empty; [] where nothing is set.
+  /// Reads a list of texts that are not empty; [] if not set.
   std::vector<std::string> texts(const std::string& key, const std::string& effect = "");
-  /// Reads a group of finite numbers by their names; empty where nothing is set.
+  /// Reads a group of finite numbers by name; empty if not set.
   std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "");
-  /// Reads the text of a parameter in the node's namespace or one above it, or under an absolute name; "" if it is
-  /// unset.
-  std::string textAbove(const std::string& name);
-  /// Refuses the parameter if it is set at all. @param instead  tells the user what to do
+  /// Searches a text in the node's namespace and the namespaces above it, or under an absolute name; "" if not set.
+  std::string searchText(const std::string& name);
+  /// Refuses the parameter if it is set.
+  /// @param instead  tells the user what to do
   void refuseIfSet(const std::string& key, const std::string& instead);
-  Eigen::Vector3d position(const std::string& key, const Eigen::Vector3d& fallback);  ///< [x, y, z] within +-1e6 m
+  /// Reads [x, y, z] [m] within +-1e6 m.
+  Eigen::Vector3d position(const std::string& key, const Eigen::Vector3d& fallback);
 
-  /// Returns every parameter that was read, from the server or known before.
+  /// Returns the settings of all parameters that were read.
   const Settings& settings() const { return settings_; }
-  /// Returns what is known of each parameter that was read, but for text() and position(), in the order of reading.
+  /// Returns the descriptions of all parameters in the order of reading, except those of text() and position().
   const std::vector<ParameterInfo>& described() const { return described_; }
 
-  /// Warns of every private parameter that was not read, because a misspelt key would have no effect.
-  /// @throws sweep_guard_core::InvalidInput if a value stands where a group of parameters belongs
+  /// Warns of every private parameter that was not read: a misspelled key has no effect.
+  /// @throws sweep_guard_core::InvalidInput if a value is set in place of a group of parameters
   void warnOfUnread() const;
 
  private:

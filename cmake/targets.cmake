@@ -1,0 +1,29 @@
+# Settings of every target of ours: the headers of other packages are system headers, so that warnings in them are not errors.
+function(sweep_guard_target target)
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual $<$<BOOL:${SWEEP_GUARD_WERROR}>:-Werror>)
+  target_link_options(${target} PRIVATE -Wl,--no-undefined)
+endfunction()
+
+function(sweep_guard_ros_target target)
+  sweep_guard_target(${target})
+  target_include_directories(${target} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
+  target_link_libraries(${target} ${catkin_LIBRARIES})  # no keyword: catkin links its tests without
+  add_dependencies(${target} ${${PROJECT_NAME}_EXPORTED_TARGETS})
+endfunction()
+
+# sweep_guard_precompile(LIBRARY HEADER...) - also for the targets that share them: no macro is its own
+function(sweep_guard_precompile library)
+  set_target_properties(${library} PROPERTIES DEFINE_SYMBOL "")
+  target_precompile_headers(${library} PRIVATE ${ARGN})
+endfunction()
+
+# sweep_guard_share_headers(TARGET LIBRARY) - takes the headers that the library has precompiled, and its options with them
+function(sweep_guard_share_headers target library)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL EXECUTABLE)
+    target_compile_options(${target} PRIVATE -fPIC)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${library})
+endfunction()

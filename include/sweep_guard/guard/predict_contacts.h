@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+#include "sweep_guard/guard/guard_options.h"
+#include "sweep_guard/guard/prediction.h"
+
+namespace sweep_guard_core {
+
+struct PredictionRequest {
+  const Tool& tool;
+  const PredictedMotion& motion;
+  const Workpieces&
+      workpieces;  ///< their frames are taken to stay where they are at the pose that the motion begins at
+};
+
+/// Tests a predicted motion against every workpiece, as a guard with these options does. A workpiece whose detection
+/// fails is reported as a failure.
+/// @param out_of_time  once it returns true, sweeps after the reflex interval are tested coarsely: a triangle counts as
+///                     met if no plane of a volume separates it from the volume
+Prediction predictContacts(Detector& detector, const PredictionRequest& request, const GuardOptions& options,
+                           const std::function<bool()>& out_of_time);
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "sweep_guard/detection/detector.h"
+#include "sweep_guard/detection/time_of_impact.h"
+#include "sweep_guard/geometry/swept_volume.h"
+#include "sweep_guard/geometry/tool.h"
+
+namespace sweep_guard_core {
+
+struct SweepOptions {
+  VolumeKind volume = VolumeKind::kObbPlanes;
+  double max_rotation = 0.175;  ///< largest rotation of one sub-motion [rad], in (0, 1.5]
+  double margin = 0.0;          ///< the tool is grown by this [m], >= 0
+  bool fine = true;             ///< run the narrow phase on what the swept volumes meet
+};
+
+/// A triangle in contact with the tool.
+struct TriangleContact {
+  std::uint32_t triangle;
+  size_t piece;   ///< index of the convex piece of the tool that touches the triangle first
+  Impact impact;  ///< first impact of that piece
+};
+
+/// What the tool meets of one mesh during one motion.
+struct SweepResult {
+  TriangleSet triangles;  ///< triangles that a swept volume meets: ascending, each once
+  double margin = 0.0;    ///< largest margin of a tested volume [m]: arcs, rounding, mesh motion and requested margin
+  std::vector<SweptVolume>
+      volumes_M;                   ///< volumes tested, in order of time: of the tool's pieces, or of boxes around them
+  bool fine = false;               ///< the narrow phase has run
+  TriangleSet not_ruled_out = {};  ///< subset of `triangles` that the narrow phase does not rule out; without it, all
+  std::vector<TriangleContact> in_contact = {};  ///< confirmed by the narrow phase: ascending, each once
+  bool inside = false;                           ///< a piece of the tool lies wholly inside the closed mesh
+
+  bool contact() const { return inside || !not_ruled_out.empty(); }
+  void clear();  ///< resets all fields and keeps the buffers
+};
+
+struct PathRequest {
+  const Tool& tool;
+  const std::vector<Eigen::Isometry3d>& path;  ///< poses X_MT, at least one; one pose is a static test
+  const TriangleMesh& mesh_M;
+  SweepOptions options = {};
+  std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up
+};
+
+/// What the tool meets along a path of poses.
+struct PathResult {
+  SweepResult all;                       ///< all sweeps merged
+  std::optional<size_t> first_contact;   ///< first sweep with contact; sweep i goes from pose i to pose i + 1
+  std::optional<double> time_of_impact;  ///< in that sweep, [0, 1]; empty without the narrow phase
+};
+
+/// Checks every sweep of a path.
+/// @throws DeviceError if the detector fails
+PathResult checkPath(Detector& detector, const PathRequest& request);
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/common/pool.h"
+#include "sweep_guard/guard/workpiece.h"
+
+namespace sweep_guard_core {
+
+/// New vertex positions of a workpiece whose triangles stay.
+struct Deformation {
+  const std::string& id;
+  std::uint32_t revision;  ///< must equal that of the workpiece
+  Time stamp;
+  SteadyTime received;
+  const std::string& frame;               ///< name of the mesh's frame M
+  const std::vector<float>& positions_M;  ///< x0 y0 z0 x1 ... [m]
+};
+
+/// Keeps the newest snapshot of every workpiece. Snapshots are shared, and do not change while anybody holds them.
+/// Snapshots that nobody holds are reused for deformations, which then allocate nothing. One thread calls set(), deform() and
+/// remove(); any thread may call the others. A call that throws keeps the old snapshot.
+class WorkpieceStore {
+ public:
+  using OnChange = std::function<void(const Workpieces&)>;
+
+  /// @param on_change  called after every change with all snapshots, under the lock of the store
+  explicit WorkpieceStore(OnChange on_change = [](const Workpieces&) {});
+
+  /// Adds or replaces a workpiece, and sets `updates` and `path_length`: they continue if frame and triangles stay.
+  /// @param latest  a snapshot stamped later was stamped before time went back, and may be replaced by an older stamp
+  /// @throws InvalidInput if the stamp is older than the snapshot's, or if there are 1000 workpieces already
+  void set(Workpiece next, Time latest);
+
+  /// Replaces the vertices of a workpiece.
+  /// @throws InvalidInput if the mesh is missing, if the revision differs, if the stamp is older than the snapshot's, or
+  ///     if TriangleMesh::deform() refuses the positions
+  void deform(const Deformation& deformation, Time latest);
+
+  bool remove(const std::string& id);  ///< returns false if there is no such workpiece
+
+  Workpieces snapshot() const;                                  ///< ascending by id
+  std::shared_ptr<const std::set<std::string>> frames() const;  ///< frames of all workpieces
+
+  /// Clears the stamps of all snapshots, after time went back.
+  void clearStamps();
+
+ private:
+  struct Buffers {
+    Pool<Workpiece> snapshots;
+    std::vector<float> positions_M;
+  };
+
+  std::shared_ptr<const Workpiece> find(const std::string& id) const;
+  std::shared_ptr<Workpiece> unusedSnapshot(const Workpiece& current);
+  void replace(std::shared_ptr<const Workpiece> snapshot);
+  void updateFrames();
+
+  const OnChange on_change_;
+  mutable std::mutex mutex_;
+  Workpieces workpieces_;
+  std::shared_ptr<const std::set<std::string>> frames_ = std::make_shared<const std::set<std::string>>();
+  std::map<std::string, Buffers> buffers_;  // by id, for the triangles of the snapshot; not locked
+};
+
+}  // namespace sweep_guard_core

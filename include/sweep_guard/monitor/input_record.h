@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "sweep_guard/monitor/timestamps.h"
+
+namespace sweep_guard_core {
+
+/// Counts the messages of one input and keeps its last error. Any thread.
+class InputRecord {
+ public:
+  struct Summary {
+    std::uint64_t received = 0;        ///< messages, including refused ones
+    std::uint64_t refused = 0;         ///< messages
+    std::optional<Timestamps> newest;  ///< newest message; empty: none yet
+    std::string last_error;            ///< empty: none
+    SteadyTime error_time;             ///< time of the last error
+  };
+
+  void received(const Timestamps& message) {
+    const std::lock_guard lock(mutex_);
+    ++summary_.received;
+    summary_.newest = message;
+  }
+
+  /// @param refused  false if the error does not refuse a message
+  void error(const std::string& reason, bool refused) {
+    const std::lock_guard lock(mutex_);
+    summary_.refused += refused ? 1 : 0;
+    summary_.last_error = reason;
+    summary_.error_time = std::chrono::steady_clock::now();
+  }
+
+  Summary summary() const {
+    const std::lock_guard lock(mutex_);
+    return summary_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  Summary summary_;
+};
+
+}  // namespace sweep_guard_core

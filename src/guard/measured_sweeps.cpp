@@ -1,0 +1,181 @@
+#include "guard/measured_sweeps.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "guard/placed_workpieces.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr double kMergeTolerance = 1e-3;  // of the tool's bounding radius
+constexpr Duration kMaxUpdateInterval = std::chrono::milliseconds(500);
+
+// Converts fractions of a segment to fractions of the interval, in which the segment lasts from `begin` to `end`.
+void rescale(std::vector<TriangleContact>& in_contact, double begin, double end) {
+  for (TriangleContact& contact : in_contact) {
+    contact.impact.time_of_impact = begin + (end - begin) * contact.impact.time_of_impact;
+  }
+}
+
+MovingMesh movingMesh(const Workpiece& now, const Workpiece& before, const Displacements& displacements) {
+  if (&now == &before) return now.mesh_M;
+  const bool skipped = now.updates > before.updates + 1;
+  const double path_length = now.path_length - before.path_length;
+  const double deviation = skipped ? pathDeviation(path_length, displacements.lowerBound()) : 0.0;
+  return {now.mesh_M, before.mesh_M, displacements, deviation};
+}
+
+// Keeps the older normal of a triangle that has no newer one.
+void update(SweepCache& cache, const SweepResult& result) {
+  cache.outside = !result.contact();
+  for (const TriangleContact& contact : result.in_contact) {
+    cache.contact_normals.insert_or_assign(contact.triangle, contact.impact.normal_M);
+  }
+}
+
+bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
+  return &a.triangles() == &b.triangles() || (a.vertexCount() == b.vertexCount() && a.triangles() == b.triangles());
+}
+
+}  // namespace
+
+void MeasuredSweeps::pass(const PoseWithFrames& pose) {
+  add(pose);
+  if (!waiting_since_) waiting_since_ = pose.stamp;
+}
+
+void MeasuredSweeps::add(const PoseWithFrames& pose) {
+  ++poses_;
+  for (const auto& [frame, X_WM] : pose.X_WM) histories_[frame].add({poses_, pose.stamp, pose.X_WT, X_WM});
+}
+
+void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
+                           SweepReport& report) {
+  forgetRemoved(workpieces);
+  add(pose);
+  report.start = report.end = pose.stamp;
+  testPlaced(workpieces, pose, report, [&](const auto& workpiece, const auto& /*X_WM*/, SweptObject& object) {
+    sweepObject(setup, workpiece, object);
+    report.start = std::min(report.start, object.interval_start);
+  });
+  for (auto& [frame, history] : histories_) shorten(frame, history);
+  report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
+  waiting_since_.reset();
+  swept_to_ = poses_;
+}
+
+void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece,
+                                 SweptObject& object) {
+  const PoseHistory& history = histories_.at(workpiece->frame);
+  const size_t last = history.size() - 1;
+  Swept& swept = lastSwept(workpiece);
+  const size_t begin = history.lastUpTo(swept.pose);
+  while (swept.deformations.size() > 1 && swept.deformations[1]->stamp <= history[begin].stamp) {
+    swept.deformations.erase(swept.deformations.begin());
+  }
+  const auto& from = swept.deformations.front();
+  const Workpiece& before = *swept.deformations.back();
+  const bool deformed = workpiece.get() != &before;
+  if (deformed || swept.displaced_from != from) {
+    swept.displaced_from = from;
+    swept.displacements = workpiece == from ? Displacements() : Displacements(from->mesh_M, workpiece->mesh_M);
+  }
+
+  const MovingMesh mesh = movingMesh(*workpiece, *from, swept.displacements);
+  const bool again = deformed && mesh.moved();
+  const size_t first = again ? std::min(begin, history.lastUpTo(before.stamp)) : begin;
+  object.workpiece = workpiece;
+  object.interval_start = history[begin].stamp;
+  object.result.clear();
+  cache_ = swept.cache;
+  history.path_M(first, last, setup.tool.boundingRadius(), path_M_);
+  size_t i = first;
+  do {
+    const bool is_new = i >= begin;
+    const size_t end = first + endOfMotion(setup, i - first, (is_new ? last : begin) - first);
+    findSubMotions(setup, history, first, i - first, end - first);
+    cache_.already_confirmed.clear();
+    if (!is_new) cache_.already_confirmed = object.result.not_ruled_out;
+    SweepResult& result =
+        sweep_checker_.check(setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_});
+    if (is_new) cache_.contact_normals.clear();
+    update(cache_, result);
+    rescale(result.in_contact, history.share(begin, i), history.share(begin, end));
+    unite(object.result, result);
+    i = end;
+  } while (i < last);
+  if (deformed) swept.deformations.push_back(workpiece);
+  swept.pose = history.newest().number;
+  std::swap(swept.cache, cache_);
+}
+
+// A workpiece with other triangles, or in another frame, has not been swept since the last pose.
+MeasuredSweeps::Swept& MeasuredSweeps::lastSwept(const std::shared_ptr<const Workpiece>& workpiece) {
+  const auto entry = swept_.find(workpiece->id);
+  if (entry == swept_.end()) return swept_.emplace(workpiece->id, Swept{{workpiece}, swept_to_}).first->second;
+  Swept& swept = entry->second;
+  const Workpiece& before = *swept.deformations.back();
+  if (before.frame != workpiece->frame) {
+    swept = {{workpiece}, swept_to_};
+  } else if (!sameTriangles(before.mesh_M, workpiece->mesh_M)) {
+    swept = {{workpiece}, swept.pose};
+  }
+  return swept;
+}
+
+// Numbers count points of path_M_.
+size_t MeasuredSweeps::endOfMotion(const SweepSetup& setup, size_t begin, size_t last) const {
+  if (begin >= last) return last;
+  const double radius = setup.tool.boundingRadius();
+  return endOfMergedMotion(path_M_, begin, last, radius, {kMergeTolerance * radius, setup.options.max_rotation});
+}
+
+// Between two points of path_M_, whose first point is sample `first` of the history.
+void MeasuredSweeps::findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin,
+                                    size_t end) {
+  const double radius = setup.tool.boundingRadius();
+  if (end > begin + 1) {
+    sub_motions_M_.assign(1, mergedMotion(path_M_, begin, end, radius));
+    return;
+  }
+  const PoseSample& from = history[first + begin];
+  const PoseSample& to = history[first + end];
+  sub_motions_M_ = split({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, setup.options.max_rotation, radius,
+                         std::move(sub_motions_M_));
+}
+
+void MeasuredSweeps::reset() {
+  histories_.clear();
+  swept_.clear();
+  waiting_since_.reset();
+}
+
+void MeasuredSweeps::forgetContacts() {
+  for (auto& [id, swept] : swept_) swept.cache = {};
+}
+
+// A workpiece that appears later in an empty frame was not there when the tool moved.
+void MeasuredSweeps::forgetRemoved(const Workpieces& workpieces) {
+  const auto keepOnlyNamed = [&](auto& entries, std::string Workpiece::*name) {
+    for (auto entry = entries.begin(); entry != entries.end();) {
+      const bool named = std::any_of(workpieces.begin(), workpieces.end(),
+                                     [&](const auto& workpiece) { return (*workpiece).*name == entry->first; });
+      entry = named ? std::next(entry) : entries.erase(entry);
+    }
+  };
+  keepOnlyNamed(histories_, &Workpiece::frame);
+  keepOnlyNamed(swept_, &Workpiece::id);
+}
+
+// Keeps the poses that a mesh update may need, and those along which some workpiece has not been swept yet.
+void MeasuredSweeps::shorten(const std::string& frame, PoseHistory& history) const {
+  std::uint64_t unswept = history.newest().number;
+  for (const auto& [id, swept] : swept_) {
+    if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.pose);
+  }
+  const Time oldest = history.newest().stamp - kMaxUpdateInterval;
+  while (history.size() > 1 && history[1].number <= unswept && history[1].stamp <= oldest) history.forgetFirst();
+}
+
+}  // namespace sweep_guard_core

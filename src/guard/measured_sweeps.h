@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "guard/displacements.h"
+#include "guard/pose_history.h"
+#include "guard/sweep_checker.h"
+#include "sweep_guard/guard/pose_with_frames.h"
+#include "sweep_guard/guard/sweep_report.h"
+
+namespace sweep_guard_core {
+
+struct SweepSetup {
+  const Tool& tool;
+  Detector& detector;
+  const SweepOptions& options;
+};
+
+/// Sweeps the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for every
+/// frame, and the last sweep of every workpiece.
+class MeasuredSweeps {
+ public:
+  /// Adds a pose that the next sweep passes through.
+  void pass(const PoseWithFrames& pose);
+
+  /// Sweeps through the poses passed since the last sweep to this pose.
+  /// @param[out] report  overwritten; its buffers are used again
+  void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
+
+  /// Forgets all poses.
+  void reset();
+
+  /// Forgets the contacts of a tool that was exchanged.
+  void forgetContacts();
+
+ private:
+  struct Swept {
+    // Newest last. Older ones stay while later poses may have older stamps: stamps of meshes may run ahead.
+    Workpieces deformations;
+    std::uint64_t pose = 0;  // number of the pose of the last sweep
+    SweepCache cache = {};
+    std::shared_ptr<const Workpiece> displaced_from = nullptr;
+    Displacements displacements = {};  // from there to the newest deformation
+  };
+
+  void add(const PoseWithFrames& pose);
+  void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, SweptObject& object);
+  Swept& lastSwept(const std::shared_ptr<const Workpiece>& workpiece);
+  size_t endOfMotion(const SweepSetup& setup, size_t begin, size_t last) const;
+  void findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin, size_t end);
+  void forgetRemoved(const Workpieces& workpieces);
+  void shorten(const std::string& frame, PoseHistory& history) const;
+
+  std::map<std::string, PoseHistory> histories_;  // by frame: the poses that may be swept again, and the newest
+  std::map<std::string, Swept> swept_;            // by id
+  std::uint64_t poses_ = 0;
+  std::uint64_t swept_to_ = 0;         // number of the pose of the last sweep
+  std::optional<Time> waiting_since_;  // stamp of the first pose passed since then
+  Path path_M_;                        // of the segment under test
+  std::vector<Motion> sub_motions_M_;  // of a motion along the segment
+  SweepChecker sweep_checker_;
+  SweepCache cache_;  // kept apart while the sweep may still fail
+};
+
+}  // namespace sweep_guard_core

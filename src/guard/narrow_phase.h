@@ -1,0 +1,37 @@
+#pragma once
+
+#include <boost/container/flat_map.hpp>
+#include <cstdint>
+#include <vector>
+
+#include "guard/moving_mesh.h"
+#include "guard/triangle_set.h"
+#include "sweep_guard/guard/sweep.h"
+
+namespace sweep_guard_core {
+
+/// Contact normals by triangle: unit, from the triangle to the tool, in mesh frame M.
+using ContactNormals = boost::container::flat_map<std::uint32_t, Eigen::Vector3d>;
+
+struct NarrowPhaseRequest {
+  const Tool& tool;
+  const std::vector<Motion>& sub_motions;  ///< of one motion, of equal duration, end to end
+  const MovingMesh& mesh;
+  const std::vector<TriangleSet>& candidates;  ///< one set for each convex piece of the tool
+  double margin;                               ///< the tool is grown by this [m], >= 0
+  const ContactNormals& contact_normals;       ///< normals of contacts that began earlier
+};
+
+struct NarrowPhaseResult {
+  /// Candidates that the narrow phase cannot rule out: ascending, each once. If the mesh moved, also reports every
+  /// triangle whose hull over the interval meets the tool's hull.
+  TriangleSet not_ruled_out;
+  /// Candidates in contact: ascending, each once. If the mesh moved, its vertices are taken to move at constant speed.
+  std::vector<TriangleContact> in_contact;
+};
+
+/// Computes time of impact, contact point, normal and depth of each candidate [P, Sec. 5: "a fine detection"].
+/// @param[out] result  overwritten; its buffers are used again
+void runNarrowPhase(const NarrowPhaseRequest& request, NarrowPhaseResult& result);
+
+}  // namespace sweep_guard_core

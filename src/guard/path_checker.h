@@ -1,0 +1,93 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "guard/contact_probability.h"
+#include "guard/path_in_mesh.h"
+#include "guard/swept_body.h"
+#include "sweep_guard/guard/predict_contacts.h"
+
+namespace sweep_guard_core {
+
+/// How to cut a predicted path into sweeps, and how long they may take.
+struct SweepPlan {
+  std::vector<size_t> sweep_ends;       ///< pose numbers from findSweepEnds(); empty: every pose ends a sweep
+  std::function<bool()> out_of_time{};  ///< true once the time after the reflex interval is used up; empty: never
+
+  size_t sweepCount(const PredictedPath& path) const { return sweep_ends.empty() ? path.size() : sweep_ends.size(); }
+};
+
+struct PredictedPathRequest {
+  const Tool& tool;
+  const Eigen::Isometry3d& X_WT;  ///< where the path begins
+  const PredictedPath& path;      ///< at least one pose
+  size_t reflex_sweeps;           ///< number of poses, from the first, within the reflex interval
+  const Eigen::Isometry3d& X_WM;  ///< frame of the workpiece; taken to stay where it is
+  const std::shared_ptr<const Workpiece>& workpiece;
+  const SweepPlan& plan;
+};
+
+/// Tests the sweeps along a predicted path. Keeps its buffers between calls.
+class PathChecker {
+ public:
+  struct Options {
+    SweepOptions sweep;
+    Duration finest;  ///< a sweep with contact is halved until it lasts no longer than this, > 0
+  };
+  static Options optionsOf(const GuardOptions& options) { return {options.sweep, options.horizon.reflex_step / 2}; }
+
+  explicit PathChecker(const Options& options) : options_(options) {}
+
+  /// Tests the path against one workpiece. A sweep whose volume meets the workpiece is halved down to `finest`, a sweep
+  /// that may meet it down to 25 ms: short volumes are tight, and tell when contact begins. After the first contact,
+  /// sweeps are no longer halved. Once the plan is out of time, sweeps beyond the reflex interval are neither halved nor
+  /// handed to the detector: a triangle counts as met if no plane of a volume separates it from the volume.
+  /// @param[out] object  overwritten; its buffers are used again
+  /// @throws DeviceError if the detector fails
+  void check(Detector& detector, const PredictedPathRequest& request, PredictedObject& object);
+
+  /// Tests the predicted motion against every workpiece. A workpiece whose detection fails is reported as a failure.
+  /// @param[out] prediction  overwritten; its buffers are used again
+  void predict(Detector& detector, const PredictionRequest& request, const SweepPlan& plan, Prediction& prediction);
+
+ private:
+  struct Scene;
+  struct Progress;
+
+  /// A convex piece of the tool, and the probability that it meets the mesh.
+  struct Candidate {
+    double probability = 0.0;
+    std::optional<size_t> piece = {};  // none if no piece may meet the mesh
+  };
+  struct Unseparated {
+    SweptBody body;
+    Candidate candidate;
+  };
+
+  void sweepSegment(const Scene& scene, const PathSegment& segment);
+  void detectContacts(const Scene& scene, const Submesh& submesh);
+  static const Candidate& likelier(const Candidate& one, const Candidate& other);
+  Candidate findCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment);
+  Candidate findCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
+                          const Tool::Node& node, const SweptBody& body);
+  void checkSegment(const Scene& scene, const Submesh& around, const PathSegment& segment, Progress& progress,
+                    size_t halvings);
+  Submesh submeshInReach(const Scene& scene, const Submesh& around, const PathSegment& segment, size_t halvings);
+
+  Options options_;
+  ClearanceMeter meter_;
+  std::deque<SubmeshFinder> finders_;  // of the whole path, of its sweeps, of their halves, ...
+  Detection detection_;
+  PathInMesh path_M_;
+  // Of the segment under test:
+  std::vector<Motion> motions_M_;
+  std::vector<SweptBody> bodies_;         // around the whole tool
+  std::vector<Unseparated> unseparated_;  // pieces of the tool that no plane separates from the mesh
+  TriangleSet not_ruled_out_;             // triangles that these pieces may meet
+  Candidate in_contact_;                  // the likeliest of the pieces that meet one
+};
+
+}  // namespace sweep_guard_core

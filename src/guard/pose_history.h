@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/merged_motion.h"
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_core {
+
+/// The poses of the tool T and of a frame M in the fixed frame W at one moment.
+struct PoseSample {
+  std::uint64_t number;  ///< counts the poses of the tool
+  Time stamp;
+  Eigen::Isometry3d X_WT;
+  Eigen::Isometry3d X_WM;
+};
+
+/// Keeps the poses of tool and frame that may have to be swept again. Moves them down in its memory to make room, so that
+/// nothing is allocated once the history has had its largest size.
+class PoseHistory {
+ public:
+  /// Largest number of poses; only a detector that keeps failing needs as many. A longer history drops its second pose, and
+  /// the motion goes straight past it. Twice the number of poses that may wait to be swept.
+  static constexpr size_t kMaxSize = 8192;
+
+  /// @param sample  numbers ascend; stamps do not decrease
+  void add(const PoseSample& sample);
+  void forgetFirst() { ++begin_; }  ///< must not be called on the last pose
+
+  size_t size() const { return all_.size() - begin_; }
+  const PoseSample& operator[](size_t i) const { return all_[begin_ + i]; }
+  const PoseSample& newest() const { return all_.back(); }
+
+  /// Returns the index of the last pose with this number or a lower one; 0 if there is none.
+  size_t lastUpTo(std::uint64_t number) const;
+  /// Returns the index of the last pose with this stamp or an earlier one; 0 if there is none.
+  size_t lastUpTo(Time stamp) const;
+
+  /// Returns the fraction of the time from pose `from` to the newest pose that has passed at pose `i`: 0 before `from`, and
+  /// 1 if no time passes.
+  double share(size_t from, size_t i) const;
+
+  /// Computes the path of the tool in M from pose `first` to pose `last`.
+  /// @param tool_radius   largest distance of a tool point from the origin of T [m], >= 0
+  /// @param[out] path_M   overwritten
+  void path_M(size_t first, size_t last, double tool_radius, Path& path_M) const;
+
+ private:
+  std::vector<PoseSample> all_;
+  size_t begin_ = 0;
+};
+
+}  // namespace sweep_guard_core

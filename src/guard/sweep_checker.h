@@ -1,0 +1,69 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "detection/culler.h"
+#include "guard/moving_mesh.h"
+#include "guard/narrow_phase.h"
+#include "guard/triangle_set.h"
+#include "sweep_guard/guard/sweep.h"
+
+namespace sweep_guard_core {
+
+/// What a sweep leaves for the next one.
+struct SweepCache {
+  ContactNormals contact_normals = {};  ///< of the triangles in contact
+  bool outside = false;                 ///< every piece of the tool is known to be outside the mesh
+  TriangleSet already_confirmed = {};   ///< triangles that skip the narrow phase: in contact if a volume meets them
+};
+inline const SweepCache kEmptySweepCache;
+
+struct SweepRequest {
+  const Tool& tool;
+  const std::vector<Motion>& sub_motions;  ///< from split(); each turns by little, so that its arc needs little margin
+  const MovingMesh& mesh;
+  SweepOptions options = {};
+  const SweepCache& cache = kEmptySweepCache;  ///< of the sweep that ended where this one begins
+};
+
+/// Tests the volumes that the tool sweeps during each sub-motion. Descends the tool's tree of boxes to its convex pieces
+/// where the boxes meet triangles, and hands the candidates of the pieces to the narrow phase. If the mesh is closed, no
+/// triangle is met and the tool was not known to be outside before, tests whether a piece lies inside.
+/// Keeps its buffers between calls.
+class SweepChecker {
+ public:
+  /// @returns valid until the next call
+  /// @throws DeviceError if the detector fails
+  SweepResult& check(Detector& detector, const SweepRequest& request);
+
+ private:
+  struct TreeWalk;
+
+  void narrow(const SweepRequest& request);
+
+  SweepResult result_;
+  std::vector<TriangleSet> candidates_;  // of each piece of the tool
+  Detection detection_;
+  Culler culler_;
+  std::deque<SubmeshFinder> finders_;  // by depth in the tool's tree
+  NarrowPhaseResult narrow_phase_result_;
+};
+
+/// Checks one sweep with buffers of its own.
+/// @throws DeviceError if the detector fails
+SweepResult checkSweep(Detector& detector, const SweepRequest& request);
+
+/// Merges the result of a later sub-motion into `all`. Times of impact stay as they are. Depths are those at the end of
+/// the later sub-motion, and 0 for triangles that it does not touch.
+void unite(SweepResult& all, const SweepResult& later);
+
+/// Returns what the next sweep needs to know about this one.
+SweepCache sweepCache(const SweepResult& result);
+
+/// Returns the first time of impact as a fraction of the sweep, and 0 if the tool is inside throughout. Empty without
+/// narrow phase and without contact.
+std::optional<double> firstTimeOfImpact(const SweepResult& result);
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "sweep_guard/detection/detector.h"
+#include "sweep_guard/detection/time_of_impact.h"
+#include "sweep_guard/geometry/convex_shape.h"
+#include "sweep_guard/geometry/motion.h"
+#include "sweep_guard/geometry/swept_volume.h"
+
+namespace sweep_guard_core {
+
+/// One convex body of the tool during one motion, and the volume that holds it. The body must outlive this struct.
+struct SweptBody {
+  const ConvexShape* shape_T;
+  Motion motion_M;
+  VolumeKind kind;
+  SweptVolume volume_M;
+};
+
+/// Computes the volume that a body sweeps.
+/// @param margin  the body is grown by this [m], >= 0
+SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKind kind, double margin);
+
+/// Finds the triangles that the volume meets. For kind `hull`, leaves out the triangles that are proven to miss the hull
+/// of the body at both ends of the motion, before and after its mesh_translation, grown by the volume's margin.
+/// @param[out] detection  overwritten
+/// @throws DeviceError if the detector fails
+void detect(Detector& detector, const Submesh& submesh, const SweptBody& body, Detection& detection);
+
+/// Returns whether a direction proves that a body is farther than `margin` [m] from a triangle: from the hull of the
+/// triangle before and after its motion, with the body anywhere in the hull of its motion's two poses before and after
+/// its mesh_translation.
+bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const MovingTriangle& triangle, double margin);
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,121 @@
+#include "sweep_guard/guard/workpiece_store.h"
+
+#include <algorithm>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr size_t kMaxWorkpieces = 1000;
+
+bool before(const std::shared_ptr<const Workpiece>& workpiece, const std::string& id) { return workpiece->id < id; }
+
+void requireOrder(const Workpiece& current, Time stamp, Time latest) {
+  if (stamp < current.stamp && current.stamp <= latest) throw InvalidInput("stamp is older than the previous one");
+}
+
+}  // namespace
+
+WorkpieceStore::WorkpieceStore(OnChange on_change) : on_change_(std::move(on_change)) {}
+
+void WorkpieceStore::set(Workpiece next, Time latest) {
+  const auto current = find(next.id);
+  if (current) {
+    requireOrder(*current, next.stamp, latest);
+  } else if (snapshot().size() >= kMaxWorkpieces) {
+    throw InvalidInput("there are " + std::to_string(kMaxWorkpieces) + " workpieces already: remove some");
+  }
+  const bool deforms = current && current->frame == next.frame &&
+                       current->mesh_M.vertexCount() == next.mesh_M.vertexCount() &&
+                       current->mesh_M.triangles() == next.mesh_M.triangles();
+  if (deforms) countUpdate(*current, next);
+  buffers_.erase(next.id);
+  replace(std::make_shared<const Workpiece>(std::move(next)));
+}
+
+void WorkpieceStore::deform(const Deformation& deformation, Time latest) {
+  const auto current = find(deformation.id);
+  if (!current) throw InvalidInput("vertices came before their mesh: publish DeformableMesh latched");
+  if (current->revision != deformation.revision) {
+    throw InvalidInput("vertices have revision " + std::to_string(deformation.revision) + ", their mesh has " +
+                       std::to_string(current->revision));
+  }
+  requireOrder(*current, deformation.stamp, latest);
+  const auto next = unusedSnapshot(*current);
+  std::vector<float>& positions_M = buffers_[deformation.id].positions_M;
+  positions_M.assign(deformation.positions_M.begin(), deformation.positions_M.end());
+  next->mesh_M.deform(positions_M);
+  next->revision = deformation.revision;
+  next->stamp = deformation.stamp;
+  next->received = deformation.received;
+  next->frame = deformation.frame;
+  countUpdate(*current, *next);
+  replace(next);
+}
+
+std::shared_ptr<Workpiece> WorkpieceStore::unusedSnapshot(const Workpiece& current) {
+  Pool<Workpiece>& pool = buffers_[current.id].snapshots;
+  const auto fits = [&](const Workpiece& one) { return &one.mesh_M.triangles() == &current.mesh_M.triangles(); };
+  auto unused = pool.take(fits);
+  return unused ? unused : pool.add(current);
+}
+
+std::shared_ptr<const Workpiece> WorkpieceStore::find(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::lower_bound(workpieces_.begin(), workpieces_.end(), id, before);
+  return found != workpieces_.end() && (*found)->id == id ? *found : nullptr;
+}
+
+void WorkpieceStore::replace(std::shared_ptr<const Workpiece> snapshot) {
+  const std::lock_guard lock(mutex_);
+  const auto place = std::lower_bound(workpieces_.begin(), workpieces_.end(), snapshot->id, before);
+  const bool known = place != workpieces_.end() && (*place)->id == snapshot->id;
+  const bool same_frame = known && (*place)->frame == snapshot->frame;
+  if (known) {
+    *place = std::move(snapshot);
+  } else {
+    workpieces_.insert(place, std::move(snapshot));
+  }
+  if (!same_frame) updateFrames();
+  on_change_(workpieces_);
+}
+
+bool WorkpieceStore::remove(const std::string& id) {
+  buffers_.erase(id);
+  const std::lock_guard lock(mutex_);
+  const auto found = std::lower_bound(workpieces_.begin(), workpieces_.end(), id, before);
+  if (found == workpieces_.end() || (*found)->id != id) return false;
+  workpieces_.erase(found);
+  updateFrames();
+  on_change_(workpieces_);
+  return true;
+}
+
+Workpieces WorkpieceStore::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return workpieces_;
+}
+
+std::shared_ptr<const std::set<std::string>> WorkpieceStore::frames() const {
+  const std::lock_guard lock(mutex_);
+  return frames_;
+}
+
+void WorkpieceStore::updateFrames() {
+  std::set<std::string> frames;
+  for (const auto& workpiece : workpieces_) frames.insert(workpiece->frame);
+  frames_ = std::make_shared<const std::set<std::string>>(std::move(frames));
+}
+
+void WorkpieceStore::clearStamps() {
+  const std::lock_guard lock(mutex_);
+  for (auto& workpiece : workpieces_) {
+    Workpiece undated = *workpiece;
+    undated.stamp = {};
+    workpiece = std::make_shared<const Workpiece>(std::move(undated));
+  }
+  on_change_(workpieces_);
+}
+
+}  // namespace sweep_guard_core

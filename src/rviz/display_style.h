@@ -1,0 +1,39 @@
+#pragma once
+
+#include <OgreColourValue.h>
+
+namespace sweep_guard_rviz {
+
+/// Describes how one element of the display is drawn.
+struct ElementStyle {
+  bool shown = true;
+  Ogre::ColourValue color;
+};
+
+/// Describes how all elements of the display are drawn.
+struct DisplayStyle {
+  ElementStyle surface;
+  size_t max_edged = 0;  ///< edges are drawn of surfaces with at most this many triangles
+  ElementStyle touched;
+  ElementStyle reflex;
+  ElementStyle considered;
+  ElementStyle measured;   ///< volumes of the newest sweep
+  size_t history = 0;      ///< number of earlier volumes that are kept
+  ElementStyle predicted;  ///< volumes along the predicted path
+  ElementStyle tool;
+  ElementStyle ghosts;
+  size_t max_ghosts = 0;
+  ElementStyle path;  ///< path of the tip, measured and predicted
+  ElementStyle contacts;
+  float point_size = 0.0F;  ///< of a contact point [m]
+  ElementStyle normals;
+  float normal_length = 0.0F;  ///< [m]
+  ElementStyle depths;         ///< of contacts: a spike into the workpiece, and a label with the largest depth
+
+  /// Returns this style with everything gray except the surface: for level UNKNOWN.
+  DisplayStyle grayed() const;
+  /// Returns this style with everything hidden except the surface.
+  DisplayStyle surfaceOnly() const;
+};
+
+}  // namespace sweep_guard_rviz

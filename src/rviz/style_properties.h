@@ -1,0 +1,61 @@
+#pragma once
+
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/color_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/int_property.h>
+
+#include <functional>
+
+#include "rviz/display_style.h"
+
+namespace sweep_guard_rviz {
+
+/// Offers the style as properties of a display: a switch for each element, with its color and alpha as children.
+class StyleProperties {
+ public:
+  /// @param parent   owns the properties
+  /// @param changed  is called when a property changes
+  StyleProperties(rviz::Property& parent, const std::function<void()>& changed);
+
+  DisplayStyle style() const;
+
+ private:
+  struct ElementProperties {
+    rviz::BoolProperty* shown;
+    rviz::ColorProperty* color;
+    rviz::FloatProperty* alpha;
+
+    ElementStyle style() const;
+  };
+
+  struct Default {
+    const char* name;
+    const char* description;
+    QColor color;
+    float alpha;
+  };
+  ElementProperties add(const Default& element);
+
+  rviz::Property& parent_;
+  std::function<void()> changed_;
+  ElementProperties surface_;
+  rviz::IntProperty* max_edged_;
+  ElementProperties touched_;
+  ElementProperties reflex_;
+  ElementProperties considered_;
+  ElementProperties measured_;
+  rviz::IntProperty* history_;
+  ElementProperties predicted_;
+  ElementProperties tool_;
+  ElementProperties ghosts_;
+  rviz::IntProperty* max_ghosts_;
+  ElementProperties path_;
+  ElementProperties contacts_;
+  rviz::FloatProperty* point_size_;
+  ElementProperties normals_;
+  rviz::FloatProperty* normal_length_;
+  ElementProperties depths_;
+};
+
+}  // namespace sweep_guard_rviz

@@ -1,0 +1,106 @@
+#include "simulation/demo_statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sweep_guard/common/quantile.h"
+
+namespace sweep_guard_simulation {
+
+using sweep_guard_core::Duration;
+using sweep_guard_core::quantile;
+using sweep_guard_core::Time;
+using sweep_guard_core::toSeconds;
+
+namespace {
+
+constexpr Duration kCycle = std::chrono::nanoseconds(std::chrono::seconds(1)) / 15;
+
+std::string milliseconds(double value) { return std::isnan(value) ? "-" : fmt::format("{:.1f}", value); }
+
+// 4 of 4 contacts, by 0.60 s (reflex 0.15 s) in the median
+std::string warned(const std::vector<sweep_guard_recording::WarnedContact>& contacts) {
+  std::vector<double> considered;
+  std::vector<double> reflex;
+  for (const auto& [contact, considered_since, reflex_since] : contacts) {
+    considered.push_back(toSeconds(contact.begin - considered_since));
+    reflex.push_back(toSeconds(contact.begin - reflex_since));
+  }
+  const auto ahead = std::count_if(considered.begin(), considered.end(), [](double lead) { return lead > 0.0; });
+  const std::string text = fmt::format("{} of {} contacts", ahead, contacts.size());
+  if (contacts.empty()) return text;
+  return text +
+         fmt::format(", by {:.2f} s (reflex {:.2f} s) in the median", quantile(considered, 0.5), quantile(reflex, 0.5));
+}
+
+}  // namespace
+
+void DemoStatistics::addPose(Time stamp, std::uint32_t sequence) {
+  ++poses_;
+  if (last_sequence_ && sequence > *last_sequence_) sequence_gap_ += sequence - *last_sequence_ - 1;
+  last_sequence_ = sequence;
+  if (!swept_.covers(stamp)) not_swept_.insert(stamp);
+}
+
+void DemoStatistics::addContacts(Time start, Time stamp, Time arrival, const std::vector<ContactObject>& objects) {
+  std::size_t triangles = 0;
+  for (const ContactObject& object : objects) {
+    triangles += object.triangles.size();
+    for (const std::uint32_t triangle : object.triangles) triangles_.emplace(object.mesh_id, triangle);
+  }
+  if (!objects.empty()) ++contacts_;
+  latencies_.push_back({stamp, arrival - stamp, triangles});
+  swept_.add(start, stamp);
+  not_swept_.erase(stamp);
+  not_swept_.erase(not_swept_.upper_bound(start), not_swept_.lower_bound(stamp));
+}
+
+bool DemoStatistics::expects(Time start, Time stamp) const {
+  const auto pose = not_swept_.upper_bound(start);
+  return not_swept_.count(stamp) > 0 || (pose != not_swept_.end() && *pose < stamp);
+}
+
+std::size_t DemoStatistics::missedCycles() const {
+  const auto missed = [](const Latency& latency) { return latency.delay > kCycle; };
+  return static_cast<std::size_t>(std::count_if(latencies_.begin(), latencies_.end(), missed));
+}
+
+double DemoStatistics::latency(double fraction) const {
+  std::vector<double> delays;
+  delays.reserve(latencies_.size());
+  for (const Latency& latency : latencies_) delays.push_back(1e3 * toSeconds(latency.delay));
+  return quantile(delays, fraction);
+}
+
+std::string DemoStatistics::liveLine(Duration elapsed, const std::string& level) const {
+  return fmt::format("{:.1f} s  poses {}  contacts {}  level {}  latency p50 {} ms", toSeconds(elapsed), poses_,
+                     contacts_, level, milliseconds(latency(0.5)));
+}
+
+std::string DemoStatistics::summary() const {
+  return fmt::format(
+      "poses in              {}\n"
+      "mesh updates          {}\n"
+      "sweeps tested         {}\n"
+      "contacts              {}\n"
+      "triangles touched     {}\n"
+      "pose to contact [ms]  p50 {}  p99 {}  max {}\n"
+      "warned ahead of       {}\n"
+      "missed cycles         {}\n"
+      "poses lost            {}",
+      poses_, mesh_updates_, sweeps(), contacts_, trianglesInContact(), milliseconds(latency(0.5)),
+      milliseconds(latency(0.99)), milliseconds(latency(1.0)), warned(levels_.contacts()), missedCycles(),
+      posesNotSwept() + posesNeverReceived());
+}
+
+std::optional<std::string> DemoStatistics::fault() const {
+  if (poses_ == 0) return "no tool pose arrived: the operator did not move";
+  if (mesh_updates_ == 0) return "no mesh update arrived: the workpiece did not deform";
+  if (posesNeverReceived() > 0) return fmt::format("{} poses were lost before the monitor", posesNeverReceived());
+  if (posesNotSwept() > 0) return fmt::format("{} poses were not swept by the guard", posesNotSwept());
+  return std::nullopt;
+}
+
+}  // namespace sweep_guard_simulation
