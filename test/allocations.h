@@ -5,8 +5,8 @@
 
 namespace sweep_guard_core {
 
-/// Counts the allocations of this thread by operator new during its own lifetime; at most one object at a time. Replaces
-/// the operators of the program that links it.
+/// Counts the allocations of this thread by operator new during its own lifetime; at most one object at a time.
+/// Replaces the operators of the program that links it.
 class Allocations {
  public:
   Allocations();

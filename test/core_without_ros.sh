@@ -1,12 +1,12 @@
 #!/bin/bash
-# core_without_ros.sh LIBRARY ROOT: the core includes nothing of ROS, no message and no room above it, and links nothing but
-# Qhull, libccd and the system's own libraries: OpenGL least of all, which is loaded by name. rviz's plugins know the messages, common and geometry only.
+# core_without_ros.sh LIBRARY ROOT: the core includes neither ROS nor messages nor rooms above it. It links only Qhull, libccd and
+# system libraries; OpenGL is loaded by name. The rviz plugins include only messages, common and geometry.
 set -euo pipefail
 library=$1
 root=$2
 
 files=()
-for room in common geometry detection prediction guard monitor; do
+for room in common simd geometry detection prediction guard monitor; do
   for folder in "$root/include/sweep_guard/$room" "$root/src/$room"; do
     [[ -d $folder ]] && files+=("$folder"/*)
   done

@@ -35,8 +35,8 @@ class Random {
 /// Returns a cylinder of about the size `scale` [m]. One in eight is flat (length 0), one in eight a needle (radius 0).
 ConvexShape randomTool(Random& random, double scale);
 
-/// Returns a motion that begins at `place` [m], moves by up to two tool sizes and turns by up to `max_angle` [rad]. One in
-/// eight rests, one in eight only translates, one in eight only turns.
+/// Returns a motion that begins at `place` [m], moves by up to two tool sizes and turns by up to `max_angle` [rad]. One
+/// in eight rests, one in eight only translates, one in eight only turns.
 Motion randomMotion(Random& random, const ConvexShape& tool, const Eigen::Vector3d& place, double max_angle);
 
 /// Returns a motion like that of a hand, at the origin: 1 to 20 mm and 0 to 10 degrees in random directions.
@@ -59,8 +59,8 @@ struct Scene {
 Scene randomScene(std::uint64_t seed);
 
 /// Returns up to 20 triangles that touch the volume from outside: a corner on a face, an edge on an edge or a face on a
-/// corner, of the box or of its clips. They are moved out or in by 0, 1, 2 or 8 roundings of double, or by 1e-10 to 1e-2
-/// of the volume's size. One triangle is exact to the last digits, the others to float32.
+/// corner, of the box or of its clips. They are moved out or in by 0, 1, 2 or 8 roundings of double, or by 1e-10 to
+/// 1e-2 of the volume's size. One triangle is exact to the last digits, the others to float32.
 Scene grazingScene(std::uint64_t seed);
 
 /// Describes one triangle and the volume of a scene, with all digits.

@@ -6,12 +6,12 @@ endfunction()
 # The main program, and the headers that are precompiled for the tests.
 set(test_headers
   <Eigen/Geometry> <algorithm> <cmath> <functional> <gtest/gtest.h> <map> <memory> <optional> <set> <string> <variant> <vector>)
-add_library(sweep_guard_test_main STATIC main.cpp)
+add_library(sweep_guard_test_main STATIC EXCLUDE_FROM_ALL main.cpp)
 sweep_guard_target(sweep_guard_test_main)
 target_link_libraries(sweep_guard_test_main GTest::gtest Eigen3::Eigen)
 target_precompile_headers(sweep_guard_test_main PRIVATE ${test_headers})
 
-add_library(sweep_guard_probe STATIC ros/guard_probe.cpp)
+add_library(sweep_guard_probe STATIC EXCLUDE_FROM_ALL ros/guard_probe.cpp)
 sweep_guard_ros_target(sweep_guard_probe)
 target_link_libraries(sweep_guard_probe sweep_guard_ros GTest::gtest)
 target_precompile_headers(sweep_guard_probe PRIVATE ${test_headers}

@@ -17,8 +17,8 @@ struct Rates {
   double vertices = 60.0;
 };
 
-/// Sends the scene from its construction on: the mesh once, its vertices and the tool's pose at their rates, each stamped
-/// with the time at which it is sent. A late message is skipped, not made up for.
+/// Sends the scene from its construction on: the mesh once, its vertices and the tool's pose at their rates, each
+/// stamped with the time at which it is sent. A late message is skipped, not made up for.
 class Sender {
  public:
   Sender(LatencyScene& scene, const Rates& rates);

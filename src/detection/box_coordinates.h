@@ -7,8 +7,9 @@
 
 namespace sweep_guard_core {
 
-/// Transforms the vertices of a mesh to the frame B of a box, in double. Subtracts the center before it rotates, so that a
-/// workpiece far from its frame's origin loses no digits, and coordinates are small before they are rounded to float32.
+/// Transforms the vertices of a mesh to the frame B of a box, in double. Subtracts the center before it rotates, so
+/// that a workpiece far from its frame's origin loses no digits, and coordinates are small before they are rounded to
+/// float32.
 class BoxCoordinates {
  public:
   BoxCoordinates(const TriangleMesh& mesh_M, const OrientedBox& box_M)

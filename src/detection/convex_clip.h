@@ -7,7 +7,8 @@
 
 namespace sweep_guard_core {
 
-/// Clips a triangle by planes, one after the other, in double precision [Sutherland and Hodgman 1974]. Allocates nothing.
+/// Clips a triangle by planes, one after the other, in double precision [Sutherland and Hodgman 1974]. Allocates
+/// nothing.
 class ClippedTriangle {
  public:
   explicit ClippedTriangle(const std::array<Eigen::Vector3d, 3>& corners)

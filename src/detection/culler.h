@@ -14,9 +14,9 @@ struct RemainingTriangle {
   bool met;  ///< a corner is certainly inside the volume; false: in doubt
 };
 
-/// Decides in float32 what is certain: leaves out triangles that lie wholly beyond one plane of a convex volume, and marks
-/// triangles with a corner inside. Tests the boxes of groups of clusters first, then those of clusters, then the corners
-/// of triangles. Keeps its buffers between calls.
+/// Decides in float32 what is certain: leaves out triangles that lie wholly beyond one plane of a convex volume, and
+/// marks triangles with a corner inside. Tests the boxes of groups of clusters first, then those of clusters, then the
+/// corners of triangles. Keeps its buffers between calls.
 class Culler {
  public:
   explicit Culler(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels), bits_(kernels) {}

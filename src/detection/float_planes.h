@@ -8,9 +8,9 @@
 
 namespace sweep_guard_core {
 
-/// Converts the planes of a volume to float32, for tests against the offsets of a mesh's vertices. Points between `outside`
-/// and `inside` are in doubt because of rounding: 2^-20 of the mesh's radius plus the plane's distance from its origin,
-/// three times the largest rounding error.
+/// Converts the planes of a volume to float32, for tests against the offsets of a mesh's vertices. Points between
+/// `outside` and `inside` are in doubt because of rounding: 2^-20 of the mesh's radius plus the plane's distance from
+/// its origin, three times the largest rounding error.
 /// @param outwards  distance [m] by which each plane of halfSpaces_B() is moved out; empty: 0
 simd::Planes floatPlanes(const TriangleMesh& mesh_M, const SweptVolume& swept_M, const PerHalfSpace& outwards = {});
 

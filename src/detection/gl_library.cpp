@@ -8,7 +8,8 @@
 namespace sweep_guard_core {
 namespace {
 
-// Mesa ends the process if it does not know the driver's name. Selection never rasterizes, so it needs no worker threads.
+// Mesa ends the process if it does not know the driver's name. Selection never rasterizes, so it needs no worker
+// threads.
 // Mesa writes to stderr if its cache has no home directory.
 void chooseDriver() {
   const char* driver = std::getenv("GALLIUM_DRIVER");

@@ -6,9 +6,9 @@
 
 namespace sweep_guard_core {
 
-/// Loads a library that makes OpenGL contexts by name, when the first context is requested. A machine without the library
-/// runs everything else, and its symbols (OSMesa: all of OpenGL) stay hidden from the rest of the process. The library
-/// stays loaded.
+/// Loads a library that makes OpenGL contexts by name, when the first context is requested. A machine without the
+/// library runs everything else, and its symbols (OSMesa: all of OpenGL) stay hidden from the rest of the process. The
+/// library stays loaded.
 ///
 /// Sets Mesa to render in software in the calling thread and to keep no cache on disk, unless the environment variables
 /// GALLIUM_DRIVER, LP_NUM_THREADS and MESA_SHADER_CACHE_DISABLE say otherwise.

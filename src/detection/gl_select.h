@@ -12,11 +12,11 @@ namespace sweep_guard_core {
 /// Runs OpenGL's selection mode [P, Sec. 2]: draws triangles under names, and reads which names reach into the viewing
 /// volume.
 ///
-/// The viewing volume is the cube [-1, 1]^3 of the given coordinates, cut by clipping planes. The caller scales its box to
-/// that cube in double precision; glOrtho and gluLookAt [P, Sec. 3.1, Fig. 4] do the same but round to float32.
+/// The viewing volume is the cube [-1, 1]^3 of the given coordinates, cut by clipping planes. The caller scales its box
+/// to that cube in double precision; glOrtho and gluLookAt [P, Sec. 3.1, Fig. 4] do the same but round to float32.
 ///
-/// Selection fails silently: without a current context, with culling on or with a NaN vertex it reports neither a hit nor
-/// an error. Every query therefore sets the whole state, and draws a canary that must hit.
+/// Selection fails silently: without a current context, with culling on or with a NaN vertex it reports neither a hit
+/// nor an error. Every query therefore sets the whole state, and draws a canary that must hit.
 class GlSelect {
  public:
   struct Query {
@@ -32,7 +32,8 @@ class GlSelect {
   ~GlSelect();
 
   /// Returns the names that hit, ascending, each once. Valid until the next call.
-  /// @throws DeviceError if OpenGL reports an error, the canary does not hit, or a hit has no name: then nothing is known
+  /// @throws DeviceError if OpenGL reports an error, the canary does not hit, or a hit has no name: then nothing is
+  ///     known
   const std::vector<std::uint32_t>& hits(const Query& query);
 
  private:

@@ -5,8 +5,8 @@
 
 namespace sweep_guard_core {
 
-/// Decides on the processor's vector units what is certain in float32, and clips the other triangles in double. Finds the
-/// same triangles as the reference, up to the rounding of double precision.
+/// Decides on the processor's vector units what is certain in float32, and clips the other triangles in double. Finds
+/// the same triangles as the reference, up to the rounding of double precision.
 class HalfspaceDetector : public Detector {
  public:
   /// @param kernels  change the run time only

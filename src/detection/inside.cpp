@@ -26,8 +26,8 @@ class Ray {
  private:
   Eigen::Vector3d corner(std::uint32_t vertex) const { return mesh_.offset(vertex) - p_; }
 
-  // Returns on which side of an edge the ray passes, +1 or -1. A ray through the edge counts as shifted by (e, e^2) in y
-  // and z, for an infinitesimal e.
+  // Returns on which side of an edge the ray passes, +1 or -1. A ray through the edge counts as shifted by (e, e^2) in
+  // y and z, for an infinitesimal e.
   int sideOf(std::uint32_t from, std::uint32_t to) const {
     if (from > to) return -sideOf(to, from);
     const Eigen::Vector3d a = corner(from);

@@ -7,8 +7,8 @@
 
 namespace sweep_guard_core {
 
-/// An OpenGL context without a window. Its functions are looked up by name, never linked: if libGL is in the same process,
-/// linked calls can reach the wrong library, which reports no hits.
+/// An OpenGL context without a window. Its functions are looked up by name, never linked: if libGL is in the same
+/// process, linked calls can reach the wrong library, which reports no hits.
 class OffscreenContext {
  public:
   using Function = void (*)();
@@ -48,13 +48,13 @@ class CurrentContext {
   OffscreenContext& context_;
 };
 
-/// Makes a context of OSMesa, which is part of Mesa up to 25.0 and renders in software. Each context takes some ms to make
-/// and some memory that Mesa never frees: make one per thread and keep it.
+/// Makes a context of OSMesa, which is part of Mesa up to 25.0 and renders in software. Each context takes some ms to
+/// make and some memory that Mesa never frees: make one per thread and keep it.
 /// @throws DeviceError that says what to do if OSMesa is missing or makes no context
 std::unique_ptr<OffscreenContext> makeOsMesaContext();
 
-/// Makes a context of Mesa's EGL on its software device, without a surface, with a framebuffer object as render target. It
-/// renders as OSMesa does, and is part of later Mesa releases, too. Make one per thread and keep it.
+/// Makes a context of Mesa's EGL on its software device, without a surface, with a framebuffer object as render target.
+/// It renders as OSMesa does, and is part of later Mesa releases, too. Make one per thread and keep it.
 /// @throws DeviceError that says what to do if EGL is missing, has no software device or makes no context
 std::unique_ptr<OffscreenContext> makeEglContext();
 

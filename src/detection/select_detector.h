@@ -9,9 +9,9 @@
 
 namespace sweep_guard_core {
 
-/// Finds triangles by the method of the paper: the swept volume becomes OpenGL's viewing volume, and selection mode names
-/// the triangles inside [P, Sec. 3.1]. Triangles that single planes or corners decide are not drawn. The first pass draws
-/// the others in blocks that share a name; the second draws the triangles of blocks that hit one by one.
+/// Finds triangles by the method of the paper: the swept volume becomes OpenGL's viewing volume, and selection mode
+/// names the triangles inside [P, Sec. 3.1]. Triangles that single planes or corners decide are not drawn. The first
+/// pass draws the others in blocks that share a name; the second draws the triangles of blocks that hit one by one.
 ///
 /// OpenGL computes in float32. Positions are therefore transformed to box coordinates in double, and the volume is
 /// inflated by 2^-22 of the distance to the farthest vertex drawn: six to ten times the largest error found.

@@ -34,8 +34,8 @@ double lowerBound(double start, double end, double curvature) {
   return start - (curvature - rise) * (curvature - rise) / (4.0 * curvature);
 }
 
-// Evaluates tool and triangle at a fraction s of one sub-motion. All positions are relative to a corner of the triangle at
-// the start, so that no digits are lost far from the origin of M.
+// Evaluates tool and triangle at a fraction s of one sub-motion. All positions are relative to a corner of the triangle
+// at the start, so that no digits are lost far from the origin of M.
 class RelativeTrajectory {
  public:
   RelativeTrajectory(const ConvexShape& shape_T, const Motion& sub_motion, const MovingTriangle& triangle, double start,
@@ -76,8 +76,9 @@ class RelativeTrajectory {
     return least - std::max({n.dot(p[0]), n.dot(p[1]), n.dot(p[2])});
   }
 
-  // Returns up to which fraction, from `s` on with gap `gap`, direction n proves a gap larger than `least`. Searches for the
-  // fraction where the gap is `aim`, and stops when little can be gained along n. Returns `s` if nothing is proven.
+  // Returns up to which fraction, from `s` on with gap `gap`, direction n proves a gap larger than `least`. Searches
+  // for the fraction where the gap is `aim`, and stops when little can be gained along n. Returns `s` if nothing is
+  // proven.
   double advance(const Eigen::Vector3d& n, double s, double gap, double aim, double least) const {
     const double curvature_bound = 0.5 * angle_ * angle_ * radius_ * n.cross(axis_M_).norm();
     const double enough = aim + std::max(aim - least, kGain * (gap - aim));
@@ -206,8 +207,8 @@ class TimeOfImpactSearch {
                            normal_.value_or(tool.p_MT));
   }
 
-  // The direction of a tiny distance has few exact digits. The tool is therefore moved away along it by a little: the error
-  // of the direction shrinks by the ratio of this distance to the tool's radius of curvature.
+  // The direction of a tiny distance has few exact digits. The tool is therefore moved away along it by a little: the
+  // error of the direction shrinks by the ratio of this distance to the tool's radius of curvature.
   Separation exactSeparationAt(const RelativeTrajectory& trajectory, double s) const {
     const PlacedShape tool = trajectory.tool(s);
     const PointHull triangle(trajectory.corners(s));

@@ -11,8 +11,8 @@ namespace sweep_guard_core {
 struct PathPoint {
   Duration time{};                                         ///< since an arbitrary time, not decreasing
   Eigen::Isometry3d X_MT = Eigen::Isometry3d::Identity();  ///< translation [m]
-  /// Bound on the deviation [m] of a tool point, on the way from the previous point, from a straight line at constant
-  /// speed.
+  /// Bound on the deviation [m] of a tool point, between the previous point and this one, from a straight line at
+  /// constant speed.
   double deviation_bound = 0.0;
 };
 using Path = std::vector<PathPoint>;

@@ -15,17 +15,18 @@ namespace sweep_guard_core {
 /// Contacts at more standard deviations are ignored: their probability is below 0.001.
 constexpr double kMaxDeviations = 3.09;
 
-/// Returns the probability that a tool on an uncertain path meets something that is `deviations` standard deviations from
-/// the volume's planes (Clearance): the Gaussian integral Phi(-deviations), and 0 beyond kMaxDeviations. This is the
-/// probability that one plane errs by that much, which is exact for a wall. For an edge or a corner it is too large, for
-/// only the planes of the volume are used, though another direction might separate more. Of several sweeps or triangles
-/// the largest probability counts, not that of their union.
+/// Returns the probability that a tool on an uncertain path meets something that is `deviations` standard deviations
+/// from the volume's planes (Clearance): the Gaussian integral Phi(-deviations), and 0 beyond kMaxDeviations. This is
+/// the probability that one plane errs by that much, which is exact for a wall. For an edge or a corner it is too
+/// large, for only the planes of the volume are used, though another direction might separate more. Of several sweeps
+/// or triangles the largest probability counts, not that of their union.
 double contactProbability(double deviations);
 
 /// Computes how much each plane of a swept volume may err, in the order of halfSpaces_B(): the standard deviation [m],
-/// along the plane's normal, of the body's point that touches the plane. A point at r from the tool's origin moves along n
-/// by n·dx + (r x n)·dtheta. If a side of the body faces the plane, either of its ends may touch: returns an upper bound
-/// for errors of up to kMaxDeviations; for a hull of points, that of the box around the hull. At least 1e-9 m.
+/// along the plane's normal, of the body's point that touches the plane. A point at r from the tool's origin moves
+/// along n by n·dx + (r x n)·dtheta. If a side of the body faces the plane, either of its ends may touch: returns an
+/// upper bound for errors of up to kMaxDeviations; for a hull of points, that of the box around the hull. At least 1e-9
+/// m.
 /// @param X_MT        pose of the tool that errs
 /// @param covariance  of its error: translation [m], then rotation vector [rad], both along the axes of M
 PerHalfSpace planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Matrix6d& covariance_M,
@@ -42,7 +43,8 @@ struct Clearance {
 /// Measures the clearance of an uncertain volume. Keeps its buffers between calls.
 class ClearanceMeter {
  public:
-  /// Returns empty if the clearance exceeds kMaxDeviations. Exact to 1e-3 standard deviations; at least -kMaxDeviations.
+  /// Returns empty if the clearance exceeds kMaxDeviations. Exact to 1e-3 standard deviations; at least
+  /// -kMaxDeviations.
   /// @param submesh     other triangles are not tested
   /// @param deviations  from planeDeviations()
   std::optional<Clearance> measure(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations);

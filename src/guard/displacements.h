@@ -6,8 +6,8 @@
 
 namespace sweep_guard_core {
 
-/// Bounds the displacements of a mesh's vertices from one deformation to another: a box that holds every displacement, along
-/// the axes of M [m].
+/// Bounds the displacements of a mesh's vertices from one deformation to another: a box that holds every displacement,
+/// along the axes of M [m].
 class Displacements {
  public:
   /// Holds no displacement.

@@ -21,8 +21,8 @@ struct SweepSetup {
   const SweepOptions& options;
 };
 
-/// Sweeps the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for every
-/// frame, and the last sweep of every workpiece.
+/// Sweeps the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for
+/// every frame, and the last sweep of every workpiece.
 class MeasuredSweeps {
  public:
   /// Adds a pose that the next sweep passes through.

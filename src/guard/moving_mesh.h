@@ -8,8 +8,8 @@
 
 namespace sweep_guard_core {
 
-/// A mesh that may have moved from one deformation to the next while the tool moved: each vertex straight and at any speed,
-/// up to `path_deviation`. Both meshes must outlive it.
+/// A mesh that may have moved from one deformation to the next while the tool moved: each vertex straight and at any
+/// speed, up to `path_deviation`. Both meshes must outlive it.
 class MovingMesh {
  public:
   /// Makes a mesh at rest.
@@ -24,8 +24,9 @@ class MovingMesh {
   const TriangleMesh& mesh_M() const { return mesh_M_; }                   ///< the later deformation
   bool moved() const { return before_M_ != nullptr; }                      ///< some vertex has moved
   const Eigen::Vector3d& translation_M() const { return translation_M_; }  ///< translation of the mesh as a whole [m]
-  /// Returns an upper bound on the distance of a vertex, at any time, from where the translation alone would put it [m],
-  /// plus rounding. A volume that is extended by the translation and grown by this meets all that the moving mesh meets.
+  /// Returns an upper bound on the distance of a vertex, at any time, from where the translation alone would put it
+  /// [m], plus rounding. A volume that is extended by the translation and grown by this meets all that the moving mesh
+  /// meets.
   double spread() const { return spread_; }
   /// Returns an upper bound on the distance of a corner from triangle() [m], rounding included.
   double uncertainty() const { return uncertainty_; }

@@ -42,9 +42,9 @@ class PathChecker {
   explicit PathChecker(const Options& options) : options_(options) {}
 
   /// Tests the path against one workpiece. A sweep whose volume meets the workpiece is halved down to `finest`, a sweep
-  /// that may meet it down to 25 ms: short volumes are tight, and tell when contact begins. After the first contact,
-  /// sweeps are no longer halved. Once the plan is out of time, sweeps beyond the reflex interval are neither halved nor
-  /// handed to the detector: a triangle counts as met if no plane of a volume separates it from the volume.
+  /// that may meet it down to 25 ms: short volumes are tight and locate the begin of the contact. After the first
+  /// contact, sweeps are no longer halved. Once the plan is out of time, sweeps beyond the reflex interval are neither
+  /// halved nor handed to the detector: a triangle counts as met if no plane of a volume separates it from the volume.
   /// @param[out] object  overwritten; its buffers are used again
   /// @throws DeviceError if the detector fails
   void check(Detector& detector, const PredictedPathRequest& request, PredictedObject& object);

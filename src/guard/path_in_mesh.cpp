@@ -27,8 +27,8 @@ Eigen::Vector3d pointDeviations(const Eigen::Vector3d& r_M, const Matrix6d& cova
   return (J * covariance_M * J.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
-// Holds every tool point at a pose that errs by up to `max_deviations` standard deviations. A point's standard deviation
-// along an axis is convex in the point, so the corners of a box around the tool bound it.
+// Holds every tool point at a pose that errs by up to `max_deviations` standard deviations. A point's standard
+// deviation along an axis is convex in the point, so the corners of a box around the tool bound it.
 Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& tool_T, const Eigen::Isometry3d& X_MT,
                               const Matrix6d& covariance_M, double max_deviations) {
   Eigen::AlignedBox3d box_M;

@@ -17,8 +17,8 @@ struct PathSegment {
   size_t last = 1;   ///< first pose not before `to`
 };
 
-/// Expresses a predicted path in a mesh frame M that stays where it is. Between poses the tool moves straight at constant
-/// speed and turns about one axis at constant rate. Keeps its buffers from one path to the next.
+/// Expresses a predicted path in a mesh frame M that stays where it is. Between poses the tool moves straight at
+/// constant speed and turns about one axis at constant rate. Keeps its buffers from one path to the next.
 class PathInMesh {
  public:
   /// Sets the path; must be called before any other function.
@@ -37,7 +37,8 @@ class PathInMesh {
   /// Cuts a segment at a pose in its middle, or in half if there is no pose inside.
   std::pair<PathSegment, PathSegment> halves(const PathSegment& segment) const;
 
-  /// Computes the motions to sweep, end to end: split() of one step or a fraction of it, mergedMotion() of several steps.
+  /// Computes the motions to sweep, end to end: split() of one step or a fraction of it, mergedMotion() of several
+  /// steps.
   /// @param max_rotation    of a motion within one step [rad]
   /// @param[out] motions_M  overwritten
   void motions_M(const PathSegment& segment, double max_rotation, std::vector<Motion>& motions_M) const;
@@ -45,12 +46,12 @@ class PathInMesh {
   /// Returns the pose at the end of the segment.
   Eigen::Isometry3d end_M(const PathSegment& segment) const { return at(segment.to, segment.last - 1).X_MT; }
 
-  /// Returns the covariance of that pose's error: translation [m], then rotation vector [rad], along the axes of M. It is
-  /// 0 at the measured pose and linear in time between two poses.
+  /// Returns the covariance of that pose's error: translation [m], then rotation vector [rad], along the axes of M. It
+  /// is 0 at the measured pose and linear in time between two poses.
   Matrix6d covariance_M(const PathSegment& segment) const { return at(segment.to, segment.last - 1).covariance_M; }
 
-  /// Returns a box that holds every tool point throughout the segment, if no pose errs by more than `deviations` standard
-  /// deviations.
+  /// Returns a box that holds every tool point throughout the segment, if no pose errs by more than `deviations`
+  /// standard deviations.
   /// @param margin  the tool is grown by this [m], >= 0
   Eigen::AlignedBox3d reach_M(const PathSegment& segment, double deviations, double margin) const;
 
@@ -68,8 +69,8 @@ class PathInMesh {
   std::vector<Matrix6d> covariances_M_;  // at the points of path_M_
 };
 
-/// Finds where the sweeps along a predicted path end: numbers of poses, counted as by PathInMesh; the last sweep ends with
-/// the path. In the reflex interval every pose ends a sweep. The steps after it are shared evenly among about
+/// Finds where the sweeps along a predicted path end: numbers of poses, counted as by PathInMesh; the last sweep ends
+/// with the path. In the reflex interval every pose ends a sweep. The steps after it are shared evenly among about
 /// `considered_sweeps` sweeps, but no two steps are joined that turn by more than 1.5 rad together.
 /// @param considered_sweeps  >= 1
 /// @param[out] ends          overwritten

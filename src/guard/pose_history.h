@@ -16,12 +16,12 @@ struct PoseSample {
   Eigen::Isometry3d X_WM;
 };
 
-/// Keeps the poses of tool and frame that may have to be swept again. Moves them down in its memory to make room, so that
-/// nothing is allocated once the history has had its largest size.
+/// Keeps the poses of tool and frame that may have to be swept again. Moves them down in its memory to make room, so
+/// that nothing is allocated once the history has had its largest size.
 class PoseHistory {
  public:
-  /// Largest number of poses; only a detector that keeps failing needs as many. A longer history drops its second pose, and
-  /// the motion goes straight past it. Twice the number of poses that may wait to be swept.
+  /// Largest number of poses; only a detector that keeps failing needs as many. A longer history drops its second pose,
+  /// and the motion goes straight past it. Twice the number of poses that may wait to be swept.
   static constexpr size_t kMaxSize = 8192;
 
   /// @param sample  numbers ascend; stamps do not decrease
@@ -37,8 +37,8 @@ class PoseHistory {
   /// Returns the index of the last pose with this stamp or an earlier one; 0 if there is none.
   size_t lastUpTo(Time stamp) const;
 
-  /// Returns the fraction of the time from pose `from` to the newest pose that has passed at pose `i`: 0 before `from`, and
-  /// 1 if no time passes.
+  /// Returns the fraction of the time from pose `from` to the newest pose that has passed at pose `i`: 0 before `from`,
+  /// and 1 if no time passes.
   double share(size_t from, size_t i) const;
 
   /// Computes the path of the tool in M from pose `first` to pose `last`.

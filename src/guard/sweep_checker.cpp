@@ -32,8 +32,8 @@ void unite(std::vector<TriangleContact>& all, const std::vector<TriangleContact>
 
 }  // namespace
 
-// A triangle that does not meet a box meets no piece inside the box. The planes decide about the boxes, and the detector,
-// which costs more for each triangle that it names, decides about the pieces.
+// A triangle that does not meet a box meets no piece inside the box. The planes decide about the boxes, and the
+// detector, which costs more for each triangle that it names, decides about the pieces.
 struct SweepChecker::TreeWalk {
   Detector& detector;
   const SweepRequest& request;

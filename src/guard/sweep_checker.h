@@ -28,9 +28,9 @@ struct SweepRequest {
   const SweepCache& cache = kEmptySweepCache;  ///< of the sweep that ended where this one begins
 };
 
-/// Tests the volumes that the tool sweeps during each sub-motion. Descends the tool's tree of boxes to its convex pieces
-/// where the boxes meet triangles, and hands the candidates of the pieces to the narrow phase. If the mesh is closed, no
-/// triangle is met and the tool was not known to be outside before, tests whether a piece lies inside.
+/// Tests the volumes that the tool sweeps during each sub-motion. Descends the tool's tree of boxes to its convex
+/// pieces where the boxes meet triangles, and hands the candidates of the pieces to the narrow phase. If the mesh is
+/// closed, no triangle is met and the tool was not known to be outside before, tests whether a piece lies inside.
 /// Keeps its buffers between calls.
 class SweepChecker {
  public:

@@ -20,8 +20,8 @@ struct SweptBody {
 /// @param margin  the body is grown by this [m], >= 0
 SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKind kind, double margin);
 
-/// Finds the triangles that the volume meets. For kind `hull`, leaves out the triangles that are proven to miss the hull
-/// of the body at both ends of the motion, before and after its mesh_translation, grown by the volume's margin.
+/// Finds the triangles that the volume meets. For kind `hull`, leaves out the triangles that are proven to miss the
+/// hull of the body at both ends of the motion, before and after its mesh_translation, grown by the volume's margin.
 /// @param[out] detection  overwritten
 /// @throws DeviceError if the detector fails
 void detect(Detector& detector, const Submesh& submesh, const SweptBody& body, Detection& detection);

@@ -6,16 +6,18 @@
 
 namespace sweep_guard_core {
 
-/// Decides how many predicted sweeps fit into a cycle, so that prediction does not slow the guard below its rate [P, Sec.
-/// 3.2]. If sweeps take long, the considered interval is cut into fewer, longer ones; the reflex interval keeps its steps.
+/// Decides how many predicted sweeps fit into a cycle, so that prediction does not slow the guard below its rate [P,
+/// Sec.
+/// 3.2]. If sweeps take long, the considered interval is cut into fewer, longer ones; the reflex interval keeps its
+/// steps.
 /// Costs are counted in tested volumes: a sweep takes one, or several if it turns far or might meet a workpiece.
 class TimeBudget {
  public:
   /// @param cycle  time available for one pose: its measured sweep and all predicted ones, > 0
   TimeBudget(const HorizonOptions& horizon, Duration cycle);
 
-  /// Returns the number of sweeps to cut the considered interval into, from 1 to consideredSweeps() of the horizon. Until
-  /// the first prediction a volume is assumed to cost a few measured sweeps.
+  /// Returns the number of sweeps to cut the considered interval into, from 1 to consideredSweeps() of the horizon.
+  /// Until the first prediction a volume is assumed to cost a few measured sweeps.
   /// @param reflex_volumes      least number of volumes in the reflex interval
   /// @param considered_volumes  least number of volumes in the considered interval if every step is swept
   size_t consideredSweeps(size_t reflex_volumes, size_t considered_volumes) const;

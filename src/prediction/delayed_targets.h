@@ -16,8 +16,8 @@ template <typename Features>
 class DelayedTargets {
  public:
   /// Reports the targets that the newest pose completes, and keeps its features.
-  /// @param on_target  called as on_target(features, i, displacement): features of an earlier pose, and the displacement
-  ///                   from that pose within kLearnedHorizons[i]
+  /// @param on_target  called as on_target(features, i, displacement): features of an earlier pose, and the
+  ///                   displacement from that pose within kLearnedHorizons[i]
   template <typename OnTarget>
   void add(const StampedPose& newest, const Features& features, OnTarget&& on_target) {
     for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {

@@ -11,8 +11,8 @@
 namespace sweep_guard_core {
 
 /// Learns the operator's displacements from velocities. For each of kLearnedHorizons, a recursive least squares fit
-/// regresses the displacement on the velocities measured over windows of 0.05, 0.12, 0.3 and 0.8 s, and on the second of
-/// these velocities times its speed, because fast motions end sooner.
+/// regresses the displacement on the velocities measured over windows of 0.05, 0.12, 0.3 and 0.8 s, and on the second
+/// of these velocities times its speed, because fast motions end sooner.
 class DirectExtrapolator : public Extrapolator {
  public:
   DirectExtrapolator();

@@ -9,8 +9,8 @@ namespace sweep_guard_core {
 
 /// Learns the tool's displacement within one horizon from the operator's velocities. A recursive least squares fit
 /// regresses the displacement on the velocities before it, with coefficients that the three axes share. Before it has
-/// learned, it assumes constant velocity. If its errors exceed those of constant velocity or of no motion, it blends with
-/// these. For translation [m, m/s] or rotation [rad, rad/s].
+/// learned, it assumes constant velocity. If its errors exceed those of constant velocity or of no motion, it blends
+/// with these. For translation [m, m/s] or rotation [rad, rad/s].
 class DisplacementRegression {
  public:
   static constexpr int kVelocities = 5;

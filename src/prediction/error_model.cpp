@@ -39,8 +39,8 @@ ErrorModel::ErrorModel() {
   for (const double ahead : kLearnedHorizons) statistics_.push_back(priorStatistics(ahead));
 }
 
-// Errors are relative to a speed: the largest of the speed at the pose, that of the motion that followed, and that of the
-// predicted motion. The speed at the pose alone would fail when the tool starts from rest.
+// Errors are relative to a speed: the largest of the speed at the pose, that of the motion that followed, and that of
+// the predicted motion. The speed at the pose alone would fail when the tool starts from rest.
 void ErrorModel::observe(const PoseTracker& tracker, const Vector6d& velocity,
                          const PredictedDisplacements& predicted) {
   const double period = toSeconds(tracker.period());

@@ -13,8 +13,8 @@ namespace sweep_guard_core {
 /// Predicted displacements of the tool within each of kLearnedHorizons.
 using PredictedDisplacements = std::array<Vector6d, kLearnedHorizons.size()>;
 
-/// Learns the errors of predictions from the motion that followed: the mean square of the recent errors along the motion,
-/// across it and in rotation. The errors scale with the speed.
+/// Learns the errors of predictions from the motion that followed: the mean square of the recent errors along the
+/// motion, across it and in rotation. The errors scale with the speed.
 class ErrorModel {
  public:
   ErrorModel();
@@ -23,8 +23,8 @@ class ErrorModel {
   /// @param velocity  of the tool: along the axes of W [m/s], then about the tool's own axes [rad/s]
   void observe(const PoseTracker& tracker, const Vector6d& velocity, const PredictedDisplacements& predicted);
 
-  /// Returns the covariance of a predicted pose's error: translation [m], then rotation vector [rad], both along the axes
-  /// of W.
+  /// Returns the covariance of a predicted pose's error: translation [m], then rotation vector [rad], both along the
+  /// axes of W.
   /// @param ahead  time after the newest pose [s], > 0
   Matrix6d covariance(double ahead) const;
 

@@ -5,8 +5,9 @@
 
 namespace sweep_guard_core {
 
-/// Extrapolates by the paper's predictor [P, Sec. 3.2]: an independent polynomial in time for each degree of freedom, fitted
-/// by recursive least squares over an observation period. Degrees above 1 are used once half of that period is observed.
+/// Extrapolates by the paper's predictor [P, Sec. 3.2]: an independent polynomial in time for each degree of freedom,
+/// fitted by recursive least squares over an observation period. Degrees above 1 are used once half of that period is
+/// observed.
 class PolynomialExtrapolator : public Extrapolator {
  public:
   explicit PolynomialExtrapolator(const PredictorOptions& options);

@@ -5,8 +5,8 @@
 
 namespace sweep_guard_core {
 
-/// Tracks the poses of a tool and detects interruptions of its motion: a gap of 0.25 s, or three periods of slower poses
-/// but at most 1 s, or a jump faster than the limits.
+/// Tracks the poses of a tool and detects interruptions of its motion: a gap of 0.25 s, or three periods of slower
+/// poses but at most 1 s, or a jump faster than the limits.
 class PoseTracker {
  public:
   enum class Step {
@@ -34,8 +34,8 @@ class PoseTracker {
   const StampedPose& newest() const { return newest_; }  ///< there must be one
   Duration period() const { return period_; }            ///< from the previous pose to the newest
 
-  /// Returns coordinates of the newest pose that never wrap: translation in W [m], then the rotations about the tool's own
-  /// axes, summed from pose to pose [rad].
+  /// Returns coordinates of the newest pose that never wrap: translation in W [m], then the rotations about the tool's
+  /// own axes, summed from pose to pose [rad].
   const Vector6d& coordinates() const { return coordinates_; }
 
  private:

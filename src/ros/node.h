@@ -16,8 +16,8 @@
 
 namespace sweep_guard_ros {
 
-/// Guards one tool, as a ROS node or a nodelet: each input has its own thread, one thread sweeps, and steady timers warn
-/// even if the inputs are silent. doc/interface.md lists topics, services and parameters.
+/// Guards one tool, as a ROS node or a nodelet: each input has its own thread, one thread sweeps, and steady timers
+/// warn even if the inputs are silent. doc/interface.md lists topics, services and parameters.
 class SweepGuardNode {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused
@@ -32,7 +32,7 @@ class SweepGuardNode {
   void createTimers(const ros::NodeHandle& node);
   void logStart() const;
 
-  // A member uses only members above it, but for the monitor, which reports faults to warnings_.
+  // Members use only earlier members. Exception: the monitor reports faults to warnings_.
   LiveParameters parameters_;
   sweep_guard_core::WarningMonitor monitor_;
   WarningPublisher warnings_;

@@ -51,7 +51,7 @@ const char* meaningOf(WarningLevel level, bool timed) {
   return "nothing is guaranteed";
 }
 
-// Tells whether target and time already show the sentence.
+// Returns whether target and time already show the sentence.
 bool isRepeated(const std::string& sentence) {
   return sentence.rfind("tool meets '", 0) == 0 || sentence.find("' expected in ") != std::string::npos;
 }

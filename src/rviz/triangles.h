@@ -7,7 +7,7 @@
 
 namespace sweep_guard_rviz {
 
-/// Tells whether all vertex indices are below the number of vertices.
+/// Returns whether all vertex indices are below the number of vertices.
 inline bool indicesInRange(const std::vector<shape_msgs::MeshTriangle>& triangles, size_t vertices) {
   return std::all_of(triangles.begin(), triangles.end(), [&](const shape_msgs::MeshTriangle& triangle) {
     const auto& corners = triangle.vertex_indices;

@@ -35,7 +35,7 @@ class WorkpieceVisual {
   void paint(const DisplayStyle& style);
 
   bool hasMesh() const { return revision_.has_value(); }
-  /// Tells whether the triangle indices of a view refer to the mesh.
+  /// Returns whether the triangle indices of a view refer to the mesh.
   bool fits(const sweep_guard::ObjectView& view) const { return revision_ == view.revision; }
   const std::string& frame() const { return frame_; }  ///< frame of the workpiece; empty: not known
   void place(const Ogre::Vector3& position, const Ogre::Quaternion& orientation);

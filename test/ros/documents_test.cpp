@@ -1,5 +1,6 @@
-// Compares the documents to a running guard and the sources: topics, services, parameters, arguments of launch files and
-// scripts, quoted messages, links. With SWEEP_GUARD_WRITE_DOCUMENTS set it writes the tables that follow from the sources.
+// Compares the documents to a running guard and the sources: topics, services, parameters, arguments of launch files
+// and scripts, quoted messages, links. With SWEEP_GUARD_WRITE_DOCUMENTS set it writes the tables that follow from the
+// sources.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <ros/topic.h>

@@ -9,8 +9,8 @@
 
 namespace sweep_guard_core::soundness {
 
-/// A convex piece of a tool, in the tool frame T, described by numbers. Both the product's shapes and the checks start from
-/// these numbers; nothing here uses the product.
+/// A convex piece of a tool, in the tool frame T, described by numbers. Both the product's shapes and the checks start
+/// from these numbers; nothing here uses the product.
 struct Body {
   enum class Kind { kCylinder, kSphere, kBox, kHull };
   struct Facet {
@@ -58,8 +58,8 @@ Body enlarged(Body body, double more);
 /// Returns the product's tool made of these bodies.
 Tool toolOf(const Bodies& bodies);
 
-/// Returns bodies of about the size `scale` [m]: one cylinder, possibly flat or a needle; or one to five bodies of any kind
-/// in random places.
+/// Returns bodies of about the size `scale` [m]: one cylinder, possibly flat or a needle; or one to five bodies of any
+/// kind in random places.
 Bodies randomBodies(Random& random, double scale);
 
 }  // namespace sweep_guard_core::soundness

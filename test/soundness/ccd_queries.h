@@ -9,8 +9,8 @@
 
 namespace sweep_guard_core::soundness {
 
-/// Two edges, or a vertex and a face, whose four points move straight; and whether they meet. A query of the Sample Queries
-/// (Wang et al. 2021), the common benchmark of continuous collision detection.
+/// Two edges, or a vertex and a face, whose four points move straight; and whether they meet. A query of the Sample
+/// Queries (Wang et al. 2021), the common benchmark of continuous collision detection.
 struct CcdQuery {
   enum class Kind { kEdgeEdge, kVertexFace };
   Kind kind;
@@ -19,8 +19,8 @@ struct CcdQuery {
   bool truth;  ///< as computed exactly by the authors of the data
 };
 
-/// Reads a file of queries. Each has eight rows: the four points at the start, then at the end. A row contains x, y and z
-/// as numerator and denominator of any length, then the truth.
+/// Reads a file of queries. Each has eight rows: the four points at the start, then at the end. A row contains x, y and
+/// z as numerator and denominator of any length, then the truth.
 /// @throws InvalidInput with the line number if a row is malformed or a number is not exactly a double
 std::vector<CcdQuery> readCcdQueries(std::istream& stream, CcdQuery::Kind kind);
 
@@ -30,9 +30,9 @@ struct RelativeQuery {
   double rounding;                        ///< error bound of the differences [m]
 };
 
-/// Makes a query relative. A vertex meets a face if the face minus the vertex contains the origin. Two edges meet if the
-/// difference of two of their points is zero: at any time the differences form a parallelogram, whose corners are the
-/// differences of the ends. These are two triangles whose corners move straight, so nothing is approximated.
+/// Makes a query relative. A vertex meets a face if the face minus the vertex contains the origin. Two edges meet if
+/// the difference of two of their points is zero: at any time the differences form a parallelogram, whose corners are
+/// the differences of the ends. These are two triangles whose corners move straight, so nothing is approximated.
 RelativeQuery relative(const CcdQuery& query);
 
 /// Returns whether timeOfImpact() finds an impact.

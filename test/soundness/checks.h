@@ -16,7 +16,8 @@ struct TestedDetector {
   std::unique_ptr<Detector> detector;
 };
 
-/// Makes all of detectorNames(), and `select_egl`: `select` on EGL. Prints which ones are skipped for lack of a context.
+/// Makes all of detectorNames(), and `select_egl`: `select` on EGL. Prints which ones are skipped for lack of a
+/// context.
 std::vector<TestedDetector> allDetectors();
 
 /// The origin of a case, the detectors to test and the report.

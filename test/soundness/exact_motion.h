@@ -8,8 +8,8 @@
 namespace sweep_guard_core::soundness {
 
 /// Computes the positions of a tool's points during a motion in long double, without the product's interpolation: the
-/// origin moves straight, the orientation turns at constant rate. The rotation matrices are orthonormal only in double; the
-/// motion uses the nearest rotations, which differ by 1e-16 of the lever.
+/// origin moves straight, the orientation turns at constant rate. The rotation matrices are orthonormal only in double;
+/// the motion uses the nearest rotations, which differ by 1e-16 of the lever.
 ///
 /// At half a turn both ways are equally short: there it takes the product's choice.
 class ExactMotion {

@@ -4,17 +4,17 @@
 
 namespace sweep_guard_core {
 
-/// Root of all errors that the core throws. The message says what is wrong and what to do.
+/// Is the base of all errors that the core throws. The message says what is wrong and what to do.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The input can never work: a mesh without triangles, a negative radius, a file that does not parse.
+/// Reports an input that can never work: a mesh without triangles, a negative radius, a file that does not parse.
 struct InvalidInput : Error {
   using Error::Error;
 };
 
-/// The machine failed: no off-screen context, or a canary was not detected.
+/// Reports a failure of the machine: no off-screen context, or a canary was not detected.
 struct DeviceError : Error {
   using Error::Error;
 };

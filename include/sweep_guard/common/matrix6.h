@@ -4,7 +4,7 @@
 
 namespace sweep_guard_core {
 
-/// Vector and matrix over the six degrees of freedom of a rigid body: translation, then rotation vector.
+/// Holds six values of a rigid body: translation [m], then rotation vector [rad]; the user names the axes.
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 

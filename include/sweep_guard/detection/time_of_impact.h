@@ -29,26 +29,27 @@ struct Impact {
 /// later than the true one. Returns empty only if it is *proven* that the piece never comes so close.
 ///
 /// Conservative advancement: separation() finds a direction n that separates piece and triangle at one time, and n is
-/// then followed in time. G(s) = min over the piece of n · q(s) - max over the triangle of n · p(s) is evaluated exactly
-/// by the support mapping. A corner's n · p(s) is linear in s. A tool point turns by w s about an axis k through the
-/// origin of T, at most rho = radiusAbout(k) from it, while that origin moves straight: |n · q''| <= K = w^2 rho |n x k|.
+/// then followed in time. G(s) = min over the piece of n · q(s) - max over the triangle of n · p(s) is evaluated
+/// exactly by the support mapping. A corner's n · p(s) is linear in s. A tool point turns by w s about an axis k
+/// through the origin of T, at most rho = radiusAbout(k) from it, while that origin moves straight: |n · q''| <= K =
+/// w^2 rho |n x k|.
 /// Linear interpolation between 0 and s errs by at most K/2 x (s - x) for each point, and so for the smallest of them:
 ///
 ///     G(x) >= (1 - x/s) G(0) + x/s G(s) - K/2 x (s - x)    for x in [0, s]
 ///
-/// If the minimum of the right side exceeds the margin, there is no impact before s. A secant finds such an s, where the
-/// next direction is computed. This repeats until the gap is the margin, or the end is reached.
+/// If the minimum of the right side exceeds the margin, there is no impact before s. A secant finds such an s, where
+/// the next direction is computed. This repeats until the gap is the margin, or the end is reached.
 ///
-/// It stops within a tolerance above the margin [m]: 2e-9 of the size of piece and triangle, plus 1e-14 of their distance
-/// at the start and the end and of their distance from the origin of M, where the poses have been rounded. The time of
-/// impact is early by this tolerance divided by the closing speed. If 1000 directions do not suffice, the time reached so
-/// far is returned as the time of impact.
+/// It stops within a tolerance above the margin [m]: 2e-9 of the size of piece and triangle, plus 1e-14 of their
+/// distance at the start and the end and of their distance from the origin of M, where the poses have been rounded. The
+/// time of impact is early by this tolerance divided by the closing speed. After 1000 directions, returns the
+/// last time that is proven free as the time of impact.
 ///
-/// If the piece overlaps the triangle at the start, the time of impact is 0, and the normal is `contact_normal_M` if it is
-/// given and the minimum translation direction if not.
-/// @param sub_motions       parts of one motion, of equal duration, end to end, from split(); not empty. The
-///                          `deviation_bound` of each is added to the margin; its `mesh_translation` is ignored, for the
-///                          triangle has a motion of its own
+/// If the piece overlaps the triangle at the start, the time of impact is 0, and the normal is `contact_normal_M` if it
+/// is given and the minimum translation direction if not.
+/// @param sub_motions       equal sub-motions of one motion, end to end, from split(); not empty. The
+///                          `deviation_bound` of each is added to the margin; its `mesh_translation` is ignored, for
+///                          the triangle has a motion of its own
 /// @param margin            [m], >= 0; not part of the depth
 /// @param contact_normal_M  unit: normal of the contact if it began earlier
 std::optional<Impact> timeOfImpact(const ConvexShape& shape_T, const std::vector<Motion>& sub_motions,

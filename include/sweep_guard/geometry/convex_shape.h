@@ -43,7 +43,7 @@ class ConvexShape {
   /// @throws InvalidInput if there is no point, or with the index of the first unusable point
   static ConvexShape hull(const std::vector<Eigen::Vector3d>& points_T);
 
-  /// Returns the body moved from T to a frame N.
+  /// Returns the body with its frame T placed at X_NT: N becomes the tool frame of the result.
   ConvexShape placed(const Eigen::Isometry3d& X_NT) const;
 
   /// Returns the body grown on all sides.
@@ -64,7 +64,8 @@ class ConvexShape {
   double boundingRadius() const;
 
   /// Returns the point of the front or rear face that lies farthest along a direction of any length [m]. The faces of a
-  /// cylinder are its discs; those of other bodies are the faces of a box around it, across its longest side.
+  /// cylinder are its discs; those of other bodies are the faces of a box around it, across its longest side. The front
+  /// face is the one at the larger coordinate along axis_T().
   Eigen::Vector3d frontSupport(const Eigen::Vector3d& direction_T) const;
   Eigen::Vector3d rearSupport(const Eigen::Vector3d& direction_T) const;
 
@@ -81,7 +82,7 @@ class ConvexShape {
   std::optional<Cylinder> asCylinder() const;  ///< the body without padding, if it is a cylinder
 
   const TriangleMesh& mesh_T() const { return mesh_T_; }   ///< surface without padding; polygonal for round bodies
-  const Moments& moments_T() const { return moments_T_; }  ///< of the triangles' corners, each counted per triangle
+  const Moments& moments_T() const { return moments_T_; }  ///< of all corners of all triangles
 
  private:
   struct Round {

@@ -20,9 +20,9 @@ struct DecompositionOptions {
 /// across the next side if all triangles fall on one side. A triangle belongs where its centroid is; no triangle is
 /// cut. Unconnected components may be separated first, if that gives the better result.
 ///
-/// Cuts that do not pay are undone, from the leaves up. A hull with volume V and surface S that moves by a step covers
+/// Undoes cuts that save too little, from the leaves up. A hull with volume V and surface S that moves by a step covers
 /// on average over all directions V + S * step / 4 (Cauchy: the mean shadow of a convex body is a quarter of its
-/// surface). The wasted part is the same sum with another V: the space between the triangles and the surface of the
+/// surface). The unused volume is the same sum with another V: the space between the triangles and the surface of the
 /// hull, that is the area of each triangle times the shorter distance along its normal from its centroid to the hull.
 /// Both sums must fall by `least_saving` times the volume that the hull of the whole mesh covers, for each piece after
 /// the first. The first sum alone would hollow out a large ball; the second alone would separate objects inside a

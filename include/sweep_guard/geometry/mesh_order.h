@@ -16,7 +16,7 @@ struct Cluster {
   std::uint32_t number;  ///< index among all clusters of the mesh
   std::uint32_t first;   ///< place of the first triangle
   std::uint32_t count;   ///< 1 to simd::kCluster
-  /// The blocks of its corners; the last one fills the rest.
+  /// The blocks of its corners; unused entries repeat the last block.
   std::array<std::uint32_t, simd::kClusterBlocks> blocks;
 };
 
@@ -28,13 +28,14 @@ constexpr std::uint32_t kClustersTogether = 8;  ///< largest size of a group of 
 struct ClusterGroup {
   std::uint32_t first;  ///< index of the first cluster
   std::uint32_t count;  ///< 1 to kClustersTogether
-  /// The groups of blocks; the last one fills the rest.
+  /// The groups of blocks; unused entries repeat the last group.
   std::array<std::uint32_t, simd::kClusterBlocks> block_groups;
 };
 
-/// The order in memory of the vertices and triangles of a mesh: neighbors in space are near each other in memory. It is
-/// computed from the first positions and serves deformations as long as neighbors stay neighbors. The sender's order is
-/// kept where it is good enough, as it mostly is.
+/// Holds the order in memory of the vertices and triangles of a mesh: neighbors in space are near each other in memory.
+/// It is computed from the first positions. It is correct for every deformation, and fast as long as neighbors stay
+/// neighbors.
+/// Keeps the sender's order where that is good enough.
 struct MeshOrder {
   std::vector<std::uint32_t> vertex_places;   ///< place of each of the sender's vertices; empty: the sender's order
   std::vector<std::uint32_t> triangle_at;     ///< the sender's triangle at each place; empty: the sender's order

@@ -6,8 +6,9 @@
 namespace sweep_guard_core {
 
 /// A rigid motion of the tool frame T between two poses, in mesh frame M: the origin of T moves straight at constant
-/// speed, and T turns about one axis at constant rate, the shorter way [P, Sec. 3.1: "straight line displacement"]. The
-/// axis between orientations half a turn apart is not unique; slerp's choice counts.
+/// speed, and T turns about one axis at constant rate, by the smaller angle [P, Sec. 3.1: "straight line
+/// displacement"].
+/// Between orientations half a turn apart, the axis is the one that slerp chooses.
 struct Motion {
   Eigen::Isometry3d X_MT_start = Eigen::Isometry3d::Identity();  ///< translation [m]
   Eigen::Isometry3d X_MT_end = Eigen::Isometry3d::Identity();    ///< translation [m]

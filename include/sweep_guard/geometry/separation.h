@@ -47,9 +47,10 @@ class PointHull {
   std::size_t count_ = 0;
 };
 
-/// The separation of two convex bodies. `gap` does not rely on the algorithm that found `normal`: it is evaluated from
-/// the support mappings alone, gap = min over the tool of normal · q - max over the obstacle of normal · p. For any
-/// direction this is a lower bound of the distance, up to the rounding of this formula.
+/// Holds the separation of two convex bodies, all in the frame of their support mappings. `gap` does not rely on the
+/// algorithm that found `normal`: it is evaluated from the support mappings alone, gap = min over the tool of normal ·
+/// q - max over the obstacle of normal · p. For any direction this is a lower bound of the distance, up to the rounding
+/// of this formula.
 struct Separation {
   Eigen::Vector3d normal;       ///< unit, from the obstacle to the tool
   double gap;                   ///< proven lower bound of the distance [m]; <= 0: nothing is proven
@@ -76,7 +77,7 @@ Separation separation(const SupportMapping& tool, const SupportMapping& obstacle
 Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obstacle, double margin, double accuracy,
                            const Eigen::Vector3d& guess);
 
-/// Tells whether the bodies are proven to be farther apart than `distance` [m], >= 0. Cheaper than separation(): ends
+/// Returns whether the bodies are proven to be farther apart than `distance` [m], >= 0. Cheaper than separation(): ends
 /// at the first direction that proves it, or at the first two points that are closer.
 bool distanceExceeds(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
                      const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());

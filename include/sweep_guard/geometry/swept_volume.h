@@ -53,11 +53,11 @@ struct SweptVolume {
   SweptVolume grown(double distance) const;
 };
 
-/// Returns a bound [m] on the distance of the points of a body from the hull of its two poses during a motion: on arcs,
-/// and because M turns.
+/// Returns a bound [m] on the distance of the points of a body from the hull of its two poses. Points leave the
+/// hull because they move on arcs, and because M turns.
 double deviationBound(const ConvexShape& shape, const Motion& motion);
 
-/// Returns the volume that a convex body covers during a motion.
+/// Returns the volume that a convex body covers during a motion, in the frame M of the motion.
 /// @param motion        turns by at most 90 degrees; split() longer ones
 /// @param extra_margin  growth of the volume in addition to deviationBound() [m], >= 0
 SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKind kind, double extra_margin = 0.0);

@@ -32,7 +32,7 @@ class TriangleMesh {
   void deform(std::vector<float>& positions_M);
 
   const std::vector<Triangle>& triangles() const { return topology_->triangles; }
-  /// Tells whether each edge belongs to an even number of triangles: the surface has no border, and so an inside.
+  /// Returns whether each edge belongs to an even number of triangles. The surface then encloses an inside.
   bool closed() const { return topology_->closed; }
   size_t vertexCount() const { return offsets_.size() / 3; }
 

@@ -20,8 +20,9 @@ struct SweepPlan;
 /// After a failure of the detector the next sweep passes through every pose since the last success; after a missing
 /// transform it goes straight from the last pose known in that frame. The first sweep in a frame is a static test.
 ///
-/// Between poses, tool and frames move straight at constant speed in W and turn about one axis at constant rate. Between
-/// updates of a mesh, its vertices move straight at any speed. The update is a motion between the stamps of both meshes:
+/// Between poses, tool and frames move straight at constant speed in W and turn about one axis at constant rate.
+/// Between updates of a mesh, its vertices move straight at any speed. The update is a motion between the stamps of
+/// both meshes:
 /// the tool's path since the earlier stamp, at most 0.5 s, is swept again against the moving mesh.
 ///
 /// Segments that are swept at once are merged (mergedMotion()) as long as the deviation bound stays below a thousandth
@@ -34,8 +35,8 @@ class Guard {
   Guard(const Guard&) = delete;
   Guard& operator=(const Guard&) = delete;
 
-  /// Adds a pose that the next sweep passes through. Workpieces whose frame is missing at the pose that is swept to wait
-  /// until their frame is known again.
+  /// Adds a pose that the next sweep passes through. Workpieces whose frame is missing at the pose that is swept to
+  /// wait until their frame is known again.
   /// @param pose  its stamp must not be earlier than the previous pose's
   void pass(const PoseWithFrames& pose);
 

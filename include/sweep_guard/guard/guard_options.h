@@ -22,7 +22,7 @@ struct GuardOptions {
   std::function<SteadyTime()> clock = std::chrono::steady_clock::now;
 };
 
-/// What a running guard exchanges. What is empty or null stays as it is.
+/// Holds the changes to a running guard. Empty and null members change nothing.
 struct GuardChange {
   GuardOptions options;  ///< its clock is ignored
   std::optional<Tool> tool = {};

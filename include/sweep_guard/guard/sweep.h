@@ -26,7 +26,7 @@ struct TriangleContact {
   Impact impact;  ///< first impact of that piece
 };
 
-/// What the tool meets of one mesh during one motion.
+/// Holds the triangles of one mesh that the tool meets during one motion.
 struct SweepResult {
   TriangleSet triangles;  ///< triangles that a swept volume meets: ascending, each once
   double margin = 0.0;    ///< largest margin of a tested volume [m]: arcs, rounding, mesh motion and requested margin
@@ -49,7 +49,7 @@ struct PathRequest {
   std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up
 };
 
-/// What the tool meets along a path of poses.
+/// Holds what the tool meets along a path of poses.
 struct PathResult {
   SweepResult all;                       ///< all sweeps merged
   std::optional<size_t> first_contact;   ///< first sweep with contact; sweep i goes from pose i to pose i + 1

@@ -22,7 +22,7 @@ struct SweptObject {
 struct SweepReport {
   Time start;                          ///< earliest start of a sweep; equal to `end` at the first pose
   Time end;                            ///< stamp of the pose
-  Duration backlog{};                  ///< time spanned by the poses that waited and were passed on the way; >= 0
+  Duration backlog{};                  ///< time spanned by the poses that waited, >= 0
   std::vector<SweptObject> objects;    ///< every workpiece swept, in the order of the request
   Workpieces unplaced;                 ///< workpieces that were not swept because their frame is unknown at the pose
   std::vector<SweepFailure> failures;  ///< workpieces that were not swept because the detector failed

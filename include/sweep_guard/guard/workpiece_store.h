@@ -23,8 +23,8 @@ struct Deformation {
   const std::vector<float>& positions_M;  ///< x0 y0 z0 x1 ... [m]
 };
 
-/// Keeps the newest snapshot of every workpiece. Snapshots are shared, and do not change while anybody holds them.
-/// Snapshots that nobody holds are reused for deformations, which then allocate nothing. One thread calls set(), deform() and
+/// Keeps the newest snapshot of every workpiece. Snapshots do not change while they are shared. Unshared
+/// snapshots are reused for deformations, which then allocate nothing. One thread calls set(), deform() and
 /// remove(); any thread may call the others. A call that throws keeps the old snapshot.
 class WorkpieceStore {
  public:
@@ -34,13 +34,15 @@ class WorkpieceStore {
   explicit WorkpieceStore(OnChange on_change = [](const Workpieces&) {});
 
   /// Adds or replaces a workpiece, and sets `updates` and `path_length`: they continue if frame and triangles stay.
-  /// @param latest  a snapshot stamped later was stamped before time went back, and may be replaced by an older stamp
+  /// @param latest  latest plausible stamp, as a rule now. A snapshot stamped later is from before time went back; any
+  ///                stamp may replace it
   /// @throws InvalidInput if the stamp is older than the snapshot's, or if there are 1000 workpieces already
   void set(Workpiece next, Time latest);
 
   /// Replaces the vertices of a workpiece.
-  /// @throws InvalidInput if the mesh is missing, if the revision differs, if the stamp is older than the snapshot's, or
-  ///     if TriangleMesh::deform() refuses the positions
+  /// @param latest  as for set()
+  /// @throws InvalidInput if the mesh is missing, if the revision differs, if the stamp is older than the snapshot's,
+  ///     or if TriangleMesh::deform() refuses the positions
   void deform(const Deformation& deformation, Time latest);
 
   bool remove(const std::string& id);  ///< returns false if there is no such workpiece

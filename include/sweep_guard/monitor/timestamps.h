@@ -4,7 +4,7 @@
 
 namespace sweep_guard_core {
 
-/// When an input was stamped by its sender, and when it was received.
+/// Holds the times when the sender stamped an input and when it was received.
 struct Timestamps {
   Time stamp;
   SteadyTime received;

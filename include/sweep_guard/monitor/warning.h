@@ -27,8 +27,8 @@ struct Warning {
   std::uint32_t reasons = 0;  ///< bits of Reason
   std::string text;           ///< level and reasons in words
   std::string mesh_id;        ///< workpiece of the contact, or of the predicted contact
-  /// Convex piece of the tool that touched first, if the narrow phase knows; before contact, the piece that is predicted
-  /// to touch, or most likely to.
+  /// Convex piece of the tool that touched first, if the narrow phase knows; before contact, the piece that is
+  /// predicted to touch, or most likely to.
   std::optional<size_t> tool_piece;
   std::vector<std::uint32_t> triangles;  ///< in contact, or met by the predicted path
   std::optional<Duration>

@@ -11,7 +11,8 @@
 
 namespace sweep_guard_core {
 
-/// Why a level is not clear, or what is degraded. Bits of a set; numbers equal those of sweep_guard/Warning.
+/// Names a reason for a level other than CLEAR, or a degraded state. Bits of a set; numbers equal those of
+/// sweep_guard/Warning.
 enum Reason : std::uint32_t {
   kNoPose = 1U << 0,
   kPoseStale = 1U << 1,
@@ -33,7 +34,7 @@ enum Reason : std::uint32_t {
 /// Reasons that report a degraded state and do not change the level.
 constexpr std::uint32_t kDegraded = kOverload;
 
-/// Everything that a warning is computed from.
+/// Holds the inputs of computeWarning().
 struct WarningInputs {
   struct Object {
     std::string id;

@@ -12,7 +12,7 @@
 
 namespace sweep_guard_core {
 
-/// Collects the inputs of the warning: which poses and workpieces came, which were refused, and what has been swept.
+/// Collects the inputs of the warning: received poses and workpieces, refusals, and sweeps.
 /// Each input reports from its own thread. The warning may be computed at any time, so a silent input is noticed, too.
 class WarningMonitor {
  public:
@@ -44,14 +44,14 @@ class WarningMonitor {
   /// Reports that vertices were refused. The warning is not clear until verticesAccepted() or meshAccepted().
   void verticesRefused(const std::string& id, const std::string& message);
 
-  /// Reports that good vertices came. They belong to the mesh before: a mesh refused since stays refused.
+  /// Reports accepted vertices. Does not clear the refusal of a later mesh.
   void verticesAccepted(const std::string& id);
 
   /// Sets the newest snapshots of all workpieces.
   void setWorkpieces(const Workpieces& workpieces);
 
-  /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor was
-  /// restarted since the checkpoint.
+  /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor
+  /// was restarted since the checkpoint.
   void swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint, SteadyTime now);
 
   /// Reports that the path predicted from a swept pose was tested. Does nothing if the monitor was restarted since the
@@ -74,7 +74,8 @@ class WarningMonitor {
 
   std::optional<std::string> disabledBy() const;  ///< empty: enabled
 
-  /// Returns whether a pose received at this checkpoint is still to be swept: the guard is enabled and was not restarted.
+  /// Returns whether a pose received at this checkpoint is still to be swept: the guard is enabled and was not
+  /// restarted.
   bool counts(const Checkpoint& checkpoint) const;
 
   /// Sets the limits of the next warning.

@@ -6,7 +6,7 @@
 
 namespace sweep_guard_core {
 
-/// How far ahead the motion is predicted, and in what steps: the reflex interval in small steps, then the considered
+/// Sets the length and the steps of the prediction: the reflex interval in small steps, then the considered
 /// interval in larger ones [P, Sec. 3.2, Fig. 6]. Both are counted from now, not from the newest pose.
 struct HorizonOptions {
   Duration reflex = std::chrono::milliseconds(100);           ///< end of the reflex interval, > 0
@@ -17,7 +17,8 @@ struct HorizonOptions {
   Duration reserve = std::chrono::milliseconds(100);
 };
 
-/// When the predicted sweeps end. The first sweep begins at the newest pose, each other one where the one before ends.
+/// Holds the end times of the predicted sweeps. The first sweep begins at the newest pose, each other one where the one
+/// before ends.
 struct Horizon {
   std::vector<Duration> ends;  ///< after the newest pose, ascending
   size_t reflex_sweeps = 0;    ///< number of sweeps, from the first, that end within the reflex interval
@@ -27,8 +28,8 @@ struct Horizon {
 /// @throws InvalidInput if an option is out of range, or if an interval takes more than 10000 sweeps
 void check(const HorizonOptions& options);
 
-/// Returns the number of sweeps from a pose of this age to the end of the reflex interval. A pose older than the reserve
-/// takes as many as a pose of that age; each of them then lasts longer than the reflex step.
+/// Returns the number of sweeps from a pose of this age to the end of the reflex interval. Ages beyond the
+/// reserve count as the reserve; each sweep is then longer than the reflex step.
 /// @param age  >= 0
 size_t reflexSweeps(const HorizonOptions& options, Duration age);
 

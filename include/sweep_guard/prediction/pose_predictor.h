@@ -14,8 +14,8 @@ namespace sweep_guard_core {
 struct PredictedPose {
   Duration ahead{};                                        ///< after the stamp of the newest observed pose, > 0
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< most likely pose
-  /// Covariance of its error: translation [m], then rotation vector [rad], both along the axes of W; symmetric, positive
-  /// semi-definite.
+  /// Covariance of its error: translation [m], then rotation vector [rad], both along the axes of W; symmetric,
+  /// positive semi-definite.
   Matrix6d covariance = Matrix6d::Zero();
 };
 
@@ -24,8 +24,8 @@ using PredictedPath = std::vector<PredictedPose>;
 
 struct PredictorOptions {
   std::string predictor = "direct";  ///< one of predictorNames()
-  /// Degrees of the polynomials of `polynomial`: x y z of the tool's origin along the axes of W, then rotation about the
-  /// tool's own axes; each 0 to 5.
+  /// Degrees of the polynomials of `polynomial`: x y z of the tool's origin along the axes of W, then rotation about
+  /// the tool's own axes; each 0 to 5.
   std::array<int, 6> degree = {1, 1, 1, 1, 1, 1};
   std::array<bool, 6> constrained{};                 ///< axes, in the same order, along which no motion is predicted
   double forgetting_factor = 0.98;                   ///< weight of a sample relative to the next one, in (0, 1]
@@ -37,8 +37,8 @@ struct PredictorOptions {
 /// Returns the names of the predictors: `polynomial`, `constant_velocity`, `hold`, `direct`.
 const std::vector<std::string>& predictorNames();
 
-/// Predicts the operator's motion from the observed poses [P, Sec. 3.2]. The covariance comes from the errors of its own
-/// earlier predictions. One thread.
+/// Predicts the operator's motion from the observed poses [P, Sec. 3.2]. The covariance comes from the errors of its
+/// own earlier predictions. One thread.
 class PosePredictor {
  public:
   /// @throws InvalidInput if an option is out of range
@@ -48,8 +48,8 @@ class PosePredictor {
   PosePredictor& operator=(PosePredictor&&) noexcept;
 
   /// Adds the newest pose. A pose whose stamp is not later than the previous one's replaces the previous pose. The fit
-  /// restarts after a gap (0.25 s, or three periods of slower poses, at most 1 s) and after a jump faster than the limits;
-  /// the errors learned of the operator are kept.
+  /// restarts after a gap (0.25 s, or three periods of slower poses, at most 1 s) and after a jump faster than the
+  /// limits; the errors learned of the operator are kept.
   void observe(const StampedPose& pose);
 
   /// Predicts the poses after the newest observed one. The path is empty until a motion is known: two poses since the

@@ -36,8 +36,8 @@ Msg vectorMsg(const Eigen::Vector3d& v) {
 }
 
 /// Converts a pose, and normalizes its quaternion.
-/// @throws sweep_guard_core::InvalidInput if a field is NaN, infinite or beyond 1e7 m, or if the norm of the quaternion is not
-///     within 0.1 of 1
+/// @throws sweep_guard_core::InvalidInput if a field is NaN, infinite or beyond 1e7 m, or if the norm of the quaternion
+///     is not within 0.1 of 1
 Eigen::Isometry3d fromMsg(const geometry_msgs::Pose& pose);
 Eigen::Isometry3d fromMsg(const geometry_msgs::Transform& transform);
 geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose);

@@ -14,7 +14,7 @@
 
 namespace sweep_guard_ros {
 
-/// A transform is missing, or is not a rigid motion.
+/// Reports a transform that is missing, or is not a rigid motion.
 struct FrameError : sweep_guard_core::Error {
   using Error::Error;
 };

@@ -11,8 +11,8 @@
 
 namespace sweep_guard_ros {
 
-/// Publishes `~warning`, and publishes the flags `~reflex_warning` and `~considered_warning` at once when they rise. Any
-/// thread.
+/// Publishes `~warning`, and publishes the flags `~reflex_warning` and `~considered_warning` at once when they rise.
+/// Any thread.
 class WarningPublisher {
  public:
   WarningPublisher(ros::NodeHandle private_node, const LiveParameters& parameters,

@@ -39,10 +39,10 @@ struct Parameters {
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order
 };
 
-/// Reads the private parameters, and makes the tool from them or from a robot description. A missing parameter takes its
-/// default. Warns of each parameter that is not read.
-/// @throws sweep_guard_core::InvalidInput naming key, value and range if one has the wrong type, is NaN or is out of range;
-///     naming link and file if the robot description makes no tool
+/// Reads the private parameters, and makes the tool from them or from a robot description. A missing parameter takes
+/// its default. Warns of each parameter that is not read.
+/// @throws sweep_guard_core::InvalidInput naming key, value and range if one has the wrong type, is NaN or is out of
+///     range; naming link and file if the robot description makes no tool
 Parameters loadParameters(const ros::NodeHandle& private_node);
 
 /// Returns whether a parameter may change while the node runs. Tools, topics and devices may not.
@@ -50,8 +50,8 @@ bool changesWhileRunning(const std::string& key);
 
 /// Returns the parameters with these changes, checked as at the start. All others stay, whatever the parameter server
 /// holds now.
-/// @throws sweep_guard_core::InvalidInput as loadParameters(), or if a parameter does not exist or may not change while the
-///     node runs
+/// @throws sweep_guard_core::InvalidInput as loadParameters(), or if a parameter does not exist or may not change while
+///     the node runs
 Parameters changeParameters(const ros::NodeHandle& private_node, const Parameters& before,
                             const std::map<std::string, ParameterValue>& changes);
 

@@ -16,8 +16,8 @@
 namespace sweep_guard_ros {
 
 /// Changes parameters while the node runs, by the protocol of dynamic_reconfigure: `~set_parameters`,
-/// `~parameter_descriptions`, `~parameter_updates`. Names, ranges and checks are those of loadParameters(). A request is
-/// applied as a whole, or refused as a whole with a message.
+/// `~parameter_descriptions`, `~parameter_updates`. Names, ranges and checks are those of loadParameters(). A request
+/// is applied as a whole, or refused as a whole with a message.
 class ReconfigureServer {
  public:
   /// Applies parameters that differ from the current ones. Returns when that is done, or throws and changes nothing.

@@ -80,8 +80,8 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   std::optional<PathContact> first;
   response.clear = true;
   for (const auto& workpiece : selected(request.mesh_ids)) {
-    auto path = sweep_guard_core::checkPath(
-        used, {*parameters_->tool, pathIn(workpiece->frame, request.path), workpiece->mesh_M, options, throw_if_stopping});
+    auto path = sweep_guard_core::checkPath(used, {*parameters_->tool, pathIn(workpiece->frame, request.path),
+                                                   workpiece->mesh_M, options, throw_if_stopping});
     response.margin = std::max(response.margin, path.all.margin);
     response.clear = response.clear && fresh(*workpiece);
     if (!path.all.triangles.empty() || path.all.inside)

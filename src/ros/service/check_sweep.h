@@ -14,8 +14,8 @@
 
 namespace sweep_guard_ros {
 
-/// Serves `~check_sweep`: sweeps a path of poses against the workpieces as they are now. Has its own thread and detectors
-/// and works on a snapshot of the meshes, so it never delays the guard.
+/// Serves `~check_sweep`: sweeps a path of poses against the workpieces as they are now. Has its own thread and
+/// detectors and works on a snapshot of the meshes, so it never delays the guard.
 class CheckSweepService {
  public:
   CheckSweepService(const ros::NodeHandle& private_node, const LiveParameters& live, const Frames& frames,

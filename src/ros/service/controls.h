@@ -12,8 +12,8 @@
 
 namespace sweep_guard_ros {
 
-/// Serves `~enable` and `~reset`. While disabled, the warning is UNKNOWN and both flags stay raised. The guard refuses to
-/// be disabled at REFLEX or CONTACT: a gray light would hide the danger from the operator. It can always be reset: a
+/// Serves `~enable` and `~reset`. While disabled, the warning is UNKNOWN and both flags stay raised. The guard refuses
+/// to be disabled at REFLEX or CONTACT: a gray light would hide the danger from the operator. It can always be reset: a
 /// contact that lasts is found again at the next pose. Without a next pose the contact is forgotten, and the warning is
 /// UNKNOWN.
 class Controls {

@@ -21,8 +21,8 @@ sweep_guard::Prediction predictionMsg(const sweep_guard_core::Prediction& predic
                                       const Parameters& parameters);
 
 /// Serves `~predict`: predicts the motion and its contacts for any horizon. The guard's thread predicts only the poses,
-/// in microseconds between two sweeps. The path is tested here, with a thread and a detector of its own and on a snapshot
-/// of the meshes, so the service never delays the guard.
+/// in microseconds between two sweeps. The path is tested here, with a thread and a detector of its own and on a
+/// snapshot of the meshes, so the service never delays the guard.
 class PredictService {
  public:
   struct Motion {

@@ -8,8 +8,8 @@ namespace sweep_guard_ros {
 // Functions for the bytes of an STL, OBJ or DAE file that find what assimp silently omits or distorts. `format` is stl,
 // obj or dae.
 
-/// Changes text that assimp would omit: removes a byte order mark, and converts to lower case. Blanks the materials of an
-/// OBJ, which are in other files.
+/// Changes text that assimp would omit: removes a byte order mark, and converts to lower case. Blanks the materials of
+/// an OBJ, which are in other files.
 void simplify(std::string& bytes, const std::string& format);
 
 /// Checks a file for contents that assimp does not read.

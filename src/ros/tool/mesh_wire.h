@@ -6,8 +6,8 @@
 namespace sweep_guard_ros {
 
 /// Begins the answer that mesh_reader writes to its standard output (exit status 0). The vertices follow as double
-/// x0 y0 z0 x1 ..., then the triangles as three uint32 vertex indices each. If mesh_reader refuses the file (exit status
-/// 1), its answer is the reason as text.
+/// x0 y0 z0 x1 ..., then the triangles as three uint32 vertex indices each. If mesh_reader refuses the file (exit
+/// status 1), its answer is the reason as text.
 struct MeshWireHeader {
   std::uint32_t vertices;
   std::uint32_t triangles;

@@ -29,9 +29,9 @@ struct ToolModel {
 
 /// Makes a tool from the collision geometry of a URDF, in meters. Cylinders, boxes and spheres are exact. A mesh is
 /// decomposed into sets of triangles (see decompose()), and each set is replaced by its convex hull.
-/// @throws sweep_guard_core::InvalidInput, in one line that names link and file and says what to do, if the description or a
-///     mesh is missing, malformed or hostile; if a link has no collision geometry (visual geometry is never used, and no
-///     link is omitted); or if a piece is degenerate or reaches farther than 100 m
+/// @throws sweep_guard_core::InvalidInput, in one line that names link and file and says what to do, if the description
+///     or a mesh is missing, malformed or hostile; if a link has no collision geometry (visual geometry is never used,
+///     and no link is omitted); or if a piece is degenerate or reaches farther than 100 m
 ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options);
 
 }  // namespace sweep_guard_ros

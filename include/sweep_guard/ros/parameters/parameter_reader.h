@@ -27,12 +27,13 @@ struct ParameterInfo {
   double lowest = -std::numeric_limits<double>::infinity();  ///< bound of a number, if no other parameter narrows it
   double highest = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices;  ///< allowed texts; empty: any
-  std::string wanted;                ///< unit, type and range in words
+  std::string wanted;                ///< type, unit and range, for the error text
   std::string effect;                ///< sentences for users
 };
 
 /// Reads the private parameters of a node. Each function returns the value that is set, or the fallback if none is, and
-/// throws sweep_guard_core::InvalidInput with key, value and range if the value has another type, is NaN or is out of range.
+/// throws sweep_guard_core::InvalidInput with key, value and range if the value has another type, is NaN or is out of
+/// range.
 /// (roscpp silently returns the fallback if the type is wrong.) `effect` describes the parameter to users.
 class ParameterReader {
  public:

@@ -9,8 +9,8 @@
 
 namespace sweep_guard_ros {
 
-/// Holds the surface of a mesh file, in the unit of its numbers; a DAE file, which names its unit, in meters. Axes are
-/// those of the file, whatever it calls up.
+/// Holds the surface of a mesh file, in the unit of its numbers; a DAE file, which names its unit, in meters. Keeps
+/// the axes of the file and ignores the up direction that it declares.
 struct MeshSurface {
   std::vector<Eigen::Vector3d> vertices;              ///< finite
   std::vector<sweep_guard_core::Triangle> triangles;  ///< at least one, every index below vertices.size()
@@ -24,8 +24,7 @@ struct MeshSurface {
 /// @throws sweep_guard_core::InvalidInput naming the URI and what to do
 std::filesystem::path locateMesh(const std::string& uri, const std::vector<std::string>& roots);
 
-/// Says whether the path may be a symbolic link. A path chosen by the user may be one. A path from locateMesh() is none
-/// unless it was replaced since.
+/// Selects whether readMesh() follows symbolic links. Use kFollow for paths from the user only.
 enum class SymbolicLinks { kRefuse, kFollow };
 
 /// Reads a regular STL, OBJ or DAE file of at most 32 MiB and a million triangles. The program mesh_reader next to the
