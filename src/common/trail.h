@@ -7,7 +7,7 @@
 
 namespace sweep_guard_core {
 
-/// Keeps the positions of the tool's tip of the last two seconds for drawing, at most 50 per second.
+/// Keeps the positions of the tool's tip of the last two seconds for drawing, about 50 per second.
 class Trail {
  public:
   struct Point {
