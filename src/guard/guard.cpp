@@ -52,7 +52,7 @@ void Guard::pass(const PoseWithFrames& pose) {
 }
 
 void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& prediction) {
-  if (!predicted_motion_) {
+  if (!predicted_motion_ || age > options_.horizon.reserve) {
     prediction = {};
     return;
   }

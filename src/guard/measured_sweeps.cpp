@@ -10,6 +10,19 @@ namespace {
 
 constexpr double kMergeTolerance = 1e-3;  // of the tool's bounding radius
 constexpr Duration kMaxUpdateInterval = std::chrono::milliseconds(500);
+constexpr size_t kMaxDeformations = 512;  // as a 1 kHz mesh has in that time
+
+// Poses far behind the mesh would need ever more deformations, and an ever wider test.
+// @returns how far the pose is behind the newest deformation that it would have needed; 0: none is forgotten
+Duration forgetLateDeformations(Time pose, const Workpiece& newest, Workpieces& deformations) {
+  Duration behind{};
+  while (deformations.size() > 1 &&
+         (newest.stamp - deformations[1]->stamp > kMaxUpdateInterval || deformations.size() > kMaxDeformations)) {
+    behind = deformations[1]->stamp - pose;
+    deformations.erase(deformations.begin());
+  }
+  return behind;
+}
 
 // Converts fractions of a segment to fractions of the interval, in which the segment lasts from `begin` to `end`.
 void rescale(std::vector<TriangleContact>& in_contact, double begin, double end) {
@@ -74,6 +87,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   while (swept.deformations.size() > 1 && swept.deformations[1]->stamp <= history[begin].stamp) {
     swept.deformations.erase(swept.deformations.begin());
   }
+  object.behind = forgetLateDeformations(history[begin].stamp, *workpiece, swept.deformations);
   const auto& from = swept.deformations.front();
   const Workpiece& before = *swept.deformations.back();
   const bool deformed = workpiece.get() != &before;

@@ -14,6 +14,10 @@ bool SweepReport::contact() const {
   return std::any_of(objects.begin(), objects.end(), [](const SweptObject& object) { return object.result.contact(); });
 }
 
-bool SweepReport::complete() const { return !objects.empty() && unplaced.empty() && failures.empty(); }
+bool SweepReport::complete() const {
+  const auto current = [](const SweptObject& object) { return object.behind == Duration::zero(); };
+  return !objects.empty() && unplaced.empty() && failures.empty() &&
+         std::all_of(objects.begin(), objects.end(), current);
+}
 
 }  // namespace sweep_guard_core

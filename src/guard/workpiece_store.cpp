@@ -8,8 +8,14 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr size_t kMaxWorkpieces = 1000;
+constexpr size_t kMaxRemoved = 64;
 
 bool before(const std::shared_ptr<const Workpiece>& workpiece, const std::string& id) { return workpiece->id < id; }
+
+bool sameTriangles(const Workpiece& a, const Workpiece& b) {
+  return a.frame == b.frame && a.mesh_M.vertexCount() == b.mesh_M.vertexCount() &&
+         a.mesh_M.triangles() == b.mesh_M.triangles();
+}
 
 void requireOrder(const Workpiece& current, Time stamp, Time latest) {
   if (stamp < current.stamp && current.stamp <= latest) throw InvalidInput("stamp is older than the previous one");
@@ -19,24 +25,26 @@ void requireOrder(const Workpiece& current, Time stamp, Time latest) {
 
 WorkpieceStore::WorkpieceStore(OnChange on_change) : on_change_(std::move(on_change)) {}
 
-void WorkpieceStore::set(Workpiece next, Time latest) {
+UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
   const auto current = find(next.id);
+  const bool same = current && sameTriangles(*current, next);
   if (current) {
+    if (same && next.revision == current->revision && next.stamp < current->stamp && current->stamp <= latest) {
+      return UpdateOutcome::kIgnored;
+    }
     requireOrder(*current, next.stamp, latest);
   } else if (snapshot().size() >= kMaxWorkpieces) {
     throw InvalidInput("there are " + std::to_string(kMaxWorkpieces) + " workpieces already: remove some");
   }
-  const bool deforms = current && current->frame == next.frame &&
-                       current->mesh_M.vertexCount() == next.mesh_M.vertexCount() &&
-                       current->mesh_M.triangles() == next.mesh_M.triangles();
-  if (deforms) countUpdate(*current, next);
+  if (same) countUpdate(*current, next);
   buffers_.erase(next.id);
   replace(std::make_shared<const Workpiece>(std::move(next)));
+  return UpdateOutcome::kStored;
 }
 
-void WorkpieceStore::deform(const Deformation& deformation, Time latest) {
+UpdateOutcome WorkpieceStore::deform(const Deformation& deformation, Time latest) {
   const auto current = find(deformation.id);
-  if (!current) throw InvalidInput("vertices came before their mesh: publish DeformableMesh latched");
+  if (!current) return wasRemoved(deformation) ? UpdateOutcome::kIgnored : UpdateOutcome::kUnknownWorkpiece;
   if (current->revision != deformation.revision) {
     throw InvalidInput("vertices have revision " + std::to_string(deformation.revision) + ", their mesh has " +
                        std::to_string(current->revision));
@@ -52,6 +60,14 @@ void WorkpieceStore::deform(const Deformation& deformation, Time latest) {
   next->frame = deformation.frame;
   countUpdate(*current, *next);
   replace(next);
+  return UpdateOutcome::kStored;
+}
+
+bool WorkpieceStore::wasRemoved(const Deformation& deformation) const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(removed_.begin(), removed_.end(), [&](const auto& removed) {
+    return removed.first == deformation.id && deformation.stamp <= removed.second;
+  });
 }
 
 std::shared_ptr<Workpiece> WorkpieceStore::unusedSnapshot(const Workpiece& current) {
@@ -81,11 +97,13 @@ void WorkpieceStore::replace(std::shared_ptr<const Workpiece> snapshot) {
   on_change_(workpieces_);
 }
 
-bool WorkpieceStore::remove(const std::string& id) {
+bool WorkpieceStore::remove(const std::string& id, Time stamp) {
   buffers_.erase(id);
   const std::lock_guard lock(mutex_);
   const auto found = std::lower_bound(workpieces_.begin(), workpieces_.end(), id, before);
   if (found == workpieces_.end() || (*found)->id != id) return false;
+  removed_.emplace_back(id, std::max(stamp, (*found)->stamp));
+  if (removed_.size() > kMaxRemoved) removed_.pop_front();
   workpieces_.erase(found);
   updateFrames();
   on_change_(workpieces_);
@@ -110,6 +128,7 @@ void WorkpieceStore::updateFrames() {
 
 void WorkpieceStore::clearStamps() {
   const std::lock_guard lock(mutex_);
+  removed_.clear();
   for (auto& workpiece : workpieces_) {
     Workpiece undated = *workpiece;
     undated.stamp = {};

@@ -9,6 +9,8 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr Duration kUnreadTime = std::chrono::seconds(1);
+
 std::string inSeconds(Duration duration) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f s", toSeconds(duration));
@@ -35,7 +37,15 @@ void addPoseReasons(const WarningInputs& inputs, const Instant& now, const Warni
   if (!inputs.pose) {
     add(warning, kNoPose, {"no tool pose yet"});
   } else if (stale(*inputs.pose, now, limits.pose_timeout)) {
-    add(warning, kPoseStale, {"newest tool pose is ", inSeconds(age(*inputs.pose, now)), " old"});
+    const bool arrives = now.steady - inputs.pose->received <= limits.pose_timeout;
+    add(warning, kPoseStale,
+        {"newest tool pose is ", inSeconds(age(*inputs.pose, now)), " old",
+         arrives ? " by its stamp: clocks differ" : ""});
+  }
+  if (!inputs.waiting_since) return;
+  const Duration waited = now.steady - *inputs.waiting_since;
+  if (waited > std::max(limits.overload, inputs.look_ahead)) {
+    add(warning, kPosesUnswept, {"a tool pose has waited for ", inSeconds(waited)});
   }
 }
 
@@ -48,21 +58,41 @@ void addCoverageReasons(const WarningInputs& inputs, const Instant& now, const W
   add(warning, kNotCovered, {"predicted path tested for ", inSeconds(ahead), " only"});
 }
 
+void addMissing(const WarningInputs& inputs, Warning& warning) {
+  if (inputs.objects.empty() && inputs.required.empty()) add(warning, kNoMesh, {"no workpiece yet"});
+  auto object = inputs.objects.begin();
+  for (const std::string& id : inputs.required) {
+    while (object != inputs.objects.end() && object->id < id) ++object;
+    if (object != inputs.objects.end() && object->id == id) continue;
+    add(warning, kNoMesh, {"workpiece '", id, "' has not arrived"});
+  }
+}
+
 void addObjectReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
-  if (inputs.objects.empty()) add(warning, kNoMesh, {"no workpiece yet"});
+  addMissing(inputs, warning);
   for (const WarningInputs::Object& object : inputs.objects) {
     if (stale(object.timestamps, now, limits.mesh_timeout)) {
       add(warning, kMeshStale, {"workpiece '", object.id, "' is ", inSeconds(age(object.timestamps, now)), " old"});
     }
-    if (inputs.pose && !object.swept) {
+    if (object.dropped) add(warning, kMeshDropped, {"vertices of workpiece '", object.id, "' were dropped"});
+    if (!inputs.pose || object.swept) continue;
+    if (object.behind > Duration::zero()) {
+      add(warning, kNotSwept, {"tool poses are ", inSeconds(object.behind), " behind workpiece '", object.id, "'"});
+    } else {
       add(warning, kNotSwept, {"workpiece '", object.id, "' not swept yet"});
     }
+  }
+  if (inputs.unread && now.steady - inputs.unread->found <= kUnreadTime) {
+    add(warning, kMeshInvalid, {inputs.unread->message});
   }
 }
 
 void addLoadReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
-  if (!inputs.overload || now.steady - inputs.overload->found > limits.hold_time) return;
-  add(warning, kOverload, {"overload: poses of ", inSeconds(inputs.overload->span), " swept at once"});
+  const auto held = [&](const auto& event) { return event && now.steady - event->found <= limits.hold_time; };
+  if (held(inputs.overload)) {
+    add(warning, kOverload, {"overload: poses of ", inSeconds(inputs.overload->span), " swept at once"});
+  }
+  if (held(inputs.pose_loss)) add(warning, kPoseLoss, {inputs.pose_loss->message});
 }
 
 // The strongest current or held warning, and the contact that it is about.
@@ -175,6 +205,13 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
     describeContact(warning, inputs.contact->inside);
   }
   insert(warning.text, 0, {styleOf(warning.level).name, warning.text.empty() ? "" : ": "});
+}
+
+std::string meshProblems(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits) {
+  Warning warning;
+  addObjectReasons(inputs, now, limits, warning);
+  for (const auto& [reason, message] : inputs.faults) add(warning, reason, {message});
+  return warning.text;
 }
 
 WarningLevel warningLevel(Duration time_left, const WarningLimits& limits) {

@@ -39,8 +39,14 @@ bool notSwept(const SweepReport& report, const std::string& id) {
 
 }  // namespace
 
-WarningMonitor::WarningMonitor(const WarningLimits& limits, std::function<void()> on_fault)
-    : on_fault_(std::move(on_fault)), limits_(limits) {}
+WarningMonitor::WarningMonitor(const WarningLimits& limits, std::function<void()> on_fault,
+                               std::function<std::optional<SteadyTime>()> waiting_since)
+    : on_fault_(std::move(on_fault)), waiting_since_(std::move(waiting_since)), limits_(limits) {}
+
+void WarningMonitor::require(const std::set<std::string>& ids) {
+  const std::lock_guard lock(mutex_);
+  inputs_.required.assign(ids.begin(), ids.end());
+}
 
 WarningMonitor::Checkpoint WarningMonitor::checkpoint() const {
   const std::lock_guard lock(mutex_);
@@ -88,6 +94,34 @@ void WarningMonitor::verticesAccepted(const std::string& id) {
   if (refused_vertices_.erase(id) > 0) updateRefusals();
 }
 
+void WarningMonitor::meshUnread(const std::string& message, SteadyTime now) {
+  {
+    const std::lock_guard lock(mutex_);
+    inputs_.unread = WarningInputs::Event{message, now};
+  }
+  on_fault_();
+}
+
+void WarningMonitor::updateDropped(const std::string& id) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
+    const auto known = std::find_if(workpieces_.begin(), workpieces_.end(), same);
+    if (known == workpieces_.end()) return;
+    dropped_[id] = (*known)->updates;
+    updateObjects();
+  }
+  on_fault_();
+}
+
+void WarningMonitor::posesLost(const std::string& message, SteadyTime now) {
+  {
+    const std::lock_guard lock(mutex_);
+    inputs_.pose_loss = WarningInputs::Event{message, now};
+  }
+  on_fault_();
+}
+
 void WarningMonitor::updateRefusals() {
   const Messages& messages = refused_meshes_.empty() ? refused_vertices_ : refused_meshes_;
   inputs_.faults.erase(kMeshInvalid);
@@ -108,6 +142,7 @@ void WarningMonitor::updateObjects() {
     object.id = workpiece.id;
     object.timestamps = {workpiece.stamp, workpiece.received};
     object.swept = holds(swept_, workpiece);
+    object.dropped = dropped_.count(workpiece.id) != 0;
   }
 }
 
@@ -127,13 +162,26 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
     }
     inputs_.pose = pose;
     swept_.clear();
-    for (const SweptObject& object : report.objects) swept_.push_back(object.workpiece);
+    for (const SweptObject& object : report.objects) {
+      if (object.behind == Duration::zero()) swept_.push_back(object.workpiece);
+      const auto dropped = dropped_.find(object.workpiece->id);
+      if (dropped != dropped_.end() && object.workpiece->updates > dropped->second) dropped_.erase(dropped);
+    }
     updateObjects();
+    updateBehind(report);
     if (report.complete()) swept_until_ = report.end;
     updateContact(report, now);
     if (report.backlog > limits_.overload) inputs_.overload = WarningInputs::Backlog{report.backlog, now};
   }
   if (!report.failures.empty()) on_fault_();
+}
+
+void WarningMonitor::updateBehind(const SweepReport& report) {
+  for (WarningInputs::Object& object : inputs_.objects) {
+    const auto same = [&](const SweptObject& swept) { return swept.workpiece->id == object.id; };
+    const auto swept = std::find_if(report.objects.begin(), report.objects.end(), same);
+    object.behind = swept == report.objects.end() ? Duration::zero() : swept->behind;
+  }
 }
 
 void WarningMonitor::updateContact(const SweepReport& report, SteadyTime now) {
@@ -154,10 +202,11 @@ void WarningMonitor::updateContact(const SweepReport& report, SteadyTime now) {
 }
 
 void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint,
-                               const Instant& now) {
+                               const Instant& now, Duration took) {
   {
     const std::lock_guard lock(mutex_);
     if (!checkpoint_.continues(checkpoint)) return;
+    inputs_.look_ahead = took;
     for (const SweepFailure& failure : prediction.failures) {
       addFault(kDetectorFault, "predicting contact with '" + failure.workpiece->id + "' failed: " + failure.reason);
     }
@@ -211,6 +260,7 @@ void WarningMonitor::restartLocked() {
   inputs_.reflex.reset();
   inputs_.considered.reset();
   inputs_.overload.reset();
+  inputs_.pose_loss.reset();
   inputs_.faults.clear();
   swept_until_ = {};
   coverage_.reset();
@@ -268,7 +318,29 @@ void WarningMonitor::setLimits(const WarningLimits& limits) {
 void WarningMonitor::warning(const Instant& now, Warning& warning) const {
   const std::lock_guard lock(mutex_);
   inputs_.covered_until = coveredUntil(now);
+  inputs_.waiting_since = waiting_since_();
   computeWarning(inputs_, now, limits_, warning);
+}
+
+std::string WarningMonitor::meshProblems(const Instant& now, const std::vector<std::string>& ids) const {
+  const std::lock_guard lock(mutex_);
+  const auto asked = [&](const std::string& id) {
+    return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end();
+  };
+  WarningInputs meshes;
+  for (const WarningInputs::Object& object : inputs_.objects) {
+    if (asked(object.id)) meshes.objects.push_back(object);
+  }
+  for (const std::string& id : inputs_.required) {
+    if (asked(id)) meshes.required.push_back(id);
+  }
+  for (const Messages* refusals : {&refused_vertices_, &refused_meshes_}) {
+    for (const auto& [id, message] : *refusals) {
+      if (asked(id)) meshes.faults[kMeshInvalid] = message;
+    }
+  }
+  if (ids.empty()) meshes.unread = inputs_.unread;
+  return sweep_guard_core::meshProblems(meshes, now, limits_);
 }
 
 // Poses may come faster than predictions: an older prediction counts while its pose is not stale.

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "ros/real_time.h"
+#include "ros/process.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -100,6 +100,7 @@ void GuardThread::run() {
     for (const auto& task : work.tasks) task();
     const std::vector<QueuedPose>& poses = work.poses;
     for (size_t i = 0; i < poses.size(); ++i) process(poses[i], i + 1 < poses.size() ? &poses[i + 1] : nullptr);
+    dependencies_.queue.swept({});
   }
 }
 
@@ -113,6 +114,7 @@ void GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
   try {
     if (next != nullptr && knowsAllFramesOf(queued, *next)) return pass(queued.pose);
     sweep(queued);
+    dependencies_.queue.swept(next != nullptr ? std::optional(next->pose.received) : std::nullopt);
     if (timeToPredict()) predict(queued);
   } catch (const std::exception& error) {  // out of memory for the report or its messages
     const std::string message = std::string("sweep failed: ") + error.what();
@@ -162,11 +164,12 @@ bool GuardThread::timeToPredict() const {
 void GuardThread::predict(const QueuedPose& queued) {
   const Instant at = now();
   predicted_at_ = at.steady;
+  if (stale(*swept_, at, dependencies_.parameters.get()->limits.pose_timeout)) return;
   const Duration age = ageOf(*swept_, at);
   const auto prediction = predictions_.take();
   guard_.predict(age, dependencies_.workpieces.snapshot(), *prediction);
   const SteadyTime end = std::chrono::steady_clock::now();
-  dependencies_.monitor.predicted(*prediction, *swept_, queued.checkpoint, now());
+  dependencies_.monitor.predicted(*prediction, *swept_, queued.checkpoint, now(), end - at.steady);
   dependencies_.warnings.publishIfChanged();
   results_.publish(*prediction, age);
 

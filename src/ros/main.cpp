@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "ros/node.h"
+#include "ros/process.h"
 #include "sweep_guard/common/error.h"
 
 int main(int argc, char** argv) {
@@ -11,6 +12,7 @@ int main(int argc, char** argv) {
     const ros::NodeHandle alive;  // the console is silent without a handle
     try {
       const sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~")};
+      sweep_guard_ros::limitMemory(node.parameters().max_memory);
       ros::waitForShutdown();
     } catch (const sweep_guard_core::Error& error) {
       ROS_FATAL("%s", error.what());

@@ -14,15 +14,21 @@ const ros::WallDuration kDiagnosticsPeriod(1.0);
 
 SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : parameters_(loadParameters(private_node)),
-      monitor_(parameters_.initial().limits, [this] { warnings_.publishIfChanged(); }),
+      monitor_(
+          parameters_.initial().limits, [this] { warnings_.publishIfChanged(); },
+          [this] { return queue_.waitingSince(); }),
       warnings_(private_node, parameters_, monitor_),
       scene_(private_node, parameters_, monitor_),
       statistics_(parameters_.initial().guard.cycle),
+      frames_(node, parameters_.initial().max_message_size,
+              [this](const std::string& parent, const std::string& child) {
+                monitor_.timeJumped("static transform from '" + child + "' to '" + parent + "' has changed");
+              }),
       workpieces_([this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }),
       guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_}),
       poses_(node, parameters_.initial(), {frames_, workpieces_, monitor_, queue_}),
-      meshes_(node, parameters_.initial().max_triangles, workpieces_, monitor_),
-      check_sweep_(private_node, parameters_, frames_, workpieces_),
+      meshes_(node, parameters_.initial(), workpieces_, monitor_),
+      check_sweep_(private_node, parameters_, frames_, workpieces_, monitor_),
       predict_(private_node, parameters_, workpieces_,
                [this](sweep_guard_core::Duration horizon) { return guard_thread_.predictMotion(horizon); }),
       controls_(private_node, monitor_, workpieces_, [this] { guard_thread_.reset(); }),

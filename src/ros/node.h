@@ -27,6 +27,8 @@ class SweepGuardNode {
   SweepGuardNode(const SweepGuardNode&) = delete;
   SweepGuardNode& operator=(const SweepGuardNode&) = delete;
 
+  const Parameters& parameters() const { return parameters_.initial(); }  ///< at the start
+
  private:
   void apply(const std::shared_ptr<const Parameters>& next);
   void createTimers(const ros::NodeHandle& node);
@@ -34,6 +36,7 @@ class SweepGuardNode {
 
   // Members use only earlier members. Exception: the monitor reports faults to warnings_.
   LiveParameters parameters_;
+  WorkQueue queue_;
   sweep_guard_core::WarningMonitor monitor_;
   WarningPublisher warnings_;
   ScenePublisher scene_;
@@ -43,7 +46,6 @@ class SweepGuardNode {
   sweep_guard_core::SweepStatistics statistics_;
   Frames frames_;
   sweep_guard_core::WorkpieceStore workpieces_;
-  WorkQueue queue_;
   GuardThread guard_thread_;
   PoseInput poses_;
   MeshInput meshes_;

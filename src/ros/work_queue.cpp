@@ -5,18 +5,21 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr size_t kMaxPoses = 4096;  // swept at once; later poses wait in the input, which drops none
+constexpr size_t kMaxPoses = 65536;  // 65 s at 1 kHz
 constexpr size_t kMaxTasks = 16;
 
 }  // namespace
 
-void WorkQueue::push(QueuedPose pose) {
+bool WorkQueue::push(QueuedPose pose) {
+  bool full = false;
   {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return stopping_ || work_.poses.size() < kMaxPoses; });
+    const std::lock_guard lock(mutex_);
+    full = work_.poses.size() == kMaxPoses;
+    if (full) work_.poses.pop_back();
     work_.poses.push_back(std::move(pose));
   }
   changed_.notify_all();
+  return !full;
 }
 
 void WorkQueue::pushTask(std::function<void()> task) {
@@ -37,9 +40,20 @@ bool WorkQueue::take(Work& taken) {
     changed_.wait(lock, [this] { return stopping_ || !work_.poses.empty() || !work_.tasks.empty(); });
     if (stopping_) return false;
     std::swap(taken, work_);
+    if (!taken.poses.empty()) taken_since_ = taken.poses.front().pose.received;
   }
-  changed_.notify_all();
   return true;
+}
+
+void WorkQueue::swept(std::optional<sweep_guard_core::SteadyTime> next) {
+  const std::lock_guard lock(mutex_);
+  taken_since_ = next;
+}
+
+std::optional<sweep_guard_core::SteadyTime> WorkQueue::waitingSince() const {
+  const std::lock_guard lock(mutex_);
+  if (taken_since_ || work_.poses.empty()) return taken_since_;
+  return work_.poses.front().pose.received;
 }
 
 bool WorkQueue::hasPoses() const {

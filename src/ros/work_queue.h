@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,9 @@ class WorkQueue {
     std::vector<QueuedPose> poses;
   };
 
-  void push(QueuedPose pose);  ///< waits while the queue is full
+  /// Queues a pose. In a full queue it replaces the newest one.
+  /// @returns false if it replaced a pose, which is then not swept
+  bool push(QueuedPose pose);
 
   /// Queues a task and returns its result to come.
   /// @throws sweep_guard_core::Error if too many tasks are queued, or after stop()
@@ -44,6 +47,12 @@ class WorkQueue {
   bool take(Work& taken);
   bool hasPoses() const;
 
+  /// Reports that the poses taken so far are swept, except those from this one on.
+  /// @param next  when the next of the taken poses was received; empty: all are swept
+  void swept(std::optional<sweep_guard_core::SteadyTime> next);
+  /// Returns when the oldest pose that is not yet swept was received; empty: there is none.
+  std::optional<sweep_guard_core::SteadyTime> waitingSince() const;
+
   /// Drops all work and ends every wait. A dropped task's future throws std::future_error.
   void stop();
 
@@ -53,6 +62,7 @@ class WorkQueue {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Work work_;
+  std::optional<sweep_guard_core::SteadyTime> taken_since_;  // of the oldest taken pose that is not yet swept
   bool stopping_ = false;
 };
 

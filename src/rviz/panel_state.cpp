@@ -27,6 +27,10 @@ constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
     {Warning::NOT_SWEPT, "a workpiece has not been swept yet"},
     {Warning::NOT_COVERED, "predicted path not tested"},
     {Warning::OVERLOAD, "overload: several poses swept at once"},
+    {Warning::MULTI_PUBLISHER, "several nodes publish tool poses"},
+    {Warning::POSE_LOSS, "tool poses were lost on the way"},
+    {Warning::POSES_UNSWEPT, "tool poses wait to be swept"},
+    {Warning::MESH_DROPPED, "vertices of a workpiece were dropped"},
     {Warning::DISABLED, "the guard is disabled: nothing is tested"},
 };
 
@@ -120,7 +124,8 @@ Moment currentMoment() { return {std::chrono::steady_clock::now(), ros::Time::no
 
 WarningLevel levelOf(const Warning& warning) {
   const bool says_clear = warning.level == Warning::CLEAR;
-  const bool is_clear = warning.clear && (warning.reasons & ~std::uint32_t{Warning::OVERLOAD}) == 0;
+  const bool is_clear =
+      warning.clear && (warning.reasons & ~std::uint32_t{Warning::OVERLOAD | Warning::POSE_LOSS}) == 0;
   if (warning.level > Warning::CONTACT || says_clear != is_clear) return WarningLevel::kUnknown;
   return static_cast<WarningLevel>(warning.level);
 }

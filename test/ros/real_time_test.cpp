@@ -1,4 +1,4 @@
-#include "ros/real_time.h"
+#include "ros/process.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>

@@ -46,7 +46,8 @@ class Guard {
   void sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
 
   /// Predicts the path after the newest pose and tests it. Frames of workpieces are taken to stay where they are. The
-  /// path is empty until two poses are known.
+  /// path is empty until two poses are known, and once the newest pose is older than the reserve of the horizon: the
+  /// number of sweeps would grow with the age.
   /// @param age  of the newest pose, >= 0
   /// @param[out] prediction  overwritten; its buffers are used again
   void predict(Duration age, const Workpieces& workpieces, Prediction& prediction);

@@ -15,6 +15,9 @@ struct SweptObject {
   /// Stamp of the pose that the sweep began at. Times of impact are fractions of the interval from this stamp to the
   /// stamp of the newest pose. A contact that a mesh update caused before this stamp has time 0.
   Time interval_start;
+  /// Time by which the pose is older than updates of the workpiece that are forgotten already: the sweep leaves out how
+  /// the workpiece moved meanwhile. 0: nothing is left out.
+  Duration behind{};
   SweepResult result;
 };
 
@@ -29,7 +32,7 @@ struct SweepReport {
 
   double margin() const;  ///< largest margin of all objects [m]
   bool contact() const;   ///< the tool met an object
-  bool complete() const;  ///< there is at least one workpiece, and every workpiece was swept
+  bool complete() const;  ///< there is at least one workpiece, and every workpiece was swept with all its updates
 };
 
 }  // namespace sweep_guard_core

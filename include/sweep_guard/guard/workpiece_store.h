@@ -1,11 +1,13 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sweep_guard/common/pool.h"
@@ -23,6 +25,13 @@ struct Deformation {
   const std::vector<float>& positions_M;  ///< x0 y0 z0 x1 ... [m]
 };
 
+/// What became of an update.
+enum class UpdateOutcome {
+  kStored,
+  kIgnored,           ///< it is older than what is known already, and says nothing new
+  kUnknownWorkpiece,  ///< there is no workpiece of this id
+};
+
 /// Keeps the newest snapshot of every workpiece. Snapshots do not change while they are shared. Unshared
 /// snapshots are reused for deformations, which then allocate nothing. One thread calls set(), deform() and
 /// remove(); any thread may call the others. A call that throws keeps the old snapshot.
@@ -36,16 +45,21 @@ class WorkpieceStore {
   /// Adds or replaces a workpiece, and sets `updates` and `path_length`: they continue if frame and triangles stay.
   /// @param latest  latest plausible stamp, as a rule now. A snapshot stamped later is from before time went back; any
   ///                stamp may replace it
+  /// @returns kIgnored for an older copy of the same revision: latched messages may be delivered again
   /// @throws InvalidInput if the stamp is older than the snapshot's, or if there are 1000 workpieces already
-  void set(Workpiece next, Time latest);
+  UpdateOutcome set(Workpiece next, Time latest);
 
   /// Replaces the vertices of a workpiece.
   /// @param latest  as for set()
-  /// @throws InvalidInput if the mesh is missing, if the revision differs, if the stamp is older than the snapshot's,
-  ///     or if TriangleMesh::deform() refuses the positions
-  void deform(const Deformation& deformation, Time latest);
+  /// @returns kIgnored if the workpiece was removed at this stamp or later
+  /// @throws InvalidInput if the revision differs, if the stamp is older than the snapshot's, or if
+  ///     TriangleMesh::deform() refuses the positions
+  UpdateOutcome deform(const Deformation& deformation, Time latest);
 
-  bool remove(const std::string& id);  ///< returns false if there is no such workpiece
+  /// Removes a workpiece.
+  /// @param stamp  vertices of this workpiece that are stamped no later are ignored from now on
+  /// @returns false if there is no such workpiece
+  bool remove(const std::string& id, Time stamp);
 
   Workpieces snapshot() const;                                  ///< ascending by id
   std::shared_ptr<const std::set<std::string>> frames() const;  ///< frames of all workpieces
@@ -63,12 +77,14 @@ class WorkpieceStore {
   std::shared_ptr<Workpiece> unusedSnapshot(const Workpiece& current);
   void replace(std::shared_ptr<const Workpiece> snapshot);
   void updateFrames();
+  bool wasRemoved(const Deformation& deformation) const;
 
   const OnChange on_change_;
   mutable std::mutex mutex_;
   Workpieces workpieces_;
   std::shared_ptr<const std::set<std::string>> frames_ = std::make_shared<const std::set<std::string>>();
-  std::map<std::string, Buffers> buffers_;  // by id, for the triangles of the snapshot; not locked
+  std::map<std::string, Buffers> buffers_;            // by id, for the triangles of the snapshot; not locked
+  std::deque<std::pair<std::string, Time>> removed_;  // ids and stamps, the newest last
 };
 
 }  // namespace sweep_guard_core

@@ -51,6 +51,10 @@ struct Warning {
 /// @param[out] warning  overwritten; its buffers are used again
 void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning);
 
+/// Returns why the workpieces are not as good as CLEAR needs them, in words; empty if they are. Ignores the poses if
+/// `inputs` has none.
+std::string meshProblems(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits);
+
 /// Returns the level of a predicted contact that is `time_left` away: kReflex, kConsidered, or kClear for none.
 WarningLevel warningLevel(Duration time_left, const WarningLimits& limits);
 

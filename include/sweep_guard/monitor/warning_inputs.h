@@ -29,17 +29,23 @@ enum Reason : std::uint32_t {
   kNotCovered = 1U << 12,
   kOverload = 1U << 13,
   kDisabled = 1U << 14,
+  kMultiPublisher = 1U << 15,
+  kPoseLoss = 1U << 16,
+  kPosesUnswept = 1U << 17,
+  kMeshDropped = 1U << 18,
 };
 
 /// Reasons that report a degraded state and do not change the level.
-constexpr std::uint32_t kDegraded = kOverload;
+constexpr std::uint32_t kDegraded = kOverload | kPoseLoss;
 
 /// Holds the inputs of computeWarning().
 struct WarningInputs {
   struct Object {
     std::string id;
     Timestamps timestamps;
-    bool swept = false;  ///< this revision was swept at the newest pose
+    bool swept = false;    ///< this revision was swept at the newest pose
+    Duration behind = {};  ///< the newest pose is older by this than a mesh that it should have been swept against
+    bool dropped = false;  ///< an update was dropped unread, and the workpiece was not swept since
   };
   struct Contact {
     std::string id;
@@ -59,6 +65,11 @@ struct WarningInputs {
     Duration span{};  ///< from the first to the last of these poses
     SteadyTime found;
   };
+  /// Something that is reported for a while after it happened.
+  struct Event {
+    std::string message;
+    SteadyTime found;
+  };
 
   std::optional<Timestamps> pose;  ///< newest pose that has been swept
   std::vector<Object> objects;
@@ -66,10 +77,15 @@ struct WarningInputs {
   std::optional<PredictedContact> predicted;  ///< from the newest prediction of its workpiece
   std::optional<Alarm> reflex;                ///< newest reflex warning that has ended
   std::optional<Alarm> considered;            ///< newest considered warning that has ended
-  Time covered_until;                    ///< every workpiece is tested up to here, measured or predicted; epoch: never
-  std::optional<Backlog> overload;       ///< newest backlog that exceeded the limit
-  std::map<Reason, std::string> faults;  ///< current faults, each with a message
-  std::optional<std::string> disabled_by;  ///< caller that disabled the guard; then nothing else counts
+  Time covered_until;                 ///< every workpiece is tested up to here, measured or predicted; epoch: never
+  std::optional<Backlog> overload;    ///< newest backlog that exceeded the limit
+  std::optional<Event> pose_loss;     ///< newest poses that were sent and did not arrive
+  std::optional<Event> unread;        ///< newest message on a mesh topic that belongs to no workpiece
+  std::vector<std::string> required;  ///< ids of the workpieces that must be there: ascending
+  std::optional<SteadyTime> waiting_since;  ///< when the oldest pose that is not yet swept was received
+  Duration look_ahead{};                    ///< time that the newest prediction took
+  std::map<Reason, std::string> faults;     ///< current faults, each with a message
+  std::optional<std::string> disabled_by;   ///< caller that disabled the guard; then nothing else counts
 };
 
 }  // namespace sweep_guard_core

@@ -5,7 +5,9 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "sweep_guard/guard/sweep_report.h"
 #include "sweep_guard/monitor/warning.h"
@@ -26,8 +28,14 @@ class WarningMonitor {
   };
 
   /// @param on_fault  called after every fault and every restart, in the thread that reports it
+  /// @param waiting_since  returns when the oldest pose that is not yet swept was received. Called by warning(); must
+  ///                       not call the monitor
   explicit WarningMonitor(
-      const WarningLimits& limits, std::function<void()> on_fault = [] {});
+      const WarningLimits& limits, std::function<void()> on_fault = [] {},
+      std::function<std::optional<SteadyTime>()> waiting_since = [] { return std::nullopt; });
+
+  /// Sets the ids of the workpieces without which the warning is not clear.
+  void require(const std::set<std::string>& ids);
 
   Checkpoint checkpoint() const;
 
@@ -47,6 +55,17 @@ class WarningMonitor {
   /// Reports accepted vertices. Does not clear the refusal of a later mesh.
   void verticesAccepted(const std::string& id);
 
+  /// Reports a message on a mesh topic that belongs to no workpiece: its id is unknown, or it cannot be read. The
+  /// warning is not clear until 1 s after the last of these.
+  void meshUnread(const std::string& message, SteadyTime now);
+
+  /// Reports that an update of a workpiece was dropped unread. The warning is not clear until that workpiece is swept
+  /// with a later update.
+  void updateDropped(const std::string& id);
+
+  /// Reports that poses were sent and did not arrive. The warning says so for the hold time; its level stays.
+  void posesLost(const std::string& message, SteadyTime now);
+
   /// Sets the newest snapshots of all workpieces.
   void setWorkpieces(const Workpieces& workpieces);
 
@@ -56,8 +75,9 @@ class WarningMonitor {
 
   /// Reports that the path predicted from a swept pose was tested. Does nothing if the monitor was restarted since the
   /// checkpoint.
-  void predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint,
-                 const Instant& now);
+  /// @param took  time that the prediction and its sweeps took
+  void predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint, const Instant& now,
+                 Duration took = {});
 
   /// Reports that time went back. Forgets poses, predictions and faults; kTimeJump lasts until a new pose is swept.
   void timeJumped(const std::string& message);
@@ -85,6 +105,10 @@ class WarningMonitor {
   /// @param[out] warning  overwritten; its buffers are used again
   void warning(const Instant& now, Warning& warning) const;
 
+  /// Returns why these workpieces are not as good as CLEAR needs them, in words; empty if they are.
+  /// @param ids  empty: all workpieces, and those that are required
+  std::string meshProblems(const Instant& now, const std::vector<std::string>& ids) const;
+
  private:
   struct Coverage {
     Timestamps pose;     // where the prediction began
@@ -98,16 +122,18 @@ class WarningMonitor {
   void refuse(Messages& refusals, const std::string& id, const std::string& message);
   void updateRefusals();
   void updateObjects();
+  void updateBehind(const SweepReport& report);
   void updateContact(const SweepReport& report, SteadyTime now);
   void updatePredicted(const Instant& now);
   void updateAlarms(const Instant& now);
   Time coveredUntil(const Instant& now) const;
 
   const std::function<void()> on_fault_;
+  const std::function<std::optional<SteadyTime>()> waiting_since_;
   mutable std::mutex mutex_;
   WarningLimits limits_;
   Checkpoint checkpoint_;
-  mutable WarningInputs inputs_;  // covered_until is that of the last warning
+  mutable WarningInputs inputs_;  // covered_until and waiting_since are those of the last warning
   Time swept_until_;              // every workpiece
   Workpieces swept_;              // at the newest pose
   std::optional<Coverage> coverage_;
@@ -116,6 +142,7 @@ class WarningMonitor {
   std::map<Reason, std::uint64_t> fault_numbers_;
   Messages refused_meshes_;
   Messages refused_vertices_;
+  std::map<std::string, std::uint64_t> dropped_;  // by id: the number of updates that the workpiece had
 };
 
 }  // namespace sweep_guard_core

@@ -3,12 +3,28 @@
 #include <mutex>
 #include <thread>
 
+#include "ros/bounded.h"
+#include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
 
+using sweep_guard_core::printable;
+
 constexpr auto kPollPeriod = std::chrono::milliseconds(1);
+constexpr std::uint32_t kQueueLength = 1000;
+constexpr size_t kMaxReason = 400;    // [bytes]
+constexpr size_t kMaxStatic = 10000;  // frames; changes of further ones go unnoticed
+
+void check(const geometry_msgs::TransformStamped& transform) {
+  for (const std::string& frame : {transform.header.frame_id, transform.child_frame_id}) {
+    if (!sweep_guard_core::isName(frame)) {
+      throw sweep_guard_core::InvalidInput("a frame is no name of up to 128 printable characters");
+    }
+  }
+  fromMsg(transform.transform);
+}
 
 // Runs a callback until it is closed. Closing waits for a running callback.
 class Gate {
@@ -32,7 +48,48 @@ std::string withoutSlash(const std::string& frame) { return frame.substr(frame.f
 
 }  // namespace
 
-Frames::Frames() : listener_(buffer_) {}
+Frames::Frames(const ros::NodeHandle& node, size_t max_message_size,
+               std::function<void(const std::string&, const std::string&)> on_static_change)
+    : on_static_change_(std::move(on_static_change)) {
+  buffer_.setUsingDedicatedThread(true);
+  const auto subscribe = [&](const std::string& topic, bool is_static) {
+    return subscribeBounded<tf2_msgs::TFMessage>(
+        thread_.on(node), {topic, kQueueLength, max_message_size},
+        [this, is_static](const auto& event) { onTransforms(event, is_static); },
+        [this, topic](const std::string& reason) { log_.error(topic, topic + ": " + reason); });
+  };
+  moving_ = subscribe("/tf", /*is_static=*/false);
+  static_ = subscribe("/tf_static", /*is_static=*/true);
+  thread_.start();
+}
+
+// As tf2's own listener, which reserves whatever memory a message announces and logs names as they come.
+void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static) {
+  const ros::Time at = ros::Time::now();
+  if (at < newest_) buffer_.clear();
+  newest_ = at;
+  for (const geometry_msgs::TransformStamped& transform : event.getConstMessage()->transforms) {
+    try {
+      check(transform);
+      if (is_static) checkStatic(transform);
+      buffer_.setTransform(transform, event.getPublisherName(), is_static);
+    } catch (const sweep_guard_core::InvalidInput& error) {
+      log_.error("transform", "transform to '" + printable(transform.child_frame_id) + "' refused: " + error.what());
+    }
+  }
+}
+
+void Frames::checkStatic(const geometry_msgs::TransformStamped& transform) {
+  const auto known = static_transforms_.find(transform.child_frame_id);
+  if (known == static_transforms_.end()) {
+    if (static_transforms_.size() < kMaxStatic) static_transforms_[transform.child_frame_id] = transform;
+    return;
+  }
+  const bool same =
+      known->second.header.frame_id == transform.header.frame_id && known->second.transform == transform.transform;
+  known->second = transform;
+  if (!same) on_static_change_(transform.header.frame_id, transform.child_frame_id);
+}
 
 Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& source,
                                  sweep_guard_core::Time stamp) const {
@@ -40,9 +97,11 @@ Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& s
   try {
     return fromMsg(buffer_.lookupTransform(withoutSlash(target), withoutSlash(source), toMsg(stamp)).transform);
   } catch (const tf2::TransformException& error) {
-    throw FrameError("no transform from '" + source + "' to '" + target + "': " + error.what());
+    throw FrameError("no transform from '" + printable(source) + "' to '" + printable(target) +
+                     "': " + printable(error.what(), kMaxReason));
   } catch (const sweep_guard_core::InvalidInput& error) {
-    throw FrameError("transform from '" + source + "' to '" + target + "' is not rigid: " + error.what());
+    throw FrameError("transform from '" + printable(source) + "' to '" + printable(target) +
+                     "' is not rigid: " + error.what());
   }
 }
 

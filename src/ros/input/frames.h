@@ -1,16 +1,21 @@
 #pragma once
 
+#include <ros/subscriber.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
+#include "ros/log_throttle.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/time.h"
+#include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -19,11 +24,15 @@ struct FrameError : sweep_guard_core::Error {
   using Error::Error;
 };
 
-/// Looks up poses of tf frames. Never interpolates beyond the buffer: a transform is taken at its stamp or not at all.
+/// Listens to /tf and /tf_static, and looks up poses of tf frames. Never interpolates beyond the buffer: a transform is taken at its stamp or not at all.
 /// Any thread.
 class Frames {
  public:
-  Frames();
+  /// @param max_message_size  longer messages are refused unread [bytes]
+  /// @param on_static_change  called with both frames when a transform on /tf_static differs from the one before, in the
+  ///                          thread of the listener
+  Frames(const ros::NodeHandle& node, size_t max_message_size,
+         std::function<void(const std::string& parent, const std::string& child)> on_static_change);
 
   /// Returns the pose of frame `source` in frame `target` at a stamp; stamp 0: the newest. Does not wait.
   /// @throws FrameError if there is none
@@ -40,8 +49,17 @@ class Frames {
   std::shared_ptr<void> onChange(std::function<void()> callback);
 
  private:
+  void onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static);
+  void checkStatic(const geometry_msgs::TransformStamped& transform);
+
+  const std::function<void(const std::string&, const std::string&)> on_static_change_;
+  std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  // by child; used by the listener only
+  LogThrottle log_;
+  ros::Time newest_;  // when the newest message came
   tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  QueueThread thread_;  // before the subscribers, which use its queue
+  ros::Subscriber moving_;
+  ros::Subscriber static_;
 };
 
 }  // namespace sweep_guard_ros

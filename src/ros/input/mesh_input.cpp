@@ -2,83 +2,164 @@
 
 #include <ros/console.h>
 
+#include <memory>
+#include <mutex>
+
+#include "ros/bounded.h"
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
 
+using sweep_guard_core::InputRecord;
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::isName;
+using sweep_guard_core::printable;
+using sweep_guard_core::TriangleMesh;
+using sweep_guard_core::UpdateOutcome;
 
-constexpr std::uint32_t kQueueLength = 1000;  // each message may be of another workpiece
+constexpr std::uint32_t kQueueLength = 1000;  // each message may be of another workpiece; taken from it at once
 
-void checkHeader(const std::string& id, const std_msgs::Header& header) {
-  if (id.empty()) throw InvalidInput("id is empty: name the workpiece");
+void checkHeader(const std_msgs::Header& header) {
   if (header.frame_id.empty()) throw InvalidInput("header.frame_id is empty: name the frame of the vertices");
+  if (!isName(header.frame_id)) throw InvalidInput("header.frame_id has more than 128 or unprintable characters");
   if (liesInFuture(fromMsg(header.stamp))) throw InvalidInput(kFutureStampText);
 }
 
 sweep_guard_core::Time latestStamp() { return now().stamp + kFutureTolerance; }
 
+bool removes(const sweep_guard::DeformableMesh& msg) { return msg.mesh.vertices.empty() && msg.mesh.triangles.empty(); }
+
+template <typename Msg>
+size_t sizeOf(const Msg& msg) {
+  return ros::serialization::serializationLength(msg);
+}
+
 }  // namespace
 
-MeshInput::MeshInput(const ros::NodeHandle& node, size_t max_triangles, sweep_guard_core::WorkpieceStore& workpieces,
-                     sweep_guard_core::WarningMonitor& monitor)
-    : max_triangles_(max_triangles),
+MeshInput::MeshInput(const ros::NodeHandle& node, const Parameters& parameters,
+                     sweep_guard_core::WorkpieceStore& workpieces, sweep_guard_core::WarningMonitor& monitor)
+    : mesh_ids_(parameters.mesh_ids),
+      max_triangles_(parameters.max_triangles),
       workpieces_(workpieces),
       monitor_(monitor),
-      mesh_(subscribe<sweep_guard::DeformableMesh>(thread_.on(node), "mesh")),
-      vertices_(subscribe<sweep_guard::MeshVertices>(thread_.on(node), "mesh_vertices")) {}
-
-template <typename Msg>
-ros::Subscriber MeshInput::subscribe(ros::NodeHandle node, const std::string& topic) {
-  return node.subscribe<Msg>(
-      topic, kQueueLength, [this](const typename Msg::ConstPtr& msg) { onMessage(*msg); }, nullptr,
-      ros::TransportHints().tcpNoDelay());
-}
-
-void MeshInput::onMessage(const sweep_guard::DeformableMesh& msg) {
-  const std::string refusal = refusalOf(msg, mesh_record_);
-  refusal.empty() ? monitor_.meshAccepted(msg.id) : monitor_.meshRefused(msg.id, refusal);
-}
-
-void MeshInput::onMessage(const sweep_guard::MeshVertices& msg) {
-  const std::string refusal = refusalOf(msg, vertices_record_);
-  refusal.empty() ? monitor_.verticesAccepted(msg.id) : monitor_.verticesRefused(msg.id, refusal);
+      storing_(parameters.max_message_size),
+      converting_(parameters.max_message_size),
+      mesh_(
+          subscribe<sweep_guard::DeformableMesh>(thread_.on(node), "mesh", parameters.max_message_size, mesh_record_)),
+      vertices_(subscribe<sweep_guard::MeshVertices>(thread_.on(node), "mesh_vertices", parameters.max_message_size,
+                                                     vertices_record_)) {
+  monitor_.require(mesh_ids_);
 }
 
 template <typename Msg>
-std::string MeshInput::refusalOf(const Msg& msg, sweep_guard_core::InputRecord& record) {
-  record.received({fromMsg(msg.header.stamp), std::chrono::steady_clock::now()});
+ros::Subscriber MeshInput::subscribe(ros::NodeHandle node, const std::string& topic, size_t max_size,
+                                     InputRecord& record) {
+  return subscribeBounded<Msg>(
+      node, {topic, kQueueLength, max_size},
+      [this](const ros::MessageEvent<const Msg>& event) { onMessage(event.getConstMessage()); },
+      [this, &record](const std::string& reason) { unread(reason, record); });
+}
+
+void MeshInput::start() {
+  storing_.start();
+  converting_.start();
+  thread_.start();
+}
+
+void MeshInput::onMessage(const sweep_guard::DeformableMesh::ConstPtr& msg) {
+  if (!readable(msg->id, msg->header, mesh_record_)) return;
+  converting_.push({[this, msg] { convert(msg); }, [this, msg] { drop(*msg); }, sizeOf(*msg)});
+}
+
+void MeshInput::onMessage(const sweep_guard::MeshVertices::ConstPtr& msg) {
+  if (!readable(msg->id, msg->header, vertices_record_)) return;
+  storing_.push({[this, msg] { store(*msg); }, [this, msg] { drop(*msg); }, sizeOf(*msg)});
+}
+
+bool MeshInput::readable(const std::string& id, const std_msgs::Header& header, InputRecord& record) {
+  if (!mesh_ids_.empty() && mesh_ids_.count(id) == 0) return false;
+  record.received({fromMsg(header.stamp), std::chrono::steady_clock::now()});
+  if (isName(id)) return true;
+  unread(id.empty() ? "id is empty: name the workpiece"
+                    : "id '" + printable(id) + "' has more than 128 or unprintable characters",
+         record);
+  return false;
+}
+
+void MeshInput::unread(const std::string& reason, InputRecord& record) {
+  const std::string message = "message refused: " + reason;
+  record.error(message, /*refused=*/true);
+  monitor_.meshUnread(message, std::chrono::steady_clock::now());
+  const std::lock_guard lock(log_mutex_);
+  log_.error("unread", message);
+}
+
+void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg) {
   try {
-    store(msg);
-    return "";
+    auto mesh_M = std::make_shared<std::optional<TriangleMesh>>();
+    if (!removes(*msg)) {
+      checkHeader(msg->header);
+      mesh_M->emplace(fromMsg(msg->mesh, max_triangles_));
+    }
+    storing_.push({[this, msg, mesh_M] { store(*msg, std::move(*mesh_M)); }, [this, msg] { drop(*msg); }, 0});
   } catch (const std::exception& error) {  // invalid, or out of memory
-    std::string refusal = "workpiece '" + msg.id + "' refused: " + error.what();
-    record.error(refusal, /*refused=*/true);
-    log_.error(msg.id, refusal);
-    return refusal;
+    monitor_.meshRefused(msg->id, refusal(msg->id, error, mesh_record_));
   }
 }
 
-void MeshInput::store(const sweep_guard::DeformableMesh& msg) {
-  if (msg.mesh.vertices.empty() && msg.mesh.triangles.empty()) {
-    if (!workpieces_.remove(msg.id)) ROS_WARN("no workpiece '%s' to remove", msg.id.c_str());
-    return;
+void MeshInput::store(const sweep_guard::DeformableMesh& msg, std::optional<TriangleMesh> mesh_M) {
+  try {
+    const sweep_guard_core::Time stamp = fromMsg(msg.header.stamp);
+    if (!mesh_M) {
+      if (!workpieces_.remove(msg.id, stamp)) ROS_WARN_THROTTLE(1.0, "no workpiece '%s' to remove", msg.id.c_str());
+    } else if (workpieces_.set({msg.id, msg.revision, stamp, std::chrono::steady_clock::now(), msg.header.frame_id,
+                                std::move(*mesh_M)},
+                               latestStamp()) == UpdateOutcome::kIgnored) {
+      return;
+    }
+    monitor_.meshAccepted(msg.id);
+  } catch (const std::exception& error) {  // invalid, or out of memory
+    monitor_.meshRefused(msg.id, refusal(msg.id, error, mesh_record_));
   }
-  checkHeader(msg.id, msg.header);
-  sweep_guard_core::TriangleMesh mesh_M = fromMsg(msg.mesh, max_triangles_);
-  workpieces_.set({msg.id, msg.revision, fromMsg(msg.header.stamp), std::chrono::steady_clock::now(),
-                   msg.header.frame_id, std::move(mesh_M)},
-                  latestStamp());
 }
 
 void MeshInput::store(const sweep_guard::MeshVertices& msg) {
-  checkHeader(msg.id, msg.header);
-  workpieces_.deform({msg.id, msg.revision, fromMsg(msg.header.stamp), std::chrono::steady_clock::now(),
-                      msg.header.frame_id, msg.positions},
-                     latestStamp());
+  try {
+    checkHeader(msg.header);
+    const UpdateOutcome outcome =
+        workpieces_.deform({msg.id, msg.revision, fromMsg(msg.header.stamp), std::chrono::steady_clock::now(),
+                            msg.header.frame_id, msg.positions},
+                           latestStamp());
+    if (outcome == UpdateOutcome::kStored) monitor_.verticesAccepted(msg.id);
+    if (outcome == UpdateOutcome::kUnknownWorkpiece) {
+      unread("vertices of '" + msg.id + "' came before their mesh: publish DeformableMesh latched", vertices_record_);
+    }
+  } catch (const std::exception& error) {  // invalid, or out of memory
+    monitor_.verticesRefused(msg.id, refusal(msg.id, error, vertices_record_));
+  }
+}
+
+std::string MeshInput::refusal(const std::string& id, const std::exception& error, InputRecord& record) {
+  std::string message = "workpiece '" + id + "' refused: " + error.what();
+  record.error(message, /*refused=*/true);
+  const std::lock_guard lock(log_mutex_);
+  log_.error(id, message);
+  return message;
+}
+
+void MeshInput::drop(const sweep_guard::DeformableMesh& msg) {
+  ++dropped_;
+  const InvalidInput error("too many messages wait: publish more slowly");
+  monitor_.meshRefused(msg.id, refusal(msg.id, error, mesh_record_));
+}
+
+void MeshInput::drop(const sweep_guard::MeshVertices& msg) {
+  ++dropped_;
+  monitor_.updateDropped(msg.id);
 }
 
 }  // namespace sweep_guard_ros

@@ -4,9 +4,15 @@
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
 
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 
+#include "ros/input/worker.h"
 #include "ros/log_throttle.h"
+#include "ros/parameters/parameters.h"
 #include "sweep_guard/guard/workpiece_store.h"
 #include "sweep_guard/monitor/input_record.h"
 #include "sweep_guard/monitor/warning_monitor.h"
@@ -15,13 +21,14 @@
 namespace sweep_guard_ros {
 
 /// Converts the messages on the topics `mesh` and `mesh_vertices`, and puts them into the store. Reports every accepted
-/// and every refused message to the monitor. Has its own thread.
+/// and every refused message to the monitor. One thread receives, one converts meshes, and one stores, so that neither a
+/// large mesh nor a slow update delays another workpiece's vertices on their way in.
 class MeshInput {
  public:
-  MeshInput(const ros::NodeHandle& node, size_t max_triangles, sweep_guard_core::WorkpieceStore& workpieces,
+  MeshInput(const ros::NodeHandle& node, const Parameters& parameters, sweep_guard_core::WorkpieceStore& workpieces,
             sweep_guard_core::WarningMonitor& monitor);
 
-  void start() { thread_.start(); }
+  void start();
 
   std::string meshTopic() const { return mesh_.getTopic(); }          ///< resolved
   std::string verticesTopic() const { return vertices_.getTopic(); }  ///< resolved
@@ -29,23 +36,34 @@ class MeshInput {
   std::uint32_t verticesPublishers() const { return vertices_.getNumPublishers(); }
   const sweep_guard_core::InputRecord& meshRecord() const { return mesh_record_; }
   const sweep_guard_core::InputRecord& verticesRecord() const { return vertices_record_; }
+  std::uint64_t droppedUpdates() const { return dropped_; }  ///< messages on both topics, since the start
 
  private:
   template <typename Msg>
-  ros::Subscriber subscribe(ros::NodeHandle node, const std::string& topic);
-  void onMessage(const sweep_guard::DeformableMesh& msg);
-  void onMessage(const sweep_guard::MeshVertices& msg);
-  template <typename Msg>
-  std::string refusalOf(const Msg& msg, sweep_guard_core::InputRecord& record);
-  void store(const sweep_guard::DeformableMesh& msg);
+  ros::Subscriber subscribe(ros::NodeHandle node, const std::string& topic, size_t max_size,
+                            sweep_guard_core::InputRecord& record);
+  void onMessage(const sweep_guard::DeformableMesh::ConstPtr& msg);
+  void onMessage(const sweep_guard::MeshVertices::ConstPtr& msg);
+  bool readable(const std::string& id, const std_msgs::Header& header, sweep_guard_core::InputRecord& record);
+  void unread(const std::string& reason, sweep_guard_core::InputRecord& record);
+  void convert(const sweep_guard::DeformableMesh::ConstPtr& msg);
+  void store(const sweep_guard::DeformableMesh& msg, std::optional<sweep_guard_core::TriangleMesh> mesh_M);
   void store(const sweep_guard::MeshVertices& msg);
+  std::string refusal(const std::string& id, const std::exception& error, sweep_guard_core::InputRecord& record);
+  void drop(const sweep_guard::DeformableMesh& msg);
+  void drop(const sweep_guard::MeshVertices& msg);
 
+  const std::set<std::string> mesh_ids_;
   const size_t max_triangles_;
   sweep_guard_core::WorkpieceStore& workpieces_;
   sweep_guard_core::WarningMonitor& monitor_;
+  std::mutex log_mutex_;
   LogThrottle log_;
   sweep_guard_core::InputRecord mesh_record_;
   sweep_guard_core::InputRecord vertices_record_;
+  std::atomic<std::uint64_t> dropped_ = 0;
+  Worker storing_;      // before what pushes jobs
+  Worker converting_;   // before the thread that pushes jobs
   QueueThread thread_;  // before the subscribers, which use its queue
   ros::Subscriber mesh_;
   ros::Subscriber vertices_;

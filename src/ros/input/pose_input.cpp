@@ -2,6 +2,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "ros/bounded.h"
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
@@ -12,8 +13,9 @@ namespace {
 using sweep_guard_core::Reason;
 
 constexpr auto kMaxTransformDelay = std::chrono::milliseconds(20);
-constexpr size_t kMaxMissing = 64;         // bounds the memory that made-up frame names can take
-constexpr std::uint32_t kQueueLength = 0;  // unbounded: a pose that ROS drops is a gap that nobody notices
+constexpr auto kPauseOfWaits = std::chrono::milliseconds(200);
+constexpr std::uint32_t kQueueLength =
+    65536;  // 65 s at 1 kHz; a pose that ROS drops beyond that is a gap in header.seq
 
 struct PoseRefused : sweep_guard_core::InvalidInput {
   PoseRefused(Reason why, const std::string& message) : InvalidInput(message), reason(why) {}
@@ -38,6 +40,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters,
                      const PoseInputDependencies& dependencies)
     : fixed_frame_(parameters.fixed_frame),
       tool_frame_(parameters.tool_frame),
+      allow_several_publishers_(parameters.allow_several_publishers),
       frames_(dependencies.frames),
       workpieces_(dependencies.workpieces),
       monitor_(dependencies.monitor),
@@ -45,8 +48,10 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters,
   if (parameters.tool_source == ToolSource::kTf) {
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
   } else {
-    subscriber_ = thread_.on(node).subscribe("tool_pose", kQueueLength, &PoseInput::onMessage, this,
-                                             ros::TransportHints().tcpNoDelay());
+    subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(
+        thread_.on(node), {"tool_pose", kQueueLength, parameters.max_message_size},
+        [this](const auto& event) { onMessage(event); },
+        [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
 }
 
@@ -58,7 +63,9 @@ std::optional<std::uint32_t> PoseInput::publishers() const {
   return subscriber_ ? std::optional(subscriber_.getNumPublishers()) : std::nullopt;
 }
 
-void PoseInput::onMessage(const geometry_msgs::PoseStamped& msg) {
+void PoseInput::onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event) {
+  const geometry_msgs::PoseStamped& msg = *event.getConstMessage();
+  countLost(event.getPublisherName(), msg.header.seq);
   const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
   acceptOrRefuse(timestamps, [&] {
     try {
@@ -69,6 +76,22 @@ void PoseInput::onMessage(const geometry_msgs::PoseStamped& msg) {
   });
 }
 
+// A publisher that does not count, or begins again, loses nothing.
+void PoseInput::countLost(const std::string& publisher, std::uint32_t sequence) {
+  const bool counts = publisher == publisher_ && sequence_ != 0 && sequence > sequence_ + 1;
+  if (counts) {
+    const std::uint32_t lost = sequence - sequence_ - 1;
+    lost_ += lost;
+    monitor_.posesLost(std::to_string(lost) + " tool poses were lost on the way", std::chrono::steady_clock::now());
+  }
+  if (publisher != publisher_) publisher_ = publisher;
+  sequence_ = sequence;
+}
+
+bool PoseInput::hasSeveralPublishers() const {
+  return subscriber_ && !allow_several_publishers_ && subscriber_.getNumPublishers() > 1;
+}
+
 // Runs in the thread of the tf listener, which must not wait for transforms: only reads the pose.
 void PoseInput::onTransforms() {
   const std::optional<sweep_guard_core::Time> newest = frames_.newest(fixed_frame_, tool_frame_);
@@ -76,10 +99,16 @@ void PoseInput::onTransforms() {
   last_transform_ = newest;
   if (!newest) return;
   try {
+    if (waiting_ >= kQueueLength) {
+      return monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses from tf were dropped: too many wait");
+    }
     const ReceivedPose pose{
         {*newest, std::chrono::steady_clock::now()}, fixed_frame_, frames_.lookup(fixed_frame_, tool_frame_, *newest)};
-    thread_.queue().addCallback(
-        boost::make_shared<Call>([this, pose] { acceptOrRefuse(pose.timestamps, [pose] { return pose; }); }));
+    ++waiting_;
+    thread_.queue().addCallback(boost::make_shared<Call>([this, pose] {
+      --waiting_;
+      acceptOrRefuse(pose.timestamps, [pose] { return pose; });
+    }));
   } catch (const FrameError& error) {
     record_.error(error.what(), /*refused=*/false);
     monitor_.fault(sweep_guard_core::kTfFail, error.what());
@@ -110,11 +139,16 @@ void PoseInput::accept(const ReceivedPose& pose) {
   const sweep_guard_core::WarningMonitor::Checkpoint checkpoint = monitor_.checkpoint();
   if (!checkpoint.continues(checkpoint_)) previous_stamp_.reset();
   checkpoint_ = checkpoint;
+  // After the checkpoint: the sweep to this pose does not end the fault.
+  if (hasSeveralPublishers()) {
+    monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source());
+  }
   const auto& [stamp, received] = pose.timestamps;
   checkStamp(stamp);
   const Eigen::Isometry3d X_WT = lookup(fixed_frame_, pose.frame, stamp) * pose.X_FT;
   previous_stamp_ = stamp;
-  queue_.push({{stamp, received, X_WT, locate(*workpieces_.frames(), stamp)}, checkpoint});
+  if (queue_.push({{stamp, received, X_WT, locate(*workpieces_.frames(), stamp)}, checkpoint})) return;
+  monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
 }
 
 void PoseInput::checkStamp(sweep_guard_core::Time stamp) const {
@@ -142,20 +176,15 @@ std::map<std::string, Eigen::Isometry3d> PoseInput::locate(const std::set<std::s
   return X_WM;
 }
 
-// Waits for a late transform, but not again while its publisher is silent: that would delay every pose.
+// Waits for a late transform, but not again soon after waiting in vain: that would delay every pose.
 Eigen::Isometry3d PoseInput::lookup(const std::string& target, const std::string& source,
                                     sweep_guard_core::Time stamp) {
-  const std::pair frames(target, source);
-  const auto missed = missing_.find(frames);
-  const bool silent = missed != missing_.end() && missed->second == frames_.newest(target, source);
+  const sweep_guard_core::SteadyTime begin = std::chrono::steady_clock::now();
+  const bool waits = begin >= no_wait_until_;
   try {
-    Eigen::Isometry3d X =
-        frames_.lookup(target, source, stamp, silent ? sweep_guard_core::Duration(0) : kMaxTransformDelay);
-    if (missed != missing_.end()) missing_.erase(missed);
-    return X;
+    return frames_.lookup(target, source, stamp, waits ? kMaxTransformDelay : sweep_guard_core::Duration(0));
   } catch (const FrameError&) {
-    if (missing_.size() >= kMaxMissing) missing_.clear();
-    missing_[frames] = frames_.newest(target, source);
+    if (waits) no_wait_until_ = begin + kPauseOfWaits;
     throw;
   }
 }

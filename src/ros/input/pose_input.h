@@ -3,13 +3,13 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/subscriber.h>
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "ros/input/frames.h"
 #include "ros/log_throttle.h"
@@ -39,6 +39,7 @@ class PoseInput {
   const sweep_guard_core::InputRecord& record() const { return record_; }
   std::string source() const;                       ///< resolved topic, or the tf frames
   std::optional<std::uint32_t> publishers() const;  ///< of the topic; empty for tf
+  std::uint64_t lost() const { return lost_; }      ///< poses that were sent and did not arrive, by header.seq
 
  private:
   struct ReceivedPose {
@@ -47,7 +48,9 @@ class PoseInput {
     Eigen::Isometry3d X_FT;
   };
 
-  void onMessage(const geometry_msgs::PoseStamped& msg);
+  void onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
+  void countLost(const std::string& publisher, std::uint32_t sequence);
+  bool hasSeveralPublishers() const;
   void onTransforms();
   void acceptOrRefuse(const sweep_guard_core::Timestamps& timestamps, const std::function<ReceivedPose()>& read);
   void accept(const ReceivedPose& pose);
@@ -59,6 +62,7 @@ class PoseInput {
 
   const std::string fixed_frame_;
   const std::string tool_frame_;
+  const bool allow_several_publishers_;
   Frames& frames_;
   const sweep_guard_core::WorkpieceStore& workpieces_;
   sweep_guard_core::WarningMonitor& monitor_;
@@ -67,8 +71,11 @@ class PoseInput {
   sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the previous pose
   std::optional<sweep_guard_core::Time> previous_stamp_;
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
-  // Missing transforms by target and source, each with the stamp of the newest one that there was.
-  std::map<std::pair<std::string, std::string>, std::optional<sweep_guard_core::Time>> missing_;
+  sweep_guard_core::SteadyTime no_wait_until_;            // for late transforms
+  std::string publisher_;                                 // of the previous pose
+  std::uint32_t sequence_ = 0;                            // of the previous pose
+  std::atomic<std::uint64_t> lost_ = 0;
+  std::atomic<size_t> waiting_ = 0;  // poses from tf
   LogThrottle log_;
   sweep_guard_core::InputRecord record_;
 

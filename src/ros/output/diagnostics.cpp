@@ -16,12 +16,21 @@ using sweep_guard_core::quantile;
 using sweep_guard_core::SweepStatistics;
 using sweep_guard_core::toSeconds;
 
+constexpr double kMaxClockDifference = 1.0;  // [s]
+
 double residentMegabytes() {
   std::ifstream statm("/proc/self/statm");
   long total = 0;
   long resident = 0;
   statm >> total >> resident;
   return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+void reportClocks(const sweep_guard_core::Timestamps& pose, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const sweep_guard_core::Instant at = now();
+  const double by_stamp = toSeconds(at.stamp - pose.stamp);
+  if (by_stamp - toSeconds(at.steady - pose.received) < kMaxClockDifference) return;
+  status.mergeSummaryf(DiagnosticStatus::ERROR, "poses are %.0f s old: clocks differ", by_stamp);
 }
 
 }  // namespace
@@ -66,6 +75,8 @@ void Diagnostics::pose(Status& status) {
   if (sources_.poses.publishers().value_or(1) > 1) {
     status.mergeSummary(DiagnosticStatus::WARN, "several publishers: the tool jumps between their poses");
   }
+  status.add("lost", sources_.poses.lost());
+  if (const auto newest = sources_.poses.record().summary().newest) reportClocks(*newest, status);
 }
 
 void Diagnostics::mesh(Status& status) {
@@ -81,6 +92,7 @@ void Diagnostics::vertices(Status& status) {
          sources_.meshes.verticesRecord().summary(),
          /*continuous=*/false},
         vertices_);
+  status.add("dropped", sources_.meshes.droppedUpdates());
 }
 
 void Diagnostics::input(Status& status, const Input& input, Counts& previous) const {

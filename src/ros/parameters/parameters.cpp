@@ -17,7 +17,9 @@ using sweep_guard_core::Duration;
 using sweep_guard_core::toSeconds;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kMinStep = 0.001;   // [s]
+constexpr double kMinStep = 0.001;        // [s]
+constexpr size_t kBytesPerTriangle = 84;  // three indices and three vertices of a mesh that shares none
+constexpr size_t kMebibyte = 1U << 20;
 constexpr double kMaxHorizon = 5.0;  // [s]
 
 // May change while the node runs, with all keys of kMarkers.
@@ -244,8 +246,26 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.realtime_priority = read.integer("timing/realtime_priority", 0, 0, 99,
                                               "Above 0 the sweeping thread asks for this real-time priority "
                                               "(SCHED_FIFO). If the system refuses, the log says what to set.");
+  const std::vector<std::string> ids =
+      read.texts("mesh_ids",
+                 "Workpieces that must be there: the warning is not CLEAR without each of them, and no other id is "
+                 "listened to. []: all ids that come.");
+  parameters.mesh_ids.insert(ids.begin(), ids.end());
+  parameters.allow_several_publishers =
+      read.flag("allow_several_publishers", false,
+                "Allows several publishers on `tool_pose`. Otherwise the warning is UNKNOWN while there are several: "
+                "the tool would jump between their poses.");
   parameters.max_triangles = static_cast<size_t>(
       read.integer("limits/max_triangles", 1000000, 1, 10000000, "A mesh with more triangles is refused."));
+  const int max_message_size =
+      read.integer("limits/max_message_size", 0, 0, std::numeric_limits<int>::max(),
+                   "[bytes] A longer message is refused unread. 0: 84 for each of limits/max_triangles, and 1 MiB.");
+  parameters.max_message_size = max_message_size > 0 ? static_cast<size_t>(max_message_size)
+                                                     : kBytesPerTriangle * parameters.max_triangles + kMebibyte;
+  parameters.max_memory = static_cast<size_t>(
+      read.integer("limits/memory", 4096, 0, 1 << 24,
+                   "[MiB] Address space that the node's process may take; what does not fit is refused. 0: no limit. "
+                   "The nodelet leaves it to its manager."));
   read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
   parameters.settings = read.settings();
   parameters.described = read.described();

@@ -34,7 +34,11 @@ struct Parameters {
   double marker_rate;                       ///< [Hz]
   std::set<std::string> marker_namespaces;  ///< published ones
   int realtime_priority;                    ///< of the guard's thread; 0: none
+  std::set<std::string> mesh_ids;           ///< workpieces that must be there; empty: all that come
+  bool allow_several_publishers;            ///< of tool poses
   size_t max_triangles;
+  size_t max_message_size;               ///< [bytes]
+  size_t max_memory;                     ///< of the node's process [MiB]; 0: no limit
   ParameterReader::Settings settings;    ///< as read
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order
 };

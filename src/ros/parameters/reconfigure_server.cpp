@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "ros/bounded.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -138,7 +140,12 @@ ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_node, const 
       apply_(std::move(apply)),
       descriptions_(private_node_.advertise<ConfigDescription>("parameter_descriptions", 1, /*latch=*/true)),
       values_(private_node_.advertise<Config>("parameter_updates", 1, /*latch=*/true)),
-      server_(thread_.on(private_node).advertiseService("set_parameters", &ReconfigureServer::onSet, this)) {
+      server_(advertiseBounded<Event>(
+          thread_.on(private_node), "set_parameters", parameters.initial().max_message_size,
+          [this](Event& event) { return onSet(event); },
+          [](const std::string& reason, auto& /*response*/) -> bool {
+            throw sweep_guard_core::InvalidInput(reason);
+          })) {
   descriptions_.publish(description(parameters_.initial()));
   publishValues();
 }
@@ -150,7 +157,7 @@ ReconfigureServer::History ReconfigureServer::history() const {
 
 // roscpp logs the exception and sends it to the caller.
 bool ReconfigureServer::onSet(Event& event) {
-  const std::string& caller = event.getCallerName();
+  const std::string caller = sweep_guard_core::printable(event.getCallerName());
   try {
     change(event.getRequest().config, caller);
   } catch (const std::exception& error) {

@@ -6,7 +6,9 @@
 #include <set>
 #include <tuple>
 
+#include "ros/bounded.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -14,6 +16,7 @@ namespace {
 
 using sweep_guard::CheckSweep;
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::printable;
 
 constexpr size_t kMaxPoses = 1024;
 constexpr auto kMaxTransformDelay = std::chrono::milliseconds(100);
@@ -23,6 +26,12 @@ struct PathContact {
   std::optional<double> time_of_impact;  // in the segment
 };
 
+bool refuse(const std::string& reason, CheckSweep::Response& response) {
+  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
+  response.message = reason;
+  return true;
+}
+
 PathContact earlier(const std::optional<PathContact>& a, const PathContact& b) {
   return a && std::tie(a->segment, a->time_of_impact) < std::tie(b.segment, b.time_of_impact) ? *a : b;
 }
@@ -30,11 +39,15 @@ PathContact earlier(const std::optional<PathContact>& a, const PathContact& b) {
 }  // namespace
 
 CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const LiveParameters& live,
-                                     const Frames& frames, const sweep_guard_core::WorkpieceStore& workpieces)
+                                     const Frames& frames, const sweep_guard_core::WorkpieceStore& workpieces,
+                                     const sweep_guard_core::WarningMonitor& monitor)
     : live_(live),
       frames_(frames),
       workpieces_(workpieces),
-      server_(thread_.on(private_node).advertiseService("check_sweep", &CheckSweepService::onCall, this)) {}
+      monitor_(monitor),
+      server_(advertiseBounded<ros::ServiceSpec<CheckSweep::Request, CheckSweep::Response>>(
+          thread_.on(private_node), "check_sweep", live.initial().max_message_size,
+          [this](auto& request, auto& response) { return onCall(request, response); }, refuse)) {}
 
 // Answers errors by a message: a failed ROS call gives the caller none.
 bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Response& response) {
@@ -46,8 +59,7 @@ bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Respons
     response.success = true;
   } catch (const std::exception& error) {
     response = CheckSweep::Response();
-    response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
-    response.message = error.what();
+    refuse(error.what(), response);
   }
   response.compute_time = ros::Duration(sweep_guard_core::toSeconds(std::chrono::steady_clock::now() - begin));
   return true;
@@ -78,18 +90,17 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
     if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
   };
   std::optional<PathContact> first;
-  response.clear = true;
   for (const auto& workpiece : selected(request.mesh_ids)) {
     auto path = sweep_guard_core::checkPath(used, {*parameters_->tool, pathIn(workpiece->frame, request.path),
                                                    workpiece->mesh_M, options, throw_if_stopping});
     response.margin = std::max(response.margin, path.all.margin);
-    response.clear = response.clear && fresh(*workpiece);
     if (!path.all.triangles.empty() || path.all.inside)
       response.objects.push_back(toMsg(*workpiece, path.all, *parameters_->tool));
     if (path.first_contact) first = earlier(first, {*path.first_contact, path.time_of_impact});
   }
   response.collision = first.has_value();
-  response.clear = response.clear && !response.collision;
+  response.message = doubts(request);
+  response.clear = !response.collision && response.message.empty();
   if (!first) return;
   response.segment = static_cast<std::uint32_t>(first->segment);
   if (first->time_of_impact) response.time_of_impact = *first->time_of_impact;
@@ -102,7 +113,7 @@ sweep_guard_core::Workpieces CheckSweepService::selected(const std::vector<std::
   sweep_guard_core::Workpieces selected;
   for (const std::string& id : std::set<std::string>(ids.begin(), ids.end())) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const auto& workpiece) { return workpiece->id == id; });
-    if (found == all.end()) throw InvalidInput("no workpiece '" + id + "'");
+    if (found == all.end()) throw InvalidInput("no workpiece '" + printable(id) + "'");
     selected.push_back(*found);
   }
   return selected;
@@ -123,8 +134,24 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
   return path_M;
 }
 
-bool CheckSweepService::fresh(const sweep_guard_core::Workpiece& workpiece) const {
-  return !sweep_guard_core::stale({workpiece.stamp, workpiece.received}, now(), parameters_->limits.mesh_timeout);
+// A path that meets nothing is clear only if what it was tested against is as good as a warning would need it.
+std::string CheckSweepService::doubts(const CheckSweep::Request& request) const {
+  const std::string meshes = monitor_.meshProblems(now(), request.mesh_ids);
+  return meshes.empty() ? oldTransforms(request) : meshes;
+}
+
+std::string CheckSweepService::oldTransforms(const CheckSweep::Request& request) const {
+  for (const auto& workpiece : selected(request.mesh_ids)) {
+    for (const geometry_msgs::PoseStamped& pose : request.path) {
+      const auto newest = frames_.newest(workpiece->frame, pose.header.frame_id);
+      if (newest == sweep_guard_core::Time()) continue;
+      const sweep_guard_core::Duration age = now().stamp - newest.value_or(sweep_guard_core::Time());
+      if (age <= parameters_->limits.pose_timeout) continue;
+      return "newest transform from '" + printable(pose.header.frame_id) + "' to '" + workpiece->frame + "' is " +
+             std::to_string(sweep_guard_core::toSeconds(age)) + " s old";
+    }
+  }
+  return "";
 }
 
 sweep_guard_core::Detector& CheckSweepService::detector(const std::string& name) {

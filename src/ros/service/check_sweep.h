@@ -10,6 +10,7 @@
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/guard/workpiece_store.h"
+#include "sweep_guard/monitor/warning_monitor.h"
 #include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
@@ -19,7 +20,8 @@ namespace sweep_guard_ros {
 class CheckSweepService {
  public:
   CheckSweepService(const ros::NodeHandle& private_node, const LiveParameters& live, const Frames& frames,
-                    const sweep_guard_core::WorkpieceStore& workpieces);
+                    const sweep_guard_core::WorkpieceStore& workpieces,
+                    const sweep_guard_core::WarningMonitor& monitor);
 
   ~CheckSweepService() { stopping_ = true; }
   CheckSweepService(const CheckSweepService&) = delete;
@@ -34,13 +36,15 @@ class CheckSweepService {
   sweep_guard_core::Workpieces selected(const std::vector<std::string>& ids) const;
   std::vector<Eigen::Isometry3d> pathIn(const std::string& mesh_frame,
                                         const std::vector<geometry_msgs::PoseStamped>& path) const;
-  bool fresh(const sweep_guard_core::Workpiece& workpiece) const;
+  std::string doubts(const sweep_guard::CheckSweep::Request& request) const;
+  std::string oldTransforms(const sweep_guard::CheckSweep::Request& request) const;
   sweep_guard_core::Detector& detector(const std::string& name);
 
   const LiveParameters& live_;
   std::shared_ptr<const Parameters> parameters_;  // of the newest call
   const Frames& frames_;
   const sweep_guard_core::WorkpieceStore& workpieces_;
+  const sweep_guard_core::WarningMonitor& monitor_;
   std::map<std::string, std::unique_ptr<sweep_guard_core::Detector>> detectors_;  // by name, made on demand
   std::atomic<bool> stopping_ = false;
   QueueThread thread_;  // before the server, which uses its queue

@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -15,12 +16,13 @@ Controls::Controls(const ros::NodeHandle& private_node, sweep_guard_core::Warnin
       reset_server_(thread_.on(private_node).advertiseService("reset", &Controls::onReset, this)) {}
 
 bool Controls::onEnable(EnableEvent& event) {
+  const std::string caller = sweep_guard_core::printable(event.getCallerName());
   if (event.getRequest().data) {
     enable(event.getResponse());
   } else {
-    disable(event.getCallerName(), event.getResponse());
+    disable(caller, event.getResponse());
   }
-  ROS_WARN("~enable called by %s: %s", event.getCallerName().c_str(), event.getResponse().message.c_str());
+  ROS_WARN("~enable called by %s: %s", caller.c_str(), event.getResponse().message.c_str());
   return true;
 }
 

@@ -1,8 +1,10 @@
-#include "ros/real_time.h"
+#include "ros/process.h"
 
 #include <pthread.h>
 #include <sched.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <system_error>
 
 namespace sweep_guard_ros {
@@ -16,6 +18,18 @@ std::string requestRealTime(int priority) {
   return "real-time priority " + std::to_string(priority) + " is refused: " + std::generic_category().message(error) +
          ". Allow it with the line 'USER - rtprio " + std::to_string(priority) +
          "' in /etc/security/limits.conf and a new login, or set timing/realtime_priority to 0";
+}
+
+void limitMemory(size_t max_memory) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  if (max_memory == 0) return;
+  rlimit limit{};
+  getrlimit(RLIMIT_AS, &limit);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t{max_memory} << 20U);
+  setrlimit(RLIMIT_AS, &limit);
+#else
+  static_cast<void>(max_memory);
+#endif
 }
 
 }  // namespace sweep_guard_ros

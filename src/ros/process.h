@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace sweep_guard_ros {
@@ -8,5 +9,10 @@ namespace sweep_guard_ros {
 /// @param priority  1 to 99
 /// @returns the reason of a refusal, and what to set; empty if granted
 std::string requestRealTime(int priority);
+
+/// Limits the address space of the process; what does not fit throws std::bad_alloc. Does nothing in builds with a
+/// sanitizer, which reserves terabytes.
+/// @param max_memory  [MiB]; 0: no limit
+void limitMemory(size_t max_memory);
 
 }  // namespace sweep_guard_ros

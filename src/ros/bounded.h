@@ -1,0 +1,113 @@
+#pragma once
+
+#include <ros/advertise_service_options.h>
+#include <ros/node_handle.h>
+
+#include <boost/make_shared.hpp>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "ros/wire.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+
+/// Throws unless a serialized message is at most this long and its lengths are right.
+/// @throws sweep_guard_core::InvalidInput
+template <typename Msg>
+void checkMessage(Wire wire, size_t max_size) {
+  if (wire.size > max_size) {
+    throw sweep_guard_core::InvalidInput("message of " + std::to_string(wire.size) +
+                                         " bytes exceeds limits/max_message_size, " + std::to_string(max_size));
+  }
+  checkLengths<Msg>(wire);
+}
+
+/// How to subscribe so that a message cannot take more memory than it has bytes.
+struct BoundedSubscription {
+  std::string topic;
+  std::uint32_t queue_length;  ///< messages; 0: unbounded
+  size_t max_size;             ///< of a message [bytes]
+};
+
+template <typename Msg>
+class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::MessageEvent<const Msg>&> {
+ public:
+  using Base = ros::SubscriptionCallbackHelperT<const ros::MessageEvent<const Msg>&>;
+  using Refused = std::function<void(const std::string&)>;
+
+  BoundedMessages(typename Base::Callback callback, Refused refused, size_t max_size)
+      : Base(std::move(callback)), refused_(std::move(refused)), max_size_(max_size) {}
+
+  /// Returns null for a refused message, which roscpp then leaves out.
+  ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& message) override {
+    try {
+      checkMessage<Msg>({message.buffer, message.length}, max_size_);
+      return Base::deserialize(message);
+    } catch (const std::exception& error) {  // invalid, or out of memory
+      refused_(error.what());
+      return {};
+    }
+  }
+
+ private:
+  const Refused refused_;
+  const size_t max_size_;
+};
+
+/// Subscribes to messages whose lengths are checked before memory is reserved for them.
+/// @param refused  called in place of `callback`, in the same thread, with the reason
+template <typename Msg>
+ros::Subscriber subscribeBounded(ros::NodeHandle node, const BoundedSubscription& subscription,
+                                 typename BoundedMessages<Msg>::Base::Callback callback,
+                                 typename BoundedMessages<Msg>::Refused refused) {
+  ros::SubscribeOptions options(subscription.topic, subscription.queue_length, ros::message_traits::md5sum<Msg>(),
+                                ros::message_traits::datatype<Msg>());
+  options.helper =
+      boost::make_shared<BoundedMessages<Msg>>(std::move(callback), std::move(refused), subscription.max_size);
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  return node.subscribe(options);
+}
+
+template <typename Spec>
+class BoundedCalls : public ros::ServiceCallbackHelperT<Spec> {
+ public:
+  using Base = ros::ServiceCallbackHelperT<Spec>;
+  using Response = typename Spec::ResponseType;
+  using Refused = std::function<bool(const std::string&, Response&)>;
+
+  BoundedCalls(typename Base::Callback callback, Refused refused, size_t max_size)
+      : Base(std::move(callback)), refused_(std::move(refused)), max_size_(max_size) {}
+
+  bool call(ros::ServiceCallbackHelperCallParams& params) override {
+    try {
+      checkMessage<typename Spec::RequestType>({params.request.buf.get(), params.request.num_bytes}, max_size_);
+    } catch (const sweep_guard_core::InvalidInput& error) {
+      Response response;
+      const bool answered = refused_(error.what(), response);
+      params.response = ros::serialization::serializeServiceResponse(answered, response);
+      return answered;
+    }
+    return Base::call(params);
+  }
+
+ private:
+  const Refused refused_;
+  const size_t max_size_;
+};
+
+/// Advertises a service whose requests are checked before memory is reserved for them.
+/// @tparam Spec  ros::ServiceSpec or ros::ServiceEvent
+/// @param refused  fills the response from the reason; returns whether it is sent
+template <typename Spec>
+ros::ServiceServer advertiseBounded(ros::NodeHandle node, const std::string& name, size_t max_size,
+                                    typename BoundedCalls<Spec>::Base::Callback callback,
+                                    typename BoundedCalls<Spec>::Refused refused) {
+  ros::AdvertiseServiceOptions options;
+  options.initBySpecType<Spec>(name, callback);
+  options.helper = boost::make_shared<BoundedCalls<Spec>>(std::move(callback), std::move(refused), max_size);
+  return node.advertiseService(options);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace sweep_guard_ros {
+
+/// Runs jobs in a thread of its own, in their order. The jobs that wait hold a bounded number of bytes.
+class Worker {
+ public:
+  struct Job {
+    std::function<void()> run;
+    std::function<void()> drop;  ///< called instead if the job does not fit, by the thread that pushes a later one
+    size_t bytes;                ///< held until the job has run
+  };
+
+  /// @param max_bytes  of all jobs that wait; the newest may always wait
+  explicit Worker(size_t max_bytes) : max_bytes_(max_bytes) {}
+  ~Worker();  ///< waits for the running job and forgets the others
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  void start();
+  void push(Job job);  ///< drops the oldest jobs that do not fit
+
+ private:
+  void run();
+
+  const size_t max_bytes_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> jobs_;
+  size_t bytes_ = 0;  // of jobs_
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace sweep_guard_ros

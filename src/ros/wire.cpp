@@ -1,0 +1,133 @@
+#include "ros/wire.h"
+
+#include <cstring>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr size_t kLength = 4;  // [bytes]
+constexpr size_t kStamp = 8;
+constexpr size_t kPose = 7 * sizeof(double);
+
+// Walks over the fields of a message in their order.
+class WireReader {
+ public:
+  explicit WireReader(Wire wire) : wire_(wire) {}
+
+  void skip(size_t bytes) {
+    if (bytes > wire_.size) throw sweep_guard_core::InvalidInput("message is cut off");
+    wire_ = {wire_.bytes + bytes, wire_.size - bytes};
+  }
+
+  // @param element  smallest size of an element [bytes]
+  size_t length(size_t element) {
+    std::uint32_t count = 0;
+    const std::uint8_t* const bytes = wire_.bytes;
+    skip(kLength);
+    std::memcpy(&count, bytes, kLength);
+    if (count > wire_.size / element) {
+      throw sweep_guard_core::InvalidInput("message announces " + std::to_string(count) + " elements and holds " +
+                                           std::to_string(wire_.size) + " bytes");
+    }
+    return count;
+  }
+
+  void array(size_t element) { skip(length(element) * element); }
+  void text() { array(1); }
+  void header() {
+    skip(kLength + kStamp);
+    text();
+  }
+
+  template <typename Read>
+  void each(size_t smallest, const Read& read) {
+    for (size_t left = length(smallest); left > 0; --left) read();
+  }
+
+  void end() const {
+    if (wire_.size > 0) throw sweep_guard_core::InvalidInput("message is too long for its type");
+  }
+
+ private:
+  Wire wire_;
+};
+
+}  // namespace
+
+template <>
+void checkLengths<geometry_msgs::PoseStamped>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.skip(kPose);
+  read.end();
+}
+
+template <>
+void checkLengths<tf2_msgs::TFMessage>(Wire wire) {
+  WireReader read(wire);
+  read.each(3 * kLength + kStamp + kPose, [&] {
+    read.header();
+    read.text();
+    read.skip(kPose);
+  });
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::DeformableMesh>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.text();
+  read.skip(sizeof(sweep_guard::DeformableMesh::revision));
+  read.array(3 * sizeof(std::uint32_t));
+  read.array(3 * sizeof(double));
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::MeshVertices>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.text();
+  read.skip(sizeof(sweep_guard::MeshVertices::revision));
+  read.array(sizeof(float));
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire) {
+  WireReader read(wire);
+  read.each(2 * kLength + kStamp + kPose, [&] {
+    read.header();
+    read.skip(kPose);
+  });
+  read.each(kLength, [&] { read.text(); });
+  read.text();
+  read.text();
+  read.skip(sizeof(double) + 1);
+  read.end();
+}
+
+template <>
+void checkLengths<dynamic_reconfigure::ReconfigureRequest>(Wire wire) {
+  WireReader read(wire);
+  const auto named = [&](size_t value) {
+    read.each(kLength + value, [&] {
+      read.text();
+      read.skip(value);
+    });
+  };
+  named(sizeof(std::uint8_t));
+  named(sizeof(std::int32_t));
+  read.each(2 * kLength, [&] {
+    read.text();
+    read.text();
+  });
+  named(sizeof(double));
+  named(sizeof(std::uint8_t) + 2 * sizeof(std::int32_t));
+  read.end();
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <sweep_guard/CheckSweep.h>
+#include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/MeshVertices.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sweep_guard_ros {
+
+/// A serialized message.
+struct Wire {
+  const std::uint8_t* bytes;
+  size_t size;
+};
+
+/// Checks that each length in a serialized message fits the bytes that follow. roscpp reserves memory for a length
+/// before it checks that, and multiplies lengths in 32 bits.
+/// @tparam Msg  one of the messages below
+/// @throws sweep_guard_core::InvalidInput if a length exceeds the message, or if bytes are left over
+template <typename Msg>
+void checkLengths(Wire wire);
+
+template <>
+void checkLengths<geometry_msgs::PoseStamped>(Wire wire);
+template <>
+void checkLengths<tf2_msgs::TFMessage>(Wire wire);
+template <>
+void checkLengths<sweep_guard::DeformableMesh>(Wire wire);
+template <>
+void checkLengths<sweep_guard::MeshVertices>(Wire wire);
+template <>
+void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire);
+template <>
+void checkLengths<dynamic_reconfigure::ReconfigureRequest>(Wire wire);
+
+}  // namespace sweep_guard_ros
