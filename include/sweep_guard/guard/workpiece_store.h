@@ -39,7 +39,7 @@ class WorkpieceStore {
   /// @throws InvalidInput if the stamp is older than the snapshot's, or if there are 1000 workpieces already
   void set(Workpiece next, Time latest);
 
-  /// Replaces the vertices of a workpiece.
+  /// Replaces vertices, times and frame of a workpiece. `updates` and `path_length` continue, even in another frame.
   /// @param latest  as for set()
   /// @throws InvalidInput if the mesh is missing, if the revision differs, if the stamp is older than the snapshot's,
   ///     or if TriangleMesh::deform() refuses the positions

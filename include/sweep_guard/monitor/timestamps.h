@@ -10,7 +10,7 @@ struct Timestamps {
   SteadyTime received;
 };
 
-/// Returns the age on the clock on which it is larger.
+/// Returns the age on the clock on which it is larger. A missing stamp counts as the clock's epoch.
 Duration age(const Timestamps& input, const Instant& now);
 
 /// Returns whether the age exceeds `timeout`; Duration::max() never times out.

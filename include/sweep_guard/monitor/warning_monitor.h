@@ -25,7 +25,7 @@ class WarningMonitor {
     bool continues(const Checkpoint& previous) const { return epoch == previous.epoch; }
   };
 
-  /// @param on_fault  called after every fault and every restart, in the thread that reports it
+  /// @param on_fault  called after every fault, refusal and restart, in the reporting thread; may call the monitor
   explicit WarningMonitor(
       const WarningLimits& limits, std::function<void()> on_fault = [] {});
 
@@ -44,7 +44,7 @@ class WarningMonitor {
   /// Reports that vertices were refused. The warning is not clear until verticesAccepted() or meshAccepted().
   void verticesRefused(const std::string& id, const std::string& message);
 
-  /// Reports accepted vertices. Does not clear the refusal of a later mesh.
+  /// Reports accepted vertices. Clears refusals of vertices of this id; a refused mesh stays until meshAccepted().
   void verticesAccepted(const std::string& id);
 
   /// Sets the newest snapshots of all workpieces.
@@ -62,7 +62,7 @@ class WarningMonitor {
   /// Reports that time went back. Forgets poses, predictions and faults; kTimeJump lasts until a new pose is swept.
   void timeJumped(const std::string& message);
 
-  /// Forgets everything but the workpieces and refused meshes.
+  /// Forgets everything but the workpieces, refused meshes and refused vertices. A disabled guard stays disabled.
   void restart();
 
   /// Makes the warning unknown until enable(), whatever is reported. Does nothing if disabled already.
