@@ -15,7 +15,10 @@ def panels_of(path):
     """Returns the classes [ms, share] of each quantity, by number of triangles and method, in the order of the file."""
     panels = {}
     with open(path, newline='', encoding='utf-8') as file:
-        for method, triangles, work, middle, share in csv.reader(file, delimiter='\t'):
+        for line in csv.reader(file, delimiter='\t'):
+            if len(line) != 5:
+                raise ValueError(f'{path}: a line is not a class')
+            method, triangles, work, middle, share = line
             if work in COLORS:
                 panels.setdefault((int(triangles), method), {}).setdefault(work, []).append((float(middle), float(share)))
     return panels

@@ -23,10 +23,10 @@ MARKERS = 'os^vD<>pPX*hd8'
 def rows_of(path):
     types = {'work': str, 'method': str, 'triangles': int, 'queries': int, 'misses': int, 'extras': int}
     with open(path, newline='', encoding='utf-8') as file:
-        rows = [row for row in csv.DictReader(file) if row['work'] != 'work']
+        rows = [row for row in csv.DictReader(file) if row.get('work') != 'work']  # files may be joined
     for row in rows:
-        if None in row:
-            raise ValueError(f'not a line of benchmark results: {row}')
+        if None in row or None in row.values() or 'extras' not in row:
+            raise ValueError(f'{path}: not a line of benchmark results: {list(row.values())}')
         for column, text in row.items():
             row[column] = types.get(column, float)(text) if text != '' else None
         row['wrong'] = (row['misses'] or 0) + (row['extras'] or 0) > 0
