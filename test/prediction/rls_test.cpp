@@ -13,13 +13,18 @@ const Eigen::Matrix<double, 3, 2> kTruth = (Eigen::Matrix<double, 3, 2>() << 1.0
 
 Fit::Regressors anyRegressors(Random& random) { return random.inBox({1.0, 1.0, 1.0}); }
 
-TEST(RlsTest, FindsTheCoefficientsOfNoiseFreeObservations) {
-  Random random(1);
+Fit noiseFreeFit(std::uint64_t seed, int observations) {
+  Random random(seed);
   Fit fit;
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < observations; ++i) {
     const Fit::Regressors regressors = anyRegressors(random);
     fit.add(regressors, kTruth.transpose() * regressors);
   }
+  return fit;
+}
+
+TEST(RlsTest, FindsTheCoefficientsOfNoiseFreeObservations) {
+  const Fit fit = noiseFreeFit(/*seed=*/1, /*observations=*/10);
   EXPECT_LT((fit.coefficients() - kTruth).norm(), 1e-12);
   EXPECT_LT(fit.variance().norm(), 1e-12);
 }
@@ -46,12 +51,7 @@ TEST(RlsTest, AgreesWithTheBatchSolution) {
 }
 
 TEST(RlsTest, TakesAnObservationOutAgain) {
-  Random random(3);
-  Fit fit;
-  for (int i = 0; i < 6; ++i) {
-    const Fit::Regressors regressors = anyRegressors(random);
-    fit.add(regressors, kTruth.transpose() * regressors);
-  }
+  Fit fit = noiseFreeFit(/*seed=*/3, /*observations=*/6);
   const Fit::Regressors outlier(1.0, 2.0, 3.0);
   fit.add(outlier, Fit::Outputs(50.0, -50.0));
   EXPECT_GT((fit.coefficients() - kTruth).norm(), 1.0);
@@ -69,7 +69,7 @@ TEST(RlsTest, ThePriorDrawsToZeroWhatIsNotObserved) {
 }
 
 // Two observations of variance 1 for each of orthogonal regressors: half the variance, and nothing in common.
-TEST(RlsTest, TellsHowFarTheCoefficientsCanBeTrusted) {
+TEST(RlsTest, EstimatesTheVarianceOfItsCoefficients) {
   Fit fit;
   for (int i = 0; i < 6; ++i) fit.add(Fit::Regressors::Unit(i % 3), Fit::Outputs(i < 3 ? 1.0 : -1.0, 0.0));
   EXPECT_LT((fit.covariance() - 0.5 * Eigen::Matrix3d::Identity()).norm(), 1e-12);
@@ -79,12 +79,7 @@ TEST(RlsTest, TellsHowFarTheCoefficientsCanBeTrusted) {
 
 // What is forgotten while nothing moves falls back to the prior: neither estimate nor covariance blows up.
 TEST(RlsTest, FallsBackToThePriorWhileNothingMoves) {
-  Random random(4);
-  Fit fit;
-  for (int i = 0; i < 100; ++i) {
-    const Fit::Regressors regressors = anyRegressors(random);
-    fit.add(regressors, kTruth.transpose() * regressors);
-  }
+  Fit fit = noiseFreeFit(/*seed=*/4, /*observations=*/100);
   for (int i = 0; i < 100000; ++i) {
     fit.forget(0.99);
     fit.add(Fit::Regressors::Zero(), Fit::Outputs::Zero());
