@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/predict_contacts.h"
+#include "guard/predict_contacts.h"
 
 #include "guard/path_checker.h"
 

@@ -69,7 +69,7 @@ GLint GLAPIENTRY forgetTheNameOfTheLastHit(GLenum mode) {
   return records;
 }
 
-// Triangles in a row along x, each 0.01 large; the canary at the centre of the cube.
+// Triangles in a row along x, each 0.01 large; the canary at the center of the cube.
 class Row {
  public:
   explicit Row(const std::vector<float>& places) {

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "common/pool.h"
 #include "mesh_orders.h"
 #include "monitor/warnings.h"
 #include "scenes.h"
-#include "sweep_guard/common/pool.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"

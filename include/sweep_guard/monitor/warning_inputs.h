@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/time.h"
 #include "sweep_guard/monitor/predicted_contact.h"
-#include "sweep_guard/monitor/timestamps.h"
 
 namespace sweep_guard_core {
 

@@ -6,9 +6,9 @@
 
 #include <string>
 
+#include "guard/workpiece_store.h"
+#include "monitor/input_record.h"
 #include "ros/log_throttle.h"
-#include "sweep_guard/guard/workpiece_store.h"
-#include "sweep_guard/monitor/input_record.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 #include "sweep_guard/ros/queue_thread.h"
 

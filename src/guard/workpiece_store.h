@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/pool.h"
+#include "common/pool.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {
