@@ -225,7 +225,7 @@ TEST_P(GlSelectTest, DoesNotGrowItsBufferForEver) {
 TEST_P(GlSelectTest, DoesNotTrustAHitUnderAnUnknownName) {
   for (const auto spoil : {misnameTheLastHit, forgetTheNameOfTheLastHit}) {
     const Replacements replacements = {{"glSelectBuffer", erased(rememberBuffer)}, {"glRenderMode", erased(spoil)}};
-    EXPECT_TRUE(has(complaint(replacements), "no known name"));
+    EXPECT_TRUE(has(complaint(replacements), "unknown name"));
   }
 }
 
