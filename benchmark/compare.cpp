@@ -5,11 +5,11 @@
 #include <boost/program_options.hpp>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <optional>
 
+#include "common/run_program.h"
 #include "machine.h"
 #include "peers/detector_peer.h"
 #include "peers/peers.h"
@@ -93,12 +93,8 @@ bool runsOnEveryWorkload(const Method& method) {
 
 class Comparison {
  public:
-  explicit Comparison(const Options& options) : options_(options), hull_(rings(options.triangles)) {
-    if (options.csv.empty()) return;
-    csv_.open(options.csv, std::ios::app);
-    if (!csv_) throw InvalidInput(options.csv + ": cannot write");
-    if (csv_.tellp() == 0) csv_ << csvHeader();
-  }
+  explicit Comparison(const Options& options)
+      : options_(options), hull_(rings(options.triangles)), results_(options.csv) {}
 
   /// @returns whether our detectors made no error
   bool run() {
@@ -189,12 +185,12 @@ class Comparison {
                 row.p90_us, *row.ratio_median, *row.ratio_p10, count(row.misses).c_str(), count(row.extras).c_str(),
                 frames);
     std::fflush(stdout);
-    if (csv_.is_open()) csv_ << csvLine(row) << std::flush;
+    results_.write(row);
   }
 
   const Options& options_;
   Hull hull_;
-  std::ofstream csv_;
+  ResultFile results_;
   bool right_ = true;
 };
 
@@ -216,10 +212,5 @@ int run(int argc, char** argv) {
 }  // namespace sweep_guard_benchmark
 
 int main(int argc, char** argv) {
-  try {
-    return sweep_guard_benchmark::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "compare: " << error.what() << '\n';
-    return 2;
-  }
+  return sweep_guard_core::runProgram("compare", [&] { return sweep_guard_benchmark::run(argc, argv); });
 }

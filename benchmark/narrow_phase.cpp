@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "drill.h"
 #include "scenes.h"
 #include "sweep_guard/detection/time_of_impact.h"
 #include "sweep_guard/geometry/separation.h"
@@ -28,8 +29,6 @@ struct Drill {
     return X_MT * shape_T.supportPoint(X_MT.linear().transpose() * direction);
   }
 };
-
-ConvexShape drill() { return ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1); }
 
 // Triangles of 3 mm up to `away` [mm] from the drill's axis.
 std::vector<Candidate> candidates(std::int64_t away, bool turning) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <iosfwd>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,11 +29,18 @@ struct Row {
 Row makeRow(const std::string& work, const std::string& method, size_t triangles, size_t queries,
             const std::vector<double>& times);
 
-/// Returns the names of the columns as a line.
-std::string csvHeader();
-std::string csvLine(const Row& row);
+/// A CSV file to which rows are appended.
+class ResultFile {
+ public:
+  /// @param path  empty: rows are dropped
+  /// @throws InvalidInput if the file cannot be written, as does write()
+  explicit ResultFile(const std::string& path);
 
-/// @throws InvalidInput if a line is not one of csvLine() or csvHeader()
-std::vector<Row> readCsv(std::istream& csv);
+  void write(const Row& row);
+
+ private:
+  std::string path_;
+  std::ofstream csv_;
+};
 
 }  // namespace sweep_guard_benchmark

@@ -1,9 +1,8 @@
 // Measures what a sweep costs apart from the detector: its volume, and the narrow phase per triangle met.
 //   set_up [--csv FILE]
 #include <cstdio>
-#include <fstream>
-#include <iostream>
 
+#include "common/run_program.h"
 #include "microseconds.h"
 #include "row.h"
 #include "sweep_guard/common/error.h"
@@ -59,18 +58,15 @@ Row narrowPhase(const Workload& workload) {
 int run(const std::vector<std::string>& arguments) {
   const bool has_csv = arguments.size() == 2 && arguments[0] == "--csv";
   if (!arguments.empty() && !has_csv) throw InvalidInput("usage: set_up [--csv FILE]");
+  ResultFile results(has_csv ? arguments[1] : "");
   const Workload workload = ordinary(Hull(kRings), Queries::kSweep, kFrames);
   const std::vector<Row> rows = {setUp(workload, VolumeKind::kObb), setUp(workload, VolumeKind::kObbPlanes),
                                  setUp(workload, VolumeKind::kHull), narrowPhase(workload)};
   for (const Row& row : rows) {
     std::printf("%s, %s: %.3f us (%.3f to %.3f)\n", row.work.c_str(), row.method.c_str(), row.median_us, row.p10_us,
                 row.p90_us);
+    results.write(row);
   }
-  if (!has_csv) return 0;
-  std::ofstream csv(arguments[1], std::ios::app);
-  if (csv.tellp() == 0) csv << csvHeader();
-  for (const Row& row : rows) csv << csvLine(row);
-  if (!csv.flush()) throw InvalidInput(arguments[1] + ": cannot write");
   return 0;
 }
 
@@ -78,10 +74,5 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace sweep_guard_benchmark
 
 int main(int argc, char** argv) {
-  try {
-    return sweep_guard_benchmark::run({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::cerr << "set_up: " << error.what() << '\n';
-    return 2;
-  }
+  return sweep_guard_core::runProgram("set_up", [&] { return sweep_guard_benchmark::run({argv + 1, argv + argc}); });
 }

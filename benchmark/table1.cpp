@@ -4,11 +4,12 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "common/run_program.h"
+#include "drill.h"
 #include "microseconds.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
@@ -22,8 +23,6 @@ namespace {
 constexpr int kMotions = 100;
 constexpr int kRepetitions = 20;
 constexpr std::array<VolumeKind, 2> kKinds = {VolumeKind::kObb, VolumeKind::kObbPlanes};
-
-ConvexShape drill() { return ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1); }
 
 // A drill points into the hull and moves like a hand. Its tip is from 5 mm below to 20 mm above the surface.
 Motion drilling(Random& random) {
@@ -74,7 +73,7 @@ void measure(Variant& variant, const ConvexShape& tool, const TriangleMesh& mesh
 }
 
 // The variants take turns, in another order in each repetition, so that a busy machine slows all of them equally.
-std::vector<Variant> run(const TriangleMesh& mesh) {
+std::vector<Variant> timesOn(const TriangleMesh& mesh) {
   const ConvexShape tool = drill();
   Random random(/*seed=*/1);
   std::vector<Motion> motions;
@@ -105,7 +104,7 @@ void printTimes(const TriangleMesh& mesh, std::ostream& csv) {
   const size_t triangles = mesh.triangles().size();
   std::printf("\n%zu triangles            volume       set-up    query     both   (p10 to p90)      hits   paper\n",
               triangles);
-  for (const Variant& variant : run(mesh)) {
+  for (const Variant& variant : timesOn(mesh)) {
     const double hits = static_cast<double>(variant.hits) / (kMotions * kRepetitions);
     const double paper = papersTime(triangles, variant.kind);
     const std::array<double, 5> times = {quantile(variant.set_up, 0.5), quantile(variant.query, 0.5),
@@ -119,7 +118,7 @@ void printTimes(const TriangleMesh& mesh, std::ostream& csv) {
   }
 }
 
-int main(const std::vector<std::string>& arguments) {
+int run(const std::vector<std::string>& arguments) {
   std::ofstream csv;
   if (arguments.size() == 2 && arguments[0] == "--csv") {
     csv.open(arguments[1]);
@@ -144,10 +143,10 @@ int main(const std::vector<std::string>& arguments) {
 }  // namespace sweep_guard_core
 
 int main(int argc, char** argv) {
-  try {
-    return sweep_guard_core::main({argv + 1, argv + argc});
-  } catch (const sweep_guard_core::Error& error) {
-    std::cerr << "table1: " << error.what() << '\n';
-    return 1;
-  }
+  return sweep_guard_core::runProgram(
+      "table1",
+      [&] {
+        return sweep_guard_core::run({argv + 1, argv + argc});
+      },
+      /*failed=*/1);
 }

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/run_program.h"
 #include "microseconds.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
@@ -41,16 +41,15 @@ Surface readSurface(const std::string& path, double unit) {
   return surface;
 }
 
-double sizeOf(const Surface& surface) {
+Eigen::AlignedBox3d boxOf(const Surface& surface) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : surface.vertices) box.extend(p);
-  return box.sizes().maxCoeff();
+  return box;
 }
 
 TriangleMesh centered(Surface surface) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : surface.vertices) box.extend(p);
-  for (Eigen::Vector3d& p : surface.vertices) p -= box.center();
+  const Eigen::Vector3d center = boxOf(surface).center();
+  for (Eigen::Vector3d& p : surface.vertices) p -= center;
   return TriangleMesh(surface.vertices, surface.triangles);
 }
 
@@ -89,7 +88,7 @@ std::vector<NamedMesh> tools(const std::string& data) {
 }
 
 NamedMesh workpieceOf(const std::string& name, const std::string& path, double size) {
-  const double unit = sizeOf(readSurface(path, 1.0));
+  const double unit = boxOf(readSurface(path, 1.0)).sizes().maxCoeff();
   return {name, centered(readSurface(path, size / unit))};
 }
 
@@ -219,7 +218,7 @@ void study(const NamedMesh& tool_T, const std::vector<NamedMesh>& workpieces, De
   }
 }
 
-int main(const std::vector<std::string>& arguments) {
+int run(const std::vector<std::string>& arguments) {
   const char* const variable = std::getenv("SWEEP_GUARD_DATA");
   if (arguments.size() > 1 || (arguments.empty() && variable == nullptr)) {
     throw InvalidInput("usage: tool_depth DATA, the folder with mesh/ and urdf/, or set SWEEP_GUARD_DATA");
@@ -247,10 +246,10 @@ int main(const std::vector<std::string>& arguments) {
 }  // namespace sweep_guard_core
 
 int main(int argc, char** argv) {
-  try {
-    return sweep_guard_core::main({argv + 1, argv + argc});
-  } catch (const sweep_guard_core::Error& error) {
-    std::cerr << "tool_depth: " << error.what() << '\n';
-    return 1;
-  }
+  return sweep_guard_core::runProgram(
+      "tool_depth",
+      [&] {
+        return sweep_guard_core::run({argv + 1, argv + argc});
+      },
+      /*failed=*/1);
 }

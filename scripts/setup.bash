@@ -15,7 +15,7 @@ usage_error() { status=2 fail "$*: see scripts/$(basename "$0") --help"; }
 # needs_value OPTION [VALUE] [...] - the rest of the command line
 needs_value() { [[ -n ${2:-} ]] || usage_error "$1 needs a value"; }
 
-# needs_seconds OPTION [VALUE] [...] - likewise
+# needs_seconds OPTION [VALUE] [...] - the value is a number of seconds
 needs_seconds() {
   needs_value "$@"
   [[ $2 =~ ^[0-9]+(\.[0-9]+)?$ && $2 =~ [1-9] ]] || usage_error "$1 needs seconds above 0, not $2"

@@ -1,10 +1,15 @@
 #include "latency/figures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <map>
 
 namespace sweep_guard_benchmark {
 namespace {
+
+constexpr double kClasses = 20.0;  // per decade
+constexpr double kMin = 1e-3;      // [ms]
 
 double milliseconds(Nanoseconds duration) { return 1e-6 * static_cast<double>(duration); }
 
@@ -30,6 +35,20 @@ std::vector<double> ages(const std::vector<ReceivedMessage>& messages) {
     if (!repeats) ages.push_back(milliseconds(one->received - one->stamp));
   }
   return ages;
+}
+
+std::vector<HistogramClass> histogram(const std::vector<double>& milliseconds) {
+  std::map<int, double> counts;
+  for (const double value : milliseconds) {
+    counts[static_cast<int>(std::floor(kClasses * std::log10(std::max(value, kMin))))] += 1.0;
+  }
+  std::vector<HistogramClass> classes;
+  if (counts.empty()) return classes;
+  for (int number = counts.begin()->first; number <= counts.rbegin()->first; ++number) {
+    classes.push_back(
+        {std::pow(10.0, (number + 0.5) / kClasses), counts[number] / static_cast<double>(milliseconds.size())});
+  }
+  return classes;
 }
 
 std::size_t holes(const std::vector<ReceivedMessage>& messages) {

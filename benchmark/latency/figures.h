@@ -25,6 +25,15 @@ std::vector<double> latencies(const std::vector<Nanoseconds>& poses, const std::
 /// stamp only the first counts; the others repeat it.
 std::vector<double> ages(const std::vector<ReceivedMessage>& messages);
 
+/// A class of a distribution.
+struct HistogramClass {
+  double middle_ms;
+  double share;  ///< of all measurements
+};
+
+/// Returns the distribution in twenty classes per decade, for a log scale. No class between the ends is left out.
+std::vector<HistogramClass> histogram(const std::vector<double>& milliseconds);
+
 /// Returns how often a message begins after the end of the previous one: motion that was not swept.
 std::size_t holes(const std::vector<ReceivedMessage>& messages);
 

@@ -5,6 +5,7 @@
 #include <boost/program_options.hpp>
 #include <iostream>
 
+#include "common/run_program.h"
 #include "latency/report.h"
 #include "sweep_guard/common/error.h"
 
@@ -60,10 +61,5 @@ int run(int argc, char** argv) {
 }  // namespace sweep_guard_benchmark
 
 int main(int argc, char** argv) {
-  try {
-    return sweep_guard_benchmark::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "latency: " << error.what() << '\n';
-    return 2;
-  }
+  return sweep_guard_core::runProgram("latency", [&] { return sweep_guard_benchmark::run(argc, argv); });
 }

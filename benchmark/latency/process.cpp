@@ -6,6 +6,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include "sweep_guard/common/error.h"
 
@@ -40,17 +42,11 @@ ChildProcess::~ChildProcess() {
 }
 
 Usage usageOf(pid_t process) {
-  constexpr int kUserTime = 12;  // words after the name: proc(5), stat
-  constexpr int kSystemTime = 13;
-  constexpr int kResidentPages = 22;
-  std::vector<std::string> words(1);
-  for (const char c : statusOf(process)) {
-    if (c == ' ') {
-      words.emplace_back();
-    } else {
-      words.back() += c;
-    }
-  }
+  constexpr int kUserTime = 11;  // words after the name: proc(5), stat
+  constexpr int kSystemTime = 12;
+  constexpr int kResidentPages = 21;
+  std::istringstream status(statusOf(process));
+  const std::vector<std::string> words{std::istream_iterator<std::string>(status), {}};
   const auto number = [&](size_t word) { return std::stod(words.at(word)); };
   return {(number(kUserTime) + number(kSystemTime)) / static_cast<double>(sysconf(_SC_CLK_TCK)),
           1e-6 * number(kResidentPages) * static_cast<double>(sysconf(_SC_PAGESIZE))};

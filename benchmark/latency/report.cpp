@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "evaluation/csv.h"
-#include "latency/histogram.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/quantile.h"
 
@@ -110,9 +109,15 @@ void print(const Settings& settings, const Measurement& measured, const std::vec
 void save(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows) {
   if (!settings.csv.empty()) appendFigures(settings, measured, rows);
   if (settings.histogram.empty()) return;
+  // Tab-separated, because the names contain commas.
+  std::ofstream file(settings.histogram, std::ios::app);
   for (const LatencyRow& row : rows) {
-    appendHistogram(settings.histogram, {methodOf(settings), settings.triangles, row.work}, row.milliseconds);
+    for (const auto& [middle_ms, share] : histogram(row.milliseconds)) {
+      file << methodOf(settings) << '\t' << settings.triangles << '\t' << row.work << '\t' << middle_ms << '\t' << share
+           << '\n';
+    }
   }
+  if (!file) throw InvalidInput("--histogram: cannot write " + settings.histogram);
 }
 
 }  // namespace sweep_guard_benchmark

@@ -1,5 +1,7 @@
 #include "latency/scene.h"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <boost/make_shared.hpp>
 #include <cmath>
 
@@ -31,17 +33,10 @@ Message withId() {
 sweep_guard::DeformableMesh wholeMesh(const sweep_guard_core::TriangleMesh& mesh_M) {
   auto message = withId<sweep_guard::DeformableMesh>();
   for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
-    const Eigen::Vector3d p_M = mesh_M.vertex(i);
-    geometry_msgs::Point point;
-    point.x = p_M.x();
-    point.y = p_M.y();
-    point.z = p_M.z();
-    message.mesh.vertices.push_back(point);
+    message.mesh.vertices.push_back(tf2::toMsg(Eigen::Vector3d(mesh_M.vertex(i))));
   }
   for (const auto& [a, b, c] : mesh_M.triangles()) {
-    shape_msgs::MeshTriangle triangle;
-    triangle.vertex_indices = {a, b, c};
-    message.mesh.triangles.push_back(triangle);
+    message.mesh.triangles.emplace_back().vertex_indices = {a, b, c};
   }
   return message;
 }

@@ -26,13 +26,11 @@ class BulletPeer : public Peer {
 
  protected:
   explicit BulletPeer(Surface& surface)
-      : surface_(surface),
-        indices_(indicesOf(surface)),
+      : indices_(indicesOf(surface)),
         mesh_(static_cast<int>(surface.triangles.size()), indices_.data(), 3 * sizeof(int),
               static_cast<int>(surface.positions_M.size() / 3), surface.positions_M.data(), 3 * sizeof(float)),
         shape_(&mesh_, /*useQuantizedAabbCompression=*/true, -kMaxDistance, kMaxDistance) {}
 
-  Surface& surface_;
   std::vector<int> indices_;
   btTriangleIndexVertexArray mesh_;
   btBvhTriangleMeshShape shape_;
@@ -41,8 +39,6 @@ class BulletPeer : public Peer {
 class BulletCallback : public BulletPeer, private btTriangleCallback {
  public:
   explicit BulletCallback(Surface& surface) : BulletPeer(surface) {}
-
-  void prepare(const std::vector<Polytope>& volumes_M) override { volumes_M_ = &volumes_M; }
 
   void query(size_t volume, TriangleIds& ids) override {
     volume_M_ = &(*volumes_M_)[volume];
@@ -55,7 +51,6 @@ class BulletCallback : public BulletPeer, private btTriangleCallback {
     if (meets(*volume_M_, corners[0], corners[1], corners[2])) ids_->push_back(static_cast<std::uint32_t>(triangle));
   }
 
-  const std::vector<Polytope>* volumes_M_ = nullptr;
   const Polytope* volume_M_ = nullptr;
   TriangleIds* ids_ = nullptr;
 };

@@ -19,8 +19,6 @@ class Cgal : public Peer {
  public:
   explicit Cgal(Surface& surface) : surface_(surface), triangles_(surface.triangles.size()) {}
 
-  void prepare(const std::vector<Polytope>& volumes_M) override { volumes_M_ = &volumes_M; }
-
   void update() override {
     for (size_t i = 0; i < triangles_.size(); ++i) {
       const auto& [a, b, c] = surface_.triangles[i];
@@ -54,7 +52,6 @@ class Cgal : public Peer {
   Triangles triangles_;
   Tree tree_;
   std::vector<Triangles::const_iterator> candidates_;
-  const std::vector<Polytope>* volumes_M_ = nullptr;
 };
 
 }  // namespace

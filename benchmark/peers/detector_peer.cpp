@@ -34,7 +34,7 @@ class DetectorPeer : public Peer {
       : surface_(surface), mesh_M_(meshOf(surface)), detector_(std::move(detector)), options_(options) {}
 
   void prepare(const std::vector<Polytope>& volumes_M) override {
-    volumes_M_ = &volumes_M;
+    Peer::prepare(volumes_M);
     inflation_ = 0.0;
   }
 
@@ -79,7 +79,6 @@ class DetectorPeer : public Peer {
   TriangleMesh mesh_M_;
   std::unique_ptr<Detector> detector_;
   sweep_guard_core::SubmeshFinder finder_;
-  const std::vector<Polytope>* volumes_M_ = nullptr;
   double inflation_ = 0.0;
   Options options_;
   sweep_guard_core::ConvexShape tool_ = drill();

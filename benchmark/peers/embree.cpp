@@ -41,7 +41,7 @@ class Embree : public Peer {
   }
 
   void prepare(const std::vector<Polytope>& volumes_M) override {
-    volumes_M_ = &volumes_M;
+    Peer::prepare(volumes_M);
     volumes_scene_ = sceneOf(device_, volumes_M.size(), boundVolume, this);
   }
 
@@ -101,7 +101,6 @@ class Embree : public Peer {
   Device device_;
   Scene scene_;
   Scene volumes_scene_;
-  const std::vector<Polytope>* volumes_M_ = nullptr;
   TriangleIds* ids_ = nullptr;  // of each volume
 };
 

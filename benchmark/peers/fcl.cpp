@@ -26,11 +26,11 @@ std::unique_ptr<Shape> shapeOf(const Polytope& volume_M) {
   return shape;
 }
 
-// Not beginUpdateModel(): its boxes also contain the previous positions.
 template <typename Box>
-class Model {
+class FclPeer : public Peer {
  public:
-  explicit Model(const Surface& surface) : surface_(surface) {
+  explicit FclPeer(const Surface& surface) : surface_(surface) {
+    request_.num_max_contacts = surface.triangles.size();
     std::vector<fcl::Triangle> triangles;
     for (const auto& [a, b, c] : surface.triangles) triangles.emplace_back(a, b, c);
     model_.beginModel();
@@ -40,13 +40,28 @@ class Model {
     model_.endModel();
   }
 
-  void refit() {
+  void prepare(const std::vector<Polytope>& volumes_M) override {
+    shapes_.clear();
+    for (const Polytope& volume_M : volumes_M) shapes_.push_back(shapeOf(volume_M));
+  }
+
+  // Not beginUpdateModel(): its boxes also contain the previous positions.
+  void update() override {
     model_.beginReplaceModel();
     forEachVertex([&](const fcl::Vector3d& p) { model_.replaceVertex(p); });
     model_.endReplaceModel(/*refit=*/true, /*bottomup=*/true);
   }
 
-  fcl::BVHModel<Box>& operator*() { return model_; }
+ protected:
+  static void add(const fcl::CollisionResultd& result, TriangleIds& ids) {
+    for (size_t i = 0; i < result.numContacts(); ++i) {
+      ids.push_back(static_cast<std::uint32_t>(result.getContact(i).b1));
+    }
+  }
+
+  fcl::BVHModel<Box> model_;
+  fcl::CollisionRequestd request_;
+  std::vector<std::unique_ptr<Shape>> shapes_;
 
  private:
   template <typename Function>
@@ -56,68 +71,36 @@ class Model {
   }
 
   const Surface& surface_;
-  fcl::BVHModel<Box> model_;
 };
 
-class FclPeer : public Peer {
+class FclAabb : public FclPeer<fcl::AABB<double>> {
  public:
-  void prepare(const std::vector<Polytope>& volumes_M) override {
-    shapes_.clear();
-    for (const Polytope& volume_M : volumes_M) shapes_.push_back(shapeOf(volume_M));
-  }
-
- protected:
-  explicit FclPeer(const Surface& surface) { request_.num_max_contacts = surface.triangles.size(); }
-
-  static void add(const fcl::CollisionResultd& result, TriangleIds& ids) {
-    for (size_t i = 0; i < result.numContacts(); ++i) {
-      ids.push_back(static_cast<std::uint32_t>(result.getContact(i).b1));
-    }
-  }
-
-  fcl::CollisionRequestd request_;
-  std::vector<std::unique_ptr<Shape>> shapes_;
-};
-
-class FclAabb : public FclPeer {
- public:
-  explicit FclAabb(const Surface& surface) : FclPeer(surface), model_(surface) {}
-
-  void update() override { model_.refit(); }
+  using FclPeer::FclPeer;
 
   // fcl::collide() would copy the model.
   void query(size_t volume, TriangleIds& ids) override {
     fcl::Transform3d identity = fcl::Transform3d::Identity();
     fcl::CollisionResultd result;
-    Node node;
-    fcl::detail::initialize(node, *model_, identity, *shapes_[volume], identity, &solver_, request_, result);
+    fcl::detail::MeshShapeCollisionTraversalNode<fcl::AABB<double>, Shape, Solver> node;
+    fcl::detail::initialize(node, model_, identity, *shapes_[volume], identity, &solver_, request_, result);
     fcl::detail::collide(&node);
     add(result, ids);
   }
 
  private:
-  using Box = fcl::AABB<double>;
-  using Node = fcl::detail::MeshShapeCollisionTraversalNode<Box, Shape, Solver>;
-
-  Model<Box> model_;
   Solver solver_;
 };
 
-class FclObbRss : public FclPeer {
+class FclObbRss : public FclPeer<fcl::OBBRSS<double>> {
  public:
-  explicit FclObbRss(const Surface& surface) : FclPeer(surface), model_(surface) {}
-
-  void update() override { model_.refit(); }
+  using FclPeer::FclPeer;
 
   void query(size_t volume, TriangleIds& ids) override {
     const fcl::Transform3d identity = fcl::Transform3d::Identity();
     fcl::CollisionResultd result;
-    fcl::collide(&*model_, identity, shapes_[volume].get(), identity, request_, result);
+    fcl::collide(&model_, identity, shapes_[volume].get(), identity, request_, result);
     add(result, ids);
   }
-
- private:
-  Model<fcl::OBBRSS<double>> model_;
 };
 
 }  // namespace

@@ -12,8 +12,6 @@ class MemoryRead : public Peer {
  public:
   explicit MemoryRead(Surface& surface) : surface_(surface), positions_M_(surface.positions_M) {}
 
-  void prepare(const std::vector<Polytope>& /*volumes_M*/) override {}
-
   void update() override {
     positions_M_.swap(surface_.positions_M);
     const float* const positions = positions_M_.data();

@@ -26,7 +26,7 @@ class Peer {
   virtual ~Peer() = default;
 
   /// Sets the volumes of the next queries; not timed. They stay until the next call.
-  virtual void prepare(const std::vector<Polytope>& volumes_M) = 0;
+  virtual void prepare(const std::vector<Polytope>& volumes_M) { volumes_M_ = &volumes_M; }
 
   /// Reads the positions of the surface. May exchange the vector of positions for another one of the same size.
   virtual void update() = 0;
@@ -50,6 +50,8 @@ class Peer {
   Peer() = default;
   Peer(const Peer&) = default;
   Peer& operator=(const Peer&) = default;
+
+  const std::vector<Polytope>* volumes_M_ = nullptr;  ///< of the next queries
 };
 
 }  // namespace sweep_guard_benchmark

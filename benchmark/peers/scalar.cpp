@@ -16,7 +16,6 @@ class Scalar : public Peer {
  public:
   explicit Scalar(Surface& surface) : surface_(surface) {}
 
-  void prepare(const std::vector<Polytope>& volumes_M) override { volumes_M_ = &volumes_M; }
   void update() override {}
 
   void query(size_t volume, TriangleIds& ids) override {
@@ -67,7 +66,6 @@ class Scalar : public Peer {
   }
 
   Surface& surface_;
-  const std::vector<Polytope>* volumes_M_ = nullptr;
   std::vector<Plane> planes_;
   std::array<float, 3> lower_;
   std::array<float, 3> upper_;

@@ -116,13 +116,13 @@ void GlSelect::readHits(int records, std::uint32_t canary_name) {
   for (size_t i = 0; i < static_cast<size_t>(records); ++i) {
     const std::uint32_t* record = &hit_buffer_[kWordsPerRecord * i];
     if (record[0] != 1 || record[3] > canary_name)
-      throw DeviceError("OpenGL selection reports a hit under no known name");
+      throw DeviceError("OpenGL selection reports a hit with an unknown name");
     names_.push_back(record[3]);
   }
   std::sort(names_.begin(), names_.end());
   names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
   if (names_.empty() || names_.back() != canary_name) {
-    throw DeviceError("OpenGL selection does not see the canary triangle: its silence means nothing");
+    throw DeviceError("OpenGL selection misses the canary triangle: its answers cannot be trusted");
   }
   names_.pop_back();
 }

@@ -4,6 +4,7 @@
 #include <set>
 #include <system_error>
 
+#include "common/run_program.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/gnuplot.h"
 #include "evaluation/options.h"
@@ -114,28 +115,22 @@ class Evaluation {
   size_t steps_ = 0;
 };
 
-void run(const Options& options) {
+int run(int argc, char** argv) {
+  const Options options = parseOptions(argc, argv);
+  if (options.help) {
+    std::cout << usage();
+    return 0;
+  }
   if (!options.plot.empty() || !options.tradeoff_plot.empty()) requireGnuplot();
   Evaluation evaluation(options);
   if (options.wantsErrors()) evaluation.evaluateErrors();
   if (options.wantsWarnings()) evaluation.evaluateWarnings();
+  return 0;
 }
 
 }  // namespace
 }  // namespace sweep_guard_evaluation
 
 int main(int argc, char** argv) {
-  using namespace sweep_guard_evaluation;
-  try {
-    const Options options = parseOptions(argc, argv);
-    if (options.help) {
-      std::cout << usage();
-      return 0;
-    }
-    run(options);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate_prediction: " << error.what() << std::endl;
-    return 2;
-  }
+  return sweep_guard_core::runProgram("evaluate_prediction", [&] { return sweep_guard_evaluation::run(argc, argv); });
 }

@@ -29,24 +29,10 @@ std::vector<std::string> splitAtCommas(const std::string& list) {
   return words;
 }
 
-/// Unchecked values of the options.
-struct Words {
-  std::string predictors = fmt::format("{}", fmt::join(sweep_guard_core::predictorNames(), ","));
-  std::string horizons = "0.1,0.2,0.5,1";
-  std::string degree = "1";
-  std::string window = "0.3";
-  std::string forgetting_factor = "0.98";
-  std::string tool_radius = "0.005";
-  std::string tool_length = "0.1";
-  std::string placements = "80";
-  std::string seed = "1";
-  std::string min_probability = csvNumber(sweep_guard_core::WarningLimits{}.min_probability);
-  std::string hold_time = "0.5";
-  std::string max_false_alarms = "20";
-};
-
 auto text(std::string& word, const char* name) { return po::value(&word)->value_name(name); }
-auto withDefault(std::string& word, const char* name) { return text(word, name)->default_value(word); }
+auto withDefault(const std::string& word, const char* name) {
+  return po::value<std::string>()->value_name(name)->default_value(word);
+}
 
 po::options_description outputOptions(Options& options) {
   po::options_description described("Results to compute and write; by default all results are computed and printed");
@@ -58,32 +44,32 @@ po::options_description outputOptions(Options& options) {
   return described;
 }
 
-po::options_description predictionOptions(Options& options, Words& words) {
+po::options_description predictionOptions(Options& options) {
   po::options_description described("Prediction");
   described.add_options()("help,h", po::bool_switch(&options.help), "print this text")(
-      "predictors", withDefault(words.predictors, "NAMES"), "predictors to compare")(
-      "topic", text(options.topic, "NAME"), "topic of the poses in rosbags; required if there are several")(
-      "horizons", withDefault(words.horizons, "S,S,..."), "horizons of the prediction errors [s]")(
-      "degree", withDefault(words.degree, "N"),
+      "predictors", withDefault(fmt::format("{}", fmt::join(sweep_guard_core::predictorNames(), ",")), "NAMES"),
+      "predictors to compare")("topic", text(options.topic, "NAME"),
+                               "topic of the poses in rosbags; required if there are several")(
+      "horizons", withDefault("0.1,0.2,0.5,1", "S,S,..."), "horizons of the prediction errors [s]")(
+      "degree", withDefault("1", "N"),
       "`polynomial` only: degree, 0 to 5; one for all axes, or six for x,y,z and the rotations")(
-      "window", withDefault(words.window, "S"), "`polynomial` only: ignores older poses [s]")(
-      "forgetting-factor", withDefault(words.forgetting_factor, "F"),
+      "window", withDefault("0.3", "S"), "`polynomial` only: ignores older poses [s]")(
+      "forgetting-factor", withDefault("0.98", "F"),
       "`polynomial` only: weight of a pose relative to the next pose, in (0, 1]");
   return described;
 }
 
-po::options_description warningOptions(Words& words) {
+po::options_description warningOptions() {
   po::options_description described("Warnings");
-  described.add_options()("placements", withDefault(words.placements, "N"),
+  described.add_options()("placements", withDefault("80", "N"),
                           "obstacles along each recording; the tool runs into half of them and misses the others")(
-      "seed", withDefault(words.seed, "N"), "seed of the placements")(
-      "tool-radius", withDefault(words.tool_radius, "M"), "radius of the tool, a cylinder [m]")(
-      "tool-length", withDefault(words.tool_length, "M"), "length of the tool [m]")(
-      "min-probability", withDefault(words.min_probability, "P"),
+      "seed", withDefault("1", "N"), "seed of the placements")("tool-radius", withDefault("0.005", "M"),
+                                                               "radius of the tool, a cylinder [m]")(
+      "tool-length", withDefault("0.1", "M"), "length of the tool [m]")(
+      "min-probability", withDefault(csvNumber(sweep_guard_core::WarningLimits{}.min_probability), "P"),
       "smallest probability of a contact that raises a warning, in (0, 1]")(
-      "hold-time", withDefault(words.hold_time, "S"), "a warning stays for this time after its cause is over [s]")(
-      "up-to", withDefault(words.max_false_alarms, "N"),
-      "end of the average of the trade-off [false alarms per minute]");
+      "hold-time", withDefault("0.5", "S"), "a warning stays for this time after its cause is over [s]")(
+      "up-to", withDefault("20", "N"), "end of the average of the trade-off [false alarms per minute]");
   return described;
 }
 
@@ -129,49 +115,51 @@ std::array<int, 6> toDegrees(const std::string& list) {
   return degrees;
 }
 
-void applyPredictionOptions(const Words& words, Options& options) {
-  options.predictors = toPredictors(words.predictors);
-  options.horizons = toHorizons(words.horizons);
-  options.predictor.degree = toDegrees(words.degree);
-  options.predictor.window = sweep_guard_core::fromSeconds(toNumber("window", words.window, 1e-3, 60.0));
-  options.predictor.forgetting_factor = toNumber("forgetting-factor", words.forgetting_factor, 1e-3, 1.0);
-}
-
-void applyWarningOptions(const Words& words, Options& options) {
-  options.placement.count = toNumber<size_t>("placements", words.placements, 1, 100000);
-  options.placement.seed = toNumber<std::uint64_t>("seed", words.seed, 0, std::numeric_limits<std::uint64_t>::max());
-  options.simulation.tool = sweep_guard_core::ConvexShape::cylinder(
-      toNumber("tool-radius", words.tool_radius, 1e-6, 100.0), toNumber("tool-length", words.tool_length, 1e-6, 100.0));
-  options.simulation.limits.min_probability = toNumber("min-probability", words.min_probability, 1e-3, 1.0);
-  options.simulation.limits.hold_time =
-      sweep_guard_core::fromSeconds(toNumber("hold-time", words.hold_time, 0.0, 60.0));
-  options.max_false_alarms = toNumber("up-to", words.max_false_alarms, 1e-3, 1e6);
+// Checks the texts of the options, and stores what they say.
+void store(const po::variables_map& values, Options& options) {
+  const auto word = [&](const char* option) { return values[option].as<std::string>(); };
+  const auto number = [&](const char* option, auto lower, auto upper) {
+    return toNumber(option, word(option), lower, upper);
+  };
+  const auto seconds = [&](const char* option, double lower, double upper) {
+    return sweep_guard_core::fromSeconds(number(option, lower, upper));
+  };
+  options.predictors = toPredictors(word("predictors"));
+  options.horizons = toHorizons(word("horizons"));
+  options.predictor.degree = toDegrees(word("degree"));
+  options.predictor.window = seconds("window", 1e-3, 60.0);
+  options.predictor.forgetting_factor = number("forgetting-factor", 1e-3, 1.0);
+  options.placement.count = number("placements", size_t{1}, size_t{100000});
+  options.placement.seed = number("seed", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
+  options.simulation.tool =
+      sweep_guard_core::ConvexShape::cylinder(number("tool-radius", 1e-6, 100.0), number("tool-length", 1e-6, 100.0));
+  options.simulation.limits.min_probability = number("min-probability", 1e-3, 1.0);
+  options.simulation.limits.hold_time = seconds("hold-time", 0.0, 60.0);
+  options.max_false_alarms = number("up-to", 1e-3, 1e6);
 }
 
 }  // namespace
 
 std::string usage() {
   Options options;
-  Words words;
   std::ostringstream text;
   text << "Usage: evaluate_prediction [options] FILE...\n\n"
           "Measures how well recorded motions are predicted, and how early and how often the guard warns. FILE is a\n"
           "motion file (lines `stamp tx ty tz qx qy qz qw` in s and m) or a rosbag with geometry_msgs/PoseStamped or\n"
           "TransformStamped. Prints tables of the results.\n\n"
        << outputOptions(options) << '\n'
-       << predictionOptions(options, words) << '\n'
-       << warningOptions(words);
+       << predictionOptions(options) << '\n'
+       << warningOptions();
   return text.str();
 }
 
 Options parseOptions(int argc, const char* const* argv) {
   Options options;
-  Words words;
   po::options_description all;
-  all.add(outputOptions(options)).add(predictionOptions(options, words)).add(warningOptions(words));
+  all.add(outputOptions(options)).add(predictionOptions(options)).add(warningOptions());
   all.add_options()("file", po::value(&options.files));
+  po::variables_map values;
   try {
-    po::variables_map values;
     po::store(po::command_line_parser(argc, argv)
                   .options(all)
                   .positional(po::positional_options_description().add("file", -1))
@@ -182,8 +170,7 @@ Options parseOptions(int argc, const char* const* argv) {
   } catch (const po::error& error) {
     throw InvalidInput(std::string(error.what()) + "; --help lists the options");
   }
-  applyPredictionOptions(words, options);
-  applyWarningOptions(words, options);
+  store(values, options);
   if (options.files.empty() && !options.help) throw InvalidInput("no recording; --help shows the usage");
   return options;
 }

@@ -95,6 +95,7 @@ void Guard::reset() {
 }
 
 void Guard::exchange(GuardChange& change) {
+  const TimeBudget budget(change.options.horizon, change.options.cycle);
   change.options.clock = options_.clock;
   std::swap(options_, change.options);
   if (change.detector) std::swap(detector_, change.detector);
@@ -106,7 +107,7 @@ void Guard::exchange(GuardChange& change) {
     std::swap(predictor_, *change.predictor);
     if (predicted_motion_) predictor_.observe({predicted_motion_->from.stamp, predicted_motion_->from.X_WT});
   }
-  *budget_ = TimeBudget(options_.horizon, options_.cycle);
+  *budget_ = budget;
   *path_checker_ = PathChecker(PathChecker::optionsOf(options_));
 }
 

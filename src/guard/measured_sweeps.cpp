@@ -84,19 +84,10 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   const size_t last = history.size() - 1;
   Swept& swept = lastSwept(workpiece);
   const size_t begin = history.lastUpTo(swept.pose);
-  while (swept.deformations.size() > 1 && swept.deformations[1]->stamp <= history[begin].stamp) {
-    swept.deformations.erase(swept.deformations.begin());
-  }
-  object.behind = forgetLateDeformations(history[begin].stamp, *workpiece, swept.deformations);
-  const auto& from = swept.deformations.front();
+  const Workpiece& from = measureDisplacements(swept, history[begin].stamp, workpiece, object.behind);
   const Workpiece& before = *swept.deformations.back();
   const bool deformed = workpiece.get() != &before;
-  if (deformed || swept.displaced_from != from) {
-    swept.displaced_from = from;
-    swept.displacements = workpiece == from ? Displacements() : Displacements(from->mesh_M, workpiece->mesh_M);
-  }
-
-  const MovingMesh mesh = movingMesh(*workpiece, *from, swept.displacements);
+  const MovingMesh mesh = movingMesh(*workpiece, from, swept.displacements);
   const bool again = deformed && mesh.moved();
   const size_t first = again ? std::min(begin, history.lastUpTo(before.stamp)) : begin;
   object.workpiece = workpiece;
@@ -122,6 +113,22 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   if (deformed) swept.deformations.push_back(workpiece);
   swept.pose = history.newest().number;
   std::swap(swept.cache, cache_);
+}
+
+// Returns the deformation that was there at the time of a pose.
+const Workpiece& MeasuredSweeps::measureDisplacements(Swept& swept, Time pose,
+                                                      const std::shared_ptr<const Workpiece>& newest,
+                                                      Duration& behind) {
+  while (swept.deformations.size() > 1 && swept.deformations[1]->stamp <= pose) {
+    swept.deformations.erase(swept.deformations.begin());
+  }
+  behind = forgetLateDeformations(pose, *newest, swept.deformations);
+  const auto& from = swept.deformations.front();
+  if (newest != swept.deformations.back() || swept.displaced_from != from) {
+    swept.displaced_from = from;
+    swept.displacements = newest == from ? Displacements() : Displacements(from->mesh_M, newest->mesh_M);
+  }
+  return *from;
 }
 
 // A workpiece with other triangles, or in another frame, has not been swept since the last pose.

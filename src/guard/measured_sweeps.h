@@ -50,6 +50,8 @@ class MeasuredSweeps {
 
   void add(const PoseWithFrames& pose);
   void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, SweptObject& object);
+  static const Workpiece& measureDisplacements(Swept& swept, Time pose, const std::shared_ptr<const Workpiece>& newest,
+                                               Duration& behind);
   Swept& lastSwept(const std::shared_ptr<const Workpiece>& workpiece);
   size_t endOfMotion(const SweepSetup& setup, size_t begin, size_t last) const;
   void findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin, size_t end);

@@ -165,11 +165,4 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, const 
   unite(*progress.triangles, not_ruled_out_);
 }
 
-Prediction predictContacts(Detector& detector, const PredictionRequest& request, const GuardOptions& options,
-                           const std::function<bool()>& out_of_time) {
-  Prediction prediction;
-  PathChecker(PathChecker::optionsOf(options)).predict(detector, request, {{}, out_of_time}, prediction);
-  return prediction;
-}
-
 }  // namespace sweep_guard_core

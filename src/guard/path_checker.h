@@ -7,8 +7,8 @@
 
 #include "guard/contact_probability.h"
 #include "guard/path_in_mesh.h"
+#include "guard/predict_contacts.h"
 #include "guard/swept_body.h"
-#include "sweep_guard/guard/predict_contacts.h"
 
 namespace sweep_guard_core {
 

@@ -1,7 +1,6 @@
 #include "guard/sweep_checker.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "detection/float_planes.h"
 #include "detection/inside.h"
@@ -118,26 +117,6 @@ void SweepChecker::narrow(const SweepRequest& request) {
 
 SweepResult checkSweep(Detector& detector, const SweepRequest& request) {
   return SweepChecker().check(detector, request);
-}
-
-PathResult checkPath(Detector& detector, const PathRequest& request) {
-  const std::vector<Eigen::Isometry3d>& path = request.path;
-  assert(!path.empty());
-  PathResult result;
-  SweepCache cache;
-  for (size_t i = 0; i < std::max<size_t>(path.size() - 1, 1); ++i) {
-    request.before_sweep();
-    const Motion motion{path[i], path[std::min(i + 1, path.size() - 1)]};
-    const std::vector<Motion> sub_motions = split(motion, request.options.max_rotation);
-    const SweepResult sweep = checkSweep(detector, {request.tool, sub_motions, request.mesh_M, request.options, cache});
-    if (sweep.contact() && !result.first_contact) {
-      result.first_contact = i;
-      result.time_of_impact = firstTimeOfImpact(sweep);
-    }
-    cache = sweepCache(sweep);
-    unite(result.all, sweep);
-  }
-  return result;
 }
 
 SweepCache sweepCache(const SweepResult& result) {

@@ -1,4 +1,4 @@
-#include "sweep_guard/monitor/sweep_statistics.h"
+#include "monitor/sweep_statistics.h"
 
 #include <algorithm>
 

@@ -21,8 +21,6 @@ class Rls {
   void forget(double factor) {
     information_ *= factor;
     projection_ *= factor;
-    squares_ *= factor;
-    weight_ *= factor;
   }
 
   /// Adds an observation.
@@ -30,8 +28,6 @@ class Rls {
   void add(const Regressors& regressors, const Outputs& outputs, double weight = 1.0) {
     information_.template selfadjointView<Eigen::Lower>().rankUpdate(regressors, weight);
     projection_.noalias() += weight * regressors * outputs.transpose();
-    squares_ += weight * outputs.cwiseAbs2();
-    weight_ += weight;
   }
 
   /// Returns the coefficients that fit best: one column per output.
@@ -39,17 +35,6 @@ class Rls {
   /// @param prior  information that every coefficient is 0, >= 0
   Coefficients coefficients(int n = N, double prior = 0.0) const {
     return solver(n, prior).solve(projection_.topRows(n));
-  }
-
-  /// Returns the covariance of these coefficients for an output whose observations have variance 1.
-  Square covariance(int n = N, double prior = 0.0) const { return solver(n, prior).solve(Square::Identity(n, n)); }
-
-  /// Returns the variance of the observations about the fit by all regressors; 0 if there are at most N observations.
-  Outputs variance() const {
-    const double freedom = weight_ - N;
-    if (freedom <= 0.0) return Outputs::Zero();
-    const Outputs explained = coefficients().cwiseProduct(projection_).colwise().sum().transpose();
-    return (squares_ - explained).cwiseMax(0.0) / freedom;
   }
 
  private:
@@ -61,8 +46,6 @@ class Rls {
 
   Eigen::Matrix<double, N, N> information_ = Eigen::Matrix<double, N, N>::Zero();  // lower triangle
   Eigen::Matrix<double, N, M> projection_ = Eigen::Matrix<double, N, M>::Zero();
-  Outputs squares_ = Outputs::Zero();
-  double weight_ = 0.0;
 };
 
 }  // namespace sweep_guard_core

@@ -7,6 +7,9 @@
 #include <thread>
 #include <vector>
 
+#include "common/pool.h"
+#include "guard/workpiece_store.h"
+#include "monitor/sweep_statistics.h"
 #include "ros/log_throttle.h"
 #include "ros/output/result_publisher.h"
 #include "ros/output/scene_publisher.h"
@@ -14,10 +17,7 @@
 #include "ros/parameters/parameters.h"
 #include "ros/service/predict.h"
 #include "ros/work_queue.h"
-#include "sweep_guard/common/pool.h"
 #include "sweep_guard/guard/guard.h"
-#include "sweep_guard/guard/workpiece_store.h"
-#include "sweep_guard/monitor/sweep_statistics.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {

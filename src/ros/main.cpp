@@ -1,15 +1,14 @@
 #include <ros/ros.h>
 
-#include <iostream>
-
+#include "common/run_program.h"
 #include "ros/node.h"
 #include "ros/process.h"
 #include "sweep_guard/common/error.h"
 
 int main(int argc, char** argv) {
-  try {
-    ros::init(argc, argv, "sweep_guard");
-    const ros::NodeHandle alive;  // the console is silent without a handle
+  return sweep_guard_core::runProgram("sweep_guard_node", [&] {
+    ros::init(argc, argv, "sweep_guard");  // throws at a refused name or remapping
+    const ros::NodeHandle alive;           // the console is silent without a handle
     try {
       const sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~")};
       sweep_guard_ros::limitMemory(node.parameters().max_memory);
@@ -18,9 +17,6 @@ int main(int argc, char** argv) {
       ROS_FATAL("%s", error.what());
       return 2;
     }
-  } catch (const ros::Exception& error) {  // a refused name or remapping
-    std::cerr << "sweep_guard_node: " << error.what() << std::endl;
-    return 2;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -2,8 +2,8 @@
 
 #include <ros/steady_timer.h>
 
+#include "guard/workpiece_store.h"
 #include "ros/output/warning_publisher.h"
-#include "sweep_guard/guard/workpiece_store.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 #include "sweep_guard/ros/queue_thread.h"
 

@@ -17,7 +17,7 @@
 
 #include "evaluation/gnuplot.h"
 #include "recording/object_contacts.h"
-#include "ros/run_node.h"
+#include "recording/run_node.h"
 #include "session/session_bag.h"
 #include "session/session_log.h"
 #include "session/session_report.h"
@@ -210,5 +210,5 @@ class ReplayReport {
 }  // namespace sweep_guard_session
 
 int main(int argc, char** argv) {
-  return sweep_guard_ros::runNode<sweep_guard_session::ReplayReport>(argc, argv, "replay_report");
+  return sweep_guard_recording::runNode<sweep_guard_session::ReplayReport>(argc, argv, "replay_report");
 }

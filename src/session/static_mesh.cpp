@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ros/run_node.h"
+#include "recording/run_node.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 #include "sweep_guard/ros/tool/mesh_file.h"
@@ -51,5 +51,5 @@ class StaticMesh {
 }  // namespace sweep_guard_session
 
 int main(int argc, char** argv) {
-  return sweep_guard_ros::runNode<sweep_guard_session::StaticMesh>(argc, argv, "static_mesh");
+  return sweep_guard_recording::runNode<sweep_guard_session::StaticMesh>(argc, argv, "static_mesh");
 }

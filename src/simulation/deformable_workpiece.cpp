@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/run_node.h"
+#include "recording/run_node.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
 #include "simulation/workpiece_parameters.h"
@@ -131,5 +131,5 @@ class WorkpieceNode {
 }  // namespace sweep_guard_simulation
 
 int main(int argc, char** argv) {
-  return sweep_guard_ros::runNode<sweep_guard_simulation::WorkpieceNode>(argc, argv, "deformable_workpiece");
+  return sweep_guard_recording::runNode<sweep_guard_simulation::WorkpieceNode>(argc, argv, "deformable_workpiece");
 }

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "common/run_program.h"
 #include "recording/object_contacts.h"
 #include "simulation/demo_statistics.h"
 #include "sweep_guard/Contacts.h"
@@ -201,7 +202,12 @@ void writeLatencies(const std::string& path, const std::vector<Latency>& latenci
   if (!csv) throw InvalidInput(path + ": cannot be written: " + std::strerror(errno));
 }
 
-int run(const Arguments& arguments) {
+int run(const std::vector<std::string>& words) {
+  Arguments arguments = parse(words);
+  if (arguments.help) {
+    std::cout << describe(arguments);
+    return 0;
+  }
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   if (!waitUntil(ros::master::check, "no ROS master at " + ros::master::getURI() + "; start the demo")) return 1;
@@ -222,15 +228,6 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "demo_monitor", ros::init_options::NoSigintHandler);
   std::vector<std::string> words;
   ros::removeROSArgs(argc, argv, words);
-  try {
-    sweep_guard_simulation::Arguments arguments = sweep_guard_simulation::parse(words);
-    if (arguments.help) {
-      std::cout << sweep_guard_simulation::describe(arguments);
-      return 0;
-    }
-    return sweep_guard_simulation::run(arguments);
-  } catch (const sweep_guard_core::InvalidInput& error) {
-    std::cerr << "demo_monitor: " << error.what() << std::endl;
-    return 1;
-  }
+  return sweep_guard_core::runProgram(
+      "demo_monitor", [&] { return sweep_guard_simulation::run(words); }, /*failed=*/1);
 }

@@ -44,7 +44,6 @@ class DemoStatistics {
   bool expects(sweep_guard_core::Time start, sweep_guard_core::Time stamp) const;
 
   std::size_t poses() const { return poses_; }
-  std::size_t meshUpdates() const { return mesh_updates_; }
   std::size_t sweeps() const { return latencies_.size(); }              ///< Contacts messages
   std::size_t contacts() const { return contacts_; }                    ///< Contacts messages with a workpiece
   std::size_t trianglesInContact() const { return triangles_.size(); }  ///< each counts once

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "recording/recording.h"
+#include "recording/run_node.h"
 #include "ros/parameters/parameters.h"
-#include "ros/run_node.h"
 #include "simulation/drilling.h"
 #include "simulation/guided_tip.h"
 #include "simulation/joy_guide.h"
@@ -281,5 +281,5 @@ class OperatorNode {
 }  // namespace sweep_guard_simulation
 
 int main(int argc, char** argv) {
-  return sweep_guard_ros::runNode<sweep_guard_simulation::OperatorNode>(argc, argv, "operator");
+  return sweep_guard_recording::runNode<sweep_guard_simulation::OperatorNode>(argc, argv, "operator");
 }

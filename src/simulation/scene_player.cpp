@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/run_node.h"
+#include "recording/run_node.h"
 #include "simulation/tip_script.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
@@ -233,5 +233,5 @@ class ScenePlayer {
 }  // namespace sweep_guard_simulation
 
 int main(int argc, char** argv) {
-  return sweep_guard_ros::runNode<sweep_guard_simulation::ScenePlayer>(argc, argv, "scene_player");
+  return sweep_guard_recording::runNode<sweep_guard_simulation::ScenePlayer>(argc, argv, "scene_player");
 }

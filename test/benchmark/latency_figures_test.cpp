@@ -2,10 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
-
-#include "latency/histogram.h"
-
 namespace sweep_guard_benchmark {
 namespace {
 
@@ -44,23 +40,23 @@ TEST(LatencyFiguresTest, WhatIsWithinGoesByItsStamp) {
   EXPECT_EQ(inside.front().stamp, 2);
 }
 
-TEST(HistogramTest, IsReadAsItWasWritten) {
-  const std::string path = testing::TempDir() + "/latency_histogram.tsv";
-  std::remove(path.c_str());
-  appendHistogram(path, {"select, tcpros", 1600, "pose to warning"}, {0.51, 0.52, 0.64, 0.0});
-  appendHistogram(path, {"select, nodelet", 1600, "pose to warning"}, {1.0});
-  const std::vector<Histogram> read = readHistograms(path);
-  ASSERT_EQ(read.size(), 2U);
-  EXPECT_EQ(read[0].title.method, "select, tcpros");
-  EXPECT_EQ(read[0].title.work, "pose to warning");
-  EXPECT_EQ(read[0].title.triangles, 1600);
-  ASSERT_GT(read[0].shares.size(), 4U);
-  EXPECT_EQ(read[0].shares.front(), 0.25);
-  EXPECT_EQ(read[0].shares[1], 0.0);
-  EXPECT_EQ((std::vector<double>{read[0].shares.end()[-3], read[0].shares.end()[-2], read[0].shares.back()}),
-            (std::vector<double>{0.5, 0.0, 0.25}));
-  EXPECT_NEAR(read[0].ms.end()[-3], 0.53, 0.03);
-  EXPECT_EQ(read[1].shares, (std::vector<double>{1.0}));
+TEST(HistogramTest, HasTwentyClassesPerDecadeAndNoGap) {
+  const std::vector<HistogramClass> classes = histogram({0.51, 0.52, 0.64, 0.79});
+  ASSERT_EQ(classes.size(), 4U);
+  EXPECT_NEAR(classes[0].middle_ms, 0.531, 0.001);  // 10^(-5.5 / 20)
+  EXPECT_NEAR(classes[3].middle_ms, 0.750, 0.001);  // 10^(-2.5 / 20)
+  EXPECT_EQ(classes[0].share, 0.5);
+  EXPECT_EQ(classes[1].share, 0.0);
+  EXPECT_EQ(classes[2].share, 0.25);
+  EXPECT_EQ(classes[3].share, 0.25);
+}
+
+TEST(HistogramTest, CountsWhatIsBelowAMicrosecondAsOne) {
+  const std::vector<HistogramClass> classes = histogram({0.0, -1.0});
+  ASSERT_EQ(classes.size(), 1U);
+  EXPECT_NEAR(classes[0].middle_ms, 0.00106, 0.00001);  // 10^(-59.5 / 20)
+  EXPECT_EQ(classes[0].share, 1.0);
+  EXPECT_TRUE(histogram({}).empty());
 }
 
 }  // namespace

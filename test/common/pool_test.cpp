@@ -1,4 +1,4 @@
-#include "sweep_guard/common/pool.h"
+#include "common/pool.h"
 
 #include <gtest/gtest.h>
 

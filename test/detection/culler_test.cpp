@@ -53,7 +53,7 @@ TEST(CullerTest, KnowsWhatIsMetByACornerInside) {
   const TriangleMesh mesh({{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {-3, 0, 0.5}, {3, 0.5, 0.5}, {0, -1, 0}},
                           {{0, 1, 2},    // one corner inside
                            {3, 4, 4},    // passes through: it remains to be seen
-                           {5, 2, 2}});  // a corner on the surface: likewise
+                           {5, 2, 2}});  // a corner on the surface: it remains to be seen
   Culler culler;
   EXPECT_EQ(left(culler, mesh, cutCube()), (Triangles{0, 1, 2}));
   EXPECT_EQ(left(culler, mesh, cutCube(), /*met_only=*/true), Triangles{0});

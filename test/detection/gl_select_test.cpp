@@ -69,7 +69,7 @@ GLint GLAPIENTRY forgetTheNameOfTheLastHit(GLenum mode) {
   return records;
 }
 
-// Triangles in a row along x, each 0.01 large; the canary at the centre of the cube.
+// Triangles in a row along x, each 0.01 large; the canary at the center of the cube.
 class Row {
  public:
   explicit Row(const std::vector<float>& places) {
@@ -93,8 +93,13 @@ GlSelect faulty(const Replacements& replacements) {
   return GlSelect(std::make_unique<FaultyContext>(makeOffscreenContext(tested), replacements));
 }
 
-std::string complaint(GlSelect& select) {
+std::string complaint(const Replacements& replacements) {
+  GlSelect select = faulty(replacements);
   return ::refusal<DeviceError>([&] { select.hits(kRow.query()); });
+}
+
+Names hits(const Row& row, int triangles_per_name = 1) {
+  return GlSelect(makeOffscreenContext(tested)).hits(row.query(triangles_per_name));
 }
 
 class GlSelectTest : public OnEveryContext {
@@ -107,30 +112,24 @@ class GlSelectTest : public OnEveryContext {
   }
 };
 
-TEST_P(GlSelectTest, NamesTheTrianglesInTheCube) {
-  GlSelect select(makeOffscreenContext(tested));
-  EXPECT_EQ(select.hits(kRow.query()), (Names{1, 2, 3, 5}));
-}
+TEST_P(GlSelectTest, NamesTheTrianglesInTheCube) { EXPECT_EQ(hits(kRow), (Names{1, 2, 3, 5})); }
 
 TEST_P(GlSelectTest, NamesBlocksOfTriangles) {
-  GlSelect select(makeOffscreenContext(tested));
-  EXPECT_EQ(select.hits(kRow.query(2)), (Names{0, 1, 2}));
-  EXPECT_EQ(select.hits(kRow.query(4)), (Names{0, 1}));  // the last block is short
-  EXPECT_EQ(select.hits(kRow.query(100)), (Names{0}));
-  EXPECT_EQ(select.hits(Row({2.0F, 3.0F, 0.0F}).query(2)), (Names{1}));
+  EXPECT_EQ(hits(kRow, 2), (Names{0, 1, 2}));
+  EXPECT_EQ(hits(kRow, 4), (Names{0, 1}));  // the last block is short
+  EXPECT_EQ(hits(kRow, 100), (Names{0}));
+  EXPECT_EQ(hits(Row({2.0F, 3.0F, 0.0F}), 2), (Names{1}));
 }
 
 TEST_P(GlSelectTest, NamesNothingWhereThereIsNothing) {
-  GlSelect select(makeOffscreenContext(tested));
-  EXPECT_EQ(select.hits(Row({2.0F, -3.0F}).query()), Names{});
-  EXPECT_EQ(select.hits(Row(std::vector<float>{}).query()), Names{});
+  EXPECT_EQ(hits(Row({2.0F, -3.0F})), Names{});
+  EXPECT_EQ(hits(Row(std::vector<float>{})), Names{});
 }
 
 TEST_P(GlSelectTest, KeepsWhatIsOnThePositiveSideOfEachClip) {
   Row row = kRow;
   row.clips = {{1, 0, 0, 0.25}, {-1, 0, 0, 0.75}};  // x >= -0.25, x <= 0.75
-  GlSelect select(makeOffscreenContext(tested));
-  EXPECT_EQ(select.hits(row.query()), (Names{2, 3}));
+  EXPECT_EQ(hits(row), (Names{2, 3}));
 }
 
 TEST_P(GlSelectTest, AppliesSixClips) {
@@ -138,8 +137,7 @@ TEST_P(GlSelectTest, AppliesSixClips) {
   row.clips.assign(5, {0, 0, 0, 1});
   row.clips.push_back({1, 0, 0, -0.25});
   row.canary = {0.3, 0, 0};
-  GlSelect select(makeOffscreenContext(tested));
-  EXPECT_EQ(select.hits(row.query()), (Names{3, 5}));
+  EXPECT_EQ(hits(row), (Names{3, 5}));
 }
 
 TEST_P(GlSelectTest, ForgetsTheClipsOfTheQueryBefore) {
@@ -151,10 +149,7 @@ TEST_P(GlSelectTest, ForgetsTheClipsOfTheQueryBefore) {
 }
 
 // Touching is meeting. 2e-7 further out is not: so the cube is where it should be.
-TEST_P(GlSelectTest, HitsWhatTouchesTheCube) {
-  GlSelect select(makeOffscreenContext(tested));
-  EXPECT_EQ(select.hits(Row({1.0F, 1.0000002F}).query()), (Names{0}));
-}
+TEST_P(GlSelectTest, HitsWhatTouchesTheCube) { EXPECT_EQ(hits(Row({1.0F, 1.0000002F})), (Names{0})); }
 
 TEST_P(GlSelectTest, HitsBothWindingsAndDegenerateTriangles) {
   const std::vector<float> corners = {0,  0,  0,    0,    0.1F, 0,    0.1F, 0,    0,      // clockwise
@@ -209,8 +204,7 @@ TEST_P(GlSelectTest, MakesItsContextCurrentInTheThreadThatAsks) {
 }
 
 TEST_P(GlSelectTest, DoesNotTakeSilenceForAnAnswer) {
-  GlSelect select = faulty({{"glRenderMode", erased(seeNothing)}});
-  EXPECT_TRUE(has(complaint(select), "canary")) << complaint(select);
+  EXPECT_TRUE(has(complaint({{"glRenderMode", erased(seeNothing)}}), "canary"));
 }
 
 TEST_P(GlSelectTest, DoesNotTrustACanaryThatIsOutside) {
@@ -221,21 +215,18 @@ TEST_P(GlSelectTest, DoesNotTrustACanaryThatIsOutside) {
 }
 
 TEST_P(GlSelectTest, DoesNotAnswerAfterAnError) {
-  GlSelect select = faulty({{"glGetError", erased(reportAnError)}});
-  EXPECT_TRUE(has(complaint(select), "error 1282")) << complaint(select);  // GL_INVALID_OPERATION
+  EXPECT_TRUE(has(complaint({{"glGetError", erased(reportAnError)}}), "error 1282"));  // GL_INVALID_OPERATION
 }
 
 TEST_P(GlSelectTest, DoesNotGrowItsBufferForEver) {
-  GlSelect select = faulty({{"glRenderMode", erased(overflowForEver)}});
-  EXPECT_TRUE(has(complaint(select), "overflows")) << complaint(select);
+  EXPECT_TRUE(has(complaint({{"glRenderMode", erased(overflowForEver)}}), "overflows"));
 }
 
 TEST_P(GlSelectTest, DoesNotTrustAHitUnderAnUnknownName) {
-  GlSelect unknown = faulty({{"glSelectBuffer", erased(rememberBuffer)}, {"glRenderMode", erased(misnameTheLastHit)}});
-  EXPECT_TRUE(has(complaint(unknown), "no known name")) << complaint(unknown);
-  GlSelect nameless =
-      faulty({{"glSelectBuffer", erased(rememberBuffer)}, {"glRenderMode", erased(forgetTheNameOfTheLastHit)}});
-  EXPECT_TRUE(has(complaint(nameless), "no known name")) << complaint(nameless);
+  for (const auto spoil : {misnameTheLastHit, forgetTheNameOfTheLastHit}) {
+    const Replacements replacements = {{"glSelectBuffer", erased(rememberBuffer)}, {"glRenderMode", erased(spoil)}};
+    EXPECT_TRUE(has(complaint(replacements), "unknown name"));
+  }
 }
 
 // A vertex that is no number makes OpenGL leave out its triangle. The canary shows that the others are still seen.

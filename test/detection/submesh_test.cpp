@@ -35,16 +35,14 @@ std::set<std::uint32_t> trianglesOf(const Submesh& part) {
   return triangles;
 }
 
-class MeshPartTest : public testing::TestWithParam<MeshOrdering> {
+class SubmeshTest : public testing::TestWithParam<MeshOrdering> {
  protected:
   const TriangleMesh hull_ = GetParam().of(wavyHull(40, 60, 0.5));
 };
 
-TEST_P(MeshPartTest, TheWholeMeshHasEachTriangleOnce) {
-  EXPECT_EQ(trianglesOf(hull_).size(), hull_.triangles().size());
-}
+TEST_P(SubmeshTest, TheWholeMeshHasEachTriangleOnce) { EXPECT_EQ(trianglesOf(hull_).size(), hull_.triangles().size()); }
 
-TEST_P(MeshPartTest, LeavesOutMostOfWhatLiesBeyondASideAndNothingElse) {
+TEST_P(SubmeshTest, LeavesOutMostOfWhatLiesBeyondASideAndNothingElse) {
   Random random(1);
   SubmeshFinder finder;
   double left = 0.0;
@@ -61,7 +59,7 @@ TEST_P(MeshPartTest, LeavesOutMostOfWhatLiesBeyondASideAndNothingElse) {
   EXPECT_LT(left, 0.3);
 }
 
-TEST_P(MeshPartTest, APartOfAPartIsWhatIsWithinBoth) {
+TEST_P(SubmeshTest, ASubmeshOfASubmeshIsWhatIsWithinBoth) {
   Random random(2);
   SubmeshFinder outer;
   SubmeshFinder inner;
@@ -74,7 +72,7 @@ TEST_P(MeshPartTest, APartOfAPartIsWhatIsWithinBoth) {
   }
 }
 
-TEST_P(MeshPartTest, OfABoxFarAwayNothingIsLeft) {
+TEST_P(SubmeshTest, OfABoxFarAwayNothingIsLeft) {
   SubmeshFinder finder;
   const Eigen::AlignedBox3d box_M(Eigen::Vector3d(5, 5, 5), Eigen::Vector3d(6, 6, 6));
   const Submesh part = finder.find(hull_, floatPlanes(hull_, box_M));
@@ -82,14 +80,14 @@ TEST_P(MeshPartTest, OfABoxFarAwayNothingIsLeft) {
   EXPECT_TRUE(SubmeshFinder().find(part, floatPlanes(hull_, box_M)).empty());
 }
 
-TEST_P(MeshPartTest, OfAnInfiniteBoxAllIsLeft) {
+TEST_P(SubmeshTest, OfAnInfiniteBoxAllIsLeft) {
   SubmeshFinder finder;
   const double far = std::numeric_limits<double>::infinity();
   const Eigen::AlignedBox3d box_M(Eigen::Vector3d::Constant(-far), Eigen::Vector3d::Constant(far));
   EXPECT_EQ(trianglesOf(finder.find(hull_, floatPlanes(hull_, box_M))).size(), hull_.triangles().size());
 }
 
-INSTANTIATE_TEST_SUITE_P(AllOrders, MeshPartTest, testing::ValuesIn(meshOrderings()),
+INSTANTIATE_TEST_SUITE_P(AllOrders, SubmeshTest, testing::ValuesIn(meshOrderings()),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -155,7 +155,7 @@ TEST(TimeOfImpactTest, IsTheSameElsewhere) {
   }
 }
 
-TEST(TimeOfImpactTest, StaysOutByTheMarginAndTheBulge) {
+TEST(TimeOfImpactTest, StaysOutByTheMarginAndTheDeviationBound) {
   const ConvexShape ball = ConvexShape::sphere(kRadius);
   Motion down = slide({0, 0, 0.05}, {0, 0, 0.012});
   EXPECT_FALSE(timeOfImpact(ball, {down}, resting(kPlane), 0.001));
@@ -170,16 +170,16 @@ TEST(TimeOfImpactTest, StaysOutByTheMarginAndTheBulge) {
 TEST(TimeOfImpactTest, IsOfATriangleThatJumpsOverATool) {
   const ConvexShape ball = ConvexShape::sphere(kRadius);
   const Isometry3d rest = at({1.0, 2.0, 0.0});
-  MovingTriangle sheet = resting(kPlane);
+  MovingTriangle jumping = resting(kPlane);
   for (size_t i = 0; i < 3; ++i) {
-    sheet.start_M[i].z() = -0.06;
-    sheet.end_M[i].z() = 0.04;
+    jumping.start_M[i].z() = -0.06;
+    jumping.end_M[i].z() = 0.04;
   }
-  expectTruth(timeOfImpact(ball, {motion(rest, rest)}, sheet, 0.0), {0.5, kZ, 0.05}, 1.0, 1e-12);
+  expectTruth(timeOfImpact(ball, {motion(rest, rest)}, jumping, 0.0), {0.5, kZ, 0.05}, 1.0, 1e-12);
   const Motion along = motion(rest, at({1.0, 2.0, 0.05}));  // so that it closes half as fast
-  expectTruth(timeOfImpact(ball, {along}, sheet, 0.0), {1.0, kZ, 0.0}, 1.0, 1e-12);
+  expectTruth(timeOfImpact(ball, {along}, jumping, 0.0), {1.0, kZ, 0.0}, 1.0, 1e-12);
   const Motion against = motion(rest, at({1.0, 2.0, -0.1}));
-  expectTruth(timeOfImpact(ball, {against}, sheet, 0.0), {0.25, kZ, 0.15}, 1.0, 1e-12);
+  expectTruth(timeOfImpact(ball, {against}, jumping, 0.0), {0.25, kZ, 0.15}, 1.0, 1e-12);
 }
 
 TEST(TimeOfImpactTest, IsOfATriangleThatChangesItsShape) {
@@ -310,7 +310,7 @@ TEST(TimeOfImpactTest, FindsTheLeastDepthWhereToolAndTriangleOverlapAtTheStart) 
   check(atRest(ball, at({0, 0, 0}), {end, end, end}), -kZ, 0.006);
 }
 
-TEST(TimeOfImpactTest, KeepsTheWayInWhereToolAndTriangleOverlapAtTheStart) {
+TEST(TimeOfImpactTest, KeepsTheContactNormalWhereToolAndTriangleOverlapAtTheStart) {
   const ConvexShape ball = ConvexShape::sphere(kRadius);
   const Motion push = slide({0, 0, -0.02}, {0, 0, -0.03});
   const std::optional<Impact> impact = timeOfImpact(ball, {push}, resting(kPlane), 0.0, kZ);

@@ -4,17 +4,17 @@
 
 #include <cmath>
 
+#include "timeline.h"
+
 namespace sweep_guard_evaluation {
 namespace {
 
+using namespace sweep_guard_core::timeline;
 using std::chrono::milliseconds;
-using sweep_guard_core::Time;
 using sweep_guard_core::WarningLevel;
 
-Time at(int ms) { return Time(milliseconds(ms)); }
-
-const AlarmRule& kReflex = alarmRules()[0];
-const AlarmRule& kConsidered = alarmRules()[1];
+const AlarmRule& kReflexRule = alarmRules()[0];
+const AlarmRule& kConsideredRule = alarmRules()[1];
 
 /// From 0 to 8 s, or to a contact, with these levels from these times [ms] on, recorded every 100 ms and once after.
 Episode episode(const std::vector<std::pair<int, WarningLevel>>& levels, std::optional<int> contact = std::nullopt) {
@@ -22,7 +22,7 @@ Episode episode(const std::vector<std::pair<int, WarningLevel>>& levels, std::op
   episode.placement.begin = at(0);
   episode.placement.end = at(contact.value_or(8000));
   if (contact) episode.placement.contact = at(*contact);
-  WarningLevel level = WarningLevel::kClear;
+  WarningLevel level = kClear;
   int ms = 0;
   for (; at(ms - 100) < episode.placement.end; ms += 100) {
     for (const auto& [from, to] : levels) level = from == ms ? to : level;
@@ -32,64 +32,54 @@ Episode episode(const std::vector<std::pair<int, WarningLevel>>& levels, std::op
 }
 
 TEST(AlarmStatisticsTest, LeadIsCountedFromTheAlarmThatLastsUntilContact) {
-  const Episode twice = episode({{1000, WarningLevel::kConsidered},
-                                 {1500, WarningLevel::kClear},
-                                 {3000, WarningLevel::kConsidered},
-                                 {3900, WarningLevel::kReflex}},
-                                4050);
-  EXPECT_EQ(leadOf(twice, kConsidered), milliseconds(1050));
-  EXPECT_EQ(leadOf(twice, kReflex), milliseconds(150));
+  const Episode twice = episode({{1000, kConsidered}, {1500, kClear}, {3000, kConsidered}, {3900, kReflex}}, 4050);
+  EXPECT_EQ(leadOf(twice, kConsideredRule), milliseconds(1050));
+  EXPECT_EQ(leadOf(twice, kReflexRule), milliseconds(150));
 }
 
 TEST(AlarmStatisticsTest, AnAlarmThatIsOverDoesNotWarn) {
-  EXPECT_EQ(leadOf(episode({{1000, WarningLevel::kReflex}, {3000, WarningLevel::kClear}}, 4050), kConsidered),
-            std::nullopt);
-  EXPECT_EQ(leadOf(episode({{1000, WarningLevel::kReflex}, {3000, WarningLevel::kClear}}, 4050), kReflex),
-            std::nullopt);
+  const Episode over = episode({{1000, kReflex}, {3000, kClear}}, 4050);
+  EXPECT_EQ(leadOf(over, kConsideredRule), std::nullopt);
+  EXPECT_EQ(leadOf(over, kReflexRule), std::nullopt);
 }
 
 TEST(AlarmStatisticsTest, TheReflexAlarmMayComeWithTheContactAndTheConsideredOneMayNot) {
-  const Episode late = episode({{4100, WarningLevel::kContact}}, 4050);
-  EXPECT_EQ(leadOf(late, kReflex), milliseconds(-50));
-  EXPECT_EQ(leadOf(late, kConsidered), std::nullopt);
+  const Episode late = episode({{4100, kContact}}, 4050);
+  EXPECT_EQ(leadOf(late, kReflexRule), milliseconds(-50));
+  EXPECT_EQ(leadOf(late, kConsideredRule), std::nullopt);
 }
 
 TEST(AlarmStatisticsTest, AnAlarmIsJustifiedBeforeAContactOnly) {
-  EXPECT_EQ(countFalseAlarms(episode({{2100, WarningLevel::kConsidered}}, 4050), kConsidered), 0U);
-  EXPECT_EQ(countFalseAlarms(episode({{2000, WarningLevel::kConsidered}}, 4050), kConsidered), 1U);
-  EXPECT_EQ(countFalseAlarms(episode({{3600, WarningLevel::kReflex}}, 4050), kReflex), 0U);
-  EXPECT_EQ(countFalseAlarms(episode({{3500, WarningLevel::kReflex}}, 4050), kReflex), 1U);
-  EXPECT_EQ(
-      countFalseAlarms(episode({{3500, WarningLevel::kConsidered}, {3600, WarningLevel::kReflex}}, 4050), kReflex), 0U);
+  EXPECT_EQ(countFalseAlarms(episode({{2100, kConsidered}}, 4050), kConsideredRule), 0U);
+  EXPECT_EQ(countFalseAlarms(episode({{2000, kConsidered}}, 4050), kConsideredRule), 1U);
+  EXPECT_EQ(countFalseAlarms(episode({{3600, kReflex}}, 4050), kReflexRule), 0U);
+  EXPECT_EQ(countFalseAlarms(episode({{3500, kReflex}}, 4050), kReflexRule), 1U);
+  EXPECT_EQ(countFalseAlarms(episode({{3500, kConsidered}, {3600, kReflex}}, 4050), kReflexRule), 0U);
 }
 
 TEST(AlarmStatisticsTest, EveryIntervalCountsOnce) {
-  const Episode blinking = episode({{1000, WarningLevel::kConsidered},
-                                    {1500, WarningLevel::kClear},
-                                    {2000, WarningLevel::kReflex},
-                                    {2400, WarningLevel::kUnknown},
-                                    {5000, WarningLevel::kConsidered},
-                                    {6900, WarningLevel::kClear}});
-  EXPECT_EQ(countFalseAlarms(blinking, kConsidered), 3U);
-  EXPECT_EQ(countFalseAlarms(blinking, kReflex), 1U);
+  const Episode blinking = episode(
+      {{1000, kConsidered}, {1500, kClear}, {2000, kReflex}, {2400, kUnknown}, {5000, kConsidered}, {6900, kClear}});
+  EXPECT_EQ(countFalseAlarms(blinking, kConsideredRule), 3U);
+  EXPECT_EQ(countFalseAlarms(blinking, kReflexRule), 1U);
 }
 
 // 8 s without contact: once, and once more for each further 2 s or 0.5 s.
 TEST(AlarmStatisticsTest, AnAlarmThatIsAlwaysOnCountsOnAndOn) {
-  const Episode always = episode({{0, WarningLevel::kReflex}});
-  EXPECT_EQ(countFalseAlarms(always, kConsidered), 1U + 4U);
-  EXPECT_EQ(countFalseAlarms(always, kReflex), 1U + 16U);
+  const Episode always = episode({{0, kReflex}});
+  EXPECT_EQ(countFalseAlarms(always, kConsideredRule), 1U + 4U);
+  EXPECT_EQ(countFalseAlarms(always, kReflexRule), 1U + 16U);
 }
 
 TEST(AlarmStatisticsTest, AnAlarmThatBeginsAfterTheEpisodeIsNoneOfIt) {
-  EXPECT_EQ(countFalseAlarms(episode({{8000, WarningLevel::kReflex}}), kReflex), 0U);
+  EXPECT_EQ(countFalseAlarms(episode({{8000, kReflex}}), kReflexRule), 0U);
 }
 
 TEST(AlarmStatisticsTest, SumUpEpisodes) {
-  const AlarmStatistics all = alarmStatistics(
-      {episode({{3000, WarningLevel::kConsidered}}, 4000), episode({{3800, WarningLevel::kConsidered}}, 4000),
-       episode({}, 4000), episode({{1000, WarningLevel::kConsidered}, {2000, WarningLevel::kClear}})},
-      kConsidered);
+  const AlarmStatistics all =
+      alarmStatistics({episode({{3000, kConsidered}}, 4000), episode({{3800, kConsidered}}, 4000), episode({}, 4000),
+                       episode({{1000, kConsidered}, {2000, kClear}})},
+                      kConsideredRule);
   EXPECT_EQ(all.contacts, 3U);
   ASSERT_EQ(all.leads.size(), 2U);
   EXPECT_NEAR(all.leads[0], 0.2, 1e-12);
@@ -100,7 +90,7 @@ TEST(AlarmStatisticsTest, SumUpEpisodes) {
 }
 
 TEST(AlarmStatisticsTest, AreUnknownOfNothing) {
-  const AlarmStatistics none = alarmStatistics({}, kReflex);
+  const AlarmStatistics none = alarmStatistics({}, kReflexRule);
   EXPECT_TRUE(std::isnan(none.falseAlarmsPerMinute()));
   EXPECT_TRUE(std::isnan(none.warnedAhead(0.1)));
 }

@@ -13,9 +13,6 @@
 namespace sweep_guard_evaluation {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::seconds;
-
 struct Outcome {
   int status;
   std::string out;  ///< stdout and stderr

@@ -4,16 +4,13 @@
 
 #include "evaluation/motions.h"
 #include "evaluation/random.h"
+#include "timeline.h"
 
 namespace sweep_guard_evaluation {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::seconds;
 using sweep_guard_core::ConvexShape;
-using sweep_guard_core::Duration;
-using sweep_guard_core::StampedPose;
-using sweep_guard_core::Time;
+using sweep_guard_core::timeline::at;
 
 // Of the tool in time: at 0.1 m/s the tolerance of 1 um is gone in 10 us.
 constexpr double kTimeTolerance = 2e-5;  // [s]
@@ -28,39 +25,34 @@ class FirstContactTest : public testing::Test {
     return obstacle;
   }
 
-  std::optional<Time> contact(const std::vector<StampedPose>& poses, const SquareObstacle& obstacle) const {
-    return firstContact(RecordedMotion(poses), tool_, obstacle, poses.front().stamp, poses.back().stamp);
-  }
-
-  static double inSeconds(const std::optional<Time>& time) {
+  // Returns the time of the first contact [s]; -1: none.
+  double contactTime(const std::vector<StampedPose>& poses, const SquareObstacle& obstacle) const {
+    const auto time = firstContact(RecordedMotion(poses), tool_, obstacle, poses.front().stamp, poses.back().stamp);
     return time ? sweep_guard_core::toSeconds(time->time_since_epoch()) : -1.0;
   }
 
+  const std::vector<StampedPose> straight_ = straightMotion(0.1, milliseconds(70), seconds(10));
+  const SquareObstacle wall_ = wall({0.5, 0, 0}, Eigen::Vector3d::UnitX());
   ConvexShape tool_ = ConvexShape::cylinder(0.005, 0.1);
 };
 
-TEST_F(FirstContactTest, EndOnIntoAWall) {
-  const std::vector<StampedPose> poses = straightMotion(0.1, milliseconds(70), seconds(10));
-  EXPECT_NEAR(inSeconds(contact(poses, wall({0.5, 0, 0}, Eigen::Vector3d::UnitX()))), 5.0, kTimeTolerance);
-}
+TEST_F(FirstContactTest, EndOnIntoAWall) { EXPECT_NEAR(contactTime(straight_, wall_), 5.0, kTimeTolerance); }
 
 // Between two poses, whatever their distance: the tool would jump over the wall at its samples.
 TEST_F(FirstContactTest, OfAToolThatIsBeyondTheWallAtTheNextPose) {
-  const std::vector<StampedPose> poses = straightMotion(0.1, seconds(10), seconds(10));
-  EXPECT_NEAR(inSeconds(contact(poses, wall({0.5, 0, 0}, Eigen::Vector3d::UnitX()))), 5.0, kTimeTolerance);
+  EXPECT_NEAR(contactTime(straightMotion(0.1, seconds(10), seconds(10)), wall_), 5.0, kTimeTolerance);
 }
 
 TEST_F(FirstContactTest, SidewaysIntoAWallIsARadiusEarlier) {
-  std::vector<StampedPose> poses = straightMotion(0.1, milliseconds(70), seconds(10));
+  std::vector<StampedPose> poses = straight_;
   for (StampedPose& pose : poses) pose.X_WT.linear().setIdentity();
-  EXPECT_NEAR(inSeconds(contact(poses, wall({0.5, 0, 0}, Eigen::Vector3d::UnitX()))), 4.95, kTimeTolerance);
+  EXPECT_NEAR(contactTime(poses, wall_), 4.95, kTimeTolerance);
 }
 
 TEST_F(FirstContactTest, WithATiltedWallIsAtTheRim) {
-  const std::vector<StampedPose> poses = straightMotion(0.1, milliseconds(70), seconds(10));
   const double tilt = 0.6;
   const SquareObstacle obstacle = wall({0.5, 0, 0}, {std::cos(tilt), std::sin(tilt), 0.0});
-  EXPECT_NEAR(inSeconds(contact(poses, obstacle)), 5.0 - 0.005 * std::tan(tilt) / 0.1, kTimeTolerance);
+  EXPECT_NEAR(contactTime(straight_, obstacle), 5.0 - 0.005 * std::tan(tilt) / 0.1, kTimeTolerance);
 }
 
 // A quarter of a turn about the tip in 1 s, against an edge that lies 80 mm from the tip where the axis comes after 60
@@ -81,27 +73,26 @@ TEST_F(FirstContactTest, OfAToolThatOnlyTurns) {
   edge.X_WS.linear().col(1) = Eigen::Vector3d(0.0, std::cos(angle), std::sin(angle));
   edge.X_WS.linear().col(2) = edge.X_WS.linear().col(0).cross(edge.X_WS.linear().col(1));
   const double expected = (angle - std::asin(0.005 / distance)) / (0.5 * kPi);
-  EXPECT_NEAR(inSeconds(contact({start, end}, edge)), expected, kTimeTolerance);
+  EXPECT_NEAR(contactTime({start, end}, edge), expected, kTimeTolerance);
 }
 
 TEST_F(FirstContactTest, IsNoneBesideTheWall) {
-  const std::vector<StampedPose> poses = straightMotion(0.1, milliseconds(70), seconds(10));
-  EXPECT_EQ(contact(poses, wall({0.5, 0.1051, 0}, Eigen::Vector3d::UnitX())), std::nullopt);
-  EXPECT_NE(contact(poses, wall({0.5, 0.1049, 0}, Eigen::Vector3d::UnitX())), std::nullopt);
+  EXPECT_EQ(contactTime(straight_, wall({0.5, 0.1051, 0}, Eigen::Vector3d::UnitX())), -1.0);
+  EXPECT_NE(contactTime(straight_, wall({0.5, 0.1049, 0}, Eigen::Vector3d::UnitX())), -1.0);
 }
 
 TEST_F(FirstContactTest, IsLookedForFromAndToTheTimesAskedFor) {
-  const RecordedMotion motion(straightMotion(0.1, milliseconds(70), seconds(10)));
-  const SquareObstacle obstacle = wall({0.5, 0, 0}, Eigen::Vector3d::UnitX());
-  EXPECT_EQ(firstContact(motion, tool_, obstacle, Time(seconds(1)), Time(milliseconds(4999))), std::nullopt);
-  EXPECT_EQ(firstContact(motion, tool_, obstacle, Time(milliseconds(5500)), Time(seconds(8))),
-            Time(milliseconds(5500)));
-  EXPECT_EQ(firstContact(motion, tool_, obstacle, Time(milliseconds(6100)), Time(seconds(8))), std::nullopt);
+  const auto contact = [&](int from_ms, int to_ms) {
+    return firstContact(RecordedMotion(straight_), tool_, wall_, at(from_ms), at(to_ms));
+  };
+  EXPECT_EQ(contact(1000, 4999), std::nullopt);
+  EXPECT_EQ(contact(5500, 8000), at(5500));
+  EXPECT_EQ(contact(6100, 8000), std::nullopt);
 }
 
 TEST_F(FirstContactTest, IsNoneOfAToolThatRests) {
-  EXPECT_EQ(contact(straightMotion(0.0, milliseconds(10), seconds(5)), wall({2e-6, 0, 0}, Eigen::Vector3d::UnitX())),
-            std::nullopt);
+  const std::vector<StampedPose> resting = straightMotion(0.0, milliseconds(10), seconds(5));
+  EXPECT_EQ(contactTime(resting, wall({2e-6, 0, 0}, Eigen::Vector3d::UnitX())), -1.0);
 }
 
 }  // namespace

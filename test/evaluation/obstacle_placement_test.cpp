@@ -8,10 +8,7 @@
 namespace sweep_guard_evaluation {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::seconds;
 using sweep_guard_core::ConvexShape;
-using sweep_guard_core::StampedPose;
 
 /// Along a figure of eight, 0.4 m wide, for a minute.
 std::vector<StampedPose> winding() {
@@ -24,20 +21,20 @@ std::vector<StampedPose> winding() {
   return poses;
 }
 
-class PlacementTest : public testing::Test {
+class ObstaclePlacementTest : public testing::Test {
  protected:
   RecordedMotion motion_{winding()};
   ConvexShape tool_ = ConvexShape::cylinder(0.005, 0.1);
 };
 
-TEST_F(PlacementTest, GivesAsManyAsAskedForHalfOfThemWithContact) {
+TEST_F(ObstaclePlacementTest, GivesAsManyAsAskedForHalfOfThemWithContact) {
   const std::vector<ObstaclePlacement> placements = placeObstacles(motion_, tool_, {50, 1});
   ASSERT_EQ(placements.size(), 50U);
   EXPECT_EQ(std::count_if(placements.begin(), placements.end(), [](const auto& p) { return p.contact.has_value(); }),
             25);
 }
 
-TEST_F(PlacementTest, LeavesTwoSecondsBeforeAContactAndNoneInANearMiss) {
+TEST_F(ObstaclePlacementTest, LeavesTwoSecondsBeforeAContactAndNoneInANearMiss) {
   for (const ObstaclePlacement& placement : placeObstacles(motion_, tool_, {50, 1})) {
     const auto contact =
         firstContact(motion_, tool_, placement.obstacle, placement.begin, placement.begin + seconds(10));
@@ -50,14 +47,14 @@ TEST_F(PlacementTest, LeavesTwoSecondsBeforeAContactAndNoneInANearMiss) {
   }
 }
 
-TEST_F(PlacementTest, PutsNearMissesWithinTenCentimeters) {
+TEST_F(ObstaclePlacementTest, PutsNearMissesWithinTenCentimeters) {
   for (const ObstaclePlacement& placement : placeObstacles(motion_, tool_, {50, 1})) {
     if (placement.contact) continue;
     EXPECT_TRUE(intersects(tool_, motion_.at(placement.begin + seconds(4)), placement.obstacle, 0.1));
   }
 }
 
-TEST_F(PlacementTest, AreTheSameForTheSameSeedOnly) {
+TEST_F(ObstaclePlacementTest, AreTheSameForTheSameSeedOnly) {
   const std::vector<ObstaclePlacement> first = placeObstacles(motion_, tool_, {20, 1});
   const std::vector<ObstaclePlacement> again = placeObstacles(motion_, tool_, {20, 1});
   const std::vector<ObstaclePlacement> other = placeObstacles(motion_, tool_, {20, 2});
@@ -69,13 +66,13 @@ TEST_F(PlacementTest, AreTheSameForTheSameSeedOnly) {
   }
 }
 
-TEST_F(PlacementTest, AreOrderedByTheirBegin) {
+TEST_F(ObstaclePlacementTest, AreOrderedByTheirBegin) {
   const std::vector<ObstaclePlacement> placements = placeObstacles(motion_, tool_, {50, 1});
   EXPECT_TRUE(std::is_sorted(placements.begin(), placements.end(),
                              [](const ObstaclePlacement& a, const ObstaclePlacement& b) { return a.begin < b.begin; }));
 }
 
-TEST_F(PlacementTest, AreNoneWhereTheToolRestsOrThereIsNoTime) {
+TEST_F(ObstaclePlacementTest, AreNoneWhereTheToolRestsOrThereIsNoTime) {
   const RecordedMotion at_rest(straightMotion(0.0, milliseconds(20), seconds(60)));
   EXPECT_TRUE(placeObstacles(at_rest, tool_, {20, 1}).empty());
   const RecordedMotion of_a_moment(straightMotion(0.1, milliseconds(20), seconds(4)));

@@ -10,10 +10,7 @@
 namespace sweep_guard_evaluation {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::seconds;
 using sweep_guard_core::Duration;
-using sweep_guard_core::StampedPose;
 
 const std::vector<Duration> kHorizons = {milliseconds(100), seconds(1)};
 

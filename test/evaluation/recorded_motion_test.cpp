@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "timeline.h"
+
 namespace sweep_guard_evaluation {
 namespace {
 
-using std::chrono::milliseconds;
+using namespace sweep_guard_core::timeline;
 using sweep_guard_core::StampedPose;
-using sweep_guard_core::Time;
-
-Time at(int ms) { return Time(milliseconds(ms)); }
 
 std::vector<StampedPose> posesAt(const std::vector<int>& stamps_ms) {
   std::vector<StampedPose> poses;
@@ -41,7 +40,7 @@ TEST(RecordedMotionTest, KeepsTheLastOfPosesThatShareAStamp) {
   EXPECT_EQ(motion.at(at(100)).translation().x(), 3.0);
 }
 
-TEST(RecordedMotionTest, EndsAStretchAtAnIntervalOfMoreThanAQuarterOfASecond) {
+TEST(RecordedMotionTest, EndsASegmentAtAnIntervalOfMoreThanAQuarterOfASecond) {
   const RecordedMotion motion(posesAt({0, 10, 260, 270, 521, 531}));
   ASSERT_EQ(motion.segments().size(), 2U);
   EXPECT_EQ(motion.segments()[0].end, at(270));

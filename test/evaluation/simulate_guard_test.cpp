@@ -8,10 +8,6 @@
 namespace sweep_guard_evaluation {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::seconds;
-using sweep_guard_core::StampedPose;
-using sweep_guard_core::Time;
 using sweep_guard_core::WarningLevel;
 using sweep_guard_recording::Alarm;
 
@@ -63,7 +59,6 @@ TEST_F(SimulateGuardTest, EndsWithTheContactThatTheGuardFinds) {
 }
 
 TEST_F(SimulateGuardTest, ComputesAWarningForEveryThreshold) {
-  poses_ = straightMotion(0.1, milliseconds(20), seconds(12));
   for (size_t i = 0; i < poses_.size(); ++i) {
     poses_[i].X_WT.translation().y() = 0.05 * std::sin(0.2 * static_cast<double>(i));
   }

@@ -201,12 +201,12 @@ TEST(DecompositionTest, SeparatesComponents) {
   EXPECT_EQ(decompose(hand.mesh()).size(), 3U);
 }
 
-// Two sheets in one plane have no volume, but their common hull sweeps more than both sheets.
-TEST(DecompositionTest, SeparatesFlatSheets) {
-  Surface sheets;
-  addBox(sheets, {0, 0, 0}, {0.01, 0.01, 0}, /*cells=*/3);
-  addBox(sheets, {0.09, 0, 0}, {0.1, 0.01, 0}, /*cells=*/3);
-  EXPECT_EQ(decompose(sheets.mesh()).size(), 2U);
+// Two squares in one plane have no volume, but their common hull sweeps more than both squares.
+TEST(DecompositionTest, SeparatesFlatSquares) {
+  Surface squares;
+  addBox(squares, {0, 0, 0}, {0.01, 0.01, 0}, /*cells=*/3);
+  addBox(squares, {0.09, 0, 0}, {0.1, 0.01, 0}, /*cells=*/3);
+  EXPECT_EQ(decompose(squares.mesh()).size(), 2U);
 }
 
 TEST(DecompositionTest, IsNoLooserWithMoreDepth) {

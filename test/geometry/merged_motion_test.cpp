@@ -56,11 +56,11 @@ TEST(MergedMotionTest, BoundsAPathWithoutDuration) {
 }
 
 // A path on whose segments tool and frame both move and turn, with samples at 20 times of each segment.
-struct RandomWay {
+struct RandomPath {
   Path path_M;
   std::vector<std::pair<Duration, Eigen::Isometry3d>> poses_M;
 
-  RandomWay(Random& random, const ConvexShape& tool) {
+  RandomPath(Random& random, const ConvexShape& tool) {
     RelativeMotion segment{randomMotion(random, tool, 3.0 * random.direction(), /*max_angle=*/0.3),
                            randomMotion(random, tool, 3.0 * random.direction(), /*max_angle=*/0.3)};
     if (random.chance(0.5)) segment.frame_W.X_MT_end = segment.frame_W.X_MT_start;
@@ -90,7 +90,7 @@ TEST(MergedMotionTest, BoundsTheDeviationOfEveryToolPoint) {
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE("path " + std::to_string(i));
     const ConvexShape tool = randomTool(random, 1.0);
-    const auto [path_M, poses_M] = RandomWay(random, tool);
+    const auto [path_M, poses_M] = RandomPath(random, tool);
     const auto last = static_cast<size_t>(2 + random.below(5));
     const Motion motion_M = mergedMotion(path_M, 0, last, tool.boundingRadius());
     const double time = toSeconds(path_M[last].time - path_M[0].time);

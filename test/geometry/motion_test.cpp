@@ -36,7 +36,7 @@ TEST(MotionTest, GoesStraightAndTurnsAtConstantRate) {
   EXPECT_TRUE(motion.axis_T().isApprox(Eigen::Vector3d::UnitZ(), 1e-14));
 }
 
-TEST(MotionTest, TurnsTheShorterWay) {
+TEST(MotionTest, TurnsByTheSmallerAngle) {
   const Motion motion{turnedAboutZ(-100), turnedAboutZ(100)};
   EXPECT_NEAR(motion.angle(), 160 * kDegree, 1e-14);
   EXPECT_TRUE(motion.at(0.5).isApprox(turnedAboutZ(180), 1e-14));

@@ -22,14 +22,8 @@ struct Ellipsoid {
   }
 };
 
-Proposals axesBothWays() {
-  Proposals directions;
-  for (int i = 0; i < 3; ++i) {
-    directions.push_back(Vector3d::Unit(i));
-    directions.push_back(-Vector3d::Unit(i));
-  }
-  return directions;
-}
+const Proposals kAxes = {Vector3d::UnitX(),  -Vector3d::UnitX(), Vector3d::UnitY(),
+                         -Vector3d::UnitY(), Vector3d::UnitZ(),  -Vector3d::UnitZ()};
 
 TEST(MinimumTranslationDirectionTest, IsTheLeastOfManyDirections) {
   Random random(/*seed=*/1);
@@ -44,7 +38,7 @@ TEST(MinimumTranslationDirectionTest, IsTheLeastOfManyDirections) {
     const Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     for (Vector3d& p : corners) p -= middle;
     const PointHull triangle(corners);
-    Proposals proposals = axesBothWays();
+    Proposals proposals = kAxes;
     const Vector3d face = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
     proposals.push_back(face);
     proposals.push_back(-face);
@@ -65,15 +59,15 @@ TEST(MinimumTranslationDirectionTest, IsTheLeastOfManyDirections) {
 
 // libccd makes no polytope for flat bodies; the proposals give the result.
 TEST(MinimumTranslationDirectionTest, TakesFlatBodies) {
-  const PointHull sheet(Corners{Vector3d(-1, -1, 0), Vector3d(2, -1, 0), Vector3d(-1, 2, 0)});
+  const PointHull flat(Corners{Vector3d(-1, -1, 0), Vector3d(2, -1, 0), Vector3d(-1, 2, 0)});
   const PointHull cut(Corners{Vector3d(0, 0, -0.1), Vector3d(0.2, 0, 0.3), Vector3d(-0.1, 0, 0.3)});
-  const Vector3d out = minimumTranslationDirection(cut, sheet, axesBothWays(), /*size=*/1.0);
-  EXPECT_NEAR(depthAlong(out, cut, sheet), 0.1, 1e-9);
+  const Vector3d out = minimumTranslationDirection(cut, flat, kAxes, /*size=*/1.0);
+  EXPECT_NEAR(depthAlong(out, cut, flat), 0.1, 1e-9);
   const PointHull same(Corners{Vector3d(0, 0, 0), Vector3d(0.2, 0, 0), Vector3d(0, 0.2, 0)});
-  EXPECT_NEAR(depthAlong(minimumTranslationDirection(same, sheet, axesBothWays(), 1.0), same, sheet), 0.0, 1e-12);
+  EXPECT_NEAR(depthAlong(minimumTranslationDirection(same, flat, kAxes, 1.0), same, flat), 0.0, 1e-12);
   const PointHull point(std::array<Vector3d, 1>{Vector3d::Zero()});
-  EXPECT_NEAR(depthAlong(minimumTranslationDirection(point, sheet, axesBothWays(), 1.0), point, sheet), 0.0, 1e-12);
-  EXPECT_NEAR(depthAlong(minimumTranslationDirection(point, point, axesBothWays(), 1.0), point, point), 0.0, 1e-12);
+  EXPECT_NEAR(depthAlong(minimumTranslationDirection(point, flat, kAxes, 1.0), point, flat), 0.0, 1e-12);
+  EXPECT_NEAR(depthAlong(minimumTranslationDirection(point, point, kAxes, 1.0), point, point), 0.0, 1e-12);
 }
 
 }  // namespace

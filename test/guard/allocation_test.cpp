@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "common/pool.h"
 #include "mesh_orders.h"
 #include "monitor/warnings.h"
 #include "scenes.h"
-#include "sweep_guard/common/pool.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
@@ -114,12 +114,12 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
 
   void cycle(int ms, double height) {
     if (ms % kPeriod == 0) deform(ms);
-    const Timestamps seen{now(ms).stamp, now(ms).steady};
+    const Timestamps timestamps{now(ms).stamp, now(ms).steady};
     guard_.sweep(pose(ms, height), workpieces_, report_);
-    monitor_.swept(report_, seen, monitor_.checkpoint(), now(ms).steady);
+    monitor_.swept(report_, timestamps, monitor_.checkpoint(), now(ms).steady);
     if (ms % kPeriod == 0) {
       guard_.predict(5ms, workpieces_, prediction_);
-      monitor_.predicted(prediction_, seen, monitor_.checkpoint(), now(ms));
+      monitor_.predicted(prediction_, timestamps, monitor_.checkpoint(), now(ms));
     }
     monitor_.warning(now(ms), warning_);
   }

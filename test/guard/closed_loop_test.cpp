@@ -74,10 +74,10 @@ Approach approachTo(const Wall& wall, Random& random) {
   if (direction.dot(wall.normal_W) > -0.2) direction -= 0.3 * wall.normal_W;
   Approach approach{random.pose({0, 0, 0}), speed * direction.normalized(), random.direction()};
   approach.turn *= random.chance(0.5) ? random.logUniform(0.01, 1.0) : 1e-12;
-  const double way = -approach.velocity.dot(wall.normal_W) * random.uniform(3.1, 3.4);
+  const double distance = -approach.velocity.dot(wall.normal_W) * random.uniform(3.1, 3.4);
   const double reach = -wall.distance(approach.at(3250ms)) - approach.velocity.dot(wall.normal_W) * 3.25;
-  approach.X_WT.translation() = (way + reach) * wall.normal_W + random.inBox({1, 1, 1});
-  approach.X_WT.translation() += (way + reach - approach.X_WT.translation().dot(wall.normal_W)) * wall.normal_W;
+  approach.X_WT.translation() = (distance + reach) * wall.normal_W + random.inBox({1, 1, 1});
+  approach.X_WT.translation() += (distance + reach - approach.X_WT.translation().dot(wall.normal_W)) * wall.normal_W;
   return approach;
 }
 
@@ -104,15 +104,15 @@ class Loop {
     monitor_.setWorkpieces({wall.workpiece});
   }
 
-  // A pose of that time, that comes in later.
-  void pose(Duration time, Duration latency, const Eigen::Isometry3d& X_WT, bool sweep, bool look_ahead) {
+  // A pose that is received `latency` after its time.
+  void pose(Duration time, Duration latency, const Eigen::Isometry3d& X_WT, bool sweep, bool predict) {
     const Instant came = instant(time + latency);
-    const Timestamps seen{instant(time).stamp, came.steady};
+    const Timestamps timestamps{instant(time).stamp, came.steady};
     const WarningMonitor::Checkpoint checkpoint = monitor_.checkpoint();
     const Workpieces all = {wall_.workpiece};
-    const PoseWithFrames pose{seen.stamp, seen.received, X_WT, {{"table", wall_.X_WM}}};
-    monitor_.swept(reportOf(guard_, pose, sweep ? all : Workpieces()), seen, checkpoint, came.steady);
-    if (look_ahead) monitor_.predicted(predictionOf(guard_, age(seen, came), all), seen, checkpoint, came);
+    const PoseWithFrames pose{timestamps.stamp, timestamps.received, X_WT, {{"table", wall_.X_WM}}};
+    monitor_.swept(reportOf(guard_, pose, sweep ? all : Workpieces()), timestamps, checkpoint, came.steady);
+    if (predict) monitor_.predicted(predictionOf(guard_, age(timestamps, came), all), timestamps, checkpoint, came);
   }
 
   void tick(Duration time) { alarms.note(time, warningOf(monitor_, instant(time)).level); }
@@ -148,27 +148,27 @@ struct Episode {
   Duration latency;
 };
 
-// Where nothing is due, it is enough to look ahead now and then, and not to sweep: that would take the time.
+// Where nothing is due, it is enough to predict ahead now and then, and not to sweep: that would take the time.
 constexpr auto kNear = 1300ms;
-bool worthLooking(Duration left, Duration since_last) {
+bool predictionIsUseful(Duration left, Duration since_last) {
   const bool soon = (left < 1110ms && left > 1000ms) || (left < 160ms && left > 50ms);
   return since_last >= (soon ? 20ms : 400ms);
 }
 
-// Runs until the contact is told.
+// Runs until the contact is reported.
 Alarms run(const std::string& predictor, const Approach& approach, const Wall& wall, Duration contact,
            const Episode& episode, Random& random) {
   Loop loop(predictor, /*min_probability=*/1.0, wall);
   Duration now = 0ms;
   Duration next_pose = 0ms;
   Duration next_tick = 0ms;
-  Duration looked = -10s;
+  Duration predicted = -10s;
   while (now < contact + 200ms && !loop.alarms.contact) {
     if (next_pose + episode.latency <= next_tick) {
       now = next_pose + episode.latency;
-      const bool look = worthLooking(contact - now, now - looked);
-      loop.pose(next_pose, episode.latency, approach.at(next_pose), contact - now < kNear, look);
-      if (look) looked = now;
+      const bool predict = predictionIsUseful(contact - now, now - predicted);
+      loop.pose(next_pose, episode.latency, approach.at(next_pose), contact - now < kNear, predict);
+      if (predict) predicted = now;
       const double period = random.uniform(1.0 - episode.jitter, 1.0 + episode.jitter) / episode.rate;
       next_pose += fromSeconds(period);
     } else {
@@ -189,7 +189,7 @@ void PrintTo(const Subject& subject, std::ostream* out) { *out << subject.predic
 class ClosedLoopTest : public testing::TestWithParam<Subject> {};
 
 // The path alone warns here, however small the doubt about it. 2 s of motion come before the warning is due.
-TEST_P(ClosedLoopTest, WarnsInTimeOfEveryWallInTheWayOfASteadyTool) {
+TEST_P(ClosedLoopTest, WarnsInTimeOfEveryWallOnThePathOfASteadyTool) {
   Random random(7);
   const int episodes = sceneCount(1000, GetParam().percent);
   for (int i = 0; i < episodes; ++i) {
@@ -230,7 +230,7 @@ class VerticalTest : public testing::Test {
       const Duration now = fromSeconds(time);
       Eigen::Isometry3d X_WT(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
       X_WT.translation() = tip(time);
-      loop_.pose(now, 0ms, X_WT, /*sweep=*/true, /*look_ahead=*/true);
+      loop_.pose(now, 0ms, X_WT, /*sweep=*/true, /*predict=*/true);
       check(time, loop_.warning(now));
     }
   }

@@ -21,6 +21,16 @@ Matrix6d translating(double deviation) {
   return covarianceOf((Eigen::Matrix<double, 6, 1>() << deviation, deviation, deviation, 0, 0, 0).finished());
 }
 
+// The tool may turn about y by 0.1 rad.
+const Matrix6d kTurning = covarianceOf(0.1 * Vector6d::Unit(4));
+
+Motion resting(double lean) {
+  Motion motion;
+  motion.X_MT_start.linear() = Eigen::AngleAxisd(lean, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  motion.X_MT_end = motion.X_MT_start;
+  return motion;
+}
+
 // A square of two triangles, parallel to y and z, a kilometre wide.
 TriangleMesh wallAt(double x) {
   return TriangleMesh({{x, -512, -512}, {x, 512, -512}, {x, 512, 512}, {x, -512, 512}}, {{0, 1, 2}, {0, 2, 3}});
@@ -30,8 +40,7 @@ TriangleMesh wallAt(double x) {
 const ConvexShape kNeedle = ConvexShape::cylinder(0.0, 0.125);
 const ConvexShape kDrum = ConvexShape::cylinder(0.5, 0.125);
 Motion goesOn() {
-  Motion motion;
-  motion.X_MT_start.linear() = Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  Motion motion = resting(M_PI / 2.0);
   motion.X_MT_end = Eigen::Translation3d(0.25, 0.0, 0.0) * motion.X_MT_start;
   return motion;
 }
@@ -52,7 +61,7 @@ TEST(ContactProbabilityTest, IsTheGaussianIntegralAndZeroWhereItIsSmall) {
   EXPECT_EQ(contactProbability(3.0901), 0.0);
 }
 
-// The wall stands `distance` beyond where the tip is expected to be, across its way.
+// The wall stands `distance` beyond where the tip is expected to be, across its path.
 TEST(ContactProbabilityTest, OfAFlatWallIsExact) {
   for (const double deviation : {0.001, 0.0625, 1.0}) {
     for (const double ratio : {0.0, 0.25, 1.0, 2.0, 3.0}) {
@@ -63,7 +72,7 @@ TEST(ContactProbabilityTest, OfAFlatWallIsExact) {
   }
 }
 
-// The path ends beyond the wall: it must err by so much the other way for the wall to stay unmet.
+// The path ends beyond the wall: it must err backwards by as much for the wall not to be met.
 TEST(ContactProbabilityTest, OfAWallOnThePathIsMoreThanHalf) {
   for (const double ratio : {-0.25, -1.0, -2.0, -3.0}) {
     EXPECT_NEAR(probabilityOf(kDrum, goesOn(), translating(0.0625), wallAt(0.25 + ratio * 0.0625)), phi(-ratio), 1e-6);
@@ -86,11 +95,9 @@ TEST(ContactProbabilityTest, OfAPathThatIsSureIsZeroOrOne) {
 // A drill that stands up, its tip at the origin and its far end 0.2 m below; a wall stands beside it. Its turn about y
 // by 0.1 rad moves the far end by 0.2 * 0.1 = 0.02 m towards the wall, and the tip not at all.
 TEST(ContactProbabilityTest, TurnsReachFartherWithALongerLever) {
-  Eigen::Matrix<double, 6, 1> turning = Eigen::Matrix<double, 6, 1>::Zero();
-  turning[4] = 0.1;
   const ConvexShape drill = ConvexShape::cylinder(0.0, 0.2);
   const SweptVolume swept_M = sweptVolume(drill, Motion(), VolumeKind::kObb);
-  const auto deviations = planeDeviations(drill, Eigen::Isometry3d::Identity(), covarianceOf(turning), swept_M);
+  const auto deviations = planeDeviations(drill, Eigen::Isometry3d::Identity(), kTurning, swept_M);
   const auto half_spaces_B = swept_M.halfSpaces_B();
   for (size_t i = 0; i < half_spaces_B.size(); ++i) {
     const Eigen::Vector3d n_M = swept_M.box.X_MB.linear() * half_spaces_B[i].normal();
@@ -102,36 +109,27 @@ TEST(ContactProbabilityTest, TurnsReachFartherWithALongerLever) {
   const Eigen::Vector3d n_M = Eigen::Vector3d(1.0, 0.0, -1.0).normalized();
   SweptVolume tilted_M = swept_M;
   tilted_M.clips_B.emplace_back(swept_M.box.X_MB.linear().transpose() * n_M, 1.0);
-  EXPECT_NEAR(planeDeviations(drill, Eigen::Isometry3d::Identity(), covarianceOf(turning), tilted_M).back(),
-              0.1 * 0.2 * n_M.x(), 1e-12);
+  EXPECT_NEAR(planeDeviations(drill, Eigen::Isometry3d::Identity(), kTurning, tilted_M).back(), 0.1 * 0.2 * n_M.x(),
+              1e-12);
 }
 
 // A drill that stands, its tip free to turn about by 0.1 rad; a wall 10 mm beside its axis, 5 mm beside its side. The
 // far end, 0.2 m away, is off by 20 mm: a quarter of a deviation. Whichever end leans towards the wall, and if none
 // does.
 TEST(ContactProbabilityTest, OfAWallAlongTheToolDoesNotDependOnHowItLeans) {
-  Eigen::Matrix<double, 6, 1> turning = Eigen::Matrix<double, 6, 1>::Zero();
-  turning[4] = 0.1;
   const ConvexShape drill = ConvexShape::cylinder(0.005, 0.2);
   for (const double lean : {-1e-6, 0.0, 1e-6}) {
-    Motion stands;
-    stands.X_MT_start.linear() = Eigen::AngleAxisd(lean, Eigen::Vector3d::UnitY()).toRotationMatrix();
-    stands.X_MT_end = stands.X_MT_start;
-    EXPECT_NEAR(probabilityOf(drill, stands, covarianceOf(turning), wallAt(0.01)), 0.40, 0.01) << lean;
+    EXPECT_NEAR(probabilityOf(drill, resting(lean), kTurning, wallAt(0.01)), 0.40, 0.01) << lean;
   }
 }
 
 // The far end lags 96 mm behind the tip, seen along the plane's normal: 5.5 deviations of its own.
 TEST(ContactProbabilityTest, AnEndThatIsFarFromThePlaneDoesNotCount) {
-  Eigen::Matrix<double, 6, 1> turning = Eigen::Matrix<double, 6, 1>::Zero();
-  turning[4] = 0.1;
   const ConvexShape drill = ConvexShape::cylinder(0.0, 0.2);
-  Motion leans;
-  leans.X_MT_start.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  leans.X_MT_end = leans.X_MT_start;
+  const Motion leans = resting(0.5);
   SweptVolume swept_M = sweptVolume(drill, leans, VolumeKind::kObb);
   swept_M.clips_B.emplace_back(swept_M.box.X_MB.linear().transpose() * Eigen::Vector3d::UnitX(), 1.0);
-  EXPECT_NEAR(planeDeviations(drill, leans.X_MT_end, covarianceOf(turning), swept_M).back(), 1e-9, 1e-12);
+  EXPECT_NEAR(planeDeviations(drill, leans.X_MT_end, kTurning, swept_M).back(), 1e-9, 1e-12);
 }
 
 // Any mesh, any motion: more doubt or less distance never makes contact beyond the path less probable.

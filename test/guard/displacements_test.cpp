@@ -37,14 +37,14 @@ void expectTight(const TriangleMesh& from, const TriangleMesh& to, double roundi
   for (size_t i = 0; i < from.vertexCount(); ++i) {
     using Exact = Eigen::Matrix<long double, 3, 1>;
     const Exact far = to.origin().cast<long double>() - from.origin().cast<long double>();
-    const Exact way = far + (to.offset(i).cast<long double>() - from.offset(i).cast<long double>());
+    const Exact displacement = far + (to.offset(i).cast<long double>() - from.offset(i).cast<long double>());
     for (int axis = 0; axis < 3; ++axis) {
-      ASSERT_LE(static_cast<long double>(displacements.box_M().min()[axis]), way[axis]) << "vertex " << i;
-      ASSERT_GE(static_cast<long double>(displacements.box_M().max()[axis]), way[axis]) << "vertex " << i;
+      ASSERT_LE(static_cast<long double>(displacements.box_M().min()[axis]), displacement[axis]) << "vertex " << i;
+      ASSERT_GE(static_cast<long double>(displacements.box_M().max()[axis]), displacement[axis]) << "vertex " << i;
     }
-    tight.extend(way.cast<double>());
-    farthest = std::max(farthest, static_cast<double>(way.norm()));
-    least = std::min(least, static_cast<double>(way.norm()));
+    tight.extend(displacement.cast<double>());
+    farthest = std::max(farthest, static_cast<double>(displacement.norm()));
+    least = std::min(least, static_cast<double>(displacement.norm()));
   }
   EXPECT_LE((displacements.box_M().min() - tight.min()).cwiseAbs().maxCoeff(), rounding);
   EXPECT_LE((displacements.box_M().max() - tight.max()).cwiseAbs().maxCoeff(), rounding);

@@ -23,7 +23,7 @@ class FakeDetector : public Detector {
   void find(const Submesh& part, const SweptVolume& swept_M, Detection& detection) override {
     if (record_.failures_left > 0) {
       --record_.failures_left;
-      throw DeviceError("fake detector: fails as it was told");
+      throw DeviceError("fake detector: fails on demand");
     }
     record_.volumes.push_back(swept_M);
     detection = reference_.detect(part, swept_M);

@@ -27,19 +27,19 @@ PoseWithFrames pose(double seconds, const Places& X_MT) {
 }
 
 // One triangle of a metre in the plane z = 0 of its frame.
-std::shared_ptr<const Workpiece> sheet(const std::string& id, const std::string& frame) {
+std::shared_ptr<const Workpiece> triangle(const std::string& id, const std::string& frame) {
   return std::make_shared<const Workpiece>(
       Workpiece{id, 0, at(0.0), SteadyTime{}, frame, TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}})});
 }
 
-// A drill that is 0.1 m long and guarded in the frame `table`, unless told otherwise.
+// A drill that is 0.1 m long and guarded in the frame `table`, unless stated otherwise.
 class GuardTest : public testing::Test {
  protected:
   SweepReport sweepTo(double seconds, double z) { return reportOf(guard_, pose(seconds, {{"table", up(z)}}), table_); }
 
   void passTo(double seconds, double z) { guard_.pass(pose(seconds, {{"table", up(z)}})); }
 
-  const Workpieces table_ = {sheet("sheet", "table")};
+  const Workpieces table_ = {triangle("triangle", "table")};
   FakeDetector::Record record_;
   Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<FakeDetector>(record_), {}};
 };
@@ -61,7 +61,7 @@ TEST_F(GuardTest, FindsAContactAtTheFirstPose) {
   EXPECT_EQ(report.objects[0].result.triangles, Indices{0});
 }
 
-// The sheet is between the poses, and touches the drill at neither.
+// The triangle is between the poses, and touches the drill at neither.
 TEST_F(GuardTest, SweepsFromPoseToPose) {
   EXPECT_FALSE(sweepTo(1.0, 0.5).contact());
   const SweepReport report = sweepTo(1.1, -0.1);
@@ -85,8 +85,8 @@ TEST_F(GuardTest, SweepsEveryIntervalEndToEnd) {
   }
 }
 
-// The drill of 5 mm passes the sheet's edge in 7 mm.
-TEST_F(GuardTest, SweepsTheWayOnWithWhatItAdopts) {
+// The drill of 5 mm passes the triangle's edge in 7 mm.
+TEST_F(GuardTest, ContinuesTheSweepWithAnExchangedToolAndDetector) {
   reportOf(guard_, pose(1.0, {{"table", Eigen::Isometry3d(Eigen::Translation3d(0.0, -1.007, 0.5))}}), table_);
   FakeDetector::Record record;
   GuardChange change;
@@ -107,7 +107,7 @@ TEST_F(GuardTest, SweepsTheWayOnWithWhatItAdopts) {
 }
 
 // Else nothing would be known of what comes for two poses.
-TEST_F(GuardTest, PredictsWithAnAdoptedPredictorFromTheNextPoseOn) {
+TEST_F(GuardTest, PredictsWithAnExchangedPredictorFromTheNextPoseOn) {
   sweepTo(1.0, 0.5);
   GuardChange change;
   change.predictor.emplace(PredictorOptions());
@@ -138,7 +138,7 @@ TEST_F(GuardTest, LeavesTheIntervalOfAFailedSweepToTheNext) {
   EXPECT_EQ(report.objects[0].interval_start, at(1.0));
 }
 
-// Down through the sheet and up again: the straight history from first to last is free.
+// Down through the triangle and up again: the straight history from first to last is free.
 TEST_F(GuardTest, SweepsThroughEveryPoseSinceAFailure) {
   sweepTo(1.0, 0.5);
   record_.failures_left = 2;
@@ -149,7 +149,7 @@ TEST_F(GuardTest, SweepsThroughEveryPoseSinceAFailure) {
   EXPECT_FALSE(sweepTo(1.4, 0.6).contact());
 }
 
-// The drill's far end is at the sheet 2/3 through the first of the intervals, which lasts 0.1 s of 1 s.
+// The drill's far end is at the triangle 2/3 through the first of the intervals, which lasts 0.1 s of 1 s.
 TEST_F(GuardTest, TimesOfImpactAreFractionsOfTheTimeAfterAFailureToo) {
   sweepTo(1.0, 0.5);
   record_.failures_left = 1;
@@ -159,9 +159,9 @@ TEST_F(GuardTest, TimesOfImpactAreFractionsOfTheTimeAfterAFailureToo) {
   EXPECT_NEAR(report.objects[0].result.in_contact[0].impact.time_of_impact, 0.4 / 0.6 * 0.1, 1e-6);
 }
 
-// Down at a pace that grows, until the detector answers again: the legs are joined, the time counts by theirs. At 1 m/s
+// Down at a growing speed, until the detector answers again: the segments are merged, the time counts by theirs. At 1 m/s
 // a deviation_bound of a ten-thousandth of a metre makes it early by 0.2 ms at the most.
-TEST_F(GuardTest, TimesOfImpactOnJoinedLegsAreNotLate) {
+TEST_F(GuardTest, TimesOfImpactOnMergedSegmentsAreNotLate) {
   const auto z = [](int ms) { return 0.3 - 1e-3 * ms - 1e-6 * ms * ms; };
   const double met_ms = 0.5 * (std::sqrt(1e6 + 4e6 * 0.2) - 1e3);
   for (int last = 172; last < 200; ++last) {
@@ -177,8 +177,8 @@ TEST_F(GuardTest, TimesOfImpactOnJoinedLegsAreNotLate) {
   }
 }
 
-TEST_F(GuardTest, SweepsTheWayThroughAFailureThoughTheTrianglesAreNewSince) {
-  const Workpieces remeshed = {sheet("sheet", "table")};
+TEST_F(GuardTest, SweepsThePathAcrossAFailureThoughTheTrianglesAreNew) {
+  const Workpieces remeshed = {triangle("triangle", "table")};
   sweepTo(1.0, 0.5);
   record_.failures_left = 1;
   sweepTo(1.1, -0.2);
@@ -186,7 +186,7 @@ TEST_F(GuardTest, SweepsTheWayThroughAFailureThoughTheTrianglesAreNewSince) {
 }
 
 TEST_F(GuardTest, AFailureOnOneWorkpieceDoesNotHideAContactWithAnother) {
-  const Workpieces both = {sheet("first", "table"), sheet("second", "table")};
+  const Workpieces both = {triangle("first", "table"), triangle("second", "table")};
   record_.failures_left = 1;
   const SweepReport report = reportOf(guard_, pose(1.0, {{"table", up(0.05)}}), both);
   ASSERT_EQ(report.failures.size(), 1U);
@@ -211,7 +211,7 @@ TEST_F(GuardTest, PassesThroughABacklogInOneSweep) {
 }
 
 // A millisecond down and one up again, wherever in the backlog.
-TEST_F(GuardTest, MeetsWhatAFlickInABacklogMeets) {
+TEST_F(GuardTest, FindsTheContactOfAFlickInABacklog) {
   for (int flick = 1; flick < 100; ++flick) {
     SCOPED_TRACE("flick at " + std::to_string(flick) + " ms");
     guard_.reset();
@@ -224,7 +224,7 @@ TEST_F(GuardTest, MeetsWhatAFlickInABacklogMeets) {
   }
 }
 
-TEST_F(GuardTest, SweepsAWorkpieceThatComesDuringABacklogAllAlongIt) {
+TEST_F(GuardTest, SweepsTheWholeBacklogForAWorkpieceThatArrivesDuringIt) {
   reportOf(guard_, pose(1.0, {{"table", up(0.5)}}), {});
   passTo(1.1, -0.2);
   passTo(1.2, -0.5);
@@ -262,8 +262,8 @@ TEST_F(GuardTest, ABacklogLeavesThePredictionAsItIs) {
   for (size_t i = 0; i < path.size(); ++i) EXPECT_EQ(path[i].X_WT.matrix(), expected[i].X_WT.matrix());
 }
 
-// The table turns by half a radian about its own origin, the tool rests a metre away: seen from the table it runs along
-// an arc that bulges by a metre times 0.25 / 8 = 31 mm beyond the straight history. Something stands on that arc.
+// The table turns by half a radian about its own origin, the tool rests a metre away: relative to the table it runs along
+// an arc that deviates by a metre times 0.25 / 8 = 31 mm from the straight path. Something stands on that arc.
 TEST_F(GuardTest, SweepsTheArcThatATurningTableMakesOfARestingTool) {
   const auto tableTurnedBy = [](double angle) {
     PoseWithFrames pose{at(1.0 + angle), SteadyTime{}, Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0)), {}};
@@ -278,7 +278,7 @@ TEST_F(GuardTest, SweepsTheArcThatATurningTableMakesOfARestingTool) {
   EXPECT_TRUE(reportOf(guard_, tableTurnedBy(0.5), table).contact());
 }
 
-TEST_F(GuardTest, TestsThePoseAloneAfterForgetting) {
+TEST_F(GuardTest, TestsThePoseAloneAfterAReset) {
   sweepTo(1.0, 0.5);
   guard_.reset();
   const SweepReport report = sweepTo(0.3, -0.1);
@@ -295,7 +295,7 @@ TEST_F(GuardTest, HasNothingToReportWithoutWorkpieces) {
 }
 
 TEST_F(GuardTest, NamesWorkpiecesWhoseFrameIsMissing) {
-  const Workpieces both = {sheet("on table", "table"), sheet("on turntable", "turntable")};
+  const Workpieces both = {triangle("on table", "table"), triangle("on turntable", "turntable")};
   const SweepReport report = reportOf(guard_, pose(1.0, {{"table", up(0.5)}}), both);
   ASSERT_EQ(report.objects.size(), 1U);
   EXPECT_EQ(report.objects[0].workpiece, both[0]);
@@ -305,7 +305,7 @@ TEST_F(GuardTest, NamesWorkpiecesWhoseFrameIsMissing) {
 
 // For one pose the turntable's transform is missing. The next sweep there starts at the pose before.
 TEST_F(GuardTest, SweepsFromTheLastPoseThatWasKnownInAFrame) {
-  const Workpieces both = {sheet("on table", "table"), sheet("on turntable", "turntable")};
+  const Workpieces both = {triangle("on table", "table"), triangle("on turntable", "turntable")};
   reportOf(guard_, pose(1.0, {{"table", up(0.5)}, {"turntable", up(0.5)}}), both);
   reportOf(guard_, pose(1.1, {{"table", up(0.4)}}), both);
   const SweepReport report = reportOf(guard_, pose(1.2, {{"table", up(0.3)}, {"turntable", up(-0.1)}}), both);
@@ -321,9 +321,9 @@ TEST_F(GuardTest, SweepsFromTheLastPoseThatWasKnownInAFrame) {
 // The tool rests in the world; the workpiece's frame comes up and passes it.
 TEST_F(GuardTest, MeetsAWorkpieceThatMovesWithItsFrame) {
   const Eigen::Isometry3d X_WT = up(0.0);
-  const auto seenFrom = [&](const Eigen::Isometry3d& X_WM) { return X_WM.inverse() * X_WT; };
-  reportOf(guard_, pose(1.0, {{"table", seenFrom(up(-0.5))}}), table_);
-  EXPECT_TRUE(reportOf(guard_, pose(1.1, {{"table", seenFrom(up(0.5))}}), table_).contact());
+  const auto toolIn = [&](const Eigen::Isometry3d& X_WM) { return X_WM.inverse() * X_WT; };
+  reportOf(guard_, pose(1.0, {{"table", toolIn(up(-0.5))}}), table_);
+  EXPECT_TRUE(reportOf(guard_, pose(1.1, {{"table", toolIn(up(0.5))}}), table_).contact());
 }
 
 // A pose is remembered in every frame, so a workpiece that comes later is swept over the interval it came in.
@@ -348,8 +348,8 @@ TEST_F(GuardTest, ReportsTheLargestMargin) {
   EXPECT_NEAR(sweepTo(1.0, 0.5).margin(), 0.125, 1e-9);
 }
 
-// A sheet of the same triangles each time, at different heights; only update() makes a later one of an earlier.
-class MovingSheetTest : public testing::Test {
+// One triangle at different heights; only update() makes a later workpiece of an earlier one.
+class MovingWorkpieceTest : public testing::Test {
  protected:
   static TriangleMesh flat() { return TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}}); }
 
@@ -361,9 +361,15 @@ class MovingSheetTest : public testing::Test {
       for (const double x : {p.x(), p.y(), z}) positions.push_back(static_cast<float>(x));
     }
     const auto next = std::make_shared<Workpiece>(
-        Workpiece{"sheet", 0, at(seconds), SteadyTime{}, "table", deformed(before, positions)});
+        Workpiece{"triangle", 0, at(seconds), SteadyTime{}, "table", deformed(before, positions)});
     if (newest_) countUpdate(*newest_, *next);
     newest_ = next;
+  }
+
+  // The triangle lies below, and the tool is at a height.
+  void beginAt(double z) {
+    place(1.0, -1.0);
+    sweepTo(1.0, z);
   }
 
   SweepReport sweepTo(double seconds, double z) {
@@ -374,7 +380,7 @@ class MovingSheetTest : public testing::Test {
   Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), {}};
 };
 
-TEST_F(MovingSheetTest, ThatJumpsOverARestingToolIsReported) {
+TEST_F(MovingWorkpieceTest, ThatJumpsOverARestingToolIsReported) {
   place(1.0, -1.0);
   EXPECT_FALSE(sweepTo(1.0, 0.0).contact());
   place(1.01, 1.0);
@@ -388,17 +394,15 @@ TEST_F(MovingSheetTest, ThatJumpsOverARestingToolIsReported) {
   EXPECT_FALSE(sweepTo(1.02, 0.0).contact());
 }
 
-TEST_F(MovingSheetTest, ThatStaysBelowIsNotMet) {
-  place(1.0, -1.0);
-  sweepTo(1.0, 0.0);
+TEST_F(MovingWorkpieceTest, ThatStaysBelowIsNotMet) {
+  beginAt(0.0);
   place(1.01, -0.2);
   EXPECT_FALSE(sweepTo(1.01, 0.0).contact());
 }
 
 // Up and down again between two sweeps: only how far it went in all tells.
-TEST_F(MovingSheetTest, ThatIsBackBeforeTheNextSweepIsReported) {
-  place(1.0, -1.0);
-  sweepTo(1.0, 0.0);
+TEST_F(MovingWorkpieceTest, ThatIsBackBeforeTheNextSweepIsReported) {
+  beginAt(0.0);
   place(1.004, 0.5);
   place(1.008, -1.0);
   const SweepReport report = sweepTo(1.01, 0.0);
@@ -406,10 +410,9 @@ TEST_F(MovingSheetTest, ThatIsBackBeforeTheNextSweepIsReported) {
   EXPECT_GT(report.margin(), 1.4);
 }
 
-// While the sheet came up, the tool was below it for a moment, and is above it again when the news arrives.
-TEST_F(MovingSheetTest, IsMetWhereTheToolWasMeanwhile) {
-  place(1.0, -1.0);
-  sweepTo(1.0, 0.5);
+// While the triangle came up, the tool was below it for a moment, and is above it again when the update arrives.
+TEST_F(MovingWorkpieceTest, IsMetWhereTheToolWasMeanwhile) {
+  beginAt(0.5);
   sweepTo(1.01, -0.5);
   sweepTo(1.02, 2.0);
   sweepTo(1.03, 2.0);
@@ -420,9 +423,8 @@ TEST_F(MovingSheetTest, IsMetWhereTheToolWasMeanwhile) {
 }
 
 // 16 ms at 1 kHz: one sweep for what was, and one for what is new.
-TEST_F(MovingSheetTest, TakesOneMoreSweepAfterASmoothMotion) {
-  place(1.0, -1.0);
-  sweepTo(1.0, 0.5);
+TEST_F(MovingWorkpieceTest, TakesOneMoreSweepAfterASmoothMotion) {
+  beginAt(0.5);
   for (int ms = 1; ms <= 16; ++ms) sweepTo(1.0 + 1e-3 * ms, 0.5 - 2e-4 * ms - 1e-6 * ms * ms);
   place(1.015, -0.9);
   const SweepReport report = sweepTo(1.017, 0.49);
@@ -431,7 +433,7 @@ TEST_F(MovingSheetTest, TakesOneMoreSweepAfterASmoothMotion) {
 }
 
 // The tool was down for a moment only, a millisecond there and one back.
-TEST_F(MovingSheetTest, IsMetByAFlickBeforeItsUpdate) {
+TEST_F(MovingWorkpieceTest, IsMetByAFlickBeforeItsUpdate) {
   for (int flick = 1; flick < 16; ++flick) {
     SCOPED_TRACE("flick at " + std::to_string(flick) + " ms");
     newest_.reset();
@@ -443,10 +445,9 @@ TEST_F(MovingSheetTest, IsMetByAFlickBeforeItsUpdate) {
   }
 }
 
-// News of the sheet are faster than those of the tool: it is not there yet when the tool passes.
-TEST_F(MovingSheetTest, IsMetOnItsWayByPosesOlderThanItsUpdate) {
-  place(1.0, -1.0);
-  sweepTo(1.0, 0.5);
+// Updates of the triangle arrive before the poses: it is not there yet when the tool passes.
+TEST_F(MovingWorkpieceTest, IsMetByPosesOlderThanItsUpdate) {
+  beginAt(0.5);
   place(1.1, -1.5);
   place(1.2, -3.0);
   EXPECT_FALSE(sweepTo(1.01, 0.5).contact());
@@ -455,7 +456,7 @@ TEST_F(MovingSheetTest, IsMetOnItsWayByPosesOlderThanItsUpdate) {
 }
 
 // An update has the history before swept again, where the drill was not in as deep.
-TEST_F(MovingSheetTest, HasDepthsOfTheNewestPoseAtItsUpdatesToo) {
+TEST_F(MovingWorkpieceTest, HasDepthsOfTheNewestPoseAtItsUpdatesToo) {
   place(1.0, 0.0);
   for (int i = 0; i < 20; ++i) {
     const double z = 0.1 - 0.004 * i;
@@ -466,16 +467,15 @@ TEST_F(MovingSheetTest, HasDepthsOfTheNewestPoseAtItsUpdatesToo) {
   }
 }
 
-TEST_F(MovingSheetTest, ThatRestsIsNotSweptAgain) {
-  place(1.0, -1.0);
-  sweepTo(1.0, 0.5);
+TEST_F(MovingWorkpieceTest, ThatRestsIsNotSweptAgain) {
+  beginAt(0.5);
   sweepTo(1.01, 0.4);
   place(1.015, -1.0);
   const SweepReport report = sweepTo(1.02, 0.3);
   EXPECT_EQ(report.objects[0].result.volumes_M.size(), 1U);
 }
 
-TEST_F(MovingSheetTest, IsFollowedThroughAFailureOfTheFirstSweep) {
+TEST_F(MovingWorkpieceTest, IsFollowedThroughAFailureOfTheFirstSweep) {
   FakeDetector::Record record;
   record.failures_left = 1;
   Guard guard{Tool::cylinder(0.005, 0.1), std::make_unique<FakeDetector>(record), {}};
@@ -485,11 +485,10 @@ TEST_F(MovingSheetTest, IsFollowedThroughAFailureOfTheFirstSweep) {
 }
 
 // As a publisher does that sends the whole mesh each time.
-TEST_F(MovingSheetTest, IsFollowedThoughItsTrianglesAreSentAnew) {
-  place(1.0, -1.0);
-  sweepTo(1.0, 0.0);
+TEST_F(MovingWorkpieceTest, IsFollowedThoughItsTrianglesAreSentAnew) {
+  beginAt(0.0);
   const TriangleMesh anew({{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}}, {{0, 1, 2}});
-  newest_ = std::make_shared<const Workpiece>(Workpiece{"sheet", 0, at(1.01), SteadyTime{}, "table", anew, 1, 2.0});
+  newest_ = std::make_shared<const Workpiece>(Workpiece{"triangle", 0, at(1.01), SteadyTime{}, "table", anew, 1, 2.0});
   EXPECT_TRUE(sweepTo(1.01, 0.0).contact());
 }
 

@@ -19,7 +19,7 @@ TEST(MovingMeshTest, ThatRestsHasNotMoved) {
   EXPECT_EQ(MovingMesh(kFlat).spread(), kFlat.rounding());
 }
 
-TEST(MovingMeshTest, ThatGoesAsAWholeDriftsWithoutSpread) {
+TEST(MovingMeshTest, ThatMovesAsAWholeIsTranslatedWithoutSpread) {
   const TriangleMesh up = triangle({0, 0, 2}, {1, 0, 2}, {0, 1, 2});
   const MovingMesh mesh(up, kFlat, {kFlat, up}, 0.0);
   EXPECT_TRUE(mesh.moved());
@@ -27,7 +27,7 @@ TEST(MovingMeshTest, ThatGoesAsAWholeDriftsWithoutSpread) {
   EXPECT_NEAR(mesh.spread(), 0.0, 1e-7);
 }
 
-TEST(MovingMeshTest, SpreadsAsFarAsAVertexLeavesTheDrift) {
+TEST(MovingMeshTest, SpreadsAsFarAsAVertexLeavesTheTranslation) {
   const TriangleMesh bent = triangle({0, 0, 3}, {1, 0, 0}, {0, 1, 0});
   const MovingMesh mesh(bent, kFlat, {kFlat, bent}, 0.25);
   EXPECT_TRUE(mesh.translation_M().isApprox(Eigen::Vector3d(0, 0, 1.5)));
@@ -37,12 +37,12 @@ TEST(MovingMeshTest, SpreadsAsFarAsAVertexLeavesTheDrift) {
   EXPECT_EQ(mesh.triangle(0).end_M[0], Eigen::Vector3d(0, 0, 3));
 }
 
-TEST(MovingMeshTest, CountsWhatItMayHaveStrayedEvenIfItIsBack) {
+TEST(MovingMeshTest, HasMovedIfItMayHaveDeviatedAndReturned) {
   EXPECT_TRUE(MovingMesh(kFlat, kFlat, {kFlat, kFlat}, 0.1).moved());
 }
 
 // Of all paths of a length between two points, the one over the tip of an isosceles triangle goes farthest aside.
-TEST(StrayedTest, IsTheHeightOfTheTriangleOnTheStraightWay) {
+TEST(PathDeviationTest, IsTheHeightOfTheTriangleOverTheStraightPath) {
   EXPECT_DOUBLE_EQ(pathDeviation(5.0, 3.0), 2.0);
   EXPECT_EQ(pathDeviation(3.0, 3.0), 0.0);
   EXPECT_DOUBLE_EQ(pathDeviation(1.0, 0.0), 0.5);

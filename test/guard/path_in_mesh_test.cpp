@@ -35,15 +35,20 @@ struct Swing {
   PredictedPath path;
 };
 
-TEST(ExpectedMotionTest, ReachesAsFarAsAnyToolPointThatErrs) {
+const ConvexShape kTool = ConvexShape::cylinder(0.01, 0.15);
+
+// A path of the tool in a mesh anywhere.
+PathInMesh randomPathInMesh(Random& random) {
+  const Swing swing(random);
+  PathInMesh motion;
+  motion.follow(Tool(kTool), swing.at(0.0), swing.path, random.pose(random.inBox({1, 1, 1})));
+  return motion;
+}
+
+TEST(PathInMeshTest, ReachesAsFarAsAnyToolPointThatErrs) {
   Random random(3);
-  const ConvexShape tool = ConvexShape::cylinder(0.01, 0.15);
-  const Tool whole_tool(tool);
   for (int i = 0; i < 50; ++i) {
-    const Swing swing(random);
-    const Eigen::Isometry3d X_WM = random.pose(random.inBox({1, 1, 1}));
-    PathInMesh motion;
-    motion.follow(whole_tool, swing.at(0.0), swing.path, X_WM);
+    const PathInMesh motion = randomPathInMesh(random);
     const PathSegment whole = motion.whole();
     const Eigen::AlignedBox3d box_M = motion.reach_M(whole, 2.0, 0.0);
     for (const auto& segment :
@@ -51,7 +56,7 @@ TEST(ExpectedMotionTest, ReachesAsFarAsAnyToolPointThatErrs) {
       const Eigen::Isometry3d X_MT = motion.end_M(segment);
       const Matrix6d doubt = motion.covariance_M(segment).llt().matrixL();
       const Eigen::AlignedBox3d near_M = motion.reach_M(segment, 2.0, 0.0);
-      for (const Eigen::Vector3d& p_T : roundToolPoints_T(tool, 8)) {
+      for (const Eigen::Vector3d& p_T : roundToolPoints_T(kTool, 8)) {
         // Any error of two deviations, to first order.
         Eigen::Matrix<double, 6, 1> unit;
         unit << random.inBox({1, 1, 1}), random.inBox({1, 1, 1});
@@ -66,20 +71,16 @@ TEST(ExpectedMotionTest, ReachesAsFarAsAnyToolPointThatErrs) {
 }
 
 // Doubt grows fastest at the begin: as the root of time.
-TEST(ExpectedMotionTest, ReachesAsFarWithinAStepAsAtItsEnds) {
+TEST(PathInMeshTest, ReachesAsFarWithinAStepAsAtItsEnds) {
   Random random(5);
-  const ConvexShape tool = ConvexShape::cylinder(0.01, 0.15);
-  const Tool whole_tool(tool);
   for (int i = 0; i < 50; ++i) {
-    const Swing swing(random);
-    PathInMesh motion;
-    motion.follow(whole_tool, swing.at(0.0), swing.path, random.pose(random.inBox({1, 1, 1})));
+    const PathInMesh motion = randomPathInMesh(random);
     const Eigen::AlignedBox3d step_M = motion.reach_M(motion.between(0, 1), 3.0, 0.0);
     PathSegment part = motion.between(0, 1);
     for (int halving = 0; halving < 5; ++halving) {
       part = motion.halves(part).first;
       const Eigen::AlignedBox3d part_M = motion.reach_M(part, 3.0, 0.0);
-      const double rounding = 1e-9 + chordError(whole_tool.boundingRadius(), 0.1);
+      const double rounding = 1e-9 + chordError(Tool(kTool).boundingRadius(), 0.1);
       EXPECT_TRUE(
           Eigen::AlignedBox3d(step_M.min().array() - rounding, step_M.max().array() + rounding).contains(part_M));
     }
@@ -87,11 +88,11 @@ TEST(ExpectedMotionTest, ReachesAsFarWithinAStepAsAtItsEnds) {
 }
 
 // The same workpiece, with much more of it far away: nothing else is found.
-TEST(PathTestTest, WhatIsOutOfReachMakesNoDifference) {
+TEST(PathCheckerTest, WhatIsOutOfReachMakesNoDifference) {
   Random random(4);
   ReferenceDetector detector;
   PathChecker checker({SweepOptions(), 5ms});
-  int met = 0;
+  int contacts = 0;
   for (int i = 0; i < 30; ++i) {
     std::vector<Eigen::Vector3d> vertices;
     std::vector<Triangle> triangles;
@@ -129,9 +130,9 @@ TEST(PathTestTest, WhatIsOutOfReachMakesNoDifference) {
       EXPECT_EQ(alone.sweeps[k].contact, among.sweeps[k].contact);
       EXPECT_NEAR(alone.sweeps[k].probability, among.sweeps[k].probability, 2e-3);
     }
-    met += !alone.considered.empty();
+    contacts += !alone.considered.empty();
   }
-  EXPECT_GT(met, 5);
+  EXPECT_GT(contacts, 5);
 }
 
 }  // namespace

@@ -9,21 +9,21 @@ namespace {
 
 using namespace std::chrono_literals;
 
-PoseSample placed(int number, Duration stamp) {
+PoseSample sampleOf(int number, Duration stamp) {
   const auto there = [&](double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)); };
   return {static_cast<std::uint64_t>(number), Time(stamp), there(number), there(0)};
 }
 
-PoseHistory wayOf(int count) {
+PoseHistory historyOf(int count) {
   PoseHistory history;
-  for (int i = 0; i < count; ++i) history.add(placed(i, i * 10ms));
+  for (int i = 0; i < count; ++i) history.add(sampleOf(i, i * 10ms));
   return history;
 }
 
-TEST(WayTest, KeepsItsPosesWhileItsBeginIsForgotten) {
+TEST(PoseHistoryTest, KeepsItsPosesWhileItsBeginIsForgotten) {
   PoseHistory history;
   for (int i = 0; i < 1000; ++i) {
-    history.add(placed(i, i * 10ms));
+    history.add(sampleOf(i, i * 10ms));
     if (history.size() > 7) history.forgetFirst();
     for (size_t k = 0; k < history.size(); ++k)
       ASSERT_EQ(history[k].number, static_cast<size_t>(i) + 1 - history.size() + k);
@@ -32,15 +32,15 @@ TEST(WayTest, KeepsItsPosesWhileItsBeginIsForgotten) {
   EXPECT_EQ(history.size(), 7U);
 }
 
-TEST(WayTest, GoesStraightPastItsSecondPoseWhenItIsTooLong) {
-  PoseHistory history = wayOf(PoseHistory::kMaxSize + 3);
+TEST(PoseHistoryTest, GoesStraightPastItsSecondPoseWhenItIsTooLong) {
+  PoseHistory history = historyOf(PoseHistory::kMaxSize + 3);
   EXPECT_EQ(history.size(), PoseHistory::kMaxSize);
   EXPECT_EQ(history[0].number, 0U);
   EXPECT_EQ(history[1].number, 4U);
 }
 
-TEST(WayTest, FindsPosesByNumberAndStamp) {
-  PoseHistory history = wayOf(10);
+TEST(PoseHistoryTest, FindsPosesByNumberAndStamp) {
+  PoseHistory history = historyOf(10);
   history.forgetFirst();
   EXPECT_EQ(history.lastUpTo(std::uint64_t{0}), 0U);
   EXPECT_EQ(history.lastUpTo(std::uint64_t{1}), 0U);
@@ -49,23 +49,23 @@ TEST(WayTest, FindsPosesByNumberAndStamp) {
   EXPECT_EQ(history.lastUpTo(Time(5ms)), 0U);
   EXPECT_EQ(history.lastUpTo(Time(30ms)), 2U);
   EXPECT_EQ(history.lastUpTo(Time(39ms)), 2U);
-  history.add(placed(10, 90ms));
+  history.add(sampleOf(10, 90ms));
   EXPECT_EQ(history.lastUpTo(Time(90ms)), 9U);
 }
 
-TEST(WayTest, SharesAreOfTime) {
+TEST(PoseHistoryTest, SharesAreOfTime) {
   PoseHistory history;
-  for (const Duration stamp : {0ms, 10ms, 40ms, 50ms}) history.add(placed(1, stamp));
+  for (const Duration stamp : {0ms, 10ms, 40ms, 50ms}) history.add(sampleOf(1, stamp));
   EXPECT_EQ(history.share(1, 0), 0.0);
   EXPECT_EQ(history.share(1, 1), 0.0);
   EXPECT_EQ(history.share(1, 2), 0.75);
   EXPECT_EQ(history.share(1, 3), 1.0);
-  history.add(placed(2, 50ms));
+  history.add(sampleOf(2, 50ms));
   EXPECT_EQ(history.share(3, 4), 1.0);
 }
 
 // The frame turns by half a radian under a tool that rests a metre beside its origin.
-TEST(WayTest, IsSeenFromTheFrame) {
+TEST(PoseHistoryTest, IsExpressedInTheFrame) {
   PoseHistory history;
   history.add({1, Time(1s), Eigen::Isometry3d(Eigen::Translation3d(1, 0, 0)), Eigen::Isometry3d::Identity()});
   PoseSample next = history.newest();

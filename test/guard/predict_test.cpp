@@ -28,7 +28,7 @@ std::shared_ptr<const Workpiece> workpiece(const std::string& id, const Triangle
   return std::make_shared<const Workpiece>(Workpiece{id, 0, Time(1s), SteadyTime{}, frame, mesh_M});
 }
 
-TriangleMesh sheetAt(double z) {
+TriangleMesh squareAt(double z) {
   return TriangleMesh({{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}}, {{0, 1, 2}, {0, 2, 3}});
 }
 
@@ -53,7 +53,7 @@ Steady comingDown(double z, double speed) {
   return motion;
 }
 
-class LookAheadTest : public testing::Test {
+class GuardPredictionTest : public testing::Test {
  protected:
   // Ten poses of 10 ms; the last is where the motion is at time 0, its stamp is 10 s.
   void follow(const Steady& motion,
@@ -70,8 +70,8 @@ class LookAheadTest : public testing::Test {
   Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<FakeDetector>(record_), constantVelocity()};
 };
 
-TEST_F(LookAheadTest, ExpectsNothingBeforeAMotionIsKnown) {
-  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+TEST_F(GuardPredictionTest, PredictsNothingBeforeAMotionIsKnown) {
+  workpieces_ = {workpiece("square", squareAt(0.0))};
   EXPECT_TRUE(predictionOf(guard_, 0ms, workpieces_).path.empty());
   reportOf(guard_, {Time(10s), SteadyTime(), Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}},
            workpieces_);
@@ -81,15 +81,15 @@ TEST_F(LookAheadTest, ExpectsNothingBeforeAMotionIsKnown) {
   EXPECT_EQ(prediction.coveredUntil(), Time(10s));
 }
 
-TEST_F(LookAheadTest, ExpectsNothingAfterForgetting) {
-  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+TEST_F(GuardPredictionTest, PredictsNothingAfterAReset) {
+  workpieces_ = {workpiece("square", squareAt(0.0))};
   follow(comingDown(0.05, 0.1));
   guard_.reset();
   EXPECT_TRUE(predict().path.empty());
 }
 
-TEST_F(LookAheadTest, CoversTheHorizonCountedFromNow) {
-  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+TEST_F(GuardPredictionTest, CoversTheHorizonCountedFromNow) {
+  workpieces_ = {workpiece("square", squareAt(0.0))};
   follow(comingDown(5.0, 0.1));
   const Prediction prediction = predict(30ms);
   EXPECT_EQ(prediction.stamp, Time(10s));
@@ -104,21 +104,21 @@ TEST_F(LookAheadTest, CoversTheHorizonCountedFromNow) {
   EXPECT_EQ(prediction.objects[0].volumes_M.size(), 23U);
 }
 
-TEST_F(LookAheadTest, ForecastsForAnyHorizonWithoutTesting) {
+TEST_F(GuardPredictionTest, PredictsTheMotionForAnyHorizonWithoutTesting) {
   EXPECT_TRUE(guard_.predictMotion(0ms, 1s).path.empty());
-  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+  workpieces_ = {workpiece("square", squareAt(0.0))};
   follow(comingDown(0.05, 0.1));
   const size_t detections = record_.volumes.size();
-  const PredictedMotion predictMotion = guard_.predictMotion(20ms, 3s);
+  const PredictedMotion predicted = guard_.predictMotion(20ms, 3s);
   EXPECT_EQ(record_.volumes.size(), detections);
-  EXPECT_EQ(predictMotion.from.stamp, Time(10s));
-  EXPECT_EQ(predictMotion.path.back().ahead, 3020ms);
-  EXPECT_NEAR(predictMotion.path.back().X_WT.translation().z(), 0.05 - 0.1 * 3.02, 1e-9);
+  EXPECT_EQ(predicted.from.stamp, Time(10s));
+  EXPECT_EQ(predicted.path.back().ahead, 3020ms);
+  EXPECT_NEAR(predicted.path.back().X_WT.translation().z(), 0.05 - 0.1 * 3.02, 1e-9);
 }
 
 // 5 cm at 0.1 m/s: half a second. It is known to 5 ms when the sweep of 100 ms is halved that often.
-TEST_F(LookAheadTest, TellsWhenThePathMeetsASheet) {
-  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+TEST_F(GuardPredictionTest, ReportsWhenThePathMeetsASquare) {
+  workpieces_ = {workpiece("square", squareAt(0.0))};
   follow(comingDown(0.05, 0.1));
   const Prediction prediction = predict();
   const auto expected = predictedContact(prediction, 1.0);
@@ -126,7 +126,7 @@ TEST_F(LookAheadTest, TellsWhenThePathMeetsASheet) {
   EXPECT_TRUE(expected->contact);
   EXPECT_LE(expected->earliest, Time(10500ms));
   EXPECT_GT(expected->earliest, Time(10494ms));
-  EXPECT_EQ(expected->mesh_id, "sheet");
+  EXPECT_EQ(expected->mesh_id, "square");
   EXPECT_EQ(expected->triangles, (Indices{0, 1}));
   EXPECT_GE(expected->probability, 0.5);
   EXPECT_EQ(prediction.objects[0].reflex, Indices{});
@@ -136,16 +136,16 @@ TEST_F(LookAheadTest, TellsWhenThePathMeetsASheet) {
   }
 }
 
-TEST_F(LookAheadTest, TrianglesOfTheReflexIntervalAreToldApart) {
-  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+TEST_F(GuardPredictionTest, ReportsTrianglesOfTheReflexIntervalSeparately) {
+  workpieces_ = {workpiece("square", squareAt(0.0))};
   follow(comingDown(0.005, 0.1));
   const Prediction prediction = predict();
   EXPECT_EQ(prediction.objects[0].reflex, (Indices{0, 1}));
   EXPECT_EQ(prediction.objects[0].considered, Indices{});
 }
 
-// The sheet lives in a frame that is turned and far away: what counts is where it is in the world.
-TEST_F(LookAheadTest, TakesAWorkpieceWhereItsFrameIs) {
+// The square lives in a frame that is turned and far away: what counts is where it is in the world.
+TEST_F(GuardPredictionTest, TakesAWorkpieceWhereItsFrameIs) {
   Random random(5);
   for (int i = 0; i < 20; ++i) {
     const Eigen::Isometry3d X_MW = random.pose(random.inBox({10, 10, 10}));
@@ -153,7 +153,7 @@ TEST_F(LookAheadTest, TakesAWorkpieceWhereItsFrameIs) {
     for (const auto& [x, y] : {std::pair(-1.0, -1.0), {1.0, -1.0}, {0.0, 1.0}}) {
       corners_M.push_back(X_MW * Eigen::Vector3d(x, y, 0.0));
     }
-    workpieces_ = {workpiece("sheet", TriangleMesh(corners_M, {{0, 1, 2}}), "turned")};
+    workpieces_ = {workpiece("square", TriangleMesh(corners_M, {{0, 1, 2}}), "turned")};
     guard_.reset();
     follow(comingDown(0.05, 0.1), {{"turned", X_MW.inverse()}});
     const auto expected = predictedContact(predict(), 1.0);
@@ -164,7 +164,7 @@ TEST_F(LookAheadTest, TakesAWorkpieceWhereItsFrameIs) {
 }
 
 // The drill swings past a wall, 0.01 mm beside it. 25 ms take a margin of 0.018 mm for its arc.
-TEST_F(LookAheadTest, AVolumeThatIsMerelyLooseMeetsNothing) {
+TEST_F(GuardPredictionTest, AVolumeThatIsMerelyLooseMeetsNothing) {
   const double x = 0.005 + 0.00001;
   workpieces_ = {workpiece("wall", TriangleMesh({{x, -1, -1}, {x, 1, -1}, {x, 0, 1}}, {{0, 1, 2}}))};
   follow({Eigen::Isometry3d::Identity(), {0, 0, 0}, {1.5, 0, 0}});
@@ -176,16 +176,16 @@ TEST_F(LookAheadTest, AVolumeThatIsMerelyLooseMeetsNothing) {
 }
 
 // Far away the detector is not asked.
-TEST_F(LookAheadTest, AFarWorkpieceCostsNoDetection) {
-  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+TEST_F(GuardPredictionTest, AFarWorkpieceCostsNoDetection) {
+  workpieces_ = {workpiece("square", squareAt(0.0))};
   follow(comingDown(5.0, 0.1));
   record_.volumes.clear();
   EXPECT_FALSE(predictedContact(predict(), 0.001));
   EXPECT_TRUE(record_.volumes.empty());
 }
 
-TEST_F(LookAheadTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
-  workpieces_ = {workpiece("first", sheetAt(0.0)), workpiece("second", sheetAt(-0.01))};
+TEST_F(GuardPredictionTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
+  workpieces_ = {workpiece("first", squareAt(0.0)), workpiece("second", squareAt(-0.01))};
   follow(comingDown(0.05, 0.1));
   record_.failures_left = 1;
   const Prediction prediction = predictionOf(guard_, 0ms, workpieces_);
@@ -196,8 +196,8 @@ TEST_F(LookAheadTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
   EXPECT_EQ(predictedContact(prediction, 1.0)->mesh_id, "second");
 }
 
-TEST_F(LookAheadTest, NamesWorkpiecesWhoseFrameIsMissing) {
-  workpieces_ = {workpiece("here", sheetAt(0.0)), workpiece("lost", sheetAt(0.0), "nowhere")};
+TEST_F(GuardPredictionTest, NamesWorkpiecesWhoseFrameIsMissing) {
+  workpieces_ = {workpiece("here", squareAt(0.0)), workpiece("lost", squareAt(0.0), "nowhere")};
   follow(comingDown(0.05, 0.1));
   const Prediction prediction = predict();
   ASSERT_EQ(prediction.unplaced.size(), 1U);
@@ -214,10 +214,10 @@ bool contains(const SweptVolume& volume_M, const Eigen::Vector3d& p_M) {
 }
 
 // Wherever the tool is on its predicted path, at any time up to the end, each of its points lies in a volume.
-TEST_F(LookAheadTest, TheVolumesCoverThePathWithoutHoles) {
+TEST_F(GuardPredictionTest, TheVolumesCoverThePathWithoutHoles) {
   Random random(6);
   const auto rims_T = roundToolPoints_T(guard_.tool().whole(), 8);
-  workpieces_ = {workpiece("sheet", sheetAt(0.0))};
+  workpieces_ = {workpiece("square", squareAt(0.0))};
   for (int i = 0; i < 20; ++i) {
     const Steady motion{random.pose(random.inBox({1, 1, 1})), random.logUniform(0.01, 2.0) * random.direction(),
                         random.logUniform(0.01, 10.0) * random.direction()};
@@ -226,12 +226,12 @@ TEST_F(LookAheadTest, TheVolumesCoverThePathWithoutHoles) {
     follow(motion, {{"table", X_WM}});
     const Prediction prediction = predict(fromSeconds(random.uniform(0.0, 0.05)));
     const std::vector<SweptVolume>& volumes_M = prediction.objects[0].volumes_M;
-    Motion leg{motion.at(0.0), prediction.path[0].X_WT};
+    Motion segment{motion.at(0.0), prediction.path[0].X_WT};
     for (size_t k = 0; k < prediction.path.size(); ++k) {
-      if (k > 0) leg = {prediction.path[k - 1].X_WT, prediction.path[k].X_WT};
+      if (k > 0) segment = {prediction.path[k - 1].X_WT, prediction.path[k].X_WT};
       for (const double fraction : {0.0, 0.3, 0.5, 0.9, 1.0}) {
         for (const Eigen::Vector3d& p_T : rims_T) {
-          const Eigen::Vector3d p_M = X_WM.inverse() * leg.at(fraction) * p_T;
+          const Eigen::Vector3d p_M = X_WM.inverse() * segment.at(fraction) * p_T;
           ASSERT_TRUE(std::any_of(volumes_M.begin(), volumes_M.end(),
                                   [&](const SweptVolume& volume_M) { return contains(volume_M, p_M); }))
               << "episode " << i << " sweep " << k << " at " << fraction;
@@ -291,7 +291,7 @@ class CoarseSweepsTest : public testing::Test {
   ReferenceDetector detector_;
 };
 
-bool met(const PredictedObject& object) {
+bool inContact(const PredictedObject& object) {
   return std::any_of(object.sweeps.begin(), object.sweeps.end(), [](const auto& sweep) { return sweep.contact; });
 }
 
@@ -304,7 +304,7 @@ TEST_F(CoarseSweepsTest, FindWhatASpinningToolMeets) {
     const Eigen::Vector3d p = spinning(t) * Eigen::Vector3d(0.0, 0.0, -0.15);
     const TriangleMesh dot({p, p, p}, {{0, 1, 2}});
     atEveryGranularity(ConvexShape::cylinder(0.005, 0.2), spinning, dot,
-                       [](const PredictedObject& object) { EXPECT_TRUE(met(object)); });
+                       [](const PredictedObject& object) { EXPECT_TRUE(inContact(object)); });
   }
 }
 
@@ -317,7 +317,7 @@ TEST_F(CoarseSweepsTest, FindWhatLiesBeforeAToolThatTurnsBack) {
   };
   const TriangleMesh wall({{0.12, -9, -9}, {0.12, 9, -9}, {0.12, 0, 9}}, {{0, 1, 2}});
   atEveryGranularity(ConvexShape::cylinder(0.005, 0.1), there_and_back, wall,
-                     [](const PredictedObject& object) { EXPECT_TRUE(met(object)); });
+                     [](const PredictedObject& object) { EXPECT_TRUE(inContact(object)); });
 }
 
 // Against the motion from pose to pose, not against the chord that a long sweep takes.
@@ -338,10 +338,10 @@ TEST_F(CoarseSweepsTest, CoverTheMotionThroughEveryPose) {
     const PredictedPath path = pathAlong(swinging);
     const auto covered = [&](const PredictedObject& object) {
       for (size_t k = 0; k < path.size(); ++k) {
-        const Motion leg{k == 0 ? swinging(0.0) : path[k - 1].X_WT, path[k].X_WT};
+        const Motion segment{k == 0 ? swinging(0.0) : path[k - 1].X_WT, path[k].X_WT};
         for (const double fraction : {0.1, 0.5, 1.0}) {
           for (const Eigen::Vector3d& p_T : rims_T) {
-            const Eigen::Vector3d p_M = leg.at(fraction) * p_T;
+            const Eigen::Vector3d p_M = segment.at(fraction) * p_T;
             ASSERT_TRUE(std::any_of(object.volumes_M.begin(), object.volumes_M.end(),
                                     [&](const SweptVolume& volume_M) { return contains(volume_M, p_M); }))
                 << "episode " << i << " step " << k << " at " << fraction;
@@ -349,12 +349,12 @@ TEST_F(CoarseSweepsTest, CoverTheMotionThroughEveryPose) {
         }
       }
     };
-    atEveryGranularity(tool, swinging, sheetAt(0.0), covered);
+    atEveryGranularity(tool, swinging, squareAt(0.0), covered);
   }
 }
 
 // A drill, and 5 cm beside it along x a round camera whose front is level with the tip.
-class PartsTest : public testing::Test {
+class ToolPiecesTest : public testing::Test {
  protected:
   static Tool drillAndCamera() {
     const ConvexShape camera = ConvexShape::sphere(0.01);
@@ -367,7 +367,7 @@ class PartsTest : public testing::Test {
     return TriangleMesh({{x - kHalf, y - kHalf, z}, {x + kHalf, y - kHalf, z}, {x, y + kHalf, z}}, {{0, 1, 2}});
   }
 
-  // The tip comes up along z, 0.1 m/s, its position uncertain by so much in each direction.
+  // The tip comes up along z, 0.1 m/s, its position uncertain by the deviation in each direction.
   PredictedObject predictContact(const TriangleMesh& mesh_M, double deviation, bool in_time = true) {
     const auto rising = [](double t) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.1 * t)); };
     PredictedPath path = pathAlong(rising);
@@ -388,9 +388,9 @@ class PartsTest : public testing::Test {
     return object;
   }
 
-  static std::optional<size_t> partOfFirst(const PredictedObject& object, bool met) {
+  static std::optional<size_t> pieceOfFirst(const PredictedObject& object, bool contact) {
     for (const PredictedSweep& sweep : object.sweeps) {
-      if (met ? sweep.contact : sweep.probability > 0.0) return sweep.tool_piece;
+      if (contact ? sweep.contact : sweep.probability > 0.0) return sweep.tool_piece;
     }
     ADD_FAILURE() << "there is none";
     return {};
@@ -400,25 +400,25 @@ class PartsTest : public testing::Test {
   ReferenceDetector detector_;
 };
 
-TEST_F(PartsTest, TheOneThatMeetsIsNamedInTimeOrNot) {
+TEST_F(ToolPiecesTest, ThePieceInContactIsNamedInTimeOrNot) {
   for (const bool in_time : {true, false}) {
-    EXPECT_EQ(partOfFirst(predictContact(patchAt(0.0, 0.0, 0.05), 0.0, in_time), /*met=*/true), 0U);
-    EXPECT_EQ(partOfFirst(predictContact(patchAt(0.05, 0.0, 0.05), 0.0, in_time), /*met=*/true), 1U);
+    EXPECT_EQ(pieceOfFirst(predictContact(patchAt(0.0, 0.0, 0.05), 0.0, in_time), /*contact=*/true), 0U);
+    EXPECT_EQ(pieceOfFirst(predictContact(patchAt(0.05, 0.0, 0.05), 0.0, in_time), /*contact=*/true), 1U);
   }
 }
 
 // The patch lies 9 mm beside the camera, or 10 mm beside the drill.
-TEST_F(PartsTest, TheOneThatIsLikeliestToMeetIsNamed) {
+TEST_F(ToolPiecesTest, TheLikeliestPieceIsNamed) {
   const PredictedObject beside_camera = predictContact(patchAt(0.05, 0.02, 0.05), 0.005);
   EXPECT_FALSE(beside_camera.firstContact());
-  EXPECT_EQ(partOfFirst(beside_camera, /*met=*/false), 1U);
+  EXPECT_EQ(pieceOfFirst(beside_camera, /*contact=*/false), 1U);
   const PredictedObject beside_drill = predictContact(patchAt(0.0, 0.016, 0.05), 0.005);
   EXPECT_FALSE(beside_drill.firstContact());
-  EXPECT_EQ(partOfFirst(beside_drill, /*met=*/false), 0U);
+  EXPECT_EQ(pieceOfFirst(beside_drill, /*contact=*/false), 0U);
 }
 
 // Either may meet it: 9 mm from the one, 24 mm from the other.
-TEST_F(PartsTest, WhatIsNearerIsLikelier) {
+TEST_F(ToolPiecesTest, WhatIsNearerIsLikelier) {
   for (const auto& [x, nearer] : {std::pair(0.015, 0U), std::pair(0.03, 1U)}) {
     const PredictedObject between = predictContact(patchAt(x, 0.0, 0.05), 0.02);
     EXPECT_FALSE(between.firstContact());
@@ -429,7 +429,7 @@ TEST_F(PartsTest, WhatIsNearerIsLikelier) {
   }
 }
 
-TEST_F(PartsTest, NoneIsNamedWhereNothingIsNear) {
+TEST_F(ToolPiecesTest, NoneIsNamedWhereNothingIsNear) {
   for (const PredictedSweep& sweep : predictContact(patchAt(0.5, 0.5, 0.05), 0.001).sweeps)
     EXPECT_FALSE(sweep.tool_piece);
 }
@@ -468,7 +468,7 @@ class SlowDetector : public Detector {
   ReferenceDetector reference_;
 };
 
-// A drill sticks in a sheet and goes on along it: the detector is asked about every sweep.
+// A drill sticks in a square and moves along it: the detector is asked about every sweep.
 class SlowGuard {
  public:
   SlowGuard() {
@@ -497,7 +497,7 @@ class SlowGuard {
   SteadyTime clock_;
   PoseWithFrames pose_{
       Time(10s), SteadyTime(), Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}};
-  Workpieces workpieces_ = {workpiece("sheet", sheetAt(-0.05))};
+  Workpieces workpieces_ = {workpiece("square", squareAt(-0.05))};
   std::optional<Guard> guard_;
 };
 
@@ -522,7 +522,7 @@ TEST(SlowDetectorTest, MakesTheConsideredIntervalCoarserAndNothingElse) {
   EXPECT_EQ(before, 12U);
 }
 
-// Its far end goes through the sheet and back. A step of 100 ms takes four volumes, a measured sweep three.
+// Its far end goes through the square and back. A step of 100 ms takes four volumes, a measured sweep three.
 TEST(SlowDetectorTest, DoesNotDelayATurningToolEither) {
   for (const Duration cost : {500us, 1000us, 2000us, 3000us, 4000us}) {
     SlowGuard guard;

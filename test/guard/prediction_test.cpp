@@ -22,7 +22,7 @@ const PredictedSweep kFree0{0ms, false, 0.0};
 const PredictedSweep kFree1{100ms, false, 0.0};
 const PredictedSweep kFree2{200ms, false, 0.0};
 
-Prediction outlookOf(const std::vector<PredictedObject>& objects) {
+Prediction predictionWith(const std::vector<PredictedObject>& objects) {
   Prediction prediction;
   prediction.stamp = Time(5s);
   prediction.path.resize(3);
@@ -32,8 +32,12 @@ Prediction outlookOf(const std::vector<PredictedObject>& objects) {
   return prediction;
 }
 
-TEST(OutlookTest, CoversThePathOnlyIfEveryWorkpieceWasTested) {
-  Prediction prediction = outlookOf({object("liver", {kFree0, kFree1, kFree2})});
+PredictedContact contactOf(const std::vector<PredictedObject>& objects, double min_probability = 0.1) {
+  return predictedContact(predictionWith(objects), min_probability).value();
+}
+
+TEST(PredictionTest, CoversThePathOnlyIfEveryWorkpieceWasTested) {
+  Prediction prediction = predictionWith({object("liver", {kFree0, kFree1, kFree2})});
   EXPECT_EQ(prediction.coveredUntil(), Time(5300ms));
   prediction.unplaced = {workpiece("spleen")};
   EXPECT_EQ(prediction.coveredUntil(), Time(5s));
@@ -45,10 +49,10 @@ TEST(OutlookTest, CoversThePathOnlyIfEveryWorkpieceWasTested) {
   EXPECT_EQ(prediction.coveredUntil(), Time(5s));
 }
 
-TEST(OutlookTest, IsCompleteOnlyWithAPathAndAWorkpieceAndEveryWorkpieceTested) {
-  const Prediction complete = outlookOf({object("liver", {kFree0, kFree1, kFree2})});
+TEST(PredictionTest, IsCompleteOnlyWithAPathAndAWorkpieceAndEveryWorkpieceTested) {
+  const Prediction complete = predictionWith({object("liver", {kFree0, kFree1, kFree2})});
   EXPECT_TRUE(complete.complete());
-  EXPECT_FALSE(outlookOf({}).complete());
+  EXPECT_FALSE(predictionWith({}).complete());
   Prediction prediction = complete;
   prediction.unplaced = {workpiece("spleen")};
   EXPECT_FALSE(prediction.complete());
@@ -60,88 +64,78 @@ TEST(OutlookTest, IsCompleteOnlyWithAPathAndAWorkpieceAndEveryWorkpieceTested) {
   EXPECT_FALSE(prediction.complete());
 }
 
-TEST(OutlookTest, IsAsProbableAsItsLikeliestSweep) {
-  EXPECT_EQ(outlookOf({}).probability(), 0.0);
-  EXPECT_EQ(outlookOf({object("liver", {kFree0, {100ms, false, 0.3}, kFree2}),
-                       object("spleen", {kFree0, {100ms, false, 0.2}, {200ms, true, 0.6}})})
+TEST(PredictionTest, IsAsProbableAsItsLikeliestSweep) {
+  EXPECT_EQ(predictionWith({}).probability(), 0.0);
+  EXPECT_EQ(predictionWith({object("liver", {kFree0, {100ms, false, 0.3}, kFree2}),
+                            object("spleen", {kFree0, {100ms, false, 0.2}, {200ms, true, 0.6}})})
                 .probability(),
             0.6);
 }
 
-TEST(OutlookTest, IsMetWhereThePathFirstMeetsAnyWorkpiece) {
-  EXPECT_FALSE(outlookOf({}).firstContact());
-  EXPECT_FALSE(outlookOf({object("liver", {{0ms, false, 0.4}, kFree1, kFree2})}).firstContact());
-  EXPECT_EQ(outlookOf({object("liver", {{0ms, false, 0.4}, kFree1, kFree2}),
-                       object("spleen", {kFree0, kFree1, {205ms, true, 0.9}}),
-                       object("kidney", {kFree0, {103ms, true, 0.6}, {205ms, true, 0.9}})})
+TEST(PredictionTest, IsMetWhereThePathFirstMeetsAnyWorkpiece) {
+  EXPECT_FALSE(predictionWith({}).firstContact());
+  EXPECT_FALSE(predictionWith({object("liver", {{0ms, false, 0.4}, kFree1, kFree2})}).firstContact());
+  EXPECT_EQ(predictionWith({object("liver", {{0ms, false, 0.4}, kFree1, kFree2}),
+                            object("spleen", {kFree0, kFree1, {205ms, true, 0.9}}),
+                            object("kidney", {kFree0, {103ms, true, 0.6}, {205ms, true, 0.9}})})
                 .firstContact(),
             103ms);
 }
 
-TEST(ExpectedContactTest, NothingIsExpectedWhereNothingIsMetOrProbable) {
-  EXPECT_FALSE(predictedContact(outlookOf({}), 0.1));
-  EXPECT_FALSE(predictedContact(outlookOf({object("liver", {kFree0, kFree1, kFree2})}), 0.1));
-  EXPECT_FALSE(predictedContact(outlookOf({object("liver", {kFree0, {100ms, false, 0.0999}, kFree2})}), 0.1));
+TEST(PredictedContactTest, IsNoneWhereNoContactIsCertainOrProbable) {
+  EXPECT_FALSE(predictedContact(predictionWith({}), 0.1));
+  EXPECT_FALSE(predictedContact(predictionWith({object("liver", {kFree0, kFree1, kFree2})}), 0.1));
+  EXPECT_FALSE(predictedContact(predictionWith({object("liver", {kFree0, {100ms, false, 0.0999}, kFree2})}), 0.1));
 }
 
-TEST(ExpectedContactTest, IsTheEarliestOfAllWorkpieces) {
-  const auto expected = predictedContact(outlookOf({object("liver", {kFree0, kFree1, {210ms, true, 0.9}}),
-                                                    object("spleen", {kFree0, {150ms, true, 0.8}, kFree2})}),
-                                         0.1);
-  ASSERT_TRUE(expected);
-  EXPECT_EQ(expected->mesh_id, "spleen");
-  EXPECT_EQ(expected->earliest, Time(5150ms));
-  EXPECT_EQ(expected->contact, Time(5150ms));
-  EXPECT_EQ(expected->probability, 0.8);
+TEST(PredictedContactTest, IsTheEarliestOfAllWorkpieces) {
+  const PredictedContact predicted = contactOf(
+      {object("liver", {kFree0, kFree1, {210ms, true, 0.9}}), object("spleen", {kFree0, {150ms, true, 0.8}, kFree2})});
+  EXPECT_EQ(predicted.mesh_id, "spleen");
+  EXPECT_EQ(predicted.earliest, Time(5150ms));
+  EXPECT_EQ(predicted.contact, Time(5150ms));
+  EXPECT_EQ(predicted.probability, 0.8);
 }
 
-TEST(ExpectedContactTest, MayBeMerelyProbable) {
-  const auto expected =
-      predictedContact(outlookOf({object("liver", {kFree0, {100ms, false, 0.1}, {200ms, false, 0.3}})}), 0.1);
-  ASSERT_TRUE(expected);
-  EXPECT_EQ(expected->earliest, Time(5100ms));
-  EXPECT_FALSE(expected->contact);
-  EXPECT_EQ(expected->probability, 0.3);
-  EXPECT_TRUE(expected->triangles.empty());
+TEST(PredictedContactTest, MayBeMerelyProbable) {
+  const PredictedContact predicted = contactOf({object("liver", {kFree0, {100ms, false, 0.1}, {200ms, false, 0.3}})});
+  EXPECT_EQ(predicted.earliest, Time(5100ms));
+  EXPECT_FALSE(predicted.contact);
+  EXPECT_EQ(predicted.probability, 0.3);
+  EXPECT_TRUE(predicted.triangles.empty());
 }
 
 // Probable first, met later: one collision, which may begin with the former and has the triangles of the latter.
-TEST(ExpectedContactTest, TellsWhenThePathMeetsTheWorkpieceLater) {
+TEST(PredictedContactTest, ReportsWhenThePathMeetsTheWorkpieceLater) {
   PredictedObject liver = object("liver", {kFree0, {100ms, false, 0.2}, {205ms, true, 0.9}});
   liver.reflex = {1, 7};
   liver.considered = {3};
-  const auto expected = predictedContact(outlookOf({liver}), 0.1);
-  ASSERT_TRUE(expected);
-  EXPECT_EQ(expected->earliest, Time(5100ms));
-  EXPECT_EQ(expected->contact, Time(5205ms));
-  EXPECT_EQ(expected->probability, 0.9);
-  EXPECT_EQ(expected->triangles, (std::vector<std::uint32_t>{1, 3, 7}));
+  const PredictedContact predicted = contactOf({liver});
+  EXPECT_EQ(predicted.earliest, Time(5100ms));
+  EXPECT_EQ(predicted.contact, Time(5205ms));
+  EXPECT_EQ(predicted.probability, 0.9);
+  EXPECT_EQ(predicted.triangles, (std::vector<std::uint32_t>{1, 3, 7}));
 }
 
-// What is merely probable before it is met is one collision with it: the part is the one that the time and the
+// What is merely probable before it is met is one collision with it: the piece is the one that the time and the
 // triangles are of.
-TEST(ExpectedContactTest, NamesThePartOfTheToolThatMeetsFirst) {
-  const auto expected = predictedContact(
-      outlookOf({object("liver", {{0ms, false, 0.2, 0}, {100ms, true, 0.9, 1}, {200ms, true, 0.9, 2}})}), 0.1);
-  ASSERT_TRUE(expected);
-  EXPECT_EQ(expected->earliest, Time(5000ms));
-  EXPECT_EQ(expected->tool_piece, 1U);
+TEST(PredictedContactTest, NamesTheToolPieceThatMeetsFirst) {
+  const PredictedContact predicted =
+      contactOf({object("liver", {{0ms, false, 0.2, 0}, {100ms, true, 0.9, 1}, {200ms, true, 0.9, 2}})});
+  EXPECT_EQ(predicted.earliest, Time(5000ms));
+  EXPECT_EQ(predicted.tool_piece, 1U);
 }
 
-TEST(ExpectedContactTest, NamesThePartThatIsLikeliestToMeetWhereNoneDoes) {
-  const auto expected =
-      predictedContact(outlookOf({object("liver", {kFree0, {100ms, false, 0.2, 3}, {200ms, false, 0.3, 1}}),
-                                  object("spleen", {kFree0, kFree1, {200ms, false, 0.9, 2}})}),
-                       0.1);
-  ASSERT_TRUE(expected);
-  EXPECT_EQ(expected->tool_piece, 3U);
+TEST(PredictedContactTest, NamesTheLikeliestToolPieceWhereNoneMeets) {
+  const PredictedContact predicted =
+      contactOf({object("liver", {kFree0, {100ms, false, 0.2, 3}, {200ms, false, 0.3, 1}}),
+                 object("spleen", {kFree0, kFree1, {200ms, false, 0.9, 2}})});
+  EXPECT_EQ(predicted.tool_piece, 3U);
 }
 
-// A path that meets is told of however small a probability its volume gives.
-TEST(ExpectedContactTest, APathThatMeetsNeedsNoProbability) {
-  const auto expected = predictedContact(outlookOf({object("liver", {{0ms, true, 0.0}, kFree1, kFree2})}), 1.0);
-  ASSERT_TRUE(expected);
-  EXPECT_TRUE(expected->contact);
+// A path that meets is reported however small a probability its volume gives.
+TEST(PredictedContactTest, APathThatMeetsNeedsNoProbability) {
+  EXPECT_TRUE(contactOf({object("liver", {{0ms, true, 0.0}, kFree1, kFree2})}, 1.0).contact);
 }
 
 }  // namespace

@@ -18,17 +18,22 @@ SweepResult testMotion(Detector& detector, const ConvexShape& tool, const Motion
 
 using Indices = std::vector<std::uint32_t>;
 
+Detector& reference() {
+  static ReferenceDetector detector;
+  return detector;
+}
+
 const ConvexShape kDrill = ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
 
 Eigen::Isometry3d at(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
 
 // A square of 1 m in the plane at height z, and one 1 m to the side.
-TriangleMesh sheet(double z) {
+TriangleMesh square(double z) {
   return TriangleMesh({{-0.5, -0.5, z}, {0.5, -0.5, z}, {0.5, 0.5, z}, {-0.5, 0.5, z}, {1.5, -0.5, z}, {2.5, 0.5, z}},
                       {{0, 1, 2}, {0, 2, 3}, {4, 5, 4}});
 }
 
-class SweepTestTest : public testing::TestWithParam<std::string> {
+class SweepCheckerTest : public testing::TestWithParam<std::string> {
  protected:
   SweepResult test(const Motion& motion, const TriangleMesh& mesh, const SweepOptions& options = {}) {
     return testMotion(*detector_, kDrill, motion, mesh, options);
@@ -38,17 +43,17 @@ class SweepTestTest : public testing::TestWithParam<std::string> {
 };
 
 // 0.1 mm thin; 2 m between the poses.
-TEST_P(SweepTestTest, MeetsAThinSheetBetweenTwoPosesFarApart) {
+TEST_P(SweepCheckerTest, MeetsAThinSquareBetweenTwoPosesFarApart) {
   const Motion through{at(0.1, 0.1, 1.0), at(0.1, 0.1, -0.9)};
-  EXPECT_EQ(test(through, sheet(0.0)).triangles, (Indices{0, 1}));
-  EXPECT_EQ(test(through, sheet(0.0001)).triangles, (Indices{0, 1}));
-  EXPECT_TRUE(test({at(0.1, 0.1, 1.0), at(0.1, 0.1, 1.0)}, sheet(0.0)).triangles.empty());
-  EXPECT_TRUE(test({at(0.1, 0.1, -0.9), at(0.1, 0.1, -0.9)}, sheet(0.0)).triangles.empty());
+  EXPECT_EQ(test(through, square(0.0)).triangles, (Indices{0, 1}));
+  EXPECT_EQ(test(through, square(0.0001)).triangles, (Indices{0, 1}));
+  EXPECT_TRUE(test({at(0.1, 0.1, 1.0), at(0.1, 0.1, 1.0)}, square(0.0)).triangles.empty());
+  EXPECT_TRUE(test({at(0.1, 0.1, -0.9), at(0.1, 0.1, -0.9)}, square(0.0)).triangles.empty());
 }
 
-// The drill turns by 90 degrees about its tip: its far end runs along an arc of 0.1 m, which bulges 0.029 m out of the
+// The drill turns by 90 degrees about its tip: its far end runs along an arc of 0.1 m, which deviates 0.029 m from its
 // chord. The point of the triangle is on the arc, 0.02 m from the chord.
-TEST_P(SweepTestTest, MeetsATriangleThatOnlyTheArcReaches) {
+TEST_P(SweepCheckerTest, MeetsATriangleThatOnlyTheArcReaches) {
   Motion turn;
   turn.X_MT_end.linear() = Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitX()).toRotationMatrix();
   const double reached = 0.095 * std::sqrt(0.5);
@@ -61,56 +66,56 @@ TEST_P(SweepTestTest, MeetsATriangleThatOnlyTheArcReaches) {
   EXPECT_TRUE(test(turn, beyond).triangles.empty());
 }
 
-TEST_P(SweepTestTest, NamesEachTriangleOnceThoughSeveralPartsMeetIt) {
+TEST_P(SweepCheckerTest, NamesEachTriangleOnceThoughSeveralSubMotionsMeetIt) {
   Motion turn{at(0, 0, 0.01), at(0, 0, -0.01)};
   turn.X_MT_end.linear() = Eigen::AngleAxisd(1.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  const SweepResult result = test(turn, sheet(0.0));
+  const SweepResult result = test(turn, square(0.0));
   EXPECT_EQ(result.volumes_M.size(), 9U);  // 1.5 / 0.175 = 8.6
   EXPECT_EQ(result.triangles, (Indices{0, 1}));
 }
 
-TEST_P(SweepTestTest, GrowsTheToolByTheMargin) {
+TEST_P(SweepCheckerTest, GrowsTheToolByTheMargin) {
   const Motion below{at(0, 0, -0.011), at(0.1, 0, -0.011)};
   SweepOptions options;
   options.margin = 0.010;
-  EXPECT_TRUE(test(below, sheet(0.0), options).triangles.empty());
+  EXPECT_TRUE(test(below, square(0.0), options).triangles.empty());
   options.margin = 0.012;
-  EXPECT_EQ(test(below, sheet(0.0), options).triangles, (Indices{0, 1}));
+  EXPECT_EQ(test(below, square(0.0), options).triangles, (Indices{0, 1}));
 }
 
-INSTANTIATE_TEST_SUITE_P(AllDetectors, SweepTestTest, testing::ValuesIn(detectorNames()),
+INSTANTIATE_TEST_SUITE_P(AllDetectors, SweepCheckerTest, testing::ValuesIn(detectorNames()),
                          [](const auto& test) { return test.param; });
 
-TEST(SweepFindingsTest, PartsAreEndToEndFromPoseToPose) {
+TEST(SweepResultTest, SubMotionsAreEndToEndFromPoseToPose) {
   FakeDetector::Record record;
   FakeDetector detector(record);
   Random random(/*seed=*/1);
   const Motion motion{random.pose({0, 0, 0}), random.pose({1, 0, 0})};
-  const SweepResult result = testMotion(detector, kDrill, motion, sheet(0.0), {});
-  const std::vector<Motion> parts = split(motion, SweepOptions{}.max_rotation);
-  ASSERT_EQ(result.volumes_M.size(), parts.size());
-  ASSERT_EQ(record.volumes.size(), parts.size());
-  for (size_t i = 0; i < parts.size(); ++i) {
-    const SweptVolume expected = sweptVolume(kDrill, parts[i], VolumeKind::kObbPlanes);
+  const SweepResult result = testMotion(detector, kDrill, motion, square(0.0), {});
+  const std::vector<Motion> sub_motions = split(motion, SweepOptions{}.max_rotation);
+  ASSERT_EQ(result.volumes_M.size(), sub_motions.size());
+  ASSERT_EQ(record.volumes.size(), sub_motions.size());
+  for (size_t i = 0; i < sub_motions.size(); ++i) {
+    const SweptVolume expected = sweptVolume(kDrill, sub_motions[i], VolumeKind::kObbPlanes);
     EXPECT_TRUE(record.volumes[i].box.X_MB.isApprox(expected.box.X_MB, 1e-9)) << "part " << i;
   }
 }
 
-TEST(SweepFindingsTest, UsesTheVolumeAskedFor) {
+TEST(SweepResultTest, UsesTheVolumeAskedFor) {
   FakeDetector::Record record;
   FakeDetector detector(record);
   const Motion motion{at(0, 0, 0), at(0.1, 0.05, 0.02)};
   SweepOptions options;
   options.volume = VolumeKind::kObb;
-  testMotion(detector, kDrill, motion, sheet(0.0), options);
+  testMotion(detector, kDrill, motion, square(0.0), options);
   EXPECT_TRUE(record.volumes.back().clips_B.empty());
   options.volume = VolumeKind::kObbPlanes;
-  testMotion(detector, kDrill, motion, sheet(0.0), options);
+  testMotion(detector, kDrill, motion, square(0.0), options);
   EXPECT_FALSE(record.volumes.back().clips_B.empty());
 }
 
 // What is reported holds: chord error, the margin asked for, the mesh's own rounding and the detector's inflation.
-TEST(SweepFindingsTest, ReportsAMarginThatAddsUp) {
+TEST(SweepResultTest, ReportsAMarginThatAddsUp) {
   FakeDetector::Record record;
   record.inflation = 0.5;
   FakeDetector detector(record);
@@ -125,8 +130,7 @@ TEST(SweepFindingsTest, ReportsAMarginThatAddsUp) {
 }
 
 // A vertex on the drill's rim is met as it was given, though the mesh, 1 km large, keeps it up to 0.04 mm off.
-TEST(SweepFindingsTest, MeetsVerticesWhereTheyWereGiven) {
-  const auto detector = makeDetector("reference");
+TEST(SweepResultTest, MeetsVerticesWhereTheyWereGiven) {
   int kept_outside = 0;
   for (int degrees = 0; degrees < 360; ++degrees) {
     const double angle = degrees * std::acos(-1.0) / 180.0;
@@ -134,18 +138,18 @@ TEST(SweepFindingsTest, MeetsVerticesWhereTheyWereGiven) {
     const TriangleMesh mesh({kDrill.radius() * out, 1000.0 * out, 1000.0 * out + Eigen::Vector3d::UnitZ()},
                             {{0, 1, 2}});
     if (mesh.vertex(0).head<2>().norm() > kDrill.radius() + 1e-6) ++kept_outside;
-    EXPECT_EQ(testMotion(*detector, kDrill, Motion{}, mesh, {}).triangles, Indices{0}) << degrees << " degrees";
+    EXPECT_EQ(testMotion(reference(), kDrill, Motion{}, mesh, {}).triangles, Indices{0}) << degrees << " degrees";
   }
   EXPECT_GT(kept_outside, 50);
 }
 
 // Every triangle named lies within the reported margin of the tool, of its volume that is: here against the box that
 // the drill itself is, at rest.
-TEST(SweepFindingsTest, NamesNothingFartherThanItsMargin) {
+TEST(SweepResultTest, NamesNothingFartherThanItsMargin) {
   const auto detector = makeDetector("select");
   for (int exponent = -12; exponent < 0; ++exponent) {
     const double gap = std::pow(10.0, exponent);
-    const TriangleMesh ahead = sheet(gap);
+    const TriangleMesh ahead = square(gap);
     const SweepResult result = testMotion(*detector, kDrill, Motion{}, ahead, {});
     if (!result.triangles.empty()) {
       EXPECT_LE(gap, result.margin);
@@ -157,25 +161,23 @@ TEST(SweepFindingsTest, NamesNothingFartherThanItsMargin) {
 }
 
 // The box around a drill that goes aslant holds corners that the drill never comes to. Whoever looks closely sees that.
-TEST(FineTest, RulesOutWhatOnlyTheVolumeMeets) {
-  const auto detector = makeDetector("reference");
+TEST(NarrowPhaseTest, RulesOutWhatOnlyTheVolumeMeets) {
   const Motion aslant{at(0, 0, 0), at(0.1, 0.02, 0.05)};
   const SweptVolume volume = sweptVolume(kDrill, aslant, VolumeKind::kObb);
   const Eigen::Vector3d corner = volume.box.X_MB * (0.999 * volume.box.half_extents);
   const TriangleMesh dot({corner, corner, corner}, {{0, 1, 2}});
   SweepOptions options;
   options.volume = VolumeKind::kObb;
-  const SweepResult fine = testMotion(*detector, kDrill, aslant, dot, options);
+  const SweepResult fine = testMotion(reference(), kDrill, aslant, dot, options);
   EXPECT_EQ(fine.triangles, Indices{0});
   EXPECT_TRUE(fine.fine && fine.not_ruled_out.empty() && fine.in_contact.empty() && !fine.contact());
   EXPECT_EQ(firstTimeOfImpact(fine), std::nullopt);
   options.fine = false;
-  EXPECT_TRUE(testMotion(*detector, kDrill, aslant, dot, options).contact());
+  EXPECT_TRUE(testMotion(reference(), kDrill, aslant, dot, options).contact());
 }
 
-TEST(FineTest, TellsWhenWhereAndHowDeep) {
-  const auto detector = makeDetector("reference");
-  const SweepResult down = testMotion(*detector, kDrill, {at(0.2, 0.1, 0.3), at(0.2, 0.1, -0.1)}, sheet(0.0), {});
+TEST(NarrowPhaseTest, ReportsTimePointAndDepth) {
+  const SweepResult down = testMotion(reference(), kDrill, {at(0.2, 0.1, 0.3), at(0.2, 0.1, -0.1)}, square(0.0), {});
   EXPECT_EQ(down.not_ruled_out, (Indices{0}));
   ASSERT_EQ(down.in_contact.size(), 1U);
   // The drill points up: its far end, 0.1 m below the tip, comes first, after 0.2 of 0.4 m.
@@ -186,25 +188,23 @@ TEST(FineTest, TellsWhenWhereAndHowDeep) {
   EXPECT_NEAR(*firstTimeOfImpact(down), 0.5, 1e-6);
 }
 
-TEST(FineTest, LooksNoCloserAtWhatIsSettled) {
-  const auto detector = makeDetector("reference");
+TEST(NarrowPhaseTest, DoesNotTestAConfirmedTriangleAgain) {
   const std::vector<Motion> down = {{at(0.2, 0.1, 0.3), at(0.2, 0.1, -0.1)}};
   const SweepCache confirmed{{}, false, {0, 7}};
-  const SweepResult already_confirmed = checkSweep(*detector, {Tool(kDrill), down, sheet(0.0), {}, confirmed});
+  const SweepResult already_confirmed = checkSweep(reference(), {Tool(kDrill), down, square(0.0), {}, confirmed});
   EXPECT_EQ(already_confirmed.not_ruled_out, (Indices{0}));
   EXPECT_TRUE(already_confirmed.in_contact.empty());
   const std::vector<Motion> above = {{at(0.2, 0.1, 0.5), at(0.2, 0.1, 0.3)}};
-  EXPECT_FALSE(checkSweep(*detector, {Tool(kDrill), above, sheet(0.0), {}, confirmed}).contact());
+  EXPECT_FALSE(checkSweep(reference(), {Tool(kDrill), above, square(0.0), {}, confirmed}).contact());
 }
 
-// Pushed in further, it goes on along the normal that it came in by, though the sheet's other side is nearer by then.
-TEST(FineTest, GoesOnAlongTheWayIn) {
-  const auto detector = makeDetector("reference");
+// Pushed in further, it keeps the normal of its first contact, though the square's other side is nearer by then.
+TEST(NarrowPhaseTest, KeepsTheContactNormalOfItsFirstContact) {
   SweepCache before;
   double depth = 0.0;
   for (double z = 0.11; z > -0.05; z -= 0.01) {
     const std::vector<Motion> push = split({at(0.2, 0.1, z), at(0.2, 0.1, z - 0.01)}, 0.1);
-    const SweepResult result = checkSweep(*detector, {Tool(kDrill), push, sheet(0.0), {}, before});
+    const SweepResult result = checkSweep(reference(), {Tool(kDrill), push, square(0.0), {}, before});
     before = sweepCache(result);
     if (result.in_contact.empty()) continue;
     EXPECT_TRUE(result.in_contact[0].impact.normal_M.isApprox(Eigen::Vector3d::UnitZ(), 1e-6)) << z;
@@ -215,8 +215,7 @@ TEST(FineTest, GoesOnAlongTheWayIn) {
   EXPECT_NEAR(depth, 0.11, 1e-9);  // the whole drill, and the last step
 }
 
-TEST(VolumeTest, HullIsTighterThanPlanesAndPlanesThanTheBoxAndNoneMissesWhatIsTouched) {
-  const auto detector = makeDetector("reference");
+TEST(VolumeTest, HullIsTighterThanPlanesAndPlanesThanTheBoxAndNoneMissesAContact) {
   Random random(/*seed=*/21);
   const TriangleMesh mesh = wavyHull(24, 40, 0.5);
   size_t named[] = {0, 0, 0};
@@ -227,7 +226,7 @@ TEST(VolumeTest, HullIsTighterThanPlanesAndPlanesThanTheBoxAndNoneMissesWhatIsTo
     for (const VolumeKind kind : {VolumeKind::kObb, VolumeKind::kObbPlanes, VolumeKind::kHull}) {
       SweepOptions options;
       options.volume = kind;
-      const SweepResult result = testMotion(*detector, kDrill, motion, mesh, options);
+      const SweepResult result = testMotion(reference(), kDrill, motion, mesh, options);
       named[static_cast<size_t>(kind)] += result.triangles.size();
       if (kind == VolumeKind::kObb) in_contact = result.not_ruled_out;
       EXPECT_EQ(result.not_ruled_out, in_contact);
@@ -243,7 +242,7 @@ TEST(VolumeTest, HullIsTighterThanPlanesAndPlanesThanTheBoxAndNoneMissesWhatIsTo
 }
 
 // Two fingers, open: what is between them meets the box around both, and neither finger.
-TEST(SeveralPartsTest, MeetWhatTheyMeetTogetherAndNotWhatIsBetweenThem) {
+TEST(SeveralPiecesTest, MeetWhatEachOfThemMeetsAndNotWhatIsBetweenThem) {
   const auto finger = [](double y) {
     return ConvexPiece{
         "finger",
@@ -266,7 +265,6 @@ TEST(SeveralPartsTest, MeetWhatTheyMeetTogetherAndNotWhatIsBetweenThem) {
 }
 
 TEST(InsideOfAWorkpieceTest, IsContactOfAClosedMeshAlone) {
-  const auto detector = makeDetector("reference");
   const TriangleMesh closed = wavyHull(24, 40, 0.0);
   std::vector<Eigen::Vector3d> corners;
   for (size_t i = 0; i < closed.vertexCount(); ++i) corners.push_back(closed.vertex(i));
@@ -274,24 +272,23 @@ TEST(InsideOfAWorkpieceTest, IsContactOfAClosedMeshAlone) {
   but_one.pop_back();
   const TriangleMesh open(corners, but_one);
   const ConvexShape bead = ConvexShape::cylinder(0.005, 0.01);
-  const SweepResult within = testMotion(*detector, bead, Motion{}, closed, {});
+  const SweepResult within = testMotion(reference(), bead, Motion{}, closed, {});
   EXPECT_TRUE(within.triangles.empty());
   EXPECT_TRUE(within.inside && within.contact());
   EXPECT_EQ(firstTimeOfImpact(within), 0.0);
-  EXPECT_FALSE(testMotion(*detector, bead, Motion{}, open, {}).contact());
-  EXPECT_FALSE(testMotion(*detector, bead, {at(1, 0, 0), at(1, 0, 0)}, closed, {}).contact());
+  EXPECT_FALSE(testMotion(reference(), bead, Motion{}, open, {}).contact());
+  EXPECT_FALSE(testMotion(reference(), bead, {at(1, 0, 0), at(1, 0, 0)}, closed, {}).contact());
 }
 
 TEST(InsideOfAWorkpieceTest, IsAskedAgainOnlyAfterContact) {
-  const auto detector = makeDetector("reference");
   const TriangleMesh closed = wavyHull(24, 40, 0.0);
   const Tool bead = Tool::cylinder(0.005, 0.01);
-  const SweepResult outside = checkSweep(*detector, {bead, {{at(1, 0, 0), at(1, 0, 0)}}, closed, {}});
+  const SweepResult outside = checkSweep(reference(), {bead, {{at(1, 0, 0), at(1, 0, 0)}}, closed, {}});
   EXPECT_TRUE(sweepCache(outside).outside);
-  const SweepResult in = checkSweep(*detector, {bead, {{at(1, 0, 0), at(0, 0, 0)}}, closed, {}, sweepCache(outside)});
+  const SweepResult in = checkSweep(reference(), {bead, {{at(1, 0, 0), at(0, 0, 0)}}, closed, {}, sweepCache(outside)});
   EXPECT_FALSE(in.not_ruled_out.empty());
   EXPECT_FALSE(sweepCache(in).outside);
-  EXPECT_TRUE(checkSweep(*detector, {bead, {Motion{}}, closed, {}, sweepCache(in)}).inside);
+  EXPECT_TRUE(checkSweep(reference(), {bead, {Motion{}}, closed, {}, sweepCache(in)}).inside);
 }
 
 }  // namespace

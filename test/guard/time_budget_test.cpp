@@ -26,7 +26,7 @@ Duration settled(TimeBudget& budget, Duration measured, Duration per_sweep) {
   return total;
 }
 
-TEST(BudgetTest, TakesAllStepsWhereTheyAreCheap) {
+TEST(TimeBudgetTest, TakesAllStepsWhereTheyAreCheap) {
   TimeBudget budget({}, kCycle);
   budget.spentOnMeasured(500us);
   EXPECT_EQ(budget.consideredSweeps(kReflex, kConsidered), consideredSweeps({}));
@@ -34,7 +34,7 @@ TEST(BudgetTest, TakesAllStepsWhereTheyAreCheap) {
   EXPECT_EQ(budget.consideredSweeps(kReflex, kConsidered), consideredSweeps({}));
 }
 
-TEST(BudgetTest, BeginsCoarselyAfterASlowMeasuredSweep) {
+TEST(TimeBudgetTest, BeginsCoarselyAfterASlowMeasuredSweep) {
   TimeBudget budget({}, kCycle);
   budget.spentOnMeasured(10ms);
   EXPECT_EQ(budget.consideredSweeps(kReflex, kConsidered), 1U);
@@ -42,7 +42,7 @@ TEST(BudgetTest, BeginsCoarselyAfterASlowMeasuredSweep) {
   EXPECT_EQ(budget.consideredSweeps(kReflex, kConsidered), consideredSweeps({}));
 }
 
-TEST(BudgetTest, TheDearerASweepTheFewerThereAre) {
+TEST(TimeBudgetTest, TheDearerASweepTheFewerThereAre) {
   size_t before = consideredSweeps({});
   for (const Duration per_sweep : {1ms, 2ms, 3ms, 4ms, 5ms, 8ms, 100ms}) {
     TimeBudget budget({}, kCycle);
@@ -55,14 +55,14 @@ TEST(BudgetTest, TheDearerASweepTheFewerThereAre) {
   EXPECT_EQ(before, 1U);
 }
 
-TEST(BudgetTest, KeepsTheCycleAsLongAsTheReflexIntervalAndOneSweepFit) {
+TEST(TimeBudgetTest, KeepsTheCycleAsLongAsTheReflexIntervalAndOneSweepFit) {
   for (Duration per_sweep = 100us; per_sweep * (kReflex + 1) + 5ms <= kCycle; per_sweep += 100us) {
     TimeBudget budget({}, kCycle);
     EXPECT_LE(settled(budget, 5ms, per_sweep), kCycle) << per_sweep.count() << " ns";
   }
 }
 
-TEST(BudgetTest, RisesAtOnceAndFallsSlowly) {
+TEST(TimeBudgetTest, RisesAtOnceAndFallsSlowly) {
   TimeBudget budget({}, kCycle);
   settled(budget, 1ms, 1ms);
   const size_t cheap = budget.consideredSweeps(kReflex, kConsidered);
@@ -75,7 +75,7 @@ TEST(BudgetTest, RisesAtOnceAndFallsSlowly) {
   EXPECT_EQ(budget.consideredSweeps(kReflex, kConsidered), cheap);
 }
 
-TEST(BudgetTest, ASlowMeasuredSweepLeavesLessToPredictionToo) {
+TEST(TimeBudgetTest, ASlowMeasuredSweepLeavesLessToPredictionToo) {
   TimeBudget budget({}, kCycle);
   settled(budget, 0ms, 2ms);
   const size_t before = budget.consideredSweeps(kReflex, kConsidered);
@@ -83,7 +83,7 @@ TEST(BudgetTest, ASlowMeasuredSweepLeavesLessToPredictionToo) {
   EXPECT_LT(budget.consideredSweeps(kReflex, kConsidered), before);
 }
 
-TEST(BudgetTest, ACycleWithoutAPredictionTellsNothingOfItsCost) {
+TEST(TimeBudgetTest, ACycleWithoutAPredictionDoesNotChangeItsCost) {
   TimeBudget budget({}, kCycle);
   budget.spentOnMeasured(10ms);
   budget.spentOnPredicted(0ms, 0);
@@ -91,7 +91,7 @@ TEST(BudgetTest, ACycleWithoutAPredictionTellsNothingOfItsCost) {
 }
 
 // A tool that turns takes several volumes a step; a sweep that joins steps takes one.
-TEST(BudgetTest, CountsVolumesNotSweeps) {
+TEST(TimeBudgetTest, CountsVolumesNotSweeps) {
   TimeBudget budget({}, kCycle);
   budget.spentOnMeasured(1ms);
   budget.spentOnPredicted(20 * 1ms, 20);
@@ -100,7 +100,7 @@ TEST(BudgetTest, CountsVolumesNotSweeps) {
   EXPECT_EQ(budget.consideredSweeps(100, 30), 1U);
 }
 
-TEST(BudgetTest, LeavesToPredictionWhatTheMeasuredSweepDoesNotTake) {
+TEST(TimeBudgetTest, LeavesToPredictionWhatTheMeasuredSweepDoesNotTake) {
   TimeBudget budget({}, kCycle);
   const Duration before = budget.forPrediction();
   EXPECT_GT(before, kCycle / 2);
@@ -110,7 +110,7 @@ TEST(BudgetTest, LeavesToPredictionWhatTheMeasuredSweepDoesNotTake) {
   EXPECT_EQ(budget.forPrediction(), Duration::zero());
 }
 
-TEST(BudgetTest, RefusesACycleWithoutTime) {
+TEST(TimeBudgetTest, RefusesACycleWithoutTime) {
   EXPECT_THROW(TimeBudget({}, 0ms), InvalidInput);
   HorizonOptions backwards;
   backwards.considered = 50ms;

@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/workpiece_store.h"
+#include "guard/workpiece_store.h"
 #include "refusal.h"
 
 #include <gtest/gtest.h>

@@ -13,22 +13,22 @@ using std::chrono::milliseconds;
 constexpr WarningLimits kLimits = {milliseconds(100), milliseconds(500), milliseconds(500)};
 
 Instant at(int ms) { return {Time(milliseconds(ms)), SteadyTime(milliseconds(ms))}; }
-Timestamps seenAt(int ms) { return {at(ms).stamp, at(ms).steady}; }
+Timestamps timestampsAt(int ms) { return {at(ms).stamp, at(ms).steady}; }
 
 std::shared_ptr<const Workpiece> workpiece(const std::string& id, int ms, std::uint32_t revision = 1) {
   const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   return std::make_shared<const Workpiece>(Workpiece{id, revision, at(ms).stamp, at(ms).steady, "table", mesh});
 }
 
-SweepReport reportOf(const Workpieces& workpieces, const std::vector<std::uint32_t>& met = {}) {
+SweepReport reportOf(const Workpieces& workpieces, const std::vector<std::uint32_t>& in_contact = {}) {
   SweepReport report;
   report.end = at(1000).stamp;
-  for (const auto& one : workpieces) report.objects.push_back({one, {}, {met, 0.0, {}, false, met}});
+  for (const auto& one : workpieces) report.objects.push_back({one, {}, {in_contact, 0.0, {}, false, in_contact}});
   return report;
 }
 
 // From a pose on, 1.1 s ahead in two sweeps.
-Prediction outlookOn(const Workpieces& workpieces, int ms) {
+Prediction predictionFrom(const Workpieces& workpieces, int ms) {
   Prediction prediction;
   prediction.stamp = at(ms).stamp;
   prediction.path.resize(2);
@@ -41,8 +41,8 @@ Prediction outlookOn(const Workpieces& workpieces, int ms) {
 
 // One that meets its first workpiece after so long.
 Prediction collisionOn(const Workpieces& workpieces, int ms, int after_ms) {
-  Prediction prediction = outlookOn(workpieces, ms);
-  prediction.objects[0].sweeps[1] = {milliseconds(after_ms), /*met=*/true, /*probability=*/0.75};
+  Prediction prediction = predictionFrom(workpieces, ms);
+  prediction.objects[0].sweeps[1] = {milliseconds(after_ms), /*contact=*/true, /*probability=*/0.75};
   prediction.objects[0].considered = {4};
   return prediction;
 }
@@ -59,14 +59,14 @@ class WarningMonitorTest : public testing::Test {
     sweepOnly(report, ms);
     Workpieces tested;
     for (const SweptObject& object : report.objects) tested.push_back(object.workpiece);
-    predict(outlookOn(tested, ms), ms);
+    predict(predictionFrom(tested, ms), ms);
   }
   void sweepOnly(SweepReport report, int ms) {
     report.end = at(ms).stamp;
-    monitor_.swept(report, seenAt(ms), monitor_.checkpoint(), at(ms).steady);
+    monitor_.swept(report, timestampsAt(ms), monitor_.checkpoint(), at(ms).steady);
   }
   void predict(const Prediction& prediction, int pose_ms) {
-    monitor_.predicted(prediction, seenAt(pose_ms), monitor_.checkpoint(), at(pose_ms));
+    monitor_.predicted(prediction, timestampsAt(pose_ms), monitor_.checkpoint(), at(pose_ms));
   }
 
   WarningLevel levelAt(int ms) const { return warningOf(monitor_, at(ms)).level; }
@@ -76,7 +76,7 @@ class WarningMonitorTest : public testing::Test {
   WarningMonitor monitor_{kLimits};
 };
 
-TEST_F(WarningMonitorTest, AnOverloadIsToldAndHeldButLeavesTheLevel) {
+TEST_F(WarningMonitorTest, AnOverloadIsReportedAndHeldButDoesNotChangeTheLevel) {
   SweepReport report = reportOf(workpieces_);
   report.backlog = milliseconds(20);
   sweep(report, 1010);
@@ -125,29 +125,29 @@ TEST_F(WarningMonitorTest, AFaultLastsUntilALaterPoseIsSwept) {
 }
 
 // A pose that came before the bad one cannot vouch for what came after it.
-TEST_F(WarningMonitorTest, AFaultIsNotMendedByWhatCameBeforeIt) {
+TEST_F(WarningMonitorTest, AFaultIsNotClearedByAnEarlierPose) {
   const WarningMonitor::Checkpoint before = monitor_.checkpoint();
   monitor_.fault(kPoseInvalid, "NaN");
-  monitor_.swept(reportOf(workpieces_), seenAt(1010), before, at(1010).steady);
+  monitor_.swept(reportOf(workpieces_), timestampsAt(1010), before, at(1010).steady);
   EXPECT_EQ(reasonsAt(1010), kPoseInvalid);
 }
 
-TEST(LedgerFaultTest, EveryFaultIsToldAtOnce) {
-  int told = 0;
-  WarningMonitor monitor(kLimits, [&] { ++told; });
+TEST(WarningMonitorFaultTest, EveryFaultIsReportedAtOnce) {
+  int reports = 0;
+  WarningMonitor monitor(kLimits, [&] { ++reports; });
   monitor.fault(kPoseInvalid, "NaN");
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(reports, 1);
   monitor.meshRefused("liver", "NaN");
   monitor.verticesRefused("liver", "NaN");
-  EXPECT_EQ(told, 3);
+  EXPECT_EQ(reports, 3);
   SweepReport failed;
   failed.failures.push_back({workpiece("liver", 1000), "no canary"});
-  monitor.swept(failed, seenAt(1000), monitor.checkpoint(), at(1000).steady);
-  EXPECT_EQ(told, 4);
+  monitor.swept(failed, timestampsAt(1000), monitor.checkpoint(), at(1000).steady);
+  EXPECT_EQ(reports, 4);
   Prediction prediction;
   prediction.failures = failed.failures;
-  monitor.predicted(prediction, seenAt(1000), monitor.checkpoint(), at(1000));
-  EXPECT_EQ(told, 5);
+  monitor.predicted(prediction, timestampsAt(1000), monitor.checkpoint(), at(1000));
+  EXPECT_EQ(reports, 5);
   EXPECT_NE(warningOf(monitor, at(1000)).reasons & kDetectorFault, 0U);
 }
 
@@ -161,8 +161,8 @@ TEST_F(WarningMonitorTest, ARefusedMeshCountsUntilItsNextGoodOne) {
   EXPECT_EQ(levelAt(1050), WarningLevel::kClear);
 }
 
-// What the refused mesh announced is still not seen, however good the vertices of the one before are.
-TEST_F(WarningMonitorTest, ARefusedMeshIsNotMendedByVertices) {
+// What the refused mesh announced is still unknown, however good the vertices of the one before are.
+TEST_F(WarningMonitorTest, ARefusedMeshIsNotClearedByVertices) {
   monitor_.meshRefused("liver", "too large");
   monitor_.verticesRefused("liver", "wrong revision");
   monitor_.verticesAccepted("liver");
@@ -173,7 +173,7 @@ TEST_F(WarningMonitorTest, ARefusedMeshIsNotMendedByVertices) {
   EXPECT_EQ(levelAt(1050), WarningLevel::kClear);
 }
 
-TEST_F(WarningMonitorTest, RefusedVerticesAreMendedByGoodOnesAndByAMesh) {
+TEST_F(WarningMonitorTest, RefusedVerticesAreClearedByGoodVerticesAndByAMesh) {
   monitor_.verticesRefused("liver", "NaN vertex");
   EXPECT_EQ(reasonsAt(1000), kMeshInvalid);
   monitor_.verticesAccepted("liver");
@@ -189,7 +189,7 @@ TEST_F(WarningMonitorTest, ARefusedMeshOfAnUnknownWorkpieceIsNotForgotten) {
   EXPECT_NE(reasonsAt(1000000) & kMeshInvalid, 0U);
 }
 
-TEST_F(WarningMonitorTest, AFloodOfRefusedMeshesIsNotClearWhenSomeAreMended) {
+TEST_F(WarningMonitorTest, AFloodOfRefusedMeshesIsNotClearWhenSomeAreAccepted) {
   for (int i = 0; i < 1000; ++i) monitor_.meshRefused("ghost" + std::to_string(i), "no mesh");
   for (int i = 0; i < 50; ++i) monitor_.meshAccepted("ghost" + std::to_string(i));
   EXPECT_NE(reasonsAt(1000) & kMeshInvalid, 0U);
@@ -236,7 +236,7 @@ TEST_F(WarningMonitorTest, AContactLastsWhileItsWorkpieceCannotBeSwept) {
   EXPECT_EQ(levelAt(5000), WarningLevel::kUnknown);
 }
 
-TEST_F(WarningMonitorTest, TimeThatJumpedForgetsPoseAndFaults) {
+TEST_F(WarningMonitorTest, ATimeJumpClearsPoseAndFaults) {
   monitor_.fault(kTfFail, "no transform");
   monitor_.timeJumped("time went back");
   const Warning warning = warningOf(monitor_, at(1010));
@@ -248,8 +248,8 @@ TEST_F(WarningMonitorTest, TimeThatJumpedForgetsPoseAndFaults) {
 TEST_F(WarningMonitorTest, APoseFromBeforeAJumpOfTimeVouchesForNothing) {
   const WarningMonitor::Checkpoint before = monitor_.checkpoint();
   monitor_.timeJumped("time went back");
-  monitor_.swept(reportOf(workpieces_), seenAt(1010), before, at(1010).steady);
-  monitor_.predicted(collisionOn(workpieces_, 1010, 0), seenAt(1010), before, at(1010));
+  monitor_.swept(reportOf(workpieces_), timestampsAt(1010), before, at(1010).steady);
+  monitor_.predicted(collisionOn(workpieces_, 1010, 0), timestampsAt(1010), before, at(1010));
   EXPECT_EQ(levelAt(1010), WarningLevel::kUnknown);
   EXPECT_EQ(reasonsAt(1010), kTimeJump | kNoPose);
   sweep(reportOf(workpieces_), 1010);
@@ -265,19 +265,19 @@ TEST_F(WarningMonitorTest, APredictionVouchesForLaterPosesUntilItsOwnIsStale) {
   sweepOnly(reportOf(workpieces_), 1101);
   EXPECT_EQ(reasonsAt(1101), kNotCovered);
   EXPECT_EQ(warningOf(monitor_, at(1101)).covered_until, at(1101).stamp);
-  predict(outlookOn(workpieces_, 1101), 1101);
+  predict(predictionFrom(workpieces_, 1101), 1101);
   EXPECT_EQ(levelAt(1101), WarningLevel::kClear);
 }
 
 TEST_F(WarningMonitorTest, APredictionThatBeginsBeyondWhatWasSweptLeavesAHole) {
-  predict(outlookOn(workpieces_, 1001), 1001);
+  predict(predictionFrom(workpieces_, 1001), 1001);
   EXPECT_EQ(reasonsAt(1001), kNotCovered);
   sweepOnly(reportOf(workpieces_), 1001);
   EXPECT_EQ(levelAt(1001), WarningLevel::kClear);
 }
 
 TEST_F(WarningMonitorTest, APredictionThatDoesNotReachTheEndOfTheConsideredIntervalIsNotClear) {
-  Prediction prediction = outlookOn(workpieces_, 1000);
+  Prediction prediction = predictionFrom(workpieces_, 1000);
   prediction.path.pop_back();
   predict(prediction, 1000);
   EXPECT_EQ(reasonsAt(1000), kNotCovered);
@@ -291,18 +291,18 @@ TEST_F(WarningMonitorTest, APredictionThatLeftOutAWorkpieceIsNotClear) {
   const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
   monitor_.setWorkpieces(two);
   sweepOnly(reportOf(two), 1010);
-  predict(outlookOn(workpieces_, 1010), 1010);
+  predict(predictionFrom(workpieces_, 1010), 1010);
   EXPECT_EQ(reasonsAt(1010), kNotCovered);
-  Prediction unplaced = outlookOn(workpieces_, 1010);
+  Prediction unplaced = predictionFrom(workpieces_, 1010);
   unplaced.unplaced = {two[1]};
   predict(unplaced, 1010);
   EXPECT_EQ(reasonsAt(1010), kNotCovered);
-  predict(outlookOn(two, 1010), 1010);
+  predict(predictionFrom(two, 1010), 1010);
   EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
 }
 
 TEST_F(WarningMonitorTest, AFailedPredictionIsAFaultUntilALaterPose) {
-  Prediction failed = outlookOn({}, 1000);
+  Prediction failed = predictionFrom({}, 1000);
   failed.failures.push_back({workpieces_[0], "no canary"});
   predict(failed, 1000);
   EXPECT_EQ(reasonsAt(1000), kDetectorFault | kNotCovered);
@@ -338,7 +338,7 @@ TEST_F(WarningMonitorTest, AWarningIsHeldFromWhenALaterPredictionIsFree) {
 }
 
 // Farther off than before: what was urgent is held, then what is less so.
-TEST_F(WarningMonitorTest, AReflexWarningIsHeldWhileAConsideredOneIsInForce) {
+TEST_F(WarningMonitorTest, AReflexWarningIsHeldWhileAConsideredOneLasts) {
   predict(collisionOn(workpieces_, 1000, 100), 1000);
   for (int ms = 1010; ms <= 1510; ms += 10) {
     sweepOnly(reportOf(workpieces_), ms);
@@ -348,15 +348,15 @@ TEST_F(WarningMonitorTest, AReflexWarningIsHeldWhileAConsideredOneIsInForce) {
   EXPECT_EQ(levelAt(1511), WarningLevel::kConsidered);
 }
 
-TEST_F(WarningMonitorTest, AnExpectationThatWasNeverDueIsNotHeld) {
+TEST_F(WarningMonitorTest, APredictedContactThatWasNeverDueIsNotHeld) {
   predict(collisionOn(workpieces_, 1000, 1050), 1000);
   sweep(reportOf(workpieces_), 1010);
   EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
 }
 
-TEST_F(WarningMonitorTest, AnExpectationStandsWhileItsWorkpieceCannotBeTested) {
+TEST_F(WarningMonitorTest, APredictedContactStaysWhileItsWorkpieceCannotBeTested) {
   predict(collisionOn(workpieces_, 1000, 100), 1000);
-  Prediction failed = outlookOn({}, 1010);
+  Prediction failed = predictionFrom({}, 1010);
   failed.failures.push_back({workpieces_[0], "no canary"});
   predict(failed, 1010);
   EXPECT_EQ(warningOf(monitor_, at(1010)).time_to_collision, milliseconds(90));
@@ -367,7 +367,7 @@ TEST_F(WarningMonitorTest, AnExpectationStandsWhileItsWorkpieceCannotBeTested) {
   EXPECT_FALSE(warningOf(monitor_, at(1020)).time_to_collision);
 }
 
-TEST_F(WarningMonitorTest, AnExpectationThatCannotBeTestedDoesNotHideASoonerOne) {
+TEST_F(WarningMonitorTest, APredictedContactThatCannotBeTestedDoesNotHideAnEarlierOne) {
   const Workpieces two = {workpiece("spleen", 1000), workpieces_[0]};
   monitor_.setWorkpieces(two);
   predict(collisionOn(two, 1000, 300), 1000);
@@ -377,7 +377,7 @@ TEST_F(WarningMonitorTest, AnExpectationThatCannotBeTestedDoesNotHideASoonerOne)
 }
 
 // Once the prediction is over that the first was expected by, the second is warned of however long the first is lost.
-TEST_F(WarningMonitorTest, AnExpectationThatCannotBeTestedDoesNotHideALaterOneForGood) {
+TEST_F(WarningMonitorTest, APredictedContactThatCannotBeTestedDoesNotHideALaterOneForever) {
   const Workpieces two = {workpiece("spleen", 1000), workpieces_[0]};
   monitor_.setWorkpieces(two);
   predict(collisionOn(two, 1000, 100), 1000);
@@ -395,7 +395,7 @@ TEST_F(WarningMonitorTest, AnExpectationThatCannotBeTestedDoesNotHideALaterOneFo
 }
 
 TEST_F(WarningMonitorTest, WarnsOfWhatIsProbableEnough) {
-  Prediction prediction = outlookOn(workpieces_, 1000);
+  Prediction prediction = predictionFrom(workpieces_, 1000);
   prediction.objects[0].sweeps[1].probability = kLimits.min_probability - 1e-9;
   predict(prediction, 1000);
   EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
@@ -404,7 +404,7 @@ TEST_F(WarningMonitorTest, WarnsOfWhatIsProbableEnough) {
   EXPECT_EQ(levelAt(1000), WarningLevel::kReflex);
 }
 
-TEST_F(WarningMonitorTest, TimeThatJumpedForgetsWhatWasExpectedAndWarnedOf) {
+TEST_F(WarningMonitorTest, ATimeJumpClearsPredictedContactsAndWarnings) {
   predict(collisionOn(workpieces_, 1000, 100), 1000);
   predict(collisionOn(workpieces_, 1010, 500), 1010);
   EXPECT_EQ(levelAt(1010), WarningLevel::kReflex);
@@ -439,7 +439,7 @@ TEST_F(WarningMonitorTest, WhatCameBeforeOrWhileItWasDisabledDoesNotCount) {
   EXPECT_FALSE(monitor_.counts(before));
   EXPECT_FALSE(monitor_.counts(meanwhile));
   EXPECT_TRUE(monitor_.counts(monitor_.checkpoint()));
-  monitor_.swept(reportOf(workpieces_), seenAt(1010), meanwhile, at(1010).steady);
+  monitor_.swept(reportOf(workpieces_), timestampsAt(1010), meanwhile, at(1010).steady);
   EXPECT_EQ(reasonsAt(1010), kNoPose);
   sweep(reportOf(workpieces_), 1020);
   EXPECT_EQ(levelAt(1020), WarningLevel::kClear);
@@ -460,7 +460,7 @@ TEST_F(WarningMonitorTest, RestartEndsWhatIsHeldButNotARefusedMesh) {
   EXPECT_EQ(reasonsAt(1010), kNoPose | kMeshInvalid);
 }
 
-TEST_F(WarningMonitorTest, NewLimitsCountFromTheNextVerdictOn) {
+TEST_F(WarningMonitorTest, NewLimitsApplyFromTheNextWarningOn) {
   EXPECT_EQ(levelAt(1050), WarningLevel::kClear);
   WarningLimits limits = kLimits;
   limits.pose_timeout = milliseconds(40);

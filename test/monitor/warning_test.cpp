@@ -18,33 +18,33 @@ const Instant kNow{Time(1000s), SteadyTime(50s)};
 const WarningLimits kLimits{/*pose_timeout=*/100ms, /*mesh_timeout=*/500ms, /*hold_time=*/200ms};
 
 // Made and received so long ago.
-Timestamps seen(Duration age) { return {kNow.stamp - age, kNow.steady - age}; }
+Timestamps aged(Duration age) { return {kNow.stamp - age, kNow.steady - age}; }
 
-WarningInputs::Object object(Duration age, bool swept = true) { return {"liver", seen(age), swept}; }
+WarningInputs::Object object(Duration age, bool swept = true) { return {"liver", aged(age), swept}; }
 
 WarningInputs allGood() {
   WarningInputs inputs;
-  inputs.pose = seen(10ms);
+  inputs.pose = aged(10ms);
   inputs.objects = {object(20ms)};
   inputs.covered_until = kNow.stamp + 1s;
   return inputs;
 }
 
-Warning assessNow(const WarningInputs& inputs) { return warningOf(inputs, kNow, kLimits); }
+Warning warningNow(const WarningInputs& inputs) { return warningOf(inputs, kNow, kLimits); }
 
 // From a prediction that began at a pose 10 ms ago and lasts 1.1 s.
 PredictedContact predictedIn(Duration time) {
-  return {kNow.stamp + time, kNow.stamp + time, /*probability=*/0.75, "spleen", {8}, {}, seen(10ms), 1100ms};
+  return {kNow.stamp + time, kNow.stamp + time, /*probability=*/0.75, "spleen", {8}, {}, aged(10ms), 1100ms};
 }
 
 WarningInputs::Alarm alarmOf(Duration ago, const std::string& mesh_id = "kidney") {
-  return {{kNow.stamp, /*met=*/kNow.stamp, /*probability=*/1.0, mesh_id, {9}}, kNow.steady - ago};
+  return {{kNow.stamp, /*contact=*/kNow.stamp, /*probability=*/1.0, mesh_id, {9}}, kNow.steady - ago};
 }
 
 enum class Pose { kNone, kFresh, kStale };
 enum class Object { kNone, kFresh, kStale, kUnswept };
 enum class Contact { kNone, kLasting, kHeld, kOver };
-enum class Expected { kNone, kReflex, kConsidered, kBeyond, kOver };
+enum class Predicted { kNone, kReflex, kConsidered, kBeyond, kOver };
 enum class Alarm { kNone, kReflexHeld, kConsideredHeld, kOver };
 
 void setContact(Contact contact, WarningInputs& inputs) {
@@ -53,13 +53,13 @@ void setContact(Contact contact, WarningInputs& inputs) {
   inputs.contact = {"liver", {3, 4}, found, /*lasting=*/contact == Contact::kLasting};
 }
 
-void setExpected(Expected expected, WarningInputs& inputs) {
-  if (expected == Expected::kReflex) inputs.predicted = predictedIn(50ms);
-  if (expected == Expected::kConsidered) inputs.predicted = predictedIn(500ms);
-  if (expected == Expected::kBeyond) inputs.predicted = predictedIn(1050ms);
-  if (expected != Expected::kOver) return;
+void setPredicted(Predicted predicted, WarningInputs& inputs) {
+  if (predicted == Predicted::kReflex) inputs.predicted = predictedIn(50ms);
+  if (predicted == Predicted::kConsidered) inputs.predicted = predictedIn(500ms);
+  if (predicted == Predicted::kBeyond) inputs.predicted = predictedIn(1050ms);
+  if (predicted != Predicted::kOver) return;
   inputs.predicted = predictedIn(50ms);
-  inputs.predicted->pose = seen(1100ms + 201ms);
+  inputs.predicted->pose = aged(1100ms + 201ms);
 }
 
 TEST(WarningTest, NamesWhatIsMissing) {
@@ -88,102 +88,102 @@ TEST(WarningTest, NamesWhatIsMissing) {
          {std::pair(Time{}, row.not_covered), std::pair(kNow.stamp + 999ms, row.not_covered),
           std::pair(kNow.stamp + 1100ms, row.covered)}) {
       WarningInputs inputs;
-      if (row.pose != Pose::kNone) inputs.pose = seen(row.pose == Pose::kFresh ? 10ms : 101ms);
+      if (row.pose != Pose::kNone) inputs.pose = aged(row.pose == Pose::kFresh ? 10ms : 101ms);
       if (row.object != Object::kNone) {
         inputs.objects = {object(row.object == Object::kStale ? 501ms : 20ms, row.object != Object::kUnswept)};
       }
       inputs.covered_until = until;
-      const Warning warning = assessNow(inputs);
+      const Warning warning = warningNow(inputs);
       SCOPED_TRACE(warning.text);
       EXPECT_EQ(warning.reasons, reasons);
       EXPECT_EQ(warning.level, reasons == 0 ? WarningLevel::kClear : WarningLevel::kUnknown);
       EXPECT_EQ(warning.pose_stamp, inputs.pose ? inputs.pose->stamp : Time{});
       EXPECT_EQ(warning.covered_until, until);
       inputs.faults[kDetectorFault] = "no canary";
-      EXPECT_EQ(assessNow(inputs).reasons, reasons | kDetectorFault);
+      EXPECT_EQ(warningNow(inputs).reasons, reasons | kDetectorFault);
     }
   }
 }
 
 // The time is that of the workpiece that is named, and of no other.
-TEST(WarningTest, WarnsOfWhatIsExpectedAndOfWhatIsHeld) {
+TEST(WarningTest, WarnsOfPredictedContactsAndOfHeldAlarms) {
   struct Row {
-    Expected expected;  // to meet the spleen
-    Alarm alarm;        // of the kidney
+    Predicted predicted;  // to meet the spleen
+    Alarm alarm;          // of the kidney
     WarningLevel level;
     std::string mesh_id;
-    bool told;  // the time and the probability
+    bool reported;  // the time and the probability
   };
   const Row rows[] = {
-      {Expected::kNone, Alarm::kNone, WarningLevel::kClear, "", false},
-      {Expected::kNone, Alarm::kReflexHeld, WarningLevel::kReflex, "kidney", false},
-      {Expected::kNone, Alarm::kConsideredHeld, WarningLevel::kConsidered, "kidney", false},
-      {Expected::kNone, Alarm::kOver, WarningLevel::kClear, "", false},
-      {Expected::kReflex, Alarm::kNone, WarningLevel::kReflex, "spleen", true},
-      {Expected::kReflex, Alarm::kReflexHeld, WarningLevel::kReflex, "spleen", true},
-      {Expected::kReflex, Alarm::kConsideredHeld, WarningLevel::kReflex, "spleen", true},
-      {Expected::kReflex, Alarm::kOver, WarningLevel::kReflex, "spleen", true},
-      {Expected::kConsidered, Alarm::kNone, WarningLevel::kConsidered, "spleen", true},
-      {Expected::kConsidered, Alarm::kReflexHeld, WarningLevel::kReflex, "kidney", false},
-      {Expected::kConsidered, Alarm::kConsideredHeld, WarningLevel::kConsidered, "spleen", true},
-      {Expected::kConsidered, Alarm::kOver, WarningLevel::kConsidered, "spleen", true},
-      {Expected::kBeyond, Alarm::kNone, WarningLevel::kClear, "", true},
-      {Expected::kBeyond, Alarm::kReflexHeld, WarningLevel::kReflex, "kidney", false},
-      {Expected::kBeyond, Alarm::kConsideredHeld, WarningLevel::kConsidered, "kidney", false},
-      {Expected::kBeyond, Alarm::kOver, WarningLevel::kClear, "", true},
-      {Expected::kOver, Alarm::kNone, WarningLevel::kClear, "", false},
-      {Expected::kOver, Alarm::kReflexHeld, WarningLevel::kReflex, "kidney", false},
-      {Expected::kOver, Alarm::kConsideredHeld, WarningLevel::kConsidered, "kidney", false},
-      {Expected::kOver, Alarm::kOver, WarningLevel::kClear, "", false},
+      {Predicted::kNone, Alarm::kNone, WarningLevel::kClear, "", false},
+      {Predicted::kNone, Alarm::kReflexHeld, WarningLevel::kReflex, "kidney", false},
+      {Predicted::kNone, Alarm::kConsideredHeld, WarningLevel::kConsidered, "kidney", false},
+      {Predicted::kNone, Alarm::kOver, WarningLevel::kClear, "", false},
+      {Predicted::kReflex, Alarm::kNone, WarningLevel::kReflex, "spleen", true},
+      {Predicted::kReflex, Alarm::kReflexHeld, WarningLevel::kReflex, "spleen", true},
+      {Predicted::kReflex, Alarm::kConsideredHeld, WarningLevel::kReflex, "spleen", true},
+      {Predicted::kReflex, Alarm::kOver, WarningLevel::kReflex, "spleen", true},
+      {Predicted::kConsidered, Alarm::kNone, WarningLevel::kConsidered, "spleen", true},
+      {Predicted::kConsidered, Alarm::kReflexHeld, WarningLevel::kReflex, "kidney", false},
+      {Predicted::kConsidered, Alarm::kConsideredHeld, WarningLevel::kConsidered, "spleen", true},
+      {Predicted::kConsidered, Alarm::kOver, WarningLevel::kConsidered, "spleen", true},
+      {Predicted::kBeyond, Alarm::kNone, WarningLevel::kClear, "", true},
+      {Predicted::kBeyond, Alarm::kReflexHeld, WarningLevel::kReflex, "kidney", false},
+      {Predicted::kBeyond, Alarm::kConsideredHeld, WarningLevel::kConsidered, "kidney", false},
+      {Predicted::kBeyond, Alarm::kOver, WarningLevel::kClear, "", true},
+      {Predicted::kOver, Alarm::kNone, WarningLevel::kClear, "", false},
+      {Predicted::kOver, Alarm::kReflexHeld, WarningLevel::kReflex, "kidney", false},
+      {Predicted::kOver, Alarm::kConsideredHeld, WarningLevel::kConsidered, "kidney", false},
+      {Predicted::kOver, Alarm::kOver, WarningLevel::kClear, "", false},
   };
   for (const Row& row : rows) {
     WarningInputs inputs = allGood();
-    setExpected(row.expected, inputs);
+    setPredicted(row.predicted, inputs);
     if (row.alarm == Alarm::kReflexHeld) inputs.reflex = alarmOf(150ms);
     if (row.alarm == Alarm::kConsideredHeld) inputs.considered = alarmOf(150ms);
     if (row.alarm == Alarm::kOver) inputs.reflex = inputs.considered = alarmOf(201ms);
-    const Warning warning = assessNow(inputs);
+    const Warning warning = warningNow(inputs);
     SCOPED_TRACE(warning.text);
     EXPECT_EQ(warning.level, row.level);
     EXPECT_EQ(warning.mesh_id, row.mesh_id);
     EXPECT_EQ(warning.triangles.empty(), row.mesh_id.empty());
-    EXPECT_EQ(warning.time_to_collision.has_value(), row.told);
-    EXPECT_EQ(warning.probability, row.told ? 0.75 : 0.0);
+    EXPECT_EQ(warning.time_to_collision.has_value(), row.reported);
+    EXPECT_EQ(warning.probability, row.reported ? 0.75 : 0.0);
   }
 }
 
 TEST(WarningTest, ContactGoesBeforeReflexBeforeConsideredBeforeUnknownBeforeClear) {
   struct Row {
     Contact contact;
-    Expected expected;
+    Predicted predicted;
     WarningLevel sound;   // the level
     WarningLevel faulty;  // and with a fault
   };
   const Row rows[] = {
-      {Contact::kNone, Expected::kNone, WarningLevel::kClear, WarningLevel::kUnknown},
-      {Contact::kNone, Expected::kConsidered, WarningLevel::kConsidered, WarningLevel::kConsidered},
-      {Contact::kNone, Expected::kReflex, WarningLevel::kReflex, WarningLevel::kReflex},
-      {Contact::kLasting, Expected::kNone, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kLasting, Expected::kConsidered, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kLasting, Expected::kReflex, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kHeld, Expected::kNone, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kHeld, Expected::kConsidered, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kHeld, Expected::kReflex, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kOver, Expected::kNone, WarningLevel::kClear, WarningLevel::kUnknown},
-      {Contact::kOver, Expected::kConsidered, WarningLevel::kConsidered, WarningLevel::kConsidered},
-      {Contact::kOver, Expected::kReflex, WarningLevel::kReflex, WarningLevel::kReflex},
+      {Contact::kNone, Predicted::kNone, WarningLevel::kClear, WarningLevel::kUnknown},
+      {Contact::kNone, Predicted::kConsidered, WarningLevel::kConsidered, WarningLevel::kConsidered},
+      {Contact::kNone, Predicted::kReflex, WarningLevel::kReflex, WarningLevel::kReflex},
+      {Contact::kLasting, Predicted::kNone, WarningLevel::kContact, WarningLevel::kContact},
+      {Contact::kLasting, Predicted::kConsidered, WarningLevel::kContact, WarningLevel::kContact},
+      {Contact::kLasting, Predicted::kReflex, WarningLevel::kContact, WarningLevel::kContact},
+      {Contact::kHeld, Predicted::kNone, WarningLevel::kContact, WarningLevel::kContact},
+      {Contact::kHeld, Predicted::kConsidered, WarningLevel::kContact, WarningLevel::kContact},
+      {Contact::kHeld, Predicted::kReflex, WarningLevel::kContact, WarningLevel::kContact},
+      {Contact::kOver, Predicted::kNone, WarningLevel::kClear, WarningLevel::kUnknown},
+      {Contact::kOver, Predicted::kConsidered, WarningLevel::kConsidered, WarningLevel::kConsidered},
+      {Contact::kOver, Predicted::kReflex, WarningLevel::kReflex, WarningLevel::kReflex},
   };
   for (const Row& row : rows) {
     WarningInputs inputs = allGood();
     setContact(row.contact, inputs);
-    setExpected(row.expected, inputs);
+    setPredicted(row.predicted, inputs);
     for (const WarningLevel level : {row.sound, row.faulty}) {
-      const Warning warning = assessNow(inputs);
+      const Warning warning = warningNow(inputs);
       SCOPED_TRACE(warning.text);
       EXPECT_EQ(warning.level, level);
       EXPECT_EQ(warning.mesh_id == "liver", level == WarningLevel::kContact);
       EXPECT_EQ(warning.triangles.empty(), warning.mesh_id.empty());
-      EXPECT_EQ(warning.time_to_collision.has_value(), row.expected != Expected::kNone);
+      EXPECT_EQ(warning.time_to_collision.has_value(), row.predicted != Predicted::kNone);
       EXPECT_EQ(warning.text.find(styleOf(level).name), 0U);
       inputs.faults[kDetectorFault] = "no canary";
     }
@@ -193,40 +193,40 @@ TEST(WarningTest, ContactGoesBeforeReflexBeforeConsideredBeforeUnknownBeforeClea
 WarningLevel levelWhen(Duration collision_in) {
   WarningInputs inputs = allGood();
   inputs.predicted = predictedIn(collision_in);
-  return assessNow(inputs).level;
+  return warningNow(inputs).level;
 }
 
-TEST(WarningTest, TellsTheTimeAndProbabilityOfTheCollisionThatItNames) {
+TEST(WarningTest, ReportsTimeAndProbabilityOfTheCollisionThatItNames) {
   WarningInputs inputs = allGood();
   inputs.predicted = predictedIn(500ms);
   inputs.reflex = alarmOf(150ms, "kidney");
-  const Warning another = assessNow(inputs);
+  const Warning another = warningNow(inputs);
   EXPECT_EQ(another.text, "REFLEX: collision with 'kidney' was expected");
   EXPECT_FALSE(another.time_to_collision);
   EXPECT_EQ(another.probability, 0.0);
   inputs.reflex = alarmOf(150ms, "spleen");
-  const Warning same = assessNow(inputs);
+  const Warning same = warningNow(inputs);
   EXPECT_EQ(same.text, "REFLEX: collision with 'spleen' expected in 0.50 s");
   EXPECT_EQ(same.time_to_collision, 500ms);
   EXPECT_EQ(same.probability, 0.75);
 }
 
-TEST(WarningTest, NamesThePartOfTheToolThatItWarnsOf) {
+TEST(WarningTest, NamesTheToolPieceThatItWarnsOf) {
   WarningInputs inputs = allGood();
   inputs.predicted = predictedIn(500ms);
   inputs.predicted->tool_piece = 1;
-  EXPECT_EQ(assessNow(inputs).tool_piece, 1U);
+  EXPECT_EQ(warningNow(inputs).tool_piece, 1U);
   inputs.reflex = alarmOf(150ms);
   inputs.reflex->contact.tool_piece = 2;
-  EXPECT_EQ(assessNow(inputs).tool_piece, 2U);
+  EXPECT_EQ(warningNow(inputs).tool_piece, 2U);
   inputs.contact = {"liver", {7}, kNow.steady, /*lasting=*/true, /*inside=*/false, /*tool_piece=*/3};
-  EXPECT_EQ(assessNow(inputs).tool_piece, 3U);
+  EXPECT_EQ(warningNow(inputs).tool_piece, 3U);
   inputs.contact->tool_piece.reset();  // that of another object would be wrong
-  EXPECT_FALSE(assessNow(inputs).tool_piece);
-  EXPECT_FALSE(assessNow(allGood()).tool_piece);
+  EXPECT_FALSE(warningNow(inputs).tool_piece);
+  EXPECT_FALSE(warningNow(allGood()).tool_piece);
 }
 
-// The warning is asked for again in 15 ms: what would be due by then is told now.
+// The warning is asked for again in 15 ms: what would be due by then is reported now.
 TEST(WarningTest, WarnsOfWhatComesWithinAnIntervalAndATick) {
   EXPECT_EQ(levelWhen(115ms), WarningLevel::kReflex);
   EXPECT_EQ(levelWhen(115ms + 1ns), WarningLevel::kConsidered);
@@ -252,7 +252,7 @@ TEST(WarningTest, WhatIsMerelyProbableHasNoTime) {
   WarningInputs inputs = allGood();
   inputs.predicted = predictedIn(50ms);
   inputs.predicted->contact.reset();
-  const Warning warning = assessNow(inputs);
+  const Warning warning = warningNow(inputs);
   EXPECT_EQ(warning.level, WarningLevel::kReflex);
   EXPECT_FALSE(warning.time_to_collision);
   EXPECT_EQ(warning.probability, 0.75);
@@ -260,16 +260,16 @@ TEST(WarningTest, WhatIsMerelyProbableHasNoTime) {
 }
 
 // A prediction says nothing of what comes after its end: what it warned of is over then, and held.
-TEST(WarningTest, AnExpectationEndsWithItsPrediction) {
-  for (const auto& [age, level, told] :
+TEST(WarningTest, APredictedContactEndsWithItsPrediction) {
+  for (const auto& [age, level, reported] :
        {std::tuple(1100ms + 0ns, WarningLevel::kReflex, true), std::tuple(1100ms + 1ns, WarningLevel::kReflex, false),
         std::tuple(1300ms + 0ns, WarningLevel::kReflex, false),
         std::tuple(1300ms + 1ns, WarningLevel::kClear, false)}) {
     WarningInputs inputs = allGood();
     inputs.predicted = predictedIn(-1s);
-    inputs.predicted->pose = seen(age);
-    EXPECT_EQ(assessNow(inputs).level, level) << age.count() << " ns";
-    EXPECT_EQ(assessNow(inputs).time_to_collision.has_value(), told) << age.count() << " ns";
+    inputs.predicted->pose = aged(age);
+    EXPECT_EQ(warningNow(inputs).level, level) << age.count() << " ns";
+    EXPECT_EQ(warningNow(inputs).time_to_collision.has_value(), reported) << age.count() << " ns";
   }
 }
 
@@ -277,10 +277,11 @@ TEST(WarningTest, HoldsAWarningForItsHoldTime) {
   for (const auto& [ago, held] : {std::pair(200ms + 0ns, true), std::pair(200ms + 1ns, false)}) {
     WarningInputs inputs = allGood();
     inputs.considered = alarmOf(ago);
-    EXPECT_EQ(assessNow(inputs).level, held ? WarningLevel::kConsidered : WarningLevel::kClear) << ago.count() << " ns";
+    EXPECT_EQ(warningNow(inputs).level, held ? WarningLevel::kConsidered : WarningLevel::kClear)
+        << ago.count() << " ns";
     inputs.reflex = alarmOf(ago);
-    EXPECT_EQ(assessNow(inputs).level, held ? WarningLevel::kReflex : WarningLevel::kClear) << ago.count() << " ns";
-    EXPECT_FALSE(assessNow(inputs).time_to_collision);
+    EXPECT_EQ(warningNow(inputs).level, held ? WarningLevel::kReflex : WarningLevel::kClear) << ago.count() << " ns";
+    EXPECT_FALSE(warningNow(inputs).time_to_collision);
   }
 }
 
@@ -288,8 +289,8 @@ TEST(WarningTest, NeedsCoverageToTheEndOfTheConsideredInterval) {
   for (const auto& [reach, reasons] : {std::pair(1s - 1ns, kNotCovered), std::pair(1s + 0ns, Reason{})}) {
     WarningInputs inputs = allGood();
     inputs.covered_until = kNow.stamp + reach;
-    EXPECT_EQ(assessNow(inputs).reasons, reasons) << reach.count() << " ns";
-    EXPECT_EQ(assessNow(inputs).level, reasons == 0 ? WarningLevel::kClear : WarningLevel::kUnknown);
+    EXPECT_EQ(warningNow(inputs).reasons, reasons) << reach.count() << " ns";
+    EXPECT_EQ(warningNow(inputs).level, reasons == 0 ? WarningLevel::kClear : WarningLevel::kUnknown);
   }
 }
 
@@ -300,26 +301,26 @@ TEST(WarningTest, CoverageRunsOutOnEitherClock) {
   EXPECT_EQ(warningOf(inputs, {kNow.stamp, kNow.steady + 1ns}, kLimits).reasons, kNotCovered);
 }
 
-TEST(WarningTest, SaysNothingMoreWhereEverythingIsFreshAndSwept) { EXPECT_EQ(assessNow(allGood()).text, "CLEAR"); }
+TEST(WarningTest, SaysNothingMoreWhereEverythingIsFreshAndSwept) { EXPECT_EQ(warningNow(allGood()).text, "CLEAR"); }
 
 TEST(WarningTest, TakesInputsForStaleJustPastTheirTimeouts) {
   WarningInputs inputs = allGood();
-  inputs.pose = seen(100ms);
+  inputs.pose = aged(100ms);
   inputs.objects = {object(500ms)};
-  EXPECT_EQ(assessNow(inputs).level, WarningLevel::kClear);
-  inputs.pose = seen(100ms + 1ns);
-  EXPECT_EQ(assessNow(inputs).reasons, kPoseStale);
-  inputs.pose = seen(100ms);
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear);
+  inputs.pose = aged(100ms + 1ns);
+  EXPECT_EQ(warningNow(inputs).reasons, kPoseStale);
+  inputs.pose = aged(100ms);
   inputs.objects = {object(500ms + 1ns)};
-  EXPECT_EQ(assessNow(inputs).reasons, kMeshStale);
+  EXPECT_EQ(warningNow(inputs).reasons, kMeshStale);
 }
 
 TEST(WarningTest, HoldsAContactForItsHoldTime) {
   WarningInputs inputs = allGood();
   inputs.contact = {"liver", {7}, kNow.steady - 200ms};
-  EXPECT_EQ(assessNow(inputs).level, WarningLevel::kContact);
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kContact);
   inputs.contact->found -= 1ns;
-  EXPECT_EQ(assessNow(inputs).level, WarningLevel::kClear);
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear);
 }
 
 // A stamp cannot look fresh because its clock stopped, nor because the message came late.
@@ -329,10 +330,10 @@ TEST(WarningTest, TakesAnAgeOnEitherClock) {
   for (const Timestamps& old : {old_stamp, received_long_ago}) {
     WarningInputs pose = allGood();
     pose.pose = old;
-    EXPECT_EQ(assessNow(pose).reasons, kPoseStale);
+    EXPECT_EQ(warningNow(pose).reasons, kPoseStale);
     WarningInputs workpiece = allGood();
     workpiece.objects[0].timestamps = old;
-    EXPECT_EQ(assessNow(workpiece).reasons, kMeshStale);
+    EXPECT_EQ(warningNow(workpiece).reasons, kMeshStale);
   }
 }
 
@@ -347,17 +348,17 @@ TEST(WarningTest, NeverTakesAStaticWorkpieceForStale) {
 TEST(WarningTest, IsUnknownIfAnyOfSeveralWorkpiecesIsStaleOrUnswept) {
   WarningInputs inputs = allGood();
   inputs.objects.push_back(object(501ms));
-  EXPECT_EQ(assessNow(inputs).reasons, kMeshStale);
+  EXPECT_EQ(warningNow(inputs).reasons, kMeshStale);
   inputs.objects.back() = object(20ms, /*swept=*/false);
-  EXPECT_EQ(assessNow(inputs).reasons, kNotSwept);
+  EXPECT_EQ(warningNow(inputs).reasons, kNotSwept);
 }
 
-TEST(WarningTest, TellsEveryReasonInItsText) {
+TEST(WarningTest, NamesEveryReasonInItsText) {
   WarningInputs inputs;
   inputs.objects = {object(2s)};
   inputs.faults = {{kTfFail, "frame 'tool' is unknown"}, {kDetectorFault, "no canary"}};
   inputs.contact = {"liver", {7}, kNow.steady};
-  const Warning warning = assessNow(inputs);
+  const Warning warning = warningNow(inputs);
   EXPECT_EQ(warning.reasons, kNoPose | kMeshStale | kTfFail | kDetectorFault);
   for (const char* part : {"CONTACT", "'liver'", "pose", "2.00 s", "frame 'tool' is unknown", "no canary"}) {
     EXPECT_TRUE(has(warning.text, part)) << part << " is not in: " << warning.text;
@@ -368,8 +369,8 @@ TEST(WarningTest, EveryFaultMakesItUnknownUnderItsOwnBit) {
   for (std::uint32_t bit = 1; bit <= kNotCovered; bit <<= 1) {
     WarningInputs inputs = allGood();
     inputs.faults[static_cast<Reason>(bit)] = "message";
-    EXPECT_EQ(assessNow(inputs).level, WarningLevel::kUnknown);
-    EXPECT_EQ(assessNow(inputs).reasons, bit);
+    EXPECT_EQ(warningNow(inputs).level, WarningLevel::kUnknown);
+    EXPECT_EQ(warningNow(inputs).reasons, bit);
   }
 }
 

@@ -16,59 +16,59 @@ StampedPose poseAt(double seconds) {
   return pose;
 }
 
-struct Told {
+struct Target {
   double known;
   size_t i;
   Vector6d moved;
 };
 
-std::vector<Told> tell(DelayedTargets<double>& hindsight, double seconds) {
-  std::vector<Told> told;
-  hindsight.add(poseAt(seconds), seconds, [&](double known, size_t i, const Vector6d& moved) {
-    told.push_back({known, i, moved});
+std::vector<Target> addPose(DelayedTargets<double>& targets, double seconds) {
+  std::vector<Target> given;
+  targets.add(poseAt(seconds), seconds, [&](double known, size_t i, const Vector6d& moved) {
+    given.push_back({known, i, moved});
   });
-  return told;
+  return given;
 }
 
-// Poses do not come when a horizon ends: the way until then is interpolated.
-TEST(HindsightTest, TellsForEveryPoseAndHorizonHowFarTheToolWent) {
-  DelayedTargets<double> hindsight;
-  std::vector<Told> told;
+// Poses do not come when a horizon ends: the displacement until then is interpolated.
+TEST(DelayedTargetsTest, GivesTheDisplacementForEveryPoseAndHorizon) {
+  DelayedTargets<double> targets;
+  std::vector<Target> given;
   constexpr double kPeriod = 0.037;
   constexpr int kPoses = 100;
   for (int pose = 0; pose < kPoses; ++pose) {
-    const auto news = tell(hindsight, 50.0 + kPeriod * pose);
-    told.insert(told.end(), news.begin(), news.end());
+    const auto added = addPose(targets, 50.0 + kPeriod * pose);
+    given.insert(given.end(), added.begin(), added.end());
   }
   size_t expected = 0;
   for (const double ahead : kLearnedHorizons) expected += kPoses - static_cast<size_t>(std::ceil(ahead / kPeriod));
-  EXPECT_EQ(told.size(), expected);
-  for (const Told& one : told) {
+  EXPECT_EQ(given.size(), expected);
+  for (const Target& one : given) {
     const Vector6d truth = displacement(poseAt(one.known).X_WT, poseAt(one.known + kLearnedHorizons[one.i]).X_WT);
     EXPECT_LT((one.moved - truth).norm(), 1e-9) << kLearnedHorizons[one.i] << " s after " << one.known << " s";
   }
 }
 
-TEST(HindsightTest, TellsNothingAcrossAnInterruption) {
-  DelayedTargets<double> hindsight;
-  for (int i = 0; i < 10; ++i) tell(hindsight, 50.0 + 0.001 * i);
-  hindsight.clear();
-  EXPECT_TRUE(tell(hindsight, 60.0).empty());
-  const auto told = tell(hindsight, 62.0);
-  EXPECT_EQ(told.size(), kLearnedHorizons.size());
-  for (const Told& one : told) EXPECT_EQ(one.known, 60.0);
+TEST(DelayedTargetsTest, GivesNothingAcrossAnInterruption) {
+  DelayedTargets<double> targets;
+  for (int i = 0; i < 10; ++i) addPose(targets, 50.0 + 0.001 * i);
+  targets.clear();
+  EXPECT_TRUE(addPose(targets, 60.0).empty());
+  const auto given = addPose(targets, 62.0);
+  EXPECT_EQ(given.size(), kLearnedHorizons.size());
+  for (const Target& one : given) EXPECT_EQ(one.known, 60.0);
 }
 
-TEST(HindsightTest, ForgetsANewestPoseThatWasWrong) {
-  DelayedTargets<double> hindsight;
-  tell(hindsight, 50.0);
+TEST(DelayedTargetsTest, UsesTheCorrectedNewestPose) {
+  DelayedTargets<double> targets;
+  addPose(targets, 50.0);
   StampedPose right = poseAt(50.0);
   right.X_WT.translation().x() += 1.0;
-  hindsight.correctNewest(right, 7.0);
-  const auto told = tell(hindsight, 52.0);
-  ASSERT_EQ(told.size(), kLearnedHorizons.size());
-  EXPECT_EQ(told[7].known, 7.0);
-  EXPECT_NEAR(told[7].moved[0], 0.5 * (poseAt(52.0).X_WT.translation().x() - right.X_WT.translation().x()), 1e-12);
+  targets.correctNewest(right, 7.0);
+  const auto given = addPose(targets, 52.0);
+  ASSERT_EQ(given.size(), kLearnedHorizons.size());
+  EXPECT_EQ(given[7].known, 7.0);
+  EXPECT_NEAR(given[7].moved[0], 0.5 * (poseAt(52.0).X_WT.translation().x() - right.X_WT.translation().x()), 1e-12);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace sweep_guard_core {
 namespace {
 
-// A tool that goes along x at a speed that changes now and then, and forecasts that err by a known share of it.
+// A tool that goes along x at a speed that changes now and then, and predictions that err by a known share of it.
 class ErrorModelTest : public testing::Test {
  protected:
   void go(double seconds, double speed, double error_share) {
@@ -40,13 +40,13 @@ class ErrorModelTest : public testing::Test {
   ErrorModel model_;
 };
 
-TEST_F(ErrorModelTest, SupposesAShareOfTheWayBeforeItKnows) {
+TEST_F(ErrorModelTest, AssumesAShareOfTheDisplacementBeforeItHasErrors) {
   go(0.02, 0.2, 0.0);
   EXPECT_GT(deviation(0.5), 0.1 * 0.5 * 0.2);
   EXPECT_LT(deviation(0.5), 0.5 * 0.2);
 }
 
-TEST_F(ErrorModelTest, FindsHowFarForecastsErr) {
+TEST_F(ErrorModelTest, MeasuresTheErrorsOfPredictions) {
   go(60.0, 0.2, 0.1);
   for (const double ahead : kLearnedHorizons) EXPECT_NEAR(deviation(ahead), 0.1 * ahead * 0.2, 0.1 * 0.1 * ahead * 0.2);
 }
@@ -67,8 +67,8 @@ TEST_F(ErrorModelTest, ExpectsGreaterErrorsInFastMotion) {
   EXPECT_LT(deviation(0.5), 0.9 * fast);
 }
 
-// The tool goes along x and its forecasts err along x alone.
-TEST(ErrorModelDirectionTest, TellsErrorsAlongTheMotionFromThoseAcross) {
+// The tool goes along x and its predictions err along x alone.
+TEST(ErrorModelDirectionTest, SeparatesErrorsAlongTheMotionFromErrorsAcrossIt) {
   PoseTracker tracker(5.0, 20.0);
   ErrorModel model;
   for (int i = 0; i < 6000; ++i) {

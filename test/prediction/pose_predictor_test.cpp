@@ -27,11 +27,13 @@ Time at(double seconds) { return Time(fromSeconds(1000.0 + seconds)); }
 
 using PoseAt = std::function<Eigen::Isometry3d(double)>;
 
-PosePredictor predictorOf(const std::string& name) {
+PredictorOptions optionsOf(const std::string& name) {
   PredictorOptions options;
   options.predictor = name;
-  return PosePredictor(options);
+  return options;
 }
+
+PosePredictor predictorOf(const std::string& name) { return PosePredictor(optionsOf(name)); }
 
 void follow(PosePredictor& predictor, const PoseAt& truth, double from, double until, double period) {
   for (int i = 0; from + i * period <= until + 1e-9; ++i) {
@@ -66,8 +68,7 @@ Eigen::Isometry3d steadyMotion(double t) {
 
 TEST(PosePredictorTest, APolynomialOfItsDegreeIsPredictedExactly) {
   for (const double period : {0.001, 0.01, 0.066}) {
-    PredictorOptions options;
-    options.predictor = "polynomial";
+    PredictorOptions options = optionsOf("polynomial");
     options.degree = {1, 2, 3, 2, 2, 2};
     PosePredictor predictor(options);
     follow(predictor, polynomialMotion, 0.0, 3.0, period);
@@ -96,8 +97,7 @@ TEST(PosePredictorTest, HoldStaysWhereTheToolIs) {
 
 TEST(PosePredictorTest, AConstrainedAxisIsHeld) {
   for (const char* name : {"polynomial", "constant_velocity", "direct"}) {
-    PredictorOptions options;
-    options.predictor = name;
+    PredictorOptions options = optionsOf(name);
     options.constrained = {false, true, false, false, true, false};
     PosePredictor predictor(options);
     follow(predictor, steadyMotion, 0.0, 1.0, 0.01);
@@ -149,8 +149,7 @@ TEST(PosePredictorTest, WhatWasLearnedSurvivesAGap) {
 
 TEST(PosePredictorTest, IsNeverFasterThanTheLimits) {
   for (const std::string& name : predictorNames()) {
-    PredictorOptions options;
-    options.predictor = name;
+    PredictorOptions options = optionsOf(name);
     options.degree = {3, 3, 3, 3, 3, 3};
     options.max_speed = 0.5;
     options.max_turn_rate = 2.0;
@@ -172,8 +171,7 @@ TEST(PosePredictorTest, IsNeverFasterThanTheLimits) {
 TEST(PosePredictorTest, NothingThatComesMakesItExplode) {
   for (const std::string& name : predictorNames()) {
     Random random(7);
-    PredictorOptions options;
-    options.predictor = name;
+    PredictorOptions options = optionsOf(name);
     options.degree = {0, 1, 2, 3, 4, 5};
     PosePredictor predictor(options);
     double t = 0.0;
@@ -200,7 +198,7 @@ TEST(PosePredictorTest, NothingThatComesMakesItExplode) {
   }
 }
 
-// A tool that has rested for long, and then goes: two thirds of its way are expected at once, and the doubt does not
+// A tool that has rested for long, and then goes: two thirds of its displacement are predicted at once, and the doubt does not
 // outgrow the motion.
 TEST(PosePredictorTest, FollowsAToolThatHasRested) {
   const PoseAt start = [](double t) {
@@ -212,9 +210,9 @@ TEST(PosePredictorTest, FollowsAToolThatHasRested) {
     for (int i = 3001; i < 3500; ++i) {
       predictor.observe({at(0.01 * i), start(0.01 * i)});
       const PredictedPose pose = pathOf(predictor, {milliseconds(1000)})[0];
-      const double way = pose.X_WT.translation().x() - start(0.01 * i).translation().x();
+      const double displaced = pose.X_WT.translation().x() - start(0.01 * i).translation().x();
       if (i > 3010) {
-        ASSERT_GT(way, 0.2) << name << " at " << 0.01 * i << " s";
+        ASSERT_GT(displaced, 0.2) << name << " at " << 0.01 * i << " s";
       }
       ASSERT_LT(std::sqrt(pose.covariance(0, 0)), 0.45) << name << " at " << 0.01 * i << " s";
     }
@@ -238,7 +236,7 @@ TEST(PosePredictorTest, AStutterOfTheStampsDoesNotPoisonWhatIsLearned) {
   }
 }
 
-// The shorter way from pose to pose, so that neither a half turn nor a full turn shows.
+// The smaller rotation from pose to pose, so that neither a half turn nor a full turn shows.
 TEST(PosePredictorTest, SpinsThroughHalfTurnsSmoothly) {
   const PoseAt spin = [](double t) {
     return Eigen::Isometry3d(Eigen::AngleAxisd(9.0 * t, Eigen::Vector3d(2.0, -1.0, 2.0) / 3.0));
@@ -254,7 +252,7 @@ TEST(PosePredictorTest, SpinsThroughHalfTurnsSmoothly) {
   }
 }
 
-TEST(PosePredictorTest, ItsCovarianceTellsHowFarItErrs) {
+TEST(PosePredictorTest, ItsCovarianceMatchesItsErrors) {
   const PoseAt sway = [](double t) {
     return Eigen::Isometry3d(
         Eigen::Translation3d(0.2 * std::sin(1.3 * t), 0.1 * std::sin(2.9 * t), 0.15 * std::cos(t)));
@@ -277,9 +275,8 @@ TEST(PosePredictorTest, ItsCovarianceTellsHowFarItErrs) {
 
 TEST(PosePredictorTest, RefusesOptionsThatCannotWork) {
   const auto refuses = [](const std::function<void(PredictorOptions&)>& change) {
-    PredictorOptions options;
     for (const std::string& name : predictorNames()) {
-      options.predictor = name;
+      PredictorOptions options = optionsOf(name);
       change(options);
       EXPECT_THROW(PosePredictor{options}, InvalidInput) << name;
     }

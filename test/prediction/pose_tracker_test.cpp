@@ -14,14 +14,14 @@ StampedPose poseAt(double seconds, const Eigen::Vector3d& p_W, double turn = 0.0
   return pose;
 }
 
-class MotionTrackTest : public testing::Test {
+class PoseTrackerTest : public testing::Test {
  protected:
   Step addAt(double seconds, double x = 0.0) { return track_.add(poseAt(seconds, {x, 0.0, 0.0})); }
 
   PoseTracker track_{/*max_speed=*/2.0, /*max_turn_rate=*/10.0};
 };
 
-TEST_F(MotionTrackTest, BeginsWithTheFirstPoseAndContinues) {
+TEST_F(PoseTrackerTest, BeginsWithTheFirstPoseAndContinues) {
   EXPECT_EQ(addAt(0.0), Step::kBegins);
   EXPECT_EQ(addAt(0.1, 0.1), Step::kContinues);
   EXPECT_EQ(track_.poses(), 2);
@@ -29,7 +29,7 @@ TEST_F(MotionTrackTest, BeginsWithTheFirstPoseAndContinues) {
   EXPECT_EQ(track_.period(), std::chrono::milliseconds(100));
 }
 
-TEST_F(MotionTrackTest, AGapInterruptsTheMotion) {
+TEST_F(PoseTrackerTest, AGapInterruptsTheMotion) {
   addAt(0.00);
   addAt(0.01);
   EXPECT_EQ(addAt(0.26), Step::kContinues);
@@ -38,14 +38,14 @@ TEST_F(MotionTrackTest, AGapInterruptsTheMotion) {
   EXPECT_EQ(track_.poses(), 1);
 }
 
-TEST_F(MotionTrackTest, SlowPosesAreNoGap) {
+TEST_F(PoseTrackerTest, SlowPosesAreNoGap) {
   addAt(0.0);
   addAt(0.4);
   for (int i = 2; i < 10; ++i) EXPECT_EQ(addAt(0.4 * i), Step::kContinues);
   EXPECT_EQ(addAt(3.6 + 1.01), Step::kBegins);
 }
 
-TEST_F(MotionTrackTest, ALongGapDoesNotExcuseTheNext) {
+TEST_F(PoseTrackerTest, ALongGapDoesNotExcuseTheNext) {
   addAt(0.0);
   EXPECT_EQ(addAt(12.0), Step::kBegins);
   EXPECT_EQ(addAt(14.0), Step::kBegins);
@@ -53,7 +53,7 @@ TEST_F(MotionTrackTest, ALongGapDoesNotExcuseTheNext) {
   EXPECT_EQ(addAt(14.9), Step::kBegins);
 }
 
-TEST_F(MotionTrackTest, AJumpInterruptsTheMotion) {
+TEST_F(PoseTrackerTest, AJumpInterruptsTheMotion) {
   addAt(0.0);
   EXPECT_EQ(addAt(0.1, 0.199), Step::kContinues);
   EXPECT_EQ(addAt(0.2, 0.400), Step::kBegins);
@@ -64,7 +64,7 @@ TEST_F(MotionTrackTest, AJumpInterruptsTheMotion) {
 }
 
 // Recorders that cut their stamps make two poses 10 ms apart look simultaneous.
-TEST_F(MotionTrackTest, APoseThatIsNotLaterCorrectsTheOneBefore) {
+TEST_F(PoseTrackerTest, APoseThatIsNotLaterCorrectsTheOneBefore) {
   addAt(0.0);
   addAt(0.1, 0.1);
   EXPECT_EQ(addAt(0.1, 0.11), Step::kCorrects);
@@ -73,26 +73,26 @@ TEST_F(MotionTrackTest, APoseThatIsNotLaterCorrectsTheOneBefore) {
   EXPECT_EQ(track_.newest().X_WT.translation().x(), 0.11);
 }
 
-TEST_F(MotionTrackTest, ACorrectionThatIsAJumpInterruptsTheMotion) {
+TEST_F(PoseTrackerTest, ACorrectionThatIsAJumpInterruptsTheMotion) {
   addAt(0.0);
   addAt(0.1, 0.1);
   EXPECT_EQ(addAt(0.1, 9.0), Step::kBegins);
 }
 
 // Poses closer than half a millisecond say nothing of a speed, and a flood of them would fill the memory.
-TEST_F(MotionTrackTest, PosesHardlyLaterCorrectTheOneBefore) {
+TEST_F(PoseTrackerTest, PosesHardlyLaterCorrectTheOneBefore) {
   addAt(0.0);
   EXPECT_EQ(addAt(0.000499), Step::kCorrects);
   EXPECT_EQ(addAt(0.0005), Step::kContinues);
 }
 
-TEST_F(MotionTrackTest, TurnsAddUpBeyondAFullTurn) {
+TEST_F(PoseTrackerTest, TurnsAddUpBeyondAFullTurn) {
   for (int i = 0; i <= 100; ++i) track_.add(poseAt(0.1 * i, {0.0, 0.0, 0.0}, 0.5 * i));
   EXPECT_EQ(track_.poses(), 101);
   EXPECT_NEAR(track_.coordinates()[5], 50.0, 1e-12);
 }
 
-TEST_F(MotionTrackTest, BeginsAnewWhenInterrupted) {
+TEST_F(PoseTrackerTest, BeginsAnewWhenInterrupted) {
   addAt(10.0);
   addAt(10.1);
   track_.interrupt();

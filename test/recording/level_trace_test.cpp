@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "timeline.h"
+
 namespace sweep_guard_recording {
 namespace {
 
 using namespace std::chrono_literals;
+using namespace sweep_guard_core::timeline;
 using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
 using sweep_guard_core::WarningLevel;
@@ -27,36 +30,36 @@ void expectLeads(const WarnedContact& contact, Duration considered, Duration ref
 }
 
 TEST(LevelTraceTest, JoinsLevelsThatWarnWithoutABreak) {
-  const LevelTrace trace = traceOf({{0ms, WarningLevel::kClear},
-                                    {10ms, WarningLevel::kConsidered},
-                                    {20ms, WarningLevel::kReflex},
-                                    {30ms, WarningLevel::kConsidered},
-                                    {40ms, WarningLevel::kUnknown},
-                                    {50ms, WarningLevel::kContact},
-                                    {60ms, WarningLevel::kContact}});
-  const auto considered = trace.alarms(WarningLevel::kConsidered);
+  const LevelTrace trace = traceOf({{0ms, kClear},
+                                    {10ms, kConsidered},
+                                    {20ms, kReflex},
+                                    {30ms, kConsidered},
+                                    {40ms, kUnknown},
+                                    {50ms, kContact},
+                                    {60ms, kContact}});
+  const auto considered = trace.alarms(kConsidered);
   ASSERT_EQ(considered.size(), 2U);
   expectAlarm(considered[0], 10ms, 40ms);
   expectAlarm(considered[1], 50ms, 60ms);
-  const auto reflex = trace.alarms(WarningLevel::kReflex);
+  const auto reflex = trace.alarms(kReflex);
   ASSERT_EQ(reflex.size(), 2U);
   expectAlarm(reflex[0], 20ms, 30ms);
 }
 
 TEST(LevelTraceTest, HasNoAlarmWhereNothingWarns) {
-  EXPECT_TRUE(LevelTrace().alarms(WarningLevel::kConsidered).empty());
-  const LevelTrace trace = traceOf({{0ms, WarningLevel::kUnknown}, {10ms, WarningLevel::kClear}});
-  EXPECT_TRUE(trace.alarms(WarningLevel::kConsidered).empty());
+  EXPECT_TRUE(LevelTrace().alarms(kConsidered).empty());
+  const LevelTrace trace = traceOf({{0ms, kUnknown}, {10ms, kClear}});
+  EXPECT_TRUE(trace.alarms(kConsidered).empty());
   EXPECT_TRUE(trace.contacts().empty());
 }
 
 TEST(LevelTraceTest, LeadsCountFromWhenTheWarningRose) {
-  const auto contacts = traceOf({{1s, WarningLevel::kClear},
-                                 {2s, WarningLevel::kConsidered},
-                                 {2100ms, WarningLevel::kConsidered},
-                                 {2900ms, WarningLevel::kReflex},
-                                 {3s, WarningLevel::kContact},
-                                 {3100ms, WarningLevel::kContact}})
+  const auto contacts = traceOf({{1s, kClear},
+                                 {2s, kConsidered},
+                                 {2100ms, kConsidered},
+                                 {2900ms, kReflex},
+                                 {3s, kContact},
+                                 {3100ms, kContact}})
                             .contacts();
   ASSERT_EQ(contacts.size(), 1U);
   expectAlarm(contacts[0].contact, 3s, 3100ms);
@@ -64,22 +67,15 @@ TEST(LevelTraceTest, LeadsCountFromWhenTheWarningRose) {
 }
 
 TEST(LevelTraceTest, LeadsAreZeroWhereNothingWarned) {
-  expectLeads(traceOf({{1s, WarningLevel::kConsidered}, {2s, WarningLevel::kUnknown}, {3s, WarningLevel::kContact}})
-                  .contacts()
-                  .at(0),
-              0s, 0s);
+  expectLeads(traceOf({{1s, kConsidered}, {2s, kUnknown}, {3s, kContact}}).contacts().at(0), 0s, 0s);
 }
 
 TEST(LevelTraceTest, AWarningThatWasWithdrawnDoesNotCount) {
-  expectLeads(traceOf({{1s, WarningLevel::kReflex}, {2s, WarningLevel::kConsidered}, {3s, WarningLevel::kContact}})
-                  .contacts()
-                  .at(0),
-              2s, 0s);
+  expectLeads(traceOf({{1s, kReflex}, {2s, kConsidered}, {3s, kContact}}).contacts().at(0), 2s, 0s);
 }
 
 TEST(LevelTraceTest, WhatIsLeftOfAWarningDoesNotCountForTheNextContact) {
-  const auto contacts =
-      traceOf({{1s, WarningLevel::kContact}, {2s, WarningLevel::kReflex}, {3s, WarningLevel::kContact}}).contacts();
+  const auto contacts = traceOf({{1s, kContact}, {2s, kReflex}, {3s, kContact}}).contacts();
   ASSERT_EQ(contacts.size(), 2U);
   expectLeads(contacts[1], 1s, 1s);
 }

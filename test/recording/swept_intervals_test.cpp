@@ -2,19 +2,22 @@
 
 #include <gtest/gtest.h>
 
+#include "timeline.h"
+
 namespace sweep_guard_recording {
 namespace {
 
+using namespace sweep_guard_core::timeline;
 using std::chrono::milliseconds;
-using sweep_guard_core::Time;
 
-Time at(int ms) { return Time(milliseconds(ms)); }
+SweptIntervals sweptOver(const std::vector<std::pair<int, int>>& intervals) {
+  SweptIntervals swept;
+  for (const auto& [start, stamp] : intervals) swept.add(at(start), at(stamp));
+  return swept;
+}
 
 TEST(SweptIntervalsTest, GapsBetweenThemAreSummed) {
-  SweptIntervals swept;
-  swept.add(at(0), at(0));
-  swept.add(at(0), at(10));
-  swept.add(at(10), at(30));
+  SweptIntervals swept = sweptOver({{0, 0}, {0, 10}, {10, 30}});
   EXPECT_EQ(swept.gaps(), milliseconds(0));
   swept.add(at(35), at(40));
   EXPECT_EQ(swept.gaps(), milliseconds(5));
@@ -24,18 +27,13 @@ TEST(SweptIntervalsTest, GapsBetweenThemAreSummed) {
 }
 
 TEST(SweptIntervalsTest, CoverPosesInsideAndAtTheirEnd) {
-  SweptIntervals swept;
-  swept.add(at(10), at(10));
-  swept.add(at(10), at(30));
-  swept.add(at(40), at(50));
+  const SweptIntervals swept = sweptOver({{10, 10}, {10, 30}, {40, 50}});
   for (const int covered : {10, 20, 30, 45, 50}) EXPECT_TRUE(swept.covers(at(covered))) << covered;
   for (const int outside : {9, 35, 40, 51}) EXPECT_FALSE(swept.covers(at(outside))) << outside;
 }
 
 TEST(SweptIntervalsTest, OfPosesWithEqualStampsTheIntervalOfTheFirstCounts) {
-  SweptIntervals swept;
-  swept.add(at(0), at(20));
-  swept.add(at(20), at(20));
+  const SweptIntervals swept = sweptOver({{0, 20}, {20, 20}});
   EXPECT_TRUE(swept.covers(at(10)));
   EXPECT_EQ(swept.size(), 2U);
 }

@@ -17,7 +17,7 @@ class ControlsTest : public NodeTest {
 };
 
 TEST_F(ControlsTest, DisabledIsUnknownForThatReasonAloneAndNotClear) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+  placeSquare("square", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
   const auto response = probe().enable(false);
   EXPECT_TRUE(response.success) << response.message;
@@ -29,7 +29,7 @@ TEST_F(ControlsTest, DisabledIsUnknownForThatReasonAloneAndNotClear) {
 
 // A pose received while disabled is never swept, not even as a part of a later motion.
 TEST_F(ControlsTest, NothingIsSweptWhileDisabledAndCoverageRestarts) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   restAt({0.0, 0.0, 0.5});
   ASSERT_TRUE(probe().enable(false).success);
   probe().forgetContacts();
@@ -45,7 +45,7 @@ TEST_F(ControlsTest, NothingIsSweptWhileDisabledAndCoverageRestarts) {
   EXPECT_EQ(first.covered_until, ros::Time());
 
   probe().tick(0.01);
-  probe().publish(poseAt({0.0, 0.0, -0.5}, probe().time()));  // beyond the sheet, clear of it
+  probe().publish(poseAt({0.0, 0.0, -0.5}, probe().time()));  // beyond the square, clear of it
   const std::vector<Contacts> contacts = probe().awaitContactsUpTo(probe().time());
   ASSERT_EQ(contacts.size(), 1U);
   EXPECT_EQ(contacts[0].interval_start, probe().time());
@@ -54,7 +54,7 @@ TEST_F(ControlsTest, NothingIsSweptWhileDisabledAndCoverageRestarts) {
 }
 
 TEST_F(ControlsTest, EnablingTwiceChangesNothing) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+  placeSquare("square", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
   const size_t clear_since = probe().warnings().size();
   EXPECT_TRUE(probe().enable(true).success);
@@ -64,13 +64,13 @@ TEST_F(ControlsTest, EnablingTwiceChangesNothing) {
 }
 
 TEST_F(ControlsTest, ContactIsNotHiddenByDisabling) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   moveTo({0.0, 0.0, -0.01});
   probe().awaitWarning([](const Warning& warning) { return warning.contact; });
   const auto response = probe().enable(false);
   EXPECT_FALSE(response.success);
-  EXPECT_TRUE(has(response.message, "CONTACT: tool meets 'sheet'"));
+  EXPECT_TRUE(has(response.message, "CONTACT: tool meets 'square'"));
   moveTo({0.0, 0.0, -0.01});
   EXPECT_TRUE(probe().warnings().back().contact);
 }
@@ -88,7 +88,7 @@ TEST_F(ControlsTest, DisabledOutlastsResetAndJumpsOfTime) {
 }
 
 TEST_F(ControlsTest, ResetEndsAHeldContactAndKeepsTheWorkpieces) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   moveTo({0.0, 0.0, -0.01});
   const Warning contact = probe().awaitWarning([](const Warning& warning) { return warning.contact; });
@@ -105,7 +105,7 @@ TEST_F(ControlsTest, ResetEndsAHeldContactAndKeepsTheWorkpieces) {
 }
 
 TEST_F(ControlsTest, ResetDoesNotHideAContactThatIsStillThere) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, -0.05});
   ASSERT_TRUE(probe().reset().success);
   probe().skipWarnings();
@@ -115,7 +115,7 @@ TEST_F(ControlsTest, ResetDoesNotHideAContactThatIsStillThere) {
 
 // Two poses make a motion, and poses before the reset do not count.
 TEST_F(ControlsTest, ResetForgetsTheMotion) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+  placeSquare("square", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
   EXPECT_TRUE(probe().predict(1.0).success);
   ASSERT_TRUE(probe().reset().success);
@@ -128,7 +128,7 @@ TEST_F(ControlsTest, ResetForgetsTheMotion) {
 }
 
 TEST_F(ControlsTest, ResetKeepsTheRefusalOfAWorkpiece) {
-  auto bad = sheetAt("bad", {0.0, 0.0, -1.0}, probe().time());
+  auto bad = squareAt("bad", {0.0, 0.0, -1.0}, probe().time());
   bad.mesh.triangles.clear();
   probe().publish(bad);
   placed_.insert("bad");

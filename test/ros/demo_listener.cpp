@@ -9,15 +9,15 @@ namespace {
 
 constexpr std::uint32_t kQueue = 100000;
 const ros::Duration kStall(0.1);  // that the operator makes up for
-constexpr auto kPatience = std::chrono::seconds(20);
+constexpr auto kTimeout = std::chrono::seconds(20);
 
-bool sameWay(const geometry_msgs::PoseStamped& a, const geometry_msgs::PoseStamped& b) {
+bool samePose(const geometry_msgs::PoseStamped& a, const geometry_msgs::PoseStamped& b) {
   return (positionOf(a) - positionOf(b)).norm() < 1e-7;
 }
 
 size_t restingAtEnd(const DemoListener::Poses& poses) {
   const auto moved =
-      std::find_if(poses.rbegin(), poses.rend(), [&poses](const auto& pose) { return !sameWay(pose, poses.back()); });
+      std::find_if(poses.rbegin(), poses.rend(), [&poses](const auto& pose) { return !samePose(pose, poses.back()); });
   return static_cast<size_t>(moved - poses.rbegin());
 }
 
@@ -31,7 +31,7 @@ DemoListener::DemoListener() {
   };
   const boost::function<void(const sweep_guard::Warning&)> take_warning = [this](const auto& warning) {
     const std::lock_guard lock(mutex_);
-    touched_ = touched_ || warning.contact;
+    in_contact_ = in_contact_ || warning.contact;
     changed_.notify_all();
   };
   pose_subscriber_ = node_.subscribe<geometry_msgs::PoseStamped>("tool_pose", kQueue, take_pose);
@@ -41,7 +41,7 @@ DemoListener::DemoListener() {
 
 DemoListener::Poses DemoListener::awaitPoses(const std::function<bool(const Poses&)>& fit) const {
   std::unique_lock lock(mutex_);
-  if (!changed_.wait_for(lock, kPatience, [&] { return fit(poses_); })) {
+  if (!changed_.wait_for(lock, kTimeout, [&] { return fit(poses_); })) {
     throw std::runtime_error("no such motion, after " + std::to_string(poses_.size()) + " poses");
   }
   return poses_;
@@ -56,14 +56,14 @@ DemoListener::Poses DemoListener::awaitRest(size_t count) const {
   return {poses.end() - static_cast<std::ptrdiff_t>(restingAtEnd(poses)), poses.end()};
 }
 
-bool DemoListener::touched() const {
+bool DemoListener::inContact() const {
   const std::lock_guard lock(mutex_);
-  return touched_;
+  return in_contact_;
 }
 
 void DemoListener::awaitContact() const {
   std::unique_lock lock(mutex_);
-  if (!changed_.wait_for(lock, kPatience, [this] { return touched_; })) throw std::runtime_error("no contact");
+  if (!changed_.wait_for(lock, kTimeout, [this] { return in_contact_; })) throw std::runtime_error("no contact");
 }
 
 Eigen::Vector3d positionOf(const geometry_msgs::PoseStamped& pose) {

@@ -24,14 +24,14 @@ class DemoListener {
   /// Returns the poses up to the first one that this many equal poses follow.
   Poses awaitRest(size_t count) const;
 
-  bool touched() const;       ///< the guard has reported a contact
+  bool inContact() const;     ///< the guard has reported a contact
   void awaitContact() const;  ///< waits for a contact. @throws std::runtime_error after 20 s
 
  private:
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   Poses poses_;
-  bool touched_ = false;
+  bool in_contact_ = false;
   ros::NodeHandle node_;
   ros::Subscriber pose_subscriber_;
   ros::Subscriber warning_subscriber_;

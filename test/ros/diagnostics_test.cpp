@@ -51,8 +51,8 @@ TEST(DetectorStatusTest, AFailureOfEverySweepIsNoLackOfPoses) {
 }
 
 TEST_F(DiagnosticsTest, EachInputReportsTopicPublishersAndAge) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
-  probe().place(sheetMovedTo("sheet", {0.0, 0.0, -1.0}, probe().time()));
+  placeSquare("square", {0.0, 0.0, -1.0});
+  probe().place(squareMovedTo("square", {0.0, 0.0, -1.0}, probe().time()));
   restAt({0.0, 0.0, 0.5});
   for (const auto& [name, topic] :
        {std::pair{"tool pose", "/tool_pose"}, {"mesh", "/mesh"}, {"mesh vertices", "/mesh_vertices"}}) {
@@ -65,7 +65,7 @@ TEST_F(DiagnosticsTest, EachInputReportsTopicPublishersAndAge) {
     EXPECT_FALSE(valueOf(status, "last error").empty());
   }
   const DiagnosticStatus workpieces = probe().awaitStatus("workpieces", any);
-  EXPECT_EQ(valueOf(workpieces, "'sheet'").find("revision 1, 2 triangles in 'world'"), 0U);
+  EXPECT_EQ(valueOf(workpieces, "'square'").find("revision 1, 2 triangles in 'world'"), 0U);
 }
 
 TEST_F(DiagnosticsTest, APoseThatWasRefusedIsTheLastErrorOfItsInputAlone) {
@@ -80,7 +80,7 @@ TEST_F(DiagnosticsTest, APoseThatWasRefusedIsTheLastErrorOfItsInputAlone) {
 }
 
 TEST_F(DiagnosticsTest, PosesThatHaveStoppedAreAnErrorAndVerticesAreNot) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+  placeSquare("square", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
   probe().awaitStatus("tool pose", [](const DiagnosticStatus& status) {
     return status.level == DiagnosticStatus::ERROR && status.message == "has stopped";

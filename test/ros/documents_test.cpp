@@ -144,38 +144,38 @@ Names topicsOfTheGuard(Graph part) {
   return typed;
 }
 
-Names topicsTold(const std::string& head) {
-  Names told;
+Names topicsListed(const std::string& head) {
+  Names listed;
   for (const Row& row : table(contents(kInterface), head)) {
-    for (const std::string& name : codes(row.at(1))) told.insert(resolved(name) + " " + trimmed(row.at(2)));
+    for (const std::string& name : codes(row.at(1))) listed.insert(resolved(name) + " " + trimmed(row.at(2)));
   }
-  return told;
+  return listed;
 }
 
-TEST(DocumentsTest, TellEachTopicAndItsType) {
-  EXPECT_EQ(topicsTold("| in | type | meaning | try |"), topicsOfTheGuard(kSubscribed));
-  EXPECT_EQ(topicsTold("| out | type | when | try |"), topicsOfTheGuard(kPublished));
+TEST(DocumentsTest, ListEachTopicAndItsType) {
+  EXPECT_EQ(topicsListed("| in | type | meaning | try |"), topicsOfTheGuard(kSubscribed));
+  EXPECT_EQ(topicsListed("| out | type | when | try |"), topicsOfTheGuard(kPublished));
 }
 
-TEST(DocumentsTest, TellEachService) {
-  Names told;
+TEST(DocumentsTest, ListEachService) {
+  Names listed;
   for (const Row& row : table(contents(kInterface), "| service | type | what it does | try |")) {
-    told.insert(resolved(trimmed(row.at(1))));
+    listed.insert(resolved(trimmed(row.at(1))));
   }
-  EXPECT_EQ(told, namesOfTheGuard(kServed));
+  EXPECT_EQ(listed, namesOfTheGuard(kServed));
 }
 
-TEST(DocumentsTest, TellEachMessage) {
-  Names told;
-  for (const Row& row : table(contents(kInterface), "| message | carries |")) told.insert(trimmed(row.at(1)));
+TEST(DocumentsTest, ListEachMessage) {
+  Names listed;
+  for (const Row& row : table(contents(kInterface), "| message | carries |")) listed.insert(trimmed(row.at(1)));
   Names there;
   for (const char* const folder : {"msg", "srv"}) {
     for (const auto& file : std::filesystem::directory_iterator(kRoot / folder)) there.insert(file.path().stem());
   }
-  EXPECT_EQ(told, there);
+  EXPECT_EQ(listed, there);
 }
 
-TEST(DocumentsTest, TellEachParameter) {
+TEST(DocumentsTest, ListEachParameter) {
   const auto described = loadParameters(ros::NodeHandle("/nothing_is_set")).described;
   const std::string head = "| key | default | type, unit, range | while running | effect |";
   expectContents(kInterface, withRows(contents(kInterface), head, parameterRows(described)));
@@ -206,19 +206,19 @@ std::vector<std::string> argumentLines(const std::filesystem::path& file) {
   return rows;
 }
 
-TEST(DocumentsTest, TellTheArgumentsOfEachLaunchFile) {
+TEST(DocumentsTest, ListTheArgumentsOfEachLaunchFile) {
   const std::filesystem::path document = kRoot / "doc" / "launch.md";
   std::vector<std::string> chapters = split(contents(document), "\n## ");
-  Names told;
+  Names listed;
   for (size_t i = 1; i < chapters.size(); ++i) {
     const std::string file = lines(chapters[i]).front();
     chapters[i] = withRows(chapters[i], "| argument | default | meaning |", argumentLines(kRoot / "launch" / file));
-    told.insert(file);
+    listed.insert(file);
   }
   expectContents(document, joined(chapters, "\n## "));
   Names there;
   for (const auto& file : std::filesystem::directory_iterator(kRoot / "launch")) there.insert(file.path().filename());
-  EXPECT_EQ(told, there);
+  EXPECT_EQ(listed, there);
 }
 
 std::string sources(const std::vector<std::string>& folders) {

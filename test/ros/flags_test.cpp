@@ -43,12 +43,12 @@ TEST(FlagsTest, ArePublishedAtOnceWhenTheyRise) {
   GuardProbe probe(/*drives_clock=*/false);
   const auto reflex = [&](size_t count) { return probe.awaitReflexFlags(count); };
   const auto considered = [&](size_t count) { return probe.awaitConsideredFlags(count); };
-  probe.place(sheetAt("sheet", {0.0, 0.0, -1.0}, ros::Time::now()));
+  probe.place(squareAt("square", {0.0, 0.0, -1.0}, ros::Time::now()));
   std::vector<double> reflex_late;      // [s]
   std::vector<double> considered_late;  // [s]
   for (int i = 0; i < 21; ++i) {
     do {  // until it is clear: on a busy machine a pose may be stale before
-      probe.place(sheetMovedTo("sheet", {0.0, 0.0, -1.0}, ros::Time::now()));
+      probe.place(squareMovedTo("square", {0.0, 0.0, -1.0}, ros::Time::now()));
       probe.publish(poseAt({0.0, 0.0, 0.5}, ros::Time::now()));
       probe.skipWarnings();
     } while (!probe.awaitWarning([](const Warning&) { return true; }).clear);

@@ -12,12 +12,22 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(20);
+constexpr auto kTimeout = std::chrono::seconds(20);
 const ros::Duration kValid(0.2);  // of a warning, from when it was sent
 
 GuardProbe::Flag arrived(const std_msgs::Bool& flag) { return {flag.data != 0, std::chrono::steady_clock::now()}; }
 
-std::vector<Eigen::Vector3d> sheetCorners(const Eigen::Vector3d& center, double half_side) {
+template <typename Message>
+Message firstRevision(const std::string& id, ros::Time stamp) {
+  Message message;
+  message.header.frame_id = "world";
+  message.header.stamp = stamp;
+  message.id = id;
+  message.revision = 1;
+  return message;
+}
+
+std::vector<Eigen::Vector3d> squareCorners(const Eigen::Vector3d& center, double half_side) {
   std::vector<Eigen::Vector3d> corners;
   for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
     corners.emplace_back(center + half_side * Eigen::Vector3d(x, y, 0.0));
@@ -78,7 +88,7 @@ void GuardProbe::listen(const std::string& topic, Take take) {
 template <typename Condition>
 void GuardProbe::await(const std::string& what, Condition&& condition) const {
   std::unique_lock lock(mutex_);
-  if (!changed_.wait_for(lock, kPatience, condition)) throw std::runtime_error("waited in vain for " + what);
+  if (!changed_.wait_for(lock, kTimeout, condition)) throw std::runtime_error("timeout: waited for " + what);
 }
 
 void GuardProbe::setClock(ros::Time time) {
@@ -120,31 +130,33 @@ void GuardProbe::place(const sweep_guard::MeshVertices& vertices) {
   awaitPlaced(vertices.id, {vertices.positions[0], vertices.positions[1], vertices.positions[2]}, vertices.header);
 }
 
+template <typename Condition>
+void GuardProbe::awaitAnswer(const std::string& what, const sweep_guard::CheckSweep::Request& request,
+                             const Condition& fits) {
+  const auto deadline = std::chrono::steady_clock::now() + kTimeout;
+  while (!fits(check(request))) {
+    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("no answer shows " + what);
+  }
+}
+
 void GuardProbe::awaitPlaced(const std::string& id, const Eigen::Vector3d& first_vertex,
                              const std_msgs::Header& header) {
   sweep_guard::CheckSweep::Request request;
   request.path = {poseAt(first_vertex, header.stamp)};
   request.path[0].header.frame_id = header.frame_id;
   request.mesh_ids = {id};
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  while (std::chrono::steady_clock::now() < deadline) {
-    const auto response = check(request);
-    if (!response.objects.empty() && response.objects[0].mesh_stamp == header.stamp) return;
-  }
-  throw std::runtime_error("waited in vain for workpiece " + id);
+  awaitAnswer("workpiece " + id, request, [&](const auto& response) {
+    return !response.objects.empty() && response.objects[0].mesh_stamp == header.stamp;
+  });
 }
 
 void GuardProbe::remove(const std::string& mesh_id) {
   sweep_guard::DeformableMesh nothing;
   nothing.id = mesh_id;
   publish(nothing);
-  sweep_guard::CheckSweep::Request request;
-  request.path = {poseAt({0.0, 0.0, 0.0}, ros::Time())};
+  sweep_guard::CheckSweep::Request request = requestAlong({Eigen::Vector3d::Zero()});
   request.mesh_ids = {mesh_id};
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  while (check(request).success) {
-    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("workpiece " + mesh_id + " stays");
-  }
+  awaitAnswer("the end of workpiece " + mesh_id, request, [](const auto& response) { return !response.success; });
 }
 
 sweep_guard::Contacts GuardProbe::move(const geometry_msgs::PoseStamped& pose) {
@@ -153,16 +165,28 @@ sweep_guard::Contacts GuardProbe::move(const geometry_msgs::PoseStamped& pose) {
   return awaitContacts(1).front();
 }
 
-sweep_guard::Warning GuardProbe::awaitWarning(const Fits& fits) {
-  sweep_guard::Warning found;
-  await("a warning", [&] {
-    while (next_warning_ < warnings_.size()) {
-      found = warnings_[next_warning_++];
+template <typename Value>
+Value GuardProbe::copyOf(const Value& value) const {
+  const std::lock_guard lock(mutex_);
+  return value;
+}
+
+template <typename Message, typename Condition>
+Message GuardProbe::awaitNext(const std::string& what, const std::vector<Message>& messages, size_t& next,
+                              const Condition& fits) const {
+  Message found;
+  await(what, [&] {
+    while (next < messages.size()) {
+      found = messages[next++];
       if (fits(found)) return true;
     }
     return false;
   });
   return found;
+}
+
+sweep_guard::Warning GuardProbe::awaitWarning(const Fits& fits) {
+  return awaitNext("a warning", warnings_, next_warning_, fits);
 }
 
 void GuardProbe::skipWarnings() {
@@ -171,32 +195,19 @@ void GuardProbe::skipWarnings() {
 }
 
 visualization_msgs::MarkerArray GuardProbe::awaitMarkers(const MarkersFit& fit) {
-  visualization_msgs::MarkerArray found;
-  await("markers", [&] {
-    while (next_markers_ < markers_.size()) {
-      found = markers_[next_markers_++];
-      if (fit(found)) return true;
-    }
-    return false;
-  });
-  return found;
+  return awaitNext("markers", markers_, next_markers_, fit);
 }
 
-std::vector<sweep_guard::Warning> GuardProbe::warnings() const {
-  const std::lock_guard lock(mutex_);
-  return warnings_;
-}
+std::vector<sweep_guard::Warning> GuardProbe::warnings() const { return copyOf(warnings_); }
 
 std::vector<sweep_guard::Contacts> GuardProbe::awaitContacts(size_t count) {
   await("contacts", [&] { return contacts_.size() >= count; });
-  const std::lock_guard lock(mutex_);
-  return contacts_;
+  return copyOf(contacts_);
 }
 
 std::vector<sweep_guard::Contacts> GuardProbe::awaitContactsUpTo(ros::Time stamp) {
   await("contacts up to a pose", [&] { return !contacts_.empty() && contacts_.back().header.stamp >= stamp; });
-  const std::lock_guard lock(mutex_);
-  return contacts_;
+  return copyOf(contacts_);
 }
 
 void GuardProbe::forgetContacts() {
@@ -217,15 +228,9 @@ sweep_guard::Prediction GuardProbe::awaitPrediction(ros::Time stamp) const {
   return found;
 }
 
-std::vector<double> GuardProbe::timesToCollision() const {
-  const std::lock_guard lock(mutex_);
-  return times_to_collision_;
-}
+std::vector<double> GuardProbe::timesToCollision() const { return copyOf(times_to_collision_); }
 
-std::vector<sweep_guard::Prediction> GuardProbe::predictions() const {
-  const std::lock_guard lock(mutex_);
-  return predictions_;
-}
+std::vector<sweep_guard::Prediction> GuardProbe::predictions() const { return copyOf(predictions_); }
 
 // A prediction and its time arrive one after the other. Forgetting half of a pair would leave lists of unequal lengths.
 void GuardProbe::forgetPredictions() {
@@ -239,14 +244,12 @@ void GuardProbe::forgetPredictions() {
 
 std::vector<GuardProbe::Flag> GuardProbe::awaitReflexFlags(size_t count) const {
   await("reflex flags", [&] { return reflex_flags_.size() >= count; });
-  const std::lock_guard lock(mutex_);
-  return reflex_flags_;
+  return copyOf(reflex_flags_);
 }
 
 std::vector<GuardProbe::Flag> GuardProbe::awaitConsideredFlags(size_t count) const {
   await("considered flags", [&] { return considered_flags_.size() >= count; });
-  const std::lock_guard lock(mutex_);
-  return considered_flags_;
+  return copyOf(considered_flags_);
 }
 
 sweep_guard::Predict::Response GuardProbe::predict(double horizon) {
@@ -282,39 +285,23 @@ bool GuardProbe::configure(const dynamic_reconfigure::Config& changes) {
   return configure_.call(service);
 }
 
-dynamic_reconfigure::Config GuardProbe::configuration() const {
-  const std::lock_guard lock(mutex_);
-  return configuration_;
-}
+dynamic_reconfigure::Config GuardProbe::configuration() const { return copyOf(configuration_); }
 
 GuardProbe::Status GuardProbe::awaitStatus(const std::string& name, const std::function<bool(const Status&)>& fits) {
-  Status found;
-  size_t next = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    statuses_.clear();
-  }
-  await("a status of " + name, [&] {
-    while (next < statuses_.size()) {
-      found = statuses_[next++];
-      if (found.name.substr(found.name.find(": ") + 2) == name && fits(found)) return true;
-    }
-    return false;
+  size_t next = copyOf(statuses_).size();
+  return awaitNext("a status of " + name, statuses_, next, [&](const Status& status) {
+    return status.name.substr(status.name.find(": ") + 2) == name && fits(status);
   });
-  return found;
 }
 
-size_t GuardProbe::markersReceived() const {
-  const std::lock_guard lock(mutex_);
-  return markers_.size();
-}
+size_t GuardProbe::markersReceived() const { return copyOf(markers_).size(); }
 
 bool endToEnd(const std::vector<sweep_guard::Contacts>& contacts) {
   const auto apart = [](const auto& one, const auto& next) { return next.interval_start != one.header.stamp; };
   return std::adjacent_find(contacts.begin(), contacts.end(), apart) == contacts.end();
 }
 
-size_t objectsMet(const std::vector<sweep_guard::Contacts>& contacts) {
+size_t contactCount(const std::vector<sweep_guard::Contacts>& contacts) {
   size_t count = 0;
   for (const sweep_guard::Contacts& one : contacts) count += one.objects.size();
   return count;
@@ -331,29 +318,22 @@ geometry_msgs::PoseStamped poseAt(const Eigen::Vector3d& tip_W, ros::Time stamp,
   geometry_msgs::PoseStamped pose;
   pose.header.frame_id = "world";
   pose.header.stamp = stamp;
-  pose.pose.position.x = tip_W.x();
-  pose.pose.position.y = tip_W.y();
-  pose.pose.position.z = tip_W.z();
-  pose.pose.orientation.w = rotation.w();
-  pose.pose.orientation.x = rotation.x();
-  pose.pose.orientation.y = rotation.y();
-  pose.pose.orientation.z = rotation.z();
+  pose.pose.position = tf2::toMsg(tip_W);
+  pose.pose.orientation = tf2::toMsg(rotation);
   return pose;
 }
 
-sweep_guard::DeformableMesh sheetAt(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
-                                    double half_side) {
-  sweep_guard::DeformableMesh mesh;
-  mesh.header.frame_id = "world";
-  mesh.header.stamp = stamp;
-  mesh.id = id;
-  mesh.revision = 1;
-  for (const Eigen::Vector3d& corner : sheetCorners(center, half_side)) {
-    geometry_msgs::Point point;
-    point.x = corner.x();
-    point.y = corner.y();
-    point.z = corner.z();
-    mesh.mesh.vertices.push_back(point);
+sweep_guard::CheckSweep::Request requestAlong(const std::vector<Eigen::Vector3d>& tips_W) {
+  sweep_guard::CheckSweep::Request request;
+  for (const Eigen::Vector3d& tip_W : tips_W) request.path.push_back(poseAt(tip_W, ros::Time()));
+  return request;
+}
+
+sweep_guard::DeformableMesh squareAt(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
+                                     double half_side) {
+  auto mesh = firstRevision<sweep_guard::DeformableMesh>(id, stamp);
+  for (const Eigen::Vector3d& corner : squareCorners(center, half_side)) {
+    mesh.mesh.vertices.push_back(tf2::toMsg(corner));
   }
   mesh.mesh.triangles.resize(2);
   mesh.mesh.triangles[0].vertex_indices = {0, 1, 2};
@@ -361,14 +341,10 @@ sweep_guard::DeformableMesh sheetAt(const std::string& id, const Eigen::Vector3d
   return mesh;
 }
 
-sweep_guard::MeshVertices sheetMovedTo(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
-                                       double half_side) {
-  sweep_guard::MeshVertices vertices;
-  vertices.header.frame_id = "world";
-  vertices.header.stamp = stamp;
-  vertices.id = id;
-  vertices.revision = 1;
-  for (const Eigen::Vector3d& corner : sheetCorners(center, half_side)) {
+sweep_guard::MeshVertices squareMovedTo(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
+                                        double half_side) {
+  auto vertices = firstRevision<sweep_guard::MeshVertices>(id, stamp);
+  for (const Eigen::Vector3d& corner : squareCorners(center, half_side)) {
     for (const double coordinate : corner) vertices.positions.push_back(static_cast<float>(coordinate));
   }
   return vertices;

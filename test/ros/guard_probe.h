@@ -109,6 +109,13 @@ class GuardProbe {
   void awaitPlaced(const std::string& id, const Eigen::Vector3d& first_vertex, const std_msgs::Header& header);
   template <typename Condition>
   void await(const std::string& what, Condition&& condition) const;
+  template <typename Condition>
+  void awaitAnswer(const std::string& what, const sweep_guard::CheckSweep::Request& request, const Condition& fits);
+  template <typename Message, typename Condition>
+  Message awaitNext(const std::string& what, const std::vector<Message>& messages, size_t& next,
+                    const Condition& fits) const;
+  template <typename Value>
+  Value copyOf(const Value& value) const;
 
   ros::NodeHandle node_;
   mutable std::mutex mutex_;
@@ -142,7 +149,7 @@ class GuardProbe {
 
 /// Returns whether each interval begins where the previous one ended, so that no motion was left out.
 bool endToEnd(const std::vector<sweep_guard::Contacts>& contacts);
-size_t objectsMet(const std::vector<sweep_guard::Contacts>& contacts);  ///< number of contacts with objects
+size_t contactCount(const std::vector<sweep_guard::Contacts>& contacts);  ///< number of contacts with objects
 
 /// Returns the value of a key in a status; empty if missing.
 std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key);
@@ -152,10 +159,13 @@ geometry_msgs::PoseStamped poseAt(
     const Eigen::Vector3d& tip_W, ros::Time stamp,
     const Eigen::Quaterniond& rotation = Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX())));
 
-/// Returns a square sheet of two triangles, parallel to x and y, with its center at a point [m].
-sweep_guard::DeformableMesh sheetAt(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
-                                    double half_side = 0.1);
-sweep_guard::MeshVertices sheetMovedTo(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
-                                       double half_side = 0.1);
+/// Returns a request to sweep along these tips [m] at the newest time.
+sweep_guard::CheckSweep::Request requestAlong(const std::vector<Eigen::Vector3d>& tips_W);
+
+/// Returns a square of two triangles, parallel to x and y, with its center at a point [m].
+sweep_guard::DeformableMesh squareAt(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
+                                     double half_side = 0.1);
+sweep_guard::MeshVertices squareMovedTo(const std::string& id, const Eigen::Vector3d& center, ros::Time stamp,
+                                        double half_side = 0.1);
 
 }  // namespace sweep_guard_ros

@@ -88,17 +88,18 @@ std::string dae(const std::string& unit, const std::string& up, const std::strin
          scene + "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
 }
 
+const std::string kInstance = "<node><instance_geometry url='#g'/></node>";
+
 TEST_F(MeshFileTest, ReadsEveryFormat) {
   expectUnitTetrahedron(readMesh(folder_.write("t.obj", tetrahedronObj())));
   expectUnitTetrahedron(readMesh(folder_.write("t.STL", asciiStl())));
   expectUnitTetrahedron(readMesh(folder_.write("b.stl", binaryStl(4))));
-  expectUnitTetrahedron(readMesh(folder_.write("t.dae", dae("", "", "<node><instance_geometry url='#g'/></node>"))));
+  expectUnitTetrahedron(readMesh(folder_.write("t.dae", dae("", "", kInstance))));
 }
 
 // A model names its unit. Its axes are kept even if z is not up.
 TEST_F(MeshFileTest, TakesTheUnitOfADaeAndNotItsUpAxis) {
-  const std::string scene = "<node><instance_geometry url='#g'/></node>";
-  const MeshSurface inches = readMesh(folder_.write("i.dae", dae("<unit name='inch' meter='0.0254'/>", "", scene)));
+  const MeshSurface inches = readMesh(folder_.write("i.dae", dae("<unit name='inch' meter='0.0254'/>", "", kInstance)));
   EXPECT_LT((boxOf(inches).max() - Eigen::Vector3d::Constant(0.0254)).norm(), 1e-8);
   const std::string placed =
       "<node><translate>0 0 5</translate><scale>1 2 3</scale><instance_geometry url='#g'/></node>";
@@ -161,29 +162,27 @@ std::string replaced(std::string text, const std::string& part, const std::strin
 }
 
 TEST_F(MeshFileTest, RefusesADaeWithoutAMesh) {
-  const std::string instance = "<node><instance_geometry url='#g'/></node>";
   EXPECT_TRUE(has(refused("camera.dae", dae("", "", "<node id='Camera'/>")), "no triangles"));
-  const std::string uncounted = replaced(dae("", "", instance), "triangles count='4'", "triangles count='0'");
+  const std::string uncounted = replaced(dae("", "", kInstance), "triangles count='4'", "triangles count='0'");
   EXPECT_TRUE(has(refused("count.dae", uncounted), "count 0"));
 }
 
 TEST_F(MeshFileTest, RefusesADaeThatAssimpReadsIncompletely) {
-  const std::string instance = "<node><instance_geometry url='#g'/></node>";
   const std::string gone = "<node><instance_geometry url='#gone'/></node>";
-  EXPECT_TRUE(has(refused("gone.dae", dae("", "", instance + gone)), "gone"));
+  EXPECT_TRUE(has(refused("gone.dae", dae("", "", kInstance + gone)), "gone"));
   const std::string skin = "<node><instance_controller url='#gone'/></node>";
-  EXPECT_TRUE(has(refused("skin.dae", dae("", "", instance + skin)), "gone"));
+  EXPECT_TRUE(has(refused("skin.dae", dae("", "", kInstance + skin)), "gone"));
   for (const std::string unit : {"0", "-1", "inch", "nan", "inf", "", "1 inch"}) {
-    const std::string message = refused("u.dae", dae("<unit name='x' meter='" + unit + "'/>", "", instance));
+    const std::string message = refused("u.dae", dae("<unit name='x' meter='" + unit + "'/>", "", kInstance));
     EXPECT_TRUE(has(message, "'" + unit + "' meters"));
   }
   for (const std::string matrix : {"0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0", "1 0 0 0 0 1 0 0 0 0 0 0 0 0 0 1"}) {
     const std::string flat = "<node><matrix>" + matrix + "</matrix><instance_geometry url='#g'/></node>";
-    EXPECT_TRUE(has(refused("flat.dae", dae("", "", instance + flat)), "singular"));
+    EXPECT_TRUE(has(refused("flat.dae", dae("", "", kInstance + flat)), "singular"));
   }
-  const std::string negative = replaced(dae("", "", instance), "1 2 3</p>", "1 2 -1</p>");
+  const std::string negative = replaced(dae("", "", kInstance), "1 2 3</p>", "1 2 -1</p>");
   EXPECT_TRUE(has(refused("p.dae", negative), "index"));
-  const std::string spline = replaced(dae("", "", instance), "</mesh>", "</mesh><spline/>");
+  const std::string spline = replaced(dae("", "", kInstance), "</mesh>", "</mesh><spline/>");
   EXPECT_TRUE(has(refused("spline.dae", spline), "<spline>"));
 }
 

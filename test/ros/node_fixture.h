@@ -43,11 +43,11 @@ class NodeTest : public ::testing::Test {
     for (const std::string& id : placed_) probe().remove(id);
   }
 
-  void placeSheet(const std::string& id, const Eigen::Vector3d& center, const std::string& frame = "world",
-                  double half_side = 0.1) {
-    auto sheet = sheetAt(id, center, probe().time(), half_side);
-    sheet.header.frame_id = frame;
-    probe().place(sheet);
+  void placeSquare(const std::string& id, const Eigen::Vector3d& center, const std::string& frame = "world",
+                   double half_side = 0.1) {
+    auto square = squareAt(id, center, probe().time(), half_side);
+    square.header.frame_id = frame;
+    probe().place(square);
     placed_.insert(id);
   }
 
@@ -71,11 +71,11 @@ class NodeTest : public ::testing::Test {
   }
 
   // Keeps both inputs fresh until a warning fits: contacts are held for their hold time.
-  sweep_guard::Warning moveUntil(const std::string& id, const Eigen::Vector3d& sheet, const Eigen::Vector3d& tip,
+  sweep_guard::Warning moveUntil(const std::string& id, const Eigen::Vector3d& square, const Eigen::Vector3d& tip,
                                  const std::function<bool(const sweep_guard::Warning&)>& fits) {
     for (int i = 0; i < 1000; ++i) {
       moveTo(tip);
-      probe().place(sheetMovedTo(id, sheet, probe().time()));
+      probe().place(squareMovedTo(id, square, probe().time()));
       const auto warnings = probe().warnings();
       if (fits(warnings.back())) return warnings.back();
     }

@@ -37,16 +37,14 @@ TEST(NodeStartTest, PredictWithoutAPoseSaysSo) {
 }
 
 TEST(NodeStartTest, CheckSweepWithoutAWorkpieceSaysSo) {
-  CheckSweep::Request request;
-  request.path = {poseAt({0.0, 0.0, 0.0}, ros::Time())};
-  const auto response = probe().check(request);
+  const auto response = probe().check(requestAlong({Eigen::Vector3d::Zero()}));
   EXPECT_FALSE(response.success);
   EXPECT_FALSE(response.clear);
   EXPECT_TRUE(has(response.message, "no workpiece"));
 }
 
 TEST_F(NodeTest, AClearPathStaysClear) {
-  placeSheet("far", {0.0, 0.0, -1.0});
+  placeSquare("far", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 1.0});
   const size_t clear_since = probe().warnings().size();
   for (int i = 0; i < 30; ++i) {
@@ -58,30 +56,30 @@ TEST_F(NodeTest, AClearPathStaysClear) {
   for (size_t i = clear_since; i < warnings.size(); ++i) EXPECT_TRUE(warnings[i].clear) << warnings[i].text;
 }
 
-// The sheet has no thickness and no pose is nearer to it than 5 cm: only the swept volume meets it.
-TEST_F(NodeTest, FindsASheetBetweenTwoPoses) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+// The square has no thickness and no pose is nearer to it than 5 cm: only the swept volume meets it.
+TEST_F(NodeTest, FindsASquareBetweenTwoPoses) {
+  placeSquare("square", {0.0, 0.0, 0.0});
   EXPECT_TRUE(moveTo({0.0, 0.0, 0.05}).objects.empty());
   const ros::Time before = probe().time();
   const Contacts contacts = moveTo({0.0, 0.0, -0.5});
   ASSERT_EQ(contacts.objects.size(), 1U);
-  EXPECT_EQ(contacts.objects[0].mesh_id, "sheet");
+  EXPECT_EQ(contacts.objects[0].mesh_id, "square");
   EXPECT_EQ(contacts.objects[0].triangles, (std::vector<std::uint32_t>{0, 1}));
   EXPECT_EQ(contacts.interval_start, before);
   EXPECT_EQ(contacts.volume, "obb_planes");
   EXPECT_LT(contacts.margin, 1e-6);
 }
 
-// The drill points down and sinks by 0.55 m: its tip comes to the sheet after 0.05 m, and ends 0.5 m below.
+// The drill points down and sinks by 0.55 m: its tip comes to the square after 0.05 m, and ends 0.5 m below.
 TEST_F(NodeTest, ReportsTimePointAndDepthOfAContact) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.01, 0.02, 0.05});
   const Contacts contacts = moveTo({0.01, 0.02, -0.5});
   ASSERT_EQ(contacts.objects.size(), 1U);
   const auto& object = contacts.objects[0];
   EXPECT_TRUE(object.fine);
   EXPECT_FALSE(object.inside);
-  EXPECT_FALSE(object.inside_tested);  // a sheet has no inside
+  EXPECT_FALSE(object.inside_tested);  // a square has no inside
   ASSERT_FALSE(object.impacts.empty());
   const auto& impact = object.impacts[0];
   EXPECT_NEAR(impact.time_of_impact, 0.05 / 0.55, 1e-6);
@@ -90,17 +88,17 @@ TEST_F(NodeTest, ReportsTimePointAndDepthOfAContact) {
   EXPECT_NEAR(impact.depth, 0.5, 1e-9);
 }
 
-TEST_F(NodeTest, FindsASheetThatJumpsOverARestingTool) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+TEST_F(NodeTest, FindsASquareThatJumpsOverARestingTool) {
+  placeSquare("square", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.0});
-  probe().place(sheetMovedTo("sheet", {0.0, 0.0, 1.0}, probe().time()));
+  probe().place(squareMovedTo("square", {0.0, 0.0, 1.0}, probe().time()));
   EXPECT_EQ(moveTo({0.0, 0.0, 0.0}).objects.size(), 1U);
   probe().awaitWarning([](const Warning& warning) { return warning.contact; });
   EXPECT_TRUE(moveTo({0.0, 0.0, 0.0}).objects.empty());
 }
 
 TEST_F(NodeTest, AToolInsideAClosedMeshIsContact) {
-  auto box = sheetAt("box", {0.0, 0.0, -1.0}, probe().time(), /*half_side=*/1.0);
+  auto box = squareAt("box", {0.0, 0.0, -1.0}, probe().time(), /*half_side=*/1.0);
   for (int i = 0; i < 4; ++i) {
     box.mesh.vertices.push_back(box.mesh.vertices[static_cast<size_t>(i)]);
     box.mesh.vertices.back().z = 1.0;
@@ -124,37 +122,37 @@ TEST_F(NodeTest, AToolInsideAClosedMeshIsContact) {
 }
 
 TEST_F(NodeTest, ContactIsWarnedOfThenHeldThenClear) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   moveTo({0.0, 0.0, -0.01});
   const Warning contact = probe().awaitWarning([](const Warning& warning) { return warning.contact; });
   EXPECT_EQ(contact.level, Warning::CONTACT);
-  EXPECT_EQ(contact.mesh_id, "sheet");
+  EXPECT_EQ(contact.mesh_id, "square");
   EXPECT_EQ(contact.triangles, (std::vector<std::uint32_t>{0, 1}));
   EXPECT_TRUE(contact.reflex);
   EXPECT_EQ(contact.header.stamp, probe().time());
   moveTo({0.0, 0.0, 0.3});
-  const Warning clear = moveUntil("sheet", {0.0, 0.0, 0.0}, {0.0, 0.0, 0.3}, isClear);
+  const Warning clear = moveUntil("square", {0.0, 0.0, 0.0}, {0.0, 0.0, 0.3}, isClear);
   EXPECT_GT(clear.sequence, contact.sequence);
   EXPECT_EQ(clear.level_counts[Warning::CONTACT], contact.level_counts[Warning::CONTACT]);
 }
 
 TEST_F(NodeTest, SweepsAgainstDeformedVertices) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+  placeSquare("square", {0.0, 0.0, -1.0});
   EXPECT_TRUE(moveTo({0.0, 0.0, 0.5}).objects.empty());
-  probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.5}, probe().time()));
+  probe().place(squareMovedTo("square", {0.0, 0.0, 0.5}, probe().time()));
   const Contacts contacts = moveTo({0.0, 0.0, 0.5});
   ASSERT_EQ(contacts.objects.size(), 1U);
   EXPECT_EQ(contacts.objects[0].mesh_stamp, probe().time() - ros::Duration(0.01));
 }
 
-// The tool rests, and the frame of the workpiece moves the sheet through it.
+// The tool rests, and the frame of the workpiece moves the square through it.
 TEST_F(NodeTest, FindsAWorkpieceThatMovesRigidly) {
   const auto place_frame = [](double z) {
     probe().placeFrame("table", Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)));
   };
   place_frame(-1.0);
-  placeSheet("sheet", {0.0, 0.0, 0.0}, "table");
+  placeSquare("square", {0.0, 0.0, 0.0}, "table");
   probe().advance(0.01);
   place_frame(-1.0);
   EXPECT_TRUE(probe().move(poseAt({0.0, 0.0, 0.0}, probe().time())).objects.empty());
@@ -167,7 +165,7 @@ TEST_F(NodeTest, FindsAWorkpieceThatMovesRigidly) {
 TEST_F(NodeTest, WaitsForLateTransformsAgainAfterAGap) {
   const auto place_frame = [] { probe().placeFrame("lathe", Eigen::Isometry3d::Identity()); };
   place_frame();
-  placeSheet("sheet", {0.0, 0.0, 0.0}, "lathe");
+  placeSquare("square", {0.0, 0.0, 0.0}, "lathe");
   probe().tick(0.01);
   probe().publish(poseAt({0.0, 0.0, 0.5}, probe().time()));
   probe().awaitWarning(hasReason(Warning::TF_FAIL));
@@ -188,8 +186,8 @@ TEST_F(NodeTest, FindsATurningWorkpieceOnItsArc) {
     probe().placeFrame("turntable", Eigen::Isometry3d(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ())));
   };
   turn_frame(-0.25);
-  placeSheet("sheet", {1.0, 0.0, 0.05}, "turntable", /*half_side=*/0.005);
-  // The tool rests where the sheet passes by halfway: the chord between both ends misses it by 31 mm.
+  placeSquare("square", {1.0, 0.0, 0.05}, "turntable", /*half_side=*/0.005);
+  // The tool rests where the square passes by halfway: the chord between both ends misses it by 31 mm.
   probe().tick(0.01);
   turn_frame(-0.25);
   EXPECT_TRUE(probe().move(poseAt({1.0, 0.0, 0.0}, probe().time())).objects.empty());
@@ -199,8 +197,8 @@ TEST_F(NodeTest, FindsATurningWorkpieceOnItsArc) {
 }
 
 TEST_F(NodeTest, DistinguishesWorkpieces) {
-  placeSheet("left", {-1.0, 0.0, 0.0});
-  placeSheet("right", {1.0, 0.0, 0.0});
+  placeSquare("left", {-1.0, 0.0, 0.0});
+  placeSquare("right", {1.0, 0.0, 0.0});
   moveTo({-1.0, 0.0, 0.5});
   const Contacts contacts = moveTo({-1.0, 0.0, -0.5});
   ASSERT_EQ(contacts.objects.size(), 1U);
@@ -209,7 +207,7 @@ TEST_F(NodeTest, DistinguishesWorkpieces) {
 
 // No pose is lost, however they queue: the flick of 2 ms in the middle is found.
 TEST_F(NodeTest, EveryPoseOfABurstIsSwept) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+  placeSquare("square", {0.0, 0.0, -1.0});
   probe().advance(0.5);
   probe().forgetContacts();
   const ros::Time begin = probe().time() - ros::Duration(0.5);
@@ -218,12 +216,12 @@ TEST_F(NodeTest, EveryPoseOfABurstIsSwept) {
   }
   const std::vector<Contacts> contacts = probe().awaitContactsUpTo(probe().time());
   EXPECT_TRUE(endToEnd(contacts));
-  EXPECT_GE(objectsMet(contacts), 1U);
-  EXPECT_LE(objectsMet(contacts), 2U);
+  EXPECT_GE(contactCount(contacts), 1U);
+  EXPECT_LE(contactCount(contacts), 2U);
 }
 
 TEST_F(NodeTest, PosesOfOneStampAreSweptToo) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   const Contacts contacts = probe().move(poseAt({0.0, 0.0, -0.5}, probe().time()));
   EXPECT_EQ(contacts.objects.size(), 1U);
@@ -248,7 +246,7 @@ class BadPoseTest : public NodeTest, public ::testing::WithParamInterface<BadPos
 
 // The next pose is swept from the last good one.
 TEST_P(BadPoseTest, IsRefusedAndIsUnknownAndLeavesNoGap) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   restAt({0.0, 0.0, 0.05});
   const ros::Time last_good = probe().time();
   probe().advance(0.01);
@@ -281,7 +279,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // /clock has its own connection, and may be late.
 TEST_F(NodeTest, WaitsWhenAPoseOvertakesTheSimulatedClock) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   const ros::Time ahead = probe().time() + ros::Duration(0.2);
   const size_t before = probe().warnings().size();
@@ -296,9 +294,9 @@ TEST_F(NodeTest, WaitsWhenAPoseOvertakesTheSimulatedClock) {
 class BadMeshTest : public NodeTest, public ::testing::WithParamInterface<BadMesh> {};
 
 TEST_P(BadMeshTest, IsRefusedAndIsUnknownUntilAGoodOne) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
-  auto bad = sheetAt("sheet", {0.0, 0.0, -1.0}, probe().time());
+  auto bad = squareAt("square", {0.0, 0.0, -1.0}, probe().time());
   bad.revision = 2;
   GetParam().spoil(bad);
   probe().publish(bad);
@@ -306,11 +304,11 @@ TEST_P(BadMeshTest, IsRefusedAndIsUnknownUntilAGoodOne) {
   EXPECT_TRUE(has(warning.text, "refused"));
 
   EXPECT_EQ(moveTo({0.0, 0.0, -0.5}).objects.size(), 1U);
-  probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.01}, probe().time()));  // still for the old mesh
+  probe().place(squareMovedTo("square", {0.0, 0.0, 0.01}, probe().time()));  // still for the old mesh
   moveTo({0.0, 0.0, -0.5});
   const auto of_newest_pose = [](const Warning& later) { return later.header.stamp == probe().time(); };
   EXPECT_NE(probe().awaitWarning(of_newest_pose).reasons & Warning::MESH_INVALID, 0U);
-  placeSheet("sheet", {0.0, 0.0, 0.02});
+  placeSquare("square", {0.0, 0.0, 0.02});
   probe().awaitWarning([](const Warning& later) { return (later.reasons & Warning::MESH_INVALID) == 0; });
 }
 
@@ -326,9 +324,9 @@ INSTANTIATE_TEST_SUITE_P(
 class BadVerticesTest : public NodeTest, public ::testing::WithParamInterface<BadVertices> {};
 
 TEST_P(BadVerticesTest, AreRefusedAndAreUnknown) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
-  auto bad = sheetMovedTo("sheet", {0.0, 0.0, -1.0}, probe().time());
+  auto bad = squareMovedTo("square", {0.0, 0.0, -1.0}, probe().time());
   GetParam().spoil(bad);
   probe().publish(bad);
   probe().awaitWarning(hasReason(Warning::MESH_INVALID));
@@ -345,25 +343,25 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST_F(NodeTest, AnEmptyMeshRemovesTheWorkpiece) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+  placeSquare("square", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
-  probe().remove("sheet");
+  probe().remove("square");
   placed_.clear();
   probe().awaitWarning(hasReason(Warning::NO_MESH));
 }
 
 TEST_F(NodeTest, AWorkpieceThatHasNotBeenSweptIsNotClear) {
-  placeSheet("first", {0.0, 0.0, -1.0});
+  placeSquare("first", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
-  placeSheet("second", {0.0, 0.0, -2.0});
+  placeSquare("second", {0.0, 0.0, -2.0});
   probe().awaitWarning(hasReason(Warning::NOT_SWEPT));
   restAt({0.0, 0.0, 0.5});
 }
 
 TEST_F(NodeTest, AWorkpieceInAnUnknownFrameIsNotClear) {
-  placeSheet("known", {0.0, 0.0, -1.0});
+  placeSquare("known", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
-  auto lost = sheetAt("lost", {0.0, 0.0, -1.0}, probe().time());
+  auto lost = squareAt("lost", {0.0, 0.0, -1.0}, probe().time());
   lost.header.frame_id = "nowhere";
   probe().publish(lost);
   placed_.insert("lost");
@@ -374,7 +372,7 @@ TEST_F(NodeTest, AWorkpieceInAnUnknownFrameIsNotClear) {
 }
 
 TEST_F(NodeTest, StalePosesAndMeshesAreUnknownOnTheStampClock) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+  placeSquare("square", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
   probe().advance(1.001);
   probe().awaitWarning(hasReason(Warning::POSE_STALE));
@@ -383,7 +381,7 @@ TEST_F(NodeTest, StalePosesAndMeshesAreUnknownOnTheStampClock) {
 }
 
 TEST_F(NodeTest, TimeThatGoesBackForgetsAndRecovers) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.5});
   probe().setClock(probe().time() - ros::Duration(100.0));
   const Warning jump = probe().awaitWarning(hasReason(Warning::TIME_JUMP));
@@ -393,14 +391,12 @@ TEST_F(NodeTest, TimeThatGoesBackForgetsAndRecovers) {
   const Contacts first = moveTo({0.0, 0.0, -0.5});  // no motion from a pose of the time before
   EXPECT_EQ(first.interval_start, first.header.stamp);
   EXPECT_TRUE(first.objects.empty());
-  moveUntil("sheet", {0.0, 0.0, 0.0}, {0.0, 0.0, -0.5}, isClear);
+  moveUntil("square", {0.0, 0.0, 0.0}, {0.0, 0.0, -0.5}, isClear);
 }
 
-TEST_F(NodeTest, CheckSweepFindsASheetOnThePath) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
-  CheckSweep::Request request;
-  for (const double z : {1.0, 0.5, -0.5}) request.path.push_back(poseAt({0.0, 0.0, z}, ros::Time()));
-  const auto response = probe().check(request);
+TEST_F(NodeTest, CheckSweepFindsASquareOnThePath) {
+  placeSquare("square", {0.0, 0.0, 0.0});
+  const auto response = probe().check(requestAlong({{0.0, 0.0, 1.0}, {0.0, 0.0, 0.5}, {0.0, 0.0, -0.5}}));
   ASSERT_TRUE(response.success) << response.message;
   EXPECT_TRUE(response.collision);
   EXPECT_FALSE(response.clear);
@@ -412,9 +408,8 @@ TEST_F(NodeTest, CheckSweepFindsASheetOnThePath) {
 }
 
 TEST_F(NodeTest, CheckSweepReturnsTheTimeOfImpactOnRequest) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
-  CheckSweep::Request request;
-  for (const double z : {1.0, 0.5, -0.5}) request.path.push_back(poseAt({0.01, 0.02, z}, ros::Time()));
+  placeSquare("square", {0.0, 0.0, 0.0});
+  CheckSweep::Request request = requestAlong({{0.01, 0.02, 1.0}, {0.01, 0.02, 0.5}, {0.01, 0.02, -0.5}});
   request.fine = true;
   const auto response = probe().check(request);
   ASSERT_TRUE(response.success) << response.message;
@@ -428,9 +423,8 @@ TEST_F(NodeTest, CheckSweepReturnsTheTimeOfImpactOnRequest) {
 }
 
 TEST_F(NodeTest, CheckSweepOfAFreePathIsClear) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
-  CheckSweep::Request request;
-  for (const double x : {1.0, 2.0}) request.path.push_back(poseAt({x, 0.0, 0.0}, ros::Time()));
+  placeSquare("square", {0.0, 0.0, 0.0});
+  CheckSweep::Request request = requestAlong({{1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}});
   for (const char* detector : {"", "select", "reference"}) {
     for (const char* volume : {"", "obb", "obb_planes", "hull"}) {
       request.detector = detector;
@@ -442,23 +436,18 @@ TEST_F(NodeTest, CheckSweepOfAFreePathIsClear) {
 }
 
 TEST_F(NodeTest, CheckSweepOfAStaleWorkpieceIsFreeButNotClear) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
-  CheckSweep::Request request;
-  request.path = {poseAt({1.0, 0.0, 0.0}, ros::Time())};
+  placeSquare("square", {0.0, 0.0, 0.0});
   probe().advance(10.1);
-  const auto response = probe().check(request);
+  const auto response = probe().check(requestAlong({{1.0, 0.0, 0.0}}));
   EXPECT_TRUE(response.success);
   EXPECT_FALSE(response.collision);
   EXPECT_FALSE(response.clear);
 }
 
 TEST_F(NodeTest, CheckSweepOfOnePoseTestsWhereItStands) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
-  CheckSweep::Request request;
-  request.path = {
-      poseAt({0.0, 0.0, -0.05}, ros::Time())};  // the tool is 0.15 m long and points down: it pierces the sheet
-  EXPECT_TRUE(probe().check(request).collision);
-  request.path = {poseAt({0.0, 0.0, 0.01}, ros::Time())};
+  placeSquare("square", {0.0, 0.0, 0.0});
+  EXPECT_TRUE(probe().check(requestAlong({{0.0, 0.0, -0.05}})).collision);  // the tool is 0.15 m long and points down
+  CheckSweep::Request request = requestAlong({{0.0, 0.0, 0.01}});
   EXPECT_FALSE(probe().check(request).collision);
   request.margin = 0.02;
   const auto grown = probe().check(request);
@@ -467,10 +456,9 @@ TEST_F(NodeTest, CheckSweepOfOnePoseTestsWhereItStands) {
 }
 
 TEST_F(NodeTest, CheckSweepTestsTheWorkpiecesItIsAskedFor) {
-  placeSheet("left", {-1.0, 0.0, 0.0});
-  placeSheet("right", {1.0, 0.0, 0.0});
-  CheckSweep::Request request;
-  request.path = {poseAt({-1.0, 0.0, 0.5}, ros::Time()), poseAt({-1.0, 0.0, -0.5}, ros::Time())};
+  placeSquare("left", {-1.0, 0.0, 0.0});
+  placeSquare("right", {1.0, 0.0, 0.0});
+  CheckSweep::Request request = requestAlong({{-1.0, 0.0, 0.5}, {-1.0, 0.0, -0.5}});
   request.mesh_ids = {"right"};
   EXPECT_TRUE(probe().check(request).clear);
   request.mesh_ids = {"left", "right", "left"};
@@ -480,9 +468,8 @@ TEST_F(NodeTest, CheckSweepTestsTheWorkpiecesItIsAskedFor) {
 }
 
 TEST_F(NodeTest, CheckSweepRefusesWhatItCannotTest) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
-  CheckSweep::Request good;
-  good.path = {poseAt({1.0, 0.0, 0.0}, ros::Time())};
+  placeSquare("square", {0.0, 0.0, 0.0});
+  CheckSweep::Request good = requestAlong({{1.0, 0.0, 0.0}});
   const auto refused = [&](const std::function<void(CheckSweep::Request&)>& spoil, const std::string& expected) {
     CheckSweep::Request request = good;
     spoil(request);
@@ -505,7 +492,7 @@ TEST_F(NodeTest, CheckSweepRefusesWhatItCannotTest) {
 }
 
 TEST_F(NodeTest, MarkersShowToolVolumeAndTouchedTriangles) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   moveTo({0.0, 0.0, -0.05});
   std::set<std::string> namespaces;
@@ -514,7 +501,7 @@ TEST_F(NodeTest, MarkersShowToolVolumeAndTouchedTriangles) {
     for (const auto& marker : drawn.markers) {
       if (marker.action == visualization_msgs::Marker::ADD) namespaces.insert(marker.ns);
     }
-    // A contact of the test before may still be held: the newest sweep has to have met the sheet.
+    // A contact of the test before may still be held: the newest sweep has to have met the square.
     return namespaces.count("contact_triangles") + namespaces.count("swept_volume") == 2;
   });
   for (const char* expected : {"tool", "swept_volume", "contact_triangles", "trajectory", "warning_text"}) {
@@ -528,7 +515,7 @@ TEST_F(NodeTest, MarkersShowToolVolumeAndTouchedTriangles) {
 }
 
 TEST_F(NodeTest, TheViewShowsVolumesAndContacts) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   moveTo({0.0, 0.0, -0.05});
   sweep_guard::View::ConstPtr view;
@@ -538,7 +525,7 @@ TEST_F(NodeTest, TheViewShowsVolumesAndContacts) {
   ASSERT_TRUE(view);
   EXPECT_EQ(view->header.frame_id, "world");
   EXPECT_EQ(view->level, sweep_guard::Warning::CONTACT);
-  EXPECT_EQ(view->objects[0].mesh_id, "sheet");
+  EXPECT_EQ(view->objects[0].mesh_id, "square");
   EXPECT_EQ(view->objects[0].touched, (std::vector<std::uint32_t>{0, 1}));
   EXPECT_FALSE(view->objects[0].measured.empty());
   EXPECT_FALSE(view->objects[0].impacts.empty());

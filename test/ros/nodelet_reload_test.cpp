@@ -33,7 +33,7 @@ TEST_F(NodeletReloadTest, TheManagerOutlivesGuardsUnloadedUnderLoad) {
   for (int cycle = 0; cycle < 5; ++cycle) {
     ASSERT_TRUE(load("/sweep_guard")) << "cycle " << cycle;
     GuardProbe probe(/*drives_clock=*/false);
-    probe.place(sheetAt("sheet", {0.0, 0.0, 0.0}, ros::Time::now()));
+    probe.place(squareAt("square", {0.0, 0.0, 0.0}, ros::Time::now()));
     for (int i = 0; i < 1000; ++i) probe.publish(poseAt({0.0, 0.0, 0.0}, ros::Time::now()));
     ASSERT_TRUE(unload("/sweep_guard")) << "cycle " << cycle;
   }
@@ -42,7 +42,7 @@ TEST_F(NodeletReloadTest, TheManagerOutlivesGuardsUnloadedUnderLoad) {
 TEST_F(NodeletReloadTest, ASecondGuardLeavesTheFirstAlone) {
   ASSERT_TRUE(load("/sweep_guard"));
   GuardProbe probe(/*drives_clock=*/false);
-  probe.place(sheetAt("sheet", {0.0, 0.0, 0.0}, ros::Time::now()));
+  probe.place(squareAt("square", {0.0, 0.0, 0.0}, ros::Time::now()));
   for (int i = 0; i < 5; ++i) {
     ASSERT_TRUE(load("/second"));
     EXPECT_EQ(probe.move(poseAt({0.0, 0.0, 0.0}, ros::Time::now())).objects.size(), 1U);

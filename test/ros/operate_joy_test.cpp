@@ -46,11 +46,11 @@ TEST_F(OperateJoyTest, TheToolMovesWhileMessagesComeAndStopsWithThem) {
 // A held device sends messages steadily, here after every fifth pose.
 TEST_F(OperateJoyTest, TheToolIsLedIntoTheWorkpiece) {
   size_t poses = 0;
-  while (!listener_.touched() && poses < 1000) {
+  while (!listener_.inContact() && poses < 1000) {
     push({0.0F, 0.0F, -1.0F, 0.0F, 0.0F, 0.0F});
     poses = listener_.awaitPoses(poses + 5).size();
   }
-  EXPECT_TRUE(listener_.touched());
+  EXPECT_TRUE(listener_.inContact());
 }
 
 }  // namespace

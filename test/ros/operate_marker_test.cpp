@@ -61,7 +61,7 @@ TEST(OperateMarkerTest, TheToolFollowsTheMarkerAsADeviceWould) {
   const Poses all = listener.awaitPoses(0);
   EXPECT_TRUE(isEven(all, kPeriod));
   EXPECT_LE(longestStep(all), kSpeed * kPeriod.toSec() + 1e-9);
-  EXPECT_FALSE(listener.touched());
+  EXPECT_FALSE(listener.inContact());
   mouse.dragTo(start - Vector3d(0, 0, 0.12));
   listener.awaitContact();
 }

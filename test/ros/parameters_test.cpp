@@ -19,7 +19,7 @@ namespace {
 class ParametersTest : public ::testing::Test {
  protected:
   void TearDown() override {
-    for (const char* const set : {"/guarded", "/sweep_guard"}) ros::param::del(set);
+    for (const char* const set : {"/guarded", "/sweep_guard", "/robot_description"}) ros::param::del(set);
   }
   ros::NodeHandle node_{"/guarded"};
 };
@@ -124,7 +124,6 @@ TEST_F(ParametersTest, MakeAToolOfARobot) {
   EXPECT_EQ(
       refusal(node_),
       "no tool from the parameter 'robot_description': tool/joints/opening is beyond the joint's limits, 0 to 0.5");
-  ros::param::del("/robot_description");
 }
 
 // A command line has no lists.
@@ -135,7 +134,6 @@ TEST_F(ParametersTest, TakeAListOfLinksAsText) {
     node_.setParam("tool/links", links);
     EXPECT_EQ(loadParameters(node_).tool->pieces().size(), 2U) << links;
   }
-  ros::param::del("/robot_description");
 }
 
 TEST_F(ParametersTest, FindTheRobotUnderAnotherName) {
@@ -334,7 +332,6 @@ TEST_F(ParametersTest, StopTheNodeWithOneLineForARobotThatMakesNoTool) {
     EXPECT_TRUE(has(output, expected));
     EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
   }
-  ros::param::del("/robot_description");
 }
 
 }  // namespace

@@ -21,14 +21,14 @@ class PredictionTest : public NodeTest {
  protected:
   void SetUp() override {
     NodeTest::SetUp();
-    placeSheet("sheet", {0.0, 0.0, 0.0});
+    placeSquare("square", {0.0, 0.0, 0.0});
   }
 
   // One step of the tip along z; both inputs stay fresh.
   Prediction glideTo(double z) {
     moveTo({0.0, 0.0, z});
     const ros::Time pose = probe().time();
-    if (++steps_ % 20 == 0) probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.0}, pose));
+    if (++steps_ % 20 == 0) probe().place(squareMovedTo("square", {0.0, 0.0, 0.0}, pose));
     return probe().awaitPrediction(pose);
   }
 
@@ -51,7 +51,7 @@ ros::Time firstOf(const std::vector<Warning>& warnings, size_t since, std::uint8
 
 TEST_F(PredictionTest, ALonePoseIsNoMotion) {
   probe().setClock(probe().time() - ros::Duration(100.0));
-  probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.0}, probe().time()));
+  probe().place(squareMovedTo("square", {0.0, 0.0, 0.0}, probe().time()));
   const Prediction nothing = glideTo(0.5);
   EXPECT_FALSE(nothing.valid);
   EXPECT_TRUE(nothing.poses.empty());
@@ -130,7 +130,7 @@ TEST_F(PredictionTest, AWarningNamesThePredictedContact) {
   EXPECT_EQ(prediction.interval, Prediction::CONSIDERED);
   EXPECT_GT(prediction.probability, 0.5);
   ASSERT_EQ(prediction.objects.size(), 1U);
-  EXPECT_EQ(prediction.objects[0].mesh_id, "sheet");
+  EXPECT_EQ(prediction.objects[0].mesh_id, "square");
   EXPECT_EQ(prediction.objects[0].triangles, (std::vector<std::uint32_t>{0, 1}));
 
   const Warning warning =
@@ -138,7 +138,7 @@ TEST_F(PredictionTest, AWarningNamesThePredictedContact) {
   EXPECT_EQ(warning.level, Warning::CONSIDERED) << warning.text;
   EXPECT_TRUE(warning.considered);
   EXPECT_FALSE(warning.reflex || warning.clear || warning.contact);
-  EXPECT_EQ(warning.mesh_id, "sheet");
+  EXPECT_EQ(warning.mesh_id, "square");
   EXPECT_EQ(warning.triangles, prediction.objects[0].triangles);
   EXPECT_NEAR(warning.time_to_collision.toSec(), prediction.time_to_collision.toSec(), 0.1);
   EXPECT_GE(warning.covered_until, warning.header.stamp + ros::Duration(1.0));
@@ -249,7 +249,7 @@ TEST_F(PredictionTest, PredictFindsWhatLiesBeyondTheConfiguredHorizon) {
   EXPECT_GT(far.time_to_collision.toSec(), 1.1);
   EXPECT_LT(far.time_to_collision.toSec(), 4.0);
   ASSERT_EQ(far.objects.size(), 1U);
-  EXPECT_EQ(far.objects[0].mesh_id, "sheet");
+  EXPECT_EQ(far.objects[0].mesh_id, "square");
 }
 
 TEST_F(PredictionTest, PredictRefusesWhatItCannotAnswer) {

@@ -14,10 +14,10 @@ using sweep_guard::Warning;
 // Returns when the warning was sent: it is valid for 0.2 s.
 ros::Time sent(const Warning& warning) { return warning.valid_until - ros::Duration(0.2); }
 
-// Sends a pose and the sheet until the guard is clear, and returns their newest stamps.
+// Sends a pose and the square until the guard is clear, and returns their newest stamps.
 std::pair<ros::Time, ros::Time> stampsOfAClearScene(GuardProbe& probe) {
   while (true) {
-    const auto vertices = sheetMovedTo("sheet", {0.0, 0.0, -1.0}, ros::Time::now());
+    const auto vertices = squareMovedTo("square", {0.0, 0.0, -1.0}, ros::Time::now());
     probe.place(vertices);
     probe.skipWarnings();
     const auto pose = poseAt({0.0, 0.0, 0.5}, ros::Time::now());
@@ -32,7 +32,7 @@ std::pair<ros::Time, ros::Time> stampsOfAClearScene(GuardProbe& probe) {
 // Load only delays: the shortest of ten times must be in time.
 TEST(StalenessTest, SilenceIsUnknownInTime) {
   GuardProbe probe(/*drives_clock=*/false);
-  probe.place(sheetAt("sheet", {0.0, 0.0, -1.0}, ros::Time::now()));
+  probe.place(squareAt("square", {0.0, 0.0, -1.0}, ros::Time::now()));
   probe.publish(poseAt({0.0, 0.0, 0.5}, ros::Time::now()));  // two poses are a motion
   double poses_noticed = std::numeric_limits<double>::infinity();
   double mesh_noticed = poses_noticed;

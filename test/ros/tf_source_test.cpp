@@ -15,7 +15,7 @@ Eigen::Isometry3d pointingDownAt(double z) {
 
 TEST(TfSourceTest, SweepsFromTransformToTransform) {
   GuardProbe probe(/*drives_clock=*/true, PoseSource::kTf);
-  probe.place(sheetAt("sheet", {0.0, 0.0, 0.0}, probe.time()));
+  probe.place(squareAt("square", {0.0, 0.0, 0.0}, probe.time()));
 
   probe.tick(0.01);
   const ros::Time start = probe.time();

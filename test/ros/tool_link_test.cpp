@@ -19,10 +19,10 @@ void PrintTo(const Link& link, std::ostream* out) { *out << link.name; }
 
 class ToolLinkTest : public NodeTest, public ::testing::WithParamInterface<Link> {};
 
-// The tool points down and descends to the sheet, which is under one link only.
+// The tool points down and descends to the square, which is under one link only.
 TEST_P(ToolLinkTest, IsNamedBeforeAndInContact) {
-  probe().place(sheetAt("sheet", {GetParam().x, 0.0, 0.0}, probe().time(), /*half_side=*/0.008));
-  placed_.insert("sheet");
+  probe().place(squareAt("square", {GetParam().x, 0.0, 0.0}, probe().time(), /*half_side=*/0.008));
+  placed_.insert("square");
   const size_t before = probe().warnings().size();
   for (int mm = 60; mm >= -5; --mm) {  // every 10 ms
     moveTo({0.0, 0.0, 0.001 * mm});

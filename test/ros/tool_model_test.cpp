@@ -65,26 +65,24 @@ std::string refusal(const std::string& urdf, const ToolModelOptions& options) {
   return ::refusal([&] { loadToolModel(urdf, options); });
 }
 
+// Of a robot with one link.
+std::vector<ConvexPiece> piecesOf(const std::string& collisions) {
+  return loadToolModel(robot(link("a", collisions)), toolOf("a", {})).pieces;
+}
+
 TEST(ToolModelTest, PutsPrimitivesWhereTheirOriginsAre) {
-  const auto pieces = loadToolModel(robot(link("a", collision("<cylinder radius='0.1' length='0.6'/>",
-                                                              "<origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>"))),
-                                    toolOf("a", {}))
-                          .pieces;
+  const auto pieces = piecesOf(
+      collision("<cylinder radius='0.1' length='0.6'/>", "<origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>"));
   ASSERT_EQ(pieces.size(), 1U);
   EXPECT_EQ(pieces[0].link, "a");
   expectBox(pieces, {0.7, 1.9, 2.9}, {1.3, 2.1, 3.1});
-  expectBox(loadToolModel(robot(link("a", collision("<box size='0.2 0.4 0.6'/>"))), toolOf("a", {})).pieces,
-            {-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3});
-  expectBox(
-      loadToolModel(robot(link("a", collision("<sphere radius='0.5'/>", "<origin xyz='0 0 1'/>"))), toolOf("a", {}))
-          .pieces,
-      {-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5});
+  expectBox(piecesOf(collision("<box size='0.2 0.4 0.6'/>")), {-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3});
+  expectBox(piecesOf(collision("<sphere radius='0.5'/>", "<origin xyz='0 0 1'/>")), {-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5});
 }
 
 // A polygon with 32 sides would fall short of the circle by half a per cent.
 TEST(ToolModelTest, KeepsCylindersRound) {
-  const auto pieces =
-      loadToolModel(robot(link("a", collision("<cylinder radius='1' length='1'/>"))), toolOf("a", {})).pieces;
+  const auto pieces = piecesOf(collision("<cylinder radius='1' length='1'/>"));
   for (double angle = 0.0; angle < 6.3; angle += 0.01) {
     EXPECT_NEAR(support(pieces, Vector3d(std::cos(angle), std::sin(angle), 0.0)), 1.0, 1e-12);
   }
@@ -165,16 +163,14 @@ TEST(ToolModelTest, MakesHullsOfMeshesToScale) {
   const PackageFolder folder;
   folder.write("robot/t.obj", tetrahedronObj());
   const auto tool = [](const std::string& scale) {
-    return loadToolModel(robot(link("a", collision("<mesh filename='package://robot/t.obj' scale='" + scale + "'/>"))),
-                         toolOf("a", {}))
-        .pieces;
+    return piecesOf(collision("<mesh filename='package://robot/t.obj' scale='" + scale + "'/>"));
   };
   expectBox(tool("1 1 1"), {0, 0, 0}, {1, 1, 1});
   expectBox(tool("0.1 2 -3"), {0, 0, -3}, {0.1, 2, 0});
   EXPECT_NEAR(support(tool("1 1 1"), Vector3d(1, 1, 1).normalized()), 1.0 / std::sqrt(3.0), 1e-9);
 }
 
-TEST(ToolModelTest, GrowsEveryPartByThePadding) {
+TEST(ToolModelTest, GrowsEveryPieceByThePadding) {
   ToolModelOptions options = toolOf("a", {});
   options.padding = 0.05;
   const std::string urdf = robot(link("a", kBall + collision("<box size='1 1 1'/>", "<origin xyz='2 0 0'/>")));

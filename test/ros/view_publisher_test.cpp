@@ -9,16 +9,16 @@ using sweep_guard_core::WarningLevel;
 
 const sweep_guard_core::Tool kTool = sweep_guard_core::Tool::cylinder(0.01, 0.1, 8);
 
-std::shared_ptr<const sweep_guard_core::Workpiece> sheet() {
+std::shared_ptr<const sweep_guard_core::Workpiece> square() {
   const sweep_guard_core::TriangleMesh mesh_M({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
   return std::make_shared<const sweep_guard_core::Workpiece>(
-      sweep_guard_core::Workpiece{"sheet", /*revision=*/7, {}, {}, "table", mesh_M});
+      sweep_guard_core::Workpiece{"square", /*revision=*/7, {}, {}, "table", mesh_M});
 }
 
 MarkerScene touching() {
   auto report = std::make_shared<sweep_guard_core::SweepReport>();
   sweep_guard_core::SweptObject& object = report->objects.emplace_back();
-  object.workpiece = sheet();
+  object.workpiece = square();
   object.result.not_ruled_out = {1};
   sweep_guard_core::SweptVolume& volume = object.result.volumes_M.emplace_back();
   volume.box.half_extents = {0.1, 0.2, 0.3};
@@ -42,7 +42,7 @@ TEST(ViewTest, ShowsSweepsContactsAndPrediction) {
   const sweep_guard::View view = toMsg(touching());
   ASSERT_EQ(view.objects.size(), 1U);
   const sweep_guard::ObjectView& object = view.objects[0];
-  EXPECT_EQ(object.mesh_id, "sheet");
+  EXPECT_EQ(object.mesh_id, "square");
   EXPECT_EQ(object.revision, 7U);
   EXPECT_EQ(object.frame_id, "table");
   EXPECT_EQ(object.touched, std::vector<std::uint32_t>{1});

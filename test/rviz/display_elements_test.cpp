@@ -46,7 +46,7 @@ class ElementTest : public SweepDisplayTest {
     Rviz::only().setDistance(1.0F);
     display_->subProp("Contacts")->subProp("Point Size")->setValue(0.03F);
     display_->subProp("Normals")->subProp("Length")->setValue(0.1F);
-    place(sheet(0.0));
+    place(square(0.0));
   }
 
   /// Shows one element alone, opaque and magenta.

@@ -18,10 +18,10 @@ std::vector<std::uint32_t> range(std::uint32_t begin, std::uint32_t end) {
 
 }  // namespace
 
-DeformableMesh sheet(double z, std::uint32_t revision) {
+DeformableMesh square(double z, std::uint32_t revision) {
   DeformableMesh mesh;
   mesh.header.frame_id = "world";
-  mesh.id = "sheet";
+  mesh.id = "square";
   mesh.revision = revision;
   for (std::uint32_t y = 0; y <= kSide; ++y) {
     for (std::uint32_t x = 0; x <= kSide; ++x) {
@@ -59,7 +59,7 @@ View viewOf(std::uint8_t level) {
   view.pose.orientation.w = 1.0;
   view.pose.position.z = 1.0;
   sweep_guard::ObjectView& object = view.objects.emplace_back();
-  object.mesh_id = "sheet";
+  object.mesh_id = "square";
   object.revision = 1;
   object.frame_id = "world";
   object.touched = range(80, 95);

@@ -7,11 +7,11 @@
 
 namespace sweep_guard_rviz {
 
-constexpr std::uint32_t kSide = 10;                       ///< squares along a side of the sheet
-constexpr size_t kTriangles = size_t{2} * kSide * kSide;  ///< number in the sheet
+constexpr std::uint32_t kSide = 10;                       ///< squares along a side of the square
+constexpr size_t kTriangles = size_t{2} * kSide * kSide;  ///< number in the square
 
-/// Makes a sheet of 4 m with two triangles per square.
-sweep_guard::DeformableMesh sheet(double z, std::uint32_t revision = 1);
+/// Makes a square of 4 m with two triangles per square.
+sweep_guard::DeformableMesh square(double z, std::uint32_t revision = 1);
 sweep_guard::MeshVertices verticesOf(const sweep_guard::DeformableMesh& mesh);
 
 /// Makes a view in which the lists of touched, reflex and considered triangles overlap.

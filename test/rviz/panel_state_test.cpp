@@ -12,9 +12,10 @@ using sweep_guard::Warning;
 
 const Moment kNow{SteadyTime(std::chrono::hours(1)), ros::Time(1000.0)};
 
-Warning warningLevel(std::uint8_t level) {
+Warning warningLevel(std::uint8_t level, std::uint32_t reasons = 0) {
   Warning warning;
   warning.level = level;
+  warning.reasons = reasons;
   warning.clear = level == Warning::CLEAR;
   warning.time_to_collision = ros::Duration(-1.0);
   warning.valid_until = kNow.stamp + ros::Duration(0.2);
@@ -58,18 +59,14 @@ TEST(PanelStateTest, AWarningThatRanOutIsUnknownHoweverFreshItCame) {
 TEST(PanelStateTest, AZeroInitializedWarningIsUnknown) { EXPECT_EQ(shown(Warning()).level, WarningLevel::kUnknown); }
 
 TEST(PanelStateTest, ClearWithAReasonOrWithoutPermissionIsUnknown) {
+  EXPECT_EQ(shown(warningLevel(Warning::CLEAR, Warning::MESH_STALE)).level, WarningLevel::kUnknown);
   Warning warning = warningLevel(Warning::CLEAR);
-  warning.reasons = Warning::MESH_STALE;
-  EXPECT_EQ(shown(warning).level, WarningLevel::kUnknown);
-  warning = warningLevel(Warning::CLEAR);
   warning.clear = false;
   EXPECT_EQ(shown(warning).level, WarningLevel::kUnknown);
 }
 
 TEST(PanelStateTest, OverloadKeepsClearAndIsShown) {
-  Warning warning = warningLevel(Warning::CLEAR);
-  warning.reasons = Warning::OVERLOAD;
-  const PanelState state = shown(warning);
+  const PanelState state = shown(warningLevel(Warning::CLEAR, Warning::OVERLOAD));
   EXPECT_EQ(state.level, WarningLevel::kClear);
   EXPECT_EQ(state.reasons.size(), 1U);
 }
@@ -80,23 +77,19 @@ TEST(PanelStateTest, ALevelThatDoesNotExistIsUnknown) {
 
 TEST(PanelStateTest, EveryReasonHasATextWhereTheWarningHasNone) {
   for (std::uint32_t bit = 1; bit <= Warning::DISABLED; bit <<= 1U) {
-    Warning warning = warningLevel(Warning::UNKNOWN);
-    warning.reasons = bit;
-    EXPECT_EQ(shown(warning).reasons.size(), 1U) << bit;
+    EXPECT_EQ(shown(warningLevel(Warning::UNKNOWN, bit)).reasons.size(), 1U) << bit;
   }
 }
 
 TEST(PanelStateTest, TheSentencesOfTheWarningBecomeReasons) {
-  Warning warning = warningLevel(Warning::UNKNOWN);
-  warning.reasons = Warning::POSE_STALE | Warning::NO_MESH;
+  Warning warning = warningLevel(Warning::UNKNOWN, Warning::POSE_STALE | Warning::NO_MESH);
   warning.text = "UNKNOWN: newest tool pose tested is 0.52 s old; no workpiece yet";
   EXPECT_EQ(shown(warning).reasons,
             (std::vector<std::string>{"newest tool pose tested is 0.52 s old", "no workpiece yet"}));
 }
 
 TEST(PanelStateTest, NothingIsSaidTwice) {
-  Warning warning = warningLevel(Warning::CONTACT);
-  warning.reasons = Warning::POSE_STALE;
+  Warning warning = warningLevel(Warning::CONTACT, Warning::POSE_STALE);
   warning.text = "CONTACT: tool meets 'liver', 3 triangles; newest tool pose tested is 0.52 s old";
   EXPECT_EQ(shown(warning).reasons, std::vector<std::string>{"newest tool pose tested is 0.52 s old"});
 }
@@ -138,9 +131,7 @@ TEST(PanelStateTest, OnlyContactFlashesAndDoesSoTwiceASecond) {
 }
 
 TEST(PanelStateTest, DisabledIsNotClearAndSaysSo) {
-  Warning warning = warningLevel(Warning::UNKNOWN);
-  warning.reasons = Warning::DISABLED;
-  const PanelState state = shown(warning);
+  const PanelState state = shown(warningLevel(Warning::UNKNOWN, Warning::DISABLED));
   EXPECT_EQ(state.level, WarningLevel::kUnknown);
   EXPECT_TRUE(state.disabled);
   EXPECT_EQ(state.title, "DISABLED");

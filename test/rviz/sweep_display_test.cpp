@@ -18,10 +18,17 @@ using sweep_guard::DeformableMesh;
 using sweep_guard::View;
 using sweep_guard::Warning;
 
-TEST_F(SweepDisplayTest, HighlightsEveryTriangleOnce) {
-  place(sheet(0.0));
-  show(viewOf(Warning::CONTACT));
-  await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
+class HighlightTest : public SweepDisplayTest {
+ protected:
+  void showHighlights(std::uint8_t level) {
+    place(square(0.0));
+    show(viewOf(level));
+    await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
+  }
+};
+
+TEST_F(HighlightTest, HighlightsEveryTriangleOnce) {
+  showHighlights(Warning::CONTACT);
   EXPECT_EQ(drawn(SurfaceVisual::kTouched), 15U);
   EXPECT_EQ(drawn(SurfaceVisual::kReflex), 15U);
   EXPECT_EQ(drawn(SurfaceVisual::kConsidered), 30U);
@@ -31,10 +38,8 @@ TEST_F(SweepDisplayTest, HighlightsEveryTriangleOnce) {
   EXPECT_GT(shareOf(picture, isAmber), 0.01);
 }
 
-TEST_F(SweepDisplayTest, IsGrayWhileTheLevelIsUnknown) {
-  place(sheet(0.0));
-  show(viewOf(Warning::UNKNOWN));
-  await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
+TEST_F(HighlightTest, IsGrayWhileTheLevelIsUnknown) {
+  showHighlights(Warning::UNKNOWN);
   const QImage picture = Rviz::only().picture();
   keepPicture(picture, "display_unknown");
   EXPECT_GT(shareOf(picture, isGray), 0.01);
@@ -42,10 +47,8 @@ TEST_F(SweepDisplayTest, IsGrayWhileTheLevelIsUnknown) {
   EXPECT_EQ(shareOf(picture, isAmber), 0.0);
 }
 
-TEST_F(SweepDisplayTest, ShowsOnlyTheWorkpieceWhenTheGuardIsSilent) {
-  place(sheet(0.0));
-  show(viewOf(Warning::CONTACT));
-  await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
+TEST_F(HighlightTest, ShowsOnlyTheWorkpieceWhenTheGuardIsSilent) {
+  showHighlights(Warning::CONTACT);
   fallSilent();
   await("silence", [this] { return drawn(SurfaceVisual::kTouched) == 0; });
   EXPECT_EQ(drawn(SurfaceVisual::kSurface), kTriangles);
@@ -53,27 +56,25 @@ TEST_F(SweepDisplayTest, ShowsOnlyTheWorkpieceWhenTheGuardIsSilent) {
   await("the status", [this] { return status("View") == "the guard is silent"; });
 }
 
-TEST_F(SweepDisplayTest, ASurfaceIsSeenWhereItsVerticesAre) {
+TEST_F(SweepDisplayTest, ASurfaceIsDrawnWhereItsVerticesAre) {
   const auto pale = [](const QColor& c) { return c.red() > 120 && c.green() > 110 && c.blue() > 90; };
-  place(sheet(-100.0));
+  place(square(-100.0));
   EXPECT_LT(shareOf(Rviz::only().picture(), pale), 0.01);
-  vertices_publisher_.publish(verticesOf(sheet(0.0)));
+  vertices_publisher_.publish(verticesOf(square(0.0)));
   await("the surface", [&] { return shareOf(Rviz::only().picture(), pale) > 0.05; });
-  vertices_publisher_.publish(verticesOf(sheet(-100.0)));
+  vertices_publisher_.publish(verticesOf(square(-100.0)));
   await("that it goes", [&] { return shareOf(Rviz::only().picture(), pale) < 0.01; });
 }
 
 TEST_F(SweepDisplayTest, HighlightsNothingOfAnotherRevision) {
-  place(sheet(0.0, /*revision=*/2));
+  place(square(0.0, /*revision=*/2));
   show(viewOf(Warning::CONTACT));
   await("the tool", [this] { return display_->drawnTools() > 0; });
   EXPECT_EQ(drawn(SurfaceVisual::kTouched), 0U);
 }
 
-TEST_F(SweepDisplayTest, AWorkpieceThatTheViewOmitsHasNoHighlights) {
-  place(sheet(0.0));
-  show(viewOf(Warning::CONTACT));
-  await("highlights", [this] { return drawn(SurfaceVisual::kTouched) > 0; });
+TEST_F(HighlightTest, AWorkpieceThatTheViewOmitsHasNoHighlights) {
+  showHighlights(Warning::CONTACT);
   View view = viewOf(Warning::CONTACT);
   view.objects.clear();
   show(view);
@@ -82,7 +83,7 @@ TEST_F(SweepDisplayTest, AWorkpieceThatTheViewOmitsHasNoHighlights) {
 }
 
 TEST_F(SweepDisplayTest, AResetReceivesLatchedMessagesAgain) {
-  place(sheet(0.0));
+  place(square(0.0));
   display_->reset();
   EXPECT_EQ(drawn(SurfaceVisual::kSurface), 0U);
   await("the mesh", [this] { return drawn(SurfaceVisual::kSurface) == kTriangles; });
@@ -149,30 +150,30 @@ TEST_F(SweepDisplayTest, ReportsAMissingMesh) {
 }
 
 TEST_F(SweepDisplayTest, ReportsAnUnknownFrame) {
-  DeformableMesh mesh = sheet(0.0);
+  DeformableMesh mesh = square(0.0);
   mesh.header.frame_id = "nowhere";
   mesh_publisher_.publish(mesh);
   await("the status", [this] { return status("Frames") == "no transform to world from nowhere"; });
 }
 
 TEST_F(SweepDisplayTest, RefusesAndReportsAnInvalidMesh) {
-  DeformableMesh mesh = sheet(0.0);
+  DeformableMesh mesh = square(0.0);
   mesh.mesh.vertices[3].x = std::nan("");
   mesh_publisher_.publish(mesh);
-  await("the status", [this] { return status("Mesh") == "'sheet': a vertex is NaN or infinite"; });
+  await("the status", [this] { return status("Mesh") == "'square': a vertex is NaN or infinite"; });
   EXPECT_EQ(drawn(SurfaceVisual::kSurface), 0U);
 }
 
 TEST_F(SweepDisplayTest, ReportsVerticesWithoutAMesh) {
   await("the display", [this] { return vertices_publisher_.getNumSubscribers() > 0; });
-  vertices_publisher_.publish(verticesOf(sheet(0.0)));
-  await("the status", [this] { return status("Mesh") == "'sheet': no mesh yet"; });
+  vertices_publisher_.publish(verticesOf(square(0.0)));
+  await("the status", [this] { return status("Mesh") == "'square': no mesh yet"; });
 }
 
 TEST_F(SweepDisplayTest, RemovesAWorkpiece) {
-  place(sheet(0.0));
+  place(square(0.0));
   DeformableMesh none;
-  none.id = "sheet";
+  none.id = "square";
   mesh_publisher_.publish(none);
   await("that it goes", [this] { return drawn(SurfaceVisual::kSurface) == 0; });
 }

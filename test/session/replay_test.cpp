@@ -111,6 +111,19 @@ class ReplayTest : public testing::Test {
   }
   ~ReplayTest() override { fs::remove_all(folder_); }
 
+  void writeBag(const std::vector<void (*)(rosbag::Bag&)>& parts) const {
+    rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
+    for (const auto write : parts) write(bag);
+  }
+
+  static void writeMesh(rosbag::Bag& bag) { bag.write("/mesh", ros::Time(kBegin), plate()); }
+
+  static void writeVertices(rosbag::Bag& bag) {
+    for (double t = 0.0; t < kDuration; t += 1.0 / 60.0) {
+      bag.write("/mesh_vertices", ros::Time(kBegin + t), verticesAt(t));
+    }
+  }
+
   static void writePoses(rosbag::Bag& bag) {
     for (int i = 0; i < static_cast<int>(kDuration * kRate); ++i) {
       const geometry_msgs::PoseStamped pose = poseAt(i / kRate);
@@ -148,13 +161,7 @@ class ReplayTest : public testing::Test {
 };
 
 TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
-  rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
-  bag.write("/mesh", ros::Time(kBegin), plate());
-  writePoses(bag);
-  for (double t = 0.0; t < kDuration; t += 1.0 / 60.0) {
-    bag.write("/mesh_vertices", ros::Time(kBegin + t), verticesAt(t));
-  }
-  bag.close();
+  writeBag({writeMesh, writePoses, writeVertices});
   const std::string printed = replay("");
   EXPECT_TRUE(has(printed, "4000 poses")) << printed;
   EXPECT_TRUE(has(printed, "without a gap")) << printed;
@@ -178,9 +185,7 @@ TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
 
 // The file is in millimeters.
 TEST_F(ReplayTest, TakesAWorkpieceFromAFileWhereTheBagHasNone) {
-  rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
-  writePoses(bag);
-  bag.close();
+  writeBag({writePoses});
   const fs::path file = folder_ / "plate.obj";
   std::ofstream(file) << "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\nf 1 2 3\nf 1 3 4\n";
   const std::string printed = replay("mesh_file:=" + file.string() + " mesh_scale:=0.001");
@@ -189,11 +194,7 @@ TEST_F(ReplayTest, TakesAWorkpieceFromAFileWhereTheBagHasNone) {
 
 // The guard does not subscribe to the poses, and the player waits for a subscriber of each topic.
 TEST_F(ReplayTest, TakesTheToolFromTfAlthoughTheBagHasItsPoses) {
-  rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
-  bag.write("/mesh", ros::Time(kBegin), plate());
-  writePoses(bag);
-  writeTransforms(bag);
-  bag.close();
+  writeBag({writeMesh, writePoses, writeTransforms});
   const fs::path config = folder_ / "tf.yaml";
   std::ofstream(config) << "tool_source: tf\ntool_frame: tip\ntiming:\n  mesh_timeout: .inf\n";
   const std::string printed = replay("config:=" + config.string());
@@ -202,19 +203,14 @@ TEST_F(ReplayTest, TakesTheToolFromTfAlthoughTheBagHasItsPoses) {
 }
 
 TEST_F(ReplayTest, ABagThatCannotBeGuardedEndsItWithALineThatSaysWhy) {
-  rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
-  bag.write("/mesh", ros::Time(kBegin), plate());
-  bag.close();
+  writeBag({writeMesh});
   const std::string printed = replay("");
   EXPECT_TRUE(has(printed, "no topic /tool_pose")) << printed;
   EXPECT_FALSE(fs::exists(folder_ / "report/contacts.csv"));
 }
 
 TEST_F(ReplayTest, ARateThatIsNoneEndsItWithALineThatNamesIt) {
-  rosbag::Bag bag(bag_.string(), rosbag::bagmode::Write);
-  bag.write("/mesh", ros::Time(kBegin), plate());
-  writePoses(bag);
-  bag.close();
+  writeBag({writeMesh, writePoses});
   for (const char* const rate : {"0", "-1"}) {
     const std::string printed = replay(std::string("rate:=") + rate);
     EXPECT_TRUE(has(printed, "rate")) << printed;

@@ -5,143 +5,137 @@
 #include <cmath>
 
 #include "refusal.h"
+#include "timeline.h"
 
 namespace sweep_guard_simulation {
 namespace {
 
+using namespace sweep_guard_core::timeline;
 using std::chrono::milliseconds;
-using sweep_guard_core::Time;
 
-Time at(int ms) { return Time(milliseconds(ms)); }
+class DemoStatisticsTest : public testing::Test {
+ protected:
+  void addPose(int ms, std::uint32_t sequence) { statistics_.addPose(at(ms), sequence); }
+  void addSweep(int start, int stamp, int received, const std::vector<ContactObject>& contacts = {}) {
+    statistics_.addContacts(at(start), at(stamp), at(received), contacts);
+  }
 
-TEST(DemoStatisticsTest, HasNoFaultWhenEveryPoseWasAnswered) {
-  DemoStatistics statistics;
-  statistics.addMeshUpdate();
-  statistics.addPose(at(10), 1);
-  statistics.addPose(at(20), 2);
-  statistics.addContacts(at(10), at(10), at(11), {});
-  statistics.addContacts(at(20), at(20), at(21), {});
-  EXPECT_EQ(statistics.posesNotSwept(), 0U);
-  EXPECT_FALSE(statistics.fault());
+  DemoStatistics statistics_;
+};
+
+TEST_F(DemoStatisticsTest, HasNoFaultWhenEveryPoseWasAnswered) {
+  statistics_.addMeshUpdate();
+  addPose(10, 1);
+  addPose(20, 2);
+  addSweep(10, 10, 11);
+  addSweep(20, 20, 21);
+  EXPECT_EQ(statistics_.posesNotSwept(), 0U);
+  EXPECT_FALSE(statistics_.fault());
 }
 
-TEST(DemoStatisticsTest, MatchesAnAnswerThatArrivesBeforeItsPose) {
-  DemoStatistics statistics;
-  statistics.addContacts(at(10), at(10), at(11), {});
-  EXPECT_EQ(statistics.posesNotSwept(), 0U);
-  statistics.addPose(at(10), 1);
-  EXPECT_EQ(statistics.posesNotSwept(), 0U);
+TEST_F(DemoStatisticsTest, MatchesAnAnswerThatArrivesBeforeItsPose) {
+  addSweep(10, 10, 11);
+  EXPECT_EQ(statistics_.posesNotSwept(), 0U);
+  addPose(10, 1);
+  EXPECT_EQ(statistics_.posesNotSwept(), 0U);
 }
 
-TEST(DemoStatisticsTest, APoseThatWaitedIsSweptWithTheNextInEitherOrder) {
-  DemoStatistics statistics;
-  statistics.addMeshUpdate();
-  statistics.addPose(at(10), 1);
-  statistics.addContacts(at(10), at(10), at(11), {});
-  statistics.addPose(at(20), 2);
-  statistics.addPose(at(30), 3);
-  EXPECT_EQ(statistics.posesNotSwept(), 2U);
-  statistics.addContacts(at(10), at(30), at(31), {});
-  EXPECT_EQ(statistics.posesNotSwept(), 0U);
-  statistics.addContacts(at(30), at(50), at(51), {});
-  statistics.addPose(at(40), 4);
-  statistics.addPose(at(50), 5);
-  EXPECT_FALSE(statistics.fault());
+TEST_F(DemoStatisticsTest, APoseThatWaitedIsSweptWithTheNextInEitherOrder) {
+  statistics_.addMeshUpdate();
+  addPose(10, 1);
+  addSweep(10, 10, 11);
+  addPose(20, 2);
+  addPose(30, 3);
+  EXPECT_EQ(statistics_.posesNotSwept(), 2U);
+  addSweep(10, 30, 31);
+  EXPECT_EQ(statistics_.posesNotSwept(), 0U);
+  addSweep(30, 50, 51);
+  addPose(40, 4);
+  addPose(50, 5);
+  EXPECT_FALSE(statistics_.fault());
 }
 
-TEST(DemoStatisticsTest, APoseIsNotSweptByTheIntervalThatBeginsAtIt) {
-  DemoStatistics statistics;
-  statistics.addPose(at(10), 1);
-  statistics.addContacts(at(10), at(20), at(21), {});
-  EXPECT_EQ(statistics.posesNotSwept(), 1U);
+TEST_F(DemoStatisticsTest, APoseIsNotSweptByTheIntervalThatBeginsAtIt) {
+  addPose(10, 1);
+  addSweep(10, 20, 21);
+  EXPECT_EQ(statistics_.posesNotSwept(), 1U);
 }
 
-TEST(DemoStatisticsTest, ExpectsAnAnswerUntilItArrives) {
-  DemoStatistics statistics;
-  statistics.addPose(at(10), 1);
-  EXPECT_TRUE(statistics.expects(at(10), at(10)));
-  EXPECT_TRUE(statistics.expects(at(0), at(20)));
-  EXPECT_FALSE(statistics.expects(at(10), at(20)));
-  statistics.addContacts(at(10), at(10), at(11), {});
-  EXPECT_FALSE(statistics.expects(at(10), at(10)));
+TEST_F(DemoStatisticsTest, ExpectsAnAnswerUntilItArrives) {
+  addPose(10, 1);
+  EXPECT_TRUE(statistics_.expects(at(10), at(10)));
+  EXPECT_TRUE(statistics_.expects(at(0), at(20)));
+  EXPECT_FALSE(statistics_.expects(at(10), at(20)));
+  addSweep(10, 10, 11);
+  EXPECT_FALSE(statistics_.expects(at(10), at(10)));
 }
 
 // An answer to another pose does not count.
-TEST(DemoStatisticsTest, CountsALostPoseDespiteAnAnswerToAnotherPose) {
-  DemoStatistics statistics;
-  statistics.addContacts(at(5), at(5), at(6), {});
-  statistics.addPose(at(10), 1);
-  EXPECT_EQ(statistics.posesNotSwept(), 1U);
+TEST_F(DemoStatisticsTest, CountsALostPoseDespiteAnAnswerToAnotherPose) {
+  addSweep(5, 5, 6);
+  addPose(10, 1);
+  EXPECT_EQ(statistics_.posesNotSwept(), 1U);
 }
 
-TEST(DemoStatisticsTest, CountsGapsInTheSequence) {
-  DemoStatistics statistics;
-  statistics.addMeshUpdate();
+TEST_F(DemoStatisticsTest, CountsGapsInTheSequence) {
+  statistics_.addMeshUpdate();
   for (const std::uint32_t sequence : {7U, 8U, 11U, 12U}) {
-    statistics.addPose(at(static_cast<int>(sequence)), sequence);
-    statistics.addContacts(at(static_cast<int>(sequence)), at(static_cast<int>(sequence)), at(20), {});
+    const int ms = static_cast<int>(sequence);
+    addPose(ms, sequence);
+    addSweep(ms, ms, 20);
   }
-  EXPECT_EQ(statistics.posesNeverReceived(), 2U);
-  EXPECT_EQ(statistics.fault(), "2 poses were lost before the monitor");
+  EXPECT_EQ(statistics_.posesNeverReceived(), 2U);
+  EXPECT_EQ(statistics_.fault(), "2 poses were lost before the monitor");
 }
 
-TEST(DemoStatisticsTest, CountsContactsAndDistinctTriangles) {
-  DemoStatistics statistics;
-  statistics.addContacts(at(10), at(10), at(11), {{"a", {1, 2}}, {"b", {1}}});
-  statistics.addContacts(at(20), at(20), at(21), {{"a", {2, 3}}});
-  statistics.addContacts(at(30), at(30), at(31), {{"a", {}}});  // inside
-  statistics.addContacts(at(40), at(40), at(41), {});
-  EXPECT_EQ(statistics.sweeps(), 4U);
-  EXPECT_EQ(statistics.contacts(), 3U);
-  EXPECT_EQ(statistics.trianglesInContact(), 4U);
-  EXPECT_EQ(statistics.latencies().front().triangles, 3U);
+TEST_F(DemoStatisticsTest, CountsContactsAndDistinctTriangles) {
+  addSweep(10, 10, 11, {{"a", {1, 2}}, {"b", {1}}});
+  addSweep(20, 20, 21, {{"a", {2, 3}}});
+  addSweep(30, 30, 31, {{"a", {}}});  // inside
+  addSweep(40, 40, 41);
+  EXPECT_EQ(statistics_.sweeps(), 4U);
+  EXPECT_EQ(statistics_.contacts(), 3U);
+  EXPECT_EQ(statistics_.trianglesInContact(), 4U);
+  EXPECT_EQ(statistics_.latencies().front().triangles, 3U);
 }
 
-TEST(DemoStatisticsTest, InterpolatesQuantilesOfTheLatencies) {
-  DemoStatistics statistics;
-  EXPECT_TRUE(std::isnan(statistics.latency(0.5)));
-  for (const int delay : {4, 1, 3, 2}) statistics.addContacts(at(0), at(0), at(delay), {});
-  EXPECT_DOUBLE_EQ(statistics.latency(0.0), 1.0);
-  EXPECT_DOUBLE_EQ(statistics.latency(0.5), 2.5);
-  EXPECT_DOUBLE_EQ(statistics.latency(1.0), 4.0);
+TEST_F(DemoStatisticsTest, InterpolatesQuantilesOfTheLatencies) {
+  EXPECT_TRUE(std::isnan(statistics_.latency(0.5)));
+  for (const int delay : {4, 1, 3, 2}) addSweep(0, 0, delay);
+  EXPECT_DOUBLE_EQ(statistics_.latency(0.0), 1.0);
+  EXPECT_DOUBLE_EQ(statistics_.latency(0.5), 2.5);
+  EXPECT_DOUBLE_EQ(statistics_.latency(1.0), 4.0);
 }
 
-TEST(DemoStatisticsTest, MissesACycleAboveAFifteenthOfASecond) {
-  DemoStatistics statistics;
-  statistics.addContacts(at(0), at(0), at(66), {});
-  statistics.addContacts(at(0), at(0), at(67), {});
-  EXPECT_EQ(statistics.missedCycles(), 1U);
+TEST_F(DemoStatisticsTest, MissesACycleAboveAFifteenthOfASecond) {
+  addSweep(0, 0, 66);
+  addSweep(0, 0, 67);
+  EXPECT_EQ(statistics_.missedCycles(), 1U);
 }
 
-TEST(DemoStatisticsTest, NamesTheInputThatIsMissing) {
-  DemoStatistics statistics;
-  EXPECT_EQ(statistics.fault(), "no tool pose arrived: the operator did not move");
-  statistics.addPose(at(10), 1);
-  EXPECT_EQ(statistics.fault(), "no mesh update arrived: the workpiece did not deform");
-  statistics.addMeshUpdate();
-  EXPECT_EQ(statistics.fault(), "1 poses were not swept by the guard");
+TEST_F(DemoStatisticsTest, NamesTheInputThatIsMissing) {
+  EXPECT_EQ(statistics_.fault(), "no tool pose arrived: the operator did not move");
+  addPose(10, 1);
+  EXPECT_EQ(statistics_.fault(), "no mesh update arrived: the workpiece did not deform");
+  statistics_.addMeshUpdate();
+  EXPECT_EQ(statistics_.fault(), "1 poses were not swept by the guard");
 }
 
-TEST(DemoStatisticsTest, ReportsTheLeadsOfTheWarnings) {
-  DemoStatistics statistics;
-  EXPECT_TRUE(has(statistics.summary(), "warned ahead of       0 of 0 contacts\n"));
-  statistics.addWarning(at(100), sweep_guard_core::WarningLevel::kConsidered);
-  statistics.addWarning(at(900), sweep_guard_core::WarningLevel::kReflex);
-  statistics.addWarning(at(1000), sweep_guard_core::WarningLevel::kContact);
-  statistics.addWarning(at(2000), sweep_guard_core::WarningLevel::kClear);
-  statistics.addWarning(at(3000), sweep_guard_core::WarningLevel::kContact);
-  statistics.addWarning(at(4000), sweep_guard_core::WarningLevel::kConsidered);
-  statistics.addWarning(at(4400), sweep_guard_core::WarningLevel::kReflex);
-  statistics.addWarning(at(4600), sweep_guard_core::WarningLevel::kContact);
+TEST_F(DemoStatisticsTest, ReportsTheLeadsOfTheWarnings) {
+  EXPECT_TRUE(has(statistics_.summary(), "warned ahead of       0 of 0 contacts\n"));
+  for (const auto& [ms, level] :
+       {std::pair(100, kConsidered), std::pair(900, kReflex), std::pair(1000, kContact), std::pair(2000, kClear),
+        std::pair(3000, kContact), std::pair(4000, kConsidered), std::pair(4400, kReflex), std::pair(4600, kContact)}) {
+    statistics_.addWarning(at(ms), level);
+  }
   EXPECT_TRUE(
-      has(statistics.summary(), "warned ahead of       2 of 3 contacts, by 0.60 s (reflex 0.10 s) in the median\n"));
+      has(statistics_.summary(), "warned ahead of       2 of 3 contacts, by 0.60 s (reflex 0.10 s) in the median\n"));
 }
 
-TEST(DemoStatisticsTest, WritesTheLiveLine) {
-  DemoStatistics statistics;
-  statistics.addPose(at(10), 1);
-  statistics.addContacts(at(10), at(10), Time(std::chrono::microseconds(10400)), {{"a", {1}}});
-  EXPECT_EQ(statistics.liveLine(milliseconds(12500), "CONTACT"),
+TEST_F(DemoStatisticsTest, WritesTheLiveLine) {
+  addPose(10, 1);
+  statistics_.addContacts(at(10), at(10), sweep_guard_core::Time(std::chrono::microseconds(10400)), {{"a", {1}}});
+  EXPECT_EQ(statistics_.liveLine(milliseconds(12500), "CONTACT"),
             "12.5 s  poses 1  contacts 1  level CONTACT  latency p50 0.4 ms");
 }
 

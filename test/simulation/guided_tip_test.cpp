@@ -15,6 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kStep = 0.01;  // [s]
 constexpr double kTiny = 1e-12;
+const Twist kForward{/*linear=*/{0.1, 0.0, 0.0}};
 
 Isometry3d poseAt(const Vector3d& position, double angle = 0.0) {
   Isometry3d pose(AngleAxisd(angle, Vector3d(1, 2, 3).normalized()));
@@ -84,11 +85,9 @@ TEST(GuidedTipTest, StaysWhereItIsWhenItIsThere) {
 // From rest to 0.1 m/s at 1 m/s^2 takes 10 steps, and as many to stop.
 TEST(GuidedTipTest, TakesUpAVelocityAndStops) {
   GuidedTip tip(poseAt({0, 0, 0}), {});
-  Twist desired;
-  desired.linear.x() = 0.1;
-  for (int i = 0; i < 20; ++i) tip.moveAt(desired, kStep);
+  for (int i = 0; i < 20; ++i) tip.moveAt(kForward, kStep);
   Vector3d before = tip.pose().translation();
-  tip.moveAt(desired, kStep);
+  tip.moveAt(kForward, kStep);
   EXPECT_TRUE((tip.pose().translation() - before).isApprox(Vector3d(0.001, 0, 0), 1e-9));
   for (int i = 0; i < 10; ++i) tip.moveAt({}, kStep);
   before = tip.pose().translation();
@@ -99,12 +98,10 @@ TEST(GuidedTipTest, TakesUpAVelocityAndStops) {
 // The first step from rest: 1 m/s^2 over 0.01 s.
 TEST(GuidedTipTest, StartsFromRestAfterwardsAsAtFirst) {
   GuidedTip tip(poseAt({0, 0, 0}), {});
-  Twist desired;
-  desired.linear.x() = 0.1;
-  for (int i = 0; i < 20; ++i) tip.moveAt(desired, kStep);
+  for (int i = 0; i < 20; ++i) tip.moveAt(kForward, kStep);
   tip.stop();
   const Vector3d before = tip.pose().translation();
-  tip.moveAt(desired, kStep);
+  tip.moveAt(kForward, kStep);
   EXPECT_TRUE((tip.pose().translation() - before).isApprox(Vector3d(0.0001, 0, 0), 1e-9));
 }
 

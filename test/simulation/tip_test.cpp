@@ -18,7 +18,7 @@ TEST(TipTest, IsTheOriginForACylinder) {
   EXPECT_NEAR(radialExtent(Tool::cylinder(0.01, 0.15)), std::sqrt(2.0) * 0.01, 1e-6);
 }
 
-TEST(TipTest, IsTheMiddleOfTheFaceOfThePartInFront) {
+TEST(TipTest, IsTheMiddleOfTheFaceOfThePieceInFront) {
   const Tool tool(
       {{"palm", boxAt({0, 0, 0}, {0.1, 0.1, 0.1})}, {"finger", boxAt({0.05, -0.02, 0.2}, {0.01, 0.02, 0.03})}});
   EXPECT_LT((tipOf(tool) - Vector3d(0.05, -0.02, 0.23)).norm(), 1e-6);

@@ -78,10 +78,10 @@ void checkPair(const Context& context, const PairCase& pair) {
 void checkPositives(const Context& context, const SweepCase& sweep) {
   for (TestedDetector& tested : context.detectors) {
     for (const VolumeKind kind : volumeKinds()) {
-      SweepCase seen = sweep;
-      seen.options.volume = kind;
+      SweepCase of_kind = sweep;
+      of_kind.options.volume = kind;
       Tally& tally = context.report.of(tested.name + '/' + nameOf(kind), context.family);
-      const SweepResult result = checkCase(*tested.detector, seen);
+      const SweepResult result = checkCase(*tested.detector, of_kind);
       for (const Contact& contact : sweep.contacts) {
         ++tally.cases;
         ++tally.positives;
@@ -90,7 +90,7 @@ void checkPositives(const Context& context, const SweepCase& sweep) {
         ++tally.misses;
         context.report.fail(
             (named ? "not confirmed: triangle " : "missed triangle ") + std::to_string(contact.triangle),
-            [&] { return textOf(seen, about(context, tested.name)); });
+            [&] { return textOf(of_kind, about(context, tested.name)); });
       }
     }
   }
@@ -129,8 +129,9 @@ void checkWholeSweep(const Context& context, const SweepCase& sweep) {
     const Eigen::Vector3d* corners = &sweep.triangles.corners_M[3 * i];
     distances.push_back(sampled.distance({corners[0], corners[1], corners[2]}));
   }
-  const bool any_met = std::any_of(distances.begin(), distances.end(), [](const auto& distance) { return !distance; });
-  const bool is_inside = !any_met && sampled.endsInside(sweep.triangles);
+  const bool any_contact =
+      std::any_of(distances.begin(), distances.end(), [](const auto& distance) { return !distance; });
+  const bool is_inside = !any_contact && sampled.endsInside(sweep.triangles);
   const Tool tool = toolOf(sweep.tool);
   const std::vector<Motion> sub_motions = sweep.subMotions();
   for (TestedDetector& tested : context.detectors) {
@@ -158,7 +159,7 @@ void checkWholeSweep(const Context& context, const SweepCase& sweep) {
       ++tally.unexplained;
       fail("farther away than the margin:", triangle);
     }
-    if (any_met || !result.not_ruled_out.empty()) continue;
+    if (any_contact || !result.not_ruled_out.empty()) continue;
     if (is_inside) ++tally.positives;
     if (is_inside == result.inside) continue;
     ++(is_inside ? tally.misses : tally.unexplained);

@@ -199,11 +199,11 @@ class Relations {
     std::vector<Eigen::Isometry3d> path;
     for (int i = 0; i < kPoses; ++i) path.push_back(sweep.motion.at(static_cast<double>(i) / (kPoses - 1)));
     const TriangleMesh mesh = sweep.triangles.mesh();
-    const auto metBy = [&](const std::vector<Eigen::Isometry3d>& poses) {
+    const auto contactsOf = [&](const std::vector<Eigen::Isometry3d>& poses) {
       return checkPath(*tested_.detector, {toolOf(sweep.tool), poses, mesh, sweep.options}).all.not_ruled_out;
     };
-    const std::vector<std::uint32_t> all = metBy(path);
-    for (const std::uint32_t triangle : metBy({path.begin(), path.begin() + count})) {
+    const std::vector<std::uint32_t> all = contactsOf(path);
+    for (const std::uint32_t triangle : contactsOf({path.begin(), path.begin() + count})) {
       demand(contains(all, triangle), "beginning of a path", triangle);
     }
   }
@@ -339,10 +339,10 @@ void checkRelations(const Context& context, const PairCase& pair) {
 void checkRelations(const Context& context, const SweepCase& sweep) {
   for (TestedDetector& tested : context.detectors) {
     for (const VolumeKind kind : volumeKinds()) {
-      SweepCase seen = sweep;
-      seen.options.volume = kind;
-      Relations relations(context, tested, [&](const std::string& about) { return textOf(seen, about); });
-      checkOne(relations, seen);
+      SweepCase of_kind = sweep;
+      of_kind.options.volume = kind;
+      Relations relations(context, tested, [&](const std::string& about) { return textOf(of_kind, about); });
+      checkOne(relations, of_kind);
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 
 namespace sweep_guard_core {
@@ -27,6 +28,22 @@ struct Instant {
   Time stamp;
   SteadyTime steady;
 };
+
+/// Holds the times when the sender stamped an input and when it was received.
+struct Timestamps {
+  Time stamp;
+  SteadyTime received;
+};
+
+/// Returns the age on the clock on which it is larger. A missing stamp counts as the clock's epoch.
+constexpr Duration age(const Timestamps& input, const Instant& now) {
+  return std::max(now.stamp - input.stamp, now.steady - input.received);
+}
+
+/// Returns whether the age exceeds `timeout`; Duration::max() never times out.
+constexpr bool stale(const Timestamps& input, const Instant& now, Duration timeout) {
+  return timeout != Duration::max() && age(input, now) > timeout;
+}
 
 constexpr double toSeconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 

@@ -25,7 +25,7 @@ class Submesh {
 
   /// Returns the numbers of the blocks in mesh_M().blocks().
   const std::vector<std::uint32_t>& blocks() const { return *blocks_; }
-  /// Returns the boxes of blocks(), in that order, padded to simd::kPadding [m].
+  /// Returns the boxes of blocks(), in that order, relative to mesh_M().origin(), padded to simd::kPadding [m].
   const simd::BoxArrays<const float>& boxes() const { return boxes_; }
   /// Returns the clusters, ascending. Their `blocks` are indices into blocks().
   const std::vector<Cluster>& clusters() const { return *clusters_; }
@@ -58,10 +58,12 @@ class BlockBits {
  public:
   explicit BlockBits(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels) {}
 
-  /// Sets the submesh and the planes for the calls that follow.
+  /// Computes which planes each block of the submesh lies beyond, for the calls that follow.
+  /// @param planes  relative to mesh_M().origin()
   void classify(const Submesh& submesh, const simd::Planes& planes);
 
   /// Calls a function with each cluster of the submesh, except those whose blocks all lie beyond one of the planes.
+  /// @param submesh  the one of the last classify()
   template <typename Function>
   void forEachRemaining(const Submesh& submesh, const Function& function) const {
     const auto consider = [&](size_t first, size_t count) {
@@ -76,7 +78,8 @@ class BlockBits {
     }
   }
 
-  /// Returns whether this is the first call for this block of the submesh.
+  /// Returns whether this is the first call for this block since classify().
+  /// @param block  index into the submesh's blocks()
   bool firstAsked(std::uint32_t block);
 
  private:
@@ -99,6 +102,7 @@ class SubmeshFinder {
  public:
   /// Leaves out only triangles that lie beyond one of the planes. One pass over the boxes of the blocks.
   /// @param around  not the result of the previous call
+  /// @param planes  relative to the origin() of the mesh
   /// @returns a view of this object's buffers: valid until the next call
   Submesh find(const Submesh& around, const simd::Planes& planes);
 
@@ -119,6 +123,7 @@ class SubmeshFinder {
 };
 
 /// Returns whether the box around the mesh lies wholly beyond one of the planes.
+/// @param planes  relative to mesh_M.origin()
 bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes);
 
 }  // namespace sweep_guard_core

@@ -10,7 +10,7 @@ namespace sweep_guard_core {
 /// A convex hull of points. TriangleMesh(corners, triangles) is its surface, rounded to float32.
 struct ConvexHull {
   std::vector<Eigen::Vector3d> corners;  ///< those points that are corners, exact, each once [m]
-  std::vector<Triangle> triangles;       ///< counter-clockwise seen from outside; at least one
+  std::vector<Triangle> triangles;       ///< at least one; counter-clockwise seen from outside if `solid`
   double hull_tolerance = 0.0;           ///< bound on the distance of any point from the hull of the corners [m], >= 0
   bool solid = false;                    ///< the triangles enclose a volume; false for flat hulls
 };
@@ -22,9 +22,11 @@ struct ConvexHull {
 /// and mostly a few roundings.
 ///
 /// Points in a plane, on a line or at one place have a hull without volume, represented by a fan of triangles; these
-/// are degenerate on a line and at one place. If Qhull fails, every point is a corner.
+/// are degenerate on a line and at one place. If Qhull fails, every point is a corner and `solid` is false; the
+/// triangles then touch every corner, but are not the surface.
 /// @param points  [m], at least one; finite and within kMaxCoordinate
 /// @throws InvalidInput if there is no point, or with the index of the first unusable point
+/// @throws DeviceError if /dev/null cannot be opened
 ConvexHull convexHull(const std::vector<Eigen::Vector3d>& points);
 
 /// Returns the volume [m^3] of a hull; 0 if the hull is flat.

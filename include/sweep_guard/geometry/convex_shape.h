@@ -22,8 +22,8 @@ struct Moments {
 class ConvexShape {
  public:
   /// Makes a round cylinder around the z axis of T, with z in [-length, 0] [P, Sec. 3.1].
-  /// @param radius  [m], finite, >= 0
-  /// @param length  [m], finite, >= 0; not both 0
+  /// @param radius  [m], 0 to kMaxCoordinate
+  /// @param length  [m], 0 to kMaxCoordinate; not both 0
   /// @param sides   number of sides of mesh_T(), 3 to 1000
   /// @throws InvalidInput if an argument is out of range
   static ConvexShape cylinder(double radius, double length, int sides = 32);

@@ -12,11 +12,11 @@ namespace sweep_guard_core {
 struct Motion {
   Eigen::Isometry3d X_MT_start = Eigen::Isometry3d::Identity();  ///< translation [m]
   Eigen::Isometry3d X_MT_end = Eigen::Isometry3d::Identity();    ///< translation [m]
-  /// Bound on the deviation of a tool point from its straight path because M turns itself, or because this is a merged
-  /// motion [m], >= 0.
+  /// Bound on the deviation of a tool point from its straight path, arcs of the tool included, if M turns itself or if
+  /// this is a merged motion [m], >= 0; 0 otherwise.
   double deviation_bound = 0.0;
-  /// Relative translation of the mesh [m], in M; the tool may be anywhere on [pose, pose + mesh_translation] at any
-  /// time.
+  /// Translation of the mesh during the motion [m], in M. The mesh is tested where it is at the end, so the tool may be
+  /// anywhere on [pose, pose + mesh_translation] at any time.
   Eigen::Vector3d mesh_translation = Eigen::Vector3d::Zero();
 
   /// Returns the rotation angle from start to end [rad], in [0, pi].
@@ -32,8 +32,8 @@ struct Motion {
 /// @param max_rotation  [rad], > 0
 size_t subMotionCount(double angle, double max_rotation);
 
-/// Cuts a motion into the fewest equal sub-motions that turn by at most `max_rotation` each. They are end to end:
-/// nothing between them is left out.
+/// Cuts the poses of a motion into the fewest equal sub-motions that turn by at most `max_rotation` each. They are end
+/// to end: nothing between them is left out. Their deviation_bound and mesh_translation are 0, whatever the motion's.
 /// @param max_rotation  [rad], > 0
 /// @param buffer        provides the memory of the result; its contents are replaced
 [[nodiscard]] std::vector<Motion> split(const Motion& motion, double max_rotation, std::vector<Motion> buffer = {});
@@ -46,7 +46,8 @@ struct RelativeMotion {
 };
 
 /// Returns the tool's motion in M, cut into the fewest equal sub-motions in which tool and frame together turn by at
-/// most `max_rotation`.
+/// most `max_rotation`. Their deviation_bound covers the turn of M; their mesh_translation is 0. Ignores the
+/// deviation_bound and the mesh_translation of tool_W and frame_W.
 /// @param max_rotation  [rad], > 0
 /// @param tool_radius   largest distance of a tool point from the origin of T [m], >= 0
 /// @param buffer        provides the memory of the result; its contents are replaced

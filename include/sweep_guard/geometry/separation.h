@@ -52,7 +52,7 @@ class PointHull {
 /// q - max over the obstacle of normal · p. For any direction this is a lower bound of the distance, up to the rounding
 /// of this formula.
 struct Separation {
-  Eigen::Vector3d normal;       ///< unit, from the obstacle to the tool
+  Eigen::Vector3d normal;       ///< unit, from the obstacle to the tool; means nothing if gap <= 0
   double gap;                   ///< proven lower bound of the distance [m]; <= 0: nothing is proven
   Eigen::Vector3d on_tool;      ///< closest point of the tool [m]
   Eigen::Vector3d on_obstacle;  ///< closest point of the obstacle [m]; on_tool, to rounding, if they overlap

@@ -10,8 +10,8 @@
 namespace sweep_guard_core {
 
 /// The enclosure of a swept volume: the box alone (`obb`), box, side and frontal planes (`obb_planes`) [P, Sec. 3.1],
-/// or the convex hull of the body at both poses (`hull`). The hull has no planes of its own: a triangle that intersects
-/// box and planes is dropped if a direction proves that it does not intersect the hull.
+/// or the convex hull of the body at both poses (`hull`). The hull has no planes of its own: its SweptVolume is that of
+/// `obb_planes`. Guard, checkPath() and predictContacts() drop each triangle that a direction proves to miss the hull.
 enum class VolumeKind { kObb, kObbPlanes, kHull };
 
 /// Returns the kind with this name. @throws InvalidInput for any name but `obb`, `obb_planes` and `hull`
@@ -53,8 +53,8 @@ struct SweptVolume {
   SweptVolume grown(double distance) const;
 };
 
-/// Returns a bound [m] on the distance of the points of a body from the hull of its two poses. Points leave the
-/// hull because they move on arcs, and because M turns.
+/// Returns a bound [m] on the distance of the points of a body from the hull of its two poses: the larger one of the
+/// bound on their arcs (chordError()) and the motion's deviation_bound. The mesh_translation does not count.
 double deviationBound(const ConvexShape& shape, const Motion& motion);
 
 /// Returns the volume that a convex body covers during a motion, in the frame M of the motion.

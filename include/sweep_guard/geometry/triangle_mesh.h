@@ -32,14 +32,15 @@ class TriangleMesh {
   void deform(std::vector<float>& positions_M);
 
   const std::vector<Triangle>& triangles() const { return topology_->triangles; }
-  /// Returns whether each edge belongs to an even number of triangles. The surface then encloses an inside.
+  /// Returns whether each edge belongs to an even number of triangles. The surface then encloses an inside. Vertices at
+  /// the same place count as different: a mesh of separate triangles is not closed.
   bool closed() const { return topology_->closed; }
   size_t vertexCount() const { return offsets_.size() / 3; }
 
   /// Returns the position of vertex `i` in M [m].
   Eigen::Vector3d vertex(size_t i) const { return origin_ + offset(i); }
 
-  const Eigen::Vector3d& origin() const { return origin_; }  ///< in M [m]
+  const Eigen::Vector3d& origin() const { return origin_; }  ///< in M [m]; zero after deform()
   /// Returns the position of vertex `i` relative to origin() [m]; exact in float32.
   Eigen::Vector3d offset(size_t i) const {
     const std::vector<std::uint32_t>& places = topology_->order.vertex_places;

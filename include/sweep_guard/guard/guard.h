@@ -22,37 +22,38 @@ struct SweepPlan;
 ///
 /// Between poses, tool and frames move straight at constant speed in W and turn about one axis at constant rate.
 /// Between updates of a mesh, its vertices move straight at any speed. The update is a motion between the stamps of
-/// both meshes:
-/// the tool's path since the earlier stamp, at most 0.5 s, is swept again against the moving mesh.
+/// both meshes: the tool's path since the earlier stamp, at most 0.5 s, is swept again against the moving mesh.
 ///
 /// Segments that are swept at once are merged (mergedMotion()) as long as the deviation bound stays below a thousandth
 /// of the tool's bounding radius. Times of impact stay early.
 class Guard {
  public:
-  /// @throws InvalidInput if an option is out of range
+  /// @throws InvalidInput if `cycle` or an option of the predictor or the horizon is out of range; `options.sweep` is
+  ///     not checked
   Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options);
   ~Guard();
   Guard(const Guard&) = delete;
   Guard& operator=(const Guard&) = delete;
 
-  /// Adds a pose that the next sweep passes through. Workpieces whose frame is missing at the pose that is swept to
-  /// wait until their frame is known again.
-  /// @param pose  its stamp must not be earlier than the previous pose's
+  /// Adds a pose that the next sweep passes through. A workpiece whose frame is missing at the pose of that sweep is
+  /// reported as unplaced. Once its frame is known again, it is swept through the added poses that hold its frame.
+  /// @param pose  its stamp must not be earlier than the previous pose's; not checked, so reset() after time went back
   void pass(const PoseWithFrames& pose);
 
   /// Sweeps from the pose of the last sweep, through the poses passed since, to this pose.
-  /// @param pose  its stamp must not be earlier than the previous pose's
+  /// @param pose  its stamp must not be earlier than the previous pose's; not checked
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
 
   /// Predicts the path after the newest pose and tests it. Frames of workpieces are taken to stay where they are. The
-  /// path is empty until two poses are known, and once the newest pose is older than the reserve of the horizon: the
-  /// number of sweeps would grow with the age.
+  /// newest pose must have been given to sweep(), not to pass(). The path is empty until two poses are known, and once
+  /// the newest pose is older than the reserve of the horizon: the number of sweeps would grow with the age.
   /// @param age  of the newest pose, >= 0
   /// @param[out] prediction  overwritten; its buffers are used again
   void predict(Duration age, const Workpieces& workpieces, Prediction& prediction);
 
-  /// Predicts the motion after the newest pose without testing it.
+  /// Predicts the motion after the newest pose without testing it. The newest pose must have been given to sweep(), not
+  /// to pass().
   /// @param age  of the newest pose, >= 0
   /// @param end  of the prediction, counted from now, > 0
   PredictedMotion predictMotion(Duration age, Duration end) const;
@@ -60,8 +61,9 @@ class Guard {
   /// Forgets all poses.
   void reset();
 
-  /// Exchanges options, tool, detector or predictor. The next sweep begins where the last one ended.
+  /// Exchanges the options, and tool, detector or predictor if given. The next sweep begins where the last one ended.
   /// @param[in,out] change  receives what it replaces, so that the caller may destroy it in another thread
+  /// @throws InvalidInput if `cycle` or an option of the horizon is out of range; then nothing is exchanged
   void exchange(GuardChange& change);
 
   const Tool& tool() const { return tool_; }

@@ -22,12 +22,14 @@ struct GuardOptions {
   std::function<SteadyTime()> clock = std::chrono::steady_clock::now;
 };
 
-/// Holds the changes to a running guard. Empty and null members change nothing.
+/// Holds the changes to a running guard. `options` replaces all options of the guard, except the clock; another member
+/// that is empty or null changes nothing.
 struct GuardChange {
-  GuardOptions options;  ///< its clock is ignored
+  GuardOptions options;  ///< start from the current ones: defaults replace them, too
   std::optional<Tool> tool = {};
   std::unique_ptr<Detector> detector = nullptr;
-  std::optional<PosePredictor> predictor = {};  ///< made from `options`; empty: the guard keeps what it has learned
+  /// Made from `options.predictor`; empty: the guard keeps its predictor, what it has learned and its options.
+  std::optional<PosePredictor> predictor = {};
 };
 
 }  // namespace sweep_guard_core

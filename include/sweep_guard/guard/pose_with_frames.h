@@ -12,7 +12,7 @@ namespace sweep_guard_core {
 struct PoseWithFrames {
   Time stamp;
   SteadyTime received;
-  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< translation [m]
   std::map<std::string, Eigen::Isometry3d> X_WM;  ///< by name of M; a frame whose transform is missing is left out
 };
 

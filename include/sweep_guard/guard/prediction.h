@@ -54,7 +54,9 @@ struct Prediction {
   Workpieces unplaced;                   ///< workpieces not tested because their frame is unknown at the pose
   std::vector<SweepFailure> failures;    ///< workpieces not tested because the detector failed
 
-  Time coveredUntil() const;   ///< every workpiece is tested up to here: the end of the path, or the pose itself
+  /// Returns the time up to which every workpiece is tested: the end of the path, or `stamp` if the path is empty or a
+  /// workpiece was not tested.
+  Time coveredUntil() const;
   bool complete() const;       ///< the motion is known, there is a workpiece, and every workpiece was tested
   double probability() const;  ///< largest probability of all sweeps, in [0, 1]
   std::optional<Duration> firstContact() const;  ///< when the path first meets a workpiece, after the newest pose

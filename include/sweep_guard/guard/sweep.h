@@ -12,6 +12,7 @@
 
 namespace sweep_guard_core {
 
+/// Sets how sweeps are tested. The core does not check these options.
 struct SweepOptions {
   VolumeKind volume = VolumeKind::kObbPlanes;
   double max_rotation = 0.175;  ///< largest rotation of one sub-motion [rad], in (0, 1.5]
@@ -35,7 +36,9 @@ struct SweepResult {
   bool fine = false;               ///< the narrow phase has run
   TriangleSet not_ruled_out = {};  ///< subset of `triangles` that the narrow phase does not rule out; without it, all
   std::vector<TriangleContact> in_contact = {};  ///< confirmed by the narrow phase: ascending, each once
-  bool inside = false;                           ///< a piece of the tool lies wholly inside the closed mesh
+  /// A piece of the tool lies wholly inside the closed mesh. Tested only if the sweep's `not_ruled_out` is empty; false
+  /// otherwise.
+  bool inside = false;
 
   bool contact() const { return inside || !not_ruled_out.empty(); }
   void clear();  ///< resets all fields and keeps the buffers
@@ -43,7 +46,7 @@ struct SweepResult {
 
 struct PathRequest {
   const Tool& tool;
-  const std::vector<Eigen::Isometry3d>& path;  ///< poses X_MT, at least one; one pose is a static test
+  const std::vector<Eigen::Isometry3d>& path;  ///< poses X_MT [m], at least one; one pose is a static test
   const TriangleMesh& mesh_M;
   SweepOptions options = {};
   std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up

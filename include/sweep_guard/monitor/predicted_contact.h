@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/time.h"
 #include "sweep_guard/guard/prediction.h"
-#include "sweep_guard/monitor/timestamps.h"
 
 namespace sweep_guard_core {
 

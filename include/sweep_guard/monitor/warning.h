@@ -14,7 +14,7 @@ struct WarningLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
   Duration mesh_timeout;  ///< a workpiece older than this is stale; Duration::max(): never
   Duration hold_time;     ///< how long a contact or a warning is shown after it has ended; >= 0
-  Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, > 0
+  Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, counted from now, > 0
   Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
   Duration tick = std::chrono::milliseconds(15);          ///< longest time until the next computeWarning(); >= 0
   Duration overload = std::chrono::milliseconds(20);      ///< longest backlog of poses without a reason; >= 0
@@ -31,8 +31,9 @@ struct Warning {
   /// predicted to touch, or most likely to.
   std::optional<size_t> tool_piece;
   std::vector<std::uint32_t> triangles;  ///< in contact, or met by the predicted path
-  std::optional<Duration>
-      time_to_collision;     ///< until the predicted path meets that workpiece, >= 0; empty: it does not
+  /// Time until the predicted path meets the workpiece of the predicted contact, >= 0; empty: it does not. At kContact,
+  /// this may be another workpiece than `mesh_id`.
+  std::optional<Duration> time_to_collision;
   double probability = 0.0;  ///< probability of the predicted contact, in [0, 1]
   Time pose_stamp;           ///< newest pose that has been swept; epoch: none
   Time covered_until;        ///< every workpiece is tested up to here; epoch: never
@@ -47,7 +48,8 @@ struct Warning {
 /// - UNKNOWN: a reason other than kDegraded applies.
 /// - CLEAR: there is a workpiece; pose and workpieces are fresh; every workpiece was swept at that pose and tested to
 ///   the end of the considered interval; there is no fault.
-/// Reasons are reported whatever the level. A disabled guard is UNKNOWN for that reason alone.
+/// Reasons are reported whatever the level. A disabled guard is always UNKNOWN, even during a contact, and kDisabled is
+/// its only reason.
 /// @param[out] warning  overwritten; its buffers are used again
 void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning);
 
@@ -55,7 +57,8 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
 /// `inputs` has none.
 std::string meshProblems(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits);
 
-/// Returns the level of a predicted contact that is `time_left` away: kReflex, kConsidered, or kClear for none.
+/// Returns the level of a predicted contact that is `time_left` away, as it counts until the next call: kReflex up to
+/// `reflex` + `tick`, kConsidered up to `considered` + `tick`, otherwise kClear.
 WarningLevel warningLevel(Duration time_left, const WarningLimits& limits);
 
 /// Returns the level of a predicted contact now, or at the end of its prediction if that is over.

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/time.h"
 #include "sweep_guard/monitor/predicted_contact.h"
-#include "sweep_guard/monitor/timestamps.h"
 
 namespace sweep_guard_core {
 
-/// Names a reason for a level other than CLEAR, or a degraded state. Bits of a set; numbers equal those of
-/// sweep_guard/Warning.
+/// Names a reason for a level other than CLEAR, or a degraded state. Bits of a set. msg/Warning.msg has the same
+/// numbers and explains each of them.
 enum Reason : std::uint32_t {
   kNoPose = 1U << 0,
   kPoseStale = 1U << 1,
@@ -49,9 +49,9 @@ struct WarningInputs {
   };
   struct Contact {
     std::string id;
-    std::vector<std::uint32_t> triangles;  ///< ascending, each once
-    SteadyTime found;
-    bool lasting = false;                   ///< the newest sweep has met it
+    std::vector<std::uint32_t> triangles;   ///< ascending, each once
+    SteadyTime found;                       ///< time of the newest sweep that met the workpiece
+    bool lasting = false;                   ///< the newest sweep has met it, or could not test it
     bool inside = false;                    ///< the tool is inside the workpiece
     std::optional<size_t> tool_piece = {};  ///< convex piece that touched first, if the narrow phase knows
   };

@@ -27,7 +27,7 @@ class WarningMonitor {
     bool continues(const Checkpoint& previous) const { return epoch == previous.epoch; }
   };
 
-  /// @param on_fault  called after every fault and every restart, in the thread that reports it
+  /// @param on_fault  called after every fault, refusal and restart, in the reporting thread; may call the monitor
   /// @param waiting_since  returns when the oldest pose that is not yet swept was received. Called by warning(); must
   ///                       not call the monitor
   explicit WarningMonitor(
@@ -52,7 +52,7 @@ class WarningMonitor {
   /// Reports that vertices were refused. The warning is not clear until verticesAccepted() or meshAccepted().
   void verticesRefused(const std::string& id, const std::string& message);
 
-  /// Reports accepted vertices. Does not clear the refusal of a later mesh.
+  /// Reports accepted vertices. Clears refusals of vertices of this id; a refused mesh stays until meshAccepted().
   void verticesAccepted(const std::string& id);
 
   /// Reports a message on a mesh topic that belongs to no workpiece: its id is unknown, or it cannot be read. The
@@ -82,7 +82,7 @@ class WarningMonitor {
   /// Reports that time went back. Forgets poses, predictions and faults; kTimeJump lasts until a new pose is swept.
   void timeJumped(const std::string& message);
 
-  /// Forgets everything but the workpieces and refused meshes.
+  /// Forgets everything but the workpieces, refused meshes and refused vertices. A disabled guard stays disabled.
   void restart();
 
   /// Makes the warning unknown until enable(), whatever is reported. Does nothing if disabled already.

@@ -41,8 +41,10 @@ size_t consideredSweeps(const HorizonOptions& options);
 /// @param[out] horizon  overwritten; its buffers are used again
 void computeHorizon(const HorizonOptions& options, Duration age, Horizon& horizon);
 
-/// Computes the ends of the sweeps, at the same steps, up to another end.
-/// @param end  after now, > 0
+/// Computes the ends of the sweeps, at the same steps, up to exactly `end`. Adds no reserve; the last sweep may be
+/// shorter than a step.
+/// @param end  counted from now, > 0; may lie within the reflex interval
+/// @param age  of the newest pose, >= 0
 Horizon horizonUpTo(Duration end, HorizonOptions options, Duration age);
 
 }  // namespace sweep_guard_core

@@ -47,7 +47,7 @@ class PosePredictor {
   PosePredictor(PosePredictor&&) noexcept;
   PosePredictor& operator=(PosePredictor&&) noexcept;
 
-  /// Adds the newest pose. A pose whose stamp is not later than the previous one's replaces the previous pose. The fit
+  /// Adds the newest pose. A pose less than 0.5 ms later than the previous one replaces the previous pose. The fit
   /// restarts after a gap (0.25 s, or three periods of slower poses, at most 1 s) and after a jump faster than the
   /// limits; the errors learned of the operator are kept.
   void observe(const StampedPose& pose);

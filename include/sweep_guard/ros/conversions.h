@@ -19,7 +19,11 @@
 namespace sweep_guard_ros {
 
 sweep_guard_core::Time fromMsg(const ros::Time& time);
-ros::Time toMsg(sweep_guard_core::Time time);  ///< times before the epoch become 0
+/// Converts a stamp; times before the epoch become 0.
+/// @throws std::runtime_error beyond 32 bits of seconds, from the year 2106 on
+ros::Time toMsg(sweep_guard_core::Time time);
+/// Converts a duration.
+/// @throws std::runtime_error beyond +-68 years (32 bits of seconds), so for Duration::max()
 ros::Duration toMsg(sweep_guard_core::Duration duration);
 
 /// Returns the current time on both clocks.
@@ -35,22 +39,27 @@ Msg vectorMsg(const Eigen::Vector3d& v) {
   return msg;
 }
 
-/// Converts a pose, and normalizes its quaternion.
+/// Converts a pose or a transform [m], and normalizes its quaternion.
 /// @throws sweep_guard_core::InvalidInput if a field is NaN, infinite or beyond 1e7 m, or if the norm of the quaternion
 ///     is not within 0.1 of 1
 Eigen::Isometry3d fromMsg(const geometry_msgs::Pose& pose);
 Eigen::Isometry3d fromMsg(const geometry_msgs::Transform& transform);
 geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose);
 
-/// @throws sweep_guard_core::InvalidInput if there are more than `max_triangles`, or if the mesh is invalid
+/// Converts a mesh.
+/// @throws sweep_guard_core::InvalidInput if there are more than `max_triangles`, more than three times as many
+///     vertices, or if TriangleMesh refuses the mesh
 sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles);
 
+/// Makes a message that names these triangles of a workpiece, without impacts.
 /// @param triangles  indices: ascending, each once
+/// Converts all triangles that the swept volumes meet, and the impacts: points [m] and normals in the mesh's frame.
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const std::vector<std::uint32_t>& triangles);
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const sweep_guard_core::SweepResult& result, const sweep_guard_core::Tool& tool);
-/// Converts the objects in contact, in the report's order. The caller sets frame, tool and volume.
+/// Converts the objects that a swept volume meets or that the tool is inside, in the report's order. The caller sets
+/// frame, tool and volume.
 sweep_guard::Contacts toMsg(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool);
 
 /// Converts a prediction as of the time when it was made: omits poses before that. The caller sets frame, tool and

@@ -6,7 +6,8 @@
 
 namespace sweep_guard_ros {
 
-/// Runs the callbacks of one queue in one thread, so that no input waits for another.
+/// Runs the callbacks of one queue in one thread, so that no input waits for another. Callbacks wait until start().
+/// Subscribers and services made from on() must be destroyed first.
 class QueueThread {
  public:
   /// Returns a node handle whose callbacks run in this thread.

@@ -39,11 +39,11 @@ struct Extremes {
   std::array<float, 3> upper;
 };
 
-/// Planes n·p = d with thresholds that are certain in float32: a point with n·p > `outside` is beyond the plane, a
-/// point with n·p < `inside` is not.
+/// Planes n·p = d, in the frame of the vertices and boxes that they are compared with. Their thresholds [m] are certain
+/// in float32: a point with n·p > `outside` is beyond the plane, a point with n·p < `inside` is not.
 struct Planes {
-  std::size_t count = 0;  ///< at most kMaxPlanes
-  std::array<std::array<float, kMaxPlanes + 1>, 3> normal;
+  std::size_t count = 0;                                    ///< at most kMaxPlanes
+  std::array<std::array<float, kMaxPlanes + 1>, 3> normal;  ///< x, y and z of the unit normals; from `count` on unused
   std::array<float, kMaxPlanes + 1> outside;
   std::array<float, kMaxPlanes + 1> inside;
 };
@@ -72,15 +72,20 @@ struct Kernels {
   /// @returns whether all coordinates are finite
   bool (*bound)(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, Extremes& extremes);
 
-  /// Computes for each box the bits of the planes that the whole box is beyond. Arrays are padded to kPadding.
+  /// Computes for each box the bits of the planes that the whole box is beyond; never sets kInsideAll.
+  /// @param count      number of boxes; the arrays are padded to kPadding
+  /// @param[out] bits  one entry for each box, padded to kPadding
   void (*classifyBoxes)(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes,
                         std::uint16_t* bits);
 
-  /// Computes the bits of the vertices of one block.
+  /// Computes the bits of the vertices of one block: kInsideAll, or the planes that the vertex is beyond.
+  /// @param vertices   x0 y0 z0 x1 ... of kBlock vertices
+  /// @param[out] bits  kBlock entries
   void (*classifyBlock)(const float* vertices, const Planes& planes, std::uint16_t* bits);
 
   /// Classifies the triangles of a cluster by the bits of the vertices of its blocks. Bits above the last triangle are
   /// not valid.
+  /// @param bits  kBlock entries from classifyBlock() for each block of the cluster; all kClusterBlocks are read
   TriangleBits (*classifyTriangles)(const ClusterCorners& corners,
                                     const std::array<const std::uint16_t*, kClusterBlocks>& bits);
 };

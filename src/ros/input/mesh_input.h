@@ -10,11 +10,11 @@
 #include <set>
 #include <string>
 
+#include "guard/workpiece_store.h"
+#include "monitor/input_record.h"
 #include "ros/input/worker.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/guard/workpiece_store.h"
-#include "sweep_guard/monitor/input_record.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 #include "sweep_guard/ros/queue_thread.h"
 

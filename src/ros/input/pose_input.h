@@ -11,12 +11,12 @@
 #include <set>
 #include <string>
 
+#include "guard/workpiece_store.h"
+#include "monitor/input_record.h"
 #include "ros/input/frames.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
 #include "ros/work_queue.h"
-#include "sweep_guard/guard/workpiece_store.h"
-#include "sweep_guard/monitor/input_record.h"
 #include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {

@@ -5,12 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "monitor/sweep_statistics.h"
 #include "ros/input/mesh_input.h"
 #include "ros/input/pose_input.h"
 #include "ros/parameters/parameters.h"
 #include "ros/parameters/reconfigure_server.h"
 #include "sweep_guard/common/time.h"
-#include "sweep_guard/monitor/sweep_statistics.h"
 
 namespace sweep_guard_ros {
 

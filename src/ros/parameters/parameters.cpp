@@ -57,7 +57,7 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
   sweep_guard_core::PredictorOptions options;
   options.predictor =
       read.choice("prediction/predictor", options.predictor, sweep_guard_core::predictorNames(),
-                  "direct: learns for each horizon how far the operator's velocities carry. polynomial: "
+                  "direct: learns the displacement within each horizon from the operator's velocities. polynomial: "
                   "fits one polynomial per axis. constant_velocity: continues at the newest velocity. "
                   "hold: the tool stays where it is.");
   const std::vector<int> degree =

@@ -7,9 +7,9 @@
 #include <map>
 #include <memory>
 
+#include "guard/workpiece_store.h"
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/guard/workpiece_store.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 #include "sweep_guard/ros/queue_thread.h"
 

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "sweep_guard/guard/workpiece_store.h"
+#include "guard/workpiece_store.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 #include "sweep_guard/ros/queue_thread.h"
 

@@ -8,9 +8,9 @@
 #include <future>
 #include <memory>
 
+#include "guard/predict_contacts.h"
+#include "guard/workpiece_store.h"
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/guard/predict_contacts.h"
-#include "sweep_guard/guard/workpiece_store.h"
 #include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {

@@ -33,8 +33,8 @@ struct ParameterInfo {
 
 /// Reads the private parameters of a node. Each function returns the value that is set, or the fallback if none is, and
 /// throws sweep_guard_core::InvalidInput with key, value and range if the value has another type, is NaN or is out of
-/// range.
-/// (roscpp silently returns the fallback if the type is wrong.) `effect` describes the parameter to users.
+/// range. (roscpp silently returns the fallback if the type is wrong.) Both ends of a range are allowed. `effect`
+/// describes the parameter to users.
 class ParameterReader {
  public:
   struct Range {

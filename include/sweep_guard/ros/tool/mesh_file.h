@@ -24,7 +24,8 @@ struct MeshSurface {
 /// @throws sweep_guard_core::InvalidInput naming the URI and what to do
 std::filesystem::path locateMesh(const std::string& uri, const std::vector<std::string>& roots);
 
-/// Selects whether readMesh() follows symbolic links. Use kFollow for paths from the user only.
+/// Selects whether readMesh() follows a symbolic link at the end of the path; links among its folders are followed in
+/// any case. Use kFollow for paths from the user only.
 enum class SymbolicLinks { kRefuse, kFollow };
 
 /// Reads a regular STL, OBJ or DAE file of at most 32 MiB and a million triangles. The program mesh_reader next to the

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "sweep_guard/common/pool.h"
+#include "common/pool.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {
@@ -49,7 +49,7 @@ class WorkpieceStore {
   /// @throws InvalidInput if the stamp is older than the snapshot's, or if there are 1000 workpieces already
   UpdateOutcome set(Workpiece next, Time latest);
 
-  /// Replaces the vertices of a workpiece.
+  /// Replaces vertices, times and frame of a workpiece. `updates` and `path_length` continue, even in another frame.
   /// @param latest  as for set()
   /// @returns kIgnored if the workpiece was removed at this stamp or later
   /// @throws InvalidInput if the revision differs, if the stamp is older than the snapshot's, or if

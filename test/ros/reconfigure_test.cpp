@@ -49,7 +49,7 @@ auto valueIn(const Parameters& parameters, const std::string& key) {
 }
 
 // The parameters are those of the start before and after each test.
-class TuningTest : public NodeTest {
+class ReconfigureTest : public NodeTest {
  protected:
   static void SetUpTestSuite() { at_start_ = probe().configuration(); }
   void SetUp() override {
@@ -77,7 +77,7 @@ class TuningTest : public NodeTest {
   // Rests for a while, then goes along x at a speed [m/s] for some steps.
   Prediction restAndGo(double speed, int steps) {
     probe().reset();
-    placeSheet("far", {0.0, 0.0, -2.0});
+    placeSquare("far", {0.0, 0.0, -2.0});
     for (int i = 0; i < 20; ++i) moveTo({0.0, 0.0, 1.0});
     Prediction prediction;
     for (int i = 1; i <= steps; ++i) prediction = predictAt({speed * kStep * i, 0.0, 1.0});
@@ -94,20 +94,20 @@ class TuningTest : public NodeTest {
     return (end(prediction) - prediction.poses.end()[-2].pose.position.x) / lastStep(prediction);
   }
 
-  // Comes down towards the sheet at 0.25 m/s, so that it would be met after the time to go [s].
+  // Comes down towards the square at 0.25 m/s, so that it would be met after the time to go [s].
   Warning descendUntil(double to_go) {
     constexpr double kSpeed = 0.25;
     probe().reset();
     for (int i = 20; i >= 0; --i) {
       predictAt({0.0, 0.0, kSpeed * (to_go + i * kStep)});
-      probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.0}, probe().time()));
+      probe().place(squareMovedTo("square", {0.0, 0.0, 0.0}, probe().time()));
     }
     predictAt({0.0, 0.0, kSpeed * to_go - kSpeed * kStep});
     probe().skipWarnings();
     return probe().awaitWarning([](const Warning&) { return true; });
   }
 
-  // Moves from rest. The sheet is small, with its center at a point.
+  // Moves from rest. The square is small, with its center at a point.
   Contacts sweep(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
     moveTo(from);
     return moveTo(to);
@@ -117,19 +117,17 @@ class TuningTest : public NodeTest {
   static inline std::set<std::string> changed_;
 };
 
-TEST_F(TuningTest, PaddingGrowsTheTool) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+TEST_F(ReconfigureTest, PaddingGrowsTheTool) {
+  placeSquare("square", {0.0, 0.0, 0.0});
   EXPECT_TRUE(sweep({0.115, 0.0, -0.05}, {0.115, 0.0, -0.05}).objects.empty());  // 5 mm beside it
   change("tool/padding", 0.006);
   EXPECT_EQ(sweep({0.115, 0.0, -0.05}, {0.115, 0.0, -0.05}).objects.size(), 1U);
-  sweep_guard::CheckSweep::Request request;
-  request.path = {poseAt({0.115, 0.0, -0.05}, ros::Time())};
-  EXPECT_TRUE(probe().check(request).collision);
+  EXPECT_TRUE(probe().check(requestAlong({{0.115, 0.0, -0.05}})).collision);
 }
 
 // In a corner of the box about a slanting motion, and outside of the hull.
-TEST_F(TuningTest, TheVolumeChanges) {
-  placeSheet("corner", {0.2, 0.0, -0.1}, "world", /*half_side=*/0.005);
+TEST_F(ReconfigureTest, TheVolumeChanges) {
+  placeSquare("corner", {0.2, 0.0, -0.1}, "world", /*half_side=*/0.005);
   change("volume", "obb");
   EXPECT_EQ(sweep({0.0, 0.0, 0.0}, {0.15, 0.0, -0.15}).objects.size(), 1U);
   change("volume", "hull");
@@ -139,8 +137,8 @@ TEST_F(TuningTest, TheVolumeChanges) {
 }
 
 // The margin for rounding identifies the detector. The cull decides on a triangle with a corner in the volume.
-TEST_F(TuningTest, TheDetectorAndItsCullChange) {
-  placeSheet("small", {0.0, 0.0, 0.0}, "world", /*half_side=*/0.002);
+TEST_F(ReconfigureTest, TheDetectorAndItsCullChange) {
+  placeSquare("small", {0.0, 0.0, 0.0}, "world", /*half_side=*/0.002);
   const auto margin = [&] { return sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05}).margin; };
   const double culled = margin();
   change("cull", false);
@@ -153,16 +151,16 @@ TEST_F(TuningTest, TheDetectorAndItsCullChange) {
   EXPECT_TRUE(probe().predict(1.0).success);
 }
 
-TEST_F(TuningTest, TheNarrowPhaseIsLeftOut) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+TEST_F(ReconfigureTest, TheNarrowPhaseIsLeftOut) {
+  placeSquare("square", {0.0, 0.0, 0.0});
   EXPECT_TRUE(sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05}).objects.at(0).fine);
   change("fine", false);
   EXPECT_FALSE(sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05}).objects.at(0).fine);
 }
 
 // The margin covers the deviation bound, which falls with the square of the angle.
-TEST_F(TuningTest, TurnsAreSplitIntoSmallerSteps) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+TEST_F(ReconfigureTest, TurnsAreSplitIntoSmallerSteps) {
+  placeSquare("square", {0.0, 0.0, 0.0});
   const auto margin = [&] {
     moveTo({0.0, 0.0, 1.0});
     probe().tick(kStep);
@@ -176,35 +174,35 @@ TEST_F(TuningTest, TurnsAreSplitIntoSmallerSteps) {
   EXPECT_LT(margin(), 0.2 * whole);
 }
 
-TEST_F(TuningTest, ThePredictorIsExchanged) {
+TEST_F(ReconfigureTest, ThePredictorIsExchanged) {
   change("prediction/predictor", "constant_velocity");
   EXPECT_NEAR(lastSpeed(restAndGo(0.2, 10)), 0.2, 0.01);
   change("prediction/predictor", "hold");
   EXPECT_NEAR(end(restAndGo(0.2, 10)), 0.02, 1e-9);
 }
 
-TEST_F(TuningTest, ThePolynomialHasAnotherDegree) {
+TEST_F(ReconfigureTest, ThePolynomialHasAnotherDegree) {
   change("prediction/predictor", "polynomial");
   const double line = end(restAndGo(0.2, 10));
   change("prediction/degree", "[0, 1, 1, 1, 1, 1]");
   EXPECT_LT(end(restAndGo(0.2, 10)), line - 0.05);
 }
 
-TEST_F(TuningTest, AnAxisIsHeldStill) {
+TEST_F(ReconfigureTest, AnAxisIsHeldStill) {
   change("prediction/predictor", "constant_velocity");
   EXPECT_GT(end(restAndGo(0.2, 10)), 0.1);
   change("prediction/constrained", "[x]");
   EXPECT_NEAR(end(restAndGo(0.2, 10)), 0.02, 1e-9);
 }
 
-TEST_F(TuningTest, ThePolynomialForgetsSooner) {
+TEST_F(ReconfigureTest, ThePolynomialForgetsSooner) {
   change("prediction/predictor", "polynomial");
   const double slowly = end(restAndGo(0.2, 5));
   change("prediction/forgetting_factor", 0.1);
   EXPECT_GT(end(restAndGo(0.2, 5)), slowly + 0.05);
 }
 
-TEST_F(TuningTest, ThePolynomialHasAShorterWindow) {
+TEST_F(ReconfigureTest, ThePolynomialHasAShorterWindow) {
   change("prediction/predictor", "polynomial");
   const double long_back = end(restAndGo(0.2, 5));
   change("prediction/window", 0.04);
@@ -212,14 +210,14 @@ TEST_F(TuningTest, ThePolynomialHasAShorterWindow) {
 }
 
 // A faster motion is a jump, after which the motion is unknown.
-TEST_F(TuningTest, TheSpeedLimitDetectsAJump) {
+TEST_F(ReconfigureTest, TheSpeedLimitDetectsAJump) {
   EXPECT_FALSE(restAndGo(0.2, 3).poses.empty());
   change("limits/max_speed", 0.1);
   EXPECT_TRUE(restAndGo(0.2, 3).poses.empty());
 }
 
-TEST_F(TuningTest, TheTurnRateLimitDetectsAJump) {
-  placeSheet("far", {0.0, 0.0, -2.0});
+TEST_F(ReconfigureTest, TheTurnRateLimitDetectsAJump) {
+  placeSquare("far", {0.0, 0.0, -2.0});
   const auto turn = [&] {
     probe().reset();
     moveTo({0.0, 0.0, 1.0});
@@ -234,22 +232,22 @@ TEST_F(TuningTest, TheTurnRateLimitDetectsAJump) {
   EXPECT_TRUE(turn().poses.empty());
 }
 
-TEST_F(TuningTest, TheReflexIntervalIsLonger) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+TEST_F(ReconfigureTest, TheReflexIntervalIsLonger) {
+  placeSquare("square", {0.0, 0.0, 0.0});
   EXPECT_EQ(descendUntil(0.4).level, Warning::CONSIDERED);
   change("horizon/reflex", 0.8);
   EXPECT_EQ(descendUntil(0.4).level, Warning::REFLEX);
 }
 
-TEST_F(TuningTest, TheConsideredIntervalIsLonger) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+TEST_F(ReconfigureTest, TheConsideredIntervalIsLonger) {
+  placeSquare("square", {0.0, 0.0, 0.0});
   change("warning/min_probability", 1.0);
   EXPECT_EQ(descendUntil(1.5).level, Warning::CLEAR);
   change("horizon/considered", 2.0);
   EXPECT_EQ(descendUntil(1.5).level, Warning::CONSIDERED);
 }
 
-TEST_F(TuningTest, ThePredictedStepsAreLonger) {
+TEST_F(ReconfigureTest, ThePredictedStepsAreLonger) {
   const Prediction before = restAndGo(0.0, 2);
   EXPECT_LT(firstStep(before), 0.011);
   EXPECT_NEAR(lastStep(before), 0.1, 0.01);
@@ -261,13 +259,13 @@ TEST_F(TuningTest, ThePredictedStepsAreLonger) {
 }
 
 // Beside the path, where contact is only probable.
-TEST_F(TuningTest, TheProbabilityThatIsWarnedOfChanges) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+TEST_F(ReconfigureTest, TheProbabilityThatIsWarnedOfChanges) {
+  placeSquare("square", {0.0, 0.0, 0.0});
   const auto rest = [&] {
     Prediction prediction;
     for (int i = 0; i < 40; ++i) {
       prediction = predictAt({0.0005 * (i % 2), 0.0, 0.003});
-      probe().place(sheetMovedTo("sheet", {0.0, 0.0, 0.0}, probe().time()));
+      probe().place(squareMovedTo("square", {0.0, 0.0, 0.0}, probe().time()));
     }
     return prediction;
   };
@@ -279,8 +277,8 @@ TEST_F(TuningTest, TheProbabilityThatIsWarnedOfChanges) {
   EXPECT_NE(rest().interval, Prediction::NONE);
 }
 
-TEST_F(TuningTest, TheHoldTimeOfAContactChanges) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+TEST_F(ReconfigureTest, TheHoldTimeOfAContactChanges) {
+  placeSquare("square", {0.0, 0.0, 0.0});
   change("warning/hold_time", 60.0);
   sweep({0.0, 0.0, 0.05}, {0.0, 0.0, -0.05});
   for (int i = 0; i < 5; ++i) moveTo({0.0, 0.0, 0.5});
@@ -292,7 +290,7 @@ TEST_F(TuningTest, TheHoldTimeOfAContactChanges) {
 }
 
 // A thousand times less time for more than two thousand sweeps. Load leaves time for fewer of them, at either rate.
-TEST_F(TuningTest, TheRateDecidesHowManySweepsThereIsTimeFor) {
+TEST_F(ReconfigureTest, TheRateDecidesHowManySweepsThereIsTimeFor) {
   Config fine;
   add(fine, "horizon/considered", 5.0);
   add(fine, "horizon/considered_step", 0.002);
@@ -305,8 +303,8 @@ TEST_F(TuningTest, TheRateDecidesHowManySweepsThereIsTimeFor) {
   EXPECT_LT(fast.sweeps_made, slow.sweeps_made);
 }
 
-TEST_F(TuningTest, PosesBecomeStaleLater) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+TEST_F(ReconfigureTest, PosesBecomeStaleLater) {
+  placeSquare("square", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
   probe().advance(1.1);
   probe().awaitWarning(hasReason(Warning::POSE_STALE));
@@ -316,8 +314,8 @@ TEST_F(TuningTest, PosesBecomeStaleLater) {
   EXPECT_EQ(later.reasons & Warning::POSE_STALE, 0U) << later.text;
 }
 
-TEST_F(TuningTest, MeshesNeverBecomeStale) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+TEST_F(ReconfigureTest, MeshesNeverBecomeStale) {
+  placeSquare("square", {0.0, 0.0, -1.0});
   probe().advance(10.1);
   probe().awaitWarning(hasReason(Warning::MESH_STALE));
   change("timing/mesh_timeout", std::numeric_limits<double>::infinity());
@@ -327,7 +325,7 @@ TEST_F(TuningTest, MeshesNeverBecomeStale) {
 }
 
 // Compared to the warnings, which keep their 20 Hz.
-TEST_F(TuningTest, TheMarkerRateChanges) {
+TEST_F(ReconfigureTest, TheMarkerRateChanges) {
   const auto count = [] {
     const size_t before = probe().markersReceived();
     probe().skipWarnings();
@@ -340,9 +338,9 @@ TEST_F(TuningTest, TheMarkerRateChanges) {
   EXPECT_GE(count(), 20U);
 }
 
-TEST_F(TuningTest, EachNamespaceOfTheMarkersCanBeHidden) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
-  placeSheet("below", {0.0, 0.0, -0.1});
+TEST_F(ReconfigureTest, EachNamespaceOfTheMarkersCanBeHidden) {
+  placeSquare("square", {0.0, 0.0, 0.0});
+  placeSquare("below", {0.0, 0.0, -0.1});
   change("warning/hold_time", 60.0);
   moveTo({0.0, 0.0, 0.02});
   moveTo({0.0, 0.0, 0.0});
@@ -366,9 +364,9 @@ TEST_F(TuningTest, EachNamespaceOfTheMarkersCanBeHidden) {
   }
 }
 
-// The path through the sheet begins before the change and ends after it.
-TEST_F(TuningTest, TheMotionDuringAChangeIsSwept) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+// The path through the square begins before the change and ends after it.
+TEST_F(ReconfigureTest, TheMotionDuringAChangeIsSwept) {
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.05});
   const ros::Time before = probe().time();
   Config config;
@@ -383,8 +381,8 @@ TEST_F(TuningTest, TheMotionDuringAChangeIsSwept) {
 }
 
 // Whatever the order of poses and changes.
-TEST_F(TuningTest, ManyChangesLeaveNoGap) {
-  placeSheet("sheet", {0.0, 0.0, 0.0});
+TEST_F(ReconfigureTest, ManyChangesLeaveNoGap) {
+  placeSquare("square", {0.0, 0.0, 0.0});
   moveTo({0.0, 0.0, 0.5});
   probe().forgetContacts();
   for (int i = 0; i < 60; ++i) {
@@ -396,13 +394,13 @@ TEST_F(TuningTest, ManyChangesLeaveNoGap) {
   }
   const std::vector<Contacts> contacts = probe().awaitContactsUpTo(probe().time());
   EXPECT_TRUE(endToEnd(contacts));
-  EXPECT_GE(objectsMet(contacts), 1U);
-  EXPECT_LE(objectsMet(contacts), 2U);
+  EXPECT_GE(contactCount(contacts), 1U);
+  EXPECT_LE(contactCount(contacts), 2U);
 }
 
-TEST_F(TuningTest, AChangeAloneMakesNothingUnknown) {
+TEST_F(ReconfigureTest, AChangeAloneMakesNothingUnknown) {
   change("timing/pose_timeout", 2.0);  // a busy machine takes a while
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+  placeSquare("square", {0.0, 0.0, -1.0});
   restAt({0.0, 0.0, 0.5});
   const size_t since = probe().warnings().size();
   for (const char* const detector : {"halfspace", "reference", "select"}) {
@@ -414,8 +412,8 @@ TEST_F(TuningTest, AChangeAloneMakesNothingUnknown) {
   for (size_t i = since; i < warnings.size(); ++i) EXPECT_TRUE(warnings[i].clear) << warnings[i].text;
 }
 
-TEST_F(TuningTest, BadValuesAreRefusedAndChangeNothing) {
-  placeSheet("sheet", {0.0, 0.0, -1.0});
+TEST_F(ReconfigureTest, BadValuesAreRefusedAndChangeNothing) {
+  placeSquare("square", {0.0, 0.0, -1.0});
   const Config before = probe().configuration();
   for (const Config& bad :
        {one("tool/padding", -0.001), one("horizon/reflex", std::nan("")), one("horizon/reflex", 5.0),
@@ -434,7 +432,7 @@ TEST_F(TuningTest, BadValuesAreRefusedAndChangeNothing) {
 }
 
 // One of the two is valid alone.
-TEST_F(TuningTest, ARequestIsAppliedAsAWholeOrNotAtAll) {
+TEST_F(ReconfigureTest, ARequestIsAppliedAsAWholeOrNotAtAll) {
   Config config;
   add(config, "horizon/considered_step", 0.2);
   add(config, "horizon/considered", 0.05);
@@ -444,7 +442,7 @@ TEST_F(TuningTest, ARequestIsAppliedAsAWholeOrNotAtAll) {
   EXPECT_TRUE(probe().configure(config));
 }
 
-TEST_F(TuningTest, DiagnosticsAndParameterServerReportChangesAndRefusals) {
+TEST_F(ReconfigureTest, DiagnosticsAndParameterServerReportChangesAndRefusals) {
   change("horizon/reflex", 0.2);
   EXPECT_FALSE(probe().configure(one("horizon/reflex", 3.0)));
   const auto status = probe().awaitStatus("parameters", [](const auto& next) {
@@ -460,7 +458,7 @@ TEST_F(TuningTest, DiagnosticsAndParameterServerReportChangesAndRefusals) {
 }
 
 // dynparam reads the description and sends each value in its type.
-TEST_F(TuningTest, TheCommandLineToolChangesThem) {
+TEST_F(ReconfigureTest, TheCommandLineToolChangesThem) {
   const auto set = [](const std::string& what) {
     return std::system(("rosrun dynamic_reconfigure dynparam set /sweep_guard " + what).c_str());
   };
@@ -474,7 +472,7 @@ TEST_F(TuningTest, TheCommandLineToolChangesThem) {
 }
 
 // Clients build their sliders and choices from it.
-TEST_F(TuningTest, TheDescriptionHasEachParameterInAGroupWithRangeAndDefault) {
+TEST_F(ReconfigureTest, TheDescriptionHasEachParameterInAGroupWithRangeAndDefault) {
   const auto description =
       ros::topic::waitForMessage<ConfigDescription>("/sweep_guard/parameter_descriptions", ros::Duration(1e6));
   ASSERT_TRUE(description);

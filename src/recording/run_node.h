@@ -7,14 +7,15 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
-namespace sweep_guard_ros {
+namespace sweep_guard_recording {
 
 /// Runs a program: constructs a Node from its private parameters and calls its run().
 /// @return exit status; 2, with one line in the log, if a parameter or a file is refused or cannot be read
 template <typename Node>
 int runNode(int argc, char** argv, const std::string& name) {
   ros::init(argc, argv, name);
-  ParameterReader parameters{ros::NodeHandle("~")};  // outlives the node: without a handle the console is silent
+  sweep_guard_ros::ParameterReader parameters{
+      ros::NodeHandle("~")};  // outlives the node: without a handle the console is silent
   try {
     Node node(parameters);
     parameters.warnOfUnread();
@@ -26,4 +27,4 @@ int runNode(int argc, char** argv, const std::string& name) {
   return 0;
 }
 
-}  // namespace sweep_guard_ros
+}  // namespace sweep_guard_recording

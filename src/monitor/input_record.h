@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "sweep_guard/monitor/timestamps.h"
+#include "sweep_guard/common/time.h"
 
 namespace sweep_guard_core {
 

@@ -28,7 +28,7 @@ class SweepStatistics {
     std::uint64_t faults_total = 0;            ///< detector faults since the start or restart()
     std::uint64_t faults = 0;                  ///< detector faults since the last summary
     std::string last_fault;                    ///< empty: none
-    std::vector<double> latencies;  ///< from received pose to sent warning, since the last summary [s], unordered
+    std::vector<double> latencies;  ///< first 10000 since the last summary, received pose to warning [s], unordered
     double longest_sweep = 0.0;     ///< since the last summary [s]
     std::vector<double> prediction_times;  ///< since the last summary [s], unordered
     bool coarser = false;                  ///< a prediction made fewer sweeps than configured
