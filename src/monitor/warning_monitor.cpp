@@ -102,13 +102,10 @@ void WarningMonitor::meshUnread(const std::string& message, SteadyTime now) {
   on_fault_();
 }
 
-void WarningMonitor::updateDropped(const std::string& id) {
+void WarningMonitor::updateDropped(const std::string& id, SteadyTime now) {
   {
     const std::lock_guard lock(mutex_);
-    const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
-    const auto known = std::find_if(workpieces_.begin(), workpieces_.end(), same);
-    if (known == workpieces_.end()) return;
-    dropped_[id] = (*known)->updates;
+    dropped_[id] = now;
     updateObjects();
   }
   on_fault_();
@@ -135,6 +132,11 @@ void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
 }
 
 void WarningMonitor::updateObjects() {
+  for (auto dropped = dropped_.begin(); dropped != dropped_.end();) {
+    const auto same = [&](const auto& workpiece) { return workpiece->id == dropped->first; };
+    const bool known = std::any_of(workpieces_.begin(), workpieces_.end(), same);
+    dropped = known ? std::next(dropped) : dropped_.erase(dropped);
+  }
   inputs_.objects.resize(workpieces_.size());
   for (size_t i = 0; i < workpieces_.size(); ++i) {
     const Workpiece& workpiece = *workpieces_[i];
@@ -165,7 +167,7 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
     for (const SweptObject& object : report.objects) {
       if (object.behind == Duration::zero()) swept_.push_back(object.workpiece);
       const auto dropped = dropped_.find(object.workpiece->id);
-      if (dropped != dropped_.end() && object.workpiece->updates > dropped->second) dropped_.erase(dropped);
+      if (dropped != dropped_.end() && object.workpiece->received > dropped->second) dropped_.erase(dropped);
     }
     updateObjects();
     updateBehind(report);

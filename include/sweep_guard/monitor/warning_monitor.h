@@ -60,8 +60,8 @@ class WarningMonitor {
   void meshUnread(const std::string& message, SteadyTime now);
 
   /// Reports that an update of a workpiece was dropped unread. The warning is not clear until that workpiece is swept
-  /// with a later update.
-  void updateDropped(const std::string& id);
+  /// with an update received later than now.
+  void updateDropped(const std::string& id, SteadyTime now);
 
   /// Reports that poses were sent and did not arrive. The warning says so for the hold time; its level stays.
   void posesLost(const std::string& message, SteadyTime now);
@@ -142,7 +142,7 @@ class WarningMonitor {
   std::map<Reason, std::uint64_t> fault_numbers_;
   Messages refused_meshes_;
   Messages refused_vertices_;
-  std::map<std::string, std::uint64_t> dropped_;  // by id: the number of updates that the workpiece had
+  std::map<std::string, SteadyTime> dropped_;  // by id: when an update was dropped
 };
 
 }  // namespace sweep_guard_core

@@ -18,6 +18,7 @@ using sweep_guard_core::InputRecord;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_core::isName;
 using sweep_guard_core::printable;
+using sweep_guard_core::SteadyTime;
 using sweep_guard_core::TriangleMesh;
 using sweep_guard_core::UpdateOutcome;
 
@@ -72,12 +73,14 @@ void MeshInput::start() {
 
 void MeshInput::onMessage(const sweep_guard::DeformableMesh::ConstPtr& msg) {
   if (!readable(msg->id, msg->header, mesh_record_)) return;
-  converting_.push({[this, msg] { convert(msg); }, [this, msg] { drop(*msg); }, sizeOf(*msg)});
+  const SteadyTime received = std::chrono::steady_clock::now();
+  converting_.push({[this, msg, received] { convert(msg, received); }, [this, msg] { drop(*msg); }, sizeOf(*msg)});
 }
 
 void MeshInput::onMessage(const sweep_guard::MeshVertices::ConstPtr& msg) {
   if (!readable(msg->id, msg->header, vertices_record_)) return;
-  storing_.push({[this, msg] { store(*msg); }, [this, msg] { drop(*msg); }, sizeOf(*msg)});
+  const SteadyTime received = std::chrono::steady_clock::now();
+  storing_.push({[this, msg, received] { store(*msg, received); }, [this, msg] { drop(*msg); }, sizeOf(*msg)});
 }
 
 bool MeshInput::readable(const std::string& id, const std_msgs::Header& header, InputRecord& record) {
@@ -98,26 +101,26 @@ void MeshInput::unread(const std::string& reason, InputRecord& record) {
   log_.error("unread", message);
 }
 
-void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg) {
+void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, SteadyTime received) {
   try {
     auto mesh_M = std::make_shared<std::optional<TriangleMesh>>();
     if (!removes(*msg)) {
       checkHeader(msg->header);
       mesh_M->emplace(fromMsg(msg->mesh, max_triangles_));
     }
-    storing_.push({[this, msg, mesh_M] { store(*msg, std::move(*mesh_M)); }, [this, msg] { drop(*msg); }, 0});
+    storing_.push(
+        {[this, msg, received, mesh_M] { store(*msg, received, std::move(*mesh_M)); }, [this, msg] { drop(*msg); }, 0});
   } catch (const std::exception& error) {  // invalid, or out of memory
     monitor_.meshRefused(msg->id, refusal(msg->id, error, mesh_record_));
   }
 }
 
-void MeshInput::store(const sweep_guard::DeformableMesh& msg, std::optional<TriangleMesh> mesh_M) {
+void MeshInput::store(const sweep_guard::DeformableMesh& msg, SteadyTime received, std::optional<TriangleMesh> mesh_M) {
   try {
     const sweep_guard_core::Time stamp = fromMsg(msg.header.stamp);
     if (!mesh_M) {
       if (!workpieces_.remove(msg.id, stamp)) ROS_WARN_THROTTLE(1.0, "no workpiece '%s' to remove", msg.id.c_str());
-    } else if (workpieces_.set({msg.id, msg.revision, stamp, std::chrono::steady_clock::now(), msg.header.frame_id,
-                                std::move(*mesh_M)},
+    } else if (workpieces_.set({msg.id, msg.revision, stamp, received, msg.header.frame_id, std::move(*mesh_M)},
                                latestStamp()) == UpdateOutcome::kIgnored) {
       return;
     }
@@ -127,13 +130,11 @@ void MeshInput::store(const sweep_guard::DeformableMesh& msg, std::optional<Tria
   }
 }
 
-void MeshInput::store(const sweep_guard::MeshVertices& msg) {
+void MeshInput::store(const sweep_guard::MeshVertices& msg, SteadyTime received) {
   try {
     checkHeader(msg.header);
-    const UpdateOutcome outcome =
-        workpieces_.deform({msg.id, msg.revision, fromMsg(msg.header.stamp), std::chrono::steady_clock::now(),
-                            msg.header.frame_id, msg.positions},
-                           latestStamp());
+    const UpdateOutcome outcome = workpieces_.deform(
+        {msg.id, msg.revision, fromMsg(msg.header.stamp), received, msg.header.frame_id, msg.positions}, latestStamp());
     if (outcome == UpdateOutcome::kStored) monitor_.verticesAccepted(msg.id);
     if (outcome == UpdateOutcome::kUnknownWorkpiece) {
       unread("vertices of '" + msg.id + "' came before their mesh: publish DeformableMesh latched", vertices_record_);
@@ -159,7 +160,7 @@ void MeshInput::drop(const sweep_guard::DeformableMesh& msg) {
 
 void MeshInput::drop(const sweep_guard::MeshVertices& msg) {
   ++dropped_;
-  monitor_.updateDropped(msg.id);
+  monitor_.updateDropped(msg.id, std::chrono::steady_clock::now());
 }
 
 }  // namespace sweep_guard_ros

@@ -46,9 +46,10 @@ class MeshInput {
   void onMessage(const sweep_guard::MeshVertices::ConstPtr& msg);
   bool readable(const std::string& id, const std_msgs::Header& header, sweep_guard_core::InputRecord& record);
   void unread(const std::string& reason, sweep_guard_core::InputRecord& record);
-  void convert(const sweep_guard::DeformableMesh::ConstPtr& msg);
-  void store(const sweep_guard::DeformableMesh& msg, std::optional<sweep_guard_core::TriangleMesh> mesh_M);
-  void store(const sweep_guard::MeshVertices& msg);
+  void convert(const sweep_guard::DeformableMesh::ConstPtr& msg, sweep_guard_core::SteadyTime received);
+  void store(const sweep_guard::DeformableMesh& msg, sweep_guard_core::SteadyTime received,
+             std::optional<sweep_guard_core::TriangleMesh> mesh_M);
+  void store(const sweep_guard::MeshVertices& msg, sweep_guard_core::SteadyTime received);
   std::string refusal(const std::string& id, const std::exception& error, sweep_guard_core::InputRecord& record);
   void drop(const sweep_guard::DeformableMesh& msg);
   void drop(const sweep_guard::MeshVertices& msg);

@@ -10,7 +10,7 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr std::uint32_t kContactsQueue = 1000;  // 1 s at 1 kHz
+constexpr std::uint32_t kContactsQueue = 200;  // 0.2 s at 1 kHz; each message may name every triangle
 constexpr std::uint32_t kPredictionsQueue = 100;
 
 }  // namespace
