@@ -23,6 +23,8 @@ Settings settingsOf(int argc, char** argv) {
       ("seconds", options::value(&settings.seconds), "time to measure")                      //
       ("pose-rate", options::value(&settings.rates.poses), "[Hz]")                           //
       ("vertices-rate", options::value(&settings.rates.vertices), "[Hz]")                    //
+      ("away", options::bool_switch(&settings.away),
+       "the tool moves 1 m away from the hull, where every warning should be CLEAR")  //
       ("transport", options::value(&settings.transport),
        "tcpros: the guard is a node; nodelet: it runs in this process")                                               //
       ("detector", options::value(&settings.detector), "detector of the guard")                                       //
@@ -54,7 +56,8 @@ int run(int argc, char** argv) {
   print(settings, measured, rows);
   save(settings, measured, rows);
   const bool covered = rows[0].milliseconds.size() == posesOf(measured).size();
-  return covered && holes(measured.messages.contacts) == 0 ? 0 : 1;
+  const bool clear = !settings.away || unclearWarnings(measured) == 0;
+  return covered && clear && holes(measured.messages.contacts) == 0 ? 0 : 1;
 }
 
 }  // namespace

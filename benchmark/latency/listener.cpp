@@ -53,6 +53,7 @@ void Listener::onWarning(const sweep_guard::Warning& warning) {
   const std::lock_guard lock(mutex_);
   messages_.warnings.push_back({stamp, stamp, received});
   if (warning.level != level_) messages_.changes.push_back({stamp, stamp, received});
+  if (!warning.clear) messages_.unclear.push_back({stamp, stamp, received});
   level_ = warning.level;
 }
 

@@ -19,6 +19,7 @@ struct ReceivedMessages {
   std::vector<ReceivedMessage> predictions;
   std::vector<ReceivedMessage> warnings;
   std::vector<ReceivedMessage> changes;  ///< the warnings that changed the level
+  std::vector<ReceivedMessage> unclear;  ///< the warnings that were not CLEAR
   std::size_t met = 0;                   ///< number of contacts messages that are not empty
   std::size_t sweeps_asked = 0;          ///< in all predictions
   std::size_t sweeps_made = 0;

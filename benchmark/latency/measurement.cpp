@@ -83,7 +83,7 @@ Measurement measure(const Settings& settings) {
   setParameters(settings);
   const Listener listener(kGuard);
   const GuardProcess guard(settings.transport);
-  Sender sender(scene, settings.rates);
+  Sender sender(scene, settings.rates, settings.away);
   waitFor(listener, /*pose=*/1);
   if (listener.newestContacts() == 0) throw sweep_guard_core::DeviceError("the guard publishes nothing");
   ros::WallDuration(kWarmUp).sleep();
@@ -111,6 +111,10 @@ std::vector<Nanoseconds> posesOf(const Measurement& measured) {
   std::copy_if(measured.poses.begin(), measured.poses.end(), std::back_inserter(poses),
                [&](Nanoseconds pose) { return pose >= measured.begin && pose < measured.end; });
   return poses;
+}
+
+std::size_t unclearWarnings(const Measurement& measured) {
+  return within(measured.messages.unclear, measured.begin, measured.end).size();
 }
 
 std::vector<LatencyRow> rowsOf(const Measurement& measured) {

@@ -14,6 +14,7 @@ struct Settings {
   int triangles = 1600;   ///< of the hull; even, >= 6
   double seconds = 10.0;  ///< duration of the measurement [s]
   Rates rates;
+  bool away = false;                 ///< the tool is too far away to be warned of
   std::string transport = "tcpros";  ///< tcpros: the guard is a node; nodelet: it runs in this process
   std::string detector = "select";
   std::string label;                    ///< text for the tables beside the transport, such as "rviz looks on"
@@ -50,6 +51,9 @@ struct LatencyRow {
 
 /// Returns the latencies from a pose to contacts, prediction, warning and change of level, in this order.
 std::vector<LatencyRow> rowsOf(const Measurement& measured);
+
+/// Returns the number of warnings during the measurement that were not CLEAR.
+std::size_t unclearWarnings(const Measurement& measured);
 
 /// Returns the poses sent during the measurement.
 std::vector<Nanoseconds> posesOf(const Measurement& measured);

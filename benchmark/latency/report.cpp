@@ -98,6 +98,7 @@ void print(const Settings& settings, const Measurement& measured, const std::vec
       "poses: %zu sent, %zu covered; sweeps: %.1f per second, %zu of them met something; intervals unswept: %zu\n",
       posesOf(measured).size(), rows[0].milliseconds.size(), sweepsPerSecond(measured), measured.messages.met,
       holes(measured.messages.contacts));
+  std::printf("warnings: %zu, %zu of them not CLEAR\n", rows[2].milliseconds.size(), unclearWarnings(measured));
   std::printf("predicted sweeps: %zu made of %zu; predictions with all sweeps: %zu\n", measured.messages.sweeps_made,
               measured.messages.sweeps_asked, measured.messages.whole_predictions);
   std::printf("guard's process: %.0f %% of a processor, %.1f MB, %+.1f MB during the measurement\n",

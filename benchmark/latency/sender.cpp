@@ -37,7 +37,7 @@ double processorOf(std::thread& thread) {
 
 }  // namespace
 
-Sender::Sender(LatencyScene& scene, const Rates& rates) : scene_(scene), rates_(rates) {
+Sender::Sender(LatencyScene& scene, const Rates& rates, bool away) : scene_(scene), rates_(rates), away_(away) {
   ros::NodeHandle node;
   mesh_ = node.advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
   vertices_ = node.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);
@@ -68,6 +68,7 @@ void Sender::sendPoses() {
     auto pose = boost::make_shared<geometry_msgs::PoseStamped>();
     pose->header.frame_id = "world";
     pose->pose = LatencyScene::tool(t);
+    if (away_) pose->pose.position.x += 1.0;
     pose->header.stamp = ros::Time::now();
     stamps_.push_back(static_cast<Nanoseconds>(pose->header.stamp.toNSec()));
     poses_.publish(pose);

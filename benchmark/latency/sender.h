@@ -21,7 +21,8 @@ struct Rates {
 /// stamped with the time at which it is sent. A late message is skipped, not made up for.
 class Sender {
  public:
-  Sender(LatencyScene& scene, const Rates& rates);
+  /// @param away  the tool moves 1 m away from the hull
+  Sender(LatencyScene& scene, const Rates& rates, bool away);
   Sender(const Sender&) = delete;
   Sender& operator=(const Sender&) = delete;
   ~Sender();
@@ -38,6 +39,7 @@ class Sender {
 
   LatencyScene& scene_;
   Rates rates_;
+  bool away_;
   ros::Publisher mesh_;
   ros::Publisher vertices_;
   ros::Publisher poses_;
