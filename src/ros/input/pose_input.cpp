@@ -11,7 +11,7 @@ namespace {
 
 using sweep_guard_core::Reason;
 
-constexpr auto kMaxTransformDelay = std::chrono::milliseconds(20);
+constexpr auto kPoseTransformWait = std::chrono::milliseconds(20);
 constexpr size_t kMaxMissing = 64;         // bounds the memory that made-up frame names can take
 constexpr std::uint32_t kQueueLength = 0;  // unbounded: a pose that ROS drops is a gap that nobody notices
 
@@ -150,7 +150,7 @@ Eigen::Isometry3d PoseInput::lookup(const std::string& target, const std::string
   const bool silent = missed != missing_.end() && missed->second == frames_.newest(target, source);
   try {
     Eigen::Isometry3d X =
-        frames_.lookup(target, source, stamp, silent ? sweep_guard_core::Duration(0) : kMaxTransformDelay);
+        frames_.lookup(target, source, stamp, silent ? sweep_guard_core::Duration(0) : kPoseTransformWait);
     if (missed != missing_.end()) missing_.erase(missed);
     return X;
   } catch (const FrameError&) {
