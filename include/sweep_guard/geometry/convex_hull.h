@@ -29,10 +29,10 @@ struct ConvexHull {
 /// @throws DeviceError if /dev/null cannot be opened
 ConvexHull convexHull(const std::vector<Eigen::Vector3d>& points);
 
-/// Returns the volume [m^3] of a hull; 0 if the hull is flat.
+/// Returns the volume [m^3] of a hull; 0 if it is not solid.
 double volume(const ConvexHull& hull);
 
-/// Returns the surface area [m^2] of a hull; both sides of a flat hull count.
+/// Returns the surface area [m^2] of a hull; both sides of a flat hull count. Means nothing if Qhull failed.
 double surface(const ConvexHull& hull);
 
 }  // namespace sweep_guard_core

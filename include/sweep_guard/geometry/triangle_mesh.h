@@ -60,7 +60,7 @@ class TriangleMesh {
   /// Returns the box along the axes of M that contains every vertex [m].
   Eigen::AlignedBox3d bounds_M() const { return {origin_ + blocks_.bounds().min(), origin_ + blocks_.bounds().max()}; }
 
-  /// Returns the largest distance [m] between a vertex as given and as stored; 0 for positions given in float32.
+  /// Returns the largest distance [m] between a vertex as given and as stored; 0 after deform().
   double rounding() const { return rounding_; }
 
  private:

@@ -24,7 +24,7 @@ struct SweepOptions {
 struct TriangleContact {
   std::uint32_t triangle;
   size_t piece;   ///< index of the convex piece of the tool that touches the triangle first
-  Impact impact;  ///< first impact of that piece
+  Impact impact;  ///< first impact of that piece on the triangle
 };
 
 /// Holds the triangles of one mesh that the tool meets during one motion.
@@ -54,7 +54,9 @@ struct PathRequest {
 
 /// Holds what the tool meets along a path of poses.
 struct PathResult {
-  SweepResult all;                       ///< all sweeps merged
+  /// All sweeps merged. Of each triangle: time (as a fraction of its sweep), point and piece of the first impact,
+  /// normal of the last one, and the depth at the end of the last sweep, 0 if that does not touch it.
+  SweepResult all;
   std::optional<size_t> first_contact;   ///< first sweep with contact; sweep i goes from pose i to pose i + 1
   std::optional<double> time_of_impact;  ///< in that sweep, [0, 1]; empty without the narrow phase
 };

@@ -39,11 +39,11 @@ struct WarningInputs {
   struct Object {
     std::string id;
     Timestamps timestamps;
-    bool swept = false;  ///< this revision was swept at the newest pose
+    bool swept = false;  ///< swept at the newest pose, with these triangles; maybe before the newest vertices came
   };
   struct Contact {
     std::string id;
-    std::vector<std::uint32_t> triangles;   ///< ascending, each once
+    std::vector<std::uint32_t> triangles;   ///< those not ruled out: ascending, each once
     SteadyTime found;                       ///< time of the newest sweep that met the workpiece
     bool lasting = false;                   ///< the newest sweep has met it, or could not test it
     bool inside = false;                    ///< the tool is inside the workpiece

@@ -51,11 +51,11 @@ class WarningMonitor {
   void setWorkpieces(const Workpieces& workpieces);
 
   /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor
-  /// was restarted since the checkpoint.
+  /// was restarted since the checkpoint. Each failure in the report becomes a new fault, kDetectorFault.
   void swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint, SteadyTime now);
 
   /// Reports that the path predicted from a swept pose was tested. Does nothing if the monitor was restarted since the
-  /// checkpoint.
+  /// checkpoint. Each failure in the prediction becomes a new fault, kDetectorFault.
   void predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint,
                  const Instant& now);
 

@@ -17,7 +17,7 @@ struct MeshSurface {
 };
 
 /// Returns the file of a mesh in a URDF: `package://NAME/PATH` or `file:///PATH`. A package's folder is the one that
-/// rospack knows, or else the folder NAME in an entry of ROS_PACKAGE_PATH. Follows symbolic links. Their target must be
+/// rospack knows, or else the folder NAME in an entry of ROS_PACKAGE_PATH. Follows symbolic links. The result must be
 /// in the package's folder or, for file://, in a package on ROS_PACKAGE_PATH or in one of the roots.
 /// @param roots  absolute folders that file:// paths may lead to
 /// @returns a path without symbolic links
