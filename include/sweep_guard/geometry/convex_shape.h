@@ -17,8 +17,8 @@ struct Moments {
 };
 
 /// A convex body, fixed in the tool frame T: a round cylinder, a sphere, a box, or the convex hull of points, grown by
-/// a padding (the Minkowski sum with a ball). All queries are exact for the body itself; only drawings and moments use
-/// its mesh. A point and a segment are bodies, too: hulls of one or two points.
+/// a padding (the Minkowski sum with a ball). Support functions are exact for the body itself; drawings, moments and
+/// the axes of hulls and spheres come from its mesh. A point and a segment are bodies, too: hulls of one or two points.
 class ConvexShape {
  public:
   /// Makes a round cylinder around the z axis of T, with z in [-length, 0] [P, Sec. 3.1].
@@ -38,7 +38,7 @@ class ConvexShape {
   /// @throws InvalidInput if a half extent is out of range
   static ConvexShape box(const Eigen::Vector3d& half_extents);
 
-  /// Makes the convex hull of points.
+  /// Makes the convex hull of points, padded by its hull_tolerance.
   /// @param points_T  [m], at least one, finite and within kMaxCoordinate
   /// @throws InvalidInput if there is no point, or with the index of the first unusable point
   /// @throws DeviceError if /dev/null cannot be opened
@@ -73,7 +73,7 @@ class ConvexShape {
   Eigen::Vector3d rearSupport(const Eigen::Vector3d& direction_T) const;
 
   double length() const { return faces_.front - faces_.rear + 2.0 * padding_; }  ///< padded, along axis_T() [m]
-  double radius() const { return faces_.half_sides.minCoeff() + padding_; }      ///< smallest half side of a face [m]
+  double radius() const { return faces_.half_sides.minCoeff() + padding_; }      ///< padded, smaller half side [m]
   Eigen::Vector3d axis_T() const { return faces_.R_TF.col(2); }                  ///< from rear to front, unit
 
   /// A round cylinder around the z axis of a frame C, with z in [-length, 0].

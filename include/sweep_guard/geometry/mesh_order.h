@@ -28,7 +28,7 @@ constexpr std::uint32_t kClustersTogether = 8;  ///< largest size of a group of 
 struct ClusterGroup {
   std::uint32_t first;  ///< index of the first cluster
   std::uint32_t count;  ///< 1 to kClustersTogether
-      /// Numbers of the groups of blocks: group i begins at block i * kBlocksTogether. Unused entries repeat the last one.
+      /// Groups of its blocks: group i begins at block i * kBlocksTogether. Unused entries repeat the last one.
   std::array<std::uint32_t, simd::kClusterBlocks> block_groups;
 };
 
@@ -52,7 +52,8 @@ MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangl
 
 /// Copies positions from the sender's order to their places.
 /// @param places     MeshOrder::vertex_places, not empty
-/// @param[out] kept  positions at their places; has to be as large as what was sent before the call
+/// @param sent       x0 y0 z0 x1 ... of as many vertices as there are places
+/// @param[out] kept  positions at their places; another vector, which must have the size of `sent` before the call
 void place(const std::vector<std::uint32_t>& places, const std::vector<float>& sent, std::vector<float>& kept);
 
 }  // namespace sweep_guard_core

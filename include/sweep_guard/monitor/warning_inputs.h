@@ -39,7 +39,7 @@ struct WarningInputs {
   struct Object {
     std::string id;
     Timestamps timestamps;
-    bool swept = false;  ///< swept at the newest pose, with these triangles; maybe before the newest vertices came
+    bool swept = false;  ///< swept at the newest pose, with these triangles and frame; maybe with older vertices
   };
   struct Contact {
     std::string id;
@@ -49,7 +49,7 @@ struct WarningInputs {
     bool inside = false;                    ///< the tool is inside the workpiece
     std::optional<size_t> tool_piece = {};  ///< convex piece that touched first, if the narrow phase knows
   };
-  /// A warning that has ended.
+  /// A warning whose prediction has ended, or was replaced by a newer one.
   struct Alarm {
     PredictedContact contact;
     SteadyTime ended;
@@ -62,7 +62,7 @@ struct WarningInputs {
 
   std::optional<Timestamps> pose;  ///< newest pose that has been swept
   std::vector<Object> objects;
-  std::optional<Contact> contact;             ///< newest contact
+  std::optional<Contact> contact;             ///< newest contact; of several in one sweep, the first reported
   std::optional<PredictedContact> predicted;  ///< from the newest prediction of its workpiece
   std::optional<Alarm> reflex;                ///< newest reflex warning that has ended
   std::optional<Alarm> considered;            ///< newest considered warning that has ended

@@ -13,7 +13,7 @@
 namespace sweep_guard_core {
 
 /// Collects the inputs of the warning: received poses and workpieces, refusals, and sweeps.
-/// Each input reports from its own thread. The warning may be computed at any time, so a silent input is noticed, too.
+/// Any thread may call any function. The warning may be computed at any time, so a silent input is noticed, too.
 class WarningMonitor {
  public:
   /// State of the monitor when a pose was received. A sweep to that pose clears only faults reported before it.
@@ -25,7 +25,9 @@ class WarningMonitor {
     bool continues(const Checkpoint& previous) const { return epoch == previous.epoch; }
   };
 
-  /// @param on_fault  called after every fault, refusal and restart, in the reporting thread; may call the monitor
+  /// @param limits    in the ranges of WarningLimits; not checked
+  /// @param on_fault  called after every fault, refusal and restart, in the reporting thread; may call the monitor; not
+  ///     empty
   explicit WarningMonitor(
       const WarningLimits& limits, std::function<void()> on_fault = [] {});
 
@@ -34,8 +36,8 @@ class WarningMonitor {
   /// Reports that an input was refused or failed. The warning is not clear until a later pose has been swept.
   void fault(Reason reason, const std::string& message);
 
-  /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), for the workpiece that the
-  /// mesh describes is unknown.
+  /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), because the workpiece that
+  /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each.
   void meshRefused(const std::string& id, const std::string& message);
 
   /// Reports that a good mesh came, or that the workpiece was removed. Clears all refusals of this id.
@@ -59,7 +61,8 @@ class WarningMonitor {
   void predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint,
                  const Instant& now);
 
-  /// Reports that time went back. Forgets poses, predictions and faults; kTimeJump lasts until a new pose is swept.
+  /// Reports that time went back. Forgets poses, predictions and faults; kTimeJump lasts until a new pose is swept. A
+  /// contact is shown for the hold time.
   void timeJumped(const std::string& message);
 
   /// Forgets everything but the workpieces, refused meshes and refused vertices. A disabled guard stays disabled.
@@ -78,7 +81,7 @@ class WarningMonitor {
   /// restarted.
   bool counts(const Checkpoint& checkpoint) const;
 
-  /// Sets the limits of the next warning.
+  /// Sets the limits of the next warning; does not check them.
   void setLimits(const WarningLimits& limits);
 
   /// Computes the warning as of now.

@@ -76,7 +76,7 @@ class ParameterReader {
   std::vector<std::string> texts(const std::string& key, const std::string& effect = "");
   /// Reads a group of finite numbers by name; empty if not set.
   std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "");
-  /// Searches a text in the node's namespace and the namespaces above it, or under an absolute name; "" if not set.
+  /// Searches a text in the private namespace and the namespaces above it, or under an absolute name; "" if not set.
   std::string searchText(const std::string& name);
   /// Refuses the parameter if it is set.
   /// @param instead  tells the user what to do
@@ -84,7 +84,7 @@ class ParameterReader {
   /// Reads [x, y, z] [m] within +-1e6 m.
   Eigen::Vector3d position(const std::string& key, const Eigen::Vector3d& fallback);
 
-  /// Returns the settings of all parameters that were read.
+  /// Returns the known settings, and those of all parameters that were read.
   const Settings& settings() const { return settings_; }
   /// Returns the descriptions in the order of reading; none for text(), position(), searchText() and refuseIfSet().
   const std::vector<ParameterInfo>& described() const { return described_; }
