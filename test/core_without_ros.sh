@@ -14,13 +14,14 @@ done
 [[ ${#files[@]} -gt 20 ]] || { echo "finds only ${#files[@]} files of the core in $root" && exit 1; }
 
 status=0
-foreign='#include [<"](ros|tf2|rviz|nodelet|pluginlib|std_srvs|[a-z_]*_msgs|sweep_guard/(ros|rviz|simulation|[A-Z]))'
+above='(ros|rviz|recording|simulation|evaluation|session|benchmark)/'
+foreign="#include [<\"](ros|tf2|rviz|nodelet|pluginlib|std_srvs|[a-z_]*_msgs|$above|sweep_guard/($above|[A-Z]))"
 if grep -nE "$foreign" "${files[@]}"; then
   echo "the core includes what is above it"
   status=1
 fi
 
-if grep -nE '#include ([<"]sweep_guard/|")(detection|prediction|guard|monitor|ros|simulation)/' "$root"/src/rviz/*; then
+if grep -nE '#include ([<"]sweep_guard/|")(simd|detection|prediction|guard|monitor|ros|recording|simulation|evaluation|session)/' "$root"/src/rviz/*; then
   echo "a plugin for rviz includes more of this package than its messages, common and geometry"
   status=1
 fi

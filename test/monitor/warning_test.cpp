@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <tuple>
 
 #include "refusal.h"
@@ -40,6 +41,9 @@ PredictedContact predictedIn(Duration time) {
 WarningInputs::Alarm alarmOf(Duration ago, const std::string& mesh_id = "kidney") {
   return {{kNow.stamp, /*contact=*/kNow.stamp, /*probability=*/1.0, mesh_id, {9}}, kNow.steady - ago};
 }
+
+const std::map<std::string, std::vector<std::uint32_t>> kTriangles = {
+    {"", {}}, {"liver", {3, 4}}, {"spleen", {8}}, {"kidney", {9}}};
 
 enum class Pose { kNone, kFresh, kStale };
 enum class Object { kNone, kFresh, kStale, kUnswept };
@@ -105,8 +109,26 @@ TEST(WarningTest, NamesWhatIsMissing) {
   }
 }
 
-// The time is that of the workpiece that is named, and of no other.
-TEST(WarningTest, WarnsOfPredictedContactsAndOfHeldAlarms) {
+// Inputs that lack at most one thing, and the reason to be reported for it.
+std::vector<std::pair<WarningInputs, std::uint32_t>> inputsAndReasons() {
+  std::vector<std::pair<WarningInputs, std::uint32_t>> all = {{allGood(), 0}};
+  const auto add = [&](std::uint32_t reason, auto spoil) {
+    all.emplace_back(allGood(), reason);
+    spoil(all.back().first);
+  };
+  add(kNoPose, [](WarningInputs& inputs) { inputs.pose.reset(); });
+  add(kPoseStale, [](WarningInputs& inputs) { inputs.pose = aged(101ms); });
+  add(kNoMesh, [](WarningInputs& inputs) { inputs.objects.clear(); });
+  add(kMeshStale, [](WarningInputs& inputs) { inputs.objects = {object(501ms)}; });
+  add(kNotSwept, [](WarningInputs& inputs) { inputs.objects = {object(20ms, /*swept=*/false)}; });
+  add(kNotCovered, [](WarningInputs& inputs) { inputs.covered_until = kNow.stamp + 999ms; });
+  add(kDetectorFault, [](WarningInputs& inputs) { inputs.faults[kDetectorFault] = "no canary"; });
+  add(kOverload, [](WarningInputs& inputs) { inputs.overload = WarningInputs::Backlog{50ms, kNow.steady}; });
+  return all;
+}
+
+// The time is that of the predicted contact, unless a held warning of another workpiece is stronger.
+TEST(WarningTest, ContactGoesBeforeReflexBeforeConsideredBeforeUnknownBeforeClear) {
   struct Row {
     Predicted predicted;  // to meet the spleen
     Alarm alarm;          // of the kidney
@@ -136,56 +158,28 @@ TEST(WarningTest, WarnsOfPredictedContactsAndOfHeldAlarms) {
       {Predicted::kOver, Alarm::kConsideredHeld, WarningLevel::kConsidered, "kidney", false},
       {Predicted::kOver, Alarm::kOver, WarningLevel::kClear, "", false},
   };
-  for (const Row& row : rows) {
-    WarningInputs inputs = allGood();
+  const auto check = [](const Row& row, Contact contact, WarningInputs inputs, std::uint32_t reasons) {
+    setContact(contact, inputs);
     setPredicted(row.predicted, inputs);
     if (row.alarm == Alarm::kReflexHeld) inputs.reflex = alarmOf(150ms);
     if (row.alarm == Alarm::kConsideredHeld) inputs.considered = alarmOf(150ms);
     if (row.alarm == Alarm::kOver) inputs.reflex = inputs.considered = alarmOf(201ms);
     const Warning warning = warningNow(inputs);
     SCOPED_TRACE(warning.text);
-    EXPECT_EQ(warning.level, row.level);
-    EXPECT_EQ(warning.mesh_id, row.mesh_id);
-    EXPECT_EQ(warning.triangles.empty(), row.mesh_id.empty());
+    const bool touches = contact == Contact::kLasting || contact == Contact::kHeld;
+    const bool unknown = row.level == WarningLevel::kClear && (reasons & ~kOverload) != 0;
+    const std::string mesh_id = touches ? "liver" : row.mesh_id;
+    EXPECT_EQ(warning.level, touches ? WarningLevel::kContact : unknown ? WarningLevel::kUnknown : row.level);
+    EXPECT_EQ(warning.reasons, reasons);
+    EXPECT_EQ(warning.text.find(styleOf(warning.level).name), 0U);
+    EXPECT_EQ(warning.mesh_id, mesh_id);
+    EXPECT_EQ(warning.triangles, kTriangles.at(mesh_id));
     EXPECT_EQ(warning.time_to_collision.has_value(), row.reported);
     EXPECT_EQ(warning.probability, row.reported ? 0.75 : 0.0);
-  }
-}
-
-TEST(WarningTest, ContactGoesBeforeReflexBeforeConsideredBeforeUnknownBeforeClear) {
-  struct Row {
-    Contact contact;
-    Predicted predicted;
-    WarningLevel sound;   // the level
-    WarningLevel faulty;  // and with a fault
-  };
-  const Row rows[] = {
-      {Contact::kNone, Predicted::kNone, WarningLevel::kClear, WarningLevel::kUnknown},
-      {Contact::kNone, Predicted::kConsidered, WarningLevel::kConsidered, WarningLevel::kConsidered},
-      {Contact::kNone, Predicted::kReflex, WarningLevel::kReflex, WarningLevel::kReflex},
-      {Contact::kLasting, Predicted::kNone, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kLasting, Predicted::kConsidered, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kLasting, Predicted::kReflex, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kHeld, Predicted::kNone, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kHeld, Predicted::kConsidered, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kHeld, Predicted::kReflex, WarningLevel::kContact, WarningLevel::kContact},
-      {Contact::kOver, Predicted::kNone, WarningLevel::kClear, WarningLevel::kUnknown},
-      {Contact::kOver, Predicted::kConsidered, WarningLevel::kConsidered, WarningLevel::kConsidered},
-      {Contact::kOver, Predicted::kReflex, WarningLevel::kReflex, WarningLevel::kReflex},
   };
   for (const Row& row : rows) {
-    WarningInputs inputs = allGood();
-    setContact(row.contact, inputs);
-    setPredicted(row.predicted, inputs);
-    for (const WarningLevel level : {row.sound, row.faulty}) {
-      const Warning warning = warningNow(inputs);
-      SCOPED_TRACE(warning.text);
-      EXPECT_EQ(warning.level, level);
-      EXPECT_EQ(warning.mesh_id == "liver", level == WarningLevel::kContact);
-      EXPECT_EQ(warning.triangles.empty(), warning.mesh_id.empty());
-      EXPECT_EQ(warning.time_to_collision.has_value(), row.predicted != Predicted::kNone);
-      EXPECT_EQ(warning.text.find(styleOf(level).name), 0U);
-      inputs.faults[kDetectorFault] = "no canary";
+    for (const Contact contact : {Contact::kNone, Contact::kLasting, Contact::kHeld, Contact::kOver}) {
+      for (const auto& [inputs, reasons] : inputsAndReasons()) check(row, contact, inputs, reasons);
     }
   }
 }

@@ -1,15 +1,15 @@
 // ~reflex_warning and ~considered_warning on the wall clock: their rates, and that a rising flag is not delayed.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "guard_probe.h"
+#include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 using std::chrono::duration;
 using sweep_guard::Warning;
+using sweep_guard_core::quantile;
 
 // Rate of the last messages, which have the same value: no edge is among them.
 double rate(const std::vector<GuardProbe::Flag>& flags, size_t intervals) {
@@ -32,13 +32,7 @@ std::chrono::steady_clock::time_point firstRaised(const std::function<std::vecto
   }
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// A timer may fire soon after an edge by chance, but not after most of 21 edges. Load delays a few.
+// A timer may fire soon after an edge by chance, but not after 18 of 21 edges. Load delays a few.
 TEST(FlagsTest, ArePublishedAtOnceWhenTheyRise) {
   GuardProbe probe(/*drives_clock=*/false);
   const auto reflex = [&](size_t count) { return probe.awaitReflexFlags(count); };
@@ -59,8 +53,10 @@ TEST(FlagsTest, ArePublishedAtOnceWhenTheyRise) {
     reflex_late.push_back(duration<double>(firstRaised(reflex, reflex_before) - risen).count());
     considered_late.push_back(duration<double>(firstRaised(considered, considered_before) - risen).count());
   }
-  EXPECT_LT(median(reflex_late), 0.01);
-  EXPECT_LT(median(considered_late), 0.01);
+  for (const auto& late : {reflex_late, considered_late}) {
+    EXPECT_LT(quantile(late, 0.5), 0.01) << ::testing::PrintToString(late);
+    EXPECT_LT(quantile(late, 0.85), 0.025) << ::testing::PrintToString(late);
+  }
 }
 
 }  // namespace

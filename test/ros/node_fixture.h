@@ -47,8 +47,8 @@ class NodeTest : public ::testing::Test {
                    double half_side = 0.1) {
     auto square = squareAt(id, center, probe().time(), half_side);
     square.header.frame_id = frame;
-    probe().place(square);
     placed_.insert(id);
+    probe().place(square);
   }
 
   // Advances the clock by 10 ms and moves the tool.

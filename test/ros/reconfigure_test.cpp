@@ -176,7 +176,9 @@ TEST_F(ReconfigureTest, TurnsAreSplitIntoSmallerSteps) {
 
 TEST_F(ReconfigureTest, ThePredictorIsExchanged) {
   change("prediction/predictor", "constant_velocity");
-  EXPECT_NEAR(lastSpeed(restAndGo(0.2, 10)), 0.2, 0.01);
+  const Prediction steady = restAndGo(0.2, 10);
+  EXPECT_NEAR(lastSpeed(steady), 0.2, 0.01);
+  EXPECT_GE(end(steady), 0.02 + 0.2 * steady.poses.back().from_now.toSec() - 1e-3);  // load lengthens the path
   change("prediction/predictor", "hold");
   EXPECT_NEAR(end(restAndGo(0.2, 10)), 0.02, 1e-9);
 }
@@ -295,19 +297,20 @@ TEST_F(ReconfigureTest, TheRateDecidesHowManySweepsThereIsTimeFor) {
   add(fine, "horizon/considered", 5.0);
   add(fine, "horizon/considered_step", 0.002);
   ASSERT_TRUE(probe().configure(fine));
-  change("timing/min_rate", 1.0);
   const Prediction slow = restAndGo(0.1, 3);
+  EXPECT_GE(10 * slow.sweeps_made, 9 * slow.sweeps_asked);
   change("timing/min_rate", 1000.0);
   const Prediction fast = restAndGo(0.1, 3);
   EXPECT_LT(fast.sweeps_made, fast.sweeps_asked);
   EXPECT_LT(fast.sweeps_made, slow.sweeps_made);
 }
 
-TEST_F(ReconfigureTest, PosesBecomeStaleLater) {
+TEST_F(ReconfigureTest, PosesBecomeStaleSoonerOrLater) {
   placeSquare("square", {0.0, 0.0, -1.0});
+  change("timing/pose_timeout", 0.1);
   restAt({0.0, 0.0, 0.5});
-  probe().advance(1.1);
-  probe().awaitWarning(hasReason(Warning::POSE_STALE));
+  probe().advance(0.101);
+  EXPECT_EQ(probe().warnings().back().reasons, Warning::POSE_STALE) << probe().warnings().back().text;
   change("timing/pose_timeout", 2.0);
   probe().skipWarnings();
   const Warning later = probe().awaitWarning([](const Warning&) { return true; });

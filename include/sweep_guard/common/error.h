@@ -14,7 +14,8 @@ struct InvalidInput : Error {
   using Error::Error;
 };
 
-/// Reports a failure of the machine: no off-screen context, or a canary was not detected.
+/// Reports a failure of the machine: no off-screen context, an answer of OpenGL that cannot be trusted, or a file or
+/// program of the system that cannot be opened.
 struct DeviceError : Error {
   using Error::Error;
 };

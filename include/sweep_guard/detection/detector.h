@@ -15,7 +15,7 @@ using TriangleSet = std::vector<std::uint32_t>;
 
 struct Detection {
   TriangleSet triangles;   ///< triangles that the volume meets
-  double inflation = 0.0;  ///< each of them is nearer to the volume than this [m]; covers the rounding of the detector
+  double inflation = 0.0;  ///< each of them meets the volume grown() by this [m]; covers the rounding of the detector
 };
 
 /// Finds the triangles of a mesh that a swept volume meets. Made once, queried every cycle. Keeps buffers and devices
@@ -24,8 +24,8 @@ class Detector {
  public:
   virtual ~Detector() = default;
 
-  /// Finds the triangles that the volume meets or touches. Conservative: may also name a triangle that is nearer to the
-  /// volume than `inflation`, and never leaves out one that the volume meets.
+  /// Finds the triangles that the volume meets or touches. Conservative: may also name a triangle that only
+  /// swept_M.grown(inflation) meets, and never leaves out one that the volume meets.
   /// @param submesh  all of a mesh or some of it; other triangles are not tested
   /// @returns valid until the next call
   /// @throws DeviceError if the answer cannot be trusted: then nothing is known
@@ -43,19 +43,19 @@ class Detector {
   Detection detection_;
 };
 
-/// Options of `select`; the other detectors ignore them. They do not change which triangles are met, but without `cull`
-/// the inflation is larger.
+/// Options of `select`; the other detectors ignore them. They do not change which triangles the volume meets, but
+/// without `cull` the inflation may be larger.
 struct DetectorOptions {
   bool cull = true;                   ///< draw only the triangles that tests against single planes leave in doubt
   std::string gl_context = "osmesa";  ///< one of offscreenContextNames()
-  int triangles_per_name = 64;        ///< triangles that share a name in the first selection pass, >= 1
+  int triangles_per_name = 64;        ///< triangles that share a name in the first selection pass, >= 1; not checked
 };
 
 /// Makes a detector.
 /// @param name  `select` (OpenGL's selection mode, [P, Sec. 3.1]), `halfspace` (the same test on the processor's vector
 ///              units) or `reference` (clips every triangle in double precision)
-/// @throws InvalidInput if the name of the detector or of the context is unknown, DeviceError if there is no off-screen
-/// context
+/// @throws InvalidInput if the name of the detector or of the context is unknown, or as simd::kernels() does
+/// @throws DeviceError if there is no usable off-screen context
 std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOptions& options = {});
 
 /// Returns the names that makeDetector() knows.

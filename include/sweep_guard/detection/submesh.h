@@ -32,7 +32,7 @@ class Submesh {
   /// Returns the groups of all clusters of a whole mesh; null for a smaller submesh.
   const std::vector<ClusterGroup>* groups() const { return groups_; }
 
-  /// Calls a function with the index of each triangle.
+  /// Calls a function with the index of each triangle, in no particular order.
   template <typename Function>
   void forEachTriangle(const Function& function) const {
     const std::vector<std::uint32_t>& triangle_at = mesh_M_->order().triangle_at;
@@ -56,13 +56,14 @@ class Submesh {
 /// Finds the planes that the blocks of a submesh lie beyond. Keeps its buffers between calls.
 class BlockBits {
  public:
+  /// @param kernels  must outlive this object
   explicit BlockBits(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels) {}
 
   /// Computes which planes each block of the submesh lies beyond, for the calls that follow.
   /// @param planes  relative to mesh_M().origin()
   void classify(const Submesh& submesh, const simd::Planes& planes);
 
-  /// Calls a function with each cluster of the submesh, except those whose blocks all lie beyond one of the planes.
+  /// Calls a function with each cluster of the submesh, except clusters whose blocks all lie beyond the same plane.
   /// @param submesh  the one of the last classify()
   template <typename Function>
   void forEachRemaining(const Submesh& submesh, const Function& function) const {
@@ -101,12 +102,12 @@ class BlockBits {
 class SubmeshFinder {
  public:
   /// Leaves out only triangles that lie beyond one of the planes. One pass over the boxes of the blocks.
-  /// @param around  not the result of the previous call
+  /// @param around  not a result of this object
   /// @param planes  relative to the origin() of the mesh
   /// @returns a view of this object's buffers: valid until the next call
   Submesh find(const Submesh& around, const simd::Planes& planes);
 
-  /// Leaves out only triangles that lie beyond one side of the box.
+  /// Leaves out only triangles that lie beyond one side of the box; otherwise as above.
   /// @param box_M  along the axes of M [m]; may be infinite
   Submesh find(const Submesh& around, const Eigen::AlignedBox3d& box_M);
 

@@ -22,7 +22,7 @@ struct Impact {
   double time_of_impact;     ///< fraction of the motion, in [0, 1]
   Eigen::Vector3d point_M;   ///< on the triangle, at the time of impact [m]
   Eigen::Vector3d normal_M;  ///< unit, from the triangle to the tool, along the closest points at the time of impact
-  double depth;              ///< distance [m] along the normal that frees the tool at the end of the motion, >= 0
+  double depth;              ///< distance [m] along the normal that frees the piece at the end of the motion, >= 0
 };
 
 /// Computes when a convex piece of the tool first comes as close to a triangle as `margin`. The time of impact is never
@@ -40,10 +40,10 @@ struct Impact {
 /// If the minimum of the right side exceeds the margin, there is no impact before s. A secant finds such an s, where
 /// the next direction is computed. This repeats until the gap is the margin, or the end is reached.
 ///
-/// It stops within a tolerance above the margin [m]: 2e-9 of the size of piece and triangle, plus 1e-14 of their
-/// distance at the start and the end and of their distance from the origin of M, where the poses have been rounded. The
-/// time of impact is early by this tolerance divided by the closing speed. After 1000 directions, returns the
-/// last time that is proven free as the time of impact.
+/// It stops within a tolerance above the margin [m]: 2e-9 of the sum of the piece's boundingRadius() and the triangle's
+/// longest edge, plus 1e-14 of the distance between triangle and tool frame and of the triangle's distance from the
+/// origin of M, because the poses have been rounded. The time of impact is early by at most this tolerance divided by
+/// the closing speed. After 1000 directions, returns the last time that is proven free as the time of impact.
 ///
 /// If the piece overlaps the triangle at the start, the time of impact is 0, and the normal is `contact_normal_M` if it
 /// is given and the minimum translation direction if not.

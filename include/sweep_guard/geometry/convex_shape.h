@@ -17,8 +17,8 @@ struct Moments {
 };
 
 /// A convex body, fixed in the tool frame T: a round cylinder, a sphere, a box, or the convex hull of points, grown by
-/// a padding (the Minkowski sum with a ball). All queries are exact for the body itself; only drawings and moments use
-/// its mesh. A point and a segment are bodies, too: hulls of one or two points.
+/// a padding (the Minkowski sum with a ball). Support functions are exact for the body itself; drawings, moments and
+/// the axes of hulls and spheres come from its mesh. A point and a segment are bodies, too: hulls of one or two points.
 class ConvexShape {
  public:
   /// Makes a round cylinder around the z axis of T, with z in [-length, 0] [P, Sec. 3.1].
@@ -29,21 +29,23 @@ class ConvexShape {
   static ConvexShape cylinder(double radius, double length, int sides = 32);
 
   /// Makes a ball around the origin of T.
-  /// @param radius  [m], finite, > 0
+  /// @param radius  [m], > 0, at most kMaxCoordinate
   /// @throws InvalidInput if the radius is out of range
   static ConvexShape sphere(double radius);
 
   /// Makes a box around the origin of T with edges along the axes.
-  /// @param half_extents  [m], finite, >= 0; not all 0
+  /// @param half_extents  [m], 0 to kMaxCoordinate; not all 0
   /// @throws InvalidInput if a half extent is out of range
   static ConvexShape box(const Eigen::Vector3d& half_extents);
 
-  /// Makes the convex hull of points.
+  /// Makes the convex hull of points, padded by its hull_tolerance.
   /// @param points_T  [m], at least one, finite and within kMaxCoordinate
   /// @throws InvalidInput if there is no point, or with the index of the first unusable point
+  /// @throws DeviceError if /dev/null cannot be opened
   static ConvexShape hull(const std::vector<Eigen::Vector3d>& points_T);
 
   /// Returns the body with its frame T placed at X_NT: N becomes the tool frame of the result.
+  /// @throws InvalidInput if a vertex of mesh_T() would lie beyond kMaxCoordinate
   ConvexShape placed(const Eigen::Isometry3d& X_NT) const;
 
   /// Returns the body grown on all sides.
@@ -65,12 +67,13 @@ class ConvexShape {
 
   /// Returns the point of the front or rear face that lies farthest along a direction of any length [m]. The faces of a
   /// cylinder are its discs; those of other bodies are the faces of a box around it, across its longest side. The front
-  /// face is the one at the larger coordinate along axis_T().
+  /// face is the one at the larger coordinate along axis_T(). The faces are those of the body without
+  /// padding (of a sphere, its center); padding moves the point by as much along the direction.
   Eigen::Vector3d frontSupport(const Eigen::Vector3d& direction_T) const;
   Eigen::Vector3d rearSupport(const Eigen::Vector3d& direction_T) const;
 
-  double length() const { return faces_.front - faces_.rear + 2.0 * padding_; }  ///< from rear to front face [m]
-  double radius() const { return faces_.half_sides.minCoeff() + padding_; }      ///< smallest half side of a face [m]
+  double length() const { return faces_.front - faces_.rear + 2.0 * padding_; }  ///< padded, along axis_T() [m]
+  double radius() const { return faces_.half_sides.minCoeff() + padding_; }      ///< padded, smaller half side [m]
   Eigen::Vector3d axis_T() const { return faces_.R_TF.col(2); }                  ///< from rear to front, unit
 
   /// A round cylinder around the z axis of a frame C, with z in [-length, 0].
@@ -124,8 +127,8 @@ class ConvexShape {
 /// Returns the support function [m] of the body at a pose for a unit direction of the pose's parent frame.
 double support(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Eigen::Vector3d& direction_M);
 
-/// Returns the support function [m] of the convex hull of the body at both poses of a motion, before and after the
-/// motion's mesh_translation.
+/// Returns the support function [m] of the convex hull of the body at both poses of a motion, at each of them before
+/// and after a shift by the motion's mesh_translation. The direction is unit.
 double support(const ConvexShape& shape, const Motion& motion, const Eigen::Vector3d& direction_M);
 
 }  // namespace sweep_guard_core

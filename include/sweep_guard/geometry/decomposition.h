@@ -11,7 +11,7 @@ namespace sweep_guard_core {
 /// Controls how finely a mesh is cut.
 struct DecompositionOptions {
   int max_depth = 6;            ///< depth of the tree of cuts, 0 to 16: at most 2^max_depth pieces; 0 gives one hull
-  double step = 0.002;          ///< distance that the tool moves in one sweep [m], >= 0; see decompose()
+  double step = 0.002;          ///< distance that the tool moves in one sweep [m], 0 to kMaxCoordinate; see decompose()
   double least_saving = 0.003;  ///< smallest saving that justifies a piece, in [0, 1]; see decompose()
 };
 
@@ -24,11 +24,12 @@ struct DecompositionOptions {
 /// on average over all directions V + S * step / 4 (Cauchy: the mean shadow of a convex body is a quarter of its
 /// surface). The unused volume is the same sum with another V: the space between the triangles and the surface of the
 /// hull, that is the area of each triangle times the shorter distance along its normal from its centroid to the hull.
-/// Both sums must fall by `least_saving` times the volume that the hull of the whole mesh covers, for each piece after
-/// the first. The first sum alone would hollow out a large ball; the second alone would separate objects inside a
-/// casing. A convex mesh stays whole, and there are at most 1 + 1 / least_saving pieces.
+/// Both sums must fall by more than `least_saving` times the volume that the hull of the whole mesh covers, for each
+/// piece after the first. The first sum alone would hollow out a large ball; the second alone would separate objects
+/// inside a casing. A convex mesh stays whole, and there are at most 1 + 1 / least_saving pieces.
 /// @returns sets of triangle indices: none empty, each triangle in one set, ascending
 /// @throws InvalidInput if an option is out of range
+/// @throws DeviceError as convexHull() does
 std::vector<std::vector<std::uint32_t>> decompose(const TriangleMesh& mesh, const DecompositionOptions& options = {});
 
 /// Returns the convex hulls of the sets of decompose(), in the same order. Each hull contains all corners of its
@@ -36,6 +37,7 @@ std::vector<std::vector<std::uint32_t>> decompose(const TriangleMesh& mesh, cons
 /// contain the inside of a closed mesh; nothing gets there without touching the surface as long as motion is swept
 /// without gaps.
 /// @throws InvalidInput if an option is out of range
+/// @throws DeviceError as convexHull() does
 std::vector<ConvexShape> convexPieces(const TriangleMesh& mesh_T, const DecompositionOptions& options = {});
 
 }  // namespace sweep_guard_core

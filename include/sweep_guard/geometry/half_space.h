@@ -26,7 +26,8 @@ class HalfSpace {
   double offset_;
 };
 
-/// A convex polygon: its corners in order [m]. One corner is a point, two are a segment, none is the empty set.
+/// A convex polygon: its corners in order [m]; a corner may repeat. One corner is a point, two are a segment, none is
+/// the empty set.
 using Polygon = std::vector<Eigen::Vector3d>;
 
 /// Returns the part of a convex polygon that lies in a half-space (Sutherland and Hodgman 1974). The boundary plane

@@ -28,7 +28,7 @@ constexpr std::uint32_t kClustersTogether = 8;  ///< largest size of a group of 
 struct ClusterGroup {
   std::uint32_t first;  ///< index of the first cluster
   std::uint32_t count;  ///< 1 to kClustersTogether
-  /// The groups of blocks; unused entries repeat the last group.
+      /// Groups of its blocks: group i begins at block i * kBlocksTogether. Unused entries repeat the last one.
   std::array<std::uint32_t, simd::kClusterBlocks> block_groups;
 };
 
@@ -46,13 +46,14 @@ struct MeshOrder {
 };
 
 /// Computes the order of a mesh.
-/// @param positions  x0 y0 z0 x1 ... [m], in the sender's order
+/// @param positions  x0 y0 z0 x1 ... [m], finite, at least one vertex, in the sender's order
 /// @param triangles  in the sender's order, with valid indices
 MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangle>& triangles);
 
 /// Copies positions from the sender's order to their places.
 /// @param places     MeshOrder::vertex_places, not empty
-/// @param[out] kept  positions at their places, of the same size
+/// @param sent       x0 y0 z0 x1 ... of as many vertices as there are places
+/// @param[out] kept  positions at their places; another vector, which must have the size of `sent` before the call
 void place(const std::vector<std::uint32_t>& places, const std::vector<float>& sent, std::vector<float>& kept);
 
 }  // namespace sweep_guard_core

@@ -58,8 +58,8 @@ struct RelativeMotion {
 /// @param tool_radius  largest distance of a tool point from the origin of T [m], >= 0
 double chordError(const RelativeMotion& motion, double tool_radius);
 
-/// Returns the largest distance [m] between the arc of a tool point, while the tool turns, and the chord that replaces
-/// the arc. A swept volume built on chords is conservative once it is grown by this. Bound: linear interpolation of a
+/// Returns a bound [m] on the distance between the arc of a tool point, while the tool turns, and the chord that
+/// replaces the arc. A swept volume built on chords is conservative once it is grown by this. Linear interpolation of a
 /// curve with |x''| = radius * angle^2 errs by at most an eighth of that.
 /// @param radius  largest distance of a tool point from the rotation axis through the tool frame's origin [m], >= 0
 /// @param angle   rotation between the two poses [rad], in [0, pi]

@@ -35,11 +35,13 @@ class PointHull {
   explicit PointHull(const std::array<Eigen::Vector3d, kCount>& points) {
     for (const Eigen::Vector3d& p : points) add(p);
   }
+  /// Adds a point; there must be fewer than kMaxPoints.
   void add(const Eigen::Vector3d& p) {
     assert(count_ < kMaxPoints);
     points_[count_++] = p;
   }
 
+  /// Returns the point farthest along a direction of any length. There must be a point.
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const;
 
  private:
@@ -72,13 +74,13 @@ struct Separation {
 Separation separation(const SupportMapping& tool, const SupportMapping& obstacle, double accuracy = 0.0,
                       const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());
 
-/// Computes the separation only as accurately as conservative advancement needs: beyond `margin` [m], `gap` may
-/// underestimate the distance by (gap - margin) / 8.
+/// Computes the separation only as accurately as conservative advancement needs: `gap` may underestimate the distance
+/// by `accuracy` [m] or, beyond `margin` [m], by (gap - margin) / 8, whichever is more.
 Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obstacle, double margin, double accuracy,
                            const Eigen::Vector3d& guess);
 
 /// Returns whether the bodies are proven to be farther apart than `distance` [m], >= 0. Cheaper than separation(): ends
-/// at the first direction that proves it, or at the first two points that are closer.
+/// at the first direction that proves it, or at the first two points that are not farther apart.
 bool distanceExceeds(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
                      const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());
 

@@ -33,8 +33,8 @@ using PerHalfSpace = boost::container::static_vector<double, kMaxHalfSpaces>;
 struct SweptVolume {
   OrientedBox box;                                       ///< `margin` included
   Clips clips_B;                                         ///< in box frame B; `margin` included
-  Eigen::Vector3d interior_B = Eigen::Vector3d::Zero();  ///< a point inside of every plane [m]
-  double margin = 0.0;  ///< distance of every plane from the body at the two poses [m], >= 0
+  Eigen::Vector3d interior_B = Eigen::Vector3d::Zero();  ///< a point inside of every plane, or on it if margin is 0 [m]
+  double margin = 0.0;  ///< distance of every plane from the body at both poses, mesh_translation included [m], >= 0
 
   /// Returns all half-spaces of the volume in B: the six sides of the box, then the clips.
   std::vector<HalfSpace> halfSpaces_B() const;

@@ -28,7 +28,7 @@ class Tool {
     std::array<size_t, 2> below = {};  ///< indices into tree(), for other nodes
   };
 
-  /// @throws InvalidInput if there is no piece
+  /// @throws InvalidInput if there is no piece, or if a box around several pieces would reach beyond kMaxCoordinate
   explicit Tool(std::vector<ConvexPiece> pieces);
   /// Makes a tool of one piece.
   explicit Tool(const ConvexShape& shape_T);

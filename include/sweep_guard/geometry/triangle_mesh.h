@@ -21,19 +21,20 @@ class TriangleMesh {
  public:
   /// @param vertices_M  positions [m], each coordinate finite and within +-kMaxCoordinate
   /// @param triangles   at least one, each index below vertices_M.size()
-  /// @throws InvalidInput with the index of the first invalid vertex or triangle
+  /// @throws InvalidInput if there is no triangle, or with the index of the first invalid triangle or else vertex
   TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles);
 
   /// Replaces the positions of all vertices in one pass; rebuilds no structure. Exchanges buffers and allocates
   /// nothing, except for a spare buffer at the first call on a mesh with renumbered vertices.
   /// @param[in,out] positions_M  x0 y0 z0 x1 ... [m], one triple per vertex, bounds as above; on return a buffer of the
   ///                             same size with unspecified contents
-  /// @throws InvalidInput for a wrong count or an invalid coordinate; the mesh does not change
+  /// @throws InvalidInput for a wrong count or an invalid coordinate; mesh and positions do not change
   void deform(std::vector<float>& positions_M);
 
   const std::vector<Triangle>& triangles() const { return topology_->triangles; }
-  /// Returns whether each edge belongs to an even number of triangles. The surface then encloses an inside. Vertices at
-  /// the same place count as different: a mesh of separate triangles is not closed.
+  /// Returns whether each edge belongs to an even number of triangles. The surface then has an inside, which may be
+  /// empty. Vertices at the same place count as different: a mesh of separate triangles is not closed. An edge from a
+  /// vertex to itself does not count.
   bool closed() const { return topology_->closed; }
   size_t vertexCount() const { return offsets_.size() / 3; }
 
@@ -60,7 +61,7 @@ class TriangleMesh {
   /// Returns the box along the axes of M that contains every vertex [m].
   Eigen::AlignedBox3d bounds_M() const { return {origin_ + blocks_.bounds().min(), origin_ + blocks_.bounds().max()}; }
 
-  /// Returns the largest distance [m] between a vertex as given and as stored; 0 for positions given in float32.
+  /// Returns the largest distance [m] between a vertex as given and as stored; 0 after deform().
   double rounding() const { return rounding_; }
 
  private:

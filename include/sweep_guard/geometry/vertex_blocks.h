@@ -14,13 +14,13 @@ namespace sweep_guard_core {
 class VertexBlocks {
  public:
   /// Computes the boxes.
-  /// @param positions  x0 y0 z0 x1 ... [m], not empty
-  /// @returns whether all positions are finite; if not, the boxes are not valid
+  /// @param positions  x0 y0 z0 x1 ... [m], at least one vertex
+  /// @returns whether all positions are finite (see simd::Kernels::bound); if not, the boxes are not valid
   bool measure(const std::vector<float>& positions);
 
   size_t count() const { return count_; }
 
-  /// Returns one array per side of the boxes [m], padded to simd::kPadding.
+  /// Returns one array per side of the boxes [m], padded to simd::kPadding; valid until the next measure().
   simd::BoxArrays<const float> arrays() const;
 
   /// Returns the box around all positions [m].
@@ -38,7 +38,8 @@ class VertexBlocks {
 constexpr size_t kBlockFloats = 3 * simd::kBlock;
 
 /// Calls a function with the kBlock vertices of one block; simd::kPadding more floats are readable. The last vertex
-/// fills the last block.
+/// fills the last block. The pointer may be valid during the call only.
+/// @param positions  x0 y0 z0 x1 ... [m], at least one vertex
 template <typename Function>
 void withBlock(const std::vector<float>& positions, size_t block, const Function& function) {
   const size_t first = block * kBlockFloats;

@@ -17,17 +17,20 @@ struct SweepPlan;
 /// Sweeps the tool from pose to pose, so that no motion goes untested, and predicts contacts after the newest pose
 /// [P, Sec. 3.2]. One thread.
 ///
-/// After a failure of the detector the next sweep passes through every pose since the last success; after a missing
-/// transform it goes straight from the last pose known in that frame. The first sweep in a frame is a static test.
+/// After a failure of the detector the next sweep passes through every pose since the last success; of more than 8192
+/// it skips the oldest. After a missing transform it goes straight from the last pose known in that frame. The first
+/// sweep in a frame begins at the first pose known there; if no pose was passed before, it is a static test.
 ///
 /// Between poses, tool and frames move straight at constant speed in W and turn about one axis at constant rate.
 /// Between updates of a mesh, its vertices move straight at any speed. The update is a motion between the stamps of
-/// both meshes: the tool's path since the earlier stamp, at most 0.5 s, is swept again against the moving mesh.
+/// both meshes: the tool's path since the earlier stamp is swept again against the moving mesh, as far as its poses are
+/// kept. Swept poses are kept for 0.5 s.
 ///
-/// Segments that are swept at once are merged (mergedMotion()) as long as the deviation bound stays below a thousandth
-/// of the tool's bounding radius. Times of impact stay early.
+/// Segments that are swept at once are merged (mergedMotion()) as long as the deviation bound is at most a thousandth
+/// of the tool's bounding radius and the rotation at most `max_rotation`. Times of impact stay early.
 class Guard {
  public:
+  /// @param detector  not null
   /// @throws InvalidInput if `cycle` or an option of the predictor or the horizon is out of range; `options.sweep` is
   ///     not checked
   Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options);
@@ -40,25 +43,27 @@ class Guard {
   /// @param pose  its stamp must not be earlier than the previous pose's; not checked, so reset() after time went back
   void pass(const PoseWithFrames& pose);
 
-  /// Sweeps from the pose of the last sweep, through the poses passed since, to this pose.
+  /// Sweeps from the pose of the last sweep, through the poses passed since, to this pose. If the detector fails, the
+  /// report names the workpiece; nothing is thrown.
   /// @param pose  its stamp must not be earlier than the previous pose's; not checked
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
 
   /// Predicts the path after the newest pose and tests it. Frames of workpieces are taken to stay where they are. The
-  /// newest pose must have been given to sweep(), not to pass(). The path is empty until two poses are known, and once
-  /// the newest pose is older than the reserve of the horizon: the number of sweeps would grow with the age.
+  /// newest pose must have been given to sweep(), not to pass(). The path is empty before the first sweep, until
+  /// PosePredictor knows a motion, and once the newest pose is older than the reserve of the horizon: the number of
+  /// sweeps would grow with the age. If the detector fails, the prediction names the workpiece; nothing is thrown.
   /// @param age  of the newest pose, >= 0
   /// @param[out] prediction  overwritten; its buffers are used again
   void predict(Duration age, const Workpieces& workpieces, Prediction& prediction);
 
   /// Predicts the motion after the newest pose without testing it. The newest pose must have been given to sweep(), not
-  /// to pass().
+  /// to pass(). The path is empty as for predict().
   /// @param age  of the newest pose, >= 0
   /// @param end  of the prediction, counted from now, > 0
   PredictedMotion predictMotion(Duration age, Duration end) const;
 
-  /// Forgets all poses.
+  /// Forgets all poses, and keeps what the predictor has learned of the operator.
   void reset();
 
   /// Exchanges the options, and tool, detector or predictor if given. The next sweep begins where the last one ended.

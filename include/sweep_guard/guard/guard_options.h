@@ -18,7 +18,7 @@ struct GuardOptions {
   PredictorOptions predictor;
   HorizonOptions horizon;
   Duration cycle = fromSeconds(1.0 / 15.0);  ///< time available for one pose and its prediction, > 0
-  /// Clock that measures what sweeps cost; never goes back.
+  /// Clock that measures what sweeps cost; never goes back. Must not be empty.
   std::function<SteadyTime()> clock = std::chrono::steady_clock::now;
 };
 

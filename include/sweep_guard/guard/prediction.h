@@ -22,24 +22,25 @@ struct PredictedMotion {
 
 /// One sweep along the predicted path, or a piece of it, tested against one workpiece.
 struct PredictedSweep {
-  Duration from{};           ///< start, after the newest pose; the sweep lasts until the next one begins
-  bool contact = false;      ///< the predicted path itself meets the workpiece
+  Duration from{};           ///< start, after the newest pose; lasts until the next sweep begins or the path ends
+  bool contact = false;      ///< a volume along the predicted path is not proven free; no narrow phase
   double probability = 0.0;  ///< probability that the tool meets the workpiece in this sweep, in [0, 1]; 0 below 0.001
-  /// Index of the convex piece of the tool most likely to meet the workpiece; with `contact`, of those that do.
+  /// Index of the convex piece of the tool most likely to meet the workpiece; with `contact`, of those that do. Empty
+  /// if `probability` is 0.
   std::optional<size_t> tool_piece = {};
 };
 
 /// The predicted contacts with one workpiece.
 struct PredictedObject {
   std::shared_ptr<const Workpiece> workpiece;
-  std::vector<PredictedSweep> sweeps;     ///< end to end, ascending in time; a sweep with a possible contact is split
+  std::vector<PredictedSweep> sweeps;     ///< end to end, ascending; split if they may meet, up to the first contact
   std::vector<std::uint32_t> reflex;      ///< triangles met within the reflex interval: ascending, each once
   std::vector<std::uint32_t> considered;  ///< triangles met later: ascending, each once, none of `reflex`
-  std::vector<SweptVolume> volumes_M;     ///< volumes of the sweeps, end to end, in the mesh's frame
+  std::vector<SweptVolume> volumes_M;     ///< volumes around the whole tool, end to end, unsplit; in M
   size_t volumes_tested = 0;              ///< number of volumes tested, including those of split sweeps
 
   std::vector<std::uint32_t> triangles() const;  ///< all triangles met: ascending, each once
-  std::optional<Duration> firstContact() const;  ///< when the path first meets the workpiece, after the newest pose
+  std::optional<Duration> firstContact() const;  ///< start of the first sweep with contact, after the newest pose
   void clear();                                  ///< resets all fields and keeps the buffers
 };
 
@@ -59,7 +60,7 @@ struct Prediction {
   Time coveredUntil() const;
   bool complete() const;       ///< the motion is known, there is a workpiece, and every workpiece was tested
   double probability() const;  ///< largest probability of all sweeps, in [0, 1]
-  std::optional<Duration> firstContact() const;  ///< when the path first meets a workpiece, after the newest pose
+  std::optional<Duration> firstContact() const;  ///< earliest one of all objects, after the newest pose
 };
 
 }  // namespace sweep_guard_core

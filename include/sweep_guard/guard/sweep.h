@@ -24,7 +24,7 @@ struct SweepOptions {
 struct TriangleContact {
   std::uint32_t triangle;
   size_t piece;   ///< index of the convex piece of the tool that touches the triangle first
-  Impact impact;  ///< first impact of that piece
+  Impact impact;  ///< first impact of that piece on the triangle
 };
 
 /// Holds the triangles of one mesh that the tool meets during one motion.
@@ -37,9 +37,10 @@ struct SweepResult {
   TriangleSet not_ruled_out = {};  ///< subset of `triangles` that the narrow phase does not rule out; without it, all
   std::vector<TriangleContact> in_contact = {};  ///< confirmed by the narrow phase: ascending, each once
   /// A piece of the tool lies wholly inside the closed mesh. Tested only if the sweep's `not_ruled_out` is empty; false
-  /// otherwise.
+  /// otherwise, and for a mesh that is not closed().
   bool inside = false;
 
+  /// Returns whether the tool met the mesh, or whether it is not ruled out that it did.
   bool contact() const { return inside || !not_ruled_out.empty(); }
   void clear();  ///< resets all fields and keeps the buffers
 };
@@ -54,13 +55,15 @@ struct PathRequest {
 
 /// Holds what the tool meets along a path of poses.
 struct PathResult {
-  SweepResult all;                       ///< all sweeps merged
+  /// All sweeps merged. Of each triangle: time (as a fraction of its sweep), point and piece of the first impact,
+  /// normal of the last one, and the depth at the end of the last sweep, 0 if that does not touch it.
+  SweepResult all;
   std::optional<size_t> first_contact;   ///< first sweep with contact; sweep i goes from pose i to pose i + 1
-  std::optional<double> time_of_impact;  ///< in that sweep, [0, 1]; empty without the narrow phase
+  std::optional<double> time_of_impact;  ///< in that sweep, [0, 1]; 0 if inside; empty without contact or narrow phase
 };
 
-/// Checks every sweep of a path.
-/// @throws DeviceError if the detector fails
+/// Checks every sweep of a path, also after a contact.
+/// @throws DeviceError if the detector fails, and what before_sweep() throws
 PathResult checkPath(Detector& detector, const PathRequest& request);
 
 }  // namespace sweep_guard_core

@@ -26,12 +26,12 @@ struct SweepReport {
   Time start;                          ///< earliest start of a sweep; equal to `end` at the first pose
   Time end;                            ///< stamp of the pose
   Duration backlog{};                  ///< time spanned by the poses that waited, >= 0
-  std::vector<SweptObject> objects;    ///< every workpiece swept, in the order of the request
+  std::vector<SweptObject> objects;    ///< every workpiece swept, in the order given to Guard::sweep()
   Workpieces unplaced;                 ///< workpieces that were not swept because their frame is unknown at the pose
   std::vector<SweepFailure> failures;  ///< workpieces that were not swept because the detector failed
 
   double margin() const;  ///< largest margin of all objects [m]
-  bool contact() const;   ///< the tool met an object
+  bool contact() const;   ///< the tool met an object, or it is not ruled out that it did
   bool complete() const;  ///< there is at least one workpiece, and every workpiece was swept with all its updates
 };
 

@@ -22,9 +22,11 @@ struct Workpiece {
   double path_length = 0.0;   ///< upper bound on any vertex's path length over these updates [m]
 };
 
-/// Counts one update: sets `updates` and `path_length` of a workpiece from those of the same triangles before.
+/// Counts one update: sets `updates` and `path_length` of a workpiece from those before the update.
+/// @param before  has the same triangles
 void countUpdate(const Workpiece& before, Workpiece& updated);
 
+/// Snapshots of different workpieces: none null, each id once.
 using Workpieces = std::vector<std::shared_ptr<const Workpiece>>;
 
 /// A workpiece that could not be swept, and why.

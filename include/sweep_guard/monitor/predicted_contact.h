@@ -13,8 +13,8 @@ namespace sweep_guard_core {
 /// The contact that the operator is warned of, and the prediction that it comes from.
 struct PredictedContact {
   Time earliest;                ///< the contact does not begin earlier
-  std::optional<Time> contact;  ///< when the predicted path meets the workpiece; empty if contact is merely probable
-  double probability = 0.0;     ///< largest probability of the sweeps from `earliest` on, in [0, 1]
+  std::optional<Time> contact;  ///< start of the first sweep with contact; empty if contact is merely probable
+  double probability = 0.0;     ///< largest probability of this workpiece's sweeps from `earliest` on, in [0, 1]
   std::string mesh_id = {};
   std::vector<std::uint32_t> triangles = {};  ///< met by the predicted path: ascending, each once
   /// Index of the convex piece of the tool that meets the workpiece first, or is most likely to.

@@ -13,7 +13,7 @@ namespace sweep_guard_core {
 struct WarningLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
   Duration mesh_timeout;  ///< a workpiece older than this is stale; Duration::max(): never
-  Duration hold_time;     ///< how long a contact or a warning is shown after it has ended; >= 0
+  Duration hold_time;     ///< how long a contact, a warning or an overload is shown after its end; >= 0
   Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, counted from now, > 0
   Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
   Duration tick = std::chrono::milliseconds(15);          ///< longest time until the next computeWarning(); >= 0
@@ -31,10 +31,10 @@ struct Warning {
   /// predicted to touch, or most likely to.
   std::optional<size_t> tool_piece;
   std::vector<std::uint32_t> triangles;  ///< in contact, or met by the predicted path
-  /// Time until the predicted path meets the workpiece of the predicted contact, >= 0; empty: it does not. At kContact,
-  /// this may be another workpiece than `mesh_id`.
+  /// Time until the predicted path meets the workpiece of the predicted contact, >= 0; empty: it does not, or the
+  /// prediction has ended. At kContact, this may be another workpiece than `mesh_id`.
   std::optional<Duration> time_to_collision;
-  double probability = 0.0;  ///< probability of the predicted contact, in [0, 1]
+  double probability = 0.0;  ///< probability of the predicted contact, in [0, 1]; 0 once its prediction has ended
   Time pose_stamp;           ///< newest pose that has been swept; epoch: none
   Time covered_until;        ///< every workpiece is tested up to here; epoch: never
 
@@ -43,8 +43,8 @@ struct Warning {
 
 /// Computes the warning. The first level that applies wins, in this order:
 /// - CONTACT: the tool meets a workpiece, or met one within the hold time.
-/// - REFLEX, CONSIDERED: the earliest predicted contact falls into the interval before the next call, or did so within
-///   the hold time.
+/// - REFLEX, CONSIDERED: the earliest predicted contact lies within this interval now or by the next call, or did so
+///   within the hold time.
 /// - UNKNOWN: a reason other than kDegraded applies.
 /// - CLEAR: there is a workpiece; pose and workpieces are fresh; every workpiece was swept at that pose and tested to
 ///   the end of the considered interval; there is no fault.

@@ -43,19 +43,19 @@ struct WarningInputs {
   struct Object {
     std::string id;
     Timestamps timestamps;
-    bool swept = false;    ///< this revision was swept at the newest pose
+    bool swept = false;    ///< swept at the newest pose, with these triangles and frame; maybe with older vertices
     Duration behind = {};  ///< the newest pose is older by this than a mesh that it should have been swept against
     bool dropped = false;  ///< an update was dropped unread, and the workpiece was not swept since
   };
   struct Contact {
     std::string id;
-    std::vector<std::uint32_t> triangles;   ///< ascending, each once
+    std::vector<std::uint32_t> triangles;   ///< those not ruled out: ascending, each once
     SteadyTime found;                       ///< time of the newest sweep that met the workpiece
     bool lasting = false;                   ///< the newest sweep has met it, or could not test it
     bool inside = false;                    ///< the tool is inside the workpiece
     std::optional<size_t> tool_piece = {};  ///< convex piece that touched first, if the narrow phase knows
   };
-  /// A warning that has ended.
+  /// A warning whose prediction has ended, or was replaced by a newer one.
   struct Alarm {
     PredictedContact contact;
     SteadyTime ended;
@@ -73,7 +73,7 @@ struct WarningInputs {
 
   std::optional<Timestamps> pose;  ///< newest pose that has been swept
   std::vector<Object> objects;
-  std::optional<Contact> contact;             ///< newest contact
+  std::optional<Contact> contact;             ///< newest contact; of several in one sweep, the first reported
   std::optional<PredictedContact> predicted;  ///< from the newest prediction of its workpiece
   std::optional<Alarm> reflex;                ///< newest reflex warning that has ended
   std::optional<Alarm> considered;            ///< newest considered warning that has ended

@@ -15,7 +15,7 @@
 namespace sweep_guard_core {
 
 /// Collects the inputs of the warning: received poses and workpieces, refusals, and sweeps.
-/// Each input reports from its own thread. The warning may be computed at any time, so a silent input is noticed, too.
+/// Any thread may call any function. The warning may be computed at any time, so a silent input is noticed, too.
 class WarningMonitor {
  public:
   /// State of the monitor when a pose was received. A sweep to that pose clears only faults reported before it.
@@ -27,7 +27,9 @@ class WarningMonitor {
     bool continues(const Checkpoint& previous) const { return epoch == previous.epoch; }
   };
 
-  /// @param on_fault  called after every fault, refusal and restart, in the reporting thread; may call the monitor
+  /// @param limits    in the ranges of WarningLimits; not checked
+  /// @param on_fault  called after every fault, refusal and restart, in the reporting thread; may call the monitor; not
+  ///     empty
   /// @param waiting_since  returns when the oldest pose that is not yet swept was received. Called by warning(); must
   ///                       not call the monitor
   explicit WarningMonitor(
@@ -42,8 +44,8 @@ class WarningMonitor {
   /// Reports that an input was refused or failed. The warning is not clear until a later pose has been swept.
   void fault(Reason reason, const std::string& message);
 
-  /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), for the workpiece that the
-  /// mesh describes is unknown.
+  /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), because the workpiece that
+  /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each.
   void meshRefused(const std::string& id, const std::string& message);
 
   /// Reports that a good mesh came, or that the workpiece was removed. Clears all refusals of this id.
@@ -70,16 +72,17 @@ class WarningMonitor {
   void setWorkpieces(const Workpieces& workpieces);
 
   /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor
-  /// was restarted since the checkpoint.
+  /// was restarted since the checkpoint. Each failure in the report becomes a new fault, kDetectorFault.
   void swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint, SteadyTime now);
 
   /// Reports that the path predicted from a swept pose was tested. Does nothing if the monitor was restarted since the
-  /// checkpoint.
+  /// checkpoint. Each failure in the prediction becomes a new fault, kDetectorFault.
   /// @param took  time that the prediction and its sweeps took
   void predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint, const Instant& now,
                  Duration took = {});
 
-  /// Reports that time went back. Forgets poses, predictions and faults; kTimeJump lasts until a new pose is swept.
+  /// Reports that time went back. Forgets poses, predictions and faults; kTimeJump lasts until a new pose is swept. A
+  /// contact is shown for the hold time.
   void timeJumped(const std::string& message);
 
   /// Forgets everything but the workpieces, refused meshes and refused vertices. A disabled guard stays disabled.
@@ -98,7 +101,7 @@ class WarningMonitor {
   /// restarted.
   bool counts(const Checkpoint& checkpoint) const;
 
-  /// Sets the limits of the next warning.
+  /// Sets the limits of the next warning; does not check them.
   void setLimits(const WarningLimits& limits);
 
   /// Computes the warning as of now.

@@ -25,26 +25,32 @@ struct Horizon {
 };
 
 /// Checks the options.
-/// @throws InvalidInput if an option is out of range, or if an interval takes more than 10000 sweeps
+/// @throws InvalidInput if an option is out of range, or if `reflex` + `reserve` or `considered` + `reserve` is 10000
+///     of its steps or longer
 void check(const HorizonOptions& options);
 
 /// Returns the number of sweeps from a pose of this age to the end of the reflex interval. Ages beyond the
-/// reserve count as the reserve; each sweep is then longer than the reflex step.
-/// @param age  >= 0
+/// reserve count as the reserve; each sweep may then be longer than the reflex step.
+/// @param options  accepted by check()
+/// @param age      >= 0
 size_t reflexSweeps(const HorizonOptions& options, Duration age);
 
 /// Returns the number of sweeps that the considered interval and the reserve take at the configured step.
+/// @param options  accepted by check()
 size_t consideredSweeps(const HorizonOptions& options);
 
-/// Computes the ends of the sweeps, at the configured steps or equal ones a little shorter.
+/// Computes the ends of the sweeps, at the configured steps or equal ones a little shorter; for an age beyond the
+/// reserve, the reflex steps may be longer.
+/// @param options       accepted by check()
 /// @param age           of the newest pose, >= 0
 /// @param[out] horizon  overwritten; its buffers are used again
 void computeHorizon(const HorizonOptions& options, Duration age, Horizon& horizon);
 
 /// Computes the ends of the sweeps, at the same steps, up to exactly `end`. Adds no reserve; the last sweep may be
 /// shorter than a step.
-/// @param end  counted from now, > 0; may lie within the reflex interval
-/// @param age  of the newest pose, >= 0
+/// @param end      counted from now, > 0; may lie within the reflex interval
+/// @param options  accepted by check(), apart from `considered`, which does not count
+/// @param age      of the newest pose, >= 0
 Horizon horizonUpTo(Duration end, HorizonOptions options, Duration age);
 
 }  // namespace sweep_guard_core

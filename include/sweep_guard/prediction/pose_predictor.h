@@ -28,8 +28,8 @@ struct PredictorOptions {
   /// the tool's own axes; each 0 to 5.
   std::array<int, 6> degree = {1, 1, 1, 1, 1, 1};
   std::array<bool, 6> constrained{};                 ///< axes, in the same order, along which no motion is predicted
-  double forgetting_factor = 0.98;                   ///< weight of a sample relative to the next one, in (0, 1]
-  Duration window = std::chrono::milliseconds(300);  ///< older samples are not used; > 0
+  double forgetting_factor = 0.98;                   ///< of `polynomial`: weight relative to the next sample, in (0, 1]
+  Duration window = std::chrono::milliseconds(300);  ///< of `polynomial`: drops older samples if enough are left; > 0
   double max_speed = 5.0;                            ///< largest predicted speed of the tool's origin [m/s], > 0
   double max_turn_rate = 20.0;                       ///< largest predicted turn rate [rad/s], > 0
 };
@@ -47,14 +47,14 @@ class PosePredictor {
   PosePredictor(PosePredictor&&) noexcept;
   PosePredictor& operator=(PosePredictor&&) noexcept;
 
-  /// Adds the newest pose. A pose less than 0.5 ms later than the previous one replaces the previous pose. The fit
-  /// restarts after a gap (0.25 s, or three periods of slower poses, at most 1 s) and after a jump faster than the
-  /// limits; the errors learned of the operator are kept.
+  /// Adds the newest pose. A pose that is earlier than the previous one, or later by less than 0.5 ms, replaces the
+  /// previous pose, whose stamp stays. The fit restarts after a gap (0.25 s, or three periods of slower poses, at most
+  /// 1 s) and after a jump faster than the limits; the errors learned of the operator are kept.
   void observe(const StampedPose& pose);
 
   /// Predicts the poses after the newest observed one. The path is empty until a motion is known: two poses since the
-  /// start or a gap.
-  /// @param ahead      times after the newest observed pose, ascending, > 0
+  /// start, a gap, a jump or restart().
+  /// @param ahead      times after the newest observed pose, strictly ascending, > 0
   /// @param[out] path  overwritten; its buffers are used again
   void predict(const std::vector<Duration>& ahead, PredictedPath& path) const;
 

@@ -26,7 +26,7 @@ ros::Time toMsg(sweep_guard_core::Time time);
 /// @throws std::runtime_error beyond +-68 years (32 bits of seconds), so for Duration::max()
 ros::Duration toMsg(sweep_guard_core::Duration duration);
 
-/// Returns the current time on both clocks.
+/// Returns the current time on both clocks; ros::Time must be initialized.
 sweep_guard_core::Instant now();
 
 /// Converts a vector to a message with the fields x, y and z.
@@ -53,24 +53,26 @@ sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_
 
 /// Makes a message that names these triangles of a workpiece, without impacts.
 /// @param triangles  indices: ascending, each once
-/// Converts all triangles that the swept volumes meet, and the impacts: points [m] and normals in the mesh's frame.
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const std::vector<std::uint32_t>& triangles);
+/// Converts all triangles that the swept volumes meet, and the impacts: points [m] and normals in the mesh's frame.
+/// @param tool  the one that was swept: names the links
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const sweep_guard_core::SweepResult& result, const sweep_guard_core::Tool& tool);
 /// Converts the objects that a swept volume meets or that the tool is inside, in the report's order. The caller sets
 /// frame, tool and volume.
 sweep_guard::Contacts toMsg(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool);
 
-/// Converts a prediction as of the time when it was made: omits poses before that. The caller sets frame, tool and
+/// Converts a prediction as of the time when it was made: omits poses up to that time. The caller sets frame, tool and
 /// predictor.
-/// @param age  age that the first pose had at that time
+/// @param age     age that the newest measured pose had at that time
+/// @param limits  decide the message's interval
 sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age,
                               const sweep_guard_core::WarningLimits& limits);
 /// Returns the time until the predicted collision [s]; infinite if there is none, NaN if unknown.
 double timeToCollision(const sweep_guard::Prediction& prediction);
 
-/// Converts a warning. The caller sets frame, tool, counters and `valid_until`.
+/// Converts a warning. The caller sets frame, tool, `tool_link`, counters and `valid_until`.
 sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning);
 
 }  // namespace sweep_guard_ros

@@ -68,8 +68,9 @@ struct Kernels {
 
   /// Computes the boxes of blocks of vertices.
   /// @param vertices  x0 y0 z0 x1 ... of `blocks` times kBlock vertices; kPadding more floats must be readable
-  /// @param extremes  widened to contain all vertices
-  /// @returns whether all coordinates are finite
+  /// @param[out] boxes        one entry for each block
+  /// @param[in,out] extremes  widened to contain all vertices
+  /// @returns whether all coordinates are finite; also false if sums of them overflow float32
   bool (*bound)(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, Extremes& extremes);
 
   /// Computes for each box the bits of the planes that the whole box is beyond; never sets kInsideAll.
@@ -94,7 +95,7 @@ struct Kernels {
 const std::vector<Kernels>& availableKernels();
 
 /// Returns the kernels that the environment variable SWEEP_GUARD_SIMD names (avx512, avx2 or baseline), or the best.
-/// @throws InvalidInput if the machine does not have them
+/// @throws InvalidInput if the name is unknown or the machine does not have them
 const Kernels& kernels();
 
 }  // namespace sweep_guard_core::simd

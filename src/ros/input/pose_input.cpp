@@ -12,7 +12,7 @@ namespace {
 
 using sweep_guard_core::Reason;
 
-constexpr auto kMaxTransformDelay = std::chrono::milliseconds(20);
+constexpr auto kPoseTransformWait = std::chrono::milliseconds(20);
 constexpr auto kPauseOfWaits = std::chrono::milliseconds(200);
 constexpr std::uint32_t kQueueLength =
     65536;  // 65 s at 1 kHz; a pose that ROS drops beyond that is a gap in header.seq
@@ -182,7 +182,7 @@ Eigen::Isometry3d PoseInput::lookup(const std::string& target, const std::string
   const sweep_guard_core::SteadyTime begin = std::chrono::steady_clock::now();
   const bool waits = begin >= no_wait_until_;
   try {
-    return frames_.lookup(target, source, stamp, waits ? kMaxTransformDelay : sweep_guard_core::Duration(0));
+    return frames_.lookup(target, source, stamp, waits ? kPoseTransformWait : sweep_guard_core::Duration(0));
   } catch (const FrameError&) {
     if (waits) no_wait_until_ = begin + kPauseOfWaits;
     throw;

@@ -19,7 +19,7 @@ using sweep_guard_core::InvalidInput;
 using sweep_guard_core::printable;
 
 constexpr size_t kMaxPoses = 1024;
-constexpr auto kMaxTransformDelay = std::chrono::milliseconds(100);
+constexpr auto kPathTransformWait = std::chrono::milliseconds(100);
 
 struct PathContact {
   size_t segment;
@@ -125,7 +125,7 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
   for (size_t i = 0; i < path.size(); ++i) {
     try {
       path_M.push_back(
-          frames_.lookup(mesh_frame, path[i].header.frame_id, fromMsg(path[i].header.stamp), kMaxTransformDelay) *
+          frames_.lookup(mesh_frame, path[i].header.frame_id, fromMsg(path[i].header.stamp), kPathTransformWait) *
           fromMsg(path[i].pose));
     } catch (const sweep_guard_core::Error& error) {
       throw InvalidInput("pose " + std::to_string(i) + ": " + error.what());

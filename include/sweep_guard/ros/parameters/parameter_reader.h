@@ -27,7 +27,7 @@ struct ParameterInfo {
   double lowest = -std::numeric_limits<double>::infinity();  ///< bound of a number, if no other parameter narrows it
   double highest = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices;  ///< allowed texts; empty: any
-  std::string wanted;                ///< type, unit and range, for the error text
+  std::string wanted;                ///< type, unit and range, as text
   std::string effect;                ///< sentences for users
 };
 
@@ -45,7 +45,7 @@ class ParameterReader {
 
   /// Narrows a range by another parameter.
   struct Bound {
-    Range range;
+    Range range;       ///< checked in place of the wider range
     const char* note;  ///< words for the error text that name the other parameter
   };
 
@@ -56,7 +56,7 @@ class ParameterReader {
   explicit ParameterReader(const ros::NodeHandle& private_node, Settings known = {})
       : node_(private_node), settings_(std::move(known)) {}
 
-  /// Reads a number; accepts an integer. Also checks the fallback.
+  /// Reads a number; accepts an integer. Checks the fallback, too, as do integer(), name() and choice().
   double number(const std::string& key, double fallback, const Range& range, const std::string& effect = "",
                 const std::optional<Bound>& bound = {});
   int integer(const std::string& key, int fallback, int lowest, int highest, const std::string& effect = "");
@@ -66,7 +66,7 @@ class ParameterReader {
   std::string name(const std::string& key, const std::string& fallback, const std::string& effect = "");
   std::string choice(const std::string& key, const std::string& fallback, const std::vector<std::string>& choices,
                      const std::string& effect = "");
-  /// Reads as many integers as the fallback has. Any list may be given as text: `1, 2` or `[1, 2]`.
+  /// Reads as many integers as the fallback has. Any list but a position() may be text: `1, 2` or `[1, 2]`.
   std::vector<int> integers(const std::string& key, const std::vector<int>& fallback, int lowest, int highest,
                             const std::string& effect = "");
   /// Reads a list of some of the choices; [] if not set.
@@ -76,7 +76,7 @@ class ParameterReader {
   std::vector<std::string> texts(const std::string& key, const std::string& effect = "");
   /// Reads a group of finite numbers by name; empty if not set.
   std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "");
-  /// Searches a text in the node's namespace and the namespaces above it, or under an absolute name; "" if not set.
+  /// Searches a text in the private namespace and the namespaces above it, or under an absolute name; "" if not set.
   std::string searchText(const std::string& name);
   /// Refuses the parameter if it is set.
   /// @param instead  tells the user what to do
@@ -84,9 +84,9 @@ class ParameterReader {
   /// Reads [x, y, z] [m] within +-1e6 m.
   Eigen::Vector3d position(const std::string& key, const Eigen::Vector3d& fallback);
 
-  /// Returns the settings of all parameters that were read.
+  /// Returns the known settings, and those of all parameters that were read.
   const Settings& settings() const { return settings_; }
-  /// Returns the descriptions of all parameters in the order of reading, except those of text() and position().
+  /// Returns the descriptions in the order of reading; none for text(), position(), searchText() and refuseIfSet().
   const std::vector<ParameterInfo>& described() const { return described_; }
 
   /// Warns of every private parameter that was not read: a misspelled key has no effect.

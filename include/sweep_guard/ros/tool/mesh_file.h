@@ -17,7 +17,7 @@ struct MeshSurface {
 };
 
 /// Returns the file of a mesh in a URDF: `package://NAME/PATH` or `file:///PATH`. A package's folder is the one that
-/// rospack knows, or else the folder NAME in an entry of ROS_PACKAGE_PATH. Follows symbolic links. Their target must be
+/// rospack knows, or else the folder NAME in an entry of ROS_PACKAGE_PATH. Follows symbolic links. The result must be
 /// in the package's folder or, for file://, in a package on ROS_PACKAGE_PATH or in one of the roots.
 /// @param roots  absolute folders that file:// paths may lead to
 /// @returns a path without symbolic links
@@ -28,9 +28,9 @@ std::filesystem::path locateMesh(const std::string& uri, const std::vector<std::
 /// any case. Use kFollow for paths from the user only.
 enum class SymbolicLinks { kRefuse, kFollow };
 
-/// Reads a regular STL, OBJ or DAE file of at most 32 MiB and a million triangles. The program mesh_reader next to the
-/// nodes reads it in a separate process, so that a file on which it crashes, hangs or runs out of memory is refused. A
-/// file that cannot be read completely is refused, too.
+/// Reads a regular STL, OBJ or DAE file, told apart by its extension, of at most 32 MiB and a million triangles. The
+/// program mesh_reader next to the nodes reads it in a separate process, so that a file on which it crashes, hangs or
+/// runs out of memory is refused. A file that cannot be read completely, or not within 30 s, is refused, too.
 /// @throws sweep_guard_core::InvalidInput naming the file, what is wrong and what to do
 /// @throws sweep_guard_core::DeviceError if mesh_reader cannot be run
 MeshSurface readMesh(const std::filesystem::path& path, SymbolicLinks links = SymbolicLinks::kRefuse);
