@@ -108,7 +108,7 @@ void WarningMonitor::updateDropped(const std::string& id) {
     const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
     const auto known = std::find_if(workpieces_.begin(), workpieces_.end(), same);
     if (known == workpieces_.end()) return;
-    dropped_[id] = (*known)->updates;
+    dropped_[id] = (*known)->received;
     updateObjects();
   }
   on_fault_();
@@ -131,6 +131,10 @@ void WarningMonitor::updateRefusals() {
 void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
   const std::lock_guard lock(mutex_);
   workpieces_ = workpieces;
+  for (auto dropped = dropped_.begin(); dropped != dropped_.end();) {
+    const auto same = [&](const auto& workpiece) { return workpiece->id == dropped->first; };
+    dropped = std::any_of(workpieces_.begin(), workpieces_.end(), same) ? std::next(dropped) : dropped_.erase(dropped);
+  }
   updateObjects();
 }
 
@@ -139,6 +143,7 @@ void WarningMonitor::updateObjects() {
   for (size_t i = 0; i < workpieces_.size(); ++i) {
     const Workpiece& workpiece = *workpieces_[i];
     WarningInputs::Object& object = inputs_.objects[i];
+    if (object.id != workpiece.id) object.behind = {};
     object.id = workpiece.id;
     object.timestamps = {workpiece.stamp, workpiece.received};
     object.swept = holds(swept_, workpiece);
@@ -165,7 +170,7 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
     for (const SweptObject& object : report.objects) {
       if (object.behind == Duration::zero()) swept_.push_back(object.workpiece);
       const auto dropped = dropped_.find(object.workpiece->id);
-      if (dropped != dropped_.end() && object.workpiece->updates > dropped->second) dropped_.erase(dropped);
+      if (dropped != dropped_.end() && object.workpiece->received > dropped->second) dropped_.erase(dropped);
     }
     updateObjects();
     updateBehind(report);
@@ -336,7 +341,8 @@ std::string WarningMonitor::meshProblems(const Instant& now, const std::vector<s
   }
   for (const Messages* refusals : {&refused_vertices_, &refused_meshes_}) {
     for (const auto& [id, message] : *refusals) {
-      if (asked(id)) meshes.faults[kMeshInvalid] = message;
+      const bool may_hide_others = refusals->size() >= kRefusalsKept;
+      if (asked(id) || may_hide_others) meshes.faults[kMeshInvalid] = message;
     }
   }
   if (ids.empty()) meshes.unread = inputs_.unread;

@@ -142,7 +142,7 @@ class WarningMonitor {
   std::map<Reason, std::uint64_t> fault_numbers_;
   Messages refused_meshes_;
   Messages refused_vertices_;
-  std::map<std::string, std::uint64_t> dropped_;  // by id: the number of updates that the workpiece had
+  std::map<std::string, SteadyTime> dropped_;  // by id: when the newest update that was not dropped was received
 };
 
 }  // namespace sweep_guard_core
