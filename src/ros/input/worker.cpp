@@ -1,5 +1,7 @@
 #include "ros/input/worker.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -24,14 +26,26 @@ void Worker::push(Job job) {
     const std::lock_guard lock(mutex_);
     bytes_ += job.bytes;
     jobs_.push_back(std::move(job));
-    while (bytes_ > max_bytes_ && jobs_.size() > 1) {
-      bytes_ -= jobs_.front().bytes;
-      dropped.push_back(std::move(jobs_.front()));
-      jobs_.pop_front();
+    while (bytes_ > max_bytes_) {
+      const auto oldest = nextToDrop();
+      if (oldest == jobs_.end()) break;
+      bytes_ -= oldest->bytes;
+      dropped.push_back(std::move(*oldest));
+      jobs_.erase(oldest);
     }
   }
   changed_.notify_all();
   for (const Job& one : dropped) one.drop();
+}
+
+// Keeps the newest job.
+std::deque<Worker::Job>::iterator Worker::nextToDrop() {
+  const auto newest = std::prev(jobs_.end());
+  const auto has_bytes = [](const Job& job) { return job.bytes > 0; };
+  const auto replaceable = [&](const Job& job) { return has_bytes(job) && job.replaceable; };
+  auto found = std::find_if(jobs_.begin(), newest, replaceable);
+  if (found == newest) found = std::find_if(jobs_.begin(), newest, has_bytes);
+  return found == newest ? jobs_.end() : found;
 }
 
 void Worker::run() {

@@ -14,7 +14,8 @@ class Worker {
   struct Job {
     std::function<void()> run;
     std::function<void()> drop;  ///< called instead if the job does not fit, by the thread that pushes a later one
-    size_t bytes;                ///< held until the job has run
+    size_t bytes;                ///< held until the job has run; a job of 0 bytes is never dropped
+    bool replaceable = false;    ///< later jobs bring newer data: dropped before other jobs
   };
 
   /// @param max_bytes  of all jobs that wait; the newest may always wait
@@ -24,10 +25,11 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void start();
-  void push(Job job);  ///< drops the oldest jobs that do not fit
+  void push(Job job);  ///< drops the oldest jobs of those that wait if they do not fit
 
  private:
   void run();
+  std::deque<Job>::iterator nextToDrop();
 
   const size_t max_bytes_;
   std::mutex mutex_;
