@@ -1,7 +1,6 @@
 #include "ros/input/worker.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -20,13 +19,12 @@ void Worker::start() {
   thread_ = std::thread([this] { run(); });
 }
 
+// Drops before it pushes: nobody hears of a dropped job after the job that took its place.
 void Worker::push(Job job) {
   std::vector<Job> dropped;
   {
     const std::lock_guard lock(mutex_);
-    bytes_ += job.bytes;
-    jobs_.push_back(std::move(job));
-    while (bytes_ > max_bytes_) {
+    while (job.bytes > 0 && bytes_ + job.bytes > max_bytes_) {
       const auto oldest = nextToDrop();
       if (oldest == jobs_.end()) break;
       bytes_ -= oldest->bytes;
@@ -34,18 +32,20 @@ void Worker::push(Job job) {
       jobs_.erase(oldest);
     }
   }
-  changed_.notify_all();
   for (const Job& one : dropped) one.drop();
+  {
+    const std::lock_guard lock(mutex_);
+    bytes_ += job.bytes;
+    jobs_.push_back(std::move(job));
+  }
+  changed_.notify_all();
 }
 
-// Keeps the newest job.
 std::deque<Worker::Job>::iterator Worker::nextToDrop() {
-  const auto newest = std::prev(jobs_.end());
   const auto has_bytes = [](const Job& job) { return job.bytes > 0; };
   const auto replaceable = [&](const Job& job) { return has_bytes(job) && job.replaceable; };
-  auto found = std::find_if(jobs_.begin(), newest, replaceable);
-  if (found == newest) found = std::find_if(jobs_.begin(), newest, has_bytes);
-  return found == newest ? jobs_.end() : found;
+  const auto found = std::find_if(jobs_.begin(), jobs_.end(), replaceable);
+  return found != jobs_.end() ? found : std::find_if(jobs_.begin(), jobs_.end(), has_bytes);
 }
 
 void Worker::run() {

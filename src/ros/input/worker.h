@@ -13,8 +13,8 @@ class Worker {
  public:
   struct Job {
     std::function<void()> run;
-    std::function<void()> drop;  ///< called instead if the job does not fit, by the thread that pushes a later one
-    size_t bytes;                ///< held until the job has run; a job of 0 bytes is never dropped
+    std::function<void()> drop;  ///< called instead if a job does not fit that is to be pushed, before it is pushed
+    size_t bytes;                ///< held until the job runs; a job of 0 bytes is never dropped
     bool replaceable = false;    ///< later jobs bring newer data: dropped before other jobs
   };
 
@@ -25,7 +25,7 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void start();
-  void push(Job job);  ///< drops the oldest jobs of those that wait if they do not fit
+  void push(Job job);  ///< drops the oldest of the waiting jobs if it does not fit beside them
 
  private:
   void run();
