@@ -207,6 +207,26 @@ TYPED_TEST(WireTest, RefusesForgedLengths) {
   }
 }
 
+// roscpp multiplies in 32 bits: 0x40000001 floats then take as many bytes as one.
+TEST(WrappedLengthTest, IsRefusedThoughItsBytesAreThere) {
+  sweep_guard::MeshVertices vertices;
+  vertices.positions.resize(1);
+  const size_t positions = 16 + 4 + 4;
+  EXPECT_NO_THROW(check<sweep_guard::MeshVertices>(withLength(serialized(vertices), positions, 1)));
+  EXPECT_THROW(check<sweep_guard::MeshVertices>(withLength(serialized(vertices), positions, 0x40000001)),
+               sweep_guard_core::InvalidInput);
+  sweep_guard::DeformableMesh mesh;
+  mesh.mesh.triangles.resize(1);
+  mesh.mesh.vertices.resize(1);
+  for (const size_t position : {positions, positions + 4 + 12}) {
+    EXPECT_NO_THROW(check<sweep_guard::DeformableMesh>(withLength(serialized(mesh), position, 1)));
+    for (const std::uint32_t forged : {0x40000001U, 0x20000001U}) {
+      EXPECT_THROW(check<sweep_guard::DeformableMesh>(withLength(serialized(mesh), position, forged)),
+                   sweep_guard_core::InvalidInput);
+    }
+  }
+}
+
 template <typename Msg>
 class BoundedMessagesTest : public testing::Test {
  protected:

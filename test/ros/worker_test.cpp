@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <future>
+#include <mutex>
 
 namespace sweep_guard_ros {
 namespace {
@@ -71,6 +72,45 @@ TEST_F(WorkerTest, DropsReplaceableJobsBeforeOthers) {
   EXPECT_EQ(dropped_, (std::vector<int>{2, 3, 4, 1}));
   startAndFinish(worker);
   EXPECT_EQ(run_, (std::vector<int>{5, 6}));
+}
+
+// Else a refusal of an old mesh would come after the new one was accepted.
+TEST_F(WorkerTest, DropsAJobBeforeTheOneThatTakesItsPlaceRuns) {
+  std::mutex mutex;
+  std::vector<int> events;
+  const auto note = [&](int event) {
+    return [&, event] {
+      const std::lock_guard lock(mutex);
+      events.push_back(event);
+    };
+  };
+  std::promise<void> running;
+  std::promise<void> go_on;
+  std::promise<void> done;
+  Worker worker(100);
+  worker.start();
+  worker.push({[&] {
+                 running.set_value();
+                 go_on.get_future().wait();
+               },
+               {},
+               0});
+  running.get_future().wait();
+  worker.push({note(1),
+               [&] {
+                 go_on.set_value();
+                 std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                 note(-1)();
+               },
+               90});
+  worker.push({[&] {
+                 note(2)();
+                 done.set_value();
+               },
+               {},
+               90});
+  done.get_future().wait();
+  EXPECT_EQ(events, (std::vector<int>{-1, 2}));
 }
 
 TEST_F(WorkerTest, NeverDropsAJobOfNoBytes) {
