@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <execinfo.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <map>
@@ -22,10 +23,12 @@ struct Stack {
 
 thread_local bool counting = false;
 size_t counted = 0;
+size_t largest_size = 0;
 std::array<Stack, kMaxStacks> recorded;
 
-void record() {
+void record(size_t size) {
   if (!counting) return;
+  largest_size = std::max(largest_size, size);
   counting = false;  // backtrace() may allocate
   if (counted < kMaxStacks) recorded[counted].depth = backtrace(recorded[counted].frames.data(), kMaxDepth);
   ++counted;
@@ -33,7 +36,7 @@ void record() {
 }
 
 void* allocate(size_t size, size_t alignment) {
-  record();
+  record(size);
   const size_t whole = (size + alignment - 1) / alignment * alignment;
   void* memory =
       alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size) : std::aligned_alloc(alignment, whole);
@@ -67,12 +70,15 @@ Allocations::Allocations() {
   void* frame = nullptr;
   backtrace(&frame, 1);  // loads the library of backtrace()
   counted = 0;
+  largest_size = 0;
   counting = true;
 }
 
 Allocations::~Allocations() { counting = false; }
 
 size_t Allocations::count() const { return counted; }
+
+size_t Allocations::largest() const { return largest_size; }
 
 std::string Allocations::stacks() const {
   counting = false;

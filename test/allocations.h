@@ -15,6 +15,7 @@ class Allocations {
   Allocations& operator=(const Allocations&) = delete;
 
   size_t count() const;        ///< since the construction
+  size_t largest() const;      ///< [bytes]
   std::string stacks() const;  ///< call stacks of the first thousand, each once, with its count
 };
 

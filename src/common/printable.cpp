@@ -12,11 +12,16 @@ size_t characterLength(std::string_view text) {
   if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
   if (byte(0) < 0xc2 || byte(0) > 0xf4) return 0;
   const size_t length = byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
-  if (text.size() < length || (byte(0) == 0xc2 && byte(1) < 0xa0)) return 0;  // U+0080 to U+009F are control characters
+  if (text.size() < length) return 0;
+  std::uint32_t character = byte(0) & (0xffU >> (length + 1));
   for (size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xc0) != 0x80) return 0;
+    character = character << 6U | (byte(i) & 0x3fU);
   }
-  return length;
+  const bool control = character < 0xa0;
+  const bool overlong = length > 2 && character < (length == 3 ? 0x800U : 0x10000U);
+  const bool surrogate = character >= 0xd800 && character < 0xe000;
+  return control || overlong || surrogate || character > 0x10ffff ? 0 : length;
 }
 
 }  // namespace

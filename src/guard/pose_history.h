@@ -21,7 +21,7 @@ struct PoseSample {
 class PoseHistory {
  public:
   /// Largest number of poses; only a detector that keeps failing needs as many. A longer history drops its second pose,
-  /// and the motion goes straight past it. Twice the number of poses that may wait to be swept.
+  /// and the motion goes straight past it. Twice the number of poses that are swept at once.
   static constexpr size_t kMaxSize = 8192;
 
   /// @param sample  numbers ascend; stamps do not decrease

@@ -12,9 +12,8 @@ constexpr size_t kMaxRemoved = 64;
 
 bool before(const std::shared_ptr<const Workpiece>& workpiece, const std::string& id) { return workpiece->id < id; }
 
-bool sameTriangles(const Workpiece& a, const Workpiece& b) {
-  return a.frame == b.frame && a.mesh_M.vertexCount() == b.mesh_M.vertexCount() &&
-         a.mesh_M.triangles() == b.mesh_M.triangles();
+bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.vertexCount() == b.vertexCount() && a.triangles() == b.triangles();
 }
 
 void requireOrder(const Workpiece& current, Time stamp, Time latest) {
@@ -27,7 +26,7 @@ WorkpieceStore::WorkpieceStore(OnChange on_change) : on_change_(std::move(on_cha
 
 UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
   const auto current = find(next.id);
-  const bool same = current && sameTriangles(*current, next);
+  const bool same = current && sameTriangles(current->mesh_M, next.mesh_M);
   if (current) {
     if (same && next.revision == current->revision && next.stamp < current->stamp && current->stamp <= latest) {
       return UpdateOutcome::kIgnored;
@@ -36,7 +35,7 @@ UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
   } else if (snapshot().size() >= kMaxWorkpieces) {
     throw InvalidInput("there are " + std::to_string(kMaxWorkpieces) + " workpieces already: remove some");
   }
-  if (same) countUpdate(*current, next);
+  if (same && next.frame == current->frame) countUpdate(*current, next);
   buffers_.erase(next.id);
   replace(std::make_shared<const Workpiece>(std::move(next)));
   return UpdateOutcome::kStored;

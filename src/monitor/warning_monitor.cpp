@@ -105,6 +105,9 @@ void WarningMonitor::meshUnread(const std::string& message, SteadyTime now) {
 void WarningMonitor::updateDropped(const std::string& id, SteadyTime now) {
   {
     const std::lock_guard lock(mutex_);
+    const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
+    const auto known = std::find_if(workpieces_.begin(), workpieces_.end(), same);
+    if (known == workpieces_.end()) return;
     dropped_[id] = now;
     updateObjects();
   }
@@ -128,6 +131,10 @@ void WarningMonitor::updateRefusals() {
 void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
   const std::lock_guard lock(mutex_);
   workpieces_ = workpieces;
+  for (auto dropped = dropped_.begin(); dropped != dropped_.end();) {
+    const auto same = [&](const auto& workpiece) { return workpiece->id == dropped->first; };
+    dropped = std::any_of(workpieces_.begin(), workpieces_.end(), same) ? std::next(dropped) : dropped_.erase(dropped);
+  }
   updateObjects();
 }
 
@@ -141,6 +148,7 @@ void WarningMonitor::updateObjects() {
   for (size_t i = 0; i < workpieces_.size(); ++i) {
     const Workpiece& workpiece = *workpieces_[i];
     WarningInputs::Object& object = inputs_.objects[i];
+    if (object.id != workpiece.id) object.behind = {};
     object.id = workpiece.id;
     object.timestamps = {workpiece.stamp, workpiece.received};
     object.swept = holds(swept_, workpiece);
@@ -338,7 +346,8 @@ std::string WarningMonitor::meshProblems(const Instant& now, const std::vector<s
   }
   for (const Messages* refusals : {&refused_vertices_, &refused_meshes_}) {
     for (const auto& [id, message] : *refusals) {
-      if (asked(id)) meshes.faults[kMeshInvalid] = message;
+      const bool may_hide_others = refusals->size() >= kRefusalsKept;
+      if (asked(id) || may_hide_others) meshes.faults[kMeshInvalid] = message;
     }
   }
   if (ids.empty()) meshes.unread = inputs_.unread;

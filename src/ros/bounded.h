@@ -5,9 +5,11 @@
 
 #include <boost/make_shared.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 
+#include "ros/gate.h"
 #include "ros/wire.h"
 #include "sweep_guard/common/error.h"
 
@@ -40,34 +42,50 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
   BoundedMessages(typename Base::Callback callback, Refused refused, size_t max_size)
       : Base(std::move(callback)), refused_(std::move(refused)), max_size_(max_size) {}
 
+  /// Reports no more refusals.
+  void close() { refused_.close(); }
+
   /// Returns null for a refused message, which roscpp then leaves out.
   ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& message) override {
     try {
       checkMessage<Msg>({message.buffer, message.length}, max_size_);
       return Base::deserialize(message);
     } catch (const std::exception& error) {  // invalid, or out of memory
-      refused_(error.what());
+      refused_.pass(error.what());
       return {};
     }
   }
 
  private:
-  const Refused refused_;
+  Gate<const std::string&> refused_;
   const size_t max_size_;
 };
 
+/// A subscription that reports refused messages for as long as it lives. roscpp may deserialize later, and in the
+/// threads of other subscribers to the same topic.
+class BoundedSubscriber : public ros::Subscriber {
+ public:
+  BoundedSubscriber() = default;
+  BoundedSubscriber(const ros::Subscriber& subscriber, std::shared_ptr<void> closing)
+      : ros::Subscriber(subscriber), closing_(std::move(closing)) {}
+
+ private:
+  std::shared_ptr<void> closing_;
+};
+
 /// Subscribes to messages whose lengths are checked before memory is reserved for them.
-/// @param refused  called in place of `callback`, in the same thread, with the reason
+/// @param refused  called in place of `callback` with the reason. Any thread
 template <typename Msg>
-ros::Subscriber subscribeBounded(ros::NodeHandle node, const BoundedSubscription& subscription,
-                                 typename BoundedMessages<Msg>::Base::Callback callback,
-                                 typename BoundedMessages<Msg>::Refused refused) {
+BoundedSubscriber subscribeBounded(ros::NodeHandle node, const BoundedSubscription& subscription,
+                                   typename BoundedMessages<Msg>::Base::Callback callback,
+                                   typename BoundedMessages<Msg>::Refused refused) {
   ros::SubscribeOptions options(subscription.topic, subscription.queue_length, ros::message_traits::md5sum<Msg>(),
                                 ros::message_traits::datatype<Msg>());
-  options.helper =
+  const auto helper =
       boost::make_shared<BoundedMessages<Msg>>(std::move(callback), std::move(refused), subscription.max_size);
+  options.helper = helper;
   options.transport_hints = ros::TransportHints().tcpNoDelay();
-  return node.subscribe(options);
+  return {node.subscribe(options), std::shared_ptr<void>(nullptr, [helper](void*) { helper->close(); })};
 }
 
 template <typename Spec>

@@ -5,18 +5,20 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <mutex>
 #include <string>
 
 namespace sweep_guard_ros {
 
 /// Logs an error at once, then less and less often while it lasts: after 1, 2, 4 ... 64 s, with the number of suppressed
-/// ones. Uses the steady clock: roscpp's own throttle is silent while ROS time stands still. One thread.
+/// ones. Uses the steady clock: roscpp's own throttle is silent while ROS time stands still. Any thread.
 class LogThrottle {
  public:
   using Clock = std::chrono::steady_clock;
 
   /// @param key  kind of the error; those beyond the first four kinds share one count, for names may be made up
   void error(const std::string& key, const std::string& text, Clock::time_point now = Clock::now()) {
+    const std::lock_guard lock(mutex_);
     const bool known = entries_.count(key) != 0 || entries_.size() < kMaxKeys;
     Entry& entry = entries_[known ? key : ""];
     if (now - entry.newest > kQuiet) entry = {};
@@ -43,6 +45,7 @@ class LogThrottle {
     std::chrono::seconds interval{1};
     int suppressed = 0;
   };
+  std::mutex mutex_;
   std::map<std::string, Entry> entries_;
 };
 

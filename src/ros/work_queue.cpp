@@ -1,11 +1,14 @@
 #include "ros/work_queue.h"
 
+#include <iterator>
+
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 constexpr size_t kMaxPoses = 65536;  // 65 s at 1 kHz
+constexpr size_t kMaxTaken = 4096;   // PoseHistory keeps them all
 constexpr size_t kMaxTasks = 16;
 
 }  // namespace
@@ -40,9 +43,18 @@ bool WorkQueue::take(Work& taken) {
     changed_.wait(lock, [this] { return stopping_ || !work_.poses.empty() || !work_.tasks.empty(); });
     if (stopping_) return false;
     std::swap(taken, work_);
+    leave(taken);
     if (!taken.poses.empty()) taken_since_ = taken.poses.front().pose.received;
   }
   return true;
+}
+
+// Puts back the poses beyond those that may be swept at once.
+void WorkQueue::leave(Work& taken) {
+  if (taken.poses.size() <= kMaxTaken) return;
+  const auto rest = taken.poses.begin() + kMaxTaken;
+  work_.poses.assign(std::make_move_iterator(rest), std::make_move_iterator(taken.poses.end()));
+  taken.poses.erase(rest, taken.poses.end());
 }
 
 void WorkQueue::swept(std::optional<sweep_guard_core::SteadyTime> next) {

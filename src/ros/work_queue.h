@@ -41,7 +41,7 @@ class WorkQueue {
     return packaged->get_future();
   }
 
-  /// Waits for work, and takes all of it.
+  /// Waits for work, and takes all tasks and the oldest poses, at most 4096.
   /// @param[out] taken  overwritten
   /// @returns false after stop()
   bool take(Work& taken);
@@ -58,6 +58,7 @@ class WorkQueue {
 
  private:
   void pushTask(std::function<void()> task);
+  void leave(Work& taken);
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "guard/fake_detector.h"
@@ -482,6 +483,65 @@ TEST_F(MovingWorkpieceTest, IsFollowedThroughAFailureOfTheFirstSweep) {
   place(1.0, 0.0);
   EXPECT_EQ(reportOf(guard, pose(1.0, {{"table", up(0.5)}}), {newest_}).failures.size(), 1U);
   EXPECT_TRUE(reportOf(guard, pose(1.1, {{"table", up(-0.5)}}), {newest_}).contact());
+}
+
+// The clock of the poses is 10 s behind that of the mesh: each pose would need every update since.
+TEST_F(MovingSheetTest, KeepsABoundedNumberOfUpdatesForPosesThatAreFarBehind) {
+  for (const double period : {1e-3, 1e-4}) {
+    newest_.reset();
+    guard_.reset();
+    std::vector<std::weak_ptr<const Workpiece>> updates;
+    for (int i = 0; i < 3000; ++i) {
+      place(11.0 + period * i, -1.0);
+      updates.push_back(newest_);
+      sweepTo(1.0 + period * i, 0.5);
+    }
+    const auto kept =
+        std::count_if(updates.begin(), updates.end(), [](const auto& update) { return !update.expired(); });
+    EXPECT_LE(kept, 514);
+  }
+}
+
+// It trembles by a micrometre, 1 mm below the drill. In 10 s that is a path of 10 mm: it might have gone 5 mm aside.
+TEST_F(MovingSheetTest, IsNotMetMillimetresEarlyByPosesThatAreFarBehind) {
+  for (int i = 0; i < 4000; ++i) {
+    place(11.0 + 1e-3 * i, i % 2 == 0 ? -1e-3 : -1e-3 - 1e-6);
+    const SweepReport report = sweepTo(1.0 + 1e-3 * i, 0.1);
+    ASSERT_FALSE(report.contact()) << i;
+    ASSERT_LT(report.margin(), 0.3e-3) << i;
+  }
+}
+
+TEST_F(MovingSheetTest, SaysHowFarThePosesAreBehindIt) {
+  Duration largest{};
+  for (int i = 0; i < 1000; ++i) {
+    place(11.0 + 1e-3 * i, -1.0);
+    const SweepReport report = sweepTo(1.0 + 1e-3 * i, 0.5);
+    const bool behind = report.objects[0].behind > Duration::zero();
+    EXPECT_EQ(behind, i > 501) << i;
+    EXPECT_EQ(report.complete(), !behind);
+    largest = std::max(largest, report.objects[0].behind);
+  }
+  EXPECT_NEAR(toSeconds(largest), 9.5, 0.01);
+}
+
+TEST_F(MovingSheetTest, IsNeverFarAheadOfPosesWithinHalfASecond) {
+  for (const int mesh_period : {1, 16, 1000}) {
+    for (const int pose_period : {1, 10, 50}) {
+      for (const double skew : {-0.5, -0.1, 0.0, 0.02, 0.2, 0.445}) {
+        newest_.reset();
+        guard_.reset();
+        for (int ms = 0; ms < 4000; ++ms) {
+          if (ms % mesh_period == 0) place(10.0 + skew + 1e-3 * ms, -1.0 - 1e-5 * ms);
+          if (ms % pose_period != 0) continue;
+          const SweepReport report = sweepTo(10.0 + 1e-3 * ms, 0.5);
+          ASSERT_EQ(report.objects[0].behind, Duration::zero())
+              << "updates every " << mesh_period << " ms, poses every " << pose_period << " ms, " << skew << " s ahead";
+          ASSERT_TRUE(report.complete());
+        }
+      }
+    }
+  }
 }
 
 // As a publisher does that sends the whole mesh each time.

@@ -104,6 +104,45 @@ TEST_F(GuardPredictionTest, CoversTheHorizonCountedFromNow) {
   EXPECT_EQ(prediction.objects[0].volumes_M.size(), 23U);
 }
 
+// A clock that is an hour off: the sweeps to now would be split into 25 ms.
+TEST_F(GuardPredictionTest, PredictsNothingFromAPoseOlderThanTheReserve) {
+  workpieces_ = {workpiece("square", squareAt(0.0))};
+  follow(comingDown(0.05, 0.1));
+  const size_t detections = record_.volumes.size();
+  for (const Duration age : {Duration(100ms + 1ns), Duration(1s), Duration(1h), Duration(8760h)}) {
+    const Prediction prediction = predict(age);
+    EXPECT_TRUE(prediction.path.empty());
+    EXPECT_TRUE(prediction.objects.empty());
+    EXPECT_FALSE(predictedContact(prediction, 1.0));
+  }
+  EXPECT_EQ(record_.volumes.size(), detections);
+  EXPECT_FALSE(predict(100ms).path.empty());
+}
+
+// 2 s are the largest reserve that timing/pose_timeout allows. Splitting takes at most 15 volumes for 100 ms.
+TEST_F(GuardPredictionTest, TestsABoundedNumberOfVolumesAtAnyAge) {
+  workpieces_ = {workpiece("square", squareAt(0.0))};
+  GuardOptions options = constantVelocity();
+  options.horizon.reserve = 2s;
+  for (const double speed : {0.0, 0.001, 0.01, 0.1, 1.0}) {
+    for (const Duration age : {Duration(0ms), Duration(1s), Duration(2s - 1ns)}) {
+      Guard guard(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options);
+      for (int i = -9; i <= 0; ++i) {
+        reportOf(guard,
+                 {Time(10s + i * 10ms),
+                  SteadyTime(),
+                  comingDown(0.05, speed).at(0.01 * i),
+                  {{"table", Eigen::Isometry3d::Identity()}}},
+                 workpieces_);
+      }
+      const Prediction prediction = predictionOf(guard, age, workpieces_);
+      ASSERT_EQ(prediction.objects.size(), 1U);
+      EXPECT_LE(prediction.sweeps_asked, 210U + 29U);
+      EXPECT_LE(prediction.objects[0].volumes_tested, 210U + 29U * 15U) << speed << " m/s, age " << age.count();
+    }
+  }
+}
+
 TEST_F(GuardPredictionTest, PredictsTheMotionForAnyHorizonWithoutTesting) {
   EXPECT_TRUE(guard_.predictMotion(0ms, 1s).path.empty());
   workpieces_ = {workpiece("square", squareAt(0.0))};

@@ -8,12 +8,20 @@ namespace {
 
 const std::string kId = "liver";
 const std::string kFrame = "table";
+const std::string kOtherFrame = "bed";
 const std::vector<float> kRaised = {0, 0, 2, 1, 0, 2, 0, 1, 2};
 
 Time at(int second) { return Time(std::chrono::seconds(second)); }
 
 Workpiece triangle(int stamp) {
   return {kId, 7, at(stamp), {}, kFrame, TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})};
+}
+
+// The same vertices with another triangle.
+Workpiece turned(int stamp) {
+  Workpiece workpiece = triangle(stamp);
+  workpiece.mesh_M = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 2, 1}});
+  return workpiece;
 }
 
 Deformation raised(int stamp) { return {kId, 7, at(stamp), {}, kFrame, kRaised}; }
@@ -48,9 +56,11 @@ TEST(WorkpieceStoreTest, ReusesOnlySnapshotsThatNobodyHolds) {
 
 TEST(WorkpieceStoreTest, RefusesWhatDoesNotFitAndKeepsTheSnapshot) {
   WorkpieceStore store;
-  EXPECT_TRUE(has(refusal([&] { store.deform(raised(1), at(9)); }), "before their mesh"));
   store.set(triangle(2), at(9));
-  EXPECT_TRUE(has(refusal([&] { store.set(triangle(1), at(9)); }), "older"));
+  EXPECT_TRUE(has(refusal([&] { store.set(turned(1), at(9)); }), "older"));
+  Workpiece next_revision = triangle(1);
+  next_revision.revision = 8;
+  EXPECT_TRUE(has(refusal([&] { store.set(next_revision, at(9)); }), "older"));
   EXPECT_TRUE(has(refusal([&] { store.deform(raised(1), at(9)); }), "older"));
   Deformation other = raised(3);
   other.revision = 8;
@@ -65,8 +75,97 @@ TEST(WorkpieceStoreTest, AcceptsOlderStampsAfterTimeWentBack) {
   store.deform(raised(2), /*latest=*/at(3));
   store.clearStamps();
   store.set(triangle(1), at(9));
-  EXPECT_TRUE(store.remove(kId));
-  EXPECT_FALSE(store.remove(kId));
+  EXPECT_TRUE(store.remove(kId, at(2)));
+  EXPECT_FALSE(store.remove(kId, at(2)));
+}
+
+// A latched publisher sends its mesh again whenever a connection is made.
+TEST(WorkpieceStoreTest, IgnoresAnOlderCopyOfTheRevisionInForce) {
+  int changes = 0;
+  WorkpieceStore store([&](const auto&) { ++changes; });
+  EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kStored);
+  EXPECT_EQ(store.deform(raised(3), at(9)), UpdateOutcome::kStored);
+  const auto before = store.snapshot()[0];
+  EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(store.set(triangle(2), at(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(changes, 2);
+  EXPECT_EQ(store.snapshot()[0], before);
+  EXPECT_EQ(before->stamp, at(3));
+  EXPECT_EQ(before->mesh_M.vertex(0).z(), 2.0);
+  EXPECT_EQ(before->updates, 1U);
+  EXPECT_NEAR(before->path_length, 2.0, 1e-6);
+  EXPECT_EQ(store.deform(raised(4), at(9)), UpdateOutcome::kStored);
+}
+
+TEST(WorkpieceStoreTest, AnEqualCopyIsNoRefusal) {
+  WorkpieceStore store;
+  store.set(triangle(1), at(9));
+  EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kStored);
+}
+
+// Vertices may name another frame than their mesh.
+TEST(WorkpieceStoreTest, IgnoresAnOlderCopyOfAMeshWhoseVerticesCameInAnotherFrame) {
+  WorkpieceStore store;
+  store.set(triangle(1), at(9));
+  Deformation moved{kId, 7, at(2), {}, kOtherFrame, kRaised};
+  store.deform(moved, at(9));
+  EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(*store.frames(), std::set<std::string>{kOtherFrame});
+}
+
+TEST(WorkpieceStoreTest, IgnoresVerticesFromBeforeTheRemoval) {
+  WorkpieceStore store;
+  EXPECT_EQ(store.deform(raised(1), at(9)), UpdateOutcome::kUnknownWorkpiece);
+  store.set(triangle(1), at(9));
+  EXPECT_TRUE(store.remove(kId, at(5)));
+  EXPECT_EQ(store.deform(raised(4), at(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(store.deform(raised(5), at(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(store.deform(raised(6), at(9)), UpdateOutcome::kUnknownWorkpiece);
+  EXPECT_TRUE(store.snapshot().empty());
+  const std::string other = "spleen";
+  EXPECT_EQ(store.deform({other, 7, at(4), {}, kFrame, kRaised}, at(9)), UpdateOutcome::kUnknownWorkpiece);
+}
+
+// `rostopic pub` stamps with 0.
+TEST(WorkpieceStoreTest, ARemovalWithoutAStampCountsFromTheNewestVertices) {
+  WorkpieceStore store;
+  store.set(triangle(1), at(9));
+  store.deform(raised(3), at(9));
+  EXPECT_TRUE(store.remove(kId, Time()));
+  EXPECT_EQ(store.deform(raised(3), at(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(store.deform(raised(4), at(9)), UpdateOutcome::kUnknownWorkpiece);
+}
+
+TEST(WorkpieceStoreTest, ARemovedWorkpieceMayComeBackWithAnyStamp) {
+  WorkpieceStore store;
+  store.set(triangle(3), at(9));
+  store.remove(kId, at(5));
+  EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kStored);
+  EXPECT_EQ(store.deform(raised(2), at(9)), UpdateOutcome::kStored);
+}
+
+TEST(WorkpieceStoreTest, ForgetsRemovalsWhenTimeWentBack) {
+  WorkpieceStore store;
+  store.set(triangle(5), at(9));
+  store.remove(kId, at(5));
+  store.clearStamps();
+  EXPECT_EQ(store.deform(raised(1), at(9)), UpdateOutcome::kUnknownWorkpiece);
+}
+
+TEST(WorkpieceStoreTest, RemembersTheNewestSixtyFourRemovals) {
+  WorkpieceStore store;
+  const auto idOf = [](int i) { return "ghost" + std::to_string(i); };
+  for (int i = 0; i < 1000; ++i) {
+    Workpiece ghost = triangle(1);
+    ghost.id = idOf(i);
+    store.set(ghost, at(9));
+    ASSERT_TRUE(store.remove(ghost.id, at(2)));
+  }
+  for (int i = 0; i < 1000; ++i) {
+    const std::string id = idOf(i);
+    const auto expected = i < 1000 - 64 ? UpdateOutcome::kUnknownWorkpiece : UpdateOutcome::kIgnored;
+    ASSERT_EQ(store.deform({id, 7, at(1), {}, kFrame, kRaised}, at(9)), expected) << id;
+  }
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::shared_ptr<const Workpiece> workpiece(const std::string& id, int ms, std::u
 SweepReport reportOf(const Workpieces& workpieces, const std::vector<std::uint32_t>& in_contact = {}) {
   SweepReport report;
   report.end = at(1000).stamp;
-  for (const auto& one : workpieces) report.objects.push_back({one, {}, {in_contact, 0.0, {}, false, in_contact}});
+  for (const auto& one : workpieces) report.objects.push_back({one, {}, {}, {in_contact, 0.0, {}, false, in_contact}});
   return report;
 }
 
@@ -458,6 +458,185 @@ TEST_F(WarningMonitorTest, RestartEndsWhatIsHeldButNotARefusedMesh) {
   monitor_.meshRefused("liver", "workpiece 'liver' refused");
   monitor_.restart();
   EXPECT_EQ(reasonsAt(1010), kNoPose | kMeshInvalid);
+}
+
+// Nothing else would end it: there is no workpiece to send well or to remove.
+TEST_F(WarningMonitorTest, AMessageOfNoWorkpieceCountsForASecond) {
+  for (const Duration mesh_timeout : {Duration(milliseconds(5000)), Duration::max()}) {
+    WarningLimits limits = kLimits;
+    limits.mesh_timeout = mesh_timeout;
+    monitor_.setLimits(limits);
+    monitor_.meshUnread("vertices of 'ghost' came before their mesh", at(1000).steady);
+    monitor_.meshUnread("vertices of 'ghost' came again", at(1200).steady);
+    sweep(reportOf(workpieces_), 2150);
+    EXPECT_EQ(reasonsAt(2200), kMeshInvalid);
+    EXPECT_TRUE(has(warningOf(monitor_, at(2200)).text, "came again"));
+    EXPECT_EQ(levelAt(2201), WarningLevel::kClear);
+  }
+}
+
+TEST(EventsTest, AreReportedAtOnce) {
+  int reported = 0;
+  WarningMonitor monitor(kLimits, [&] { ++reported; });
+  monitor.meshUnread("id is empty", at(1000).steady);
+  EXPECT_EQ(reported, 1);
+  monitor.posesLost("1 tool pose was lost", at(1000).steady);
+  EXPECT_EQ(reported, 2);
+  monitor.updateDropped("liver", at(1000).steady);
+  EXPECT_EQ(reported, 2);  // there is none
+  monitor.setWorkpieces({workpiece("liver", 1000)});
+  monitor.updateDropped("liver", at(1000).steady);
+  EXPECT_EQ(reported, 3);
+}
+
+TEST_F(WarningMonitorTest, NeedsEveryRequiredWorkpiece) {
+  monitor_.require({"liver", "spleen"});
+  EXPECT_EQ(reasonsAt(1000), kNoMesh);
+  const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
+  monitor_.setWorkpieces(two);
+  sweep(reportOf(two), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
+  monitor_.setWorkpieces(workpieces_);
+  EXPECT_EQ(reasonsAt(1010), kNoMesh);
+  monitor_.restart();
+  EXPECT_EQ(reasonsAt(1010), kNoMesh | kNoPose);
+  monitor_.require({});
+  EXPECT_EQ(reasonsAt(1010), kNoPose);
+}
+
+TEST_F(WarningMonitorTest, ADroppedUpdateCountsUntilALaterOneIsSwept) {
+  monitor_.updateDropped("liver", at(1000).steady);
+  EXPECT_EQ(reasonsAt(1000), kMeshDropped);
+  EXPECT_TRUE(has(warningOf(monitor_, at(1000)).text, "vertices of workpiece 'liver' were dropped"));
+  sweep(reportOf(workpieces_), 1010);
+  EXPECT_EQ(reasonsAt(1010), kMeshDropped);
+  Workpiece updated = *workpieces_[0];
+  updated.received = at(1015).steady;
+  const Workpieces later = {std::make_shared<const Workpiece>(updated)};
+  monitor_.setWorkpieces(later);
+  EXPECT_EQ(reasonsAt(1015), kMeshDropped);
+  sweep(reportOf(later), 1020);
+  EXPECT_EQ(levelAt(1020), WarningLevel::kClear);
+}
+
+// A new mesh begins to count its updates at 0.
+TEST_F(WarningMonitorTest, ADroppedUpdateEndsWithANewMeshOfThatWorkpiece) {
+  Workpiece much_updated = *workpieces_[0];
+  much_updated.updates = 10000;
+  monitor_.setWorkpieces({std::make_shared<const Workpiece>(much_updated)});
+  monitor_.updateDropped("liver", at(1000).steady);
+  const Workpieces remeshed = {workpiece("liver", 1010, /*revision=*/2)};
+  monitor_.setWorkpieces(remeshed);
+  sweep(reportOf(remeshed), 1020);
+  EXPECT_EQ(levelAt(1020), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, ADroppedUpdateIsForgottenWithItsWorkpiece) {
+  monitor_.updateDropped("liver", at(1000).steady);
+  monitor_.updateDropped("ghost");
+  monitor_.setWorkpieces({});
+  EXPECT_EQ(reasonsAt(1000) & kMeshDropped, 0U);
+  monitor_.setWorkpieces(workpieces_);
+  sweep(reportOf(workpieces_), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, LostPosesAreReportedAndHeldButLeaveTheLevel) {
+  monitor_.posesLost("2 tool poses were lost on the way", at(1000).steady);
+  EXPECT_EQ(reasonsAt(1000), kPoseLoss);
+  EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
+  sweep(reportOf(workpieces_), 1480);
+  EXPECT_EQ(reasonsAt(1500), kPoseLoss);
+  EXPECT_EQ(reasonsAt(1501) & kPoseLoss, 0U);
+  monitor_.posesLost("2 tool poses were lost on the way", at(1480).steady);
+  monitor_.timeJumped("time went back");
+  EXPECT_EQ(reasonsAt(1480) & kPoseLoss, 0U);
+}
+
+TEST(WaitingPosesTest, KeepTheWarningFromClearOnceTheyWaitLongerThanALookAhead) {
+  std::optional<SteadyTime> waiting_since;
+  WarningMonitor monitor(
+      kLimits, [] {}, [&] { return waiting_since; });
+  const Workpieces workpieces = {workpiece("liver", 1000)};
+  monitor.setWorkpieces(workpieces);
+  SweepReport report = reportOf(workpieces);
+  monitor.swept(report, seenAt(1000), monitor.checkpoint(), at(1000).steady);
+  const auto predict = [&](Duration took) {
+    monitor.predicted(outlookOn(workpieces, 1000), seenAt(1000), monitor.checkpoint(), at(1000), took);
+  };
+  const auto reasonsAt = [&](int ms) { return warningOf(monitor, at(ms)).reasons; };
+  predict(milliseconds(5));
+  EXPECT_EQ(reasonsAt(1050), 0U);
+  waiting_since = at(1001).steady;
+  EXPECT_EQ(reasonsAt(1021), 0U);
+  EXPECT_EQ(reasonsAt(1022), kPosesUnswept);
+  predict(milliseconds(66));
+  EXPECT_EQ(reasonsAt(1067), 0U);
+  EXPECT_EQ(reasonsAt(1068), kPosesUnswept);
+  waiting_since.reset();
+  EXPECT_EQ(reasonsAt(1068), 0U);
+}
+
+TEST_F(WarningMonitorTest, ASweepFarBehindAMeshDoesNotCount) {
+  SweepReport report = reportOf(workpieces_);
+  report.objects[0].behind = milliseconds(30);
+  sweep(report, 1010);
+  EXPECT_EQ(reasonsAt(1010), kNotSwept | kNotCovered);
+  EXPECT_TRUE(has(warningOf(monitor_, at(1010)).text, "tool poses are 0.03 s behind workpiece 'liver'"));
+  EXPECT_EQ(warningOf(monitor_, at(1010)).covered_until, at(1000).stamp);
+  sweep(reportOf(workpieces_), 1020);
+  EXPECT_EQ(levelAt(1020), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, TheProblemsOfMeshesAreThoseThatKeepAWarningFromClear) {
+  const auto problems = [&](int ms, const std::vector<std::string>& ids = {}) {
+    return monitor_.meshProblems(at(ms), ids);
+  };
+  EXPECT_EQ(problems(1000), "");
+  EXPECT_EQ(problems(1500), "");  // the pose is stale, the mesh is not
+  EXPECT_TRUE(has(problems(1501), "'liver' is 0.50 s old"));
+  EXPECT_TRUE(has(problems(1501, {"liver"}), "'liver' is 0.50 s old"));
+  EXPECT_TRUE(has(problems(1501, {"spleen"}), "no workpiece"));
+
+  monitor_.meshRefused("spleen", "'spleen' refused: NaN vertex");
+  EXPECT_TRUE(has(problems(1000), "NaN vertex"));
+  EXPECT_TRUE(has(problems(1000, {"spleen"}), "NaN vertex"));
+  EXPECT_EQ(problems(1000, {"liver"}), "");
+  monitor_.meshAccepted("spleen");
+  monitor_.verticesRefused("liver", "'liver' refused: wrong revision");
+  EXPECT_TRUE(has(problems(1000, {"spleen", "liver"}), "wrong revision"));
+  monitor_.verticesAccepted("liver");
+  EXPECT_EQ(problems(1000), "");
+
+  monitor_.updateDropped("liver", at(1000).steady);
+  EXPECT_TRUE(has(problems(1000, {"liver"}), "dropped"));
+  monitor_.setWorkpieces({});
+  EXPECT_TRUE(has(problems(1000), "no workpiece"));
+  monitor_.setWorkpieces(workpieces_);
+  monitor_.require({"liver", "spleen"});
+  EXPECT_TRUE(has(problems(1000), "'spleen' has not arrived"));
+  EXPECT_EQ(problems(1000, {"liver"}), "");
+  monitor_.require({});
+  monitor_.meshUnread("vertices of 'ghost' came before their mesh", at(1000).steady);
+  EXPECT_TRUE(has(problems(2000), "'ghost'"));
+  EXPECT_FALSE(has(problems(2001), "'ghost'"));
+}
+
+// A path may be tested while the guard is disabled.
+TEST_F(WarningMonitorTest, TheProblemsOfMeshesAreKnownWhileDisabled) {
+  monitor_.disable("/somebody");
+  EXPECT_EQ(monitor_.meshProblems(at(1000), {}), "");
+  monitor_.meshRefused("liver", "'liver' refused: NaN vertex");
+  EXPECT_TRUE(has(monitor_.meshProblems(at(1000), {"liver"}), "NaN vertex"));
+  EXPECT_EQ(reasonsAt(1000), kDisabled);
+}
+
+TEST_F(WarningMonitorTest, AFloodOfRefusedMeshesHidesNone) {
+  for (int i = 0; i < 1000; ++i) monitor_.meshRefused("ghost" + std::to_string(i), "no mesh");
+  monitor_.meshRefused("liver", "'liver' refused: NaN vertex");
+  EXPECT_NE(monitor_.meshProblems(at(1000), {"liver"}), "");
+  EXPECT_LT(monitor_.meshProblems(at(1000), {}).size(), 200U);
+  EXPECT_LT(warningOf(monitor_, at(1000)).text.size(), 200U);
 }
 
 TEST_F(WarningMonitorTest, NewLimitsApplyFromTheNextWarningOn) {

@@ -360,12 +360,71 @@ TEST(WarningTest, NamesEveryReasonInItsText) {
 }
 
 TEST(WarningTest, EveryFaultMakesItUnknownUnderItsOwnBit) {
-  for (std::uint32_t bit = 1; bit <= kNotCovered; bit <<= 1) {
+  for (std::uint32_t bit = 1; bit <= kMeshDropped; bit <<= 1) {
+    if ((bit & kDegraded) != 0) continue;
     WarningInputs inputs = allGood();
     inputs.faults[static_cast<Reason>(bit)] = "message";
     EXPECT_EQ(warningNow(inputs).level, WarningLevel::kUnknown);
     EXPECT_EQ(warningNow(inputs).reasons, bit);
   }
+}
+
+TEST(WarningTest, IsNotClearWhileAPoseWaitsLongerThanTwentyMillisecondsAndALookAhead) {
+  for (const auto& [look_ahead, longest] : {std::pair(0ms, 20ms), std::pair(15ms, 20ms), std::pair(66ms, 66ms)}) {
+    WarningInputs inputs = allGood();
+    inputs.look_ahead = look_ahead;
+    inputs.waiting_since = kNow.steady - longest;
+    EXPECT_EQ(assessNow(inputs).level, WarningLevel::kClear);
+    *inputs.waiting_since -= 1ns;
+    EXPECT_EQ(assessNow(inputs).level, WarningLevel::kUnknown);
+    EXPECT_EQ(assessNow(inputs).reasons, kPosesUnswept);
+  }
+}
+
+TEST(WarningTest, SaysThatClocksDifferWhereOldPosesArrive) {
+  WarningInputs inputs = allGood();
+  inputs.pose = Timestamps{kNow.stamp - 3600s, kNow.steady - 10ms};
+  EXPECT_TRUE(has(assessNow(inputs).text, "newest tool pose is 3600.00 s old by its stamp: clocks differ"));
+  inputs.pose = seen(3600s);  // none arrives
+  EXPECT_EQ(assessNow(inputs).reasons & kPoseStale, kPoseStale);
+  EXPECT_FALSE(has(assessNow(inputs).text, "clocks"));
+}
+
+TEST(WarningTest, NamesEachRequiredWorkpieceThatHasNotArrived) {
+  WarningInputs inputs = allGood();
+  inputs.required = {"liver"};
+  EXPECT_EQ(assessNow(inputs).level, WarningLevel::kClear);
+  inputs.required = {"aorta", "liver", "spleen"};
+  const Warning warning = assessNow(inputs);
+  EXPECT_EQ(warning.level, WarningLevel::kUnknown);
+  EXPECT_EQ(warning.reasons, kNoMesh);
+  EXPECT_TRUE(has(warning.text, "'aorta' has not arrived"));
+  EXPECT_TRUE(has(warning.text, "'spleen' has not arrived"));
+  EXPECT_FALSE(has(warning.text, "'liver'"));
+  inputs.objects = {{"aorta", seen(20ms), true}, {"kidney", seen(20ms), true}, {"liver", seen(20ms), true}};
+  inputs.objects.push_back({"spleen", seen(20ms), true});
+  EXPECT_EQ(assessNow(inputs).level, WarningLevel::kClear);
+  inputs.objects.clear();
+  EXPECT_EQ(assessNow(inputs).reasons, kNoMesh);
+}
+
+TEST(WarningTest, SaysHowFarThePosesAreBehindAWorkpiece) {
+  WarningInputs inputs = allGood();
+  inputs.objects[0].swept = false;
+  inputs.objects[0].behind = 1500ms;
+  const Warning warning = assessNow(inputs);
+  EXPECT_EQ(warning.reasons, kNotSwept);
+  EXPECT_TRUE(has(warning.text, "tool poses are 1.50 s behind workpiece 'liver'"));
+}
+
+TEST(WarningTest, WhatDegradesLeavesTheLevelAndEndsAfterTheHoldTime) {
+  WarningInputs inputs = allGood();
+  inputs.pose_loss = {"3 tool poses were lost on the way", kNow.steady - 200ms};
+  EXPECT_EQ(assessNow(inputs).level, WarningLevel::kClear);
+  EXPECT_EQ(assessNow(inputs).reasons, kPoseLoss);
+  EXPECT_TRUE(has(assessNow(inputs).text, "3 tool poses were lost"));
+  inputs.pose_loss->found -= 1ns;
+  EXPECT_EQ(assessNow(inputs).reasons, 0U);
 }
 
 // Numbers on the wire, in Warning.msg.

@@ -25,7 +25,7 @@ TEST(PoseInputTest, NoPoseOfALongBacklogIsLost) {
   ros::NodeHandle node;
   const ros::Time end = ros::Time::now();
   const Parameters parameters = loadParameters(ros::NodeHandle("~"));
-  Frames frames;
+  Frames frames(node, parameters.max_message_size, [](const std::string&, const std::string&) {});
   sweep_guard_core::WarningMonitor monitor(parameters.limits);
   const sweep_guard_core::WorkpieceStore workpieces;
   WorkQueue queue;

@@ -9,12 +9,19 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr size_t kPoses = 4096;
+using sweep_guard_core::SteadyTime;
+
+constexpr size_t kPoses = 65536;
+constexpr size_t kAtOnce = 4096;
 constexpr int kTasks = 16;
 
-void fill(WorkQueue& queue) {
-  for (size_t i = 0; i < kPoses; ++i) queue.push({});
+QueuedPose receivedAt(int ms) {
+  QueuedPose queued;
+  queued.pose.received = SteadyTime(std::chrono::milliseconds(ms));
+  return queued;
 }
+
+SteadyTime at(int ms) { return SteadyTime(std::chrono::milliseconds(ms)); }
 
 std::future<int> submit(WorkQueue& queue, int answer) {
   return queue.submit<int>([answer] { return answer; });
@@ -39,16 +46,69 @@ TEST(WorkQueueTest, TakesAllWorkAtOnceAndEachOnce) {
   EXPECT_TRUE(taken.tasks.empty());
 }
 
-TEST(WorkQueueTest, APoseWaitsForRoomAndIsNotLost) {
+// The input must not wait: it would hold up the poses behind it.
+TEST(WorkQueueTest, APoseReplacesTheNewestOfAFullQueueAndSaysSo) {
   WorkQueue queue;
-  fill(queue);
-  std::thread input([&] { queue.push({}); });
+  for (size_t i = 0; i < kPoses; ++i) ASSERT_TRUE(queue.push(receivedAt(static_cast<int>(i))));
+  EXPECT_FALSE(queue.push(receivedAt(100000)));
+  EXPECT_FALSE(queue.push(receivedAt(100001)));
   WorkQueue::Work taken;
   size_t poses = 0;
-  while (poses < kPoses + 1 && queue.take(taken)) poses += taken.poses.size();
-  input.join();
-  EXPECT_EQ(poses, kPoses + 1);
-  EXPECT_FALSE(queue.hasPoses());
+  while (queue.hasPoses()) {
+    ASSERT_TRUE(queue.take(taken));
+    for (const QueuedPose& queued : taken.poses) {
+      ++poses;
+      ASSERT_EQ(queued.pose.received, at(poses == kPoses ? 100001 : static_cast<int>(poses - 1)));
+    }
+  }
+  EXPECT_EQ(poses, kPoses);
+  EXPECT_TRUE(queue.push({}));
+}
+
+// The guard keeps 8192 poses: beyond these it would go straight past some.
+TEST(WorkQueueTest, TakesNoMorePosesThanTheGuardKeeps) {
+  WorkQueue queue;
+  for (size_t i = 0; i < kAtOnce + 7; ++i) queue.push(receivedAt(static_cast<int>(i)));
+  std::future<int> answer = submit(queue, 7);
+  WorkQueue::Work taken;
+  ASSERT_TRUE(queue.take(taken));
+  EXPECT_EQ(taken.poses.size(), kAtOnce);
+  EXPECT_EQ(taken.tasks.size(), 1U);
+  EXPECT_TRUE(queue.hasPoses());
+  queue.swept({});
+  EXPECT_EQ(queue.waitingSince(), at(kAtOnce));
+  queue.push(receivedAt(100000));
+  ASSERT_TRUE(queue.take(taken));
+  ASSERT_EQ(taken.poses.size(), 8U);
+  EXPECT_EQ(taken.poses.front().pose.received, at(kAtOnce));
+  EXPECT_EQ(taken.poses.back().pose.received, at(100000));
+  EXPECT_TRUE(taken.tasks.empty());
+}
+
+TEST(WorkQueueTest, KnowsSinceWhenTheOldestPoseWaits) {
+  WorkQueue queue;
+  EXPECT_FALSE(queue.waitingSince());
+  for (const int ms : {10, 20, 30}) queue.push(receivedAt(ms));
+  EXPECT_EQ(queue.waitingSince(), at(10));
+  WorkQueue::Work taken;
+  ASSERT_TRUE(queue.take(taken));
+  queue.push(receivedAt(40));
+  EXPECT_EQ(queue.waitingSince(), at(10));  // taken, and not swept
+  queue.swept(at(30));
+  EXPECT_EQ(queue.waitingSince(), at(30));
+  queue.swept({});
+  EXPECT_EQ(queue.waitingSince(), at(40));
+  ASSERT_TRUE(queue.take(taken));
+  queue.swept({});
+  EXPECT_FALSE(queue.waitingSince());
+}
+
+TEST(WorkQueueTest, ATaskAloneLetsNoPoseWait) {
+  WorkQueue queue;
+  std::future<int> answer = submit(queue, 7);
+  WorkQueue::Work taken;
+  ASSERT_TRUE(queue.take(taken));
+  EXPECT_FALSE(queue.waitingSince());
 }
 
 TEST(WorkQueueTest, RefusesTooManyTasks) {
@@ -62,11 +122,15 @@ TEST(WorkQueueTest, RefusesTooManyTasks) {
 
 TEST(WorkQueueTest, StoppingEndsEveryWait) {
   WorkQueue queue;
-  fill(queue);
   std::future<int> answer = submit(queue, 7);
-  std::thread input([&] { queue.push({}); });
+  WorkQueue idle;
+  std::thread guard([&] {
+    WorkQueue::Work taken;
+    EXPECT_FALSE(idle.take(taken));
+  });
   queue.stop();
-  input.join();
+  idle.stop();
+  guard.join();
   EXPECT_THROW(answer.get(), std::future_error);
   EXPECT_THROW(submit(queue, 0), sweep_guard_core::Error);
   WorkQueue::Work taken;

@@ -1,9 +1,8 @@
 #include "ros/input/frames.h"
 
-#include <mutex>
 #include <thread>
 
-#include "ros/bounded.h"
+#include "ros/gate.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -25,24 +24,6 @@ void check(const geometry_msgs::TransformStamped& transform) {
   }
   fromMsg(transform.transform);
 }
-
-// Runs a callback until it is closed. Closing waits for a running callback.
-class Gate {
- public:
-  explicit Gate(std::function<void()> callback) : callback_(std::move(callback)) {}
-  void pass() {
-    const std::lock_guard lock(mutex_);
-    if (callback_) callback_();
-  }
-  void close() {
-    const std::lock_guard lock(mutex_);
-    callback_ = nullptr;
-  }
-
- private:
-  std::mutex mutex_;
-  std::function<void()> callback_;
-};
 
 std::string withoutSlash(const std::string& frame) { return frame.substr(frame.find_first_not_of('/') == 1 ? 1 : 0); }
 
@@ -71,8 +52,8 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
   for (const geometry_msgs::TransformStamped& transform : event.getConstMessage()->transforms) {
     try {
       check(transform);
-      if (is_static) checkStatic(transform);
       buffer_.setTransform(transform, event.getPublisherName(), is_static);
+      if (is_static) checkStatic(transform);
     } catch (const sweep_guard_core::InvalidInput& error) {
       log_.error("transform", "transform to '" + printable(transform.child_frame_id) + "' refused: " + error.what());
     }
@@ -129,7 +110,7 @@ std::optional<sweep_guard_core::Time> Frames::newest(const std::string& target, 
 
 // Removing a callback from tf2 does not wait for one that is running; the gate does.
 std::shared_ptr<void> Frames::onChange(std::function<void()> callback) {
-  auto gate = std::make_shared<Gate>(std::move(callback));
+  auto gate = std::make_shared<Gate<>>(std::move(callback));
   const auto connection = buffer_._addTransformsChangedListener([gate] { gate->pass(); });
   return std::shared_ptr<void>(nullptr, [this, gate, connection](void*) {
     buffer_._removeTransformsChangedListener(connection);

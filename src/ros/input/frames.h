@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ros/subscriber.h>
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 
@@ -12,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "ros/bounded.h"
 #include "ros/log_throttle.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/time.h"
@@ -58,8 +58,8 @@ class Frames {
   ros::Time newest_;  // when the newest message came
   tf2_ros::Buffer buffer_;
   QueueThread thread_;  // before the subscribers, which use its queue
-  ros::Subscriber moving_;
-  ros::Subscriber static_;
+  BoundedSubscriber moving_;
+  BoundedSubscriber static_;
 };
 
 }  // namespace sweep_guard_ros

@@ -5,7 +5,6 @@
 #include <memory>
 #include <mutex>
 
-#include "ros/bounded.h"
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
@@ -57,8 +56,8 @@ MeshInput::MeshInput(const ros::NodeHandle& node, const Parameters& parameters,
 }
 
 template <typename Msg>
-ros::Subscriber MeshInput::subscribe(ros::NodeHandle node, const std::string& topic, size_t max_size,
-                                     InputRecord& record) {
+BoundedSubscriber MeshInput::subscribe(ros::NodeHandle node, const std::string& topic, size_t max_size,
+                                       InputRecord& record) {
   return subscribeBounded<Msg>(
       node, {topic, kQueueLength, max_size},
       [this](const ros::MessageEvent<const Msg>& event) { onMessage(event.getConstMessage()); },
@@ -74,13 +73,50 @@ void MeshInput::start() {
 void MeshInput::onMessage(const sweep_guard::DeformableMesh::ConstPtr& msg) {
   if (!readable(msg->id, msg->header, mesh_record_)) return;
   const SteadyTime received = std::chrono::steady_clock::now();
-  converting_.push({[this, msg, received] { convert(msg, received); }, [this, msg] { drop(*msg); }, sizeOf(*msg)});
+  enterConversion(msg->id, /*needed=*/true);
+  const auto convert_and_leave = [this, msg, received] {
+    convert(msg, received);
+    leaveConversion(msg->id);
+  };
+  const auto drop_and_leave = [this, msg] {
+    drop(*msg);
+    leaveConversion(msg->id);
+  };
+  converting_.push({convert_and_leave, drop_and_leave, sizeOf(*msg)});
 }
 
 void MeshInput::onMessage(const sweep_guard::MeshVertices::ConstPtr& msg) {
   if (!readable(msg->id, msg->header, vertices_record_)) return;
   const SteadyTime received = std::chrono::steady_clock::now();
-  storing_.push({[this, msg, received] { store(*msg, received); }, [this, msg] { drop(*msg); }, sizeOf(*msg)});
+  if (!enterConversion(msg->id, /*needed=*/false)) return pushToStore(msg, received);
+  const auto store_and_leave = [this, msg, received] {
+    pushToStore(msg, received);
+    leaveConversion(msg->id);
+  };
+  const auto drop_and_leave = [this, msg] {
+    drop(*msg);
+    leaveConversion(msg->id);
+  };
+  converting_.push({store_and_leave, drop_and_leave, sizeOf(*msg), /*replaceable=*/true});
+}
+
+// Counts a message that is to go through converting_. One that needs no conversion only follows those that do.
+bool MeshInput::enterConversion(const std::string& id, bool needed) {
+  const std::lock_guard lock(conversion_mutex_);
+  if (!needed && in_conversion_.count(id) == 0) return false;
+  ++in_conversion_[id];
+  return true;
+}
+
+void MeshInput::leaveConversion(const std::string& id) {
+  const std::lock_guard lock(conversion_mutex_);
+  const auto messages = in_conversion_.find(id);
+  if (--messages->second == 0) in_conversion_.erase(messages);
+}
+
+void MeshInput::pushToStore(const sweep_guard::MeshVertices::ConstPtr& msg, SteadyTime received) {
+  storing_.push({[this, msg, received] { store(*msg, received); }, [this, msg] { drop(*msg); }, sizeOf(*msg),
+                 /*replaceable=*/true});
 }
 
 bool MeshInput::readable(const std::string& id, const std_msgs::Header& header, InputRecord& record) {
@@ -97,7 +133,6 @@ void MeshInput::unread(const std::string& reason, InputRecord& record) {
   const std::string message = "message refused: " + reason;
   record.error(message, /*refused=*/true);
   monitor_.meshUnread(message, std::chrono::steady_clock::now());
-  const std::lock_guard lock(log_mutex_);
   log_.error("unread", message);
 }
 
@@ -108,8 +143,7 @@ void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, Steady
       checkHeader(msg->header);
       mesh_M->emplace(fromMsg(msg->mesh, max_triangles_));
     }
-    storing_.push(
-        {[this, msg, received, mesh_M] { store(*msg, received, std::move(*mesh_M)); }, [this, msg] { drop(*msg); }, 0});
+    storing_.push({[this, msg, received, mesh_M] { store(*msg, received, std::move(*mesh_M)); }, {}, 0});
   } catch (const std::exception& error) {  // invalid, or out of memory
     monitor_.meshRefused(msg->id, refusal(msg->id, error, mesh_record_));
   }
@@ -147,7 +181,6 @@ void MeshInput::store(const sweep_guard::MeshVertices& msg, SteadyTime received)
 std::string MeshInput::refusal(const std::string& id, const std::exception& error, InputRecord& record) {
   std::string message = "workpiece '" + id + "' refused: " + error.what();
   record.error(message, /*refused=*/true);
-  const std::lock_guard lock(log_mutex_);
   log_.error(id, message);
   return message;
 }

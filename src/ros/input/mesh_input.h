@@ -1,10 +1,10 @@
 #pragma once
 
-#include <ros/subscriber.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
 
 #include <atomic>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -12,6 +12,7 @@
 
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
+#include "ros/bounded.h"
 #include "ros/input/worker.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
@@ -22,7 +23,8 @@ namespace sweep_guard_ros {
 
 /// Converts the messages on the topics `mesh` and `mesh_vertices`, and puts them into the store. Reports every accepted
 /// and every refused message to the monitor. One thread receives, one converts meshes, and one stores, so that neither a
-/// large mesh nor a slow update delays another workpiece's vertices on their way in.
+/// large mesh nor a slow update delays another workpiece's vertices on their way in. Vertices do not overtake a mesh of their
+/// own workpiece.
 class MeshInput {
  public:
   MeshInput(const ros::NodeHandle& node, const Parameters& parameters, sweep_guard_core::WorkpieceStore& workpieces,
@@ -40,13 +42,16 @@ class MeshInput {
 
  private:
   template <typename Msg>
-  ros::Subscriber subscribe(ros::NodeHandle node, const std::string& topic, size_t max_size,
-                            sweep_guard_core::InputRecord& record);
+  BoundedSubscriber subscribe(ros::NodeHandle node, const std::string& topic, size_t max_size,
+                              sweep_guard_core::InputRecord& record);
   void onMessage(const sweep_guard::DeformableMesh::ConstPtr& msg);
   void onMessage(const sweep_guard::MeshVertices::ConstPtr& msg);
   bool readable(const std::string& id, const std_msgs::Header& header, sweep_guard_core::InputRecord& record);
   void unread(const std::string& reason, sweep_guard_core::InputRecord& record);
+  bool enterConversion(const std::string& id, bool needed);
+  void leaveConversion(const std::string& id);
   void convert(const sweep_guard::DeformableMesh::ConstPtr& msg, sweep_guard_core::SteadyTime received);
+  void pushToStore(const sweep_guard::MeshVertices::ConstPtr& msg, sweep_guard_core::SteadyTime received);
   void store(const sweep_guard::DeformableMesh& msg, sweep_guard_core::SteadyTime received,
              std::optional<sweep_guard_core::TriangleMesh> mesh_M);
   void store(const sweep_guard::MeshVertices& msg, sweep_guard_core::SteadyTime received);
@@ -58,16 +63,17 @@ class MeshInput {
   const size_t max_triangles_;
   sweep_guard_core::WorkpieceStore& workpieces_;
   sweep_guard_core::WarningMonitor& monitor_;
-  std::mutex log_mutex_;
   LogThrottle log_;
   sweep_guard_core::InputRecord mesh_record_;
   sweep_guard_core::InputRecord vertices_record_;
   std::atomic<std::uint64_t> dropped_ = 0;
-  Worker storing_;      // before what pushes jobs
-  Worker converting_;   // before the thread that pushes jobs
-  QueueThread thread_;  // before the subscribers, which use its queue
-  ros::Subscriber mesh_;
-  ros::Subscriber vertices_;
+  std::mutex conversion_mutex_;
+  std::map<std::string, size_t> in_conversion_;  // by id: messages that converting_ has
+  Worker storing_;                               // before what pushes jobs
+  Worker converting_;                            // before the thread that pushes jobs
+  QueueThread thread_;                           // before the subscribers, which use its queue
+  BoundedSubscriber mesh_;
+  BoundedSubscriber vertices_;
 };
 
 }  // namespace sweep_guard_ros

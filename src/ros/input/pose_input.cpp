@@ -2,7 +2,6 @@
 
 #include <boost/make_shared.hpp>
 
-#include "ros/bounded.h"
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
-#include <ros/subscriber.h>
 
 #include <atomic>
 #include <functional>
@@ -13,6 +12,7 @@
 
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
+#include "ros/bounded.h"
 #include "ros/input/frames.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
@@ -81,7 +81,7 @@ class PoseInput {
 
   QueueThread thread_;  // before the subscriber, which uses its queue
   std::shared_ptr<void> transforms_changed_;
-  ros::Subscriber subscriber_;
+  BoundedSubscriber subscriber_;
 };
 
 }  // namespace sweep_guard_ros

@@ -1,5 +1,6 @@
 #include "ros/input/worker.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -18,20 +19,33 @@ void Worker::start() {
   thread_ = std::thread([this] { run(); });
 }
 
+// Drops before it pushes: nobody hears of a dropped job after the job that took its place.
 void Worker::push(Job job) {
   std::vector<Job> dropped;
   {
     const std::lock_guard lock(mutex_);
-    bytes_ += job.bytes;
-    jobs_.push_back(std::move(job));
-    while (bytes_ > max_bytes_ && jobs_.size() > 1) {
-      bytes_ -= jobs_.front().bytes;
-      dropped.push_back(std::move(jobs_.front()));
-      jobs_.pop_front();
+    while (job.bytes > 0 && bytes_ + job.bytes > max_bytes_) {
+      const auto oldest = nextToDrop();
+      if (oldest == jobs_.end()) break;
+      bytes_ -= oldest->bytes;
+      dropped.push_back(std::move(*oldest));
+      jobs_.erase(oldest);
     }
   }
-  changed_.notify_all();
   for (const Job& one : dropped) one.drop();
+  {
+    const std::lock_guard lock(mutex_);
+    bytes_ += job.bytes;
+    jobs_.push_back(std::move(job));
+  }
+  changed_.notify_all();
+}
+
+std::deque<Worker::Job>::iterator Worker::nextToDrop() {
+  const auto has_bytes = [](const Job& job) { return job.bytes > 0; };
+  const auto replaceable = [&](const Job& job) { return has_bytes(job) && job.replaceable; };
+  const auto found = std::find_if(jobs_.begin(), jobs_.end(), replaceable);
+  return found != jobs_.end() ? found : std::find_if(jobs_.begin(), jobs_.end(), has_bytes);
 }
 
 void Worker::run() {

@@ -13,8 +13,9 @@ class Worker {
  public:
   struct Job {
     std::function<void()> run;
-    std::function<void()> drop;  ///< called instead if the job does not fit, by the thread that pushes a later one
-    size_t bytes;                ///< held until the job has run
+    std::function<void()> drop;  ///< called instead if a job does not fit that is to be pushed, before it is pushed
+    size_t bytes;                ///< held until the job runs; a job of 0 bytes is never dropped
+    bool replaceable = false;    ///< later jobs bring newer data: dropped before other jobs
   };
 
   /// @param max_bytes  of all jobs that wait; the newest may always wait
@@ -24,10 +25,11 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void start();
-  void push(Job job);  ///< drops the oldest jobs that do not fit
+  void push(Job job);  ///< drops the oldest of the waiting jobs if it does not fit beside them
 
  private:
   void run();
+  std::deque<Job>::iterator nextToDrop();
 
   const size_t max_bytes_;
   std::mutex mutex_;

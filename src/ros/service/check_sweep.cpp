@@ -89,6 +89,8 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   const auto throw_if_stopping = [this] {
     if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
   };
+  // Before the snapshot is taken: what is accepted later does not better it.
+  const std::string doubts = monitor_.meshProblems(now(), request.mesh_ids);
   std::optional<PathContact> first;
   for (const auto& workpiece : selected(request.mesh_ids)) {
     auto path = sweep_guard_core::checkPath(used, {*parameters_->tool, pathIn(workpiece->frame, request.path),
@@ -99,7 +101,8 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
     if (path.first_contact) first = earlier(first, {*path.first_contact, path.time_of_impact});
   }
   response.collision = first.has_value();
-  response.message = doubts(request);
+  // After the test, which waits for late transforms.
+  response.message = doubts.empty() ? oldTransforms(request) : doubts;
   response.clear = !response.collision && response.message.empty();
   if (!first) return;
   response.segment = static_cast<std::uint32_t>(first->segment);
@@ -132,12 +135,6 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
     }
   }
   return path_M;
-}
-
-// A path that meets nothing is clear only if what it was tested against is as good as a warning would need it.
-std::string CheckSweepService::doubts(const CheckSweep::Request& request) const {
-  const std::string meshes = monitor_.meshProblems(now(), request.mesh_ids);
-  return meshes.empty() ? oldTransforms(request) : meshes;
 }
 
 std::string CheckSweepService::oldTransforms(const CheckSweep::Request& request) const {

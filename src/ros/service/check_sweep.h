@@ -36,7 +36,6 @@ class CheckSweepService {
   sweep_guard_core::Workpieces selected(const std::vector<std::string>& ids) const;
   std::vector<Eigen::Isometry3d> pathIn(const std::string& mesh_frame,
                                         const std::vector<geometry_msgs::PoseStamped>& path) const;
-  std::string doubts(const sweep_guard::CheckSweep::Request& request) const;
   std::string oldTransforms(const sweep_guard::CheckSweep::Request& request) const;
   sweep_guard_core::Detector& detector(const std::string& name);
 

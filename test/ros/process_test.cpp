@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
+#include <sys/resource.h>
 
+#include <new>
 #include <thread>
 
 #include "refusal.h"
@@ -55,6 +57,36 @@ TEST(RequestRealTimeTest, ConcernsOnlyTheCallingThread) {
   int policy = 0;
   pthread_getschedparam(pthread_self(), &policy, &parameters);
   EXPECT_EQ(policy, SCHED_OTHER);
+}
+
+rlim_t addressSpaceLimit() {
+  rlimit limit{};
+  getrlimit(RLIMIT_AS, &limit);
+  return limit.rlim_cur;
+}
+
+// In a process of its own: the limit stays.
+TEST(LimitMemoryDeathTest, WhatDoesNotFitThrows) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const auto reserve = [] {
+    constexpr size_t kMaxMemory = 1024;
+    limitMemory(kMaxMemory);
+    if (addressSpaceLimit() != kMaxMemory << 20U) std::exit(1);
+    try {
+      const std::vector<char> large(kMaxMemory << 20U);
+      std::exit(large.empty() ? 2 : 3);
+    } catch (const std::bad_alloc&) {
+      std::exit(0);
+    }
+  };
+  EXPECT_EXIT(reserve(), testing::ExitedWithCode(0), "");
+#endif
+}
+
+TEST(LimitMemoryTest, ZeroLimitsNothing) {
+  const rlim_t before = addressSpaceLimit();
+  limitMemory(0);
+  EXPECT_EQ(addressSpaceLimit(), before);
 }
 
 }  // namespace

@@ -1,0 +1,342 @@
+#include "ros/bounded.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "allocations.h"
+#include "refusal.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::uint32_t kForged[] = {0x40000001, 0x20000001, 0x15555556, 0x7fffffff, 0x80000000, 0xffffffff};
+constexpr size_t kMaxSize = 1U << 20;
+
+std_msgs::Header header() {
+  std_msgs::Header header;
+  header.seq = 7;
+  header.stamp = ros::Time(1.5);
+  header.frame_id = "table";
+  return header;
+}
+
+geometry_msgs::PoseStamped poseStamped() {
+  geometry_msgs::PoseStamped pose;
+  pose.header = header();
+  return pose;
+}
+
+template <typename Msg>
+Msg example();
+
+template <>
+geometry_msgs::PoseStamped example() {
+  return poseStamped();
+}
+
+template <>
+tf2_msgs::TFMessage example() {
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(3);
+  message.transforms[0].header = header();
+  message.transforms[1].child_frame_id = "tool";
+  return message;
+}
+
+template <>
+sweep_guard::DeformableMesh example() {
+  sweep_guard::DeformableMesh message;
+  message.header = header();
+  message.id = "liver";
+  message.mesh.triangles.resize(2);
+  message.mesh.vertices.resize(4);
+  return message;
+}
+
+template <>
+sweep_guard::MeshVertices example() {
+  sweep_guard::MeshVertices message;
+  message.header = header();
+  message.id = "liver";
+  message.positions.resize(12);
+  return message;
+}
+
+template <>
+sweep_guard::CheckSweepRequest example() {
+  sweep_guard::CheckSweepRequest message;
+  message.path = {poseStamped(), geometry_msgs::PoseStamped(), poseStamped()};
+  message.mesh_ids = {"liver", "", "spleen"};
+  message.volume = "hull";
+  message.detector = "select";
+  return message;
+}
+
+template <>
+dynamic_reconfigure::ReconfigureRequest example() {
+  dynamic_reconfigure::ReconfigureRequest message;
+  message.config.bools.resize(2);
+  message.config.bools[0].name = "fine";
+  message.config.ints.resize(1);
+  message.config.ints[0].name = "degree";
+  message.config.strs.resize(2);
+  message.config.strs[0].name = "detector";
+  message.config.strs[0].value = "select";
+  message.config.doubles.resize(3);
+  message.config.doubles[2].name = "margin";
+  message.config.groups.resize(1);
+  message.config.groups[0].name = "Default";
+  return message;
+}
+
+// Positions of the lengths of strings and arrays in the example, by the definitions of the messages.
+template <typename Msg>
+std::vector<size_t> lengths();
+
+constexpr size_t kHeader = 4 + 8 + 4 + 5;  // with "table"
+constexpr size_t kPose = 56;
+
+template <>
+std::vector<size_t> lengths<geometry_msgs::PoseStamped>() {
+  return {12};
+}
+
+template <>
+std::vector<size_t> lengths<tf2_msgs::TFMessage>() {
+  const size_t second = 4 + kHeader + 4 + kPose;
+  const size_t third = second + 16 + 4 + 4 + kPose;
+  return {0, 4 + 12, 4 + kHeader, second + 12, second + 16, third + 12, third + 16};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::DeformableMesh>() {
+  const size_t triangles = kHeader + 4 + 5 + 4;
+  return {12, kHeader, triangles, triangles + 4 + 2 * 12};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::MeshVertices>() {
+  return {12, kHeader, kHeader + 4 + 5 + 4};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::CheckSweepRequest>() {
+  const size_t second = 4 + kHeader + kPose;
+  const size_t third = second + 16 + kPose;
+  const size_t ids = third + kHeader + kPose;
+  const size_t volume = ids + 4 + (4 + 5) + 4 + (4 + 6);
+  return {0, 4 + 12, second + 12, third + 12, ids, ids + 4, ids + 13, ids + 17, volume, volume + 4 + 4};
+}
+
+template <>
+std::vector<size_t> lengths<dynamic_reconfigure::ReconfigureRequest>() {
+  const size_t ints = 4 + (4 + 4 + 1) + (4 + 1);
+  const size_t strs = ints + 4 + (4 + 6 + 4);
+  const size_t doubles = strs + 4 + (4 + 8 + 4 + 6) + (4 + 4);
+  const size_t groups = doubles + 4 + 2 * (4 + 8) + (4 + 6 + 8);
+  return {0, 4, 13, ints, ints + 4, strs, strs + 4, strs + 16, doubles, doubles + 4, groups, groups + 4};
+}
+
+template <typename Msg>
+Bytes serialized(const Msg& message) {
+  Bytes bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(stream, message);
+  return bytes;
+}
+
+std::uint32_t lengthAt(const Bytes& bytes, size_t position) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, &bytes[position], sizeof length);
+  return length;
+}
+
+Bytes withLength(Bytes bytes, size_t position, std::uint32_t length) {
+  std::memcpy(&bytes[position], &length, sizeof length);
+  return bytes;
+}
+
+// In a block of exactly this size: a sanitizer sees what is read beyond it.
+template <typename Msg>
+void check(const Bytes& bytes) {
+  const Bytes exact(bytes);
+  checkLengths<Msg>({exact.data(), exact.size()});
+}
+
+template <typename Msg>
+class WireTest : public testing::Test {};
+
+using Messages =
+    testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
+                   sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest, dynamic_reconfigure::ReconfigureRequest>;
+TYPED_TEST_SUITE(WireTest, Messages);
+
+TYPED_TEST(WireTest, PassesRealMessages) {
+  EXPECT_NO_THROW(check<TypeParam>(serialized(example<TypeParam>())));
+  EXPECT_NO_THROW(check<TypeParam>(serialized(TypeParam())));
+}
+
+TYPED_TEST(WireTest, RefusesEveryTruncation) {
+  const Bytes bytes = serialized(example<TypeParam>());
+  for (size_t size = 0; size < bytes.size(); ++size) {
+    const auto cut = bytes.begin() + static_cast<std::ptrdiff_t>(size);
+    EXPECT_THROW(check<TypeParam>(Bytes(bytes.begin(), cut)), sweep_guard_core::InvalidInput) << size;
+  }
+}
+
+TYPED_TEST(WireTest, RefusesBytesThatAreLeftOver) {
+  Bytes bytes = serialized(example<TypeParam>());
+  bytes.push_back(0);
+  EXPECT_THROW(check<TypeParam>(bytes), sweep_guard_core::InvalidInput);
+}
+
+// 0x40000001 floats are 4 bytes in 32 bits, 0x20000001 doubles 8, 0x15555556 triangles 8.
+TYPED_TEST(WireTest, RefusesForgedLengths) {
+  const Bytes bytes = serialized(example<TypeParam>());
+  for (const size_t position : lengths<TypeParam>()) {
+    ASSERT_LE(lengthAt(bytes, position), 12U) << "no length at " << position;
+    for (const std::uint32_t forged : kForged) {
+      EXPECT_THROW(check<TypeParam>(withLength(bytes, position, forged)), sweep_guard_core::InvalidInput)
+          << forged << " at " << position;
+    }
+    const std::uint32_t one_more = lengthAt(bytes, position) + 1;
+    EXPECT_THROW(check<TypeParam>(withLength(bytes, position, one_more)), sweep_guard_core::InvalidInput) << position;
+  }
+}
+
+// roscpp multiplies in 32 bits: 0x40000001 floats then take as many bytes as one.
+TEST(WrappedLengthTest, IsRefusedThoughItsBytesAreThere) {
+  sweep_guard::MeshVertices vertices;
+  vertices.positions.resize(1);
+  const size_t positions = 16 + 4 + 4;
+  EXPECT_NO_THROW(check<sweep_guard::MeshVertices>(withLength(serialized(vertices), positions, 1)));
+  EXPECT_THROW(check<sweep_guard::MeshVertices>(withLength(serialized(vertices), positions, 0x40000001)),
+               sweep_guard_core::InvalidInput);
+  sweep_guard::DeformableMesh mesh;
+  mesh.mesh.triangles.resize(1);
+  mesh.mesh.vertices.resize(1);
+  for (const size_t position : {positions, positions + 4 + 12}) {
+    EXPECT_NO_THROW(check<sweep_guard::DeformableMesh>(withLength(serialized(mesh), position, 1)));
+    for (const std::uint32_t forged : {0x40000001U, 0x20000001U}) {
+      EXPECT_THROW(check<sweep_guard::DeformableMesh>(withLength(serialized(mesh), position, forged)),
+                   sweep_guard_core::InvalidInput);
+    }
+  }
+}
+
+template <typename Msg>
+class BoundedMessagesTest : public testing::Test {
+ protected:
+  // Returns the message, or null for a refused one.
+  boost::shared_ptr<const Msg> deserialize(const Bytes& bytes) {
+    ros::SubscriptionCallbackHelperDeserializeParams params;
+    Bytes copy(bytes);
+    params.buffer = copy.data();
+    params.length = static_cast<std::uint32_t>(copy.size());
+    params.connection_header = boost::make_shared<ros::M_string>();
+    return boost::static_pointer_cast<const Msg>(helper_->deserialize(params));
+  }
+
+  std::vector<std::string> refusals_;
+  const boost::shared_ptr<BoundedMessages<Msg>> helper_ = boost::make_shared<BoundedMessages<Msg>>(
+      [](const auto& /*event*/) {}, [this](const std::string& reason) { refusals_.push_back(reason); }, kMaxSize);
+};
+
+using Topics = testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
+                              sweep_guard::MeshVertices>;
+TYPED_TEST_SUITE(BoundedMessagesTest, Topics);
+
+TYPED_TEST(BoundedMessagesTest, ReadsWhatWasSent) {
+  const Bytes bytes = serialized(example<TypeParam>());
+  const auto message = this->deserialize(bytes);
+  ASSERT_TRUE(message);
+  EXPECT_EQ(serialized(*message), bytes);
+  EXPECT_TRUE(this->refusals_.empty());
+}
+
+// Zero copy within a process depends on it.
+TYPED_TEST(BoundedMessagesTest, HasTheTypeOfTheMessage) { EXPECT_EQ(this->helper_->getTypeInfo(), typeid(TypeParam)); }
+
+TYPED_TEST(BoundedMessagesTest, ForgedLengthsTakeNoMemory) {
+  const Bytes bytes = serialized(example<TypeParam>());
+  for (const size_t position : lengths<TypeParam>()) {
+    for (const std::uint32_t forged : kForged) {
+      const Bytes message = withLength(bytes, position, forged);
+      const sweep_guard_core::Allocations allocations;
+      EXPECT_FALSE(this->deserialize(message));
+      EXPECT_LT(allocations.largest(), 10000U) << allocations.stacks();
+    }
+  }
+  EXPECT_EQ(this->refusals_.size(), lengths<TypeParam>().size() * std::size(kForged));
+}
+
+class MessageSizeTest : public BoundedMessagesTest<sweep_guard::MeshVertices> {};
+
+TEST_F(MessageSizeTest, RefusesAMessageThatIsTooLong) {
+  sweep_guard::MeshVertices message;
+  const size_t empty = serialized(message).size();
+  message.positions.resize((kMaxSize - empty) / sizeof(float));
+  EXPECT_TRUE(deserialize(serialized(message)));
+  message.positions.resize(message.positions.size() + 1);
+  EXPECT_FALSE(deserialize(serialized(message)));
+  ASSERT_EQ(refusals_.size(), 1U);
+  EXPECT_TRUE(has(refusals_[0], "exceeds limits/max_message_size"));
+}
+
+// roscpp keeps the helper for as long as another subscriber holds a message.
+TEST_F(MessageSizeTest, ReportsNothingOnceItIsClosed) {
+  helper_->close();
+  EXPECT_FALSE(deserialize({}));
+  EXPECT_TRUE(refusals_.empty());
+}
+
+using CheckSweepSpec = ros::ServiceSpec<sweep_guard::CheckSweepRequest, sweep_guard::CheckSweepResponse>;
+
+struct Answer {
+  bool sent;
+  bool called;
+  std::string refusal;
+};
+
+Answer call(const Bytes& request, size_t max_size = kMaxSize) {
+  Answer answer{};
+  const auto refuse = [&](const std::string& reason, sweep_guard::CheckSweepResponse& response) {
+    answer.refusal = reason;
+    response.message = reason;
+    return true;
+  };
+  const auto check_sweep = [&](sweep_guard::CheckSweepRequest& /*request*/, auto& /*response*/) {
+    return answer.called = true;
+  };
+  BoundedCalls<CheckSweepSpec> calls(check_sweep, refuse, max_size);
+  ros::ServiceCallbackHelperCallParams params;
+  const boost::shared_array<std::uint8_t> buffer(new std::uint8_t[request.size() + 1]);
+  std::copy(request.begin(), request.end(), buffer.get());
+  params.request = ros::SerializedMessage(buffer, request.size());
+  params.request.message_start = buffer.get();
+  answer.sent = calls.call(params);
+  return answer;
+}
+
+TEST(BoundedCallsTest, CallsTheServiceWithAGoodRequest) {
+  const Answer answer = call(serialized(example<sweep_guard::CheckSweepRequest>()));
+  EXPECT_TRUE(answer.called);
+  EXPECT_TRUE(answer.sent);
+}
+
+TEST(BoundedCallsTest, AnswersAForgedRequestWithTheReason) {
+  const Bytes request = serialized(example<sweep_guard::CheckSweepRequest>());
+  for (const size_t position : lengths<sweep_guard::CheckSweepRequest>()) {
+    const Answer answer = call(withLength(request, position, 0x40000001));
+    EXPECT_FALSE(answer.called);
+    EXPECT_TRUE(answer.sent);
+    EXPECT_TRUE(has(answer.refusal, "announces 1073741825 elements"));
+  }
+  EXPECT_TRUE(has(call(request, request.size() - 1).refusal, "exceeds limits/max_message_size"));
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
