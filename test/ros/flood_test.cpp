@@ -27,7 +27,7 @@ constexpr double kMaxRecovery = 1.2;  // [s]
 constexpr size_t kMaxLines = 20;
 constexpr double kMaxMemory = 4096.0;  // [MB] limits/memory
 const Eigen::Vector3d kAway(0, 0, 0.5);
-const Eigen::Vector3d kSheet(0, 0, -1);
+const Eigen::Vector3d kSquare(0, 0, -1);
 
 GuardProbe& probe() {
   static GuardProbe probe(/*drives_clock=*/false);
@@ -53,7 +53,7 @@ class GoodInputs {
     ros::WallRate rate(100.0);
     for (int i = 0; !stopping_; ++i) {
       probe().publish(poseAt(kAway, ros::Time::now()));
-      if (i % 3 == 0) probe().publish(sheetMovedTo("sheet", kSheet, ros::Time::now()));
+      if (i % 3 == 0) probe().publish(squareMovedTo("square", kSquare, ros::Time::now()));
       rate.sleep();
     }
   }
@@ -79,13 +79,13 @@ struct Flood {
 void PrintTo(const Flood& flood, std::ostream* out) { *out << flood.name; }
 
 void sendMeshAgain(int /*i*/) {
-  static const DeformableMesh mesh = sheetAt("sheet", kSheet, ros::Time::now() - ros::Duration(1.0));
+  static const DeformableMesh mesh = squareAt("square", kSquare, ros::Time::now() - ros::Duration(1.0));
   probe().publish(mesh);
 }
 
 void sendStrayVertices(int i) {
   static const char* const ids[] = {"", "gone", "ghost", "sheeet"};
-  probe().publish(sheetMovedTo(ids[i % 4], kSheet, ros::Time::now()));
+  probe().publish(squareMovedTo(ids[i % 4], kSquare, ros::Time::now()));
 }
 
 void sendForgedLength(int i) {
@@ -105,8 +105,8 @@ void sendLongName(int i) {
   auto pose = poseAt(kAway, ros::Time::now());
   pose.header.frame_id = i % 2 == 0 ? name : "fresh" + std::to_string(i);
   if (i % 4 == 0) probe().publish(pose);
-  if (i % 4 == 1) probe().publish(sheetMovedTo(name, kSheet, ros::Time::now()));
-  if (i % 4 == 2) probe().publish(sheetAt(name, kSheet, ros::Time::now()));
+  if (i % 4 == 1) probe().publish(squareMovedTo(name, kSquare, ros::Time::now()));
+  if (i % 4 == 2) probe().publish(squareAt(name, kSquare, ros::Time::now()));
   if (i % 4 != 3) return;
   static ros::Publisher transforms = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf", 100);
   tf2_msgs::TFMessage message;
@@ -127,7 +127,7 @@ TEST_P(FloodTest, LeavesNothingBehind) {
   probe();
   guardLog();
   const double seconds = ros::param::param("~seconds", 2.0);
-  probe().publish(sheetAt("sheet", kSheet, ros::Time::now()));
+  probe().publish(squareAt("square", kSquare, ros::Time::now()));
   const GoodInputs good;
   const auto clear = [](const Warning& warning) { return warning.clear; };
   probe().skipWarnings();

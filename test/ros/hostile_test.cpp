@@ -29,7 +29,7 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr double kMaxGrowth = 64.0;      // [MB]
 constexpr size_t kMaxText = 1000;        // characters
 const Eigen::Vector3d kAway(0, 0, 0.5);  // where the tool meets nothing
-const Eigen::Vector3d kSheet(0, 0, -1);
+const Eigen::Vector3d kSquare(0, 0, -1);
 
 // Comes before the probe's own publisher, which would number the poses.
 ros::Publisher& rawPoses() {
@@ -67,7 +67,7 @@ class HostileTest : public NodeTest {
   }
 
   void clearScene() {
-    placeSheet("sheet", kSheet);
+    placeSquare("square", kSquare);
     restAt(kAway);
   }
 
@@ -76,7 +76,7 @@ class HostileTest : public NodeTest {
     const auto begin = SteadyClock::now();
     const auto is_clear = [](const Warning& warning) { return isClear(warning) && warning.reasons == 0; };
     probe().skipWarnings();
-    moveUntil("sheet", kSheet, kAway, is_clear);
+    moveUntil("square", kSquare, kAway, is_clear);
     return secondsSince(begin);
   }
 
@@ -86,21 +86,21 @@ class HostileTest : public NodeTest {
 // Of the stamp of the vertices, and of an older one.
 TEST_F(HostileTest, AMeshDeliveredAgainChangesNothing) {
   clearScene();
-  const auto mesh = sheetAt("sheet", kSheet, probe().time());
+  const auto mesh = squareAt("square", kSquare, probe().time());
   probe().place(mesh);
   restAt(kAway);
   const size_t begin = probe().warnings().size();
   const auto deliver_again = [&] {
     probe().publish(mesh);
-    placeSheet("later", {0, 0, -2});  // the copy before it is read
+    placeSquare("later", {0, 0, -2});  // the copy before it is read
     restAt(kAway);
   };
   deliver_again();
-  probe().place(sheetMovedTo("sheet", kSheet, probe().time()));
+  probe().place(squareMovedTo("square", kSquare, probe().time()));
   deliver_again();
   for (int i = 0; i < 10; ++i) {
     moveTo(kAway);
-    probe().place(sheetMovedTo("sheet", kSheet, probe().time()));
+    probe().place(squareMovedTo("square", kSquare, probe().time()));
   }
   const std::uint32_t of_the_later = Warning::NOT_SWEPT | Warning::NOT_COVERED;
   EXPECT_EQ(reasonsSince(begin) & ~of_the_later, 0U) << probe().warnings().back().text;
@@ -109,7 +109,7 @@ TEST_F(HostileTest, AMeshDeliveredAgainChangesNothing) {
 
 TEST_F(HostileTest, VerticesFromBeforeARemovalChangeNothing) {
   clearScene();
-  placeSheet("gone", {0, 0, -2});
+  placeSquare("gone", {0, 0, -2});
   restAt(kAway);
   const ros::Time before = probe().time();
   probe().tick(0.01);
@@ -121,10 +121,10 @@ TEST_F(HostileTest, VerticesFromBeforeARemovalChangeNothing) {
   moveTo(kAway);
   const size_t begin = probe().warnings().size();
   for (int i = 0; i < 10; ++i) {
-    probe().publish(sheetMovedTo("gone", {0, 0, -2}, before));
-    probe().publish(sheetMovedTo("gone", {0, 0, -2}, removal.header.stamp));
+    probe().publish(squareMovedTo("gone", {0, 0, -2}, before));
+    probe().publish(squareMovedTo("gone", {0, 0, -2}, removal.header.stamp));
     moveTo(kAway);
-    probe().place(sheetMovedTo("sheet", kSheet, probe().time()));
+    probe().place(squareMovedTo("square", kSquare, probe().time()));
   }
   EXPECT_EQ(reasonsSince(begin), 0U) << probe().warnings().back().text;
 }
@@ -139,10 +139,10 @@ class StrayVerticesTest : public HostileTest, public ::testing::WithParamInterfa
 
 TEST_P(StrayVerticesTest, AreNotClearWhileTheyComeAndAreForgottenASecondLater) {
   clearScene();
-  placeSheet("gone", {0, 0, -2});
+  placeSquare("gone", {0, 0, -2});
   probe().remove("gone");
   probe().skipWarnings();
-  const auto send = [] { probe().publish(sheetMovedTo(GetParam().id, {0, 0, -2}, probe().time())); };
+  const auto send = [] { probe().publish(squareMovedTo(GetParam().id, {0, 0, -2}, probe().time())); };
   probe().tick(0.01);
   send();
   probe().awaitWarning(hasReason(Warning::MESH_INVALID));
@@ -150,7 +150,7 @@ TEST_P(StrayVerticesTest, AreNotClearWhileTheyComeAndAreForgottenASecondLater) {
   for (int i = 0; i < 50; ++i) {
     moveTo(kAway);
     send();
-    probe().place(sheetMovedTo("sheet", kSheet, probe().time()));
+    probe().place(squareMovedTo("square", kSquare, probe().time()));
   }
   EXPECT_FALSE(wasClearSince(begin));
   const double taken = recover();
@@ -186,7 +186,7 @@ class ForgedLengthTest : public HostileTest {
 
 TEST_F(ForgedLengthTest, OfVerticesIsRefusedWithoutMemory) {
   MeshVertices vertices;
-  vertices.id = "sheet";
+  vertices.id = "square";
   publish("mesh_vertices", forged(serialized(vertices), 4, 0x40000001));
   EXPECT_TRUE(has(probe().awaitWarning(hasReason(Warning::MESH_INVALID)).text, "announces 1073741825 elements"));
   expectNoGrowth();
@@ -195,7 +195,7 @@ TEST_F(ForgedLengthTest, OfVerticesIsRefusedWithoutMemory) {
 
 TEST_F(ForgedLengthTest, OfTrianglesOrMeshVerticesIsRefusedWithoutMemory) {
   DeformableMesh mesh;
-  mesh.id = "sheet";
+  mesh.id = "square";
   for (const size_t from_end : {8U, 4U}) {
     publish("mesh", forged(serialized(mesh), from_end, 0x40000001));
     EXPECT_TRUE(has(probe().awaitWarning(hasReason(Warning::MESH_INVALID)).text, "announces 1073741825 elements"));
@@ -249,7 +249,7 @@ TEST_F(HostileTest, CheckSweepIsNotClearWhileAMeshIsRefused) {
   CheckSweep::Request request;
   request.path = {poseAt(kAway, ros::Time())};
   EXPECT_TRUE(probe().check(request).clear);
-  auto replacement = sheetAt("sheet", kSheet, probe().time());
+  auto replacement = squareAt("square", kSquare, probe().time());
   replacement.revision = 2;
   replacement.mesh.vertices[0].x = NAN;
   auto another = replacement;
@@ -261,7 +261,7 @@ TEST_F(HostileTest, CheckSweepIsNotClearWhileAMeshIsRefused) {
     EXPECT_TRUE(response.success);
     EXPECT_FALSE(response.clear || response.collision);
     EXPECT_TRUE(has(response.message, "'" + refused.id + "' refused"));
-    refused.id == "another" ? probe().remove("another") : placeSheet("sheet", kSheet);
+    refused.id == "another" ? probe().remove("another") : placeSquare("square", kSquare);
     probe().awaitWarning([](const Warning& warning) { return (warning.reasons & Warning::MESH_INVALID) == 0; });
   }
   EXPECT_TRUE(probe().check(request).clear);
@@ -270,7 +270,7 @@ TEST_F(HostileTest, CheckSweepIsNotClearWhileAMeshIsRefused) {
 TEST_F(HostileTest, CheckSweepIsNotClearOnAnOldTransform) {
   const auto place_frame = [] { probe().placeFrame("lathe", Eigen::Isometry3d::Identity()); };
   place_frame();
-  placeSheet("sheet", kSheet, "lathe");
+  placeSquare("square", kSquare, "lathe");
   CheckSweep::Request request;
   request.path = {poseAt(kAway, ros::Time())};
   EXPECT_TRUE(probe().check(request).clear);
@@ -309,9 +309,9 @@ class LongNameTest : public HostileTest {
 TEST_F(LongNameTest, OfAWorkpieceIsShownShort) {
   clearScene();
   const size_t begin = probe().warnings().size();
-  probe().publish(sheetMovedTo(longName(), kSheet, probe().time()));
+  probe().publish(squareMovedTo(longName(), kSquare, probe().time()));
   probe().awaitWarning(hasReason(Warning::MESH_INVALID));
-  probe().publish(sheetAt(longName(), kSheet, probe().time()));
+  probe().publish(squareAt(longName(), kSquare, probe().time()));
   CheckSweep::Request request;
   request.path = {poseAt(kAway, ros::Time())};
   request.mesh_ids = {longName()};
@@ -326,7 +326,7 @@ TEST_F(LongNameTest, OfAFrameIsShownShort) {
   pose.header.frame_id = longName();
   probe().publish(pose);
   probe().awaitWarning(hasReason(Warning::TF_FAIL));
-  auto mesh = sheetAt("framed", kSheet, probe().time());
+  auto mesh = squareAt("framed", kSquare, probe().time());
   mesh.header.frame_id = longName();
   probe().publish(mesh);
   placed_.insert("framed");
@@ -391,11 +391,11 @@ TEST_F(HostileTest, SeveralPublishersOfPosesAreNeverClear) {
   const auto several = [](const Warning& warning) { return (warning.reasons & Warning::MULTI_PUBLISHER) != 0; };
   {
     const SecondPublisher second;
-    moveUntil("sheet", kSheet, kAway, several);
+    moveUntil("square", kSquare, kAway, several);
     const size_t begin = probe().warnings().size();
     for (int i = 0; i < 50; ++i) {
       moveTo(kAway);
-      probe().place(sheetMovedTo("sheet", kSheet, probe().time()));
+      probe().place(squareMovedTo("square", kSquare, probe().time()));
     }
     const std::vector<Warning> warnings = probe().warnings();
     EXPECT_TRUE(std::all_of(warnings.begin() + static_cast<std::ptrdiff_t>(begin), warnings.end(), several));
@@ -413,7 +413,7 @@ TEST_F(HostileTest, AGapInTheSequenceOfPosesIsReportedAndStaysClear) {
     auto pose = poseAt(kAway, probe().time());
     pose.header.seq = sequence;
     rawPoses().publish(serialized(pose));
-    probe().place(sheetMovedTo("sheet", kSheet, probe().time()));
+    probe().place(squareMovedTo("square", kSquare, probe().time()));
   };
   for (; next < 10; ++next) send(next);
   const size_t begin = probe().warnings().size();
@@ -438,7 +438,7 @@ TEST_F(HostileTest, AChangedStaticTransformIsATimeJump) {
     frames.publish(message);
   };
   place(-1.0);
-  placeSheet("sheet", {0, 0, 0}, "fixture");
+  placeSquare("square", {0, 0, 0}, "fixture");
   CheckSweep::Request in_the_world;
   in_the_world.path = {poseAt(kAway, ros::Time())};
   while (!probe().check(in_the_world).success) continue;  // waits for the transform
@@ -454,7 +454,7 @@ TEST_F(HostileTest, AChangedStaticTransformIsATimeJump) {
 
 TEST_F(HostileTest, SeventyMissingFramesDoNotDelayThePoses) {
   clearScene();
-  for (int i = 0; i < 70; ++i) placeSheet("part" + std::to_string(i), kSheet, "missing" + std::to_string(i));
+  for (int i = 0; i < 70; ++i) placeSquare("part" + std::to_string(i), kSquare, "missing" + std::to_string(i));
   moveTo(kAway);
   const auto begin = SteadyClock::now();
   for (int i = 0; i < 50; ++i) moveTo(kAway);
@@ -465,7 +465,7 @@ TEST_F(HostileTest, SeventyMissingFramesDoNotDelayThePoses) {
 // A flat grid of 999 698 triangles.
 DeformableMesh largeMesh(ros::Time stamp) {
   constexpr std::uint32_t kSide = 708;
-  DeformableMesh mesh = sheetAt("large", {0, 0, -5}, stamp);
+  DeformableMesh mesh = squareAt("large", {0, 0, -5}, stamp);
   mesh.mesh.vertices.clear();
   mesh.mesh.triangles.clear();
   for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
@@ -496,7 +496,7 @@ TEST_F(HostileTest, ALargeMeshDoesNotHoldUpOtherWorkpieces) {
   do {
     const auto sent = SteadyClock::now();
     probe().tick(0.001);
-    probe().place(sheetMovedTo("sheet", kSheet, probe().time()));
+    probe().place(squareMovedTo("square", kSquare, probe().time()));
     longest = std::max(longest, secondsSince(sent));
     ++updates;
   } while (!probe().check(of_the_large).success && secondsSince(begin) < 60.0);

@@ -44,11 +44,11 @@ class MeshIdsTest : public NodeTest {
 
 TEST_F(MeshIdsTest, OneOfTwoIsNeverClearAndOthersAreNotListenedTo) {
   const size_t begin = probe().warnings().size();
-  placeSheet("left", {0, 0, -1});
+  placeSquare("left", {0, 0, -1});
   expectMissing("right", begin);
-  probe().publish(sheetAt("other", {0, 0, -2}, probe().time()));
-  probe().publish(sheetMovedTo("ghost", {0, 0, -2}, probe().time()));
-  placeSheet("right", {0, 0, -2});  // after `other`, on the same topic
+  probe().publish(squareAt("other", {0, 0, -2}, probe().time()));
+  probe().publish(squareMovedTo("ghost", {0, 0, -2}, probe().time()));
+  placeSquare("right", {0, 0, -2});  // after `other`, on the same topic
   EXPECT_FALSE(known("other"));
   restAt(kAway);
 }
@@ -56,7 +56,7 @@ TEST_F(MeshIdsTest, OneOfTwoIsNeverClearAndOthersAreNotListenedTo) {
 // A latched publisher delivers only its newest message again.
 TEST_F(MeshIdsTest, ARestartedGuardThatGetsOneOfTwoLatchedMeshesIsNotClear) {
   ros::Publisher latched = ros::NodeHandle().advertise<DeformableMesh>("mesh", 10, /*latch=*/true);
-  for (const char* const id : {"left", "right"}) latched.publish(sheetAt(id, {0, 0, -1}, probe().time()));
+  for (const char* const id : {"left", "right"}) latched.publish(squareAt(id, {0, 0, -1}, probe().time()));
   while (!known("left") || !known("right")) ros::spinOnce();
   restAt(kAway);
 
@@ -72,8 +72,8 @@ TEST_F(MeshIdsTest, ARestartedGuardThatGetsOneOfTwoLatchedMeshesIsNotClear) {
   ASSERT_GT(again, begin);
   EXPECT_FALSE(known("left"));
   expectMissing("left", again);
-  placeSheet("left", {0, 0, -1});
-  placeSheet("right", {0, 0, -1});
+  placeSquare("left", {0, 0, -1});
+  placeSquare("right", {0, 0, -1});
   restAt(kAway);
 }
 

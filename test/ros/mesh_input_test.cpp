@@ -13,7 +13,7 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr std::uint32_t kVertices = 300000;
-const std::string kId = "sheet";
+const std::string kId = "square";
 
 // A strip, large enough to take a while.
 boost::shared_ptr<sweep_guard::DeformableMesh> strip(ros::Time stamp) {
