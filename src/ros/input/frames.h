@@ -24,8 +24,8 @@ struct FrameError : sweep_guard_core::Error {
   using Error::Error;
 };
 
-/// Listens to /tf and /tf_static, and looks up poses of tf frames. Never interpolates beyond the buffer: a transform is taken at its stamp or not at all.
-/// Any thread.
+/// Listens to /tf and /tf_static, and looks up poses of tf frames. Never interpolates beyond the buffer: a transform is
+/// taken at its stamp or not at all. Any thread.
 class Frames {
  public:
   /// @param max_message_size  longer messages are refused unread [bytes]
