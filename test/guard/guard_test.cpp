@@ -486,7 +486,7 @@ TEST_F(MovingWorkpieceTest, IsFollowedThroughAFailureOfTheFirstSweep) {
 }
 
 // The clock of the poses is 10 s behind that of the mesh: each pose would need every update since.
-TEST_F(MovingSheetTest, KeepsABoundedNumberOfUpdatesForPosesThatAreFarBehind) {
+TEST_F(MovingWorkpieceTest, KeepsABoundedNumberOfUpdatesForPosesThatAreFarBehind) {
   for (const double period : {1e-3, 1e-4}) {
     newest_.reset();
     guard_.reset();
@@ -503,7 +503,7 @@ TEST_F(MovingSheetTest, KeepsABoundedNumberOfUpdatesForPosesThatAreFarBehind) {
 }
 
 // It trembles by a micrometre, 1 mm below the drill. In 10 s that is a path of 10 mm: it might have gone 5 mm aside.
-TEST_F(MovingSheetTest, IsNotMetMillimetresEarlyByPosesThatAreFarBehind) {
+TEST_F(MovingWorkpieceTest, IsNotMetMillimetresEarlyByPosesThatAreFarBehind) {
   for (int i = 0; i < 4000; ++i) {
     place(11.0 + 1e-3 * i, i % 2 == 0 ? -1e-3 : -1e-3 - 1e-6);
     const SweepReport report = sweepTo(1.0 + 1e-3 * i, 0.1);
@@ -512,7 +512,7 @@ TEST_F(MovingSheetTest, IsNotMetMillimetresEarlyByPosesThatAreFarBehind) {
   }
 }
 
-TEST_F(MovingSheetTest, SaysHowFarThePosesAreBehindIt) {
+TEST_F(MovingWorkpieceTest, SaysHowFarThePosesAreBehindIt) {
   Duration largest{};
   for (int i = 0; i < 1000; ++i) {
     place(11.0 + 1e-3 * i, -1.0);
@@ -525,7 +525,7 @@ TEST_F(MovingSheetTest, SaysHowFarThePosesAreBehindIt) {
   EXPECT_NEAR(toSeconds(largest), 9.5, 0.01);
 }
 
-TEST_F(MovingSheetTest, IsNeverFarAheadOfPosesWithinHalfASecond) {
+TEST_F(MovingWorkpieceTest, IsNeverFarAheadOfPosesWithinHalfASecond) {
   for (const int mesh_period : {1, 16, 1000}) {
     for (const int pose_period : {1, 10, 50}) {
       for (const double skew : {-0.5, -0.1, 0.0, 0.02, 0.2, 0.445}) {

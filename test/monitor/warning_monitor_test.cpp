@@ -533,7 +533,7 @@ TEST_F(WarningMonitorTest, ADroppedUpdateEndsWithANewMeshOfThatWorkpiece) {
 
 TEST_F(WarningMonitorTest, ADroppedUpdateIsForgottenWithItsWorkpiece) {
   monitor_.updateDropped("liver", at(1000).steady);
-  monitor_.updateDropped("ghost");
+  monitor_.updateDropped("ghost", at(1000).steady);
   monitor_.setWorkpieces({});
   EXPECT_EQ(reasonsAt(1000) & kMeshDropped, 0U);
   monitor_.setWorkpieces(workpieces_);
@@ -560,9 +560,9 @@ TEST(WaitingPosesTest, KeepTheWarningFromClearOnceTheyWaitLongerThanALookAhead) 
   const Workpieces workpieces = {workpiece("liver", 1000)};
   monitor.setWorkpieces(workpieces);
   SweepReport report = reportOf(workpieces);
-  monitor.swept(report, seenAt(1000), monitor.checkpoint(), at(1000).steady);
+  monitor.swept(report, timestampsAt(1000), monitor.checkpoint(), at(1000).steady);
   const auto predict = [&](Duration took) {
-    monitor.predicted(outlookOn(workpieces, 1000), seenAt(1000), monitor.checkpoint(), at(1000), took);
+    monitor.predicted(predictionFrom(workpieces, 1000), timestampsAt(1000), monitor.checkpoint(), at(1000), took);
   };
   const auto reasonsAt = [&](int ms) { return warningOf(monitor, at(ms)).reasons; };
   predict(milliseconds(5));

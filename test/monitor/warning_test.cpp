@@ -374,45 +374,45 @@ TEST(WarningTest, IsNotClearWhileAPoseWaitsLongerThanTwentyMillisecondsAndALookA
     WarningInputs inputs = allGood();
     inputs.look_ahead = look_ahead;
     inputs.waiting_since = kNow.steady - longest;
-    EXPECT_EQ(assessNow(inputs).level, WarningLevel::kClear);
+    EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear);
     *inputs.waiting_since -= 1ns;
-    EXPECT_EQ(assessNow(inputs).level, WarningLevel::kUnknown);
-    EXPECT_EQ(assessNow(inputs).reasons, kPosesUnswept);
+    EXPECT_EQ(warningNow(inputs).level, WarningLevel::kUnknown);
+    EXPECT_EQ(warningNow(inputs).reasons, kPosesUnswept);
   }
 }
 
 TEST(WarningTest, SaysThatClocksDifferWhereOldPosesArrive) {
   WarningInputs inputs = allGood();
   inputs.pose = Timestamps{kNow.stamp - 3600s, kNow.steady - 10ms};
-  EXPECT_TRUE(has(assessNow(inputs).text, "newest tool pose is 3600.00 s old by its stamp: clocks differ"));
-  inputs.pose = seen(3600s);  // none arrives
-  EXPECT_EQ(assessNow(inputs).reasons & kPoseStale, kPoseStale);
-  EXPECT_FALSE(has(assessNow(inputs).text, "clocks"));
+  EXPECT_TRUE(has(warningNow(inputs).text, "newest tool pose is 3600.00 s old by its stamp: clocks differ"));
+  inputs.pose = aged(3600s);  // none arrives
+  EXPECT_EQ(warningNow(inputs).reasons & kPoseStale, kPoseStale);
+  EXPECT_FALSE(has(warningNow(inputs).text, "clocks"));
 }
 
 TEST(WarningTest, NamesEachRequiredWorkpieceThatHasNotArrived) {
   WarningInputs inputs = allGood();
   inputs.required = {"liver"};
-  EXPECT_EQ(assessNow(inputs).level, WarningLevel::kClear);
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear);
   inputs.required = {"aorta", "liver", "spleen"};
-  const Warning warning = assessNow(inputs);
+  const Warning warning = warningNow(inputs);
   EXPECT_EQ(warning.level, WarningLevel::kUnknown);
   EXPECT_EQ(warning.reasons, kNoMesh);
   EXPECT_TRUE(has(warning.text, "'aorta' has not arrived"));
   EXPECT_TRUE(has(warning.text, "'spleen' has not arrived"));
   EXPECT_FALSE(has(warning.text, "'liver'"));
-  inputs.objects = {{"aorta", seen(20ms), true}, {"kidney", seen(20ms), true}, {"liver", seen(20ms), true}};
-  inputs.objects.push_back({"spleen", seen(20ms), true});
-  EXPECT_EQ(assessNow(inputs).level, WarningLevel::kClear);
+  inputs.objects = {{"aorta", aged(20ms), true}, {"kidney", aged(20ms), true}, {"liver", aged(20ms), true}};
+  inputs.objects.push_back({"spleen", aged(20ms), true});
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear);
   inputs.objects.clear();
-  EXPECT_EQ(assessNow(inputs).reasons, kNoMesh);
+  EXPECT_EQ(warningNow(inputs).reasons, kNoMesh);
 }
 
 TEST(WarningTest, SaysHowFarThePosesAreBehindAWorkpiece) {
   WarningInputs inputs = allGood();
   inputs.objects[0].swept = false;
   inputs.objects[0].behind = 1500ms;
-  const Warning warning = assessNow(inputs);
+  const Warning warning = warningNow(inputs);
   EXPECT_EQ(warning.reasons, kNotSwept);
   EXPECT_TRUE(has(warning.text, "tool poses are 1.50 s behind workpiece 'liver'"));
 }
@@ -420,11 +420,11 @@ TEST(WarningTest, SaysHowFarThePosesAreBehindAWorkpiece) {
 TEST(WarningTest, WhatDegradesLeavesTheLevelAndEndsAfterTheHoldTime) {
   WarningInputs inputs = allGood();
   inputs.pose_loss = {"3 tool poses were lost on the way", kNow.steady - 200ms};
-  EXPECT_EQ(assessNow(inputs).level, WarningLevel::kClear);
-  EXPECT_EQ(assessNow(inputs).reasons, kPoseLoss);
-  EXPECT_TRUE(has(assessNow(inputs).text, "3 tool poses were lost"));
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear);
+  EXPECT_EQ(warningNow(inputs).reasons, kPoseLoss);
+  EXPECT_TRUE(has(warningNow(inputs).text, "3 tool poses were lost"));
   inputs.pose_loss->found -= 1ns;
-  EXPECT_EQ(assessNow(inputs).reasons, 0U);
+  EXPECT_EQ(warningNow(inputs).reasons, 0U);
 }
 
 // Numbers on the wire, in Warning.msg.

@@ -481,7 +481,7 @@ DeformableMesh largeMesh(ros::Time stamp) {
   return mesh;
 }
 
-// While the mesh is on its way and converted, updates of the sheet take a small part of that time each.
+// While the mesh is on its way and converted, updates of the square take a small part of that time each.
 TEST_F(HostileTest, ALargeMeshDoesNotHoldUpOtherWorkpieces) {
   clearScene();
   const DeformableMesh large = largeMesh(probe().time());
