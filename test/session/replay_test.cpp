@@ -3,8 +3,10 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
+#include <sweep_guard/Warning.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
@@ -185,6 +187,34 @@ TEST_F(ReplayTest, TakesAWorkpieceFromAFileWhereTheBagHasNone) {
   std::ofstream(file) << "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\nf 1 2 3\nf 1 3 4\n";
   const std::string printed = replay("mesh_file:=" + file.string() + " mesh_scale:=0.001");
   ASSERT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 3U) << printed;
+}
+
+// The levels of the warnings that can be read, in their order.
+std::vector<std::uint8_t> warningsOf(const fs::path& path) {
+  const rosbag::Bag bag(path.string());
+  std::vector<std::uint8_t> levels;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/sweep_guard/warning"))) {
+    const auto warning = message.instantiate<sweep_guard::Warning>();
+    if (warning) levels.push_back(warning->level);
+  }
+  return levels;
+}
+
+// recorded_before.bag holds the first definition of Warning.
+TEST_F(ReplayTest, ABagWithOlderMessagesIsMigratedAndReplayed) {
+  const fs::path old = fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_before.bag";
+  EXPECT_TRUE(warningsOf(old).empty());
+  std::ostringstream fix;
+  fix << "rosbag fix " << old << ' ' << bag_ << " > " << folder_ / "fixed.txt"
+      << " 2>&1";
+  ASSERT_EQ(std::system(fix.str().c_str()), 0) << readText(folder_ / "fixed.txt");
+  const std::vector<std::uint8_t> levels = warningsOf(bag_);
+  ASSERT_EQ(levels.size(), 40U);
+  for (std::size_t i = 0; i < levels.size(); ++i) EXPECT_EQ(levels[i], i / 8);
+
+  const std::string printed = replay("");
+  EXPECT_TRUE(has(printed, "200 poses")) << printed;
+  EXPECT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 2U) << printed;
 }
 
 // The guard does not subscribe to the poses, and the player waits for a subscriber of each topic.
