@@ -1,0 +1,37 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <rosgraph_msgs/Log.h>
+#include <sys/types.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace sweep_guard_ros {
+
+pid_t guardPid();  ///< of the node /sweep_guard; 0: it does not answer
+
+/// What the kernel knows about a process.
+double residentMegabytes(pid_t pid);
+double peakMegabytes(pid_t pid);  ///< largest resident memory since the process began
+double processorSeconds(pid_t pid);
+
+/// Keeps what the guard logs.
+class GuardLog {
+ public:
+  GuardLog();  ///< returns when it is connected
+  std::vector<rosgraph_msgs::Log> lines() const;
+  void await(const std::string& part) const;  ///< waits for a line with it @throws std::runtime_error after 20 s
+
+ private:
+  ros::NodeHandle node_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::vector<rosgraph_msgs::Log> lines_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace sweep_guard_ros
