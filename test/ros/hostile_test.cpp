@@ -9,8 +9,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "guard_process.h"
 #include "node_fixture.h"
@@ -462,6 +464,78 @@ TEST_F(HostileTest, SeventyMissingFramesDoNotDelayThePoses) {
   EXPECT_TRUE(has(probe().awaitWarning(hasReason(Warning::TF_FAIL)).text, "missing"));
 }
 
+TEST_F(HostileTest, AQuaternionOfEitherSignAndOfAlmostUnitLengthIsTheSameRotation) {
+  clearScene();
+  const size_t begin = probe().warnings().size();
+  for (int i = 0; i < 20; ++i) {
+    probe().tick(0.01);
+    auto pose = poseAt(kAway, probe().time());
+    pose.pose.orientation.x *= (i % 2 == 0 ? -1.0 : 1.0) * (1.0 + 0.004 * i);
+    EXPECT_TRUE(probe().move(pose).objects.empty());
+    probe().place(squareMovedTo("square", kSquare, probe().time()));
+  }
+  EXPECT_EQ(reasonsSince(begin), 0U) << probe().warnings().back().text;
+}
+
+// By the steady clock the newest pose is stale, however fresh it looks by ROS time.
+TEST_F(HostileTest, AClockThatStandsStillIsNotClear) {
+  clearScene();
+  probe().awaitWarning(hasReason(Warning::POSE_STALE));
+  restAt(kAway);
+}
+
+TEST_F(HostileTest, ATransformThatIsNotRigidIsNoTransform) {
+  clearScene();
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(2);
+  for (auto& transform : message.transforms) {
+    transform.header.frame_id = "world";
+    transform.header.stamp = probe().time();
+  }
+  message.transforms[0].child_frame_id = "stretched";
+  message.transforms[0].transform.rotation.w = 2.0;
+  message.transforms[1].child_frame_id = "undefined";
+  message.transforms[1].transform.rotation.w = 1.0;
+  message.transforms[1].transform.translation.z = NAN;
+  ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf", 10).publish(message);
+  for (const char* const frame : {"stretched", "undefined"}) {
+    placeSquare("square", kSquare, frame);
+    probe().tick(0.01);
+    probe().skipWarnings();
+    probe().publish(poseAt(kAway, probe().time()));
+    EXPECT_TRUE(has(probe().awaitWarning(hasReason(Warning::TF_FAIL)).text, frame));
+  }
+}
+
+TEST_F(HostileTest, AMeshOfMoreTrianglesThanAllowedIsRefused) {
+  clearScene();
+  auto mesh = squareAt("square", kSquare, probe().time());
+  mesh.mesh.triangles.resize(1000001, mesh.mesh.triangles[0]);
+  probe().publish(mesh);
+  EXPECT_TRUE(has(probe().awaitWarning(hasReason(Warning::MESH_INVALID)).text, "1000001"));
+  placeSquare("square", kSquare);
+  recover();
+}
+
+TEST_F(HostileTest, CallsOfManyClientsAreAllAnsweredWhilePosesAreSwept) {
+  clearScene();
+  CheckSweep::Request request;
+  request.path.assign(100, poseAt(kAway, ros::Time()));
+  std::atomic<int> answered = 0;
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 16; ++i) {
+    clients.emplace_back([&] {
+      ros::ServiceClient client = ros::NodeHandle().serviceClient<CheckSweep>("/sweep_guard/check_sweep");
+      CheckSweep::Request asked = request;
+      CheckSweep::Response response;
+      for (int call = 0; call < 5; ++call) answered += client.call(asked, response) && response.success ? 1 : 0;
+    });
+  }
+  for (int i = 0; i < 20; ++i) moveTo(kAway);
+  for (std::thread& client : clients) client.join();
+  EXPECT_EQ(answered, 80);
+}
+
 // A flat grid of 999 698 triangles.
 DeformableMesh largeMesh(ros::Time stamp) {
   constexpr std::uint32_t kSide = 708;
@@ -481,28 +555,26 @@ DeformableMesh largeMesh(ros::Time stamp) {
   return mesh;
 }
 
-// While the mesh is on its way and converted, updates of the square take a small part of that time each.
+// Three of them are converted one after the other. If the updates of the square waited for them, there would be one.
 TEST_F(HostileTest, ALargeMeshDoesNotHoldUpOtherWorkpieces) {
   clearScene();
-  const DeformableMesh large = largeMesh(probe().time());
-  CheckSweep::Request of_the_large;
-  of_the_large.path = {poseAt(kAway, ros::Time())};
-  of_the_large.mesh_ids = {"large"};
-  placed_.insert("large");
+  DeformableMesh large = largeMesh(probe().time());
   const auto begin = SteadyClock::now();
-  probe().publish(large);
-  double longest = 0.0;
+  for (const char* const id : {"large", "larger", "largest"}) {
+    large.id = id;
+    probe().publish(large);
+    placed_.insert(id);
+  }
+  CheckSweep::Request of_the_last;
+  of_the_last.path = {poseAt(kAway, ros::Time())};
+  of_the_last.mesh_ids = {large.id};
   int updates = 0;
   do {
-    const auto sent = SteadyClock::now();
     probe().tick(0.001);
     probe().place(squareMovedTo("square", kSquare, probe().time()));
-    longest = std::max(longest, secondsSince(sent));
     ++updates;
-  } while (!probe().check(of_the_large).success && secondsSince(begin) < 60.0);
-  const double all = secondsSince(begin);
-  EXPECT_LT(longest, 0.6 * all) << updates << " updates in " << all << " s";
-  EXPECT_GT(updates, 5);
+  } while (!probe().check(of_the_last).success && secondsSince(begin) < 60.0);
+  EXPECT_GE(updates, 3);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <ros/service.h>
 #include <signal.h>
 
+#include <thread>
+
 #include "guard_process.h"
 #include "node_fixture.h"
 #include "refusal.h"
@@ -62,7 +64,15 @@ TEST_F(MeshIdsTest, ARestartedGuardThatGetsOneOfTwoLatchedMeshesIsNotClear) {
 
   const pid_t before = guardPid();
   const size_t begin = probe().warnings().size();
+  std::thread caller([] {  // until a call fails
+    ros::ServiceClient client = ros::NodeHandle().serviceClient<CheckSweep>("/sweep_guard/check_sweep");
+    CheckSweep::Request request;
+    request.path.assign(1000, poseAt(kAway, ros::Time()));
+    CheckSweep::Response response;
+    while (client.call(request, response)) continue;
+  });
   ASSERT_EQ(kill(before, SIGKILL), 0);
+  caller.join();
   probe().awaitWarning([](const Warning& warning) { return (warning.reasons & Warning::NO_POSE) != 0; });
   ASSERT_TRUE(ros::service::waitForService("/sweep_guard/check_sweep", ros::Duration(-1.0)));
   while (!known("right")) ros::spinOnce();

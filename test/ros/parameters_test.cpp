@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -317,6 +318,15 @@ TEST_F(ParametersTest, StopTheNodeWithOneLineAndStatusTwo) {
   EXPECT_EQ(status, 2);
   EXPECT_TRUE(has(output, "/sweep_guard/tool/radius is -1"));
   EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
+}
+
+// The node takes no locale from its environment.
+TEST_F(ParametersTest, HaveDecimalPointsInEveryLocale) {
+  setenv("LC_ALL", "de_DE.UTF-8", 1);
+  const auto [output, status] = runNode("_tool/radius:=-0.5");
+  unsetenv("LC_ALL");
+  EXPECT_EQ(status, 2);
+  EXPECT_TRUE(has(output, "/sweep_guard/tool/radius is -0.5"));
 }
 
 // urdfdom and rospack would add lines.
