@@ -209,9 +209,10 @@ std::vector<std::uint8_t> warningsOf(const fs::path& path) {
 TEST_F(ReplayTest, ABagWithOlderMessagesIsMigratedAndReplayed) {
   const fs::path old = fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_before.bag";
   EXPECT_TRUE(warningsOf(old).empty());
-  const std::string fix =
-      "rosbag fix " + old.string() + " '" + bag_.string() + "' > " + (folder_ / "fixed.txt").string() + " 2>&1";
-  ASSERT_EQ(std::system(fix.c_str()), 0) << readText(folder_ / "fixed.txt");
+  std::ostringstream fix;
+  fix << "rosbag fix " << old << ' ' << bag_ << " > " << folder_ / "fixed.txt"
+      << " 2>&1";
+  ASSERT_EQ(std::system(fix.str().c_str()), 0) << readText(folder_ / "fixed.txt");
   const std::vector<std::uint8_t> levels = warningsOf(bag_);
   ASSERT_EQ(levels.size(), 40U);
   for (std::size_t i = 0; i < levels.size(); ++i) EXPECT_EQ(levels[i], i / 8);

@@ -13,6 +13,7 @@ using sweep_guard_core::Reason;
 
 constexpr auto kPoseTransformWait = std::chrono::milliseconds(20);
 constexpr auto kPauseOfWaits = std::chrono::milliseconds(200);
+constexpr size_t kMaxMissing = 1000;  // as many as workpieces
 constexpr std::uint32_t kQueueLength =
     65536;  // 65 s at 1 kHz; a pose that ROS drops beyond that is a gap in header.seq
 
@@ -136,6 +137,7 @@ void PoseInput::refuse(Reason reason, const std::string& message) {
 
 void PoseInput::accept(const ReceivedPose& pose) {
   const sweep_guard_core::WarningMonitor::Checkpoint checkpoint = monitor_.checkpoint();
+  waited_ = false;
   if (!checkpoint.continues(checkpoint_)) previous_stamp_.reset();
   checkpoint_ = checkpoint;
   // After the checkpoint: the sweep to this pose does not end the fault.
@@ -175,15 +177,32 @@ std::map<std::string, Eigen::Isometry3d> PoseInput::locate(const std::set<std::s
   return X_WM;
 }
 
-// Waits for a late transform, but not again soon after waiting in vain: that would delay every pose.
 Eigen::Isometry3d PoseInput::lookup(const std::string& target, const std::string& source,
                                     sweep_guard_core::Time stamp) {
+  try {
+    return frames_.lookup(target, source, stamp);
+  } catch (const FrameError&) {
+    return waitFor(target, source, stamp);
+  }
+}
+
+// Waits for a late transform, but not again while its publisher is silent, once for each pose, and seldom for frames that
+// tf does not know: waiting would delay every pose.
+Eigen::Isometry3d PoseInput::waitFor(const std::string& target, const std::string& source,
+                                     sweep_guard_core::Time stamp) {
+  const std::pair frames(target, source);
+  const auto newest = frames_.newest(target, source);
+  const auto missed = missing_.find(frames);
+  const bool silent = missed != missing_.end() && missed->second == newest;
   const sweep_guard_core::SteadyTime begin = std::chrono::steady_clock::now();
-  const bool waits = begin >= no_wait_until_;
+  const bool waits = !silent && !waited_ && (newest || begin >= no_wait_until_);
   try {
     return frames_.lookup(target, source, stamp, waits ? kPoseTransformWait : sweep_guard_core::Duration(0));
   } catch (const FrameError&) {
-    if (waits) no_wait_until_ = begin + kPauseOfWaits;
+    waited_ = waited_ || waits;
+    if (waits && !newest) no_wait_until_ = begin + kPauseOfWaits;
+    if (missing_.size() >= kMaxMissing) missing_.clear();
+    if (newest) missing_[frames] = frames_.newest(target, source);
     throw;
   }
 }

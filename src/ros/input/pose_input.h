@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
@@ -58,6 +59,7 @@ class PoseInput {
   std::map<std::string, Eigen::Isometry3d> locate(const std::set<std::string>& mesh_frames,
                                                   sweep_guard_core::Time stamp);
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp);
+  Eigen::Isometry3d waitFor(const std::string& target, const std::string& source, sweep_guard_core::Time stamp);
   void refuse(sweep_guard_core::Reason reason, const std::string& message);
 
   const std::string fixed_frame_;
@@ -71,9 +73,12 @@ class PoseInput {
   sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the previous pose
   std::optional<sweep_guard_core::Time> previous_stamp_;
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
-  sweep_guard_core::SteadyTime no_wait_until_;            // for late transforms
-  std::string publisher_;                                 // of the previous pose
-  std::uint32_t sequence_ = 0;                            // of the previous pose
+  // Missing transforms by target and source, each with the stamp of the newest one that there was.
+  std::map<std::pair<std::string, std::string>, std::optional<sweep_guard_core::Time>> missing_;
+  bool waited_ = false;                         // for a transform of the newest pose, in vain
+  sweep_guard_core::SteadyTime no_wait_until_;  // for frames that tf does not know
+  std::string publisher_;                       // of the previous pose
+  std::uint32_t sequence_ = 0;                  // of the previous pose
   std::atomic<std::uint64_t> lost_ = 0;
   std::atomic<size_t> waiting_ = 0;  // poses from tf
   LogThrottle log_;
