@@ -49,13 +49,6 @@ bool everyEdgeIsEven(const std::vector<Triangle>& triangles) {
   return true;
 }
 
-void checkCount(const std::vector<float>& positions, size_t vertices) {
-  if (positions.size() != 3 * vertices) {
-    throw InvalidInput(std::to_string(positions.size()) + " coordinates for " + std::to_string(vertices) +
-                       " vertices: send three per vertex of the mesh");
-  }
-}
-
 [[noreturn]] void refuse(const std::vector<float>& positions) {
   const auto bad = std::find_if_not(positions.begin(), positions.end(), usable<float>);
   refuseVertex(static_cast<size_t>(bad - positions.begin()) / 3);
@@ -113,8 +106,14 @@ bool TriangleMesh::measure() {
   return finite && usable(bounds.min().minCoeff()) && usable(bounds.max().maxCoeff());
 }
 
+void TriangleMesh::checkCount(const std::vector<float>& positions_M) const {
+  if (positions_M.size() == 3 * vertexCount()) return;
+  throw InvalidInput(std::to_string(positions_M.size()) + " coordinates for " + std::to_string(vertexCount()) +
+                     " vertices: send three per vertex of the mesh");
+}
+
 void TriangleMesh::deform(std::vector<float>& positions_M) {
-  checkCount(positions_M, vertexCount());
+  checkCount(positions_M);
   if (!exchange(positions_M)) refuse(positions_M);
   origin_.setZero();
   rounding_ = 0.0;

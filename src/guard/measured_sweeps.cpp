@@ -13,15 +13,15 @@ constexpr Duration kMaxUpdateInterval = std::chrono::milliseconds(500);
 constexpr size_t kMaxDeformations = 512;  // as a 1 kHz mesh has in that time
 
 // Poses far behind the mesh would need ever more deformations, and an ever wider test.
-// @returns how far the pose is behind the newest deformation that it would have needed; 0: none is forgotten
-Duration forgetLateDeformations(Time pose, const Workpiece& newest, Workpieces& deformations) {
-  Duration behind{};
+// @returns whether one is forgotten
+bool forgetLateDeformations(const Workpiece& newest, Workpieces& deformations) {
+  bool forgotten = false;
   while (deformations.size() > 1 &&
          (newest.stamp - deformations[1]->stamp > kMaxUpdateInterval || deformations.size() > kMaxDeformations)) {
-    behind = deformations[1]->stamp - pose;
     deformations.erase(deformations.begin());
+    forgotten = true;
   }
-  return behind;
+  return forgotten;
 }
 
 // Converts fractions of a segment to fractions of the interval, in which the segment lasts from `begin` to `end`.
@@ -122,8 +122,10 @@ const Workpiece& MeasuredSweeps::measureDisplacements(Swept& swept, Time pose,
   while (swept.deformations.size() > 1 && swept.deformations[1]->stamp <= pose) {
     swept.deformations.erase(swept.deformations.begin());
   }
-  behind = forgetLateDeformations(pose, *newest, swept.deformations);
+  swept.incomplete = forgetLateDeformations(*newest, swept.deformations) || swept.incomplete;
   const auto& from = swept.deformations.front();
+  swept.incomplete = swept.incomplete && from->stamp > pose;
+  behind = swept.incomplete ? from->stamp - pose : Duration::zero();
   if (newest != swept.deformations.back() || swept.displaced_from != from) {
     swept.displaced_from = from;
     swept.displacements = newest == from ? Displacements() : Displacements(from->mesh_M, newest->mesh_M);

@@ -46,6 +46,7 @@ class MeasuredSweeps {
     SweepCache cache = {};
     std::shared_ptr<const Workpiece> displaced_from = nullptr;
     Displacements displacements = {};  // from there to the newest deformation
+    bool incomplete = false;           // deformations before the first of these are forgotten
   };
 
   void add(const PoseWithFrames& pose);

@@ -49,6 +49,7 @@ UpdateOutcome WorkpieceStore::deform(const Deformation& deformation, Time latest
                        std::to_string(current->revision));
   }
   requireOrder(*current, deformation.stamp, latest);
+  current->mesh_M.checkCount(deformation.positions_M);
   const auto next = unusedSnapshot(*current);
   std::vector<float>& positions_M = buffers_[deformation.id].positions_M;
   positions_M.assign(deformation.positions_M.begin(), deformation.positions_M.end());
@@ -108,6 +109,8 @@ bool WorkpieceStore::remove(const std::string& id, Time stamp) {
   on_change_(workpieces_);
   return true;
 }
+
+bool WorkpieceStore::contains(const std::string& id) const { return find(id) != nullptr; }
 
 Workpieces WorkpieceStore::snapshot() const {
   const std::lock_guard lock(mutex_);

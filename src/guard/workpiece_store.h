@@ -61,6 +61,7 @@ class WorkpieceStore {
   /// @returns false if there is no such workpiece
   bool remove(const std::string& id, Time stamp);
 
+  bool contains(const std::string& id) const;
   Workpieces snapshot() const;                                  ///< ascending by id
   std::shared_ptr<const std::set<std::string>> frames() const;  ///< frames of all workpieces
 

@@ -10,6 +10,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr Duration kUnreadTime = std::chrono::seconds(1);
+constexpr size_t kMaxText = 1000;  // longer texts take no further reasons [bytes]
 
 std::string inSeconds(Duration duration) {
   char text[32];
@@ -29,6 +30,7 @@ void insert(std::string& text, size_t place, TextPieces pieces) {
 
 void add(Warning& warning, Reason reason, TextPieces message) {
   warning.reasons |= reason;
+  if (warning.text.size() > kMaxText) return;
   if (!warning.text.empty()) warning.text += "; ";
   insert(warning.text, warning.text.size(), message);
 }

@@ -66,32 +66,40 @@ void WarningMonitor::addFault(Reason reason, const std::string& message) {
   fault_numbers_[reason] = ++checkpoint_.faults;
 }
 
-void WarningMonitor::meshRefused(const std::string& id, const std::string& message) {
-  refuse(refused_meshes_, id, message);
+void WarningMonitor::meshRefused(const std::string& id, const std::string& message, SteadyTime received) {
+  refuse(refused_meshes_, id, {message, received});
 }
 
-void WarningMonitor::verticesRefused(const std::string& id, const std::string& message) {
-  refuse(refused_vertices_, id, message);
+void WarningMonitor::verticesRefused(const std::string& id, const std::string& message, SteadyTime received) {
+  refuse(refused_vertices_, id, {message, received});
 }
 
-void WarningMonitor::refuse(Messages& refusals, const std::string& id, const std::string& message) {
+void WarningMonitor::refuse(Refusals& refusals, const std::string& id, const WarningInputs::Event& refusal) {
   {
     const std::lock_guard lock(mutex_);
     const bool room = refusals.size() < kRefusalsKept || refusals.count(id) != 0;
-    refusals[room ? id : refusals.rbegin()->first] = message;
+    refusals[room ? id : refusals.rbegin()->first] = refusal;
     updateRefusals();
   }
   on_fault_();
 }
 
-void WarningMonitor::meshAccepted(const std::string& id) {
-  const std::lock_guard lock(mutex_);
-  if (refused_meshes_.erase(id) + refused_vertices_.erase(id) > 0) updateRefusals();
+void WarningMonitor::accept(Refusals& refusals, const std::string& id, SteadyTime received) {
+  const auto refused = refusals.find(id);
+  if (refused == refusals.end() || refused->second.found > received) return;
+  refusals.erase(refused);
+  updateRefusals();
 }
 
-void WarningMonitor::verticesAccepted(const std::string& id) {
+void WarningMonitor::meshAccepted(const std::string& id, SteadyTime received) {
   const std::lock_guard lock(mutex_);
-  if (refused_vertices_.erase(id) > 0) updateRefusals();
+  accept(refused_meshes_, id, received);
+  accept(refused_vertices_, id, received);
+}
+
+void WarningMonitor::verticesAccepted(const std::string& id, SteadyTime received) {
+  const std::lock_guard lock(mutex_);
+  accept(refused_vertices_, id, received);
 }
 
 void WarningMonitor::meshUnread(const std::string& message, SteadyTime now) {
@@ -102,13 +110,11 @@ void WarningMonitor::meshUnread(const std::string& message, SteadyTime now) {
   on_fault_();
 }
 
-void WarningMonitor::updateDropped(const std::string& id, SteadyTime now) {
+void WarningMonitor::updateDropped(const std::string& id, SteadyTime received) {
   {
     const std::lock_guard lock(mutex_);
-    const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
-    const auto known = std::find_if(workpieces_.begin(), workpieces_.end(), same);
-    if (known == workpieces_.end()) return;
-    dropped_[id] = now;
+    SteadyTime& newest = dropped_[id];
+    newest = std::max(newest, received);
     updateObjects();
   }
   on_fault_();
@@ -123,18 +129,14 @@ void WarningMonitor::posesLost(const std::string& message, SteadyTime now) {
 }
 
 void WarningMonitor::updateRefusals() {
-  const Messages& messages = refused_meshes_.empty() ? refused_vertices_ : refused_meshes_;
+  const Refusals& refusals = refused_meshes_.empty() ? refused_vertices_ : refused_meshes_;
   inputs_.faults.erase(kMeshInvalid);
-  if (!messages.empty()) inputs_.faults[kMeshInvalid] = messages.rbegin()->second;
+  if (!refusals.empty()) inputs_.faults[kMeshInvalid] = refusals.rbegin()->second.message;
 }
 
 void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
   const std::lock_guard lock(mutex_);
   workpieces_ = workpieces;
-  for (auto dropped = dropped_.begin(); dropped != dropped_.end();) {
-    const auto same = [&](const auto& workpiece) { return workpiece->id == dropped->first; };
-    dropped = std::any_of(workpieces_.begin(), workpieces_.end(), same) ? std::next(dropped) : dropped_.erase(dropped);
-  }
   updateObjects();
 }
 
@@ -344,13 +346,13 @@ std::string WarningMonitor::meshProblems(const Instant& now, const std::vector<s
   for (const std::string& id : inputs_.required) {
     if (asked(id)) meshes.required.push_back(id);
   }
-  for (const Messages* refusals : {&refused_vertices_, &refused_meshes_}) {
-    for (const auto& [id, message] : *refusals) {
+  for (const Refusals* refusals : {&refused_vertices_, &refused_meshes_}) {
+    for (const auto& [id, refusal] : *refusals) {
       const bool may_hide_others = refusals->size() >= kRefusalsKept;
-      if (asked(id) || may_hide_others) meshes.faults[kMeshInvalid] = message;
+      if (asked(id) || may_hide_others) meshes.faults[kMeshInvalid] = refusal.message;
     }
   }
-  if (ids.empty()) meshes.unread = inputs_.unread;
+  meshes.unread = inputs_.unread;
   return sweep_guard_core::meshProblems(meshes, now, limits_);
 }
 

@@ -6,6 +6,7 @@
 #include <boost/make_shared.hpp>
 #include <functional>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -53,6 +54,14 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
     } catch (const std::exception& error) {  // invalid, or out of memory
       refused_.pass(error.what());
       return {};
+    }
+  }
+
+  void call(ros::SubscriptionCallbackHelperCallParams& params) override {
+    try {
+      Base::call(params);
+    } catch (const std::bad_alloc&) {
+      refused_.pass("out of memory");
     }
   }
 

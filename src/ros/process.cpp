@@ -3,11 +3,27 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <system_error>
 
+#include "sweep_guard/common/error.h"
+
 namespace sweep_guard_ros {
+namespace {
+
+constexpr size_t kHeadroom = 256;  // [MiB]
+
+[[maybe_unused]] size_t addressSpace() {  // [MiB]
+  std::ifstream statm("/proc/self/statm");
+  size_t pages = 0;
+  statm >> pages;
+  return pages * static_cast<size_t>(sysconf(_SC_PAGESIZE)) >> 20U;
+}
+
+}  // namespace
 
 // SCHED_RESET_ON_FORK: threads started by this one do not inherit the priority.
 std::string requestRealTime(int priority) {
@@ -23,10 +39,16 @@ std::string requestRealTime(int priority) {
 void limitMemory(size_t max_memory) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   if (max_memory == 0) return;
+  const size_t taken = addressSpace();
+  if (taken + kHeadroom > max_memory) {
+    throw sweep_guard_core::InvalidInput("limits/memory is " + std::to_string(max_memory) +
+                                         " MiB, and the guard takes " + std::to_string(taken) +
+                                         " MiB of address space already: set more, or 0 for no limit");
+  }
   rlimit limit{};
   getrlimit(RLIMIT_AS, &limit);
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t{max_memory} << 20U);
-  setrlimit(RLIMIT_AS, &limit);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, rlim_t{max_memory} << 20U);
+  if (setrlimit(RLIMIT_AS, &limit) != 0) throw sweep_guard_core::DeviceError("cannot limit the memory of the process");
 #else
   static_cast<void>(max_memory);
 #endif

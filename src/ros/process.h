@@ -13,6 +13,7 @@ std::string requestRealTime(int priority);
 /// Limits the address space of the process; what does not fit throws std::bad_alloc. Does nothing in builds with a
 /// sanitizer, which reserves terabytes.
 /// @param max_memory  [MiB]; 0: no limit
+/// @throws sweep_guard_core::InvalidInput if the process takes nearly as much already
 void limitMemory(size_t max_memory);
 
 }  // namespace sweep_guard_ros

@@ -137,8 +137,8 @@ TEST(WarningMonitorFaultTest, EveryFaultIsReportedAtOnce) {
   WarningMonitor monitor(kLimits, [&] { ++reports; });
   monitor.fault(kPoseInvalid, "NaN");
   EXPECT_EQ(reports, 1);
-  monitor.meshRefused("liver", "NaN");
-  monitor.verticesRefused("liver", "NaN");
+  monitor.meshRefused("liver", "NaN", at(1000).steady);
+  monitor.verticesRefused("liver", "NaN", at(1000).steady);
   EXPECT_EQ(reports, 3);
   SweepReport failed;
   failed.failures.push_back({workpiece("liver", 1000), "no canary"});
@@ -152,46 +152,46 @@ TEST(WarningMonitorFaultTest, EveryFaultIsReportedAtOnce) {
 }
 
 TEST_F(WarningMonitorTest, ARefusedMeshCountsUntilItsNextGoodOne) {
-  monitor_.meshRefused("liver", "NaN vertex");
+  monitor_.meshRefused("liver", "NaN vertex", at(1000).steady);
   EXPECT_EQ(reasonsAt(1000), kMeshInvalid);
-  monitor_.meshAccepted("spleen");
+  monitor_.meshAccepted("spleen", at(1000).steady);
   sweep(reportOf(workpieces_), 1050);
   EXPECT_EQ(reasonsAt(1050), kMeshInvalid);
-  monitor_.meshAccepted("liver");
+  monitor_.meshAccepted("liver", at(1000).steady);
   EXPECT_EQ(levelAt(1050), WarningLevel::kClear);
 }
 
 // What the refused mesh announced is still unknown, however good the vertices of the one before are.
 TEST_F(WarningMonitorTest, ARefusedMeshIsNotClearedByVertices) {
-  monitor_.meshRefused("liver", "too large");
-  monitor_.verticesRefused("liver", "wrong revision");
-  monitor_.verticesAccepted("liver");
+  monitor_.meshRefused("liver", "too large", at(1000).steady);
+  monitor_.verticesRefused("liver", "wrong revision", at(1000).steady);
+  monitor_.verticesAccepted("liver", at(1000).steady);
   sweep(reportOf(workpieces_), 1050);
   EXPECT_EQ(reasonsAt(1050), kMeshInvalid);
   EXPECT_TRUE(has(warningOf(monitor_, at(1050)).text, "too large"));
-  monitor_.meshAccepted("liver");
+  monitor_.meshAccepted("liver", at(1000).steady);
   EXPECT_EQ(levelAt(1050), WarningLevel::kClear);
 }
 
 TEST_F(WarningMonitorTest, RefusedVerticesAreClearedByGoodVerticesAndByAMesh) {
-  monitor_.verticesRefused("liver", "NaN vertex");
+  monitor_.verticesRefused("liver", "NaN vertex", at(1000).steady);
   EXPECT_EQ(reasonsAt(1000), kMeshInvalid);
-  monitor_.verticesAccepted("liver");
+  monitor_.verticesAccepted("liver", at(1000).steady);
   EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
-  monitor_.verticesRefused("liver", "NaN vertex");
-  monitor_.meshAccepted("liver");
+  monitor_.verticesRefused("liver", "NaN vertex", at(1000).steady);
+  monitor_.meshAccepted("liver", at(1000).steady);
   EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
 }
 
 // Nobody knows where it is: as long as it is neither sent well nor removed, nothing is clear.
 TEST_F(WarningMonitorTest, ARefusedMeshOfAnUnknownWorkpieceIsNotForgotten) {
-  monitor_.meshRefused("ghost", "NaN vertex");
+  monitor_.meshRefused("ghost", "NaN vertex", at(1000).steady);
   EXPECT_NE(reasonsAt(1000000) & kMeshInvalid, 0U);
 }
 
 TEST_F(WarningMonitorTest, AFloodOfRefusedMeshesIsNotClearWhenSomeAreAccepted) {
-  for (int i = 0; i < 1000; ++i) monitor_.meshRefused("ghost" + std::to_string(i), "no mesh");
-  for (int i = 0; i < 50; ++i) monitor_.meshAccepted("ghost" + std::to_string(i));
+  for (int i = 0; i < 1000; ++i) monitor_.meshRefused("ghost" + std::to_string(i), "no mesh", at(1000).steady);
+  for (int i = 0; i < 50; ++i) monitor_.meshAccepted("ghost" + std::to_string(i), at(1000).steady);
   EXPECT_NE(reasonsAt(1000) & kMeshInvalid, 0U);
 }
 
@@ -455,7 +455,7 @@ TEST_F(WarningMonitorTest, RestartEndsWhatIsHeldButNotARefusedMesh) {
   EXPECT_EQ(levelAt(1010), WarningLevel::kContact);
   monitor_.restart();
   EXPECT_EQ(reasonsAt(1010), kNoPose);
-  monitor_.meshRefused("liver", "workpiece 'liver' refused");
+  monitor_.meshRefused("liver", "workpiece 'liver' refused", at(1000).steady);
   monitor_.restart();
   EXPECT_EQ(reasonsAt(1010), kNoPose | kMeshInvalid);
 }
@@ -531,6 +531,18 @@ TEST_F(WarningMonitorTest, ADroppedUpdateEndsWithANewMeshOfThatWorkpiece) {
   EXPECT_EQ(levelAt(1020), WarningLevel::kClear);
 }
 
+// A mesh is converted after it was received, and refused sooner than the mesh before it is accepted.
+TEST_F(WarningMonitorTest, ARefusalOutlastsMessagesThatWereReceivedBefore) {
+  monitor_.meshRefused("liver", "NaN vertex", at(1002).steady);
+  monitor_.verticesRefused("liver", "wrong revision", at(1002).steady);
+  monitor_.meshAccepted("liver", at(1001).steady);
+  monitor_.verticesAccepted("liver", at(1003).steady);
+  EXPECT_EQ(reasonsAt(1003), kMeshInvalid);
+  EXPECT_FALSE(monitor_.meshProblems(at(1003), {"liver"}).empty());
+  monitor_.meshAccepted("liver", at(1003).steady);
+  EXPECT_EQ(reasonsAt(1003), 0U);
+}
+
 TEST_F(WarningMonitorTest, ADroppedUpdateIsForgottenWithItsWorkpiece) {
   monitor_.updateDropped("liver", at(1000).steady);
   monitor_.updateDropped("ghost", at(1000).steady);
@@ -598,14 +610,14 @@ TEST_F(WarningMonitorTest, TheProblemsOfMeshesAreThoseThatKeepAWarningFromClear)
   EXPECT_TRUE(has(problems(1501, {"liver"}), "'liver' is 0.50 s old"));
   EXPECT_TRUE(has(problems(1501, {"spleen"}), "no workpiece"));
 
-  monitor_.meshRefused("spleen", "'spleen' refused: NaN vertex");
+  monitor_.meshRefused("spleen", "'spleen' refused: NaN vertex", at(1000).steady);
   EXPECT_TRUE(has(problems(1000), "NaN vertex"));
   EXPECT_TRUE(has(problems(1000, {"spleen"}), "NaN vertex"));
   EXPECT_EQ(problems(1000, {"liver"}), "");
-  monitor_.meshAccepted("spleen");
-  monitor_.verticesRefused("liver", "'liver' refused: wrong revision");
+  monitor_.meshAccepted("spleen", at(1000).steady);
+  monitor_.verticesRefused("liver", "'liver' refused: wrong revision", at(1000).steady);
   EXPECT_TRUE(has(problems(1000, {"spleen", "liver"}), "wrong revision"));
-  monitor_.verticesAccepted("liver");
+  monitor_.verticesAccepted("liver", at(1000).steady);
   EXPECT_EQ(problems(1000), "");
 
   monitor_.updateDropped("liver", at(1000).steady);
@@ -626,14 +638,14 @@ TEST_F(WarningMonitorTest, TheProblemsOfMeshesAreThoseThatKeepAWarningFromClear)
 TEST_F(WarningMonitorTest, TheProblemsOfMeshesAreKnownWhileDisabled) {
   monitor_.disable("/somebody");
   EXPECT_EQ(monitor_.meshProblems(at(1000), {}), "");
-  monitor_.meshRefused("liver", "'liver' refused: NaN vertex");
+  monitor_.meshRefused("liver", "'liver' refused: NaN vertex", at(1000).steady);
   EXPECT_TRUE(has(monitor_.meshProblems(at(1000), {"liver"}), "NaN vertex"));
   EXPECT_EQ(reasonsAt(1000), kDisabled);
 }
 
 TEST_F(WarningMonitorTest, AFloodOfRefusedMeshesHidesNone) {
-  for (int i = 0; i < 1000; ++i) monitor_.meshRefused("ghost" + std::to_string(i), "no mesh");
-  monitor_.meshRefused("liver", "'liver' refused: NaN vertex");
+  for (int i = 0; i < 1000; ++i) monitor_.meshRefused("ghost" + std::to_string(i), "no mesh", at(1000).steady);
+  monitor_.meshRefused("liver", "'liver' refused: NaN vertex", at(1000).steady);
   EXPECT_NE(monitor_.meshProblems(at(1000), {"liver"}), "");
   EXPECT_LT(monitor_.meshProblems(at(1000), {}).size(), 200U);
   EXPECT_LT(warningOf(monitor_, at(1000)).text.size(), 200U);

@@ -47,37 +47,87 @@ boost::shared_ptr<sweep_guard::MeshVertices> raised(const sweep_guard::Deformabl
   return vertices;
 }
 
-// They may be the only ones that ever come.
-TEST(MeshInputTest, VerticesDoNotOvertakeTheirMesh) {
-  ros::NodeHandle node;
-  const Parameters parameters = loadParameters(ros::NodeHandle("~"));
-  sweep_guard_core::WarningMonitor monitor(parameters.limits);
-  sweep_guard_core::WorkpieceStore workpieces([&](const auto& all) { monitor.setWorkpieces(all); });
-  MeshInput input(node, parameters, workpieces, monitor);
-  const ros::Publisher meshes = node.advertise<sweep_guard::DeformableMesh>("mesh", 10);
-  const ros::Publisher vertices = node.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);
-  ASSERT_EQ(meshes.getNumSubscribers(), 1U);
-  ASSERT_EQ(vertices.getNumSubscribers(), 1U);
-  input.start();
-  const ros::Time begin = ros::Time::now() - ros::Duration(0.1);
-  const auto mesh = strip(begin);
-  const auto first = raised(*mesh, begin + ros::Duration(0.01), 1.0F);
-  const auto second = raised(*mesh, begin + ros::Duration(0.02), 2.0F);
-  meshes.publish(mesh);
-  vertices.publish(first);
-  vertices.publish(second);
-  for (int i = 0; i < 2000; ++i) {
-    const auto all = workpieces.snapshot();
-    if (!all.empty() && all[0]->updates == 2) break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+class MeshInputTest : public testing::Test {
+ protected:
+  MeshInputTest() { input_.start(); }
+
+  template <typename Condition>
+  bool await(const Condition& condition) const {
+    for (int i = 0; i < 2000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return condition();
   }
-  const auto all = workpieces.snapshot();
-  ASSERT_EQ(all.size(), 1U);
-  EXPECT_EQ(all[0]->updates, 2U);
+
+  // @returns what is wrong `seconds` from now
+  std::string problems(double seconds = 0.0) const {
+    const sweep_guard_core::Duration later = sweep_guard_core::fromSeconds(seconds);
+    return monitor_.meshProblems({now().stamp + later, now().steady + later}, {});
+  }
+
+  ros::NodeHandle node_;
+  const Parameters parameters_ = loadParameters(ros::NodeHandle("~"));
+  sweep_guard_core::WarningMonitor monitor_{
+      {parameters_.limits.pose_timeout, /*mesh_timeout=*/sweep_guard_core::Duration::max(), {}}};
+  sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& all) { monitor_.setWorkpieces(all); }};
+  MeshInput input_{node_, parameters_, workpieces_, monitor_};
+  const ros::Publisher meshes_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 10);
+  const ros::Publisher vertices_ = node_.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);
+  const ros::Time begin_ = ros::Time::now() - ros::Duration(0.1);
+};
+
+// They may be the only ones that ever come.
+TEST_F(MeshInputTest, VerticesDoNotOvertakeTheirMesh) {
+  const auto mesh = strip(begin_);
+  const auto first = raised(*mesh, begin_ + ros::Duration(0.01), 1.0F);
+  const auto second = raised(*mesh, begin_ + ros::Duration(0.02), 2.0F);
+  meshes_.publish(mesh);
+  vertices_.publish(first);
+  vertices_.publish(second);
+  ASSERT_TRUE(await([&] {
+    const auto all = workpieces_.snapshot();
+    return !all.empty() && all[0]->updates == 2;
+  }));
+  const auto all = workpieces_.snapshot();
   EXPECT_EQ(all[0]->stamp, fromMsg(second->header.stamp));
   EXPECT_EQ(all[0]->mesh_M.vertex(0).z(), 2.0);
-  EXPECT_EQ(monitor.meshProblems({all[0]->stamp, all[0]->received}, {}), "");
-  EXPECT_EQ(input.droppedUpdates(), 0U);
+  EXPECT_EQ(problems(), "");
+  EXPECT_EQ(input_.droppedUpdates(), 0U);
+}
+
+// The good one is accepted after the bad one behind it is refused: it is converted first, and stored later.
+TEST_F(MeshInputTest, AGoodMeshDoesNotExcuseABadOneThatCameAfterIt) {
+  const auto good = strip(begin_);
+  const auto bad = boost::make_shared<sweep_guard::DeformableMesh>(*good);
+  bad->revision = 2;
+  bad->mesh.triangles[0].vertex_indices[0] = kVertices;
+  for (int i = 0; i < 5; ++i) {
+    const auto again = boost::make_shared<sweep_guard::DeformableMesh>(*good);
+    again->header.stamp = begin_ + ros::Duration(0.001 * i);
+    meshes_.publish(again);
+  }
+  meshes_.publish(bad);
+  ASSERT_TRUE(await([&] { return input_.meshRecord().summary().refused == 1; }));
+  ASSERT_TRUE(await([&] {
+    const auto all = workpieces_.snapshot();
+    return !all.empty() && all[0]->stamp == fromMsg(begin_ + ros::Duration(0.004));
+  }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_NE(problems(10.0).find("refused"), std::string::npos);
+}
+
+TEST_F(MeshInputTest, VerticesOfNoWorkpieceAreForgottenWhateverElseIsWrongWithThem) {
+  const auto mesh = strip(begin_);
+  auto without_frame = raised(*mesh, begin_, 1.0F);
+  without_frame->header.frame_id.clear();
+  auto in_the_future = raised(*mesh, ros::Time::now() + ros::Duration(3600.0), 1.0F);
+  const std::string nothing_else = "no workpiece yet";
+  std::uint64_t refused = 0;
+  for (const auto& vertices : {without_frame, in_the_future}) {
+    vertices_.publish(vertices);
+    ++refused;
+    ASSERT_TRUE(await([&] { return input_.verticesRecord().summary().refused == refused; }));
+    EXPECT_NE(problems(), nothing_else);
+    EXPECT_EQ(problems(1.1), nothing_else);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <future>
 #include <mutex>
+#include <new>
 
 namespace sweep_guard_ros {
 namespace {
@@ -69,9 +70,9 @@ TEST_F(WorkerTest, DropsReplaceableJobsBeforeOthers) {
   worker.push(job(5, 60));
   EXPECT_EQ(dropped_, (std::vector<int>{2, 3, 4}));
   worker.push(job(6, 30, /*replaceable=*/true));
-  EXPECT_EQ(dropped_, (std::vector<int>{2, 3, 4, 1}));
+  EXPECT_EQ(dropped_, (std::vector<int>{2, 3, 4, 6}));
   startAndFinish(worker);
-  EXPECT_EQ(run_, (std::vector<int>{5, 6}));
+  EXPECT_EQ(run_, (std::vector<int>{1, 5}));
 }
 
 // Else a refusal of an old mesh would come after the new one was accepted.
@@ -113,13 +114,13 @@ TEST_F(WorkerTest, DropsAJobBeforeTheOneThatTakesItsPlaceRuns) {
   EXPECT_EQ(events, (std::vector<int>{-1, 2}));
 }
 
-TEST_F(WorkerTest, NeverDropsAJobOfNoBytes) {
+TEST_F(WorkerTest, DropsAJobThatRunsOutOfMemory) {
   Worker worker(100);
-  worker.push(job(1, 0));
-  for (int i = 2; i < 1000; ++i) worker.push(job(i, 60));
-  EXPECT_EQ(dropped_.size(), 997U);
+  worker.push({[] { throw std::bad_alloc(); }, [&] { dropped_.push_back(1); }, 10});
+  worker.push(job(2, 10));
   startAndFinish(worker);
-  EXPECT_EQ(run_, (std::vector<int>{1, 999}));
+  EXPECT_EQ(dropped_, (std::vector<int>{1}));
+  EXPECT_EQ(run_, (std::vector<int>{2}));
 }
 
 TEST_F(WorkerTest, FreesTheBytesOfJobsThatHaveRun) {

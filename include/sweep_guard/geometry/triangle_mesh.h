@@ -30,6 +30,8 @@ class TriangleMesh {
   ///                             same size with unspecified contents
   /// @throws InvalidInput for a wrong count or an invalid coordinate; mesh and positions do not change
   void deform(std::vector<float>& positions_M);
+  /// @throws InvalidInput if these are not three coordinates per vertex
+  void checkCount(const std::vector<float>& positions_M) const;
 
   const std::vector<Triangle>& triangles() const { return topology_->triangles; }
   /// Returns whether each edge belongs to an even number of triangles. The surface then has an inside, which may be

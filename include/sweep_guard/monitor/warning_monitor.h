@@ -46,24 +46,28 @@ class WarningMonitor {
 
   /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), because the workpiece that
   /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each.
-  void meshRefused(const std::string& id, const std::string& message);
+  /// @param received  when the message was received: meshes are accepted later than they are refused
+  void meshRefused(const std::string& id, const std::string& message, SteadyTime received);
 
-  /// Reports that a good mesh came, or that the workpiece was removed. Clears all refusals of this id.
-  void meshAccepted(const std::string& id);
+  /// Reports that a good mesh came, or that the workpiece was removed. Clears the refusals of messages of this id that
+  /// were received no later.
+  void meshAccepted(const std::string& id, SteadyTime received);
 
   /// Reports that vertices were refused. The warning is not clear until verticesAccepted() or meshAccepted().
-  void verticesRefused(const std::string& id, const std::string& message);
+  void verticesRefused(const std::string& id, const std::string& message, SteadyTime received);
 
-  /// Reports accepted vertices. Clears refusals of vertices of this id; a refused mesh stays until meshAccepted().
-  void verticesAccepted(const std::string& id);
+  /// Reports accepted vertices. Clears refusals of vertices of this id that were received no later; a refused mesh stays
+  /// until meshAccepted().
+  void verticesAccepted(const std::string& id, SteadyTime received);
 
   /// Reports a message on a mesh topic that belongs to no workpiece: its id is unknown, or it cannot be read. The
   /// warning is not clear until 1 s after the last of these.
   void meshUnread(const std::string& message, SteadyTime now);
 
   /// Reports that an update of a workpiece was dropped unread. The warning is not clear until that workpiece is swept
-  /// with an update received later than now.
-  void updateDropped(const std::string& id, SteadyTime now);
+  /// with an update that was received later. Does nothing if there is no such workpiece.
+  /// @param received  when the dropped update was received
+  void updateDropped(const std::string& id, SteadyTime received);
 
   /// Reports that poses were sent and did not arrive. The warning says so for the hold time; its level stays.
   void posesLost(const std::string& message, SteadyTime now);
@@ -118,11 +122,12 @@ class WarningMonitor {
     Time covered_until;  // for the workpieces tested
     Workpieces tested;
   };
-  using Messages = std::map<std::string, std::string>;  // by id
+  using Refusals = std::map<std::string, WarningInputs::Event>;  // by id
 
   void restartLocked();
   void addFault(Reason reason, const std::string& message);
-  void refuse(Messages& refusals, const std::string& id, const std::string& message);
+  void refuse(Refusals& refusals, const std::string& id, const WarningInputs::Event& refusal);
+  void accept(Refusals& refusals, const std::string& id, SteadyTime received);
   void updateRefusals();
   void updateObjects();
   void updateBehind(const SweepReport& report);
@@ -143,9 +148,9 @@ class WarningMonitor {
   std::optional<PredictedContact> next_;  // of the newest prediction
   Workpieces workpieces_;
   std::map<Reason, std::uint64_t> fault_numbers_;
-  Messages refused_meshes_;
-  Messages refused_vertices_;
-  std::map<std::string, SteadyTime> dropped_;  // by id: when an update was dropped
+  Refusals refused_meshes_;
+  Refusals refused_vertices_;
+  std::map<std::string, SteadyTime> dropped_;  // by id: when the newest dropped update was received
 };
 
 }  // namespace sweep_guard_core

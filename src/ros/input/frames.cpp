@@ -14,7 +14,14 @@ using sweep_guard_core::printable;
 constexpr auto kPollPeriod = std::chrono::milliseconds(1);
 constexpr std::uint32_t kQueueLength = 1000;
 constexpr size_t kMaxReason = 400;    // [bytes]
-constexpr size_t kMaxStatic = 10000;  // frames; changes of further ones go unnoticed
+constexpr size_t kMaxFrames = 10000;  // tf2 forgets none
+constexpr auto kMaxLead = std::chrono::seconds(10);
+
+// tf2 ignores every transform that is older than the newest of its frame: one from far ahead would silence the frame.
+void checkStamp(const ros::Time& stamp) {
+  if (ros::Time::now().isZero() || fromMsg(stamp) <= now().stamp + kMaxLead) return;
+  throw sweep_guard_core::InvalidInput("its stamp lies more than 10 s in the future");
+}
 
 void check(const geometry_msgs::TransformStamped& transform) {
   for (const std::string& frame : {transform.header.frame_id, transform.child_frame_id}) {
@@ -44,7 +51,7 @@ Frames::Frames(const ros::NodeHandle& node, size_t max_message_size,
   thread_.start();
 }
 
-// As tf2's own listener, which reserves whatever memory a message announces and logs names as they come.
+// Does what tf2's listener does, which reserves whatever memory a message announces and logs names as they come.
 void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static) {
   const ros::Time at = ros::Time::now();
   if (at < newest_) buffer_.clear();
@@ -52,24 +59,31 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
   for (const geometry_msgs::TransformStamped& transform : event.getConstMessage()->transforms) {
     try {
       check(transform);
-      buffer_.setTransform(transform, event.getPublisherName(), is_static);
+      if (!is_static) checkStamp(transform.header.stamp);
+      countFrames(transform);
+      buffer_.setTransform(transform, printable(event.getPublisherName()), is_static);
       if (is_static) checkStatic(transform);
-    } catch (const sweep_guard_core::InvalidInput& error) {
+    } catch (const std::exception& error) {  // invalid, or out of memory
       log_.error("transform", "transform to '" + printable(transform.child_frame_id) + "' refused: " + error.what());
     }
   }
 }
 
 void Frames::checkStatic(const geometry_msgs::TransformStamped& transform) {
-  const auto known = static_transforms_.find(transform.child_frame_id);
-  if (known == static_transforms_.end()) {
-    if (static_transforms_.size() < kMaxStatic) static_transforms_[transform.child_frame_id] = transform;
-    return;
-  }
+  const auto [known, is_new] = static_transforms_.emplace(withoutSlash(transform.child_frame_id), transform);
   const bool same =
       known->second.header.frame_id == transform.header.frame_id && known->second.transform == transform.transform;
+  if (is_new || same) return;
   known->second = transform;
-  if (!same) on_static_change_(transform.header.frame_id, transform.child_frame_id);
+  on_static_change_(transform.header.frame_id, transform.child_frame_id);
+}
+
+void Frames::countFrames(const geometry_msgs::TransformStamped& transform) {
+  for (const std::string& frame : {transform.header.frame_id, transform.child_frame_id}) {
+    if (known_.count(frame) != 0) continue;
+    if (known_.size() >= kMaxFrames) throw sweep_guard_core::InvalidInput("there are 10000 frames already");
+    known_.insert(frame);
+  }
 }
 
 Eigen::Isometry3d Frames::lookup(const std::string& target, const std::string& source,

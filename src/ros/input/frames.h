@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "ros/bounded.h"
@@ -51,9 +52,11 @@ class Frames {
  private:
   void onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static);
   void checkStatic(const geometry_msgs::TransformStamped& transform);
+  void countFrames(const geometry_msgs::TransformStamped& transform);
 
   const std::function<void(const std::string&, const std::string&)> on_static_change_;
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  // by child; used by the listener only
+  std::set<std::string> known_;                                               // frames in the buffer
   LogThrottle log_;
   ros::Time newest_;  // when the newest message came
   tf2_ros::Buffer buffer_;

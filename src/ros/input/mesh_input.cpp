@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 
@@ -21,6 +22,8 @@ using sweep_guard_core::SteadyTime;
 using sweep_guard_core::TriangleMesh;
 using sweep_guard_core::UpdateOutcome;
 
+constexpr size_t kMinCapacity = 256U << 20U;  // [bytes]
+constexpr size_t kOverhead = 512;             // of a job and its message, beside the serialized bytes
 constexpr std::uint32_t kQueueLength = 1000;  // each message may be of another workpiece; taken from it at once
 
 void checkHeader(const std_msgs::Header& header) {
@@ -33,9 +36,12 @@ sweep_guard_core::Time latestStamp() { return now().stamp + kFutureTolerance; }
 
 bool removes(const sweep_guard::DeformableMesh& msg) { return msg.mesh.vertices.empty() && msg.mesh.triangles.empty(); }
 
+// All workpieces may arrive at once: latched meshes are not sent again.
+size_t capacity(const Parameters& parameters) { return std::max(kMinCapacity, 4 * parameters.max_message_size); }
+
 template <typename Msg>
 size_t sizeOf(const Msg& msg) {
-  return ros::serialization::serializationLength(msg);
+  return ros::serialization::serializationLength(msg) + kOverhead;
 }
 
 }  // namespace
@@ -46,8 +52,8 @@ MeshInput::MeshInput(const ros::NodeHandle& node, const Parameters& parameters,
       max_triangles_(parameters.max_triangles),
       workpieces_(workpieces),
       monitor_(monitor),
-      storing_(parameters.max_message_size),
-      converting_(parameters.max_message_size),
+      storing_(capacity(parameters)),
+      converting_(capacity(parameters)),
       mesh_(
           subscribe<sweep_guard::DeformableMesh>(thread_.on(node), "mesh", parameters.max_message_size, mesh_record_)),
       vertices_(subscribe<sweep_guard::MeshVertices>(thread_.on(node), "mesh_vertices", parameters.max_message_size,
@@ -78,8 +84,8 @@ void MeshInput::onMessage(const sweep_guard::DeformableMesh::ConstPtr& msg) {
     convert(msg, received);
     leaveConversion(msg->id);
   };
-  const auto drop_and_leave = [this, msg] {
-    drop(*msg);
+  const auto drop_and_leave = [this, msg, received] {
+    drop(*msg, received);
     leaveConversion(msg->id);
   };
   converting_.push({convert_and_leave, drop_and_leave, sizeOf(*msg)});
@@ -93,8 +99,8 @@ void MeshInput::onMessage(const sweep_guard::MeshVertices::ConstPtr& msg) {
     pushToStore(msg, received);
     leaveConversion(msg->id);
   };
-  const auto drop_and_leave = [this, msg] {
-    drop(*msg);
+  const auto drop_and_leave = [this, msg, received] {
+    drop(*msg, received);
     leaveConversion(msg->id);
   };
   converting_.push({store_and_leave, drop_and_leave, sizeOf(*msg), /*replaceable=*/true});
@@ -115,8 +121,8 @@ void MeshInput::leaveConversion(const std::string& id) {
 }
 
 void MeshInput::pushToStore(const sweep_guard::MeshVertices::ConstPtr& msg, SteadyTime received) {
-  storing_.push({[this, msg, received] { store(*msg, received); }, [this, msg] { drop(*msg); }, sizeOf(*msg),
-                 /*replaceable=*/true});
+  storing_.push({[this, msg, received] { store(*msg, received); }, [this, msg, received] { drop(*msg, received); },
+                 sizeOf(*msg), /*replaceable=*/true});
 }
 
 bool MeshInput::readable(const std::string& id, const std_msgs::Header& header, InputRecord& record) {
@@ -143,9 +149,10 @@ void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, Steady
       checkHeader(msg->header);
       mesh_M->emplace(fromMsg(msg->mesh, max_triangles_));
     }
-    storing_.push({[this, msg, received, mesh_M] { store(*msg, received, std::move(*mesh_M)); }, {}, 0});
+    storing_.push({[this, msg, received, mesh_M] { store(*msg, received, std::move(*mesh_M)); },
+                   [this, msg, received] { drop(*msg, received); }, sizeOf(*msg)});
   } catch (const std::exception& error) {  // invalid, or out of memory
-    monitor_.meshRefused(msg->id, refusal(msg->id, error, mesh_record_));
+    monitor_.meshRefused(msg->id, refusal(msg->id, error, mesh_record_), received);
   }
 }
 
@@ -153,14 +160,15 @@ void MeshInput::store(const sweep_guard::DeformableMesh& msg, SteadyTime receive
   try {
     const sweep_guard_core::Time stamp = fromMsg(msg.header.stamp);
     if (!mesh_M) {
-      if (!workpieces_.remove(msg.id, stamp)) ROS_WARN_THROTTLE(1.0, "no workpiece '%s' to remove", msg.id.c_str());
+      if (!workpieces_.remove(msg.id, std::min(stamp, latestStamp())))
+        ROS_WARN_THROTTLE(1.0, "no workpiece '%s' to remove", msg.id.c_str());
     } else if (workpieces_.set({msg.id, msg.revision, stamp, received, msg.header.frame_id, std::move(*mesh_M)},
                                latestStamp()) == UpdateOutcome::kIgnored) {
       return;
     }
-    monitor_.meshAccepted(msg.id);
+    monitor_.meshAccepted(msg.id, received);
   } catch (const std::exception& error) {  // invalid, or out of memory
-    monitor_.meshRefused(msg.id, refusal(msg.id, error, mesh_record_));
+    monitor_.meshRefused(msg.id, refusal(msg.id, error, mesh_record_), received);
   }
 }
 
@@ -169,12 +177,13 @@ void MeshInput::store(const sweep_guard::MeshVertices& msg, SteadyTime received)
     checkHeader(msg.header);
     const UpdateOutcome outcome = workpieces_.deform(
         {msg.id, msg.revision, fromMsg(msg.header.stamp), received, msg.header.frame_id, msg.positions}, latestStamp());
-    if (outcome == UpdateOutcome::kStored) monitor_.verticesAccepted(msg.id);
+    if (outcome == UpdateOutcome::kStored) monitor_.verticesAccepted(msg.id, received);
     if (outcome == UpdateOutcome::kUnknownWorkpiece) {
       unread("vertices of '" + msg.id + "' came before their mesh: publish DeformableMesh latched", vertices_record_);
     }
   } catch (const std::exception& error) {  // invalid, or out of memory
-    monitor_.verticesRefused(msg.id, refusal(msg.id, error, vertices_record_));
+    if (!workpieces_.contains(msg.id)) return unread("vertices of '" + msg.id + "': " + error.what(), vertices_record_);
+    monitor_.verticesRefused(msg.id, refusal(msg.id, error, vertices_record_), received);
   }
 }
 
@@ -185,15 +194,16 @@ std::string MeshInput::refusal(const std::string& id, const std::exception& erro
   return message;
 }
 
-void MeshInput::drop(const sweep_guard::DeformableMesh& msg) {
+void MeshInput::drop(const sweep_guard::DeformableMesh& msg, SteadyTime received) {
   ++dropped_;
   const InvalidInput error("too many messages wait: publish more slowly");
-  monitor_.meshRefused(msg.id, refusal(msg.id, error, mesh_record_));
+  monitor_.meshRefused(msg.id, refusal(msg.id, error, mesh_record_), received);
 }
 
-void MeshInput::drop(const sweep_guard::MeshVertices& msg) {
+void MeshInput::drop(const sweep_guard::MeshVertices& msg, SteadyTime received) {
   ++dropped_;
-  monitor_.updateDropped(msg.id, std::chrono::steady_clock::now());
+  if (!workpieces_.contains(msg.id)) return unread("vertices of '" + msg.id + "' were dropped", vertices_record_);
+  monitor_.updateDropped(msg.id, received);
 }
 
 }  // namespace sweep_guard_ros

@@ -56,8 +56,8 @@ class MeshInput {
              std::optional<sweep_guard_core::TriangleMesh> mesh_M);
   void store(const sweep_guard::MeshVertices& msg, sweep_guard_core::SteadyTime received);
   std::string refusal(const std::string& id, const std::exception& error, sweep_guard_core::InputRecord& record);
-  void drop(const sweep_guard::DeformableMesh& msg);
-  void drop(const sweep_guard::MeshVertices& msg);
+  void drop(const sweep_guard::DeformableMesh& msg, sweep_guard_core::SteadyTime received);
+  void drop(const sweep_guard::MeshVertices& msg, sweep_guard_core::SteadyTime received);
 
   const std::set<std::string> mesh_ids_;
   const size_t max_triangles_;

@@ -13,7 +13,8 @@ using sweep_guard_core::Reason;
 
 constexpr auto kPoseTransformWait = std::chrono::milliseconds(20);
 constexpr auto kPauseOfWaits = std::chrono::milliseconds(200);
-constexpr size_t kMaxMissing = 1000;  // as many as workpieces
+constexpr size_t kMaxMissing = 1000;      // as many as workpieces
+constexpr size_t kMaxMessageSize = 1024;  // with the longest frame name [bytes]
 constexpr std::uint32_t kQueueLength =
     65536;  // 65 s at 1 kHz; a pose that ROS drops beyond that is a gap in header.seq
 
@@ -49,8 +50,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters,
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
   } else {
     subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(
-        thread_.on(node), {"tool_pose", kQueueLength, parameters.max_message_size},
-        [this](const auto& event) { onMessage(event); },
+        thread_.on(node), {"tool_pose", kQueueLength, kMaxMessageSize}, [this](const auto& event) { onMessage(event); },
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
 }

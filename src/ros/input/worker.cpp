@@ -22,17 +22,20 @@ void Worker::start() {
 // Drops before it pushes: nobody hears of a dropped job after the job that took its place.
 void Worker::push(Job job) {
   std::vector<Job> dropped;
+  bool fits = true;
   {
     const std::lock_guard lock(mutex_);
-    while (job.bytes > 0 && bytes_ + job.bytes > max_bytes_) {
+    while (fits && bytes_ + job.bytes > max_bytes_) {
       const auto oldest = nextToDrop();
-      if (oldest == jobs_.end()) break;
+      fits = oldest == jobs_.end() || oldest->replaceable || !job.replaceable;
+      if (oldest == jobs_.end() || !fits) break;
       bytes_ -= oldest->bytes;
       dropped.push_back(std::move(*oldest));
       jobs_.erase(oldest);
     }
   }
   for (const Job& one : dropped) one.drop();
+  if (!fits) return job.drop();
   {
     const std::lock_guard lock(mutex_);
     bytes_ += job.bytes;
@@ -42,10 +45,18 @@ void Worker::push(Job job) {
 }
 
 std::deque<Worker::Job>::iterator Worker::nextToDrop() {
-  const auto has_bytes = [](const Job& job) { return job.bytes > 0; };
-  const auto replaceable = [&](const Job& job) { return has_bytes(job) && job.replaceable; };
+  const auto replaceable = [](const Job& job) { return job.replaceable; };
   const auto found = std::find_if(jobs_.begin(), jobs_.end(), replaceable);
-  return found != jobs_.end() ? found : std::find_if(jobs_.begin(), jobs_.end(), has_bytes);
+  return found != jobs_.end() ? found : jobs_.begin();
+}
+
+// A job that runs out of memory counts as dropped.
+void Worker::runOrDrop(const Job& job) {
+  try {
+    job.run();
+  } catch (const std::exception&) {
+    job.drop();
+  }
 }
 
 void Worker::run() {
@@ -58,7 +69,7 @@ void Worker::run() {
       jobs_.pop_front();
       bytes_ -= job.bytes;
       lock.unlock();
-      job.run();
+      runOrDrop(job);
     }
     lock.lock();
   }

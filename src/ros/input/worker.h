@@ -13,9 +13,9 @@ class Worker {
  public:
   struct Job {
     std::function<void()> run;
-    std::function<void()> drop;  ///< called instead if a job does not fit that is to be pushed, before it is pushed
-    size_t bytes;                ///< held until the job runs; a job of 0 bytes is never dropped
-    bool replaceable = false;    ///< later jobs bring newer data: dropped before other jobs
+    std::function<void()> drop;  ///< called instead if there is no room, before the job that needs the room is pushed
+    size_t bytes;                ///< held until the job runs
+    bool replaceable = false;    ///< later jobs bring newer data: takes no room from jobs that are not replaceable
   };
 
   /// @param max_bytes  of all jobs that wait; the newest may always wait
@@ -25,10 +25,13 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void start();
-  void push(Job job);  ///< drops the oldest of the waiting jobs if it does not fit beside them
+  /// Drops the oldest of the waiting jobs as long as the job does not fit beside them, replaceable ones first. A
+  /// replaceable job that would take the room of others is dropped itself.
+  void push(Job job);
 
  private:
   void run();
+  static void runOrDrop(const Job& job);
   std::deque<Job>::iterator nextToDrop();
 
   const size_t max_bytes_;

@@ -1,0 +1,62 @@
+// The listener of transforms in one process with their publisher, where a published message is queued at once.
+#include "ros/input/frames.h"
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+#include <thread>
+
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+class FramesTest : public testing::Test {
+ protected:
+  void publish(const std::string& child, ros::Time stamp, double x) {
+    tf2_msgs::TFMessage message;
+    geometry_msgs::TransformStamped& transform = message.transforms.emplace_back();
+    transform.header.frame_id = "world";
+    transform.header.stamp = stamp;
+    transform.child_frame_id = child;
+    transform.transform.translation.x = x;
+    transform.transform.rotation.w = 1.0;
+    publisher_.publish(message);
+  }
+
+  // @returns whether the frame comes to lie there
+  bool arrives(const std::string& child, double x) const {
+    for (int i = 0; i < 1000; ++i) {
+      try {
+        if (frames_.lookup("world", child, {}).translation().x() == x) return true;
+      } catch (const FrameError&) {
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+  }
+
+  ros::NodeHandle node_;
+  Frames frames_{node_, /*max_message_size=*/1U << 20U, [](const auto& /*parent*/, const auto& /*child*/) {}};
+  const ros::Publisher publisher_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 20000);
+};
+
+// tf2 would ignore whatever is older than the newest transform of a frame.
+TEST_F(FramesTest, ATransformFromFarAheadSilencesNoFrame) {
+  publish("camera", ros::Time::now() + ros::Duration(3600.0), 1.0);
+  publish("camera", ros::Time::now(), 2.0);
+  EXPECT_TRUE(arrives("camera", 2.0));
+}
+
+TEST_F(FramesTest, FreshNamesFillNoMemoryAndTakeNoRoomFromKnownFrames) {
+  publish("camera", ros::Time::now(), 1.0);
+  ASSERT_TRUE(arrives("camera", 1.0));
+  for (int i = 0; i < 10100; ++i) publish("made_up_" + std::to_string(i), ros::Time::now(), 0.0);
+  publish("camera", ros::Time::now(), 2.0);
+  EXPECT_TRUE(arrives("camera", 2.0));
+  EXPECT_THROW(frames_.lookup("world", "made_up_10050", {}), FrameError);
+  EXPECT_NO_THROW(frames_.lookup("world", "made_up_1000", {}));
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
