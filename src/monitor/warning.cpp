@@ -10,7 +10,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr Duration kUnreadTime = std::chrono::seconds(1);
-constexpr size_t kMaxText = 1000;  // longer texts take no further reasons [bytes]
+constexpr size_t kMaxText = 1000;  // longer texts name no further workpieces [bytes]
 
 std::string inSeconds(Duration duration) {
   char text[32];
@@ -30,7 +30,6 @@ void insert(std::string& text, size_t place, TextPieces pieces) {
 
 void add(Warning& warning, Reason reason, TextPieces message) {
   warning.reasons |= reason;
-  if (warning.text.size() > kMaxText) return;
   if (!warning.text.empty()) warning.text += "; ";
   insert(warning.text, warning.text.size(), message);
 }
@@ -60,13 +59,18 @@ void addCoverageReasons(const WarningInputs& inputs, const Instant& now, const W
   add(warning, kNotCovered, {"predicted path tested for ", inSeconds(ahead), " only"});
 }
 
+void addObject(Warning& warning, Reason reason, TextPieces message) {
+  if (warning.text.size() < kMaxText) return add(warning, reason, message);
+  warning.reasons |= reason;
+}
+
 void addMissing(const WarningInputs& inputs, Warning& warning) {
   if (inputs.objects.empty() && inputs.required.empty()) add(warning, kNoMesh, {"no workpiece yet"});
   auto object = inputs.objects.begin();
   for (const std::string& id : inputs.required) {
     while (object != inputs.objects.end() && object->id < id) ++object;
     if (object != inputs.objects.end() && object->id == id) continue;
-    add(warning, kNoMesh, {"workpiece '", id, "' has not arrived"});
+    addObject(warning, kNoMesh, {"workpiece '", id, "' has not arrived"});
   }
 }
 
@@ -74,14 +78,16 @@ void addObjectReasons(const WarningInputs& inputs, const Instant& now, const War
   addMissing(inputs, warning);
   for (const WarningInputs::Object& object : inputs.objects) {
     if (stale(object.timestamps, now, limits.mesh_timeout)) {
-      add(warning, kMeshStale, {"workpiece '", object.id, "' is ", inSeconds(age(object.timestamps, now)), " old"});
+      addObject(warning, kMeshStale,
+                {"workpiece '", object.id, "' is ", inSeconds(age(object.timestamps, now)), " old"});
     }
-    if (object.dropped) add(warning, kMeshDropped, {"vertices of workpiece '", object.id, "' were dropped"});
+    if (object.dropped) addObject(warning, kMeshDropped, {"vertices of workpiece '", object.id, "' were dropped"});
     if (!inputs.pose || object.swept) continue;
     if (object.behind > Duration::zero()) {
-      add(warning, kNotSwept, {"tool poses are ", inSeconds(object.behind), " behind workpiece '", object.id, "'"});
+      addObject(warning, kNotSwept,
+                {"tool poses are ", inSeconds(object.behind), " behind workpiece '", object.id, "'"});
     } else {
-      add(warning, kNotSwept, {"workpiece '", object.id, "' not swept yet"});
+      addObject(warning, kNotSwept, {"workpiece '", object.id, "' not swept yet"});
     }
   }
   if (inputs.unread && now.steady - inputs.unread->found <= kUnreadTime) {

@@ -113,6 +113,8 @@ void WarningMonitor::meshUnread(const std::string& message, SteadyTime now) {
 void WarningMonitor::updateDropped(const std::string& id, SteadyTime received) {
   {
     const std::lock_guard lock(mutex_);
+    const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
+    if (std::none_of(workpieces_.begin(), workpieces_.end(), same)) return;
     SteadyTime& newest = dropped_[id];
     newest = std::max(newest, received);
     updateObjects();

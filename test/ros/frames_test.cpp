@@ -13,14 +13,19 @@ namespace {
 
 class FramesTest : public testing::Test {
  protected:
-  void publish(const std::string& child, ros::Time stamp, double x) {
-    tf2_msgs::TFMessage message;
-    geometry_msgs::TransformStamped& transform = message.transforms.emplace_back();
+  static geometry_msgs::TransformStamped transformTo(const std::string& child, ros::Time stamp, double x) {
+    geometry_msgs::TransformStamped transform;
     transform.header.frame_id = "world";
     transform.header.stamp = stamp;
     transform.child_frame_id = child;
     transform.transform.translation.x = x;
     transform.transform.rotation.w = 1.0;
+    return transform;
+  }
+
+  void publish(const std::string& child, ros::Time stamp, double x) {
+    tf2_msgs::TFMessage message;
+    message.transforms = {transformTo(child, stamp, x)};
     publisher_.publish(message);
   }
 
@@ -37,8 +42,8 @@ class FramesTest : public testing::Test {
   }
 
   ros::NodeHandle node_;
-  Frames frames_{node_, /*max_message_size=*/1U << 20U, [](const auto& /*parent*/, const auto& /*child*/) {}};
-  const ros::Publisher publisher_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 20000);
+  Frames frames_{node_, /*max_message_size=*/1U << 24U, [](const auto& /*parent*/, const auto& /*child*/) {}};
+  const ros::Publisher publisher_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 10);
 };
 
 // tf2 would ignore whatever is older than the newest transform of a frame.
@@ -51,7 +56,11 @@ TEST_F(FramesTest, ATransformFromFarAheadSilencesNoFrame) {
 TEST_F(FramesTest, FreshNamesFillNoMemoryAndTakeNoRoomFromKnownFrames) {
   publish("camera", ros::Time::now(), 1.0);
   ASSERT_TRUE(arrives("camera", 1.0));
-  for (int i = 0; i < 10100; ++i) publish("made_up_" + std::to_string(i), ros::Time::now(), 0.0);
+  tf2_msgs::TFMessage flood;
+  for (int i = 0; i < 10100; ++i) {
+    flood.transforms.push_back(transformTo("made_up_" + std::to_string(i), ros::Time::now(), 0.0));
+  }
+  publisher_.publish(flood);
   publish("camera", ros::Time::now(), 2.0);
   EXPECT_TRUE(arrives("camera", 2.0));
   EXPECT_THROW(frames_.lookup("world", "made_up_10050", {}), FrameError);

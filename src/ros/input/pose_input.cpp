@@ -13,8 +13,8 @@ using sweep_guard_core::Reason;
 
 constexpr auto kPoseTransformWait = std::chrono::milliseconds(20);
 constexpr auto kPauseOfWaits = std::chrono::milliseconds(200);
-constexpr size_t kMaxMissing = 1000;      // as many as workpieces
-constexpr size_t kMaxMessageSize = 1024;  // with the longest frame name [bytes]
+constexpr size_t kMaxMissing = 1000;       // as many as workpieces
+constexpr size_t kMaxMessageSize = 16384;  // a frame name of any sense fits [bytes]
 constexpr std::uint32_t kQueueLength =
     65536;  // 65 s at 1 kHz; a pose that ROS drops beyond that is a gap in header.seq
 

@@ -25,7 +25,7 @@ void Worker::push(Job job) {
   bool fits = true;
   {
     const std::lock_guard lock(mutex_);
-    while (fits && bytes_ + job.bytes > max_bytes_) {
+    while (fits && job.bytes > 0 && bytes_ + job.bytes > max_bytes_) {
       const auto oldest = nextToDrop();
       fits = oldest == jobs_.end() || oldest->replaceable || !job.replaceable;
       if (oldest == jobs_.end() || !fits) break;
