@@ -80,30 +80,26 @@ void MeshInput::onMessage(const sweep_guard::DeformableMesh::ConstPtr& msg) {
   if (!readable(msg->id, msg->header, mesh_record_)) return;
   const SteadyTime received = std::chrono::steady_clock::now();
   enterConversion(msg->id, /*needed=*/true);
-  const auto convert_and_leave = [this, msg, received] {
-    convert(msg, received);
-    leaveConversion(msg->id);
-  };
-  const auto drop_and_leave = [this, msg, received] {
-    drop(*msg, received);
-    leaveConversion(msg->id);
-  };
-  converting_.push({convert_and_leave, drop_and_leave, sizeOf(*msg)});
+  pushToConversion(msg->id, {[this, msg, received] { convert(msg, received); },
+                             [this, msg, received] { drop(*msg, received); }, sizeOf(*msg)});
 }
 
 void MeshInput::onMessage(const sweep_guard::MeshVertices::ConstPtr& msg) {
   if (!readable(msg->id, msg->header, vertices_record_)) return;
   const SteadyTime received = std::chrono::steady_clock::now();
   if (!enterConversion(msg->id, /*needed=*/false)) return pushToStore(msg, received);
-  const auto store_and_leave = [this, msg, received] {
-    pushToStore(msg, received);
-    leaveConversion(msg->id);
+  pushToConversion(msg->id, {[this, msg, received] { pushToStore(msg, received); },
+                             [this, msg, received] { drop(*msg, received); }, sizeOf(*msg), /*replaceable=*/true});
+}
+
+void MeshInput::pushToConversion(const std::string& id, const Worker::Job& job) {
+  const auto and_leave = [&](const std::function<void()>& work) {
+    return [this, id, work] {
+      work();
+      leaveConversion(id);
+    };
   };
-  const auto drop_and_leave = [this, msg, received] {
-    drop(*msg, received);
-    leaveConversion(msg->id);
-  };
-  converting_.push({store_and_leave, drop_and_leave, sizeOf(*msg), /*replaceable=*/true});
+  converting_.push({and_leave(job.run), and_leave(job.drop), job.bytes, job.replaceable});
 }
 
 // Counts a message that is to go through converting_. One that needs no conversion only follows those that do.

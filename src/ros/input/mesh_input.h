@@ -50,6 +50,7 @@ class MeshInput {
   void unread(const std::string& reason, sweep_guard_core::InputRecord& record);
   bool enterConversion(const std::string& id, bool needed);
   void leaveConversion(const std::string& id);
+  void pushToConversion(const std::string& id, const Worker::Job& job);
   void convert(const sweep_guard::DeformableMesh::ConstPtr& msg, sweep_guard_core::SteadyTime received);
   void pushToStore(const sweep_guard::MeshVertices::ConstPtr& msg, sweep_guard_core::SteadyTime received);
   void store(const sweep_guard::DeformableMesh& msg, sweep_guard_core::SteadyTime received,
