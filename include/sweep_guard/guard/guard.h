@@ -58,7 +58,8 @@ class Guard {
   void predict(Duration age, const Workpieces& workpieces, Prediction& prediction);
 
   /// Predicts the motion after the newest pose without testing it. The newest pose must have been given to sweep(), not
-  /// to pass(). The path is empty as for predict().
+  /// to pass(). The path is empty before the first sweep and until PosePredictor knows a motion. Unlike predict(), this
+  /// does not refuse an old pose.
   /// @param age  of the newest pose, >= 0
   /// @param end  of the prediction, counted from now, > 0
   PredictedMotion predictMotion(Duration age, Duration end) const;

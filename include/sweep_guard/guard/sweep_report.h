@@ -15,8 +15,8 @@ struct SweptObject {
   /// Stamp of the pose that the sweep began at. Times of impact are fractions of the interval from this stamp to the
   /// stamp of the newest pose. A contact that a mesh update caused before this stamp has time 0.
   Time interval_start;
-  /// Time by which the pose is older than updates of the workpiece that are forgotten already: the sweep leaves out how
-  /// the workpiece moved meanwhile. 0: nothing is left out.
+  /// Time by which the pose that the sweep began at is older than the oldest update of the workpiece that is still kept:
+  /// the sweep leaves out how the workpiece moved in between. 0: nothing is left out.
   Duration behind{};
   SweepResult result;
 };

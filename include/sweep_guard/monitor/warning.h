@@ -53,8 +53,8 @@ struct Warning {
 /// @param[out] warning  overwritten; its buffers are used again
 void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning);
 
-/// Returns why the workpieces are not as good as CLEAR needs them, in words; empty if they are. Ignores the poses if
-/// `inputs` has none.
+/// Returns why the workpieces are not as good as CLEAR needs them, in words; empty if they are. Names all faults of
+/// `inputs`, and ignores the poses if it has none.
 std::string meshProblems(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits);
 
 /// Returns the level of a predicted contact that is `time_left` away, as it counts until the next call: kReflex up to

@@ -43,8 +43,10 @@ struct WarningInputs {
   struct Object {
     std::string id;
     Timestamps timestamps;
-    bool swept = false;    ///< swept at the newest pose, with these triangles and frame; maybe with older vertices
-    Duration behind = {};  ///< the newest pose is older by this than a mesh that it should have been swept against
+    bool swept = false;  ///< swept at the newest pose, with these triangles and frame; maybe with older vertices
+    /// The pose at which the last sweep began is older by this than the oldest update that is still kept: how the
+    /// workpiece moved in between was not tested. 0: nothing was left out.
+    Duration behind = {};
     bool dropped = false;  ///< an update was dropped unread, and the workpiece was not swept since
   };
   struct Contact {
@@ -71,8 +73,8 @@ struct WarningInputs {
     SteadyTime found;
   };
 
-  std::optional<Timestamps> pose;  ///< newest pose that has been swept
-  std::vector<Object> objects;
+  std::optional<Timestamps> pose;             ///< newest pose that has been swept
+  std::vector<Object> objects;                ///< ascending by id, each once
   std::optional<Contact> contact;             ///< newest contact; of several in one sweep, the first reported
   std::optional<PredictedContact> predicted;  ///< from the newest prediction of its workpiece
   std::optional<Alarm> reflex;                ///< newest reflex warning that has ended
