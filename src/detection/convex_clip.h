@@ -12,7 +12,7 @@ namespace sweep_guard_core {
 class ClippedTriangle {
  public:
   explicit ClippedTriangle(const std::array<Eigen::Vector3d, 3>& corners)
-      : corners_{corners[0], corners[1], corners[2]}, count_(3) {}
+      : corners_{corners[0], corners[1], corners[2]} {}
 
   /// Keeps what lies within n·p <= d, boundary included. Callable kMaxHalfSpaces times, and only while not empty.
   void cut(const Eigen::Vector3d& normal, double offset);
@@ -23,7 +23,7 @@ class ClippedTriangle {
   using Corners = std::array<Eigen::Vector3d, kMaxCorners>;
 
   Corners corners_;
-  size_t count_;
+  size_t count_ = 3;
 };
 
 /// Tests whether triangles meet a convex volume.

@@ -104,7 +104,8 @@ void SelectDetector::select(const SweptVolume& inflated_M) {
   names_.clear();
   if (in_blocks_.empty()) return;
   for (size_t i = 0; i < in_blocks_.size(); ++i) {  // moves corners forward only: blocks ascend
-    std::copy_n(corners_.begin() + 9 * in_blocks_[i], 9, corners_.begin() + 9 * static_cast<std::ptrdiff_t>(i));
+    std::copy_n(corners_.begin() + 9 * static_cast<std::ptrdiff_t>(in_blocks_[i]), 9,
+                corners_.begin() + 9 * static_cast<std::ptrdiff_t>(i));
   }
   corners_.resize(9 * in_blocks_.size());
   for (const std::uint32_t name : gl_->hits({corners_, 1, clips_, canary})) names_.push_back(in_blocks_[name]);

@@ -163,8 +163,8 @@ class Simplices {
     for (size_t i = 0; i < facet.size(); ++i) span.col(static_cast<Eigen::Index>(i)) = about.col(facet[i]) - center_;
     const Eigen::MatrixXd inverse = span.completeOrthogonalDecomposition().pseudoInverse();
     if (!inverse.allFinite()) return;
-    spans_.push_back(span);
-    inverses_.push_back(inverse);
+    spans_.emplace_back(span);
+    inverses_.emplace_back(inverse);
   }
 
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
@@ -211,6 +211,7 @@ std::vector<Triangle> renumbered(const std::vector<Facet>& facets, const Facet& 
     return static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), i) - corners.begin());
   };
   std::vector<Triangle> triangles;
+  triangles.reserve(facets.size());
   for (const Facet& facet : facets) triangles.push_back({number(facet[0]), number(facet[1]), number(facet[2])});
   return triangles;
 }

@@ -62,8 +62,9 @@ Surface sphereSurface(double radius) {
     const double polar = 0.5 * kTwoPi * ring / kSphereRings;
     for (int sector = 0; sector < kSphereSectors; ++sector) {
       const double azimuth = kTwoPi * sector / kSphereSectors;
-      surface.vertices.push_back(radius * Eigen::Vector3d(std::sin(polar) * std::cos(azimuth),
-                                                          std::sin(polar) * std::sin(azimuth), std::cos(polar)));
+      const Eigen::Vector3d outwards(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                                     std::cos(polar));
+      surface.vertices.emplace_back(radius * outwards);
     }
   }
   for (int ring = 0; ring < kSphereRings; ++ring) {

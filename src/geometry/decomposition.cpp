@@ -159,6 +159,7 @@ std::vector<Set> componentsOf(const TriangleMesh& mesh) {
   std::map<std::uint32_t, Set> by_root;
   for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) by_root[rootOf(mesh.triangles()[i][0])].push_back(i);
   std::vector<Set> components;
+  components.reserve(by_root.size());
   for (auto& [vertex, component] : by_root) components.push_back(std::move(component));
   return components;
 }

@@ -65,6 +65,7 @@ size_t Tool::grow(std::vector<size_t> pieces) {
 
 ConvexShape Tool::boxAround(const std::vector<size_t>& pieces) const {
   std::vector<Moments> moments;
+  moments.reserve(pieces.size());
   for (const size_t piece : pieces) moments.push_back(pieces_[piece].shape_T.moments_T());
   Eigen::Isometry3d X_TB = Eigen::Isometry3d::Identity();
   X_TB.linear() = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(united(moments).covariance).eigenvectors();

@@ -53,7 +53,7 @@ void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const P
   covariances_M_.clear();
   const Eigen::Isometry3d X_MW = X_WM.inverse();
   path_M_.push_back({Duration::zero(), X_MW * X_WT, 0.0});
-  covariances_M_.push_back(Matrix6d::Zero());
+  covariances_M_.emplace_back(Matrix6d::Zero());
   for (const PredictedPose& pose : path) {
     const Motion step_M{path_M_.back().X_MT, X_MW * pose.X_WT};
     path_M_.push_back({pose.ahead, step_M.X_MT_end, chordError(tool_radius_, step_M.angle())});

@@ -13,6 +13,7 @@
 namespace sweep_guard_core {
 
 /// What a sweep leaves for the next one.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving maps of our types does not throw
 struct SweepCache {
   ContactNormals contact_normals = {};  ///< of the triangles in contact
   bool outside = false;                 ///< every piece of the tool is known to be outside the mesh

@@ -204,7 +204,7 @@ void WarningMonitor::updateContact(const SweepReport& report, SteadyTime now) {
   for (const SweptObject& object : report.objects) {
     if (!object.result.contact()) continue;
     const SweepResult& found = object.result;
-    if (!contact) contact.emplace();
+    if (!contact) contact = WarningInputs::Contact{};
     contact->id = object.workpiece->id;
     contact->triangles = found.not_ruled_out;
     contact->found = now;

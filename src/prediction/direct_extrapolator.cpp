@@ -49,7 +49,7 @@ void DirectExtrapolator::measure(const PoseTracker& tracker) {
   const Eigen::Array2d square(velocity.head<3>().squaredNorm(), velocity.tail<3>().squaredNorm());
   if (tracker.step() == PoseTracker::Step::kContinues) speeds_.add(square, toSeconds(tracker.period()));
   const Eigen::Array2d mean = speeds_.mean();
-  for (int i = 0; i < 2; ++i) {
+  for (Eigen::Index i = 0; i < 2; ++i) {
     const double scale = mean[i] > 0.0 ? std::min(std::sqrt(square[i] / mean[i]), kMaxScale) : 0.0;
     velocities_.col(DisplacementRegression::kVelocities - 1).segment<3>(3 * i) = scale * velocity.segment<3>(3 * i);
   }
@@ -64,7 +64,7 @@ Vector6d DirectExtrapolator::displacementIn(double ahead) const {
 
 Eigen::Vector3d DirectExtrapolator::displacementIn(double ahead, const Regressions& regressions,
                                                    const DisplacementRegression::Velocities& velocities) {
-  const DisplacementRegression::Weights weights = interpolateOverHorizons<DisplacementRegression::Weights>(
+  const auto weights = interpolateOverHorizons<DisplacementRegression::Weights>(
       ahead, [&](size_t i) { return regressions[i].weights() / kLearnedHorizons[i]; });
   return ahead * velocities * weights;
 }

@@ -66,6 +66,7 @@ std::vector<std::string> cells(const Contact& contact, std::size_t number, Time 
 
 std::vector<std::string> headings() {
   std::vector<std::string> headings;
+  headings.reserve(std::size(kColumns));
   for (const Column& column : kColumns) headings.emplace_back(column.heading);
   return headings;
 }
