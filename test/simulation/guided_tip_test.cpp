@@ -29,7 +29,7 @@ double turnBetween(const Isometry3d& a, const Isometry3d& b) {
 
 class GuidedTipAtAnyRateTest : public ::testing::TestWithParam<double> {
  protected:
-  const GuidedTip::Limits limits_;
+  const GuidedTip::Limits limits_ = {};
 };
 
 // Speed and change of speed are read off the poses alone, as a listener would.

@@ -107,7 +107,7 @@ void PoseInput::onTransforms() {
     ++waiting_;
     thread_.queue().addCallback(boost::make_shared<Call>([this, pose] {
       --waiting_;
-      acceptOrRefuse(pose.timestamps, [&pose] { return pose; });
+      acceptOrRefuse(pose.timestamps, [&pose]() -> const ReceivedPose& { return pose; });
     }));
   } catch (const FrameError& error) {
     record_.error(error.what(), /*refused=*/false);
