@@ -22,10 +22,10 @@ class OffscreenContext {
   /// Releases the context, so that another thread may make it current. It must be current.
   virtual void release() = 0;
 
-  /// Returns the OpenGL function of that name, or null. The context must be current.
+  /// Returns the OpenGL function with this name, or null. The context must be current.
   virtual Function function(const char* name) = 0;
 
-  /// Loads the OpenGL function of that name. The context must be current.
+  /// Loads the OpenGL function with this name. The context must be current.
   /// @throws DeviceError if there is no such function
   template <typename Pointer>
   Pointer load(const char* name) {

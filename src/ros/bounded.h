@@ -21,8 +21,9 @@ namespace sweep_guard_ros {
 template <typename Msg>
 void checkMessage(Wire wire, size_t max_size) {
   if (wire.size > max_size) {
-    throw sweep_guard_core::InvalidInput("message of " + std::to_string(wire.size) +
-                                         " bytes exceeds limits/max_message_size, " + std::to_string(max_size));
+    throw sweep_guard_core::InvalidInput("message of " + std::to_string(wire.size) + " bytes exceeds the limit of " +
+                                         std::to_string(max_size) +
+                                         " (of meshes and requests: limits/max_message_size)");
   }
   checkLengths<Msg>(wire);
 }

@@ -110,7 +110,9 @@ TEST_F(MeshInputTest, AGoodMeshDoesNotExcuseABadOneThatCameAfterIt) {
     const auto all = workpieces_.snapshot();
     return !all.empty() && all[0]->stamp == fromMsg(begin_ + ros::Duration(0.004));
   }));
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const ros::Time last = begin_ + ros::Duration(0.01);
+  vertices_.publish(raised(*good, last, 1.0F));  // stored after every mesh is accepted
+  ASSERT_TRUE(await([&] { return workpieces_.snapshot()[0]->stamp == fromMsg(last); }));
   EXPECT_NE(problems(10.0).find("refused"), std::string::npos);
 }
 

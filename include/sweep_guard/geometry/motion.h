@@ -21,7 +21,7 @@ struct Motion {
 
   /// Returns the rotation angle from start to end [rad], in [0, pi].
   double angle() const;
-  /// Returns the axis of that rotation in T, unit; any unit vector if the angle is 0.
+  /// Returns the axis of the rotation in T, unit; any unit vector if the angle is 0.
   Eigen::Vector3d axis_T() const;
   /// Returns the pose at a fraction of the motion, in [0, 1].
   Eigen::Isometry3d at(double fraction) const;
@@ -60,7 +60,7 @@ double chordError(const RelativeMotion& motion, double tool_radius);
 
 /// Returns a bound [m] on the distance between the arc of a tool point, while the tool turns, and the chord that
 /// replaces the arc. A swept volume built on chords is conservative once it is grown by this. Linear interpolation of a
-/// curve with |x''| = radius * angle^2 errs by at most an eighth of that.
+/// curve with |x''| = radius * angle^2 errs by at most an eighth of this value.
 /// @param radius  largest distance of a tool point from the rotation axis through the tool frame's origin [m], >= 0
 /// @param angle   rotation between the two poses [rad], in [0, pi]
 double chordError(double radius, double angle);

@@ -38,7 +38,7 @@ class Guard {
   Guard(const Guard&) = delete;
   Guard& operator=(const Guard&) = delete;
 
-  /// Adds a pose that the next sweep passes through. A workpiece whose frame is missing at the pose of that sweep is
+  /// Adds a pose that the next sweep passes through. A workpiece whose frame is missing at the pose of the sweep is
   /// reported as unplaced. Once its frame is known again, it is swept through the added poses that hold its frame.
   /// @param pose  its stamp must not be earlier than the previous pose's; not checked, so reset() after time went back
   void pass(const PoseWithFrames& pose);

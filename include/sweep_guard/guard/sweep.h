@@ -24,7 +24,7 @@ struct SweepOptions {
 struct TriangleContact {
   std::uint32_t triangle;
   size_t piece;   ///< index of the convex piece of the tool that touches the triangle first
-  Impact impact;  ///< first impact of that piece on the triangle
+  Impact impact;  ///< first impact of the piece on the triangle
 };
 
 /// Holds the triangles of one mesh that the tool meets during one motion.

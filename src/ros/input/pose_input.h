@@ -75,7 +75,7 @@ class PoseInput {
   std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
   // Missing transforms by target and source, each with the stamp of the newest one that there was.
   std::map<std::pair<std::string, std::string>, std::optional<sweep_guard_core::Time>> missing_;
-  bool waited_ = false;                         // for a transform of the newest pose, in vain
+  bool waited_ = false;                         // without success, for a transform of the newest pose
   sweep_guard_core::SteadyTime no_wait_until_;  // for frames that tf does not know
   std::string publisher_;                       // of the previous pose
   std::uint32_t sequence_ = 0;                  // of the previous pose
