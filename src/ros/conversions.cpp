@@ -36,6 +36,9 @@ static_assert(equal(Warning::MULTI_PUBLISHER, sweep_guard_core::kMultiPublisher)
 static_assert(equal(Warning::POSE_LOSS, sweep_guard_core::kPoseLoss));
 static_assert(equal(Warning::POSES_UNSWEPT, sweep_guard_core::kPosesUnswept));
 static_assert(equal(Warning::MESH_DROPPED, sweep_guard_core::kMeshDropped));
+static_assert(equal(Warning::WORKER_HUNG, sweep_guard_core::kWorkerHung));
+static_assert(equal(Warning::SELFTEST, sweep_guard_core::kSelftest));
+static_assert(equal(Warning::CROSSCHECK, sweep_guard_core::kCrosscheck));
 static_assert(equal(Warning::UNKNOWN, sweep_guard_core::WarningLevel::kUnknown));
 static_assert(equal(Warning::CLEAR, sweep_guard_core::WarningLevel::kClear));
 static_assert(equal(Warning::CONSIDERED, sweep_guard_core::WarningLevel::kConsidered));

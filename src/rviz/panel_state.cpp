@@ -31,6 +31,9 @@ constexpr std::pair<std::uint32_t, const char*> kReasons[] = {
     {Warning::POSE_LOSS, "tool poses were lost on the way"},
     {Warning::POSES_UNSWEPT, "tool poses wait to be swept"},
     {Warning::MESH_DROPPED, "vertices of a workpiece were dropped"},
+    {Warning::WORKER_HUNG, "the guard hangs"},
+    {Warning::SELFTEST, "the detector failed its test"},
+    {Warning::CROSSCHECK, "two detectors disagree"},
     {Warning::DISABLED, "the guard is disabled: nothing is tested"},
 };
 

@@ -360,7 +360,7 @@ TEST(WarningTest, NamesEveryReasonInItsText) {
 }
 
 TEST(WarningTest, EveryFaultMakesItUnknownUnderItsOwnBit) {
-  for (std::uint32_t bit = 1; bit <= kMeshDropped; bit <<= 1) {
+  for (std::uint32_t bit = 1; bit <= kCrosscheck; bit <<= 1) {
     if ((bit & kDegraded) != 0) continue;
     WarningInputs inputs = allGood();
     inputs.faults[static_cast<Reason>(bit)] = "message";

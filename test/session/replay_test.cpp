@@ -207,10 +207,12 @@ std::vector<std::uint8_t> warningsOf(const fs::path& path) {
 
 // recorded_before.bag holds the first definition of Warning.
 TEST_F(ReplayTest, ABagWithOlderMessagesIsMigratedAndReplayed) {
-  const fs::path old = fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_before.bag";
+  const fs::path source = SWEEP_GUARD_SOURCE_DIR;
+  const fs::path old = source / "test/session/recorded_before.bag";
   EXPECT_TRUE(warningsOf(old).empty());
   std::ostringstream fix;
-  fix << "rosbag fix " << old << ' ' << bag_ << " > " << folder_ / "fixed.txt"
+  fix << "rosbag fix --noplugins " << old << ' ' << bag_ << ' ' << source / "migration_rules/sweep_guard.bmr"
+      << " > " << folder_ / "fixed.txt"
       << " 2>&1";
   ASSERT_EQ(std::system(fix.str().c_str()), 0) << readText(folder_ / "fixed.txt");
   const std::vector<std::uint8_t> levels = warningsOf(bag_);

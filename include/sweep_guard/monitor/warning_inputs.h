@@ -33,6 +33,9 @@ enum Reason : std::uint32_t {
   kPoseLoss = 1U << 16,
   kPosesUnswept = 1U << 17,
   kMeshDropped = 1U << 18,
+  kWorkerHung = 1U << 19,
+  kSelftest = 1U << 20,
+  kCrosscheck = 1U << 21,
 };
 
 /// Reasons that report a degraded state and do not change the level.

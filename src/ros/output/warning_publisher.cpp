@@ -2,6 +2,9 @@
 
 #include <std_msgs/Bool.h>
 
+#include <cstdio>
+#include <random>
+
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -9,6 +12,13 @@ namespace {
 
 constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, polled every 10 ms
 constexpr auto kValid = std::chrono::milliseconds(200);
+
+std::string randomId() {
+  std::random_device random;
+  char id[17];
+  std::snprintf(id, sizeof id, "%08x%08x", random(), random());
+  return id;
+}
 
 std_msgs::Bool flagMessage(bool raised) {
   std_msgs::Bool msg;
@@ -24,7 +34,9 @@ WarningPublisher::WarningPublisher(ros::NodeHandle private_node, const LiveParam
       monitor_(monitor),
       warning_publisher_(private_node.advertise<sweep_guard::Warning>("warning", 10)),
       reflex_publisher_(private_node.advertise<std_msgs::Bool>("reflex_warning", 10)),
-      considered_publisher_(private_node.advertise<std_msgs::Bool>("considered_warning", 10)) {}
+      considered_publisher_(private_node.advertise<std_msgs::Bool>("considered_warning", 10)) {
+  message_.run_id = randomId();
+}
 
 void WarningPublisher::publishIfChanged() {
   const std::lock_guard lock(mutex_);
@@ -60,6 +72,7 @@ void WarningPublisher::publish(bool only_if_changed) {
   next.tool = parameters->tool_frame;
   next.sequence = message_.sequence + (new_level ? 1 : 0);
   next.level_counts = message_.level_counts;
+  next.run_id = message_.run_id;
   if (new_level) ++next.level_counts[next.level];
   next.valid_until = toMsg(at.stamp + kValid);
   const bool reflex_rises = next.reflex && !message_.reflex;
