@@ -5,8 +5,8 @@
 
 namespace sweep_guard_core {
 
-/// The level of a warning, numbered as in sweep_guard/Warning. The numbers do not rank urgency: kUnknown is not weaker
-/// than kClear.
+/// The level of a warning. msg/Warning.msg has the same numbers and explains them. The numbers do not rank urgency:
+/// kUnknown is not weaker than kClear.
 enum class WarningLevel : std::uint8_t { kUnknown = 0, kClear = 1, kConsidered = 2, kReflex = 3, kContact = 4 };
 
 /// Gives a level its name and its color in logs, markers, panel, reports and pictures. Levels differ by name; kReflex

@@ -33,9 +33,9 @@ struct DecompositionOptions {
 std::vector<std::vector<std::uint32_t>> decompose(const TriangleMesh& mesh, const DecompositionOptions& options = {});
 
 /// Returns the convex hulls of the sets of decompose(), in the same order. Each hull contains all corners of its
-/// triangles, so together they contain every point of every triangle, also before the mesh was rounded. They need not
-/// contain the inside of a closed mesh; nothing gets there without touching the surface as long as motion is swept
-/// without gaps.
+/// triangles, so together they contain every point of every triangle, also before TriangleMesh rounded the vertices.
+/// They need not contain the inside of a closed mesh; nothing gets there without touching the surface as long as motion
+/// is swept without gaps.
 /// @throws InvalidInput if an option is out of range
 /// @throws DeviceError as convexHull() does
 std::vector<ConvexShape> convexPieces(const TriangleMesh& mesh_T, const DecompositionOptions& options = {});

@@ -13,7 +13,7 @@ struct Motion {
   Eigen::Isometry3d X_MT_start = Eigen::Isometry3d::Identity();  ///< translation [m]
   Eigen::Isometry3d X_MT_end = Eigen::Isometry3d::Identity();    ///< translation [m]
   /// Bound on the deviation of a tool point from its straight path, arcs of the tool included, if M turns itself or if
-  /// this is a merged motion [m], >= 0; 0 otherwise.
+  /// this motion replaces several [m], >= 0; 0 otherwise, where chordError() bounds the arcs.
   double deviation_bound = 0.0;
   /// Translation of the mesh during the motion [m], in M. The mesh is tested where it is at the end, so the tool may be
   /// anywhere on [pose, pose + mesh_translation] at any time.

@@ -18,9 +18,10 @@ class VertexBlocks {
   /// @returns whether all positions are finite (see simd::Kernels::bound); if not, the boxes are not valid
   bool measure(const std::vector<float>& positions);
 
-  size_t count() const { return count_; }
+  size_t count() const { return count_; }  ///< number of boxes, without padding
 
-  /// Returns one array per side of the boxes [m], padded to simd::kPadding; valid until the next measure().
+  /// Returns one array per side of the boxes [m], padded to a multiple of simd::kPadding with unspecified values; valid
+  /// until the next measure().
   simd::BoxArrays<const float> arrays() const;
 
   /// Returns the box around all positions [m].

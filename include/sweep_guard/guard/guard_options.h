@@ -28,7 +28,8 @@ struct GuardChange {
   GuardOptions options;  ///< start from the current ones: defaults replace them, too
   std::optional<Tool> tool = {};
   std::unique_ptr<Detector> detector = nullptr;
-  /// Made from `options.predictor`; empty: the guard keeps its predictor, what it has learned and its options.
+  /// Made from `options.predictor`; empty: the guard keeps its predictor and what it has learned, and
+  /// `options.predictor` has no effect.
   std::optional<PosePredictor> predictor = {};
 };
 

@@ -30,7 +30,7 @@ struct Warning {
   /// Convex piece of the tool that touched first, if the narrow phase knows; before contact, the piece that is
   /// predicted to touch, or most likely to.
   std::optional<size_t> tool_piece;
-  std::vector<std::uint32_t> triangles;  ///< in contact, or met by the predicted path
+  std::vector<std::uint32_t> triangles;  ///< in contact or not ruled out; before contact, met by the predicted path
   /// Time until the predicted path meets the workpiece of the predicted contact, >= 0; empty: it does not, or the
   /// prediction has ended. At kContact, this may be another workpiece than `mesh_id`.
   std::optional<Duration> time_to_collision;
@@ -42,7 +42,7 @@ struct Warning {
 };
 
 /// Computes the warning. The first level that applies wins, in this order:
-/// - CONTACT: the tool meets a workpiece, or met one within the hold time.
+/// - CONTACT: the tool meets a workpiece, or met one within the hold time. A contact that is not ruled out counts.
 /// - REFLEX, CONSIDERED: the earliest predicted contact lies within this interval now or by the next call, or did so
 ///   within the hold time.
 /// - UNKNOWN: a reason other than kDegraded applies.

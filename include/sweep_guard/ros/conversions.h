@@ -69,7 +69,8 @@ sweep_guard::Contacts toMsg(const sweep_guard_core::SweepReport& report, const s
 /// @param limits  decide the message's interval
 sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age,
                               const sweep_guard_core::WarningLimits& limits);
-/// Returns the time until the predicted collision [s]; infinite if there is none, NaN if unknown.
+/// Returns the time from when the prediction was made until the predicted collision [s]; infinite if there is none, NaN
+/// if unknown.
 double timeToCollision(const sweep_guard::Prediction& prediction);
 
 /// Converts a warning. The caller sets frame, tool, `tool_link`, counters and `valid_until`.
