@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/monitor/reason.h"
 #include "sweep_guard/monitor/warning.h"
 
 namespace sweep_guard_core {
