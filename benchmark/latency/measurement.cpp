@@ -117,6 +117,10 @@ std::size_t unclearWarnings(const Measurement& measured) {
   return within(measured.messages.unclear, measured.begin, measured.end).size();
 }
 
+double sweepsPerSecond(const Measurement& measured) {
+  return measured.perSecond(within(measured.messages.contacts, measured.begin, measured.end).size());
+}
+
 std::vector<LatencyRow> rowsOf(const Measurement& measured) {
   const auto during = [&](const std::vector<ReceivedMessage>& messages) {
     return within(messages, measured.begin, measured.end);

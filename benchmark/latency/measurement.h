@@ -55,6 +55,9 @@ std::vector<LatencyRow> rowsOf(const Measurement& measured);
 /// Returns the number of warnings during the measurement that were not CLEAR.
 std::size_t unclearWarnings(const Measurement& measured);
 
+/// Returns the number of sweeps during the measurement, per second.
+double sweepsPerSecond(const Measurement& measured);
+
 /// Returns the poses sent during the measurement.
 std::vector<Nanoseconds> posesOf(const Measurement& measured);
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
-#include <optional>
 
 #include "evaluation/csv.h"
+#include "latency/requirements.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/quantile.h"
 
@@ -24,39 +24,14 @@ std::string methodOf(const Settings& settings) {
   return settings.label.empty() ? method : method + ", " + settings.label;
 }
 
-double sweepsPerSecond(const Measurement& measured) {
-  return measured.perSecond(within(measured.messages.contacts, measured.begin, measured.end).size());
-}
-
 std::array<double, 4> quantilesOf(const LatencyRow& row) {
   const auto at = [&](double fraction) { return quantile(row.milliseconds, fraction); };
   return {at(0.5), at(0.9), at(0.99), at(1.0)};
 }
 
-// Required p99 from pose to warning over TCPROS on a quiet machine [ms].
-std::optional<double> requiredP99(const Settings& settings) {
-  if (settings.transport != "tcpros") return std::nullopt;
-  if (settings.triangles <= 1600) return 2.0;
-  if (settings.triangles <= 20'000) return 4.0;
-  if (settings.triangles <= 100'000) return 10.0;
-  return std::nullopt;
-}
-
-void printRequirements(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows) {
-  const auto print_one = [](bool passes, const std::string& what, double value, const std::string& bound) {
-    std::printf("%s  %s: %.3g %s\n", passes ? "pass" : "FAIL", what.c_str(), value, bound.c_str());
-  };
-  const auto unswept = static_cast<double>(holes(measured.messages.contacts));
-  print_one(unswept == 0.0, "intervals unswept", unswept, "= 0");
-  if (const std::optional<double> bound = requiredP99(settings)) {
-    const double p99 = quantilesOf(rows[2])[2];
-    const std::string samples = std::to_string(rows[2].milliseconds.size());
-    print_one(p99 <= *bound, "pose to warning, p99 of " + samples + " [ms], on a quiet machine", p99,
-              "<= " + csvNumber(*bound));
-  }
-  if (settings.transport == "nodelet" && settings.triangles >= 1'000'000) {
-    print_one(sweepsPerSecond(measured) >= 30.0, "sweeps per second", sweepsPerSecond(measured), ">= 30");
-  }
+void print(const Requirement& required) {
+  std::printf("%s  %s: %.3g %s\n", required.met ? "pass" : "FAIL", required.figure.c_str(), required.value,
+              required.bound.c_str());
 }
 
 void appendFigures(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows) {
@@ -103,7 +78,7 @@ void print(const Settings& settings, const Measurement& measured, const std::vec
               measured.messages.sweeps_asked, measured.messages.whole_predictions);
   std::printf("guard's process: %.0f %% of a processor, %.1f MB, %+.1f MB during the measurement\n",
               100.0 * measured.processorShare(), measured.after.resident_mb, measured.growthMb());
-  printRequirements(settings, measured, rows);
+  for (const Requirement& required : requirementsOn(settings, measured, rows)) print(required);
   std::fflush(stdout);
 }
 

@@ -4,7 +4,7 @@
 
 namespace sweep_guard_benchmark {
 
-/// Prints the figures as a table, and whether they meet the requirements.
+/// Prints the figures as a table, and which of the requirements they meet.
 void print(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows);
 
 /// Appends the figures to the files of the settings.
