@@ -7,7 +7,7 @@ document=doc/failure-modes.md
 a_test='([a-z_]+\.cpp:[A-Za-z]+\.[A-Za-z]+|[a-z_]+\.sh)'
 
 numbers=$(sed -nE 's/^\| ([0-9]+) \|.*/\1/p' $document | sort -n)
-[[ $numbers == "$(seq 70)" ]] || { echo "the rows are not 1 to 70:" $numbers && exit 1; }
+[[ $numbers == "$(seq 70)" ]] || { echo "the rows are not 1 to 70: $(xargs <<<"$numbers")" && exit 1; }
 without=$(grep -E '^\| [0-9]+ \|' $document | grep -vE "$a_test" || true)
 [[ -z $without ]] || { echo "no test: $without" && exit 1; }
 

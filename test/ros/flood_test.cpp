@@ -130,7 +130,7 @@ void sendTenPoses(int /*i*/) {
   for (int i = 0; i < 10; ++i) probe().publish(poseAt(kAway, now + ros::Duration(0, i)));
 }
 
-// A connection that says nothing, or no header.
+// A connection that says nothing, or breaks off in its first number.
 void connectAndLeave(int i) {
   static const std::uint16_t port = guardPort();
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
@@ -139,7 +139,7 @@ void connectAndLeave(int i) {
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   if (connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 && i % 2 == 0) {
-    static_cast<void>(send(socket, "no header", 9, MSG_NOSIGNAL));
+    static_cast<void>(send(socket, "no", 2, MSG_NOSIGNAL));
   }
   close(socket);
 }
