@@ -1,9 +1,19 @@
+# An overrun of the stack or of a buffer whose size is known ends the process. A sanitizer has its own checks.
+if(SWEEP_GUARD_SANITIZE)
+  set(protection -fsanitize=${SWEEP_GUARD_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  set(link_protection -fsanitize=${SWEEP_GUARD_SANITIZE})
+else()
+  set(protection -fstack-protector-strong -fstack-clash-protection $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
+  set(link_protection -Wl,-z,relro,-z,now,--no-undefined)
+endif()
+
 # Settings of every target of ours: the headers of other packages are system headers, so that warnings in them are not errors.
 function(sweep_guard_target target)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual $<$<BOOL:${SWEEP_GUARD_WERROR}>:-Werror>)
-  target_link_options(${target} PRIVATE -Wl,--no-undefined)
+  target_compile_options(${target} PRIVATE ${protection})
+  target_link_options(${target} PRIVATE ${link_protection})
 endfunction()
 
 add_library(sweep_guard_catkin INTERFACE)

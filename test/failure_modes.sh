@@ -1,13 +1,14 @@
 #!/bin/bash
-# failure_modes.sh SOURCE: doc/failure-modes.md has the rows 1 to 45, each with a test, and every test that it names as
-# file.cpp:Suite.Name is there.
+# failure_modes.sh SOURCE: doc/failure-modes.md has the rows 1 to 70, each with a test, and every test that it or doc/threats.md
+# names as file.cpp:Suite.Name or file.sh is there.
 set -euo pipefail
 cd "$1"
 document=doc/failure-modes.md
+a_test='([a-z_]+\.cpp:[A-Za-z]+\.[A-Za-z]+|[a-z_]+\.sh)'
 
-numbers=$(sed -nE 's/^\| ([0-9]+) \|.*/\1/p' $document)
-[[ $numbers == "$(seq 45)" ]] || { echo "the rows are not 1 to 45: $numbers" && exit 1; }
-without=$(grep -E '^\| [0-9]+ \|' $document | grep -vE '[a-z_]+\.cpp:[A-Za-z]+\.[A-Za-z]+' || true)
+numbers=$(sed -nE 's/^\| ([0-9]+) \|.*/\1/p' $document | sort -n)
+[[ $numbers == "$(seq 70)" ]] || { echo "the rows are not 1 to 70: $(xargs <<<"$numbers")" && exit 1; }
+without=$(grep -E '^\| [0-9]+ \|' $document | grep -vE "$a_test" || true)
 [[ -z $without ]] || { echo "no test: $without" && exit 1; }
 
 status=0
@@ -16,5 +17,8 @@ while IFS=:. read -r file _ suite name; do
   if ! cat "${sources[@]}" /dev/null | tr '\n' ' ' | grep -qE "TEST(_F|_P)?\($suite, +$name\)"; then
     echo "there is no $file.cpp:$suite.$name" && status=1
   fi
-done < <(grep -oE '[a-z_]+\.cpp:[A-Za-z]+\.[A-Za-z]+' $document | sort -u)
+done < <(grep -ohE '[a-z_]+\.cpp:[A-Za-z]+\.[A-Za-z]+' $document doc/threats.md | sort -u)
+while read -r file; do
+  [[ -n $(find test -name "$file") ]] || { echo "there is no $file" && status=1; }
+done < <(grep -ohE '[a-z_]+\.sh\b' $document doc/threats.md | sort -u)
 exit $status

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "ros/process.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
@@ -16,6 +17,7 @@ int runNode(int argc, char** argv, const std::string& name) {
   ros::init(argc, argv, name);
   sweep_guard_ros::ParameterReader parameters{
       ros::NodeHandle("~")};  // outlives the node: without a handle the console is silent
+  sweep_guard_ros::keepToLoopback();
   try {
     Node node(parameters);
     parameters.warnOfUnread();

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   return sweep_guard_core::runProgram("sweep_guard_node", [&] {
     ros::init(argc, argv, "sweep_guard");  // throws at a refused name or remapping
     const ros::NodeHandle alive;           // the console is silent without a handle
+    sweep_guard_ros::keepToLoopback();
     try {
       const sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~")};
       sweep_guard_ros::limitMemory(node.parameters().max_memory);

@@ -1,11 +1,17 @@
 #include "ros/process.h"
 
+#include <netinet/in.h>
 #include <pthread.h>
+#include <ros/console.h>
+#include <ros/network.h>
+#include <ros/xmlrpc_manager.h>
 #include <sched.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <system_error>
 
@@ -23,7 +29,31 @@ constexpr size_t kHeadroom = 256;  // [MiB]
   return pages * static_cast<size_t>(sysconf(_SC_PAGESIZE)) >> 20U;
 }
 
+bool listensOn(int socket, int port) {
+  int listens = 0;
+  socklen_t size = sizeof listens;
+  if (getsockopt(socket, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) != 0 || listens == 0) return false;
+  sockaddr_in address{};
+  size = sizeof address;
+  return getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0 && ntohs(address.sin_port) == port;
+}
+
+bool isLoopback(const std::string& host) { return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0; }
+
 }  // namespace
+
+// roscpp has no setting for the address of its server, and does not hand out the socket.
+void keepToLoopback() {
+  if (!isLoopback(ros::network::getHost())) return;
+  const int port = ros::XMLRPCManager::instance()->getServerPort();
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    const int socket = std::stoi(entry.path().filename());
+    if (!listensOn(socket, port)) continue;
+    constexpr char kLoopback[] = "lo";
+    if (setsockopt(socket, SOL_SOCKET, SO_BINDTODEVICE, kLoopback, sizeof kLoopback) == 0) return;
+  }
+  ROS_WARN("other hosts can call this node, although ROS_IP or ROS_HOSTNAME names the loopback interface");
+}
 
 // SCHED_RESET_ON_FORK: threads started by this one do not inherit the priority.
 std::string requestRealTime(int priority) {

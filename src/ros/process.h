@@ -10,6 +10,10 @@ namespace sweep_guard_ros {
 /// @returns the reason of a refusal, and what to set; empty if granted
 std::string requestRealTime(int priority);
 
+/// Lets the XML-RPC server of roscpp, which listens on every interface, answer on the loopback interface alone if ROS_IP or
+/// ROS_HOSTNAME is there. Call it when the first node handle exists. Logs a failure.
+void keepToLoopback();
+
 /// Limits the address space of the process; what does not fit throws std::bad_alloc. Does nothing in builds with a
 /// sanitizer, which reserves terabytes.
 /// @param max_memory  [MiB]; 0: no limit

@@ -1,6 +1,9 @@
 // Floods of harmless and of wrong messages, at 1 kHz beside good inputs, on the wall clock.
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <tf2_msgs/TFMessage.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -121,6 +124,26 @@ void sendLongName(int i) {
   transforms.publish(message);
 }
 
+// Ten of one millisecond, each a nanosecond after the one before.
+void sendTenPoses(int /*i*/) {
+  const ros::Time now = ros::Time::now();
+  for (int i = 0; i < 10; ++i) probe().publish(poseAt(kAway, now + ros::Duration(0, i)));
+}
+
+// A connection that says nothing, or breaks off in its first number.
+void connectAndLeave(int i) {
+  static const std::uint16_t port = guardPort();
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 && i % 2 == 0) {
+    static_cast<void>(send(socket, "no", 2, MSG_NOSIGNAL));
+  }
+  close(socket);
+}
+
 class FloodTest : public ::testing::TestWithParam<Flood> {};
 
 TEST_P(FloodTest, LeavesNothingBehind) {
@@ -174,7 +197,9 @@ INSTANTIATE_TEST_SUITE_P(Floods, FloodTest,
                          ::testing::Values(Flood{"OfMeshesDeliveredAgain", sendMeshAgain},
                                            Flood{"OfStrayVertices", sendStrayVertices},
                                            Flood{"OfForgedLengths", sendForgedLength},
-                                           Flood{"OfPosesAnHourOld", sendOldPose}, Flood{"OfLongNames", sendLongName}),
+                                           Flood{"OfPosesAnHourOld", sendOldPose}, Flood{"OfLongNames", sendLongName},
+                                           Flood{"OfPosesAtTenKilohertz", sendTenPoses},
+                                           Flood{"OfConnections", connectAndLeave}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -22,23 +22,36 @@ double statusMegabytes(pid_t pid, const std::string& key) {
   return 0.0;
 }
 
+bool askGuard(const char* method, const XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& response) {
+  XmlRpc::XmlRpcValue lookup;
+  lookup[0] = "sweep_guard_test";
+  lookup[1] = "/sweep_guard";
+  XmlRpc::XmlRpcValue uri;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::master::execute("lookupNode", lookup, response, uri, /*wait_for_master=*/false)) return false;
+  if (!ros::network::splitURI(uri, host, port)) return false;
+  XmlRpc::XmlRpcClient guard(host.c_str(), static_cast<int>(port), "/");
+  return guard.execute(method, request, response) && response.size() >= 3;
+}
+
 }  // namespace
 
 pid_t guardPid() {
   XmlRpc::XmlRpcValue request;
   request[0] = "sweep_guard_test";
-  request[1] = "/sweep_guard";
   XmlRpc::XmlRpcValue response;
-  XmlRpc::XmlRpcValue uri;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::master::execute("lookupNode", request, response, uri, /*wait_for_master=*/false)) return 0;
-  if (!ros::network::splitURI(uri, host, port)) return 0;
-  XmlRpc::XmlRpcClient guard(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller;
-  caller[0] = "sweep_guard_test";
-  if (!guard.execute("getPid", caller, response) || response.size() < 3) return 0;
-  return static_cast<int>(response[2]);
+  return askGuard("getPid", request, response) ? static_cast<int>(response[2]) : 0;
+}
+
+std::uint16_t guardPort() {
+  XmlRpc::XmlRpcValue request;
+  request[0] = "sweep_guard_test";
+  request[1] = "/sweep_guard/warning";
+  request[2][0][0] = "TCPROS";
+  XmlRpc::XmlRpcValue response;
+  if (!askGuard("requestTopic", request, response)) throw std::runtime_error("the guard does not answer");
+  return static_cast<std::uint16_t>(static_cast<int>(response[2][2]));
 }
 
 double residentMegabytes(pid_t pid) { return statusMegabytes(pid, "VmRSS"); }

@@ -6,13 +6,15 @@
 #include <sys/types.h>
 
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <vector>
 
 namespace sweep_guard_ros {
 
-pid_t guardPid();  ///< of the node /sweep_guard; 0: it does not answer
+pid_t guardPid();           ///< of the node /sweep_guard; 0: it does not answer
+std::uint16_t guardPort();  ///< TCP port of its topics
 
 /// What the kernel knows about a process.
 double residentMegabytes(pid_t pid);
