@@ -32,17 +32,22 @@ in_build() {
 }
 
 # by_turns ROUND PROGRAM [ARGUMENT]... - of both builds, one after the other; in odd rounds the older one first. What today's
-# program finds wrong makes `code` 1
+# program finds wrong makes `code` 1. The command `beside`, if there is one, runs beside the newer one
 by_turns() {
-  local age ages=(older newer) result
+  local age ages=(older newer) result companion
   (($1 % 2)) || ages=(newer older)
   for age in "${ages[@]}"; do
-    result=0
+    result=0 companion=
+    if [[ $age == newer && ${beside[*]:-} ]]; then
+      start in_build "$build" "${beside[@]}" >"$figures/beside.log" 2>&1
+      companion=$!
+    fi
     start in_build "$([[ $age == newer ]] && echo "$build" || echo "$against")" "${@:2}" --csv "$figures/$age.csv" \
       >"$figures/$age.log" 2>&1
     wait $! || result=$?
     [[ $result -le 1 ]] || status=2 fail "$2 of the $age build has failed: $(tail -3 "$figures/$age.log")"
     [[ $age == older || $result == 0 ]] || code=1
+    [[ -z $companion ]] || end "$companion"
   done
 }
 

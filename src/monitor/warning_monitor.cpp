@@ -296,12 +296,28 @@ void WarningMonitor::restart() {
 void WarningMonitor::disable(const std::string& asked_by) {
   {
     const std::lock_guard lock(mutex_);
-    if (inputs_.disabled_by) return;
-    restartLocked();
-    inputs_.contact.reset();
-    inputs_.disabled_by = asked_by;
+    disableLocked(asked_by);
   }
   on_fault_();
+}
+
+void WarningMonitor::disableLocked(const std::string& asked_by) {
+  if (inputs_.disabled_by) return;
+  restartLocked();
+  inputs_.contact.reset();
+  inputs_.disabled_by = asked_by;
+}
+
+std::string WarningMonitor::disableBelow(WarningLevel level, const Instant& now, const std::string& asked_by) {
+  {
+    const std::lock_guard lock(mutex_);
+    Warning warning;
+    computeLocked(now, warning);
+    if (warning.level >= level) return warning.text;
+    disableLocked(asked_by);
+  }
+  on_fault_();
+  return {};
 }
 
 void WarningMonitor::enable() {
@@ -331,6 +347,10 @@ void WarningMonitor::setLimits(const WarningLimits& limits) {
 
 void WarningMonitor::warning(const Instant& now, Warning& warning) const {
   const std::lock_guard lock(mutex_);
+  computeLocked(now, warning);
+}
+
+void WarningMonitor::computeLocked(const Instant& now, Warning& warning) const {
   inputs_.covered_until = coveredUntil(now);
   inputs_.waiting_since = waiting_since_();
   computeWarning(inputs_, now, limits_, warning);

@@ -18,6 +18,8 @@ using sweep_guard_core::Instant;
 using sweep_guard_core::SteadyTime;
 using sweep_guard_core::Timestamps;
 
+constexpr Duration kMaxWait = std::chrono::milliseconds(500);  // for a sweep to end, before a change or a reset
+
 // A passed pose is swept as a part of the motion to the next one.
 bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
   const auto& frames = queued.pose.X_WM;
@@ -65,7 +67,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
     dependencies_.statistics.setCycle(next->guard.cycle);
     dependencies_.parameters.set(next);
   };
-  dependencies_.queue.submit<void>(exchange).get();
+  runInTime(exchange, "no parameter was changed");
 }
 
 void GuardThread::reset() {
@@ -73,16 +75,26 @@ void GuardThread::reset() {
   sweep_guard_core::GuardChange change;
   change.options = dependencies_.parameters.get()->guard;
   change.predictor.emplace(change.options.predictor);
-  dependencies_.monitor.restart();
   const auto forget = [&] {
+    dependencies_.monitor.restart();
     guard_.reset();
     guard_.exchange(change);
     passed_.clear();
     swept_.reset();
     dependencies_.scene.clear();
   };
-  dependencies_.queue.submit<void>(forget).get();
+  runInTime(forget, "nothing was reset");
   dependencies_.statistics.restart();
+}
+
+void GuardThread::runInTime(const std::function<void()>& task, const std::string& otherwise) {
+  try {
+    dependencies_.queue.run(task, kMaxWait);
+  } catch (const std::future_error&) {
+    throw Error("the guard is shutting down: " + otherwise);
+  } catch (const Error& error) {
+    throw Error(std::string(error.what()) + ": " + otherwise);
+  }
 }
 
 std::future<PredictService::Motion> GuardThread::predictMotion(Duration horizon) {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -47,10 +49,11 @@ class GuardThread {
   void stop();  ///< drops the queued work
 
   /// Sets other parameters for the guard and the node. Returns when they are set. Any thread.
-  /// @throws sweep_guard_core::Error if the guard is busy or shutting down
+  /// @throws sweep_guard_core::Error if a sweep lasts longer than 0.5 s, or the guard is shutting down; then nothing is
+  ///     set, also later
   void apply(const std::shared_ptr<const Parameters>& next);
   /// Forgets everything but the workpieces. Returns when that is done. Any thread.
-  /// @throws sweep_guard_core::Error if the guard is busy or shutting down
+  /// @throws sweep_guard_core::Error as apply(); then nothing is forgotten, also later
   void reset();
   /// Predicts the motion up to a horizon counted from now. Any thread. The future throws sweep_guard_core::Error if the
   /// motion is unknown.
@@ -58,6 +61,7 @@ class GuardThread {
 
  private:
   void run();
+  void runInTime(const std::function<void()>& task, const std::string& otherwise);
   void process(const QueuedPose& queued, const QueuedPose* next);
   void pass(const sweep_guard_core::PoseWithFrames& pose);
   void sweep(const QueuedPose& queued);

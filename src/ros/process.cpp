@@ -8,6 +8,7 @@
 #include <sched.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -65,6 +66,9 @@ std::string requestRealTime(int priority) {
          ". Allow it with the line 'USER - rtprio " + std::to_string(priority) +
          "' in /etc/security/limits.conf and a new login, or set timing/realtime_priority to 0";
 }
+
+// On Linux, setpriority() is of one thread.
+void setNice(int nice) { setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), nice); }
 
 void limitMemory(size_t max_memory) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -14,6 +14,10 @@ std::string requestRealTime(int priority);
 /// ROS_HOSTNAME is there. Call it when the first node handle exists. Logs a failure.
 void keepToLoopback();
 
+/// Lowers the priority of the calling thread: its share of a busy processor, and of those of threads it starts.
+/// @param nice  0 (as others) to 19 (runs when nothing else does)
+void setNice(int nice);
+
 /// Limits the address space of the process; what does not fit throws std::bad_alloc. Does nothing in builds with a
 /// sanitizer, which reserves terabytes.
 /// @param max_memory  [MiB]; 0: no limit

@@ -1,5 +1,6 @@
 #include "ros/work_queue.h"
 
+#include <atomic>
 #include <iterator>
 
 #include "sweep_guard/common/error.h"
@@ -33,6 +34,16 @@ void WorkQueue::pushTask(std::function<void()> task) {
     work_.tasks.push_back(std::move(task));
   }
   changed_.notify_all();
+}
+
+void WorkQueue::run(const std::function<void()>& task, sweep_guard_core::Duration timeout) {
+  const auto decided = std::make_shared<std::atomic<bool>>(false);  // to run it, or to drop it
+  std::future<void> done = submit<void>([&task, decided] {
+    if (!decided->exchange(true)) task();
+  });
+  const bool in_time = done.wait_for(timeout) == std::future_status::ready;
+  if (!in_time && !decided->exchange(true)) throw sweep_guard_core::Error("the guard is stuck in a sweep");
+  done.get();
 }
 
 bool WorkQueue::take(Work& taken) {

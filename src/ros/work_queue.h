@@ -41,6 +41,11 @@ class WorkQueue {
     return packaged->get_future();
   }
 
+  /// Runs a task and returns when it is done.
+  /// @param timeout  a task that has not begun by then is dropped: it does not run later
+  /// @throws sweep_guard_core::Error as submit(), or if the task was dropped; and what the task throws
+  void run(const std::function<void()>& task, sweep_guard_core::Duration timeout);
+
   /// Waits for work, and takes all tasks and the oldest poses, at most 4096.
   /// @param[out] taken  overwritten
   /// @returns false after stop()

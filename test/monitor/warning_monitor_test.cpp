@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 #include "refusal.h"
 
 namespace sweep_guard_core {
@@ -657,6 +660,42 @@ TEST_F(WarningMonitorTest, NewLimitsApplyFromTheNextWarningOn) {
   limits.pose_timeout = milliseconds(40);
   monitor_.setLimits(limits);
   EXPECT_NE(reasonsAt(1050) & kPoseStale, 0U);
+}
+
+// A contact that is reported while the level is tested is not counted and then hidden.
+TEST(DisablingTest, IsOneStepWithTheTestOfTheLevel) {
+  const Workpieces workpieces = {workpiece("liver", 1000)};
+  SweepReport contact = reportOf(workpieces, {3});
+  contact.failures.push_back({workpieces[0], "calls back if the sweep counts"});
+  for (int round = 0; round < 500; ++round) {
+    static thread_local bool sweeps = false;
+    std::atomic<bool> tested = false;
+    std::atomic<bool> counted = false;
+    const auto on_fault = [&] { counted = counted || sweeps; };
+    const auto while_tested = [&]() -> std::optional<SteadyTime> {
+      tested = true;
+      return std::nullopt;
+    };
+    WarningMonitor monitor(kLimits, on_fault, while_tested);
+    monitor.setWorkpieces(workpieces);
+    std::atomic<bool> ready = false;
+    std::thread guard([&, round, checkpoint = monitor.checkpoint()] {
+      ready = sweeps = true;
+      while (!tested) continue;
+      for (std::atomic<int> wait = round % 500; wait > 0;) --wait;  // a little later each time
+      monitor.swept(contact, timestampsAt(1000), checkpoint, at(1000).steady);
+    });
+    while (!ready) std::this_thread::yield();
+    EXPECT_EQ(monitor.disableBelow(WarningLevel::kReflex, at(1000), "a test"), "");
+    guard.join();
+    ASSERT_FALSE(counted) << "round " << round;
+  }
+}
+
+TEST_F(WarningMonitorTest, IsNotDisabledFromALevelOn) {
+  sweep(reportOf(workpieces_, {3}), 1000);
+  EXPECT_TRUE(has(monitor_.disableBelow(WarningLevel::kReflex, at(1000), "a test"), "CONTACT"));
+  EXPECT_FALSE(monitor_.disabledBy());
 }
 
 }  // namespace

@@ -529,7 +529,10 @@ TEST_F(HostileTest, CallsOfManyClientsAreAllAnsweredWhilePosesAreSwept) {
       ros::ServiceClient client = ros::NodeHandle().serviceClient<CheckSweep>("/sweep_guard/check_sweep");
       CheckSweep::Request asked = request;
       CheckSweep::Response response;
-      for (int call = 0; call < 5; ++call) answered += client.call(asked, response) && response.success ? 1 : 0;
+      for (int call = 0; call < 5; ++call) {
+        const bool well = client.call(asked, response) && (response.success || has(response.message, "BUSY"));
+        answered += well ? 1 : 0;
+      }
     });
   }
   for (int i = 0; i < 20; ++i) moveTo(kAway);

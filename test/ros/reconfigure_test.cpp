@@ -305,6 +305,14 @@ TEST_F(ReconfigureTest, TheRateDecidesHowManySweepsThereIsTimeFor) {
   EXPECT_LT(fast.sweeps_made, slow.sweeps_made);
 }
 
+TEST_F(ReconfigureTest, PathsAreGivenUpSoonerOrLater) {
+  placeSquare("square", {0.0, 0.0, 0.0});
+  sweep_guard::CheckSweep::Request request = requestAlong(std::vector<Eigen::Vector3d>(1024, {0.0, 0.0, -0.05}));
+  EXPECT_TRUE(probe().check(request).success);
+  change("check_sweep/deadline", 0.01);
+  EXPECT_TRUE(has(probe().check(request).message, "check_sweep/deadline"));
+}
+
 TEST_F(ReconfigureTest, PosesBecomeStaleSoonerOrLater) {
   placeSquare("square", {0.0, 0.0, -1.0});
   change("timing/pose_timeout", 0.1);

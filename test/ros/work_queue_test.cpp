@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 
 #include "sweep_guard/common/error.h"
@@ -118,6 +119,33 @@ TEST(WorkQueueTest, RefusesTooManyTasks) {
   WorkQueue::Work taken;
   ASSERT_TRUE(queue.take(taken));
   EXPECT_NO_THROW(submit(queue, 0));
+}
+
+TEST(WorkQueueTest, ATaskThatCannotBeginInTimeNeverRuns) {
+  WorkQueue queue;
+  bool ran = false;
+  EXPECT_THROW(queue.run([&] { ran = true; }, std::chrono::milliseconds(1)), sweep_guard_core::Error);
+  WorkQueue::Work taken;
+  ASSERT_TRUE(queue.take(taken));
+  for (const auto& task : taken.tasks) task();
+  EXPECT_FALSE(ran);
+}
+
+TEST(WorkQueueTest, ATaskThatHasBegunIsWaitedFor) {
+  WorkQueue queue;
+  std::thread guard([&] {
+    WorkQueue::Work taken;
+    ASSERT_TRUE(queue.take(taken));
+    taken.tasks.front()();
+  });
+  std::atomic<bool> ended = false;
+  const auto task = [&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ended = true;
+  };
+  EXPECT_NO_THROW(queue.run(task, std::chrono::seconds(20)));
+  EXPECT_TRUE(ended);
+  guard.join();
 }
 
 TEST(WorkQueueTest, StoppingEndsEveryWait) {

@@ -97,6 +97,10 @@ class WarningMonitor {
   /// @param asked_by  name of the caller, for the text
   void disable(const std::string& asked_by);
 
+  /// Disables only below a level: no report comes between the test of the level and disable().
+  /// @returns the text of the warning that forbids it; empty: disabled
+  std::string disableBelow(WarningLevel level, const Instant& now, const std::string& asked_by);
+
   /// Ends disable() with a restart(): motion while disabled was not swept. Does nothing if enabled already.
   void enable();
 
@@ -126,6 +130,8 @@ class WarningMonitor {
   using Refusals = std::map<std::string, WarningInputs::Event>;  // by id
 
   void restartLocked();
+  void disableLocked(const std::string& asked_by);
+  void computeLocked(const Instant& now, Warning& warning) const;
   void addFault(Reason reason, const std::string& message);
   void refuse(Refusals& refusals, const std::string& id, const WarningInputs::Event& refusal);
   void accept(Refusals& refusals, const std::string& id, SteadyTime received);

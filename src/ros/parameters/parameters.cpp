@@ -44,6 +44,7 @@ const std::vector<std::string> kChangeable = {"tool/padding",
                                               "timing/pose_timeout",
                                               "timing/mesh_timeout",
                                               "timing/marker_rate",
+                                              "check_sweep/deadline",
                                               "limits/max_speed",
                                               "limits/max_turn_rate"};
 const std::string kMarkers = "markers/";
@@ -243,6 +244,9 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
     if (read.flag(kMarkers + name, true, "Publishes the namespace " + name + " of ~markers."))
       parameters.marker_namespaces.insert(name);
   }
+  parameters.check_sweep_deadline = toDuration(
+      read.number("check_sweep/deadline", 1.0, {0.01, 60.0, "s"},
+                  "~check_sweep gives a path up that takes longer to test. At most 4 calls wait meanwhile."));
   parameters.realtime_priority = read.integer("timing/realtime_priority", 0, 0, 99,
                                               "Above 0 the sweeping thread asks for this real-time priority "
                                               "(SCHED_FIFO). If the system refuses, the log says what to set.");

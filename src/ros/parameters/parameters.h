@@ -33,9 +33,10 @@ struct Parameters {
   sweep_guard_core::WarningLimits limits;
   double marker_rate;                       ///< [Hz]
   std::set<std::string> marker_namespaces;  ///< published ones
-  int realtime_priority;                    ///< of the guard's thread; 0: none
-  std::set<std::string> mesh_ids;           ///< workpieces that must be there; empty: all that come
-  bool allow_several_publishers;            ///< of tool poses
+  sweep_guard_core::Duration check_sweep_deadline;
+  int realtime_priority;           ///< of the guard's thread; 0: none
+  std::set<std::string> mesh_ids;  ///< workpieces that must be there; empty: all that come
+  bool allow_several_publishers;   ///< of tool poses
   size_t max_triangles;
   size_t max_message_size;               ///< [bytes]
   size_t max_memory;                     ///< of the node's process [MiB]; 0: no limit

@@ -4,6 +4,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 #include "ros/bounded.h"
@@ -15,6 +16,8 @@ namespace {
 
 using dynamic_reconfigure::Config;
 using dynamic_reconfigure::ConfigDescription;
+
+constexpr auto kMaxWrite = std::chrono::milliseconds(500);
 
 const std::string kRoot = "Default";  // name that clients expect
 
@@ -138,6 +141,7 @@ ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_node, const 
     : private_node_(private_node),
       parameters_(parameters),
       apply_(std::move(apply)),
+      writer_(private_node),
       descriptions_(private_node_.advertise<ConfigDescription>("parameter_descriptions", 1, /*latch=*/true)),
       values_(private_node_.advertise<Config>("parameter_updates", 1, /*latch=*/true)),
       server_(advertiseBounded<Event>(
@@ -178,13 +182,19 @@ void ReconfigureServer::change(const Config& request, const std::string& caller)
   if (changes.empty()) return;
   apply_(next);
   std::string text;
+  std::map<std::string, ParameterValue> values;
   for (const ParameterChange& change : changes) {
-    std::visit([&](const auto& value) { private_node_.setParam(change.key, value); }, change.after);
+    values[change.key] = change.after;
     text += (text.empty() ? "" : ", ") + change.key + " from " + shown(change.before) + " to " + shown(change.after);
   }
   ROS_INFO("%s changed %s", caller.c_str(), text.c_str());
-  const std::lock_guard lock(mutex_);
-  history_.last_change = text + " (by " + caller + ")";
+  {
+    const std::lock_guard lock(mutex_);
+    history_.last_change = text + " (by " + caller + ")";
+  }
+  if (writer_.write(values, kMaxWrite)) return;
+  throw sweep_guard_core::Error("applied: " + text +
+                                ". The parameter server does not answer, and has the old values until it does");
 }
 
 void ReconfigureServer::publishValues() { values_.publish(values(*parameters_.get())); }

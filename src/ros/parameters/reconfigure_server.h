@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 
+#include "ros/parameters/parameter_writer.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/ros/queue_thread.h"
 
@@ -17,7 +18,8 @@ namespace sweep_guard_ros {
 
 /// Changes parameters while the node runs, by the protocol of dynamic_reconfigure: `~set_parameters`,
 /// `~parameter_descriptions`, `~parameter_updates`. Names, ranges and checks are those of loadParameters(). A request
-/// is applied as a whole, or refused as a whole with a message.
+/// is applied as a whole, or refused as a whole with a message. If the parameter server does not take the applied
+/// values, the answer is an error that says so.
 class ReconfigureServer {
  public:
   /// Applies parameters that differ from the current ones. Returns when that is done, or throws and changes nothing.
@@ -47,6 +49,7 @@ class ReconfigureServer {
   const Apply apply_;
   mutable std::mutex mutex_;
   History history_;
+  ParameterWriter writer_;
   QueueThread thread_;  // before the server, which uses its queue
   ros::Publisher descriptions_;
   ros::Publisher values_;

@@ -46,11 +46,14 @@ CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const 
       workpieces_(workpieces),
       monitor_(monitor),
       server_(advertiseBounded<ros::ServiceSpec<CheckSweep::Request, CheckSweep::Response>>(
-          thread_.on(private_node), "check_sweep", live.initial().max_message_size,
+          calls_.on(private_node), "check_sweep", live.initial().max_message_size,
           [this](auto& request, auto& response) { return onCall(request, response); }, refuse)) {}
 
 // Answers errors by a message: a failed ROS call gives the caller none.
 bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Response& response) {
+  if (LimitedCalls::refused()) {
+    return refuse("BUSY: " + std::to_string(LimitedCalls::kMaxWaiting) + " calls wait already; ask again", response);
+  }
   const auto begin = std::chrono::steady_clock::now();
   response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
   try {
@@ -86,15 +89,17 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   options.fine = request.fine;
   sweep_guard_core::Detector& used = detector(request.detector.empty() ? parameters_->detector : request.detector);
 
-  const auto throw_if_stopping = [this] {
-    if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
-  };
+  const auto go_on = untilDeadline();
   // Before the snapshot is taken: what is accepted later does not better it.
   const std::string doubts = monitor_.meshProblems(now(), request.mesh_ids);
   std::optional<PathContact> first;
   for (const auto& workpiece : selected(request.mesh_ids)) {
-    auto path = sweep_guard_core::checkPath(used, {*parameters_->tool, pathIn(workpiece->frame, request.path),
-                                                   workpiece->mesh_M, options, throw_if_stopping});
+    const std::vector<Eigen::Isometry3d> path_M = pathIn(workpiece->frame, request.path, go_on);
+    const auto before_sweep = [&, sweep = size_t{0}]() mutable {
+      go_on("sweep " + std::to_string(sweep++) + " of the path, on '" + workpiece->id + "'");
+    };
+    auto path =
+        sweep_guard_core::checkPath(used, {*parameters_->tool, path_M, workpiece->mesh_M, options, before_sweep});
     response.margin = std::max(response.margin, path.all.margin);
     if (!path.all.triangles.empty() || path.all.inside)
       response.objects.push_back(toMsg(*workpiece, path.all, *parameters_->tool));
@@ -107,6 +112,17 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   if (!first) return;
   response.segment = static_cast<std::uint32_t>(first->segment);
   if (first->time_of_impact) response.time_of_impact = *first->time_of_impact;
+}
+
+// Returns a function that throws once the call is to end. What has been tested by then is no answer.
+std::function<void(const std::string& where)> CheckSweepService::untilDeadline() const {
+  const sweep_guard_core::Duration deadline = parameters_->check_sweep_deadline;
+  return [this, deadline, end = std::chrono::steady_clock::now() + deadline](const std::string& where) {
+    if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
+    if (std::chrono::steady_clock::now() < end) return;
+    throw sweep_guard_core::Error("not tested within " + shown(ParameterValue(sweep_guard_core::toSeconds(deadline))) +
+                                  " s (check_sweep/deadline): given up before " + where);
+  };
 }
 
 sweep_guard_core::Workpieces CheckSweepService::selected(const std::vector<std::string>& ids) const {
@@ -123,9 +139,11 @@ sweep_guard_core::Workpieces CheckSweepService::selected(const std::vector<std::
 }
 
 std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh_frame,
-                                                         const std::vector<geometry_msgs::PoseStamped>& path) const {
+                                                         const std::vector<geometry_msgs::PoseStamped>& path,
+                                                         const std::function<void(const std::string&)>& go_on) const {
   std::vector<Eigen::Isometry3d> path_M;
   for (size_t i = 0; i < path.size(); ++i) {
+    go_on("the transform of pose " + std::to_string(i));
     try {
       path_M.push_back(
           frames_.lookup(mesh_frame, path[i].header.frame_id, fromMsg(path[i].header.stamp), kPathTransformWait) *

@@ -36,13 +36,11 @@ void Controls::enable(std_srvs::SetBool::Response& response) {
 }
 
 void Controls::disable(const std::string& asked_by, std_srvs::SetBool::Response& response) {
-  sweep_guard_core::Warning warning;
-  monitor_.warning(now(), warning);
-  if (warning.level >= sweep_guard_core::WarningLevel::kReflex) {
-    response.message = "not disabled during this warning: " + warning.text;
+  const std::string warning = monitor_.disableBelow(sweep_guard_core::WarningLevel::kReflex, now(), asked_by);
+  if (!warning.empty()) {
+    response.message = "not disabled during this warning: " + warning;
     return;
   }
-  monitor_.disable(asked_by);
   response.success = true;
   response.message = "disabled by " + monitor_.disabledBy().value_or(asked_by) + ": no motion is tested";
 }

@@ -1,0 +1,58 @@
+#include "ros/parameters/parameter_writer.h"
+
+#include <ros/master.h>
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr auto kPause = std::chrono::milliseconds(500);  // before the next attempt
+
+}  // namespace
+
+ParameterWriter::ParameterWriter(const ros::NodeHandle& private_node)
+    : node_(private_node), thread_([this] { run(); }) {}
+
+ParameterWriter::~ParameterWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool ParameterWriter::write(const std::map<std::string, ParameterValue>& values, sweep_guard_core::Duration timeout) {
+  std::unique_lock lock(mutex_);
+  for (const auto& [key, value] : values) waiting_.insert_or_assign(key, value);
+  changed_.notify_all();
+  return changed_.wait_for(lock, timeout, [this] { return waiting_.empty(); });
+}
+
+void ParameterWriter::run() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+    if (stopping_) return;
+    const auto [key, value] = *waiting_.begin();
+    lock.unlock();
+    const bool written = writeOne(key, value);
+    lock.lock();
+    const auto now = waiting_.find(key);
+    if (written && now->second == value) waiting_.erase(now);
+    changed_.notify_all();
+    if (!written) changed_.wait_for(lock, kPause, [this] { return stopping_; });
+  }
+}
+
+// Not by ros::param::set(): it locks all cached parameters until the master answers.
+bool ParameterWriter::writeOne(const std::string& key, const ParameterValue& value) const {
+  XmlRpc::XmlRpcValue request;
+  XmlRpc::XmlRpcValue result;
+  XmlRpc::XmlRpcValue payload;
+  request[0] = ros::this_node::getName();
+  request[1] = node_.resolveName(key);
+  std::visit([&](const auto& held) { request[2] = held; }, value);
+  return ros::master::execute("setParam", request, result, payload, /*wait_for_master=*/false);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "sweep_guard/common/time.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
+
+namespace sweep_guard_ros {
+
+/// Writes private parameters to the parameter server, in a thread of its own: roscpp waits for a master that does not
+/// answer. Any thread.
+class ParameterWriter {
+ public:
+  explicit ParameterWriter(const ros::NodeHandle& private_node);
+  ~ParameterWriter();  ///< drops what is not written yet
+  ParameterWriter(const ParameterWriter&) = delete;
+  ParameterWriter& operator=(const ParameterWriter&) = delete;
+
+  /// Writes the values, newer ones in place of older ones that are not written yet.
+  /// @returns false if the server has not taken all within the time: they are written once it answers
+  bool write(const std::map<std::string, ParameterValue>& values, sweep_guard_core::Duration timeout);
+
+ private:
+  void run();
+  bool writeOne(const std::string& key, const ParameterValue& value) const;
+
+  const ros::NodeHandle node_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::string, ParameterValue> waiting_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,72 @@
+#include "ros/service/limited_calls.h"
+
+#include <boost/make_shared.hpp>
+
+#include "ros/process.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr int kNice = 10;
+
+thread_local bool refused_here = false;
+
+// Counts as inside until it has run or is dropped.
+class CountedCall : public ros::CallbackInterface {
+ public:
+  CountedCall(ros::CallbackInterfacePtr call, std::shared_ptr<void> inside)
+      : call_(std::move(call)), inside_(std::move(inside)) {}
+
+  CallResult call() override {
+    const CallResult result = call_->call();
+    if (result != TryAgain) inside_.reset();
+    return result;
+  }
+  bool ready() override { return call_->ready(); }
+
+ private:
+  const ros::CallbackInterfacePtr call_;
+  std::shared_ptr<void> inside_;
+};
+
+class FirstCall : public ros::CallbackInterface {
+ public:
+  explicit FirstCall(bool refuses) : refuses_(refuses) {}
+
+  CallResult call() override {
+    refused_here = refuses_;
+    setNice(kNice);
+    return Success;
+  }
+
+ private:
+  const bool refuses_;
+};
+
+}  // namespace
+
+bool LimitedCalls::refused() { return refused_here; }
+
+void LimitedCalls::start() {
+  for (QueueThread* const thread : {&worker_, &refusals_}) {
+    thread->queue().addCallback(boost::make_shared<FirstCall>(thread == &refusals_));
+    thread->start();
+  }
+}
+
+void LimitedCalls::addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) {
+  if (inside_->fetch_add(1) > kMaxWaiting) {
+    inside_->fetch_sub(1);
+    refusals_.queue().addCallback(callback, owner);
+    return;
+  }
+  const std::shared_ptr<void> inside(nullptr, [count = inside_](void*) { count->fetch_sub(1); });
+  worker_.queue().addCallback(boost::make_shared<CountedCall>(callback, inside), owner);
+}
+
+void LimitedCalls::removeByID(std::uint64_t owner) {
+  worker_.queue().removeByID(owner);
+  refusals_.queue().removeByID(owner);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+
+#include <atomic>
+#include <memory>
+
+#include "sweep_guard/ros/queue_thread.h"
+
+namespace sweep_guard_ros {
+
+/// Runs the calls of services in a thread of nice 10. At most 4 calls wait there while one runs. Any more run at once in
+/// a second thread, where refused() is true. The server made from on() must be destroyed first.
+class LimitedCalls : public ros::CallbackQueueInterface {
+ public:
+  static constexpr int kMaxWaiting = 4;
+
+  /// Returns a node handle whose calls run in these threads.
+  ros::NodeHandle on(ros::NodeHandle node) {
+    node.setCallbackQueue(this);
+    return node;
+  }
+  void start();
+
+  /// Returns whether the calling thread answers calls that found no room.
+  static bool refused();
+
+  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;
+  void removeByID(std::uint64_t owner) override;
+
+ private:
+  const std::shared_ptr<std::atomic<int>> inside_ = std::make_shared<std::atomic<int>>(0);  // one runs, others wait
+  QueueThread worker_;
+  QueueThread refusals_;
+};
+
+}  // namespace sweep_guard_ros

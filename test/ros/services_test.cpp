@@ -1,0 +1,216 @@
+// Services of a guard that is stuck, busy, or without a master: each answers in time. The guard's parts run in this
+// process.
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
+#include <ros/master.h>
+#include <signal.h>
+#include <sweep_guard/CheckSweep.h>
+
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <thread>
+
+#include "refusal.h"
+#include "ros/guard_thread.h"
+#include "ros/parameters/reconfigure_server.h"
+#include "ros/service/check_sweep.h"
+#include "ros/service/controls.h"
+#include "scenes.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using dynamic_reconfigure::Reconfigure;
+using std::chrono::milliseconds;
+using sweep_guard::CheckSweep;
+
+constexpr double kDeadline = 0.5;  // [s]
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return sweep_guard_core::toSeconds(std::chrono::steady_clock::now() - begin);
+}
+
+// How many threads of this process have this nice value.
+int threadsOfNice(int nice) {
+  int count = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream stat(task.path() / "stat");
+    std::string field;
+    for (int i = 0; i < 19; ++i) stat >> field;  // names of threads have no blank here
+    count += std::stoi(field) == nice ? 1 : 0;
+  }
+  return count;
+}
+
+class ServicesTest : public ::testing::Test {
+ protected:
+  ServicesTest() {
+    guard_thread_.start();
+    controls_.start();
+    reconfigure_server_.start();
+    check_sweep_.start();
+    spinner_.start();
+  }
+  ~ServicesTest() override { guard_thread_.stop(); }
+
+  static ros::NodeHandle privateNode() {
+    ros::NodeHandle node("~");
+    node.setParam("check_sweep/deadline", kDeadline);
+    return node;
+  }
+
+  // A connection that lasts needs no master.
+  template <typename Service>
+  ros::ServiceClient clientOf(const std::string& name) {
+    return node_.serviceClient<Service>(name, /*persistent=*/true);
+  }
+
+  Reconfigure::Request hold(double seconds) const {
+    Reconfigure::Request request;
+    request.config.doubles.resize(1);
+    request.config.doubles[0].name = "warning/hold_time";
+    request.config.doubles[0].value = seconds;
+    return request;
+  }
+  double holdTime() const { return sweep_guard_core::toSeconds(parameters_.get()->limits.hold_time); }
+
+  // To and fro through a workpiece: takes much longer than the deadline.
+  CheckSweep::Request longPath() {
+    workpieces_.set({"wavy", 1, fromMsg(ros::Time::now()), {}, "world", sweep_guard_core::wavyHull(100, 200, 0.0)},
+                    fromMsg(ros::Time::now()));
+    CheckSweep::Request request;
+    request.path.resize(1024);
+    for (size_t i = 0; i < request.path.size(); ++i) {
+      request.path[i].header.frame_id = "world";
+      request.path[i].pose.position.x = i % 2 == 0 ? -0.2 : 0.2;
+      request.path[i].pose.orientation.w = 1.0;
+    }
+    request.fine = true;
+    request.detector = "reference";
+    return request;
+  }
+
+  ros::NodeHandle node_ = privateNode();
+  LiveParameters parameters_{loadParameters(node_)};
+  WorkQueue queue_;
+  sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
+  WarningPublisher warnings_{node_, parameters_, monitor_};
+  ScenePublisher scene_{node_, parameters_, monitor_};
+  sweep_guard_core::SweepStatistics statistics_{parameters_.initial().guard.cycle};
+  Frames frames_{ros::NodeHandle(), parameters_.initial().max_message_size, [](const auto&, const auto&) {}};
+  sweep_guard_core::WorkpieceStore workpieces_;
+  GuardThread guard_thread_{node_, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_}};
+  CheckSweepService check_sweep_{node_, parameters_, frames_, workpieces_, monitor_};
+  Controls controls_{node_, monitor_, workpieces_, [this] { guard_thread_.reset(); }};
+  ReconfigureServer reconfigure_server_{node_, parameters_, [this](const auto& next) { guard_thread_.apply(next); }};
+  ros::AsyncSpinner spinner_{1};
+};
+
+TEST_F(ServicesTest, BehindAStuckSweepNothingIsResetOrChangedAndTheAnswerSaysSo) {
+  std::promise<void> release;
+  const auto stuck = queue_.submit<void>([released = release.get_future().share()] { released.wait(); });
+  monitor_.fault(sweep_guard_core::kDetectorFault, "before the reset");
+  const auto epoch = monitor_.checkpoint().epoch;
+  const double hold_before = holdTime();
+
+  const auto begin = std::chrono::steady_clock::now();
+  std_srvs::Trigger reset;
+  auto reset_client = clientOf<std_srvs::Trigger>("reset");
+  ASSERT_TRUE(reset_client.call(reset));
+  Reconfigure::Response response;
+  auto reconfigure_client = clientOf<Reconfigure>("set_parameters");
+  Reconfigure::Request request = hold(7.0);
+  EXPECT_FALSE(reconfigure_client.call(request, response));
+  EXPECT_LT(secondsSince(begin), 2.0);
+  EXPECT_FALSE(reset.response.success);
+  EXPECT_TRUE(has(reset.response.message, "stuck in a sweep: nothing was reset"));
+  EXPECT_TRUE(has(reconfigure_server_.history().last_refusal, "stuck in a sweep: no parameter was changed"));
+
+  release.set_value();  // what was given up does not happen later
+  queue_.submit<void>([] {}).get();
+  EXPECT_EQ(monitor_.checkpoint().epoch, epoch);
+  EXPECT_EQ(holdTime(), hold_before);
+  ASSERT_TRUE(reset_client.call(reset));
+  EXPECT_TRUE(reset.response.success) << reset.response.message;
+  EXPECT_NE(monitor_.checkpoint().epoch, epoch);
+}
+
+// Stopped, a master accepts connections and answers none.
+TEST_F(ServicesTest, WithoutAMasterAChangeIsAppliedAndTheAnswerSaysWhatIsMissing) {
+  Reconfigure::Request first = hold(1.0);
+  Reconfigure::Request second = hold(2.0);
+  Reconfigure::Response response;
+  auto client = clientOf<Reconfigure>("set_parameters");
+  auto reset_client = clientOf<std_srvs::Trigger>("reset");
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(client.call(first, response));
+  ASSERT_TRUE(reset_client.call(reset));
+  XmlRpc::XmlRpcValue name = ros::this_node::getName();
+  XmlRpc::XmlRpcValue result;
+  XmlRpc::XmlRpcValue master;
+  ASSERT_TRUE(ros::master::execute("getPid", name, result, master, /*wait_for_master=*/false));
+
+  ASSERT_EQ(kill(static_cast<int>(master), SIGSTOP), 0);
+  const auto begin = std::chrono::steady_clock::now();
+  const bool answered_well = client.call(second, response);
+  const bool reset_answered = reset_client.call(reset);
+  const double took = secondsSince(begin);
+  kill(static_cast<int>(master), SIGCONT);
+
+  EXPECT_LT(took, 2.0);
+  EXPECT_FALSE(answered_well);
+  EXPECT_TRUE(reset_answered && reset.response.success) << reset.response.message;
+  EXPECT_EQ(holdTime(), 2.0);
+  const std::string refusal = reconfigure_server_.history().last_refusal;
+  EXPECT_TRUE(has(refusal, "applied: warning/hold_time from 1 to 2"));
+  EXPECT_TRUE(has(refusal, "parameter server does not answer"));
+  double written = 0.0;
+  while (ros::ok() && written != 2.0) node_.getParam("warning/hold_time", written);  // once it answers
+}
+
+// Eight calls, of which the first one lasts: as many as may wait do, the others are refused before it ends.
+TEST_F(ServicesTest, FourCallsWaitAndTheOthersAreBusyAtOnce) {
+  const CheckSweep::Request request = longPath();
+  struct Answer {
+    CheckSweep::Response response;
+    double took;
+  };
+  std::vector<std::future<Answer>> answers;
+  for (int i = 0; i < 8; ++i) {
+    answers.push_back(std::async(std::launch::async, [this, asked = request]() mutable {
+      auto client = clientOf<CheckSweep>("check_sweep");
+      Answer answer;
+      const auto begin = std::chrono::steady_clock::now();
+      EXPECT_TRUE(client.call(asked, answer.response));
+      answer.took = secondsSince(begin);
+      return answer;
+    }));
+  }
+  int busy = 0;
+  for (std::future<Answer>& future : answers) {
+    const Answer answer = future.get();
+    EXPECT_FALSE(answer.response.success || answer.response.clear);
+    if (!has(answer.response.message, "BUSY: 4 calls wait already")) continue;
+    ++busy;
+    EXPECT_LT(answer.took, kDeadline);
+  }
+  EXPECT_EQ(busy, 3);
+  EXPECT_EQ(threadsOfNice(10), 2);
+}
+
+TEST_F(ServicesTest, APathIsGivenUpAtItsDeadline) {
+  CheckSweep::Request request = longPath();
+  CheckSweep::Response response;
+  auto client = clientOf<CheckSweep>("check_sweep");
+  ASSERT_TRUE(client.call(request, response));
+  EXPECT_FALSE(response.success || response.clear || response.collision);
+  EXPECT_TRUE(has(response.message, "not tested within 0.5 s (check_sweep/deadline): given up before sweep "));
+  EXPECT_TRUE(has(response.message, "of the path, on 'wavy'"));
+  EXPECT_GE(response.compute_time.toSec(), kDeadline);
+  EXPECT_LT(response.compute_time.toSec(), 2.0 * kDeadline);
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
