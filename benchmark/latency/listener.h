@@ -8,7 +8,7 @@
 #include <mutex>
 #include <vector>
 
-#include "latency/figures.h"
+#include "latency/latencies.h"
 #include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_benchmark {

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "latency/figures.h"
+#include "latency/latencies.h"
 #include "latency/scene.h"
 
 namespace sweep_guard_benchmark {

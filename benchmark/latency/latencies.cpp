@@ -1,4 +1,4 @@
-#include "latency/figures.h"
+#include "latency/latencies.h"
 
 #include <algorithm>
 #include <cmath>
