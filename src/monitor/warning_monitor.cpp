@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "guard/triangle_set.h"
+
 namespace sweep_guard_core {
 namespace {
 
@@ -120,6 +122,45 @@ void WarningMonitor::updateDropped(const std::string& id, SteadyTime received) {
     updateObjects();
   }
   on_fault_();
+}
+
+void WarningMonitor::detectorTested(const std::string& failure) {
+  {
+    const std::lock_guard lock(mutex_);
+    test_failure_ = failure;
+    updateDetectorFaults();
+  }
+  on_fault_();
+}
+
+void WarningMonitor::detectorsDisagree(const std::string& message, const std::string& mesh_id,
+                                       const std::vector<std::uint32_t>& missed, SteadyTime now) {
+  {
+    const std::lock_guard lock(mutex_);
+    disagreement_ = message;
+    updateDetectorFaults();
+    addContact(mesh_id, missed, now);
+  }
+  on_fault_();
+}
+
+void WarningMonitor::updateDetectorFaults() {
+  const auto set = [&](Reason reason, const std::string& message) {
+    inputs_.faults.erase(reason);
+    if (!message.empty()) inputs_.faults[reason] = message;
+  };
+  set(kSelftest, test_failure_);
+  set(kCrosscheck, disagreement_);
+}
+
+// A contact that lasts stays; triangles that are added to it are told until its next sweep.
+void WarningMonitor::addContact(const std::string& mesh_id, const std::vector<std::uint32_t>& triangles,
+                                SteadyTime now) {
+  if (triangles.empty() || inputs_.disabled_by) return;
+  auto& contact = inputs_.contact;
+  if (!contact || (contact->id != mesh_id && !contact->lasting)) contact = WarningInputs::Contact{mesh_id, {}, now};
+  contact->found = now;
+  if (contact->id == mesh_id) unite(contact->triangles, triangles);
 }
 
 void WarningMonitor::posesLost(const std::string& message, SteadyTime now) {
@@ -282,11 +323,13 @@ void WarningMonitor::restartLocked() {
   fault_numbers_.clear();
   updateObjects();
   updateRefusals();
+  updateDetectorFaults();
 }
 
 void WarningMonitor::restart() {
   {
     const std::lock_guard lock(mutex_);
+    disagreement_.clear();
     restartLocked();
     inputs_.contact.reset();
   }
@@ -374,6 +417,8 @@ std::string WarningMonitor::meshProblems(const Instant& now, const std::vector<s
       if (asked(id) || may_hide_others) meshes.faults[kMeshInvalid] = refusal.message;
     }
   }
+  if (!test_failure_.empty()) meshes.faults[kSelftest] = test_failure_;
+  if (!disagreement_.empty()) meshes.faults[kCrosscheck] = disagreement_;
   meshes.unread = inputs_.unread;
   return sweep_guard_core::meshProblems(meshes, now, limits_);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "guard/self_test.h"
 #include "ros/process.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
@@ -27,6 +28,23 @@ bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
                      [&](const auto& frame) { return next.pose.X_WM.count(frame.first) != 0; });
 }
 
+// @returns why the detector failed its test; empty: it passed, or is not tested
+std::string testFailure(const Parameters& parameters, sweep_guard_core::Detector& detector) {
+  if (parameters.self_test == SelfTest::kNone) return {};
+  const std::string wrong = sweep_guard_core::selfTest(detector);
+  return wrong.empty() ? "" : "detector " + parameters.detector_description + " failed its self-test: " + wrong;
+}
+
+std::unique_ptr<sweep_guard_core::Detector> firstDetector(const GuardThreadDependencies& dependencies) {
+  const Parameters& parameters = dependencies.parameters.initial();
+  auto detector = dependencies.make_detector(parameters);
+  const std::string failure = testFailure(parameters, *detector);
+  if (!failure.empty() && parameters.self_test == SelfTest::kExit) throw sweep_guard_core::DeviceError(failure);
+  if (!failure.empty()) ROS_ERROR("%s", failure.c_str());
+  dependencies.monitor.detectorTested(failure);
+  return sampled(std::move(detector), parameters.detector, dependencies.sampler);
+}
+
 Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(pose, at), Duration::zero()); }
 
 }  // namespace
@@ -34,9 +52,7 @@ Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(
 GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies)
     : dependencies_(dependencies),
       results_(private_node, dependencies.parameters),
-      guard_(*dependencies.parameters.initial().tool,
-             sweep_guard_core::makeDetector(dependencies.parameters.initial().detector,
-                                            dependencies.parameters.initial().detector_options),
+      guard_(*dependencies.parameters.initial().tool, firstDetector(dependencies),
              dependencies.parameters.initial().guard) {}
 
 void GuardThread::start() {
@@ -55,14 +71,18 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   change.options = next->guard;
   const auto before = dependencies_.parameters.get();
   if (detectorsDiffer(*before, *next)) {
-    change.detector = sweep_guard_core::makeDetector(next->detector, next->detector_options);
+    auto detector = dependencies_.make_detector(*next);
+    const std::string failure = testFailure(*next, *detector);
+    if (!failure.empty()) throw sweep_guard_core::DeviceError(failure + ": no parameter was changed");
+    change.detector = sampled(std::move(detector), next->detector, dependencies_.sampler);
   }
   if (differ(*before, *next, "prediction/") || differ(*before, *next, "limits/")) {
     change.predictor.emplace(next->guard.predictor);
   }
   if (differ(*before, *next, "tool/")) change.tool = *next->tool;
-  const auto exchange = [&] {
+  const auto exchange = [&, tested = change.detector != nullptr] {
     guard_.exchange(change);
+    if (tested) dependencies_.monitor.detectorTested({});
     dependencies_.monitor.setLimits(next->limits);
     dependencies_.statistics.setCycle(next->guard.cycle);
     dependencies_.parameters.set(next);
@@ -145,7 +165,9 @@ void GuardThread::sweep(const QueuedPose& queued) {
   const sweep_guard_core::PoseWithFrames& pose = queued.pose;
   const SteadyTime begin = std::chrono::steady_clock::now();
   const auto report = reports_.take();
-  guard_.sweep(pose, dependencies_.workpieces.snapshot(), *report);
+  const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
+  dependencies_.sampler.setWorkpieces(workpieces);
+  guard_.sweep(pose, workpieces, *report);
   const SteadyTime end = std::chrono::steady_clock::now();
   swept_ = {pose.stamp, pose.received};
   if (!report->objects.empty()) results_.publish(*report, guard_.tool());
@@ -179,7 +201,9 @@ void GuardThread::predict(const QueuedPose& queued) {
   if (stale(*swept_, at, dependencies_.parameters.get()->limits.pose_timeout)) return;
   const Duration age = ageOf(*swept_, at);
   const auto prediction = predictions_.take();
-  guard_.predict(age, dependencies_.workpieces.snapshot(), *prediction);
+  const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
+  dependencies_.sampler.setWorkpieces(workpieces);
+  guard_.predict(age, workpieces, *prediction);
   const SteadyTime end = std::chrono::steady_clock::now();
   dependencies_.monitor.predicted(*prediction, *swept_, queued.checkpoint, now(), end - at.steady);
   dependencies_.warnings.publishIfChanged();

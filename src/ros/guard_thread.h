@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/pool.h"
+#include "guard/cross_check.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
 #include "ros/log_throttle.h"
@@ -32,6 +33,9 @@ struct GuardThreadDependencies {
   WorkQueue& queue;
   WarningPublisher& warnings;
   ScenePublisher& scene;
+  sweep_guard_core::QuerySampler& sampler;
+  std::function<std::unique_ptr<sweep_guard_core::Detector>(const Parameters&)> make_detector =
+      [](const Parameters& wanted) { return sweep_guard_core::makeDetector(wanted.detector, wanted.detector_options); };
 };
 
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
@@ -49,6 +53,7 @@ class GuardThread {
   void stop();  ///< drops the queued work
 
   /// Sets other parameters for the guard and the node. Returns when they are set. Any thread.
+  /// @throws sweep_guard_core::DeviceError if a new detector cannot be created or fails its test; then nothing is set
   /// @throws sweep_guard_core::Error if a sweep lasts longer than 0.5 s, or the guard is shutting down; then nothing is
   ///     set, also later
   void apply(const std::shared_ptr<const Parameters>& next);

@@ -25,7 +25,9 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
                 monitor_.timeJumped("static transform from '" + child + "' to '" + parent + "' has changed");
               }),
       workpieces_([this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }),
-      guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_}),
+      cross_check_(parameters_, monitor_),
+      guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_,
+                                   cross_check_.sampler()}),
       poses_(node, parameters_.initial(), {frames_, workpieces_, monitor_, queue_}),
       meshes_(node, parameters_.initial(), workpieces_, monitor_),
       check_sweep_(private_node, parameters_, frames_, workpieces_, monitor_),
@@ -38,6 +40,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       watchdog_(node, monitor_, workpieces_, warnings_) {
   createTimers(node);
   guard_thread_.start();
+  cross_check_.start();
   watchdog_.start();
   meshes_.start();
   poses_.start();

@@ -2,6 +2,7 @@
 
 #include <ros/steady_timer.h>
 
+#include "ros/cross_check_thread.h"
 #include "ros/guard_thread.h"
 #include "ros/input/mesh_input.h"
 #include "ros/input/pose_input.h"
@@ -46,6 +47,7 @@ class SweepGuardNode {
   sweep_guard_core::SweepStatistics statistics_;
   Frames frames_;
   sweep_guard_core::WorkpieceStore workpieces_;
+  CrossCheckThread cross_check_;
   GuardThread guard_thread_;
   PoseInput poses_;
   MeshInput meshes_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/pool.h"
+#include "guard/cross_check.h"
 #include "mesh_orders.h"
 #include "monitor/warnings.h"
 #include "scenes.h"
@@ -53,7 +54,7 @@ Tool toolOf(const Configuration& configuration) {
 }
 
 // A tool that circles over or in a wavy workpiece once a second, at 1 kHz; a deformation, and a look ahead, every 20
-// ms. Each pose is followed by a warning.
+// ms. Each pose is followed by a warning. Every query is offered to a cross-check.
 class SteadyStateTest : public testing::TestWithParam<Configuration> {
  protected:
   SteadyStateTest() {
@@ -115,6 +116,7 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
   void cycle(int ms, double height) {
     if (ms % kPeriod == 0) deform(ms);
     const Timestamps timestamps{now(ms).stamp, now(ms).steady};
+    sampler_.setWorkpieces(workpieces_);
     guard_.sweep(pose(ms, height), workpieces_, report_);
     monitor_.swept(report_, timestamps, monitor_.checkpoint(), now(ms).steady);
     if (ms % kPeriod == 0) {
@@ -122,6 +124,7 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
       monitor_.predicted(prediction_, timestamps, monitor_.checkpoint(), now(ms));
     }
     monitor_.warning(now(ms), warning_);
+    if (sampler_.waiting()) sampler_.take(query_);
   }
 
   // @param check  called after each cycle
@@ -143,7 +146,10 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
   std::vector<std::vector<float>> sent_;
   std::vector<float> positions_;
   PoseWithFrames pose_{{}, {}, Eigen::Isometry3d::Identity(), {{kFrame, Eigen::Isometry3d::Identity()}}};
-  Guard guard_{toolOf(GetParam()), makeDetector(GetParam().detector), options()};
+  QuerySampler sampler_{/*every=*/1};
+  SampledQuery query_;
+  Guard guard_{toolOf(GetParam()), sampled(makeDetector(GetParam().detector), GetParam().detector, sampler_),
+               options()};
   SweepReport report_;
   Prediction prediction_;
   WarningMonitor monitor_{{/*pose_timeout=*/100ms, /*mesh_timeout=*/500ms, /*hold_time=*/200ms}};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "detection/reference_detector.h"
@@ -14,7 +15,9 @@ class FakeDetector : public Detector {
   struct Record {
     std::vector<SweptVolume> volumes;
     int failures_left = 0;
-    double inflation = 0.0;  ///< claimed on top of the reference's
+    double inflation = 0.0;        ///< claimed on top of the reference's
+    double grown = 0.0;            ///< the volume is tested as if it were larger [m]
+    std::uint32_t drop_every = 0;  ///< leaves out the triangles whose number this divides; 0: none
   };
 
   explicit FakeDetector(Record& record) : record_(record) {}
@@ -26,7 +29,12 @@ class FakeDetector : public Detector {
       throw DeviceError("fake detector: fails on demand");
     }
     record_.volumes.push_back(swept_M);
-    detection = reference_.detect(part, swept_M);
+    detection = reference_.detect(part, swept_M.grown(record_.grown));
+    if (record_.drop_every != 0) {
+      auto& found = detection.triangles;
+      const auto dropped = [&](std::uint32_t triangle) { return triangle % record_.drop_every == 0; };
+      found.erase(std::remove_if(found.begin(), found.end(), dropped), found.end());
+    }
     detection.inflation += record_.inflation;
   }
 

@@ -662,6 +662,41 @@ TEST_F(WarningMonitorTest, NewLimitsApplyFromTheNextWarningOn) {
   EXPECT_NE(reasonsAt(1050) & kPoseStale, 0U);
 }
 
+TEST_F(WarningMonitorTest, ADisagreementIsAContactForAWhileAndNotClearUntilRestart) {
+  monitor_.detectorsDisagree("detectors disagree", "liver", {3, 5}, at(1000).steady);
+  const Warning first = warningOf(monitor_, at(1000));
+  EXPECT_EQ(first.level, WarningLevel::kContact);
+  EXPECT_EQ(first.triangles, (std::vector<std::uint32_t>{3, 5}));
+  EXPECT_NE(first.reasons & kCrosscheck, 0U);
+  EXPECT_TRUE(has(first.text, "detectors disagree"));
+  EXPECT_EQ(monitor_.meshProblems(at(1000), {}), "detectors disagree");
+  sweep(reportOf(workpieces_), 2000);
+  EXPECT_EQ(warningOf(monitor_, at(2000)).level, WarningLevel::kUnknown);
+  EXPECT_NE(reasonsAt(2000) & kCrosscheck, 0U);
+  monitor_.timeJumped("time went back");
+  EXPECT_NE(reasonsAt(2000) & kCrosscheck, 0U);
+  monitor_.restart();
+  EXPECT_EQ(reasonsAt(2000) & kCrosscheck, 0U);
+}
+
+// Triangles of a contact that the guard found itself are kept.
+TEST_F(WarningMonitorTest, ADisagreementAddsItsTrianglesToTheContact) {
+  sweep(reportOf(workpieces_, {2, 4}), 1000);
+  monitor_.detectorsDisagree("detectors disagree", "liver", {3, 4}, at(1000).steady);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).triangles, (std::vector<std::uint32_t>{2, 3, 4}));
+}
+
+TEST_F(WarningMonitorTest, AFailedTestOfTheDetectorLastsUntilOneIsPassed) {
+  monitor_.detectorTested("the detector failed");
+  EXPECT_EQ(warningOf(monitor_, at(1000)).level, WarningLevel::kUnknown);
+  EXPECT_EQ(reasonsAt(1000), kSelftest);
+  monitor_.restart();
+  EXPECT_NE(reasonsAt(1000) & kSelftest, 0U);
+  EXPECT_EQ(monitor_.meshProblems(at(1000), {}), "the detector failed");
+  monitor_.detectorTested("");
+  EXPECT_EQ(reasonsAt(1000) & kSelftest, 0U);
+}
+
 // A contact that is reported while the level is tested is not counted and then hidden.
 TEST(DisablingTest, IsOneStepWithTheTestOfTheLevel) {
   const Workpieces workpieces = {workpiece("liver", 1000)};

@@ -61,6 +61,9 @@ TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
   EXPECT_EQ(loaded.detector, defaults.detector);
   EXPECT_EQ(loaded.detector_options.cull, defaults.detector_options.cull);
   EXPECT_EQ(loaded.detector_options.gl_context, defaults.detector_options.gl_context);
+  EXPECT_EQ(loaded.self_test, defaults.self_test);
+  EXPECT_EQ(loaded.cross_check, defaults.cross_check);
+  EXPECT_EQ(loaded.check_sweep_deadline, defaults.check_sweep_deadline);
   EXPECT_EQ(loaded.guard.sweep.volume, defaults.guard.sweep.volume);
   EXPECT_EQ(loaded.guard.sweep.max_rotation, defaults.guard.sweep.max_rotation);
   EXPECT_EQ(loaded.limits.hold_time, defaults.limits.hold_time);
@@ -259,6 +262,10 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("detector", "plane", "select, halfspace, reference");
   refused("cull", 1, "true or false");
   refused("gl_context", "glx", "osmesa, egl");
+  refused("self_test", false, "a text");  // what YAML makes of off
+  refused("self_test", "warn", "unknown, exit, none");
+  refused("cross_check", -1, "0 to 1000000");
+  refused("check_sweep/deadline", 0.0, "0.01 to 60");
   refused("max_rotation_per_sweep", 1.0, "0.01 to 0.5");
   refused("prediction/predictor", "oracle", "constant_velocity");
   refused("prediction/degree", 2, "6 integers from 0 to 5");

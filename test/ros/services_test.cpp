@@ -2,6 +2,7 @@
 // process.
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
+#include <ros/file_log.h>
 #include <ros/master.h>
 #include <signal.h>
 #include <sweep_guard/CheckSweep.h>
@@ -9,9 +10,13 @@
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <limits>
 #include <thread>
 
+#include "guard/detector_case.h"
+#include "guard/fake_detector.h"
 #include "refusal.h"
+#include "ros/cross_check_thread.h"
 #include "ros/guard_thread.h"
 #include "ros/parameters/reconfigure_server.h"
 #include "ros/service/check_sweep.h"
@@ -46,18 +51,23 @@ int threadsOfNice(int nice) {
 
 class ServicesTest : public ::testing::Test {
  protected:
-  ServicesTest() {
+  explicit ServicesTest(const std::string& self_test = "unknown", std::uint32_t drop_every = 0)
+      : detector_record_{{}, 0, 0.0, 0.0, drop_every}, node_(privateNode(self_test)) {
     guard_thread_.start();
     controls_.start();
     reconfigure_server_.start();
     check_sweep_.start();
+    cross_check_.start();
     spinner_.start();
   }
   ~ServicesTest() override { guard_thread_.stop(); }
 
-  static ros::NodeHandle privateNode() {
+  static ros::NodeHandle privateNode(const std::string& self_test) {
     ros::NodeHandle node("~");
     node.setParam("check_sweep/deadline", kDeadline);
+    node.setParam("self_test", self_test);
+    node.setParam("cross_check", 1);
+    node.setParam("timing/mesh_timeout", std::numeric_limits<double>::infinity());
     return node;
   }
 
@@ -67,7 +77,7 @@ class ServicesTest : public ::testing::Test {
     return node_.serviceClient<Service>(name, /*persistent=*/true);
   }
 
-  Reconfigure::Request hold(double seconds) const {
+  static Reconfigure::Request hold(double seconds) {
     Reconfigure::Request request;
     request.config.doubles.resize(1);
     request.config.doubles[0].name = "warning/hold_time";
@@ -76,10 +86,20 @@ class ServicesTest : public ::testing::Test {
   }
   double holdTime() const { return sweep_guard_core::toSeconds(parameters_.get()->limits.hold_time); }
 
+  void placeWorkpiece(int rings) {
+    workpieces_.set({"wavy", 1, now().stamp, now().steady, "world", sweep_guard_core::wavyHull(rings, 2 * rings, 0.0)},
+                    now().stamp);
+  }
+
+  sweep_guard_core::Warning warning() const {
+    sweep_guard_core::Warning warning;
+    monitor_.warning(now(), warning);
+    return warning;
+  }
+
   // To and fro through a workpiece: takes much longer than the deadline.
   CheckSweep::Request longPath() {
-    workpieces_.set({"wavy", 1, fromMsg(ros::Time::now()), {}, "world", sweep_guard_core::wavyHull(100, 200, 0.0)},
-                    fromMsg(ros::Time::now()));
+    placeWorkpiece(100);
     CheckSweep::Request request;
     request.path.resize(1024);
     for (size_t i = 0; i < request.path.size(); ++i) {
@@ -92,16 +112,28 @@ class ServicesTest : public ::testing::Test {
     return request;
   }
 
-  ros::NodeHandle node_ = privateNode();
+  sweep_guard_core::FakeDetector::Record detector_record_;
+  ros::NodeHandle node_;
   LiveParameters parameters_{loadParameters(node_)};
   WorkQueue queue_;
+  sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }};
   sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
   WarningPublisher warnings_{node_, parameters_, monitor_};
   ScenePublisher scene_{node_, parameters_, monitor_};
   sweep_guard_core::SweepStatistics statistics_{parameters_.initial().guard.cycle};
   Frames frames_{ros::NodeHandle(), parameters_.initial().max_message_size, [](const auto&, const auto&) {}};
-  sweep_guard_core::WorkpieceStore workpieces_;
-  GuardThread guard_thread_{node_, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_}};
+  CrossCheckThread cross_check_{parameters_, monitor_};
+  const GuardThreadDependencies dependencies_{
+      parameters_,
+      workpieces_,
+      monitor_,
+      statistics_,
+      queue_,
+      warnings_,
+      scene_,
+      cross_check_.sampler(),
+      [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(detector_record_); }};
+  GuardThread guard_thread_{node_, dependencies_};
   CheckSweepService check_sweep_{node_, parameters_, frames_, workpieces_, monitor_};
   Controls controls_{node_, monitor_, workpieces_, [this] { guard_thread_.reset(); }};
   ReconfigureServer reconfigure_server_{node_, parameters_, [this](const auto& next) { guard_thread_.apply(next); }};
@@ -210,6 +242,85 @@ TEST_F(ServicesTest, APathIsGivenUpAtItsDeadline) {
   EXPECT_TRUE(has(response.message, "of the path, on 'wavy'"));
   EXPECT_GE(response.compute_time.toSec(), kDeadline);
   EXPECT_LT(response.compute_time.toSec(), 2.0 * kDeadline);
+}
+
+class BiasedDetectorTest : public ServicesTest {
+ protected:
+  BiasedDetectorTest() : ServicesTest("unknown", /*drop_every=*/10) {}
+};
+
+TEST_F(BiasedDetectorTest, IsNeverClearUntilItIsExchangedForAGoodOne) {
+  EXPECT_NE(warning().reasons & sweep_guard_core::kSelftest, 0U);
+  EXPECT_TRUE(has(warning().text, "failed its self-test: "));
+  Reconfigure::Request request;
+  request.config.strs.resize(1);
+  request.config.strs[0].name = "detector";
+  request.config.strs[0].value = "halfspace";
+  Reconfigure::Response response;
+  auto client = clientOf<Reconfigure>("set_parameters");
+  EXPECT_FALSE(client.call(request, response));
+  EXPECT_TRUE(has(reconfigure_server_.history().last_refusal, "no parameter was changed"));
+  EXPECT_EQ(parameters_.get()->detector, "select");
+  detector_record_.drop_every = 0;
+  EXPECT_TRUE(clientOf<Reconfigure>("set_parameters").call(request, response));
+  EXPECT_EQ(parameters_.get()->detector, "halfspace");
+  EXPECT_EQ(warning().reasons & sweep_guard_core::kSelftest, 0U);
+}
+
+TEST_F(BiasedDetectorTest, EndsTheNodeIfAsked) {
+  node_.setParam("self_test", "exit");
+  LiveParameters exits(loadParameters(node_));
+  const GuardThreadDependencies dependencies{exits,
+                                             workpieces_,
+                                             monitor_,
+                                             statistics_,
+                                             queue_,
+                                             warnings_,
+                                             scene_,
+                                             cross_check_.sampler(),
+                                             dependencies_.make_detector};
+  EXPECT_THROW(GuardThread(node_, dependencies), sweep_guard_core::DeviceError);
+}
+
+class UntestedDetectorTest : public ServicesTest {
+ protected:
+  UntestedDetectorTest() : ServicesTest("none", /*drop_every=*/1) {}
+
+  void sweepTo(double height) {
+    sweep_guard_core::PoseWithFrames pose;
+    pose.stamp = now().stamp;
+    pose.received = now().steady;
+    pose.X_WT.translation().z() = height;
+    pose.X_WM["world"] = Eigen::Isometry3d::Identity();
+    queue_.push({pose, monitor_.checkpoint()});
+  }
+};
+
+// The guard's detector finds nothing. The other one does, in spare time.
+TEST_F(UntestedDetectorTest, ADisagreementIsAContactAndIsSavedAndStaysUntilReset) {
+  using sweep_guard_core::kCrosscheck;
+  const std::filesystem::path folder = ros::file_log::getLogDirectory() + "/sweep_guard_cases";
+  std::filesystem::remove_all(folder);
+  placeWorkpiece(10);
+  sweepTo(0.2);
+  sweepTo(0.05);
+  while (ros::ok() && !has(warning().text, "saved as ")) std::this_thread::yield();
+  const sweep_guard_core::Warning found = warning();
+  EXPECT_EQ(found.level, sweep_guard_core::WarningLevel::kContact);
+  EXPECT_EQ(found.mesh_id, "wavy");
+  EXPECT_FALSE(found.triangles.empty());
+  EXPECT_NE(found.reasons & kCrosscheck, 0U);
+  EXPECT_TRUE(has(found.text, folder.string() + "/detector_case_1.txt"));
+  std::ifstream file(folder / "detector_case_1.txt");
+  const auto other = sweep_guard_core::makeDetector("halfspace");
+  EXPECT_TRUE(crossCheck(queryOf(sweep_guard_core::readDetectorCase(file)), *other).any());
+
+  detector_record_.drop_every = 0;
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(clientOf<std_srvs::Trigger>("reset").call(reset));
+  EXPECT_TRUE(reset.response.success);
+  EXPECT_EQ(warning().reasons & kCrosscheck, 0U);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

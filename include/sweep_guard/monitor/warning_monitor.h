@@ -70,6 +70,15 @@ class WarningMonitor {
   /// @param received  when the dropped update was received
   void updateDropped(const std::string& id, SteadyTime received);
 
+  /// Reports what a test of the detector found. The warning is not clear while it says something.
+  /// @param failure  empty: the detector has passed
+  void detectorTested(const std::string& failure);
+
+  /// Reports that a second detector disagreed about a sweep. The warning is not clear until restart().
+  /// @param missed  triangles that only the second detector found: ascending. They count as a contact that is over
+  void detectorsDisagree(const std::string& message, const std::string& mesh_id,
+                         const std::vector<std::uint32_t>& missed, SteadyTime now);
+
   /// Reports that poses were sent and did not arrive. The warning says so for the hold time; its level stays.
   void posesLost(const std::string& message, SteadyTime now);
 
@@ -90,7 +99,8 @@ class WarningMonitor {
   /// contact is shown for the hold time.
   void timeJumped(const std::string& message);
 
-  /// Forgets everything but the workpieces, refused meshes and refused vertices. A disabled guard stays disabled.
+  /// Forgets everything but the workpieces, refused meshes, refused vertices and a failed test of the detector. A
+  /// disabled guard stays disabled.
   void restart();
 
   /// Makes the warning unknown until enable(), whatever is reported. Does nothing if disabled already.
@@ -117,7 +127,7 @@ class WarningMonitor {
   /// @param[out] warning  overwritten; its buffers are used again
   void warning(const Instant& now, Warning& warning) const;
 
-  /// Returns why these workpieces are not as good as CLEAR needs them, in words; empty if they are.
+  /// Returns why these workpieces, or the detectors, are not as good as CLEAR needs them, in words; empty if they are.
   /// @param ids  empty: all workpieces, and those that are required
   std::string meshProblems(const Instant& now, const std::vector<std::string>& ids) const;
 
@@ -136,8 +146,10 @@ class WarningMonitor {
   void refuse(Refusals& refusals, const std::string& id, const WarningInputs::Event& refusal);
   void accept(Refusals& refusals, const std::string& id, SteadyTime received);
   void updateRefusals();
+  void updateDetectorFaults();
   void updateObjects();
   void updateBehind(const SweepReport& report);
+  void addContact(const std::string& mesh_id, const std::vector<std::uint32_t>& triangles, SteadyTime now);
   void updateContact(const SweepReport& report, SteadyTime now);
   void updatePredicted(const Instant& now);
   void updateAlarms(const Instant& now);
@@ -155,6 +167,8 @@ class WarningMonitor {
   std::optional<PredictedContact> next_;  // of the newest prediction
   Workpieces workpieces_;
   std::map<Reason, std::uint64_t> fault_numbers_;
+  std::string test_failure_;  // of the detector; empty: none
+  std::string disagreement_;  // of two detectors; empty: none
   Refusals refused_meshes_;
   Refusals refused_vertices_;
   std::map<std::string, SteadyTime> dropped_;  // by id: when the newest dropped update was received

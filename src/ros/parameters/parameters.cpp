@@ -210,6 +210,17 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
     parameters.detector_description += " on " + parameters.detector_options.gl_context;
   if (parameters.detector == "halfspace")
     parameters.detector_description += std::string(" on ") + sweep_guard_core::simd::kernels().name;
+  const std::string self_test = read.choice(
+      "self_test", "unknown", {"unknown", "exit", "none"},
+      "The detector is tested at the start on triangles whose answers are known. If it fails: unknown: the warning is "
+      "never CLEAR, reason SELFTEST. exit: the node ends with status 2. none: it is not tested.");
+  const std::map<std::string, SelfTest> self_tests = {
+      {"unknown", SelfTest::kUnknown}, {"exit", SelfTest::kExit}, {"none", SelfTest::kNone}};
+  parameters.self_test = self_tests.at(self_test);
+  parameters.cross_check = read.integer(
+      "cross_check", 100, 0, 1000000,
+      "Each so many queries of the detector, one is answered again by another detector in spare time "
+      "(halfspace, and for that select). If they disagree, both answers count, reason CROSSCHECK. 0: none.");
   parameters.guard.sweep.fine =
       read.flag("fine", true,
                 "Confirms the triangles that a volume meets: when, where and how deep the tool "

@@ -17,6 +17,9 @@ namespace sweep_guard_ros {
 
 enum class ToolSource { kTopic, kTf };
 
+/// What happens if the detector fails its test at the start.
+enum class SelfTest { kNone, kUnknown, kExit };
+
 /// Holds all parameters of the node, checked. loadParameters() defines key, unit, range, default and effect of each;
 /// doc/interface.md and config/sweep_guard.yaml are generated from them.
 struct Parameters {
@@ -29,6 +32,8 @@ struct Parameters {
   std::string detector;
   std::string detector_description;  ///< its name and its OpenGL library, for people
   sweep_guard_core::DetectorOptions detector_options;
+  SelfTest self_test;
+  int cross_check;  ///< of so many queries of the detector, one is asked twice; 0: none
   sweep_guard_core::GuardOptions guard;
   sweep_guard_core::WarningLimits limits;
   double marker_rate;                       ///< [Hz]

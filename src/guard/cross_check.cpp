@@ -1,0 +1,114 @@
+#include "guard/cross_check.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "detection/reference_detector.h"
+#include "guard/triangle_set.h"
+
+namespace sweep_guard_core {
+namespace {
+
+class SampledDetector : public Detector {
+ public:
+  SampledDetector(std::unique_ptr<Detector> detector, const std::string& name, QuerySampler& sampler)
+      : detector_(std::move(detector)), name_(name), sampler_(sampler) {}
+
+ private:
+  void find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) override {
+    detection = detector_->detect(submesh, swept_M);
+    sampler_.offer(name_, submesh, swept_M, detection);
+  }
+
+  const std::unique_ptr<Detector> detector_;
+  const std::string name_;
+  QuerySampler& sampler_;
+};
+
+TriangleSet difference(const TriangleSet& a, const TriangleSet& b) {
+  TriangleSet only_in_a;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only_in_a));
+  return only_in_a;
+}
+
+SweptVolume shrunk(SweptVolume volume, double distance) {
+  volume.box.half_extents = (volume.box.half_extents.array() - distance).max(0.0);
+  for (HalfSpace& clip_B : volume.clips_B) clip_B = clip_B.grown(-distance);
+  return volume;
+}
+
+}  // namespace
+
+void QuerySampler::offer(const std::string& detector, const Submesh& submesh, const SweptVolume& swept_M,
+                         const Detection& found) {
+  if (every_ == 0 || ++count_ < every_) return;
+  const auto same = [&](const auto& workpiece) { return &workpiece->mesh_M == &submesh.mesh_M(); };
+  const auto workpiece = std::find_if(workpieces_.begin(), workpieces_.end(), same);
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock || workpiece == workpieces_.end() || kept_.workpiece) return;
+  count_ = 0;
+  kept_.detector = detector;
+  kept_.workpiece = *workpiece;
+  kept_.whole = submesh.groups() != nullptr;
+  kept_.clusters.clear();
+  if (!kept_.whole) kept_.clusters = submesh.clusters();
+  kept_.swept_M = swept_M;
+  kept_.found = found;
+  changed_.notify_one();
+}
+
+bool QuerySampler::take(SampledQuery& taken) {
+  taken.workpiece.reset();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return stopping_ || kept_.workpiece; });
+  if (stopping_) return false;
+  std::swap(taken, kept_);
+  return true;
+}
+
+bool QuerySampler::waiting() {
+  const std::lock_guard lock(mutex_);
+  return stopping_ || kept_.workpiece;
+}
+
+void QuerySampler::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::unique_ptr<Detector> sampled(std::unique_ptr<Detector> detector, const std::string& name, QuerySampler& sampler) {
+  return std::make_unique<SampledDetector>(std::move(detector), name, sampler);
+}
+
+Disagreement crossCheck(const SampledQuery& query, Detector& other) {
+  const TriangleMesh& mesh_M = query.workpiece->mesh_M;
+  const Detection& found = query.found;
+  const Detection& expected = other.detect(mesh_M, query.swept_M);
+  Disagreement result{difference(expected.triangles, found.triangles), difference(found.triangles, expected.triangles)};
+  if (!result.any()) return result;
+  ReferenceDetector reference;
+  const double tolerance = expected.inflation + reference.detect(mesh_M, query.swept_M).inflation;
+  keepOnly(result.missed, reference.detect(mesh_M, shrunk(query.swept_M, tolerance)).triangles);
+  if (!query.whole) keepOnly(result.missed, testedTriangles(query));
+  remove(result.invented, reference.detect(mesh_M, query.swept_M.grown(found.inflation)).triangles);
+  return result;
+}
+
+TriangleSet testedTriangles(const SampledQuery& query) {
+  const MeshOrder& order = query.workpiece->mesh_M.order();
+  TriangleSet all;
+  for (const Cluster& cluster : query.whole ? order.clusters : query.clusters) {
+    for (std::uint32_t place = cluster.first; place < cluster.first + cluster.count; ++place) {
+      all.push_back(order.triangle_at.empty() ? place : order.triangle_at[place]);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::string otherDetector(const std::string& name) { return name == "halfspace" ? "select" : "halfspace"; }
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,47 @@
+#include "guard/self_test.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "fake_detector.h"
+#include "refusal.h"
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_core {
+namespace {
+
+// Under the OpenGL driver that GALLIUM_DRIVER names. Mesa compiles at the first query of a process, as ever.
+TEST(SelfTest, EveryDetectorPassesInTime) {
+  for (const std::string& name : detectorNames()) {
+    const auto detector = makeDetector(name);
+    EXPECT_EQ(selfTest(*detector), "") << name;
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(selfTest(*detector), "") << name;
+    EXPECT_LT(toSeconds(std::chrono::steady_clock::now() - begin), 0.1) << name;
+  }
+}
+
+TEST(SelfTest, FindsADetectorThatMissesOneTriangleInTen) {
+  FakeDetector::Record record;
+  FakeDetector detector(record);
+  record.drop_every = 10;
+  EXPECT_TRUE(has(selfTest(detector), "is met and not found"));
+}
+
+TEST(SelfTest, FindsADetectorThatFindsTooMuch) {
+  FakeDetector::Record record;
+  FakeDetector detector(record);
+  record.grown = 1e-5;
+  EXPECT_TRUE(has(selfTest(detector), "is found and not met"));
+}
+
+TEST(SelfTest, NamesAFailureOfTheDevice) {
+  FakeDetector::Record record;
+  FakeDetector detector(record);
+  record.failures_left = 1;
+  EXPECT_EQ(selfTest(detector), "fake detector: fails on demand");
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
