@@ -5,6 +5,7 @@
 #include "guard/measured_sweeps.h"
 #include "guard/path_checker.h"
 #include "guard/time_budget.h"
+#include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -40,7 +41,7 @@ Guard::~Guard() = default;
 void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
   const SteadyTime begin = options_.clock();
   predictor_.observe({pose.stamp, pose.X_WT});
-  measured_sweeps_->sweep({tool_, *detector_, options_.sweep}, pose, workpieces, report);
+  measured_sweeps_->sweep({tool_, *detector_, options_.sweep, [this] { throwIfStopping(); }}, pose, workpieces, report);
   if (!predicted_motion_) predicted_motion_.emplace();
   assign(predicted_motion_->from, pose);
   budget_->spentOnMeasured(options_.clock() - begin);
@@ -70,6 +71,7 @@ void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& pred
 void Guard::chooseSweepPlan(SteadyTime begin) {
   plan_->sweep_ends.clear();
   plan_->out_of_time = [this, end = begin + budget_->forPrediction()] { return options_.clock() >= end; };
+  plan_->before_sweep = [this] { throwIfStopping(); };
   const auto& [from, path, reflex_sweeps] = *predicted_motion_;
   if (path.empty()) return;
   size_t volumes[] = {0, 0};
@@ -78,6 +80,10 @@ void Guard::chooseSweepPlan(SteadyTime begin) {
     volumes[i < reflex_sweeps ? 0 : 1] += subMotionCount(step.angle(), options_.sweep.max_rotation);
   }
   findSweepEnds(*predicted_motion_, budget_->consideredSweeps(volumes[0], volumes[1]), plan_->sweep_ends);
+}
+
+void Guard::throwIfStopping() const {
+  if (stopping_) throw Error("the guard is shutting down");
 }
 
 PredictedMotion Guard::predictMotion(Duration age, Duration end) const {

@@ -97,6 +97,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   history.path_M(first, last, setup.tool.boundingRadius(), path_M_);
   size_t i = first;
   do {
+    setup.before_sweep();
     const bool is_new = i >= begin;
     const size_t end = first + endOfMotion(setup, i - first, (is_new ? last : begin) - first);
     findSubMotions(setup, history, first, i - first, end - first);

@@ -45,6 +45,7 @@ void PathChecker::check(Detector& detector, const PredictedPathRequest& request,
   for (size_t i = 0; i < request.plan.sweepCount(request.path); ++i) {
     const size_t end = request.plan.sweep_ends.empty() ? i + 1 : request.plan.sweep_ends[i];
     const PathSegment sweep = path_M_.between(begin, end);
+    request.plan.before_sweep();
     sweepSegment(scene, sweep);
     for (const SweptBody& body : bodies_) object.volumes_M.push_back(body.volume_M);
     if (end > reflex_sweeps) progress.triangles = &object.considered;

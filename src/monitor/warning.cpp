@@ -175,6 +175,10 @@ void reportDisabled(const std::string& disabled_by, Warning& warning) {
   add(warning, kDisabled, {styleOf(warning.level).name, ": disabled by ", disabled_by, ": nothing is tested"});
 }
 
+void reportEnd(Warning& warning) {
+  add(warning, kDisabled, {styleOf(warning.level).name, ": the guard is shutting down"});
+}
+
 }  // namespace
 
 void Warning::clear() {
@@ -192,6 +196,7 @@ void Warning::clear() {
 
 void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
   warning.clear();
+  if (inputs.ended) return reportEnd(warning);
   if (inputs.disabled_by) return reportDisabled(*inputs.disabled_by, warning);
   addPoseReasons(inputs, now, limits, warning);
   addObjectReasons(inputs, now, limits, warning);

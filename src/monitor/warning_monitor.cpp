@@ -373,6 +373,15 @@ void WarningMonitor::enable() {
   on_fault_();
 }
 
+void WarningMonitor::end() {
+  {
+    const std::lock_guard lock(mutex_);
+    restartLocked();
+    inputs_.ended = true;
+  }
+  on_fault_();
+}
+
 std::optional<std::string> WarningMonitor::disabledBy() const {
   const std::lock_guard lock(mutex_);
   return inputs_.disabled_by;
@@ -380,7 +389,7 @@ std::optional<std::string> WarningMonitor::disabledBy() const {
 
 bool WarningMonitor::counts(const Checkpoint& checkpoint) const {
   const std::lock_guard lock(mutex_);
-  return checkpoint_.continues(checkpoint) && !inputs_.disabled_by;
+  return checkpoint_.continues(checkpoint) && !inputs_.disabled_by && !inputs_.ended;
 }
 
 void WarningMonitor::setLimits(const WarningLimits& limits) {

@@ -60,6 +60,7 @@ void GuardThread::start() {
 }
 
 void GuardThread::stop() {
+  guard_.stop();
   dependencies_.queue.stop();
   if (thread_.joinable()) thread_.join();
 }
@@ -183,6 +184,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
 }
 
 void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures) {
+  if (!dependencies_.monitor.counts(checkpoint_)) return;  // given up
   for (const sweep_guard_core::SweepFailure& failure : failures) {
     dependencies_.statistics.fault("'" + failure.workpiece->id + "': " + failure.reason);
     log_.error(failure.workpiece->id, "detection on '" + failure.workpiece->id + "' failed: " + failure.reason);

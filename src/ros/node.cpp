@@ -14,6 +14,7 @@ const ros::WallDuration kDiagnosticsPeriod(1.0);
 
 SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : parameters_(loadParameters(private_node)),
+      master_watch_(private_node, parameters_),
       monitor_(
           parameters_.initial().limits, [this] { warnings_.publishIfChanged(); },
           [this] { return queue_.waitingSince(); }),
@@ -37,7 +38,8 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       reconfigure_server_(private_node, parameters_, [this](const auto& next) { apply(next); }),
       diagnostics_(node, private_node,
                    {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_}),
-      watchdog_(node, monitor_, workpieces_, warnings_) {
+      watchdog_(node, monitor_, workpieces_, warnings_),
+      peer_watch_(monitor_) {
   createTimers(node);
   guard_thread_.start();
   cross_check_.start();
@@ -49,10 +51,16 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
   controls_.start();
   reconfigure_server_.start();
   timer_thread_.start();
+  master_watch_.start();
+  peer_watch_.start();
   logStart();
 }
 
-SweepGuardNode::~SweepGuardNode() { guard_thread_.stop(); }
+SweepGuardNode::~SweepGuardNode() {
+  monitor_.end();
+  warnings_.publishFinal();
+  guard_thread_.stop();
+}
 
 void SweepGuardNode::apply(const std::shared_ptr<const Parameters>& next) {
   guard_thread_.apply(next);

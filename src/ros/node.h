@@ -6,10 +6,12 @@
 #include "ros/guard_thread.h"
 #include "ros/input/mesh_input.h"
 #include "ros/input/pose_input.h"
+#include "ros/master_watch.h"
 #include "ros/output/diagnostics.h"
 #include "ros/output/scene_publisher.h"
 #include "ros/output/warning_publisher.h"
 #include "ros/parameters/reconfigure_server.h"
+#include "ros/peer_watch.h"
 #include "ros/service/check_sweep.h"
 #include "ros/service/controls.h"
 #include "ros/service/predict.h"
@@ -37,6 +39,7 @@ class SweepGuardNode {
 
   // Members use only earlier members. Exception: the monitor reports faults to warnings_.
   LiveParameters parameters_;
+  MasterWatch master_watch_;  // before what registers at the master
   WorkQueue queue_;
   sweep_guard_core::WarningMonitor monitor_;
   WarningPublisher warnings_;
@@ -58,6 +61,7 @@ class SweepGuardNode {
   Diagnostics diagnostics_;
   ros::SteadyTimer diagnostics_timer_;
   Watchdog watchdog_;
+  PeerWatch peer_watch_;
 };
 
 }  // namespace sweep_guard_ros

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "ros/node.h"
+#include "ros/output/start_failure.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
@@ -12,9 +13,10 @@ class SweepGuardNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
+      checkConfigured(getPrivateNodeHandle(), getMyArgv());
       node_ = std::make_unique<SweepGuardNode>(getNodeHandle(), getPrivateNodeHandle());
     } catch (const sweep_guard_core::Error& error) {
-      NODELET_FATAL("%s", error.what());
+      reportStartFailure(getNodeHandle(), getName(), error.what());
       throw;
     }
   }

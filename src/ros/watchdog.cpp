@@ -10,7 +10,6 @@ namespace {
 const ros::WallDuration kPeriod(0.01);  // largest delay until a silent input is noticed
 const ros::WallDuration kReflexPeriod(0.1);
 const ros::WallDuration kConsideredPeriod(1.0);
-constexpr auto kClockJump = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -29,14 +28,11 @@ Watchdog::Watchdog(const ros::NodeHandle& node, sweep_guard_core::WarningMonitor
 }
 
 void Watchdog::checkClock() {
-  const sweep_guard_core::Time stamp = now().stamp;
-  if (stamp + kClockJump < last_stamp_) {
-    ROS_WARN("ROS time went back by %.2f s: tool poses are forgotten, workpieces with a timeout are stale",
-             sweep_guard_core::toSeconds(last_stamp_ - stamp));
-    monitor_.timeJumped("time went back");
-    workpieces_.clearStamps();
-  }
-  last_stamp_ = stamp;
+  const auto jump = clocks_.jump(now().stamp, suspendedTime());
+  if (!jump) return;
+  ROS_WARN("%s: tool poses are forgotten, workpieces with a timeout are stale", jump->c_str());
+  monitor_.timeJumped(*jump);
+  workpieces_.clearStamps();
 }
 
 }  // namespace sweep_guard_ros

@@ -480,7 +480,9 @@ TEST_F(HostileTest, AQuaternionOfEitherSignAndOfAlmostUnitLengthIsTheSameRotatio
 // By the steady clock the newest pose is stale, however fresh it looks by ROS time.
 TEST_F(HostileTest, AClockThatStandsStillIsNotClear) {
   clearScene();
+  const auto begin = SteadyClock::now();
   probe().awaitWarning(hasReason(Warning::POSE_STALE));
+  EXPECT_LT(secondsSince(begin), 1.2);  // timing/pose_timeout, and 0.2 s
   restAt(kAway);
 }
 

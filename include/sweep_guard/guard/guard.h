@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 
@@ -15,7 +16,7 @@ class TimeBudget;
 struct SweepPlan;
 
 /// Sweeps the tool from pose to pose, so that no motion goes untested, and predicts contacts after the newest pose
-/// [P, Sec. 3.2]. One thread.
+/// [P, Sec. 3.2]. One thread, except for stop().
 ///
 /// After a failure of the detector the next sweep passes through every pose since the last success; of more than 8192
 /// it skips the oldest. After a missing transform it goes straight from the last pose known in that frame. The first
@@ -72,11 +73,16 @@ class Guard {
   /// @throws InvalidInput if `cycle` or an option of the horizon is out of range; then nothing is exchanged
   void exchange(GuardChange& change);
 
+  /// Gives up the running sweep or prediction and all later ones soon: they report failures. Any thread.
+  void stop() { stopping_ = true; }
+
   const Tool& tool() const { return tool_; }
 
  private:
   void chooseSweepPlan(SteadyTime begin);
+  void throwIfStopping() const;
 
+  std::atomic<bool> stopping_ = false;
   Tool tool_;
   std::unique_ptr<Detector> detector_;
   GuardOptions options_;

@@ -48,8 +48,8 @@ struct Warning {
 /// - UNKNOWN: a reason other than kDegraded applies.
 /// - CLEAR: there is a workpiece; pose and workpieces are fresh; every workpiece was swept at that pose and tested to
 ///   the end of the considered interval; there is no fault.
-/// Reasons are reported whatever the level. A disabled guard is always UNKNOWN, even during a contact, and kDisabled is
-/// its only reason.
+/// Reasons are reported whatever the level. A guard that is disabled or shuts down is always UNKNOWN, even during a
+/// contact, and kDisabled is its only reason.
 /// @param[out] warning  overwritten; its buffers are used again
 void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning);
 

@@ -62,6 +62,7 @@ struct WarningInputs {
   Duration look_ahead{};                    ///< time that the newest prediction took
   std::map<Reason, std::string> faults;     ///< current faults, each with a message
   std::optional<std::string> disabled_by;   ///< caller that disabled the guard; then nothing else counts
+  bool ended = false;                       ///< the guard is shutting down; then nothing else counts
 };
 
 }  // namespace sweep_guard_core

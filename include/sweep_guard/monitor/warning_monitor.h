@@ -114,10 +114,13 @@ class WarningMonitor {
   /// Ends disable() with a restart(): motion while disabled was not swept. Does nothing if enabled already.
   void enable();
 
+  /// Makes the warning unknown for good: the guard is shutting down. No pose counts any more.
+  void end();
+
   std::optional<std::string> disabledBy() const;  ///< empty: enabled
 
-  /// Returns whether a pose received at this checkpoint is still to be swept: the guard is enabled and was not
-  /// restarted.
+  /// Returns whether a pose received at this checkpoint is still to be swept: the guard is enabled, was not
+  /// restarted, and does not end.
   bool counts(const Checkpoint& checkpoint) const;
 
   /// Sets the limits of the next warning; does not check them.

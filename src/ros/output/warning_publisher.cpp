@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <random>
 
+#include "ros/output/flush.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, polled every 10 ms
 constexpr auto kValid = std::chrono::milliseconds(200);
+constexpr auto kFlushTime = std::chrono::milliseconds(200);
 
 std::string randomId() {
   std::random_device random;
@@ -47,6 +49,16 @@ void WarningPublisher::publishIfDue() {
   const std::lock_guard lock(mutex_);
   const bool due = std::chrono::steady_clock::now() - published_ >= kPeriod;
   publish(/*only_if_changed=*/!due);
+}
+
+void WarningPublisher::publishFinal() {
+  {
+    const std::lock_guard lock(mutex_);
+    publish(/*only_if_changed=*/false);
+  }
+  publishReflex();
+  publishConsidered();
+  flush(kFlushTime);
 }
 
 void WarningPublisher::publishReflex() { publishFlag(reflex_publisher_, &sweep_guard::Warning::reflex); }

@@ -20,6 +20,7 @@ class WarningPublisher {
 
   void publishIfChanged();   ///< publishes if level or reasons have changed
   void publishIfDue();       ///< publishes on change, and otherwise often enough for 20 Hz
+  void publishFinal();       ///< publishes the warning and both flags, and waits until they are sent, up to 0.2 s
   void publishReflex();      ///< publishes the flag as it is now
   void publishConsidered();  ///< publishes the flag as it is now
 

@@ -296,6 +296,13 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   return parameters;
 }
 
+void checkConfigured(const ros::NodeHandle& private_node, const std::vector<std::string>& arguments) {
+  const bool configured = std::count(arguments.begin(), arguments.end(), "--configured") != 0;
+  if (!configured || private_node.hasParam("")) return;
+  throw sweep_guard_core::InvalidInput("there is no parameter in " + private_node.getNamespace() +
+                                       ": the master was started anew and has lost them; start the launch file again");
+}
+
 bool changesWhileRunning(const std::string& key) {
   return std::count(kChangeable.begin(), kChangeable.end(), key) != 0 || key.compare(0, kMarkers.size(), kMarkers) == 0;
 }

@@ -55,6 +55,11 @@ struct Parameters {
 ///     range; naming link and file if the robot description makes no tool
 Parameters loadParameters(const ros::NodeHandle& private_node);
 
+/// Refuses to start with the defaults alone in place of a configuration: a master that was started anew has lost it.
+/// @param arguments  of the command line. The launch files give `--configured`; without it, nothing is checked
+/// @throws sweep_guard_core::InvalidInput if there is no private parameter
+void checkConfigured(const ros::NodeHandle& private_node, const std::vector<std::string>& arguments);
+
 /// Returns whether a parameter may change while the node runs. Tools, topics and devices may not.
 bool changesWhileRunning(const std::string& key);
 

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_ros {
+
+/// Notices that stamps from before do not count any more: the clock of the stamps went back, or the machine was
+/// suspended. Suspended time is no time for the steady clock, so the ages of the inputs do not show it.
+class ClockWatch {
+ public:
+  /// @param stamp      the clock of the stamps
+  /// @param suspended  time that the machine was suspended since it started
+  /// @returns what happened since the call before; empty: nothing
+  std::optional<std::string> jump(sweep_guard_core::Time stamp, sweep_guard_core::Duration suspended);
+
+ private:
+  sweep_guard_core::Time stamp_;
+  std::optional<sweep_guard_core::Duration> suspended_;
+};
+
+/// Returns the time that the machine was suspended since it started.
+sweep_guard_core::Duration suspendedTime();
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,161 @@
+#include "ros/master_watch.h"
+
+#include <ros/connection_manager.h>
+#include <ros/console.h>
+#include <ros/master.h>
+#include <ros/names.h>
+#include <ros/network.h>
+#include <ros/service_manager.h>
+#include <ros/this_node.h>
+#include <ros/xmlrpc_manager.h>
+
+#include <array>
+#include <set>
+
+namespace sweep_guard_ros {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+constexpr auto kPeriod = std::chrono::seconds(1);
+constexpr auto kLongestCall = std::chrono::milliseconds(500);
+// roscpp keeps no list of them.
+constexpr std::array kServices = {"check_sweep", "enable", "predict", "reset", "set_parameters"};
+constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodelet", "set_logger_level",
+                                              "unload_nodelet"};
+
+std::string ownUri() { return ros::XMLRPCManager::instance()->getServerURI(); }
+
+// Returns the nodes that the process hears on a topic.
+std::set<std::string> publishersOf(const std::string& topic, const XmlRpcValue& connections) {
+  std::set<std::string> publishers;
+  for (int i = 0; i < connections.size(); ++i) {
+    const XmlRpcValue& connection = connections[i];
+    const bool inbound = static_cast<const std::string&>(connection[2]) == "i";
+    if (!inbound || static_cast<const std::string&>(connection[4]) != topic) continue;
+    publishers.insert(static_cast<const std::string&>(connection[1]));
+  }
+  return publishers;
+}
+
+}  // namespace
+
+MasterWatch::MasterWatch(const ros::NodeHandle& private_node, const LiveParameters& parameters)
+    : namespace_(private_node.getNamespace()),
+      parameters_(parameters),
+      call_(kLongestCall, stopping_),
+      master_(identity()) {}
+
+MasterWatch::~MasterWatch() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void MasterWatch::start() {
+  thread_ = std::thread([this] { run(); });
+}
+
+void MasterWatch::run() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    lock.unlock();
+    try {
+      check();
+    } catch (const XmlRpc::XmlRpcException& error) {
+      ROS_ERROR_THROTTLE(60.0, "the ROS master's answer cannot be read: %s", error.getMessage().c_str());
+    }
+    lock.lock();
+    changed_.wait_for(lock, kPeriod, [this] { return stopping_.load(); });
+  }
+}
+
+// Those that run without roscore have no run id, and in a container each may have the same process id.
+std::optional<std::string> MasterWatch::identity() const {
+  const std::string uri = ros::master::getURI();
+  const auto process = call_.call(uri, "getPid", {});
+  const auto run_id = call_.call(uri, "getParam", {XmlRpcValue("/run_id")});
+  if (!process || !run_id) return std::nullopt;
+  return process->value.toXml() + run_id->value.toXml();
+}
+
+void MasterWatch::check() {
+  const auto master = identity();
+  const auto node = call_.call(ros::master::getURI(), "lookupNode", {XmlRpcValue(ros::this_node::getName())});
+  const bool answers = master && node;
+  if (stopping_) return;
+  if (answers_ && !answers) ROS_WARN("the ROS master does not answer: the guard goes on with the connections it has");
+  if (!answers_ && answers) ROS_WARN("the ROS master answers again");
+  answers_ = answers;
+  if (!answers) return;
+  if ((node->success && master == master_) || !registerAnew()) return;
+  master_ = master;
+  ROS_WARN("the ROS master was started anew: topics, services and parameters are registered there again");
+}
+
+// Parameters first: a guard that is started again soon finds them.
+bool MasterWatch::registerAnew() { return setParameters() && registerServices() && registerTopics(); }
+
+bool MasterWatch::setParameters() {
+  const auto set = call_.call(ros::master::getURI(), "hasParam", {XmlRpcValue(namespace_)});
+  if (!set || !set->success) return false;
+  if (static_cast<bool>(set->value)) return true;
+  for (const auto& [key, value] : parameters_.get()->settings) {
+    const std::string name = key.front() == '/' ? key : ros::names::append(namespace_, key);
+    if (value && !tell("setParam", {XmlRpcValue(name), *value})) return false;
+  }
+  return true;
+}
+
+bool MasterWatch::registerServices() {
+  const std::string address =
+      "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
+  std::vector<std::string> services;
+  for (const char* const name : kServices) services.push_back(ros::names::append(namespace_, name));
+  for (const char* const name : kServicesOfTheProcess)
+    services.push_back(ros::names::append(ros::this_node::getName(), name));
+  for (const std::string& service : services) {
+    if (!ros::ServiceManager::instance()->lookupServicePublication(service)) continue;
+    if (!tell("registerService", {XmlRpcValue(service), XmlRpcValue(address), XmlRpcValue(ownUri())})) return false;
+  }
+  return true;
+}
+
+bool MasterWatch::registerTopics() {
+  const auto published = call_.call(ownUri(), "getPublications", {});
+  const auto subscribed = call_.call(ownUri(), "getSubscriptions", {});
+  const auto connections = call_.call(ownUri(), "getBusInfo", {});
+  if (!published || !subscribed || !connections) return false;
+  for (int i = 0; i < published->value.size(); ++i) {
+    const XmlRpcValue& topic = published->value[i];
+    if (!tell("registerPublisher", {topic[0], topic[1], XmlRpcValue(ownUri())})) return false;
+  }
+  for (int i = 0; i < subscribed->value.size(); ++i) {
+    if (!subscribe(subscribed->value[i], connections->value)) return false;
+  }
+  return true;
+}
+
+// roscpp takes a list of publishers as complete and drops the others: those that the new master does not know are added.
+bool MasterWatch::subscribe(const XmlRpcValue& topic, const XmlRpcValue& connections) {
+  const auto known =
+      call_.call(ros::master::getURI(), "registerSubscriber", {topic[0], topic[1], XmlRpcValue(ownUri())});
+  if (!known || !known->success) return false;
+  std::set<std::string> publishers = publishersOf(topic[0], connections);
+  for (int i = 0; i < known->value.size(); ++i) publishers.insert(static_cast<const std::string&>(known->value[i]));
+  XmlRpcValue all;
+  all.setSize(0);
+  for (const std::string& uri : publishers) all[all.size()] = uri;
+  const auto told = call_.call(ownUri(), "publisherUpdate", {topic[0], all});
+  return told && told->success;
+}
+
+bool MasterWatch::tell(const std::string& function, const std::vector<XmlRpcValue>& arguments) {
+  const auto answer = call_.call(ros::master::getURI(), function, arguments);
+  return answer && answer->success;
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,49 @@
+#include "ros/clock_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace sweep_guard_ros {
+namespace {
+
+using std::chrono::milliseconds;
+using sweep_guard_core::Duration;
+using sweep_guard_core::Time;
+
+const Time kStart{std::chrono::seconds(1000)};
+
+// The machine may have slept before the guard began.
+TEST(ClockWatchTest, TimeThatGoesOnIsNoJump) {
+  ClockWatch watch;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(watch.jump(kStart + milliseconds(10 * i), std::chrono::hours(5)));
+  }
+}
+
+TEST(ClockWatchTest, ClocksMayDifferByALittle) {
+  ClockWatch watch;
+  watch.jump(kStart, Duration::zero());
+  EXPECT_FALSE(watch.jump(kStart - milliseconds(100), milliseconds(200)));
+}
+
+TEST(ClockWatchTest, TimeThatGoesBackIsAJump) {
+  ClockWatch watch;
+  watch.jump(kStart, Duration::zero());
+  EXPECT_EQ(watch.jump(kStart - milliseconds(110), Duration::zero()), "time went back by 0.11 s");
+  EXPECT_FALSE(watch.jump(kStart, Duration::zero()));
+}
+
+// The stamps may go on as if nothing had happened.
+TEST(ClockWatchTest, SuspendIsAJump) {
+  ClockWatch watch;
+  watch.jump(kStart, milliseconds(7000));
+  EXPECT_EQ(watch.jump(kStart + milliseconds(10), milliseconds(7210)), "the machine was suspended for 0.21 s");
+  EXPECT_FALSE(watch.jump(kStart + milliseconds(20), milliseconds(7210)));
+}
+
+TEST(ClockWatchTest, SuspendedTimeStandsStillWhileTheMachineRuns) {
+  const Duration before = suspendedTime();
+  EXPECT_LT(suspendedTime() - before, milliseconds(200));
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
