@@ -10,7 +10,8 @@ int main(int argc, char** argv) {
     ros::init(argc, argv, "sweep_guard");  // throws at a refused name or remapping
     const ros::NodeHandle alive;           // the console is silent without a handle
     try {
-      const sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~")};
+      const sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~"),
+                                                 sweep_guard_ros::Process::kOwn};
       sweep_guard_ros::limitMemory(node.parameters().max_memory);
       ros::waitForShutdown();
     } catch (const sweep_guard_core::Error& error) {

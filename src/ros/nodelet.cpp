@@ -12,7 +12,7 @@ class SweepGuardNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
-      node_ = std::make_unique<SweepGuardNode>(getNodeHandle(), getPrivateNodeHandle());
+      node_ = std::make_unique<SweepGuardNode>(getNodeHandle(), getPrivateNodeHandle(), Process::kShared);
     } catch (const sweep_guard_core::Error& error) {
       NODELET_FATAL("%s", error.what());
       throw;

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <ros/steady_timer.h>
-
 #include "guard/workpiece_store.h"
 #include "ros/output/warning_publisher.h"
+#include "ros/threads/timer_thread.h"
 #include "sweep_guard/monitor/warning_monitor.h"
-#include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -13,10 +11,10 @@ namespace sweep_guard_ros {
 /// goes back (a bag loops, a simulation restarts), the stamps from before are meaningless. Has its own thread.
 class Watchdog {
  public:
-  Watchdog(const ros::NodeHandle& node, sweep_guard_core::WarningMonitor& monitor,
-           sweep_guard_core::WorkpieceStore& workpieces, WarningPublisher& warnings);
+  Watchdog(sweep_guard_core::WarningMonitor& monitor, sweep_guard_core::WorkpieceStore& workpieces,
+           WarningPublisher& warnings);
 
-  void start() { thread_.start(); }
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"warnings"}); }
 
  private:
   void checkClock();
@@ -25,10 +23,7 @@ class Watchdog {
   sweep_guard_core::WorkpieceStore& workpieces_;
   WarningPublisher& warnings_;
   sweep_guard_core::Time last_stamp_;
-  QueueThread thread_;  // before the timers, which use its queue
-  ros::SteadyTimer timer_;
-  ros::SteadyTimer reflex_timer_;
-  ros::SteadyTimer considered_timer_;
+  TimerThread thread_;
 };
 
 }  // namespace sweep_guard_ros

@@ -24,10 +24,10 @@ double statusMegabytes(pid_t pid, const std::string& key) {
 
 }  // namespace
 
-pid_t guardPid() {
+pid_t pidOf(const std::string& node) {
   XmlRpc::XmlRpcValue request;
   request[0] = "sweep_guard_test";
-  request[1] = "/sweep_guard";
+  request[1] = node;
   XmlRpc::XmlRpcValue response;
   XmlRpc::XmlRpcValue uri;
   std::string host;

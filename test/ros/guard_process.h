@@ -12,7 +12,8 @@
 
 namespace sweep_guard_ros {
 
-pid_t guardPid();  ///< of the node /sweep_guard; 0: it does not answer
+pid_t pidOf(const std::string& node);  ///< 0: it does not answer
+inline pid_t guardPid() { return pidOf("/sweep_guard"); }
 
 /// What the kernel knows about a process.
 double residentMegabytes(pid_t pid);

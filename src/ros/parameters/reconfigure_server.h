@@ -11,7 +11,7 @@
 #include <string>
 
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/ros/queue_thread.h"
+#include "ros/threads/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -30,7 +30,7 @@ class ReconfigureServer {
 
   ReconfigureServer(const ros::NodeHandle& private_node, const LiveParameters& parameters, Apply apply);
 
-  void start() { thread_.start(); }
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"parameters", /*watched=*/false}); }
 
   History history() const;
 

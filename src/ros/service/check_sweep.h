@@ -10,8 +10,8 @@
 #include "guard/workpiece_store.h"
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
+#include "ros/threads/queue_thread.h"
 #include "sweep_guard/monitor/warning_monitor.h"
-#include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -27,7 +27,7 @@ class CheckSweepService {
   CheckSweepService(const CheckSweepService&) = delete;
   CheckSweepService& operator=(const CheckSweepService&) = delete;
 
-  void start() { thread_.start(); }
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"check_sweep", /*watched=*/false}); }
 
  private:
   bool onCall(sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
