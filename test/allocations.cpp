@@ -22,6 +22,7 @@ struct Stack {
 };
 
 thread_local bool counting = false;
+thread_local size_t left_until_failure = 0;  // 0: none fails
 size_t counted = 0;
 size_t largest_size = 0;
 std::array<Stack, kMaxStacks> recorded;
@@ -37,6 +38,7 @@ void record(size_t size) {
 
 void* allocate(size_t size, size_t alignment) {
   record(size);
+  if (left_until_failure > 0 && --left_until_failure == 0) throw std::bad_alloc();
   const size_t whole = (size + alignment - 1) / alignment * alignment;
   void* memory =
       alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size) : std::aligned_alloc(alignment, whole);
@@ -75,6 +77,12 @@ Allocations::Allocations() {
 }
 
 Allocations::~Allocations() { counting = false; }
+
+FailingAllocation::FailingAllocation(size_t number) { left_until_failure = number; }
+
+FailingAllocation::~FailingAllocation() { left_until_failure = 0; }
+
+bool FailingAllocation::reached() const { return left_until_failure == 0; }
 
 size_t Allocations::count() const { return counted; }
 

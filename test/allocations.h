@@ -19,4 +19,16 @@ class Allocations {
   std::string stacks() const;  ///< call stacks of the first thousand, each once, with its count
 };
 
+/// Lets one allocation of this thread fail during its own lifetime; at most one object at a time. Replaces the operators
+/// as Allocations does.
+class FailingAllocation {
+ public:
+  explicit FailingAllocation(size_t number);  ///< 1: the next one
+  ~FailingAllocation();
+  FailingAllocation(const FailingAllocation&) = delete;
+  FailingAllocation& operator=(const FailingAllocation&) = delete;
+
+  bool reached() const;  ///< it has failed
+};
+
 }  // namespace sweep_guard_core

@@ -12,7 +12,8 @@ Nanoseconds now() { return nanoseconds(ros::Time::now()); }
 }  // namespace
 
 Listener::Listener(const std::string& guard) {
-  ros::NodeHandle node = thread_.on(ros::NodeHandle(guard));
+  ros::NodeHandle node(guard);
+  node.setCallbackQueue(&queue_);
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   contacts_ = node.subscribe("contacts", kQueued, &Listener::onContacts, this, hints);
   predictions_ = node.subscribe("prediction", kQueued, &Listener::onPrediction, this, hints);

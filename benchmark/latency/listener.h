@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ros/callback_queue.h>
+#include <ros/spinner.h>
 #include <ros/subscriber.h>
 #include <sweep_guard/Contacts.h>
 #include <sweep_guard/Prediction.h>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "latency/latencies.h"
-#include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_benchmark {
 
@@ -46,7 +47,8 @@ class Listener {
   mutable std::mutex mutex_;
   ReceivedMessages messages_;
   int level_ = -1;
-  sweep_guard_ros::QueueThread thread_;
+  ros::CallbackQueue queue_;
+  ros::AsyncSpinner thread_{1, &queue_};
   ros::Subscriber contacts_;
   ros::Subscriber predictions_;
   ros::Subscriber warnings_;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -18,8 +17,8 @@ class Pool {
   std::shared_ptr<Value> take(const Fits& fits) {
     for (const std::shared_ptr<Value>& value : all_) {
       if (value.use_count() != 1) continue;
-      std::atomic_thread_fence(std::memory_order_acquire);  // pairs with the release by the last owner
-      if (fits(*value)) return value;
+      std::shared_ptr<Value> taken = value;  // increments with acquire: pairs with the release by the last owner
+      if (fits(*taken)) return taken;
     }
     return nullptr;
   }

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <string>
 
+#include "common/heartbeat.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
@@ -82,6 +83,7 @@ int GlSelect::draw(const Query& query, std::uint32_t canary_name) {
   const GLint step = 3 * query.triangles_per_name;
   GLuint name = 0;
   for (GLint first = 0; first < corners; first += step) {
+    beat();
     gl_->loadName(name++);
     gl_->drawArrays(GL_TRIANGLES, first, std::min(step, corners - first));
   }

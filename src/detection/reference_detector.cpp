@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/heartbeat.h"
 #include "detection/box_coordinates.h"
 
 namespace sweep_guard_core {
@@ -23,6 +24,7 @@ void ReferenceDetector::find(const Submesh& submesh, const SweptVolume& swept_M,
   detection.inflation = 2.0 * coordinates.rounding();  // the rounding of clipping can add triangles beyond the rounding
   const std::vector<HalfSpace> half_spaces = swept_M.grown(coordinates.rounding()).halfSpaces_B();
   submesh.forEachTriangle([&](std::uint32_t i) {
+    beat();
     const auto& [a, b, c] = mesh_M.triangles()[i];
     if (meets({coordinates.position(a), coordinates.position(b), coordinates.position(c)}, half_spaces))
       detection.triangles.push_back(i);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/heartbeat.h"
 #include "detection/box_coordinates.h"
 #include "detection/convex_clip.h"
 #include "detection/float_planes.h"
@@ -69,6 +70,7 @@ struct ClearanceMeter::Planes {
 
 std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const SweptVolume& swept_M,
                                                  const PerHalfSpace& sigmas) {
+  beat();
   const BoxCoordinates coordinates(submesh.mesh_M(), swept_M.box);
   Planes planes{submesh.mesh_M(), coordinates, {}, sigmas};
   swept_M.grown(2.0 * coordinates.rounding()).forEachHalfSpace([&](const Eigen::Vector3d& normal, double offset) {
@@ -85,6 +87,7 @@ std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const S
   const bool separated = candidates_.front().at_least > 0.0;
   double nearest = kMaxDeviations + kTolerance;
   for (const Candidate& candidate : candidates_) {
+    beat();
     if (candidate.at_least > nearest - kTolerance) break;
     if (candidate.at_least <= 0.0 && reaches(kRounding, candidate, planes)) {
       return Clearance{separated, std::max(candidate.at_least, -kMaxDeviations)};

@@ -47,6 +47,8 @@ void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, Swee
   budget_->spentOnMeasured(options_.clock() - begin);
 }
 
+void Guard::takeBack() noexcept { measured_sweeps_->takeBack(); }
+
 void Guard::pass(const PoseWithFrames& pose) {
   predictor_.observe({pose.stamp, pose.X_WT});
   measured_sweeps_->pass(pose);

@@ -66,6 +66,10 @@ void MeasuredSweeps::add(const PoseWithFrames& pose) {
 void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
                            SweepReport& report) {
   forgetRemoved(workpieces);
+  for (auto& [id, swept] : swept_) {
+    swept.before = swept.pose;
+    swept.grown = false;
+  }
   add(pose);
   report.start = report.end = pose.stamp;
   testPlaced(workpieces, pose, report, [&](const auto& workpiece, const auto& /*X_WM*/, SweptObject& object) {
@@ -83,6 +87,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   const PoseHistory& history = histories_.at(workpiece->frame);
   const size_t last = history.size() - 1;
   Swept& swept = lastSwept(workpiece);
+  swept.before = swept.pose;
   const size_t begin = history.lastUpTo(swept.pose);
   const Workpiece& from = measureDisplacements(swept, history[begin].stamp, workpiece, object.behind);
   const Workpiece& before = *swept.deformations.back();
@@ -112,6 +117,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
     i = end;
   } while (i < last);
   if (deformed) swept.deformations.push_back(workpiece);
+  swept.grown = deformed;
   swept.pose = history.newest().number;
   std::swap(swept.cache, cache_);
 }
@@ -169,6 +175,14 @@ void MeasuredSweeps::findSubMotions(const SweepSetup& setup, const PoseHistory& 
                          std::move(sub_motions_M_));
 }
 
+void MeasuredSweeps::takeBack() noexcept {
+  for (auto& [id, swept] : swept_) {
+    swept.pose = swept.before;
+    if (swept.grown) swept.deformations.pop_back();
+    swept.grown = false;
+  }
+}
+
 void MeasuredSweeps::reset() {
   histories_.clear();
   swept_.clear();
@@ -196,7 +210,7 @@ void MeasuredSweeps::forgetRemoved(const Workpieces& workpieces) {
 void MeasuredSweeps::shorten(const std::string& frame, PoseHistory& history) const {
   std::uint64_t unswept = history.newest().number;
   for (const auto& [id, swept] : swept_) {
-    if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.pose);
+    if (swept.deformations.back()->frame == frame) unswept = std::min(unswept, swept.before);
   }
   const Time oldest = history.newest().stamp - kMaxUpdateInterval;
   while (history.size() > 1 && history[1].number <= unswept && history[1].stamp <= oldest) history.forgetFirst();

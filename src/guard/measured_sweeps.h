@@ -33,6 +33,9 @@ class MeasuredSweeps {
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
 
+  /// Takes the last sweep back: its report was lost. The next one repeats it.
+  void takeBack() noexcept;
+
   /// Forgets all poses.
   void reset();
 
@@ -49,6 +52,8 @@ class MeasuredSweeps {
     std::shared_ptr<const Workpiece> displaced_from = nullptr;
     Displacements displacements = {};  // from there to the newest deformation
     bool incomplete = false;           // deformations before the first of these are forgotten
+    std::uint64_t before = 0;          // `pose` before the last sweep
+    bool grown = false;                // the last sweep has added a deformation
   };
 
   void add(const PoseWithFrames& pose);

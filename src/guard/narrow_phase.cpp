@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/heartbeat.h"
 #include "guard/swept_body.h"
 
 namespace sweep_guard_core {
@@ -16,6 +17,7 @@ class NarrowPhase {
   }
 
   void check(std::uint32_t index, size_t piece) {
+    beat();
     const ConvexShape& shape_T = request_.tool.pieces()[piece].shape_T;
     const MovingTriangle triangle = request_.mesh.triangle(index);
     const auto earlier = request_.contact_normals.find(index);

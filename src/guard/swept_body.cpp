@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/heartbeat.h"
 #include "guard/moving_mesh.h"
 #include "sweep_guard/geometry/separation.h"
 
@@ -50,11 +51,13 @@ bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const Movi
 }
 
 void detect(Detector& detector, const Submesh& submesh, const SweptBody& body, Detection& detection) {
+  beat();
   detection = detector.detect(submesh, body.volume_M);
   if (body.kind != VolumeKind::kHull) return;
   const double margin = body.volume_M.margin + detection.inflation;
   const MovingMesh at_rest(submesh.mesh_M());
   const auto missed = [&](std::uint32_t triangle) {
+    beat();
     return missedByHull(*body.shape_T, body.motion_M, at_rest.triangle(triangle), margin);
   };
   TriangleSet& triangles = detection.triangles;

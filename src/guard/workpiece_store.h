@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/pool.h"
+#include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {
@@ -81,7 +82,7 @@ class WorkpieceStore {
   bool wasRemoved(const Deformation& deformation) const;
 
   const OnChange on_change_;
-  mutable std::mutex mutex_;
+  mutable PriorityMutex mutex_;
   Workpieces workpieces_;
   std::shared_ptr<const std::set<std::string>> frames_ = std::make_shared<const std::set<std::string>>();
   std::map<std::string, Buffers> buffers_;            // by id, for the triangles of the snapshot; not locked

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_core {
@@ -47,7 +48,7 @@ class SweepStatistics {
   void restart();                         ///< resets all counters
 
  private:
-  std::mutex mutex_;
+  PriorityMutex mutex_;
   Duration cycle_;
   Summary summary_;
 };

@@ -103,6 +103,11 @@ void addLoadReasons(const WarningInputs& inputs, const Instant& now, const Warni
   if (held(inputs.pose_loss)) add(warning, kPoseLoss, {inputs.pose_loss->message});
 }
 
+void addThreadReasons(const WarningInputs& inputs, Warning& warning) {
+  if (inputs.failure) add(warning, inputs.failure->reason, {inputs.failure->message.data()});
+  if (inputs.hung != nullptr) add(warning, kWorkerHung, {"thread '", inputs.hung, "' makes no progress"});
+}
+
 // The strongest current or held warning, and the contact that it is about.
 struct Strongest {
   WarningLevel level = WarningLevel::kClear;
@@ -203,6 +208,7 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
   addCoverageReasons(inputs, now, limits, warning);
   addLoadReasons(inputs, now, limits, warning);
   for (const auto& [reason, message] : inputs.faults) add(warning, reason, {message});
+  addThreadReasons(inputs, warning);
 
   warning.level = (warning.reasons & ~kDegraded) == 0 ? WarningLevel::kClear : WarningLevel::kUnknown;
   if (inputs.pose) warning.pose_stamp = inputs.pose->stamp;
@@ -224,6 +230,7 @@ std::string meshProblems(const WarningInputs& inputs, const Instant& now, const 
   Warning warning;
   addObjectReasons(inputs, now, limits, warning);
   for (const auto& [reason, message] : inputs.faults) add(warning, reason, {message});
+  addThreadReasons(inputs, warning);
   return warning.text;
 }
 

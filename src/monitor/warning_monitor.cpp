@@ -1,6 +1,7 @@
 #include "sweep_guard/monitor/warning_monitor.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "guard/triangle_set.h"
 
@@ -42,8 +43,12 @@ bool notSwept(const SweepReport& report, const std::string& id) {
 }  // namespace
 
 WarningMonitor::WarningMonitor(const WarningLimits& limits, std::function<void()> on_fault,
-                               std::function<std::optional<SteadyTime>()> waiting_since)
-    : on_fault_(std::move(on_fault)), waiting_since_(std::move(waiting_since)), limits_(limits) {}
+                               std::function<std::optional<SteadyTime>()> waiting_since,
+                               std::function<const char*()> hung)
+    : on_fault_(std::move(on_fault)),
+      waiting_since_(std::move(waiting_since)),
+      hung_(std::move(hung)),
+      limits_(limits) {}
 
 void WarningMonitor::require(const std::set<std::string>& ids) {
   const std::lock_guard lock(mutex_);
@@ -61,6 +66,15 @@ void WarningMonitor::fault(Reason reason, const std::string& message) {
     addFault(reason, message);
   }
   on_fault_();
+}
+
+void WarningMonitor::failed(Reason reason, const char* message, bool lasting) noexcept {
+  const std::lock_guard lock(mutex_);
+  auto& failure = inputs_.failure;
+  lasting = lasting || (failure && failure->lasting);
+  failure = WarningInputs::Failure{reason, {}, lasting};
+  std::strncpy(failure->message.data(), message, failure->message.size() - 1);
+  failure_number_ = ++checkpoint_.faults;
 }
 
 void WarningMonitor::addFault(Reason reason, const std::string& message) {
@@ -212,6 +226,7 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
       if (cleared) inputs_.faults.erase(reason);
       fault = cleared ? fault_numbers_.erase(fault) : std::next(fault);
     }
+    if (inputs_.failure && !inputs_.failure->lasting && failure_number_ <= checkpoint.faults) inputs_.failure.reset();
     for (const SweepFailure& failure : report.failures) {
       addFault(kDetectorFault, "detection on '" + failure.workpiece->id + "' failed: " + failure.reason);
     }
@@ -317,6 +332,7 @@ void WarningMonitor::restartLocked() {
   inputs_.overload.reset();
   inputs_.pose_loss.reset();
   inputs_.faults.clear();
+  if (inputs_.failure && !inputs_.failure->lasting) inputs_.failure.reset();
   swept_until_ = {};
   coverage_.reset();
   swept_.clear();
@@ -332,6 +348,7 @@ void WarningMonitor::restart() {
     disagreement_.clear();
     restartLocked();
     inputs_.contact.reset();
+    inputs_.failure.reset();
   }
   on_fault_();
 }
@@ -405,6 +422,7 @@ void WarningMonitor::warning(const Instant& now, Warning& warning) const {
 void WarningMonitor::computeLocked(const Instant& now, Warning& warning) const {
   inputs_.covered_until = coveredUntil(now);
   inputs_.waiting_since = waiting_since_();
+  inputs_.hung = hung_();
   computeWarning(inputs_, now, limits_, warning);
 }
 
@@ -429,6 +447,7 @@ std::string WarningMonitor::meshProblems(const Instant& now, const std::vector<s
   if (!test_failure_.empty()) meshes.faults[kSelftest] = test_failure_;
   if (!disagreement_.empty()) meshes.faults[kCrosscheck] = disagreement_;
   meshes.unread = inputs_.unread;
+  if (inputs_.failure && inputs_.failure->lasting) meshes.failure = inputs_.failure;
   return sweep_guard_core::meshProblems(meshes, now, limits_);
 }
 

@@ -6,11 +6,11 @@
 #include <boost/make_shared.hpp>
 #include <functional>
 #include <memory>
-#include <new>
 #include <string>
 #include <utility>
 
 #include "ros/gate.h"
+#include "ros/threads/thread_top.h"
 #include "ros/wire.h"
 #include "sweep_guard/common/error.h"
 
@@ -61,8 +61,8 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
   void call(ros::SubscriptionCallbackHelperCallParams& params) override {
     try {
       Base::call(params);
-    } catch (const std::bad_alloc&) {
-      refused_.pass("out of memory");
+    } catch (const std::exception& error) {  // roscpp would only log it
+      ThreadTop::reportFailure(error.what());
     }
   }
 

@@ -45,6 +45,10 @@ static_assert(equal(Warning::CONSIDERED, sweep_guard_core::WarningLevel::kConsid
 static_assert(equal(Warning::REFLEX, sweep_guard_core::WarningLevel::kReflex));
 static_assert(equal(Warning::CONTACT, sweep_guard_core::WarningLevel::kContact));
 
+// What a message can hold. roscpp throws beyond that.
+constexpr std::int64_t kLastStamp = (std::int64_t{1} << 32) * 1'000'000'000 - 1;  // [ns]
+constexpr std::int64_t kLongest = ((std::int64_t{1} << 31) - 1) * 1'000'000'000;  // [ns]
+
 template <typename Vector>
 Eigen::Vector3d toEigen(const Vector& v) {
   return {v.x, v.y, v.z};
@@ -90,12 +94,13 @@ sweep_guard_core::Time fromMsg(const ros::Time& time) {
 }
 
 ros::Time toMsg(sweep_guard_core::Time time) {
-  ros::Time stamp;
-  stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, time.time_since_epoch().count())));
-  return stamp;
+  const std::int64_t count = time.time_since_epoch().count();
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(std::clamp<std::int64_t>(count, 0, kLastStamp)));
 }
 
-ros::Duration toMsg(sweep_guard_core::Duration duration) { return ros::Duration().fromNSec(duration.count()); }
+ros::Duration toMsg(sweep_guard_core::Duration duration) {
+  return ros::Duration().fromNSec(std::clamp<std::int64_t>(duration.count(), -kLongest, kLongest));
+}
 
 sweep_guard_core::Instant now() { return {fromMsg(ros::Time::now()), std::chrono::steady_clock::now()}; }
 

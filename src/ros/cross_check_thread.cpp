@@ -28,20 +28,26 @@ CrossCheckThread::~CrossCheckThread() {
   if (thread_.joinable()) thread_.join();
 }
 
-void CrossCheckThread::start() {
-  if (parameters_.initial().cross_check > 0) thread_ = std::thread([this] { run(); });
+void CrossCheckThread::start(Supervisor& supervisor) {
+  if (parameters_.initial().cross_check == 0) return;
+  top_ = &supervisor.add({"cross-check", /*watched=*/false});
+  thread_ = std::thread([this] { run(); });
 }
 
 void CrossCheckThread::run() {
+  top_->enter();
   setNice(kNice);
   sweep_guard_core::SampledQuery query;
-  while (sampler_.take(query)) {
-    try {
-      check(query);
-    } catch (const std::exception& error) {  // of the other detector, or no memory
-      detectors_.clear();
-      log_.error("cross-check", std::string("cross-check failed: ") + error.what());
-    }
+  while (sampler_.take(query)) top_->run([&] { checkOrLog(query); });
+}
+
+// The warning does not rest on the other detector.
+void CrossCheckThread::checkOrLog(const sweep_guard_core::SampledQuery& query) {
+  try {
+    check(query);
+  } catch (const sweep_guard_core::Error& error) {
+    detectors_.clear();
+    log_.error("cross-check", std::string("cross-check failed: ") + error.what());
   }
 }
 

@@ -8,6 +8,7 @@
 #include "guard/cross_check.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
+#include "ros/threads/supervisor.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
@@ -21,12 +22,13 @@ class CrossCheckThread {
   CrossCheckThread(const CrossCheckThread&) = delete;
   CrossCheckThread& operator=(const CrossCheckThread&) = delete;
 
-  void start();
+  void start(Supervisor& supervisor);
 
   sweep_guard_core::QuerySampler& sampler() { return sampler_; }
 
  private:
   void run();
+  void checkOrLog(const sweep_guard_core::SampledQuery& query);
   void check(const sweep_guard_core::SampledQuery& query);
   void report(const sweep_guard_core::SampledQuery& query, const std::string& other,
               const sweep_guard_core::Disagreement& disagreement);
@@ -37,6 +39,7 @@ class CrossCheckThread {
   sweep_guard_core::QuerySampler sampler_;
   std::map<std::string, std::unique_ptr<sweep_guard_core::Detector>> detectors_;  // by name, made on demand
   LogThrottle log_;
+  ThreadTop* top_ = nullptr;  // from start() on
   std::thread thread_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/heartbeat.h"
 #include "guard/self_test.h"
 #include "ros/process.h"
 #include "sweep_guard/common/error.h"
@@ -55,7 +56,8 @@ GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadD
       guard_(*dependencies.parameters.initial().tool, firstDetector(dependencies),
              dependencies.parameters.initial().guard) {}
 
-void GuardThread::start() {
+void GuardThread::start(Supervisor& supervisor) {
+  top_ = &supervisor.add({"guard"});
   thread_ = std::thread([this] { run(); });
 }
 
@@ -122,19 +124,30 @@ std::future<PredictService::Motion> GuardThread::predictMotion(Duration horizon)
   return dependencies_.queue.submit<PredictService::Motion>([this, horizon] { return motion(horizon); });
 }
 
-void GuardThread::run() {
+void GuardThread::setPriority() const {
   const int priority = dependencies_.parameters.initial().realtime_priority;
-  if (priority > 0) {
-    const std::string refusal = requestRealTime(priority);
-    if (!refusal.empty()) ROS_WARN("%s", refusal.c_str());
-  }
+  if (priority == 0) return;
+  const std::string refusal = requestRealTime(priority);
+  if (!refusal.empty()) ROS_WARN("%s", refusal.c_str());
+}
+
+void GuardThread::run() {
+  top_->enter();
+  top_->attempt([this] { setPriority(); });
   WorkQueue::Work work;
-  while (dependencies_.queue.take(work)) {
-    for (const auto& task : work.tasks) task();
-    const std::vector<QueuedPose>& poses = work.poses;
-    for (size_t i = 0; i < poses.size(); ++i) process(poses[i], i + 1 < poses.size() ? &poses[i + 1] : nullptr);
-    dependencies_.queue.swept({});
+  bool more = true;
+  while (more) top_->attempt([&] { more = workOnce(work); });
+}
+
+bool GuardThread::workOnce(WorkQueue::Work& work) {
+  if (!dependencies_.queue.take(work)) return false;
+  for (const auto& task : work.tasks) top_->run(task);
+  const std::vector<QueuedPose>& poses = work.poses;
+  for (size_t i = 0; i < poses.size(); ++i) {
+    top_->run([&] { process(poses[i], i + 1 < poses.size() ? &poses[i + 1] : nullptr); });
   }
+  dependencies_.queue.swept({});
+  return true;
 }
 
 void GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
@@ -144,16 +157,15 @@ void GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
     passed_.clear();
   }
   checkpoint_ = queued.checkpoint;
+  if (next != nullptr && knowsAllFramesOf(queued, *next)) return pass(queued.pose);
   try {
-    if (next != nullptr && knowsAllFramesOf(queued, *next)) return pass(queued.pose);
     sweep(queued);
-    dependencies_.queue.swept(next != nullptr ? std::optional(next->pose.received) : std::nullopt);
-    if (timeToPredict()) predict(queued);
-  } catch (const std::exception& error) {  // out of memory for the report or its messages
-    const std::string message = std::string("sweep failed: ") + error.what();
-    dependencies_.monitor.fault(sweep_guard_core::kDetectorFault, message);
-    dependencies_.statistics.fault(message);
+  } catch (...) {
+    guard_.takeBack();
+    throw;
   }
+  dependencies_.queue.swept(next != nullptr ? std::optional(next->pose.received) : std::nullopt);
+  if (timeToPredict()) predict(queued);
 }
 
 void GuardThread::pass(const sweep_guard_core::PoseWithFrames& pose) {
@@ -170,8 +182,10 @@ void GuardThread::sweep(const QueuedPose& queued) {
   dependencies_.sampler.setWorkpieces(workpieces);
   guard_.sweep(pose, workpieces, *report);
   const SteadyTime end = std::chrono::steady_clock::now();
+  sweep_guard_core::beat();
   swept_ = {pose.stamp, pose.received};
   if (!report->objects.empty()) results_.publish(*report, guard_.tool());
+  sweep_guard_core::beat();
   dependencies_.monitor.swept(*report, *swept_, queued.checkpoint, end);
   dependencies_.warnings.publishIfChanged();
 
@@ -198,6 +212,7 @@ bool GuardThread::timeToPredict() const {
 }
 
 void GuardThread::predict(const QueuedPose& queued) {
+  sweep_guard_core::beat();
   const Instant at = now();
   predicted_at_ = at.steady;
   if (stale(*swept_, at, dependencies_.parameters.get()->limits.pose_timeout)) return;
@@ -209,6 +224,7 @@ void GuardThread::predict(const QueuedPose& queued) {
   const SteadyTime end = std::chrono::steady_clock::now();
   dependencies_.monitor.predicted(*prediction, *swept_, queued.checkpoint, now(), end - at.steady);
   dependencies_.warnings.publishIfChanged();
+  sweep_guard_core::beat();
   results_.publish(*prediction, age);
 
   dependencies_.statistics.predicted({std::chrono::steady_clock::now() - queued.pose.received, end - at.steady,

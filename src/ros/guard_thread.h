@@ -19,6 +19,7 @@
 #include "ros/output/warning_publisher.h"
 #include "ros/parameters/parameters.h"
 #include "ros/service/predict.h"
+#include "ros/threads/supervisor.h"
 #include "ros/work_queue.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
@@ -49,7 +50,7 @@ class GuardThread {
   GuardThread(const GuardThread&) = delete;
   GuardThread& operator=(const GuardThread&) = delete;
 
-  void start();
+  void start(Supervisor& supervisor);
   void stop();  ///< drops the queued work
 
   /// Sets other parameters for the guard and the node. Returns when they are set. Any thread.
@@ -66,6 +67,8 @@ class GuardThread {
 
  private:
   void run();
+  bool workOnce(WorkQueue::Work& work);
+  void setPriority() const;
   void runInTime(const std::function<void()>& task, const std::string& otherwise);
   void process(const QueuedPose& queued, const QueuedPose* next);
   void pass(const sweep_guard_core::PoseWithFrames& pose);
@@ -88,6 +91,7 @@ class GuardThread {
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
   sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;
   LogThrottle log_;
+  ThreadTop* top_ = nullptr;
   std::thread thread_;
 };
 

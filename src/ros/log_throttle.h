@@ -8,6 +8,8 @@
 #include <mutex>
 #include <string>
 
+#include "sweep_guard/common/priority_mutex.h"
+
 namespace sweep_guard_ros {
 
 /// Logs an error at once, then less and less often while it lasts: after 1, 2, 4 ... 64 s, with the number of suppressed
@@ -45,7 +47,7 @@ class LogThrottle {
     std::chrono::seconds interval{1};
     int suppressed = 0;
   };
-  std::mutex mutex_;
+  sweep_guard_core::PriorityMutex mutex_;
   std::map<std::string, Entry> entries_;
 };
 

@@ -46,7 +46,7 @@ MasterWatch::MasterWatch(const ros::NodeHandle& private_node, const LiveParamete
       call_(kLongestCall, stopping_),
       master_(identity()) {}
 
-MasterWatch::~MasterWatch() {
+void MasterWatch::stop() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
@@ -55,21 +55,27 @@ MasterWatch::~MasterWatch() {
   if (thread_.joinable()) thread_.join();
 }
 
-void MasterWatch::start() {
+void MasterWatch::start(Supervisor& supervisor) {
+  top_ = &supervisor.add({"master", /*watched=*/false});
   thread_ = std::thread([this] { run(); });
 }
 
 void MasterWatch::run() {
+  top_->enter();
   std::unique_lock lock(mutex_);
   while (!stopping_) {
     lock.unlock();
-    try {
-      check();
-    } catch (const XmlRpc::XmlRpcException& error) {
-      ROS_ERROR_THROTTLE(60.0, "the ROS master's answer cannot be read: %s", error.getMessage().c_str());
-    }
+    top_->run([this] { checkOrLog(); });
     lock.lock();
     changed_.wait_for(lock, kPeriod, [this] { return stopping_.load(); });
+  }
+}
+
+void MasterWatch::checkOrLog() {
+  try {
+    check();
+  } catch (const XmlRpc::XmlRpcException& error) {
+    ROS_ERROR_THROTTLE(60.0, "the ROS master's answer cannot be read: %s", error.getMessage().c_str());
   }
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "ros/parameters/parameters.h"
+#include "ros/threads/supervisor.h"
 #include "ros/xml_rpc_call.h"
 
 namespace sweep_guard_ros {
@@ -21,16 +22,18 @@ namespace sweep_guard_ros {
 class MasterWatch {
  public:
   MasterWatch(const ros::NodeHandle& private_node, const LiveParameters& parameters);
-  ~MasterWatch();
+  ~MasterWatch() { stop(); }
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
 
-  void start();  ///< after topics and services were advertised
+  void stop();                         ///< waits for the running call
+  void start(Supervisor& supervisor);  ///< after topics and services were advertised
 
   bool answers() const { return answers_; }  ///< false: the master did not answer when it was asked last
 
  private:
   void run();
+  void checkOrLog();
   void check();
   std::optional<std::string> identity() const;
   bool registerAnew();
@@ -48,6 +51,7 @@ class MasterWatch {
   std::optional<std::string> master_;  // identity of the one that knows this node
   std::mutex mutex_;
   std::condition_variable changed_;
+  ThreadTop* top_ = nullptr;  // from start() on
   std::thread thread_;
 };
 

@@ -7,19 +7,27 @@
 namespace sweep_guard_ros {
 namespace {
 
-const ros::WallDuration kViewPeriod(1.0 / 60.0);
-const ros::WallDuration kDiagnosticsPeriod(1.0);
+const sweep_guard_core::Duration kViewPeriod = sweep_guard_core::fromSeconds(1.0 / 60.0);
+constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
 
 }  // namespace
 
-SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process)
     : parameters_(loadParameters(private_node)),
       master_watch_(private_node, parameters_),
       monitor_(
           parameters_.initial().limits, [this] { warnings_.publishIfChanged(); },
-          [this] { return queue_.waitingSince(); }),
+          [this] { return queue_.waitingSince(); }, [this] { return supervisor_.hung(); }),
+      supervisor_(process,
+                  [this](const char* what, const ThreadTraits& thread) {
+                    monitor_.failed(sweep_guard_core::kDetectorFault, what, thread.loses_meshes);
+                    warnings_.publishIfChanged();
+                    statistics_.fault(what);
+                  }),
       warnings_(private_node, parameters_, monitor_),
       scene_(private_node, parameters_, monitor_),
+      marker_timer_(reports_.every(sweep_guard_core::fromSeconds(1.0 / parameters_.initial().marker_rate),
+                                   [this] { scene_.publishMarkers(); })),
       statistics_(parameters_.initial().guard.cycle),
       frames_(node, parameters_.initial().max_message_size,
               [this](const std::string& parent, const std::string& child) {
@@ -38,43 +46,39 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       reconfigure_server_(private_node, parameters_, [this](const auto& next) { apply(next); }),
       diagnostics_(node, private_node,
                    {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_}),
-      watchdog_(node, monitor_, workpieces_, warnings_),
+      watchdog_(monitor_, workpieces_, warnings_),
       peer_watch_(monitor_) {
-  createTimers(node);
-  guard_thread_.start();
-  cross_check_.start();
-  watchdog_.start();
-  meshes_.start();
-  poses_.start();
-  check_sweep_.start();
-  predict_.start();
-  controls_.start();
-  reconfigure_server_.start();
-  timer_thread_.start();
-  master_watch_.start();
-  peer_watch_.start();
+  reports_.every(kViewPeriod, [this] { scene_.publishView(); });
+  reports_.every(kDiagnosticsPeriod, [this] { diagnostics_.publish(); });
+  guard_thread_.start(supervisor_);
+  watchdog_.start(supervisor_);
+  frames_.start(supervisor_);
+  meshes_.start(supervisor_);
+  poses_.start(supervisor_);
+  check_sweep_.start(supervisor_);
+  predict_.start(supervisor_);
+  controls_.start(supervisor_);
+  reconfigure_server_.start(supervisor_);
+  reports_.start(supervisor_, {"reports"});
+  cross_check_.start(supervisor_);
+  master_watch_.start(supervisor_);
+  peer_watch_.start(supervisor_);
+  supervisor_.start();
   logStart();
 }
 
 SweepGuardNode::~SweepGuardNode() {
   monitor_.end();
   warnings_.publishFinal();
+  reports_.stop();       // of what is destroyed before
+  master_watch_.stop();  // which the supervisor does not outlive
   guard_thread_.stop();
 }
 
 void SweepGuardNode::apply(const std::shared_ptr<const Parameters>& next) {
   guard_thread_.apply(next);
-  marker_timer_.setPeriod(ros::WallDuration(1.0 / next->marker_rate));
+  marker_timer_.setPeriod(sweep_guard_core::fromSeconds(1.0 / next->marker_rate));
   warnings_.publishIfChanged();
-}
-
-void SweepGuardNode::createTimers(const ros::NodeHandle& node) {
-  ros::NodeHandle timers = timer_thread_.on(node);
-  marker_timer_ = timers.createSteadyTimer(ros::WallDuration(1.0 / parameters_.initial().marker_rate),
-                                           [this](const ros::SteadyTimerEvent&) { scene_.publishMarkers(); });
-  view_timer_ = timers.createSteadyTimer(kViewPeriod, [this](const ros::SteadyTimerEvent&) { scene_.publishView(); });
-  diagnostics_timer_ =
-      timers.createSteadyTimer(kDiagnosticsPeriod, [this](const ros::SteadyTimerEvent&) { diagnostics_.publish(); });
 }
 
 void SweepGuardNode::logStart() const {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <ros/steady_timer.h>
-
 #include "ros/cross_check_thread.h"
 #include "ros/guard_thread.h"
 #include "ros/input/mesh_input.h"
@@ -15,6 +13,8 @@
 #include "ros/service/check_sweep.h"
 #include "ros/service/controls.h"
 #include "ros/service/predict.h"
+#include "ros/threads/supervisor.h"
+#include "ros/threads/timer_thread.h"
 #include "ros/watchdog.h"
 
 namespace sweep_guard_ros {
@@ -25,7 +25,7 @@ class SweepGuardNode {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused
   /// @throws sweep_guard_core::DeviceError if the detector cannot be created
-  SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process);
   ~SweepGuardNode();
   SweepGuardNode(const SweepGuardNode&) = delete;
   SweepGuardNode& operator=(const SweepGuardNode&) = delete;
@@ -34,19 +34,19 @@ class SweepGuardNode {
 
  private:
   void apply(const std::shared_ptr<const Parameters>& next);
-  void createTimers(const ros::NodeHandle& node);
   void logStart() const;
 
-  // Members use only earlier members. Exception: the monitor reports faults to warnings_.
+  // Members use only earlier members. Exception: the monitor reports faults to warnings_ and asks
+  // supervisor_, which reports failures to warnings_ and statistics_.
   LiveParameters parameters_;
   MasterWatch master_watch_;  // before what registers at the master
   WorkQueue queue_;
   sweep_guard_core::WarningMonitor monitor_;
+  Supervisor supervisor_;  // before all threads
   WarningPublisher warnings_;
   ScenePublisher scene_;
-  QueueThread timer_thread_;
-  ros::SteadyTimer marker_timer_;
-  ros::SteadyTimer view_timer_;
+  TimerThread reports_;
+  TimerThread::Timer& marker_timer_;
   sweep_guard_core::SweepStatistics statistics_;
   Frames frames_;
   sweep_guard_core::WorkpieceStore workpieces_;
@@ -59,7 +59,6 @@ class SweepGuardNode {
   Controls controls_;
   ReconfigureServer reconfigure_server_;
   Diagnostics diagnostics_;
-  ros::SteadyTimer diagnostics_timer_;
   Watchdog watchdog_;
   PeerWatch peer_watch_;
 };

@@ -14,7 +14,7 @@ class SweepGuardNodelet : public nodelet::Nodelet {
   void onInit() override {
     try {
       checkConfigured(getPrivateNodeHandle(), getMyArgv());
-      node_ = std::make_unique<SweepGuardNode>(getNodeHandle(), getPrivateNodeHandle());
+      node_ = std::make_unique<SweepGuardNode>(getNodeHandle(), getPrivateNodeHandle(), Process::kShared);
     } catch (const sweep_guard_core::Error& error) {
       reportStartFailure(getNodeHandle(), getName(), error.what());
       throw;

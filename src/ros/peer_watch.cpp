@@ -65,20 +65,26 @@ PeerWatch::~PeerWatch() {
   if (thread_.joinable()) thread_.join();
 }
 
-void PeerWatch::start() {
+void PeerWatch::start(Supervisor& supervisor) {
+  top_ = &supervisor.add({"peers", /*watched=*/false});
   thread_ = std::thread([this] { run(); });
 }
 
 void PeerWatch::run() {
+  top_->enter();
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, kPeriod, [this] { return stopping_.load(); })) {
     lock.unlock();
-    try {
-      check();
-    } catch (const XmlRpc::XmlRpcException& error) {
-      ROS_ERROR_THROTTLE(60.0, "the list of connections cannot be read: %s", error.getMessage().c_str());
-    }
+    top_->run([this] { checkOrLog(); });
     lock.lock();
+  }
+}
+
+void PeerWatch::checkOrLog() {
+  try {
+    check();
+  } catch (const XmlRpc::XmlRpcException& error) {
+    ROS_ERROR_THROTTLE(60.0, "the list of connections cannot be read: %s", error.getMessage().c_str());
   }
 }
 

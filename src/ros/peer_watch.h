@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "ros/threads/supervisor.h"
 #include "ros/xml_rpc_call.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
@@ -23,12 +24,13 @@ class PeerWatch {
   PeerWatch(const PeerWatch&) = delete;
   PeerWatch& operator=(const PeerWatch&) = delete;
 
-  void start();
+  void start(Supervisor& supervisor);
 
  private:
   using Topics = std::map<std::string, std::set<std::string>>;  // addresses of publishers by topic
 
   void run();
+  void checkOrLog();
   void check();
   bool inputIsStale();
   Topics connections() const;
@@ -42,6 +44,7 @@ class PeerWatch {
   std::set<std::string> out_of_reach_;
   std::mutex mutex_;
   std::condition_variable changed_;
+  ThreadTop* top_ = nullptr;  // from start() on
   std::thread thread_;
 };
 

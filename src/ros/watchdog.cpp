@@ -7,24 +7,21 @@
 namespace sweep_guard_ros {
 namespace {
 
-const ros::WallDuration kPeriod(0.01);  // largest delay until a silent input is noticed
-const ros::WallDuration kReflexPeriod(0.1);
-const ros::WallDuration kConsideredPeriod(1.0);
+constexpr auto kPeriod = std::chrono::milliseconds(10);  // largest delay until a silent input is noticed
+constexpr auto kReflexPeriod = std::chrono::milliseconds(100);
+constexpr auto kConsideredPeriod = std::chrono::seconds(1);
 
 }  // namespace
 
-Watchdog::Watchdog(const ros::NodeHandle& node, sweep_guard_core::WarningMonitor& monitor,
-                   sweep_guard_core::WorkpieceStore& workpieces, WarningPublisher& warnings)
+Watchdog::Watchdog(sweep_guard_core::WarningMonitor& monitor, sweep_guard_core::WorkpieceStore& workpieces,
+                   WarningPublisher& warnings)
     : monitor_(monitor), workpieces_(workpieces), warnings_(warnings) {
-  ros::NodeHandle timers = thread_.on(node);
-  timer_ = timers.createSteadyTimer(kPeriod, [this](const ros::SteadyTimerEvent&) {
+  thread_.every(kPeriod, [this] {
     checkClock();
     warnings_.publishIfDue();
   });
-  reflex_timer_ =
-      timers.createSteadyTimer(kReflexPeriod, [this](const ros::SteadyTimerEvent&) { warnings_.publishReflex(); });
-  considered_timer_ = timers.createSteadyTimer(kConsideredPeriod,
-                                               [this](const ros::SteadyTimerEvent&) { warnings_.publishConsidered(); });
+  thread_.every(kReflexPeriod, [this] { warnings_.publishReflex(); });
+  thread_.every(kConsideredPeriod, [this] { warnings_.publishConsidered(); });
 }
 
 void Watchdog::checkClock() {

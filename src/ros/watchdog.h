@@ -1,12 +1,10 @@
 #pragma once
 
-#include <ros/steady_timer.h>
-
 #include "guard/workpiece_store.h"
 #include "ros/clock_watch.h"
 #include "ros/output/warning_publisher.h"
+#include "ros/threads/timer_thread.h"
 #include "sweep_guard/monitor/warning_monitor.h"
-#include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -15,10 +13,10 @@ namespace sweep_guard_ros {
 /// thread.
 class Watchdog {
  public:
-  Watchdog(const ros::NodeHandle& node, sweep_guard_core::WarningMonitor& monitor,
-           sweep_guard_core::WorkpieceStore& workpieces, WarningPublisher& warnings);
+  Watchdog(sweep_guard_core::WarningMonitor& monitor, sweep_guard_core::WorkpieceStore& workpieces,
+           WarningPublisher& warnings);
 
-  void start() { thread_.start(); }
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"warnings"}); }
 
  private:
   void checkClock();
@@ -27,10 +25,7 @@ class Watchdog {
   sweep_guard_core::WorkpieceStore& workpieces_;
   WarningPublisher& warnings_;
   ClockWatch clocks_;
-  QueueThread thread_;  // before the timers, which use its queue
-  ros::SteadyTimer timer_;
-  ros::SteadyTimer reflex_timer_;
-  ros::SteadyTimer considered_timer_;
+  TimerThread thread_;
 };
 
 }  // namespace sweep_guard_ros

@@ -21,8 +21,8 @@ bool WorkQueue::push(QueuedPose pose) {
     full = work_.poses.size() == kMaxPoses;
     if (full) work_.poses.pop_back();
     work_.poses.push_back(std::move(pose));
+    wake();
   }
-  changed_.notify_all();
   return !full;
 }
 
@@ -32,8 +32,8 @@ void WorkQueue::pushTask(std::function<void()> task) {
     if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
     if (work_.tasks.size() >= kMaxTasks) throw sweep_guard_core::Error("the guard is busy: ask again");
     work_.tasks.push_back(std::move(task));
+    wake();
   }
-  changed_.notify_all();
 }
 
 void WorkQueue::run(const std::function<void()>& task, sweep_guard_core::Duration timeout) {
@@ -49,23 +49,32 @@ void WorkQueue::run(const std::function<void()>& task, sweep_guard_core::Duratio
 bool WorkQueue::take(Work& taken) {
   taken.tasks.clear();
   taken.poses.clear();
-  {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return stopping_ || !work_.poses.empty() || !work_.tasks.empty(); });
-    if (stopping_) return false;
-    std::swap(taken, work_);
-    leave(taken);
-    if (!taken.poses.empty()) taken_since_ = taken.poses.front().pose.received;
-  }
+  while (!takeNow(taken)) sem_wait(&signal_);
+  return !taken.poses.empty() || !taken.tasks.empty();
+}
+
+// Returns false if the thread has to wait. After stop(), what is taken is empty.
+bool WorkQueue::takeNow(Work& taken) {
+  const std::lock_guard lock(mutex_);
+  waiting_ = !stopping_ && work_.poses.empty() && work_.tasks.empty();
+  if (waiting_ || stopping_) return !waiting_;
+  takePoses(taken.poses);
+  std::swap(taken.tasks, work_.tasks);
+  if (!taken.poses.empty()) taken_since_ = taken.poses.front().pose.received;
   return true;
 }
 
-// Puts back the poses beyond those that may be swept at once.
-void WorkQueue::leave(Work& taken) {
-  if (taken.poses.size() <= kMaxTaken) return;
-  const auto rest = taken.poses.begin() + kMaxTaken;
-  work_.poses.assign(std::make_move_iterator(rest), std::make_move_iterator(taken.poses.end()));
-  taken.poses.erase(rest, taken.poses.end());
+void WorkQueue::wake() {
+  if (waiting_) sem_post(&signal_);
+  waiting_ = false;
+}
+
+// Takes those that may be swept at once. No pose is lost if there is no memory for them.
+void WorkQueue::takePoses(std::vector<QueuedPose>& taken) {
+  if (work_.poses.size() <= kMaxTaken) return std::swap(taken, work_.poses);
+  const auto rest = work_.poses.begin() + kMaxTaken;
+  taken.assign(std::make_move_iterator(work_.poses.begin()), std::make_move_iterator(rest));
+  work_.poses.erase(work_.poses.begin(), rest);
 }
 
 void WorkQueue::swept(std::optional<sweep_guard_core::SteadyTime> next) {
@@ -90,8 +99,8 @@ void WorkQueue::stop() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
     std::swap(dropped, work_);
+    wake();
   }
-  changed_.notify_all();
 }
 
 }  // namespace sweep_guard_ros

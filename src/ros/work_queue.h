@@ -1,6 +1,7 @@
 #pragma once
 
-#include <condition_variable>
+#include <semaphore.h>
+
 #include <functional>
 #include <future>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
@@ -20,9 +22,15 @@ struct QueuedPose {
   sweep_guard_core::WarningMonitor::Checkpoint checkpoint;
 };
 
-/// Holds the work of the guard's thread: poses in their order, and tasks to run between two sweeps. Any thread.
+/// Holds the work of the guard's thread: poses in their order, and tasks to run between two sweeps. One thread takes,
+/// any thread may call the other functions; none of them holds up a taking thread of higher priority.
 class WorkQueue {
  public:
+  WorkQueue() { sem_init(&signal_, /*pshared=*/0, 0); }
+  ~WorkQueue() { sem_destroy(&signal_); }
+  WorkQueue(const WorkQueue&) = delete;
+  WorkQueue& operator=(const WorkQueue&) = delete;
+
   struct Work {
     std::vector<std::function<void()>> tasks;
     std::vector<QueuedPose> poses;
@@ -63,10 +71,13 @@ class WorkQueue {
 
  private:
   void pushTask(std::function<void()> task);
-  void leave(Work& taken);
+  bool takeNow(Work& taken);
+  void takePoses(std::vector<QueuedPose>& taken);
+  void wake();
 
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  mutable sweep_guard_core::PriorityMutex mutex_;
+  sem_t signal_;          // for the waiting thread: a condition variable has a lock without inheritance of priority
+  bool waiting_ = false;  // the taking thread
   Work work_;
   std::optional<sweep_guard_core::SteadyTime> taken_since_;  // of the oldest taken pose that is not yet swept
   bool stopping_ = false;

@@ -135,6 +135,54 @@ TEST_F(WarningMonitorTest, AFaultIsNotClearedByAnEarlierPose) {
   EXPECT_EQ(reasonsAt(1010), kPoseInvalid);
 }
 
+TEST_F(WarningMonitorTest, AFailureLastsUntilALaterPoseIsSwept) {
+  monitor_.failed(kDetectorFault, "thread 'guard' failed: no memory");
+  const Warning failed = warningOf(monitor_, at(1000));
+  EXPECT_EQ(failed.level, WarningLevel::kUnknown);
+  EXPECT_EQ(failed.reasons, kDetectorFault);
+  EXPECT_TRUE(has(failed.text, "thread 'guard' failed: no memory"));
+  sweep(reportOf(workpieces_), 1000);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).level, WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, AFailureIsNotClearedByAnEarlierPose) {
+  const auto before = monitor_.checkpoint();
+  monitor_.failed(kDetectorFault, "no memory");
+  monitor_.swept(reportOf(workpieces_), timestampsAt(1000), before, at(1000).steady);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).level, WarningLevel::kUnknown);
+}
+
+// What is lost is not sent again.
+TEST_F(WarningMonitorTest, ALastingFailureEndsWithARestartOnly) {
+  monitor_.failed(kDetectorFault, "a mesh is lost", /*lasting=*/true);
+  monitor_.failed(kDetectorFault, "no memory");
+  sweep(reportOf(workpieces_), 1000);
+  monitor_.timeJumped("time went back");
+  sweep(reportOf(workpieces_), 1000);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).reasons, kDetectorFault);
+  EXPECT_FALSE(monitor_.meshProblems(at(1000), {}).empty());
+  monitor_.restart();
+  sweep(reportOf(workpieces_), 1000);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).level, WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, ALongMessageOfAFailureIsCut) {
+  monitor_.failed(kDetectorFault, std::string(1000, 'x').c_str());
+  EXPECT_LT(warningOf(monitor_, at(1000)).text.size(), 200U);
+}
+
+TEST(HungThreadTest, IsUnknownForAsLongAsItHangs) {
+  const char* hung = nullptr;
+  WarningMonitor monitor(
+      kLimits, [] {}, [] { return std::nullopt; }, [&] { return hung; });
+  hung = "guard";
+  EXPECT_EQ(warningOf(monitor, at(0)).level, WarningLevel::kUnknown);
+  EXPECT_TRUE(warningOf(monitor, at(0)).reasons & kWorkerHung);
+  EXPECT_TRUE(has(warningOf(monitor, at(0)).text, "thread 'guard' makes no progress"));
+  hung = nullptr;
+  EXPECT_FALSE(warningOf(monitor, at(0)).reasons & kWorkerHung);
+}
+
 TEST(WarningMonitorFaultTest, EveryFaultIsReportedAtOnce) {
   int reports = 0;
   WarningMonitor monitor(kLimits, [&] { ++reports; });

@@ -13,6 +13,8 @@ namespace {
 
 class FramesTest : public testing::Test {
  protected:
+  FramesTest() { frames_.start(supervisor_); }
+
   static geometry_msgs::TransformStamped transformTo(const std::string& child, ros::Time stamp, double x) {
     geometry_msgs::TransformStamped transform;
     transform.header.frame_id = "world";
@@ -42,6 +44,7 @@ class FramesTest : public testing::Test {
   }
 
   ros::NodeHandle node_;
+  Supervisor supervisor_{Process::kShared};
   Frames frames_{node_, /*max_message_size=*/1U << 24U, [](const auto& /*parent*/, const auto& /*child*/) {}};
   const ros::Publisher publisher_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 10);
 };

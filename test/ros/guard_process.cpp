@@ -22,26 +22,27 @@ double statusMegabytes(pid_t pid, const std::string& key) {
   return 0.0;
 }
 
-bool askGuard(const char* method, const XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& response) {
+bool ask(const std::string& node, const char* method, const XmlRpc::XmlRpcValue& request,
+         XmlRpc::XmlRpcValue& response) {
   XmlRpc::XmlRpcValue lookup;
   lookup[0] = "sweep_guard_test";
-  lookup[1] = "/sweep_guard";
+  lookup[1] = node;
   XmlRpc::XmlRpcValue uri;
   std::string host;
   std::uint32_t port = 0;
   if (!ros::master::execute("lookupNode", lookup, response, uri, /*wait_for_master=*/false)) return false;
   if (!ros::network::splitURI(uri, host, port)) return false;
-  XmlRpc::XmlRpcClient guard(host.c_str(), static_cast<int>(port), "/");
-  return guard.execute(method, request, response) && response.size() >= 3;
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  return client.execute(method, request, response) && response.size() >= 3;
 }
 
 }  // namespace
 
-pid_t guardPid() {
+pid_t pidOf(const std::string& node) {
   XmlRpc::XmlRpcValue request;
   request[0] = "sweep_guard_test";
   XmlRpc::XmlRpcValue response;
-  return askGuard("getPid", request, response) ? static_cast<int>(response[2]) : 0;
+  return ask(node, "getPid", request, response) ? static_cast<int>(response[2]) : 0;
 }
 
 std::uint16_t guardPort() {
@@ -50,7 +51,7 @@ std::uint16_t guardPort() {
   request[1] = "/sweep_guard/warning";
   request[2][0][0] = "TCPROS";
   XmlRpc::XmlRpcValue response;
-  if (!askGuard("requestTopic", request, response)) throw std::runtime_error("the guard does not answer");
+  if (!ask("/sweep_guard", "requestTopic", request, response)) throw std::runtime_error("the guard does not answer");
   return static_cast<std::uint16_t>(static_cast<int>(response[2][2]));
 }
 

@@ -13,7 +13,8 @@
 
 namespace sweep_guard_ros {
 
-pid_t guardPid();           ///< of the node /sweep_guard; 0: it does not answer
+pid_t pidOf(const std::string& node);  ///< 0: it does not answer
+inline pid_t guardPid() { return pidOf("/sweep_guard"); }
 std::uint16_t guardPort();  ///< TCP port of its topics
 
 /// What the kernel knows about a process.

@@ -49,7 +49,7 @@ boost::shared_ptr<sweep_guard::MeshVertices> raised(const sweep_guard::Deformabl
 
 class MeshInputTest : public testing::Test {
  protected:
-  MeshInputTest() { input_.start(); }
+  MeshInputTest() { input_.start(supervisor_); }
 
   template <typename Condition>
   bool await(const Condition& condition) const {
@@ -68,6 +68,7 @@ class MeshInputTest : public testing::Test {
   sweep_guard_core::WarningMonitor monitor_{
       {parameters_.limits.pose_timeout, /*mesh_timeout=*/sweep_guard_core::Duration::max(), {}}};
   sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& all) { monitor_.setWorkpieces(all); }};
+  Supervisor supervisor_{Process::kShared};
   MeshInput input_{node_, parameters_, workpieces_, monitor_};
   const ros::Publisher meshes_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 10);
   const ros::Publisher vertices_ = node_.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);

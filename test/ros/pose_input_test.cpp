@@ -29,10 +29,11 @@ TEST(PoseInputTest, NoPoseOfALongBacklogIsLost) {
   sweep_guard_core::WarningMonitor monitor(parameters.limits);
   const sweep_guard_core::WorkpieceStore workpieces;
   WorkQueue queue;
+  Supervisor supervisor(Process::kShared);
   PoseInput input(node, parameters, {frames, workpieces, monitor, queue});
   const ros::Publisher publisher = node.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
   ASSERT_EQ(publisher.getNumSubscribers(), 1U);
-  input.start();
+  input.start(supervisor);
   for (int i = 1; i <= kPoses; ++i) {
     publisher.publish(poseAt(parameters.fixed_frame, end - ros::Duration(0.001 * (kPoses - i))));
   }

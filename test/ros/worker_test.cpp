@@ -21,10 +21,11 @@ class WorkerTest : public testing::Test {
   void startAndFinish(Worker& worker) {
     std::promise<void> done;
     worker.push({[&] { done.set_value(); }, {}, 0});
-    worker.start();
+    worker.start(supervisor_, {"worker"});
     done.get_future().wait();
   }
 
+  Supervisor supervisor_{Process::kShared};
   std::vector<int> run_;
   std::vector<int> dropped_;
 };
@@ -89,7 +90,7 @@ TEST_F(WorkerTest, DropsAJobBeforeTheOneThatTakesItsPlaceRuns) {
   std::promise<void> go_on;
   std::promise<void> done;
   Worker worker(100);
-  worker.start();
+  worker.start(supervisor_, {"worker"});
   worker.push({[&] {
                  running.set_value();
                  go_on.get_future().wait();
@@ -125,7 +126,7 @@ TEST_F(WorkerTest, DropsAJobThatRunsOutOfMemory) {
 
 TEST_F(WorkerTest, FreesTheBytesOfJobsThatHaveRun) {
   Worker worker(100);
-  worker.start();
+  worker.start(supervisor_, {"worker"});
   for (int i = 0; i < 100; ++i) {
     std::promise<void> done;
     worker.push({[&] { done.set_value(); }, [] { ADD_FAILURE() << "dropped"; }, 90});
@@ -138,7 +139,7 @@ TEST_F(WorkerTest, WaitsForTheRunningJobWhenDestroyedAndForgetsTheOthers) {
   std::atomic<bool> finished = false;
   {
     Worker worker(100);
-    worker.start();
+    worker.start(supervisor_, {"worker"});
     worker.push({[&] {
                    running.set_value();
                    std::this_thread::sleep_for(std::chrono::milliseconds(50));

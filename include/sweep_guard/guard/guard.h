@@ -50,6 +50,10 @@ class Guard {
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
 
+  /// Takes the last sweep back, because its report was lost or sweep() threw: the next one begins where it began. Not
+  /// after later calls of pass().
+  void takeBack() noexcept;
+
   /// Predicts the path after the newest pose and tests it. Frames of workpieces are taken to stay where they are. The
   /// newest pose must have been given to sweep(), not to pass(). The path is empty before the first sweep, until
   /// PosePredictor knows a motion, and once the newest pose is older than the reserve of the horizon: the number of

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -46,6 +47,12 @@ struct WarningInputs {
     std::string message;
     SteadyTime found;
   };
+  /// An exception that ended a piece of work. Kept without memory from the heap: there may be none.
+  struct Failure {
+    Reason reason;
+    std::array<char, 160> message;  ///< ends with 0
+    bool lasting = false;           ///< until a restart
+  };
 
   std::optional<Timestamps> pose;             ///< newest pose that has been swept
   std::vector<Object> objects;                ///< ascending by id, each once
@@ -61,6 +68,8 @@ struct WarningInputs {
   std::optional<SteadyTime> waiting_since;  ///< when the oldest pose that is not yet swept was received
   Duration look_ahead{};                    ///< time that the newest prediction took
   std::map<Reason, std::string> faults;     ///< current faults, each with a message
+  std::optional<Failure> failure;           ///< newest one
+  const char* hung = nullptr;               ///< name of a thread that has work and makes no progress; null: none
   std::optional<std::string> disabled_by;   ///< caller that disabled the guard; then nothing else counts
   bool ended = false;                       ///< the guard is shutting down; then nothing else counts
 };

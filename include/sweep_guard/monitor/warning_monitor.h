@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/guard/sweep_report.h"
 #include "sweep_guard/monitor/reason.h"
 #include "sweep_guard/monitor/warning.h"
@@ -33,9 +34,11 @@ class WarningMonitor {
   ///     empty
   /// @param waiting_since  returns when the oldest pose that is not yet swept was received. Called by warning(); must
   ///                       not call the monitor
+  /// @param hung  returns the name of a thread that makes no progress; null: none. Called as the one before
   explicit WarningMonitor(
       const WarningLimits& limits, std::function<void()> on_fault = [] {},
-      std::function<std::optional<SteadyTime>()> waiting_since = [] { return std::nullopt; });
+      std::function<std::optional<SteadyTime>()> waiting_since = [] { return std::nullopt; },
+      std::function<const char*()> hung = [] { return nullptr; });
 
   /// Sets the ids of the workpieces without which the warning is not clear.
   void require(const std::set<std::string>& ids);
@@ -44,6 +47,11 @@ class WarningMonitor {
 
   /// Reports that an input was refused or failed. The warning is not clear until a later pose has been swept.
   void fault(Reason reason, const std::string& message);
+
+  /// Reports an exception that ended a piece of work, as a fault; needs no memory from the heap and does not call
+  /// on_fault.
+  /// @param lasting  until restart(): a later pose does not make up for it
+  void failed(Reason reason, const char* message, bool lasting = false) noexcept;
 
   /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), because the workpiece that
   /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each.
@@ -160,10 +168,11 @@ class WarningMonitor {
 
   const std::function<void()> on_fault_;
   const std::function<std::optional<SteadyTime>()> waiting_since_;
-  mutable std::mutex mutex_;
+  const std::function<const char*()> hung_;
+  mutable PriorityMutex mutex_;
   WarningLimits limits_;
   Checkpoint checkpoint_;
-  mutable WarningInputs inputs_;  // covered_until and waiting_since are those of the last warning
+  mutable WarningInputs inputs_;  // covered_until, waiting_since and hung are those of the last warning
   Time swept_until_;              // every workpiece
   Workpieces swept_;              // at the newest pose
   std::optional<Coverage> coverage_;
@@ -172,6 +181,7 @@ class WarningMonitor {
   std::map<Reason, std::uint64_t> fault_numbers_;
   std::string test_failure_;  // of the detector; empty: none
   std::string disagreement_;  // of two detectors; empty: none
+  std::uint64_t failure_number_ = 0;
   Refusals refused_meshes_;
   Refusals refused_vertices_;
   std::map<std::string, SteadyTime> dropped_;  // by id: when the newest dropped update was received

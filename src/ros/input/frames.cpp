@@ -1,7 +1,9 @@
 #include "ros/input/frames.h"
 
+#include <new>
 #include <thread>
 
+#include "common/heartbeat.h"
 #include "ros/gate.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -48,7 +50,6 @@ Frames::Frames(const ros::NodeHandle& node, size_t max_message_size,
   };
   moving_ = subscribe("/tf", /*is_static=*/false);
   static_ = subscribe("/tf_static", /*is_static=*/true);
-  thread_.start();
 }
 
 // Does what tf2's listener does, which reserves whatever memory a message announces and logs names as they come.
@@ -57,13 +58,16 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
   if (at < newest_) buffer_.clear();
   newest_ = at;
   for (const geometry_msgs::TransformStamped& transform : event.getConstMessage()->transforms) {
+    sweep_guard_core::beat();
     try {
       check(transform);
       if (!is_static) checkStamp(transform.header.stamp);
       countFrames(transform);
       buffer_.setTransform(transform, printable(event.getPublisherName()), is_static);
       if (is_static) checkStatic(transform);
-    } catch (const std::exception& error) {  // invalid, or out of memory
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
       log_.error("transform", "transform to '" + printable(transform.child_frame_id) + "' refused: " + error.what());
     }
   }

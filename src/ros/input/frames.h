@@ -14,9 +14,9 @@
 
 #include "ros/bounded.h"
 #include "ros/log_throttle.h"
+#include "ros/threads/queue_thread.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/time.h"
-#include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -34,6 +34,8 @@ class Frames {
   ///                          thread of the listener
   Frames(const ros::NodeHandle& node, size_t max_message_size,
          std::function<void(const std::string& parent, const std::string& child)> on_static_change);
+
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"transforms"}); }
 
   /// Returns the pose of frame `source` in frame `target` at a stamp; stamp 0: the newest. Does not wait.
   /// @throws FrameError if there is none

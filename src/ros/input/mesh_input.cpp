@@ -70,10 +70,11 @@ BoundedSubscriber MeshInput::subscribe(ros::NodeHandle node, const std::string& 
       [this, &record](const std::string& reason) { unread(reason, record); });
 }
 
-void MeshInput::start() {
-  storing_.start();
-  converting_.start();
-  thread_.start();
+void MeshInput::start(Supervisor& supervisor) {
+  const auto thread = [](const char* name) { return ThreadTraits{name, /*watched=*/true, /*loses_meshes=*/true}; };
+  storing_.start(supervisor, thread("storing"));
+  converting_.start(supervisor, thread("converting"));
+  thread_.start(supervisor, thread("meshes"));
 }
 
 void MeshInput::onMessage(const sweep_guard::DeformableMesh::ConstPtr& msg) {

@@ -16,8 +16,8 @@
 #include "ros/input/worker.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
+#include "ros/threads/queue_thread.h"
 #include "sweep_guard/monitor/warning_monitor.h"
-#include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -30,7 +30,7 @@ class MeshInput {
   MeshInput(const ros::NodeHandle& node, const Parameters& parameters, sweep_guard_core::WorkpieceStore& workpieces,
             sweep_guard_core::WarningMonitor& monitor);
 
-  void start();
+  void start(Supervisor& supervisor);
 
   std::string meshTopic() const { return mesh_.getTopic(); }          ///< resolved
   std::string verticesTopic() const { return vertices_.getTopic(); }  ///< resolved

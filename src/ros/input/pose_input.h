@@ -17,8 +17,8 @@
 #include "ros/input/frames.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
+#include "ros/threads/queue_thread.h"
 #include "ros/work_queue.h"
-#include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -35,7 +35,7 @@ class PoseInput {
  public:
   PoseInput(const ros::NodeHandle& node, const Parameters& parameters, const PoseInputDependencies& dependencies);
 
-  void start() { thread_.start(); }
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"poses"}); }
 
   const sweep_guard_core::InputRecord& record() const { return record_; }
   std::string source() const;                       ///< resolved topic, or the tf frames

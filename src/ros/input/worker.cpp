@@ -5,6 +5,11 @@
 #include <vector>
 
 namespace sweep_guard_ros {
+namespace {
+
+constexpr sweep_guard_core::Duration kTimePerByte(100);  // twice what converting a mesh takes
+
+}  // namespace
 
 Worker::~Worker() {
   {
@@ -15,7 +20,8 @@ Worker::~Worker() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Worker::start() {
+void Worker::start(Supervisor& supervisor, const ThreadTraits& traits) {
+  top_ = &supervisor.add(traits);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -60,6 +66,7 @@ void Worker::runOrDrop(const Job& job) {
 }
 
 void Worker::run() {
+  top_->enter();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
@@ -69,7 +76,7 @@ void Worker::run() {
       jobs_.pop_front();
       bytes_ -= job.bytes;
       lock.unlock();
-      runOrDrop(job);
+      top_->run([&] { runOrDrop(job); }, static_cast<std::int64_t>(job.bytes) * kTimePerByte);
     }
     lock.lock();
   }

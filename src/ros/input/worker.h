@@ -6,6 +6,8 @@
 #include <mutex>
 #include <thread>
 
+#include "ros/threads/supervisor.h"
+
 namespace sweep_guard_ros {
 
 /// Runs jobs in a thread of its own, in their order. The jobs that wait hold a bounded number of bytes.
@@ -24,7 +26,7 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  void start();
+  void start(Supervisor& supervisor, const ThreadTraits& traits);  ///< the supervisor must outlive it
   /// Drops the oldest of the waiting jobs as long as the job does not fit beside them, replaceable ones first. A
   /// replaceable job that would take the room of others is dropped itself.
   void push(Job job);
@@ -40,6 +42,7 @@ class Worker {
   std::deque<Job> jobs_;
   size_t bytes_ = 0;  // of jobs_
   bool stopping_ = false;
+  ThreadTop* top_ = nullptr;
   std::thread thread_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/heartbeat.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -132,6 +133,7 @@ void Surface::add(const sweep_guard_core::SweptVolume& volume_M) {
 void Surface::add(const sweep_guard_core::TriangleMesh& mesh_M, const std::vector<std::uint32_t>& triangles,
                   double lift) {
   for (const std::uint32_t triangle : triangles) {
+    sweep_guard_core::beat();
     const auto& [a, b, c] = mesh_M.triangles()[triangle];
     const Eigen::Vector3d p = mesh_M.vertex(a);
     const Eigen::Vector3d q = mesh_M.vertex(b);

@@ -9,6 +9,7 @@
 #include "ros/output/markers.h"
 #include "ros/output/view_publisher.h"
 #include "ros/parameters/parameters.h"
+#include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
@@ -37,7 +38,7 @@ class ScenePublisher {
   Markers markers_;
   ros::Publisher marker_publisher_;
   ViewPublisher view_;
-  mutable std::mutex mutex_;
+  mutable sweep_guard_core::PriorityMutex mutex_;
   MarkerScene scene_;
 };
 

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "ros/parameters/parameters.h"
+#include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
@@ -36,7 +37,7 @@ class WarningPublisher {
   ros::Publisher reflex_publisher_;
   ros::Publisher considered_publisher_;
 
-  std::mutex mutex_;
+  sweep_guard_core::PriorityMutex mutex_;
   sweep_guard_core::Warning warning_;       // newest
   sweep_guard::Warning message_;            // published last
   sweep_guard_core::SteadyTime published_;  // time of that message

@@ -9,16 +9,18 @@ constexpr auto kPause = std::chrono::milliseconds(500);  // before the next atte
 
 }  // namespace
 
-ParameterWriter::ParameterWriter(const ros::NodeHandle& private_node)
-    : node_(private_node), thread_([this] { run(); }) {}
-
 ParameterWriter::~ParameterWriter() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
+}
+
+void ParameterWriter::start(Supervisor& supervisor) {
+  top_ = &supervisor.add({"parameters", /*watched=*/false});
+  thread_ = std::thread([this] { run(); });
 }
 
 bool ParameterWriter::write(const std::map<std::string, ParameterValue>& values, sweep_guard_core::Duration timeout) {
@@ -29,19 +31,24 @@ bool ParameterWriter::write(const std::map<std::string, ParameterValue>& values,
 }
 
 void ParameterWriter::run() {
+  top_->enter();
   std::unique_lock lock(mutex_);
   while (!stopping_) {
     changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
-    if (stopping_) return;
-    const auto [key, value] = *waiting_.begin();
-    lock.unlock();
-    const bool written = writeOne(key, value);
-    lock.lock();
-    const auto now = waiting_.find(key);
-    if (written && now->second == value) waiting_.erase(now);
-    changed_.notify_all();
-    if (!written) changed_.wait_for(lock, kPause, [this] { return stopping_; });
+    if (!stopping_) writeNext(lock);
   }
+}
+
+void ParameterWriter::writeNext(std::unique_lock<std::mutex>& lock) {
+  const auto [key, value] = *waiting_.begin();
+  bool written = false;
+  lock.unlock();
+  top_->run([&, &key = key, &value = value] { written = writeOne(key, value); });
+  lock.lock();
+  const auto now = waiting_.find(key);
+  if (written && now->second == value) waiting_.erase(now);
+  changed_.notify_all();
+  if (!written) changed_.wait_for(lock, kPause, [this] { return stopping_; });
 }
 
 // Not by ros::param::set(): it locks all cached parameters until the master answers.

@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "ros/threads/supervisor.h"
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
@@ -17,10 +18,13 @@ namespace sweep_guard_ros {
 /// answer. Any thread.
 class ParameterWriter {
  public:
-  explicit ParameterWriter(const ros::NodeHandle& private_node);
+  explicit ParameterWriter(const ros::NodeHandle& private_node) : node_(private_node) {}
   ~ParameterWriter();  ///< drops what is not written yet
   ParameterWriter(const ParameterWriter&) = delete;
   ParameterWriter& operator=(const ParameterWriter&) = delete;
+
+  /// Starts the thread; the supervisor must outlive it.
+  void start(Supervisor& supervisor);
 
   /// Writes the values, newer ones in place of older ones that are not written yet.
   /// @returns false if the server has not taken all within the time: they are written once it answers
@@ -28,6 +32,7 @@ class ParameterWriter {
 
  private:
   void run();
+  void writeNext(std::unique_lock<std::mutex>& lock);
   bool writeOne(const std::string& key, const ParameterValue& value) const;
 
   const ros::NodeHandle node_;
@@ -35,6 +40,7 @@ class ParameterWriter {
   std::condition_variable changed_;
   std::map<std::string, ParameterValue> waiting_;
   bool stopping_ = false;
+  ThreadTop* top_ = nullptr;  // from start() on
   std::thread thread_;
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
@@ -95,7 +96,7 @@ class LiveParameters {
 
  private:
   const std::shared_ptr<const Parameters> initial_;
-  mutable std::mutex mutex_;
+  mutable sweep_guard_core::PriorityMutex mutex_;
   std::shared_ptr<const Parameters> current_;
 };
 

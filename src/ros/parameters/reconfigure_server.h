@@ -12,7 +12,7 @@
 
 #include "ros/parameters/parameter_writer.h"
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/ros/queue_thread.h"
+#include "ros/threads/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -32,7 +32,10 @@ class ReconfigureServer {
 
   ReconfigureServer(const ros::NodeHandle& private_node, const LiveParameters& parameters, Apply apply);
 
-  void start() { thread_.start(); }
+  void start(Supervisor& supervisor) {
+    writer_.start(supervisor);
+    thread_.start(supervisor, {"parameters", /*watched=*/false});
+  }
 
   History history() const;
 

@@ -29,7 +29,7 @@ class CheckSweepService {
   CheckSweepService(const CheckSweepService&) = delete;
   CheckSweepService& operator=(const CheckSweepService&) = delete;
 
-  void start() { calls_.start(); }
+  void start(Supervisor& supervisor) { calls_.start(supervisor); }
 
  private:
   bool onCall(sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);

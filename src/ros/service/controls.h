@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "guard/workpiece_store.h"
+#include "ros/threads/queue_thread.h"
 #include "sweep_guard/monitor/warning_monitor.h"
-#include "sweep_guard/ros/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -22,7 +22,7 @@ class Controls {
   Controls(const ros::NodeHandle& private_node, sweep_guard_core::WarningMonitor& monitor,
            const sweep_guard_core::WorkpieceStore& workpieces, std::function<void()> reset);
 
-  void start() { thread_.start(); }
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"controls", /*watched=*/false}); }
 
  private:
   using EnableEvent = ros::ServiceEvent<std_srvs::SetBool::Request, std_srvs::SetBool::Response>;

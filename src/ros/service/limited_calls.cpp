@@ -47,11 +47,11 @@ class FirstCall : public ros::CallbackInterface {
 
 bool LimitedCalls::refused() { return refused_here; }
 
-void LimitedCalls::start() {
-  for (QueueThread* const thread : {&worker_, &refusals_}) {
-    thread->queue().addCallback(boost::make_shared<FirstCall>(thread == &refusals_));
-    thread->start();
-  }
+void LimitedCalls::start(Supervisor& supervisor) {
+  worker_.queue().addCallback(boost::make_shared<FirstCall>(/*refuses=*/false));
+  refusals_.queue().addCallback(boost::make_shared<FirstCall>(/*refuses=*/true));
+  worker_.start(supervisor, {"check_sweep", /*watched=*/false});
+  refusals_.start(supervisor, {"busy", /*watched=*/false});
 }
 
 void LimitedCalls::addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) {

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <memory>
 
-#include "sweep_guard/ros/queue_thread.h"
+#include "ros/threads/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -20,7 +20,8 @@ class LimitedCalls : public ros::CallbackQueueInterface {
     node.setCallbackQueue(this);
     return node;
   }
-  void start();
+  /// Starts both threads; the supervisor must outlive them.
+  void start(Supervisor& supervisor);
 
   /// Returns whether the calling thread answers calls that found no room.
   static bool refused();

@@ -11,7 +11,7 @@
 #include "guard/predict_contacts.h"
 #include "guard/workpiece_store.h"
 #include "ros/parameters/parameters.h"
-#include "sweep_guard/ros/queue_thread.h"
+#include "ros/threads/queue_thread.h"
 
 namespace sweep_guard_ros {
 
@@ -40,7 +40,7 @@ class PredictService {
   PredictService(const PredictService&) = delete;
   PredictService& operator=(const PredictService&) = delete;
 
-  void start() { thread_.start(); }
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"predict", /*watched=*/false}); }
 
  private:
   bool onCall(sweep_guard::Predict::Request& request, sweep_guard::Predict::Response& response);

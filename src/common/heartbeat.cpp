@@ -1,0 +1,34 @@
+#include "common/heartbeat.h"
+
+namespace sweep_guard_core {
+namespace {
+
+thread_local Heartbeat* current = nullptr;
+
+}  // namespace
+
+void Heartbeat::begin() {
+  current = this;
+  add(1);
+}
+
+void Heartbeat::end() {
+  add(1);
+  current = nullptr;
+}
+
+Heartbeat::Reading Heartbeat::read() const {
+  const std::uint64_t count = count_.load(std::memory_order_acquire);
+  return {count / 2, count % 2 == 1};
+}
+
+// No other thread writes.
+void Heartbeat::add(std::uint64_t steps) {
+  count_.store(count_.load(std::memory_order_relaxed) + steps, std::memory_order_release);
+}
+
+void beat() {
+  if (current != nullptr) current->add(2);
+}
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace sweep_guard_core {
+
+/// Counts the steps of a thread's work, so that another thread can tell work from a hang. One thread works, any thread
+/// reads.
+class Heartbeat {
+ public:
+  /// Begins a piece of work of the calling thread: beat() counts here until end().
+  void begin();
+  void end();
+
+  struct Reading {
+    std::uint64_t steps;  ///< since the construction
+    bool working;         ///< between begin() and end()
+  };
+  Reading read() const;
+
+ private:
+  friend void beat();
+  void add(std::uint64_t steps);
+
+  std::atomic<std::uint64_t> count_ = 0;  // twice the steps; odd while it works
+};
+
+/// Reports that the calling thread has come a step further: belongs into loops that end and may take long. Takes
+/// nanoseconds. Does nothing in a thread that has no heartbeat.
+void beat();
+
+}  // namespace sweep_guard_core

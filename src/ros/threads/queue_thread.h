@@ -1,0 +1,49 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+
+#include <atomic>
+#include <thread>
+
+#include "ros/threads/supervisor.h"
+
+namespace sweep_guard_ros {
+
+/// Runs the callbacks of one queue in one thread, so that no input waits for another. Callbacks wait until start().
+/// Subscribers and services made from it must be destroyed first.
+class QueueThread {
+ public:
+  QueueThread() = default;
+  ~QueueThread();
+  QueueThread(const QueueThread&) = delete;
+  QueueThread& operator=(const QueueThread&) = delete;
+
+  /// Returns a node handle whose callbacks run in this thread.
+  ros::NodeHandle on(ros::NodeHandle node);
+
+  ros::CallbackQueue& queue() { return queue_; }
+  /// Starts the thread; the supervisor must outlive it.
+  void start(Supervisor& supervisor, const ThreadTraits& traits);
+
+ private:
+  // Runs each callback as a piece of work of the thread's top.
+  class Queue : public ros::CallbackQueue {
+   public:
+    explicit Queue(const QueueThread& thread) : thread_(thread) {}
+    void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;
+
+   private:
+    const QueueThread& thread_;
+  };
+  class Work;
+
+  void run();
+
+  Queue queue_{*this};
+  ThreadTop* top_ = nullptr;  // from start() on
+  std::atomic<bool> stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace sweep_guard_ros

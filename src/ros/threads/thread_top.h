@@ -1,0 +1,68 @@
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <optional>
+
+#include "common/heartbeat.h"
+#include "ros/threads/kernel_thread.h"
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_ros {
+
+class Supervisor;
+
+struct ThreadTraits {
+  const char* name;           ///< at most 15 bytes; lives as long as the process
+  bool watched = true;        ///< counts as hung if it makes no progress; false: its work may take any time
+  bool loses_meshes = false;  ///< work that fails may be a mesh, which is not sent again
+};
+
+/// The top of one thread: runs its pieces of work, and catches what they throw.
+class ThreadTop {
+ public:
+  ThreadTop(Supervisor& supervisor, const ThreadTraits& traits) : supervisor_(supervisor), traits_(traits) {}
+
+  void enter();  ///< makes this the top of the calling thread, and names the thread
+
+  /// Runs a piece of work of this thread. The supervisor hears of exceptions.
+  /// @param allowance  time that the work may take beyond the usual limit before it counts as hung
+  template <typename Work>
+  void run(const Work& work, sweep_guard_core::Duration allowance = {}) noexcept {
+    allowance_ = allowance;
+    heartbeat_.begin();
+    attempt(work);
+    heartbeat_.end();
+  }
+
+  /// Runs a part of a piece of work that must not end the rest.
+  template <typename Work>
+  void attempt(const Work& work) noexcept {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      failed(error.what());
+    } catch (...) {
+      failed("unknown exception");
+    }
+  }
+
+  /// Tells the supervisor that the calling thread caught an exception at its top, if it has one.
+  static void reportFailure(const char* what) noexcept;
+
+  const ThreadTraits& traits() const { return traits_; }
+  sweep_guard_core::Heartbeat::Reading heartbeat() const { return heartbeat_.read(); }
+  sweep_guard_core::Duration allowance() const { return allowance_; }
+  const std::optional<KernelThread>& thread() const { return thread_; }  ///< after the first step
+
+ private:
+  void failed(const char* what) noexcept;
+
+  Supervisor& supervisor_;
+  const ThreadTraits traits_;
+  sweep_guard_core::Heartbeat heartbeat_;
+  std::atomic<sweep_guard_core::Duration> allowance_{};
+  std::optional<KernelThread> thread_;
+};
+
+}  // namespace sweep_guard_ros

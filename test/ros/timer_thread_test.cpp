@@ -1,0 +1,103 @@
+#include "ros/threads/timer_thread.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <new>
+
+namespace sweep_guard_ros {
+namespace {
+
+using namespace std::chrono_literals;
+using sweep_guard_core::SteadyTime;
+
+SteadyTime now() { return std::chrono::steady_clock::now(); }
+
+// Waits for this many calls.
+class Calls {
+ public:
+  explicit Calls(int awaited) : left_(awaited) {}
+  void count() {
+    if (--left_ == 0) reached_.set_value();
+  }
+  void await() { reached_.get_future().wait(); }
+
+ private:
+  std::atomic<int> left_;
+  std::promise<void> reached_;
+};
+
+class TimerThreadTest : public testing::Test {
+ protected:
+  Supervisor supervisor_{Process::kShared};
+};
+
+TEST_F(TimerThreadTest, CallsEachFunctionAtItsPeriod) {
+  Calls fast(20);
+  Calls slow(2);
+  TimerThread thread;
+  thread.every(10ms, [&] { fast.count(); });
+  thread.every(100ms, [&] { slow.count(); });
+  const SteadyTime begin = now();
+  thread.start(supervisor_, {"timers"});
+  fast.await();
+  EXPECT_GE(now() - begin, 200ms);
+  slow.await();
+  EXPECT_GE(now() - begin, 200ms);
+}
+
+TEST_F(TimerThreadTest, GoesOnAfterExceptions) {
+  Calls calls(5);
+  TimerThread thread;
+  thread.every(1ms, [&] {
+    calls.count();
+    throw std::bad_alloc();
+  });
+  thread.start(supervisor_, {"timers"});
+  calls.await();
+}
+
+TEST_F(TimerThreadTest, DoesNotMakeUpForLateCalls) {
+  std::atomic<int> count = 0;
+  TimerThread thread;
+  thread.every(10ms, [&] {
+    if (count++ == 0) std::this_thread::sleep_for(500ms);
+  });
+  thread.start(supervisor_, {"timers"});
+  while (count < 3) std::this_thread::sleep_for(1ms);
+  std::this_thread::sleep_for(30ms);
+  EXPECT_LE(count, 10);
+}
+
+TEST_F(TimerThreadTest, ANewPeriodCountsFromTheNextCallOn) {
+  Calls calls(12);
+  TimerThread thread;
+  TimerThread::Timer& timer = thread.every(100ms, [&] { calls.count(); });
+  thread.every(10ms, [&] { timer.setPeriod(10ms); });
+  const SteadyTime begin = now();
+  thread.start(supervisor_, {"timers"});
+  calls.await();
+  EXPECT_LE(now() - begin, 1s);
+}
+
+TEST_F(TimerThreadTest, StoppingWaitsForTheRunningCallAndCallsNoMore) {
+  std::promise<void> running;
+  std::atomic<int> count = 0;
+  TimerThread thread;
+  thread.every(1ms, [&] {
+    if (count == 0) running.set_value();
+    std::this_thread::sleep_for(50ms);
+    ++count;
+  });
+  thread.start(supervisor_, {"timers"});
+  running.get_future().wait();
+  thread.stop();
+  const int then = count;
+  EXPECT_GE(then, 1);
+  std::this_thread::sleep_for(20ms);
+  EXPECT_EQ(count, then);
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
