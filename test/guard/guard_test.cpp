@@ -139,6 +139,16 @@ TEST_F(GuardTest, LeavesTheIntervalOfAFailedSweepToTheNext) {
   EXPECT_EQ(report.objects[0].interval_start, at(1.0));
 }
 
+TEST_F(GuardTest, GivesUpSweepsAndPredictionsOnceItIsStopped) {
+  sweepTo(1.0, 0.5);
+  sweepTo(1.1, 0.5);
+  guard_.stop();
+  record_.volumes.clear();
+  EXPECT_EQ(sweepTo(1.2, 0.5).failures.size(), 1U);
+  EXPECT_EQ(predictionOf(guard_, {}, table_).failures.size(), 1U);
+  EXPECT_TRUE(record_.volumes.empty());
+}
+
 // Down through the triangle and up again: the straight history from first to last is free.
 TEST_F(GuardTest, SweepsThroughEveryPoseSinceAFailure) {
   sweepTo(1.0, 0.5);

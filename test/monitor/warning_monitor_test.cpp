@@ -479,6 +479,19 @@ TEST_F(WarningMonitorTest, DisabledIsUnknownByWhomItWasAskedWhateverCame) {
   EXPECT_EQ(warning.covered_until, Time());
 }
 
+TEST_F(WarningMonitorTest, AnEndingGuardIsUnknownWhateverItMetAndWhateverComes) {
+  sweep(reportOf(workpieces_, {3}), 1010);
+  monitor_.disable("/somebody");
+  monitor_.end();
+  monitor_.enable();
+  EXPECT_FALSE(monitor_.counts(monitor_.checkpoint()));
+  sweep(reportOf(workpieces_), 1020);
+  const Warning warning = warningOf(monitor_, at(1020));
+  EXPECT_EQ(warning.level, WarningLevel::kUnknown);
+  EXPECT_EQ(warning.reasons, kDisabled);
+  EXPECT_EQ(warning.text, "UNKNOWN: the guard is shutting down");
+}
+
 TEST_F(WarningMonitorTest, WhatCameBeforeOrWhileItWasDisabledDoesNotCount) {
   const WarningMonitor::Checkpoint before = monitor_.checkpoint();
   EXPECT_TRUE(monitor_.counts(before));
