@@ -19,7 +19,7 @@ ParameterWriter::~ParameterWriter() {
 }
 
 void ParameterWriter::start(Supervisor& supervisor) {
-  top_ = &supervisor.add({"parameters", /*watched=*/false});
+  top_ = &supervisor.add({"param_writer", /*watched=*/false});
   thread_ = std::thread([this] { run(); });
 }
 
