@@ -10,7 +10,7 @@ namespace sweep_guard_ros {
 /// @returns the reason of a refusal, and what to set; empty if granted
 std::string requestRealTime(int priority);
 
-/// Lowers the priority of the calling thread: its share of a busy processor, and of those of threads it starts.
+/// Lowers the priority of the calling thread and of those that it starts: its share of a busy processor.
 /// @param nice  0 (as others) to 19 (runs when nothing else does)
 void setNice(int nice);
 
