@@ -1,6 +1,7 @@
 // Calls ~check_sweep of a guard from many clients at once, each as soon as it has an answer; a client that finds the guard
 // busy asks again after 0.1 s. scripts/latency --callers runs it beside a measurement.
 #include <ros/ros.h>
+#include <sched.h>
 #include <sweep_guard/CheckSweep.h>
 
 #include <atomic>
@@ -47,6 +48,8 @@ void callWhileThereIsAGuard() {
 }
 
 int run(int argc, char** argv) {
+  const sched_param none{};
+  sched_setscheduler(0, SCHED_IDLE, &none);  // what the clients do themselves is not measured
   ros::init(argc, argv, "callers", ros::init_options::AnonymousName);
   const ros::NodeHandle alive;
   std::vector<std::thread> clients;

@@ -14,7 +14,7 @@ std::string requestRealTime(int priority);
 /// ROS_HOSTNAME is there. Call it when the first node handle exists. Logs a failure.
 void keepToLoopback();
 
-/// Lowers the priority of the calling thread: its share of a busy processor, and of those of threads it starts.
+/// Lowers the priority of the calling thread and of those that it starts: its share of a busy processor.
 /// @param nice  0 (as others) to 19 (runs when nothing else does)
 void setNice(int nice);
 

@@ -142,12 +142,16 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
                                                          const std::vector<geometry_msgs::PoseStamped>& path,
                                                          const std::function<void(const std::string&)>& go_on) const {
   std::vector<Eigen::Isometry3d> path_M;
+  const std_msgs::Header* looked_up = nullptr;
+  Eigen::Isometry3d X_MF;
   for (size_t i = 0; i < path.size(); ++i) {
-    go_on("the transform of pose " + std::to_string(i));
+    const std_msgs::Header& header = path[i].header;
+    const bool same = looked_up && looked_up->frame_id == header.frame_id && looked_up->stamp == header.stamp;
+    if (!same) go_on("the transform of pose " + std::to_string(i));
     try {
-      path_M.push_back(
-          frames_.lookup(mesh_frame, path[i].header.frame_id, fromMsg(path[i].header.stamp), kPathTransformWait) *
-          fromMsg(path[i].pose));
+      if (!same) X_MF = frames_.lookup(mesh_frame, header.frame_id, fromMsg(header.stamp), kPathTransformWait);
+      looked_up = &header;
+      path_M.push_back(X_MF * fromMsg(path[i].pose));
     } catch (const sweep_guard_core::Error& error) {
       throw InvalidInput("pose " + std::to_string(i) + ": " + error.what());
     }
@@ -155,14 +159,16 @@ std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh
   return path_M;
 }
 
-std::string CheckSweepService::oldTransforms(const CheckSweep::Request& request) const {
+std::string CheckSweepService::oldTransforms(const sweep_guard::CheckSweep::Request& request) const {
+  std::set<std::string> frames;
+  for (const geometry_msgs::PoseStamped& pose : request.path) frames.insert(pose.header.frame_id);
   for (const auto& workpiece : selected(request.mesh_ids)) {
-    for (const geometry_msgs::PoseStamped& pose : request.path) {
-      const auto newest = frames_.newest(workpiece->frame, pose.header.frame_id);
+    for (const std::string& frame : frames) {
+      const auto newest = frames_.newest(workpiece->frame, frame);
       if (newest == sweep_guard_core::Time()) continue;
       const sweep_guard_core::Duration age = now().stamp - newest.value_or(sweep_guard_core::Time());
       if (age <= parameters_->limits.pose_timeout) continue;
-      return "newest transform from '" + printable(pose.header.frame_id) + "' to '" + workpiece->frame + "' is " +
+      return "newest transform from '" + printable(frame) + "' to '" + workpiece->frame + "' is " +
              std::to_string(sweep_guard_core::toSeconds(age)) + " s old";
     }
   }
