@@ -40,8 +40,8 @@ struct Extremes {
 };
 
 /// Planes n·p = d, in the frame of the vertices and boxes that they are compared with. Beyond a plane is n·p > d. The
-/// thresholds [m] are certain in spite of rounding: a point with n·p > `outside` in float32 is beyond the plane, a point
-/// with n·p < `inside` is not.
+/// thresholds [m] allow for rounding: a point with n·p > `outside` in float32 is beyond the plane, one with n·p <
+/// `inside` is not.
 struct Planes {
   std::size_t count = 0;                                    ///< at most kMaxPlanes
   std::array<std::array<float, kMaxPlanes + 1>, 3> normal;  ///< x, y and z of the unit normals; from `count` on unused
