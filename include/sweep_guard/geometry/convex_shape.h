@@ -66,9 +66,9 @@ class ConvexShape {
   double boundingRadius() const;
 
   /// Returns the point of the front or rear face, in T, that lies farthest along a direction of any length [m]. The
-  /// faces of a cylinder are its discs; those of other bodies are faces of a box around it, across its longest side. The
-  /// front face is the one at the larger coordinate along axis_T(). The faces are those of the body without padding (of a
-  /// sphere, its center); padding moves the point by as much along the direction.
+  /// faces of a cylinder are its discs; those of other bodies are faces of a box around it, across its longest side.
+  /// The front face is the one at the larger coordinate along axis_T(). The faces are those of the body without padding
+  /// (of a sphere, its center); padding moves the point by as much along the direction.
   Eigen::Vector3d frontSupport(const Eigen::Vector3d& direction_T) const;
   Eigen::Vector3d rearSupport(const Eigen::Vector3d& direction_T) const;
 
