@@ -6,11 +6,12 @@
 
 namespace sweep_guard_ros {
 
-/// Runs the callbacks of one queue in one thread, so that no input waits for another. Callbacks wait until start().
-/// Subscribers and services made from on() must be destroyed first.
+/// Runs the callbacks of one queue in a thread of its own, one at a time, so that no queue waits for another. Callbacks
+/// wait until start(). Subscribers and services made from on() must be destroyed first. The destructor waits for a
+/// running callback.
 class QueueThread {
  public:
-  /// Returns a node handle whose callbacks run in this thread.
+  /// Returns a copy of the node handle whose callbacks run in this thread.
   ros::NodeHandle on(ros::NodeHandle node) {
     node.setCallbackQueue(&queue_);
     return node;
