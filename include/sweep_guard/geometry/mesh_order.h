@@ -11,8 +11,8 @@ namespace sweep_guard_core {
 /// Three vertex indices, 0-based, of either winding.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// A block: simd::kBlock vertices at consecutive places in memory. A cluster: a range of triangles, in their order in
-/// memory, whose corners lie in few blocks. See MeshOrder for both orders.
+/// A range of triangles at consecutive places whose corners lie in few blocks. A place is the index of a vertex or
+/// triangle in memory (MeshOrder); a block is simd::kBlock vertices at consecutive places.
 struct Cluster {
   std::uint32_t number;  ///< index among all clusters of the mesh
   std::uint32_t first;   ///< place of the first triangle

@@ -60,8 +60,8 @@ struct RelativeMotion {
 double chordError(const RelativeMotion& motion, double tool_radius);
 
 /// Returns a bound [m] on the distance between the arc of a tool point, while the tool turns, and the chord that
-/// replaces the arc. A swept volume built on chords is conservative once it is grown by this. Linear interpolation of a
-/// curve with |x''| = radius * angle^2 errs by at most an eighth of this value.
+/// replaces the arc. A swept volume built on chords is conservative once it is grown by this. It is radius * angle^2 /
+/// 8: linear interpolation of a curve over [0, 1] errs by at most an eighth of its largest |x''|.
 /// @param radius  largest distance of a tool point from the rotation axis through the tool frame's origin [m], >= 0
 /// @param angle   rotation between the two poses [rad], in [0, pi]
 double chordError(double radius, double angle);

@@ -18,7 +18,7 @@ struct OrientedBox {
 /// [Gottschalk et al. 1996]; the extents are those of the body itself, so the box contains every point of it.
 /// The box is valid without motion, for a flat body and for equal eigenvalues. It does not contain the arcs and
 /// deviations between the poses; deviationBound() (swept_volume.h) bounds them.
-/// @param motion  poses finite (asserted)
+/// @param motion  poses finite; not checked
 OrientedBox boundingBox(const ConvexShape& shape, const Motion& motion);
 
 }  // namespace sweep_guard_core

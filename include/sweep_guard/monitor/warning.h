@@ -51,7 +51,7 @@ struct Warning {
 /// - CLEAR: there is a workpiece, and each required one; pose and workpieces are fresh; no pose waits; every workpiece
 ///   was swept at that pose and tested to the end of the considered interval; there is no fault.
 /// Reasons are reported whatever the level. A disabled guard is always UNKNOWN, even during a contact, and kDisabled is
-/// its only reason.
+/// its only reason; the fields after `text` are then empty.
 /// @param[out] warning  overwritten; its buffers are used again
 void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning);
 
