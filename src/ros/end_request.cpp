@@ -20,7 +20,7 @@ std::array<int, 2> request_pipe;  // a signal handler may only write
 void request(int /*signal*/ = 0) {
   const int before = errno;
   const char byte = 0;
-  static_cast<void>(write(request_pipe[1], &byte, 1) + 0);
+  [[maybe_unused]] const auto written = write(request_pipe[1], &byte, 1);
   errno = before;
 }
 

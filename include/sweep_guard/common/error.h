@@ -4,18 +4,19 @@
 
 namespace sweep_guard_core {
 
-/// Is the base of all errors that the core throws. The message says what is wrong and what to do.
+/// The base of all errors that the core throws by itself; std::bad_alloc passes through. The message says what is wrong
+/// and, where the caller can help, what to do.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reports an input that can never work: a mesh without triangles, a negative radius, a file that does not parse.
+/// Reports an input that is refused: a mesh without triangles, a negative radius, a file that does not parse.
 struct InvalidInput : Error {
   using Error::Error;
 };
 
 /// Reports a failure of the machine: no off-screen context, an answer of OpenGL that cannot be trusted, or a file or
-/// program of the system that cannot be opened.
+/// program of the system that cannot be opened or run.
 struct DeviceError : Error {
   using Error::Error;
 };

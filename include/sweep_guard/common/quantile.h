@@ -10,7 +10,7 @@ namespace sweep_guard_core {
 /// Returns the value below which a fraction of the sample lies, interpolated linearly between neighbors as by numpy's
 /// `quantile`; NaN for an empty sample.
 /// @param sample    without NaN
-/// @param fraction  in [0, 1]
+/// @param fraction  in [0, 1]; not checked
 inline double quantile(std::vector<double> sample, double fraction) {
   if (sample.empty()) return std::numeric_limits<double>::quiet_NaN();
   const double rank = fraction * static_cast<double>(sample.size() - 1);

@@ -7,8 +7,8 @@ namespace sweep_guard_core {
 
 using Duration = std::chrono::nanoseconds;
 
-/// The clock that stamps poses and meshes (ROS time in the node). It may stop and jump. Only the shell reads it; the
-/// core gets its readings as values.
+/// The clock that stamps poses and meshes (ROS time in the node). It may stop and jump. The core does not read it: it
+/// gets readings as values.
 struct StampClock {
   using duration = Duration;
   using rep = duration::rep;
@@ -16,10 +16,10 @@ struct StampClock {
   using time_point = std::chrono::time_point<StampClock, Duration>;
 };
 
-/// A stamp in nanoseconds since the epoch of the clock; 0 means "no stamp".
+/// A stamp in nanoseconds since the epoch of the clock: 1970 UTC, or time 0 of a simulation. 0 means "no stamp".
 using Time = StampClock::time_point;
 
-/// A reading of the clock that never stops or jumps.
+/// A reading of the clock that never stops or jumps; its epoch is arbitrary.
 using SteadyTime = std::chrono::time_point<std::chrono::steady_clock, Duration>;
 
 /// One moment on both clocks. Ages are computed on both and the larger one counts: neither a stopped clock nor a late
@@ -35,19 +35,21 @@ struct Timestamps {
   SteadyTime received;
 };
 
-/// Returns the age on the clock on which it is larger. A missing stamp counts as the clock's epoch.
+/// Returns the age on the clock on which it is larger. A missing stamp counts as the clock's epoch, so it is very old
+/// except early in a simulation.
 constexpr Duration age(const Timestamps& input, const Instant& now) {
   return std::max(now.stamp - input.stamp, now.steady - input.received);
 }
 
-/// Returns whether the age exceeds `timeout`; Duration::max() never times out.
+/// Returns whether the age is larger than `timeout`; Duration::max() never times out.
 constexpr bool stale(const Timestamps& input, const Instant& now, Duration timeout) {
   return timeout != Duration::max() && age(input, now) > timeout;
 }
 
 constexpr double toSeconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// @param seconds  finite, within +-290 years [s]
+/// Rounds to the nearest nanosecond.
+/// @param seconds  finite, within +-290 years [s]; not checked
 inline Duration fromSeconds(double seconds) {
   return std::chrono::round<Duration>(std::chrono::duration<double>(seconds));
 }

@@ -14,12 +14,12 @@ namespace sweep_guard_core {
 using TriangleSet = std::vector<std::uint32_t>;
 
 struct Detection {
-  TriangleSet triangles;   ///< triangles that the volume meets
+  TriangleSet triangles;   ///< triangles that detect() names
   double inflation = 0.0;  ///< each of them meets the volume grown() by this [m]; covers the rounding of the detector
 };
 
 /// Finds the triangles of a mesh that a swept volume meets. Made once, queried every cycle. Keeps buffers and devices
-/// between queries, but nothing about a deformation. Any thread may use it, one at a time.
+/// between queries, but nothing about a mesh: it may deform. Any thread may use a detector, one thread at a time.
 class Detector {
  public:
   virtual ~Detector() = default;
@@ -27,8 +27,9 @@ class Detector {
   /// Finds the triangles that the volume meets or touches. Conservative: may also name a triangle that only
   /// swept_M.grown(inflation) meets, and never leaves out one that the volume meets.
   /// @param submesh  all of a mesh or some of it; other triangles are not tested
-  /// @returns valid until the next call
-  /// @throws DeviceError if the answer cannot be trusted: then nothing is known
+  /// @param swept_M  in the frame of the mesh
+  /// @returns indices into mesh_M().triangles(); valid until the next call
+  /// @throws DeviceError if the answer cannot be trusted: then nothing is known. The next call tries again
   const Detection& detect(const Submesh& submesh, const SweptVolume& swept_M) {
     detection_.triangles.clear();
     detection_.inflation = 0.0;
@@ -43,25 +44,27 @@ class Detector {
   Detection detection_;
 };
 
-/// Options of `select`; the other detectors ignore them. They do not change which triangles the volume meets, but
-/// without `cull` the inflation may be larger.
+/// Options of `select`; the other detectors ignore them. They do not change what detect() promises, but without `cull`
+/// the inflation may be larger.
 struct DetectorOptions {
-  bool cull = true;                   ///< draw only the triangles that tests against single planes leave in doubt
+  bool cull = true;                   ///< draw only the triangles that tests against the volume's planes leave in doubt
   std::string gl_context = "osmesa";  ///< one of offscreenContextNames()
-  int triangles_per_name = 64;        ///< triangles that share a name in the first selection pass, >= 1; not checked
+  int triangles_per_name = 64;        ///< triangles drawn under one OpenGL name in the first pass, >= 1 (asserted)
 };
 
 /// Makes a detector.
 /// @param name  `select` (OpenGL's selection mode, [P, Sec. 3.1]), `halfspace` (the same test on the processor's vector
 ///              units) or `reference` (clips every triangle in double precision)
-/// @throws InvalidInput if the name of the detector or of the context is unknown, or as simd::kernels() does
-/// @throws DeviceError if there is no usable off-screen context
+/// @throws InvalidInput if the name of the detector or of the context is unknown, or if the environment variable
+///     SWEEP_GUARD_SIMD is wrong (simd::kernels())
+/// @throws DeviceError if `select` finds no usable off-screen context
 std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOptions& options = {});
 
 /// Returns the names that makeDetector() knows.
 const std::vector<std::string>& detectorNames();
 
-/// Returns the names of the off-screen OpenGL contexts that `select` can use: `osmesa` and `egl`.
+/// Returns the names of the off-screen OpenGL contexts that `select` knows: `osmesa` and `egl`. They may not be
+/// installed.
 const std::vector<std::string>& offscreenContextNames();
 
 }  // namespace sweep_guard_core

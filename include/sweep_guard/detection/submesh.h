@@ -8,8 +8,9 @@
 
 namespace sweep_guard_core {
 
-/// Some clusters of a mesh, and the blocks of vertices that hold their corners: the triangles that a detector tests. A
-/// view: the mesh, and for some of it the SubmeshFinder, must outlive the view unchanged.
+/// The triangles that a detector tests: some clusters (ranges of triangles) of a mesh, and the blocks (ranges of
+/// vertices) that hold their corners; see mesh_order.h. A view of the mesh and of the buffers of the SubmeshFinder that
+/// returned it, if one did: they must outlive the view and not change.
 class Submesh {
  public:
   /// Views the whole mesh.
@@ -23,16 +24,17 @@ class Submesh {
   const TriangleMesh& mesh_M() const { return *mesh_M_; }
   bool empty() const { return clusters_->empty(); }
 
-  /// Returns the numbers of the blocks in mesh_M().blocks().
+  /// Returns the blocks, as indices into the boxes of mesh_M().blocks().
   const std::vector<std::uint32_t>& blocks() const { return *blocks_; }
-  /// Returns the boxes of blocks(), in that order, relative to mesh_M().origin(), padded to simd::kPadding [m].
+  /// Returns the boxes around the vertices of blocks(), in that order, relative to mesh_M().origin() [m]; each array is
+  /// padded to a multiple of simd::kPadding with unspecified values.
   const simd::BoxArrays<const float>& boxes() const { return boxes_; }
-  /// Returns the clusters, ascending. Their `blocks` are indices into blocks().
+  /// Returns the clusters, ascending by number. Their `blocks` are indices into blocks(), not into the mesh's blocks.
   const std::vector<Cluster>& clusters() const { return *clusters_; }
-  /// Returns the groups of all clusters of a whole mesh; null for a smaller submesh.
+  /// Returns the groups of clusters of a whole mesh; null for a submesh from a SubmeshFinder.
   const std::vector<ClusterGroup>* groups() const { return groups_; }
 
-  /// Calls a function with the index of each triangle, in no particular order.
+  /// Calls a function with the index in mesh_M().triangles() of each triangle, once, in no particular order.
   template <typename Function>
   void forEachTriangle(const Function& function) const {
     const std::vector<std::uint32_t>& triangle_at = mesh_M_->order().triangle_at;
@@ -53,18 +55,18 @@ class Submesh {
   const std::vector<ClusterGroup>* groups_;
 };
 
-/// Finds the planes that the blocks of a submesh lie beyond. Keeps its buffers between calls.
+/// Finds the planes that the boxes of a submesh's blocks lie wholly beyond. Keeps its buffers between calls.
 class BlockBits {
  public:
   /// @param kernels  must outlive this object
   explicit BlockBits(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels) {}
 
-  /// Computes which planes each block of the submesh lies beyond, for the calls that follow.
+  /// Computes which planes each block of the submesh lies beyond (n·p > d), for the calls that follow.
   /// @param planes  relative to mesh_M().origin()
   void classify(const Submesh& submesh, const simd::Planes& planes);
 
   /// Calls a function with each cluster of the submesh, except clusters whose blocks all lie beyond the same plane.
-  /// @param submesh  the one of the last classify()
+  /// @param submesh  the one of the last classify(); not checked
   template <typename Function>
   void forEachRemaining(const Submesh& submesh, const Function& function) const {
     const auto consider = [&](size_t first, size_t count) {
@@ -98,16 +100,17 @@ class BlockBits {
   std::vector<std::uint16_t> group_bits_;  // bits that all blocks of a group have in common
 };
 
-/// Finds the triangles of a mesh that may reach into a convex region. Keeps its buffers between calls.
+/// Finds the clusters of a mesh whose triangles may reach into a convex region. Keeps its buffers between calls.
 class SubmeshFinder {
  public:
-  /// Leaves out only triangles that lie beyond one of the planes. One pass over the boxes of the blocks.
-  /// @param around  not a result of this object
+  /// Finds the clusters of `around` that may reach inside of all planes: leaves out only clusters that lie beyond one
+  /// plane. One pass over the boxes of the blocks.
+  /// @param around  not a result of this object (asserted)
   /// @param planes  relative to the origin() of the mesh
   /// @returns a view of this object's buffers: valid until the next call
   Submesh find(const Submesh& around, const simd::Planes& planes);
 
-  /// Leaves out only triangles that lie beyond one side of the box; otherwise as above.
+  /// Finds the clusters of `around` that may reach into a box; otherwise as above.
   /// @param box_M  along the axes of M [m]; may be infinite
   Submesh find(const Submesh& around, const Eigen::AlignedBox3d& box_M);
 
@@ -123,7 +126,7 @@ class SubmeshFinder {
   std::vector<float> sides_;
 };
 
-/// Returns whether the box around the mesh lies wholly beyond one of the planes.
+/// Returns whether the box around the mesh lies wholly beyond one of the planes; false in doubt.
 /// @param planes  relative to mesh_M.origin()
 bool whollyBeyond(const TriangleMesh& mesh_M, const simd::Planes& planes);
 

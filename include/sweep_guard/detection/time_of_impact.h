@@ -17,16 +17,19 @@ struct MovingTriangle {
   std::array<Eigen::Vector3d, 3> end_M;
 };
 
-/// The first contact of a convex piece of the tool with a triangle.
+/// The first moment when a convex piece of the tool comes as close to a triangle as timeOfImpact() asks for.
 struct Impact {
-  double time_of_impact;     ///< fraction of the motion, in [0, 1]
-  Eigen::Vector3d point_M;   ///< on the triangle, at the time of impact [m]
-  Eigen::Vector3d normal_M;  ///< unit, from the triangle to the tool, along the closest points at the time of impact
-  double depth;              ///< distance [m] along the normal that frees the piece at the end of the motion, >= 0
+  double time_of_impact;    ///< fraction of the motion, in [0, 1]
+  Eigen::Vector3d point_M;  ///< on the triangle, at the time of impact [m]
+  /// Unit, from the triangle to the tool, along the closest points at the time of impact; see timeOfImpact() for an
+  /// overlap.
+  Eigen::Vector3d normal_M;
+  double depth;  ///< distance [m] along `normal_M` that frees the piece at the end of the motion, >= 0
 };
 
 /// Computes when a convex piece of the tool first comes as close to a triangle as `margin`. The time of impact is never
-/// later than the true one. Returns empty only if it is *proven* that the piece never comes so close.
+/// later than the true one. Returns empty only if it is *proven* that the piece never comes so close; an impact may
+/// thus be merely not ruled out.
 ///
 /// Conservative advancement: separation() finds a direction n that separates piece and triangle at one time, and n is
 /// then followed in time. G(s) = min over the piece of n · q(s) - max over the triangle of n · p(s) is evaluated
@@ -47,11 +50,11 @@ struct Impact {
 ///
 /// If the piece overlaps the triangle at the start, the time of impact is 0, and the normal is `contact_normal_M` if it
 /// is given and the minimum translation direction if not.
-/// @param sub_motions       equal sub-motions of one motion, end to end, from split(); not empty. The
-///                          `deviation_bound` of each is added to the margin; its `mesh_translation` is ignored, for
-///                          the triangle has a motion of its own
-/// @param margin            [m], >= 0; not part of the depth
-/// @param contact_normal_M  unit: normal of the contact if it began earlier
+/// @param sub_motions       sub-motions of one motion, of equal duration, end to end, as from split(); not empty
+///                          (asserted). The `deviation_bound` of each is added to the margin; its `mesh_translation` is
+///                          ignored, for the triangle has a motion of its own
+/// @param margin            [m], >= 0 (asserted); not part of the depth
+/// @param contact_normal_M  unit: normal of the contact if it began before the start; used only if they overlap there
 std::optional<Impact> timeOfImpact(const ConvexShape& shape_T, const std::vector<Motion>& sub_motions,
                                    const MovingTriangle& triangle, double margin,
                                    const std::optional<Eigen::Vector3d>& contact_normal_M = std::nullopt);

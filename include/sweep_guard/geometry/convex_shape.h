@@ -10,15 +10,15 @@
 
 namespace sweep_guard_core {
 
-/// First and second order statistics of a set of points [P, Sec. 3.1].
+/// Mean and covariance of a set of points, each of equal weight [P, Sec. 3.1].
 struct Moments {
   Eigen::Vector3d mean;        ///< [m]
   Eigen::Matrix3d covariance;  ///< about the mean [m^2], positive semi-definite
 };
 
 /// A convex body, fixed in the tool frame T: a round cylinder, a sphere, a box, or the convex hull of points, grown by
-/// a padding (the Minkowski sum with a ball). Support functions are exact for the body itself; drawings, moments and
-/// the axes of hulls and spheres come from its mesh. A point and a segment are bodies, too: hulls of one or two points.
+/// a padding (the Minkowski sum with a ball). The support functions are exact, not those of mesh_T(); moments and the
+/// axes of hulls and spheres come from mesh_T(). A point and a segment are bodies, too: hulls of one or two points.
 class ConvexShape {
  public:
   /// Makes a round cylinder around the z axis of T, with z in [-length, 0] [P, Sec. 3.1].
@@ -44,37 +44,39 @@ class ConvexShape {
   /// @throws DeviceError if /dev/null cannot be opened
   static ConvexShape hull(const std::vector<Eigen::Vector3d>& points_T);
 
-  /// Returns the body with its frame T placed at X_NT: N becomes the tool frame of the result.
+  /// Returns the body with its frame T placed at X_NT, a rigid transform: N becomes the tool frame of the result.
   /// @throws InvalidInput if a vertex of mesh_T() would lie beyond kMaxCoordinate
   ConvexShape placed(const Eigen::Isometry3d& X_NT) const;
 
   /// Returns the body grown on all sides.
-  /// @param distance  additional padding [m], >= 0
+  /// @param distance  additional padding [m], >= 0 (asserted)
   ConvexShape padded(double distance) const;
 
   /// Returns the support function for a unit direction [m]: max over points p of the body of direction · p.
   double support(const Eigen::Vector3d& direction_T) const;
 
-  /// Returns a point of the body that lies farthest along a direction of any length [m].
+  /// Returns a point of the body, in T, that lies farthest along a direction of any length > 0 [m].
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction_T) const;
 
-  /// Returns a bound [m] on the distance of any point of the body from the line through the origin of T along a unit
-  /// axis.
+  /// Returns an upper bound [m] on the distance of any point of the body from the line through the origin of T along a
+  /// unit axis.
   double radiusAbout(const Eigen::Vector3d& axis_T) const;
 
-  /// Returns a bound [m] on the distance of any point of the body from the origin of T.
+  /// Returns an upper bound [m] on the distance of any point of the body from the origin of T.
   double boundingRadius() const;
 
-  /// Returns the point of the front or rear face that lies farthest along a direction of any length [m]. The faces of a
-  /// cylinder are its discs; those of other bodies are the faces of a box around it, across its longest side. The front
-  /// face is the one at the larger coordinate along axis_T(). The faces are those of the body without
-  /// padding (of a sphere, its center); padding moves the point by as much along the direction.
+  /// Returns the point of the front or rear face, in T, that lies farthest along a direction of any length [m]. The
+  /// faces of a cylinder are its discs; those of other bodies are faces of a box around it, across its longest side.
+  /// The front face is the one at the larger coordinate along axis_T(). The faces are those of the body without padding
+  /// (of a sphere, its center); padding moves the point by as much along the direction.
   Eigen::Vector3d frontSupport(const Eigen::Vector3d& direction_T) const;
   Eigen::Vector3d rearSupport(const Eigen::Vector3d& direction_T) const;
 
-  double length() const { return faces_.front - faces_.rear + 2.0 * padding_; }  ///< padded, along axis_T() [m]
-  double radius() const { return faces_.half_sides.minCoeff() + padding_; }      ///< padded, smaller half side [m]
-  Eigen::Vector3d axis_T() const { return faces_.R_TF.col(2); }                  ///< from rear to front, unit
+  double length() const { return faces_.front - faces_.rear + 2.0 * padding_; }  ///< between the faces, padded [m]
+  double radius() const {
+    return faces_.half_sides.minCoeff() + padding_;
+  }                                                              ///< smaller half side of a face, padded [m]
+  Eigen::Vector3d axis_T() const { return faces_.R_TF.col(2); }  ///< from rear to front, unit
 
   /// A round cylinder around the z axis of a frame C, with z in [-length, 0].
   struct Cylinder {
@@ -84,8 +86,9 @@ class ConvexShape {
   };
   std::optional<Cylinder> asCylinder() const;  ///< the body without padding, if it is a cylinder
 
-  const TriangleMesh& mesh_T() const { return mesh_T_; }   ///< surface without padding; polygonal for round bodies
-  const Moments& moments_T() const { return moments_T_; }  ///< of all corners of all triangles
+  /// Returns the surface as made, without what padded() added. That of a round body is a polyhedron inside it.
+  const TriangleMesh& mesh_T() const { return mesh_T_; }
+  const Moments& moments_T() const { return moments_T_; }  ///< of the corners of all triangles of mesh_T()
 
  private:
   struct Round {
@@ -124,11 +127,11 @@ class ConvexShape {
   Faces faces_;
 };
 
-/// Returns the support function [m] of the body at a pose for a unit direction of the pose's parent frame.
+/// Returns the support function [m] of the body at a pose, in M, for a unit direction.
 double support(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Eigen::Vector3d& direction_M);
 
-/// Returns the support function [m] of the convex hull of the body at both poses of a motion, at each of them before
-/// and after a shift by the motion's mesh_translation. The direction is unit.
+/// Returns the support function [m] of the convex hull of the body at both poses of a motion, each before and after a
+/// shift by the motion's mesh_translation, in M, for a unit direction.
 double support(const ConvexShape& shape, const Motion& motion, const Eigen::Vector3d& direction_M);
 
 }  // namespace sweep_guard_core

@@ -27,17 +27,17 @@ struct DecompositionOptions {
 /// Both sums must fall by more than `least_saving` times the volume that the hull of the whole mesh covers, for each
 /// piece after the first. The first sum alone would hollow out a large ball; the second alone would separate objects
 /// inside a casing. A convex mesh stays whole, and there are at most 1 + 1 / least_saving pieces.
-/// @returns sets of triangle indices: none empty, each triangle in one set, ascending
+/// @returns sets of triangle indices: none empty, each triangle in exactly one set, each set ascending
 /// @throws InvalidInput if an option is out of range
-/// @throws DeviceError as convexHull() does
+/// @throws DeviceError if /dev/null cannot be opened (convexHull())
 std::vector<std::vector<std::uint32_t>> decompose(const TriangleMesh& mesh, const DecompositionOptions& options = {});
 
-/// Returns the convex hulls of the sets of decompose(), in the same order. Each hull contains all corners of its
-/// triangles, so together they contain every point of every triangle, also before TriangleMesh rounded the vertices.
+/// Returns the convex hulls of the sets of decompose(), in the same order, padded by the mesh's rounding(). Each hull
+/// contains its triangles, also as they were before TriangleMesh rounded the vertices.
 /// They need not contain the inside of a closed mesh; nothing gets there without touching the surface as long as motion
 /// is swept without gaps.
 /// @throws InvalidInput if an option is out of range
-/// @throws DeviceError as convexHull() does
+/// @throws DeviceError if /dev/null cannot be opened (convexHull())
 std::vector<ConvexShape> convexPieces(const TriangleMesh& mesh_T, const DecompositionOptions& options = {});
 
 }  // namespace sweep_guard_core

@@ -26,13 +26,12 @@ class HalfSpace {
   double offset_;
 };
 
-/// A convex polygon: its corners in order [m]; a corner may repeat. One corner is a point, two are a segment, none is
-/// the empty set.
+/// A convex polygon: its corners in order, in one plane [m]; a corner may repeat. One corner is a point, two are a
+/// segment, none is the empty set.
 using Polygon = std::vector<Eigen::Vector3d>;
 
 /// Returns the part of a convex polygon that lies in a half-space (Sutherland and Hodgman 1974). The boundary plane
-/// belongs to the half-space: of a polygon that only touches it, the touching corners remain. ClippedTriangle does the
-/// same for the detectors, which must not allocate.
+/// belongs to the half-space: of a polygon that only touches it, the touching corners remain. Keeps the order.
 Polygon clip(const Polygon& polygon, const HalfSpace& half_space);
 
 }  // namespace sweep_guard_core

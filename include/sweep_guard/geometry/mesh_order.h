@@ -11,7 +11,8 @@ namespace sweep_guard_core {
 /// Three vertex indices, 0-based, of either winding.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// A range of triangles whose corners lie in few blocks of vertices.
+/// A range of triangles at consecutive places whose corners lie in few blocks. A place is the index of a vertex or
+/// triangle in memory (MeshOrder); a block is simd::kBlock vertices at consecutive places.
 struct Cluster {
   std::uint32_t number;  ///< index among all clusters of the mesh
   std::uint32_t first;   ///< place of the first triangle
@@ -20,38 +21,38 @@ struct Cluster {
   std::array<std::uint32_t, simd::kClusterBlocks> blocks;
 };
 
-/// Size of a group of consecutive blocks; the first index of a group is a multiple of it.
+/// Size of a group of consecutive blocks, except the last; the first index of a group is a multiple of it.
 constexpr std::uint32_t kBlocksTogether = 8;
 constexpr std::uint32_t kClustersTogether = 8;  ///< largest size of a group of consecutive clusters
 
-/// A range of clusters whose blocks lie in few groups of kBlocksTogether.
+/// A range of clusters whose blocks lie in few groups of kBlocksTogether blocks.
 struct ClusterGroup {
   std::uint32_t first;  ///< index of the first cluster
   std::uint32_t count;  ///< 1 to kClustersTogether
-      /// Groups of its blocks: group i begins at block i * kBlocksTogether. Unused entries repeat the last one.
+
+  /// Groups of its blocks: group i begins at block i * kBlocksTogether. Unused entries repeat the last one.
   std::array<std::uint32_t, simd::kClusterBlocks> block_groups;
 };
 
-/// Holds the order in memory of the vertices and triangles of a mesh: neighbors in space are near each other in memory.
-/// It is computed from the first positions. It is correct for every deformation, and fast as long as neighbors stay
-/// neighbors.
-/// Keeps the sender's order where that is good enough.
+/// Holds the order in memory of the vertices and triangles of a mesh: neighbors in space are near each other there.
+/// The sender's order is that of the arguments of orderOf(); it is kept where it is good enough. The order is computed
+/// from the first positions. It is correct for every deformation, and fast as long as neighbors stay neighbors.
 struct MeshOrder {
   std::vector<std::uint32_t> vertex_places;   ///< place of each of the sender's vertices; empty: the sender's order
   std::vector<std::uint32_t> triangle_at;     ///< the sender's triangle at each place; empty: the sender's order
   std::vector<Cluster> clusters;              ///< cover all places, ascending
-  std::vector<simd::ClusterCorners> corners;  ///< of each cluster
+  std::vector<simd::ClusterCorners> corners;  ///< of each cluster's triangles
   std::vector<ClusterGroup> groups;           ///< cover all clusters, ascending
   std::vector<std::uint32_t> blocks;          ///< indices 0, 1, ... of all blocks
 };
 
 /// Computes the order of a mesh.
-/// @param positions  x0 y0 z0 x1 ... [m], finite, at least one vertex, in the sender's order
-/// @param triangles  in the sender's order, with valid indices
+/// @param positions  x0 y0 z0 x1 ... [m], finite, at least one vertex; not checked
+/// @param triangles  indices below the number of vertices; not checked
 MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangle>& triangles);
 
 /// Copies positions from the sender's order to their places.
-/// @param places     MeshOrder::vertex_places, not empty
+/// @param places     MeshOrder::vertex_places; if it is empty, nothing is copied
 /// @param sent       x0 y0 z0 x1 ... of as many vertices as there are places
 /// @param[out] kept  positions at their places; another vector, which must have the size of `sent` before the call
 void place(const std::vector<std::uint32_t>& places, const std::vector<float>& sent, std::vector<float>& kept);

@@ -12,8 +12,8 @@ namespace sweep_guard_core {
 struct Motion {
   Eigen::Isometry3d X_MT_start = Eigen::Isometry3d::Identity();  ///< translation [m]
   Eigen::Isometry3d X_MT_end = Eigen::Isometry3d::Identity();    ///< translation [m]
-  /// Bound on the deviation of a tool point from its straight path, arcs of the tool included, if M turns itself or if
-  /// this motion replaces several [m], >= 0; 0 otherwise, where chordError() bounds the arcs.
+  /// Upper bound [m] on the distance of a tool point from where it would be if it moved straight from pose to pose at
+  /// constant speed, for a motion in a turning M or one that replaces several. 0 otherwise: chordError() bounds it.
   double deviation_bound = 0.0;
   /// Translation of the mesh during the motion [m], in M. The mesh is tested where it is at the end, so the tool may be
   /// anywhere on [pose, pose + mesh_translation] at any time.
@@ -23,44 +23,45 @@ struct Motion {
   double angle() const;
   /// Returns the axis of the rotation in T, unit; any unit vector if the angle is 0.
   Eigen::Vector3d axis_T() const;
-  /// Returns the pose at a fraction of the motion, in [0, 1].
+  /// Returns the pose X_MT at a fraction of the motion, in [0, 1].
   Eigen::Isometry3d at(double fraction) const;
 };
 
 /// Returns the smallest number, >= 1, of equal sub-motions of which none turns by more than `max_rotation`.
 /// @param angle         rotation of the whole motion [rad], >= 0
-/// @param max_rotation  [rad], > 0
+/// @param max_rotation  [rad], > 0 (asserted)
 size_t subMotionCount(double angle, double max_rotation);
 
 /// Cuts the poses of a motion into the fewest equal sub-motions that turn by at most `max_rotation` each. They are end
 /// to end: nothing between them is left out. Their deviation_bound and mesh_translation are 0, whatever the motion's.
-/// @param max_rotation  [rad], > 0
+/// @param max_rotation  [rad], > 0 (asserted)
 /// @param buffer        provides the memory of the result; its contents are replaced
 [[nodiscard]] std::vector<Motion> split(const Motion& motion, double max_rotation, std::vector<Motion> buffer = {});
 
 /// The simultaneous motions of the tool and of the mesh frame M in the fixed frame W. Seen from a turning M, the tool
 /// moves on an arc about the origin of M, even if the tool itself does not turn.
 struct RelativeMotion {
-  Motion tool_W;   ///< of T in W
-  Motion frame_W;  ///< of M in W: its X_MT_start holds X_WM at the start
+  Motion tool_W;   ///< of T in W: X_MT_start holds X_WT at the start
+  Motion frame_W;  ///< of M in W: X_MT_start holds X_WM at the start
 };
 
 /// Returns the tool's motion in M, cut into the fewest equal sub-motions in which tool and frame together turn by at
 /// most `max_rotation`. Their deviation_bound covers the turn of M; their mesh_translation is 0. Ignores the
 /// deviation_bound and the mesh_translation of tool_W and frame_W.
-/// @param max_rotation  [rad], > 0
+/// @param max_rotation  [rad], > 0 (asserted)
 /// @param tool_radius   largest distance of a tool point from the origin of T [m], >= 0
 /// @param buffer        provides the memory of the result; its contents are replaced
 [[nodiscard]] std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_radius,
                                         std::vector<Motion> buffer = {});
 
-/// Returns a bound [m] on the deviation of a tool point, seen from M, from a straight path at constant speed.
+/// Returns a bound [m] on the deviation of a tool point, seen from M, from its straight path at constant speed between
+/// the ends of the motion.
 /// @param tool_radius  largest distance of a tool point from the origin of T [m], >= 0
 double chordError(const RelativeMotion& motion, double tool_radius);
 
 /// Returns a bound [m] on the distance between the arc of a tool point, while the tool turns, and the chord that
-/// replaces the arc. A swept volume built on chords is conservative once it is grown by this. Linear interpolation of a
-/// curve with |x''| = radius * angle^2 errs by at most an eighth of this value.
+/// replaces the arc. A swept volume built on chords is conservative once it is grown by this. It is radius * angle^2 /
+/// 8: linear interpolation of a curve over [0, 1] errs by at most an eighth of its largest |x''|.
 /// @param radius  largest distance of a tool point from the rotation axis through the tool frame's origin [m], >= 0
 /// @param angle   rotation between the two poses [rad], in [0, pi]
 double chordError(double radius, double angle);

@@ -14,11 +14,11 @@ struct OrientedBox {
 };
 
 /// Returns the box of [P, Sec. 3.1] around a convex body at both poses of a motion, before and after its
-/// mesh_translation. The axes are the eigenvectors of the covariance of the triangles' corners there [Gottschalk et al.
-/// 1996]; the extents are those of the body itself, so the box contains every point of it. The box is valid without
-/// motion, for a flat body and for equal eigenvalues. It does not contain the arcs and deviations between the poses;
-/// deviationBound() bounds them.
-/// @param motion  poses finite
+/// mesh_translation. The axes are the eigenvectors of the covariance of the corners of mesh_T()'s triangles there
+/// [Gottschalk et al. 1996]; the extents are those of the body itself, so the box contains every point of it.
+/// The box is valid without motion, for a flat body and for equal eigenvalues. It does not contain the arcs and
+/// deviations between the poses; deviationBound() (swept_volume.h) bounds them.
+/// @param motion  poses finite; not checked
 OrientedBox boundingBox(const ConvexShape& shape, const Motion& motion);
 
 }  // namespace sweep_guard_core

@@ -35,13 +35,13 @@ class PointHull {
   explicit PointHull(const std::array<Eigen::Vector3d, kCount>& points) {
     for (const Eigen::Vector3d& p : points) add(p);
   }
-  /// Adds a point; there must be fewer than kMaxPoints.
+  /// Adds a point; there must be fewer than kMaxPoints (asserted).
   void add(const Eigen::Vector3d& p) {
     assert(count_ < kMaxPoints);
     points_[count_++] = p;
   }
 
-  /// Returns the point farthest along a direction of any length. There must be a point.
+  /// Returns the point farthest along a direction of any length. There must be a point (asserted).
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const;
 
  private:
@@ -57,7 +57,7 @@ struct Separation {
   Eigen::Vector3d normal;       ///< unit, from the obstacle to the tool; means nothing if gap <= 0
   double gap;                   ///< proven lower bound of the distance [m]; <= 0: nothing is proven
   Eigen::Vector3d on_tool;      ///< closest point of the tool [m]
-  Eigen::Vector3d on_obstacle;  ///< closest point of the obstacle [m]; on_tool, to rounding, if they overlap
+  Eigen::Vector3d on_obstacle;  ///< closest point of the obstacle [m]; equals on_tool, to rounding, if they overlap
 };
 
 /// Computes the distance of two convex bodies by the algorithm of Gilbert, Johnson and Keerthi (1988): the point
@@ -65,22 +65,24 @@ struct Separation {
 /// through signed volumes, after Montanari, Petrinic and Barbieri (2017). Orthogonalizes the direction to the simplex
 /// once more, so that it keeps its digits where the distance is small.
 ///
-/// If the bodies are separated, `gap` and the distance of the closest points mostly differ by less than 1e-12 of the
-/// bodies' size; the largest difference seen is 1e-9 (one pair in 20 000 of round bodies against needles). Bodies may
-/// be flat, needles or points. After 64 steps the best result is returned. The coordinates of both bodies must be
-/// relative to a place near them, to keep their digits.
+/// If the bodies are separated and `accuracy` is 0, `gap` and the distance of the closest points mostly differ by less
+/// than 1e-12 of the bodies' size; the largest difference seen is 1e-9 (one pair in 20 000 of round bodies against
+/// needles). Bodies may be flat, needles or points. After 64 steps the best result is returned. The coordinates of both
+/// bodies must be relative to a place near them, to keep their digits.
 /// @param accuracy  allowed difference between `gap` and the distance [m], >= 0; a larger one needs fewer steps
 /// @param guess     initial direction, from the obstacle to the tool, of any length; zero for none
 Separation separation(const SupportMapping& tool, const SupportMapping& obstacle, double accuracy = 0.0,
                       const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());
 
 /// Computes the separation only as accurately as conservative advancement needs: `gap` may underestimate the distance
-/// by `accuracy` [m] or, beyond `margin` [m], by (gap - margin) / 8, whichever is more.
+/// by `accuracy` [m], >= 0, or, beyond `margin` [m], by (gap - margin) / 8, whichever is more.
+/// @param guess  as for separation()
 Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obstacle, double margin, double accuracy,
                            const Eigen::Vector3d& guess);
 
 /// Returns whether the bodies are proven to be farther apart than `distance` [m], >= 0. Cheaper than separation(): ends
-/// at the first direction that proves it, or at the first two points that are not farther apart.
+/// at the first direction that proves it, or at the first two points that are not farther apart. False if in doubt.
+/// @param guess  as for separation()
 bool distanceExceeds(const SupportMapping& tool, const SupportMapping& obstacle, double distance,
                      const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());
 

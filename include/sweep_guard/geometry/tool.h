@@ -16,9 +16,9 @@ struct ConvexPiece {
   ConvexShape shape_T;  ///< in the tool frame
 };
 
-/// The rigid tool in its frame T, with the origin at the tip and z pointing out of the tip. The tool is a union of
-/// convex pieces under a tree of boxes [P, Sec. 5; Gottschalk et al. 1996]: a triangle that does not intersect a box
-/// does not intersect the pieces below it.
+/// The rigid tool in its frame T; by convention, the origin is at the tip and z points out of the tip. The tool is a
+/// union of convex pieces under a tree of boxes [P, Sec. 5; Gottschalk et al. 1996]: a triangle that does not intersect
+/// a box does not intersect the pieces below it.
 class Tool {
  public:
   /// A node of the tree: a leaf is a piece, any other node is a box around the pieces below it.
@@ -33,14 +33,14 @@ class Tool {
   /// Makes a tool of one piece.
   explicit Tool(const ConvexShape& shape_T);
 
-  /// Makes the cylinder of [P, Sec. 3.1]: see ConvexShape::cylinder().
+  /// Makes the cylinder of [P, Sec. 3.1]: parameters and errors as ConvexShape::cylinder().
   static Tool cylinder(double radius, double length, int sides = 32);
 
   const std::vector<ConvexPiece>& pieces() const { return pieces_; }
   const std::vector<Node>& tree() const { return tree_; }          ///< the root first
-  const ConvexShape& whole() const { return tree_[0].shape_T; }    ///< around all pieces
+  const ConvexShape& whole() const { return tree_[0].shape_T; }    ///< the only piece, or a box around all
   const Eigen::AlignedBox3d& bounds_T() const { return bounds_; }  ///< of all pieces, along the axes of T [m]
-  /// Returns a bound on the distance of a tool point from the origin of T [m].
+  /// Returns an upper bound on the distance of a tool point from the origin of T [m].
   double boundingRadius() const { return bounding_radius_; }
 
  private:

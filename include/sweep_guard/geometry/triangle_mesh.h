@@ -10,18 +10,17 @@
 
 namespace sweep_guard_core {
 
-/// Largest coordinate accepted [m]. Beyond it double precision is too coarse for a contact.
+/// Largest absolute coordinate accepted [m]. Beyond it double precision is too coarse for a contact.
 constexpr double kMaxCoordinate = 1e7;
 
-/// A checked triangle mesh at one time, in its frame M. Stores vertices as float32 offsets from an origin, in the
-/// precision and layout of MeshVertices messages; rounding() bounds the error. Keeps degenerate triangles and unused
-/// vertices, because they may be a wire or a tip. All indices are the sender's, except in places(), order() and
-/// blocks().
+/// A checked triangle mesh at one time, in its frame M. Stores vertices as float32 offsets from an origin; rounding()
+/// bounds the error. Keeps degenerate triangles and unused vertices, because they may be a wire or a tip. All indices
+/// are those given to the constructor (the sender's), except in places(), order() and blocks().
 class TriangleMesh {
  public:
   /// @param vertices_M  positions [m], each coordinate finite and within +-kMaxCoordinate
   /// @param triangles   at least one, each index below vertices_M.size()
-  /// @throws InvalidInput if there is no triangle, or with the index of the first invalid triangle or else vertex
+  /// @throws InvalidInput if there is no triangle, or naming the first invalid triangle or else vertex
   TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles);
 
   /// Replaces the positions of all vertices in one pass; rebuilds no structure. Exchanges buffers and allocates
@@ -40,10 +39,10 @@ class TriangleMesh {
   bool closed() const { return topology_->closed; }
   size_t vertexCount() const { return offsets_.size() / 3; }
 
-  /// Returns the position of vertex `i` in M [m].
+  /// Returns the position of vertex `i` in M [m]; i < vertexCount(), not checked.
   Eigen::Vector3d vertex(size_t i) const { return origin_ + offset(i); }
 
-  const Eigen::Vector3d& origin() const { return origin_; }  ///< in M [m]; zero after deform()
+  const Eigen::Vector3d& origin() const { return origin_; }  ///< of the offsets, in M [m]; zero after deform()
   /// Returns the position of vertex `i` relative to origin() [m]; exact in float32.
   Eigen::Vector3d offset(size_t i) const {
     const std::vector<std::uint32_t>& places = topology_->order.vertex_places;
@@ -53,14 +52,15 @@ class TriangleMesh {
 
   /// Returns the offsets of the vertices at their places in order(): x0 y0 z0 x1 ... [m].
   const std::vector<float>& places() const { return offsets_; }
-  /// Returns the boxes around blocks of places() [m].
+  /// Returns the boxes around blocks of places(), relative to origin() [m].
   const VertexBlocks& blocks() const { return blocks_; }
   /// Returns the order of vertices and triangles in memory; it is the same for all deformations.
   const MeshOrder& order() const { return topology_->order; }
-  /// Returns a bound on the distance [m] of a vertex from origin(): the farthest corner of the box around all vertices.
+  /// Returns an upper bound on the distance [m] of a vertex from origin(): that of the farthest corner of the box
+  /// around all vertices.
   double radius() const { return radius_; }
 
-  /// Returns the box along the axes of M that contains every vertex [m].
+  /// Returns the box along the axes of M that contains every vertex as stored [m].
   Eigen::AlignedBox3d bounds_M() const { return {origin_ + blocks_.bounds().min(), origin_ + blocks_.bounds().max()}; }
 
   /// Returns the largest distance [m] between a vertex as given and as stored; 0 after deform().

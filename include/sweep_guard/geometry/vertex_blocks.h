@@ -9,12 +9,12 @@
 
 namespace sweep_guard_core {
 
-/// Boxes along the axes around every simd::kBlock consecutive vertices of a mesh, computed in one pass over the
-/// positions. Sweeps test these boxes first.
+/// Boxes along the axes around every simd::kBlock consecutive vertices of a mesh (a block), in the frame of the
+/// positions, computed in one pass over them. Sweeps test these boxes first.
 class VertexBlocks {
  public:
   /// Computes the boxes.
-  /// @param positions  x0 y0 z0 x1 ... [m], at least one vertex
+  /// @param positions  x0 y0 z0 x1 ... [m], at least one vertex (asserted)
   /// @returns whether all positions are finite (see simd::Kernels::bound); if not, the boxes are not valid
   bool measure(const std::vector<float>& positions);
 
@@ -38,9 +38,10 @@ class VertexBlocks {
 
 constexpr size_t kBlockFloats = 3 * simd::kBlock;
 
-/// Calls a function with the kBlock vertices of one block; simd::kPadding more floats are readable. The last vertex
-/// fills the last block. The pointer may be valid during the call only.
+/// Calls a function with a pointer to the kBlock vertices of one block; simd::kPadding more floats are readable. The
+/// last vertex fills the last block. The pointer is valid during the call only.
 /// @param positions  x0 y0 z0 x1 ... [m], at least one vertex
+/// @param block      below VertexBlocks::count(); not checked
 template <typename Function>
 void withBlock(const std::vector<float>& positions, size_t block, const Function& function) {
   const size_t first = block * kBlockFloats;

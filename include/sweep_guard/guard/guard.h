@@ -16,22 +16,24 @@ class TimeBudget;
 struct SweepPlan;
 
 /// Sweeps the tool from pose to pose, so that no motion goes untested, and predicts contacts after the newest pose
-/// [P, Sec. 3.2]. One thread, except for stop().
+/// [P, Sec. 3.2]. Any thread may call it, one thread at a time; stop() at any time.
 ///
-/// After a failure of the detector the next sweep passes through every pose since the last success; of more than 8192
-/// it skips the oldest. After a missing transform it goes straight from the last pose known in that frame. The first
-/// sweep in a frame begins at the first pose known there; if no pose was passed before, it is a static test.
+/// After a failure of the detector the next sweep passes through every pose since the last success. Of more than 8192
+/// poses that wait, it goes straight past the oldest ones. After a missing transform it goes straight from the last
+/// pose known in that frame. The first sweep in a frame begins at the first pose known there; if no pose was passed
+/// before, it is a static test.
 ///
 /// Between poses, tool and frames move straight at constant speed in W and turn about one axis at constant rate.
 /// Between updates of a mesh, its vertices move straight at any speed. The update is a motion between the stamps of
 /// both meshes: the tool's path since the earlier stamp is swept again against the moving mesh, as far as its poses are
 /// kept. Swept poses are kept for 0.5 s.
 ///
-/// Segments that are swept at once are merged (mergedMotion()) as long as the deviation bound is at most a thousandth
-/// of the tool's bounding radius and the rotation at most `max_rotation`. Times of impact stay early.
+/// Of several poses swept at once, consecutive segments are replaced by one straight motion where no tool point
+/// deviates by more than a thousandth of the tool's bounding radius and the rotation is at most `max_rotation`. The
+/// margin grows by the deviation, so times of impact are never late.
 class Guard {
  public:
-  /// @param detector  not null
+  /// @param detector  not null; not checked
   /// @throws InvalidInput if `cycle` or an option of the predictor or the horizon is out of range; `options.sweep` is
   ///     not checked
   Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options);
@@ -55,24 +57,29 @@ class Guard {
   void takeBack() noexcept;
 
   /// Predicts the path after the newest pose and tests it. Frames of workpieces are taken to stay where they are. The
-  /// newest pose must have been given to sweep(), not to pass(). The path is empty before the first sweep, until
-  /// PosePredictor knows a motion, and once the newest pose is older than the reserve of the horizon: the number of
-  /// sweeps would grow with the age. If the detector fails, the prediction names the workpiece; nothing is thrown.
-  /// @param age  of the newest pose, >= 0
+  /// newest pose must have been given to sweep(), not to pass(). The path is empty until PosePredictor knows a motion.
+  /// The whole prediction is empty, without a stamp, before the first sweep and if `age` exceeds the reserve of the
+  /// horizon: the number of sweeps would grow with the age. If the detector fails, the prediction names the workpiece;
+  /// nothing is thrown.
+  ///
+  /// If `cycle` leaves too little time after sweep(), sweeps beyond the reflex interval are fewer and coarser: they may
+  /// report contacts that finer ones would rule out, but miss none.
+  /// @param age  of the newest pose, >= 0 (asserted)
   /// @param[out] prediction  overwritten; its buffers are used again
   void predict(Duration age, const Workpieces& workpieces, Prediction& prediction);
 
   /// Predicts the motion after the newest pose without testing it. The newest pose must have been given to sweep(), not
   /// to pass(). The path is empty before the first sweep and until PosePredictor knows a motion. Unlike predict(), this
   /// does not refuse an old pose.
-  /// @param age  of the newest pose, >= 0
-  /// @param end  of the prediction, counted from now, > 0
+  /// @param age  of the newest pose, >= 0 (asserted)
+  /// @param end  of the prediction, counted from now, > 0 (asserted)
   PredictedMotion predictMotion(Duration age, Duration end) const;
 
-  /// Forgets all poses, and keeps what the predictor has learned of the operator.
+  /// Forgets all poses and contacts, and keeps what the predictor has learned of the operator.
   void reset();
 
-  /// Exchanges the options, and tool, detector or predictor if given. The next sweep begins where the last one ended.
+  /// Exchanges the options except the clock, and tool, detector or predictor if given. The next sweep begins where the
+  /// last one ended.
   /// @param[in,out] change  receives what it replaces, so that the caller may destroy it in another thread
   /// @throws InvalidInput if `cycle` or an option of the horizon is out of range; then nothing is exchanged
   void exchange(GuardChange& change);

@@ -17,8 +17,8 @@ struct GuardOptions {
   SweepOptions sweep;
   PredictorOptions predictor;
   HorizonOptions horizon;
-  Duration cycle = fromSeconds(1.0 / 15.0);  ///< time available for one pose and its prediction, > 0
-  /// Clock that measures what sweeps cost; never goes back. Must not be empty.
+  Duration cycle = fromSeconds(1.0 / 15.0);  ///< time available for the sweep to one pose and for its prediction, > 0
+  /// Clock that measures what sweeps cost; must not be empty or go back (not checked). Called in the guard's thread.
   std::function<SteadyTime()> clock = std::chrono::steady_clock::now;
 };
 

@@ -11,9 +11,9 @@ namespace sweep_guard_core {
 /// The pose of the tool frame T, and of every mesh frame M, in the fixed frame W at one moment.
 struct PoseWithFrames {
   Time stamp;
-  SteadyTime received;
+  SteadyTime received;                                     ///< when the pose arrived
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< translation [m]
-  std::map<std::string, Eigen::Isometry3d> X_WM;  ///< by name of M; a frame whose transform is missing is left out
+  std::map<std::string, Eigen::Isometry3d> X_WM;  ///< [m], by name of M; a frame whose transform is missing is left out
 };
 
 }  // namespace sweep_guard_core

@@ -15,16 +15,17 @@ namespace sweep_guard_core {
 
 /// The predicted motion of the tool after a pose, not yet tested for contacts.
 struct PredictedMotion {
-  PoseWithFrames from;
+  PoseWithFrames from;       ///< newest measured pose; a default value before the first sweep
   PredictedPath path;        ///< empty if the motion is not known yet
-  size_t reflex_sweeps = 0;  ///< number of sweeps, counted from the first, that end within the reflex interval
+  size_t reflex_sweeps = 0;  ///< number of poses in the reflex interval (HorizonOptions); meaningless without a path
 };
 
-/// One sweep along the predicted path, or a piece of it, tested against one workpiece.
+/// One sweep along the predicted path, or a fraction of a sweep, tested against one workpiece. Times count from the
+/// stamp of the newest measured pose.
 struct PredictedSweep {
-  Duration from{};           ///< start, after the newest pose; lasts until the next sweep begins or the path ends
+  Duration from{};           ///< start; the sweep lasts until the next one begins or the path ends
   bool contact = false;      ///< a volume along the predicted path is not proven free; no narrow phase
-  double probability = 0.0;  ///< probability that the tool meets the workpiece in this sweep, in [0, 1]; 0 below 0.001
+  double probability = 0.0;  ///< estimated probability that the tool meets the workpiece, in [0, 1]; 0 below 0.001
   /// Index of the convex piece of the tool most likely to meet the workpiece; with `contact`, of those that do. Empty
   /// if `probability` is 0.
   std::optional<size_t> tool_piece = {};
@@ -33,34 +34,34 @@ struct PredictedSweep {
 /// The predicted contacts with one workpiece.
 struct PredictedObject {
   std::shared_ptr<const Workpiece> workpiece;
-  std::vector<PredictedSweep> sweeps;     ///< end to end, ascending; split if they may meet, up to the first contact
-  std::vector<std::uint32_t> reflex;      ///< triangles met within the reflex interval: ascending, each once
-  std::vector<std::uint32_t> considered;  ///< triangles met later: ascending, each once, none of `reflex`
+  std::vector<PredictedSweep> sweeps;  ///< end to end, ascending; split if they may meet, up to the first contact
+  std::vector<std::uint32_t> reflex;   ///< triangles met or not ruled out in the reflex interval: ascending, each once
+  std::vector<std::uint32_t> considered;  ///< the same later: ascending, each once, none of `reflex`
   std::vector<SweptVolume> volumes_M;     ///< volumes around the whole tool, end to end, unsplit; in M
-  size_t volumes_tested = 0;              ///< number of volumes tested, including those of split sweeps
+  size_t volumes_tested = 0;              ///< number of volumes tested in time, including those of split sweeps
 
-  std::vector<std::uint32_t> triangles() const;  ///< all triangles met: ascending, each once
-  std::optional<Duration> firstContact() const;  ///< start of the first sweep with contact, after the newest pose
+  std::vector<std::uint32_t> triangles() const;  ///< of `reflex` and `considered`: ascending, each once
+  std::optional<Duration> firstContact() const;  ///< start of the first sweep with contact; empty: none
   void clear();                                  ///< resets all fields and keeps the buffers
 };
 
 /// The predicted path of the tool after a pose, and the contacts along it.
 struct Prediction {
-  Time stamp;                            ///< stamp of the newest measured pose, where the path begins
-  PredictedPath path;                    ///< empty if the motion is not known yet
-  size_t reflex_sweeps = 0;              ///< number of sweeps, from the first, that end within the reflex interval
-  size_t sweeps_asked = 0;               ///< one for every pose of the path
-  size_t sweeps_made = 0;                ///< fewer if time was short: one sweep then covers several poses
-  std::vector<PredictedObject> objects;  ///< every workpiece tested
-  Workpieces unplaced;                   ///< workpieces not tested because their frame is unknown at the pose
+  Time stamp;                ///< stamp of the newest measured pose, where the path begins; 0: nothing was predicted
+  PredictedPath path;        ///< empty if the motion is not known yet
+  size_t reflex_sweeps = 0;  ///< number of sweeps, from the first, in the reflex interval; means nothing without a path
+  size_t sweeps_asked = 0;   ///< one for every pose of the path
+  size_t sweeps_made = 0;    ///< fewer if time was short: one sweep then covers several poses
+  std::vector<PredictedObject> objects;  ///< every workpiece tested; none if the path is empty
+  Workpieces unplaced;                   ///< workpieces not tested because their frame is unknown at the newest pose
   std::vector<SweepFailure> failures;    ///< workpieces not tested because the detector failed
 
-  /// Returns the time up to which every workpiece is tested: the end of the path, or `stamp` if the path is empty or a
+  /// Returns the stamp up to which every workpiece is tested: the end of the path, or `stamp` if the path is empty or a
   /// workpiece was not tested.
   Time coveredUntil() const;
   bool complete() const;       ///< the motion is known, there is a workpiece, and every workpiece was tested
-  double probability() const;  ///< largest probability of all sweeps, in [0, 1]
-  std::optional<Duration> firstContact() const;  ///< earliest one of all objects, after the newest pose
+  double probability() const;  ///< largest one of all sweeps, not that of their union; 0 if there are none
+  std::optional<Duration> firstContact() const;  ///< earliest one of all objects, counted from `stamp`
 };
 
 }  // namespace sweep_guard_core

@@ -17,10 +17,10 @@ struct SweepOptions {
   VolumeKind volume = VolumeKind::kObbPlanes;
   double max_rotation = 0.175;  ///< largest rotation of one sub-motion [rad], in (0, 1.5]
   double margin = 0.0;          ///< the tool is grown by this [m], >= 0
-  bool fine = true;             ///< run the narrow phase on what the swept volumes meet
+  bool fine = true;             ///< compute timeOfImpact() of the triangles that the swept volumes meet (narrow phase)
 };
 
-/// A triangle in contact with the tool.
+/// A triangle that the narrow phase finds in contact with the tool.
 struct TriangleContact {
   std::uint32_t triangle;
   size_t piece;   ///< index of the convex piece of the tool that touches the triangle first
@@ -29,13 +29,15 @@ struct TriangleContact {
 
 /// Holds the triangles of one mesh that the tool meets during one motion.
 struct SweepResult {
-  TriangleSet triangles;  ///< triangles that a swept volume meets: ascending, each once
+  TriangleSet triangles;  ///< triangles that a swept volume may meet: ascending, each once
   double margin = 0.0;    ///< largest margin of a tested volume [m]: arcs, rounding, mesh motion and requested margin
   std::vector<SweptVolume>
       volumes_M;                   ///< volumes tested, in order of time: of the tool's pieces, or of boxes around them
-  bool fine = false;               ///< the narrow phase has run
+  bool fine = false;               ///< the narrow phase has run: timeOfImpact() of `triangles`
   TriangleSet not_ruled_out = {};  ///< subset of `triangles` that the narrow phase does not rule out; without it, all
-  std::vector<TriangleContact> in_contact = {};  ///< confirmed by the narrow phase: ascending, each once
+  /// Those of `not_ruled_out` for which timeOfImpact() finds an impact, the mesh moving at constant speed: ascending,
+  /// each once. Empty without narrow phase.
+  std::vector<TriangleContact> in_contact = {};
   /// A piece of the tool lies wholly inside the closed mesh. Tested only if the sweep's `not_ruled_out` is empty; false
   /// otherwise, and for a mesh that is not closed().
   bool inside = false;
@@ -47,13 +49,13 @@ struct SweepResult {
 
 struct PathRequest {
   const Tool& tool;
-  const std::vector<Eigen::Isometry3d>& path;  ///< poses X_MT [m], at least one; one pose is a static test
+  const std::vector<Eigen::Isometry3d>& path;  ///< poses X_MT [m], at least one (asserted); one is a static test
   const TriangleMesh& mesh_M;
   SweepOptions options = {};
-  std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up
+  std::function<void()> before_sweep = [] {};  ///< called before every sweep, not empty; may throw to give up
 };
 
-/// Holds what the tool meets along a path of poses.
+/// Holds what the tool meets along a path of poses; one sweep for each two consecutive poses.
 struct PathResult {
   /// All sweeps merged. Of each triangle: time (as a fraction of its sweep), point and piece of the first impact,
   /// normal of the last one, and the depth at the end of the last sweep, 0 if that does not touch it.
@@ -62,7 +64,7 @@ struct PathResult {
   std::optional<double> time_of_impact;  ///< in that sweep, [0, 1]; 0 if inside; empty without contact or narrow phase
 };
 
-/// Checks every sweep of a path, also after a contact.
+/// Checks every sweep of a path, also after a contact. From pose to pose the tool moves as a Motion; the mesh rests.
 /// @throws DeviceError if the detector fails, and what before_sweep() throws
 PathResult checkPath(Detector& detector, const PathRequest& request);
 

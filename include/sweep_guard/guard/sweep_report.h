@@ -15,22 +15,22 @@ struct SweptObject {
   /// Stamp of the pose that the sweep began at. Times of impact are fractions of the interval from this stamp to the
   /// stamp of the newest pose. A contact that a mesh update caused before this stamp has time 0.
   Time interval_start;
-  /// Time by which the pose that the sweep began at is older than the oldest update of the workpiece that is still kept:
-  /// the sweep leaves out how the workpiece moved in between. 0: nothing is left out.
+  /// Time by which the pose that the sweep began at is older than the oldest update of the workpiece still kept: the
+  /// sweep leaves out how the workpiece moved in between. 0: nothing is left out.
   Duration behind{};
   SweepResult result;
 };
 
 /// Reports one step of the guard: the sweeps up to one pose.
 struct SweepReport {
-  Time start;                          ///< earliest start of a sweep; equal to `end` at the first pose
-  Time end;                            ///< stamp of the pose
-  Duration backlog{};                  ///< time spanned by the poses that waited, >= 0
-  std::vector<SweptObject> objects;    ///< every workpiece swept, in the order given to Guard::sweep()
-  Workpieces unplaced;                 ///< workpieces that were not swept because their frame is unknown at the pose
+  Time start;          ///< earliest start of a sweep; equal to `end` at the first pose
+  Time end;            ///< stamp of the pose
+  Duration backlog{};  ///< time from the first pose given to Guard::pass() since the last sweep to `end`; 0: none
+  std::vector<SweptObject> objects;    ///< every workpiece swept, in the order given to sweep()
+  Workpieces unplaced;                 ///< workpieces that were not swept because their frame is unknown at `end`
   std::vector<SweepFailure> failures;  ///< workpieces that were not swept because the detector failed
 
-  double margin() const;  ///< largest margin of all objects [m]
+  double margin() const;  ///< largest margin of all objects [m]; 0 if there are none
   bool contact() const;   ///< the tool met an object, or it is not ruled out that it did
   bool complete() const;  ///< there is at least one workpiece, and every workpiece was swept with all its updates
 };

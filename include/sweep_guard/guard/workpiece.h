@@ -10,23 +10,25 @@
 
 namespace sweep_guard_core {
 
-/// A workpiece at one moment. Threads share snapshots, so that a new deformation never waits for a sweep.
+/// A workpiece at one moment. Threads share snapshots, which must not change meanwhile: a new deformation is another
+/// snapshot and never waits for a sweep.
 struct Workpiece {
   std::string id;
-  std::uint32_t revision = 0;  ///< counts changes of the triangles
+  std::uint32_t revision = 0;  ///< counts changes of the triangles, as given by the sender
   Time stamp;                  ///< of the vertex positions
-  SteadyTime received;
-  std::string frame;  ///< name of the mesh frame M
+  SteadyTime received;         ///< when these positions arrived
+  std::string frame;           ///< name of the mesh frame M
   TriangleMesh mesh_M;
   std::uint64_t updates = 0;  ///< number of updates of the vertex positions since the triangles came
-  double path_length = 0.0;   ///< upper bound on any vertex's path length over these updates [m]
+  double path_length = 0.0;   ///< upper bound on any vertex's path length in M over these updates [m]
 };
 
 /// Counts one update: sets `updates` and `path_length` of a workpiece from those before the update.
-/// @param before  has the same triangles
+/// @param before   has the same triangles; not checked
+/// @param updated  has its new vertex positions already
 void countUpdate(const Workpiece& before, Workpiece& updated);
 
-/// Snapshots of different workpieces: none null, each id once.
+/// Snapshots of different workpieces: none null, each id once (not checked).
 using Workpieces = std::vector<std::shared_ptr<const Workpiece>>;
 
 /// A workpiece that could not be swept, and why.

@@ -12,19 +12,20 @@ namespace sweep_guard_core {
 
 /// The contact that the operator is warned of, and the prediction that it comes from.
 struct PredictedContact {
-  Time earliest;                ///< the contact does not begin earlier
-  std::optional<Time> contact;  ///< start of the first sweep with contact; empty if contact is merely probable
+  Time earliest;                ///< start of the first sweep that warns: with contact, or probable enough
+  std::optional<Time> contact;  ///< start of the first sweep with contact, >= `earliest`; empty: merely probable
   double probability = 0.0;     ///< largest probability of this workpiece's sweeps from `earliest` on, in [0, 1]
   std::string mesh_id = {};
-  std::vector<std::uint32_t> triangles = {};  ///< met by the predicted path: ascending, each once
+  std::vector<std::uint32_t> triangles = {};  ///< of this workpiece, met by the predicted path: ascending, each once
   /// Index of the convex piece of the tool that meets the workpiece first, or is most likely to.
   std::optional<size_t> tool_piece = {};
-  Timestamps pose = {};    ///< newest pose, where the prediction begins
+  Timestamps pose = {};    ///< newest measured pose, where the prediction begins
   Duration duration = {};  ///< length of the prediction, from the stamp of that pose
 };
 
 /// Finds the earliest sweep that meets a workpiece, or does so with at least this probability.
-/// @param min_probability  in (0, 1]
+/// @param pose             times of the pose where the prediction begins
+/// @param min_probability  in (0, 1] (asserted)
 /// @param[out] contact     overwritten; empty if there is none
 void findPredictedContact(const Prediction& prediction, const Timestamps& pose, double min_probability,
                           std::optional<PredictedContact>& contact);

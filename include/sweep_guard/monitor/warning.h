@@ -10,15 +10,17 @@
 
 namespace sweep_guard_core {
 
+/// Limits of computeWarning(), which does not check them. The first three have no default.
 struct WarningLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
   Duration mesh_timeout;  ///< a workpiece older than this is stale; Duration::max(): never
-  Duration hold_time;     ///< how long a contact, a warning or an overload is shown after its end; >= 0
+  Duration hold_time;     ///< how long a contact, a warning, an overload or a loss is shown after its end; >= 0
   Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, counted from now, > 0
   Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
   Duration tick = std::chrono::milliseconds(15);          ///< longest time until the next computeWarning(); >= 0
-  Duration overload = std::chrono::milliseconds(20);      ///< longest backlog of poses without a reason; >= 0
-  double min_probability = 0.1;                           ///< smallest probability that is warned of, in (0, 1]
+  /// Longest span of poses swept at once, and longest wait of a pose, without a reason; >= 0.
+  Duration overload = std::chrono::milliseconds(20);
+  double min_probability = 0.1;  ///< smallest probability that is warned of, in (0, 1]
 };
 
 /// The level and the reasons for it.
@@ -26,13 +28,13 @@ struct Warning {
   WarningLevel level = WarningLevel::kUnknown;
   std::uint32_t reasons = 0;  ///< bits of Reason
   std::string text;           ///< level and reasons in words
-  std::string mesh_id;        ///< workpiece of the contact, or of the predicted contact
+  std::string mesh_id;        ///< workpiece of the contact, or of the predicted contact; empty: neither
   /// Convex piece of the tool that touched first, if the narrow phase knows; before contact, the piece that is
   /// predicted to touch, or most likely to.
   std::optional<size_t> tool_piece;
   std::vector<std::uint32_t> triangles;  ///< in contact or not ruled out; before contact, met by the predicted path
-  /// Time until the predicted path meets the workpiece of the predicted contact, >= 0; empty: it does not, or the
-  /// prediction has ended. At kContact, this may be another workpiece than `mesh_id`.
+  /// Time from now until the predicted path meets the workpiece of the predicted contact, >= 0; empty: it does not, or
+  /// the prediction has ended. At kContact, this may be another workpiece than `mesh_id`.
   std::optional<Duration> time_to_collision;
   double probability = 0.0;  ///< probability of the predicted contact, in [0, 1]; 0 once its prediction has ended
   Time pose_stamp;           ///< newest pose that has been swept; epoch: none
@@ -46,25 +48,25 @@ struct Warning {
 /// - REFLEX, CONSIDERED: the earliest predicted contact lies within this interval now or by the next call, or did so
 ///   within the hold time.
 /// - UNKNOWN: a reason other than kDegraded applies.
-/// - CLEAR: there is a workpiece; pose and workpieces are fresh; every workpiece was swept at that pose and tested to
-///   the end of the considered interval; there is no fault.
-/// Reasons are reported whatever the level. A guard that is disabled or shuts down is always UNKNOWN, even during a
-/// contact, and kDisabled is its only reason.
+/// - CLEAR: there is a workpiece, and each required one; pose and workpieces are fresh; no pose waits; every workpiece
+///   was swept at that pose and tested to the end of the considered interval; there is no fault.
+/// Reasons are reported whatever the level. A guard that is disabled or shuts down is always UNKNOWN, even during a contact,
+/// and kDisabled is its only reason; the fields after `text` are then empty.
 /// @param[out] warning  overwritten; its buffers are used again
 void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning);
 
 /// Returns why the workpieces are not as good as CLEAR needs them, in words; empty if they are. Names all faults of
-/// `inputs`, and ignores the poses if it has none.
+/// `inputs`; without a pose there, does not ask whether they were swept.
 std::string meshProblems(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits);
 
-/// Returns the level of a predicted contact that is `time_left` away, as it counts until the next call: kReflex up to
-/// `reflex` + `tick`, kConsidered up to `considered` + `tick`, otherwise kClear.
+/// Returns the level of a predicted contact that is `time_left` away (past if negative), as it counts until the next
+/// call: kReflex up to and including `reflex` + `tick`, kConsidered up to `considered` + `tick`, otherwise kClear.
 WarningLevel warningLevel(Duration time_left, const WarningLimits& limits);
 
 /// Returns the level of a predicted contact now, or at the end of its prediction if that is over.
 WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits);
 
-/// Returns the time since the prediction of a contact ended; 0 if it has not.
+/// Returns the time since the prediction of a contact ended (`duration` after its pose); 0 if it has not.
 Duration timeSinceEnd(const PredictedContact& predicted, const Instant& now);
 
 }  // namespace sweep_guard_core

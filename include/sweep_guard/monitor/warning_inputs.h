@@ -17,16 +17,16 @@ namespace sweep_guard_core {
 struct WarningInputs {
   struct Object {
     std::string id;
-    Timestamps timestamps;
-    bool swept = false;  ///< swept at the newest pose, with these triangles and frame; maybe with older vertices
+    Timestamps timestamps;  ///< of the newest update
+    bool swept = false;     ///< swept at the newest pose, with these triangles and frame; maybe with older vertices
     /// The pose at which the last sweep began is older by this than the oldest update that is still kept: how the
-    /// workpiece moved in between was not tested. 0: nothing was left out.
+    /// workpiece moved in between was not tested, and `swept` is false. 0: nothing was left out.
     Duration behind = {};
-    bool dropped = false;  ///< an update was dropped unread, and the workpiece was not swept since
+    bool dropped = false;  ///< an update was dropped unread, and no later one has been swept
   };
   struct Contact {
     std::string id;
-    std::vector<std::uint32_t> triangles;   ///< those not ruled out: ascending, each once
+    std::vector<std::uint32_t> triangles;   ///< those not ruled out: ascending, each once; may be empty if `inside`
     SteadyTime found;                       ///< time of the newest sweep that met the workpiece
     bool lasting = false;                   ///< the newest sweep has met it, or could not test it
     bool inside = false;                    ///< the tool is inside the workpiece
@@ -37,12 +37,12 @@ struct WarningInputs {
     PredictedContact contact;
     SteadyTime ended;
   };
-  /// Poses that waited and were swept at once.
+  /// Poses that waited and were swept at once. `found`: when.
   struct Backlog {
     Duration span{};  ///< from the first to the last of these poses
     SteadyTime found;
   };
-  /// Something that is reported for a while after it happened.
+  /// Something that is reported for a while after `found`.
   struct Event {
     std::string message;
     SteadyTime found;
@@ -66,8 +66,8 @@ struct WarningInputs {
   std::optional<Event> unread;        ///< newest message on a mesh topic that belongs to no workpiece
   std::vector<std::string> required;  ///< ids of the workpieces that must be there: ascending
   std::optional<SteadyTime> waiting_since;  ///< when the oldest pose that is not yet swept was received
-  Duration look_ahead{};                    ///< time that the newest prediction took
-  std::map<Reason, std::string> faults;     ///< current faults, each with a message
+  Duration look_ahead{};                    ///< time that computing the newest prediction took
+  std::map<Reason, std::string> faults;     ///< current faults, each with a message for people
   std::optional<Failure> failure;           ///< newest one
   const char* hung = nullptr;               ///< name of a thread that has work and makes no progress; null: none
   std::optional<std::string> disabled_by;   ///< caller that disabled the guard; then nothing else counts

@@ -17,7 +17,8 @@
 namespace sweep_guard_core {
 
 /// Collects the inputs of the warning: received poses and workpieces, refusals, and sweeps.
-/// Any thread may call any function. The warning may be computed at any time, so a silent input is noticed, too.
+/// Any thread may call any function at any time. The warning may be computed at any time, so a silent input is noticed,
+/// too.
 class WarningMonitor {
  public:
   /// State of the monitor when a pose was received. A sweep to that pose clears only faults reported before it.
@@ -30,10 +31,10 @@ class WarningMonitor {
   };
 
   /// @param limits    in the ranges of WarningLimits; not checked
-  /// @param on_fault  called after every fault, refusal and restart, in the reporting thread; may call the monitor; not
-  ///     empty
-  /// @param waiting_since  returns when the oldest pose that is not yet swept was received. Called by warning(); must
-  ///                       not call the monitor
+  /// @param on_fault  called after every fault, refusal, loss, drop and restart, in the reporting thread, so maybe in
+  ///     several at once; may call the monitor; not empty
+  /// @param waiting_since  returns when the oldest pose that is not yet swept was received. Called by warning() and
+  ///     disableBelow(), one at a time; must not call the monitor; not empty
   /// @param hung  returns the name of a thread that makes no progress; null: none. Called as the one before
   explicit WarningMonitor(
       const WarningLimits& limits, std::function<void()> on_fault = [] {},
@@ -45,7 +46,7 @@ class WarningMonitor {
 
   Checkpoint checkpoint() const;
 
-  /// Reports that an input was refused or failed. The warning is not clear until a later pose has been swept.
+  /// Reports that an input was refused or failed. The warning is not clear until a pose received later has been swept.
   void fault(Reason reason, const std::string& message);
 
   /// Reports an exception that ended a piece of work, as a fault; needs no memory from the heap and does not call
@@ -54,7 +55,8 @@ class WarningMonitor {
   void failed(Reason reason, const char* message, bool lasting = false) noexcept;
 
   /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), because the workpiece that
-  /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each.
+  /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each; another one
+  /// replaces that of the last id.
   /// @param received  when the message was received: meshes are accepted later than they are refused
   void meshRefused(const std::string& id, const std::string& message, SteadyTime received);
 
@@ -65,8 +67,8 @@ class WarningMonitor {
   /// Reports that vertices were refused. The warning is not clear until verticesAccepted() or meshAccepted().
   void verticesRefused(const std::string& id, const std::string& message, SteadyTime received);
 
-  /// Reports accepted vertices. Clears refusals of vertices of this id that were received no later; a refused mesh stays
-  /// until meshAccepted().
+  /// Reports accepted vertices. Clears refusals of vertices of this id that were received no later; a refused mesh
+  /// stays until meshAccepted().
   void verticesAccepted(const std::string& id, SteadyTime received);
 
   /// Reports a message on a mesh topic that belongs to no workpiece: its id is unknown, or it cannot be read. The
@@ -90,16 +92,18 @@ class WarningMonitor {
   /// Reports that poses were sent and did not arrive. The warning says so for the hold time; its level stays.
   void posesLost(const std::string& message, SteadyTime now);
 
-  /// Sets the newest snapshots of all workpieces.
+  /// Sets the newest snapshots of all workpieces, ascending by id (not checked).
   void setWorkpieces(const Workpieces& workpieces);
 
   /// Reports a sweep to a pose, and clears the faults from before the pose's checkpoint. Does nothing if the monitor
   /// was restarted since the checkpoint. Each failure in the report becomes a new fault, kDetectorFault.
+  /// @param checkpoint  taken when the pose was received
   void swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint, SteadyTime now);
 
   /// Reports that the path predicted from a swept pose was tested. Does nothing if the monitor was restarted since the
   /// checkpoint. Each failure in the prediction becomes a new fault, kDetectorFault.
-  /// @param took  time that the prediction and its sweeps took
+  /// @param checkpoint  that of the pose
+  /// @param took        time that the prediction and its sweeps took
   void predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint, const Instant& now,
                  Duration took = {});
 
@@ -107,19 +111,21 @@ class WarningMonitor {
   /// contact is shown for the hold time.
   void timeJumped(const std::string& message);
 
-  /// Forgets everything but the workpieces, refused meshes, refused vertices and a failed test of the detector. A
-  /// disabled guard stays disabled.
+  /// Forgets poses, predictions, contacts and faults. Keeps what concerns meshes (workpieces; refused, unread and
+  /// dropped messages), a failed test of the detector, required ids and limits. A disabled guard stays disabled.
   void restart();
 
-  /// Makes the warning unknown until enable(), whatever is reported. Does nothing if disabled already.
+  /// Makes the warning unknown until enable(), whatever is reported, with a restart(). Changes nothing if disabled
+  /// already.
   /// @param asked_by  name of the caller, for the text
   void disable(const std::string& asked_by);
 
-  /// Disables only below a level: no report comes between the test of the level and disable().
+  /// Disables only if the number of the warning's level is below that of `level`, so also if it is unknown. No report
+  /// comes between the test of the level and disable().
   /// @returns the text of the warning that forbids it; empty: disabled
   std::string disableBelow(WarningLevel level, const Instant& now, const std::string& asked_by);
 
-  /// Ends disable() with a restart(): motion while disabled was not swept. Does nothing if enabled already.
+  /// Ends disable() with a restart(): motion while disabled was not swept. Changes nothing if enabled already.
   void enable();
 
   /// Makes the warning unknown for good: the guard is shutting down. No pose counts any more.
@@ -131,14 +137,15 @@ class WarningMonitor {
   /// restarted, and does not end.
   bool counts(const Checkpoint& checkpoint) const;
 
-  /// Sets the limits of the next warning; does not check them.
+  /// Sets the limits of later warnings; does not check them.
   void setLimits(const WarningLimits& limits);
 
   /// Computes the warning as of now.
   /// @param[out] warning  overwritten; its buffers are used again
   void warning(const Instant& now, Warning& warning) const;
 
-  /// Returns why these workpieces, or the detectors, are not as good as CLEAR needs them, in words; empty if they are.
+  /// Returns why these workpieces, or the detectors, are not as good as CLEAR needs them, in words; empty if they are. Does not ask
+  /// whether they were swept, nor name an id that is unknown and not required.
   /// @param ids  empty: all workpieces, and those that are required
   std::string meshProblems(const Instant& now, const std::vector<std::string>& ids) const;
 

@@ -13,7 +13,7 @@ namespace sweep_guard_core {
 /// The pose of the tool, predicted for a time after the newest observed pose.
 struct PredictedPose {
   Duration ahead{};                                        ///< after the stamp of the newest observed pose, > 0
-  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< most likely pose
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< most likely pose [m]
   /// Covariance of its error: translation [m], then rotation vector [rad], both along the axes of W; symmetric,
   /// positive semi-definite.
   Matrix6d covariance = Matrix6d::Zero();
@@ -34,11 +34,12 @@ struct PredictorOptions {
   double max_turn_rate = 20.0;                       ///< largest predicted turn rate [rad/s], > 0
 };
 
-/// Returns the names of the predictors: `polynomial`, `constant_velocity`, `hold`, `direct`.
+/// Returns the names of the predictors: `polynomial` (fitted to the last poses), `constant_velocity` (that of the last
+/// 50 ms), `hold` (the tool stays) and `direct` (a regression on recent velocities, learned while running).
 const std::vector<std::string>& predictorNames();
 
 /// Predicts the operator's motion from the observed poses [P, Sec. 3.2]. The covariance comes from the errors of its
-/// own earlier predictions. One thread.
+/// own earlier predictions. Any thread may call it, one thread at a time.
 class PosePredictor {
  public:
   /// @throws InvalidInput if an option is out of range
@@ -48,13 +49,13 @@ class PosePredictor {
   PosePredictor& operator=(PosePredictor&&) noexcept;
 
   /// Adds the newest pose. A pose that is earlier than the previous one, or later by less than 0.5 ms, replaces the
-  /// previous pose, whose stamp stays. The fit restarts after a gap (0.25 s, or three periods of slower poses, at most
-  /// 1 s) and after a jump faster than the limits; the errors learned of the operator are kept.
+  /// previous pose, whose stamp stays. The fit restarts at this pose after a gap (more than 0.25 s, or three periods of
+  /// slower poses, at most 1 s) and after a jump faster than the limits; the errors learned of the operator are kept.
   void observe(const StampedPose& pose);
 
   /// Predicts the poses after the newest observed one. The path is empty until a motion is known: two poses since the
   /// start, a gap, a jump or restart().
-  /// @param ahead      times after the newest observed pose, strictly ascending, > 0
+  /// @param ahead      times after the stamp of the newest observed pose, strictly ascending, > 0 (asserted)
   /// @param[out] path  overwritten; its buffers are used again
   void predict(const std::vector<Duration>& ahead, PredictedPath& path) const;
 

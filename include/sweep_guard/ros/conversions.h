@@ -18,6 +18,7 @@
 
 namespace sweep_guard_ros {
 
+/// Converts a stamp; 0 stays 0, "no stamp".
 sweep_guard_core::Time fromMsg(const ros::Time& time);
 /// Converts a stamp; times before the epoch become 0.
 /// @throws std::runtime_error beyond 32 bits of seconds, from the year 2106 on
@@ -26,7 +27,8 @@ ros::Time toMsg(sweep_guard_core::Time time);
 /// @throws std::runtime_error beyond +-68 years (32 bits of seconds), so for Duration::max()
 ros::Duration toMsg(sweep_guard_core::Duration duration);
 
-/// Returns the current time on both clocks; ros::Time must be initialized.
+/// Returns the current time on both clocks.
+/// @throws ros::TimeNotInitializedException before ros::Time::init() or a node handle
 sweep_guard_core::Instant now();
 
 /// Converts a vector to a message with the fields x, y and z.
@@ -46,17 +48,18 @@ Eigen::Isometry3d fromMsg(const geometry_msgs::Pose& pose);
 Eigen::Isometry3d fromMsg(const geometry_msgs::Transform& transform);
 geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose);
 
-/// Converts a mesh.
+/// Converts a mesh [m].
 /// @throws sweep_guard_core::InvalidInput if there are more than `max_triangles`, more than three times as many
 ///     vertices, or if TriangleMesh refuses the mesh
 sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles);
 
-/// Makes a message that names these triangles of a workpiece, without impacts.
+/// Makes a message that names a workpiece and these triangles of it, without impacts.
 /// @param triangles  indices: ascending, each once
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const std::vector<std::uint32_t>& triangles);
-/// Converts all triangles that the swept volumes meet, and the impacts: points [m] and normals in the mesh's frame.
-/// @param tool  the one that was swept: names the links
+/// Converts all triangles that the swept volumes meet, also those that the narrow phase ruled out, and the impacts:
+/// points [m] and normals in the mesh's frame.
+/// @param tool  the one that was swept: names the links (its pieces are not checked)
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const sweep_guard_core::SweepResult& result, const sweep_guard_core::Tool& tool);
 /// Converts the objects that a swept volume meets or that the tool is inside, in the report's order. The caller sets
@@ -65,7 +68,7 @@ sweep_guard::Contacts toMsg(const sweep_guard_core::SweepReport& report, const s
 
 /// Converts a prediction as of the time when it was made: omits poses up to that time. The caller sets frame, tool and
 /// predictor.
-/// @param age     age that the newest measured pose had at that time
+/// @param age     age that the newest measured pose had at that time, >= 0
 /// @param limits  decide the message's interval
 sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age,
                               const sweep_guard_core::WarningLimits& limits);
@@ -73,7 +76,7 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
 /// if unknown.
 double timeToCollision(const sweep_guard::Prediction& prediction);
 
-/// Converts a warning. The caller sets frame, tool, `tool_link`, counters and `valid_until`.
+/// Converts a warning. The caller sets frame, tool, `tool_link`, counters, `valid_until` and `run_id`.
 sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning);
 
 }  // namespace sweep_guard_ros

@@ -12,13 +12,13 @@ namespace sweep_guard_core::simd {
 
 /// Number of vertices in a block: consecutive vertices that share a box.
 constexpr std::size_t kBlock = 32;
-/// Largest number of triangles of a cluster, and of the blocks that contain their corners.
+/// A cluster is a set of neighboring triangles. Its largest number of triangles, and of blocks that hold their corners:
 constexpr std::size_t kCluster = 64;
 constexpr std::size_t kClusterBlocks = 4;
-/// The lengths of arrays of boxes and of their bits are multiples of this.
+/// Arrays of boxes and of their bits are padded to a multiple of this length, with unspecified values.
 constexpr std::size_t kPadding = 16;
 constexpr std::size_t padded(std::size_t count) { return (count + kPadding - 1) / kPadding * kPadding; }
-constexpr std::size_t kMaxPlanes = 15;
+constexpr std::size_t kMaxPlanes = 15;  ///< of one Planes: one bit each in 16 bits, and kInsideAll
 
 /// Boxes with one array for each side [m]: x, y and z of the lower and of the upper corners.
 template <typename Number>
@@ -39,8 +39,9 @@ struct Extremes {
   std::array<float, 3> upper;
 };
 
-/// Planes n·p = d, in the frame of the vertices and boxes that they are compared with. Their thresholds [m] are certain
-/// in float32: a point with n·p > `outside` is beyond the plane, a point with n·p < `inside` is not.
+/// Planes n·p = d, in the frame of the vertices and boxes that they are compared with. Beyond a plane is n·p > d. The
+/// thresholds [m] allow for rounding: a point with n·p > `outside` in float32 is beyond the plane, one with n·p <
+/// `inside` is not.
 struct Planes {
   std::size_t count = 0;                                    ///< at most kMaxPlanes
   std::array<std::array<float, kMaxPlanes + 1>, 3> normal;  ///< x, y and z of the unit normals; from `count` on unused
@@ -57,7 +58,7 @@ struct ClusterCorners {
   std::array<std::array<std::uint8_t, kCluster>, 3> places;
 };
 
-/// Sets of triangles of a cluster: bit i stands for triangle i.
+/// Sets of triangles of a cluster: bit i stands for its triangle i, counted from the lowest bit.
 struct TriangleBits {
   std::uint64_t not_beyond;     ///< not wholly beyond one plane
   std::uint64_t corner_inside;  ///< with a corner inside of all planes
@@ -67,20 +68,20 @@ struct Kernels {
   const char* name;  ///< name of the instruction set
 
   /// Computes the boxes of blocks of vertices.
-  /// @param vertices  x0 y0 z0 x1 ... of `blocks` times kBlock vertices; kPadding more floats must be readable
-  /// @param[out] boxes        one entry for each block
+  /// @param vertices  x0 y0 z0 x1 ... [m] of `blocks` times kBlock vertices; kPadding more floats must be readable
+  /// @param[out] boxes        one entry for each block, not padded
   /// @param[in,out] extremes  widened to contain all vertices
   /// @returns whether all coordinates are finite; also false if sums of them overflow float32
   bool (*bound)(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, Extremes& extremes);
 
   /// Computes for each box the bits of the planes that the whole box is beyond; never sets kInsideAll.
-  /// @param count      number of boxes; the arrays are padded to kPadding
-  /// @param[out] bits  one entry for each box, padded to kPadding
+  /// @param boxes      arrays of padded(count) entries
+  /// @param[out] bits  one entry for each box; room for padded(count) entries
   void (*classifyBoxes)(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes,
                         std::uint16_t* bits);
 
   /// Computes the bits of the vertices of one block: kInsideAll, or the planes that the vertex is beyond.
-  /// @param vertices   x0 y0 z0 x1 ... of kBlock vertices
+  /// @param vertices   x0 y0 z0 x1 ... [m] of kBlock vertices
   /// @param[out] bits  kBlock entries
   void (*classifyBlock)(const float* vertices, const Planes& planes, std::uint16_t* bits);
 
@@ -94,8 +95,9 @@ struct Kernels {
 /// Returns the kernels that this machine can run, the best first; `baseline` is always among them.
 const std::vector<Kernels>& availableKernels();
 
-/// Returns the kernels that the environment variable SWEEP_GUARD_SIMD names (avx512, avx2 or baseline), or the best.
-/// @throws InvalidInput if the name is unknown or the machine does not have them
+/// Returns the kernels that the environment variable SWEEP_GUARD_SIMD names (avx512, avx2 or baseline), or the best if
+/// it is empty or not set. Reads the variable at the first call only, for example by the first TriangleMesh.
+/// @throws InvalidInput if the name is unknown or the machine cannot run these kernels
 const Kernels& kernels();
 
 }  // namespace sweep_guard_core::simd

@@ -24,9 +24,9 @@ struct ParameterInfo {
   std::string key;
   ParameterValue value;  ///< set value, or the fallback
   ParameterValue fallback;
-  double lowest = -std::numeric_limits<double>::infinity();  ///< bound of a number, if no other parameter narrows it
+  double lowest = -std::numeric_limits<double>::infinity();  ///< bound of a number; a Bound may narrow it
   double highest = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices;  ///< allowed texts; empty: any
+  std::vector<std::string> choices;  ///< allowed texts of choice(); empty: any
   std::string wanted;                ///< type, unit and range, as text
   std::string effect;                ///< sentences for users
 };
@@ -34,7 +34,7 @@ struct ParameterInfo {
 /// Reads the private parameters of a node. Each function returns the value that is set, or the fallback if none is, and
 /// throws sweep_guard_core::InvalidInput with key, value and range if the value has another type, is NaN or is out of
 /// range. (roscpp silently returns the fallback if the type is wrong.) Both ends of a range are allowed. `effect`
-/// describes the parameter to users.
+/// describes the parameter to users. Not thread-safe.
 class ParameterReader {
  public:
   struct Range {
@@ -46,13 +46,13 @@ class ParameterReader {
   /// Narrows a range by another parameter.
   struct Bound {
     Range range;       ///< checked in place of the wider range
-    const char* note;  ///< words for the error text that name the other parameter
+    const char* note;  ///< words for the error text that name the other parameter; not null
   };
 
   /// Holds values by key; empty: not set.
   using Settings = std::map<std::string, std::optional<XmlRpc::XmlRpcValue>>;
 
-  /// @param known  settings that are taken instead of the parameter server's
+  /// @param known  settings that are taken instead of the parameter server's; an empty one counts as not set
   explicit ParameterReader(const ros::NodeHandle& private_node, Settings known = {})
       : node_(private_node), settings_(std::move(known)) {}
 
@@ -61,6 +61,7 @@ class ParameterReader {
                 const std::optional<Bound>& bound = {});
   int integer(const std::string& key, int fallback, int lowest, int highest, const std::string& effect = "");
   bool flag(const std::string& key, bool fallback, const std::string& effect = "");
+  /// Reads a text, which may be empty.
   std::string text(const std::string& key, const std::string& fallback);
   /// Reads a text that is not empty.
   std::string name(const std::string& key, const std::string& fallback, const std::string& effect = "");
@@ -74,14 +75,14 @@ class ParameterReader {
                                      const std::string& effect = "");
   /// Reads a list of texts that are not empty; [] if not set.
   std::vector<std::string> texts(const std::string& key, const std::string& effect = "");
-  /// Reads a group of finite numbers by name; empty if not set.
+  /// Reads a group of finite numbers by their names in the group; empty if not set.
   std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "");
-  /// Searches a text in the private namespace and the namespaces above it, or under an absolute name; "" if not set.
+  /// Searches a text in the private namespace, then in those above it, or under an absolute name; "" if not set.
   std::string searchText(const std::string& name);
-  /// Refuses the parameter if it is set.
+  /// Throws InvalidInput if the parameter is set.
   /// @param instead  tells the user what to do
   void refuseIfSet(const std::string& key, const std::string& instead);
-  /// Reads [x, y, z] [m] within +-1e6 m.
+  /// Reads [x, y, z] [m], each within +-1e6 m; does not check the fallback.
   Eigen::Vector3d position(const std::string& key, const Eigen::Vector3d& fallback);
 
   /// Returns the known settings, and those of all parameters that were read.
@@ -89,7 +90,7 @@ class ParameterReader {
   /// Returns the descriptions in the order of reading; none for text(), position(), searchText() and refuseIfSet().
   const std::vector<ParameterInfo>& described() const { return described_; }
 
-  /// Warns of every private parameter that was not read: a misspelled key has no effect.
+  /// Logs a warning for every private parameter that was not read: a misspelled key has no effect.
   /// @throws sweep_guard_core::InvalidInput if a value is set in place of a group of parameters
   void warnOfUnread() const;
 

@@ -28,10 +28,10 @@ std::filesystem::path locateMesh(const std::string& uri, const std::vector<std::
 /// any case. Use kFollow for paths from the user only.
 enum class SymbolicLinks { kRefuse, kFollow };
 
-/// Reads a regular STL, OBJ or DAE file, told apart by its extension, of at most 32 MiB and a million triangles. The
-/// program mesh_reader next to the nodes reads it in a separate process, so that a file on which it crashes, hangs or
-/// runs out of memory is refused. A file that cannot be read completely, or not within 10 s of processor time and 30 s
-/// in all, is refused, too.
+/// Reads a regular STL, OBJ or DAE file, told apart by its extension (upper or lower case), of at most 32 MiB and a
+/// million triangles. The program mesh_reader next to the nodes reads it in a separate process, so that a file on which
+/// it crashes is refused. A file is refused, too, if it cannot be read completely, or takes more than 1 GiB of memory,
+/// 10 s of processor time or 30 s in all. Blocks the calling thread meanwhile.
 /// @throws sweep_guard_core::InvalidInput naming the file, what is wrong and what to do
 /// @throws sweep_guard_core::DeviceError if mesh_reader cannot be run
 MeshSurface readMesh(const std::filesystem::path& path, SymbolicLinks links = SymbolicLinks::kRefuse);
