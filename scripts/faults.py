@@ -62,10 +62,10 @@ def listen():
 class Warnings:
     """What the guard's subscriber on its own machine receives."""
 
-    def __init__(self):
+    def __init__(self, guard='sweep_guard'):
         self.changed = threading.Condition()
         self.received = []  # with times on the clock that does not stop in suspend
-        rospy.Subscriber('/sweep_guard/warning', Warning, self.take, tcp_nodelay=True)
+        rospy.Subscriber(f'/{guard}/warning', Warning, self.take, tcp_nodelay=True)
 
     def take(self, warning):
         with self.changed:
@@ -91,6 +91,13 @@ class Warnings:
                 mark = len(self.received)
                 if not self.changed.wait(deadline - now()):
                     raise TimeoutError('no such warning; the last: ' + self.received[-1][1].text)
+
+    def oldest_pose(self, mark):
+        """Returns the largest age of the newest pose: lack of processor time makes it some 0.1 s, a lost connection seconds."""
+        received = self.since(mark)
+        texts = [warning.text for warning in received if not clear(warning)]
+        print(f'{len(texts)} of {len(received)} messages not CLEAR{": " + texts[0] if texts else ""}', flush=True)
+        return max(age_of_pose(warning) for warning in received)
 
     def wait_until_steadily_clear(self):
         while True:
@@ -252,7 +259,7 @@ def kill_guard(world, warnings, table, cycles):
 
 
 def restart_master(world, warnings, table, cycles):
-    served, not_clear, changed = [], [], []
+    served, oldest, changed = [], [], []
     parameters = lambda: xmlrpc.client.ServerProxy(MASTER).getParam('/faults', '/sweep_guard')[2]
     before, guard = parameters(), world.guard()
     warnings.wait_until_steadily_clear()
@@ -264,11 +271,11 @@ def restart_master(world, warnings, table, cycles):
         world.start_master()
         world.role('listener', 'listen').wait(60)
         served.append(now() - begin)
-        not_clear.append(sum(not clear(warning) for warning in warnings.since(mark)))
+        oldest.append(warnings.oldest_pose(mark))
         changed.append(0 if parameters() == before and world.guard() == guard else 1)
         print(f'kill -9 of roscore {i + 1}: new subscriber served after {served[-1]:.2f} s', flush=True)
     table.add('kill -9 of roscore: start of the next one until a new subscriber has its first message', served, 10.0)
-    table.add('kill -9 of roscore: messages that are not CLEAR meanwhile', not_clear, 0, '')
+    table.add('kill -9 of roscore: largest age of the newest pose meanwhile', oldest, 0.5)
     table.add('kill -9 of roscore: another guard, or other parameters than before', changed, 0, '')
 
 
@@ -320,12 +327,11 @@ def freeze_bystander(world, warnings, table, name, seconds):
     world.freeze(name)
     time.sleep(seconds)
     world.thaw(name)
-    table.add(f'SIGSTOP of {name} for {seconds} s: messages that are not CLEAR',
-              [sum(not clear(warning) for warning in warnings.since(mark))], 0, '')
+    table.add(f'SIGSTOP of {name} for {seconds} s: largest age of the newest pose', [warnings.oldest_pose(mark)], 0.5)
     table.add(f'SIGSTOP of {name} for {seconds} s: growth of the guard', [resident(world.guard()) - before], 8.0, 'MB')
 
 
-def fill_disk(world, warnings, table):
+def fill_disk(world, table):
     folder = os.path.join(world.folder, 'full_disk')
     if not os.path.ismount(folder):
         print('SKIPPED: the full disk')
@@ -335,16 +341,16 @@ def fill_disk(world, warnings, table):
             file.write(bytes(1 << 20))
     except OSError:
         pass
-    mark = warnings.mark()
-    guard = world.start('guard on a full disk', [os.path.join(world.folder, '..', 'devel/lib/sweep_guard/sweep_guard_node')],
+    warnings = Warnings('guard_on_a_full_disk')
+    guard = world.start('guard_on_a_full_disk', [os.path.join(world.folder, '..', 'devel/lib/sweep_guard/sweep_guard_node'),
+                                                 '__name:=guard_on_a_full_disk'],
                         at_peers=False, ROS_HOME=folder, ROS_LOG_DIR=folder)
-    warnings.wait(has(Warning.NO_MESH | Warning.NO_POSE), mark)
-    for _ in range(3):
-        warnings.wait_until_steadily_clear()
+    warnings.wait(clear, 0)
+    warnings.wait_until_steadily_clear()
     begin = now()
     guard.terminate()
     code = guard.wait(20)
-    table.add('full disk: a guard that is not CLEAR within 60 s, or does not end with status 0', [code], 0, '')
+    table.add('full disk: exit status of a guard that was CLEAR', [code], 0, '')
     table.add('full disk: SIGTERM until its end', [now() - begin], 1.0)
 
 
@@ -365,21 +371,23 @@ def measure(options):
         rospy.init_node('faults', disable_signals=True)
         warnings = Warnings()
         warnings.wait(clear, 0)
-        break_link(world, warnings, table, options.links)
-        hurt_publishers(world, warnings, table)
-        freeze_bystander(world, warnings, table, 'subscriber', 20)
-        freeze_bystander(world, warnings, table, 'roscore', 10)
-        kill_guard(world, warnings, table, options.kills)
-        restart_master(world, warnings, table, options.masters)
-        for name in ('roslaunch', 'poses', 'left', 'right'):
-            world.running[name].terminate()
-            world.running.pop(name).wait()
-        for name, role in (('poses', ['poses']), ('left', ['mesh', 'left']), ('right', ['mesh', 'right'])):
-            world.role(name, *role)
-        fill_disk(world, warnings, table)
+        asked = lambda part: options.only in (None, part)
+        if asked('links'):
+            break_link(world, warnings, table, options.links)
+        if asked('publishers'):
+            hurt_publishers(world, warnings, table)
+        if asked('bystanders'):
+            freeze_bystander(world, warnings, table, 'subscriber', 20)
+            freeze_bystander(world, warnings, table, 'roscore', 10)
+        if asked('kills'):
+            kill_guard(world, warnings, table, options.kills)
+        if asked('disk'):
+            fill_disk(world, table)
+        if asked('masters'):
+            restart_master(world, warnings, table, options.masters)
     finally:
         world.end()
-    print('\n' + table.text())
+        print('\n' + table.text())
     return 1 if table.failed else 0
 
 
@@ -402,6 +410,7 @@ if __name__ == '__main__':
     parser.add_argument('--role', nargs='+')
     parser.add_argument('--peers')
     parser.add_argument('--folder')
+    parser.add_argument('--only', choices=['links', 'publishers', 'bystanders', 'kills', 'masters', 'disk'])
     parser.add_argument('--kills', type=int, default=100)
     parser.add_argument('--masters', type=int, default=20)
     parser.add_argument('--links', type=int, default=3)
