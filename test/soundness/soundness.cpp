@@ -52,7 +52,7 @@ void refuseUnknownFamilies(const options::variables_map& given) {
     const auto& all = families();
     if (std::none_of(all.begin(), all.end(), [&](const Family& family) { return family.name == name; })) {
       std::string known;
-      for (const Family& family : all) known += "\n  " + family.name + ": " + family.meaning;
+      for (const Family& family : all) known.append("\n  ").append(family.name).append(": ").append(family.meaning);
       throw InvalidInput("--family: '" + name + "' is unknown; known are" + known);
     }
   }
