@@ -77,6 +77,7 @@ std::vector<Variant> timesOn(const TriangleMesh& mesh) {
   const ConvexShape tool = drill();
   Random random(/*seed=*/1);
   std::vector<Motion> motions;
+  motions.reserve(kMotions);
   for (int i = 0; i < kMotions; ++i) motions.push_back(drilling(random));
 
   std::vector<Variant> measured = variants();

@@ -159,6 +159,7 @@ Cost measure(Detector& detector, const Tool& tool, const TriangleMesh& mesh_M, c
   Cost cost;
   for (const Motion& motion : motions) {
     std::vector<double> times;
+    times.reserve(kRepetitions);
     SweepResult result;
     for (int i = 0; i < kRepetitions; ++i) {
       times.push_back(microseconds([&] {
@@ -202,6 +203,7 @@ void printRow(const std::string& name, const NamedMesh& tool_T, const Decomposit
 
 void study(const NamedMesh& tool_T, const std::vector<NamedMesh>& workpieces, Detector& detector) {
   std::vector<std::vector<Motion>> motions;
+  motions.reserve(workpieces.size());
   for (const NamedMesh& workpiece : workpieces) motions.push_back(freeMotions(detector, tool_T.mesh, workpiece.mesh));
   std::printf("\n%s, %zu triangles, %.0f mm; %zu and %zu motions\n", tool_T.name.c_str(),
               tool_T.mesh.triangles().size(), 2e3 * tool_T.mesh.radius(), motions[0].size(), motions[1].size());
@@ -218,13 +220,16 @@ void study(const NamedMesh& tool_T, const std::vector<NamedMesh>& workpieces, De
   }
 }
 
-int run(const std::vector<std::string>& arguments) {
+std::string dataFolder(const std::vector<std::string>& arguments) {
   const char* const variable = std::getenv("SWEEP_GUARD_DATA");
-  if (arguments.size() > 1 || (arguments.empty() && variable == nullptr)) {
-    throw InvalidInput("usage: tool_depth DATA, the folder with mesh/ and urdf/, or set SWEEP_GUARD_DATA");
-  }
+  if (arguments.size() == 1) return arguments[0];
+  if (arguments.empty() && variable != nullptr) return variable;
+  throw InvalidInput("usage: tool_depth DATA, the folder with mesh/ and urdf/, or set SWEEP_GUARD_DATA");
+}
+
+int run(const std::vector<std::string>& arguments) {
+  const std::string data = dataFolder(arguments);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  const std::string data = arguments.empty() ? variable : arguments[0];
   std::vector<NamedMesh> workpieces;
   workpieces.push_back(workpieceOf("torus", data + "/mesh/sofa_torus.obj", 0.2));
   workpieces.push_back(workpieceOf("raptor", data + "/mesh/sofa_raptor_8kp.obj", 0.3));

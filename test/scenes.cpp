@@ -391,8 +391,8 @@ TriangleMesh wavyHull(int rings, int sectors, double phase) {
     for (int sector = 0; sector < sectors; ++sector) {
       const double azimuth = 2.0 * kPi * sector / sectors;
       const double radius = 0.1 + 0.01 * std::sin(polar) * std::sin(5.0 * azimuth + phase) * std::cos(4.0 * polar);
-      vertices.push_back(radius * Eigen::Vector3d(std::sin(polar) * std::cos(azimuth),
-                                                  std::sin(polar) * std::sin(azimuth), std::cos(polar)));
+      vertices.emplace_back(radius * Eigen::Vector3d(std::sin(polar) * std::cos(azimuth),
+                                                     std::sin(polar) * std::sin(azimuth), std::cos(polar)));
     }
   }
   const auto at = [&](int ring, int sector) {

@@ -34,7 +34,7 @@ class MemoryRead : public Peer {
  private:
   using Register = std::uint32_t __attribute__((vector_size(64)));
   static constexpr size_t kStep = 4 * sizeof(Register) / sizeof(float);  // no load waits for the previous addition
-  static constexpr size_t kAhead = 12 * 1024 / sizeof(float);            // as far as the update of a mesh does
+  static constexpr size_t kAhead = size_t{12} * 1024 / sizeof(float);    // as far as the update of a mesh does
 
   static void fetch(const float* from) {
     for (size_t line = 0; line < kStep; line += sizeof(Register) / sizeof(float)) __builtin_prefetch(from + line);

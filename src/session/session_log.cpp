@@ -73,6 +73,7 @@ std::vector<Contact> SessionLog::contacts() const {
   }
   const std::vector<sweep_guard_recording::WarnedContact> warned = trace.contacts();
   std::vector<Contact> contacts;
+  contacts.reserve(warned.size());
   for (const auto& [contact, considered, reflex] : warned) {
     contacts.push_back({contact.begin, contact.end, "", "", {}, kUnknownDepth, {}, {}});
   }

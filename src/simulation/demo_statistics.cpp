@@ -29,7 +29,7 @@ std::string warned(const std::vector<sweep_guard_recording::WarnedContact>& cont
     reflex.push_back(toSeconds(contact.begin - reflex_since));
   }
   const auto ahead = std::count_if(considered.begin(), considered.end(), [](double lead) { return lead > 0.0; });
-  const std::string text = fmt::format("{} of {} contacts", ahead, contacts.size());
+  std::string text = fmt::format("{} of {} contacts", ahead, contacts.size());
   if (contacts.empty()) return text;
   return text +
          fmt::format(", by {:.2f} s (reflex {:.2f} s) in the median", quantile(considered, 0.5), quantile(reflex, 0.5));

@@ -28,6 +28,12 @@ struct Variant {
 
 std::ostream& operator<<(std::ostream& stream, const Variant& variant) { return stream << variant.name; }
 
+Variant selectOn(const std::string& gl_context, const std::string& name, const SelectDetector::Options& options) {
+  const auto contexts = [gl_context] { return makeOffscreenContext(gl_context); };
+  return {"select_" + name + gl_context, gl_context,
+          [=] { return std::make_unique<SelectDetector>(options, contexts); }};
+}
+
 // Every detector by name, and on every context the ways of `select` that no name gives.
 std::vector<Variant> variants() {
   std::vector<Variant> all;
@@ -41,15 +47,11 @@ std::vector<Variant> variants() {
     all.push_back({std::string("halfspace_") + kernels.name, "", make});
   }
   for (const std::string& gl_context : offscreenContextNames()) {
-    const auto select = [&](const std::string& name, const SelectDetector::Options& options) {
-      const auto contexts = [gl_context] { return makeOffscreenContext(gl_context); };
-      all.push_back({"select_" + name + gl_context, gl_context,
-                     [=] { return std::make_unique<SelectDetector>(options, contexts); }});
-    };
-    select("on_", {});
-    select("without_cull_on_", {/*cull=*/false});
-    select("one_by_one_on_", {/*cull=*/true, /*block=*/1});
-    select("in_sevens_with_room_for_two_hits_on_", {/*cull=*/true, /*block=*/7, /*hit_records=*/2});
+    all.push_back(selectOn(gl_context, "on_", {}));
+    all.push_back(selectOn(gl_context, "without_cull_on_", {/*cull=*/false}));
+    all.push_back(selectOn(gl_context, "one_by_one_on_", {/*cull=*/true, /*block=*/1}));
+    all.push_back(
+        selectOn(gl_context, "in_sevens_with_room_for_two_hits_on_", {/*cull=*/true, /*block=*/7, /*hit_records=*/2}));
   }
   return all;
 }

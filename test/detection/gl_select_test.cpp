@@ -135,7 +135,7 @@ TEST_P(GlSelectTest, KeepsWhatIsOnThePositiveSideOfEachClip) {
 TEST_P(GlSelectTest, AppliesSixClips) {
   Row row = kRow;
   row.clips.assign(5, {0, 0, 0, 1});
-  row.clips.push_back({1, 0, 0, -0.25});
+  row.clips.emplace_back(1, 0, 0, -0.25);
   row.canary = {0.3, 0, 0};
   EXPECT_EQ(hits(row), (Names{3, 5}));
 }

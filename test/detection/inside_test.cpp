@@ -12,6 +12,7 @@ namespace {
 // Edges along the axes, so that a ray along them runs through edges and corners.
 TriangleMesh cube(double half, bool flipped = false) {
   std::vector<Eigen::Vector3d> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i) {
     corners.emplace_back((i & 1) != 0 ? half : -half, (i & 2) != 0 ? half : -half, (i & 4) != 0 ? half : -half);
   }

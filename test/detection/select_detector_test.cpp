@@ -138,6 +138,7 @@ TEST_P(SelectDetectorTest, DetectorsInParallelThreadsDoNotDisturbEachOther) {
   }
   std::vector<int> wrong(4, 0);
   std::vector<std::thread> threads;
+  threads.reserve(wrong.size());
   for (int& wrong_here : wrong) {
     threads.emplace_back([&] {
       SelectDetector detector({}, contexts());

@@ -223,6 +223,7 @@ TEST(ConvexHullTest, IsTheSameInEveryThread) {
   const Points expected = convexHull(points).corners;
   std::vector<Points> found(4);
   std::vector<std::thread> threads;
+  threads.reserve(found.size());
   for (Points& corners : found) threads.emplace_back([&] { corners = convexHull(points).corners; });
   for (std::thread& thread : threads) thread.join();
   for (const Points& corners : found) EXPECT_EQ(corners, expected);

@@ -34,7 +34,7 @@ void addBox(Surface& surface, const Eigen::Vector3d& lower, const Eigen::Vector3
           place[axis] = level;
           place[(axis + 1) % 3] = static_cast<double>(i) / cells;
           place[(axis + 2) % 3] = static_cast<double>(k) / cells;
-          surface.vertices.push_back(lower + place.cwiseProduct(upper - lower));
+          surface.vertices.emplace_back(lower + place.cwiseProduct(upper - lower));
           if (i == cells || k == cells) continue;
           surface.triangles.push_back({vertex(i, k), vertex(i + 1, k), vertex(i + 1, k + 1)});
           surface.triangles.push_back({vertex(i, k), vertex(i + 1, k + 1), vertex(i, k + 1)});
@@ -64,7 +64,7 @@ TriangleMesh triangleSoup(Random& random, int triangles, double size, const Eige
     const Eigen::Vector3d middle = place + random.inBox(Eigen::Vector3d::Constant(size));
     const double extent = size * random.logUniform(1e-4, 1.0);
     const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-    for (int k = 0; k < 3; ++k) soup.vertices.push_back(middle + extent * random.direction());
+    for (int k = 0; k < 3; ++k) soup.vertices.emplace_back(middle + extent * random.direction());
     soup.triangles.push_back({first, first + 1, random.chance(0.9) ? first + 2 : first});
   }
   return soup.mesh();
@@ -194,7 +194,7 @@ TEST(DecompositionTest, SeparatesComponents) {
   addBox(hand, {0.03, -0.01, 0.001}, {0.05, 0.01, 0.05}, /*cells=*/6);
   for (Triangle& triangle : hand.triangles) {  // each triangle has vertices of its own, as in STL files
     for (std::uint32_t& vertex : triangle) {
-      hand.vertices.push_back(Eigen::Vector3d(hand.vertices[vertex]));
+      hand.vertices.push_back(hand.vertices[vertex]);
       vertex = static_cast<std::uint32_t>(hand.vertices.size() - 1);
     }
   }

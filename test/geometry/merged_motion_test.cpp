@@ -91,7 +91,7 @@ TEST(MergedMotionTest, BoundsTheDeviationOfEveryToolPoint) {
     SCOPED_TRACE("path " + std::to_string(i));
     const ConvexShape tool = randomTool(random, 1.0);
     const auto [path_M, poses_M] = RandomPath(random, tool);
-    const auto last = static_cast<size_t>(2 + random.below(5));
+    const size_t last = 2 + static_cast<size_t>(random.below(5));
     const Motion motion_M = mergedMotion(path_M, 0, last, tool.boundingRadius());
     const double time = toSeconds(path_M[last].time - path_M[0].time);
     if (time == 0.0) continue;

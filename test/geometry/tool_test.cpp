@@ -29,6 +29,7 @@ ConvexShape randomShape(Random& random) {
 
 Tool randomParts(Random& random, int count) {
   std::vector<ConvexPiece> parts;
+  parts.reserve(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) parts.push_back({"part " + std::to_string(i), randomShape(random)});
   return Tool(std::move(parts));
 }

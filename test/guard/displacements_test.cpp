@@ -12,7 +12,7 @@ TriangleMesh strip(size_t vertices, Random& random, double size, const Eigen::Ve
   std::vector<Eigen::Vector3d> positions;
   std::vector<Triangle> triangles;
   for (size_t i = 0; i < vertices; ++i) {
-    positions.push_back(place_M + random.inBox({size, size, size}));
+    positions.emplace_back(place_M + random.inBox({size, size, size}));
     const auto index = static_cast<std::uint32_t>(i);
     if (i > 1) triangles.push_back({index - 2, index - 1, index});
   }

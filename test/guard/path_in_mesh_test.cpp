@@ -99,7 +99,7 @@ TEST(PathCheckerTest, WhatIsOutOfReachMakesNoDifference) {
     const auto add = [&](const Eigen::Vector3d& place, double size) {
       const auto first = static_cast<std::uint32_t>(vertices.size());
       for (int k = 0; k < 3; ++k)
-        vertices.push_back((place + random.inBox({size, size, size})).cast<float>().cast<double>());
+        vertices.emplace_back((place + random.inBox({size, size, size})).cast<float>().cast<double>());
       triangles.push_back({first, first + 1, first + 2});
     };
     for (int k = 0; k < 20; ++k) add(random.inBox({0.4, 0.4, 0.4}), 0.1);

@@ -114,7 +114,7 @@ std::vector<size_t> lengths<tf2_msgs::TFMessage>() {
 template <>
 std::vector<size_t> lengths<sweep_guard::DeformableMesh>() {
   const size_t triangles = kHeader + 4 + 5 + 4;
-  return {12, kHeader, triangles, triangles + 4 + 2 * 12};
+  return {12, kHeader, triangles, triangles + 4 + size_t{2} * 12};
 }
 
 template <>
@@ -136,7 +136,7 @@ std::vector<size_t> lengths<dynamic_reconfigure::ReconfigureRequest>() {
   const size_t ints = 4 + (4 + 4 + 1) + (4 + 1);
   const size_t strs = ints + 4 + (4 + 6 + 4);
   const size_t doubles = strs + 4 + (4 + 8 + 4 + 6) + (4 + 4);
-  const size_t groups = doubles + 4 + 2 * (4 + 8) + (4 + 6 + 8);
+  const size_t groups = doubles + 4 + size_t{2} * (4 + 8) + (4 + 6 + 8);
   return {0, 4, 13, ints, ints + 4, strs, strs + 4, strs + 16, doubles, doubles + 4, groups, groups + 4};
 }
 
@@ -162,7 +162,7 @@ Bytes withLength(Bytes bytes, size_t position, std::uint32_t length) {
 // In a block of exactly this size: a sanitizer sees what is read beyond it.
 template <typename Msg>
 void check(const Bytes& bytes) {
-  const Bytes exact(bytes);
+  const Bytes exact(bytes.begin(), bytes.end());
   checkLengths<Msg>({exact.data(), exact.size()});
 }
 
@@ -172,7 +172,7 @@ class WireTest : public testing::Test {};
 using Messages =
     testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
                    sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest, dynamic_reconfigure::ReconfigureRequest>;
-TYPED_TEST_SUITE(WireTest, Messages);
+TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {
   EXPECT_NO_THROW(check<TypeParam>(serialized(example<TypeParam>())));
@@ -247,7 +247,7 @@ class BoundedMessagesTest : public testing::Test {
 
 using Topics = testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
                               sweep_guard::MeshVertices>;
-TYPED_TEST_SUITE(BoundedMessagesTest, Topics);
+TYPED_TEST_SUITE(BoundedMessagesTest, Topics, );
 
 TYPED_TEST(BoundedMessagesTest, ReadsWhatWasSent) {
   const Bytes bytes = serialized(example<TypeParam>());

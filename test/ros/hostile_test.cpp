@@ -60,7 +60,7 @@ class HostileTest : public NodeTest {
     const std::vector<Warning> warnings = probe().warnings();
     std::uint32_t reasons = 0;
     for (size_t i = begin; i < warnings.size(); ++i) reasons |= warnings[i].reasons;
-    return reasons & ~(Warning::POSES_UNSWEPT | Warning::OVERLOAD);
+    return reasons & ~std::uint32_t{Warning::POSES_UNSWEPT | Warning::OVERLOAD};
   }
 
   static bool wasClearSince(size_t begin) {
@@ -525,8 +525,10 @@ TEST_F(HostileTest, CallsOfManyClientsAreAllAnsweredWhilePosesAreSwept) {
   CheckSweep::Request request;
   request.path.assign(100, poseAt(kAway, ros::Time()));
   std::atomic<int> answered = 0;
+  constexpr size_t kClients = 16;
   std::vector<std::thread> clients;
-  for (int i = 0; i < 16; ++i) {
+  clients.reserve(kClients);
+  for (size_t i = 0; i < kClients; ++i) {
     clients.emplace_back([&] {
       ros::ServiceClient client = ros::NodeHandle().serviceClient<CheckSweep>("/sweep_guard/check_sweep");
       CheckSweep::Request asked = request;
@@ -549,11 +551,13 @@ DeformableMesh largeMesh(ros::Time stamp) {
   mesh.mesh.vertices.clear();
   mesh.mesh.triangles.clear();
   for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    const std::uint32_t column = i % kSide;
+    const std::uint32_t row = i / kSide;
     mesh.mesh.vertices.emplace_back();
-    mesh.mesh.vertices.back().x = 0.001 * (i % kSide);
-    mesh.mesh.vertices.back().y = 0.001 * static_cast<double>(i / kSide);
+    mesh.mesh.vertices.back().x = 0.001 * column;
+    mesh.mesh.vertices.back().y = 0.001 * row;
     mesh.mesh.vertices.back().z = -5.0;
-    if (i % kSide + 1 == kSide || i / kSide + 1 == kSide) continue;
+    if (column + 1 == kSide || row + 1 == kSide) continue;
     mesh.mesh.triangles.resize(mesh.mesh.triangles.size() + 2);
     (mesh.mesh.triangles.end() - 2)->vertex_indices = {i, i + 1, i + kSide};
     (mesh.mesh.triangles.end() - 1)->vertex_indices = {i + 1, i + kSide + 1, i + kSide};

@@ -338,12 +338,13 @@ TEST_F(ParametersTest, HaveDecimalPointsInEveryLocale) {
 
 // urdfdom and rospack would add lines.
 TEST_F(ParametersTest, StopTheNodeWithOneLineForARobotThatMakesNoTool) {
-  const std::string start = "<robot name='r'><link name='a'><collision><geometry>";
-  const std::string end = "</geometry></collision></link></robot>";
+  const auto robot = [](const std::string& shape) {
+    return "<robot name='r'><link name='a'><collision><geometry>" + shape + "</geometry></collision></link></robot>";
+  };
   for (const auto& [shape, expected] : {std::pair{"<capsule/>", "capsule"},
                                         {"<mesh filename='package://nowhere/a.stl'/>", "package 'nowhere'"},
                                         {"<sphere radius='-1'/>", "link 'a': its sphere's radius is -1"}}) {
-    ros::param::set("/robot_description", start + shape + end);
+    ros::param::set("/robot_description", robot(shape));
     const auto [output, status] = runNode("_tool/type:=urdf");
     EXPECT_EQ(status, 2);
     EXPECT_TRUE(has(output, expected));

@@ -42,7 +42,7 @@ TEST(StalenessTest, SilenceIsUnknownInTime) {
     const auto [pose, mesh] = stampsOfAClearScene(probe);
     const Warning no_poses = probe.awaitWarning([](const Warning& warning) { return !warning.clear; });
     EXPECT_EQ(no_poses.level, Warning::UNKNOWN);
-    EXPECT_EQ(no_poses.reasons & ~Warning::MESH_STALE, Warning::POSE_STALE) << no_poses.text;
+    EXPECT_EQ(no_poses.reasons & ~std::uint32_t{Warning::MESH_STALE}, Warning::POSE_STALE) << no_poses.text;
     poses_noticed.push_back((sent(no_poses) - pose).toSec());
     const Warning no_mesh =
         probe.awaitWarning([](const Warning& warning) { return (warning.reasons & Warning::MESH_STALE) != 0; });

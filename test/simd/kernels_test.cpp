@@ -159,7 +159,7 @@ TEST_P(KernelsTest, FindsThePlanesThatAVertexIsBeyondAndVerticesInsideOfAll) {
   int inside_all = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const std::vector<float> vertices = randomBlocks(random, 1);
-    const Planes planes = randomPlanes(random, static_cast<size_t>(1 + random.below(static_cast<int>(kMaxPlanes))));
+    const Planes planes = randomPlanes(random, 1 + static_cast<size_t>(random.below(static_cast<int>(kMaxPlanes))));
     std::vector<std::uint16_t> bits(kBlock);
     GetParam().classifyBlock(vertices.data(), planes, bits.data());
     for (size_t i = 0; i < kBlock; ++i) {

@@ -70,7 +70,7 @@ class Subtraction {
  public:
   Eigen::Vector3d subtract(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     Eigen::Vector3d error;
-    const Eigen::Vector3d difference = a - b;
+    Eigen::Vector3d difference = a - b;
     for (int i = 0; i < 3; ++i) {
       const double of_b = a[i] - difference[i];
       error[i] = (a[i] - (difference[i] + of_b)) + (of_b - b[i]);

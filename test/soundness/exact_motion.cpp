@@ -43,7 +43,7 @@ ExactMotion::ExactMotion(const Motion& motion) : tool_(motion) {}
 ExactMotion::ExactMotion(const RelativeMotion& motion) : tool_(motion.tool_W), frame_(motion.frame_W) {}
 
 Vector3r ExactMotion::at(Real fraction, const Vector3r& p_T) const {
-  const Vector3r p_W = tool_.origin(fraction) + tool_.rotation(fraction) * p_T;
+  Vector3r p_W = tool_.origin(fraction) + tool_.rotation(fraction) * p_T;
   if (!frame_) return p_W;
   return frame_->rotation(fraction).transpose() * (p_W - frame_->origin(fraction));
 }

@@ -42,7 +42,7 @@ Restated eachTurned(const Triangles& triangles, const std::array<size_t, 3>& ord
   Restated restated;
   restated.other.streamed = triangles.streamed;
   for (std::uint32_t i = 0; i < triangles.count(); ++i) {
-    const Eigen::Vector3d* corners = &triangles.corners_M[3 * i];
+    const Eigen::Vector3d* corners = &triangles.corners_M[size_t{3} * i];
     append(restated.other, corners[order[0]], corners[order[1]], corners[order[2]]);
     restated.stand_for.push_back({i});
   }
@@ -55,7 +55,7 @@ Restated shuffled(const Triangles& triangles, Random& random) {
   restated.other.streamed = triangles.streamed;
   restated.stand_for.resize(order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) {
-    const Eigen::Vector3d* corners = &triangles.corners_M[3 * order[i]];
+    const Eigen::Vector3d* corners = &triangles.corners_M[size_t{3} * order[i]];
     append(restated.other, corners[0], corners[1], corners[2]);
     restated.stand_for[order[i]] = {i};
   }
@@ -76,7 +76,7 @@ Restated twice(const Triangles& triangles, std::uint32_t which) {
 Restated cutInFour(const Triangles& triangles) {
   Restated restated;
   for (std::uint32_t i = 0; i < triangles.count(); ++i) {
-    const Eigen::Vector3d* p = &triangles.corners_M[3 * i];
+    const Eigen::Vector3d* p = &triangles.corners_M[size_t{3} * i];
     const Eigen::Vector3d ab = 0.5 * (p[0] + p[1]);
     const Eigen::Vector3d bc = 0.5 * (p[1] + p[2]);
     const Eigen::Vector3d ca = 0.5 * (p[2] + p[0]);
@@ -197,6 +197,7 @@ class Relations {
     ++tally_.cases;
     constexpr int kPoses = 8;
     std::vector<Eigen::Isometry3d> path;
+    path.reserve(kPoses);
     for (int i = 0; i < kPoses; ++i) path.push_back(sweep.motion.at(static_cast<double>(i) / (kPoses - 1)));
     const TriangleMesh mesh = sweep.triangles.mesh();
     const auto contactsOf = [&](const std::vector<Eigen::Isometry3d>& poses) {

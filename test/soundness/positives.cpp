@@ -95,7 +95,7 @@ Eigen::Vector3d across(Random& random, const Eigen::Vector3d& normal) {
 }
 
 Eigen::Vector3d edgeDirection(Random& random, const Eigen::Vector3d& outward, int lean) {
-  const Eigen::Vector3d along = across(random, outward);
+  Eigen::Vector3d along = across(random, outward);
   if (lean == 0) return along;
   if (lean == 1) return (along + random.logUniform(1e-9, 10.0) * outward).normalized();
   return random.direction();

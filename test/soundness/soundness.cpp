@@ -46,14 +46,18 @@ bool wanted(const options::variables_map& given, const std::string& option, cons
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+std::string knownFamilies() {
+  std::string known;
+  for (const Family& family : families()) known += "\n  " + family.name + ": " + family.meaning;
+  return known;
+}
+
 void refuseUnknownFamilies(const options::variables_map& given) {
   if (given.count("family") == 0) return;
   for (const std::string& name : given["family"].as<std::vector<std::string>>()) {
     const auto& all = families();
     if (std::none_of(all.begin(), all.end(), [&](const Family& family) { return family.name == name; })) {
-      std::string known;
-      for (const Family& family : all) known += "\n  " + family.name + ": " + family.meaning;
-      throw InvalidInput("--family: '" + name + "' is unknown; known are" + known);
+      throw InvalidInput("--family: '" + name + "' is unknown; known are" + knownFamilies());
     }
   }
 }

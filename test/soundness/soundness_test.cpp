@@ -53,7 +53,8 @@ TEST(CaseTest, IsReadAsItWasWritten) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const std::string pair = textOf(adversarialPairs(seed), "adversarial seed 1");
     const std::string sweep = textOf(constructedPositives(seed), "positives seed 1");
-    std::istringstream stream("something before\n" + pair + "something between\n" + sweep);
+    std::stringstream stream;
+    stream << "something before\n" << pair << "something between\n" << sweep;
     const std::optional<AnyCase> first = readCase(stream);
     ASSERT_TRUE(first && first->pair);
     EXPECT_EQ(textOf(*first->pair, first->about), pair);
