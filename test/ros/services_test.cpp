@@ -53,11 +53,11 @@ class ServicesTest : public ::testing::Test {
  protected:
   explicit ServicesTest(const std::string& self_test = "unknown", std::uint32_t drop_every = 0)
       : detector_record_{{}, 0, 0.0, 0.0, drop_every}, node_(privateNode(self_test)) {
-    guard_thread_.start();
-    controls_.start();
-    reconfigure_server_.start();
-    check_sweep_.start();
-    cross_check_.start();
+    guard_thread_.start(supervisor_);
+    controls_.start(supervisor_);
+    reconfigure_server_.start(supervisor_);
+    check_sweep_.start(supervisor_);
+    cross_check_.start(supervisor_);
     spinner_.start();
   }
   ~ServicesTest() override { guard_thread_.stop(); }
@@ -115,6 +115,7 @@ class ServicesTest : public ::testing::Test {
   sweep_guard_core::FakeDetector::Record detector_record_;
   ros::NodeHandle node_;
   LiveParameters parameters_{loadParameters(node_)};
+  Supervisor supervisor_{Process::kShared};
   WorkQueue queue_;
   sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }};
   sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
