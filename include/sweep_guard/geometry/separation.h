@@ -52,12 +52,12 @@ class PointHull {
 /// Holds the separation of two convex bodies, all in the frame of their support mappings. `gap` does not rely on the
 /// algorithm that found `normal`: it is evaluated from the support mappings alone, gap = min over the tool of normal ·
 /// q - max over the obstacle of normal · p. For any direction this is a lower bound of the distance, up to the rounding
-/// of this formula.
+/// of this formula. The closest points are as far apart as the bodies (0 if these overlap), to the accuracy asked for.
 struct Separation {
   Eigen::Vector3d normal;       ///< unit, from the obstacle to the tool; means nothing if gap <= 0
   double gap;                   ///< proven lower bound of the distance [m]; <= 0: nothing is proven
   Eigen::Vector3d on_tool;      ///< closest point of the tool [m]
-  Eigen::Vector3d on_obstacle;  ///< closest point of the obstacle [m]; equals on_tool, to rounding, if they overlap
+  Eigen::Vector3d on_obstacle;  ///< closest point of the obstacle [m]
 };
 
 /// Computes the distance of two convex bodies by the algorithm of Gilbert, Johnson and Keerthi (1988): the point

@@ -24,7 +24,7 @@ enum Reason : std::uint32_t {
   kDisabled = 1U << 14,        ///< the guard is disabled, or shuts down
   kMultiPublisher = 1U << 15,  ///< several nodes publish tool poses
   kPoseLoss = 1U << 16,        ///< poses were sent and did not arrive
-  kPosesUnswept = 1U << 17,    ///< a pose waits longer than `overload` and the newest prediction took, or was dropped
+  kPosesUnswept = 1U << 17,    ///< a pose was dropped, or waits longer than both `overload` and the newest prediction
   kMeshDropped = 1U << 18,     ///< an update of a workpiece was dropped unread
   kWorkerHung = 1U << 19,      ///< a thread of the guard has work and makes no progress
   kSelftest = 1U << 20,        ///< the detector failed its test, at the start or later
@@ -32,7 +32,7 @@ enum Reason : std::uint32_t {
 };
 
 /// Reasons that report a degraded state and do not change the level. Any other reason makes a warning that would be
-/// CLEAR UNKNOWN, and raises `reflex` in the message.
+/// CLEAR UNKNOWN, and sets the flag `reflex` of msg/Warning.msg.
 constexpr std::uint32_t kDegraded = kOverload | kPoseLoss;
 
 }  // namespace sweep_guard_core

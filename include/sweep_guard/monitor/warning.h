@@ -18,7 +18,8 @@ struct WarningLimits {
   Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, counted from now, > 0
   Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
   Duration tick = std::chrono::milliseconds(15);          ///< longest time until the next computeWarning(); >= 0
-  /// Longest span of poses swept at once, and longest wait of a pose, without a reason; >= 0.
+  /// Longest span of poses swept at once, and longest wait of a pose, without a reason; >= 0. A pose may wait for as
+  /// long as the newest prediction took, if that is longer.
   Duration overload = std::chrono::milliseconds(20);
   double min_probability = 0.1;  ///< smallest probability that is warned of, in (0, 1]
 };

@@ -115,8 +115,8 @@ class WarningMonitor {
   /// dropped messages), a failed test of the detector, required ids and limits. A disabled guard stays disabled.
   void restart();
 
-  /// Makes the warning unknown until enable(), whatever is reported, with a restart(). Changes nothing if disabled
-  /// already.
+  /// Makes the warning unknown until enable(), whatever is reported, with a restart() that keeps lasting failures and a
+  /// disagreement of the detectors. Changes nothing if disabled already.
   /// @param asked_by  name of the caller, for the text
   void disable(const std::string& asked_by);
 
@@ -125,7 +125,7 @@ class WarningMonitor {
   /// @returns the text of the warning that forbids it; empty: disabled
   std::string disableBelow(WarningLevel level, const Instant& now, const std::string& asked_by);
 
-  /// Ends disable() with a restart(): motion while disabled was not swept. Changes nothing if enabled already.
+  /// Ends disable() with such a restart(): motion while disabled was not swept. Changes nothing if enabled already.
   void enable();
 
   /// Makes the warning unknown for good: the guard is shutting down. No pose counts any more.

@@ -20,11 +20,10 @@ namespace sweep_guard_ros {
 
 /// Converts a stamp; 0 stays 0, "no stamp".
 sweep_guard_core::Time fromMsg(const ros::Time& time);
-/// Converts a stamp; times before the epoch become 0.
-/// @throws std::runtime_error beyond 32 bits of seconds, from the year 2106 on
+/// Converts a stamp. Times before the epoch become 0; later ones than 32 bits of seconds hold, from the year 2106 on,
+/// become the last that they hold.
 ros::Time toMsg(sweep_guard_core::Time time);
-/// Converts a duration.
-/// @throws std::runtime_error beyond +-68 years (32 bits of seconds), so for Duration::max()
+/// Converts a duration. Longer ones than +-68 years (32 bits of seconds), as Duration::max(), become that.
 ros::Duration toMsg(sweep_guard_core::Duration duration);
 
 /// Returns the current time on both clocks.
