@@ -8,6 +8,7 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr auto kFailureShown = std::chrono::milliseconds(100);
 constexpr size_t kRefusalsKept = 64;  // bounds the memory that invalid ids can take
 
 bool sameTriangles(const Workpiece& a, const Workpiece& b) {
@@ -68,11 +69,11 @@ void WarningMonitor::fault(Reason reason, const std::string& message) {
   on_fault_();
 }
 
-void WarningMonitor::failed(Reason reason, const char* message, bool lasting) noexcept {
+void WarningMonitor::failed(Reason reason, const char* message, SteadyTime now, bool lasting) noexcept {
   const std::lock_guard lock(mutex_);
   auto& failure = inputs_.failure;
   lasting = lasting || (failure && failure->lasting);
-  failure = WarningInputs::Failure{reason, {}, lasting};
+  failure = WarningInputs::Failure{reason, {}, now, lasting};
   std::strncpy(failure->message.data(), message, failure->message.size() - 1);
   failure_number_ = ++checkpoint_.faults;
 }
@@ -226,7 +227,7 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
       if (cleared) inputs_.faults.erase(reason);
       fault = cleared ? fault_numbers_.erase(fault) : std::next(fault);
     }
-    if (inputs_.failure && !inputs_.failure->lasting && failure_number_ <= checkpoint.faults) inputs_.failure.reset();
+    if (failure_number_ <= checkpoint.faults) endFailure(now);
     for (const SweepFailure& failure : report.failures) {
       addFault(kDetectorFault, "detection on '" + failure.workpiece->id + "' failed: " + failure.reason);
     }
@@ -244,6 +245,11 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
     if (report.backlog > limits_.overload) inputs_.overload = WarningInputs::Backlog{report.backlog, now};
   }
   if (!report.failures.empty()) on_fault_();
+}
+
+void WarningMonitor::endFailure(SteadyTime now) {
+  const auto& failure = inputs_.failure;
+  if (failure && !failure->lasting && now - failure->found >= kFailureShown) inputs_.failure.reset();
 }
 
 void WarningMonitor::updateBehind(const SweepReport& report) {

@@ -20,7 +20,8 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
           [this] { return queue_.waitingSince(); }, [this] { return supervisor_.hung(); }),
       supervisor_(process,
                   [this](const char* what, const ThreadTraits& thread) {
-                    monitor_.failed(sweep_guard_core::kDetectorFault, what, thread.loses_meshes);
+                    monitor_.failed(sweep_guard_core::kDetectorFault, what, std::chrono::steady_clock::now(),
+                                    thread.loses_meshes);
                     warnings_.publishIfChanged();
                     statistics_.fault(what);
                   }),

@@ -46,7 +46,7 @@ class GuardWithoutMemoryTest : public testing::TestWithParam<std::string> {
       move(height);
     } catch (const std::exception& error) {
       guard_.takeBack();
-      monitor_.failed(kDetectorFault, error.what());
+      monitor_.failed(kDetectorFault, error.what(), SteadyTime(ms_ * 1ms));
     }
     return failing.reached();
   }

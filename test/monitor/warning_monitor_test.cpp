@@ -136,7 +136,7 @@ TEST_F(WarningMonitorTest, AFaultIsNotClearedByAnEarlierPose) {
 }
 
 TEST_F(WarningMonitorTest, AFailureLastsUntilALaterPoseIsSwept) {
-  monitor_.failed(kDetectorFault, "thread 'guard' failed: no memory");
+  monitor_.failed(kDetectorFault, "thread 'guard' failed: no memory", at(900).steady);
   const Warning failed = warningOf(monitor_, at(1000));
   EXPECT_EQ(failed.level, WarningLevel::kUnknown);
   EXPECT_EQ(failed.reasons, kDetectorFault);
@@ -147,15 +147,24 @@ TEST_F(WarningMonitorTest, AFailureLastsUntilALaterPoseIsSwept) {
 
 TEST_F(WarningMonitorTest, AFailureIsNotClearedByAnEarlierPose) {
   const auto before = monitor_.checkpoint();
-  monitor_.failed(kDetectorFault, "no memory");
+  monitor_.failed(kDetectorFault, "no memory", at(900).steady);
   monitor_.swept(reportOf(workpieces_), timestampsAt(1000), before, at(1000).steady);
   EXPECT_EQ(warningOf(monitor_, at(1000)).level, WarningLevel::kUnknown);
 }
 
+// The next sweep may come before anybody has seen it.
+TEST_F(WarningMonitorTest, AFailureIsShownForATenthOfASecondAtLeast) {
+  monitor_.failed(kDetectorFault, "no memory", at(900).steady);
+  sweep(reportOf(workpieces_), 999);
+  EXPECT_EQ(warningOf(monitor_, at(999)).reasons, kDetectorFault);
+  sweep(reportOf(workpieces_), 1000);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).level, WarningLevel::kClear);
+}
+
 // What is lost is not sent again.
 TEST_F(WarningMonitorTest, ALastingFailureEndsWithARestartOnly) {
-  monitor_.failed(kDetectorFault, "a mesh is lost", /*lasting=*/true);
-  monitor_.failed(kDetectorFault, "no memory");
+  monitor_.failed(kDetectorFault, "a mesh is lost", at(900).steady, /*lasting=*/true);
+  monitor_.failed(kDetectorFault, "no memory", at(900).steady);
   sweep(reportOf(workpieces_), 1000);
   monitor_.timeJumped("time went back");
   sweep(reportOf(workpieces_), 1000);
@@ -167,7 +176,7 @@ TEST_F(WarningMonitorTest, ALastingFailureEndsWithARestartOnly) {
 }
 
 TEST_F(WarningMonitorTest, ALongMessageOfAFailureIsCut) {
-  monitor_.failed(kDetectorFault, std::string(1000, 'x').c_str());
+  monitor_.failed(kDetectorFault, std::string(1000, 'x').c_str(), at(900).steady);
   EXPECT_LT(warningOf(monitor_, at(1000)).text.size(), 200U);
 }
 

@@ -306,7 +306,7 @@ TEST_F(ReconfigureTest, TheRateDecidesHowManySweepsThereIsTimeFor) {
 }
 
 TEST_F(ReconfigureTest, PathsAreGivenUpSoonerOrLater) {
-  placeSquare("square", {0.0, 0.0, 0.0});
+  for (int i = 0; i < 50; ++i) placeSquare("square" + std::to_string(i), {0.0, 0.0, 0.0});
   sweep_guard::CheckSweep::Request request = requestAlong(std::vector<Eigen::Vector3d>(1024, {0.0, 0.0, -0.05}));
   EXPECT_TRUE(probe().check(request).success);
   change("check_sweep/deadline", 0.01);

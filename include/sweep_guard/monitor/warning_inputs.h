@@ -51,7 +51,8 @@ struct WarningInputs {
   struct Failure {
     Reason reason;
     std::array<char, 160> message;  ///< ends with 0
-    bool lasting = false;           ///< until a restart
+    SteadyTime found;
+    bool lasting = false;  ///< until a restart
   };
 
   std::optional<Timestamps> pose;             ///< newest pose that has been swept

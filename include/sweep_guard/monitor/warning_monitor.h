@@ -49,10 +49,10 @@ class WarningMonitor {
   /// Reports that an input was refused or failed. The warning is not clear until a pose received later has been swept.
   void fault(Reason reason, const std::string& message);
 
-  /// Reports an exception that ended a piece of work, as a fault; needs no memory from the heap and does not call
-  /// on_fault.
+  /// Reports an exception that ended a piece of work, as a fault that lasts for 0.1 s at least, so that it is seen; needs
+  /// no memory from the heap and does not call on_fault.
   /// @param lasting  until restart(): a later pose does not make up for it
-  void failed(Reason reason, const char* message, bool lasting = false) noexcept;
+  void failed(Reason reason, const char* message, SteadyTime now, bool lasting = false) noexcept;
 
   /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), because the workpiece that
   /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each; another one
@@ -166,6 +166,7 @@ class WarningMonitor {
   void updateRefusals();
   void updateDetectorFaults();
   void updateObjects();
+  void endFailure(SteadyTime now);
   void updateBehind(const SweepReport& report);
   void addContact(const std::string& mesh_id, const std::vector<std::uint32_t>& triangles, SteadyTime now);
   void updateContact(const SweepReport& report, SteadyTime now);
