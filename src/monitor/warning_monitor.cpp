@@ -454,6 +454,7 @@ std::string WarningMonitor::meshProblems(const Instant& now, const std::vector<s
   if (!disagreement_.empty()) meshes.faults[kCrosscheck] = disagreement_;
   meshes.unread = inputs_.unread;
   if (inputs_.failure && inputs_.failure->lasting) meshes.failure = inputs_.failure;
+  meshes.hung = hung_();
   return sweep_guard_core::meshProblems(meshes, now, limits_);
 }
 

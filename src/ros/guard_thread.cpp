@@ -20,6 +20,7 @@ using sweep_guard_core::Instant;
 using sweep_guard_core::SteadyTime;
 using sweep_guard_core::Timestamps;
 
+constexpr Duration kPause = std::chrono::milliseconds(10);     // before a failed sweep is tried again
 constexpr Duration kMaxWait = std::chrono::milliseconds(500);  // for a sweep to end, before a change or a reset
 
 // A passed pose is swept as a part of the motion to the next one.
@@ -144,26 +145,50 @@ bool GuardThread::workOnce(WorkQueue::Work& work) {
   for (const auto& task : work.tasks) top_->run(task);
   const std::vector<QueuedPose>& poses = work.poses;
   for (size_t i = 0; i < poses.size(); ++i) {
-    top_->run([&] { process(poses[i], i + 1 < poses.size() ? &poses[i + 1] : nullptr); });
+    if (!processOrRepeat(poses[i], i + 1 < poses.size() ? &poses[i + 1] : nullptr)) return false;
   }
   dependencies_.queue.swept({});
   return true;
 }
 
-void GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
-  if (!dependencies_.monitor.counts(queued.checkpoint)) return;
+// No pose is left out: what the tool met on the way to it would be, too. The others wait, so nothing is clear meanwhile.
+// Returns false after stop().
+bool GuardThread::processOrRepeat(const QueuedPose& queued, const QueuedPose* next) {
+  bool done = false;
+  while (true) {
+    top_->run([&] {
+      const bool swept = process(queued, next);
+      done = true;
+      if (swept) afterSweep(queued, next);
+    });
+    if (done) return true;
+    if (dependencies_.queue.stopped()) return false;
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+// Returns whether the pose was swept: others are passed, or out of date.
+bool GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
+  if (!dependencies_.monitor.counts(queued.checkpoint)) return false;
   if (!queued.checkpoint.continues(checkpoint_)) {
     guard_.reset();
     passed_.clear();
   }
   checkpoint_ = queued.checkpoint;
-  if (next != nullptr && knowsAllFramesOf(queued, *next)) return pass(queued.pose);
+  if (next != nullptr && knowsAllFramesOf(queued, *next)) {
+    pass(queued.pose);
+    return false;
+  }
   try {
     sweep(queued);
   } catch (...) {
     guard_.takeBack();
     throw;
   }
+  return true;
+}
+
+void GuardThread::afterSweep(const QueuedPose& queued, const QueuedPose* next) {
   dependencies_.queue.swept(next != nullptr ? std::optional(next->pose.received) : std::nullopt);
   if (timeToPredict()) predict(queued);
 }

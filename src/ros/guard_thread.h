@@ -70,9 +70,11 @@ class GuardThread {
   bool workOnce(WorkQueue::Work& work);
   void setPriority() const;
   void runInTime(const std::function<void()>& task, const std::string& otherwise);
-  void process(const QueuedPose& queued, const QueuedPose* next);
+  bool processOrRepeat(const QueuedPose& queued, const QueuedPose* next);
+  bool process(const QueuedPose& queued, const QueuedPose* next);
   void pass(const sweep_guard_core::PoseWithFrames& pose);
   void sweep(const QueuedPose& queued);
+  void afterSweep(const QueuedPose& queued, const QueuedPose* next);
   void predict(const QueuedPose& queued);
   bool timeToPredict() const;
   void reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures);

@@ -105,13 +105,13 @@ void MasterWatch::check() {
 // Parameters first: a guard that is started again soon finds them.
 bool MasterWatch::registerAnew() { return setParameters() && registerServices() && registerTopics(); }
 
+// Those that are there were set after the start of the master, by us or by roslaunch.
 bool MasterWatch::setParameters() {
-  const auto set = call_.call(ros::master::getURI(), "hasParam", {XmlRpcValue(namespace_)});
-  if (!set || !set->success) return false;
-  if (static_cast<bool>(set->value)) return true;
   for (const auto& [key, value] : parameters_.get()->settings) {
     const std::string name = key.front() == '/' ? key : ros::names::append(namespace_, key);
-    if (value && !tell("setParam", {XmlRpcValue(name), *value})) return false;
+    const auto there = call_.call(ros::master::getURI(), "hasParam", {XmlRpcValue(name)});
+    if (!there || !there->success) return false;
+    if (value && !static_cast<bool>(there->value) && !tell("setParam", {XmlRpcValue(name), *value})) return false;
   }
   return true;
 }

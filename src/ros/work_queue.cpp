@@ -93,6 +93,11 @@ bool WorkQueue::hasPoses() const {
   return !work_.poses.empty();
 }
 
+bool WorkQueue::stopped() const {
+  const std::lock_guard lock(mutex_);
+  return stopping_;
+}
+
 void WorkQueue::stop() {
   Work dropped;
   {

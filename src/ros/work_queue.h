@@ -68,6 +68,7 @@ class WorkQueue {
 
   /// Drops all work and ends every wait. A dropped task's future throws std::future_error.
   void stop();
+  bool stopped() const;
 
  private:
   void pushTask(std::function<void()> task);

@@ -219,6 +219,17 @@ TEST_F(SharedProcessTest, AHungGuardIsToldAndEndsNothing) {
   }
 }
 
+// Between two poses that are away from it.
+TEST_F(SharedProcessTest, APoseWhoseSweepFailsIsSweptAfterAll) {
+  const auto contacts = probe().warnings().back().level_counts[Warning::CONTACT];
+  guard_.inject(Fault::kOneFails, "guard");
+  probe().tick(0.01);
+  probe().publish(poseAt(kSquare, probe().time()));
+  sendInputsUntil([&](const Warning& warning) { return warning.level_counts[Warning::CONTACT] > contacts; });
+  EXPECT_TRUE(guard_.struck());
+  sendInputsUntil(isClear);
+}
+
 class FailingThreadSharedProcessTest : public SharedProcessTest, public testing::WithParamInterface<const char*> {};
 
 TEST_P(FailingThreadSharedProcessTest, IsUnknownUntilTheNextGoodInput) {

@@ -5,9 +5,13 @@
 namespace sweep_guard_ros {
 namespace {
 
+constexpr auto kLongestCall = std::chrono::milliseconds(500);
 constexpr auto kPause = std::chrono::milliseconds(500);  // before the next attempt
 
 }  // namespace
+
+ParameterWriter::ParameterWriter(const ros::NodeHandle& private_node)
+    : node_(private_node), call_(kLongestCall, stopping_) {}
 
 ParameterWriter::~ParameterWriter() {
   {
@@ -48,18 +52,15 @@ void ParameterWriter::writeNext(std::unique_lock<std::mutex>& lock) {
   const auto now = waiting_.find(key);
   if (written && now->second == value) waiting_.erase(now);
   changed_.notify_all();
-  if (!written) changed_.wait_for(lock, kPause, [this] { return stopping_; });
+  if (!written) changed_.wait_for(lock, kPause, [this] { return stopping_.load(); });
 }
 
 // Not by ros::param::set(): it locks all cached parameters until the master answers.
 bool ParameterWriter::writeOne(const std::string& key, const ParameterValue& value) const {
-  XmlRpc::XmlRpcValue request;
-  XmlRpc::XmlRpcValue result;
   XmlRpc::XmlRpcValue payload;
-  request[0] = ros::this_node::getName();
-  request[1] = node_.resolveName(key);
-  std::visit([&](const auto& held) { request[2] = held; }, value);
-  return ros::master::execute("setParam", request, result, payload, /*wait_for_master=*/false);
+  std::visit([&](const auto& held) { payload = held; }, value);
+  const auto answer = call_.call(ros::master::getURI(), "setParam", {node_.resolveName(key), payload});
+  return answer && answer->success;
 }
 
 }  // namespace sweep_guard_ros

@@ -2,6 +2,7 @@
 
 #include <ros/node_handle.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <mutex>
@@ -9,6 +10,7 @@
 #include <thread>
 
 #include "ros/threads/supervisor.h"
+#include "ros/xml_rpc_call.h"
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
@@ -18,7 +20,7 @@ namespace sweep_guard_ros {
 /// answer. Any thread.
 class ParameterWriter {
  public:
-  explicit ParameterWriter(const ros::NodeHandle& private_node) : node_(private_node) {}
+  explicit ParameterWriter(const ros::NodeHandle& private_node);
   ~ParameterWriter();  ///< drops what is not written yet
   ParameterWriter(const ParameterWriter&) = delete;
   ParameterWriter& operator=(const ParameterWriter&) = delete;
@@ -39,7 +41,8 @@ class ParameterWriter {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::string, ParameterValue> waiting_;
-  bool stopping_ = false;
+  std::atomic<bool> stopping_ = false;
+  const XmlRpcCall call_;
   ThreadTop* top_ = nullptr;  // from start() on
   std::thread thread_;
 };
