@@ -287,12 +287,13 @@ void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& p
       addFault(kDetectorFault, "predicting contact with '" + failure.workpiece->id + "' failed: " + failure.reason);
     }
     if (!coverage_) coverage_.emplace();
-    coverage_->pose = pose;
-    coverage_->covered_until = prediction.coveredUntil();
+    coverage_->covered_until = {};  // until the contact is known: there may be no memory for it
     coverage_->tested.clear();
     for (const PredictedObject& object : prediction.objects) coverage_->tested.push_back(object.workpiece);
     findPredictedContact(prediction, pose, limits_.min_probability, next_);
     updatePredicted(now);
+    coverage_->pose = pose;
+    coverage_->covered_until = prediction.coveredUntil();
   }
   if (!prediction.failures.empty()) on_fault_();
 }

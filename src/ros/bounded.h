@@ -52,10 +52,12 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
     try {
       checkMessage<Msg>({message.buffer, message.length}, max_size_);
       return Base::deserialize(message);
-    } catch (const std::exception& error) {  // invalid, or out of memory
+    } catch (const std::bad_alloc& error) {
+      ThreadTop::reportFailure(error.what());
+    } catch (const std::exception& error) {
       refused_.pass(error.what());
-      return {};
     }
+    return {};
   }
 
   void call(ros::SubscriptionCallbackHelperCallParams& params) override {

@@ -15,8 +15,8 @@ int main(int argc, char** argv) {
     sweep_guard_ros::keepToLoopback();
     try {
       sweep_guard_ros::checkConfigured(ros::NodeHandle("~"), {argv + 1, argv + argc});
-      const sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~"),
-                                                 sweep_guard_ros::Process::kOwn};
+      sweep_guard_ros::SweepGuardNode node{ros::NodeHandle(), ros::NodeHandle("~"), sweep_guard_ros::Process::kOwn};
+      node.start();
       sweep_guard_ros::limitMemory(node.parameters().max_memory);
       end.await();
     } catch (const sweep_guard_core::Error& error) {

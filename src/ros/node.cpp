@@ -21,7 +21,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       supervisor_(process,
                   [this](const char* what, const ThreadTraits& thread) {
                     monitor_.failed(sweep_guard_core::kDetectorFault, what, std::chrono::steady_clock::now(),
-                                    thread.loses_meshes);
+                                    thread.loses_latched);
                     warnings_.publishIfChanged();
                     statistics_.fault(what);
                   }),
@@ -51,6 +51,10 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       peer_watch_(monitor_) {
   reports_.every(kViewPeriod, [this] { scene_.publishView(); });
   reports_.every(kDiagnosticsPeriod, [this] { diagnostics_.publish(); });
+}
+
+// Not in the constructor: where one thread cannot be started, the destructor ends the others.
+void SweepGuardNode::start() {
   guard_thread_.start(supervisor_);
   watchdog_.start(supervisor_);
   frames_.start(supervisor_);

@@ -30,6 +30,8 @@ class SweepGuardNode {
   SweepGuardNode(const SweepGuardNode&) = delete;
   SweepGuardNode& operator=(const SweepGuardNode&) = delete;
 
+  void start();  ///< begins to guard; once
+
   const Parameters& parameters() const { return parameters_.initial(); }  ///< at the start
 
  private:

@@ -15,6 +15,7 @@ class SweepGuardNodelet : public nodelet::Nodelet {
     try {
       checkConfigured(getPrivateNodeHandle(), getMyArgv());
       node_ = std::make_unique<SweepGuardNode>(getNodeHandle(), getPrivateNodeHandle(), Process::kShared);
+      node_->start();
     } catch (const sweep_guard_core::Error& error) {
       reportStartFailure(getNodeHandle(), getName(), error.what());
       throw;

@@ -27,9 +27,9 @@ Watchdog::Watchdog(sweep_guard_core::WarningMonitor& monitor, sweep_guard_core::
 void Watchdog::checkClock() {
   const auto jump = clocks_.jump(now().stamp, suspendedTime());
   if (!jump) return;
-  ROS_WARN("%s: tool poses are forgotten, workpieces with a timeout are stale", jump->c_str());
   monitor_.timeJumped(*jump);
   workpieces_.clearStamps();
+  ROS_WARN("%s: tool poses are forgotten, workpieces with a timeout are stale", jump->c_str());
 }
 
 }  // namespace sweep_guard_ros

@@ -35,7 +35,9 @@ class Frames {
   Frames(const ros::NodeHandle& node, size_t max_message_size,
          std::function<void(const std::string& parent, const std::string& child)> on_static_change);
 
-  void start(Supervisor& supervisor) { thread_.start(supervisor, {"transforms"}); }
+  void start(Supervisor& supervisor) {
+    thread_.start(supervisor, {"transforms", /*watched=*/true, /*loses_latched=*/true});
+  }
 
   /// Returns the pose of frame `source` in frame `target` at a stamp; stamp 0: the newest. Does not wait.
   /// @throws FrameError if there is none

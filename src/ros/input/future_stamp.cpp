@@ -2,6 +2,7 @@
 
 #include <ros/time.h>
 
+#include "common/heartbeat.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -18,6 +19,7 @@ bool liesInFuture(sweep_guard_core::Time stamp) {
   sweep_guard_core::Instant at = begin;
   while (may_wait && stamp > at.stamp + kFutureTolerance && at.steady < begin.steady + kMaxClockDelay) {
     ros::WallDuration(kPause).sleep();
+    sweep_guard_core::beat();
     at = now();
   }
   return stamp > at.stamp + kFutureTolerance;

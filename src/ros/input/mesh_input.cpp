@@ -71,7 +71,7 @@ BoundedSubscriber MeshInput::subscribe(ros::NodeHandle node, const std::string& 
 }
 
 void MeshInput::start(Supervisor& supervisor) {
-  const auto thread = [](const char* name) { return ThreadTraits{name, /*watched=*/true, /*loses_meshes=*/true}; };
+  const auto thread = [](const char* name) { return ThreadTraits{name, /*watched=*/true, /*loses_latched=*/true}; };
   storing_.start(supervisor, thread("storing"));
   converting_.start(supervisor, thread("converting"));
   thread_.start(supervisor, thread("meshes"));

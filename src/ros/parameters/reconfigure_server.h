@@ -53,9 +53,9 @@ class ReconfigureServer {
   mutable std::mutex mutex_;
   History history_;
   ParameterWriter writer_;
-  QueueThread thread_;  // before the server, which uses its queue
   ros::Publisher descriptions_;
   ros::Publisher values_;
+  QueueThread thread_;  // after what a call uses: it ends only here. Before the server, which uses its queue
   ros::ServiceServer server_;
 };
 

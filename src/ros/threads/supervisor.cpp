@@ -92,7 +92,7 @@ void Supervisor::check(Duration since_last) {
   for (Watched& one : threads_) {
     one.heart = one.top.heartbeat();
     if (one.heart.working) one.state = one.top.thread()->state();
-    starving = starving || one.stall.starves(one.heart, one.state);
+    starving = (one.stall.starves(one.heart, one.state) && one.top.traits().watched) || starving;
   }
   const Watched* hung = nullptr;
   bool dead = false;

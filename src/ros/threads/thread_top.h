@@ -13,9 +13,9 @@ namespace sweep_guard_ros {
 class Supervisor;
 
 struct ThreadTraits {
-  const char* name;           ///< at most 15 bytes; lives as long as the process
-  bool watched = true;        ///< counts as hung if it makes no progress; false: its work may take any time
-  bool loses_meshes = false;  ///< work that fails may be a mesh, which is not sent again
+  const char* name;            ///< at most 15 bytes; lives as long as the process
+  bool watched = true;         ///< counts as hung if it makes no progress; false: its work may take any time
+  bool loses_latched = false;  ///< work that fails may be a latched message, which is not sent again
 };
 
 /// The top of one thread: runs its pieces of work, and catches what they throw.
