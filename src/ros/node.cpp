@@ -75,8 +75,8 @@ void SweepGuardNode::start() {
 SweepGuardNode::~SweepGuardNode() {
   monitor_.end();
   warnings_.publishFinal();
-  reports_.stop();       // of what is destroyed before
-  master_watch_.stop();  // which the supervisor does not outlive
+  reports_.stop();       // its calls use what is declared after it
+  master_watch_.stop();  // its thread uses the supervisor, which is declared after it
   guard_thread_.stop();
 }
 
