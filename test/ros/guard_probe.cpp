@@ -93,10 +93,10 @@ void GuardProbe::await(const std::string& what, Condition&& condition) const {
 
 void GuardProbe::setClock(ros::Time time) {
   const bool goes_back = time + ros::Duration(0.1) < time_;
-  const std::uint32_t noticed = Warning::TIME_JUMP | Warning::DISABLED;
+  const std::uint32_t noticed = sweep_guard::Warning::TIME_JUMP | sweep_guard::Warning::DISABLED;
   publishClock(time);
   await("the guard to see the clock", [&] {
-    const Warning& newest = warnings_.back();
+    const sweep_guard::Warning& newest = warnings_.back();
     return newest.valid_until == time + kValid && ros::Time::now() == time &&
            (!goes_back || (newest.reasons & noticed) != 0);
   });
