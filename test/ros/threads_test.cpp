@@ -61,6 +61,8 @@ class FaultyProcess {
 // Good inputs, which never cease.
 class ThreadsTest : public NodeTest {
  protected:
+  ThreadsTest() { probe(); }  // returns when the guard is connected
+
   static void sendInputs() {
     probe().tick(0.01);
     publishInputs();
