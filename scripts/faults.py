@@ -90,7 +90,8 @@ class Warnings:
                         return arrived, warning
                 mark = len(self.received)
                 if not self.changed.wait(deadline - now()):
-                    raise TimeoutError('no such warning; the last: ' + self.received[-1][1].text)
+                    last = self.received[-1][1].text if self.received else 'none was received'
+                    raise TimeoutError('no such warning; the last: ' + last)
 
     def oldest_pose(self, mark):
         """Returns the largest age of the newest pose: lack of processor time makes it some 0.1 s, a lost connection seconds."""
@@ -99,13 +100,16 @@ class Warnings:
         print(f'{len(texts)} of {len(received)} messages not CLEAR{": " + texts[0] if texts else ""}', flush=True)
         return max(age_of_pose(warning) for warning in received)
 
-    def wait_until_steadily_clear(self):
-        while True:
+    def wait_until_steadily_clear(self, timeout=60.0):
+        deadline = now() + timeout
+        while now() < deadline:
             mark = self.mark()
             time.sleep(1.0)
             received = self.since(mark)
             if received and all(clear(warning) for warning in received):
                 return
+        last = received[-1].text if received else 'none was received'
+        raise TimeoutError(f'not CLEAR for a second within {timeout:g} s; the last warning: {last}')
 
 
 def now():
@@ -168,6 +172,12 @@ class Table:
         self.rows.append(row)
         print(row, flush=True)
 
+    def add_failure(self, what):
+        """A measurement that did not end."""
+        self.failed = True
+        self.rows.append(f'| {what} | | | | | NO |')
+        print(self.rows[-1], flush=True)
+
     def text(self):
         return '\n'.join(['| fault and what is measured | within | median | largest | bound | kept |',
                           '|---|---|---|---|---|---|'] + self.rows)
@@ -190,14 +200,16 @@ class World:
                                               env=dict(os.environ, **address, **environment))
         return self.running[name]
 
-    def start_master(self):
+    def start_master(self, timeout=30.0):
         self.start('roscore', ['roscore', '-p', '11311'])
-        while True:
+        deadline = now() + timeout
+        while now() < deadline:
             try:
                 xmlrpc.client.ServerProxy(MASTER).getParam('/faults', '/run_id')
                 return
             except OSError:
                 time.sleep(0.02)
+        raise TimeoutError(f'roscore does not answer within {timeout:g} s')
 
     def role(self, name, *role):
         return self.start(name, [sys.executable, __file__, '--role', *role])
@@ -385,6 +397,8 @@ def measure(options):
             fill_disk(world, table)
         if asked('masters'):
             restart_master(world, warnings, table, options.masters)
+    except (TimeoutError, subprocess.TimeoutExpired) as error:
+        table.add_failure(str(error))
     finally:
         world.end()
         print('\n' + table.text())

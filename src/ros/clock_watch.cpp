@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 
 namespace sweep_guard_ros {
 namespace {
@@ -11,12 +10,7 @@ using sweep_guard_core::Duration;
 
 constexpr auto kBack = std::chrono::milliseconds(100);
 constexpr auto kSuspended = std::chrono::milliseconds(200);
-
-Duration read(clockid_t clock) {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
+constexpr auto kPause = std::chrono::milliseconds(1);  // between readings of the clocks
 
 std::string inSeconds(const char* text, Duration duration) {
   char message[80];
@@ -36,9 +30,23 @@ std::optional<std::string> ClockWatch::jump(sweep_guard_core::Time stamp, Durati
   return jump;
 }
 
-Duration suspendedTime() {
-  const Duration running = read(CLOCK_MONOTONIC);
-  return std::max(read(CLOCK_BOOTTIME) - running, Duration::zero());
+Duration readClock(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+// A process that is stopped between two readings would take the pause for a suspend.
+Duration suspendedTime(ReadClock read) {
+  Duration since_start{};
+  Duration running = read(CLOCK_MONOTONIC);
+  Duration before{};
+  do {
+    before = running;
+    since_start = read(CLOCK_BOOTTIME);
+    running = read(CLOCK_MONOTONIC);
+  } while (running - before > kPause);
+  return std::max(since_start - before, Duration::zero());
 }
 
 }  // namespace sweep_guard_ros

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ctime>
 #include <optional>
 #include <string>
 
@@ -21,7 +22,10 @@ class ClockWatch {
   std::optional<sweep_guard_core::Duration> suspended_;
 };
 
+using ReadClock = sweep_guard_core::Duration (*)(clockid_t clock);
+sweep_guard_core::Duration readClock(clockid_t clock);
+
 /// Returns the time that the machine was suspended since it started.
-sweep_guard_core::Duration suspendedTime();
+sweep_guard_core::Duration suspendedTime(ReadClock read = readClock);
 
 }  // namespace sweep_guard_ros

@@ -7,10 +7,10 @@
 #include <ros/network.h>
 #include <ros/service_manager.h>
 #include <ros/this_node.h>
-#include <ros/xmlrpc_manager.h>
 
 #include <array>
-#include <set>
+
+#include "ros/publisher_links.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -18,57 +18,24 @@ namespace {
 using XmlRpc::XmlRpcValue;
 
 constexpr auto kPeriod = std::chrono::seconds(1);
-constexpr auto kLongestCall = std::chrono::milliseconds(500);
 // roscpp keeps no list of them.
 constexpr std::array kServices = {"check_sweep", "enable", "predict", "reset", "set_parameters"};
 constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodelet", "set_logger_level",
                                               "unload_nodelet"};
-
-std::string ownUri() { return ros::XMLRPCManager::instance()->getServerURI(); }
-
-// Returns the nodes that the process hears on a topic.
-std::set<std::string> publishersOf(const std::string& topic, const XmlRpcValue& connections) {
-  std::set<std::string> publishers;
-  for (int i = 0; i < connections.size(); ++i) {
-    const XmlRpcValue& connection = connections[i];
-    const bool inbound = static_cast<const std::string&>(connection[2]) == "i";
-    if (!inbound || static_cast<const std::string&>(connection[4]) != topic) continue;
-    publishers.insert(static_cast<const std::string&>(connection[1]));
-  }
-  return publishers;
-}
 
 }  // namespace
 
 MasterWatch::MasterWatch(const ros::NodeHandle& private_node, const LiveParameters& parameters)
     : namespace_(private_node.getNamespace()),
       parameters_(parameters),
-      call_(kLongestCall, stopping_),
-      master_(identity()) {}
+      call_(kCallTimeout, stopping_),
+      master_(identity()) {
+  thread_.every(kPeriod, [this] { checkOrLog(); });
+}
 
 void MasterWatch::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
-}
-
-void MasterWatch::start(Supervisor& supervisor) {
-  top_ = &supervisor.add({"master", /*watched=*/false});
-  thread_ = std::thread([this] { run(); });
-}
-
-void MasterWatch::run() {
-  top_->enter();
-  std::unique_lock lock(mutex_);
-  while (!stopping_) {
-    lock.unlock();
-    top_->run([this] { checkOrLog(); });
-    lock.lock();
-    changed_.wait_for(lock, kPeriod, [this] { return stopping_.load(); });
-  }
+  stopping_ = true;
+  thread_.stop();
 }
 
 void MasterWatch::checkOrLog() {
@@ -111,7 +78,7 @@ bool MasterWatch::setParameters() {
     const std::string name = key.front() == '/' ? key : ros::names::append(namespace_, key);
     const auto there = call_.call(ros::master::getURI(), "hasParam", {XmlRpcValue(name)});
     if (!there || !there->success) return false;
-    if (value && !static_cast<bool>(there->value) && !tell("setParam", {XmlRpcValue(name), *value})) return false;
+    if (value && !static_cast<bool>(there->value) && !request("setParam", {XmlRpcValue(name), *value})) return false;
   }
   return true;
 }
@@ -125,7 +92,7 @@ bool MasterWatch::registerServices() {
     services.push_back(ros::names::append(ros::this_node::getName(), name));
   for (const std::string& service : services) {
     if (!ros::ServiceManager::instance()->lookupServicePublication(service)) continue;
-    if (!tell("registerService", {XmlRpcValue(service), XmlRpcValue(address), XmlRpcValue(ownUri())})) return false;
+    if (!request("registerService", {XmlRpcValue(service), XmlRpcValue(address), XmlRpcValue(ownUri())})) return false;
   }
   return true;
 }
@@ -133,33 +100,27 @@ bool MasterWatch::registerServices() {
 bool MasterWatch::registerTopics() {
   const auto published = call_.call(ownUri(), "getPublications", {});
   const auto subscribed = call_.call(ownUri(), "getSubscriptions", {});
-  const auto connections = call_.call(ownUri(), "getBusInfo", {});
-  if (!published || !subscribed || !connections) return false;
+  if (!published || !subscribed) return false;
   for (int i = 0; i < published->value.size(); ++i) {
     const XmlRpcValue& topic = published->value[i];
-    if (!tell("registerPublisher", {topic[0], topic[1], XmlRpcValue(ownUri())})) return false;
+    if (!request("registerPublisher", {topic[0], topic[1], XmlRpcValue(ownUri())})) return false;
   }
   for (int i = 0; i < subscribed->value.size(); ++i) {
-    if (!subscribe(subscribed->value[i], connections->value)) return false;
+    if (!subscribe(subscribed->value[i])) return false;
   }
   return true;
 }
 
-// roscpp takes a list of publishers as complete and drops the others: those that the new master does not know are added.
-bool MasterWatch::subscribe(const XmlRpcValue& topic, const XmlRpcValue& connections) {
+bool MasterWatch::subscribe(const XmlRpcValue& topic) {
   const auto known =
       call_.call(ros::master::getURI(), "registerSubscriber", {topic[0], topic[1], XmlRpcValue(ownUri())});
   if (!known || !known->success) return false;
-  std::set<std::string> publishers = publishersOf(topic[0], connections);
+  Publishers publishers;
   for (int i = 0; i < known->value.size(); ++i) publishers.insert(static_cast<const std::string&>(known->value[i]));
-  XmlRpcValue all;
-  all.setSize(0);
-  for (const std::string& uri : publishers) all[all.size()] = uri;
-  const auto told = call_.call(ownUri(), "publisherUpdate", {topic[0], all});
-  return told && told->success;
+  return updatePublishers(call_, topic[0], publishers);
 }
 
-bool MasterWatch::tell(const std::string& function, const std::vector<XmlRpcValue>& arguments) {
+bool MasterWatch::request(const std::string& function, const std::vector<XmlRpcValue>& arguments) {
   const auto answer = call_.call(ros::master::getURI(), function, arguments);
   return answer && answer->success;
 }

@@ -3,14 +3,11 @@
 #include <xmlrpcpp/XmlRpc.h>
 
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "ros/parameters/parameters.h"
-#include "ros/threads/supervisor.h"
+#include "ros/threads/timer_thread.h"
 #include "ros/xml_rpc_call.h"
 
 namespace sweep_guard_ros {
@@ -26,13 +23,11 @@ class MasterWatch {
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
 
-  void stop();                         ///< waits for the running call
-  void start(Supervisor& supervisor);  ///< after topics and services were advertised
-
-  bool answers() const { return answers_; }  ///< false: the master did not answer when it was asked last
+  /// After topics and services were advertised; the supervisor must outlive the thread.
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"master", /*watched=*/false}); }
+  void stop();  ///< ends the running call
 
  private:
-  void run();
   void checkOrLog();
   void check();
   std::optional<std::string> identity() const;
@@ -40,19 +35,16 @@ class MasterWatch {
   bool setParameters();
   bool registerServices();
   bool registerTopics();
-  bool subscribe(const XmlRpc::XmlRpcValue& topic, const XmlRpc::XmlRpcValue& connections);
-  bool tell(const std::string& function, const std::vector<XmlRpc::XmlRpcValue>& arguments);
+  bool subscribe(const XmlRpc::XmlRpcValue& topic);
+  bool request(const std::string& function, const std::vector<XmlRpc::XmlRpcValue>& arguments);
 
   const std::string namespace_;
   const LiveParameters& parameters_;
   std::atomic<bool> stopping_ = false;
-  std::atomic<bool> answers_ = true;
+  bool answers_ = true;
   const XmlRpcCall call_;
   std::optional<std::string> master_;  // identity of the one that knows this node
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  ThreadTop* top_ = nullptr;  // from start() on
-  std::thread thread_;
+  TimerThread thread_;
 };
 
 }  // namespace sweep_guard_ros

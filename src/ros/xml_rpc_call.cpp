@@ -4,11 +4,15 @@
 #include <ros/this_node.h>
 
 #include <cstdint>
+#include <thread>
+
+#include "ros/host_address.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 constexpr double kStep = 0.02;  // [s]
+constexpr auto kResolverStep = std::chrono::milliseconds(5);
 
 }  // namespace
 
@@ -22,7 +26,12 @@ std::optional<XmlRpcCall::Answer> XmlRpcCall::call(const std::string& uri, const
   for (const XmlRpc::XmlRpcValue& argument : arguments) all[all.size()] = argument;
 
   const auto deadline = std::chrono::steady_clock::now() + longest_;
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  std::optional<std::string> address;
+  while (!(address = hostAddress(host))) {
+    if (stopping_ || std::chrono::steady_clock::now() >= deadline) return std::nullopt;
+    std::this_thread::sleep_for(kResolverStep);
+  }
+  XmlRpc::XmlRpcClient client(address->c_str(), static_cast<int>(port), "/");
   XmlRpc::XmlRpcValue answer;
   if (!client.executeNonBlock(function.c_str(), all)) return std::nullopt;
   while (!client.executeCheckDone(answer)) {

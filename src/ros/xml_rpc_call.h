@@ -10,8 +10,10 @@
 
 namespace sweep_guard_ros {
 
+constexpr std::chrono::milliseconds kCallTimeout{500};  ///< for a call that is repeated if it fails
+
 /// Calls the ROS master, or another node (wiki.ros.org/ROS/Master_API, Slave_API). Unlike roscpp's own calls it gives up
-/// after a while: a master that is frozen or cut off never answers.
+/// after a while: a master that is frozen or cut off never answers, and the name of its machine may not be resolved.
 class XmlRpcCall {
  public:
   /// @param longest   time until an answer is no longer expected

@@ -44,7 +44,9 @@ ChildProcess::~ChildProcess() {
   close(out_);
 }
 
-void ChildProcess::signal(int number) const { kill(pid_, number); }
+void ChildProcess::signal(int number) const {
+  if (!ended_) kill(pid_, number);
+}
 
 // Its output ends with it: reading waits for the end.
 std::optional<int> ChildProcess::wait() {

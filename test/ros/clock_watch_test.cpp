@@ -45,5 +45,17 @@ TEST(ClockWatchTest, SuspendedTimeStandsStillWhileTheMachineRuns) {
   EXPECT_LT(suspendedTime() - before, milliseconds(200));
 }
 
+// The first two readings of the clocks are 10 s apart, as in a process that was stopped in between.
+TEST(ClockWatchTest, APauseBetweenReadingsIsNoSuspend) {
+  static int readings;
+  readings = 0;
+  const ReadClock read = [](clockid_t clock) -> Duration {
+    const Duration running = std::chrono::seconds(readings++ == 0 ? 100 : 110);
+    return clock == CLOCK_BOOTTIME ? running + std::chrono::seconds(7) : running;
+  };
+  EXPECT_EQ(suspendedTime(read), std::chrono::seconds(7));
+  EXPECT_GT(readings, 3);
+}
+
 }  // namespace
 }  // namespace sweep_guard_ros

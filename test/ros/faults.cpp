@@ -16,10 +16,16 @@
 namespace sweep_guard_ros {
 namespace {
 
+/// Name of the shared memory of this process.
+struct Name {
+  Name() { std::snprintf(text, sizeof text, kFaultsName, getpid()); }
+  char text[64];
+};
+
 Faults* sharedFaults() {
-  char name[64];
-  std::snprintf(name, sizeof name, kFaultsName, getpid());
-  const int file = shm_open(name, O_CREAT | O_RDWR, 0600);
+  const Name name;
+  shm_unlink(name.text);  // an earlier process with the same id may have left it, with a fault
+  const int file = shm_open(name.text, O_CREAT | O_EXCL | O_RDWR, 0600);
   if (file < 0 || ftruncate(file, sizeof(Faults)) != 0) std::abort();
   void* const memory = mmap(nullptr, sizeof(Faults), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   close(file);
@@ -30,6 +36,8 @@ Faults* sharedFaults() {
 Faults* faults = nullptr;
 
 __attribute__((constructor)) void share() { faults = sharedFaults(); }
+
+__attribute__((destructor)) void unlinkShared() { shm_unlink(Name().text); }
 
 bool strikesThisThread() {
   char name[16] = {};

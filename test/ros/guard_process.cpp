@@ -6,7 +6,9 @@
 #include <xmlrpcpp/XmlRpc.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -37,6 +39,18 @@ bool ask(const std::string& node, const char* method, const XmlRpc::XmlRpcValue&
 }
 
 }  // namespace
+
+std::vector<std::string> guardWith(std::vector<std::string> arguments) {
+  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  arguments.insert(arguments.begin(), here / "sweep_guard_node");
+  return arguments;
+}
+
+const XmlRpcCall& xmlRpc() {
+  static const std::atomic<bool> never = false;
+  static const XmlRpcCall call(std::chrono::seconds(5), never);
+  return call;
+}
 
 pid_t pidOf(const std::string& node) {
   XmlRpc::XmlRpcValue request;

@@ -11,7 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "ros/xml_rpc_call.h"
+
 namespace sweep_guard_ros {
+
+std::vector<std::string> guardWith(std::vector<std::string> arguments);  ///< command line of a guard
+const XmlRpcCall& xmlRpc();                                              ///< waits for 5 s
 
 pid_t pidOf(const std::string& node);  ///< 0: it does not answer
 inline pid_t guardPid() { return pidOf("/sweep_guard"); }

@@ -8,7 +8,6 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -17,7 +16,6 @@
 #include "child_process.h"
 #include "guard_probe.h"
 #include "guard_process.h"
-#include "ros/xml_rpc_call.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -37,18 +35,6 @@ double secondsSince(SteadyClock::time_point begin) {
 bool isFinal(const Warning& warning) {
   return warning.level == Warning::UNKNOWN && !warning.clear && warning.reflex &&
          warning.text == "UNKNOWN: the guard is shutting down";
-}
-
-std::vector<std::string> guardWith(std::vector<std::string> arguments) {
-  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  arguments.insert(arguments.begin(), here / "sweep_guard_node");
-  return arguments;
-}
-
-const XmlRpcCall& xmlRpc() {
-  static const std::atomic<bool> never = false;
-  static const XmlRpcCall call(std::chrono::seconds(5), never);
-  return call;
 }
 
 void shutDownByXmlRpc() {
@@ -129,6 +115,16 @@ TEST(NodeletEndTest, UnloadingPublishesAFinalUnknownWithinASecond) {
   probe.awaitWarning(isFinal);
 }
 
+/// Ends with all that it started: roslaunch gives each of its nodes a process group.
+class Roslaunch : public ChildProcess {
+ public:
+  using ChildProcess::ChildProcess;
+  ~Roslaunch() {
+    signal(SIGINT);
+    wait();
+  }
+};
+
 class LaunchTest : public ::testing::Test {
  protected:
   static std::vector<std::string> launch(const std::vector<std::string>& arguments) {
@@ -143,7 +139,7 @@ class LaunchTest : public ::testing::Test {
 
 // The files are rigid workpieces: a latched mesh is all that a new guard needs.
 TEST_F(LaunchTest, AKilledGuardIsStartedAgainAndBeginsUnknown) {
-  ChildProcess launched(launch({"config:=" + configured("static_workpiece.yaml")}));
+  Roslaunch launched(launch({"config:=" + configured("static_workpiece.yaml")}));
   ros::Publisher latched = ros::NodeHandle().advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
   latched.publish(squareAt("square", kSquare, ros::Time::now()));
   GuardProbe probe(/*drives_clock=*/false);
@@ -179,7 +175,7 @@ TEST_F(LaunchTest, ARefusedParameterIsReportedAtEveryStart) {
       });
   const std::filesystem::path file = std::filesystem::temp_directory_path() / ("refused_" + std::to_string(getpid()));
   std::ofstream(file) << "tool: {radius: -1.0}\n";
-  ChildProcess launched(launch({"config:=" + file.string()}));
+  Roslaunch launched(launch({"config:=" + file.string()}));
   const auto begin = SteadyClock::now();
   while (reported.size() < 2 && secondsSince(begin) < 20.0) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
@@ -217,16 +213,29 @@ TEST(LostWarningTest, ACountTellsOfAContactThatNobodyHeard) {
 
 // Every refused pose is logged, or would be.
 TEST(DiskTest, WithoutRoomForALogTheGuardWarns) {
-  ChildProcess guard(guardWith({"__log:=/dev/full"}), {"ROS_LOG_DIR=/proc/none"});
+  ChildProcess guard(guardWith({"__log:=/dev/full", "_timing/mesh_timeout:=inf"}), {"ROS_LOG_DIR=/proc/none"});
   GuardProbe probe(/*drives_clock=*/false);
+  probe.place(squareAt("square", kSquare, ros::Time::now()));
   for (int i = 0; i < 50; ++i) {
+    do {
+      probe.publish(poseAt(kAway, ros::Time::now()));
+    } while (!probe.awaitWarning([](const Warning&) { return true; }).clear);
     probe.publish(poseAt({NAN, 0, 0}, ros::Time::now()));
-    probe.skipWarnings();
-    probe.awaitWarning([](const Warning& warning) { return warning.level == Warning::UNKNOWN; });
+    const Warning refused =
+        probe.awaitWarning([](const Warning& warning) { return (warning.reasons & Warning::POSE_INVALID) != 0; });
+    EXPECT_EQ(refused.level, Warning::UNKNOWN);
   }
-  probe.awaitWarning([](const Warning& warning) { return (warning.reasons & Warning::POSE_INVALID) != 0; });
   guard.signal(SIGTERM);
   EXPECT_EQ(guard.wait(), 0) << guard.output();
+  ros::param::del("/sweep_guard");
+}
+
+std::string freePort() {
+  XmlRpc::XmlRpcServer server;
+  server.bindAndListen(0);
+  const std::string port = std::to_string(server.get_port());
+  server.shutdown();
+  return port;
 }
 
 /// A master of the test's own, which the test itself does not use.
@@ -262,7 +271,7 @@ class Master {
 };
 
 TEST(MasterTest, ThatIsStartedAnewKnowsTheGuardAgain) {
-  const std::string port = "21311";
+  const std::string port = freePort();
   auto master = std::make_unique<Master>(port);
   const std::vector<std::string> at_master{"ROS_MASTER_URI=" + master->uri()};
   ChildProcess guard(guardWith({"_tool/radius:=0.02"}), at_master);

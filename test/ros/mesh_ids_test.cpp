@@ -1,4 +1,4 @@
-// A guard that is told which workpieces there are is not clear without each of them. The test is the clock.
+// A guard that knows which workpieces there are is not clear without each of them. The test is the clock.
 #include <ros/service.h>
 #include <signal.h>
 

@@ -22,15 +22,14 @@ using Clock = std::chrono::steady_clock;
 
 const Eigen::Vector3d kAway(0, 0, 0.5);  // where the tool meets nothing
 const Eigen::Vector3d kSquare(0, 0, -1);
-constexpr auto kTold = 150ms;
+constexpr auto kReported = 150ms;
 
 // Faults in the threads of a process.
 class FaultyProcess {
  public:
   explicit FaultyProcess(pid_t pid) : pid_(pid) {
-    char name[64];
-    std::snprintf(name, sizeof name, kFaultsName, pid);
-    const int file = shm_open(name, O_RDWR, 0600);
+    std::snprintf(name_, sizeof name_, kFaultsName, pid);
+    const int file = shm_open(name_, O_RDWR, 0600);
     if (file < 0) throw std::runtime_error("the process has not loaded the library of the faults");
     faults_ = static_cast<Faults*>(mmap(nullptr, sizeof(Faults), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0));
     close(file);
@@ -38,6 +37,7 @@ class FaultyProcess {
   ~FaultyProcess() {
     end();
     munmap(faults_, sizeof(Faults));
+    if (!alive()) shm_unlink(name_);  // a process that is killed or aborts leaves it
   }
 
   void inject(Fault fault, const char* thread) {
@@ -54,12 +54,15 @@ class FaultyProcess {
 
  private:
   const pid_t pid_;
+  char name_[64];
   Faults* faults_;
 };
 
 // Good inputs, which never cease.
 class ThreadsTest : public NodeTest {
  protected:
+  ThreadsTest() { probe(); }  // returns when the guard is connected
+
   static void sendInputs() {
     probe().tick(0.01);
     publishInputs();
@@ -95,14 +98,14 @@ class ThreadsTest : public NodeTest {
     return std::any_of(warnings.begin() + static_cast<std::ptrdiff_t>(begin), warnings.end(), hung);
   }
 
-  static void expectToldInTime(FaultyProcess& guard, Fault fault) {
+  static void expectReportInTime(FaultyProcess& guard, Fault fault) {
     guard.inject(fault, "guard");
-    const Warning told = sendInputsUntil(hung);
+    const Warning report = sendInputsUntil(hung);
     const auto delay = Clock::now() - guard.struckAt();
-    EXPECT_GE(delay, kTold - 20ms);
-    EXPECT_LE(delay, kTold + 100ms);
-    EXPECT_EQ(told.level, Warning::UNKNOWN);
-    EXPECT_TRUE(has(told.text, "makes no progress")) << told.text;
+    EXPECT_GE(delay, kReported - 20ms);
+    EXPECT_LE(delay, kReported + 100ms);
+    EXPECT_EQ(report.level, Warning::UNKNOWN);
+    EXPECT_TRUE(has(report.text, "makes no progress")) << report.text;
     sendInputsUntil([](const Warning& warning) { return has(warning.text, "thread 'guard' makes no progress"); });
   }
 
@@ -133,11 +136,11 @@ class OwnProcessTest : public ThreadsTest {
   FaultyProcess guard_;
 };
 
-TEST_F(OwnProcessTest, AHungGuardIsToldAndAbortsAfterTwoSeconds) {
+TEST_F(OwnProcessTest, AHungGuardIsReportedAndAbortsAfterTwoSeconds) {
   for (const Fault fault : {Fault::kBlocks, Fault::kSpins}) {
     FaultyProcess guard(guardPid());
     const std::string run = probe().warnings().back().run_id;
-    expectToldInTime(guard, fault);
+    expectReportInTime(guard, fault);
     while (guard.alive()) sendInputs();
     const auto hung_for = Clock::now() - guard.struckAt();
     EXPECT_GE(hung_for, 1900ms);
@@ -167,7 +170,7 @@ TEST_F(OwnProcessTest, RepeatedExceptionsEndTheProcess) {
 }
 
 TEST_F(OwnProcessTest, AStopOfTheProcessIsNoHang) {
-  expectToldInTime(guard_, Fault::kBlocks);
+  expectReportInTime(guard_, Fault::kBlocks);
   guard_.signal(SIGSTOP);
   std::this_thread::sleep_for(3s);
   guard_.signal(SIGCONT);
@@ -206,9 +209,9 @@ class SharedProcessTest : public ThreadsTest {
   FaultyProcess guard_;
 };
 
-TEST_F(SharedProcessTest, AHungGuardIsToldAndEndsNothing) {
+TEST_F(SharedProcessTest, AHungGuardIsReportedAndEndsNothing) {
   for (const Fault fault : {Fault::kBlocks, Fault::kSpins}) {
-    expectToldInTime(guard_, fault);
+    expectReportInTime(guard_, fault);
     const size_t begin = probe().warnings().size();
     sendInputsFor(3s);
     EXPECT_TRUE(anyIsHung(begin));

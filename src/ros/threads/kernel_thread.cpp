@@ -20,12 +20,9 @@ sweep_guard_core::Duration read(clockid_t clock) {
 }
 
 // The letter follows the name, which may hold anything.
-char stateLetter(const char* stat_file) {
-  const int file = open(stat_file, O_RDONLY | O_CLOEXEC);
-  if (file < 0) return '?';
+char stateLetter(int stat_file) {
   char text[128];
-  const ssize_t length = ::read(file, text, sizeof text - 1);
-  close(file);
+  const ssize_t length = pread(stat_file, text, sizeof text - 1, 0);
   text[length < 0 ? 0 : length] = '\0';
   const char* const name_end = std::strrchr(text, ')');
   return name_end == nullptr || name_end[1] == '\0' ? '?' : name_end[2];
@@ -40,7 +37,13 @@ Activity activityOf(char letter) {
 
 KernelThread::KernelThread() {
   pthread_getcpuclockid(pthread_self(), &clock_);
-  std::snprintf(stat_file_, sizeof stat_file_, "/proc/self/task/%ld/stat", syscall(SYS_gettid));
+  char name[64];
+  std::snprintf(name, sizeof name, "/proc/self/task/%ld/stat", syscall(SYS_gettid));
+  stat_file_ = open(name, O_RDONLY | O_CLOEXEC);
+}
+
+KernelThread::~KernelThread() {
+  if (stat_file_ >= 0) close(stat_file_);
 }
 
 ThreadState KernelThread::state() const { return {read(clock_), activityOf(stateLetter(stat_file_))}; }

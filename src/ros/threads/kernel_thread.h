@@ -8,15 +8,20 @@
 
 namespace sweep_guard_ros {
 
-/// A thread as the kernel sees it. Its state is read without a lock and without memory from the heap.
+/// A thread as the kernel sees it. Its state is read without a lock, memory from the heap, or a new file
+/// descriptor.
 class KernelThread {
  public:
   KernelThread();  ///< the calling thread
+  ~KernelThread();
+  KernelThread(const KernelThread&) = delete;
+  KernelThread& operator=(const KernelThread&) = delete;
+
   ThreadState state() const;
 
  private:
   clockid_t clock_{};
-  char stat_file_[64];
+  int stat_file_ = -1;
 };
 
 }  // namespace sweep_guard_ros

@@ -1,0 +1,38 @@
+#include "ros/publisher_links.h"
+
+#include <ros/xmlrpc_manager.h>
+
+namespace sweep_guard_ros {
+
+using XmlRpc::XmlRpcValue;
+
+std::string ownUri() { return ros::XMLRPCManager::instance()->getServerURI(); }
+
+std::optional<std::map<std::string, Publishers>> connectedPublishers(const XmlRpcCall& call) {
+  const auto answer = call.call(ownUri(), "getBusInfo", {});
+  if (!answer || !answer->success) return std::nullopt;
+  std::map<std::string, Publishers> publishers;
+  for (int i = 0; i < answer->value.size(); ++i) {
+    const XmlRpcValue& connection = answer->value[i];
+    const std::string& publisher = connection[1];
+    const std::string& direction = connection[2];
+    if (direction == "i") publishers[connection[4]].insert(publisher);
+  }
+  return publishers;
+}
+
+bool updatePublishers(const XmlRpcCall& call, const std::string& topic, const Publishers& added,
+                      const Publishers& removed) {
+  auto connected = connectedPublishers(call);
+  if (!connected) return false;
+  Publishers& publishers = (*connected)[topic];
+  publishers.insert(added.begin(), added.end());
+  for (const std::string& publisher : removed) publishers.erase(publisher);
+  XmlRpcValue all;
+  all.setSize(0);
+  for (const std::string& publisher : publishers) all[all.size()] = publisher;
+  const auto answer = call.call(ownUri(), "publisherUpdate", {XmlRpcValue(topic), all});
+  return answer && answer->success;
+}
+
+}  // namespace sweep_guard_ros

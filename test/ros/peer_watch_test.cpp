@@ -1,0 +1,125 @@
+// What the guard's process does about publishers that cannot be reached for a while.
+#include <gtest/gtest.h>
+#include <ros/connection_manager.h>
+#include <ros/master.h>
+#include <ros/xmlrpc_manager.h>
+#include <signal.h>
+#include <std_msgs/String.h>
+
+#include <thread>
+
+#include "child_process.h"
+#include "guard_probe.h"
+#include "guard_process.h"
+#include "ros/publisher_links.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+bool becomesTrue(const std::function<bool()>& fact) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (std::chrono::steady_clock::now() < end) {
+    if (fact()) return true;
+    ros::WallDuration(0.01).sleep();
+  }
+  return false;
+}
+
+std::string addressOf(const std::string& node) {
+  const auto found = xmlRpc().call(ros::master::getURI(), "lookupNode", {XmlRpcValue(node)});
+  return found && found->success ? static_cast<std::string>(found->value) : "";
+}
+
+/// A second address of this process, where it can be made unreachable. Topics are connected as before.
+class Address : public XmlRpc::XmlRpcServerMethod {
+ public:
+  Address() : XmlRpcServerMethod("requestTopic") {
+    server_.addMethod(this);
+    open();
+  }
+
+  void open() { server_.bindAndListen(port_), port_ = server_.get_port(); }
+  void close() { server_.shutdown(); }
+  void serveFor(double seconds) { server_.work(seconds); }
+  std::string uri() const { return "http://127.0.0.1:" + std::to_string(port_); }
+  int requests() const { return requests_; }
+
+  void execute(XmlRpcValue& /*request*/, XmlRpcValue& answer) override {
+    ++requests_;
+    answer[0] = 1;
+    answer[1] = "";
+    answer[2][0] = "TCPROS";
+    answer[2][1] = "127.0.0.1";
+    answer[2][2] = static_cast<int>(ros::ConnectionManager::instance()->getTCPPort());
+  }
+
+ private:
+  XmlRpc::XmlRpcServer server_;
+  int port_ = 0;
+  int requests_ = 0;
+};
+
+// It may have registered a moment ago, since the connections were read.
+TEST(PublisherLinksTest, AnUpdateKeepsThePublishersThatItDoesNotName) {
+  std::map<std::string, ChildProcess> publishers;
+  for (const char* const name : {"one", "two"}) {
+    publishers.try_emplace(name, std::vector<std::string>{"rostopic", "pub", "-l", "/links", "std_msgs/String", "text",
+                                                          std::string("__name:=") + name});
+  }
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe(
+      "/links", 1, +[](const std_msgs::String::ConstPtr&) {});
+  const auto connected = [] { return (*connectedPublishers(xmlRpc()))["/links"]; };
+  ASSERT_TRUE(becomesTrue([&] { return connected().size() == 2; }));
+  const std::string one = addressOf("/one");
+  const std::string two = addressOf("/two");
+  EXPECT_TRUE(updatePublishers(xmlRpc(), "/links", {}, {one}));
+  EXPECT_EQ(connected(), Publishers{two});
+  EXPECT_TRUE(updatePublishers(xmlRpc(), "/links", {one}));
+  EXPECT_TRUE(becomesTrue([&] { return connected() == Publishers{one, two}; }));
+}
+
+struct Silence {
+  const char* name;
+  std::function<void(GuardProbe&)> begin;
+};
+void PrintTo(const Silence& silence, std::ostream* out) { *out << silence.name; }
+
+class PeerWatchTest : public testing::TestWithParam<Silence> {};
+
+// Publishers of poses: the guard connects to the address anew once it answers again.
+TEST_P(PeerWatchTest, ConnectsAnewToAPublisherThatWasOutOfReach) {
+  ChildProcess guard(guardWith({"_timing/mesh_timeout:=inf"}));
+  GuardProbe probe(/*drives_clock=*/false);
+  probe.place(squareAt("square", {0, 0, -1}, ros::Time::now()));
+  GetParam().begin(probe);
+  Address address;
+  XmlRpcValue publishers;
+  publishers[0] = ros::XMLRPCManager::instance()->getServerURI();
+  publishers[1] = address.uri();
+  ASSERT_TRUE(xmlRpc().call(addressOf("/sweep_guard"), "publisherUpdate", {XmlRpcValue("/tool_pose"), publishers}));
+  ASSERT_TRUE(becomesTrue([&] { return address.serveFor(0.3), address.requests() == 1; }));
+  EXPECT_TRUE(becomesTrue([&] {
+    address.close();
+    ros::WallDuration(0.5).sleep();
+    address.open();
+    address.serveFor(0.5);
+    return address.requests() == 2;
+  }));
+  guard.signal(SIGTERM);
+  EXPECT_EQ(guard.wait(), 0);
+  ros::param::del("/sweep_guard");
+}
+
+INSTANTIATE_TEST_SUITE_P(Silent, PeerWatchTest,
+                         testing::Values(Silence{"BeforeTheFirstPose", [](GuardProbe&) {}},
+                                         Silence{"AfterAPose",
+                                                 [](GuardProbe& probe) {
+                                                   probe.move(poseAt({0, 0, 0.5}, ros::Time::now()));
+                                                 }},
+                                         Silence{"WhileDisabled", [](GuardProbe& probe) { probe.enable(false); }}),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace sweep_guard_ros
