@@ -172,7 +172,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
   const SteadyTime begin = std::chrono::steady_clock::now();
   const auto report = reports_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  dependencies_.sampler.setWorkpieces(workpieces);
+  dependencies_.sampler.setWorkpieces(workpieces, {/*measured=*/true, queued.checkpoint.epoch});
   guard_.sweep(pose, workpieces, *report);
   const SteadyTime end = std::chrono::steady_clock::now();
   sweep_guard_core::beat();
@@ -212,7 +212,7 @@ void GuardThread::predict(const QueuedPose& queued) {
   const Duration age = ageOf(*swept_, at);
   const auto prediction = predictions_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  dependencies_.sampler.setWorkpieces(workpieces);
+  dependencies_.sampler.setWorkpieces(workpieces, {/*measured=*/false, queued.checkpoint.epoch});
   guard_.predict(age, workpieces, *prediction);
   const SteadyTime end = std::chrono::steady_clock::now();
   dependencies_.monitor.predicted(*prediction, *swept_, queued.checkpoint, now(), end - at.steady);

@@ -68,6 +68,7 @@ class ServicesTest : public ::testing::Test {
     ros::NodeHandle node("~");
     node.setParam("check_sweep/deadline", kDeadline);
     node.setParam("self_test", self_test);
+    node.setParam("detector", "select");
     node.setParam("cross_check", 1);
     node.setParam("timing/mesh_timeout", std::numeric_limits<double>::infinity());
     return node;
@@ -91,6 +92,15 @@ class ServicesTest : public ::testing::Test {
   void placeWorkpiece(int rings) {
     workpieces_.set({"wavy", 1, now().stamp, now().steady, "world", sweep_guard_core::wavyHull(rings, 2 * rings, 0.0)},
                     now().stamp);
+  }
+
+  void sweepTo(double height) {
+    sweep_guard_core::PoseWithFrames pose;
+    pose.stamp = now().stamp;
+    pose.received = now().steady;
+    pose.X_WT.translation().z() = height;
+    pose.X_WM["world"] = Eigen::Isometry3d::Identity();
+    queue_.push({pose, monitor_.checkpoint()});
   }
 
   sweep_guard_core::Warning warning() const {
@@ -363,18 +373,25 @@ TEST_F(BiasedDetectorTest, EndsTheNodeIfAsked) {
   EXPECT_THROW(GuardThread(node_, dependencies), sweep_guard_core::DeviceError);
 }
 
+// Only the next pose says that the way is free.
+TEST_F(BiasedDetectorTest, WhatItSweptDoesNotCountOnceItIsExchanged) {
+  placeWorkpiece(10);
+  sweepTo(2.0);
+  while (ros::ok() && (warning().reasons & sweep_guard_core::kNoPose) != 0) std::this_thread::yield();
+  detector_record_.drop_every = 0;
+  Reconfigure::Request request;
+  request.config.strs.resize(1);
+  request.config.strs[0].name = "detector";
+  request.config.strs[0].value = "halfspace";
+  Reconfigure::Response response;
+  ASSERT_TRUE(clientOf<Reconfigure>("set_parameters").call(request, response));
+  EXPECT_NE(warning().reasons & sweep_guard_core::kNoPose, 0U);
+  EXPECT_EQ(warning().covered_until, sweep_guard_core::Time());
+}
+
 class UntestedDetectorTest : public ServicesTest {
  protected:
   UntestedDetectorTest() : ServicesTest("none", /*drop_every=*/1) {}
-
-  void sweepTo(double height) {
-    sweep_guard_core::PoseWithFrames pose;
-    pose.stamp = now().stamp;
-    pose.received = now().steady;
-    pose.X_WT.translation().z() = height;
-    pose.X_WM["world"] = Eigen::Isometry3d::Identity();
-    queue_.push({pose, monitor_.checkpoint()});
-  }
 };
 
 // The guard's detector finds nothing. The other one does, in spare time.
