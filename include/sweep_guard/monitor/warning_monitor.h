@@ -33,8 +33,8 @@ class WarningMonitor {
   };
 
   /// @param limits    in the ranges of WarningLimits; not checked
-  /// @param on_fault  called after every fault, refusal, loss, drop and restart, except where a function says otherwise,
-  ///     in the reporting thread, so maybe in several at once; may call the monitor; not empty
+  /// @param on_fault  called after every fault, refusal, loss, drop and restart, except where a function says
+  ///     otherwise, in the reporting thread, so maybe in several at once; may call the monitor; not empty
   /// @param waiting_since  returns when the oldest pose that is not yet swept was received. Called by warning() and
   ///     disableBelow(), one at a time; must not call the monitor; not empty
   /// @param hung  returns the name of a thread that makes no progress; null: none. Called as the one before
