@@ -31,6 +31,13 @@ in_build() {
   exec "$program" "${@:3}"
 }
 
+# end_beside PID - ends the command that ran beside, which must have done something
+end_beside() {
+  end "$1"
+  grep -Eq '^[1-9][0-9]* paths tested' "$figures/beside.log" ||
+    status=2 fail "${beside[*]} has tested no path: $(tail -3 "$figures/beside.log")"
+}
+
 # by_turns ROUND PROGRAM [ARGUMENT]... - of both builds, one after the other; in odd rounds the older one first. What today's
 # program finds wrong makes `code` 1. The command `beside`, if there is one, runs beside the newer one
 by_turns() {
@@ -47,7 +54,7 @@ by_turns() {
     wait $! || result=$?
     [[ $result -le 1 ]] || status=2 fail "$2 of the $age build has failed: $(tail -3 "$figures/$age.log")"
     [[ $age == older || $result == 0 ]] || code=1
-    [[ -z $companion ]] || end "$companion"
+    [[ -z $companion ]] || end_beside "$companion"
   done
 }
 

@@ -9,6 +9,8 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr std::uint64_t kReferencePeriod = 10;  // [queries]
+
 class SampledDetector : public Detector {
  public:
   SampledDetector(std::unique_ptr<Detector> detector, const std::string& name, QuerySampler& sampler)
@@ -39,6 +41,13 @@ SweptVolume shrunk(SweptVolume volume, double distance) {
 
 }  // namespace
 
+void QuerySampler::setWorkpieces(const Workpieces& workpieces, const QueryOrigin& origin) {
+  if (every_ == 0) return;
+  workpieces_ = workpieces;
+  origin_ = origin;
+}
+
+// The workpiece last: a query is kept only if all of it could be copied.
 void QuerySampler::offer(const std::string& detector, const Submesh& submesh, const SweptVolume& swept_M,
                          const Detection& found) {
   if (every_ == 0 || ++count_ < every_) return;
@@ -48,22 +57,33 @@ void QuerySampler::offer(const std::string& detector, const Submesh& submesh, co
   if (!lock || workpiece == workpieces_.end() || kept_.workpiece) return;
   count_ = 0;
   kept_.detector = detector;
-  kept_.workpiece = *workpiece;
+  kept_.origin = origin_;
   kept_.whole = submesh.groups() != nullptr;
   kept_.clusters.clear();
   if (!kept_.whole) kept_.clusters = submesh.clusters();
   kept_.swept_M = swept_M;
   kept_.found = found;
-  changed_.notify_one();
+  kept_.workpiece = *workpiece;
+  wake();
+}
+
+void QuerySampler::wake() {
+  if (thread_waits_) sem_post(&signal_);
+  thread_waits_ = false;
 }
 
 bool QuerySampler::take(SampledQuery& taken) {
   taken.workpiece.reset();
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return stopping_ || kept_.workpiece; });
-  if (stopping_) return false;
-  std::swap(taken, kept_);
-  return true;
+  while (!takeNow(taken)) sem_wait(&signal_);
+  return taken.workpiece != nullptr;
+}
+
+// Returns false if the thread has to wait. After stop(), nothing is taken.
+bool QuerySampler::takeNow(SampledQuery& taken) {
+  const std::lock_guard lock(mutex_);
+  thread_waits_ = !stopping_ && !kept_.workpiece;
+  if (!thread_waits_ && !stopping_) std::swap(taken, kept_);
+  return !thread_waits_;
 }
 
 bool QuerySampler::waiting() {
@@ -72,11 +92,9 @@ bool QuerySampler::waiting() {
 }
 
 void QuerySampler::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  changed_.notify_all();
+  const std::lock_guard lock(mutex_);
+  stopping_ = true;
+  wake();
 }
 
 std::unique_ptr<Detector> sampled(std::unique_ptr<Detector> detector, const std::string& name, QuerySampler& sampler) {
@@ -109,6 +127,9 @@ TriangleSet testedTriangles(const SampledQuery& query) {
   return all;
 }
 
-std::string otherDetector(const std::string& name) { return name == "halfspace" ? "select" : "halfspace"; }
+std::string otherDetector(const std::string& name, std::uint64_t number) {
+  if (number % kReferencePeriod == 0 && name != "reference") return "reference";
+  return name == "halfspace" ? "select" : "halfspace";
+}
 
 }  // namespace sweep_guard_core

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <condition_variable>
+#include <semaphore.h>
+
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -11,9 +13,16 @@
 
 namespace sweep_guard_core {
 
+/// What the queries of a sweep or of a prediction belong to.
+struct QueryOrigin {
+  bool measured = true;     ///< the tool has moved so; false: it is expected to
+  std::uint64_t epoch = 0;  ///< of the monitor, when the pose was received
+};
+
 /// What a detector was asked about one volume, and its answer.
 struct SampledQuery {
   std::string detector;  ///< its name
+  QueryOrigin origin;
   std::shared_ptr<const Workpiece> workpiece;
   bool whole = true;              ///< all triangles were tested
   std::vector<Cluster> clusters;  ///< if not: those tested
@@ -25,10 +34,13 @@ struct SampledQuery {
 /// taken. The guard's thread waits for nothing, and allocates only until the buffers have grown.
 class QuerySampler {
  public:
-  explicit QuerySampler(int every) : every_(every) {}  ///< 0: keeps none
+  explicit QuerySampler(int every) : every_(every) { sem_init(&signal_, /*pshared=*/0, 0); }  ///< 0: keeps none
+  ~QuerySampler() { sem_destroy(&signal_); }
+  QuerySampler(const QuerySampler&) = delete;
+  QuerySampler& operator=(const QuerySampler&) = delete;
 
   /// Sets the workpieces that the next queries are about. The guard's thread.
-  void setWorkpieces(const Workpieces& workpieces) { workpieces_ = workpieces; }
+  void setWorkpieces(const Workpieces& workpieces, const QueryOrigin& origin = {});
   /// Counts a query, and keeps it if it is the Nth. The guard's thread.
   /// @param detector  its name
   void offer(const std::string& detector, const Submesh& submesh, const SweptVolume& swept_M, const Detection& found);
@@ -41,11 +53,16 @@ class QuerySampler {
   void stop();     ///< ends every wait
 
  private:
+  bool takeNow(SampledQuery& taken);
+  void wake();
+
   const int every_;
   int count_ = 0;
   Workpieces workpieces_;
+  QueryOrigin origin_;
   std::mutex mutex_;
-  std::condition_variable changed_;
+  sem_t signal_;  // for the waiting thread: notifying a condition variable may wait for that thread
+  bool thread_waits_ = false;
   SampledQuery kept_;  // has a workpiece while it waits
   bool stopping_ = false;
 };
@@ -68,7 +85,9 @@ Disagreement crossCheck(const SampledQuery& query, Detector& other);
 /// Returns the triangles that the detector was asked about: ascending.
 TriangleSet testedTriangles(const SampledQuery& query);
 
-/// Returns the name of the detector that the named one is compared with: `halfspace`, and for that `select`.
-std::string otherDetector(const std::string& name);
+/// Returns the name of the detector that answers a query again: `halfspace`, and for that `select`. They share code, so
+/// every tenth query is for `reference`, which shares none.
+/// @param number  of the query: 1, 2, ...
+std::string otherDetector(const std::string& name, std::uint64_t number);
 
 }  // namespace sweep_guard_core

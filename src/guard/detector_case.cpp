@@ -14,6 +14,7 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr std::uintmax_t kMinTriangleText = 24;  // [bytes], with its share of the vertices
 const std::string kTitle = "sweep_guard detector case 1";
 
 void write(const Eigen::Vector3d& p, std::ostream& stream) { stream << p.x() << ' ' << p.y() << ' ' << p.z() << '\n'; }
@@ -143,11 +144,27 @@ std::uintmax_t sizeOf(const std::filesystem::path& folder) {
   return size;
 }
 
+size_t testedCount(const SampledQuery& query) {
+  if (query.whole) return query.workpiece->mesh_M.triangles().size();
+  size_t count = 0;
+  for (const Cluster& cluster : query.clusters) count += cluster.count;
+  return count;
+}
+
 std::filesystem::path unusedName(const std::filesystem::path& folder) {
   for (int i = 1;; ++i) {
     const std::filesystem::path file = folder / ("detector_case_" + std::to_string(i) + ".txt");
     if (!std::filesystem::exists(file)) return file;
   }
+}
+
+std::string saveIn(const std::filesystem::path& folder, const std::string& content) {
+  const std::filesystem::path file = unusedName(folder);
+  std::ofstream stream(file, std::ios::binary);
+  if ((stream << content).flush()) return "saved as " + file.string();
+  stream.close();
+  std::filesystem::remove(file);
+  return "not saved: cannot write " + file.string();
 }
 
 }  // namespace
@@ -211,21 +228,18 @@ DetectorCase readDetectorCase(std::istream& stream) {
   return {mesh_id, detector, other, std::move(mesh_M), std::move(numbers), volume, std::move(found)};
 }
 
-std::string save(const DetectorCase& saved, const std::filesystem::path& folder, std::uintmax_t max_folder) {
-  std::ostringstream text;
-  write(saved, text);
-  const std::string content = text.str();
+std::string save(const SampledQuery& query, const std::string& other, const std::filesystem::path& folder,
+                 std::uintmax_t max_folder) {
   try {
     std::filesystem::create_directories(folder);
-    if (sizeOf(folder) + content.size() > max_folder) {
-      return "not saved: " + folder.string() + " would exceed " + std::to_string(max_folder >> 20U) + " MiB";
-    }
-    const std::filesystem::path file = unusedName(folder);
-    std::ofstream stream(file, std::ios::binary);
-    if ((stream << content).flush()) return "saved as " + file.string();
-    stream.close();
-    std::filesystem::remove(file);
-    return "not saved: cannot write " + file.string();
+    const std::uintmax_t before = sizeOf(folder);
+    const std::string full =
+        "not saved: " + folder.string() + " would exceed " + std::to_string(max_folder >> 20U) + " MiB";
+    if (before + kMinTriangleText * testedCount(query) > max_folder) return full;
+    std::ostringstream text;
+    write(caseOf(query, other), text);
+    const std::string content = text.str();
+    return before + content.size() > max_folder ? full : saveIn(folder, content);
   } catch (const std::filesystem::filesystem_error& error) {
     return std::string("not saved: ") + error.what();
   }

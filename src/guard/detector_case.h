@@ -33,9 +33,10 @@ void write(const DetectorCase& saved, std::ostream& stream);
 /// @throws InvalidInput naming the line if it is something else
 DetectorCase readDetectorCase(std::istream& stream);
 
-/// Writes a case to a new file in a folder of cases.
+/// Writes the case of a query to a new file in a folder of cases. Makes no copy of a mesh that will not fit.
 /// @param max_folder  the files of the folder take at most this [bytes]
 /// @returns `saved as FILE`, or `not saved: ` and why. Throws only std::bad_alloc
-std::string save(const DetectorCase& saved, const std::filesystem::path& folder, std::uintmax_t max_folder);
+std::string save(const SampledQuery& query, const std::string& other, const std::filesystem::path& folder,
+                 std::uintmax_t max_folder);
 
 }  // namespace sweep_guard_core

@@ -106,11 +106,9 @@ void Guard::exchange(GuardChange& change) {
   const TimeBudget budget(change.options.horizon, change.options.cycle);
   change.options.clock = options_.clock;
   std::swap(options_, change.options);
+  if (change.detector || change.tool) measured_sweeps_->forgetContacts();
   if (change.detector) std::swap(detector_, change.detector);
-  if (change.tool) {
-    std::swap(tool_, *change.tool);
-    measured_sweeps_->forgetContacts();
-  }
+  if (change.tool) std::swap(tool_, *change.tool);
   if (change.predictor) {
     std::swap(predictor_, *change.predictor);
     if (predicted_motion_) predictor_.observe({predicted_motion_->from.stamp, predicted_motion_->from.X_WT});

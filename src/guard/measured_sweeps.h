@@ -39,7 +39,7 @@ class MeasuredSweeps {
   /// Forgets all poses.
   void reset();
 
-  /// Forgets the contacts of a tool that was exchanged.
+  /// Forgets the contacts of a tool or a detector that was exchanged, and that the tool was outside.
   void forgetContacts();
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-constexpr double kGraze = 1e-4;  // of a half extent: several times the inflation of every detector here
+constexpr size_t kLargeMesh = 2048;  // [triangles]: several groups of clusters
+constexpr double kGraze = 1e-4;      // of a half extent: several times the inflation of every detector here
 
 // A triangle, and whether a volume meets it.
 struct GoldenTriangle {
@@ -197,6 +199,26 @@ std::vector<GoldenQuery> otherBodies() {
                {{"at its tip", {tip, tip, tip}, true}, {"beside it", {aside, aside, aside}, false}})};
 }
 
+// A small triangle, one of many around the cube.
+GoldenTriangle farAway(size_t i) {
+  const double z = 1.0 - 2.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(kLargeMesh);
+  const double angle = 2.4 * static_cast<double>(i);  // the golden angle: even
+  const double radius = std::sqrt(1.0 - z * z);
+  const Eigen::Vector3d place = 4.0 * Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), z);
+  return {"around it", {place, 1.02 * place, place + 0.1 * place.unitOrthogonal()}, false};
+}
+
+// The same question about triangles at spread places of a large mesh.
+GoldenQuery spread(const GoldenQuery& query) {
+  GoldenQuery large{query.name + " in a large mesh", query.ask, query.X_MN, query.unit, {}};
+  const size_t count = query.triangles.size();
+  for (size_t i = 0, next = 0; i < kLargeMesh; ++i) {
+    if (i * count >= next * kLargeMesh && next < count) large.triangles.push_back(query.triangles[next++]);
+    large.triangles.push_back(farAway(i));
+  }
+  return large;
+}
+
 std::string test(Detector& detector, const GoldenQuery& query) {
   Detection detection;
   query.ask(detector, query.mesh_M(), detection);
@@ -216,8 +238,10 @@ std::string selfTest(Detector& detector) {
   try {
     for (const auto& queries : {volumes(), movingBoxes(), otherBodies()}) {
       for (const GoldenQuery& query : queries) {
-        std::string wrong = test(detector, query);
-        if (!wrong.empty()) return wrong;
+        for (const GoldenQuery& asked : {query, spread(query)}) {
+          std::string wrong = test(detector, asked);
+          if (!wrong.empty()) return wrong;
+        }
       }
     }
   } catch (const Error& error) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "guard/cross_check.h"
 #include "guard/triangle_set.h"
 
 namespace sweep_guard_core {
@@ -142,21 +143,28 @@ void WarningMonitor::updateDropped(const std::string& id, SteadyTime received) {
 void WarningMonitor::detectorTested(const std::string& failure) {
   {
     const std::lock_guard lock(mutex_);
+    const bool exchanged = failure.empty() && !test_failure_.empty();
     test_failure_ = failure;
     updateDetectorFaults();
+    if (exchanged) restartLocked();
   }
   on_fault_();
 }
 
-void WarningMonitor::detectorsDisagree(const std::string& message, const std::string& mesh_id,
+void WarningMonitor::detectorsDisagree(const std::string& message, const SampledQuery& query,
                                        const std::vector<std::uint32_t>& missed, SteadyTime now) {
-  {
-    const std::lock_guard lock(mutex_);
-    disagreement_ = message;
-    updateDetectorFaults();
-    addContact(mesh_id, missed, now);
-  }
-  on_fault_();
+  const std::lock_guard lock(mutex_);
+  if (query.origin.epoch != checkpoint_.epoch) return;
+  disagreement_ = message;
+  updateDetectorFaults();
+  if (query.origin.measured && holds(workpieces_, *query.workpiece)) addContact(*query.workpiece, missed, now);
+}
+
+void WarningMonitor::describeDisagreement(const std::string& message, const SampledQuery& query) {
+  const std::lock_guard lock(mutex_);
+  if (disagreement_.empty() || query.origin.epoch != checkpoint_.epoch) return;
+  disagreement_ = message;
+  updateDetectorFaults();
 }
 
 void WarningMonitor::updateDetectorFaults() {
@@ -169,13 +177,15 @@ void WarningMonitor::updateDetectorFaults() {
 }
 
 // A contact that lasts stays; triangles that are added to it are told until its next sweep.
-void WarningMonitor::addContact(const std::string& mesh_id, const std::vector<std::uint32_t>& triangles,
+void WarningMonitor::addContact(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles,
                                 SteadyTime now) {
   if (triangles.empty() || inputs_.disabled_by) return;
   auto& contact = inputs_.contact;
-  if (!contact || (contact->id != mesh_id && !contact->lasting)) contact = WarningInputs::Contact{mesh_id, {}, now};
+  if (!contact || (contact->id != workpiece.id && !contact->lasting)) {
+    contact = WarningInputs::Contact{workpiece.id, {}, now};
+  }
   contact->found = now;
-  if (contact->id == mesh_id) unite(contact->triangles, triangles);
+  if (contact->id == workpiece.id) unite(contact->triangles, triangles);
 }
 
 void WarningMonitor::posesLost(const std::string& message, SteadyTime now) {

@@ -106,14 +106,16 @@ class BoundedCalls : public ros::ServiceCallbackHelperT<Spec> {
   using Base = ros::ServiceCallbackHelperT<Spec>;
   using Response = typename Spec::ResponseType;
   using Refused = std::function<bool(const std::string&, Response&)>;
+  using Admit = std::function<void()>;
 
-  BoundedCalls(typename Base::Callback callback, Refused refused, size_t max_size)
-      : Base(std::move(callback)), refused_(std::move(refused)), max_size_(max_size) {}
+  BoundedCalls(typename Base::Callback callback, Refused refused, size_t max_size, Admit admit)
+      : Base(std::move(callback)), refused_(std::move(refused)), max_size_(max_size), admit_(std::move(admit)) {}
 
   bool call(ros::ServiceCallbackHelperCallParams& params) override {
     try {
+      admit_();
       checkMessage<typename Spec::RequestType>({params.request.buf.get(), params.request.num_bytes}, max_size_);
-    } catch (const sweep_guard_core::InvalidInput& error) {
+    } catch (const sweep_guard_core::Error& error) {
       Response response;
       const bool answered = refused_(error.what(), response);
       params.response = ros::serialization::serializeServiceResponse(answered, response);
@@ -125,18 +127,22 @@ class BoundedCalls : public ros::ServiceCallbackHelperT<Spec> {
  private:
   const Refused refused_;
   const size_t max_size_;
+  const Admit admit_;
 };
 
 /// Advertises a service whose requests are checked before memory is reserved for them.
 /// @tparam Spec  ros::ServiceSpec or ros::ServiceEvent
 /// @param refused  fills the response from the reason; returns whether it is sent
+/// @param admit    called before a request is read; throws sweep_guard_core::Error to refuse it
 template <typename Spec>
-ros::ServiceServer advertiseBounded(ros::NodeHandle node, const std::string& name, size_t max_size,
-                                    typename BoundedCalls<Spec>::Base::Callback callback,
-                                    typename BoundedCalls<Spec>::Refused refused) {
+ros::ServiceServer advertiseBounded(
+    ros::NodeHandle node, const std::string& name, size_t max_size,
+    typename BoundedCalls<Spec>::Base::Callback callback, typename BoundedCalls<Spec>::Refused refused,
+    typename BoundedCalls<Spec>::Admit admit = [] {}) {
   ros::AdvertiseServiceOptions options;
   options.initBySpecType<Spec>(name, callback);
-  options.helper = boost::make_shared<BoundedCalls<Spec>>(std::move(callback), std::move(refused), max_size);
+  options.helper =
+      boost::make_shared<BoundedCalls<Spec>>(std::move(callback), std::move(refused), max_size, std::move(admit));
   return node.advertiseService(options);
 }
 

@@ -11,7 +11,6 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr int kNice = 19;
 constexpr std::uintmax_t kMaxFolder = 64U << 20U;  // [bytes]
 
 std::string found(size_t count, const std::string& detector) {
@@ -36,51 +35,53 @@ void CrossCheckThread::start(Supervisor& supervisor) {
 
 void CrossCheckThread::run() {
   top_->enter();
-  setNice(kNice);
+  setIdle();
   sweep_guard_core::SampledQuery query;
   while (sampler_.take(query)) top_->run([&] { checkOrLog(query); });
 }
 
-// The warning does not rest on the other detector.
+// The warning does not rest on the other detector, nor on the memory that it takes.
 void CrossCheckThread::checkOrLog(const sweep_guard_core::SampledQuery& query) {
   try {
     check(query);
-  } catch (const sweep_guard_core::Error& error) {
-    detectors_.clear();
+  } catch (const std::exception& error) {
+    others_.clear();
     log_.error("cross-check", std::string("cross-check failed: ") + error.what());
   }
 }
 
 void CrossCheckThread::check(const sweep_guard_core::SampledQuery& query) {
-  std::string other = sweep_guard_core::otherDetector(query.detector);
-  const auto disagreement = sweep_guard_core::crossCheck(query, detector(other));
-  if (disagreement.any()) report(query, other, disagreement);
+  const auto& [name, detector] = other(sweep_guard_core::otherDetector(query.detector, ++count_));
+  const auto disagreement = sweep_guard_core::crossCheck(query, *detector);
+  if (disagreement.any()) report(query, name, disagreement);
 }
 
 // The warning first: a large case takes a while to write.
 void CrossCheckThread::report(const sweep_guard_core::SampledQuery& query, const std::string& other,
                               const sweep_guard_core::Disagreement& disagreement) {
-  const std::string& mesh_id = query.workpiece->id;
-  std::string text = "detectors disagree about '" + mesh_id + "': " + found(disagreement.missed.size(), other) + ", " +
+  std::string text = "detectors disagree about '" + query.workpiece->id +
+                     "': " + found(disagreement.missed.size(), other) + ", " +
                      found(disagreement.invented.size(), query.detector);
-  monitor_.detectorsDisagree(text, mesh_id, disagreement.missed, now().steady);
+  monitor_.detectorsDisagree(text, query, disagreement.missed, now().steady);
   const std::string folder = ros::file_log::getLogDirectory() + "/sweep_guard_cases";
-  text += "; " + save(sweep_guard_core::caseOf(query, other), folder, kMaxFolder);
-  monitor_.detectorsDisagree(text, mesh_id, disagreement.missed, now().steady);
+  text += "; " + save(query, other, folder, kMaxFolder);
+  monitor_.describeDisagreement(text, query);
   log_.error("disagreement", text);
 }
 
+CrossCheckThread::Other& CrossCheckThread::other(const std::string& name) {
+  const auto made = others_.find(name);
+  return made != others_.end() ? made->second : others_.emplace(name, make(name)).first->second;
+}
+
 // Without OpenGL, `reference` stands in for `select`.
-sweep_guard_core::Detector& CrossCheckThread::detector(std::string& name) {
-  auto& made = detectors_[name];
-  if (made) return *made;
+CrossCheckThread::Other CrossCheckThread::make(const std::string& name) const {
   try {
-    made = sweep_guard_core::makeDetector(name, parameters_.initial().detector_options);
+    return {name, sweep_guard_core::makeDetector(name, parameters_.initial().detector_options)};
   } catch (const sweep_guard_core::DeviceError& error) {
     ROS_WARN("cross-check by reference instead of %s: %s", name.c_str(), error.what());
-    made = sweep_guard_core::makeDetector("reference");
+    return {"reference", sweep_guard_core::makeDetector("reference")};
   }
-  return *made;
 }
 
 }  // namespace sweep_guard_ros

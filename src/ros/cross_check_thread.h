@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -14,7 +15,8 @@
 namespace sweep_guard_ros {
 
 /// Asks a second detector every Nth query of the guard's, in a thread that runs when nothing else does. If they
-/// disagree, reports it to the monitor and saves the query in the folder of ROS's logs.
+/// disagree, reports it to the monitor and saves the query in the folder of ROS's logs. Publishes nothing: the watchdog
+/// does soon.
 class CrossCheckThread {
  public:
   CrossCheckThread(const LiveParameters& parameters, sweep_guard_core::WarningMonitor& monitor);
@@ -32,12 +34,18 @@ class CrossCheckThread {
   void check(const sweep_guard_core::SampledQuery& query);
   void report(const sweep_guard_core::SampledQuery& query, const std::string& other,
               const sweep_guard_core::Disagreement& disagreement);
-  sweep_guard_core::Detector& detector(std::string& name);
+  struct Other {
+    std::string name;  // `reference` if it stands in
+    std::unique_ptr<sweep_guard_core::Detector> detector;
+  };
+  Other& other(const std::string& name);
+  Other make(const std::string& name) const;
 
   const LiveParameters& parameters_;
   sweep_guard_core::WarningMonitor& monitor_;
   sweep_guard_core::QuerySampler sampler_;
-  std::map<std::string, std::unique_ptr<sweep_guard_core::Detector>> detectors_;  // by name, made on demand
+  std::uint64_t count_ = 0;
+  std::map<std::string, Other> others_;  // by the name that was asked for, made on demand
   LogThrottle log_;
   ThreadTop* top_ = nullptr;  // from start() on
   std::thread thread_;

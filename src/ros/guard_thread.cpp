@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/heartbeat.h"
-#include "guard/self_test.h"
+#include "ros/detector_test.h"
 #include "ros/process.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
@@ -30,17 +30,10 @@ bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
                      [&](const auto& frame) { return next.pose.X_WM.count(frame.first) != 0; });
 }
 
-// @returns why the detector failed its test; empty: it passed, or is not tested
-std::string testFailure(const Parameters& parameters, sweep_guard_core::Detector& detector) {
-  if (parameters.self_test == SelfTest::kNone) return {};
-  const std::string wrong = sweep_guard_core::selfTest(detector);
-  return wrong.empty() ? "" : "detector " + parameters.detector_description + " failed its self-test: " + wrong;
-}
-
 std::unique_ptr<sweep_guard_core::Detector> firstDetector(const GuardThreadDependencies& dependencies) {
   const Parameters& parameters = dependencies.parameters.initial();
   auto detector = dependencies.make_detector(parameters);
-  const std::string failure = testFailure(parameters, *detector);
+  const std::string failure = testFailure(parameters, parameters.detector_description, *detector);
   if (!failure.empty() && parameters.self_test == SelfTest::kExit) throw sweep_guard_core::DeviceError(failure);
   if (!failure.empty()) ROS_ERROR("%s", failure.c_str());
   dependencies.monitor.detectorTested(failure);
@@ -76,7 +69,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   const auto before = dependencies_.parameters.get();
   if (detectorsDiffer(*before, *next)) {
     auto detector = dependencies_.make_detector(*next);
-    const std::string failure = testFailure(*next, *detector);
+    const std::string failure = testFailure(*next, next->detector_description, *detector);
     if (!failure.empty()) throw sweep_guard_core::DeviceError(failure + ": no parameter was changed");
     change.detector = sampled(std::move(detector), next->detector, dependencies_.sampler);
   }
@@ -204,7 +197,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
   const SteadyTime begin = std::chrono::steady_clock::now();
   const auto report = reports_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  dependencies_.sampler.setWorkpieces(workpieces);
+  dependencies_.sampler.setWorkpieces(workpieces, {/*measured=*/true, queued.checkpoint.epoch});
   guard_.sweep(pose, workpieces, *report);
   const SteadyTime end = std::chrono::steady_clock::now();
   sweep_guard_core::beat();
@@ -244,7 +237,7 @@ void GuardThread::predict(const QueuedPose& queued) {
   const Duration age = ageOf(*swept_, at);
   const auto prediction = predictions_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  dependencies_.sampler.setWorkpieces(workpieces);
+  dependencies_.sampler.setWorkpieces(workpieces, {/*measured=*/false, queued.checkpoint.epoch});
   guard_.predict(age, workpieces, *prediction);
   const SteadyTime end = std::chrono::steady_clock::now();
   dependencies_.monitor.predicted(*prediction, *swept_, queued.checkpoint, now(), end - at.steady);

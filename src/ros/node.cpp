@@ -40,7 +40,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
                                    cross_check_.sampler()}),
       poses_(node, parameters_.initial(), {frames_, workpieces_, monitor_, queue_}),
       meshes_(node, parameters_.initial(), workpieces_, monitor_),
-      check_sweep_(private_node, parameters_, frames_, workpieces_, monitor_),
+      check_sweep_(private_node, {parameters_, frames_, workpieces_, monitor_}),
       predict_(private_node, parameters_, workpieces_,
                [this](sweep_guard_core::Duration horizon) { return guard_thread_.predictMotion(horizon); }),
       controls_(private_node, monitor_, workpieces_, [this] { guard_thread_.reset(); }),

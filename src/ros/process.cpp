@@ -67,6 +67,11 @@ std::string requestRealTime(int priority) {
          "' in /etc/security/limits.conf and a new login, or set timing/realtime_priority to 0";
 }
 
+void setIdle() {
+  const sched_param parameters{};
+  pthread_setschedparam(pthread_self(), SCHED_IDLE, &parameters);
+}
+
 // On Linux, setpriority() is of one thread.
 void setNice(int nice) { setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), nice); }
 

@@ -10,13 +10,17 @@ namespace sweep_guard_ros {
 /// @returns the reason of a refusal, and what to set; empty if granted
 std::string requestRealTime(int priority);
 
-/// Lets the XML-RPC server of roscpp, which listens on every interface, answer on the loopback interface alone if ROS_IP or
-/// ROS_HOSTNAME is there. Call it when the first node handle exists. Logs a failure.
+/// Lets the XML-RPC server of roscpp, which listens on every interface, answer on the loopback interface alone if
+/// ROS_IP or ROS_HOSTNAME is there. Call it when the first node handle exists. Logs a failure.
 void keepToLoopback();
 
 /// Lowers the priority of the calling thread and of those that it starts: its share of a busy processor.
 /// @param nice  0 (as others) to 19 (runs when nothing else does)
 void setNice(int nice);
+
+/// Lets the calling thread run when nothing else does (SCHED_IDLE): any thread that wakes up takes its processor at
+/// once. It stays so; it should hold no lock that others wait for.
+void setIdle();
 
 /// Limits the address space of the process; what does not fit throws std::bad_alloc. Does nothing in builds with a
 /// sanitizer, which reserves terabytes.

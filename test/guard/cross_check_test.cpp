@@ -80,7 +80,8 @@ TEST_F(CrossCheckTest, DetectorsAgreeAboutMeasuredAndPredictedSweeps) {
     queries_.clear();
     drill(makeDetector(name));
     EXPECT_GE(queries_.size(), 5U);
-    EXPECT_TRUE(disagreements(otherDetector(name)).empty()) << name;
+    EXPECT_TRUE(disagreements(otherDetector(name, 1)).empty()) << name;
+    EXPECT_TRUE(disagreements("reference").empty()) << name;
   }
 }
 
@@ -107,7 +108,7 @@ TEST_F(CrossCheckTest, FindsWhatABiasedDetectorInvents) {
 
 TEST_F(CrossCheckTest, TakesEveryNthQueryAndSkipsThemWhileOneWaits) {
   QuerySampler sampler(3);
-  sampler.setWorkpieces(workpieces_);
+  sampler.setWorkpieces(workpieces_, {/*measured=*/false, /*epoch=*/7});
   const auto detector = sampled(makeDetector("reference"), "reference", sampler);
   const auto ask = [&](int times) {
     for (; times > 0; --times) detector->detect(workpieces_[0]->mesh_M, {});
@@ -121,6 +122,8 @@ TEST_F(CrossCheckTest, TakesEveryNthQueryAndSkipsThemWhileOneWaits) {
   ASSERT_TRUE(sampler.take(query));
   EXPECT_EQ(query.workpiece, workpieces_[0]);
   EXPECT_EQ(query.detector, "reference");
+  EXPECT_FALSE(query.origin.measured);
+  EXPECT_EQ(query.origin.epoch, 7U);
   EXPECT_FALSE(sampler.waiting());
   sampler.stop();
   EXPECT_FALSE(sampler.take(query));
@@ -153,14 +156,34 @@ TEST_F(CrossCheckTest, ASavedCaseIsReadBackAndReproducesTheDisagreement) {
 
 TEST_F(CrossCheckTest, CasesFillTheirFolderUpToALimitAndThenSayWhy) {
   drill(makeDetector("reference"));
-  const DetectorCase one = caseOf(queries_.at(0), "halfspace");
-  const std::string first = save(one, folder_, 1U << 30U);
+  const auto save_up_to = [&](const filesystem::path& folder, std::uintmax_t max_folder) {
+    return save(queries_.at(0), "halfspace", folder, max_folder);
+  };
+  const std::string first = save_up_to(folder_, 1U << 30U);
   EXPECT_EQ(first, "saved as " + (folder_ / "detector_case_1.txt").string());
   const auto size = filesystem::file_size(folder_ / "detector_case_1.txt");
-  EXPECT_TRUE(has(save(one, folder_, 2 * size), "detector_case_2.txt"));
-  EXPECT_TRUE(has(save(one, folder_, 3 * size - 1), "not saved: "));
-  EXPECT_TRUE(has(save(one, "/dev/null/cases", 1U << 30U), "not saved: "));
-  EXPECT_TRUE(has(save(one, "/dev/full", 1U << 30U), "not saved: "));
+  EXPECT_TRUE(has(save_up_to(folder_, 2 * size), "detector_case_2.txt"));
+  EXPECT_TRUE(has(save_up_to(folder_, 3 * size - 1), "not saved: "));
+  EXPECT_TRUE(has(save_up_to("/dev/null/cases", 1U << 30U), "not saved: "));
+  EXPECT_TRUE(has(save_up_to("/dev/full", 1U << 30U), "not saved: "));
+}
+
+TEST_F(CrossCheckTest, EveryTenthQueryIsForADetectorThatSharesNoCode) {
+  for (const std::string& name : detectorNames()) {
+    int by_reference = 0;
+    for (std::uint64_t number = 1; number <= 20; ++number) {
+      const std::string other = otherDetector(name, number);
+      EXPECT_NE(other, name);
+      by_reference += other == "reference" ? 1 : 0;
+    }
+    EXPECT_EQ(by_reference, name == "reference" ? 0 : 2);
+  }
+}
+
+TEST_F(CrossCheckTest, ASamplerThatKeepsNoneHoldsNoWorkpiece) {
+  QuerySampler sampler(/*every=*/0);
+  sampler.setWorkpieces(workpieces_);
+  EXPECT_EQ(workpieces_[0].use_count(), 1);
 }
 
 TEST(DetectorCaseTest, RefusesOtherTexts) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "detection/reference_detector.h"
@@ -15,9 +16,10 @@ class FakeDetector : public Detector {
   struct Record {
     std::vector<SweptVolume> volumes;
     int failures_left = 0;
-    double inflation = 0.0;        ///< claimed on top of the reference's
-    double grown = 0.0;            ///< the volume is tested as if it were larger [m]
-    std::uint32_t drop_every = 0;  ///< leaves out the triangles whose number this divides; 0: none
+    double inflation = 0.0;               ///< claimed on top of the reference's
+    double grown = 0.0;                   ///< the volume is tested as if it were larger [m]
+    std::uint32_t drop_every = 0;         ///< leaves out the triangles whose number this divides; 0: none
+    std::function<void()> asked = [] {};  ///< called in each query
   };
 
   explicit FakeDetector(Record& record) : record_(record) {}
@@ -28,6 +30,7 @@ class FakeDetector : public Detector {
       --record_.failures_left;
       throw DeviceError("fake detector: fails on demand");
     }
+    record_.asked();
     record_.volumes.push_back(swept_M);
     detection = reference_.detect(part, swept_M.grown(record_.grown));
     if (record_.drop_every != 0) {

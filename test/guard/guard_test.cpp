@@ -107,6 +107,22 @@ TEST_F(GuardTest, ContinuesTheSweepWithAnExchangedToolAndDetector) {
   EXPECT_TRUE(record.volumes[0].clips_B.empty());
 }
 
+// The first detector misses the surface that the tool goes through.
+TEST_F(GuardTest, DoesNotTrustThatTheToolIsOutsideAfterADetectorWasExchanged) {
+  const Workpieces sphere = {std::make_shared<const Workpiece>(
+      Workpiece{"sphere", 1, Time(), {}, "table", wavyHull(/*rings=*/8, /*sectors=*/12, /*phase=*/0.0)})};
+  const auto moved = [](double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)); };
+  FakeDetector::Record blind;
+  blind.drop_every = 1;
+  Guard guard(Tool::cylinder(0.001, 0.002), std::make_unique<FakeDetector>(blind), {});
+  reportOf(guard, pose(1.0, {{"table", moved(1.0)}}), sphere);
+  EXPECT_FALSE(reportOf(guard, pose(1.1, {{"table", moved(0.0)}}), sphere).contact());
+  GuardChange change;
+  change.detector = std::make_unique<FakeDetector>(record_);
+  guard.exchange(change);
+  EXPECT_TRUE(reportOf(guard, pose(1.2, {{"table", moved(0.0)}}), sphere).contact());
+}
+
 // Else nothing would be known of what comes for two poses.
 TEST_F(GuardTest, PredictsWithAnExchangedPredictorFromTheNextPoseOn) {
   sweepTo(1.0, 0.5);

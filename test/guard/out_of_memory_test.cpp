@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "allocations.h"
+#include "guard/cross_check.h"
 #include "monitor/warnings.h"
 #include "scenes.h"
 #include "sweep_guard/detection/detector.h"
@@ -82,6 +83,29 @@ TEST_P(GuardWithoutMemoryTest, IsNotClearAndGoesOnAndLeavesOutNoMotion) {
     for (int i = 0; i < 60 && warning().level != WarningLevel::kClear; ++i) move(kBelow);
     EXPECT_EQ(warning().level, WarningLevel::kClear);
     if (HasFailure()) return;
+  }
+}
+
+TEST(QuerySamplerWithoutMemoryTest, KeepsAllOfAQueryOrNothing) {
+  const auto workpiece = std::make_shared<const Workpiece>(
+      Workpiece{"sphere", 1, {}, {}, "table", wavyHull(/*rings=*/8, /*sectors=*/12, /*phase=*/0.0)});
+  Detection found;
+  found.triangles.assign(100, 7);
+  bool reached = true;
+  for (size_t number = 1; reached; ++number) {
+    QuerySampler sampler(/*every=*/1);
+    sampler.setWorkpieces({workpiece});
+    bool threw = false;
+    {
+      const FailingAllocation failing(number);
+      try {
+        sampler.offer("a name that does not fit in a short string", Submesh(workpiece->mesh_M), {}, found);
+      } catch (const std::bad_alloc&) {
+        threw = true;
+      }
+      reached = failing.reached();
+    }
+    EXPECT_EQ(sampler.waiting(), !threw) << number;
   }
 }
 

@@ -29,6 +29,20 @@ TEST(SelfTest, FindsADetectorThatMissesOneTriangleInTen) {
   EXPECT_TRUE(has(selfTest(detector), "is met and not found"));
 }
 
+class SmallMeshDetector : public Detector {
+  void find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) override {
+    detection = reference_.detect(submesh, swept_M);
+    if (submesh.mesh_M().triangles().size() > 1000) detection.triangles.clear();
+  }
+
+  ReferenceDetector reference_;
+};
+
+TEST(SelfTest, FindsADetectorThatErrsInLargeMeshesOnly) {
+  SmallMeshDetector detector;
+  EXPECT_TRUE(has(selfTest(detector), "in a large mesh' is met and not found"));
+}
+
 TEST(SelfTest, FindsADetectorThatFindsTooMuch) {
   FakeDetector::Record record;
   FakeDetector detector(record);

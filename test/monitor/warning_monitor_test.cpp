@@ -6,6 +6,7 @@
 #include <atomic>
 #include <thread>
 
+#include "guard/cross_check.h"
 #include "refusal.h"
 
 namespace sweep_guard_core {
@@ -70,6 +71,16 @@ class WarningMonitorTest : public testing::Test {
   }
   void predict(const Prediction& prediction, int pose_ms) {
     monitor_.predicted(prediction, timestampsAt(pose_ms), monitor_.checkpoint(), at(pose_ms));
+  }
+
+  void disagree(const SampledQuery& query, const std::vector<std::uint32_t>& missed) {
+    monitor_.detectorsDisagree("detectors disagree", query, missed, at(1000).steady);
+  }
+  SampledQuery query(bool measured = true) const {
+    SampledQuery query;
+    query.workpiece = workpieces_[0];
+    query.origin = {measured, monitor_.checkpoint().epoch};
+    return query;
   }
 
   WarningLevel levelAt(int ms) const { return warningOf(monitor_, at(ms)).level; }
@@ -733,7 +744,7 @@ TEST_F(WarningMonitorTest, NewLimitsApplyFromTheNextWarningOn) {
 }
 
 TEST_F(WarningMonitorTest, ADisagreementIsAContactForAWhileAndNotClearUntilRestart) {
-  monitor_.detectorsDisagree("detectors disagree", "liver", {3, 5}, at(1000).steady);
+  disagree(query(), {3, 5});
   const Warning first = warningOf(monitor_, at(1000));
   EXPECT_EQ(first.level, WarningLevel::kContact);
   EXPECT_EQ(first.triangles, (std::vector<std::uint32_t>{3, 5}));
@@ -752,8 +763,57 @@ TEST_F(WarningMonitorTest, ADisagreementIsAContactForAWhileAndNotClearUntilResta
 // Triangles of a contact that the guard found itself are kept.
 TEST_F(WarningMonitorTest, ADisagreementAddsItsTrianglesToTheContact) {
   sweep(reportOf(workpieces_, {2, 4}), 1000);
-  monitor_.detectorsDisagree("detectors disagree", "liver", {3, 4}, at(1000).steady);
+  disagree(query(), {3, 4});
   EXPECT_EQ(warningOf(monitor_, at(1000)).triangles, (std::vector<std::uint32_t>{2, 3, 4}));
+}
+
+TEST_F(WarningMonitorTest, ADisagreementIsNoContactIfItsSweepWasPredictedOrItsTrianglesAreGone) {
+  disagree(query(/*measured=*/false), {3});
+  EXPECT_EQ(levelAt(1000), WarningLevel::kUnknown);
+  EXPECT_NE(reasonsAt(1000) & kCrosscheck, 0U);
+  const SampledQuery old = query();
+  monitor_.setWorkpieces({workpiece("liver", 1000, /*revision=*/2)});
+  disagree(old, {3});
+  EXPECT_NE(levelAt(1000), WarningLevel::kContact);
+  monitor_.setWorkpieces({});
+  disagree(old, {3});
+  EXPECT_NE(levelAt(1000), WarningLevel::kContact);
+  EXPECT_NE(reasonsAt(1000) & kCrosscheck, 0U);
+}
+
+TEST_F(WarningMonitorTest, ADisagreementAboutAQueryFromBeforeARestartDoesNotCount) {
+  const SampledQuery before = query();
+  disagree(before, {3});
+  monitor_.restart();
+  monitor_.describeDisagreement("saved", before);
+  disagree(before, {3});
+  EXPECT_EQ(reasonsAt(1000) & kCrosscheck, 0U);
+  EXPECT_NE(levelAt(1000), WarningLevel::kContact);
+  disagree(query(), {3});
+  monitor_.describeDisagreement("saved", query());
+  EXPECT_TRUE(has(warningOf(monitor_, at(1000)).text, "saved"));
+}
+
+// The thread that reports it runs when nothing else does.
+TEST(DisagreementTest, IsNotPublishedByTheThreadThatReportsIt) {
+  int calls = 0;
+  WarningMonitor monitor(kLimits, [&] { ++calls; });
+  SampledQuery query;
+  query.workpiece = workpiece("liver", 1000);
+  monitor.detectorsDisagree("detectors disagree", query, {3}, at(1000).steady);
+  EXPECT_EQ(calls, 0);
+}
+
+TEST_F(WarningMonitorTest, WhatWasSweptByADetectorThatFailedItsTestDoesNotCount) {
+  monitor_.detectorTested("");
+  EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
+  monitor_.detectorTested("the detector failed");
+  sweep(reportOf(workpieces_), 1000);
+  monitor_.detectorTested("");
+  EXPECT_EQ(levelAt(1000), WarningLevel::kUnknown);
+  EXPECT_NE(reasonsAt(1000) & kNoPose, 0U);
+  sweep(reportOf(workpieces_), 1000);
+  EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
 }
 
 TEST_F(WarningMonitorTest, AFailedTestOfTheDetectorLastsUntilOneIsPassed) {

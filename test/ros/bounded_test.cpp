@@ -301,7 +301,8 @@ struct Answer {
   std::string refusal;
 };
 
-Answer call(const Bytes& request, size_t max_size = kMaxSize) {
+Answer call(
+    const Bytes& request, size_t max_size = kMaxSize, const std::function<void()>& admit = [] {}) {
   Answer answer{};
   const auto refuse = [&](const std::string& reason, sweep_guard::CheckSweepResponse& response) {
     answer.refusal = reason;
@@ -311,7 +312,7 @@ Answer call(const Bytes& request, size_t max_size = kMaxSize) {
   const auto check_sweep = [&](sweep_guard::CheckSweepRequest& /*request*/, auto& /*response*/) {
     return answer.called = true;
   };
-  BoundedCalls<CheckSweepSpec> calls(check_sweep, refuse, max_size);
+  BoundedCalls<CheckSweepSpec> calls(check_sweep, refuse, max_size, admit);
   ros::ServiceCallbackHelperCallParams params;
   const boost::shared_array<std::uint8_t> buffer(new std::uint8_t[request.size() + 1]);
   std::copy(request.begin(), request.end(), buffer.get());
@@ -336,6 +337,14 @@ TEST(BoundedCallsTest, AnswersAForgedRequestWithTheReason) {
     EXPECT_TRUE(has(answer.refusal, "announces 1073741825 elements"));
   }
   EXPECT_TRUE(has(call(request, request.size() - 1).refusal, "exceeds the limit of "));
+}
+
+TEST(BoundedCallsTest, ReadsNoRequestThatIsNotAdmitted) {
+  const auto busy = [] { throw sweep_guard_core::Error("busy"); };
+  const Answer answer = call(serialized(example<sweep_guard::CheckSweepRequest>()), /*max_size=*/0, busy);
+  EXPECT_FALSE(answer.called);
+  EXPECT_TRUE(answer.sent);
+  EXPECT_EQ(answer.refusal, "busy");
 }
 
 }  // namespace

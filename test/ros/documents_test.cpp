@@ -116,7 +116,8 @@ XmlRpc::XmlRpcValue askMaster(const std::string& what) {
 enum Graph { kPublished, kSubscribed, kServed };
 
 Names namesOfTheGuard(Graph part) {
-  ros::topic::waitForMessage<sweep_guard::Warning>(kGuard + "/warning");  // the guard has started
+  // The first warning may tell of the self-test. The second one is periodic: the guard has started.
+  for (int i = 0; i < 2; ++i) ros::topic::waitForMessage<sweep_guard::Warning>(kGuard + "/warning");
   XmlRpc::XmlRpcValue entries = askMaster("getSystemState")[part];
   Names names;
   for (int i = 0; i < entries.size(); ++i) {

@@ -7,16 +7,17 @@ namespace sweep_guard_core {
 /// Names a reason for a level other than CLEAR, or a degraded state. Bits of a set; msg/Warning.msg has the same
 /// numbers. The limits are those of WarningLimits.
 enum Reason : std::uint32_t {
-  kNoPose = 1U << 0,           ///< no tool pose has been swept yet
-  kPoseStale = 1U << 1,        ///< the newest swept pose is older than `pose_timeout`
-  kPoseInvalid = 1U << 2,      ///< a pose was refused: NaN, out of range, no stamp or no unit quaternion
-  kOutOfOrder = 1U << 3,       ///< a pose was refused: its stamp is older than the previous pose's
-  kFutureStamp = 1U << 4,      ///< a pose was refused: its stamp lies in the future
-  kNoMesh = 1U << 5,           ///< no workpiece has arrived, or not each required one
-  kMeshStale = 1U << 6,        ///< a workpiece is older than `mesh_timeout`
-  kMeshInvalid = 1U << 7,      ///< a mesh or vertices were refused, or belong to no workpiece
-  kTfFail = 1U << 8,           ///< a transform is missing or not rigid
-  kTimeJump = 1U << 9,         ///< time went back or a static transform changed, and no pose has been swept since
+  kNoPose = 1U << 0,       ///< no tool pose has been swept yet
+  kPoseStale = 1U << 1,    ///< the newest swept pose is older than `pose_timeout`
+  kPoseInvalid = 1U << 2,  ///< a pose was refused: NaN, out of range, no stamp or no unit quaternion
+  kOutOfOrder = 1U << 3,   ///< a pose was refused: its stamp is older than the previous pose's
+  kFutureStamp = 1U << 4,  ///< a pose was refused: its stamp lies in the future
+  kNoMesh = 1U << 5,       ///< no workpiece has arrived, or not each required one
+  kMeshStale = 1U << 6,    ///< a workpiece is older than `mesh_timeout`
+  kMeshInvalid = 1U << 7,  ///< a mesh or vertices were refused, or belong to no workpiece
+  kTfFail = 1U << 8,       ///< a transform is missing or not rigid
+  kTimeJump =
+      1U << 9,  ///< time went back, the machine was suspended or a static transform changed; no pose was swept since
   kDetectorFault = 1U << 10,   ///< the detector or a thread of the guard failed
   kNotSwept = 1U << 11,        ///< a workpiece was not swept at the newest pose, or not with all its updates
   kNotCovered = 1U << 12,      ///< not every workpiece is tested up to now + `considered`
@@ -27,7 +28,7 @@ enum Reason : std::uint32_t {
   kPosesUnswept = 1U << 17,    ///< a pose was dropped, or waits longer than both `overload` and the newest prediction
   kMeshDropped = 1U << 18,     ///< an update of a workpiece was dropped unread
   kWorkerHung = 1U << 19,      ///< a thread of the guard has work and makes no progress
-  kSelftest = 1U << 20,        ///< the detector failed its test, at the start or later
+  kSelftest = 1U << 20,        ///< the detector failed its test at the start, and was not exchanged since
   kCrosscheck = 1U << 21,      ///< two detectors disagreed about a sweep
 };
 

@@ -51,8 +51,8 @@ struct Warning {
 /// - UNKNOWN: a reason other than kDegraded applies.
 /// - CLEAR: there is a workpiece, and each required one; pose and workpieces are fresh; no pose waits; every workpiece
 ///   was swept at that pose and tested to the end of the considered interval; there is no fault.
-/// Reasons are reported whatever the level. A guard that is disabled or shuts down is always UNKNOWN, even during a contact,
-/// and kDisabled is its only reason; the fields after `text` are then empty.
+/// Reasons are reported whatever the level. A guard that is disabled or shuts down is always UNKNOWN, even during a
+/// contact, and kDisabled is its only reason; the fields after `text` are then empty.
 /// @param[out] warning  overwritten; its buffers are used again
 void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning);
 

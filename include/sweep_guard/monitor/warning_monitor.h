@@ -16,6 +16,8 @@
 
 namespace sweep_guard_core {
 
+struct SampledQuery;
+
 /// Collects the inputs of the warning: received poses and workpieces, refusals, and sweeps.
 /// Any thread may call any function at any time. The warning may be computed at any time, so a silent input is noticed,
 /// too.
@@ -31,8 +33,8 @@ class WarningMonitor {
   };
 
   /// @param limits    in the ranges of WarningLimits; not checked
-  /// @param on_fault  called after every fault, refusal, loss, drop and restart, in the reporting thread, so maybe in
-  ///     several at once; may call the monitor; not empty
+  /// @param on_fault  called after every fault, refusal, loss, drop and restart, except where a function says
+  ///     otherwise, in the reporting thread, so maybe in several at once; may call the monitor; not empty
   /// @param waiting_since  returns when the oldest pose that is not yet swept was received. Called by warning() and
   ///     disableBelow(), one at a time; must not call the monitor; not empty
   /// @param hung  returns the name of a thread that makes no progress; null: none. Called as the one before
@@ -49,8 +51,8 @@ class WarningMonitor {
   /// Reports that an input was refused or failed. The warning is not clear until a pose received later has been swept.
   void fault(Reason reason, const std::string& message);
 
-  /// Reports an exception that ended a piece of work, as a fault that lasts for 0.1 s at least, so that it is seen; needs
-  /// no memory from the heap and does not call on_fault.
+  /// Reports an exception that ended a piece of work, as a fault that lasts for 0.1 s at least, so that it is seen.
+  /// Needs no memory from the heap and does not call on_fault.
   /// @param lasting  until restart(): a later pose does not make up for it
   void failed(Reason reason, const char* message, SteadyTime now, bool lasting = false) noexcept;
 
@@ -80,14 +82,20 @@ class WarningMonitor {
   /// @param received  when the dropped update was received
   void updateDropped(const std::string& id, SteadyTime received);
 
-  /// Reports what a test of the detector found. The warning is not clear while it says something.
+  /// Reports what a test of the detector found. The warning is not clear while it says something. A test that is passed
+  /// after one that failed restarts, as disable() does: what was swept before does not count.
   /// @param failure  empty: the detector has passed
   void detectorTested(const std::string& failure);
 
-  /// Reports that a second detector disagreed about a sweep. The warning is not clear until restart().
-  /// @param missed  triangles that only the second detector found: ascending. They count as a contact that is over
-  void detectorsDisagree(const std::string& message, const std::string& mesh_id,
+  /// Reports that a second detector disagreed about a query. The warning is not clear until restart(). Does nothing if
+  /// the monitor was restarted since the query's epoch. Does not call on_fault: its thread may be a slow one.
+  /// @param missed  triangles that only the second detector found: ascending. They count as a contact that is over if
+  ///     the query was about a measured sweep, and the workpiece still has these triangles
+  void detectorsDisagree(const std::string& message, const SampledQuery& query,
                          const std::vector<std::uint32_t>& missed, SteadyTime now);
+
+  /// Replaces the message of a disagreement about a query, if it still stands.
+  void describeDisagreement(const std::string& message, const SampledQuery& query);
 
   /// Reports that poses were sent and did not arrive. The warning says so for the hold time; its level stays.
   void posesLost(const std::string& message, SteadyTime now);
@@ -144,8 +152,8 @@ class WarningMonitor {
   /// @param[out] warning  overwritten; its buffers are used again
   void warning(const Instant& now, Warning& warning) const;
 
-  /// Returns why these workpieces, or the detectors, are not as good as CLEAR needs them, in words; empty if they are. Does not ask
-  /// whether they were swept, nor name an id that is unknown and not required.
+  /// Returns why these workpieces, or the detectors, are not as good as CLEAR needs them, in words; empty if they are.
+  /// Does not ask whether they were swept, nor name an id that is unknown and not required.
   /// @param ids  empty: all workpieces, and those that are required
   std::string meshProblems(const Instant& now, const std::vector<std::string>& ids) const;
 
@@ -168,7 +176,7 @@ class WarningMonitor {
   void updateObjects();
   void endFailure(SteadyTime now);
   void updateBehind(const SweepReport& report);
-  void addContact(const std::string& mesh_id, const std::vector<std::uint32_t>& triangles, SteadyTime now);
+  void addContact(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now);
   void updateContact(const SweepReport& report, SteadyTime now);
   void updatePredicted(const Instant& now);
   void updateAlarms(const Instant& now);

@@ -219,8 +219,9 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.self_test = self_tests.at(self_test);
   parameters.cross_check = read.integer(
       "cross_check", 100, 0, 1000000,
-      "Each so many queries of the detector, one is answered again by another detector in spare time "
-      "(halfspace, and for that select). If they disagree, both answers count, reason CROSSCHECK. 0: none.");
+      "One query of the detector out of this many is answered again by another detector in spare time "
+      "(halfspace, and for that select; every tenth time reference). If they disagree, both answers count, reason "
+      "CROSSCHECK. 0: none.");
   parameters.guard.sweep.fine =
       read.flag("fine", true,
                 "Confirms the triangles that a volume meets: when, where and how deep the tool "

@@ -4,26 +4,32 @@
 #include <sweep_guard/CheckSweep.h>
 
 #include <atomic>
-#include <functional>
-#include <map>
-#include <memory>
+#include <string>
+#include <vector>
 
 #include "guard/workpiece_store.h"
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"
+#include "ros/service/path_tester.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
 
+struct CheckSweepDependencies {
+  const LiveParameters& parameters;
+  const Frames& frames;
+  const sweep_guard_core::WorkpieceStore& workpieces;
+  const sweep_guard_core::WarningMonitor& monitor;
+  MakeDetector make_detector = sweep_guard_core::makeDetector;
+};
+
 /// Serves `~check_sweep`: sweeps a path of poses against the workpieces as they are now. Has its own thread and
 /// detectors and works on a snapshot of the meshes, so it never delays the guard. A call that finds 4 others waiting is
-/// answered BUSY at once, and a call is given up at its deadline.
+/// answered BUSY at once. A call waits and runs for no longer than its deadline.
 class CheckSweepService {
  public:
-  CheckSweepService(const ros::NodeHandle& private_node, const LiveParameters& live, const Frames& frames,
-                    const sweep_guard_core::WorkpieceStore& workpieces,
-                    const sweep_guard_core::WarningMonitor& monitor);
+  CheckSweepService(const ros::NodeHandle& private_node, const CheckSweepDependencies& dependencies);
 
   ~CheckSweepService() { stopping_ = true; }
   CheckSweepService(const CheckSweepService&) = delete;
@@ -33,22 +39,16 @@ class CheckSweepService {
 
  private:
   bool onCall(sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
-  void refreshParameters();
   void check(const sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
-  std::function<void(const std::string& where)> untilDeadline() const;
+  GoOn untilDeadline(sweep_guard_core::Duration deadline) const;
   sweep_guard_core::Workpieces selected(const std::vector<std::string>& ids) const;
   std::vector<Eigen::Isometry3d> pathIn(const std::string& mesh_frame,
-                                        const std::vector<geometry_msgs::PoseStamped>& path,
-                                        const std::function<void(const std::string& where)>& go_on) const;
-  std::string oldTransforms(const sweep_guard::CheckSweep::Request& request) const;
-  sweep_guard_core::Detector& detector(const std::string& name);
+                                        const std::vector<geometry_msgs::PoseStamped>& path, const GoOn& go_on) const;
+  std::string doubts(const PathQuestion& question, const sweep_guard::CheckSweep::Request& request) const;
+  std::string oldTransforms(const PathQuestion& question, const sweep_guard::CheckSweep::Request& request) const;
 
-  const LiveParameters& live_;
-  std::shared_ptr<const Parameters> parameters_;  // of the newest call
-  const Frames& frames_;
-  const sweep_guard_core::WorkpieceStore& workpieces_;
-  const sweep_guard_core::WarningMonitor& monitor_;
-  std::map<std::string, std::unique_ptr<sweep_guard_core::Detector>> detectors_;  // by name, made on demand
+  const CheckSweepDependencies dependencies_;
+  PathTester tester_;
   std::atomic<bool> stopping_ = false;
   LimitedCalls calls_;  // before the server, which uses it
   ros::ServiceServer server_;

@@ -9,7 +9,10 @@ namespace {
 
 constexpr int kNice = 10;
 
+using SteadyClock = std::chrono::steady_clock;
+
 thread_local bool refused_here = false;
+thread_local SteadyClock::time_point arrival_of_call;
 
 // Counts as inside until it has run or is dropped.
 class CountedCall : public ros::CallbackInterface {
@@ -18,6 +21,7 @@ class CountedCall : public ros::CallbackInterface {
       : call_(std::move(call)), inside_(std::move(inside)) {}
 
   CallResult call() override {
+    arrival_of_call = arrival_;
     const CallResult result = call_->call();
     if (result != TryAgain) inside_.reset();
     return result;
@@ -26,6 +30,7 @@ class CountedCall : public ros::CallbackInterface {
 
  private:
   const ros::CallbackInterfacePtr call_;
+  const SteadyClock::time_point arrival_ = SteadyClock::now();
   std::shared_ptr<void> inside_;
 };
 
@@ -35,7 +40,7 @@ class FirstCall : public ros::CallbackInterface {
 
   CallResult call() override {
     refused_here = refuses_;
-    setNice(kNice);
+    if (!refuses_) setNice(kNice);
     return Success;
   }
 
@@ -47,9 +52,15 @@ class FirstCall : public ros::CallbackInterface {
 
 bool LimitedCalls::refused() { return refused_here; }
 
-void LimitedCalls::start(Supervisor& supervisor) {
+SteadyClock::time_point LimitedCalls::arrival() { return arrival_of_call; }
+
+// Before any call: calls may come before the threads start.
+LimitedCalls::LimitedCalls() {
   worker_.queue().addCallback(boost::make_shared<FirstCall>(/*refuses=*/false));
   refusals_.queue().addCallback(boost::make_shared<FirstCall>(/*refuses=*/true));
+}
+
+void LimitedCalls::start(Supervisor& supervisor) {
   worker_.start(supervisor, {"check_sweep", /*watched=*/false});
   refusals_.start(supervisor, {"busy", /*watched=*/false});
 }

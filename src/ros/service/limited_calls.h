@@ -3,17 +3,21 @@
 #include <ros/callback_queue.h>
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 
 #include "ros/threads/queue_thread.h"
 
 namespace sweep_guard_ros {
 
-/// Runs the calls of services in a thread of nice 10. At most 4 calls wait there while one runs. Any more run at once in
-/// a second thread, where refused() is true. The server made from on() must be destroyed first.
+/// Runs the calls of services in a thread of nice 10. At most 4 calls wait there while one runs. Any more run at once
+/// in a second thread of the usual priority, where refused() is true. The server made from on() must be destroyed
+/// first.
 class LimitedCalls : public ros::CallbackQueueInterface {
  public:
   static constexpr int kMaxWaiting = 4;
+
+  LimitedCalls();
 
   /// Returns a node handle whose calls run in these threads.
   ros::NodeHandle on(ros::NodeHandle node) {
@@ -25,6 +29,8 @@ class LimitedCalls : public ros::CallbackQueueInterface {
 
   /// Returns whether the calling thread answers calls that found no room.
   static bool refused();
+  /// Returns when the running call came: it may have waited since. Only in a call that is not refused.
+  static std::chrono::steady_clock::time_point arrival();
 
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;
   void removeByID(std::uint64_t owner) override;
