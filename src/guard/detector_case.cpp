@@ -153,7 +153,7 @@ size_t testedCount(const SampledQuery& query) {
 
 std::filesystem::path unusedName(const std::filesystem::path& folder) {
   for (int i = 1;; ++i) {
-    const std::filesystem::path file = folder / ("detector_case_" + std::to_string(i) + ".txt");
+    std::filesystem::path file = folder / ("detector_case_" + std::to_string(i) + ".txt");
     if (!std::filesystem::exists(file)) return file;
   }
 }

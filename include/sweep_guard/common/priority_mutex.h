@@ -14,6 +14,7 @@ class PriorityMutex {
   PriorityMutex& operator=(const PriorityMutex&) = delete;
 
   void lock() { pthread_mutex_lock(&mutex_); }
+  // NOLINTNEXTLINE(readability-identifier-naming): the name that std::unique_lock calls
   bool try_lock() { return pthread_mutex_trylock(&mutex_) == 0; }
   void unlock() { pthread_mutex_unlock(&mutex_); }
 
