@@ -48,7 +48,7 @@ void MasterWatch::checkOrLog() {
 
 // Those that run without roscore have no run id, and in a container each may have the same process id.
 std::optional<std::string> MasterWatch::identity() const {
-  const std::string uri = ros::master::getURI();
+  const std::string& uri = ros::master::getURI();
   const auto process = call_.call(uri, "getPid", {});
   const auto run_id = call_.call(uri, "getParam", {XmlRpcValue("/run_id")});
   if (!process || !run_id) return std::nullopt;
@@ -87,6 +87,7 @@ bool MasterWatch::registerServices() {
   const std::string address =
       "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
   std::vector<std::string> services;
+  services.reserve(kServices.size() + kServicesOfTheProcess.size());
   for (const char* const name : kServices) services.push_back(ros::names::append(namespace_, name));
   for (const char* const name : kServicesOfTheProcess)
     services.push_back(ros::names::append(ros::this_node::getName(), name));

@@ -26,7 +26,7 @@ class CrossCheckTest : public testing::Test {
   static Workpieces workpieces() {
     const TriangleMesh hull = wavyHull(/*rings=*/30, /*sectors=*/40, /*phase=*/0.0);
     std::vector<Eigen::Vector3d> vertices_M;
-    for (size_t i = 0; i < hull.vertexCount(); ++i) vertices_M.push_back(hull.vertex(i) + kPlace);
+    for (size_t i = 0; i < hull.vertexCount(); ++i) vertices_M.emplace_back(hull.vertex(i) + kPlace);
     const TriangleMesh mesh_M(vertices_M, hull.triangles());
     return {std::make_shared<const Workpiece>(Workpiece{"liver", 1, Time(), {}, "world", mesh_M})};
   }
