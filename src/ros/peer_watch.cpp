@@ -82,9 +82,8 @@ void PeerWatch::check() {
   }
   int wait = kLongestConnect;  // for all of them together
   for (const auto& [publisher, probe] : probes) {
-    const bool connected = probe.connected(wait);
-    if (!connected) wait = 0;
-    if (!connected) {
+    if (!probe.connected(wait)) {
+      wait = 0;
       out_of_reach_.insert(publisher);
     } else if (out_of_reach_.erase(publisher) != 0) {
       connectAnew(publisher, *topics);

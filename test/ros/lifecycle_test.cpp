@@ -243,7 +243,11 @@ class Master {
  public:
   explicit Master(const std::string& port)
       : uri_("http://127.0.0.1:" + port), process_({"rosmaster", "--core", "-p", port}, {"ROS_MASTER_URI=" + uri_}) {
-    while (!xmlRpc().call(uri_, "getPid", {})) ros::WallDuration(0.01).sleep();
+    const auto begin = SteadyClock::now();
+    while (!xmlRpc().call(uri_, "getPid", {})) {
+      if (secondsSince(begin) > 20.0) throw std::runtime_error("the master does not answer");
+      ros::WallDuration(0.01).sleep();
+    }
   }
 
   const std::string& uri() const { return uri_; }

@@ -5,13 +5,12 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr auto kLongestCall = std::chrono::milliseconds(500);
 constexpr auto kPause = std::chrono::milliseconds(500);  // before the next attempt
 
 }  // namespace
 
 ParameterWriter::ParameterWriter(const ros::NodeHandle& private_node)
-    : node_(private_node), call_(kLongestCall, stopping_) {}
+    : node_(private_node), call_(kCallTimeout, stopping_) {}
 
 ParameterWriter::~ParameterWriter() {
   {
