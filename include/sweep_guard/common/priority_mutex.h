@@ -5,7 +5,7 @@
 namespace sweep_guard_core {
 
 /// A mutex whose owner inherits the priority of the threads that wait for it: for what a real-time thread shares with
-/// others. Used with std::lock_guard and std::unique_lock.
+/// others. Used with std::lock_guard and std::unique_lock. Not recursive. Never throws, and ignores errors of pthread.
 class PriorityMutex {
  public:
   PriorityMutex();

@@ -19,7 +19,8 @@ struct ConvexHull {
 ///
 /// Qhull omits points that it cannot distinguish from its facets. `hull_tolerance` bounds their distance by comparison
 /// with convex combinations of corners, so the bound does not rely on Qhull. It is mostly about one rounding for each
-/// corner, and at most 1e-9 of the largest extent; if it would be larger, Qhull counts as failed.
+/// corner, and at most 1e-9 of the largest distance of a point from the center of the box around all points; if it
+/// would be larger, Qhull counts as failed.
 ///
 /// Points in a plane, on a line or at one place have a hull without volume, represented by a fan of triangles; these
 /// are degenerate on a line and at one place. If Qhull fails, every point is a corner, hull_tolerance is 0 and

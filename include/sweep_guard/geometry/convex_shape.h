@@ -38,7 +38,7 @@ class ConvexShape {
   /// @throws InvalidInput if a half extent is out of range
   static ConvexShape box(const Eigen::Vector3d& half_extents);
 
-  /// Makes the convex hull of points, padded by its hull_tolerance.
+  /// Makes the convex hull of points, padded by its hull_tolerance (convex_hull.h).
   /// @param points_T  [m], at least one, finite and within kMaxCoordinate
   /// @throws InvalidInput if there is no point, or with the index of the first unusable point
   /// @throws DeviceError if /dev/null cannot be opened

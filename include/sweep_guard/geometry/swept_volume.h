@@ -59,7 +59,7 @@ struct SweptVolume {
 double deviationBound(const ConvexShape& shape, const Motion& motion);
 
 /// Returns the volume that a convex body covers during a motion, in the frame M of the motion.
-/// @param motion        turns by at most 90 degrees (asserted); split() longer ones
+/// @param motion        turns by less than 1.6 rad (asserted); split() longer ones
 /// @param extra_margin  growth of the volume in addition to deviationBound() [m], >= 0 (asserted)
 SweptVolume sweptVolume(const ConvexShape& shape, const Motion& motion, VolumeKind kind, double extra_margin = 0.0);
 

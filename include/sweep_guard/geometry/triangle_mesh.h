@@ -20,7 +20,8 @@ class TriangleMesh {
  public:
   /// @param vertices_M  positions [m], each coordinate finite and within +-kMaxCoordinate
   /// @param triangles   at least one, each index below vertices_M.size()
-  /// @throws InvalidInput if there is no triangle, or naming the first invalid triangle or else vertex
+  /// @throws InvalidInput if there is no triangle, or naming the first invalid triangle or else vertex, or if the
+  ///     environment variable SWEEP_GUARD_SIMD is wrong (simd::kernels())
   TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles);
 
   /// Replaces the positions of all vertices in one pass; rebuilds no structure. Exchanges buffers and allocates

@@ -46,8 +46,9 @@ class Guard {
   /// @param pose  its stamp must not be earlier than the previous pose's; not checked, so reset() after time went back
   void pass(const PoseWithFrames& pose);
 
-  /// Sweeps from the pose of the last sweep, through the poses passed since, to this pose. If the detector fails, the
-  /// report names the workpiece; nothing is thrown.
+  /// Sweeps from the pose of the last sweep, through the poses passed since, to this pose. If the detector fails or
+  /// memory runs out during a workpiece, the report names the workpiece, and the others are swept. Throws only
+  /// std::bad_alloc, outside of the sweeps.
   /// @param pose  its stamp must not be earlier than the previous pose's; not checked
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
@@ -59,8 +60,7 @@ class Guard {
   /// Predicts the path after the newest pose and tests it. Frames of workpieces are taken to stay where they are. The
   /// newest pose must have been given to sweep(), not to pass(). The path is empty until PosePredictor knows a motion.
   /// The whole prediction is empty, without a stamp, before the first sweep and if `age` exceeds the reserve of the
-  /// horizon: the number of sweeps would grow with the age. If the detector fails, the prediction names the workpiece;
-  /// nothing is thrown.
+  /// horizon: the number of sweeps would grow with the age. Fails and throws as sweep() does.
   ///
   /// If `cycle` leaves too little time after sweep(), sweeps beyond the reflex interval are fewer and coarser: they may
   /// report contacts that finer ones would rule out, but miss none.

@@ -54,7 +54,7 @@ struct Prediction {
   size_t sweeps_made = 0;    ///< fewer if time was short: one sweep then covers several poses
   std::vector<PredictedObject> objects;  ///< every workpiece tested; none if the path is empty
   Workpieces unplaced;                   ///< workpieces not tested because their frame is unknown at the newest pose
-  std::vector<SweepFailure> failures;    ///< workpieces not tested because the detector failed
+  std::vector<SweepFailure> failures;    ///< workpieces whose test failed
 
   /// Returns the stamp up to which every workpiece is tested: the end of the path, or `stamp` if the path is empty or a
   /// workpiece was not tested.

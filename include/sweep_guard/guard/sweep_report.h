@@ -28,7 +28,7 @@ struct SweepReport {
   Duration backlog{};  ///< time from the first pose given to Guard::pass() since the last sweep to `end`; 0: none
   std::vector<SweptObject> objects;    ///< every workpiece swept, in the order given to sweep()
   Workpieces unplaced;                 ///< workpieces that were not swept because their frame is unknown at `end`
-  std::vector<SweepFailure> failures;  ///< workpieces that were not swept because the detector failed
+  std::vector<SweepFailure> failures;  ///< workpieces whose sweep failed
 
   double margin() const;  ///< largest margin of all objects [m]; 0 if there are none
   bool contact() const;   ///< the tool met an object, or it is not ruled out that it did

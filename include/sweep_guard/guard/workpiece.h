@@ -19,8 +19,9 @@ struct Workpiece {
   SteadyTime received;         ///< when these positions arrived
   std::string frame;           ///< name of the mesh frame M
   TriangleMesh mesh_M;
-  std::uint64_t updates = 0;  ///< number of updates of the vertex positions since the triangles came
-  double path_length = 0.0;   ///< upper bound on any vertex's path length in M over these updates [m]
+  /// Number of updates of the vertex positions since the triangles came, or came again in another frame.
+  std::uint64_t updates = 0;
+  double path_length = 0.0;  ///< upper bound on any vertex's path length in M over these updates [m]
 };
 
 /// Counts one update: sets `updates` and `path_length` of a workpiece from those before the update.
@@ -31,7 +32,7 @@ void countUpdate(const Workpiece& before, Workpiece& updated);
 /// Snapshots of different workpieces: none null, each id once (not checked).
 using Workpieces = std::vector<std::shared_ptr<const Workpiece>>;
 
-/// A workpiece that could not be swept, and why.
+/// A workpiece that could not be swept, and why: the detector failed, memory ran out or Guard::stop() was called.
 struct SweepFailure {
   std::shared_ptr<const Workpiece> workpiece;
   std::string reason;

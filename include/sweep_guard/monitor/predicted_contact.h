@@ -17,7 +17,8 @@ struct PredictedContact {
   double probability = 0.0;     ///< largest probability of this workpiece's sweeps from `earliest` on, in [0, 1]
   std::string mesh_id = {};
   std::vector<std::uint32_t> triangles = {};  ///< of this workpiece, met by the predicted path: ascending, each once
-  /// Index of the convex piece of the tool that meets the workpiece first, or is most likely to.
+  /// Index of the convex piece of the tool that is most likely to meet the workpiece: in the first sweep with contact,
+  /// or in the first that warns if none has contact.
   std::optional<size_t> tool_piece = {};
   Timestamps pose = {};    ///< newest measured pose, where the prediction begins
   Duration duration = {};  ///< length of the prediction, from the stamp of that pose

@@ -9,7 +9,7 @@ namespace sweep_guard_core {
 enum Reason : std::uint32_t {
   kNoPose = 1U << 0,       ///< no tool pose has been swept yet
   kPoseStale = 1U << 1,    ///< the newest swept pose is older than `pose_timeout`
-  kPoseInvalid = 1U << 2,  ///< a pose was refused: NaN, out of range, no stamp or no unit quaternion
+  kPoseInvalid = 1U << 2,  ///< a pose was refused: NaN, out of range, no stamp, no unit quaternion, or unreadable
   kOutOfOrder = 1U << 3,   ///< a pose was refused: its stamp is older than the previous pose's
   kFutureStamp = 1U << 4,  ///< a pose was refused: its stamp lies in the future
   kNoMesh = 1U << 5,       ///< no workpiece has arrived, or not each required one
@@ -23,12 +23,12 @@ enum Reason : std::uint32_t {
   kNotCovered = 1U << 12,      ///< not every workpiece is tested up to now + `considered`
   kOverload = 1U << 13,        ///< poses that span more than `overload` were swept at once
   kDisabled = 1U << 14,        ///< the guard is disabled, or shuts down
-  kMultiPublisher = 1U << 15,  ///< several nodes publish tool poses
+  kMultiPublisher = 1U << 15,  ///< several nodes publish tool poses, which is not allowed
   kPoseLoss = 1U << 16,        ///< poses were sent and did not arrive
   kPosesUnswept = 1U << 17,    ///< a pose was dropped, or waits longer than both `overload` and the newest prediction
   kMeshDropped = 1U << 18,     ///< an update of a workpiece was dropped unread
   kWorkerHung = 1U << 19,      ///< a thread of the guard has work and makes no progress
-  kSelftest = 1U << 20,        ///< the detector failed its test at the start, and was not exchanged since
+  kSelftest = 1U << 20,        ///< the detector failed its test at the start, and was not exchanged for one that passes
   kCrosscheck = 1U << 21,      ///< two detectors disagreed about a sweep
 };
 

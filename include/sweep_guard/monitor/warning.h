@@ -13,7 +13,7 @@ namespace sweep_guard_core {
 /// Limits of computeWarning(), which does not check them. The first three have no default.
 struct WarningLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
-  Duration mesh_timeout;  ///< a workpiece older than this is stale; Duration::max(): never
+  Duration mesh_timeout;  ///< a workpiece older than this is stale; > 0; Duration::max(): never
   Duration hold_time;     ///< how long a contact, a warning, an overload or a loss is shown after its end; >= 0
   Duration reflex = std::chrono::milliseconds(100);       ///< end of the reflex interval, counted from now, > 0
   Duration considered = std::chrono::milliseconds(1000);  ///< end of the considered interval, > reflex
@@ -34,12 +34,15 @@ struct Warning {
   /// predicted to touch, or most likely to.
   std::optional<size_t> tool_piece;
   std::vector<std::uint32_t> triangles;  ///< in contact or not ruled out; before contact, met by the predicted path
-  /// Time from now until the predicted path meets the workpiece of the predicted contact, >= 0; empty: it does not, or
-  /// the prediction has ended. At kContact, this may be another workpiece than `mesh_id`.
+  /// Time from now until the predicted path meets the workpiece of the predicted contact, >= 0; empty: it does not, the
+  /// prediction has ended, or a stronger warning about another workpiece is held. At kContact, this may be another
+  /// workpiece than `mesh_id`.
   std::optional<Duration> time_to_collision;
-  double probability = 0.0;  ///< probability of the predicted contact, in [0, 1]; 0 once its prediction has ended
-  Time pose_stamp;           ///< newest pose that has been swept; epoch: none
-  Time covered_until;        ///< every workpiece is tested up to here; epoch: never
+  /// Probability of the predicted contact, in [0, 1]; 0 once its prediction has ended, or while a stronger warning
+  /// about another workpiece is held.
+  double probability = 0.0;
+  Time pose_stamp;     ///< newest pose that has been swept; epoch: none
+  Time covered_until;  ///< every workpiece is tested up to here; epoch: never
 
   void clear();  ///< resets all fields and keeps the buffers
 };
@@ -49,8 +52,9 @@ struct Warning {
 /// - REFLEX, CONSIDERED: the earliest predicted contact lies within this interval now or by the next call, or did so
 ///   within the hold time.
 /// - UNKNOWN: a reason other than kDegraded applies.
-/// - CLEAR: there is a workpiece, and each required one; pose and workpieces are fresh; no pose waits; every workpiece
-///   was swept at that pose and tested to the end of the considered interval; there is no fault.
+/// - CLEAR: there is a workpiece, and each required one; pose and workpieces are fresh; no pose has waited too long
+///   (`overload`); every workpiece was swept at that pose and tested to the end of the considered interval; there is no
+///   fault.
 /// Reasons are reported whatever the level. A guard that is disabled or shuts down is always UNKNOWN, even during a
 /// contact, and kDisabled is its only reason; the fields after `text` are then empty.
 /// @param[out] warning  overwritten; its buffers are used again

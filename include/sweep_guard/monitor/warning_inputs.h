@@ -27,7 +27,7 @@ struct WarningInputs {
   struct Contact {
     std::string id;
     std::vector<std::uint32_t> triangles;   ///< those not ruled out: ascending, each once; may be empty if `inside`
-    SteadyTime found;                       ///< time of the newest sweep that met the workpiece
+    SteadyTime found;                       ///< when a sweep last met it, or detectors last disagreed about a sweep
     bool lasting = false;                   ///< the newest sweep has met it, or could not test it
     bool inside = false;                    ///< the tool is inside the workpiece
     std::optional<size_t> tool_piece = {};  ///< convex piece that touched first, if the narrow phase knows
@@ -70,7 +70,7 @@ struct WarningInputs {
   Duration look_ahead{};                    ///< time that computing the newest prediction took
   std::map<Reason, std::string> faults;     ///< current faults, each with a message for people
   std::optional<Failure> failure;           ///< newest one
-  const char* hung = nullptr;               ///< name of a thread that has work and makes no progress; null: none
+  const char* hung = nullptr;               ///< thread that has work and makes no progress, not owned; null: none
   std::optional<std::string> disabled_by;   ///< caller that disabled the guard; then nothing else counts
   bool ended = false;                       ///< the guard is shutting down; then nothing else counts
 };

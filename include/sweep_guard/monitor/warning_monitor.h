@@ -25,7 +25,9 @@ class WarningMonitor {
  public:
   /// State of the monitor when a pose was received. A sweep to that pose clears only faults reported before it.
   struct Checkpoint {
-    std::uint64_t epoch = 0;   ///< counts restarts: jumps of time, resets, and every enable and disable
+    /// Counts restarts: restart(), timeJumped(), end(), disable() and enable() that change something, and a test of the
+    /// detector that is passed after one that failed.
+    std::uint64_t epoch = 0;
     std::uint64_t faults = 0;  ///< number of faults reported before
 
     /// Returns whether the monitor was not restarted between the two checkpoints.
@@ -33,11 +35,12 @@ class WarningMonitor {
   };
 
   /// @param limits    in the ranges of WarningLimits; not checked
-  /// @param on_fault  called after every fault, refusal, loss, drop and restart, except where a function says
-  ///     otherwise, in the reporting thread, so maybe in several at once; may call the monitor; not empty
-  /// @param waiting_since  returns when the oldest pose that is not yet swept was received. Called by warning() and
-  ///     disableBelow(), one at a time; must not call the monitor; not empty
-  /// @param hung  returns the name of a thread that makes no progress; null: none. Called as the one before
+  /// @param on_fault  called after every fault, refusal, loss, drop, test of the detector and restart, except where a
+  ///     function says otherwise, in the reporting thread, so maybe in several at once; may call the monitor; not empty
+  /// @param waiting_since  returns when the oldest pose that is not yet swept was received; empty: none waits. Called
+  ///     by warning() and disableBelow(), one at a time; must not call the monitor; not empty
+  /// @param hung  returns the name of a thread that makes no progress, a text that outlives the monitor; null: none.
+  ///     Called as the one before, and by meshProblems()
   explicit WarningMonitor(
       const WarningLimits& limits, std::function<void()> on_fault = [] {},
       std::function<std::optional<SteadyTime>()> waiting_since = [] { return std::nullopt; },
@@ -51,14 +54,16 @@ class WarningMonitor {
   /// Reports that an input was refused or failed. The warning is not clear until a pose received later has been swept.
   void fault(Reason reason, const std::string& message);
 
-  /// Reports an exception that ended a piece of work, as a fault that lasts for 0.1 s at least, so that it is seen.
-  /// Needs no memory from the heap and does not call on_fault.
-  /// @param lasting  until restart(): a later pose does not make up for it
+  /// Reports an exception that ended a piece of work, as a fault. It ends at a restart, or when a pose received later
+  /// is swept, 0.1 s after `now` at the earliest, so that it is seen. It replaces the failure before, and is lasting if
+  /// that one was. Needs no memory from the heap and does not call on_fault.
+  /// @param message  not null; cut after 159 bytes
+  /// @param lasting  ends at restart() only: a later pose does not make up for it
   void failed(Reason reason, const char* message, SteadyTime now, bool lasting = false) noexcept;
 
   /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), because the workpiece that
-  /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each; another one
-  /// replaces that of the last id.
+  /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each. That of
+  /// another id takes the place of the last id's refusal, and counts as a refusal of the last id.
   /// @param received  when the message was received: meshes are accepted later than they are refused
   void meshRefused(const std::string& id, const std::string& message, SteadyTime received);
 
@@ -78,23 +83,25 @@ class WarningMonitor {
   void meshUnread(const std::string& message, SteadyTime now);
 
   /// Reports that an update of a workpiece was dropped unread. The warning is not clear until that workpiece is swept
-  /// with an update that was received later. Does nothing if there is no such workpiece.
+  /// with an update that was received later, or is removed. Does nothing if there is no such workpiece.
   /// @param received  when the dropped update was received
   void updateDropped(const std::string& id, SteadyTime received);
 
   /// Reports what a test of the detector found. The warning is not clear while it says something. A test that is passed
-  /// after one that failed restarts, as disable() does: what was swept before does not count.
+  /// after one that failed restarts: what was swept before does not count. This restart() keeps contacts, lasting
+  /// failures and a disagreement of the detectors.
   /// @param failure  empty: the detector has passed
   void detectorTested(const std::string& failure);
 
   /// Reports that a second detector disagreed about a query. The warning is not clear until restart(). Does nothing if
   /// the monitor was restarted since the query's epoch. Does not call on_fault: its thread may be a slow one.
   /// @param missed  triangles that only the second detector found: ascending. They count as a contact that is over if
-  ///     the query was about a measured sweep, and the workpiece still has these triangles
+  ///     the query was about a measured sweep, and the workpiece still has these triangles and this frame
   void detectorsDisagree(const std::string& message, const SampledQuery& query,
                          const std::vector<std::uint32_t>& missed, SteadyTime now);
 
-  /// Replaces the message of a disagreement about a query, if it still stands.
+  /// Replaces the message of the newest disagreement. Does nothing if there is none, or if the monitor was restarted
+  /// since the query's epoch. Does not call on_fault.
   void describeDisagreement(const std::string& message, const SampledQuery& query);
 
   /// Reports that poses were sent and did not arrive. The warning says so for the hold time; its level stays.
@@ -115,12 +122,14 @@ class WarningMonitor {
   void predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint, const Instant& now,
                  Duration took = {});
 
-  /// Reports that time went back. Forgets poses, predictions and faults; kTimeJump lasts until a new pose is swept. A
-  /// contact is shown for the hold time.
+  /// Reports that what was swept does not count any more: time went back, the machine was suspended or a static
+  /// transform changed. Restarts, and keeps contacts, lasting failures and a disagreement of the detectors. kTimeJump
+  /// lasts until a pose received later is swept. A contact is shown for the hold time after it was found last.
   void timeJumped(const std::string& message);
 
-  /// Forgets poses, predictions, contacts and faults. Keeps what concerns meshes (workpieces; refused, unread and
-  /// dropped messages), a failed test of the detector, required ids and limits. A disabled guard stays disabled.
+  /// Forgets poses, predictions, contacts, faults, lasting failures and a disagreement of the detectors. Keeps what
+  /// concerns meshes (workpieces; refused, unread and dropped messages), a failed test of the detector, required ids
+  /// and limits. A disabled guard stays disabled.
   void restart();
 
   /// Makes the warning unknown until enable(), whatever is reported, with a restart() that keeps lasting failures and a
@@ -152,8 +161,10 @@ class WarningMonitor {
   /// @param[out] warning  overwritten; its buffers are used again
   void warning(const Instant& now, Warning& warning) const;
 
-  /// Returns why these workpieces, or the detectors, are not as good as CLEAR needs them, in words; empty if they are.
-  /// Does not ask whether they were swept, nor name an id that is unknown and not required.
+  /// Returns why these workpieces, the detectors or the threads are not as good as CLEAR needs them, in words; empty if
+  /// they are. Does not ask whether the workpieces were swept. Does not name an id that is unknown, not required and
+  /// not refused; says that there is no workpiece if every id is unknown and not required. While refusals of 64 ids are
+  /// kept, they concern every id.
   /// @param ids  empty: all workpieces, and those that are required
   std::string meshProblems(const Instant& now, const std::vector<std::string>& ids) const;
 

@@ -45,11 +45,13 @@ Msg vectorMsg(const Eigen::Vector3d& v) {
 ///     is not within 0.1 of 1
 Eigen::Isometry3d fromMsg(const geometry_msgs::Pose& pose);
 Eigen::Isometry3d fromMsg(const geometry_msgs::Transform& transform);
+/// Converts a pose [m] to a message with a unit quaternion.
+/// @param pose  finite, rotation orthonormal; not checked
 geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose);
 
-/// Converts a mesh [m].
-/// @throws sweep_guard_core::InvalidInput if there are more than `max_triangles`, more than three times as many
-///     vertices, or if TriangleMesh refuses the mesh
+/// Converts a mesh [m], in its own frame.
+/// @throws sweep_guard_core::InvalidInput if there are more than `max_triangles` triangles or more than three times
+///     `max_triangles` vertices, or if TriangleMesh refuses the mesh
 sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles);
 
 /// Makes a message that names a workpiece and these triangles of it, without impacts.

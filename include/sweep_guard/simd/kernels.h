@@ -96,7 +96,7 @@ struct Kernels {
 const std::vector<Kernels>& availableKernels();
 
 /// Returns the kernels that the environment variable SWEEP_GUARD_SIMD names (avx512, avx2 or baseline), or the best if
-/// it is empty or not set. Reads the variable at the first call only, for example by the first TriangleMesh.
+/// it is empty or not set. Reads the variable until a call succeeds, for example by the first TriangleMesh.
 /// @throws InvalidInput if the name is unknown or the machine cannot run these kernels
 const Kernels& kernels();
 

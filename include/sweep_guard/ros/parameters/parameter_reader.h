@@ -13,7 +13,7 @@
 
 namespace sweep_guard_ros {
 
-/// Holds a value. A list is text: [x, y, z].
+/// Holds a value. A list is text: [x, y, z]. So is a group: {a: x, b: y}.
 using ParameterValue = std::variant<bool, int, double, std::string>;
 
 /// Returns the value as text for people.
@@ -78,6 +78,7 @@ class ParameterReader {
   /// Reads a group of finite numbers by their names in the group; empty if not set.
   std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "");
   /// Searches a text in the private namespace, then in those above it, or under an absolute name; "" if not set.
+  /// The error names only the key.
   std::string searchText(const std::string& name);
   /// Throws InvalidInput if the parameter is set.
   /// @param instead  tells the user what to do

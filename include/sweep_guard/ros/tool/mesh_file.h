@@ -21,18 +21,18 @@ struct MeshSurface {
 /// in the package's folder or, for file://, in a package on ROS_PACKAGE_PATH or in one of the roots.
 /// @param roots  absolute folders that file:// paths may lead to
 /// @returns a path without symbolic links
-/// @throws sweep_guard_core::InvalidInput naming the URI and what to do
+/// @throws sweep_guard_core::InvalidInput naming the URI (unless it has a null character) and what is wrong
 std::filesystem::path locateMesh(const std::string& uri, const std::vector<std::string>& roots);
 
 /// Selects whether readMesh() follows a symbolic link at the end of the path; links among its folders are followed in
 /// any case. Use kFollow for paths from the user only.
 enum class SymbolicLinks { kRefuse, kFollow };
 
-/// Reads a regular STL, OBJ or DAE file, told apart by its extension (upper or lower case), of at most 32 MiB and a
-/// million triangles. The program mesh_reader next to the nodes reads it in a separate process, so that a file on which
-/// it crashes is refused. A file is refused, too, if it cannot be read completely, or takes more than 1 GiB of memory,
-/// 10 s of processor time or 30 s in all. Blocks the calling thread meanwhile.
-/// @throws sweep_guard_core::InvalidInput naming the file, what is wrong and what to do
+/// Reads a regular STL, OBJ or DAE file, told apart by its extension (upper or lower case), of at most 32 MiB, a
+/// million triangles and three million vertices. The program mesh_reader next to the nodes reads it in a separate
+/// process, so that a file on which it crashes is refused. A file is refused, too, if it cannot be read completely, or
+/// takes more than 1 GiB of memory, 10 s of processor time or 30 s in all. Blocks the calling thread meanwhile.
+/// @throws sweep_guard_core::InvalidInput naming the file and what is wrong
 /// @throws sweep_guard_core::DeviceError if mesh_reader cannot be run
 MeshSurface readMesh(const std::filesystem::path& path, SymbolicLinks links = SymbolicLinks::kRefuse);
 
