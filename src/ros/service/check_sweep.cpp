@@ -81,6 +81,11 @@ CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const 
           calls_.on(private_node), "check_sweep", dependencies.parameters.initial().max_message_size,
           [this](auto& request, auto& response) { return onCall(request, response); }, refuse, throwIfBusy)) {}
 
+void CheckSweepService::start(Supervisor& supervisor) {
+  background_.start(supervisor, {"paths", /*watched=*/false});
+  calls_.start(supervisor);
+}
+
 // Answers errors by a message: a failed ROS call gives the caller none.
 bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Response& response) {
   const auto begin = std::chrono::steady_clock::now();
@@ -107,9 +112,15 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   for (const auto& workpiece : selected(request.mesh_ids)) {
     question.paths.push_back({workpiece, pathIn(workpiece->frame, request.path, question.go_on)});
   }
-  fill(response, question, tester_.test(question));
+  fill(response, question, test(question));
   response.message = doubts_before.empty() ? doubts(question, request) : doubts_before;
   response.clear = !response.collision && response.message.empty();
+}
+
+std::vector<sweep_guard_core::PathResult> CheckSweepService::test(const PathQuestion& question) {
+  std::vector<sweep_guard_core::PathResult> results;
+  background_.run([&] { results = tester_.test(question); });
+  return results;
 }
 
 // After the test, which waits for late transforms, and during which a mesh may be refused.

@@ -12,6 +12,7 @@
 #include "ros/parameters/parameters.h"
 #include "ros/service/limited_calls.h"
 #include "ros/service/path_tester.h"
+#include "ros/threads/background_thread.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
@@ -24,7 +25,7 @@ struct CheckSweepDependencies {
   MakeDetector make_detector = sweep_guard_core::makeDetector;
 };
 
-/// Serves `~check_sweep`: sweeps a path of poses against the workpieces as they are now. Has its own thread and
+/// Serves `~check_sweep`: sweeps a path of poses against the workpieces as they are now. Has its own threads and
 /// detectors and works on a snapshot of the meshes, so it never delays the guard. A call that finds 4 others waiting is
 /// answered BUSY at once. A call waits and runs for no longer than its deadline.
 class CheckSweepService {
@@ -35,11 +36,12 @@ class CheckSweepService {
   CheckSweepService(const CheckSweepService&) = delete;
   CheckSweepService& operator=(const CheckSweepService&) = delete;
 
-  void start(Supervisor& supervisor) { calls_.start(supervisor); }
+  void start(Supervisor& supervisor);
 
  private:
   bool onCall(sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
   void check(const sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
+  std::vector<sweep_guard_core::PathResult> test(const PathQuestion& question);
   GoOn untilDeadline(sweep_guard_core::Duration deadline) const;
   sweep_guard_core::Workpieces selected(const std::vector<std::string>& ids) const;
   std::vector<Eigen::Isometry3d> pathIn(const std::string& mesh_frame,
@@ -50,7 +52,8 @@ class CheckSweepService {
   const CheckSweepDependencies dependencies_;
   PathTester tester_;
   std::atomic<bool> stopping_ = false;
-  LimitedCalls calls_;  // before the server, which uses it
+  BackgroundThread background_;  // sweeps
+  LimitedCalls calls_;           // answers; before the server, which uses it
   ros::ServiceServer server_;
 };
 

@@ -2,12 +2,8 @@
 
 #include <boost/make_shared.hpp>
 
-#include "ros/process.h"
-
 namespace sweep_guard_ros {
 namespace {
-
-constexpr int kNice = 10;
 
 using SteadyClock = std::chrono::steady_clock;
 
@@ -40,7 +36,6 @@ class FirstCall : public ros::CallbackInterface {
 
   CallResult call() override {
     refused_here = refuses_;
-    if (!refuses_) setNice(kNice);
     return Success;
   }
 

@@ -10,9 +10,8 @@
 
 namespace sweep_guard_ros {
 
-/// Runs the calls of services in a thread of nice 10. At most 4 calls wait there while one runs. Any more run at once
-/// in a second thread of the usual priority, where refused() is true. The server made from on() must be destroyed
-/// first.
+/// Runs the calls of services in a thread of their own. At most 4 calls wait there while one runs. Any more run at once
+/// in a second thread, where refused() is true. The server made from on() must be destroyed first.
 class LimitedCalls : public ros::CallbackQueueInterface {
  public:
   static constexpr int kMaxWaiting = 4;
