@@ -50,7 +50,9 @@ void QuerySampler::setWorkpieces(const Workpieces& workpieces, const QueryOrigin
 // The workpiece last: a query is kept only if all of it could be copied.
 void QuerySampler::offer(const std::string& detector, const Submesh& submesh, const SweptVolume& swept_M,
                          const Detection& found) {
-  if (every_ == 0 || ++count_ < every_) return;
+  if (every_ == 0) return;
+  count_ = std::min(count_ + 1, every_);
+  if (count_ < every_) return;
   const auto same = [&](const auto& workpiece) { return &workpiece->mesh_M == &submesh.mesh_M(); };
   const auto workpiece = std::find_if(workpieces_.begin(), workpieces_.end(), same);
   const std::unique_lock lock(mutex_, std::try_to_lock);

@@ -9,8 +9,7 @@
 #include <ros/this_node.h>
 
 #include <array>
-
-#include "ros/publisher_links.h"
+#include <utility>
 
 namespace sweep_guard_ros {
 namespace {
@@ -112,13 +111,25 @@ bool MasterWatch::registerTopics() {
   return true;
 }
 
+// Asks until nothing is new: a publisher that registers meanwhile may have been disconnected again.
 bool MasterWatch::subscribe(const XmlRpcValue& topic) {
+  std::optional<Publishers> connected;
+  while (true) {
+    auto publishers = registerSubscriber(topic);
+    if (!publishers) return false;
+    if (publishers == connected) return true;
+    if (!updatePublishers(call_, topic[0], *publishers)) return false;
+    connected = std::move(publishers);
+  }
+}
+
+std::optional<Publishers> MasterWatch::registerSubscriber(const XmlRpcValue& topic) {
   const auto known =
       call_.call(ros::master::getURI(), "registerSubscriber", {topic[0], topic[1], XmlRpcValue(ownUri())});
-  if (!known || !known->success) return false;
+  if (!known || !known->success) return std::nullopt;
   Publishers publishers;
   for (int i = 0; i < known->value.size(); ++i) publishers.insert(static_cast<const std::string&>(known->value[i]));
-  return updatePublishers(call_, topic[0], publishers);
+  return publishers;
 }
 
 bool MasterWatch::request(const std::string& function, const std::vector<XmlRpcValue>& arguments) {

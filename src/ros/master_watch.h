@@ -7,13 +7,15 @@
 #include <string>
 
 #include "ros/parameters/parameters.h"
+#include "ros/publisher_links.h"
 #include "ros/threads/timer_thread.h"
 #include "ros/xml_rpc_call.h"
 
 namespace sweep_guard_ros {
 
 /// Notices that the ROS master was started anew, which then knows neither this node nor its parameters, and registers
-/// topics and services of the process and sets the parameters of the guard there again. Connections that exist are kept:
+/// the topics of the process, the services of the guard and those that each node or nodelet manager has, and sets the
+/// parameters of the guard there again. Services of other nodelets are not known. Connections that exist are kept:
 /// poses and meshes arrive as before, also from nodes that the new master does not know. Asks the master once a second,
 /// in a thread of its own.
 class MasterWatch {
@@ -36,6 +38,7 @@ class MasterWatch {
   bool registerServices();
   bool registerTopics();
   bool subscribe(const XmlRpc::XmlRpcValue& topic);
+  std::optional<Publishers> registerSubscriber(const XmlRpc::XmlRpcValue& topic);
   bool request(const std::string& function, const std::vector<XmlRpc::XmlRpcValue>& arguments);
 
   const std::string namespace_;

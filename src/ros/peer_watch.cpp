@@ -7,6 +7,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <thread>
+
 #include "ros/host_address.h"
 #include "ros/publisher_links.h"
 #include "sweep_guard/ros/conversions.h"
@@ -15,12 +18,27 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr auto kPeriod = std::chrono::milliseconds(100);
-constexpr int kLongestConnect = 200;  // [ms]
+constexpr auto kLongestConnect = std::chrono::milliseconds(200);
+constexpr auto kNewName = std::chrono::milliseconds(100);  // until a name is resolved for the first time
+
+int millisecondsUntil(sweep_guard_core::SteadyTime end) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+  return std::max(0, static_cast<int>(left.count()));
+}
 
 /// Connects to an address without waiting.
 class Probe {
  public:
-  explicit Probe(const std::string& uri) {
+  explicit Probe(const std::string& uri) { open(uri); }
+  ~Probe() {
+    if (socket_ >= 0) close(socket_);
+  }
+  Probe(const Probe&) = delete;
+  Probe& operator=(const Probe&) = delete;
+
+  bool begun() const { return socket_ >= 0; }  ///< false: the address is not known yet
+
+  void open(const std::string& uri) {
     std::string host;
     std::uint32_t port = 0;
     if (!ros::network::splitURI(uri, host, port)) return;
@@ -35,20 +53,25 @@ class Probe {
     if (socket_ >= 0) static_cast<void>(connect(socket_, found->ai_addr, found->ai_addrlen));
     freeaddrinfo(found);
   }
-  ~Probe() {
-    if (socket_ >= 0) close(socket_);
-  }
-  Probe(const Probe&) = delete;
-  Probe& operator=(const Probe&) = delete;
 
-  bool connected(int wait) const {
+  bool connected(sweep_guard_core::SteadyTime deadline) const {
     pollfd events{socket_, POLLOUT, 0};
-    return socket_ >= 0 && poll(&events, 1, wait) == 1 && events.revents == POLLOUT;
+    return begun() && poll(&events, 1, millisecondsUntil(deadline)) == 1 && events.revents == POLLOUT;
   }
 
  private:
   int socket_ = -1;
 };
+
+// A name that was never looked up is no sign of a broken link.
+void beginOthers(std::map<std::string, Probe>& probes) {
+  const auto begun = [](const auto& probe) { return probe.second.begun(); };
+  if (std::all_of(probes.begin(), probes.end(), begun)) return;
+  std::this_thread::sleep_for(kNewName);
+  for (auto& [publisher, probe] : probes) {
+    if (!probe.begun()) probe.open(publisher);
+  }
+}
 
 }  // namespace
 
@@ -71,6 +94,7 @@ void PeerWatch::checkOrLog() {
 }
 
 void PeerWatch::check() {
+  connectPending();
   if (!inputMayBeSilent()) return out_of_reach_.clear();
   const auto topics = connectedPublishers(call_);
   if (!topics) return;
@@ -80,10 +104,10 @@ void PeerWatch::check() {
       if (publisher != ownUri()) probes.try_emplace(publisher, publisher);
     }
   }
-  int wait = kLongestConnect;  // for all of them together
+  beginOthers(probes);
+  const auto deadline = std::chrono::steady_clock::now() + kLongestConnect;  // for all of them together
   for (const auto& [publisher, probe] : probes) {
-    if (!probe.connected(wait)) {
-      wait = 0;
+    if (!probe.connected(deadline)) {
       out_of_reach_.insert(publisher);
     } else if (out_of_reach_.erase(publisher) != 0) {
       connectAnew(publisher, *topics);
@@ -94,16 +118,24 @@ void PeerWatch::check() {
 bool PeerWatch::inputMayBeSilent() {
   monitor_.warning(now(), warning_);
   using namespace sweep_guard_core;
-  return (warning_.reasons & (kNoPose | kPoseStale | kNoMesh | kMeshStale | kDisabled)) != 0;
+  return (warning_.reasons & (kNoPose | kPoseStale | kTfFail | kNoMesh | kMeshStale | kDisabled)) != 0;
 }
 
-void PeerWatch::connectAnew(const std::string& publisher, const std::map<std::string, Publishers>& topics) const {
+void PeerWatch::connectAnew(const std::string& publisher, const std::map<std::string, Publishers>& topics) {
   for (const auto& [topic, publishers] : topics) {
     if (publishers.count(publisher) == 0) continue;
+    pending_[topic].insert(publisher);
     updatePublishers(call_, topic, /*added=*/{}, /*removed=*/{publisher});
-    updatePublishers(call_, topic, /*added=*/{publisher});
   }
+  connectPending();
   ROS_WARN("%s was out of reach and is connected anew", publisher.c_str());
+}
+
+// Until it succeeds: nobody else knows that they are to be connected.
+void PeerWatch::connectPending() {
+  for (auto topic = pending_.begin(); topic != pending_.end();) {
+    topic = updatePublishers(call_, topic->first, topic->second) ? pending_.erase(topic) : std::next(topic);
+  }
 }
 
 }  // namespace sweep_guard_ros

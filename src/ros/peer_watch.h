@@ -13,7 +13,7 @@ namespace sweep_guard_ros {
 
 /// Connects the inputs anew to publishers that were out of reach. Without it they stay silent after a broken link is
 /// whole again, for up to as long as it was broken: that is how long TCP waits until it sends again. Looks only while an
-/// input is missing or stale, or the guard is disabled; in a thread of its own.
+/// input or a transform is missing or stale, or the guard is disabled; in a thread of its own.
 class PeerWatch {
  public:
   explicit PeerWatch(const sweep_guard_core::WarningMonitor& monitor);
@@ -27,13 +27,15 @@ class PeerWatch {
   void checkOrLog();
   void check();
   bool inputMayBeSilent();
-  void connectAnew(const std::string& publisher, const std::map<std::string, Publishers>& topics) const;
+  void connectAnew(const std::string& publisher, const std::map<std::string, Publishers>& topics);
+  void connectPending();
 
   const sweep_guard_core::WarningMonitor& monitor_;
   sweep_guard_core::Warning warning_;
   std::atomic<bool> stopping_ = false;
   const XmlRpcCall call_;
   std::set<std::string> out_of_reach_;
+  std::map<std::string, Publishers> pending_;  // by topic: disconnected, and to be connected again
   TimerThread thread_;
 };
 

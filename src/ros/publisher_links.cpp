@@ -2,6 +2,8 @@
 
 #include <ros/xmlrpc_manager.h>
 
+#include <mutex>
+
 namespace sweep_guard_ros {
 
 using XmlRpc::XmlRpcValue;
@@ -23,6 +25,8 @@ std::optional<std::map<std::string, Publishers>> connectedPublishers(const XmlRp
 
 bool updatePublishers(const XmlRpcCall& call, const std::string& topic, const Publishers& added,
                       const Publishers& removed) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   auto connected = connectedPublishers(call);
   if (!connected) return false;
   Publishers& publishers = (*connected)[topic];

@@ -18,7 +18,8 @@ std::string ownUri();  ///< address of this process, as other nodes call it
 std::optional<std::map<std::string, Publishers>> connectedPublishers(const XmlRpcCall& call);
 
 /// Connects a topic to some publishers and disconnects it from others; all other connections stay. roscpp takes a list
-/// of publishers as complete, so the connections are read immediately before.
+/// of publishers as complete, so the connections are read immediately before. A publisher that another node announces
+/// in between, and that is connected by then, is disconnected again.
 /// @returns false: no answer, or not all could be connected
 /// @throws XmlRpc::XmlRpcException if the answer cannot be read
 bool updatePublishers(const XmlRpcCall& call, const std::string& topic, const Publishers& added,

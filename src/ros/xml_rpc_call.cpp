@@ -39,7 +39,7 @@ std::optional<XmlRpcCall::Answer> XmlRpcCall::call(const std::string& uri, const
     client._disp.work(kStep);
   }
   const bool is_answer = !client.isFault() && answer.getType() == XmlRpc::XmlRpcValue::TypeArray && answer.size() == 3;
-  if (!is_answer) return std::nullopt;
+  if (!is_answer || answer[0].getType() != XmlRpc::XmlRpcValue::TypeInt) return std::nullopt;
   return Answer{static_cast<int>(answer[0]) == 1, answer[2]};
 }
 

@@ -43,7 +43,9 @@ class Address : public XmlRpc::XmlRpcServerMethod {
   void open() { server_.bindAndListen(port_), port_ = server_.get_port(); }
   void close() { server_.shutdown(); }
   void serveFor(double seconds) { server_.work(seconds); }
-  std::string uri() const { return "http://127.0.0.1:" + std::to_string(port_); }
+  std::string uri(const std::string& host = "127.0.0.1") const {
+    return "http://" + host + ":" + std::to_string(port_);
+  }
   int requests() const { return requests_; }
 
   void execute(XmlRpcValue& /*request*/, XmlRpcValue& answer) override {
@@ -60,6 +62,15 @@ class Address : public XmlRpc::XmlRpcServerMethod {
   int port_ = 0;
   int requests_ = 0;
 };
+
+bool publishPoses(const std::string& uri) {
+  XmlRpcValue publishers;
+  publishers[0] = ros::XMLRPCManager::instance()->getServerURI();
+  publishers[1] = uri;
+  const auto answer =
+      xmlRpc().call(addressOf("/sweep_guard"), "publisherUpdate", {XmlRpcValue("/tool_pose"), publishers});
+  return answer && answer->success;
+}
 
 // It may have registered a moment ago, since the connections were read.
 TEST(PublisherLinksTest, AnUpdateKeepsThePublishersThatItDoesNotName) {
@@ -95,10 +106,7 @@ TEST_P(PeerWatchTest, ConnectsAnewToAPublisherThatWasOutOfReach) {
   probe.place(squareAt("square", {0, 0, -1}, ros::Time::now()));
   GetParam().begin(probe);
   Address address;
-  XmlRpcValue publishers;
-  publishers[0] = ros::XMLRPCManager::instance()->getServerURI();
-  publishers[1] = address.uri();
-  ASSERT_TRUE(xmlRpc().call(addressOf("/sweep_guard"), "publisherUpdate", {XmlRpcValue("/tool_pose"), publishers}));
+  ASSERT_TRUE(publishPoses(address.uri()));
   ASSERT_TRUE(becomesTrue([&] { return address.serveFor(0.3), address.requests() == 1; }));
   EXPECT_TRUE(becomesTrue([&] {
     address.close();
@@ -107,6 +115,20 @@ TEST_P(PeerWatchTest, ConnectsAnewToAPublisherThatWasOutOfReach) {
     address.serveFor(0.5);
     return address.requests() == 2;
   }));
+  guard.signal(SIGTERM);
+  EXPECT_EQ(guard.wait(), 0);
+  ros::param::del("/sweep_guard");
+}
+
+// The guard has not looked up this spelling before.
+TEST(NamedPublisherTest, StaysConnectedWhileItsNameIsLookedUp) {
+  ChildProcess guard(guardWith({}));
+  const GuardProbe probe(/*drives_clock=*/false);
+  Address address;
+  ASSERT_TRUE(publishPoses(address.uri("LocalHost")));
+  ASSERT_TRUE(becomesTrue([&] { return address.serveFor(0.3), address.requests() == 1; }));
+  address.serveFor(1.0);
+  EXPECT_EQ(address.requests(), 1);
   guard.signal(SIGTERM);
   EXPECT_EQ(guard.wait(), 0);
   ros::param::del("/sweep_guard");

@@ -2,6 +2,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "common/heartbeat.h"
 #include "ros/input/future_stamp.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
@@ -165,6 +166,7 @@ std::map<std::string, Eigen::Isometry3d> PoseInput::locate(const std::set<std::s
                                                            sweep_guard_core::Time stamp) {
   std::map<std::string, Eigen::Isometry3d> X_WM;
   for (const std::string& frame : mesh_frames) {
+    sweep_guard_core::beat();
     try {
       X_WM[frame] = lookup(fixed_frame_, frame, stamp);
     } catch (const FrameError& error) {

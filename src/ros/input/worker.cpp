@@ -35,8 +35,8 @@ void Worker::push(Job job) {
       const auto oldest = nextToDrop();
       fits = oldest == jobs_.end() || oldest->replaceable || !job.replaceable;
       if (oldest == jobs_.end() || !fits) break;
-      bytes_ -= oldest->bytes;
       dropped.push_back(std::move(*oldest));
+      bytes_ -= dropped.back().bytes;
       jobs_.erase(oldest);
     }
   }
@@ -44,8 +44,8 @@ void Worker::push(Job job) {
   if (!fits) return job.drop();
   {
     const std::lock_guard lock(mutex_);
-    bytes_ += job.bytes;
     jobs_.push_back(std::move(job));
+    bytes_ += jobs_.back().bytes;
   }
   changed_.notify_all();
 }

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "ros/detector_test.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -63,7 +64,10 @@ void PredictService::refreshParameters() {
   const auto current = live_.get();
   if (current == parameters_) return;
   if (!detector_ || detectorsDiffer(*parameters_, *current)) {
-    detector_ = sweep_guard_core::makeDetector(current->detector, current->detector_options);
+    auto detector = sweep_guard_core::makeDetector(current->detector, current->detector_options);
+    const std::string failure = testFailure(*current, current->detector_description, *detector);
+    if (!failure.empty()) throw sweep_guard_core::DeviceError(failure);
+    detector_ = std::move(detector);
   }
   parameters_ = current;
 }
