@@ -1,5 +1,7 @@
 #include "latency/listener.h"
 
+#include <ros/node_handle.h>
+
 namespace sweep_guard_benchmark {
 namespace {
 

@@ -233,8 +233,7 @@ std::string save(const SampledQuery& query, const std::string& other, const std:
   try {
     std::filesystem::create_directories(folder);
     const std::uintmax_t before = sizeOf(folder);
-    const std::string full =
-        "not saved: " + folder.string() + " would exceed " + std::to_string(max_folder >> 20U) + " MiB";
+    std::string full = "not saved: " + folder.string() + " would exceed " + std::to_string(max_folder >> 20U) + " MiB";
     if (before + kMinTriangleText * testedCount(query) > max_folder) return full;
     std::ostringstream text;
     write(caseOf(query, other), text);

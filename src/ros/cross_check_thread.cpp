@@ -4,7 +4,6 @@
 #include <ros/file_log.h>
 
 #include "guard/detector_case.h"
-#include "ros/process.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -30,12 +29,12 @@ CrossCheckThread::~CrossCheckThread() {
 void CrossCheckThread::start(Supervisor& supervisor) {
   if (parameters_.initial().cross_check == 0) return;
   top_ = &supervisor.add({"cross-check", /*watched=*/false});
+  queries_.start(supervisor, {"queries", /*watched=*/false});
   thread_ = std::thread([this] { run(); });
 }
 
 void CrossCheckThread::run() {
   top_->enter();
-  setIdle();
   sweep_guard_core::SampledQuery query;
   while (sampler_.take(query)) top_->run([&] { checkOrLog(query); });
 }
@@ -51,9 +50,13 @@ void CrossCheckThread::checkOrLog(const sweep_guard_core::SampledQuery& query) {
 }
 
 void CrossCheckThread::check(const sweep_guard_core::SampledQuery& query) {
-  const auto& [name, detector] = other(sweep_guard_core::otherDetector(query.detector, ++count_));
-  const auto disagreement = sweep_guard_core::crossCheck(query, *detector);
-  if (disagreement.any()) report(query, name, disagreement);
+  const Other* asked = nullptr;
+  sweep_guard_core::Disagreement disagreement;
+  queries_.run([&] {
+    asked = &other(sweep_guard_core::otherDetector(query.detector, ++count_));
+    disagreement = sweep_guard_core::crossCheck(query, *asked->detector);
+  });
+  if (disagreement.any()) report(query, asked->name, disagreement);
 }
 
 // The warning first: a large case takes a while to write.

@@ -9,12 +9,14 @@
 #include "guard/cross_check.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
+#include "ros/process.h"
+#include "ros/threads/background_thread.h"
 #include "ros/threads/supervisor.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
 
-/// Asks a second detector every Nth query of the guard's, in a thread that runs when nothing else does. If they
+/// Asks a second detector every Nth query of the guard's, whose thread runs when nothing else does. If they
 /// disagree, reports it to the monitor and saves the query in the folder of ROS's logs. Publishes nothing: the watchdog
 /// does soon.
 class CrossCheckThread {
@@ -48,7 +50,8 @@ class CrossCheckThread {
   std::map<std::string, Other> others_;  // by the name that was asked for, made on demand
   LogThrottle log_;
   ThreadTop* top_ = nullptr;  // from start() on
-  std::thread thread_;
+  BackgroundThread queries_{setIdle};
+  std::thread thread_;  // takes and reports: holds locks, which a thread that gets no processor would keep
 };
 
 }  // namespace sweep_guard_ros

@@ -145,7 +145,7 @@ bool GuardThread::workOnce(WorkQueue::Work& work) {
 }
 
 // No pose is left out: what the tool met on the way to it would be, too. The others wait, so nothing is clear meanwhile.
-// Returns false after stop().
+// Tasks do not wait: a reset gives the pose up, a parameter may mend what fails. Returns false after stop().
 bool GuardThread::processOrRepeat(const QueuedPose& queued, const QueuedPose* next) {
   bool done = false;
   while (true) {
@@ -157,6 +157,7 @@ bool GuardThread::processOrRepeat(const QueuedPose& queued, const QueuedPose* ne
     if (done) return true;
     if (dependencies_.queue.stopped()) return false;
     std::this_thread::sleep_for(kPause);
+    for (const auto& task : dependencies_.queue.takeTasks()) top_->run(task);
   }
 }
 

@@ -46,8 +46,9 @@ bool isLoopback(const std::string& host) { return host == "localhost" || host ==
 // roscpp has no setting for the address of its server, and does not hand out the socket.
 void keepToLoopback() {
   if (!isLoopback(ros::network::getHost())) return;
-  const int port = ros::XMLRPCManager::instance()->getServerPort();
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+  const auto port = static_cast<int>(ros::XMLRPCManager::instance()->getServerPort());
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", unreadable)) {
     const int socket = std::stoi(entry.path().filename());
     if (!listensOn(socket, port)) continue;
     constexpr char kLoopback[] = "lo";

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <iterator>
+#include <utility>
 
 #include "sweep_guard/common/error.h"
 
@@ -62,6 +63,11 @@ bool WorkQueue::takeNow(Work& taken) {
   std::swap(taken.tasks, work_.tasks);
   if (!taken.poses.empty()) taken_since_ = taken.poses.front().pose.received;
   return true;
+}
+
+std::vector<std::function<void()>> WorkQueue::takeTasks() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(work_.tasks, {});
 }
 
 void WorkQueue::wake() {

@@ -58,6 +58,8 @@ class WorkQueue {
   /// @param[out] taken  overwritten
   /// @returns false after stop()
   bool take(Work& taken);
+  /// Takes all tasks, and no poses. Does not wait.
+  std::vector<std::function<void()>> takeTasks();
   bool hasPoses() const;
 
   /// Reports that the poses taken so far are swept, except those from this one on.

@@ -233,7 +233,7 @@ TEST(DiskTest, WithoutRoomForALogTheGuardWarns) {
 std::string freePort() {
   XmlRpc::XmlRpcServer server;
   server.bindAndListen(0);
-  const std::string port = std::to_string(server.get_port());
+  std::string port = std::to_string(server.get_port());
   server.shutdown();
   return port;
 }

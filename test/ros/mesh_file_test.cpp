@@ -55,7 +55,7 @@ std::string asciiStl() {
     for (int i = 0; i < 3; ++i) {
       std::string x, y, z;
       numbers >> x >> y >> z;
-      text += "vertex " + x + " " + y + " " + z + "\n";
+      text.append("vertex ").append(x).append(" ").append(y).append(" ").append(z).append("\n");
     }
     text += "endloop\nendfacet\n";
   }

@@ -197,6 +197,23 @@ TEST_F(ServicesTest, BehindAStuckSweepNothingIsResetOrChangedAndTheAnswerSaysSo)
   EXPECT_NE(monitor_.checkpoint().epoch, epoch);
 }
 
+TEST_F(ServicesTest, APoseThatFailsEachTimeIsGivenUpByAReset) {
+  placeWorkpiece(3);
+  const auto tries = std::make_shared<std::atomic<int>>(0);
+  detector_record_.asked = [tries] {
+    ++*tries;
+    throw std::runtime_error("fails each time");
+  };
+  sweepTo(0.0);
+  while (*tries < 3) std::this_thread::yield();
+
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(clientOf<std_srvs::Trigger>("reset").call(reset));
+  EXPECT_TRUE(reset.response.success) << reset.response.message;
+  queue_.submit<void>([] {}).get();
+  EXPECT_FALSE(queue_.waitingSince());
+}
+
 // Stopped, a master accepts connections and answers none.
 TEST_F(ServicesTest, WithoutAMasterAChangeIsAppliedAndTheAnswerSaysWhatIsMissing) {
   Reconfigure::Request first = hold(1.0);

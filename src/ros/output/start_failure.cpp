@@ -13,15 +13,24 @@ namespace {
 constexpr auto kTime = std::chrono::seconds(1);
 constexpr const char* kTopic = "/diagnostics";
 
-std::uint32_t subscribers() {
-  static const std::atomic<bool> never = false;
-  const auto state = XmlRpcCall(kTime, never).call(ros::master::getURI(), "getSystemState", {});
-  if (!state || !state->success) return 0;
-  const XmlRpc::XmlRpcValue& topics = state->value[1];
+// Throws XmlRpcException if the master answers with something else.
+std::uint32_t subscribersIn(const XmlRpc::XmlRpcValue& system_state) {
+  const XmlRpc::XmlRpcValue& topics = system_state[1];
   for (int i = 0; i < topics.size(); ++i) {
     if (static_cast<const std::string&>(topics[i][0]) == kTopic) return static_cast<std::uint32_t>(topics[i][1].size());
   }
   return 0;
+}
+
+std::uint32_t subscribers() {
+  static const std::atomic<bool> never = false;
+  const auto state = XmlRpcCall(kTime, never).call(ros::master::getURI(), "getSystemState", {});
+  if (!state || !state->success) return 0;
+  try {
+    return subscribersIn(state->value);
+  } catch (const XmlRpc::XmlRpcException&) {
+    return 0;
+  }
 }
 
 }  // namespace

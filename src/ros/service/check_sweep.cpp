@@ -82,7 +82,7 @@ CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const 
           [this](auto& request, auto& response) { return onCall(request, response); }, refuse, throwIfBusy)) {}
 
 void CheckSweepService::start(Supervisor& supervisor) {
-  background_.start(supervisor, {"paths", /*watched=*/false});
+  sweeps_.start(supervisor, {"paths", /*watched=*/false});
   calls_.start(supervisor);
 }
 
@@ -119,7 +119,7 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
 
 std::vector<sweep_guard_core::PathResult> CheckSweepService::test(const PathQuestion& question) {
   std::vector<sweep_guard_core::PathResult> results;
-  background_.run([&] { results = tester_.test(question); });
+  sweeps_.run([&] { results = tester_.test(question); });
   return results;
 }
 

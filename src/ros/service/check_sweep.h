@@ -10,6 +10,7 @@
 #include "guard/workpiece_store.h"
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
+#include "ros/process.h"
 #include "ros/service/limited_calls.h"
 #include "ros/service/path_tester.h"
 #include "ros/threads/background_thread.h"
@@ -52,8 +53,8 @@ class CheckSweepService {
   const CheckSweepDependencies dependencies_;
   PathTester tester_;
   std::atomic<bool> stopping_ = false;
-  BackgroundThread background_;  // sweeps
-  LimitedCalls calls_;           // answers; before the server, which uses it
+  BackgroundThread sweeps_{[] { setNice(10); }};
+  LimitedCalls calls_;  // before the server, which uses it
   ros::ServiceServer server_;
 };
 

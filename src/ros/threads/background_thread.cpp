@@ -2,14 +2,7 @@
 
 #include <utility>
 
-#include "ros/process.h"
-
 namespace sweep_guard_ros {
-namespace {
-
-constexpr int kNice = 10;
-
-}  // namespace
 
 BackgroundThread::~BackgroundThread() {
   {
@@ -38,7 +31,7 @@ void BackgroundThread::run(std::function<void()> work) {
 
 void BackgroundThread::loop() {
   top_->enter();
-  setNice(kNice);
+  lower_();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stopping_ || work_.valid(); });

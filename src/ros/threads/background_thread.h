@@ -10,11 +10,12 @@
 
 namespace sweep_guard_ros {
 
-/// A thread of nice 10, for computations that others wait for. Nothing that holds a lock belongs here: a thread of low
+/// A thread of low priority, for computations that others wait for. Nothing that holds a lock belongs here: a thread of low
 /// priority that is preempted keeps it. roscpp's own thread does not even wait for a connection's lock, it spins.
 class BackgroundThread {
  public:
-  BackgroundThread() = default;
+  /// @param lower  called first: lowers the priority of the calling thread
+  explicit BackgroundThread(void (*lower)()) : lower_(lower) {}
   ~BackgroundThread();
   BackgroundThread(const BackgroundThread&) = delete;
   BackgroundThread& operator=(const BackgroundThread&) = delete;
@@ -29,6 +30,7 @@ class BackgroundThread {
  private:
   void loop();
 
+  void (*const lower_)();
   ThreadTop* top_ = nullptr;  // from start() on
   std::mutex mutex_;
   std::condition_variable changed_;
