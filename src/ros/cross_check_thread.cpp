@@ -52,10 +52,11 @@ void CrossCheckThread::checkOrLog(const sweep_guard_core::SampledQuery& query) {
 void CrossCheckThread::check(const sweep_guard_core::SampledQuery& query) {
   const Other* asked = nullptr;
   sweep_guard_core::Disagreement disagreement;
-  queries_.run([&] {
+  const auto ask = [&] {
     asked = &other(sweep_guard_core::otherDetector(query.detector, ++count_));
     disagreement = sweep_guard_core::crossCheck(query, *asked->detector);
-  });
+  };
+  queries_.submit<void>(ask).get();
   if (disagreement.any()) report(query, asked->name, disagreement);
 }
 

@@ -53,8 +53,9 @@ int threadsOfNice(int nice) {
 
 class ServicesTest : public ::testing::Test {
  protected:
-  explicit ServicesTest(const std::string& self_test = "unknown", std::uint32_t drop_every = 0)
-      : detector_record_{{}, 0, 0.0, 0.0, drop_every}, node_(privateNode(self_test)) {
+  explicit ServicesTest(const std::string& self_test = "unknown", std::uint32_t drop_every = 0,
+                        double deadline = kDeadline)
+      : detector_record_{{}, 0, 0.0, 0.0, drop_every}, node_(privateNode(self_test, deadline)) {
     guard_thread_.start(supervisor_);
     controls_.start(supervisor_);
     reconfigure_server_.start(supervisor_);
@@ -64,9 +65,9 @@ class ServicesTest : public ::testing::Test {
   }
   ~ServicesTest() override { guard_thread_.stop(); }
 
-  static ros::NodeHandle privateNode(const std::string& self_test) {
+  static ros::NodeHandle privateNode(const std::string& self_test, double deadline) {
     ros::NodeHandle node("~");
-    node.setParam("check_sweep/deadline", kDeadline);
+    node.setParam("check_sweep/deadline", deadline);
     node.setParam("self_test", self_test);
     node.setParam("detector", "select");
     node.setParam("cross_check", 1);
@@ -199,10 +200,11 @@ TEST_F(ServicesTest, BehindAStuckSweepNothingIsResetOrChangedAndTheAnswerSaysSo)
 
 TEST_F(ServicesTest, APoseThatFailsEachTimeIsGivenUpByAReset) {
   placeWorkpiece(3);
+  struct NotOfADetector {};  // not reported for one workpiece: ends the whole sweep
   const auto tries = std::make_shared<std::atomic<int>>(0);
   detector_record_.asked = [tries] {
     ++*tries;
-    throw std::runtime_error("fails each time");
+    throw NotOfADetector();
   };
   sweepTo(0.0);
   while (*tries < 3) std::this_thread::yield();
@@ -310,7 +312,12 @@ TEST(LimitedCallsTest, CallsThatCameBeforeTheStartAreRefusedLikeLaterOnes) {
   EXPECT_EQ(count, 3);
 }
 
-TEST_F(ServicesTest, AMeshThatIsRefusedWhileAPathIsTestedIsDoubted) {
+class PatientServicesTest : public ServicesTest {
+ protected:
+  PatientServicesTest() : ServicesTest("unknown", /*drop_every=*/0, /*deadline=*/20.0) {}
+};
+
+TEST_F(PatientServicesTest, AMeshThatIsRefusedWhileAPathIsTestedIsDoubted) {
   placeWorkpiece(10);
   CheckSweep::Request request = path(2);
   for (auto& pose : request.path) pose.pose.position.z = 1.0;
@@ -322,7 +329,7 @@ TEST_F(ServicesTest, AMeshThatIsRefusedWhileAPathIsTestedIsDoubted) {
   EXPECT_TRUE(has(response.message, "vertex 3 is NaN"));
 }
 
-TEST_F(ServicesTest, AWorkpieceThatIsRemovedWhileAPathIsTestedIsStillAnsweredFor) {
+TEST_F(PatientServicesTest, AWorkpieceThatIsRemovedWhileAPathIsTestedIsStillAnsweredFor) {
   placeWorkpiece(10);
   CheckSweep::Request request = path(2);
   request.mesh_ids = {"wavy"};
@@ -333,7 +340,7 @@ TEST_F(ServicesTest, AWorkpieceThatIsRemovedWhileAPathIsTestedIsStillAnsweredFor
   EXPECT_TRUE(response.collision);
 }
 
-TEST_F(ServicesTest, ADetectorThatFailsItsTestAnswersNoPath) {
+TEST_F(PatientServicesTest, ADetectorThatFailsItsTestAnswersNoPath) {
   placeWorkpiece(10);
   path_detector_record_.drop_every = 10;
   const CheckSweep::Response response = checkSweep(path(2));
@@ -346,8 +353,7 @@ TEST_F(ServicesTest, APathIsGivenUpAtItsDeadline) {
   const CheckSweep::Response response = checkSweep(longPath());
   const double took = secondsSince(begin);
   EXPECT_FALSE(response.success || response.clear || response.collision);
-  EXPECT_TRUE(has(response.message, "not tested within 0.5 s (check_sweep/deadline): given up before sweep "));
-  EXPECT_TRUE(has(response.message, "of the path, on 'wavy'"));
+  EXPECT_TRUE(has(response.message, "not tested within 0.5 s (check_sweep/deadline): given up "));
   EXPECT_GE(took, kDeadline);
   EXPECT_LT(took, 2.0 * kDeadline);
 }

@@ -16,10 +16,12 @@ namespace {
 
 using sweep_guard::CheckSweep;
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::PathResult;
 using sweep_guard_core::printable;
 
 constexpr size_t kMaxPoses = 1024;
 constexpr auto kPathTransformWait = std::chrono::milliseconds(100);
+constexpr auto kGrace = std::chrono::milliseconds(50);  // for the sweeps, which know where they were given up
 
 struct PathContact {
   size_t segment;
@@ -36,6 +38,11 @@ void throwIfBusy() {
   if (!LimitedCalls::refused()) return;
   throw sweep_guard_core::Error("BUSY: " + std::to_string(LimitedCalls::kMaxWaiting) +
                                 " calls wait already; ask again");
+}
+
+sweep_guard_core::Error givenUp(sweep_guard_core::Duration deadline, const std::string& when) {
+  return sweep_guard_core::Error("not tested within " + shown(ParameterValue(sweep_guard_core::toSeconds(deadline))) +
+                                 " s (check_sweep/deadline): given up " + when);
 }
 
 sweep_guard_core::SweepOptions optionsOf(const CheckSweep::Request& request, sweep_guard_core::SweepOptions options) {
@@ -56,8 +63,7 @@ PathContact earlier(const std::optional<PathContact>& a, const PathContact& b) {
   return a && std::tie(a->segment, a->time_of_impact) < std::tie(b.segment, b.time_of_impact) ? *a : b;
 }
 
-void fill(CheckSweep::Response& response, const PathQuestion& question,
-          const std::vector<sweep_guard_core::PathResult>& results) {
+void fill(CheckSweep::Response& response, const PathQuestion& question, const std::vector<PathResult>& results) {
   std::optional<PathContact> first;
   for (size_t i = 0; i < results.size(); ++i) {
     const auto& [all, first_contact, time_of_impact] = results[i];
@@ -102,25 +108,28 @@ bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Respons
 }
 
 void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
-  PathQuestion question;
-  question.parameters = dependencies_.parameters.get();
-  question.detector = request.detector.empty() ? question.parameters->detector : request.detector;
-  question.options = optionsOf(request, question.parameters->guard.sweep);
-  question.go_on = untilDeadline(question.parameters->check_sweep_deadline);
+  const auto question = std::make_shared<PathQuestion>();
+  question->parameters = dependencies_.parameters.get();
+  question->detector = request.detector.empty() ? question->parameters->detector : request.detector;
+  question->options = optionsOf(request, question->parameters->guard.sweep);
+  question->go_on = untilDeadline(question->parameters->check_sweep_deadline);
   // Before the snapshot is taken: what is accepted later does not better it.
   const std::string doubts_before = dependencies_.monitor.meshProblems(now(), request.mesh_ids);
   for (const auto& workpiece : selected(request.mesh_ids)) {
-    question.paths.push_back({workpiece, pathIn(workpiece->frame, request.path, question.go_on)});
+    question->paths.push_back({workpiece, pathIn(workpiece->frame, request.path, question->go_on)});
   }
-  fill(response, question, test(question));
-  response.message = doubts_before.empty() ? doubts(question, request) : doubts_before;
+  fill(response, *question, test(question));
+  response.message = doubts_before.empty() ? doubts(*question, request) : doubts_before;
   response.clear = !response.collision && response.message.empty();
 }
 
-std::vector<sweep_guard_core::PathResult> CheckSweepService::test(const PathQuestion& question) {
-  std::vector<sweep_guard_core::PathResult> results;
-  sweeps_.run([&] { results = tester_.test(question); });
-  return results;
+// A busy processor may keep the thread of the sweeps waiting for long. It gives up by itself, before its next sweep.
+std::vector<PathResult> CheckSweepService::test(const std::shared_ptr<const PathQuestion>& question) {
+  auto results = sweeps_.submit<std::vector<PathResult>>([this, question] { return tester_.test(*question); });
+  const sweep_guard_core::Duration deadline = question->parameters->check_sweep_deadline;
+  if (results.wait_until(LimitedCalls::arrival() + deadline + kGrace) == std::future_status::ready)
+    return results.get();
+  throw givenUp(deadline, "during a sweep");
 }
 
 // After the test, which waits for late transforms, and during which a mesh may be refused.
@@ -133,8 +142,7 @@ GoOn CheckSweepService::untilDeadline(sweep_guard_core::Duration deadline) const
   return [this, deadline, end = LimitedCalls::arrival() + deadline](const std::string& where) {
     if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
     if (std::chrono::steady_clock::now() < end) return;
-    throw sweep_guard_core::Error("not tested within " + shown(ParameterValue(sweep_guard_core::toSeconds(deadline))) +
-                                  " s (check_sweep/deadline): given up before " + where);
+    throw givenUp(deadline, "before " + where);
   };
 }
 

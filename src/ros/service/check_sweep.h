@@ -42,7 +42,7 @@ class CheckSweepService {
  private:
   bool onCall(sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
   void check(const sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
-  std::vector<sweep_guard_core::PathResult> test(const PathQuestion& question);
+  std::vector<sweep_guard_core::PathResult> test(const std::shared_ptr<const PathQuestion>& question);
   GoOn untilDeadline(sweep_guard_core::Duration deadline) const;
   sweep_guard_core::Workpieces selected(const std::vector<std::string>& ids) const;
   std::vector<Eigen::Isometry3d> pathIn(const std::string& mesh_frame,

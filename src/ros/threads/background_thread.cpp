@@ -1,7 +1,5 @@
 #include "ros/threads/background_thread.h"
 
-#include <utility>
-
 namespace sweep_guard_ros {
 
 BackgroundThread::~BackgroundThread() {
@@ -18,15 +16,12 @@ void BackgroundThread::start(Supervisor& supervisor, const ThreadTraits& traits)
   thread_ = std::thread([this] { loop(); });
 }
 
-void BackgroundThread::run(std::function<void()> work) {
-  std::packaged_task<void()> task(std::move(work));
-  std::future<void> done = task.get_future();
+void BackgroundThread::replace(std::function<void()> work) {
   {
     const std::lock_guard lock(mutex_);
-    work_ = std::move(task);
+    std::swap(work_, work);
   }
   changed_.notify_one();
-  done.get();
 }
 
 void BackgroundThread::loop() {
@@ -34,11 +29,12 @@ void BackgroundThread::loop() {
   lower_();
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stopping_ || work_.valid(); });
+    changed_.wait(lock, [this] { return stopping_ || work_; });
     if (stopping_) return;
-    std::packaged_task<void()> work = std::exchange(work_, {});
+    std::function<void()> work = std::exchange(work_, nullptr);
     lock.unlock();
-    top_->run([&] { work(); });
+    top_->run(work);
+    work = nullptr;
     lock.lock();
   }
 }

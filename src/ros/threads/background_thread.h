@@ -3,8 +3,10 @@
 #include <condition_variable>
 #include <functional>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "ros/threads/supervisor.h"
 
@@ -23,18 +25,23 @@ class BackgroundThread {
   /// Starts the thread; the supervisor must outlive it.
   void start(Supervisor& supervisor, const ThreadTraits& traits);
 
-  /// Runs the work there and waits for its end. One caller at a time; it must have returned before the destructor.
-  /// @throws what the work throws
-  void run(std::function<void()> work);
+  /// Runs the work there after the work that runs, and instead of any that waits. Nobody has to wait for the result.
+  template <typename Result>
+  std::future<Result> submit(std::function<Result()> work) {
+    const auto packaged = std::make_shared<std::packaged_task<Result()>>(std::move(work));
+    replace([packaged] { (*packaged)(); });
+    return packaged->get_future();
+  }
 
  private:
+  void replace(std::function<void()> work);
   void loop();
 
   void (*const lower_)();
   ThreadTop* top_ = nullptr;  // from start() on
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::packaged_task<void()> work_;  // valid while it waits to be run
+  std::function<void()> work_;  // waits to be run
   bool stopping_ = false;
   std::thread thread_;
 };
