@@ -99,6 +99,8 @@ std::string Allocations::stacks() const {
 
 }  // namespace sweep_guard_core
 
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"  // inlined, new and delete are aligned_alloc and free
+
 void* operator new(size_t size) { return sweep_guard_core::allocate(size, alignof(std::max_align_t)); }
 void* operator new(size_t size, std::align_val_t alignment) {
   return sweep_guard_core::allocate(size, static_cast<size_t>(alignment));
