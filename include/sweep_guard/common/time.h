@@ -19,11 +19,12 @@ struct StampClock {
 /// A stamp in nanoseconds since the epoch of the clock: 1970 UTC, or time 0 of a simulation. 0 means "no stamp".
 using Time = StampClock::time_point;
 
-/// A reading of the clock that never stops or jumps; its epoch is arbitrary.
+/// A reading of a clock that never jumps; its epoch is arbitrary. It stands still while the machine is suspended, so an
+/// age need not show that: after a suspend, call WarningMonitor::timeJumped().
 using SteadyTime = std::chrono::time_point<std::chrono::steady_clock, Duration>;
 
-/// One moment on both clocks. Ages are computed on both and the larger one counts: neither a stopped clock nor a late
-/// message can make a stamp look fresh.
+/// One moment on both clocks. Ages are computed on both and the larger one counts: neither a stopped StampClock nor a
+/// late message can make a stamp look fresh.
 struct Instant {
   Time stamp;
   SteadyTime steady;

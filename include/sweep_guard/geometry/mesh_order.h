@@ -49,6 +49,7 @@ struct MeshOrder {
 /// Computes the order of a mesh.
 /// @param positions  x0 y0 z0 x1 ... [m], finite, at least one vertex; not checked
 /// @param triangles  indices below the number of vertices; not checked
+/// @throws InvalidInput if the environment variable SWEEP_GUARD_SIMD is wrong (simd::kernels())
 MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangle>& triangles);
 
 /// Copies positions from the sender's order to their places.

@@ -33,7 +33,11 @@ class Tool {
   /// Makes a tool of one piece.
   explicit Tool(const ConvexShape& shape_T);
 
-  /// Makes the cylinder of [P, Sec. 3.1]: parameters and errors as ConvexShape::cylinder().
+  /// Makes the round cylinder of [P, Sec. 3.1] around the z axis of T, with z in [-length, 0].
+  /// @param radius  [m], 0 to kMaxCoordinate
+  /// @param length  [m], 0 to kMaxCoordinate; not both 0
+  /// @param sides   number of sides of the piece's mesh_T(), 3 to 1000
+  /// @throws InvalidInput if an argument is out of range
   static Tool cylinder(double radius, double length, int sides = 32);
 
   const std::vector<ConvexPiece>& pieces() const { return pieces_; }

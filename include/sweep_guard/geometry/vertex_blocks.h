@@ -16,6 +16,7 @@ class VertexBlocks {
   /// Computes the boxes.
   /// @param positions  x0 y0 z0 x1 ... [m], at least one vertex (asserted)
   /// @returns whether all positions are finite (see simd::Kernels::bound); if not, the boxes are not valid
+  /// @throws InvalidInput if the environment variable SWEEP_GUARD_SIMD is wrong (simd::kernels())
   bool measure(const std::vector<float>& positions);
 
   size_t count() const { return count_; }  ///< number of boxes, without padding

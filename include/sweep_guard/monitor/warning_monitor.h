@@ -52,6 +52,8 @@ class WarningMonitor {
   Checkpoint checkpoint() const;
 
   /// Reports that an input was refused or failed. The warning is not clear until a pose received later has been swept.
+  /// @param reason  not of kDegraded, which does not change the level, and not kMeshInvalid, kSelftest or kCrosscheck:
+  ///     that sweep would also end what other functions report under these. Not checked
   void fault(Reason reason, const std::string& message);
 
   /// Reports an exception that ended a piece of work, as a fault. It ends at a restart, or when a pose received later
@@ -63,7 +65,7 @@ class WarningMonitor {
 
   /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), because the workpiece that
   /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each. That of
-  /// another id takes the place of the last id's refusal, and counts as a refusal of the last id.
+  /// another id takes the place of the refusal of the id that sorts last, and counts as a refusal of that id.
   /// @param received  when the message was received: meshes are accepted later than they are refused
   void meshRefused(const std::string& id, const std::string& message, SteadyTime received);
 
@@ -162,8 +164,9 @@ class WarningMonitor {
   void warning(const Instant& now, Warning& warning) const;
 
   /// Returns why these workpieces, the detectors or the threads are not as good as CLEAR needs them, in words; empty if
-  /// they are. Does not ask whether the workpieces were swept. Does not name an id that is unknown, not required and
-  /// not refused; says that there is no workpiece if every id is unknown and not required. While refusals of 64 ids are
+  /// they are. Does not ask whether the workpieces were swept, and leaves out what fault() reports, failures in reports
+  /// and predictions, and those of failed() that do not last. Does not name an id that is unknown, not required and not
+  /// refused; says that there is no workpiece if every id is unknown and not required. While refusals of 64 ids are
   /// kept, they concern every id.
   /// @param ids  empty: all workpieces, and those that are required
   std::string meshProblems(const Instant& now, const std::vector<std::string>& ids) const;

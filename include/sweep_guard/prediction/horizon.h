@@ -47,7 +47,8 @@ size_t consideredSweeps(const HorizonOptions& options);
 /// @param[out] horizon  overwritten; its buffers are used again
 void computeHorizon(const HorizonOptions& options, Duration age, Horizon& horizon);
 
-/// Computes the ends of the sweeps, at the same steps, up to exactly `end`. Adds no reserve; the last sweep may be
+/// Computes the ends of the sweeps up to exactly `end`. Adds no reserve. Those in the reflex interval are those of
+/// computeHorizon(); later ones may differ, but their steps are not longer than configured. The last sweep may be
 /// shorter than a step.
 /// @param end      counted from now, > 0 (asserted); may lie within the reflex interval
 /// @param options  accepted by check(), apart from `considered`, which does not count
