@@ -40,7 +40,13 @@ po::options_description outputOptions(Options& options) {
                                                                                  "plot of errors against horizons")(
       "warnings-csv", text(options.warnings_csv, "FILE"), "leads and false alarms of the warnings")(
       "tradeoff-csv", text(options.tradeoff_csv, "FILE"), "contacts warned of and false alarms, for all thresholds")(
-      "tradeoff-plot", text(options.tradeoff_plot, "FILE.png"), "plot of the trade-off");
+      "tradeoff-plot", text(options.tradeoff_plot, "FILE.png"), "plot of the trade-off")(
+      "sessions", po::bool_switch(&options.sessions), "alarms in sessions beside fixed sheets")(
+      "sessions-csv", text(options.sessions_csv, "FILE"), "figures of the sessions")(
+      "sessions-plot", text(options.sessions_plot, "FILE.png"), "plot of the figures of the sessions")(
+      "sessions-objects-csv", text(options.sessions_objects_csv, "FILE"), "counts of every sheet of every session")(
+      "compare-sessions", text(options.compare_sessions, "FILE"),
+      "compares the sessions with those of an earlier --sessions-objects-csv");
   return described;
 }
 
@@ -70,6 +76,18 @@ po::options_description warningOptions() {
       "smallest probability of a contact that raises a warning, in (0, 1]")(
       "hold-time", withDefault("0.5", "S"), "a warning stays for this time after its cause is over [s]")(
       "up-to", withDefault("20", "N"), "end of the average of the trade-off [false alarms per minute]");
+  return described;
+}
+
+po::options_description sessionOptions(Options& options) {
+  po::options_description described("Sessions");
+  described.add_options()("sheets", withDefault("20", "N"), "sheets in each session")(
+      "session-count", withDefault("5", "N"), "sessions of each recording; the first has the seed of --seed")(
+      "mesh", po::value(&options.meshes)->value_name("FILE"),
+      "STL, OBJ or DAE file of a mesh to place at random as the sheets are; may be repeated")(
+      "fixed-mesh", po::value(&options.fixed_meshes)->value_name("FILE"),
+      "the same, but the mesh stays where its coordinates say, in the frame of the poses")(
+      "mesh-scale", withDefault("1", "M"), "unit of the mesh files [m]");
   return described;
 }
 
@@ -136,6 +154,18 @@ void store(const po::variables_map& values, Options& options) {
   options.simulation.limits.min_probability = number("min-probability", 1e-3, 1.0);
   options.simulation.limits.hold_time = seconds("hold-time", 0.0, 60.0);
   options.max_false_alarms = number("up-to", 1e-3, 1e6);
+  options.session.sheets = number("sheets", size_t{0}, size_t{10000});
+  options.session.sessions = number("session-count", size_t{1}, size_t{1000});
+  options.session.seed = options.placement.seed;
+  options.mesh_scale = number("mesh-scale", 1e-6, 1e6);
+  if (options.wantsSessions() && options.session.sheets + options.meshes.size() + options.fixed_meshes.size() == 0) {
+    throw InvalidInput("--sheets: sessions need a sheet or a mesh");
+  }
+  if (values["predictors"].defaulted()) {
+    options.session_predictor = sweep_guard_core::PredictorOptions{}.predictor;
+  } else {
+    options.session_predictor = options.predictors.front();
+  }
 }
 
 }  // namespace
@@ -149,14 +179,15 @@ std::string usage() {
           "TransformStamped. Prints tables of the results.\n\n"
        << outputOptions(options) << '\n'
        << predictionOptions(options) << '\n'
-       << warningOptions();
+       << warningOptions() << '\n'
+       << sessionOptions(options);
   return text.str();
 }
 
 Options parseOptions(int argc, const char* const* argv) {
   Options options;
   po::options_description all;
-  all.add(outputOptions(options)).add(predictionOptions(options)).add(warningOptions());
+  all.add(outputOptions(options)).add(predictionOptions(options)).add(warningOptions()).add(sessionOptions(options));
   all.add_options()("file", po::value(&options.files));
   po::variables_map values;
   try {
