@@ -34,7 +34,13 @@ constexpr double kMaxDeviations = 3.1;  // beyond, the guard counts a probabilit
 constexpr double kRounding = 1e-4;      // [m]
 constexpr size_t kProgressStep = 64;
 
-std::shared_ptr<const Workpiece> workpieceOf(const std::string& id, const TriangleMesh& mesh_W) {
+// With vertices in float32 as streamed ones are, so that all workpieces have the same margin.
+std::shared_ptr<const Workpiece> workpieceOf(const std::string& id, TriangleMesh mesh_W) {
+  std::vector<float> positions;
+  for (size_t i = 0; i < mesh_W.vertexCount(); ++i) {
+    for (const double coordinate : mesh_W.vertex(i)) positions.push_back(static_cast<float>(coordinate));
+  }
+  mesh_W.deform(positions);
   return std::make_shared<const Workpiece>(Workpiece{id, 1, {}, {}, kFrame, mesh_W});
 }
 

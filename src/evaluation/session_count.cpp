@@ -56,15 +56,15 @@ bool isJustified(const std::vector<Touch>& touches, const Alarm& judged) {
                      [&](const Touch& touch) { return touch.begin <= judged.end && touch.end >= judged.begin; });
 }
 
-void countAlarm(const ObjectSession& session, const Alarm& alarm, ObjectCount& counted) {
-  ++counted.count.alarms;
+void countAlarm(const ObjectSession& session, const Alarm& alarm, SessionCount& count) {
+  ++count.alarms;
   const Alarm judged = judgedInterval(session.motion, alarm);
   if (isJustified(session.touches, judged)) return;
-  ++counted.count.unjustified;
-  counted.unjustified.push_back(alarm);
+  ++count.unjustified;
+  count.unjustified_time += alarm.end - alarm.begin;
   const double nearest = nearestDistance(session.motion, session.tool, session.object, judged.begin, judged.end);
   for (size_t i = 0; i < kNearMisses.size(); ++i) {
-    if (nearest < kNearMisses[i]) ++counted.count.near_misses[i];
+    if (nearest < kNearMisses[i]) ++count.near_misses[i];
   }
 }
 
@@ -104,21 +104,22 @@ SessionCount& SessionCount::operator+=(const SessionCount& other) {
   late += other.late;
   alarms += other.alarms;
   unjustified += other.unjustified;
+  unjustified_time += other.unjustified_time;
   for (size_t i = 0; i < near_misses.size(); ++i) near_misses[i] += other.near_misses[i];
   return *this;
 }
 
-ObjectCount countSession(const ObjectSession& session) {
-  ObjectCount counted;
+SessionCount countSession(const ObjectSession& session) {
+  SessionCount count;
   const std::vector<Alarm> alarms = session.levels.alarms(WarningLevel::kConsidered);
   for (size_t i = 0; i < session.touches.size(); ++i) {
-    if (isContact(session, i)) countContact(session, session.touches[i].begin, alarms, counted.count);
+    if (isContact(session, i)) countContact(session, session.touches[i].begin, alarms, count);
   }
   for (const Alarm& alarm : alarms) {
     if (!session.motion.isContinuous(alarm.begin, alarm.begin + kSessionWindow)) continue;
-    countAlarm(session, alarm, counted);
+    countAlarm(session, alarm, count);
   }
-  return counted;
+  return count;
 }
 
 }  // namespace sweep_guard_evaluation

@@ -42,15 +42,10 @@ struct SessionCount {
   size_t late = 0;                                    ///< contacts without REFLEX, at the latest with the contact
   size_t alarms = 0;
   size_t unjustified = 0;
+  sweep_guard_core::Duration unjustified_time{};         ///< for which the unjustified alarms were on
   std::array<size_t, kNearMisses.size()> near_misses{};  ///< unjustified alarms that were as near as this
 
   SessionCount& operator+=(const SessionCount& other);
-};
-
-/// Counts of one object, and when its unjustified alarms were on.
-struct ObjectCount {
-  SessionCount count;
-  std::vector<Alarm> unjustified;
 };
 
 /// What is known of the levels of the warnings about one object, and of the truth.
@@ -63,6 +58,6 @@ struct ObjectSession {
 };
 
 /// Counts contacts and alarms of one object. doc/warnings.md has the definitions.
-ObjectCount countSession(const ObjectSession& session);
+SessionCount countSession(const ObjectSession& session);
 
 }  // namespace sweep_guard_evaluation

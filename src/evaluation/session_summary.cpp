@@ -8,8 +8,6 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard_core::Duration;
-
 namespace {
 
 constexpr size_t kDraws = 1000;
@@ -17,19 +15,6 @@ constexpr size_t kDraws = 1000;
 double share(size_t part, size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); }
 
 }  // namespace
-
-double minutesOf(std::vector<Alarm> intervals) {
-  std::sort(intervals.begin(), intervals.end(), [](const Alarm& a, const Alarm& b) { return a.begin < b.begin; });
-  Duration on{0};
-  sweep_guard_core::Time until = sweep_guard_core::Time::min();
-  for (const Alarm& interval : intervals) {
-    const auto begin = std::max(interval.begin, until);
-    if (interval.end <= begin) continue;
-    on += interval.end - begin;
-    until = interval.end;
-  }
-  return sweep_guard_core::toSeconds(on) / 60.0;
-}
 
 double SessionFigures::warned(size_t lead) const { return share(count.warned[lead], count.contacts); }
 
@@ -41,25 +26,23 @@ double SessionFigures::precisionWithin(size_t near) const {
   return share(count.alarms - count.unjustified + count.near_misses[near], count.alarms);
 }
 
-double SessionFigures::falseOnShare() const { return false_on_minutes / minutes; }
+double SessionFigures::falseOnShare() const {
+  return sweep_guard_core::toSeconds(count.unjustified_time) / 60.0 / minutes;
+}
 
 SessionFigures& SessionFigures::operator+=(const SessionFigures& other) {
   minutes += other.minutes;
   count += other.count;
-  false_on_minutes += other.false_on_minutes;
   return *this;
 }
 
 SessionFigures figuresOf(const RecordingSessions& sessions) {
   SessionFigures figures;
-  for (const std::vector<ObjectCount>& objects : sessions.objects) {
-    figures.minutes += sessions.minutes;
-    std::vector<Alarm> unjustified;
-    for (const ObjectCount& object : objects) {
-      figures.count += object.count;
-      unjustified.insert(unjustified.end(), object.unjustified.begin(), object.unjustified.end());
+  for (const std::vector<SessionCount>& objects : sessions.objects) {
+    for (const SessionCount& object : objects) {
+      figures.minutes += sessions.minutes;
+      figures.count += object;
     }
-    figures.false_on_minutes += minutesOf(std::move(unjustified));
   }
   return figures;
 }
@@ -77,8 +60,8 @@ std::vector<RecordingSessions> resampled(const std::vector<RecordingSessions>& r
   };
   std::vector<RecordingSessions> drawn = recordings;
   for (size_t i = 0; i < recordings.size(); ++i) {
-    for (std::vector<ObjectCount>& objects : drawn[i].objects) {
-      for (ObjectCount& object : objects) object = choose(choose(recordings[i].objects));
+    for (std::vector<SessionCount>& objects : drawn[i].objects) {
+      for (SessionCount& object : objects) object = choose(choose(recordings[i].objects));
     }
   }
   return drawn;

@@ -11,24 +11,21 @@ namespace sweep_guard_evaluation {
 /// The sessions of one recording.
 struct RecordingSessions {
   std::string recording;
-  double minutes = 0.0;                           ///< of one session, without gaps
-  std::vector<std::vector<ObjectCount>> objects;  ///< by session, then as placed
+  double minutes = 0.0;                            ///< of the recording, without gaps
+  std::vector<std::vector<SessionCount>> objects;  ///< by session, then as placed
 };
 
-/// Returns the time [min] in which any of these intervals is on.
-double minutesOf(std::vector<Alarm> intervals);
-
-/// What an operator gets from sessions, by name; shares are in [0, 1].
+/// What an operator gets from working beside one object after the other, each for a whole recording; shares are in
+/// [0, 1].
 struct SessionFigures {
-  double minutes = 0.0;
+  double minutes = 0.0;  ///< beside an object: those of the recording, once for each object
   SessionCount count;
-  double false_on_minutes = 0.0;  ///< time in which at least one unjustified alarm of a session was on
 
   double warned(size_t lead) const;           ///< share of contacts, by index of kSessionLeads; NaN without contacts
   double unjustifiedPerMinute() const;        ///< NaN without time
   double precision() const;                   ///< share of alarms that are justified; NaN without alarms
   double precisionWithin(size_t near) const;  ///< the same with near misses, by index of kNearMisses
-  double falseOnShare() const;                ///< of the time
+  double falseOnShare() const;                ///< share of time in which an unjustified alarm is on
 
   SessionFigures& operator+=(const SessionFigures& other);
 };

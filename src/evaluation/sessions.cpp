@@ -36,7 +36,7 @@ Sessions::Sessions(const Recording& recording, const SessionOptions& options, co
 }
 
 RecordingSessions Sessions::count(const WarningLimits& limits) {
-  RecordingSessions counted{name_, minutesOf(motion_), std::vector<std::vector<ObjectCount>>(sessions_)};
+  RecordingSessions counted{name_, minutesOf(motion_), std::vector<std::vector<SessionCount>>(sessions_)};
   for (size_t i = 0; i < objects_.size(); ++i) {
     const auto levels = levelsOf(findings_, i, limits);
     counted.objects[i * sessions_ / objects_.size()].push_back(

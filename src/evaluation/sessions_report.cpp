@@ -143,7 +143,7 @@ std::string sessionObjectsCsv(const std::vector<RecordingSessions>& recordings) 
       for (size_t object = 0; object < recording.objects[session].size(); ++object) {
         std::vector<std::string> fields = {recording.recording, std::to_string(session), std::to_string(object),
                                            csvNumber(recording.minutes)};
-        SessionCount count = recording.objects[session][object].count;
+        SessionCount count = recording.objects[session][object];
         forEachCount(count, [&](const char*, size_t number) { fields.push_back(std::to_string(number)); });
         csv += csvLine(fields);
       }
@@ -170,7 +170,7 @@ std::vector<RecordingSessions> readSessionObjects(const std::string& csv) {
     if (numberAt<size_t>(words, 1, number) == recording.objects.size()) recording.objects.emplace_back();
     size_t column = 4;
     forEachCount(count, [&](const char*, size_t& value) { value = numberAt<size_t>(words, column++, number); });
-    recording.objects.back().push_back({count, {}});
+    recording.objects.back().push_back(count);
   }
   return recordings;
 }
