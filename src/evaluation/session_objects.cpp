@@ -5,29 +5,39 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard_core::StampedPose;
+using sweep_guard_core::Duration;
 using sweep_guard_core::TriangleMesh;
 
 namespace {
 
 constexpr double kMinHalfSide = 0.05;  // [m]
 constexpr double kMaxHalfSide = 0.15;  // [m]
+constexpr double kWorkspace = 0.2;     // [m] from where the tool was
 
-Eigen::AlignedBox3d workspaceOf(const RecordedMotion& motion) {
-  Eigen::AlignedBox3d box_W;
-  for (const StampedPose& pose : motion.poses()) box_W.extend(pose.X_WT.translation());
-  return box_W;
-}
-
-Eigen::Isometry3d randomPose(const Eigen::AlignedBox3d& box_W, Random& random) {
-  Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
-  for (int axis = 0; axis < 3; ++axis) {
-    X_WS.translation()[axis] = random.uniform(box_W.min()[axis], box_W.max()[axis]);
-  }
+Eigen::Vector3d randomDirection(Random& random) {
   const double z = random.uniform(-1.0, 1.0);
   const double angle = random.uniform(0.0, 2.0 * kPi);
   const double radius = std::sqrt(1.0 - z * z);
-  X_WS.linear() = random.frameWithZ({radius * std::cos(angle), radius * std::sin(angle), z});
+  return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+/// Returns where the tool was at a random time without a gap.
+Eigen::Vector3d randomPosition(const RecordedMotion& motion, Random& random) {
+  Duration length{0};
+  for (const RecordedMotion::Segment& segment : motion.segments()) length += segment.end - segment.begin;
+  Duration left = sweep_guard_core::fromSeconds(random.uniform(0.0, sweep_guard_core::toSeconds(length)));
+  for (const RecordedMotion::Segment& segment : motion.segments()) {
+    if (left <= segment.end - segment.begin) return motion.at(segment.begin + left).translation();
+    left -= segment.end - segment.begin;
+  }
+  return motion.poses().back().X_WT.translation();
+}
+
+Eigen::Isometry3d randomPose(const RecordedMotion& motion, Random& random) {
+  Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
+  const double distance = kWorkspace * std::cbrt(random.uniform(0.0, 1.0));
+  X_WS.translation() = randomPosition(motion, random) + distance * randomDirection(random);
+  X_WS.linear() = random.frameWithZ(randomDirection(random));
   return X_WS;
 }
 
@@ -42,14 +52,13 @@ TriangleMesh moved(const TriangleMesh& mesh_S, const Eigen::Isometry3d& X_WC) {
 
 std::vector<TriangleMesh> placeInWorkspace(const RecordedMotion& motion, const SessionOptions& options,
                                            size_t session) {
-  const Eigen::AlignedBox3d workspace_W = workspaceOf(motion);
   Random random(options.seed + session);
   std::vector<TriangleMesh> objects;
   for (size_t i = 0; i < options.sheets; ++i) {
     const double half_side = random.uniform(kMinHalfSide, kMaxHalfSide);
-    objects.push_back(meshOf({randomPose(workspace_W, random), half_side}));
+    objects.push_back(meshOf({randomPose(motion, random), half_side}));
   }
-  for (const TriangleMesh& mesh_S : options.placed) objects.push_back(moved(mesh_S, randomPose(workspace_W, random)));
+  for (const TriangleMesh& mesh_S : options.placed) objects.push_back(moved(mesh_S, randomPose(motion, random)));
   objects.insert(objects.end(), options.fixed.begin(), options.fixed.end());
   return objects;
 }

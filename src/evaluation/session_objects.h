@@ -18,9 +18,9 @@ struct SessionOptions {
 
 /// Places the objects of a session: fixed for the whole recording.
 ///
-/// Sheets are squares with sides of 0.1 to 0.3 m, uniformly distributed. Each sheet or placed mesh has the center of its
-/// box at a uniformly distributed point of the workspace: of the box, along the axes of W, around all positions of the
-/// tool's origin. Its orientation is uniformly distributed.
+/// Sheets are squares with sides of 0.1 to 0.3 m, uniformly distributed. The center of each sheet, or of the box around a
+/// placed mesh, is uniformly distributed in a ball of 0.2 m around the tool's origin at a random time; its orientation is
+/// uniformly distributed, too.
 ///
 /// @param session  number, from 0
 /// @return the sheets, then the placed meshes, then the fixed ones, in W
