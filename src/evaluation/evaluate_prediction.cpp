@@ -69,6 +69,7 @@ std::vector<sweep_guard_core::TriangleMesh> readMeshes(const std::vector<std::st
 }
 
 std::vector<RecordingSessions> readSessions(const std::string& path) {
+  if (path.empty()) return {};
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   try {
@@ -104,7 +105,8 @@ class Evaluation {
         tradeoff_plot_(options.tradeoff_plot, options.files),
         sessions_csv_(options.sessions_csv, options.files),
         sessions_plot_(options.sessions_plot, options.files),
-        sessions_objects_csv_(options.sessions_objects_csv, inputsOfSessions(options)) {
+        sessions_objects_csv_(options.sessions_objects_csv, inputsOfSessions(options)),
+        sessions_before_(readSessions(options.compare_sessions)) {
     for (const Recording& recording : recordings_) steps_ += recording.poses.size() * options.predictors.size();
   }
 
@@ -156,7 +158,7 @@ class Evaluation {
     if (sessions_plot_.requested()) runGnuplot(sessionsPlot(sessions, sessions_plot_.path()));
     std::cout << sessionsTable(sessions) << '\n';
     if (options_.compare_sessions.empty()) return;
-    std::cout << sessionsComparison(sessions, readSessions(options_.compare_sessions)) << '\n';
+    std::cout << sessionsComparison(sessions, sessions_before_) << '\n';
   }
 
   const Options& options_;
@@ -169,6 +171,7 @@ class Evaluation {
   OutputFile sessions_csv_;
   OutputFile sessions_plot_;
   OutputFile sessions_objects_csv_;
+  std::vector<RecordingSessions> sessions_before_;
   size_t steps_ = 0;
 };
 

@@ -106,18 +106,24 @@ std::vector<double> ratiosOf(const SessionFigures& now, const SessionFigures& be
           now.warned(2) - before.warned(2), now.warned(3) - before.warned(3)};
 }
 
-std::string panel(const std::string& title, const std::vector<std::pair<std::string, const char*>>& series,
-                  const std::string& data) {
+const std::array<const char*, 4> kColors = {"#0072B2", "#56B4E9", "#009E73", "#999999"};
+
+/// Plots one bar for each column of the data.
+std::string panel(const std::string& title, size_t columns, const std::string& data) {
   std::string plot;
-  size_t column = 2;
-  for (const auto& [name, color] : series) {
-    plot += fmt::format("{} $data using {}:xtic(1) with histograms lc rgb '{}' title '{}'", plot.empty() ? "plot" : ",",
-                        column++, color, name);
+  for (size_t i = 0; i < columns; ++i) {
+    plot +=
+        fmt::format("{} $data using {}:xtic(1) with histograms lc rgb '{}'", i == 0 ? "plot" : ",", i + 2, kColors[i]);
   }
   return fmt::format(
-      "$data << END\n{}END\nset title '{}' offset 0,-0.6\nset style data histograms\nset style fill solid\n"
-      "set xtics rotate by -20 noenhanced font ',9'\nset yrange [0:*]\nset key top right\n{}\nunset key",
+      "$data << END\n{}END\nset title '{}' offset 0,-0.6\nset style fill solid\n"
+      "set xtics rotate by -20 noenhanced font ',9'\nset yrange [0:*]\n{}",
       data, title, plot);
+}
+
+std::string label(std::string name) {
+  std::replace(name.begin(), name.end(), '"', '\'');
+  return '"' + name + '"';
 }
 
 }  // namespace
@@ -156,7 +162,7 @@ std::vector<RecordingSessions> readSessionObjects(const std::string& csv) {
   std::istringstream stream(csv);
   std::string line;
   std::getline(stream, line);
-  if (line + '\n' != objectsHeader()) throw InvalidInput("line 1: expected " + objectsHeader());
+  if (line + '\n' != objectsHeader()) throw InvalidInput("line 1: not that of a --sessions-objects-csv");
   std::vector<RecordingSessions> recordings;
   for (size_t number = 2; std::getline(stream, line); ++number) {
     std::vector<std::string> words = csvFields(line);
@@ -199,25 +205,24 @@ std::string sessionsComparison(const std::vector<RecordingSessions>& recordings,
 std::string sessionsPlot(const std::vector<RecordingSessions>& recordings, const std::string& path) {
   std::array<std::string, 3> data;
   const auto add = [&](const std::string& name, const SessionFigures& f) {
-    data[0] += fmt::format("{} {:.6g}\n", gnuplotText(name), f.unjustifiedPerMinute());
-    data[1] += fmt::format("{} {:.6g} {:.6g} {:.6g} {:.6g}\n", gnuplotText(name), f.precision(), f.precisionWithin(0),
+    data[0] += fmt::format("{} {:.6g}\n", label(name), f.unjustifiedPerMinute());
+    data[1] += fmt::format("{} {:.6g} {:.6g} {:.6g} {:.6g}\n", label(name), f.precision(), f.precisionWithin(0),
                            f.precisionWithin(1), f.precisionWithin(2));
-    data[2] += fmt::format("{} {:.6g} {:.6g} {:.6g} {:.6g}\n", gnuplotText(name), f.warned(0), f.warned(1), f.warned(2),
+    data[2] += fmt::format("{} {:.6g} {:.6g} {:.6g} {:.6g}\n", label(name), f.warned(0), f.warned(1), f.warned(2),
                            f.warned(3));
   };
   for (const RecordingSessions& recording : recordings) add(recording.recording, figuresOf(recording));
   add(kAll, figuresOf(recordings));
+  const char* const names[] = {"contact, 0.1 s", "10 mm, 0.3 s", "20 mm, 0.5 s", "50 mm, 1.0 s"};
+  std::vector<std::string> entries;
+  for (size_t i = 0; i < kColors.size(); ++i) {
+    entries.push_back(fmt::format("with lines lw 8 lc rgb '{}' title '{}'", kColors[i], names[i]));
+  }
   PlotPage page(path, 1, data.size());
-  page.addKey({}, {});
-  page.addPanel(0, 0, panel("unjustified alarms per minute", {{"unjustified", "#D55E00"}}, data[0]));
-  page.addPanel(
-      0, 1,
-      panel("share of alarms that are right",
-            {{"contact", "#0072B2"}, {"10 mm", "#56B4E9"}, {"20 mm", "#009E73"}, {"50 mm", "#999999"}}, data[1]));
-  page.addPanel(
-      0, 2,
-      panel("share of contacts warned of at least",
-            {{"0.1 s", "#999999"}, {"0.3 s", "#56B4E9"}, {"0.5 s", "#0072B2"}, {"1.0 s ahead", "#009E73"}}, data[2]));
+  page.addKey({}, entries);
+  page.addPanel(0, 0, panel("unjustified alarms per minute", 1, data[0]));
+  page.addPanel(0, 1, panel("alarms before a contact or near miss", 4, data[1]));
+  page.addPanel(0, 2, panel("contacts warned of ahead", 4, data[2]));
   return page.script();
 }
 

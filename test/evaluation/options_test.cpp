@@ -84,6 +84,21 @@ TEST(OptionsTest, ComputeWhatIsToBeWrittenOrEverything) {
   EXPECT_TRUE(!tradeoff.wantsErrors() && tradeoff.wantsWarnings() && tradeoff.wantsTradeoff());
 }
 
+TEST(OptionsTest, SessionsAreComputedWhenAskedFor) {
+  const Options sessions = parse({"--sessions", "a.txt"});
+  EXPECT_TRUE(sessions.wantsSessions() && !sessions.wantsErrors() && !sessions.wantsWarnings());
+  EXPECT_EQ(sessions.session.sheets, 20U);
+  EXPECT_EQ(sessions.session.sessions, 5U);
+  EXPECT_EQ(sessions.session.seed, 1U);
+  EXPECT_EQ(sessions.session_predictor, sweep_guard_core::PredictorOptions{}.predictor);
+  EXPECT_TRUE(parse({"--sessions-csv", "s.csv", "a.txt"}).wantsSessions());
+  EXPECT_FALSE(parse({"a.txt"}).wantsSessions());
+  const Options meshes = parse({"--sessions", "--predictors", "hold", "--mesh", "a.stl", "--mesh", "b.stl", "a.txt"});
+  EXPECT_EQ(meshes.meshes, (std::vector<std::string>{"a.stl", "b.stl"}));
+  EXPECT_EQ(meshes.session_predictor, "hold");
+  EXPECT_TRUE(has(refusal({"--sessions", "--sheets", "0", "a.txt"}), "--sheets"));
+}
+
 TEST(OptionsTest, HelpNeedsNoFile) {
   EXPECT_TRUE(parse({"--help"}).help);
   EXPECT_TRUE(has(usage(), "--predictors"));
