@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "evaluation/motions.h"
 #include "evaluation/square_obstacle.h"
 
@@ -78,6 +80,14 @@ TEST(GuardFindingsTest, AreNoneFarAwayAndAContactIsFound) {
   const auto first = std::find_if(poses.begin(), poses.end(), contact);
   ASSERT_NE(first, poses.end());
   EXPECT_NEAR(sweep_guard_core::toSeconds(findings.stamps[first->pose].time_since_epoch()), 5.0, 0.041);
+}
+
+// 1 m from pose to pose, and nothing within reach before.
+TEST(GuardFindingsTest, KnowWhereTheToolWasBeforeAnythingWasNear) {
+  const auto findings = findContacts(straightMotion(5.0, milliseconds(200), seconds(1)), {meshOf(sheet(2.5, 0.0, 0.1))},
+                                     {}, [](size_t) {});
+  const auto& poses = findings.objects[0].poses;
+  EXPECT_TRUE(std::any_of(poses.begin(), poses.end(), [](const auto& found) { return found.contact; }));
 }
 
 TEST(GuardFindingsTest, ReportTheirProgress) {
