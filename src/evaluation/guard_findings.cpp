@@ -44,11 +44,8 @@ std::shared_ptr<const Workpiece> workpieceOf(const std::string& id, TriangleMesh
   return std::make_shared<const Workpiece>(Workpiece{id, 1, {}, {}, kFrame, mesh_W});
 }
 
-/// A tiny object far away: a guard without any object would forget where the tool was.
-TriangleMesh farMesh() {
-  const Eigen::Vector3d corner = Eigen::Vector3d::Constant(1e6);
-  return TriangleMesh({corner, corner + Eigen::Vector3d::UnitX(), corner + Eigen::Vector3d::UnitY()}, {{0, 1, 2}});
-}
+/// Stands for any object: the level does not depend on its shape once it is swept.
+TriangleMesh anyMesh() { return TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}); }
 
 /// Returns how far a tool point may be off along the axes of W [m].
 Eigen::Vector3d deviationsOf(const Matrix6d& covariance, double radius) {
@@ -63,8 +60,7 @@ class FindingsRecorder {
       : options_(options),
         tool_(options.tool),
         radius_(tool_.bounds_T().min().cwiseAbs().cwiseMax(tool_.bounds_T().max().cwiseAbs()).norm()),
-        guard_(tool_, sweep_guard_core::makeDetector("reference"), withoutTimeLimit(options.guard)),
-        far_(workpieceOf("far", farMesh())) {
+        guard_(tool_, sweep_guard_core::makeDetector("reference"), withoutTimeLimit(options.guard)) {
     for (const TriangleMesh& mesh_W : objects_W) {
       workpieces_.push_back(workpieceOf(std::to_string(workpieces_.size()), mesh_W));
       bounds_W_.push_back(mesh_W.bounds_M());
@@ -135,7 +131,6 @@ class FindingsRecorder {
       numbers_.push_back(i);
       chosen_.push_back(workpieces_[i]);
     }
-    chosen_.push_back(far_);
   }
 
   void addSweeps(const PredictedObject& object, size_t number) {
@@ -171,14 +166,13 @@ class FindingsRecorder {
   const sweep_guard_core::Tool tool_;
   const double radius_;
   Guard guard_;
-  const std::shared_ptr<const Workpiece> far_;
   Workpieces workpieces_;
   std::vector<Eigen::AlignedBox3d> bounds_W_;
   GuardFindings findings_;
   std::optional<StampedPose> newest_;
   // Of the pose that is added:
   std::vector<size_t> numbers_;  // of the objects to test
-  Workpieces chosen_;            // the same objects, and far_
+  Workpieces chosen_;            // the same objects
   SweepReport report_;
   Prediction prediction_;
   std::vector<size_t> found_;
@@ -191,7 +185,7 @@ class FindingsPlayer {
   FindingsPlayer(const GuardFindings& findings, size_t object, const WarningLimits& limits)
       : findings_(findings),
         object_(findings.objects[object]),
-        workpiece_(workpieceOf(std::to_string(object), farMesh())),
+        workpiece_(workpieceOf(std::to_string(object), anyMesh())),
         monitor_(limits) {
     monitor_.setWorkpieces({workpiece_});
   }
