@@ -108,25 +108,59 @@ void addThreadReasons(const WarningInputs& inputs, Warning& warning) {
   if (inputs.hung != nullptr) add(warning, kWorkerHung, {"thread '", inputs.hung, "' makes no progress"});
 }
 
-// The strongest current or held warning, and the contact that it is about.
-struct Strongest {
+// The warning of one workpiece.
+struct Candidate {
   WarningLevel level = WarningLevel::kClear;
   const PredictedContact* contact = nullptr;
+  std::optional<SteadyTime> ended = {};  // empty: it is predicted now
 
-  void raise(WarningLevel to, const PredictedContact& about) {
-    if (to > level) *this = {to, &about};
+  void raise(WarningLevel to, const PredictedContact& about, const std::optional<SteadyTime>& since) {
+    if (to > level) *this = {to, &about, since};
+  }
+  bool goesBefore(const Candidate& other) const {
+    if (level != other.level || level == WarningLevel::kClear) return level > other.level;
+    if (!ended != !other.ended) return !ended;
+    return ended ? *ended > *other.ended : contact->earliest() < other.contact->earliest();
   }
 };
 
-Strongest strongestWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits) {
-  Strongest strongest;
-  if (inputs.predicted && timeSinceEnd(*inputs.predicted, now) <= limits.hold_time) {
-    strongest.raise(warningLevel(*inputs.predicted, now, limits), *inputs.predicted);
+Candidate candidateOf(const WarningInputs::WorkpieceWarning& workpiece, const Instant& now,
+                      const WarningLimits& limits) {
+  Candidate candidate;
+  if (workpiece.predicted) {
+    const Duration since_end = timeSinceEnd(*workpiece.predicted, now);
+    const bool current = since_end == Duration::zero();
+    if (since_end <= limits.hold_time) {
+      candidate.raise(warningLevel(*workpiece.predicted, now, limits), *workpiece.predicted,
+                      current ? std::nullopt : std::optional(now.steady - since_end));
+    }
   }
-  const auto held = [&](const auto& alarm) { return alarm && now.steady - alarm->ended <= limits.hold_time; };
-  if (held(inputs.reflex)) strongest.raise(WarningLevel::kReflex, inputs.reflex->contact);
-  if (held(inputs.considered)) strongest.raise(WarningLevel::kConsidered, inputs.considered->contact);
+  const auto raiseIfHeld = [&](WarningLevel level, const std::optional<WarningInputs::Alarm>& alarm) {
+    if (alarm && now.steady - alarm->ended <= limits.hold_time) candidate.raise(level, alarm->contact, alarm->ended);
+  };
+  raiseIfHeld(WarningLevel::kReflex, workpiece.reflex);
+  raiseIfHeld(WarningLevel::kConsidered, workpiece.considered);
+  return candidate;
+}
+
+Candidate strongestWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits) {
+  Candidate strongest = candidateOf(inputs.removed, now, limits);
+  for (const WarningInputs::WorkpieceWarning& workpiece : inputs.warnings) {
+    const Candidate candidate = candidateOf(workpiece, now, limits);
+    if (candidate.goesBefore(strongest)) strongest = candidate;
+  }
   return strongest;
+}
+
+// Of the workpiece that is warned of, or without one, the earliest.
+const PredictedContact* currentPrediction(const WarningInputs& inputs, const Instant& now, const Candidate& warned) {
+  const PredictedContact* current = nullptr;
+  for (const WarningInputs::WorkpieceWarning& workpiece : inputs.warnings) {
+    if (!workpiece.predicted || timeSinceEnd(*workpiece.predicted, now) > Duration::zero()) continue;
+    if (warned.contact != nullptr && warned.contact->mesh_id != workpiece.id) continue;
+    if (current == nullptr || workpiece.predicted->earliest() < current->earliest()) current = &*workpiece.predicted;
+  }
+  return current;
 }
 
 void prepend(Warning& warning, TextPieces message) {
@@ -162,13 +196,10 @@ void setPrediction(const PredictedContact& predicted, const Instant& now, Warnin
 }
 
 void warn(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
-  const auto& predicted = inputs.predicted;
-  const bool current = predicted && timeSinceEnd(*predicted, now) == Duration::zero();
-  const Strongest strongest = strongestWarning(inputs, now, limits);
-  if (current && (!strongest.contact || strongest.contact->mesh_id == predicted->mesh_id)) {
-    setPrediction(*predicted, now, warning);
-  }
-  if (!strongest.contact) return;
+  const Candidate strongest = strongestWarning(inputs, now, limits);
+  const PredictedContact* const current = currentPrediction(inputs, now, strongest);
+  if (current != nullptr) setPrediction(*current, now, warning);
+  if (strongest.contact == nullptr) return;
   warning.level = strongest.level;
   warning.mesh_id = strongest.contact->mesh_id;
   warning.tool_piece = strongest.contact->tool_piece;
@@ -234,13 +265,17 @@ std::string meshProblems(const WarningInputs& inputs, const Instant& now, const 
   return warning.text;
 }
 
-WarningLevel warningLevel(Duration time_left, const WarningLimits& limits) {
-  if (time_left <= limits.reflex + limits.tick) return WarningLevel::kReflex;
-  return time_left <= limits.considered + limits.tick ? WarningLevel::kConsidered : WarningLevel::kClear;
+WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits) {
+  const auto isWithin = [&](const std::optional<Time>& start, Duration interval) {
+    return start && timeTo(*start, predicted.pose, now) + timeSinceEnd(predicted, now) <= interval + limits.tick;
+  };
+  if (isWithin(predicted.reflex, limits.reflex)) return WarningLevel::kReflex;
+  return isWithin(predicted.considered, limits.considered) ? WarningLevel::kConsidered : WarningLevel::kClear;
 }
 
-WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits) {
-  return warningLevel(timeTo(predicted.earliest, predicted.pose, now) + timeSinceEnd(predicted, now), limits);
+bool isConsidered(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits) {
+  return predicted.considered && timeSinceEnd(predicted, now) == Duration::zero() &&
+         timeTo(*predicted.considered, predicted.pose, now) <= limits.considered + limits.tick;
 }
 
 Duration timeSinceEnd(const PredictedContact& predicted, const Instant& now) {

@@ -14,6 +14,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
+constexpr WarningThresholds kThresholds;
 constexpr WarningLimits kLimits = {milliseconds(100), milliseconds(500), milliseconds(500)};
 
 Instant at(int ms) { return {Time(milliseconds(ms)), SteadyTime(milliseconds(ms))}; }
@@ -51,6 +52,13 @@ Prediction collisionOn(const Workpieces& workpieces, int ms, int after_ms) {
   return prediction;
 }
 
+// One that only may meet its first workpiece after so long.
+Prediction probableOn(const Workpieces& workpieces, int ms, int after_ms, double probability) {
+  Prediction prediction = predictionFrom(workpieces, ms);
+  prediction.objects[0].sweeps[1] = {milliseconds(after_ms), /*contact=*/false, probability};
+  return prediction;
+}
+
 class WarningMonitorTest : public testing::Test {
  protected:
   // A fresh workpiece, swept at a fresh pose and looked ahead from there.
@@ -68,6 +76,13 @@ class WarningMonitorTest : public testing::Test {
   void sweepOnly(SweepReport report, int ms) {
     report.end = at(ms).stamp;
     monitor_.swept(report, timestampsAt(ms), monitor_.checkpoint(), at(ms).steady);
+  }
+  // The workpiece comes again, and is swept.
+  Workpieces refresh(int ms) {
+    Workpieces fresh = {workpiece("liver", ms)};
+    monitor_.setWorkpieces(fresh);
+    sweepOnly(reportOf(fresh), ms);
+    return fresh;
   }
   void predict(const Prediction& prediction, int pose_ms) {
     monitor_.predicted(prediction, timestampsAt(pose_ms), monitor_.checkpoint(), at(pose_ms));
@@ -465,14 +480,109 @@ TEST_F(WarningMonitorTest, APredictedContactThatCannotBeTestedDoesNotHideALaterO
   EXPECT_EQ(warningOf(monitor_, at(4490)).mesh_id, "liver");
 }
 
-TEST_F(WarningMonitorTest, WarnsOfWhatIsProbableEnough) {
-  Prediction prediction = predictionFrom(workpieces_, 1000);
-  prediction.objects[0].sweeps[1].probability = kLimits.min_probability - 1e-9;
+TEST_F(WarningMonitorTest, EachIntervalHasAThresholdOfItsOwn) {
+  for (const auto& [after_ms, threshold, level] :
+       {std::tuple(100, kThresholds.reflex, WarningLevel::kReflex),
+        std::tuple(500, kThresholds.considered_on, WarningLevel::kConsidered)}) {
+    monitor_.restart();
+    sweepOnly(reportOf(workpieces_), 1000);
+    predict(probableOn(workpieces_, 1000, after_ms, threshold - 1e-9), 1000);
+    EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
+    predict(probableOn(workpieces_, 1000, after_ms, threshold), 1000);
+    EXPECT_EQ(levelAt(1000), level);
+  }
+}
+
+TEST_F(WarningMonitorTest, AConsideredWarningStaysDownToALowerProbability) {
+  for (int ms = 1000; ms < 3000; ms += 10) {
+    predict(probableOn(refresh(ms), ms, 500, ms == 1000 ? kThresholds.considered_on : kThresholds.considered_off), ms);
+    ASSERT_EQ(levelAt(ms), WarningLevel::kConsidered) << ms;
+  }
+  for (int ms = 3000; ms < 4000; ms += 10) {
+    predict(probableOn(refresh(ms), ms, 500, kThresholds.considered_off - 1e-9), ms);
+    ASSERT_EQ(levelAt(ms), ms <= 3500 ? WarningLevel::kConsidered : WarningLevel::kClear) << ms;
+  }
+  predict(probableOn(refresh(3990), 3990, 500, kThresholds.considered_on - 1e-9), 3990);
+  EXPECT_EQ(levelAt(3990), WarningLevel::kClear);
+}
+
+// The path meets it first; what is left is doubt.
+TEST_F(WarningMonitorTest, AWarningThatThePathRaisedStaysDownToALowerProbability) {
+  predict(collisionOn(workpieces_, 1000, 500), 1000);
+  for (int ms = 1010; ms < 2000; ms += 10) {
+    predict(probableOn(refresh(ms), ms, 500, kThresholds.considered_off), ms);
+    ASSERT_EQ(levelAt(ms), WarningLevel::kConsidered) << ms;
+  }
+}
+
+TEST_F(WarningMonitorTest, WhatKeepsAWarningUpRaisesNoneOfAnotherWorkpiece) {
+  const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
+  monitor_.setWorkpieces(two);
+  predict(probableOn(two, 1000, 500, kThresholds.considered_on), 1000);
+  const double between = 0.5 * (kThresholds.considered_on + kThresholds.considered_off);
+  for (int ms = 1010; ms < 2000; ms += 10) {
+    const Workpieces fresh = {workpiece("liver", ms), workpiece("spleen", ms)};
+    monitor_.setWorkpieces(fresh);
+    sweepOnly(reportOf(fresh), ms);
+    Prediction prediction = predictionFrom(fresh, ms);
+    prediction.objects[1].sweeps[1] = {milliseconds(500), /*contact=*/false, between};
+    predict(prediction, ms);
+    ASSERT_EQ(levelAt(ms), ms <= 1510 ? WarningLevel::kConsidered : WarningLevel::kClear) << ms;
+    ASSERT_EQ(warningOf(monitor_, at(ms)).mesh_id, ms <= 1510 ? "liver" : "") << ms;
+  }
+}
+
+// It was the lower threshold that found it, and the warning was over.
+TEST_F(WarningMonitorTest, WhatIsLessProbableBeyondTheIntervalDoesNotRiseByItself) {
+  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
+  predict(probableOn(workpieces_, 1010, 1050, kThresholds.considered_off), 1010);
+  EXPECT_EQ(levelAt(1510), WarningLevel::kConsidered);
+  EXPECT_NE(levelAt(1511), WarningLevel::kConsidered);
+}
+
+TEST_F(WarningMonitorTest, AWarningThatEndedWithItsPredictionIsNotKeptUpByLess) {
+  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
+  predict(probableOn(refresh(5000), 5000, 500, kThresholds.considered_off), 5000);
+  EXPECT_EQ(levelAt(5000), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, AnUrgentContactThatIsUnlikelyIsNoReflex) {
+  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
+  predict(probableOn(workpieces_, 1010, 100, kThresholds.reflex - 1e-9), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kConsidered);
+}
+
+// Both are predicted to be met; the urgent one is named, and each has a time of its own.
+TEST_F(WarningMonitorTest, OfTwoPredictedContactsTheUrgentOneIsNamedUntilItIsOver) {
+  const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
+  monitor_.setWorkpieces(two);
+  Prediction prediction = collisionOn(two, 1000, 500);
+  prediction.objects[1].sweeps[1] = {milliseconds(300), /*contact=*/true, /*probability=*/0.75};
   predict(prediction, 1000);
-  EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
-  prediction.objects[0].sweeps[1].probability = kLimits.min_probability;
-  predict(prediction, 1000);
-  EXPECT_EQ(levelAt(1000), WarningLevel::kReflex);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).mesh_id, "spleen");
+  EXPECT_EQ(warningOf(monitor_, at(1000)).time_to_collision, milliseconds(300));
+  predict(collisionOn(two, 1000, 500), 1000);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).mesh_id, "liver");
+  EXPECT_EQ(warningOf(monitor_, at(1000)).time_to_collision, milliseconds(500));
+}
+
+TEST_F(WarningMonitorTest, TheWarningOfAWorkpieceThatIsGoneIsHeldAndForgotten) {
+  predict(collisionOn(workpieces_, 1000, 500), 1000);
+  monitor_.setWorkpieces({});
+  predict(predictionFrom({}, 1010), 1010);
+  EXPECT_EQ(levelAt(1510), WarningLevel::kConsidered);
+  EXPECT_EQ(levelAt(1511), WarningLevel::kUnknown);
+}
+
+// Its warning has ended: what the same name stands for now has to raise its own.
+TEST_F(WarningMonitorTest, AWorkpieceThatComesAgainIsNotKeptWarnedOfByLess) {
+  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
+  monitor_.setWorkpieces({});
+  predict(predictionFrom({}, 1010), 1010);
+  for (int ms = 1020; ms < 2000; ms += 10) {
+    predict(probableOn(refresh(ms), ms, 500, kThresholds.considered_off), ms);
+    ASSERT_EQ(levelAt(ms), ms <= 1510 ? WarningLevel::kConsidered : WarningLevel::kClear) << ms;
+  }
 }
 
 TEST_F(WarningMonitorTest, ATimeJumpClearsPredictedContactsAndWarnings) {

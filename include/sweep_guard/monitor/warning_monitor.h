@@ -178,8 +178,11 @@ class WarningMonitor {
   void updateBehind(const SweepReport& report);
   void addContact(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now);
   void updateContact(const SweepReport& report, SteadyTime now);
-  void updatePredicted(const Instant& now);
-  void updateAlarms(const Instant& now);
+  WarningInputs::WorkpieceWarning* findWarning(const std::string& id);
+  void updatePredicted(const Prediction& prediction, const PredictedObject& object, const Timestamps& pose,
+                       const Instant& now);
+  void endUntested(const Instant& now);
+  void updateAlarms(WarningInputs::WorkpieceWarning& workpiece, const Instant& now) const;
   Time coveredUntil(const Instant& now) const;
 
   const std::function<void()> on_fault_;
@@ -192,7 +195,7 @@ class WarningMonitor {
   Time swept_until_;              // every workpiece
   Workpieces swept_;              // at the newest pose
   std::optional<Coverage> coverage_;
-  std::optional<PredictedContact> next_;  // of the newest prediction
+  std::optional<PredictedContact> next_;  // while a prediction is taken over
   Workpieces workpieces_;
   std::map<Reason, std::uint64_t> fault_numbers_;
   std::string test_failure_;  // of the detector; empty: none
