@@ -113,12 +113,14 @@ struct Candidate {
   WarningLevel level = WarningLevel::kClear;
   const PredictedContact* contact = nullptr;
   std::optional<SteadyTime> ended = {};  // empty: it is predicted now
+  bool acknowledged = false;
 
   void raise(WarningLevel to, const PredictedContact& about, const std::optional<SteadyTime>& since) {
-    if (to > level) *this = {to, &about, since};
+    if (to > level) *this = {to, &about, since, false};
   }
   bool goesBefore(const Candidate& other) const {
     if (level != other.level || level == WarningLevel::kClear) return level > other.level;
+    if (acknowledged != other.acknowledged) return other.acknowledged;
     if (!ended != !other.ended) return !ended;
     return ended ? *ended > *other.ended : contact->earliest() < other.contact->earliest();
   }
@@ -140,6 +142,8 @@ Candidate candidateOf(const WarningInputs::WorkpieceWarning& workpiece, const In
   };
   raiseIfHeld(WarningLevel::kReflex, workpiece.reflex);
   raiseIfHeld(WarningLevel::kConsidered, workpiece.considered);
+  candidate.acknowledged = candidate.level == WarningLevel::kConsidered && workpiece.acknowledged_until &&
+                           now.steady <= *workpiece.acknowledged_until;
   return candidate;
 }
 
@@ -181,11 +185,16 @@ void describePrediction(Warning& warning) {
   describe("", std::to_string(std::lround(100.0 * warning.probability)), " % probable");
 }
 
-void describeContact(Warning& warning, bool inside) {
+void describeContact(Warning& warning, bool inside, Duration since) {
   const size_t count = warning.triangles.size();
-  const std::string_view how = inside ? "tool is inside '" : "tool meets '";
-  if (count == 0) return prepend(warning, {how, warning.mesh_id, "'"});
-  prepend(warning, {how, warning.mesh_id, "', ", std::to_string(count), count == 1 ? " triangle" : " triangles"});
+  const std::string number = count == 0 ? "" : std::to_string(count);
+  const std::string_view comma = count == 0 ? "" : ", ";
+  const std::string_view noun = count == 0 ? "" : count == 1 ? " triangle" : " triangles";
+  if (warning.held_since) {
+    const std::string_view how = inside ? "tool was inside '" : "tool touched '";
+    return prepend(warning, {how, warning.mesh_id, "' ", inSeconds(since), " ago", comma, number, noun});
+  }
+  prepend(warning, {inside ? "tool is inside '" : "tool meets '", warning.mesh_id, "'", comma, number, noun});
 }
 
 void setPrediction(const PredictedContact& predicted, const Instant& now, Warning& warning) {
@@ -201,10 +210,24 @@ void warn(const WarningInputs& inputs, const Instant& now, const WarningLimits& 
   if (current != nullptr) setPrediction(*current, now, warning);
   if (strongest.contact == nullptr) return;
   warning.level = strongest.level;
+  warning.acknowledged = strongest.acknowledged;
+  if (strongest.ended) warning.held_since = now.stamp - (now.steady - *strongest.ended);
   warning.mesh_id = strongest.contact->mesh_id;
   warning.tool_piece = strongest.contact->tool_piece;
   warning.triangles = strongest.contact->triangles;
+  if (warning.acknowledged) prepend(warning, {"acknowledged"});
   describePrediction(warning);
+}
+
+void setContact(const WarningInputs::Contact& contact, const Instant& now, Warning& warning) {
+  const Duration since = now.steady - contact.found;
+  warning.level = WarningLevel::kContact;
+  warning.acknowledged = false;
+  warning.held_since = contact.lasting ? std::nullopt : std::optional(now.stamp - since);
+  warning.mesh_id = contact.id;
+  warning.triangles = contact.triangles;
+  warning.tool_piece = contact.tool_piece;
+  describeContact(warning, contact.inside, since);
 }
 
 void reportDisabled(const std::string& disabled_by, Warning& warning) {
@@ -226,6 +249,8 @@ void Warning::clear() {
   triangles.clear();
   time_to_collision.reset();
   probability = 0.0;
+  held_since.reset();
+  acknowledged = false;
   pose_stamp = {};
   covered_until = {};
 }
@@ -247,12 +272,8 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
   const size_t length = warning.text.size();
   warn(inputs, now, limits, warning);
   if (inputs.contact && (inputs.contact->lasting || now.steady - inputs.contact->found <= limits.hold_time)) {
-    warning.level = WarningLevel::kContact;
-    warning.mesh_id = inputs.contact->id;
-    warning.triangles = inputs.contact->triangles;
-    warning.tool_piece = inputs.contact->tool_piece;
     warning.text.erase(0, warning.text.size() - length);
-    describeContact(warning, inputs.contact->inside);
+    setContact(*inputs.contact, now, warning);
   }
   insert(warning.text, 0, {styleOf(warning.level).name, warning.text.empty() ? "" : ": "});
 }
@@ -276,6 +297,10 @@ WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now,
 bool isConsidered(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits) {
   return predicted.considered && timeSinceEnd(predicted, now) == Duration::zero() &&
          timeTo(*predicted.considered, predicted.pose, now) <= limits.considered + limits.tick;
+}
+
+bool isWarnedOf(const WarningInputs::WorkpieceWarning& workpiece, const Instant& now, const WarningLimits& limits) {
+  return candidateOf(workpiece, now, limits).level != WarningLevel::kClear;
 }
 
 Duration timeSinceEnd(const PredictedContact& predicted, const Instant& now) {

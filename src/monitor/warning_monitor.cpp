@@ -189,6 +189,7 @@ void WarningMonitor::addContact(const Workpiece& workpiece, const std::vector<st
     contact = WarningInputs::Contact{workpiece.id, {}, now};
   }
   contact->found = now;
+  endAcknowledgements();
   if (contact->id == workpiece.id) unite(contact->triangles, triangles);
 }
 
@@ -209,6 +210,7 @@ void WarningMonitor::updateRefusals() {
 void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
   const std::lock_guard lock(mutex_);
   workpieces_ = workpieces;
+  endAcknowledgementsOfOthers();
   updateObjects();
 }
 
@@ -279,6 +281,7 @@ void WarningMonitor::updateContact(const SweepReport& report, SteadyTime now) {
   if (contact) contact->lasting = contact->lasting && notSwept(report, contact->id);
   for (const SweptObject& object : report.objects) {
     if (!object.result.contact()) continue;
+    endAcknowledgements();
     const SweepResult& found = object.result;
     if (!contact) contact = WarningInputs::Contact{};
     contact->id = object.workpiece->id;
@@ -332,6 +335,8 @@ void WarningMonitor::updatePredicted(const Prediction& prediction, const Predict
     workpiece = &inputs_.warnings.emplace_back(WarningInputs::WorkpieceWarning{object.workpiece->id});
   updateAlarms(*workpiece, now);
   std::swap(workpiece->predicted, next_);
+  const auto& predicted = workpiece->predicted;
+  if (predicted && warningLevel(*predicted, now, limits_) == WarningLevel::kReflex) endAcknowledgements();
 }
 
 // The contact predicted with a workpiece that could not be tested again stands until its prediction ends. Of workpieces
@@ -357,13 +362,60 @@ void WarningMonitor::endUntested(const Instant& now) {
   }
 }
 
-void WarningMonitor::updateAlarms(WarningInputs::WorkpieceWarning& workpiece, const Instant& now) const {
+void WarningMonitor::updateAlarms(WarningInputs::WorkpieceWarning& workpiece, const Instant& now) {
   if (!workpiece.predicted) return;
   const PredictedContact& predicted = *workpiece.predicted;
   const SteadyTime ended = now.steady - timeSinceEnd(predicted, now);
   const WarningLevel level = warningLevel(predicted, now, limits_);
   if (level >= WarningLevel::kConsidered) setAlarm(workpiece.considered, predicted, ended);
-  if (level >= WarningLevel::kReflex) setAlarm(workpiece.reflex, predicted, ended);
+  if (level < WarningLevel::kReflex) return;
+  setAlarm(workpiece.reflex, predicted, ended);
+  endAcknowledgements();
+}
+
+std::string WarningMonitor::acknowledge(const std::string& id, const Instant& now) {
+  const std::lock_guard lock(mutex_);
+  Warning warning;
+  computeLocked(now, warning);
+  if (warning.level != WarningLevel::kConsidered) return "only CONSIDERED can be acknowledged, not " + warning.text;
+  const auto same = [&](const auto& one) { return one->id == id; };
+  const auto known = std::find_if(workpieces_.begin(), workpieces_.end(), same);
+  WarningInputs::WorkpieceWarning* const workpiece = findWarning(id);
+  if (known == workpieces_.end() || workpiece == nullptr || !isWarnedOf(*workpiece, now, limits_)) {
+    return "there is no warning of '" + id + "': " + warning.text;
+  }
+  workpiece->acknowledged_until = now.steady + limits_.acknowledge_time;
+  workpiece->acknowledged_revision = (*known)->revision;
+  return {};
+}
+
+void WarningMonitor::endAcknowledgement(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  if (WarningInputs::WorkpieceWarning* const workpiece = findWarning(id)) workpiece->acknowledged_until.reset();
+}
+
+std::vector<std::string> WarningMonitor::acknowledged(SteadyTime now) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> ids;
+  for (const WarningInputs::WorkpieceWarning& workpiece : inputs_.warnings) {
+    if (workpiece.acknowledged_until && now <= *workpiece.acknowledged_until) ids.push_back(workpiece.id);
+  }
+  return ids;
+}
+
+void WarningMonitor::endAcknowledgements() {
+  for (WarningInputs::WorkpieceWarning& workpiece : inputs_.warnings) workpiece.acknowledged_until.reset();
+}
+
+// The mesh that was acknowledged may be gone, or another one may have its name.
+void WarningMonitor::endAcknowledgementsOfOthers() {
+  for (WarningInputs::WorkpieceWarning& workpiece : inputs_.warnings) {
+    if (!workpiece.acknowledged_until) continue;
+    const auto same = [&](const auto& one) {
+      return one->id == workpiece.id && one->revision == workpiece.acknowledged_revision;
+    };
+    if (std::none_of(workpieces_.begin(), workpieces_.end(), same)) workpiece.acknowledged_until.reset();
+  }
 }
 
 void WarningMonitor::timeJumped(const std::string& message) {

@@ -237,6 +237,9 @@ sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning) {
   msg.reasons = warning.reasons;
   msg.text = warning.text;
   msg.covered_until = toMsg(warning.covered_until);
+  msg.held = warning.held_since.has_value();
+  if (warning.held_since) msg.held_since = toMsg(*warning.held_since);
+  msg.acknowledged = warning.acknowledged;
   return msg;
 }
 

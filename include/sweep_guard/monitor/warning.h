@@ -31,6 +31,7 @@ struct WarningLimits {
   /// long as the newest prediction took, if that is longer.
   Duration overload = std::chrono::milliseconds(20);
   WarningThresholds thresholds = {};
+  Duration acknowledge_time = std::chrono::seconds(10);  ///< longest time that a warning stays acknowledged; >= 0
 };
 
 /// The level and the reasons for it.
@@ -48,8 +49,11 @@ struct Warning {
   /// the one that is met first.
   std::optional<Duration> time_to_collision;
   double probability = 0.0;  ///< probability of the predicted contact, in [0, 1]; 0 once its prediction has ended
-  Time pose_stamp;           ///< newest pose that has been swept; epoch: none
-  Time covered_until;        ///< every workpiece is tested up to here; epoch: never
+  /// When what the level tells of ended; it is shown for the hold time. Empty: it lasts, or there is none.
+  std::optional<Time> held_since;
+  bool acknowledged = false;  ///< the operator knows of this workpiece; only at kConsidered
+  Time pose_stamp;            ///< newest pose that has been swept; epoch: none
+  Time covered_until;         ///< every workpiece is tested up to here; epoch: never
 
   void clear();  ///< resets all fields and keeps the buffers
 };
@@ -57,8 +61,8 @@ struct Warning {
 /// Computes the warning. The first level that applies wins, in this order:
 /// - CONTACT: the tool meets a workpiece, or met one within the hold time. A contact that is not ruled out counts.
 /// - REFLEX, CONSIDERED: the predicted contact with a workpiece lies within this interval now or by the next call, or
-///   did so within the hold time. Of several workpieces, the one with the highest level is named, then one that is
-///   predicted to be met now, then the one that is met first.
+///   did so within the hold time. Of several workpieces, the one with the highest level is named, then one that is not
+///   acknowledged, then one that is predicted to be met now, then the one that is met first.
 /// - UNKNOWN: a reason other than kDegraded applies.
 /// - CLEAR: there is a workpiece, and each required one; pose and workpieces are fresh; no pose waits; every workpiece
 ///   was swept at that pose and tested to the end of the considered interval; there is no fault.
@@ -79,6 +83,9 @@ WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now,
 /// Returns whether the `considered` of a predicted contact is at most the considered interval and `tick` away, whatever
 /// its `reflex` calls for; false once its prediction has ended.
 bool isConsidered(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits);
+
+/// Returns whether a workpiece is warned of: its contact is predicted within an interval, or was within the hold time.
+bool isWarnedOf(const WarningInputs::WorkpieceWarning& workpiece, const Instant& now, const WarningLimits& limits);
 
 /// Returns the time since the prediction of a contact ended (`duration` after its pose); 0 if it has not.
 Duration timeSinceEnd(const PredictedContact& predicted, const Instant& now);

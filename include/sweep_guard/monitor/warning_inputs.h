@@ -40,9 +40,11 @@ struct WarningInputs {
   /// What is predicted for one workpiece, and what was.
   struct WorkpieceWarning {
     std::string id = {};
-    std::optional<PredictedContact> predicted = {};  ///< from the newest prediction of the workpiece
-    std::optional<Alarm> reflex = {};                ///< newest reflex warning that has ended
-    std::optional<Alarm> considered = {};            ///< newest considered warning that has ended
+    std::optional<PredictedContact> predicted = {};     ///< from the newest prediction of the workpiece
+    std::optional<Alarm> reflex = {};                   ///< newest reflex warning that has ended
+    std::optional<Alarm> considered = {};               ///< newest considered warning that has ended
+    std::optional<SteadyTime> acknowledged_until = {};  ///< end of an acknowledgement; may have passed
+    std::uint32_t acknowledged_revision = 0;            ///< of the mesh that was acknowledged
   };
   /// Poses that waited and were swept at once. `found`: when.
   struct Backlog {

@@ -49,6 +49,8 @@ const std::vector<std::string> kChangeable = {"tool/padding",
                                               "warning/reflex_probability",
                                               kOldThreshold,
                                               "warning/hold_time",
+                                              "warning/acknowledge_time",
+                                              "warning/acknowledge_distance",
                                               "timing/min_rate",
                                               "timing/pose_timeout",
                                               "timing/mesh_timeout",
@@ -267,6 +269,12 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.limits.thresholds = readThresholds(read);
   parameters.limits.hold_time = toDuration(read.number("warning/hold_time", 0.5, {0.0, 60.0, "s"},
                                                        "A warning stays for this long after its cause is over."));
+  parameters.limits.acknowledge_time =
+      toDuration(read.number("warning/acknowledge_time", 10.0, {0.1, 60.0, "s"},
+                             "A warning is acknowledged (~acknowledge) for no longer than this."));
+  parameters.acknowledge_distance =
+      read.number("warning/acknowledge_distance", 0.03, {0.0, 1.0, "m"},
+                  "A warning stays acknowledged while the tool, grown by this much, meets the workpiece.");
   parameters.limits.pose_timeout = toDuration(
       read.number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"}, "An older tool pose makes the warning UNKNOWN."));
   parameters.limits.mesh_timeout = toDuration(read.number(
