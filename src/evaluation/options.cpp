@@ -72,7 +72,7 @@ po::options_description warningOptions() {
       "seed", withDefault("1", "N"), "seed of the placements")("tool-radius", withDefault("0.005", "M"),
                                                                "radius of the tool, a cylinder [m]")(
       "tool-length", withDefault("0.1", "M"), "length of the tool [m]")(
-      "min-probability", withDefault(csvNumber(sweep_guard_core::WarningLimits{}.min_probability), "P"),
+      "min-probability", withDefault(csvNumber(sweep_guard_core::WarningThresholds{}.reflex), "P"),
       "smallest probability of a contact that raises a warning, in (0, 1]")(
       "hold-time", withDefault("0.5", "S"), "a warning stays for this time after its cause is over [s]")(
       "up-to", withDefault("20", "N"), "end of the average of the trade-off [false alarms per minute]");
@@ -151,7 +151,7 @@ void store(const po::variables_map& values, Options& options) {
   options.placement.seed = number("seed", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
   options.simulation.tool =
       sweep_guard_core::ConvexShape::cylinder(number("tool-radius", 1e-6, 100.0), number("tool-length", 1e-6, 100.0));
-  options.simulation.limits.min_probability = number("min-probability", 1e-3, 1.0);
+  options.simulation.limits.thresholds = sweep_guard_core::WarningThresholds::all(number("min-probability", 1e-3, 1.0));
   options.simulation.limits.hold_time = seconds("hold-time", 0.0, 60.0);
   options.max_false_alarms = number("up-to", 1e-3, 1e6);
   options.session.sheets = number("sheets", size_t{0}, size_t{10000});

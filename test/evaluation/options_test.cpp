@@ -66,7 +66,7 @@ TEST(OptionsTest, NameWhatIsWrong) {
 
 TEST(OptionsTest, RunTheGuardAsTheNodeDoes) {
   const Options options = parse({"a.txt"});
-  EXPECT_EQ(options.simulation.limits.min_probability, sweep_guard_core::WarningLimits{}.min_probability);
+  EXPECT_EQ(options.simulation.limits.thresholds.reflex, sweep_guard_core::WarningThresholds{}.reflex);
   EXPECT_EQ(options.simulation.limits.hold_time, milliseconds(500));
   EXPECT_EQ(options.simulation.tool.radius(), 0.005);
   EXPECT_EQ(options.simulation.tool.length(), 0.1);
