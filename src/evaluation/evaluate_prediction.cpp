@@ -106,6 +106,8 @@ class Evaluation {
         sessions_csv_(options.sessions_csv, options.files),
         sessions_plot_(options.sessions_plot, options.files),
         sessions_objects_csv_(options.sessions_objects_csv, inputsOfSessions(options)),
+        tune_csv_(options.tune_csv, options.files),
+        tune_plot_(options.tune_plot, options.files),
         sessions_before_(readSessions(options.compare_sessions)) {
     for (const Recording& recording : recordings_) steps_ += recording.poses.size() * options.predictors.size();
   }
@@ -148,10 +150,18 @@ class Evaluation {
     simulation.guard.predictor.predictor = options_.session_predictor;
     std::vector<Sessions> sessions = withProgress(
         "sessions", [&](const Progress& progress) { return runSessions(recordings_, placed, simulation, progress); });
+    simulation.limits.thresholds = options_.session_thresholds;
     report(countSessions(sessions, simulation.limits));
+    if (options_.tune) tune(tuningCurve(sessions, simulation.limits));
   }
 
  private:
+  void tune(const std::vector<TuningPoint>& points) {
+    if (tune_csv_.requested()) tune_csv_.write(tuningCsv(points));
+    if (tune_plot_.requested()) runGnuplot(tuningPlot(points, *options_.tune, tune_plot_.path()));
+    std::cout << tuningText(points, *options_.tune);
+  }
+
   void report(const std::vector<RecordingSessions>& sessions) {
     if (sessions_csv_.requested()) sessions_csv_.write(sessionsCsv(sessions));
     if (sessions_objects_csv_.requested()) sessions_objects_csv_.write(sessionObjectsCsv(sessions));
@@ -171,6 +181,8 @@ class Evaluation {
   OutputFile sessions_csv_;
   OutputFile sessions_plot_;
   OutputFile sessions_objects_csv_;
+  OutputFile tune_csv_;
+  OutputFile tune_plot_;
   std::vector<RecordingSessions> sessions_before_;
   size_t steps_ = 0;
 };
@@ -181,7 +193,8 @@ int run(int argc, char** argv) {
     std::cout << usage();
     return 0;
   }
-  if (!options.plot.empty() || !options.tradeoff_plot.empty() || !options.sessions_plot.empty()) {
+  if (!options.plot.empty() || !options.tradeoff_plot.empty() || !options.sessions_plot.empty() ||
+      !options.tune_plot.empty()) {
     requireGnuplot();
   }
   Evaluation evaluation(options);

@@ -21,6 +21,7 @@ using sweep_guard_core::InvalidInput;
 namespace {
 
 constexpr double kMaxHorizon = 10.0;  // [s]
+const sweep_guard_core::WarningThresholds kThresholds;
 
 std::vector<std::string> splitAtCommas(const std::string& list) {
   std::vector<std::string> words;
@@ -87,7 +88,17 @@ po::options_description sessionOptions(Options& options) {
       "STL, OBJ or DAE file of a mesh to place at random as the sheets are; may be repeated")(
       "fixed-mesh", po::value(&options.fixed_meshes)->value_name("FILE"),
       "the same, but the mesh stays where its coordinates say, in the frame of the poses")(
-      "mesh-scale", withDefault("1", "M"), "unit of the mesh files [m]");
+      "mesh-scale", withDefault("1", "M"), "unit of the mesh files [m]")(
+      "considered-on", withDefault(csvNumber(kThresholds.considered_on), "P"),
+      "smallest probability that raises CONSIDERED, in (0, 1]")(
+      "considered-off", withDefault(csvNumber(kThresholds.considered_off), "P"),
+      "smallest probability that keeps CONSIDERED up, in (0, 1]")(
+      "reflex-probability", withDefault(csvNumber(kThresholds.reflex), "P"),
+      "smallest probability that raises REFLEX, in (0, 1]; --min-probability sets these three")(
+      "tune", po::value<std::string>()->value_name("N"),
+      "finds the thresholds for at most N unjustified alarms per minute and prints them as yaml")(
+      "tune-csv", text(options.tune_csv, "FILE"), "with --tune: what each threshold gives")(
+      "tune-plot", text(options.tune_plot, "FILE.png"), "with --tune: plot of the trade-off");
   return described;
 }
 
@@ -154,6 +165,19 @@ void store(const po::variables_map& values, Options& options) {
   options.simulation.limits.thresholds = sweep_guard_core::WarningThresholds::all(number("min-probability", 1e-3, 1.0));
   options.simulation.limits.hold_time = seconds("hold-time", 0.0, 60.0);
   options.max_false_alarms = number("up-to", 1e-3, 1e6);
+  if (values["min-probability"].defaulted()) {
+    options.session_thresholds = {number("reflex-probability", 1e-3, 1.0), number("considered-on", 1e-3, 1.0),
+                                  number("considered-off", 1e-3, 1.0)};
+  } else {
+    options.session_thresholds = options.simulation.limits.thresholds;
+  }
+  if (options.session_thresholds.considered_off > options.session_thresholds.considered_on) {
+    throw InvalidInput("--considered-off: must be at most --considered-on");
+  }
+  if (values.count("tune") != 0) options.tune = number("tune", 0.0, 1e6);
+  if (!options.tune && !(options.tune_csv.empty() && options.tune_plot.empty())) {
+    throw InvalidInput("--tune-csv, --tune-plot: need --tune");
+  }
   options.session.sheets = number("sheets", size_t{0}, size_t{10000});
   options.session.sessions = number("session-count", size_t{1}, size_t{1000});
   options.session.seed = options.placement.seed;

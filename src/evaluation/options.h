@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,9 @@ struct Options {
   sweep_guard_core::PredictorOptions predictor;      ///< its name is not used; see predictors
 
   ObstaclePlacementOptions placement;
-  GuardSimulationOptions simulation;      ///< its predictor and thresholds are not used
-  std::string session_predictor;          ///< the first one asked for, or the guard's default
+  GuardSimulationOptions simulation;  ///< its predictor and thresholds are not used
+  std::string session_predictor;      ///< the first one asked for, or the guard's default
+  sweep_guard_core::WarningThresholds session_thresholds;
   SessionOptions session;                 ///< its meshes are read from these files
   std::vector<std::string> meshes;        ///< files of meshes to place at random
   std::vector<std::string> fixed_meshes;  ///< files of meshes that stay where their coordinates say
@@ -37,6 +39,9 @@ struct Options {
   std::string sessions_csv;
   std::string sessions_plot;
   std::string sessions_objects_csv;
+  std::optional<double> tune;  ///< wanted unjustified alarms per minute
+  std::string tune_csv;
+  std::string tune_plot;
   std::string compare_sessions;  ///< file to read: a sessions_objects_csv
 
   bool writesNothing() const {
@@ -44,7 +49,7 @@ struct Options {
            !wantsSessions();
   }
   bool wantsSessions() const {
-    return sessions || !sessions_csv.empty() || !sessions_plot.empty() || !sessions_objects_csv.empty() ||
+    return sessions || !sessions_csv.empty() || !sessions_plot.empty() || !sessions_objects_csv.empty() || tune ||
            !compare_sessions.empty();
   }
   bool wantsErrors() const { return !csv.empty() || !plot.empty() || writesNothing(); }

@@ -35,12 +35,12 @@ Sessions::Sessions(const Recording& recording, const SessionOptions& options, co
   }
 }
 
-RecordingSessions Sessions::count(const WarningLimits& limits) {
+RecordingSessions Sessions::count(const WarningLimits& limits, NearMisses near_misses) {
   RecordingSessions counted{name_, minutesOf(motion_), std::vector<std::vector<SessionCount>>(sessions_)};
   for (size_t i = 0; i < objects_.size(); ++i) {
     const auto levels = levelsOf(findings_, i, limits);
     counted.objects[i * sessions_ / objects_.size()].push_back(
-        countSession({motion_, tool_, objects_[i].mesh, objects_[i].touches, levels}));
+        countSession({motion_, tool_, objects_[i].mesh, objects_[i].touches, levels, near_misses}));
   }
   return counted;
 }
@@ -59,6 +59,18 @@ std::vector<RecordingSessions> countSessions(std::vector<Sessions>& sessions, co
   std::vector<RecordingSessions> counted(sessions.size());
   inParallel(sessions.size(), [&](size_t i) { counted[i] = sessions[i].count(limits); });
   return counted;
+}
+
+std::vector<TuningPoint> tuningCurve(std::vector<Sessions>& sessions, const WarningLimits& limits) {
+  std::vector<TuningPoint> points;
+  for (const auto& thresholds : tuningThresholds(limits.thresholds)) {
+    WarningLimits changed = limits;
+    changed.thresholds = thresholds;
+    std::vector<RecordingSessions> counted(sessions.size());
+    inParallel(sessions.size(), [&](size_t i) { counted[i] = sessions[i].count(changed, NearMisses::kSkip); });
+    points.push_back({thresholds, figuresOf(counted)});
+  }
+  return points;
 }
 
 }  // namespace sweep_guard_evaluation

@@ -5,6 +5,7 @@
 #include "evaluation/guard_findings.h"
 #include "evaluation/session_objects.h"
 #include "evaluation/session_summary.h"
+#include "evaluation/session_tuning.h"
 #include "recording/recording.h"
 
 namespace sweep_guard_evaluation {
@@ -18,7 +19,7 @@ class Sessions {
            const GuardSimulationOptions& simulation, const Progress& progress);
 
   /// Counts with these limits. One thread at a time.
-  RecordingSessions count(const sweep_guard_core::WarningLimits& limits);
+  RecordingSessions count(const sweep_guard_core::WarningLimits& limits, NearMisses near_misses = NearMisses::kCount);
 
  private:
   struct Object {
@@ -43,5 +44,8 @@ std::vector<Sessions> runSessions(const std::vector<sweep_guard_recording::Recor
 /// Counts the sessions of every recording, in parallel.
 std::vector<RecordingSessions> countSessions(std::vector<Sessions>& sessions,
                                              const sweep_guard_core::WarningLimits& limits);
+
+/// Returns what tuningThresholds() give in all sessions. Near misses are not counted.
+std::vector<TuningPoint> tuningCurve(std::vector<Sessions>& sessions, const sweep_guard_core::WarningLimits& limits);
 
 }  // namespace sweep_guard_evaluation

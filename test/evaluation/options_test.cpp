@@ -99,6 +99,16 @@ TEST(OptionsTest, SessionsAreComputedWhenAskedFor) {
   EXPECT_TRUE(has(refusal({"--sessions", "--sheets", "0", "a.txt"}), "--sheets"));
 }
 
+TEST(OptionsTest, SessionsHaveTheThresholdsOfTheGuardOrOneForAll) {
+  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_on, 0.25);
+  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_off, 0.0625);
+  EXPECT_EQ(parse({"--sessions", "--min-probability", "0.2", "a.txt"}).session_thresholds.considered_off, 0.2);
+  EXPECT_EQ(parse({"--tune", "2.5", "a.txt"}).tune, 2.5);
+  EXPECT_TRUE(parse({"--tune", "2.5", "a.txt"}).wantsSessions());
+  EXPECT_TRUE(has(refusal({"--considered-on", "0.05", "a.txt"}), "--considered-off"));
+  EXPECT_TRUE(has(refusal({"--tune-csv", "t.csv", "a.txt"}), "--tune"));
+}
+
 TEST(OptionsTest, HelpNeedsNoFile) {
   EXPECT_TRUE(parse({"--help"}).help);
   EXPECT_TRUE(has(usage(), "--predictors"));
