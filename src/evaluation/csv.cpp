@@ -22,4 +22,21 @@ std::string csvLine(const std::vector<std::string>& fields) {
   return line + '\n';
 }
 
+std::vector<std::string> csvFields(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const bool doubled = quoted && line.compare(i, 2, "\"\"") == 0;
+    if (line[i] == ',' && !quoted) {
+      fields.emplace_back();
+    } else if (line[i] != '"' || doubled) {
+      fields.back() += line[i];
+      i += doubled ? 1 : 0;
+    } else {
+      quoted = !quoted;
+    }
+  }
+  return fields;
+}
+
 }  // namespace sweep_guard_evaluation

@@ -12,4 +12,7 @@ std::string csvNumber(double value);
 /// (RFC 4180).
 std::string csvLine(const std::vector<std::string>& fields);
 
+/// Returns the fields of one line without its line feed: the inverse of csvLine(), for fields without line breaks.
+std::vector<std::string> csvFields(const std::string& line);
+
 }  // namespace sweep_guard_evaluation

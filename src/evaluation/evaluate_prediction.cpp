@@ -2,6 +2,7 @@
 #include <fstream>
 #include <iostream>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 #include "common/run_program.h"
@@ -10,9 +11,12 @@
 #include "evaluation/options.h"
 #include "evaluation/parallel.h"
 #include "evaluation/progress_bar.h"
+#include "evaluation/sessions.h"
+#include "evaluation/sessions_report.h"
 #include "evaluation/tradeoff_report.h"
 #include "recording/recording.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/tool/mesh_file.h"
 
 namespace sweep_guard_evaluation {
 namespace {
@@ -54,12 +58,39 @@ std::vector<Recording> readAll(const Options& options) {
   return recordings;
 }
 
+std::vector<sweep_guard_core::TriangleMesh> readMeshes(const std::vector<std::string>& files, double scale) {
+  std::vector<sweep_guard_core::TriangleMesh> meshes;
+  for (const std::string& file : files) {
+    auto surface = sweep_guard_ros::readMesh(file, sweep_guard_ros::SymbolicLinks::kFollow);
+    for (Eigen::Vector3d& vertex : surface.vertices) vertex *= scale;
+    meshes.emplace_back(surface.vertices, std::move(surface.triangles));
+  }
+  return meshes;
+}
+
+std::vector<RecordingSessions> readSessions(const std::string& path) {
+  if (path.empty()) return {};
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  try {
+    return readSessionObjects(text.str());
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(path + ": " + error.what());
+  }
+}
+
 std::vector<Duration> withPlotted(const std::vector<Duration>& horizons) {
   std::set<Duration> all(horizons.begin(), horizons.end());
   for (const int ms : {20, 30, 40, 60, 80, 100, 140, 200, 280, 400, 500, 560, 700, 800, 900, 1000}) {
     all.insert(milliseconds(ms));
   }
   return {all.begin(), all.end()};
+}
+
+std::vector<std::string> inputsOfSessions(const Options& options) {
+  std::vector<std::string> inputs = options.files;
+  if (!options.compare_sessions.empty()) inputs.push_back(options.compare_sessions);
+  return inputs;
 }
 
 class Evaluation {
@@ -71,7 +102,13 @@ class Evaluation {
         plot_(options.plot, options.files),
         warnings_csv_(options.warnings_csv, options.files),
         tradeoff_csv_(options.tradeoff_csv, options.files),
-        tradeoff_plot_(options.tradeoff_plot, options.files) {
+        tradeoff_plot_(options.tradeoff_plot, options.files),
+        sessions_csv_(options.sessions_csv, options.files),
+        sessions_plot_(options.sessions_plot, options.files),
+        sessions_objects_csv_(options.sessions_objects_csv, inputsOfSessions(options)),
+        tune_csv_(options.tune_csv, options.files),
+        tune_plot_(options.tune_plot, options.files),
+        sessions_before_(readSessions(options.compare_sessions)) {
     for (const Recording& recording : recordings_) steps_ += recording.poses.size() * options.predictors.size();
   }
 
@@ -104,7 +141,36 @@ class Evaluation {
     }
   }
 
+  void evaluateSessions() {
+    SessionOptions placed = options_.session;
+    placed.placed = readMeshes(options_.meshes, options_.mesh_scale);
+    placed.fixed = readMeshes(options_.fixed_meshes, options_.mesh_scale);
+    GuardSimulationOptions simulation = options_.simulation;
+    simulation.guard.predictor = options_.predictor;
+    simulation.guard.predictor.predictor = options_.session_predictor;
+    std::vector<Sessions> sessions = withProgress(
+        "sessions", [&](const Progress& progress) { return runSessions(recordings_, placed, simulation, progress); });
+    simulation.limits.thresholds = options_.session_thresholds;
+    report(countSessions(sessions, simulation.limits));
+    if (options_.tune) tune(tuningCurve(sessions, simulation.limits));
+  }
+
  private:
+  void tune(const std::vector<TuningPoint>& points) {
+    if (tune_csv_.requested()) tune_csv_.write(tuningCsv(points));
+    if (tune_plot_.requested()) runGnuplot(tuningPlot(points, *options_.tune, tune_plot_.path()));
+    std::cout << tuningText(points, *options_.tune);
+  }
+
+  void report(const std::vector<RecordingSessions>& sessions) {
+    if (sessions_csv_.requested()) sessions_csv_.write(sessionsCsv(sessions));
+    if (sessions_objects_csv_.requested()) sessions_objects_csv_.write(sessionObjectsCsv(sessions));
+    if (sessions_plot_.requested()) runGnuplot(sessionsPlot(sessions, sessions_plot_.path()));
+    std::cout << sessionsTable(sessions) << '\n';
+    if (options_.compare_sessions.empty()) return;
+    std::cout << sessionsComparison(sessions, sessions_before_) << '\n';
+  }
+
   const Options& options_;
   std::vector<Recording> recordings_;
   OutputFile csv_;
@@ -112,6 +178,12 @@ class Evaluation {
   OutputFile warnings_csv_;
   OutputFile tradeoff_csv_;
   OutputFile tradeoff_plot_;
+  OutputFile sessions_csv_;
+  OutputFile sessions_plot_;
+  OutputFile sessions_objects_csv_;
+  OutputFile tune_csv_;
+  OutputFile tune_plot_;
+  std::vector<RecordingSessions> sessions_before_;
   size_t steps_ = 0;
 };
 
@@ -121,10 +193,14 @@ int run(int argc, char** argv) {
     std::cout << usage();
     return 0;
   }
-  if (!options.plot.empty() || !options.tradeoff_plot.empty()) requireGnuplot();
+  if (!options.plot.empty() || !options.tradeoff_plot.empty() || !options.sessions_plot.empty() ||
+      !options.tune_plot.empty()) {
+    requireGnuplot();
+  }
   Evaluation evaluation(options);
   if (options.wantsErrors()) evaluation.evaluateErrors();
   if (options.wantsWarnings()) evaluation.evaluateWarnings();
+  if (options.wantsSessions()) evaluation.evaluateSessions();
   return 0;
 }
 

@@ -1,6 +1,7 @@
 #include "evaluation/first_contact.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sweep_guard/geometry/motion.h"
 
@@ -13,29 +14,6 @@ using sweep_guard_core::Time;
 
 namespace {
 
-/// Returns a lower bound on the distance [m] between tool and obstacle; 0 in contact.
-class Clearance {
- public:
-  Clearance(const ConvexShape& tool, const SquareObstacle& obstacle) : tool_(tool), obstacle_(obstacle) {}
-
-  double at(const Eigen::Isometry3d& X_WT) {
-    const double distance = (X_WT.translation() - obstacle_.X_WS.translation()).norm();
-    const double bound = distance - tool_.boundingRadius() - std::sqrt(2.0) * obstacle_.half_side;
-    if (bound > kContactTolerance) return last_ = bound;
-    last_ = std::max(2.0 * last_, kContactTolerance);
-    while (intersects(tool_, X_WT, obstacle_, last_)) {
-      if (last_ == kContactTolerance) return 0.0;
-      last_ = std::max(0.5 * last_, kContactTolerance);
-    }
-    return last_;
-  }
-
- private:
-  const ConvexShape& tool_;
-  const SquareObstacle& obstacle_;
-  double last_ = 1.0;  // first guess for the next call
-};
-
 /// Returns an upper bound on the speed of any tool point [m/s].
 double maxSpeed(const StampedPose& from, const StampedPose& to, const ConvexShape& tool) {
   const sweep_guard_core::Motion motion{from.X_WT, to.X_WT};
@@ -44,7 +22,23 @@ double maxSpeed(const StampedPose& from, const StampedPose& to, const ConvexShap
   return distance / sweep_guard_core::toSeconds(to.stamp - from.stamp);
 }
 
-/// Returns the earliest time at which a tool point may have moved by `distance` [m], rounded down.
+}  // namespace
+
+ClearanceAt clearanceFrom(const ConvexShape& tool, const Eigen::Vector3d& center_W, double radius,
+                          std::function<bool(const Eigen::Isometry3d&, double)> intersects) {
+  const double reach = tool.boundingRadius() + radius;
+  return [=, intersects = std::move(intersects), last = 1.0](const Eigen::Isometry3d& X_WT) mutable {
+    const double bound = (X_WT.translation() - center_W).norm() - reach;
+    if (bound > kContactTolerance) return last = bound;
+    last = std::max(2.0 * last, kContactTolerance);
+    while (intersects(X_WT, last)) {
+      if (last == kContactTolerance) return 0.0;
+      last = std::max(0.5 * last, kContactTolerance);
+    }
+    return last;
+  };
+}
+
 Time earliestArrival(const RecordedMotion& motion, const ConvexShape& tool, Time from, Time limit, double distance) {
   const std::vector<StampedPose>& poses = motion.poses();
   Time time = from;
@@ -60,18 +54,24 @@ Time earliestArrival(const RecordedMotion& motion, const ConvexShape& tool, Time
   return limit;
 }
 
-}  // namespace
-
-std::optional<Time> firstContact(const RecordedMotion& motion, const ConvexShape& tool, const SquareObstacle& obstacle,
+std::optional<Time> firstContact(const RecordedMotion& motion, const ConvexShape& tool, const ClearanceAt& clearance,
                                  Time from, Time to) {
-  Clearance clearance(tool, obstacle);
   for (Time time = from; time <= to;) {
-    const double clear = clearance.at(motion.at(time));
+    const double clear = clearance(motion.at(time));
     if (clear == 0.0) return time;
     if (time == to) break;
     time = std::clamp(earliestArrival(motion, tool, time, to, clear), time + Duration(1), to);
   }
   return std::nullopt;
+}
+
+std::optional<Time> firstContact(const RecordedMotion& motion, const ConvexShape& tool, const SquareObstacle& obstacle,
+                                 Time from, Time to) {
+  const auto meets = [&](const Eigen::Isometry3d& X_WT, double margin) {
+    return intersects(tool, X_WT, obstacle, margin);
+  };
+  const double radius = std::sqrt(2.0) * obstacle.half_side;
+  return firstContact(motion, tool, clearanceFrom(tool, obstacle.X_WS.translation(), radius, meets), from, to);
 }
 
 }  // namespace sweep_guard_evaluation

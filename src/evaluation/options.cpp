@@ -21,6 +21,7 @@ using sweep_guard_core::InvalidInput;
 namespace {
 
 constexpr double kMaxHorizon = 10.0;  // [s]
+const sweep_guard_core::WarningThresholds kThresholds;
 
 std::vector<std::string> splitAtCommas(const std::string& list) {
   std::vector<std::string> words;
@@ -40,7 +41,13 @@ po::options_description outputOptions(Options& options) {
                                                                                  "plot of errors against horizons")(
       "warnings-csv", text(options.warnings_csv, "FILE"), "leads and false alarms of the warnings")(
       "tradeoff-csv", text(options.tradeoff_csv, "FILE"), "contacts warned of and false alarms, for all thresholds")(
-      "tradeoff-plot", text(options.tradeoff_plot, "FILE.png"), "plot of the trade-off");
+      "tradeoff-plot", text(options.tradeoff_plot, "FILE.png"), "plot of the trade-off")(
+      "sessions", po::bool_switch(&options.sessions), "alarms in sessions beside fixed sheets")(
+      "sessions-csv", text(options.sessions_csv, "FILE"), "figures of the sessions")(
+      "sessions-plot", text(options.sessions_plot, "FILE.png"), "plot of the figures of the sessions")(
+      "sessions-objects-csv", text(options.sessions_objects_csv, "FILE"), "counts of every sheet of every session")(
+      "compare-sessions", text(options.compare_sessions, "FILE"),
+      "compares the sessions with those of an earlier --sessions-objects-csv");
   return described;
 }
 
@@ -66,10 +73,32 @@ po::options_description warningOptions() {
       "seed", withDefault("1", "N"), "seed of the placements")("tool-radius", withDefault("0.005", "M"),
                                                                "radius of the tool, a cylinder [m]")(
       "tool-length", withDefault("0.1", "M"), "length of the tool [m]")(
-      "min-probability", withDefault(csvNumber(sweep_guard_core::WarningLimits{}.min_probability), "P"),
+      "min-probability", withDefault(csvNumber(sweep_guard_core::WarningThresholds{}.reflex), "P"),
       "smallest probability of a contact that raises a warning, in (0, 1]")(
       "hold-time", withDefault("0.5", "S"), "a warning stays for this time after its cause is over [s]")(
       "up-to", withDefault("20", "N"), "end of the average of the trade-off [false alarms per minute]");
+  return described;
+}
+
+po::options_description sessionOptions(Options& options) {
+  po::options_description described("Sessions");
+  described.add_options()("sheets", withDefault("20", "N"), "sheets in each session")(
+      "session-count", withDefault("5", "N"), "sessions of each recording; the first has the seed of --seed")(
+      "mesh", po::value(&options.meshes)->value_name("FILE"),
+      "STL, OBJ or DAE file of a mesh to place at random as the sheets are; may be repeated")(
+      "fixed-mesh", po::value(&options.fixed_meshes)->value_name("FILE"),
+      "the same, but the mesh stays where its coordinates say, in the frame of the poses")(
+      "mesh-scale", withDefault("1", "M"), "unit of the mesh files [m]")(
+      "considered-on", withDefault(csvNumber(kThresholds.considered_on), "P"),
+      "smallest probability that raises CONSIDERED, in (0, 1]")(
+      "considered-off", withDefault(csvNumber(kThresholds.considered_off), "P"),
+      "smallest probability that keeps CONSIDERED up, in (0, 1]")(
+      "reflex-probability", withDefault(csvNumber(kThresholds.reflex), "P"),
+      "smallest probability that raises REFLEX, in (0, 1]; --min-probability sets these three")(
+      "tune", po::value<std::string>()->value_name("N"),
+      "finds the thresholds for at most N unjustified alarms per minute and prints them as yaml")(
+      "tune-csv", text(options.tune_csv, "FILE"), "with --tune: what each threshold gives")(
+      "tune-plot", text(options.tune_plot, "FILE.png"), "with --tune: plot of the trade-off");
   return described;
 }
 
@@ -133,9 +162,34 @@ void store(const po::variables_map& values, Options& options) {
   options.placement.seed = number("seed", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
   options.simulation.tool =
       sweep_guard_core::ConvexShape::cylinder(number("tool-radius", 1e-6, 100.0), number("tool-length", 1e-6, 100.0));
-  options.simulation.limits.min_probability = number("min-probability", 1e-3, 1.0);
+  options.simulation.limits.thresholds = sweep_guard_core::WarningThresholds::all(number("min-probability", 1e-3, 1.0));
   options.simulation.limits.hold_time = seconds("hold-time", 0.0, 60.0);
   options.max_false_alarms = number("up-to", 1e-3, 1e6);
+  if (values["min-probability"].defaulted()) {
+    options.session_thresholds = {number("reflex-probability", 1e-3, 1.0), number("considered-on", 1e-3, 1.0),
+                                  number("considered-off", 1e-3, 1.0)};
+  } else {
+    options.session_thresholds = options.simulation.limits.thresholds;
+  }
+  if (options.session_thresholds.considered_off > options.session_thresholds.considered_on) {
+    throw InvalidInput("--considered-off: must be at most --considered-on");
+  }
+  if (values.count("tune") != 0) options.tune = number("tune", 0.0, 1e6);
+  if (!options.tune && !(options.tune_csv.empty() && options.tune_plot.empty())) {
+    throw InvalidInput("--tune-csv, --tune-plot: need --tune");
+  }
+  options.session.sheets = number("sheets", size_t{0}, size_t{10000});
+  options.session.sessions = number("session-count", size_t{1}, size_t{1000});
+  options.session.seed = options.placement.seed;
+  options.mesh_scale = number("mesh-scale", 1e-6, 1e6);
+  if (options.wantsSessions() && options.session.sheets + options.meshes.size() + options.fixed_meshes.size() == 0) {
+    throw InvalidInput("--sheets: sessions need a sheet or a mesh");
+  }
+  if (values["predictors"].defaulted()) {
+    options.session_predictor = sweep_guard_core::PredictorOptions{}.predictor;
+  } else {
+    options.session_predictor = options.predictors.front();
+  }
 }
 
 }  // namespace
@@ -149,14 +203,15 @@ std::string usage() {
           "TransformStamped. Prints tables of the results.\n\n"
        << outputOptions(options) << '\n'
        << predictionOptions(options) << '\n'
-       << warningOptions();
+       << warningOptions() << '\n'
+       << sessionOptions(options);
   return text.str();
 }
 
 Options parseOptions(int argc, const char* const* argv) {
   Options options;
   po::options_description all;
-  all.add(outputOptions(options)).add(predictionOptions(options)).add(warningOptions());
+  all.add(outputOptions(options)).add(predictionOptions(options)).add(warningOptions()).add(sessionOptions(options));
   all.add_options()("file", po::value(&options.files));
   po::variables_map values;
   try {

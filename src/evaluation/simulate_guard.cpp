@@ -5,6 +5,7 @@
 #include <list>
 #include <utility>
 
+#include "evaluation/simulated_node.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
@@ -15,7 +16,6 @@ using sweep_guard_core::Guard;
 using sweep_guard_core::Instant;
 using sweep_guard_core::Prediction;
 using sweep_guard_core::StampedPose;
-using sweep_guard_core::SteadyTime;
 using sweep_guard_core::SweepReport;
 using sweep_guard_core::Time;
 using sweep_guard_core::WarningLimits;
@@ -25,12 +25,7 @@ using sweep_guard_recording::LevelTrace;
 
 namespace {
 
-constexpr Duration kWatchdogPeriod = std::chrono::milliseconds(10);  // of the node's watchdog
 constexpr size_t kProgressStep = 64;
-constexpr const char* kFrame = "world";
-
-/// Returns a time of the recording on both clocks.
-Instant instantOf(Time time) { return {time, SteadyTime(time.time_since_epoch())}; }
 
 /// Monitors one placement during its episode.
 class ActivePlacement {
@@ -42,7 +37,7 @@ class ActivePlacement {
         Workpiece{std::to_string(index), 1, at.stamp, at.steady, kFrame, meshOf(placement.obstacle)});
     for (const double min_probability : options.min_probabilities) {
       WarningLimits limits = options.limits;
-      limits.min_probability = min_probability;
+      limits.thresholds = sweep_guard_core::WarningThresholds::all(min_probability);
       monitors_.emplace_back(limits).setWorkpieces({workpiece_});
       traces_.emplace_back();
     }
@@ -76,11 +71,6 @@ class ActivePlacement {
   sweep_guard_core::Warning warning_;
   std::vector<LevelTrace> traces_;
 };
-
-sweep_guard_core::GuardOptions withoutTimeLimit(sweep_guard_core::GuardOptions options) {
-  options.clock = [] { return SteadyTime(); };
-  return options;
-}
 
 class GuardSimulation {
  public:

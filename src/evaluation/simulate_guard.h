@@ -12,7 +12,7 @@ namespace sweep_guard_evaluation {
 struct GuardSimulationOptions {
   sweep_guard_core::ConvexShape tool = sweep_guard_core::ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
   sweep_guard_core::GuardOptions guard;  ///< its clock is not used: the time budget never runs out
-  /// Workpieces never become stale. `min_probability` is not used; see min_probabilities.
+  /// Workpieces never become stale. `thresholds` are not used; see min_probabilities.
   sweep_guard_core::WarningLimits limits = {std::chrono::milliseconds(100), sweep_guard_core::Duration::max(),
                                             std::chrono::milliseconds(500)};
   std::vector<double> min_probabilities;  ///< thresholds to simulate, each in (0, 1]

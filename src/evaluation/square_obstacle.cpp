@@ -47,11 +47,14 @@ sweep_guard_core::TriangleMesh meshOf(const SquareObstacle& obstacle) {
   return sweep_guard_core::TriangleMesh(cornersOf(obstacle, obstacle.X_WS), {{0, 1, 2}, {0, 2, 3}});
 }
 
+bool intersects(const ConvexShape& tool, Polygon polygon_T, double margin) {
+  polygon_T = clip(polygon_T, HalfSpace(Eigen::Vector3d::UnitZ(), margin));
+  polygon_T = clip(polygon_T, HalfSpace(-Eigen::Vector3d::UnitZ(), tool.length() + margin));
+  return isNearAxis(polygon_T, tool.radius() + margin);
+}
+
 bool intersects(const ConvexShape& tool, const Eigen::Isometry3d& X_WT, const SquareObstacle& obstacle, double margin) {
-  Polygon clipped_T = cornersOf(obstacle, X_WT.inverse() * obstacle.X_WS);
-  clipped_T = clip(clipped_T, HalfSpace(Eigen::Vector3d::UnitZ(), margin));
-  clipped_T = clip(clipped_T, HalfSpace(-Eigen::Vector3d::UnitZ(), tool.length() + margin));
-  return isNearAxis(clipped_T, tool.radius() + margin);
+  return intersects(tool, cornersOf(obstacle, X_WT.inverse() * obstacle.X_WS), margin);
 }
 
 }  // namespace sweep_guard_evaluation

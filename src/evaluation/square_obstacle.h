@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sweep_guard/geometry/convex_shape.h"
+#include "sweep_guard/geometry/half_space.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
 namespace sweep_guard_evaluation {
@@ -14,11 +15,16 @@ struct SquareObstacle {
 /// Returns the square as two triangles in W.
 sweep_guard_core::TriangleMesh meshOf(const SquareObstacle& obstacle);
 
-/// Returns whether a round cylinder intersects an obstacle. Computed in closed form, independently of the guard: clips
-/// the square to the slab between the ends of the cylinder, and compares its distance from the axis with the radius.
-/// @param tool    a cylinder
-/// @param margin  grows radius and both ends of the cylinder [m], >= 0. Obstacles closer to the tool than `margin`
-///                intersect, those farther than sqrt(2) * `margin` do not.
+/// Returns whether a round cylinder intersects a convex polygon. Computed in closed form, independently of the guard:
+/// clips the polygon to the slab between the ends of the cylinder, and compares its distance from the axis with the
+/// radius.
+/// @param tool       a cylinder
+/// @param polygon_T  corners in the tool frame [m]
+/// @param margin     grows radius and both ends of the cylinder [m], >= 0. Polygons closer to the tool than `margin`
+///                   intersect, those farther than sqrt(2) * `margin` do not.
+bool intersects(const sweep_guard_core::ConvexShape& tool, sweep_guard_core::Polygon polygon_T, double margin);
+
+/// Does the same for an obstacle and a pose of the tool.
 bool intersects(const sweep_guard_core::ConvexShape& tool, const Eigen::Isometry3d& X_WT,
                 const SquareObstacle& obstacle, double margin);
 

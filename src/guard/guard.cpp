@@ -96,6 +96,18 @@ PredictedMotion Guard::predictMotion(Duration age, Duration end) const {
   return motion;
 }
 
+bool Guard::isWithin(double distance, const Workpiece& workpiece) {
+  if (!predicted_motion_) return false;
+  const PoseWithFrames& pose = predicted_motion_->from;
+  const auto X_WM = pose.X_WM.find(workpiece.frame);
+  if (X_WM == pose.X_WM.end()) return false;
+  SweepOptions options = options_.sweep;
+  options.margin += distance;
+  options.fine = true;  // a volume has corners that the tool has not
+  const std::vector<Eigen::Isometry3d> path_M = {X_WM->second.inverse() * pose.X_WT};
+  return checkPath(*detector_, {tool_, path_M, workpiece.mesh_M, options, [this] { throwIfStopping(); }}).all.contact();
+}
+
 void Guard::reset() {
   measured_sweeps_->reset();
   predictor_.restart();

@@ -31,57 +31,98 @@ struct PathChecker::Progress {
 };
 
 void PathChecker::check(Detector& detector, const PredictedPathRequest& request, PredictedObject& object) {
+  X_WM_.reset();
+  checkNext(detector, request, object);
+}
+
+void PathChecker::checkNext(Detector& detector, const PredictedPathRequest& request, PredictedObject& object) {
   object.clear();
   object.workpiece = request.workpiece;
-  path_M_.follow(request.tool, request.X_WT, request.path, request.X_WM);
   const TriangleMesh& mesh_M = object.workpiece->mesh_M;
   const double margin = options_.sweep.margin + mesh_M.rounding();
+  follow(request, margin);
   const size_t reflex_sweeps = request.reflex_sweeps;
   const Duration reflex_end = reflex_sweeps == 0 ? Duration::zero() : request.path[reflex_sweeps - 1].ahead;
   const Scene scene{detector, request.tool, margin, reflex_end, request.plan.out_of_time};
-  const Submesh submesh = submeshInReach(scene, mesh_M, path_M_.whole(), 0);
+  const Submesh submesh = submeshInReach(mesh_M, reach_M_, 0);
   Progress progress{object, &object.reflex};
+  for (size_t i = 0; i < request.plan.sweepCount(request.path); ++i) {
+    request.plan.before_sweep();
+    for (const SweptBody& body : segments_[i].bodies) object.volumes_M.push_back(body.volume_M);
+    if (segments_[i].segment.last > reflex_sweeps) progress.triangles = &object.considered;
+    checkSegment(scene, submesh, i, progress, 1);
+  }
+  remove(object.considered, object.reflex);
+}
+
+// Sweeps the path, unless the workpiece before was in the same place.
+void PathChecker::follow(const PredictedPathRequest& request, double margin) {
+  if (X_WM_ && X_WM_->matrix() == request.X_WM.matrix() && margin_ == margin) return;
+  X_WM_.reset();
+  path_M_.follow(request.tool, request.X_WT, request.path, request.X_WM);
+  margin_ = margin;
+  reach_M_ = path_M_.reach_M(path_M_.whole(), kMaxDeviations, margin);
+  swept_ = 0;
+  tool_ = &request.tool.whole();
   size_t begin = 0;
   for (size_t i = 0; i < request.plan.sweepCount(request.path); ++i) {
     const size_t end = request.plan.sweep_ends.empty() ? i + 1 : request.plan.sweep_ends[i];
-    const PathSegment sweep = path_M_.between(begin, end);
-    request.plan.before_sweep();
-    sweepSegment(scene, sweep);
-    for (const SweptBody& body : bodies_) object.volumes_M.push_back(body.volume_M);
-    if (end > reflex_sweeps) progress.triangles = &object.considered;
-    checkSegment(scene, submesh, sweep, progress, 1);
+    sweepSegment(path_M_.between(begin, end), margin);
     begin = end;
   }
-  remove(object.considered, object.reflex);
+  X_WM_ = request.X_WM;
 }
 
 void PathChecker::predict(Detector& detector, const PredictionRequest& request, const SweepPlan& plan,
                           Prediction& prediction) {
   static const Workpieces kNone;
   const PredictedMotion& motion = request.motion;
+  X_WM_.reset();
   prediction.stamp = motion.from.stamp;
   prediction.path = motion.path;
   prediction.reflex_sweeps = motion.reflex_sweeps;
   prediction.sweeps_asked = motion.path.size();
   prediction.sweeps_made = plan.sweepCount(motion.path);
   const auto test = [&](const auto& workpiece, const Eigen::Isometry3d& X_WM, PredictedObject& object) {
-    check(detector, {request.tool, motion.from.X_WT, motion.path, motion.reflex_sweeps, X_WM, workpiece, plan}, object);
+    checkNext(detector, {request.tool, motion.from.X_WT, motion.path, motion.reflex_sweeps, X_WM, workpiece, plan},
+              object);
   };
   testPlaced(motion.path.empty() ? kNone : request.workpieces, motion.from, prediction, test);
 }
 
-Submesh PathChecker::submeshInReach(const Scene& scene, const Submesh& around, const PathSegment& segment,
-                                    size_t halvings) {
+Submesh PathChecker::submeshInReach(const Submesh& around, const Eigen::AlignedBox3d& reach_M, size_t halvings) {
   while (finders_.size() <= halvings) finders_.emplace_back();
-  const Eigen::AlignedBox3d reach_M = path_M_.reach_M(segment, kMaxDeviations, scene.margin);
   return finders_[halvings].find(around, reach_M);
 }
 
-void PathChecker::sweepSegment(const Scene& scene, const PathSegment& segment) {
+// Returns the index of the swept segment.
+size_t PathChecker::sweepSegment(const PathSegment& segment, double margin) {
+  if (swept_ == segments_.size()) segments_.emplace_back();
+  SweptSegment& swept = segments_[swept_];
+  swept.segment = segment;
+  swept.reach_M = path_M_.reach_M(segment, kMaxDeviations, margin);
+  swept.bodies.clear();
+  swept.deviations.clear();
+  swept.halves = {};
   path_M_.motions_M(segment, options_.sweep.max_rotation, motions_M_);
-  bodies_.clear();
   for (const Motion& motion_M : motions_M_) {
-    bodies_.push_back(sweptBody(scene.tool.whole(), motion_M, options_.sweep.volume, scene.margin));
+    swept.bodies.push_back(sweptBody(*tool_, motion_M, options_.sweep.volume, margin));
+  }
+  return swept_++;
+}
+
+void PathChecker::sweepHalves(size_t number, double margin) {
+  if (segments_[number].halves[1] != 0) return;
+  const auto [first, second] = path_M_.halves(segments_[number].segment);
+  segments_[number].halves = {sweepSegment(first, margin), sweepSegment(second, margin)};
+}
+
+void PathChecker::measureDeviations(const Scene& scene, SweptSegment& swept) {
+  if (!swept.deviations.empty()) return;
+  const Eigen::Isometry3d end_M = path_M_.end_M(swept.segment);
+  const Matrix6d covariance_M = path_M_.covariance_M(swept.segment);
+  for (const SweptBody& body : swept.bodies) {
+    swept.deviations.push_back(planeDeviations(scene.tool.whole(), end_M, covariance_M, body.volume_M));
   }
 }
 
@@ -91,24 +132,23 @@ const PathChecker::Candidate& PathChecker::likelier(const Candidate& one, const 
 }
 
 // Finds the piece of the tool most likely to meet the mesh, and the pieces that no plane separates from the mesh.
-PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh,
-                                                  const PathSegment& segment) {
+PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept) {
   unseparated_.clear();
   not_ruled_out_.clear();
   in_contact_ = {};
   Candidate candidate;
   if (submesh.empty()) return candidate;
-  for (const SweptBody& body : bodies_) {
-    candidate = likelier(candidate, findCandidate(scene, submesh, segment, scene.tool.tree()[0], body));
+  measureDeviations(scene, swept);
+  for (size_t i = 0; i < swept.bodies.size(); ++i) {
+    candidate = likelier(candidate, findCandidate(scene, submesh, swept.segment, scene.tool.tree()[0], swept.bodies[i],
+                                                  swept.deviations[i]));
   }
   return candidate;
 }
 
 PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh,
                                                   const PathSegment& segment, const Tool::Node& node,
-                                                  const SweptBody& body) {
-  const auto deviations =
-      planeDeviations(node.shape_T, path_M_.end_M(segment), path_M_.covariance_M(segment), body.volume_M);
+                                                  const SweptBody& body, const PerHalfSpace& deviations) {
   const auto clearance = meter_.measure(submesh, body.volume_M, deviations);
   if (!clearance) return {};
   if (node.piece) {
@@ -124,7 +164,9 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
   for (const size_t index : node.below) {
     const Tool::Node& below = scene.tool.tree()[index];
     const SweptBody within = sweptBody(below.shape_T, body.motion_M, options_.sweep.volume, scene.margin);
-    candidate = likelier(candidate, findCandidate(scene, submesh, segment, below, within));
+    const auto deviations_within =
+        planeDeviations(below.shape_T, path_M_.end_M(segment), path_M_.covariance_M(segment), within.volume_M);
+    candidate = likelier(candidate, findCandidate(scene, submesh, segment, below, within, deviations_within));
   }
   return candidate;
 }
@@ -139,23 +181,21 @@ void PathChecker::detectContacts(const Scene& scene, const Submesh& submesh) {
   }
 }
 
-// Requires sweepSegment() of this segment. Its halves replace it.
-void PathChecker::checkSegment(const Scene& scene, const Submesh& around, const PathSegment& segment,
-                               Progress& progress, size_t halvings) {
-  const Submesh submesh = submeshInReach(scene, around, segment, halvings);
+void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress,
+                               size_t halvings) {
+  SweptSegment& swept = segments_[number];
+  const PathSegment& segment = swept.segment;
+  const Submesh submesh = submeshInReach(around, swept.reach_M, halvings);
   const Duration length = segment.to - segment.from;
   const auto halve = [&] {
-    const auto [first, second] = path_M_.halves(segment);
-    for (const PathSegment& half : {first, second}) {
-      sweepSegment(scene, half);
-      checkSegment(scene, submesh, half, progress, halvings + 1);
-    }
+    sweepHalves(number, scene.margin);
+    for (const size_t half : swept.halves) checkSegment(scene, submesh, half, progress, halvings + 1);
   };
 
-  const Candidate candidate = findCandidate(scene, submesh, segment);
+  const Candidate candidate = findCandidate(scene, submesh, swept);
   const bool in_time = candidate.probability == 0.0 || scene.inTimeFor(segment);
   const bool finer = !progress.contact && in_time;
-  if (in_time) progress.object.volumes_tested += bodies_.size();
+  if (in_time) progress.object.volumes_tested += swept.bodies.size();
   if (candidate.probability > 0.0 && finer && length > std::max(kFinestProbable, options_.finest)) return halve();
   if (in_time) detectContacts(scene, submesh);
   if (!not_ruled_out_.empty() && finer && length > options_.finest) return halve();

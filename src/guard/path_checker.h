@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -51,6 +52,7 @@ class PathChecker {
   void check(Detector& detector, const PredictedPathRequest& request, PredictedObject& object);
 
   /// Tests the predicted motion against every workpiece. A workpiece whose detection fails is reported as a failure.
+  /// Consecutive workpieces in one place share the sweeps of the tool.
   /// @param[out] prediction  overwritten; its buffers are used again
   void predict(Detector& detector, const PredictionRequest& request, const SweepPlan& plan, Prediction& prediction);
 
@@ -67,25 +69,42 @@ class PathChecker {
     SweptBody body;
     Candidate candidate;
   };
+  /// What the tool sweeps in a segment of the path, whatever the workpiece.
+  struct SweptSegment {
+    PathSegment segment;
+    Eigen::AlignedBox3d reach_M;
+    std::vector<SweptBody> bodies;         // around the whole tool
+    std::vector<PerHalfSpace> deviations;  // of these; empty: not computed yet
+    std::array<size_t, 2> halves{};        // indices into segments_; 0: not swept yet
+  };
 
-  void sweepSegment(const Scene& scene, const PathSegment& segment);
+  void checkNext(Detector& detector, const PredictedPathRequest& request, PredictedObject& object);
+  void follow(const PredictedPathRequest& request, double margin);
+  size_t sweepSegment(const PathSegment& segment, double margin);
+  void sweepHalves(size_t number, double margin);
+  void measureDeviations(const Scene& scene, SweptSegment& swept);
   void detectContacts(const Scene& scene, const Submesh& submesh);
   static const Candidate& likelier(const Candidate& one, const Candidate& other);
-  Candidate findCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment);
+  Candidate findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
-                          const Tool::Node& node, const SweptBody& body);
-  void checkSegment(const Scene& scene, const Submesh& around, const PathSegment& segment, Progress& progress,
-                    size_t halvings);
-  Submesh submeshInReach(const Scene& scene, const Submesh& around, const PathSegment& segment, size_t halvings);
+                          const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations);
+  void checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress, size_t halvings);
+  Submesh submeshInReach(const Submesh& around, const Eigen::AlignedBox3d& reach_M, size_t halvings);
 
   Options options_;
   ClearanceMeter meter_;
   std::deque<SubmeshFinder> finders_;  // of the whole path, of its sweeps, of their halves, ...
   Detection detection_;
   PathInMesh path_M_;
+  // Of path_M_, for the workpieces placed as the last one was:
+  std::optional<Eigen::Isometry3d> X_WM_;
+  double margin_ = 0.0;
+  const ConvexShape* tool_ = nullptr;  // of the whole tool
+  Eigen::AlignedBox3d reach_M_;
+  std::deque<SweptSegment> segments_;  // the base sweeps first; more than `swept_` are buffers to use again
+  size_t swept_ = 0;
   // Of the segment under test:
   std::vector<Motion> motions_M_;
-  std::vector<SweptBody> bodies_;         // around the whole tool
   std::vector<Unseparated> unseparated_;  // pieces of the tool that no plane separates from the mesh
   TriangleSet not_ruled_out_;             // triangles that these pieces may meet
   Candidate in_contact_;                  // the likeliest of the pieces that meet one

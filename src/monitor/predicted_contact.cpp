@@ -7,32 +7,40 @@
 
 namespace sweep_guard_core {
 
-void findPredictedContact(const Prediction& prediction, const Timestamps& pose, double min_probability,
-                          std::optional<PredictedContact>& contact) {
-  assert(min_probability > 0.0 && min_probability <= 1.0);
-  const auto warns = [&](const PredictedSweep& sweep) { return sweep.contact || sweep.probability >= min_probability; };
-  const PredictedObject* earliest = nullptr;
-  std::vector<PredictedSweep>::const_iterator first;
-  for (const PredictedObject& object : prediction.objects) {
-    const auto sweep = std::find_if(object.sweeps.begin(), object.sweeps.end(), warns);
-    if (sweep == object.sweeps.end() || (earliest != nullptr && first->from <= sweep->from)) continue;
-    earliest = &object;
-    first = sweep;
-  }
-  if (earliest == nullptr) return contact.reset();
+Time PredictedContact::earliest() const {
+  if (!reflex || !considered) return reflex ? *reflex : considered.value();
+  return std::min(*reflex, *considered);
+}
+
+void findPredictedContact(const Prediction& prediction, const PredictedObject& object, const Timestamps& pose,
+                          const ContactThresholds& thresholds, std::optional<PredictedContact>& contact) {
+  assert(thresholds.reflex > 0.0 && thresholds.considered > 0.0);
+  const auto begin = object.sweeps.begin();
+  const auto end = object.sweeps.end();
+  const auto firstFrom = [&](double probability) {
+    return std::find_if(begin, end,
+                        [=](const PredictedSweep& sweep) { return sweep.contact || sweep.probability >= probability; });
+  };
+  const auto startOf = [&](auto sweep) {
+    return sweep == end ? std::nullopt : std::optional(prediction.stamp + sweep->from);
+  };
+  const auto reflex = firstFrom(thresholds.reflex);
+  const auto considered = firstFrom(thresholds.considered);
+  const auto first = std::min(reflex, considered);
+  if (first == end) return contact.reset();
   if (!contact) contact.emplace();
-  const auto touching = std::find_if(first, earliest->sweeps.end(), [](const auto& sweep) { return sweep.contact; });
-  const bool touches = touching != earliest->sweeps.end();
-  contact->earliest = prediction.stamp + first->from;
-  contact->contact = touches ? std::optional(prediction.stamp + touching->from) : std::nullopt;
-  contact->tool_piece = (touches ? touching : first)->tool_piece;
+  const auto touching = std::find_if(first, end, [](const PredictedSweep& sweep) { return sweep.contact; });
+  contact->reflex = startOf(reflex);
+  contact->considered = startOf(considered);
+  contact->contact = startOf(touching);
+  contact->tool_piece = (touching != end ? touching : first)->tool_piece;
   contact->probability = 0.0;
-  for (auto sweep = first; sweep != earliest->sweeps.end(); ++sweep) {
+  for (auto sweep = first; sweep != end; ++sweep) {
     contact->probability = std::max(contact->probability, sweep->probability);
   }
-  contact->mesh_id = earliest->workpiece->id;
-  contact->triangles = earliest->reflex;
-  unite(contact->triangles, earliest->considered);
+  contact->mesh_id = object.workpiece->id;
+  contact->triangles = object.reflex;
+  unite(contact->triangles, object.considered);
   contact->pose = pose;
   contact->duration = prediction.path.back().ahead;
 }

@@ -108,25 +108,63 @@ void addThreadReasons(const WarningInputs& inputs, Warning& warning) {
   if (inputs.hung != nullptr) add(warning, kWorkerHung, {"thread '", inputs.hung, "' makes no progress"});
 }
 
-// The strongest current or held warning, and the contact that it is about.
-struct Strongest {
+// The warning of one workpiece.
+struct Candidate {
   WarningLevel level = WarningLevel::kClear;
   const PredictedContact* contact = nullptr;
+  std::optional<SteadyTime> ended = {};  // empty: it is predicted now
+  bool acknowledged = false;
 
-  void raise(WarningLevel to, const PredictedContact& about) {
-    if (to > level) *this = {to, &about};
+  void raise(WarningLevel to, const PredictedContact& about, const std::optional<SteadyTime>& since) {
+    if (to > level) *this = {to, &about, since, false};
+  }
+  bool goesBefore(const Candidate& other) const {
+    if (level != other.level || level == WarningLevel::kClear) return level > other.level;
+    if (acknowledged != other.acknowledged) return other.acknowledged;
+    if (!ended != !other.ended) return !ended;
+    return ended ? *ended > *other.ended : contact->earliest() < other.contact->earliest();
   }
 };
 
-Strongest strongestWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits) {
-  Strongest strongest;
-  if (inputs.predicted && timeSinceEnd(*inputs.predicted, now) <= limits.hold_time) {
-    strongest.raise(warningLevel(*inputs.predicted, now, limits), *inputs.predicted);
+Candidate candidateOf(const WarningInputs::WorkpieceWarning& workpiece, const Instant& now,
+                      const WarningLimits& limits) {
+  Candidate candidate;
+  if (workpiece.predicted) {
+    const Duration since_end = timeSinceEnd(*workpiece.predicted, now);
+    const bool current = since_end == Duration::zero();
+    if (since_end <= limits.hold_time) {
+      candidate.raise(warningLevel(*workpiece.predicted, now, limits), *workpiece.predicted,
+                      current ? std::nullopt : std::optional(now.steady - since_end));
+    }
   }
-  const auto held = [&](const auto& alarm) { return alarm && now.steady - alarm->ended <= limits.hold_time; };
-  if (held(inputs.reflex)) strongest.raise(WarningLevel::kReflex, inputs.reflex->contact);
-  if (held(inputs.considered)) strongest.raise(WarningLevel::kConsidered, inputs.considered->contact);
+  const auto raiseIfHeld = [&](WarningLevel level, const std::optional<WarningInputs::Alarm>& alarm) {
+    if (alarm && now.steady - alarm->ended <= limits.hold_time) candidate.raise(level, alarm->contact, alarm->ended);
+  };
+  raiseIfHeld(WarningLevel::kReflex, workpiece.reflex);
+  raiseIfHeld(WarningLevel::kConsidered, workpiece.considered);
+  candidate.acknowledged = candidate.level == WarningLevel::kConsidered && workpiece.acknowledged_until &&
+                           now.steady <= *workpiece.acknowledged_until;
+  return candidate;
+}
+
+Candidate strongestWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits) {
+  Candidate strongest = candidateOf(inputs.removed, now, limits);
+  for (const WarningInputs::WorkpieceWarning& workpiece : inputs.warnings) {
+    const Candidate candidate = candidateOf(workpiece, now, limits);
+    if (candidate.goesBefore(strongest)) strongest = candidate;
+  }
   return strongest;
+}
+
+// Of the workpiece that is warned of, or without one, the earliest.
+const PredictedContact* currentPrediction(const WarningInputs& inputs, const Instant& now, const Candidate& warned) {
+  const PredictedContact* current = nullptr;
+  for (const WarningInputs::WorkpieceWarning& workpiece : inputs.warnings) {
+    if (!workpiece.predicted || timeSinceEnd(*workpiece.predicted, now) > Duration::zero()) continue;
+    if (warned.contact != nullptr && warned.contact->mesh_id != workpiece.id) continue;
+    if (current == nullptr || workpiece.predicted->earliest() < current->earliest()) current = &*workpiece.predicted;
+  }
+  return current;
 }
 
 void prepend(Warning& warning, TextPieces message) {
@@ -147,11 +185,16 @@ void describePrediction(Warning& warning) {
   describe("", std::to_string(std::lround(100.0 * warning.probability)), " % probable");
 }
 
-void describeContact(Warning& warning, bool inside) {
+void describeContact(Warning& warning, bool inside, Duration since) {
   const size_t count = warning.triangles.size();
-  const std::string_view how = inside ? "tool is inside '" : "tool meets '";
-  if (count == 0) return prepend(warning, {how, warning.mesh_id, "'"});
-  prepend(warning, {how, warning.mesh_id, "', ", std::to_string(count), count == 1 ? " triangle" : " triangles"});
+  const std::string number = count == 0 ? "" : std::to_string(count);
+  const std::string_view comma = count == 0 ? "" : ", ";
+  const std::string_view noun = count == 0 ? "" : count == 1 ? " triangle" : " triangles";
+  if (warning.held_since) {
+    const std::string_view how = inside ? "tool was inside '" : "tool touched '";
+    return prepend(warning, {how, warning.mesh_id, "' ", inSeconds(since), " ago", comma, number, noun});
+  }
+  prepend(warning, {inside ? "tool is inside '" : "tool meets '", warning.mesh_id, "'", comma, number, noun});
 }
 
 void setPrediction(const PredictedContact& predicted, const Instant& now, Warning& warning) {
@@ -162,18 +205,29 @@ void setPrediction(const PredictedContact& predicted, const Instant& now, Warnin
 }
 
 void warn(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
-  const auto& predicted = inputs.predicted;
-  const bool current = predicted && timeSinceEnd(*predicted, now) == Duration::zero();
-  const Strongest strongest = strongestWarning(inputs, now, limits);
-  if (current && (!strongest.contact || strongest.contact->mesh_id == predicted->mesh_id)) {
-    setPrediction(*predicted, now, warning);
-  }
-  if (!strongest.contact) return;
+  const Candidate strongest = strongestWarning(inputs, now, limits);
+  const PredictedContact* const current = currentPrediction(inputs, now, strongest);
+  if (current != nullptr) setPrediction(*current, now, warning);
+  if (strongest.contact == nullptr) return;
   warning.level = strongest.level;
+  warning.acknowledged = strongest.acknowledged;
+  if (strongest.ended) warning.held_since = now.stamp - (now.steady - *strongest.ended);
   warning.mesh_id = strongest.contact->mesh_id;
   warning.tool_piece = strongest.contact->tool_piece;
   warning.triangles = strongest.contact->triangles;
+  if (warning.acknowledged) prepend(warning, {"acknowledged"});
   describePrediction(warning);
+}
+
+void setContact(const WarningInputs::Contact& contact, const Instant& now, Warning& warning) {
+  const Duration since = now.steady - contact.found;
+  warning.level = WarningLevel::kContact;
+  warning.acknowledged = false;
+  warning.held_since = contact.lasting ? std::nullopt : std::optional(now.stamp - since);
+  warning.mesh_id = contact.id;
+  warning.triangles = contact.triangles;
+  warning.tool_piece = contact.tool_piece;
+  describeContact(warning, contact.inside, since);
 }
 
 void reportDisabled(const std::string& disabled_by, Warning& warning) {
@@ -195,6 +249,8 @@ void Warning::clear() {
   triangles.clear();
   time_to_collision.reset();
   probability = 0.0;
+  held_since.reset();
+  acknowledged = false;
   pose_stamp = {};
   covered_until = {};
 }
@@ -216,12 +272,8 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
   const size_t length = warning.text.size();
   warn(inputs, now, limits, warning);
   if (inputs.contact && (inputs.contact->lasting || now.steady - inputs.contact->found <= limits.hold_time)) {
-    warning.level = WarningLevel::kContact;
-    warning.mesh_id = inputs.contact->id;
-    warning.triangles = inputs.contact->triangles;
-    warning.tool_piece = inputs.contact->tool_piece;
     warning.text.erase(0, warning.text.size() - length);
-    describeContact(warning, inputs.contact->inside);
+    setContact(*inputs.contact, now, warning);
   }
   insert(warning.text, 0, {styleOf(warning.level).name, warning.text.empty() ? "" : ": "});
 }
@@ -234,13 +286,21 @@ std::string meshProblems(const WarningInputs& inputs, const Instant& now, const 
   return warning.text;
 }
 
-WarningLevel warningLevel(Duration time_left, const WarningLimits& limits) {
-  if (time_left <= limits.reflex + limits.tick) return WarningLevel::kReflex;
-  return time_left <= limits.considered + limits.tick ? WarningLevel::kConsidered : WarningLevel::kClear;
+WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits) {
+  const auto isWithin = [&](const std::optional<Time>& start, Duration interval) {
+    return start && timeTo(*start, predicted.pose, now) + timeSinceEnd(predicted, now) <= interval + limits.tick;
+  };
+  if (isWithin(predicted.reflex, limits.reflex)) return WarningLevel::kReflex;
+  return isWithin(predicted.considered, limits.considered) ? WarningLevel::kConsidered : WarningLevel::kClear;
 }
 
-WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits) {
-  return warningLevel(timeTo(predicted.earliest, predicted.pose, now) + timeSinceEnd(predicted, now), limits);
+bool isConsidered(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits) {
+  return predicted.considered && timeSinceEnd(predicted, now) == Duration::zero() &&
+         timeTo(*predicted.considered, predicted.pose, now) <= limits.considered + limits.tick;
+}
+
+bool isWarnedOf(const WarningInputs::WorkpieceWarning& workpiece, const Instant& now, const WarningLimits& limits) {
+  return candidateOf(workpiece, now, limits).level != WarningLevel::kClear;
 }
 
 Duration timeSinceEnd(const PredictedContact& predicted, const Instant& now) {

@@ -35,6 +35,10 @@ void setAlarm(std::optional<WarningInputs::Alarm>& alarm, const PredictedContact
   alarm->ended = ended;
 }
 
+void keepNewer(std::optional<WarningInputs::Alarm>& kept, std::optional<WarningInputs::Alarm>& alarm) {
+  if (alarm && (!kept || kept->ended < alarm->ended)) std::swap(kept, alarm);
+}
+
 bool notSwept(const SweepReport& report, const std::string& id) {
   const auto unplaced = [&](const auto& workpiece) { return workpiece->id == id; };
   const auto failed = [&](const SweepFailure& failure) { return failure.workpiece->id == id; };
@@ -185,6 +189,7 @@ void WarningMonitor::addContact(const Workpiece& workpiece, const std::vector<st
     contact = WarningInputs::Contact{workpiece.id, {}, now};
   }
   contact->found = now;
+  endAcknowledgements();
   if (contact->id == workpiece.id) unite(contact->triangles, triangles);
 }
 
@@ -205,6 +210,7 @@ void WarningMonitor::updateRefusals() {
 void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
   const std::lock_guard lock(mutex_);
   workpieces_ = workpieces;
+  endAcknowledgementsOfOthers();
   updateObjects();
 }
 
@@ -275,6 +281,7 @@ void WarningMonitor::updateContact(const SweepReport& report, SteadyTime now) {
   if (contact) contact->lasting = contact->lasting && notSwept(report, contact->id);
   for (const SweptObject& object : report.objects) {
     if (!object.result.contact()) continue;
+    endAcknowledgements();
     const SweepResult& found = object.result;
     if (!contact) contact = WarningInputs::Contact{};
     contact->id = object.workpiece->id;
@@ -300,34 +307,115 @@ void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& p
     coverage_->covered_until = {};  // until the contact is known: there may be no memory for it
     coverage_->tested.clear();
     for (const PredictedObject& object : prediction.objects) coverage_->tested.push_back(object.workpiece);
-    findPredictedContact(prediction, pose, limits_.min_probability, next_);
-    updatePredicted(now);
+    for (const PredictedObject& object : prediction.objects) updatePredicted(prediction, object, pose, now);
+    endUntested(now);
     coverage_->pose = pose;
     coverage_->covered_until = prediction.coveredUntil();
   }
   if (!prediction.failures.empty()) on_fault_();
 }
 
-// The contact predicted with a workpiece that could not be tested again stands until its prediction ends.
-void WarningMonitor::updatePredicted(const Instant& now) {
-  auto& predicted = inputs_.predicted;
-  if (predicted) {
-    const auto same = [&](const auto& workpiece) { return workpiece->id == predicted->mesh_id; };
-    const bool known = std::any_of(workpieces_.begin(), workpieces_.end(), same);
-    const bool tested = std::any_of(coverage_->tested.begin(), coverage_->tested.end(), same);
-    const bool stands = known && !tested && timeSinceEnd(*predicted, now) == Duration::zero();
-    if (stands && (!next_ || predicted->earliest <= next_->earliest)) return;
-    updateAlarms(now);
-  }
-  std::swap(predicted, next_);
+WarningInputs::WorkpieceWarning* WarningMonitor::findWarning(const std::string& id) {
+  const auto same = [&](const WarningInputs::WorkpieceWarning& workpiece) { return workpiece.id == id; };
+  const auto found = std::find_if(inputs_.warnings.begin(), inputs_.warnings.end(), same);
+  return found == inputs_.warnings.end() ? nullptr : &*found;
 }
 
-void WarningMonitor::updateAlarms(const Instant& now) {
-  const PredictedContact& predicted = *inputs_.predicted;
+void WarningMonitor::updatePredicted(const Prediction& prediction, const PredictedObject& object,
+                                     const Timestamps& pose, const Instant& now) {
+  WarningInputs::WorkpieceWarning* workpiece = findWarning(object.workpiece->id);
+  const auto& [reflex, considered_on, considered_off] = limits_.thresholds;
+  const bool is_on = workpiece != nullptr && workpiece->predicted && isConsidered(*workpiece->predicted, now, limits_);
+  findPredictedContact(prediction, object, pose, {reflex, is_on ? considered_off : considered_on}, next_);
+  if (is_on && next_ && !isConsidered(*next_, now, limits_)) {
+    findPredictedContact(prediction, object, pose, {reflex, considered_on}, next_);
+  }
+  if (workpiece == nullptr && !next_) return;
+  if (workpiece == nullptr)
+    workpiece = &inputs_.warnings.emplace_back(WarningInputs::WorkpieceWarning{object.workpiece->id});
+  updateAlarms(*workpiece, now);
+  std::swap(workpiece->predicted, next_);
+  const auto& predicted = workpiece->predicted;
+  if (predicted && warningLevel(*predicted, now, limits_) == WarningLevel::kReflex) endAcknowledgements();
+}
+
+// The contact predicted with a workpiece that could not be tested again stands until its prediction ends. Of workpieces
+// that are gone only the newest alarms are kept, so that many ids take no memory.
+void WarningMonitor::endUntested(const Instant& now) {
+  const auto isIn = [](const Workpieces& workpieces, const std::string& id) {
+    return std::any_of(workpieces.begin(), workpieces.end(), [&](const auto& one) { return one->id == id; });
+  };
+  for (auto workpiece = inputs_.warnings.begin(); workpiece != inputs_.warnings.end();) {
+    const bool known = isIn(workpieces_, workpiece->id);
+    if (isIn(coverage_->tested, workpiece->id) ||
+        (known && workpiece->predicted && timeSinceEnd(*workpiece->predicted, now) == Duration::zero())) {
+      ++workpiece;
+      continue;
+    }
+    updateAlarms(*workpiece, now);
+    workpiece->predicted.reset();
+    if (!known) {
+      keepNewer(inputs_.removed.reflex, workpiece->reflex);
+      keepNewer(inputs_.removed.considered, workpiece->considered);
+    }
+    workpiece = known ? std::next(workpiece) : inputs_.warnings.erase(workpiece);
+  }
+}
+
+void WarningMonitor::updateAlarms(WarningInputs::WorkpieceWarning& workpiece, const Instant& now) {
+  if (!workpiece.predicted) return;
+  const PredictedContact& predicted = *workpiece.predicted;
   const SteadyTime ended = now.steady - timeSinceEnd(predicted, now);
   const WarningLevel level = warningLevel(predicted, now, limits_);
-  if (level >= WarningLevel::kConsidered) setAlarm(inputs_.considered, predicted, ended);
-  if (level >= WarningLevel::kReflex) setAlarm(inputs_.reflex, predicted, ended);
+  if (level >= WarningLevel::kConsidered) setAlarm(workpiece.considered, predicted, ended);
+  if (level < WarningLevel::kReflex) return;
+  setAlarm(workpiece.reflex, predicted, ended);
+  endAcknowledgements();
+}
+
+std::string WarningMonitor::acknowledge(const std::string& id, const Instant& now) {
+  const std::lock_guard lock(mutex_);
+  Warning warning;
+  computeLocked(now, warning);
+  if (warning.level != WarningLevel::kConsidered) return "only CONSIDERED can be acknowledged, not " + warning.text;
+  const auto same = [&](const auto& one) { return one->id == id; };
+  const auto known = std::find_if(workpieces_.begin(), workpieces_.end(), same);
+  WarningInputs::WorkpieceWarning* const workpiece = findWarning(id);
+  if (known == workpieces_.end() || workpiece == nullptr || !isWarnedOf(*workpiece, now, limits_)) {
+    return "there is no warning of '" + id + "': " + warning.text;
+  }
+  workpiece->acknowledged_until = now.steady + limits_.acknowledge_time;
+  workpiece->acknowledged_revision = (*known)->revision;
+  return {};
+}
+
+void WarningMonitor::endAcknowledgement(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  if (WarningInputs::WorkpieceWarning* const workpiece = findWarning(id)) workpiece->acknowledged_until.reset();
+}
+
+std::vector<std::string> WarningMonitor::acknowledged(SteadyTime now) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> ids;
+  for (const WarningInputs::WorkpieceWarning& workpiece : inputs_.warnings) {
+    if (workpiece.acknowledged_until && now <= *workpiece.acknowledged_until) ids.push_back(workpiece.id);
+  }
+  return ids;
+}
+
+void WarningMonitor::endAcknowledgements() {
+  for (WarningInputs::WorkpieceWarning& workpiece : inputs_.warnings) workpiece.acknowledged_until.reset();
+}
+
+// The mesh that was acknowledged may be gone, or another one may have its name.
+void WarningMonitor::endAcknowledgementsOfOthers() {
+  for (WarningInputs::WorkpieceWarning& workpiece : inputs_.warnings) {
+    if (!workpiece.acknowledged_until) continue;
+    const auto same = [&](const auto& one) {
+      return one->id == workpiece.id && one->revision == workpiece.acknowledged_revision;
+    };
+    if (std::none_of(workpieces_.begin(), workpieces_.end(), same)) workpiece.acknowledged_until.reset();
+  }
 }
 
 void WarningMonitor::timeJumped(const std::string& message) {
@@ -343,9 +431,8 @@ void WarningMonitor::timeJumped(const std::string& message) {
 void WarningMonitor::restartLocked() {
   ++checkpoint_.epoch;
   inputs_.pose.reset();
-  inputs_.predicted.reset();
-  inputs_.reflex.reset();
-  inputs_.considered.reset();
+  inputs_.warnings.clear();
+  inputs_.removed = {};
   inputs_.overload.reset();
   inputs_.pose_loss.reset();
   inputs_.faults.clear();

@@ -87,6 +87,23 @@ sweep_guard::PredictedPose poseMsg(const sweep_guard_core::PredictedPose& pose, 
   return msg;
 }
 
+// The earliest interval of all workpieces.
+std::uint8_t intervalOf(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age,
+                        const sweep_guard_core::WarningLimits& limits) {
+  using sweep_guard_core::WarningLevel;
+  const sweep_guard_core::Timestamps pose{prediction.stamp, {}};
+  const sweep_guard_core::Instant at{prediction.stamp + age, {}};
+  WarningLevel level = WarningLevel::kClear;
+  std::optional<sweep_guard_core::PredictedContact> contact;
+  for (const sweep_guard_core::PredictedObject& object : prediction.objects) {
+    sweep_guard_core::findPredictedContact(prediction, object, pose,
+                                           {limits.thresholds.reflex, limits.thresholds.considered_on}, contact);
+    if (contact) level = std::max(level, warningLevel(*contact, at, limits));
+  }
+  if (level == WarningLevel::kReflex) return sweep_guard::Prediction::REFLEX;
+  return level == WarningLevel::kConsidered ? sweep_guard::Prediction::CONSIDERED : sweep_guard::Prediction::NONE;
+}
+
 }  // namespace
 
 sweep_guard_core::Time fromMsg(const ros::Time& time) {
@@ -190,14 +207,7 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
     msg.collision = true;
     msg.time_to_collision = toMsg(std::max(*first - age, sweep_guard_core::Duration::zero()));
   }
-  std::optional<sweep_guard_core::PredictedContact> contact;
-  sweep_guard_core::findPredictedContact(prediction, {prediction.stamp, {}}, limits.min_probability, contact);
-  if (contact) {
-    const sweep_guard_core::WarningLevel level =
-        sweep_guard_core::warningLevel(contact->earliest - prediction.stamp - age, limits);
-    if (level == sweep_guard_core::WarningLevel::kReflex) msg.interval = sweep_guard::Prediction::REFLEX;
-    if (level == sweep_guard_core::WarningLevel::kConsidered) msg.interval = sweep_guard::Prediction::CONSIDERED;
-  }
+  msg.interval = intervalOf(prediction, age, limits);
   for (const sweep_guard_core::PredictedObject& object : prediction.objects) {
     const std::vector<std::uint32_t> triangles = object.triangles();
     if (!triangles.empty()) msg.objects.push_back(toMsg(*object.workpiece, triangles));
@@ -227,6 +237,9 @@ sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning) {
   msg.reasons = warning.reasons;
   msg.text = warning.text;
   msg.covered_until = toMsg(warning.covered_until);
+  msg.held = warning.held_since.has_value();
+  if (warning.held_since) msg.held_since = toMsg(*warning.held_since);
+  msg.acknowledged = warning.acknowledged;
   return msg;
 }
 

@@ -104,6 +104,52 @@ void GuardThread::reset() {
   dependencies_.statistics.restart();
 }
 
+std::string GuardThread::acknowledge(const std::string& id) {
+  const std::lock_guard lock(change_mutex_);
+  std::string acknowledged = id;
+  runInTime([&] { acknowledgeNow(acknowledged); }, "nothing was acknowledged");
+  dependencies_.warnings.publishIfChanged();
+  return acknowledged;
+}
+
+void GuardThread::acknowledgeNow(std::string& id) {
+  if (id.empty()) {
+    sweep_guard_core::Warning warning;
+    dependencies_.monitor.warning(now(), warning);
+    if (warning.mesh_id.empty()) throw Error("there is no warning: " + warning.text);
+    id = warning.mesh_id;
+  }
+  if (!isNear(id, dependencies_.workpieces.snapshot())) {
+    throw Error("the tool is farther from '" + id + "' than warning/acknowledge_distance");
+  }
+  const std::string refusal = dependencies_.monitor.acknowledge(id, now());
+  if (!refusal.empty()) throw Error(refusal);
+}
+
+void GuardThread::endAcknowledgements(const sweep_guard_core::Workpieces& workpieces) {
+  bool ended = false;
+  for (const std::string& id : dependencies_.monitor.acknowledged(std::chrono::steady_clock::now())) {
+    if (isNear(id, workpieces)) continue;
+    dependencies_.monitor.endAcknowledgement(id);
+    ended = true;
+  }
+  if (ended) dependencies_.warnings.publishIfChanged();
+}
+
+// Where that cannot be tested, the tool is not.
+bool GuardThread::isNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces) {
+  const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
+  const auto workpiece = std::find_if(workpieces.begin(), workpieces.end(), same);
+  if (workpiece == workpieces.end()) return false;
+  dependencies_.sampler.setWorkpieces(workpieces, {/*measured=*/false, checkpoint_.epoch});
+  try {
+    return guard_.isWithin(dependencies_.parameters.get()->acknowledge_distance, **workpiece);
+  } catch (const Error& error) {
+    log_.error(id, "testing whether the tool is near '" + id + "' failed: " + error.what());
+    return false;
+  }
+}
+
 void GuardThread::runInTime(const std::function<void()>& task, const std::string& otherwise) {
   try {
     dependencies_.queue.run(task, kMaxWait);
@@ -250,6 +296,7 @@ void GuardThread::predict(const QueuedPose& queued) {
                                       prediction->sweeps_made, prediction->sweeps_asked,
                                       prediction->coveredUntil() - prediction->stamp - age, prediction->probability()});
   reportFailures(prediction->failures);
+  endAcknowledgements(workpieces);
   dependencies_.scene.predicted(queued.pose, prediction);
 }
 

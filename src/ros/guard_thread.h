@@ -61,6 +61,12 @@ class GuardThread {
   /// Forgets everything but the workpieces. Returns when that is done. Any thread.
   /// @throws sweep_guard_core::Error as apply(); then nothing is forgotten, also later
   void reset();
+  /// Acknowledges a warning, see WarningMonitor. Returns when that is done. Any thread.
+  /// @param id  of the workpiece; empty: the one that the warning names
+  /// @returns the id
+  /// @throws sweep_guard_core::Error if there is nothing to acknowledge, or the tool is farther away than
+  ///     warning/acknowledge_distance; or as apply(); then nothing is acknowledged, also later
+  std::string acknowledge(const std::string& id);
   /// Predicts the motion up to a horizon counted from now. Any thread. The future throws sweep_guard_core::Error if the
   /// motion is unknown.
   std::future<PredictService::Motion> predictMotion(sweep_guard_core::Duration horizon);
@@ -77,6 +83,9 @@ class GuardThread {
   void afterSweep(const QueuedPose& queued, const QueuedPose* next);
   void predict(const QueuedPose& queued);
   bool timeToPredict() const;
+  void acknowledgeNow(std::string& id);
+  void endAcknowledgements(const sweep_guard_core::Workpieces& workpieces);
+  bool isNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces);
   void reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures);
   PredictService::Motion motion(sweep_guard_core::Duration horizon) const;
 

@@ -43,7 +43,9 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       check_sweep_(private_node, {parameters_, frames_, workpieces_, monitor_}),
       predict_(private_node, parameters_, workpieces_,
                [this](sweep_guard_core::Duration horizon) { return guard_thread_.predictMotion(horizon); }),
-      controls_(private_node, monitor_, workpieces_, [this] { guard_thread_.reset(); }),
+      controls_(
+          private_node, parameters_, monitor_, workpieces_,
+          {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); }}),
       reconfigure_server_(private_node, parameters_, [this](const auto& next) { apply(next); }),
       diagnostics_(node, private_node,
                    {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_}),

@@ -111,6 +111,13 @@ void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire) {
 }
 
 template <>
+void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire) {
+  WireReader read(wire);
+  read.text();
+  read.end();
+}
+
+template <>
 void checkLengths<dynamic_reconfigure::ReconfigureRequest>(Wire wire) {
   WireReader read(wire);
   const auto named = [&](size_t value) {

@@ -2,6 +2,7 @@
 
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <sweep_guard/Acknowledge.h>
 #include <sweep_guard/CheckSweep.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
@@ -35,6 +36,8 @@ template <>
 void checkLengths<sweep_guard::MeshVertices>(Wire wire);
 template <>
 void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire);
+template <>
+void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire);
 template <>
 void checkLengths<dynamic_reconfigure::ReconfigureRequest>(Wire wire);
 

@@ -58,9 +58,24 @@ const char* meaningOf(WarningLevel level, bool timed) {
   return "nothing is guaranteed";
 }
 
+std::string ago(const Warning& warning, const Moment& now) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f s ago", std::max(0.0, (now.stamp - warning.held_since).toSec()));
+  return text;
+}
+
+std::string meaningOf(const Warning& warning, WarningLevel level, bool timed, const Moment& now) {
+  std::string meaning = meaningOf(level, timed);
+  if (level == WarningLevel::kContact && warning.held) meaning = "touched " + ago(warning, now);
+  if (level != WarningLevel::kContact && warning.held && !timed)
+    meaning = "collision was expected, " + ago(warning, now);
+  return warning.acknowledged && level == WarningLevel::kConsidered ? "acknowledged: " + meaning : meaning;
+}
+
 // Returns whether target and time already show the sentence.
 bool isRepeated(const std::string& sentence) {
-  return sentence.rfind("tool meets '", 0) == 0 || sentence.find("' expected in ") != std::string::npos;
+  return sentence.rfind("tool meets '", 0) == 0 || sentence.rfind("tool touched '", 0) == 0 ||
+         sentence.find("' expected in ") != std::string::npos || sentence == "acknowledged";
 }
 
 std::vector<std::string> sentences(std::string text) {
@@ -89,7 +104,8 @@ std::vector<std::string> reasonsOf(const Warning& warning) {
 
 std::string targetOf(const Warning& warning) {
   if (warning.mesh_id.empty()) return "";
-  std::string target = (warning.level == Warning::CONTACT ? "touches " : "ahead: ") + warning.mesh_id;
+  const char* const how = warning.level != Warning::CONTACT ? "ahead: " : warning.held ? "touched " : "touches ";
+  std::string target = how + warning.mesh_id;
   const size_t count = warning.triangles.size();
   if (count > 0) target += ", " + std::to_string(count) + (count == 1 ? " triangle" : " triangles");
   if (!warning.tool_link.empty()) target += ", by " + warning.tool_link;
@@ -118,7 +134,8 @@ bool brightAt(SteadyTime now) { return now.time_since_epoch() / kFlashHalf % 2 =
 
 bool PanelState::operator==(const PanelState& other) const {
   const auto all = [](const PanelState& s) {
-    return std::tie(s.level, s.bright, s.disabled, s.silent, s.title, s.time, s.meaning, s.target, s.reasons);
+    return std::tie(s.level, s.bright, s.disabled, s.acknowledged, s.silent, s.title, s.time, s.meaning, s.target,
+                    s.reasons);
   };
   return all(*this) == all(other);
 }
@@ -157,10 +174,16 @@ PanelState panelState(const std::optional<ReceivedWarning>& newest, const Moment
     return state;
   }
   const std::optional<double> left = timeToCollision(warning);
-  state.bright = state.level != WarningLevel::kContact || brightAt(now.steady);
+  const bool touches = state.level == WarningLevel::kContact && !warning.held;
+  state.bright = !touches || brightAt(now.steady);
+  state.acknowledged = warning.acknowledged && state.level == WarningLevel::kConsidered;
   state.title = styleOf(state.level).name;
-  state.time = !left ? "-" : state.level == WarningLevel::kContact ? "now" : seconds(*left);
-  state.meaning = meaningOf(state.level, left.has_value());
+  if (state.level == WarningLevel::kContact) {
+    state.time = touches && left ? "now" : "-";
+  } else {
+    state.time = left ? seconds(*left) : "-";
+  }
+  state.meaning = meaningOf(warning, state.level, left.has_value(), now);
   state.target = targetOf(warning);
   state.reasons = reasonsOf(warning);
   return state;

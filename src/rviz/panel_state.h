@@ -37,11 +37,12 @@ constexpr auto kSilence = std::chrono::milliseconds(120);
 /// kUnknown.
 struct PanelState {
   WarningLevel level = WarningLevel::kUnknown;
-  bool bright = true;                ///< alternates at 2 Hz in contact; otherwise always true
+  bool bright = true;                ///< alternates at 2 Hz while the tool touches; otherwise always true
   bool disabled = false;             ///< the guard reports that it is disabled
+  bool acknowledged = false;         ///< the operator knows: drawn with less emphasis, never as clear
   bool silent = false;               ///< there is no valid warning
   std::string title;                 ///< name of the level, or `DISABLED`
-  std::string time;                  ///< time to collision: `0.42 s`, `now`, or `-` for none or not known
+  std::string time;                  ///< time to collision: `0.42 s`, `now`, or `-` for none, not known or over
   std::string meaning;               ///< explanation of `time`
   std::string target;                ///< object, triangles and tool link of the contact; empty: no contact
   std::vector<std::string> reasons;  ///< one sentence for each reason of the warning

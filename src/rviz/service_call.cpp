@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
+#include <sweep_guard/Acknowledge.h>
 
 #include <utility>
 
@@ -27,6 +28,12 @@ void ServiceCall::setBool(const std::string& service, bool value) {
 }
 
 void ServiceCall::trigger(const std::string& service) { start(service, std_srvs::Trigger()); }
+
+void ServiceCall::acknowledge(const std::string& service, const std::string& mesh_id) {
+  sweep_guard::Acknowledge acknowledge;
+  acknowledge.request.mesh_id = mesh_id;
+  start(service, acknowledge);
+}
 
 bool ServiceCall::busy() const {
   const std::lock_guard lock(mutex_);

@@ -23,6 +23,9 @@ class ServiceCall {
   /// @param service  absolute name
   void setBool(const std::string& service, bool value);
   void trigger(const std::string& service);
+  /// Starts a call of a sweep_guard/Acknowledge service, likewise.
+  /// @param mesh_id  workpiece that the operator was shown
+  void acknowledge(const std::string& service, const std::string& mesh_id);
 
   /// Ends the running call if its service has been found, and forgets all outcomes.
   void drop();

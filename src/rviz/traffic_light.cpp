@@ -24,7 +24,8 @@ struct Paints {
 
 Paints paintsOf(const PanelState& state) {
   const QColor color = colorOf(state.level);
-  if (state.level == WarningLevel::kClear) return {backdrop(), QColor(225, 228, 232), color, inkOn(state.level)};
+  if (state.level == WarningLevel::kClear || state.acknowledged)
+    return {backdrop(), QColor(225, 228, 232), color, inkOn(state.level)};
   if (!state.bright) return {inkOn(state.level), color, color, inkOn(state.level)};
   return {color, inkOn(state.level), color, inkOn(state.level)};
 }

@@ -46,15 +46,20 @@ WarningPanel::WarningPanel(QWidget* parent)
       target_(makeLabel(this)),
       reasons_(makeLabel(this)),
       chart_(new StripChart(this)),
+      acknowledge_(new QPushButton("I know", this)),
       enable_(new QPushButton(this)),
       reset_(new QPushButton("Reset", this)),
       outcome_(makeLabel(this)),
       topic_edit_(new QLineEdit(this)) {
   light_->setObjectName("light");
+  acknowledge_->setObjectName("acknowledge");
   enable_->setObjectName("enable");
   reset_->setObjectName("reset");
   outcome_->setObjectName("outcome");
   layOut();
+  connect(acknowledge_, &QPushButton::clicked, this, [this] {
+    if (canAcknowledge()) call_.acknowledge(announceCall("acknowledge"), newest_->warning.mesh_id);
+  });
   connect(enable_, &QPushButton::clicked, this, [this] { call_.setBool(announceCall("enable"), state_.disabled); });
   connect(reset_, &QPushButton::clicked, this, [this] { call_.trigger(announceCall("reset")); });
   connect(topic_edit_, &QLineEdit::editingFinished, this, [this] {
@@ -79,6 +84,8 @@ void WarningPanel::layOut() {
   target_->setFont(bold);
   const int line = reasons_->fontMetrics().lineSpacing();
   topic_edit_->setFocusPolicy(Qt::ClickFocus);
+  acknowledge_->setToolTip(
+      "Shows an amber warning of this workpiece with less emphasis for a while. This is no permission");
   reset_->setToolTip("Clears faults and forgets all poses, as after a start");
 
   auto* const place = new QWidget(this);
@@ -90,6 +97,7 @@ void WarningPanel::layOut() {
   texts->addStretch();
   auto* const buttons = new QHBoxLayout;
   buttons->setContentsMargins(9, 0, 9, 0);
+  buttons->addWidget(acknowledge_);
   buttons->addWidget(enable_);
   buttons->addWidget(reset_);
   auto* const topic = new QFormLayout;
@@ -171,8 +179,15 @@ void WarningPanel::showState(SteadyTime now) {
   reasons_->setToolTip(state_.reasons.size() > kMaxReasons ? bullets(state_.reasons, state_.reasons.size())
                                                            : QString());
   enable_->setText(state_.disabled ? "Enable" : "Disable");
-  for (QPushButton* const button : {enable_, reset_}) button->setEnabled(!guard_.empty() && !call_.busy());
+  const bool may_call = !guard_.empty() && !call_.busy();
+  for (QPushButton* const button : {enable_, reset_}) button->setEnabled(may_call);
+  acknowledge_->setEnabled(may_call && canAcknowledge());
   if (refreshes_++ % kRefreshesPerChart == 0) chart_->show(history_, now);
+}
+
+bool WarningPanel::canAcknowledge() const {
+  return newest_ && state_.level == WarningLevel::kConsidered && !state_.acknowledged &&
+         !newest_->warning.mesh_id.empty();
 }
 
 }  // namespace sweep_guard_rviz

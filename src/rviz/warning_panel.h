@@ -19,7 +19,7 @@ namespace sweep_guard_rviz {
 class StripChart;
 class TrafficLight;
 
-/// Shows the warnings of one guard to its operator, and disables, enables and resets it. Saves the topic in rviz's
+/// Shows the warnings of one guard to its operator, and acknowledges, disables, enables and resets it. Saves the topic in rviz's
 /// configuration; the names of the services follow from the topic.
 class WarningPanel : public rviz::Panel {
  public:
@@ -43,6 +43,7 @@ class WarningPanel : public rviz::Panel {
   void setTopic(const std::string& topic);
   void remember(const std::vector<ReceivedWarning>& warnings, SteadyTime now);
   void showState(SteadyTime now);
+  bool canAcknowledge() const;
   std::string announceCall(const std::string& service);
   void showOutcome(const std::string& outcome);
 
@@ -59,6 +60,7 @@ class WarningPanel : public rviz::Panel {
   QLabel* target_;
   QLabel* reasons_;
   StripChart* chart_;
+  QPushButton* acknowledge_;
   QPushButton* enable_;
   QPushButton* reset_;
   QLabel* outcome_;

@@ -16,8 +16,10 @@ sweep_guard_core::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now())
 
 }  // namespace
 
-JoyGuide::JoyGuide(ros::NodeHandle node, const Joystick::Options& options)
-    : joystick_(options), subscriber_(node.subscribe("joy", 1, &JoyGuide::onJoy, this)) {
+JoyGuide::JoyGuide(ros::NodeHandle node, const Joystick::Options& options, int acknowledge_button)
+    : joystick_(options),
+      acknowledge_button_(node, acknowledge_button),
+      subscriber_(node.subscribe("joy", 1, &JoyGuide::onJoy, this)) {
   ROS_INFO("guide the tool with the device that publishes %s", subscriber_.getTopic().c_str());
 }
 
@@ -32,6 +34,7 @@ void JoyGuide::move(GuidedTip& tip, double dt) const {
 void JoyGuide::release() { joystick_.ignoreUntil(now() + kBacklog); }
 
 void JoyGuide::onJoy(const sensor_msgs::Joy::ConstPtr& joy) {
+  acknowledge_button_.update(joy->buttons);
   try {
     joystick_.setAxes(joy->axes, now());
   } catch (const sweep_guard_core::InvalidInput& error) {

@@ -3,15 +3,17 @@
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
 
+#include "simulation/acknowledge_button.h"
 #include "simulation/guided_tip.h"
 #include "simulation/joystick.h"
 
 namespace sweep_guard_simulation {
 
-/// Guides a tip by the messages of an input device on the topic `joy`.
+/// Guides a tip by the messages of an input device on the topic `joy`, and acknowledges warnings by one of its buttons.
 class JoyGuide {
  public:
-  JoyGuide(ros::NodeHandle node, const Joystick::Options& options);
+  /// @param acknowledge_button  index in the messages of the device; -1: none
+  JoyGuide(ros::NodeHandle node, const Joystick::Options& options, int acknowledge_button);
 
   void move(GuidedTip& tip, double dt) const;
 
@@ -22,6 +24,7 @@ class JoyGuide {
   void onJoy(const sensor_msgs::Joy::ConstPtr& joy);
 
   Joystick joystick_;
+  AcknowledgeButton acknowledge_button_;
   ros::Subscriber subscriber_;
 };
 

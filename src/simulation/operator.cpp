@@ -47,7 +47,7 @@ constexpr double kFinalDelay = 1.0;       // [s] for the last poses to be sent
 constexpr double kRisePerWidth = 0.45;    // clearance per radial extent of the tool, as the drill tilts
 constexpr double kDepth = 0.010;          // [m] below the surface, in scripted and recorded motion
 constexpr double kClearance = 0.1;        // [m] above the surface, at the start of a guided motion
-constexpr int kMaxAxis = 63;              // of an input device
+constexpr int kMaxAxis = 63;              // or button of an input device
 constexpr double kHoleCircle = 0.06;      // [m] radius
 constexpr int kHolesOnCircle = 5;
 constexpr std::uint32_t kNotReady =
@@ -76,6 +76,7 @@ class OperatorNode {
                                  {"scripted", "recording", "marker", "joy"})),
         limits_(readLimits(parameters)),
         joystick_(readJoystick(parameters)),
+        acknowledge_button_(parameters.integer("joy/acknowledge_button", 0, -1, kMaxAxis)),
         rate_(parameters.number("rate", 100.0, {1.0, 10000.0})),
         loop_(parameters.flag("loop", true)),
         wait_for_guard_(parameters.flag("wait_for_guard", true)),
@@ -176,7 +177,7 @@ class OperatorNode {
     if (input_ == "scripted") return drill();
     const GuidedTip tip(aboveTheWorkpiece(), limits_);
     if (input_ == "joy") {
-      joy_guide_.emplace(node_, joystick_);
+      joy_guide_.emplace(node_, joystick_, acknowledge_button_);
       return guidedBy(tip, [this](GuidedTip& moving, double dt) { joy_guide_->move(moving, dt); });
     }
     marker_guide_ = std::make_unique<MarkerGuide>(ros::names::resolve("~marker"), frame_, tip.pose(), buffer_);
@@ -254,6 +255,7 @@ class OperatorNode {
   std::string input_;
   GuidedTip::Limits limits_;
   Joystick::Options joystick_;
+  int acknowledge_button_;
   double rate_;
   bool loop_;
   bool wait_for_guard_;

@@ -136,6 +136,39 @@ TEST_F(EvaluatePredictionTest, WritesTheSameWarningsForTheSameSeed) {
   EXPECT_TRUE(has(read("curve.csv"), "\nhand,direct,0.001,"));
 }
 
+TEST_F(EvaluatePredictionTest, CountsTheSameSessionsEveryTimeAndComparesThem) {
+  writeMotion("hand.txt");
+  const std::string sessions = "--session-count 2 --sheets 4 hand.txt ";
+  ASSERT_EQ(run(sessions + "--sessions-csv first.csv --sessions-objects-csv objects.csv").status, 0);
+  const Outcome again = run(sessions + "--sessions-csv again.csv --compare-sessions objects.csv");
+  EXPECT_EQ(again.status, 0) << again.out;
+  const std::string csv = read("first.csv");
+  EXPECT_EQ(csv, read("again.csv"));
+  EXPECT_EQ(csv.find("recording,minutes,contacts,warned_0.1,warned_0.3,warned_0.5,warned_1.0,unjustified_per_min,"
+                     "precision,precision_10mm,precision_20mm,precision_50mm,false_on_share\nhand,2.66667,"),
+            0U);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+  EXPECT_TRUE(has(again.out, "ratio    1.000  [1.000, 1.000]"));
+  expectOneLine("--compare-sessions first.csv hand.txt", "first.csv: line 1");
+}
+
+TEST_F(EvaluatePredictionTest, FindsThresholdsForAWantedRate) {
+  writeMotion("hand.txt");
+  const Outcome outcome = run("--session-count 1 --sheets 4 --tune 100 --tune-csv curve.csv hand.txt");
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "\nwarning:\n  considered_on: 0.01\n  considered_off: 0.0025\n"));
+  EXPECT_EQ(read("curve.csv").find("considered_on,considered_off,reflex_probability,unjustified_per_min,"), 0U);
+}
+
+TEST_F(EvaluatePredictionTest, CountsSessionsBesideMeshes) {
+  writeMotion("hand.txt");
+  write("roof.obj", "v -10 -30 80\nv -10 30 80\nv 70 0 80\nf 1 2 3\n");
+  const std::string meshes = "--sheets 0 --session-count 1 --mesh-scale 0.001 --sessions-csv s.csv hand.txt ";
+  ASSERT_EQ(run(meshes + "--mesh roof.obj --fixed-mesh roof.obj --fixed-mesh roof.obj").status, 0);
+  EXPECT_TRUE(has(read("s.csv"), "\nhand,1,"));
+  expectOneLine(meshes + "--mesh nowhere.stl", "nowhere.stl");
+}
+
 TEST_F(EvaluatePredictionTest, DrawsAPngAndLeavesNothingElse) {
   writeMotion("it's a hand.txt");
   const Outcome outcome = run("--plot \"it's.png\" \"it's a hand.txt\"");
@@ -143,7 +176,9 @@ TEST_F(EvaluatePredictionTest, DrawsAPngAndLeavesNothingElse) {
   EXPECT_EQ(read("it's.png").substr(1, 3), "PNG");
   EXPECT_EQ(run("--predictors direct --placements 2 --tradeoff-plot curves.png \"it's a hand.txt\"").status, 0);
   EXPECT_EQ(read("curves.png").substr(1, 3), "PNG");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 3);
+  EXPECT_EQ(run("--sheets 2 --session-count 1 --sessions-plot sessions.png \"it's a hand.txt\"").status, 0);
+  EXPECT_EQ(read("sessions.png").substr(1, 3), "PNG");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 4);
 }
 
 TEST_F(EvaluatePredictionTest, DoesNotOverwriteARecording) {

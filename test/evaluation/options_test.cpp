@@ -66,7 +66,7 @@ TEST(OptionsTest, NameWhatIsWrong) {
 
 TEST(OptionsTest, RunTheGuardAsTheNodeDoes) {
   const Options options = parse({"a.txt"});
-  EXPECT_EQ(options.simulation.limits.min_probability, sweep_guard_core::WarningLimits{}.min_probability);
+  EXPECT_EQ(options.simulation.limits.thresholds.reflex, sweep_guard_core::WarningThresholds{}.reflex);
   EXPECT_EQ(options.simulation.limits.hold_time, milliseconds(500));
   EXPECT_EQ(options.simulation.tool.radius(), 0.005);
   EXPECT_EQ(options.simulation.tool.length(), 0.1);
@@ -82,6 +82,31 @@ TEST(OptionsTest, ComputeWhatIsToBeWrittenOrEverything) {
   EXPECT_TRUE(!warnings.wantsErrors() && warnings.wantsWarnings() && !warnings.wantsTradeoff());
   const Options tradeoff = parse({"--tradeoff-plot", "t.png", "a.txt"});
   EXPECT_TRUE(!tradeoff.wantsErrors() && tradeoff.wantsWarnings() && tradeoff.wantsTradeoff());
+}
+
+TEST(OptionsTest, SessionsAreComputedWhenAskedFor) {
+  const Options sessions = parse({"--sessions", "a.txt"});
+  EXPECT_TRUE(sessions.wantsSessions() && !sessions.wantsErrors() && !sessions.wantsWarnings());
+  EXPECT_EQ(sessions.session.sheets, 20U);
+  EXPECT_EQ(sessions.session.sessions, 5U);
+  EXPECT_EQ(sessions.session.seed, 1U);
+  EXPECT_EQ(sessions.session_predictor, sweep_guard_core::PredictorOptions{}.predictor);
+  EXPECT_TRUE(parse({"--sessions-csv", "s.csv", "a.txt"}).wantsSessions());
+  EXPECT_FALSE(parse({"a.txt"}).wantsSessions());
+  const Options meshes = parse({"--sessions", "--predictors", "hold", "--mesh", "a.stl", "--mesh", "b.stl", "a.txt"});
+  EXPECT_EQ(meshes.meshes, (std::vector<std::string>{"a.stl", "b.stl"}));
+  EXPECT_EQ(meshes.session_predictor, "hold");
+  EXPECT_TRUE(has(refusal({"--sessions", "--sheets", "0", "a.txt"}), "--sheets"));
+}
+
+TEST(OptionsTest, SessionsHaveTheThresholdsOfTheGuardOrOneForAll) {
+  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_on, 0.25);
+  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_off, 0.0625);
+  EXPECT_EQ(parse({"--sessions", "--min-probability", "0.2", "a.txt"}).session_thresholds.considered_off, 0.2);
+  EXPECT_EQ(parse({"--tune", "2.5", "a.txt"}).tune, 2.5);
+  EXPECT_TRUE(parse({"--tune", "2.5", "a.txt"}).wantsSessions());
+  EXPECT_TRUE(has(refusal({"--considered-on", "0.05", "a.txt"}), "--considered-off"));
+  EXPECT_TRUE(has(refusal({"--tune-csv", "t.csv", "a.txt"}), "--tune"));
 }
 
 TEST(OptionsTest, HelpNeedsNoFile) {

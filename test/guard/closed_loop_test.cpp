@@ -133,7 +133,7 @@ class Loop {
   static WarningLimits limits(double min_probability, Duration hold_time) {
     WarningLimits limits{100ms, Duration::max(), hold_time};
     limits.tick = kTick;
-    limits.min_probability = min_probability;
+    limits.thresholds = WarningThresholds::all(min_probability);
     return limits;
   }
 
@@ -221,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(Predictors, ClosedLoopTest,
 class VerticalTest : public testing::Test {
  protected:
   explicit VerticalTest(Duration hold_time = 500ms)
-      : loop_("constant_velocity", WarningLimits().min_probability, floor(), hold_time) {}
+      : loop_("constant_velocity", WarningThresholds().reflex, floor(), hold_time) {}
 
   // @param z  of the tip over the wall [m], by time [s]
   void follow(double from, double to, const std::function<Eigen::Vector3d(double)>& tip,

@@ -62,6 +62,18 @@ TEST_F(GuardTest, FindsAContactAtTheFirstPose) {
   EXPECT_EQ(report.objects[0].result.triangles, Indices{0});
 }
 
+// The drill ends 0.05 m over the triangle.
+TEST_F(GuardTest, KnowsWhetherTheToolAtTheNewestPoseIsWithinADistance) {
+  EXPECT_FALSE(guard_.isWithin(1.0, *table_[0]));
+  sweepTo(1.0, -0.5);
+  sweepTo(1.1, 0.15);
+  EXPECT_FALSE(guard_.isWithin(0.0499, *table_[0]));
+  EXPECT_TRUE(guard_.isWithin(0.0501, *table_[0]));
+  EXPECT_FALSE(guard_.isWithin(1.0, *triangle("triangle", "elsewhere")));
+  sweepTo(1.2, 0.25);
+  EXPECT_FALSE(guard_.isWithin(0.0501, *table_[0]));
+}
+
 // The triangle is between the poses, and touches the drill at neither.
 TEST_F(GuardTest, SweepsFromPoseToPose) {
   EXPECT_FALSE(sweepTo(1.0, 0.5).contact());

@@ -163,8 +163,8 @@ TEST_F(GuardPredictionTest, ReportsWhenThePathMeetsASquare) {
   const auto expected = predictedContact(prediction, 1.0);
   ASSERT_TRUE(expected);
   EXPECT_TRUE(expected->contact);
-  EXPECT_LE(expected->earliest, Time(10500ms));
-  EXPECT_GT(expected->earliest, Time(10494ms));
+  EXPECT_LE(expected->earliest(), Time(10500ms));
+  EXPECT_GT(expected->earliest(), Time(10494ms));
   EXPECT_EQ(expected->mesh_id, "square");
   EXPECT_EQ(expected->triangles, (Indices{0, 1}));
   EXPECT_GE(expected->probability, 0.5);
@@ -197,8 +197,8 @@ TEST_F(GuardPredictionTest, TakesAWorkpieceWhereItsFrameIs) {
     follow(comingDown(0.05, 0.1), {{"turned", X_MW.inverse()}});
     const auto expected = predictedContact(predict(), 1.0);
     ASSERT_TRUE(expected);
-    EXPECT_LE(expected->earliest, Time(10500ms));
-    EXPECT_GT(expected->earliest, Time(10494ms));
+    EXPECT_LE(expected->earliest(), Time(10500ms));
+    EXPECT_GT(expected->earliest(), Time(10494ms));
   }
 }
 

@@ -92,14 +92,14 @@ TEST(PredictedContactTest, IsTheEarliestOfAllWorkpieces) {
   const PredictedContact predicted = contactOf(
       {object("liver", {kFree0, kFree1, {210ms, true, 0.9}}), object("spleen", {kFree0, {150ms, true, 0.8}, kFree2})});
   EXPECT_EQ(predicted.mesh_id, "spleen");
-  EXPECT_EQ(predicted.earliest, Time(5150ms));
+  EXPECT_EQ(predicted.earliest(), Time(5150ms));
   EXPECT_EQ(predicted.contact, Time(5150ms));
   EXPECT_EQ(predicted.probability, 0.8);
 }
 
 TEST(PredictedContactTest, MayBeMerelyProbable) {
   const PredictedContact predicted = contactOf({object("liver", {kFree0, {100ms, false, 0.1}, {200ms, false, 0.3}})});
-  EXPECT_EQ(predicted.earliest, Time(5100ms));
+  EXPECT_EQ(predicted.earliest(), Time(5100ms));
   EXPECT_FALSE(predicted.contact);
   EXPECT_EQ(predicted.probability, 0.3);
   EXPECT_TRUE(predicted.triangles.empty());
@@ -111,7 +111,7 @@ TEST(PredictedContactTest, ReportsWhenThePathMeetsTheWorkpieceLater) {
   liver.reflex = {1, 7};
   liver.considered = {3};
   const PredictedContact predicted = contactOf({liver});
-  EXPECT_EQ(predicted.earliest, Time(5100ms));
+  EXPECT_EQ(predicted.earliest(), Time(5100ms));
   EXPECT_EQ(predicted.contact, Time(5205ms));
   EXPECT_EQ(predicted.probability, 0.9);
   EXPECT_EQ(predicted.triangles, (std::vector<std::uint32_t>{1, 3, 7}));
@@ -122,7 +122,7 @@ TEST(PredictedContactTest, ReportsWhenThePathMeetsTheWorkpieceLater) {
 TEST(PredictedContactTest, NamesTheToolPieceThatMeetsFirst) {
   const PredictedContact predicted =
       contactOf({object("liver", {{0ms, false, 0.2, 0}, {100ms, true, 0.9, 1}, {200ms, true, 0.9, 2}})});
-  EXPECT_EQ(predicted.earliest, Time(5000ms));
+  EXPECT_EQ(predicted.earliest(), Time(5000ms));
   EXPECT_EQ(predicted.tool_piece, 1U);
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
+constexpr WarningThresholds kThresholds;
 constexpr WarningLimits kLimits = {milliseconds(100), milliseconds(500), milliseconds(500)};
 
 Instant at(int ms) { return {Time(milliseconds(ms)), SteadyTime(milliseconds(ms))}; }
@@ -51,6 +52,13 @@ Prediction collisionOn(const Workpieces& workpieces, int ms, int after_ms) {
   return prediction;
 }
 
+// One that only may meet its first workpiece after so long.
+Prediction probableOn(const Workpieces& workpieces, int ms, int after_ms, double probability) {
+  Prediction prediction = predictionFrom(workpieces, ms);
+  prediction.objects[0].sweeps[1] = {milliseconds(after_ms), /*contact=*/false, probability};
+  return prediction;
+}
+
 class WarningMonitorTest : public testing::Test {
  protected:
   // A fresh workpiece, swept at a fresh pose and looked ahead from there.
@@ -68,6 +76,13 @@ class WarningMonitorTest : public testing::Test {
   void sweepOnly(SweepReport report, int ms) {
     report.end = at(ms).stamp;
     monitor_.swept(report, timestampsAt(ms), monitor_.checkpoint(), at(ms).steady);
+  }
+  // The workpiece comes again, and is swept.
+  Workpieces refresh(int ms) {
+    Workpieces fresh = {workpiece("liver", ms)};
+    monitor_.setWorkpieces(fresh);
+    sweepOnly(reportOf(fresh), ms);
+    return fresh;
   }
   void predict(const Prediction& prediction, int pose_ms) {
     monitor_.predicted(prediction, timestampsAt(pose_ms), monitor_.checkpoint(), at(pose_ms));
@@ -465,14 +480,256 @@ TEST_F(WarningMonitorTest, APredictedContactThatCannotBeTestedDoesNotHideALaterO
   EXPECT_EQ(warningOf(monitor_, at(4490)).mesh_id, "liver");
 }
 
-TEST_F(WarningMonitorTest, WarnsOfWhatIsProbableEnough) {
-  Prediction prediction = predictionFrom(workpieces_, 1000);
-  prediction.objects[0].sweeps[1].probability = kLimits.min_probability - 1e-9;
+TEST_F(WarningMonitorTest, EachIntervalHasAThresholdOfItsOwn) {
+  for (const auto& [after_ms, threshold, level] :
+       {std::tuple(100, kThresholds.reflex, WarningLevel::kReflex),
+        std::tuple(500, kThresholds.considered_on, WarningLevel::kConsidered)}) {
+    monitor_.restart();
+    sweepOnly(reportOf(workpieces_), 1000);
+    predict(probableOn(workpieces_, 1000, after_ms, threshold - 1e-9), 1000);
+    EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
+    predict(probableOn(workpieces_, 1000, after_ms, threshold), 1000);
+    EXPECT_EQ(levelAt(1000), level);
+  }
+}
+
+TEST_F(WarningMonitorTest, AConsideredWarningStaysDownToALowerProbability) {
+  for (int ms = 1000; ms < 3000; ms += 10) {
+    predict(probableOn(refresh(ms), ms, 500, ms == 1000 ? kThresholds.considered_on : kThresholds.considered_off), ms);
+    ASSERT_EQ(levelAt(ms), WarningLevel::kConsidered) << ms;
+  }
+  for (int ms = 3000; ms < 4000; ms += 10) {
+    predict(probableOn(refresh(ms), ms, 500, kThresholds.considered_off - 1e-9), ms);
+    ASSERT_EQ(levelAt(ms), ms <= 3500 ? WarningLevel::kConsidered : WarningLevel::kClear) << ms;
+  }
+  predict(probableOn(refresh(3990), 3990, 500, kThresholds.considered_on - 1e-9), 3990);
+  EXPECT_EQ(levelAt(3990), WarningLevel::kClear);
+}
+
+// The path meets it first; what is left is doubt.
+TEST_F(WarningMonitorTest, AWarningThatThePathRaisedStaysDownToALowerProbability) {
+  predict(collisionOn(workpieces_, 1000, 500), 1000);
+  for (int ms = 1010; ms < 2000; ms += 10) {
+    predict(probableOn(refresh(ms), ms, 500, kThresholds.considered_off), ms);
+    ASSERT_EQ(levelAt(ms), WarningLevel::kConsidered) << ms;
+  }
+}
+
+TEST_F(WarningMonitorTest, WhatKeepsAWarningUpRaisesNoneOfAnotherWorkpiece) {
+  const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
+  monitor_.setWorkpieces(two);
+  predict(probableOn(two, 1000, 500, kThresholds.considered_on), 1000);
+  const double between = 0.5 * (kThresholds.considered_on + kThresholds.considered_off);
+  for (int ms = 1010; ms < 2000; ms += 10) {
+    const Workpieces fresh = {workpiece("liver", ms), workpiece("spleen", ms)};
+    monitor_.setWorkpieces(fresh);
+    sweepOnly(reportOf(fresh), ms);
+    Prediction prediction = predictionFrom(fresh, ms);
+    prediction.objects[1].sweeps[1] = {milliseconds(500), /*contact=*/false, between};
+    predict(prediction, ms);
+    ASSERT_EQ(levelAt(ms), ms <= 1510 ? WarningLevel::kConsidered : WarningLevel::kClear) << ms;
+    ASSERT_EQ(warningOf(monitor_, at(ms)).mesh_id, ms <= 1510 ? "liver" : "") << ms;
+  }
+}
+
+// It was the lower threshold that found it, and the warning was over.
+TEST_F(WarningMonitorTest, WhatIsLessProbableBeyondTheIntervalDoesNotRiseByItself) {
+  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
+  predict(probableOn(workpieces_, 1010, 1050, kThresholds.considered_off), 1010);
+  EXPECT_EQ(levelAt(1510), WarningLevel::kConsidered);
+  EXPECT_NE(levelAt(1511), WarningLevel::kConsidered);
+}
+
+TEST_F(WarningMonitorTest, AWarningThatEndedWithItsPredictionIsNotKeptUpByLess) {
+  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
+  predict(probableOn(refresh(5000), 5000, 500, kThresholds.considered_off), 5000);
+  EXPECT_EQ(levelAt(5000), WarningLevel::kClear);
+}
+
+TEST_F(WarningMonitorTest, AnUrgentContactThatIsUnlikelyIsNoReflex) {
+  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
+  predict(probableOn(workpieces_, 1010, 100, kThresholds.reflex - 1e-9), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kConsidered);
+}
+
+// Both are predicted to be met; the urgent one is named, and each has a time of its own.
+TEST_F(WarningMonitorTest, OfTwoPredictedContactsTheUrgentOneIsNamedUntilItIsOver) {
+  const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
+  monitor_.setWorkpieces(two);
+  Prediction prediction = collisionOn(two, 1000, 500);
+  prediction.objects[1].sweeps[1] = {milliseconds(300), /*contact=*/true, /*probability=*/0.75};
   predict(prediction, 1000);
-  EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
-  prediction.objects[0].sweeps[1].probability = kLimits.min_probability;
-  predict(prediction, 1000);
-  EXPECT_EQ(levelAt(1000), WarningLevel::kReflex);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).mesh_id, "spleen");
+  EXPECT_EQ(warningOf(monitor_, at(1000)).time_to_collision, milliseconds(300));
+  predict(collisionOn(two, 1000, 500), 1000);
+  EXPECT_EQ(warningOf(monitor_, at(1000)).mesh_id, "liver");
+  EXPECT_EQ(warningOf(monitor_, at(1000)).time_to_collision, milliseconds(500));
+}
+
+TEST_F(WarningMonitorTest, TheWarningOfAWorkpieceThatIsGoneIsHeldAndForgotten) {
+  predict(collisionOn(workpieces_, 1000, 500), 1000);
+  monitor_.setWorkpieces({});
+  predict(predictionFrom({}, 1010), 1010);
+  EXPECT_EQ(levelAt(1510), WarningLevel::kConsidered);
+  EXPECT_EQ(levelAt(1511), WarningLevel::kUnknown);
+}
+
+// Its warning has ended: what the same name stands for now has to raise its own.
+TEST_F(WarningMonitorTest, AWorkpieceThatComesAgainIsNotKeptWarnedOfByLess) {
+  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
+  monitor_.setWorkpieces({});
+  predict(predictionFrom({}, 1010), 1010);
+  for (int ms = 1020; ms < 2000; ms += 10) {
+    predict(probableOn(refresh(ms), ms, 500, kThresholds.considered_off), ms);
+    ASSERT_EQ(levelAt(ms), ms <= 1510 ? WarningLevel::kConsidered : WarningLevel::kClear) << ms;
+  }
+}
+
+TEST_F(WarningMonitorTest, AContactIsHeldFromWhenTheToolWasLastFoundToTouch) {
+  sweep(reportOf(workpieces_, {3}), 1010);
+  EXPECT_FALSE(warningOf(monitor_, at(1300)).held_since);
+  sweep(reportOf(workpieces_), 1020);
+  const Warning held = warningOf(monitor_, at(1310));
+  EXPECT_EQ(held.level, WarningLevel::kContact);
+  EXPECT_EQ(held.held_since, at(1010).stamp);
+  EXPECT_TRUE(has(held.text, "CONTACT: tool touched 'liver' 0.30 s ago, 1 triangle"));
+  sweep(reportOf(workpieces_, {3}), 1320);
+  EXPECT_FALSE(warningOf(monitor_, at(1320)).held_since);
+  EXPECT_TRUE(has(warningOf(monitor_, at(1320)).text, "CONTACT: tool meets 'liver', 1 triangle"));
+}
+
+TEST_F(WarningMonitorTest, APredictedContactIsHeldFromWhenItWasNoLongerPredicted) {
+  predict(collisionOn(workpieces_, 1000, 500), 1000);
+  EXPECT_FALSE(warningOf(monitor_, at(1000)).held_since);
+  predict(predictionFrom(workpieces_, 1010), 1010);
+  EXPECT_EQ(warningOf(monitor_, at(1200)).held_since, at(1010).stamp);
+  EXPECT_EQ(levelAt(1511), WarningLevel::kUnknown);
+  EXPECT_FALSE(warningOf(monitor_, at(1511)).held_since);
+}
+
+class AcknowledgedTest : public WarningMonitorTest {
+ protected:
+  AcknowledgedTest() { warnAt(1000); }
+
+  void warnAt(int ms, int after_ms = 500) { predict(collisionOn(refresh(ms), ms, after_ms), ms); }
+  std::string acknowledge(int ms) { return monitor_.acknowledge("liver", at(ms)); }
+  bool acknowledgedAt(int ms) const { return warningOf(monitor_, at(ms)).acknowledged; }
+};
+
+TEST_F(AcknowledgedTest, IsNoPermission) {
+  const Warning before = warningOf(monitor_, at(1000));
+  ASSERT_EQ(acknowledge(1000), "");
+  const Warning after = warningOf(monitor_, at(1000));
+  EXPECT_TRUE(after.acknowledged);
+  EXPECT_EQ(after.level, WarningLevel::kConsidered);
+  EXPECT_EQ(after.reasons, before.reasons);
+  EXPECT_EQ(after.mesh_id, before.mesh_id);
+  EXPECT_EQ(after.time_to_collision, before.time_to_collision);
+  EXPECT_EQ(after.text, before.text + "; acknowledged");
+}
+
+TEST_F(AcknowledgedTest, EndsWithItsTime) {
+  ASSERT_EQ(acknowledge(1000), "");
+  for (int ms = 1010; ms <= 12000; ms += 10) {
+    warnAt(ms);
+    ASSERT_EQ(acknowledgedAt(ms), ms <= 11000) << ms;
+    ASSERT_EQ(levelAt(ms), WarningLevel::kConsidered) << ms;
+  }
+  EXPECT_TRUE(monitor_.acknowledged(at(12000).steady).empty());
+}
+
+// The tool comes and goes beside the same surface.
+TEST_F(AcknowledgedTest, OutlastsAPauseOfTheWarning) {
+  ASSERT_EQ(acknowledge(1000), "");
+  for (int ms = 1010; ms < 2000; ms += 10) predict(predictionFrom(refresh(ms), ms), ms);
+  EXPECT_EQ(levelAt(1990), WarningLevel::kClear);
+  EXPECT_FALSE(acknowledgedAt(1990));
+  warnAt(2000);
+  EXPECT_TRUE(acknowledgedAt(2000));
+}
+
+TEST_F(AcknowledgedTest, EndsAtReflex) {
+  ASSERT_EQ(acknowledge(1000), "");
+  warnAt(1010, 100);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kReflex);
+  EXPECT_FALSE(acknowledgedAt(1010));
+  for (int ms = 1020; ms < 2000; ms += 10) warnAt(ms);
+  EXPECT_EQ(levelAt(1990), WarningLevel::kConsidered);
+  EXPECT_FALSE(acknowledgedAt(1990));
+}
+
+// No prediction says so: the warning rose with the clock.
+TEST_F(AcknowledgedTest, EndsAtAReflexThatCameWithTime) {
+  ASSERT_EQ(acknowledge(1000), "");
+  EXPECT_EQ(levelAt(1400), WarningLevel::kReflex);
+  EXPECT_FALSE(acknowledgedAt(1400));
+  for (int ms = 1400; ms < 2000; ms += 10) warnAt(ms);
+  EXPECT_EQ(levelAt(1990), WarningLevel::kConsidered);
+  EXPECT_FALSE(acknowledgedAt(1990));
+}
+
+TEST_F(AcknowledgedTest, EndsAtContact) {
+  ASSERT_EQ(acknowledge(1000), "");
+  sweep(reportOf(workpieces_, {3}), 1010);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kContact);
+  EXPECT_FALSE(acknowledgedAt(1010));
+  for (int ms = 1020; ms < 2000; ms += 10) warnAt(ms);
+  EXPECT_EQ(levelAt(1990), WarningLevel::kConsidered);
+  EXPECT_FALSE(acknowledgedAt(1990));
+}
+
+TEST_F(AcknowledgedTest, EndsWhenTheToolHasLeftAndWithARestart) {
+  ASSERT_EQ(acknowledge(1000), "");
+  EXPECT_EQ(monitor_.acknowledged(at(1000).steady), std::vector<std::string>{"liver"});
+  monitor_.endAcknowledgement("spleen");
+  EXPECT_TRUE(acknowledgedAt(1000));
+  monitor_.endAcknowledgement("liver");
+  EXPECT_FALSE(acknowledgedAt(1000));
+  EXPECT_EQ(levelAt(1000), WarningLevel::kConsidered);
+  ASSERT_EQ(acknowledge(1000), "");
+  monitor_.restart();
+  warnAt(1010);
+  EXPECT_FALSE(acknowledgedAt(1010));
+}
+
+TEST_F(AcknowledgedTest, EndsWhenTheMeshIsReplacedOrRemoved) {
+  ASSERT_EQ(acknowledge(1000), "");
+  monitor_.setWorkpieces({workpiece("liver", 1000, /*revision=*/2)});
+  EXPECT_EQ(levelAt(1000), WarningLevel::kConsidered);
+  EXPECT_FALSE(acknowledgedAt(1000));
+  warnAt(1010);
+  ASSERT_EQ(acknowledge(1010), "");
+  monitor_.setWorkpieces({});
+  warnAt(1020);
+  EXPECT_FALSE(acknowledgedAt(1020));
+}
+
+TEST_F(AcknowledgedTest, AnotherWorkpieceIsWarnedOfAsEver) {
+  ASSERT_EQ(acknowledge(1000), "");
+  const Workpieces two = {workpiece("liver", 1010), workpiece("spleen", 1010)};
+  monitor_.setWorkpieces(two);
+  sweepOnly(reportOf(two), 1010);
+  Prediction both = collisionOn(two, 1010, 300);
+  both.objects[1].sweeps[1] = {milliseconds(800), /*contact=*/true, /*probability=*/0.75};
+  predict(both, 1010);
+  const Warning warning = warningOf(monitor_, at(1010));
+  EXPECT_EQ(warning.mesh_id, "spleen");  // it comes later, and the operator does not know of it
+  EXPECT_FALSE(warning.acknowledged);
+  ASSERT_EQ(monitor_.acknowledge("spleen", at(1010)), "");
+  EXPECT_EQ(warningOf(monitor_, at(1010)).mesh_id, "liver");
+  EXPECT_TRUE(acknowledgedAt(1010));
+}
+
+TEST_F(AcknowledgedTest, IsOnlyWhatIsWarnedOfAndNoMoreThanConsidered) {
+  EXPECT_TRUE(has(monitor_.acknowledge("spleen", at(1000)), "no warning of 'spleen'"));
+  warnAt(1010, 100);
+  EXPECT_TRUE(has(acknowledge(1010), "not REFLEX"));
+  sweep(reportOf(workpieces_, {3}), 1020);
+  EXPECT_TRUE(has(acknowledge(1020), "not CONTACT"));
+  monitor_.restart();
+  EXPECT_TRUE(has(acknowledge(1020), "not UNKNOWN"));
+  predict(predictionFrom(refresh(1030), 1030), 1030);
+  EXPECT_TRUE(has(acknowledge(1030), "not CLEAR"));
 }
 
 TEST_F(WarningMonitorTest, ATimeJumpClearsPredictedContactsAndWarnings) {

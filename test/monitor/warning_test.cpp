@@ -35,11 +35,23 @@ Warning warningNow(const WarningInputs& inputs) { return warningOf(inputs, kNow,
 
 // From a prediction that began at a pose 10 ms ago and lasts 1.1 s.
 PredictedContact predictedIn(Duration time) {
-  return {kNow.stamp + time, kNow.stamp + time, /*probability=*/0.75, "spleen", {8}, {}, aged(10ms), 1100ms};
+  const Time start = kNow.stamp + time;
+  return {start, start, /*contact=*/start, /*probability=*/0.75, "spleen", {8}, {}, aged(10ms), 1100ms};
 }
 
 WarningInputs::Alarm alarmOf(Duration ago, const std::string& mesh_id = "kidney") {
-  return {{kNow.stamp, /*contact=*/kNow.stamp, /*probability=*/1.0, mesh_id, {9}}, kNow.steady - ago};
+  return {{kNow.stamp, kNow.stamp, /*contact=*/kNow.stamp, /*probability=*/1.0, mesh_id, {9}}, kNow.steady - ago};
+}
+
+WarningInputs::WorkpieceWarning& entryOf(const std::string& id, WarningInputs& inputs) {
+  for (WarningInputs::WorkpieceWarning& warning : inputs.warnings) {
+    if (warning.id == id) return warning;
+  }
+  return inputs.warnings.emplace_back(WarningInputs::WorkpieceWarning{id});
+}
+
+PredictedContact& predict(Duration time, WarningInputs& inputs) {
+  return entryOf("spleen", inputs).predicted.emplace(predictedIn(time));
 }
 
 const std::map<std::string, std::vector<std::uint32_t>> kTriangles = {
@@ -58,12 +70,12 @@ void setContact(Contact contact, WarningInputs& inputs) {
 }
 
 void setPredicted(Predicted predicted, WarningInputs& inputs) {
-  if (predicted == Predicted::kReflex) inputs.predicted = predictedIn(50ms);
-  if (predicted == Predicted::kConsidered) inputs.predicted = predictedIn(500ms);
-  if (predicted == Predicted::kBeyond) inputs.predicted = predictedIn(1050ms);
+  if (predicted == Predicted::kReflex) predict(50ms, inputs);
+  if (predicted == Predicted::kConsidered) predict(500ms, inputs);
+  if (predicted == Predicted::kBeyond) predict(1050ms, inputs);
   if (predicted != Predicted::kOver) return;
-  inputs.predicted = predictedIn(50ms);
-  inputs.predicted->pose = aged(1100ms + 201ms);
+  predict(50ms, inputs);
+  entryOf("spleen", inputs).predicted->pose = aged(1100ms + 201ms);
 }
 
 TEST(WarningTest, NamesWhatIsMissing) {
@@ -161,9 +173,10 @@ TEST(WarningTest, ContactGoesBeforeReflexBeforeConsideredBeforeUnknownBeforeClea
   const auto check = [](const Row& row, Contact contact, WarningInputs inputs, std::uint32_t reasons) {
     setContact(contact, inputs);
     setPredicted(row.predicted, inputs);
-    if (row.alarm == Alarm::kReflexHeld) inputs.reflex = alarmOf(150ms);
-    if (row.alarm == Alarm::kConsideredHeld) inputs.considered = alarmOf(150ms);
-    if (row.alarm == Alarm::kOver) inputs.reflex = inputs.considered = alarmOf(201ms);
+    WarningInputs::WorkpieceWarning& kidney = entryOf("kidney", inputs);
+    if (row.alarm == Alarm::kReflexHeld) kidney.reflex = alarmOf(150ms);
+    if (row.alarm == Alarm::kConsideredHeld) kidney.considered = alarmOf(150ms);
+    if (row.alarm == Alarm::kOver) kidney.reflex = kidney.considered = alarmOf(201ms);
     const Warning warning = warningNow(inputs);
     SCOPED_TRACE(warning.text);
     const bool touches = contact == Contact::kLasting || contact == Contact::kHeld;
@@ -186,19 +199,19 @@ TEST(WarningTest, ContactGoesBeforeReflexBeforeConsideredBeforeUnknownBeforeClea
 
 WarningLevel levelWhen(Duration collision_in) {
   WarningInputs inputs = allGood();
-  inputs.predicted = predictedIn(collision_in);
+  predict(collision_in, inputs);
   return warningNow(inputs).level;
 }
 
 TEST(WarningTest, ReportsTimeAndProbabilityOfTheCollisionThatItNames) {
   WarningInputs inputs = allGood();
-  inputs.predicted = predictedIn(500ms);
-  inputs.reflex = alarmOf(150ms, "kidney");
+  predict(500ms, inputs);
+  entryOf("kidney", inputs).reflex = alarmOf(150ms, "kidney");
   const Warning another = warningNow(inputs);
   EXPECT_EQ(another.text, "REFLEX: collision with 'kidney' was expected");
   EXPECT_FALSE(another.time_to_collision);
   EXPECT_EQ(another.probability, 0.0);
-  inputs.reflex = alarmOf(150ms, "spleen");
+  entryOf("spleen", inputs).reflex = alarmOf(150ms, "spleen");
   const Warning same = warningNow(inputs);
   EXPECT_EQ(same.text, "REFLEX: collision with 'spleen' expected in 0.50 s");
   EXPECT_EQ(same.time_to_collision, 500ms);
@@ -207,11 +220,11 @@ TEST(WarningTest, ReportsTimeAndProbabilityOfTheCollisionThatItNames) {
 
 TEST(WarningTest, NamesTheToolPieceThatItWarnsOf) {
   WarningInputs inputs = allGood();
-  inputs.predicted = predictedIn(500ms);
-  inputs.predicted->tool_piece = 1;
+  predict(500ms, inputs);
+  entryOf("spleen", inputs).predicted->tool_piece = 1;
   EXPECT_EQ(warningNow(inputs).tool_piece, 1U);
-  inputs.reflex = alarmOf(150ms);
-  inputs.reflex->contact.tool_piece = 2;
+  entryOf("kidney", inputs).reflex = alarmOf(150ms);
+  entryOf("kidney", inputs).reflex->contact.tool_piece = 2;
   EXPECT_EQ(warningNow(inputs).tool_piece, 2U);
   inputs.contact = {"liver", {7}, kNow.steady, /*lasting=*/true, /*inside=*/false, /*tool_piece=*/3};
   EXPECT_EQ(warningNow(inputs).tool_piece, 3U);
@@ -231,7 +244,7 @@ TEST(WarningTest, WarnsOfWhatComesWithinAnIntervalAndATick) {
 
 TEST(WarningTest, TimeToCollisionRunsDownOnEitherClockAndNotBelowZero) {
   WarningInputs inputs = allGood();
-  inputs.predicted = predictedIn(300ms);
+  predict(300ms, inputs);
   for (const Duration passed : {0ms, 100ms, 200ms, 300ms, 400ms}) {
     const Duration left = std::max<Duration>(300ms - passed, 0ms);
     EXPECT_EQ(warningOf(inputs, {kNow.stamp + passed, kNow.steady}, kLimits).time_to_collision, left);
@@ -244,8 +257,8 @@ TEST(WarningTest, TimeToCollisionRunsDownOnEitherClockAndNotBelowZero) {
 // The operator is warned of it, but no one can say when it comes.
 TEST(WarningTest, WhatIsMerelyProbableHasNoTime) {
   WarningInputs inputs = allGood();
-  inputs.predicted = predictedIn(50ms);
-  inputs.predicted->contact.reset();
+  predict(50ms, inputs);
+  entryOf("spleen", inputs).predicted->contact.reset();
   const Warning warning = warningNow(inputs);
   EXPECT_EQ(warning.level, WarningLevel::kReflex);
   EXPECT_FALSE(warning.time_to_collision);
@@ -260,8 +273,8 @@ TEST(WarningTest, APredictedContactEndsWithItsPrediction) {
         std::tuple(1300ms + 0ns, WarningLevel::kReflex, false),
         std::tuple(1300ms + 1ns, WarningLevel::kClear, false)}) {
     WarningInputs inputs = allGood();
-    inputs.predicted = predictedIn(-1s);
-    inputs.predicted->pose = aged(age);
+    predict(-1s, inputs);
+    entryOf("spleen", inputs).predicted->pose = aged(age);
     EXPECT_EQ(warningNow(inputs).level, level) << age.count() << " ns";
     EXPECT_EQ(warningNow(inputs).time_to_collision.has_value(), reported) << age.count() << " ns";
   }
@@ -270,10 +283,10 @@ TEST(WarningTest, APredictedContactEndsWithItsPrediction) {
 TEST(WarningTest, HoldsAWarningForItsHoldTime) {
   for (const auto& [ago, held] : {std::pair(200ms + 0ns, true), std::pair(200ms + 1ns, false)}) {
     WarningInputs inputs = allGood();
-    inputs.considered = alarmOf(ago);
+    entryOf("kidney", inputs).considered = alarmOf(ago);
     EXPECT_EQ(warningNow(inputs).level, held ? WarningLevel::kConsidered : WarningLevel::kClear)
         << ago.count() << " ns";
-    inputs.reflex = alarmOf(ago);
+    entryOf("kidney", inputs).reflex = alarmOf(ago);
     EXPECT_EQ(warningNow(inputs).level, held ? WarningLevel::kReflex : WarningLevel::kClear) << ago.count() << " ns";
     EXPECT_FALSE(warningNow(inputs).time_to_collision);
   }

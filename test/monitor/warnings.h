@@ -18,10 +18,15 @@ inline Warning warningOf(const WarningInputs& inputs, const Instant& now, const 
   return warning;
 }
 
+// With the first workpiece that is met, both levels at the same probability.
 inline std::optional<PredictedContact> predictedContact(const Prediction& prediction, double min_probability) {
+  std::optional<PredictedContact> earliest;
   std::optional<PredictedContact> contact;
-  findPredictedContact(prediction, {prediction.stamp, {}}, min_probability, contact);
-  return contact;
+  for (const PredictedObject& object : prediction.objects) {
+    findPredictedContact(prediction, object, {prediction.stamp, {}}, {min_probability, min_probability}, contact);
+    if (contact && (!earliest || contact->earliest() < earliest->earliest())) earliest = contact;
+  }
+  return earliest;
 }
 
 }  // namespace sweep_guard_core

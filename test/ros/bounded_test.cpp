@@ -76,6 +76,13 @@ sweep_guard::CheckSweepRequest example() {
 }
 
 template <>
+sweep_guard::AcknowledgeRequest example() {
+  sweep_guard::AcknowledgeRequest message;
+  message.mesh_id = "liver";
+  return message;
+}
+
+template <>
 dynamic_reconfigure::ReconfigureRequest example() {
   dynamic_reconfigure::ReconfigureRequest message;
   message.config.bools.resize(2);
@@ -132,6 +139,11 @@ std::vector<size_t> lengths<sweep_guard::CheckSweepRequest>() {
 }
 
 template <>
+std::vector<size_t> lengths<sweep_guard::AcknowledgeRequest>() {
+  return {0};
+}
+
+template <>
 std::vector<size_t> lengths<dynamic_reconfigure::ReconfigureRequest>() {
   const size_t ints = 4 + (4 + 4 + 1) + (4 + 1);
   const size_t strs = ints + 4 + (4 + 6 + 4);
@@ -169,9 +181,9 @@ void check(const Bytes& bytes) {
 template <typename Msg>
 class WireTest : public testing::Test {};
 
-using Messages =
-    testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
-                   sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest, dynamic_reconfigure::ReconfigureRequest>;
+using Messages = testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
+                                sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest,
+                                sweep_guard::AcknowledgeRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {

@@ -1,4 +1,4 @@
-// ~enable and ~reset of a running guard. Part of node_test.
+// ~enable, ~reset and ~acknowledge of a running guard. Part of node_test.
 #include "node_fixture.h"
 #include "refusal.h"
 
@@ -85,6 +85,105 @@ TEST_F(ControlsTest, DisabledOutlastsResetAndJumpsOfTime) {
   probe().setClock(probe().time() - ros::Duration(10.0));
   probe().publish(poseAt({0.0, 0.0, 0.5}, ros::Time()));
   EXPECT_EQ(probe().awaitWarning([](const Warning&) { return true; }).reasons, Warning::DISABLED);
+}
+
+// Comes down at 0.025 m/s, warned of from a second before the square on.
+class AcknowledgeTest : public ControlsTest {
+ protected:
+  void SetUp() override {
+    ControlsTest::SetUp();
+    placeSquare("square", {0.0, 0.0, 0.0});
+    restAt({0.0, 0.0, height_});
+    probe().skipWarnings();
+  }
+  void TearDown() override {
+    probe().reset();  // other tests predict what they have taught
+    ControlsTest::TearDown();
+  }
+
+  void stepTo(double height) {
+    moveTo({0.0, 0.0, height});
+    probe().place(squareMovedTo("square", {0.0, 0.0, 0.0}, probe().time()));
+  }
+  // On a busy machine the pose may be stale before the answer: tries again, up to 1 cm over the square.
+  sweep_guard::Acknowledge::Response acknowledgeOnTheWay(const std::string& mesh_id) {
+    sweep_guard::Acknowledge::Response response;
+    while (!response.success && height_ > 0.01) {
+      stepTo(height_ -= kSpeed * 0.01);
+      if (height_ < kSpeed) response = probe().acknowledge(mesh_id);
+    }
+    return response;
+  }
+  static bool isAcknowledged(const Warning& warning) { return warning.acknowledged; }
+
+  static constexpr double kSpeed = 0.025;  // [m/s]
+  double height_ = 0.04;
+};
+
+TEST_F(AcknowledgeTest, IsNoPermission) {
+  const auto response = acknowledgeOnTheWay("square");
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(response.mesh_id, "square");
+  EXPECT_GT(response.until, probe().time());
+  const Warning warning = probe().awaitWarning(isAcknowledged);
+  EXPECT_EQ(warning.level, Warning::CONSIDERED) << warning.text;
+  EXPECT_TRUE(warning.considered && !warning.clear);
+  EXPECT_EQ(warning.mesh_id, "square");
+  EXPECT_TRUE(has(warning.text, "acknowledged"));
+}
+
+TEST_F(AcknowledgeTest, IsOfTheWorkpieceWarnedOfIfNoneIsNamed) {
+  const auto response = acknowledgeOnTheWay("");
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(response.mesh_id, "square");
+}
+
+TEST_F(AcknowledgeTest, EndsWhenTheToolLeaves) {
+  ASSERT_TRUE(acknowledgeOnTheWay("square").success);
+  probe().awaitWarning(isAcknowledged);
+  for (double height = height_; height < 0.05; height += 0.001) stepTo(height);
+  const auto far = probe().acknowledge("square");
+  EXPECT_FALSE(far.success);
+  EXPECT_TRUE(has(far.message, "farther from 'square' than warning/acknowledge_distance")) << far.message;
+  probe().skipWarnings();
+  for (double height = 0.05; height > 0.015; height -= kSpeed * 0.01) stepTo(height);
+  const auto isWarned = [](const Warning& next) { return next.level == Warning::CONSIDERED && !next.held; };
+  EXPECT_FALSE(probe().awaitWarning(isWarned).acknowledged);
+}
+
+TEST_F(AcknowledgeTest, EndsAtContactAndContactIsNotAcknowledged) {
+  ASSERT_TRUE(acknowledgeOnTheWay("square").success);
+  moveTo({0.0, 0.0, -0.01});
+  const Warning warning = probe().awaitWarning([](const Warning& next) { return next.contact; });
+  EXPECT_FALSE(warning.acknowledged);
+  const auto response = probe().acknowledge("square");
+  EXPECT_FALSE(response.success);
+  EXPECT_TRUE(has(response.message, "only CONSIDERED can be acknowledged, not CONTACT")) << response.message;
+}
+
+TEST_F(AcknowledgeTest, NeedsAWarning) {
+  for (const char* const id : {"square", "", "spleen", "\n"}) {
+    const auto response = probe().acknowledge(id);
+    EXPECT_FALSE(response.success) << id;
+    EXPECT_FALSE(response.message.empty()) << id;
+    EXPECT_EQ(response.until, ros::Time()) << id;
+  }
+}
+
+TEST_F(ControlsTest, AContactThatIsOverIsHeldAndSaysSinceWhen) {
+  placeSquare("square", {0.0, 0.0, 0.0});
+  moveTo({0.0, 0.0, 0.05});
+  moveTo({0.0, 0.0, -0.01});
+  const Warning touching = probe().awaitWarning([](const Warning& warning) { return warning.contact; });
+  EXPECT_FALSE(touching.held);
+  EXPECT_EQ(touching.held_since, ros::Time());
+  moveTo({0.0, 0.0, 0.5});  // the way out still touches
+  moveTo({0.0, 0.0, 0.5});
+  const Warning held = probe().awaitWarning([](const Warning& warning) { return warning.held; });
+  EXPECT_TRUE(held.contact);
+  EXPECT_GT(held.held_since, ros::Time());
+  EXPECT_LE(held.held_since, probe().time());
+  EXPECT_TRUE(has(held.text, "CONTACT: tool touched 'square'"));
 }
 
 TEST_F(ControlsTest, ResetEndsAHeldContactAndKeepsTheWorkpieces) {

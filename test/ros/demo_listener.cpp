@@ -32,6 +32,7 @@ DemoListener::DemoListener() {
   const boost::function<void(const sweep_guard::Warning&)> take_warning = [this](const auto& warning) {
     const std::lock_guard lock(mutex_);
     in_contact_ = in_contact_ || warning.contact;
+    acknowledged_ = acknowledged_ || warning.acknowledged;
     changed_.notify_all();
   };
   pose_subscriber_ = node_.subscribe<geometry_msgs::PoseStamped>("tool_pose", kQueue, take_pose);
@@ -54,6 +55,11 @@ DemoListener::Poses DemoListener::awaitPoses(size_t count) const {
 DemoListener::Poses DemoListener::awaitRest(size_t count) const {
   const Poses poses = awaitPoses([count](const Poses& all) { return restingAtEnd(all) > count; });
   return {poses.end() - static_cast<std::ptrdiff_t>(restingAtEnd(poses)), poses.end()};
+}
+
+bool DemoListener::acknowledged() const {
+  const std::lock_guard lock(mutex_);
+  return acknowledged_;
 }
 
 bool DemoListener::inContact() const {

@@ -25,6 +25,7 @@ class DemoListener {
   Poses awaitRest(size_t count) const;
 
   bool inContact() const;     ///< the guard has reported a contact
+  bool acknowledged() const;  ///< the guard has reported an acknowledged warning
   void awaitContact() const;  ///< waits for a contact. @throws std::runtime_error after 20 s
 
  private:
@@ -32,6 +33,7 @@ class DemoListener {
   mutable std::condition_variable changed_;
   Poses poses_;
   bool in_contact_ = false;
+  bool acknowledged_ = false;
   ros::NodeHandle node_;
   ros::Subscriber pose_subscriber_;
   ros::Subscriber warning_subscriber_;

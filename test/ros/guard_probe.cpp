@@ -58,6 +58,7 @@ GuardProbe::GuardProbe(bool drives_clock, PoseSource pose_source) : time_(drives
   if (drives_clock) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10, /*latch=*/true);
   check_sweep_ = node_.serviceClient<sweep_guard::CheckSweep>("/sweep_guard/check_sweep");
   predict_ = node_.serviceClient<sweep_guard::Predict>("/sweep_guard/predict");
+  acknowledge_ = node_.serviceClient<sweep_guard::Acknowledge>("/sweep_guard/acknowledge");
   enable_ = node_.serviceClient<std_srvs::SetBool>("/sweep_guard/enable");
   reset_ = node_.serviceClient<std_srvs::Trigger>("/sweep_guard/reset");
   configure_ = node_.serviceClient<dynamic_reconfigure::Reconfigure>("/sweep_guard/set_parameters");
@@ -68,7 +69,7 @@ GuardProbe::GuardProbe(bool drives_clock, PoseSource pose_source) : time_(drives
            mesh_publisher_.getNumSubscribers() > 0 && vertices_publisher_.getNumSubscribers() > 0 &&
            tf_publisher_.getNumSubscribers() > 0 && std::all_of(subscribers_.begin(), subscribers_.end(), heard) &&
            !warnings_.empty() && !configuration_.doubles.empty() && check_sweep_.exists() && predict_.exists() &&
-           enable_.exists() && reset_.exists() && configure_.exists();
+           acknowledge_.exists() && enable_.exists() && reset_.exists() && configure_.exists();
   });
   if (drives_clock) setClock(time_);  // latched: a guard that connects later sees it too
 }
@@ -272,6 +273,13 @@ sweep_guard::CheckSweep::Response GuardProbe::check(sweep_guard::CheckSweep::Req
     throw std::runtime_error("~check_sweep does not answer");
   }
   return response;
+}
+
+sweep_guard::Acknowledge::Response GuardProbe::acknowledge(const std::string& mesh_id) {
+  sweep_guard::Acknowledge service;
+  service.request.mesh_id = mesh_id;
+  if (!acknowledge_.call(service)) throw std::runtime_error("~acknowledge does not answer");
+  return service.response;
 }
 
 std_srvs::SetBool::Response GuardProbe::enable(bool enabled) {

@@ -8,6 +8,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
+#include <sweep_guard/Acknowledge.h>
 #include <sweep_guard/CheckSweep.h>
 #include <sweep_guard/Contacts.h>
 #include <sweep_guard/DeformableMesh.h>
@@ -89,6 +90,7 @@ class GuardProbe {
 
   sweep_guard::CheckSweep::Response check(sweep_guard::CheckSweep::Request request);
   sweep_guard::Predict::Response predict(double horizon);
+  sweep_guard::Acknowledge::Response acknowledge(const std::string& mesh_id);
   std_srvs::SetBool::Response enable(bool enabled);
   std_srvs::Trigger::Response reset();
 
@@ -141,6 +143,7 @@ class GuardProbe {
   std::vector<ros::Subscriber> subscribers_;
   ros::ServiceClient check_sweep_;
   ros::ServiceClient predict_;
+  ros::ServiceClient acknowledge_;
   ros::ServiceClient enable_;
   ros::ServiceClient reset_;
   ros::ServiceClient configure_;

@@ -18,9 +18,10 @@ class OperateJoyTest : public ::testing::Test {
   // Latched: a message before the connection is not lost.
   OperateJoyTest() : publisher_(node_.advertise<sensor_msgs::Joy>("spacenav/joy", 1, /*latch=*/true)) {}
 
-  void push(const std::vector<float>& axes) {
+  void push(const std::vector<float>& axes, int button = 0) {
     sensor_msgs::Joy joy;
     joy.axes = axes;
+    joy.buttons = {button};
     publisher_.publish(joy);
   }
 
@@ -41,6 +42,17 @@ TEST_F(OperateJoyTest, TheToolMovesWhileMessagesComeAndStopsWithThem) {
   const Poses all = listener_.awaitPoses(0);
   EXPECT_TRUE(isEven(all, kPeriod));
   EXPECT_LE(longestStep(all), kSpeed * kPeriod.toSec() + 1e-9);
+}
+
+// Slowly, so that a considered warning comes close to the workpiece. The button goes down and up.
+TEST_F(OperateJoyTest, AButtonAcknowledgesTheWarning) {
+  size_t poses = 0;
+  for (int button = 0; !listener_.acknowledged() && poses < 1500; button = 1 - button) {
+    push({0.0F, 0.0F, -0.3F, 0.0F, 0.0F, 0.0F}, button);
+    poses = listener_.awaitPoses(poses + 5).size();
+  }
+  EXPECT_TRUE(listener_.acknowledged());
+  EXPECT_FALSE(listener_.inContact());
 }
 
 // A held device sends messages steadily, here after every fifth pose.

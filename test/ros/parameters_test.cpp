@@ -80,7 +80,9 @@ TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
   EXPECT_EQ(loaded.guard.horizon.reflex_step, defaults.guard.horizon.reflex_step);
   EXPECT_EQ(loaded.guard.horizon.considered, defaults.guard.horizon.considered);
   EXPECT_EQ(loaded.guard.horizon.considered_step, defaults.guard.horizon.considered_step);
-  EXPECT_EQ(loaded.limits.min_probability, defaults.limits.min_probability);
+  EXPECT_EQ(loaded.limits.thresholds.considered_on, defaults.limits.thresholds.considered_on);
+  EXPECT_EQ(loaded.limits.thresholds.considered_off, defaults.limits.thresholds.considered_off);
+  EXPECT_EQ(loaded.limits.thresholds.reflex, defaults.limits.thresholds.reflex);
   EXPECT_EQ(loaded.guard.cycle, defaults.guard.cycle);
   EXPECT_EQ(loaded.marker_rate, defaults.marker_rate);
   EXPECT_EQ(loaded.max_triangles, defaults.max_triangles);
@@ -218,6 +220,55 @@ TEST_F(ParametersTest, AreAllDescribedWithTheirEffect) {
   EXPECT_EQ(described, read);
 }
 
+class ThresholdsTest : public ParametersTest {
+ protected:
+  void expect(double considered_on, double considered_off, double reflex, const Parameters& parameters) {
+    EXPECT_EQ(parameters.limits.thresholds.considered_on, considered_on);
+    EXPECT_EQ(parameters.limits.thresholds.considered_off, considered_off);
+    EXPECT_EQ(parameters.limits.thresholds.reflex, reflex);
+  }
+};
+
+TEST_F(ThresholdsTest, TheOldNameSetsAllThatAreNotSet) {
+  expect(0.25, 0.0625, 0.1, loadParameters(node_));
+  node_.setParam("warning/min_probability", 0.3);
+  expect(0.3, 0.3, 0.3, loadParameters(node_));
+  node_.setParam("warning/min_probability", 0.1);
+  expect(0.1, 0.1, 0.1, loadParameters(node_));
+  node_.setParam("warning/reflex_probability", 0.2);
+  expect(0.1, 0.1, 0.2, loadParameters(node_));
+  node_.setParam("warning/considered_on", 0.05);
+  expect(0.05, 0.05, 0.2, loadParameters(node_));
+  node_.setParam("warning/considered_off", 0.01);
+  expect(0.05, 0.01, 0.2, loadParameters(node_));
+}
+
+TEST_F(ThresholdsTest, TheLowerOneFollowsAnUpperOneBelowIt) {
+  node_.setParam("warning/considered_on", 0.05);
+  expect(0.05, 0.05, 0.1, loadParameters(node_));
+  node_.setParam("warning/considered_off", 0.06);
+  EXPECT_TRUE(has(refusal(node_), "at most warning/considered_on"));
+}
+
+// What the same request says of a new name goes before the old one; what was said before does not.
+TEST_F(ThresholdsTest, TheOldNameSetsThemWhileTheGuardRuns) {
+  node_.setParam("warning/considered_on", 0.4);
+  const Parameters before = loadParameters(node_);
+  const Parameters old_name = changeParameters(node_, before, {{"warning/min_probability", 0.3}});
+  expect(0.3, 0.3, 0.3, old_name);
+  expect(0.5, 0.3, 0.3, changeParameters(node_, old_name, {{"warning/considered_on", 0.5}}));
+  const std::map<std::string, ParameterValue> both = {{"warning/min_probability", 0.2},
+                                                      {"warning/reflex_probability", 0.7}};
+  expect(0.2, 0.2, 0.7, changeParameters(node_, old_name, both));
+  expect(0.1, 0.1, 0.1, changeParameters(node_, before, {{"warning/min_probability", 0.1}}));
+}
+
+TEST_F(ThresholdsTest, TheOldNameAloneIsInNoDocument) {
+  for (const ParameterInfo& info : loadParameters(node_).described) {
+    EXPECT_EQ(info.deprecated, info.key == "warning/min_probability") << info.key;
+  }
+}
+
 // A prediction is used until the next one, at most until its pose is stale.
 TEST_F(ParametersTest, MakeThePredictionCoverThePoseTimeout) {
   node_.setParam("timing/pose_timeout", 0.25);
@@ -286,6 +337,9 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("horizon/considered_step", 0.95, "0.001 to 0.9: at most");
   refused("warning/min_probability", 0.0, "0.001 to 1");
   refused("warning/min_probability", 10, "0.001 to 1");
+  refused("warning/considered_on", 0.0, "0.001 to 1");
+  refused("warning/considered_off", 0.3, "0.001 to 0.25");
+  refused("warning/reflex_probability", 1.1, "0.001 to 1");
   refused("warning/hold_time", -0.1, "0 to 60");
   refused("timing/min_rate", 0, "1 to 1000");
   refused("timing/realtime_priority", 100, "0 to 99");

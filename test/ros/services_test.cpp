@@ -164,7 +164,12 @@ class ServicesTest : public ::testing::Test {
       node_, {parameters_, frames_, workpieces_, monitor_, [this](const auto& /*name*/, const auto& /*options*/) {
                 return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
               }}};
-  Controls controls_{node_, monitor_, workpieces_, [this] { guard_thread_.reset(); }};
+  Controls controls_{
+      node_,
+      parameters_,
+      monitor_,
+      workpieces_,
+      {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); }}};
   ReconfigureServer reconfigure_server_{node_, parameters_, [this](const auto& next) { guard_thread_.apply(next); }};
   ros::AsyncSpinner spinner_{1};
 };

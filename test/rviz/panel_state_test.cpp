@@ -130,6 +130,50 @@ TEST(PanelStateTest, OnlyContactFlashesAndDoesSoTwiceASecond) {
   }
 }
 
+TEST(PanelStateTest, AHeldContactIsNotNow) {
+  Warning warning = warningLevel(Warning::CONTACT);
+  warning.time_to_collision = ros::Duration(0.0);
+  warning.mesh_id = "liver";
+  EXPECT_EQ(shown(warning).time, "now");
+  EXPECT_EQ(shown(warning).meaning, "the tool touches");
+  warning.held = true;
+  warning.held_since = kNow.stamp - ros::Duration(0.3);
+  warning.text = "CONTACT: tool touched 'liver' 0.28 s ago";
+  const PanelState state = shown(warning);
+  EXPECT_EQ(state.level, WarningLevel::kContact);
+  EXPECT_EQ(state.time, "-");
+  EXPECT_EQ(state.meaning, "touched 0.3 s ago");
+  EXPECT_EQ(state.target, "touched liver");
+  EXPECT_TRUE(state.reasons.empty());
+}
+
+TEST(PanelStateTest, AHeldContactDoesNotFlash) {
+  Warning warning = warningLevel(Warning::CONTACT);
+  warning.held = true;
+  for (int tick = 0; tick < 1000; tick += 10) {
+    const Moment now{kNow.steady + milliseconds(tick), kNow.stamp};
+    EXPECT_TRUE(panelState(ReceivedWarning{warning, now}, now, "").bright);
+  }
+}
+
+TEST(PanelStateTest, AHeldWarningSaysSinceWhen) {
+  Warning warning = warningLevel(Warning::REFLEX);
+  warning.held = true;
+  warning.held_since = kNow.stamp - ros::Duration(0.2);
+  EXPECT_EQ(shown(warning).meaning, "collision was expected, 0.2 s ago");
+}
+
+TEST(PanelStateTest, OnlyConsideredIsShownAsAcknowledged) {
+  for (std::uint8_t level = Warning::UNKNOWN; level <= Warning::CONTACT; ++level) {
+    Warning warning = warningLevel(level);
+    warning.acknowledged = true;
+    const PanelState state = shown(warning);
+    EXPECT_EQ(static_cast<int>(state.level), level);
+    EXPECT_EQ(state.acknowledged, level == Warning::CONSIDERED);
+    EXPECT_EQ(state.meaning.find("acknowledged") == 0, level == Warning::CONSIDERED) << state.meaning;
+  }
+}
+
 TEST(PanelStateTest, DisabledIsNotClearAndSaysSo) {
   const PanelState state = shown(warningLevel(Warning::UNKNOWN, Warning::DISABLED));
   EXPECT_EQ(state.level, WarningLevel::kUnknown);

@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
+#include <sweep_guard/Acknowledge.h>
 
 #include <QApplication>
 #include <QLabel>
@@ -188,13 +189,61 @@ TEST_F(WarningPanelTest, AnImpossibleTopicIsUnknownAndDoesNoHarm) {
   for (const char* const topic : {"no topic!", ""}) {
     load(topic);
     EXPECT_TRUE(panel_.state().silent);
-    for (const char* const name : {"enable", "reset"}) {
+    for (const char* const name : {"acknowledge", "enable", "reset"}) {
       EXPECT_FALSE(button(name)->isEnabled());
       button(name)->click();
     }
   }
   load(kTopic);
   EXPECT_TRUE(button("enable")->isEnabled());
+}
+
+// What the operator has seen is named, whatever is warned of by then.
+TEST_F(WarningPanelTest, AcknowledgesTheWorkpieceThatIsShown) {
+  std::string asked;
+  const auto server = node_.advertiseService<sweep_guard::Acknowledge::Request, sweep_guard::Acknowledge::Response>(
+      "/guard/acknowledge", [&](auto& request, auto& response) {
+        asked = request.mesh_id;
+        response.message = "acknowledged as asked";
+        return true;
+      });
+  say(warningLevel(Warning::CONSIDERED));
+  button("acknowledge")->click();
+  const auto* const outcome = panel_.findChild<QLabel*>("outcome");
+  await("the outcome", [&] {
+    ros::spinOnce();
+    return outcome->text() == "acknowledged as asked";
+  });
+  EXPECT_EQ(asked, "liver");
+}
+
+TEST_F(WarningPanelTest, OnlyAConsideredWarningThatIsNotAcknowledgedCanBe) {
+  for (const std::uint8_t level : {Warning::UNKNOWN, Warning::CLEAR, Warning::REFLEX, Warning::CONTACT}) {
+    say(warningLevel(level));
+    EXPECT_FALSE(button("acknowledge")->isEnabled()) << int{level};
+  }
+  Warning warning = warningLevel(Warning::CONSIDERED);
+  say(warning);
+  EXPECT_TRUE(button("acknowledge")->isEnabled());
+  warning.acknowledged = true;
+  speak(warning, 0.2);
+  await("less emphasis", [&] { return panel_.state().acknowledged; });
+  EXPECT_FALSE(button("acknowledge")->isEnabled());
+}
+
+// It stays amber, and is not taken for green.
+TEST_F(WarningPanelTest, AnAcknowledgedWarningHasAnAmberLampOnADarkGround) {
+  Warning warning = warningLevel(Warning::CONSIDERED);
+  say(warning);
+  const double loud = shareOf(light(), isAmber);
+  warning.acknowledged = true;
+  speak(warning, 0.2);
+  await("less emphasis", [&] { return panel_.state().acknowledged; });
+  const double known = shareOf(light(), isAmber);
+  keepPicture(light(), "light_acknowledged");
+  EXPECT_GT(known, 0.01);
+  EXPECT_LT(known, 0.5 * loud);
+  EXPECT_EQ(shareOf(light(), isGreen), 0.0);
 }
 
 // Twenty seconds in which the tool approaches twice and touches.

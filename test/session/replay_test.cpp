@@ -194,34 +194,50 @@ TEST_F(ReplayTest, TakesAWorkpieceFromAFileWhereTheBagHasNone) {
   ASSERT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 3U) << printed;
 }
 
-// The levels of the warnings that can be read, in their order.
-std::vector<std::uint8_t> warningsOf(const fs::path& path) {
+// The warnings that can be read, in their order.
+std::vector<sweep_guard::Warning> warningsOf(const fs::path& path) {
   const rosbag::Bag bag(path.string());
-  std::vector<std::uint8_t> levels;
+  std::vector<sweep_guard::Warning> warnings;
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/sweep_guard/warning"))) {
     const auto warning = message.instantiate<sweep_guard::Warning>();
-    if (warning) levels.push_back(warning->level);
+    if (warning) warnings.push_back(*warning);
   }
-  return levels;
+  return warnings;
+}
+
+void migrate(const fs::path& old, const fs::path& fixed, const fs::path& log) {
+  const fs::path rules = fs::path(SWEEP_GUARD_SOURCE_DIR) / "migration_rules/sweep_guard.bmr";
+  std::ostringstream fix;
+  fix << "rosbag fix --noplugins " << old << ' ' << fixed << ' ' << rules << " > " << log << " 2>&1";
+  ASSERT_EQ(std::system(fix.str().c_str()), 0) << readText(log);
 }
 
 // recorded_before.bag holds the first definition of Warning.
 TEST_F(ReplayTest, ABagWithOlderMessagesIsMigratedAndReplayed) {
-  const fs::path source = SWEEP_GUARD_SOURCE_DIR;
-  const fs::path old = source / "test/session/recorded_before.bag";
+  const fs::path old = fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_before.bag";
   EXPECT_TRUE(warningsOf(old).empty());
-  std::ostringstream fix;
-  fix << "rosbag fix --noplugins " << old << ' ' << bag_ << ' ' << source / "migration_rules/sweep_guard.bmr"
-      << " > " << folder_ / "fixed.txt"
-      << " 2>&1";
-  ASSERT_EQ(std::system(fix.str().c_str()), 0) << readText(folder_ / "fixed.txt");
-  const std::vector<std::uint8_t> levels = warningsOf(bag_);
-  ASSERT_EQ(levels.size(), 40U);
-  for (std::size_t i = 0; i < levels.size(); ++i) EXPECT_EQ(levels[i], i / 8);
+  migrate(old, bag_, folder_ / "fixed.txt");
+  const std::vector<sweep_guard::Warning> warnings = warningsOf(bag_);
+  ASSERT_EQ(warnings.size(), 40U);
+  for (std::size_t i = 0; i < warnings.size(); ++i) EXPECT_EQ(warnings[i].level, i / 8);
 
   const std::string printed = replay("");
   EXPECT_TRUE(has(printed, "200 poses")) << printed;
   EXPECT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 2U) << printed;
+}
+
+// recorded_with_run_id.bag holds the definition before `held` and `acknowledged`.
+TEST_F(ReplayTest, WarningsThatDoNotTellWhatIsHeldAreMigrated) {
+  const fs::path old = fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_with_run_id.bag";
+  EXPECT_TRUE(warningsOf(old).empty());
+  migrate(old, bag_, folder_ / "fixed.txt");
+  const std::vector<sweep_guard::Warning> warnings = warningsOf(bag_);
+  ASSERT_EQ(warnings.size(), 10U);
+  for (std::size_t i = 0; i < warnings.size(); ++i) {
+    EXPECT_EQ(warnings[i].level, i / 2);
+    EXPECT_EQ(warnings[i].run_id, "0123456789abcdef");
+    EXPECT_FALSE(warnings[i].held || warnings[i].acknowledged);
+  }
 }
 
 // The guard does not subscribe to the poses, and the player waits for a subscriber of each topic.

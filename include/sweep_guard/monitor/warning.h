@@ -10,6 +10,15 @@
 
 namespace sweep_guard_core {
 
+/// Smallest probabilities of a contact off the predicted path that are warned of, each in (0, 1].
+struct WarningThresholds {
+  double reflex = 0.1;             ///< raises REFLEX
+  double considered_on = 0.25;     ///< raises CONSIDERED
+  double considered_off = 0.0625;  ///< keeps CONSIDERED up; <= considered_on
+
+  static WarningThresholds all(double probability) { return {probability, probability, probability}; }
+};
+
 /// Limits of computeWarning(), which does not check them. The first three have no default.
 struct WarningLimits {
   Duration pose_timeout;  ///< a pose older than this is stale; > 0
@@ -21,7 +30,8 @@ struct WarningLimits {
   /// Longest span of poses swept at once, and longest wait of a pose, without a reason; >= 0. A pose may wait for as
   /// long as the newest prediction took, if that is longer.
   Duration overload = std::chrono::milliseconds(20);
-  double min_probability = 0.1;  ///< smallest probability that is warned of, in (0, 1]
+  WarningThresholds thresholds = {};
+  Duration acknowledge_time = std::chrono::seconds(10);  ///< longest time that a warning stays acknowledged; >= 0
 };
 
 /// The level and the reasons for it.
@@ -36,21 +46,25 @@ struct Warning {
   std::vector<std::uint32_t> triangles;  ///< in contact or not ruled out; before contact, met by the predicted path
   /// Time from now until the predicted path meets the workpiece of the predicted contact, >= 0; empty: it does not, the
   /// prediction has ended, or a stronger warning about another workpiece is held. At kContact, this may be another
-  /// workpiece than `mesh_id`.
+  /// workpiece than `mesh_id`; at kClear and kUnknown, it is the one that is met first.
   std::optional<Duration> time_to_collision;
   /// Probability of the predicted contact, in [0, 1]; 0 once its prediction has ended, or while a stronger warning
   /// about another workpiece is held.
   double probability = 0.0;
-  Time pose_stamp;     ///< newest pose that has been swept; epoch: none
-  Time covered_until;  ///< every workpiece is tested up to here; epoch: never
+  /// When what the level tells of ended; it is shown for the hold time. Empty: it lasts, or there is none.
+  std::optional<Time> held_since;
+  bool acknowledged = false;  ///< the operator knows of this workpiece; only at kConsidered
+  Time pose_stamp;            ///< newest pose that has been swept; epoch: none
+  Time covered_until;         ///< every workpiece is tested up to here; epoch: never
 
   void clear();  ///< resets all fields and keeps the buffers
 };
 
 /// Computes the warning. The first level that applies wins, in this order:
 /// - CONTACT: the tool meets a workpiece, or met one within the hold time. A contact that is not ruled out counts.
-/// - REFLEX, CONSIDERED: the earliest predicted contact lies within this interval now or by the next call, or did so
-///   within the hold time.
+/// - REFLEX, CONSIDERED: the predicted contact with a workpiece lies within this interval now or by the next call, or
+///   did so within the hold time. Of several workpieces, the one with the highest level is named, then one that is not
+///   acknowledged, then one that is predicted to be met now, then the one that is met first.
 /// - UNKNOWN: a reason other than kDegraded applies.
 /// - CLEAR: there is a workpiece, and each required one; pose and workpieces are fresh; no pose has waited too long
 ///   (`overload`); every workpiece was swept at that pose and tested to the end of the considered interval; there is no
@@ -64,12 +78,17 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
 /// `inputs`; without a pose there, does not ask whether they were swept.
 std::string meshProblems(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits);
 
-/// Returns the level of a predicted contact that is `time_left` away (past if negative), as it counts until the next
-/// call: kReflex up to and including `reflex` + `tick`, kConsidered up to `considered` + `tick`, otherwise kClear.
-WarningLevel warningLevel(Duration time_left, const WarningLimits& limits);
-
-/// Returns the level of a predicted contact now, or at the end of its prediction if that is over.
+/// Returns the level of a predicted contact now, or at the end of its prediction if that is over, as it counts until
+/// the next call: kReflex if its `reflex` is at most the reflex interval and `tick` away, kConsidered likewise,
+/// otherwise kClear.
 WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits);
+
+/// Returns whether the `considered` of a predicted contact is at most the considered interval and `tick` away, whatever
+/// its `reflex` calls for; false once its prediction has ended.
+bool isConsidered(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits);
+
+/// Returns whether a workpiece is warned of: its contact is predicted within an interval, or was within the hold time.
+bool isWarnedOf(const WarningInputs::WorkpieceWarning& workpiece, const Instant& now, const WarningLimits& limits);
 
 /// Returns the time since the prediction of a contact ended (`duration` after its pose); 0 if it has not.
 Duration timeSinceEnd(const PredictedContact& predicted, const Instant& now);

@@ -37,6 +37,15 @@ struct WarningInputs {
     PredictedContact contact;
     SteadyTime ended;
   };
+  /// What is predicted for one workpiece, and what was.
+  struct WorkpieceWarning {
+    std::string id = {};
+    std::optional<PredictedContact> predicted = {};     ///< from the newest prediction of the workpiece
+    std::optional<Alarm> reflex = {};                   ///< newest reflex warning that has ended
+    std::optional<Alarm> considered = {};               ///< newest considered warning that has ended
+    std::optional<SteadyTime> acknowledged_until = {};  ///< end of an acknowledgement; may have passed
+    std::uint32_t acknowledged_revision = 0;            ///< of the mesh that was acknowledged
+  };
   /// Poses that waited and were swept at once. `found`: when.
   struct Backlog {
     Duration span{};  ///< from the first to the last of these poses
@@ -55,12 +64,11 @@ struct WarningInputs {
     bool lasting = false;  ///< until a restart
   };
 
-  std::optional<Timestamps> pose;             ///< newest pose that has been swept
-  std::vector<Object> objects;                ///< ascending by id, each once
-  std::optional<Contact> contact;             ///< newest contact; of several in one sweep, the first reported
-  std::optional<PredictedContact> predicted;  ///< from the newest prediction of its workpiece
-  std::optional<Alarm> reflex;                ///< newest reflex warning that has ended
-  std::optional<Alarm> considered;            ///< newest considered warning that has ended
+  std::optional<Timestamps> pose;          ///< newest pose that has been swept
+  std::vector<Object> objects;             ///< ascending by id, each once
+  std::optional<Contact> contact;          ///< newest contact; of several in one sweep, the first reported
+  std::vector<WorkpieceWarning> warnings;  ///< each workpiece once
+  WorkpieceWarning removed;                ///< newest alarms of workpieces that are gone
   Time covered_until;                 ///< every workpiece is tested up to here, measured or predicted; epoch: never
   std::optional<Backlog> overload;    ///< newest backlog that exceeded the limit
   std::optional<Event> pose_loss;     ///< newest poses that were sent and did not arrive

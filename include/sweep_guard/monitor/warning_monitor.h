@@ -124,6 +124,19 @@ class WarningMonitor {
   void predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint, const Instant& now,
                  Duration took = {});
 
+  /// Acknowledges the considered warning of a workpiece: Warning::acknowledged, and nothing else, changes. Acknowledged
+  /// is one mesh of one workpiece; warnings of others are as ever. It ends at kReflex and kContact, whatever workpiece
+  /// is met; `acknowledge_time` later; when the mesh is replaced or removed; with a restart; and by
+  /// endAcknowledgement(), which the caller owes once the tool has left. Does not call on_fault.
+  /// @returns why not; empty: acknowledged
+  std::string acknowledge(const std::string& id, const Instant& now);
+
+  /// Ends the acknowledgement of a workpiece, if there is one. Does not call on_fault.
+  void endAcknowledgement(const std::string& id);
+
+  /// Returns the workpieces that are acknowledged.
+  std::vector<std::string> acknowledged(SteadyTime now) const;
+
   /// Reports that what was swept does not count any more: time went back, the machine was suspended or a static
   /// transform changed. Restarts, and keeps contacts, lasting failures and a disagreement of the detectors. kTimeJump
   /// lasts until a pose received later is swept. A contact is shown for the hold time after it was found last.
@@ -192,8 +205,13 @@ class WarningMonitor {
   void updateBehind(const SweepReport& report);
   void addContact(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now);
   void updateContact(const SweepReport& report, SteadyTime now);
-  void updatePredicted(const Instant& now);
-  void updateAlarms(const Instant& now);
+  WarningInputs::WorkpieceWarning* findWarning(const std::string& id);
+  void updatePredicted(const Prediction& prediction, const PredictedObject& object, const Timestamps& pose,
+                       const Instant& now);
+  void endUntested(const Instant& now);
+  void endAcknowledgements();
+  void endAcknowledgementsOfOthers();
+  void updateAlarms(WarningInputs::WorkpieceWarning& workpiece, const Instant& now);
   Time coveredUntil(const Instant& now) const;
 
   const std::function<void()> on_fault_;
@@ -206,7 +224,7 @@ class WarningMonitor {
   Time swept_until_;              // every workpiece
   Workpieces swept_;              // at the newest pose
   std::optional<Coverage> coverage_;
-  std::optional<PredictedContact> next_;  // of the newest prediction
+  std::optional<PredictedContact> next_;  // while a prediction is taken over
   Workpieces workpieces_;
   std::map<Reason, std::uint64_t> fault_numbers_;
   std::string test_failure_;  // of the detector; empty: none

@@ -76,7 +76,10 @@ void WarningPublisher::publish(bool only_if_changed) {
   const sweep_guard_core::Instant at = now();
   monitor_.warning(at, warning_);
   const bool new_level = static_cast<std::uint8_t>(warning_.level) != message_.level;
-  if (only_if_changed && !new_level && warning_.reasons == message_.reasons) return;
+  const bool changed = new_level || warning_.reasons != message_.reasons ||
+                       warning_.held_since.has_value() != (message_.held != 0) ||
+                       warning_.acknowledged != (message_.acknowledged != 0);
+  if (only_if_changed && !changed) return;
   const auto parameters = parameters_.get();
   sweep_guard::Warning next = toMsg(warning_);
   if (warning_.tool_piece) next.tool_link = parameters->tool->pieces()[*warning_.tool_piece].link;

@@ -19,7 +19,7 @@ class WarningPublisher {
   WarningPublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
                    const sweep_guard_core::WarningMonitor& monitor);
 
-  void publishIfChanged();   ///< publishes if level or reasons have changed
+  void publishIfChanged();   ///< publishes if level, reasons, `held` or `acknowledged` have changed
   void publishIfDue();       ///< publishes on change, and otherwise often enough for 20 Hz
   void publishFinal();       ///< publishes the warning and both flags, and waits until they are sent, up to 0.2 s
   void publishReflex();      ///< publishes the flag as it is now

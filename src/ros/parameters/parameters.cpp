@@ -1,5 +1,7 @@
 #include "ros/parameters/parameters.h"
 
+#include <ros/console.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,6 +23,10 @@ constexpr double kMinStep = 0.001;        // [s]
 constexpr size_t kBytesPerTriangle = 84;  // three indices and three vertices of a mesh that shares none
 constexpr size_t kMebibyte = 1U << 20;
 constexpr double kMaxHorizon = 5.0;  // [s]
+constexpr double kMinProbability = 0.001;
+const std::string kOldThreshold = "warning/min_probability";
+const std::vector<std::string> kThresholds = {"warning/considered_on", "warning/considered_off",
+                                              "warning/reflex_probability"};
 
 // May change while the node runs, with all keys of kMarkers.
 const std::vector<std::string> kChangeable = {"tool/padding",
@@ -38,8 +44,13 @@ const std::vector<std::string> kChangeable = {"tool/padding",
                                               "horizon/reflex_step",
                                               "horizon/considered",
                                               "horizon/considered_step",
-                                              "warning/min_probability",
+                                              "warning/considered_on",
+                                              "warning/considered_off",
+                                              "warning/reflex_probability",
+                                              kOldThreshold,
                                               "warning/hold_time",
+                                              "warning/acknowledge_time",
+                                              "warning/acknowledge_distance",
                                               "timing/min_rate",
                                               "timing/pose_timeout",
                                               "timing/mesh_timeout",
@@ -102,6 +113,28 @@ sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pos
       ParameterReader::Bound{{kMinStep, considered - reflex}, "at most horizon/considered less horizon/reflex"});
   return {toDuration(reflex), toDuration(reflex_step), toDuration(considered), toDuration(considered_step),
           pose_timeout};
+}
+
+sweep_guard_core::WarningThresholds readThresholds(ParameterReader& read) {
+  const ParameterReader::Range any{kMinProbability, 1.0};
+  sweep_guard_core::WarningThresholds thresholds;
+  const std::optional<double> all =
+      read.deprecatedNumber(kOldThreshold, thresholds.reflex, any,
+                            "Old name: sets those of warning/considered_on, warning/considered_off and "
+                            "warning/reflex_probability that are not set themselves; while the guard runs, those that "
+                            "are not in the same request.");
+  if (all) thresholds = sweep_guard_core::WarningThresholds::all(*all);
+  thresholds.considered_on = read.number("warning/considered_on", thresholds.considered_on, any,
+                                         "A contact off the predicted path raises CONSIDERED from this probability on. "
+                                         "Smaller warns earlier, with more false alarms.");
+  thresholds.considered_off = read.number(
+      "warning/considered_off", std::min(thresholds.considered_off, thresholds.considered_on), any,
+      "CONSIDERED stays while a contact with that workpiece is at least this probable; at most warning/considered_on. "
+      "Smaller interrupts a warning less often.",
+      ParameterReader::Bound{{kMinProbability, thresholds.considered_on}, "at most warning/considered_on"});
+  thresholds.reflex = read.number("warning/reflex_probability", thresholds.reflex, any,
+                                  "A contact off the predicted path raises REFLEX from this probability on.");
+  return thresholds;
 }
 
 // The cylinder's parameters are checked for every tool type.
@@ -233,11 +266,15 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.guard.sweep.max_rotation = read.number("max_rotation_per_sweep", 0.175, {0.01, 0.5, "rad"},
                                                     "A motion that turns more is swept in several steps. Smaller is "
                                                     "tighter and slower.");
-  parameters.limits.min_probability = read.number("warning/min_probability", 0.1, {0.001, 1.0},
-                                                  "A contact off the predicted path raises a warning from this "
-                                                  "probability on. Smaller warns earlier, with more false alarms.");
+  parameters.limits.thresholds = readThresholds(read);
   parameters.limits.hold_time = toDuration(read.number("warning/hold_time", 0.5, {0.0, 60.0, "s"},
                                                        "A warning stays for this long after its cause is over."));
+  parameters.limits.acknowledge_time =
+      toDuration(read.number("warning/acknowledge_time", 10.0, {0.1, 60.0, "s"},
+                             "A warning is acknowledged (~acknowledge) for no longer than this."));
+  parameters.acknowledge_distance =
+      read.number("warning/acknowledge_distance", 0.03, {0.0, 1.0, "m"},
+                  "A warning stays acknowledged while the tool, grown by this much, meets the workpiece.");
   parameters.limits.pose_timeout = toDuration(
       read.number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"}, "An older tool pose makes the warning UNKNOWN."));
   parameters.limits.mesh_timeout = toDuration(read.number(
@@ -294,6 +331,13 @@ Parameters loadParameters(const ros::NodeHandle& private_node) {
   ParameterReader read(private_node);
   Parameters parameters = readAll(read, nullptr);
   read.warnOfUnread();
+  if (parameters.settings.at(kOldThreshold)) {
+    const auto& [reflex, on, off] = parameters.limits.thresholds;
+    ROS_WARN(
+        "%s is an old name: it sets those of warning/considered_on (now %g), warning/considered_off (%g) and "
+        "warning/reflex_probability (%g) that are not set; without it they have their defaults",
+        private_node.resolveName(kOldThreshold).c_str(), on, off, reflex);
+  }
   return parameters;
 }
 
@@ -318,6 +362,9 @@ Parameters changeParameters(const ros::NodeHandle& private_node, const Parameter
       throw sweep_guard_core::InvalidInput("parameter " + name + " does not change while the guard runs: restart it");
     }
     std::visit([&, key = key](const auto& held) { settings[key] = XmlRpc::XmlRpcValue(held); }, value);
+  }
+  for (const std::string& key : kThresholds) {
+    if (changes.count(kOldThreshold) != 0 && changes.count(key) == 0) settings[key].reset();
   }
   ParameterReader read(private_node, std::move(settings));
   return readAll(read, &before);

@@ -37,6 +37,7 @@ struct Parameters {
   int cross_check;  ///< of so many queries of the detector, one is asked twice; 0: none
   sweep_guard_core::GuardOptions guard;
   sweep_guard_core::WarningLimits limits;
+  double acknowledge_distance;              ///< [m]
   double marker_rate;                       ///< [Hz]
   std::set<std::string> marker_namespaces;  ///< published ones
   sweep_guard_core::Duration check_sweep_deadline;

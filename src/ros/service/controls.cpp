@@ -2,18 +2,33 @@
 
 #include <ros/console.h>
 
+#include "ros/bounded.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
+namespace {
 
-Controls::Controls(const ros::NodeHandle& private_node, sweep_guard_core::WarningMonitor& monitor,
-                   const sweep_guard_core::WorkpieceStore& workpieces, std::function<void()> reset)
-    : monitor_(monitor),
+constexpr size_t kMaxRequest = 1024;  // of ~acknowledge [bytes]
+
+}  // namespace
+
+Controls::Controls(const ros::NodeHandle& private_node, const LiveParameters& parameters,
+                   sweep_guard_core::WarningMonitor& monitor, const sweep_guard_core::WorkpieceStore& workpieces,
+                   GuardControls guard)
+    : parameters_(parameters),
+      monitor_(monitor),
       workpieces_(workpieces),
-      reset_(std::move(reset)),
+      guard_(std::move(guard)),
       enable_server_(thread_.on(private_node).advertiseService("enable", &Controls::onEnable, this)),
-      reset_server_(thread_.on(private_node).advertiseService("reset", &Controls::onReset, this)) {}
+      reset_server_(thread_.on(private_node).advertiseService("reset", &Controls::onReset, this)),
+      acknowledge_server_(advertiseBounded<AcknowledgeEvent>(
+          thread_.on(private_node), "acknowledge", kMaxRequest,
+          [this](AcknowledgeEvent& event) { return onAcknowledge(event); },
+          [](const std::string& reason, sweep_guard::Acknowledge::Response& response) {
+            response.message = reason;
+            return true;
+          })) {}
 
 bool Controls::onEnable(EnableEvent& event) {
   const std::string caller = sweep_guard_core::printable(event.getCallerName());
@@ -45,9 +60,32 @@ void Controls::disable(const std::string& asked_by, std_srvs::SetBool::Response&
   response.message = "disabled by " + monitor_.disabledBy().value_or(asked_by) + ": no motion is tested";
 }
 
+bool Controls::onAcknowledge(AcknowledgeEvent& event) {
+  const std::string id = event.getRequest().mesh_id;
+  const std::string caller = sweep_guard_core::printable(event.getCallerName());
+  if (id.empty() || sweep_guard_core::isName(id)) {
+    acknowledge(id, event.getResponse());
+  } else {
+    event.getResponse().message = "mesh_id is no name";
+  }
+  ROS_INFO("~acknowledge called by %s: %s", caller.c_str(), event.getResponse().message.c_str());
+  return true;
+}
+
+void Controls::acknowledge(const std::string& id, sweep_guard::Acknowledge::Response& response) {
+  try {
+    response.mesh_id = guard_.acknowledge(id);
+    response.success = true;
+    response.until = toMsg(now().stamp + parameters_.get()->limits.acknowledge_time);
+    response.message = "the warning of '" + response.mesh_id + "' is acknowledged; it stays as it is";
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+}
+
 bool Controls::onReset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   try {
-    reset_();
+    guard_.reset();
     response.success = true;
     response.message =
         "reset: tool poses, sweeps, the prediction and its training, held warnings, faults, and the counters of the "

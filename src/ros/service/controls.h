@@ -3,41 +3,55 @@
 #include <ros/service_server.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
+#include <sweep_guard/Acknowledge.h>
 
 #include <functional>
 
 #include "guard/workpiece_store.h"
+#include "ros/parameters/parameters.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
 
-/// Serves `~enable` and `~reset`. While disabled, the warning is UNKNOWN and both flags stay raised. The guard refuses
+/// Makes two calls of the guard's thread, which may take a while, for Controls. Both throw
+/// sweep_guard_core::Error.
+struct GuardControls {
+  std::function<void()> reset;                                    ///< resets the guard; returns when that is done
+  std::function<std::string(const std::string& id)> acknowledge;  ///< see GuardThread::acknowledge()
+};
+
+/// Serves `~enable`, `~reset` and `~acknowledge`. While disabled, the warning is UNKNOWN and both flags stay raised. The guard refuses
 /// to be disabled at REFLEX or CONTACT: a gray light would hide the danger from the operator. It can always be reset: a
 /// contact that lasts is found again at the next pose. Without a next pose the contact is forgotten, and the warning is
 /// UNKNOWN.
 class Controls {
  public:
-  /// @param reset  resets the guard and returns when that is done
-  Controls(const ros::NodeHandle& private_node, sweep_guard_core::WarningMonitor& monitor,
-           const sweep_guard_core::WorkpieceStore& workpieces, std::function<void()> reset);
+  Controls(const ros::NodeHandle& private_node, const LiveParameters& parameters,
+           sweep_guard_core::WarningMonitor& monitor, const sweep_guard_core::WorkpieceStore& workpieces,
+           GuardControls guard);
 
   void start(Supervisor& supervisor) { thread_.start(supervisor, {"controls", /*watched=*/false}); }
 
  private:
+  using AcknowledgeEvent = ros::ServiceEvent<sweep_guard::Acknowledge::Request, sweep_guard::Acknowledge::Response>;
   using EnableEvent = ros::ServiceEvent<std_srvs::SetBool::Request, std_srvs::SetBool::Response>;
 
   bool onEnable(EnableEvent& event);
+  bool onAcknowledge(AcknowledgeEvent& event);
+  void acknowledge(const std::string& id, sweep_guard::Acknowledge::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void enable(std_srvs::SetBool::Response& response);
   void disable(const std::string& asked_by, std_srvs::SetBool::Response& response);
 
+  const LiveParameters& parameters_;
   sweep_guard_core::WarningMonitor& monitor_;
   const sweep_guard_core::WorkpieceStore& workpieces_;
-  const std::function<void()> reset_;
+  const GuardControls guard_;
   QueueThread thread_;  // before the servers, which use its queue
   ros::ServiceServer enable_server_;
   ros::ServiceServer reset_server_;
+  ros::ServiceServer acknowledge_server_;
 };
 
 }  // namespace sweep_guard_ros

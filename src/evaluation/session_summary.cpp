@@ -1,0 +1,86 @@
+#include "evaluation/session_summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "evaluation/random.h"
+#include "sweep_guard/common/quantile.h"
+
+namespace sweep_guard_evaluation {
+
+namespace {
+
+constexpr size_t kDraws = 1000;
+
+double share(size_t part, size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); }
+
+}  // namespace
+
+double SessionFigures::warned(size_t lead) const { return share(count.warned[lead], count.contacts); }
+
+double SessionFigures::unjustifiedPerMinute() const { return static_cast<double>(count.unjustified) / minutes; }
+
+double SessionFigures::precision() const { return share(count.alarms - count.unjustified, count.alarms); }
+
+double SessionFigures::precisionWithin(size_t near) const {
+  return share(count.alarms - count.unjustified + count.near_misses[near], count.alarms);
+}
+
+double SessionFigures::falseOnShare() const {
+  return sweep_guard_core::toSeconds(count.unjustified_time) / 60.0 / minutes;
+}
+
+SessionFigures& SessionFigures::operator+=(const SessionFigures& other) {
+  minutes += other.minutes;
+  count += other.count;
+  return *this;
+}
+
+SessionFigures figuresOf(const RecordingSessions& sessions) {
+  SessionFigures figures;
+  for (const std::vector<SessionCount>& objects : sessions.objects) {
+    for (const SessionCount& object : objects) {
+      figures.minutes += sessions.minutes;
+      figures.count += object;
+    }
+  }
+  return figures;
+}
+
+SessionFigures figuresOf(const std::vector<RecordingSessions>& recordings) {
+  SessionFigures all;
+  for (const RecordingSessions& recording : recordings) all += figuresOf(recording);
+  return all;
+}
+
+std::vector<RecordingSessions> resampled(const std::vector<RecordingSessions>& recordings, size_t draw) {
+  Random random(draw);
+  const auto choose = [&](const auto& list) -> const auto& {
+    return list[static_cast<size_t>(random.uniform(0.0, static_cast<double>(list.size())))];
+  };
+  std::vector<RecordingSessions> drawn = recordings;
+  for (size_t i = 0; i < recordings.size(); ++i) {
+    for (std::vector<SessionCount>& objects : drawn[i].objects) {
+      for (SessionCount& object : objects) object = choose(choose(recordings[i].objects));
+    }
+  }
+  return drawn;
+}
+
+std::vector<Interval> bootstrap(const std::function<std::vector<double>(size_t draw)>& figures) {
+  std::vector<std::vector<double>> samples;
+  for (size_t draw = 0; draw < kDraws; ++draw) {
+    const std::vector<double> drawn = figures(draw);
+    samples.resize(drawn.size());
+    for (size_t i = 0; i < drawn.size(); ++i) {
+      if (!std::isnan(drawn[i])) samples[i].push_back(drawn[i]);
+    }
+  }
+  std::vector<Interval> intervals;
+  for (const std::vector<double>& sample : samples) {
+    intervals.push_back({sweep_guard_core::quantile(sample, 0.025), sweep_guard_core::quantile(sample, 0.975)});
+  }
+  return intervals;
+}
+
+}  // namespace sweep_guard_evaluation

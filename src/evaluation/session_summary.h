@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "evaluation/session_count.h"
+
+namespace sweep_guard_evaluation {
+
+/// The sessions of one recording.
+struct RecordingSessions {
+  std::string recording;
+  double minutes = 0.0;                            ///< of the recording, without gaps
+  std::vector<std::vector<SessionCount>> objects;  ///< by session, then as placed
+};
+
+/// What an operator gets from working beside one object after the other, each for a whole recording; shares are in
+/// [0, 1].
+struct SessionFigures {
+  double minutes = 0.0;  ///< beside an object: those of the recording, once for each object
+  SessionCount count;
+
+  double warned(size_t lead) const;           ///< share of contacts, by index of kSessionLeads; NaN without contacts
+  double unjustifiedPerMinute() const;        ///< NaN without time
+  double precision() const;                   ///< share of alarms that are justified; NaN without alarms
+  double precisionWithin(size_t near) const;  ///< the same with near misses, by index of kNearMisses
+  double falseOnShare() const;                ///< share of time in which an unjustified alarm is on
+
+  SessionFigures& operator+=(const SessionFigures& other);
+};
+
+SessionFigures figuresOf(const RecordingSessions& sessions);
+/// Sums up all recordings.
+SessionFigures figuresOf(const std::vector<RecordingSessions>& recordings);
+
+/// An interval that holds a figure with a probability of 95 %.
+struct Interval {
+  double lower;
+  double upper;
+};
+
+/// Draws sessions anew: each session of each recording gets as many objects as it had, drawn with replacement from those
+/// of all sessions of that recording. Draws are equal for recordings with equally many sessions and objects, so that
+/// two runs can be compared in pairs.
+/// @param draw  number of the draw
+std::vector<RecordingSessions> resampled(const std::vector<RecordingSessions>& recordings, size_t draw);
+
+/// Returns the 95 % intervals of some figures by bootstrap over the objects: 1000 draws.
+/// @param figures  of a draw; as many each time
+std::vector<Interval> bootstrap(const std::function<std::vector<double>(size_t draw)>& figures);
+
+}  // namespace sweep_guard_evaluation
