@@ -210,7 +210,7 @@ void WarningMonitor::updateRefusals() {
 void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
   const std::lock_guard lock(mutex_);
   workpieces_ = workpieces;
-  endAcknowledgementsOfOthers();
+  endAcknowledgementsOfGoneMeshes();
   updateObjects();
 }
 
@@ -331,8 +331,8 @@ void WarningMonitor::updatePredicted(const Prediction& prediction, const Predict
     findPredictedContact(prediction, object, pose, {reflex, considered_on}, next_);
   }
   if (workpiece == nullptr && !next_) return;
-  if (workpiece == nullptr)
-    workpiece = &inputs_.warnings.emplace_back(WarningInputs::WorkpieceWarning{object.workpiece->id});
+  if (workpiece == nullptr) workpiece = &inputs_.warnings.emplace_back();
+  workpiece->id = object.workpiece->id;
   updateAlarms(*workpiece, now);
   std::swap(workpiece->predicted, next_);
   const auto& predicted = workpiece->predicted;
@@ -408,7 +408,7 @@ void WarningMonitor::endAcknowledgements() {
 }
 
 // The mesh that was acknowledged may be gone, or another one may have its name.
-void WarningMonitor::endAcknowledgementsOfOthers() {
+void WarningMonitor::endAcknowledgementsOfGoneMeshes() {
   for (WarningInputs::WorkpieceWarning& workpiece : inputs_.warnings) {
     if (!workpiece.acknowledged_until) continue;
     const auto same = [&](const auto& one) {

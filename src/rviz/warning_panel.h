@@ -19,8 +19,8 @@ namespace sweep_guard_rviz {
 class StripChart;
 class TrafficLight;
 
-/// Shows the warnings of one guard to its operator, and acknowledges, disables, enables and resets it. Saves the topic in rviz's
-/// configuration; the names of the services follow from the topic.
+/// Shows the warnings of one guard to its operator, and acknowledges them; disables, enables and resets the guard. Saves
+/// the topic in rviz's configuration; the names of the services follow from the topic.
 class WarningPanel : public rviz::Panel {
  public:
   /// Period of refresh(). Together with kSilence it is the delay until a dead guard turns the panel gray.

@@ -130,6 +130,13 @@ TEST_F(AcknowledgeTest, IsNoPermission) {
   EXPECT_TRUE(warning.considered && !warning.clear);
   EXPECT_EQ(warning.mesh_id, "square");
   EXPECT_TRUE(has(warning.text, "acknowledged"));
+  const size_t since = probe().warnings().size();
+  for (int i = 0; i < 20; ++i) stepTo(height_ -= kSpeed * 0.01);
+  const std::vector<Warning> warnings = probe().warnings();
+  for (size_t i = since; i < warnings.size(); ++i) {
+    EXPECT_FALSE(warnings[i].clear) << warnings[i].text;
+    EXPECT_EQ(warnings[i].considered, warnings[i].level != Warning::CLEAR) << warnings[i].text;
+  }
 }
 
 TEST_F(AcknowledgeTest, IsOfTheWorkpieceWarnedOfIfNoneIsNamed) {

@@ -113,6 +113,22 @@ class ReconfigureTest : public NodeTest {
     return moveTo(to);
   }
 
+  // Rests above the square, where contact is only probable.
+  Prediction rest() {
+    Prediction prediction;
+    for (int i = 0; i < 40; ++i) {
+      prediction = predictAt({0.0005 * (i % 2), 0.0, 0.003});
+      probe().place(squareMovedTo("square", {0.0, 0.0, 0.0}, probe().time()));
+    }
+    return prediction;
+  }
+  // On the parameter server, which is written before the answer to a change.
+  static double numberOf(const std::string& key) {
+    double number = 0.0;
+    EXPECT_TRUE(ros::param::get("/sweep_guard/" + key, number)) << key;
+    return number;
+  }
+
   static inline Config at_start_;
   static inline std::set<std::string> changed_;
 };
@@ -260,23 +276,42 @@ TEST_F(ReconfigureTest, ThePredictedStepsAreLonger) {
   EXPECT_NEAR(lastStep(after), 0.5, 0.06);
 }
 
-// Beside the path, where contact is only probable.
-TEST_F(ReconfigureTest, TheProbabilityThatIsWarnedOfChanges) {
+// Before each test all parameters were set, also those that it stands for.
+TEST_F(ReconfigureTest, TheOldNameOfTheThresholdsSetsAllWhileTheGuardRuns) {
   placeSquare("square", {0.0, 0.0, 0.0});
-  const auto rest = [&] {
-    Prediction prediction;
-    for (int i = 0; i < 40; ++i) {
-      prediction = predictAt({0.0005 * (i % 2), 0.0, 0.003});
-      probe().place(squareMovedTo("square", {0.0, 0.0, 0.0}, probe().time()));
-    }
-    return prediction;
-  };
   change("warning/min_probability", 1.0);
   const Prediction before = rest();
   EXPECT_EQ(before.interval, Prediction::NONE);
   ASSERT_GT(before.probability, 0.001);
   change("warning/min_probability", 0.001);
   EXPECT_NE(rest().interval, Prediction::NONE);
+  for (const char* const key : {"warning/considered_on", "warning/considered_off", "warning/reflex_probability"}) {
+    EXPECT_EQ(numberOf(key), 0.001) << key;
+  }
+}
+
+TEST_F(ReconfigureTest, EachLevelHasAThresholdOfItsOwn) {
+  placeSquare("square", {0.0, 0.0, 0.0});
+  change("warning/min_probability", 1.0);
+  change("warning/considered_on", 0.001);
+  EXPECT_EQ(rest().interval, Prediction::CONSIDERED);
+  EXPECT_EQ(numberOf("warning/considered_off"), 0.001);
+  EXPECT_FALSE(probe().configure(one("warning/considered_off", 0.002)));
+  change("warning/considered_on", 1.0);
+  change("warning/considered_off", 0.5);
+  EXPECT_EQ(rest().interval, Prediction::NONE);
+  change("warning/reflex_probability", 0.5);
+  EXPECT_EQ(numberOf("warning/considered_on"), 1.0);
+}
+
+TEST_F(ReconfigureTest, TheDistanceAndTheTimeOfAnAcknowledgementChange) {
+  placeSquare("square", {0.0, 0.0, 0.0});
+  restAt({0.0, 0.0, 0.5});
+  EXPECT_TRUE(has(probe().acknowledge("square").message, "warning/acknowledge_distance"));
+  change("warning/acknowledge_distance", 0.6);
+  EXPECT_TRUE(has(probe().acknowledge("square").message, "only CONSIDERED can be acknowledged"));
+  change("warning/acknowledge_time", 1.0);
+  EXPECT_EQ(numberOf("warning/acknowledge_time"), 1.0);
 }
 
 TEST_F(ReconfigureTest, TheHoldTimeOfAContactChanges) {

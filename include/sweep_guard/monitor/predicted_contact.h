@@ -18,7 +18,7 @@ struct ContactThresholds {
 
 /// A contact with one workpiece that the operator may be warned of, and the prediction that it comes from.
 struct PredictedContact {
-  /// Start of the first sweep that calls for the level: with contact, or probable enough. One of the two is set.
+  /// Start of the first sweep that calls for the level: with contact, or probable enough. At least one is set.
   std::optional<Time> reflex;
   std::optional<Time> considered;
   std::optional<Time> contact;  ///< start of the first sweep with contact; empty: merely probable

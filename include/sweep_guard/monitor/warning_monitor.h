@@ -210,7 +210,7 @@ class WarningMonitor {
                        const Instant& now);
   void endUntested(const Instant& now);
   void endAcknowledgements();
-  void endAcknowledgementsOfOthers();
+  void endAcknowledgementsOfGoneMeshes();
   void updateAlarms(WarningInputs::WorkpieceWarning& workpiece, const Instant& now);
   Time coveredUntil(const Instant& now) const;
 

@@ -14,17 +14,16 @@
 
 namespace sweep_guard_ros {
 
-/// Makes two calls of the guard's thread, which may take a while, for Controls. Both throw
-/// sweep_guard_core::Error.
+/// What Controls asks of the guard's thread. Both return when it is done, and throw sweep_guard_core::Error.
 struct GuardControls {
-  std::function<void()> reset;                                    ///< resets the guard; returns when that is done
+  std::function<void()> reset;                                    ///< see GuardThread::reset()
   std::function<std::string(const std::string& id)> acknowledge;  ///< see GuardThread::acknowledge()
 };
 
-/// Serves `~enable`, `~reset` and `~acknowledge`. While disabled, the warning is UNKNOWN and both flags stay raised. The guard refuses
-/// to be disabled at REFLEX or CONTACT: a gray light would hide the danger from the operator. It can always be reset: a
-/// contact that lasts is found again at the next pose. Without a next pose the contact is forgotten, and the warning is
-/// UNKNOWN.
+/// Serves `~enable`, `~reset` and `~acknowledge`. While disabled, the warning is UNKNOWN and both flags stay raised. The
+/// guard refuses to be disabled at REFLEX or CONTACT: a gray light would hide the danger from the operator. It can always
+/// be reset: a contact that lasts is found again at the next pose. Without a next pose the contact is forgotten, and the
+/// warning is UNKNOWN.
 class Controls {
  public:
   Controls(const ros::NodeHandle& private_node, const LiveParameters& parameters,
