@@ -25,7 +25,8 @@ class Detector {
   virtual ~Detector() = default;
 
   /// Finds the triangles that the volume meets or touches. Conservative: may also name a triangle that only
-  /// swept_M.grown(inflation) meets, and never leaves out one that the volume meets.
+  /// swept_M.grown(inflation) meets, and never leaves out one that the volume meets. Takes the vertices as stored: for
+  /// the mesh as given, grow the volume by TriangleMesh::rounding().
   /// @param submesh  all of a mesh or some of it; other triangles are not tested
   /// @param swept_M  in the frame of the mesh
   /// @returns indices into mesh_M().triangles(); valid until the next call

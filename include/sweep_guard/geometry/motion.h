@@ -8,7 +8,8 @@ namespace sweep_guard_core {
 /// A rigid motion of the tool frame T between two poses, in mesh frame M: the origin of T moves straight at constant
 /// speed, and T turns about one axis at constant rate, by the smaller angle [P, Sec. 3.1: "straight line
 /// displacement"].
-/// Between orientations half a turn apart, the axis is the one that slerp chooses.
+/// Between orientations half a turn apart, the axis is the one that slerp chooses. Both poses must be finite, with
+/// orthonormal rotations (not checked).
 struct Motion {
   Eigen::Isometry3d X_MT_start = Eigen::Isometry3d::Identity();  ///< translation [m]
   Eigen::Isometry3d X_MT_end = Eigen::Isometry3d::Identity();    ///< translation [m]

@@ -37,7 +37,7 @@ class VertexBlocks {
   Eigen::AlignedBox3d bounds_;
 };
 
-constexpr size_t kBlockFloats = 3 * simd::kBlock;
+constexpr size_t kBlockFloats = 3 * simd::kBlock;  ///< coordinates of one block
 
 /// Calls a function with a pointer to the kBlock vertices of one block; simd::kPadding more floats are readable. The
 /// last vertex fills the last block. The pointer is valid during the call only.

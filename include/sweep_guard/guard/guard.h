@@ -43,13 +43,14 @@ class Guard {
 
   /// Adds a pose that the next sweep passes through. A workpiece whose frame is missing at the pose of the sweep is
   /// reported as unplaced. Once its frame is known again, it is swept through the added poses that hold its frame.
-  /// @param pose  its stamp must not be earlier than the previous pose's; not checked, so reset() after time went back
+  /// @param pose  finite, rotations orthonormal, stamp not earlier than the previous pose's; not checked. After time
+  ///     went back, call reset() first
   void pass(const PoseWithFrames& pose);
 
   /// Sweeps from the pose of the last sweep, through the poses passed since, to this pose. If the detector fails or
   /// memory runs out during a workpiece, the report names the workpiece, and the others are swept. Throws only
   /// std::bad_alloc, outside of the sweeps.
-  /// @param pose  its stamp must not be earlier than the previous pose's; not checked
+  /// @param pose  as for pass(); not checked
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
 

@@ -8,7 +8,8 @@
 
 namespace sweep_guard_core {
 
-/// The pose of the tool frame T, and of every mesh frame M, in the fixed frame W at one moment.
+/// The pose of the tool frame T, and of every mesh frame M, in the fixed frame W at one moment. All poses must
+/// be finite, with orthonormal rotations (not checked).
 struct PoseWithFrames {
   Time stamp;
   SteadyTime received;                                     ///< when the pose arrived

@@ -49,7 +49,7 @@ struct SweepResult {
 
 struct PathRequest {
   const Tool& tool;
-  const std::vector<Eigen::Isometry3d>& path;  ///< poses X_MT [m], at least one (asserted); one is a static test
+  const std::vector<Eigen::Isometry3d>& path;  ///< finite poses X_MT [m], at least one (asserted); one is a static test
   const TriangleMesh& mesh_M;
   SweepOptions options = {};
   std::function<void()> before_sweep = [] {};  ///< called before every sweep, not empty; may throw to give up

@@ -23,7 +23,7 @@ struct SweptObject {
 
 /// Reports one step of the guard: the sweeps up to one pose.
 struct SweepReport {
-  Time start;          ///< earliest start of a sweep; equal to `end` at the first pose
+  Time start;          ///< earliest `interval_start` of `objects`; `end` at the first pose and if there are none
   Time end;            ///< stamp of the pose
   Duration backlog{};  ///< time from the first pose given to Guard::pass() since the last sweep to `end`; 0: none
   std::vector<SweptObject> objects;    ///< every workpiece swept, in the order given to sweep()

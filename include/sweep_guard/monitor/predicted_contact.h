@@ -26,7 +26,7 @@ struct PredictedContact {
   std::string mesh_id = {};
   std::vector<std::uint32_t> triangles = {};  ///< of the workpiece, met by the predicted path: ascending, each once
   /// Index of the convex piece of the tool that is most likely to meet the workpiece: in the first sweep with contact,
-  /// or in the first that warns if none has contact.
+  /// or in the first that warns if none has contact. Empty only if the prediction names no piece there.
   std::optional<size_t> tool_piece = {};
   Timestamps pose = {};    ///< newest measured pose, where the prediction begins
   Duration duration = {};  ///< length of the prediction, from the stamp of that pose

@@ -43,7 +43,8 @@ struct Warning {
   /// Convex piece of the tool that touched first, if the narrow phase knows; before contact, the piece that is
   /// predicted to touch, or most likely to.
   std::optional<size_t> tool_piece;
-  std::vector<std::uint32_t> triangles;  ///< in contact or not ruled out; before contact, met by the predicted path
+  /// Of `mesh_id`, ascending, each once: in contact or not ruled out; before contact, met by the predicted path.
+  std::vector<std::uint32_t> triangles;
   /// Time from now until the predicted path meets the workpiece of the predicted contact, >= 0; empty: it does not, the
   /// prediction has ended, or a stronger warning about another workpiece is held. At kContact, this may be another
   /// workpiece than `mesh_id`; at kClear and kUnknown, it is the one that is met first.
@@ -74,8 +75,9 @@ struct Warning {
 /// @param[out] warning  overwritten; its buffers are used again
 void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning);
 
-/// Returns why the workpieces are not as good as CLEAR needs them, in words; empty if they are. Names all faults of
-/// `inputs`; without a pose there, does not ask whether they were swept.
+/// Returns why the workpieces are not as good as CLEAR needs them, in words; empty if they are. Names `faults`,
+/// `failure`, `hung` and an `unread` of the last second, too. Without a pose in `inputs`, does not ask whether the
+/// workpieces were swept.
 std::string meshProblems(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits);
 
 /// Returns the level of a predicted contact now, or at the end of its prediction if that is over, as it counts until

@@ -49,8 +49,10 @@ class PosePredictor {
   PosePredictor& operator=(PosePredictor&&) noexcept;
 
   /// Adds the newest pose. A pose that is earlier than the previous one, or later by less than 0.5 ms, replaces the
-  /// previous pose, whose stamp stays. The fit restarts at this pose after a gap (more than 0.25 s, or three periods of
-  /// slower poses, at most 1 s) and after a jump faster than the limits; the errors learned of the operator are kept.
+  /// previous pose, whose stamp stays unless the pose is a jump. The fit restarts at this pose after a gap (more than
+  /// 0.25 s, or three periods of slower poses, at most 1 s) and after a jump faster than the limits; the errors learned
+  /// of the operator are kept.
+  /// @param pose  finite, rotation orthonormal; not checked
   void observe(const StampedPose& pose);
 
   /// Predicts the poses after the newest observed one. The path is empty until a motion is known: two poses since the

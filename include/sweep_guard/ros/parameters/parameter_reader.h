@@ -41,7 +41,7 @@ class ParameterReader {
   struct Range {
     double lowest;
     double highest;
-    const char* unit = "";
+    const char* unit = "";  ///< for the description only, without brackets; not null
   };
 
   /// Narrows a range by another parameter.
