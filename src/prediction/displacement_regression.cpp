@@ -4,27 +4,42 @@
 #include <limits>
 
 namespace sweep_guard_core {
+namespace {
+
+constexpr double kOutlier = 2.0;     // errors larger than this, relative to the mean error, lose weight [Huber]
+constexpr double kRestShare = 0.03;  // prior information of one second at the prior speed
+
+}  // namespace
 
 // Time is weighted by motion: a tool at rest neither teaches nor forgets anything.
-void DisplacementRegression::learn(const Velocities& velocities, const Eigen::Vector3d& moved, double period) {
+void DisplacementRegression::learn(const Observation& observation, const Weights& expected) {
+  const auto& [velocities, moved, period] = observation;
   const Eigen::Vector3d steady = ahead_ * velocities.col(0);
   const double motion = std::max(moved.norm(), steady.norm()) / (prior_speed_ * ahead_);
   const double weight = period * std::min(1.0, motion);
-  const Eigen::Vector3d rest = moved - steady;
-  errors_.add({(rest - velocities * learned_).norm(), rest.norm(), moved.norm()}, weight);
+  const double error = (moved - velocities * learned_).norm();
+  errors_.add({error, (moved - steady).norm(), moved.norm()}, weight);
+  const double limit = kOutlier * errors_.mean()[0];
+  const double robust_weight = error > limit ? limit / error * weight : weight;
   fit_.forget(decay(weight));
   for (int axis = 0; axis < 3; ++axis) {
-    fit_.add(velocities.row(axis).transpose(), Eigen::Matrix<double, 1, 1>(rest[axis]), weight);
+    fit_.add(velocities.row(axis).transpose(), Eigen::Matrix<double, 1, 1>(moved[axis]), robust_weight);
   }
-  learned_ = fit_.coefficients(kVelocities, prior_speed_ * prior_speed_);
+  learned_ = fit_.coefficients(prior(), expected);
   blend();
+}
+
+// Bayes: errors per axis of variance s^2, one independent error per horizon, weights expected within one horizon.
+double DisplacementRegression::prior() const {
+  const double error = errors_.mean()[0];
+  return error * error / 3.0 / ahead_ + kRestShare * prior_speed_ * prior_speed_;
 }
 
 // The fourth power favors the best of the three, and changes continuously when another one becomes the best.
 void DisplacementRegression::blend() {
   const Eigen::Array3d errors = errors_.mean() + std::numeric_limits<double>::min();
   const Eigen::Array3d share = (errors.minCoeff() / errors).square().square();
-  weights_ = (share[0] * learned_ + (share[0] + share[1]) * ahead_ * Weights::Unit(0)) / share.sum();
+  weights_ = (share[0] * learned_ + share[1] * constantVelocity(ahead_)) / share.sum();
 }
 
 }  // namespace sweep_guard_core

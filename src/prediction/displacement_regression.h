@@ -8,38 +8,45 @@
 namespace sweep_guard_core {
 
 /// Learns the tool's displacement within one horizon from the operator's velocities. A recursive least squares fit
-/// regresses the displacement on the velocities before it, with coefficients that the three axes share. Before it has
-/// learned, it assumes constant velocity. If its errors exceed those of constant velocity or of no motion, it blends
-/// with these. For translation [m, m/s] or rotation [rad, rad/s].
+/// regresses the displacement on the velocities before it, with coefficients that the three axes share; outliers have
+/// less weight. Before it has learned, it assumes constant velocity. If its errors exceed those of constant velocity or
+/// of no motion, it blends with these. For translation [m, m/s] or rotation [rad, rad/s].
 class DisplacementRegression {
  public:
-  static constexpr int kVelocities = 5;
+  static constexpr int kVelocities = 8;
   using Velocities = Eigen::Matrix<double, 3, kVelocities>;  ///< one per column; the first is the newest
   using Weights = Eigen::Matrix<double, kVelocities, 1>;     ///< [s]; predicted displacement: velocities * weights
 
+  struct Observation {
+    Velocities velocities;  ///< at a pose
+    Eigen::Vector3d moved;  ///< displacement within the horizon after the pose
+    double period;          ///< since the previous pose [s], > 0
+  };
+
   /// @param ahead        the horizon [s], > 0
-  /// @param prior_speed  speed at which a second of motion outweighs the assumption of constant velocity, > 0; slower
-  ///                     motion has less weight
+  /// @param prior_speed  motion at this speed has full weight, slower motion has less, > 0
   DisplacementRegression(double ahead, double prior_speed) : ahead_(ahead), prior_speed_(prior_speed) {}
 
-  /// Learns from one pose.
-  /// @param velocities  at the pose
-  /// @param moved       displacement within the horizon after the pose
-  /// @param period      since the previous pose [s], > 0
-  void learn(const Velocities& velocities, const Eigen::Vector3d& moved, double period);
+  /// Returns the weights of motion that goes on at the newest velocity.
+  static Weights constantVelocity(double ahead) { return ahead * Weights::Unit(0); }
+
+  /// Learns from the motion after one pose.
+  /// @param expected  weights that the fit leans towards, the more so the larger its errors
+  void learn(const Observation& observation, const Weights& expected);
 
   const Weights& weights() const { return weights_; }
 
  private:
+  double prior() const;
   void blend();
 
   double ahead_;
   double prior_speed_;
   Rls<kVelocities, 1> fit_;
-  Weights learned_ = Weights::Zero();  // in addition to constant velocity
+  Weights learned_ = constantVelocity(ahead_);
   // Errors of the fit, of constant velocity, of no motion.
   ExponentialMovingAverage<Eigen::Array3d> errors_{Eigen::Array3d(0.0, 0.0, prior_speed_* ahead_), /*weight=*/0.1};
-  Weights weights_ = ahead_ * Weights::Unit(0);
+  Weights weights_ = constantVelocity(ahead_);
 };
 
 }  // namespace sweep_guard_core

@@ -26,7 +26,7 @@ class Rls {
   /// Adds an observation.
   /// @param weight  a negative weight removes the observation again
   void add(const Regressors& regressors, const Outputs& outputs, double weight = 1.0) {
-    information_.template selfadjointView<Eigen::Lower>().rankUpdate(regressors, weight);
+    information_.noalias() += (weight * regressors) * regressors.transpose();
     projection_.noalias() += weight * regressors * outputs.transpose();
   }
 
@@ -37,14 +37,21 @@ class Rls {
     return solver(n, prior).solve(projection_.topRows(n));
   }
 
+  /// Returns the coefficients that fit best: one column per output.
+  /// @param prior     information that the coefficients are the expected ones, >= 0
+  /// @param expected  coefficients before any observation
+  Coefficients coefficients(double prior, const Coefficients& expected) const {
+    return solver(N, prior).solve(projection_ + prior * expected);
+  }
+
  private:
   Eigen::LDLT<Square> solver(int n, double prior) const {
-    Square information = information_.topLeftCorner(n, n).template selfadjointView<Eigen::Lower>();
+    Square information = information_.topLeftCorner(n, n);
     information.diagonal().array() += prior;
     return Eigen::LDLT<Square>(information);
   }
 
-  Eigen::Matrix<double, N, N> information_ = Eigen::Matrix<double, N, N>::Zero();  // lower triangle
+  Eigen::Matrix<double, N, N> information_ = Eigen::Matrix<double, N, N>::Zero();
   Eigen::Matrix<double, N, M> projection_ = Eigen::Matrix<double, N, M>::Zero();
 };
 

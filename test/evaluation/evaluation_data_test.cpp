@@ -47,19 +47,30 @@ double ratio(const ErrorReport& report, size_t horizon, Field field) {
   return of("direct") / std::min(of("hold"), of("constant_velocity"));
 }
 
+/// Largest ratio that is allowed: 1, but for the fastest rotations of the slow recording. It begins with the fastest of
+/// them, before anything is learned.
+double allowed(const ErrorReport& report, size_t horizon, Field field) {
+  const bool tail = report.recording == kSlowRecording && field == &ErrorSummary::rotation_p95;
+  if (!tail || report.horizons.at(horizon) < std::chrono::milliseconds(500)) return 1.0;
+  return report.horizons.at(horizon) < std::chrono::seconds(1) ? 1.1 : 1.25;
+}
+
 TEST_F(EvaluationDataTest, TheDefaultPredictorIsAheadOfHoldingAndOfConstantVelocity) {
   options_.predictors = {"hold", "constant_velocity", "direct"};
+  double sum = 0.0;
+  int ratios = 0;
   for (const ErrorReport& report : reportErrors(recordings_, options_, options_.horizons, [](size_t) {})) {
-    const bool slow = report.recording == kSlowRecording;
     for (size_t horizon = 0; horizon < report.horizons.size(); ++horizon) {
-      for (const Field median : {&ErrorSummary::position_median, &ErrorSummary::rotation_median}) {
-        EXPECT_LE(ratio(report, horizon, median), slow ? 1.02 : 1.0) << report.recording << ' ' << horizon;
-      }
-      for (const Field p95 : {&ErrorSummary::position_p95, &ErrorSummary::rotation_p95}) {
-        EXPECT_LE(ratio(report, horizon, p95), slow ? 1.2 : 1.0) << report.recording << ' ' << horizon;
+      for (const Field field : {&ErrorSummary::position_median, &ErrorSummary::position_p95,
+                                &ErrorSummary::rotation_median, &ErrorSummary::rotation_p95}) {
+        const double found = ratio(report, horizon, field);
+        EXPECT_LE(found, allowed(report, horizon, field)) << report.recording << ' ' << horizon;
+        sum += found;
+        ++ratios;
       }
     }
   }
+  EXPECT_LE(sum / ratios, 0.82);
 }
 
 TEST_F(EvaluationDataTest, EveryContactIsWarnedOfByTheReflexWarning) {

@@ -147,6 +147,22 @@ TEST(PosePredictorTest, WhatWasLearnedSurvivesAGap) {
   EXPECT_LT(std::abs(far), 0.5 * std::abs(speed));
 }
 
+// Out to one side, rest for a second, back, rest, then to the other side. All velocities of the last 0.8 s are 0 when the
+// rest ends: only where the tool is tells where it will go.
+TEST(PosePredictorTest, AToolThatAlwaysReturnsIsPredictedToReturn) {
+  const PoseAt visit = [](double t) {
+    const double phase = std::fmod(t, 4.0);
+    const double side = std::fmod(t, 8.0) < 4.0 ? 1.0 : -1.0;
+    const double out = phase < 1.0 ? phase : phase < 2.0 ? 1.0 : std::max(3.0 - phase, 0.0);
+    return Eigen::Isometry3d(Eigen::Translation3d(side * 0.2 * out, 0.0, 0.0));
+  };
+  PosePredictor predictor = predictorOf("direct");
+  follow(predictor, visit, 0.0, 65.95, 0.01);
+  const double there = visit(65.95).translation().x();
+  ASSERT_NEAR(there, 0.2, 1e-9);
+  EXPECT_LT(pathOf(predictor, kAhead).back().X_WT.translation().x(), there - 0.05);
+}
+
 TEST(PosePredictorTest, IsNeverFasterThanTheLimits) {
   for (const std::string& name : predictorNames()) {
     PredictorOptions options = optionsOf(name);
@@ -198,7 +214,7 @@ TEST(PosePredictorTest, NothingThatComesMakesItExplode) {
   }
 }
 
-// A tool that has rested for long, and then goes: two thirds of its displacement are predicted at once, and the doubt does not
+// A tool that has rested for long, and then goes: more than half of its displacement is predicted at once, and the doubt does not
 // outgrow the motion.
 TEST(PosePredictorTest, FollowsAToolThatHasRested) {
   const PoseAt start = [](double t) {
@@ -212,7 +228,7 @@ TEST(PosePredictorTest, FollowsAToolThatHasRested) {
       const PredictedPose pose = pathOf(predictor, {milliseconds(1000)})[0];
       const double displaced = pose.X_WT.translation().x() - start(0.01 * i).translation().x();
       if (i > 3010) {
-        ASSERT_GT(displaced, 0.2) << name << " at " << 0.01 * i << " s";
+        ASSERT_GT(displaced, 0.16) << name << " at " << 0.01 * i << " s";
       }
       ASSERT_LT(std::sqrt(pose.covariance(0, 0)), 0.45) << name << " at " << 0.01 * i << " s";
     }
@@ -252,10 +268,15 @@ TEST(PosePredictorTest, SpinsThroughHalfTurnsSmoothly) {
   }
 }
 
+// More frequencies than a predictor has regressors: what it can learn exactly, its errors show only later.
 TEST(PosePredictorTest, ItsCovarianceMatchesItsErrors) {
-  const PoseAt sway = [](double t) {
-    return Eigen::Isometry3d(
-        Eigen::Translation3d(0.2 * std::sin(1.3 * t), 0.1 * std::sin(2.9 * t), 0.15 * std::cos(t)));
+  const auto wave = [](double t) {
+    double sum = 0.0;
+    for (int i = 0; i < 10; ++i) sum += 0.05 * std::sin((1.0 + 0.61 * i) * t + 1.7 * i * i);
+    return sum;
+  };
+  const PoseAt sway = [&](double t) {
+    return Eigen::Isometry3d(Eigen::Translation3d(wave(t), wave(t + 100.0), wave(t + 200.0)));
   };
   for (const std::string& name : predictorNames()) {
     PosePredictor predictor = predictorOf(name);

@@ -67,6 +67,16 @@ TEST(RlsTest, ThePriorDrawsToZeroWhatIsNotObserved) {
   EXPECT_EQ(coefficients(2, 1), 0.0);
 }
 
+TEST(RlsTest, ThePriorDrawsToWhatIsExpected) {
+  Fit fit;
+  fit.add({1.0, 0.0, 0.0}, Fit::Outputs(2.0, 4.0));
+  Fit::Coefficients expected = Fit::Coefficients::Constant(3, 2, 5.0);
+  const auto coefficients = fit.coefficients(1.0, expected);
+  EXPECT_NEAR(coefficients(0, 0), 3.5, 1e-12);
+  EXPECT_NEAR(coefficients(0, 1), 4.5, 1e-12);
+  EXPECT_NEAR(coefficients(2, 1), 5.0, 1e-12);
+}
+
 // What is forgotten while nothing moves falls back to the prior: the estimate does not blow up.
 TEST(RlsTest, FallsBackToThePriorWhileNothingMoves) {
   Fit fit = noiseFreeFit(/*seed=*/4, /*observations=*/100);
