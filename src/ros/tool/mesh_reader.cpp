@@ -35,9 +35,9 @@ constexpr int kMaxNodeDepth = 100;
 constexpr double kMinVolume = 1e-6;  // of a transformed cube, relative to the product of its edges
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kMemoryIsLimited = false;  // sanitizers reserve terabytes of addresses
+constexpr bool kSanitized = true;  // reserves terabytes of addresses, and opens files to report
 #else
-constexpr bool kMemoryIsLimited = true;
+constexpr bool kSanitized = false;
 #endif
 
 void limit(__rlimit_resource resource, rlim_t value) {
@@ -49,10 +49,11 @@ void limit(__rlimit_resource resource, rlim_t value) {
 void confine() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   close_range(3, ~0U, 0);
-  limit(RLIMIT_NOFILE, 0);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, kProcessorTime);
-  if (kMemoryIsLimited) limit(RLIMIT_AS, kMemory);
+  if (kSanitized) return;
+  limit(RLIMIT_NOFILE, 0);
+  limit(RLIMIT_AS, kMemory);
 }
 
 struct Surface {
