@@ -115,7 +115,7 @@ TEST_F(PredictionTest, AnApproachIsConsideredThenReflexThenContact) {
   for (size_t i = 0; i < predictions.size(); ++i) {
     const double left = (contact - predictions[i].header.stamp).toSec();
     if (left < 0.005 || left > 0.995) continue;
-    EXPECT_LE(times[i], left + 1e-3);
+    EXPECT_LE(times[i], left + 0.01);  // a learned path is nearly straight
     double& reported = longest.at(static_cast<size_t>(10.0 * left));
     reported = std::max(reported, times[i]);
   }
