@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "evaluation/progress.h"
 #include "evaluation/simulated_node.h"
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/guard/guard.h"
@@ -32,7 +33,6 @@ namespace {
 
 constexpr double kMaxDeviations = 3.1;  // beyond, the guard counts a probability as 0
 constexpr double kRounding = 1e-4;      // [m]
-constexpr size_t kProgressStep = 64;
 
 // With vertices in float32 as streamed ones are, so that all workpieces have the same margin.
 std::shared_ptr<const Workpiece> workpieceOf(const std::string& id, TriangleMesh mesh_W) {
@@ -268,11 +268,7 @@ class FindingsPlayer {
 GuardFindings findContacts(const std::vector<StampedPose>& poses, const std::vector<TriangleMesh>& objects_W,
                            const GuardSimulationOptions& options, const Progress& progress) {
   FindingsRecorder recorder(objects_W, options);
-  for (size_t i = 0; i < poses.size(); ++i) {
-    recorder.addPose(poses[i]);
-    if ((i + 1) % kProgressStep == 0) progress(kProgressStep);
-  }
-  progress(poses.size() % kProgressStep);
+  addPoses(poses, progress, [&](const StampedPose& pose) { recorder.addPose(pose); });
   return std::move(recorder).findings();
 }
 

@@ -1,15 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
+#include "evaluation/progress.h"
 #include "evaluation/recorded_motion.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard_evaluation {
-
-/// Receives the number of poses processed since the last call; from any thread.
-using Progress = std::function<void(size_t)>;
 
 /// Returns the poses at which predictions are compared with the motion: those with `history` before and `future` after
 /// them without a gap. Of poses with equal stamps only the first can be a sample.

@@ -5,6 +5,7 @@
 #include <list>
 #include <utility>
 
+#include "evaluation/progress.h"
 #include "evaluation/simulated_node.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
@@ -24,8 +25,6 @@ using sweep_guard_core::Workpiece;
 using sweep_guard_recording::LevelTrace;
 
 namespace {
-
-constexpr size_t kProgressStep = 64;
 
 /// Monitors one placement during its episode.
 class ActivePlacement {
@@ -157,11 +156,7 @@ std::vector<std::vector<Episode>> simulateGuard(const std::vector<StampedPose>& 
                                                 const std::vector<ObstaclePlacement>& placements,
                                                 const GuardSimulationOptions& options, const Progress& progress) {
   GuardSimulation simulation(placements, options);
-  for (size_t i = 0; i < poses.size(); ++i) {
-    simulation.addPose(poses[i]);
-    if ((i + 1) % kProgressStep == 0) progress(kProgressStep);
-  }
-  progress(poses.size() % kProgressStep);
+  addPoses(poses, progress, [&](const StampedPose& pose) { simulation.addPose(pose); });
   return std::move(simulation).episodes();
 }
 

@@ -4,18 +4,13 @@
 #include <OgreHardwareVertexBuffer.h>
 #include <OgreMaterial.h>
 #include <OgreMesh.h>
+#include <OgrePrerequisites.h>
 #include <OgreVector.h>
 #include <shape_msgs/MeshTriangle.h>
 
 #include <vector>
 
 #include "rviz/highlights.h"
-
-namespace Ogre {
-class Entity;
-class SceneManager;
-class SceneNode;
-}  // namespace Ogre
 
 namespace sweep_guard_rviz {
 

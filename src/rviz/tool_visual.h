@@ -3,16 +3,11 @@
 #include <OgreColourValue.h>
 #include <OgreMaterial.h>
 #include <OgreMesh.h>
+#include <OgrePrerequisites.h>
 #include <geometry_msgs/Pose.h>
 #include <sweep_guard/ToolShape.h>
 
 #include <vector>
-
-namespace Ogre {
-class Entity;
-class SceneManager;
-class SceneNode;
-}  // namespace Ogre
 
 namespace sweep_guard_rviz {
 

@@ -4,6 +4,7 @@
 
 #include "evaluation/motions.h"
 #include "evaluation/random.h"
+#include "square_at.h"
 #include "timeline.h"
 
 namespace sweep_guard_evaluation {
@@ -18,11 +19,7 @@ constexpr double kTimeTolerance = 2e-5;  // [s]
 class FirstContactTest : public testing::Test {
  protected:
   static SquareObstacle wall(const Eigen::Vector3d& center, const Eigen::Vector3d& normal) {
-    SquareObstacle obstacle;
-    obstacle.half_side = 0.1;
-    obstacle.X_WS.translation() = center;
-    obstacle.X_WS.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix();
-    return obstacle;
+    return squareAt(center, normal, 0.1);
   }
 
   // Returns the time of the first contact [s]; -1: none.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/random.h"
+#include "square_at.h"
 
 namespace sweep_guard_evaluation {
 namespace {
@@ -13,11 +14,7 @@ using sweep_guard_core::ConvexShape;
 class SquareObstacleIntersectsTest : public testing::Test {
  protected:
   static SquareObstacle obstacleAt(const Eigen::Vector3d& center, const Eigen::Vector3d& normal) {
-    SquareObstacle obstacle;
-    obstacle.half_side = 0.05;
-    obstacle.X_WS.translation() = center;
-    obstacle.X_WS.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix();
-    return obstacle;
+    return squareAt(center, normal, 0.05);
   }
 
   bool intersectsTool(const SquareObstacle& obstacle, double margin = 0.0) const {

@@ -44,6 +44,14 @@ void addBox(Surface& surface, const Eigen::Vector3d& lower, const Eigen::Vector3
   }
 }
 
+using Box = std::pair<Eigen::Vector3d, Eigen::Vector3d>;  // its lower and upper corner
+
+Surface boxes(const std::vector<Box>& corners, int cells) {
+  Surface surface;
+  for (const auto& [lower, upper] : corners) addBox(surface, lower, upper, cells);
+  return surface;
+}
+
 TriangleMesh boxMesh() {
   Surface surface;
   addBox(surface, {0, 0, 0}, {0.1, 0.03, 0.02}, /*cells=*/6);
@@ -180,9 +188,7 @@ TEST(DecompositionTest, LeavesABallWhole) {
 
 // Separating a casing from its contents gains nothing.
 TEST(DecompositionTest, DoesNotSeparateACasingFromItsContents) {
-  Surface casing;
-  addBox(casing, {0, 0, 0}, {0.1, 0.06, 0.04}, /*cells=*/6);
-  addBox(casing, {0.02, 0.01, 0.01}, {0.03, 0.05, 0.02}, /*cells=*/6);
+  const Surface casing = boxes({{{0, 0, 0}, {0.1, 0.06, 0.04}}, {{0.02, 0.01, 0.01}, {0.03, 0.05, 0.02}}}, /*cells=*/6);
   EXPECT_EQ(decompose(casing.mesh()).size(), 1U);
 }
 
@@ -203,9 +209,7 @@ TEST(DecompositionTest, SeparatesComponents) {
 
 // Two squares in one plane have no volume, but their common hull sweeps more than both squares.
 TEST(DecompositionTest, SeparatesFlatSquares) {
-  Surface squares;
-  addBox(squares, {0, 0, 0}, {0.01, 0.01, 0}, /*cells=*/3);
-  addBox(squares, {0.09, 0, 0}, {0.1, 0.01, 0}, /*cells=*/3);
+  const Surface squares = boxes({{{0, 0, 0}, {0.01, 0.01, 0}}, {{0.09, 0, 0}, {0.1, 0.01, 0}}}, /*cells=*/3);
   EXPECT_EQ(decompose(squares.mesh()).size(), 2U);
 }
 

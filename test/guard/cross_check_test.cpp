@@ -67,6 +67,11 @@ class CrossCheckTest : public testing::Test {
     return found;
   }
 
+  std::vector<Disagreement> disagreementsWith(FakeDetector::Record record) {
+    drill(std::make_unique<FakeDetector>(record));
+    return disagreements("halfspace");
+  }
+
   static inline const Eigen::Vector3d kPlace{300.0, -200.0, 100.0};
 
   filesystem::path folder_;
@@ -88,8 +93,7 @@ TEST_F(CrossCheckTest, DetectorsAgreeAboutMeasuredAndPredictedSweeps) {
 TEST_F(CrossCheckTest, FindsWhatABiasedDetectorLeavesOut) {
   FakeDetector::Record record;
   record.drop_every = 3;
-  drill(std::make_unique<FakeDetector>(record));
-  const std::vector<Disagreement> found = disagreements("halfspace");
+  const std::vector<Disagreement> found = disagreementsWith(record);
   ASSERT_FALSE(found.empty());
   for (const Disagreement& one : found) {
     EXPECT_TRUE(one.invented.empty());
@@ -100,8 +104,7 @@ TEST_F(CrossCheckTest, FindsWhatABiasedDetectorLeavesOut) {
 TEST_F(CrossCheckTest, FindsWhatABiasedDetectorInvents) {
   FakeDetector::Record record;
   record.grown = 0.01;
-  drill(std::make_unique<FakeDetector>(record));
-  const std::vector<Disagreement> found = disagreements("halfspace");
+  const std::vector<Disagreement> found = disagreementsWith(record);
   ASSERT_FALSE(found.empty());
   for (const Disagreement& one : found) EXPECT_TRUE(one.missed.empty() && !one.invented.empty());
 }

@@ -26,6 +26,11 @@ Workpiece turned(int stamp) {
 
 Deformation raised(int stamp) { return {kId, 7, at(stamp), {}, kFrame, kRaised}; }
 
+void setAndRemove(WorkpieceStore& store, std::uint32_t revision) {
+  store.set(triangle(revision), at(9));
+  store.remove(kId, at(5));
+}
+
 TEST(WorkpieceStoreTest, CountsUpdatesAndTheirPathLength) {
   WorkpieceStore store;
   store.set(triangle(1), at(9));
@@ -138,16 +143,14 @@ TEST(WorkpieceStoreTest, ARemovalWithoutAStampCountsFromTheNewestVertices) {
 
 TEST(WorkpieceStoreTest, ARemovedWorkpieceMayComeBackWithAnyStamp) {
   WorkpieceStore store;
-  store.set(triangle(3), at(9));
-  store.remove(kId, at(5));
+  setAndRemove(store, 3);
   EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kStored);
   EXPECT_EQ(store.deform(raised(2), at(9)), UpdateOutcome::kStored);
 }
 
 TEST(WorkpieceStoreTest, ForgetsRemovalsWhenTimeWentBack) {
   WorkpieceStore store;
-  store.set(triangle(5), at(9));
-  store.remove(kId, at(5));
+  setAndRemove(store, 5);
   store.clearStamps();
   EXPECT_EQ(store.deform(raised(1), at(9)), UpdateOutcome::kUnknownWorkpiece);
 }

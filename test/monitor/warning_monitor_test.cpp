@@ -614,6 +614,12 @@ class AcknowledgedTest : public WarningMonitorTest {
   void warnAt(int ms, int after_ms = 500) { predict(collisionOn(refresh(ms), ms, after_ms), ms); }
   std::string acknowledge(int ms) { return monitor_.acknowledge("liver", at(ms)); }
   bool acknowledgedAt(int ms) const { return warningOf(monitor_, at(ms)).acknowledged; }
+  // Warned of again from then on, it is not acknowledged any more.
+  void expectEndedFrom(int begin_ms) {
+    for (int ms = begin_ms; ms < 2000; ms += 10) warnAt(ms);
+    EXPECT_EQ(levelAt(1990), WarningLevel::kConsidered);
+    EXPECT_FALSE(acknowledgedAt(1990));
+  }
 };
 
 TEST_F(AcknowledgedTest, IsNoPermission) {
@@ -653,9 +659,7 @@ TEST_F(AcknowledgedTest, EndsAtReflex) {
   warnAt(1010, 100);
   EXPECT_EQ(levelAt(1010), WarningLevel::kReflex);
   EXPECT_FALSE(acknowledgedAt(1010));
-  for (int ms = 1020; ms < 2000; ms += 10) warnAt(ms);
-  EXPECT_EQ(levelAt(1990), WarningLevel::kConsidered);
-  EXPECT_FALSE(acknowledgedAt(1990));
+  expectEndedFrom(1020);
 }
 
 // No prediction says so: the warning rose with the clock.
@@ -663,9 +667,7 @@ TEST_F(AcknowledgedTest, EndsAtAReflexThatCameWithTime) {
   ASSERT_EQ(acknowledge(1000), "");
   EXPECT_EQ(levelAt(1400), WarningLevel::kReflex);
   EXPECT_FALSE(acknowledgedAt(1400));
-  for (int ms = 1400; ms < 2000; ms += 10) warnAt(ms);
-  EXPECT_EQ(levelAt(1990), WarningLevel::kConsidered);
-  EXPECT_FALSE(acknowledgedAt(1990));
+  expectEndedFrom(1400);
 }
 
 TEST_F(AcknowledgedTest, EndsAtContact) {
@@ -673,9 +675,7 @@ TEST_F(AcknowledgedTest, EndsAtContact) {
   sweep(reportOf(workpieces_, {3}), 1010);
   EXPECT_EQ(levelAt(1010), WarningLevel::kContact);
   EXPECT_FALSE(acknowledgedAt(1010));
-  for (int ms = 1020; ms < 2000; ms += 10) warnAt(ms);
-  EXPECT_EQ(levelAt(1990), WarningLevel::kConsidered);
-  EXPECT_FALSE(acknowledgedAt(1990));
+  expectEndedFrom(1020);
 }
 
 TEST_F(AcknowledgedTest, EndsWhenTheToolHasLeftAndWithARestart) {

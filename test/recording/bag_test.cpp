@@ -13,6 +13,7 @@
 #include "recording/recording.h"
 #include "refusal.h"
 #include "sweep_guard/common/error.h"
+#include "test_file.h"
 
 namespace sweep_guard_recording {
 namespace {
@@ -22,10 +23,7 @@ using sweep_guard_core::StampedPose;
 
 class BagTest : public testing::Test {
  protected:
-  BagTest()
-      : path_(testing::TempDir() + "bag_test_" + testing::UnitTest::GetInstance()->current_test_info()->name() +
-              ".bag"),
-        bag_(path_, rosbag::bagmode::Write) {}
+  BagTest() : path_(sweep_guard_core::testFile(".bag")), bag_(path_, rosbag::bagmode::Write) {}
   ~BagTest() override { std::filesystem::remove(path_); }
 
   static geometry_msgs::PoseStamped pose(double stamp, double x) {

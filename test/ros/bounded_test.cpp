@@ -46,11 +46,17 @@ tf2_msgs::TFMessage example() {
   return message;
 }
 
-template <>
-sweep_guard::DeformableMesh example() {
-  sweep_guard::DeformableMesh message;
+template <typename Msg>
+Msg ofLiver() {
+  Msg message;
   message.header = header();
   message.id = "liver";
+  return message;
+}
+
+template <>
+sweep_guard::DeformableMesh example() {
+  auto message = ofLiver<sweep_guard::DeformableMesh>();
   message.mesh.triangles.resize(2);
   message.mesh.vertices.resize(4);
   return message;
@@ -58,9 +64,7 @@ sweep_guard::DeformableMesh example() {
 
 template <>
 sweep_guard::MeshVertices example() {
-  sweep_guard::MeshVertices message;
-  message.header = header();
-  message.id = "liver";
+  auto message = ofLiver<sweep_guard::MeshVertices>();
   message.positions.resize(12);
   return message;
 }

@@ -64,10 +64,7 @@ TEST_F(ControlsTest, EnablingTwiceChangesNothing) {
 }
 
 TEST_F(ControlsTest, ContactIsNotHiddenByDisabling) {
-  placeSquare("square", {0.0, 0.0, 0.0});
-  moveTo({0.0, 0.0, 0.05});
-  moveTo({0.0, 0.0, -0.01});
-  probe().awaitWarning([](const Warning& warning) { return warning.contact; });
+  touchASquare();
   const auto response = probe().enable(false);
   EXPECT_FALSE(response.success);
   EXPECT_TRUE(has(response.message, "CONTACT: tool meets 'square'"));
@@ -178,10 +175,7 @@ TEST_F(AcknowledgeTest, NeedsAWarning) {
 }
 
 TEST_F(ControlsTest, AContactThatIsOverIsHeldAndSaysSinceWhen) {
-  placeSquare("square", {0.0, 0.0, 0.0});
-  moveTo({0.0, 0.0, 0.05});
-  moveTo({0.0, 0.0, -0.01});
-  const Warning touching = probe().awaitWarning([](const Warning& warning) { return warning.contact; });
+  const Warning touching = touchASquare();
   EXPECT_FALSE(touching.held);
   EXPECT_EQ(touching.held_since, ros::Time());
   moveTo({0.0, 0.0, 0.5});  // the way out still touches
@@ -194,10 +188,7 @@ TEST_F(ControlsTest, AContactThatIsOverIsHeldAndSaysSinceWhen) {
 }
 
 TEST_F(ControlsTest, ResetEndsAHeldContactAndKeepsTheWorkpieces) {
-  placeSquare("square", {0.0, 0.0, 0.0});
-  moveTo({0.0, 0.0, 0.05});
-  moveTo({0.0, 0.0, -0.01});
-  const Warning contact = probe().awaitWarning([](const Warning& warning) { return warning.contact; });
+  const Warning contact = touchASquare();
   moveTo({0.0, 0.0, 0.5});
   probe().skipWarnings();
   const auto response = probe().reset();

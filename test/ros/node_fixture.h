@@ -57,6 +57,19 @@ class NodeTest : public ::testing::Test {
     return probe().move(poseAt(tip, probe().time()));
   }
 
+  // @returns the warning of the contact
+  sweep_guard::Warning touchASquare() {
+    placeSquare("square", {0.0, 0.0, 0.0});
+    moveTo({0.0, 0.0, 0.05});
+    moveTo({0.0, 0.0, -0.01});
+    return probe().awaitWarning([](const sweep_guard::Warning& warning) { return warning.contact; });
+  }
+
+  // Moves the tool now, and returns how many workpieces it touched on its way.
+  static size_t touchedOnTheWayTo(const Eigen::Vector3d& tip) {
+    return probe().move(poseAt(tip, probe().time())).objects.size();
+  }
+
   // The motion is known from two poses. On a busy machine they may be stale before the guard is clear.
   void restAt(const Eigen::Vector3d& tip) {
     moveTo(tip);

@@ -130,6 +130,18 @@ class ServicesTest : public ::testing::Test {
     return request;
   }
 
+  GuardThreadDependencies dependenciesWith(const LiveParameters& parameters) {
+    return {parameters,
+            workpieces_,
+            monitor_,
+            statistics_,
+            queue_,
+            warnings_,
+            scene_,
+            cross_check_.sampler(),
+            [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(detector_record_); }};
+  }
+
   CheckSweep::Response checkSweep(CheckSweep::Request request) {
     CheckSweep::Response response;
     EXPECT_TRUE(clientOf<CheckSweep>("check_sweep").call(request, response));
@@ -149,17 +161,7 @@ class ServicesTest : public ::testing::Test {
   sweep_guard_core::SweepStatistics statistics_{parameters_.initial().guard.cycle};
   Frames frames_{ros::NodeHandle(), parameters_.initial().max_message_size, [](const auto&, const auto&) {}};
   CrossCheckThread cross_check_{parameters_, monitor_};
-  const GuardThreadDependencies dependencies_{
-      parameters_,
-      workpieces_,
-      monitor_,
-      statistics_,
-      queue_,
-      warnings_,
-      scene_,
-      cross_check_.sampler(),
-      [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(detector_record_); }};
-  GuardThread guard_thread_{node_, dependencies_};
+  GuardThread guard_thread_{node_, dependenciesWith(parameters_)};
   CheckSweepService check_sweep_{
       node_, {parameters_, frames_, workpieces_, monitor_, [this](const auto& /*name*/, const auto& /*options*/) {
                 return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
@@ -389,16 +391,7 @@ TEST_F(BiasedDetectorTest, IsNeverClearUntilItIsExchangedForAGoodOne) {
 TEST_F(BiasedDetectorTest, EndsTheNodeIfAsked) {
   node_.setParam("self_test", "exit");
   LiveParameters exits(loadParameters(node_));
-  const GuardThreadDependencies dependencies{exits,
-                                             workpieces_,
-                                             monitor_,
-                                             statistics_,
-                                             queue_,
-                                             warnings_,
-                                             scene_,
-                                             cross_check_.sampler(),
-                                             dependencies_.make_detector};
-  EXPECT_THROW(GuardThread(node_, dependencies), sweep_guard_core::DeviceError);
+  EXPECT_THROW(GuardThread(node_, dependenciesWith(exits)), sweep_guard_core::DeviceError);
 }
 
 // Only the next pose says that the way is free.

@@ -19,8 +19,9 @@ class StallTimerTest : public testing::Test {
     timer_.check({steps_, working_}, {processor_time_, activity}, since_last, starving);
   }
   // @param used  processor time in each 10 ms
-  void checkFor(Duration time, Activity activity, Duration used) {
+  Duration stalledAfter(Duration time, Activity activity, Duration used) {
     for (Duration passed{}; passed < time; passed += 10ms) check(activity, used);
+    return timer_.stalled();
   }
 
   std::uint64_t steps_ = 1;
@@ -30,49 +31,41 @@ class StallTimerTest : public testing::Test {
 };
 
 TEST_F(StallTimerTest, CountsTheProcessorTimeOfAThreadThatRuns) {
-  checkFor(100ms, Activity::kRunnable, 10ms);
-  EXPECT_EQ(timer_.stalled(), 100ms);
-  checkFor(100ms, Activity::kRunnable, 2ms);
-  EXPECT_EQ(timer_.stalled(), 120ms);
+  EXPECT_EQ(stalledAfter(100ms, Activity::kRunnable, 10ms), 100ms);
+  EXPECT_EQ(stalledAfter(100ms, Activity::kRunnable, 2ms), 120ms);
 }
 
 TEST_F(StallTimerTest, CountsTheTimeOfAThreadThatIsBlocked) {
-  checkFor(150ms, Activity::kBlocked, 0ms);
-  EXPECT_EQ(timer_.stalled(), 150ms);
+  EXPECT_EQ(stalledAfter(150ms, Activity::kBlocked, 0ms), 150ms);
 }
 
 TEST_F(StallTimerTest, CountsTheTimeOfAThreadThatPolls) {
-  checkFor(150ms, Activity::kBlocked, 1ms);
-  EXPECT_EQ(timer_.stalled(), 150ms);
+  EXPECT_EQ(stalledAfter(150ms, Activity::kBlocked, 1ms), 150ms);
 }
 
 TEST_F(StallTimerTest, BeginsAnewWithEachStep) {
-  checkFor(100ms, Activity::kBlocked, 0ms);
+  stalledAfter(100ms, Activity::kBlocked, 0ms);
   ++steps_;
   check(Activity::kBlocked, 0ms);
   EXPECT_EQ(timer_.stalled(), 0ms);
-  checkFor(50ms, Activity::kBlocked, 0ms);
-  EXPECT_EQ(timer_.stalled(), 50ms);
+  EXPECT_EQ(stalledAfter(50ms, Activity::kBlocked, 0ms), 50ms);
 }
 
 TEST_F(StallTimerTest, CountsNothingWhileThereIsNoWork) {
-  checkFor(100ms, Activity::kBlocked, 0ms);
+  stalledAfter(100ms, Activity::kBlocked, 0ms);
   working_ = false;
-  checkFor(1s, Activity::kBlocked, 0ms);
-  EXPECT_EQ(timer_.stalled(), 0ms);
+  EXPECT_EQ(stalledAfter(1s, Activity::kBlocked, 0ms), 0ms);
   working_ = true;
   check(Activity::kBlocked, 0ms);
   EXPECT_EQ(timer_.stalled(), 0ms);
 }
 
 TEST_F(StallTimerTest, CountsNothingWhileTheThreadGetsNoProcessor) {
-  checkFor(10s, Activity::kRunnable, 0ms);
-  EXPECT_EQ(timer_.stalled(), 0ms);
+  EXPECT_EQ(stalledAfter(10s, Activity::kRunnable, 0ms), 0ms);
 }
 
 TEST_F(StallTimerTest, CountsNothingWhileTheThreadIsStopped) {
-  checkFor(10s, Activity::kStopped, 0ms);
-  EXPECT_EQ(timer_.stalled(), 0ms);
+  EXPECT_EQ(stalledAfter(10s, Activity::kStopped, 0ms), 0ms);
 }
 
 // All threads stop with the process, the one that checks too.

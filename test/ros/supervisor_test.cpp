@@ -21,18 +21,6 @@ using sweep_guard_core::SteadyTime;
 
 SteadyTime now() { return std::chrono::steady_clock::now(); }
 
-class Call : public ros::CallbackInterface {
- public:
-  explicit Call(std::function<void()> function) : function_(std::move(function)) {}
-  CallResult call() override {
-    function_();
-    return Success;
-  }
-
- private:
-  const std::function<void()> function_;
-};
-
 // A thread named `busy` that does what it is given.
 class SupervisedThread {
  public:
@@ -42,9 +30,7 @@ class SupervisedThread {
     supervisor_.start();
   }
 
-  void work(std::function<void()> function) {
-    thread_.queue().addCallback(boost::make_shared<Call>(std::move(function)));
-  }
+  void work(std::function<void()> function) { thread_.post(std::move(function)); }
   void finish() {
     std::promise<void> done;
     work([&] { done.set_value(); });
@@ -66,6 +52,14 @@ class SupervisedThread {
   std::vector<std::string> failures_;
   Supervisor supervisor_;
   QueueThread thread_;
+};
+
+// It waits until it is released.
+struct BlockedThread : SupervisedThread {
+  BlockedThread() : SupervisedThread(Process::kShared) {
+    work([this] { go_on.get_future().wait(); });
+  }
+  std::promise<void> go_on;
 };
 
 // @returns whether the thread comes to hang, or ceases to, within this time
@@ -110,9 +104,7 @@ TEST(SupervisorDeathTest, TheThirdExceptionEndsTheGuardsOwnProcess) {
 }
 
 TEST(SupervisorTest, ABlockedThreadHangsUntilItGoesOn) {
-  SupervisedThread thread(Process::kShared);
-  std::promise<void> go_on;
-  thread.work([&] { go_on.get_future().wait(); });
+  BlockedThread thread;
   EXPECT_FALSE(comesToHang(thread, true, 100ms));
   ASSERT_TRUE(comesToHang(thread, true, 5s));
   EXPECT_STREQ(thread.supervisor().hung(), "busy");
@@ -163,9 +155,7 @@ TEST(SupervisorDeathTest, AHungThreadAbortsTheGuardsOwnProcessAfterTwoSeconds) {
 }
 
 TEST(SupervisorTest, AHungThreadEndsNoSharedProcess) {
-  SupervisedThread thread(Process::kShared);
-  std::promise<void> go_on;
-  thread.work([&] { go_on.get_future().wait(); });
+  BlockedThread thread;
   ASSERT_TRUE(comesToHang(thread, true, 5s));
   EXPECT_FALSE(comesToHang(thread, false, 2500ms));
   go_on.set_value();

@@ -212,12 +212,18 @@ void migrate(const fs::path& old, const fs::path& fixed, const fs::path& log) {
   ASSERT_EQ(std::system(fix.str().c_str()), 0) << readText(log);
 }
 
+// Of a bag in this folder, whose definition of Warning is an older one.
+std::vector<sweep_guard::Warning> migratedWarnings(const std::string& name, const fs::path& fixed,
+                                                   const fs::path& log) {
+  const fs::path old = fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session" / name;
+  EXPECT_TRUE(warningsOf(old).empty());
+  migrate(old, fixed, log);
+  return warningsOf(fixed);
+}
+
 // recorded_before.bag holds the first definition of Warning.
 TEST_F(ReplayTest, ABagWithOlderMessagesIsMigratedAndReplayed) {
-  const fs::path old = fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_before.bag";
-  EXPECT_TRUE(warningsOf(old).empty());
-  migrate(old, bag_, folder_ / "fixed.txt");
-  const std::vector<sweep_guard::Warning> warnings = warningsOf(bag_);
+  const auto warnings = migratedWarnings("recorded_before.bag", bag_, folder_ / "fixed.txt");
   ASSERT_EQ(warnings.size(), 40U);
   for (std::size_t i = 0; i < warnings.size(); ++i) EXPECT_EQ(warnings[i].level, i / 8);
 
@@ -228,10 +234,7 @@ TEST_F(ReplayTest, ABagWithOlderMessagesIsMigratedAndReplayed) {
 
 // recorded_with_run_id.bag holds the definition before `held` and `acknowledged`.
 TEST_F(ReplayTest, WarningsThatDoNotTellWhatIsHeldAreMigrated) {
-  const fs::path old = fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_with_run_id.bag";
-  EXPECT_TRUE(warningsOf(old).empty());
-  migrate(old, bag_, folder_ / "fixed.txt");
-  const std::vector<sweep_guard::Warning> warnings = warningsOf(bag_);
+  const auto warnings = migratedWarnings("recorded_with_run_id.bag", bag_, folder_ / "fixed.txt");
   ASSERT_EQ(warnings.size(), 10U);
   for (std::size_t i = 0; i < warnings.size(); ++i) {
     EXPECT_EQ(warnings[i].level, i / 2);

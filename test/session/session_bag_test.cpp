@@ -14,6 +14,7 @@
 
 #include "refusal.h"
 #include "sweep_guard/common/error.h"
+#include "test_file.h"
 
 namespace sweep_guard_session {
 namespace {
@@ -22,10 +23,7 @@ using std::chrono::seconds;
 
 class SessionBagTest : public testing::Test {
  protected:
-  SessionBagTest()
-      : path_(testing::TempDir() + "session_bag_test_" + testing::UnitTest::GetInstance()->current_test_info()->name() +
-              ".bag"),
-        bag_(path_, rosbag::bagmode::Write) {}
+  SessionBagTest() : path_(sweep_guard_core::testFile(".bag")), bag_(path_, rosbag::bagmode::Write) {}
   ~SessionBagTest() override { std::filesystem::remove(path_); }
 
   void writePose(double recorded, double stamp, const std::string& topic = "/tool_pose") {

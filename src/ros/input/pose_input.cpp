@@ -24,18 +24,6 @@ struct PoseRefused : sweep_guard_core::InvalidInput {
   Reason reason;
 };
 
-class Call : public ros::CallbackInterface {
- public:
-  explicit Call(std::function<void()> function) : function_(std::move(function)) {}
-  CallResult call() override {
-    function_();
-    return Success;
-  }
-
- private:
-  std::function<void()> function_;
-};
-
 }  // namespace
 
 PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters,
@@ -106,10 +94,10 @@ void PoseInput::onTransforms() {
     const ReceivedPose pose{
         {*newest, std::chrono::steady_clock::now()}, fixed_frame_, frames_.lookup(fixed_frame_, tool_frame_, *newest)};
     ++waiting_;
-    thread_.queue().addCallback(boost::make_shared<Call>([this, pose] {
+    thread_.post([this, pose] {
       --waiting_;
       acceptOrRefuse(pose.timestamps, [&pose]() -> const ReceivedPose& { return pose; });
-    }));
+    });
   } catch (const FrameError& error) {
     record_.error(error.what(), /*refused=*/false);
     monitor_.fault(sweep_guard_core::kTfFail, error.what());

@@ -30,19 +30,6 @@ class CountedCall : public ros::CallbackInterface {
   std::shared_ptr<void> inside_;
 };
 
-class FirstCall : public ros::CallbackInterface {
- public:
-  explicit FirstCall(bool refuses) : refuses_(refuses) {}
-
-  CallResult call() override {
-    refused_here = refuses_;
-    return Success;
-  }
-
- private:
-  const bool refuses_;
-};
-
 }  // namespace
 
 bool LimitedCalls::refused() { return refused_here; }
@@ -51,8 +38,8 @@ SteadyClock::time_point LimitedCalls::arrival() { return arrival_of_call; }
 
 // Before any call: calls may come before the threads start.
 LimitedCalls::LimitedCalls() {
-  worker_.queue().addCallback(boost::make_shared<FirstCall>(/*refuses=*/false));
-  refusals_.queue().addCallback(boost::make_shared<FirstCall>(/*refuses=*/true));
+  worker_.post([] { refused_here = false; });
+  refusals_.post([] { refused_here = true; });
 }
 
 void LimitedCalls::start(Supervisor& supervisor) {

@@ -10,6 +10,18 @@ namespace {
 
 const ros::WallDuration kWait(0.1);  // between two looks at the state of ROS
 
+class Posted : public ros::CallbackInterface {
+ public:
+  explicit Posted(std::function<void()> work) : work_(std::move(work)) {}
+  CallResult call() override {
+    work_();
+    return Success;
+  }
+
+ private:
+  const std::function<void()> work_;
+};
+
 }  // namespace
 
 class QueueThread::Work : public ros::CallbackInterface {
@@ -43,6 +55,8 @@ ros::NodeHandle QueueThread::on(ros::NodeHandle node) {
   node.setCallbackQueue(&queue_);
   return node;
 }
+
+void QueueThread::post(std::function<void()> work) { queue_.addCallback(boost::make_shared<Posted>(std::move(work))); }
 
 void QueueThread::start(Supervisor& supervisor, const ThreadTraits& traits) {
   top_ = &supervisor.add(traits);

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 
 #include <atomic>
+#include <functional>
 #include <thread>
 
 #include "ros/threads/supervisor.h"
@@ -23,6 +24,8 @@ class QueueThread {
   ros::NodeHandle on(ros::NodeHandle node);
 
   ros::CallbackQueue& queue() { return queue_; }
+  /// Queues work between the callbacks. Any thread.
+  void post(std::function<void()> work);
   /// Starts the thread; the supervisor must outlive it.
   void start(Supervisor& supervisor, const ThreadTraits& traits);
 
