@@ -77,6 +77,7 @@ std::vector<Interval> bootstrap(const std::function<std::vector<double>(size_t d
     }
   }
   std::vector<Interval> intervals;
+  intervals.reserve(samples.size());
   for (const std::vector<double>& sample : samples) {
     intervals.push_back({sweep_guard_core::quantile(sample, 0.025), sweep_guard_core::quantile(sample, 0.975)});
   }

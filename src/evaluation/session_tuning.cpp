@@ -34,6 +34,7 @@ std::vector<WarningThresholds> tuningThresholds(const WarningThresholds& current
   const WarningThresholds defaults;
   const double ratio = defaults.considered_off / defaults.considered_on;
   std::vector<WarningThresholds> thresholds;
+  thresholds.reserve(std::size(kConsideredOn));
   for (const double on : kConsideredOn) {
     thresholds.push_back({current.reflex, on, std::max(kMinProbability, ratio * on)});
   }

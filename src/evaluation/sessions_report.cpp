@@ -70,12 +70,12 @@ template <typename Function>
 void forEachCount(SessionCount& count, const Function& function) {
   function("contacts", count.contacts);
   const char* const warned[] = {"warned_0.1", "warned_0.3", "warned_0.5", "warned_1.0"};
-  for (size_t i = 0; i < count.warned.size(); ++i) function(warned[i], count.warned[i]);
+  for (size_t i = 0; i < std::size(warned); ++i) function(warned[i], count.warned[i]);
   function("late", count.late);
   function("alarms", count.alarms);
   function("unjustified", count.unjustified);
   const char* const near[] = {"near_10mm", "near_20mm", "near_50mm"};
-  for (size_t i = 0; i < count.near_misses.size(); ++i) function(near[i], count.near_misses[i]);
+  for (size_t i = 0; i < std::size(near); ++i) function(near[i], count.near_misses[i]);
 }
 
 std::string objectsHeader() {

@@ -69,7 +69,7 @@ class Lookups {
     if (lookups_.count(host) == 0 && lookups_.size() >= kMaxNames) return std::nullopt;
     const auto lookup = lookups_.try_emplace(host, host).first;
     if (!lookup->second.done()) return std::nullopt;
-    const auto address = lookup->second.address();
+    auto address = lookup->second.address();
     if (!address) lookups_.erase(lookup);
     return address;
   }

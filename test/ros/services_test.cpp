@@ -130,7 +130,7 @@ class ServicesTest : public ::testing::Test {
     return request;
   }
 
-  GuardThreadDependencies dependenciesWith(const LiveParameters& parameters) {
+  GuardThreadDependencies dependenciesWith(LiveParameters& parameters) {
     return {parameters,
             workpieces_,
             monitor_,

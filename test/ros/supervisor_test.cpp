@@ -108,7 +108,7 @@ TEST(SupervisorTest, ABlockedThreadHangsUntilItGoesOn) {
   EXPECT_FALSE(comesToHang(thread, true, 100ms));
   ASSERT_TRUE(comesToHang(thread, true, 5s));
   EXPECT_STREQ(thread.supervisor().hung(), "busy");
-  go_on.set_value();
+  thread.go_on.set_value();
   EXPECT_TRUE(comesToHang(thread, false, 5s));
 }
 
@@ -158,7 +158,7 @@ TEST(SupervisorTest, AHungThreadEndsNoSharedProcess) {
   BlockedThread thread;
   ASSERT_TRUE(comesToHang(thread, true, 5s));
   EXPECT_FALSE(comesToHang(thread, false, 2500ms));
-  go_on.set_value();
+  thread.go_on.set_value();
   thread.finish();
 }
 

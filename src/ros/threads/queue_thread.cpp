@@ -56,7 +56,9 @@ ros::NodeHandle QueueThread::on(ros::NodeHandle node) {
   return node;
 }
 
-void QueueThread::post(std::function<void()> work) { queue_.addCallback(boost::make_shared<Posted>(std::move(work))); }
+void QueueThread::post(std::function<void()> work) {
+  queue_.addCallback(boost::make_shared<Posted>(std::move(work)), /*owner=*/0);
+}
 
 void QueueThread::start(Supervisor& supervisor, const ThreadTraits& traits) {
   top_ = &supervisor.add(traits);
