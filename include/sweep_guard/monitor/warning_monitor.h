@@ -38,7 +38,7 @@ class WarningMonitor {
   /// @param on_fault  called after every fault, refusal, loss, drop, test of the detector and restart, except where a
   ///     function says otherwise, in the reporting thread, so maybe in several at once; may call the monitor; not empty
   /// @param waiting_since  returns when the oldest pose that is not yet swept was received; empty: none waits. Called
-  ///     by warning() and disableBelow(), one at a time; must not call the monitor; not empty
+  ///     by warning(), disableBelow() and acknowledge(), one at a time; must not call the monitor; not empty
   /// @param hung  returns the name of a thread that makes no progress, a text that outlives the monitor; null: none.
   ///     Called as the one before, and by meshProblems()
   explicit WarningMonitor(
@@ -98,7 +98,8 @@ class WarningMonitor {
   /// Reports that a second detector disagreed about a query. The warning is not clear until restart(). Does nothing if
   /// the monitor was restarted since the query's epoch. Does not call on_fault: its thread may be a slow one.
   /// @param missed  triangles that only the second detector found: ascending. They count as a contact that is over if
-  ///     the query was about a measured sweep, and the workpiece still has these triangles and this frame
+  ///     the query was about a measured sweep, and the workpiece still has these triangles and this frame. While a
+  ///     contact lasts, they are added to it if it is with this workpiece, and are not told if it is with another
   void detectorsDisagree(const std::string& message, const SampledQuery& query,
                          const std::vector<std::uint32_t>& missed, SteadyTime now);
 
@@ -124,10 +125,11 @@ class WarningMonitor {
   void predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint, const Instant& now,
                  Duration took = {});
 
-  /// Acknowledges the considered warning of a workpiece: Warning::acknowledged, and nothing else, changes. Acknowledged
-  /// is one mesh of one workpiece; warnings of others are as ever. It ends at kReflex and kContact, whatever workpiece
-  /// is met; `acknowledge_time` later; when the mesh is replaced or removed; with a restart; and by
-  /// endAcknowledgement(), which the caller owes once the tool has left. Does not call on_fault.
+  /// Acknowledges the considered warning of a workpiece. Level and reasons stay; Warning::acknowledged and the text say
+  /// so, unless another workpiece has a considered warning that is not acknowledged: the warning then names that one.
+  /// Acknowledged is one mesh of one workpiece. It ends at kReflex and kContact, whatever workpiece is met;
+  /// `acknowledge_time` later; when the mesh is replaced or removed; with a restart; and by endAcknowledgement(), which
+  /// the caller owes once the tool has left. Does not call on_fault.
   /// @returns why not; empty: acknowledged
   std::string acknowledge(const std::string& id, const Instant& now);
 

@@ -40,8 +40,8 @@ size_t reflexSweeps(const HorizonOptions& options, Duration age);
 /// @param options  accepted by check()
 size_t consideredSweeps(const HorizonOptions& options);
 
-/// Computes the ends of the sweeps up to `considered` + `reserve` from now, at the configured steps or equal ones a
-/// little shorter; for an age beyond the reserve, the reflex steps may be longer.
+/// Computes the ends of the sweeps up to `considered` + `reserve` from now. The steps of each interval are equal, and as
+/// long as configured or shorter; for an age beyond the reserve, the reflex steps may be longer.
 /// @param options       accepted by check()
 /// @param age           of the newest pose, >= 0 (asserted)
 /// @param[out] horizon  overwritten; its buffers are used again
