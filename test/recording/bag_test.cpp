@@ -75,7 +75,7 @@ TEST_F(BagTest, IsReadLikeTheMotionFileOfTheSamePoses) {
   const Recording from_text = readRecording(path_ + ".txt", "");
   std::filesystem::remove(path_ + ".txt");
 
-  EXPECT_EQ(from_bag.name, "bag_test_IsReadLikeTheMotionFileOfTheSamePoses");
+  EXPECT_EQ(from_bag.name, "BagTest_IsReadLikeTheMotionFileOfTheSamePoses");
   ASSERT_EQ(from_bag.poses.size(), 100U);
   ASSERT_EQ(from_text.poses.size(), 100U);
   for (size_t i = 0; i < 100; ++i) {
