@@ -28,6 +28,7 @@ ChildProcess::ChildProcess(std::vector<std::string> command, const std::vector<s
     dup2(ends[1], STDERR_FILENO);
     for (const std::string& variable : environment) putenv(strdup(variable.c_str()));
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (std::string& argument : command) arguments.push_back(argument.data());
     arguments.push_back(nullptr);
     execvp(arguments[0], arguments.data());
