@@ -26,7 +26,7 @@ Workpiece turned(int stamp) {
 
 Deformation raised(int stamp) { return {kId, 7, at(stamp), {}, kFrame, kRaised}; }
 
-void setAndRemove(WorkpieceStore& store, std::uint32_t revision) {
+void setAndRemove(WorkpieceStore& store, int revision) {
   store.set(triangle(revision), at(9));
   store.remove(kId, at(5));
 }

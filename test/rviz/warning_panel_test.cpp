@@ -218,9 +218,9 @@ TEST_F(WarningPanelTest, AcknowledgesTheWorkpieceThatIsShown) {
 }
 
 TEST_F(WarningPanelTest, OnlyAConsideredWarningThatIsNotAcknowledgedCanBe) {
-  for (const std::uint8_t level : {Warning::UNKNOWN, Warning::CLEAR, Warning::REFLEX, Warning::CONTACT}) {
-    say(warningLevel(level));
-    EXPECT_FALSE(button("acknowledge")->isEnabled()) << int{level};
+  for (const int level : {Warning::UNKNOWN, Warning::CLEAR, Warning::REFLEX, Warning::CONTACT}) {
+    say(warningLevel(static_cast<std::uint8_t>(level)));
+    EXPECT_FALSE(button("acknowledge")->isEnabled()) << level;
   }
   Warning warning = warningLevel(Warning::CONSIDERED);
   say(warning);
