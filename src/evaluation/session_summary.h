@@ -41,8 +41,8 @@ struct Interval {
 };
 
 /// Draws sessions anew: each session of each recording gets as many objects as it had, drawn with replacement from those
-/// of all sessions of that recording. Draws are equal for recordings with equally many sessions and objects, so that
-/// two runs can be compared in pairs.
+/// of all sessions of that recording. Recordings with the same numbers of sessions and objects get the same draws, so
+/// that two runs can be compared in pairs.
 /// @param draw  number of the draw
 std::vector<RecordingSessions> resampled(const std::vector<RecordingSessions>& recordings, size_t draw);
 

@@ -191,7 +191,7 @@ bool GuardThread::workOnce(WorkQueue::Work& work) {
 }
 
 // No pose is left out: what the tool met on the way to it would be, too. The others wait, so nothing is clear meanwhile.
-// Tasks do not wait: a reset gives the pose up, a parameter may mend what fails. Returns false after stop().
+// Tasks run between the tries: a reset drops the pose, a new parameter may end the failure. Returns false after stop().
 bool GuardThread::processOrRepeat(const QueuedPose& queued, const QueuedPose* next) {
   bool done = false;
   while (true) {

@@ -23,7 +23,7 @@ class ServiceCall {
   /// @param service  absolute name
   void setBool(const std::string& service, bool value);
   void trigger(const std::string& service);
-  /// Starts a call of a sweep_guard/Acknowledge service, likewise.
+  /// Starts a call of a sweep_guard/Acknowledge service. Does nothing while another call runs.
   /// @param mesh_id  workpiece that the operator was shown
   void acknowledge(const std::string& service, const std::string& mesh_id);
 

@@ -574,7 +574,7 @@ TEST_F(WarningMonitorTest, TheWarningOfAWorkpieceThatIsGoneIsHeldAndForgotten) {
   EXPECT_EQ(levelAt(1511), WarningLevel::kUnknown);
 }
 
-// Its warning has ended: what the same name stands for now has to raise its own.
+// The name may stand for another workpiece now, whose warning begins at the upper threshold.
 TEST_F(WarningMonitorTest, AWorkpieceThatComesAgainIsNotKeptWarnedOfByLess) {
   predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
   monitor_.setWorkpieces({});

@@ -81,8 +81,8 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
 std::string meshProblems(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits);
 
 /// Returns the level of a predicted contact now, or at the end of its prediction if that is over, as it counts until
-/// the next call: kReflex if its `reflex` is at most the reflex interval and `tick` away, kConsidered likewise,
-/// otherwise kClear.
+/// the next call: kReflex if its `reflex` is at most the reflex interval and `tick` away, kConsidered if its
+/// `considered` is at most the considered interval and `tick` away, otherwise kClear.
 WarningLevel warningLevel(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits);
 
 /// Returns whether the `considered` of a predicted contact is at most the considered interval and `tick` away, whatever

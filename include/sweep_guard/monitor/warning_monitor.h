@@ -64,8 +64,8 @@ class WarningMonitor {
   void failed(Reason reason, const char* message, SteadyTime now, bool lasting = false) noexcept;
 
   /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), because the workpiece that
-  /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each. That of
-  /// another id takes the place of the refusal of the id that sorts last, and counts as a refusal of that id.
+  /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each. The
+  /// refusal of another id is stored under the last of the 64 ids in their order, and replaces its refusal.
   /// @param received  when the message was received: meshes are accepted later than they are refused
   void meshRefused(const std::string& id, const std::string& message, SteadyTime received);
 
