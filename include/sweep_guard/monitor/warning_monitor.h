@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -16,6 +16,10 @@
 
 namespace sweep_guard_core {
 
+class Faults;
+class Refusals;
+class SweptWorkpieces;
+class WorkpieceWarnings;
 struct SampledQuery;
 
 /// Collects the inputs of the warning: received poses and workpieces, refusals, and sweeps.
@@ -45,6 +49,9 @@ class WarningMonitor {
       const WarningLimits& limits, std::function<void()> on_fault = [] {},
       std::function<std::optional<SteadyTime>()> waiting_since = [] { return std::nullopt; },
       std::function<const char*()> hung = [] { return nullptr; });
+  ~WarningMonitor();
+  WarningMonitor(const WarningMonitor&) = delete;
+  WarningMonitor& operator=(const WarningMonitor&) = delete;
 
   /// Sets the ids of the workpieces without which the warning is not clear.
   void require(const std::set<std::string>& ids);
@@ -192,28 +199,15 @@ class WarningMonitor {
     Time covered_until;  // for the workpieces tested
     Workpieces tested;
   };
-  using Refusals = std::map<std::string, WarningInputs::Event>;  // by id
 
   void restartLocked();
   void disableLocked(const std::string& asked_by);
   void computeLocked(const Instant& now, Warning& warning) const;
-  void addFault(Reason reason, const std::string& message);
-  void refuse(Refusals& refusals, const std::string& id, const WarningInputs::Event& refusal);
-  void accept(Refusals& refusals, const std::string& id, SteadyTime received);
-  void updateRefusals();
-  void updateDetectorFaults();
-  void updateObjects();
-  void endFailure(SteadyTime now);
-  void updateBehind(const SweepReport& report);
-  void addContact(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now);
-  void updateContact(const SweepReport& report, SteadyTime now);
-  WarningInputs::WorkpieceWarning* findWarning(const std::string& id);
-  void updatePredicted(const Prediction& prediction, const PredictedObject& object, const Timestamps& pose,
-                       const Instant& now);
-  void endUntested(const Instant& now);
-  void endAcknowledgements();
-  void endAcknowledgementsOfGoneMeshes();
-  void updateAlarms(WarningInputs::WorkpieceWarning& workpiece, const Instant& now);
+  std::string refusal(const std::vector<std::string>& ids = {}) const;
+  void meets(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now);
+  void addFailures(const std::vector<SweepFailure>& failures, const char* what);
+  void beginCoverage(const Prediction& prediction);
+  WarningInputs inputsAbout(const std::vector<std::string>& ids) const;
   Time coveredUntil(const Instant& now) const;
 
   const std::function<void()> on_fault_;
@@ -221,20 +215,15 @@ class WarningMonitor {
   const std::function<const char*()> hung_;
   mutable PriorityMutex mutex_;
   WarningLimits limits_;
-  Checkpoint checkpoint_;
-  mutable WarningInputs inputs_;  // covered_until, waiting_since and hung are those of the last warning
-  Time swept_until_;              // every workpiece
-  Workpieces swept_;              // at the newest pose
+  std::uint64_t epoch_ = 0;
+  mutable WarningInputs inputs_;          // covered_until, waiting_since and hung are those of the last warning
+  const std::unique_ptr<Faults> faults_;  // these keep their part of the inputs
+  const std::unique_ptr<SweptWorkpieces> workpieces_;
+  const std::unique_ptr<WorkpieceWarnings> warnings_;
+  const std::unique_ptr<Refusals> refused_meshes_;
+  const std::unique_ptr<Refusals> refused_vertices_;
+  Time swept_until_;  // every workpiece
   std::optional<Coverage> coverage_;
-  std::optional<PredictedContact> next_;  // while a prediction is taken over
-  Workpieces workpieces_;
-  std::map<Reason, std::uint64_t> fault_numbers_;
-  std::string test_failure_;  // of the detector; empty: none
-  std::string disagreement_;  // of two detectors; empty: none
-  std::uint64_t failure_number_ = 0;
-  Refusals refused_meshes_;
-  Refusals refused_vertices_;
-  std::map<std::string, SteadyTime> dropped_;  // by id: when the newest dropped update was received
 };
 
 }  // namespace sweep_guard_core

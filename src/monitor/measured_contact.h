@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/monitor/warning_inputs.h"
+
+namespace sweep_guard_core {
+
+/// Takes over what a sweep met: of several workpieces, the first reported. Without a contact the one before is over,
+/// unless its workpiece could not be swept.
+/// @returns whether the sweep met one
+bool updateContact(const SweepReport& report, SteadyTime now, std::optional<WarningInputs::Contact>& contact);
+
+/// Adds triangles that a sweep has missed. A contact with another workpiece stays while it lasts; otherwise they count
+/// as a contact that is over. What is added to a contact that lasts is told until its next sweep.
+/// @param triangles  ascending
+void addToContact(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now,
+                  std::optional<WarningInputs::Contact>& contact);
+
+}  // namespace sweep_guard_core

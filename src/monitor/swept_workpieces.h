@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/monitor/warning_inputs.h"
+
+namespace sweep_guard_core {
+
+/// Keeps the workpieces, what of them was swept, and what was dropped: `objects` of the inputs.
+class SweptWorkpieces {
+ public:
+  /// @param inputs  must outlive this
+  explicit SweptWorkpieces(WarningInputs& inputs) : inputs_(inputs) {}
+
+  /// @param newest  snapshots of all workpieces, ascending by id
+  void set(const Workpieces& newest);
+  const Workpieces& newest() const { return newest_; }
+
+  /// Keeps that an update was dropped until a later one is swept.
+  /// @returns false if there is no such workpiece
+  bool drop(const std::string& id, SteadyTime received);
+  void swept(const SweepReport& report);
+  void restart();  ///< nothing is swept
+
+ private:
+  void updateObjects();
+  void updateBehind(const SweepReport& report);
+  void forgetDroppedOfGone();
+
+  WarningInputs& inputs_;
+  Workpieces newest_;
+  Workpieces swept_;                           // at the newest pose
+  std::map<std::string, SteadyTime> dropped_;  // by id: when the newest dropped update was received
+};
+
+/// Returns the workpiece of this id; null: there is none.
+const Workpiece* findWorkpiece(const Workpieces& workpieces, const std::string& id);
+
+/// Returns whether the workpiece is among these, with its triangles and frame.
+bool holds(const Workpieces& workpieces, const Workpiece& workpiece);
+
+}  // namespace sweep_guard_core
