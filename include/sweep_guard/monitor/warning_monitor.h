@@ -71,8 +71,8 @@ class WarningMonitor {
   void failed(Reason reason, const char* message, SteadyTime now, bool lasting = false) noexcept;
 
   /// Reports that a whole mesh was refused. The warning is not clear until meshAccepted(), because the workpiece that
-  /// the mesh describes is unknown. Refusals of at most 64 ids are kept, of meshes and of vertices each. The
-  /// refusal of another id is stored under the last of the 64 ids in their order, and replaces its refusal.
+  /// the mesh describes is unknown. Refusals of 1024 ids are kept, of meshes and of vertices each. That of another id
+  /// lasts as long as the monitor.
   /// @param received  when the message was received: meshes are accepted later than they are refused
   void meshRefused(const std::string& id, const std::string& message, SteadyTime received);
 
@@ -188,8 +188,8 @@ class WarningMonitor {
   /// Returns why these workpieces, the detectors or the threads are not as good as CLEAR needs them, in words; empty if
   /// they are. Does not ask whether the workpieces were swept, and leaves out what fault() reports, failures in reports
   /// and predictions, and those of failed() that do not last. Does not name an id that is unknown, not required and not
-  /// refused; says that there is no workpiece if every id is unknown and not required. While refusals of 64 ids are
-  /// kept, they concern every id.
+  /// refused; says that there is no workpiece if every id is unknown and not required. Refusals beyond those of 1024
+  /// ids concern every id.
   /// @param ids  empty: all workpieces, and those that are required
   std::string meshProblems(const Instant& now, const std::vector<std::string>& ids) const;
 
