@@ -135,10 +135,10 @@ class BoundedCalls : public ros::ServiceCallbackHelperT<Spec> {
 /// @param refused  fills the response from the reason; returns whether it is sent
 /// @param admit    called before a request is read; throws sweep_guard_core::Error to refuse it
 template <typename Spec>
-ros::ServiceServer advertiseBounded(
-    ros::NodeHandle node, const std::string& name, size_t max_size,
-    typename BoundedCalls<Spec>::Base::Callback callback, typename BoundedCalls<Spec>::Refused refused,
-    typename BoundedCalls<Spec>::Admit admit = [] {}) {
+ros::ServiceServer advertiseBounded(ros::NodeHandle node, const std::string& name, size_t max_size,
+                                    typename BoundedCalls<Spec>::Base::Callback callback,
+                                    typename BoundedCalls<Spec>::Refused refused,
+                                    typename BoundedCalls<Spec>::Admit admit) {
   ros::AdvertiseServiceOptions options;
   options.initBySpecType<Spec>(name, callback);
   options.helper =

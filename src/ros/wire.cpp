@@ -8,7 +8,7 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr size_t kLength = 4;  // [bytes]
-constexpr size_t kStamp = 8;
+constexpr size_t kStamp = 8;   // or a duration
 constexpr size_t kPose = 7 * sizeof(double);
 
 // Walks over the fields of a message in their order.
@@ -111,10 +111,29 @@ void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire) {
 }
 
 template <>
+void checkLengths<sweep_guard::PredictRequest>(Wire wire) {
+  WireReader read(wire);
+  read.skip(kStamp);
+  read.end();
+}
+
+template <>
 void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire) {
   WireReader read(wire);
   read.text();
   read.end();
+}
+
+template <>
+void checkLengths<std_srvs::SetBoolRequest>(Wire wire) {
+  WireReader read(wire);
+  read.skip(1);
+  read.end();
+}
+
+template <>
+void checkLengths<std_srvs::TriggerRequest>(Wire wire) {
+  WireReader(wire).end();
 }
 
 template <>

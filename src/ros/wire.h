@@ -2,10 +2,13 @@
 
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
 #include <sweep_guard/Acknowledge.h>
 #include <sweep_guard/CheckSweep.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
+#include <sweep_guard/Predict.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstddef>
@@ -37,7 +40,13 @@ void checkLengths<sweep_guard::MeshVertices>(Wire wire);
 template <>
 void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire);
 template <>
+void checkLengths<sweep_guard::PredictRequest>(Wire wire);
+template <>
 void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire);
+template <>
+void checkLengths<std_srvs::SetBoolRequest>(Wire wire);
+template <>
+void checkLengths<std_srvs::TriggerRequest>(Wire wire);
 template <>
 void checkLengths<dynamic_reconfigure::ReconfigureRequest>(Wire wire);
 

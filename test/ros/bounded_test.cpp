@@ -87,6 +87,21 @@ sweep_guard::AcknowledgeRequest example() {
 }
 
 template <>
+sweep_guard::PredictRequest example() {
+  return {};
+}
+
+template <>
+std_srvs::SetBoolRequest example() {
+  return {};
+}
+
+template <>
+std_srvs::TriggerRequest example() {
+  return {};
+}
+
+template <>
 dynamic_reconfigure::ReconfigureRequest example() {
   dynamic_reconfigure::ReconfigureRequest message;
   message.config.bools.resize(2);
@@ -148,6 +163,21 @@ std::vector<size_t> lengths<sweep_guard::AcknowledgeRequest>() {
 }
 
 template <>
+std::vector<size_t> lengths<sweep_guard::PredictRequest>() {
+  return {};
+}
+
+template <>
+std::vector<size_t> lengths<std_srvs::SetBoolRequest>() {
+  return {};
+}
+
+template <>
+std::vector<size_t> lengths<std_srvs::TriggerRequest>() {
+  return {};
+}
+
+template <>
 std::vector<size_t> lengths<dynamic_reconfigure::ReconfigureRequest>() {
   const size_t ints = 4 + (4 + 4 + 1) + (4 + 1);
   const size_t strs = ints + 4 + (4 + 6 + 4);
@@ -186,8 +216,9 @@ template <typename Msg>
 class WireTest : public testing::Test {};
 
 using Messages = testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
-                                sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest,
-                                sweep_guard::AcknowledgeRequest, dynamic_reconfigure::ReconfigureRequest>;
+                                sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest, sweep_guard::PredictRequest,
+                                sweep_guard::AcknowledgeRequest, std_srvs::SetBoolRequest, std_srvs::TriggerRequest,
+                                dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {

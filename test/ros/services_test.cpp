@@ -7,8 +7,6 @@
 #include <signal.h>
 #include <sweep_guard/CheckSweep.h>
 
-#include <array>
-#include <boost/make_shared.hpp>
 #include <filesystem>
 #include <fstream>
 #include <future>
@@ -294,29 +292,6 @@ TEST_F(ServicesTest, ACallIsGivenUpAtTheDeadlineThatBeganWhenItCame) {
   for (int i = 0; i < 4; ++i) answers.push_back(std::async(std::launch::async, [&] { return checkSweep(request); }));
   for (auto& answer : answers) EXPECT_TRUE(has(answer.get().message, "not tested within 0.5 s"));
   EXPECT_LT(secondsSince(begin), 2.0 * kDeadline);
-}
-
-class Call : public ros::CallbackInterface {
- public:
-  explicit Call(std::promise<bool>& refused) : refused_(refused) {}
-  CallResult call() override {
-    refused_.set_value(LimitedCalls::refused());
-    return Success;
-  }
-
- private:
-  std::promise<bool>& refused_;
-};
-
-TEST(LimitedCallsTest, CallsThatCameBeforeTheStartAreRefusedLikeLaterOnes) {
-  Supervisor supervisor{Process::kShared};
-  LimitedCalls calls;
-  std::array<std::promise<bool>, 8> refused;
-  for (auto& one : refused) calls.addCallback(boost::make_shared<Call>(one), /*owner=*/0);
-  calls.start(supervisor);
-  int count = 0;
-  for (auto& one : refused) count += one.get_future().get() ? 1 : 0;
-  EXPECT_EQ(count, 3);
 }
 
 class PatientServicesTest : public ServicesTest {

@@ -7,7 +7,6 @@
 #include <map>
 #include <sstream>
 
-#include "ros/bounded.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 
@@ -144,8 +143,8 @@ ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_node, const 
       writer_(private_node),
       descriptions_(private_node_.advertise<ConfigDescription>("parameter_descriptions", 1, /*latch=*/true)),
       values_(private_node_.advertise<Config>("parameter_updates", 1, /*latch=*/true)),
-      server_(advertiseBounded<Event>(
-          thread_.on(private_node), "set_parameters", parameters.initial().max_message_size,
+      server_(calls_.advertise<Event>(
+          private_node, "set_parameters", parameters.initial().max_message_size,
           [this](Event& event) { return onSet(event); },
           [](const std::string& reason, auto& /*response*/) -> bool {
             throw sweep_guard_core::InvalidInput(reason);

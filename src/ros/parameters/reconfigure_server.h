@@ -12,14 +12,14 @@
 
 #include "ros/parameters/parameter_writer.h"
 #include "ros/parameters/parameters.h"
-#include "ros/threads/queue_thread.h"
+#include "ros/service/limited_calls.h"
 
 namespace sweep_guard_ros {
 
 /// Changes parameters while the node runs, by the protocol of dynamic_reconfigure: `~set_parameters`,
 /// `~parameter_descriptions`, `~parameter_updates`. Names, ranges and checks are those of loadParameters(). A request
 /// is applied as a whole, or refused as a whole with a message. If the parameter server does not take the applied
-/// values, the answer is an error that says so.
+/// values, the answer is an error that says so. So is that of a call that finds 4 others waiting: BUSY.
 class ReconfigureServer {
  public:
   /// Applies parameters that differ from the current ones. Returns when that is done, or throws and changes nothing.
@@ -34,7 +34,7 @@ class ReconfigureServer {
 
   void start(Supervisor& supervisor) {
     writer_.start(supervisor);
-    thread_.start(supervisor, {"parameters", /*watched=*/false});
+    calls_.start(supervisor);
   }
 
   History history() const;
@@ -55,7 +55,7 @@ class ReconfigureServer {
   ParameterWriter writer_;
   ros::Publisher descriptions_;
   ros::Publisher values_;
-  QueueThread thread_;  // after what a call uses: it ends only here. Before the server, which uses its queue
+  LimitedCalls calls_{"parameters"};  // after what a call uses: it ends only here. Before the server, which uses it
   ros::ServiceServer server_;
 };
 

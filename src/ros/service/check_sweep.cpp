@@ -6,7 +6,6 @@
 #include <set>
 #include <tuple>
 
-#include "ros/bounded.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -32,12 +31,6 @@ bool refuse(const std::string& reason, CheckSweep::Response& response) {
   response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
   response.message = reason;
   return true;
-}
-
-void throwIfBusy() {
-  if (!LimitedCalls::refused()) return;
-  throw sweep_guard_core::Error("BUSY: " + std::to_string(LimitedCalls::kMaxWaiting) +
-                                " calls wait already; ask again");
 }
 
 sweep_guard_core::Error givenUp(sweep_guard_core::Duration deadline, const std::string& when) {
@@ -83,9 +76,9 @@ void fill(CheckSweep::Response& response, const PathQuestion& question, const st
 CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const CheckSweepDependencies& dependencies)
     : dependencies_(dependencies),
       tester_(dependencies.make_detector),
-      server_(advertiseBounded<ros::ServiceSpec<CheckSweep::Request, CheckSweep::Response>>(
-          calls_.on(private_node), "check_sweep", dependencies.parameters.initial().max_message_size,
-          [this](auto& request, auto& response) { return onCall(request, response); }, refuse, throwIfBusy)) {}
+      server_(calls_.advertise<ros::ServiceSpec<CheckSweep::Request, CheckSweep::Response>>(
+          private_node, "check_sweep", dependencies.parameters.initial().max_message_size,
+          [this](auto& request, auto& response) { return onCall(request, response); }, refuse)) {}
 
 void CheckSweepService::start(Supervisor& supervisor) {
   sweeps_.start(supervisor, {"paths", /*watched=*/false});

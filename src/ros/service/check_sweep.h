@@ -54,7 +54,7 @@ class CheckSweepService {
   PathTester tester_;
   std::atomic<bool> stopping_ = false;
   BackgroundThread sweeps_{[] { setNice(10); }};
-  LimitedCalls calls_;  // before the server, which uses it
+  LimitedCalls calls_{"check_sweep"};  // before the server, which uses it
   ros::ServiceServer server_;
 };
 

@@ -2,14 +2,13 @@
 
 #include <ros/console.h>
 
-#include "ros/bounded.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
 
-constexpr size_t kMaxRequest = 1024;  // of ~acknowledge [bytes]
+constexpr size_t kMaxRequest = 1024;  // [bytes]
 
 }  // namespace
 
@@ -20,15 +19,20 @@ Controls::Controls(const ros::NodeHandle& private_node, const LiveParameters& pa
       monitor_(monitor),
       workpieces_(workpieces),
       guard_(std::move(guard)),
-      enable_server_(thread_.on(private_node).advertiseService("enable", &Controls::onEnable, this)),
-      reset_server_(thread_.on(private_node).advertiseService("reset", &Controls::onReset, this)),
-      acknowledge_server_(advertiseBounded<AcknowledgeEvent>(
-          thread_.on(private_node), "acknowledge", kMaxRequest,
-          [this](AcknowledgeEvent& event) { return onAcknowledge(event); },
-          [](const std::string& reason, sweep_guard::Acknowledge::Response& response) {
-            response.message = reason;
-            return true;
-          })) {}
+      enable_server_(advertise(private_node, "enable", &Controls::onEnable)),
+      reset_server_(advertise(private_node, "reset", &Controls::onReset)),
+      acknowledge_server_(advertise(private_node, "acknowledge", &Controls::onAcknowledge)) {}
+
+template <typename Event>
+ros::ServiceServer Controls::advertise(const ros::NodeHandle& node, const std::string& name,
+                                       bool (Controls::*on_call)(Event&)) {
+  return calls_.advertise<Event>(
+      node, name, kMaxRequest, [this, on_call](Event& event) { return (this->*on_call)(event); },
+      [](const std::string& reason, auto& response) {
+        response.message = reason;
+        return true;
+      });
+}
 
 bool Controls::onEnable(EnableEvent& event) {
   const std::string caller = sweep_guard_core::printable(event.getCallerName());
@@ -83,7 +87,8 @@ void Controls::acknowledge(const std::string& id, sweep_guard::Acknowledge::Resp
   }
 }
 
-bool Controls::onReset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+bool Controls::onReset(ResetEvent& event) {
+  std_srvs::Trigger::Response& response = event.getResponse();
   try {
     guard_.reset();
     response.success = true;

@@ -9,7 +9,7 @@
 
 #include "guard/workpiece_store.h"
 #include "ros/parameters/parameters.h"
-#include "ros/threads/queue_thread.h"
+#include "ros/service/limited_calls.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
@@ -23,23 +23,26 @@ struct GuardControls {
 /// Serves `~enable`, `~reset` and `~acknowledge`. While disabled, the warning is UNKNOWN and both flags stay raised. The
 /// guard refuses to be disabled at REFLEX or CONTACT: a gray light would hide the danger from the operator. It can always
 /// be reset: a contact that lasts is found again at the next pose. Without a next pose the contact is forgotten, and the
-/// warning is UNKNOWN.
+/// warning is UNKNOWN. A call that finds 4 others of these services waiting is answered BUSY.
 class Controls {
  public:
   Controls(const ros::NodeHandle& private_node, const LiveParameters& parameters,
            sweep_guard_core::WarningMonitor& monitor, const sweep_guard_core::WorkpieceStore& workpieces,
            GuardControls guard);
 
-  void start(Supervisor& supervisor) { thread_.start(supervisor, {"controls", /*watched=*/false}); }
+  void start(Supervisor& supervisor) { calls_.start(supervisor); }
 
  private:
   using AcknowledgeEvent = ros::ServiceEvent<sweep_guard::Acknowledge::Request, sweep_guard::Acknowledge::Response>;
+  using ResetEvent = ros::ServiceEvent<std_srvs::Trigger::Request, std_srvs::Trigger::Response>;
   using EnableEvent = ros::ServiceEvent<std_srvs::SetBool::Request, std_srvs::SetBool::Response>;
 
   bool onEnable(EnableEvent& event);
   bool onAcknowledge(AcknowledgeEvent& event);
   void acknowledge(const std::string& id, sweep_guard::Acknowledge::Response& response);
-  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onReset(ResetEvent& event);
+  template <typename Event>
+  ros::ServiceServer advertise(const ros::NodeHandle& node, const std::string& name, bool (Controls::*on_call)(Event&));
   void enable(std_srvs::SetBool::Response& response);
   void disable(const std::string& asked_by, std_srvs::SetBool::Response& response);
 
@@ -47,7 +50,7 @@ class Controls {
   sweep_guard_core::WarningMonitor& monitor_;
   const sweep_guard_core::WorkpieceStore& workpieces_;
   const GuardControls guard_;
-  QueueThread thread_;  // before the servers, which use its queue
+  LimitedCalls calls_{"controls"};  // before the servers, which use it
   ros::ServiceServer enable_server_;
   ros::ServiceServer reset_server_;
   ros::ServiceServer acknowledge_server_;

@@ -2,6 +2,8 @@
 
 #include <boost/make_shared.hpp>
 
+#include "sweep_guard/common/error.h"
+
 namespace sweep_guard_ros {
 namespace {
 
@@ -32,18 +34,21 @@ class CountedCall : public ros::CallbackInterface {
 
 }  // namespace
 
-bool LimitedCalls::refused() { return refused_here; }
+void LimitedCalls::throwIfBusy() {
+  if (!refused_here) return;
+  throw sweep_guard_core::Error("BUSY: " + std::to_string(kMaxWaiting) + " calls wait already; ask again");
+}
 
 SteadyClock::time_point LimitedCalls::arrival() { return arrival_of_call; }
 
 // Before any call: calls may come before the threads start.
-LimitedCalls::LimitedCalls() {
+LimitedCalls::LimitedCalls(const char* name) : name_(name) {
   worker_.post([] { refused_here = false; });
   refusals_.post([] { refused_here = true; });
 }
 
 void LimitedCalls::start(Supervisor& supervisor) {
-  worker_.start(supervisor, {"check_sweep", /*watched=*/false});
+  worker_.start(supervisor, {name_, /*watched=*/false});
   refusals_.start(supervisor, {"busy", /*watched=*/false});
 }
 

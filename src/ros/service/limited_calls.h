@@ -5,36 +5,46 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <string>
+#include <utility>
 
+#include "ros/bounded.h"
 #include "ros/threads/queue_thread.h"
 
 namespace sweep_guard_ros {
 
-/// Runs the calls of services in a thread of their own. At most 4 calls wait there while one runs. Any more run at once
-/// in a second thread, where refused() is true. The server made from on() must be destroyed first.
+/// Runs the calls of services in a thread of their own. At most 4 calls wait there while one runs. Any more are answered
+/// BUSY at once, in a second thread. The servers must be destroyed first.
 class LimitedCalls : public ros::CallbackQueueInterface {
  public:
   static constexpr int kMaxWaiting = 4;
 
-  LimitedCalls();
+  /// @param name  of the thread: at most 15 bytes; lives as long as the process
+  explicit LimitedCalls(const char* name);
 
-  /// Returns a node handle whose calls run in these threads.
-  ros::NodeHandle on(ros::NodeHandle node) {
+  /// Advertises a service. Its requests are checked before memory is reserved for them.
+  /// @param max_size  of a request [bytes]
+  /// @param refused   as for advertiseBounded(); the reason may be that there is no room
+  template <typename Spec>
+  ros::ServiceServer advertise(ros::NodeHandle node, const std::string& name, size_t max_size,
+                               typename BoundedCalls<Spec>::Base::Callback callback,
+                               typename BoundedCalls<Spec>::Refused refused) {
     node.setCallbackQueue(this);
-    return node;
+    return advertiseBounded<Spec>(node, name, max_size, std::move(callback), std::move(refused), throwIfBusy);
   }
   /// Starts both threads; the supervisor must outlive them.
   void start(Supervisor& supervisor);
 
-  /// Returns whether the calling thread answers calls that found no room.
-  static bool refused();
-  /// Returns when the running call came: it may have waited since. Only in a call that is not refused.
+  /// Throws sweep_guard_core::Error in a call that found no room.
+  static void throwIfBusy();
+  /// Returns when the running call came: it may have waited since. Only in a call that found room.
   static std::chrono::steady_clock::time_point arrival();
 
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;
   void removeByID(std::uint64_t owner) override;
 
  private:
+  const char* const name_;
   const std::shared_ptr<std::atomic<int>> inside_ = std::make_shared<std::atomic<int>>(0);  // one runs, others wait
   QueueThread worker_;
   QueueThread refusals_;

@@ -15,6 +15,7 @@ using sweep_guard_core::InvalidInput;
 
 constexpr Duration kMaxHorizon = std::chrono::seconds(5);
 constexpr auto kGuardTimeout = std::chrono::seconds(1);  // of a guard that is stuck in a sweep
+constexpr size_t kMaxRequest = 1024;                     // [bytes]
 constexpr auto kTestTime = std::chrono::seconds(1);      // the rest of the path is tested coarsely
 
 Duration checkedHorizon(const ros::Duration& horizon, Duration configured) {
@@ -25,6 +26,15 @@ Duration checkedHorizon(const ros::Duration& horizon, Duration configured) {
                        " s, but must be from 0 (as configured) to 5 s");
   }
   return asked;
+}
+
+// By a message: a failed ROS call gives the caller none.
+bool refuse(const std::string& reason, Predict::Response& response) {
+  response = Predict::Response();
+  response.message = reason;
+  response.prediction.time_to_collision = ros::Duration(-1.0);
+  response.prediction.probability = std::numeric_limits<double>::quiet_NaN();
+  return true;
 }
 
 }  // namespace
@@ -43,21 +53,19 @@ PredictService::PredictService(const ros::NodeHandle& private_node, const LivePa
     : live_(live),
       workpieces_(workpieces),
       predict_motion_(std::move(predict_motion)),
-      server_(thread_.on(private_node).advertiseService("predict", &PredictService::onCall, this)) {}
+      server_(calls_.advertise<ros::ServiceSpec<Predict::Request, Predict::Response>>(
+          private_node, "predict", kMaxRequest,
+          [this](auto& request, auto& response) { return onCall(request, response); }, refuse)) {}
 
-// Answers errors by a message: a failed ROS call gives the caller none.
 bool PredictService::onCall(Predict::Request& request, Predict::Response& response) {
   try {
     refreshParameters();
     response.prediction = predict(checkedHorizon(request.horizon, parameters_->guard.horizon.considered));
     response.success = true;
+    return true;
   } catch (const std::exception& error) {
-    response = Predict::Response();
-    response.message = error.what();
-    response.prediction.time_to_collision = ros::Duration(-1.0);
-    response.prediction.probability = std::numeric_limits<double>::quiet_NaN();
+    return refuse(error.what(), response);
   }
-  return true;
 }
 
 void PredictService::refreshParameters() {

@@ -11,7 +11,7 @@
 #include "guard/predict_contacts.h"
 #include "guard/workpiece_store.h"
 #include "ros/parameters/parameters.h"
-#include "ros/threads/queue_thread.h"
+#include "ros/service/limited_calls.h"
 
 namespace sweep_guard_ros {
 
@@ -22,7 +22,7 @@ sweep_guard::Prediction predictionMsg(const sweep_guard_core::Prediction& predic
 
 /// Serves `~predict`: predicts the motion and its contacts for any horizon. The guard's thread predicts only the poses,
 /// in microseconds between two sweeps. The path is tested here, with a thread and a detector of its own and on a
-/// snapshot of the meshes, so the service never delays the guard.
+/// snapshot of the meshes, so the service never delays the guard. A call that finds 4 others waiting is answered BUSY.
 class PredictService {
  public:
   struct Motion {
@@ -40,7 +40,7 @@ class PredictService {
   PredictService(const PredictService&) = delete;
   PredictService& operator=(const PredictService&) = delete;
 
-  void start(Supervisor& supervisor) { thread_.start(supervisor, {"predict", /*watched=*/false}); }
+  void start(Supervisor& supervisor) { calls_.start(supervisor); }
 
  private:
   bool onCall(sweep_guard::Predict::Request& request, sweep_guard::Predict::Response& response);
@@ -53,7 +53,7 @@ class PredictService {
   const PredictMotion predict_motion_;
   std::unique_ptr<sweep_guard_core::Detector> detector_;  // for parameters_
   std::atomic<bool> stopping_ = false;
-  QueueThread thread_;  // before the server, which uses its queue
+  LimitedCalls calls_{"predict"};  // before the server, which uses it
   ros::ServiceServer server_;
 };
 
