@@ -8,7 +8,22 @@ constexpr ElementStyle DisplayStyle::*kGuardElements[] = {
     &DisplayStyle::predicted, &DisplayStyle::tool,    &DisplayStyle::ghosts,     &DisplayStyle::path,
     &DisplayStyle::contacts,  &DisplayStyle::normals, &DisplayStyle::depths};
 
+constexpr float kPale = 0.3F;  // of the opacity
+
 }  // namespace
+
+DisplayStyle DisplayStyle::held(double seconds) const {
+  DisplayStyle style = *this;
+  for (ElementStyle* const element : {&style.touched, &style.contacts, &style.normals}) element->color.a *= kPale;
+  style.since_contact = seconds;
+  return style;
+}
+
+DisplayStyle DisplayStyle::acknowledged() const {
+  DisplayStyle style = *this;
+  style.considered.color.a *= kPale;
+  return style;
+}
 
 DisplayStyle DisplayStyle::grayed() const {
   DisplayStyle style = *this;

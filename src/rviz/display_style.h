@@ -2,6 +2,8 @@
 
 #include <OgreColourValue.h>
 
+#include <optional>
+
 namespace sweep_guard_rviz {
 
 /// Describes how one element of the display is drawn.
@@ -29,7 +31,13 @@ struct DisplayStyle {
   ElementStyle normals;
   float normal_length = 0.0F;  ///< [m]
   ElementStyle depths;         ///< of contacts: a spike into the workpiece, and a label with the largest depth
+  std::optional<double>
+      since_contact;  ///< [s] since the tool touched: the label says so, without spikes. Empty: it touches
 
+  /// Returns this style with a pale contact that was over so many seconds ago.
+  DisplayStyle held(double seconds) const;
+  /// Returns this style with pale triangles that will be touched later: the operator knows of them.
+  DisplayStyle acknowledged() const;
   /// Returns this style with everything gray except the surface: for level UNKNOWN.
   DisplayStyle grayed() const;
   /// Returns this style with everything hidden except the surface.

@@ -8,6 +8,7 @@
 #include <rviz/properties/ros_topic_property.h>
 #include <sweep_guard/Warning.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <pluginlib/class_list_macros.hpp>
 #include <utility>
@@ -36,6 +37,13 @@ std::string problemOf(const sweep_guard::View& view) {
   const double age = (ros::Time::now() - view.header.stamp).toSec();
   std::snprintf(text, sizeof text, "the level is UNKNOWN; the newest pose is %.1f s old", age);
   return text;
+}
+
+DisplayStyle styleOf(const sweep_guard::View& view, const DisplayStyle& style) {
+  if (view.level == sweep_guard::Warning::UNKNOWN) return style.grayed();
+  if (view.level == sweep_guard::Warning::CONTACT && view.held)
+    return style.held(std::max(0.0, (ros::Time::now() - view.held_since).toSec()));
+  return view.acknowledged ? style.acknowledged() : style;
 }
 
 }  // namespace
@@ -151,7 +159,7 @@ void SweepDisplay::draw() {
   DisplayStyle style = style_->style();
   if (was_silent_) style = style.surfaceOnly();
   if (!view_) return workpieces_->draw({}, style);
-  if (view_->level == sweep_guard::Warning::UNKNOWN) style = style.grayed();
+  style = styleOf(*view_, style);
   workpieces_->draw(view_->objects, style);
   drawTools(style);
   path_->show(view_->path, style.path);

@@ -45,6 +45,16 @@ void showAll(Drawing& drawing, const std::vector<sweep_guard::TestedVolume>& vol
   }
 }
 
+std::string labelOf(const TriangleContact& deepest, const DisplayStyle& style) {
+  char text[32];
+  if (style.since_contact) {
+    std::snprintf(text, sizeof text, "touched %.1f s ago", *style.since_contact);
+  } else {
+    std::snprintf(text, sizeof text, "%.1f mm deep", 1e3 * deepest.depth);
+  }
+  return text;
+}
+
 }  // namespace
 
 WorkpieceVisual::WorkpieceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& root)
@@ -139,7 +149,8 @@ void WorkpieceVisual::showContacts(const sweep_guard::ObjectView& view, const Di
     if (style.contacts.shown) points_.addBead(point, 0.5F * style.point_size);
     if (style.normals.shown) normals_.addSpike(point, point + style.normal_length * normal, 0.25F * style.point_size);
     if (!style.depths.shown || !(contact.depth > 0.0)) continue;
-    depths_.addSpike(point, point - static_cast<float>(contact.depth) * normal, 0.25F * style.point_size);
+    if (!style.since_contact)
+      depths_.addSpike(point, point - static_cast<float>(contact.depth) * normal, 0.25F * style.point_size);
     if (deepest == nullptr || contact.depth > deepest->depth) deepest = &contact;
   }
   points_.show();
@@ -151,9 +162,7 @@ void WorkpieceVisual::showContacts(const sweep_guard::ObjectView& view, const Di
 void WorkpieceVisual::label(const TriangleContact* deepest, const DisplayStyle& style) {
   label_node_->setVisible(deepest != nullptr);
   if (deepest == nullptr) return;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm deep", 1e3 * deepest->depth);
-  label_.setCaption(text);
+  label_.setCaption(labelOf(*deepest, style));
   label_.setCharacterHeight(0.5F * style.normal_length);
   label_.setColor(style.depths.color);
   label_node_->setPosition(toOgre(deepest->point) + 1.7F * style.normal_length * toOgre(deepest->normal));

@@ -20,6 +20,7 @@
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
 #include "simulation/workpiece_parameters.h"
+#include "sweep_guard/Acknowledge.h"
 #include "sweep_guard/Prediction.h"
 #include "sweep_guard/ToolShape.h"
 #include "sweep_guard/View.h"
@@ -36,14 +37,18 @@ constexpr double kFirstDelay = 1.0;     // [s]; drawing takes longer at first
 constexpr int kViewsToSettle = 3;       // the first view may be older than the prediction from its pose
 constexpr std::uint32_t kNotReady =
     sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
-const std::string kEnd = "END";  // instead of a level
+// Instead of a level:
+const std::string kEnd = "END";
+const std::string kHeld = "HELD";                  // a contact that has been over for a while
+const std::string kAcknowledged = "ACKNOWLEDGED";  // a warning, which the player acknowledges
+constexpr double kHeldFor = 0.2;                   // [s]
 
 const char* nameOf(std::uint8_t level) {
   return sweep_guard_core::styleOf(static_cast<sweep_guard_core::WarningLevel>(level)).name;
 }
 
 std::vector<std::string> endConditions() {
-  std::vector<std::string> names = {kEnd};
+  std::vector<std::string> names = {kEnd, kHeld, kAcknowledged};
   for (const sweep_guard_core::LevelStyle& style : sweep_guard_core::kLevelStyles) names.emplace_back(style.name);
   return names;
 }
@@ -168,6 +173,7 @@ class ScenePlayer {
         publishPose();
         await("the guard's answer", [this] { return view_.header.stamp == now(); });
       }
+      if (level_ == kAcknowledged && warning_.level == sweep_guard::Warning::CONSIDERED) acknowledge();
       if (isOver()) return;
       due += ros::WallDuration(slowdown_ * step_);
       await("the next step", [&] { return ros::WallTime::now() >= due; });
@@ -175,8 +181,20 @@ class ScenePlayer {
     }
   }
 
+  static void acknowledge() {
+    sweep_guard::Acknowledge acknowledge;
+    ros::service::call("guard/acknowledge", acknowledge);
+  }
+
+  bool isReached() const {
+    if (level_ == kHeld)
+      return warning_.contact && warning_.held && now() - warning_.held_since > ros::Duration(kHeldFor);
+    if (level_ == kAcknowledged) return warning_.acknowledged;
+    return level_ == nameOf(warning_.level);
+  }
+
   bool isOver() const {
-    if (t_ >= from_ && level_ == nameOf(warning_.level)) return true;
+    if (t_ >= from_ && isReached()) return true;
     const bool ended = t_ + 0.5 * step_ > script_.end();
     if (ended && level_ != kEnd) {
       throw sweep_guard_core::InvalidInput("the scene ended without " + level_ + "; last warning: " + warning_.text);

@@ -66,6 +66,16 @@ TEST(ViewTest, ShowsNoContactThatIsOver) {
   EXPECT_TRUE(toMsg(scene).objects[0].touched.empty());
 }
 
+TEST(ViewTest, SaysWhatIsHeldAndSinceWhenAndWhatIsAcknowledged) {
+  MarkerScene scene = touching();
+  EXPECT_FALSE(toMsg(scene).held || toMsg(scene).acknowledged);
+  scene.warning.held_since = sweep_guard_core::Time(std::chrono::seconds(7));
+  scene.warning.acknowledged = true;
+  const sweep_guard::View view = toMsg(scene);
+  EXPECT_TRUE(view.held && view.acknowledged);
+  EXPECT_EQ(view.held_since, ros::Time(7.0));
+}
+
 TEST(ViewTest, IsEmptyBeforeTheFirstSweep) {
   const sweep_guard::View view = toMsg(MarkerScene());
   EXPECT_TRUE(view.header.stamp.isZero());

@@ -47,6 +47,35 @@ TEST_F(HighlightTest, IsGrayWhileTheLevelIsUnknown) {
   EXPECT_EQ(shareOf(picture, isAmber), 0.0);
 }
 
+TEST_F(HighlightTest, AContactThatIsOnlyHeldIsPaleAndSaysForHowLong) {
+  place(square(0.0));
+  View view = viewOf(Warning::CONTACT);
+  view.objects[0].reflex.clear();
+  show(view);
+  await("touched triangles", [] { return shareOf(Rviz::only().picture(), isRed) > 0.005; });
+  view.held = true;
+  view.held_since = ros::Time::now() - ros::Duration(0.3);
+  sweep_guard::TriangleContact& contact = view.objects[0].impacts.emplace_back();
+  contact.normal.z = 1.0;
+  contact.depth = 0.01;
+  show(view);
+  await("pale ones", [] { return shareOf(Rviz::only().picture(), isRed) < 0.001; });
+  EXPECT_EQ(drawn(SurfaceVisual::kTouched), 15U);
+  keepPicture(Rviz::only().picture(), "display_held");
+}
+
+TEST_F(HighlightTest, WhatIsAcknowledgedIsPaleAndStays) {
+  place(square(0.0));
+  View view = viewOf(Warning::CONSIDERED);
+  show(view);
+  await("amber triangles", [] { return shareOf(Rviz::only().picture(), isAmber) > 0.01; });
+  view.acknowledged = true;
+  show(view);
+  await("pale ones", [] { return shareOf(Rviz::only().picture(), isAmber) < 0.001; });
+  EXPECT_EQ(drawn(SurfaceVisual::kConsidered), 30U);
+  keepPicture(Rviz::only().picture(), "display_acknowledged");
+}
+
 TEST_F(HighlightTest, ShowsOnlyTheWorkpieceWhenTheGuardIsSilent) {
   showHighlights(Warning::CONTACT);
   fallSilent();

@@ -6,6 +6,7 @@
 #include <rosbag/view.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
+#include <sweep_guard/View.h>
 #include <sweep_guard/Warning.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -230,6 +231,22 @@ TEST_F(ReplayTest, ABagWithOlderMessagesIsMigratedAndReplayed) {
   const std::string printed = replay("");
   EXPECT_TRUE(has(printed, "200 poses")) << printed;
   EXPECT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 2U) << printed;
+}
+
+// recorded_view.bag holds views from before `held` and `acknowledged`.
+TEST_F(ReplayTest, ViewsThatDoNotTellWhatIsHeldAreMigrated) {
+  migrate(fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_view.bag", bag_, folder_ / "fixed.txt");
+  const rosbag::Bag bag(bag_.string());
+  int views = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/sweep_guard/view"))) {
+    const auto view = message.instantiate<sweep_guard::View>();
+    ASSERT_TRUE(view);
+    ASSERT_EQ(view->objects.size(), 1U);
+    EXPECT_EQ(view->objects[0].touched, (std::vector<std::uint32_t>{1, 2}));
+    EXPECT_FALSE(view->held || view->acknowledged);
+    ++views;
+  }
+  EXPECT_EQ(views, 3);
 }
 
 // recorded_with_run_id.bag holds the definition before `held` and `acknowledged`.

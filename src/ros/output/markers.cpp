@@ -42,11 +42,12 @@ void addSweptVolumes(visualization_msgs::MarkerArray& array, const sweep_guard_c
 }
 
 void addContactTriangles(visualization_msgs::MarkerArray& array, const sweep_guard_core::SweepReport& report,
-                         sweep_guard_core::Time stamp, double lift) {
+                         sweep_guard_core::Time stamp, double lift, bool held) {
+  const double alpha = held ? 0.3 : 0.95;
   int index = 0;
   for (const sweep_guard_core::SweptObject& object : report.objects) {
     Surface surface("contact_triangles", index++, object.workpiece->frame, stamp, lift);
-    surface.paint(color(1.0, 0.15, 0.1, 0.95), color(1.0, 0.75, 0.7, 0.95));
+    surface.paint(color(1.0, 0.15, 0.1, alpha), color(1.0, 0.75, 0.7, alpha));
     surface.add(object.workpiece->mesh_M, object.result.not_ruled_out, lift);
     surface.moveInto(array);
   }
@@ -86,7 +87,7 @@ void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerSc
   addSweptVolumes(array, *scene.newest, level);
   addTrail(array, scene.trail, fixed_frame_, level);
   if (scene.contact && level == WarningLevel::kContact) {
-    addContactTriangles(array, *scene.contact, stamp, liftOff(*scene.tool));
+    addContactTriangles(array, *scene.contact, stamp, liftOff(*scene.tool), scene.warning.held_since.has_value());
   }
 }
 

@@ -63,6 +63,9 @@ void addPredicted(const sweep_guard_core::Prediction& prediction, std::vector<Ob
 sweep_guard::View toMsg(const MarkerScene& scene) {
   sweep_guard::View msg;
   msg.level = static_cast<std::uint8_t>(scene.warning.level);
+  msg.held = scene.warning.held_since.has_value() ? 1 : 0;
+  msg.held_since = toMsg(scene.warning.held_since.value_or(sweep_guard_core::Time()));
+  msg.acknowledged = scene.warning.acknowledged ? 1 : 0;
   msg.pose = toMsg(scene.X_WT);
   if (!scene.newest) return msg;
   msg.header.stamp = toMsg(scene.newest->end);
