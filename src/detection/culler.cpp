@@ -25,10 +25,6 @@ const std::vector<RemainingTriangle>& Culler::cull(const Submesh& submesh, const
     });
   }
   for (const Cluster* cluster : clusters_) cullCluster(submesh.mesh_M().order(), *cluster);
-  if (!submesh.mesh_M().order().triangle_at.empty()) {
-    std::sort(remaining_.begin(), remaining_.end(),
-              [](const RemainingTriangle& a, const RemainingTriangle& b) { return a.triangle < b.triangle; });
-  }
   return remaining_;
 }
 

@@ -21,7 +21,7 @@ class Culler {
  public:
   explicit Culler(const simd::Kernels& kernels = simd::kernels()) : kernels_(&kernels), bits_(kernels) {}
 
-  /// Returns the remaining triangles, ascending. Valid until the next call.
+  /// Returns the remaining triangles, in no particular order. Valid until the next call.
   /// @param planes  planes of the volume, from floatPlanes()
   const std::vector<RemainingTriangle>& cull(const Submesh& submesh, const simd::Planes& planes);
 

@@ -1,7 +1,5 @@
 #include "detection/reference_detector.h"
 
-#include <algorithm>
-
 #include "common/heartbeat.h"
 #include "detection/box_coordinates.h"
 
@@ -29,7 +27,6 @@ void ReferenceDetector::find(const Submesh& submesh, const SweptVolume& swept_M,
     if (meets({coordinates.position(a), coordinates.position(b), coordinates.position(c)}, half_spaces))
       detection.triangles.push_back(i);
   });
-  std::sort(detection.triangles.begin(), detection.triangles.end());
 }
 
 }  // namespace sweep_guard_core

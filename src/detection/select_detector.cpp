@@ -114,10 +114,6 @@ void SelectDetector::select(const SweptVolume& inflated_M) {
 const std::vector<RemainingTriangle>& SelectDetector::all(const Submesh& submesh) {
   all_.clear();
   submesh.forEachTriangle([&](std::uint32_t triangle) { all_.push_back({triangle, false}); });
-  if (!submesh.mesh_M().order().triangle_at.empty()) {
-    std::sort(all_.begin(), all_.end(),
-              [](const RemainingTriangle& a, const RemainingTriangle& b) { return a.triangle < b.triangle; });
-  }
   return all_;
 }
 

@@ -1,6 +1,7 @@
 #include "guard/contact_probability.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -13,9 +14,10 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kMinDeviation = 1e-9;  // [m]; smaller deviations are rounded up
-constexpr double kTolerance = 1e-3;     // [standard deviations]
-constexpr double kRounding = 1e-6;      // [standard deviations], of clipping
+constexpr double kMinDeviation = 1e-9;                                        // [m]; smaller deviations are rounded up
+constexpr double kTolerance = 1e-3;                                           // [standard deviations]
+constexpr double kRounding = 1e-6;                                            // [standard deviations], of clipping
+constexpr std::array<double, 4> kReaches = {0.0, 0.75, 1.5, kMaxDeviations};  // [standard deviations]
 
 double deviationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& r, const Matrix6d& covariance) {
   Eigen::Matrix<double, 6, 1> J;
@@ -55,112 +57,117 @@ PerHalfSpace planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& 
   return sigmas;
 }
 
+// The planes of a volume, relative to the origin of the mesh and in standard deviations: a point is N p - d of them out.
 struct ClearanceMeter::Planes {
-  const TriangleMesh& mesh_M;
-  BoxCoordinates coordinates;
-  boost::container::static_vector<HalfSpace, kMaxHalfSpaces> half_spaces_B;
-  const PerHalfSpace& sigmas;
+  using Scores = Eigen::Array<double, kMaxHalfSpaces, 1>;
 
-  size_t count() const { return sigmas.size(); }
-  std::array<Eigen::Vector3d, 3> corners_B(std::uint32_t triangle) const {
-    const auto& [a, b, c] = mesh_M.triangles()[triangle];
-    return {coordinates.position(a), coordinates.position(b), coordinates.position(c)};
+  Planes(const TriangleMesh& mesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas) : mesh_M(mesh) {
+    const Eigen::Matrix3d& R_MB = swept_M.box.X_MB.linear();
+    const Eigen::Vector3d center = swept_M.box.X_MB.translation() - mesh.origin();
+    const double margin = 2.0 * BoxCoordinates(mesh, swept_M.box).rounding();
+    swept_M.grown(margin).forEachHalfSpace([&](const Eigen::Vector3d& normal_B, double offset) {
+      const Eigen::Vector3d normal_M = R_MB * normal_B;
+      const double sigma = sigmas[count];
+      normals.row(static_cast<Eigen::Index>(count)) = normal_M.array() / sigma;
+      offsets[static_cast<Eigen::Index>(count++)] = (normal_M.dot(center) + offset) / sigma;
+    });
+    assert(count == sigmas.size());
   }
+
+  Corners corners(std::uint32_t triangle) const {
+    const auto& [a, b, c] = mesh_M.triangles()[triangle];
+    return {mesh_M.offset(a), mesh_M.offset(b), mesh_M.offset(c)};
+  }
+  Scores scores(const Eigen::Vector3d& p) const {
+    return normals.col(0) * p.x() + normals.col(1) * p.y() + normals.col(2) * p.z() - offsets;
+  }
+
+  const TriangleMesh& mesh_M;
+  size_t count = 0;
+  Eigen::Array<double, kMaxHalfSpaces, 3> normals = Eigen::Array<double, kMaxHalfSpaces, 3>::Zero();
+  Scores offsets = Scores::Constant(std::numeric_limits<double>::max());  // of what is no plane: nothing is beyond it
 };
 
+// Moves the planes out step by step: the fewer triangles are within, the fewer have to be compared.
 std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const SweptVolume& swept_M,
                                                  const PerHalfSpace& sigmas) {
   beat();
-  const BoxCoordinates coordinates(submesh.mesh_M(), swept_M.box);
-  Planes planes{submesh.mesh_M(), coordinates, {}, sigmas};
-  swept_M.grown(2.0 * coordinates.rounding()).forEachHalfSpace([&](const Eigen::Vector3d& normal, double offset) {
-    planes.half_spaces_B.emplace_back(normal, offset);
-  });
-  assert(planes.half_spaces_B.size() == planes.count());
-  PerHalfSpace farthest = sigmas;
-  for (double& sigma : farthest) sigma *= kMaxDeviations;
-  remaining_ = &culler_.cull(submesh, floatPlanes(submesh.mesh_M(), swept_M, farthest));
-  scoreCorners(planes);
-  collectCandidates(planes);
-  if (candidates_.empty()) return {};
+  candidates_.clear();
+  if (submesh.empty()) return {};
+  const Planes planes(submesh.mesh_M(), swept_M, sigmas);
+  for (const double reach : kReaches) {
+    PerHalfSpace outwards = sigmas;
+    for (double& sigma : outwards) sigma *= reach;
+    collectCandidates(culler_.cull(submesh, floatPlanes(submesh.mesh_M(), swept_M, outwards)), reach, planes);
+    if (const auto clearance = nearestWithin(reach, planes)) return clearance;
+  }
+  return {};
+}
 
-  const bool separated = candidates_.front().at_least > 0.0;
-  double nearest = kMaxDeviations + kTolerance;
+std::optional<Clearance> ClearanceMeter::nearestWithin(double reach, const Planes& planes) const {
+  const bool separated = candidates_.empty() || candidates_.front().at_least > 0.0;
+  double nearest = reach + kTolerance;
   for (const Candidate& candidate : candidates_) {
     beat();
     if (candidate.at_least > nearest - kTolerance) break;
-    if (candidate.at_least <= 0.0 && reaches(kRounding, candidate, planes)) {
+    const auto corners = planes.corners(candidate.triangle);
+    if (candidate.at_least <= 0.0 && reaches(kRounding, corners, planes)) {
       return Clearance{separated, std::max(candidate.at_least, -kMaxDeviations)};
     }
     nearest = std::min(nearest, deviationsTo(nearest, candidate, planes));
   }
-  if (nearest > kMaxDeviations) return {};
+  if (nearest > reach) return {};
   return Clearance{separated, nearest};
 }
 
 const TriangleSet& ClearanceMeter::notSeparated() {
   not_separated_.clear();
   for (const Candidate& candidate : candidates_) {
-    if (candidate.at_least <= 0.0) not_separated_.push_back((*remaining_)[candidate.number].triangle);
+    if (candidate.at_least <= 0.0) not_separated_.push_back(candidate.triangle);
   }
   std::sort(not_separated_.begin(), not_separated_.end());
   return not_separated_;
 }
 
 // Bisects. Returns `nearest` if the candidate is not nearer.
-double ClearanceMeter::deviationsTo(double nearest, const Candidate& candidate, const Planes& planes) const {
+double ClearanceMeter::deviationsTo(double nearest, const Candidate& candidate, const Planes& planes) {
+  const auto corners = planes.corners(candidate.triangle);
   double lower = std::max(candidate.at_least, 0.0);
   double upper = std::min(nearest - kTolerance, candidate.at_most);
-  if (lower > upper || (upper < candidate.at_most && !reaches(upper, candidate, planes))) return nearest;
-  if (reaches(lower + kRounding, candidate, planes)) return lower;
+  if (lower > upper || (upper < candidate.at_most && !reaches(upper, corners, planes))) return nearest;
+  if (reaches(lower + kRounding, corners, planes)) return lower;
   while (upper - lower > kTolerance) {
     const double middle = 0.5 * (lower + upper);
-    (reaches(middle, candidate, planes) ? upper : lower) = middle;
+    (reaches(middle, corners, planes) ? upper : lower) = middle;
   }
   return upper;
 }
 
 // Returns whether the planes, moved out by z, enclose some of the triangle. Skips planes that enclose it wholly.
-bool ClearanceMeter::reaches(double z, const Candidate& candidate, const Planes& planes) const {
-  const size_t count = planes.count();
-  const double* scores = &scores_[3 * candidate.number * count];
-  ClippedTriangle remaining(planes.corners_B((*remaining_)[candidate.number].triangle));
-  for (size_t i = 0; i < count && !remaining.empty(); ++i) {
-    if (std::max({scores[i], scores[count + i], scores[2 * count + i]}) <= z) continue;
-    const HalfSpace& half_space = planes.half_spaces_B[i];
-    remaining.cut(half_space.normal(), half_space.offset() + z * planes.sigmas[i]);
+bool ClearanceMeter::reaches(double z, const Corners& corners, const Planes& planes) {
+  const auto& [a, b, c] = corners;
+  const Planes::Scores highest = planes.scores(a).max(planes.scores(b)).max(planes.scores(c));
+  ClippedTriangle remaining(corners);
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(planes.count) && !remaining.empty(); ++i) {
+    if (highest[i] > z) remaining.cut(planes.normals.row(i).matrix(), planes.offsets[i] + z);
   }
   return !remaining.empty();
 }
 
-void ClearanceMeter::scoreCorners(const Planes& planes) {
-  scores_.clear();
-  for (const RemainingTriangle& candidate : *remaining_) {
-    for (const Eigen::Vector3d& p_B : planes.corners_B(candidate.triangle)) {
-      for (size_t i = 0; i < planes.count(); ++i) {
-        scores_.push_back(planes.half_spaces_B[i].signedDistance(p_B) / planes.sigmas[i]);
-      }
-    }
-  }
-}
-
 // Collects the triangles that may need the fewest deviations, in this order. At the limit, a corner of one is enclosed.
-void ClearanceMeter::collectCandidates(const Planes& planes) {
-  const size_t count = planes.count();
-  double limit = kMaxDeviations + kTolerance;
+void ClearanceMeter::collectCandidates(const std::vector<RemainingTriangle>& remaining, double reach,
+                                       const Planes& planes) {
+  double limit = reach + kTolerance;
   candidates_.clear();
-  for (size_t i = 0; i < remaining_->size(); ++i) {
-    const double* const scores = &scores_[3 * i * count];
-    double at_least = -std::numeric_limits<double>::infinity();
-    for (size_t plane = 0; plane < count; ++plane) {
-      at_least = std::max(at_least, std::min({scores[plane], scores[count + plane], scores[2 * count + plane]}));
-    }
+  for (const RemainingTriangle& triangle : remaining) {
+    const auto& [p, q, r] = planes.corners(triangle.triangle);
+    const Planes::Scores a = planes.scores(p);
+    const Planes::Scores b = planes.scores(q);
+    const Planes::Scores c = planes.scores(r);
+    const double at_least = a.min(b).min(c).maxCoeff();
     if (at_least > limit) continue;
-    double at_most = std::numeric_limits<double>::infinity();
-    for (size_t corner = 0; corner < 3; ++corner) {
-      at_most = std::min(at_most, *std::max_element(scores + corner * count, scores + (corner + 1) * count));
-    }
-    candidates_.push_back({i, at_least, at_most});
+    const double at_most = std::min({a.maxCoeff(), b.maxCoeff(), c.maxCoeff()});
+    candidates_.push_back({triangle.triangle, at_least, at_most});
     limit = std::min(limit, std::max(0.0, at_most));
   }
   const auto too_far = [&](const Candidate& candidate) { return candidate.at_least > limit; };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -55,20 +56,19 @@ class ClearanceMeter {
 
  private:
   struct Candidate {
-    size_t number;    // among *remaining_
+    std::uint32_t triangle;
     double at_least;  // deviations
     double at_most;   // deviations
   };
   struct Planes;
+  using Corners = std::array<Eigen::Vector3d, 3>;  // relative to the origin of the mesh
 
-  void scoreCorners(const Planes& planes);
-  void collectCandidates(const Planes& planes);
-  bool reaches(double z, const Candidate& candidate, const Planes& planes) const;
-  double deviationsTo(double nearest, const Candidate& candidate, const Planes& planes) const;
+  void collectCandidates(const std::vector<RemainingTriangle>& remaining, double reach, const Planes& planes);
+  std::optional<Clearance> nearestWithin(double reach, const Planes& planes) const;
+  static bool reaches(double z, const Corners& corners, const Planes& planes);
+  static double deviationsTo(double nearest, const Candidate& candidate, const Planes& planes);
 
   Culler culler_;
-  const std::vector<RemainingTriangle>* remaining_ = nullptr;  // of culler_: within kMaxDeviations of each plane
-  std::vector<double> scores_;         // of each triangle, corner and plane: deviations from the plane to the corner
   std::vector<Candidate> candidates_;  // ascending by at_least
   TriangleSet not_separated_;
 };

@@ -42,8 +42,8 @@ void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, Swee
   const SteadyTime begin = options_.clock();
   predictor_.observe({pose.stamp, pose.X_WT});
   measured_sweeps_->sweep({tool_, *detector_, options_.sweep, [this] { throwIfStopping(); }}, pose, workpieces, report);
-  if (!predicted_motion_) predicted_motion_.emplace();
-  assign(predicted_motion_->from, pose);
+  if (!newest_) newest_.emplace();
+  assign(*newest_, pose);
   budget_->spentOnMeasured(options_.clock() - begin);
 }
 
@@ -54,34 +54,47 @@ void Guard::pass(const PoseWithFrames& pose) {
   measured_sweeps_->pass(pose);
 }
 
-void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& prediction) {
-  if (!predicted_motion_ || age > options_.horizon.reserve) {
+void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& prediction,
+                    const std::function<void()>& between) {
+  if (!newest_ || age > options_.horizon.reserve) {
     prediction = {};
     return;
   }
   const SteadyTime begin = options_.clock();
   computeHorizon(options_.horizon, age, horizon_);
-  predictor_.predict(horizon_.ends, predicted_motion_->path);
-  predicted_motion_->reflex_sweeps = horizon_.reflex_sweeps;
-  chooseSweepPlan(begin);
-  path_checker_->predict(*detector_, {tool_, *predicted_motion_, workpieces}, *plan_, prediction);
+  assign(motion_.from, *newest_);
+  predictor_.predict(horizon_.ends, motion_.path);
+  motion_.reflex_sweeps = horizon_.reflex_sweeps;
+  chooseSweepPlan(begin, between);
+  path_checker_->predict(*detector_, {tool_, motion_, workpieces}, *plan_, prediction);
   size_t volumes = 0;
   for (const PredictedObject& object : prediction.objects) volumes = std::max(volumes, object.volumes_tested);
-  budget_->spentOnPredicted(options_.clock() - begin, volumes);
+  budget_->spentOnPredicted(options_.clock() - begin - interrupted_, volumes);
 }
 
-void Guard::chooseSweepPlan(SteadyTime begin) {
+void Guard::chooseSweepPlan(SteadyTime begin, const std::function<void()>& between) {
+  interrupted_ = {};
   plan_->sweep_ends.clear();
-  plan_->out_of_time = [this, end = begin + budget_->forPrediction()] { return options_.clock() >= end; };
-  plan_->before_sweep = [this] { throwIfStopping(); };
-  const auto& [from, path, reflex_sweeps] = *predicted_motion_;
+  plan_->out_of_time = [this, end = begin + budget_->forPrediction()] {
+    return options_.clock() >= end + interrupted_;
+  };
+  plan_->before_sweep = [this, &between] { interrupt(between); };
+  const auto& [from, path, reflex_sweeps] = motion_;
   if (path.empty()) return;
   size_t volumes[] = {0, 0};
   for (size_t i = 0; i < path.size(); ++i) {
     const Motion step{i == 0 ? from.X_WT : path[i - 1].X_WT, path[i].X_WT};
     volumes[i < reflex_sweeps ? 0 : 1] += subMotionCount(step.angle(), options_.sweep.max_rotation);
   }
-  findSweepEnds(*predicted_motion_, budget_->consideredSweeps(volumes[0], volumes[1]), plan_->sweep_ends);
+  findSweepEnds(motion_, budget_->consideredSweeps(volumes[0], volumes[1]), plan_->sweep_ends);
+}
+
+void Guard::interrupt(const std::function<void()>& between) {
+  throwIfStopping();
+  if (!between) return;
+  const SteadyTime begin = options_.clock();
+  between();
+  interrupted_ += options_.clock() - begin;
 }
 
 void Guard::throwIfStopping() const {
@@ -89,29 +102,28 @@ void Guard::throwIfStopping() const {
 }
 
 PredictedMotion Guard::predictMotion(Duration age, Duration end) const {
-  if (!predicted_motion_) return {};
+  if (!newest_) return {};
   const Horizon horizon = horizonUpTo(end, options_.horizon, age);
-  PredictedMotion motion{predicted_motion_->from, {}, horizon.reflex_sweeps};
+  PredictedMotion motion{*newest_, {}, horizon.reflex_sweeps};
   predictor_.predict(horizon.ends, motion.path);
   return motion;
 }
 
 bool Guard::isWithin(double distance, const Workpiece& workpiece) {
-  if (!predicted_motion_) return false;
-  const PoseWithFrames& pose = predicted_motion_->from;
-  const auto X_WM = pose.X_WM.find(workpiece.frame);
-  if (X_WM == pose.X_WM.end()) return false;
+  if (!newest_) return false;
+  const auto X_WM = newest_->X_WM.find(workpiece.frame);
+  if (X_WM == newest_->X_WM.end()) return false;
   SweepOptions options = options_.sweep;
   options.margin += distance;
   options.fine = true;  // a volume has corners that the tool has not
-  const std::vector<Eigen::Isometry3d> path_M = {X_WM->second.inverse() * pose.X_WT};
+  const std::vector<Eigen::Isometry3d> path_M = {X_WM->second.inverse() * newest_->X_WT};
   return checkPath(*detector_, {tool_, path_M, workpiece.mesh_M, options, [this] { throwIfStopping(); }}).all.contact();
 }
 
 void Guard::reset() {
   measured_sweeps_->reset();
   predictor_.restart();
-  predicted_motion_.reset();
+  newest_.reset();
 }
 
 void Guard::exchange(GuardChange& change) {
@@ -123,7 +135,7 @@ void Guard::exchange(GuardChange& change) {
   if (change.tool) std::swap(tool_, *change.tool);
   if (change.predictor) {
     std::swap(predictor_, *change.predictor);
-    if (predicted_motion_) predictor_.observe({predicted_motion_->from.stamp, predicted_motion_->from.X_WT});
+    if (newest_) predictor_.observe({newest_->stamp, newest_->X_WT});
   }
   *budget_ = budget;
   *path_checker_ = PathChecker(PathChecker::optionsOf(options_));

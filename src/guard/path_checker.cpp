@@ -17,10 +17,10 @@ struct PathChecker::Scene {
   const Tool& tool;
   double margin;        // the tool is grown by this
   Duration reflex_end;  // after the newest pose
-  const std::function<bool()>& out_of_time;
+  const SweepPlan& plan;
 
   bool inTimeFor(const PathSegment& segment) const {
-    return segment.to <= reflex_end || !out_of_time || !out_of_time();
+    return segment.to <= reflex_end || !plan.out_of_time || !plan.out_of_time();
   }
 };
 
@@ -43,11 +43,10 @@ void PathChecker::checkNext(Detector& detector, const PredictedPathRequest& requ
   follow(request, margin);
   const size_t reflex_sweeps = request.reflex_sweeps;
   const Duration reflex_end = reflex_sweeps == 0 ? Duration::zero() : request.path[reflex_sweeps - 1].ahead;
-  const Scene scene{detector, request.tool, margin, reflex_end, request.plan.out_of_time};
+  const Scene scene{detector, request.tool, margin, reflex_end, request.plan};
   const Submesh submesh = submeshInReach(mesh_M, reach_M_, 0);
   Progress progress{object, &object.reflex};
   for (size_t i = 0; i < request.plan.sweepCount(request.path); ++i) {
-    request.plan.before_sweep();
     for (const SweptBody& body : segments_[i].bodies) object.volumes_M.push_back(body.volume_M);
     if (segments_[i].segment.last > reflex_sweeps) progress.triangles = &object.considered;
     checkSegment(scene, submesh, i, progress, 1);
@@ -183,6 +182,7 @@ void PathChecker::detectContacts(const Scene& scene, const Submesh& submesh) {
 
 void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress,
                                size_t halvings) {
+  scene.plan.before_sweep();
   SweptSegment& swept = segments_[number];
   const PathSegment& segment = swept.segment;
   const Submesh submesh = submeshInReach(around, swept.reach_M, halvings);

@@ -17,7 +17,7 @@ namespace sweep_guard_core {
 struct SweepPlan {
   std::vector<size_t> sweep_ends;       ///< pose numbers from findSweepEnds(); empty: every pose ends a sweep
   std::function<bool()> out_of_time{};  ///< true once the time after the reflex interval is used up; empty: never
-  std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up
+  std::function<void()> before_sweep = [] {};  ///< called before every sweep and part of one; may throw to give up
 
   size_t sweepCount(const PredictedPath& path) const { return sweep_ends.empty() ? path.size() : sweep_ends.size(); }
 };

@@ -40,6 +40,8 @@ std::unique_ptr<sweep_guard_core::Detector> firstDetector(const GuardThreadDepen
   return sampled(std::move(detector), parameters.detector, dependencies.sampler);
 }
 
+Timestamps timestampsOf(const sweep_guard_core::PoseWithFrames& pose) { return {pose.stamp, pose.received}; }
+
 Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(pose, at), Duration::zero()); }
 
 }  // namespace
@@ -98,6 +100,7 @@ void GuardThread::reset() {
     guard_.exchange(change);
     passed_.clear();
     swept_.reset();
+    look_ahead_due_ = false;
     dependencies_.scene.clear();
   };
   runInTime(forget, "nothing was reset");
@@ -174,37 +177,60 @@ void GuardThread::setPriority() const {
 void GuardThread::run() {
   top_->enter();
   top_->attempt([this] { setPriority(); });
-  WorkQueue::Work work;
   bool more = true;
-  while (more) top_->attempt([&] { more = workOnce(work); });
+  while (more) top_->attempt([&] { more = workOnce(); });
 }
 
-bool GuardThread::workOnce(WorkQueue::Work& work) {
-  if (!dependencies_.queue.take(work)) return false;
-  for (const auto& task : work.tasks) top_->run(task);
-  const std::vector<QueuedPose>& poses = work.poses;
-  for (size_t i = 0; i < poses.size(); ++i) {
-    if (!processOrRepeat(poses[i], i + 1 < poses.size() ? &poses[i + 1] : nullptr)) return false;
+bool GuardThread::workOnce() {
+  next_ = 0;
+  if (!dependencies_.queue.take(work_)) return false;
+  for (const auto& task : work_.tasks) top_->run(task);
+  while (next_ < work_.poses.size()) {
+    if (!processOrRepeat()) return false;
+    if (timeToLookAhead()) top_->run([this] { predict(); });
   }
   dependencies_.queue.swept({});
+  while (look_ahead_due_ && !dependencies_.queue.hasWork()) top_->run([this] { predict(); });
   return true;
 }
 
 // No pose is left out: what the tool met on the way to it would be, too. The others wait, so nothing is clear meanwhile.
 // Tasks run between the tries: a reset drops the pose, a new parameter may end the failure. Returns false after stop().
-bool GuardThread::processOrRepeat(const QueuedPose& queued, const QueuedPose* next) {
-  bool done = false;
+bool GuardThread::processOrRepeat() {
+  const size_t pose = next_;
   while (true) {
-    top_->run([&] {
-      const bool swept = process(queued, next);
-      done = true;
-      if (swept) afterSweep(queued, next);
-    });
-    if (done) return true;
+    top_->run([this] { processNext(); });
+    if (next_ != pose) return true;
     if (dependencies_.queue.stopped()) return false;
     std::this_thread::sleep_for(kPause);
     for (const auto& task : dependencies_.queue.takeTasks()) top_->run(task);
   }
+}
+
+void GuardThread::processNext() {
+  const QueuedPose* const next = next_ + 1 < work_.poses.size() ? &work_.poses[next_ + 1] : nullptr;
+  const bool swept = process(work_.poses[next_], next);
+  ++next_;
+  if (!swept) return;
+  look_ahead_due_ = true;
+  dependencies_.queue.swept(next != nullptr ? std::optional(next->pose.received) : std::nullopt);
+}
+
+bool GuardThread::takeMore() {
+  next_ = 0;
+  dependencies_.queue.takePoses(work_.poses);
+  return !work_.poses.empty();
+}
+
+// Sweeps the poses that wait. Returns false if one failed. It and those after it wait.
+bool GuardThread::processWaiting() {
+  while (std::chrono::steady_clock::now() - predicted_at_ < dependencies_.parameters.get()->guard.cycle) {
+    if (next_ == work_.poses.size() && !takeMore()) return true;
+    const size_t pose = next_;
+    top_->attempt([this] { processNext(); });
+    if (next_ == pose) return false;
+  }
+  return true;
 }
 
 // Returns whether the pose was swept: others are passed, or out of date.
@@ -228,11 +254,6 @@ bool GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
   return true;
 }
 
-void GuardThread::afterSweep(const QueuedPose& queued, const QueuedPose* next) {
-  dependencies_.queue.swept(next != nullptr ? std::optional(next->pose.received) : std::nullopt);
-  if (timeToPredict()) predict(queued);
-}
-
 void GuardThread::pass(const sweep_guard_core::PoseWithFrames& pose) {
   guard_.pass(pose);
   passed_.push_back(pose.received);
@@ -248,10 +269,10 @@ void GuardThread::sweep(const QueuedPose& queued) {
   guard_.sweep(pose, workpieces, *report);
   const SteadyTime end = std::chrono::steady_clock::now();
   sweep_guard_core::beat();
-  swept_ = {pose.stamp, pose.received};
+  swept_ = queued;
   if (!report->objects.empty()) results_.publish(*report, guard_.tool());
   sweep_guard_core::beat();
-  dependencies_.monitor.swept(*report, *swept_, queued.checkpoint, end);
+  dependencies_.monitor.swept(*report, timestampsOf(pose), queued.checkpoint, end);
   dependencies_.warnings.publishIfChanged();
 
   const SteadyTime warned = std::chrono::steady_clock::now();
@@ -271,33 +292,51 @@ void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailur
 }
 
 // Sweeps of queued poses go first, but delay the prediction by at most a cycle.
-bool GuardThread::timeToPredict() const {
+bool GuardThread::timeToLookAhead() const {
+  if (!look_ahead_due_) return false;
   const Duration cycle = dependencies_.parameters.get()->guard.cycle;
   return std::chrono::steady_clock::now() - predicted_at_ >= cycle || !dependencies_.queue.hasPoses();
 }
 
-void GuardThread::predict(const QueuedPose& queued) {
+void GuardThread::predict() {
   sweep_guard_core::beat();
   const Instant at = now();
   predicted_at_ = at.steady;
-  if (stale(*swept_, at, dependencies_.parameters.get()->limits.pose_timeout)) return;
-  const Duration age = ageOf(*swept_, at);
+  look_ahead_due_ = false;
+  look_ahead_from_ = *swept_;
+  const auto& [pose, checkpoint] = look_ahead_from_;
+  const Timestamps from = timestampsOf(pose);
+  if (stale(from, at, dependencies_.parameters.get()->limits.pose_timeout)) return;
+  const Duration age = ageOf(from, at);
   const auto prediction = predictions_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  dependencies_.sampler.setWorkpieces(workpieces, {/*measured=*/false, queued.checkpoint.epoch});
-  guard_.predict(age, workpieces, *prediction);
+  lookAhead(age, workpieces, *prediction);
   const SteadyTime end = std::chrono::steady_clock::now();
-  dependencies_.monitor.predicted(*prediction, *swept_, queued.checkpoint, now(), end - at.steady);
+  dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), end - at.steady);
   dependencies_.warnings.publishIfChanged();
   sweep_guard_core::beat();
   results_.publish(*prediction, age);
 
-  dependencies_.statistics.predicted({std::chrono::steady_clock::now() - queued.pose.received, end - at.steady,
+  dependencies_.statistics.predicted({std::chrono::steady_clock::now() - pose.received, end - at.steady,
                                       prediction->sweeps_made, prediction->sweeps_asked,
                                       prediction->coveredUntil() - prediction->stamp - age, prediction->probability()});
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
-  dependencies_.scene.predicted(queued.pose, prediction);
+  dependencies_.scene.predicted(pose, prediction);
+}
+
+// Sweeps the poses that come meanwhile, as long as none of them fails.
+void GuardThread::lookAhead(Duration age, const sweep_guard_core::Workpieces& workpieces,
+                            sweep_guard_core::Prediction& prediction) {
+  const sweep_guard_core::QueryOrigin origin{/*measured=*/false, look_ahead_from_.checkpoint.epoch};
+  dependencies_.sampler.setWorkpieces(workpieces, origin);
+  bool interruptible = true;
+  const auto between = [&] {
+    if (!interruptible || (next_ == work_.poses.size() && !dependencies_.queue.hasPoses())) return;
+    interruptible = processWaiting();
+    dependencies_.sampler.setWorkpieces(workpieces, origin);
+  };
+  guard_.predict(age, workpieces, prediction, std::ref(between));
 }
 
 PredictService::Motion GuardThread::motion(Duration horizon) const {
@@ -305,10 +344,11 @@ PredictService::Motion GuardThread::motion(Duration horizon) const {
   const sweep_guard_core::WarningMonitor& monitor = dependencies_.monitor;
   if (const auto asked_by = monitor.disabledBy()) throw Error("the guard is disabled by " + *asked_by);
   if (!swept_ || !monitor.checkpoint().continues(checkpoint_)) throw Error("no tool pose yet");
-  if (stale(*swept_, at, dependencies_.parameters.get()->limits.pose_timeout)) {
+  const Timestamps from = timestampsOf(swept_->pose);
+  if (stale(from, at, dependencies_.parameters.get()->limits.pose_timeout)) {
     throw Error("newest tool pose is stale: motion is unknown");
   }
-  const Duration age = ageOf(*swept_, at);
+  const Duration age = ageOf(from, at);
   sweep_guard_core::PredictedMotion motion = guard_.predictMotion(age, horizon);
   if (motion.path.empty()) throw Error("motion is not known yet: two tool poses in a row are needed");
   return {std::move(motion), age};

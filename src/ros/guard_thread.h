@@ -40,7 +40,8 @@ struct GuardThreadDependencies {
 };
 
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
-/// newest pose, and runs the queued tasks between two sweeps.
+/// newest pose, and runs the queued tasks between two sweeps. A pose that comes during a prediction is swept between two
+/// of its sweeps, for up to a cycle; then the prediction ends first.
 class GuardThread {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused
@@ -73,16 +74,20 @@ class GuardThread {
 
  private:
   void run();
-  bool workOnce(WorkQueue::Work& work);
+  bool workOnce();
   void setPriority() const;
   void runInTime(const std::function<void()>& task, const std::string& otherwise);
-  bool processOrRepeat(const QueuedPose& queued, const QueuedPose* next);
+  bool processOrRepeat();
+  void processNext();
+  bool processWaiting();
+  bool takeMore();
   bool process(const QueuedPose& queued, const QueuedPose* next);
   void pass(const sweep_guard_core::PoseWithFrames& pose);
   void sweep(const QueuedPose& queued);
-  void afterSweep(const QueuedPose& queued, const QueuedPose* next);
-  void predict(const QueuedPose& queued);
-  bool timeToPredict() const;
+  void predict();
+  void lookAhead(sweep_guard_core::Duration age, const sweep_guard_core::Workpieces& workpieces,
+                 sweep_guard_core::Prediction& prediction);
+  bool timeToLookAhead() const;
   void acknowledgeNow(std::string& id);
   void endAcknowledgements(const sweep_guard_core::Workpieces& workpieces);
   bool isNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces);
@@ -94,9 +99,13 @@ class GuardThread {
   std::mutex change_mutex_;  // one change of the guard at a time
 
   // Used by the thread only:
+  WorkQueue::Work work_;
+  size_t next_ = 0;  // of work_.poses: those before it are done
   sweep_guard_core::Guard guard_;
   sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the newest pose in the guard
-  std::optional<sweep_guard_core::Timestamps> swept_;        // newest swept pose
+  std::optional<QueuedPose> swept_;                          // newest swept pose
+  bool look_ahead_due_ = false;                              // from that pose
+  QueuedPose look_ahead_from_;                               // newest swept pose at the last prediction
   std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
   sweep_guard_core::SteadyTime predicted_at_;                // time of the newest prediction
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;

@@ -49,7 +49,6 @@ void WorkQueue::run(const std::function<void()>& task, sweep_guard_core::Duratio
 
 bool WorkQueue::take(Work& taken) {
   taken.tasks.clear();
-  taken.poses.clear();
   while (!takeNow(taken)) sem_wait(&signal_);
   return !taken.poses.empty() || !taken.tasks.empty();
 }
@@ -57,12 +56,15 @@ bool WorkQueue::take(Work& taken) {
 // Returns false if the thread has to wait. After stop(), what is taken is empty.
 bool WorkQueue::takeNow(Work& taken) {
   const std::lock_guard lock(mutex_);
-  waiting_ = !stopping_ && work_.poses.empty() && work_.tasks.empty();
-  if (waiting_ || stopping_) return !waiting_;
-  takePoses(taken.poses);
+  takePosesNow(taken.poses);
   std::swap(taken.tasks, work_.tasks);
-  if (!taken.poses.empty()) taken_since_ = taken.poses.front().pose.received;
-  return true;
+  waiting_ = !stopping_ && taken.poses.empty() && taken.tasks.empty();
+  return !waiting_;
+}
+
+void WorkQueue::takePoses(std::vector<QueuedPose>& taken) {
+  const std::lock_guard lock(mutex_);
+  takePosesNow(taken);
 }
 
 std::vector<std::function<void()>> WorkQueue::takeTasks() {
@@ -76,11 +78,16 @@ void WorkQueue::wake() {
 }
 
 // Takes those that may be swept at once. No pose is lost if there is no memory for them.
-void WorkQueue::takePoses(std::vector<QueuedPose>& taken) {
-  if (work_.poses.size() <= kMaxTaken) return std::swap(taken, work_.poses);
-  const auto rest = work_.poses.begin() + kMaxTaken;
-  taken.assign(std::make_move_iterator(work_.poses.begin()), std::make_move_iterator(rest));
-  work_.poses.erase(work_.poses.begin(), rest);
+void WorkQueue::takePosesNow(std::vector<QueuedPose>& taken) {
+  taken.clear();
+  if (work_.poses.size() <= kMaxTaken) {
+    std::swap(taken, work_.poses);
+  } else {
+    const auto rest = work_.poses.begin() + kMaxTaken;
+    taken.assign(std::make_move_iterator(work_.poses.begin()), std::make_move_iterator(rest));
+    work_.poses.erase(work_.poses.begin(), rest);
+  }
+  if (!taken.empty()) taken_since_ = taken.front().pose.received;
 }
 
 void WorkQueue::swept(std::optional<sweep_guard_core::SteadyTime> next) {
@@ -97,6 +104,11 @@ std::optional<sweep_guard_core::SteadyTime> WorkQueue::waitingSince() const {
 bool WorkQueue::hasPoses() const {
   const std::lock_guard lock(mutex_);
   return !work_.poses.empty();
+}
+
+bool WorkQueue::hasWork() const {
+  const std::lock_guard lock(mutex_);
+  return !work_.poses.empty() || !work_.tasks.empty();
 }
 
 bool WorkQueue::stopped() const {

@@ -60,7 +60,11 @@ class WorkQueue {
   bool take(Work& taken);
   /// Takes all tasks, and no poses. Does not wait.
   std::vector<std::function<void()>> takeTasks();
+  /// Takes poses as take() does, and no tasks. Does not wait.
+  /// @param[out] taken  overwritten
+  void takePoses(std::vector<QueuedPose>& taken);
   bool hasPoses() const;
+  bool hasWork() const;
 
   /// Reports that the poses taken so far are swept, except those from this one on.
   /// @param next  when the next of the taken poses was received; empty: all are swept
@@ -75,7 +79,7 @@ class WorkQueue {
  private:
   void pushTask(std::function<void()> task);
   bool takeNow(Work& taken);
-  void takePoses(std::vector<QueuedPose>& taken);
+  void takePosesNow(std::vector<QueuedPose>& taken);
   void wake();
 
   mutable sweep_guard_core::PriorityMutex mutex_;

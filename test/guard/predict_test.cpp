@@ -524,12 +524,14 @@ class SlowGuard {
     pose_.X_WT.rotate(Eigen::AngleAxisd(0.066 * turn_rate, Eigen::Vector3d::UnitX()));
     pose_.stamp += 66ms;
     reportOf(*guard_, pose_, workpieces_);
-    prediction = predictionOf(*guard_, 5ms, workpieces_);
+    guard_->predict(5ms, workpieces_, prediction, between);
     return clock_ - begin;
   }
+  void spend(Duration time) { clock_ += time; }
 
   Duration cost{};
   double turn_rate = 0.0;  // [rad/s]
+  std::function<void()> between;
   Prediction prediction;
 
  private:
@@ -595,6 +597,81 @@ TEST(SlowDetectorTest, ThatBecomesSlowerKeepsTheCycle) {
     EXPECT_LE(guard.cycle(), 66ms) << i;
   }
   EXPECT_LT(guard.prediction.sweeps_made, 21U);
+}
+
+// Two guards follow the same motion; one sweeps on while it looks ahead, the other before and after.
+class InterruptedGuardTest : public testing::Test {
+ protected:
+  PoseWithFrames poseAt(int i) const {
+    return {Time(10s + i * 10ms), SteadyTime(), motion_.at(0.01 * i), {{"table", Eigen::Isometry3d::Identity()}}};
+  }
+  void SetUp() override {
+    for (int i = -9; i <= 0; ++i) {
+      reportOf(guard_, poseAt(i), workpieces_);
+      reportOf(other_, poseAt(i), workpieces_);
+    }
+  }
+  static void expectSame(const Prediction& a, const Prediction& b) {
+    EXPECT_EQ(a.stamp, b.stamp);
+    EXPECT_EQ(a.sweeps_made, b.sweeps_made);
+    ASSERT_EQ(a.objects.size(), b.objects.size());
+    EXPECT_EQ(a.objects[0].reflex, b.objects[0].reflex);
+    EXPECT_EQ(a.objects[0].considered, b.objects[0].considered);
+    EXPECT_EQ(a.probability(), b.probability());
+    EXPECT_EQ(a.firstContact(), b.firstContact());
+    ASSERT_EQ(a.path.size(), b.path.size());
+    for (size_t i = 0; i < a.path.size(); ++i) EXPECT_TRUE(a.path[i].X_WT.isApprox(b.path[i].X_WT, 0.0)) << i;
+  }
+
+  const Steady motion_ = comingDown(0.05, 0.2);
+  const Workpieces workpieces_ = {workpiece("square", squareAt(0.0))};
+  Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), constantVelocity()};
+  Guard other_{Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), constantVelocity()};
+};
+
+TEST_F(InterruptedGuardTest, APredictionIsTheSameIfPosesAreSweptBetweenItsSweeps) {
+  const Prediction expected = predictionOf(other_, 0ms, workpieces_);
+  ASSERT_TRUE(expected.firstContact());
+  int swept = 0;
+  Prediction prediction;
+  guard_.predict(0ms, workpieces_, prediction, [&] { reportOf(guard_, poseAt(++swept), workpieces_); });
+  EXPECT_GE(swept, 20);
+  expectSame(prediction, expected);
+}
+
+TEST_F(InterruptedGuardTest, PosesSweptBetweenTheSweepsOfAPredictionMeetTheSameTriangles) {
+  Prediction prediction;
+  int swept = 0;
+  bool contact = false;
+  guard_.predict(0ms, workpieces_, prediction, [&] {
+    const PoseWithFrames pose = poseAt(3 * ++swept);
+    const SweepReport report = reportOf(guard_, pose, workpieces_);
+    const SweepReport expected = reportOf(other_, pose, workpieces_);
+    EXPECT_EQ(report.contact(), expected.contact()) << swept;
+    ASSERT_EQ(report.objects.size(), 1U);
+    EXPECT_EQ(report.objects[0].result.not_ruled_out, expected.objects[0].result.not_ruled_out) << swept;
+    contact = contact || report.contact();
+  });
+  EXPECT_TRUE(contact);
+  expectSame(predictionOf(guard_, 0ms, workpieces_), predictionOf(other_, 0ms, workpieces_));
+}
+
+TEST_F(InterruptedGuardTest, APredictionEndsThoughAllIsForgottenMeanwhile) {
+  const Prediction expected = predictionOf(other_, 0ms, workpieces_);
+  Prediction prediction;
+  guard_.predict(0ms, workpieces_, prediction, [&] { guard_.reset(); });
+  expectSame(prediction, expected);
+  EXPECT_TRUE(predictionOf(guard_, 0ms, workpieces_).path.empty());
+}
+
+TEST(SlowDetectorTest, TimeForOtherThingsIsNotThePredictions) {
+  SlowGuard guard;
+  guard.cost = 500us;
+  for (int i = 0; i < 10; ++i) guard.cycle();
+  ASSERT_EQ(guard.prediction.sweeps_made, 21U);
+  guard.between = [&guard] { guard.spend(10ms); };
+  for (int i = 0; i < 10; ++i) guard.cycle();
+  EXPECT_EQ(guard.prediction.sweeps_made, 21U);
 }
 
 TEST(GuardOptionsTest, RefusedOnesNameWhatIsWrong) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -35,11 +36,12 @@ class Detector {
     detection_.triangles.clear();
     detection_.inflation = 0.0;
     find(submesh, swept_M, detection_);
+    std::sort(detection_.triangles.begin(), detection_.triangles.end());
     return detection_;
   }
 
  private:
-  // Fills an empty detection.
+  // Fills an empty detection. The triangles may be in any order.
   virtual void find(const Submesh& submesh, const SweptVolume& swept_M, Detection& detection) = 0;
 
   Detection detection_;

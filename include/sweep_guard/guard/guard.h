@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -67,7 +68,10 @@ class Guard {
   /// report contacts that finer ones would rule out, but miss none.
   /// @param age  of the newest pose, >= 0 (asserted)
   /// @param[out] prediction  overwritten; its buffers are used again
-  void predict(Duration age, const Workpieces& workpieces, Prediction& prediction);
+  /// @param between  called before each sweep, often. It may call sweep(), pass(), takeBack() and reset(): the prediction
+  ///     goes on from the pose that it began with, and their time is not the prediction's. Empty: nothing is called
+  void predict(Duration age, const Workpieces& workpieces, Prediction& prediction,
+               const std::function<void()>& between = {});
 
   /// Predicts the motion after the newest pose without testing it. The newest pose must have been given to sweep(), not
   /// to pass(). The path is empty before the first sweep and until PosePredictor knows a motion. Unlike predict(), this
@@ -97,7 +101,8 @@ class Guard {
   const Tool& tool() const { return tool_; }
 
  private:
-  void chooseSweepPlan(SteadyTime begin);
+  void chooseSweepPlan(SteadyTime begin, const std::function<void()>& between);
+  void interrupt(const std::function<void()>& between);
   void throwIfStopping() const;
 
   std::atomic<bool> stopping_ = false;
@@ -107,7 +112,9 @@ class Guard {
   PosePredictor predictor_;
   std::unique_ptr<MeasuredSweeps> measured_sweeps_;
   std::unique_ptr<TimeBudget> budget_;
-  std::optional<PredictedMotion> predicted_motion_;  // after the pose of the last sweep
+  std::optional<PoseWithFrames> newest_;  // pose of the last sweep
+  PredictedMotion motion_;                // that is tested
+  Duration interrupted_{};                // time for other things during this test
   Horizon horizon_;
   std::unique_ptr<SweepPlan> plan_;
   std::unique_ptr<PathChecker> path_checker_;
