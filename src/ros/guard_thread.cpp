@@ -310,33 +310,37 @@ void GuardThread::predict() {
   const Duration age = ageOf(from, at);
   const auto prediction = predictions_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  lookAhead(age, workpieces, *prediction);
-  const SteadyTime end = std::chrono::steady_clock::now();
-  dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), end - at.steady);
+  const Duration interrupted = lookAhead(age, workpieces, *prediction);
+  const Duration took = std::chrono::steady_clock::now() - at.steady - interrupted;
+  dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), took);
   dependencies_.warnings.publishIfChanged();
   sweep_guard_core::beat();
   results_.publish(*prediction, age);
 
-  dependencies_.statistics.predicted({std::chrono::steady_clock::now() - pose.received, end - at.steady,
-                                      prediction->sweeps_made, prediction->sweeps_asked,
-                                      prediction->coveredUntil() - prediction->stamp - age, prediction->probability()});
+  dependencies_.statistics.predicted({std::chrono::steady_clock::now() - pose.received, took, prediction->sweeps_made,
+                                      prediction->sweeps_asked, prediction->coveredUntil() - prediction->stamp - age,
+                                      prediction->probability()});
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
   dependencies_.scene.predicted(pose, prediction);
 }
 
-// Sweeps the poses that come meanwhile, as long as none of them fails.
-void GuardThread::lookAhead(Duration age, const sweep_guard_core::Workpieces& workpieces,
-                            sweep_guard_core::Prediction& prediction) {
+// Sweeps the poses that come meanwhile, as long as none of them fails. Returns how long that took.
+Duration GuardThread::lookAhead(Duration age, const sweep_guard_core::Workpieces& workpieces,
+                                sweep_guard_core::Prediction& prediction) {
   const sweep_guard_core::QueryOrigin origin{/*measured=*/false, look_ahead_from_.checkpoint.epoch};
   dependencies_.sampler.setWorkpieces(workpieces, origin);
   bool interruptible = true;
+  Duration interrupted{};
   const auto between = [&] {
     if (!interruptible || (next_ == work_.poses.size() && !dependencies_.queue.hasPoses())) return;
+    const SteadyTime begin = std::chrono::steady_clock::now();
     interruptible = processWaiting();
+    interrupted += std::chrono::steady_clock::now() - begin;
     dependencies_.sampler.setWorkpieces(workpieces, origin);
   };
   guard_.predict(age, workpieces, prediction, std::ref(between));
+  return interrupted;
 }
 
 PredictService::Motion GuardThread::motion(Duration horizon) const {

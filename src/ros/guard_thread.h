@@ -85,8 +85,8 @@ class GuardThread {
   void pass(const sweep_guard_core::PoseWithFrames& pose);
   void sweep(const QueuedPose& queued);
   void predict();
-  void lookAhead(sweep_guard_core::Duration age, const sweep_guard_core::Workpieces& workpieces,
-                 sweep_guard_core::Prediction& prediction);
+  sweep_guard_core::Duration lookAhead(sweep_guard_core::Duration age, const sweep_guard_core::Workpieces& workpieces,
+                                       sweep_guard_core::Prediction& prediction);
   bool timeToLookAhead() const;
   void acknowledgeNow(std::string& id);
   void endAcknowledgements(const sweep_guard_core::Workpieces& workpieces);
