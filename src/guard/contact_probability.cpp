@@ -56,9 +56,14 @@ PerHalfSpace planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& 
 }
 
 struct ClearanceMeter::Planes {
+  struct Plane {
+    Eigen::Vector3d normal;
+    double offset;
+  };
+
   const TriangleMesh& mesh_M;
   BoxCoordinates coordinates;
-  boost::container::static_vector<HalfSpace, kMaxHalfSpaces> half_spaces_B;
+  boost::container::static_vector<Plane, kMaxHalfSpaces> planes_B;
   const PerHalfSpace& sigmas;
 
   size_t count() const { return sigmas.size(); }
@@ -68,20 +73,26 @@ struct ClearanceMeter::Planes {
   }
 };
 
-std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const SweptVolume& swept_M,
-                                                 const PerHalfSpace& sigmas) {
+ClearanceMeter::Planes ClearanceMeter::findCandidates(const Submesh& submesh, const SweptVolume& swept_M,
+                                                      const PerHalfSpace& sigmas) {
   beat();
   const BoxCoordinates coordinates(submesh.mesh_M(), swept_M.box);
   Planes planes{submesh.mesh_M(), coordinates, {}, sigmas};
   swept_M.grown(2.0 * coordinates.rounding()).forEachHalfSpace([&](const Eigen::Vector3d& normal, double offset) {
-    planes.half_spaces_B.emplace_back(normal, offset);
+    planes.planes_B.push_back({normal, offset});
   });
-  assert(planes.half_spaces_B.size() == planes.count());
+  assert(planes.planes_B.size() == planes.count());
   PerHalfSpace farthest = sigmas;
   for (double& sigma : farthest) sigma *= kMaxDeviations;
   remaining_ = &culler_.cull(submesh, floatPlanes(submesh.mesh_M(), swept_M, farthest));
   scoreCorners(planes);
   collectCandidates(planes);
+  return planes;
+}
+
+std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const SweptVolume& swept_M,
+                                                 const PerHalfSpace& sigmas) {
+  const Planes planes = findCandidates(submesh, swept_M, sigmas);
   if (candidates_.empty()) return {};
 
   const bool separated = candidates_.front().at_least > 0.0;
@@ -96,6 +107,14 @@ std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const S
   }
   if (nearest > kMaxDeviations) return {};
   return Clearance{separated, nearest};
+}
+
+bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas) {
+  const Planes planes = findCandidates(submesh, swept_M, sigmas);
+  return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
+    if (candidate.at_least > kMaxDeviations) return false;
+    return candidate.at_most <= kMaxDeviations || reaches(kMaxDeviations, candidate, planes);
+  });
 }
 
 const TriangleSet& ClearanceMeter::notSeparated() {
@@ -127,8 +146,8 @@ bool ClearanceMeter::reaches(double z, const Candidate& candidate, const Planes&
   ClippedTriangle remaining(planes.corners_B((*remaining_)[candidate.number].triangle));
   for (size_t i = 0; i < count && !remaining.empty(); ++i) {
     if (std::max({scores[i], scores[count + i], scores[2 * count + i]}) <= z) continue;
-    const HalfSpace& half_space = planes.half_spaces_B[i];
-    remaining.cut(half_space.normal(), half_space.offset() + z * planes.sigmas[i]);
+    const Planes::Plane& plane = planes.planes_B[i];
+    remaining.cut(plane.normal, plane.offset + z * planes.sigmas[i]);
   }
   return !remaining.empty();
 }
@@ -138,7 +157,7 @@ void ClearanceMeter::scoreCorners(const Planes& planes) {
   for (const RemainingTriangle& candidate : *remaining_) {
     for (const Eigen::Vector3d& p_B : planes.corners_B(candidate.triangle)) {
       for (size_t i = 0; i < planes.count(); ++i) {
-        scores_.push_back(planes.half_spaces_B[i].signedDistance(p_B) / planes.sigmas[i]);
+        scores_.push_back((planes.planes_B[i].normal.dot(p_B) - planes.planes_B[i].offset) / planes.sigmas[i]);
       }
     }
   }
