@@ -3,6 +3,7 @@
 #include <sweep_guard/SaveProfile.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -171,10 +172,11 @@ TEST_F(SaveProfileTest, AFileThatIsNoProfileStopsTheNodeWithOneLineAndStatusTwo)
                                        {"anna.profile", "is not an absolute path"}}) {
     ChildProcess guard(guardWith({"_prediction/profile:=" + file}));
     EXPECT_EQ(guard.wait(), 2) << file;
-    EXPECT_TRUE(has(guard.output(), file + ": "));
-    EXPECT_TRUE(has(guard.output(), expected));
-    EXPECT_TRUE(has(guard.output(), "or leave prediction/profile empty"));
-    EXPECT_EQ(std::count(guard.output().begin(), guard.output().end(), '\n'), 1) << guard.output();
+    const std::string output = guard.output();
+    EXPECT_TRUE(has(output, file + ": "));
+    EXPECT_TRUE(has(output, expected));
+    EXPECT_TRUE(has(output, "or leave prediction/profile empty"));
+    EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
   }
 }
 
