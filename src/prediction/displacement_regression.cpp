@@ -54,9 +54,8 @@ void DisplacementRegression::begin(const Learned& learned, const Weights& expect
 
 // As if the profile were of an operator as fast as this one: the information of a faster one would outweigh his for long.
 DisplacementRegression::Fit DisplacementRegression::fit() const {
-  const double moved = errors_.mean()[2];
   Fit all = fit_;
-  all.add(profile_, profile_time_ * moved * moved);
+  all.add(profile_, profile_time_ * 0.2 * 0.2);
   return all;
 }
 

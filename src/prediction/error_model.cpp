@@ -49,7 +49,7 @@ ErrorModel::Shares ErrorModel::shares() const {
 // Smaller errors than assumed have to be seen again: another operator's profile must not make the guard sure.
 void ErrorModel::begin(const Shares& shares) {
   for (size_t i = 0; i < shares.size(); ++i) {
-    statistics_[i] = priorStatistics(kLearnedHorizons[i], shares[i].max(kPriorShare));
+    statistics_[i] = priorStatistics(kLearnedHorizons[i], shares[i]);
   }
 }
 
