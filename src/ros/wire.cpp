@@ -118,6 +118,13 @@ void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire) {
 }
 
 template <>
+void checkLengths<sweep_guard::SaveProfileRequest>(Wire wire) {
+  WireReader read(wire);
+  read.text();
+  read.end();
+}
+
+template <>
 void checkLengths<dynamic_reconfigure::ReconfigureRequest>(Wire wire) {
   WireReader read(wire);
   const auto named = [&](size_t value) {

@@ -6,6 +6,7 @@
 #include <sweep_guard/CheckSweep.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
+#include <sweep_guard/SaveProfile.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstddef>
@@ -38,6 +39,8 @@ template <>
 void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire);
 template <>
 void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire);
+template <>
+void checkLengths<sweep_guard::SaveProfileRequest>(Wire wire);
 template <>
 void checkLengths<dynamic_reconfigure::ReconfigureRequest>(Wire wire);
 

@@ -87,6 +87,13 @@ sweep_guard::AcknowledgeRequest example() {
 }
 
 template <>
+sweep_guard::SaveProfileRequest example() {
+  sweep_guard::SaveProfileRequest message;
+  message.name = "anna";
+  return message;
+}
+
+template <>
 dynamic_reconfigure::ReconfigureRequest example() {
   dynamic_reconfigure::ReconfigureRequest message;
   message.config.bools.resize(2);
@@ -148,6 +155,11 @@ std::vector<size_t> lengths<sweep_guard::AcknowledgeRequest>() {
 }
 
 template <>
+std::vector<size_t> lengths<sweep_guard::SaveProfileRequest>() {
+  return {0};
+}
+
+template <>
 std::vector<size_t> lengths<dynamic_reconfigure::ReconfigureRequest>() {
   const size_t ints = 4 + (4 + 4 + 1) + (4 + 1);
   const size_t strs = ints + 4 + (4 + 6 + 4);
@@ -185,9 +197,10 @@ void check(const Bytes& bytes) {
 template <typename Msg>
 class WireTest : public testing::Test {};
 
-using Messages = testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
-                                sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest,
-                                sweep_guard::AcknowledgeRequest, dynamic_reconfigure::ReconfigureRequest>;
+using Messages =
+    testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
+                   sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest, sweep_guard::AcknowledgeRequest,
+                   sweep_guard::SaveProfileRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {

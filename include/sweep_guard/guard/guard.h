@@ -86,6 +86,9 @@ class Guard {
   /// @throws DeviceError if the detector fails
   bool isWithin(double distance, const Workpiece& workpiece);
 
+  /// Returns what was learned of the operator, see PosePredictor.
+  std::unique_ptr<Profile> profile() const;
+
   /// Forgets all poses and contacts, and keeps what the predictor has learned of the operator.
   void reset();
 
