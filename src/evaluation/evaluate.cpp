@@ -12,9 +12,6 @@ using sweep_guard_recording::Recording;
 
 namespace {
 
-constexpr Duration kHistory = std::chrono::seconds(1);
-constexpr Duration kFuture = std::chrono::seconds(1);
-
 /// A recording, its samples and the errors of all predictors.
 struct RecordingErrors {
   RecordingErrors(const Recording& source, Duration future)

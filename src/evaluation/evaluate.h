@@ -9,6 +9,10 @@
 
 namespace sweep_guard_evaluation {
 
+/// A sample has so much motion before and after it without a gap.
+constexpr sweep_guard_core::Duration kHistory = std::chrono::seconds(1);
+constexpr sweep_guard_core::Duration kFuture = std::chrono::seconds(1);
+
 /// Computes the prediction errors of every predictor on every recording. Samples have 1 s before and 1 s (or the
 /// longest horizon, if it is longer) after them without a gap.
 /// @param horizons  ascending, > 0

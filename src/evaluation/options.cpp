@@ -47,7 +47,10 @@ po::options_description outputOptions(Options& options) {
       "sessions-plot", text(options.sessions_plot, "FILE.png"), "plot of the figures of the sessions")(
       "sessions-objects-csv", text(options.sessions_objects_csv, "FILE"), "counts of every sheet of every session")(
       "compare-sessions", text(options.compare_sessions, "FILE"),
-      "compares the sessions with those of an earlier --sessions-objects-csv");
+      "compares the sessions with those of an earlier --sessions-objects-csv")(
+      "profiles", po::bool_switch(&options.profiles),
+      "errors of `direct` on the second half of each recording, with and without what was learned on the first")(
+      "profiles-csv", text(options.profiles_csv, "FILE"), "the same errors");
   return described;
 }
 

@@ -14,9 +14,8 @@ using sweep_guard_core::WarningThresholds;
 
 namespace {
 
-constexpr double kMinProbability = 0.001;
-const std::vector<double> kConsideredOn = {0.01, 0.02, 0.03, 0.05, 0.07, 0.1,  0.13, 0.16, 0.2,
-                                           0.25, 0.3,  0.35, 0.4,  0.45, 0.48, 0.5,  0.7,  1.0};
+const std::vector<double> kConsideredOn = {0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.13, 0.16, 0.2, 0.22,
+                                           0.25, 0.28, 0.3,  0.33, 0.35, 0.4, 0.45, 0.48, 0.5, 1.0};
 
 const std::vector<std::pair<size_t, std::string>>& plottedLeads() {
   static const std::vector<std::pair<size_t, std::string>> kLeads = {{2, "#0072B2"}, {3, "#009E73"}};
@@ -31,12 +30,10 @@ std::string yaml(const WarningThresholds& thresholds) {
 }  // namespace
 
 std::vector<WarningThresholds> tuningThresholds(const WarningThresholds& current) {
-  const WarningThresholds defaults;
-  const double ratio = defaults.considered_off / defaults.considered_on;
   std::vector<WarningThresholds> thresholds;
   thresholds.reserve(std::size(kConsideredOn));
   for (const double on : kConsideredOn) {
-    thresholds.push_back({current.reflex, on, std::max(kMinProbability, ratio * on)});
+    thresholds.push_back({current.reflex, on, std::min(current.considered_off, on)});
   }
   return thresholds;
 }

@@ -15,8 +15,8 @@ struct TuningPoint {
   SessionFigures figures;
 };
 
-/// Returns the thresholds to compare: `considered_on` from 0.01 to 1, ascending, with `considered_off` in proportion to
-/// it as by default, at least 0.001; `reflex` stays as in `current`.
+/// Returns the thresholds to compare: `considered_on` from 0.01 to 1, ascending. `reflex` and `considered_off` stay as in
+/// `current`, but `considered_off` does not exceed `considered_on`.
 std::vector<sweep_guard_core::WarningThresholds> tuningThresholds(const sweep_guard_core::WarningThresholds& current);
 
 /// Returns the smallest `considered_on` with at most this many unjustified alarms per minute, such that no larger one

@@ -1,6 +1,6 @@
 #include "evaluation/sessions.h"
 
-#include <optional>
+#include <utility>
 
 #include "evaluation/parallel.h"
 
@@ -20,44 +20,81 @@ double minutesOf(const RecordedMotion& motion) {
   return seconds / 60.0;
 }
 
+/// Runs task(sessions, part) for every part of every recording, in parallel.
+template <typename Task>
+void forEachPart(std::vector<Sessions>& sessions, const Task& task) {
+  std::vector<std::pair<Sessions*, size_t>> parts;
+  for (Sessions& one : sessions) {
+    for (size_t part = 0; part < one.parts(); ++part) parts.emplace_back(&one, part);
+  }
+  inParallel(parts.size(), [&](size_t i) { task(*parts[i].first, parts[i].second); });
+}
+
 }  // namespace
 
 Sessions::Sessions(const Recording& recording, const SessionOptions& options, const GuardSimulationOptions& simulation,
-                   const Progress& progress)
-    : name_(recording.name), motion_(recording.poses), tool_(simulation.tool), sessions_(options.sessions) {
+                   size_t parts)
+    : recording_(recording),
+      simulation_(simulation),
+      motion_(recording.poses),
+      sessions_(options.sessions),
+      parts_(parts) {
+  std::vector<TriangleMesh> meshes_W;
   for (size_t session = 0; session < sessions_; ++session) {
-    for (TriangleMesh& mesh_W : placeInWorkspace(motion_, options, session)) meshes_W_.push_back(std::move(mesh_W));
+    for (TriangleMesh& mesh_W : placeInWorkspace(motion_, options, session)) meshes_W.push_back(std::move(mesh_W));
   }
-  findings_ = findContacts(recording.poses, meshes_W_, simulation, progress);
-  for (const TriangleMesh& mesh_W : meshes_W_) {
-    objects_.push_back({ObstacleMesh(tool_, mesh_W), {}});
-    objects_.back().touches = touchesOf(motion_, tool_, objects_.back().mesh);
+  for (size_t i = 0; i < meshes_W.size(); ++i) {
+    parts_[i * parts / meshes_W.size()].meshes_W.push_back(std::move(meshes_W[i]));
   }
 }
 
-RecordingSessions Sessions::count(const WarningLimits& limits, NearMisses near_misses) {
-  RecordingSessions counted{name_, minutesOf(motion_), std::vector<std::vector<SessionCount>>(sessions_)};
-  for (size_t i = 0; i < objects_.size(); ++i) {
-    const auto levels = levelsOf(findings_, i, limits);
-    counted.objects[i * sessions_ / objects_.size()].push_back(
-        countSession({motion_, tool_, objects_[i].mesh, objects_[i].touches, levels, near_misses}));
+void Sessions::run(size_t number, const Progress& progress) {
+  Part& part = parts_[number];
+  part.findings = findContacts(recording_.poses, part.meshes_W, simulation_, progress);
+  for (const TriangleMesh& mesh_W : part.meshes_W) {
+    Object& object = part.objects.emplace_back(Object{ObstacleMesh(simulation_.tool, mesh_W), {}, {}});
+    object.touches = touchesOf(motion_, simulation_.tool, object.mesh);
   }
+}
+
+void Sessions::count(size_t number, const WarningLimits& limits, NearMisses near_misses) {
+  Part& part = parts_[number];
+  for (size_t i = 0; i < part.objects.size(); ++i) {
+    Object& object = part.objects[i];
+    const auto levels = levelsOf(part.findings, i, limits);
+    object.count = countSession({motion_, simulation_.tool, object.mesh, object.touches, levels, near_misses});
+  }
+}
+
+RecordingSessions Sessions::counted() const {
+  std::vector<SessionCount> counts;
+  for (const Part& part : parts_) {
+    for (const Object& object : part.objects) counts.push_back(object.count);
+  }
+  RecordingSessions counted{recording_.name, minutesOf(motion_), std::vector<std::vector<SessionCount>>(sessions_)};
+  for (size_t i = 0; i < counts.size(); ++i) counted.objects[i * sessions_ / counts.size()].push_back(counts[i]);
   return counted;
 }
 
 std::vector<Sessions> runSessions(const std::vector<Recording>& recordings, const SessionOptions& options,
                                   const GuardSimulationOptions& simulation, const Progress& progress) {
-  std::vector<std::optional<Sessions>> run(recordings.size());
-  inParallel(recordings.size(), [&](size_t i) { run[i].emplace(recordings[i], options, simulation, progress); });
+  const size_t parts = (coreCount() + recordings.size() - 1) / recordings.size();
   std::vector<Sessions> sessions;
-  sessions.reserve(run.size());
-  for (std::optional<Sessions>& one : run) sessions.push_back(std::move(*one));
+  sessions.reserve(recordings.size());
+  for (const Recording& recording : recordings) sessions.emplace_back(recording, options, simulation, parts);
+  forEachPart(sessions, [&](Sessions& one, size_t part) {
+    one.run(
+        part, part == 0 ? progress : [](size_t) {});
+  });
   return sessions;
 }
 
-std::vector<RecordingSessions> countSessions(std::vector<Sessions>& sessions, const WarningLimits& limits) {
-  std::vector<RecordingSessions> counted(sessions.size());
-  inParallel(sessions.size(), [&](size_t i) { counted[i] = sessions[i].count(limits); });
+std::vector<RecordingSessions> countSessions(std::vector<Sessions>& sessions, const WarningLimits& limits,
+                                             NearMisses near_misses) {
+  forEachPart(sessions, [&](Sessions& one, size_t part) { one.count(part, limits, near_misses); });
+  std::vector<RecordingSessions> counted;
+  counted.reserve(sessions.size());
+  for (const Sessions& one : sessions) counted.push_back(one.counted());
   return counted;
 }
 
@@ -66,9 +103,7 @@ std::vector<TuningPoint> tuningCurve(std::vector<Sessions>& sessions, const Warn
   for (const auto& thresholds : tuningThresholds(limits.thresholds)) {
     WarningLimits changed = limits;
     changed.thresholds = thresholds;
-    std::vector<RecordingSessions> counted(sessions.size());
-    inParallel(sessions.size(), [&](size_t i) { counted[i] = sessions[i].count(changed, NearMisses::kSkip); });
-    points.push_back({thresholds, figuresOf(counted)});
+    points.push_back({thresholds, figuresOf(countSessions(sessions, changed, NearMisses::kSkip))});
   }
   return points;
 }

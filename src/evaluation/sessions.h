@@ -13,37 +13,52 @@ namespace sweep_guard_evaluation {
 /// What a guard found in the sessions of one recording, and what happened. Alarms can be counted for any limits.
 class Sessions {
  public:
-  /// Places the objects, runs the guard and finds all touches.
-  /// @param simulation  must outlive this object
+  /// Places the objects.
+  /// @param simulation  must outlive this object, as must the recording
+  /// @param parts       number of parts of about as many objects each, at least 1
   Sessions(const sweep_guard_recording::Recording& recording, const SessionOptions& options,
-           const GuardSimulationOptions& simulation, const Progress& progress);
+           const GuardSimulationOptions& simulation, size_t parts);
 
-  /// Counts with these limits. One thread at a time.
-  RecordingSessions count(const sweep_guard_core::WarningLimits& limits, NearMisses near_misses = NearMisses::kCount);
+  size_t parts() const { return parts_.size(); }
+
+  /// Runs the guard beside the objects of a part and finds all their touches. One thread for each part.
+  void run(size_t part, const Progress& progress);
+
+  /// Counts the alarms of a part whose guard has run. One thread for each part.
+  void count(size_t part, const sweep_guard_core::WarningLimits& limits, NearMisses near_misses);
+
+  /// Returns the counts of all parts.
+  RecordingSessions counted() const;
 
  private:
   struct Object {
     ObstacleMesh mesh;
     std::vector<Touch> touches;
+    SessionCount count;
+  };
+  struct Part {
+    std::vector<sweep_guard_core::TriangleMesh> meshes_W;  // not moved any more: the objects refer to them
+    GuardFindings findings;
+    std::vector<Object> objects;
   };
 
-  std::string name_;
+  const sweep_guard_recording::Recording& recording_;
+  const GuardSimulationOptions& simulation_;
   RecordedMotion motion_;
-  const sweep_guard_core::ConvexShape& tool_;
   size_t sessions_;
-  std::vector<sweep_guard_core::TriangleMesh> meshes_W_;  // of all sessions, one after the other
-  std::vector<Object> objects_;
-  GuardFindings findings_;
+  std::vector<Part> parts_;  // of the objects of all sessions, one after the other
 };
 
 /// Runs the sessions of every recording, in parallel.
+/// @param simulation  must outlive the result, as must the recordings
 std::vector<Sessions> runSessions(const std::vector<sweep_guard_recording::Recording>& recordings,
                                   const SessionOptions& options, const GuardSimulationOptions& simulation,
                                   const Progress& progress);
 
 /// Counts the sessions of every recording, in parallel.
 std::vector<RecordingSessions> countSessions(std::vector<Sessions>& sessions,
-                                             const sweep_guard_core::WarningLimits& limits);
+                                             const sweep_guard_core::WarningLimits& limits,
+                                             NearMisses near_misses = NearMisses::kCount);
 
 /// Returns what tuningThresholds() give in all sessions. Near misses are not counted.
 std::vector<TuningPoint> tuningCurve(std::vector<Sessions>& sessions, const sweep_guard_core::WarningLimits& limits);

@@ -96,12 +96,29 @@ std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const S
   if (submesh.empty()) return {};
   const Planes planes(submesh.mesh_M(), swept_M, sigmas);
   for (const double reach : kReaches) {
-    PerHalfSpace outwards = sigmas;
-    for (double& sigma : outwards) sigma *= reach;
-    collectCandidates(culler_.cull(submesh, floatPlanes(submesh.mesh_M(), swept_M, outwards)), reach, planes);
+    collectCandidates(within(reach, submesh, swept_M, sigmas), reach, planes);
     if (const auto clearance = nearestWithin(reach, planes)) return clearance;
   }
   return {};
+}
+
+bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas) {
+  beat();
+  if (submesh.empty()) return false;
+  const Planes planes(submesh.mesh_M(), swept_M, sigmas);
+  return std::any_of(kReaches.begin(), kReaches.end(), [&](double reach) {
+    collectCandidates(within(reach, submesh, swept_M, sigmas), reach, planes);
+    return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
+      return candidate.at_most <= reach || reaches(reach, planes.corners(candidate.triangle), planes);
+    });
+  });
+}
+
+// Returns the triangles that no plane, moved out by so many deviations, separates from the volume.
+const std::vector<RemainingTriangle>& ClearanceMeter::within(double reach, const Submesh& submesh,
+                                                             const SweptVolume& swept_M, PerHalfSpace sigmas) {
+  for (double& sigma : sigmas) sigma *= reach;
+  return culler_.cull(submesh, floatPlanes(submesh.mesh_M(), swept_M, sigmas));
 }
 
 std::optional<Clearance> ClearanceMeter::nearestWithin(double reach, const Planes& planes) const {

@@ -5,6 +5,7 @@
 #include "guard/measured_sweeps.h"
 #include "guard/path_checker.h"
 #include "guard/time_budget.h"
+#include "prediction/profile.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
@@ -119,6 +120,8 @@ bool Guard::isWithin(double distance, const Workpiece& workpiece) {
   const std::vector<Eigen::Isometry3d> path_M = {X_WM->second.inverse() * newest_->X_WT};
   return checkPath(*detector_, {tool_, path_M, workpiece.mesh_M, options, [this] { throwIfStopping(); }}).all.contact();
 }
+
+std::unique_ptr<Profile> Guard::profile() const { return predictor_.profile(); }
 
 void Guard::reset() {
   measured_sweeps_->reset();

@@ -125,17 +125,49 @@ void PathChecker::measureDeviations(const Scene& scene, SweptSegment& swept) {
   }
 }
 
+PathChecker::UncertainBody PathChecker::sweepBelow(const Scene& scene, const PathSegment& segment,
+                                                   const Tool::Node& below, const Motion& motion_M) const {
+  const SweptBody body = sweptBody(below.shape_T, motion_M, options_.sweep.volume, scene.margin);
+  return {body, planeDeviations(below.shape_T, path_M_.end_M(segment), path_M_.covariance_M(segment), body.volume_M)};
+}
+
+// Returns whether findCandidate() would find a piece of the tool, without its probability.
+bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept) {
+  if (submesh.empty()) return false;
+  measureDeviations(scene, swept);
+  for (size_t i = 0; i < swept.bodies.size(); ++i) {
+    const Tool::Node& whole = scene.tool.tree()[0];
+    if (hasCandidate(scene, submesh, swept.segment, whole, swept.bodies[i], swept.deviations[i])) return true;
+  }
+  return false;
+}
+
+bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
+                               const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations) {
+  if (!meter_.isNear(submesh, body.volume_M, deviations)) return false;
+  if (node.piece) return true;
+  return std::any_of(node.below.begin(), node.below.end(), [&](size_t index) {
+    const Tool::Node& below = scene.tool.tree()[index];
+    const UncertainBody within = sweepBelow(scene, segment, below, body.motion_M);
+    return hasCandidate(scene, submesh, segment, below, within.body, within.deviations);
+  });
+}
+
 // Returns the likelier candidate; of two equal ones, the first.
 const PathChecker::Candidate& PathChecker::likelier(const Candidate& one, const Candidate& other) {
   return other.probability > one.probability ? other : one;
 }
 
-// Finds the piece of the tool most likely to meet the mesh, and the pieces that no plane separates from the mesh.
-PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept) {
+PathChecker::Candidate PathChecker::noCandidate() {
   unseparated_.clear();
   not_ruled_out_.clear();
   in_contact_ = {};
-  Candidate candidate;
+  return {};
+}
+
+// Finds the piece of the tool most likely to meet the mesh, and the pieces that no plane separates from the mesh.
+PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept) {
+  Candidate candidate = noCandidate();
   if (submesh.empty()) return candidate;
   measureDeviations(scene, swept);
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
@@ -162,10 +194,8 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
   Candidate candidate;
   for (const size_t index : node.below) {
     const Tool::Node& below = scene.tool.tree()[index];
-    const SweptBody within = sweptBody(below.shape_T, body.motion_M, options_.sweep.volume, scene.margin);
-    const auto deviations_within =
-        planeDeviations(below.shape_T, path_M_.end_M(segment), path_M_.covariance_M(segment), within.volume_M);
-    candidate = likelier(candidate, findCandidate(scene, submesh, segment, below, within, deviations_within));
+    const UncertainBody within = sweepBelow(scene, segment, below, body.motion_M);
+    candidate = likelier(candidate, findCandidate(scene, submesh, segment, below, within.body, within.deviations));
   }
   return candidate;
 }
@@ -192,11 +222,16 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
     for (const size_t half : swept.halves) checkSegment(scene, submesh, half, progress, halvings + 1);
   };
 
-  const Candidate candidate = findCandidate(scene, submesh, swept);
+  const bool coarse = !progress.contact && length > std::max(kFinestProbable, options_.finest);
+  const bool near = !coarse || hasCandidate(scene, submesh, swept);
+  if (coarse && near && scene.inTimeFor(segment)) {
+    progress.object.volumes_tested += swept.bodies.size();
+    return halve();
+  }
+  const Candidate candidate = near ? findCandidate(scene, submesh, swept) : noCandidate();
   const bool in_time = candidate.probability == 0.0 || scene.inTimeFor(segment);
   const bool finer = !progress.contact && in_time;
   if (in_time) progress.object.volumes_tested += swept.bodies.size();
-  if (candidate.probability > 0.0 && finer && length > std::max(kFinestProbable, options_.finest)) return halve();
   if (in_time) detectContacts(scene, submesh);
   if (!not_ruled_out_.empty() && finer && length > options_.finest) return halve();
 

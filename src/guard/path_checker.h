@@ -65,6 +65,10 @@ class PathChecker {
     double probability = 0.0;
     std::optional<size_t> piece = {};  // none if no piece may meet the mesh
   };
+  struct UncertainBody {
+    SweptBody body;
+    PerHalfSpace deviations;
+  };
   struct Unseparated {
     SweptBody body;
     Candidate candidate;
@@ -83,8 +87,14 @@ class PathChecker {
   size_t sweepSegment(const PathSegment& segment, double margin);
   void sweepHalves(size_t number, double margin);
   void measureDeviations(const Scene& scene, SweptSegment& swept);
+  UncertainBody sweepBelow(const Scene& scene, const PathSegment& segment, const Tool::Node& below,
+                           const Motion& motion_M) const;
   void detectContacts(const Scene& scene, const Submesh& submesh);
+  bool hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
+  bool hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment, const Tool::Node& node,
+                    const SweptBody& body, const PerHalfSpace& deviations);
   static const Candidate& likelier(const Candidate& one, const Candidate& other);
+  Candidate noCandidate();
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
                           const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations);

@@ -6,11 +6,9 @@
 
 namespace sweep_guard_core {
 
-/// Decides how many predicted sweeps fit into a cycle, so that prediction does not slow the guard below its rate [P,
-/// Sec.
-/// 3.2]. If sweeps take long, the considered interval is cut into fewer, longer ones; the reflex interval keeps its
-/// steps.
-/// Costs are counted in tested volumes: a sweep takes one, or several if it turns far or might meet a workpiece.
+/// Decides how many predicted sweeps fit into a cycle, so that prediction does not slow the guard below its rate
+/// [P, Sec. 3.2]. If sweeps take long, the considered interval is cut into fewer, longer ones; the reflex interval keeps
+/// its steps. Costs are counted in tested volumes: a sweep takes one, or several if it turns far or might meet a workpiece.
 class TimeBudget {
  public:
   /// @param cycle  time available for one pose: its measured sweep and all predicted ones, > 0

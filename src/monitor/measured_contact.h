@@ -15,7 +15,7 @@ namespace sweep_guard_core {
 bool updateContact(const SweepReport& report, SteadyTime now, std::optional<WarningInputs::Contact>& contact);
 
 /// Adds triangles that a sweep has missed. A contact with another workpiece stays while it lasts; otherwise they count
-/// as a contact that is over. What is added to a contact that lasts is told until its next sweep.
+/// as a contact that is over. What is added to a contact that lasts is reported until its next sweep.
 /// @param triangles  ascending
 void addToContact(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now,
                   std::optional<WarningInputs::Contact>& contact);

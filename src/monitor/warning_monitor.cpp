@@ -200,14 +200,24 @@ Time WarningMonitor::coveredUntil(const Instant& now) const {
   return all ? std::max(swept_until_, coverage_->covered_until) : swept_until_;
 }
 
-std::string WarningMonitor::acknowledge(const std::string& id, const Instant& now) {
+std::string WarningMonitor::whyNotAcknowledged(const std::string& id, const Instant& now) const {
   const std::lock_guard lock(mutex_);
+  return whyNotAcknowledgedLocked(id, now);
+}
+
+std::string WarningMonitor::whyNotAcknowledgedLocked(const std::string& id, const Instant& now) const {
   Warning warning;
   computeLocked(now, warning);
   if (warning.level != WarningLevel::kConsidered) return "only CONSIDERED can be acknowledged, not " + warning.text;
-  const Workpiece* const workpiece = findWorkpiece(workpieces_->newest(), id);
-  if (workpiece != nullptr && warnings_->acknowledge(*workpiece, now)) return {};
+  if (findWorkpiece(workpieces_->newest(), id) != nullptr && warnings_->isWarnedOf(id, now)) return {};
   return "there is no warning of '" + id + "': " + warning.text;
+}
+
+std::string WarningMonitor::acknowledge(const std::string& id, const Instant& now) {
+  const std::lock_guard lock(mutex_);
+  std::string refusal = whyNotAcknowledgedLocked(id, now);
+  if (refusal.empty()) warnings_->acknowledge(*findWorkpiece(workpieces_->newest(), id), now);
+  return refusal;
 }
 
 void WarningMonitor::endAcknowledgement(const std::string& id) {

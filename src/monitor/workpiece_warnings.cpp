@@ -1,6 +1,7 @@
 #include "monitor/workpiece_warnings.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "monitor/swept_workpieces.h"
 
@@ -87,12 +88,17 @@ void WorkpieceWarnings::restart() {
   inputs_.removed = {};
 }
 
-bool WorkpieceWarnings::acknowledge(const Workpiece& workpiece, const Instant& now) {
-  WarningInputs::WorkpieceWarning* const warning = find(workpiece.id);
-  if (warning == nullptr || !isWarnedOf(*warning, now, limits_)) return false;
-  warning->acknowledged_until = now.steady + limits_.acknowledge_time;
-  warning->acknowledged_revision = workpiece.revision;
-  return true;
+bool WorkpieceWarnings::isWarnedOf(const std::string& id, const Instant& now) const {
+  return std::any_of(inputs_.warnings.begin(), inputs_.warnings.end(), [&](const auto& warning) {
+    return warning.id == id && sweep_guard_core::isWarnedOf(warning, now, limits_);
+  });
+}
+
+void WorkpieceWarnings::acknowledge(const Workpiece& workpiece, const Instant& now) {
+  assert(isWarnedOf(workpiece.id, now));
+  WarningInputs::WorkpieceWarning& warning = *find(workpiece.id);
+  warning.acknowledged_until = now.steady + limits_.acknowledge_time;
+  warning.acknowledged_revision = workpiece.revision;
 }
 
 std::vector<std::string> WorkpieceWarnings::acknowledged(SteadyTime now) const {

@@ -25,7 +25,8 @@ class WorkpieceWarnings {
   void update(const Prediction& prediction, const Timestamps& pose, const Workpieces& newest, const Instant& now);
   void restart();  ///< forgets everything
 
-  bool acknowledge(const Workpiece& workpiece, const Instant& now);  ///< returns false if it is not warned of
+  bool isWarnedOf(const std::string& id, const Instant& now) const;
+  void acknowledge(const Workpiece& workpiece, const Instant& now);  ///< it must be warned of (asserted)
   std::vector<std::string> acknowledged(SteadyTime now) const;       ///< ids
   void endAcknowledgement(const std::string& id);
   void endAcknowledgements();

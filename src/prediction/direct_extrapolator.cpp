@@ -1,6 +1,7 @@
 #include "prediction/direct_extrapolator.h"
 
 #include "prediction/interpolation.h"
+#include "prediction/profile.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -16,9 +17,25 @@ std::array<DisplacementRegression, sizeof...(i)> makeRegressions(double prior_sp
 
 }  // namespace
 
-DirectExtrapolator::DirectExtrapolator()
+DirectExtrapolator::DirectExtrapolator(const Profile* profile)
     : translation_(makeRegressions(kPriorSpeed, std::make_index_sequence<kLearnedHorizons.size()>())),
-      rotation_(makeRegressions(kPriorTurnRate, std::make_index_sequence<kLearnedHorizons.size()>())) {}
+      rotation_(makeRegressions(kPriorTurnRate, std::make_index_sequence<kLearnedHorizons.size()>())) {
+  if (profile == nullptr) return;
+  regressors_.begin(profile->speeds);
+  for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
+    translation_[i].begin(profile->translation[i], expectedWeights(translation_, i));
+    rotation_[i].begin(profile->rotation[i], expectedWeights(rotation_, i));
+  }
+}
+
+bool DirectExtrapolator::save(Profile& profile) const {
+  profile.speeds = regressors_.speeds();
+  for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
+    profile.translation[i] = translation_[i].learned();
+    profile.rotation[i] = rotation_[i].learned();
+  }
+  return true;
+}
 
 void DirectExtrapolator::observe(const PoseTracker& tracker) {
   regressors_.observe(tracker);

@@ -13,8 +13,10 @@ namespace sweep_guard_core {
 /// displacement on MotionRegressors. Each one expects what was learned for the next shorter horizon.
 class DirectExtrapolator : public Extrapolator {
  public:
-  DirectExtrapolator();
+  /// @param profile  what it begins with; null: nothing
+  explicit DirectExtrapolator(const Profile* profile);
 
+  bool save(Profile& profile) const override;
   void observe(const PoseTracker& tracker) override;
   Vector6d displacementIn(double ahead) const override;
 

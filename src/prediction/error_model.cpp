@@ -28,15 +28,34 @@ Vector6d errorOf(const Vector6d& predicted, const Vector6d& moved) {
 
 }  // namespace
 
-ErrorModel::ErrorStatistics ErrorModel::priorStatistics(double ahead) {
+ErrorModel::ErrorStatistics ErrorModel::priorStatistics(double ahead, const Squares& share) {
   const Squares activity = Squares(kPriorSpeed, kPriorSpeed, kPriorTurnRate).square();
-  const double share = kPriorShare * ahead;
-  return {ExponentialMovingAverage<Squares>(share * share * activity, 1.0),
+  return {ExponentialMovingAverage<Squares>((ahead * share).square() * activity, 1.0),
           ExponentialMovingAverage<Squares>(activity, 1.0)};
 }
 
 ErrorModel::ErrorModel() {
-  for (const double ahead : kLearnedHorizons) statistics_.push_back(priorStatistics(ahead));
+  for (const double ahead : kLearnedHorizons) {
+    statistics_.push_back(priorStatistics(ahead, Squares::Constant(kPriorShare)));
+  }
+}
+
+ErrorModel::Shares ErrorModel::shares() const {
+  Shares shares;
+  for (size_t i = 0; i < shares.size(); ++i) shares[i] = share(i);
+  return shares;
+}
+
+// Smaller errors than assumed have to be seen again: another operator's profile must not make the guard sure.
+void ErrorModel::begin(const Shares& shares) {
+  for (size_t i = 0; i < shares.size(); ++i) {
+    statistics_[i] = priorStatistics(kLearnedHorizons[i], shares[i].max(kPriorShare));
+  }
+}
+
+ErrorModel::Squares ErrorModel::share(size_t horizon) const {
+  const auto& [errors, activity] = statistics_[horizon];
+  return (errors.mean() / activity.mean()).sqrt() / kLearnedHorizons[horizon];
 }
 
 // Errors are relative to a speed: the largest of the speed at the pose, that of the motion that followed, and that of
@@ -59,10 +78,8 @@ void ErrorModel::observe(const PoseTracker& tracker, const Vector6d& velocity,
 }
 
 Matrix6d ErrorModel::covariance(double ahead) const {
-  const auto share = interpolateOverHorizons<Squares>(ahead, [&](size_t i) -> Squares {
-    return (statistics_[i].errors.mean() / statistics_[i].activity.mean()).sqrt() / kLearnedHorizons[i];
-  });
-  const Squares variance = (share * ahead).square() * activity_;
+  const auto relative = interpolateOverHorizons<Squares>(ahead, [this](size_t i) { return share(i); });
+  const Squares variance = (relative * ahead).square() * activity_;
   Matrix6d covariance = Matrix6d::Zero();
   covariance.diagonal() << Eigen::Vector3d::Constant(variance[1]), Eigen::Vector3d::Constant(variance[2]);
   covariance.topLeftCorner<3, 3>() += (variance[0] - variance[1]) * direction_ * direction_.transpose();

@@ -17,7 +17,15 @@ using PredictedDisplacements = std::array<Vector6d, kLearnedHorizons.size()>;
 /// motion, across it and in rotation. The errors scale with the speed.
 class ErrorModel {
  public:
+  /// Errors within each of kLearnedHorizons, relative to the displacement at the current speed: along the motion, across
+  /// it, in rotation.
+  using Shares = std::array<Eigen::Array3d, kLearnedHorizons.size()>;
+
   ErrorModel();
+
+  Shares shares() const;
+  /// Begins with these shares where they are larger than those that it assumes.
+  void begin(const Shares& shares);
 
   /// Adds the newest pose of a tracker and what is predicted there.
   /// @param velocity  of the tool: along the axes of W [m/s], then about the tool's own axes [rad/s]
@@ -41,7 +49,8 @@ class ErrorModel {
     Eigen::Vector3d direction;
   };
 
-  static ErrorStatistics priorStatistics(double ahead);
+  static ErrorStatistics priorStatistics(double ahead, const Squares& share);
+  Squares share(size_t horizon) const;
 
   DelayedTargets<Features> targets_;
   std::vector<ErrorStatistics> statistics_;                    // for each of kLearnedHorizons

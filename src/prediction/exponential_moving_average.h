@@ -26,6 +26,7 @@ class ExponentialMovingAverage {
   }
 
   Value mean() const { return sum_ / weight_; }
+  double weight() const { return weight_; }  ///< of all values and the prior [s]
 
  private:
   Value sum_;

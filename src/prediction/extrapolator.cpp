@@ -28,7 +28,7 @@ std::unique_ptr<Extrapolator> makeExtrapolator(const PredictorOptions& options) 
   if (options.predictor == "polynomial") return std::make_unique<PolynomialExtrapolator>(options);
   if (options.predictor == "constant_velocity") return std::make_unique<ConstantVelocity>();
   if (options.predictor == "hold") return std::make_unique<Hold>();
-  if (options.predictor == "direct") return std::make_unique<DirectExtrapolator>();
+  if (options.predictor == "direct") return std::make_unique<DirectExtrapolator>(options.profile.get());
   throw InvalidInput("predictor '" + options.predictor +
                      "' is unknown: use polynomial, constant_velocity, hold or direct");
 }

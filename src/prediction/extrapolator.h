@@ -20,9 +20,12 @@ class Extrapolator {
   /// Predicts the displacement of the tool after the newest pose.
   /// @param ahead  [s], > 0
   virtual Vector6d displacementIn(double ahead) const = 0;
+
+  /// Writes what was learned of the operator. Returns false if this extrapolator learns nothing.
+  virtual bool save(Profile& /*profile*/) const { return false; }
 };
 
-/// Makes the extrapolator that `options.predictor` names.
+/// Makes the extrapolator that `options.predictor` names; `direct` begins with the profile.
 /// @throws InvalidInput if the name is unknown
 std::unique_ptr<Extrapolator> makeExtrapolator(const PredictorOptions& options);
 

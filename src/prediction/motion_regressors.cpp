@@ -10,6 +10,8 @@ namespace {
 constexpr std::array<int, 5> kWindows = {50, 120, 300, 800, 20};  // [ms]
 constexpr double kCenterTime = 6.0;                               // [s]
 
+constexpr double kProfileTime = 1.0;  // mean speeds of a profile count as those of so many seconds at most
+
 constexpr int kModerate = 1;        // window of 120 ms: what fast motion is measured by
 constexpr int kSmooth = 2;          // window of 300 ms
 constexpr double kMaxSpeed = 2.5;   // largest speed that counts, relative to the mean speed
@@ -19,6 +21,13 @@ enum Column : Eigen::Index { kScaled = kWindows.size(), kSaturated, kReturn, kCo
 static_assert(kColumns == DisplacementRegression::kVelocities);
 
 }  // namespace
+
+std::vector<std::string> MotionRegressors::names() {
+  std::vector<std::string> names;
+  for (const int milliseconds : kWindows) names.push_back(std::to_string(milliseconds) + "ms");
+  for (const char* const name : {"times_speed", "saturated", "return"}) names.emplace_back(name);
+  return names;
+}
 
 MotionRegressors::MotionRegressors() {
   for (const int milliseconds : kWindows) windows_.emplace_back(std::chrono::milliseconds(milliseconds));
@@ -32,6 +41,10 @@ void MotionRegressors::observe(const PoseTracker& tracker) {
   average(tracker);
   values_.col(kReturn) = (tracker.coordinates() - center_) / kCenterTime;
   scale();
+}
+
+void MotionRegressors::begin(const Speeds& speeds) {
+  speeds_ = ExponentialMovingAverage<Eigen::Array2d>(speeds.squares, std::min(speeds.time, kProfileTime));
 }
 
 void MotionRegressors::average(const PoseTracker& tracker) {

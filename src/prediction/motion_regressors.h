@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "prediction/displacement_regression.h"
@@ -17,10 +18,22 @@ class MotionRegressors {
   /// Translation [m/s] above rotation [rad/s]; one regressor per column.
   using Values = Eigen::Matrix<double, 6, DisplacementRegression::kVelocities>;
 
+  /// The tool's mean speeds, which scale two of the regressors.
+  struct Speeds {
+    Eigen::Array2d squares;  ///< of translation [m^2/s^2] and rotation [rad^2/s^2], >= 0
+    double time;             ///< that they are known from [s], > 0
+  };
+
+  /// Returns a name for each regressor.
+  static std::vector<std::string> names();
+
   MotionRegressors();
 
   void observe(const PoseTracker& tracker);
   const Values& values() const { return values_; }
+
+  Speeds speeds() const { return {speeds_.mean(), speeds_.weight()}; }
+  void begin(const Speeds& speeds);
 
  private:
   void average(const PoseTracker& tracker);

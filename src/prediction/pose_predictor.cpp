@@ -5,6 +5,7 @@
 
 #include "prediction/error_model.h"
 #include "prediction/extrapolator.h"
+#include "prediction/profile.h"
 #include "prediction/velocity.h"
 #include "sweep_guard/common/error.h"
 
@@ -38,7 +39,9 @@ struct PosePredictor::Impl {
   explicit Impl(const PredictorOptions& options)
       : constrained(checked(options).constrained),
         tracker(options.max_speed, options.max_turn_rate),
-        extrapolator(makeExtrapolator(options)) {}
+        extrapolator(makeExtrapolator(options)) {
+    if (options.profile && options.predictor == "direct") errors.begin(options.profile->errors);
+  }
 
   Vector6d displacementIn(double ahead) const {
     Vector6d expected = extrapolator->displacementIn(ahead);
@@ -84,6 +87,13 @@ void PosePredictor::predict(const std::vector<Duration>& ahead, PredictedPath& p
     pose.covariance = impl_->errors.covariance(seconds);
     path.push_back(pose);
   }
+}
+
+std::unique_ptr<Profile> PosePredictor::profile() const {
+  auto profile = std::make_unique<Profile>();
+  if (!impl_->extrapolator->save(*profile)) return nullptr;
+  profile->errors = impl_->errors.shares();
+  return profile;
 }
 
 void PosePredictor::restart() { impl_->tracker.interrupt(); }

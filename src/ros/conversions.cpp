@@ -87,6 +87,17 @@ sweep_guard::PredictedPose poseMsg(const sweep_guard_core::PredictedPose& pose, 
   return msg;
 }
 
+// Converts fractions of the workpiece's interval to fractions of the report's, which is all that a subscriber knows.
+void rescale(std::vector<sweep_guard::TriangleContact>& impacts, sweep_guard_core::Time interval_start,
+             const sweep_guard_core::SweepReport& report) {
+  if (interval_start == report.start) return;
+  const double begin = sweep_guard_core::toSeconds(interval_start - report.start) /
+                       sweep_guard_core::toSeconds(report.end - report.start);
+  for (sweep_guard::TriangleContact& impact : impacts) {
+    impact.time_of_impact = begin + (1.0 - begin) * impact.time_of_impact;
+  }
+}
+
 // The earliest interval of all workpieces.
 std::uint8_t intervalOf(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age,
                         const sweep_guard_core::WarningLimits& limits) {
@@ -187,6 +198,7 @@ sweep_guard::Contacts toMsg(const sweep_guard_core::SweepReport& report, const s
   for (const sweep_guard_core::SweptObject& object : report.objects) {
     if (object.result.triangles.empty() && !object.result.inside) continue;
     msg.objects.push_back(toMsg(*object.workpiece, object.result, tool));
+    rescale(msg.objects.back().impacts, object.interval_start, report);
   }
   return msg;
 }

@@ -39,7 +39,7 @@ void CrossCheckThread::run() {
   while (sampler_.take(query)) top_->run([&] { checkOrLog(query); });
 }
 
-// The warning does not rest on the other detector, nor on the memory that it takes.
+// The warning does not rest on the other detector or on the memory that it takes.
 void CrossCheckThread::checkOrLog(const sweep_guard_core::SampledQuery& query) {
   try {
     check(query);

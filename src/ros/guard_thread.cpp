@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/heartbeat.h"
+#include "prediction/profile.h"
 #include "ros/detector_test.h"
 #include "ros/process.h"
 #include "sweep_guard/common/error.h"
@@ -20,8 +21,9 @@ using sweep_guard_core::Instant;
 using sweep_guard_core::SteadyTime;
 using sweep_guard_core::Timestamps;
 
-constexpr Duration kPause = std::chrono::milliseconds(10);     // before a failed sweep is tried again
-constexpr Duration kMaxWait = std::chrono::milliseconds(500);  // for a sweep to end, before a change or a reset
+constexpr Duration kPause = std::chrono::milliseconds(10);           // before a failed sweep is tried again
+constexpr Duration kMaxInterrupted = std::chrono::milliseconds(50);  // from the begin of a prediction on
+constexpr Duration kMaxWait = std::chrono::milliseconds(500);        // for a sweep to end, before a change or a reset
 
 // A passed pose is swept as a part of the motion to the next one.
 bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
@@ -100,7 +102,7 @@ void GuardThread::reset() {
     guard_.exchange(change);
     passed_.clear();
     swept_.reset();
-    look_ahead_due_ = false;
+    prediction_due_ = false;
     dependencies_.scene.clear();
   };
   runInTime(forget, "nothing was reset");
@@ -108,7 +110,6 @@ void GuardThread::reset() {
 }
 
 std::string GuardThread::acknowledge(const std::string& id) {
-  const std::lock_guard lock(change_mutex_);
   std::string acknowledged = id;
   runInTime([&] { acknowledgeNow(acknowledged); }, "nothing was acknowledged");
   dependencies_.warnings.publishIfChanged();
@@ -122,35 +123,42 @@ void GuardThread::acknowledgeNow(std::string& id) {
     if (warning.mesh_id.empty()) throw Error("there is no warning: " + warning.text);
     id = warning.mesh_id;
   }
+  const auto throwIf = [](const std::string& refusal) {
+    if (!refusal.empty()) throw Error(refusal);
+  };
+  throwIf(dependencies_.monitor.whyNotAcknowledged(id, now()));
   if (!isNear(id, dependencies_.workpieces.snapshot())) {
     throw Error("the tool is farther from '" + id + "' than warning/acknowledge_distance");
   }
-  const std::string refusal = dependencies_.monitor.acknowledge(id, now());
-  if (!refusal.empty()) throw Error(refusal);
+  throwIf(dependencies_.monitor.acknowledge(id, now()));
 }
 
 void GuardThread::endAcknowledgements(const sweep_guard_core::Workpieces& workpieces) {
   bool ended = false;
   for (const std::string& id : dependencies_.monitor.acknowledged(std::chrono::steady_clock::now())) {
-    if (isNear(id, workpieces)) continue;
+    if (isKnownNear(id, workpieces)) continue;
     dependencies_.monitor.endAcknowledgement(id);
     ended = true;
   }
   if (ended) dependencies_.warnings.publishIfChanged();
 }
 
-// Where that cannot be tested, the tool is not.
+// A workpiece that cannot be tested is not acknowledged any longer.
+bool GuardThread::isKnownNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces) {
+  try {
+    return isNear(id, workpieces);
+  } catch (const Error& error) {
+    log_.error(id, "testing whether the tool is near '" + id + "' failed: " + error.what());
+    return false;
+  }
+}
+
 bool GuardThread::isNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces) {
   const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
   const auto workpiece = std::find_if(workpieces.begin(), workpieces.end(), same);
   if (workpiece == workpieces.end()) return false;
   dependencies_.sampler.setWorkpieces(workpieces, {/*measured=*/false, checkpoint_.epoch});
-  try {
-    return guard_.isWithin(dependencies_.parameters.get()->acknowledge_distance, **workpiece);
-  } catch (const Error& error) {
-    log_.error(id, "testing whether the tool is near '" + id + "' failed: " + error.what());
-    return false;
-  }
+  return guard_.isWithin(dependencies_.parameters.get()->acknowledge_distance, **workpiece);
 }
 
 void GuardThread::runInTime(const std::function<void()>& task, const std::string& otherwise) {
@@ -165,6 +173,10 @@ void GuardThread::runInTime(const std::function<void()>& task, const std::string
 
 std::future<PredictService::Motion> GuardThread::predictMotion(Duration horizon) {
   return dependencies_.queue.submit<PredictService::Motion>([this, horizon] { return motion(horizon); });
+}
+
+std::future<std::unique_ptr<sweep_guard_core::Profile>> GuardThread::profile() {
+  return dependencies_.queue.submit<std::unique_ptr<sweep_guard_core::Profile>>([this] { return guard_.profile(); });
 }
 
 void GuardThread::setPriority() const {
@@ -185,21 +197,29 @@ bool GuardThread::workOnce() {
   next_ = 0;
   if (!dependencies_.queue.take(work_)) return false;
   for (const auto& task : work_.tasks) top_->run(task);
+  while (true) {
+    if (!sweepPoses()) return false;
+    if (!timeToPredict() || dependencies_.queue.hasWork()) return true;
+    top_->run([this] { predict(); });
+  }
+}
+
+// Also those that were taken during a prediction. Returns false after stop().
+bool GuardThread::sweepPoses() {
   while (next_ < work_.poses.size()) {
-    if (!processOrRepeat()) return false;
-    if (timeToLookAhead()) top_->run([this] { predict(); });
+    if (!sweepOrRepeat()) return false;
+    if (timeToPredict()) top_->run([this] { predict(); });
   }
   dependencies_.queue.swept({});
-  while (look_ahead_due_ && !dependencies_.queue.hasWork()) top_->run([this] { predict(); });
   return true;
 }
 
 // No pose is left out: what the tool met on the way to it would be, too. The others wait, so nothing is clear meanwhile.
 // Tasks run between the tries: a reset drops the pose, a new parameter may end the failure. Returns false after stop().
-bool GuardThread::processOrRepeat() {
+bool GuardThread::sweepOrRepeat() {
   const size_t pose = next_;
   while (true) {
-    top_->run([this] { processNext(); });
+    top_->run([this] { sweepNext(); });
     if (next_ != pose) return true;
     if (dependencies_.queue.stopped()) return false;
     std::this_thread::sleep_for(kPause);
@@ -207,12 +227,12 @@ bool GuardThread::processOrRepeat() {
   }
 }
 
-void GuardThread::processNext() {
+void GuardThread::sweepNext() {
   const QueuedPose* const next = next_ + 1 < work_.poses.size() ? &work_.poses[next_ + 1] : nullptr;
   const bool swept = process(work_.poses[next_], next);
   ++next_;
   if (!swept) return;
-  look_ahead_due_ = true;
+  prediction_due_ = true;
   dependencies_.queue.swept(next != nullptr ? std::optional(next->pose.received) : std::nullopt);
 }
 
@@ -223,11 +243,11 @@ bool GuardThread::takeMore() {
 }
 
 // Sweeps the poses that wait. Returns false if one failed. It and those after it wait.
-bool GuardThread::processWaiting() {
-  while (std::chrono::steady_clock::now() - predicted_at_ < dependencies_.parameters.get()->guard.cycle) {
+bool GuardThread::sweepWaiting() {
+  while (std::chrono::steady_clock::now() - predicted_at_ < kMaxInterrupted) {
     if (next_ == work_.poses.size() && !takeMore()) return true;
     const size_t pose = next_;
-    top_->attempt([this] { processNext(); });
+    top_->attempt([this] { sweepNext(); });
     if (next_ == pose) return false;
   }
   return true;
@@ -291,52 +311,56 @@ void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailur
   }
 }
 
-// Sweeps of queued poses go first, but delay the prediction by at most a cycle.
-bool GuardThread::timeToLookAhead() const {
-  if (!look_ahead_due_) return false;
+// Sweeps of queued poses go first, but delay the prediction by at most a cycle. It begins at a swept pose.
+bool GuardThread::timeToPredict() const {
+  if (!prediction_due_ || !passed_.empty()) return false;
   const Duration cycle = dependencies_.parameters.get()->guard.cycle;
   return std::chrono::steady_clock::now() - predicted_at_ >= cycle || !dependencies_.queue.hasPoses();
 }
 
 void GuardThread::predict() {
+  prediction_due_ = false;
   sweep_guard_core::beat();
   const Instant at = now();
   predicted_at_ = at.steady;
-  look_ahead_due_ = false;
-  look_ahead_from_ = *swept_;
-  const auto& [pose, checkpoint] = look_ahead_from_;
+  predicted_from_ = *swept_;
+  const auto& [pose, checkpoint] = predicted_from_;
   const Timestamps from = timestampsOf(pose);
   if (stale(from, at, dependencies_.parameters.get()->limits.pose_timeout)) return;
   const Duration age = ageOf(from, at);
   const auto prediction = predictions_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  lookAhead(age, workpieces, *prediction);
-  const SteadyTime end = std::chrono::steady_clock::now();
-  dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), end - at.steady);
+  const Duration interrupted = predictInterrupted(age, workpieces, *prediction);
+  const Duration took = std::chrono::steady_clock::now() - at.steady - interrupted;
+  dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), took);
   dependencies_.warnings.publishIfChanged();
   sweep_guard_core::beat();
   results_.publish(*prediction, age);
 
-  dependencies_.statistics.predicted({std::chrono::steady_clock::now() - pose.received, end - at.steady,
-                                      prediction->sweeps_made, prediction->sweeps_asked,
-                                      prediction->coveredUntil() - prediction->stamp - age, prediction->probability()});
+  dependencies_.statistics.predicted({std::chrono::steady_clock::now() - pose.received, took, prediction->sweeps_made,
+                                      prediction->sweeps_asked, prediction->coveredUntil() - prediction->stamp - age,
+                                      prediction->probability()});
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
   dependencies_.scene.predicted(pose, prediction);
 }
 
-// Sweeps the poses that come meanwhile, as long as none of them fails.
-void GuardThread::lookAhead(Duration age, const sweep_guard_core::Workpieces& workpieces,
-                            sweep_guard_core::Prediction& prediction) {
-  const sweep_guard_core::QueryOrigin origin{/*measured=*/false, look_ahead_from_.checkpoint.epoch};
+// Sweeps the poses that come meanwhile, as long as none of them fails. Returns how long that took.
+Duration GuardThread::predictInterrupted(Duration age, const sweep_guard_core::Workpieces& workpieces,
+                                         sweep_guard_core::Prediction& prediction) {
+  const sweep_guard_core::QueryOrigin origin{/*measured=*/false, predicted_from_.checkpoint.epoch};
   dependencies_.sampler.setWorkpieces(workpieces, origin);
   bool interruptible = true;
+  Duration interrupted{};
   const auto between = [&] {
     if (!interruptible || (next_ == work_.poses.size() && !dependencies_.queue.hasPoses())) return;
-    interruptible = processWaiting();
+    const SteadyTime begin = std::chrono::steady_clock::now();
+    top_->attempt([&] { interruptible = sweepWaiting(); });
+    interrupted += std::chrono::steady_clock::now() - begin;
     dependencies_.sampler.setWorkpieces(workpieces, origin);
   };
   guard_.predict(age, workpieces, prediction, std::ref(between));
+  return interrupted;
 }
 
 PredictService::Motion GuardThread::motion(Duration horizon) const {

@@ -41,7 +41,7 @@ struct GuardThreadDependencies {
 
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
 /// newest pose, and runs the queued tasks between two sweeps. A pose that comes during a prediction is swept between two
-/// of its sweeps, for up to a cycle; then the prediction ends first.
+/// of its sweeps, for up to 50 ms; then the prediction ends first.
 class GuardThread {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused
@@ -71,25 +71,30 @@ class GuardThread {
   /// Predicts the motion up to a horizon counted from now. Any thread. The future throws sweep_guard_core::Error if the
   /// motion is unknown.
   std::future<PredictService::Motion> predictMotion(sweep_guard_core::Duration horizon);
+  /// Copies what was learned of the operator, see PosePredictor. Any thread.
+  std::future<std::unique_ptr<sweep_guard_core::Profile>> profile();
 
  private:
   void run();
   bool workOnce();
   void setPriority() const;
   void runInTime(const std::function<void()>& task, const std::string& otherwise);
-  bool processOrRepeat();
-  void processNext();
-  bool processWaiting();
+  bool sweepPoses();
+  bool sweepOrRepeat();
+  void sweepNext();
+  bool sweepWaiting();
   bool takeMore();
   bool process(const QueuedPose& queued, const QueuedPose* next);
   void pass(const sweep_guard_core::PoseWithFrames& pose);
   void sweep(const QueuedPose& queued);
   void predict();
-  void lookAhead(sweep_guard_core::Duration age, const sweep_guard_core::Workpieces& workpieces,
-                 sweep_guard_core::Prediction& prediction);
-  bool timeToLookAhead() const;
+  sweep_guard_core::Duration predictInterrupted(sweep_guard_core::Duration age,
+                                                const sweep_guard_core::Workpieces& workpieces,
+                                                sweep_guard_core::Prediction& prediction);
+  bool timeToPredict() const;
   void acknowledgeNow(std::string& id);
   void endAcknowledgements(const sweep_guard_core::Workpieces& workpieces);
+  bool isKnownNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces);
   bool isNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces);
   void reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures);
   PredictService::Motion motion(sweep_guard_core::Duration horizon) const;
@@ -104,8 +109,8 @@ class GuardThread {
   sweep_guard_core::Guard guard_;
   sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the newest pose in the guard
   std::optional<QueuedPose> swept_;                          // newest swept pose
-  bool look_ahead_due_ = false;                              // from that pose
-  QueuedPose look_ahead_from_;                               // newest swept pose at the last prediction
+  bool prediction_due_ = false;                              // from that pose
+  QueuedPose predicted_from_;                                // newest swept pose at the last prediction
   std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
   sweep_guard_core::SteadyTime predicted_at_;                // time of the newest prediction
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;

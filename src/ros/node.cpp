@@ -43,6 +43,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       check_sweep_(private_node, {parameters_, frames_, workpieces_, monitor_}),
       predict_(private_node, parameters_, workpieces_,
                [this](sweep_guard_core::Duration horizon) { return guard_thread_.predictMotion(horizon); }),
+      save_profile_(private_node, parameters_, [this] { return guard_thread_.profile(); }),
       controls_(
           private_node, parameters_, monitor_, workpieces_,
           {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); }}),
@@ -64,6 +65,7 @@ void SweepGuardNode::start() {
   poses_.start(supervisor_);
   check_sweep_.start(supervisor_);
   predict_.start(supervisor_);
+  save_profile_.start(supervisor_);
   controls_.start(supervisor_);
   reconfigure_server_.start(supervisor_);
   reports_.start(supervisor_, {"reports"});

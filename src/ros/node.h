@@ -13,6 +13,7 @@
 #include "ros/service/check_sweep.h"
 #include "ros/service/controls.h"
 #include "ros/service/predict.h"
+#include "ros/service/save_profile.h"
 #include "ros/threads/supervisor.h"
 #include "ros/threads/timer_thread.h"
 #include "ros/watchdog.h"
@@ -58,6 +59,7 @@ class SweepGuardNode {
   MeshInput meshes_;
   CheckSweepService check_sweep_;
   PredictService predict_;
+  SaveProfileService save_profile_;
   Controls controls_;
   ReconfigureServer reconfigure_server_;
   Diagnostics diagnostics_;

@@ -125,6 +125,13 @@ void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire) {
 }
 
 template <>
+void checkLengths<sweep_guard::SaveProfileRequest>(Wire wire) {
+  WireReader read(wire);
+  read.text();
+  read.end();
+}
+
+template <>
 void checkLengths<std_srvs::SetBoolRequest>(Wire wire) {
   WireReader read(wire);
   read.skip(1);

@@ -9,6 +9,7 @@
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/Predict.h>
+#include <sweep_guard/SaveProfile.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstddef>
@@ -47,6 +48,8 @@ template <>
 void checkLengths<std_srvs::SetBoolRequest>(Wire wire);
 template <>
 void checkLengths<std_srvs::TriggerRequest>(Wire wire);
+template <>
+void checkLengths<sweep_guard::SaveProfileRequest>(Wire wire);
 template <>
 void checkLengths<dynamic_reconfigure::ReconfigureRequest>(Wire wire);
 

@@ -56,9 +56,11 @@ bool WorkQueue::take(Work& taken) {
 // Returns false if the thread has to wait. After stop(), what is taken is empty.
 bool WorkQueue::takeNow(Work& taken) {
   const std::lock_guard lock(mutex_);
+  taken.poses.clear();
+  if (stopping_) return true;
   takePosesNow(taken.poses);
   std::swap(taken.tasks, work_.tasks);
-  waiting_ = !stopping_ && taken.poses.empty() && taken.tasks.empty();
+  waiting_ = taken.poses.empty() && taken.tasks.empty();
   return !waiting_;
 }
 

@@ -77,7 +77,7 @@ class DetectorContractTest : public testing::TestWithParam<Variant> {
     detector_ = GetParam().make();
   }
 
-  // Of each of so many scenes: what the reference finds is found, and what is found besides is within the inflation.
+  // Of each of so many scenes: what the reference finds is found, and what else is found is within the inflation.
   void compareWithReference(SceneOf scene_of, int count) {
     for (int seed = 0; seed < count && !HasFailure(); ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed));

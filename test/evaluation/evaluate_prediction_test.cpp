@@ -156,8 +156,20 @@ TEST_F(EvaluatePredictionTest, FindsThresholdsForAWantedRate) {
   writeMotion("hand.txt");
   const Outcome outcome = run("--session-count 1 --sheets 4 --tune 100 --tune-csv curve.csv hand.txt");
   EXPECT_EQ(outcome.status, 0) << outcome.out;
-  EXPECT_TRUE(has(outcome.out, "\nwarning:\n  considered_on: 0.01\n  considered_off: 0.0025\n"));
+  EXPECT_TRUE(has(outcome.out, "\nwarning:\n  considered_on: 0.01\n  considered_off: 0.01\n"));
   EXPECT_EQ(read("curve.csv").find("considered_on,considered_off,reflex_probability,unjustified_per_min,"), 0U);
+}
+
+TEST_F(EvaluatePredictionTest, ShowsTheGainOfAProfileAndOfThatOfAnotherRecording) {
+  writeMotion("hand.txt");
+  writeMotion("arm.txt");
+  const Outcome outcome = run("--profiles-csv profiles.csv hand.txt arm.txt");
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "`direct` with the profile"));
+  EXPECT_TRUE(has(outcome.out, "\n  hand, first 20 s"));
+  const std::string csv = read("profiles.csv");
+  EXPECT_TRUE(has(csv, "\n\"hand, second half\",direct own,0.5,"));
+  EXPECT_TRUE(has(csv, "\n\"arm, first 20 s\",direct hand,1,"));
 }
 
 TEST_F(EvaluatePredictionTest, CountsSessionsBesideMeshes) {

@@ -100,12 +100,12 @@ TEST(OptionsTest, SessionsAreComputedWhenAskedFor) {
 }
 
 TEST(OptionsTest, SessionsHaveTheThresholdsOfTheGuardOrOneForAll) {
-  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_on, 0.25);
-  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_off, 0.0625);
+  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_on, 0.28);
+  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_off, 0.02);
   EXPECT_EQ(parse({"--sessions", "--min-probability", "0.2", "a.txt"}).session_thresholds.considered_off, 0.2);
   EXPECT_EQ(parse({"--tune", "2.5", "a.txt"}).tune, 2.5);
   EXPECT_TRUE(parse({"--tune", "2.5", "a.txt"}).wantsSessions());
-  EXPECT_TRUE(has(refusal({"--considered-on", "0.05", "a.txt"}), "--considered-off"));
+  EXPECT_TRUE(has(refusal({"--considered-on", "0.01", "a.txt"}), "--considered-off"));
   EXPECT_TRUE(has(refusal({"--tune-csv", "t.csv", "a.txt"}), "--tune"));
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "refusal.h"
 
 namespace sweep_guard_evaluation {
@@ -24,13 +26,13 @@ TuningPoint point(double on, size_t unjustified) {
 const std::vector<TuningPoint> kPoints = {point(0.1, 80), point(0.2, 40), point(0.3, 50), point(0.5, 20),
                                           point(1.0, 25)};
 
-TEST(SessionTuningTest, KeepsTheRatioOfTheDefaultsAndReflex) {
-  WarningThresholds current;
-  current.reflex = 0.15;
+TEST(SessionTuningTest, KeepsReflexAndTheLowerThresholdUpToTheUpperOne) {
+  const WarningThresholds current{0.15, 0.3, 0.04};
   const auto thresholds = tuningThresholds(current);
+  EXPECT_LT(thresholds.front().considered_on, 0.04);
   for (size_t i = 0; i < thresholds.size(); ++i) {
     EXPECT_EQ(thresholds[i].reflex, 0.15);
-    EXPECT_NEAR(thresholds[i].considered_off, thresholds[i].considered_on / 4.0, 1e-12);
+    EXPECT_EQ(thresholds[i].considered_off, std::min(0.04, thresholds[i].considered_on));
     if (i > 0) {
       EXPECT_GT(thresholds[i].considered_on, thresholds[i - 1].considered_on);
     }

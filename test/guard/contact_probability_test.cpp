@@ -50,6 +50,7 @@ double probabilityOf(const ConvexShape& tool, const Motion& motion, const Matrix
   const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
   const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance_M, swept_M);
   const auto clearance = ClearanceMeter().measure(mesh_M, swept_M, deviations);
+  EXPECT_EQ(ClearanceMeter().isNear(mesh_M, swept_M, deviations), clearance.has_value());
   return clearance ? contactProbability(clearance->deviations) : 0.0;
 }
 
@@ -210,7 +211,9 @@ TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) 
       return std::any_of(hull.triangles().begin(), hull.triangles().end(),
                          [&](const Triangle& triangle) { return meets(hull, triangle, swept_M, z, deviations); });
     };
+    const bool is_near = meter.isNear(hull, swept_M, deviations);
     const auto clearance = meter.measure(hull, swept_M, deviations);
+    EXPECT_EQ(is_near, clearance.has_value()) << i;
     if (!clearance) {
       EXPECT_FALSE(meetsAt(kMaxDeviations - 1e-6));
       continue;

@@ -669,9 +669,11 @@ TEST(SlowDetectorTest, TimeForOtherThingsIsNotThePredictions) {
   guard.cost = 500us;
   for (int i = 0; i < 10; ++i) guard.cycle();
   ASSERT_EQ(guard.prediction.sweeps_made, 21U);
+  const size_t volumes = guard.prediction.objects[0].volumes_tested;
   guard.between = [&guard] { guard.spend(10ms); };
   for (int i = 0; i < 10; ++i) guard.cycle();
   EXPECT_EQ(guard.prediction.sweeps_made, 21U);
+  EXPECT_EQ(guard.prediction.objects[0].volumes_tested, volumes);
 }
 
 TEST(GuardOptionsTest, RefusedOnesNameWhatIsWrong) {

@@ -330,7 +330,7 @@ TEST(WarningTest, HoldsAContactForItsHoldTime) {
   EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear);
 }
 
-// A stamp cannot look fresh because its clock stopped, nor because the message came late.
+// A stamp cannot look fresh because its clock stopped or because the message came late.
 TEST(WarningTest, TakesAnAgeOnEitherClock) {
   const Timestamps old_stamp{kNow.stamp - 1s, kNow.steady};
   const Timestamps received_long_ago{kNow.stamp, kNow.steady - 1s};

@@ -102,6 +102,13 @@ std_srvs::TriggerRequest example() {
 }
 
 template <>
+sweep_guard::SaveProfileRequest example() {
+  sweep_guard::SaveProfileRequest message;
+  message.name = "anna";
+  return message;
+}
+
+template <>
 dynamic_reconfigure::ReconfigureRequest example() {
   dynamic_reconfigure::ReconfigureRequest message;
   message.config.bools.resize(2);
@@ -178,6 +185,11 @@ std::vector<size_t> lengths<std_srvs::TriggerRequest>() {
 }
 
 template <>
+std::vector<size_t> lengths<sweep_guard::SaveProfileRequest>() {
+  return {0};
+}
+
+template <>
 std::vector<size_t> lengths<dynamic_reconfigure::ReconfigureRequest>() {
   const size_t ints = 4 + (4 + 4 + 1) + (4 + 1);
   const size_t strs = ints + 4 + (4 + 6 + 4);
@@ -215,10 +227,11 @@ void check(const Bytes& bytes) {
 template <typename Msg>
 class WireTest : public testing::Test {};
 
-using Messages = testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
-                                sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest, sweep_guard::PredictRequest,
-                                sweep_guard::AcknowledgeRequest, std_srvs::SetBoolRequest, std_srvs::TriggerRequest,
-                                dynamic_reconfigure::ReconfigureRequest>;
+using Messages =
+    testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
+                   sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest, sweep_guard::PredictRequest,
+                   sweep_guard::AcknowledgeRequest, sweep_guard::SaveProfileRequest, std_srvs::SetBoolRequest,
+                   std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {

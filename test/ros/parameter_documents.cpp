@@ -57,12 +57,17 @@ std::string capitalized(std::string text) {
   return text;
 }
 
+std::string fallbackOf(const ParameterInfo& info) {
+  const std::string text = shown(info.fallback);
+  return text.empty() ? "''" : text;
+}
+
 }  // namespace
 
 std::vector<std::string> parameterRows(const std::vector<ParameterInfo>& infos) {
   std::vector<std::string> rows;
   for (const ParameterInfo& info : grouped(infos)) {
-    rows.push_back("| `" + info.key + "` | `" + shown(info.fallback) + "` | " + info.wanted + " | " +
+    rows.push_back("| `" + info.key + "` | `" + fallbackOf(info) + "` | " + info.wanted + " | " +
                    (changesWhileRunning(info.key) ? "yes" : "no") + " | " + info.effect + " |");
   }
   return rows;
@@ -81,7 +86,7 @@ std::string configurationFile(const std::vector<ParameterInfo>& infos) {
     const std::string indent = group.empty() ? "" : "  ";
     const std::string name = info.key.substr(group.empty() ? 0 : group.size() + 1);
     text += commented(capitalized(info.wanted) + ". " + info.effect, indent);
-    text += indent + name + ": " + shown(info.fallback) + "\n";
+    text += indent + name + ": " + fallbackOf(info) + "\n";
   }
   return text;
 }

@@ -230,7 +230,7 @@ class ThresholdsTest : public ParametersTest {
 };
 
 TEST_F(ThresholdsTest, TheOldNameSetsAllThatAreNotSet) {
-  expect(0.25, 0.0625, 0.1, loadParameters(node_));
+  expect(0.28, 0.02, 0.1, loadParameters(node_));
   node_.setParam("warning/min_probability", 0.3);
   expect(0.3, 0.3, 0.3, loadParameters(node_));
   node_.setParam("warning/min_probability", 0.1);
@@ -244,8 +244,8 @@ TEST_F(ThresholdsTest, TheOldNameSetsAllThatAreNotSet) {
 }
 
 TEST_F(ThresholdsTest, TheLowerOneFollowsAnUpperOneBelowIt) {
-  node_.setParam("warning/considered_on", 0.05);
-  expect(0.05, 0.05, 0.1, loadParameters(node_));
+  node_.setParam("warning/considered_on", 0.01);
+  expect(0.01, 0.01, 0.1, loadParameters(node_));
   node_.setParam("warning/considered_off", 0.06);
   EXPECT_TRUE(has(refusal(node_), "at most warning/considered_on"));
 }
@@ -338,7 +338,7 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("warning/min_probability", 0.0, "0.001 to 1");
   refused("warning/min_probability", 10, "0.001 to 1");
   refused("warning/considered_on", 0.0, "0.001 to 1");
-  refused("warning/considered_off", 0.3, "0.001 to 0.25");
+  refused("warning/considered_off", 0.3, "0.001 to 0.28");
   refused("warning/reflex_probability", 1.1, "0.001 to 1");
   refused("warning/hold_time", -0.1, "0 to 60");
   refused("timing/min_rate", 0, "1 to 1000");

@@ -50,6 +50,25 @@ TEST(ViewTest, ShowsSweepsContactsAndPrediction) {
   EXPECT_EQ(view.level, static_cast<std::uint8_t>(WarningLevel::kContact));
 }
 
+TEST(ViewTest, AContactThatTheWarningDoesNotSpeakOfIsNotDrawn) {
+  constexpr auto kHold = std::chrono::milliseconds(500);
+  MarkerScene scene = touching();
+  scene.warning.mesh_id = "square";
+  EXPECT_TRUE(isOfWarning(scene, kHold));
+  scene.warning.mesh_id = "spleen";
+  EXPECT_FALSE(isOfWarning(scene, kHold));
+
+  scene.warning.mesh_id = "square";
+  auto later = std::make_shared<sweep_guard_core::SweepReport>();
+  later->end = scene.contact->end + kHold;
+  scene.newest = later;
+  EXPECT_TRUE(isOfWarning(scene, kHold));
+  later->end += std::chrono::milliseconds(101);
+  EXPECT_FALSE(isOfWarning(scene, kHold));
+  scene.contact.reset();
+  EXPECT_FALSE(isOfWarning(scene, kHold));
+}
+
 TEST(ViewTest, AClipIsNegativeInside) {
   const sweep_guard::View view = toMsg(touching());
   ASSERT_EQ(view.objects[0].measured.size(), 1U);

@@ -68,8 +68,9 @@ class Guard {
   /// report contacts that finer ones would rule out, but miss none.
   /// @param age  of the newest pose, >= 0 (asserted)
   /// @param[out] prediction  overwritten; its buffers are used again
-  /// @param between  called before each sweep, often. It may call sweep(), pass(), takeBack() and reset(): the prediction
-  ///     goes on from the pose that it began with, and their time is not the prediction's. Empty: nothing is called
+  /// @param between  called before each sweep and each part of one. It may call sweep(), pass(), takeBack() and reset(),
+  ///     nothing else: the prediction goes on from the pose that it began with, and their time is not the prediction's.
+  ///     Empty: nothing is called
   void predict(Duration age, const Workpieces& workpieces, Prediction& prediction,
                const std::function<void()>& between = {});
 
@@ -85,6 +86,9 @@ class Guard {
   /// @param distance  [m], >= 0; not checked
   /// @throws DeviceError if the detector fails
   bool isWithin(double distance, const Workpiece& workpiece);
+
+  /// Returns what was learned of the operator, see PosePredictor.
+  std::unique_ptr<Profile> profile() const;
 
   /// Forgets all poses and contacts, and keeps what the predictor has learned of the operator.
   void reset();

@@ -12,9 +12,9 @@ namespace sweep_guard_core {
 
 /// Smallest probabilities of a contact off the predicted path that are warned of, each in (0, 1].
 struct WarningThresholds {
-  double reflex = 0.1;             ///< raises REFLEX
-  double considered_on = 0.25;     ///< raises CONSIDERED
-  double considered_off = 0.0625;  ///< keeps CONSIDERED up; <= considered_on
+  double reflex = 0.1;           ///< raises REFLEX
+  double considered_on = 0.28;   ///< raises CONSIDERED
+  double considered_off = 0.02;  ///< keeps CONSIDERED up; <= considered_on
 
   static WarningThresholds all(double probability) { return {probability, probability, probability}; }
 };

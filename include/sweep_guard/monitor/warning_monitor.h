@@ -106,7 +106,7 @@ class WarningMonitor {
   /// the monitor was restarted since the query's epoch. Does not call on_fault: its thread may be a slow one.
   /// @param missed  triangles that only the second detector found: ascending. They count as a contact that is over if
   ///     the query was about a measured sweep, and the workpiece still has these triangles and this frame. While a
-  ///     contact lasts, they are added to it if it is with this workpiece, and are not told if it is with another
+  ///     contact lasts, they are added to it if it is with this workpiece, and are not reported if it is with another
   void detectorsDisagree(const std::string& message, const SampledQuery& query,
                          const std::vector<std::uint32_t>& missed, SteadyTime now);
 
@@ -139,6 +139,8 @@ class WarningMonitor {
   /// the caller owes once the tool has left. Does not call on_fault.
   /// @returns why not; empty: acknowledged
   std::string acknowledge(const std::string& id, const Instant& now);
+  /// Returns why acknowledge() would refuse; empty: it would not.
+  std::string whyNotAcknowledged(const std::string& id, const Instant& now) const;
 
   /// Ends the acknowledgement of a workpiece, if there is one. Does not call on_fault.
   void endAcknowledgement(const std::string& id);
@@ -203,6 +205,7 @@ class WarningMonitor {
   void restartLocked();
   void disableLocked(const std::string& asked_by);
   void computeLocked(const Instant& now, Warning& warning) const;
+  std::string whyNotAcknowledgedLocked(const std::string& id, const Instant& now) const;
   std::string refusal(const std::vector<std::string>& ids = {}) const;
   void meets(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now);
   void addFailures(const std::vector<SweepFailure>& failures, const char* what);

@@ -64,8 +64,8 @@ sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const sweep_guard_core::SweepResult& result, const sweep_guard_core::Tool& tool);
 /// Converts the objects that a swept volume meets or that the tool is inside, in the report's order. The caller sets
-/// frame, tool and volume. The message's interval is that of the report; times of impact stay fractions of the interval
-/// of their SweptObject, which may begin later.
+/// frame, tool and volume. The message's interval is that of the report; times of impact are fractions of it, although
+/// the interval of their SweptObject may begin later.
 sweep_guard::Contacts toMsg(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool);
 
 /// Converts a prediction as of the time when it was made: omits poses up to that time. The caller sets frame, tool and

@@ -74,6 +74,15 @@ visualization_msgs::MarkerArray Markers::draw(const MarkerScene& scene) {
   return array;
 }
 
+bool isOfWarning(const MarkerScene& scene, sweep_guard_core::Duration hold) {
+  constexpr sweep_guard_core::Duration kDelay = std::chrono::milliseconds(100);  // of the newest pose
+  if (!scene.contact || scene.newest->end - scene.contact->end > hold + kDelay) return false;
+  const auto& objects = scene.contact->objects;
+  return std::any_of(objects.begin(), objects.end(), [&](const sweep_guard_core::SweptObject& object) {
+    return object.workpiece->id == scene.warning.mesh_id && object.result.contact();
+  });
+}
+
 void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const {
   const WarningLevel level = scene.warning.level;
   const sweep_guard_core::Time stamp = scene.newest->end;

@@ -59,6 +59,7 @@ MarkerScene ScenePublisher::currentScene() const {
   scene.tool = parameters->tool;
   scene.namespaces = parameters->marker_namespaces;
   monitor_.warning(now(), scene.warning);
+  if (!isOfWarning(scene, parameters->limits.hold_time)) scene.contact.reset();
   return scene;
 }
 

@@ -163,6 +163,12 @@ std::string ParameterReader::name(const std::string& key, const std::string& fal
   return name;
 }
 
+std::string ParameterReader::path(const std::string& key, const std::string& effect) {
+  std::string path = text(key, "");
+  described_.push_back({key, path, std::string(), 0.0, 0.0, {}, "an absolute path, or empty", effect});
+  return path;
+}
+
 std::string ParameterReader::choice(const std::string& key, const std::string& fallback,
                                     const std::vector<std::string>& choices, const std::string& effect) {
   std::string chosen = text(key, fallback);

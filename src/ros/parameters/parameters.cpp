@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "ros/output/markers.h"
+#include "ros/profile_file.h"
 #include "ros/tool/tool_model.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/simd/kernels.h"
@@ -93,6 +94,19 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
                                       "No prediction turns faster. A pose that does is a jump: the motion is learned "
                                       "again.");
   return options;
+}
+
+// @param before  has the same profile; null: at the start
+void readProfileFile(ParameterReader& read, const Parameters* before, Parameters& parameters) {
+  parameters.profile_file = read.path(
+      "prediction/profile",
+      "direct only: file that ~save_profile has written; the prediction begins with what it holds, and goes on to "
+      "learn. Empty: it begins with constant velocity.");
+  if (before != nullptr) {
+    parameters.guard.predictor.profile = before->guard.predictor.profile;
+  } else if (!parameters.profile_file.empty()) {
+    parameters.guard.predictor.profile = readProfile(parameters.profile_file);
+  }
 }
 
 sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pose_timeout) {
@@ -281,6 +295,7 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
       "timing/mesh_timeout", 0.5, {0.01, kInfinity, "s"},
       "An older workpiece makes the warning UNKNOWN. .inf (inf on a command line): workpieces do not age."));
   parameters.guard.predictor = readPredictor(read);
+  readProfileFile(read, before, parameters);
   parameters.guard.horizon = readHorizon(read, parameters.limits.pose_timeout);
   parameters.limits.reflex = parameters.guard.horizon.reflex;
   parameters.limits.considered = parameters.guard.horizon.considered;

@@ -36,6 +36,7 @@ struct Parameters {
   SelfTest self_test;
   int cross_check;  ///< of so many queries of the detector, one is asked twice; 0: none
   sweep_guard_core::GuardOptions guard;
+  std::string profile_file;  ///< that the profile of the predictor was read from; empty: none
   sweep_guard_core::WarningLimits limits;
   double acknowledge_distance;              ///< [m]
   double marker_rate;                       ///< [Hz]

@@ -70,6 +70,8 @@ class ParameterReader {
   std::string text(const std::string& key, const std::string& fallback);
   /// Reads a text that is not empty.
   std::string name(const std::string& key, const std::string& fallback, const std::string& effect = "");
+  /// Reads the path of a file; "" if not set.
+  std::string path(const std::string& key, const std::string& effect);
   std::string choice(const std::string& key, const std::string& fallback, const std::vector<std::string>& choices,
                      const std::string& effect = "");
   /// Reads as many integers as the fallback has. Any list but a position() may be text: `1, 2` or `[1, 2]`.
