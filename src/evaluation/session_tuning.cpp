@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "evaluation/csv.h"
@@ -21,6 +22,8 @@ const std::vector<std::pair<size_t, std::string>>& plottedLeads() {
   static const std::vector<std::pair<size_t, std::string>> kLeads = {{2, "#0072B2"}, {3, "#009E73"}};
   return kLeads;
 }
+
+std::string share(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value); }
 
 std::string yaml(const WarningThresholds& thresholds) {
   return fmt::format("warning:\n  considered_on: {:g}\n  considered_off: {:g}\n  reflex_probability: {:g}\n",
@@ -69,9 +72,9 @@ std::string tuningCsv(const std::vector<TuningPoint>& points) {
 std::string tuningText(const std::vector<TuningPoint>& points, double unjustified_per_min) {
   std::string text = "  considered_on  off     unjustified/min  precision  warned 0.5 s  1.0 s ahead  without REFLEX\n";
   for (const auto& [thresholds, figures] : points) {
-    text += fmt::format("  {:<13g}  {:<7g} {:>14.2f}  {:>9.3f}  {:>12.3f}  {:>11.3f}  {:>14}\n",
-                        thresholds.considered_on, thresholds.considered_off, figures.unjustifiedPerMinute(),
-                        figures.precision(), figures.warned(2), figures.warned(3), figures.count.late);
+    text += fmt::format("  {:<13g}  {:<7g} {:>14.2f}  {:>9}  {:>12}  {:>11}  {:>14}\n", thresholds.considered_on,
+                        thresholds.considered_off, figures.unjustifiedPerMinute(), share(figures.precision()),
+                        share(figures.warned(2)), share(figures.warned(3)), figures.count.late);
   }
   const std::optional<TuningPoint> chosen = choosePoint(points, unjustified_per_min);
   if (chosen)

@@ -56,6 +56,12 @@ TEST(SessionTuningTest, PrintsYamlToPasteOrTheFewest) {
   EXPECT_FALSE(has(none, "warning:"));
 }
 
+TEST(SessionTuningTest, SharesOfNothingAreNoNumbers) {
+  TuningPoint nothing = point(0.1, 0);
+  nothing.figures.count = {};
+  EXPECT_FALSE(has(tuningText({nothing}, 5.0), "nan"));
+}
+
 TEST(SessionTuningTest, WritesTheCurve) {
   EXPECT_TRUE(has(tuningCsv(kPoints), "\n0.2,0.05,0.1,4,0.333333,1,1,0.75,0.25,0,0\n"));
 }
