@@ -1,0 +1,119 @@
+// The thread that sweeps, with a detector that says when it is asked. The guard's parts run in this process.
+#include "ros/guard_thread.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <thread>
+
+#include "guard/fake_detector.h"
+#include "scenes.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using std::chrono::milliseconds;
+
+class GuardThreadTest : public ::testing::Test {
+ protected:
+  GuardThreadTest() {
+    workpieces_.set({"wavy", 1, now().stamp, now().steady, "world", sweep_guard_core::wavyHull(20, 40, 0.0)},
+                    now().stamp);
+    guard_thread_.start(supervisor_);
+  }
+  ~GuardThreadTest() override { guard_thread_.stop(); }
+
+  static ros::NodeHandle privateNode() {
+    ros::NodeHandle node("~");
+    node.setParam("self_test", "none");
+    node.setParam("cross_check", 0);
+    node.setParam("timing/mesh_timeout", std::numeric_limits<double>::infinity());
+    return node;
+  }
+
+  // Through the workpiece, so that the detector is asked about measured and predicted sweeps.
+  void push(bool frame_is_known = true) {
+    sweep_guard_core::PoseWithFrames pose;
+    pose.stamp = now().stamp;
+    pose.received = now().steady;
+    pose.X_WT.translation().x() = 0.001 * ++pushed_;
+    if (frame_is_known) pose.X_WM["world"] = Eigen::Isometry3d::Identity();
+    queue_.push({pose, monitor_.checkpoint()});
+  }
+
+  // Tasks run before the poses that are taken with them; so many of them pass by no pose that waits.
+  void passTheQueue() {
+    for (int i = 0; i < 10; ++i) queue_.submit<void>([] {}).get();
+  }
+
+  // Once the poses taken are swept, none waits: the detector is asked about a predicted sweep.
+  bool inPrediction() const { return !queue_.waitingSince(); }
+
+  int pushed_ = 0;
+  sweep_guard_core::FakeDetector::Record record_;
+  ros::NodeHandle node_ = privateNode();
+  LiveParameters parameters_{loadParameters(node_)};
+  Supervisor supervisor_{Process::kShared};
+  WorkQueue queue_;
+  sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
+  sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }};
+  WarningPublisher warnings_{node_, parameters_, monitor_};
+  ScenePublisher scene_{node_, parameters_, monitor_};
+  sweep_guard_core::SweepStatistics statistics_{parameters_.initial().guard.cycle};
+  sweep_guard_core::QuerySampler sampler_{/*every=*/0};
+  GuardThread guard_thread_{
+      node_,
+      {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_, sampler_,
+       [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(record_); }}};
+};
+
+// Two poses come during a prediction. The first sweep takes longer than a prediction may be held up, so the second pose
+// is left for the time after it.
+TEST_F(GuardThreadTest, APoseThatIsLeftWhenAPredictionGoesOnIsSweptAfterIt) {
+  push();
+  passTheQueue();
+  enum { kBefore, kPushed, kSlow } state = kBefore;  // used by the guard's thread only
+  record_.asked = [&] {
+    if (state == kBefore && inPrediction()) {
+      state = kPushed;
+      push();
+      push(/*frame_is_known=*/false);  // else the first one would not be swept alone
+    } else if (state == kPushed && !inPrediction()) {
+      state = kSlow;
+      std::this_thread::sleep_for(milliseconds(60));  // the time that this sweep takes
+    }
+  };
+  push();
+  passTheQueue();
+  EXPECT_EQ(state, kSlow);
+  EXPECT_EQ(pushed_, 4);
+  EXPECT_EQ(statistics_.take().sweeps_total, 4U);
+  EXPECT_FALSE(queue_.waitingSince());
+}
+
+TEST_F(GuardThreadTest, APredictionGoesOnAfterAPoseThatCameMeanwhileIsSwept) {
+  push();
+  passTheQueue();
+  enum { kBefore, kPushed, kSwept, kGoesOn } state = kBefore;  // used by the guard's thread only
+  std::uint64_t predictions = 0;
+  record_.asked = [&] {
+    if (state == kBefore && inPrediction()) {
+      state = kPushed;
+      predictions = statistics_.take().predictions_total;
+      push();
+    } else if (state == kPushed && !inPrediction()) {
+      state = kSwept;
+    } else if (state == kSwept && inPrediction()) {
+      state = kGoesOn;
+      EXPECT_EQ(statistics_.take().predictions_total, predictions);
+    }
+  };
+  push();
+  passTheQueue();
+  EXPECT_EQ(state, kGoesOn);
+  EXPECT_EQ(statistics_.take().sweeps_total, 3U);
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
