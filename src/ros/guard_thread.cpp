@@ -197,11 +197,12 @@ bool GuardThread::workOnce() {
   next_ = 0;
   if (!dependencies_.queue.take(work_)) return false;
   for (const auto& task : work_.tasks) top_->run(task);
-  while (true) {
+  do {
     if (!sweepPoses()) return false;
-    if (!timeToPredict() || dependencies_.queue.hasWork()) return true;
+    if (!timeToPredict()) return true;
     top_->run([this] { predict(); });
-  }
+  } while (next_ < work_.poses.size() || !dependencies_.queue.hasWork());
+  return true;
 }
 
 // Also those that were taken during a prediction. Returns false after stop().
