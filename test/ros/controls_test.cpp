@@ -169,7 +169,7 @@ TEST_F(AcknowledgeTest, NeedsAWarning) {
   for (const char* const id : {"square", "", "spleen", "\n"}) {
     const auto response = probe().acknowledge(id);
     EXPECT_FALSE(response.success) << id;
-    EXPECT_FALSE(response.message.empty()) << id;
+    EXPECT_TRUE(has(response.message, *id == '\0' ? "there is no warning" : "only CONSIDERED can be acknowledged"));
     EXPECT_EQ(response.until, ros::Time()) << id;
   }
 }

@@ -306,10 +306,14 @@ TEST_F(ReconfigureTest, EachLevelHasAThresholdOfItsOwn) {
 
 TEST_F(ReconfigureTest, TheDistanceAndTheTimeOfAnAcknowledgementChange) {
   placeSquare("square", {0.0, 0.0, 0.0});
-  restAt({0.0, 0.0, 0.5});
+  EXPECT_TRUE(has(probe().acknowledge("square").message, "only CONSIDERED can be acknowledged"));
+  change("warning/min_probability", 1.0);
+  change("warning/considered_on", 0.001);
+  ASSERT_EQ(rest().interval, Prediction::CONSIDERED);
+  change("warning/acknowledge_distance", 0.0);
   EXPECT_TRUE(has(probe().acknowledge("square").message, "warning/acknowledge_distance"));
   change("warning/acknowledge_distance", 0.6);
-  EXPECT_TRUE(has(probe().acknowledge("square").message, "only CONSIDERED can be acknowledged"));
+  EXPECT_TRUE(probe().acknowledge("square").success);
   change("warning/acknowledge_time", 1.0);
   EXPECT_EQ(numberOf("warning/acknowledge_time"), 1.0);
 }
