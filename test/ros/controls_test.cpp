@@ -1,4 +1,6 @@
 // ~enable, ~reset and ~acknowledge of a running guard. Part of node_test.
+#include <map>
+
 #include "node_fixture.h"
 #include "refusal.h"
 
@@ -166,10 +168,14 @@ TEST_F(AcknowledgeTest, EndsAtContactAndContactIsNotAcknowledged) {
 }
 
 TEST_F(AcknowledgeTest, NeedsAWarning) {
-  for (const char* const id : {"square", "", "spleen", "\n"}) {
+  const std::map<std::string, std::string> reasons = {{"square", "only CONSIDERED can be acknowledged"},
+                                                      {"", "there is no warning"},
+                                                      {"spleen", "only CONSIDERED can be acknowledged"},
+                                                      {"\n", "mesh_id is no name"}};
+  for (const auto& [id, reason] : reasons) {
     const auto response = probe().acknowledge(id);
     EXPECT_FALSE(response.success) << id;
-    EXPECT_TRUE(has(response.message, *id == '\0' ? "there is no warning" : "only CONSIDERED can be acknowledged"));
+    EXPECT_TRUE(has(response.message, reason)) << id;
     EXPECT_EQ(response.until, ros::Time()) << id;
   }
 }
