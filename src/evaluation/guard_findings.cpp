@@ -5,6 +5,7 @@
 
 #include "evaluation/progress.h"
 #include "evaluation/simulated_node.h"
+#include "guard/contact_probability.h"
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
@@ -14,6 +15,7 @@ namespace sweep_guard_evaluation {
 using sweep_guard_core::Duration;
 using sweep_guard_core::Guard;
 using sweep_guard_core::Instant;
+using sweep_guard_core::kMaxDeviations;
 using sweep_guard_core::Matrix6d;
 using sweep_guard_core::PredictedObject;
 using sweep_guard_core::PredictedSweep;
@@ -31,8 +33,7 @@ using sweep_guard_recording::LevelTrace;
 
 namespace {
 
-constexpr double kMaxDeviations = 3.1;  // beyond, the guard counts a probability as 0
-constexpr double kRounding = 1e-4;      // [m]
+constexpr double kRounding = 1e-4;  // [m]
 
 // With vertices in float32 as streamed ones are, so that all workpieces have the same margin.
 std::shared_ptr<const Workpiece> workpieceOf(const std::string& id, TriangleMesh mesh_W) {
