@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <thread>
 
@@ -35,7 +36,8 @@ class GuardThreadTest : public ::testing::Test {
   // Through the workpiece, so that the detector is asked about measured and predicted sweeps.
   void push(bool frame_is_known = true) {
     sweep_guard_core::PoseWithFrames pose;
-    pose.stamp = begin_ + milliseconds(10 * pushed_);
+    stamp_ = std::max(stamp_ + milliseconds(10), now().stamp);  // no pose is old, and none is faster than a hand
+    pose.stamp = stamp_;
     pose.received = now().steady;
     pose.X_WT.translation().x() = 0.001 * ++pushed_;
     if (frame_is_known) pose.X_WM["world"] = Eigen::Isometry3d::Identity();
@@ -50,7 +52,7 @@ class GuardThreadTest : public ::testing::Test {
   // Once the poses taken are swept, none waits: the detector is asked about a predicted sweep.
   bool inPrediction() const { return !queue_.waitingSince(); }
 
-  const sweep_guard_core::Time begin_ = now().stamp;
+  sweep_guard_core::Time stamp_;
   int pushed_ = 0;
   sweep_guard_core::FakeDetector::Record record_;
   ros::NodeHandle node_ = privateNode();
