@@ -252,28 +252,6 @@ TEST_F(PredictionTest, PredictFindsWhatLiesBeyondTheConfiguredHorizon) {
   EXPECT_EQ(far.objects[0].mesh_id, "square");
 }
 
-// Two poses are swept, the later one sent when the contacts of the earlier one have come, before the prediction from the
-// pose before them is done. It goes on nevertheless.
-TEST_F(PredictionTest, PosesThatComeDuringAPredictionAreSweptBeforeItEnds) {
-  for (int i = 0; i < 60; ++i) placeSquare("square" + std::to_string(i), {0.0, 0.0, -0.001 * i});
-  const auto predicted = [](ros::Time stamp) {
-    const auto all = probe().predictions();
-    return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.header.stamp == stamp; });
-  };
-  bool seen = false;
-  for (int i = 0; i < 100 && !seen; ++i) {
-    descend(0.06, 0.05);
-    moveTo({0.0, 0.0, 0.048});
-    const ros::Time looked_from = probe().time();
-    moveTo({0.0, 0.0, 0.046});
-    moveTo({0.0, 0.0, 0.044});
-    const bool before = !predicted(looked_from);
-    EXPECT_TRUE(probe().awaitPrediction(probe().time()).valid);
-    seen = before && predicted(looked_from);
-  }
-  EXPECT_TRUE(seen);
-}
-
 TEST_F(PredictionTest, PredictRefusesWhatItCannotAnswer) {
   const auto refused = [](double horizon, const std::string& expected) {
     const auto response = probe().predict(horizon);
