@@ -12,7 +12,7 @@ namespace sweep_guard_evaluation {
 /// Computes errors on the second half of each recording, as reportErrors() does: of `hold`, `constant_velocity`, `direct`
 /// that begins with nothing, `direct` with the profile that it learned on the first half, and `direct` with the profiles
 /// of the first halves of all other recordings.
-/// @return three reports for each recording: on the first 20 s of that half, on what follows if anything does, and on all
+/// @return three reports for each recording: the first 20 s of the second half, the rest if there is any, and the whole half
 /// @throws sweep_guard_core::InvalidInput if a second half has no sample
 std::vector<ErrorReport> reportProfiles(const std::vector<sweep_guard_recording::Recording>& recordings,
                                         const Options& options, const Progress& progress);

@@ -40,8 +40,8 @@ struct Interval {
   double upper;
 };
 
-/// Draws sessions anew: each session of each recording gets as many objects as it had, drawn with replacement from those
-/// of all sessions of that recording. Recordings with the same numbers of sessions and objects get the same draws, so
+/// Draws sessions anew: each session of each recording gets as many objects as it had, drawn with replacement from the
+/// objects of all sessions of the recording. Recordings with the same numbers of sessions and objects get the same draws, so
 /// that two runs can be compared in pairs.
 /// @param draw  number of the draw
 std::vector<RecordingSessions> resampled(const std::vector<RecordingSessions>& recordings, size_t draw);
