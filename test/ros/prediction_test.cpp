@@ -38,6 +38,27 @@ class PredictionTest : public NodeTest {
     glideTo(to);
   }
 
+  // Comes down from rest, and returns the number of warnings before. On a busy machine poses may be old before they are
+  // swept: then REFLEX rises earlier than 0.3 s before the contact, and the approach is repeated.
+  size_t approach(double from, double to) {
+    for (int tries_left = 5;; --tries_left) {
+      restAt({0.0, 0.0, from});
+      probe().awaitPrediction(probe().time());  // else one from before the rest may warn later
+      probe().forgetPredictions();
+      const size_t begin = probe().warnings().size();
+      const ros::Time contact = probe().time() + ros::Duration(kStep + from / kSpeed);
+      descend(from, to);
+      probe().awaitWarning([](const Warning& warning) { return warning.header.stamp == probe().time(); });
+      const auto early = [&](const Warning& warning) {
+        return warning.level == Warning::REFLEX && contact - warning.header.stamp > ros::Duration(0.3);
+      };
+      const auto warnings = probe().warnings();
+      const auto since = warnings.begin() + static_cast<std::ptrdiff_t>(begin);
+      if (tries_left == 1 || std::none_of(since, warnings.end(), early)) return begin;
+    }
+  }
+
+ private:
   int steps_ = 0;
 };
 
@@ -95,11 +116,7 @@ TEST_F(PredictionTest, PredictsThePosesOfTheTool) {
 }
 
 TEST_F(PredictionTest, AnApproachIsConsideredThenReflexThenContact) {
-  restAt({0.0, 0.0, 0.9});
-  probe().awaitPrediction(probe().time());  // else one from before the rest may warn later
-  probe().forgetPredictions();
-  const size_t begin = probe().warnings().size();
-  descend(0.9, -0.005);
+  const size_t begin = approach(0.9, -0.005);
   probe().awaitWarning([](const Warning& warning) { return warning.contact; });
   const auto warnings = probe().warnings();
   const ros::Time contact = firstOf(warnings, begin, Warning::CONTACT);
@@ -124,9 +141,8 @@ TEST_F(PredictionTest, AnApproachIsConsideredThenReflexThenContact) {
 }
 
 TEST_F(PredictionTest, AWarningNamesThePredictedContact) {
-  restAt({0.0, 0.0, 0.6});
-  descend(0.6, 0.1);
-  const Prediction prediction = glideTo(0.1 - kSpeed * kStep);  // 0.39 s before the contact
+  const size_t begin = approach(0.6, 0.1 - kSpeed * kStep);
+  const Prediction prediction = probe().awaitPrediction(probe().time());  // 0.39 s before the contact
   EXPECT_TRUE(prediction.collision);
   EXPECT_EQ(prediction.interval, Prediction::CONSIDERED);
   EXPECT_GT(prediction.probability, 0.5);
@@ -134,8 +150,10 @@ TEST_F(PredictionTest, AWarningNamesThePredictedContact) {
   EXPECT_EQ(prediction.objects[0].mesh_id, "square");
   EXPECT_EQ(prediction.objects[0].triangles, (std::vector<std::uint32_t>{0, 1}));
 
+  const auto warnings = probe().warnings();
   const Warning warning =
-      probe().awaitWarning([&](const Warning& next) { return next.header.stamp == prediction.header.stamp; });
+      *std::find_if(warnings.begin() + static_cast<std::ptrdiff_t>(begin), warnings.end(),
+                    [&](const Warning& next) { return next.header.stamp == prediction.header.stamp; });
   EXPECT_EQ(warning.level, Warning::CONSIDERED) << warning.text;
   EXPECT_TRUE(warning.considered);
   EXPECT_FALSE(warning.reflex || warning.clear || warning.contact);
