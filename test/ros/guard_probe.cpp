@@ -13,7 +13,8 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr auto kTimeout = std::chrono::seconds(20);
-const ros::Duration kValid(0.2);  // of a warning, from when it was sent
+constexpr auto kGivenUp = std::chrono::milliseconds(400);  // the guard gives a change up after 500 ms at least
+const ros::Duration kValid(0.2);                           // of a warning, from when it was sent
 
 GuardProbe::Flag arrived(const std_msgs::Bool& flag) { return {flag.data != 0, std::chrono::steady_clock::now()}; }
 
@@ -295,10 +296,17 @@ std_srvs::Trigger::Response GuardProbe::reset() {
   return service.response;
 }
 
+// A call that a busy machine gave up is repeated: a refusal takes less.
 bool GuardProbe::configure(const dynamic_reconfigure::Config& changes) {
   dynamic_reconfigure::Reconfigure service;
   service.request.config = changes;
-  return configure_.call(service);
+  const auto give_up = std::chrono::steady_clock::now() + kTimeout;
+  while (true) {
+    const auto begin = std::chrono::steady_clock::now();
+    if (configure_.call(service)) return true;
+    const auto end = std::chrono::steady_clock::now();
+    if (end - begin < kGivenUp || end > give_up) return false;
+  }
 }
 
 dynamic_reconfigure::Config GuardProbe::configuration() const { return copyOf(configuration_); }
