@@ -7,7 +7,7 @@ import csv
 import sys
 
 # Colors of Okabe and Ito, which color-blind people can tell apart.
-COLORS = ['#56B4E9', '#0072B2', '#CC79A7', '#E69F00', '#D55E00', '#F0E442', '#009E73', '#999999']
+COLORS = ['#56B4E9', '#0072B2', '#CC79A7', '#E69F00', '#D55E00', '#F0E442', '#009E73']
 
 
 def bars_of(path):
@@ -25,8 +25,9 @@ def bars_of(path):
 def draw(bars, path):
     from matplotlib.figure import Figure
     stages = list(next(iter(bars.values())))
-    figure = Figure(figsize=(9, 1.4 + 0.45 * len(bars)))
-    figure.set_layout_engine('constrained')
+    height = 1.4 + 0.45 * len(bars)
+    figure = Figure(figsize=(9, height))
+    figure.set_layout_engine('constrained', rect=(0, 0, 1, 1 - 0.4 / height))  # the key is above
     axes = figure.subplots()
     names = [f'{triangles} triangles, {method}' for triangles, method in bars]
     left = [0.0] * len(bars)
@@ -38,7 +39,7 @@ def draw(bars, path):
     axes.set_xlabel("[%] of one processor's time")
     axes.grid(axis='x', color='#d0d0d0')
     axes.set_axisbelow(True)
-    figure.legend(loc='outside upper center', ncol=len(stages), frameon=False, fontsize='small')
+    figure.legend(loc='upper center', ncol=len(stages), frameon=False, fontsize='small')
     figure.savefig(path)
 
 

@@ -53,13 +53,17 @@ void appendFigures(const Settings& settings, const Measurement& measured, const 
   if (!file) throw InvalidInput("--csv: cannot write " + settings.csv);
 }
 
-// By the steady clock, so also while a thread waits for a processor. The rest of the process is roscpp's.
+// By the steady clock, so also while a thread waits for a processor. The rest of the process is roscpp's and services'.
 void printStages(const Measurement& measured) {
   const std::vector<StageShare> stages = stagesOf(measured);
   if (stages.empty()) return;
+  double rest = 100.0 * measured.processorShare();
   std::printf("of a processor's time:");
-  for (const auto& [stage, percent] : stages) std::printf(" %s %.1f %%;", stage.c_str(), percent);
-  std::printf("\n");
+  for (const auto& [stage, percent] : stages) {
+    std::printf(" %s %.1f %%,", stage.c_str(), percent);
+    rest -= percent;
+  }
+  std::printf(" rest %.1f %%\n", rest);
 }
 
 void appendStages(const Settings& settings, const Measurement& measured) {

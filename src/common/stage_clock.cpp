@@ -31,8 +31,10 @@ StageTimes StageClock::read() const {
 // No other thread writes.
 Stage StageClock::change(Stage to) {
   const SteadyTime now = std::chrono::steady_clock::now();
-  std::atomic<std::int64_t>& time = nanoseconds_[static_cast<size_t>(stage_)];
-  time.store(time.load(std::memory_order_relaxed) + Duration(now - since_).count(), std::memory_order_relaxed);
+  if (stage_ != Stage::kOther) {
+    std::atomic<std::int64_t>& time = nanoseconds_[static_cast<size_t>(stage_)];
+    time.store(time.load(std::memory_order_relaxed) + Duration(now - since_).count(), std::memory_order_relaxed);
+  }
   since_ = now;
   return std::exchange(stage_, to);
 }
