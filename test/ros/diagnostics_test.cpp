@@ -110,7 +110,7 @@ TEST_F(DiagnosticsTest, EachStageFromAMessageToAWarningTakesTime) {
   std::set<std::string> seen;
   for (int tries_left = 20; tries_left > 0 && seen != all; --tries_left) {
     for (int i = 0; i < 25; ++i) {
-      moveTo({0.0, 0.0, 0.05});
+      moveTo({0.0, 0.0, 0.01});
       moveTo({0.0, 0.0, -0.01});
     }
     for (const auto& [stage, share] : probe().awaitStatus("stages", any).values) {
