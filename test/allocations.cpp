@@ -3,18 +3,23 @@
 #include <cxxabi.h>
 #include <dlfcn.h>
 #include <execinfo.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <map>
+#include <mutex>
 #include <new>
+#include <utility>
 
 namespace sweep_guard_core {
 namespace {
 
 constexpr size_t kMaxStacks = 1000;
 constexpr int kMaxDepth = 24;
+constexpr int kOwnFrames = 3;
 
 struct Stack {
   std::array<void*, kMaxDepth> frames;
@@ -27,7 +32,30 @@ size_t counted = 0;
 size_t largest_size = 0;
 std::array<Stack, kMaxStacks> recorded;
 
+// Of all threads, if there is one:
+std::atomic<std::map<std::pair<std::string, std::vector<void*>>, size_t>*> by_thread = nullptr;
+std::mutex by_thread_mutex;
+thread_local bool recording = false;
+
+std::string nameOfThread() {
+  std::array<char, 16> name{};
+  pthread_getname_np(pthread_self(), name.data(), name.size());
+  return name.data();
+}
+
+void recordByThread() {
+  if (recording) return;
+  recording = true;
+  const std::lock_guard lock(by_thread_mutex);
+  std::array<void*, kMaxDepth> frames{};
+  const int depth = backtrace(frames.data(), kMaxDepth);
+  const std::vector<void*> stack(frames.begin() + std::min(depth, kOwnFrames), frames.begin() + depth);
+  if (by_thread != nullptr) ++(*by_thread)[{nameOfThread(), stack}];
+  recording = false;
+}
+
 void record(size_t size) {
+  if (by_thread != nullptr) recordByThread();
   if (!counting) return;
   largest_size = std::max(largest_size, size);
   counting = false;  // backtrace() may allocate
@@ -56,10 +84,11 @@ std::string nameOf(void* address) {
   return name.substr(0, name.find('('));
 }
 
-std::string textOf(const Stack& stack) {
+template <typename Frames>
+std::string textOf(const Frames& frames) {
   std::string text;
-  for (int i = 3; i < stack.depth; ++i) {
-    const std::string name = nameOf(stack.frames[static_cast<size_t>(i)]);
+  for (void* const frame : frames) {
+    const std::string name = nameOf(frame);
     if (name.find("testing::") != std::string::npos) break;
     if (name != "?" && name.find("std::") != 0) text += (text.empty() ? "" : " < ") + name;
   }
@@ -91,10 +120,41 @@ size_t Allocations::largest() const { return largest_size; }
 std::string Allocations::stacks() const {
   counting = false;
   std::map<std::string, size_t> times;
-  for (size_t i = 0; i < std::min(counted, kMaxStacks); ++i) ++times[textOf(recorded[i])];
+  for (size_t i = 0; i < std::min(counted, kMaxStacks); ++i) {
+    const auto& [frames, depth] = recorded[i];
+    ++times[textOf(std::vector(frames.begin() + kOwnFrames, frames.begin() + depth))];
+  }
   std::string text;
   for (const auto& [stack, count] : times) text += std::to_string(count) + "  " + stack + "\n";
   return text;
+}
+
+AllocationsOfAllThreads::AllocationsOfAllThreads() {
+  void* frame = nullptr;
+  backtrace(&frame, 1);  // loads the library of backtrace()
+  by_thread = new std::map<std::pair<std::string, std::vector<void*>>, size_t>;
+}
+
+AllocationsOfAllThreads::~AllocationsOfAllThreads() {
+  const std::lock_guard lock(by_thread_mutex);
+  delete by_thread.exchange(nullptr);
+}
+
+std::vector<AllocationsOfAllThreads::Place> AllocationsOfAllThreads::places() const {
+  recording = true;  // not what this function allocates
+  std::map<std::pair<std::string, std::string>, size_t> counts;
+  {
+    const std::lock_guard lock(by_thread_mutex);
+    for (const auto& [place, count] : *by_thread) {
+      const auto& [thread, frames] = place;
+      counts[{thread, textOf(frames)}] += count;
+    }
+  }
+  std::vector<Place> places;
+  for (const auto& [place, count] : counts) places.push_back({place.first, place.second, count});
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.count > b.count; });
+  recording = false;
+  return places;
 }
 
 }  // namespace sweep_guard_core

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace sweep_guard_core {
 
@@ -17,6 +18,23 @@ class Allocations {
   size_t count() const;        ///< since the construction
   size_t largest() const;      ///< [bytes]
   std::string stacks() const;  ///< call stacks of the first thousand, each once, with its count
+};
+
+/// Counts the allocations of all threads by operator new during its own lifetime; at most one object at a time. Replaces
+/// the operators as Allocations does.
+class AllocationsOfAllThreads {
+ public:
+  AllocationsOfAllThreads();
+  ~AllocationsOfAllThreads();
+  AllocationsOfAllThreads(const AllocationsOfAllThreads&) = delete;
+  AllocationsOfAllThreads& operator=(const AllocationsOfAllThreads&) = delete;
+
+  struct Place {
+    std::string thread;  ///< its name
+    std::string stack;   ///< from the inside out
+    size_t count;
+  };
+  std::vector<Place> places() const;  ///< the most frequent first
 };
 
 /// Lets one allocation of this thread fail during its own lifetime; at most one object at a time. Replaces the operators

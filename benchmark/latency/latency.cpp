@@ -31,6 +31,7 @@ Settings settingsOf(int argc, char** argv) {
       ("label", options::value(&settings.label), "text for the tables, beside the transport")                         //
       ("set", options::value(&settings.parameters), "parameter of the guard, as in gl_context=egl; may be repeated")  //
       ("csv", options::value(&settings.csv), "append the figures to this file")                                       //
+      ("stages", options::value(&settings.stages), "append the shares of the stages to this file")                    //
       ("histogram", options::value(&settings.histogram), "append the distribution to this file");
   options::variables_map given;
   options::store(options::parse_command_line(argc, argv, known), given);

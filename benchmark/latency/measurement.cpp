@@ -17,6 +17,7 @@ using sweep_guard_core::InvalidInput;
 
 constexpr double kTimeout = 15.0;  // for reading the mesh, or for a backlog [s]
 constexpr double kWarmUp = 2.0;    // [s]
+constexpr Nanoseconds kDiagnosticsPeriod = 1'000'000'000;
 const std::string kGuard = "sweep_guard";
 
 void setParameters(const Settings& settings) {
@@ -115,6 +116,19 @@ std::vector<Nanoseconds> posesOf(const Measurement& measured) {
 
 std::size_t unclearWarnings(const Measurement& measured) {
   return within(measured.messages.unclear, measured.begin, measured.end).size();
+}
+
+std::vector<StageShare> stagesOf(const Measurement& measured) {
+  std::vector<StageShare> mean;
+  double periods = 0.0;
+  for (const StageReport& report : measured.messages.stages) {
+    if (report.received - kDiagnosticsPeriod < measured.begin || report.received > measured.end) continue;
+    if (mean.empty()) mean = report.shares;
+    periods += 1.0;
+    if (periods == 1.0) continue;
+    for (size_t i = 0; i < mean.size(); ++i) mean[i].percent += (report.shares[i].percent - mean[i].percent) / periods;
+  }
+  return mean;
 }
 
 double sweepsPerSecond(const Measurement& measured) {

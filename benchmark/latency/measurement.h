@@ -19,6 +19,7 @@ struct Settings {
   std::string detector = "select";
   std::string label;                    ///< text for the tables beside the transport, such as "rviz looks on"
   std::string csv;                      ///< figures are appended to this file; empty: none
+  std::string stages;                   ///< shares of the stages are appended to this file; empty: none
   std::string histogram;                ///< distributions are appended to this file; empty: none
   std::vector<std::string> parameters;  ///< parameters of the guard, such as gl_context=egl
 };
@@ -51,6 +52,9 @@ struct LatencyRow {
 
 /// Returns the latencies from a pose to contacts, prediction, warning and change of level, in this order.
 std::vector<LatencyRow> rowsOf(const Measurement& measured);
+
+/// Returns the mean shares of the stages, over the periods that lie within the measurement; none without such a period.
+std::vector<StageShare> stagesOf(const Measurement& measured);
 
 /// Returns the number of warnings during the measurement that were not CLEAR.
 std::size_t unclearWarnings(const Measurement& measured);

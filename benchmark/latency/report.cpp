@@ -53,6 +53,30 @@ void appendFigures(const Settings& settings, const Measurement& measured, const 
   if (!file) throw InvalidInput("--csv: cannot write " + settings.csv);
 }
 
+// By the steady clock, so also while a thread waits for a processor. The rest of the process is roscpp's and services'.
+void printStages(const Measurement& measured) {
+  const std::vector<StageShare> stages = stagesOf(measured);
+  if (stages.empty()) return;
+  double rest = 100.0 * measured.processorShare();
+  std::printf("of a processor's time:");
+  for (const auto& [stage, percent] : stages) {
+    std::printf(" %s %.1f %%,", stage.c_str(), percent);
+    rest -= percent;
+  }
+  std::printf(" rest %.1f %%\n", rest);
+}
+
+void appendStages(const Settings& settings, const Measurement& measured) {
+  const bool is_new = !std::ifstream(settings.stages).good();
+  std::ofstream file(settings.stages, std::ios::app);
+  if (is_new) file << csvLine({"method", "triangles", "stage", "percent_of_a_processor", "processor_share"});
+  for (const auto& [stage, percent] : stagesOf(measured)) {
+    file << csvLine({methodOf(settings), std::to_string(settings.triangles), stage, csvNumber(percent),
+                     csvNumber(measured.processorShare())});
+  }
+  if (!file) throw InvalidInput("--stages: cannot write " + settings.stages);
+}
+
 }  // namespace
 
 void print(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows) {
@@ -78,12 +102,14 @@ void print(const Settings& settings, const Measurement& measured, const std::vec
               measured.messages.sweeps_asked, measured.messages.whole_predictions);
   std::printf("guard's process: %.0f %% of a processor, %.1f MB, %+.1f MB during the measurement\n",
               100.0 * measured.processorShare(), measured.after.resident_mb, measured.growthMb());
+  printStages(measured);
   for (const Requirement& required : requirementsOn(settings, measured, rows)) print(required);
   std::fflush(stdout);
 }
 
 void save(const Settings& settings, const Measurement& measured, const std::vector<LatencyRow>& rows) {
   if (!settings.csv.empty()) appendFigures(settings, measured, rows);
+  if (!settings.stages.empty()) appendStages(settings, measured);
   if (settings.histogram.empty()) return;
   // Tab-separated, because the names contain commas.
   std::ofstream file(settings.histogram, std::ios::app);

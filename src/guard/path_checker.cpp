@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/stage_clock.h"
 #include "guard/placed_workpieces.h"
 #include "guard/triangle_set.h"
 
@@ -134,6 +135,7 @@ PathChecker::UncertainBody PathChecker::sweepBelow(const Scene& scene, const Pat
 // Returns whether findCandidate() would find a piece of the tool, without its probability.
 bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept) {
   if (submesh.empty()) return false;
+  const InStage stage(Stage::kProbability);
   measureDeviations(scene, swept);
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
     const Tool::Node& whole = scene.tool.tree()[0];
@@ -169,6 +171,7 @@ PathChecker::Candidate PathChecker::noCandidate() {
 PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept) {
   Candidate candidate = noCandidate();
   if (submesh.empty()) return candidate;
+  const InStage stage(Stage::kProbability);
   measureDeviations(scene, swept);
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
     candidate = likelier(candidate, findCandidate(scene, submesh, swept.segment, scene.tool.tree()[0], swept.bodies[i],

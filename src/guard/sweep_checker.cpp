@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/stage_clock.h"
 #include "detection/float_planes.h"
 #include "detection/inside.h"
 #include "guard/swept_body.h"
@@ -105,6 +106,7 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
 }
 
 void SweepChecker::narrow(const SweepRequest& request) {
+  const InStage stage(Stage::kNarrowPhase);
   const TriangleSet& confirmed = request.cache.already_confirmed;
   for (TriangleSet& candidates : candidates_) remove(candidates, confirmed);
   runNarrowPhase({request.tool, request.sub_motions, request.mesh, candidates_, request.options.margin,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/stage_clock.h"
 #include "guard/cross_check.h"
 #include "monitor/faults.h"
 #include "monitor/measured_contact.h"
@@ -146,6 +147,7 @@ void WarningMonitor::setWorkpieces(const Workpieces& workpieces) {
 
 void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, const Checkpoint& checkpoint,
                            SteadyTime now) {
+  const InStage stage(Stage::kMonitor);
   {
     const std::lock_guard lock(mutex_);
     if (epoch_ != checkpoint.epoch) return;
@@ -162,6 +164,7 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
 
 void WarningMonitor::predicted(const Prediction& prediction, const Timestamps& pose, const Checkpoint& checkpoint,
                                const Instant& now, Duration took) {
+  const InStage stage(Stage::kMonitor);
   {
     const std::lock_guard lock(mutex_);
     if (epoch_ != checkpoint.epoch) return;

@@ -28,8 +28,8 @@ CrossCheckThread::~CrossCheckThread() {
 
 void CrossCheckThread::start(Supervisor& supervisor) {
   if (parameters_.initial().cross_check == 0) return;
-  top_ = &supervisor.add({"cross-check", /*watched=*/false});
-  queries_.start(supervisor, {"queries", /*watched=*/false});
+  top_ = &supervisor.add({"cross-check", sweep_guard_core::Stage::kOther, /*watched=*/false});
+  queries_.start(supervisor, {"queries", sweep_guard_core::Stage::kOther, /*watched=*/false});
   thread_ = std::thread([this] { run(); });
 }
 

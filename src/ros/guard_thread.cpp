@@ -55,7 +55,7 @@ GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadD
              dependencies.parameters.initial().guard) {}
 
 void GuardThread::start(Supervisor& supervisor) {
-  top_ = &supervisor.add({"guard"});
+  top_ = &supervisor.add({"guard", sweep_guard_core::Stage::kSweep});
   thread_ = std::thread([this] { run(); });
 }
 
@@ -229,6 +229,7 @@ bool GuardThread::sweepOrRepeat() {
 }
 
 void GuardThread::sweepNext() {
+  const sweep_guard_core::InStage stage(sweep_guard_core::Stage::kSweep);
   const QueuedPose* const next = next_ + 1 < work_.poses.size() ? &work_.poses[next_ + 1] : nullptr;
   const bool swept = process(work_.poses[next_], next);
   ++next_;
@@ -320,6 +321,7 @@ bool GuardThread::timeToPredict() const {
 }
 
 void GuardThread::predict() {
+  const sweep_guard_core::InStage stage(sweep_guard_core::Stage::kPrediction);
   prediction_due_ = false;
   sweep_guard_core::beat();
   const Instant at = now();

@@ -26,7 +26,9 @@ class MasterWatch {
   MasterWatch& operator=(const MasterWatch&) = delete;
 
   /// After topics and services were advertised; the supervisor must outlive the thread.
-  void start(Supervisor& supervisor) { thread_.start(supervisor, {"master", /*watched=*/false}); }
+  void start(Supervisor& supervisor) {
+    thread_.start(supervisor, {"master", sweep_guard_core::Stage::kOther, /*watched=*/false});
+  }
   void stop();  ///< ends the running call
 
  private:

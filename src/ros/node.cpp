@@ -48,8 +48,9 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
           private_node, parameters_, monitor_, workpieces_,
           {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); }}),
       reconfigure_server_(private_node, parameters_, [this](const auto& next) { apply(next); }),
-      diagnostics_(node, private_node,
-                   {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_}),
+      diagnostics_(
+          node, private_node,
+          {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_, supervisor_}),
       watchdog_(monitor_, workpieces_, warnings_),
       peer_watch_(monitor_) {
   reports_.every(kViewPeriod, [this] { scene_.publishView(); });
@@ -68,7 +69,7 @@ void SweepGuardNode::start() {
   save_profile_.start(supervisor_);
   controls_.start(supervisor_);
   reconfigure_server_.start(supervisor_);
-  reports_.start(supervisor_, {"reports"});
+  reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
   cross_check_.start(supervisor_);
   master_watch_.start(supervisor_);
   peer_watch_.start(supervisor_);

@@ -21,7 +21,9 @@ class PeerWatch {
   PeerWatch(const PeerWatch&) = delete;
   PeerWatch& operator=(const PeerWatch&) = delete;
 
-  void start(Supervisor& supervisor) { thread_.start(supervisor, {"peers", /*watched=*/false}); }
+  void start(Supervisor& supervisor) {
+    thread_.start(supervisor, {"peers", sweep_guard_core::Stage::kOther, /*watched=*/false});
+  }
 
  private:
   void checkOrLog();

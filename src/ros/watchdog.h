@@ -16,7 +16,7 @@ class Watchdog {
   Watchdog(sweep_guard_core::WarningMonitor& monitor, sweep_guard_core::WorkpieceStore& workpieces,
            WarningPublisher& warnings);
 
-  void start(Supervisor& supervisor) { thread_.start(supervisor, {"warnings"}); }
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"warnings", sweep_guard_core::Stage::kMonitor}); }
 
  private:
   void checkClock();

@@ -1,5 +1,8 @@
 // /diagnostics of a running guard. Part of node_test.
 #include <cmath>
+#include <cstdlib>
+#include <set>
+#include <string>
 
 #include "node_fixture.h"
 #include "refusal.h"
@@ -98,6 +101,23 @@ TEST_F(DiagnosticsTest, ReportDetectorPredictorAndDeadlines) {
   EXPECT_EQ(valueOf(prediction, "predictor"), "direct");
   EXPECT_EQ(valueOf(prediction, "horizon [s]"), "reflex 0.1, considered 1");
   EXPECT_EQ(valueOf(probe().awaitStatus("parameters", any), "last refusal"), "none");
+}
+
+TEST_F(DiagnosticsTest, EachStageFromAMessageToAWarningTakesTime) {
+  const std::set<std::string> all = {"receive [%]",     "sweep [%]",   "narrow phase [%]", "prediction [%]",
+                                     "probability [%]", "monitor [%]", "publish [%]"};
+  touchASquare();
+  std::set<std::string> seen;
+  for (int tries_left = 20; tries_left > 0 && seen != all; --tries_left) {
+    for (int i = 0; i < 25; ++i) {
+      moveTo({0.0, 0.0, 0.01});
+      moveTo({0.0, 0.0, -0.01});
+    }
+    for (const auto& [stage, share] : probe().awaitStatus("stages", any).values) {
+      if (std::strtod(share.c_str(), nullptr) > 0.0) seen.insert(stage);
+    }
+  }
+  EXPECT_EQ(seen, all);
 }
 
 TEST_F(DiagnosticsTest, ReportThatTheGuardIsDisabledAndByWhom) {

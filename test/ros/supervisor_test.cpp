@@ -135,7 +135,7 @@ TEST(SupervisorTest, AThreadThatMakesProgressOrHasNoWorkDoesNotHang) {
 }
 
 TEST(SupervisorTest, AThreadThatIsNotWatchedDoesNotHang) {
-  SupervisedThread thread(Process::kOwn, {"service", /*watched=*/false});
+  SupervisedThread thread(Process::kOwn, {"service", sweep_guard_core::Stage::kOther, /*watched=*/false});
   thread.work([] { std::this_thread::sleep_for(500ms); });
   EXPECT_FALSE(comesToHang(thread, true, 400ms));
   thread.finish();

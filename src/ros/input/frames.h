@@ -36,7 +36,8 @@ class Frames {
          std::function<void(const std::string& parent, const std::string& child)> on_static_change);
 
   void start(Supervisor& supervisor) {
-    thread_.start(supervisor, {"transforms", /*watched=*/true, /*loses_latched=*/true});
+    thread_.start(supervisor,
+                  {"transforms", sweep_guard_core::Stage::kReceive, /*watched=*/true, /*loses_latched=*/true});
   }
 
   /// Returns the pose of frame `source` in frame `target` at a stamp; stamp 0: the newest. Does not wait.

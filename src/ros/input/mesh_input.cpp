@@ -71,7 +71,9 @@ BoundedSubscriber MeshInput::subscribe(ros::NodeHandle node, const std::string& 
 }
 
 void MeshInput::start(Supervisor& supervisor) {
-  const auto thread = [](const char* name) { return ThreadTraits{name, /*watched=*/true, /*loses_latched=*/true}; };
+  const auto thread = [](const char* name) {
+    return ThreadTraits{name, sweep_guard_core::Stage::kReceive, /*watched=*/true, /*loses_latched=*/true};
+  };
   storing_.start(supervisor, thread("storing"));
   converting_.start(supervisor, thread("converting"));
   thread_.start(supervisor, thread("meshes"));

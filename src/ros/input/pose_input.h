@@ -35,7 +35,7 @@ class PoseInput {
  public:
   PoseInput(const ros::NodeHandle& node, const Parameters& parameters, const PoseInputDependencies& dependencies);
 
-  void start(Supervisor& supervisor) { thread_.start(supervisor, {"poses"}); }
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"poses", sweep_guard_core::Stage::kReceive}); }
 
   const sweep_guard_core::InputRecord& record() const { return record_; }
   std::string source() const;                       ///< resolved topic, or the tf frames

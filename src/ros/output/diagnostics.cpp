@@ -46,6 +46,7 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.add("workpieces", [this](Status& status) { workpieces(status); });
   updater_.add("detector", [this](Status& status) { detector(status); });
   updater_.add("prediction", [this](Status& status) { prediction(status); });
+  updater_.add("stages", [this](Status& status) { stages(status); });
   updater_.add("parameters", [this](Status& status) { parameters(status); });
   updater_.add("process", [this](Status& status) { process(status); });
 }
@@ -197,6 +198,18 @@ void Diagnostics::prediction(Status& status) const {
               1e3 * quantile(statistics_.prediction_times, 1.0));
   status.addf("horizon covered [s]", "%.2f", toSeconds(newest.covered));
   status.addf("probability of contact", "%.3f", newest.probability);
+}
+
+void Diagnostics::stages(Status& status) {
+  const sweep_guard_core::SteadyTime now = std::chrono::steady_clock::now();
+  const sweep_guard_core::StageTimes times = sources_.supervisor.stageTimes();
+  status.summary(DiagnosticStatus::OK, "share of the time");
+  for (size_t i = 0; i < times.size(); ++i) {
+    const double share = toSeconds(times[i] - stage_times_[i]) / toSeconds(now - stages_read_);
+    status.addf(std::string(sweep_guard_core::kStageNames[i]) + " [%]", "%.3f", 100.0 * share);
+  }
+  stage_times_ = times;
+  stages_read_ = now;
 }
 
 void Diagnostics::parameters(Status& status) const {

@@ -10,6 +10,7 @@
 #include "ros/input/pose_input.h"
 #include "ros/parameters/parameters.h"
 #include "ros/parameters/reconfigure_server.h"
+#include "ros/threads/supervisor.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {
@@ -22,6 +23,7 @@ struct DiagnosticsSources {
   const sweep_guard_core::WarningMonitor& monitor;
   sweep_guard_core::SweepStatistics& statistics;
   const ReconfigureServer& reconfigure;
+  const Supervisor& supervisor;
 };
 
 /// Reports whether the detector works, and keeps up with the poses.
@@ -29,7 +31,8 @@ void reportDetector(const sweep_guard_core::SweepStatistics::Summary& statistics
                     diagnostic_updater::DiagnosticStatusWrapper& status);
 
 /// Publishes on /diagnostics the warning, each input (source, publishers, rate, age, last error), the workpieces, the
-/// detector and its deadlines, the prediction, the changed parameters, and the memory of the process.
+/// detector and its deadlines, the prediction, the time in each stage, the changed parameters, and the memory of the
+/// process.
 class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const DiagnosticsSources& sources);
@@ -60,6 +63,7 @@ class Diagnostics {
   void workpieces(Status& status) const;
   void detector(Status& status) const;
   void prediction(Status& status) const;
+  void stages(Status& status);
   void parameters(Status& status) const;
   void process(Status& status) const;
 
@@ -67,6 +71,8 @@ class Diagnostics {
   Counts poses_;  // at the end of the last period
   Counts meshes_;
   Counts vertices_;
+  sweep_guard_core::StageTimes stage_times_{};
+  sweep_guard_core::SteadyTime stages_read_ = std::chrono::steady_clock::now();
   sweep_guard_core::SweepStatistics::Summary statistics_;  // of the last period
   diagnostic_updater::Updater updater_;
 };

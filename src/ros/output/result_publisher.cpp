@@ -4,6 +4,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "common/stage_clock.h"
 #include "ros/service/predict.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -23,6 +24,7 @@ ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const LiveParamet
 
 void ResultPublisher::publish(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool) const {
   if (contacts_publisher_.getNumSubscribers() == 0) return;
+  const sweep_guard_core::InStage stage(sweep_guard_core::Stage::kPublish);
   const auto contacts = boost::make_shared<sweep_guard::Contacts>(toMsg(report, tool));
   const auto parameters = parameters_.get();
   contacts->header.frame_id = parameters->fixed_frame;
@@ -33,6 +35,7 @@ void ResultPublisher::publish(const sweep_guard_core::SweepReport& report, const
 
 void ResultPublisher::publish(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age) const {
   if (prediction_publisher_.getNumSubscribers() + time_to_collision_publisher_.getNumSubscribers() == 0) return;
+  const sweep_guard_core::InStage stage(sweep_guard_core::Stage::kPublish);
   const auto message = boost::make_shared<sweep_guard::Prediction>(predictionMsg(prediction, age, *parameters_.get()));
   std_msgs::Float64 time_to_collision;
   time_to_collision.data = timeToCollision(*message);

@@ -5,11 +5,15 @@
 #include <cstdio>
 #include <random>
 
+#include "common/stage_clock.h"
 #include "ros/output/flush.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
+
+using sweep_guard_core::InStage;
+using sweep_guard_core::Stage;
 
 constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, polled every 10 ms
 constexpr auto kValid = std::chrono::milliseconds(200);
@@ -73,6 +77,7 @@ void WarningPublisher::publishFlag(const ros::Publisher& publisher, Flag flag) {
 
 // Called under the lock.
 void WarningPublisher::publish(bool only_if_changed) {
+  const InStage monitoring(Stage::kMonitor);
   const sweep_guard_core::Instant at = now();
   monitor_.warning(at, warning_);
   const bool new_level = static_cast<std::uint8_t>(warning_.level) != message_.level;
@@ -80,6 +85,7 @@ void WarningPublisher::publish(bool only_if_changed) {
                        warning_.held_since.has_value() != (message_.held != 0) ||
                        warning_.acknowledged != (message_.acknowledged != 0);
   if (only_if_changed && !changed) return;
+  const InStage publishing(Stage::kPublish);
   const auto parameters = parameters_.get();
   sweep_guard::Warning next = toMsg(warning_);
   if (warning_.tool_piece) next.tool_link = parameters->tool->pieces()[*warning_.tool_piece].link;

@@ -22,7 +22,7 @@ ParameterWriter::~ParameterWriter() {
 }
 
 void ParameterWriter::start(Supervisor& supervisor) {
-  top_ = &supervisor.add({"param_writer", /*watched=*/false});
+  top_ = &supervisor.add({"param_writer", sweep_guard_core::Stage::kOther, /*watched=*/false});
   thread_ = std::thread([this] { run(); });
 }
 

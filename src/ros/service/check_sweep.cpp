@@ -81,7 +81,7 @@ CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, const 
           [this](auto& request, auto& response) { return onCall(request, response); }, refuse)) {}
 
 void CheckSweepService::start(Supervisor& supervisor) {
-  sweeps_.start(supervisor, {"paths", /*watched=*/false});
+  sweeps_.start(supervisor, {"paths", sweep_guard_core::Stage::kOther, /*watched=*/false});
   calls_.start(supervisor);
 }
 

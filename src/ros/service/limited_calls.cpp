@@ -48,8 +48,8 @@ LimitedCalls::LimitedCalls(const char* name) : name_(name) {
 }
 
 void LimitedCalls::start(Supervisor& supervisor) {
-  worker_.start(supervisor, {name_, /*watched=*/false});
-  refusals_.start(supervisor, {"busy", /*watched=*/false});
+  worker_.start(supervisor, {name_, sweep_guard_core::Stage::kOther, /*watched=*/false});
+  refusals_.start(supervisor, {"busy", sweep_guard_core::Stage::kOther, /*watched=*/false});
 }
 
 void LimitedCalls::addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) {

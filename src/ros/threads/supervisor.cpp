@@ -46,7 +46,18 @@ Supervisor::~Supervisor() {
 ThreadTop& Supervisor::add(const ThreadTraits& thread) { return threads_.emplace_back(*this, thread).top; }
 
 void Supervisor::start() {
+  started_ = true;
   thread_ = std::thread([this] { watch(); });
+}
+
+sweep_guard_core::StageTimes Supervisor::stageTimes() const {
+  sweep_guard_core::StageTimes all{};
+  if (!started_) return all;  // threads are still added
+  for (const Watched& watched : threads_) {
+    const sweep_guard_core::StageTimes times = watched.top.stageTimes();
+    std::transform(all.begin(), all.end(), times.begin(), all.begin(), std::plus<>());
+  }
+  return all;
 }
 
 // Needs no memory from the heap until all is reported that counts.

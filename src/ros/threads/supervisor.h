@@ -34,6 +34,8 @@ class Supervisor {
   /// Returns the top of a new thread, which lives as long as the supervisor. Not after start().
   ThreadTop& add(const ThreadTraits& thread);
   void start();  ///< begins to watch
+  /// Returns how long all threads together were in each stage, since start(). Any thread.
+  sweep_guard_core::StageTimes stageTimes() const;
   /// Returns the name of a thread that hangs; null: none. Any thread.
   const char* hung() const { return hung_; }
 
@@ -60,6 +62,7 @@ class Supervisor {
   LogThrottle log_;
   sweep_guard_core::PriorityMutex failures_mutex_;
   std::array<sweep_guard_core::SteadyTime, 2> failures_{};  // the newest before this one, the latest first
+  std::atomic<bool> started_ = false;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
 };

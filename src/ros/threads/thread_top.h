@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/heartbeat.h"
+#include "common/stage_clock.h"
 #include "ros/threads/kernel_thread.h"
 #include "sweep_guard/common/time.h"
 
@@ -13,7 +14,8 @@ namespace sweep_guard_ros {
 class Supervisor;
 
 struct ThreadTraits {
-  const char* name;            ///< at most 15 bytes; lives as long as the process
+  const char* name;                                                 ///< at most 15 bytes; lives as long as the process
+  sweep_guard_core::Stage stage = sweep_guard_core::Stage::kOther;  ///< in which its pieces of work begin
   bool watched = true;         ///< counts as hung if it makes no progress; false: its work may take any time
   bool loses_latched = false;  ///< work that fails may be a latched message, which is not sent again
 };
@@ -31,7 +33,9 @@ class ThreadTop {
   void run(const Work& work, sweep_guard_core::Duration allowance = {}) noexcept {
     allowance_ = allowance;
     heartbeat_.begin();
+    stage_clock_.begin(traits_.stage);
     attempt(work);
+    stage_clock_.end();
     heartbeat_.end();
   }
 
@@ -52,6 +56,7 @@ class ThreadTop {
 
   const ThreadTraits& traits() const { return traits_; }
   sweep_guard_core::Heartbeat::Reading heartbeat() const { return heartbeat_.read(); }
+  sweep_guard_core::StageTimes stageTimes() const { return stage_clock_.read(); }
   sweep_guard_core::Duration allowance() const { return allowance_; }
   const std::optional<KernelThread>& thread() const { return thread_; }  ///< after the first step
 
@@ -61,6 +66,7 @@ class ThreadTop {
   Supervisor& supervisor_;
   const ThreadTraits traits_;
   sweep_guard_core::Heartbeat heartbeat_;
+  sweep_guard_core::StageClock stage_clock_;
   std::atomic<sweep_guard_core::Duration> allowance_{};
   std::optional<KernelThread> thread_;
 };

@@ -1,0 +1,104 @@
+// What a node that runs still allocates, from a message to a warning. The guard is a part of this process, the demo's
+// workpiece and operator are others.
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <sweep_guard/Contacts.h>
+#include <sweep_guard/Prediction.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "allocations.h"
+#include "ros/node.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr size_t kWarmUp = 1000;  // poses
+constexpr size_t kCounted = 1000;
+constexpr double kGrowth = 0.05;  // allocations per pose of what is not listed: buffers that meet something larger
+const std::set<std::string> kThreads = {"guard", "poses", "meshes", "converting", "storing", "warnings"};
+
+struct Allowed {
+  std::string frame;   // in the call stack
+  bool innermost;      // as the first frame
+  double most;         // per pose
+  std::string reason;  // why it may
+};
+const std::vector<Allowed> kAllowed = {
+    {"ResultPublisher::publish", false, 40.0, "messages are published as shared pointers, which nodelets keep"},
+    {"WarningPublisher::publish", false, 5.0, "the warning and its flags, at 20 Hz or changed"},
+    {"ros::MessageDeserializer::deserialize", false, 4.0, "received messages: roscpp makes each anew"},
+    {"MeshVertices", false, 4.0, "jobs for the thread that stores: messages wait there, bounded in bytes"},
+    {"PoseInput::accept", true, 1.1, "where the frames of the workpieces are, for the guard's thread"},
+    {"GuardThread::sweep", true, 1.1, "the list of the workpieces: the store goes on meanwhile"},
+    {"GuardThread::predict", true, 1.1, "the same for a prediction"},
+};
+
+bool matches(const Allowed& allowed, const std::string& stack) {
+  const size_t place = stack.find(allowed.frame);
+  return place != std::string::npos && (!allowed.innermost || place < stack.find(" < "));
+}
+
+// The messages of the guard, received by this process.
+class Results {
+ public:
+  explicit Results(ros::NodeHandle guard) {
+    guard.setCallbackQueue(&queue_);
+    contacts_ = guard.subscribe<sweep_guard::Contacts>("contacts", kWarmUp, [&](const auto&) { ++swept_; });
+    predictions_ = guard.subscribe<sweep_guard::Prediction>("prediction", kWarmUp, [&](const auto&) { ++predicted_; });
+  }
+
+  void awaitContacts(size_t count) {
+    while (ros::ok() && swept_ < count) queue_.callOne(ros::WallDuration(1.0));
+  }
+  size_t swept() const { return swept_; }
+  size_t predicted() const { return predicted_; }
+
+ private:
+  size_t swept_ = 0;
+  size_t predicted_ = 0;
+  ros::CallbackQueue queue_;
+  ros::Subscriber contacts_;
+  ros::Subscriber predictions_;
+};
+
+TEST(NodeAllocationTest, FromAMessageToAWarningOnlyWhatIsListedAllocates) {
+  SweepGuardNode guard(ros::NodeHandle(), ros::NodeHandle("sweep_guard"), Process::kShared);
+  guard.start();
+  Results results(ros::NodeHandle("sweep_guard"));
+  results.awaitContacts(kWarmUp);
+
+  const sweep_guard_core::AllocationsOfAllThreads made;
+  const size_t begin = results.swept();
+  results.awaitContacts(begin + kCounted);
+  const auto poses = static_cast<double>(results.swept() - begin);
+  std::vector<double> of_allowed(kAllowed.size());
+  double of_others = 0.0;
+  std::string others;
+  for (const auto& [thread, stack, count] : made.places()) {
+    if (kThreads.count(thread) == 0) continue;
+    const auto allowed = std::find_if(kAllowed.begin(), kAllowed.end(),
+                                      [&, place = stack](const Allowed& one) { return matches(one, place); });
+    const double per_pose = static_cast<double>(count) / poses;
+    if (allowed != kAllowed.end()) {
+      of_allowed[static_cast<size_t>(allowed - kAllowed.begin())] += per_pose;
+    } else {
+      of_others += per_pose;
+      others += thread + " " + std::to_string(per_pose) + " " + stack + "\n";
+    }
+  }
+  EXPECT_LE(of_others, kGrowth) << others;
+  for (size_t i = 0; i < kAllowed.size(); ++i) {
+    EXPECT_GT(of_allowed[i], 0.0) << kAllowed[i].frame << " need not be listed";
+    EXPECT_LE(of_allowed[i], kAllowed[i].most) << kAllowed[i].frame;
+    RecordProperty(kAllowed[i].frame.c_str(), std::to_string(of_allowed[i]));
+  }
+  EXPECT_GT(results.predicted(), kCounted / 2);
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
