@@ -14,10 +14,9 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kMinDeviation = 1e-9;                                        // [m]; smaller deviations are rounded up
-constexpr double kTolerance = 1e-3;                                           // [standard deviations]
-constexpr double kRounding = 1e-6;                                            // [standard deviations], of clipping
-constexpr std::array<double, 4> kReaches = {0.0, 0.75, 1.5, kMaxDeviations};  // [standard deviations]
+constexpr double kMinDeviation = 1e-9;  // [m]; smaller deviations are rounded up
+constexpr double kTolerance = 1e-3;     // [standard deviations]
+constexpr double kRounding = 1e-6;      // [standard deviations], of clipping
 
 double deviationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& r, const Matrix6d& covariance) {
   Eigen::Matrix<double, 6, 1> J;
@@ -44,6 +43,17 @@ double supportDeviation(const ConvexShape& shape, const Eigen::Matrix3d& R_MT, c
 
 double contactProbability(double deviations) {
   return deviations > kMaxDeviations ? 0.0 : 0.5 * std::erfc(deviations / std::sqrt(2.0));
+}
+
+double deviationsAt(double probability) {
+  double at_least = 0.0;
+  double too_many = kMaxDeviations;
+  if (contactProbability(too_many) >= probability) return too_many;
+  while (too_many - at_least > 1e-9) {
+    const double middle = 0.5 * (at_least + too_many);
+    (contactProbability(middle) >= probability ? at_least : too_many) = middle;
+  }
+  return too_many;
 }
 
 PerHalfSpace planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Matrix6d& covariance_M,
@@ -81,12 +91,23 @@ struct ClearanceMeter::Planes {
   Scores scores(const Eigen::Vector3d& p) const {
     return normals.col(0) * p.x() + normals.col(1) * p.y() + normals.col(2) * p.z() - offsets;
   }
+  Candidate candidate(std::uint32_t triangle) const {
+    const auto& [p, q, r] = corners(triangle);
+    const Scores a = scores(p);
+    const Scores b = scores(q);
+    const Scores c = scores(r);
+    return {triangle, a.min(b).min(c).maxCoeff(), std::min({a.maxCoeff(), b.maxCoeff(), c.maxCoeff()})};
+  }
 
   const TriangleMesh& mesh_M;
   size_t count = 0;
   Eigen::Array<double, kMaxHalfSpaces, 3> normals = Eigen::Array<double, kMaxHalfSpaces, 3>::Zero();
   Scores offsets = Scores::Constant(std::numeric_limits<double>::max());  // of what is no plane: nothing is beyond it
 };
+
+ClearanceMeter::ClearanceMeter(double max_deviations) : reaches_{0.0, 0.75, 1.5, max_deviations} {
+  for (double& reach : reaches_) reach = std::min(reach, max_deviations);
+}
 
 // Moves the planes out step by step: the fewer triangles are within, the fewer have to be compared.
 std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const SweptVolume& swept_M,
@@ -95,7 +116,7 @@ std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const S
   candidates_.clear();
   if (submesh.empty()) return {};
   const Planes planes(submesh.mesh_M(), swept_M, sigmas);
-  for (const double reach : kReaches) {
+  for (const double reach : reaches_) {
     collectCandidates(within(reach, submesh, swept_M, sigmas), reach, planes);
     if (const auto clearance = nearestWithin(reach, planes)) return clearance;
   }
@@ -106,11 +127,13 @@ bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, 
   beat();
   if (submesh.empty()) return false;
   const Planes planes(submesh.mesh_M(), swept_M, sigmas);
-  return std::any_of(kReaches.begin(), kReaches.end(), [&](double reach) {
-    collectCandidates(within(reach, submesh, swept_M, sigmas), reach, planes);
-    return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
-      return candidate.at_most <= reach || reaches(reach, planes.corners(candidate.triangle), planes);
-    });
+  return std::any_of(reaches_.begin(), reaches_.end(), [&](double reach) {
+    const auto& remaining = within(reach, submesh, swept_M, sigmas);
+    const auto any = [&](const auto& test) { return std::any_of(remaining.begin(), remaining.end(), test); };
+    return any([](const RemainingTriangle& triangle) { return triangle.met; }) ||
+           any([&](const RemainingTriangle& triangle) {
+             return reaches(reach, planes.corners(triangle.triangle), planes);
+           });
   });
 }
 
@@ -137,10 +160,14 @@ std::optional<Clearance> ClearanceMeter::nearestWithin(double reach, const Plane
   return Clearance{separated, nearest};
 }
 
-const TriangleSet& ClearanceMeter::notSeparated() {
+const TriangleSet& ClearanceMeter::notSeparated(const Submesh& submesh, const SweptVolume& swept_M) {
+  beat();
   not_separated_.clear();
-  for (const Candidate& candidate : candidates_) {
-    if (candidate.at_least <= 0.0) not_separated_.push_back(candidate.triangle);
+  if (submesh.empty()) return not_separated_;
+  const PerHalfSpace unit(6 + swept_M.clips_B.size(), 1.0);
+  const Planes planes(submesh.mesh_M(), swept_M, unit);
+  for (const RemainingTriangle& remaining : within(0.0, submesh, swept_M, unit)) {
+    if (planes.candidate(remaining.triangle).at_least <= 0.0) not_separated_.push_back(remaining.triangle);
   }
   std::sort(not_separated_.begin(), not_separated_.end());
   return not_separated_;
@@ -177,15 +204,10 @@ void ClearanceMeter::collectCandidates(const std::vector<RemainingTriangle>& rem
   double limit = reach + kTolerance;
   candidates_.clear();
   for (const RemainingTriangle& triangle : remaining) {
-    const auto& [p, q, r] = planes.corners(triangle.triangle);
-    const Planes::Scores a = planes.scores(p);
-    const Planes::Scores b = planes.scores(q);
-    const Planes::Scores c = planes.scores(r);
-    const double at_least = a.min(b).min(c).maxCoeff();
-    if (at_least > limit) continue;
-    const double at_most = std::min({a.maxCoeff(), b.maxCoeff(), c.maxCoeff()});
-    candidates_.push_back({triangle.triangle, at_least, at_most});
-    limit = std::min(limit, std::max(0.0, at_most));
+    const Candidate candidate = planes.candidate(triangle.triangle);
+    if (candidate.at_least > limit) continue;
+    candidates_.push_back(candidate);
+    limit = std::min(limit, candidate.at_most);
   }
   const auto too_far = [&](const Candidate& candidate) { return candidate.at_least > limit; };
   candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), too_far), candidates_.end());

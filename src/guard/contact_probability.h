@@ -13,7 +13,7 @@
 
 namespace sweep_guard_core {
 
-/// Contacts at more standard deviations are ignored: their probability is below 0.001.
+/// Contacts at more standard deviations are always ignored: their probability is below 0.001.
 constexpr double kMaxDeviations = 3.09;
 
 /// Returns the probability that a tool on an uncertain path meets something that is `deviations` standard deviations
@@ -22,6 +22,10 @@ constexpr double kMaxDeviations = 3.09;
 /// large, for only the planes of the volume are used, though another direction might separate more. Of several sweeps
 /// or triangles the largest probability counts, not that of their union.
 double contactProbability(double deviations);
+
+/// Returns the largest number of deviations from which a contact has at least this probability, from 0 (0.5 and more) to
+/// kMaxDeviations (0.001 and less).
+double deviationsAt(double probability);
 
 /// Computes how much each plane of a swept volume may err, in the order of halfSpaces_B(): the standard deviation [m],
 /// along the plane's normal, of the body's point that touches the plane. A point at r from the tool's origin moves
@@ -44,7 +48,10 @@ struct Clearance {
 /// Measures the clearance of an uncertain volume. Keeps its buffers between calls.
 class ClearanceMeter {
  public:
-  /// Returns empty if the clearance exceeds kMaxDeviations. Exact to 1e-3 standard deviations; at least
+  /// @param max_deviations  larger clearances are not measured; at most kMaxDeviations
+  explicit ClearanceMeter(double max_deviations = kMaxDeviations);
+
+  /// Returns empty if the clearance exceeds the largest one to measure. Exact to 1e-3 standard deviations; at least
   /// -kMaxDeviations.
   /// @param submesh     other triangles are not tested
   /// @param deviations  from planeDeviations()
@@ -53,9 +60,9 @@ class ClearanceMeter {
   /// Returns whether measure() would find a clearance. Takes a fraction of its time.
   bool isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations);
 
-  /// Returns the triangles that no plane of the volume measured last separates from it: ascending. The volume meets no
-  /// other triangles. Valid until the next call.
-  const TriangleSet& notSeparated();
+  /// Returns the triangles that no plane of the volume separates from it: ascending. The volume meets no other triangles.
+  /// Valid until the next call.
+  const TriangleSet& notSeparated(const Submesh& submesh, const SweptVolume& swept_M);
 
  private:
   struct Candidate {
@@ -73,6 +80,7 @@ class ClearanceMeter {
   static bool reaches(double z, const Corners& corners, const Planes& planes);
   static double deviationsTo(double nearest, const Candidate& candidate, const Planes& planes);
 
+  std::array<double, 4> reaches_;  // by which the planes are moved out, one after the other
   Culler culler_;
   std::vector<Candidate> candidates_;  // ascending by at_least
   TriangleSet not_separated_;

@@ -61,7 +61,7 @@ void PathChecker::follow(const PredictedPathRequest& request, double margin) {
   X_WM_.reset();
   path_M_.follow(request.tool, request.X_WT, request.path, request.X_WM);
   margin_ = margin;
-  reach_M_ = path_M_.reach_M(path_M_.whole(), kMaxDeviations, margin);
+  reach_M_ = path_M_.reach_M(path_M_.whole(), options_.max_deviations, margin);
   swept_ = 0;
   tool_ = &request.tool.whole();
   size_t begin = 0;
@@ -100,7 +100,7 @@ size_t PathChecker::sweepSegment(const PathSegment& segment, double margin) {
   if (swept_ == segments_.size()) segments_.emplace_back();
   SweptSegment& swept = segments_[swept_];
   swept.segment = segment;
-  swept.reach_M = path_M_.reach_M(segment, kMaxDeviations, margin);
+  swept.reach_M = path_M_.reach_M(segment, options_.max_deviations, margin);
   swept.bodies.clear();
   swept.deviations.clear();
   swept.halves = {};
@@ -187,11 +187,7 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
   if (!clearance) return {};
   if (node.piece) {
     const Candidate candidate{contactProbability(clearance->deviations), node.piece};
-    if (!clearance->separated) {
-      unseparated_.push_back({body, candidate});
-      unite(not_ruled_out_, meter_.notSeparated());
-      in_contact_ = likelier(in_contact_, candidate);
-    }
+    if (!clearance->separated) unseparated_.push_back({body, candidate});
     return candidate;
   }
   Candidate candidate;
@@ -204,12 +200,18 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
 }
 
 void PathChecker::detectContacts(const Scene& scene, const Submesh& submesh) {
-  not_ruled_out_.clear();
-  in_contact_ = {};
   for (const auto& [body, candidate] : unseparated_) {
     detect(scene.detector, submesh, body, detection_);
     unite(not_ruled_out_, detection_.triangles);
     if (!detection_.triangles.empty()) in_contact_ = likelier(in_contact_, candidate);
+  }
+}
+
+// Takes each triangle that no plane separates for met.
+void PathChecker::assumeContacts(const Submesh& submesh) {
+  for (const auto& [body, candidate] : unseparated_) {
+    unite(not_ruled_out_, meter_.notSeparated(submesh, body.volume_M));
+    in_contact_ = likelier(in_contact_, candidate);
   }
 }
 
@@ -235,7 +237,7 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
   const bool in_time = candidate.probability == 0.0 || scene.inTimeFor(segment);
   const bool finer = !progress.contact && in_time;
   if (in_time) progress.object.volumes_tested += swept.bodies.size();
-  if (in_time) detectContacts(scene, submesh);
+  in_time ? detectContacts(scene, submesh) : assumeContacts(submesh);
   if (!not_ruled_out_.empty() && finer && length > options_.finest) return halve();
 
   const auto tool_piece = not_ruled_out_.empty() ? candidate.piece : in_contact_.piece;

@@ -37,11 +37,14 @@ class PathChecker {
  public:
   struct Options {
     SweepOptions sweep;
-    Duration finest;  ///< a sweep with contact is halved until it lasts no longer than this, > 0
+    Duration finest;                         ///< a sweep with contact is halved until it lasts no longer than this, > 0
+    double max_deviations = kMaxDeviations;  ///< contacts at more standard deviations are ignored
   };
-  static Options optionsOf(const GuardOptions& options) { return {options.sweep, options.horizon.reflex_step / 2}; }
+  static Options optionsOf(const GuardOptions& options) {
+    return {options.sweep, options.horizon.reflex_step / 2, deviationsAt(options.least_probability)};
+  }
 
-  explicit PathChecker(const Options& options) : options_(options) {}
+  explicit PathChecker(const Options& options) : options_(options), meter_(options.max_deviations) {}
 
   /// Tests the path against one workpiece. A sweep whose volume meets the workpiece is halved down to `finest`, a sweep
   /// that may meet it down to 25 ms: short volumes are tight and locate the begin of the contact. After the first
@@ -90,6 +93,7 @@ class PathChecker {
   UncertainBody sweepBelow(const Scene& scene, const PathSegment& segment, const Tool::Node& below,
                            const Motion& motion_M) const;
   void detectContacts(const Scene& scene, const Submesh& submesh);
+  void assumeContacts(const Submesh& submesh);
   bool hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
   bool hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment, const Tool::Node& node,
                     const SweptBody& body, const PerHalfSpace& deviations);

@@ -19,24 +19,36 @@ Matrix6d turned(const Matrix6d& covariance_W, const Eigen::Matrix3d& R_MW) {
 
 double fraction(Duration elapsed, Duration whole) { return toSeconds(elapsed) / toSeconds(whole); }
 
-// Standard deviations along the axes of M of a point at r from the tool's origin: the point moves by dx + dtheta x r.
-Eigen::Vector3d pointDeviations(const Eigen::Vector3d& r_M, const Matrix6d& covariance_M) {
-  Eigen::Matrix<double, 3, 6> J;
-  J << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
-  for (int axis = 0; axis < 3; ++axis) J.row(axis).tail<3>() = r_M.cross(Eigen::Vector3d::Unit(axis));
-  return (J * covariance_M * J.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+// Variances along the axes of M of a point at r from the tool's origin: the point moves by dx + dtheta x r, and along an
+// axis e by e·dx + (r x e)·dtheta. One component of r x e is 0.
+Eigen::Array3d pointVariances(const Eigen::Vector3d& r_M, const Matrix6d& covariance_M) {
+  Eigen::Array3d variances;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int next = (axis + 1) % 3;
+    const int last = (axis + 2) % 3;
+    const double to_next = r_M[last];
+    const double to_last = -r_M[next];
+    const auto C = [&](int row, int column) { return covariance_M(row, column); };
+    variances[axis] = C(axis, axis) + 2.0 * (C(axis, 3 + next) * to_next + C(axis, 3 + last) * to_last) +
+                      C(3 + next, 3 + next) * to_next * to_next + C(3 + last, 3 + last) * to_last * to_last +
+                      2.0 * C(3 + next, 3 + last) * to_next * to_last;
+  }
+  return variances;
 }
 
-// Holds every tool point at a pose that errs by up to `max_deviations` standard deviations. A point's standard
-// deviation along an axis is convex in the point, so the corners of a box around the tool bound it.
+// Holds every tool point at a pose that errs by up to `max_deviations` standard deviations of either covariance. A
+// point's standard deviation along an axis is convex in the point, so the corners of a box around the tool bound it.
 Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& tool_T, const Eigen::Isometry3d& X_MT,
-                              const Matrix6d& covariance_M, double max_deviations) {
+                              const Matrix6d& one_covariance_M, const Matrix6d& other_covariance_M,
+                              double max_deviations) {
   Eigen::AlignedBox3d box_M;
   for (int i = 0; i < 8; ++i) {
     const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
     const Eigen::Vector3d r_M = X_MT.linear() * tool_T.corner(corner);
     const Eigen::Vector3d p_M = X_MT.translation() + r_M;
-    const Eigen::Vector3d error = max_deviations * pointDeviations(r_M, covariance_M);
+    const Eigen::Array3d variances =
+        pointVariances(r_M, one_covariance_M).max(pointVariances(r_M, other_covariance_M)).max(0.0);
+    const Eigen::Vector3d error = max_deviations * variances.sqrt().matrix();
     box_M.extend(Eigen::AlignedBox3d(p_M - error, p_M + error));
   }
   return box_M;
@@ -88,13 +100,13 @@ void PathInMesh::motions_M(const PathSegment& segment, double max_rotation, std:
 
 Eigen::AlignedBox3d PathInMesh::reach_M(const PathSegment& segment, double deviations, double margin) const {
   Pose pose = at(segment.from, segment.first);
-  Eigen::AlignedBox3d box_M = boxAround(tool_T_, pose.X_MT, pose.covariance_M, deviations);
+  Eigen::AlignedBox3d box_M;
   double arc = 0.0;
   const auto extendTo = [&](const Pose& next) {
     // Every covariance between the poses lies between theirs, so no deviation exceeds the larger of both.
-    box_M.extend(boxAround(tool_T_, pose.X_MT, next.covariance_M, deviations));
-    box_M.extend(boxAround(tool_T_, next.X_MT, pose.covariance_M, deviations));
-    box_M.extend(boxAround(tool_T_, next.X_MT, next.covariance_M, deviations));
+    for (const Eigen::Isometry3d& X_MT : {pose.X_MT, next.X_MT}) {
+      box_M.extend(boxAround(tool_T_, X_MT, pose.covariance_M, next.covariance_M, deviations));
+    }
     arc = std::max(arc, chordError(tool_radius_, Motion{pose.X_MT, next.X_MT}.angle()));
     pose = next;
   };

@@ -24,6 +24,7 @@ using sweep_guard_core::Timestamps;
 constexpr Duration kPause = std::chrono::milliseconds(10);           // before a failed sweep is tried again
 constexpr Duration kMaxInterrupted = std::chrono::milliseconds(50);  // from the begin of a prediction on
 constexpr Duration kMaxWait = std::chrono::milliseconds(500);        // for a sweep to end, before a change or a reset
+constexpr int kPredictionShare = 3;  // one of so many parts of the time is for predictions
 
 // A passed pose is swept as a part of the motion to the next one.
 bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
@@ -195,7 +196,7 @@ void GuardThread::run() {
 
 bool GuardThread::workOnce() {
   next_ = 0;
-  if (!dependencies_.queue.take(work_)) return false;
+  if (!dependencies_.queue.take(work_, latestPrediction())) return false;
   for (const auto& task : work_.tasks) top_->run(task);
   do {
     if (!sweepPoses()) return false;
@@ -313,11 +314,21 @@ void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailur
   }
 }
 
+bool GuardThread::mayPredict() const { return prediction_due_ && passed_.empty(); }
+
 // Sweeps of queued poses go first, but delay the prediction by at most a cycle. It begins at a swept pose.
 bool GuardThread::timeToPredict() const {
-  if (!prediction_due_ || !passed_.empty()) return false;
+  if (!mayPredict()) return false;
+  const Duration since = std::chrono::steady_clock::now() - predicted_at_;
+  if (since >= dependencies_.parameters.get()->guard.cycle) return true;
+  return since >= kPredictionShare * prediction_took_ && !dependencies_.queue.hasPoses();
+}
+
+// A prediction rather begins at the next pose, which is fresh, but waits for it no longer than this.
+std::optional<SteadyTime> GuardThread::latestPrediction() const {
+  if (!mayPredict()) return std::nullopt;
   const Duration cycle = dependencies_.parameters.get()->guard.cycle;
-  return std::chrono::steady_clock::now() - predicted_at_ >= cycle || !dependencies_.queue.hasPoses();
+  return predicted_at_ + std::min(cycle, 2 * kPredictionShare * prediction_took_);
 }
 
 void GuardThread::predict() {
@@ -346,6 +357,7 @@ void GuardThread::predict() {
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
   dependencies_.scene.predicted(pose, prediction);
+  prediction_took_ = std::chrono::steady_clock::now() - at.steady - interrupted;
 }
 
 // Sweeps the poses that come meanwhile, as long as none of them fails. Returns how long that took.

@@ -41,7 +41,8 @@ struct GuardThreadDependencies {
 
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
 /// newest pose, and runs the queued tasks between two sweeps. A pose that comes during a prediction is swept between two
-/// of its sweeps, for up to 50 ms; then the prediction ends first.
+/// of its sweeps, for up to 50 ms; then the prediction ends first. Predictions take a third of the time at most, but one
+/// begins every cycle: a pose that is not predicted from is still swept.
 class GuardThread {
  public:
   /// @throws sweep_guard_core::InvalidInput if a parameter is refused
@@ -91,7 +92,9 @@ class GuardThread {
   sweep_guard_core::Duration predictInterrupted(sweep_guard_core::Duration age,
                                                 const sweep_guard_core::Workpieces& workpieces,
                                                 sweep_guard_core::Prediction& prediction);
+  bool mayPredict() const;
   bool timeToPredict() const;
+  std::optional<sweep_guard_core::SteadyTime> latestPrediction() const;
   void acknowledgeNow(std::string& id);
   void endAcknowledgements(const sweep_guard_core::Workpieces& workpieces);
   bool isKnownNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces);
@@ -113,6 +116,7 @@ class GuardThread {
   QueuedPose predicted_from_;                                // newest swept pose at the last prediction
   std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
   sweep_guard_core::SteadyTime predicted_at_;                // time of the newest prediction
+  sweep_guard_core::Duration prediction_took_{};             // what it took, to the last message
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
   sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;
   LogThrottle log_;

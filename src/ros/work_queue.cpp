@@ -1,6 +1,9 @@
 #include "ros/work_queue.h"
 
 #include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <ctime>
 #include <iterator>
 #include <utility>
 
@@ -47,10 +50,24 @@ void WorkQueue::run(const std::function<void()>& task, sweep_guard_core::Duratio
   done.get();
 }
 
-bool WorkQueue::take(Work& taken) {
+bool WorkQueue::take(Work& taken, std::optional<sweep_guard_core::SteadyTime> until) {
   taken.tasks.clear();
-  while (!takeNow(taken)) sem_wait(&signal_);
+  while (!takeNow(taken)) {
+    if (!wait(until)) return true;
+  }
   return !taken.poses.empty() || !taken.tasks.empty();
+}
+
+// Returns false if it is too late. May return before there is work.
+bool WorkQueue::wait(std::optional<sweep_guard_core::SteadyTime> until) {
+  if (!until) {
+    sem_wait(&signal_);
+    return true;
+  }
+  const auto since_boot = until->time_since_epoch();
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(since_boot);
+  const timespec at{seconds.count(), std::chrono::nanoseconds(since_boot - seconds).count()};
+  return sem_clockwait(&signal_, CLOCK_MONOTONIC, &at) == 0 || errno != ETIMEDOUT;
 }
 
 // Returns false if the thread has to wait. After stop(), what is taken is empty.

@@ -55,9 +55,10 @@ class WorkQueue {
   void run(const std::function<void()>& task, sweep_guard_core::Duration timeout);
 
   /// Waits for work, and takes all tasks and the oldest poses, at most 4096.
-  /// @param[out] taken  overwritten
+  /// @param[out] taken  overwritten; empty if no work came in time
+  /// @param until  waits no longer; empty: as long as it takes
   /// @returns false after stop()
-  bool take(Work& taken);
+  bool take(Work& taken, std::optional<sweep_guard_core::SteadyTime> until = {});
   /// Takes all tasks, and no poses. Does not wait.
   std::vector<std::function<void()>> takeTasks();
   /// Takes poses as take() does, and no tasks. Does not wait.
@@ -79,6 +80,7 @@ class WorkQueue {
  private:
   void pushTask(std::function<void()> task);
   bool takeNow(Work& taken);
+  bool wait(std::optional<sweep_guard_core::SteadyTime> until);
   void takePosesNow(std::vector<QueuedPose>& taken);
   void wake();
 

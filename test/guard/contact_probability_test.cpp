@@ -62,6 +62,32 @@ TEST(ContactProbabilityTest, IsTheGaussianIntegralAndZeroWhereItIsSmall) {
   EXPECT_EQ(contactProbability(3.0901), 0.0);
 }
 
+TEST(ContactProbabilityTest, KnowsFromHowManyDeviationsOnAProbabilityIsTooSmall) {
+  EXPECT_NEAR(deviationsAt(0.01), 2.3263, 1e-4);
+  EXPECT_NEAR(deviationsAt(0.158655253931457), 1.0, 1e-8);
+  EXPECT_NEAR(deviationsAt(0.5), 0.0, 1e-8);
+  EXPECT_NEAR(deviationsAt(1.0), 0.0, 1e-8);
+  EXPECT_EQ(deviationsAt(0.001), kMaxDeviations);
+  EXPECT_EQ(deviationsAt(0.0), kMaxDeviations);
+}
+
+TEST(ContactProbabilityTest, IsNotMeasuredBeyondTheLargestClearanceThatMatters) {
+  for (const double most : {0.0, 0.5, 2.0}) {
+    ClearanceMeter meter(most);
+    for (const double ratio : {-1.0, 0.25, 1.0, 3.0}) {
+      const SweptVolume swept_M = sweptVolume(kNeedle, goesOn(), VolumeKind::kObbPlanes);
+      const auto deviations = planeDeviations(kNeedle, goesOn().X_MT_end, translating(0.0625), swept_M);
+      const TriangleMesh wall = wallAt(0.25 + ratio * 0.0625);
+      const auto clearance = meter.measure(wall, swept_M, deviations);
+      EXPECT_EQ(clearance.has_value(), ratio < most) << ratio << " of " << most;
+      EXPECT_EQ(meter.isNear(wall, swept_M, deviations), ratio < most) << ratio << " of " << most;
+      if (clearance) {
+        EXPECT_NEAR(clearance->deviations, ratio, 2e-3);
+      }
+    }
+  }
+}
+
 // The wall stands `distance` beyond where the tip is expected to be, across its path.
 TEST(ContactProbabilityTest, OfAFlatWallIsExact) {
   for (const double deviation : {0.001, 0.0625, 1.0}) {
@@ -219,7 +245,7 @@ TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) 
       continue;
     }
     EXPECT_TRUE(meetsAt(std::max(0.0, clearance->deviations) + 1e-5)) << i;
-    EXPECT_EQ(clearance->separated, meter.notSeparated().empty());
+    EXPECT_EQ(clearance->separated, meter.notSeparated(hull, swept_M).empty());
     if (clearance->deviations > 2e-3) {
       ++outside;
       EXPECT_FALSE(meetsAt(clearance->deviations - 2e-3)) << i;

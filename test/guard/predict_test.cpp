@@ -223,6 +223,29 @@ TEST_F(GuardPredictionTest, AFarWorkpieceCostsNoDetection) {
   EXPECT_TRUE(record_.volumes.empty());
 }
 
+TEST_F(GuardPredictionTest, AProbabilityThatDoesNotMatterIsReportedAsZero) {
+  workpieces_ = {workpiece("square", squareAt(0.0))};
+  int small = 0;
+  int large = 0;
+  for (int mm = 5; mm < 400; ++mm) {
+    GuardOptions options = constantVelocity();
+    const auto probabilityFrom = [&](double least) {
+      options.least_probability = least;
+      GuardChange change{options};
+      guard_.exchange(change);
+      guard_.reset();
+      follow(comingDown(0.001 * mm, 0.02));
+      return predict().probability();
+    };
+    const double probability = probabilityFrom(0.001);
+    EXPECT_NEAR(probabilityFrom(0.1), probability < 0.1 ? 0.0 : probability, 1e-3) << mm;
+    small += probability > 0.0 && probability < 0.1;
+    large += probability >= 0.1 && probability < 0.5;
+  }
+  EXPECT_GT(small, 2);
+  EXPECT_GT(large, 2);
+}
+
 TEST_F(GuardPredictionTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
   workpieces_ = {workpiece("first", squareAt(0.0)), workpiece("second", squareAt(-0.01))};
   follow(comingDown(0.05, 0.1));

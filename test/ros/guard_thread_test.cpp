@@ -49,6 +49,15 @@ class GuardThreadTest : public ::testing::Test {
     for (int i = 0; i < 10; ++i) queue_.submit<void>([] {}).get();
   }
 
+  // Asks in the guard's thread, between its work.
+  bool await(const std::function<bool()>& reached) {
+    for (const auto end = now().steady + std::chrono::seconds(20); now().steady < end;) {
+      if (queue_.submit<bool>(reached).get()) return true;
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    return false;
+  }
+
   // Once the poses taken are swept, none waits: the detector is asked about a predicted sweep.
   bool inPrediction() const { return !queue_.waitingSince(); }
 
@@ -71,8 +80,7 @@ class GuardThreadTest : public ::testing::Test {
        [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(record_); }}};
 };
 
-// A pose comes during a prediction, so that another one follows at once. Two come during that. The first sweep takes
-// longer than a prediction may be held up, so the second pose is left for the time after it.
+// A pose comes during a prediction, so that another one follows. Two come during that. The first sweep takes longer than a prediction may be held up, so the second pose is left for the time after it.
 TEST_F(GuardThreadTest, APoseThatIsLeftWhenAPredictionGoesOnIsSweptAfterIt) {
   push();
   passTheQueue();
@@ -93,8 +101,7 @@ TEST_F(GuardThreadTest, APoseThatIsLeftWhenAPredictionGoesOnIsSweptAfterIt) {
     }
   };
   push();
-  passTheQueue();
-  EXPECT_EQ(state, kSlow);
+  EXPECT_TRUE(await([&] { return state == kSlow && !queue_.waitingSince(); }));
   EXPECT_EQ(pushed_, 5);
   EXPECT_EQ(statistics_.take().sweeps_total, 5U);
   EXPECT_FALSE(queue_.waitingSince());
@@ -120,6 +127,28 @@ TEST_F(GuardThreadTest, APredictionGoesOnAfterAPoseThatCameMeanwhileIsSwept) {
   push();
   passTheQueue();
   EXPECT_EQ(state, kGoesOn);
+  EXPECT_EQ(statistics_.take().sweeps_total, 3U);
+}
+
+// The prediction has taken at least this time when the pose that came meanwhile is swept. No further pose comes.
+TEST_F(GuardThreadTest, TakesAThirdOfTheTimeToPredictAndPredictsFromTheNewestPose) {
+  constexpr milliseconds kTook(10);
+  push();
+  passTheQueue();
+  std::vector<std::uint64_t> made;  // used by the guard's thread only, as the next one
+  std::vector<sweep_guard_core::SteadyTime> begun;
+  record_.asked = [&] {
+    const std::uint64_t predictions = statistics_.take().predictions_total;
+    if (!inPrediction() || (!made.empty() && made.back() == predictions)) return;
+    made.push_back(predictions);
+    begun.push_back(now().steady);
+    if (made.size() > 1) return;
+    push();
+    std::this_thread::sleep_for(kTook);
+  };
+  push();
+  EXPECT_TRUE(await([&] { return begun.size() == 2; }));
+  EXPECT_GE(begun.at(1) - begun.at(0), 3 * kTook);
   EXPECT_EQ(statistics_.take().sweeps_total, 3U);
 }
 

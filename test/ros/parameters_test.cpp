@@ -250,6 +250,17 @@ TEST_F(ThresholdsTest, TheLowerOneFollowsAnUpperOneBelowIt) {
   EXPECT_TRUE(has(refusal(node_), "at most warning/considered_on"));
 }
 
+TEST_F(ThresholdsTest, ThePredictionFindsWhateverIsWarnedOf) {
+  const auto least = [&] { return loadParameters(node_).guard.least_probability; };
+  EXPECT_EQ(least(), 0.01);
+  node_.setParam("warning/reflex_probability", 0.005);
+  EXPECT_EQ(least(), 0.005);
+  node_.setParam("warning/considered_off", 0.003);
+  EXPECT_EQ(least(), 0.003);
+  node_.setParam("warning/min_probability", 0.5);
+  EXPECT_EQ(least(), 0.003);
+}
+
 // What the same request says of a new name goes before the old one; what was said before does not.
 TEST_F(ThresholdsTest, TheOldNameSetsThemWhileTheGuardRuns) {
   node_.setParam("warning/considered_on", 0.4);

@@ -148,6 +148,31 @@ TEST(WorkQueueTest, ATaskThatHasBegunIsWaitedFor) {
   guard.join();
 }
 
+TEST(WorkQueueTest, WaitsNoLongerThanAsked) {
+  WorkQueue queue;
+  WorkQueue::Work taken;
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
+  EXPECT_TRUE(queue.take(taken, until));
+  EXPECT_GE(std::chrono::steady_clock::now(), until);
+  EXPECT_TRUE(taken.poses.empty() && taken.tasks.empty());
+  EXPECT_TRUE(queue.take(taken, until));
+  queue.push({});
+  EXPECT_TRUE(queue.take(taken, SteadyTime()));
+  EXPECT_EQ(taken.poses.size(), 1U);
+}
+
+TEST(WorkQueueTest, WorkEndsATimedWait) {
+  WorkQueue queue;
+  std::thread guard([&] {
+    WorkQueue::Work taken;
+    while (taken.poses.empty()) {
+      ASSERT_TRUE(queue.take(taken, std::chrono::steady_clock::now() + std::chrono::hours(1)));
+    }
+  });
+  queue.push({});
+  guard.join();
+}
+
 TEST(WorkQueueTest, StoppingEndsEveryWait) {
   WorkQueue queue;
   std::future<int> answer = submit(queue, 7);

@@ -23,9 +23,10 @@ struct PredictedMotion {
 /// One sweep along the predicted path, or a fraction of a sweep, tested against one workpiece. Times count from the
 /// stamp of the newest measured pose.
 struct PredictedSweep {
-  Duration from{};           ///< start; the sweep lasts until the next one begins or the path ends
-  bool contact = false;      ///< a volume along the predicted path is not proven free; no narrow phase
-  double probability = 0.0;  ///< estimated probability that the tool meets the workpiece, in [0, 1]; 0 below 0.001
+  Duration from{};       ///< start; the sweep lasts until the next one begins or the path ends
+  bool contact = false;  ///< a volume along the predicted path is not proven free; no narrow phase
+  /// Estimated probability that the tool meets the workpiece, in [0, 1]; 0 below GuardOptions::least_probability.
+  double probability = 0.0;
   /// Index of the convex piece of the tool most likely to meet the workpiece; with `contact`, of those that do. Empty
   /// if `probability` is 0.
   std::optional<size_t> tool_piece = {};

@@ -25,6 +25,7 @@ constexpr size_t kBytesPerTriangle = 84;  // three indices and three vertices of
 constexpr size_t kMebibyte = 1U << 20;
 constexpr double kMaxHorizon = 5.0;  // [s]
 constexpr double kMinProbability = 0.001;
+constexpr double kShownProbability = 0.01;  // smaller ones are shown only if a warning depends on them
 const std::string kOldThreshold = "warning/min_probability";
 const std::vector<std::string> kThresholds = {"warning/considered_on", "warning/considered_off",
                                               "warning/reflex_probability"};
@@ -149,6 +150,10 @@ sweep_guard_core::WarningThresholds readThresholds(ParameterReader& read) {
   thresholds.reflex = read.number("warning/reflex_probability", thresholds.reflex, any,
                                   "A contact off the predicted path raises REFLEX from this probability on.");
   return thresholds;
+}
+
+double leastProbability(const sweep_guard_core::WarningThresholds& thresholds) {
+  return std::min({kShownProbability, thresholds.reflex, thresholds.considered_on, thresholds.considered_off});
 }
 
 // The cylinder's parameters are checked for every tool type.
@@ -281,6 +286,7 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                                                     "A motion that turns more is swept in several steps. Smaller is "
                                                     "tighter and slower.");
   parameters.limits.thresholds = readThresholds(read);
+  parameters.guard.least_probability = leastProbability(parameters.limits.thresholds);
   parameters.limits.hold_time = toDuration(read.number("warning/hold_time", 0.5, {0.0, 60.0, "s"},
                                                        "A warning stays for this long after its cause is over."));
   parameters.limits.acknowledge_time =
