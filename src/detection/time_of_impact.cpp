@@ -15,15 +15,34 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxDirections = 1000;
 constexpr int kMaxTries = 40;
 constexpr double kOffset = 1e-3;  // of the tool's bounding radius
+constexpr double kMinGap = 1e-6;  // of the size; the direction of a smaller one has few exact digits
 constexpr double kGain = 0.05;    // of the gap; a direction that gains less is not followed on
 
-struct PlacedShape {
+// A piece at a pose, without its padding: GJK needs fewer steps for a segment than for a capsule, and the direction to it has
+// more exact digits.
+struct PlacedCore {
   const ConvexShape& shape_T;
   Eigen::Matrix3d R_MT;
   Eigen::Vector3d p_MT;
 
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction_M) const {
-    return p_MT + R_MT * shape_T.supportPoint(R_MT.transpose() * direction_M);
+    return p_MT + R_MT * shape_T.coreSupportPoint(R_MT.transpose() * direction_M);
+  }
+
+  Eigen::Vector3d inTool(const Eigen::Vector3d& p_M) const { return R_MT.transpose() * (p_M - p_MT); }
+
+  // Returns whether this, moved out of a triangle by its depth along a normal, touches a corner, up to a tolerance [m].
+  bool touchesACorner(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& normal, double depth,
+                      double tolerance) const {
+    const double reach = std::max({normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])});
+    return std::any_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& corner) {
+      const Eigen::Vector3d p = corner - (depth - tolerance) * normal;
+      return normal.dot(corner) > reach - tolerance && shape_T.depthOf(inTool(p)).depth >= shape_T.padding();
+    });
+  }
+
+  Eigen::Vector3d proposeNormal(const std::array<Eigen::Vector3d, 3>& corners) const {
+    return R_MT * shape_T.proposeNormal({inTool(corners[0]), inTool(corners[1]), inTool(corners[2])});
   }
 };
 
@@ -34,23 +53,47 @@ double lowerBound(double start, double end, double curvature) {
   return start - (curvature - rise) * (curvature - rise) / (4.0 * curvature);
 }
 
+struct Touch {
+  double fraction;
+  Separation separation;
+};
+
+double diameter(const std::array<Eigen::Vector3d, 3>& p) {
+  return std::sqrt(std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()}));
+}
+
+// Returns what the shape proposes, the face normal and the axes of the shape; if there is no neighbor, also the normals to one
+// axis and one edge. All but the first are in both directions.
+Proposals proposals(const PlacedCore& tool, const std::array<Eigen::Vector3d, 3>& corners, bool has_neighbors) {
+  Proposals directions = {tool.proposeNormal(corners)};
+  const auto propose = [&](const Eigen::Vector3d& direction) {
+    const double length = direction.norm();
+    if (!(length > 1e-12)) return;
+    directions.push_back(direction / length);
+    directions.push_back(-direction / length);
+  };
+  const Eigen::Matrix3d axes = tool.R_MT * tool.shape_T.axes_T();
+  for (int i = 0; i < 3; ++i) propose(axes.col(i));
+  const std::array<Eigen::Vector3d, 3> edges = {(corners[1] - corners[0]).normalized(),
+                                                (corners[2] - corners[1]).normalized(),
+                                                (corners[0] - corners[2]).normalized()};
+  propose(edges[0].cross(edges[1]));
+  if (has_neighbors) return directions;
+  for (const Eigen::Vector3d& edge : edges) {
+    for (int i = 0; i < 3; ++i) propose(edge.cross(axes.col(i)));
+  }
+  return directions;
+}
+
+}  // namespace
+
 // Evaluates tool and triangle at a fraction s of one sub-motion. All positions are relative to a corner of the triangle
 // at the start, so that no digits are lost far from the origin of M.
-class RelativeTrajectory {
+class ImpactFinder::Trajectory {
  public:
-  RelativeTrajectory(const ConvexShape& shape_T, const Motion& sub_motion, const MovingTriangle& triangle, double start,
-                     double end)
-      : shape_T_(shape_T),
-        base_M_(triangle.start_M[0]),
-        R_MT_(sub_motion.X_MT_start.linear()),
-        from_(sub_motion.X_MT_start.translation() - base_M_),
-        travel_(sub_motion.X_MT_end.translation() - sub_motion.X_MT_start.translation()) {
-    if (sub_motion.X_MT_start.linear() != sub_motion.X_MT_end.linear()) {
-      angle_ = sub_motion.angle();
-      axis_T_ = sub_motion.axis_T();
-      axis_M_ = R_MT_ * axis_T_;
-      radius_ = shape_T.radiusAbout(axis_T_);
-    }
+  Trajectory(const ConvexShape& shape_T, const SubMotion& sub_motion, const MovingTriangle& triangle, double start,
+             double end)
+      : shape_T_(shape_T), motion_(sub_motion), base_M_(triangle.start_M[0]), from_(sub_motion.p_MT_start - base_M_) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Eigen::Vector3d displacement = triangle.end_M[i] - triangle.start_M[i];
       corners_[i] = triangle.start_M[i] - base_M_ + start * displacement;
@@ -58,9 +101,11 @@ class RelativeTrajectory {
     }
   }
 
-  PlacedShape tool(double s) const {
-    if (angle_ == 0.0) return {shape_T_, R_MT_, from_ + s * travel_};
-    return {shape_T_, R_MT_ * Eigen::AngleAxisd(s * angle_, axis_T_).toRotationMatrix(), from_ + s * travel_};
+  PlacedCore tool(double s) const {
+    if (s == 0.0) return {shape_T_, motion_.R_MT_start, from_};
+    if (s == 1.0 || motion_.angle == 0.0) return {shape_T_, motion_.R_MT_end, from_ + s * motion_.travel_M};
+    const Eigen::AngleAxisd turn(s * motion_.angle, motion_.axis_T);
+    return {shape_T_, motion_.R_MT_start * turn.toRotationMatrix(), from_ + s * motion_.travel_M};
   }
 
   std::array<Eigen::Vector3d, 3> corners(double s) const {
@@ -70,7 +115,7 @@ class RelativeTrajectory {
 
   // Returns G(s) along a unit direction.
   double gap(const Eigen::Vector3d& n, double s) const {
-    const PlacedShape placed = tool(s);
+    const PlacedCore placed = tool(s);
     const double least = n.dot(placed.p_MT) - shape_T_.support(placed.R_MT.transpose() * -n);
     const std::array<Eigen::Vector3d, 3> p = corners(s);
     return least - std::max({n.dot(p[0]), n.dot(p[1]), n.dot(p[2])});
@@ -80,7 +125,8 @@ class RelativeTrajectory {
   // for the fraction where the gap is `aim`, and stops when little can be gained along n. Returns `s` if nothing is
   // proven.
   double advance(const Eigen::Vector3d& n, double s, double gap, double aim, double least) const {
-    const double curvature_bound = 0.5 * angle_ * angle_ * radius_ * n.cross(axis_M_).norm();
+    const double curvature_bound =
+        0.5 * motion_.angle * motion_.angle * motion_.radius * n.cross(motion_.axis_M).norm();
     const double enough = aim + std::max(aim - least, kGain * (gap - aim));
     double beyond = 1.0;  // not proven if gap_beyond is finite
     double gap_beyond = kInfinity;
@@ -101,149 +147,240 @@ class RelativeTrajectory {
   }
 
   const Eigen::Vector3d& base_M() const { return base_M_; }
-  double maxDistance() const { return std::max(from_.norm(), (from_ + travel_).norm()); }
+  double maxDistance() const { return std::max(from_.norm(), (from_ + motion_.travel_M).norm()); }
 
  private:
   const ConvexShape& shape_T_;
+  const SubMotion& motion_;
   Eigen::Vector3d base_M_;
-  Eigen::Matrix3d R_MT_;
   Eigen::Vector3d from_;
-  Eigen::Vector3d travel_;
-  double angle_ = 0.0;
-  Eigen::Vector3d axis_T_ = Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d axis_M_ = Eigen::Vector3d::UnitZ();
-  double radius_ = 0.0;
   std::array<Eigen::Vector3d, 3> corners_;
   std::array<Eigen::Vector3d, 3> displacements_;
 };
 
-struct Touch {
-  double fraction;
-  Separation separation;
-};
-
-double diameter(const std::array<Eigen::Vector3d, 3>& p) {
-  return std::sqrt(std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()}));
-}
-
-// Returns the face normal, the tool's axes, and the normals to one axis and one edge, in both directions.
-Proposals proposals(const Eigen::Matrix3d& R_MT, const std::array<Eigen::Vector3d, 3>& corners) {
-  Proposals directions;
-  const auto propose = [&](const Eigen::Vector3d& direction) {
-    const double length = direction.norm();
-    if (!(length > 1e-12)) return;
-    directions.push_back(direction / length);
-    directions.push_back(-direction / length);
-  };
-  for (int i = 0; i < 3; ++i) propose(R_MT.col(i));
-  const std::array<Eigen::Vector3d, 3> edges = {(corners[1] - corners[0]).normalized(),
-                                                (corners[2] - corners[1]).normalized(),
-                                                (corners[0] - corners[2]).normalized()};
-  propose(edges[0].cross(edges[1]));
-  for (const Eigen::Vector3d& edge : edges) {
-    for (int i = 0; i < 3; ++i) propose(edge.cross(R_MT.col(i)));
-  }
-  return directions;
-}
-
-class TimeOfImpactSearch {
+class ImpactFinder::Search {
  public:
-  TimeOfImpactSearch(const ConvexShape& shape_T, const std::vector<Motion>& sub_motions, const MovingTriangle& triangle,
-                     double margin)
-      : shape_T_(shape_T), sub_motions_(sub_motions), triangle_(triangle), margin_(margin) {
-    size_ = shape_T.boundingRadius() + std::max(diameter(triangle.start_M), diameter(triangle.end_M));
-    const RelativeTrajectory first = trajectoryOf(0);
-    const RelativeTrajectory last = trajectoryOf(sub_motions.size() - 1);
+  Search(ImpactFinder& finder, const MovingTriangle& triangle, const Eigen::Vector3d& guess_M)
+      : finder_(finder),
+        shape_T_(*finder.shape_T_),
+        triangle_(triangle),
+        guess_T_(finder.sub_motions_[0].R_MT_start.transpose() * guess_M) {
+    size_ = shape_T_.boundingRadius() + std::max(diameter(triangle.start_M), diameter(triangle.end_M));
+    const Trajectory first = trajectoryOf(0);
+    const double farthest = std::max(first.maxDistance(), trajectoryOf(count() - 1).maxDistance());
     // The poses have been rounded relative to their distance from the origin of M.
-    tolerance_ = 2e-9 * size_ + 1e-14 * (first.base_M().norm() + std::max(first.maxDistance(), last.maxDistance()));
+    tolerance_ = 2e-9 * size_ + 1e-14 * (first.base_M().norm() + farthest);
+  }
+
+  // Returns the impact of a triangle of which a point of the tool at the start is known.
+  Impact overlapAt(const Eigen::Vector3d& point_M, const std::optional<Eigen::Vector3d>& contact_normal_M) {
+    const Eigen::Vector3d normal = contact_normal_M ? *contact_normal_M : minimumTranslation();
+    return {0.0, point_M, normal, finder_.depthAtEnd(triangle_, normal)};
   }
 
   std::optional<Impact> run(const std::optional<Eigen::Vector3d>& contact_normal_M) {
-    for (std::size_t i = 0; i < sub_motions_.size(); ++i) {
-      const RelativeTrajectory trajectory = trajectoryOf(i);
-      const std::optional<Touch> touch = firstTouch(trajectory, margin_ + sub_motions_[i].deviation_bound);
-      if (!touch) continue;
+    finder_.separating_M_.setZero();
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Trajectory trajectory = trajectoryOf(i);
+      const std::optional<Touch> touch = firstTouch(trajectory, finder_.sub_motions_[i].margin);
+      if (!touch) {
+        finder_.separating_M_ = *normal_;
+        continue;
+      }
+      const Eigen::Vector3d point_M = trajectory.base_M() + touch->separation.on_obstacle;
       const bool overlaps = i == 0 && touch->fraction == 0.0 && touch->separation.gap <= 0.0;
-      const Eigen::Vector3d normal = !overlaps          ? touch->separation.normal
-                                     : contact_normal_M ? *contact_normal_M
-                                                        : minimumTranslationAtStart(trajectory);
-      const double time = (static_cast<double>(i) + touch->fraction) / static_cast<double>(sub_motions_.size());
-      const double depth = std::max(0.0, -trajectoryOf(sub_motions_.size() - 1).gap(normal, 1.0));
-      return Impact{time, trajectory.base_M() + touch->separation.on_obstacle, normal, depth};
+      if (overlaps) return overlapAt(point_M, contact_normal_M);
+      const double time = (static_cast<double>(i) + touch->fraction) / static_cast<double>(count());
+      const Eigen::Vector3d& normal = touch->separation.normal;
+      const Eigen::Vector3d normal_T = trajectory.tool(touch->fraction).R_MT.transpose() * normal;
+      finder_.separating_M_ = finder_.sub_motions_[0].R_MT_start * normal_T;
+      return Impact{time, point_M, normal, finder_.depthAtEnd(triangle_, normal)};
     }
     return std::nullopt;
   }
 
  private:
-  RelativeTrajectory trajectoryOf(std::size_t sub_motion) const {
-    const auto count = static_cast<double>(sub_motions_.size());
+  std::size_t count() const { return finder_.sub_motions_.size(); }
+
+  Trajectory trajectoryOf(std::size_t sub_motion) const {
+    const auto all = static_cast<double>(count());
     const auto i = static_cast<double>(sub_motion);
-    return {shape_T_, sub_motions_[sub_motion], triangle_, i / count, (i + 1.0) / count};
+    return {shape_T_, finder_.sub_motions_[sub_motion], triangle_, i / all, (i + 1.0) / all};
   }
 
-  std::optional<Touch> firstTouch(const RelativeTrajectory& trajectory, double margin) {
+  std::optional<Touch> firstTouch(const Trajectory& trajectory, double margin) {
     double s = 0.0;
-    double gap = normal_ ? trajectory.gap(*normal_, s) : -kInfinity;
+    bool stuck = false;  // no known direction proves anything from here on
     while (true) {
-      if (gap <= margin + tolerance_) {
-        const Separation apart = separationAt(trajectory, s, margin);
-        if (apart.gap <= margin + tolerance_ || ++directions_ > kMaxDirections) break;
+      double gap = stuck ? -kInfinity : followBestKnown(trajectory, s, margin);
+      const bool computed = gap <= margin + tolerance_;
+      if (computed) {
+        const bool close = gap > margin;
+        const Separation apart = close ? exactSeparationAt(trajectory, s) : separationAt(trajectory, s, margin);
+        if (overlapping(apart)) return Touch{s, apart};
+        const bool touches = apart.gap <= margin + tolerance_;
+        if (touches) return touchAt(trajectory, s, close ? apart : exactSeparationAt(trajectory, s));
         normal_ = apart.normal;
         gap = apart.gap;
       }
       const double next = trajectory.advance(*normal_, s, gap, margin + 0.5 * tolerance_, margin + 0.25 * tolerance_);
       if (next == 1.0) return std::nullopt;
-      if (next == s) break;
+      stuck = next == s;
+      if ((stuck && computed) || ++directions_ > kMaxDirections) {
+        return touchAt(trajectory, next, exactSeparationAt(trajectory, next));
+      }
       s = next;
-      gap = -kInfinity;
     }
-    return Touch{s, exactSeparationAt(trajectory, s)};
   }
 
-  // Returns a separation that is exact enough to advance, or if the gap is this small.
-  Separation separationAt(const RelativeTrajectory& trajectory, double s, double margin) const {
-    const PlacedShape tool = trajectory.tool(s);
-    return roughSeparation(tool, PointHull(trajectory.corners(s)), margin, 0.25 * tolerance_,
-                           normal_.value_or(tool.p_MT));
+  // Returns the larger of the gaps along the direction followed so far and along the guess, which turns with the tool; follows
+  // that direction if it separates them.
+  double followBestKnown(const Trajectory& trajectory, double s, double margin) {
+    double gap = normal_ ? trajectory.gap(*normal_, s) : -kInfinity;
+    if (guess_T_.isZero(0.0)) return gap;
+    const Eigen::Vector3d guess = trajectory.tool(s).R_MT * guess_T_;
+    const double gap_of_guess = trajectory.gap(guess, s);
+    if (gap_of_guess <= gap) return gap;
+    if (gap_of_guess > margin + tolerance_) normal_ = guess;
+    return gap_of_guess;
+  }
+
+  bool overlapping(const Separation& apart) const {
+    return apart.gap <= 0.0 && (apart.on_tool - apart.on_obstacle).norm() <= shape_T_.padding() + 1e-15 * size_;
+  }
+
+  Eigen::Vector3d initialDirection(const PlacedCore& tool) const {
+    return normal_ ? *normal_ : guess_T_.isZero(0.0) ? tool.p_MT : tool.R_MT * guess_T_;
+  }
+
+  // Returns a separation that is exact enough to advance, or if the gap is this small. The gap is that of the padded piece.
+  Separation separationAt(const Trajectory& trajectory, double s, double margin) const {
+    const PlacedCore tool = trajectory.tool(s);
+    Separation apart = roughSeparation(tool, PointHull(trajectory.corners(s)), margin + shape_T_.padding(),
+                                       0.25 * tolerance_, initialDirection(tool));
+    apart.gap -= shape_T_.padding();
+    return apart;
+  }
+
+  Separation exactSeparationAt(const Trajectory& trajectory, double s) const {
+    const PlacedCore tool = trajectory.tool(s);
+    Separation apart = separation(tool, PointHull(trajectory.corners(s)), 0.0, initialDirection(tool));
+    apart.gap -= shape_T_.padding();
+    return apart;
   }
 
   // The direction of a tiny distance has few exact digits. The tool is therefore moved away along it by a little: the
   // error of the direction shrinks by the ratio of this distance to the tool's radius of curvature.
-  Separation exactSeparationAt(const RelativeTrajectory& trajectory, double s) const {
-    const PlacedShape tool = trajectory.tool(s);
-    const PointHull triangle(trajectory.corners(s));
-    Separation touch = separation(tool, triangle, 0.0, normal_.value_or(tool.p_MT));
-    if (touch.gap <= 0.0) return touch;
-    PlacedShape moved = tool;
-    moved.p_MT += kOffset * (shape_T_.boundingRadius() > 0.0 ? shape_T_.boundingRadius() : size_) * touch.normal;
-    touch.normal = separation(moved, triangle, 0.0, touch.normal).normal;
-    return touch;
+  Touch touchAt(const Trajectory& trajectory, double s, Separation exact) const {
+    const double distance = exact.gap + shape_T_.padding();
+    const double offset = kOffset * (shape_T_.boundingRadius() > 0.0 ? shape_T_.boundingRadius() : size_);
+    if (distance > 0.0 && distance < offset) {
+      PlacedCore moved = trajectory.tool(s);
+      moved.p_MT += offset * exact.normal;
+      exact.normal = separation(moved, PointHull(trajectory.corners(s)), 0.0, exact.normal).normal;
+    }
+    return {s, exact};
   }
 
-  Eigen::Vector3d minimumTranslationAtStart(const RelativeTrajectory& trajectory) const {
-    const PlacedShape tool = trajectory.tool(0.0);
+  // Padding adds the same to the depth along any direction. If the piece without padding is apart from the triangle, the
+  // direction of the closest points is the best of all.
+  Eigen::Vector3d minimumTranslation() {
+    const Trajectory trajectory = trajectoryOf(0);
+    const PlacedCore tool = trajectory.tool(0.0);
     const std::array<Eigen::Vector3d, 3> corners = trajectory.corners(0.0);
-    return minimumTranslationDirection(tool, PointHull(corners), proposals(tool.R_MT, corners), std::max(size_, 1e-12));
+    const PointHull triangle(corners);
+    const NeighborNormals& neighbors = finder_.normals_M_;
+    if (shape_T_.padding() > 0.0) {
+      const Separation apart = separation(tool, triangle, 0.0, finder_.lastNormal());
+      if (apart.gap > kMinGap * size_) return finder_.remember(apart.normal);
+    }
+    const auto touches = [&](const Eigen::Vector3d& normal, double depth) {
+      return tool.touchesACorner(corners, normal, depth, 1e-9 * size_);
+    };
+    return finder_.remember(minimumTranslationDirection(tool, triangle, proposals(tool, corners, !neighbors.empty()),
+                                                        neighbors, std::max(size_, 1e-12), touches));
   }
 
+  ImpactFinder& finder_;
   const ConvexShape& shape_T_;
-  const std::vector<Motion>& sub_motions_;
   const MovingTriangle& triangle_;
-  double margin_;
-  double size_;       // of tool and triangle [m]
-  double tolerance_;  // [m]
+  Eigen::Vector3d guess_T_;  // zero for none
+  double size_;              // of tool and triangle [m]
+  double tolerance_;         // [m]
   int directions_ = 0;
   std::optional<Eigen::Vector3d> normal_;  // proves the gap up to the current fraction
 };
 
-}  // namespace
+void ImpactFinder::begin(const ConvexShape& shape_T, const std::vector<Motion>& sub_motions, double margin) {
+  assert(!sub_motions.empty());
+  assert(margin >= 0.0);
+  shape_T_ = &shape_T;
+  separating_M_.setZero();
+  normals_M_.clear();
+  next_normal_ = 0;
+  sub_motions_.clear();
+  for (const Motion& motion : sub_motions) {
+    const Eigen::Vector3d travel_M = motion.X_MT_end.translation() - motion.X_MT_start.translation();
+    const Eigen::Matrix3d R_MT = motion.X_MT_start.linear();
+    SubMotion shared = {R_MT,
+                        R_MT,
+                        motion.X_MT_start.translation(),
+                        travel_M,
+                        margin + motion.deviation_bound,
+                        0.0,
+                        Eigen::Vector3d::UnitZ(),
+                        Eigen::Vector3d::UnitZ(),
+                        0.0};
+    if (R_MT != motion.X_MT_end.linear()) {
+      shared.angle = motion.angle();
+      shared.axis_T = motion.axis_T();
+      shared.R_MT_end = R_MT * Eigen::AngleAxisd(shared.angle, shared.axis_T).toRotationMatrix();
+      shared.axis_M = R_MT * shared.axis_T;
+      shared.radius = shape_T.radiusAbout(shared.axis_T);
+    }
+    sub_motions_.push_back(shared);
+  }
+}
+
+double ImpactFinder::depthAtEnd(const MovingTriangle& triangle, const Eigen::Vector3d& normal_M) const {
+  return std::max(0.0, -Trajectory(*shape_T_, sub_motions_.back(), triangle, 0.0, 1.0).gap(normal_M, 1.0));
+}
+
+Eigen::Vector3d ImpactFinder::lastNormal() const {
+  return normals_M_.empty() ? Eigen::Vector3d::Zero() : normals_M_[(next_normal_ + kNormals - 1) % kNormals];
+}
+
+const Eigen::Vector3d& ImpactFinder::remember(const Eigen::Vector3d& normal_M) {
+  if (normals_M_.size() < kNormals) normals_M_.emplace_back();
+  Eigen::Vector3d& place = normals_M_[next_normal_];
+  next_normal_ = (next_normal_ + 1) % kNormals;
+  return place = normal_M;
+}
+
+std::optional<Impact> ImpactFinder::overlapAtStart(const MovingTriangle& triangle,
+                                                   const std::optional<Eigen::Vector3d>& contact_normal_M) {
+  const PlacedCore tool{*shape_T_, sub_motions_[0].R_MT_start, sub_motions_[0].p_MT_start};
+  for (const Eigen::Vector3d& corner : triangle.start_M) {
+    if (shape_T_->depthOf(tool.inTool(corner)).depth < 0.0) continue;
+    if (contact_normal_M) return Impact{0.0, corner, *contact_normal_M, depthAtEnd(triangle, *contact_normal_M)};
+    return Search(*this, triangle, Eigen::Vector3d::Zero()).overlapAt(corner, contact_normal_M);
+  }
+  return std::nullopt;
+}
+
+std::optional<Impact> ImpactFinder::find(const MovingTriangle& triangle,
+                                         const std::optional<Eigen::Vector3d>& contact_normal_M,
+                                         const Eigen::Vector3d& guess_M) {
+  return Search(*this, triangle, guess_M).run(contact_normal_M);
+}
 
 std::optional<Impact> timeOfImpact(const ConvexShape& shape_T, const std::vector<Motion>& sub_motions,
                                    const MovingTriangle& triangle, double margin,
                                    const std::optional<Eigen::Vector3d>& contact_normal_M) {
-  assert(!sub_motions.empty());
-  assert(margin >= 0.0);
-  return TimeOfImpactSearch(shape_T, sub_motions, triangle, margin).run(contact_normal_M);
+  ImpactFinder finder;
+  finder.begin(shape_T, sub_motions, margin);
+  const std::optional<Impact> overlap = finder.overlapAtStart(triangle, contact_normal_M);
+  return overlap ? overlap : finder.find(triangle, contact_normal_M);
 }
 
 }  // namespace sweep_guard_core

@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/geometry/convex_hull.h"
@@ -15,6 +16,7 @@ namespace {
 constexpr double kTwoPi = 6.283185307179586;
 constexpr int kSphereRings = 8;
 constexpr int kSphereSectors = 16;
+constexpr double kNeedle = 1e-6;  // least area of a face, in parallelograms of its longest edge squared
 
 template <typename... Functions>
 struct Overloaded : Functions... {
@@ -124,28 +126,99 @@ Eigen::Vector3d discSupport(double z, double radius, const Eigen::Vector3d& dire
   return {radius * radial.x() / length, radius * radial.y() / length, z};
 }
 
+// Returns the direction in which a disc around the origin leaves a triangle in its plane soonest.
+Eigen::Vector2d normalOfDisc(const std::array<Eigen::Vector2d, 3>& corners) {
+  Eigen::Vector2d nearest = corners[0];  // of the points of the edges, to the center
+  int to_the_left = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector2d& from = corners[i];
+    const Eigen::Vector2d edge = corners[(i + 1) % 3] - from;
+    const double length = edge.squaredNorm();
+    const double share = length > 0.0 ? std::clamp(-edge.dot(from) / length, 0.0, 1.0) : 0.0;
+    const Eigen::Vector2d p = from + share * edge;
+    if (p.squaredNorm() < nearest.squaredNorm()) nearest = p;
+    to_the_left += from.x() * edge.y() - from.y() * edge.x() > 0.0 ? 1 : 0;
+  }
+  const bool around_center = to_the_left == 0 || to_the_left == 3;
+  const double distance = nearest.norm();
+  if (distance == 0.0) return Eigen::Vector2d::UnitX();
+  return (around_center ? 1.0 : -1.0) / distance * nearest;
+}
+
 double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
 
-const Eigen::Vector3d& farthest(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d* best = &points.front();
-  double most = direction.dot(*best);
-  for (const Eigen::Vector3d& p : points) {
-    const double along = direction.dot(p);
-    if (along > most) {
-      most = along;
-      best = &p;
-    }
+// Of a point outside of the core, the distance is from its nearest point.
+ConvexShape::Depth depthInCylinder(const Eigen::Vector3d& p, double radius, double length) {
+  const double from_axis = p.head<2>().norm();
+  const Eigen::Vector3d radial =
+      from_axis > 0.0 ? Eigen::Vector3d(p.x() / from_axis, p.y() / from_axis, 0.0) : Eigen::Vector3d::UnitX();
+  const double side = from_axis - radius;
+  const double end = std::max(p.z(), -length - p.z());
+  const Eigen::Vector3d axial(0.0, 0.0, p.z() >= -length - p.z() ? 1.0 : -1.0);
+  if (side > 0.0 && end > 0.0) {
+    const double distance = std::hypot(side, end);
+    return {-distance, (side * radial + end * axial) / distance};
   }
-  return *best;
+  return side > end ? ConvexShape::Depth{-side, radial} : ConvexShape::Depth{-end, axial};
+}
+
+ConvexShape::Depth depthInBox(const Eigen::Vector3d& p, const Eigen::Vector3d& half_extents) {
+  const Eigen::Vector3d beyond = p.cwiseAbs() - half_extents;
+  Eigen::Index axis = 0;
+  const double most = beyond.maxCoeff(&axis);
+  if (most <= 0.0) return {-most, std::copysign(1.0, p[axis]) * Eigen::Vector3d::Unit(axis)};
+  const Eigen::Vector3d out = beyond.cwiseMax(0.0);
+  return {-out.norm(), out.normalized().cwiseProduct(p.unaryExpr(&sign))};
+}
+
+ConvexShape::Depth depthAtSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d along = to - from;
+  const double length = along.squaredNorm();
+  const double share = length > 0.0 ? std::clamp(along.dot(p - from) / length, 0.0, 1.0) : 0.0;
+  const Eigen::Vector3d out = p - (from + share * along);
+  const double distance = out.norm();
+  const Eigen::Vector3d orthogonal = length > 0.0 ? along.unitOrthogonal() : Eigen::Vector3d::UnitZ();
+  return {-distance, distance > 0.0 ? Eigen::Vector3d(out / distance) : orthogonal};
+}
+
+ConvexShape::Depth depthInFaces(const Eigen::Vector3d& p, const LinearFunctions& faces) {
+  const double none = -std::numeric_limits<double>::infinity();
+  if (faces.empty()) return {none, Eigen::Vector3d::UnitZ()};
+  const size_t nearest = faces.largest(p);
+  const double beyond = faces.value(nearest, p);
+  return {beyond <= 0.0 ? -beyond : none, faces.gradient(nearest)};
+}
+
+// The normal of a needle has few exact digits.
+LinearFunctions facesOf(const ConvexHull& hull) {
+  LinearFunctions faces;
+  if (!hull.solid) return faces;
+  for (const auto& [a, b, c] : hull.triangles) {
+    const Eigen::Vector3d ab = hull.corners[b] - hull.corners[a];
+    const Eigen::Vector3d ac = hull.corners[c] - hull.corners[a];
+    const Eigen::Vector3d normal = ab.cross(ac);
+    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+    if (normal.norm() < kNeedle * longest) return {};
+    const Eigen::Vector3d outwards = normal.normalized();
+    double reach = outwards.dot(hull.corners[a]);
+    for (const Eigen::Vector3d& corner : hull.corners) reach = std::max(reach, outwards.dot(corner));
+    faces.add(outwards, -reach);
+  }
+  return faces;
 }
 
 }  // namespace
+
+ConvexShape::Points::Points(const std::vector<Eigen::Vector3d>& points) : corners(points) {
+  for (const Eigen::Vector3d& corner : corners) reach.add(corner, 0.0);
+}
 
 ConvexShape::ConvexShape(Body body_S, const std::vector<Eigen::Vector3d>& vertices_S, std::vector<Triangle> triangles)
     : body_S_(std::move(body_S)),
       mesh_T_(vertices_S, std::move(triangles)),
       moments_T_(triangleMoments(mesh_T_)),
-      faces_(faces()) {}
+      faces_(faces()),
+      bounding_radius_(boundingRadiusOfBody()) {}
 
 ConvexShape ConvexShape::cylinder(double radius, double length, int sides) {
   if (!usableLength(radius)) throw InvalidInput("cylinder radius: must be finite and >= 0 m");
@@ -159,7 +232,7 @@ ConvexShape ConvexShape::cylinder(double radius, double length, int sides) {
 ConvexShape ConvexShape::sphere(double radius) {
   if (!usableLength(radius) || radius == 0.0) throw InvalidInput("sphere radius: must be finite and > 0 m");
   const Surface surface = sphereSurface(radius);
-  ConvexShape sphere(Points{{Eigen::Vector3d::Zero()}}, surface.vertices, surface.triangles);
+  ConvexShape sphere(Points({Eigen::Vector3d::Zero()}), surface.vertices, surface.triangles);
   return sphere.padded(radius);
 }
 
@@ -174,7 +247,9 @@ ConvexShape ConvexShape::box(const Eigen::Vector3d& half_extents) {
 
 ConvexShape ConvexShape::hull(const std::vector<Eigen::Vector3d>& points_T) {
   const ConvexHull hull = convexHull(points_T);
-  return ConvexShape(Points{hull.corners}, hull.corners, hull.triangles).padded(hull.hull_tolerance);
+  Points body(hull.corners);
+  body.faces = facesOf(hull);
+  return ConvexShape(std::move(body), hull.corners, hull.triangles).padded(hull.hull_tolerance);
 }
 
 std::optional<ConvexShape::Cylinder> ConvexShape::asCylinder() const {
@@ -195,6 +270,7 @@ ConvexShape ConvexShape::placed(const Eigen::Isometry3d& X_NT) const {
   placed.mesh_T_ = TriangleMesh(vertices, mesh_T_.triangles());
   placed.moments_T_ = triangleMoments(placed.mesh_T_);
   placed.faces_ = placed.faces();
+  placed.bounding_radius_ = placed.boundingRadiusOfBody();
   return placed;
 }
 
@@ -211,21 +287,48 @@ double ConvexShape::support(const Eigen::Vector3d& direction_T) const {
       Overloaded{
           [&](const Round& round) { return round.radius * d.head<2>().norm() + round.length * std::max(0.0, -d.z()); },
           [&](const Box& box) { return box.half_extents.dot(d.cwiseAbs()); },
-          [&](const Points& points) { return d.dot(farthest(points.corners, d)); }},
+          [&](const Points& points) { return points.reach.value(points.reach.largest(d), d); }},
       body_S_);
   return direction_T.dot(p_TS_) + of_body + padding_;
 }
 
-Eigen::Vector3d ConvexShape::supportPoint(const Eigen::Vector3d& direction_T) const {
+Eigen::Vector3d ConvexShape::coreSupportPoint(const Eigen::Vector3d& direction_T) const {
   const Eigen::Vector3d d = R_TS_.transpose() * direction_T;
   const Eigen::Vector3d p_S = std::visit(
       Overloaded{[&](const Round& round) { return discSupport(d.z() < 0.0 ? -round.length : 0.0, round.radius, d); },
                  [&](const Box& box) -> Eigen::Vector3d { return box.half_extents.cwiseProduct(d.unaryExpr(&sign)); },
-                 [&](const Points& points) { return farthest(points.corners, d); }},
+                 [&](const Points& points) { return points.corners[points.reach.largest(d)]; }},
       body_S_);
-  const Eigen::Vector3d p_T = p_TS_ + R_TS_ * p_S;
+  return p_TS_ + R_TS_ * p_S;
+}
+
+Eigen::Vector3d ConvexShape::supportPoint(const Eigen::Vector3d& direction_T) const {
+  const Eigen::Vector3d p_T = coreSupportPoint(direction_T);
   const double length = direction_T.norm();
   return padding_ == 0.0 || length == 0.0 ? p_T : Eigen::Vector3d(p_T + padding_ / length * direction_T);
+}
+
+Eigen::Vector3d ConvexShape::proposeNormal(const std::array<Eigen::Vector3d, 3>& corners_T) const {
+  if (!std::holds_alternative<Round>(body_S_)) {
+    return -depthOf((corners_T[0] + corners_T[1] + corners_T[2]) / 3.0).outwards_T;
+  }
+  std::array<Eigen::Vector2d, 3> corners;
+  for (size_t i = 0; i < 3; ++i) corners[i] = (R_TS_.transpose() * (corners_T[i] - p_TS_)).head<2>();
+  const Eigen::Vector2d across = normalOfDisc(corners);
+  return R_TS_ * Eigen::Vector3d(across.x(), across.y(), 0.0);
+}
+
+ConvexShape::Depth ConvexShape::depthOf(const Eigen::Vector3d& p_T) const {
+  const Eigen::Vector3d p = R_TS_.transpose() * (p_T - p_TS_);
+  const Depth of_body = std::visit(
+      Overloaded{[&](const Round& round) { return depthInCylinder(p, round.radius, round.length); },
+                 [&](const Box& box) { return depthInBox(p, box.half_extents); },
+                 [&](const Points& points) {
+                   return points.corners.size() <= 2 ? depthAtSegment(p, points.corners.front(), points.corners.back())
+                                                     : depthInFaces(p, points.faces);
+                 }},
+      body_S_);
+  return {of_body.depth + padding_, R_TS_ * of_body.outwards_T};
 }
 
 // The distance from a line is convex: it is largest at a corner, or on a rim.
@@ -247,7 +350,7 @@ double ConvexShape::radiusAbout(const Eigen::Vector3d& axis_T) const {
   return of_body + padding_;
 }
 
-double ConvexShape::boundingRadius() const {
+double ConvexShape::boundingRadiusOfBody() const {
   const auto farthest_of = [&](const auto& corners) {
     double most = 0.0;
     for (const Eigen::Vector3d& corner : corners) most = std::max(most, (p_TS_ + R_TS_ * corner).norm());
@@ -257,12 +360,11 @@ double ConvexShape::boundingRadius() const {
   const auto rim = [&](double z, double radius) {
     return std::hypot(origin_S.head<2>().norm() + radius, origin_S.z() - z);
   };
-  const double of_body = std::visit(
+  return std::visit(
       Overloaded{[&](const Round& round) { return std::max(rim(0.0, round.radius), rim(-round.length, round.radius)); },
                  [&](const Box& box) { return farthest_of(boxCorners(box.half_extents)); },
                  [&](const Points& points) { return farthest_of(points.corners); }},
       body_S_);
-  return of_body + padding_;
 }
 
 ConvexShape::Faces ConvexShape::faces() const {

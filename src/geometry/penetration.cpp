@@ -2,6 +2,7 @@
 
 #include <ccd/ccd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -9,6 +10,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr int kMaxImprovements = 50;
+constexpr double kNear = 0.9;  // cosine of the angle to a neighbor's normal
 
 // libccd's tolerances are lengths: its bodies must have about unit size.
 struct UnitBody {
@@ -53,6 +55,41 @@ struct Translated {
   }
 };
 
+// Improves a direction as long as its depth becomes less.
+class Descent {
+ public:
+  Descent(const SupportMapping& tool, const SupportMapping& obstacle, double size, const Eigen::Vector3d& direction)
+      : tool_(tool),
+        obstacle_(obstacle),
+        size_(size),
+        best_(direction),
+        depth_(depthAlong(direction, tool, obstacle)) {}
+
+  bool attempt(const Eigen::Vector3d& direction, double least = 0.0) {
+    const double depth = depthAlong(direction, tool_, obstacle_);
+    if (!(depth < depth_ - least)) return false;
+    depth_ = depth;
+    best_ = direction;
+    return true;
+  }
+
+  void run(const IsLocalMinimum& is_local_minimum) {
+    for (int i = 0; i < kMaxImprovements && !is_local_minimum(best_, depth_); ++i) {
+      const Translated moved_out{tool_, (1.01 * depth_ + 1e-6 * size_) * best_};
+      if (!attempt(separation(moved_out, obstacle_, /*accuracy=*/1e-10 * size_, best_).normal, 1e-9 * size_)) return;
+    }
+  }
+
+  const Eigen::Vector3d& best() const { return best_; }
+
+ private:
+  const SupportMapping& tool_;
+  const SupportMapping& obstacle_;
+  double size_;
+  Eigen::Vector3d best_;
+  double depth_;
+};
+
 }  // namespace
 
 double depthAlong(const Eigen::Vector3d& normal, const SupportMapping& tool, const SupportMapping& obstacle) {
@@ -60,26 +97,21 @@ double depthAlong(const Eigen::Vector3d& normal, const SupportMapping& tool, con
 }
 
 Eigen::Vector3d minimumTranslationDirection(const SupportMapping& tool, const SupportMapping& obstacle,
-                                            const Proposals& proposals, double size) {
+                                            const Proposals& proposals, const NeighborNormals& neighbors, double size,
+                                            const IsLocalMinimum& is_local_minimum) {
   assert(!proposals.empty());
-  Eigen::Vector3d best = proposals.front();
-  double depth = depthAlong(best, tool, obstacle);
-  const auto improves = [&](const Eigen::Vector3d& direction, double least) {
-    const double new_depth = depthAlong(direction, tool, obstacle);
-    if (!(new_depth < depth - least)) return false;
-    depth = new_depth;
-    best = direction;
-    return true;
-  };
-  for (const Eigen::Vector3d& direction : proposals) improves(direction, 0.0);
+  Descent descent(tool, obstacle, size, neighbors.empty() ? proposals.front() : neighbors.back());
+  for (const Eigen::Vector3d& direction : proposals) descent.attempt(direction);
+  descent.run(is_local_minimum);
+  const auto near = [&](const Eigen::Vector3d& neighbor) { return neighbor.dot(descent.best()) > kNear; };
+  if (std::any_of(neighbors.begin(), neighbors.end(), near)) return descent.best();
   if (const auto direction = polytopeDirection(tool, obstacle, size)) {
-    if (!improves(*direction, 0.0)) improves(-*direction, 0.0);
+    Descent other(tool, obstacle, size, *direction);
+    other.attempt(-*direction);
+    other.run(is_local_minimum);
+    descent.attempt(other.best());
   }
-  for (int i = 0; i < kMaxImprovements; ++i) {
-    const Translated moved_out{tool, (1.01 * depth + 1e-6 * size) * best};
-    if (!improves(separation(moved_out, obstacle, /*accuracy=*/0.0, best).normal, 1e-9 * size)) break;
-  }
-  return best;
+  return descent.best();
 }
 
 }  // namespace sweep_guard_core

@@ -42,8 +42,9 @@ MovingMesh movingMesh(const Workpiece& now, const Workpiece& before, const Displ
 // Keeps the older normal of a triangle that has no newer one.
 void update(SweepCache& cache, const SweepResult& result) {
   cache.outside = !result.contact();
+  auto place = cache.contact_normals.begin();
   for (const TriangleContact& contact : result.in_contact) {
-    cache.contact_normals.insert_or_assign(contact.triangle, contact.impact.normal_M);
+    place = std::next(cache.contact_normals.insert_or_assign(place, contact.triangle, contact.impact.normal_M));
   }
 }
 

@@ -8,65 +8,136 @@
 namespace sweep_guard_core {
 namespace {
 
-class NarrowPhase {
- public:
-  NarrowPhase(const NarrowPhaseRequest& request, NarrowPhaseResult& result)
-      : request_(request), margin_(request.margin + request.mesh.uncertainty()), result_(result) {
-    result_.not_ruled_out.clear();
-    result_.in_contact.clear();
-  }
+constexpr double kSame = 0.999;  // cosine of the angle to a direction that serves as well
 
-  void check(std::uint32_t index, size_t piece) {
-    beat();
-    const ConvexShape& shape_T = request_.tool.pieces()[piece].shape_T;
-    const MovingTriangle triangle = request_.mesh.triangle(index);
-    const auto earlier = request_.contact_normals.find(index);
-    const auto normal = earlier == request_.contact_normals.end() ? std::nullopt : std::optional(earlier->second);
-    if (const auto impact = timeOfImpact(shape_T, request_.sub_motions, triangle, margin_, normal)) {
-      result_.not_ruled_out.push_back(index);
-      keepFirst({index, piece, *impact});
-    } else if (request_.mesh.moved() && hullsMeet(shape_T, triangle)) {
-      result_.not_ruled_out.push_back(index);
-    }
-  }
+bool earlierOfTriangle(const TriangleContact& a, const TriangleContact& b) {
+  if (a.triangle != b.triangle) return a.triangle < b.triangle;
+  return a.impact.time_of_impact < b.impact.time_of_impact;
+}
 
-  void finish() {
-    TriangleSet& all = result_.not_ruled_out;
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-  }
-
- private:
-  void keepFirst(const TriangleContact& contact) {
-    std::vector<TriangleContact>& all = result_.in_contact;
-    const auto below = [](const TriangleContact& other, std::uint32_t triangle) { return other.triangle < triangle; };
-    const auto place = std::lower_bound(all.begin(), all.end(), contact.triangle, below);
-    if (place == all.end() || place->triangle != contact.triangle) {
-      all.insert(place, contact);
-    } else if (contact.impact.time_of_impact < place->impact.time_of_impact) {
-      *place = contact;
-    }
-  }
-
-  bool hullsMeet(const ConvexShape& shape_T, const MovingTriangle& triangle) const {
-    return std::any_of(request_.sub_motions.begin(), request_.sub_motions.end(), [&](const Motion& motion_M) {
-      return !missedByHull(shape_T, motion_M, triangle, margin_ + deviationBound(shape_T, motion_M));
-    });
-  }
-
-  const NarrowPhaseRequest& request_;
-  double margin_;
-  NarrowPhaseResult& result_;
-};
+bool sameTriangle(const TriangleContact& a, const TriangleContact& b) { return a.triangle == b.triangle; }
 
 }  // namespace
 
-void runNarrowPhase(const NarrowPhaseRequest& request, NarrowPhaseResult& result) {
-  NarrowPhase narrow_phase(request, result);
-  for (size_t piece = 0; piece < request.candidates.size(); ++piece) {
-    for (const std::uint32_t index : request.candidates[piece]) narrow_phase.check(index, piece);
+// Tests one piece of the tool.
+class NarrowPhase::Piece {
+ public:
+  Piece(NarrowPhase& all, const NarrowPhaseRequest& request, size_t piece, NarrowPhaseResult& result)
+      : request_(request),
+        piece_(piece),
+        shape_T_(request.tool.pieces()[piece].shape_T),
+        margin_(request.margin + request.mesh.uncertainty()),
+        finder_(all.finder_),
+        directions_(all.directions_[piece]),
+        batch_(all.batch_),
+        result_(result),
+        normal_(request.contact_normals.begin()) {
+    finder_.begin(shape_T_, request.sub_motions, margin_);
+    directions_.begin(shape_T_, request.sub_motions, margin_);
   }
-  narrow_phase.finish();
+
+  // Tests up to kBatch triangles. Those in contact before are likely to be so at the start.
+  void check(const std::uint32_t* triangles, size_t count) {
+    bool left = false;
+    for (size_t i = 0; i < count; ++i) {
+      load(batch_[i], triangles[i]);
+      if (batch_[i].contact_normal_M) findOverlap(batch_[i]);
+      if (!batch_[i].impact) directions_.load(i, batch_[i].triangle_M, request_.mesh.moved());
+      left = left || !batch_[i].impact;
+    }
+    if (left) checkAlongDirections(count);
+    for (size_t i = 0; i < count; ++i) report(batch_[i]);
+  }
+
+ private:
+  void load(Candidate& candidate, std::uint32_t index) {
+    beat();
+    candidate.index = index;
+    candidate.triangle_M = request_.mesh.triangle(index);
+    candidate.contact_normal_M = contactNormal(index);
+    candidate.impact.reset();
+    candidate.not_ruled_out = false;
+  }
+
+  void findOverlap(Candidate& candidate) {
+    candidate.impact = finder_.overlapAtStart(candidate.triangle_M, candidate.contact_normal_M);
+    candidate.not_ruled_out = candidate.impact.has_value();
+  }
+
+  // The triangles ascend.
+  std::optional<Eigen::Vector3d> contactNormal(std::uint32_t index) {
+    const auto end = request_.contact_normals.end();
+    while (normal_ != end && normal_->first < index) ++normal_;
+    return normal_ != end && normal_->first == index ? std::optional(normal_->second) : std::nullopt;
+  }
+
+  void checkAlongDirections(size_t count) {
+    directions_.separate();
+    for (size_t i = 0; i < count; ++i) {
+      Candidate& candidate = batch_[i];
+      if (candidate.impact || directions_.separated(i)) continue;
+      if (!candidate.contact_normal_M) findOverlap(candidate);
+      if (!candidate.impact) search(candidate, directions_.best_M(i));
+    }
+  }
+
+  void search(Candidate& candidate, const Eigen::Vector3d& guess_M) {
+    beat();
+    candidate.impact = finder_.find(candidate.triangle_M, candidate.contact_normal_M, guess_M);
+    const Eigen::Vector3d& direction_M = finder_.separatingDirection_M();
+    candidate.not_ruled_out =
+        candidate.impact || (request_.mesh.moved() && hullsMeet(candidate.triangle_M, direction_M));
+    const bool is_new = !candidate.not_ruled_out || direction_M.dot(guess_M) < kSame;
+    if (is_new && !direction_M.isZero(0.0)) directions_.add(direction_M);
+  }
+
+  bool hullsMeet(const MovingTriangle& triangle_M, const Eigen::Vector3d& guess_M) const {
+    return std::any_of(request_.sub_motions.begin(), request_.sub_motions.end(), [&](const Motion& motion_M) {
+      return !missedByHull(shape_T_, motion_M, triangle_M, margin_ + deviationBound(shape_T_, motion_M), guess_M);
+    });
+  }
+
+  void report(const Candidate& candidate) {
+    if (candidate.not_ruled_out) result_.not_ruled_out.push_back(candidate.index);
+    if (candidate.impact) result_.in_contact.push_back({candidate.index, piece_, *candidate.impact});
+  }
+
+  const NarrowPhaseRequest& request_;
+  size_t piece_;
+  const ConvexShape& shape_T_;
+  double margin_;
+  ImpactFinder& finder_;
+  SeparatingDirections& directions_;
+  std::array<Candidate, simd::kBatch>& batch_;
+  NarrowPhaseResult& result_;
+  ContactNormals::const_iterator normal_;
+};
+
+void NarrowPhase::run(const NarrowPhaseRequest& request, NarrowPhaseResult& result) {
+  result.not_ruled_out.clear();
+  result.in_contact.clear();
+  directions_.resize(request.candidates.size());
+  for (size_t piece = 0; piece < request.candidates.size(); ++piece) {
+    const TriangleSet& candidates = request.candidates[piece];
+    if (candidates.empty()) continue;
+    Piece one(*this, request, piece, result);
+    for (size_t first = 0; first < candidates.size(); first += simd::kBatch) {
+      one.check(&candidates[first], std::min(simd::kBatch, candidates.size() - first));
+    }
+  }
+  finish(result);
+}
+
+// Several pieces may touch the same triangle.
+void NarrowPhase::finish(NarrowPhaseResult& result) {
+  TriangleSet& all = result.not_ruled_out;
+  if (!std::is_sorted(all.begin(), all.end())) std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  std::vector<TriangleContact>& contacts = result.in_contact;
+  if (!std::is_sorted(contacts.begin(), contacts.end(), earlierOfTriangle)) {
+    std::sort(contacts.begin(), contacts.end(), earlierOfTriangle);
+  }
+  contacts.erase(std::unique(contacts.begin(), contacts.end(), sameTriangle), contacts.end());
 }
 
 }  // namespace sweep_guard_core

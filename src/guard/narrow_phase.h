@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <boost/container/flat_map.hpp>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "guard/moving_mesh.h"
+#include "guard/separating_directions.h"
 #include "guard/triangle_set.h"
 #include "sweep_guard/guard/sweep.h"
 
@@ -30,8 +33,29 @@ struct NarrowPhaseResult {
   std::vector<TriangleContact> in_contact;
 };
 
-/// Computes time of impact, contact point, normal and depth of each candidate [P, Sec. 5: "a fine detection"].
-/// @param[out] result  overwritten; its buffers are used again
-void runNarrowPhase(const NarrowPhaseRequest& request, NarrowPhaseResult& result);
+/// Computes time of impact, contact point, normal and depth of each candidate [P, Sec. 5: "a fine detection"]. Candidates
+/// are tested in batches: first whether a corner lies in the tool at the start, then along directions that separated other
+/// triangles, and only those that are left one by one. Keeps its buffers, and the directions, between calls.
+class NarrowPhase {
+ public:
+  /// @param[out] result  overwritten; its buffers are used again
+  void run(const NarrowPhaseRequest& request, NarrowPhaseResult& result);
+
+ private:
+  struct Candidate {
+    std::uint32_t index = 0;
+    MovingTriangle triangle_M;
+    std::optional<Eigen::Vector3d> contact_normal_M;
+    std::optional<Impact> impact;
+    bool not_ruled_out = false;
+  };
+  class Piece;
+
+  static void finish(NarrowPhaseResult& result);
+
+  ImpactFinder finder_;
+  std::vector<SeparatingDirections> directions_;  // of each piece of the tool
+  std::array<Candidate, simd::kBatch> batch_;
+};
 
 }  // namespace sweep_guard_core

@@ -109,12 +109,12 @@ void SweepChecker::narrow(const SweepRequest& request) {
   const InStage stage(Stage::kNarrowPhase);
   const TriangleSet& confirmed = request.cache.already_confirmed;
   for (TriangleSet& candidates : candidates_) remove(candidates, confirmed);
-  runNarrowPhase({request.tool, request.sub_motions, request.mesh, candidates_, request.options.margin,
-                  request.cache.contact_normals},
-                 narrow_phase_result_);
+  narrow_phase_.run({request.tool, request.sub_motions, request.mesh, candidates_, request.options.margin,
+                     request.cache.contact_normals},
+                    narrow_phase_result_);
   keepOnly(result_.not_ruled_out, confirmed);
   unite(result_.not_ruled_out, narrow_phase_result_.not_ruled_out);
-  result_.in_contact = narrow_phase_result_.in_contact;
+  std::swap(result_.in_contact, narrow_phase_result_.in_contact);
 }
 
 SweepResult checkSweep(Detector& detector, const SweepRequest& request) {

@@ -49,6 +49,7 @@ class SweepChecker {
   Detection detection_;
   Culler culler_;
   std::deque<SubmeshFinder> finders_;  // by depth in the tool's tree
+  NarrowPhase narrow_phase_;
   NarrowPhaseResult narrow_phase_result_;
 };
 

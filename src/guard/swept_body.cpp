@@ -39,7 +39,8 @@ SweptBody sweptBody(const ConvexShape& shape_T, const Motion& motion_M, VolumeKi
   return {&shape_T, motion_M, kind, sweptVolume(shape_T, motion_M, kind, margin)};
 }
 
-bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const MovingTriangle& triangle, double margin) {
+bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const MovingTriangle& triangle, double margin,
+                  const Eigen::Vector3d& guess_M) {
   const Eigen::Vector3d& origin = triangle.end_M[0];
   const HullOfMotion hull(shape_T, motion_M, origin);
   PointHull prism;
@@ -47,7 +48,7 @@ bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const Movi
   if (triangle.start_M != triangle.end_M) {
     for (const Eigen::Vector3d& p : triangle.start_M) prism.add(p - origin);
   }
-  return distanceExceeds(hull, prism, margin);
+  return distanceExceeds(hull, prism, margin, guess_M);
 }
 
 void detect(Detector& detector, const Submesh& submesh, const SweptBody& body, Detection& detection) {

@@ -29,6 +29,8 @@ void detect(Detector& detector, const Submesh& submesh, const SweptBody& body, D
 /// Returns whether a direction proves that a body is farther than `margin` [m] from a triangle: from the hull of the
 /// triangle before and after its motion, with the body anywhere in the hull of its motion's two poses before and after
 /// its mesh_translation.
-bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const MovingTriangle& triangle, double margin);
+/// @param guess_M  direction from the triangle to the body that may prove it, of any length; zero for none
+bool missedByHull(const ConvexShape& shape_T, const Motion& motion_M, const MovingTriangle& triangle, double margin,
+                  const Eigen::Vector3d& guess_M = Eigen::Vector3d::Zero());
 
 }  // namespace sweep_guard_core

@@ -256,11 +256,63 @@ TriangleBits classifyTriangles(const ClusterCorners& corners,
 
 #endif
 
+using Double = stdx::native_simd<double>;
+constexpr std::size_t kDoubles = Double::size();
+
+static_assert(kFunctions % kDoubles == 0 && kBatch % kDoubles == 0);
+
+[[gnu::always_inline]] inline Double loadDoubles(const double* from) { return Double(from, stdx::element_aligned); }
+
+std::size_t largest(const LinearFunctions& functions, const std::array<double, 3>& point) {
+  const auto value = [&](std::size_t i) {
+    return loadDoubles(functions.x + i) * point[0] + loadDoubles(functions.y + i) * point[1] +
+           loadDoubles(functions.z + i) * point[2] + loadDoubles(functions.w + i);
+  };
+  Double most = value(0);
+  Double first = 0.0;  // of the register that holds it; lanes of double, as they are selected by a mask of doubles
+  Double index = 0.0;
+  for (std::size_t i = kDoubles; i < functions.count; i += kDoubles) {
+    index += static_cast<double>(kDoubles);
+    const Double next = value(i);
+    const auto larger = next > most;
+    stdx::where(larger, most) = next;
+    stdx::where(larger, first) = index;
+  }
+  std::size_t best = 0;
+  for (std::size_t lane = 1; lane < kDoubles; ++lane) {
+    if (most[lane] > most[best]) best = lane;
+  }
+  return static_cast<std::size_t>(static_cast<double>(first[best])) + best;
+}
+
+void separate(const TriangleBatch& triangles, const Directions& directions, BatchGaps& gaps) {
+  for (std::size_t first = 0; first < kBatch; first += kDoubles) {
+    Double most = -__builtin_inf();
+    Double best = 0.0;
+    for (std::size_t i = 0; i < directions.count; ++i) {
+      const auto along = [&](std::size_t corner) {
+        const auto& position = triangles.position[corner];
+        return directions.normal[0][i] * loadDoubles(&position[0][first]) +
+               directions.normal[1][i] * loadDoubles(&position[1][first]) +
+               directions.normal[2][i] * loadDoubles(&position[2][first]);
+      };
+      Double reach = along(0);
+      for (std::size_t corner = 1; corner < triangles.corners; ++corner) reach = stdx::max(reach, along(corner));
+      const Double gap = directions.least[i] - reach;
+      const auto larger = gap > most;
+      stdx::where(larger, most) = gap;
+      stdx::where(larger, best) = static_cast<double>(i);
+    }
+    most.copy_to(&gaps.gap[first], stdx::element_aligned);
+    best.copy_to(&gaps.direction[first], stdx::element_aligned);
+  }
+}
+
 }  // namespace
 
 namespace SWEEP_GUARD_ISA {
 extern const Kernels kKernels;
-const Kernels kKernels = {nullptr, bound, classifyBoxes, classifyBlock, classifyTriangles};
+const Kernels kKernels = {nullptr, bound, classifyBoxes, classifyBlock, classifyTriangles, largest, separate};
 }  // namespace SWEEP_GUARD_ISA
 
 }  // namespace sweep_guard_core::simd

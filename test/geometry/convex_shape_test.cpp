@@ -8,6 +8,7 @@
 #include "geometry/round_tool.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/geometry/separation.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -109,6 +110,80 @@ TEST(ConvexShapeTest, AcceptsFlatAndNeedleTools) {
   EXPECT_EQ(ConvexShape::cylinder(0.0, 1.0).support(Eigen::Vector3d::UnitX()), 0.0);
   EXPECT_EQ(ConvexShape::cylinder(1.0, 0.0, 3).support(-Eigen::Vector3d::UnitZ()), 0.0);
   EXPECT_EQ(ConvexShape::cylinder(1.0, 1.0, 1000).mesh_T().triangles().size(), 4000U);
+}
+
+std::vector<ConvexShape> shapesOfEachKind(Random& random) {
+  std::vector<Eigen::Vector3d> cloud;
+  for (int i = 0; i < 30; ++i) cloud.push_back(random.uniform(0.5, 1.0) * random.direction());
+  std::vector<ConvexShape> shapes = {ConvexShape::cylinder(0.5, 2.0), ConvexShape::sphere(0.7),
+                                     ConvexShape::box({0.3, 0.5, 0.8}), ConvexShape::hull(cloud),
+                                     ConvexShape::hull({{-0.5, 0.1, 0}, {0.6, 0, 0}}).padded(0.3)};
+  const std::vector<ConvexShape> unpadded = shapes;
+  for (const ConvexShape& shape : unpadded) shapes.push_back(shape.padded(0.2));
+  for (ConvexShape& shape : shapes) shape = shape.placed(random.pose(random.uniform(0.0, 2.0) * random.direction()));
+  return shapes;
+}
+
+struct Placed {
+  const ConvexShape& shape_T;
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const { return shape_T.supportPoint(direction); }
+};
+
+// Along the surface's normal the support function is just the depth away, and nowhere less. Of a point outside, the depth
+// is the distance.
+TEST(ConvexShapeTest, KnowsHowDeepAPointLies) {
+  Random random(/*seed=*/3);
+  int inside = 0;
+  int outside = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    for (const ConvexShape& shape : shapesOfEachKind(random)) {
+      for (int i = 0; i < 10; ++i) {
+        const Eigen::Vector3d p = shape.moments_T().mean + random.uniform(0.0, 1.5) * random.direction();
+        const auto [depth, outwards] = shape.depthOf(p);
+        const double distance = separation(Placed{shape}, PointHull(std::array<Eigen::Vector3d, 1>{p})).gap;
+        EXPECT_NEAR(outwards.norm(), 1.0, 1e-12);
+        if (depth < 0.0) {
+          ++outside;
+          EXPECT_TRUE(std::isinf(depth) || std::abs(-depth - distance) < 1e-9) << depth << " " << distance;
+          continue;
+        }
+        ++inside;
+        EXPECT_LE(distance, 1e-9);
+        EXPECT_NEAR(shape.support(outwards) - outwards.dot(p), depth, 1e-9);
+        for (int k = 0; k < 20; ++k) {
+          const Eigen::Vector3d direction = random.direction();
+          EXPECT_GE(shape.support(direction) - direction.dot(p), depth - 1e-9);
+        }
+      }
+    }
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(outside, 500);
+}
+
+TEST(ConvexShapeTest, KnowsNoDepthInAFlatHull) {
+  const ConvexShape flat = ConvexShape::hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  EXPECT_LT(flat.depthOf({0.2, 0.2, 0.0}).depth, 0.0);
+}
+
+// Between its sides, a hull contains what its corners' convex combinations reach, and its faces leave out nothing else.
+TEST(ConvexShapeTest, HullsContainCombinationsOfTheirCorners) {
+  Random random(/*seed=*/4);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 12; ++i) points.push_back(random.direction());
+    const ConvexShape hull = ConvexShape::hull(points);
+    for (int i = 0; i < 20; ++i) {
+      Eigen::Vector3d p = Eigen::Vector3d::Zero();
+      double sum = 0.0;
+      for (const Eigen::Vector3d& point : points) {
+        const double weight = random.uniform(0.0, 1.0);
+        p += weight * point;
+        sum += weight;
+      }
+      EXPECT_GE(hull.depthOf(p / sum).depth, 0.0);
+    }
+  }
 }
 
 }  // namespace

@@ -215,6 +215,70 @@ TEST_P(KernelsTest, FindsTrianglesWhollyBeyondAPlaneAndWithACornerInside) {
   EXPECT_GT(met, 1000);
 }
 
+TEST_P(KernelsTest, FindsTheLargestOfManyLinearFunctions) {
+  Random random(7);
+  for (const size_t count : {8U, 16U, 24U, 200U}) {
+    std::vector<double> values[4];
+    for (auto& of_all : values) {
+      for (size_t i = 0; i < count; ++i) of_all.push_back(random.uniform(-1.0, 1.0));
+    }
+    const auto& [x, y, z, w] = values;
+    for (int trial = 0; trial < 200; ++trial) {
+      const std::array<double, 3> p = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+      const size_t found = GetParam().largest({x.data(), y.data(), z.data(), w.data(), count}, p);
+      ASSERT_LT(found, count);
+      const auto value = [&](size_t i) { return x[i] * p[0] + y[i] * p[1] + z[i] * p[2] + w[i]; };
+      for (size_t i = 0; i < count; ++i) EXPECT_LE(value(i), value(found) + 1e-15) << i << " of " << count;
+    }
+  }
+}
+
+TEST_P(KernelsTest, FindsTheDirectionOfTheLargestGapOfEachTriangle) {
+  Random random(8);
+  for (const size_t corners : {3U, 6U}) {
+    for (const size_t count : {size_t{1}, size_t{5}, kMaxDirections}) {
+      TriangleBatch triangles;
+      triangles.corners = corners;
+      for (auto& corner : triangles.position) {
+        for (auto& axis : corner) {
+          for (double& coordinate : axis) coordinate = random.uniform(-1.0, 1.0);
+        }
+      }
+      Directions directions;
+      directions.count = count;
+      for (size_t i = 0; i < count; ++i) {
+        for (auto& axis : directions.normal) axis[i] = random.uniform(-1.0, 1.0);
+        directions.least[i] = random.uniform(-1.0, 1.0);
+      }
+      BatchGaps gaps;
+      GetParam().separate(triangles, directions, gaps);
+      for (size_t triangle = 0; triangle < kBatch; ++triangle) {
+        const auto gap = [&](size_t i) {
+          double reach = -1e9;
+          for (size_t corner = 0; corner < corners; ++corner) {
+            double along = 0.0;
+            for (size_t axis = 0; axis < 3; ++axis) {
+              along += directions.normal[axis][i] * triangles.position[corner][axis][triangle];
+            }
+            reach = std::max(reach, along);
+          }
+          return directions.least[i] - reach;
+        };
+        double largest = -1e9;
+        for (size_t i = 0; i < count; ++i) largest = std::max(largest, gap(i));
+        EXPECT_NEAR(gaps.gap[triangle], largest, 1e-15);
+        EXPECT_NEAR(gap(static_cast<size_t>(gaps.direction[triangle])), largest, 1e-15);
+      }
+    }
+  }
+}
+
+TEST_P(KernelsTest, FindsNoGapWithoutDirections) {
+  BatchGaps gaps;
+  GetParam().separate(TriangleBatch{}, Directions{}, gaps);
+  for (const double gap : gaps.gap) EXPECT_EQ(gap, -std::numeric_limits<double>::infinity());
+}
+
 INSTANTIATE_TEST_SUITE_P(AllSets, KernelsTest, testing::ValuesIn(availableKernels()),
                          [](const auto& test) { return test.param.name; });
 

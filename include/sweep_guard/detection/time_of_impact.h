@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <optional>
 #include <vector>
 
@@ -58,5 +59,56 @@ struct Impact {
 std::optional<Impact> timeOfImpact(const ConvexShape& shape_T, const std::vector<Motion>& sub_motions,
                                    const MovingTriangle& triangle, double margin,
                                    const std::optional<Eigen::Vector3d>& contact_normal_M = std::nullopt);
+
+/// Computes the times of impact of one convex piece with many triangles, each as timeOfImpact() does. The triangles of a
+/// patch share what depends on the motion alone, and learn from each other: a direction that separates the piece from one
+/// triangle is tried first for the next, and if a normal found before is near the minimum translation direction, libccd is
+/// not asked for another. Keeps its buffers.
+class ImpactFinder {
+ public:
+  /// Begins a patch. Arguments as for timeOfImpact(); those given by reference must outlive the calls that follow.
+  void begin(const ConvexShape& shape_T, const std::vector<Motion>& sub_motions, double margin);
+
+  /// Returns the impact if a corner of the triangle lies in the piece at the start: cheaper than find(). Empty proves
+  /// nothing.
+  std::optional<Impact> overlapAtStart(const MovingTriangle& triangle,
+                                       const std::optional<Eigen::Vector3d>& contact_normal_M);
+
+  /// Returns the impact, as timeOfImpact() does.
+  /// @param guess_M  unit direction from the triangle to the piece that may separate them; zero for none
+  std::optional<Impact> find(const MovingTriangle& triangle, const std::optional<Eigen::Vector3d>& contact_normal_M,
+                             const Eigen::Vector3d& guess_M = Eigen::Vector3d::Zero());
+
+  /// Returns the direction that has separated the piece from a triangle last: unit, or zero if there was none in this
+  /// patch.
+  const Eigen::Vector3d& separatingDirection_M() const { return separating_M_; }
+
+ private:
+  // What the triangles share.
+  struct SubMotion {
+    Eigen::Matrix3d R_MT_start;
+    Eigen::Matrix3d R_MT_end;
+    Eigen::Vector3d p_MT_start;
+    Eigen::Vector3d travel_M;
+    double margin;
+    double angle;
+    Eigen::Vector3d axis_T;
+    Eigen::Vector3d axis_M;
+    double radius;  // about the axis
+  };
+  class Trajectory;
+  class Search;
+  static constexpr size_t kNormals = 8;
+
+  double depthAtEnd(const MovingTriangle& triangle, const Eigen::Vector3d& normal_M) const;
+  Eigen::Vector3d lastNormal() const;
+  const Eigen::Vector3d& remember(const Eigen::Vector3d& normal_M);
+
+  const ConvexShape* shape_T_ = nullptr;
+  std::vector<SubMotion> sub_motions_;
+  Eigen::Vector3d separating_M_ = Eigen::Vector3d::Zero();
+  boost::container::static_vector<Eigen::Vector3d, kNormals> normals_M_;  // minimum translation directions of the patch
+  size_t next_normal_ = 0;
+};
 
 }  // namespace sweep_guard_core

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <variant>
 #include <vector>
 
+#include "sweep_guard/geometry/linear_functions.h"
 #include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
@@ -58,12 +60,29 @@ class ConvexShape {
   /// Returns a point of the body, in T, that lies farthest along a direction of any length > 0 [m].
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction_T) const;
 
+  /// Returns a point of the body without its padding, in T, that lies farthest along a direction of any length > 0 [m].
+  Eigen::Vector3d coreSupportPoint(const Eigen::Vector3d& direction_T) const;
+  double padding() const { return padding_; }  ///< [m], >= 0
+
+  /// Proposes a minimum translation direction from a triangle that the body without its padding overlaps: unit. Of a
+  /// cylinder it is the best one across its axis, of other bodies the normal of the face nearest to the triangle's middle.
+  Eigen::Vector3d proposeNormal(const std::array<Eigen::Vector3d, 3>& corners_T) const;
+
+  /// Where a point lies in the body.
+  struct Depth {
+    double depth;                ///< distance from the surface [m]; negative: not known to be inside
+    Eigen::Vector3d outwards_T;  ///< unit normal of the surface at its point nearest to this one
+  };
+  /// Returns the depth of a point. It is exact, but that of a point outside of a hull of three or more corners without
+  /// its padding is -infinity, and so is any depth in such a hull that is flat or has needles as faces.
+  Depth depthOf(const Eigen::Vector3d& p_T) const;
+
   /// Returns an upper bound [m] on the distance of any point of the body from the line through the origin of T along a
   /// unit axis.
   double radiusAbout(const Eigen::Vector3d& axis_T) const;
 
   /// Returns an upper bound [m] on the distance of any point of the body from the origin of T.
-  double boundingRadius() const;
+  double boundingRadius() const { return bounding_radius_ + padding_; }
 
   /// Returns the point of the front or rear face, in T, that lies farthest along a direction of any length [m]. The
   /// faces of a cylinder are its discs; those of other bodies are faces of a box around it, across its longest side.
@@ -77,6 +96,8 @@ class ConvexShape {
     return faces_.half_sides.minCoeff() + padding_;
   }                                                              ///< smaller half side of a face, padded [m]
   Eigen::Vector3d axis_T() const { return faces_.R_TF.col(2); }  ///< from rear to front, unit
+  /// Returns the axes of a box around the body, as columns: of a cylinder and of a box their own. The last is axis_T().
+  const Eigen::Matrix3d& axes_T() const { return faces_.R_TF; }
 
   /// A round cylinder around the z axis of a frame C, with z in [-length, 0].
   struct Cylinder {
@@ -99,7 +120,10 @@ class ConvexShape {
     Eigen::Vector3d half_extents;
   };
   struct Points {
+    explicit Points(const std::vector<Eigen::Vector3d>& points);
     std::vector<Eigen::Vector3d> corners;
+    LinearFunctions reach;  // of each corner along a direction
+    LinearFunctions faces;  // distance outside of each; none if it is not known how deep a point lies
   };
   using Body = std::variant<Round, Box, Points>;
 
@@ -114,6 +138,7 @@ class ConvexShape {
   };
 
   ConvexShape(Body body_S, const std::vector<Eigen::Vector3d>& vertices_S, std::vector<Triangle> triangles);
+  double boundingRadiusOfBody() const;
   Faces faces() const;
   Faces facesOfBox(const Eigen::Matrix3d& axes_T) const;
   Eigen::Vector3d faceSupport(double z, const Eigen::Vector3d& direction_T) const;
@@ -125,6 +150,7 @@ class ConvexShape {
   TriangleMesh mesh_T_;
   Moments moments_T_;
   Faces faces_;
+  double bounding_radius_;  // without padding
 };
 
 /// Returns the support function [m] of the body at a pose, in M, for a unit direction.

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-/// The float32 loops over vertices and boxes, on which the speed of a sweep depends. They are compiled for several
+/// The loops over vertices and boxes in float32, and over corners and directions in double, on which the speed of a sweep
+/// depends. They are compiled for several
 /// instruction sets; the best one of the machine is selected at the first use. Rounding differs between the instruction
 /// sets, and callers have to allow for it.
 namespace sweep_guard_core::simd {
@@ -64,6 +65,38 @@ struct TriangleBits {
   std::uint64_t corner_inside;  ///< with a corner inside of all planes
 };
 
+/// Linear functions x p_x + y p_y + z p_z + w of a point p, with one array for each coefficient. Their number is a multiple
+/// of kFunctions.
+struct LinearFunctions {
+  const double* x;
+  const double* y;
+  const double* z;
+  const double* w;
+  std::size_t count;  ///< > 0
+};
+constexpr std::size_t kFunctions = 8;
+
+/// Triangles whose corners are tested at once, each before and after its motion.
+constexpr std::size_t kBatch = 16;
+struct TriangleBatch {
+  std::size_t corners = 3;                                            ///< of each triangle: 3 at rest, 6 in motion
+  std::array<std::array<std::array<double, kBatch>, 3>, 6> position;  ///< by corner, axis and triangle [m]
+};
+
+/// Unit directions n, and for each the least n·q of all points q of a body [m].
+constexpr std::size_t kMaxDirections = 16;
+struct Directions {
+  std::size_t count = 0;  ///< at most kMaxDirections
+  std::array<std::array<double, kMaxDirections>, 3> normal;
+  std::array<double, kMaxDirections> least;
+};
+
+/// For each triangle of a batch, the direction along which it is farthest below a body.
+struct BatchGaps {
+  std::array<double, kBatch> gap;        ///< least n·q of the body less the largest n·p of the corners [m]
+  std::array<double, kBatch> direction;  ///< index of the direction
+};
+
 struct Kernels {
   const char* name;  ///< name of the instruction set
 
@@ -90,6 +123,12 @@ struct Kernels {
   /// @param bits  kBlock entries from classifyBlock() for each block of the cluster; all kClusterBlocks are read
   TriangleBits (*classifyTriangles)(const ClusterCorners& corners,
                                     const std::array<const std::uint16_t*, kClusterBlocks>& bits);
+
+  /// Returns the index of the function that is largest at a point; of several that are, up to rounding, any.
+  std::size_t (*largest)(const LinearFunctions& functions, const std::array<double, 3>& point);
+
+  /// Computes the largest gap of each triangle of a batch. Without directions it is -infinity.
+  void (*separate)(const TriangleBatch& triangles, const Directions& directions, BatchGaps& gaps);
 };
 
 /// Returns the kernels that this machine can run, the best first; `baseline` is always among them.
