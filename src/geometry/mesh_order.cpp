@@ -9,6 +9,7 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr size_t kFewBlocks = 64;    // of a small mesh
 constexpr double kWorthwhile = 0.5;  // largest ratio that justifies renumbering, which costs every deformation a gather
 
 // Inserts two zeros after each of the low 21 bits.
@@ -38,18 +39,18 @@ std::vector<std::uint32_t> placesAlongCurve(const std::vector<float>& positions,
   return places;
 }
 
-// Returns new places if they make the boxes of the blocks much smaller, and no places otherwise.
-std::vector<std::uint32_t> betterPlaces(const std::vector<float>& positions) {
+bool muchLess(double number, double than) { return number < kWorthwhile * than; }
+
+double totalSizeOfBlocks(const std::vector<float>& positions) {
   VertexBlocks blocks;
   blocks.measure(positions);
-  if (blocks.count() < 2) return {};
-  std::vector<std::uint32_t> places = placesAlongCurve(positions, blocks.bounds());
+  return blocks.totalSize();
+}
+
+bool makesBlocksMuchSmaller(const std::vector<std::uint32_t>& places, const std::vector<float>& positions) {
   std::vector<float> kept(positions.size());
   place(places, positions, kept);
-  const double as_sent = blocks.totalSize();
-  blocks.measure(kept);
-  if (blocks.totalSize() >= kWorthwhile * as_sent) places.clear();  // also if all vertices coincide
-  return places;
+  return muchLess(totalSizeOfBlocks(kept), totalSizeOfBlocks(positions));
 }
 
 // A set of few numbers.
@@ -158,11 +159,14 @@ std::vector<std::uint32_t> byFirstVertex(const std::vector<Triangle>& corners) {
   return order;
 }
 
-}  // namespace
+bool hasMuchFewer(const std::vector<Cluster>& clusters, const std::vector<Cluster>& others) {
+  return muchLess(static_cast<double>(clusters.size()), static_cast<double>(others.size()));
+}
 
-MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangle>& triangles) {
+// Orders the triangles, whose corners are at these places.
+MeshOrder orderAt(std::vector<std::uint32_t> vertex_places, const std::vector<Triangle>& triangles) {
   MeshOrder order;
-  order.vertex_places = betterPlaces(positions);
+  order.vertex_places = std::move(vertex_places);
   std::vector<Triangle> corners = placed(order.vertex_places, triangles);
   order.clusters = clustersOf(corners);
 
@@ -171,7 +175,7 @@ MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangl
   in_order.reserve(sorted.size());
   for (const std::uint32_t triangle : sorted) in_order.push_back(corners[triangle]);
   std::vector<Cluster> clusters = clustersOf(in_order);
-  if (static_cast<double>(clusters.size()) < kWorthwhile * static_cast<double>(order.clusters.size())) {
+  if (hasMuchFewer(clusters, order.clusters)) {
     order.triangle_at = sorted;
     order.clusters = std::move(clusters);
     corners = std::move(in_order);
@@ -179,6 +183,27 @@ MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangl
   order.corners.reserve(order.clusters.size());
   for (const Cluster& cluster : order.clusters) order.corners.push_back(cornersOf(cluster, corners));
   order.groups = groupsOf(order.clusters);
+  return order;
+}
+
+// Renumbers the vertices if that makes the boxes much smaller. In a small mesh no box is small, whatever the order, but
+// renumbering may take much fewer clusters.
+MeshOrder betterOrder(const std::vector<float>& positions, const std::vector<Triangle>& triangles) {
+  VertexBlocks blocks;
+  blocks.measure(positions);
+  if (blocks.count() < 2) return orderAt({}, triangles);
+  std::vector<std::uint32_t> places = placesAlongCurve(positions, blocks.bounds());
+  if (makesBlocksMuchSmaller(places, positions)) return orderAt(std::move(places), triangles);
+  MeshOrder as_sent = orderAt({}, triangles);
+  if (blocks.count() > kFewBlocks) return as_sent;
+  MeshOrder along_curve = orderAt(std::move(places), triangles);
+  return hasMuchFewer(along_curve.clusters, as_sent.clusters) ? along_curve : as_sent;
+}
+
+}  // namespace
+
+MeshOrder orderOf(const std::vector<float>& positions, const std::vector<Triangle>& triangles) {
+  MeshOrder order = betterOrder(positions, triangles);
   order.blocks.resize((positions.size() / 3 + simd::kBlock - 1) / simd::kBlock);
   std::iota(order.blocks.begin(), order.blocks.end(), 0U);
   return order;

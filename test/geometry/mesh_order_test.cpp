@@ -57,6 +57,11 @@ TEST_P(MeshOrderTest, GroupsHoldEveryClusterOnceAndAllOfTheirBlocks) {
 
 TEST_P(MeshOrderTest, KeepsClustersFew) { EXPECT_LT(mesh_.order().clusters.size(), mesh_.triangles().size() / 16); }
 
+// 400 triangles in seven blocks, each of which reaches across the mesh.
+TEST_P(MeshOrderTest, KeepsClustersOfASmallMeshFew) {
+  EXPECT_LT(GetParam().of(wavyHull(11, 20, 0.5)).order().clusters.size(), 25U);
+}
+
 TEST_P(MeshOrderTest, IndicesStayTheSenders) {
   const TriangleMesh moved = GetParam().of(wavyHull(60, 80, 2.5));
   std::vector<float> positions;

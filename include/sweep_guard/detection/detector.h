@@ -36,7 +36,8 @@ class Detector {
     detection_.triangles.clear();
     detection_.inflation = 0.0;
     find(submesh, swept_M, detection_);
-    std::sort(detection_.triangles.begin(), detection_.triangles.end());
+    TriangleSet& found = detection_.triangles;
+    if (!std::is_sorted(found.begin(), found.end())) std::sort(found.begin(), found.end());
     return detection_;
   }
 

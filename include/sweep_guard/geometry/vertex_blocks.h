@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -47,11 +48,9 @@ template <typename Function>
 void withBlock(const std::vector<float>& positions, size_t block, const Function& function) {
   const size_t first = block * kBlockFloats;
   if (first + kBlockFloats + simd::kPadding <= positions.size()) return function(positions.data() + first);
-  std::array<float, kBlockFloats + simd::kPadding> filled;
-  for (size_t i = 0; i < filled.size(); ++i) {
-    const size_t at = first + i;
-    filled[i] = positions[at < positions.size() ? at : positions.size() - 3 + i % 3];
-  }
+  std::array<float, kBlockFloats + simd::kPadding + 2> filled;  // whole vertices
+  float* const end = std::copy(positions.data() + first, positions.data() + positions.size(), filled.data());
+  for (float* to = end; to != filled.data() + filled.size(); to += 3) std::copy_n(&positions.end()[-3], 3, to);
   function(filled.data());
 }
 
