@@ -87,7 +87,7 @@ TEST(MinimumTranslationDirectionTest, IsMostlyAsGoodWithANeighborsNormalInPlaceO
       neighbors.assign(1, beside);
       ++overlapping;
       as_good += depthAlong(beside, tool, triangle) <= depth + 1e-6 ? 1 : 0;
-      EXPECT_LE(depthAlong(beside, tool, triangle), 1.3 * depth) << row << ", " << i;
+      EXPECT_LE(depthAlong(beside, tool, triangle), 1.5 * depth) << row << ", " << i;
     }
   }
   EXPECT_GT(overlapping, 1000);
