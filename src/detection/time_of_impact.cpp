@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "geometry/penetration.h"
@@ -13,10 +14,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxDirections = 1000;
+constexpr int kMaxKnown = 8;  // of these that need not be the direction of the closest points
 constexpr int kMaxTries = 40;
-constexpr double kOffset = 1e-3;  // of the tool's bounding radius
-constexpr double kMinGap = 1e-6;  // of the size; the direction of a smaller one has few exact digits
-constexpr double kGain = 0.05;    // of the gap; a direction that gains less is not followed on
+constexpr double kOffset = 1e-3;     // of the tool's bounding radius
+constexpr double kRounding = 2e-15;  // of the size
+constexpr double kMinGap = 1e-6;     // of the size; the direction of a smaller one has few exact digits
+constexpr double kGain = 0.05;       // of the gap; a direction that gains less is not followed on
 
 // A piece at a pose, without its padding: GJK needs fewer steps for a segment than for a capsule, and the direction to it has
 // more exact digits.
@@ -212,10 +215,15 @@ class ImpactFinder::Search {
     double s = 0.0;
     bool stuck = false;  // no known direction proves anything from here on
     while (true) {
-      double gap = stuck ? -kInfinity : followBestKnown(trajectory, s, margin);
+      const bool try_known = !stuck && (s == 0.0 || directions_ < kMaxKnown);
+      const Known known = try_known ? bestKnown(trajectory, s) : Known{};
+      double gap = known.gap;
       const bool computed = gap <= margin + tolerance_;
-      if (computed) {
+      if (!computed) {
+        normal_ = known.direction;
+      } else {
         const bool close = gap > margin;
+        if (const auto touch = close ? cornerTouchAt(trajectory, s, known) : std::nullopt) return touch;
         const Separation apart = close ? exactSeparationAt(trajectory, s) : separationAt(trajectory, s, margin);
         if (overlapping(apart)) return Touch{s, apart};
         const bool touches = apart.gap <= margin + tolerance_;
@@ -233,20 +241,32 @@ class ImpactFinder::Search {
     }
   }
 
-  // Returns the larger of the gaps along the direction followed so far and along the guess, which turns with the tool; follows
-  // that direction if it separates them.
-  double followBestKnown(const Trajectory& trajectory, double s, double margin) {
-    double gap = normal_ ? trajectory.gap(*normal_, s) : -kInfinity;
-    if (guess_T_.isZero(0.0)) return gap;
+  struct Known {
+    Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+    double gap = -kInfinity;
+  };
+
+  // Returns the direction followed so far or the guess, which turns with the tool: the one with the larger gap.
+  Known bestKnown(const Trajectory& trajectory, double s) const {
+    Known best;
+    if (normal_) best = {*normal_, trajectory.gap(*normal_, s)};
+    if (guess_T_.isZero(0.0)) return best;
     const Eigen::Vector3d guess = trajectory.tool(s).R_MT * guess_T_;
-    const double gap_of_guess = trajectory.gap(guess, s);
-    if (gap_of_guess <= gap) return gap;
-    if (gap_of_guess > margin + tolerance_) normal_ = guess;
-    return gap_of_guess;
+    const double gap = trajectory.gap(guess, s);
+    return gap > best.gap ? Known{guess, gap} : best;
+  }
+
+  // If a corner is just as far from the tool as the gap along a direction, that is the direction of the closest points.
+  std::optional<Touch> cornerTouchAt(const Trajectory& trajectory, double s, const Known& known) const {
+    const auto& [direction, gap] = known;
+    const Eigen::Vector3d corner = PointHull(trajectory.corners(s)).supportPoint(direction);
+    const Eigen::Vector3d on_tool = corner + (gap + shape_T_.padding() + kRounding * size_) * direction;
+    if (shape_T_.depthOf(trajectory.tool(s).inTool(on_tool)).depth < shape_T_.padding()) return std::nullopt;
+    return Touch{s, {direction, gap, on_tool, corner}};
   }
 
   bool overlapping(const Separation& apart) const {
-    return apart.gap <= 0.0 && (apart.on_tool - apart.on_obstacle).norm() <= shape_T_.padding() + 1e-15 * size_;
+    return apart.gap <= 0.0 && (apart.on_tool - apart.on_obstacle).norm() <= shape_T_.padding() + kRounding * size_;
   }
 
   Eigen::Vector3d initialDirection(const PlacedCore& tool) const {
@@ -297,8 +317,9 @@ class ImpactFinder::Search {
     const auto touches = [&](const Eigen::Vector3d& normal, double depth) {
       return tool.touchesACorner(corners, normal, depth, 1e-9 * size_);
     };
+    // By reference: std::function allocates nothing for it.
     return finder_.remember(minimumTranslationDirection(tool, triangle, proposals(tool, corners, !neighbors.empty()),
-                                                        neighbors, std::max(size_, 1e-12), touches));
+                                                        neighbors, std::max(size_, 1e-12), std::ref(touches)));
   }
 
   ImpactFinder& finder_;
