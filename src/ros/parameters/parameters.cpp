@@ -134,20 +134,23 @@ sweep_guard_core::WarningThresholds readThresholds(ParameterReader& read) {
   sweep_guard_core::WarningThresholds thresholds;
   const std::optional<double> all =
       read.deprecatedNumber(kOldThreshold, thresholds.reflex, any,
-                            "Old name: sets those of warning/considered_on, warning/considered_off and "
+                            "Old name, and old scale: sets those of warning/considered_on, warning/considered_off and "
                             "warning/reflex_probability that are not set themselves; while the guard runs, those that "
                             "are not in the same request.");
-  if (all) thresholds = sweep_guard_core::WarningThresholds::all(*all);
-  thresholds.considered_on = read.number("warning/considered_on", thresholds.considered_on, any,
-                                         "A contact off the predicted path raises CONSIDERED from this probability on. "
-                                         "Smaller warns earlier, with more false alarms.");
-  thresholds.considered_off = read.number(
-      "warning/considered_off", std::min(thresholds.considered_off, thresholds.considered_on), any,
-      "CONSIDERED stays while a contact with that workpiece is at least this probable; at most warning/considered_on. "
-      "Smaller interrupts a warning less often.",
-      ParameterReader::Bound{{kMinProbability, thresholds.considered_on}, "at most warning/considered_on"});
-  thresholds.reflex = read.number("warning/reflex_probability", thresholds.reflex, any,
-                                  "A contact off the predicted path raises REFLEX from this probability on.");
+  if (all) thresholds = sweep_guard_core::WarningThresholds::ofMinProbability(*all);
+  thresholds.considered_on =
+      read.number("warning/considered_on", thresholds.considered_on, any,
+                  "A contact off the predicted path raises CONSIDERED from this probability "
+                  "within horizon/considered on. Smaller warns earlier, with more false alarms.");
+  thresholds.considered_off =
+      read.number("warning/considered_off", std::min(thresholds.considered_off, thresholds.considered_on), any,
+                  "CONSIDERED stays while a contact with that workpiece within horizon/considered is at least this "
+                  "probable; at most "
+                  "warning/considered_on. Smaller interrupts a warning less often.",
+                  ParameterReader::Bound{{kMinProbability, thresholds.considered_on}, "at most warning/considered_on"});
+  thresholds.reflex =
+      read.number("warning/reflex_probability", thresholds.reflex, any,
+                  "A contact off the predicted path raises REFLEX from this probability within horizon/reflex on.");
   return thresholds;
 }
 
