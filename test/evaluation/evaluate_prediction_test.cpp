@@ -156,7 +156,7 @@ TEST_F(EvaluatePredictionTest, FindsThresholdsForAWantedRate) {
   writeMotion("hand.txt");
   const Outcome outcome = run("--session-count 1 --sheets 4 --tune 100 --tune-csv curve.csv hand.txt");
   EXPECT_EQ(outcome.status, 0) << outcome.out;
-  EXPECT_TRUE(has(outcome.out, "\nwarning:\n  considered_on: 0.01\n  considered_off: 0.01\n"));
+  EXPECT_TRUE(has(outcome.out, "\nwarning:\n  considered_on: 0.002\n  considered_off: 0.002\n"));
   EXPECT_EQ(read("curve.csv").find("considered_on,considered_off,reflex_probability,unjustified_per_min,"), 0U);
 }
 
