@@ -34,7 +34,7 @@ std::array<AlarmStatistics, 2> statisticsOf(const std::vector<Episode>& episodes
 }
 
 WarningReport emptyReport(const std::string& recording, size_t placements, const Options& options) {
-  const double chosen = options.simulation.limits.thresholds.reflex;
+  const double chosen = options.min_probability;
   WarningReport report{recording, placements, options.predictors, {chosen}, 0, {}};
   if (options.wantsTradeoff()) report.min_probabilities = tradeoffThresholds(chosen);
   const auto& all = report.min_probabilities;

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "common/run_program.h"
+#include "evaluation/calibration_report.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/gnuplot.h"
 #include "evaluation/options.h"
@@ -109,6 +110,7 @@ class Evaluation {
         sessions_objects_csv_(options.sessions_objects_csv, inputsOfSessions(options)),
         tune_csv_(options.tune_csv, options.files),
         tune_plot_(options.tune_plot, options.files),
+        calibration_plot_(options.calibration_plot, options.files),
         profiles_csv_(options.profiles_csv, options.files),
         sessions_before_(readSessions(options.compare_sessions)) {
     for (const Recording& recording : recordings_) steps_ += recording.poses.size() * options.predictors.size();
@@ -157,6 +159,7 @@ class Evaluation {
     std::vector<Sessions> sessions = withProgress(
         "sessions", [&](const Progress& progress) { return runSessions(recordings_, placed, simulation, progress); });
     simulation.limits.thresholds = options_.session_thresholds;
+    if (options_.wantsCalibration()) reportCalibration(sessions, simulation.limits);
     report(countSessions(sessions, simulation.limits));
     if (options_.tune) tune(tuningCurve(sessions, simulation.limits));
   }
@@ -175,6 +178,12 @@ class Evaluation {
     if (tune_csv_.requested()) tune_csv_.write(tuningCsv(points));
     if (tune_plot_.requested()) runGnuplot(tuningPlot(points, *options_.tune, tune_plot_.path()));
     std::cout << tuningText(points, *options_.tune);
+  }
+
+  void reportCalibration(const std::vector<Sessions>& sessions, const sweep_guard_core::WarningLimits& limits) {
+    const std::vector<IntervalCalibration> calibrations = calibrate(sessions, limits);
+    if (calibration_plot_.requested()) runGnuplot(calibrationPlot(calibrations, calibration_plot_.path()));
+    std::cout << calibrationTable(calibrations) << '\n';
   }
 
   void report(const std::vector<RecordingSessions>& sessions) {
@@ -198,6 +207,7 @@ class Evaluation {
   OutputFile sessions_objects_csv_;
   OutputFile tune_csv_;
   OutputFile tune_plot_;
+  OutputFile calibration_plot_;
   OutputFile profiles_csv_;
   std::vector<RecordingSessions> sessions_before_;
   size_t steps_ = 0;
@@ -210,7 +220,7 @@ int run(int argc, char** argv) {
     return 0;
   }
   if (!options.plot.empty() || !options.tradeoff_plot.empty() || !options.sessions_plot.empty() ||
-      !options.tune_plot.empty()) {
+      !options.tune_plot.empty() || !options.calibration_plot.empty()) {
     requireGnuplot();
   }
   Evaluation evaluation(options);

@@ -1,6 +1,7 @@
 #include "evaluation/guard_findings.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "evaluation/progress.h"
@@ -135,13 +136,12 @@ class FindingsRecorder {
   }
 
   void addSweeps(const PredictedObject& object, size_t number) {
-    double largest = 0.0;
+    double nearest = std::numeric_limits<double>::infinity();
     for (const PredictedSweep& sweep : object.sweeps) {
-      if (!sweep.contact && sweep.probability <= largest) continue;
-      largest = sweep.probability;
+      if (!sweep.contact && sweep.deviations >= nearest) continue;
+      nearest = std::min(nearest, sweep.deviations);
       pending(number);
-      findings_.objects[number].sweeps.push_back({sweep.from, sweep.probability, sweep.contact});
-      if (sweep.contact) return;
+      findings_.objects[number].sweeps.push_back({sweep.from, sweep.deviations, sweep.contact});
     }
   }
 
@@ -237,9 +237,9 @@ class FindingsPlayer {
     PredictedObject& object = prediction_.objects.emplace_back();
     object.workpiece = workpiece_;
     if (!found) return;
-    for (size_t i = next_ == 0 ? 0 : object_.poses[next_ - 1].sweeps_end; i < object_.poses[next_].sweeps_end; ++i) {
+    for (size_t i = object_.sweepsBegin(next_); i < object_.poses[next_].sweeps_end; ++i) {
       const ObjectFindings::Sweep& sweep = object_.sweeps[i];
-      object.sweeps.push_back({sweep.from, sweep.contact, sweep.probability});
+      object.sweeps.push_back({sweep.from, sweep.contact, sweep.deviations});
       predicted_until_ = stamp + findings_.lengths[pose];
     }
   }

@@ -11,10 +11,10 @@ namespace sweep_guard_evaluation {
 
 /// Keeps what a guard found about one object, so that warnings can be computed for any limits without sweeping again.
 struct ObjectFindings {
-  /// A predicted sweep that meets the object, or does so with a larger probability than every sweep before it.
+  /// A predicted sweep that meets the object, or comes nearer to it than every sweep before it.
   struct Sweep {
     sweep_guard_core::Duration from;  ///< after the stamp of the pose
-    double probability;
+    double deviations;                ///< as in PredictedSweep
     bool contact;
   };
   struct AtPose {
@@ -23,8 +23,11 @@ struct ObjectFindings {
     size_t sweeps_end;
   };
 
-  std::vector<AtPose> poses;  ///< where something was found: a contact, or a sweep with a probability above 0
-  std::vector<Sweep> sweeps;  ///< those of all poses, one pose after the other: up to the first contact of each pose
+  std::vector<AtPose> poses;  ///< where something was found: a contact, or a sweep that comes near
+  std::vector<Sweep> sweeps;  ///< those of all poses, one pose after the other
+
+  /// Returns the number of the first sweep of one of `poses`.
+  size_t sweepsBegin(size_t found) const { return found == 0 ? 0 : poses[found - 1].sweeps_end; }
 };
 
 /// Keeps what a guard found along a recorded motion.

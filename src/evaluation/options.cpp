@@ -48,6 +48,9 @@ po::options_description outputOptions(Options& options) {
       "sessions-objects-csv", text(options.sessions_objects_csv, "FILE"), "counts of every sheet of every session")(
       "compare-sessions", text(options.compare_sessions, "FILE"),
       "compares the sessions with those of an earlier --sessions-objects-csv")(
+      "calibration", po::bool_switch(&options.calibration),
+      "how often the contacts came that the guard predicts with a probability, beside the objects of the sessions")(
+      "calibration-plot", text(options.calibration_plot, "FILE.png"), "reliability diagram")(
       "profiles", po::bool_switch(&options.profiles),
       "errors of `direct` on the second half of each recording, with and without what was learned on the first")(
       "profiles-csv", text(options.profiles_csv, "FILE"), "the same errors");
@@ -69,15 +72,15 @@ po::options_description predictionOptions(Options& options) {
   return described;
 }
 
-po::options_description warningOptions() {
+po::options_description warningOptions(const Options& options) {
   po::options_description described("Warnings");
   described.add_options()("placements", withDefault("80", "N"),
                           "obstacles along each recording; the tool runs into half of them and misses the others")(
       "seed", withDefault("1", "N"), "seed of the placements")("tool-radius", withDefault("0.005", "M"),
                                                                "radius of the tool, a cylinder [m]")(
       "tool-length", withDefault("0.1", "M"), "length of the tool [m]")(
-      "min-probability", withDefault(csvNumber(sweep_guard_core::WarningThresholds{}.reflex), "P"),
-      "smallest probability of a contact that raises a warning, in (0, 1]")(
+      "min-probability", withDefault(csvNumber(options.min_probability), "P"),
+      "raises a warning as warning/min_probability of the guard does, in (0, 1]")(
       "hold-time", withDefault("0.5", "S"), "a warning stays for this time after its cause is over [s]")(
       "up-to", withDefault("20", "N"), "end of the average of the trade-off [false alarms per minute]");
   return described;
@@ -165,14 +168,14 @@ void store(const po::variables_map& values, Options& options) {
   options.placement.seed = number("seed", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
   options.simulation.tool =
       sweep_guard_core::ConvexShape::cylinder(number("tool-radius", 1e-6, 100.0), number("tool-length", 1e-6, 100.0));
-  options.simulation.limits.thresholds = sweep_guard_core::WarningThresholds::all(number("min-probability", 1e-3, 1.0));
+  options.min_probability = number("min-probability", 1e-3, 1.0);
   options.simulation.limits.hold_time = seconds("hold-time", 0.0, 60.0);
   options.max_false_alarms = number("up-to", 1e-3, 1e6);
   if (values["min-probability"].defaulted()) {
     options.session_thresholds = {number("reflex-probability", 1e-3, 1.0), number("considered-on", 1e-3, 1.0),
                                   number("considered-off", 1e-3, 1.0)};
   } else {
-    options.session_thresholds = options.simulation.limits.thresholds;
+    options.session_thresholds = sweep_guard_core::WarningThresholds::ofMinProbability(options.min_probability);
   }
   if (options.session_thresholds.considered_off > options.session_thresholds.considered_on) {
     throw InvalidInput("--considered-off: must be at most --considered-on");
@@ -206,7 +209,7 @@ std::string usage() {
           "TransformStamped. Prints tables of the results.\n\n"
        << outputOptions(options) << '\n'
        << predictionOptions(options) << '\n'
-       << warningOptions() << '\n'
+       << warningOptions(options) << '\n'
        << sessionOptions(options);
   return text.str();
 }
@@ -214,7 +217,10 @@ std::string usage() {
 Options parseOptions(int argc, const char* const* argv) {
   Options options;
   po::options_description all;
-  all.add(outputOptions(options)).add(predictionOptions(options)).add(warningOptions()).add(sessionOptions(options));
+  all.add(outputOptions(options))
+      .add(predictionOptions(options))
+      .add(warningOptions(options))
+      .add(sessionOptions(options));
   all.add_options()("file", po::value(&options.files));
   po::variables_map values;
   try {

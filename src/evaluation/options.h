@@ -28,6 +28,7 @@ struct Options {
   std::vector<std::string> meshes;        ///< files of meshes to place at random
   std::vector<std::string> fixed_meshes;  ///< files of meshes that stay where their coordinates say
   double mesh_scale = 1.0;                ///< unit of the mesh files [m]
+  double min_probability = 0.1;           ///< of the warnings beside the squares, in (0, 1]
   double max_false_alarms = 20.0;         ///< per minute; end of the average of the trade-off
 
   std::string csv;  ///< files to write; empty: none
@@ -42,6 +43,8 @@ struct Options {
   std::optional<double> tune;  ///< wanted unjustified alarms per minute
   std::string tune_csv;
   std::string tune_plot;
+  bool calibration = false;  ///< print the calibration of the probabilities
+  std::string calibration_plot;
   bool profiles = false;  ///< print the tables of the profiles
   std::string profiles_csv;
   std::string compare_sessions;  ///< file to read: a sessions_objects_csv
@@ -52,8 +55,9 @@ struct Options {
   }
   bool wantsSessions() const {
     return sessions || !sessions_csv.empty() || !sessions_plot.empty() || !sessions_objects_csv.empty() || tune ||
-           !compare_sessions.empty();
+           !compare_sessions.empty() || wantsCalibration();
   }
+  bool wantsCalibration() const { return calibration || !calibration_plot.empty(); }
   bool wantsProfiles() const { return profiles || !profiles_csv.empty(); }
   bool wantsErrors() const { return !csv.empty() || !plot.empty() || writesNothing(); }
   bool wantsTradeoff() const { return !tradeoff_csv.empty() || !tradeoff_plot.empty(); }

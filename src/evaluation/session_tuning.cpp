@@ -15,8 +15,8 @@ using sweep_guard_core::WarningThresholds;
 
 namespace {
 
-const std::vector<double> kConsideredOn = {0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.13, 0.16, 0.2, 0.22,
-                                           0.25, 0.28, 0.3,  0.33, 0.35, 0.4, 0.45, 0.48, 0.5, 1.0};
+const std::vector<double> kConsideredOn = {0.002, 0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08,
+                                           0.1,   0.12,  0.14, 0.17, 0.2,  0.25, 0.3,  0.35, 0.5,  1.0};
 
 const std::vector<std::pair<size_t, std::string>>& plottedLeads() {
   static const std::vector<std::pair<size_t, std::string>> kLeads = {{2, "#0072B2"}, {3, "#009E73"}};

@@ -15,7 +15,7 @@ struct TuningPoint {
   SessionFigures figures;
 };
 
-/// Returns the thresholds to compare: `considered_on` from 0.01 to 1, ascending. `reflex` and `considered_off` stay as in
+/// Returns the thresholds to compare: `considered_on` from 0.002 to 1, ascending. `reflex` and `considered_off` stay as in
 /// `current`, but `considered_off` does not exceed `considered_on`.
 std::vector<sweep_guard_core::WarningThresholds> tuningThresholds(const sweep_guard_core::WarningThresholds& current);
 

@@ -66,6 +66,17 @@ void Sessions::count(size_t number, const WarningLimits& limits, NearMisses near
   }
 }
 
+std::vector<PredictionOutcome> Sessions::outcomes(sweep_guard_core::Duration interval) const {
+  std::vector<PredictionOutcome> all;
+  for (const Part& part : parts_) {
+    for (size_t i = 0; i < part.objects.size(); ++i) {
+      const auto some = outcomesOf({motion_, part.findings, i, part.objects[i].touches}, interval);
+      all.insert(all.end(), some.begin(), some.end());
+    }
+  }
+  return all;
+}
+
 RecordingSessions Sessions::counted() const {
   std::vector<SessionCount> counts;
   for (const Part& part : parts_) {

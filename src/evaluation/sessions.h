@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "evaluation/calibration.h"
 #include "evaluation/guard_findings.h"
 #include "evaluation/session_objects.h"
 #include "evaluation/session_summary.h"
@@ -27,8 +28,13 @@ class Sessions {
   /// Counts the alarms of a part whose guard has run. One thread for each part.
   void count(size_t part, const sweep_guard_core::WarningLimits& limits, NearMisses near_misses);
 
+  /// Returns what became of the predictions for an interval, of all objects.
+  std::vector<PredictionOutcome> outcomes(sweep_guard_core::Duration interval) const;
+
   /// Returns the counts of all parts.
   RecordingSessions counted() const;
+
+  const std::string& recording() const { return recording_.name; }
 
  private:
   struct Object {

@@ -36,7 +36,7 @@ class ActivePlacement {
         Workpiece{std::to_string(index), 1, at.stamp, at.steady, kFrame, meshOf(placement.obstacle)});
     for (const double min_probability : options.min_probabilities) {
       WarningLimits limits = options.limits;
-      limits.thresholds = sweep_guard_core::WarningThresholds::all(min_probability);
+      limits.thresholds = sweep_guard_core::WarningThresholds::ofMinProbability(min_probability);
       monitors_.emplace_back(limits).setWorkpieces({workpiece_});
       traces_.emplace_back();
     }

@@ -45,17 +45,6 @@ double contactProbability(double deviations) {
   return deviations > kMaxDeviations ? 0.0 : 0.5 * std::erfc(deviations / std::sqrt(2.0));
 }
 
-double deviationsAt(double probability) {
-  double at_least = 0.0;
-  double too_many = kMaxDeviations;
-  if (contactProbability(too_many) >= probability) return too_many;
-  while (too_many - at_least > 1e-9) {
-    const double middle = 0.5 * (at_least + too_many);
-    (contactProbability(middle) >= probability ? at_least : too_many) = middle;
-  }
-  return too_many;
-}
-
 PerHalfSpace planeDeviations(const ConvexShape& shape, const Eigen::Isometry3d& X_MT, const Matrix6d& covariance_M,
                              const SweptVolume& swept_M) {
   const Eigen::Matrix3d& R_MB = swept_M.box.X_MB.linear();

@@ -23,10 +23,6 @@ constexpr double kMaxDeviations = 3.09;
 /// or triangles the largest probability counts, not that of their union.
 double contactProbability(double deviations);
 
-/// Returns the largest number of deviations from which a contact has at least this probability, from 0 (0.5 and more) to
-/// kMaxDeviations (0.001 and less).
-double deviationsAt(double probability);
-
 /// Computes how much each plane of a swept volume may err, in the order of halfSpaces_B(): the standard deviation [m],
 /// along the plane's normal, of the body's point that touches the plane. A point at r from the tool's origin moves
 /// along n by n·dx + (r x n)·dtheta. If a side of the body faces the plane, either of its ends may touch: returns an

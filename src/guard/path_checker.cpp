@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "common/heartbeat.h"
 #include "common/stage_clock.h"
+#include "guard/moving_mesh.h"
 #include "guard/placed_workpieces.h"
 #include "guard/triangle_set.h"
 
@@ -132,7 +134,7 @@ PathChecker::UncertainBody PathChecker::sweepBelow(const Scene& scene, const Pat
   return {body, planeDeviations(below.shape_T, path_M_.end_M(segment), path_M_.covariance_M(segment), body.volume_M)};
 }
 
-// Returns whether findCandidate() would find a piece of the tool, without its probability.
+// Returns whether findCandidate() would find a piece of the tool, without its deviations.
 bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept) {
   if (submesh.empty()) return false;
   const InStage stage(Stage::kProbability);
@@ -155,9 +157,9 @@ bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, const
   });
 }
 
-// Returns the likelier candidate; of two equal ones, the first.
-const PathChecker::Candidate& PathChecker::likelier(const Candidate& one, const Candidate& other) {
-  return other.probability > one.probability ? other : one;
+// Returns the nearer candidate; of two equal ones, the first.
+const PathChecker::Candidate& PathChecker::nearer(const Candidate& one, const Candidate& other) {
+  return other.deviations < one.deviations ? other : one;
 }
 
 PathChecker::Candidate PathChecker::noCandidate() {
@@ -167,15 +169,15 @@ PathChecker::Candidate PathChecker::noCandidate() {
   return {};
 }
 
-// Finds the piece of the tool most likely to meet the mesh, and the pieces that no plane separates from the mesh.
+// Finds the piece of the tool nearest to the mesh, and the pieces that no plane separates from the mesh.
 PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept) {
   Candidate candidate = noCandidate();
   if (submesh.empty()) return candidate;
   const InStage stage(Stage::kProbability);
   measureDeviations(scene, swept);
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
-    candidate = likelier(candidate, findCandidate(scene, submesh, swept.segment, scene.tool.tree()[0], swept.bodies[i],
-                                                  swept.deviations[i]));
+    candidate = nearer(candidate, findCandidate(scene, submesh, swept.segment, scene.tool.tree()[0], swept.bodies[i],
+                                                swept.deviations[i]));
   }
   return candidate;
 }
@@ -186,7 +188,7 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
   const auto clearance = meter_.measure(submesh, body.volume_M, deviations);
   if (!clearance) return {};
   if (node.piece) {
-    const Candidate candidate{contactProbability(clearance->deviations), node.piece};
+    const Candidate candidate{clearance->deviations, node.piece};
     if (!clearance->separated) unseparated_.push_back({body, candidate});
     return candidate;
   }
@@ -194,7 +196,7 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
   for (const size_t index : node.below) {
     const Tool::Node& below = scene.tool.tree()[index];
     const UncertainBody within = sweepBelow(scene, segment, below, body.motion_M);
-    candidate = likelier(candidate, findCandidate(scene, submesh, segment, below, within.body, within.deviations));
+    candidate = nearer(candidate, findCandidate(scene, submesh, segment, below, within.body, within.deviations));
   }
   return candidate;
 }
@@ -203,7 +205,7 @@ void PathChecker::detectContacts(const Scene& scene, const Submesh& submesh) {
   for (const auto& [body, candidate] : unseparated_) {
     detect(scene.detector, submesh, body, detection_);
     unite(not_ruled_out_, detection_.triangles);
-    if (!detection_.triangles.empty()) in_contact_ = likelier(in_contact_, candidate);
+    if (!detection_.triangles.empty()) in_contact_ = nearer(in_contact_, candidate);
   }
 }
 
@@ -211,8 +213,20 @@ void PathChecker::detectContacts(const Scene& scene, const Submesh& submesh) {
 void PathChecker::assumeContacts(const Submesh& submesh) {
   for (const auto& [body, candidate] : unseparated_) {
     unite(not_ruled_out_, meter_.notSeparated(submesh, body.volume_M));
-    in_contact_ = likelier(in_contact_, candidate);
+    in_contact_ = nearer(in_contact_, candidate);
   }
+}
+
+// Returns whether the hulls of the unseparated pieces prove that they miss the triangles that their volumes meet.
+bool PathChecker::missedByHulls(const Submesh& submesh) const {
+  const MovingMesh at_rest(submesh.mesh_M());
+  return std::all_of(unseparated_.begin(), unseparated_.end(), [&](const Unseparated& one) {
+    return std::all_of(not_ruled_out_.begin(), not_ruled_out_.end(), [&](std::uint32_t triangle) {
+      beat();
+      const SweptBody& body = one.body;
+      return missedByHull(*body.shape_T, body.motion_M, at_rest.triangle(triangle), body.volume_M.margin);
+    });
+  });
 }
 
 void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress,
@@ -234,14 +248,16 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
     return halve();
   }
   const Candidate candidate = near ? findCandidate(scene, submesh, swept) : noCandidate();
-  const bool in_time = candidate.probability == 0.0 || scene.inTimeFor(segment);
+  const bool in_time = !candidate.piece || scene.inTimeFor(segment);
   const bool finer = !progress.contact && in_time;
   if (in_time) progress.object.volumes_tested += swept.bodies.size();
   in_time ? detectContacts(scene, submesh) : assumeContacts(submesh);
   if (!not_ruled_out_.empty() && finer && length > options_.finest) return halve();
 
   const auto tool_piece = not_ruled_out_.empty() ? candidate.piece : in_contact_.piece;
-  progress.object.sweeps.push_back({segment.from, !not_ruled_out_.empty(), candidate.probability, tool_piece});
+  const bool only_volume = candidate.deviations < 0.0 && segment.to <= scene.reflex_end && missedByHulls(submesh);
+  const double deviations = only_volume ? 0.0 : candidate.deviations;
+  progress.object.sweeps.push_back({segment.from, !not_ruled_out_.empty(), deviations, tool_piece});
   progress.contact = progress.contact || !not_ruled_out_.empty();
   unite(*progress.triangles, not_ruled_out_);
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,7 +42,7 @@ class PathChecker {
     double max_deviations = kMaxDeviations;  ///< contacts at more standard deviations are ignored
   };
   static Options optionsOf(const GuardOptions& options) {
-    return {options.sweep, options.horizon.reflex_step / 2, deviationsAt(options.least_probability)};
+    return {options.sweep, options.horizon.reflex_step / 2, options.max_deviations};
   }
 
   explicit PathChecker(const Options& options) : options_(options), meter_(options.max_deviations) {}
@@ -63,9 +64,9 @@ class PathChecker {
   struct Scene;
   struct Progress;
 
-  /// A convex piece of the tool, and the probability that it meets the mesh.
+  /// A convex piece of the tool, and how near it comes to the mesh (Clearance).
   struct Candidate {
-    double probability = 0.0;
+    double deviations = std::numeric_limits<double>::infinity();
     std::optional<size_t> piece = {};  // none if no piece may meet the mesh
   };
   struct UncertainBody {
@@ -97,11 +98,12 @@ class PathChecker {
   bool hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
   bool hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment, const Tool::Node& node,
                     const SweptBody& body, const PerHalfSpace& deviations);
-  static const Candidate& likelier(const Candidate& one, const Candidate& other);
+  static const Candidate& nearer(const Candidate& one, const Candidate& other);
   Candidate noCandidate();
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
                           const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations);
+  bool missedByHulls(const Submesh& submesh) const;
   void checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress, size_t halvings);
   Submesh submeshInReach(const Submesh& around, const Eigen::AlignedBox3d& reach_M, size_t halvings);
 
@@ -121,7 +123,7 @@ class PathChecker {
   std::vector<Motion> motions_M_;
   std::vector<Unseparated> unseparated_;  // pieces of the tool that no plane separates from the mesh
   TriangleSet not_ruled_out_;             // triangles that these pieces may meet
-  Candidate in_contact_;                  // the likeliest of the pieces that meet one
+  Candidate in_contact_;                  // the nearest of the pieces that meet one
 };
 
 }  // namespace sweep_guard_core

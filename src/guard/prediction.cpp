@@ -15,6 +15,14 @@ std::optional<Duration> PredictedObject::firstContact() const {
   return first == sweeps.end() ? std::nullopt : std::optional(first->from);
 }
 
+double PredictedObject::probability(PredictionInterval interval, Duration end) const {
+  double deviations = std::numeric_limits<double>::infinity();
+  for (const PredictedSweep& sweep : sweeps) {
+    if (sweep.from < end) deviations = std::min(deviations, sweep.deviations);
+  }
+  return probabilityWithin(interval, deviations);
+}
+
 void PredictedObject::clear() {
   workpiece.reset();
   sweeps.clear();
@@ -30,11 +38,9 @@ Time Prediction::coveredUntil() const {
 
 bool Prediction::complete() const { return !path.empty() && !objects.empty() && unplaced.empty() && failures.empty(); }
 
-double Prediction::probability() const {
+double Prediction::probability(PredictionInterval interval, Duration end) const {
   double largest = 0.0;
-  for (const PredictedObject& object : objects) {
-    for (const PredictedSweep& sweep : object.sweeps) largest = std::max(largest, sweep.probability);
-  }
+  for (const PredictedObject& object : objects) largest = std::max(largest, object.probability(interval, end));
   return largest;
 }
 

@@ -17,15 +17,20 @@ void findPredictedContact(const Prediction& prediction, const PredictedObject& o
   assert(thresholds.reflex > 0.0 && thresholds.considered > 0.0);
   const auto begin = object.sweeps.begin();
   const auto end = object.sweeps.end();
-  const auto firstFrom = [&](double probability) {
+  const auto firstFrom = [&](PredictionInterval interval, double probability) {
+    const double deviations = deviationsAt(interval, probability);
     return std::find_if(begin, end,
-                        [=](const PredictedSweep& sweep) { return sweep.contact || sweep.probability >= probability; });
+                        [=](const PredictedSweep& sweep) { return sweep.contact || sweep.deviations <= deviations; });
   };
   const auto startOf = [&](auto sweep) {
     return sweep == end ? std::nullopt : std::optional(prediction.stamp + sweep->from);
   };
-  const auto reflex = firstFrom(thresholds.reflex);
-  const auto considered = firstFrom(thresholds.considered);
+  const auto probabilityUpTo = [&](PredictionInterval interval, Duration interval_end, auto first) {
+    const Duration after_first = first == end ? interval_end : first->from + Duration(1);
+    return object.probability(interval, std::max(interval_end, after_first));
+  };
+  const auto reflex = firstFrom(PredictionInterval::kReflex, thresholds.reflex);
+  const auto considered = firstFrom(PredictionInterval::kConsidered, thresholds.considered);
   const auto first = std::min(reflex, considered);
   if (first == end) return contact.reset();
   if (!contact) contact.emplace();
@@ -34,10 +39,9 @@ void findPredictedContact(const Prediction& prediction, const PredictedObject& o
   contact->considered = startOf(considered);
   contact->contact = startOf(touching);
   contact->tool_piece = (touching != end ? touching : first)->tool_piece;
-  contact->probability = 0.0;
-  for (auto sweep = first; sweep != end; ++sweep) {
-    contact->probability = std::max(contact->probability, sweep->probability);
-  }
+  contact->reflex_probability = probabilityUpTo(PredictionInterval::kReflex, thresholds.reflex_end, reflex);
+  contact->considered_probability =
+      probabilityUpTo(PredictionInterval::kConsidered, thresholds.considered_end, considered);
   contact->mesh_id = object.workpiece->id;
   contact->triangles = object.reflex;
   unite(contact->triangles, object.considered);

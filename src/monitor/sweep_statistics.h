@@ -19,7 +19,7 @@ class SweepStatistics {
     size_t sweeps_made = 0;    ///< 0: the motion is not known yet
     size_t sweeps_asked = 0;   ///< number of configured steps
     Duration covered{};        ///< length of the tested path, from the moment of the prediction
-    double probability = 0.0;  ///< probability of contact, in [0, 1]
+    double probability = 0.0;  ///< of contact within the considered interval, in [0, 1]
   };
   struct Summary {
     std::uint64_t sweeps_total = 0;            ///< poses swept since the start or restart()

@@ -18,6 +18,11 @@ std::string inSeconds(Duration duration) {
   return text;
 }
 
+std::string inPercent(double probability) {
+  const long percent = std::lround(100.0 * probability);
+  return percent == 0 ? "< 1 %" : std::to_string(percent) + " %";
+}
+
 // Assembled where the text is kept: a repeated warning allocates nothing.
 using TextPieces = std::initializer_list<std::string_view>;
 
@@ -177,12 +182,13 @@ Duration timeTo(Time moment, const Timestamps& pose, const Instant& now) {
 }
 
 void describePrediction(Warning& warning) {
-  const auto describe = [&](std::string_view how, const std::string& much, std::string_view more = {}) {
-    prepend(warning, {"collision with '", warning.mesh_id, "' ", how, much, more});
+  const auto describe = [&](std::string_view how, const std::string& much, std::string_view within = {},
+                            const std::string& interval = {}) {
+    prepend(warning, {"collision with '", warning.mesh_id, "' ", how, much, within, interval});
   };
   if (warning.time_to_collision) return describe("expected in ", inSeconds(*warning.time_to_collision));
   if (warning.probability == 0.0) return describe("was expected", "");
-  describe("", std::to_string(std::lround(100.0 * warning.probability)), " % probable");
+  describe("", inPercent(warning.probability), " probable within ", inSeconds(warning.probability_interval));
 }
 
 void describeContact(Warning& warning, bool inside, Duration since) {
@@ -197,17 +203,20 @@ void describeContact(Warning& warning, bool inside, Duration since) {
   prepend(warning, {inside ? "tool is inside '" : "tool meets '", warning.mesh_id, "'", comma, number, noun});
 }
 
-void setPrediction(const PredictedContact& predicted, const Instant& now, Warning& warning) {
+void setPrediction(const PredictedContact& predicted, const Instant& now, const WarningLimits& limits,
+                   Warning& warning) {
   if (predicted.contact) {
     warning.time_to_collision = std::max(Duration::zero(), timeTo(*predicted.contact, predicted.pose, now));
   }
-  warning.probability = predicted.probability;
+  const bool reflex = warningLevel(predicted, now, limits) == WarningLevel::kReflex;
+  warning.probability = reflex ? predicted.reflex_probability : predicted.considered_probability;
+  warning.probability_interval = reflex ? limits.reflex : limits.considered;
 }
 
 void warn(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
   const Candidate strongest = strongestWarning(inputs, now, limits);
   const PredictedContact* const current = currentPrediction(inputs, now, strongest);
-  if (current != nullptr) setPrediction(*current, now, warning);
+  if (current != nullptr) setPrediction(*current, now, limits, warning);
   if (strongest.contact == nullptr) return;
   warning.level = strongest.level;
   warning.acknowledged = strongest.acknowledged;
@@ -240,6 +249,12 @@ void reportEnd(Warning& warning) {
 
 }  // namespace
 
+WarningThresholds WarningThresholds::ofMinProbability(double min_probability) {
+  const double reflex = fromPlaneProbability(PredictionInterval::kReflex, min_probability);
+  const double considered = fromPlaneProbability(PredictionInterval::kConsidered, min_probability);
+  return {reflex, considered, considered};
+}
+
 void Warning::clear() {
   level = WarningLevel::kUnknown;
   reasons = 0;
@@ -249,6 +264,7 @@ void Warning::clear() {
   triangles.clear();
   time_to_collision.reset();
   probability = 0.0;
+  probability_interval = {};
   held_since.reset();
   acknowledged = false;
   pose_stamp = {};

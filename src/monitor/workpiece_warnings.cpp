@@ -49,9 +49,12 @@ void WorkpieceWarnings::findNext(const Prediction& prediction, const PredictedOb
   const WarningInputs::WorkpieceWarning* const workpiece = find(object.workpiece->id);
   const auto& [reflex, considered_on, considered_off] = limits_.thresholds;
   const bool is_on = workpiece != nullptr && workpiece->predicted && isConsidered(*workpiece->predicted, now, limits_);
-  findPredictedContact(prediction, object, pose, {reflex, is_on ? considered_off : considered_on}, next_);
+  ContactThresholds thresholds = {reflex, is_on ? considered_off : considered_on, age(pose, now) + limits_.reflex,
+                                  age(pose, now) + limits_.considered};
+  findPredictedContact(prediction, object, pose, thresholds, next_);
   if (is_on && next_ && !isConsidered(*next_, now, limits_)) {
-    findPredictedContact(prediction, object, pose, {reflex, considered_on}, next_);
+    thresholds.considered = considered_on;
+    findPredictedContact(prediction, object, pose, thresholds, next_);
   }
 }
 

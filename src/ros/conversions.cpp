@@ -107,8 +107,10 @@ std::uint8_t intervalOf(const sweep_guard_core::Prediction& prediction, sweep_gu
   WarningLevel level = WarningLevel::kClear;
   std::optional<sweep_guard_core::PredictedContact> contact;
   for (const sweep_guard_core::PredictedObject& object : prediction.objects) {
-    sweep_guard_core::findPredictedContact(prediction, object, pose,
-                                           {limits.thresholds.reflex, limits.thresholds.considered_on}, contact);
+    sweep_guard_core::findPredictedContact(
+        prediction, object, pose,
+        {limits.thresholds.reflex, limits.thresholds.considered_on, age + limits.reflex, age + limits.considered},
+        contact);
     if (contact) level = std::max(level, warningLevel(*contact, at, limits));
   }
   if (level == WarningLevel::kReflex) return sweep_guard::Prediction::REFLEX;
@@ -213,7 +215,9 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
   msg.sweeps_asked = static_cast<std::uint32_t>(prediction.sweeps_asked);
   msg.sweeps_made = static_cast<std::uint32_t>(prediction.sweeps_made);
   msg.valid = prediction.complete();
-  msg.probability = msg.valid ? prediction.probability() : std::numeric_limits<double>::quiet_NaN();
+  const double probability =
+      prediction.probability(sweep_guard_core::PredictionInterval::kConsidered, age + limits.considered);
+  msg.probability = msg.valid ? probability : std::numeric_limits<double>::quiet_NaN();
   msg.time_to_collision = ros::Duration(-1.0);
   if (const auto first = prediction.firstContact()) {
     msg.collision = true;

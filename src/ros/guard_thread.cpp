@@ -18,6 +18,7 @@ namespace {
 using sweep_guard_core::Duration;
 using sweep_guard_core::Error;
 using sweep_guard_core::Instant;
+using sweep_guard_core::PredictionInterval;
 using sweep_guard_core::SteadyTime;
 using sweep_guard_core::Timestamps;
 
@@ -351,9 +352,10 @@ void GuardThread::predict() {
   sweep_guard_core::beat();
   results_.publish(*prediction, age);
 
+  const Duration considered = dependencies_.parameters.get()->limits.considered;
   dependencies_.statistics.predicted({std::chrono::steady_clock::now() - pose.received, took, prediction->sweeps_made,
                                       prediction->sweeps_asked, prediction->coveredUntil() - prediction->stamp - age,
-                                      prediction->probability()});
+                                      prediction->probability(PredictionInterval::kConsidered, age + considered)});
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
   dependencies_.scene.predicted(pose, prediction);

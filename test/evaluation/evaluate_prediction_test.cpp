@@ -156,8 +156,17 @@ TEST_F(EvaluatePredictionTest, FindsThresholdsForAWantedRate) {
   writeMotion("hand.txt");
   const Outcome outcome = run("--session-count 1 --sheets 4 --tune 100 --tune-csv curve.csv hand.txt");
   EXPECT_EQ(outcome.status, 0) << outcome.out;
-  EXPECT_TRUE(has(outcome.out, "\nwarning:\n  considered_on: 0.01\n  considered_off: 0.01\n"));
+  EXPECT_TRUE(has(outcome.out, "\nwarning:\n  considered_on: 0.002\n  considered_off: 0.002\n"));
   EXPECT_EQ(read("curve.csv").find("considered_on,considered_off,reflex_probability,unjustified_per_min,"), 0U);
+}
+
+TEST_F(EvaluatePredictionTest, ShowsHowHonestTheProbabilitiesAre) {
+  writeMotion("hand.txt");
+  writeMotion("arm.txt");
+  const Outcome outcome = run("--session-count 1 --sheets 4 --calibration hand.txt arm.txt");
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "probability of a contact within 0.1 s"));
+  EXPECT_TRUE(has(outcome.out, "probability of a contact within 1 s"));
 }
 
 TEST_F(EvaluatePredictionTest, ShowsTheGainOfAProfileAndOfThatOfAnotherRecording) {
@@ -190,7 +199,9 @@ TEST_F(EvaluatePredictionTest, DrawsAPngAndLeavesNothingElse) {
   EXPECT_EQ(read("curves.png").substr(1, 3), "PNG");
   EXPECT_EQ(run("--sheets 2 --session-count 1 --sessions-plot sessions.png \"it's a hand.txt\"").status, 0);
   EXPECT_EQ(read("sessions.png").substr(1, 3), "PNG");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 4);
+  EXPECT_EQ(run("--sheets 2 --session-count 1 --calibration-plot honest.png \"it's a hand.txt\"").status, 0);
+  EXPECT_EQ(read("honest.png").substr(1, 3), "PNG");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 5);
 }
 
 TEST_F(EvaluatePredictionTest, DoesNotOverwriteARecording) {

@@ -61,7 +61,7 @@ TEST(GuardFindingsTest, GiveTheLevelsOfAMonitorThatSeesEverySweepForEveryThresho
   size_t alarms = 0;
   for (size_t threshold = 0; threshold < options.min_probabilities.size(); ++threshold) {
     sweep_guard_core::WarningLimits limits = options.limits;
-    limits.thresholds = sweep_guard_core::WarningThresholds::all(options.min_probabilities[threshold]);
+    limits.thresholds = sweep_guard_core::WarningThresholds::ofMinProbability(options.min_probabilities[threshold]);
     for (size_t object = 0; object < objects.size(); ++object) {
       const LevelTrace levels = levelsOf(findings, object, limits);
       expectEqual(levels, expected[threshold][object].levels);

@@ -100,13 +100,22 @@ TEST(OptionsTest, SessionsAreComputedWhenAskedFor) {
 }
 
 TEST(OptionsTest, SessionsHaveTheThresholdsOfTheGuardOrOneForAll) {
-  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_on, 0.28);
-  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_off, 0.02);
-  EXPECT_EQ(parse({"--sessions", "--min-probability", "0.2", "a.txt"}).session_thresholds.considered_off, 0.2);
+  const sweep_guard_core::WarningThresholds defaults;
+  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_on, defaults.considered_on);
+  EXPECT_EQ(parse({"--sessions", "a.txt"}).session_thresholds.considered_off, defaults.considered_off);
+  const double old = sweep_guard_core::WarningThresholds::ofMinProbability(0.2).considered_off;
+  EXPECT_EQ(parse({"--sessions", "--min-probability", "0.2", "a.txt"}).session_thresholds.considered_off, old);
   EXPECT_EQ(parse({"--tune", "2.5", "a.txt"}).tune, 2.5);
   EXPECT_TRUE(parse({"--tune", "2.5", "a.txt"}).wantsSessions());
   EXPECT_TRUE(has(refusal({"--considered-on", "0.01", "a.txt"}), "--considered-off"));
   EXPECT_TRUE(has(refusal({"--tune-csv", "t.csv", "a.txt"}), "--tune"));
+}
+
+TEST(OptionsTest, TheCalibrationNeedsSessions) {
+  for (const Options& options : {parse({"--calibration", "a.txt"}), parse({"--calibration-plot", "c.png", "a.txt"})}) {
+    EXPECT_TRUE(options.wantsCalibration() && options.wantsSessions() && !options.wantsErrors());
+  }
+  EXPECT_FALSE(parse({"--sessions", "a.txt"}).wantsCalibration());
 }
 
 TEST(OptionsTest, HelpNeedsNoFile) {

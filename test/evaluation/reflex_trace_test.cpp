@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 using namespace sweep_guard_core;
 
 constexpr Duration kHoldTime = 500ms;
-constexpr double kProbability = 0.1;
+const double kDeviations = deviationsAt(PredictionInterval::kReflex, WarningThresholds{}.reflex);
 constexpr Duration kReflex = 115ms;  // the interval and a tick
 constexpr size_t kObstacles = 6;
 const ConvexShape kTool = ConvexShape::cylinder(0.005, 0.1);
@@ -30,7 +30,7 @@ class SingleThreshold {
     if (start_ && left(now) <= kReflex) ended_ = now - sinceEnd(now);
     start_.reset();
     for (const PredictedObject& object : prediction.objects) {
-      const auto warns = [](const PredictedSweep& one) { return one.contact || one.probability >= kProbability; };
+      const auto warns = [](const PredictedSweep& one) { return one.contact || one.deviations <= kDeviations; };
       const auto sweep = std::find_if(object.sweeps.begin(), object.sweeps.end(), warns);
       if (sweep == object.sweeps.end()) continue;
       const Time start = prediction.stamp + sweep->from;

@@ -159,7 +159,7 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
 TEST_P(SteadyStateTest, AllocatesNothingInTheClear) {
   expectNoneAt(kClear, [&] {
     ASSERT_EQ(warning_.level, WarningLevel::kClear);
-    ASSERT_EQ(prediction_.probability(), 0.0);
+    ASSERT_EQ(prediction_.probability(PredictionInterval::kConsidered, std::chrono::seconds(1)), 0.0);
   });
 }
 

@@ -133,7 +133,7 @@ class Loop {
   static WarningLimits limits(double min_probability, Duration hold_time) {
     WarningLimits limits{100ms, Duration::max(), hold_time};
     limits.tick = kTick;
-    limits.thresholds = WarningThresholds::all(min_probability);
+    limits.thresholds = WarningThresholds::ofMinProbability(min_probability);
     return limits;
   }
 

@@ -62,15 +62,6 @@ TEST(ContactProbabilityTest, IsTheGaussianIntegralAndZeroWhereItIsSmall) {
   EXPECT_EQ(contactProbability(3.0901), 0.0);
 }
 
-TEST(ContactProbabilityTest, KnowsFromHowManyDeviationsOnAProbabilityIsTooSmall) {
-  EXPECT_NEAR(deviationsAt(0.01), 2.3263, 1e-4);
-  EXPECT_NEAR(deviationsAt(0.158655253931457), 1.0, 1e-8);
-  EXPECT_NEAR(deviationsAt(0.5), 0.0, 1e-8);
-  EXPECT_NEAR(deviationsAt(1.0), 0.0, 1e-8);
-  EXPECT_EQ(deviationsAt(0.001), kMaxDeviations);
-  EXPECT_EQ(deviationsAt(0.0), kMaxDeviations);
-}
-
 TEST(ContactProbabilityTest, IsNotMeasuredBeyondTheLargestClearanceThatMatters) {
   for (const double most : {0.0, 0.5, 2.0}) {
     ClearanceMeter meter(most);

@@ -6,8 +6,10 @@
 
 #include "detection/reference_detector.h"
 #include "geometry/round_tool.h"
+#include "guard/contact_probability.h"
 #include "guard/path_checker.h"
 #include "scenes.h"
+#include "sweep_guard/geometry/separation.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -128,11 +130,71 @@ TEST(PathCheckerTest, WhatIsOutOfReachMakesNoDifference) {
     ASSERT_EQ(alone.sweeps.size(), among.sweeps.size());
     for (size_t k = 0; k < alone.sweeps.size(); ++k) {
       EXPECT_EQ(alone.sweeps[k].contact, among.sweeps[k].contact);
-      EXPECT_NEAR(alone.sweeps[k].probability, among.sweeps[k].probability, 2e-3);
+      EXPECT_NEAR(contactProbability(alone.sweeps[k].deviations), contactProbability(among.sweeps[k].deviations), 2e-3);
     }
     contacts += !alone.considered.empty();
   }
   EXPECT_GT(contacts, 5);
+}
+
+// Returns where the path between poses of 100 ms leads.
+Eigen::Isometry3d between(const Swing& swing, Duration time) {
+  const double step = std::floor(toSeconds(time) / 0.1 + 1e-9);
+  const Motion motion{swing.at(0.1 * step), swing.at(0.1 * (step + 1.0))};
+  const double share = toSeconds(time) / 0.1 - step;
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
+  X_WT.translation() = (1.0 - share) * motion.X_MT_start.translation() + share * motion.X_MT_end.translation();
+  X_WT.linear() = Eigen::Quaterniond(motion.X_MT_start.linear())
+                      .slerp(share, Eigen::Quaterniond(motion.X_MT_end.linear()))
+                      .toRotationMatrix();
+  return X_WT;
+}
+
+double distanceAt(const Eigen::Isometry3d& X_WT, const TriangleMesh& mesh_W) {
+  const Eigen::Isometry3d X_TW = X_WT.inverse();
+  const PointHull triangle_T(
+      std::array<Eigen::Vector3d, 3>{X_TW * mesh_W.vertex(0), X_TW * mesh_W.vertex(1), X_TW * mesh_W.vertex(2)});
+  return separation(kTool, triangle_T).gap;
+}
+
+// The volume of a sweep is larger than what the tool covers. In the reflex interval, its predictions are surer than that.
+TEST(PathCheckerTest, WhatTheVolumeAloneMeetsInTheReflexIntervalIsBesideThePath) {
+  Random random(6);
+  ReferenceDetector detector;
+  PathChecker checker({SweepOptions(), 5ms});
+  int only_volume = 0;
+  int met = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Swing swing(random);
+    const Eigen::Vector3d place = swing.at(0.15) * random.inBox({0.012, 0.012, 0.075});
+    std::vector<Eigen::Vector3d> corners;
+    for (int k = 0; k < 3; ++k) corners.emplace_back(place + random.inBox({0.004, 0.004, 0.004}));
+    const TriangleMesh mesh_W(corners, {{0, 1, 2}});
+    PredictedObject object;
+    checker.check(detector,
+                  {Tool(kTool),
+                   swing.at(0.0),
+                   swing.path,
+                   /*reflex_sweeps=*/3,
+                   Eigen::Isometry3d::Identity(),
+                   std::make_shared<const Workpiece>(Workpiece{"one", 0, Time(), SteadyTime(), "table", mesh_W}),
+                   {}},
+                  object);
+    for (size_t k = 0; object.sweeps[k].from < 300ms; ++k) {
+      const Duration length = object.sweeps[k + 1].from - object.sweeps[k].from;
+      double nearest = 1.0;
+      for (int part = 0; part <= 8; ++part) {
+        nearest = std::min(nearest, distanceAt(between(swing, object.sweeps[k].from + part * length / 8), mesh_W));
+      }
+      if (nearest <= 0.0) {
+        EXPECT_LT(object.sweeps[k].deviations, 0.0);
+        ++met;
+      }
+      if (object.sweeps[k].deviations == 0.0) ++only_volume;
+    }
+  }
+  EXPECT_GT(only_volume, 20);
+  EXPECT_GT(met, 20);
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST_F(GuardPredictionTest, PredictsNothingFromAPoseOlderThanTheReserve) {
     const Prediction prediction = predict(age);
     EXPECT_TRUE(prediction.path.empty());
     EXPECT_TRUE(prediction.objects.empty());
-    EXPECT_FALSE(predictedContact(prediction, 1.0));
+    EXPECT_FALSE(predictedContact(prediction));
   }
   EXPECT_EQ(record_.volumes.size(), detections);
   EXPECT_FALSE(predict(100ms).path.empty());
@@ -160,14 +160,14 @@ TEST_F(GuardPredictionTest, ReportsWhenThePathMeetsASquare) {
   workpieces_ = {workpiece("square", squareAt(0.0))};
   follow(comingDown(0.05, 0.1));
   const Prediction prediction = predict();
-  const auto expected = predictedContact(prediction, 1.0);
+  const auto expected = predictedContact(prediction);
   ASSERT_TRUE(expected);
   EXPECT_TRUE(expected->contact);
   EXPECT_LE(expected->earliest(), Time(10500ms));
   EXPECT_GT(expected->earliest(), Time(10494ms));
   EXPECT_EQ(expected->mesh_id, "square");
   EXPECT_EQ(expected->triangles, (Indices{0, 1}));
-  EXPECT_GE(expected->probability, 0.5);
+  EXPECT_GE(expected->considered_probability, probabilityWithin(PredictionInterval::kConsidered, 0.0));
   EXPECT_EQ(prediction.objects[0].reflex, Indices{});
   EXPECT_EQ(prediction.objects[0].considered, (Indices{0, 1}));
   for (const PredictedSweep& sweep : prediction.objects[0].sweeps) {
@@ -195,7 +195,7 @@ TEST_F(GuardPredictionTest, TakesAWorkpieceWhereItsFrameIs) {
     workpieces_ = {workpiece("square", TriangleMesh(corners_M, {{0, 1, 2}}), "turned")};
     guard_.reset();
     follow(comingDown(0.05, 0.1), {{"turned", X_MW.inverse()}});
-    const auto expected = predictedContact(predict(), 1.0);
+    const auto expected = predictedContact(predict());
     ASSERT_TRUE(expected);
     EXPECT_LE(expected->earliest(), Time(10500ms));
     EXPECT_GT(expected->earliest(), Time(10494ms));
@@ -219,31 +219,37 @@ TEST_F(GuardPredictionTest, AFarWorkpieceCostsNoDetection) {
   workpieces_ = {workpiece("square", squareAt(0.0))};
   follow(comingDown(5.0, 0.1));
   record_.volumes.clear();
-  EXPECT_FALSE(predictedContact(predict(), 0.001));
+  EXPECT_FALSE(predictedContact(predict(), kMaxDeviations));
   EXPECT_TRUE(record_.volumes.empty());
 }
 
-TEST_F(GuardPredictionTest, AProbabilityThatDoesNotMatterIsReportedAsZero) {
+TEST_F(GuardPredictionTest, AContactTooFarToMatterIsNotReported) {
   workpieces_ = {workpiece("square", squareAt(0.0))};
-  int small = 0;
-  int large = 0;
+  constexpr double kMost = 1.3;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  int far = 0;
+  int near = 0;
   for (int mm = 5; mm < 400; ++mm) {
     GuardOptions options = constantVelocity();
-    const auto probabilityFrom = [&](double least) {
-      options.least_probability = least;
+    const auto nearestWithin = [&](double most) {
+      options.max_deviations = most;
       GuardChange change{options};
       guard_.exchange(change);
       guard_.reset();
       follow(comingDown(0.001 * mm, 0.02));
-      return predict().probability();
+      double nearest = kFar;
+      for (const PredictedSweep& sweep : predict().objects[0].sweeps) nearest = std::min(nearest, sweep.deviations);
+      return nearest;
     };
-    const double probability = probabilityFrom(0.001);
-    EXPECT_NEAR(probabilityFrom(0.1), probability < 0.1 ? 0.0 : probability, 1e-3) << mm;
-    small += probability > 0.0 && probability < 0.1;
-    large += probability >= 0.1 && probability < 0.5;
+    const double nearest = nearestWithin(kMaxDeviations);
+    if (std::abs(nearest - kMost) < 0.01) continue;
+    const double found = nearestWithin(kMost);
+    nearest > kMost ? EXPECT_EQ(found, kFar) << mm : EXPECT_NEAR(found, nearest, 2e-3) << mm;
+    far += nearest > kMost && nearest < kFar;
+    near += nearest > 0.0 && nearest < kMost;
   }
-  EXPECT_GT(small, 2);
-  EXPECT_GT(large, 2);
+  EXPECT_GT(far, 2);
+  EXPECT_GT(near, 2);
 }
 
 TEST_F(GuardPredictionTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
@@ -254,8 +260,8 @@ TEST_F(GuardPredictionTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
   ASSERT_EQ(prediction.failures.size(), 1U);
   EXPECT_EQ(prediction.failures[0].workpiece, workpieces_[0]);
   EXPECT_EQ(prediction.coveredUntil(), Time(10s));
-  ASSERT_TRUE(predictedContact(prediction, 1.0));
-  EXPECT_EQ(predictedContact(prediction, 1.0)->mesh_id, "second");
+  ASSERT_TRUE(predictedContact(prediction));
+  EXPECT_EQ(predictedContact(prediction)->mesh_id, "second");
 }
 
 TEST_F(GuardPredictionTest, NamesWorkpiecesWhoseFrameIsMissing) {
@@ -452,7 +458,7 @@ class ToolPiecesTest : public testing::Test {
 
   static std::optional<size_t> pieceOfFirst(const PredictedObject& object, bool contact) {
     for (const PredictedSweep& sweep : object.sweeps) {
-      if (contact ? sweep.contact : sweep.probability > 0.0) return sweep.tool_piece;
+      if (contact ? sweep.contact : sweep.tool_piece.has_value()) return sweep.tool_piece;
     }
     ADD_FAILURE() << "there is none";
     return {};
@@ -484,10 +490,10 @@ TEST_F(ToolPiecesTest, WhatIsNearerIsLikelier) {
   for (const auto& [x, nearer] : {std::pair(0.015, 0U), std::pair(0.03, 1U)}) {
     const PredictedObject between = predictContact(patchAt(x, 0.0, 0.05), 0.02);
     EXPECT_FALSE(between.firstContact());
-    const auto less = [](const auto& a, const auto& b) { return a.probability < b.probability; };
-    const auto likeliest = std::max_element(between.sweeps.begin(), between.sweeps.end(), less);
-    ASSERT_GT(likeliest->probability, 0.25);
-    EXPECT_EQ(likeliest->tool_piece, nearer);
+    const auto less = [](const auto& a, const auto& b) { return a.deviations < b.deviations; };
+    const auto nearest = std::min_element(between.sweeps.begin(), between.sweeps.end(), less);
+    ASSERT_LT(nearest->deviations, 0.67);
+    EXPECT_EQ(nearest->tool_piece, nearer);
   }
 }
 
@@ -596,7 +602,7 @@ TEST(SlowDetectorTest, DoesNotDelayATurningToolEither) {
       EXPECT_LE(guard.cycle(), 66ms) << cost.count() << " ns, cycle " << i;
       if (i == 0) continue;  // no motion yet
       EXPECT_EQ(guard.prediction.coveredUntil(), guard.prediction.stamp + 1105ms);
-      EXPECT_TRUE(predictedContact(guard.prediction, 1.0));
+      EXPECT_TRUE(predictedContact(guard.prediction));
     }
   }
 }
@@ -640,7 +646,9 @@ class InterruptedGuardTest : public testing::Test {
     ASSERT_EQ(a.objects.size(), b.objects.size());
     EXPECT_EQ(a.objects[0].reflex, b.objects[0].reflex);
     EXPECT_EQ(a.objects[0].considered, b.objects[0].considered);
-    EXPECT_EQ(a.probability(), b.probability());
+    for (const auto interval : {PredictionInterval::kReflex, PredictionInterval::kConsidered}) {
+      EXPECT_EQ(a.probability(interval, 1s), b.probability(interval, 1s));
+    }
     EXPECT_EQ(a.firstContact(), b.firstContact());
     ASSERT_EQ(a.path.size(), b.path.size());
     for (size_t i = 0; i < a.path.size(); ++i) EXPECT_TRUE(a.path[i].X_WT.isApprox(b.path[i].X_WT, 0.0)) << i;

@@ -18,9 +18,9 @@ PredictedObject object(const std::string& id, const std::vector<PredictedSweep>&
   return {workpiece(id), sweeps, {}, {}, {}};
 }
 
-const PredictedSweep kFree0{0ms, false, 0.0};
-const PredictedSweep kFree1{100ms, false, 0.0};
-const PredictedSweep kFree2{200ms, false, 0.0};
+const PredictedSweep kFree0{0ms};
+const PredictedSweep kFree1{100ms};
+const PredictedSweep kFree2{200ms};
 
 Prediction predictionWith(const std::vector<PredictedObject>& objects) {
   Prediction prediction;
@@ -32,8 +32,8 @@ Prediction predictionWith(const std::vector<PredictedObject>& objects) {
   return prediction;
 }
 
-PredictedContact contactOf(const std::vector<PredictedObject>& objects, double min_probability = 0.1) {
-  return predictedContact(predictionWith(objects), min_probability).value();
+PredictedContact contactOf(const std::vector<PredictedObject>& objects, std::optional<double> deviations = 1.0) {
+  return predictedContact(predictionWith(objects), deviations).value();
 }
 
 TEST(PredictionTest, CoversThePathOnlyIfEveryWorkpieceWasTested) {
@@ -64,56 +64,59 @@ TEST(PredictionTest, IsCompleteOnlyWithAPathAndAWorkpieceAndEveryWorkpieceTested
   EXPECT_FALSE(prediction.complete());
 }
 
-TEST(PredictionTest, IsAsProbableAsItsLikeliestSweep) {
-  EXPECT_EQ(predictionWith({}).probability(), 0.0);
-  EXPECT_EQ(predictionWith({object("liver", {kFree0, {100ms, false, 0.3}, kFree2}),
-                            object("spleen", {kFree0, {100ms, false, 0.2}, {200ms, true, 0.6}})})
-                .probability(),
-            0.6);
+TEST(PredictionTest, IsAsProbableAsTheNearestSweepThatBeginsWithinTheInterval) {
+  EXPECT_EQ(predictionWith({}).probability(PredictionInterval::kConsidered, 1s), 0.0);
+  const Prediction prediction = predictionWith({object("liver", {kFree0, {100ms, false, 0.5}, kFree2}),
+                                                object("spleen", {kFree0, {100ms, false, 1.0}, {200ms, true, -0.5}})});
+  for (const auto interval : {PredictionInterval::kReflex, PredictionInterval::kConsidered}) {
+    EXPECT_EQ(prediction.probability(interval, 100ms), 0.0);
+    EXPECT_EQ(prediction.probability(interval, 200ms), probabilityWithin(interval, 0.5));
+    EXPECT_EQ(prediction.probability(interval, 201ms), probabilityWithin(interval, -0.5));
+  }
 }
 
 TEST(PredictionTest, IsMetWhereThePathFirstMeetsAnyWorkpiece) {
   EXPECT_FALSE(predictionWith({}).firstContact());
-  EXPECT_FALSE(predictionWith({object("liver", {{0ms, false, 0.4}, kFree1, kFree2})}).firstContact());
-  EXPECT_EQ(predictionWith({object("liver", {{0ms, false, 0.4}, kFree1, kFree2}),
-                            object("spleen", {kFree0, kFree1, {205ms, true, 0.9}}),
-                            object("kidney", {kFree0, {103ms, true, 0.6}, {205ms, true, 0.9}})})
+  EXPECT_FALSE(predictionWith({object("liver", {{0ms, false, 0.25}, kFree1, kFree2})}).firstContact());
+  EXPECT_EQ(predictionWith({object("liver", {{0ms, false, 0.25}, kFree1, kFree2}),
+                            object("spleen", {kFree0, kFree1, {205ms, true, -1.0}}),
+                            object("kidney", {kFree0, {103ms, true, -0.25}, {205ms, true, -1.0}})})
                 .firstContact(),
             103ms);
 }
 
 TEST(PredictedContactTest, IsNoneWhereNoContactIsCertainOrProbable) {
-  EXPECT_FALSE(predictedContact(predictionWith({}), 0.1));
-  EXPECT_FALSE(predictedContact(predictionWith({object("liver", {kFree0, kFree1, kFree2})}), 0.1));
-  EXPECT_FALSE(predictedContact(predictionWith({object("liver", {kFree0, {100ms, false, 0.0999}, kFree2})}), 0.1));
+  EXPECT_FALSE(predictedContact(predictionWith({}), 1.0));
+  EXPECT_FALSE(predictedContact(predictionWith({object("liver", {kFree0, kFree1, kFree2})}), 1.0));
+  EXPECT_FALSE(predictedContact(predictionWith({object("liver", {kFree0, {100ms, false, 1.0001}, kFree2})}), 1.0));
 }
 
 TEST(PredictedContactTest, IsTheEarliestOfAllWorkpieces) {
-  const PredictedContact predicted = contactOf(
-      {object("liver", {kFree0, kFree1, {210ms, true, 0.9}}), object("spleen", {kFree0, {150ms, true, 0.8}, kFree2})});
+  const PredictedContact predicted = contactOf({object("liver", {kFree0, kFree1, {210ms, true, -1.0}}),
+                                                object("spleen", {kFree0, {150ms, true, -0.75}, kFree2})});
   EXPECT_EQ(predicted.mesh_id, "spleen");
   EXPECT_EQ(predicted.earliest(), Time(5150ms));
   EXPECT_EQ(predicted.contact, Time(5150ms));
-  EXPECT_EQ(predicted.probability, 0.8);
+  EXPECT_EQ(predicted.considered_probability, probabilityWithin(PredictionInterval::kConsidered, -0.75));
 }
 
 TEST(PredictedContactTest, MayBeMerelyProbable) {
-  const PredictedContact predicted = contactOf({object("liver", {kFree0, {100ms, false, 0.1}, {200ms, false, 0.3}})});
+  const PredictedContact predicted = contactOf({object("liver", {kFree0, {100ms, false, 1.0}, {200ms, false, 0.5}})});
   EXPECT_EQ(predicted.earliest(), Time(5100ms));
   EXPECT_FALSE(predicted.contact);
-  EXPECT_EQ(predicted.probability, 0.3);
+  EXPECT_EQ(predicted.considered_probability, probabilityWithin(PredictionInterval::kConsidered, 0.5));
   EXPECT_TRUE(predicted.triangles.empty());
 }
 
 // Probable first, met later: one collision, which may begin with the former and has the triangles of the latter.
 TEST(PredictedContactTest, ReportsWhenThePathMeetsTheWorkpieceLater) {
-  PredictedObject liver = object("liver", {kFree0, {100ms, false, 0.2}, {205ms, true, 0.9}});
+  PredictedObject liver = object("liver", {kFree0, {100ms, false, 0.75}, {205ms, true, -1.0}});
   liver.reflex = {1, 7};
   liver.considered = {3};
   const PredictedContact predicted = contactOf({liver});
   EXPECT_EQ(predicted.earliest(), Time(5100ms));
   EXPECT_EQ(predicted.contact, Time(5205ms));
-  EXPECT_EQ(predicted.probability, 0.9);
+  EXPECT_EQ(predicted.considered_probability, probabilityWithin(PredictionInterval::kConsidered, -1.0));
   EXPECT_EQ(predicted.triangles, (std::vector<std::uint32_t>{1, 3, 7}));
 }
 
@@ -121,21 +124,39 @@ TEST(PredictedContactTest, ReportsWhenThePathMeetsTheWorkpieceLater) {
 // triangles are of.
 TEST(PredictedContactTest, NamesTheToolPieceThatMeetsFirst) {
   const PredictedContact predicted =
-      contactOf({object("liver", {{0ms, false, 0.2, 0}, {100ms, true, 0.9, 1}, {200ms, true, 0.9, 2}})});
+      contactOf({object("liver", {{0ms, false, 0.75, 0}, {100ms, true, -1.0, 1}, {200ms, true, -1.0, 2}})});
   EXPECT_EQ(predicted.earliest(), Time(5000ms));
   EXPECT_EQ(predicted.tool_piece, 1U);
 }
 
-TEST(PredictedContactTest, NamesTheLikeliestToolPieceWhereNoneMeets) {
+TEST(PredictedContactTest, NamesTheNearestToolPieceWhereNoneMeets) {
   const PredictedContact predicted =
-      contactOf({object("liver", {kFree0, {100ms, false, 0.2, 3}, {200ms, false, 0.3, 1}}),
-                 object("spleen", {kFree0, kFree1, {200ms, false, 0.9, 2}})});
+      contactOf({object("liver", {kFree0, {100ms, false, 0.75, 3}, {200ms, false, 0.5, 1}}),
+                 object("spleen", {kFree0, kFree1, {200ms, false, 0.0, 2}})});
   EXPECT_EQ(predicted.tool_piece, 3U);
 }
 
-// A path that meets is reported however small a probability its volume gives.
+// A path that meets is reported however far its volume is.
 TEST(PredictedContactTest, APathThatMeetsNeedsNoProbability) {
-  EXPECT_TRUE(contactOf({object("liver", {{0ms, true, 0.0}, kFree1, kFree2})}, 1.0).contact);
+  EXPECT_TRUE(contactOf({object("liver", {{0ms, true}, kFree1, kFree2})}, std::nullopt).contact);
+}
+
+// What comes after an interval adds nothing to its probability, but what is warned of is in it.
+TEST(PredictedContactTest, HasAProbabilityForEachInterval) {
+  const Prediction prediction =
+      predictionWith({object("liver", {{0ms, false, 2.0}, {100ms, false, 1.0}, {200ms, false, 0.5}})});
+  const auto contactAt = [&](double deviations) {
+    const double reflex = probabilityWithin(PredictionInterval::kReflex, deviations);
+    const double considered = probabilityWithin(PredictionInterval::kConsidered, deviations);
+    std::optional<PredictedContact> contact;
+    findPredictedContact(prediction, prediction.objects[0], {prediction.stamp, {}}, {reflex, considered, 100ms, 200ms},
+                         contact);
+    return contact.value();
+  };
+  EXPECT_EQ(contactAt(2.0).reflex_probability, probabilityWithin(PredictionInterval::kReflex, 2.0));
+  EXPECT_EQ(contactAt(2.0).considered_probability, probabilityWithin(PredictionInterval::kConsidered, 1.0));
+  EXPECT_EQ(contactAt(0.5).reflex_probability, probabilityWithin(PredictionInterval::kReflex, 0.5));
+  EXPECT_EQ(contactAt(0.5).considered_probability, probabilityWithin(PredictionInterval::kConsidered, 0.5));
 }
 
 }  // namespace

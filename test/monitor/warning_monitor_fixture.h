@@ -15,6 +15,13 @@ namespace sweep_guard_core {
 using std::chrono::milliseconds;
 
 inline constexpr WarningThresholds kThresholds;
+
+// In standard deviations.
+inline constexpr double kMeeting = -1.0;
+inline const double kReflexAt = deviationsAt(PredictionInterval::kReflex, kThresholds.reflex);
+inline const double kConsideredOnAt = deviationsAt(PredictionInterval::kConsidered, kThresholds.considered_on);
+inline const double kConsideredOffAt = deviationsAt(PredictionInterval::kConsidered, kThresholds.considered_off);
+
 inline constexpr WarningLimits kLimits = {milliseconds(100), milliseconds(500), milliseconds(500)};
 
 inline Instant at(int ms) { return {Time(milliseconds(ms)), SteadyTime(milliseconds(ms))}; }
@@ -47,15 +54,15 @@ inline Prediction predictionFrom(const Workpieces& workpieces, int ms) {
 // One that meets its first workpiece after so long.
 inline Prediction collisionOn(const Workpieces& workpieces, int ms, int after_ms) {
   Prediction prediction = predictionFrom(workpieces, ms);
-  prediction.objects[0].sweeps[1] = {milliseconds(after_ms), /*contact=*/true, /*probability=*/0.75};
+  prediction.objects[0].sweeps[1] = {milliseconds(after_ms), /*contact=*/true, kMeeting};
   prediction.objects[0].considered = {4};
   return prediction;
 }
 
 // One that only may meet its first workpiece after so long.
-inline Prediction probableOn(const Workpieces& workpieces, int ms, int after_ms, double probability) {
+inline Prediction probableOn(const Workpieces& workpieces, int ms, int after_ms, double deviations) {
   Prediction prediction = predictionFrom(workpieces, ms);
-  prediction.objects[0].sweeps[1] = {milliseconds(after_ms), /*contact=*/false, probability};
+  prediction.objects[0].sweeps[1] = {milliseconds(after_ms), /*contact=*/false, deviations};
   return prediction;
 }
 

@@ -36,11 +36,20 @@ Warning warningNow(const WarningInputs& inputs) { return warningOf(inputs, kNow,
 // From a prediction that began at a pose 10 ms ago and lasts 1.1 s.
 PredictedContact predictedIn(Duration time) {
   const Time start = kNow.stamp + time;
-  return {start, start, /*contact=*/start, /*probability=*/0.75, "spleen", {8}, {}, aged(10ms), 1100ms};
+  return {start,
+          start,
+          /*contact=*/start,
+          /*reflex_probability=*/0.5,
+          /*considered_probability=*/0.75,
+          "spleen",
+          {8},
+          {},
+          aged(10ms),
+          1100ms};
 }
 
 WarningInputs::Alarm alarmOf(Duration ago, const std::string& mesh_id = "kidney") {
-  return {{kNow.stamp, kNow.stamp, /*contact=*/kNow.stamp, /*probability=*/1.0, mesh_id, {9}}, kNow.steady - ago};
+  return {{kNow.stamp, kNow.stamp, /*contact=*/kNow.stamp, 1.0, 1.0, mesh_id, {9}}, kNow.steady - ago};
 }
 
 WarningInputs::WorkpieceWarning& entryOf(const std::string& id, WarningInputs& inputs) {
@@ -188,7 +197,8 @@ TEST(WarningTest, ContactGoesBeforeReflexBeforeConsideredBeforeUnknownBeforeClea
     EXPECT_EQ(warning.mesh_id, mesh_id);
     EXPECT_EQ(warning.triangles, kTriangles.at(mesh_id));
     EXPECT_EQ(warning.time_to_collision.has_value(), row.reported);
-    EXPECT_EQ(warning.probability, row.reported ? 0.75 : 0.0);
+    const double probability = row.predicted == Predicted::kReflex ? 0.5 : 0.75;
+    EXPECT_EQ(warning.probability, row.reported ? probability : 0.0);
   };
   for (const Row& row : rows) {
     for (const Contact contact : {Contact::kNone, Contact::kLasting, Contact::kHeld, Contact::kOver}) {
@@ -262,8 +272,20 @@ TEST(WarningTest, WhatIsMerelyProbableHasNoTime) {
   const Warning warning = warningNow(inputs);
   EXPECT_EQ(warning.level, WarningLevel::kReflex);
   EXPECT_FALSE(warning.time_to_collision);
+  EXPECT_EQ(warning.probability, 0.5);
+  EXPECT_EQ(warning.probability_interval, 100ms);
+  EXPECT_EQ(warning.text, "REFLEX: collision with 'spleen' 50 % probable within 0.10 s");
+}
+
+TEST(WarningTest, TheProbabilityIsThatOfTheIntervalOfThePredictedContact) {
+  WarningInputs inputs = allGood();
+  predict(500ms, inputs).contact.reset();
+  const Warning warning = warningNow(inputs);
   EXPECT_EQ(warning.probability, 0.75);
-  EXPECT_EQ(warning.text, "REFLEX: collision with 'spleen' 75 % probable");
+  EXPECT_EQ(warning.probability_interval, 1s);
+  EXPECT_EQ(warning.text, "CONSIDERED: collision with 'spleen' 75 % probable within 1.00 s");
+  entryOf("spleen", inputs).predicted->considered_probability = 0.004;
+  EXPECT_EQ(warningNow(inputs).text, "CONSIDERED: collision with 'spleen' < 1 % probable within 1.00 s");
 }
 
 // A prediction says nothing of what comes after its end: what it warned of is over then, and held.

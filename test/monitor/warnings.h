@@ -18,12 +18,19 @@ inline Warning warningOf(const WarningInputs& inputs, const Instant& now, const 
   return warning;
 }
 
-// With the first workpiece that is met, both levels at the same probability.
-inline std::optional<PredictedContact> predictedContact(const Prediction& prediction, double min_probability) {
+// With the first workpiece that is met, both levels at the same deviations; without them, only by the path itself.
+inline std::optional<PredictedContact> predictedContact(const Prediction& prediction,
+                                                        std::optional<double> deviations = {}) {
+  const auto threshold = [&](PredictionInterval interval) {
+    return deviations ? probabilityWithin(interval, *deviations) : 1.0;
+  };
+  const Duration end = prediction.path.empty() ? Duration(0) : prediction.path.back().ahead;
+  const ContactThresholds thresholds = {threshold(PredictionInterval::kReflex),
+                                        threshold(PredictionInterval::kConsidered), end, end};
   std::optional<PredictedContact> earliest;
   std::optional<PredictedContact> contact;
   for (const PredictedObject& object : prediction.objects) {
-    findPredictedContact(prediction, object, {prediction.stamp, {}}, {min_probability, min_probability}, contact);
+    findPredictedContact(prediction, object, {prediction.stamp, {}}, thresholds, contact);
     if (contact && (!earliest || contact->earliest() < earliest->earliest())) earliest = contact;
   }
   return earliest;

@@ -12,7 +12,8 @@ TEST_F(WarningMonitorTest, AWarningRisesByItself) {
   EXPECT_EQ(levelAt(1935), WarningLevel::kReflex);
   const Warning warning = warningOf(monitor_, at(1100));
   EXPECT_EQ(warning.time_to_collision, milliseconds(950));
-  EXPECT_EQ(warning.probability, 0.75);
+  EXPECT_EQ(warning.probability, probabilityWithin(PredictionInterval::kConsidered, kMeeting));
+  EXPECT_EQ(warning.probability_interval, kLimits.considered);
   EXPECT_EQ(warning.mesh_id, "liver");
   EXPECT_EQ(warning.triangles, (std::vector<std::uint32_t>{4}));
 }
@@ -87,12 +88,11 @@ TEST_F(WarningMonitorTest, APredictedContactThatCannotBeTestedDoesNotHideALaterO
 }
 
 TEST_F(WarningMonitorTest, EachIntervalHasAThresholdOfItsOwn) {
-  for (const auto& [after_ms, threshold, level] :
-       {std::tuple(100, kThresholds.reflex, WarningLevel::kReflex),
-        std::tuple(500, kThresholds.considered_on, WarningLevel::kConsidered)}) {
+  for (const auto& [after_ms, threshold, level] : {std::tuple(100, kReflexAt, WarningLevel::kReflex),
+                                                   std::tuple(500, kConsideredOnAt, WarningLevel::kConsidered)}) {
     monitor_.restart();
     sweepOnly(reportOf(workpieces_), 1000);
-    predict(probableOn(workpieces_, 1000, after_ms, threshold - 1e-9), 1000);
+    predict(probableOn(workpieces_, 1000, after_ms, threshold + 1e-9), 1000);
     EXPECT_EQ(levelAt(1000), WarningLevel::kClear);
     predict(probableOn(workpieces_, 1000, after_ms, threshold), 1000);
     EXPECT_EQ(levelAt(1000), level);
@@ -101,14 +101,14 @@ TEST_F(WarningMonitorTest, EachIntervalHasAThresholdOfItsOwn) {
 
 TEST_F(WarningMonitorTest, AConsideredWarningStaysDownToALowerProbability) {
   for (int ms = 1000; ms < 3000; ms += 10) {
-    predict(probableOn(refresh(ms), ms, 500, ms == 1000 ? kThresholds.considered_on : kThresholds.considered_off), ms);
+    predict(probableOn(refresh(ms), ms, 500, ms == 1000 ? kConsideredOnAt : kConsideredOffAt), ms);
     ASSERT_EQ(levelAt(ms), WarningLevel::kConsidered) << ms;
   }
   for (int ms = 3000; ms < 4000; ms += 10) {
-    predict(probableOn(refresh(ms), ms, 500, kThresholds.considered_off - 1e-9), ms);
+    predict(probableOn(refresh(ms), ms, 500, kConsideredOffAt + 1e-9), ms);
     ASSERT_EQ(levelAt(ms), ms <= 3500 ? WarningLevel::kConsidered : WarningLevel::kClear) << ms;
   }
-  predict(probableOn(refresh(3990), 3990, 500, kThresholds.considered_on - 1e-9), 3990);
+  predict(probableOn(refresh(3990), 3990, 500, kConsideredOnAt + 1e-9), 3990);
   EXPECT_EQ(levelAt(3990), WarningLevel::kClear);
 }
 
@@ -116,7 +116,7 @@ TEST_F(WarningMonitorTest, AConsideredWarningStaysDownToALowerProbability) {
 TEST_F(WarningMonitorTest, AWarningThatThePathRaisedStaysDownToALowerProbability) {
   predict(collisionOn(workpieces_, 1000, 500), 1000);
   for (int ms = 1010; ms < 2000; ms += 10) {
-    predict(probableOn(refresh(ms), ms, 500, kThresholds.considered_off), ms);
+    predict(probableOn(refresh(ms), ms, 500, kConsideredOffAt), ms);
     ASSERT_EQ(levelAt(ms), WarningLevel::kConsidered) << ms;
   }
 }
@@ -124,8 +124,8 @@ TEST_F(WarningMonitorTest, AWarningThatThePathRaisedStaysDownToALowerProbability
 TEST_F(WarningMonitorTest, WhatKeepsAWarningUpRaisesNoneOfAnotherWorkpiece) {
   const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
   monitor_.setWorkpieces(two);
-  predict(probableOn(two, 1000, 500, kThresholds.considered_on), 1000);
-  const double between = 0.5 * (kThresholds.considered_on + kThresholds.considered_off);
+  predict(probableOn(two, 1000, 500, kConsideredOnAt), 1000);
+  const double between = 0.5 * (kConsideredOnAt + kConsideredOffAt);
   for (int ms = 1010; ms < 2000; ms += 10) {
     const Workpieces fresh = {workpiece("liver", ms), workpiece("spleen", ms)};
     monitor_.setWorkpieces(fresh);
@@ -140,21 +140,21 @@ TEST_F(WarningMonitorTest, WhatKeepsAWarningUpRaisesNoneOfAnotherWorkpiece) {
 
 // It was the lower threshold that found it, and the warning was over.
 TEST_F(WarningMonitorTest, WhatIsLessProbableBeyondTheIntervalDoesNotRiseByItself) {
-  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
-  predict(probableOn(workpieces_, 1010, 1050, kThresholds.considered_off), 1010);
+  predict(probableOn(workpieces_, 1000, 500, kConsideredOnAt), 1000);
+  predict(probableOn(workpieces_, 1010, 1050, kConsideredOffAt), 1010);
   EXPECT_EQ(levelAt(1510), WarningLevel::kConsidered);
   EXPECT_NE(levelAt(1511), WarningLevel::kConsidered);
 }
 
 TEST_F(WarningMonitorTest, AWarningThatEndedWithItsPredictionIsNotKeptUpByLess) {
-  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
-  predict(probableOn(refresh(5000), 5000, 500, kThresholds.considered_off), 5000);
+  predict(probableOn(workpieces_, 1000, 500, kConsideredOnAt), 1000);
+  predict(probableOn(refresh(5000), 5000, 500, kConsideredOffAt), 5000);
   EXPECT_EQ(levelAt(5000), WarningLevel::kClear);
 }
 
 TEST_F(WarningMonitorTest, AnUrgentContactThatIsUnlikelyIsNoReflex) {
-  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
-  predict(probableOn(workpieces_, 1010, 100, kThresholds.reflex - 1e-9), 1010);
+  predict(probableOn(workpieces_, 1000, 500, kConsideredOnAt), 1000);
+  predict(probableOn(workpieces_, 1010, 100, kReflexAt + 1e-9), 1010);
   EXPECT_EQ(levelAt(1010), WarningLevel::kConsidered);
 }
 
@@ -163,7 +163,7 @@ TEST_F(WarningMonitorTest, OfTwoPredictedContactsTheUrgentOneIsNamedUntilItIsOve
   const Workpieces two = {workpieces_[0], workpiece("spleen", 1000)};
   monitor_.setWorkpieces(two);
   Prediction prediction = collisionOn(two, 1000, 500);
-  prediction.objects[1].sweeps[1] = {milliseconds(300), /*contact=*/true, /*probability=*/0.75};
+  prediction.objects[1].sweeps[1] = {milliseconds(300), /*contact=*/true, kMeeting};
   predict(prediction, 1000);
   EXPECT_EQ(warningOf(monitor_, at(1000)).mesh_id, "spleen");
   EXPECT_EQ(warningOf(monitor_, at(1000)).time_to_collision, milliseconds(300));
@@ -182,11 +182,11 @@ TEST_F(WarningMonitorTest, TheWarningOfAWorkpieceThatIsGoneIsHeldAndForgotten) {
 
 // The name may stand for another workpiece now, whose warning begins at the upper threshold.
 TEST_F(WarningMonitorTest, AWorkpieceThatComesAgainIsNotKeptWarnedOfByLess) {
-  predict(probableOn(workpieces_, 1000, 500, kThresholds.considered_on), 1000);
+  predict(probableOn(workpieces_, 1000, 500, kConsideredOnAt), 1000);
   monitor_.setWorkpieces({});
   predict(predictionFrom({}, 1010), 1010);
   for (int ms = 1020; ms < 2000; ms += 10) {
-    predict(probableOn(refresh(ms), ms, 500, kThresholds.considered_off), ms);
+    predict(probableOn(refresh(ms), ms, 500, kConsideredOffAt), ms);
     ASSERT_EQ(levelAt(ms), ms <= 1510 ? WarningLevel::kConsidered : WarningLevel::kClear) << ms;
   }
 }
@@ -303,7 +303,7 @@ TEST_F(AcknowledgedTest, AnotherWorkpieceIsWarnedOfAsEver) {
   monitor_.setWorkpieces(two);
   sweepOnly(reportOf(two), 1010);
   Prediction both = collisionOn(two, 1010, 300);
-  both.objects[1].sweeps[1] = {milliseconds(800), /*contact=*/true, /*probability=*/0.75};
+  both.objects[1].sweeps[1] = {milliseconds(800), /*contact=*/true, kMeeting};
   predict(both, 1010);
   const Warning warning = warningOf(monitor_, at(1010));
   EXPECT_EQ(warning.mesh_id, "spleen");  // it comes later, and the operator does not know of it

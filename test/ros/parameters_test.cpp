@@ -15,6 +15,12 @@
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
+
+using sweep_guard_core::deviationsAt;
+using sweep_guard_core::fromPlaneProbability;
+using sweep_guard_core::PredictionInterval;
+using sweep_guard_core::WarningThresholds;
+
 namespace {
 
 class ParametersTest : public ::testing::Test {
@@ -229,14 +235,20 @@ class ThresholdsTest : public ParametersTest {
   }
 };
 
+const double kOn = WarningThresholds{}.considered_on;
+const double kOff = WarningThresholds{}.considered_off;
+const double kReflex = WarningThresholds{}.reflex;
+double considered(double plane) { return fromPlaneProbability(PredictionInterval::kConsidered, plane); }
+double reflex(double plane) { return fromPlaneProbability(PredictionInterval::kReflex, plane); }
+
 TEST_F(ThresholdsTest, TheOldNameSetsAllThatAreNotSet) {
-  expect(0.28, 0.02, 0.1, loadParameters(node_));
+  expect(kOn, kOff, kReflex, loadParameters(node_));
   node_.setParam("warning/min_probability", 0.3);
-  expect(0.3, 0.3, 0.3, loadParameters(node_));
+  expect(considered(0.3), considered(0.3), reflex(0.3), loadParameters(node_));
   node_.setParam("warning/min_probability", 0.1);
-  expect(0.1, 0.1, 0.1, loadParameters(node_));
+  expect(considered(0.1), considered(0.1), reflex(0.1), loadParameters(node_));
   node_.setParam("warning/reflex_probability", 0.2);
-  expect(0.1, 0.1, 0.2, loadParameters(node_));
+  expect(considered(0.1), considered(0.1), 0.2, loadParameters(node_));
   node_.setParam("warning/considered_on", 0.05);
   expect(0.05, 0.05, 0.2, loadParameters(node_));
   node_.setParam("warning/considered_off", 0.01);
@@ -245,20 +257,22 @@ TEST_F(ThresholdsTest, TheOldNameSetsAllThatAreNotSet) {
 
 TEST_F(ThresholdsTest, TheLowerOneFollowsAnUpperOneBelowIt) {
   node_.setParam("warning/considered_on", 0.01);
-  expect(0.01, 0.01, 0.1, loadParameters(node_));
+  expect(0.01, 0.01, kReflex, loadParameters(node_));
   node_.setParam("warning/considered_off", 0.06);
   EXPECT_TRUE(has(refusal(node_), "at most warning/considered_on"));
 }
 
 TEST_F(ThresholdsTest, ThePredictionFindsWhateverIsWarnedOf) {
-  const auto least = [&] { return loadParameters(node_).guard.least_probability; };
-  EXPECT_EQ(least(), 0.01);
-  node_.setParam("warning/reflex_probability", 0.005);
-  EXPECT_EQ(least(), 0.005);
+  const auto most = [&] { return loadParameters(node_).guard.max_deviations; };
+  const double reflex_shown = deviationsAt(PredictionInterval::kReflex, 0.01);
+  const double considered_shown = deviationsAt(PredictionInterval::kConsidered, 0.01);
+  ASSERT_LT(reflex_shown, considered_shown);
   node_.setParam("warning/considered_off", 0.003);
-  EXPECT_EQ(least(), 0.003);
-  node_.setParam("warning/min_probability", 0.5);
-  EXPECT_EQ(least(), 0.003);
+  EXPECT_EQ(most(), deviationsAt(PredictionInterval::kConsidered, 0.003));
+  node_.setParam("warning/considered_off", 0.03);
+  EXPECT_EQ(most(), considered_shown);
+  node_.setParam("warning/reflex_probability", 0.001);
+  EXPECT_EQ(most(), deviationsAt(PredictionInterval::kReflex, 0.001));
 }
 
 // What the same request says of a new name goes before the old one; what was said before does not.
@@ -266,12 +280,13 @@ TEST_F(ThresholdsTest, TheOldNameSetsThemWhileTheGuardRuns) {
   node_.setParam("warning/considered_on", 0.4);
   const Parameters before = loadParameters(node_);
   const Parameters old_name = changeParameters(node_, before, {{"warning/min_probability", 0.3}});
-  expect(0.3, 0.3, 0.3, old_name);
-  expect(0.5, 0.3, 0.3, changeParameters(node_, old_name, {{"warning/considered_on", 0.5}}));
+  expect(considered(0.3), considered(0.3), reflex(0.3), old_name);
+  expect(0.5, considered(0.3), reflex(0.3), changeParameters(node_, old_name, {{"warning/considered_on", 0.5}}));
   const std::map<std::string, ParameterValue> both = {{"warning/min_probability", 0.2},
                                                       {"warning/reflex_probability", 0.7}};
-  expect(0.2, 0.2, 0.7, changeParameters(node_, old_name, both));
-  expect(0.1, 0.1, 0.1, changeParameters(node_, before, {{"warning/min_probability", 0.1}}));
+  expect(considered(0.2), considered(0.2), 0.7, changeParameters(node_, old_name, both));
+  expect(considered(0.1), considered(0.1), reflex(0.1),
+         changeParameters(node_, before, {{"warning/min_probability", 0.1}}));
 }
 
 TEST_F(ThresholdsTest, TheOldNameAloneIsInNoDocument) {

@@ -17,9 +17,9 @@ struct GuardOptions {
   SweepOptions sweep;
   PredictorOptions predictor;
   HorizonOptions horizon;
-  /// Least probability of a contact that matters: a smaller one is reported as 0, which saves time. At least 0.001; from
-  /// 0.5 on only contacts of the predicted path itself are reported. Not checked.
-  double least_probability = 0.001;
+  /// Contacts so many standard deviations off the predicted path are not looked for, which saves time: their probability
+  /// is 0. From 0, where only contacts of the path itself are found, to 3.09; not checked. See deviationsAt().
+  double max_deviations = 3.09;
   Duration cycle = fromSeconds(1.0 / 15.0);  ///< time available for the sweep to one pose and for its prediction, > 0
   /// Clock that measures what sweeps cost; must not be empty or go back (not checked). Called in the guard's thread.
   std::function<SteadyTime()> clock = std::chrono::steady_clock::now;

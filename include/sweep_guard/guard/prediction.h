@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/guard/pose_with_frames.h"
+#include "sweep_guard/guard/probability_map.h"
 #include "sweep_guard/guard/workpiece.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
@@ -25,10 +27,13 @@ struct PredictedMotion {
 struct PredictedSweep {
   Duration from{};       ///< start; the sweep lasts until the next one begins or the path ends
   bool contact = false;  ///< a volume along the predicted path is not proven free; no narrow phase
-  /// Estimated probability that the tool meets the workpiece, in [0, 1]; 0 below GuardOptions::least_probability.
-  double probability = 0.0;
-  /// Index of the convex piece of the tool most likely to meet the workpiece; with `contact`, of those that do. Empty
-  /// if `probability` is 0.
+  /// Number of standard deviations by which the tool must leave the path here to meet the workpiece; negative if the
+  /// path meets it: to be free. 0 if, in the reflex interval, the volume meets it and the tool does not: short sweeps are
+  /// surer than the volume is tight. Infinite beyond
+  /// GuardOptions::max_deviations.
+  double deviations = std::numeric_limits<double>::infinity();
+  /// Index of the convex piece of the tool with these deviations; with `contact`, of those that meet the workpiece.
+  /// Empty if there are none.
   std::optional<size_t> tool_piece = {};
 };
 
@@ -43,7 +48,10 @@ struct PredictedObject {
 
   std::vector<std::uint32_t> triangles() const;  ///< of `reflex` and `considered`: ascending, each once
   std::optional<Duration> firstContact() const;  ///< start of the first sweep with contact; empty: none
-  void clear();                                  ///< resets all fields and keeps the buffers
+  /// Returns the probability that the tool meets the workpiece within an interval.
+  /// @param end  of the interval, after the stamp of the newest measured pose
+  double probability(PredictionInterval interval, Duration end) const;
+  void clear();  ///< resets all fields and keeps the buffers
 };
 
 /// The predicted path of the tool after a pose, and the contacts along it.
@@ -60,8 +68,9 @@ struct Prediction {
   /// Returns the stamp up to which every workpiece is tested: the end of the path, or `stamp` if the path is empty or a
   /// workpiece was not tested.
   Time coveredUntil() const;
-  bool complete() const;       ///< the motion is known, there is a workpiece, and every workpiece was tested
-  double probability() const;  ///< largest one of all sweeps, not that of their union; 0 if there are none
+  bool complete() const;  ///< the motion is known, there is a workpiece, and every workpiece was tested
+  /// Returns the largest probability of a workpiece, not that of their union; 0 without a workpiece.
+  double probability(PredictionInterval interval, Duration end) const;
   std::optional<Duration> firstContact() const;  ///< earliest one of all objects, counted from `stamp`
 };
 

@@ -10,10 +10,12 @@
 
 namespace sweep_guard_core {
 
-/// Smallest probabilities that a sweep off the predicted path is warned of at a level, each in (0, 1].
+/// Smallest probabilities of a contact off the predicted path that is warned of at a level, and the intervals of both.
 struct ContactThresholds {
-  double reflex;
-  double considered;
+  double reflex;            ///< in (0, 1]
+  double considered;        ///< in (0, 1]
+  Duration reflex_end;      ///< of the reflex interval, after the stamp of the prediction
+  Duration considered_end;  ///< of the considered interval, after the stamp of the prediction
 };
 
 /// A contact with one workpiece that the operator may be warned of, and the prediction that it comes from.
@@ -22,7 +24,10 @@ struct PredictedContact {
   std::optional<Time> reflex;
   std::optional<Time> considered;
   std::optional<Time> contact;  ///< start of the first sweep with contact; empty: merely probable
-  double probability = 0.0;     ///< largest probability of the sweeps from earliest() on, in [0, 1]
+  /// Probability that the tool meets the workpiece within each interval, or until the start of the sweep above if that
+  /// is later, in [0, 1].
+  double reflex_probability = 0.0;
+  double considered_probability = 0.0;
   std::string mesh_id = {};
   std::vector<std::uint32_t> triangles = {};  ///< of the workpiece, met by the predicted path: ascending, each once
   /// Index of the convex piece of the tool that is most likely to meet the workpiece: in the first sweep with contact,
@@ -34,7 +39,7 @@ struct PredictedContact {
   Time earliest() const;  ///< the earlier of `reflex` and `considered`
 };
 
-/// Finds the first sweeps that meet a workpiece, or do so with at least these probabilities.
+/// Finds the first sweeps that meet a workpiece, or come so near to it that one of these probabilities is reached.
 /// @param object        one of the prediction's
 /// @param pose          times of the pose where the prediction begins
 /// @param[out] contact  overwritten; empty if there is none

@@ -10,13 +10,15 @@
 
 namespace sweep_guard_core {
 
-/// Smallest probabilities of a contact off the predicted path that are warned of, each in (0, 1].
+/// Smallest probabilities of a contact off the predicted path within an interval (probabilityWithin()) that are warned
+/// of, each in (0, 1].
 struct WarningThresholds {
-  double reflex = 0.1;           ///< raises REFLEX
-  double considered_on = 0.28;   ///< raises CONSIDERED
-  double considered_off = 0.02;  ///< keeps CONSIDERED up; <= considered_on
+  double reflex = 0.0085;          ///< raises REFLEX
+  double considered_on = 0.064;    ///< raises CONSIDERED
+  double considered_off = 0.0029;  ///< keeps CONSIDERED up; <= considered_on
 
-  static WarningThresholds all(double probability) { return {probability, probability, probability}; }
+  /// Returns the thresholds that warn as `warning/min_probability`, see fromPlaneProbability().
+  static WarningThresholds ofMinProbability(double min_probability);
 };
 
 /// Limits of computeWarning(), which does not check them. The first three have no default.
@@ -49,9 +51,10 @@ struct Warning {
   /// prediction has ended, or a stronger warning about another workpiece is held. At kContact, this may be another
   /// workpiece than `mesh_id`; at kClear and kUnknown, it is the one that is met first.
   std::optional<Duration> time_to_collision;
-  /// Probability of the predicted contact, in [0, 1]; 0 once its prediction has ended, or while a stronger warning
-  /// about another workpiece is held.
+  /// Probability that the tool meets the workpiece of the predicted contact within `probability_interval` from now, in
+  /// [0, 1]; 0 once its prediction has ended, or while a stronger warning about another workpiece is held.
   double probability = 0.0;
+  Duration probability_interval{};  ///< the reflex interval if the predicted contact lies in it, or the considered one
   /// When what the level tells of ended; it is shown for the hold time. Empty: it lasts, or there is none.
   std::optional<Time> held_since;
   bool acknowledged = false;  ///< the operator knows of this workpiece; only at kConsidered

@@ -197,7 +197,7 @@ void Diagnostics::prediction(Status& status) const {
   status.addf("time [ms]", "p50 %.2f, max %.2f", 1e3 * quantile(statistics_.prediction_times, 0.5),
               1e3 * quantile(statistics_.prediction_times, 1.0));
   status.addf("horizon covered [s]", "%.2f", toSeconds(newest.covered));
-  status.addf("probability of contact", "%.3f", newest.probability);
+  status.addf("probability of contact within horizon/considered", "%.3f", newest.probability);
 }
 
 void Diagnostics::stages(Status& status) {

@@ -135,25 +135,34 @@ sweep_guard_core::WarningThresholds readThresholds(ParameterReader& read) {
   sweep_guard_core::WarningThresholds thresholds;
   const std::optional<double> all =
       read.deprecatedNumber(kOldThreshold, thresholds.reflex, any,
-                            "Old name: sets those of warning/considered_on, warning/considered_off and "
+                            "Old name, and old scale: sets those of warning/considered_on, warning/considered_off and "
                             "warning/reflex_probability that are not set themselves; while the guard runs, those that "
                             "are not in the same request.");
-  if (all) thresholds = sweep_guard_core::WarningThresholds::all(*all);
-  thresholds.considered_on = read.number("warning/considered_on", thresholds.considered_on, any,
-                                         "A contact off the predicted path raises CONSIDERED from this probability on. "
-                                         "Smaller warns earlier, with more false alarms.");
-  thresholds.considered_off = read.number(
-      "warning/considered_off", std::min(thresholds.considered_off, thresholds.considered_on), any,
-      "CONSIDERED stays while a contact with that workpiece is at least this probable; at most warning/considered_on. "
-      "Smaller interrupts a warning less often.",
-      ParameterReader::Bound{{kMinProbability, thresholds.considered_on}, "at most warning/considered_on"});
-  thresholds.reflex = read.number("warning/reflex_probability", thresholds.reflex, any,
-                                  "A contact off the predicted path raises REFLEX from this probability on.");
+  if (all) thresholds = sweep_guard_core::WarningThresholds::ofMinProbability(*all);
+  thresholds.considered_on =
+      read.number("warning/considered_on", thresholds.considered_on, any,
+                  "A contact off the predicted path raises CONSIDERED from this probability "
+                  "within horizon/considered on. Smaller warns earlier, with more false alarms.");
+  thresholds.considered_off =
+      read.number("warning/considered_off", std::min(thresholds.considered_off, thresholds.considered_on), any,
+                  "CONSIDERED stays while a contact with that workpiece within horizon/considered is at least this "
+                  "probable; at most "
+                  "warning/considered_on. Smaller interrupts a warning less often.",
+                  ParameterReader::Bound{{kMinProbability, thresholds.considered_on}, "at most warning/considered_on"});
+  thresholds.reflex =
+      read.number("warning/reflex_probability", thresholds.reflex, any,
+                  "A contact off the predicted path raises REFLEX from this probability within horizon/reflex on.");
   return thresholds;
 }
 
-double leastProbability(const sweep_guard_core::WarningThresholds& thresholds) {
-  return std::min({kShownProbability, thresholds.reflex, thresholds.considered_on, thresholds.considered_off});
+// What is farther off the predicted path raises or keeps no warning, and is not worth showing.
+double maxDeviations(const sweep_guard_core::WarningThresholds& thresholds) {
+  const auto deviations = [](sweep_guard_core::PredictionInterval interval, double threshold) {
+    return sweep_guard_core::deviationsAt(interval, std::min(kShownProbability, threshold));
+  };
+  using sweep_guard_core::PredictionInterval;
+  return std::max(deviations(PredictionInterval::kReflex, thresholds.reflex),
+                  deviations(PredictionInterval::kConsidered, thresholds.considered_off));
 }
 
 // The cylinder's parameters are checked for every tool type.
@@ -286,7 +295,7 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                                                     "A motion that turns more is swept in several steps. Smaller is "
                                                     "tighter and slower.");
   parameters.limits.thresholds = readThresholds(read);
-  parameters.guard.least_probability = leastProbability(parameters.limits.thresholds);
+  parameters.guard.max_deviations = maxDeviations(parameters.limits.thresholds);
   parameters.limits.hold_time = toDuration(read.number("warning/hold_time", 0.5, {0.0, 60.0, "s"},
                                                        "A warning stays for this long after its cause is over."));
   parameters.limits.acknowledge_time =

@@ -12,6 +12,7 @@ namespace {
 using sweep_guard::Predict;
 using sweep_guard_core::Duration;
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::PredictionInterval;
 
 constexpr Duration kMaxHorizon = std::chrono::seconds(5);
 constexpr auto kGuardTimeout = std::chrono::seconds(1);  // of a guard that is stuck in a sweep
@@ -89,7 +90,9 @@ sweep_guard::Prediction PredictService::predict(Duration horizon) {
   const auto prediction = sweep_guard_core::predictContacts(
       *detector_, {*parameters_->tool, motion.predicted, workpieces_.snapshot()}, parameters_->guard,
       [this, end] { return stopping_ || std::chrono::steady_clock::now() >= end; });
-  return predictionMsg(prediction, motion.age, *parameters_);
+  sweep_guard::Prediction msg = predictionMsg(prediction, motion.age, *parameters_);
+  if (msg.valid) msg.probability = prediction.probability(PredictionInterval::kConsidered, motion.age + horizon);
+  return msg;
 }
 
 }  // namespace sweep_guard_ros

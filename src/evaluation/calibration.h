@@ -1,0 +1,72 @@
+#pragma once
+
+#include <vector>
+
+#include "evaluation/guard_findings.h"
+#include "evaluation/session_count.h"
+
+namespace sweep_guard_evaluation {
+
+/// A prediction about one object for an interval, and what became of it.
+struct PredictionOutcome {
+  double deviations;  ///< smallest number of the sweeps that begin within the interval, as in PredictedSweep; finite
+  bool met;           ///< the tool touched the object within the interval
+};
+
+/// What was found about one object along a recorded motion, and the truth.
+struct ObjectPredictions {
+  const RecordedMotion& motion;
+  const GuardFindings& findings;
+  size_t object;
+  const std::vector<Touch>& touches;
+};
+
+/// Returns the outcomes of the predictions from one pose in every 50 ms, so that a minute counts the same whatever the
+/// rate of the poses. Leaves out what says nothing: predictions while the tool touches the object, those whose
+/// interval is not recorded without a gap, and those that are 0.
+/// @param interval  length [s] of the interval that begins at the pose
+std::vector<PredictionOutcome> outcomesOf(const ObjectPredictions& predictions, sweep_guard_core::Duration interval);
+
+/// A probability and whether the event came.
+struct Forecast {
+  double probability;
+  bool met;
+};
+
+/// Forecasts of similar probability.
+struct ReliabilityBin {
+  size_t count = 0;
+  double probability = 0.0;  ///< mean of the forecasts
+  double frequency = 0.0;    ///< share that was met
+};
+
+/// How honest forecasts of at least kMinForecast are. NaN if there are none, or if all or none were met.
+struct Calibration {
+  std::vector<ReliabilityBin> bins;  ///< kBins of equal size, ascending
+  double error = 0.0;                ///< mean difference of probability and frequency, bin by bin
+  double brier = 0.0;                ///< mean square of the difference of the probability from 1 (met) or 0
+  double skill = 0.0;                ///< 1 - brier / brier of the frequency of all as the only forecast
+  double ratio = 0.0;                ///< of the mean probability to the frequency
+
+  size_t count() const;
+};
+
+constexpr double kMinForecast = 0.01;
+constexpr size_t kBins = 10;
+
+Calibration calibrationOf(std::vector<Forecast> forecasts);
+
+/// A probability that falls with the deviations: linear between knots, 0 beyond the last one.
+struct ProbabilityKnot {
+  double deviations;
+  double probability;
+};
+
+/// Fits the probability of being met to outcomes: least squares, which is the smallest Brier score, with knots at fixed
+/// deviations. From knot to knot it falls by at least 0.001.
+std::vector<ProbabilityKnot> fitProbability(const std::vector<PredictionOutcome>& outcomes);
+
+/// Returns what the knots say.
+double probabilityAt(const std::vector<ProbabilityKnot>& knots, double deviations);
+
+}  // namespace sweep_guard_evaluation
