@@ -20,7 +20,7 @@ std::string inSeconds(Duration duration) {
 
 std::string inPercent(double probability) {
   const long percent = std::lround(100.0 * probability);
-  return percent == 0 ? "< 1 %" : std::to_string(percent) + " %";
+  return percent == 0 ? "< 1" : std::to_string(percent);
 }
 
 // Assembled where the text is kept: a repeated warning allocates nothing.
@@ -188,7 +188,7 @@ void describePrediction(Warning& warning) {
   };
   if (warning.time_to_collision) return describe("expected in ", inSeconds(*warning.time_to_collision));
   if (warning.probability == 0.0) return describe("was expected", "");
-  describe("", inPercent(warning.probability), " probable within ", inSeconds(warning.probability_interval));
+  describe("", inPercent(warning.probability), " % probable within ", inSeconds(warning.probability_interval));
 }
 
 void describeContact(Warning& warning, bool inside, Duration since) {

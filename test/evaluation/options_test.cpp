@@ -107,7 +107,7 @@ TEST(OptionsTest, SessionsHaveTheThresholdsOfTheGuardOrOneForAll) {
   EXPECT_EQ(parse({"--sessions", "--min-probability", "0.2", "a.txt"}).session_thresholds.considered_off, old);
   EXPECT_EQ(parse({"--tune", "2.5", "a.txt"}).tune, 2.5);
   EXPECT_TRUE(parse({"--tune", "2.5", "a.txt"}).wantsSessions());
-  EXPECT_TRUE(has(refusal({"--considered-on", "0.01", "a.txt"}), "--considered-off"));
+  EXPECT_TRUE(has(refusal({"--considered-on", "0.002", "a.txt"}), "--considered-off"));
   EXPECT_TRUE(has(refusal({"--tune-csv", "t.csv", "a.txt"}), "--tune"));
 }
 

@@ -221,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(Predictors, ClosedLoopTest,
 class VerticalTest : public testing::Test {
  protected:
   explicit VerticalTest(Duration hold_time = 500ms)
-      : loop_("constant_velocity", WarningThresholds().reflex, floor(), hold_time) {}
+      : loop_("constant_velocity", /*min_probability=*/0.1, floor(), hold_time) {}
 
   // @param z  of the tip over the wall [m], by time [s]
   void follow(double from, double to, const std::function<Eigen::Vector3d(double)>& tip,

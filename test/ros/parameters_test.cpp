@@ -249,15 +249,15 @@ TEST_F(ThresholdsTest, TheOldNameSetsAllThatAreNotSet) {
   expect(considered(0.1), considered(0.1), reflex(0.1), loadParameters(node_));
   node_.setParam("warning/reflex_probability", 0.2);
   expect(considered(0.1), considered(0.1), 0.2, loadParameters(node_));
-  node_.setParam("warning/considered_on", 0.05);
-  expect(0.05, 0.05, 0.2, loadParameters(node_));
-  node_.setParam("warning/considered_off", 0.01);
-  expect(0.05, 0.01, 0.2, loadParameters(node_));
+  node_.setParam("warning/considered_on", 0.005);
+  expect(0.005, 0.005, 0.2, loadParameters(node_));
+  node_.setParam("warning/considered_off", 0.002);
+  expect(0.005, 0.002, 0.2, loadParameters(node_));
 }
 
 TEST_F(ThresholdsTest, TheLowerOneFollowsAnUpperOneBelowIt) {
-  node_.setParam("warning/considered_on", 0.01);
-  expect(0.01, 0.01, kReflex, loadParameters(node_));
+  node_.setParam("warning/considered_on", 0.002);
+  expect(0.002, 0.002, kReflex, loadParameters(node_));
   node_.setParam("warning/considered_off", 0.06);
   EXPECT_TRUE(has(refusal(node_), "at most warning/considered_on"));
 }
@@ -364,7 +364,7 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("warning/min_probability", 0.0, "0.001 to 1");
   refused("warning/min_probability", 10, "0.001 to 1");
   refused("warning/considered_on", 0.0, "0.001 to 1");
-  refused("warning/considered_off", 0.3, "0.001 to 0.28");
+  refused("warning/considered_off", 0.3, "0.001 to 0.065");
   refused("warning/reflex_probability", 1.1, "0.001 to 1");
   refused("warning/hold_time", -0.1, "0 to 60");
   refused("timing/min_rate", 0, "1 to 1000");

@@ -14,7 +14,7 @@ namespace sweep_guard_core {
 /// of, each in (0, 1].
 struct WarningThresholds {
   double reflex = 0.0085;          ///< raises REFLEX
-  double considered_on = 0.064;    ///< raises CONSIDERED
+  double considered_on = 0.065;    ///< raises CONSIDERED
   double considered_off = 0.0029;  ///< keeps CONSIDERED up; <= considered_on
 
   /// Returns the thresholds that warn as `warning/min_probability`, see fromPlaneProbability().
