@@ -1,0 +1,137 @@
+"""Publishes a workpiece from numpy arrays."""
+import io
+import struct
+import threading
+from typing import Any, Optional, Sequence, Union
+
+import numpy
+import rospy
+from sweep_guard.msg import DeformableMesh, MeshVertices
+
+from .mesh_arrays import checked_faces, checked_vertices
+
+_MAX_WORKPIECES = 1000  # that a guard watches; the meshes of all may wait for one connection
+_MAX_NAME_LENGTH = 128  # [bytes]
+_COUNT = struct.Struct('<I')  # goes before each array
+
+Rows = Union[numpy.ndarray, Sequence[Sequence[float]]]  # of three numbers
+
+
+class _Packed:
+    """A message whose arrays, the last of its fields, are serialized already: rospy would pack each element."""
+    packed = b''
+
+    def serialize(self, buff):
+        without_arrays = io.BytesIO()
+        super().serialize(without_arrays)
+        buff.write(without_arrays.getvalue()[:-self.array_count * _COUNT.size])
+        buff.write(self.packed)
+
+
+class _PackedMesh(_Packed, DeformableMesh):
+    array_count = 2
+
+    def pack(self, vertices, faces):
+        self.packed = _packed_array(faces, '<u4') + _packed_array(vertices, '<f8')
+
+
+class _PackedVertices(_Packed, MeshVertices):
+    array_count = 1
+
+    def pack(self, vertices):
+        self.packed = _packed_array(vertices.ravel(), '<f4')
+
+
+def _packed_array(array, dtype):
+    return _COUNT.pack(len(array)) + array.astype(dtype).tobytes()
+
+
+def _checked_name(what, name):
+    if not name or len(name.encode()) > _MAX_NAME_LENGTH or not name.isprintable():
+        raise ValueError(f'{what} is {name!r}: give 1 to {_MAX_NAME_LENGTH} printable characters')
+    return name
+
+
+class MeshPublisher(rospy.SubscribeListener):
+    """Publishes one workpiece: its triangles once, then its vertices as it deforms.
+
+    A guard that starts later, or again, receives the newest mesh of every MeshPublisher of the node. rospy's own latch
+    keeps one message for each topic of a node, however many publishers the node has.
+    """
+
+    _publishing = threading.RLock()  # rospy's message to one new subscriber shares a buffer with those to all
+
+    def __init__(self, mesh_id: str, frame: str, mesh_topic: str = 'mesh', vertices_topic: str = 'mesh_vertices',
+                 queue_size: int = 10):
+        """
+        mesh_id: name of the workpiece
+        frame: tf frame of the vertices
+        queue_size: how many vertex messages of this node may wait for the network, of all its workpieces together;
+            then the oldest is dropped
+        """
+        self.mesh_id = _checked_name('mesh_id', mesh_id)
+        self.frame = _checked_name('frame', frame)
+        self.revision = 0
+        self._faces = self._vertex_count = self._newest = None
+        self._mesh = rospy.Publisher(mesh_topic, DeformableMesh, subscriber_listener=self, queue_size=_MAX_WORKPIECES,
+                                     headers={'latching': '1'})
+        self._vertices = rospy.Publisher(vertices_topic, MeshVertices, queue_size=queue_size)
+
+    def publish(self, vertices: Any, faces: Optional[Rows] = None, stamp: Optional[rospy.Time] = None) -> None:
+        """Publishes vertices [m] and triangles, or a mesh that has `vertices` and `faces`, as trimesh's.
+
+        The revision changes with the triangles. stamp: when the vertices had these positions; None: now.
+        Raises ValueError, and sends nothing, if the guard would refuse the mesh.
+        """
+        if faces is None:
+            if not (hasattr(vertices, 'vertices') and hasattr(vertices, 'faces')):
+                raise ValueError('give vertices and faces, or one mesh that has both')
+            vertices, faces = vertices.vertices, vertices.faces
+        vertices = checked_vertices(vertices)
+        faces = checked_faces(faces, len(vertices))
+        with self._publishing:
+            self._count_revision(faces, len(vertices))
+            mesh = self._fill(_PackedMesh(), stamp)
+            mesh.pack(vertices, faces)
+            self._newest = mesh
+            self._mesh.publish(mesh)
+
+    def deform(self, vertices: Rows, stamp: Optional[rospy.Time] = None) -> None:
+        """Publishes new positions [m] of all vertices of the published mesh, in their order. Sends float32.
+
+        Raises ValueError, and sends nothing, if the guard would refuse them.
+        """
+        vertices = checked_vertices(vertices)
+        with self._publishing:
+            if self._newest is None:
+                raise ValueError(f"'{self.mesh_id}' is not published: call publish(vertices, faces) first")
+            if len(vertices) != self._vertex_count:
+                raise ValueError(f"{len(vertices)} vertices, but '{self.mesh_id}' has {self._vertex_count}: "
+                                 'call publish(vertices, faces) when the triangles change')
+            update = self._fill(_PackedVertices(), stamp)
+            update.pack(vertices)
+            self._vertices.publish(update)
+
+    def remove(self) -> None:
+        """Removes the workpiece from the guard, whoever published it."""
+        with self._publishing:
+            self._newest = self._faces = None
+            self._mesh.publish(self._fill(DeformableMesh(), None))
+
+    def peer_subscribe(self, topic_name, topic_publish, peer_publish):
+        with self._publishing:
+            if self._newest is not None:
+                peer_publish(self._newest)
+
+    def _count_revision(self, faces, vertex_count):
+        same = self._faces is not None and vertex_count == self._vertex_count and numpy.array_equal(faces, self._faces)
+        if not same:
+            self.revision += 1
+        self._faces, self._vertex_count = faces, vertex_count
+
+    def _fill(self, message, stamp):
+        message.header.stamp = rospy.Time.now() if stamp is None else stamp
+        message.header.frame_id = self.frame
+        message.id = self.mesh_id
+        message.revision = self.revision
+        return message
