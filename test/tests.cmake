@@ -17,6 +17,15 @@ target_link_libraries(sweep_guard_probe sweep_guard_ros GTest::gtest)
 target_precompile_headers(sweep_guard_probe PRIVATE ${test_headers}
   <geometry_msgs/PoseStamped.h> <ros/ros.h> <std_srvs/SetBool.h> <std_srvs/Trigger.h> <visualization_msgs/MarkerArray.h>)
 
+# Folders for LD_LIBRARY_PATH, each with an empty file in place of a library: a program that has one cannot load that library.
+foreach(library libOSMesa.so.8 libEGL.so.1)
+  file(WRITE ${PROJECT_BINARY_DIR}/test/empty/${library}/${library} "")
+endforeach()
+# sweep_guard_empty_libraries(TARGET) - for a test that includes missing_libraries.h
+function(sweep_guard_empty_libraries target)
+  target_compile_definitions(${target} PRIVATE SWEEP_GUARD_EMPTY_LIBRARIES="${PROJECT_BINARY_DIR}/test/empty")
+endfunction()
+
 # sweep_guard_gtest(TARGET SOURCE...) - a test program of the core. catkin links it to Google Test without a keyword, so
 # this has to as well.
 function(sweep_guard_gtest target)

@@ -25,6 +25,7 @@ void setParameters(const Settings& settings) {
   guard.setParam("tool/radius", 0.005);
   guard.setParam("tool/length", 0.05);
   guard.setParam("detector", settings.detector);
+  guard.setParam("gl_context", "osmesa");  // with `auto`, another detector could be measured
   for (const std::string& parameter : settings.parameters) {
     const size_t equals = parameter.find('=');
     if (equals == std::string::npos) throw InvalidInput("--set: '" + parameter + "' is not key=value");

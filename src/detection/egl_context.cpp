@@ -26,8 +26,7 @@ class Egl {
     return display;
   }
 
-  GlLibrary library{"libEGL.so.1",
-                    "install libegl1 and libegl-mesa0, or set gl_context to osmesa, or detector to reference"};
+  GlLibrary library{"libEGL.so.1", "install libegl1 and libegl-mesa0"};
   decltype(::eglGetProcAddress)* getProcAddress = library.function<decltype(::eglGetProcAddress)>("eglGetProcAddress");
   decltype(&::eglBindAPI) bindApi = load<decltype(&::eglBindAPI)>("eglBindAPI");
   decltype(&::eglCreateContext) createContext = load<decltype(&::eglCreateContext)>("eglCreateContext");

@@ -7,7 +7,7 @@ namespace sweep_guard_core {
 std::unique_ptr<OffscreenContext> makeOffscreenContext(const std::string& name) {
   if (name == "osmesa") return makeOsMesaContext();
   if (name == "egl") return makeEglContext();
-  throw InvalidInput("gl_context '" + name + "' is unknown: use osmesa or egl");
+  throw InvalidInput("gl_context '" + name + "' is unknown: use auto, osmesa or egl");
 }
 
 const std::vector<std::string>& offscreenContextNames() {

@@ -16,7 +16,7 @@ struct OsMesa {
   using MakeCurrent = GLboolean(Context context, void* buffer, GLenum type, GLsizei width, GLsizei height);
   using GetProcAddress = OffscreenContext::Function(const char* name);
 
-  GlLibrary library{"libOSMesa.so.8", "install libosmesa6, or set gl_context to egl, or detector to reference"};
+  GlLibrary library{"libOSMesa.so.8", "install libosmesa6"};
   CreateContext* createContext = library.function<CreateContext>("OSMesaCreateContext");
   DestroyContext* destroyContext = library.function<DestroyContext>("OSMesaDestroyContext");
   MakeCurrent* makeCurrent = library.function<MakeCurrent>("OSMesaMakeCurrent");

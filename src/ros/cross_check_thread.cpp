@@ -81,7 +81,7 @@ CrossCheckThread::Other& CrossCheckThread::other(const std::string& name) {
 // Without OpenGL, `reference` stands in for `select`.
 CrossCheckThread::Other CrossCheckThread::make(const std::string& name) const {
   try {
-    return {name, sweep_guard_core::makeDetector(name, parameters_.initial().detector_options)};
+    return {name, sweep_guard_core::makeDetector(name, parameters_.initial().detector.options)};
   } catch (const sweep_guard_core::DeviceError& error) {
     ROS_WARN("cross-check by reference instead of %s: %s", name.c_str(), error.what());
     return {"reference", sweep_guard_core::makeDetector("reference")};

@@ -7,6 +7,7 @@
 
 #include "common/heartbeat.h"
 #include "prediction/profile.h"
+#include "ros/available_detector.h"
 #include "ros/detector_test.h"
 #include "ros/process.h"
 #include "sweep_guard/common/error.h"
@@ -37,11 +38,11 @@ bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
 std::unique_ptr<sweep_guard_core::Detector> firstDetector(const GuardThreadDependencies& dependencies) {
   const Parameters& parameters = dependencies.parameters.initial();
   auto detector = dependencies.make_detector(parameters);
-  const std::string failure = testFailure(parameters, parameters.detector_description, *detector);
+  const std::string failure = testFailure(parameters, describe(parameters.detector), *detector);
   if (!failure.empty() && parameters.self_test == SelfTest::kExit) throw sweep_guard_core::DeviceError(failure);
   if (!failure.empty()) ROS_ERROR("%s", failure.c_str());
   dependencies.monitor.detectorTested(failure);
-  return sampled(std::move(detector), parameters.detector, dependencies.sampler);
+  return sampled(std::move(detector), parameters.detector.name, dependencies.sampler);
 }
 
 Timestamps timestampsOf(const sweep_guard_core::PoseWithFrames& pose) { return {pose.stamp, pose.received}; }
@@ -75,9 +76,9 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   const auto before = dependencies_.parameters.get();
   if (detectorsDiffer(*before, *next)) {
     auto detector = dependencies_.make_detector(*next);
-    const std::string failure = testFailure(*next, next->detector_description, *detector);
+    const std::string failure = testFailure(*next, describe(next->detector), *detector);
     if (!failure.empty()) throw sweep_guard_core::DeviceError(failure + ": no parameter was changed");
-    change.detector = sampled(std::move(detector), next->detector, dependencies_.sampler);
+    change.detector = sampled(std::move(detector), next->detector.name, dependencies_.sampler);
   }
   if (differ(*before, *next, "prediction/") || differ(*before, *next, "limits/")) {
     change.predictor.emplace(next->guard.predictor);

@@ -36,7 +36,7 @@ struct GuardThreadDependencies {
   ScenePublisher& scene;
   sweep_guard_core::QuerySampler& sampler;
   std::function<std::unique_ptr<sweep_guard_core::Detector>(const Parameters&)> make_detector =
-      [](const Parameters& wanted) { return sweep_guard_core::makeDetector(wanted.detector, wanted.detector_options); };
+      [](const Parameters& wanted) { return makeDetector(wanted.detector.name, wanted.detector.options); };
 };
 
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "ros/available_detector.h"
+
 namespace sweep_guard_ros {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
 }  // namespace
 
 SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process)
-    : parameters_(loadParameters(private_node)),
+    : parameters_(withAvailableDetector(loadParameters(private_node))),
       master_watch_(private_node, parameters_),
       monitor_(
           parameters_.initial().limits, [this] { warnings_.publishIfChanged(); },
@@ -85,7 +87,10 @@ SweepGuardNode::~SweepGuardNode() {
   guard_thread_.stop();
 }
 
-void SweepGuardNode::apply(const std::shared_ptr<const Parameters>& next) {
+void SweepGuardNode::apply(const std::shared_ptr<const Parameters>& wanted) {
+  const auto next = detectorsDiffer(*parameters_.get(), *wanted)
+                        ? std::make_shared<const Parameters>(withAvailableDetector(*wanted))
+                        : wanted;
   guard_thread_.apply(next);
   marker_timer_.setPeriod(sweep_guard_core::fromSeconds(1.0 / next->marker_rate));
   warnings_.publishIfChanged();
@@ -94,7 +99,7 @@ void SweepGuardNode::apply(const std::shared_ptr<const Parameters>& next) {
 void SweepGuardNode::logStart() const {
   const Parameters& initial = parameters_.initial();
   ROS_INFO("guarding '%s' (%s) in '%s' by %s, %s; poses from %s, meshes from %s and %s", initial.tool_frame.c_str(),
-           initial.tool_description.c_str(), initial.fixed_frame.c_str(), initial.detector_description.c_str(),
+           initial.tool_description.c_str(), initial.fixed_frame.c_str(), describe(initial.detector).c_str(),
            sweep_guard_core::nameOf(initial.guard.sweep.volume).c_str(), poses_.source().c_str(),
            meshes_.meshTopic().c_str(), meshes_.verticesTopic().c_str());
 }

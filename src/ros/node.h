@@ -36,7 +36,7 @@ class SweepGuardNode {
   const Parameters& parameters() const { return parameters_.initial(); }  ///< at the start
 
  private:
-  void apply(const std::shared_ptr<const Parameters>& next);
+  void apply(const std::shared_ptr<const Parameters>& wanted);
   void logStart() const;
 
   // Members use only earlier members. Exception: the monitor reports faults to warnings_ and asks

@@ -25,7 +25,7 @@ class DiagnosticsTest : public NodeTest {
 
 DiagnosticStatus detectorOf(SweepStatistics& statistics) {
   Parameters parameters;
-  parameters.detector = "halfspace";
+  parameters.detector.name = "halfspace";
   diagnostic_updater::DiagnosticStatusWrapper status;
   reportDetector(statistics.take(), parameters, status);
   return status;

@@ -64,9 +64,9 @@ TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
     EXPECT_EQ(reach(loaded, direction), reach(defaults, direction));
   }
   EXPECT_EQ(corners(loaded), corners(defaults));
-  EXPECT_EQ(loaded.detector, defaults.detector);
-  EXPECT_EQ(loaded.detector_options.cull, defaults.detector_options.cull);
-  EXPECT_EQ(loaded.detector_options.gl_context, defaults.detector_options.gl_context);
+  EXPECT_EQ(loaded.detector.name, defaults.detector.name);
+  EXPECT_EQ(loaded.detector.options.cull, defaults.detector.options.cull);
+  EXPECT_EQ(loaded.detector.options.gl_context, defaults.detector.options.gl_context);
   EXPECT_EQ(loaded.self_test, defaults.self_test);
   EXPECT_EQ(loaded.cross_check, defaults.cross_check);
   EXPECT_EQ(loaded.check_sweep_deadline, defaults.check_sweep_deadline);
@@ -104,7 +104,7 @@ TEST_F(ParametersTest, HaveTheValuesThatAreSet) {
   const Parameters parameters = loadParameters(node_);
   EXPECT_EQ(reach(parameters, Eigen::Vector3d::UnitX()), 0.002);
   EXPECT_EQ(reach(parameters, -Eigen::Vector3d::UnitZ()), 1.0);
-  EXPECT_EQ(parameters.detector, "reference");
+  EXPECT_EQ(parameters.detector.name, "reference");
   EXPECT_EQ(parameters.guard.sweep.volume, sweep_guard_core::VolumeKind::kObb);
   EXPECT_EQ(parameters.limits.mesh_timeout, sweep_guard_core::Duration::max());
 }
@@ -175,7 +175,7 @@ TEST_F(ParametersTest, ChangeAsRequestedAndNoOthers) {
   node_.setParam("tool/radius", 0.03);
   const Parameters after =
       changeParameters(node_, before, {{"detector", std::string("reference")}, {"horizon/considered", 2}});
-  EXPECT_EQ(after.detector, "reference");
+  EXPECT_EQ(after.detector.name, "reference");
   EXPECT_EQ(after.guard.horizon.considered, std::chrono::seconds(2));
   EXPECT_EQ(after.guard.horizon.reflex, std::chrono::milliseconds(200));
   EXPECT_EQ(after.tool, before.tool);
@@ -338,7 +338,7 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("volume", "sphere", "obb, obb_planes, hull");
   refused("detector", "plane", "select, halfspace, reference");
   refused("cull", 1, "true or false");
-  refused("gl_context", "glx", "osmesa, egl");
+  refused("gl_context", "glx", "auto, osmesa, egl");
   refused("self_test", false, "a text");  // what YAML makes of off
   refused("self_test", "warn", "unknown, exit, none");
   refused("cross_check", -1, "0 to 1000000");

@@ -356,10 +356,10 @@ TEST_F(BiasedDetectorTest, IsNeverClearUntilItIsExchangedForAGoodOne) {
   auto client = clientOf<Reconfigure>("set_parameters");
   EXPECT_FALSE(client.call(request, response));
   EXPECT_TRUE(has(reconfigure_server_.history().last_refusal, "no parameter was changed"));
-  EXPECT_EQ(parameters_.get()->detector, "select");
+  EXPECT_EQ(parameters_.get()->detector.name, "select");
   detector_record_.drop_every = 0;
   EXPECT_TRUE(clientOf<Reconfigure>("set_parameters").call(request, response));
-  EXPECT_EQ(parameters_.get()->detector, "halfspace");
+  EXPECT_EQ(parameters_.get()->detector.name, "halfspace");
   EXPECT_EQ(warning().reasons & sweep_guard_core::kSelftest, 0U);
 }
 

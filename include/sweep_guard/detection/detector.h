@@ -48,12 +48,15 @@ class Detector {
   Detection detection_;
 };
 
+/// `gl_context` that takes the first of offscreenContextNames() that works on this machine.
+constexpr const char* kAnyGlContext = "auto";
+
 /// Options of `select`; the other detectors ignore them. They do not change what detect() promises, but without `cull`
 /// the inflation may be larger.
 struct DetectorOptions {
-  bool cull = true;                   ///< draw only the triangles that tests against the volume's planes leave in doubt
-  std::string gl_context = "osmesa";  ///< one of offscreenContextNames()
-  int triangles_per_name = 64;        ///< triangles drawn under one OpenGL name in the first pass, >= 1 (asserted)
+  bool cull = true;  ///< draw only triangles that tests against the volume's planes leave in doubt
+  std::string gl_context = kAnyGlContext;  ///< kAnyGlContext or one of offscreenContextNames()
+  int triangles_per_name = 64;             ///< triangles drawn under one OpenGL name in the first pass, >= 1 (asserted)
 };
 
 /// Makes a detector.
@@ -61,14 +64,28 @@ struct DetectorOptions {
 ///              units) or `reference` (clips every triangle in double precision)
 /// @throws InvalidInput if the name of the detector or of the context is unknown, or if the environment variable
 ///     SWEEP_GUARD_SIMD is wrong (simd::kernels())
-/// @throws DeviceError if `select` finds no usable off-screen context
+/// @throws DeviceError if `select` finds no usable off-screen context: no other detector replaces it, also not on
+///     kAnyGlContext (but see availableDetector())
 std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOptions& options = {});
+
+/// Names a detector for makeDetector().
+struct DetectorChoice {
+  std::string name;
+  DetectorOptions options;
+  std::string missing;  ///< the contexts that were tried before and why each failed; empty: none failed
+
+  bool replacesSelect() const { return name == "halfspace" && !missing.empty(); }
+};
+
+/// Chooses a detector that this machine can make: `select` on kAnyGlContext becomes `select` on the first context that
+/// works or, if none does, `halfspace`. Every other choice stays as it is. Makes a context, to try it: some ms.
+DetectorChoice availableDetector(const std::string& name, const DetectorOptions& options = {});
 
 /// Returns the names that makeDetector() knows.
 const std::vector<std::string>& detectorNames();
 
-/// Returns the names of the off-screen OpenGL contexts that `select` knows: `osmesa` and `egl`. They may not be
-/// installed.
+/// Returns the names of the off-screen OpenGL contexts that `select` knows, in the order in which kAnyGlContext tries
+/// them: `osmesa` and `egl`. They may not be installed.
 const std::vector<std::string>& offscreenContextNames();
 
 }  // namespace sweep_guard_core

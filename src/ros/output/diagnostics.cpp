@@ -152,17 +152,21 @@ void Diagnostics::detector(Status& status) const {
 void reportDetector(const SweepStatistics::Summary& statistics, const Parameters& parameters,
                     diagnostic_updater::DiagnosticStatusWrapper& status) {
   const sweep_guard_core::Duration cycle = parameters.guard.cycle;
-  status.summary(DiagnosticStatus::OK, parameters.detector + " keeps up");
+  const sweep_guard_core::DetectorChoice& detector = parameters.detector;
+  status.summary(DiagnosticStatus::OK, detector.name + " keeps up");
   if (statistics.latencies.empty() && statistics.faults == 0) {
     status.summary(DiagnosticStatus::WARN, "no tool pose to sweep to");
   }
   if (!statistics.latencies.empty() && quantile(statistics.latencies, 1.0) > toSeconds(cycle)) {
-    status.summary(DiagnosticStatus::WARN,
-                   parameters.detector + " is slower than timing/min_rate: use fewer triangles");
+    status.summary(DiagnosticStatus::WARN, detector.name + " is slower than timing/min_rate: use fewer triangles");
+  }
+  if (detector.replacesSelect()) {
+    status.mergeSummary(DiagnosticStatus::WARN, detector.name + " instead of select: " + detector.missing);
   }
   if (statistics.faults > 0) status.mergeSummary(DiagnosticStatus::ERROR, "failed: " + statistics.last_fault);
-  status.add("detector", parameters.detector);
-  if (parameters.detector == "select") status.add("gl_context", parameters.detector_options.gl_context);
+  status.add("detector", detector.name);
+  if (detector.name == "select") status.add("gl_context", detector.options.gl_context);
+  if (!detector.missing.empty()) status.add("missing", detector.missing);
   status.add("volume", sweep_guard_core::nameOf(parameters.guard.sweep.volume));
   status.add("poses swept", statistics.sweeps_total);
   status.addf("deadline [ms]", "%.1f", 1e3 * toSeconds(cycle));

@@ -11,7 +11,6 @@
 #include "ros/profile_file.h"
 #include "ros/tool/tool_model.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/simd/kernels.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -255,22 +254,21 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                                     "tf frame of the tool, and the tool's name in messages. With tool/type urdf: the "
                                     "link that the poses are of; `tool` means the first of tool/links.");
   readTool(read, before, parameters);
-  parameters.detector = read.choice("detector", "select", sweep_guard_core::detectorNames(),
-                                    "select: OpenGL selection off screen. halfspace: the same test on the processor's "
-                                    "vector units, the fastest. reference: clips every triangle in double precision, "
-                                    "slow.");
-  parameters.detector_options.cull = read.flag(
+  parameters.detector.name =
+      read.choice("detector", "select", sweep_guard_core::detectorNames(),
+                  "select: OpenGL selection off screen. halfspace: the same test on the processor's "
+                  "vector units, the fastest. reference: clips every triangle in double precision, "
+                  "slow.");
+  parameters.detector.options.cull = read.flag(
       "cull", true, "select only: draws only triangles that do not lie wholly beyond one plane of the volume.");
-  parameters.detector_options.gl_context =
-      read.choice("gl_context", "osmesa", sweep_guard_core::offscreenContextNames(),
-                  "select only: library that gives it OpenGL. Both are Mesa, "
-                  "render in software and answer alike; Mesa has no OSMesa from "
-                  "version 25.1 on.");
-  parameters.detector_description = parameters.detector;
-  if (parameters.detector == "select")
-    parameters.detector_description += " on " + parameters.detector_options.gl_context;
-  if (parameters.detector == "halfspace")
-    parameters.detector_description += std::string(" on ") + sweep_guard_core::simd::kernels().name;
+  std::vector<std::string> gl_contexts = sweep_guard_core::offscreenContextNames();
+  gl_contexts.insert(gl_contexts.begin(), sweep_guard_core::kAnyGlContext);
+  parameters.detector.options.gl_context =
+      read.choice("gl_context", gl_contexts.front(), gl_contexts,
+                  "select only: library that gives it OpenGL. Both are Mesa, render in software and answer alike; Mesa "
+                  "has no OSMesa from version 25.1 on. auto: osmesa, or egl if that is missing, or if both are missing "
+                  "the detector halfspace; log and /diagnostics say which and why. osmesa, egl: if it is missing, the "
+                  "node ends with status 2.");
   const std::string self_test = read.choice(
       "self_test", "unknown", {"unknown", "exit", "none"},
       "The detector is tested at the start on triangles whose answers are known. If it fails: unknown: the warning is "
@@ -352,6 +350,7 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
   parameters.settings = read.settings();
   parameters.described = read.described();
+  if (before != nullptr && !detectorsDiffer(*before, parameters)) parameters.detector = before->detector;
   return parameters;
 }
 

@@ -28,11 +28,9 @@ struct Parameters {
   ToolSource tool_source;
   std::string tool_frame;
   std::shared_ptr<const sweep_guard_core::Tool> tool;
-  double tool_padding;           ///< [m]
-  std::string tool_description;  ///< shape and source of the tool, for people
-  std::string detector;
-  std::string detector_description;  ///< its name and its OpenGL library, for people
-  sweep_guard_core::DetectorOptions detector_options;
+  double tool_padding;                        ///< [m]
+  std::string tool_description;               ///< shape and source of the tool, for people
+  sweep_guard_core::DetectorChoice detector;  ///< as configured, until it is replaced by one that is available
   SelfTest self_test;
   int cross_check;  ///< of so many queries of the detector, one is asked twice; 0: none
   sweep_guard_core::GuardOptions guard;

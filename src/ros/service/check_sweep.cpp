@@ -103,7 +103,7 @@ bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Respons
 void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
   const auto question = std::make_shared<PathQuestion>();
   question->parameters = dependencies_.parameters.get();
-  question->detector = request.detector.empty() ? question->parameters->detector : request.detector;
+  question->detector = request.detector.empty() ? question->parameters->detector.name : request.detector;
   question->options = optionsOf(request, question->parameters->guard.sweep);
   question->go_on = untilDeadline(question->parameters->check_sweep_deadline);
   // Before the snapshot is taken: what is accepted later does not better it.

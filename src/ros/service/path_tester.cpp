@@ -28,7 +28,7 @@ void PathTester::setParameters(const std::shared_ptr<const Parameters>& current)
 sweep_guard_core::Detector& PathTester::detector(const std::string& name) {
   const auto made = detectors_.find(name);
   if (made != detectors_.end()) return *made->second;
-  auto detector = make_detector_(name, parameters_->detector_options);
+  auto detector = make_detector_(name, parameters_->detector.options);
   const std::string failure = testFailure(*parameters_, name, *detector);
   if (!failure.empty()) throw sweep_guard_core::DeviceError(failure);
   return *detectors_.emplace(name, std::move(detector)).first->second;

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "ros/available_detector.h"
 #include "ros/detector_test.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
@@ -73,8 +74,8 @@ void PredictService::refreshParameters() {
   const auto current = live_.get();
   if (current == parameters_) return;
   if (!detector_ || detectorsDiffer(*parameters_, *current)) {
-    auto detector = sweep_guard_core::makeDetector(current->detector, current->detector_options);
-    const std::string failure = testFailure(*current, current->detector_description, *detector);
+    auto detector = makeDetector(current->detector.name, current->detector.options);
+    const std::string failure = testFailure(*current, describe(current->detector), *detector);
     if (!failure.empty()) throw sweep_guard_core::DeviceError(failure);
     detector_ = std::move(detector);
   }
