@@ -78,7 +78,7 @@ Eigen::Isometry3d pose(double x, double y, double z, double tilt, double yaw) {
   return X_MT;
 }
 
-// Names the triangles that it is told, in no time.
+// Names the triangles that it is given, in no time.
 class Named : public Detector {
  public:
   TriangleSet triangles;

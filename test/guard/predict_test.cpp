@@ -237,14 +237,15 @@ TEST_F(GuardPredictionTest, AContactTooFarToMatterIsNotReported) {
       guard_.exchange(change);
       guard_.reset();
       follow(comingDown(0.001 * mm, 0.02));
+      const Prediction prediction = predict();
       double nearest = kFar;
-      for (const PredictedSweep& sweep : predict().objects[0].sweeps) nearest = std::min(nearest, sweep.deviations);
+      for (const PredictedSweep& sweep : prediction.objects.at(0).sweeps) nearest = std::min(nearest, sweep.deviations);
       return nearest;
     };
     const double nearest = nearestWithin(kMaxDeviations);
     if (std::abs(nearest - kMost) < 0.01) continue;
     const double found = nearestWithin(kMost);
-    EXPECT_NEAR(std::min(found, kMost), std::min(nearest, kMost), 2e-3) << mm;
+    EXPECT_NEAR(std::min(found, kMost), std::min(nearest, kMost), 5e-3) << mm;
     EXPECT_EQ(found > kMost, nearest > kMost) << mm;
     far += nearest > kMost && nearest < kFar;
     near += nearest > 0.0 && nearest < kMost;
