@@ -11,7 +11,7 @@ thread_local StageClock* current = nullptr;
 }  // namespace
 
 void StageClock::begin(Stage stage) {
-  current = this;
+  current = stage == Stage::kOther ? nullptr : this;
   stage_ = stage;
   since_ = std::chrono::steady_clock::now();
 }

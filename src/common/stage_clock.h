@@ -18,7 +18,8 @@ using StageTimes = std::array<Duration, kStageNames.size()>;  ///< in the order 
 /// stage is within another, only the inner one counts. One thread works, any thread reads.
 class StageClock {
  public:
-  /// Begins a piece of work of the calling thread, in this stage: its InStage count here until end().
+  /// Begins a piece of work of the calling thread, in this stage: its InStage count here until end(), but not in kOther,
+  /// so that a service that sweeps does not count as the guard.
   void begin(Stage stage);
   void end();
   StageTimes read() const;  ///< since the construction, without the part of the stage that is not over yet

@@ -27,7 +27,7 @@ using IsLocalMinimum = std::function<bool(const Eigen::Vector3d& direction, doub
 /// polytope algorithm of libccd proposes another direction, and the better result counts. Face normals are proposals that
 /// serve flat bodies, for which libccd makes no polytope.
 /// @param proposals  not empty
-/// @param neighbors  minimum translation directions of bodies near the obstacle: further proposals
+/// @param neighbors  minimum translation directions of bodies near the obstacle; the last is a further proposal
 /// @param size       approximate size of the smaller body [m], > 0
 /// @param is_local_minimum  saves the search for an improvement
 Eigen::Vector3d minimumTranslationDirection(

@@ -202,11 +202,22 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
 }
 
 void PathChecker::detectContacts(const Scene& scene, const Submesh& submesh) {
+  hulls_miss_ = true;
   for (const auto& [body, candidate] : unseparated_) {
     detect(scene.detector, submesh, body, detection_);
     unite(not_ruled_out_, detection_.triangles);
     if (!detection_.triangles.empty()) in_contact_ = nearer(in_contact_, candidate);
+    hulls_miss_ = hulls_miss_ && hullMissesDetected(body, submesh.mesh_M());
   }
+}
+
+// Returns whether the hull of a body proves that it misses the triangles that its volume meets.
+bool PathChecker::hullMissesDetected(const SweptBody& body, const TriangleMesh& mesh_M) const {
+  const MovingMesh at_rest(mesh_M);
+  return std::all_of(detection_.triangles.begin(), detection_.triangles.end(), [&](std::uint32_t triangle) {
+    beat();
+    return missedByHull(*body.shape_T, body.motion_M, at_rest.triangle(triangle), body.volume_M.margin);
+  });
 }
 
 // Takes each triangle that no plane separates for met.
@@ -215,18 +226,6 @@ void PathChecker::assumeContacts(const Submesh& submesh) {
     unite(not_ruled_out_, meter_.notSeparated(submesh, body.volume_M));
     in_contact_ = nearer(in_contact_, candidate);
   }
-}
-
-// Returns whether the hulls of the unseparated pieces prove that they miss the triangles that their volumes meet.
-bool PathChecker::missedByHulls(const Submesh& submesh) const {
-  const MovingMesh at_rest(submesh.mesh_M());
-  return std::all_of(unseparated_.begin(), unseparated_.end(), [&](const Unseparated& one) {
-    return std::all_of(not_ruled_out_.begin(), not_ruled_out_.end(), [&](std::uint32_t triangle) {
-      beat();
-      const SweptBody& body = one.body;
-      return missedByHull(*body.shape_T, body.motion_M, at_rest.triangle(triangle), body.volume_M.margin);
-    });
-  });
 }
 
 void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress,
@@ -251,12 +250,16 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
   const bool in_time = !candidate.piece || scene.inTimeFor(segment);
   const bool finer = !progress.contact && in_time;
   if (in_time) progress.object.volumes_tested += swept.bodies.size();
-  in_time ? detectContacts(scene, submesh) : assumeContacts(submesh);
+  if (in_time) {
+    detectContacts(scene, submesh);
+  } else {
+    assumeContacts(submesh);
+  }
   if (!not_ruled_out_.empty() && finer && length > options_.finest) return halve();
 
   const auto tool_piece = not_ruled_out_.empty() ? candidate.piece : in_contact_.piece;
-  const bool only_volume = candidate.deviations < 0.0 && segment.to <= scene.reflex_end && missedByHulls(submesh);
-  const double deviations = only_volume ? 0.0 : candidate.deviations;
+  const bool only_volume = !not_ruled_out_.empty() && hulls_miss_ && segment.to <= scene.reflex_end;
+  const double deviations = only_volume ? std::max(0.0, candidate.deviations) : candidate.deviations;
   progress.object.sweeps.push_back({segment.from, !not_ruled_out_.empty(), deviations, tool_piece});
   progress.contact = progress.contact || !not_ruled_out_.empty();
   unite(*progress.triangles, not_ruled_out_);

@@ -103,7 +103,7 @@ class PathChecker {
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
                           const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations);
-  bool missedByHulls(const Submesh& submesh) const;
+  bool hullMissesDetected(const SweptBody& body, const TriangleMesh& mesh_M) const;
   void checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress, size_t halvings);
   Submesh submeshInReach(const Submesh& around, const Eigen::AlignedBox3d& reach_M, size_t halvings);
 
@@ -124,6 +124,7 @@ class PathChecker {
   std::vector<Unseparated> unseparated_;  // pieces of the tool that no plane separates from the mesh
   TriangleSet not_ruled_out_;             // triangles that these pieces may meet
   Candidate in_contact_;                  // the nearest of the pieces that meet one
+  bool hulls_miss_ = false;               // the hulls of all pieces miss what their volumes meet
 };
 
 }  // namespace sweep_guard_core

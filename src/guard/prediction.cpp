@@ -4,6 +4,7 @@
 #include <iterator>
 
 namespace sweep_guard_core {
+
 std::vector<std::uint32_t> PredictedObject::triangles() const {
   std::vector<std::uint32_t> all;
   std::merge(reflex.begin(), reflex.end(), considered.begin(), considered.end(), std::back_inserter(all));

@@ -52,6 +52,17 @@ TEST(StageClockTest, AStageThatIsEnteredAgainAddsUp) {
   EXPECT_GE(timeIn(clock, Stage::kReceive), worked);
 }
 
+TEST(StageClockTest, WhatIsNoStageHasNoneWithinIt) {
+  StageClock clock;
+  clock.begin(Stage::kOther);
+  {
+    const InStage stage(Stage::kNarrowPhase);
+    work();
+  }
+  clock.end();
+  EXPECT_EQ(sum(clock.read()), Duration::zero());
+}
+
 TEST(StageClockTest, StandsStillBetweenTwoPiecesOfWork) {
   StageClock clock;
   clock.begin(Stage::kReceive);

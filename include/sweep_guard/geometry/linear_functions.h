@@ -10,7 +10,6 @@ namespace sweep_guard_core {
 class LinearFunctions {
  public:
   void add(const Eigen::Vector3d& gradient, double constant);
-  void clear() { *this = {}; }
   bool empty() const { return size_ == 0; }
 
   /// Returns the index, in the order of add(), of a function that is largest at `p`, up to rounding. There must be one

@@ -28,8 +28,8 @@ struct PredictedSweep {
   Duration from{};       ///< start; the sweep lasts until the next one begins or the path ends
   bool contact = false;  ///< a volume along the predicted path is not proven free; no narrow phase
   /// Number of standard deviations by which the tool must leave the path here to meet the workpiece; negative if the
-  /// path meets it: to be free. 0 if, in the reflex interval, the volume meets it and the tool does not: short sweeps are
-  /// surer than the volume is tight. Infinite beyond
+  /// path meets it: to be free. 0 if, in the reflex interval, the volume meets it and the hull of the tool does not: the
+  /// error of so short a prediction is smaller than the space that the volume leaves. Infinite beyond
   /// GuardOptions::max_deviations.
   double deviations = std::numeric_limits<double>::infinity();
   /// Index of the convex piece of the tool with these deviations; with `contact`, of those that meet the workpiece.

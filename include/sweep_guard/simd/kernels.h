@@ -6,9 +6,8 @@
 #include <vector>
 
 /// The loops over vertices and boxes in float32, and over corners and directions in double, on which the speed of a sweep
-/// depends. They are compiled for several
-/// instruction sets; the best one of the machine is selected at the first use. Rounding differs between the instruction
-/// sets, and callers have to allow for it.
+/// depends. They are compiled for several instruction sets; the best one of the machine is selected at the first use.
+/// Rounding differs between the instruction sets, and callers have to allow for it.
 namespace sweep_guard_core::simd {
 
 /// Number of vertices in a block: consecutive vertices that share a box.

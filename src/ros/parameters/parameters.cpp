@@ -26,6 +26,7 @@ constexpr double kMaxHorizon = 5.0;  // [s]
 constexpr double kMinProbability = 0.001;
 constexpr double kShownProbability = 0.01;  // smaller ones are shown only if a warning depends on them
 const std::string kOldThreshold = "warning/min_probability";
+constexpr double kOldDefault = 0.1;  // on the scale of the old name
 const std::vector<std::string> kThresholds = {"warning/considered_on", "warning/considered_off",
                                               "warning/reflex_probability"};
 
@@ -133,7 +134,7 @@ sweep_guard_core::WarningThresholds readThresholds(ParameterReader& read) {
   const ParameterReader::Range any{kMinProbability, 1.0};
   sweep_guard_core::WarningThresholds thresholds;
   const std::optional<double> all =
-      read.deprecatedNumber(kOldThreshold, thresholds.reflex, any,
+      read.deprecatedNumber(kOldThreshold, kOldDefault, any,
                             "Old name, and old scale: sets those of warning/considered_on, warning/considered_off and "
                             "warning/reflex_probability that are not set themselves; while the guard runs, those that "
                             "are not in the same request.");
