@@ -15,9 +15,8 @@ SMALL, LARGE, HUGE = 1600, 99856, 1000000
 # Least ratios to ours, p10: of one query at SMALL, of one at LARGE, of twenty at LARGE.
 PEERS = {'FCL AABB': (15, 55, 15), 'Embree': (6, 24, 4.5), 'Bullet': (7, 33, 6), 'scalar': (2.4, 6.5, 22),
          'OSMesa': (120, 1000, 2000)}  # at SMALL ours is little more than fixed costs, which differ between machines
-# Largest ratios of a frame with one sweep to a plain reading. What a sweep reads after a pass over HUGE is no longer in the
-# near caches: the sweep takes half as long again as alone.
-READ = {HUGE: 1.9, LARGE: 5.5}
+# Largest ratios of a frame with one sweep to a plain reading.
+READ = {HUGE: 1.5, LARGE: 4.5}
 # Colors of Okabe and Ito, which color-blind people can tell apart; their yellow is darkened.
 COLORS = ('#000000', '#E69F00', '#56B4E9', '#009E73', '#B0A000', '#0072B2', '#D55E00', '#CC79A7')
 MARKERS = 'os^vD<>pPX*hd8'
