@@ -26,7 +26,8 @@ using sweep_guard_core::Timestamps;
 constexpr Duration kPause = std::chrono::milliseconds(10);           // before a failed sweep is tried again
 constexpr Duration kMaxInterrupted = std::chrono::milliseconds(50);  // from the begin of a prediction on
 constexpr Duration kMaxWait = std::chrono::milliseconds(500);        // for a sweep to end, before a change or a reset
-constexpr int kPredictionShare = 3;  // one of so many parts of the time is for predictions
+constexpr double kPredictionShare = 0.36;                            // of the time
+constexpr Duration kKeptTime = std::chrono::milliseconds(10);        // from which predictions may use what is left
 
 // A passed pose is swept as a part of the motion to the next one.
 bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
@@ -55,7 +56,8 @@ GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadD
     : dependencies_(dependencies),
       results_(private_node, dependencies.parameters),
       guard_(*dependencies.parameters.initial().tool, firstDetector(dependencies),
-             dependencies.parameters.initial().guard) {}
+             dependencies.parameters.initial().guard),
+      prediction_time_(kPredictionShare, kKeptTime) {}
 
 void GuardThread::start(Supervisor& supervisor) {
   top_ = &supervisor.add({"guard", sweep_guard_core::Stage::kSweep});
@@ -321,16 +323,15 @@ bool GuardThread::mayPredict() const { return prediction_due_ && passed_.empty()
 // Sweeps of queued poses go first, but delay the prediction by at most a cycle. It begins at a swept pose.
 bool GuardThread::timeToPredict() const {
   if (!mayPredict()) return false;
-  const Duration since = std::chrono::steady_clock::now() - predicted_at_;
-  if (since >= dependencies_.parameters.get()->guard.cycle) return true;
-  return since >= kPredictionShare * prediction_took_ && !dependencies_.queue.hasPoses();
+  const SteadyTime at = std::chrono::steady_clock::now();
+  if (at - predicted_at_ >= dependencies_.parameters.get()->guard.cycle) return true;
+  return at >= prediction_time_.due() && !dependencies_.queue.hasPoses();
 }
 
 // A prediction rather begins at the next pose, which is fresh, but waits for it no longer than this.
 std::optional<SteadyTime> GuardThread::latestPrediction() const {
   if (!mayPredict()) return std::nullopt;
-  const Duration cycle = dependencies_.parameters.get()->guard.cycle;
-  return predicted_at_ + std::min(cycle, 2 * kPredictionShare * prediction_took_);
+  return std::min(predicted_at_ + dependencies_.parameters.get()->guard.cycle, prediction_time_.dueAfterNext());
 }
 
 void GuardThread::predict() {
@@ -360,7 +361,8 @@ void GuardThread::predict() {
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
   dependencies_.scene.predicted(pose, prediction);
-  prediction_took_ = std::chrono::steady_clock::now() - at.steady - interrupted;
+  const SteadyTime end = std::chrono::steady_clock::now();
+  prediction_time_.spend(end - at.steady - interrupted, end);
 }
 
 // Sweeps the poses that come meanwhile, as long as none of them fails. Returns how long that took.

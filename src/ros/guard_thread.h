@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/pool.h"
+#include "common/time_budget.h"
 #include "guard/cross_check.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
@@ -41,7 +42,7 @@ struct GuardThreadDependencies {
 
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
 /// newest pose, and runs the queued tasks between two sweeps. A pose that comes during a prediction is swept between two
-/// of its sweeps, for up to 50 ms; then the prediction ends first. Predictions take a third of the time at most, but one
+/// of its sweeps, for up to 50 ms; then the prediction ends first. Predictions take 36 % of the time at most, but one
 /// begins every cycle: a pose that is not predicted from is still swept.
 class GuardThread {
  public:
@@ -116,7 +117,7 @@ class GuardThread {
   QueuedPose predicted_from_;                                // newest swept pose at the last prediction
   std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
   sweep_guard_core::SteadyTime predicted_at_;                // time of the newest prediction
-  sweep_guard_core::Duration prediction_took_{};             // what it took, to the last message
+  sweep_guard_core::TimeBudget prediction_time_;             // each to its last message
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
   sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;
   LogThrottle log_;
