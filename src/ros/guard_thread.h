@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/pool.h"
-#include "common/time_budget.h"
+#include "common/time_share.h"
 #include "guard/cross_check.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
@@ -117,7 +117,7 @@ class GuardThread {
   QueuedPose predicted_from_;                                // newest swept pose at the last prediction
   std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
   sweep_guard_core::SteadyTime predicted_at_;                // time of the newest prediction
-  sweep_guard_core::TimeBudget prediction_time_;             // each to its last message
+  sweep_guard_core::TimeShare prediction_time_;             // each to its last message
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
   sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;
   LogThrottle log_;

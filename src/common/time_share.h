@@ -9,11 +9,11 @@ namespace sweep_guard_core {
 
 /// Limits a repeated task to a share of the time. What it leaves unused is kept for it, and what it takes too much is
 /// owed, up to a limit.
-class TimeBudget {
+class TimeShare {
  public:
   /// @param share  of the time, in (0, 1)
   /// @param kept   time of the past whose share may still be used, and time that may still be owed
-  TimeBudget(double share, Duration kept) : share_(share), kept_(kept) {}
+  TimeShare(double share, Duration kept) : share_(share), kept_(kept) {}
 
   /// Returns when the task may run again.
   SteadyTime due() const { return due_; }
