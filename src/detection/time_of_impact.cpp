@@ -19,7 +19,6 @@ constexpr int kMaxTries = 40;
 constexpr double kOffset = 1e-3;     // of the tool's bounding radius
 constexpr double kRounding = 2e-15;  // of the size
 constexpr double kMinGap = 1e-6;     // of the size; the direction of a smaller one has few exact digits
-constexpr double kGain = 0.05;       // of the gap; a direction that gains less is not followed on
 
 // A piece at a pose, without its padding: GJK needs fewer steps for a segment than for a capsule, and the direction to it has
 // more exact digits.
@@ -54,6 +53,66 @@ double lowerBound(double start, double end, double curvature) {
   const double rise = end - start;
   if (std::abs(rise) >= curvature) return std::min(start, end);
   return start - (curvature - rise) * (curvature - rise) / (4.0 * curvature);
+}
+
+// A direction along which the gap is followed in time: fixed in M, or in T, where the piece reaches equally far along it.
+struct Direction {
+  Eigen::Vector3d unit;  // in T if it turns, else in M
+  bool turns;
+  double reach;  // support of the piece against a direction that turns [m]
+
+  Eigen::Vector3d at(const PlacedCore& tool) const { return turns ? tool.R_MT * unit : unit; }
+
+  bool operator==(const Direction& other) const { return turns == other.turns && unit == other.unit; }
+};
+
+Direction fixed(const Eigen::Vector3d& direction_M) { return {direction_M, false, 0.0}; }
+
+Direction turning(const ConvexShape& shape_T, const Eigen::Vector3d& direction_T) {
+  return {direction_T, true, shape_T.support(-direction_T)};
+}
+
+// The gap at a fraction of a sub-motion.
+struct Gap {
+  double fraction;
+  double gap;   // [m]
+  double rate;  // decrease per fraction, 0 if unknown [m]
+};
+
+// The points of piece and triangle that are next to each other, fixed to both.
+class Features {
+ public:
+  Features() = default;
+  Features(const PointPairs& points, const PlacedCore& tool, const std::array<Eigen::Vector3d, 3>& corners) {
+    for (const auto& [on_tool, on_obstacle] : points) {
+      const auto corner = std::find(corners.begin(), corners.end(), on_obstacle);
+      assert(corner != corners.end());
+      features_.push_back({tool.inTool(on_tool), static_cast<size_t>(corner - corners.begin())});
+    }
+  }
+
+  PointPairs at(const PlacedCore& tool, const std::array<Eigen::Vector3d, 3>& corners) const {
+    PointPairs points;
+    for (const auto& [p_T, corner] : features_) points.push_back({tool.p_MT + tool.R_MT * p_T, corners[corner]});
+    return points;
+  }
+
+  bool ofOneCorner() const {
+    return std::all_of(features_.begin(), features_.end(),
+                       [&](const Feature& feature) { return feature.corner == features_.front().corner; });
+  }
+
+ private:
+  struct Feature {
+    Eigen::Vector3d p_T;
+    size_t corner;
+  };
+  boost::container::static_vector<Feature, 4> features_;
+};
+
+// Returns the share of the way that uses up a gap at this rate, if it is known and high enough.
+double shareOf(double way, double gap, double rate, double otherwise) {
+  return rate * way > gap ? std::clamp(gap / (rate * way), 1e-5, 0.99) : otherwise;
 }
 
 struct Touch {
@@ -116,43 +175,72 @@ class ImpactFinder::Trajectory {
             corners_[2] + s * displacements_[2]};
   }
 
-  // Returns G(s) along a unit direction.
-  double gap(const Eigen::Vector3d& n, double s) const {
+  Eigen::Vector3d inMesh(const Direction& direction, double s) const { return direction.at(tool(s)); }
+
+  // Returns G(s) along a direction.
+  double gap(const Direction& direction, double s) const {
     const PlacedCore placed = tool(s);
-    const double least = n.dot(placed.p_MT) - shape_T_.support(placed.R_MT.transpose() * -n);
+    const Eigen::Vector3d n = direction.at(placed);
+    const double reach = direction.turns ? direction.reach : shape_T_.support(placed.R_MT.transpose() * -n);
     const std::array<Eigen::Vector3d, 3> p = corners(s);
-    return least - std::max({n.dot(p[0]), n.dot(p[1]), n.dot(p[2])});
+    return n.dot(placed.p_MT) - reach - std::max({n.dot(p[0]), n.dot(p[1]), n.dot(p[2])});
   }
 
-  // Returns up to which fraction, from `s` on with gap `gap`, direction n proves a gap larger than `least`. Searches
-  // for the fraction where the gap is `aim`, and stops when little can be gained along n. Returns `s` if nothing is
-  // proven.
-  double advance(const Eigen::Vector3d& n, double s, double gap, double aim, double least) const {
-    const double curvature_bound =
-        0.5 * motion_.angle * motion_.angle * motion_.radius * n.cross(motion_.axis_M).norm();
-    const double enough = aim + std::max(aim - least, kGain * (gap - aim));
+  // Advances from a fraction up to which a gap larger than `least` is proven along the direction. Searches for the fraction
+  // where the gap is `aim`.
+  void advance(const Direction& direction, double aim, double least, Gap& at) const {
+    const double curvature = curvatureBound(direction);
+    const double enough = aim + (aim - least);
     double beyond = 1.0;  // not proven if gap_beyond is finite
     double gap_beyond = kInfinity;
-    for (int i = 0; i < kMaxTries && gap > enough && s < beyond; ++i) {
-      const double share = gap_beyond < aim ? (gap - aim) / (gap - gap_beyond) : i == 0 ? 1.0 : 0.5;
-      const double next = i == 0 ? beyond : s + std::clamp(share, 1e-3, 0.99) * (beyond - s);
-      const double gap_next = this->gap(n, next);
-      const double step = next - s;
-      if (lowerBound(gap, gap_next, curvature_bound * step * step) > least) {
-        s = next;
-        gap = gap_next;
+    for (int i = 0; i < kMaxTries && at.gap > enough && at.fraction < beyond; ++i) {
+      const double rate = gap_beyond < aim ? (at.gap - gap_beyond) / (beyond - at.fraction) : at.rate;
+      const double share = shareOf(beyond - at.fraction, at.gap - aim, rate, gap_beyond < kInfinity ? 0.5 : 1.0);
+      const double next = share == 1.0 ? beyond : at.fraction + share * (beyond - at.fraction);
+      const double gap_next = gap(direction, next);
+      const double step = next - at.fraction;
+      at.rate = (at.gap - gap_next) / step;
+      if (lowerBound(at.gap, gap_next, curvature * step * step) > least) {
+        at.fraction = next;
+        at.gap = gap_next;
       } else {
         beyond = next;
         gap_beyond = gap_next;
       }
     }
-    return s;
   }
 
   const Eigen::Vector3d& base_M() const { return base_M_; }
   double maxDistance() const { return std::max(from_.norm(), (from_ + motion_.travel_M).norm()); }
 
  private:
+  // Returns half the bound of |G''|.
+  double curvatureBound(const Direction& direction) const {
+    if (motion_.angle == 0.0) return 0.0;
+    const Eigen::Vector3d& axis = direction.turns ? motion_.axis_T : motion_.axis_M;
+    const double rate = motion_.angle * direction.unit.cross(axis).norm();
+    if (!direction.turns) return 0.5 * rate * motion_.angle * motion_.radius;
+    return 0.5 * rate * (motion_.angle * farthestCorner() + 2.0 * fastestCorner());
+  }
+
+  // Relative to the origin of T.
+  double farthestCorner() const {
+    double farthest = 0.0;
+    for (size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d start = corners_[i] - from_;
+      farthest = std::max({farthest, start.norm(), (start + displacements_[i] - motion_.travel_M).norm()});
+    }
+    return farthest;
+  }
+
+  double fastestCorner() const {
+    double fastest = 0.0;
+    for (const Eigen::Vector3d& displacement : displacements_) {
+      fastest = std::max(fastest, (displacement - motion_.travel_M).norm());
+    }
+    return fastest;
+  }
+
   const ConvexShape& shape_T_;
   const SubMotion& motion_;
   Eigen::Vector3d base_M_;
@@ -164,10 +252,8 @@ class ImpactFinder::Trajectory {
 class ImpactFinder::Search {
  public:
   Search(ImpactFinder& finder, const MovingTriangle& triangle, const Eigen::Vector3d& guess_M)
-      : finder_(finder),
-        shape_T_(*finder.shape_T_),
-        triangle_(triangle),
-        guess_T_(finder.sub_motions_[0].R_MT_start.transpose() * guess_M) {
+      : finder_(finder), shape_T_(*finder.shape_T_), triangle_(triangle) {
+    if (!guess_M.isZero(0.0)) guess_ = turning(shape_T_, finder.sub_motions_[0].R_MT_start.transpose() * guess_M);
     size_ = shape_T_.boundingRadius() + std::max(diameter(triangle.start_M), diameter(triangle.end_M));
     const Trajectory first = trajectoryOf(0);
     const double farthest = std::max(first.maxDistance(), trajectoryOf(count() - 1).maxDistance());
@@ -187,7 +273,7 @@ class ImpactFinder::Search {
       const Trajectory trajectory = trajectoryOf(i);
       const std::optional<Touch> touch = firstTouch(trajectory, finder_.sub_motions_[i].margin);
       if (!touch) {
-        finder_.separating_M_ = *normal_;
+        finder_.separating_M_ = trajectory.inMesh(*direction_, 0.0);
         continue;
       }
       const Eigen::Vector3d point_M = trajectory.base_M() + touch->separation.on_obstacle;
@@ -212,57 +298,56 @@ class ImpactFinder::Search {
   }
 
   std::optional<Touch> firstTouch(const Trajectory& trajectory, double margin) {
-    double s = 0.0;
+    Gap at = {0.0, direction_ ? trajectory.gap(*direction_, 0.0) : -kInfinity, 0.0};
     bool stuck = false;  // no known direction proves anything from here on
     while (true) {
-      const bool try_known = !stuck && (s == 0.0 || directions_ < kMaxKnown);
-      const Known known = try_known ? bestKnown(trajectory, s) : Known{};
-      double gap = known.gap;
-      const bool computed = gap <= margin + tolerance_;
-      if (!computed) {
-        normal_ = known.direction;
-      } else {
-        const bool close = gap > margin;
-        if (const auto touch = close ? cornerTouchAt(trajectory, s, known) : std::nullopt) return touch;
-        const Separation apart = close ? exactSeparationAt(trajectory, s) : separationAt(trajectory, s, margin);
-        if (overlapping(apart)) return Touch{s, apart};
-        const bool touches = apart.gap <= margin + tolerance_;
-        if (touches) return touchAt(trajectory, s, close ? apart : exactSeparationAt(trajectory, s));
-        normal_ = apart.normal;
-        gap = apart.gap;
+      const bool try_known = !stuck && directions_ < kMaxKnown;
+      if (try_known) tryGuess(trajectory, at);
+      const bool near = at.gap <= margin + tolerance_;
+      const bool computed = near || !try_known;
+      if (computed) {
+        const bool close = near && at.gap > margin;
+        if (const auto touch = close ? cornerTouchAt(trajectory, at) : std::nullopt) return touch;
+        const Separation apart = separationAt(trajectory, at.fraction, margin);
+        if (overlapping(apart)) return Touch{at.fraction, apart};
+        if (apart.gap <= margin + tolerance_) {
+          return touchAt(trajectory, at.fraction, exactSeparationAt(trajectory, at.fraction));
+        }
+        direction_ = directionOf(apart.normal, trajectory.tool(at.fraction), try_known);
+        at.gap = apart.gap;
       }
-      const double next = trajectory.advance(*normal_, s, gap, margin + 0.5 * tolerance_, margin + 0.25 * tolerance_);
-      if (next == 1.0) return std::nullopt;
-      stuck = next == s;
-      if ((stuck && computed) || ++directions_ > kMaxDirections) {
-        return touchAt(trajectory, next, exactSeparationAt(trajectory, next));
+      const double from = at.fraction;
+      trajectory.advance(*direction_, margin + 0.5 * tolerance_, margin + 0.25 * tolerance_, at);
+      if (at.fraction == 1.0) return std::nullopt;
+      stuck = at.fraction == from;
+      if ((stuck && computed && !direction_->turns) || ++directions_ > kMaxDirections) {
+        return touchAt(trajectory, at.fraction, exactSeparationAt(trajectory, at.fraction));
       }
-      s = next;
     }
   }
 
-  struct Known {
-    Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
-    double gap = -kInfinity;
-  };
+  // A corner of the triangle is mostly next to a face of the piece.
+  Direction directionOf(const Eigen::Vector3d& normal, const PlacedCore& tool, bool may_turn) const {
+    return may_turn && features_.ofOneCorner() ? turning(shape_T_, tool.R_MT.transpose() * normal) : fixed(normal);
+  }
 
-  // Returns the direction followed so far or the guess, which turns with the tool: the one with the larger gap.
-  Known bestKnown(const Trajectory& trajectory, double s) const {
-    Known best;
-    if (normal_) best = {*normal_, trajectory.gap(*normal_, s)};
-    if (guess_T_.isZero(0.0)) return best;
-    const Eigen::Vector3d guess = trajectory.tool(s).R_MT * guess_T_;
-    const double gap = trajectory.gap(guess, s);
-    return gap > best.gap ? Known{guess, gap} : best;
+  // Follows the guess from here on if its gap is larger.
+  void tryGuess(const Trajectory& trajectory, Gap& at) {
+    if (!guess_ || direction_ == guess_) return;
+    const double gap = trajectory.gap(*guess_, at.fraction);
+    if (!(gap > at.gap)) return;
+    direction_ = guess_;
+    at.gap = gap;
   }
 
   // If a corner is just as far from the tool as the gap along a direction, that is the direction of the closest points.
-  std::optional<Touch> cornerTouchAt(const Trajectory& trajectory, double s, const Known& known) const {
-    const auto& [direction, gap] = known;
+  std::optional<Touch> cornerTouchAt(const Trajectory& trajectory, const Gap& at) const {
+    const double s = at.fraction;
+    const Eigen::Vector3d direction = trajectory.inMesh(*direction_, s);
     const Eigen::Vector3d corner = PointHull(trajectory.corners(s)).supportPoint(direction);
-    const Eigen::Vector3d on_tool = corner + (gap + shape_T_.padding() + kRounding * size_) * direction;
+    const Eigen::Vector3d on_tool = corner + (at.gap + shape_T_.padding() + kRounding * size_) * direction;
     if (shape_T_.depthOf(trajectory.tool(s).inTool(on_tool)).depth < shape_T_.padding()) return std::nullopt;
-    return Touch{s, {direction, gap, on_tool, corner}};
+    return Touch{s, {direction, at.gap, on_tool, corner, {}}};
   }
 
   bool overlapping(const Separation& apart) const {
@@ -270,34 +355,39 @@ class ImpactFinder::Search {
   }
 
   Eigen::Vector3d initialDirection(const PlacedCore& tool) const {
-    return normal_ ? *normal_ : guess_T_.isZero(0.0) ? tool.p_MT : tool.R_MT * guess_T_;
+    return direction_ ? direction_->at(tool) : tool.p_MT;
   }
 
   // Returns a separation that is exact enough to advance, or if the gap is this small. The gap is that of the padded piece.
-  Separation separationAt(const Trajectory& trajectory, double s, double margin) const {
+  Separation separationAt(const Trajectory& trajectory, double s, double margin) {
     const PlacedCore tool = trajectory.tool(s);
-    Separation apart = roughSeparation(tool, PointHull(trajectory.corners(s)), margin + shape_T_.padding(),
-                                       0.25 * tolerance_, initialDirection(tool));
+    const std::array<Eigen::Vector3d, 3> corners = trajectory.corners(s);
+    Separation apart = roughSeparation(tool, PointHull(corners), margin + shape_T_.padding(), 0.25 * tolerance_,
+                                       initialDirection(tool), features_.at(tool, corners));
+    features_ = {apart.simplex, tool, corners};
     apart.gap -= shape_T_.padding();
     return apart;
   }
 
-  Separation exactSeparationAt(const Trajectory& trajectory, double s) const {
+  Separation exactSeparationAt(const Trajectory& trajectory, double s) {
     const PlacedCore tool = trajectory.tool(s);
-    Separation apart = separation(tool, PointHull(trajectory.corners(s)), 0.0, initialDirection(tool));
+    const std::array<Eigen::Vector3d, 3> corners = trajectory.corners(s);
+    Separation apart = separation(tool, PointHull(corners), 0.0, initialDirection(tool), features_.at(tool, corners));
+    features_ = {apart.simplex, tool, corners};
     apart.gap -= shape_T_.padding();
     return apart;
   }
 
   // The direction of a tiny distance has few exact digits. The tool is therefore moved away along it by a little: the
   // error of the direction shrinks by the ratio of this distance to the tool's radius of curvature.
-  Touch touchAt(const Trajectory& trajectory, double s, Separation exact) const {
+  Touch touchAt(const Trajectory& trajectory, double s, Separation exact) {
     const double distance = exact.gap + shape_T_.padding();
     const double offset = kOffset * (shape_T_.boundingRadius() > 0.0 ? shape_T_.boundingRadius() : size_);
     if (distance > 0.0 && distance < offset) {
       PlacedCore moved = trajectory.tool(s);
       moved.p_MT += offset * exact.normal;
-      exact.normal = separation(moved, PointHull(trajectory.corners(s)), 0.0, exact.normal).normal;
+      const std::array<Eigen::Vector3d, 3> corners = trajectory.corners(s);
+      exact.normal = separation(moved, PointHull(corners), 0.0, exact.normal, features_.at(moved, corners)).normal;
     }
     return {s, exact};
   }
@@ -325,11 +415,12 @@ class ImpactFinder::Search {
   ImpactFinder& finder_;
   const ConvexShape& shape_T_;
   const MovingTriangle& triangle_;
-  Eigen::Vector3d guess_T_;  // zero for none
-  double size_;              // of tool and triangle [m]
-  double tolerance_;         // [m]
+  std::optional<Direction> guess_;
+  double size_;       // of tool and triangle [m]
+  double tolerance_;  // [m]
   int directions_ = 0;
-  std::optional<Eigen::Vector3d> normal_;  // proves the gap up to the current fraction
+  Features features_;
+  std::optional<Direction> direction_;  // proves the gap up to the current fraction
 };
 
 void ImpactFinder::begin(const ConvexShape& shape_T, const std::vector<Motion>& sub_motions, double margin) {
@@ -338,7 +429,7 @@ void ImpactFinder::begin(const ConvexShape& shape_T, const std::vector<Motion>& 
   shape_T_ = &shape_T;
   separating_M_.setZero();
   normals_M_.clear();
-  next_normal_ = 0;
+  depth_normal_M_.setZero();
   sub_motions_.clear();
   for (const Motion& motion : sub_motions) {
     const Eigen::Vector3d travel_M = motion.X_MT_end.translation() - motion.X_MT_start.translation();
@@ -363,19 +454,25 @@ void ImpactFinder::begin(const ConvexShape& shape_T, const std::vector<Motion>& 
   }
 }
 
-double ImpactFinder::depthAtEnd(const MovingTriangle& triangle, const Eigen::Vector3d& normal_M) const {
-  return std::max(0.0, -Trajectory(*shape_T_, sub_motions_.back(), triangle, 0.0, 1.0).gap(normal_M, 1.0));
+// Neighbors mostly have the same normal.
+double ImpactFinder::depthAtEnd(const MovingTriangle& triangle, const Eigen::Vector3d& normal_M) {
+  const SubMotion& last = sub_motions_.back();
+  const Eigen::Vector3d normal_T = last.R_MT_end.transpose() * normal_M;
+  if (normal_M != depth_normal_M_) {
+    depth_normal_M_ = normal_M;
+    depth_reach_ = shape_T_->support(-normal_T);
+  }
+  return std::max(0.0, -Trajectory(*shape_T_, last, triangle, 0.0, 1.0).gap({normal_T, true, depth_reach_}, 1.0));
 }
 
 Eigen::Vector3d ImpactFinder::lastNormal() const {
-  return normals_M_.empty() ? Eigen::Vector3d::Zero() : normals_M_[(next_normal_ + kNormals - 1) % kNormals];
+  return normals_M_.empty() ? Eigen::Vector3d::Zero() : normals_M_.back();
 }
 
 const Eigen::Vector3d& ImpactFinder::remember(const Eigen::Vector3d& normal_M) {
-  if (normals_M_.size() < kNormals) normals_M_.emplace_back();
-  Eigen::Vector3d& place = normals_M_[next_normal_];
-  next_normal_ = (next_normal_ + 1) % kNormals;
-  return place = normal_M;
+  if (normals_M_.size() == normals_M_.capacity()) normals_M_.erase(normals_M_.begin());
+  normals_M_.push_back(normal_M);
+  return normals_M_.back();
 }
 
 std::optional<Impact> ImpactFinder::overlapAtStart(const MovingTriangle& triangle,

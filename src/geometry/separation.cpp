@@ -10,8 +10,9 @@ namespace {
 
 constexpr int kMaxSteps = 64;
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
-constexpr double kNeedle = 1e-8;  // squared sine below which the weights of a face lose digits
-constexpr double kShare = 0.125;  // share of the gap beyond the margin that roughSeparation() may underestimate
+constexpr double kNeedle = 1e-8;    // squared sine below which the weights of a face lose digits
+constexpr double kOverlap = 1e-12;  // of the size; the direction of points that are nearer has no digits
+constexpr double kShare = 0.125;    // share of the gap beyond the margin that roughSeparation() may underestimate
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A point of the Minkowski difference, and its two points.
@@ -35,8 +36,9 @@ class Simplex {
  public:
   int size() const { return size_; }
   const Vertex& operator[](int i) const { return vertices_[static_cast<std::size_t>(i)]; }
-  bool has(const Eigen::Vector3d& w) const {
-    return std::any_of(vertices_.begin(), vertices_.begin() + size_, [&](const Vertex& v) { return v.w == w; });
+  bool has(const Eigen::Vector3d& w, double tolerance) const {
+    return std::any_of(vertices_.begin(), vertices_.begin() + size_,
+                       [&](const Vertex& v) { return (v.w - w).squaredNorm() <= tolerance * tolerance; });
   }
   void add(const Vertex& vertex) { vertices_[static_cast<std::size_t>(size_++)] = vertex; }
   void removeLast() { --size_; }
@@ -166,19 +168,36 @@ class Search {
   Search(const SupportMapping& tool, const SupportMapping& obstacle, const Goal& goal)
       : tool_(tool), obstacle_(obstacle), goal_(goal) {}
 
-  Separation run(const Eigen::Vector3d& guess) {
+  Separation run(const Eigen::Vector3d& guess, const PointPairs& start = {}) {
     const double length = guess.norm();
     Eigen::Vector3d direction = length > 0.0 ? Eigen::Vector3d(guess / length) : Eigen::Vector3d::UnitZ();
+    if (beginFrom(start)) direction = outwards(simplex_, closest_.point);
     for (int step = 0; step < kMaxSteps && advance(direction); ++step) direction = outwards(simplex_, closest_.point);
     for (int i = 0; i < simplex_.size(); ++i) {
       const double weight = closest_.weights[static_cast<std::size_t>(i)];
       best_.on_tool += weight * simplex_[i].on_tool;
       best_.on_obstacle += weight * simplex_[i].on_obstacle;
+      best_.simplex.push_back({simplex_[i].on_tool, simplex_[i].on_obstacle});
     }
     return best_;
   }
 
  private:
+  // Returns false if the points are of no use: there are none, or they overlap.
+  bool beginFrom(const PointPairs& start) {
+    for (const auto& [on_tool, on_obstacle] : start) {
+      simplex_.add({on_tool - on_obstacle, on_tool, on_obstacle});
+      size_ = std::max(size_, simplex_[simplex_.size() - 1].w.norm());
+    }
+    if (start.empty()) return false;
+    closest_ = simplex_.closest();
+    simplex_.keep(closest_);
+    if (std::sqrt(closest_.squared_distance) > kOverlap * size_) return true;
+    simplex_ = {};
+    closest_ = {};
+    return false;
+  }
+
   // Returns false at the end of the search.
   bool advance(const Eigen::Vector3d& direction) {
     Vertex vertex{{}, tool_.supportPoint(-direction), obstacle_.supportPoint(direction)};
@@ -194,7 +213,7 @@ class Search {
     const double left = distance - best_.gap;
     if (best_.gap > goal_.gap_above || left <= std::max(kRounding * size_, goal_.accuracy)) return false;
     if (left <= kShare * (best_.gap - goal_.margin)) return false;
-    return !simplex_.has(vertex.w) && approach(vertex);
+    return !simplex_.has(vertex.w, 2.0 * kRounding * size_) && approach(vertex);
   }
 
   // Returns false if the vertex brings the simplex no closer to the origin, or close enough.
@@ -216,7 +235,7 @@ class Search {
   double size_ = 0.0;  // known size of the Minkowski difference [m]
   Simplex simplex_;
   Closest closest_;
-  Separation best_ = {Eigen::Vector3d::UnitZ(), -kInfinity, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Separation best_ = {Eigen::Vector3d::UnitZ(), -kInfinity, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), {}};
 };
 
 }  // namespace
@@ -236,18 +255,18 @@ Eigen::Vector3d PointHull::supportPoint(const Eigen::Vector3d& direction) const 
 }
 
 Separation separation(const SupportMapping& tool, const SupportMapping& obstacle, double accuracy,
-                      const Eigen::Vector3d& guess) {
+                      const Eigen::Vector3d& guess, const PointPairs& start) {
   Goal goal;
   goal.accuracy = accuracy;
-  return Search(tool, obstacle, goal).run(guess);
+  return Search(tool, obstacle, goal).run(guess, start);
 }
 
 Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obstacle, double margin, double accuracy,
-                           const Eigen::Vector3d& guess) {
+                           const Eigen::Vector3d& guess, const PointPairs& start) {
   Goal goal;
   goal.accuracy = accuracy;
   goal.margin = margin;
-  return Search(tool, obstacle, goal).run(guess);
+  return Search(tool, obstacle, goal).run(guess, start);
 }
 
 bool distanceExceeds(const SupportMapping& tool, const SupportMapping& obstacle, double distance,

@@ -6,6 +6,7 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr double kSame = 0.9999;         // cosine of the angle to a direction that serves as well
 constexpr double kRounding = 1e-9;       // of the size of piece and triangle, as in timeOfImpact()
 constexpr double kPoseRounding = 1e-14;  // of distances from the origin of M
 
@@ -30,6 +31,9 @@ void SeparatingDirections::begin(const ConvexShape& shape_T, const std::vector<M
 }
 
 void SeparatingDirections::add(const Eigen::Vector3d& direction_M) {
+  for (std::size_t i = 0; i < directions_.count; ++i) {
+    if (normalOf(directions_, i).dot(direction_M) > kSame) return;
+  }
   const bool full = directions_.count == simd::kMaxDirections;
   const std::size_t place = full ? oldest_ : directions_.count++;
   if (full) oldest_ = (oldest_ + 1) % simd::kMaxDirections;

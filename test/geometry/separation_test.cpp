@@ -139,6 +139,35 @@ TEST(SeparationTest, GapEqualsTheDistanceOfItsPoints) {
   }
 }
 
+// Points of the bodies at a nearby pose, moved with them, and any other points of the bodies.
+TEST(SeparationTest, IsTheSameFromAnyPointsOfBothBodies) {
+  Random random(/*seed=*/9);
+  for (int i = 0; i < 4000 && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    const PointHull triangle(randomTriangle(random, 1.0));
+    Cylinder cylinder = randomCylinder(random, Vector3d::Zero());
+    const Vector3d direction = random.direction();
+    const double away = random.logUniform(1e-6, 1.0);
+    cylinder.X.translation() += triangle.supportPoint(direction) - cylinder.supportPoint(-direction) + away * direction;
+    PointPairs start;
+    if (i % 2 == 0) {
+      start = separation(cylinder, triangle).simplex;
+      const Vector3d step = 0.5 * away * random.direction();
+      cylinder.X.translation() += step;
+      for (PointPair& pair : start) pair.on_tool += step;
+    } else {
+      for (int j = random.below(5); j > 0; --j) {
+        start.push_back({cylinder.supportPoint(random.direction()), triangle.supportPoint(random.direction())});
+      }
+    }
+    const Separation cold = separation(cylinder, triangle);
+    const Separation warm = separation(cylinder, triangle, 0.0, Vector3d::Zero(), start);
+    EXPECT_NEAR(warm.gap, cold.gap, 1e-8);
+    EXPECT_NEAR(warm.gap, pointDistance(warm), 1e-8);
+    EXPECT_NEAR(warm.gap, provenBy(warm.normal, cylinder, triangle), 1e-14);
+  }
+}
+
 TEST(SeparationTest, IsNeverMoreThanTheDistanceOfAnyTwoPoints) {
   Random random(/*seed=*/3);
   for (int i = 0; i < 300; ++i) {

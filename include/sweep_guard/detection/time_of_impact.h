@@ -44,6 +44,10 @@ struct Impact {
 /// If the minimum of the right side exceeds the margin, there is no impact before s. A secant finds such an s, where
 /// the next direction is computed. This repeats until the gap is the margin, or the end is reached.
 ///
+/// Where a corner of the triangle is closest, n turns with the tool instead, as the face of the piece next to the corner
+/// does. Then min over the piece of n · (q - o) is constant, o the origin of T. With x from o to a corner, |(n · x)''| <=
+/// K = w |n x k| (w |x| + 2 |x'|), because x' is constant; the rest stays.
+///
 /// It stops within a tolerance above the margin [m]: 2e-9 of the sum of the piece's boundingRadius() and the triangle's
 /// longest edge, plus 1e-14 of the distance between triangle and tool frame and of the triangle's distance from the
 /// origin of M, because the poses have been rounded. The time of impact is early by at most this tolerance divided by
@@ -100,15 +104,17 @@ class ImpactFinder {
   class Search;
   static constexpr size_t kNormals = 8;
 
-  double depthAtEnd(const MovingTriangle& triangle, const Eigen::Vector3d& normal_M) const;
+  double depthAtEnd(const MovingTriangle& triangle, const Eigen::Vector3d& normal_M);
   Eigen::Vector3d lastNormal() const;
   const Eigen::Vector3d& remember(const Eigen::Vector3d& normal_M);
 
   const ConvexShape* shape_T_ = nullptr;
   std::vector<SubMotion> sub_motions_;
   Eigen::Vector3d separating_M_ = Eigen::Vector3d::Zero();
-  boost::container::static_vector<Eigen::Vector3d, kNormals> normals_M_;  // minimum translation directions of the patch
-  size_t next_normal_ = 0;
+  // Minimum translation directions of the patch, the newest last.
+  boost::container::static_vector<Eigen::Vector3d, kNormals> normals_M_;
+  Eigen::Vector3d depth_normal_M_ = Eigen::Vector3d::Zero();  // of the contact whose depth was computed last
+  double depth_reach_ = 0.0;                                  // support of the piece against it at the end [m]
 };
 
 }  // namespace sweep_guard_core

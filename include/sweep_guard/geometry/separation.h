@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cassert>
 #include <cstddef>
 
@@ -49,6 +50,14 @@ class PointHull {
   std::size_t count_ = 0;
 };
 
+/// A point of the tool and a point of the obstacle [m].
+struct PointPair {
+  Eigen::Vector3d on_tool;
+  Eigen::Vector3d on_obstacle;
+};
+/// The vertices of a simplex inside the Minkowski difference of two bodies.
+using PointPairs = boost::container::static_vector<PointPair, 4>;
+
 /// Holds the separation of two convex bodies, all in the frame of their support mappings. `gap` does not rely on the
 /// algorithm that found `normal`: it is evaluated from the support mappings alone, gap = min over the tool of normal ·
 /// q - max over the obstacle of normal · p. For any direction this is a lower bound of the distance, up to the rounding
@@ -58,6 +67,7 @@ struct Separation {
   double gap;                   ///< proven lower bound of the distance [m]; <= 0: nothing is proven
   Eigen::Vector3d on_tool;      ///< closest point of the tool [m]
   Eigen::Vector3d on_obstacle;  ///< closest point of the obstacle [m]
+  PointPairs simplex;           ///< points of both bodies that have the closest points in their hulls
 };
 
 /// Computes the distance of two convex bodies by the algorithm of Gilbert, Johnson and Keerthi (1988): the point
@@ -71,14 +81,16 @@ struct Separation {
 /// bodies must be relative to a place near them, to keep their digits.
 /// @param accuracy  allowed difference between `gap` and the distance [m], >= 0; a larger one needs fewer steps
 /// @param guess     initial direction, from the obstacle to the tool, of any length; zero for none
+/// @param start     points of both bodies to begin from instead, such as those of a `Separation` of the bodies at nearby
+///                  poses, moved with the bodies; may be empty
 Separation separation(const SupportMapping& tool, const SupportMapping& obstacle, double accuracy = 0.0,
-                      const Eigen::Vector3d& guess = Eigen::Vector3d::Zero());
+                      const Eigen::Vector3d& guess = Eigen::Vector3d::Zero(), const PointPairs& start = {});
 
 /// Computes the separation only as accurately as conservative advancement needs: `gap` may underestimate the distance
 /// by `accuracy` [m], >= 0, or, beyond `margin` [m], by (gap - margin) / 8, whichever is more.
-/// @param guess  as for separation()
+/// @param guess, start  as for separation()
 Separation roughSeparation(const SupportMapping& tool, const SupportMapping& obstacle, double margin, double accuracy,
-                           const Eigen::Vector3d& guess);
+                           const Eigen::Vector3d& guess, const PointPairs& start = {});
 
 /// Returns whether the bodies are proven to be farther apart than `distance` [m], >= 0. Cheaper than separation(): ends
 /// at the first direction that proves it, or at the first two points that are not farther apart. False if in doubt.
