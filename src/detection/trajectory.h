@@ -8,7 +8,7 @@
 
 namespace sweep_guard_core {
 
-/// A direction along which the gap is followed in time: fixed in M, or in T, where the piece reaches equally far along it.
+/// A direction along which the gap is followed in time: fixed in M, or in T, where the reach of the piece along it is constant.
 struct Direction {
   Eigen::Vector3d unit;  // in T if it turns, else in M
   bool turns;
