@@ -6,6 +6,8 @@
 #include <functional>
 #include <limits>
 
+#include "detection/features.h"
+#include "detection/trajectory.h"
 #include "geometry/penetration.h"
 #include "sweep_guard/geometry/separation.h"
 
@@ -14,106 +16,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxDirections = 1000;
-constexpr int kMaxKnown = 8;  // of these that need not be the direction of the closest points
-constexpr int kMaxTries = 40;
+constexpr int kMaxKnown = 8;         // of these that need not be the direction of the closest points
 constexpr double kOffset = 1e-3;     // of the tool's bounding radius
 constexpr double kRounding = 2e-15;  // of the size
 constexpr double kMinGap = 1e-6;     // of the size; the direction of a smaller one has few exact digits
-
-// A piece at a pose, without its padding: GJK needs fewer steps for a segment than for a capsule, and the direction to it has
-// more exact digits.
-struct PlacedCore {
-  const ConvexShape& shape_T;
-  Eigen::Matrix3d R_MT;
-  Eigen::Vector3d p_MT;
-
-  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction_M) const {
-    return p_MT + R_MT * shape_T.coreSupportPoint(R_MT.transpose() * direction_M);
-  }
-
-  Eigen::Vector3d inTool(const Eigen::Vector3d& p_M) const { return R_MT.transpose() * (p_M - p_MT); }
-
-  // Returns whether this, moved out of a triangle by its depth along a normal, touches a corner, up to a tolerance [m].
-  bool touchesACorner(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& normal, double depth,
-                      double tolerance) const {
-    const double reach = std::max({normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])});
-    return std::any_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& corner) {
-      const Eigen::Vector3d p = corner - (depth - tolerance) * normal;
-      return normal.dot(corner) > reach - tolerance && shape_T.depthOf(inTool(p)).depth >= shape_T.padding();
-    });
-  }
-
-  Eigen::Vector3d proposeNormal(const std::array<Eigen::Vector3d, 3>& corners) const {
-    return R_MT * shape_T.proposeNormal({inTool(corners[0]), inTool(corners[1]), inTool(corners[2])});
-  }
-};
-
-// Returns the minimum of (1 - x) start + x end - curvature x (1 - x) for x in [0, 1].
-double lowerBound(double start, double end, double curvature) {
-  const double rise = end - start;
-  if (std::abs(rise) >= curvature) return std::min(start, end);
-  return start - (curvature - rise) * (curvature - rise) / (4.0 * curvature);
-}
-
-// A direction along which the gap is followed in time: fixed in M, or in T, where the piece reaches equally far along it.
-struct Direction {
-  Eigen::Vector3d unit;  // in T if it turns, else in M
-  bool turns;
-  double reach;  // support of the piece against a direction that turns [m]
-
-  Eigen::Vector3d at(const PlacedCore& tool) const { return turns ? tool.R_MT * unit : unit; }
-
-  bool operator==(const Direction& other) const { return turns == other.turns && unit == other.unit; }
-};
-
-Direction fixed(const Eigen::Vector3d& direction_M) { return {direction_M, false, 0.0}; }
-
-Direction turning(const ConvexShape& shape_T, const Eigen::Vector3d& direction_T) {
-  return {direction_T, true, shape_T.support(-direction_T)};
-}
-
-// The gap at a fraction of a sub-motion.
-struct Gap {
-  double fraction;
-  double gap;   // [m]
-  double rate;  // decrease per fraction, 0 if unknown [m]
-};
-
-// The points of piece and triangle that are next to each other, fixed to both.
-class Features {
- public:
-  Features() = default;
-  Features(const PointPairs& points, const PlacedCore& tool, const std::array<Eigen::Vector3d, 3>& corners) {
-    for (const auto& [on_tool, on_obstacle] : points) {
-      const auto corner = std::find(corners.begin(), corners.end(), on_obstacle);
-      assert(corner != corners.end());
-      features_.push_back({tool.inTool(on_tool), static_cast<size_t>(corner - corners.begin())});
-    }
-  }
-
-  PointPairs at(const PlacedCore& tool, const std::array<Eigen::Vector3d, 3>& corners) const {
-    PointPairs points;
-    for (const auto& [p_T, corner] : features_) points.push_back({tool.p_MT + tool.R_MT * p_T, corners[corner]});
-    return points;
-  }
-
-  bool ofOneCorner() const {
-    return std::all_of(features_.begin(), features_.end(),
-                       [&](const Feature& feature) { return feature.corner == features_.front().corner; });
-  }
-
- private:
-  struct Feature {
-    Eigen::Vector3d p_T;
-    size_t corner;
-  };
-  boost::container::static_vector<Feature, 4> features_;
-};
-
-// Returns the share of the way that uses up a gap at this rate, if it is known and high enough.
-double shareOf(double way, double gap, double rate, double otherwise) {
-  return rate * way > gap ? std::clamp(gap / (rate * way), 1e-5, 0.99) : otherwise;
-}
 
 struct Touch {
   double fraction;
@@ -148,106 +54,6 @@ Proposals proposals(const PlacedCore& tool, const std::array<Eigen::Vector3d, 3>
 }
 
 }  // namespace
-
-// Evaluates tool and triangle at a fraction s of one sub-motion. All positions are relative to a corner of the triangle
-// at the start, so that no digits are lost far from the origin of M.
-class ImpactFinder::Trajectory {
- public:
-  Trajectory(const ConvexShape& shape_T, const SubMotion& sub_motion, const MovingTriangle& triangle, double start,
-             double end)
-      : shape_T_(shape_T), motion_(sub_motion), base_M_(triangle.start_M[0]), from_(sub_motion.p_MT_start - base_M_) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Eigen::Vector3d displacement = triangle.end_M[i] - triangle.start_M[i];
-      corners_[i] = triangle.start_M[i] - base_M_ + start * displacement;
-      displacements_[i] = (end - start) * displacement;
-    }
-  }
-
-  PlacedCore tool(double s) const {
-    if (s == 0.0) return {shape_T_, motion_.R_MT_start, from_};
-    if (s == 1.0 || motion_.angle == 0.0) return {shape_T_, motion_.R_MT_end, from_ + s * motion_.travel_M};
-    const Eigen::AngleAxisd turn(s * motion_.angle, motion_.axis_T);
-    return {shape_T_, motion_.R_MT_start * turn.toRotationMatrix(), from_ + s * motion_.travel_M};
-  }
-
-  std::array<Eigen::Vector3d, 3> corners(double s) const {
-    return {corners_[0] + s * displacements_[0], corners_[1] + s * displacements_[1],
-            corners_[2] + s * displacements_[2]};
-  }
-
-  Eigen::Vector3d inMesh(const Direction& direction, double s) const { return direction.at(tool(s)); }
-
-  // Returns G(s) along a direction.
-  double gap(const Direction& direction, double s) const {
-    const PlacedCore placed = tool(s);
-    const Eigen::Vector3d n = direction.at(placed);
-    const double reach = direction.turns ? direction.reach : shape_T_.support(placed.R_MT.transpose() * -n);
-    const std::array<Eigen::Vector3d, 3> p = corners(s);
-    return n.dot(placed.p_MT) - reach - std::max({n.dot(p[0]), n.dot(p[1]), n.dot(p[2])});
-  }
-
-  // Advances from a fraction up to which a gap larger than `least` is proven along the direction. Searches for the fraction
-  // where the gap is `aim`.
-  void advance(const Direction& direction, double aim, double least, Gap& at) const {
-    const double curvature = curvatureBound(direction);
-    const double enough = aim + (aim - least);
-    double beyond = 1.0;  // not proven if gap_beyond is finite
-    double gap_beyond = kInfinity;
-    for (int i = 0; i < kMaxTries && at.gap > enough && at.fraction < beyond; ++i) {
-      const double rate = gap_beyond < aim ? (at.gap - gap_beyond) / (beyond - at.fraction) : at.rate;
-      const double share = shareOf(beyond - at.fraction, at.gap - aim, rate, gap_beyond < kInfinity ? 0.5 : 1.0);
-      const double next = share == 1.0 ? beyond : at.fraction + share * (beyond - at.fraction);
-      const double gap_next = gap(direction, next);
-      const double step = next - at.fraction;
-      at.rate = (at.gap - gap_next) / step;
-      if (lowerBound(at.gap, gap_next, curvature * step * step) > least) {
-        at.fraction = next;
-        at.gap = gap_next;
-      } else {
-        beyond = next;
-        gap_beyond = gap_next;
-      }
-    }
-  }
-
-  const Eigen::Vector3d& base_M() const { return base_M_; }
-  double maxDistance() const { return std::max(from_.norm(), (from_ + motion_.travel_M).norm()); }
-
- private:
-  // Returns half the bound of |G''|.
-  double curvatureBound(const Direction& direction) const {
-    if (motion_.angle == 0.0) return 0.0;
-    const Eigen::Vector3d& axis = direction.turns ? motion_.axis_T : motion_.axis_M;
-    const double rate = motion_.angle * direction.unit.cross(axis).norm();
-    if (!direction.turns) return 0.5 * rate * motion_.angle * motion_.radius;
-    return 0.5 * rate * (motion_.angle * farthestCorner() + 2.0 * fastestCorner());
-  }
-
-  // Relative to the origin of T.
-  double farthestCorner() const {
-    double farthest = 0.0;
-    for (size_t i = 0; i < 3; ++i) {
-      const Eigen::Vector3d start = corners_[i] - from_;
-      farthest = std::max({farthest, start.norm(), (start + displacements_[i] - motion_.travel_M).norm()});
-    }
-    return farthest;
-  }
-
-  double fastestCorner() const {
-    double fastest = 0.0;
-    for (const Eigen::Vector3d& displacement : displacements_) {
-      fastest = std::max(fastest, (displacement - motion_.travel_M).norm());
-    }
-    return fastest;
-  }
-
-  const ConvexShape& shape_T_;
-  const SubMotion& motion_;
-  Eigen::Vector3d base_M_;
-  Eigen::Vector3d from_;
-  std::array<Eigen::Vector3d, 3> corners_;
-  std::array<Eigen::Vector3d, 3> displacements_;
-};
 
 class ImpactFinder::Search {
  public:
