@@ -26,8 +26,6 @@ using sweep_guard_core::Timestamps;
 constexpr Duration kPause = std::chrono::milliseconds(10);           // before a failed sweep is tried again
 constexpr Duration kMaxInterrupted = std::chrono::milliseconds(50);  // from the begin of a prediction on
 constexpr Duration kMaxWait = std::chrono::milliseconds(500);        // for a sweep to end, before a change or a reset
-constexpr double kPredictionShare = 0.36;                            // of the time
-constexpr Duration kKeptTime = std::chrono::milliseconds(10);        // from which predictions may use what is left
 
 // A passed pose is swept as a part of the motion to the next one.
 bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
@@ -56,8 +54,7 @@ GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadD
     : dependencies_(dependencies),
       results_(private_node, dependencies.parameters),
       guard_(*dependencies.parameters.initial().tool, firstDetector(dependencies),
-             dependencies.parameters.initial().guard),
-      prediction_time_(kPredictionShare, kKeptTime) {}
+             dependencies.parameters.initial().guard) {}
 
 void GuardThread::start(Supervisor& supervisor) {
   top_ = &supervisor.add({"guard", sweep_guard_core::Stage::kSweep});
@@ -268,6 +265,7 @@ bool GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
     passed_.clear();
   }
   checkpoint_ = queued.checkpoint;
+  pace_.received(queued.pose.received);
   if (next != nullptr && knowsAllFramesOf(queued, *next)) {
     pass(queued.pose);
     return false;
@@ -325,13 +323,13 @@ bool GuardThread::timeToPredict() const {
   if (!mayPredict()) return false;
   const SteadyTime at = std::chrono::steady_clock::now();
   if (at - predicted_at_ >= dependencies_.parameters.get()->guard.cycle) return true;
-  return at >= prediction_time_.due() && !dependencies_.queue.hasPoses();
+  return at >= pace_.due() && !dependencies_.queue.hasPoses();
 }
 
 // A prediction rather begins at the next pose, which is fresh, but waits for it no longer than this.
 std::optional<SteadyTime> GuardThread::latestPrediction() const {
   if (!mayPredict()) return std::nullopt;
-  return std::min(predicted_at_ + dependencies_.parameters.get()->guard.cycle, prediction_time_.dueAfterNext());
+  return std::min(predicted_at_ + dependencies_.parameters.get()->guard.cycle, pace_.dueAfterNext());
 }
 
 void GuardThread::predict() {
@@ -361,8 +359,7 @@ void GuardThread::predict() {
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
   dependencies_.scene.predicted(pose, prediction);
-  const SteadyTime end = std::chrono::steady_clock::now();
-  prediction_time_.spend(end - at.steady - interrupted, end);
+  pace_.predicted(at.steady, std::chrono::steady_clock::now() - at.steady - interrupted);
 }
 
 // Sweeps the poses that come meanwhile, as long as none of them fails. Returns how long that took.

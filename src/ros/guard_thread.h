@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "common/pool.h"
-#include "common/time_share.h"
 #include "guard/cross_check.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
@@ -19,6 +18,7 @@
 #include "ros/output/scene_publisher.h"
 #include "ros/output/warning_publisher.h"
 #include "ros/parameters/parameters.h"
+#include "ros/prediction_pace.h"
 #include "ros/service/predict.h"
 #include "ros/threads/supervisor.h"
 #include "ros/work_queue.h"
@@ -42,7 +42,7 @@ struct GuardThreadDependencies {
 
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
 /// newest pose, and runs the queued tasks between two sweeps. A pose that comes during a prediction is swept between two
-/// of its sweeps, for up to 50 ms; then the prediction ends first. Predictions take 36 % of the time at most, but one
+/// of its sweeps, for up to 50 ms; then the prediction ends first. Predictions begin when PredictionPace says, but one
 /// begins every cycle: a pose that is not predicted from is still swept.
 class GuardThread {
  public:
@@ -117,7 +117,7 @@ class GuardThread {
   QueuedPose predicted_from_;                                // newest swept pose at the last prediction
   std::vector<sweep_guard_core::SteadyTime> passed_;         // when the poses passed since then were received
   sweep_guard_core::SteadyTime predicted_at_;                // time of the newest prediction
-  sweep_guard_core::TimeShare prediction_time_;             // each to its last message
+  PredictionPace pace_;
   sweep_guard_core::Pool<sweep_guard_core::SweepReport> reports_;
   sweep_guard_core::Pool<sweep_guard_core::Prediction> predictions_;
   LogThrottle log_;

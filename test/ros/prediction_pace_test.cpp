@@ -1,0 +1,75 @@
+#include "ros/prediction_pace.h"
+
+#include <gtest/gtest.h>
+
+namespace sweep_guard_ros {
+namespace {
+
+using std::chrono::hours;
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Duration = PredictionPace::Duration;
+using SteadyTime = PredictionPace::SteadyTime;
+
+const SteadyTime kBegin = SteadyTime() + hours(1);
+
+// How many predictions of this length begin in a second of poses, if each can only begin with a pose.
+int predictionsInASecond(Duration pose_interval, Duration took) {
+  PredictionPace pace;
+  int predictions = 0;
+  for (SteadyTime at = kBegin; at < kBegin + seconds(2); at += pose_interval) {
+    pace.received(at);
+    if (at < pace.due()) continue;
+    pace.predicted(at, took);
+    if (at >= kBegin + seconds(1)) ++predictions;
+  }
+  return predictions;
+}
+
+TEST(PredictionPaceTest, EachPoseHasAPredictionThatIsShort) {
+  EXPECT_EQ(predictionsInASecond(milliseconds(1), microseconds(390)), 1000);
+  EXPECT_EQ(predictionsInASecond(milliseconds(10), microseconds(3900)), 100);
+}
+
+TEST(PredictionPaceTest, OthersTakeThreeTenthsOfTheTimeThoughTheyBeginWithPoses) {
+  EXPECT_NEAR(predictionsInASecond(milliseconds(1), microseconds(410)), 732, 10);
+  EXPECT_NEAR(predictionsInASecond(milliseconds(1), microseconds(1700)), 176, 5);
+  EXPECT_NEAR(predictionsInASecond(milliseconds(10), microseconds(5000)), 60, 3);
+}
+
+TEST(PredictionPaceTest, OnlyTheNewestTimeIsKept) {
+  PredictionPace pace;
+  int predictions = 0;
+  for (SteadyTime at = kBegin; at >= pace.due(); at += milliseconds(1), ++predictions) {
+    pace.predicted(at, milliseconds(1));
+  }
+  EXPECT_EQ(predictions, 5);  // 2.33 ms owed for each, 10 ms kept
+}
+
+TEST(PredictionPaceTest, WhatWasOwedForLongIsForgotten) {
+  PredictionPace pace;
+  SteadyTime at = kBegin;
+  for (int i = 0; i < 100; ++i, at += milliseconds(50)) pace.predicted(at, milliseconds(40));
+  EXPECT_LE(pace.due(), at + milliseconds(100));
+}
+
+TEST(PredictionPaceTest, KnowsWhenThePredictionAfterTheNextMayBegin) {
+  PredictionPace pace;
+  pace.predicted(kBegin, milliseconds(3));
+  EXPECT_EQ(pace.due(), kBegin);  // 10 ms were kept
+  EXPECT_EQ(pace.dueAfterNext(), kBegin + milliseconds(10));
+}
+
+TEST(PredictionPaceTest, APauseBetweenPosesIsNotTakenForTheirRate) {
+  PredictionPace pace;
+  SteadyTime at = kBegin;
+  for (int i = 0; i < 200; ++i, at += milliseconds(1)) pace.received(at);
+  at += seconds(30);
+  for (int i = 0; i < 100; ++i, at += milliseconds(1)) pace.received(at);
+  pace.predicted(at, microseconds(600));
+  EXPECT_EQ(pace.dueAfterNext() - pace.due(), milliseconds(2));
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
