@@ -6,8 +6,8 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr double kShareIfEachPose = 0.4;  // of the time
-constexpr double kShare = 0.3;
+constexpr double kShareIfEachPose = 0.45;  // of the time
+constexpr double kShare = 0.28;
 constexpr int kSmoothed = 16;  // poses
 constexpr auto kLongestInterval = std::chrono::milliseconds(100);
 constexpr auto kKept = std::chrono::milliseconds(10);

@@ -12,6 +12,10 @@ using std::chrono::seconds;
 using Duration = PredictionPace::Duration;
 using SteadyTime = PredictionPace::SteadyTime;
 
+double millisecondsFrom(SteadyTime from, SteadyTime to) {
+  return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
 const SteadyTime kBegin = SteadyTime() + hours(1);
 
 // How many predictions of this length begin in a second of poses, if each can only begin with a pose.
@@ -28,14 +32,14 @@ int predictionsInASecond(Duration pose_interval, Duration took) {
 }
 
 TEST(PredictionPaceTest, EachPoseHasAPredictionThatIsShort) {
-  EXPECT_EQ(predictionsInASecond(milliseconds(1), microseconds(390)), 1000);
-  EXPECT_EQ(predictionsInASecond(milliseconds(10), microseconds(3900)), 100);
+  EXPECT_EQ(predictionsInASecond(milliseconds(1), microseconds(440)), 1000);
+  EXPECT_EQ(predictionsInASecond(milliseconds(10), microseconds(4400)), 100);
 }
 
-TEST(PredictionPaceTest, OthersTakeThreeTenthsOfTheTimeThoughTheyBeginWithPoses) {
-  EXPECT_NEAR(predictionsInASecond(milliseconds(1), microseconds(410)), 732, 10);
-  EXPECT_NEAR(predictionsInASecond(milliseconds(1), microseconds(1700)), 176, 5);
-  EXPECT_NEAR(predictionsInASecond(milliseconds(10), microseconds(5000)), 60, 3);
+TEST(PredictionPaceTest, OthersTakeTheirShareThoughTheyBeginWithPoses) {
+  EXPECT_NEAR(predictionsInASecond(milliseconds(1), microseconds(460)), 609, 10);
+  EXPECT_NEAR(predictionsInASecond(milliseconds(1), microseconds(1700)), 165, 5);
+  EXPECT_NEAR(predictionsInASecond(milliseconds(10), microseconds(5000)), 56, 3);
 }
 
 TEST(PredictionPaceTest, OnlyTheNewestTimeIsKept) {
@@ -44,21 +48,21 @@ TEST(PredictionPaceTest, OnlyTheNewestTimeIsKept) {
   for (SteadyTime at = kBegin; at >= pace.due(); at += milliseconds(1), ++predictions) {
     pace.predicted(at, milliseconds(1));
   }
-  EXPECT_EQ(predictions, 5);  // 2.33 ms owed for each, 10 ms kept
+  EXPECT_EQ(predictions, 4);  // 2.57 ms owed for each, 10 ms kept
 }
 
 TEST(PredictionPaceTest, WhatWasOwedForLongIsForgotten) {
   PredictionPace pace;
   SteadyTime at = kBegin;
   for (int i = 0; i < 100; ++i, at += milliseconds(50)) pace.predicted(at, milliseconds(40));
-  EXPECT_LE(pace.due(), at + milliseconds(100));
+  EXPECT_LE(pace.due(), at + milliseconds(110));
 }
 
 TEST(PredictionPaceTest, KnowsWhenThePredictionAfterTheNextMayBegin) {
   PredictionPace pace;
-  pace.predicted(kBegin, milliseconds(3));
-  EXPECT_EQ(pace.due(), kBegin);  // 10 ms were kept
-  EXPECT_EQ(pace.dueAfterNext(), kBegin + milliseconds(10));
+  pace.predicted(kBegin, microseconds(2800));
+  EXPECT_NEAR(millisecondsFrom(kBegin, pace.due()), 0.0, 1e-3);  // 10 ms were kept
+  EXPECT_NEAR(millisecondsFrom(kBegin, pace.dueAfterNext()), 10.0, 1e-3);
 }
 
 TEST(PredictionPaceTest, APauseBetweenPosesIsNotTakenForTheirRate) {
@@ -67,8 +71,8 @@ TEST(PredictionPaceTest, APauseBetweenPosesIsNotTakenForTheirRate) {
   for (int i = 0; i < 200; ++i, at += milliseconds(1)) pace.received(at);
   at += seconds(30);
   for (int i = 0; i < 100; ++i, at += milliseconds(1)) pace.received(at);
-  pace.predicted(at, microseconds(600));
-  EXPECT_EQ(pace.dueAfterNext() - pace.due(), milliseconds(2));
+  pace.predicted(at, microseconds(560));
+  EXPECT_NEAR(millisecondsFrom(pace.due(), pace.dueAfterNext()), 2.0, 1e-3);
 }
 
 }  // namespace
