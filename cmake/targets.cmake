@@ -12,13 +12,9 @@ function(sweep_guard_target target)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual $<$<BOOL:${SWEEP_GUARD_WERROR}>:-Werror>)
-  target_compile_options(${target} PRIVATE ${protection})
+  target_compile_options(${target} PRIVATE -ffp-contract=off ${protection})  # the same results on every processor
   target_link_options(${target} PRIVATE ${link_protection})
 endfunction()
-
-add_library(sweep_guard_catkin INTERFACE)
-target_include_directories(sweep_guard_catkin SYSTEM INTERFACE ${catkin_INCLUDE_DIRS})
-target_link_libraries(sweep_guard_catkin INTERFACE ${catkin_LIBRARIES})
 
 function(sweep_guard_ros_target target)
   sweep_guard_target(${target})
