@@ -26,11 +26,9 @@ function(sweep_guard_ros_target target)
   add_dependencies(${target} ${${PROJECT_NAME}_EXPORTED_TARGETS})
 endfunction()
 
-# sweep_guard_install_library(LIBRARY) - one that other packages link: its name has the version, because any release may change it
-function(sweep_guard_install_library library)
+# sweep_guard_public_library(LIBRARY) - one that other packages link: its name has the version, because any release may change it
+function(sweep_guard_public_library library)
   set_target_properties(${library} PROPERTIES VERSION "${sweep_guard_VERSION}" SOVERSION "${sweep_guard_VERSION}")
-  install(TARGETS ${library}
-    ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 endfunction()
 
 # sweep_guard_precompile(LIBRARY HEADER...) - also for the targets that share them: no macro is its own
