@@ -22,6 +22,11 @@ function(sweep_guard_ros_target target)
   add_dependencies(${target} ${${PROJECT_NAME}_EXPORTED_TARGETS})
 endfunction()
 
+# sweep_guard_public_library(LIBRARY) - one that other packages link: its name has the version, because any release may change it
+function(sweep_guard_public_library library)
+  set_target_properties(${library} PROPERTIES VERSION "${sweep_guard_VERSION}" SOVERSION "${sweep_guard_VERSION}")
+endfunction()
+
 # sweep_guard_precompile(LIBRARY HEADER...) - also for the targets that share them: no macro is its own
 function(sweep_guard_precompile library)
   set_target_properties(${library} PROPERTIES DEFINE_SYMBOL "")
@@ -31,7 +36,7 @@ endfunction()
 # sweep_guard_share_headers(TARGET LIBRARY) - takes the headers that the library has precompiled, and its options with them
 function(sweep_guard_share_headers target library)
   get_target_property(type ${target} TYPE)
-  if(type STREQUAL EXECUTABLE)
+  if(NOT type STREQUAL SHARED_LIBRARY)
     target_compile_options(${target} PRIVATE -fPIC)
   endif()
   target_precompile_headers(${target} REUSE_FROM ${library})
