@@ -8,7 +8,7 @@ programs=()
 while [[ $1 != -- ]]; do programs+=("$1") && shift; done
 
 known() {
-  ctest -N --test-dir "$folder" | sed -n 's/^ *Test *#[0-9]*: //p'
+  (cd "$folder" && ctest -N) | sed -n 's/^ *Test *#[0-9]*: //p'
   local program
   for program in "${programs[@]}"; do
     "$program" --gtest_list_tests | awk '/^[^ ]+\./ { suite = $1; sub(/.*\//, "", suite) } /^  / { sub(/\/.*/, "", $1); print suite $1 }'
