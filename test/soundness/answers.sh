@@ -8,8 +8,8 @@ trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 "$program" --make 40 >cases.txt
 "$program" cases.txt "$found"/*.txt >best
-SWEEP_GUARD_SIMD=baseline "$program" cases.txt "$found"/*.txt >baseline
-python3 -B "$compare" best baseline
+SWEEP_GUARD_SIMD=baseline "$program" cases.txt "$found"/*.txt >plain
+python3 -B "$compare" best plain
 
 # expect STATUS SED-COMMAND - of the comparison with changed answers
 expect() {
