@@ -12,7 +12,7 @@ function(sweep_guard_target target)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual $<$<BOOL:${SWEEP_GUARD_WERROR}>:-Werror>)
-  target_compile_options(${target} PRIVATE ${protection})
+  target_compile_options(${target} PRIVATE -ffp-contract=off ${protection})  # the same results on every processor
   target_link_options(${target} PRIVATE ${link_protection})
 endfunction()
 

@@ -1,41 +1,28 @@
 // Compiled once for every instruction set. The object may not define anything that another file could define, too: the
 // linker could use an inline function compiled for AVX-512 in code that runs everywhere.
-#include <experimental/simd>
+#include <algorithm>
 #include <utility>
 #ifdef __AVX512BW__
 #include <immintrin.h>
 #endif
 
+#include "simd/lanes.h"
 #include "sweep_guard/simd/kernels.h"
 
 namespace sweep_guard_core::simd {
 namespace {
 
-namespace stdx = std::experimental;
-using Float = stdx::native_simd<float>;
-using Vector [[gnu::vector_size(sizeof(Float))]] = float;
-constexpr std::size_t kWidth = Float::size();
-using Ints [[gnu::vector_size(sizeof(Float))]] = std::int32_t;
-using Words [[gnu::vector_size(sizeof(Float) / 2)]] = std::uint16_t;
 constexpr std::size_t kFloats = 3 * kBlock;
 constexpr std::size_t kInPhase = kWidth / 3 * 3;  // lanes of whole vertices: each load begins with an x
+constexpr std::size_t kLoads = (kFloats + kInPhase - 1) / kInPhase;
 constexpr std::size_t kAhead = 32;  // blocks, 12 KB: the hardware's prefetching alone does not saturate the memory
 
 static_assert(kWidth == 4 || kWidth == 8 || kWidth == 16);
-
-// Loads once: otherwise GCC repeats the load for each use, across cache lines.
-[[gnu::always_inline]] inline Float load(const float* from) {
-  auto lanes = static_cast<Vector>(Float(from, stdx::element_aligned));
-#ifdef __x86_64__
-  asm("" : "+v"(lanes));
-#endif
-  return Float(lanes);
-}
+static_assert(kFunctions % kDoubles == 0 && kBatch % kDoubles == 0);
 
 template <std::size_t by, std::size_t... lane>
 [[gnu::always_inline]] inline Float turned(const Float& lanes, std::index_sequence<lane...> /*all*/) {
-  const auto from = static_cast<Vector>(lanes);
-  return Float(__builtin_shufflevector(from, from, static_cast<int>((lane + by) % kWidth)...));
+  return shuffle<(lane + by) % kWidth...>(lanes, lanes);
 }
 
 // Lane i takes the value of lane i + by.
@@ -50,14 +37,14 @@ template <typename Best>
   if (kWidth == 4) return lanes;
   const Float two = best(lanes, turned<3>(lanes));
   if (kWidth == 8) return two;
-  return best(best(two, turned<6>(two)), turned<12>(lanes));
+  return best(best(two, turned<12>(lanes)), turned<6>(two));
 }
 
 struct Lower {
-  [[gnu::always_inline]] Float operator()(const Float& a, const Float& b) const { return stdx::min(a, b); }
+  [[gnu::always_inline]] Float operator()(const Float& a, const Float& b) const { return min(a, b); }
 };
 struct Upper {
-  [[gnu::always_inline]] Float operator()(const Float& a, const Float& b) const { return stdx::max(a, b); }
+  [[gnu::always_inline]] Float operator()(const Float& a, const Float& b) const { return max(a, b); }
 };
 
 void store(const Float& lower, const Float& upper, const BoxArrays<float>& boxes, std::size_t at) {
@@ -72,25 +59,41 @@ struct Bounds {
   Float upper;
 
   [[gnu::always_inline]] void widen(const Float& low, const Float& high) {
-    lower = stdx::min(lower, low);
-    upper = stdx::max(upper, high);
+    lower = min(lower, low);
+    upper = max(upper, high);
   }
 };
 
+// Repeats three numbers in all lanes.
+Float repeated(const std::array<float, 3>& numbers) {
+  float lanes[kWidth];
+  for (std::size_t lane = 0; lane < kWidth; ++lane) lanes[lane] = numbers[lane % 3];
+  return load(lanes);
+}
+
+// Bounds `count` loads of a block, by halves: a chain of comparisons is slower. NaN and infinity stay in a sum; four
+// independent sums are faster.
+template <std::size_t first, std::size_t count>
+[[gnu::always_inline]] inline Bounds boundsOf(const float* block, Float (&sums)[4]) {
+  if constexpr (count == 1) {
+    constexpr std::size_t kFrom = std::min(first * kInPhase, kFloats - kInPhase);
+    const Float lanes = loadOnce(block + kFrom);
+    sums[first % 4] += lanes;
+    return {lanes, lanes};
+  } else {
+    Bounds bounds = boundsOf<first, (count + 1) / 2>(block, sums);
+    const Bounds second = boundsOf<first + (count + 1) / 2, count / 2>(block, sums);
+    bounds.widen(second.lower, second.upper);
+    return bounds;
+  }
+}
+
 bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& boxes, Extremes& extremes) {
-  Bounds all{Float([&](std::size_t lane) { return extremes.lower[lane % 3]; }),
-             Float([&](std::size_t lane) { return extremes.upper[lane % 3]; })};
-  Float sums[4] = {};  // NaN and infinity stay in a sum; four independent sums are faster
+  Bounds all{repeated(extremes.lower), repeated(extremes.upper)};
+  Float sums[4] = {};
   for (std::size_t block = 0; block < blocks; ++block, vertices += kFloats) {
     for (std::size_t line = 0; line < kFloats; line += 16) __builtin_prefetch(vertices + kAhead * kFloats + line);
-    const Float last = load(vertices + kFloats - kInPhase);
-    Bounds one{last, last};
-    sums[3] += last;
-    for (std::size_t i = 0; i + kInPhase < kFloats; i += kInPhase) {
-      const Float lanes = load(vertices + i);
-      one.widen(lanes, lanes);
-      sums[i / kInPhase % 4] += lanes;
-    }
+    Bounds one = boundsOf<0, kLoads>(vertices, sums);
     one = {perAxis(one.lower, Lower()), perAxis(one.upper, Upper())};
     store(one.lower, one.upper, boxes, block);
     all.widen(one.lower, one.upper);
@@ -99,12 +102,12 @@ bool bound(const float* vertices, std::size_t blocks, const BoxArrays<float>& bo
     extremes.lower[axis] = all.lower[axis];
     extremes.upper[axis] = all.upper[axis];
   }
-  return stdx::all_of((sums[0] + sums[1] + sums[2] + sums[3]) * 0.0F == 0.0F);
+  return finite(sums[0] + sums[1] + sums[2] + sums[3]);
 }
 
 // Sums of powers of two, below 2^16.
 [[gnu::always_inline]] inline void storeBits(const Float& sums, std::uint16_t* bits) {
-  const auto ints = __builtin_convertvector(static_cast<Vector>(sums), Ints);
+  const auto ints = __builtin_convertvector(sums, Ints);
   const auto words = __builtin_convertvector(ints, Words);
   __builtin_memcpy(bits, &words, sizeof(words));
 }
@@ -126,14 +129,14 @@ struct NearestCorners {
 template <std::size_t registers>
 void classifyBoxesFrom(std::size_t first, const NearestCorners& nearest, const Planes& planes, std::uint16_t* bits) {
   Float found[registers];  // sums of powers of two: lanes of float select faster than those of int
-  for (std::size_t k = 0; k < registers; ++k) found[k] = 0.0F;
+  for (std::size_t k = 0; k < registers; ++k) found[k] = Float{};
   float bit = 1.0F;
   for (std::size_t i = 0; i < planes.count; ++i, bit *= 2.0F) {
     for (std::size_t k = 0; k < registers; ++k) {
-      const auto along = [&](std::size_t axis) {
-        return planes.normal[axis][i] * Float(nearest.from[i][axis] + first + k * kWidth, stdx::element_aligned);
-      };
-      stdx::where(along(0) + along(1) + along(2) > planes.outside[i], found[k]) += bit;
+      const auto corner = [&](std::size_t axis) { return load(nearest.from[i][axis] + first + k * kWidth); };
+      const Float out =
+          dot(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i], corner(0), corner(1), corner(2));
+      found[k] += out > planes.outside[i] ? broadcast(bit) : Float{};
     }
   }
   for (std::size_t k = 0; k < registers; ++k) {
@@ -151,17 +154,13 @@ void classifyBoxes(const BoxArrays<const float>& boxes, std::size_t count, const
 // Gathers one axis of kWidth vertices from the three registers that contain them.
 template <std::size_t axis, std::size_t... lane>
 [[gnu::always_inline]] inline Float oneAxis(const Float (&of)[3], std::index_sequence<lane...> /*all*/) {
-  const auto first = static_cast<Vector>(of[0]);
-  const auto second = static_cast<Vector>(of[1]);
-  const auto third = static_cast<Vector>(of[2]);
-  const Vector two = __builtin_shufflevector(first, second, static_cast<int>((3 * lane + axis) % (2 * kWidth))...);
-  return Float(__builtin_shufflevector(
-      two, third, static_cast<int>(3 * lane + axis < 2 * kWidth ? lane : 3 * lane + axis - kWidth)...));
+  const Float two = shuffle<(3 * lane + axis) % (2 * kWidth)...>(of[0], of[1]);
+  return shuffle<(3 * lane + axis < 2 * kWidth ? lane : 3 * lane + axis - kWidth)...>(two, of[2]);
 }
 
 struct Points {
   explicit Points(const float* vertices) {
-    const Float of[3] = {load(vertices), load(vertices + kWidth), load(vertices + 2 * kWidth)};
+    const Float of[3] = {loadOnce(vertices), loadOnce(vertices + kWidth), loadOnce(vertices + 2 * kWidth)};
     constexpr auto kAll = std::make_index_sequence<kWidth>();
     x = oneAxis<0>(of, kAll);
     y = oneAxis<1>(of, kAll);
@@ -173,23 +172,24 @@ struct Points {
   Float z;
 };
 
+constexpr auto kInside = static_cast<float>(kInsideAll);
+
 // Handles two independent registers of vertices at a time.
 void classifyBlock(const float* vertices, const Planes& planes, std::uint16_t* bits) {
   for (std::size_t first = 0; first < kBlock; first += 2 * kWidth) {
     const Points at[2] = {Points(vertices + 3 * first), Points(vertices + 3 * (first + kWidth))};
-    Float found[2] = {0.0F, 0.0F};
-    Float::mask_type inside[2] = {Float::mask_type(true), Float::mask_type(true)};
+    Float found[2] = {};
+    Float inside[2] = {broadcast(kInside), broadcast(kInside)};  // or 0
     float bit = 1.0F;
     for (std::size_t i = 0; i < planes.count; ++i, bit *= 2.0F) {
       for (std::size_t k = 0; k < 2; ++k) {
-        const Float out = planes.normal[0][i] * at[k].x + planes.normal[1][i] * at[k].y + planes.normal[2][i] * at[k].z;
-        stdx::where(out > planes.outside[i], found[k]) += bit;
-        inside[k] = inside[k] && out < planes.inside[i];
+        const Float out = dot(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i], at[k].x, at[k].y, at[k].z);
+        found[k] += out > planes.outside[i] ? broadcast(bit) : Float{};
+        inside[k] = out < planes.inside[i] ? inside[k] : Float{};
       }
     }
     for (std::size_t k = 0; k < 2; ++k) {
-      stdx::where(inside[k], found[k]) = static_cast<float>(kInsideAll);
-      storeBits(found[k], bits + first + k * kWidth);
+      storeBits(inside[k] == kInside ? inside[k] : found[k], bits + first + k * kWidth);
     }
   }
 }
@@ -256,55 +256,45 @@ TriangleBits classifyTriangles(const ClusterCorners& corners,
 
 #endif
 
-using Double = stdx::native_simd<double>;
-constexpr std::size_t kDoubles = Double::size();
-
-static_assert(kFunctions % kDoubles == 0 && kBatch % kDoubles == 0);
-
-[[gnu::always_inline]] inline Double loadDoubles(const double* from) { return Double(from, stdx::element_aligned); }
-
 std::size_t largest(const LinearFunctions& functions, const std::array<double, 3>& point) {
   const auto value = [&](std::size_t i) {
-    return loadDoubles(functions.x + i) * point[0] + loadDoubles(functions.y + i) * point[1] +
-           loadDoubles(functions.z + i) * point[2] + loadDoubles(functions.w + i);
+    return dot(point[0], point[1], point[2], load(functions.x + i), load(functions.y + i), load(functions.z + i)) +
+           load(functions.w + i);
   };
   Double most = value(0);
-  Double first = 0.0;  // of the register that holds it; lanes of double, as they are selected by a mask of doubles
-  Double index = 0.0;
+  Double first = {};  // of the register that holds it; lanes of double, as they are selected by a mask of doubles
+  Double index = {};
   for (std::size_t i = kDoubles; i < functions.count; i += kDoubles) {
     index += static_cast<double>(kDoubles);
     const Double next = value(i);
-    const auto larger = next > most;
-    stdx::where(larger, most) = next;
-    stdx::where(larger, first) = index;
+    first = next <= most ? first : index;
+    most = max(next, most);
   }
   std::size_t best = 0;
   for (std::size_t lane = 1; lane < kDoubles; ++lane) {
     if (most[lane] > most[best]) best = lane;
   }
-  return static_cast<std::size_t>(static_cast<double>(first[best])) + best;
+  return static_cast<std::size_t>(first[best]) + best;
 }
 
 void separate(const TriangleBatch& triangles, const Directions& directions, BatchGaps& gaps) {
   for (std::size_t first = 0; first < kBatch; first += kDoubles) {
-    Double most = -__builtin_inf();
-    Double best = 0.0;
+    Double most = broadcast(-__builtin_inf());
+    Double best = {};
     for (std::size_t i = 0; i < directions.count; ++i) {
       const auto along = [&](std::size_t corner) {
         const auto& position = triangles.position[corner];
-        return directions.normal[0][i] * loadDoubles(&position[0][first]) +
-               directions.normal[1][i] * loadDoubles(&position[1][first]) +
-               directions.normal[2][i] * loadDoubles(&position[2][first]);
+        return dot(directions.normal[0][i], directions.normal[1][i], directions.normal[2][i], load(&position[0][first]),
+                   load(&position[1][first]), load(&position[2][first]));
       };
       Double reach = along(0);
-      for (std::size_t corner = 1; corner < triangles.corners; ++corner) reach = stdx::max(reach, along(corner));
+      for (std::size_t corner = 1; corner < triangles.corners; ++corner) reach = max(reach, along(corner));
       const Double gap = directions.least[i] - reach;
-      const auto larger = gap > most;
-      stdx::where(larger, most) = gap;
-      stdx::where(larger, best) = static_cast<double>(i);
+      best = gap <= most ? best : broadcast(static_cast<double>(i));
+      most = max(gap, most);
     }
-    most.copy_to(&gaps.gap[first], stdx::element_aligned);
-    best.copy_to(&gaps.direction[first], stdx::element_aligned);
+    store(most, &gaps.gap[first]);
+    store(best, &gaps.direction[first]);
   }
 }
 
