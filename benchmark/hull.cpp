@@ -30,7 +30,7 @@ Surface Hull::surface(double phase) const {
     for (size_t sector = 0; sector < sectors; ++sector) {
       const double azimuth = 2.0 * kPi * static_cast<double>(sector) / static_cast<double>(sectors);
       const Eigen::Vector3f p = point(polar, azimuth, phase).cast<float>();
-      surface.positions_M.insert(surface.positions_M.end(), p.begin(), p.end());
+      surface.positions_M.insert(surface.positions_M.end(), p.data(), p.data() + 3);
     }
   }
   const auto at = [&](size_t ring, size_t sector) {

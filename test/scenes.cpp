@@ -200,7 +200,7 @@ SweptVolume alignedVolume(Random& random) {
   SweptVolume volume;
   for (int i = 0; i < 3; ++i) volume.box.X_MB.translation()[i] = random.below(2049) - 1024;
   for (int i = 0; i < 3; ++i) volume.box.half_extents[i] = (1 + random.below(64)) / 64.0;
-  std::sort(volume.box.half_extents.begin(), volume.box.half_extents.end());
+  std::sort(volume.box.half_extents.data(), volume.box.half_extents.data() + 3);
   return volume;
 }
 
@@ -215,7 +215,7 @@ Scene alignedGrazingScene(Random& random) {
     Corners corners;
     for (Eigen::Vector3d& p : corners) {
       p = random.inBox(volume.box.half_extents);
-      for (double& coordinate : p) coordinate = kStep * std::round(coordinate / kStep);
+      for (int i = 0; i < 3; ++i) p[i] = kStep * std::round(p[i] / kStep);
       p[axis] = sign * (volume.box.half_extents[axis] + gap + (random.chance(0.5) ? 0.5 : 0.0));
       p = volume.box.X_MB * p;
     }
@@ -414,7 +414,7 @@ std::vector<float> streamedPositions(const TriangleMesh& mesh) {
   std::vector<float> positions;
   for (size_t i = 0; i < mesh.vertexCount(); ++i) {
     const Eigen::Vector3f p = mesh.vertex(i).cast<float>();
-    positions.insert(positions.end(), p.begin(), p.end());
+    positions.insert(positions.end(), p.data(), p.data() + 3);
   }
   return positions;
 }

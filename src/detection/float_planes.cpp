@@ -51,7 +51,7 @@ simd::Planes floatPlanes(const TriangleMesh& mesh_M, const SweptVolume& swept_M,
 }
 
 simd::Planes floatPlanes(const TriangleMesh& mesh_M, const Eigen::AlignedBox3d& box_M) {
-  const Eigen::AlignedBox3d box = box_M.translated(-mesh_M.origin());
+  const Eigen::AlignedBox3d box(box_M.min() - mesh_M.origin(), box_M.max() - mesh_M.origin());
   FloatPlanes planes(mesh_M.radius(), 0x1p-48 * mesh_M.origin().norm());
   for (int axis = 0; axis < 3; ++axis) {
     planes.add(Eigen::Vector3d::Unit(axis), box.max()[axis]);

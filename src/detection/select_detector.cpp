@@ -88,7 +88,7 @@ void SelectDetector::select(const SweptVolume& inflated_M) {
   corners_.clear();
   for (const Eigen::Vector3d& corner_B : corners_B_) {
     const Eigen::Vector3f corner = corner_B.cwiseQuotient(half_extents).cast<float>();
-    corners_.insert(corners_.end(), corner.begin(), corner.end());
+    corners_.insert(corners_.end(), corner.data(), corner.data() + 3);
   }
 
   if (options_.triangles_per_name == 1) {

@@ -37,9 +37,9 @@ void BlockBits::classifyGroups(size_t blocks) {
   const size_t whole = blocks / kBlocksTogether;
   group_bits_.resize(std::max(group_bits_.size(), whole + 1));
   const auto common = [&](size_t first, size_t last) {
-    std::uint16_t bits = kAll;
+    unsigned bits = kAll;
     for (size_t i = first; i < last; ++i) bits &= bits_[i];
-    return bits;
+    return static_cast<std::uint16_t>(bits);
   };
   for (size_t group = 0; group < whole; ++group) {
     group_bits_[group] = common(group * kBlocksTogether, (group + 1) * kBlocksTogether);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "common/xyz.h"
 #include "evaluation/progress.h"
 #include "evaluation/simulated_node.h"
 #include "guard/contact_probability.h"
@@ -40,7 +41,8 @@ constexpr double kRounding = 1e-4;  // [m]
 std::shared_ptr<const Workpiece> workpieceOf(const std::string& id, TriangleMesh mesh_W) {
   std::vector<float> positions;
   for (size_t i = 0; i < mesh_W.vertexCount(); ++i) {
-    for (const double coordinate : mesh_W.vertex(i)) positions.push_back(static_cast<float>(coordinate));
+    for (const double coordinate : sweep_guard_core::xyz(mesh_W.vertex(i)))
+      positions.push_back(static_cast<float>(coordinate));
   }
   mesh_W.deform(positions);
   return std::make_shared<const Workpiece>(Workpiece{id, 1, {}, {}, kFrame, mesh_W});

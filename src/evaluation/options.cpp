@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <boost/program_options.hpp>
-#include <charconv>
 #include <limits>
 #include <sstream>
-#include <system_error>
 #include <type_traits>
 
+#include "common/number_text.h"
 #include "evaluation/csv.h"
 #include "sweep_guard/common/error.h"
 
@@ -110,10 +109,8 @@ po::options_description sessionOptions(Options& options) {
 
 template <typename Number>
 Number toNumber(const std::string& option, const std::string& word, Number lower, Number upper) {
-  Number number = 0;
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, number);
-  if (error == std::errc() && stop == end && number >= lower && number <= upper) return number;
+  const std::optional<Number> number = sweep_guard_core::parseNumber<Number>(word);
+  if (number && *number >= lower && *number <= upper) return *number;
   throw InvalidInput(fmt::format("--{}: '{}' is not {} in [{}, {}]", option, word,
                                  std::is_integral_v<Number> ? "a whole number" : "a number", lower, upper));
 }

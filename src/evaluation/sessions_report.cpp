@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 
+#include "common/number_text.h"
 #include "evaluation/csv.h"
 #include "evaluation/gnuplot.h"
 #include "sweep_guard/common/error.h"
@@ -87,11 +87,8 @@ std::string objectsHeader() {
 
 template <typename Number>
 Number numberAt(std::vector<std::string>& words, size_t index, size_t line) {
-  Number number = 0;
-  const std::string& word = words[index];
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error == std::errc() && stop == word.data() + word.size()) return number;
-  throw InvalidInput(fmt::format("line {}: '{}' is not a number", line, word));
+  if (const auto number = sweep_guard_core::parseNumber<Number>(words[index])) return *number;
+  throw InvalidInput(fmt::format("line {}: '{}' is not a number", line, words[index]));
 }
 
 bool sameSessions(const RecordingSessions& a, const RecordingSessions& b) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/xyz.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/geometry/convex_hull.h"
 
@@ -237,7 +238,7 @@ ConvexShape ConvexShape::sphere(double radius) {
 }
 
 ConvexShape ConvexShape::box(const Eigen::Vector3d& half_extents) {
-  for (const double half : half_extents) {
+  for (const double half : xyz(half_extents)) {
     if (!usableLength(half)) throw InvalidInput("box size: must be finite and >= 0 m");
   }
   if (half_extents.isZero(0.0)) throw InvalidInput("box size: all three are 0; give it a size");

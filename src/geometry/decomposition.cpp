@@ -128,7 +128,7 @@ double spaceBetween(const TriangleMesh& mesh, const Set& set, const ConvexHull& 
 }
 
 bool lexicographicallyLess(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
 // Returns for each vertex the first one at the same place: files often have one vertex per triangle and corner.

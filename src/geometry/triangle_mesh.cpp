@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/xyz.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
@@ -65,7 +66,7 @@ Eigen::Vector3d centerOf(const std::vector<Eigen::Vector3d>& points) {
 TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::vector<Triangle> triangles) {
   checkTriangles(triangles, vertices_M.size());
   for (size_t i = 0; i < vertices_M.size(); ++i) {
-    for (const double coordinate : vertices_M[i]) {
+    for (const double coordinate : xyz(vertices_M[i])) {
       if (!usable(coordinate)) refuseVertex(i);
     }
   }
@@ -74,7 +75,7 @@ TriangleMesh::TriangleMesh(const std::vector<Eigen::Vector3d>& vertices_M, std::
   sent.reserve(3 * vertices_M.size());
   for (const Eigen::Vector3d& p : vertices_M) {
     const Eigen::Vector3f kept = (p - origin_).cast<float>();
-    sent.insert(sent.end(), kept.begin(), kept.end());
+    sent.insert(sent.end(), kept.data(), kept.data() + 3);
     rounding_ = std::max(rounding_, (p - (origin_ + kept.cast<double>())).norm());
   }
   const bool closed = everyEdgeIsEven(triangles);

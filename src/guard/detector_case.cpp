@@ -8,6 +8,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "common/xyz.h"
 #include "guard/triangle_set.h"
 #include "sweep_guard/common/error.h"
 
@@ -39,9 +40,9 @@ class CaseReader {
   }
 
   Eigen::Vector3d vector() {
-    Eigen::Vector3d p;
-    for (double& x : p) x = value<double>();
-    return p;
+    const auto x = value<double>();
+    const auto y = value<double>();
+    return {x, y, value<double>()};
   }
 
   size_t count(const std::string& key) {
@@ -101,7 +102,7 @@ TriangleMesh readMesh(CaseReader& read, TriangleSet& numbers) {
   std::vector<Eigen::Vector3d> vertices;
   for (size_t left = read.count("vertices"); left > 0; --left) {
     vertices.push_back(read.vector());
-    for (const double x : vertices.back()) positions.push_back(static_cast<float>(x));
+    for (const double x : xyz(vertices.back())) positions.push_back(static_cast<float>(x));
   }
   std::vector<Triangle> triangles;
   for (size_t left = read.count("triangles"); left > 0; --left) {
@@ -129,7 +130,7 @@ TriangleMesh submeshOf(const TriangleMesh& mesh_M, const TriangleSet& numbers) {
     triangles.push_back(triangle);
   }
   for (const Eigen::Vector3d& vertex : vertices) {
-    for (const double x : vertex) positions.push_back(static_cast<float>(x));
+    for (const double x : xyz(vertex)) positions.push_back(static_cast<float>(x));
   }
   TriangleMesh submesh(vertices, std::move(triangles));
   submesh.deform(positions);

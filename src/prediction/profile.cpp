@@ -1,11 +1,10 @@
 #include "prediction/profile.h"
 
 #include <Eigen/Eigenvalues>
-#include <charconv>
 #include <cmath>
 #include <string_view>
-#include <system_error>
 
+#include "common/number_text.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
@@ -17,16 +16,10 @@ constexpr const char* kEnd = "end";
 constexpr double kMaxNumber = 1e12;
 constexpr double kRounding = 1e-9;  // of an eigenvalue, relative to the largest
 
-std::string shortest(double number) {
-  std::array<char, 32> digits{};
-  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-  return {digits.data(), end};
-}
-
 // What the numbers belong to.
 std::string layout() {
   std::string text = "horizons";
-  for (const double ahead : kLearnedHorizons) text += ' ' + shortest(ahead);
+  for (const double ahead : kLearnedHorizons) text += ' ' + shortestText(ahead);
   text += "\nregressors";
   for (const std::string& name : MotionRegressors::names()) text += ' ' + name;
   return text;
@@ -44,7 +37,7 @@ void forEachLine(P& profile, Visit&& visit) {
     visit(key + "_time", &learned.time, 1);
   };
   for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-    const std::string ahead = shortest(kLearnedHorizons[i]);
+    const std::string ahead = shortestText(kLearnedHorizons[i]);
     visitRegression("translation_" + ahead, profile.translation[i]);
     visitRegression("rotation_" + ahead, profile.rotation[i]);
     visit("errors_" + ahead, profile.errors[i].data(), profile.errors[i].size());
@@ -80,13 +73,13 @@ void expectLine(Lines& lines, const std::string& wanted, const std::string& othe
 }
 
 double toNumber(std::string_view& words, const Lines& lines) {
-  double number = 0.0;
   if (words.empty() || words.front() != ' ') lines.refuse("a number is missing");
   words.remove_prefix(1);
-  const auto [end, error] = std::from_chars(words.data(), words.data() + words.size(), number);
-  if (error != std::errc() || !(std::abs(number) <= kMaxNumber)) lines.refuse("it has a number that cannot be");
-  words.remove_prefix(static_cast<size_t>(end - words.data()));
-  return number;
+  const std::string_view word = words.substr(0, words.find(' '));
+  const std::optional<double> number = parseNumber<double>(word);
+  if (!number || !(std::abs(*number) <= kMaxNumber)) lines.refuse("it has a number that cannot be");
+  words.remove_prefix(word.size());
+  return *number;
 }
 
 // @param words  after the key
@@ -117,7 +110,7 @@ std::string toText(const Profile& profile) {
   std::string text = std::string(kHeader) + '\n' + kPredictor + '\n' + layout() + '\n';
   forEachLine(profile, [&](const std::string& key, const double* numbers, Eigen::Index count) {
     text += key;
-    for (Eigen::Index i = 0; i < count; ++i) text += ' ' + shortest(numbers[i]);
+    for (Eigen::Index i = 0; i < count; ++i) text += ' ' + shortestText(numbers[i]);
     text += '\n';
   });
   return text + kEnd + '\n';

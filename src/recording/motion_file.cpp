@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <sstream>
 #include <string_view>
-#include <system_error>
 
+#include "common/number_text.h"
 #include "recording/file.h"
 #include "sweep_guard/common/error.h"
 
@@ -44,13 +42,11 @@ std::string printable(std::string_view word) {
 }
 
 long double toNumber(std::string_view word) {
-  long double number = std::numeric_limits<long double>::quiet_NaN();
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, number);
-  if (error != std::errc() || stop != end || !std::isfinite(static_cast<double>(number))) {
+  const std::optional<long double> number = sweep_guard_core::parseNumber<long double>(word);
+  if (!number || !std::isfinite(static_cast<double>(*number))) {
     throw InvalidInput("'" + printable(word) + "' is not a finite number; correct or remove the line");
   }
-  return number;
+  return *number;
 }
 
 Columns toColumns(std::string_view line) {

@@ -74,7 +74,8 @@ std::vector<std::string> headings() {
 std::string textLine(const std::vector<std::string>& cells) {
   std::string line = " ";
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
-    line += fmt::format(fmt::runtime(kColumns[i].left ? " {:<{}}" : " {:>{}}"), cells[i], kColumns[i].width);
+    const int width = kColumns[i].width;
+    line += kColumns[i].left ? fmt::format(" {:<{}}", cells[i], width) : fmt::format(" {:>{}}", cells[i], width);
   }
   return line + '\n';
 }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "common/xyz.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/tool/mesh_file.h"
 
@@ -144,7 +145,7 @@ std::vector<float> Workpiece::positions(double t) const {
     const double phase = vertex.phase - angular_rate_ * t;
     const Eigen::Vector3d p_M =
         vertex.rest + amplitude_ * (std::cos(phase) * vertex.along + std::sin(phase) * vertex.across);
-    for (const double coordinate : p_M) positions.push_back(static_cast<float>(coordinate));
+    for (const double coordinate : sweep_guard_core::xyz(p_M)) positions.push_back(static_cast<float>(coordinate));
   }
   return positions;
 }

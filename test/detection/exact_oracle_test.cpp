@@ -15,7 +15,7 @@ bool meetsCube(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::
     std::vector<float> positions;
     for (const Eigen::Vector3d& p : {a, b, c}) {
       const Eigen::Vector3f kept = p.cast<float>();
-      positions.insert(positions.end(), kept.begin(), kept.end());
+      positions.insert(positions.end(), kept.data(), kept.data() + 3);
     }
     return positions;
   };

@@ -35,7 +35,7 @@ Points cloud(Random& random, int count, double size, const Eigen::Vector3d& plac
 }
 
 bool lexicographic(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
 Points sorted(Points points) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/xyz.h"
 #include "scenes.h"
 
 namespace sweep_guard_core {
@@ -23,7 +24,7 @@ TriangleMesh moved(const TriangleMesh& mesh, Random& random, double most) {
   std::vector<float> positions;
   for (size_t i = 0; i < mesh.vertexCount(); ++i) {
     const Eigen::Vector3d p = mesh.vertex(i) + random.inBox({most, most, most});
-    for (const double x : p) positions.push_back(static_cast<float>(x));
+    for (const double x : xyz(p)) positions.push_back(static_cast<float>(x));
   }
   return deformed(mesh, positions);
 }

@@ -9,6 +9,8 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "common/xyz.h"
+
 namespace sweep_guard_ros {
 namespace {
 
@@ -369,7 +371,8 @@ sweep_guard::MeshVertices squareMovedTo(const std::string& id, const Eigen::Vect
                                         double half_side) {
   auto vertices = firstRevision<sweep_guard::MeshVertices>(id, stamp);
   for (const Eigen::Vector3d& corner : squareCorners(center, half_side)) {
-    for (const double coordinate : corner) vertices.positions.push_back(static_cast<float>(coordinate));
+    for (const double coordinate : sweep_guard_core::xyz(corner))
+      vertices.positions.push_back(static_cast<float>(coordinate));
   }
   return vertices;
 }

@@ -23,7 +23,9 @@ std::string hex(double value) {
 template <typename Derived>
 std::string hex(const Eigen::MatrixBase<Derived>& values) {
   std::string text;
-  for (const double value : values.reshaped()) text += ' ' + hex(value);
+  for (Eigen::Index column = 0; column < values.cols(); ++column) {
+    for (Eigen::Index row = 0; row < values.rows(); ++row) text += ' ' + hex(values(row, column));
+  }
   return text;
 }
 
@@ -194,7 +196,7 @@ TriangleMesh meshOf(const Triangles& all, const std::vector<Eigen::Vector3d>& co
   std::vector<float> positions;
   for (const Eigen::Vector3d& p : vertices) {
     const Eigen::Vector3f kept = p.cast<float>();
-    positions.insert(positions.end(), kept.begin(), kept.end());
+    positions.insert(positions.end(), kept.data(), kept.data() + 3);
   }
   return deformed(mesh, std::move(positions));
 }

@@ -36,8 +36,8 @@ Motion randomShortMotion(Random& random, const Eigen::Vector3d& place, double si
 
 Eigen::Vector3d anySigns(Random& random, const Eigen::Vector3d& half) {
   Eigen::Vector3d corner = half;
-  for (double& coordinate : corner) {
-    if (random.chance(0.5)) coordinate = -coordinate;
+  for (int i = 0; i < 3; ++i) {
+    if (random.chance(0.5)) corner[i] = -corner[i];
   }
   return corner;
 }

@@ -3,11 +3,12 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
+#include "common/number_text.h"
+#include "common/xyz.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
@@ -69,10 +70,8 @@ XmlRpc::XmlRpcValue split(std::string text) {
 // Entries of a list given as text are text.
 XmlRpc::XmlRpcValue toInteger(const XmlRpc::XmlRpcValue& value) {
   if (value.getType() != XmlRpc::XmlRpcValue::TypeString) return value;
-  const std::string text = static_cast<std::string>(value);
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size() ? XmlRpc::XmlRpcValue(number) : value;
+  const auto number = sweep_guard_core::parseNumber<int>(static_cast<std::string>(value));
+  return number ? XmlRpc::XmlRpcValue(*number) : value;
 }
 
 std::string bracketed(const std::vector<std::string>& words) { return "[" + listed(words) + "]"; }
@@ -254,7 +253,7 @@ Eigen::Vector3d ParameterReader::position(const std::string& key, const Eigen::V
   const std::string wanted = "three times " + shown(range);
   if (value.getType() != XmlRpc::XmlRpcValue::TypeArray || value.size() != 3) refuse(key, value, wanted);
   Eigen::Vector3d position(toNumber(value[0]), toNumber(value[1]), toNumber(value[2]));
-  for (const double coordinate : position) {
+  for (const double coordinate : sweep_guard_core::xyz(position)) {
     if (!within(coordinate, range)) refuse(key, value, wanted);
   }
   return position;

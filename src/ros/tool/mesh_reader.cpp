@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -45,10 +46,21 @@ void limit(__rlimit_resource resource, rlim_t value) {
   if (setrlimit(resource, &both) != 0) throw std::runtime_error("mesh_reader cannot limit its resources");
 }
 
+// close_range needs glibc 2.34.
+void closeInheritedFiles() {
+  std::vector<int> files;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    files.push_back(std::stoi(entry.path().filename()));
+  }
+  for (const int file : files) {
+    if (file > STDERR_FILENO) close(file);
+  }
+}
+
 // Afterwards no file can be opened: a mesh may name any other file.
 void confine() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  close_range(3, ~0U, 0);
+  closeInheritedFiles();
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, kProcessorTime);
   if (kSanitized) return;
@@ -118,7 +130,8 @@ void addMesh(const aiMesh& mesh, const aiMatrix4x4& X, Surface& surface) {
 }
 
 bool isSingular(const aiMatrix4x4& X) {
-  const Eigen::Matrix3d linear{{X.a1, X.a2, X.a3}, {X.b1, X.b2, X.b3}, {X.c1, X.c2, X.c3}};
+  Eigen::Matrix3d linear;
+  linear << X.a1, X.a2, X.a3, X.b1, X.b2, X.b3, X.c1, X.c2, X.c3;
   return !(std::abs(linear.determinant()) > kMinVolume * linear.colwise().norm().prod());
 }
 

@@ -130,6 +130,7 @@ void requireCount(const XMLElement& faces) {
 
 class DaeCheck : public tinyxml2::XMLVisitor {
  public:
+  using XMLVisitor::VisitEnter;
   bool VisitEnter(const XMLElement& element, const tinyxml2::XMLAttribute* /*first*/) override {
     const string_view name = element.Name();
     if (name == "unit") requireUnit(element);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/xyz.h"
 #include "ros/tool/robot_description.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/tool/mesh_file.h"
@@ -69,7 +70,7 @@ double size(double value, const std::string& what) {
 
 Eigen::Vector3d scaleOf(const urdf::Mesh& mesh) {
   Eigen::Vector3d scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
-  for (const double factor : scale) {
+  for (const double factor : sweep_guard_core::xyz(scale)) {
     if (!(std::abs(factor) >= 1e-9 && std::abs(factor) <= 1e9)) {
       throw InvalidInput(mesh.filename + ": its scale must not be 0, nor beyond 1e9");
     }
