@@ -16,10 +16,6 @@ function(sweep_guard_target target)
   target_link_options(${target} PRIVATE ${link_protection})
 endfunction()
 
-add_library(sweep_guard_catkin INTERFACE)
-target_include_directories(sweep_guard_catkin SYSTEM INTERFACE ${catkin_INCLUDE_DIRS})
-target_link_libraries(sweep_guard_catkin INTERFACE ${catkin_LIBRARIES})
-
 function(sweep_guard_ros_target target)
   sweep_guard_target(${target})
   target_link_libraries(${target} sweep_guard_catkin)  # no keyword: catkin links its tests without

@@ -25,7 +25,7 @@ build() {
 # Those that are scripts start programs without the emulator.
 test_core() {
   cd "$there"
-  SWEEP_GUARD_SCENES=1 ctest --no-tests=error --output-on-failure -j2 -F -L unit -R '_test$|^soundness_'
+  SWEEP_GUARD_SCENES=1 ctest --no-tests=error --output-on-failure -j2 -F -R '_test$|^soundness_'
 }
 
 program() { find "$1" -name answers -type f -executable; }

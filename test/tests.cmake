@@ -11,11 +11,13 @@ sweep_guard_target(sweep_guard_test_main)
 target_link_libraries(sweep_guard_test_main GTest::gtest Eigen3::Eigen)
 target_precompile_headers(sweep_guard_test_main PRIVATE ${test_headers})
 
-add_library(sweep_guard_probe STATIC EXCLUDE_FROM_ALL ros/guard_probe.cpp)
-sweep_guard_ros_target(sweep_guard_probe)
-target_link_libraries(sweep_guard_probe sweep_guard_ros GTest::gtest)
-target_precompile_headers(sweep_guard_probe PRIVATE ${test_headers}
-  <geometry_msgs/PoseStamped.h> <ros/ros.h> <std_srvs/SetBool.h> <std_srvs/Trigger.h> <visualization_msgs/MarkerArray.h>)
+if(NOT SWEEP_GUARD_CORE_ONLY)
+  add_library(sweep_guard_probe STATIC EXCLUDE_FROM_ALL ros/guard_probe.cpp)
+  sweep_guard_ros_target(sweep_guard_probe)
+  target_link_libraries(sweep_guard_probe sweep_guard_ros GTest::gtest)
+  target_precompile_headers(sweep_guard_probe PRIVATE ${test_headers}
+    <geometry_msgs/PoseStamped.h> <ros/ros.h> <std_srvs/SetBool.h> <std_srvs/Trigger.h> <visualization_msgs/MarkerArray.h>)
+endif()
 
 # Folders for LD_LIBRARY_PATH, each with an empty file in place of a library: a program that has one cannot load that library.
 foreach(library libOSMesa.so.8 libEGL.so.1)

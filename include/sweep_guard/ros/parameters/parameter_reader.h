@@ -32,23 +32,26 @@ struct ParameterInfo {
   bool deprecated = false;           ///< no longer listed in doc/interface.md and config/sweep_guard.yaml
 };
 
+struct ParameterRange {
+  double lowest;
+  double highest;
+  const char* unit = "";  ///< for the description only, without brackets; not null
+};
+
+/// Narrows a range by another parameter.
+struct ParameterBound {
+  ParameterRange range;  ///< checked in place of the wider range
+  const char* note;      ///< words for the error text that name the other parameter; not null
+};
+
 /// Reads the private parameters of a node. Each function returns the value that is set, or the fallback if none is, and
 /// throws sweep_guard_core::InvalidInput with key, value and range if the value has another type, is NaN or is out of
 /// range. (roscpp silently returns the fallback if the type is wrong.) Both ends of a range are allowed. `effect`
 /// describes the parameter to users. Not thread-safe.
 class ParameterReader {
  public:
-  struct Range {
-    double lowest;
-    double highest;
-    const char* unit = "";  ///< for the description only, without brackets; not null
-  };
-
-  /// Narrows a range by another parameter.
-  struct Bound {
-    Range range;       ///< checked in place of the wider range
-    const char* note;  ///< words for the error text that name the other parameter; not null
-  };
+  using Range = ParameterRange;
+  using Bound = ParameterBound;
 
   /// Holds values by key; empty: not set.
   using Settings = std::map<std::string, std::optional<XmlRpc::XmlRpcValue>>;
