@@ -4,6 +4,9 @@ set -euo pipefail
 
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 build=$root/build
+ros=/opt/ros/noetic
+# shellcheck source=/dev/null
+system=$(. "${SWEEP_GUARD_OS_RELEASE:-/etc/os-release}" && echo "$ID ${VERSION_ID:-}") || system=  # as in: debian 12
 
 say() { echo "-- $*"; }
 fail() {
@@ -46,7 +49,7 @@ as_root() {
 # missing_packages PACKAGE... - those that are not installed, one per line
 missing_packages() {
   comm -23 <(printf '%s\n' "$@" | sort -u) \
-    <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' | sort -u)
+    <(command -v dpkg-query >/dev/null && dpkg-query -W -f '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' | sort -u)
 }
 
 # install_packages PACKAGE... - asks for root rights only where one is missing
@@ -54,20 +57,48 @@ install_packages() {
   local missing quiet=() output=/dev/stdout
   mapfile -t missing < <(missing_packages "$@")
   [[ ${#missing[@]} -gt 0 ]] || return 0
-  [[ $(. /etc/os-release && echo "$ID $VERSION_ID") == 'debian 12' ]] ||
-    fail "this is not Debian 12, whose packages are needed. Missing here: ${missing[*]}"
+  if [[ ! $system =~ ^(debian 1[123]|ubuntu 20\.04)$ ]]; then
+    go_on_without "${missing[@]}"
+    return
+  fi
   say "installing ${missing[*]}"
   [[ -t 1 ]] || { quiet=(-qq) && output=/dev/null; }
   local apt=(env DEBIAN_FRONTEND=noninteractive apt-get "${quiet[@]}" -o DPkg::Lock::Timeout=300)
   as_root "${apt[@]}" update >$output || say "going on with the package lists that are there"
-  as_root "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >$output
+  as_root "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >$output || fail_to_install
+  enter_ros
 }
 
-# install_listed FILE... - the packages listed in files of this folder
+# go_on_without PACKAGE... - on a system that these scripts do not know: it may have the same in another way
+go_on_without() {
+  local command
+  say "this is ${system:-an unknown system}: install what Debian 12 has in these packages: $*"
+  for command in cmake ninja c++ pkg-config python3; do
+    command -v $command >/dev/null || fail "there is no $command: install what is listed above"
+  done
+}
+
+fail_to_install() {
+  [[ $system == ubuntu* ]] || fail "the packages could not be installed"
+  fail "the packages could not be installed. Those named ros-noetic-* need the package source of ROS:" \
+    "see wiki.ros.org/noetic/Installation/Ubuntu"
+}
+
+# install_listed FILE... - the packages listed in files of this folder, by their names on this system
 install_listed() {
   local packages
-  mapfile -t packages < <(cd "$root/scripts" && sed 's/#.*//' "$@" | xargs -n1)
+  mapfile -t packages < <(cd "$root/scripts" && sed 's/#.*//' "$@" | xargs -n1 | packages_here)
   install_packages "${packages[@]}"
+}
+
+# packages_here - the names on this system of the Debian packages on standard input
+packages_here() {
+  if [[ $system == 'ubuntu 20.04' ]]; then
+    awk 'NR == FNR { if (!/^#/) focal[$1] = $2; next } { print ($1 in focal) ? focal[$1] : $1 }' \
+      "$root/scripts/packages-focal.txt" - | sort -u
+  else
+    cat
+  fi
 }
 
 # show_progress - of Ninja: each line on a terminal; elsewhere one line for each twentieth, and whatever else it says
@@ -103,12 +134,18 @@ build_targets() {
   fi
 }
 
-enter_workspace() {
+# enter FOLDER - a workspace or an installation of ROS
+enter() {
   set +u  # catkin's file reads unset variables
   # shellcheck source=/dev/null
-  . "$build/devel/setup.bash"
+  . "$1/setup.bash"
   set -u
 }
+
+enter_workspace() { enter "$build/devel"; }
+
+# enter_ros - Debian's ROS is in /usr, others are in /opt
+enter_ros() { [[ $system == debian* || ! -e $ros/setup.bash ]] || enter "$ros"; }
 
 # What is started here talks over the loopback, so that the host's own name need not resolve. localhost must:
 # roslaunch looks it up in any case, and a bare system has no /etc/hosts.
@@ -119,3 +156,4 @@ use_loopback() {
 }
 
 clean_environment
+enter_ros

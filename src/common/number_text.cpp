@@ -30,7 +30,8 @@ void convert(const char* text, char** end, locale_t locale, long double& number)
 template <typename Real>
 std::optional<Real> parseReal(std::string_view text) {
   static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
-  if (text.empty() || text.find_first_of(" \t\n\v\f\rxX") != std::string_view::npos || text.front() == '+') return {};
+  if (text.empty() || text.find_first_of(" \t\n\v\f\rxX") != std::string_view::npos || text.front() == '+')
+    return std::nullopt;
   const std::string ended(text);
   char* end = nullptr;
   Real number = 0;

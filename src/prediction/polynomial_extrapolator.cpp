@@ -7,7 +7,8 @@ namespace sweep_guard_core {
 PolynomialExtrapolator::PolynomialExtrapolator(const PredictorOptions& options)
     : degree_(options.degree),
       window_(options.window),
-      fit_({*std::max_element(degree_.begin(), degree_.end()), options.window, options.forgetting_factor}) {}
+      fit_({*std::max_element(options.degree.begin(), options.degree.end()), options.window,
+            options.forgetting_factor}) {}
 
 void PolynomialExtrapolator::observe(const PoseTracker& tracker) {
   follow(fit_, tracker);

@@ -1,0 +1,52 @@
+#!/bin/bash
+# setup.sh SOURCE: scripts/setup.bash asks each system for what is missing there, by the names that it has there, and elsewhere
+# says what is needed and goes on as far as there are commands.
+set -euo pipefail
+source=$1
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cat >"$folder/installs" <<'END'
+. "$1/scripts/setup.bash"
+dpkg-query() { printf 'installed %s\n' cmake g++ rviz; }  # what is said to be here
+as_root() { echo "as root: $*" >&2 && [[ -z ${refuses:-} || $* != *install* ]]; }
+[[ -z ${without:-} ]] || command() { [[ ${*: -1} != "$without" ]] && builtin command "$@"; }
+install_listed packages-node.txt packages-rviz.txt
+END
+
+status=0
+# expect STATUS WITH|WITHOUT TEXT SYSTEM - the variables that are set go on to the script
+expect() {
+  local result=0 has=0
+  echo "ID=${4% *} VERSION_ID=\"${4#* }\"" | tr ' ' '\n' >"$folder/os-release"
+  SWEEP_GUARD_OS_RELEASE=$folder/os-release bash -e "$folder/installs" "$source" >"$folder/output" 2>&1 || result=$?
+  grep -qE -- "$3" "$folder/output" || has=1
+  [[ $result == "$1" && $has == "$([[ $2 == WITH ]] && echo 0 || echo 1)" ]] && return
+  echo "$4: wants status $1, $2 '$3', but has $result:" && cat "$folder/output" && status=1
+}
+
+for system in 'debian 11' 'debian 12' 'debian 13'; do
+  expect 0 WITH '^as root: .* install .* libassimp-dev .*libroscpp-dev' "$system"
+  expect 0 WITHOUT ' install .*(ros-noetic|cmake|rviz |g\+\+)' "$system"
+done
+expect 0 WITH '^as root: .* install .* libassimp-dev .*ros-noetic-roscpp' 'ubuntu 20.04'
+expect 0 WITH ' install .*ros-noetic-rviz ' 'ubuntu 20.04'
+expect 0 WITHOUT ' install .*(libroscpp-dev|ros-noetic-roscpp .*ros-noetic-roscpp )' 'ubuntu 20.04'
+refuses=1 expect 1 WITH 'the package source of ROS' 'ubuntu 20.04'
+refuses=1 expect 1 WITHOUT 'the package source of ROS' 'debian 12'
+expect 0 WITH '^-- this is fedora 40: .* libassimp-dev .*libroscpp-dev' 'fedora 40'
+expect 0 WITHOUT '^as root' 'fedora 40'
+without=ninja expect 1 WITH 'there is no ninja' 'fedora 40'
+
+# What focal has other names for is on the lists, and only once.
+lists=$(cat "$source"/scripts/packages-{node,tools,rviz,test}.txt)
+while read -r name _; do
+  grep -qxF -- "$name" <<<"$lists" || { echo "packages-focal.txt: $name is on no list" && status=1; }
+done < <(grep -v '^#' "$source/scripts/packages-focal.txt")
+twice=$(grep -v '^#' "$source/scripts/packages-focal.txt" | cut -d' ' -f1 | sort | uniq -d)
+[[ -z $twice ]] || { echo "packages-focal.txt: twice: $twice" && status=1; }
+# Each package of ROS has another name there: those whose name in Debian says that they are.
+while read -r name; do
+  grep -q "^$name " "$source/scripts/packages-focal.txt" || { echo "packages-focal.txt: no name for $name" && status=1; }
+done < <(grep -E '^[^#]*(ros|-msgs|tf2|nodelet|srvs|rviz|catkin$)' <<<"$lists")
+exit $status
