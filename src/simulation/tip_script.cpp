@@ -28,7 +28,7 @@ TipScript::Pose TipScript::parse(const std::string& line) {
   numbers.imbue(std::locale::classic());
   Pose pose{};
   numbers >> pose.t;
-  for (double& value : pose.at) numbers >> value;
+  for (Eigen::Index i = 0; i < pose.at.size(); ++i) numbers >> pose.at[i];
   std::string rest;
   if (!numbers || numbers >> rest || !std::isfinite(pose.t) || !pose.at.allFinite()) {
     throw InvalidInput("pose '" + line + "' is not 't x y z rx ry rz'");
