@@ -42,7 +42,7 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
   using Refused = std::function<void(const std::string&)>;
 
   BoundedMessages(typename Base::Callback callback, Refused refused, size_t max_size)
-      : Base(std::move(callback)), refused_(std::move(refused)), max_size_(max_size) {}
+      : Base(std::move(callback), kCreate), refused_(std::move(refused)), max_size_(max_size) {}
 
   /// Reports no more refusals.
   void close() { refused_.close(); }
@@ -69,6 +69,9 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
   }
 
  private:
+  // Base's default; a temporary copies a buffer that is not initialized, and GCC 14 says so.
+  inline static const typename Base::CreateFunction kCreate = ros::DefaultMessageCreator<Msg>();
+
   Gate<const std::string&> refused_;
   const size_t max_size_;
 };

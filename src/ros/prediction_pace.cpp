@@ -6,8 +6,8 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr double kShareIfEachPose = 0.42;  // of the time
-constexpr double kShare = 0.27;
+constexpr double kShareIfEachPose = 0.45;  // of the time
+constexpr double kShare = 0.24;
 constexpr auto kLongestInterval = std::chrono::milliseconds(100);
 constexpr auto kKept = std::chrono::milliseconds(10);
 
