@@ -7,7 +7,7 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr double kShareIfEachPose = 0.45;  // of the time
-constexpr double kShare = 0.24;
+constexpr double kShare = 0.2;
 constexpr auto kLongestInterval = std::chrono::milliseconds(100);
 constexpr auto kKept = std::chrono::milliseconds(10);
 

@@ -5,7 +5,7 @@
 namespace sweep_guard_ros {
 
 /// Decides when predictions may begin. Each pose has its own if that takes at most 45 % of the time; otherwise predictions
-/// take 24 %, so that sweeps of poses and other processes find a processor. What they leave unused is kept for them, and
+/// take 20 %, so that sweeps of poses and other processes find a processor. What they leave unused is kept for them, and
 /// what they take too much is owed, for 10 ms.
 class PredictionPace {
  public:

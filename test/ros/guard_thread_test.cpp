@@ -131,8 +131,8 @@ TEST_F(GuardThreadTest, APredictionGoesOnAfterAPoseThatCameMeanwhileIsSwept) {
 }
 
 // The prediction has taken at least this time when the pose that came meanwhile is swept. No further pose comes.
-TEST_F(GuardThreadTest, TakesAThirdOfTheTimeToPredictAndPredictsFromTheNewestPose) {
-  constexpr milliseconds kTook(10);
+TEST_F(GuardThreadTest, LeavesTimeBetweenPredictionsAndPredictsFromTheNewestPose) {
+  constexpr milliseconds kTook(20);
   push();
   passTheQueue();
   std::vector<std::uint64_t> made;  // used by the guard's thread only, as the next one
@@ -148,7 +148,7 @@ TEST_F(GuardThreadTest, TakesAThirdOfTheTimeToPredictAndPredictsFromTheNewestPos
   };
   push();
   EXPECT_TRUE(await([&] { return begun.size() == 2; }));
-  EXPECT_GE(begun.at(1) - begun.at(0), 3 * kTook);
+  EXPECT_GE(begun.at(1) - begun.at(0), 3 * kTook / 2);
   EXPECT_EQ(statistics_.take().sweeps_total, 3U);
 }
 

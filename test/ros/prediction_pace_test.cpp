@@ -37,9 +37,9 @@ TEST(PredictionPaceTest, EachPoseHasAPredictionThatIsShort) {
 }
 
 TEST(PredictionPaceTest, OthersTakeTheirShareThoughTheyBeginWithPoses) {
-  EXPECT_NEAR(predictionsInASecond(milliseconds(1), microseconds(480)), 500, 10);
-  EXPECT_NEAR(predictionsInASecond(milliseconds(1), microseconds(1700)), 141, 5);
-  EXPECT_NEAR(predictionsInASecond(milliseconds(10), microseconds(6000)), 40, 3);
+  EXPECT_NEAR(predictionsInASecond(milliseconds(1), microseconds(480)), 417, 10);
+  EXPECT_NEAR(predictionsInASecond(milliseconds(1), microseconds(1700)), 118, 5);
+  EXPECT_NEAR(predictionsInASecond(milliseconds(10), microseconds(6000)), 33, 3);
 }
 
 TEST(PredictionPaceTest, ALongOneAmongShortOnesIsFollowedByThemAsBefore) {
@@ -58,19 +58,19 @@ TEST(PredictionPaceTest, OnlyTheNewestTimeIsKept) {
   for (SteadyTime at = kBegin; at >= pace.due(); at += milliseconds(1), ++predictions) {
     pace.predicted(at, milliseconds(1));
   }
-  EXPECT_EQ(predictions, 4);  // 3.2 ms owed for each, 10 ms kept
+  EXPECT_EQ(predictions, 4);  // 4 ms owed for each, 10 ms kept
 }
 
 TEST(PredictionPaceTest, WhatWasOwedForLongIsForgotten) {
   PredictionPace pace;
   SteadyTime at = kBegin;
   for (int i = 0; i < 100; ++i, at += milliseconds(50)) pace.predicted(at, milliseconds(40));
-  EXPECT_LE(pace.due(), at + milliseconds(130));
+  EXPECT_LE(pace.due(), at + milliseconds(170));
 }
 
 TEST(PredictionPaceTest, KnowsWhenThePredictionAfterTheNextMayBegin) {
   PredictionPace pace;
-  pace.predicted(kBegin, microseconds(2400));
+  pace.predicted(kBegin, microseconds(2000));
   EXPECT_NEAR(millisecondsFrom(kBegin, pace.due()), 0.0, 1e-3);  // 10 ms were kept
   EXPECT_NEAR(millisecondsFrom(kBegin, pace.dueAfterNext()), 10.0, 1e-3);
 }
@@ -81,7 +81,7 @@ TEST(PredictionPaceTest, APauseBetweenPosesIsNotTakenForTheirRate) {
   for (int i = 0; i < 200; ++i, at += milliseconds(1)) pace.received(at);
   at += seconds(30);
   for (int i = 0; i < 100; ++i, at += milliseconds(1)) pace.received(at);
-  for (int i = 0; i < 100; ++i) pace.predicted(at, microseconds(480));
+  for (int i = 0; i < 100; ++i) pace.predicted(at, microseconds(400));
   EXPECT_NEAR(millisecondsFrom(pace.due(), pace.dueAfterNext()), 2.0, 1e-3);
 }
 
