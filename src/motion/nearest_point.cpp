@@ -12,8 +12,8 @@ using Square = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMaj
 using Values = Eigen::Matrix<Real, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1>;
 
 constexpr Real kTolerance = 1e-13L;  // distance from a half-space that counts as inside
-constexpr Real kRounding = 1e-8L;    // of such a distance, where normals are nearly dependent
-constexpr Real kParallel = 1e-13L;   // sine of the angle below which normals count as dependent
+constexpr Real kRounding = 1e-6L;    // of such a distance, where normals are nearly dependent
+constexpr Real kParallel = 1e-8L;    // sine of the angle below which normals count as dependent
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 constexpr int kMaxSteps = 200;
 
@@ -85,6 +85,7 @@ class DualSearch {
 
   std::optional<NearestPoint> run() {
     for (int step = 0; step < kMaxSteps; ++step) {
+      if (step == kMaxSteps / 2) tolerance_ = kRounding;  // nearly parallel half-spaces take turns
       const std::optional<size_t> violated = mostViolated();
       if (!violated) return result();
       if (satisfy(*violated)) continue;

@@ -25,8 +25,9 @@ struct NearestPoint {
 
 /// Computes the point of an intersection of half-spaces nearest to `target`, by the dual active-set method of Goldfarb
 /// and Idnani (1983): begins at the target and adds the half-space that is violated most, until none is. The number of
-/// half-spaces is not limited; nothing is allocated.
-/// @returns empty if rounding kept it from an answer: after 200 steps, or without a direction in which to go on
+/// half-spaces is not limited; nothing is allocated. The point may lie outside of a half-space by 1e-13, or by up to 1e-6
+/// where normals are within 1e-8 of linear dependence.
+/// @returns empty if rounding kept it from an answer: after 200 steps, or without a direction to go on in
 std::optional<NearestPoint> nearestPoint(const Eigen::Vector4d& target, const std::vector<HalfSpace4>& half_spaces);
 
 }  // namespace sweep_guard_core
