@@ -121,7 +121,7 @@ class DualSearch {
       const Real slope = direction.squaredNorm();
       const Real to_plane = slope > kParallel * kParallel ? violation(added) / slope : kInfinity;
       const Real length = std::min(to_block, to_plane);
-      if (length == kInfinity) return false;
+      if (length == kInfinity) return cancel(added, multiplier, falling), false;
       multiplier += length;
       for (Eigen::Index i = 0; i < active_.size(); ++i) multipliers_[static_cast<size_t>(i)] -= length * falling[i];
       if (to_plane <= to_block) return reach(added, multiplier);
@@ -150,6 +150,20 @@ class DualSearch {
     multipliers_.push_back(multiplier);
     point_ = active_.pointNearestTo(target_);
     return true;
+  }
+
+  // The new half-space is opposite to the active ones: takes the part out of all multipliers that cancels itself.
+  void cancel(size_t added, Real multiplier, const Values& falling) {
+    const auto [place, length] = firstToFall(-falling);
+    const Real common = std::min(multiplier, length);
+    for (Eigen::Index i = 0; i < active_.size(); ++i) multipliers_[static_cast<size_t>(i)] += common * falling[i];
+    if (length < multiplier) {
+      active_.remove(place);
+      multipliers_.erase(multipliers_.begin() + place);
+      reach(added, multiplier - common);
+    } else {
+      point_ = active_.pointNearestTo(target_);
+    }
   }
 
   NearestPoint result() const {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cinttypes>
+#include <cstdio>
+
 #include "motion/random_scenes.h"
 
 namespace sweep_guard_core {
@@ -9,7 +12,8 @@ namespace {
 
 using Eigen::Vector4d;
 
-constexpr double kTolerance = 1e-8;  // in units of the target
+constexpr double kTolerance = 1e-9;      // in units of the target
+constexpr double kMaxRounding = 1.5e-6;  // where normals are nearly dependent
 
 Vector4d unit(RandomScenes& random) {
   return Vector4d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))
@@ -57,6 +61,7 @@ TEST(NearestPointTest, FulfillsTheConditionsOfOptimality) {
   const std::uint64_t cases = caseCount(50000);
   std::array<std::uint64_t, 5> active{};
   double worst = 0.0;
+  std::uint64_t inexact = 0;
   for (std::uint64_t i = 0; i < cases; ++i) {
     const std::vector<HalfSpace4> half_spaces = drawHalfSpaces(random);
     const Vector4d target = random.logUniform(0.1, 2.0) * unit(random);
@@ -64,12 +69,12 @@ TEST(NearestPointTest, FulfillsTheConditionsOfOptimality) {
     ASSERT_TRUE(nearest) << "case " << i;
     ++active[nearest->active.size()];
     const double error = optimalityError(target, half_spaces, *nearest);
-    ASSERT_LT(error, kTolerance) << "case " << i;
+    ASSERT_LT(error, kMaxRounding) << "case " << i;
+    inexact += error < kTolerance ? 0 : 1;
     worst = std::max(worst, error);
   }
-  RecordProperty("worst_error", std::to_string(worst));
-  std::printf("%lu cases, largest error %.2g, active 0..4: %lu %lu %lu %lu %lu\n", cases, worst, active[0], active[1],
-              active[2], active[3], active[4]);
+  std::printf("%" PRIu64 " cases, largest error %.2g, %" PRIu64 " above %.0e\n", cases, worst, inexact, kTolerance);
+  EXPECT_LE(inexact, cases / 10000);
   for (const std::uint64_t count : active) EXPECT_GT(count, cases / 1000);
 }
 
