@@ -1,6 +1,6 @@
 #include "sweep_guard/motion/nearest_point.h"
 
-#include <Eigen/Geometry>
+#include <algorithm>
 #include <limits>
 
 namespace sweep_guard_core {
@@ -87,9 +87,10 @@ class DualSearch {
     for (int step = 0; step < kMaxSteps; ++step) {
       if (step == kMaxSteps / 2) tolerance_ = kRounding;  // nearly parallel half-spaces take turns
       const std::optional<size_t> violated = mostViolated();
+      if (!point_.allFinite()) return {};
       if (!violated) return result();
       if (satisfy(*violated)) continue;
-      tolerance_ = violation(*violated);  // there is a common point, so only rounding is left
+      tolerance_ = std::max(tolerance_, violation(*violated));  // there is a common point, so only rounding is left
       if (tolerance_ > kRounding) return {};
     }
     return {};
@@ -105,7 +106,9 @@ class DualSearch {
     Real largest = tolerance_;
     for (size_t i = 0; i < half_spaces_.size(); ++i) {
       const Real beyond = violation(i);
-      if (beyond > largest) most = i, largest = beyond;
+      if (beyond <= largest) continue;
+      most = i;
+      largest = beyond;
     }
     return most;
   }
@@ -121,7 +124,10 @@ class DualSearch {
       const Real slope = direction.squaredNorm();
       const Real to_plane = slope > kParallel * kParallel ? violation(added) / slope : kInfinity;
       const Real length = std::min(to_block, to_plane);
-      if (length == kInfinity) return cancel(added, multiplier, falling), false;
+      if (length == kInfinity) {
+        cancel(added, multiplier, falling);
+        return false;
+      }
       multiplier += length;
       for (Eigen::Index i = 0; i < active_.size(); ++i) multipliers_[static_cast<size_t>(i)] -= length * falling[i];
       if (to_plane <= to_block) return reach(added, multiplier);
