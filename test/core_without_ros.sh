@@ -6,7 +6,7 @@ library=$1
 root=$2
 
 files=()
-for room in common simd geometry detection prediction guard monitor; do
+for room in common simd geometry detection prediction guard monitor motion; do
   for folder in "$root/include/sweep_guard/$room" "$root/src/$room"; do
     [[ -d $folder ]] && files+=("$folder"/*)
   done
@@ -21,7 +21,7 @@ if grep -nE "$foreign" "${files[@]}"; then
   status=1
 fi
 
-if grep -nE '#include ([<"]sweep_guard/|")(simd|detection|prediction|guard|monitor|ros|recording|simulation|evaluation|session)/' "$root"/src/rviz/*; then
+if grep -nE '#include ([<"]sweep_guard/|")(simd|detection|prediction|guard|monitor|motion|ros|recording|simulation|evaluation|session)/' "$root"/src/rviz/*; then
   echo "a plugin for rviz includes more of this package than its messages, common and geometry"
   status=1
 fi

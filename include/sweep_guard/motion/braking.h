@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+#include "sweep_guard/motion/separating_plane.h"
+
+namespace sweep_guard_core {
+
+/// A velocity of the tool, along the axes of the fixed frame W.
+struct Twist {
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< of the origin of the tool frame [m/s]
+  Eigen::Vector3d w_W = Eigen::Vector3d::Zero();  ///< angular velocity [rad/s]
+};
+
+/// What the robot can do, and how close it may come.
+struct BrakingLimits {
+  double deceleration = 1.0;    ///< that the robot reaches at any point of the tool when it is stopped [m/s^2], > 0
+  double reaction_time = 0.05;  ///< command period + age of planes and pose + the robot's own lag [s], > 0
+  double standoff = 0.002;      ///< distance from a plane at which the closing speed is 0 [m], >= 0
+  double tool_radius = 0.1;     ///< largest distance of a tool point from the origin of the tool frame [m], >= 0
+};
+
+/// Says how near the surfaces may be that no plane stands for: those beyond the reach of the planes, and those left over.
+struct UncoveredSurfaces {
+  double distance = std::numeric_limits<double>::infinity();  ///< of the nearest one from the tool [m]
+  double speed = 0.0;                                         ///< of the fastest one [m/s], >= 0
+};
+
+/// Returns the largest speed [m/s] from which a point can stop within a distance: the v for which v^2 / (2 deceleration)
+/// + v reaction_time = distance; 0 for a negative distance.
+double stoppingSpeed(double distance, const BrakingLimits& limits);
+
+/// Returns the largest speed [m/s], >= 0, at which the tool's own motion may bring a ball closer to a plane while the
+/// tool turns at `turn_rate`. At this speed u, with c = u + the surface's speed to the tool, c^2 / (2 deceleration) + c
+/// reaction_time + tool_radius (turn_rate T)^2 / 2 <= gap - standoff, where T = reaction_time + c / deceleration is the
+/// time until the ball is at rest. 0 if the surface comes faster than that. A surface that goes away counts as at rest.
+double closingLimit(const FacingBall& ball, double turn_rate, const BrakingLimits& limits);
+
+/// Returns how fast the tool's own motion brings a ball closer to its plane [m/s]; negative: the gap grows.
+double closingSpeed(const FacingBall& ball, const Twist& twist_W);
+
+/// Returns an upper bound of the speed of any tool point [m/s].
+double fastestPoint(const Twist& twist_W, double tool_radius);
+
+/// Returns the largest speed [m/s], >= 0, at which the tool can stop before what no plane stands for.
+double allowedSpeed(const UncoveredSurfaces& uncovered, const BrakingLimits& limits);
+
+/// @throws InvalidInput  if a value is NaN or out of range, with what it is
+void requireUsable(const Twist& command_W);
+void requireUsable(const FacingBall& ball);
+void requireUsable(const UncoveredSurfaces& uncovered);
+void requireUsable(const BrakingLimits& limits);
+
+}  // namespace sweep_guard_core

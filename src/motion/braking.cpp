@@ -1,0 +1,75 @@
+#include "sweep_guard/motion/braking.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr double kMaxSpeed = 1e6;        // of a command [m/s], [rad/s]
+constexpr double kUnitTolerance = 1e-6;  // of the length of a normal
+
+bool within(const Eigen::Vector3d& vector, double limit) { return (vector.array().abs() <= limit).all(); }
+
+}  // namespace
+
+double stoppingSpeed(double distance, const BrakingLimits& limits) {
+  if (!(distance > 0.0)) return 0.0;
+  const double per_distance = limits.reaction_time / distance;
+  return 2.0 / (per_distance + std::sqrt(per_distance * per_distance + 2.0 / (limits.deceleration * distance)));
+}
+
+double closingLimit(const FacingBall& ball, double turn_rate, const BrakingLimits& limits) {
+  const double t = limits.reaction_time;
+  const double acceleration = limits.tool_radius * turn_rate * turn_rate;  // to the axis
+  const double distance = ball.gap - limits.standoff - 0.5 * acceleration * t * t;
+  const double closing = stoppingSpeed(distance / (1.0 + acceleration / limits.deceleration), limits);
+  return std::max(0.0, closing - std::max(0.0, ball.surface_speed));
+}
+
+double closingSpeed(const FacingBall& ball, const Twist& twist_W) {
+  return -ball.normal_W.dot(twist_W.v_W + twist_W.w_W.cross(ball.center_W));
+}
+
+double fastestPoint(const Twist& twist_W, double tool_radius) {
+  return twist_W.v_W.norm() + tool_radius * twist_W.w_W.norm();
+}
+
+double allowedSpeed(const UncoveredSurfaces& uncovered, const BrakingLimits& limits) {
+  return std::max(0.0, stoppingSpeed(uncovered.distance - limits.standoff, limits) - uncovered.speed);
+}
+
+void requireUsable(const Twist& command_W) {
+  if (within(command_W.v_W, kMaxSpeed) && within(command_W.w_W, kMaxSpeed)) return;
+  throw InvalidInput("commanded velocity refused: each component must be finite and within 1e6");
+}
+
+void requireUsable(const BrakingLimits& limits) {
+  const auto in = [](double value, double from) { return value >= from && value <= kMaxCoordinate; };
+  if (!in(limits.deceleration, 1e-6)) throw InvalidInput("deceleration: must be finite and > 0 m/s^2");
+  if (!in(limits.reaction_time, 1e-6)) throw InvalidInput("reaction time: must be finite and > 0 s");
+  if (!in(limits.standoff, 0.0)) throw InvalidInput("standoff: must be finite and >= 0 m");
+  if (!in(limits.tool_radius, 0.0)) throw InvalidInput("tool radius: must be finite and >= 0 m");
+}
+
+void requireUsable(const FacingBall& ball) {
+  if (!(std::abs(ball.normal_W.squaredNorm() - 1.0) <= kUnitTolerance)) {
+    throw InvalidInput("separating plane refused: its normal is not a unit vector");
+  }
+  if (!within(ball.center_W, kMaxCoordinate) || !(std::abs(ball.gap) <= kMaxCoordinate)) {
+    throw InvalidInput("separating plane refused: its gap is not finite or out of range");
+  }
+  if (!(std::abs(ball.surface_speed) <= kMaxSpeed)) {
+    throw InvalidInput("separating plane refused: the speed of its surface is not finite or out of range");
+  }
+}
+
+void requireUsable(const UncoveredSurfaces& uncovered) {
+  if (std::isnan(uncovered.distance)) throw InvalidInput("distance of the surfaces without a plane: is NaN");
+  if (!(uncovered.speed >= 0.0)) throw InvalidInput("speed of the surfaces without a plane: must be >= 0 m/s");
+}
+
+}  // namespace sweep_guard_core

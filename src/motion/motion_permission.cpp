@@ -1,0 +1,69 @@
+#include "sweep_guard/motion/motion_permission.h"
+
+#include "sweep_guard/monitor/reason.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr std::uint32_t kPlanesIncomplete = kNoMesh | kMeshInvalid | kTimeJump | kDetectorFault | kNotSwept;
+
+std::optional<PermissionCause> problemOfCommand(const PermissionInputs& inputs, const Instant& now,
+                                                const PermissionLimits& limits) {
+  if (!inputs.command) return PermissionCause::kNoCommand;
+  if (stale(*inputs.command, now, limits.command_timeout)) return PermissionCause::kOldCommand;
+  return {};
+}
+
+std::optional<PermissionCause> problemOfGuard(const PermissionInputs& inputs, const Instant& now,
+                                              const PermissionLimits& limits) {
+  if (!inputs.verdict) return PermissionCause::kNoWarning;
+  if (now.steady - inputs.verdict->received > limits.silence) return PermissionCause::kWarningSilent;
+  if (inputs.verdict->level == WarningLevel::kUnknown) return PermissionCause::kUnknown;
+  if (!inputs.planes) return PermissionCause::kNoPlanes;
+  if (now.steady - inputs.planes->timestamps.received > limits.silence) return PermissionCause::kPlanesSilent;
+  if (now.stamp > inputs.planes->valid_until) return PermissionCause::kPlanesExpired;
+  return {};
+}
+
+bool mayEscape(const PermissionInputs& inputs, const Instant& now, const PermissionLimits& limits) {
+  if (!(limits.escape_speed > 0.0) || !inputs.verdict || !inputs.planes) return false;
+  return (inputs.verdict->reasons & kPlanesIncomplete) == 0 &&
+         !stale(inputs.planes->timestamps, now, limits.escape_plane_age);
+}
+
+}  // namespace
+
+const char* textOf(PermissionCause cause) {
+  switch (cause) {
+    case PermissionCause::kGuarded:
+      return "guarded";
+    case PermissionCause::kNoCommand:
+      return "no command yet";
+    case PermissionCause::kOldCommand:
+      return "the newest command is too old";
+    case PermissionCause::kNoWarning:
+      return "no warning yet: does the guard run?";
+    case PermissionCause::kWarningSilent:
+      return "the guard is silent";
+    case PermissionCause::kUnknown:
+      return "the guard's level is UNKNOWN";
+    case PermissionCause::kNoPlanes:
+      return "no separating planes yet";
+    case PermissionCause::kPlanesSilent:
+      return "no new separating planes";
+    case PermissionCause::kPlanesExpired:
+      return "the separating planes have expired";
+  }
+  return "";
+}
+
+PermissionDecision decidePermission(const PermissionInputs& inputs, const Instant& now,
+                                    const PermissionLimits& limits) {
+  if (const auto problem = problemOfCommand(inputs, now, limits)) return {Permission::kStop, *problem};
+  if (const auto problem = problemOfGuard(inputs, now, limits)) {
+    return {mayEscape(inputs, now, limits) ? Permission::kEscape : Permission::kStop, *problem};
+  }
+  return {Permission::kLimited, PermissionCause::kGuarded};
+}
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,84 @@
+#include "sweep_guard/motion/velocity_limiter.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace sweep_guard_core {
+namespace {
+
+// Errors of a closing speed, in commanded speeds of the fastest tool point:
+constexpr double kRounding = 1e-11;      // of the command itself
+constexpr double kMaxRounding = 1.5e-6;  // of the nearest velocity, between planes that are nearly parallel
+
+}  // namespace
+
+VelocityLimiter::VelocityLimiter(size_t balls) {
+  rows_.reserve(balls);
+  half_spaces_.reserve(balls + 2);
+}
+
+Twist VelocityLimiter::limit(const Twist& command_W, const std::vector<FacingBall>& facing,
+                             const UncoveredSurfaces& uncovered, const BrakingLimits& limits) {
+  requireUsable(command_W);
+  requireUsable(limits);
+  requireUsable(uncovered);
+  collectRows(command_W, facing, limits);
+  const double allowed = allowedSpeed(uncovered, limits);
+  const double fastest = fastestPoint(command_W, limits.tool_radius);
+  if (fastest <= allowed && largestScale({command_W.v_W, 1.0}, kRounding * fastest) == 1.0) return command_W;
+
+  const Motion motion = nearest(command_W);
+  const double speed = fastestPoint({motion.v_W, motion.s * command_W.w_W}, limits.tool_radius);
+  const double scale = std::min(largestScale(motion, kMaxRounding * fastest), speed > allowed ? allowed / speed : 1.0);
+  return {scale * motion.v_W, scale * motion.s * command_W.w_W};
+}
+
+void VelocityLimiter::collectRows(const Twist& command_W, const std::vector<FacingBall>& facing,
+                                  const BrakingLimits& limits) {
+  const double turn_rate = command_W.w_W.norm();
+  rows_.clear();
+  for (const FacingBall& ball : facing) {
+    requireUsable(ball);
+    const double turning = -ball.normal_W.dot(command_W.w_W.cross(ball.center_W));
+    rows_.push_back({ball.normal_W, turning, closingLimit(ball, turn_rate, limits)});
+  }
+}
+
+// In units of the commanded speed: y = (v' / |v|, s). As the command and the origin, the nearest point is at most sqrt(2)
+// from the origin, so half-spaces that contain all points there are left out.
+void VelocityLimiter::collectHalfSpaces(double speed) {
+  half_spaces_.clear();
+  half_spaces_.push_back({Eigen::Vector4d::UnitW(), 1.0});
+  half_spaces_.push_back({-Eigen::Vector4d::UnitW(), 0.0});
+  for (const Row& row : rows_) {
+    Eigen::Vector4d gradient;
+    gradient << -speed * row.normal_W, row.turning;
+    const double length = gradient.stableNorm();
+    if (row.limit < std::sqrt(2.0) * length) half_spaces_.push_back({gradient / length, row.limit / length});
+  }
+}
+
+// If there is no nearest point, largestScale() has to do.
+VelocityLimiter::Motion VelocityLimiter::nearest(const Twist& command_W) {
+  const double speed = command_W.v_W.stableNorm();
+  collectHalfSpaces(speed);
+  Eigen::Vector4d target = Eigen::Vector4d::UnitW();
+  if (speed > 0.0) target.head<3>() = command_W.v_W / speed;
+  const std::optional<NearestPoint> nearest = nearestPoint(target, half_spaces_);
+  if (!nearest) return {command_W.v_W, 1.0};
+  const double scale = 1.0 / std::max(1.0, nearest->point.head<3>().norm());
+  return {scale * speed * nearest->point.head<3>(), scale * std::clamp(nearest->point[3], 0.0, 1.0)};
+}
+
+// Returns the largest share of a motion at which no plane is closed on too fast.
+double VelocityLimiter::largestScale(const Motion& motion, double tolerance) const {
+  double scale = 1.0;
+  for (const Row& row : rows_) {
+    const double closing = row.closing(motion.v_W, motion.s);
+    if (closing > row.limit + tolerance) scale = std::min(scale, row.limit / closing);
+  }
+  return scale;
+}
+
+}  // namespace sweep_guard_core
