@@ -174,8 +174,9 @@ class DualSearch {
 
   NearestPoint result() const {
     NearestPoint nearest{point_.cast<double>(), active_.indices, {}};
-    for (const Real multiplier : active_.coefficients(target_ - point_)) {
-      nearest.multipliers.push_back(static_cast<double>(multiplier));
+    const auto multipliers = active_.coefficients(target_ - point_).eval();
+    for (Eigen::Index i = 0; i < multipliers.size(); ++i) {
+      nearest.multipliers.push_back(static_cast<double>(multipliers[i]));
     }
     return nearest;
   }
