@@ -93,12 +93,14 @@ install_listed() {
 
 # packages_here - the names on this system of the Debian packages on standard input
 packages_here() {
-  if [[ $system == 'ubuntu 20.04' ]]; then
-    awk 'NR == FNR { if (!/^#/) focal[$1] = $2; next } { print ($1 in focal) ? focal[$1] : $1 }' \
-      "$root/scripts/packages-focal.txt" - | sort -u
-  else
-    cat
-  fi
+  local names=/dev/null
+  case $system in
+    'ubuntu 20.04') names=$root/scripts/packages-focal.txt ;;
+    'debian 13') names=$root/scripts/packages-trixie.txt ;;
+  esac
+  awk -v names="$names" '
+    BEGIN { while ((getline line <names) > 0) if (line !~ /^#/) { split(line, pair); here[pair[1]] = pair[2] } }
+    { print ($1 in here) ? here[$1] : $1 }' | sort -u
 }
 
 # show_progress - of Ninja: each line on a terminal; elsewhere one line for each twentieth, and whatever else it says
@@ -152,7 +154,7 @@ enter_ros() { [[ $system == debian* || ! -e $ros/setup.bash ]] || enter "$ros"; 
 use_loopback() {
   unset ROS_HOSTNAME ROS_IPV6
   export ROS_IP=127.0.0.1
-  getent ahostsv4 localhost >/dev/null || install_packages libnss-myhostname
+  python3 -c 'import socket; socket.gethostbyname("localhost")' 2>/dev/null || install_packages libnss-myhostname
 }
 
 clean_environment

@@ -13,17 +13,18 @@
 #include <mutex>
 #include <new>
 #include <utility>
+#include <vector>
 
 namespace sweep_guard_core {
 namespace {
 
 constexpr size_t kMaxStacks = 1000;
 constexpr int kMaxDepth = 24;
-constexpr int kOwnFrames = 3;
 
 struct Stack {
   std::array<void*, kMaxDepth> frames;
   int depth;
+  const void* caller;  // of operator new
 };
 
 thread_local bool counting = false;
@@ -43,29 +44,39 @@ std::string nameOfThread() {
   return name.data();
 }
 
-void recordByThread() {
+// Returns the frames from the caller of operator new on. How many are above it depends on what the compiler inlines.
+template <typename Frames>
+std::vector<void*> fromCaller(const Frames& frames, int depth, const void* caller) {
+  const auto end = frames.begin() + depth;
+  return {std::find(frames.begin(), end, caller), end};
+}
+
+void recordByThread(const void* caller) {
   if (recording) return;
   recording = true;
   const std::lock_guard lock(by_thread_mutex);
   std::array<void*, kMaxDepth> frames{};
   const int depth = backtrace(frames.data(), kMaxDepth);
-  const std::vector<void*> stack(frames.begin() + std::min(depth, kOwnFrames), frames.begin() + depth);
-  if (by_thread != nullptr) ++(*by_thread)[{nameOfThread(), stack}];
+  if (by_thread != nullptr) ++(*by_thread)[{nameOfThread(), fromCaller(frames, depth, caller)}];
   recording = false;
 }
 
-void record(size_t size) {
-  if (by_thread != nullptr) recordByThread();
+void record(size_t size, const void* caller) {
+  if (by_thread != nullptr) recordByThread(caller);
   if (!counting) return;
   largest_size = std::max(largest_size, size);
   counting = false;  // backtrace() may allocate
-  if (counted < kMaxStacks) recorded[counted].depth = backtrace(recorded[counted].frames.data(), kMaxDepth);
+  if (counted < kMaxStacks) {
+    Stack& stack = recorded[counted];
+    stack.depth = backtrace(stack.frames.data(), kMaxDepth);
+    stack.caller = caller;
+  }
   ++counted;
   counting = true;
 }
 
-void* allocate(size_t size, size_t alignment) {
-  record(size);
+void* allocate(size_t size, size_t alignment, const void* caller) {
+  record(size, caller);
   if (left_until_failure > 0 && --left_until_failure == 0) throw std::bad_alloc();
   const size_t whole = (size + alignment - 1) / alignment * alignment;
   void* memory =
@@ -121,8 +132,8 @@ std::string Allocations::stacks() const {
   counting = false;
   std::map<std::string, size_t> times;
   for (size_t i = 0; i < std::min(counted, kMaxStacks); ++i) {
-    const auto& [frames, depth] = recorded[i];
-    ++times[textOf(std::vector(frames.begin() + kOwnFrames, frames.begin() + depth))];
+    const auto& [frames, depth, caller] = recorded[i];
+    ++times[textOf(fromCaller(frames, depth, caller))];
   }
   std::string text;
   for (const auto& [stack, count] : times) text += std::to_string(count) + "  " + stack + "\n";
@@ -159,11 +170,15 @@ std::vector<AllocationsOfAllThreads::Place> AllocationsOfAllThreads::places() co
 
 }  // namespace sweep_guard_core
 
+#if __GNUC__ >= 11
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"  // inlined, new and delete are aligned_alloc and free
+#endif
 
-void* operator new(size_t size) { return sweep_guard_core::allocate(size, alignof(std::max_align_t)); }
+void* operator new(size_t size) {
+  return sweep_guard_core::allocate(size, alignof(std::max_align_t), __builtin_return_address(0));
+}
 void* operator new(size_t size, std::align_val_t alignment) {
-  return sweep_guard_core::allocate(size, static_cast<size_t>(alignment));
+  return sweep_guard_core::allocate(size, static_cast<size_t>(alignment), __builtin_return_address(0));
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t /*size*/) noexcept { std::free(memory); }

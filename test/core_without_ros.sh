@@ -28,7 +28,7 @@ fi
 
 needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
 grep -q '^libccd\.' <<<"$needed" || { echo "$library does not link libccd: is it the core?" && status=1; }
-if grep -vE '^(libccd|libqhull_r|libstdc\+\+|libm|libgcc_s|libc|libpthread|libasan|libubsan|libtsan|ld-linux-[a-z0-9-]*)\.so' <<<"$needed"; then
+if grep -vE '^(libccd|libqhull_r|libstdc\+\+|libm|libgcc_s|libc|libdl|libpthread|libasan|libubsan|libtsan|ld-linux-[a-z0-9-]*)\.so' <<<"$needed"; then
   echo "$library links these, which the core must not need"
   status=1
 fi

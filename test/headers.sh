@@ -7,7 +7,8 @@ cd "$2"
 shift 2
 rooms=()
 while [[ $1 != -- ]]; do rooms+=("$1") && shift; done
-compile=("${@:2}" -fsyntax-only -x c++ -I .)
+mapfile -t compile < <(printf '%s\n' "${@:2}" | sed '/^$/d')  # CMake 3.31 gives an empty option, too
+compile+=(-fsyntax-only -x c++ -I .)
 
 mapfile -t headers < <(find "${rooms[@]}" -name '*.h' | sort)
 echo "${#headers[@]} headers"

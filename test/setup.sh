@@ -29,6 +29,8 @@ for system in 'debian 11' 'debian 12' 'debian 13'; do
   expect 0 WITH '^as root: .* install .* libassimp-dev .*libroscpp-dev' "$system"
   expect 0 WITHOUT ' install .*(ros-noetic|cmake|rviz |g\+\+)' "$system"
 done
+expect 0 WITH ' install .* qtbase5-dev' 'debian 12'
+expect 0 WITH ' install .* qt6-base-dev' 'debian 13'  # as its rviz
 expect 0 WITH '^as root: .* install .* libassimp-dev .*ros-noetic-roscpp' 'ubuntu 20.04'
 expect 0 WITH ' install .*ros-noetic-rviz ' 'ubuntu 20.04'
 expect 0 WITHOUT ' install .*(libroscpp-dev|ros-noetic-roscpp .*ros-noetic-roscpp )' 'ubuntu 20.04'
@@ -38,13 +40,15 @@ expect 0 WITH '^-- this is fedora 40: .* libassimp-dev .*libroscpp-dev' 'fedora 
 expect 0 WITHOUT '^as root' 'fedora 40'
 without=ninja expect 1 WITH 'there is no ninja' 'fedora 40'
 
-# What focal has other names for is on the lists, and only once.
+# What other systems have other names for is on the lists, and only once.
 lists=$(cat "$source"/scripts/packages-{node,tools,rviz,test}.txt)
-while read -r name _; do
-  grep -qxF -- "$name" <<<"$lists" || { echo "packages-focal.txt: $name is on no list" && status=1; }
-done < <(grep -v '^#' "$source/scripts/packages-focal.txt")
-twice=$(grep -v '^#' "$source/scripts/packages-focal.txt" | cut -d' ' -f1 | sort | uniq -d)
-[[ -z $twice ]] || { echo "packages-focal.txt: twice: $twice" && status=1; }
+for others in packages-focal.txt packages-trixie.txt; do
+  while read -r name _; do
+    grep -qxF -- "$name" <<<"$lists" || { echo "$others: $name is on no list" && status=1; }
+  done < <(grep -v '^#' "$source/scripts/$others")
+  twice=$(grep -v '^#' "$source/scripts/$others" | cut -d' ' -f1 | sort | uniq -d)
+  [[ -z $twice ]] || { echo "$others: twice: $twice" && status=1; }
+done
 # Each package of ROS has another name there: those whose name in Debian says that they are.
 while read -r name; do
   grep -q "^$name " "$source/scripts/packages-focal.txt" || { echo "packages-focal.txt: no name for $name" && status=1; }

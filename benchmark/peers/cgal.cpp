@@ -1,3 +1,4 @@
+#define CGAL_NO_DEPRECATION_WARNINGS  // CGAL 6 has new names for these headers, which CGAL 5 does not know
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <deque>
+#include <boost/circular_buffer.hpp>
+#include <cstddef>
 
 #include "sweep_guard/common/time.h"
 
@@ -21,16 +22,17 @@ class Trail {
     while (!points_.empty() && points_.front().stamp + kKept < stamp) points_.pop_front();
     const size_t count = points_.size();
     if (count > 1 && stamp - points_[count - 2].stamp < kSpacing) points_.pop_back();
+    if (points_.full()) points_.set_capacity(2 * points_.capacity());
     points_.push_back({stamp, p_W});
   }
   void clear() { points_.clear(); }
 
-  const std::deque<Point>& points() const { return points_; }  ///< the oldest first
+  const boost::circular_buffer<Point>& points() const { return points_; }  ///< the oldest first
 
  private:
   static constexpr Duration kKept = std::chrono::seconds(2);
   static constexpr Duration kSpacing = std::chrono::milliseconds(20);
-  std::deque<Point> points_;
+  boost::circular_buffer<Point> points_ = boost::circular_buffer<Point>(128);
 };
 
 }  // namespace sweep_guard_core

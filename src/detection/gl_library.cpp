@@ -17,6 +17,7 @@ void chooseDriver() {
   if (!known) setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   setenv("LP_NUM_THREADS", "0", 0);
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+  setenv("MESA_GLSL_CACHE_DISABLE", "true", 0);  // the same before Mesa 21
 }
 
 }  // namespace

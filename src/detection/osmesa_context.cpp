@@ -1,6 +1,8 @@
 #include <GL/gl.h>
 
-#include <array>
+#include <mutex>
+#include <set>
+#include <vector>
 
 #include "detection/gl_library.h"
 #include "detection/offscreen_context.h"
@@ -28,9 +30,39 @@ const OsMesa& osMesa() {
   return loaded;
 }
 
+// The width of a context's buffer, unlike that of any other context [pixels]. In Mesa 20, contexts with buffers of the same size
+// share one, and two threads that draw into it crash.
+class BufferWidth {
+ public:
+  BufferWidth() {
+    const std::lock_guard lock(mutex());
+    while (!taken().insert(pixels_).second) ++pixels_;
+  }
+  BufferWidth(const BufferWidth&) = delete;
+  BufferWidth& operator=(const BufferWidth&) = delete;
+  ~BufferWidth() {
+    const std::lock_guard lock(mutex());
+    taken().erase(pixels_);
+  }
+
+  GLsizei pixels() const { return pixels_; }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex guards_taken;
+    return guards_taken;
+  }
+  static std::set<GLsizei>& taken() {
+    static std::set<GLsizei> widths;
+    return widths;
+  }
+
+  GLsizei pixels_ = 1;
+};
+
 class OsMesaContext : public OffscreenContext {
  public:
-  OsMesaContext() : context_(osMesa().createContext(GL_RGBA, nullptr)) {
+  OsMesaContext() : row_(4 * static_cast<size_t>(width_.pixels())), context_(osMesa().createContext(GL_RGBA, nullptr)) {
     if (context_ == nullptr) throw osMesa().library.unusable("it gives none");
   }
   OsMesaContext(const OsMesaContext&) = delete;
@@ -38,7 +70,7 @@ class OsMesaContext : public OffscreenContext {
   ~OsMesaContext() override { osMesa().destroyContext(context_); }
 
   void makeCurrent() override {
-    if (osMesa().makeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE) {
+    if (osMesa().makeCurrent(context_, row_.data(), GL_UNSIGNED_BYTE, width_.pixels(), 1) != GL_TRUE) {
       throw DeviceError("OSMesa refuses to make its context current");
     }
   }
@@ -48,8 +80,9 @@ class OsMesaContext : public OffscreenContext {
   Function function(const char* name) override { return osMesa().getProcAddress(name); }
 
  private:
+  BufferWidth width_;
+  std::vector<unsigned char> row_;  // selection draws nothing, but OSMesa requires a buffer
   OsMesa::Context context_;
-  std::array<unsigned char, 4> pixel_ = {};  // selection draws nothing, but OSMesa requires a buffer
 };
 
 }  // namespace

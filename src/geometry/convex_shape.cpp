@@ -157,7 +157,7 @@ ConvexShape::Depth depthInCylinder(const Eigen::Vector3d& p, double radius, doub
   const double end = std::max(p.z(), -length - p.z());
   const Eigen::Vector3d axial(0.0, 0.0, p.z() >= -length - p.z() ? 1.0 : -1.0);
   if (side > 0.0 && end > 0.0) {
-    const double distance = std::hypot(side, end);
+    const double distance = Eigen::Vector2d(side, end).norm();
     return {-distance, (side * radial + end * axial) / distance};
   }
   return side > end ? ConvexShape::Depth{-side, radial} : ConvexShape::Depth{-end, axial};
@@ -359,7 +359,7 @@ double ConvexShape::boundingRadiusOfBody() const {
   };
   const Eigen::Vector3d origin_S = -(R_TS_.transpose() * p_TS_);
   const auto rim = [&](double z, double radius) {
-    return std::hypot(origin_S.head<2>().norm() + radius, origin_S.z() - z);
+    return Eigen::Vector2d(origin_S.head<2>().norm() + radius, origin_S.z() - z).norm();
   };
   return std::visit(
       Overloaded{[&](const Round& round) { return std::max(rim(0.0, round.radius), rim(-round.length, round.radius)); },

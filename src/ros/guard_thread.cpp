@@ -342,11 +342,12 @@ void GuardThread::predict() {
   const auto& [pose, checkpoint] = predicted_from_;
   const Timestamps from = timestampsOf(pose);
   if (stale(from, at, dependencies_.parameters.get()->limits.pose_timeout)) return;
+  PredictionPace::Charge charge{pace_, at.steady};
   const Duration age = ageOf(from, at);
   const auto prediction = predictions_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  const Duration interrupted = predictInterrupted(age, workpieces, *prediction);
-  const Duration took = std::chrono::steady_clock::now() - at.steady - interrupted;
+  predictInterrupted(age, workpieces, *prediction, charge.interrupted);
+  const Duration took = std::chrono::steady_clock::now() - at.steady - charge.interrupted;
   dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), took);
   dependencies_.warnings.publishIfChanged();
   sweep_guard_core::beat();
@@ -359,16 +360,14 @@ void GuardThread::predict() {
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
   dependencies_.scene.predicted(pose, prediction);
-  pace_.predicted(at.steady, std::chrono::steady_clock::now() - at.steady - interrupted);
 }
 
-// Sweeps the poses that come meanwhile, as long as none of them fails. Returns how long that took.
-Duration GuardThread::predictInterrupted(Duration age, const sweep_guard_core::Workpieces& workpieces,
-                                         sweep_guard_core::Prediction& prediction) {
+// Sweeps the poses that come meanwhile, as long as none of them fails, and counts how long that takes.
+void GuardThread::predictInterrupted(Duration age, const sweep_guard_core::Workpieces& workpieces,
+                                     sweep_guard_core::Prediction& prediction, Duration& interrupted) {
   const sweep_guard_core::QueryOrigin origin{/*measured=*/false, predicted_from_.checkpoint.epoch};
   dependencies_.sampler.setWorkpieces(workpieces, origin);
   bool interruptible = true;
-  Duration interrupted{};
   const auto between = [&] {
     if (!interruptible || (next_ == work_.poses.size() && !dependencies_.queue.hasPoses())) return;
     const SteadyTime begin = std::chrono::steady_clock::now();
@@ -377,7 +376,6 @@ Duration GuardThread::predictInterrupted(Duration age, const sweep_guard_core::W
     dependencies_.sampler.setWorkpieces(workpieces, origin);
   };
   guard_.predict(age, workpieces, prediction, std::ref(between));
-  return interrupted;
 }
 
 PredictService::Motion GuardThread::motion(Duration horizon) const {

@@ -90,9 +90,8 @@ class GuardThread {
   void pass(const sweep_guard_core::PoseWithFrames& pose);
   void sweep(const QueuedPose& queued);
   void predict();
-  sweep_guard_core::Duration predictInterrupted(sweep_guard_core::Duration age,
-                                                const sweep_guard_core::Workpieces& workpieces,
-                                                sweep_guard_core::Prediction& prediction);
+  void predictInterrupted(sweep_guard_core::Duration age, const sweep_guard_core::Workpieces& workpieces,
+                          sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration& interrupted);
   bool mayPredict() const;
   bool timeToPredict() const;
   std::optional<sweep_guard_core::SteadyTime> latestPrediction() const;

@@ -16,6 +16,7 @@ void smooth(PredictionPace::Duration& mean, PredictionPace::Duration newest) { m
 }  // namespace
 
 void PredictionPace::received(SteadyTime at) {
+  if (at <= newest_pose_) return;
   smooth(pose_interval_, std::min<Duration>(at - newest_pose_, kLongestInterval));
   newest_pose_ = at;
 }

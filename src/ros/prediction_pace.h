@@ -12,12 +12,21 @@ class PredictionPace {
   using Duration = sweep_guard_core::Duration;
   using SteadyTime = sweep_guard_core::SteadyTime;
 
-  /// Records a pose.
+  /// Records a pose, unless it or a later one is recorded.
   void received(SteadyTime at);
 
   /// Records a prediction.
   /// @param took  time that it took, without sweeps of poses in between
   void predicted(SteadyTime begin, Duration took);
+
+  /// Records a prediction at its end, also one that throws.
+  struct Charge {
+    PredictionPace& pace;
+    SteadyTime begin;
+    Duration interrupted{};  ///< time of sweeps of poses in between
+
+    ~Charge() { pace.predicted(begin, std::chrono::steady_clock::now() - begin - interrupted); }
+  };
 
   /// Returns when the next prediction may begin.
   SteadyTime due() const { return due_; }

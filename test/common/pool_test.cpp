@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace sweep_guard_core {
 namespace {
@@ -40,8 +43,8 @@ TEST(PoolTest, TakesOnlyFittingValues) {
 // The reader releases the value after reading it; the writer does not write before that.
 TEST(PoolTest, DoesNotReuseAValueThatAnotherThreadReads) {
   Pool<std::vector<int>> pool;
-  std::atomic<std::shared_ptr<const std::vector<int>>*> handed = nullptr;
-  std::atomic<bool> done = false;
+  std::atomic<std::shared_ptr<const std::vector<int>>*> handed{nullptr};
+  std::atomic<bool> done{false};
   bool torn = false;
   std::thread reader([&] {
     while (!done) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/xyz.h"
 #include "scenes.h"
 
 namespace sweep_guard_core {
@@ -35,7 +36,7 @@ TEST(ClosedTest, IsAMeshWithoutABorder) {
 TEST(ClosedTest, StaysSoWhenTheMeshDeforms) {
   std::vector<float> positions;
   for (size_t i = 0; i < 8; ++i) {
-    for (const double x : cube(2.0).vertex(i)) positions.push_back(static_cast<float>(x));
+    for (const double x : xyz(cube(2.0).vertex(i))) positions.push_back(static_cast<float>(x));
   }
   EXPECT_TRUE(deformed(cube(1.0), positions).closed());
 }
@@ -60,7 +61,7 @@ TEST(InsideTest, OfAHullIsWithinItsSurfaceOnEveryRayThroughItsVertices) {
   const TriangleMesh hull = wavyHull(10, 14, 0.7);
   std::vector<float> positions;
   for (size_t i = 0; i < hull.vertexCount(); ++i) {
-    for (const double x : hull.vertex(i)) positions.push_back(static_cast<float>(x));
+    for (const double x : xyz(hull.vertex(i))) positions.push_back(static_cast<float>(x));
   }
   const TriangleMesh mesh = deformed(hull, positions);
   int rays = 0;

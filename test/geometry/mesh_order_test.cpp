@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "common/xyz.h"
 #include "mesh_orders.h"
 #include "refusal.h"
 #include "scenes.h"
@@ -66,7 +67,7 @@ TEST_P(MeshOrderTest, IndicesStayTheSenders) {
   const TriangleMesh moved = GetParam().of(wavyHull(60, 80, 2.5));
   std::vector<float> positions;
   for (size_t i = 0; i < moved.vertexCount(); ++i) {
-    for (const double x : moved.vertex(i)) positions.push_back(static_cast<float>(x));
+    for (const double x : xyz(moved.vertex(i))) positions.push_back(static_cast<float>(x));
   }
   TriangleMesh deformed = mesh_;
   std::vector<float> sent = positions;

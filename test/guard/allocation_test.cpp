@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/pool.h"
+#include "common/xyz.h"
 #include "guard/cross_check.h"
 #include "mesh_orders.h"
 #include "monitor/warnings.h"
@@ -74,7 +75,7 @@ class SteadyStateTest : public testing::TestWithParam<Configuration> {
     const TriangleMesh mesh_M = wavyWorkpiece(std::sin(1e-3 * kTurn * ms));
     std::vector<float> positions;
     for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
-      for (const double x : mesh_M.vertex(i)) positions.push_back(static_cast<float>(x));
+      for (const double x : xyz(mesh_M.vertex(i))) positions.push_back(static_cast<float>(x));
     }
     return positions;
   }

@@ -213,7 +213,7 @@ std::uint32_t lengthAt(const Bytes& bytes, size_t position) {
 }
 
 Bytes withLength(Bytes bytes, size_t position, std::uint32_t length) {
-  std::memcpy(&bytes[position], &length, sizeof length);
+  for (size_t i = 0; i < sizeof length; ++i) bytes.at(position + i) = static_cast<std::uint8_t>(length >> 8 * i);
   return bytes;
 }
 

@@ -9,23 +9,35 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class LogThrottleTest : public testing::Test, private ros::console::LogAppender {
- protected:
-  LogThrottleTest() { ros::console::register_appender(this); }
-  ~LogThrottleTest() override { ros::console::deregister_appender(this); }
-
-  void error(std::chrono::milliseconds at, const std::string& key, const std::string& text) {
-    throttle_.error(key, text, LogThrottle::Clock::time_point(1h) + at);
+// Stays registered until the process ends: on Debian 11, rosconsole crashes when an appender is taken away.
+class LoggedLines : public ros::console::LogAppender {
+ public:
+  static std::vector<std::string>& ofThisTest() {
+    static LoggedLines* const logged = new LoggedLines();
+    return logged->lines_;
   }
 
-  std::vector<std::string> lines_;
-
  private:
+  LoggedLines() { ros::console::register_appender(this); }
   void log(ros::console::Level /*level*/, const char* text, const char* /*file*/, const char* /*function*/,
            int /*line*/) override {
     lines_.emplace_back(text);
   }
 
+  std::vector<std::string> lines_;
+};
+
+class LogThrottleTest : public testing::Test {
+ protected:
+  LogThrottleTest() { lines_.clear(); }
+
+  void error(std::chrono::milliseconds at, const std::string& key, const std::string& text) {
+    throttle_.error(key, text, LogThrottle::Clock::time_point(1h) + at);
+  }
+
+  std::vector<std::string>& lines_ = LoggedLines::ofThisTest();
+
+ private:
   LogThrottle throttle_;
 };
 

@@ -132,7 +132,8 @@ TEST_F(MeshFileTest, RefusesWhatItCannotReadCompletely) {
   EXPECT_TRUE(has(refused("lie.stl", binaryStl(3)), "cannot be read"));
   EXPECT_TRUE(has(refused("lie.stl", binaryStl(4000000000U)), "cannot be read"));
   EXPECT_TRUE(has(refused("lfs.obj", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n"), "git lfs pull"));
-  EXPECT_TRUE(has(refused("cut.dae", "<COLLADA version='1.4.1'><asset>"), "XML"));
+  const std::string cut = refused("cut.dae", "<COLLADA version='1.4.1'><asset>");
+  EXPECT_TRUE(has(cut, "XML") || has(cut, "Collada: File came out empty")) << cut;  // assimp 5.0 says the latter
   EXPECT_TRUE(has(refused("t.ply", "ply"), "STL, OBJ or DAE"));
 }
 

@@ -85,5 +85,14 @@ TEST(PredictionPaceTest, APauseBetweenPosesIsNotTakenForTheirRate) {
   EXPECT_NEAR(millisecondsFrom(pace.due(), pace.dueAfterNext()), 3.0, 1e-3);
 }
 
+TEST(PredictionPaceTest, APoseThatIsTriedAgainCountsOnce) {
+  PredictionPace pace;
+  SteadyTime at = kBegin;
+  for (int i = 0; i < 200; ++i, at += milliseconds(10)) pace.received(at);
+  for (int i = 0; i < 200; ++i) pace.received(at);
+  pace.predicted(at, milliseconds(4));
+  EXPECT_NEAR(millisecondsFrom(pace.due(), pace.dueAfterNext()), 4.0 / 0.45, 1e-3);
+}
+
 }  // namespace
 }  // namespace sweep_guard_ros

@@ -209,7 +209,8 @@ std::vector<sweep_guard::Warning> warningsOf(const fs::path& path) {
 void migrate(const fs::path& old, const fs::path& fixed, const fs::path& log) {
   const fs::path rules = fs::path(SWEEP_GUARD_SOURCE_DIR) / "migration_rules/sweep_guard.bmr";
   std::ostringstream fix;
-  fix << "rosbag fix --noplugins " << old << ' ' << fixed << ' ' << rules << " > " << log << " 2>&1";
+  fix << "python3 " << SWEEP_GUARD_SOURCE_DIR << "/migration_rules/rosbag_fix.py fix --noplugins " << old << ' '
+      << fixed << ' ' << rules << " > " << log << " 2>&1";
   ASSERT_EQ(std::system(fix.str().c_str()), 0) << readText(log);
 }
 

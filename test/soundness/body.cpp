@@ -90,7 +90,8 @@ Body randomBody(Random& random, double scale) {
   body.kind = static_cast<Kind>(random.below(4));
   body.radius = scale * random.logUniform(0.01, 1.0);
   body.length = scale * random.logUniform(0.01, 1.0);
-  for (double& half : body.half_extents) half = random.chance(0.1) ? 0.0 : scale * random.logUniform(0.01, 1.0);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    body.half_extents[i] = random.chance(0.1) ? 0.0 : scale * random.logUniform(0.01, 1.0);
   body.half_extents.x() = std::max(body.half_extents.x(), 0.01 * scale);
   if (random.chance(0.8)) body.X_TS = random.pose(scale * random.uniform(0.0, 2.0) * random.direction());
   if (random.chance(0.5)) body.padding = scale * random.logUniform(1e-4, 0.3);

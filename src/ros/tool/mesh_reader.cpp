@@ -143,8 +143,9 @@ void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_pare
   for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], X, depth + 1, surface);
 }
 
-// assimp only warns of some omissions; most warnings are about materials.
+// assimp only warns of some omissions; most warnings are about materials. Its logger also skips lines that are repeated.
 bool isOmission(const std::string& message) {
+  if (message.find("lines with the same contents") != std::string::npos) return false;
   return message.rfind("Warn", 0) != 0 || message.find("Skipping") != std::string::npos;
 }
 

@@ -1,0 +1,11 @@
+# Finds the Qt that rviz is linked to, 5 or in Debian 13 6, as sweep_guard_qt: two of them in one process crash.
+find_library(rviz_library rviz HINTS ${rviz_LIBRARY_DIRS} ${rviz_DIR}/../../../lib)
+execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${rviz_library} OUTPUT_VARIABLE linked)
+if(NOT linked MATCHES "libQt([56])Widgets")
+  message(FATAL_ERROR "${rviz_library} is linked to neither Qt 5 nor Qt 6")
+endif()
+set(sweep_guard_qt Qt${CMAKE_MATCH_1})
+find_package(${sweep_guard_qt} QUIET COMPONENTS Widgets)
+if(NOT ${sweep_guard_qt}_FOUND)
+  message(FATAL_ERROR "rviz is linked to ${sweep_guard_qt}, which was not found: install qtbase5-dev for Qt5, qt6-base-dev for Qt6")
+endif()
