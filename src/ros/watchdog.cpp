@@ -27,8 +27,8 @@ Watchdog::Watchdog(sweep_guard_core::WarningMonitor& monitor, sweep_guard_core::
 void Watchdog::checkClock() {
   const auto jump = clocks_.jump(now().stamp, suspendedTime());
   if (!jump) return;
+  workpieces_.clearStamps();  // first: whoever sees the jump in a warning may send a workpiece with a stamp that counts
   monitor_.timeJumped(*jump);
-  workpieces_.clearStamps();
   ROS_WARN("%s: tool poses are forgotten, workpieces with a timeout are stale", jump->c_str());
 }
 
