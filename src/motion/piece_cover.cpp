@@ -34,6 +34,7 @@ void PieceCover::begin(const ConvexShape& shape_T, const TriangleMesh& mesh_M, c
   mesh_M_ = &mesh_M;
   X_MT_ = X_MT;
   planes_.clear();
+  nearest_.reset();
   const Eigen::Matrix3d& R_TB = shape_T.axes_T();
   Eigen::Vector3d middle_B;
   for (int axis = 0; axis < 3; ++axis) {
@@ -87,7 +88,7 @@ std::array<Eigen::Vector3d, 3> PieceCover::corners(const Triangle& triangle) con
 
 std::optional<size_t> PieceCover::behind(const CenteredBox& box) const {
   for (const Plane& plane : planes_) {
-    if (plane.normal_M.dot(box.center) + plane.normal_M.cwiseAbs().dot(box.half) <= plane.offset) return plane.number;
+    if (plane.stands(box)) return plane.number;
   }
   return std::nullopt;
 }
@@ -96,21 +97,25 @@ std::optional<size_t> PieceCover::behind(const Triangle& triangle, size_t begin)
   if (begin >= planes_.size()) return std::nullopt;
   const auto at = corners(triangle);
   for (size_t i = begin; i < planes_.size(); ++i) {
-    const Plane& plane = planes_[i];
-    const auto isBehind = [&](const Eigen::Vector3d& p) { return plane.normal_M.dot(p) <= plane.offset; };
-    if (std::all_of(at.begin(), at.end(), isBehind)) return plane.number;
+    if (planes_[i].stands(at)) return planes_[i].number;
   }
   return std::nullopt;
 }
 
-// Returns how many planes, from the first, are selected or wholly beyond the box.
+void PieceCover::setNearest(const std::optional<Eigen::Vector3d>& normal_T, double offset_T) {
+  nearest_.reset();
+  if (!normal_T) return;
+  const Eigen::Vector3d n_M = normal_M(*normal_T);
+  nearest_ = Plane{n_M, offset_T + n_M.dot(X_MT_.translation()), 0};
+}
+
+// Returns how many planes, from the first, are selected or do not stand for any triangle in the box.
 size_t PieceCover::selectPlanes(const CenteredBox& box, simd::Planes& planes, PlaneNumbers& selected) const {
   for (size_t i = 0; i < planes_.size(); ++i) {
-    const Plane& plane = planes_[i];
-    if (plane.normal_M.dot(box.center) - plane.normal_M.cwiseAbs().dot(box.half) > plane.offset) continue;
-    if (selected.size() == selected.capacity()) return i;
-    selected.push_back(plane.number);
-    addTurned(plane.normal_M, plane.offset, mesh_M_->radius(), planes);
+    if (!planes_[i].mayStand(box)) continue;
+    if (planes.count == simd::kMaxPlanes - 1) return i;  // one is left for the nearest
+    selected.push_back(planes_[i].number);
+    addTurned(planes_[i].normal_M, planes_[i].offset, mesh_M_->radius(), planes);
   }
   return planes_.size();
 }
@@ -118,8 +123,12 @@ size_t PieceCover::selectPlanes(const CenteredBox& box, simd::Planes& planes, Pl
 PieceCover::Classified PieceCover::classify(const Cluster& cluster, const CenteredBox& box) const {
   simd::Planes planes;
   PlaneNumbers selected;
-  Classified classified{allOf(cluster), {}, selectPlanes(box, planes, selected)};
-  if (selected.empty()) return classified;
+  Classified classified{allOf(cluster), 0, {}, selectPlanes(box, planes, selected)};
+  const unsigned covering = (1U << planes.count) - 1U;
+  if (nearest_ && nearest_->mayStand(box)) {
+    addTurned(nearest_->normal_M, nearest_->offset, mesh_M_->radius(), planes);
+  }
+  if (planes.count == 0) return classified;
   std::array<std::uint16_t, simd::kClusterBlocks * simd::kBlock> bits;
   for (size_t i = 0; i < simd::kClusterBlocks; ++i) {
     withBlock(mesh_M_->places(), cluster.blocks[i],
@@ -127,12 +136,13 @@ PieceCover::Classified PieceCover::classify(const Cluster& cluster, const Center
   }
   const auto of = [&](size_t i) -> const std::uint16_t* { return &bits[i * simd::kBlock]; };
   const simd::ClusterCorners& corners = mesh_M_->order().corners[cluster.number];
-  classified.uncovered &= simd::kernels().classifyTriangles(corners, {of(0), of(1), of(2), of(3)}).not_beyond;
+  classified.nearer &= simd::kernels().classifyTriangles(corners, {of(0), of(1), of(2), of(3)}).not_beyond;
   unsigned standing = 0;
-  for (std::uint64_t left = allOf(cluster) & ~classified.uncovered; left != 0; left &= left - 1) {
+  for (std::uint64_t left = allOf(cluster) & ~classified.nearer; left != 0; left &= left - 1) {
     const auto i = static_cast<size_t>(__builtin_ctzll(left));
     const auto& [a, b, c] = corners.places;
-    const unsigned behind = bits[a[i]] & bits[b[i]] & bits[c[i]] & (simd::kInsideAll - 1U);
+    const unsigned behind = bits[a[i]] & bits[b[i]] & bits[c[i]] & covering;
+    if (behind == 0) classified.not_nearer |= std::uint64_t{1} << i;
     if ((behind & standing) == 0) standing |= behind & (0U - behind);
   }
   for (size_t i = 0; i < selected.size(); ++i) {

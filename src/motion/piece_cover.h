@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <cstdint>
@@ -44,12 +45,20 @@ class PieceCover {
   std::optional<size_t> behind(const CenteredBox& box) const;
   std::optional<size_t> behind(const Triangle& triangle, size_t begin) const;
 
+  /// Sets the plane of the nearest triangle known so far, which may not remain the nearest: what lies behind it is not
+  /// nearer. Empty: none is known.
+  void setNearest(const std::optional<Eigen::Vector3d>& normal_T, double offset_T = 0.0);
+  bool hasNearest() const { return nearest_.has_value(); }
+  bool behindNearest(const CenteredBox& box) const { return nearest_ && nearest_->stands(box); }
+  bool behindNearest(const Triangle& triangle) const { return nearest_ && nearest_->stands(corners(triangle)); }
+
   using PlaneNumbers = boost::container::static_vector<size_t, simd::kMaxPlanes>;
-  /// The triangles of a cluster that lie wholly behind no plane, by the planes tested.
+  /// The triangles of a cluster that are not known to lie wholly behind a plane. Bit i stands for its triangle i.
   struct Classified {
-    std::uint64_t uncovered;  ///< bit i stands for its triangle i
-    PlaneNumbers standing;    ///< of the planes that stand for the others
-    size_t tested;            ///< number of planes, from the first, that the triangles are known not to lie behind
+    std::uint64_t nearer;      ///< also not behind the plane of the nearest triangle
+    std::uint64_t not_nearer;  ///< behind that plane
+    PlaneNumbers standing;     ///< planes that stand for the others
+    size_t tested;             ///< number of planes, from the first, that `nearer` are known not to lie behind
   };
   /// @param box  around the cluster
   Classified classify(const Cluster& cluster, const CenteredBox& box) const;
@@ -59,6 +68,16 @@ class PieceCover {
     Eigen::Vector3d normal_M;
     double offset;  // largest normal_M · p of what it stands for [m]
     size_t number;
+
+    bool stands(const CenteredBox& box) const {
+      return normal_M.dot(box.center) + normal_M.cwiseAbs().dot(box.half) <= offset;
+    }
+    bool stands(const std::array<Eigen::Vector3d, 3>& corners) const {
+      return std::all_of(corners.begin(), corners.end(), [&](const auto& p) { return normal_M.dot(p) <= offset; });
+    }
+    bool mayStand(const CenteredBox& box) const {
+      return normal_M.dot(box.center) - normal_M.cwiseAbs().dot(box.half) <= offset;
+    }
   };
   std::array<Eigen::Vector3d, 3> corners(const Triangle& triangle) const;
   size_t selectPlanes(const CenteredBox& box, simd::Planes& planes, PlaneNumbers& selected) const;
@@ -71,6 +90,7 @@ class PieceCover {
   Eigen::Matrix3d absolute_BM_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d half_B_ = Eigen::Vector3d::Zero();
   std::vector<Plane> planes_;
+  std::optional<Plane> nearest_;
 };
 
 }  // namespace sweep_guard_core

@@ -41,7 +41,9 @@ class ProximityFinder::Search {
     std::uint32_t checked;  // number of planes that it does not lie behind
     Kind kind;
 
-    bool operator<(const Candidate& other) const { return bound > other.bound; }
+    bool operator<(const Candidate& other) const {
+      return bound != other.bound ? bound > other.bound : kind < other.kind;
+    }
   };
   struct SeparatedTriangle {
     std::uint32_t triangle;
@@ -61,6 +63,7 @@ class ProximityFinder::Search {
     size_t piece;
     size_t surface;
     Eigen::Vector3d guess_T;  // normal of the last separation
+    double nearest;           // bound of the nearest triangle known that waits for its plane [m]
     PieceCover cover;
   };
 
@@ -79,6 +82,10 @@ class ProximityFinder::Search {
   void open(const Candidate& candidate, const ClusterGroup& group, const CenteredBox& box);
   void open(const Candidate& candidate, const Cluster& cluster, const CenteredBox& box);
 
+  bool postpone(Candidate candidate);
+  void seed(const Candidate& candidate, const Cluster& cluster, const CenteredBox& box);
+  void wait(std::uint32_t index, const SeparatedTriangle& separated);
+  static void forgetNearest(Facing& facing);
   void separate(Facing& facing, SeparatedTriangle& separated) const;
   Eigen::Vector3d contactNormal_T(const Facing& facing, std::uint32_t triangle,
                                   const std::array<Eigen::Vector3d, 3>& corners_T) const;
@@ -89,6 +96,12 @@ class ProximityFinder::Search {
   template <typename... Part>
   void quicken(size_t plane, const Facing& facing, const Part&... part);
 
+  // The triangle of a cluster that the lowest bit stands for.
+  std::uint32_t triangleAt(const Facing& facing, const Cluster& cluster, std::uint64_t bits) const {
+    const auto& triangle_at = meshOf(facing).order().triangle_at;
+    const std::uint32_t place = cluster.first + static_cast<std::uint32_t>(__builtin_ctzll(bits));
+    return triangle_at.empty() ? place : triangle_at[place];
+  }
   const TriangleMesh& meshOf(const Facing& facing) const { return surfaces_[facing.surface].workpiece->mesh_M; }
 
   std::map<std::string, SurfaceMotion> motions_;  // by id
@@ -159,6 +172,7 @@ void ProximityFinder::Search::place(const std::shared_ptr<const Workpiece>& work
     facing.piece = piece;
     facing.surface = surface_count_;
     facing.guess_T = Eigen::Vector3d::Zero();
+    facing.nearest = kInfinity;
     facing.cover.begin(request_->tool.pieces()[piece].shape_T, mesh_M, X_MT);
     push({facing.cover.distance(box), static_cast<std::uint32_t>(facing_count_), 0, 0, Kind::kMesh});
     ++facing_count_;
@@ -210,6 +224,7 @@ bool ProximityFinder::Search::processPart(const Candidate& candidate, const Part
     return true;
   }
   if (candidate.bound >= request_->reach) return leaveOver(candidate.bound);
+  if (facing.cover.behindNearest(box)) return postpone(candidate);
   open(candidate, part, box);
   return true;
 }
@@ -233,17 +248,50 @@ void ProximityFinder::Search::open(const Candidate& candidate, const ClusterGrou
 }
 
 void ProximityFinder::Search::open(const Candidate& candidate, const Cluster& cluster, const CenteredBox& box) {
-  const Facing& facing = facings_[candidate.facing];
-  const TriangleMesh& mesh_M = meshOf(facing);
-  const MeshOrder& order = mesh_M.order();
+  Facing& facing = facings_[candidate.facing];
+  if (!facing.cover.hasNearest()) seed(candidate, cluster, box);
   const PieceCover::Classified classified = facing.cover.classify(cluster, box);
   for (const size_t plane : classified.standing) quicken(plane, facing, cluster, box);
-  for (std::uint64_t left = classified.uncovered; left != 0; left &= left - 1) {
-    const std::uint32_t place = cluster.first + static_cast<std::uint32_t>(__builtin_ctzll(left));
-    const std::uint32_t triangle = order.triangle_at.empty() ? place : order.triangle_at[place];
-    const double bound = std::max(candidate.bound, facing.cover.distance(mesh_M.triangles()[triangle]));
+  for (std::uint64_t left = classified.nearer; left != 0; left &= left - 1) {
+    const std::uint32_t triangle = triangleAt(facing, cluster, left);
+    const double bound = std::max(candidate.bound, facing.cover.distance(meshOf(facing).triangles()[triangle]));
     push({bound, candidate.facing, triangle, static_cast<std::uint32_t>(classified.tested), Kind::kTriangle});
   }
+  if (classified.not_nearer != 0) postpone(candidate);
+}
+
+// What lies behind the plane of the nearest triangle known waits until that triangle has its plane.
+bool ProximityFinder::Search::postpone(Candidate candidate) {
+  candidate.bound = std::max(candidate.bound, facings_[candidate.facing].nearest);
+  push(candidate);
+  return true;
+}
+
+// Separates one triangle of a cluster, so that it need not be done for those that are farther.
+void ProximityFinder::Search::seed(const Candidate& candidate, const Cluster& cluster, const CenteredBox& box) {
+  Facing& facing = facings_[candidate.facing];
+  double least = kInfinity;
+  SeparatedTriangle nearest{};
+  for (std::uint64_t left = facing.cover.classify(cluster, box).nearer; left != 0; left &= left - 1) {
+    const std::uint32_t triangle = triangleAt(facing, cluster, left);
+    const double distance = facing.cover.distance(meshOf(facing).triangles()[triangle]);
+    if (distance < least) nearest.triangle = triangle;
+    least = std::min(least, distance);
+  }
+  if (least >= request_->reach) return;
+  separate(facing, nearest);
+  if (nearest.gap > 0.0) wait(candidate.facing, nearest);
+}
+
+void ProximityFinder::Search::wait(std::uint32_t index, const SeparatedTriangle& separated) {
+  Facing& facing = facings_[index];
+  const double bound = (1.0 - kNearer) * separated.gap;
+  separated_.push_back(separated);
+  push({bound, index, static_cast<std::uint32_t>(separated_.size() - 1),
+        static_cast<std::uint32_t>(facing.cover.planes()), Kind::kSeparated});
+  if (bound >= facing.nearest) return;
+  facing.nearest = bound;
+  facing.cover.setNearest(separated.normal_T, separated.normal_T.dot(separated.top_T) + kNearer * separated.gap);
 }
 
 bool ProximityFinder::Search::processTriangle(const Candidate& candidate) {
@@ -251,21 +299,26 @@ bool ProximityFinder::Search::processTriangle(const Candidate& candidate) {
   const bool known = candidate.kind == Kind::kSeparated;
   SeparatedTriangle separated = known ? separated_[candidate.index] : SeparatedTriangle{candidate.index, {}, 0.0, {}};
   const Triangle& triangle = meshOf(facing).triangles()[separated.triangle];
+  if (known && candidate.bound >= facing.nearest) forgetNearest(facing);
   if (const auto plane = facing.cover.behind(triangle, candidate.checked)) {
     quicken(*plane, facing, triangle);
     return true;
   }
   if (candidate.bound >= request_->reach) return leaveOver(candidate.bound);
   if (!known) {
+    if (facing.cover.behindNearest(triangle)) return postpone(candidate);
     separate(facing, separated);
     if ((1.0 - kNearer) * separated.gap > leastBound()) {
-      separated_.push_back(separated);
-      push({separated.gap, candidate.facing, static_cast<std::uint32_t>(separated_.size() - 1),
-            static_cast<std::uint32_t>(facing.cover.planes()), Kind::kSeparated});
+      wait(candidate.facing, separated);
       return true;
     }
   }
   return standFor(candidate, separated);
+}
+
+void ProximityFinder::Search::forgetNearest(Facing& facing) {
+  facing.nearest = kInfinity;
+  facing.cover.setNearest(std::nullopt);
 }
 
 void ProximityFinder::Search::separate(Facing& facing, SeparatedTriangle& separated) const {
@@ -301,7 +354,7 @@ Eigen::Vector3d ProximityFinder::Search::contactNormal_T(const Facing& facing, s
 bool ProximityFinder::Search::standFor(const Candidate& candidate, const SeparatedTriangle& separated) {
   Facing& facing = facings_[candidate.facing];
   if (separated.gap <= 0.0 && joinContact(facing, separated)) return true;
-  const double distance = std::min(separated.gap, leastBound());
+  const double distance = std::min((1.0 - kNearer) * separated.gap, leastBound());
   if (distance >= request_->reach || found_->planes.size() == kMaxPlanes) return leaveOver(distance);
   addPlane(facing, separated);
   return true;
