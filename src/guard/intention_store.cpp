@@ -55,6 +55,17 @@ void checkLimits(const IntentionRequest& request) {
   }
 }
 
+// Without triangles: takes back.
+Intention intentionOf(const IntentionRequest& request, const Workpieces& workpieces, SteadyTime now) {
+  if (request.takesBack()) return {request.mesh_id, nullptr, {}};
+  const Workpiece& workpiece = workpieceOf(request.mesh_id, workpieces);
+  checkLimits(request);
+  Intention intention{request.mesh_id, workpiece.mesh_M.sharedTriangles(), regionOf(request, workpiece), request.depth,
+                      request.tool_links};
+  if (request.duration > Duration::zero()) intention.until = now + request.duration;
+  return intention;
+}
+
 bool sameButForTriangles(const Intention& a, const Intention& b) {
   return a.mesh_id == b.mesh_id && a.depth == b.depth && a.tool_links == b.tool_links && !a.until && !b.until;
 }
@@ -69,26 +80,33 @@ void addTo(Intentions& all, Intention intention) {
 
 }  // namespace
 
+// The triangles of a ball are searched without the lock, which the guard's thread takes for every sweep.
 void IntentionStore::set(const std::vector<IntentionRequest>& requests, SteadyTime now) {
+  const Workpieces workpieces = newest();
+  Intentions regions;
+  for (const IntentionRequest& request : requests) regions.push_back(intentionOf(request, workpieces, now));
   const std::lock_guard lock(mutex_);
   endBefore(now);
   Intentions all = *intentions_;
-  for (const IntentionRequest& request : requests) add(request, now, all);
+  for (Intention& region : regions) apply(std::move(region), all);
   replace(std::move(all));
 }
 
-void IntentionStore::add(const IntentionRequest& request, SteadyTime now, Intentions& all) const {
-  if (request.takesBack()) {
-    const auto same = [&](const Intention& intention) { return intention.mesh_id == request.mesh_id; };
+Workpieces IntentionStore::newest() const {
+  const std::lock_guard lock(mutex_);
+  return newest_;
+}
+
+void IntentionStore::apply(Intention region, Intentions& all) const {
+  if (region.triangles.empty()) {
+    const auto same = [&](const Intention& intention) { return intention.mesh_id == region.mesh_id; };
     all.erase(std::remove_if(all.begin(), all.end(), same), all.end());
     return;
   }
-  const Workpiece& workpiece = workpieceOf(request.mesh_id, newest_);
-  checkLimits(request);
-  Intention intention{request.mesh_id, workpiece.mesh_M.sharedTriangles(), regionOf(request, workpiece), request.depth,
-                      request.tool_links};
-  if (request.duration > Duration::zero()) intention.until = now + request.duration;
-  addTo(all, std::move(intention));
+  if (!region.concerns(workpieceOf(region.mesh_id, newest_))) {
+    throw InvalidInput("'" + region.mesh_id + "' was replaced meanwhile: ask again");
+  }
+  addTo(all, std::move(region));
 }
 
 void IntentionStore::follow(const Workpieces& newest) {

@@ -34,8 +34,8 @@ class IntentionStore {
  public:
   /// Adds what is asked for, in this order; all or nothing. A region is added to an intention that is equal but for its
   /// triangles, unless they end by themselves.
-  /// @throws InvalidInput naming the first request that is refused: unknown workpiece or triangle, no triangle in the
-  ///     ball, a depth, radius or duration out of range, or too many
+  /// @throws InvalidInput with what is wrong about the first request that is refused: unknown workpiece or triangle, no
+  ///     triangle in the ball, a depth, radius or duration out of range, or too many
   void set(const std::vector<IntentionRequest>& requests, SteadyTime now);
 
   /// Takes the newest snapshots of all workpieces, ascending by id. What is intended with a workpiece ends when it is
@@ -48,11 +48,12 @@ class IntentionStore {
   std::shared_ptr<const Intentions> at(SteadyTime now);
 
  private:
-  void add(const IntentionRequest& request, SteadyTime now, Intentions& all) const;
+  Workpieces newest() const;
+  void apply(Intention region, Intentions& all) const;
   void replace(Intentions all);
   void endBefore(SteadyTime now);
 
-  PriorityMutex mutex_;
+  mutable PriorityMutex mutex_;
   Workpieces newest_;
   std::shared_ptr<const Intentions> intentions_ = std::make_shared<const Intentions>();
 };
