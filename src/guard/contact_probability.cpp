@@ -100,25 +100,30 @@ ClearanceMeter::ClearanceMeter(double max_deviations) : reaches_{0.0, 0.75, 1.5,
 
 // Moves the planes out step by step: the fewer triangles are within, the fewer have to be compared.
 std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const SweptVolume& swept_M,
-                                                 const PerHalfSpace& sigmas) {
+                                                 const PerHalfSpace& sigmas, const IsLeftOut& is_left_out) {
   beat();
   candidates_.clear();
   if (submesh.empty()) return {};
   const Planes planes(submesh.mesh_M(), swept_M, sigmas);
   for (const double reach : reaches_) {
-    collectCandidates(within(reach, submesh, swept_M, sigmas), reach, planes);
+    collectCandidates(within(reach, submesh, swept_M, sigmas), reach, planes, is_left_out);
     if (const auto clearance = nearestWithin(reach, planes)) return clearance;
   }
   return {};
 }
 
-bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas) {
+bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas,
+                            const IsLeftOut& is_left_out) {
   beat();
   if (submesh.empty()) return false;
   const Planes planes(submesh.mesh_M(), swept_M, sigmas);
   return std::any_of(reaches_.begin(), reaches_.end(), [&](double reach) {
     const auto& remaining = within(reach, submesh, swept_M, sigmas);
-    const auto any = [&](const auto& test) { return std::any_of(remaining.begin(), remaining.end(), test); };
+    const auto any = [&](const auto& test) {
+      return std::any_of(remaining.begin(), remaining.end(), [&](const RemainingTriangle& triangle) {
+        return test(triangle) && !(is_left_out && is_left_out(triangle.triangle));
+      });
+    };
     return any([](const RemainingTriangle& triangle) { return triangle.met; }) ||
            any([&](const RemainingTriangle& triangle) {
              return reaches(reach, planes.corners(triangle.triangle), planes);
@@ -189,12 +194,12 @@ bool ClearanceMeter::reaches(double z, const Corners& corners, const Planes& pla
 
 // Collects the triangles that may need the fewest deviations, in this order. At the limit, a corner of one is enclosed.
 void ClearanceMeter::collectCandidates(const std::vector<RemainingTriangle>& remaining, double reach,
-                                       const Planes& planes) {
+                                       const Planes& planes, const IsLeftOut& is_left_out) {
   double limit = reach + kTolerance;
   candidates_.clear();
   for (const RemainingTriangle& triangle : remaining) {
     const Candidate candidate = planes.candidate(triangle.triangle);
-    if (candidate.at_least > limit) continue;
+    if (candidate.at_least > limit || (is_left_out && is_left_out(triangle.triangle))) continue;
     candidates_.push_back(candidate);
     limit = std::min(limit, candidate.at_most);
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -41,6 +42,9 @@ struct Clearance {
   double deviations = 0.0;
 };
 
+/// Returns whether a triangle is left out.
+using IsLeftOut = std::function<bool(std::uint32_t triangle)>;
+
 /// Measures the clearance of an uncertain volume. Keeps its buffers between calls.
 class ClearanceMeter {
  public:
@@ -50,11 +54,14 @@ class ClearanceMeter {
   /// Returns empty if the clearance exceeds the largest one to measure. Exact to 1e-3 standard deviations; at least
   /// -kMaxDeviations.
   /// @param submesh     other triangles are not tested
-  /// @param deviations  from planeDeviations()
-  std::optional<Clearance> measure(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations);
+  /// @param deviations   from planeDeviations()
+  /// @param is_left_out  triangles that are not tested either; empty: none
+  std::optional<Clearance> measure(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations,
+                                   const IsLeftOut& is_left_out = {});
 
   /// Returns whether measure() would find a clearance. Takes a fraction of its time.
-  bool isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations);
+  bool isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations,
+              const IsLeftOut& is_left_out = {});
 
   /// Returns the triangles that no plane of the volume separates from it: ascending. The volume meets no other triangles.
   /// Valid until the next call.
@@ -71,7 +78,8 @@ class ClearanceMeter {
 
   const std::vector<RemainingTriangle>& within(double reach, const Submesh& submesh, const SweptVolume& swept_M,
                                                PerHalfSpace sigmas);
-  void collectCandidates(const std::vector<RemainingTriangle>& remaining, double reach, const Planes& planes);
+  void collectCandidates(const std::vector<RemainingTriangle>& remaining, double reach, const Planes& planes,
+                         const IsLeftOut& is_left_out);
   std::optional<Clearance> nearestWithin(double reach, const Planes& planes) const;
   static bool reaches(double z, const Corners& corners, const Planes& planes);
   static double deviationsTo(double nearest, const Candidate& candidate, const Planes& planes);

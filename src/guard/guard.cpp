@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "guard/intended_touches.h"
 #include "guard/measured_sweeps.h"
 #include "guard/path_checker.h"
 #include "guard/time_budget.h"
@@ -35,6 +36,9 @@ Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& 
       measured_sweeps_(std::make_unique<MeasuredSweeps>()),
       budget_(std::make_unique<TimeBudget>(options.horizon, options.cycle)),
       plan_(std::make_unique<SweepPlan>()),
+      no_intentions_(std::make_shared<const Intentions>()),
+      intentions_(no_intentions_),
+      touches_(std::make_unique<IntendedTouches>()),
       path_checker_(std::make_unique<PathChecker>(PathChecker::optionsOf(options))) {}
 
 Guard::~Guard() = default;
@@ -42,7 +46,9 @@ Guard::~Guard() = default;
 void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
   const SteadyTime begin = options_.clock();
   predictor_.observe({pose.stamp, pose.X_WT});
-  measured_sweeps_->sweep({tool_, *detector_, options_.sweep, [this] { throwIfStopping(); }}, pose, workpieces, report);
+  const SweepSetup setup{tool_, *detector_, options_.sweep, [this] { throwIfStopping(); }, *intentions()};
+  measured_sweeps_->sweep(setup, pose, workpieces, report);
+  touches_->update(report, pose, tool_, *intentions());
   if (!newest_) newest_.emplace();
   assign(*newest_, pose);
   budget_->spentOnMeasured(options_.clock() - begin);
@@ -67,7 +73,8 @@ void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& pred
   predictor_.predict(horizon_.ends, motion_.path);
   motion_.reflex_sweeps = horizon_.reflex_sweeps;
   chooseSweepPlan(begin, between);
-  path_checker_->predict(*detector_, {tool_, motion_, workpieces}, *plan_, prediction);
+  const std::shared_ptr<const Intentions> intended = intentions();  // sweeps between may change them
+  path_checker_->predict(*detector_, {tool_, motion_, workpieces, *intended, *touches_}, *plan_, prediction);
   size_t volumes = 0;
   for (const PredictedObject& object : prediction.objects) volumes = std::max(volumes, object.volumes_tested);
   budget_->spentOnPredicted(options_.clock() - begin - interrupted_, volumes);
@@ -121,10 +128,17 @@ bool Guard::isWithin(double distance, const Workpiece& workpiece) {
   return checkPath(*detector_, {tool_, path_M, workpiece.mesh_M, options, [this] { throwIfStopping(); }}).all.contact();
 }
 
+void Guard::intend(std::shared_ptr<const Intentions> intentions) { intentions_ = std::move(intentions); }
+
+const std::shared_ptr<const Intentions>& Guard::intentions() const {
+  return options_.sweep.fine ? intentions_ : no_intentions_;
+}
+
 std::unique_ptr<Profile> Guard::profile() const { return predictor_.profile(); }
 
 void Guard::reset() {
   measured_sweeps_->reset();
+  touches_->clear();
   predictor_.restart();
   newest_.reset();
 }
@@ -136,6 +150,7 @@ void Guard::exchange(GuardChange& change) {
   if (change.detector || change.tool) measured_sweeps_->forgetContacts();
   if (change.detector) std::swap(detector_, change.detector);
   if (change.tool) std::swap(tool_, *change.tool);
+  if (change.tool) touches_->clear();
   if (change.predictor) {
     std::swap(predictor_, *change.predictor);
     if (newest_) predictor_.observe({newest_->stamp, newest_->X_WT});

@@ -96,6 +96,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   const MovingMesh mesh = movingMesh(*workpiece, from, swept.displacements);
   const bool again = deformed && mesh.moved();
   const size_t first = again ? std::min(begin, history.lastUpTo(before.stamp)) : begin;
+  const IntendedContact intended(setup.tool, setup.intentions, *workpiece);
   object.workpiece = workpiece;
   object.interval_start = history[begin].stamp;
   object.result.clear();
@@ -108,9 +109,12 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
     const size_t end = first + endOfMotion(setup, i - first, (is_new ? last : begin) - first);
     findSubMotions(setup, history, first, i - first, end - first);
     cache_.already_confirmed.clear();
-    if (!is_new) cache_.already_confirmed = object.result.not_ruled_out;
+    if (!is_new) {
+      cache_.already_confirmed = object.result.not_ruled_out;
+      remove(cache_.already_confirmed, object.result.intended);
+    }
     SweepResult& result =
-        sweep_checker_.check(setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_});
+        sweep_checker_.check(setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, intended});
     if (is_new) cache_.contact_normals.clear();
     update(cache_, result);
     rescale(result.in_contact, history.share(begin, i), history.share(begin, end));

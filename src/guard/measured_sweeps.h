@@ -20,6 +20,7 @@ struct SweepSetup {
   Detector& detector;
   const SweepOptions& options;
   std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up
+  const Intentions& intentions = kNoIntentions;
 };
 
 /// Sweeps the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for

@@ -10,9 +10,16 @@ namespace {
 
 constexpr double kSame = 0.999;  // cosine of the angle to a direction that serves as well
 
+// One that is not intended goes first.
 bool earlierOfTriangle(const TriangleContact& a, const TriangleContact& b) {
   if (a.triangle != b.triangle) return a.triangle < b.triangle;
+  if (a.intended != b.intended) return b.intended;
   return a.impact.time_of_impact < b.impact.time_of_impact;
+}
+
+void sortUnique(TriangleSet& all) {
+  if (!std::is_sorted(all.begin(), all.end())) std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
 }
 
 bool sameTriangle(const TriangleContact& a, const TriangleContact& b) { return a.triangle == b.triangle; }
@@ -31,6 +38,7 @@ class NarrowPhase::Piece {
         directions_(all.directions_[piece]),
         batch_(all.batch_),
         result_(result),
+        intended_(request.intended.trianglesOf(piece, request.sub_motions, margin_)),
         normal_(request.contact_normals.begin()) {
     finder_.begin(shape_T_, request.sub_motions, margin_);
     directions_.begin(shape_T_, request.sub_motions, margin_);
@@ -98,8 +106,11 @@ class NarrowPhase::Piece {
   }
 
   void report(const Candidate& candidate) {
-    if (candidate.not_ruled_out) result_.not_ruled_out.push_back(candidate.index);
-    if (candidate.impact) result_.in_contact.push_back({candidate.index, piece_, *candidate.impact});
+    if (!candidate.not_ruled_out) return;
+    const bool intended = !intended_.empty() && intended_.contains(candidate.index, candidate.triangle_M);
+    result_.not_ruled_out.push_back(candidate.index);
+    if (!intended) result_.unintended.push_back(candidate.index);
+    if (candidate.impact) result_.in_contact.push_back({candidate.index, piece_, *candidate.impact, intended});
   }
 
   const NarrowPhaseRequest& request_;
@@ -110,12 +121,14 @@ class NarrowPhase::Piece {
   SeparatingDirections& directions_;
   std::array<Candidate, simd::kBatch>& batch_;
   NarrowPhaseResult& result_;
+  IntendedTriangles intended_;
   ContactNormals::const_iterator normal_;
 };
 
 void NarrowPhase::run(const NarrowPhaseRequest& request, NarrowPhaseResult& result) {
   result.not_ruled_out.clear();
   result.in_contact.clear();
+  result.unintended.clear();
   directions_.resize(request.candidates.size());
   for (size_t piece = 0; piece < request.candidates.size(); ++piece) {
     const TriangleSet& candidates = request.candidates[piece];
@@ -130,9 +143,8 @@ void NarrowPhase::run(const NarrowPhaseRequest& request, NarrowPhaseResult& resu
 
 // Several pieces may touch the same triangle.
 void NarrowPhase::finish(NarrowPhaseResult& result) {
-  TriangleSet& all = result.not_ruled_out;
-  if (!std::is_sorted(all.begin(), all.end())) std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sortUnique(result.not_ruled_out);
+  sortUnique(result.unintended);
   std::vector<TriangleContact>& contacts = result.in_contact;
   if (!std::is_sorted(contacts.begin(), contacts.end(), earlierOfTriangle)) {
     std::sort(contacts.begin(), contacts.end(), earlierOfTriangle);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "guard/intended_contact.h"
 #include "guard/moving_mesh.h"
 #include "guard/separating_directions.h"
 #include "guard/triangle_set.h"
@@ -23,6 +24,7 @@ struct NarrowPhaseRequest {
   const std::vector<TriangleSet>& candidates;  ///< one set for each convex piece of the tool
   double margin;                               ///< the tool is grown by this [m], >= 0
   const ContactNormals& contact_normals;       ///< normals of contacts that began earlier
+  const IntendedContact& intended = kNothingIntended;
 };
 
 struct NarrowPhaseResult {
@@ -31,6 +33,8 @@ struct NarrowPhaseResult {
   TriangleSet not_ruled_out;
   /// Candidates in contact: ascending, each once. If the mesh moved, its vertices are taken to move at constant speed.
   std::vector<TriangleContact> in_contact;
+  TriangleSet
+      unintended;  ///< those of `not_ruled_out` that a piece may meet that is not meant to: ascending, each once
 };
 
 /// Computes time of impact, contact point, normal and depth of each candidate [P, Sec. 5: "a fine detection"]. Candidates

@@ -11,7 +11,13 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Duration kFinestProbable = std::chrono::milliseconds(25);  // shortest sweep with a merely possible contact
+
+void leaveOut(TriangleSet& triangles, const IsLeftOut& is_left_out) {
+  if (is_left_out)
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), std::ref(is_left_out)), triangles.end());
+}
 
 }  // namespace
 
@@ -21,9 +27,15 @@ struct PathChecker::Scene {
   double margin;        // the tool is grown by this
   Duration reflex_end;  // after the newest pose
   const SweepPlan& plan;
+  const Workpiece& workpiece;
+  const IntendedContact& intended;
+  const IntendedTouches& touches;
 
   bool inTimeFor(const PathSegment& segment) const {
     return segment.to <= reflex_end || !plan.out_of_time || !plan.out_of_time();
+  }
+  bool hasTouched(size_t piece) const {
+    return !intended.empty() && touches.contains(workpiece.id, tool.pieces()[piece].link);
   }
 };
 
@@ -46,7 +58,9 @@ void PathChecker::checkNext(Detector& detector, const PredictedPathRequest& requ
   follow(request, margin);
   const size_t reflex_sweeps = request.reflex_sweeps;
   const Duration reflex_end = reflex_sweeps == 0 ? Duration::zero() : request.path[reflex_sweeps - 1].ahead;
-  const Scene scene{detector, request.tool, margin, reflex_end, request.plan};
+  const IntendedContact intended(request.tool, request.intentions, *object.workpiece);
+  const Scene scene{detector,     request.tool,      margin,   reflex_end,
+                    request.plan, *object.workpiece, intended, request.touches};
   const Submesh submesh = submeshInReach(mesh_M, reach_M_, 0);
   Progress progress{object, &object.reflex};
   for (size_t i = 0; i < request.plan.sweepCount(request.path); ++i) {
@@ -86,7 +100,9 @@ void PathChecker::predict(Detector& detector, const PredictionRequest& request, 
   prediction.sweeps_asked = motion.path.size();
   prediction.sweeps_made = plan.sweepCount(motion.path);
   const auto test = [&](const auto& workpiece, const Eigen::Isometry3d& X_WM, PredictedObject& object) {
-    checkNext(detector, {request.tool, motion.from.X_WT, motion.path, motion.reflex_sweeps, X_WM, workpiece, plan},
+    checkNext(detector,
+              {request.tool, motion.from.X_WT, motion.path, motion.reflex_sweeps, X_WM, workpiece, plan,
+               request.intentions, request.touches},
               object);
   };
   testPlaced(motion.path.empty() ? kNone : request.workpieces, motion.from, prediction, test);
@@ -148,7 +164,7 @@ bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, Swept
 
 bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
                                const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations) {
-  if (!meter_.isNear(submesh, body.volume_M, deviations)) return false;
+  if (!meter_.isNear(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, node.piece))) return false;
   if (node.piece) return true;
   return std::any_of(node.below.begin(), node.below.end(), [&](size_t index) {
     const Tool::Node& below = scene.tool.tree()[index];
@@ -185,12 +201,13 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
 PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh,
                                                   const PathSegment& segment, const Tool::Node& node,
                                                   const SweptBody& body, const PerHalfSpace& deviations) {
-  const auto clearance = meter_.measure(submesh, body.volume_M, deviations);
+  const auto clearance =
+      meter_.measure(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, node.piece));
   if (!clearance) return {};
   if (node.piece) {
     const Candidate candidate{clearance->deviations, node.piece};
     if (!clearance->separated) unseparated_.push_back({body, candidate});
-    return candidate;
+    return scene.hasTouched(*node.piece) ? Candidate() : candidate;
   }
   Candidate candidate;
   for (const size_t index : node.below) {
@@ -201,10 +218,22 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
   return candidate;
 }
 
+// Returns which triangles a piece is meant to touch; empty: none, as for boxes around pieces.
+IsLeftOut PathChecker::intendedFor(const Scene& scene, const Submesh& submesh, const SweptBody& body,
+                                   std::optional<size_t> piece) {
+  if (!piece || scene.intended.empty()) return {};
+  IntendedTriangles intended = scene.intended.trianglesOf(*piece, {body.motion_M}, scene.margin);
+  if (intended.empty()) return {};
+  return [intended, at_rest = MovingMesh(submesh.mesh_M())](std::uint32_t triangle) mutable {
+    return intended.contains(triangle, at_rest.triangle(triangle));
+  };
+}
+
 void PathChecker::detectContacts(const Scene& scene, const Submesh& submesh) {
   hulls_miss_ = true;
   for (const auto& [body, candidate] : unseparated_) {
     detect(scene.detector, submesh, body, detection_);
+    leaveOut(detection_.triangles, intendedFor(scene, submesh, body, candidate.piece));
     unite(not_ruled_out_, detection_.triangles);
     if (!detection_.triangles.empty()) in_contact_ = nearer(in_contact_, candidate);
     hulls_miss_ = hulls_miss_ && hullMissesDetected(body, submesh.mesh_M());
@@ -221,10 +250,14 @@ bool PathChecker::hullMissesDetected(const SweptBody& body, const TriangleMesh& 
 }
 
 // Takes each triangle that no plane separates for met.
-void PathChecker::assumeContacts(const Submesh& submesh) {
+void PathChecker::assumeContacts(const Scene& scene, const Submesh& submesh) {
   for (const auto& [body, candidate] : unseparated_) {
-    unite(not_ruled_out_, meter_.notSeparated(submesh, body.volume_M));
-    in_contact_ = nearer(in_contact_, candidate);
+    TriangleSet& triangles = detection_.triangles;
+    triangles = meter_.notSeparated(submesh, body.volume_M);
+    const IsLeftOut intended = intendedFor(scene, submesh, body, candidate.piece);
+    leaveOut(triangles, intended);
+    unite(not_ruled_out_, triangles);
+    if (!intended || !triangles.empty()) in_contact_ = nearer(in_contact_, candidate);
   }
 }
 
@@ -247,19 +280,20 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
     return halve();
   }
   const Candidate candidate = near ? findCandidate(scene, submesh, swept) : noCandidate();
-  const bool in_time = !candidate.piece || scene.inTimeFor(segment);
+  const bool in_time = (!candidate.piece && unseparated_.empty()) || scene.inTimeFor(segment);
   const bool finer = !progress.contact && in_time;
   if (in_time) progress.object.volumes_tested += swept.bodies.size();
   if (in_time) {
     detectContacts(scene, submesh);
   } else {
-    assumeContacts(submesh);
+    assumeContacts(scene, submesh);
   }
   if (!not_ruled_out_.empty() && finer && length > options_.finest) return halve();
 
   const auto tool_piece = not_ruled_out_.empty() ? candidate.piece : in_contact_.piece;
   const bool only_volume = !not_ruled_out_.empty() && hulls_miss_ && segment.to <= scene.reflex_end;
-  const double deviations = only_volume ? std::max(0.0, candidate.deviations) : candidate.deviations;
+  const double nearest = std::min(candidate.deviations, not_ruled_out_.empty() ? kInfinity : in_contact_.deviations);
+  const double deviations = only_volume ? std::max(0.0, nearest) : nearest;
   progress.object.sweeps.push_back({segment.from, !not_ruled_out_.empty(), deviations, tool_piece});
   progress.contact = progress.contact || !not_ruled_out_.empty();
   unite(*progress.triangles, not_ruled_out_);

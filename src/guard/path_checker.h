@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "guard/contact_probability.h"
+#include "guard/intended_touches.h"
 #include "guard/path_in_mesh.h"
 #include "guard/predict_contacts.h"
 #include "guard/swept_body.h"
@@ -31,6 +32,8 @@ struct PredictedPathRequest {
   const Eigen::Isometry3d& X_WM;  ///< frame of the workpiece; taken to stay where it is
   const std::shared_ptr<const Workpiece>& workpiece;
   const SweepPlan& plan;
+  const Intentions& intentions = kNoIntentions;
+  const IntendedTouches& touches = kNoTouches;
 };
 
 /// Tests the sweeps along a predicted path. Keeps its buffers between calls.
@@ -49,7 +52,8 @@ class PathChecker {
 
   /// Tests the path against one workpiece. A sweep whose volume meets the workpiece is halved down to `finest`, a sweep
   /// that may meet it down to 25 ms: short volumes are tight and locate the begin of the contact. After the first
-  /// contact, sweeps are no longer halved. Once the plan is out of time, sweeps beyond the reflex interval are neither
+  /// contact, sweeps are no longer halved. Triangles that a piece is meant to touch are left out for it; a link that has
+  /// touched as intended only counts where the path itself meets the workpiece. Once the plan is out of time, sweeps beyond the reflex interval are neither
   /// halved nor handed to the detector: a triangle counts as met if no plane of a volume separates it from the volume.
   /// @param[out] object  overwritten; its buffers are used again
   /// @throws DeviceError if the detector fails
@@ -94,7 +98,7 @@ class PathChecker {
   UncertainBody sweepBelow(const Scene& scene, const PathSegment& segment, const Tool::Node& below,
                            const Motion& motion_M) const;
   void detectContacts(const Scene& scene, const Submesh& submesh);
-  void assumeContacts(const Submesh& submesh);
+  void assumeContacts(const Scene& scene, const Submesh& submesh);
   bool hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
   bool hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment, const Tool::Node& node,
                     const SweptBody& body, const PerHalfSpace& deviations);
@@ -103,6 +107,8 @@ class PathChecker {
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
                           const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations);
+  static IsLeftOut intendedFor(const Scene& scene, const Submesh& submesh, const SweptBody& body,
+                               std::optional<size_t> piece);
   bool hullMissesDetected(const SweptBody& body, const TriangleMesh& mesh_M) const;
   void checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress, size_t halvings);
   Submesh submeshInReach(const Submesh& around, const Eigen::AlignedBox3d& reach_M, size_t halvings);

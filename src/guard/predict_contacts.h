@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "guard/intended_touches.h"
 #include "sweep_guard/guard/guard_options.h"
 #include "sweep_guard/guard/prediction.h"
 
@@ -12,6 +13,8 @@ struct PredictionRequest {
   const PredictedMotion& motion;
   const Workpieces&
       workpieces;  ///< their frames are taken to stay where they are at the pose that the motion begins at
+  const Intentions& intentions = kNoIntentions;
+  const IntendedTouches& touches = kNoTouches;
 };
 
 /// Tests a predicted motion against every workpiece, as a guard with these options does if time is not short: one sweep

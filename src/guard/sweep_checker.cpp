@@ -11,9 +11,16 @@
 namespace sweep_guard_core {
 namespace {
 
-bool anyPieceInside(const Tool& tool, const Eigen::Isometry3d& X_MT, const TriangleMesh& mesh_M) {
+bool linkTouches(const std::vector<TriangleContact>& in_contact, const Tool& tool, const std::string& link) {
+  return std::any_of(in_contact.begin(), in_contact.end(),
+                     [&](const TriangleContact& contact) { return tool.pieces()[contact.piece].link == link; });
+}
+
+// Not of the links that touch: how deep all their pieces are was measured.
+bool anyOtherPieceInside(const Tool& tool, const Eigen::Isometry3d& X_MT, const TriangleMesh& mesh_M,
+                         const std::vector<TriangleContact>& in_contact) {
   return mesh_M.closed() && std::any_of(tool.pieces().begin(), tool.pieces().end(), [&](const ConvexPiece& piece) {
-           return inside(mesh_M, X_MT * piece.shape_T.moments_T().mean);
+           return !linkTouches(in_contact, tool, piece.link) && inside(mesh_M, X_MT * piece.shape_T.moments_T().mean);
          });
 }
 
@@ -24,10 +31,20 @@ void unite(std::vector<TriangleContact>& all, const std::vector<TriangleContact>
   for (TriangleContact& contact : all) {
     const auto again = std::lower_bound(later.begin(), later.end(), contact, ascending);
     const bool touches = again != later.end() && again->triangle == contact.triangle;
+    if (touches && contact.intended && !again->intended) contact = *again;
     if (touches) contact.impact.normal_M = again->impact.normal_M;
     contact.impact.depth = touches ? again->impact.depth : 0.0;
   }
   unite(all, later, ascending);
+}
+
+// A triangle is met as intended only if it is so in both. Before the triangles that are not ruled out are united.
+void uniteIntended(SweepResult& all, const SweepResult& later) {
+  if (all.intended.empty() && later.intended.empty()) return;
+  TriangleSet unintended = all.unintended();
+  sweep_guard_core::unite(unintended, later.unintended());
+  sweep_guard_core::unite(all.intended, later.intended);
+  remove(all.intended, unintended);
 }
 
 }  // namespace
@@ -75,7 +92,14 @@ void SweepResult::clear() {
   fine = false;
   not_ruled_out.clear();
   in_contact.clear();
+  intended.clear();
   inside = false;
+}
+
+TriangleSet SweepResult::unintended() const {
+  TriangleSet triangles_left = not_ruled_out;
+  remove(triangles_left, intended);
+  return triangles_left;
 }
 
 void unite(SweepResult& all, const SweepResult& later) {
@@ -83,6 +107,7 @@ void unite(SweepResult& all, const SweepResult& later) {
   all.margin = std::max(all.margin, later.margin);
   all.volumes_M.insert(all.volumes_M.end(), later.volumes_M.begin(), later.volumes_M.end());
   all.fine = later.fine;
+  uniteIntended(all, later);
   unite(all.not_ruled_out, later.not_ruled_out);
   unite(all.in_contact, later.in_contact);
   all.inside = all.inside || later.inside;
@@ -99,8 +124,9 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
   result_.fine = request.options.fine;
   result_.not_ruled_out = result_.triangles;
   if (request.options.fine) narrow(request);
-  if (result_.not_ruled_out.empty() && !request.cache.outside) {
-    result_.inside = anyPieceInside(request.tool, request.sub_motions.back().X_MT_end, request.mesh.mesh_M());
+  if (!result_.unintendedContact() && !request.cache.outside) {
+    result_.inside = anyOtherPieceInside(request.tool, request.sub_motions.back().X_MT_end, request.mesh.mesh_M(),
+                                         result_.in_contact);
   }
   return result_;
 }
@@ -110,11 +136,14 @@ void SweepChecker::narrow(const SweepRequest& request) {
   const TriangleSet& confirmed = request.cache.already_confirmed;
   for (TriangleSet& candidates : candidates_) remove(candidates, confirmed);
   narrow_phase_.run({request.tool, request.sub_motions, request.mesh, candidates_, request.options.margin,
-                     request.cache.contact_normals},
+                     request.cache.contact_normals, request.intended},
                     narrow_phase_result_);
   keepOnly(result_.not_ruled_out, confirmed);
   unite(result_.not_ruled_out, narrow_phase_result_.not_ruled_out);
   std::swap(result_.in_contact, narrow_phase_result_.in_contact);
+  if (request.intended.empty()) return;
+  result_.intended = narrow_phase_result_.not_ruled_out;
+  remove(result_.intended, narrow_phase_result_.unintended);
 }
 
 SweepResult checkSweep(Detector& detector, const SweepRequest& request) {

@@ -27,6 +27,7 @@ struct SweepRequest {
   const MovingMesh& mesh;
   SweepOptions options = {};
   const SweepCache& cache = kEmptySweepCache;  ///< of the sweep that ended where this one begins
+  const IntendedContact& intended = kNothingIntended;
 };
 
 /// Tests the volumes that the tool sweeps during each sub-motion. Descends the tool's tree of boxes to its convex

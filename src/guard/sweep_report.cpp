@@ -14,6 +14,11 @@ bool SweepReport::contact() const {
   return std::any_of(objects.begin(), objects.end(), [](const SweptObject& object) { return object.result.contact(); });
 }
 
+bool SweepReport::unintendedContact() const {
+  return std::any_of(objects.begin(), objects.end(),
+                     [](const SweptObject& object) { return object.result.unintendedContact(); });
+}
+
 bool SweepReport::complete() const {
   const auto current = [](const SweptObject& object) { return object.behind == Duration::zero(); };
   return !objects.empty() && unplaced.empty() && failures.empty() &&

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sweep_guard/guard/sweep_report.h"
@@ -9,10 +10,13 @@
 
 namespace sweep_guard_core {
 
-/// Takes over what a sweep met: of several workpieces, the first reported. Without a contact the one before is over,
-/// unless its workpiece could not be swept.
+/// Takes over what a sweep met other than intended: of several workpieces, the first reported. Without a contact the one
+/// before is over, unless its workpiece could not be swept.
 /// @returns whether the sweep met one
 bool updateContact(const SweepReport& report, SteadyTime now, std::optional<WarningInputs::Contact>& contact);
+
+/// Takes over which workpieces a sweep met as intended.
+void updateIntended(const SweepReport& report, std::vector<std::string>& ids);
 
 /// Adds triangles that a sweep has missed. A contact with another workpiece stays while it lasts; otherwise they count
 /// as a contact that is over. What is added to a contact that lasts is reported until its next sweep.

@@ -239,6 +239,11 @@ void setContact(const WarningInputs::Contact& contact, const Instant& now, Warni
   describeContact(warning, contact.inside, since);
 }
 
+void describeIntended(const WarningInputs& inputs, Warning& warning) {
+  warning.intended = !inputs.intended.empty() && (warning.reasons & (kNoPose | kPoseStale)) == 0;
+  if (warning.intended) add(warning, Reason{}, {"intended contact with '", inputs.intended.front(), "'"});
+}
+
 void reportDisabled(const std::string& disabled_by, Warning& warning) {
   add(warning, kDisabled, {styleOf(warning.level).name, ": disabled by ", disabled_by, ": nothing is tested"});
 }
@@ -267,6 +272,7 @@ void Warning::clear() {
   probability_interval = {};
   held_since.reset();
   acknowledged = false;
+  intended = false;
   pose_stamp = {};
   covered_until = {};
 }
@@ -291,6 +297,7 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
     warning.text.erase(0, warning.text.size() - length);
     setContact(*inputs.contact, now, warning);
   }
+  describeIntended(inputs, warning);
   insert(warning.text, 0, {styleOf(warning.level).name, warning.text.empty() ? "" : ": "});
 }
 

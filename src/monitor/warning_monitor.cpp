@@ -157,6 +157,7 @@ void WarningMonitor::swept(const SweepReport& report, const Timestamps& pose, co
     workpieces_->swept(report);
     if (report.complete()) swept_until_ = report.end;
     if (updateContact(report, now, inputs_.contact)) warnings_->endAcknowledgements();
+    updateIntended(report, inputs_.intended);
     if (report.backlog > limits_.overload) inputs_.overload = WarningInputs::Backlog{report.backlog, now};
   }
   if (!report.failures.empty()) on_fault_();
@@ -248,6 +249,7 @@ void WarningMonitor::restartLocked() {
   inputs_.pose.reset();
   inputs_.overload.reset();
   inputs_.pose_loss.reset();
+  inputs_.intended.clear();
   warnings_->restart();
   faults_->restart();
   workpieces_->restart();

@@ -187,6 +187,7 @@ sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
   msg.fine = result.fine;
   msg.inside = result.inside;
   msg.inside_tested = workpiece.mesh_M.closed();
+  msg.intended = result.intended;
   for (const sweep_guard_core::TriangleContact& contact : result.in_contact)
     msg.impacts.push_back(contactMsg(contact, tool));
   return msg;
@@ -256,6 +257,7 @@ sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning) {
   msg.held = warning.held_since.has_value();
   if (warning.held_since) msg.held_since = toMsg(*warning.held_since);
   msg.acknowledged = warning.acknowledged;
+  msg.intended = warning.intended;
   return msg;
 }
 

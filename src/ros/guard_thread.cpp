@@ -109,6 +109,7 @@ void GuardThread::reset() {
     swept_.reset();
     prediction_due_ = false;
     dependencies_.scene.clear();
+    dependencies_.intentions.clear();
   };
   runInTime(forget, "nothing was reset");
   dependencies_.statistics.restart();
@@ -295,6 +296,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
   const auto report = reports_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
   dependencies_.sampler.setWorkpieces(workpieces, {/*measured=*/true, queued.checkpoint.epoch});
+  guard_.intend(dependencies_.intentions.at(begin));
   guard_.sweep(pose, workpieces, *report);
   const SteadyTime end = std::chrono::steady_clock::now();
   sweep_guard_core::beat();
@@ -351,6 +353,7 @@ void GuardThread::predict() {
   const Duration age = ageOf(from, at);
   const auto prediction = predictions_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
+  guard_.intend(dependencies_.intentions.at(at.steady));
   predictInterrupted(age, workpieces, *prediction, charge.interrupted);
   const Duration took = std::chrono::steady_clock::now() - at.steady - charge.interrupted;
   dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), took);

@@ -11,6 +11,7 @@
 
 #include "common/pool.h"
 #include "guard/cross_check.h"
+#include "guard/intention_store.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
 #include "ros/log_throttle.h"
@@ -37,6 +38,7 @@ struct GuardThreadDependencies {
   WarningPublisher& warnings;
   ScenePublisher& scene;
   sweep_guard_core::QuerySampler& sampler;
+  sweep_guard_core::IntentionStore& intentions;
   std::function<std::unique_ptr<sweep_guard_core::Detector>(const Parameters&)> make_detector =
       [](const Parameters& wanted) { return makeDetector(wanted.detector.name, wanted.detector.options); };
 };

@@ -36,10 +36,13 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
               [this](const std::string& parent, const std::string& child) {
                 monitor_.timeJumped("static transform from '" + child + "' to '" + parent + "' has changed");
               }),
-      workpieces_([this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }),
+      workpieces_([this](const auto& workpieces) {
+        monitor_.setWorkpieces(workpieces);
+        intentions_.follow(workpieces);
+      }),
       cross_check_(parameters_, monitor_),
       guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_,
-                                   cross_check_.sampler()}),
+                                   cross_check_.sampler(), intentions_}),
       poses_(node, parameters_.initial(), {frames_, workpieces_, monitor_, queue_}),
       meshes_(node, parameters_.initial(), workpieces_, monitor_),
       check_sweep_(private_node, {parameters_, frames_, workpieces_, monitor_}),
@@ -49,6 +52,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       controls_(
           private_node, parameters_, monitor_, workpieces_,
           {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); }}),
+      intend_(private_node, {parameters_, frames_, workpieces_, intentions_}),
       reconfigure_server_(private_node, parameters_, [this](const auto& next) { apply(next); }),
       diagnostics_(
           node, private_node,
@@ -56,6 +60,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       watchdog_(monitor_, workpieces_, warnings_),
       peer_watch_(monitor_) {
   reports_.every(kViewPeriod, [this] { scene_.publishView(); });
+  reports_.every(kViewPeriod, [this] { intend_.publishIfChanged(); });
   reports_.every(kDiagnosticsPeriod, [this] { diagnostics_.publish(); });
 }
 
@@ -70,6 +75,7 @@ void SweepGuardNode::start() {
   predict_.start(supervisor_);
   save_profile_.start(supervisor_);
   controls_.start(supervisor_);
+  intend_.start(supervisor_);
   reconfigure_server_.start(supervisor_);
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
   cross_check_.start(supervisor_);

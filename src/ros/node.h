@@ -12,6 +12,7 @@
 #include "ros/peer_watch.h"
 #include "ros/service/check_sweep.h"
 #include "ros/service/controls.h"
+#include "ros/service/intend.h"
 #include "ros/service/predict.h"
 #include "ros/service/save_profile.h"
 #include "ros/threads/supervisor.h"
@@ -52,6 +53,7 @@ class SweepGuardNode {
   TimerThread::Timer& marker_timer_;
   sweep_guard_core::SweepStatistics statistics_;
   Frames frames_;
+  sweep_guard_core::IntentionStore intentions_;
   sweep_guard_core::WorkpieceStore workpieces_;
   CrossCheckThread cross_check_;
   GuardThread guard_thread_;
@@ -61,6 +63,7 @@ class SweepGuardNode {
   PredictService predict_;
   SaveProfileService save_profile_;
   Controls controls_;
+  IntendService intend_;
   ReconfigureServer reconfigure_server_;
   Diagnostics diagnostics_;
   Watchdog watchdog_;

@@ -54,6 +54,18 @@ class WireReader {
   Wire wire_;
 };
 
+constexpr size_t kBall = 4 * sizeof(double);
+constexpr size_t kIntend = 4 * kLength + kBall + sizeof(double) + kStamp;
+
+void readIntend(WireReader& read) {
+  read.text();
+  read.array(sizeof(std::uint32_t));
+  read.text();
+  read.skip(kBall + sizeof(double));
+  read.each(kLength, [&] { read.text(); });
+  read.skip(kStamp);
+}
+
 }  // namespace
 
 template <>
@@ -128,6 +140,20 @@ template <>
 void checkLengths<sweep_guard::SaveProfileRequest>(Wire wire) {
   WireReader read(wire);
   read.text();
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::Intend>(Wire wire) {
+  WireReader read(wire);
+  readIntend(read);
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::SetIntentRequest>(Wire wire) {
+  WireReader read(wire);
+  read.each(kIntend, [&] { readIntend(read); });
   read.end();
 }
 

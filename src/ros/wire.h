@@ -7,9 +7,11 @@
 #include <sweep_guard/Acknowledge.h>
 #include <sweep_guard/CheckSweep.h>
 #include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/Intend.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/Predict.h>
 #include <sweep_guard/SaveProfile.h>
+#include <sweep_guard/SetIntent.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstddef>
@@ -50,6 +52,10 @@ template <>
 void checkLengths<std_srvs::TriggerRequest>(Wire wire);
 template <>
 void checkLengths<sweep_guard::SaveProfileRequest>(Wire wire);
+template <>
+void checkLengths<sweep_guard::Intend>(Wire wire);
+template <>
+void checkLengths<sweep_guard::SetIntentRequest>(Wire wire);
 template <>
 void checkLengths<dynamic_reconfigure::ReconfigureRequest>(Wire wire);
 

@@ -6,7 +6,7 @@ namespace {
 constexpr ElementStyle DisplayStyle::*kGuardElements[] = {
     &DisplayStyle::touched,   &DisplayStyle::reflex,  &DisplayStyle::considered, &DisplayStyle::measured,
     &DisplayStyle::predicted, &DisplayStyle::tool,    &DisplayStyle::ghosts,     &DisplayStyle::path,
-    &DisplayStyle::contacts,  &DisplayStyle::normals, &DisplayStyle::depths};
+    &DisplayStyle::contacts,  &DisplayStyle::normals, &DisplayStyle::depths,     &DisplayStyle::intended};
 
 constexpr float kPale = 0.3F;  // of the opacity
 

@@ -19,6 +19,7 @@ struct DisplayStyle {
   ElementStyle touched;
   ElementStyle reflex;
   ElementStyle considered;
+  ElementStyle intended;   ///< where contact is meant
   ElementStyle measured;   ///< volumes of the newest sweep
   size_t history = 0;      ///< number of earlier volumes that are kept
   ElementStyle predicted;  ///< volumes along the predicted path

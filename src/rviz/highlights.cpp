@@ -24,11 +24,15 @@ Triangles below(Triangles all, size_t count) {
 
 }  // namespace
 
-Highlights highlightsOf(const sweep_guard::ObjectView& view, size_t triangles) {
+Highlights highlightsOf(const sweep_guard::ObjectView& view, const Triangles& intended, size_t triangles) {
   Highlights shown;
   shown.touched = below(view.touched, triangles);
   shown.reflex = without(below(view.reflex, triangles), shown.touched);
   shown.considered = without(without(below(view.considered, triangles), shown.touched), shown.reflex);
+  shown.intended = below(intended, triangles);
+  for (const Triangles* const urgent : {&shown.touched, &shown.reflex, &shown.considered}) {
+    shown.intended = without(shown.intended, *urgent);
+  }
   return shown;
 }
 

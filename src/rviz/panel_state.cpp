@@ -69,6 +69,7 @@ std::string meaningOf(const Warning& warning, WarningLevel level, bool timed, co
   if (level == WarningLevel::kContact && warning.held) meaning = "touched " + ago(warning, now);
   if (level != WarningLevel::kContact && warning.held && !timed)
     meaning = "collision was expected, " + ago(warning, now);
+  if (warning.intended && level == WarningLevel::kClear && !timed) meaning = "intended contact";
   return warning.acknowledged && level == WarningLevel::kConsidered ? "acknowledged: " + meaning : meaning;
 }
 
@@ -93,7 +94,7 @@ std::vector<std::string> sentences(std::string text) {
 
 // Takes the guard's own text, which has figures, where there is one.
 std::vector<std::string> reasonsOf(const Warning& warning) {
-  if (warning.level == Warning::CLEAR && warning.reasons == 0) return {};
+  if (warning.level == Warning::CLEAR && warning.reasons == 0 && !warning.intended) return {};
   if (warning.text.find(": ") != std::string::npos) return sentences(warning.text);
   std::vector<std::string> reasons;
   for (const auto& [bit, words] : kReasons) {

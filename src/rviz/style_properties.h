@@ -44,6 +44,7 @@ class StyleProperties {
   ElementProperties touched_;
   ElementProperties reflex_;
   ElementProperties considered_;
+  ElementProperties intended_;
   ElementProperties measured_;
   rviz::IntProperty* history_;
   ElementProperties predicted_;

@@ -170,6 +170,7 @@ void SurfaceVisual::highlight(const Highlights& highlights) {
   setIndices(kTouched, highlights.touched);
   setIndices(kReflex, highlights.reflex);
   setIndices(kConsidered, highlights.considered);
+  setIndices(kIntended, highlights.intended);
   updateVisibility();
 }
 

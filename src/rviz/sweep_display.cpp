@@ -68,7 +68,9 @@ void SweepDisplay::addTopics() {
   mesh_topic_ = topic<sweep_guard::DeformableMesh>("Mesh Topic", "/mesh", "Meshes of the workpieces.", *this);
   vertices_topic_ =
       topic<sweep_guard::MeshVertices>("Vertices Topic", "/mesh_vertices", "Deformations of the meshes.", *this);
-  for (rviz::RosTopicProperty* each : {view_topic_, tool_topic_, mesh_topic_, vertices_topic_}) {
+  intended_topic_ =
+      topic<sweep_guard::Intended>("Intended Topic", "/sweep_guard/intended", "Where contact is meant.", *this);
+  for (rviz::RosTopicProperty* each : {view_topic_, tool_topic_, mesh_topic_, vertices_topic_, intended_topic_}) {
     connect(each, &rviz::Property::changed, this, [this] {
       if (initialized()) reset();
     });
@@ -79,6 +81,7 @@ void SweepDisplay::setTopic(const QString& topic, const QString& /*datatype*/) {
   const std::string guard = ros::names::parentNamespace(topic.toStdString());
   view_topic_->setString(topic);
   tool_topic_->setString(QString::fromStdString(ros::names::append(guard, "tool")));
+  intended_topic_->setString(QString::fromStdString(ros::names::append(guard, "intended")));
 }
 
 void SweepDisplay::onInitialize() {
@@ -111,6 +114,11 @@ void SweepDisplay::subscribe() {
     subscribers_[3] = update_nh_.subscribe<sweep_guard::MeshVertices>(
         vertices_topic_->getTopicStd(), kMeshesQueued,
         [this](const sweep_guard::MeshVertices::ConstPtr& vertices) { workpieces_->take(vertices); });
+    subscribers_[4] = update_nh_.subscribe<sweep_guard::Intended>(
+        intended_topic_->getTopicStd(), 1, [this](const sweep_guard::Intended::ConstPtr& intended) {
+          workpieces_->take(intended);
+          stale_ = true;
+        });
     report("Topics", "", "subscribed");
   } catch (const ros::Exception& error) {
     report("Topics", error.what(), "", StatusProperty::Error);

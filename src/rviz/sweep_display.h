@@ -29,7 +29,7 @@ class SweepDisplay : public rviz::Display {
 
   void update(float wall_dt, float ros_dt) override;
   void reset() override;
-  /// Selects the guard that publishes this `~view`, and its `~tool`.
+  /// Selects the guard that publishes this `~view`, and its `~tool` and `~intended`.
   void setTopic(const QString& topic, const QString& datatype) override;
 
   /// Returns the number of triangles that a layer shows, of all workpieces.
@@ -63,6 +63,7 @@ class SweepDisplay : public rviz::Display {
   rviz::RosTopicProperty* tool_topic_ = nullptr;
   rviz::RosTopicProperty* mesh_topic_ = nullptr;
   rviz::RosTopicProperty* vertices_topic_ = nullptr;
+  rviz::RosTopicProperty* intended_topic_ = nullptr;
   std::unique_ptr<StyleProperties> style_;
 
   Ogre::SceneNode* guard_node_ = nullptr;  // at the fixed frame of the guard
@@ -70,7 +71,7 @@ class SweepDisplay : public rviz::Display {
   std::unique_ptr<TipPath> path_;
   std::unique_ptr<Workpieces> workpieces_;
 
-  ros::Subscriber subscribers_[4];
+  ros::Subscriber subscribers_[5];
   sweep_guard::View::ConstPtr view_;
   SteadyTime view_received_;
   bool was_silent_ = true;

@@ -101,12 +101,19 @@ std::string WorkpieceVisual::setVertices(const sweep_guard::MeshVertices& messag
   return "";
 }
 
+void WorkpieceVisual::setIntended(std::uint32_t revision, const std::vector<std::uint32_t>& triangles) {
+  intended_revision_ = revision;
+  intended_ = triangles;
+}
+
 void WorkpieceVisual::show(const sweep_guard::ObjectView& view, const DisplayStyle& style) {
   if (frame_.empty()) frame_ = view.frame_id;
-  Highlights highlights;
-  if (fits(view)) highlights = highlightsOf(view, surface_.triangleCount());
+  static const std::vector<std::uint32_t> kNone;
+  const Highlights highlights =
+      highlightsOf(fits(view) ? view : sweep_guard::ObjectView(), revision_ == intended_revision_ ? intended_ : kNone,
+                   surface_.triangleCount());
   if (!highlights_ || !(*highlights_ == highlights)) surface_.highlight(highlights);
-  highlights_ = std::move(highlights);
+  highlights_ = highlights;
   showVolumes(view, style);
   showContacts(view, style);
 }
@@ -122,6 +129,7 @@ void WorkpieceVisual::paint(const DisplayStyle& style) {
   surface_.paintLayer(SurfaceVisual::kTouched, style.touched.color, style.touched.shown, true);
   surface_.paintLayer(SurfaceVisual::kReflex, style.reflex.color, style.reflex.shown, true);
   surface_.paintLayer(SurfaceVisual::kConsidered, style.considered.color, style.considered.shown, true);
+  surface_.paintLayer(SurfaceVisual::kIntended, style.intended.color, style.intended.shown, true);
   measured_.paint(style.measured.color, outline(style.measured));
   predicted_.paint(style.predicted.color, outline(style.predicted));
   points_.paint(style.contacts.color, style.contacts.color);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rviz/display_style.h"
 #include "rviz/drawing.h"
@@ -29,6 +30,10 @@ class WorkpieceVisual {
   /// @returns the problem as text; empty if there is none
   std::string setMesh(const sweep_guard::DeformableMesh& mesh);
   std::string setVertices(const sweep_guard::MeshVertices& vertices);
+
+  /// Sets where contact is meant.
+  /// @param revision  of the mesh that the triangles are indices into
+  void setIntended(std::uint32_t revision, const std::vector<std::uint32_t>& triangles);
 
   void show(const sweep_guard::ObjectView& view, const DisplayStyle& style);
   void showSurfaceOnly();
@@ -63,6 +68,8 @@ class WorkpieceVisual {
   Ogre::SceneNode* label_node_;
   VolumeHistory history_;
   std::optional<Highlights> highlights_;
+  std::uint32_t intended_revision_ = 0;
+  std::vector<std::uint32_t> intended_;
 };
 
 }  // namespace sweep_guard_rviz

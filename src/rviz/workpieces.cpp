@@ -8,6 +8,7 @@ void Workpieces::clear() {
   visuals_.clear();
   problems_.clear();
   vertices_.clear();
+  intended_.reset();
 }
 
 WorkpieceVisual& Workpieces::visual(const std::string& id) {
@@ -55,9 +56,22 @@ void Workpieces::draw(const std::vector<sweep_guard::ObjectView>& objects, const
       continue;
     }
     visual.paint(style);
+    showIntended(each->first, visual);
     view != views.end() ? visual.show(*view->second, style) : visual.showSurfaceOnly();
     ++each;
   }
+}
+
+void Workpieces::showIntended(const std::string& id, WorkpieceVisual& visual) const {
+  std::uint32_t revision = 0;
+  std::vector<std::uint32_t> triangles;
+  for (const sweep_guard::Intention& intention :
+       intended_ ? intended_->intentions : sweep_guard::Intended().intentions) {
+    if (intention.mesh_id != id) continue;
+    revision = intention.revision;
+    triangles.insert(triangles.end(), intention.triangles.begin(), intention.triangles.end());
+  }
+  visual.setIntended(revision, triangles);
 }
 
 void Workpieces::place(const FindFrame& find) {

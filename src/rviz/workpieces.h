@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/Intended.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/ObjectView.h>
 
@@ -28,6 +29,7 @@ class Workpieces {
   /// Adds or replaces a workpiece; a mesh without vertices and triangles removes it.
   void take(const sweep_guard::DeformableMesh& mesh);
   void take(const sweep_guard::MeshVertices::ConstPtr& vertices);
+  void take(const sweep_guard::Intended::ConstPtr& intended) { intended_ = intended; }
   void deform();  ///< applies the newest vertices
 
   /// Draws all workpieces. One that is not among `objects` is drawn without volumes and contacts, or removed if it has
@@ -42,6 +44,7 @@ class Workpieces {
 
  private:
   WorkpieceVisual& visual(const std::string& id);
+  void showIntended(const std::string& id, WorkpieceVisual& visual) const;
   void setProblem(const std::string& id, const std::string& problem);
 
   Ogre::SceneManager& scene_;
@@ -49,6 +52,7 @@ class Workpieces {
   std::map<std::string, std::unique_ptr<WorkpieceVisual>> visuals_;
   std::map<std::string, std::string> problems_;                          // by workpiece
   std::map<std::string, sweep_guard::MeshVertices::ConstPtr> vertices_;  // not drawn yet
+  sweep_guard::Intended::ConstPtr intended_;
 };
 
 }  // namespace sweep_guard_rviz

@@ -74,9 +74,10 @@ class GuardThreadTest : public ::testing::Test {
   ScenePublisher scene_{node_, parameters_, monitor_};
   sweep_guard_core::SweepStatistics statistics_{parameters_.initial().guard.cycle};
   sweep_guard_core::QuerySampler sampler_{/*every=*/0};
+  sweep_guard_core::IntentionStore intentions_;
   GuardThread guard_thread_{
       node_,
-      {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_, sampler_,
+      {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_, sampler_, intentions_,
        [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(record_); }}};
 };
 

@@ -137,6 +137,7 @@ class ServicesTest : public ::testing::Test {
             warnings_,
             scene_,
             cross_check_.sampler(),
+            intentions_,
             [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(detector_record_); }};
   }
 
@@ -147,6 +148,7 @@ class ServicesTest : public ::testing::Test {
   }
 
   sweep_guard_core::FakeDetector::Record detector_record_;
+  sweep_guard_core::IntentionStore intentions_;
   sweep_guard_core::FakeDetector::Record path_detector_record_;  // of ~check_sweep
   ros::NodeHandle node_;
   LiveParameters parameters_{loadParameters(node_)};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sweep_guard/Contacts.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/View.h>
@@ -248,6 +249,29 @@ TEST_F(ReplayTest, ViewsThatDoNotTellWhatIsHeldAreMigrated) {
     ++views;
   }
   EXPECT_EQ(views, 3);
+}
+
+// recorded_before_intended.bag holds messages from before `intended`.
+TEST_F(ReplayTest, ContactsAndWarningsThatDoNotTellWhatIsIntendedAreMigrated) {
+  const auto warnings = migratedWarnings("recorded_before_intended.bag", bag_, folder_ / "fixed.txt");
+  ASSERT_EQ(warnings.size(), 10U);
+  for (std::size_t i = 0; i < warnings.size(); ++i) {
+    EXPECT_EQ(warnings[i].level, i / 2);
+    EXPECT_EQ(warnings[i].held, i % 2);
+    EXPECT_FALSE(warnings[i].intended);
+  }
+  const rosbag::Bag bag(bag_.string());
+  std::uint32_t next = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/sweep_guard/contacts"))) {
+    const auto contacts = message.instantiate<sweep_guard::Contacts>();
+    ASSERT_TRUE(contacts);
+    ASSERT_EQ(contacts->objects.size(), 1U);
+    EXPECT_EQ(contacts->objects[0].triangles, (std::vector<std::uint32_t>{next, next + 1}));
+    EXPECT_EQ(contacts->objects[0].impacts.at(0).tool_link, "bit");
+    EXPECT_TRUE(contacts->objects[0].intended.empty());
+    ++next;
+  }
+  EXPECT_EQ(next, 10U);
 }
 
 // recorded_with_run_id.bag holds the definition before `held` and `acknowledged`.

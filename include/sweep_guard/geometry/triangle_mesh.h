@@ -34,6 +34,8 @@ class TriangleMesh {
   void checkCount(const std::vector<float>& positions_M) const;
 
   const std::vector<Triangle>& triangles() const { return topology_->triangles; }
+  /// Returns triangles(), which stay the same object for all deformations and copies.
+  std::shared_ptr<const std::vector<Triangle>> sharedTriangles() const { return {topology_, &topology_->triangles}; }
   /// Returns whether each edge belongs to an even number of triangles. The surface then has an inside, which may be
   /// empty. Vertices at the same place count as different: a mesh of separate triangles is not closed. An edge from a
   /// vertex to itself does not count.

@@ -6,11 +6,13 @@
 #include <optional>
 
 #include "sweep_guard/guard/guard_options.h"
+#include "sweep_guard/guard/intention.h"
 #include "sweep_guard/guard/prediction.h"
 #include "sweep_guard/guard/sweep_report.h"
 
 namespace sweep_guard_core {
 
+class IntendedTouches;
 class MeasuredSweeps;
 class PathChecker;
 class TimeBudget;
@@ -87,6 +89,13 @@ class Guard {
   /// @throws DeviceError if the detector fails
   bool isWithin(double distance, const Workpiece& workpiece);
 
+  /// Sets where contact is meant, from the next sweep and the next prediction on. Contact as intended is reported apart
+  /// (SweepResult::intended) and is not predicted. Once a link has touched as intended, its contacts with that workpiece
+  /// are predicted where the predicted path itself meets it, not where it is merely probable, until the link is 10 mm
+  /// away from the regions. Without narrow phase (SweepOptions::fine), nothing is intended.
+  /// @param intentions  not null
+  void intend(std::shared_ptr<const Intentions> intentions);
+
   /// Returns what was learned of the operator, see PosePredictor.
   std::unique_ptr<Profile> profile() const;
 
@@ -108,6 +117,7 @@ class Guard {
   void chooseSweepPlan(SteadyTime begin, const std::function<void()>& between);
   void interrupt(const std::function<void()>& between);
   void throwIfStopping() const;
+  const std::shared_ptr<const Intentions>& intentions() const;
 
   std::atomic<bool> stopping_ = false;
   Tool tool_;
@@ -121,6 +131,9 @@ class Guard {
   Duration interrupted_{};                // time for other things during this test
   Horizon horizon_;
   std::unique_ptr<SweepPlan> plan_;
+  const std::shared_ptr<const Intentions> no_intentions_;
+  std::shared_ptr<const Intentions> intentions_;
+  std::unique_ptr<IntendedTouches> touches_;
   std::unique_ptr<PathChecker> path_checker_;
 };
 

@@ -25,6 +25,8 @@ struct TriangleContact {
   std::uint32_t triangle;
   size_t piece;   ///< index of the convex piece of the tool that touches the triangle first
   Impact impact;  ///< first impact of the piece on the triangle
+  /// No piece meets the triangle other than intended (Intention). If one does, `piece` is the first of these.
+  bool intended = false;
 };
 
 /// Holds the triangles of one mesh that the tool meets during one motion.
@@ -38,13 +40,19 @@ struct SweepResult {
   /// Those of `not_ruled_out` for which timeOfImpact() finds an impact, the mesh moving at constant speed: ascending,
   /// each once. Empty without narrow phase.
   std::vector<TriangleContact> in_contact = {};
-  /// A piece of the tool lies wholly inside the closed mesh. Tested only if the sweep's `not_ruled_out` is empty; false
-  /// otherwise, and for a mesh that is not closed().
+  /// Those of `not_ruled_out` that only pieces meet which are meant to (Intention): ascending, each once. Empty without
+  /// narrow phase.
+  TriangleSet intended = {};
+  /// A piece of the tool lies wholly inside the closed mesh. Tested only if the sweep's `not_ruled_out` holds nothing but
+  /// `intended`, and then not for the links that touch as intended; false otherwise, and for a mesh that is not closed().
   bool inside = false;
 
   /// Returns whether the tool met the mesh, or whether it is not ruled out that it did.
   bool contact() const { return inside || !not_ruled_out.empty(); }
-  void clear();  ///< resets all fields and keeps the buffers
+  /// Returns whether there is a contact() other than intended.
+  bool unintendedContact() const { return inside || not_ruled_out.size() > intended.size(); }
+  TriangleSet unintended() const;  ///< `not_ruled_out` without `intended`
+  void clear();                    ///< resets all fields and keeps the buffers
 };
 
 struct PathRequest {

@@ -30,8 +30,9 @@ struct SweepReport {
   Workpieces unplaced;                 ///< workpieces that were not swept because their frame is unknown at `end`
   std::vector<SweepFailure> failures;  ///< workpieces whose sweep failed
 
-  double margin() const;  ///< largest margin of all objects [m]; 0 if there are none
-  bool contact() const;   ///< the tool met an object, or it is not ruled out that it did
+  double margin() const;           ///< largest margin of all objects [m]; 0 if there are none
+  bool contact() const;            ///< the tool met an object, or it is not ruled out that it did
+  bool unintendedContact() const;  ///< the same, but for contacts as intended (Intention)
   bool complete() const;  ///< there is at least one workpiece, and every workpiece was swept with all its updates
 };
 

@@ -58,6 +58,7 @@ struct Warning {
   /// When what the level tells of ended; it is shown for the hold time. Empty: it lasts, or there is none.
   std::optional<Time> held_since;
   bool acknowledged = false;  ///< the operator knows of this workpiece; only at kConsidered
+  bool intended = false;      ///< the newest sweep, if not stale, met a workpiece as intended; at any level
   Time pose_stamp;            ///< newest pose that has been swept; epoch: none
   Time covered_until;         ///< every workpiece is tested up to here; epoch: never
 
@@ -65,7 +66,8 @@ struct Warning {
 };
 
 /// Computes the warning. The first level that applies wins, in this order:
-/// - CONTACT: the tool meets a workpiece, or met one within the hold time. A contact that is not ruled out counts.
+/// - CONTACT: the tool meets a workpiece other than intended, or did so within the hold time. A contact that is not ruled
+///   out counts.
 /// - REFLEX, CONSIDERED: the predicted contact with a workpiece lies within this interval now or by the next call, or
 ///   did so within the hold time. Of several workpieces, the one with the highest level is named, then one that is not
 ///   acknowledged, then one that is predicted to be met now, then the one that is met first.
@@ -74,7 +76,8 @@ struct Warning {
 ///   (`overload`); every workpiece was swept at that pose and tested to the end of the considered interval; there is no
 ///   fault.
 /// Reasons are reported whatever the level. A guard that is disabled or shuts down is always UNKNOWN, even during a
-/// contact, and kDisabled is its only reason; the fields after `text` are then empty.
+/// contact, and kDisabled is its only reason; the fields after `text` are then empty. The text names a workpiece that is
+/// met as intended.
 /// @param[out] warning  overwritten; its buffers are used again
 void computeWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning);
 

@@ -67,6 +67,7 @@ struct WarningInputs {
   std::optional<Timestamps> pose;          ///< newest pose that has been swept
   std::vector<Object> objects;             ///< ascending by id, each once
   std::optional<Contact> contact;          ///< newest contact; of several in one sweep, the first reported
+  std::vector<std::string> intended;       ///< workpieces that the newest sweep met as intended (Intention)
   std::vector<WorkpieceWarning> warnings;  ///< each workpiece once
   WorkpieceWarning removed;                ///< newest alarms of workpieces that are gone
   Time covered_until;                 ///< every workpiece is tested up to here, measured or predicted; epoch: never

@@ -79,7 +79,7 @@ bool isOfWarning(const MarkerScene& scene, sweep_guard_core::Duration hold) {
   if (!scene.contact || scene.newest->end - scene.contact->end > hold + kDelay) return false;
   const auto& objects = scene.contact->objects;
   return std::any_of(objects.begin(), objects.end(), [&](const sweep_guard_core::SweptObject& object) {
-    return object.workpiece->id == scene.warning.mesh_id && object.result.contact();
+    return object.workpiece->id == scene.warning.mesh_id && object.result.unintendedContact();
   });
 }
 

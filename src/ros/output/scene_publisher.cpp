@@ -25,7 +25,7 @@ void ScenePublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
   const std::lock_guard lock(mutex_);
   scene_.X_WT = pose.X_WT;
   scene_.trail.add(pose.stamp, pose.X_WT.translation());
-  if (report->contact()) scene_.contact = report;
+  if (report->unintendedContact()) scene_.contact = report;
   scene_.newest = std::move(report);
 }
 

@@ -43,7 +43,7 @@ void addContact(const MarkerScene& scene, std::vector<ObjectView>& objects) {
   for (const sweep_guard_core::SweptObject& object : scene.contact->objects) {
     ObjectView& view = viewOf(*object.workpiece, objects);
     if (view.revision != object.workpiece->revision) continue;
-    view.touched = object.result.not_ruled_out;
+    view.touched = object.result.unintended();
     view.impacts = toMsg(*object.workpiece, object.result, *scene.tool).impacts;
   }
 }

@@ -81,9 +81,9 @@ void WarningPublisher::publish(bool only_if_changed) {
   const sweep_guard_core::Instant at = now();
   monitor_.warning(at, warning_);
   const bool new_level = static_cast<std::uint8_t>(warning_.level) != message_.level;
-  const bool changed = new_level || warning_.reasons != message_.reasons ||
-                       warning_.held_since.has_value() != (message_.held != 0) ||
-                       warning_.acknowledged != (message_.acknowledged != 0);
+  const bool changed =
+      new_level || warning_.reasons != message_.reasons || warning_.held_since.has_value() != (message_.held != 0) ||
+      warning_.acknowledged != (message_.acknowledged != 0) || warning_.intended != (message_.intended != 0);
   if (only_if_changed && !changed) return;
   const InStage publishing(Stage::kPublish);
   const auto parameters = parameters_.get();

@@ -1,0 +1,107 @@
+#include "guard/intended_contact.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "sweep_guard/geometry/swept_volume.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMinSine = 1e-9;  // of the angle between two edges of a triangle that has a normal
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+std::optional<Eigen::Vector3d> normalOf(const Corners& p) {
+  const Eigen::Vector3d one = p[1] - p[0];
+  const Eigen::Vector3d other = p[2] - p[0];
+  const Eigen::Vector3d normal = one.cross(other);
+  const double length = normal.norm();
+  if (!(length > kMinSine * one.norm() * other.norm())) return std::nullopt;
+  return normal / length;
+}
+
+double highest(const Eigen::Vector3d& direction, const Corners& p, const Eigen::Vector3d& base) {
+  return std::max({direction.dot(p[0] - base), direction.dot(p[1] - base), direction.dot(p[2] - base)});
+}
+
+}  // namespace
+
+IntendedTriangles::IntendedTriangles(std::vector<const Intention*> regions, const Tool& tool, const std::string& link,
+                                     const std::vector<Motion>& sub_motions_M, double margin)
+    : regions_(std::move(regions)), base_M_(sub_motions_M.front().X_MT_start.translation()) {
+  for (Motion motion_M : sub_motions_M) {
+    motion_M.mesh_translation.setZero();
+    radius_ = std::max({radius_, (motion_M.X_MT_start.translation() - base_M_).norm(),
+                        (motion_M.X_MT_end.translation() - base_M_).norm()});
+    for (const ConvexPiece& piece : tool.pieces()) {
+      if (piece.link != link) continue;
+      bodies_.push_back({&piece.shape_T, motion_M, deviationBound(piece.shape_T, motion_M) + margin});
+    }
+  }
+  radius_ += tool.boundingRadius();
+}
+
+bool IntendedTriangles::contains(std::uint32_t triangle, const MovingTriangle& triangle_M) {
+  std::optional<double> depth;
+  return std::any_of(regions_.begin(), regions_.end(), [&](const Intention* region) {
+    if (!std::binary_search(region->triangles.begin(), region->triangles.end(), triangle)) return false;
+    if (isProvenWithin(region->depth, triangle_M)) return true;
+    if (!depth) depth = depthBehind(triangle_M).value_or(kInfinity);
+    return *depth <= region->depth;
+  });
+}
+
+// Of neighbors with nearly the same normal: no point of the tool is farther from the base than the radius.
+bool IntendedTriangles::isProvenWithin(double depth, const MovingTriangle& triangle_M) const {
+  if (last_normal_.isZero(0.0) || triangle_M.start_M != triangle_M.end_M) return false;
+  const auto normal = normalOf(triangle_M.end_M);
+  return normal && surface(*normal, triangle_M) + last_reach_ + (*normal - last_normal_).norm() * radius_ <= depth;
+}
+
+std::optional<double> IntendedTriangles::depthBehind(const MovingTriangle& triangle_M) {
+  double depth = -kInfinity;
+  for (const Corners& corners : {triangle_M.start_M, triangle_M.end_M}) {
+    const auto normal = normalOf(corners);
+    if (!normal) return std::nullopt;
+    depth = std::max(depth, surface(*normal, triangle_M) + reachBehind(*normal));
+  }
+  return depth;
+}
+
+double IntendedTriangles::surface(const Eigen::Vector3d& normal, const MovingTriangle& triangle_M) const {
+  return std::max(highest(normal, triangle_M.start_M, base_M_), highest(normal, triangle_M.end_M, base_M_));
+}
+
+double IntendedTriangles::reachBehind(const Eigen::Vector3d& normal) {
+  if (normal == last_normal_) return last_reach_;
+  last_normal_ = normal;
+  last_reach_ = -kInfinity;
+  for (const Body& body : bodies_) {
+    last_reach_ = std::max(last_reach_, support(*body.shape_T, body.motion_M, -normal) + body.growth);
+  }
+  last_reach_ += normal.dot(base_M_);
+  return last_reach_;
+}
+
+IntendedContact::IntendedContact(const Tool& tool, const Intentions& all, const Workpiece& workpiece) : tool_(&tool) {
+  for (const Intention& intention : all) {
+    if (intention.concerns(workpiece)) intentions_.push_back(&intention);
+  }
+}
+
+IntendedTriangles IntendedContact::trianglesOf(size_t piece, const std::vector<Motion>& sub_motions_M,
+                                               double margin) const {
+  if (empty()) return {};
+  const std::string& link = tool_->pieces()[piece].link;
+  std::vector<const Intention*> regions;
+  std::copy_if(intentions_.begin(), intentions_.end(), std::back_inserter(regions),
+               [&](const Intention* intention) { return intention->allows(link); });
+  if (regions.empty()) return {};
+  return {std::move(regions), *tool_, link, sub_motions_M, margin};
+}
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/detection/time_of_impact.h"
+#include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/guard/intention.h"
+
+namespace sweep_guard_core {
+
+/// Decides which triangles one link of the tool is meant to touch during one motion. What is not proven to be intended is
+/// not.
+class IntendedTriangles {
+ public:
+  /// No triangles.
+  IntendedTriangles() = default;
+  /// @param regions        of this link; must outlive this
+  /// @param sub_motions_M  of one motion
+  /// @param margin         the tool is grown by this [m], >= 0
+  IntendedTriangles(std::vector<const Intention*> regions, const Tool& tool, const std::string& link,
+                    const std::vector<Motion>& sub_motions_M, double margin);
+
+  bool empty() const { return regions_.empty(); }
+
+  /// Returns whether the link may touch a triangle: the triangle is in a region, and depthBehind() is at most the depth
+  /// of that region.
+  bool contains(std::uint32_t triangle, const MovingTriangle& triangle_M);
+
+  /// Returns an upper bound on how far the pieces of the link, with the margin, reach behind the plane of a triangle
+  /// during the motion [m]; negative if they stay in front of it. The normal is that of the triangle before and after its
+  /// own motion. Empty if the triangle has no normal.
+  std::optional<double> depthBehind(const MovingTriangle& triangle_M);
+
+ private:
+  struct Body {
+    const ConvexShape* shape_T;
+    Motion motion_M;
+    double growth;
+  };
+
+  bool isProvenWithin(double depth, const MovingTriangle& triangle_M) const;
+  double surface(const Eigen::Vector3d& normal, const MovingTriangle& triangle_M) const;
+  double reachBehind(const Eigen::Vector3d& normal);
+
+  std::vector<const Intention*> regions_;
+  std::vector<Body> bodies_;                          // each piece of the link in each sub-motion
+  Eigen::Vector3d base_M_ = Eigen::Vector3d::Zero();  // near the tool
+  double radius_ = 0.0;                               // largest distance of a tool point from there [m]
+  Eigen::Vector3d last_normal_ = Eigen::Vector3d::Zero();
+  double last_reach_ = 0.0;  // reachBehind(last_normal_)
+};
+
+/// Holds what is intended with one workpiece.
+class IntendedContact {
+ public:
+  /// Nothing is intended.
+  IntendedContact() = default;
+  /// @param tool, all  must outlive this
+  IntendedContact(const Tool& tool, const Intentions& all, const Workpiece& workpiece);
+
+  bool empty() const { return intentions_.empty(); }  ///< nothing is intended
+
+  /// Returns the triangles that the link of a piece is meant to touch during a motion. Arguments as for
+  /// IntendedTriangles.
+  IntendedTriangles trianglesOf(size_t piece, const std::vector<Motion>& sub_motions_M, double margin) const;
+
+ private:
+  const Tool* tool_ = nullptr;
+  std::vector<const Intention*> intentions_;
+};
+
+inline const Intentions kNoIntentions;
+inline const IntendedContact kNothingIntended;
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/guard/intention.h"
+
+namespace sweep_guard_core {
+
+/// Asks that links of the tool may touch a region of a workpiece.
+struct IntentionRequest {
+  /// Means the triangles that lie wholly inside.
+  struct Ball {
+    Eigen::Vector3d center_M;  ///< [m]
+    double radius;             ///< [m], > 0
+  };
+
+  std::string mesh_id;
+  std::vector<std::uint32_t> triangles = {};  ///< in any order
+  std::optional<Ball> ball = std::nullopt;    ///< its triangles are added
+  double depth = 0.0;                         ///< as Intention::depth
+  std::vector<std::string> tool_links = {};   ///< empty: all
+  Duration duration{};                        ///< 0: until taken back
+
+  bool takesBack() const { return triangles.empty() && !ball; }  ///< what is intended with this mesh ends
+};
+
+/// Keeps where contact is meant. Any thread.
+class IntentionStore {
+ public:
+  /// Adds what is asked for, in this order; all or nothing. A region is added to an intention that is equal but for its
+  /// triangles, unless they end by themselves.
+  /// @throws InvalidInput with what is wrong about the first request that is refused: unknown workpiece or triangle, no
+  ///     triangle in the ball, a depth, radius or duration out of range, or too many
+  void set(const std::vector<IntentionRequest>& requests, SteadyTime now);
+
+  /// Takes the newest snapshots of all workpieces, ascending by id. What is intended with a workpiece ends when it is
+  /// removed, and when it has other triangles.
+  void follow(const Workpieces& newest);
+
+  void clear();  ///< nothing is intended any more
+
+  /// Returns what is intended now; not null. The same object until that changes.
+  std::shared_ptr<const Intentions> at(SteadyTime now);
+
+ private:
+  Workpieces newest() const;
+  void apply(Intention region, Intentions& all) const;
+  void replace(Intentions all);
+  void endBefore(SteadyTime now);
+
+  mutable PriorityMutex mutex_;
+  Workpieces newest_;
+  std::shared_ptr<const Intentions> intentions_ = std::make_shared<const Intentions>();
+};
+
+}  // namespace sweep_guard_core

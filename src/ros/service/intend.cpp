@@ -1,0 +1,171 @@
+#include "ros/service/intend.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::isName;
+using sweep_guard_core::SteadyTime;
+
+constexpr std::uint32_t kQueueLength = 100;  // of a stroke of the brush
+constexpr auto kTransformWait = std::chrono::milliseconds(100);
+
+sweep_guard::Intention toMsg(const sweep_guard_core::Intention& intention, const sweep_guard_core::Instant& now,
+                             std::uint32_t revision) {
+  sweep_guard::Intention msg;
+  msg.mesh_id = intention.mesh_id;
+  msg.revision = revision;
+  msg.triangles = intention.triangles;
+  msg.depth = intention.depth;
+  msg.tool_links = intention.tool_links;
+  if (intention.until) msg.until = sweep_guard_ros::toMsg(now.stamp + (*intention.until - now.steady));
+  return msg;
+}
+
+sweep_guard::Intended toMsg(const sweep_guard_core::Intentions& intentions,
+                            const sweep_guard_core::Workpieces& workpieces) {
+  const sweep_guard_core::Instant at = now();
+  sweep_guard::Intended msg;
+  msg.header.stamp = sweep_guard_ros::toMsg(at.stamp);
+  for (const sweep_guard_core::Intention& intention : intentions) {
+    const auto concerned = std::find_if(workpieces.begin(), workpieces.end(),
+                                        [&](const auto& workpiece) { return intention.concerns(*workpiece); });
+    if (concerned == workpieces.end()) continue;
+    msg.intentions.push_back(toMsg(intention, at, (*concerned)->revision));
+  }
+  return msg;
+}
+
+std::string summaryOf(const sweep_guard_core::Intentions& intentions) {
+  if (intentions.empty()) return "contact is meant nowhere";
+  size_t triangles = 0;
+  for (const sweep_guard_core::Intention& intention : intentions) triangles += intention.triangles.size();
+  return "contact is meant in " + std::to_string(intentions.size()) + " region(s) of " + std::to_string(triangles) +
+         " triangle(s) in all";
+}
+
+}  // namespace
+
+IntendService::IntendService(const ros::NodeHandle& private_node, const IntendDependencies& dependencies)
+    : dependencies_(dependencies),
+      publisher_(ros::NodeHandle(private_node).advertise<sweep_guard::Intended>("intended", 1, /*latch=*/true)),
+      updates_(subscribeBounded<sweep_guard::Intend>(
+          thread_.on(private_node),
+          {"intend_updates", kQueueLength, dependencies.parameters.initial().max_message_size},
+          [this](const ros::MessageEvent<const sweep_guard::Intend>& event) { onUpdate(*event.getConstMessage()); },
+          [this](const std::string& reason) { refuseUpdate(reason); })),
+      server_(calls_.advertise<Event>(
+          private_node, "intend", dependencies.parameters.initial().max_message_size,
+          [this](Event& event) { return onCall(event); },
+          [](const std::string& reason, sweep_guard::SetIntent::Response& response) {
+            response.message = reason;
+            return true;
+          })) {
+  publish({}, /*only_if_changed=*/false);
+}
+
+void IntendService::start(Supervisor& supervisor) {
+  thread_.start(supervisor, {"intentions", sweep_guard_core::Stage::kOther, /*watched=*/false});
+  calls_.start(supervisor);
+}
+
+// Answers errors by a message: a failed ROS call gives the caller none.
+bool IntendService::onCall(Event& event) {
+  sweep_guard::SetIntent::Response& response = event.getResponse();
+  try {
+    set(event.getRequest().intends);
+    response.success = true;
+    response.message = summaryOf(*dependencies_.intentions.at(std::chrono::steady_clock::now()));
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+  ROS_INFO("~intend called by %s: %s", sweep_guard_core::printable(event.getCallerName()).c_str(),
+           response.message.c_str());
+  publishIfChanged();
+  return true;
+}
+
+void IntendService::onUpdate(const sweep_guard::Intend& intend) {
+  try {
+    set({intend});
+    publish({}, /*only_if_changed=*/true);
+  } catch (const std::exception& error) {
+    refuseUpdate(error.what());
+  }
+}
+
+void IntendService::refuseUpdate(const std::string& reason) {
+  log_.error("update", "~intend_updates refused: " + reason);
+  publish(reason, /*only_if_changed=*/false);
+}
+
+void IntendService::set(const std::vector<sweep_guard::Intend>& intends) {
+  if (intends.size() > sweep_guard_core::kMaxIntentions) throw InvalidInput("send at most 64 regions at once");
+  std::vector<sweep_guard_core::IntentionRequest> requests;
+  for (const sweep_guard::Intend& intend : intends) requests.push_back(requestFrom(intend));
+  dependencies_.intentions.set(requests, std::chrono::steady_clock::now());
+}
+
+sweep_guard_core::IntentionRequest IntendService::requestFrom(const sweep_guard::Intend& intend) const {
+  if (!isName(intend.mesh_id)) throw InvalidInput("mesh_id is no name");
+  sweep_guard_core::IntentionRequest request{intend.mesh_id,    intend.triangles,
+                                             std::nullopt,      intend.depth,
+                                             intend.tool_links, std::chrono::nanoseconds(intend.duration.toNSec())};
+  if (intend.radius != 0.0) request.ball = ballOf(intend);
+  if (request.takesBack()) return request;
+  if (!dependencies_.parameters.get()->guard.sweep.fine) {
+    throw InvalidInput("the parameter fine is false: no contact is confirmed, so none can be intended");
+  }
+  checkLinks(intend);
+  return request;
+}
+
+sweep_guard_core::IntentionRequest::Ball IntendService::ballOf(const sweep_guard::Intend& intend) const {
+  const Eigen::Vector3d center(intend.center.x, intend.center.y, intend.center.z);
+  const auto workpieces = dependencies_.workpieces.snapshot();
+  const auto same = [&](const auto& workpiece) { return workpiece->id == intend.mesh_id; };
+  const auto workpiece = std::find_if(workpieces.begin(), workpieces.end(), same);
+  if (workpiece == workpieces.end() || intend.frame_id.empty()) return {center, intend.radius};
+  if (!isName(intend.frame_id)) throw InvalidInput("frame_id has more than 128 or unprintable characters");
+  return {dependencies_.frames.lookup((*workpiece)->frame, intend.frame_id, {}, kTransformWait) * center,
+          intend.radius};
+}
+
+void IntendService::checkLinks(const sweep_guard::Intend& intend) const {
+  const auto parameters = dependencies_.parameters.get();
+  const auto& pieces = parameters->tool->pieces();
+  for (const std::string& link : intend.tool_links) {
+    const auto same = [&](const sweep_guard_core::ConvexPiece& piece) { return piece.link == link; };
+    if (std::any_of(pieces.begin(), pieces.end(), same)) continue;
+    throw InvalidInput("the tool has no link '" + sweep_guard_core::printable(link) + "'");
+  }
+}
+
+void IntendService::publishIfChanged() {
+  const std::lock_guard lock(mutex_);
+  const auto intentions = dependencies_.intentions.at(std::chrono::steady_clock::now());
+  if (intentions == published_) return;
+  published_ = intentions;
+  sweep_guard::Intended msg = toMsg(*intentions, dependencies_.workpieces.snapshot());
+  msg.refusal = refusal_;
+  publisher_.publish(msg);
+}
+
+void IntendService::publish(const std::string& refusal, bool only_if_changed) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!only_if_changed || refusal != refusal_) published_.reset();
+    refusal_ = refusal;
+  }
+  publishIfChanged();
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <ros/publisher.h>
+#include <ros/service_server.h>
+#include <sweep_guard/Intended.h>
+#include <sweep_guard/SetIntent.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "guard/intention_store.h"
+#include "guard/workpiece_store.h"
+#include "ros/bounded.h"
+#include "ros/input/frames.h"
+#include "ros/log_throttle.h"
+#include "ros/parameters/parameters.h"
+#include "ros/service/limited_calls.h"
+#include "ros/threads/queue_thread.h"
+
+namespace sweep_guard_ros {
+
+struct IntendDependencies {
+  const LiveParameters& parameters;
+  const Frames& frames;
+  const sweep_guard_core::WorkpieceStore& workpieces;
+  sweep_guard_core::IntentionStore& intentions;
+};
+
+/// Serves `~intend` and takes `~intend_updates`: where the tool is meant to touch. Publishes `~intended`, latched. A call
+/// that finds 4 others waiting is answered BUSY.
+class IntendService {
+ public:
+  IntendService(const ros::NodeHandle& private_node, const IntendDependencies& dependencies);
+
+  void start(Supervisor& supervisor);
+
+  void publishIfChanged();  ///< publishes `~intended` if it has changed, by itself too. Any thread
+
+ private:
+  using Event = ros::ServiceEvent<sweep_guard::SetIntent::Request, sweep_guard::SetIntent::Response>;
+
+  bool onCall(Event& event);
+  void onUpdate(const sweep_guard::Intend& intend);
+  void refuseUpdate(const std::string& reason);
+  void set(const std::vector<sweep_guard::Intend>& intends);
+  sweep_guard_core::IntentionRequest requestFrom(const sweep_guard::Intend& intend) const;
+  sweep_guard_core::IntentionRequest::Ball ballOf(const sweep_guard::Intend& intend) const;
+  void checkLinks(const sweep_guard::Intend& intend) const;
+  void publish(const std::string& refusal, bool only_if_changed);
+
+  const IntendDependencies dependencies_;
+  std::mutex mutex_;
+  std::shared_ptr<const sweep_guard_core::Intentions> published_;
+  std::string refusal_;  // of the newest update
+  LogThrottle log_;
+  ros::Publisher publisher_;
+  QueueThread thread_;            // before the subscriber, which uses it
+  LimitedCalls calls_{"intend"};  // before the server, which uses it
+  BoundedSubscriber updates_;
+  ros::ServiceServer server_;
+};
+
+}  // namespace sweep_guard_ros
