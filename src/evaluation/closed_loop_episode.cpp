@@ -136,11 +136,25 @@ class Retreats {
             std::acos(std::min(1.0, std::abs(apart.normal.dot((contact_.corners()[1] - contact_.corners()[0])
                                        .cross(contact_.corners()[3] - contact_.corners()[0])
                                        .normalized())))) * 57.3);
+    const auto& c = contact_.corners();
+    const Eigen::Vector3d ctr = 0.5 * (c[0] + c[2]);
+    const Eigen::Vector3d ax = (c[1] - c[0]).normalized(), ay = (c[3] - c[0]).normalized();
+    const double half = 0.5 * (c[1] - c[0]).norm();
+    size_t bi = 0;
     for (const auto& ball : loop.guard()->facing()) {
+      const size_t index = bi++;
       const double u = closingSpeed(ball, command_W);
       const double limit = closingLimit(ball, command_W.w_W.norm(), options_.guard.braking);
-      if (u > limit) fprintf(stderr, "   ball %.4f %.4f %.4f gap %.5f closes %.4f limit %.4f normal.now %.1f deg\n", ball.center_W.x(), ball.center_W.y(), ball.center_W.z(),
-          ball.gap, u, limit, std::acos(std::min(1.0, ball.normal_W.dot(apart.normal))) * 57.3);
+      const bool ex = (index / balls_.size()) % 2 == 1;
+      const auto& X = ex ? loop.guard()->dbg_expected : loop.guard()->dbg_pose;
+      const Eigen::Vector3d p = X.translation() + ball.center_W;
+      struct Point {
+        Eigen::Vector3d q;
+        Eigen::Vector3d supportPoint(const Eigen::Vector3d&) const { return q; }
+      } point{p};
+      const auto a2 = separation(point, sweep_guard_core::PointHull(contact_.corners()));
+      if (u > limit) fprintf(stderr, "   ball %.4f %.4f %.4f gap %.5f closes %.4f limit %.4f normal.now %.1f deg %s beyond x %.4f y %.4f truly opens %.4f true gap %.4f w2 %.4f\n", ball.center_W.x(), ball.center_W.y(), ball.center_W.z(),
+          ball.gap, u, limit, std::acos(std::min(1.0, ball.normal_W.dot(apart.normal))) * 57.3, ex ? "expected" : "pose", std::abs(ax.dot(p - ctr)) - half, std::abs(ay.dot(p - ctr)) - half, a2.normal.dot(command_W.v_W + command_W.w_W.cross(ball.center_W)), a2.gap, 0.0);
     }
   }
 

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   size_t placements_count = std::stoul(argv[1]); std::uint64_t seed = std::stoul(argv[2]);
   for (int f = 3; f < argc; ++f) {
     auto recording = sweep_guard_recording::readRecording(argv[f], "");
-    ClosedLoopOptions options;
+    ClosedLoopOptions options; if (getenv("SLICE")) options.guard.slice = atof(getenv("SLICE"));
     options.guard.braking = {1.0, 0.01 + 0.02 + 0.02 + 0.03, 0.002, options.guard.tool.boundingRadius()};
     options.guard.in_flight = std::chrono::milliseconds(10 + 20 + 60);
     const auto driven = drive(RecordedMotion(recording.poses), options.robot, options.delays);

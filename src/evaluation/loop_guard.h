@@ -15,6 +15,7 @@ namespace sweep_guard_evaluation {
 struct LoopGuardOptions {
   sweep_guard_core::ConvexShape tool = sweep_guard_core::ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
   sweep_guard_core::BrakingLimits braking;
+  double slice = 1.0;
   double reach = 0.3;                                                     ///< of the planes [m], > 0
   sweep_guard_core::Duration pose_delay = std::chrono::milliseconds(10);  ///< until a pose arrives, >= 0
   sweep_guard_core::Duration plane_delay = std::chrono::milliseconds(20);  ///< until its planes arrive, >= pose_delay
@@ -35,6 +36,7 @@ class LoopGuard {
   void sent(const sweep_guard_core::Twist& output_W, sweep_guard_core::SteadyTime now) { in_flight_.add(output_W, now); }
   const std::vector<sweep_guard_core::FacingBall>& facing() const { return facing_; }
 
+ Eigen::Isometry3d dbg_pose, dbg_expected;
  private:
   struct Measurement {
     sweep_guard_core::SteadyTime at;
@@ -43,7 +45,8 @@ class LoopGuard {
   };
 
   const LoopGuardOptions* options_;
-  std::vector<sweep_guard_core::ToolBall> balls_T_;
+  std::vector<sweep_guard_core::ConvexShape> pieces_T_;
+  std::vector<std::vector<sweep_guard_core::ToolBall>> balls_T_;
   std::deque<Measurement> measurements_;
   sweep_guard_core::MotionInFlight in_flight_;
   sweep_guard_core::VelocityLimiter limiter_;
