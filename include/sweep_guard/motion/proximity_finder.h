@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/guard/pose_with_frames.h"
+#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/workpiece.h"
+#include "sweep_guard/motion/braking.h"
+#include "sweep_guard/motion/separating_plane.h"
+
+namespace sweep_guard_core {
+
+/// A tool at one pose, among workpieces.
+struct ProximityRequest {
+  const Tool& tool;
+  const PoseWithFrames& pose;
+  const Workpieces& workpieces;
+  double reach;  ///< surfaces farther from the tool need no plane [m], > 0
+  /// Sweep to this pose: a triangle that the tool overlaps keeps the normal that it was first touched with. Null: the
+  /// normal of the triangle is taken, to the side that frees the tool sooner.
+  const SweepReport* swept = nullptr;
+};
+
+/// A plane and what it was made for.
+struct ProximityPlane {
+  SeparatingPlane plane;
+  std::shared_ptr<const Workpiece> workpiece;  ///< of which a part lies behind the plane
+  std::uint32_t triangle;                      ///< nearest triangle behind the plane, for which it was made
+};
+
+/// The surfaces around a tool.
+struct Proximity {
+  /// The nearest first. For each piece of the tool, each triangle within reach lies wholly behind one of them, or no
+  /// nearer than `uncovered.distance`.
+  std::vector<ProximityPlane> planes;
+  UncoveredSurfaces uncovered;  ///< what no plane stands for, also beyond the reach; infinitely far: there is nothing
+  Workpieces unplaced;          ///< left out because their frame is unknown at the pose
+};
+
+/// Finds separating planes that stand for all surfaces near a tool. Takes the nearest triangle first; a triangle that lies
+/// wholly behind a plane of its piece and workpiece needs none of its own. A plane touches its triangle, moved to the tool
+/// by a twentieth of its gap, so that one stands for a surface that is nearly flat. In contact the gap is negative, the
+/// plane moves by half of its depth, and it stands for all triangles in contact with nearly the same normal: a normal
+/// along which the tool retreats opens them all.
+///
+/// The speed of a surface is the mean one between the two latest deformations that find() got of a workpiece, by their
+/// stamps, plus that of the mesh frame between the two latest poses. It is not less than that of the fastest vertex that
+/// the plane stands for, and 0 before a second deformation. It stays until the next deformation: that no update comes
+/// does not mean that the surface rests. What a vertex did between two updates is not known.
+///
+/// The search goes best first through the boxes of the mesh: groups, clusters, triangles. Only triangles that may be the
+/// nearest ones get a separation(). Keeps its buffers between calls: nothing is allocated in steady state.
+class ProximityFinder {
+ public:
+  static constexpr size_t kMaxPlanes = 64;
+
+  ProximityFinder();
+  ~ProximityFinder();
+  ProximityFinder(const ProximityFinder&) = delete;
+  ProximityFinder& operator=(const ProximityFinder&) = delete;
+
+  /// @param[out] proximity  overwritten; its buffers are used again
+  void find(const ProximityRequest& request, Proximity& proximity);
+
+  void reset();  ///< forgets earlier deformations and poses: surfaces count as at rest until they move again
+
+ private:
+  class Search;
+  std::unique_ptr<Search> search_;
+};
+
+}  // namespace sweep_guard_core

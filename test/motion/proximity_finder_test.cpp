@@ -1,0 +1,436 @@
+#include "sweep_guard/motion/proximity_finder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "allocations.h"
+#include "motion/random_scenes.h"
+#include "scenes.h"
+#include "sweep_guard/geometry/separation.h"
+
+namespace sweep_guard_core {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using Corners = std::array<Vector3d, 3>;
+using namespace std::chrono_literals;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const std::string kFrame = "mesh";
+
+std::shared_ptr<const Workpiece> workpieceOf(const TriangleMesh& mesh_M, const std::string& id = "liver") {
+  return std::make_shared<const Workpiece>(Workpiece{id, 1, Time(100s), SteadyTime(100s), kFrame, mesh_M});
+}
+
+std::shared_ptr<const Workpiece> updated(const Workpiece& before, std::vector<float> positions_M, Duration later) {
+  Workpiece next = before;
+  next.mesh_M.deform(positions_M);
+  next.stamp += later;
+  next.received += later;
+  countUpdate(before, next);
+  return std::make_shared<const Workpiece>(std::move(next));
+}
+
+PoseWithFrames poseAt(const Isometry3d& X_WT, Time stamp = Time(100s),
+                      const Isometry3d& X_WM = Isometry3d::Identity()) {
+  return {stamp, SteadyTime(100s), X_WT, {{kFrame, X_WM}}};
+}
+
+Isometry3d at(double x, double y, double z) { return Isometry3d(Eigen::Translation3d(x, y, z)); }
+
+// A square of side 0.2 m in z = 0, of 2 * cells^2 triangles.
+TriangleMesh square(std::uint32_t cells, const Eigen::Matrix3d& R_MS = Eigen::Matrix3d::Identity()) {
+  std::vector<Vector3d> vertices;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i <= cells; ++i) {
+    for (std::uint32_t j = 0; j <= cells; ++j) {
+      vertices.emplace_back(R_MS * Vector3d(0.2 * i / cells - 0.1, 0.2 * j / cells - 0.1, 0.0));
+    }
+  }
+  for (std::uint32_t i = 0; i < cells; ++i) {
+    for (std::uint32_t j = 0; j < cells; ++j) {
+      const std::uint32_t a = i * (cells + 1) + j;
+      triangles.push_back({a, a + cells + 1, a + 1});
+      triangles.push_back({a + 1, a + cells + 1, a + cells + 2});
+    }
+  }
+  return TriangleMesh(vertices, triangles);
+}
+
+Tool toolOfAllShapes(Random& random) {
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 12; ++i) points.push_back(0.02 * random.direction());
+  const auto placed = [&](const ConvexShape& shape) {
+    return ConvexPiece{"link", shape.placed(random.pose(random.inBox({0.04, 0.04, 0.04})))};
+  };
+  return Tool(std::vector<ConvexPiece>{placed(ConvexShape::cylinder(0.005, 0.05)), placed(ConvexShape::sphere(0.01)),
+                                       placed(ConvexShape::box({0.004, 0.01, 0.02})),
+                                       placed(ConvexShape::hull(points).padded(0.002))});
+}
+
+// Sheets, chains and single triangles in the neighborhood.
+TriangleMesh randomMesh(Random& random) {
+  std::vector<Vector3d> vertices;
+  std::vector<Triangle> triangles;
+  const int count = 1 + random.below(400);
+  const double size = random.logUniform(0.001, 0.05);
+  for (int i = 0; i < count; ++i) {
+    const Vector3d place = random.uniform(0.0, 0.2) * random.direction();
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (int corner = 0; corner < 3; ++corner) vertices.push_back(place + size * random.direction());
+    triangles.push_back({first, first + 1, first + 2});
+  }
+  return TriangleMesh(vertices, triangles);
+}
+
+// What find() has to bound, triangle by triangle.
+class BruteForce {
+ public:
+  BruteForce(const Tool& tool, const PoseWithFrames& pose, const Workpiece& workpiece,
+             const Workpiece* before = nullptr, const Isometry3d& X_WM_before = Isometry3d::Identity(),
+             double frame_interval = 1.0)
+      : tool_(tool), pose_(pose), workpiece_(workpiece) {
+    const Isometry3d& X_WM = pose.X_WM.at(kFrame);
+    for (size_t i = 0; i < workpiece.mesh_M.vertexCount(); ++i) {
+      const Vector3d p_M = workpiece.mesh_M.vertex(i);
+      positions_W_.emplace_back(X_WM * p_M);
+      velocities_W_.emplace_back((X_WM * p_M - X_WM_before * p_M) / frame_interval);
+      if (before == nullptr) continue;
+      velocities_W_.back() +=
+          X_WM.linear() * (p_M - before->mesh_M.vertex(i)) / toSeconds(workpiece.stamp - before->stamp);
+    }
+  }
+
+  size_t triangles() const { return workpiece_.mesh_M.triangles().size(); }
+
+  Corners cornersOf(size_t triangle) const {
+    const Triangle& vertices = workpiece_.mesh_M.triangles()[triangle];
+    return {positions_W_[vertices[0]], positions_W_[vertices[1]], positions_W_[vertices[2]]};
+  }
+
+  double distance(size_t piece, size_t triangle) const {
+    Corners corners_T = cornersOf(triangle);
+    for (Vector3d& p : corners_T) p = pose_.X_WT.inverse() * p;
+    const Separation apart = separation(tool_.pieces()[piece].shape_T, PointHull(corners_T));
+    return (apart.on_tool - apart.on_obstacle).norm();
+  }
+
+  bool standsFor(const ProximityPlane& each, size_t piece, size_t triangle) const {
+    const SeparatingPlane& plane = each.plane;
+    if (plane.piece != piece || each.workpiece.get() != &workpiece_) return false;
+    const Triangle& vertices = workpiece_.mesh_M.triangles()[triangle];
+    return std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t i) {
+      return plane.normal_W.dot(positions_W_[i] - plane.point_W) <= 1e-9 &&
+             plane.normal_W.dot(velocities_W_[i]) <= plane.surface_speed + 1e-9;
+    });
+  }
+
+  double speed(size_t triangle) const {
+    double most = 0.0;
+    for (const std::uint32_t i : workpiece_.mesh_M.triangles()[triangle])
+      most = std::max(most, velocities_W_[i].norm());
+    return most;
+  }
+
+  // Of the piece before the plane.
+  double gap(const SeparatingPlane& plane) const {
+    const Vector3d n_T = pose_.X_WT.linear().transpose() * plane.normal_W;
+    const double least_T = -tool_.pieces()[plane.piece].shape_T.support(-n_T);
+    return least_T + plane.normal_W.dot(pose_.X_WT.translation() - plane.point_W);
+  }
+
+ private:
+  const Tool& tool_;
+  const PoseWithFrames& pose_;
+  const Workpiece& workpiece_;
+  std::vector<Vector3d> positions_W_;
+  std::vector<Vector3d> velocities_W_;
+};
+
+// How often each case was met: a test that never meets one proves nothing about it.
+struct Met {
+  size_t behind = 0;
+  size_t left_over = 0;
+  size_t contacts = 0;
+  size_t full = 0;
+};
+
+void expectAllBounded(const BruteForce& truth, const Tool& tool, double reach, const Proximity& found, Met& met) {
+  ASSERT_LE(found.planes.size(), ProximityFinder::kMaxPlanes);
+  if (found.planes.size() == ProximityFinder::kMaxPlanes) ++met.full;
+  for (size_t piece = 0; piece < tool.pieces().size(); ++piece) {
+    for (size_t triangle = 0; triangle < truth.triangles(); ++triangle) {
+      const auto stands = [&](const ProximityPlane& plane) { return truth.standsFor(plane, piece, triangle); };
+      if (std::any_of(found.planes.begin(), found.planes.end(), stands)) {
+        ++met.behind;
+        continue;
+      }
+      ++met.left_over;
+      const double distance = truth.distance(piece, triangle);
+      ASSERT_LE(found.uncovered.distance, distance + 1e-9) << "piece " << piece << ", triangle " << triangle;
+      ASSERT_GE(found.uncovered.speed, truth.speed(triangle) - 1e-9);
+      if (found.planes.size() < ProximityFinder::kMaxPlanes) {
+        ASSERT_GE(distance, reach - 1e-9);
+      }
+    }
+  }
+}
+
+void expectPlanesInFront(const BruteForce& truth, const Proximity& found, Met& met) {
+  double before = -kInfinity;
+  for (const ProximityPlane& each : found.planes) {
+    const SeparatingPlane& plane = each.plane;
+    ASSERT_NEAR(plane.normal_W.norm(), 1.0, 1e-12);
+    ASSERT_NEAR(truth.gap(plane), plane.gap, 1e-9);
+    ASSERT_TRUE(truth.standsFor(each, plane.piece, each.triangle));
+    const double distance = truth.distance(plane.piece, each.triangle);
+    ASSERT_LE(plane.gap, distance);
+    if (distance > 1e-4) {
+      ASSERT_GE(plane.gap, 0.949 * distance - 1e-5);
+    }
+    ASSERT_GE(plane.gap, before);
+    before = plane.gap;
+    if (plane.gap <= 0.0) ++met.contacts;
+  }
+}
+
+TEST(ProximityFinderTest, BoundsEveryTriangleAndEveryVertexSpeed) {
+  Met met;
+  for (std::uint64_t seed = 0; seed < caseCount(300); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Tool tool = toolOfAllShapes(random);
+    const double reach = random.logUniform(0.005, 0.3);
+    const bool moving = random.chance(0.5);
+    const Isometry3d X_WM_before = random.pose(random.inBox({1.0, 1.0, 1.0}));
+    Isometry3d X_WM = X_WM_before;
+    if (moving) {
+      X_WM.translate(random.inBox({0.002, 0.002, 0.002}));
+      X_WM.linear() = X_WM.linear() * random.turn(0.01);
+    }
+    const auto first = workpieceOf(randomMesh(random));
+    auto workpiece = first;
+    if (random.chance(0.5)) {
+      std::vector<float> positions = streamedPositions(first->mesh_M);
+      for (float& p : positions) p += static_cast<float>(random.chance(0.2) ? random.uniform(-0.003, 0.003) : 0.0);
+      workpiece = updated(*first, positions, 20ms);
+    }
+    ProximityFinder finder;
+    Proximity found;
+    const PoseWithFrames before =
+        poseAt(X_WM_before * random.pose(random.inBox({0.1, 0.1, 0.1})), Time(100s), X_WM_before);
+    const PoseWithFrames pose = poseAt(X_WM * random.pose(random.inBox({0.1, 0.1, 0.1})), Time(100s + 10ms), X_WM);
+    finder.find({tool, before, {first}, reach}, found);
+    finder.find({tool, pose, {workpiece}, reach}, found);
+    const BruteForce truth(tool, pose, *workpiece, workpiece == first ? nullptr : first.get(), X_WM_before, 0.01);
+    expectAllBounded(truth, tool, reach, found, met);
+    expectPlanesInFront(truth, found, met);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met.behind, 1000U);
+  EXPECT_GT(met.left_over, 1000U);
+  EXPECT_GT(met.contacts, 50U);
+}
+
+TEST(ProximityFinderTest, WhatMoreThan64PlanesWouldNeedBoundsTheSpeedAsAWhole) {
+  Met met;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    std::vector<ConvexPiece> pieces;
+    for (int i = 0; i < 16; ++i) {
+      pieces.push_back({"link", ConvexShape::sphere(0.005).placed(random.pose(random.inBox({0.03, 0.03, 0.03})))});
+    }
+    const Tool tool(pieces);
+    const auto workpiece = workpieceOf(randomMesh(random));
+    const PoseWithFrames pose = poseAt(random.pose(random.inBox({0.05, 0.05, 0.05})));
+    ProximityFinder finder;
+    Proximity found;
+    finder.find({tool, pose, {workpiece}, 0.3}, found);
+    const BruteForce truth(tool, pose, *workpiece);
+    expectAllBounded(truth, tool, 0.3, found, met);
+    expectPlanesInFront(truth, found, met);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(met.full, 3U);
+}
+
+TEST(ProximityFinderTest, InsideOfAClosedMeshTheWallsAreBoundedAllAround) {
+  Met met;
+  const auto workpiece = workpieceOf(wavyHull(20, 40, 0.0));
+  ProximityFinder finder;
+  Proximity found;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    const Tool tool(ConvexShape::cylinder(0.004, 0.03));
+    const PoseWithFrames pose = poseAt(random.pose(random.inBox({0.05, 0.05, 0.05})));
+    finder.find({tool, pose, {workpiece}, 0.2}, found);
+    const BruteForce truth(tool, pose, *workpiece);
+    expectAllBounded(truth, tool, 0.2, found, met);
+    expectPlanesInFront(truth, found, met);
+    if (HasFatalFailure()) return;
+    ASSERT_GT(found.planes.size(), 6U);
+  }
+}
+
+TEST(ProximityFinderTest, OnePlaneStandsForAFlatWallHoweverItIsTurned) {
+  Random random(7);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Matrix3d R_MS = random.rotation();
+    Isometry3d X_WT = Isometry3d::Identity();
+    X_WT.linear() = R_MS;
+    X_WT.translation() = R_MS * Vector3d(0.01, 0.02, 0.03);
+    ProximityFinder finder;
+    Proximity found;
+    finder.find({Tool(ConvexShape::sphere(0.01)), poseAt(X_WT), {workpieceOf(square(60, R_MS))}, 0.1}, found);
+    ASSERT_EQ(found.planes.size(), 1U);
+    EXPECT_NEAR(found.planes[0].plane.gap, 0.95 * 0.02, 1e-5);
+    EXPECT_GT(found.planes[0].plane.normal_W.dot(R_MS.col(2)), 0.9999);
+    EXPECT_EQ(found.planes[0].plane.surface_speed, 0.0);
+    EXPECT_GE(found.uncovered.distance, 0.1);
+  }
+}
+
+TEST(ProximityFinderTest, WhatIsBeyondTheReachBoundsTheSpeedAsAWhole) {
+  const auto workpiece = workpieceOf(square(10));
+  const Tool tool(ConvexShape::sphere(0.01));
+  ProximityFinder finder;
+  Proximity found;
+  finder.find({tool, poseAt(at(0.0, 0.0, 0.1101)), {workpiece}, 0.1}, found);
+  EXPECT_TRUE(found.planes.empty());
+  EXPECT_LE(found.uncovered.distance, 0.1001);
+  EXPECT_GE(found.uncovered.distance, 0.1);
+  finder.find({tool, poseAt(at(0.0, 0.0, 0.1099)), {workpiece}, 0.1}, found);
+  EXPECT_EQ(found.planes.size(), 1U);
+}
+
+TEST(ProximityFinderTest, WithoutWorkpieceThereIsNothing) {
+  ProximityFinder finder;
+  Proximity found;
+  finder.find({Tool(ConvexShape::sphere(0.01)), poseAt(at(0.0, 0.0, 0.0)), {}, 0.1}, found);
+  EXPECT_TRUE(found.planes.empty());
+  EXPECT_EQ(found.uncovered.distance, kInfinity);
+}
+
+TEST(ProximityFinderTest, AWorkpieceWithoutItsFrameIsNamed) {
+  ProximityFinder finder;
+  Proximity found;
+  const auto workpiece = workpieceOf(square(2));
+  finder.find({Tool(ConvexShape::sphere(0.01)), {Time(1s), {}, at(0.0, 0.0, 0.02), {}}, {workpiece}, 0.1}, found);
+  ASSERT_EQ(found.unplaced.size(), 1U);
+  EXPECT_EQ(found.unplaced[0], workpiece);
+}
+
+TEST(ProximityFinderTest, TheSpeedIsThatOfTheTwoLatestDeformationsUntilTheNext) {
+  const auto first = workpieceOf(square(20));
+  std::vector<float> raised = streamedPositions(first->mesh_M);
+  for (size_t i = 2; i < raised.size(); i += 3) raised[i] += 0.001F;
+  const auto second = updated(*first, raised, 20ms);
+  const auto third = updated(*second, raised, 20ms);
+  const Tool tool(ConvexShape::sphere(0.01));
+  ProximityFinder finder;
+  Proximity found;
+  const auto speed = [&](const auto& workpiece) {
+    finder.find({tool, poseAt(at(0.0, 0.0, 0.05)), {workpiece}, 0.1}, found);
+    return found.planes.at(0).plane.surface_speed;
+  };
+  EXPECT_EQ(speed(first), 0.0);
+  EXPECT_NEAR(speed(second), 0.05, 1e-6);
+  EXPECT_NEAR(speed(second), 0.05, 1e-6);
+  EXPECT_EQ(speed(third), 0.0);
+}
+
+// Some part of the mesh moves; the plane before another part does not count it.
+TEST(ProximityFinderTest, APartThatMovesElsewhereDoesNotQuickenAPlane) {
+  const auto first = workpieceOf(square(60));
+  std::vector<float> moved = streamedPositions(first->mesh_M);
+  for (size_t i = 0; i < moved.size(); i += 3) {
+    if (moved[i] > 0.08F) moved[i + 2] -= 0.05F;
+  }
+  const auto second = updated(*first, moved, 1s);
+  const Tool tool(ConvexShape::sphere(0.01));
+  ProximityFinder finder;
+  Proximity found;
+  finder.find({tool, poseAt(at(-0.05, 0.0, 0.02)), {first}, 0.05}, found);
+  finder.find({tool, poseAt(at(-0.05, 0.0, 0.02)), {second}, 0.05}, found);
+  ASSERT_FALSE(found.planes.empty());
+  EXPECT_NEAR(found.planes[0].plane.surface_speed, 0.0, 1e-6);
+}
+
+// A drill through a sheet, also off the perpendicular.
+TEST(ProximityFinderTest, FromAContactTheToolCanRetreat) {
+  const auto workpiece = workpieceOf(square(100));
+  const Tool tool(ConvexShape::cylinder(0.002, 0.05).placed(at(0.0, 0.0, 0.05)));
+  ProximityFinder finder;
+  Proximity found;
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    Isometry3d X_WT = at(random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), -random.uniform(1e-5, 0.01));
+    X_WT.rotate(Eigen::AngleAxisd(random.uniform(0.0, 0.5), Vector3d::UnitX()));
+    finder.find({tool, poseAt(X_WT), {workpiece}, 0.1}, found);
+    ASSERT_FALSE(found.planes.empty());
+    ASSERT_LT(found.planes[0].plane.gap, 0.0);
+    for (const ProximityPlane& each : found.planes) ASSERT_GT(each.plane.normal_W.z(), 0.0);
+    ASSERT_GT(found.uncovered.distance, 0.0);
+  }
+}
+
+TEST(ProximityFinderTest, AContactKeepsTheNormalOfTheSweep) {
+  const auto workpiece = workpieceOf(square(20));
+  const Tool tool(ConvexShape::sphere(0.01));
+  const Vector3d first_touched = Vector3d(0.6, 0.0, 0.8);
+  SweepReport report;
+  report.objects.resize(1);
+  report.objects[0].workpiece = workpiece;
+  for (std::uint32_t i = 0; i < workpiece->mesh_M.triangles().size(); ++i) {
+    report.objects[0].result.in_contact.push_back({i, 0, {0.0, Vector3d::Zero(), first_touched, 0.0}});
+  }
+  ProximityFinder finder;
+  Proximity found;
+  const PoseWithFrames pose = poseAt(at(0.0, 0.0, -0.002));
+  finder.find({tool, pose, {workpiece}, 0.1, &report}, found);
+  ASSERT_FALSE(found.planes.empty());
+  EXPECT_NEAR(found.planes[0].plane.normal_W.dot(first_touched), 1.0, 1e-12);
+}
+
+TEST(ProximityFinderTest, ResetForgetsSpeeds) {
+  const auto first = workpieceOf(square(20));
+  std::vector<float> raised = streamedPositions(first->mesh_M);
+  for (size_t i = 2; i < raised.size(); i += 3) raised[i] += 0.001F;
+  const Tool tool(ConvexShape::sphere(0.01));
+  ProximityFinder finder;
+  Proximity found;
+  finder.find({tool, poseAt(at(0.0, 0.0, 0.05)), {first}, 0.1}, found);
+  finder.reset();
+  finder.find({tool, poseAt(at(0.0, 0.0, 0.05)), {updated(*first, raised, 20ms)}, 0.1}, found);
+  EXPECT_EQ(found.planes.at(0).plane.surface_speed, 0.0);
+}
+
+TEST(ProximityFinderTest, AllocatesNothing) {
+  Random random(5);
+  const Tool tool = toolOfAllShapes(random);
+  const auto one = workpieceOf(wavyHull(20, 40, 0.0));
+  const auto two = updated(*one, streamedPositions(wavyHull(20, 40, 0.05)), 20ms);
+  ProximityFinder finder;
+  Proximity found;
+  const Workpieces first = {one};
+  const Workpieces second = {two};
+  std::vector<PoseWithFrames> poses;
+  for (int i = 0; i < 50; ++i) poses.push_back(poseAt(at(0.06 + 0.002 * i, 0.01, 0.0), Time(100s + i * 10ms)));
+  const auto run = [&] {
+    for (size_t i = 0; i < poses.size(); ++i) finder.find({tool, poses[i], i % 2 == 0 ? first : second, 0.1}, found);
+  };
+  run();
+  const Allocations made;
+  run();
+  EXPECT_EQ(made.count(), 0U) << made.stacks();
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
