@@ -1,0 +1,63 @@
+#include "evaluation/simulated_robot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sweep_guard_evaluation {
+
+using sweep_guard_core::toSeconds;
+using sweep_guard_core::Twist;
+
+namespace {
+
+Eigen::Vector3d shortened(const Eigen::Vector3d& vector, double length) {
+  const double norm = vector.norm();
+  return norm > length ? Eigen::Vector3d(length / norm * vector) : vector;
+}
+
+Eigen::Vector3d clipped(const Eigen::Vector3d& wanted, const Eigen::Vector3d& last, double fastest, double step) {
+  return shortened(last + shortened(shortened(wanted, fastest) - last, step), fastest);
+}
+
+double gainOf(const RobotDelays& delays) {
+  if (delays.lag.count() == 0) return 1.0;
+  return 1.0 - std::exp(-toSeconds(SimulatedRobot::kStep) / toSeconds(delays.lag));
+}
+
+}  // namespace
+
+Twist clipped(const Twist& wanted_W, const Twist& last_W, const RobotLimits& limits, double period) {
+  return {clipped(wanted_W.v_W, last_W.v_W, limits.max_speed, limits.max_acceleration * period),
+          clipped(wanted_W.w_W, last_W.w_W, limits.max_turn_rate, limits.max_turn_acceleration * period)};
+}
+
+SimulatedRobot::SimulatedRobot(const Eigen::Isometry3d& X_WT, const RobotDelays& delays)
+    : p_WT_(X_WT.translation()),
+      q_WT_(X_WT.linear()),
+      gain_(gainOf(delays)),
+      on_the_way_W_(static_cast<size_t>(delays.dead_time / kStep)) {}
+
+void SimulatedRobot::step() {
+  Twist arriving_W = sent_W_;
+  if (!on_the_way_W_.empty()) {
+    std::swap(arriving_W, on_the_way_W_[oldest_]);
+    oldest_ = (oldest_ + 1) % on_the_way_W_.size();
+  }
+  velocity_W_.v_W += gain_ * (arriving_W.v_W - velocity_W_.v_W);
+  velocity_W_.w_W += gain_ * (arriving_W.w_W - velocity_W_.w_W);
+  const double seconds = toSeconds(kStep);
+  p_WT_ += seconds * velocity_W_.v_W;
+  const double angle = seconds * velocity_W_.w_W.norm();
+  if (angle == 0.0) return;
+  q_WT_ = (Eigen::AngleAxisd(angle, velocity_W_.w_W.normalized()) * q_WT_).normalized();
+}
+
+Eigen::Isometry3d SimulatedRobot::pose() const {
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
+  X_WT.translation() = p_WT_;
+  X_WT.linear() = q_WT_.toRotationMatrix();
+  return X_WT;
+}
+
+}  // namespace sweep_guard_evaluation
