@@ -122,7 +122,7 @@ void ZeroOnSilence::report(Status& status) {
   status.summary(silent ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
                  silent ? "no command: zero is sent" : "passed on");
   if (output_.getNumSubscribers() == 0)
-    status.mergeSummary(DiagnosticStatus::WARN, "nobody listens to " + output_.getTopic());
+    status.mergeSummary(DiagnosticStatus::WARN, "no subscriber on " + output_.getTopic());
   if (input_.getNumPublishers() > 1) {
     status.mergeSummary(DiagnosticStatus::ERROR, "several publishers on " + input_.getTopic());
   }
