@@ -10,6 +10,7 @@ namespace {
 constexpr size_t kLength = 4;  // [bytes]
 constexpr size_t kStamp = 8;   // or a duration
 constexpr size_t kPose = 7 * sizeof(double);
+constexpr size_t kTwist = 6 * sizeof(double);
 
 // Walks over the fields of a message in their order.
 class WireReader {
@@ -73,6 +74,21 @@ void checkLengths<geometry_msgs::PoseStamped>(Wire wire) {
   WireReader read(wire);
   read.header();
   read.skip(kPose);
+  read.end();
+}
+
+template <>
+void checkLengths<geometry_msgs::Twist>(Wire wire) {
+  WireReader read(wire);
+  read.skip(kTwist);
+  read.end();
+}
+
+template <>
+void checkLengths<geometry_msgs::TwistStamped>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.skip(kTwist);
   read.end();
 }
 

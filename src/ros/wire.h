@@ -2,6 +2,8 @@
 
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <sweep_guard/Acknowledge.h>
@@ -34,6 +36,10 @@ void checkLengths(Wire wire);
 
 template <>
 void checkLengths<geometry_msgs::PoseStamped>(Wire wire);
+template <>
+void checkLengths<geometry_msgs::Twist>(Wire wire);
+template <>
+void checkLengths<geometry_msgs::TwistStamped>(Wire wire);
 template <>
 void checkLengths<tf2_msgs::TFMessage>(Wire wire);
 template <>

@@ -38,6 +38,18 @@ geometry_msgs::PoseStamped example() {
 }
 
 template <>
+geometry_msgs::Twist example() {
+  return {};
+}
+
+template <>
+geometry_msgs::TwistStamped example() {
+  geometry_msgs::TwistStamped twist;
+  twist.header = header();
+  return twist;
+}
+
+template <>
 tf2_msgs::TFMessage example() {
   tf2_msgs::TFMessage message;
   message.transforms.resize(3);
@@ -138,6 +150,16 @@ std::vector<size_t> lengths<geometry_msgs::PoseStamped>() {
 }
 
 template <>
+std::vector<size_t> lengths<geometry_msgs::Twist>() {
+  return {};
+}
+
+template <>
+std::vector<size_t> lengths<geometry_msgs::TwistStamped>() {
+  return {12};
+}
+
+template <>
 std::vector<size_t> lengths<tf2_msgs::TFMessage>() {
   const size_t second = 4 + kHeader + 4 + kPose;
   const size_t third = second + 16 + 4 + 4 + kPose;
@@ -228,10 +250,10 @@ template <typename Msg>
 class WireTest : public testing::Test {};
 
 using Messages =
-    testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
-                   sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest, sweep_guard::PredictRequest,
-                   sweep_guard::AcknowledgeRequest, sweep_guard::SaveProfileRequest, std_srvs::SetBoolRequest,
-                   std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
+    testing::Types<geometry_msgs::PoseStamped, geometry_msgs::Twist, geometry_msgs::TwistStamped, tf2_msgs::TFMessage,
+                   sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest,
+                   sweep_guard::PredictRequest, sweep_guard::AcknowledgeRequest, sweep_guard::SaveProfileRequest,
+                   std_srvs::SetBoolRequest, std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {
@@ -305,8 +327,8 @@ class BoundedMessagesTest : public testing::Test {
       [](const auto& /*event*/) {}, [this](const std::string& reason) { refusals_.push_back(reason); }, kMaxSize);
 };
 
-using Topics = testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
-                              sweep_guard::MeshVertices>;
+using Topics = testing::Types<geometry_msgs::PoseStamped, geometry_msgs::TwistStamped, tf2_msgs::TFMessage,
+                              sweep_guard::DeformableMesh, sweep_guard::MeshVertices>;
 TYPED_TEST_SUITE(BoundedMessagesTest, Topics, );
 
 TYPED_TEST(BoundedMessagesTest, ReadsWhatWasSent) {

@@ -40,9 +40,9 @@ bool ask(const std::string& node, const char* method, const XmlRpc::XmlRpcValue&
 
 }  // namespace
 
-std::vector<std::string> guardWith(std::vector<std::string> arguments) {
+std::vector<std::string> program(const std::string& name, std::vector<std::string> arguments) {
   const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  arguments.insert(arguments.begin(), here / "sweep_guard_node");
+  arguments.insert(arguments.begin(), here / name);
   return arguments;
 }
 

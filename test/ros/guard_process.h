@@ -9,14 +9,19 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ros/xml_rpc_call.h"
 
 namespace sweep_guard_ros {
 
-std::vector<std::string> guardWith(std::vector<std::string> arguments);  ///< command line of a guard
-const XmlRpcCall& xmlRpc();                                              ///< waits for 5 s
+/// Returns the command line of a program of this package.
+std::vector<std::string> program(const std::string& name, std::vector<std::string> arguments = {});
+inline std::vector<std::string> guardWith(std::vector<std::string> arguments) {
+  return program("sweep_guard_node", std::move(arguments));
+}
+const XmlRpcCall& xmlRpc();  ///< waits for 5 s
 
 pid_t pidOf(const std::string& node);  ///< 0: it does not answer
 inline pid_t guardPid() { return pidOf("/sweep_guard"); }

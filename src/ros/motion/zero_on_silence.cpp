@@ -1,0 +1,140 @@
+#include "ros/motion/zero_on_silence.h"
+
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistStamped.h>
+
+#include <cmath>
+#include <utility>
+
+#include "ros/output/flush.h"
+#include "ros/registered_publishers.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr auto kZeroPeriod = std::chrono::milliseconds(20);
+constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
+constexpr size_t kMaxMessageSize = 4096;
+
+const geometry_msgs::Twist& twistOf(const geometry_msgs::Twist& command) { return command; }
+const geometry_msgs::Twist& twistOf(const geometry_msgs::TwistStamped& command) { return command.twist; }
+
+bool isFinite(const geometry_msgs::Vector3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool isFinite(const geometry_msgs::Twist& twist) { return isFinite(twist.linear) && isFinite(twist.angular); }
+
+template <typename Msg>
+Msg zero() {
+  return {};
+}
+
+template <>
+geometry_msgs::TwistStamped zero() {
+  geometry_msgs::TwistStamped twist;
+  twist.header.stamp = ros::Time::now();
+  return twist;
+}
+
+std::string joined(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+    : ZeroOnSilence(node, private_node, ParameterReader(private_node)) {}
+
+ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReader read)
+    : silence_(sweep_guard_core::fromSeconds(read.number("timeout", 0.1, {0.01, 1.0, "s"}))),
+      call_(kCallTimeout, stopping_),
+      updater_(node, private_node, private_node.getNamespace()),
+      supervisor_(Process::kOwn) {
+  const std::string type = read.choice("command_type", "twist", {"twist", "twist_stamped"});
+  read.warnOfUnread();
+  updater_.setHardwareID("none");
+  updater_.add("commands", [this](Status& status) { report(status); });
+  zeros_.every(kZeroPeriod, [this] { sendZeroIfSilent(); });
+  reports_.every(kReportPeriod, [this] { updater_.force_update(); });
+  type == "twist" ? relay<geometry_msgs::Twist>(node) : relay<geometry_msgs::TwistStamped>(node);
+}
+
+ZeroOnSilence::~ZeroOnSilence() {
+  stopping_ = true;
+  input_.shutdown();
+  reports_.stop();
+  zeros_.stop();
+  const std::lock_guard lock(mutex_);
+  send_zero_();
+  flush(kTimeToFlush);
+}
+
+void ZeroOnSilence::start() {
+  zeros_.start(supervisor_, {"zeros"});
+  commands_.start(supervisor_, {"commands"});
+  reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kOther, /*watched=*/false});
+  supervisor_.start();
+}
+
+template <typename Msg>
+void ZeroOnSilence::relay(const ros::NodeHandle& node) {
+  output_ = ros::NodeHandle(node).advertise<Msg>("output", 1);
+  send_zero_ = [this] { output_.publish(zero<Msg>()); };
+  input_ = subscribeBounded<Msg>(
+      commands_.on(node), {"command", 1, kMaxMessageSize},
+      [this](const ros::MessageEvent<const Msg>& event) { pass<Msg>(event.getConstMessage()); },
+      [this](const std::string& reason) { refuse(reason); });
+}
+
+template <typename Msg>
+void ZeroOnSilence::pass(const boost::shared_ptr<const Msg>& command) {
+  if (!isFinite(twistOf(*command))) return refuse("command is not finite");
+  const std::lock_guard lock(mutex_);
+  if (stopping_) return;
+  silence_.received(std::chrono::steady_clock::now());
+  output_.publish(command);
+  ++passed_;
+}
+
+void ZeroOnSilence::refuse(const std::string& reason) {
+  log_.error("refused", reason + ": zero is sent instead");
+  const std::lock_guard lock(mutex_);
+  if (stopping_) return;
+  send_zero_();
+  last_refusal_ = reason;
+}
+
+void ZeroOnSilence::sendZeroIfSilent() {
+  const std::lock_guard lock(mutex_);
+  if (silence_.silent(std::chrono::steady_clock::now())) send_zero_();
+}
+
+void ZeroOnSilence::report(Status& status) {
+  const auto publishers = registeredPublishers(call_, output_.getTopic());
+  const std::lock_guard lock(mutex_);
+  const bool silent = silence_.silent(std::chrono::steady_clock::now());
+  status.summary(silent ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                 silent ? "no command: zero is sent" : "passed on");
+  if (output_.getNumSubscribers() == 0)
+    status.mergeSummary(DiagnosticStatus::WARN, "no subscriber on " + output_.getTopic());
+  if (input_.getNumPublishers() > 1) {
+    status.mergeSummary(DiagnosticStatus::ERROR, "several publishers on " + input_.getTopic());
+  }
+  if (publishers && publishers->size() > 1) {
+    status.mergeSummary(DiagnosticStatus::ERROR,
+                        "several publishers on " + output_.getTopic() + ": " + joined(*publishers));
+  }
+  if (!last_refusal_.empty())
+    status.mergeSummary(DiagnosticStatus::ERROR, "refused: " + std::exchange(last_refusal_, ""));
+  status.add("command", input_.getTopic());
+  status.add("output", output_.getTopic());
+  status.add("passed on", passed_);
+}
+
+}  // namespace sweep_guard_ros

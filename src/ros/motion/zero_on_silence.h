@@ -1,0 +1,63 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "motion/command_silence.h"
+#include "ros/bounded.h"
+#include "ros/threads/queue_thread.h"
+#include "ros/threads/timer_thread.h"
+#include "ros/xml_rpc_call.h"
+#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
+
+namespace sweep_guard_ros {
+
+/// Passes commands from `command` on to `output` untouched, and sends zero at 50 Hz while none come: from the start on,
+/// and once more at the end. A command that is not finite, or that cannot be read, is replaced by zero and does not end
+/// the silence.
+class ZeroOnSilence {
+ public:
+  /// @throws sweep_guard_core::InvalidInput at a refused parameter
+  ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  ~ZeroOnSilence();  ///< sends the last zero
+  ZeroOnSilence(const ZeroOnSilence&) = delete;
+  ZeroOnSilence& operator=(const ZeroOnSilence&) = delete;
+
+  void start();
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReader read);
+
+  template <typename Msg>
+  void relay(const ros::NodeHandle& node);
+  template <typename Msg>
+  void pass(const boost::shared_ptr<const Msg>& command);
+  void refuse(const std::string& reason);
+  void sendZeroIfSilent();
+  void report(Status& status);
+
+  std::atomic<bool> stopping_ = false;
+  LogThrottle log_;
+  sweep_guard_core::PriorityMutex mutex_;  // of the next four: commands and zeros leave in the order of their decisions
+  sweep_guard_core::CommandSilence silence_;
+  std::function<void()> send_zero_;
+  std::uint64_t passed_ = 0;
+  std::string last_refusal_;
+  ros::Publisher output_;
+  const XmlRpcCall call_;
+  diagnostic_updater::Updater updater_;
+  Supervisor supervisor_;
+  QueueThread commands_;
+  BoundedSubscriber input_;
+  TimerThread zeros_;
+  TimerThread reports_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,84 @@
+#include "fake_guard.h"
+
+#include <limits>
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr const char* kFrame = "world";
+constexpr const char* kTool = "tool";
+constexpr std::uint32_t kRevision = 1;
+const ros::WallDuration kPeriod(0.01);
+const ros::Duration kValid(0.2);
+
+sweep_guard::ToolBalls oneBall() {
+  sweep_guard::ToolBalls balls;
+  balls.header.frame_id = kTool;
+  balls.header.stamp = ros::Time::now();
+  balls.tool = kTool;
+  balls.revision = kRevision;
+  balls.pieces.resize(1);
+  balls.pieces[0].balls.resize(1);
+  balls.pieces[0].balls[0].radius = FakeGuard::kRadius;
+  return balls;
+}
+
+}  // namespace
+
+FakeGuard::FakeGuard(const std::string& name) : node_(name) {
+  warnings_ = node_.advertise<sweep_guard::Warning>("warning", 10);
+  proximities_ = node_.advertise<sweep_guard::Proximity>("proximity", 10);
+  balls_ = node_.advertise<sweep_guard::ToolBalls>("tool_balls", 1, /*latch=*/true);
+  balls_.publish(oneBall());
+  timer_ = node_.createSteadyTimer(kPeriod, [this](const ros::SteadyTimerEvent&) { publish(); });
+}
+
+void FakeGuard::setGap(double gap) {
+  const std::lock_guard lock(mutex_);
+  gap_ = gap;
+}
+
+void FakeGuard::setLevel(std::uint8_t level) {
+  const std::lock_guard lock(mutex_);
+  level_ = level;
+}
+
+void FakeGuard::setSilent(bool silent) {
+  const std::lock_guard lock(mutex_);
+  silent_ = silent;
+}
+
+void FakeGuard::publish() {
+  const std::lock_guard lock(mutex_);
+  if (silent_) return;
+  const ros::Time now = ros::Time::now();
+  sweep_guard::Warning warning;
+  warning.header.frame_id = kFrame;
+  warning.header.stamp = now;
+  warning.tool = kTool;
+  warning.level = level_;
+  warning.clear = level_ == sweep_guard::Warning::CLEAR;
+  warning.reasons = level_ == sweep_guard::Warning::UNKNOWN ? sweep_guard::Warning::MESH_STALE : 0;
+  warning.valid_until = now + kValid;
+  warnings_.publish(warning);
+  proximities_.publish(proximity(now));
+}
+
+sweep_guard::Proximity FakeGuard::proximity(ros::Time now) const {
+  sweep_guard::Proximity proximity;
+  proximity.header.frame_id = kFrame;
+  proximity.header.stamp = now;
+  proximity.tool = kTool;
+  proximity.tool_revision = kRevision;
+  proximity.valid_until = now + kValid;
+  proximity.valid = true;
+  proximity.uncovered_distance = std::numeric_limits<double>::infinity();
+  sweep_guard::SeparatingPlane& plane = proximity.planes.emplace_back();
+  plane.mesh_id = "table";
+  plane.point.z = -gap_ - kRadius;
+  plane.normal.z = 1.0;
+  plane.gap = gap_;
+  return proximity;
+}
+
+}  // namespace sweep_guard_ros

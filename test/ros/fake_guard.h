@@ -1,0 +1,41 @@
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/node_handle.h>
+#include <sweep_guard/Proximity.h>
+#include <sweep_guard/ToolBalls.h>
+#include <sweep_guard/Warning.h>
+
+#include <Eigen/Core>
+#include <mutex>
+
+namespace sweep_guard_ros {
+
+/// What a guard publishes about a tool that is one small ball, above a plane whose normal is z. At 100 Hz.
+class FakeGuard {
+ public:
+  static constexpr double kRadius = 0.005;  ///< of the ball [m]
+  static constexpr double kFar = 1.0;       ///< height at first [m]
+
+  explicit FakeGuard(const std::string& name);
+
+  void setGap(double gap);  ///< between the ball at the origin and the plane [m]
+  void setLevel(std::uint8_t level);
+  void setSilent(bool silent);
+
+ private:
+  void publish();
+  sweep_guard::Proximity proximity(ros::Time now) const;
+
+  ros::NodeHandle node_;
+  std::mutex mutex_;
+  double gap_ = kFar;
+  std::uint8_t level_ = sweep_guard::Warning::CLEAR;
+  bool silent_ = false;
+  ros::Publisher warnings_;
+  ros::Publisher proximities_;
+  ros::Publisher balls_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace sweep_guard_ros

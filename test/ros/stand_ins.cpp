@@ -1,0 +1,117 @@
+#include "stand_ins.h"
+
+#include <std_msgs/Int8.h>
+
+#include <algorithm>
+
+namespace sweep_guard_ros {
+namespace {
+
+constexpr int kDecelerateForCollision = 3;
+constexpr int kHaltForCollision = 4;
+constexpr std::uint32_t kServoQueue = 2;
+const ros::WallDuration kServoPeriod(0.008);
+const ros::WallDuration kArmPeriod(0.01);
+
+geometry_msgs::Twist scaled(double scale, geometry_msgs::Twist twist) {
+  for (double* const value :
+       {&twist.linear.x, &twist.linear.y, &twist.linear.z, &twist.angular.x, &twist.angular.y, &twist.angular.z}) {
+    *value *= scale;
+  }
+  return twist;
+}
+
+}  // namespace
+
+FakeServo::FakeServo(const std::string& name)
+    : node_(name),
+      timeout_(node_.param("incoming_command_timeout", 0.0)),
+      checks_collisions_(node_.param("check_collisions", true)) {
+  status_publisher_ = node_.advertise<std_msgs::Int8>("status", kServoQueue);
+  command_subscriber_ = node_.subscribe<geometry_msgs::TwistStamped>(
+      "delta_twist_cmds", kServoQueue, [this](const geometry_msgs::TwistStamped::ConstPtr& command) {
+        const std::lock_guard lock(mutex_);
+        command_ = *command;
+        if (!command->header.stamp.isZero()) newest_stamp_ = command->header.stamp;
+      });
+  scale_subscriber_ = node_.subscribe<std_msgs::Float64>("internal/collision_velocity_scale", kServoQueue,
+                                                         [this](const std_msgs::Float64::ConstPtr& scale) {
+                                                           const std::lock_guard lock(mutex_);
+                                                           scale_ = scale->data;
+                                                         });
+  reset_ = node_.advertiseService<std_srvs::EmptyRequest, std_srvs::EmptyResponse>(
+      "reset_servo_status", [this](std_srvs::EmptyRequest&, std_srvs::EmptyResponse&) {
+        const std::lock_guard lock(mutex_);
+        status_ = 0;
+        return true;
+      });
+  timer_ = node_.createSteadyTimer(kServoPeriod, [this](const ros::SteadyTimerEvent&) { iterate(); });
+}
+
+void FakeServo::iterate() {
+  const std::lock_guard lock(mutex_);
+  std_msgs::Int8 status;
+  status.data = static_cast<std::int8_t>(status_);
+  status_publisher_.publish(status);
+  geometry_msgs::Twist velocity;
+  const bool stale = (ros::Time::now() - newest_stamp_).toSec() >= timeout_;
+  if (command_.twist != geometry_msgs::Twist() && !stale) {
+    if (scale_ > 0.0 && scale_ < 1.0) status_ = kDecelerateForCollision;
+    if (scale_ == 0.0) status_ = kHaltForCollision;
+    if (status_ != kHaltForCollision) velocity = scaled(scale_, command_.twist);
+  }
+  iterations_.set({velocity, scale_, status_});
+}
+
+FakeTwistMux::FakeTwistMux(const std::string& name) : node_(name) {
+  XmlRpc::XmlRpcValue locks;
+  if (!node_.getParam("locks", locks)) throw std::runtime_error("no parameter " + node_.resolveName("locks"));
+  for (int i = 0; i < locks.size(); ++i) addLock(locks[i]);
+  publisher_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+  subscriber_ = ros::NodeHandle().subscribe<geometry_msgs::Twist>("nav_vel", 1,
+                                                                  [this](const geometry_msgs::Twist::ConstPtr& twist) {
+                                                                    if (!locked()) publisher_.publish(twist);
+                                                                  });
+}
+
+void FakeTwistMux::addLock(XmlRpc::XmlRpcValue entry) {
+  Lock& added = locks_.emplace_back();
+  added.timeout = static_cast<double>(entry["timeout"]);
+  added.priority = static_cast<int>(entry["priority"]);
+  added.subscriber = ros::NodeHandle().subscribe<std_msgs::Bool>(static_cast<std::string>(entry["topic"]), 1,
+                                                                 [this, &added](const std_msgs::Bool::ConstPtr& on) {
+                                                                   const std::lock_guard lock(mutex_);
+                                                                   added.stamp = ros::Time::now();
+                                                                   added.on = on->data != 0;
+                                                                 });
+}
+
+bool FakeTwistMux::locked() const {
+  const std::lock_guard guard(mutex_);
+  return std::any_of(locks_.begin(), locks_.end(), [](const Lock& lock) {
+    const bool expired = lock.timeout > 0.0 && (ros::Time::now() - lock.stamp).toSec() > lock.timeout;
+    return lock.priority > kPriority && (expired || lock.on);
+  });
+}
+
+FakeArm::FakeArm(const std::string& name, const geometry_msgs::Pose& pose) : node_(name), pose_(pose) {
+  publisher_ = node_.advertise<geometry_msgs::PoseStamped>("measured_cp", 1);
+  subscriber_ = node_.subscribe<geometry_msgs::PoseStamped>(
+      "servo_cp", 1, [this](const geometry_msgs::PoseStamped::ConstPtr& command) {
+        const std::lock_guard lock(mutex_);
+        pose_ = command->pose;
+        commands_.set(*command);
+      });
+  timer_ = node_.createSteadyTimer(kArmPeriod, [this](const ros::SteadyTimerEvent&) { publish(); });
+}
+
+void FakeArm::publish() {
+  const std::lock_guard lock(mutex_);
+  geometry_msgs::PoseStamped measured;
+  measured.header.frame_id = "world";
+  measured.header.stamp = ros::Time::now();
+  measured.pose = pose_;
+  publisher_.publish(measured);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,71 @@
+// launch/twist_mux.launch, with a stand-in for twist_mux. On the wall clock: silence has a limit.
+#include "drop_in_fixture.h"
+#include "stand_ins.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using geometry_msgs::Twist;
+
+class TwistMuxTest : public DropInTest {
+ protected:
+  TwistMuxTest() {
+    publishFrames("base_link", "base_link_of_the_tool");
+    poses_.send(poseAtOrigin());
+    commands_.send(kUp);
+    awaitCommand(kUp);
+  }
+
+  void awaitCommand(const Twist& twist) {
+    robot_.await("the whole command", [&](const Twist& next) { return next == twist; });
+  }
+
+  void expectLockAndStandstill() {
+    robot_.await("zero", [](const Twist& next) { return isZero(next); });
+    while (!mux_.locked()) robot_lock_.next();
+  }
+
+  Stream<geometry_msgs::PoseStamped> poses_{"tool_pose"};
+  Stream<Twist> commands_{"nav_vel"};
+  FakeTwistMux mux_{"twist_mux"};
+  Listener<Twist> robot_{"cmd_vel"};
+  Listener<std_msgs::Bool> robot_lock_{"motion_guard/lock"};
+};
+
+TEST_F(TwistMuxTest, AFreeCommandArrivesUntouched) {
+  commands_.send(kDown);
+  awaitCommand(kDown);
+}
+
+TEST_F(TwistMuxTest, ACommandToANearPlaneArrivesLimitedAndARetreatWholeWithoutALock) {
+  guard_.setGap(kNear);
+  commands_.send(kDown);
+  robot_.await("a limited command", isLimited);
+  EXPECT_FALSE(mux_.locked());
+  commands_.send(kUp);
+  awaitCommand(kUp);
+}
+
+TEST_F(TwistMuxTest, LocksTheMuxAndSendsZeroWhileTheGuardIsUnknownOrSilent) {
+  guard_.setLevel(sweep_guard::Warning::UNKNOWN);
+  expectLockAndStandstill();
+  guard_.setLevel(sweep_guard::Warning::CLEAR);
+  awaitCommand(kUp);
+  guard_.setSilent(true);
+  expectLockAndStandstill();
+  guard_.setSilent(false);
+  awaitCommand(kUp);
+}
+
+TEST_F(TwistMuxTest, IsLockedByTheTimeoutOfTheLockWhenTheMotionGuardDies) {
+  EXPECT_FALSE(mux_.locked());
+  killMotionGuard();
+  commands_.send(kDown);
+  Listener<Twist> mux_output("twist_mux/cmd_vel");
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+  while (!mux_.locked() && std::chrono::steady_clock::now() < deadline) ros::WallDuration(0.001).sleep();
+  EXPECT_TRUE(mux_.locked());
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
