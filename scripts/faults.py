@@ -10,7 +10,7 @@ import time
 import xmlrpc.client
 
 import rospy
-from geometry_msgs.msg import Point, PoseStamped
+from geometry_msgs.msg import Point, PoseStamped, TwistStamped
 from shape_msgs.msg import MeshTriangle
 from sweep_guard.msg import Contacts, DeformableMesh, MeshVertices, View, Warning
 
@@ -18,6 +18,8 @@ MASTER = os.environ['ROS_MASTER_URI']
 POSE_TIMEOUT, MESH_TIMEOUT = 0.1, 0.5  # [s] as configured
 REACTION = 0.05  # [s] that the guard may take beyond a timeout
 VALID = 0.2  # [s] of a warning
+SPEED = 0.01  # [m/s] of the commands to motion_guard
+STOPPED = 0.2  # [s] within which motion_guard sends zero once the guard is gone
 CORNERS = [(-0.1, -0.1), (0.1, -0.1), (0.0, 0.1)]
 IDS = {'left': -1.0, 'right': -2.0}  # workpieces and their heights [m]
 
@@ -51,6 +53,18 @@ def publish_mesh(name):
     while not rospy.is_shutdown():
         update.header.stamp = rospy.Time.now()
         vertices.publish(update)
+        rate.sleep()
+
+
+def publish_commands():
+    publisher = rospy.Publisher('command', TwistStamped, queue_size=10)
+    command = TwistStamped()
+    command.header.frame_id = 'world'
+    command.twist.linear.x = SPEED
+    rate = rospy.Rate(100)
+    while not rospy.is_shutdown():
+        command.header.stamp = rospy.Time.now()
+        publisher.publish(command)
         rate.sleep()
 
 
@@ -110,6 +124,33 @@ class Warnings:
                 return
         last = received[-1].text if received else 'none was received'
         raise TimeoutError(f'not CLEAR for a second within {timeout:g} s; the last warning: {last}')
+
+
+class Motion:
+    """What motion_guard sends to the robot."""
+
+    def __init__(self):
+        self.changed = threading.Condition()
+        self.received = []  # times and speeds
+        rospy.Subscriber('/guarded_command', TwistStamped, self.take, tcp_nodelay=True)
+
+    def take(self, command):
+        with self.changed:
+            self.received.append((now(), command.twist.linear.x))
+            self.changed.notify_all()
+
+    def wait(self, speed, timeout=60.0):
+        """Returns when this speed is first received from now on."""
+        deadline = now() + timeout
+        with self.changed:
+            mark = len(self.received)
+            while True:
+                for arrived, sent in self.received[mark:]:
+                    if sent == speed:
+                        return arrived
+                mark = len(self.received)
+                if not self.changed.wait(deadline - now()):
+                    raise TimeoutError(f'motion_guard does not send {speed:g} m/s within {timeout:g} s')
 
 
 def now():
@@ -252,20 +293,25 @@ class World:
                 process.kill()
 
 
-def kill_guard(world, warnings, table, cycles):
-    to_clear, first_bad = [], []
+def kill_guard(world, warnings, motion, table, cycles):
+    to_clear, first_bad, to_zero = [], [], []
     for i in range(cycles):
         warnings.wait_until_steadily_clear()
+        motion.wait(SPEED)
         before = world.guard()
         run = warnings.since(-1)[0].run_id
         mark = warnings.mark()
+        begin = now()
         os.kill(before, signal.SIGKILL)
+        to_zero.append(motion.wait(0.0) - begin)
         of_next = lambda warning: warning.run_id != run
         first = warnings.wait(of_next, mark)[1]
         arrived = warnings.wait(lambda warning: of_next(warning) and clear(warning), mark)[0]
         first_bad.append(0 if unknown(first) and first.level_counts[Warning.CLEAR] == 0 else 1)
         to_clear.append(arrived - started(world.guard()))
-        print(f'kill -9 of the guard {i + 1}: CLEAR {to_clear[-1]:.2f} s after the start', flush=True)
+        print(f'kill -9 of the guard {i + 1}: motion_guard stops after {to_zero[-1]:.2f} s, CLEAR {to_clear[-1]:.2f} s after the start',
+              flush=True)
+    table.add('kill -9 of the guard: until motion_guard sends zero', to_zero, STOPPED)
     table.add('kill -9 of the guard: its first message is not UNKNOWN', first_bad, 0, '')
     table.add('kill -9 of the guard: start of the next one until CLEAR with all of mesh_ids', to_clear, 3.0)
 
@@ -380,8 +426,10 @@ def measure(options):
         with open(config, 'w') as file:
             file.writelines(lines + ['mesh_ids: [left, right]\n'])
         world.start('roslaunch', ['roslaunch', 'sweep_guard', 'sweep_guard.launch', 'config:=' + config], at_peers=False)
+        world.start('motion_guard', ['rosrun', 'sweep_guard', 'motion_guard_node'], at_peers=False)
+        world.role('commands', 'commands')
         rospy.init_node('faults', disable_signals=True)
-        warnings = Warnings()
+        warnings, motion = Warnings(), Motion()
         warnings.wait(clear, 0)
         asked = lambda part: options.only in (None, part)
         if asked('links'):
@@ -392,7 +440,7 @@ def measure(options):
             freeze_bystander(world, warnings, table, 'subscriber', 20)
             freeze_bystander(world, warnings, table, 'roscore', 10)
         if asked('kills'):
-            kill_guard(world, warnings, table, options.kills)
+            kill_guard(world, warnings, motion, table, options.kills)
         if asked('disk'):
             fill_disk(world, table)
         if asked('masters'):
@@ -411,6 +459,8 @@ def play(role):
         publish_poses()
     elif role[0] == 'mesh':
         publish_mesh(role[1])
+    elif role[0] == 'commands':
+        publish_commands()
     elif role[0] == 'listen':
         listen()
     else:
