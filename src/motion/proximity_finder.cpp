@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kSlack = 0.05;        // share of its gap by which a plane moves to the tool
 constexpr double kMinSlack = 0x1p-17;  // of the mesh's radius: more than what float32 leaves in doubt
-constexpr double kAccuracy = 1e-6;     // of gaps, in reaches
 constexpr double kSameNormal = 0.9;    // cosine of the angle between normals in contact that one plane stands for
 constexpr double kNearer = 1e-3;       // share by which a triangle may be nearer than one that gets its plane first
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -331,7 +330,7 @@ void ProximityFinder::Search::separate(Facing& facing, SeparatedTriangle& separa
   const ConvexShape& shape_T = facing.cover.shape_T();
   const auto corners_T = facing.cover.corners_T(meshOf(facing).triangles()[separated.triangle]);
   const PointHull hull(corners_T);
-  const Separation apart = separation(shape_T, hull, kAccuracy * request_->reach, facing.guess_T);
+  const Separation apart = separation(shape_T, hull, /*accuracy=*/0.0, facing.guess_T);
   separated.normal_T = apart.gap > 0.0 ? apart.normal : contactNormal_T(facing, separated.triangle, corners_T);
   separated.top_T = hull.supportPoint(separated.normal_T);
   separated.gap = -shape_T.support(-separated.normal_T) - separated.normal_T.dot(separated.top_T);
