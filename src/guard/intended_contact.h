@@ -68,6 +68,10 @@ class IntendedContact {
   /// IntendedTriangles.
   IntendedTriangles trianglesOf(size_t piece, const std::vector<Motion>& sub_motions_M, double margin) const;
 
+  /// Returns how far the link of a piece may reach behind a triangle [m]; 0: it may not touch it. Whether it is deeper is
+  /// for the caller to find out.
+  double allowedDepth(size_t piece, std::uint32_t triangle) const;
+
  private:
   const Tool* tool_ = nullptr;
   std::vector<const Intention*> intentions_;

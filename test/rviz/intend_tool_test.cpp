@@ -113,8 +113,8 @@ TEST_F(IntendToolTest, BesideTheWorkpieceNothingIsSent) {
   clickUntilSent(Qt::LeftButton);
   sent_.clear();
   EXPECT_EQ(mouse(QEvent::MouseButtonPress, 319, Qt::LeftButton), 0);
-  EXPECT_EQ(mouse(QEvent::MouseButtonPress, 0, Qt::MidButton), 0);
-  mouse(QEvent::MouseButtonRelease, 0, Qt::MidButton);
+  EXPECT_EQ(mouse(QEvent::MouseButtonPress, 0, Qt::MiddleButton), 0);
+  mouse(QEvent::MouseButtonRelease, 0, Qt::MiddleButton);
   clickUntilSent(Qt::RightButton);
   EXPECT_EQ(sent_[0].radius, 0.0);  // the first since then
 }
