@@ -27,7 +27,7 @@ class IntendedTriangles {
   bool empty() const { return regions_.empty(); }
 
   /// Returns whether the link may touch a triangle: the triangle is in a region, and depthBehind() is at most the depth
-  /// of that region.
+  /// of this region.
   bool contains(std::uint32_t triangle, const MovingTriangle& triangle_M);
 
   /// Returns an upper bound on how far the pieces of the link, with the margin, reach behind the plane of a triangle

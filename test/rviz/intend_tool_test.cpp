@@ -47,13 +47,12 @@ class IntendToolTest : public SweepDisplayTest {
     return tool_.processMouseEvent(seen);
   }
 
-  // The mesh reaches the brush a little later than the display.
-  void clickUntilSent(Qt::MouseButton button, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-    await("the brush", [&] {
-      mouse(QEvent::MouseButtonPress, 0, button, modifiers);
-      mouse(QEvent::MouseButtonRelease, 0, button, modifiers);
-      return !sent_.empty();
-    });
+  // The mesh reaches the brush a little later than the display. One message is sent.
+  void click(Qt::MouseButton button, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+    const size_t before = sent_.size();
+    await("the mesh", [&] { return mouse(QEvent::MouseButtonPress, 0, button, modifiers) == rviz::Tool::Render; });
+    mouse(QEvent::MouseButtonRelease, 0, button, modifiers);
+    await("the message", [&] { return sent_.size() == before + 1; });
   }
 
   void setProperty(const QString& name, const QVariant& value) {
@@ -71,7 +70,7 @@ TEST_F(IntendToolTest, AClickPaintsABallUnderTheMouse) {
   setProperty("Depth", 0.02F);
   setProperty("Tool Links", "bit, burr");
   setProperty("Duration", 5.0F);
-  clickUntilSent(Qt::LeftButton);
+  click(Qt::LeftButton);
   EXPECT_EQ(sent_[0].mesh_id, "square");
   EXPECT_EQ(sent_[0].frame_id, "world");
   EXPECT_NEAR(sent_[0].center.x, 0.0, 0.1);  // where the camera looks
@@ -85,7 +84,7 @@ TEST_F(IntendToolTest, AClickPaintsABallUnderTheMouse) {
 
 TEST_F(IntendToolTest, AStrokePaintsABallAtEveryHalfRadius) {
   setProperty("Radius", 0.3F);
-  clickUntilSent(Qt::LeftButton);
+  click(Qt::LeftButton);
   sent_.clear();
   mouse(QEvent::MouseButtonPress, 0, Qt::LeftButton);
   for (int dx = 1; dx <= 60; ++dx) mouse(QEvent::MouseMove, dx, Qt::LeftButton);
@@ -100,22 +99,22 @@ TEST_F(IntendToolTest, AStrokePaintsABallAtEveryHalfRadius) {
 }
 
 TEST_F(IntendToolTest, ShiftAndTheRightButtonTakeBack) {
-  clickUntilSent(Qt::LeftButton, Qt::ShiftModifier);
+  click(Qt::LeftButton, Qt::ShiftModifier);
   EXPECT_EQ(sent_[0].mesh_id, "square");
   EXPECT_EQ(sent_[0].radius, 0.0);
   EXPECT_TRUE(sent_[0].triangles.empty());
   sent_.clear();
-  clickUntilSent(Qt::RightButton);
+  click(Qt::RightButton);
   EXPECT_EQ(sent_[0].radius, 0.0);
 }
 
 TEST_F(IntendToolTest, BesideTheWorkpieceNothingIsSent) {
-  clickUntilSent(Qt::LeftButton);
+  click(Qt::LeftButton);
   sent_.clear();
-  EXPECT_EQ(mouse(QEvent::MouseButtonPress, 319, Qt::LeftButton), 0);
+  EXPECT_EQ(mouse(QEvent::MouseButtonPress, 310, Qt::LeftButton), 0);
   EXPECT_EQ(mouse(QEvent::MouseButtonPress, 0, Qt::MiddleButton), 0);
   mouse(QEvent::MouseButtonRelease, 0, Qt::MiddleButton);
-  clickUntilSent(Qt::RightButton);
+  click(Qt::RightButton);
   EXPECT_EQ(sent_[0].radius, 0.0);  // the first since then
 }
 
