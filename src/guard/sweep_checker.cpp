@@ -125,8 +125,8 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
   result_.not_ruled_out = result_.triangles;
   if (request.options.fine) narrow(request);
   if (!result_.unintendedContact() && !request.cache.outside) {
-    result_.inside =
-        anyPieceInside(request.tool, request.sub_motions.back().X_MT_end, request.mesh.mesh_M(), result_.in_contact);
+    const Eigen::Isometry3d& X_MT = request.sub_motions.back().X_MT_end;
+    result_.inside = anyPieceInside(request.tool, X_MT, request.mesh.mesh_M(), result_.in_contact);
   }
   return result_;
 }
