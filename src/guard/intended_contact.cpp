@@ -28,6 +28,10 @@ double highest(const Eigen::Vector3d& direction, const Corners& p, const Eigen::
   return std::max({direction.dot(p[0] - base), direction.dot(p[1] - base), direction.dot(p[2] - base)});
 }
 
+bool holds(const Intention& region, std::uint32_t triangle) {
+  return std::binary_search(region.triangles.begin(), region.triangles.end(), triangle);
+}
+
 }  // namespace
 
 IntendedTriangles::IntendedTriangles(std::vector<const Intention*> regions, const Tool& tool, const std::string& link,
@@ -48,7 +52,7 @@ IntendedTriangles::IntendedTriangles(std::vector<const Intention*> regions, cons
 bool IntendedTriangles::contains(std::uint32_t triangle, const MovingTriangle& triangle_M) {
   std::optional<double> depth;
   return std::any_of(regions_.begin(), regions_.end(), [&](const Intention* region) {
-    if (!std::binary_search(region->triangles.begin(), region->triangles.end(), triangle)) return false;
+    if (!holds(*region, triangle)) return false;
     if (isProvenWithin(region->depth, triangle_M)) return true;
     if (!depth) depth = depthBehind(triangle_M).value_or(kInfinity);
     return *depth <= region->depth;
@@ -102,6 +106,15 @@ IntendedTriangles IntendedContact::trianglesOf(size_t piece, const std::vector<M
                [&](const Intention* intention) { return intention->allows(link); });
   if (regions.empty()) return {};
   return {std::move(regions), *tool_, link, sub_motions_M, margin};
+}
+
+double IntendedContact::allowedDepth(size_t piece, std::uint32_t triangle) const {
+  double depth = 0.0;
+  for (const Intention* intention : intentions_) {
+    if (!intention->allows(tool_->pieces()[piece].link) || !holds(*intention, triangle)) continue;
+    depth = std::max(depth, intention->depth);
+  }
+  return depth;
 }
 
 }  // namespace sweep_guard_core

@@ -27,7 +27,7 @@ class IntendedTriangles {
   bool empty() const { return regions_.empty(); }
 
   /// Returns whether the link may touch a triangle: the triangle is in a region, and depthBehind() is at most the depth
-  /// of that region.
+  /// of this region.
   bool contains(std::uint32_t triangle, const MovingTriangle& triangle_M);
 
   /// Returns an upper bound on how far the pieces of the link, with the margin, reach behind the plane of a triangle
@@ -67,6 +67,10 @@ class IntendedContact {
   /// Returns the triangles that the link of a piece is meant to touch during a motion. Arguments as for
   /// IntendedTriangles.
   IntendedTriangles trianglesOf(size_t piece, const std::vector<Motion>& sub_motions_M, double margin) const;
+
+  /// Returns how far the link of a piece may reach behind a triangle [m]; 0: it may not touch it. Whether it is deeper is
+  /// for the caller to find out.
+  double allowedDepth(size_t piece, std::uint32_t triangle) const;
 
  private:
   const Tool* tool_ = nullptr;

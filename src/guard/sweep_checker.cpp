@@ -17,8 +17,8 @@ bool linkTouches(const std::vector<TriangleContact>& in_contact, const Tool& too
 }
 
 // Not of the links that touch: how deep all their pieces are was measured.
-bool anyOtherPieceInside(const Tool& tool, const Eigen::Isometry3d& X_MT, const TriangleMesh& mesh_M,
-                         const std::vector<TriangleContact>& in_contact) {
+bool anyPieceInside(const Tool& tool, const Eigen::Isometry3d& X_MT, const TriangleMesh& mesh_M,
+                    const std::vector<TriangleContact>& in_contact) {
   return mesh_M.closed() && std::any_of(tool.pieces().begin(), tool.pieces().end(), [&](const ConvexPiece& piece) {
            return !linkTouches(in_contact, tool, piece.link) && inside(mesh_M, X_MT * piece.shape_T.moments_T().mean);
          });
@@ -125,8 +125,8 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
   result_.not_ruled_out = result_.triangles;
   if (request.options.fine) narrow(request);
   if (!result_.unintendedContact() && !request.cache.outside) {
-    result_.inside = anyOtherPieceInside(request.tool, request.sub_motions.back().X_MT_end, request.mesh.mesh_M(),
-                                         result_.in_contact);
+    const Eigen::Isometry3d& X_MT = request.sub_motions.back().X_MT_end;
+    result_.inside = anyPieceInside(request.tool, X_MT, request.mesh.mesh_M(), result_.in_contact);
   }
   return result_;
 }

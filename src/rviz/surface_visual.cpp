@@ -177,7 +177,8 @@ void SurfaceVisual::highlight(const Highlights& highlights) {
 void SurfaceVisual::paintLayer(Layer layer, const Ogre::ColourValue& color, bool shown, bool edges) {
   Ogre::Technique& technique = *materials_[layer]->getTechnique(0);
   if (edges != (technique.getNumPasses() == 2)) edges ? addEdges(technique, layer) : technique.removePass(1);
-  Ogre::ColourValue line = layer == kSurface ? 0.4F * color : 0.5F * (color + Ogre::ColourValue::White);
+  const bool dark = layer == kSurface || layer == kIntended;
+  Ogre::ColourValue line = dark ? 0.4F * color : 0.5F * (color + Ogre::ColourValue::White);
   line.a = (layer == kSurface ? 0.25F : 1.0F) * color.a;
   if (edges) paint(*technique.getPass(1), line);
   if (layer == kSurface) {

@@ -327,6 +327,21 @@ TEST(IntendedTrianglesTest, ATriangleWithoutANormalIsNotIntended) {
   EXPECT_FALSE(triangles.contains(1, {triangle, triangle}));
 }
 
+TEST(IntendedContactTest, TheLargestDepthOfALinkCounts) {
+  const Tool tool = drill();
+  const auto triangles = slab().sharedTriangles();
+  const Workpiece bone{"bone", 1, Time(), SteadyTime(), "table", slab()};
+  const Intentions all = {{"bone", triangles, {1, 2}, 0.01, {"bit"}},
+                          {"bone", triangles, {2, 3}, 0.02},
+                          {"tendon", triangles, {1, 2, 3}, 0.5}};
+  const IntendedContact intended(tool, all, bone);
+  EXPECT_EQ(intended.allowedDepth(/*piece=*/0, 1), 0.01);
+  EXPECT_EQ(intended.allowedDepth(1, 2), 0.02);
+  EXPECT_EQ(intended.allowedDepth(/*the shaft*/ 2, 1), 0.0);
+  EXPECT_EQ(intended.allowedDepth(2, 3), 0.02);
+  EXPECT_EQ(intended.allowedDepth(0, 4), 0.0);
+}
+
 // A quick answer from the neighbor's normal is the same as the exact one, or no.
 TEST(IntendedTrianglesTest, NeighborsDoNotChangeTheAnswer) {
   Random random(5);

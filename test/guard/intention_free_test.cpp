@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <numeric>
 
 #include "guard/guard_results.h"
 #include "monitor/warnings.h"
@@ -116,6 +117,12 @@ std::string answers(std::uint64_t seed, const Intend& intend) {
   return text;
 }
 
+TriangleSet everyTriangleOf(const Workpiece& workpiece) {
+  TriangleSet all(workpiece.mesh_M.triangles().size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
 // For a comparison with another build: SWEEP_GUARD_ANSWERS=FILE writes what the scenes answer.
 void keep(const std::string& text) {
   const char* const file = std::getenv("SWEEP_GUARD_ANSWERS");
@@ -129,9 +136,9 @@ TEST(IntentionFreeTest, WhatIsIntendedElsewhereChangesNoDigit) {
     const std::string elsewhere = answers(seed, [](Guard& guard, const Workpiece& workpiece) {
       const auto triangles = workpiece.mesh_M.sharedTriangles();
       const auto copy = std::make_shared<const std::vector<Triangle>>(*triangles);
-      guard.intend(std::make_shared<const Intentions>(Intentions{{"other", triangles, {0, 1, 2}, 0.5},
-                                                                 {"hull", copy, {0, 1, 2}, 0.5},
-                                                                 {"hull", triangles, {0, 1, 2}, 0.5, {"camera"}}}));
+      const TriangleSet all = everyTriangleOf(workpiece);
+      guard.intend(std::make_shared<const Intentions>(Intentions{
+          {"other", triangles, all, 0.5}, {"hull", copy, all, 0.5}, {"hull", triangles, all, 0.5, {"camera"}}}));
     });
     EXPECT_EQ(nothing, elsewhere) << "seed " << seed;
     contacts += nothing.find("CONTACT") != std::string::npos ? 1 : 0;
@@ -144,10 +151,8 @@ TEST(IntentionFreeTest, WhatIsIntendedElsewhereChangesNoDigit) {
 TEST(IntentionFreeTest, WhatIsIntendedHereChangesTheAnswer) {
   const std::string nothing = answers(1, [](Guard&, const Workpiece&) {});
   const std::string everywhere = answers(1, [](Guard& guard, const Workpiece& workpiece) {
-    TriangleSet all(workpiece.mesh_M.triangles().size());
-    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-    guard.intend(
-        std::make_shared<const Intentions>(Intentions{{"hull", workpiece.mesh_M.sharedTriangles(), all, 0.5}}));
+    guard.intend(std::make_shared<const Intentions>(
+        Intentions{{"hull", workpiece.mesh_M.sharedTriangles(), everyTriangleOf(workpiece), 0.5}}));
   });
   EXPECT_NE(nothing, everywhere);
 }

@@ -43,6 +43,19 @@ TEST(PanelStateTest, NoWarningIsUnknownAndNamesTheTopic) {
   EXPECT_EQ(state.reasons, std::vector<std::string>{"no warning from /guard/warning"});
 }
 
+TEST(PanelStateTest, IntendedContactIsSaidAndStaysClear) {
+  Warning warning = warningLevel(Warning::CLEAR);
+  warning.intended = true;
+  warning.text = "CLEAR: intended contact with 'bone'";
+  const PanelState state = shown(warning);
+  EXPECT_EQ(state.level, WarningLevel::kClear);
+  EXPECT_EQ(state.meaning, "intended contact");
+  EXPECT_EQ(state.reasons, std::vector<std::string>{"intended contact with 'bone'"});
+  warning = warningLevel(Warning::CONTACT);
+  warning.intended = true;
+  EXPECT_EQ(shown(warning).meaning, "the tool touches");
+}
+
 TEST(PanelStateTest, SilenceIsUnknown) {
   EXPECT_EQ(shown(warningLevel(Warning::CLEAR), kSilence).level, WarningLevel::kClear);
   const PanelState state = shown(warningLevel(Warning::CLEAR), kSilence + milliseconds(1));
