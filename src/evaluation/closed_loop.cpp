@@ -12,7 +12,9 @@ using sweep_guard_core::Twist;
 
 namespace {
 
-constexpr double kAtStandoff = 2e-5;  // [m] so near, the tool is at the standoff: it approaches it only asymptotically
+// [m] So near, the tool is at the standoff: it approaches it only asymptotically, and a plane lies up to a twentieth of its
+// gap before its surface.
+constexpr double kAtStandoff = 1.5e-4;
 
 }  // namespace
 

@@ -132,7 +132,8 @@ std::optional<LoopPlacement> beginOf(const DrivenRobot& driven, const ObstaclePl
     }
     passed = watch(*loop, driven, cycle) ? passed + 1 : 0;
     if (++watched > kUntilPlanes && passed == 0) loop.reset();  // it would go on from what was not sent
-    if (passed >= kUntouched) found = LoopPlacement{placement, cycle + 1};
+    const bool apart = scene.separationAt(driven.cycles[cycle + 1].robot.pose()).gap > setup.guard.motion.standoff;
+    if (passed >= kUntouched && apart) found = LoopPlacement{placement, cycle + 1};
   }
   return found;
 }

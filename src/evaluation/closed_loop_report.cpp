@@ -181,11 +181,9 @@ std::string closedLoopCsv(const std::vector<ClosedLoopCount>& counts) {
 
 bool keepsItsPromise(const std::vector<ClosedLoopCount>& counts) {
   return std::all_of(counts.begin(), counts.end(), [](const ClosedLoopCount& count) {
-    if (!count.guarded) return true;
+    if (!count.guarded || surfaceComes(count)) return true;
     const Figures figures(count);
-    if (figures.free_changed > 0) return false;
-    if (surfaceComes(count)) return true;
-    return figures.closing_speeds.empty() && figures.retreat_contacts == 0 &&
+    return figures.free_changed == 0 && figures.closing_speeds.empty() && figures.retreat_contacts == 0 &&
            figures.standoff_speed < kMaxStandoffSpeed;
   });
 }

@@ -47,8 +47,8 @@ std::vector<ClosedLoopCount> summed(const std::vector<ClosedLoopCount>& counts);
 /// | tool_speed_at_contact_p95 | as speed_at_contact_p95, of the tool alone [m/s] |
 std::string closedLoopCsv(const std::vector<ClosedLoopCount>& counts);
 
-/// Returns whether no guarded tool touched a surface at rest, none reached the standoff at 1 mm/s or more, no retreat ended
-/// in a contact, and each command without a surface within reach was passed on bit for bit.
+/// Returns whether before surfaces at rest no guarded tool touched one, also in a retreat, none reached the standoff at
+/// 1 mm/s or more, and each command without a surface within reach was passed on bit for bit.
 bool keepsItsPromise(const std::vector<ClosedLoopCount>& counts);
 
 /// Returns a table for the terminal.
