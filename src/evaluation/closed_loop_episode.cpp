@@ -116,6 +116,17 @@ std::vector<Twist> newest(const std::vector<Twist>& twists, size_t count) {
 
 }  // namespace
 
+sweep_guard_core::Tool inPieces(const sweep_guard_core::ConvexShape& cylinder, size_t count) {
+  const double length = cylinder.length() / static_cast<double>(count);
+  std::vector<sweep_guard_core::ConvexPiece> pieces;
+  for (size_t i = 0; i < count; ++i) {
+    Eigen::Isometry3d X_TP = Eigen::Isometry3d::Identity();
+    X_TP.translation().z() = -length * static_cast<double>(i);
+    pieces.push_back({"", sweep_guard_core::ConvexShape::cylinder(cylinder.radius(), length).placed(X_TP)});
+  }
+  return sweep_guard_core::Tool(pieces);
+}
+
 std::optional<LoopPlacement> beginOf(const DrivenRobot& driven, const ObstaclePlacement& placement,
                                      const ClosedLoopSetup& setup) {
   LoopScene scene(setup.tool, placement.obstacle);

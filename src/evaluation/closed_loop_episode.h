@@ -9,7 +9,8 @@
 namespace sweep_guard_evaluation {
 
 struct ClosedLoopSetup {
-  sweep_guard_core::Tool tool = sweep_guard_core::Tool::cylinder(/*radius=*/0.005, /*length=*/0.1);
+  sweep_guard_core::ConvexShape shape = sweep_guard_core::ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
+  sweep_guard_core::Tool tool{shape};  ///< of this shape, in one or more pieces
   RobotLimits limits;
   RobotDelays delays;
   DelayedGuardOptions guard;   ///< its delays of the robot are replaced by `delays`
@@ -38,6 +39,9 @@ struct EpisodeKind {
   bool guarded = true;     ///< false: commands go to the robot as they are
   std::uint64_t seed = 1;  ///< of the retreats, and of the speed of a surface that comes, 0.05 to 0.3 m/s
 };
+
+/// Returns a cylinder as a tool of pieces end to end.
+sweep_guard_core::Tool inPieces(const sweep_guard_core::ConvexShape& cylinder, size_t count);
 
 /// A placement, and when the loop begins.
 struct LoopPlacement {

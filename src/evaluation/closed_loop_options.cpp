@@ -26,7 +26,8 @@ po::options_description describe(ClosedLoopOptions& options) {
       "retreats", withDefault(std::to_string(setup.random_retreats), "N"),
       "retreats in random directions from each place where the tool was held, with and without a turn each")(
       "tool-radius", withDefault("0.005", "M"), "radius of the tool, a cylinder [m]")(
-      "tool-length", withDefault("0.1", "M"), "length of the tool [m]");
+      "tool-length", withDefault("0.1", "M"), "length of the tool [m]")(
+      "pieces", withDefault("1", "N"), "convex pieces, end to end, that the guard knows the tool as");
   return described;
 }
 
@@ -60,7 +61,9 @@ void store(const po::variables_map& values, ClosedLoopOptions& options) {
   options.placement.seed = number("seed", std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
   ClosedLoopSetup& setup = options.setup;
   setup.random_retreats = number("retreats", size_t{0}, size_t{1000});
-  setup.tool = sweep_guard_core::Tool::cylinder(number("tool-radius", 1e-3, 1.0), number("tool-length", 1e-3, 10.0));
+  setup.shape =
+      sweep_guard_core::ConvexShape::cylinder(number("tool-radius", 1e-3, 1.0), number("tool-length", 1e-3, 10.0));
+  setup.tool = inPieces(setup.shape, number("pieces", size_t{1}, size_t{100}));
   setup.limits = {number("max-speed", 1e-3, 10.0), number("max-turn-rate", 1e-3, 100.0),
                   number("max-acceleration", 1e-3, 1e3), number("max-turn-acceleration", 1e-3, 1e4)};
   setup.delays = {std::chrono::round<std::chrono::milliseconds>(seconds("dead-time")), seconds("lag")};

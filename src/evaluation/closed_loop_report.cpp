@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "evaluation/csv.h"
@@ -18,6 +19,8 @@ namespace {
 
 constexpr const char* kMoving = ", surface comes";
 constexpr const char* kAtRest = ", surface comes to a tool at rest";
+constexpr std::array<const char*, kRetreatKinds> kRetreats = {"along the normal", "as the tool came",
+                                                              "in a random direction", "with a random turn"};
 constexpr double kKept = 0.99;
 constexpr double kMaxStandoffSpeed = 0.001;  // [m/s]
 
@@ -31,7 +34,7 @@ struct DrivenRecording {
 DrivenRecording driveRecording(const Recording& recording, const ClosedLoopSetup& setup,
                                const ObstaclePlacementOptions& options, size_t& left_out) {
   DrivenRecording driven{recording.name, drive(RecordedMotion(recording.poses), setup.limits, setup.delays), {}};
-  const auto placements = placeObstacles(RecordedMotion(driven.robot.path), setup.tool.pieces()[0].shape_T, options);
+  const auto placements = placeObstacles(RecordedMotion(driven.robot.path), setup.shape, options);
   for (const ObstaclePlacement& placement : placements) {
     const auto loop_placement = beginOf(driven.robot, placement, setup);
     if (loop_placement) driven.placements.push_back(*loop_placement);
@@ -87,7 +90,10 @@ struct Figures {
   void add(const Retreat& retreat) {
     ++retreats;
     retreat_contacts += retreat.contact ? 1 : 0;
-    kept += retreat.speed_kept >= kKept ? 1 : 0;
+    const size_t keeps = retreat.speed_kept >= kKept ? 1 : 0;
+    kept += keeps;
+    ++of_kind[static_cast<size_t>(retreat.kind)];
+    kept_of_kind[static_cast<size_t>(retreat.kind)] += keeps;
     least_kept = std::min(least_kept, retreat.speed_kept);
     if (retreat.kind == RetreatKind::kNormal && retreat.time_until_free) times.push_back(*retreat.time_until_free);
   }
@@ -106,6 +112,8 @@ struct Figures {
   size_t retreats = 0;
   size_t retreat_contacts = 0;
   size_t kept = 0;
+  std::array<size_t, kRetreatKinds> of_kind{};
+  std::array<size_t, kRetreatKinds> kept_of_kind{};
   double least_kept = 1.0;
   std::vector<double> times;
   size_t near_misses = 0;
@@ -198,6 +206,11 @@ std::string closedLoopTable(const std::vector<ClosedLoopCount>& counts) {
                          count.guarded ? "yes" : "no", figures.placements, figures.closing_speeds.size(),
                          quantile(figures.closing_speeds, 0.95), figures.free_changed, figures.retreats,
                          figures.least_kept, figures.standoff_speed);
+    for (size_t kind = 0; kind < kRetreatKinds; ++kind) {
+      if (figures.of_kind[kind] == 0) continue;
+      table += fmt::format("{:<50} {} of {} retreats {} kept 99 % of their speed\n", "", figures.kept_of_kind[kind],
+                           figures.of_kind[kind], kRetreats[kind]);
+    }
     if (!count.guarded || figures.near_misses == 0) continue;
     table += fmt::format("{:<50} {} of {} near misses slowed; of their path {:.1f} % was kept in the median\n", "",
                          figures.paths_kept.size(), figures.near_misses, 100.0 * quantile(figures.paths_kept, 0.5));

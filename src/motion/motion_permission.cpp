@@ -5,8 +5,6 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr std::uint32_t kPlanesIncomplete = kNoMesh | kMeshInvalid | kTimeJump | kDetectorFault | kNotSwept;
-
 std::optional<PermissionCause> problemOfCommand(const PermissionInputs& inputs, const Instant& now,
                                                 const PermissionLimits& limits) {
   if (!inputs.command) return PermissionCause::kNoCommand;
@@ -32,7 +30,7 @@ std::optional<PermissionCause> problemOfGuard(const PermissionInputs& inputs, co
 bool mayEscape(const PermissionInputs& inputs, const Instant& now, const PermissionLimits& limits) {
   if (!(limits.escape_speed > 0.0) || !inputs.verdict || !inputs.planes || !inputs.pose) return false;
   if (!inputs.planes->complete || !inputs.planes->tool_known) return false;
-  return (inputs.verdict->reasons & kPlanesIncomplete) == 0 &&
+  return (inputs.verdict->reasons & kSurfacesMissing) == 0 &&
          !stale(inputs.planes->timestamps, now, limits.escape_plane_age) &&
          !stale(*inputs.pose, now, limits.escape_plane_age);
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 
 namespace sweep_guard_core {
@@ -70,16 +69,6 @@ std::array<Eigen::Vector3d, 3> PieceCover::corners_T(const Triangle& triangle) c
 void PieceCover::add(const Eigen::Vector3d& normal_T, double offset_T, size_t number) {
   const Eigen::Vector3d n_M = normal_M(normal_T);
   planes_.push_back({n_M, offset_T + n_M.dot(X_MT_.translation()), number});
-}
-
-double PieceCover::raise(size_t number, const Triangle& triangle, double slack) {
-  const auto plane = std::find_if(planes_.begin(), planes_.end(), [&](const Plane& p) { return p.number == number; });
-  assert(plane != planes_.end());
-  double top = plane->offset - slack;
-  for (const Eigen::Vector3d& corner : corners(triangle)) top = std::max(top, plane->normal_M.dot(corner));
-  const double step = top + slack - plane->offset;
-  plane->offset += step;
-  return step;
 }
 
 std::array<Eigen::Vector3d, 3> PieceCover::corners(const Triangle& triangle) const {

@@ -36,8 +36,6 @@ class PieceCover {
   /// Adds a plane: stands for what lies wholly behind normal_T · p_T <= offset_T.
   /// @param number  of the plane among those of all pieces
   void add(const Eigen::Vector3d& normal_T, double offset_T, size_t number);
-  /// Moves a plane to the tool until a triangle lies behind it by `slack`, and returns how far [m].
-  double raise(size_t number, const Triangle& triangle, double slack);
   size_t planes() const { return planes_.size(); }
 
   /// Returns the number of a plane that the box or triangle lies wholly behind; empty: none.

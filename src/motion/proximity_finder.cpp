@@ -16,9 +16,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr double kSlack = 0.05;        // share of its gap by which a plane moves to the tool
-constexpr double kContactSlack = 0.5;  // share of its depth by which a plane in contact does
 constexpr double kMinSlack = 0x1p-17;  // of the mesh's radius: more than what float32 leaves in doubt
-constexpr double kAccuracy = 1e-6;     // of gaps, in reaches
 constexpr double kSameNormal = 0.9;    // cosine of the angle between normals in contact that one plane stands for
 constexpr double kNearer = 1e-3;       // share by which a triangle may be nearer than one that gets its plane first
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -252,12 +250,18 @@ void ProximityFinder::Search::open(const Candidate& candidate, const Cluster& cl
   if (!facing.cover.hasNearest()) seed(candidate, cluster, box);
   const PieceCover::Classified classified = facing.cover.classify(cluster, box);
   for (const size_t plane : classified.standing) quicken(plane, facing, cluster, box);
+  const double limit = std::min(facing.nearest, request_->reach);
+  double rest = classified.not_nearer != 0 ? facing.nearest : kInfinity;
   for (std::uint64_t left = classified.nearer; left != 0; left &= left - 1) {
     const std::uint32_t triangle = triangleAt(facing, cluster, left);
     const double bound = std::max(candidate.bound, facing.cover.distance(meshOf(facing).triangles()[triangle]));
-    push({bound, candidate.facing, triangle, static_cast<std::uint32_t>(classified.tested), Kind::kTriangle});
+    if (bound < limit) {
+      push({bound, candidate.facing, triangle, static_cast<std::uint32_t>(classified.tested), Kind::kTriangle});
+    } else {
+      rest = std::min(rest, bound);
+    }
   }
-  if (classified.not_nearer != 0) postpone(candidate);
+  if (rest < kInfinity) push({std::max(candidate.bound, rest), candidate.facing, candidate.index, 0, Kind::kCluster});
 }
 
 // What lies behind the plane of the nearest triangle known waits until that triangle has its plane.
@@ -326,7 +330,7 @@ void ProximityFinder::Search::separate(Facing& facing, SeparatedTriangle& separa
   const ConvexShape& shape_T = facing.cover.shape_T();
   const auto corners_T = facing.cover.corners_T(meshOf(facing).triangles()[separated.triangle]);
   const PointHull hull(corners_T);
-  const Separation apart = separation(shape_T, hull, kAccuracy * request_->reach, facing.guess_T);
+  const Separation apart = separation(shape_T, hull, /*accuracy=*/0.0, facing.guess_T);
   separated.normal_T = apart.gap > 0.0 ? apart.normal : contactNormal_T(facing, separated.triangle, corners_T);
   separated.top_T = hull.supportPoint(separated.normal_T);
   separated.gap = -shape_T.support(-separated.normal_T) - separated.normal_T.dot(separated.top_T);
@@ -366,8 +370,8 @@ bool ProximityFinder::Search::joinContact(Facing& facing, const SeparatedTriangl
   ProximityPlane* best = nullptr;
   double cosine = found_->planes.size() == kMaxPlanes ? -1.0 : kSameNormal;
   for (ProximityPlane& each : found_->planes) {
-    const bool in_contact = each.workpiece == surfaces_[facing.surface].workpiece && each.plane.piece == facing.piece &&
-                            each.plane.gap <= 0.0;
+    const bool in_contact =
+        each.workpiece == surfaces_[facing.surface].workpiece && each.plane.piece == facing.piece && each.contact;
     if (!in_contact || !(each.plane.normal_W.dot(n_W) >= cosine)) continue;
     cosine = each.plane.normal_W.dot(n_W);
     best = &each;
@@ -375,25 +379,31 @@ bool ProximityFinder::Search::joinContact(Facing& facing, const SeparatedTriangl
   if (best == nullptr) return false;
   const auto number = static_cast<size_t>(best - found_->planes.data());
   const Triangle& triangle = meshOf(facing).triangles()[separated.triangle];
-  const double step = facing.cover.raise(number, triangle, kMinSlack * meshOf(facing).radius());
-  best->plane.gap -= step;
-  best->plane.point_W += step * best->plane.normal_W;
+  SeparatingPlane& plane = best->plane;
+  const Eigen::Isometry3d& X_WT = request_->pose.X_WT;
+  const Eigen::Vector3d n_T = X_WT.linear().transpose() * plane.normal_W;
+  const Eigen::Vector3d top_W = X_WT * PointHull(facing.cover.corners_T(triangle)).supportPoint(n_T);
+  const double step = std::max(0.0, plane.normal_W.dot(top_W - plane.point_W) + meshOf(facing).rounding());
+  plane.gap -= step;
+  plane.point_W += step * plane.normal_W;
   quicken(number, facing, triangle);
   return true;
 }
 
+// A plane that the piece reaches through separates it from nothing: triangles join it one by one.
 void ProximityFinder::Search::addPlane(Facing& facing, const SeparatedTriangle& separated) {
   const TriangleMesh& mesh_M = meshOf(facing);
-  const double slack = separated.gap > 0.0 ? kSlack * separated.gap : -kContactSlack * separated.gap;
-  const double step = std::max(slack, kMinSlack * mesh_M.radius()) + mesh_M.rounding();
+  const double slack = separated.gap > 0.0 ? std::max(kSlack * separated.gap, kMinSlack * mesh_M.radius()) : 0.0;
+  const double step = slack + mesh_M.rounding();
   const Eigen::Vector3d point_T = separated.top_T + step * separated.normal_T;
   const size_t number = found_->planes.size();
   const Eigen::Isometry3d& X_WT = request_->pose.X_WT;
-  facing.cover.add(separated.normal_T, separated.normal_T.dot(point_T), number);
+  if (separated.gap > 0.0) facing.cover.add(separated.normal_T, separated.normal_T.dot(point_T), number);
   found_->planes.push_back(
       {{facing.piece, X_WT.linear() * separated.normal_T, X_WT * point_T, separated.gap - step, -kInfinity},
        surfaces_[facing.surface].workpiece,
-       separated.triangle});
+       separated.triangle,
+       separated.gap <= 0.0});
   quicken(number, facing, mesh_M.triangles()[separated.triangle]);
 }
 

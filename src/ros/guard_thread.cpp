@@ -53,6 +53,7 @@ Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(
 GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies)
     : dependencies_(dependencies),
       results_(private_node, dependencies.parameters),
+      proximity_(private_node, dependencies.parameters, dependencies.monitor),
       guard_(*dependencies.parameters.initial().tool, firstDetector(dependencies),
              dependencies.parameters.initial().guard) {}
 
@@ -85,6 +86,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   if (differ(*before, *next, "tool/")) change.tool = *next->tool;
   const auto exchange = [&, tested = change.detector != nullptr] {
     guard_.exchange(change);
+    if (change.tool) proximity_.setTool(guard_.tool());
     if (tested) dependencies_.monitor.detectorTested({});
     dependencies_.monitor.setLimits(next->limits);
     dependencies_.statistics.setCycle(next->guard.cycle);
@@ -102,6 +104,7 @@ void GuardThread::reset() {
     dependencies_.monitor.restart();
     guard_.reset();
     guard_.exchange(change);
+    proximity_.reset();
     passed_.clear();
     swept_.reset();
     prediction_due_ = false;
@@ -262,6 +265,7 @@ bool GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
   if (!dependencies_.monitor.counts(queued.checkpoint)) return false;
   if (!queued.checkpoint.continues(checkpoint_)) {
     guard_.reset();
+    proximity_.reset();
     passed_.clear();
   }
   checkpoint_ = queued.checkpoint;
@@ -306,6 +310,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
   dependencies_.statistics.swept(warned - pose.received, end - begin);
   reportFailures(report->failures);
   dependencies_.scene.swept(pose, report);
+  top_->run([&] { proximity_.swept(pose, workpieces, *report, guard_.tool()); });
 }
 
 void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures) {

@@ -14,6 +14,7 @@
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
 #include "ros/log_throttle.h"
+#include "ros/output/proximity_publisher.h"
 #include "ros/output/result_publisher.h"
 #include "ros/output/scene_publisher.h"
 #include "ros/output/warning_publisher.h"
@@ -104,7 +105,8 @@ class GuardThread {
 
   const GuardThreadDependencies dependencies_;
   const ResultPublisher results_;
-  std::mutex change_mutex_;  // one change of the guard at a time
+  ProximityPublisher proximity_;  // after the start, used by the thread only
+  std::mutex change_mutex_;       // one change of the guard at a time
 
   // Used by the thread only:
   WorkQueue::Work work_;

@@ -89,8 +89,7 @@ TEST_F(ClosedLoopTest, ASurfaceThatComesReachesAToolAtRest) {
 class ClosedLoopEpisodeTest : public testing::Test {
  protected:
   ClosedLoopEpisodeTest() : driven_(drive(RecordedMotion(winding()), setup_.limits, setup_.delays)) {
-    const auto& tool = setup_.tool.pieces()[0].shape_T;
-    for (const ObstaclePlacement& placement : placeObstacles(RecordedMotion(driven_.path), tool, {24, 1})) {
+    for (const ObstaclePlacement& placement : placeObstacles(RecordedMotion(driven_.path), setup_.shape, {24, 1})) {
       if (const auto begin = beginOf(driven_, placement, setup_)) placements_.push_back(*begin);
     }
   }

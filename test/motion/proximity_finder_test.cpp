@@ -196,7 +196,7 @@ void expectPlanesInFront(const BruteForce& truth, const Proximity& found, Met& m
     }
     ASSERT_GE(plane.gap, before);
     before = plane.gap;
-    if (plane.gap <= 0.0) ++met.contacts;
+    if (each.contact) ++met.contacts;
   }
 }
 
@@ -376,9 +376,27 @@ TEST(ProximityFinderTest, FromAContactTheToolCanRetreat) {
     finder.find({tool, poseAt(X_WT), {workpiece}, 0.1}, found);
     ASSERT_FALSE(found.planes.empty());
     ASSERT_LT(found.planes[0].plane.gap, 0.0);
-    for (const ProximityPlane& each : found.planes) ASSERT_GT(each.plane.normal_W.z(), 0.0);
+    const Vector3d out_W = X_WT.linear().col(2);
+    for (const ProximityPlane& each : found.planes) {
+      ASSERT_GE(each.plane.normal_W.dot(out_W), each.contact ? 0.5 : -1e-6);
+    }
     ASSERT_GT(found.uncovered.distance, 0.0);
   }
+}
+
+// What is ahead of a drill that has pierced a sheet lies behind the plane of the sheet, too.
+TEST(ProximityFinderTest, APlaneInContactDoesNotStandForWhatTheToolMayStillMeet) {
+  std::vector<Vector3d> vertices = {{-0.1, -0.1, 0.0}, {0.1, -0.1, 0.0}, {0.0, 0.1, 0.0}};
+  for (size_t i = 0; i < 3; ++i) vertices.emplace_back(vertices[i] - Vector3d(0.0, 0.0, 0.02));
+  const auto workpiece = workpieceOf(TriangleMesh(vertices, {{0, 1, 2}, {3, 4, 5}}));
+  const Tool tool(ConvexShape::cylinder(0.002, 0.05).placed(at(0.0, 0.0, 0.05)));
+  ProximityFinder finder;
+  Proximity found;
+  finder.find({tool, poseAt(at(0.0, 0.0, -0.01)), {workpiece}, 0.1}, found);
+  ASSERT_EQ(found.planes.size(), 2U);
+  EXPECT_NEAR(found.planes[0].plane.gap, -0.01, 1e-6);
+  EXPECT_EQ(found.planes[1].triangle, 1U);
+  EXPECT_NEAR(found.planes[1].plane.gap, 0.0095, 1e-5);
 }
 
 TEST(ProximityFinderTest, AContactKeepsTheNormalOfTheSweep) {

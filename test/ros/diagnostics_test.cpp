@@ -5,6 +5,7 @@
 #include <string>
 
 #include "node_fixture.h"
+#include "proximity_listener.h"
 #include "refusal.h"
 #include "ros/output/diagnostics.h"
 
@@ -105,7 +106,8 @@ TEST_F(DiagnosticsTest, ReportDetectorPredictorAndDeadlines) {
 
 TEST_F(DiagnosticsTest, EachStageFromAMessageToAWarningTakesTime) {
   const std::set<std::string> all = {"receive [%]",     "sweep [%]",   "narrow phase [%]", "prediction [%]",
-                                     "probability [%]", "monitor [%]", "publish [%]"};
+                                     "probability [%]", "monitor [%]", "proximity [%]",    "publish [%]"};
+  const TopicListener<sweep_guard::Proximity> planes("proximity");
   touchASquare();
   std::set<std::string> seen;
   for (int tries_left = 20; tries_left > 0 && seen != all; --tries_left) {

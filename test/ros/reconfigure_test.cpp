@@ -9,6 +9,7 @@
 #include <set>
 
 #include "node_fixture.h"
+#include "proximity_listener.h"
 #include "refusal.h"
 #include "ros/output/markers.h"
 
@@ -139,6 +140,27 @@ TEST_F(ReconfigureTest, PaddingGrowsTheTool) {
   change("tool/padding", 0.006);
   EXPECT_EQ(sweep({0.115, 0.0, -0.05}, {0.115, 0.0, -0.05}).objects.size(), 1U);
   EXPECT_TRUE(probe().check(requestAlong({{0.115, 0.0, -0.05}})).collision);
+}
+
+TEST_F(ReconfigureTest, TheReachOfThePlanesChanges) {
+  placeSquare("square", {0.0, 0.0, 0.0});
+  const TopicListener<sweep_guard::Proximity> planes("proximity");
+  const auto newest = [&] {
+    return planes.awaitNewest([](const auto& proximity) { return proximity.header.stamp == probe().time(); });
+  };
+  while (planes.all().empty()) moveTo({0.0, 0.0, 0.15});
+  moveTo({0.0, 0.0, 0.15});
+  EXPECT_TRUE(newest().planes.empty());
+  change("proximity/reach", 0.2);
+  moveTo({0.0, 0.0, 0.15});
+  EXPECT_EQ(newest().planes.size(), 1U);
+  change("proximity/reach", 0.0);
+  const size_t before = planes.all().size();
+  for (int i = 0; i < 5; ++i) moveTo({0.0, 0.0, 0.15});
+  change("proximity/reach", 0.1);
+  moveTo({0.0, 0.0, 0.15});
+  newest();
+  EXPECT_EQ(planes.all().size(), before + 1);
 }
 
 // In a corner of the box about a slanting motion, and outside of the hull.

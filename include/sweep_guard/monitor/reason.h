@@ -36,4 +36,7 @@ enum Reason : std::uint32_t {
 /// CLEAR UNKNOWN, and sets the flag `reflex` of msg/Warning.msg.
 constexpr std::uint32_t kDegraded = kOverload | kPoseLoss;
 
+/// Reasons with which the guard may not know every surface, or not where it is.
+constexpr std::uint32_t kSurfacesMissing = kNoMesh | kMeshInvalid | kTimeJump | kDetectorFault | kNotSwept;
+
 }  // namespace sweep_guard_core

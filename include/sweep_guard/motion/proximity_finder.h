@@ -30,6 +30,7 @@ struct ProximityPlane {
   SeparatingPlane plane;
   std::shared_ptr<const Workpiece> workpiece;  ///< of which a part lies behind the plane
   std::uint32_t triangle;                      ///< nearest triangle behind the plane, for which it was made
+  bool contact;                                ///< the piece overlaps the triangles that the plane stands for
 };
 
 /// The surfaces around a tool.
@@ -43,9 +44,8 @@ struct Proximity {
 
 /// Finds separating planes that stand for all surfaces near a tool. Takes the nearest triangle first; a triangle that lies
 /// wholly behind a plane of its piece and workpiece needs none of its own. A plane touches its triangle, moved to the tool
-/// by a twentieth of its gap, so that one stands for a surface that is nearly flat. In contact the gap is negative, the
-/// plane moves by half of its depth, and it stands for all triangles in contact with nearly the same normal: a normal
-/// along which the tool retreats opens them all.
+/// by a twentieth of its gap, so that one stands for a surface that is nearly flat. In contact the gap is negative, and
+/// the plane stands for the triangles in contact with nearly the same normal, and for nothing else that lies behind it.
 ///
 /// The speed of a surface is the mean one between the two latest deformations that find() got of a workpiece, by their
 /// stamps, plus that of the mesh frame between the two latest poses. It is not less than that of the fastest vertex that

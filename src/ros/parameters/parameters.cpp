@@ -53,6 +53,7 @@ const std::vector<std::string> kChangeable = {"tool/padding",
                                               "warning/hold_time",
                                               "warning/acknowledge_time",
                                               "warning/acknowledge_distance",
+                                              "proximity/reach",
                                               "timing/min_rate",
                                               "timing/pose_timeout",
                                               "timing/mesh_timeout",
@@ -303,6 +304,9 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.acknowledge_distance =
       read.number("warning/acknowledge_distance", 0.03, {0.0, 1.0, "m"},
                   "A warning stays acknowledged while the tool, grown by this much, meets the workpiece.");
+  parameters.proximity_reach =
+      read.number("proximity/reach", 0.1, {0.0, 10.0, "m"},
+                  "~proximity has planes for all surfaces that are nearer to the tool; 0: it is not published.");
   parameters.limits.pose_timeout = toDuration(
       read.number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"}, "An older tool pose makes the warning UNKNOWN."));
   parameters.limits.mesh_timeout = toDuration(read.number(

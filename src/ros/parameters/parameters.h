@@ -37,6 +37,7 @@ struct Parameters {
   std::string profile_file;  ///< that the profile of the predictor was read from; empty: none
   sweep_guard_core::WarningLimits limits;
   double acknowledge_distance;              ///< [m]
+  double proximity_reach;                   ///< [m]; 0: no planes
   double marker_rate;                       ///< [Hz]
   std::set<std::string> marker_namespaces;  ///< published ones
   sweep_guard_core::Duration check_sweep_deadline;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include "ros/parameters/parameters.h"
+#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/monitor/warning_monitor.h"
+#include "sweep_guard/motion/proximity_finder.h"
+
+namespace sweep_guard_ros {
+
+/// Publishes the separating planes at every swept pose, `~proximity`, and the tool that they refer to, `~tool_balls`. One
+/// thread calls it.
+class ProximityPublisher {
+ public:
+  ProximityPublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
+                     const sweep_guard_core::WarningMonitor& monitor);
+
+  /// Publishes the tool that the next planes refer to.
+  void setTool(const sweep_guard_core::Tool& tool);
+
+  /// Computes and publishes the planes, if there is a subscriber and a reach.
+  /// @param report  of the sweep to the pose
+  void swept(const sweep_guard_core::PoseWithFrames& pose, const sweep_guard_core::Workpieces& workpieces,
+             const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool);
+
+  void reset() { finder_.reset(); }  ///< forgets the motion of the surfaces
+
+ private:
+  bool knowsAllSurfaces(const sweep_guard_core::SweepReport& report);
+
+  const LiveParameters& parameters_;
+  const sweep_guard_core::WarningMonitor& monitor_;
+  ros::Publisher planes_publisher_;
+  ros::Publisher tool_publisher_;
+  std::uint32_t tool_revision_ = 0;
+  sweep_guard_core::ProximityFinder finder_;
+  sweep_guard_core::Proximity proximity_;
+  sweep_guard_core::Warning warning_;
+};
+
+}  // namespace sweep_guard_ros
