@@ -1,80 +1,65 @@
 #pragma once
 
-#include <array>
-#include <memory>
 #include <optional>
 
+#include "evaluation/delayed_guard.h"
 #include "evaluation/driven_robot.h"
-#include "evaluation/loop_guard.h"
-#include "evaluation/square_obstacle.h"
-#include "sweep_guard/geometry/separation.h"
-#include "sweep_guard/guard/sweep.h"
+#include "evaluation/loop_scene.h"
 
 namespace sweep_guard_evaluation {
 
-/// A square that rests, or moves straight at constant speed; frame M moves with it, and coincides with W at time 0.
-struct LoopSurface {
-  SquareObstacle square;
-  Eigen::Vector3d velocity_W = Eigen::Vector3d::Zero();  ///< [m/s]
+/// A straight motion at constant speed of the frame M of a surface. At the time `there`, M coincides with W.
+struct SurfaceVelocity {
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< [m/s]
+  sweep_guard_core::Time there;
+
+  Eigen::Isometry3d poseAt(sweep_guard_core::Time time) const;
 };
 
-/// Tells exactly whether a tool touches a square: by the volumes that it sweeps, not at samples.
-class SweptContact {
- public:
-  SweptContact(const sweep_guard_core::ConvexShape& tool, const SquareObstacle& square);
-
-  const std::array<Eigen::Vector3d, 4>& corners() const { return corners_; }
-  sweep_guard_core::Separation separationAt(const Eigen::Isometry3d& X_MT) const;
-
-  /// Returns the number of the first step of a path on which the tool may touch the square. Empty: it does not touch.
-  /// @param gaps  separationAt() the poses: what is far is not swept
-  std::optional<size_t> firstContact(const std::vector<Eigen::Isometry3d>& path_MT, const std::vector<double>& gaps);
-
- private:
-  sweep_guard_core::Tool tool_;
-  sweep_guard_core::TriangleMesh mesh_M_;
-  std::array<Eigen::Vector3d, 4> corners_;
-  std::unique_ptr<sweep_guard_core::Detector> detector_;
+/// What happened between one command and the next.
+struct LoopCycle {
+  sweep_guard_core::Twist command_W;
+  sweep_guard_core::Twist output_W;  ///< what the robot got
+  double gap = 0.0;                  ///< between tool and surface at the begin [m]
+  double least_gap = 0.0;            ///< at the ends of the steps of the robot [m]
+  double standoff_speed = 0.0;       ///< largest closing speed [m/s] in steps that end at the standoff or behind it
+  struct Contact {
+    double closing_speed;  ///< of tool and surface [m/s]
+    double tool_speed;     ///< of the tool alone, towards the surface [m/s]
+  };
+  std::optional<Contact> contact;  ///< the first one
 };
 
-/// A robot, the guard before it, and a surface. A copy goes on from the same state.
+/// A simulated robot with a tool and a surface, with or without a guard before the robot. A copy goes on from the same
+/// state.
 class ClosedLoop {
  public:
-  /// What happened between one command and the next.
-  struct Cycle {
-    sweep_guard_core::Twist output_W;
-    double gap = 0.0;                 ///< between tool and surface at the begin [m]
-    double least_gap = 0.0;           ///< at the ends of the steps [m]
-    double fastest_at_standoff = 0.0; ///< largest closing speed [m/s] of a step that ends at the standoff or behind it
-    std::optional<double> contact_speed;  ///< closing speed [m/s] at the first contact, if there is one
-  };
+  /// @param scene  must outlive this and all copies, of which only one runs at a time
+  ClosedLoop(LoopScene& scene, const SurfaceVelocity& surface, const DrivenRobot::Cycle& begin, double standoff);
 
-  /// @param guard  none: commands go to the robot as they are
-  ClosedLoop(SweptContact& contact, const LoopSurface& surface, const SimulatedRobot& robot,
-             const LoopGuardOptions* guard, double standoff);
+  void addGuard(const DelayedGuardOptions& options) { guard_.emplace(scene_->tool(), options); }
 
-  Cycle run(const sweep_guard_core::Twist& command_W);
-  /// Lets the guard look on before the begin: at the robot, and at the command that it carried out.
-  /// @param before  how long before the begin; decreasing
-  void watch(const SimulatedRobot& robot, const sweep_guard_core::Twist& command_W, sweep_guard_core::Duration before);
+  /// Runs until the next command.
+  LoopCycle run(const sweep_guard_core::Twist& command_W);
 
+  /// Returns what the guard would send, as the robot carries out the command. Then goes on to the robot of the next cycle.
+  /// Needs a guard.
+  sweep_guard_core::Twist watch(const sweep_guard_core::Twist& command_W, const DrivenRobot::Cycle& next);
+
+  const LoopScene& scene() const { return *scene_; }
   const SimulatedRobot& robot() const { return robot_; }
-  Eigen::Isometry3d pose_M() const;
-  const std::optional<LoopGuard>& guard() const { return guard_; }
+  Eigen::Isometry3d X_MT() const;
 
  private:
-  void measure(const SimulatedRobot& robot, sweep_guard_core::Duration time);
-  Eigen::Vector3d moved(sweep_guard_core::Duration time) const {
-    return sweep_guard_core::toSeconds(time) * surface_.velocity_W;
-  }
-  double closingSpeed(const sweep_guard_core::Separation& apart) const;
+  sweep_guard_core::Twist guarded(const sweep_guard_core::Twist& command_W);
+  LoopCycle::Contact speedsAt(const sweep_guard_core::Separation& apart) const;
 
-  SweptContact* contact_;
-  LoopSurface surface_;
+  LoopScene* scene_;
+  SurfaceVelocity surface_;
   SimulatedRobot robot_;
-  std::optional<LoopGuard> guard_;
+  sweep_guard_core::Time now_;
   double standoff_;
-  sweep_guard_core::Duration now_{};
+  std::optional<DelayedGuard> guard_;
 };
 
 }  // namespace sweep_guard_evaluation

@@ -3,224 +3,187 @@
 #include <algorithm>
 #include <cstring>
 
-#include "evaluation/random.h"
-
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::Duration;
-using sweep_guard_core::toSeconds;
+using sweep_guard_core::Time;
 using sweep_guard_core::Twist;
 
 namespace {
 
-constexpr size_t kWatched = 100;
+constexpr size_t kWatched = 400;    // cycles before a placement in which its episode may begin
+constexpr size_t kUntouched = 20;   // cycles before the begin in which a guard changes nothing: more than is in flight
+constexpr size_t kUntilPlanes = 3;  // cycles until a guard has its first planes
+constexpr size_t kReachedLater = 20;  // cycles for which a surface within reach counts: planes and poses are late
+constexpr size_t kCame = 50;          // cycles of the way in that are retraced
+constexpr double kHeld = 0.5;         // share of the speed below which the tool is held
+constexpr Duration kAfter = std::chrono::seconds(2);
+constexpr double kMinApproach = 0.05;  // [m/s] of a surface
+constexpr double kMaxApproach = 0.3;   // [m/s]
 
-bool sameBits(const Twist& a, const Twist& b) {
-  return std::memcmp(a.v_W.data(), b.v_W.data(), sizeof(double) * 3) == 0 &&
-         std::memcmp(a.w_W.data(), b.w_W.data(), sizeof(double) * 3) == 0;
+bool areSame(const Twist& a, const Twist& b) {
+  const auto same = [](const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+    return std::memcmp(x.data(), y.data(), sizeof(double) * 3) == 0;
+  };
+  return same(a.v_W, b.v_W) && same(a.w_W, b.w_W);
 }
 
-double keptOf(const Eigen::Vector3d& output, const Eigen::Vector3d& command) {
-  const double squared = command.squaredNorm();
-  return squared > 0.0 ? output.dot(command) / squared : 1.0;
+double keptOf(const Twist& output_W, const Twist& command_W, double radius) {
+  const double speed = fastestPoint(command_W, radius);
+  return speed > 0.0 ? fastestPoint(output_W, radius) / speed : 1.0;
 }
 
-double kept(const Twist& output_W, const Twist& command_W) {
-  return std::min(keptOf(output_W.v_W, command_W.v_W), keptOf(output_W.w_W, command_W.w_W));
+DelayedGuardOptions guardOf(const ClosedLoopSetup& setup) {
+  DelayedGuardOptions options = setup.guard;
+  options.motion.dead_time = setup.delays.dead_time;
+  options.motion.time_constant = setup.delays.lag;
+  return options;
 }
 
-/// Where the guard held the tool most.
-struct Held {
-  ClosedLoop loop;
-  std::vector<Twist> came_W;  // velocities of the robot before, newest last
-};
-
-bool opensNearest(const SweptContact& contact, const ClosedLoop& loop, const Twist& twist_W) {
-  const Eigen::Isometry3d X_MT = loop.pose_M();
-  const auto apart = contact.separationAt(X_MT);
-  return apart.normal.dot(twist_W.v_W + twist_W.w_W.cross(apart.on_tool - X_MT.translation())) >= 0.0;
+bool followsAt(const DrivenRobot& driven, size_t cycle) {
+  return cycle + 1 < driven.cycles.size() &&
+         driven.cycles[cycle + 1].time == driven.cycles[cycle].time + kCommandPeriod;
 }
 
-bool opensAll(const SweptContact& contact, const ClosedLoop& loop, const std::vector<sweep_guard_core::ToolBall>& balls,
-              const Twist& twist_W) {
-  if (!opensNearest(contact, loop, twist_W)) return false;
-  const Eigen::Isometry3d X_MT = loop.pose_M();
-  for (const auto& ball : balls) {
-    const Eigen::Vector3d center = X_MT * ball.center_T;
-    struct Point {
-      Eigen::Vector3d p;
-      Eigen::Vector3d supportPoint(const Eigen::Vector3d&) const { return p; }
-    } point{center};
-    const auto apart = separation(point, sweep_guard_core::PointHull(contact.corners()));
-    if (apart.normal.dot(twist_W.v_W + twist_W.w_W.cross(center - X_MT.translation())) < 0.0) return false;
-  }
-  return true;
+// Of the cycles without a gap before a cycle, at most `count`.
+size_t cyclesBefore(const DrivenRobot& driven, size_t cycle, size_t count) {
+  size_t first = cycle;
+  while (first > 0 && cycle - first < count && followsAt(driven, first - 1)) --first;
+  return first;
 }
 
-class Retreats {
+ClosedLoop loopAt(LoopScene& scene, const DrivenRobot& driven, size_t cycle, const SurfaceVelocity& surface,
+                  const ClosedLoopSetup& setup) {
+  return {scene, surface, driven.cycles[cycle], setup.guard.motion.standoff};
+}
+
+// Lets a guard look on during one cycle. Returns whether it passes the command on.
+bool watch(ClosedLoop& loop, const DrivenRobot& driven, size_t cycle) {
+  const Twist& command_W = driven.cycles[cycle].command_W;
+  return areSame(loop.watch(command_W, driven.cycles[cycle + 1]), command_W);
+}
+
+// Adds up what the guard did to the commands.
+class Account {
  public:
-  Retreats(const SweptContact& contact, const ClosedLoopOptions& options, const Held& held, std::uint64_t seed)
-      : contact_(contact), options_(options), held_(held), random_(seed), balls_(enclosingBalls(options.guard.tool)) {}
+  Account(const ClosedLoopSetup& setup, ClosedLoopEpisode& episode) : setup_(setup), episode_(episode) {}
 
-  std::vector<Retreat> run() {
-    std::vector<Retreat> all;
-    const auto apart = contact_.separationAt(held_.loop.pose_M());
-    const Eigen::Vector3d across = (contact_.corners()[1] - contact_.corners()[0])
-                                       .cross(contact_.corners()[3] - contact_.corners()[0])
-                                       .normalized();
-    const double side = apart.normal.dot(across) >= 0.0 ? 1.0 : -1.0;
-    all.push_back(retreat(Retreat::Kind::kAway, steady({side * 0.1 * across, Eigen::Vector3d::Zero()}, 30)));
-    std::vector<Twist> back_W(held_.came_W.rbegin(), held_.came_W.rend());
-    for (Twist& twist : back_W) twist = {-twist.v_W, -twist.w_W};
-    all.push_back(retreat(Retreat::Kind::kBack, back_W));
-    for (size_t i = 0; i < options_.retreats; ++i) {
-      const bool turn = i % 2 == 1;
-      for (int tries = 0; tries < 1000; ++tries) {
-        Twist twist_W;
-        twist_W.v_W = random_.uniform(0.02, 0.3) * direction();
-        if (turn) twist_W.w_W = random_.uniform(0.1, options_.robot.max_turn_rate) * direction();
-        if (!opensAll(contact_, held_.loop, balls_, twist_W)) continue;
-        all.push_back(retreat(turn ? Retreat::Kind::kTurn : Retreat::Kind::kMove, steady(twist_W, 30)));
-        break;
-      }
+  void add(const LoopCycle& cycle) {
+    const bool same = areSame(cycle.output_W, cycle.command_W);
+    since_reached_ = cycle.gap > setup_.guard.reach ? since_reached_ + 1 : 0;
+    if (since_reached_ > kReachedLater) {
+      ++episode_.free_commands;
+      if (!same) ++episode_.free_changed;
     }
-    return all;
+    episode_.slowed = episode_.slowed || !same;
+    const double radius = setup_.tool.boundingRadius();
+    commanded_ += fastestPoint(cycle.command_W, radius);
+    carried_ += fastestPoint(cycle.output_W, radius);
+    if (commanded_ > 0.0) episode_.path_kept = carried_ / commanded_;
+    episode_.standoff_speed = std::max(episode_.standoff_speed, cycle.standoff_speed);
+    episode_.contact = cycle.contact;
   }
 
  private:
-  Eigen::Vector3d direction() { return random_.frameWithZ(Eigen::Vector3d::UnitX()).col(0) * 0 + randomUnit(); }
-  Eigen::Vector3d randomUnit() {
-    for (;;) {
-      const Eigen::Vector3d p(random_.uniform(-1, 1), random_.uniform(-1, 1), random_.uniform(-1, 1));
-      if (p.norm() <= 1.0 && p.norm() > 0.1) return p.normalized();
-    }
-  }
-  std::vector<Twist> steady(const Twist& twist_W, size_t cycles) const {
-    std::vector<Twist> all;
-    for (size_t i = 1; i <= cycles; ++i) {
-      const double t = toSeconds(kCommandPeriod) * static_cast<double>(i);
-      double share = std::min(1.0, options_.robot.max_acceleration * t / twist_W.v_W.norm());
-      if (twist_W.w_W.norm() > 0.0)
-        share = std::min(share, options_.robot.max_turn_acceleration * t / twist_W.w_W.norm());
-      all.push_back({share * twist_W.v_W, share * twist_W.w_W});
-    }
-    return all;
-  }
-  Retreat retreat(Retreat::Kind kind, const std::vector<Twist>& commands_W) {
-    Retreat result;
-    result.kind = kind;
-    ClosedLoop loop = held_.loop;
-    const double begin = contact_.separationAt(loop.pose_M()).gap;
-    bool all = true;
-    for (size_t i = 0; i < commands_W.size(); ++i) {
-      const bool nearest = opensNearest(contact_, loop, commands_W[i]);
-      if (!nearest) break;
-      all = all && opensAll(contact_, loop, balls_, commands_W[i]);
-      const auto cycle = loop.run(commands_W[i]);
-      if (cycle.contact_speed) { fprintf(stderr, "contact in retreat\n"); }
-      const double k = kept(cycle.output_W, commands_W[i]);
-      result.kept_near = std::min(result.kept_near, k);
-      if (all) {
-        if (k < 0.99 && getenv("LOOP_DEBUG")) dump(kind, i, loop, commands_W[i], cycle, k);
-        result.kept = std::min(result.kept, k);
-      }
-      if (cycle.least_gap > begin + 0.01 && !result.time_until_free)
-        result.time_until_free = toSeconds(kCommandPeriod) * static_cast<double>(i + 1);
-    }
-    return result;
-  }
-  void dump(Retreat::Kind kind, size_t i, const ClosedLoop& loop, const Twist& command_W, const ClosedLoop::Cycle& cycle, double k) {
-    const auto apart = contact_.separationAt(loop.pose_M());
-    fprintf(stderr, "kind %d cycle %zu gap %.5f kept %.4f v %.3f w %.3f normal angle to square %.1f\n", (int)kind, i, cycle.gap, k,
-            command_W.v_W.norm(), command_W.w_W.norm(),
-            std::acos(std::min(1.0, std::abs(apart.normal.dot((contact_.corners()[1] - contact_.corners()[0])
-                                       .cross(contact_.corners()[3] - contact_.corners()[0])
-                                       .normalized())))) * 57.3);
-    const auto& c = contact_.corners();
-    const Eigen::Vector3d ctr = 0.5 * (c[0] + c[2]);
-    const Eigen::Vector3d ax = (c[1] - c[0]).normalized(), ay = (c[3] - c[0]).normalized();
-    const double half = 0.5 * (c[1] - c[0]).norm();
-    size_t bi = 0;
-    for (const auto& ball : loop.guard()->facing()) {
-      const size_t index = bi++;
-      const double u = closingSpeed(ball, command_W);
-      const double limit = closingLimit(ball, command_W.w_W.norm(), options_.guard.braking);
-      const bool ex = (index / balls_.size()) % 2 == 1;
-      const auto& X = ex ? loop.guard()->dbg_expected : loop.guard()->dbg_pose;
-      const Eigen::Vector3d p = X.translation() + ball.center_W;
-      struct Point {
-        Eigen::Vector3d q;
-        Eigen::Vector3d supportPoint(const Eigen::Vector3d&) const { return q; }
-      } point{p};
-      const auto a2 = separation(point, sweep_guard_core::PointHull(contact_.corners()));
-      if (u > limit) fprintf(stderr, "   ball %.4f %.4f %.4f gap %.5f closes %.4f limit %.4f normal.now %.1f deg %s beyond x %.4f y %.4f truly opens %.4f true gap %.4f w2 %.4f\n", ball.center_W.x(), ball.center_W.y(), ball.center_W.z(),
-          ball.gap, u, limit, std::acos(std::min(1.0, ball.normal_W.dot(apart.normal))) * 57.3, ex ? "expected" : "pose", std::abs(ax.dot(p - ctr)) - half, std::abs(ay.dot(p - ctr)) - half, a2.normal.dot(command_W.v_W + command_W.w_W.cross(ball.center_W)), a2.gap, 0.0);
-    }
-  }
-
-  const SweptContact& contact_;
-  const ClosedLoopOptions& options_;
-  const Held& held_;
-  Random random_;
-  std::vector<sweep_guard_core::ToolBall> balls_;
+  const ClosedLoopSetup& setup_;
+  ClosedLoopEpisode& episode_;
+  size_t since_reached_ = kReachedLater;
+  double commanded_ = 0.0;
+  double carried_ = 0.0;
 };
+
+SurfaceVelocity velocityOf(const LoopScene& scene, const DrivenRobot& driven, const LoopPlacement& placement,
+                           SurfaceMotionKind kind, Random& random) {
+  if (kind == SurfaceMotionKind::kRests) return {};
+  const Eigen::Isometry3d X_MT = driven.cycles[placement.begin].robot.pose();
+  const double side = scene.separationAt(X_MT).normal.dot(scene.normal_M()) >= 0.0 ? 1.0 : -1.0;
+  return {side * random.uniform(kMinApproach, kMaxApproach) * scene.normal_M(), placement.placement.end};
+}
+
+// A robot that rests where the placement has its contact, from the begin of the episode to its end.
+DrivenRobot resting(const DrivenRobot& driven, const LoopPlacement& placement, const ClosedLoopSetup& setup) {
+  const size_t end = std::min(driven.cycleAt(placement.placement.end), driven.cycles.size() - 1);
+  const SimulatedRobot robot(driven.cycles[end].robot.pose(), setup.delays);
+  DrivenRobot at_rest;
+  Time time = driven.cycles[placement.begin].time;
+  for (; time < placement.placement.end + kAfter; time += kCommandPeriod) at_rest.cycles.push_back({time, {}, robot});
+  return at_rest;
+}
+
+std::vector<Twist> newest(const std::vector<Twist>& twists, size_t count) {
+  return {twists.end() - static_cast<std::ptrdiff_t>(std::min(count, twists.size())), twists.end()};
+}
 
 }  // namespace
 
-ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const ObstaclePlacement& placement,
-                             const ClosedLoopOptions& options, bool guarded, std::uint64_t seed) {
-  SweptContact contact(options.guard.tool, placement.obstacle);
-  const size_t begin = driven.cycleAt(placement.begin);
-  ClosedLoop loop(contact, {placement.obstacle}, driven.cycles[begin].robot, guarded ? &options.guard : nullptr,
-                  options.guard.braking.standoff);
-  for (size_t i = std::max(begin, kWatched) - kWatched; i < begin; ++i) {
-    loop.watch(driven.cycles[i].robot, driven.cycles[i].command_W, driven.cycles[begin].time - driven.cycles[i].time);
+sweep_guard_core::Tool inPieces(const sweep_guard_core::ConvexShape& cylinder, size_t count) {
+  const double length = cylinder.length() / static_cast<double>(count);
+  std::vector<sweep_guard_core::ConvexPiece> pieces;
+  for (size_t i = 0; i < count; ++i) {
+    Eigen::Isometry3d X_TP = Eigen::Isometry3d::Identity();
+    X_TP.translation().z() = -length * static_cast<double>(i);
+    pieces.push_back({"", sweep_guard_core::ConvexShape::cylinder(cylinder.radius(), length).placed(X_TP)});
   }
+  return sweep_guard_core::Tool(pieces);
+}
+
+std::optional<LoopPlacement> beginOf(const DrivenRobot& driven, const ObstaclePlacement& placement,
+                                     const ClosedLoopSetup& setup) {
+  LoopScene scene(setup.tool, placement.obstacle);
+  const size_t latest = driven.cycleAt(placement.begin);
+  std::optional<LoopPlacement> found;
+  std::optional<ClosedLoop> loop;
+  size_t watched = 0;
+  size_t passed = 0;
+  for (size_t cycle = cyclesBefore(driven, latest, kWatched); cycle < latest; ++cycle) {
+    if (!loop) {
+      scene.startAgain();
+      loop.emplace(loopAt(scene, driven, cycle, {}, setup)).addGuard(guardOf(setup));
+      watched = 0;
+    }
+    passed = watch(*loop, driven, cycle) ? passed + 1 : 0;
+    if (++watched > kUntilPlanes && passed == 0) loop.reset();  // it would go on from what was not sent
+    const bool apart = scene.separationAt(driven.cycles[cycle + 1].robot.pose()).gap > setup.guard.motion.standoff;
+    if (passed >= kUntouched && apart) found = LoopPlacement{placement, cycle + 1};
+  }
+  return found;
+}
+
+ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const LoopPlacement& placement, const ClosedLoopSetup& setup,
+                             const EpisodeKind& kind) {
+  Random random(kind.seed);
+  LoopScene scene(setup.tool, placement.placement.obstacle);
+  const SurfaceVelocity surface = velocityOf(scene, driven, placement, kind.surface, random);
+  size_t cycle = cyclesBefore(driven, placement.begin, kUntouched + kUntilPlanes);
+  ClosedLoop loop = loopAt(scene, driven, cycle, surface, setup);
+  if (kind.guarded) loop.addGuard(guardOf(setup));
+  for (; cycle < placement.begin; ++cycle) watch(loop, driven, cycle);
+
   ClosedLoopEpisode episode;
-  episode.gap_at_begin = contact.separationAt(loop.pose_M()).gap;
-  episode.least_gap = episode.gap_at_begin;
-  std::optional<Held> held;
-  double held_kept = 0.5;
+  Account account(setup, episode);
+  std::optional<HeldTool> held;
+  double least_kept = kHeld;
   std::vector<Twist> came_W;
-  double commanded = 0.0;
-  double carried = 0.0;
-  auto time = driven.cycles[begin].time;
-  bool out = false;
-  for (size_t i = begin; i < driven.cycles.size() && driven.cycles[i].time == time &&
-                         time < placement.end + options.after; ++i, time += kCommandPeriod) {
-    const Twist& command_W = driven.cycles[i].command_W;
-    const auto cycle = loop.run(command_W);
+  const Time end = placement.placement.end + kAfter;
+  for (; driven.cycles[cycle].time < end && !episode.contact; ++cycle) {
+    const LoopCycle ran = loop.run(driven.cycles[cycle].command_W);
+    account.add(ran);
     came_W.push_back(loop.robot().velocity_W());
-    out = out || cycle.gap > options.guard.braking.standoff + 1e-4;
-    if (out) {
-      if (cycle.fastest_at_standoff > 0.001 && cycle.fastest_at_standoff > episode.fastest_at_standoff && guarded && getenv("LOOP_DEBUG"))
-        fprintf(stderr, "standoff: gap %.6f least %.6f closing %.5f at %.2f s, began at %.4f\n", cycle.gap, cycle.least_gap, cycle.fastest_at_standoff,
-                toSeconds(time - placement.begin), episode.gap_at_begin);
-      episode.fastest_at_standoff = std::max(episode.fastest_at_standoff, cycle.fastest_at_standoff);
-    }
-    episode.least_gap = std::min(episode.least_gap, cycle.least_gap);
-    const bool free = cycle.gap > options.guard.reach + 0.1;
-    if (free) {
-      ++episode.free_cycles;
-      if (!sameBits(cycle.output_W, command_W)) ++episode.free_changed;
-    }
-    const double radius = options.guard.tool.boundingRadius();
-    commanded += fastestPoint(command_W, radius);
-    carried += fastestPoint(cycle.output_W, radius);
-    const double k = kept(cycle.output_W, command_W);
-    episode.least_kept = std::min(episode.least_kept, k);
-    if (guarded && k < held_kept) {
-      held_kept = k;
-      held.emplace(Held{loop, {came_W.end() - static_cast<long>(std::min<size_t>(50, came_W.size())), came_W.end()}});
-    }
-    if (cycle.contact_speed) {
-      episode.contact_speed = cycle.contact_speed;
-      break;
-    }
+    const double kept = keptOf(ran.output_W, ran.command_W, setup.tool.boundingRadius());
+    if (kept < least_kept) held.emplace(HeldTool{loop, newest(came_W, kCame)});
+    least_kept = std::min(least_kept, kept);
+    if (!followsAt(driven, cycle)) break;
   }
-  if (commanded > 0.0) episode.path_kept = carried / commanded;
-  if (held) episode.retreats = Retreats(contact, options, *held, seed).run();
+  if (held && kind.surface == SurfaceMotionKind::kRests) {
+    scene.startAgain();
+    episode.retreats = retreatFrom(*held, setup.limits, setup.random_retreats, random);
+  }
   return episode;
+}
+
+ClosedLoopEpisode runEpisodeAtRest(const DrivenRobot& driven, const LoopPlacement& placement,
+                                   const ClosedLoopSetup& setup, const EpisodeKind& kind) {
+  return runEpisode(resting(driven, placement, setup), {placement.placement, 0}, setup, kind);
 }
 
 }  // namespace sweep_guard_evaluation

@@ -3,42 +3,65 @@
 #include <optional>
 #include <vector>
 
-#include "evaluation/closed_loop.h"
 #include "evaluation/obstacle_placement.h"
+#include "evaluation/retreat.h"
 
 namespace sweep_guard_evaluation {
 
-struct ClosedLoopOptions {
-  RobotLimits robot;
+struct ClosedLoopSetup {
+  sweep_guard_core::ConvexShape shape = sweep_guard_core::ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
+  sweep_guard_core::Tool tool{shape};  ///< of this shape, in one or more pieces
+  RobotLimits limits;
   RobotDelays delays;
-  LoopGuardOptions guard;
-  sweep_guard_core::Duration after = std::chrono::seconds(2);  ///< that an episode goes on after its end, >= 0
-  size_t retreats = 8;                                         ///< in random directions from each place
-};
-
-/// A retreat from where the guard held the tool.
-struct Retreat {
-  enum class Kind { kAway, kBack, kMove, kTurn };
-  Kind kind;
-  double kept = 1.0;  ///< least share of the commanded speed
-  double kept_near = 1.0;
-  std::optional<double> time_until_free;  ///< until the gap has grown by 10 mm [s]
+  DelayedGuardOptions guard;   ///< its delays of the robot are replaced by `delays`
+  size_t random_retreats = 4;  ///< of each kind, from each place where the guard held the tool
 };
 
 /// What happened at one placement.
 struct ClosedLoopEpisode {
-  std::optional<double> contact_speed;  ///< [m/s]
-  double fastest_at_standoff = 0.0;     ///< [m/s]
-  double least_gap = 0.0;
-  double gap_at_begin = 0.0;
-  size_t free_cycles = 0;     ///< without a surface within reach
-  size_t free_changed = 0;    ///< of these: the output was not the command, bit for bit
-  double least_kept = 1.0;    ///< share of the commanded speed
-  double path_kept = 1.0;     ///< share of the commanded path
+  std::optional<LoopCycle::Contact> contact;  ///< ends the episode
+  double standoff_speed = 0.0;                ///< largest closing speed at the standoff or behind it [m/s]
+  size_t free_commands = 0;                   ///< while no surface was within reach
+  size_t free_changed = 0;                    ///< of these: not passed on bit for bit
+  bool slowed = false;                        ///< a command was not passed on bit for bit
+  double path_kept = 1.0;                     ///< share of the commanded path of the fastest tool point
   std::vector<Retreat> retreats;
 };
 
-ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const ObstaclePlacement& placement,
-                             const ClosedLoopOptions& options, bool guarded, std::uint64_t seed);
+/// How a surface moves.
+enum class SurfaceMotionKind : std::uint8_t {
+  kRests,
+  kComes  ///< along its normal to the tool; it is where the placement has it when the placement ends
+};
+
+struct EpisodeKind {
+  SurfaceMotionKind surface = SurfaceMotionKind::kRests;
+  bool guarded = true;     ///< false: commands go to the robot as they are
+  std::uint64_t seed = 1;  ///< of the retreats, and of the speed of a surface that comes, 0.05 to 0.3 m/s
+};
+
+/// Returns a cylinder as a tool of pieces end to end.
+sweep_guard_core::Tool inPieces(const sweep_guard_core::ConvexShape& cylinder, size_t count);
+
+/// A placement, and when the loop begins.
+struct LoopPlacement {
+  ObstaclePlacement placement;
+  size_t begin;  ///< first cycle of the driven robot
+};
+
+/// Returns when the episode of a placement may begin: at the latest cycle, not after that of the placement, at which the
+/// tool is beyond the standoff and a guard has passed on every command for 0.2 s. So neither arm begins with a tool that is too fast to be stopped. Empty:
+/// there is none in the 4 s before.
+std::optional<LoopPlacement> beginOf(const DrivenRobot& driven, const ObstaclePlacement& placement,
+                                     const ClosedLoopSetup& setup);
+
+/// Runs one placement, until 2 s after its end, to the first contact or to a gap of the recording. The retreats are those
+/// from where a guard took most of a command, if that was more than half of it, before a surface at rest.
+ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const LoopPlacement& placement, const ClosedLoopSetup& setup,
+                             const EpisodeKind& kind);
+
+/// Runs one placement with a robot that rests where the driven one is when the placement ends.
+ClosedLoopEpisode runEpisodeAtRest(const DrivenRobot& driven, const LoopPlacement& placement,
+                                   const ClosedLoopSetup& setup, const EpisodeKind& kind);
 
 }  // namespace sweep_guard_evaluation

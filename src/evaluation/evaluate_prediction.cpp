@@ -1,15 +1,14 @@
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <set>
 #include <sstream>
-#include <system_error>
 
 #include "common/run_program.h"
 #include "evaluation/calibration_report.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/gnuplot.h"
 #include "evaluation/options.h"
+#include "evaluation/output_file.h"
 #include "evaluation/parallel.h"
 #include "evaluation/profile_report.h"
 #include "evaluation/progress_bar.h"
@@ -27,31 +26,6 @@ using std::chrono::milliseconds;
 using sweep_guard_core::Duration;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_recording::Recording;
-
-/// Opens a file for the results before the work begins. Refuses it if it is not writable or is one of the inputs.
-class OutputFile {
- public:
-  OutputFile(const std::string& path, const std::vector<std::string>& inputs) : path_(path) {
-    if (path.empty()) return;
-    std::error_code none;
-    for (const std::string& input : inputs) {
-      if (!std::filesystem::equivalent(path, input, none)) continue;
-      throw InvalidInput(path + ": is an input and would be overwritten; give another file");
-    }
-    stream_.open(path);
-    if (!stream_) throw InvalidInput(path + ": cannot be written; check folder and permissions");
-  }
-  bool requested() const { return !path_.empty(); }
-  const std::string& path() const { return path_; }
-  void write(const std::string& text) {
-    stream_ << text << std::flush;
-    if (!stream_) throw InvalidInput(path_ + ": cannot be written; is the disk full?");
-  }
-
- private:
-  std::string path_;
-  std::ofstream stream_;
-};
 
 std::vector<Recording> readAll(const Options& options) {
   std::vector<Recording> recordings(options.files.size());

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <limits>
 #include <sstream>
-#include <type_traits>
 
-#include "common/number_text.h"
 #include "evaluation/csv.h"
+#include "evaluation/option_values.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_evaluation {
@@ -27,11 +25,6 @@ std::vector<std::string> splitAtCommas(const std::string& list) {
   std::istringstream stream(list + ',');
   for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
   return words;
-}
-
-auto text(std::string& word, const char* name) { return po::value(&word)->value_name(name); }
-auto withDefault(const std::string& word, const char* name) {
-  return po::value<std::string>()->value_name(name)->default_value(word);
 }
 
 po::options_description outputOptions(Options& options) {
@@ -105,14 +98,6 @@ po::options_description sessionOptions(Options& options) {
       "tune-csv", text(options.tune_csv, "FILE"), "with --tune: what each threshold gives")(
       "tune-plot", text(options.tune_plot, "FILE.png"), "with --tune: plot of the trade-off");
   return described;
-}
-
-template <typename Number>
-Number toNumber(const std::string& option, const std::string& word, Number lower, Number upper) {
-  const std::optional<Number> number = sweep_guard_core::parseNumber<Number>(word);
-  if (number && *number >= lower && *number <= upper) return *number;
-  throw InvalidInput(fmt::format("--{}: '{}' is not {} in [{}, {}]", option, word,
-                                 std::is_integral_v<Number> ? "a whole number" : "a number", lower, upper));
 }
 
 std::vector<std::string> toPredictors(const std::string& list) {
@@ -218,19 +203,7 @@ Options parseOptions(int argc, const char* const* argv) {
       .add(predictionOptions(options))
       .add(warningOptions(options))
       .add(sessionOptions(options));
-  all.add_options()("file", po::value(&options.files));
-  po::variables_map values;
-  try {
-    po::store(po::command_line_parser(argc, argv)
-                  .options(all)
-                  .positional(po::positional_options_description().add("file", -1))
-                  .style(po::command_line_style::default_style & ~po::command_line_style::allow_guessing)
-                  .run(),
-              values);
-    po::notify(values);
-  } catch (const po::error& error) {
-    throw InvalidInput(std::string(error.what()) + "; --help lists the options");
-  }
+  const po::variables_map values = parseCommandLine(argc, argv, all, options.files);
   store(values, options);
   if (options.files.empty() && !options.help) throw InvalidInput("no recording; --help shows the usage");
   return options;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -17,6 +18,14 @@ class Random {
   /// Returns a number in [lower, upper).
   double uniform(double lower, double upper) {
     return lower + (upper - lower) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
+  }
+
+  /// Returns a unit vector, all directions alike.
+  Eigen::Vector3d direction() {
+    const double z = uniform(-1.0, 1.0);
+    const double angle = uniform(0.0, 2.0 * kPi);
+    const double radius = std::sqrt(1.0 - z * z);
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
   }
 
   /// Returns a rotation that takes z to `z_W`, with a random angle about it.

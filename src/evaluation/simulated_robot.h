@@ -11,7 +11,7 @@ namespace sweep_guard_evaluation {
 /// What a robot is able to carry out.
 struct RobotLimits {
   double max_speed = 0.5;               ///< of the origin of the tool frame [m/s], > 0
-  double max_turn_rate = 1.5;           ///< [rad/s], > 0
+  double max_turn_rate = 1.0;           ///< [rad/s], > 0
   double max_acceleration = 2.0;        ///< [m/s^2], > 0
   double max_turn_acceleration = 10.0;  ///< [rad/s^2], > 0
 };

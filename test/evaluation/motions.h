@@ -26,4 +26,15 @@ inline std::vector<StampedPose> straightMotion(double speed, sweep_guard_core::D
   return poses;
 }
 
+/// Returns a motion along a figure of eight, 0.4 m wide, for a minute.
+inline std::vector<StampedPose> winding() {
+  std::vector<StampedPose> poses = straightMotion(0.0, milliseconds(20), seconds(60));
+  for (StampedPose& pose : poses) {
+    const double t = sweep_guard_core::toSeconds(pose.stamp.time_since_epoch());
+    pose.X_WT.translation() << 0.2 * std::sin(0.9 * t), 0.2 * std::sin(1.7 * t), 0.1 * std::cos(0.6 * t);
+    pose.X_WT.rotate(Eigen::AngleAxisd(0.5 * std::sin(t), Eigen::Vector3d::UnitX()));
+  }
+  return poses;
+}
+
 }  // namespace sweep_guard_evaluation

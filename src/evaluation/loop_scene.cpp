@@ -1,0 +1,47 @@
+#include "evaluation/loop_scene.h"
+
+#include <algorithm>
+
+#include "detection/placed_core.h"
+#include "evaluation/simulated_node.h"
+
+namespace sweep_guard_evaluation {
+
+using sweep_guard_core::ConvexPiece;
+using sweep_guard_core::Separation;
+
+LoopScene::LoopScene(const sweep_guard_core::Tool& tool, const SquareObstacle& square)
+    : tool_(tool), detector_(sweep_guard_core::makeDetector("reference")) {
+  workpieces_.push_back(std::make_shared<const sweep_guard_core::Workpiece>(
+      sweep_guard_core::Workpiece{"square", 1, {}, {}, kFrame, meshOf(square)}));
+  for (size_t i = 0; i < corners_M_.size(); ++i) corners_M_[i] = workpieces_[0]->mesh_M.vertex(i);
+}
+
+Eigen::Vector3d LoopScene::normal_M() const {
+  return (corners_M_[1] - corners_M_[0]).cross(corners_M_[3] - corners_M_[0]).normalized();
+}
+
+Separation LoopScene::separationAt(const Eigen::Isometry3d& X_MT) const {
+  std::optional<Separation> nearest;
+  for (const ConvexPiece& piece : tool_.pieces()) {
+    const sweep_guard_core::PlacedCore core{piece.shape_T, X_MT.linear(), X_MT.translation()};
+    Separation apart = separation(core, sweep_guard_core::PointHull(corners_M_));
+    apart.gap -= piece.shape_T.padding();
+    if (!nearest || apart.gap < nearest->gap) nearest = apart;
+  }
+  return *nearest;
+}
+
+std::optional<size_t> LoopScene::firstContact(const std::vector<Eigen::Isometry3d>& path_MT,
+                                              const std::vector<double>& gaps) {
+  if (*std::min_element(gaps.begin(), gaps.end()) > kSwept) return std::nullopt;
+  return checkPath(*detector_, {tool_, path_MT, workpieces_[0]->mesh_M}).first_contact;
+}
+
+const sweep_guard_core::Proximity& LoopScene::proximityAt(const Eigen::Isometry3d& X_WT, const Eigen::Isometry3d& X_WM,
+                                                          sweep_guard_core::Time stamp, double reach) {
+  finder_.find({tool_, {stamp, instantOf(stamp).steady, X_WT, {{kFrame, X_WM}}}, workpieces_, reach}, proximity_);
+  return proximity_;
+}
+
+}  // namespace sweep_guard_evaluation

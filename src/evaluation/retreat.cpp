@@ -1,0 +1,118 @@
+#include "evaluation/retreat.h"
+
+#include <algorithm>
+
+#include "sweep_guard/motion/separating_plane.h"
+
+namespace sweep_guard_evaluation {
+
+using sweep_guard_core::toSeconds;
+using sweep_guard_core::Twist;
+
+namespace {
+
+constexpr size_t kCycles = 30;
+constexpr int kTries = 1000;          // for each random direction
+constexpr double kNormalSpeed = 0.1;  // [m/s]
+constexpr double kMinSpeed = 0.02;    // [m/s] of a random retreat
+constexpr double kMinTurnRate = 0.1;  // [rad/s]
+constexpr double kShareOfMax = 0.6;   // of the robot's speed, at most
+
+struct Point {
+  Eigen::Vector3d p;
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& /*direction*/) const { return p; }
+};
+
+bool opens(const Twist& twist_W, const Eigen::Vector3d& normal, const Eigen::Vector3d& from_origin) {
+  return normal.dot(twist_W.v_W + twist_W.w_W.cross(from_origin)) >= 0.0;
+}
+
+bool opensNearestGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const Twist& twist_W) {
+  const auto apart = scene.separationAt(X_MT);
+  return opens(twist_W, apart.normal, apart.on_tool - X_MT.translation());
+}
+
+double keptOf(const Eigen::Vector3d& output, const Eigen::Vector3d& command) {
+  const double squared = command.squaredNorm();
+  return squared > 0.0 ? output.dot(command) / squared : 1.0;
+}
+
+// Speeds up from rest as the robot can; the ratio of translation and turn stays.
+std::vector<Twist> speedUpTo(const Twist& twist_W, const RobotLimits& limits) {
+  std::vector<Twist> commands_W;
+  for (size_t i = 1; i <= kCycles; ++i) {
+    const double time = toSeconds(kCommandPeriod) * static_cast<double>(i);
+    const double share = std::min({1.0, limits.max_acceleration * time / std::max(1e-9, twist_W.v_W.norm()),
+                                   limits.max_turn_acceleration * time / std::max(1e-9, twist_W.w_W.norm())});
+    commands_W.push_back({share * twist_W.v_W, share * twist_W.w_W});
+  }
+  return commands_W;
+}
+
+std::vector<Twist> reversed(const std::vector<Twist>& came_W) {
+  std::vector<Twist> back_W;
+  for (auto twist = came_W.rbegin(); twist != came_W.rend(); ++twist) back_W.push_back({-twist->v_W, -twist->w_W});
+  return back_W;
+}
+
+Retreat run(RetreatKind kind, ClosedLoop loop, const std::vector<Twist>& commands_W) {
+  Retreat retreat;
+  retreat.kind = kind;
+  const double begin = loop.scene().separationAt(loop.X_MT()).gap;
+  double seconds = 0.0;
+  for (const Twist& command_W : commands_W) {
+    const bool opening = kind == RetreatKind::kNormal ? opensNearestGap(loop.scene(), loop.X_MT(), command_W)
+                                                      : opensEveryGap(loop.scene(), loop.X_MT(), command_W);
+    if (!opening) break;
+    const LoopCycle cycle = loop.run(command_W);
+    seconds += toSeconds(kCommandPeriod);
+    retreat.speed_kept = std::min(
+        {retreat.speed_kept, keptOf(cycle.output_W.v_W, command_W.v_W), keptOf(cycle.output_W.w_W, command_W.w_W)});
+    retreat.contact = retreat.contact || cycle.contact;
+    if (!retreat.time_until_free && cycle.least_gap >= begin + Retreat::kFree) retreat.time_until_free = seconds;
+  }
+  return retreat;
+}
+
+Twist randomTwist(RetreatKind kind, const RobotLimits& limits, Random& random) {
+  Twist twist_W;
+  twist_W.v_W = random.uniform(kMinSpeed, kShareOfMax * limits.max_speed) * random.direction();
+  if (kind == RetreatKind::kTurn) {
+    twist_W.w_W = random.uniform(kMinTurnRate, limits.max_turn_rate) * random.direction();
+  }
+  return twist_W;
+}
+
+}  // namespace
+
+bool opensEveryGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const Twist& twist_W) {
+  if (!opensNearestGap(scene, X_MT, twist_W)) return false;
+  for (const auto& piece : scene.tool().pieces()) {
+    for (const auto& ball : enclosingBalls(piece.shape_T)) {
+      const Eigen::Vector3d center_M = X_MT * ball.center_T;
+      const auto apart = separation(Point{center_M}, sweep_guard_core::PointHull(scene.corners_M()));
+      if (!opens(twist_W, apart.normal, center_M - X_MT.translation())) return false;
+    }
+  }
+  return true;
+}
+
+std::vector<Retreat> retreatFrom(const HeldTool& held, const RobotLimits& limits, size_t random_count, Random& random) {
+  const LoopScene& scene = held.loop.scene();
+  const Eigen::Isometry3d X_MT = held.loop.X_MT();
+  const double side = scene.separationAt(X_MT).normal.dot(scene.normal_M()) >= 0.0 ? 1.0 : -1.0;
+  const Twist away_W{side * kNormalSpeed * scene.normal_M(), Eigen::Vector3d::Zero()};
+  std::vector<Retreat> retreats = {run(RetreatKind::kNormal, held.loop, speedUpTo(away_W, limits)),
+                                   run(RetreatKind::kReverse, held.loop, reversed(held.came_W))};
+  for (const RetreatKind kind : {RetreatKind::kTranslate, RetreatKind::kTurn}) {
+    for (size_t i = 0; i < random_count; ++i) {
+      Twist twist_W = randomTwist(kind, limits, random);
+      int tries = 0;
+      while (tries++ < kTries && !opensEveryGap(scene, X_MT, twist_W)) twist_W = randomTwist(kind, limits, random);
+      if (tries <= kTries) retreats.push_back(run(kind, held.loop, speedUpTo(twist_W, limits)));
+    }
+  }
+  return retreats;
+}
+
+}  // namespace sweep_guard_evaluation
