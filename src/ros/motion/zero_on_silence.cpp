@@ -4,6 +4,7 @@
 #include <geometry_msgs/TwistStamped.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "ros/output/flush.h"
@@ -57,6 +58,7 @@ ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle&
       updater_(node, private_node, private_node.getNamespace()),
       supervisor_(Process::kOwn) {
   const std::string type = read.choice("command_type", "twist", {"twist", "twist_stamped"});
+  read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
   read.warnOfUnread();
   updater_.setHardwareID("none");
   updater_.add("commands", [this](Status& status) { report(status); });
