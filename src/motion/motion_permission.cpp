@@ -19,16 +19,22 @@ std::optional<PermissionCause> problemOfGuard(const PermissionInputs& inputs, co
   if (!inputs.verdict) return PermissionCause::kNoWarning;
   if (now.steady - inputs.verdict->received > limits.silence) return PermissionCause::kWarningSilent;
   if (inputs.verdict->level == WarningLevel::kUnknown) return PermissionCause::kUnknown;
+  if (!inputs.pose) return PermissionCause::kNoPose;
+  if (now.steady - inputs.pose->received > limits.silence) return PermissionCause::kPoseSilent;
   if (!inputs.planes) return PermissionCause::kNoPlanes;
   if (now.steady - inputs.planes->timestamps.received > limits.silence) return PermissionCause::kPlanesSilent;
   if (now.stamp > inputs.planes->valid_until) return PermissionCause::kPlanesExpired;
+  if (!inputs.planes->complete) return PermissionCause::kIncomplete;
+  if (!inputs.planes->tool_known) return PermissionCause::kNoTool;
   return {};
 }
 
 bool mayEscape(const PermissionInputs& inputs, const Instant& now, const PermissionLimits& limits) {
-  if (!(limits.escape_speed > 0.0) || !inputs.verdict || !inputs.planes) return false;
+  if (!(limits.escape_speed > 0.0) || !inputs.verdict || !inputs.planes || !inputs.pose) return false;
+  if (!inputs.planes->complete || !inputs.planes->tool_known) return false;
   return (inputs.verdict->reasons & kPlanesIncomplete) == 0 &&
-         !stale(inputs.planes->timestamps, now, limits.escape_plane_age);
+         !stale(inputs.planes->timestamps, now, limits.escape_plane_age) &&
+         !stale(*inputs.pose, now, limits.escape_plane_age);
 }
 
 }  // namespace
@@ -53,6 +59,14 @@ const char* textOf(PermissionCause cause) {
       return "no new separating planes";
     case PermissionCause::kPlanesExpired:
       return "the separating planes have expired";
+    case PermissionCause::kNoPose:
+      return "no tool pose yet";
+    case PermissionCause::kPoseSilent:
+      return "no new tool pose";
+    case PermissionCause::kIncomplete:
+      return "not every workpiece was tested at the newest pose";
+    case PermissionCause::kNoTool:
+      return "the balls of this tool have not arrived";
   }
   return "";
 }

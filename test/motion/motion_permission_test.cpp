@@ -23,6 +23,7 @@ class MotionPermissionTest : public testing::Test {
     inputs_.command = received(990);
     inputs_.verdict = PermissionInputs::Verdict{WarningLevel::kClear, 0, at(990).steady};
     inputs_.planes = PermissionInputs::Planes{received(990), at(1140).stamp};
+    inputs_.pose = received(990);
   }
 
   void expect(Permission permission, PermissionCause cause, int ms = 1000) const {
@@ -86,6 +87,23 @@ TEST_F(MotionPermissionTest, NeedsPlanesThatAreValid) {
   expect(Permission::kStop, PermissionCause::kPlanesExpired);
 }
 
+TEST_F(MotionPermissionTest, NeedsAPoseWithinTheSilence) {
+  inputs_.pose->received = at(850).steady;
+  expect(Permission::kLimited, PermissionCause::kGuarded);
+  inputs_.pose->received = at(849).steady;
+  expect(Permission::kStop, PermissionCause::kPoseSilent);
+  inputs_.pose.reset();
+  expect(Permission::kStop, PermissionCause::kNoPose);
+}
+
+TEST_F(MotionPermissionTest, NeedsPlanesOfAllWorkpiecesForAKnownTool) {
+  limits_.escape_speed = 0.01;  // never with these
+  inputs_.planes->tool_known = false;
+  expect(Permission::kStop, PermissionCause::kNoTool);
+  inputs_.planes->complete = false;
+  expect(Permission::kStop, PermissionCause::kIncomplete);
+}
+
 class EscapeTest : public MotionPermissionTest {
  protected:
   EscapeTest() {
@@ -143,8 +161,19 @@ TEST_F(EscapeTest, IsPossibleWithPlanesThatAreSilentOrExpired) {
   expect(Permission::kEscape, PermissionCause::kPlanesExpired);
 }
 
+TEST_F(EscapeTest, NeedsAPoseThatIsYoungOnBothClocks) {
+  inputs_.pose = received(500);
+  expect(Permission::kEscape, PermissionCause::kUnknown);
+  inputs_.pose = {at(499).stamp, at(500).steady};
+  expect(Permission::kStop, PermissionCause::kUnknown);
+  inputs_.pose = {at(500).stamp, at(499).steady};
+  expect(Permission::kStop, PermissionCause::kUnknown);
+  inputs_.pose.reset();
+  expect(Permission::kStop, PermissionCause::kUnknown);
+}
+
 TEST(PermissionCauseTest, EveryCauseHasWords) {
-  for (int cause = 0; cause <= static_cast<int>(PermissionCause::kPlanesExpired); ++cause) {
+  for (int cause = 0; cause <= static_cast<int>(PermissionCause::kNoTool); ++cause) {
     EXPECT_GT(std::string(textOf(static_cast<PermissionCause>(cause))).size(), 5U) << cause;
   }
 }

@@ -25,7 +25,11 @@ enum class PermissionCause : std::uint8_t {
   kUnknown,        ///< the level of the warning is UNKNOWN
   kNoPlanes,       ///< no separating planes have arrived yet
   kPlanesSilent,   ///< no separating planes have arrived within `silence`
-  kPlanesExpired   ///< the separating planes are past their `valid_until`
+  kPlanesExpired,  ///< the separating planes are past their `valid_until`
+  kNoPose,         ///< no tool pose has arrived yet
+  kPoseSilent,     ///< no tool pose has arrived within `silence`
+  kIncomplete,     ///< not every workpiece was tested at the pose of the separating planes
+  kNoTool          ///< the tool that the separating planes were computed for is not known
 };
 
 /// Returns the cause in words for people.
@@ -47,12 +51,15 @@ struct PermissionInputs {
     SteadyTime received;
   };
   struct Planes {
-    Timestamps timestamps;  ///< stamp of the pose that they were computed at
-    Time valid_until;       ///< by the clock of the stamps
+    Timestamps timestamps;   ///< stamp of the pose that they were computed at
+    Time valid_until;        ///< by the clock of the stamps
+    bool complete = true;    ///< every workpiece was tested at that pose
+    bool tool_known = true;  ///< the balls of the tool that they were computed for have arrived
   };
   std::optional<Timestamps> command;  ///< newest one; without a stamp of its own, that of its receipt
   std::optional<Verdict> verdict;     ///< newest warning
   std::optional<Planes> planes;       ///< newest ones
+  std::optional<Timestamps> pose;     ///< newest pose of the tool
 };
 
 struct PermissionDecision {
@@ -66,11 +73,12 @@ struct PermissionDecision {
 /// | inputs | permission |
 /// |---|---|
 /// | no command, or one older than `command_timeout` | kStop |
-/// | no warning or planes for longer than `silence`, planes past `valid_until`, level UNKNOWN | kEscape or kStop |
+/// | no warning, pose or planes for longer than `silence`, planes past `valid_until`, level UNKNOWN | kEscape or kStop |
+/// | planes that are incomplete or of an unknown tool | kStop |
 /// | otherwise | kLimited |
 ///
-/// Escape needs an `escape_speed`, a warning, planes that are not older than `escape_plane_age` on both clocks, and
-/// reasons none of which is kNoMesh, kMeshInvalid, kTimeJump, kDetectorFault or kNotSwept: with these, the planes are not
+/// Escape needs an `escape_speed`, a warning, a pose and complete planes of a known tool that are not older than
+/// `escape_plane_age` on both clocks, and reasons none of which is kNoMesh, kMeshInvalid, kTimeJump, kDetectorFault or kNotSwept: with these, the planes are not
 /// those of all surfaces. Silence keeps the reasons of the last warning.
 PermissionDecision decidePermission(const PermissionInputs& inputs, const Instant& now, const PermissionLimits& limits);
 

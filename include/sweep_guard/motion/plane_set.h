@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sweep_guard/common/time.h"
+#include "sweep_guard/motion/braking.h"
+#include "sweep_guard/motion/separating_plane.h"
+
+namespace sweep_guard_core {
+
+/// The surfaces around the tool at one swept pose, as far as a motion guard knows them.
+struct PlaneSet {
+  Timestamps timestamps;                ///< stamp of the swept pose
+  Time valid_until;                     ///< by the clock of the stamps
+  bool complete = false;                ///< every workpiece was tested at that pose
+  std::uint32_t tool_revision = 0;      ///< of the ToolBalls that SeparatingPlane::piece refers to
+  std::vector<SeparatingPlane> planes;  ///< nearest first
+  UncoveredSurfaces uncovered;          ///< what no plane stands for
+};
+
+/// The convex pieces of a tool, each as balls whose convex hull contains it.
+struct ToolBalls {
+  std::uint32_t revision = 0;                 ///< counts the changes of the tool
+  std::vector<std::vector<ToolBall>> pieces;  ///< in the tool frame
+};
+
+/// Returns an upper bound of the distance of any tool point from `p_T` [m].
+double radiusAbout(const Eigen::Vector3d& p_T, const ToolBalls& tool);
+
+/// Returns whether each plane belongs to a piece of this tool.
+bool belongsTo(const PlaneSet& planes, const ToolBalls& tool);
+
+/// @throws InvalidInput  if a value is not finite or out of range, with what it is
+void requireUsable(const PlaneSet& planes);
+void requireUsable(const ToolBalls& tool);
+
+}  // namespace sweep_guard_core

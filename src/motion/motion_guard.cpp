@@ -1,0 +1,140 @@
+#include "sweep_guard/motion/motion_guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/motion/escape_velocity.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr size_t kBalls = 4096;  // before buffers grow
+
+PermissionInputs permissionInputs(const MotionInputs& inputs, const Timestamps& command) {
+  PermissionInputs permission;
+  permission.command = command;
+  permission.verdict = inputs.warning;
+  if (inputs.pose) permission.pose = inputs.pose->timestamps;
+  if (!inputs.planes) return permission;
+  const PlaneSet& planes = *inputs.planes;
+  const bool tool_known = inputs.tool && belongsTo(planes, *inputs.tool);
+  permission.planes = PermissionInputs::Planes{planes.timestamps, planes.valid_until, planes.complete, tool_known};
+  return permission;
+}
+
+double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double radius) {
+  const double angle = Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
+  return (a.translation() - b.translation()).norm() + radius * angle;
+}
+
+void requireUsable(const MotionGuardOptions& options) {
+  BrakingLimits limits;
+  limits.deceleration = options.deceleration;
+  limits.standoff = options.standoff;
+  sweep_guard_core::requireUsable(limits);
+  if (options.dead_time < Duration::zero() || options.time_constant < Duration::zero()) {
+    throw InvalidInput("lag of the robot: must be >= 0 s");
+  }
+  if (!(options.permission.escape_speed >= 0.0)) throw InvalidInput("escape speed: must be >= 0 m/s");
+}
+
+}  // namespace
+
+Twist atPoint(const Twist& twist_W, const Eigen::Vector3d& to_W) {
+  return {twist_W.v_W + twist_W.w_W.cross(to_W), twist_W.w_W};
+}
+
+MotionGuard::MotionGuard(const MotionGuardOptions& options) : options_(options), limiter_(kBalls) {
+  requireUsable(options_);
+  facing_.reserve(kBalls);
+  plane_of_.reserve(kBalls);
+}
+
+GuardedMotion MotionGuard::guard(const MotionInputs& inputs, const MotionCommand& command, const Instant& now) {
+  sweep_guard_core::requireUsable(command.twist_W);
+  GuardedMotion motion;
+  motion.decision = permission(inputs, command.timestamps, now);
+  motion.commanded_speed =
+      fastestPoint(command.twist_W, inputs.tool ? radiusAbout(command.point_T, *inputs.tool) : 0.0);
+  if (inputs.planes) motion.planes_age = age(inputs.planes->timestamps, now);
+  if (motion.decision.permission == Permission::kStop) {
+    stop(now.steady);
+  } else {
+    limit(inputs, command, now, motion);
+    const Eigen::Vector3d to_origin_W = -(inputs.pose->X_WT.linear() * command.point_T);
+    in_flight_.add(atPoint(motion.twist_W, to_origin_W), now.steady);
+  }
+  return motion;
+}
+
+PermissionDecision MotionGuard::permission(const MotionInputs& inputs, const Timestamps& command,
+                                           const Instant& now) const {
+  return decidePermission(permissionInputs(inputs, command), now, options_.permission);
+}
+
+void MotionGuard::stop(SteadyTime now) { in_flight_.add({}, now); }
+
+void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command, const Instant& now,
+                        GuardedMotion& motion) {
+  const BrakingLimits limits = brakingLimits(inputs, command, now);
+  const Eigen::Isometry3d expected_WT = expectedPose(inputs, command, now);
+  facing_.clear();
+  plane_of_.clear();
+  collectFacing(inputs, command, inputs.pose->X_WT);
+  collectFacing(inputs, command, expected_WT);
+  UncoveredSurfaces uncovered = inputs.planes->uncovered;
+  uncovered.distance -= distance(inputs.pose->X_WT, expected_WT, limits.tool_radius);
+
+  motion.twist_W = motion.decision.permission == Permission::kLimited
+                       ? limiter_.limit(command.twist_W, facing_, uncovered, limits)
+                       : escapeVelocity(command.twist_W, facing_, uncovered, limits, options_.permission.escape_speed);
+  motion.sent_speed = fastestPoint(motion.twist_W, limits.tool_radius);
+  motion.scale = motion.commanded_speed > 0.0 ? std::min(1.0, motion.sent_speed / motion.commanded_speed) : 1.0;
+  motion.limiting = limiting(command.twist_W, limits);
+}
+
+// The planes bound the speed from where the tool is. What was sent lately is not in the newest pose yet.
+Eigen::Isometry3d MotionGuard::expectedPose(const MotionInputs& inputs, const MotionCommand& command,
+                                            const Instant& now) const {
+  if (command.rest_WT) return *command.rest_WT;
+  const Duration window = age(inputs.pose->timestamps, now) + options_.dead_time + 2 * options_.time_constant;
+  return in_flight_.expectedPose(inputs.pose->X_WT, now.steady, window);
+}
+
+BrakingLimits MotionGuard::brakingLimits(const MotionInputs& inputs, const MotionCommand& command,
+                                         const Instant& now) const {
+  const Duration age_of_inputs = std::max(age(inputs.planes->timestamps, now), age(inputs.pose->timestamps, now));
+  const Duration reaction = command.period + age_of_inputs + options_.dead_time + options_.time_constant;
+  return {options_.deceleration, std::max(toSeconds(reaction), 1e-3), options_.standoff,
+          radiusAbout(command.point_T, *inputs.tool)};
+}
+
+void MotionGuard::collectFacing(const MotionInputs& inputs, const MotionCommand& command,
+                                const Eigen::Isometry3d& X_WT) {
+  const Eigen::Vector3d to_point_W = X_WT.linear() * command.point_T;
+  for (size_t i = 0; i < inputs.planes->planes.size(); ++i) {
+    const SeparatingPlane& plane = inputs.planes->planes[i];
+    const size_t before = facing_.size();
+    addFacingBalls(plane, inputs.tool->pieces[plane.piece], X_WT, facing_);
+    for (size_t j = before; j < facing_.size(); ++j) facing_[j].center_W -= to_point_W;
+    plane_of_.resize(facing_.size(), i);
+  }
+}
+
+std::optional<GuardedMotion::Limiting> MotionGuard::limiting(const Twist& command_W,
+                                                             const BrakingLimits& limits) const {
+  std::optional<GuardedMotion::Limiting> most;
+  double largest_excess = 0.0;
+  const double turn_rate = command_W.w_W.norm();
+  for (size_t i = 0; i < facing_.size(); ++i) {
+    const double allowed = closingLimit(facing_[i], turn_rate, limits);
+    const double excess = closingSpeed(facing_[i], command_W) - allowed;
+    if (excess <= largest_excess) continue;
+    largest_excess = excess;
+    most = GuardedMotion::Limiting{plane_of_[i], facing_[i].gap, allowed};
+  }
+  return most;
+}
+
+}  // namespace sweep_guard_core
