@@ -11,9 +11,9 @@ namespace {
 
 constexpr size_t kBalls = 4096;  // before buffers grow
 
-PermissionInputs permissionInputs(const MotionInputs& inputs, const MotionCommand& command) {
+PermissionInputs permissionInputs(const MotionInputs& inputs, const Timestamps& command) {
   PermissionInputs permission;
-  permission.command = command.timestamps;
+  permission.command = command;
   permission.verdict = inputs.warning;
   if (inputs.pose) permission.pose = inputs.pose->timestamps;
   if (!inputs.planes) return permission;
@@ -54,7 +54,9 @@ MotionGuard::MotionGuard(const MotionGuardOptions& options) : options_(options),
 GuardedMotion MotionGuard::guard(const MotionInputs& inputs, const MotionCommand& command, const Instant& now) {
   sweep_guard_core::requireUsable(command.twist_W);
   GuardedMotion motion;
-  motion.decision = decidePermission(permissionInputs(inputs, command), now, options_.permission);
+  motion.decision = permission(inputs, command.timestamps, now);
+  motion.commanded_speed =
+      fastestPoint(command.twist_W, inputs.tool ? radiusAbout(command.point_T, *inputs.tool) : 0.0);
   if (inputs.planes) motion.planes_age = age(inputs.planes->timestamps, now);
   if (motion.decision.permission == Permission::kStop) {
     stop(now.steady);
@@ -64,6 +66,11 @@ GuardedMotion MotionGuard::guard(const MotionInputs& inputs, const MotionCommand
     in_flight_.add(atPoint(motion.twist_W, to_origin_W), now.steady);
   }
   return motion;
+}
+
+PermissionDecision MotionGuard::permission(const MotionInputs& inputs, const Timestamps& command,
+                                           const Instant& now) const {
+  return decidePermission(permissionInputs(inputs, command), now, options_.permission);
 }
 
 void MotionGuard::stop(SteadyTime now) { in_flight_.add({}, now); }
@@ -79,11 +86,11 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
   UncoveredSurfaces uncovered = inputs.planes->uncovered;
   uncovered.distance -= distance(inputs.pose->X_WT, expected_WT, limits.tool_radius);
 
-  const double speed = fastestPoint(command.twist_W, limits.tool_radius);
   motion.twist_W = motion.decision.permission == Permission::kLimited
                        ? limiter_.limit(command.twist_W, facing_, uncovered, limits)
                        : escapeVelocity(command.twist_W, facing_, uncovered, limits, options_.permission.escape_speed);
-  motion.scale = speed > 0.0 ? std::min(1.0, fastestPoint(motion.twist_W, limits.tool_radius) / speed) : 1.0;
+  motion.sent_speed = fastestPoint(motion.twist_W, limits.tool_radius);
+  motion.scale = motion.commanded_speed > 0.0 ? std::min(1.0, motion.sent_speed / motion.commanded_speed) : 1.0;
   motion.limiting = limiting(command.twist_W, limits);
 }
 

@@ -26,8 +26,6 @@ bool clip(Eigen::Vector3d& velocity, double limit) {
   return true;
 }
 
-bool equal(const Twist& a, const Twist& b) { return a.v_W == b.v_W && a.w_W == b.w_W; }
-
 }  // namespace
 
 PoseFollower::PoseFollower(const Options& options) : options_(options) {
@@ -70,7 +68,7 @@ Twist PoseFollower::towards(const Eigen::Isometry3d& command_WT, Duration period
 }
 
 const Eigen::Isometry3d& PoseFollower::moveOn(const Twist& let_through_W) {
-  const bool reached = leads_there_ && equal(let_through_W, wanted_W_);
+  const bool reached = leads_there_ && let_through_W == wanted_W_;
   reached_ = reached && options_.mode == PoseMode::kAbsolute;
   if (reached) {
     sent_WT_ = goal_WT_;

@@ -18,16 +18,16 @@ using XmlRpc::XmlRpcValue;
 
 constexpr auto kPeriod = std::chrono::seconds(1);
 // roscpp keeps no list of them.
-constexpr std::array kServices = {"acknowledge", "check_sweep", "enable",       "intend",
-                                  "predict",     "reset",       "save_profile", "set_parameters"};
+constexpr std::array kServices = {"acknowledge", "check_sweep", "enable",       "intend",        "predict",
+                                  "rebase",      "reset",       "save_profile", "set_parameters"};
 constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodelet", "set_logger_level",
                                               "unload_nodelet"};
 
 }  // namespace
 
-MasterWatch::MasterWatch(const ros::NodeHandle& private_node, const LiveParameters& parameters)
+MasterWatch::MasterWatch(const ros::NodeHandle& private_node, std::function<ParameterReader::Settings()> settings)
     : namespace_(private_node.getNamespace()),
-      parameters_(parameters),
+      settings_(std::move(settings)),
       call_(kCallTimeout, stopping_),
       master_(identity()) {
   thread_.every(kPeriod, [this] { checkOrLog(); });
@@ -74,7 +74,7 @@ bool MasterWatch::registerAnew() { return setParameters() && registerServices() 
 
 // Those that are there were set after the start of the master, by us or by roslaunch.
 bool MasterWatch::setParameters() {
-  for (const auto& [key, value] : parameters_.get()->settings) {
+  for (const auto& [key, value] : settings_()) {
     const std::string name = key.front() == '/' ? key : ros::names::append(namespace_, key);
     const auto there = call_.call(ros::master::getURI(), "hasParam", {XmlRpcValue(name)});
     if (!there || !there->success) return false;

@@ -3,13 +3,14 @@
 #include <xmlrpcpp/XmlRpc.h>
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 
-#include "ros/parameters/parameters.h"
 #include "ros/publisher_links.h"
 #include "ros/threads/timer_thread.h"
 #include "ros/xml_rpc_call.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {
 
@@ -20,7 +21,8 @@ namespace sweep_guard_ros {
 /// in a thread of its own.
 class MasterWatch {
  public:
-  MasterWatch(const ros::NodeHandle& private_node, const LiveParameters& parameters);
+  /// @param settings  returns the private parameters as they are now. Any thread
+  MasterWatch(const ros::NodeHandle& private_node, std::function<ParameterReader::Settings()> settings);
   ~MasterWatch() { stop(); }
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
@@ -44,7 +46,7 @@ class MasterWatch {
   bool request(const std::string& function, const std::vector<XmlRpc::XmlRpcValue>& arguments);
 
   const std::string namespace_;
-  const LiveParameters& parameters_;
+  const std::function<ParameterReader::Settings()> settings_;
   std::atomic<bool> stopping_ = false;
   bool answers_ = true;
   const XmlRpcCall call_;

@@ -16,7 +16,7 @@ constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
 
 SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process)
     : parameters_(withAvailableDetector(loadParameters(private_node))),
-      master_watch_(private_node, parameters_),
+      master_watch_(private_node, [this] { return parameters_.get()->settings; }),
       monitor_(
           parameters_.initial().limits, [this] { warnings_.publishIfChanged(); },
           [this] { return queue_.waitingSince(); }, [this] { return supervisor_.hung(); }),

@@ -12,8 +12,11 @@
 #include <sweep_guard/Intend.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/Predict.h>
+#include <sweep_guard/Proximity.h>
 #include <sweep_guard/SaveProfile.h>
 #include <sweep_guard/SetIntent.h>
+#include <sweep_guard/ToolBalls.h>
+#include <sweep_guard/Warning.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstddef>
@@ -37,15 +40,21 @@ void checkLengths(Wire wire);
 template <>
 void checkLengths<geometry_msgs::PoseStamped>(Wire wire);
 template <>
-void checkLengths<geometry_msgs::Twist>(Wire wire);
-template <>
-void checkLengths<geometry_msgs::TwistStamped>(Wire wire);
-template <>
 void checkLengths<tf2_msgs::TFMessage>(Wire wire);
 template <>
 void checkLengths<sweep_guard::DeformableMesh>(Wire wire);
 template <>
 void checkLengths<sweep_guard::MeshVertices>(Wire wire);
+template <>
+void checkLengths<geometry_msgs::Twist>(Wire wire);
+template <>
+void checkLengths<geometry_msgs::TwistStamped>(Wire wire);
+template <>
+void checkLengths<sweep_guard::Proximity>(Wire wire);
+template <>
+void checkLengths<sweep_guard::ToolBalls>(Wire wire);
+template <>
+void checkLengths<sweep_guard::Warning>(Wire wire);
 template <>
 void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire);
 template <>

@@ -44,8 +44,7 @@ MotionCommand moving(const Vector3d& v_W, int ms, const Vector3d& w_W = Vector3d
   return {{v_W, w_W}, Vector3d::Zero(), received(ms), milliseconds(10), {}};
 }
 
-bool equal(const Twist& a, const Twist& b) { return a.v_W == b.v_W && a.w_W == b.w_W; }
-bool isZero(const Twist& twist) { return equal(twist, {}); }
+bool isZero(const Twist& twist) { return twist == Twist{}; }
 
 MotionGuardOptions withEscape() {
   MotionGuardOptions options;
@@ -57,7 +56,7 @@ TEST(MotionGuardTest, FreeMotionIsPassedOnBitForBit) {
   MotionGuard guard({});
   const MotionCommand command = moving({-0.1234567, 0.0531, 0.02}, 1000, {0.1, 0.2, -0.3});
   const GuardedMotion motion = guard.guard(inputsAt(1000, 0.8), command, at(1000));
-  EXPECT_TRUE(equal(motion.twist_W, command.twist_W));
+  EXPECT_TRUE(motion.twist_W == command.twist_W);
   EXPECT_EQ(motion.scale, 1.0);
   EXPECT_FALSE(motion.limiting);
 }
@@ -80,7 +79,7 @@ TEST(MotionGuardTest, ARetreatIsPassedOnBitForBitAtAnyGap) {
   for (const double x : {-0.01, 0.0, 0.001, 0.003, 0.01}) {
     MotionGuard guard({});
     const MotionCommand command = moving({0.37, 0.0, 0.0}, 1000);
-    EXPECT_TRUE(equal(guard.guard(inputsAt(1000, x), command, at(1000)).twist_W, command.twist_W)) << x;
+    EXPECT_TRUE(guard.guard(inputsAt(1000, x), command, at(1000)).twist_W == command.twist_W) << x;
   }
 }
 
@@ -291,7 +290,7 @@ TEST(MotionGuardTest, NoOutputClosesFasterThanItMayAtTheNewestAndTheExpectedPose
     EXPECT_LE(motion.twist_W.w_W.cross(command_W.w_W).norm(), 1e-12);
     EXPECT_LE(motion.twist_W.w_W.norm(), command_W.w_W.norm() * (1.0 + 1e-12));
     if (!motion.limiting && drawn.inputs.planes->uncovered.distance > 1.0) {
-      EXPECT_TRUE(equal(motion.twist_W, command_W));
+      EXPECT_TRUE(motion.twist_W == command_W);
       ++passed_on;
     } else {
       ++limited;

@@ -13,6 +13,9 @@ struct Twist {
   Eigen::Vector3d w_W = Eigen::Vector3d::Zero();  ///< angular velocity [rad/s]
 };
 
+inline bool operator==(const Twist& a, const Twist& b) { return a.v_W == b.v_W && a.w_W == b.w_W; }
+inline bool operator!=(const Twist& a, const Twist& b) { return !(a == b); }
+
 /// What the robot can do, and how close it may come.
 struct BrakingLimits {
   double deceleration = 1.0;    ///< that the robot reaches at any point of the tool when it is stopped [m/s^2], > 0

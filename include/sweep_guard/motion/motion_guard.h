@@ -56,6 +56,8 @@ struct GuardedMotion {
   Twist twist_W;  ///< of the point of the command; bit for bit the command's if nothing limits it
   PermissionDecision decision;
   double scale = 0.0;                ///< speed of the fastest tool point / that of the command, in [0, 1]; at rest 1
+  double commanded_speed = 0.0;      ///< of the fastest tool point [m/s]
+  double sent_speed = 0.0;           ///< of the fastest tool point [m/s]
   std::optional<Limiting> limiting;  ///< plane that the command closes on most above its limit; empty: none does
   Duration planes_age{};             ///< on the clock on which it is larger; 0 without planes
 };
@@ -71,6 +73,10 @@ class MotionGuard {
   /// @param now  not before that of the last call
   /// @throws InvalidInput  if the command is not finite or out of range; then stop() has to be sent
   GuardedMotion guard(const MotionInputs& inputs, const MotionCommand& command, const Instant& now);
+
+  /// Decides what of a command is let through, as guard() does, and remembers nothing.
+  /// @param command  without a stamp of its own, that of its receipt
+  PermissionDecision permission(const MotionInputs& inputs, const Timestamps& command, const Instant& now) const;
 
   /// Remembers that zero was sent.
   void stop(SteadyTime now);

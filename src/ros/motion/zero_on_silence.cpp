@@ -4,10 +4,10 @@
 #include <geometry_msgs/TwistStamped.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "ros/output/flush.h"
-#include "ros/registered_publishers.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -40,7 +40,7 @@ geometry_msgs::TwistStamped zero() {
   return twist;
 }
 
-std::string joined(const std::set<std::string>& names) {
+std::string joined(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
@@ -53,16 +53,17 @@ ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle&
 
 ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReader read)
     : silence_(sweep_guard_core::fromSeconds(read.number("timeout", 0.1, {0.01, 1.0, "s"}))),
-      call_(kCallTimeout, stopping_),
       updater_(node, private_node, private_node.getNamespace()),
       supervisor_(Process::kOwn) {
   const std::string type = read.choice("command_type", "twist", {"twist", "twist_stamped"});
+  read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
   read.warnOfUnread();
   updater_.setHardwareID("none");
   updater_.add("commands", [this](Status& status) { report(status); });
   zeros_.every(kZeroPeriod, [this] { sendZeroIfSilent(); });
   reports_.every(kReportPeriod, [this] { updater_.force_update(); });
   type == "twist" ? relay<geometry_msgs::Twist>(node) : relay<geometry_msgs::TwistStamped>(node);
+  output_watch_.emplace(output_.getTopic());
 }
 
 ZeroOnSilence::~ZeroOnSilence() {
@@ -79,6 +80,7 @@ void ZeroOnSilence::start() {
   zeros_.start(supervisor_, {"zeros"});
   commands_.start(supervisor_, {"commands"});
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kOther, /*watched=*/false});
+  output_watch_->start(supervisor_);
   supervisor_.start();
 }
 
@@ -116,7 +118,7 @@ void ZeroOnSilence::sendZeroIfSilent() {
 }
 
 void ZeroOnSilence::report(Status& status) {
-  const auto publishers = registeredPublishers(call_, output_.getTopic());
+  const std::vector<std::string> others = output_watch_->otherPublishers();
   const std::lock_guard lock(mutex_);
   const bool silent = silence_.silent(std::chrono::steady_clock::now());
   status.summary(silent ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
@@ -126,9 +128,8 @@ void ZeroOnSilence::report(Status& status) {
   if (input_.getNumPublishers() > 1) {
     status.mergeSummary(DiagnosticStatus::ERROR, "several publishers on " + input_.getTopic());
   }
-  if (publishers && publishers->size() > 1) {
-    status.mergeSummary(DiagnosticStatus::ERROR,
-                        "several publishers on " + output_.getTopic() + ": " + joined(*publishers));
+  if (!others.empty()) {
+    status.mergeSummary(DiagnosticStatus::ERROR, "several publishers on " + output_.getTopic() + ": " + joined(others));
   }
   if (!last_refusal_.empty())
     status.mergeSummary(DiagnosticStatus::ERROR, "refused: " + std::exchange(last_refusal_, ""));

@@ -5,13 +5,15 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "motion/command_silence.h"
 #include "ros/bounded.h"
+#include "ros/log_throttle.h"
+#include "ros/motion/output_watch.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
-#include "ros/xml_rpc_call.h"
 #include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
@@ -51,13 +53,13 @@ class ZeroOnSilence {
   std::uint64_t passed_ = 0;
   std::string last_refusal_;
   ros::Publisher output_;
-  const XmlRpcCall call_;
   diagnostic_updater::Updater updater_;
   Supervisor supervisor_;
   QueueThread commands_;
   BoundedSubscriber input_;
   TimerThread zeros_;
   TimerThread reports_;
+  std::optional<OutputWatch> output_watch_;
 };
 
 }  // namespace sweep_guard_ros

@@ -162,10 +162,19 @@ std::string ParameterReader::name(const std::string& key, const std::string& fal
   return name;
 }
 
+std::string ParameterReader::optionalName(const std::string& key, const std::string& effect) {
+  return optionalText(key, "a name, or empty", effect);
+}
+
 std::string ParameterReader::path(const std::string& key, const std::string& effect) {
-  std::string path = text(key, "");
-  described_.push_back({key, path, std::string(), 0.0, 0.0, {}, "an absolute path, or empty", effect});
-  return path;
+  return optionalText(key, "an absolute path, or empty", effect);
+}
+
+std::string ParameterReader::optionalText(const std::string& key, const std::string& wanted,
+                                          const std::string& effect) {
+  std::string read = text(key, "");
+  described_.push_back({key, read, std::string(), 0.0, 0.0, {}, wanted, effect});
+  return read;
 }
 
 std::string ParameterReader::choice(const std::string& key, const std::string& fallback,

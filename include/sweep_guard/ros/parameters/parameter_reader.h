@@ -73,6 +73,8 @@ class ParameterReader {
   std::string text(const std::string& key, const std::string& fallback);
   /// Reads a text that is not empty.
   std::string name(const std::string& key, const std::string& fallback, const std::string& effect = "");
+  /// Reads a text; "" if not set.
+  std::string optionalName(const std::string& key, const std::string& effect);
   /// Reads the path of a file; "" if not set.
   std::string path(const std::string& key, const std::string& effect);
   std::string choice(const std::string& key, const std::string& fallback, const std::vector<std::string>& choices,
@@ -106,6 +108,7 @@ class ParameterReader {
   void warnOfUnread() const;
 
  private:
+  std::string optionalText(const std::string& key, const std::string& wanted, const std::string& effect);
   bool isGroup(const std::string& key) const;
   bool get(const std::string& key, XmlRpc::XmlRpcValue& value);
   bool getList(const std::string& key, const std::string& wanted, XmlRpc::XmlRpcValue& list);

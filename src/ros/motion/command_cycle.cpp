@@ -1,0 +1,123 @@
+#include "ros/motion/command_cycle.h"
+
+#include <utility>
+
+#include "ros/motion/motion_status.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::Instant;
+using sweep_guard_core::MotionCommand;
+using sweep_guard_core::Permission;
+using sweep_guard_core::PermissionCause;
+
+}  // namespace
+
+CommandCycle::CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                           const MotionParameters& parameters, const CommandCycleSources& sources)
+    : parameters_(parameters),
+      sources_(sources),
+      frames_(sources.frames, parameters),
+      guard_(parameters.options),
+      period_(parameters.options.permission.command_timeout),
+      port_(makeCommandPort(thread_.on(node), parameters, frames_,
+                            {[this](const auto& received) { onCommand(received); },
+                             [this](const std::string& reason) { refuse(reason); }})),
+      rebase_(thread_.on(private_node).advertiseService("rebase", &CommandCycle::onRebase, this)) {}
+
+void CommandCycle::onCommand(const CommandPort::Received& received) {
+  record_.received(received.timestamps);
+  const std::lock_guard lock(mutex_);
+  port_->take(received);
+  period_.add(received.timestamps.received);
+  command_ = received.timestamps;
+  halts_ = 0;
+  limitNewest(now(), /*only_if_changed=*/false);
+}
+
+void CommandCycle::refuse(const std::string& reason) {
+  record_.error(reason, /*refused=*/true);
+  log_.error("", "command on " + port_->commandTopic() + " refused: " + reason);
+}
+
+void CommandCycle::tick() {
+  const std::lock_guard lock(mutex_);
+  if (!command_) return;
+  const Instant at = now();
+  if (at.steady - command_->received > parameters_.options.permission.command_timeout) return halt(at);
+  if (!sent_W_) return;  // refused
+  GuardInput::Newest newest = sources_.guard.newest();
+  const bool decided_anew = guard_.permission(inputs(newest), *command_, at).permission != permission_;
+  const bool late = !port_->isPose() && 2 * (at.steady - sent_) > 3 * period_.longest();
+  if (decided_anew || late) limitNewest(at, /*only_if_changed=*/true);
+}
+
+bool CommandCycle::letsThrough() const {
+  const Instant at = now();
+  GuardInput::Newest newest = sources_.guard.newest();
+  return guard_.permission(inputs(newest), {at.stamp, at.steady}, at).permission != Permission::kStop;
+}
+
+sweep_guard_core::Duration CommandCycle::period() const {
+  const std::lock_guard lock(mutex_);
+  return period_.longest();
+}
+
+bool CommandCycle::onRebase(Trigger::Request& /*request*/, Trigger::Response& response) {
+  response.success = parameters_.command_type == CommandType::kPoseStamped &&
+                     parameters_.follower.mode == sweep_guard_core::PoseMode::kIncremental;
+  response.message = response.success ? "the next pose moves nothing"
+                                      : "command_type is not pose_stamped, or command_mode is not incremental";
+  const std::lock_guard lock(mutex_);
+  if (response.success) port_->rebase();
+  return true;
+}
+
+sweep_guard_core::MotionInputs CommandCycle::inputs(GuardInput::Newest& newest) const {
+  newest.inputs.pose = sources_.tool_pose.newest();
+  return std::move(newest.inputs);
+}
+
+void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
+  GuardInput::Newest newest = sources_.guard.newest();
+  const sweep_guard_core::MotionInputs known = inputs(newest);
+  try {
+    MotionCommand command = port_->read(known.pose, period_.mean());
+    command.timestamps = *command_;
+    command.period = period_.longest();
+    const sweep_guard_core::GuardedMotion motion = guard_.guard(known, command, at);
+    if (!only_if_changed || sent_W_ != motion.twist_W) port_->send(motion.twist_W);
+    sent_W_ = motion.twist_W;
+    permission_ = motion.decision.permission;
+    sources_.status.update(statusOf(motion, newest.planes.get()));
+  } catch (const sweep_guard_core::Error& error) {
+    if (!only_if_changed) record_.error(error.what(), /*refused=*/true);
+    sendZero(at);
+    sources_.status.update(refusedStatus(error.what()));
+  }
+  sent_ = at.steady;
+}
+
+void CommandCycle::sendZero(const Instant& at) {
+  guard_.stop(at.steady);
+  port_->sendZero();
+  sent_W_.reset();
+  permission_ = Permission::kStop;
+  sent_ = at.steady;
+}
+
+// At the period that the commands had.
+void CommandCycle::halt(const Instant& at) {
+  if (halts_ > 0 && at.steady - sent_ < period_.mean()) return;
+  sendZero(at);
+  sources_.status.update(idleStatus({Permission::kStop, PermissionCause::kOldCommand}));
+  ++halts_;
+  if (parameters_.halt_messages == 0 || halts_ < parameters_.halt_messages) return;
+  command_.reset();
+  port_->pause();
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "monitor/input_record.h"
+#include "ros/motion/command_frames.h"
+#include "ros/motion/command_port.h"
+#include "ros/motion/guard_input.h"
+#include "ros/motion/motion_parameters.h"
+#include "ros/motion/status_publisher.h"
+#include "ros/motion/tool_pose_input.h"
+#include "ros/threads/queue_thread.h"
+#include "sweep_guard/motion/command_period.h"
+#include "sweep_guard/motion/motion_guard.h"
+
+namespace sweep_guard_ros {
+
+struct CommandCycleSources {
+  const GuardInput& guard;
+  const ToolPoseInput& tool_pose;
+  const Frames& frames;
+  StatusPublisher& status;
+};
+
+/// Sends what is let through of each command, in the thread that receives it. Between commands, tick() has the newest one
+/// limited anew if it is late or may not be let through any more; when the commands stop, it sends zeros.
+class CommandCycle {
+ public:
+  CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const MotionParameters& parameters,
+               const CommandCycleSources& sources);
+
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"commands", sweep_guard_core::Stage::kReceive}); }
+
+  void tick();  ///< to be called 200 times a second
+
+  /// Returns whether a command would be let through now in some part: the guard knows, and is not silent.
+  bool letsThrough() const;
+
+  const CommandPort& port() const { return *port_; }
+  const sweep_guard_core::InputRecord& record() const { return record_; }
+  sweep_guard_core::Duration period() const;  ///< that is counted on
+
+ private:
+  using Trigger = std_srvs::Trigger;
+
+  void onCommand(const CommandPort::Received& received);
+  void refuse(const std::string& reason);
+  bool onRebase(Trigger::Request& request, Trigger::Response& response);
+  sweep_guard_core::MotionInputs inputs(GuardInput::Newest& newest) const;
+  void limitNewest(const sweep_guard_core::Instant& at, bool only_if_changed);
+  void sendZero(const sweep_guard_core::Instant& at);
+  void halt(const sweep_guard_core::Instant& at);
+
+  const MotionParameters& parameters_;
+  const CommandCycleSources sources_;
+  const CommandFrames frames_;
+  sweep_guard_core::InputRecord record_;
+  LogThrottle log_;
+  mutable sweep_guard_core::PriorityMutex mutex_;  // of what follows
+  sweep_guard_core::MotionGuard guard_;
+  sweep_guard_core::CommandPeriod period_;
+  std::optional<sweep_guard_core::Timestamps> command_;  // newest one; empty: nothing is to be sent
+  sweep_guard_core::Permission permission_ = sweep_guard_core::Permission::kStop;  // of what was sent last
+  std::optional<sweep_guard_core::Twist> sent_W_;  // for the newest command; empty: zero, for it is refused
+  sweep_guard_core::SteadyTime sent_;
+  int halts_ = 0;  // zeros since the commands have stopped
+
+  QueueThread thread_;  // before the port and the service, which use its queue
+  std::unique_ptr<CommandPort> port_;
+  ros::ServiceServer rebase_;
+};
+
+}  // namespace sweep_guard_ros

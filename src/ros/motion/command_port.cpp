@@ -1,0 +1,188 @@
+#include "ros/motion/command_port.h"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistStamped.h>
+
+#include <utility>
+
+#include "sweep_guard/motion/pose_follower.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::Duration;
+using sweep_guard_core::MotionCommand;
+using sweep_guard_core::Time;
+using sweep_guard_core::Timestamps;
+using sweep_guard_core::Twist;
+
+constexpr std::uint32_t kQueueLength = 1;  // only the newest counts
+constexpr size_t kMaxMessageSize = 16384;
+
+const geometry_msgs::Twist& twistOf(const geometry_msgs::Twist& msg) { return msg; }
+const geometry_msgs::Twist& twistOf(const geometry_msgs::TwistStamped& msg) { return msg.twist; }
+geometry_msgs::Twist& twistOf(geometry_msgs::Twist& msg) { return msg; }
+geometry_msgs::Twist& twistOf(geometry_msgs::TwistStamped& msg) { return msg.twist; }
+
+std_msgs::Header headerOf(const geometry_msgs::Twist& /*msg*/) { return {}; }
+template <typename Msg>
+const std_msgs::Header& headerOf(const Msg& msg) {
+  return msg.header;
+}
+
+void stampNow(geometry_msgs::Twist& /*msg*/) {}
+template <typename Msg>
+void stampNow(Msg& msg) {
+  msg.header.stamp = ros::Time::now();
+}
+
+Eigen::Vector3d fromXyz(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
+
+template <typename Msg>
+Timestamps timestampsOf(const Msg& msg) {
+  const sweep_guard_core::Instant at = now();
+  const Time stamp = fromMsg(headerOf(msg).stamp);
+  return {stamp == Time() ? at.stamp : stamp, at.steady};
+}
+
+/// The topics of a port, and its newest command.
+template <typename Msg>
+class TypedPort : public CommandPort {
+ public:
+  TypedPort(ros::NodeHandle node, const CommandFrames& frames, Callbacks callbacks)
+      : frames_(frames), publisher_(node.advertise<Msg>("guarded_command", 1)) {
+    subscriber_ = subscribeBounded<Msg>(
+        node, {"command", kQueueLength, kMaxMessageSize},
+        [received = std::move(callbacks.received)](const ros::MessageEvent<const Msg>& event) {
+          const auto msg = event.getConstMessage();
+          received({msg, timestampsOf(*msg)});
+        },
+        std::move(callbacks.refused));
+  }
+
+  void take(const Received& received) override { newest_ = boost::static_pointer_cast<const Msg>(received.message); }
+
+  std::string commandTopic() const override { return subscriber_.getTopic(); }
+  std::uint32_t commandPublishers() const override { return subscriber_.getNumPublishers(); }
+  std::string guardedTopic() const override { return publisher_.getTopic(); }
+  std::uint32_t guardedSubscribers() const override { return publisher_.getNumSubscribers(); }
+
+ protected:
+  const CommandFrames& frames() const { return frames_; }
+  const Msg& newest() const { return *newest_; }
+  void publish(const Msg& msg) { publisher_.publish(msg); }
+
+ private:
+  const CommandFrames& frames_;
+  boost::shared_ptr<const Msg> newest_;
+  ros::Publisher publisher_;
+  BoundedSubscriber subscriber_;
+};
+
+template <typename Msg>
+class TwistPort : public TypedPort<Msg> {
+ public:
+  TwistPort(const ros::NodeHandle& node, const MotionParameters& parameters, const CommandFrames& frames,
+            CommandPort::Callbacks callbacks)
+      : TypedPort<Msg>(node, frames, std::move(callbacks)),
+        linear_scale_(parameters.linear_scale),
+        angular_scale_(parameters.angular_scale) {}
+
+  MotionCommand read(const std::optional<CommandPort::ToolPose>& tool, Duration /*period*/) override {
+    const geometry_msgs::Twist& msg = twistOf(this->newest());
+    R_WC_ = this->frames().poseOf(headerOf(this->newest()).frame_id, tool).linear();
+    MotionCommand command;
+    command.point_T = this->frames().point().translation();
+    command.twist_W = {R_WC_ * (linear_scale_ * fromXyz(msg.linear)), R_WC_ * (angular_scale_ * fromXyz(msg.angular))};
+    commanded_W_ = command.twist_W;
+    return command;
+  }
+
+  void send(const Twist& let_through_W) override {
+    if (let_through_W == commanded_W_) return this->publish(this->newest());
+    Msg msg = this->newest();
+    geometry_msgs::Twist& twist = twistOf(msg);
+    twist.linear = vectorMsg<geometry_msgs::Vector3>(R_WC_.transpose() * let_through_W.v_W / linear_scale_);
+    twist.angular = vectorMsg<geometry_msgs::Vector3>(R_WC_.transpose() * let_through_W.w_W / angular_scale_);
+    this->publish(msg);
+  }
+
+  void sendZero() override {
+    Msg msg = this->newest();
+    twistOf(msg) = {};
+    stampNow(msg);
+    this->publish(msg);
+  }
+
+ private:
+  const double linear_scale_;
+  const double angular_scale_;
+  Eigen::Matrix3d R_WC_ = Eigen::Matrix3d::Identity();  // of the newest command, as the following
+  Twist commanded_W_;
+};
+
+class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
+ public:
+  PosePort(const ros::NodeHandle& node, const MotionParameters& parameters, const CommandFrames& frames,
+           Callbacks callbacks)
+      : TypedPort(node, frames, std::move(callbacks)), follower_(parameters.follower) {}
+
+  bool isPose() const override { return true; }
+
+  MotionCommand read(const std::optional<ToolPose>& tool, Duration period) override {
+    if (!tool) throw FrameError("no tool pose yet");
+    const Eigen::Isometry3d X_TP = frames().point();
+    const Eigen::Isometry3d command_CP = fromMsg(newest().pose);
+    X_WC_ = frames().poseOf(newest().header.frame_id, tool);
+    if (!follower_.begun()) follower_.begin(tool->X_WT * X_TP);
+    MotionCommand command;
+    command.point_T = X_TP.translation();
+    command.twist_W = follower_.towards(X_WC_ * command_CP, period);
+    command.rest_WT = follower_.sent() * X_TP.inverse();
+    return command;
+  }
+
+  void send(const Twist& let_through_W) override {
+    follower_.moveOn(let_through_W);
+    if (follower_.reached()) return publish(newest());
+    publishSent(newest().header.stamp);
+  }
+
+  void sendZero() override {
+    if (follower_.begun()) publishSent(ros::Time::now());
+  }
+
+  void pause() override { follower_.end(); }
+  void rebase() override { follower_.rebase(); }
+
+ private:
+  void publishSent(const ros::Time& stamp) {
+    geometry_msgs::PoseStamped msg;
+    msg.header = newest().header;
+    msg.header.stamp = stamp;
+    msg.pose = toMsg(X_WC_.inverse() * follower_.sent());
+    publish(msg);
+  }
+
+  sweep_guard_core::PoseFollower follower_;
+  Eigen::Isometry3d X_WC_ = Eigen::Isometry3d::Identity();  // of the newest command that was read
+};
+
+}  // namespace
+
+std::unique_ptr<CommandPort> makeCommandPort(ros::NodeHandle node, const MotionParameters& parameters,
+                                             const CommandFrames& frames, CommandPort::Callbacks callbacks) {
+  switch (parameters.command_type) {
+    case CommandType::kTwist:
+      return std::make_unique<TwistPort<geometry_msgs::Twist>>(node, parameters, frames, std::move(callbacks));
+    case CommandType::kPoseStamped:
+      return std::make_unique<PosePort>(node, parameters, frames, std::move(callbacks));
+    case CommandType::kTwistStamped:
+      break;
+  }
+  return std::make_unique<TwistPort<geometry_msgs::TwistStamped>>(node, parameters, frames, std::move(callbacks));
+}
+
+}  // namespace sweep_guard_ros

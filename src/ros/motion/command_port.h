@@ -1,0 +1,59 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ros/bounded.h"
+#include "ros/motion/command_frames.h"
+#include "ros/motion/motion_parameters.h"
+#include "sweep_guard/motion/motion_guard.h"
+
+namespace sweep_guard_ros {
+
+/// Receives `command` and publishes `guarded_command`, in one message type. One thread at a time, apart from the
+/// callbacks.
+class CommandPort {
+ public:
+  using ToolPose = sweep_guard_core::MotionInputs::ToolPose;
+  struct Received {
+    boost::shared_ptr<const void> message;
+    sweep_guard_core::Timestamps timestamps;  ///< a command without a stamp has that of its receipt
+  };
+  struct Callbacks {
+    std::function<void(const Received&)> received;
+    std::function<void(const std::string&)> refused;  ///< a message that cannot be read
+  };
+
+  virtual ~CommandPort() = default;
+
+  virtual void take(const Received& received) = 0;  ///< it is the newest command from now on
+  virtual bool isPose() const { return false; }
+
+  /// Reads the newest command. All but its timestamps and `period` is filled in.
+  /// @param period  until the next command
+  /// @throws FrameError, sweep_guard_core::InvalidInput if it cannot be carried out
+  virtual sweep_guard_core::MotionCommand read(const std::optional<ToolPose>& tool,
+                                               sweep_guard_core::Duration period) = 0;
+  /// Publishes what was let through of what read() returned; the message itself if that is everything.
+  virtual void send(const sweep_guard_core::Twist& let_through_W) = 0;
+  /// Publishes that the tool shall stand still. A pose is published only if one was before.
+  virtual void sendZero() = 0;
+  virtual void pause() {}   ///< nothing is sent for a while
+  virtual void rebase() {}  ///< see PoseFollower::rebase()
+
+  virtual std::string commandTopic() const = 0;
+  virtual std::uint32_t commandPublishers() const = 0;
+  virtual std::string guardedTopic() const = 0;
+  virtual std::uint32_t guardedSubscribers() const = 0;
+};
+
+/// Returns the port of command_type.
+/// @param node  its queue calls back
+std::unique_ptr<CommandPort> makeCommandPort(ros::NodeHandle node, const MotionParameters& parameters,
+                                             const CommandFrames& frames, CommandPort::Callbacks callbacks);
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,127 @@
+#include "ros/motion/guard_input.h"
+
+#include <memory>
+#include <utility>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::InputRecord;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::PermissionInputs;
+using sweep_guard_core::PlaneSet;
+
+constexpr std::uint32_t kQueueLength = 1;  // only the newest counts
+constexpr size_t kMaxMessageSize = 64 << 20;
+constexpr size_t kMaxPlanes = 64;  // as Proximity says
+
+template <typename Msg>
+Eigen::Vector3d fromXyz(const Msg& msg) {
+  return {msg.x, msg.y, msg.z};
+}
+
+std::shared_ptr<const PlaneSet> planesFrom(const sweep_guard::Proximity& msg, sweep_guard_core::SteadyTime received) {
+  if (msg.planes.size() > kMaxPlanes) throw InvalidInput("there are more than 64 planes");
+  auto planes = std::make_shared<PlaneSet>();
+  planes->timestamps = {fromMsg(msg.header.stamp), received};
+  planes->valid_until = fromMsg(msg.valid_until);
+  planes->complete = msg.valid;
+  planes->tool_revision = msg.tool_revision;
+  planes->uncovered = {msg.uncovered_distance, msg.uncovered_speed};
+  for (const sweep_guard::SeparatingPlane& plane : msg.planes) {
+    planes->planes.push_back({plane.piece, fromXyz(plane.normal), fromXyz(plane.point), plane.gap, plane.speed});
+  }
+  requireUsable(*planes);
+  return planes;
+}
+
+std::shared_ptr<const sweep_guard_core::ToolBalls> toolFrom(const sweep_guard::ToolBalls& msg) {
+  auto tool = std::make_shared<sweep_guard_core::ToolBalls>();
+  tool->revision = msg.revision;
+  for (const sweep_guard::ToolPiece& piece : msg.pieces) {
+    tool->pieces.emplace_back();
+    for (const sweep_guard::ToolBall& ball : piece.balls) {
+      tool->pieces.back().push_back({fromXyz(ball.center), ball.radius});
+    }
+  }
+  requireUsable(*tool);
+  return tool;
+}
+
+}  // namespace
+
+GuardInput::GuardInput(const ros::NodeHandle& node, const MotionParameters& parameters)
+    : fixed_frame_(parameters.fixed_frame), tool_frame_(parameters.tool_frame) {
+  planes_ = subscribe(node, parameters.guard + "/proximity", planes_record_, &GuardInput::acceptPlanes);
+  tool_ = subscribe(node, parameters.guard + "/tool_balls", tool_record_, &GuardInput::acceptTool);
+  warning_ = subscribe(node, parameters.guard + "/warning", warning_record_, &GuardInput::acceptWarning);
+}
+
+template <typename Msg>
+BoundedSubscriber GuardInput::subscribe(const ros::NodeHandle& node, const std::string& topic, InputRecord& record,
+                                        void (GuardInput::*accept)(const ros::MessageEvent<const Msg>&)) {
+  return subscribeBounded<Msg>(
+      thread_.on(node), {topic, kQueueLength, kMaxMessageSize},
+      [this, topic, &record, accept](const ros::MessageEvent<const Msg>& event) {
+        record.received({fromMsg(event.getConstMessage()->header.stamp), std::chrono::steady_clock::now()});
+        try {
+          (this->*accept)(event);
+        } catch (const InvalidInput& error) {
+          refuse(topic, error.what(), record);
+        }
+      },
+      [this, topic, &record](const std::string& reason) { refuse(topic, reason, record); });
+}
+
+GuardInput::Newest GuardInput::newest() const {
+  const std::lock_guard lock(mutex_);
+  return newest_;
+}
+
+std::array<GuardInput::Source, 3> GuardInput::sources() const {
+  return {{{planes_.getTopic(), planes_.getNumPublishers(), planes_record_.summary()},
+           {tool_.getTopic(), tool_.getNumPublishers(), tool_record_.summary()},
+           {warning_.getTopic(), warning_.getNumPublishers(), warning_record_.summary()}}};
+}
+
+void GuardInput::acceptPlanes(const ros::MessageEvent<const sweep_guard::Proximity>& event) {
+  const sweep_guard::Proximity::ConstPtr msg = event.getConstMessage();
+  checkFrame(msg->header.frame_id, fixed_frame_);
+  auto planes = planesFrom(*msg, std::chrono::steady_clock::now());
+  const std::lock_guard lock(mutex_);
+  newest_.inputs.planes.swap(planes);
+  newest_.planes = msg;
+}
+
+void GuardInput::acceptTool(const ros::MessageEvent<const sweep_guard::ToolBalls>& event) {
+  checkFrame(event.getConstMessage()->header.frame_id, tool_frame_);
+  auto tool = toolFrom(*event.getConstMessage());
+  const std::lock_guard lock(mutex_);
+  newest_.inputs.tool.swap(tool);
+}
+
+void GuardInput::acceptWarning(const ros::MessageEvent<const sweep_guard::Warning>& event) {
+  const sweep_guard::Warning& msg = *event.getConstMessage();
+  const bool known = msg.level <= sweep_guard::Warning::CONTACT;
+  const auto level =
+      known ? static_cast<sweep_guard_core::WarningLevel>(msg.level) : sweep_guard_core::WarningLevel::kUnknown;
+  const std::lock_guard lock(mutex_);
+  newest_.inputs.warning = PermissionInputs::Verdict{level, msg.reasons, std::chrono::steady_clock::now()};
+}
+
+void GuardInput::checkFrame(const std::string& frame, const std::string& expected) const {
+  if (frame == expected) return;
+  throw InvalidInput("it is in the frame '" + sweep_guard_core::printable(frame) + "' and not in '" + expected +
+                     "': set fixed_frame and tool_frame as those of the guard");
+}
+
+void GuardInput::refuse(const std::string& topic, const std::string& reason, InputRecord& record) {
+  record.error(reason, /*refused=*/true);
+  log_.error(topic, "message on " + topic + " refused: " + reason);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <sweep_guard/Proximity.h>
+#include <sweep_guard/ToolBalls.h>
+#include <sweep_guard/Warning.h>
+
+#include <array>
+#include <cstddef>
+#include <mutex>
+#include <string>
+
+#include "monitor/input_record.h"
+#include "ros/bounded.h"
+#include "ros/log_throttle.h"
+#include "ros/motion/motion_parameters.h"
+#include "ros/threads/queue_thread.h"
+#include "sweep_guard/motion/motion_guard.h"
+
+namespace sweep_guard_ros {
+
+/// Receives the planes, the balls of the tool and the warning of a guard, in a thread of its own, and keeps the newest of
+/// each. One that is refused changes nothing: the guard then seems silent.
+class GuardInput {
+ public:
+  GuardInput(const ros::NodeHandle& node, const MotionParameters& parameters);
+
+  void start(Supervisor& supervisor) {
+    thread_.start(supervisor, {"guard", sweep_guard_core::Stage::kReceive, /*watched=*/true, /*loses_latched=*/true});
+  }
+
+  /// What has come, and the message that the planes are from. Without a tool pose.
+  struct Newest {
+    sweep_guard_core::MotionInputs inputs;
+    sweep_guard::Proximity::ConstPtr planes;  ///< null as long as there are no planes
+  };
+  Newest newest() const;  ///< any thread
+
+  struct Source {
+    std::string topic;
+    std::uint32_t publishers;
+    sweep_guard_core::InputRecord::Summary record;
+  };
+  std::array<Source, 3> sources() const;
+
+ private:
+  template <typename Msg>
+  BoundedSubscriber subscribe(const ros::NodeHandle& node, const std::string& topic,
+                              sweep_guard_core::InputRecord& record,
+                              void (GuardInput::*accept)(const ros::MessageEvent<const Msg>&));
+  void acceptPlanes(const ros::MessageEvent<const sweep_guard::Proximity>& event);
+  void acceptTool(const ros::MessageEvent<const sweep_guard::ToolBalls>& event);
+  void acceptWarning(const ros::MessageEvent<const sweep_guard::Warning>& event);
+  void refuse(const std::string& topic, const std::string& reason, sweep_guard_core::InputRecord& record);
+  void checkFrame(const std::string& frame, const std::string& expected) const;
+
+  const std::string fixed_frame_;
+  const std::string tool_frame_;
+  mutable sweep_guard_core::PriorityMutex mutex_;
+  Newest newest_;
+  sweep_guard_core::InputRecord planes_record_;
+  sweep_guard_core::InputRecord tool_record_;
+  sweep_guard_core::InputRecord warning_record_;
+  LogThrottle log_;
+  QueueThread thread_;  // before the subscribers, which use its queue
+  BoundedSubscriber planes_;
+  BoundedSubscriber tool_;
+  BoundedSubscriber warning_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "ros/input/frames.h"
+#include "ros/master_watch.h"
+#include "ros/motion/command_cycle.h"
+#include "ros/motion/guard_input.h"
+#include "ros/motion/hold_publisher.h"
+#include "ros/motion/motion_diagnostics.h"
+#include "ros/motion/motion_parameters.h"
+#include "ros/motion/output_watch.h"
+#include "ros/motion/status_publisher.h"
+#include "ros/motion/tool_pose_input.h"
+#include "ros/threads/supervisor.h"
+#include "ros/threads/timer_thread.h"
+
+namespace sweep_guard_ros {
+
+/// Lets the part of a commanded motion through that does not close on a surface too fast, as a ROS node or a nodelet.
+/// doc/interface.md lists topics, services and parameters.
+class MotionGuardNode {
+ public:
+  /// @throws sweep_guard_core::InvalidInput if a parameter is refused
+  MotionGuardNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process);
+  ~MotionGuardNode();
+  MotionGuardNode(const MotionGuardNode&) = delete;
+  MotionGuardNode& operator=(const MotionGuardNode&) = delete;
+
+  void start();  ///< begins to pass commands on; once
+
+ private:
+  // Members use only earlier members.
+  const MotionParameters parameters_;
+  MasterWatch master_watch_;  // before what registers at the master
+  Supervisor supervisor_;     // before all threads
+  Frames frames_;
+  GuardInput guard_;
+  ToolPoseInput tool_pose_;
+  StatusPublisher status_;
+  HoldPublisher hold_;
+  CommandCycle cycle_;
+  OutputWatch output_watch_;
+  MotionDiagnostics diagnostics_;
+  TimerThread ticks_;
+  TimerThread reports_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,132 @@
+#include "ros/motion/motion_parameters.h"
+
+#include <ros/names.h>
+
+#include <limits>
+#include <map>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::Duration;
+using sweep_guard_core::MotionGuardOptions;
+using sweep_guard_core::toSeconds;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Duration seconds(ParameterReader& read, const std::string& key, Duration fallback, double lowest, double highest,
+                 const std::string& effect) {
+  return sweep_guard_core::fromSeconds(read.number(key, toSeconds(fallback), {lowest, highest, "s"}, effect));
+}
+
+void readCommand(ParameterReader& read, MotionParameters& parameters) {
+  const std::map<std::string, CommandType> types = {{"twist_stamped", CommandType::kTwistStamped},
+                                                    {"twist", CommandType::kTwist},
+                                                    {"pose_stamped", CommandType::kPoseStamped}};
+  parameters.command_type =
+      types.at(read.choice("command_type", "twist_stamped", {"twist_stamped", "twist", "pose_stamped"},
+                           "Type of `command` and `guarded_command`: geometry_msgs/TwistStamped, Twist or "
+                           "PoseStamped."));
+  const std::string mode =
+      read.choice("command_mode", "absolute", {"absolute", "incremental"},
+                  "pose_stamped only. absolute: the tool shall go to the pose, and catches up with what was held back. "
+                  "incremental: the tool shall move as the poses do; what was held back is lost, and ~rebase is the "
+                  "clutch.");
+  parameters.follower.mode =
+      mode == "absolute" ? sweep_guard_core::PoseMode::kAbsolute : sweep_guard_core::PoseMode::kIncremental;
+}
+
+void readFrames(ParameterReader& read, MotionParameters& parameters) {
+  parameters.fixed_frame = read.name("fixed_frame", "world", "tf frame that the planes are in: as that of the guard.");
+  const std::string source =
+      read.choice("tool_source", "topic", {"topic", "tf"},
+                  "topic: poses of the tool arrive on `tool_pose`. tf: the tool is the frame tool_frame in tf.");
+  parameters.tool_source = source == "tf" ? ToolSource::kTf : ToolSource::kTopic;
+  parameters.tool_frame = read.name("tool_frame", "tool", "tf frame of the tool: as that of the guard.");
+  parameters.command_frame =
+      read.optionalName("command_frame",
+                        "twist only: tf frame along whose axes a command is. Empty: fixed_frame. "
+                        "A stamped command has its frame in its header; empty there: this one.");
+  parameters.command_point =
+      read.optionalName("command_point",
+                        "tf frame that moves with the tool; a command is the velocity or the pose "
+                        "of this frame. Empty: tool_frame.");
+  if (parameters.command_frame.empty()) parameters.command_frame = parameters.fixed_frame;
+  if (parameters.command_point.empty()) parameters.command_point = parameters.tool_frame;
+}
+
+void readScales(ParameterReader& read, MotionParameters& parameters) {
+  parameters.linear_scale = read.number("command_scale/linear", 1.0, {1e-6, 1e6, "m/s"},
+                                        "Speed that 1 in the linear part of a twist means. For MoveIt Servo with "
+                                        "command_in_type unitless: its scale/linear.");
+  parameters.angular_scale = read.number("command_scale/angular", 1.0, {1e-6, 1e6, "rad/s"},
+                                         "Turn rate that 1 in the angular part of a twist means. For MoveIt Servo with "
+                                         "command_in_type unitless: its scale/rotational.");
+}
+
+std::string readGuard(ParameterReader& read) {
+  std::string guard = read.name("guard", "/sweep_guard",
+                                "Name of the guard's node, whose proximity, tool_balls and warning are listened to.");
+  std::string error;
+  if (ros::names::validate(guard, error)) return guard;
+  throw sweep_guard_core::InvalidInput("parameter guard is no name of a node: " + error);
+}
+
+void readTimes(ParameterReader& read, MotionParameters& parameters) {
+  sweep_guard_core::PermissionLimits& limits = parameters.options.permission;
+  limits.command_timeout =
+      seconds(read, "command_timeout", limits.command_timeout, 0.005, 10.0,
+              "An older command is not carried out: zero is sent. Also the longest period of commands that is counted "
+              "on.");
+  limits.silence = seconds(read, "silence", limits.silence, 0.02, 2.0,
+                           "Zero is sent if neither a warning, nor planes, nor a tool pose has come for this long.");
+  parameters.halt_messages = read.integer(
+      "halt_messages", 4, 0, 1000,
+      "Number of zeros that are sent after the commands have stopped; then nothing is sent. 0: zeros without "
+      "end.");
+  parameters.options.dead_time = seconds(read, "lag/dead_time", std::chrono::milliseconds(20), 0.0, 2.0,
+                                         "Time until the robot begins to do what was sent.");
+  parameters.options.time_constant =
+      seconds(read, "lag/time_constant", std::chrono::milliseconds(30), 0.0, 2.0,
+              "Time constant with which the robot then follows. Filters behind motion_guard count, as "
+              "low_pass_filter_coeff of MoveIt Servo.");
+}
+
+void readMotion(ParameterReader& read, MotionParameters& parameters) {
+  MotionGuardOptions& options = parameters.options;
+  options.deceleration = read.number("deceleration", options.deceleration, {0.01, 1000.0, "m/s^2"},
+                                     "Deceleration of any tool point that the robot reaches when it is stopped.");
+  options.standoff = read.number("standoff", options.standoff, {0.0, 1.0, "m"},
+                                 "Distance from a surface at which nothing closes on it.");
+  options.permission.escape_speed = read.number(
+      "escape_speed", options.permission.escape_speed, {0.0, 10.0, "m/s"},
+      "Speed at which a command may lead away from every surface while the guard does not know or is silent, "
+      "for at most 0.5 s after the newest planes. 0: not at all.");
+  parameters.follower.max_speed = read.number("max_speed", parameters.follower.max_speed, {0.001, 1000.0, "m/s"},
+                                              "pose_stamped only: the pose that is sent moves no faster.");
+  parameters.follower.max_turn_rate =
+      read.number("max_turn_rate", parameters.follower.max_turn_rate, {0.001, 1000.0, "rad/s"},
+                  "pose_stamped only: the pose that is sent turns no faster.");
+}
+
+}  // namespace
+
+MotionParameters loadMotionParameters(const ros::NodeHandle& private_node) {
+  ParameterReader read(private_node);
+  MotionParameters parameters;
+  readCommand(read, parameters);
+  readFrames(read, parameters);
+  readScales(read, parameters);
+  parameters.guard = readGuard(read);
+  readTimes(read, parameters);
+  readMotion(read, parameters);
+  read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
+  parameters.settings = read.settings();
+  parameters.described = read.described();
+  read.warnOfUnread();
+  return parameters;
+}
+
+}  // namespace sweep_guard_ros

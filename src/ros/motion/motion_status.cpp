@@ -1,0 +1,91 @@
+#include "ros/motion/motion_status.h"
+
+#include <cstdio>
+#include <limits>
+
+#include "sweep_guard/common/printable.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::MotionStatus;
+using sweep_guard_core::GuardedMotion;
+using sweep_guard_core::Permission;
+using sweep_guard_core::PermissionCause;
+using sweep_guard_core::printable;
+
+MotionStatus emptyStatus() {
+  MotionStatus status;
+  status.gap = std::numeric_limits<double>::infinity();
+  status.planes_age = -1.0;
+  return status;
+}
+
+std::int8_t codeOf(const GuardedMotion& motion) {
+  if (motion.decision.cause == PermissionCause::kOldCommand) return MotionStatus::INVALID;
+  if (motion.decision.permission == Permission::kStop) return MotionStatus::HALT_FOR_COLLISION;
+  if (motion.scale >= 1.0 && !motion.limiting) return MotionStatus::NO_WARNING;
+  const bool halts = !(motion.sent_speed > 0.0) && motion.commanded_speed > 0.0;
+  return halts ? MotionStatus::HALT_FOR_COLLISION : MotionStatus::DECELERATE_FOR_COLLISION;
+}
+
+std::string nearestText(const MotionStatus& status) {
+  if (status.mesh_id.empty()) return "a surface that no plane stands for";
+  char gap[32];
+  std::snprintf(gap, sizeof gap, "%.1f mm", 1e3 * status.gap);
+  const std::string link = status.tool_link.empty() ? "" : " of link '" + status.tool_link + "'";
+  return "'" + status.mesh_id + "', triangle " + std::to_string(status.triangle) + ", " + gap + " in front" + link;
+}
+
+std::string textOf(const MotionStatus& status, Permission permission) {
+  if (permission == Permission::kStop) return "stopped: " + status.cause;
+  if (permission == Permission::kEscape) {
+    return status.cause + (status.sent_speed > 0.0 ? ": escapes slowly" : ": stopped, the command does not lead away");
+  }
+  if (status.code == MotionStatus::NO_WARNING) return "passed on";
+  return (status.code == MotionStatus::HALT_FOR_COLLISION ? "stopped before " : "slowed before ") + nearestText(status);
+}
+
+}  // namespace
+
+MotionStatus statusOf(const GuardedMotion& motion, const sweep_guard::Proximity* planes) {
+  MotionStatus status = emptyStatus();
+  status.code = codeOf(motion);
+  status.cause = sweep_guard_core::textOf(motion.decision.cause);
+  status.scale = motion.scale;
+  status.commanded_speed = motion.commanded_speed;
+  status.sent_speed = motion.sent_speed;
+  if (planes != nullptr) status.planes_age = sweep_guard_core::toSeconds(motion.planes_age);
+  if (motion.limiting && planes != nullptr) {
+    const sweep_guard::SeparatingPlane& plane = planes->planes.at(motion.limiting->plane);
+    status.mesh_id = printable(plane.mesh_id);
+    status.triangle = plane.triangle;
+    status.tool_link = printable(plane.tool_link);
+    status.gap = motion.limiting->gap;
+  }
+  status.text = textOf(status, motion.decision.permission);
+  return status;
+}
+
+MotionStatus refusedStatus(const std::string& reason) {
+  MotionStatus status = emptyStatus();
+  status.code = MotionStatus::INVALID;
+  status.cause = "command refused";
+  status.text = "stopped: " + reason;
+  return status;
+}
+
+MotionStatus idleStatus(const sweep_guard_core::PermissionDecision& decision) {
+  MotionStatus status = emptyStatus();
+  status.cause = sweep_guard_core::textOf(decision.cause);
+  status.text = status.cause;
+  return status;
+}
+
+bool differ(const MotionStatus& a, const MotionStatus& b) {
+  return a.code != b.code || a.cause != b.cause || a.scale != b.scale || a.mesh_id != b.mesh_id ||
+         a.triangle != b.triangle || a.tool_link != b.tool_link || a.gap != b.gap ||
+         (a.code == MotionStatus::INVALID && a.text != b.text);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <sweep_guard/MotionStatus.h>
+#include <sweep_guard/Proximity.h>
+
+#include <string>
+
+#include "sweep_guard/motion/motion_guard.h"
+
+namespace sweep_guard_ros {
+
+/// Describes what was sent for a command. The caller sets the header.
+/// @param planes  message that the planes are from; null without planes
+sweep_guard::MotionStatus statusOf(const sweep_guard_core::GuardedMotion& motion, const sweep_guard::Proximity* planes);
+
+/// Describes that a command could not be carried out.
+/// @param reason  whole text
+sweep_guard::MotionStatus refusedStatus(const std::string& reason);
+
+/// Describes that no command is there.
+sweep_guard::MotionStatus idleStatus(const sweep_guard_core::PermissionDecision& decision);
+
+/// Returns whether two statuses differ for a reader: their ages and times may.
+bool differ(const sweep_guard::MotionStatus& a, const sweep_guard::MotionStatus& b);
+
+}  // namespace sweep_guard_ros

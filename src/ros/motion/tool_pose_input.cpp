@@ -1,0 +1,88 @@
+#include "ros/motion/tool_pose_input.h"
+
+#include "ros/input/future_stamp.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::InvalidInput;
+
+constexpr std::uint32_t kQueueLength = 1;  // only the newest counts
+constexpr size_t kMaxMessageSize = 16384;
+
+Eigen::Isometry3d nearestInTime(const Frames& frames, const std::string& target, const std::string& source,
+                                sweep_guard_core::Time stamp) {
+  try {
+    return frames.lookup(target, source, stamp);
+  } catch (const FrameError&) {
+    return frames.lookup(target, source, sweep_guard_core::Time());
+  }
+}
+
+}  // namespace
+
+ToolPoseInput::ToolPoseInput(const ros::NodeHandle& node, const MotionParameters& parameters, Frames& frames)
+    : fixed_frame_(parameters.fixed_frame), tool_frame_(parameters.tool_frame), frames_(frames) {
+  if (parameters.tool_source == ToolSource::kTf) {
+    transforms_changed_ = frames_.onChange([this] { onTransforms(); });
+  } else {
+    subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(
+        thread_.on(node), {"tool_pose", kQueueLength, kMaxMessageSize},
+        [this](const auto& event) { onMessage(*event.getConstMessage()); },
+        [this](const std::string& reason) { refuse(reason); });
+  }
+}
+
+std::optional<sweep_guard_core::MotionInputs::ToolPose> ToolPoseInput::newest() const {
+  const std::lock_guard lock(mutex_);
+  return newest_;
+}
+
+std::string ToolPoseInput::source() const {
+  return subscriber_ ? subscriber_.getTopic() : "tf " + fixed_frame_ + " to " + tool_frame_;
+}
+
+std::optional<std::uint32_t> ToolPoseInput::publishers() const {
+  return subscriber_ ? std::optional(subscriber_.getNumPublishers()) : std::nullopt;
+}
+
+void ToolPoseInput::onMessage(const geometry_msgs::PoseStamped& msg) {
+  const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
+  record_.received(timestamps);
+  try {
+    if (timestamps.stamp == sweep_guard_core::Time()) throw InvalidInput("stamp is 0: stamp each pose");
+    if (liesInFuture(timestamps.stamp)) throw InvalidInput(kFutureStampText);
+    const Eigen::Isometry3d X_WF = nearestInTime(frames_, fixed_frame_, msg.header.frame_id, timestamps.stamp);
+    accept(X_WF * fromMsg(msg.pose), timestamps);
+  } catch (const sweep_guard_core::Error& error) {
+    refuse(error.what());
+  }
+}
+
+// Runs in the thread of the tf listener.
+void ToolPoseInput::onTransforms() {
+  const std::optional<sweep_guard_core::Time> newest = frames_.newest(fixed_frame_, tool_frame_);
+  if (newest == last_transform_) return;  // another transform has changed
+  last_transform_ = newest;
+  if (!newest) return;
+  const sweep_guard_core::Timestamps timestamps{*newest, std::chrono::steady_clock::now()};
+  record_.received(timestamps);
+  try {
+    accept(frames_.lookup(fixed_frame_, tool_frame_, *newest), timestamps);
+  } catch (const FrameError& error) {
+    refuse(error.what());
+  }
+}
+
+void ToolPoseInput::accept(const Eigen::Isometry3d& X_WT, const sweep_guard_core::Timestamps& timestamps) {
+  const std::lock_guard lock(mutex_);
+  newest_ = {X_WT, timestamps};
+}
+
+void ToolPoseInput::refuse(const std::string& reason) {
+  record_.error(reason, /*refused=*/true);
+  log_.error("", "tool pose on " + source() + " refused: " + reason);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "monitor/input_record.h"
+#include "ros/bounded.h"
+#include "ros/input/frames.h"
+#include "ros/log_throttle.h"
+#include "ros/motion/motion_parameters.h"
+#include "ros/threads/queue_thread.h"
+#include "sweep_guard/motion/motion_guard.h"
+
+namespace sweep_guard_ros {
+
+/// Keeps the newest pose of the tool, from the topic `tool_pose` or from tf. Looks transforms up as they are: a pose whose
+/// frame has no transform at its stamp takes the newest one.
+class ToolPoseInput {
+ public:
+  ToolPoseInput(const ros::NodeHandle& node, const MotionParameters& parameters, Frames& frames);
+
+  void start(Supervisor& supervisor) { thread_.start(supervisor, {"poses", sweep_guard_core::Stage::kReceive}); }
+
+  std::optional<sweep_guard_core::MotionInputs::ToolPose> newest() const;  ///< any thread
+
+  const sweep_guard_core::InputRecord& record() const { return record_; }
+  std::string source() const;                       ///< resolved topic, or the tf frames
+  std::optional<std::uint32_t> publishers() const;  ///< of the topic; empty for tf
+
+ private:
+  void onMessage(const geometry_msgs::PoseStamped& msg);
+  void onTransforms();
+  void accept(const Eigen::Isometry3d& X_WT, const sweep_guard_core::Timestamps& timestamps);
+  void refuse(const std::string& reason);
+
+  const std::string fixed_frame_;
+  const std::string tool_frame_;
+  Frames& frames_;
+  mutable sweep_guard_core::PriorityMutex mutex_;
+  std::optional<sweep_guard_core::MotionInputs::ToolPose> newest_;
+  std::optional<sweep_guard_core::Time> last_transform_;  // used by the tf listener's thread only
+  sweep_guard_core::InputRecord record_;
+  LogThrottle log_;
+  QueueThread thread_;  // before the subscriber, which uses its queue
+  std::shared_ptr<void> transforms_changed_;
+  BoundedSubscriber subscriber_;
+};
+
+}  // namespace sweep_guard_ros
