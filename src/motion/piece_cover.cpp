@@ -53,17 +53,17 @@ double PieceCover::distance(const CenteredBox& box) const {
   return outside(X_BM_ * box.center, half_B_ + absolute_BM_ * box.half);
 }
 
-double PieceCover::distance(const Triangle& triangle) const {
+double PieceCover::distance(const Corners& corners) const {
   Eigen::AlignedBox3d box_B;
-  for (const std::uint32_t vertex : triangle) box_B.extend(X_BM_ * mesh_M_->offset(vertex));
+  for (const Eigen::Vector3d& corner : corners) box_B.extend(X_BM_ * corner);
   return outside(box_B.center(), half_B_ + 0.5 * box_B.sizes());
 }
 
-std::array<Eigen::Vector3d, 3> PieceCover::corners_T(const Triangle& triangle) const {
-  const auto corner_T = [&](std::uint32_t vertex) -> Eigen::Vector3d {
-    return X_MT_.linear().transpose() * (mesh_M_->offset(vertex) - X_MT_.translation());
+PieceCover::Corners PieceCover::corners_T(const Corners& corners) const {
+  const auto corner_T = [&](const Eigen::Vector3d& corner) -> Eigen::Vector3d {
+    return X_MT_.linear().transpose() * (corner - X_MT_.translation());
   };
-  return {corner_T(triangle[0]), corner_T(triangle[1]), corner_T(triangle[2])};
+  return {corner_T(corners[0]), corner_T(corners[1]), corner_T(corners[2])};
 }
 
 void PieceCover::add(const Eigen::Vector3d& normal_T, double offset_T, size_t number) {
@@ -71,7 +71,7 @@ void PieceCover::add(const Eigen::Vector3d& normal_T, double offset_T, size_t nu
   planes_.push_back({n_M, offset_T + n_M.dot(X_MT_.translation()), number});
 }
 
-std::array<Eigen::Vector3d, 3> PieceCover::corners(const Triangle& triangle) const {
+PieceCover::Corners PieceCover::corners(const Triangle& triangle) const {
   return {mesh_M_->offset(triangle[0]), mesh_M_->offset(triangle[1]), mesh_M_->offset(triangle[2])};
 }
 
@@ -82,11 +82,9 @@ std::optional<size_t> PieceCover::behind(const CenteredBox& box) const {
   return std::nullopt;
 }
 
-std::optional<size_t> PieceCover::behind(const Triangle& triangle, size_t begin) const {
-  if (begin >= planes_.size()) return std::nullopt;
-  const auto at = corners(triangle);
+std::optional<size_t> PieceCover::behind(const Corners& corners, size_t begin) const {
   for (size_t i = begin; i < planes_.size(); ++i) {
-    if (planes_[i].stands(at)) return planes_[i].number;
+    if (planes_[i].stands(corners)) return planes_[i].number;
   }
   return std::nullopt;
 }

@@ -18,6 +18,8 @@ namespace sweep_guard_core {
 /// Positions are relative to the mesh's origin(), along the axes of M.
 class PieceCover {
  public:
+  using Corners = std::array<Eigen::Vector3d, 3>;  ///< of a triangle [m]
+
   /// Begins without planes.
   /// @param X_MT  translation from the mesh's origin() [m]
   void begin(const ConvexShape& shape_T, const TriangleMesh& mesh_M, const Eigen::Isometry3d& X_MT);
@@ -27,9 +29,10 @@ class PieceCover {
   /// Returns a lower bound on the distance of the piece from a box [m]: that of a box around the piece.
   double distance(const CenteredBox& box) const;
   /// Returns the same for a triangle.
-  double distance(const Triangle& triangle) const;
+  double distance(const Corners& corners) const;
 
-  std::array<Eigen::Vector3d, 3> corners_T(const Triangle& triangle) const;
+  Corners corners(const Triangle& triangle) const;
+  Corners corners_T(const Corners& corners) const;
   Eigen::Vector3d normal_M(const Eigen::Vector3d& normal_T) const { return X_MT_.linear() * normal_T; }
   Eigen::Vector3d normal_T(const Eigen::Vector3d& normal_M) const { return X_MT_.linear().transpose() * normal_M; }
 
@@ -41,14 +44,14 @@ class PieceCover {
   /// Returns the number of a plane that the box or triangle lies wholly behind; empty: none.
   /// @param begin  so many planes are left out
   std::optional<size_t> behind(const CenteredBox& box) const;
-  std::optional<size_t> behind(const Triangle& triangle, size_t begin) const;
+  std::optional<size_t> behind(const Corners& corners, size_t begin) const;
 
   /// Sets the plane of the nearest triangle known so far, which may not remain the nearest: what lies behind it is not
   /// nearer. Empty: none is known.
   void setNearest(const std::optional<Eigen::Vector3d>& normal_T, double offset_T = 0.0);
   bool hasNearest() const { return nearest_.has_value(); }
   bool behindNearest(const CenteredBox& box) const { return nearest_ && nearest_->stands(box); }
-  bool behindNearest(const Triangle& triangle) const { return nearest_ && nearest_->stands(corners(triangle)); }
+  bool behindNearest(const Corners& corners) const { return nearest_ && nearest_->stands(corners); }
 
   using PlaneNumbers = boost::container::static_vector<size_t, simd::kMaxPlanes>;
   /// The triangles of a cluster that are not known to lie wholly behind a plane. Bit i stands for its triangle i.
@@ -70,14 +73,13 @@ class PieceCover {
     bool stands(const CenteredBox& box) const {
       return normal_M.dot(box.center) + normal_M.cwiseAbs().dot(box.half) <= offset;
     }
-    bool stands(const std::array<Eigen::Vector3d, 3>& corners) const {
+    bool stands(const Corners& corners) const {
       return std::all_of(corners.begin(), corners.end(), [&](const auto& p) { return normal_M.dot(p) <= offset; });
     }
     bool mayStand(const CenteredBox& box) const {
       return normal_M.dot(box.center) - normal_M.cwiseAbs().dot(box.half) <= offset;
     }
   };
-  std::array<Eigen::Vector3d, 3> corners(const Triangle& triangle) const;
   size_t selectPlanes(const CenteredBox& box, simd::Planes& planes, PlaneNumbers& selected) const;
 
   const ConvexShape* shape_T_ = nullptr;

@@ -8,6 +8,7 @@
 
 #include "common/heartbeat.h"
 #include "geometry/penetration.h"
+#include "guard/intended_contact.h"
 #include "motion/piece_cover.h"
 #include "motion/surface_motion.h"
 #include "sweep_guard/geometry/separation.h"
@@ -54,6 +55,7 @@ class ProximityFinder::Search {
     std::shared_ptr<const Workpiece> workpiece;
     SurfaceMotion* motion;
     const std::vector<TriangleContact>* contacts;  // null: not known
+    IntendedContact intended;
     BlockBoxes boxes;
   };
   // A piece of the tool and a mesh.
@@ -67,6 +69,7 @@ class ProximityFinder::Search {
 
   void begin(const ProximityRequest& request, Proximity& proximity);
   void place(const std::shared_ptr<const Workpiece>& workpiece, const Eigen::Isometry3d& X_WM);
+  void pushIntended(std::uint32_t index);
   void forgetRemoved();
 
   void push(const Candidate& candidate);
@@ -101,6 +104,10 @@ class ProximityFinder::Search {
     return triangle_at.empty() ? place : triangle_at[place];
   }
   const TriangleMesh& meshOf(const Facing& facing) const { return surfaces_[facing.surface].workpiece->mesh_M; }
+  double allowedDepth(const Facing& facing, std::uint32_t triangle) const {
+    return surfaces_[facing.surface].intended.allowedDepth(facing.piece, triangle);
+  }
+  PieceCover::Corners corners(const Facing& facing, std::uint32_t triangle) const;
 
   std::map<std::string, SurfaceMotion> motions_;  // by id
   // Of the running call:
@@ -152,6 +159,9 @@ void ProximityFinder::Search::place(const std::shared_ptr<const Workpiece>& work
   surface.workpiece = workpiece;
   surface.motion = &motions_[workpiece->id];
   surface.motion->update(workpiece, X_WM, request_->pose.stamp);
+  surface.intended = request_->intentions == nullptr
+                         ? IntendedContact()
+                         : IntendedContact(request_->tool, *request_->intentions, *workpiece);
   surface.contacts = nullptr;
   if (request_->swept != nullptr) {
     for (const SweptObject& object : request_->swept->objects) {
@@ -173,9 +183,33 @@ void ProximityFinder::Search::place(const std::shared_ptr<const Workpiece>& work
     facing.nearest = kInfinity;
     facing.cover.begin(request_->tool.pieces()[piece].shape_T, mesh_M, X_MT);
     push({facing.cover.distance(box), static_cast<std::uint32_t>(facing_count_), 0, 0, Kind::kMesh});
+    if (!surface.intended.empty()) pushIntended(static_cast<std::uint32_t>(facing_count_));
     ++facing_count_;
   }
   ++surface_count_;
+}
+
+// They are not where the boxes of the mesh say.
+void ProximityFinder::Search::pushIntended(std::uint32_t index) {
+  const Facing& facing = facings_[index];
+  const Workpiece& workpiece = *surfaces_[facing.surface].workpiece;
+  const std::string& link = request_->tool.pieces()[facing.piece].link;
+  for (const Intention& intention : *request_->intentions) {
+    if (!intention.concerns(workpiece) || !intention.allows(link)) continue;
+    for (const std::uint32_t triangle : intention.triangles) {
+      push({facing.cover.distance(corners(facing, triangle)), index, triangle, 0, Kind::kTriangle});
+    }
+  }
+}
+
+// A triangle that the piece is meant to touch counts from the depth on that is allowed.
+PieceCover::Corners ProximityFinder::Search::corners(const Facing& facing, std::uint32_t triangle) const {
+  PieceCover::Corners corners = facing.cover.corners(meshOf(facing).triangles()[triangle]);
+  const double depth = allowedDepth(facing, triangle);
+  if (depth == 0.0) return corners;
+  const Eigen::Vector3d inwards = (corners[2] - corners[0]).cross(corners[1] - corners[0]).stableNormalized();
+  for (Eigen::Vector3d& corner : corners) corner += depth * inwards;
+  return corners;
 }
 
 void ProximityFinder::Search::forgetRemoved() {
@@ -254,7 +288,8 @@ void ProximityFinder::Search::open(const Candidate& candidate, const Cluster& cl
   double rest = classified.not_nearer != 0 ? facing.nearest : kInfinity;
   for (std::uint64_t left = classified.nearer; left != 0; left &= left - 1) {
     const std::uint32_t triangle = triangleAt(facing, cluster, left);
-    const double bound = std::max(candidate.bound, facing.cover.distance(meshOf(facing).triangles()[triangle]));
+    if (allowedDepth(facing, triangle) > 0.0) continue;
+    const double bound = std::max(candidate.bound, facing.cover.distance(corners(facing, triangle)));
     if (bound < limit) {
       push({bound, candidate.facing, triangle, static_cast<std::uint32_t>(classified.tested), Kind::kTriangle});
     } else {
@@ -278,7 +313,8 @@ void ProximityFinder::Search::seed(const Candidate& candidate, const Cluster& cl
   SeparatedTriangle nearest{};
   for (std::uint64_t left = facing.cover.classify(cluster, box).nearer; left != 0; left &= left - 1) {
     const std::uint32_t triangle = triangleAt(facing, cluster, left);
-    const double distance = facing.cover.distance(meshOf(facing).triangles()[triangle]);
+    if (allowedDepth(facing, triangle) > 0.0) continue;
+    const double distance = facing.cover.distance(corners(facing, triangle));
     if (distance < least) nearest.triangle = triangle;
     least = std::min(least, distance);
   }
@@ -302,15 +338,15 @@ bool ProximityFinder::Search::processTriangle(const Candidate& candidate) {
   Facing& facing = facings_[candidate.facing];
   const bool known = candidate.kind == Kind::kSeparated;
   SeparatedTriangle separated = known ? separated_[candidate.index] : SeparatedTriangle{candidate.index, {}, 0.0, {}};
-  const Triangle& triangle = meshOf(facing).triangles()[separated.triangle];
+  const PieceCover::Corners at = corners(facing, separated.triangle);
   if (known && candidate.bound >= facing.nearest) forgetNearest(facing);
-  if (const auto plane = facing.cover.behind(triangle, candidate.checked)) {
-    quicken(*plane, facing, triangle);
+  if (const auto plane = facing.cover.behind(at, candidate.checked)) {
+    quicken(*plane, facing, meshOf(facing).triangles()[separated.triangle]);
     return true;
   }
   if (candidate.bound >= request_->reach) return leaveOver(candidate.bound);
   if (!known) {
-    if (facing.cover.behindNearest(triangle)) return postpone(candidate);
+    if (facing.cover.behindNearest(at)) return postpone(candidate);
     separate(facing, separated);
     if ((1.0 - kNearer) * separated.gap > leastBound()) {
       wait(candidate.facing, separated);
@@ -328,7 +364,7 @@ void ProximityFinder::Search::forgetNearest(Facing& facing) {
 void ProximityFinder::Search::separate(Facing& facing, SeparatedTriangle& separated) const {
   beat();
   const ConvexShape& shape_T = facing.cover.shape_T();
-  const auto corners_T = facing.cover.corners_T(meshOf(facing).triangles()[separated.triangle]);
+  const auto corners_T = facing.cover.corners_T(corners(facing, separated.triangle));
   const PointHull hull(corners_T);
   const Separation apart = separation(shape_T, hull, /*accuracy=*/0.0, facing.guess_T);
   separated.normal_T = apart.gap > 0.0 ? apart.normal : contactNormal_T(facing, separated.triangle, corners_T);
@@ -378,15 +414,15 @@ bool ProximityFinder::Search::joinContact(Facing& facing, const SeparatedTriangl
   }
   if (best == nullptr) return false;
   const auto number = static_cast<size_t>(best - found_->planes.data());
-  const Triangle& triangle = meshOf(facing).triangles()[separated.triangle];
   SeparatingPlane& plane = best->plane;
   const Eigen::Isometry3d& X_WT = request_->pose.X_WT;
   const Eigen::Vector3d n_T = X_WT.linear().transpose() * plane.normal_W;
-  const Eigen::Vector3d top_W = X_WT * PointHull(facing.cover.corners_T(triangle)).supportPoint(n_T);
+  const PointHull hull(facing.cover.corners_T(corners(facing, separated.triangle)));
+  const Eigen::Vector3d top_W = X_WT * hull.supportPoint(n_T);
   const double step = std::max(0.0, plane.normal_W.dot(top_W - plane.point_W) + meshOf(facing).rounding());
   plane.gap -= step;
   plane.point_W += step * plane.normal_W;
-  quicken(number, facing, triangle);
+  quicken(number, facing, meshOf(facing).triangles()[separated.triangle]);
   return true;
 }
 

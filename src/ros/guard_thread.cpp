@@ -312,7 +312,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
   dependencies_.statistics.swept(warned - pose.received, end - begin);
   reportFailures(report->failures);
   dependencies_.scene.swept(pose, report);
-  top_->run([&] { proximity_.swept(pose, workpieces, *report, guard_.tool()); });
+  top_->run([&] { proximity_.swept(pose, workpieces, *report, guard_); });
 }
 
 void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures) {

@@ -57,7 +57,6 @@ class WireReader {
   Wire wire_;
 };
 
-constexpr size_t kBall = 4 * sizeof(double);
 constexpr size_t kIntend = 4 * kLength + kBall + sizeof(double) + kStamp;
 
 void readIntend(WireReader& read) {

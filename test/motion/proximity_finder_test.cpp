@@ -450,5 +450,110 @@ TEST(ProximityFinderTest, AllocatesNothing) {
   EXPECT_EQ(made.count(), 0U) << made.stacks();
 }
 
+// A drill that comes down on a plate: a bit of 1 mm radius and 40 mm, behind it a shaft of 10 mm radius. Its bit may touch
+// the plate within 15 mm of the origin, 5 mm deep.
+class IntendedProximityTest : public ::testing::Test {
+ protected:
+  IntendedProximityTest() {
+    Intention region;
+    region.mesh_id = plate_->id;
+    region.mesh_triangles = std::shared_ptr<const std::vector<Triangle>>(plate_, &plate_->mesh_M.triangles());
+    region.depth = 0.005;
+    region.tool_links = {"bit"};
+    for (std::uint32_t i = 0; i < plate_->mesh_M.triangles().size(); ++i) {
+      if (distanceFromOrigin(i) < 0.015) region.triangles.push_back(i);
+    }
+    intentions_.push_back(region);
+  }
+
+  double distanceFromOrigin(std::uint32_t triangle) const {
+    double most = 0.0;
+    for (const std::uint32_t i : plate_->mesh_M.triangles()[triangle]) {
+      most = std::max(most, plate_->mesh_M.vertex(i).norm());
+    }
+    return most;
+  }
+
+  // With the tip at a height above the plate.
+  Proximity at(double height, double x = 0.0) {
+    Isometry3d X_WT(Eigen::AngleAxisd(M_PI, Vector3d::UnitX()));
+    X_WT.translation() = Vector3d(x, 0.0, height);
+    Proximity found;
+    finder_.find({tool_, poseAt(X_WT), {plate_}, 0.1, nullptr, &intentions_}, found);
+    return found;
+  }
+
+  // Returns the smallest gap of the bit to what is below it.
+  static double nearestBelow(const Proximity& found) {
+    double gap = kInfinity;
+    for (const ProximityPlane& each : found.planes) {
+      if (each.plane.piece == 0 && each.plane.normal_W.z() > 0.5) gap = std::min(gap, each.plane.gap);
+    }
+    return gap;
+  }
+
+  std::shared_ptr<const Workpiece> plate_ = workpieceOf(square(100));
+  Tool tool_ = Tool(std::vector<ConvexPiece>{
+      {"bit", ConvexShape::cylinder(0.001, 0.04)},
+      {"shaft", ConvexShape::cylinder(0.01, 0.05).placed(Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.04)))}});
+  Intentions intentions_;
+  ProximityFinder finder_;
+};
+
+TEST_F(IntendedProximityTest, TheBitMayComeDownToTheDepth) {
+  EXPECT_NEAR(nearestBelow(at(0.01)), 0.015, 0.05 * 0.015 + 1e-5);
+  EXPECT_NEAR(nearestBelow(at(0.001)), 0.006, 0.05 * 0.006 + 1e-5);
+  const Proximity inside = at(-0.003);
+  EXPECT_NEAR(nearestBelow(inside), 0.002, 0.05 * 0.002 + 1e-5);
+  for (const ProximityPlane& each : inside.planes) EXPECT_GT(each.plane.gap, 0.0);
+}
+
+TEST_F(IntendedProximityTest, DeeperThanAllowedIsAContact) {
+  const Proximity found = at(-0.006);
+  ASSERT_FALSE(found.planes.empty());
+  EXPECT_TRUE(found.planes[0].contact);
+  EXPECT_LT(found.planes[0].plane.gap, 0.0);
+}
+
+TEST_F(IntendedProximityTest, TheShaftIsHeldBackByTheSurface) {
+  const Proximity found = at(-0.003);
+  const auto of_shaft = [](const ProximityPlane& each) { return each.plane.piece == 1; };
+  const auto shaft = std::find_if(found.planes.begin(), found.planes.end(), of_shaft);
+  ASSERT_NE(shaft, found.planes.end());
+  EXPECT_NEAR(shaft->plane.gap, 0.037, 0.05 * 0.037 + 1e-5);
+}
+
+TEST_F(IntendedProximityTest, BesideTheRegionTheSurfaceCounts) {
+  const Proximity found = at(0.001, 0.02);
+  ASSERT_FALSE(found.planes.empty());
+  EXPECT_NEAR(found.planes[0].plane.gap, 0.001, 6e-5);
+  EXPECT_GT(found.planes[0].plane.normal_W.z(), 0.9);
+}
+
+TEST_F(IntendedProximityTest, InTheHoleItsRimIsNear) {
+  const Proximity found = at(-0.003, 0.01);
+  double nearest = kInfinity;
+  for (const ProximityPlane& each : found.planes) {
+    if (each.plane.piece == 0 && each.plane.normal_W.x() < -0.7) nearest = std::min(nearest, each.plane.gap);
+  }
+  EXPECT_GT(nearest, 0.002);
+  EXPECT_LT(nearest, 0.004);
+}
+
+TEST_F(IntendedProximityTest, ARegionOfAnotherMeshChangesNothing) {
+  const Proximity meant = at(0.001);
+  intentions_[0].mesh_id = "other";
+  const Proximity other = at(0.001);
+  intentions_.clear();
+  const Proximity nothing = at(0.001);
+  EXPECT_NE(meant.planes[0].plane.gap, nothing.planes[0].plane.gap);
+  ASSERT_EQ(other.planes.size(), nothing.planes.size());
+  for (size_t i = 0; i < other.planes.size(); ++i) {
+    EXPECT_EQ(other.planes[i].plane.gap, nothing.planes[i].plane.gap);
+    EXPECT_EQ(other.planes[i].plane.normal_W, nothing.planes[i].plane.normal_W);
+  }
+  EXPECT_EQ(other.uncovered.distance, nothing.uncovered.distance);
+}
+
 }  // namespace
 }  // namespace sweep_guard_core

@@ -95,6 +95,8 @@ class Guard {
   /// away from the regions. Without narrow phase (SweepOptions::fine), nothing is intended.
   /// @param intentions  not null
   void intend(std::shared_ptr<const Intentions> intentions);
+  /// Returns where contact is meant: nowhere without narrow phase.
+  const std::shared_ptr<const Intentions>& intentions() const;
 
   /// Returns what was learned of the operator, see PosePredictor.
   std::unique_ptr<Profile> profile() const;
@@ -117,7 +119,6 @@ class Guard {
   void chooseSweepPlan(SteadyTime begin, const std::function<void()>& between);
   void interrupt(const std::function<void()>& between);
   void throwIfStopping() const;
-  const std::shared_ptr<const Intentions>& intentions() const;
 
   std::atomic<bool> stopping_ = false;
   Tool tool_;

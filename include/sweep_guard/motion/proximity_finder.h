@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/guard/intention.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/guard/sweep_report.h"
 #include "sweep_guard/guard/workpiece.h"
@@ -23,6 +24,9 @@ struct ProximityRequest {
   /// Sweep to this pose: a triangle that the tool overlaps keeps the normal that it was first touched with. Null: the
   /// normal of the triangle is taken, to the side that frees the tool sooner.
   const SweepReport* swept = nullptr;
+  /// Where contact is meant: a triangle that a link may touch counts from the allowed depth on, for the pieces of this
+  /// link. Null: nowhere.
+  const Intentions* intentions = nullptr;
 };
 
 /// A plane and what it was made for.

@@ -65,11 +65,12 @@ void ProximityPublisher::setTool(const sweep_guard_core::Tool& tool) {
 
 void ProximityPublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
                                const sweep_guard_core::Workpieces& workpieces,
-                               const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool) {
+                               const sweep_guard_core::SweepReport& report, const sweep_guard_core::Guard& guard) {
+  const sweep_guard_core::Tool& tool = guard.tool();
   const auto parameters = parameters_.get();
   if (planes_publisher_.getNumSubscribers() == 0 || parameters->proximity_reach == 0.0) return reset();
   const InStage computing(Stage::kProximity);
-  finder_.find({tool, pose, workpieces, parameters->proximity_reach, &report}, proximity_);
+  finder_.find({tool, pose, workpieces, parameters->proximity_reach, &report, guard.intentions().get()}, proximity_);
   const InStage publishing(Stage::kPublish);
   const auto message = boost::make_shared<sweep_guard::Proximity>();
   message->header.stamp = sweep_guard_ros::toMsg(pose.stamp);

@@ -4,6 +4,7 @@
 #include <ros/publisher.h>
 
 #include "ros/parameters/parameters.h"
+#include "sweep_guard/guard/guard.h"
 #include "sweep_guard/guard/sweep_report.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 #include "sweep_guard/motion/proximity_finder.h"
@@ -22,8 +23,9 @@ class ProximityPublisher {
 
   /// Computes and publishes the planes, if there is a subscriber and a reach.
   /// @param report  of the sweep to the pose
+  /// @param guard   that made it
   void swept(const sweep_guard_core::PoseWithFrames& pose, const sweep_guard_core::Workpieces& workpieces,
-             const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool);
+             const sweep_guard_core::SweepReport& report, const sweep_guard_core::Guard& guard);
 
   void reset() { finder_.reset(); }  ///< forgets the motion of the surfaces
 
