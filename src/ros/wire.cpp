@@ -10,6 +10,9 @@ namespace {
 constexpr size_t kLength = 4;  // [bytes]
 constexpr size_t kStamp = 8;   // or a duration
 constexpr size_t kPose = 7 * sizeof(double);
+constexpr size_t kTwist = 6 * sizeof(double);
+constexpr size_t kBall = 4 * sizeof(double);
+constexpr size_t kPlane = 8 * sizeof(double);  // without names and indices
 
 // Walks over the fields of a message in their order.
 class WireReader {
@@ -93,6 +96,68 @@ void checkLengths<sweep_guard::MeshVertices>(Wire wire) {
   read.text();
   read.skip(sizeof(sweep_guard::MeshVertices::revision));
   read.array(sizeof(float));
+  read.end();
+}
+
+template <>
+void checkLengths<geometry_msgs::Twist>(Wire wire) {
+  WireReader read(wire);
+  read.skip(kTwist);
+  read.end();
+}
+
+template <>
+void checkLengths<geometry_msgs::TwistStamped>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.skip(kTwist);
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::Proximity>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.text();
+  read.skip(sizeof(sweep_guard::Proximity::tool_revision) + kStamp + 1);
+  read.each(2 * kLength + 2 * sizeof(std::uint32_t) + kPlane, [&] {
+    read.text();
+    read.skip(sizeof(sweep_guard::SeparatingPlane::piece));
+    read.text();
+    read.skip(sizeof(sweep_guard::SeparatingPlane::triangle) + kPlane);
+  });
+  read.skip(2 * sizeof(double));
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::ToolBalls>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.text();
+  read.skip(sizeof(sweep_guard::ToolBalls::revision));
+  read.each(2 * kLength, [&] {
+    read.text();
+    read.array(kBall);
+  });
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::Warning>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.text();
+  read.skip(5 + kStamp);
+  read.text();
+  read.text();
+  read.array(sizeof(std::uint32_t));
+  read.skip(sizeof(sweep_guard::Warning::reasons));
+  read.text();
+  read.skip(sizeof(sweep_guard::Warning::sequence) + sizeof(sweep_guard::Warning::level_counts) + 2 * kStamp);
+  read.text();
+  const size_t up_to_run_id = 8 * kLength + 4 * kStamp + 5 + 7 * sizeof(std::uint32_t);  // if all is empty
+  read.skip(ros::serialization::serializationLength(sweep_guard::Warning()) - up_to_run_id);
   read.end();
 }
 

@@ -2,6 +2,8 @@
 
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <sweep_guard/Acknowledge.h>
@@ -9,7 +11,10 @@
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/Predict.h>
+#include <sweep_guard/Proximity.h>
 #include <sweep_guard/SaveProfile.h>
+#include <sweep_guard/ToolBalls.h>
+#include <sweep_guard/Warning.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstddef>
@@ -38,6 +43,16 @@ template <>
 void checkLengths<sweep_guard::DeformableMesh>(Wire wire);
 template <>
 void checkLengths<sweep_guard::MeshVertices>(Wire wire);
+template <>
+void checkLengths<geometry_msgs::Twist>(Wire wire);
+template <>
+void checkLengths<geometry_msgs::TwistStamped>(Wire wire);
+template <>
+void checkLengths<sweep_guard::Proximity>(Wire wire);
+template <>
+void checkLengths<sweep_guard::ToolBalls>(Wire wire);
+template <>
+void checkLengths<sweep_guard::Warning>(Wire wire);
 template <>
 void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire);
 template <>
