@@ -82,12 +82,76 @@ sweep_guard::MeshVertices example() {
 }
 
 template <>
+geometry_msgs::Twist example() {
+  return {};
+}
+
+template <>
+geometry_msgs::TwistStamped example() {
+  geometry_msgs::TwistStamped message;
+  message.header = header();
+  return message;
+}
+
+template <>
+sweep_guard::Proximity example() {
+  sweep_guard::Proximity message;
+  message.header = header();
+  message.tool = "drill";
+  message.planes.resize(2);
+  message.planes[0].tool_link = "tip";
+  message.planes[1].mesh_id = "liver";
+  return message;
+}
+
+template <>
+sweep_guard::ToolBalls example() {
+  sweep_guard::ToolBalls message;
+  message.header = header();
+  message.tool = "drill";
+  message.pieces.resize(2);
+  message.pieces[0].link = "tip";
+  message.pieces[1].balls.resize(3);
+  return message;
+}
+
+template <>
+sweep_guard::Warning example() {
+  sweep_guard::Warning message;
+  message.header = header();
+  message.tool = "drill";
+  message.mesh_id = "liver";
+  message.tool_link = "tip";
+  message.triangles = {1, 2, 3};
+  message.text = "CONTACT";
+  message.run_id = "run";
+  return message;
+}
+
+template <>
 sweep_guard::CheckSweepRequest example() {
   sweep_guard::CheckSweepRequest message;
   message.path = {poseStamped(), geometry_msgs::PoseStamped(), poseStamped()};
   message.mesh_ids = {"liver", "", "spleen"};
   message.volume = "hull";
   message.detector = "select";
+  return message;
+}
+
+template <>
+sweep_guard::Intend example() {
+  sweep_guard::Intend message;
+  message.mesh_id = "liver";
+  message.triangles = {1, 2, 3};
+  message.frame_id = "world";
+  message.tool_links = {"bit", ""};
+  return message;
+}
+
+template <>
+sweep_guard::SetIntentRequest example() {
+  sweep_guard::SetIntentRequest message;
+  message.intends = {example<sweep_guard::Intend>(), sweep_guard::Intend()};
   return message;
 }
 
@@ -178,12 +242,64 @@ std::vector<size_t> lengths<sweep_guard::MeshVertices>() {
 }
 
 template <>
+std::vector<size_t> lengths<geometry_msgs::Twist>() {
+  return {};
+}
+
+template <>
+std::vector<size_t> lengths<geometry_msgs::TwistStamped>() {
+  return {12};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::Proximity>() {
+  const size_t planes = kHeader + 4 + 5 + 4 + 8 + 1;
+  const size_t first = planes + 4;
+  const size_t second = first + 4 + 3 + 4 + 4 + 4 + 64;
+  return {12, kHeader, planes, first, first + 4 + 3 + 4, second, second + 4 + 4};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::ToolBalls>() {
+  const size_t pieces = kHeader + 4 + 5 + 4;
+  const size_t second = pieces + 4 + 4 + 3 + 4;
+  return {12, kHeader, pieces, pieces + 4, pieces + 4 + 4 + 3, second, second + 4};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::Warning>() {
+  const size_t mesh_id = kHeader + 4 + 5 + 5 + 8;
+  const size_t link = mesh_id + 4 + 5;
+  const size_t triangles = link + 4 + 3;
+  const size_t text = triangles + 4 + 12 + 4;
+  const size_t run_id = text + 4 + 7 + 4 + 20 + 16;
+  return {12, kHeader, mesh_id, link, triangles, text, run_id};
+}
+
+template <>
 std::vector<size_t> lengths<sweep_guard::CheckSweepRequest>() {
   const size_t second = 4 + kHeader + kPose;
   const size_t third = second + 16 + kPose;
   const size_t ids = third + kHeader + kPose;
   const size_t volume = ids + 4 + (4 + 5) + 4 + (4 + 6);
   return {0, 4 + 12, second + 12, third + 12, ids, ids + 4, ids + 13, ids + 17, volume, volume + 4 + 4};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::Intend>() {
+  const size_t triangles = 4 + 5;
+  const size_t frame = triangles + 4 + 12;
+  const size_t links = frame + (4 + 5) + 24 + 8 + 8;
+  return {0, triangles, frame, links, links + 4, links + 4 + (4 + 3)};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::SetIntentRequest>() {
+  std::vector<size_t> all = {0};
+  for (const size_t position : lengths<sweep_guard::Intend>()) all.push_back(4 + position);
+  const size_t second = all.back() + 4 + 8;
+  for (const size_t position : {0, 4, 8, 12 + 24 + 8 + 8}) all.push_back(second + position);
+  return all;
 }
 
 template <>
@@ -251,9 +367,11 @@ class WireTest : public testing::Test {};
 
 using Messages =
     testing::Types<geometry_msgs::PoseStamped, geometry_msgs::Twist, geometry_msgs::TwistStamped, tf2_msgs::TFMessage,
-                   sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest,
+                   sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::Proximity,
+                   sweep_guard::ToolBalls, sweep_guard::Warning, sweep_guard::CheckSweepRequest,
                    sweep_guard::PredictRequest, sweep_guard::AcknowledgeRequest, sweep_guard::SaveProfileRequest,
-                   std_srvs::SetBoolRequest, std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
+                   sweep_guard::Intend, sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest,
+                   std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {
