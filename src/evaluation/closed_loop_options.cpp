@@ -27,7 +27,7 @@ po::options_description describe(ClosedLoopOptions& options) {
       "retreats in random directions from each place where the tool was held, with and without a turn each")(
       "tool-radius", withDefault("0.005", "M"), "radius of the tool, a cylinder [m]")(
       "tool-length", withDefault("0.1", "M"), "length of the tool [m]")(
-      "pieces", withDefault("1", "N"), "convex pieces, end to end, that the guard knows the tool as");
+      "pieces", withDefault("5", "N"), "convex pieces, end to end, that the tool is described by");
   return described;
 }
 

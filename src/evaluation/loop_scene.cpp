@@ -7,7 +7,6 @@
 
 namespace sweep_guard_evaluation {
 
-using sweep_guard_core::ConvexPiece;
 using sweep_guard_core::Separation;
 
 LoopScene::LoopScene(const sweep_guard_core::Tool& tool, const SquareObstacle& square)
@@ -21,15 +20,21 @@ Eigen::Vector3d LoopScene::normal_M() const {
   return (corners_M_[1] - corners_M_[0]).cross(corners_M_[3] - corners_M_[0]).normalized();
 }
 
+Separation LoopScene::separationAt(const Eigen::Isometry3d& X_MT, size_t piece) const {
+  const sweep_guard_core::ConvexShape& shape_T = tool_.pieces()[piece].shape_T;
+  const sweep_guard_core::PlacedCore core{shape_T, X_MT.linear(), X_MT.translation()};
+  Separation apart = separation(core, sweep_guard_core::PointHull(corners_M_));
+  apart.gap -= shape_T.padding();
+  return apart;
+}
+
 Separation LoopScene::separationAt(const Eigen::Isometry3d& X_MT) const {
-  std::optional<Separation> nearest;
-  for (const ConvexPiece& piece : tool_.pieces()) {
-    const sweep_guard_core::PlacedCore core{piece.shape_T, X_MT.linear(), X_MT.translation()};
-    Separation apart = separation(core, sweep_guard_core::PointHull(corners_M_));
-    apart.gap -= piece.shape_T.padding();
-    if (!nearest || apart.gap < nearest->gap) nearest = apart;
+  Separation nearest = separationAt(X_MT, 0);
+  for (size_t piece = 1; piece < tool_.pieces().size(); ++piece) {
+    const Separation apart = separationAt(X_MT, piece);
+    if (apart.gap < nearest.gap) nearest = apart;
   }
-  return *nearest;
+  return nearest;
 }
 
 std::optional<size_t> LoopScene::firstContact(const std::vector<Eigen::Isometry3d>& path_MT,

@@ -22,7 +22,9 @@ class LoopScene {
   const std::array<Eigen::Vector3d, 4>& corners_M() const { return corners_M_; }
   Eigen::Vector3d normal_M() const;  ///< of the square, unit
 
-  /// Returns the separation of the nearest piece of the tool; its points are in M.
+  /// Returns the separation of a piece of the tool; its points are in M.
+  sweep_guard_core::Separation separationAt(const Eigen::Isometry3d& X_MT, size_t piece) const;
+  /// Returns that of the nearest piece.
   sweep_guard_core::Separation separationAt(const Eigen::Isometry3d& X_MT) const;
 
   /// Returns the first step of a path in which the tool touches the square. It sweeps: between two poses of the path the

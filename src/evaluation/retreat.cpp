@@ -27,11 +27,6 @@ bool opens(const Twist& twist_W, const Eigen::Vector3d& normal, const Eigen::Vec
   return normal.dot(twist_W.v_W + twist_W.w_W.cross(from_origin)) >= 0.0;
 }
 
-bool opensNearestGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const Twist& twist_W) {
-  const auto apart = scene.separationAt(X_MT);
-  return opens(twist_W, apart.normal, apart.on_tool - X_MT.translation());
-}
-
 double keptOf(const Eigen::Vector3d& output, const Eigen::Vector3d& command) {
   const double squared = command.squaredNorm();
   return squared > 0.0 ? output.dot(command) / squared : 1.0;
@@ -61,9 +56,7 @@ Retreat run(RetreatKind kind, ClosedLoop loop, const std::vector<Twist>& command
   const double begin = loop.scene().separationAt(loop.X_MT()).gap;
   double seconds = 0.0;
   for (const Twist& command_W : commands_W) {
-    const bool opening = kind == RetreatKind::kNormal ? opensNearestGap(loop.scene(), loop.X_MT(), command_W)
-                                                      : opensEveryGap(loop.scene(), loop.X_MT(), command_W);
-    if (!opening) break;
+    if (!opensEveryGap(loop.scene(), loop.X_MT(), command_W)) break;
     const LoopCycle cycle = loop.run(command_W);
     seconds += toSeconds(kCommandPeriod);
     retreat.speed_kept = std::min(
@@ -86,12 +79,14 @@ Twist randomTwist(RetreatKind kind, const RobotLimits& limits, Random& random) {
 }  // namespace
 
 bool opensEveryGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const Twist& twist_W) {
-  if (!opensNearestGap(scene, X_MT, twist_W)) return false;
-  for (const auto& piece : scene.tool().pieces()) {
-    for (const auto& ball : enclosingBalls(piece.shape_T)) {
+  const Eigen::Vector3d& origin_M = X_MT.translation();
+  for (size_t i = 0; i < scene.tool().pieces().size(); ++i) {
+    const auto nearest = scene.separationAt(X_MT, i);
+    if (!opens(twist_W, nearest.normal, nearest.on_tool - origin_M)) return false;
+    for (const auto& ball : enclosingBalls(scene.tool().pieces()[i].shape_T)) {
       const Eigen::Vector3d center_M = X_MT * ball.center_T;
       const auto apart = separation(Point{center_M}, sweep_guard_core::PointHull(scene.corners_M()));
-      if (!opens(twist_W, apart.normal, center_M - X_MT.translation())) return false;
+      if (!opens(twist_W, apart.normal, center_M - origin_M)) return false;
     }
   }
   return true;

@@ -33,14 +33,14 @@ struct HeldTool {
   std::vector<sweep_guard_core::Twist> came_W;  ///< velocities of the robot at each command before, the newest last
 };
 
-/// Returns whether a velocity brings no point of the tool closer to the surface: neither the nearest one, nor the corners
-/// and balls that enclose its pieces, each measured from the nearest point of the surface.
+/// Returns whether a velocity brings no piece of the tool closer to the surface: neither its nearest point, nor the balls
+/// that enclose it, each measured from the nearest point of the surface.
 bool opensEveryGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const sweep_guard_core::Twist& twist_W);
 
-/// Lets the tool retreat from one place along the normal of the surface, as it came, and `random` times each in random
-/// directions that open every gap, with and without a turn. A retreat begins at the speed 0, speeds up as the robot can
-/// and lasts 0.3 s, or, as it came, 0.5 s. It ends before a command that does not open every gap (along the normal: the
-/// nearest gap).
+/// Lets the tool retreat from one place along the normal of the surface, as it came, and `random_count` times each in
+/// random directions that open every gap, with and without a turn. A retreat begins at the speed 0, speeds up as the
+/// robot can and lasts 0.3 s, or, as it came, 0.5 s. It ends before a command that does not open every gap: beside the
+/// edge of a surface, its normal does not lead away from it.
 std::vector<Retreat> retreatFrom(const HeldTool& held, const RobotLimits& limits, size_t random_count, Random& random);
 
 }  // namespace sweep_guard_evaluation
