@@ -52,7 +52,7 @@ Twist ClosedLoop::watch(const Twist& command_W, const DrivenRobot::Cycle& next) 
 LoopCycle::Contact ClosedLoop::speedsAt(const Separation& apart) const {
   const Twist& velocity_W = robot_.velocity_W();
   const Eigen::Vector3d from_origin_W = apart.on_tool - X_MT().translation();
-  const double tool = -apart.normal.dot(velocity_W.v_W + velocity_W.w_W.cross(from_origin_W));
+  const double tool = 0.0 - apart.normal.dot(velocity_W.v_W + velocity_W.w_W.cross(from_origin_W));
   return {tool + apart.normal.dot(surface_.v_W), tool};
 }
 

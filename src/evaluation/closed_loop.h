@@ -43,7 +43,7 @@ class ClosedLoop {
   LoopCycle run(const sweep_guard_core::Twist& command_W);
 
   /// Returns what the guard would send, as the robot carries out the command. Then goes on to the robot of the next cycle.
-  /// Needs a guard.
+  /// Without a guard that is the command.
   sweep_guard_core::Twist watch(const sweep_guard_core::Twist& command_W, const DrivenRobot::Cycle& next);
 
   const LoopScene& scene() const { return *scene_; }

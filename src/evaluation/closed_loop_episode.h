@@ -50,8 +50,8 @@ struct LoopPlacement {
 };
 
 /// Returns when the episode of a placement may begin: at the latest cycle, not after that of the placement, at which the
-/// tool is beyond the standoff and a guard has passed on every command for 0.2 s. So neither arm begins with a tool that is too fast to be stopped. Empty:
-/// there is none in the 4 s before.
+/// tool is beyond the standoff and a guard has passed on every command for 0.2 s. A tool that is already too near and too
+/// fast when a surface appears could not be stopped by any guard. Empty: there is no such cycle in the 4 s before.
 std::optional<LoopPlacement> beginOf(const DrivenRobot& driven, const ObstaclePlacement& placement,
                                      const ClosedLoopSetup& setup);
 

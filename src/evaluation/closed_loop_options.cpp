@@ -86,9 +86,11 @@ std::string closedLoopUsage() {
           "Lets recorded hands drive a simulated robot towards squares, with and without a motion guard before it. "
           "FILE is a\n"
           "motion file (lines `stamp tx ty tz qx qy qz qw` in s and m) or a rosbag with geometry_msgs/PoseStamped or\n"
-          "TransformStamped. Prints a table. The exit status is 1 if a guarded tool touches a square at rest, if a "
-          "command was\n"
-          "changed without a square within reach, or if the standoff was reached at 1 mm/s or more.\n\n"
+          "TransformStamped. Prints a table. The exit status is 1 if a guarded tool touches a square at rest, reaches "
+          "the\n"
+          "standoff at 1 mm/s or more or retreats with less than 99 % of its speed, or if a command is changed without "
+          "a square\n"
+          "within reach.\n\n"
        << describe(options) << '\n'
        << describeRobot(options.setup);
   return text.str();

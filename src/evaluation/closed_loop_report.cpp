@@ -192,7 +192,7 @@ bool keepsItsPromise(const std::vector<ClosedLoopCount>& counts) {
     if (!count.guarded || surfaceComes(count)) return true;
     const Figures figures(count);
     return figures.free_changed == 0 && figures.closing_speeds.empty() && figures.retreat_contacts == 0 &&
-           figures.standoff_speed < kMaxStandoffSpeed;
+           figures.kept == figures.retreats && figures.standoff_speed < kMaxStandoffSpeed;
   });
 }
 

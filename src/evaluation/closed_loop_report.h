@@ -48,7 +48,8 @@ std::vector<ClosedLoopCount> summed(const std::vector<ClosedLoopCount>& counts);
 std::string closedLoopCsv(const std::vector<ClosedLoopCount>& counts);
 
 /// Returns whether before surfaces at rest no guarded tool touched one, also in a retreat, none reached the standoff at
-/// 1 mm/s or more, and each command without a surface within reach was passed on bit for bit.
+/// 1 mm/s or more, each retreat kept 99 % of its speed, and each command without a surface within reach was passed on bit
+/// for bit.
 bool keepsItsPromise(const std::vector<ClosedLoopCount>& counts);
 
 /// Returns a table for the terminal.

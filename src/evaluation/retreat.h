@@ -33,8 +33,8 @@ struct HeldTool {
   std::vector<sweep_guard_core::Twist> came_W;  ///< velocities of the robot at each command before, the newest last
 };
 
-/// Returns whether a velocity brings no piece of the tool closer to the surface: neither its nearest point, nor the balls
-/// that enclose it, each measured from the nearest point of the surface.
+/// Returns whether a velocity brings no piece of the tool closer to the surface: no nearest point of a piece and no ball
+/// that encloses it, each measured from the nearest point of the surface.
 bool opensEveryGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const sweep_guard_core::Twist& twist_W);
 
 /// Lets the tool retreat from one place along the normal of the surface, as it came, and `random_count` times each in

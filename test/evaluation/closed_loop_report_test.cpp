@@ -45,7 +45,7 @@ TEST(ClosedLoopReportTest, IsEmptyWhereThereIsNothingToSay) {
   EXPECT_EQ(fields[6], "");
 }
 
-TEST(ClosedLoopReportTest, KeepsItsPromiseOnlyIfNothingIsTouchedOrChangedAndTheStandoffIsReachedSlowly) {
+TEST(ClosedLoopReportTest, KeepsItsPromiseOnlyIfNothingIsTouchedChangedOrHeldBackAndTheStandoffIsReachedSlowly) {
   EXPECT_TRUE(keepsItsPromise({counted(true)}));
   ClosedLoopCount count = counted(true);
   count.episodes[0].contact = LoopCycle::Contact{0.1, 0.1};
@@ -62,6 +62,9 @@ TEST(ClosedLoopReportTest, KeepsItsPromiseOnlyIfNothingIsTouchedOrChangedAndTheS
   count.episodes[1].retreats.resize(1);
   EXPECT_TRUE(keepsItsPromise({count}));
   count.episodes[1].retreats[0].contact = true;
+  EXPECT_FALSE(keepsItsPromise({count}));
+  count.episodes[1].retreats[0].contact = false;
+  count.episodes[1].retreats[0].speed_kept = 0.98;
   EXPECT_FALSE(keepsItsPromise({count}));
 }
 
