@@ -156,7 +156,8 @@ void checkLengths<sweep_guard::Warning>(Wire wire) {
   read.text();
   read.skip(sizeof(sweep_guard::Warning::sequence) + sizeof(sweep_guard::Warning::level_counts) + 2 * kStamp);
   read.text();
-  read.skip(1 + kStamp + 1);
+  const size_t up_to_run_id = 8 * kLength + 4 * kStamp + 5 + 7 * sizeof(std::uint32_t);  // if all is empty
+  read.skip(ros::serialization::serializationLength(sweep_guard::Warning()) - up_to_run_id);
   read.end();
 }
 

@@ -38,18 +38,6 @@ geometry_msgs::PoseStamped example() {
 }
 
 template <>
-geometry_msgs::Twist example() {
-  return {};
-}
-
-template <>
-geometry_msgs::TwistStamped example() {
-  geometry_msgs::TwistStamped twist;
-  twist.header = header();
-  return twist;
-}
-
-template <>
 tf2_msgs::TFMessage example() {
   tf2_msgs::TFMessage message;
   message.transforms.resize(3);
@@ -78,6 +66,53 @@ template <>
 sweep_guard::MeshVertices example() {
   auto message = ofLiver<sweep_guard::MeshVertices>();
   message.positions.resize(12);
+  return message;
+}
+
+template <>
+geometry_msgs::Twist example() {
+  return {};
+}
+
+template <>
+geometry_msgs::TwistStamped example() {
+  geometry_msgs::TwistStamped message;
+  message.header = header();
+  return message;
+}
+
+template <>
+sweep_guard::Proximity example() {
+  sweep_guard::Proximity message;
+  message.header = header();
+  message.tool = "drill";
+  message.planes.resize(2);
+  message.planes[0].tool_link = "tip";
+  message.planes[1].mesh_id = "liver";
+  return message;
+}
+
+template <>
+sweep_guard::ToolBalls example() {
+  sweep_guard::ToolBalls message;
+  message.header = header();
+  message.tool = "drill";
+  message.pieces.resize(2);
+  message.pieces[0].link = "tip";
+  message.pieces[1].balls.resize(3);
+  return message;
+}
+
+template <>
+sweep_guard::Warning example() {
+  sweep_guard::Warning message;
+  message.header = header();
+  message.tool = "drill";
+  message.mesh_id = "liver";
+  message.tool_link = "tip";
+  message.triangles = {1, 2, 3};
+  message.text = "CONTACT";
+  message.run_id = "run";
   return message;
 }
 
@@ -150,16 +185,6 @@ std::vector<size_t> lengths<geometry_msgs::PoseStamped>() {
 }
 
 template <>
-std::vector<size_t> lengths<geometry_msgs::Twist>() {
-  return {};
-}
-
-template <>
-std::vector<size_t> lengths<geometry_msgs::TwistStamped>() {
-  return {12};
-}
-
-template <>
 std::vector<size_t> lengths<tf2_msgs::TFMessage>() {
   const size_t second = 4 + kHeader + 4 + kPose;
   const size_t third = second + 16 + 4 + 4 + kPose;
@@ -175,6 +200,41 @@ std::vector<size_t> lengths<sweep_guard::DeformableMesh>() {
 template <>
 std::vector<size_t> lengths<sweep_guard::MeshVertices>() {
   return {12, kHeader, kHeader + 4 + 5 + 4};
+}
+
+template <>
+std::vector<size_t> lengths<geometry_msgs::Twist>() {
+  return {};
+}
+
+template <>
+std::vector<size_t> lengths<geometry_msgs::TwistStamped>() {
+  return {12};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::Proximity>() {
+  const size_t planes = kHeader + 4 + 5 + 4 + 8 + 1;
+  const size_t first = planes + 4;
+  const size_t second = first + 4 + 3 + 4 + 4 + 4 + 64;
+  return {12, kHeader, planes, first, first + 4 + 3 + 4, second, second + 4 + 4};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::ToolBalls>() {
+  const size_t pieces = kHeader + 4 + 5 + 4;
+  const size_t second = pieces + 4 + 4 + 3 + 4;
+  return {12, kHeader, pieces, pieces + 4, pieces + 4 + 4 + 3, second, second + 4};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::Warning>() {
+  const size_t mesh_id = kHeader + 4 + 5 + 5 + 8;
+  const size_t link = mesh_id + 4 + 5;
+  const size_t triangles = link + 4 + 3;
+  const size_t text = triangles + 4 + 12 + 4;
+  const size_t run_id = text + 4 + 7 + 4 + 20 + 16;
+  return {12, kHeader, mesh_id, link, triangles, text, run_id};
 }
 
 template <>
@@ -251,7 +311,8 @@ class WireTest : public testing::Test {};
 
 using Messages =
     testing::Types<geometry_msgs::PoseStamped, geometry_msgs::Twist, geometry_msgs::TwistStamped, tf2_msgs::TFMessage,
-                   sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::CheckSweepRequest,
+                   sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::Proximity,
+                   sweep_guard::ToolBalls, sweep_guard::Warning, sweep_guard::CheckSweepRequest,
                    sweep_guard::PredictRequest, sweep_guard::AcknowledgeRequest, sweep_guard::SaveProfileRequest,
                    std_srvs::SetBoolRequest, std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
@@ -327,8 +388,8 @@ class BoundedMessagesTest : public testing::Test {
       [](const auto& /*event*/) {}, [this](const std::string& reason) { refusals_.push_back(reason); }, kMaxSize);
 };
 
-using Topics = testing::Types<geometry_msgs::PoseStamped, geometry_msgs::TwistStamped, tf2_msgs::TFMessage,
-                              sweep_guard::DeformableMesh, sweep_guard::MeshVertices>;
+using Topics = testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
+                              sweep_guard::MeshVertices>;
 TYPED_TEST_SUITE(BoundedMessagesTest, Topics, );
 
 TYPED_TEST(BoundedMessagesTest, ReadsWhatWasSent) {

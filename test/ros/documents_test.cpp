@@ -15,6 +15,7 @@
 #include <set>
 #include <sstream>
 
+#include "ros/motion/motion_parameters.h"
 #include "ros/parameter_documents.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/Warning.h"
@@ -181,6 +182,13 @@ TEST(DocumentsTest, ListEachParameter) {
   const std::string head = "| key | default | type, unit, range | while running | effect |";
   expectContents(kInterface, withRows(contents(kInterface), head, parameterRows(described)));
   expectContents(kRoot / "config" / "sweep_guard.yaml", configurationFile(described));
+}
+
+TEST(DocumentsTest, ListEachParameterOfMotionGuard) {
+  const auto described = loadMotionParameters(ros::NodeHandle("/nothing_is_set")).described;
+  const std::string head = "| key | default | type, unit, range | effect |";
+  expectContents(kInterface, withRows(contents(kInterface), head, fixedParameterRows(described)));
+  expectContents(kRoot / "config" / "motion_guard.yaml", motionConfigurationFile(described));
 }
 
 std::string argumentLine(const tinyxml2::XMLElement& argument) {

@@ -11,13 +11,16 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr size_t kLineLength = 118;
-const std::string kHead =
-    "# Every parameter of sweep_guard_node with its default. The comment above a key tells type, unit, range and "
-    "effect.\n"
-    "# A wrong type, NaN or a value out of range stops the node at start with one line. An unknown key raises a "
-    "warning.\n"
-    "# doc/interface.md tells which parameters can change while the node runs.\n"
-    "# This file is written from src/ros/parameters/parameters.cpp, as CONTRIBUTING.md explains.\n";
+const std::string kChanges = "# doc/interface.md tells which parameters can change while the node runs.\n";
+
+// @param changes  a line about parameters that change while the node runs; empty: none does
+std::string head(const std::string& node, const std::string& changes, const std::string& source) {
+  return "# Every parameter of " + node +
+         " with its default. The comment above a key tells type, unit, range and effect.\n"
+         "# A wrong type, NaN or a value out of range stops the node at start with one line. An unknown key raises a "
+         "warning.\n" +
+         changes + "# This file is written from " + source + ", as CONTRIBUTING.md explains.\n";
+}
 
 std::string groupOf(const std::string& key) {
   const size_t slash = key.find('/');
@@ -62,19 +65,12 @@ std::string fallbackOf(const ParameterInfo& info) {
   return text.empty() ? "''" : text;
 }
 
-}  // namespace
-
-std::vector<std::string> parameterRows(const std::vector<ParameterInfo>& infos) {
-  std::vector<std::string> rows;
-  for (const ParameterInfo& info : grouped(infos)) {
-    rows.push_back("| `" + info.key + "` | `" + fallbackOf(info) + "` | " + info.wanted + " | " +
-                   (changesWhileRunning(info.key) ? "yes" : "no") + " | " + info.effect + " |");
-  }
-  return rows;
+std::string begin(const ParameterInfo& info) {
+  return "| `" + info.key + "` | `" + fallbackOf(info) + "` | " + info.wanted + " | ";
 }
 
-std::string configurationFile(const std::vector<ParameterInfo>& infos) {
-  std::string text = kHead;
+std::string entries(const std::vector<ParameterInfo>& infos) {
+  std::string text;
   std::string group;
   for (const ParameterInfo& info : grouped(infos)) {
     if (groupOf(info.key) != group) {
@@ -89,6 +85,30 @@ std::string configurationFile(const std::vector<ParameterInfo>& infos) {
     text += indent + name + ": " + fallbackOf(info) + "\n";
   }
   return text;
+}
+
+}  // namespace
+
+std::vector<std::string> parameterRows(const std::vector<ParameterInfo>& infos) {
+  std::vector<std::string> rows;
+  for (const ParameterInfo& info : grouped(infos)) {
+    rows.push_back(begin(info) + (changesWhileRunning(info.key) ? "yes" : "no") + " | " + info.effect + " |");
+  }
+  return rows;
+}
+
+std::vector<std::string> fixedParameterRows(const std::vector<ParameterInfo>& infos) {
+  std::vector<std::string> rows;
+  for (const ParameterInfo& info : grouped(infos)) rows.push_back(begin(info) + info.effect + " |");
+  return rows;
+}
+
+std::string configurationFile(const std::vector<ParameterInfo>& infos) {
+  return head("sweep_guard_node", kChanges, "src/ros/parameters/parameters.cpp") + entries(infos);
+}
+
+std::string motionConfigurationFile(const std::vector<ParameterInfo>& infos) {
+  return head("motion_guard", "", "src/ros/motion/motion_parameters.cpp") + entries(infos);
 }
 
 }  // namespace sweep_guard_ros

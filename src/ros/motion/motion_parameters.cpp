@@ -81,7 +81,7 @@ void readTimes(ParameterReader& read, MotionParameters& parameters) {
               "An older command is not carried out: zero is sent. Also the longest period of commands that is counted "
               "on.");
   limits.silence = seconds(read, "silence", limits.silence, 0.02, 2.0,
-                           "Zero is sent if neither a warning, nor planes, nor a tool pose has come for this long.");
+                           "Zero is sent unless a warning, planes and a tool pose have come within this time.");
   parameters.halt_messages = read.integer(
       "halt_messages", 4, 0, 1000,
       "Number of zeros that are sent after the commands have stopped; then nothing is sent. 0: zeros without "

@@ -1,0 +1,66 @@
+#include "ros/motion_guard_fixture.h"
+
+#include <geometry_msgs/PoseStamped.h>
+
+namespace sweep_guard_ros {
+namespace {
+
+sweep_guard::ToolBalls needle() {
+  sweep_guard::ToolBalls tool;
+  tool.header.frame_id = "tool";
+  tool.header.stamp = ros::Time::now();
+  tool.tool = "tool";
+  tool.revision = 1;
+  tool.pieces.resize(1);
+  tool.pieces[0].link = "needle";
+  tool.pieces[0].balls.resize(2);
+  tool.pieces[0].balls[1].center.x = 0.1;
+  return tool;
+}
+
+sweep_guard::Proximity wall(const ros::Time& now) {
+  sweep_guard::Proximity planes;
+  planes.header.stamp = now;
+  planes.header.frame_id = "world";
+  planes.tool = "tool";
+  planes.tool_revision = 1;
+  planes.valid_until = now + ros::Duration(0.15);
+  planes.valid = true;
+  planes.uncovered_distance = std::numeric_limits<double>::infinity();
+  planes.planes.resize(1);
+  planes.planes[0].tool_link = "needle";
+  planes.planes[0].mesh_id = "wall";
+  planes.planes[0].triangle = 7;
+  planes.planes[0].normal.x = 1.0;
+  return planes;
+}
+
+}  // namespace
+
+MotionWorld::MotionWorld()
+    : warning_(node_.advertise<sweep_guard::Warning>("/fake/warning", 10)),
+      planes_(node_.advertise<sweep_guard::Proximity>("/fake/proximity", 10)),
+      tool_(node_.advertise<sweep_guard::ToolBalls>("/fake/tool_balls", 1, /*latch=*/true)),
+      pose_(node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 10)),
+      timer_(node_.createWallTimer(ros::WallDuration(0.01), [this](const ros::WallTimerEvent&) { step(); })) {
+  tool_.publish(needle());
+}
+
+void MotionWorld::step() {
+  const std::lock_guard lock(mutex_);
+  const ros::Time now = ros::Time::now();
+  sweep_guard::Warning warning;
+  warning.header.stamp = now;
+  warning.level = state_.level;
+  warning.reasons = state_.reasons;
+  if (state_.warns) warning_.publish(warning);
+  if (state_.finds_planes) planes_.publish(wall(now));
+  geometry_msgs::PoseStamped pose;
+  pose.header.stamp = now;
+  pose.header.frame_id = "world";
+  pose.pose = toMsg(state_.X_WT);
+  if (state_.has_pose) pose_.publish(pose);
+  if (state_.command) state_.command(now);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,276 @@
+// The node and the nodelet, with a guard that the test plays. One of them for each type of command.
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <gtest/gtest.h>
+#include <std_msgs/Bool.h>
+#include <std_msgs/Float64.h>
+#include <std_msgs/Int8.h>
+#include <std_srvs/Trigger.h>
+
+#include "refusal.h"
+#include "ros/motion_guard_fixture.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using geometry_msgs::PoseStamped;
+using geometry_msgs::Twist;
+using geometry_msgs::TwistStamped;
+using sweep_guard::MotionStatus;
+
+Twist twist(double x, double y = 0.0, double turn = 0.0) {
+  Twist twist;
+  twist.linear.x = x;
+  twist.linear.y = y;
+  twist.angular.z = turn;
+  return twist;
+}
+
+bool isZero(const Twist& sent) { return sent == Twist(); }
+
+class MotionGuardNodeTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    world_.change([](auto& state) { state = {}; });
+  }
+  void TearDown() override { SetUp(); }
+
+  void command(const Twist& command) {
+    world_.change([=](auto& state) { state.command = [=](const ros::Time&) { twist_.publish(command); }; });
+  }
+  void commandStamped(const Twist& command, const std::string& frame = "world") {
+    world_.change([=](auto& state) {
+      state.command = [=](const ros::Time& now) {
+        TwistStamped stamped;
+        stamped.header.frame_id = frame;
+        stamped.header.stamp = now;
+        stamped.twist = command;
+        stamped_.publish(stamped);
+      };
+    });
+  }
+  void commandPose(const Eigen::Isometry3d& X_WT) {
+    world_.change([=](auto& state) {
+      state.command = [=](const ros::Time& now) {
+        PoseStamped pose;
+        pose.header.frame_id = "world";
+        pose.header.stamp = now;
+        pose.pose = toMsg(X_WT);
+        pose_.publish(pose);
+      };
+    });
+  }
+  void place(double x) {
+    world_.change([=](auto& state) { state.X_WT = Eigen::Translation3d(x, 0.0, 0.0); });
+  }
+  void awaitFreeMotion() {
+    command(twist(0.1));
+    guarded_twists_.await([](const Twist& sent) { return sent == twist(0.1); }, "free motion");
+  }
+  MotionStatus awaitStatus(const std::function<bool(const MotionStatus&)>& fits, const std::string& what) {
+    return statuses_.await(fits, what);
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher twist_ = node_.advertise<Twist>("/twist/command", 10);
+  ros::Publisher stamped_ = node_.advertise<TwistStamped>("/stamped/command", 10);
+  ros::Publisher pose_ = node_.advertise<PoseStamped>("/pose/command", 10);
+  Listener<Twist> guarded_twists_{node_, "/twist/guarded_command"};
+  Listener<TwistStamped> guarded_stamped_{node_, "/stamped/guarded_command"};
+  Listener<PoseStamped> guarded_poses_{node_, "/pose/guarded_command"};
+  Listener<MotionStatus> statuses_{node_, "/twist/motion_guard/status"};
+  MotionWorld world_;
+};
+
+TEST_F(MotionGuardNodeTest, FreeMotionIsPassedOnBitForBitInEachType) {
+  const Twist odd = twist(-0.1234567890123, 0.0543210987654, 0.3333333333333);
+  command(odd);
+  guarded_twists_.await([&](const Twist& sent) { return sent == odd; }, "the twist");
+  commandStamped(odd);
+  const TwistStamped sent =
+      guarded_stamped_.await([&](const TwistStamped& next) { return next.twist == odd; }, "the stamped twist");
+  EXPECT_EQ(sent.header.frame_id, "world");
+  EXPECT_FALSE(sent.header.stamp.isZero());
+  Eigen::Isometry3d goal_WT(Eigen::AngleAxisd(0.0123, Eigen::Vector3d::UnitZ()));
+  goal_WT.translation() = Eigen::Vector3d(0.8012345678901, 0.0001234567, 0.0);
+  commandPose(goal_WT);
+  guarded_poses_.await([&](const PoseStamped& next) { return next.pose == toMsg(goal_WT); }, "the pose");
+}
+
+TEST_F(MotionGuardNodeTest, SlowsDownBeforeAPlaneAndSaysWhichOne) {
+  place(0.02);
+  command(twist(-0.5, 0.2));
+  const Twist sent = guarded_twists_.await(
+      [](const Twist& next) { return next.linear.x < 0.0 && next.linear.x > -0.3; }, "a slower twist");
+  EXPECT_NEAR(sent.linear.y, 0.2, 1e-9);
+  const MotionStatus status =
+      awaitStatus([](const MotionStatus& next) { return next.code == MotionStatus::DECELERATE_FOR_COLLISION; }, "slow");
+  EXPECT_EQ(status.mesh_id, "wall");
+  EXPECT_EQ(status.triangle, 7U);
+  EXPECT_EQ(status.tool_link, "needle");
+  EXPECT_EQ(status.cause, "guarded");
+  EXPECT_LT(status.scale, 1.0);
+  EXPECT_LT(status.sent_speed, status.commanded_speed);
+  EXPECT_LE(status.gap, 0.02);
+  EXPECT_GE(status.planes_age, 0.0);
+  EXPECT_TRUE(has(status.text, "slowed before 'wall', triangle 7"));
+}
+
+TEST_F(MotionGuardNodeTest, ARetreatIsPassedOnAsItIs) {
+  place(0.0005);
+  command(twist(-0.1));
+  guarded_twists_.await(isZero, "zero before the wall");
+  command(twist(0.37));
+  guarded_twists_.await([](const Twist& sent) { return sent == twist(0.37); }, "the retreat");
+}
+
+TEST_F(MotionGuardNodeTest, StopsWhenTheGuardDoesNotKnowOrIsSilent) {
+  const std::vector<std::pair<std::string, std::function<void(MotionWorld::State&)>>> cases = {
+      {"the guard's level is UNKNOWN", [](auto& state) { state.level = sweep_guard::Warning::UNKNOWN; }},
+      {"the guard is silent", [](auto& state) { state.warns = false; }},
+      {"no new separating planes", [](auto& state) { state.finds_planes = false; }},
+      {"no new tool pose", [](auto& state) { state.has_pose = false; }}};
+  Listener<std_msgs::Bool> locks(node_, "/twist/motion_guard/lock");
+  Listener<std_msgs::Float64> scales(node_, "/twist/motion_guard/velocity_scale");
+  for (const auto& [cause, change] : cases) {
+    awaitFreeMotion();
+    locks.await([](const std_msgs::Bool& lock) { return !lock.data; }, "no lock");
+    scales.await([](const std_msgs::Float64& scale) { return scale.data == 1.0; }, "scale 1");
+    statuses_.clear();
+    world_.change(change);
+    guarded_twists_.await(isZero, "zero: " + cause);
+    const MotionStatus status =
+        awaitStatus([&, &cause = cause](const MotionStatus& next) { return next.cause == cause; }, cause);
+    EXPECT_EQ(status.code, MotionStatus::HALT_FOR_COLLISION);
+    locks.await([](const std_msgs::Bool& lock) { return lock.data; }, "a lock");
+    scales.await([](const std_msgs::Float64& scale) { return scale.data == 0.0; }, "scale 0");
+    SetUp();
+  }
+}
+
+TEST_F(MotionGuardNodeTest, SendsFourZerosAfterTheCommandsHaveStopped) {
+  awaitFreeMotion();
+  world_.change([](auto& state) { state.command = nullptr; });
+  int zeros = 0;
+  guarded_twists_.await([&](const Twist& sent) { return isZero(sent) && ++zeros == 4; }, "four zeros");
+  for (int i = 0; i < 3; ++i) awaitStatus([](const MotionStatus&) { return true; }, "the time of a status");
+  command(twist(0.2));
+  const Twist next = guarded_twists_.await([](const Twist&) { return true; }, "the next command");
+  EXPECT_EQ(next, twist(0.2));
+}
+
+TEST_F(MotionGuardNodeTest, ACommandThatIsTooOldIsZero) {
+  world_.change([=](auto& state) {
+    state.command = [=](const ros::Time& now) {
+      TwistStamped old;
+      old.header.frame_id = "world";
+      old.header.stamp = now - ros::Duration(0.5);
+      old.twist = twist(0.1);
+      stamped_.publish(old);
+    };
+  });
+  guarded_stamped_.await([](const TwistStamped& sent) { return isZero(sent.twist); }, "zero");
+}
+
+TEST_F(MotionGuardNodeTest, EscapesSlowlyAndOnlyAway) {
+  place(0.01);
+  world_.change([](auto& state) {
+    state.level = sweep_guard::Warning::UNKNOWN;
+    state.reasons = sweep_guard::Warning::POSE_STALE;
+  });
+  commandStamped(twist(0.2));
+  const TwistStamped sent = guarded_stamped_.await(
+      [](const TwistStamped& next) { return next.twist.linear.x > 0.0 && next.twist.linear.x < 0.1; }, "an escape");
+  EXPECT_NEAR(sent.twist.linear.x, 0.01, 1e-9);
+  commandStamped(twist(-0.2));
+  guarded_stamped_.await([](const TwistStamped& next) { return isZero(next.twist); }, "zero");
+}
+
+// The x axis of the tool points along y of the world, so only its y axis leads to the wall.
+TEST_F(MotionGuardNodeTest, ACommandIsAlongTheAxesOfItsFrame) {
+  world_.change([](auto& state) {
+    state.X_WT = Eigen::Translation3d(0.0005, 0.0, 0.0) * Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ());
+  });
+  commandStamped(twist(0.2, 0.3), "tool");
+  const TwistStamped sent = guarded_stamped_.await(
+      [](const TwistStamped& next) { return next.twist.linear.x > 0.19 && std::abs(next.twist.linear.y) < 0.01; },
+      "the part along the wall");
+  EXPECT_NEAR(sent.twist.linear.x, 0.2, 1e-6);
+  EXPECT_EQ(sent.header.frame_id, "tool");
+}
+
+TEST_F(MotionGuardNodeTest, ACommandInAnUnknownFrameIsRefused) {
+  commandStamped(twist(0.2), "nowhere");
+  guarded_stamped_.await([](const TwistStamped& next) { return isZero(next.twist); }, "zero");
+  Listener<std_msgs::Int8> codes(node_, "/stamped/motion_guard/servo_status");
+  codes.await([](const std_msgs::Int8& code) { return code.data == MotionStatus::INVALID; }, "INVALID");
+}
+
+TEST_F(MotionGuardNodeTest, ACommandThatIsNotFiniteIsRefused) {
+  awaitFreeMotion();
+  command(twist(std::nan("")));
+  guarded_twists_.await(isZero, "zero");
+  const MotionStatus status =
+      awaitStatus([](const MotionStatus& next) { return next.code == MotionStatus::INVALID; }, "INVALID");
+  EXPECT_TRUE(has(status.text, "must be finite"));
+}
+
+TEST_F(MotionGuardNodeTest, APoseIsCaughtUpWithAndHeldWhenTheGuardDoesNotKnow) {
+  commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.81, 0.0, 0.0)));
+  guarded_poses_.await([](const PoseStamped& sent) { return sent.pose.position.x == 0.81; }, "the pose");
+  world_.change([](auto& state) { state.level = sweep_guard::Warning::UNKNOWN; });
+  Listener<MotionStatus> statuses(node_, "/pose/motion_guard/status");
+  statuses.await([](const MotionStatus& next) { return next.code == MotionStatus::HALT_FOR_COLLISION; }, "stopped");
+  commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.9, 0.0, 0.0)));
+  guarded_poses_.clear();
+  for (int i = 0; i < 20; ++i) {
+    const PoseStamped held = guarded_poses_.await([](const PoseStamped&) { return true; }, "the pose of before");
+    EXPECT_NEAR(held.pose.position.x, 0.81, 1e-9);
+  }
+}
+
+TEST_F(MotionGuardNodeTest, APoseBehindAPlaneIsNotReached) {
+  place(0.05);
+  commandPose(Eigen::Isometry3d(Eigen::Translation3d(-0.02, 0.0, 0.0)));
+  const PoseStamped sent = guarded_poses_.await([](const PoseStamped& next) { return next.pose.position.x < 0.0022; },
+                                                "a pose near the standoff");
+  EXPECT_GE(sent.pose.position.x, 0.002 - 1e-6);
+  for (int i = 0; i < 50; ++i) {
+    const PoseStamped next = guarded_poses_.await([](const PoseStamped&) { return true; }, "the next pose");
+    EXPECT_GE(next.pose.position.x, 0.002 - 1e-6);
+  }
+}
+
+TEST_F(MotionGuardNodeTest, RebasingIsRefusedUnlessPosesAreIncremental) {
+  std_srvs::Trigger call;
+  ASSERT_TRUE(ros::service::waitForService("/twist/motion_guard/rebase", 20'000));
+  ASSERT_TRUE(ros::service::call("/twist/motion_guard/rebase", call));
+  EXPECT_FALSE(call.response.success);
+  EXPECT_TRUE(has(call.response.message, "incremental"));
+}
+
+TEST_F(MotionGuardNodeTest, ASecondPublisherIsAnErrorInTheDiagnostics) {
+  Listener<diagnostic_msgs::DiagnosticArray> diagnostics(node_, "/diagnostics");
+  const ros::Publisher second = node_.advertise<Twist>("/twist/guarded_command", 1);
+  diagnostics.await(
+      [](const diagnostic_msgs::DiagnosticArray& next) {
+        return std::any_of(next.status.begin(), next.status.end(), [](const auto& status) {
+          return status.level == diagnostic_msgs::DiagnosticStatus::ERROR &&
+                 status.message.find("publishes on /twist/guarded_command, past the guard") != std::string::npos;
+        });
+      },
+      "an error about the second publisher");
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "motion_guard_test");
+  const ros::NodeHandle alive;
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
