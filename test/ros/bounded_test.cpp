@@ -38,18 +38,6 @@ geometry_msgs::PoseStamped example() {
 }
 
 template <>
-geometry_msgs::Twist example() {
-  return {};
-}
-
-template <>
-geometry_msgs::TwistStamped example() {
-  geometry_msgs::TwistStamped twist;
-  twist.header = header();
-  return twist;
-}
-
-template <>
 tf2_msgs::TFMessage example() {
   tf2_msgs::TFMessage message;
   message.transforms.resize(3);
@@ -210,16 +198,6 @@ constexpr size_t kPose = 56;
 
 template <>
 std::vector<size_t> lengths<geometry_msgs::PoseStamped>() {
-  return {12};
-}
-
-template <>
-std::vector<size_t> lengths<geometry_msgs::Twist>() {
-  return {};
-}
-
-template <>
-std::vector<size_t> lengths<geometry_msgs::TwistStamped>() {
   return {12};
 }
 
@@ -445,8 +423,8 @@ class BoundedMessagesTest : public testing::Test {
       [](const auto& /*event*/) {}, [this](const std::string& reason) { refusals_.push_back(reason); }, kMaxSize);
 };
 
-using Topics = testing::Types<geometry_msgs::PoseStamped, geometry_msgs::TwistStamped, tf2_msgs::TFMessage,
-                              sweep_guard::DeformableMesh, sweep_guard::MeshVertices>;
+using Topics = testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
+                              sweep_guard::MeshVertices>;
 TYPED_TEST_SUITE(BoundedMessagesTest, Topics, );
 
 TYPED_TEST(BoundedMessagesTest, ReadsWhatWasSent) {

@@ -13,6 +13,8 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "fake_guard.h"
 #include "guard_process.h"
@@ -80,9 +82,10 @@ class DropInTest : public testing::Test {
  protected:
   DropInTest() : tf_static_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true)) { spinner_.start(); }
 
-  void publishFrames(const std::string& command_frame, const std::string& command_point) {
+  // Each with its parent, in the same place.
+  void publishFrames(const std::vector<std::pair<std::string, std::string>>& frames) {
     tf2_msgs::TFMessage message;
-    for (const auto& [parent, child] : {std::pair{std::string("world"), command_frame}, {"tool", command_point}}) {
+    for (const auto& [parent, child] : frames) {
       geometry_msgs::TransformStamped& transform = message.transforms.emplace_back();
       transform.header.frame_id = parent;
       transform.header.stamp = ros::Time::now();

@@ -10,7 +10,7 @@ using geometry_msgs::Twist;
 class TwistMuxTest : public DropInTest {
  protected:
   TwistMuxTest() {
-    publishFrames("base_link", "base_link_of_the_tool");
+    publishFrames({{"world", "base_link"}, {"base_link", "tool"}});
     poses_.send(poseAtOrigin());
     commands_.send(kUp);
     awaitCommand(kUp);

@@ -10,7 +10,7 @@ using geometry_msgs::Twist;
 class VelocityControllerTest : public DropInTest {
  protected:
   VelocityControllerTest() {
-    publishFrames("base", "tool0_controller");
+    publishFrames({{"world", "base"}, {"tool", "tool0_controller"}});
     poses_.send(poseAtOrigin());
     commands_.send(kUp);
     awaitCommand(kUp);

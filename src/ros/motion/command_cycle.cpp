@@ -84,6 +84,8 @@ sweep_guard_core::MotionInputs CommandCycle::inputs(GuardInput::Newest& newest) 
 void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
   GuardInput::Newest newest = sources_.guard.newest();
   const sweep_guard_core::MotionInputs known = inputs(newest);
+  const bool stopped = guard_.permission(known, *command_, at).permission == Permission::kStop;
+  if (!stopped && !sources_.hold.released(at.steady)) return sendZero(at);
   try {
     MotionCommand command = port_->read(known.pose, period_.mean());
     command.timestamps = *command_;

@@ -12,6 +12,7 @@
 #include "ros/motion/command_frames.h"
 #include "ros/motion/command_port.h"
 #include "ros/motion/guard_input.h"
+#include "ros/motion/hold_publisher.h"
 #include "ros/motion/motion_parameters.h"
 #include "ros/motion/status_publisher.h"
 #include "ros/motion/tool_pose_input.h"
@@ -26,10 +27,12 @@ struct CommandCycleSources {
   const ToolPoseInput& tool_pose;
   const Frames& frames;
   StatusPublisher& status;
+  const HoldPublisher& hold;
 };
 
 /// Sends what is let through of each command, in the thread that receives it. Between commands, tick() has the newest one
-/// limited anew if it is late or may not be let through any more; when the commands stop, it sends zeros.
+/// limited anew if it is late or may not be let through any more; when the commands stop, it sends zeros. After a stop it
+/// goes on once HoldPublisher was heard; until then the status stays.
 class CommandCycle {
  public:
   CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const MotionParameters& parameters,

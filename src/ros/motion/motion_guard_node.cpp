@@ -22,11 +22,11 @@ MotionGuardNode::MotionGuardNode(const ros::NodeHandle& node, const ros::NodeHan
       tool_pose_(node, parameters_, frames_),
       status_(private_node, parameters_.fixed_frame),
       hold_(private_node),
-      cycle_(node, private_node, parameters_, {guard_, tool_pose_, frames_, status_}),
+      cycle_(node, private_node, parameters_, {guard_, tool_pose_, frames_, status_, hold_}),
       output_watch_(cycle_.port().guardedTopic()),
       diagnostics_(node, private_node, {cycle_, guard_, tool_pose_, status_, output_watch_}) {
   ticks_.every(kTickPeriod, [this] { cycle_.tick(); });
-  ticks_.every(kHoldPeriod, [this] { hold_.publish(cycle_.letsThrough()); });
+  ticks_.every(kHoldPeriod, [this] { hold(); });
   ticks_.every(kStatusPeriod, [this] { status_.publishIfDue(); });
   reports_.every(kDiagnosticsPeriod, [this] { diagnostics_.publish(); });
 }
@@ -45,6 +45,13 @@ void MotionGuardNode::start() {
   ROS_INFO("guarding the motion of '%s' in '%s': commands from %s, guarded ones to %s, planes from %s",
            parameters_.tool_frame.c_str(), parameters_.fixed_frame.c_str(), cycle_.port().commandTopic().c_str(),
            cycle_.port().guardedTopic().c_str(), parameters_.guard.c_str());
+}
+
+// Zero is sent before it is said that nothing is let through.
+void MotionGuardNode::hold() {
+  const bool lets_through = cycle_.letsThrough();
+  cycle_.tick();
+  hold_.publish(lets_through, std::chrono::steady_clock::now());
 }
 
 MotionGuardNode::~MotionGuardNode() {
