@@ -27,6 +27,7 @@
 #include "simulation/tip.h"
 #include "simulation/top_surface.h"
 #include "sweep_guard/DeformableMesh.h"
+#include "sweep_guard/SetIntent.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/stamped_pose.h"
@@ -50,6 +51,8 @@ constexpr double kClearance = 0.1;        // [m] above the surface, at the start
 constexpr int kMaxAxis = 63;              // or button of an input device
 constexpr double kHoleCircle = 0.06;      // [m] radius
 constexpr int kHolesOnCircle = 5;
+constexpr double kIntendedRadius = 0.08;  // [m] around a hole: that of some triangles of a coarse workpiece
+constexpr double kIntendedDepth = 0.04;   // [m]; the workpiece sways, and its triangles are not parallel to the hole
 constexpr std::uint32_t kNotReady =
     sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
 
@@ -81,6 +84,7 @@ class OperatorNode {
         loop_(parameters.flag("loop", true)),
         wait_for_guard_(parameters.flag("wait_for_guard", true)),
         min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
+        intend_(parameters.flag("intend", false)),
         guard_(parameters.text("guard", "")),
         listener_(buffer_) {
     if (input_ == "recording") readMotion();
@@ -97,6 +101,7 @@ class OperatorNode {
     const PoseStream motion = makePoses();
     const auto connected = [this] { return static_cast<int>(publisher_.getNumSubscribers()) >= min_subscribers_; };
     if (!waitUntil(connected, std::to_string(min_subscribers_) + " subscribers of the tool pose")) return;
+    if (intend_) intendHoles();
     mesh_subscriber_.shutdown();
     warning_subscriber_.shutdown();
     ROS_INFO("the operator starts to move");
@@ -195,7 +200,27 @@ class OperatorNode {
     Drilling::Options options;
     options.depth = kDepth;
     options.clearance += kRisePerWidth * radial_extent_;
-    return sampled(Drilling(holesAround(*surface_, kHoleCircle, kHolesOnCircle), options), rate_, loop_);
+    return sampled(Drilling(holes_W(), options), rate_, loop_);
+  }
+
+  std::vector<Eigen::Vector3d> holes_W() const { return holesAround(*surface_, kHoleCircle, kHolesOnCircle); }
+
+  // Says where the drill is meant to touch the workpiece.
+  void intendHoles() {
+    sweep_guard::SetIntent service;
+    for (const Eigen::Vector3d& hole_W : holes_W()) {
+      sweep_guard::Intend intend;
+      intend.mesh_id = mesh_->id;
+      intend.frame_id = frame_;
+      intend.center = tf2::toMsg(hole_W);
+      intend.radius = kIntendedRadius;
+      intend.depth = kIntendedDepth;
+      service.request.intends.push_back(intend);
+    }
+    auto client = node_.serviceClient<sweep_guard::SetIntent>("intend");
+    if (!waitUntil([&] { return client.exists(); }, "the guard's service ~intend")) return;
+    if (!client.call(service)) service.response.message = "no answer";
+    ROS_INFO("~intend: %s", service.response.message.c_str());
   }
 
   PoseStream playRecording() const {
@@ -260,6 +285,7 @@ class OperatorNode {
   bool loop_;
   bool wait_for_guard_;
   int min_subscribers_;
+  bool intend_;
   std::string guard_;  // the operator moves its tool; empty: a tool with the tip at the origin
   std::vector<StampedPose> recording_;
   sweep_guard::DeformableMesh::ConstPtr mesh_;
