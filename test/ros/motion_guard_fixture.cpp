@@ -1,6 +1,7 @@
 #include "ros/motion_guard_fixture.h"
 
 #include <geometry_msgs/PoseStamped.h>
+#include <tf2_msgs/TFMessage.h>
 
 namespace sweep_guard_ros {
 namespace {
@@ -35,6 +36,20 @@ sweep_guard::Proximity wall(const ros::Time& now) {
   return planes;
 }
 
+tf2_msgs::TFMessage frames() {
+  tf2_msgs::TFMessage frames;
+  frames.transforms.resize(2);
+  frames.transforms[0].header.frame_id = "tool";
+  frames.transforms[0].child_frame_id = "tip";
+  frames.transforms[0].transform.translation.x = 0.1;
+  frames.transforms[0].transform.rotation.w = 1.0;
+  frames.transforms[1].header.frame_id = "world";
+  frames.transforms[1].child_frame_id = "turned";
+  frames.transforms[1].transform.rotation.z = std::sqrt(0.5);
+  frames.transforms[1].transform.rotation.w = std::sqrt(0.5);
+  return frames;
+}
+
 }  // namespace
 
 MotionWorld::MotionWorld()
@@ -42,8 +57,10 @@ MotionWorld::MotionWorld()
       planes_(node_.advertise<sweep_guard::Proximity>("/fake/proximity", 10)),
       tool_(node_.advertise<sweep_guard::ToolBalls>("/fake/tool_balls", 1, /*latch=*/true)),
       pose_(node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 10)),
+      frames_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true)),
       timer_(node_.createWallTimer(ros::WallDuration(0.01), [this](const ros::WallTimerEvent&) { step(); })) {
   tool_.publish(needle());
+  frames_.publish(frames());
 }
 
 void MotionWorld::step() {

@@ -58,7 +58,8 @@ class Listener {
 };
 
 /// Publishes every 10 ms what a guard would, of a needle before the wall x = 0, and the commands of a test. The needle
-/// reaches from the origin of the tool frame to 0.1 m along its x axis.
+/// reaches from the origin of the tool frame to 0.1 m along its x axis, where the frame `tip` is. The frame `turned` is
+/// the world's, turned by a quarter about z.
 class MotionWorld {
  public:
   struct State {
@@ -88,6 +89,7 @@ class MotionWorld {
   ros::Publisher planes_;
   ros::Publisher tool_;
   ros::Publisher pose_;
+  ros::Publisher frames_;
   ros::WallTimer timer_;
 };
 

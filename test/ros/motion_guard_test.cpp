@@ -8,7 +8,10 @@
 #include <std_msgs/Int8.h>
 #include <std_srvs/Trigger.h>
 
+#include <filesystem>
+
 #include "refusal.h"
+#include "ros/child_process.h"
 #include "ros/motion_guard_fixture.h"
 
 namespace sweep_guard_ros {
@@ -36,8 +39,9 @@ class MotionGuardNodeTest : public testing::Test {
   }
   void TearDown() override { SetUp(); }
 
-  void command(const Twist& command) {
-    world_.change([=](auto& state) { state.command = [=](const ros::Time&) { twist_.publish(command); }; });
+  void command(const Twist& command) { this->command(command, twist_); }
+  void command(const Twist& command, const ros::Publisher& publisher) {
+    world_.change([=](auto& state) { state.command = [=](const ros::Time&) { publisher.publish(command); }; });
   }
   void commandStamped(const Twist& command, const std::string& frame = "world") {
     world_.change([=](auto& state) {
@@ -76,6 +80,8 @@ class MotionGuardNodeTest : public testing::Test {
   ros::Publisher twist_ = node_.advertise<Twist>("/twist/command", 10);
   ros::Publisher stamped_ = node_.advertise<TwistStamped>("/stamped/command", 10);
   ros::Publisher pose_ = node_.advertise<PoseStamped>("/pose/command", 10);
+  ros::Publisher tip_ = node_.advertise<Twist>("/tip/command", 10);  // its commands are of the tip, along turned axes
+  Listener<Twist> guarded_tip_{node_, "/tip/guarded_command"};
   Listener<Twist> guarded_twists_{node_, "/twist/guarded_command"};
   Listener<TwistStamped> guarded_stamped_{node_, "/stamped/guarded_command"};
   Listener<PoseStamped> guarded_poses_{node_, "/pose/guarded_command"};
@@ -248,6 +254,68 @@ TEST_F(MotionGuardNodeTest, RebasingIsRefusedUnlessPosesAreIncremental) {
   ASSERT_TRUE(ros::service::call("/twist/motion_guard/rebase", call));
   EXPECT_FALSE(call.response.success);
   EXPECT_TRUE(has(call.response.message, "incremental"));
+}
+
+TEST_F(MotionGuardNodeTest, IncrementalPosesMoveTheToolFromWhereItIs) {
+  Listener<PoseStamped> guarded(node_, "/clutch/guarded_command");
+  const ros::Publisher poses = node_.advertise<PoseStamped>("/clutch/command", 10);
+  const auto command = [&](double x) {
+    world_.change([=](auto& state) {
+      state.command = [=](const ros::Time& now) {
+        PoseStamped pose;
+        pose.header.frame_id = "world";
+        pose.header.stamp = now;
+        pose.pose = toMsg(Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)));
+        poses.publish(pose);
+      };
+    });
+  };
+  const auto await = [&](double x, const std::string& what) {
+    guarded.await([=](const PoseStamped& sent) { return std::abs(sent.pose.position.x - x) < 1e-9; }, what);
+  };
+  command(5.0);
+  await(0.8, "where the tool is");
+  double commanded = 5.0;
+  double sent = 0.8;
+  for (int i = 0; i < 100 && sent < 0.8005; ++i) {  // what is held back on a busy machine is lost
+    command(commanded += 1e-4);
+    sent = guarded.await([](const PoseStamped&) { return true; }, "the next pose").pose.position.x;
+  }
+  EXPECT_GE(sent, 0.8005);
+  EXPECT_LT(sent, 0.85);
+  std_srvs::Trigger call;
+  ASSERT_TRUE(ros::service::call("/clutch/motion_guard/rebase", call));
+  EXPECT_TRUE(call.response.success);
+}
+
+TEST_F(MotionGuardNodeTest, ATwistIsAlongCommandFrame) {
+  place(0.0005);
+  command(twist(0.2, 0.3), tip_);
+  const Twist sent = guarded_tip_.await(
+      [](const Twist& next) { return next.linear.x > 0.19 && std::abs(next.linear.y) < 0.01; }, "the part along");
+  EXPECT_NEAR(sent.linear.x, 0.2, 1e-6);
+}
+
+// The needle is parallel to the wall. A turn about its origin moves the tip to the wall, a turn about the tip moves the
+// origin away.
+TEST_F(MotionGuardNodeTest, ATwistIsOfCommandPoint) {
+  world_.change([](auto& state) {
+    state.X_WT = Eigen::Translation3d(0.0021, 0.0, 0.0) * Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ());
+  });
+  const Twist turn = twist(0.0, 0.0, 0.3);
+  command(turn);
+  guarded_twists_.await([](const Twist& sent) { return sent.angular.z < 0.1; }, "a slow turn about the origin");
+  command(turn, tip_);
+  guarded_tip_.await([&](const Twist& sent) { return sent == turn; }, "the turn about the tip");
+  command(twist(0.0, 0.0, -0.3), tip_);
+  guarded_tip_.await([](const Twist& sent) { return sent.angular.z > -0.1; }, "a slow turn the other way");
+}
+
+TEST_F(MotionGuardNodeTest, ARefusedParameterEndsTheNodeWithOneLine) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("motion_guard_node");
+  ChildProcess node({program.string(), "__name:=refused", "_standoff:=-1.0"});
+  EXPECT_EQ(node.wait(), 2);
+  EXPECT_TRUE(has(node.output(), "/refused/standoff is -1, but must be a number from 0 to 1"));
 }
 
 TEST_F(MotionGuardNodeTest, ASecondPublisherIsAnErrorInTheDiagnostics) {

@@ -1,5 +1,6 @@
 #include "ros/motion/command_cycle.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "ros/motion/motion_status.h"
@@ -13,6 +14,8 @@ using sweep_guard_core::Instant;
 using sweep_guard_core::MotionCommand;
 using sweep_guard_core::Permission;
 using sweep_guard_core::PermissionCause;
+
+constexpr sweep_guard_core::Duration kShortest = std::chrono::milliseconds(1);  // step of a pose
 
 }  // namespace
 
@@ -33,9 +36,11 @@ void CommandCycle::onCommand(const CommandPort::Received& received) {
   const std::lock_guard lock(mutex_);
   port_->take(received);
   period_.add(received.timestamps.received);
+  const Instant at = now();
+  if (!command_) sent_ = at.steady;  // the first one after a pause: a pose moves on only from the second one on
   command_ = received.timestamps;
   halts_ = 0;
-  limitNewest(now(), /*only_if_changed=*/false);
+  limitNewest(at, /*only_if_changed=*/false);
 }
 
 void CommandCycle::refuse(const std::string& reason) {
@@ -87,7 +92,7 @@ void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
   const bool stopped = guard_.permission(known, *command_, at).permission == Permission::kStop;
   if (!stopped && !sources_.hold.released(at.steady)) return sendZero(at);
   try {
-    MotionCommand command = port_->read(known.pose, period_.mean());
+    MotionCommand command = port_->read(known.pose, std::clamp(at.steady - sent_, kShortest, period_.longest()));
     command.timestamps = *command_;
     command.period = period_.longest();
     const sweep_guard_core::GuardedMotion motion = guard_.guard(known, command, at);

@@ -34,7 +34,7 @@ class CommandPort {
   virtual bool isPose() const { return false; }
 
   /// Reads the newest command. All but its timestamps and `period` is filled in.
-  /// @param period  until the next command
+  /// @param period  since the pose sent last; a pose moves on by what is possible in this time
   /// @throws FrameError, sweep_guard_core::InvalidInput if it cannot be carried out
   virtual sweep_guard_core::MotionCommand read(const std::optional<ToolPose>& tool,
                                                sweep_guard_core::Duration period) = 0;

@@ -21,7 +21,7 @@ struct MotionDiagnosticsSources {
 };
 
 /// Publishes on /diagnostics what is let through and how often each cause began, the commands and their period, where they
-/// go and who else publishes there, and the ages of what comes from the guard and of the tool pose.
+/// go and who else publishes there, and the ages of the messages of the guard and of the tool pose.
 class MotionDiagnostics {
  public:
   MotionDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
