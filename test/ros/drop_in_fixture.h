@@ -81,6 +81,7 @@ inline bool isLimited(const geometry_msgs::Twist& twist) {
 class DropInTest : public testing::Test {
  protected:
   DropInTest() : tf_static_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true)) { spinner_.start(); }
+  void TearDown() override { spinner_.stop(); }  // a timer of roscpp may call once more while it is destroyed
 
   // Each with its parent, in the same place.
   void publishFrames(const std::vector<std::pair<std::string, std::string>>& frames) {

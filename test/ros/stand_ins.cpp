@@ -68,10 +68,8 @@ FakeTwistMux::FakeTwistMux(const std::string& name) : node_(name) {
   if (!node_.getParam("locks", locks)) throw std::runtime_error("no parameter " + node_.resolveName("locks"));
   for (int i = 0; i < locks.size(); ++i) addLock(locks[i]);
   publisher_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
-  subscriber_ = ros::NodeHandle().subscribe<geometry_msgs::Twist>("nav_vel", 1,
-                                                                  [this](const geometry_msgs::Twist::ConstPtr& twist) {
-                                                                    if (!locked()) publisher_.publish(twist);
-                                                                  });
+  subscriber_ = ros::NodeHandle().subscribe<geometry_msgs::Twist>(
+      "nav_vel", 1, [this](const geometry_msgs::Twist::ConstPtr& twist) { pass(*twist); });
 }
 
 void FakeTwistMux::addLock(XmlRpc::XmlRpcValue entry) {
@@ -86,12 +84,14 @@ void FakeTwistMux::addLock(XmlRpc::XmlRpcValue entry) {
                                                                  });
 }
 
-bool FakeTwistMux::locked() const {
+void FakeTwistMux::pass(const geometry_msgs::Twist& twist) {
   const std::lock_guard guard(mutex_);
-  return std::any_of(locks_.begin(), locks_.end(), [](const Lock& lock) {
+  const bool locked = std::any_of(locks_.begin(), locks_.end(), [](const Lock& lock) {
     const bool expired = lock.timeout > 0.0 && (ros::Time::now() - lock.stamp).toSec() > lock.timeout;
     return lock.priority > kPriority && (expired || lock.on);
   });
+  if (!locked) publisher_.publish(twist);
+  locked_.set(locked);
 }
 
 FakeArm::FakeArm(const std::string& name, const geometry_msgs::Pose& pose) : node_(name), pose_(pose) {

@@ -58,7 +58,8 @@ class FakeTwistMux {
   /// Reads the locks from the parameter `locks` of this node.
   explicit FakeTwistMux(const std::string& name);
 
-  bool locked() const;
+  /// Whether each twist of the input met a lock.
+  const Watched<bool>& locked() const { return locked_; }
 
  private:
   static constexpr int kPriority = 10;
@@ -72,10 +73,12 @@ class FakeTwistMux {
   };
 
   void addLock(XmlRpc::XmlRpcValue entry);
+  void pass(const geometry_msgs::Twist& twist);
 
   ros::NodeHandle node_;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::list<Lock> locks_;
+  Watched<bool> locked_;
   ros::Publisher publisher_;
   ros::Subscriber subscriber_;
 };

@@ -22,14 +22,13 @@ class TwistMuxTest : public DropInTest {
 
   void expectLockAndStandstill() {
     robot_.await("zero", [](const Twist& next) { return isZero(next); });
-    while (!mux_.locked()) robot_lock_.next();
+    mux_.locked().await("the lock", [](bool locked) { return locked; });
   }
 
   Stream<geometry_msgs::PoseStamped> poses_{"tool_pose"};
   Stream<Twist> commands_{"nav_vel"};
   FakeTwistMux mux_{"twist_mux"};
   Listener<Twist> robot_{"cmd_vel"};
-  Listener<std_msgs::Bool> robot_lock_{"motion_guard/lock"};
 };
 
 TEST_F(TwistMuxTest, AFreeCommandArrivesUntouched) {
@@ -41,7 +40,7 @@ TEST_F(TwistMuxTest, ACommandToANearPlaneArrivesLimitedAndARetreatWholeWithoutAL
   guard_.setGap(kNear);
   commands_.send(kDown);
   robot_.await("a limited command", isLimited);
-  EXPECT_FALSE(mux_.locked());
+  EXPECT_FALSE(mux_.locked().next());
   commands_.send(kUp);
   awaitCommand(kUp);
 }
@@ -58,13 +57,10 @@ TEST_F(TwistMuxTest, LocksTheMuxAndSendsZeroWhileTheGuardIsUnknownOrSilent) {
 }
 
 TEST_F(TwistMuxTest, IsLockedByTheTimeoutOfTheLockWhenTheMotionGuardDies) {
-  EXPECT_FALSE(mux_.locked());
-  killMotionGuard();
-  commands_.send(kDown);
-  Listener<Twist> mux_output("twist_mux/cmd_vel");
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
-  while (!mux_.locked() && std::chrono::steady_clock::now() < deadline) ros::WallDuration(0.001).sleep();
-  EXPECT_TRUE(mux_.locked());
+  EXPECT_FALSE(mux_.locked().next());
+  const auto killed = killMotionGuard();
+  mux_.locked().await("the lock", [](bool locked) { return locked; });
+  EXPECT_LT(std::chrono::steady_clock::now() - killed, std::chrono::milliseconds(300));
 }
 
 }  // namespace

@@ -34,7 +34,10 @@ bool isZero(const Twist& command) { return command == Twist(); }
 class ZeroOnSilenceTest : public testing::Test {
  protected:
   ZeroOnSilenceTest() { spinner_.start(); }
-  void TearDown() override { ros::param::del("/zero_on_silence"); }
+  void TearDown() override {
+    spinner_.stop();
+    ros::param::del("/zero_on_silence");
+  }
 
   // Commands that are sent before the connection would be lost.
   template <typename Msg>
