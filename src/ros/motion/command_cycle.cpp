@@ -89,8 +89,7 @@ sweep_guard_core::MotionInputs CommandCycle::inputs(GuardInput::Newest& newest) 
 void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
   GuardInput::Newest newest = sources_.guard.newest();
   const sweep_guard_core::MotionInputs known = inputs(newest);
-  const bool stopped = guard_.permission(known, *command_, at).permission == Permission::kStop;
-  if (!stopped && !sources_.hold.released(at.steady)) return sendZero(at);
+  if (waitsForRelease(known, at)) return sendZero(at);
   try {
     MotionCommand command = port_->read(known.pose, std::clamp(at.steady - sent_, kShortest, period_.longest()));
     command.timestamps = *command_;
@@ -106,6 +105,12 @@ void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
     sources_.status.update(refusedStatus(error.what()));
   }
   sent_ = at.steady;
+}
+
+// MoveIt Servo, which listens to the scale, takes no other type.
+bool CommandCycle::waitsForRelease(const sweep_guard_core::MotionInputs& known, const Instant& at) const {
+  if (parameters_.command_type != CommandType::kTwistStamped || sources_.hold.released(at.steady)) return false;
+  return guard_.permission(known, *command_, at).permission != Permission::kStop;
 }
 
 void CommandCycle::sendZero(const Instant& at) {

@@ -31,8 +31,8 @@ struct CommandCycleSources {
 };
 
 /// Sends what is let through of each command, in the thread that receives it. Between commands, tick() has the newest one
-/// limited anew if it is late or may not be let through any more; when the commands stop, it sends zeros. After a stop it
-/// goes on once HoldPublisher was heard; until then the status stays.
+/// limited anew if it is late or may not be let through any more; when the commands stop, it sends zeros. After a stop, a
+/// stamped twist goes on once HoldPublisher was heard; until then the status stays.
 class CommandCycle {
  public:
   CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const MotionParameters& parameters,
@@ -57,6 +57,7 @@ class CommandCycle {
   bool onRebase(Trigger::Request& request, Trigger::Response& response);
   sweep_guard_core::MotionInputs inputs(GuardInput::Newest& newest) const;
   void limitNewest(const sweep_guard_core::Instant& at, bool only_if_changed);
+  bool waitsForRelease(const sweep_guard_core::MotionInputs& known, const sweep_guard_core::Instant& at) const;
   void sendZero(const sweep_guard_core::Instant& at);
   void halt(const sweep_guard_core::Instant& at);
 
