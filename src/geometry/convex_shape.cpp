@@ -8,15 +8,13 @@
 #include <limits>
 
 #include "common/xyz.h"
+#include "geometry/shape_surface.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/geometry/convex_hull.h"
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-constexpr int kSphereRings = 8;
-constexpr int kSphereSectors = 16;
 constexpr double kNeedle = 1e-6;  // least area of a face, in parallelograms of its longest edge squared
 
 template <typename... Functions>
@@ -27,83 +25,6 @@ template <typename... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
 bool usableLength(double length) { return length >= 0.0 && length <= kMaxCoordinate; }
-
-struct Surface {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<Triangle> triangles;
-};
-
-Surface cylinderSurface(double radius, double length, int sides) {
-  const auto n = static_cast<std::uint32_t>(sides);
-  const std::uint32_t front_center = 2 * n;
-  const std::uint32_t rear_center = 2 * n + 1;
-  Surface surface;
-  for (const double z : {0.0, -length}) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const double angle = kTwoPi * i / n;
-      surface.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-    }
-  }
-  surface.vertices.emplace_back(0.0, 0.0, 0.0);
-  surface.vertices.emplace_back(0.0, 0.0, -length);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t next = (i + 1) % n;
-    surface.triangles.push_back({front_center, i, next});
-    surface.triangles.push_back({rear_center, n + next, n + i});
-    surface.triangles.push_back({i, n + i, next});
-    surface.triangles.push_back({next, n + i, n + next});
-  }
-  return surface;
-}
-
-Surface sphereSurface(double radius) {
-  const auto at = [](int ring, int sector) {
-    return static_cast<std::uint32_t>(ring * kSphereSectors + sector % kSphereSectors);
-  };
-  Surface surface;
-  for (int ring = 0; ring <= kSphereRings; ++ring) {
-    const double polar = 0.5 * kTwoPi * ring / kSphereRings;
-    for (int sector = 0; sector < kSphereSectors; ++sector) {
-      const double azimuth = kTwoPi * sector / kSphereSectors;
-      const Eigen::Vector3d outwards(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
-                                     std::cos(polar));
-      surface.vertices.emplace_back(radius * outwards);
-    }
-  }
-  for (int ring = 0; ring < kSphereRings; ++ring) {
-    for (int sector = 0; sector < kSphereSectors; ++sector) {
-      surface.triangles.push_back({at(ring, sector), at(ring + 1, sector), at(ring + 1, sector + 1)});
-      surface.triangles.push_back({at(ring, sector), at(ring + 1, sector + 1), at(ring, sector + 1)});
-    }
-  }
-  return surface;
-}
-
-// Corner i is on the positive side of axis k if bit k of i is set.
-std::array<Eigen::Vector3d, 8> boxCorners(const Eigen::Vector3d& h) {
-  std::array<Eigen::Vector3d, 8> corners;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    corners[i] = {(i & 1) != 0 ? h.x() : -h.x(), (i & 2) != 0 ? h.y() : -h.y(), (i & 4) != 0 ? h.z() : -h.z()};
-  }
-  return corners;
-}
-
-Surface boxSurface(const Eigen::Vector3d& half_extents) {
-  const auto corners = boxCorners(half_extents);
-  return {{corners.begin(), corners.end()},
-          {{0, 2, 1},
-           {1, 2, 3},
-           {4, 5, 6},
-           {5, 7, 6},
-           {0, 1, 4},
-           {1, 5, 4},
-           {2, 6, 3},
-           {3, 6, 7},
-           {0, 4, 2},
-           {2, 4, 6},
-           {1, 3, 5},
-           {3, 7, 5}}};
-}
 
 Moments triangleMoments(const TriangleMesh& mesh) {
   const double count = 3.0 * static_cast<double>(mesh.triangles().size());
@@ -226,13 +147,13 @@ ConvexShape ConvexShape::cylinder(double radius, double length, int sides) {
   if (!usableLength(length)) throw InvalidInput("cylinder length: must be finite and >= 0 m");
   if (radius == 0.0 && length == 0.0) throw InvalidInput("cylinder: radius and length are both 0; give it a size");
   if (sides < 3 || sides > 1000) throw InvalidInput("cylinder sides: must be 3 to 1000");
-  const Surface surface = cylinderSurface(radius, length, sides);
+  const ShapeSurface surface = cylinderSurface(radius, length, sides);
   return {Round{radius, length}, surface.vertices, surface.triangles};
 }
 
 ConvexShape ConvexShape::sphere(double radius) {
   if (!usableLength(radius) || radius == 0.0) throw InvalidInput("sphere radius: must be finite and > 0 m");
-  const Surface surface = sphereSurface(radius);
+  const ShapeSurface surface = sphereSurface(radius);
   ConvexShape sphere(Points({Eigen::Vector3d::Zero()}), surface.vertices, surface.triangles);
   return sphere.padded(radius);
 }
@@ -242,7 +163,7 @@ ConvexShape ConvexShape::box(const Eigen::Vector3d& half_extents) {
     if (!usableLength(half)) throw InvalidInput("box size: must be finite and >= 0 m");
   }
   if (half_extents.isZero(0.0)) throw InvalidInput("box size: all three are 0; give it a size");
-  const Surface surface = boxSurface(half_extents);
+  const ShapeSurface surface = boxSurface(half_extents);
   return {Box{half_extents}, surface.vertices, surface.triangles};
 }
 
