@@ -333,7 +333,7 @@ bool takes(const std::filesystem::path& script, const std::string& option) {
 }
 
 TEST(DocumentsTest, NameScriptsAndOptionsThatThereAre) {
-  const std::regex call("scripts/([a-z]+)(?![-.a-z])( [^`\n#]*)?");
+  const std::regex call("scripts/([a-z_]+)(?![-.a-z_])( [^`\n#]*)?");
   const std::regex option("--[a-z-]+");
   for (const auto& file : documents()) {
     const std::string text = contents(file);

@@ -24,8 +24,17 @@ class IntendTest : public NodeTest {
       newest_ = *intended;
       changed_.notify_all();
     });
-    updates_ = node_.advertise<Intend>("/sweep_guard/intend_updates", 10);
+    updates_ = node_.advertise<Intend>("/sweep_guard/intend_updates", 10,
+                                       [this](const ros::SingleSubscriberPublisher&) { changed_.notify_all(); });
+    awaitSubscriber();
     awaitIntended([](const Intended& intended) { return intended.intentions.empty(); });
+  }
+
+  void awaitSubscriber() {
+    std::unique_lock lock(mutex_);
+    const bool came =
+        changed_.wait_for(lock, std::chrono::seconds(20), [&] { return updates_.getNumSubscribers() > 0; });
+    if (!came) throw std::runtime_error("nobody listens to ~intend_updates");
   }
 
   Intended awaitIntended(const std::function<bool(const Intended&)>& fits) {

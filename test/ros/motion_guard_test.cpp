@@ -258,6 +258,10 @@ TEST_F(MotionGuardNodeTest, RebasingIsRefusedUnlessPosesAreIncremental) {
 
 TEST_F(MotionGuardNodeTest, IncrementalPosesMoveTheToolFromWhereItIs) {
   Listener<PoseStamped> guarded(node_, "/clutch/guarded_command");
+  Listener<MotionStatus> statuses(node_, "/clutch/motion_guard/status");
+  for (int i = 0; i < 3; ++i) {  // 0.1 s apart: the pose of the test before is over
+    statuses.await([](const MotionStatus&) { return true; }, "a status");
+  }
   const ros::Publisher poses = node_.advertise<PoseStamped>("/clutch/command", 10);
   const auto command = [&](double x) {
     world_.change([=](auto& state) {
