@@ -389,6 +389,10 @@ def freeze_bystander(world, warnings, table, name, seconds):
     table.add(f'SIGSTOP of {name} for {seconds} s: growth of the guard', [resident(world.guard()) - before], 8.0, 'MB')
 
 
+def program(world, name):
+    return os.path.join(world.folder, '..', 'devel/lib/sweep_guard', name)
+
+
 def fill_disk(world, table):
     folder = os.path.join(world.folder, 'full_disk')
     if not os.path.ismount(folder):
@@ -400,8 +404,7 @@ def fill_disk(world, table):
     except OSError:
         pass
     warnings = Warnings('guard_on_a_full_disk')
-    guard = world.start('guard_on_a_full_disk', [os.path.join(world.folder, '..', 'devel/lib/sweep_guard/sweep_guard_node'),
-                                                 '__name:=guard_on_a_full_disk'],
+    guard = world.start('guard_on_a_full_disk', [program(world, 'sweep_guard_node'), '__name:=guard_on_a_full_disk'],
                         at_peers=False, ROS_HOME=folder, ROS_LOG_DIR=folder)
     warnings.wait(clear, 0)
     warnings.wait_until_steadily_clear()
@@ -426,7 +429,7 @@ def measure(options):
         with open(config, 'w') as file:
             file.writelines(lines + ['mesh_ids: [left, right]\n'])
         world.start('roslaunch', ['roslaunch', 'sweep_guard', 'sweep_guard.launch', 'config:=' + config], at_peers=False)
-        world.start('motion_guard', ['rosrun', 'sweep_guard', 'motion_guard_node'], at_peers=False)
+        world.start('motion_guard', [program(world, 'motion_guard_node')], at_peers=False)
         world.role('commands', 'commands')
         rospy.init_node('faults', disable_signals=True)
         warnings, motion = Warnings(), Motion()

@@ -75,9 +75,10 @@ class Commands {
     std::printf("\n");
   }
 
-  bool allAnswered() const {
+  // Of commands that arrive together, the newest counts.
+  bool mostAnswered() const {
     const std::lock_guard lock(mutex_);
-    return sent_ > 0 && milliseconds_.size() + 10 >= sent_;  // some are on their way
+    return static_cast<double>(milliseconds_.size()) >= 0.99 * static_cast<double>(sent_);
   }
 
  private:
@@ -152,7 +153,7 @@ int run(int argc, char** argv) {
   getloadavg(&load_now, 1);
   std::printf("processor of the whole process: %.2f, load %.1f\n", (after.processor_s - before.processor_s) / seconds,
               load_now);
-  return commands.allAnswered() ? 0 : 1;
+  return commands.mostAnswered() ? 0 : 1;
 }
 
 }  // namespace
