@@ -52,7 +52,7 @@ constexpr int kMaxAxis = 63;              // or button of an input device
 constexpr double kHoleCircle = 0.06;      // [m] radius
 constexpr int kHolesOnCircle = 5;
 constexpr double kIntendedRadius = 0.08;  // [m] around a hole: that of some triangles of a coarse workpiece
-constexpr double kIntendedDepth = 0.04;   // [m]; the workpiece sways, and its triangles are not parallel to the hole
+constexpr double kIntendedDepth = 0.02;   // [m]; more than the depth of a hole, because the workpiece sways
 constexpr std::uint32_t kNotReady =
     sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
 

@@ -21,7 +21,7 @@ class SimulatedArm {
   explicit SimulatedArm(sweep_guard_ros::ParameterReader& parameters)
       : frame_(parameters.name("frame", "world")),
         rate_(parameters.number("rate", 100.0, {1.0, 10000.0})),
-        tip_(poseAt(parameters.position("home", {0.0, 0.0, 0.4})), readLimits(parameters)) {
+        tip_(poseAt(parameters.position("home", {0.0, 0.0, 0.7})), readLimits(parameters)) {
     publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 100);
     subscriber_ = node_.subscribe("command", 1, &SimulatedArm::onCommand, this, ros::TransportHints().tcpNoDelay());
   }
