@@ -14,7 +14,7 @@ constexpr size_t kBalls = 4096;  // before buffers grow
 PermissionInputs permissionInputs(const MotionInputs& inputs, const Timestamps& command) {
   PermissionInputs permission;
   permission.command = command;
-  permission.verdict = inputs.warning;
+  permission.warning = inputs.warning;
   if (inputs.pose) permission.pose = inputs.pose->timestamps;
   if (!inputs.planes) return permission;
   const PlaneSet& planes = *inputs.planes;

@@ -14,9 +14,9 @@ std::optional<PermissionCause> problemOfCommand(const PermissionInputs& inputs, 
 
 std::optional<PermissionCause> problemOfGuard(const PermissionInputs& inputs, const Instant& now,
                                               const PermissionLimits& limits) {
-  if (!inputs.verdict) return PermissionCause::kNoWarning;
-  if (now.steady - inputs.verdict->received > limits.silence) return PermissionCause::kWarningSilent;
-  if (inputs.verdict->level == WarningLevel::kUnknown) return PermissionCause::kUnknown;
+  if (!inputs.warning) return PermissionCause::kNoWarning;
+  if (now.steady - inputs.warning->received > limits.silence) return PermissionCause::kWarningSilent;
+  if (inputs.warning->level == WarningLevel::kUnknown) return PermissionCause::kUnknown;
   if (!inputs.pose) return PermissionCause::kNoPose;
   if (now.steady - inputs.pose->received > limits.silence) return PermissionCause::kPoseSilent;
   if (!inputs.planes) return PermissionCause::kNoPlanes;
@@ -28,9 +28,9 @@ std::optional<PermissionCause> problemOfGuard(const PermissionInputs& inputs, co
 }
 
 bool mayEscape(const PermissionInputs& inputs, const Instant& now, const PermissionLimits& limits) {
-  if (!(limits.escape_speed > 0.0) || !inputs.verdict || !inputs.planes || !inputs.pose) return false;
+  if (!(limits.escape_speed > 0.0) || !inputs.warning || !inputs.planes || !inputs.pose) return false;
   if (!inputs.planes->complete || !inputs.planes->tool_known) return false;
-  return (inputs.verdict->reasons & kSurfacesMissing) == 0 &&
+  return (inputs.warning->reasons & kSurfacesMissing) == 0 &&
          !stale(inputs.planes->timestamps, now, limits.escape_plane_age) &&
          !stale(*inputs.pose, now, limits.escape_plane_age);
 }

@@ -21,7 +21,7 @@ class MotionPermissionTest : public testing::Test {
  protected:
   MotionPermissionTest() {
     inputs_.command = received(990);
-    inputs_.verdict = PermissionInputs::Verdict{WarningLevel::kClear, 0, at(990).steady};
+    inputs_.warning = PermissionInputs::ReceivedWarning{WarningLevel::kClear, 0, at(990).steady};
     inputs_.planes = PermissionInputs::Planes{received(990), at(1140).stamp};
     inputs_.pose = received(990);
   }
@@ -39,8 +39,8 @@ class MotionPermissionTest : public testing::Test {
 TEST_F(MotionPermissionTest, LimitsAFreshCommandAtEveryLevelButUnknown) {
   for (const WarningLevel level :
        {WarningLevel::kClear, WarningLevel::kConsidered, WarningLevel::kReflex, WarningLevel::kContact}) {
-    inputs_.verdict->level = level;
-    inputs_.verdict->reasons = kPoseStale;
+    inputs_.warning->level = level;
+    inputs_.warning->reasons = kPoseStale;
     expect(Permission::kLimited, PermissionCause::kGuarded);
   }
 }
@@ -58,16 +58,16 @@ TEST_F(MotionPermissionTest, NeedsACommandThatIsFreshOnBothClocks) {
 }
 
 TEST_F(MotionPermissionTest, NeedsAWarningWithinTheSilence) {
-  inputs_.verdict->received = at(850).steady;
+  inputs_.warning->received = at(850).steady;
   expect(Permission::kLimited, PermissionCause::kGuarded);
-  inputs_.verdict->received = at(849).steady;
+  inputs_.warning->received = at(849).steady;
   expect(Permission::kStop, PermissionCause::kWarningSilent);
-  inputs_.verdict.reset();
+  inputs_.warning.reset();
   expect(Permission::kStop, PermissionCause::kNoWarning);
 }
 
 TEST_F(MotionPermissionTest, NeedsALevel) {
-  inputs_.verdict->level = WarningLevel::kUnknown;
+  inputs_.warning->level = WarningLevel::kUnknown;
   expect(Permission::kStop, PermissionCause::kUnknown);
 }
 
@@ -108,7 +108,7 @@ class EscapeTest : public MotionPermissionTest {
  protected:
   EscapeTest() {
     limits_.escape_speed = 0.01;
-    inputs_.verdict->level = WarningLevel::kUnknown;
+    inputs_.warning->level = WarningLevel::kUnknown;
   }
 };
 
@@ -119,7 +119,7 @@ TEST_F(EscapeTest, NeedsAnEscapeSpeed) {
 }
 
 TEST_F(EscapeTest, IsLeftWhenTheGuardKnowsAgain) {
-  inputs_.verdict->level = WarningLevel::kContact;
+  inputs_.warning->level = WarningLevel::kContact;
   expect(Permission::kLimited, PermissionCause::kGuarded);
 }
 
@@ -136,7 +136,7 @@ TEST_F(EscapeTest, NeedsPlanesThatAreYoungOnBothClocks) {
 
 TEST_F(EscapeTest, NeedsReasonsWithWhichThePlanesAreThoseOfAllSurfaces) {
   for (std::uint32_t reason = kNoPose; reason <= kCrosscheck; reason <<= 1U) {
-    inputs_.verdict->reasons = reason;
+    inputs_.warning->reasons = reason;
     const bool incomplete = reason == kNoMesh || reason == kMeshInvalid || reason == kTimeJump ||
                             reason == kDetectorFault || reason == kNotSwept;
     expect(incomplete ? Permission::kStop : Permission::kEscape, PermissionCause::kUnknown);
@@ -144,17 +144,17 @@ TEST_F(EscapeTest, NeedsReasonsWithWhichThePlanesAreThoseOfAllSurfaces) {
 }
 
 TEST_F(EscapeTest, IsPossibleWhileTheGuardIsSilent) {
-  inputs_.verdict->level = WarningLevel::kClear;
-  inputs_.verdict->received = at(800).steady;
+  inputs_.warning->level = WarningLevel::kClear;
+  inputs_.warning->received = at(800).steady;
   expect(Permission::kEscape, PermissionCause::kWarningSilent);
-  inputs_.verdict->reasons = kNotSwept;
+  inputs_.warning->reasons = kNotSwept;
   expect(Permission::kStop, PermissionCause::kWarningSilent);
-  inputs_.verdict.reset();
+  inputs_.warning.reset();
   expect(Permission::kStop, PermissionCause::kNoWarning);
 }
 
 TEST_F(EscapeTest, IsPossibleWithPlanesThatAreSilentOrExpired) {
-  inputs_.verdict->level = WarningLevel::kClear;
+  inputs_.warning->level = WarningLevel::kClear;
   inputs_.planes->timestamps = received(600);
   expect(Permission::kEscape, PermissionCause::kPlanesSilent);
   inputs_.planes = PermissionInputs::Planes{received(990), at(999).stamp};

@@ -45,7 +45,7 @@ struct PermissionLimits {
 
 /// What is known when a command is to be passed on.
 struct PermissionInputs {
-  struct Verdict {
+  struct ReceivedWarning {
     WarningLevel level = WarningLevel::kUnknown;
     std::uint32_t reasons = 0;  ///< bits of Reason
     SteadyTime received;
@@ -56,10 +56,10 @@ struct PermissionInputs {
     bool complete = true;    ///< every workpiece was tested at that pose
     bool tool_known = true;  ///< the balls of the tool that they were computed for have arrived
   };
-  std::optional<Timestamps> command;  ///< newest one; without a stamp of its own, that of its receipt
-  std::optional<Verdict> verdict;     ///< newest warning
-  std::optional<Planes> planes;       ///< newest ones
-  std::optional<Timestamps> pose;     ///< newest pose of the tool
+  std::optional<Timestamps> command;       ///< newest one; without a stamp of its own, that of its receipt
+  std::optional<ReceivedWarning> warning;  ///< newest warning
+  std::optional<Planes> planes;            ///< newest ones
+  std::optional<Timestamps> pose;          ///< newest pose of the tool
 };
 
 struct PermissionDecision {

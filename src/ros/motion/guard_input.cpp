@@ -110,7 +110,7 @@ void GuardInput::acceptWarning(const ros::MessageEvent<const sweep_guard::Warnin
   const auto level =
       known ? static_cast<sweep_guard_core::WarningLevel>(msg.level) : sweep_guard_core::WarningLevel::kUnknown;
   const std::lock_guard lock(mutex_);
-  newest_.inputs.warning = PermissionInputs::Verdict{level, msg.reasons, std::chrono::steady_clock::now()};
+  newest_.inputs.warning = PermissionInputs::ReceivedWarning{level, msg.reasons, std::chrono::steady_clock::now()};
 }
 
 void GuardInput::checkFrame(const std::string& frame, const std::string& expected) const {
