@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "motion/facing.h"
+#include "sweep_guard/motion/proximity_finder.h"
+
+namespace sweep_guard_core {
+
+/// Adds planes to a Proximity, and counts what stands behind each: the speed of its surface, and in contact its depth.
+class PlaneCollector {
+ public:
+  /// @param planes  stays the caller's, and is added to
+  void begin(const Eigen::Isometry3d& X_WT, std::vector<ProximityPlane>& planes);
+  bool full() const { return planes_->size() == ProximityFinder::kMaxPlanes; }
+
+  /// Adds the plane of a triangle. The facing's cover knows it from now on, unless the piece reaches through it: such a
+  /// plane separates the piece from nothing, and triangles join it one by one.
+  void add(Facing& facing, const SeparatedTriangle& separated);
+  /// Lets a triangle in contact join a plane of nearly the same normal. If full, the most similar one. Returns false
+  /// without one.
+  bool join(const Facing& facing, const SeparatedTriangle& separated);
+
+  /// Counts the speed of a part that the plane stands for, as SurfaceMotion::alongNormal() takes it.
+  template <typename... Part>
+  void quicken(size_t number, const Facing& facing, const Part&... part) {
+    SeparatingPlane& plane = (*planes_)[number].plane;
+    const SurfaceMotion& motion = *facing.surface->motion;
+    const Eigen::Vector3d n_M = facing.cover.normal_M(normal_T(plane));
+    plane.surface_speed = std::max(plane.surface_speed, motion.moves() ? motion.alongNormal(n_M, part...) : 0.0);
+  }
+
+ private:
+  Eigen::Vector3d normal_T(const SeparatingPlane& plane) const { return X_WT_.linear().transpose() * plane.normal_W; }
+  ProximityPlane* similar(const Facing& facing, const Eigen::Vector3d& normal_T) const;
+
+  Eigen::Isometry3d X_WT_ = Eigen::Isometry3d::Identity();
+  std::vector<ProximityPlane>* planes_ = nullptr;
+};
+
+}  // namespace sweep_guard_core
