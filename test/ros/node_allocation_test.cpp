@@ -6,12 +6,12 @@
 #include <sweep_guard/Contacts.h>
 #include <sweep_guard/Prediction.h>
 
-#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "allocations.h"
+#include "ros/allowed_allocations.h"
 #include "ros/node.h"
 
 namespace sweep_guard_ros {
@@ -19,16 +19,9 @@ namespace {
 
 constexpr size_t kWarmUp = 1000;  // poses
 constexpr size_t kCounted = 1000;
-constexpr double kGrowth = 0.05;  // allocations per pose of what is not listed: buffers that meet something larger
 const std::set<std::string> kThreads = {"guard", "poses", "meshes", "converting", "storing", "warnings"};
 
-struct Allowed {
-  std::string frame;   // in the call stack
-  bool innermost;      // as the first frame
-  double most;         // per pose
-  std::string reason;  // why it may
-};
-const std::vector<Allowed> kAllowed = {
+const std::vector<AllowedAllocation> kAllowed = {
     {"ResultPublisher::publish", false, 40.0, "messages are published as shared pointers, which nodelets keep"},
     {"WarningPublisher::publish", false, 5.0, "the warning and its flags, at 20 Hz or changed"},
     {"ros::MessageDeserializer::deserialize", false, 4.0, "received messages: roscpp makes each anew"},
@@ -38,11 +31,6 @@ const std::vector<Allowed> kAllowed = {
      "the list of the workpieces: the store goes on meanwhile"},
     {"WorkpieceStore::snapshot < sweep_guard_ros::GuardThread::predict", true, 1.1, "the same for a prediction"},
 };
-
-bool matches(const Allowed& allowed, const std::string& stack) {
-  const size_t place = stack.find(allowed.frame);
-  return place != std::string::npos && (!allowed.innermost || place < stack.find(" < "));
-}
 
 // The messages of the guard, received by this process.
 class Results {
@@ -76,31 +64,7 @@ TEST(NodeAllocationTest, FromAMessageToAWarningOnlyWhatIsListedAllocates) {
   const sweep_guard_core::AllocationsOfAllThreads made;
   const size_t begin = results.swept();
   results.awaitContacts(begin + kCounted);
-  const auto poses = static_cast<double>(results.swept() - begin);
-  std::vector<double> of_allowed(kAllowed.size());
-  std::vector<std::string> stacks(kAllowed.size());
-  double of_others = 0.0;
-  std::string others;
-  for (const auto& [thread, stack, count] : made.places()) {
-    if (kThreads.count(thread) == 0) continue;
-    const auto allowed = std::find_if(kAllowed.begin(), kAllowed.end(),
-                                      [&, place = stack](const Allowed& one) { return matches(one, place); });
-    const double per_pose = static_cast<double>(count) / poses;
-    if (allowed != kAllowed.end()) {
-      const auto i = static_cast<size_t>(allowed - kAllowed.begin());
-      of_allowed[i] += per_pose;
-      stacks[i] += std::to_string(per_pose) + " " + stack + "\n";
-    } else {
-      of_others += per_pose;
-      others += thread + " " + std::to_string(per_pose) + " " + stack + "\n";
-    }
-  }
-  EXPECT_LE(of_others, kGrowth) << others;
-  for (size_t i = 0; i < kAllowed.size(); ++i) {
-    EXPECT_GT(of_allowed[i], 0.0) << kAllowed[i].frame << " need not be listed";
-    EXPECT_LE(of_allowed[i], kAllowed[i].most) << kAllowed[i].frame << "\n" << stacks[i];
-    RecordProperty(kAllowed[i].frame.c_str(), std::to_string(of_allowed[i]));
-  }
+  expectAllocations(made, kThreads, kAllowed, static_cast<double>(results.swept() - begin));
   EXPECT_GT(results.predicted(), kCounted / 2);
 }
 

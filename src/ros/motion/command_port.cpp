@@ -3,6 +3,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <boost/make_shared.hpp>
 
 #include <utility>
 
@@ -72,7 +73,9 @@ class TypedPort : public CommandPort {
  protected:
   const CommandFrames& frames() const { return frames_; }
   const Msg& newest() const { return *newest_; }
-  void publish(const Msg& msg) { publisher_.publish(msg); }
+  // Shared, so that no nodelet reads a copy.
+  void publishNewest() { publisher_.publish(newest_); }
+  void publish(const boost::shared_ptr<const Msg>& msg) { publisher_.publish(msg); }
 
  private:
   const CommandFrames& frames_;
@@ -101,18 +104,18 @@ class TwistPort : public TypedPort<Msg> {
   }
 
   void send(const Twist& let_through_W) override {
-    if (let_through_W == commanded_W_) return this->publish(this->newest());
-    Msg msg = this->newest();
-    geometry_msgs::Twist& twist = twistOf(msg);
+    if (let_through_W == commanded_W_) return this->publishNewest();
+    const auto msg = boost::make_shared<Msg>(this->newest());
+    geometry_msgs::Twist& twist = twistOf(*msg);
     twist.linear = vectorMsg<geometry_msgs::Vector3>(R_WC_.transpose() * let_through_W.v_W / linear_scale_);
     twist.angular = vectorMsg<geometry_msgs::Vector3>(R_WC_.transpose() * let_through_W.w_W / angular_scale_);
     this->publish(msg);
   }
 
   void sendZero() override {
-    Msg msg = this->newest();
-    twistOf(msg) = {};
-    stampNow(msg);
+    const auto msg = boost::make_shared<Msg>(this->newest());
+    twistOf(*msg) = {};
+    stampNow(*msg);
     this->publish(msg);
   }
 
@@ -146,7 +149,7 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
 
   void send(const Twist& let_through_W) override {
     follower_.moveOn(let_through_W);
-    if (follower_.reached()) return publish(newest());
+    if (follower_.reached()) return publishNewest();
     publishSent(newest().header.stamp);
   }
 
@@ -159,10 +162,10 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
 
  private:
   void publishSent(const ros::Time& stamp) {
-    geometry_msgs::PoseStamped msg;
-    msg.header = newest().header;
-    msg.header.stamp = stamp;
-    msg.pose = toMsg(X_WC_.inverse() * follower_.sent());
+    const auto msg = boost::make_shared<geometry_msgs::PoseStamped>();
+    msg->header = newest().header;
+    msg->header.stamp = stamp;
+    msg->pose = toMsg(X_WC_.inverse() * follower_.sent());
     publish(msg);
   }
 

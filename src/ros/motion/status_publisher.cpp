@@ -23,10 +23,9 @@ StatusPublisher::StatusPublisher(ros::NodeHandle private_node, std::string fixed
   newest_.header.frame_id = fixed_frame_;
 }
 
-void StatusPublisher::update(const sweep_guard::MotionStatus& status) {
+void StatusPublisher::update(sweep_guard::MotionStatus status) {
   const std::lock_guard lock(mutex_);
-  sweep_guard::MotionStatus before = status;
-  std::swap(before, newest_);
+  const sweep_guard::MotionStatus before = std::exchange(newest_, std::move(status));
   newest_.header.frame_id = fixed_frame_;
   if (before.cause != newest_.cause || before.code != newest_.code) {
     ++counts_[newest_.cause];

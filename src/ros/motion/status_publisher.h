@@ -19,7 +19,7 @@ class StatusPublisher {
  public:
   StatusPublisher(ros::NodeHandle private_node, std::string fixed_frame);
 
-  void update(const sweep_guard::MotionStatus& status);
+  void update(sweep_guard::MotionStatus status);
   void publishIfDue();  ///< to be called more often than 10 times a second
 
   sweep_guard::MotionStatus newest() const;
