@@ -43,7 +43,7 @@ Twist ClosedLoop::guarded(const Twist& command_W) {
 }
 
 Twist ClosedLoop::watch(const Twist& command_W, const DrivenRobot::Cycle& next) {
-  const Twist output_W = guarded(command_W);
+  Twist output_W = guarded(command_W);
   robot_ = next.robot;
   now_ = next.time;
   return output_W;

@@ -15,7 +15,8 @@ constexpr double kPause = 0.001;  // [s]
 
 bool liesInFuture(sweep_guard_core::Time stamp) {
   const sweep_guard_core::Instant begin = now();
-  const bool may_wait = ros::Time::isSimTime() && stamp <= begin.stamp + kMaxClockDelay;
+  const bool begun = begin.stamp != sweep_guard_core::Time();
+  const bool may_wait = ros::Time::isSimTime() && (!begun || stamp <= begin.stamp + kMaxClockDelay);
   sweep_guard_core::Instant at = begin;
   while (may_wait && stamp > at.stamp + kFutureTolerance && at.steady < begin.steady + kMaxClockDelay) {
     ros::WallDuration(kPause).sleep();

@@ -11,7 +11,8 @@ constexpr auto kFutureTolerance = std::chrono::milliseconds(50);
 constexpr const char* kFutureStampText = "stamp lies in the future: are the clocks synchronized?";
 
 /// Returns whether a stamp lies in the future. Simulated time has its own connection, which a message may overtake: a
-/// stamp less than half a second ahead of it is waited for, for at most half a second of wall time.
+/// stamp less than half a second ahead of it is waited for, for at most half a second of wall time, and so is its first
+/// message.
 bool liesInFuture(sweep_guard_core::Time stamp);
 
 }  // namespace sweep_guard_ros
