@@ -60,7 +60,7 @@ void MasterWatch::check() {
   const auto node = call_.call(ros::master::getURI(), "lookupNode", {XmlRpcValue(ros::this_node::getName())});
   const bool answers = master && node;
   if (stopping_) return;
-  if (answers_ && !answers) ROS_WARN("the ROS master does not answer: the guard goes on with the connections it has");
+  if (answers_ && !answers) ROS_WARN("the ROS master does not answer: this node goes on with the connections it has");
   if (!answers_ && answers) ROS_WARN("the ROS master answers again");
   answers_ = answers;
   if (!answers) return;

@@ -15,8 +15,8 @@
 namespace sweep_guard_ros {
 
 /// Notices that the ROS master was started anew, which then knows neither this node nor its parameters, and registers
-/// the topics of the process, the services of the guard and those that each node or nodelet manager has, and sets the
-/// parameters of the guard there again. Services of other nodelets are not known. Connections that exist are kept:
+/// the topics of the process, the services of the guard, of motion_guard and those that each node or nodelet manager has,
+/// and sets the parameters of this node there again. Services of other nodelets are not known. Connections that exist are kept:
 /// poses and meshes arrive as before, also from nodes that the new master does not know. Asks the master once a second,
 /// in a thread of its own.
 class MasterWatch {

@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
-#include <set>
 
 #include "child_process.h"
 #include "guard_probe.h"
@@ -228,76 +227,6 @@ TEST(DiskTest, WithoutRoomForALogTheGuardWarns) {
   guard.signal(SIGTERM);
   EXPECT_EQ(guard.wait(), 0) << guard.output();
   ros::param::del("/sweep_guard");
-}
-
-std::string freePort() {
-  XmlRpc::XmlRpcServer server;
-  server.bindAndListen(0);
-  std::string port = std::to_string(server.get_port());
-  server.shutdown();
-  return port;
-}
-
-/// A master of the test's own, which the test itself does not use.
-class Master {
- public:
-  explicit Master(const std::string& port)
-      : uri_("http://127.0.0.1:" + port), process_({"rosmaster", "--core", "-p", port}, {"ROS_MASTER_URI=" + uri_}) {
-    const auto begin = SteadyClock::now();
-    while (!xmlRpc().call(uri_, "getPid", {})) {
-      if (secondsSince(begin) > 20.0) throw std::runtime_error("the master does not answer");
-      ros::WallDuration(0.01).sleep();
-    }
-  }
-
-  const std::string& uri() const { return uri_; }
-  XmlRpcValue ask(const std::string& function, const std::vector<XmlRpcValue>& arguments) const {
-    const auto answer = xmlRpc().call(uri_, function, arguments);
-    return answer && answer->success ? answer->value : XmlRpcValue();
-  }
-  /// Returns what the guard has registered: publishers, subscribers and services.
-  std::set<std::string> registered() const {
-    std::set<std::string> names;
-    XmlRpcValue state = ask("getSystemState", {});
-    for (int kind = 0; state.valid() && kind < 3; ++kind) {
-      for (int i = 0; i < state[kind].size(); ++i) {
-        const auto by = state[kind][i][1].toXml();
-        if (by.find("/sweep_guard<") == std::string::npos) continue;
-        names.insert(std::to_string(kind) + static_cast<std::string>(state[kind][i][0]));
-      }
-    }
-    return names;
-  }
-
- private:
-  const std::string uri_;
-  const ChildProcess process_;
-};
-
-TEST(MasterTest, ThatIsStartedAnewKnowsTheGuardAgain) {
-  const std::string port = freePort();
-  auto master = std::make_unique<Master>(port);
-  const std::vector<std::string> at_master{"ROS_MASTER_URI=" + master->uri()};
-  ChildProcess guard(guardWith({"_tool/radius:=0.02"}), at_master);
-  const auto registered = [&](const std::function<bool(const std::set<std::string>&)>& complete) {
-    const auto begin = SteadyClock::now();
-    std::set<std::string> names;
-    while (!complete(names = master->registered()) && secondsSince(begin) < 10.0) ros::WallDuration(0.01).sleep();
-    return names;
-  };
-  const std::set<std::string> before = registered([](const auto& names) { return names.count("0/diagnostics") != 0; });
-  ASSERT_EQ(before.count("2/sweep_guard/check_sweep"), 1U);
-  for (int cycle = 0; cycle < 2; ++cycle) {
-    master.reset();  // kill -9
-    master = std::make_unique<Master>(port);
-    EXPECT_EQ(registered([&](const auto& names) { return names == before; }), before);
-    EXPECT_EQ(static_cast<double>(master->ask("getParam", {XmlRpcValue("/sweep_guard/tool/radius")})), 0.02);
-    ChildProcess subscriber({"rostopic", "echo", "-n", "1", "/sweep_guard/warning/level"}, at_master);
-    EXPECT_EQ(subscriber.wait(), 0);
-    EXPECT_EQ(subscriber.output().substr(0, 1), "0");
-  }
-  guard.signal(SIGTERM);
-  EXPECT_EQ(guard.wait(), 0);
 }
 
 // Its configuration is lost with the parameters: a guard with the defaults would guard another tool.

@@ -50,6 +50,22 @@ tf2_msgs::TFMessage frames() {
   return frames;
 }
 
+// The tool hangs on a joint, whose transform is a message of its own.
+tf2_msgs::TFMessage joined(const std::string& parent, const std::string& child, const Eigen::Isometry3d& X_PC,
+                           const ros::Time& now) {
+  tf2_msgs::TFMessage frames;
+  frames.transforms.resize(1);
+  frames.transforms[0].header.frame_id = parent;
+  frames.transforms[0].header.stamp = now;
+  frames.transforms[0].child_frame_id = child;
+  const geometry_msgs::Pose pose = toMsg(X_PC);
+  frames.transforms[0].transform.translation.x = pose.position.x;
+  frames.transforms[0].transform.translation.y = pose.position.y;
+  frames.transforms[0].transform.translation.z = pose.position.z;
+  frames.transforms[0].transform.rotation = pose.orientation;
+  return frames;
+}
+
 }  // namespace
 
 MotionWorld::MotionWorld()
@@ -57,6 +73,7 @@ MotionWorld::MotionWorld()
       planes_(node_.advertise<sweep_guard::Proximity>("/fake/proximity", 10)),
       tool_(node_.advertise<sweep_guard::ToolBalls>("/fake/tool_balls", 1, /*latch=*/true)),
       pose_(node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 10)),
+      joints_(node_.advertise<tf2_msgs::TFMessage>("/tf", 10)),
       frames_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true)),
       timer_(node_.createWallTimer(ros::WallDuration(0.01), [this](const ros::WallTimerEvent&) { step(); })) {
   tool_.publish(needle());
@@ -76,7 +93,12 @@ void MotionWorld::step() {
   pose.header.stamp = now;
   pose.header.frame_id = "world";
   pose.pose = toMsg(state_.X_WT);
-  if (state_.has_pose) pose_.publish(pose);
+  if (state_.has_pose) {
+    pose_.publish(pose);
+    const Eigen::Isometry3d X_WJ(Eigen::Translation3d(0.0, 0.0, 0.5));
+    joints_.publish(joined("world", "joint", X_WJ, now));
+    joints_.publish(joined("joint", "tool", X_WJ.inverse() * state_.X_WT, now));
+  }
   if (state_.command) state_.command(now);
 }
 

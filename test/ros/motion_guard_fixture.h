@@ -57,7 +57,8 @@ class Listener {
   ros::Subscriber subscriber_;  // after what its callback uses
 };
 
-/// Publishes every 10 ms what a guard would, of a needle before the wall x = 0, and the commands of a test. The needle
+/// Publishes every 10 ms what a guard would, of a needle before the wall x = 0, its pose, as a message and in tf by way of
+/// a joint, and the commands of a test. The needle
 /// reaches from the origin of the tool frame to 0.1 m along its x axis, where the frame `tip` is. The frame `turned` is
 /// the world's, turned by a quarter about z.
 class MotionWorld {
@@ -68,7 +69,7 @@ class MotionWorld {
     std::uint32_t reasons = 0;
     bool warns = true;
     bool finds_planes = true;
-    bool has_pose = true;
+    bool has_pose = true;                               ///< in both ways
     std::function<void(const ros::Time& now)> command;  ///< empty: none
   };
 
@@ -89,6 +90,7 @@ class MotionWorld {
   ros::Publisher planes_;
   ros::Publisher tool_;
   ros::Publisher pose_;
+  ros::Publisher joints_;
   ros::Publisher frames_;
   ros::WallTimer timer_;
 };

@@ -155,6 +155,24 @@ TEST_F(MotionGuardNodeTest, StopsWhenTheGuardDoesNotKnowOrIsSilent) {
   }
 }
 
+TEST_F(MotionGuardNodeTest, FollowsTheToolInTf) {
+  const ros::Publisher commands = node_.advertise<Twist>("/in_tf/command", 10);
+  Listener<Twist> guarded(node_, "/in_tf/guarded_command");
+  Listener<MotionStatus> statuses(node_, "/in_tf/motion_guard/status");
+  command(twist(-0.1), commands);
+  guarded.await([](const Twist& sent) { return sent == twist(-0.1); }, "free motion");
+  place(0.0005);
+  guarded.await(isZero, "zero before the wall");
+  command(twist(0.37), commands);
+  guarded.await([](const Twist& sent) { return sent == twist(0.37); }, "the retreat");
+  place(0.8);
+  command(twist(-0.1), commands);
+  guarded.await([](const Twist& sent) { return sent == twist(-0.1); }, "free motion again");
+  world_.change([](auto& state) { state.has_pose = false; });
+  guarded.await(isZero, "zero without transforms");
+  statuses.await([](const MotionStatus& next) { return next.cause == "no new tool pose"; }, "the cause");
+}
+
 TEST_F(MotionGuardNodeTest, SendsFourZerosAfterTheCommandsHaveStopped) {
   awaitFreeMotion();
   world_.change([](auto& state) { state.command = nullptr; });

@@ -20,6 +20,10 @@ void addRecord(const std::string& name, const InputRecord::Summary& record, Diag
   if (!record.last_error.empty()) status.add(name + " last error", record.last_error);
 }
 
+bool refusedLately(const InputRecord::Summary& record) {
+  return record.refused > 0 && now().steady - record.error_time < kSilent;
+}
+
 bool silent(const InputRecord::Summary& record) {
   return !record.newest || now().steady - record.newest->received > kSilent;
 }
@@ -79,6 +83,7 @@ void MotionDiagnostics::guard(Status& status) const {
   status.summary(DiagnosticStatus::OK, "received");
   for (const auto& [topic, publishers, record] : sources_.guard.sources()) {
     if (!record.newest) status.mergeSummary(DiagnosticStatus::ERROR, "nothing received on " + topic);
+    if (refusedLately(record)) status.mergeSummary(DiagnosticStatus::ERROR, topic + " refused: " + record.last_error);
     if (publishers > 1) status.mergeSummary(DiagnosticStatus::ERROR, "several publishers on " + topic);
     status.add(topic, std::to_string(publishers) + " publishers");
     addRecord(topic, record, status);
@@ -89,6 +94,7 @@ void MotionDiagnostics::toolPose(Status& status) const {
   const InputRecord::Summary record = sources_.tool_pose.record().summary();
   status.summary(DiagnosticStatus::OK, "received");
   if (silent(record)) status.summary(DiagnosticStatus::ERROR, "no tool pose on " + sources_.tool_pose.source());
+  if (refusedLately(record)) status.mergeSummary(DiagnosticStatus::ERROR, "refused: " + record.last_error);
   if (sources_.tool_pose.publishers().value_or(1) > 1) {
     status.mergeSummary(DiagnosticStatus::WARN, "several publishers: the tool jumps between their poses");
   }

@@ -52,12 +52,14 @@ ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle&
     : ZeroOnSilence(node, private_node, ParameterReader(private_node)) {}
 
 ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReader read)
-    : silence_(sweep_guard_core::fromSeconds(read.number("timeout", 0.1, {0.01, 1.0, "s"}))),
+    : master_watch_(private_node, [this] { return settings_; }),
+      silence_(sweep_guard_core::fromSeconds(read.number("timeout", 0.1, {0.01, 1.0, "s"}))),
       updater_(node, private_node, private_node.getNamespace()),
       supervisor_(Process::kOwn) {
   const std::string type = read.choice("command_type", "twist", {"twist", "twist_stamped"});
   read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
   read.warnOfUnread();
+  settings_ = read.settings();
   updater_.setHardwareID("none");
   updater_.add("commands", [this](Status& status) { report(status); });
   zeros_.every(kZeroPeriod, [this] { sendZeroIfSilent(); });
@@ -70,6 +72,7 @@ ZeroOnSilence::~ZeroOnSilence() {
   stopping_ = true;
   input_.shutdown();
   reports_.stop();
+  master_watch_.stop();  // its thread uses the supervisor, which is declared after it
   zeros_.stop();
   const std::lock_guard lock(mutex_);
   send_zero_();
@@ -81,6 +84,7 @@ void ZeroOnSilence::start() {
   commands_.start(supervisor_, {"commands"});
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kOther, /*watched=*/false});
   output_watch_->start(supervisor_);
+  master_watch_.start(supervisor_);
   supervisor_.start();
 }
 

@@ -11,6 +11,7 @@
 #include "motion/command_silence.h"
 #include "ros/bounded.h"
 #include "ros/log_throttle.h"
+#include "ros/master_watch.h"
 #include "ros/motion/output_watch.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
@@ -46,6 +47,8 @@ class ZeroOnSilence {
   void report(Status& status);
 
   std::atomic<bool> stopping_ = false;
+  ParameterReader::Settings settings_;
+  MasterWatch master_watch_;  // before what registers at the master
   LogThrottle log_;
   sweep_guard_core::PriorityMutex mutex_;  // of the next four: commands and zeros leave in the order of their decisions
   sweep_guard_core::CommandSilence silence_;
