@@ -35,6 +35,7 @@ void DelayedGuard::measure(const Eigen::Isometry3d& X_WT, const sweep_guard_core
   planes->complete = proximity.unplaced.empty();
   planes->tool_revision = kRevision;
   planes->uncovered = proximity.uncovered;
+  planes->X_WT = X_WT;
   for (const auto& found : proximity.planes) planes->planes.push_back(found.plane);
   measurements_.push_back({X_WT, std::move(planes)});
   while (measurements_[0].planes->timestamps.stamp + options_.plane_delay + kValid < now) measurements_.pop_front();

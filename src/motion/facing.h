@@ -21,6 +21,7 @@ struct PlacedSurface {
   const std::vector<TriangleContact>* contacts;  ///< what the sweep to the pose met; null: not known
   IntendedContact intended;
   BlockBoxes boxes;
+  double age;  ///< of its deformation at the pose, in which it has moved on [s]; 0 if it does not deform
 };
 
 /// A triangle of the mesh apart from a piece of the tool, or in contact with it.

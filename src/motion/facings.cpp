@@ -3,6 +3,18 @@
 #include <algorithm>
 
 namespace sweep_guard_core {
+namespace {
+
+constexpr double kLongest = 1.0;  // [s]; a surface that was not heard of for longer rests
+
+// A snapshot without a stamp is from before time went back.
+double ageOf(const Workpiece& workpiece, const PoseWithFrames& pose) {
+  const bool stamped = workpiece.stamp != Time();
+  const double age = toSeconds(stamped ? pose.stamp - workpiece.stamp : pose.received - workpiece.received);
+  return age > kLongest ? 0.0 : std::max(0.0, age);
+}
+
+}  // namespace
 
 void Facings::begin(const ProximityRequest& request, Workpieces& unplaced) {
   rounding_ = 0.0;
@@ -43,6 +55,7 @@ void Facings::place(const ProximityRequest& request, const std::shared_ptr<const
       if (object.workpiece == workpiece) surface.contacts = &object.result.in_contact;
     }
   }
+  surface.age = motion.deforms() ? ageOf(*workpiece, request.pose) : 0.0;
   surface.boxes.assign(workpiece->mesh_M.blocks());
   rounding_ = std::max(rounding_, workpiece->mesh_M.rounding());
   face(request, surface, X_WM);
@@ -64,12 +77,19 @@ void Facings::face(const ProximityRequest& request, const PlacedSurface& surface
   }
 }
 
+double Facings::longestWay() const {
+  double way = 0.0;
+  for (size_t i = 0; i < surface_count_; ++i) way = std::max(way, surfaces_[i].age * fastest(surfaces_[i]));
+  return way;
+}
+
+double Facings::fastest(const PlacedSurface& surface) {
+  return surface.motion->fastest(CenteredBox(surface.boxes.of(WholeMesh())));
+}
+
 double Facings::fastest() const {
   double fastest = 0.0;
-  for (size_t i = 0; i < surface_count_; ++i) {
-    const PlacedSurface& surface = surfaces_[i];
-    fastest = std::max(fastest, surface.motion->fastest(CenteredBox(surface.boxes.of(WholeMesh()))));
-  }
+  for (size_t i = 0; i < surface_count_; ++i) fastest = std::max(fastest, Facings::fastest(surfaces_[i]));
   return fastest;
 }
 

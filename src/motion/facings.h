@@ -23,8 +23,10 @@ class Facings {
 
   double rounding() const { return rounding_; }  ///< the largest of the meshes [m]
   double fastest() const;                        ///< bound on the speed of any vertex [m/s]
+  double longestWay() const;                     ///< bound on the way of any vertex since its deformation [m]
 
  private:
+  static double fastest(const PlacedSurface& surface);
   void forgetRemoved(const Workpieces& workpieces);
   void place(const ProximityRequest& request, const std::shared_ptr<const Workpiece>& workpiece,
              const Eigen::Isometry3d& X_WM);

@@ -84,7 +84,9 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
   collectFacing(inputs, command, inputs.pose->X_WT);
   collectFacing(inputs, command, expected_WT);
   UncoveredSurfaces uncovered = inputs.planes->uncovered;
-  uncovered.distance -= distance(inputs.pose->X_WT, expected_WT, limits.tool_radius);
+  const double radius = radiusAbout(Eigen::Vector3d::Zero(), *inputs.tool);
+  uncovered.distance -= std::max(distance(inputs.planes->X_WT, inputs.pose->X_WT, radius),
+                                 distance(inputs.planes->X_WT, expected_WT, radius));
 
   motion.twist_W = motion.decision.permission == Permission::kLimited
                        ? limiter_.limit(command.twist_W, facing_, uncovered, limits)

@@ -19,6 +19,7 @@ std::optional<PermissionCause> problemOfGuard(const PermissionInputs& inputs, co
   if (inputs.warning->level == WarningLevel::kUnknown) return PermissionCause::kUnknown;
   if (!inputs.pose) return PermissionCause::kNoPose;
   if (now.steady - inputs.pose->received > limits.silence) return PermissionCause::kPoseSilent;
+  if (now.stamp - inputs.pose->stamp > limits.pose_age) return PermissionCause::kOldPose;
   if (!inputs.planes) return PermissionCause::kNoPlanes;
   if (now.steady - inputs.planes->timestamps.received > limits.silence) return PermissionCause::kPlanesSilent;
   if (now.stamp > inputs.planes->valid_until) return PermissionCause::kPlanesExpired;
@@ -61,6 +62,8 @@ const char* textOf(PermissionCause cause) {
       return "no tool pose yet";
     case PermissionCause::kPoseSilent:
       return "no new tool pose";
+    case PermissionCause::kOldPose:
+      return "the newest tool pose is too old";
     case PermissionCause::kIncomplete:
       return "not every workpiece was tested at the newest pose";
     case PermissionCause::kNoTool:

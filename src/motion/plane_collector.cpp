@@ -42,8 +42,7 @@ bool PlaneCollector::join(const Facing& facing, const SeparatedTriangle& separat
   const PointHull hull(facing.cover.corners_T(facing.corners(separated.triangle)));
   const Eigen::Vector3d top_W = X_WT_ * hull.supportPoint(normal_T(plane));
   const double step = std::max(0.0, plane.normal_W.dot(top_W - plane.point_W) + facing.mesh().rounding());
-  plane.gap -= step;
-  plane.point_W += step * plane.normal_W;
+  moveOn(plane, step);
   quicken(static_cast<size_t>(best - planes_->data()), facing, facing.mesh().triangles()[separated.triangle]);
   return true;
 }
@@ -51,7 +50,7 @@ bool PlaneCollector::join(const Facing& facing, const SeparatedTriangle& separat
 ProximityPlane* PlaneCollector::similar(const Facing& facing, const Eigen::Vector3d& normal_T) const {
   const Eigen::Vector3d n_W = X_WT_.linear() * normal_T;
   ProximityPlane* best = nullptr;
-  double cosine = full() ? -1.0 : kSameNormal;
+  double cosine = kSameNormal;
   for (ProximityPlane& each : *planes_) {
     const bool of_facing = each.workpiece == facing.surface->workpiece && each.plane.piece == facing.piece;
     if (!of_facing || !each.contact || !(each.plane.normal_W.dot(n_W) >= cosine)) continue;

@@ -19,6 +19,7 @@ class SurfaceMotion {
 
   const std::shared_ptr<const Workpiece>& workpiece() const { return workpiece_; }  ///< newest snapshot
   bool moves() const { return deforms_ || frame_moves_; }
+  bool deforms() const { return deforms_; }
 
   /// Returns an upper bound on the speed along a direction [m/s], in the axes of M, of the vertices of a part of the mesh.
   /// @param part   Cluster, ClusterGroup or WholeMesh

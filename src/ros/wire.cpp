@@ -130,7 +130,7 @@ void checkLengths<sweep_guard::Proximity>(Wire wire) {
   WireReader read(wire);
   read.header();
   read.text();
-  read.skip(sizeof(sweep_guard::Proximity::tool_revision) + kStamp + 1);
+  read.skip(kPose + sizeof(sweep_guard::Proximity::tool_revision) + kStamp + 1);
   read.each(2 * kLength + 2 * sizeof(std::uint32_t) + kPlane, [&] {
     read.text();
     read.skip(sizeof(sweep_guard::SeparatingPlane::piece));

@@ -116,6 +116,7 @@ TEST(MotionGuardTest, WhatNoPlaneStandsForBoundsTheSpeedAsAWhole) {
   PlaneSet planes = *wall(1000);
   planes.planes.clear();
   planes.uncovered = {0.05, 0.0};
+  planes.X_WT = poseAt(0.5);
   MotionInputs inputs = inputsAt(1000, 0.5);
   inputs.planes = std::make_shared<const PlaneSet>(planes);
   MotionGuard guard({});
@@ -128,6 +129,7 @@ TEST(MotionGuardTest, AMotionInFlightBringsWhatNoPlaneStandsForNearer) {
   PlaneSet planes = *wall(1000);
   planes.planes.clear();
   planes.uncovered = {0.05, 0.0};
+  planes.X_WT = poseAt(0.5);
   MotionInputs inputs = inputsAt(1000, 0.5);
   inputs.planes = std::make_shared<const PlaneSet>(planes);
   MotionGuard guard({});
@@ -135,6 +137,22 @@ TEST(MotionGuardTest, AMotionInFlightBringsWhatNoPlaneStandsForNearer) {
   command.rest_WT = poseAt(0.48);
   EXPECT_NEAR(guard.guard(inputs, command, at(1000)).twist_W.v_W.norm(),
               stoppingSpeed(0.028, {1.0, 0.01, 0.002, 0.101}), 1e-9);
+}
+
+TEST(MotionGuardTest, WhatNoPlaneStandsForIsNearerSinceThePlanesByTheWayOfTheFarthestToolPoint) {
+  PlaneSet planes = *wall(1000);
+  planes.planes.clear();
+  planes.uncovered = {0.1, 0.0};
+  planes.X_WT = poseAt(0.52);
+  MotionInputs inputs = inputsAt(1000, 0.5);
+  inputs.pose->X_WT.rotate(Eigen::AngleAxisd(0.3, Vector3d::UnitZ()));
+  inputs.planes = std::make_shared<const PlaneSet>(planes);
+  MotionGuard guard({});
+  MotionCommand command = moving({0.0, 1.0, 0.0}, 1000);
+  command.point_T = Vector3d(0.05, 0.0, 0.0);
+  const double left = 0.1 - 0.02 - 0.3 * 0.101;
+  EXPECT_NEAR(guard.guard(inputs, command, at(1000)).twist_W.v_W.norm(),
+              stoppingSpeed(left - 0.002, {1.0, 0.01, 0.002, 0.051}), 1e-9);
 }
 
 TEST(MotionGuardTest, StopsWithoutAWarningPlanesAPoseATool) {
@@ -250,6 +268,7 @@ Case randomCase(RandomScenes& random) {
                              0.0, random.chance(0.7) ? 0.0 : random.uniform(-0.1, 0.1)});
   }
   if (random.chance(0.2)) planes.uncovered.distance = random.uniform(0.0, 0.5);
+  planes.X_WT = drawn.inputs.pose->X_WT;
   drawn.inputs.planes = std::make_shared<const PlaneSet>(planes);
   drawn.inputs.tool = std::make_shared<const ToolBalls>(tool);
   if (random.chance(0.5)) drawn.command.twist_W.w_W = random.logUniform(1e-3, 1.0) * random.direction();

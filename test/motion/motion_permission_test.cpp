@@ -96,6 +96,13 @@ TEST_F(MotionPermissionTest, NeedsAPoseWithinTheSilence) {
   expect(Permission::kStop, PermissionCause::kNoPose);
 }
 
+TEST_F(MotionPermissionTest, NeedsAPoseThatIsNotOldByItsStamp) {
+  inputs_.pose->stamp = at(500).stamp;
+  expect(Permission::kLimited, PermissionCause::kGuarded);
+  inputs_.pose->stamp = at(499).stamp;
+  expect(Permission::kStop, PermissionCause::kOldPose);
+}
+
 TEST_F(MotionPermissionTest, NeedsPlanesOfAllWorkpiecesForAKnownTool) {
   limits_.escape_speed = 0.01;  // never with these
   inputs_.planes->tool_known = false;

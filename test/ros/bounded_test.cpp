@@ -231,7 +231,7 @@ std::vector<size_t> lengths<geometry_msgs::TwistStamped>() {
 
 template <>
 std::vector<size_t> lengths<sweep_guard::Proximity>() {
-  const size_t planes = kHeader + 4 + 5 + 4 + 8 + 1;
+  const size_t planes = kHeader + 4 + 5 + 56 + 4 + 8 + 1;
   const size_t first = planes + 4;
   const size_t second = first + 4 + 3 + 4 + 4 + 4 + 64;
   return {12, kHeader, planes, first, first + 4 + 3 + 4, second, second + 4 + 4};

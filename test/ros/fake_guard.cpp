@@ -69,6 +69,7 @@ sweep_guard::Proximity FakeGuard::proximity(ros::Time now) const {
   proximity.header.frame_id = kFrame;
   proximity.header.stamp = now;
   proximity.tool = kTool;
+  proximity.tool_pose.orientation.w = 1.0;
   proximity.tool_revision = kRevision;
   proximity.valid_until = now + kValid;
   proximity.valid = true;

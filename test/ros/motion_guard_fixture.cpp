@@ -19,11 +19,12 @@ sweep_guard::ToolBalls needle() {
   return tool;
 }
 
-sweep_guard::Proximity wall(const ros::Time& now) {
+sweep_guard::Proximity wall(const ros::Time& now, const Eigen::Isometry3d& X_WT) {
   sweep_guard::Proximity planes;
   planes.header.stamp = now;
   planes.header.frame_id = "world";
   planes.tool = "tool";
+  planes.tool_pose = toMsg(X_WT);
   planes.tool_revision = 1;
   planes.valid_until = now + ros::Duration(0.15);
   planes.valid = true;
@@ -88,9 +89,9 @@ void MotionWorld::step() {
   warning.level = state_.level;
   warning.reasons = state_.reasons;
   if (state_.warns) warning_.publish(warning);
-  if (state_.finds_planes) planes_.publish(wall(now));
+  if (state_.finds_planes) planes_.publish(wall(now, state_.X_WT));
   geometry_msgs::PoseStamped pose;
-  pose.header.stamp = now;
+  pose.header.stamp = now - state_.pose_age;
   pose.header.frame_id = "world";
   pose.pose = toMsg(state_.X_WT);
   if (state_.has_pose) {

@@ -58,9 +58,8 @@ class Listener {
 };
 
 /// Publishes every 10 ms what a guard would, of a needle before the wall x = 0, its pose, as a message and in tf by way of
-/// a joint, and the commands of a test. The needle
-/// reaches from the origin of the tool frame to 0.1 m along its x axis, where the frame `tip` is. The frame `turned` is
-/// the world's, turned by a quarter about z.
+/// a joint, and the commands of a test. The needle reaches from the origin of the tool frame to 0.1 m along its x axis,
+/// where the frame `tip` is. The frame `turned` is the world's, turned by a quarter about z.
 class MotionWorld {
  public:
   struct State {
@@ -70,6 +69,7 @@ class MotionWorld {
     bool warns = true;
     bool finds_planes = true;
     bool has_pose = true;                               ///< in both ways
+    ros::Duration pose_age;                             ///< of the message
     std::function<void(const ros::Time& now)> command;  ///< empty: none
   };
 

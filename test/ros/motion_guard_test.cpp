@@ -7,6 +7,7 @@
 #include <std_msgs/Float64.h>
 #include <std_msgs/Int8.h>
 #include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <filesystem>
 
@@ -54,11 +55,11 @@ class MotionGuardNodeTest : public testing::Test {
       };
     });
   }
-  void commandPose(const Eigen::Isometry3d& X_WT) {
+  void commandPose(const Eigen::Isometry3d& X_WT, const std::string& frame = "world") {
     world_.change([=](auto& state) {
       state.command = [=](const ros::Time& now) {
         PoseStamped pose;
-        pose.header.frame_id = "world";
+        pose.header.frame_id = frame;
         pose.header.stamp = now;
         pose.pose = toMsg(X_WT);
         pose_.publish(pose);
@@ -252,6 +253,62 @@ TEST_F(MotionGuardNodeTest, APoseIsCaughtUpWithAndHeldWhenTheGuardDoesNotKnow) {
     const PoseStamped held = guarded_poses_.await([](const PoseStamped&) { return true; }, "the pose of before");
     EXPECT_NEAR(held.pose.position.x, 0.81, 1e-9);
   }
+}
+
+TEST_F(MotionGuardNodeTest, APoseThatIsRefusedIsAnsweredInTheFrameOfTheOneBefore) {
+  commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.81, 0.0, 0.0)));
+  guarded_poses_.await([](const PoseStamped& sent) { return sent.pose.position.x == 0.81; }, "the pose");
+  commandPose(Eigen::Isometry3d(Eigen::Translation3d(0.9, 0.0, 0.0)), "nowhere");
+  Listener<MotionStatus> statuses(node_, "/pose/motion_guard/status");
+  statuses.await([](const MotionStatus& next) { return next.code == MotionStatus::INVALID; }, "refused");
+  guarded_poses_.clear();
+  for (int i = 0; i < 20; ++i) {
+    const PoseStamped held = guarded_poses_.await([](const PoseStamped&) { return true; }, "the pose of before");
+    EXPECT_EQ(held.header.frame_id, "world");
+    EXPECT_NEAR(held.pose.position.x, 0.81, 1e-9);
+  }
+}
+
+TEST_F(MotionGuardNodeTest, AStampedCommandWithoutAFrameIsRefused) {
+  commandStamped(twist(0.2), "");
+  Listener<MotionStatus> statuses(node_, "/stamped/motion_guard/status");
+  const MotionStatus status =
+      statuses.await([](const MotionStatus& next) { return next.code == MotionStatus::INVALID; }, "refused");
+  EXPECT_TRUE(has(status.text, "set command_frame"));
+  guarded_stamped_.await([](const TwistStamped& next) { return isZero(next.twist); }, "zero");
+}
+
+// It may have turned since.
+TEST_F(MotionGuardNodeTest, ACommandInAFrameWhoseTransformIsOldIsRefused) {
+  const ros::Publisher transforms = node_.advertise<tf2_msgs::TFMessage>("/tf", 10, /*latch=*/true);
+  Listener<MotionStatus> statuses(node_, "/stamped/motion_guard/status");
+  commandStamped(twist(0.2), "camera");
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(1);
+  message.transforms[0].header.frame_id = "world";
+  message.transforms[0].header.stamp = ros::Time::now() + ros::Duration(2.0);  // so that it is heard while it is new
+  message.transforms[0].child_frame_id = "camera";
+  message.transforms[0].transform.rotation.w = 1.0;
+  transforms.publish(message);
+  guarded_stamped_.await([](const TwistStamped& next) { return next.twist.linear.x == 0.2; }, "free motion");
+  statuses.await([](const MotionStatus& next) { return has(next.text, "the transform from 'camera' to 'world' is"); },
+                 "that it is old");
+  guarded_stamped_.await([](const TwistStamped& next) { return isZero(next.twist); }, "zero");
+}
+
+TEST_F(MotionGuardNodeTest, StopsWhileTwoGuardsPublish) {
+  awaitFreeMotion();
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("sweep_guard_node");
+  const ChildProcess second({program.string(), "__name:=second", "~proximity:=/fake/proximity"});
+  guarded_twists_.await(isZero, "zero");
+  awaitStatus([](const MotionStatus& next) { return next.cause == "no new separating planes"; }, "no planes");
+}
+
+TEST_F(MotionGuardNodeTest, APoseThatIsOldByItsStampStopsTheTool) {
+  awaitFreeMotion();
+  world_.change([](auto& state) { state.pose_age = ros::Duration(0.6); });
+  guarded_twists_.await(isZero, "zero");
+  awaitStatus([](const MotionStatus& next) { return next.cause == "the newest tool pose is too old"; }, "an old pose");
 }
 
 TEST_F(MotionGuardNodeTest, APoseBehindAPlaneIsNotReached) {

@@ -42,7 +42,7 @@ class IntendToolTest : public SweepDisplayTest {
     const QPointF at(0.5 * panel.width() + dx, 0.5 * panel.height());
     const bool released = type == QEvent::MouseButtonRelease;
     const Qt::MouseButton acting = type == QEvent::MouseMove ? Qt::NoButton : button;
-    QMouseEvent event(type, at, acting, released ? Qt::NoButton : button, modifiers);
+    QMouseEvent event(type, at, at, acting, released ? Qt::NoButton : button, modifiers);
     rviz::ViewportMouseEvent seen(&panel, panel.getViewport(), &event, 0, 0);
     return tool_.processMouseEvent(seen);
   }

@@ -14,8 +14,8 @@ namespace sweep_guard_core {
 /// of the tool both where it is and where it is expected.
 class MotionInFlight {
  public:
-  /// How many velocities are remembered: 1 s at 1 kHz.
-  static constexpr size_t kCapacity = 1024;
+  /// How many velocities are remembered: 8 s at 1 kHz, more than the longest window of motion_guard.
+  static constexpr size_t kCapacity = 8192;
 
   /// Adds a velocity that takes effect until the next one.
   /// @param sent  not before that of the last call

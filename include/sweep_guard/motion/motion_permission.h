@@ -28,6 +28,7 @@ enum class PermissionCause : std::uint8_t {
   kPlanesExpired,  ///< the separating planes are past their `valid_until`
   kNoPose,         ///< no tool pose has arrived yet
   kPoseSilent,     ///< no tool pose has arrived within `silence`
+  kOldPose,        ///< the newest tool pose is older than `pose_age`
   kIncomplete,     ///< not every workpiece was tested at the pose of the separating planes
   kNoTool          ///< the tool that the separating planes were computed for is not known
 };
@@ -41,6 +42,7 @@ struct PermissionLimits {
   Duration command_timeout = std::chrono::milliseconds(100);   ///< > 0
   double escape_speed = 0.0;                                   ///< of any tool point [m/s], >= 0; 0: no escape
   Duration escape_plane_age = std::chrono::milliseconds(500);  ///< older planes do not show the way out; > 0
+  Duration pose_age = std::chrono::milliseconds(500);          ///< of the tool's pose, by its stamp; > 0
 };
 
 /// What is known when a command is to be passed on.
@@ -73,13 +75,14 @@ struct PermissionDecision {
 /// | inputs | permission |
 /// |---|---|
 /// | no command, or one older than `command_timeout` | kStop |
-/// | no warning, pose or planes for longer than `silence`, planes past `valid_until`, level UNKNOWN | kEscape or kStop |
+/// | no warning, pose or planes for longer than `silence`, an older pose than `pose_age`, planes past `valid_until`, level
+/// UNKNOWN | kEscape or kStop |
 /// | planes that are incomplete or of an unknown tool | kStop |
 /// | otherwise | kLimited |
 ///
 /// Escape needs an `escape_speed`, a warning, a pose and complete planes of a known tool that are not older than
-/// `escape_plane_age` on both clocks, and reasons none of which is kNoMesh, kMeshInvalid, kTimeJump, kDetectorFault or kNotSwept: with these, the planes are not
-/// those of all surfaces. Silence keeps the reasons of the last warning.
+/// `escape_plane_age` on both clocks, and reasons none of which is kNoMesh, kMeshInvalid, kTimeJump, kDetectorFault or
+/// kNotSwept: with these, the planes are not those of all surfaces. Silence keeps the reasons of the last warning.
 PermissionDecision decidePermission(const PermissionInputs& inputs, const Instant& now, const PermissionLimits& limits);
 
 }  // namespace sweep_guard_core

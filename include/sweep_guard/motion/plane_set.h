@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -11,17 +12,18 @@ namespace sweep_guard_core {
 
 /// The surfaces around the tool at one swept pose, as far as a motion guard knows them.
 struct PlaneSet {
-  Timestamps timestamps;                ///< stamp of the swept pose
-  Time valid_until;                     ///< by the clock of the stamps
-  bool complete = false;                ///< every workpiece was tested at that pose
-  std::uint32_t tool_revision = 0;      ///< of the ToolBalls that SeparatingPlane::piece refers to
-  std::vector<SeparatingPlane> planes;  ///< nearest first
-  UncoveredSurfaces uncovered;          ///< what no plane stands for
+  Timestamps timestamps;                                   ///< stamp of the swept pose
+  Time valid_until;                                        ///< by the clock of the stamps
+  bool complete = false;                                   ///< every workpiece was tested at that pose
+  std::uint32_t tool_revision = 0;                         ///< of the ToolBalls that SeparatingPlane::piece refers to
+  std::vector<SeparatingPlane> planes;                     ///< nearest first
+  UncoveredSurfaces uncovered;                             ///< what no plane stands for
+  Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the swept pose
 };
 
 /// The convex pieces of a tool, each as balls whose convex hull contains it.
 struct ToolBalls {
-  std::uint32_t revision = 0;                 ///< counts the changes of the tool
+  std::uint32_t revision = 0;                 ///< another one for each tool, and in each run of the guard
   std::vector<std::vector<ToolBall>> pieces;  ///< in the tool frame
 };
 

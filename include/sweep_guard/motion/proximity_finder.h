@@ -54,7 +54,8 @@ struct Proximity {
 /// The speed of a surface is the mean one between the two latest deformations that find() got of a workpiece, by their
 /// stamps, plus that of the mesh frame between the two latest poses. It is not less than that of the fastest vertex that
 /// the plane stands for, and 0 before a second deformation. It stays until the next deformation: that no update comes
-/// does not mean that the surface rests. What a vertex did between two updates is not known.
+/// does not mean that the surface rests. For the time between the deformation and the pose, up to 1 s, a surface that comes
+/// nearer counts as having gone on at that speed. What a vertex did between two updates is not known.
 ///
 /// The search goes best first through the boxes of the mesh: groups, clusters, triangles. Only triangles that may be the
 /// nearest ones get a separation(). Keeps its buffers between calls: nothing is allocated in steady state.

@@ -16,6 +16,7 @@ using sweep_guard_core::Permission;
 using sweep_guard_core::PermissionCause;
 
 constexpr sweep_guard_core::Duration kShortest = std::chrono::milliseconds(1);  // step of a pose
+constexpr double kLate = 1.5;                                                   // periods after which a command is late
 
 }  // namespace
 
@@ -48,27 +49,54 @@ void CommandCycle::refuse(const std::string& reason) {
   log_.error("", "command on " + port_->commandTopic() + " refused: " + reason);
 }
 
+CommandCycle::~CommandCycle() { stop(); }
+
+// The port goes before the thread that calls it.
+void CommandCycle::stop() {
+  port_->stop();
+  const std::lock_guard lock(mutex_);
+  if (command_ && sent_W_) sendZero(now());
+  command_.reset();
+}
+
 void CommandCycle::tick() {
   const std::lock_guard lock(mutex_);
-  if (!command_) return;
+  update(now());
+}
+
+void CommandCycle::publishHold(HoldPublisher& hold) {
+  const std::lock_guard lock(mutex_);
   const Instant at = now();
+  const bool lets_through = letsThrough(at);
+  if (!lets_through) update(at);
+  hold.publish(lets_through, at.steady);
+}
+
+void CommandCycle::update(const Instant& at) {
+  if (!command_) return;
   if (at.steady - command_->received > parameters_.options.permission.command_timeout) return halt(at);
   if (!sent_W_) return;  // refused
   GuardInput::Newest newest = sources_.guard.newest();
-  const bool decided_anew = guard_.permission(inputs(newest), *command_, at).permission != permission_;
-  const bool late = !port_->isPose() && 2 * (at.steady - sent_) > 3 * period_.longest();
+  const bool decided_anew = guard_.permission(takeInputs(newest), *command_, at).permission != permission_;
+  const bool late = !port_->isPose() && at.steady - sent_ > kLate * period_.longest();
   if (decided_anew || late) limitNewest(at, /*only_if_changed=*/true);
 }
 
-bool CommandCycle::letsThrough() const {
-  const Instant at = now();
+bool CommandCycle::letsThrough(const Instant& at) const {
   GuardInput::Newest newest = sources_.guard.newest();
-  return guard_.permission(inputs(newest), {at.stamp, at.steady}, at).permission != Permission::kStop;
+  return guard_.permission(takeInputs(newest), {at.stamp, at.steady}, at).permission != Permission::kStop;
+}
+
+// A command that is late is limited anew at the next tick.
+sweep_guard_core::Duration CommandCycle::longestInForce() const {
+  const sweep_guard_core::Duration longest = period_.longest();
+  return port_->isPose() ? longest
+                         : std::chrono::duration_cast<sweep_guard_core::Duration>(kLate * longest) + kTickPeriod;
 }
 
 sweep_guard_core::Duration CommandCycle::period() const {
   const std::lock_guard lock(mutex_);
-  return period_.longest();
+  return longestInForce();
 }
 
 bool CommandCycle::onRebase(Trigger::Request& /*request*/, Trigger::Response& response) {
@@ -81,19 +109,19 @@ bool CommandCycle::onRebase(Trigger::Request& /*request*/, Trigger::Response& re
   return true;
 }
 
-sweep_guard_core::MotionInputs CommandCycle::inputs(GuardInput::Newest& newest) const {
+sweep_guard_core::MotionInputs CommandCycle::takeInputs(GuardInput::Newest& newest) const {
   newest.inputs.pose = sources_.tool_pose.newest();
   return std::move(newest.inputs);
 }
 
 void CommandCycle::limitNewest(const Instant& at, bool only_if_changed) {
   GuardInput::Newest newest = sources_.guard.newest();
-  const sweep_guard_core::MotionInputs known = inputs(newest);
+  const sweep_guard_core::MotionInputs known = takeInputs(newest);
   if (waitsForRelease(known, at)) return sendZero(at);
   try {
     MotionCommand command = port_->read(known.pose, std::clamp(at.steady - sent_, kShortest, period_.longest()));
     command.timestamps = *command_;
-    command.period = period_.longest();
+    command.period = longestInForce();
     const sweep_guard_core::GuardedMotion motion = guard_.guard(known, command, at);
     if (!only_if_changed || sent_W_ != motion.twist_W) port_->send(motion.twist_W);
     sent_W_ = motion.twist_W;

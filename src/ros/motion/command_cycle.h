@@ -37,17 +37,22 @@ class CommandCycle {
  public:
   CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const MotionParameters& parameters,
                const CommandCycleSources& sources);
+  ~CommandCycle();
 
   void start(Supervisor& supervisor) { thread_.start(supervisor, {"commands", sweep_guard_core::Stage::kReceive}); }
 
-  void tick();  ///< to be called 200 times a second
+  static constexpr sweep_guard_core::Duration kTickPeriod = std::chrono::milliseconds(5);
+  void tick();  ///< to be called each kTickPeriod
 
-  /// Returns whether a command would be let through now in some part: the guard knows, and is not silent.
-  bool letsThrough() const;
+  /// Publishes whether a command would be let through now in some part: the guard knows, and is not silent. If not, zero
+  /// is sent before.
+  void publishHold(HoldPublisher& hold);
+
+  void stop();  ///< takes no command any more; sends zero if the last command was another one
 
   const CommandPort& port() const { return *port_; }
   const sweep_guard_core::InputRecord& record() const { return record_; }
-  sweep_guard_core::Duration period() const;  ///< that is counted on
+  sweep_guard_core::Duration period() const;  ///< the longest for which a command stays without a newer one
 
  private:
   using Trigger = std_srvs::Trigger;
@@ -55,7 +60,10 @@ class CommandCycle {
   void onCommand(const CommandPort::Received& received);
   void refuse(const std::string& reason);
   bool onRebase(Trigger::Request& request, Trigger::Response& response);
-  sweep_guard_core::MotionInputs inputs(GuardInput::Newest& newest) const;
+  void update(const sweep_guard_core::Instant& at);
+  bool letsThrough(const sweep_guard_core::Instant& at) const;
+  sweep_guard_core::Duration longestInForce() const;
+  sweep_guard_core::MotionInputs takeInputs(GuardInput::Newest& newest) const;
   void limitNewest(const sweep_guard_core::Instant& at, bool only_if_changed);
   bool waitsForRelease(const sweep_guard_core::MotionInputs& known, const sweep_guard_core::Instant& at) const;
   void sendZero(const sweep_guard_core::Instant& at);

@@ -10,6 +10,13 @@
 
 namespace sweep_guard_ros {
 
+/// How old a transform may be that a command or a tool pose is placed by. One that never changes has no age.
+constexpr sweep_guard_core::Duration kOldestTransform = std::chrono::milliseconds(500);
+
+/// Returns the newest pose of frame `source` in frame `target`. Does not wait.
+/// @throws FrameError if there is none, or if it is older than kOldestTransform
+Eigen::Isometry3d newestPose(const Frames& frames, const std::string& target, const std::string& source);
+
 /// Places the frames of commands, as tf knows them now. The tool itself is where its newest pose is.
 class CommandFrames {
  public:
@@ -24,12 +31,12 @@ class CommandFrames {
 
   /// Returns the pose of a command's frame in the fixed frame. Does not wait.
   /// @param frame  empty: command_frame
-  /// @throws FrameError if there is none
+  /// @throws FrameError if there is none, or none that is new enough
   Eigen::Isometry3d poseOf(const std::string& frame, const std::optional<ToolPose>& tool) const;
 
   /// Returns the pose of command_point in the tool frame. Does not wait.
   /// @throws FrameError if there is none
-  Eigen::Isometry3d point() const { return frames_.lookup(tool_frame_, command_point_, sweep_guard_core::Time()); }
+  Eigen::Isometry3d point() const { return newestPose(frames_, tool_frame_, command_point_); }
 
  private:
   const Frames& frames_;

@@ -65,6 +65,8 @@ class TypedPort : public CommandPort {
 
   void take(const Received& received) override { newest_ = boost::static_pointer_cast<const Msg>(received.message); }
 
+  void stop() override { subscriber_.shutdown(); }
+
   std::string commandTopic() const override { return subscriber_.getTopic(); }
   std::uint32_t commandPublishers() const override { return subscriber_.getNumPublishers(); }
   std::string guardedTopic() const override { return publisher_.getTopic(); }
@@ -139,6 +141,7 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
     const Eigen::Isometry3d X_TP = frames().point();
     const Eigen::Isometry3d command_CP = fromMsg(newest().pose);
     X_WC_ = frames().poseOf(newest().header.frame_id, tool);
+    frame_ = newest().header.frame_id;
     if (!follower_.begun()) follower_.begin(tool->X_WT * X_TP);
     MotionCommand command;
     command.point_T = X_TP.translation();
@@ -154,23 +157,34 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
   }
 
   void sendZero() override {
-    if (follower_.begun()) publishSent(ros::Time::now());
+    if (!follower_.begun()) return;
+    followFrame();
+    publishSent(ros::Time::now());
   }
 
   void pause() override { follower_.end(); }
   void rebase() override { follower_.rebase(); }
 
  private:
+  // The frame may move while the tool stands still.
+  void followFrame() {
+    try {
+      X_WC_ = frames().poseOf(frame_, {});
+    } catch (const FrameError&) {  // the newest one known, as for the frame of the tool
+    }
+  }
+
   void publishSent(const ros::Time& stamp) {
     const auto msg = boost::make_shared<geometry_msgs::PoseStamped>();
-    msg->header = newest().header;
+    msg->header.frame_id = frame_;
     msg->header.stamp = stamp;
     msg->pose = toMsg(X_WC_.inverse() * follower_.sent());
     publish(msg);
   }
 
   sweep_guard_core::PoseFollower follower_;
-  Eigen::Isometry3d X_WC_ = Eigen::Isometry3d::Identity();  // of the newest command that was read
+  std::string frame_;  // of the newest command that was read, as X_WC_
+  Eigen::Isometry3d X_WC_ = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace

@@ -42,6 +42,7 @@ class CommandPort {
   virtual void send(const sweep_guard_core::Twist& let_through_W) = 0;
   /// Publishes that the tool shall stand still. A pose is published only if one was before.
   virtual void sendZero() = 0;
+  virtual void stop() = 0;  ///< no callback begins any more, and none is running
   virtual void pause() {}   ///< nothing is sent for a while
   virtual void rebase() {}  ///< see PoseFollower::rebase()
 

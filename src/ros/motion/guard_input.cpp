@@ -3,6 +3,8 @@
 #include <memory>
 #include <utility>
 
+#include "ros/input/future_stamp.h"
+#include "ros/sole_publisher.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/ros/conversions.h"
@@ -29,6 +31,7 @@ std::shared_ptr<const PlaneSet> planesFrom(const sweep_guard::Proximity& msg, sw
   auto planes = std::make_shared<PlaneSet>();
   planes->timestamps = {fromMsg(msg.header.stamp), received};
   planes->valid_until = fromMsg(msg.valid_until);
+  planes->X_WT = fromMsg(msg.tool_pose);
   planes->complete = msg.valid;
   planes->tool_revision = msg.tool_revision;
   planes->uncovered = {msg.uncovered_distance, msg.uncovered_speed};
@@ -55,7 +58,9 @@ std::shared_ptr<const sweep_guard_core::ToolBalls> toolFrom(const sweep_guard::T
 }  // namespace
 
 GuardInput::GuardInput(const ros::NodeHandle& node, const MotionParameters& parameters)
-    : fixed_frame_(parameters.fixed_frame), tool_frame_(parameters.tool_frame) {
+    : fixed_frame_(parameters.fixed_frame),
+      tool_frame_(parameters.tool_frame),
+      silence_(parameters.options.permission.silence) {
   planes_ = subscribe(node, parameters.guard + "/proximity", planes_record_, &GuardInput::acceptPlanes);
   tool_ = subscribe(node, parameters.guard + "/tool_balls", tool_record_, &GuardInput::acceptTool);
   warning_ = subscribe(node, parameters.guard + "/warning", warning_record_, &GuardInput::acceptWarning);
@@ -66,9 +71,12 @@ BoundedSubscriber GuardInput::subscribe(const ros::NodeHandle& node, const std::
                                         void (GuardInput::*accept)(const ros::MessageEvent<const Msg>&)) {
   return subscribeBounded<Msg>(
       thread_.on(node), {topic, kQueueLength, kMaxMessageSize},
-      [this, topic, &record, accept](const ros::MessageEvent<const Msg>& event) {
-        record.received({fromMsg(event.getConstMessage()->header.stamp), std::chrono::steady_clock::now()});
+      [this, topic, &record, accept,
+       sole = SolePublisher(silence_)](const ros::MessageEvent<const Msg>& event) mutable {
+        const sweep_guard_core::SteadyTime received = std::chrono::steady_clock::now();
+        record.received({fromMsg(event.getConstMessage()->header.stamp), received});
         try {
+          if (!sole.alone(event.getPublisherName(), received)) throw InvalidInput("several nodes publish it");
           (this->*accept)(event);
         } catch (const InvalidInput& error) {
           refuse(topic, error.what(), record);
@@ -92,6 +100,7 @@ void GuardInput::acceptPlanes(const ros::MessageEvent<const sweep_guard::Proximi
   const sweep_guard::Proximity::ConstPtr msg = event.getConstMessage();
   checkFrame(msg->header.frame_id, fixed_frame_);
   auto planes = planesFrom(*msg, std::chrono::steady_clock::now());
+  checkStamp(planes->timestamps);
   const std::lock_guard lock(mutex_);
   newest_.inputs.planes.swap(planes);
   newest_.planes = msg;
@@ -111,6 +120,17 @@ void GuardInput::acceptWarning(const ros::MessageEvent<const sweep_guard::Warnin
       known ? static_cast<sweep_guard_core::WarningLevel>(msg.level) : sweep_guard_core::WarningLevel::kUnknown;
   const std::lock_guard lock(mutex_);
   newest_.inputs.warning = PermissionInputs::ReceivedWarning{level, msg.reasons, std::chrono::steady_clock::now()};
+}
+
+// When time went back, those before are silent soon.
+void GuardInput::checkStamp(const sweep_guard_core::Timestamps& timestamps) const {
+  if (liesInFuture(timestamps.stamp)) throw InvalidInput(kFutureStampText);
+  const std::lock_guard lock(mutex_);
+  if (!newest_.inputs.planes) return;
+  const sweep_guard_core::Timestamps& before = newest_.inputs.planes->timestamps;
+  if (timestamps.stamp < before.stamp && timestamps.received - before.received <= silence_) {
+    throw InvalidInput("stamp is older than that of the message before");
+  }
 }
 
 void GuardInput::checkFrame(const std::string& frame, const std::string& expected) const {

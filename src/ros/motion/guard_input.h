@@ -19,7 +19,7 @@
 namespace sweep_guard_ros {
 
 /// Receives the planes, the balls of the tool and the warning of a guard, in a thread of its own, and keeps the newest of
-/// each. One that is refused changes nothing: the guard then seems silent.
+/// each. One that is refused changes nothing: the guard then seems silent. So it does if several nodes publish.
 class GuardInput {
  public:
   GuardInput(const ros::NodeHandle& node, const MotionParameters& parameters);
@@ -51,10 +51,12 @@ class GuardInput {
   void acceptTool(const ros::MessageEvent<const sweep_guard::ToolBalls>& event);
   void acceptWarning(const ros::MessageEvent<const sweep_guard::Warning>& event);
   void refuse(const std::string& topic, const std::string& reason, sweep_guard_core::InputRecord& record);
+  void checkStamp(const sweep_guard_core::Timestamps& timestamps) const;
   void checkFrame(const std::string& frame, const std::string& expected) const;
 
   const std::string fixed_frame_;
   const std::string tool_frame_;
+  const sweep_guard_core::Duration silence_;
   mutable sweep_guard_core::PriorityMutex mutex_;
   Newest newest_;
   sweep_guard_core::InputRecord planes_record_;

@@ -2,13 +2,15 @@
 
 #include <ros/console.h>
 
+#include "ros/output/flush.h"
+
 namespace sweep_guard_ros {
 namespace {
 
-constexpr auto kTickPeriod = std::chrono::milliseconds(5);
 constexpr auto kHoldPeriod = std::chrono::milliseconds(20);
 constexpr auto kStatusPeriod = std::chrono::milliseconds(10);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
+constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
 constexpr size_t kMaxTransforms = 64 << 20;  // size of a message [bytes]
 
 }  // namespace
@@ -25,8 +27,8 @@ MotionGuardNode::MotionGuardNode(const ros::NodeHandle& node, const ros::NodeHan
       cycle_(node, private_node, parameters_, {guard_, tool_pose_, frames_, status_, hold_}),
       output_watch_(cycle_.port().guardedTopic()),
       diagnostics_(node, private_node, {cycle_, guard_, tool_pose_, status_, output_watch_}) {
-  ticks_.every(kTickPeriod, [this] { cycle_.tick(); });
-  ticks_.every(kHoldPeriod, [this] { hold(); });
+  ticks_.every(CommandCycle::kTickPeriod, [this] { cycle_.tick(); });
+  ticks_.every(kHoldPeriod, [this] { cycle_.publishHold(hold_); });
   ticks_.every(kStatusPeriod, [this] { status_.publishIfDue(); });
   reports_.every(kDiagnosticsPeriod, [this] { diagnostics_.publish(); });
 }
@@ -47,15 +49,11 @@ void MotionGuardNode::start() {
            cycle_.port().guardedTopic().c_str(), parameters_.guard.c_str());
 }
 
-// Zero is sent before it is said that nothing is let through.
-void MotionGuardNode::hold() {
-  const bool lets_through = cycle_.letsThrough();
-  cycle_.tick();
-  hold_.publish(lets_through, std::chrono::steady_clock::now());
-}
-
 MotionGuardNode::~MotionGuardNode() {
   ticks_.stop();
+  cycle_.stop();
+  hold_.publish(/*lets_through=*/false, std::chrono::steady_clock::now());
+  flush(kTimeToFlush);
   reports_.stop();
   master_watch_.stop();  // its thread uses the supervisor, which is declared after it
 }

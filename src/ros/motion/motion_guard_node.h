@@ -28,8 +28,6 @@ class MotionGuardNode {
   void start();  ///< begins to pass commands on; once
 
  private:
-  void hold();
-
   // Members use only earlier members.
   const MotionParameters parameters_;
   MasterWatch master_watch_;  // before what registers at the master

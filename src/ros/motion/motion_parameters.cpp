@@ -47,13 +47,14 @@ void readFrames(ParameterReader& read, MotionParameters& parameters) {
   parameters.tool_frame = read.name("tool_frame", "tool", "tf frame of the tool: as that of the guard.");
   parameters.command_frame =
       read.optionalName("command_frame",
-                        "twist only: tf frame along whose axes a command is. Empty: fixed_frame. "
-                        "A stamped command has its frame in its header; empty there: this one.");
+                        "tf frame of a command whose header names none. Empty: fixed_frame for twist, which has "
+                        "no header; a stamped command without a frame is refused, for others would take it in theirs.");
   parameters.command_point =
       read.optionalName("command_point",
                         "tf frame that moves with the tool; a command is the velocity or the pose "
                         "of this frame. Empty: tool_frame.");
-  if (parameters.command_frame.empty()) parameters.command_frame = parameters.fixed_frame;
+  const bool needs_frame = parameters.command_type == CommandType::kTwist && parameters.command_frame.empty();
+  if (needs_frame) parameters.command_frame = parameters.fixed_frame;
   if (parameters.command_point.empty()) parameters.command_point = parameters.tool_frame;
 }
 

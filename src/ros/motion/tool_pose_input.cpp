@@ -1,6 +1,7 @@
 #include "ros/motion/tool_pose_input.h"
 
 #include "ros/input/future_stamp.h"
+#include "ros/motion/command_frames.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -16,14 +17,17 @@ Eigen::Isometry3d nearestInTime(const Frames& frames, const std::string& target,
   try {
     return frames.lookup(target, source, stamp);
   } catch (const FrameError&) {
-    return frames.lookup(target, source, sweep_guard_core::Time());
+    return newestPose(frames, target, source);
   }
 }
 
 }  // namespace
 
 ToolPoseInput::ToolPoseInput(const ros::NodeHandle& node, const MotionParameters& parameters, Frames& frames)
-    : fixed_frame_(parameters.fixed_frame), tool_frame_(parameters.tool_frame), frames_(frames) {
+    : fixed_frame_(parameters.fixed_frame),
+      tool_frame_(parameters.tool_frame),
+      silence_(parameters.options.permission.silence),
+      frames_(frames) {
   if (parameters.tool_source == ToolSource::kTf) {
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
   } else {
@@ -70,13 +74,17 @@ void ToolPoseInput::onTransforms() {
   record_.received(timestamps);
   try {
     accept(frames_.lookup(fixed_frame_, tool_frame_, *newest), timestamps);
-  } catch (const FrameError& error) {
+  } catch (const sweep_guard_core::Error& error) {
     refuse(error.what());
   }
 }
 
 void ToolPoseInput::accept(const Eigen::Isometry3d& X_WT, const sweep_guard_core::Timestamps& timestamps) {
   const std::lock_guard lock(mutex_);
+  const bool older = newest_ && timestamps.stamp < newest_->timestamps.stamp;
+  if (older && timestamps.received - newest_->timestamps.received <= silence_) {
+    throw InvalidInput("stamp is older than the previous pose's");
+  }
   newest_ = {X_WT, timestamps};
 }
 

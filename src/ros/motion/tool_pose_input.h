@@ -39,6 +39,7 @@ class ToolPoseInput {
 
   const std::string fixed_frame_;
   const std::string tool_frame_;
+  const sweep_guard_core::Duration silence_;
   Frames& frames_;
   mutable sweep_guard_core::PriorityMutex mutex_;
   std::optional<sweep_guard_core::MotionInputs::ToolPose> newest_;

@@ -4,6 +4,7 @@
 #include <sweep_guard/ToolBalls.h>
 
 #include <boost/make_shared.hpp>
+#include <random>
 
 #include "common/stage_clock.h"
 #include "sweep_guard/monitor/reason.h"
@@ -49,7 +50,8 @@ ProximityPublisher::ProximityPublisher(ros::NodeHandle private_node, const LiveP
     : parameters_(parameters),
       monitor_(monitor),
       planes_publisher_(private_node.advertise<sweep_guard::Proximity>("proximity", kQueue)),
-      tool_publisher_(private_node.advertise<sweep_guard::ToolBalls>("tool_balls", 1, /*latch=*/true)) {
+      tool_publisher_(private_node.advertise<sweep_guard::ToolBalls>("tool_balls", 1, /*latch=*/true)),
+      tool_revision_(std::random_device()()) {
   setTool(*parameters.initial().tool);
 }
 
@@ -76,6 +78,7 @@ void ProximityPublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
   message->header.stamp = sweep_guard_ros::toMsg(pose.stamp);
   message->header.frame_id = parameters->fixed_frame;
   message->tool = parameters->tool_frame;
+  message->tool_pose = sweep_guard_ros::toMsg(pose.X_WT);
   message->tool_revision = tool_revision_;
   message->valid_until = sweep_guard_ros::toMsg(pose.stamp + parameters->limits.pose_timeout);
   message->valid = knowsAllSurfaces(report);

@@ -36,7 +36,7 @@ class ProximityPublisher {
   const sweep_guard_core::WarningMonitor& monitor_;
   ros::Publisher planes_publisher_;
   ros::Publisher tool_publisher_;
-  std::uint32_t tool_revision_ = 0;
+  std::uint32_t tool_revision_;  // those of another run are others, too
   sweep_guard_core::ProximityFinder finder_;
   sweep_guard_core::Proximity proximity_;
   sweep_guard_core::Warning warning_;
