@@ -144,7 +144,6 @@ void checkUsable(const Parameters& parameters) {
   require(parameters.max_message_size >= 1, "messages are bounded");
   require(!parameters.fixed_frame.empty() && !parameters.tool_frame.empty(), "frames have names");
   require(std::isfinite(parameters.tool->boundingRadius()), "the tool ends somewhere");
-  const sweep_guard_core::Guard guard(*parameters.tool, sweep_guard_core::makeDetector("reference"), parameters.guard);
 }
 
 void checkGuard(Input& input) {
@@ -158,8 +157,7 @@ void checkGuard(Input& input) {
     serverParameters().clear();
   }
   checkRanges(parameters.described, defaults.parameters.described);
-  checkUsable(parameters);
-  while (!input.atEnd()) {
+  for (int request = 0; request < 3 && !input.atEnd(); ++request) {
     std::map<std::string, ParameterValue> changes;
     for (int count = 1 + input.below(3); count > 0; --count) {
       const std::string& key = defaults.keys[static_cast<size_t>(input.byte()) % defaults.keys.size()];
@@ -176,6 +174,7 @@ void checkGuard(Input& input) {
     checkRanges(parameters.described, defaults.parameters.described);
     checkUsable(parameters);
   }
+  const sweep_guard_core::Guard guard(*parameters.tool, sweep_guard_core::makeDetector("reference"), parameters.guard);
   require(differences(parameters, sweep_guard_ros::changeParameters(node, parameters, {})).empty(),
           "nothing changes by itself");
 }
