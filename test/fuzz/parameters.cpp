@@ -55,11 +55,29 @@ std::string wordFrom(Input& input, const ParameterInfo* info) {
   return how % 8 == 0 ? kRobot : input.word();
 }
 
+ParameterValue changeFrom(Input& input, const ParameterInfo* info) {
+  const int how = input.byte();
+  const bool fits = info != nullptr && how >= 128;
+  switch (fits ? info->value.index() : static_cast<size_t>(how) % 4) {
+    case 0:
+      return input.flag();
+    case 1:
+      return input.flag() ? input.raw<int>() : input.byte() - 1;
+    case 2:
+      return numberFrom(input);
+    default:
+      return wordFrom(input, info);
+  }
+}
+
 XmlRpc::XmlRpcValue valueFrom(Input& input, const ParameterInfo* info, int depth = 0) {
   using XmlRpc::XmlRpcValue;
   const int how = input.byte();
+  if (info != nullptr && how % 2 == 1) {
+    return std::visit([](const auto& held) { return XmlRpcValue(held); }, changeFrom(input, info));
+  }
   XmlRpcValue value;
-  switch (how % (depth < 2 ? 8 : 5)) {
+  switch (how / 2 % (depth < 2 ? 8 : 5)) {
     case 0:
       return XmlRpcValue(input.raw<int>());
     case 1:
@@ -83,19 +101,6 @@ XmlRpc::XmlRpcValue valueFrom(Input& input, const ParameterInfo* info, int depth
       std::string bytes = wordFrom(input, nullptr);
       return XmlRpcValue(bytes.data(), static_cast<int>(bytes.size()));
     }
-  }
-}
-
-ParameterValue changeFrom(Input& input, const ParameterInfo* info) {
-  switch (input.below(4)) {
-    case 0:
-      return input.flag();
-    case 1:
-      return input.flag() ? input.raw<int>() : input.byte() - 1;
-    case 2:
-      return numberFrom(input);
-    default:
-      return wordFrom(input, info);
   }
 }
 

@@ -68,10 +68,13 @@ class PrinterWithoutComments : public tinyxml2::XMLPrinter {
 };
 
 // urdfdom passes text that it quotes to printf() as a format.
-std::string withoutFormats(std::string xml) {
-  const std::string full_width = "\xEF\xBC\x85";
-  for (size_t at = xml.find('%'); at != std::string::npos; at = xml.find('%', at)) xml.replace(at, 1, full_width);
-  return xml;
+std::string withoutFormats(const std::string& xml) {
+  std::string text;
+  for (const char c : xml) {
+    if (c == '%') text += "\xEF\xBC\x85";  // of full width
+    if (c != '%') text += c;
+  }
+  return text;
 }
 
 // tinyxml2 limits the depth of nested elements; TinyXML, and so urdfdom, does not.
