@@ -240,6 +240,12 @@ TEST(ToolModelTest, RefusesBadDescriptionsInOneLine) {
   }
 }
 
+// Each of them grows by two bytes: moving the rest for each would take half an hour.
+TEST(ToolModelTest, ReadsADescriptionFullOfPercentSigns) {
+  const std::string note = "<note text='" + std::string(size_t{7} << 20U, '%') + "'/>";
+  EXPECT_EQ(loadToolModel(robot(link("a", kBall) + note), toolOf("a", {})).pieces.size(), 1U);
+}
+
 TEST(ToolModelTest, RefusesLinksThatAreNone) {
   const std::string urdf = robot(link("a", kBall) + link("b") + joint("ab", "fixed", "a", "b"));
   EXPECT_TRUE(has(refusal(urdf, toolOf("tool", {"c"})), "'c', which is not a link of the robot; its links are a, b"));
