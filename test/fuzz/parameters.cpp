@@ -1,4 +1,6 @@
 // Parameters of any type and shape: at the start from the parameter server, then as changes while the guard runs.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
