@@ -1,5 +1,5 @@
 #!/bin/bash
-# failure_modes.sh SOURCE: doc/failure-modes.md has the rows 1 to 79, each with a test, and every test that it or doc/threats.md
+# failure_modes.sh SOURCE: doc/failure-modes.md has the rows 1 to 79, each with a test, and every test that it, doc/threats.md or doc/reliability.md
 # names as file.cpp:Suite.Name or file.sh is there.
 set -euo pipefail
 cd "$1"
@@ -18,8 +18,8 @@ while IFS=:. read -r file _ suite name; do
   if ! cat "${sources[@]}" /dev/null | tr '\n' ' ' | grep -qE "TEST(_F|_P)?\($suite, +$name\)"; then
     echo "there is no $file.cpp:$suite.$name" && status=1
   fi
-done < <(grep -ohE '[a-z_]+\.cpp:[A-Za-z]+\.[A-Za-z]+' $document doc/threats.md | sort -u)
+done < <(grep -ohE '[a-z_]+\.cpp:[A-Za-z]+\.[A-Za-z]+' $document doc/threats.md doc/reliability.md | sort -u)
 while read -r file; do
   [[ -n $(find test -name "$file") ]] || { echo "there is no $file" && status=1; }
-done < <(grep -ohE '[a-z_]+\.sh\b' $document doc/threats.md | sort -u)
+done < <(grep -ohE '[a-z_]+\.sh\b' $document doc/threats.md doc/reliability.md | sort -u)
 exit $status

@@ -77,6 +77,11 @@ void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, 
     sweepObject(setup, workpiece, object);
     report.start = std::min(report.start, object.interval_start);
   });
+  // Their next sweep begins where this one would have begun.
+  for (const auto& workpiece : report.unplaced) {
+    Swept& swept = lastSwept(workpiece);
+    swept.before = swept.pose;
+  }
   for (auto& [frame, history] : histories_) shorten(frame, history);
   report.backlog = pose.stamp - waiting_since_.value_or(pose.stamp);
   waiting_since_.reset();

@@ -32,7 +32,7 @@ bool updateContact(const SweepReport& report, SteadyTime now, std::optional<Warn
   const auto meets = [](const SweptObject& object) { return object.result.unintendedContact(); };
   const auto met = std::find_if(report.objects.begin(), report.objects.end(), meets);
   if (met == report.objects.end()) return false;
-  if (!contact) contact.emplace();
+  if (!contact) contact = WarningInputs::Contact{};
   contact->id = met->workpiece->id;
   contact->triangles = met->result.not_ruled_out;
   remove(contact->triangles, met->result.intended);

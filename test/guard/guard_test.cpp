@@ -281,6 +281,17 @@ TEST_F(GuardTest, SweepsABacklogWhereItsFrameIsKnownAgain) {
   EXPECT_EQ(report.start, at(1.0));
 }
 
+TEST_F(GuardTest, SweepsTheBacklogOfAWorkpieceWhoseFrameWasMissingAtItsFirstSweep) {
+  passTo(1.0, 0.5);
+  passTo(1.1, -0.2);
+  passTo(1.2, 0.4);
+  const SweepReport unplaced = reportOf(guard_, pose(1.3, {}), table_);
+  EXPECT_EQ(unplaced.unplaced.size(), 1U);
+  const SweepReport report = sweepTo(1.4, 0.5);
+  EXPECT_TRUE(report.contact());
+  EXPECT_EQ(report.start, at(1.0));
+}
+
 TEST_F(GuardTest, ABacklogLeavesThePredictionAsItIs) {
   GuardOptions options;
   options.clock = [] { return SteadyTime(); };

@@ -95,6 +95,16 @@ TEST_F(ParametersTest, HaveTheDefaultsOfTheConfigurationFile) {
   for (const ParameterInfo& info : loaded.described) EXPECT_EQ(info.value, info.fallback) << info.key;
 }
 
+// A Duration holds 292 years.
+TEST_F(ParametersTest, ATimeoutLongerThanADurationNeverEnds) {
+  for (const double seconds : {9.3e9, 1e10, 3.2e189}) {
+    node_.setParam("timing/mesh_timeout", seconds);
+    EXPECT_EQ(loadParameters(node_).limits.mesh_timeout, sweep_guard_core::Duration::max()) << seconds;
+  }
+  node_.setParam("timing/mesh_timeout", 1e9);
+  EXPECT_EQ(loadParameters(node_).limits.mesh_timeout, std::chrono::seconds(1000000000));
+}
+
 TEST_F(ParametersTest, HaveTheValuesThatAreSet) {
   node_.setParam("tool/radius", 0.002);
   node_.setParam("tool/length", 1);  // an integer is a number too

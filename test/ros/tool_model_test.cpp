@@ -240,6 +240,21 @@ TEST(ToolModelTest, RefusesBadDescriptionsInOneLine) {
   }
 }
 
+// Each of them grows by two bytes. To move the rest for each took 31 s for a mebibyte of them.
+TEST(ToolModelTest, ReadsADescriptionFullOfPercentSigns) {
+  const std::string note = "<note text='" + std::string(size_t{7} << 20U, '%') + "'/>";
+  EXPECT_EQ(loadToolModel(robot(link("a", kBall) + note), toolOf("a", {})).pieces.size(), 1U);
+}
+
+// They would be below no link, and so left out of every tool.
+TEST(ToolModelTest, RefusesLinksInALoopOfJoints) {
+  const std::string itself = robot(link("a", kBall) + link("b", kBall) + joint("bb", "fixed", "b", "b"));
+  EXPECT_TRUE(has(refusal(itself, toolOf("a", {})), "link 'b' is not connected to the root link 'a'"));
+  const std::string each_other = robot(link("a", kBall) + link("b", kBall) + link("c", kBall) +
+                                       joint("bc", "fixed", "b", "c") + joint("cb", "fixed", "c", "b"));
+  EXPECT_TRUE(has(refusal(each_other, toolOf("a", {})), "is not connected to the root link 'a'"));
+}
+
 TEST(ToolModelTest, RefusesLinksThatAreNone) {
   const std::string urdf = robot(link("a", kBall) + link("b") + joint("ab", "fixed", "a", "b"));
   EXPECT_TRUE(has(refusal(urdf, toolOf("tool", {"c"})), "'c', which is not a link of the robot; its links are a, b"));

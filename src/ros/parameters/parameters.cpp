@@ -20,6 +20,7 @@ using sweep_guard_core::toSeconds;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMinStep = 0.001;        // [s]
+constexpr double kLongest = 9e9;          // what is longer never ends: a Duration holds 292 years [s]
 constexpr size_t kBytesPerTriangle = 84;  // three indices and three vertices of a mesh that shares none
 constexpr size_t kMebibyte = 1U << 20;
 constexpr double kMaxHorizon = 5.0;  // [s]
@@ -64,7 +65,7 @@ const std::vector<std::string> kChangeable = {"tool/padding",
 const std::string kMarkers = "markers/";
 
 Duration toDuration(double seconds) {
-  return std::isinf(seconds) ? Duration::max() : sweep_guard_core::fromSeconds(seconds);
+  return seconds > kLongest ? Duration::max() : sweep_guard_core::fromSeconds(seconds);
 }
 
 sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {

@@ -12,12 +12,12 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <optional>
 #include <utility>
 
+#include "ros/tool/mesh_answer.h"
 #include "ros/tool/mesh_wire.h"
 #include "sweep_guard/common/error.h"
 
@@ -163,33 +163,6 @@ std::string failureText(int status, const std::string& answer) {
   return "cannot be read: mesh_reader ended with status " + std::to_string(WEXITSTATUS(status));
 }
 
-template <typename Value>
-std::vector<Value> take(const std::string& bytes, size_t& at, size_t count) {
-  std::vector<Value> values(count);
-  std::memcpy(values.data(), bytes.data() + at, count * sizeof(Value));
-  at += count * sizeof(Value);
-  return values;
-}
-
-// The reader has read hostile bytes, so its answer may be hostile, too.
-std::optional<MeshSurface> decode(const std::string& bytes) {
-  size_t at = 0;
-  if (bytes.size() < sizeof(MeshWireHeader)) return {};
-  const MeshWireHeader header = take<MeshWireHeader>(bytes, at, 1).front();
-  if (header.vertices > kMaxMeshVertices || header.triangles > kMaxMeshTriangles) return {};
-  if (header.triangles == 0 || bytes.size() != wireSize(header)) return {};
-  MeshSurface surface;
-  for (const auto& [x, y, z] : take<std::array<double, 3>>(bytes, at, header.vertices)) {
-    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return {};
-    surface.vertices.emplace_back(x, y, z);
-  }
-  surface.triangles = take<sweep_guard_core::Triangle>(bytes, at, header.triangles);
-  for (const sweep_guard_core::Triangle& triangle : surface.triangles) {
-    if (*std::max_element(triangle.begin(), triangle.end()) >= header.vertices) return {};
-  }
-  return surface;
-}
-
 }  // namespace
 
 MeshSurface readMesh(const path& file, SymbolicLinks links) {
@@ -204,7 +177,7 @@ MeshSurface readMesh(const path& file, SymbolicLinks links) {
   }
   const int status = reader.await();
   if (status != 0) throw InvalidInput(file.string() + ": " + failureText(status, *answer) + remedy);
-  std::optional<MeshSurface> surface = decode(*answer);
+  std::optional<MeshSurface> surface = surfaceFrom(*answer);
   if (!surface) throw InvalidInput(file.string() + ": cannot be read: mesh_reader's answer is malformed" + remedy);
   return *std::move(surface);
 }

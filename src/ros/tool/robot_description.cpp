@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "sweep_guard/common/error.h"
@@ -68,10 +69,13 @@ class PrinterWithoutComments : public tinyxml2::XMLPrinter {
 };
 
 // urdfdom passes text that it quotes to printf() as a format.
-std::string withoutFormats(std::string xml) {
-  const std::string full_width = "\xEF\xBC\x85";
-  for (size_t at = xml.find('%'); at != std::string::npos; at = xml.find('%', at)) xml.replace(at, 1, full_width);
-  return xml;
+std::string withoutFormats(const std::string& xml) {
+  std::string text;
+  for (const char c : xml) {
+    if (c == '%') text += "\xEF\xBC\x85";  // of full width
+    if (c != '%') text += c;
+  }
+  return text;
 }
 
 // tinyxml2 limits the depth of nested elements; TinyXML, and so urdfdom, does not.
@@ -121,6 +125,17 @@ void requireOneParentEach(const urdf::ModelInterface& model) {
   }
 }
 
+// urdfdom accepts links in a loop of joints.
+void requireConnected(const urdf::ModelInterface& model) {
+  std::set<std::string> connected;
+  for (const urdf::Link* link : RobotDescription::subtree(*model.getRoot())) connected.insert(link->name);
+  for (const auto& [name, link] : model.links_) {
+    if (connected.count(name) != 0) continue;
+    throw InvalidInput(
+        oneLine("link '" + name + "' is not connected to the root link '" + model.getRoot()->name + "'"));
+  }
+}
+
 std::string shown(double lower, double upper) {
   std::ostringstream text;
   text << lower << " to " << upper;
@@ -151,6 +166,7 @@ Eigen::Vector3d axisOf(const urdf::Joint& joint) {
 
 RobotDescription::RobotDescription(const std::string& urdf) : model_(parse(checkedXml(urdf))) {
   requireOneParentEach(*model_);
+  requireConnected(*model_);
 }
 
 const urdf::Link* RobotDescription::link(const std::string& name) const {
@@ -179,16 +195,12 @@ LinkPoses::LinkPoses(const RobotDescription& robot, std::map<std::string, double
   }
 }
 
-// Throws in a loop of joints, which urdfdom accepts.
 std::vector<const urdf::Joint*> LinkPoses::pathToRoot(const urdf::Link& link) const {
   std::vector<const urdf::Joint*> path;
   const urdf::Link* at = &link;
   while (at->parent_joint) {
     path.push_back(at->parent_joint.get());
     at = robot_.link(path.back()->parent_link_name);
-    if (at == nullptr || path.size() > robot_.model_->joints_.size()) {
-      throw InvalidInput("link '" + link.name + "' is not connected to the root link '" + robot_.root().name + "'");
-    }
   }
   return path;
 }

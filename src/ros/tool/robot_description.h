@@ -14,7 +14,7 @@ namespace sweep_guard_ros {
 class RobotDescription {
  public:
   /// @throws sweep_guard_core::InvalidInput if the text is no XML, is larger than 8 MiB or is refused by urdfdom; if a
-  ///     collision has several geometries; or if a link has two parents
+  ///     collision has several geometries; if a link has two parents; or if it is not connected to the root link
   explicit RobotDescription(const std::string& urdf);
 
   const urdf::Link* link(const std::string& name) const;  ///< null if missing

@@ -1,0 +1,99 @@
+// Our own checks of mesh files, and what comes from the process that reads them with assimp. assimp itself is not fuzzed: it has
+// a process of its own because files may crash it.
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+#include "input.h"
+#include "require.h"
+#include "ros/tool/mesh_answer.h"
+#include "ros/tool/mesh_text.h"
+#include "ros/tool/mesh_wire.h"
+
+namespace sweep_guard_fuzz {
+namespace {
+
+// Counts as a reader does that knows nothing but lines and words.
+size_t linesThatBeginWith(const std::string& keyword, std::string text) {
+  std::replace(text.begin(), text.end(), '\r', '\n');
+  std::replace(text.begin(), text.end(), '\0', ' ');
+  std::istringstream lines(text);
+  size_t count = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string first;
+    words >> first;
+    if (first == keyword) ++count;
+  }
+  return count;
+}
+
+void checkText(std::string text, const std::string& format) {
+  const std::string before = text;
+  sweep_guard_ros::simplify(text, format);
+  require(text.size() == before.size() || text.size() + 3 == before.size(), "only a byte order mark is removed");
+  require(format != "dae" || text == before, "a DAE stays as it is");
+  bool readable = true;
+  try {
+    sweep_guard_ros::requireReadable(text, format);
+  } catch (const std::runtime_error&) {
+    readable = false;
+  }
+  if (readable && format == "obj") {
+    require(linesThatBeginWith("mtllib", text) + linesThatBeginWith("usemtl", text) == 0, "no material is left");
+  }
+  try {
+    const size_t faces = sweep_guard_ros::expectedFaces(text, format);
+    if (format == "obj") require(faces == linesThatBeginWith("f", text), "each face of an OBJ counts");
+    if (format == "stl" && faces > 0)
+      require(faces == linesThatBeginWith("facet", text), "each facet of an STL counts");
+  } catch (const std::runtime_error&) {
+    require(format == "stl" && linesThatBeginWith("solid", text) != linesThatBeginWith("endsolid", text),
+            "only an STL lacks its end");
+  }
+}
+
+template <typename Value>
+void append(std::string& bytes, const Value& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string written(const sweep_guard_ros::MeshSurface& surface) {
+  std::string bytes;
+  append(bytes, sweep_guard_ros::MeshWireHeader{static_cast<std::uint32_t>(surface.vertices.size()),
+                                                static_cast<std::uint32_t>(surface.triangles.size())});
+  for (const Eigen::Vector3d& vertex : surface.vertices) {
+    for (const double coordinate : {vertex.x(), vertex.y(), vertex.z()}) append(bytes, coordinate);
+  }
+  for (const sweep_guard_core::Triangle& triangle : surface.triangles) {
+    for (const std::uint32_t corner : triangle) append(bytes, corner);
+  }
+  return bytes;
+}
+
+void checkAnswer(const std::string& answer) {
+  const auto surface = sweep_guard_ros::surfaceFrom(answer);
+  if (!surface) return;
+  require(!surface->triangles.empty(), "a surface has triangles");
+  for (const Eigen::Vector3d& vertex : surface->vertices) require(vertex.allFinite(), "vertices are finite");
+  for (const sweep_guard_core::Triangle& triangle : surface->triangles) {
+    for (const std::uint32_t corner : triangle) require(corner < surface->vertices.size(), "corners are vertices");
+  }
+  require(written(*surface) == answer, "nothing of an answer is lost");
+}
+
+}  // namespace
+}  // namespace sweep_guard_fuzz
+
+// The first byte chooses what the others are.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
+  sweep_guard_fuzz::Input input(bytes, size);
+  const int what = input.byte();
+  const std::string rest = input.rest();
+  if (what == 'o') sweep_guard_fuzz::checkText(rest, "obj");
+  if (what == 's') sweep_guard_fuzz::checkText(rest, "stl");
+  if (what == 'd') sweep_guard_fuzz::checkText(rest, "dae");
+  if (what == 'a') sweep_guard_fuzz::checkAnswer(rest);
+  return 0;
+}

@@ -1,0 +1,281 @@
+// Requests to the services of the guard, as bytes from the wire. They run in the services' own threads, one at a time. Not
+// ~save_profile, which writes files, and ~set_parameters, which is the target `parameters`.
+#include <cmath>
+#include <future>
+
+#include "guard/intention_store.h"
+#include "guard/workpiece_store.h"
+#include "input.h"
+#include "require.h"
+#include "ros/input/frames.h"
+#include "ros/service/check_sweep.h"
+#include "ros/service/controls.h"
+#include "ros/service/intend.h"
+#include "ros/service/predict.h"
+#include "roscpp_alone.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/ros/conversions.h"
+#include "wire_bytes.h"
+
+namespace sweep_guard_fuzz {
+namespace {
+
+using std::chrono::milliseconds;
+using sweep_guard_core::SteadyTime;
+
+constexpr double kHalfWidth = 0.5;  // of the workpiece, a square in the plane z = 0 of the fixed frame [m]
+constexpr double kLength = 0.15;    // of the tool, from its tip at the origin against z [m]
+constexpr std::uint32_t kTriangles = 2;
+const std::string kId = "liver";
+
+// Runs a call where roscpp would.
+class Call : public ros::CallbackInterface {
+ public:
+  Call(ros::ServiceCallbackHelperPtr helper, ros::ServiceCallbackHelperCallParams& params, std::promise<bool>& sent)
+      : helper_(std::move(helper)), params_(params), sent_(sent) {}
+  CallResult call() override {
+    sent_.set_value(helper_->call(params_));
+    return Success;
+  }
+
+ private:
+  const ros::ServiceCallbackHelperPtr helper_;
+  ros::ServiceCallbackHelperCallParams& params_;
+  std::promise<bool>& sent_;
+};
+
+// The services and what they ask, once for all inputs.
+class World {
+ public:
+  World()
+      : node_("/guard"),
+        live_(parameters(node_)),
+        monitor_(live_.initial().limits),
+        store_([this](const sweep_guard_core::Workpieces& newest) {
+          monitor_.setWorkpieces(newest);
+          intentions_.follow(newest);
+        }),
+        frames_(node_, 1 << 16, [](const auto&, const auto&) {}),
+        guard_(*live_.initial().tool, sweep_guard_core::makeDetector("halfspace"), live_.initial().guard),
+        check_sweep_(node_, {live_, frames_, store_, monitor_, makeDetector}),
+        predict_(node_, live_, store_, [this](sweep_guard_core::Duration end) { return motion(end); }),
+        intend_(node_, {live_, frames_, store_, intentions_}),
+        controls_(node_, live_, monitor_, store_, {[] {}, [this](const std::string& id) { return acknowledge(id); }}) {
+    const sweep_guard_core::TriangleMesh mesh({{-kHalfWidth, -kHalfWidth, 0},
+                                               {kHalfWidth, -kHalfWidth, 0},
+                                               {kHalfWidth, kHalfWidth, 0},
+                                               {-kHalfWidth, kHalfWidth, 0}},
+                                              {{0, 1, 2}, {0, 2, 3}});
+    const auto now = sweep_guard_ros::now();
+    store_.set({kId, 1, now.stamp, now.steady, "world", mesh}, now.stamp);
+    sweep_guard_core::SweepReport report;
+    for (int i = 0; i < 3; ++i) {
+      sweep_guard_core::PoseWithFrames pose;
+      pose.stamp = now.stamp + milliseconds(10 * (i - 3));
+      pose.X_WT.translation() = Eigen::Vector3d(0.0, 0.0, -0.2 + 0.01 * i);
+      pose.X_WM["world"] = Eigen::Isometry3d::Identity();
+      guard_.sweep(pose, store_.snapshot(), report);
+    }
+    check_sweep_.start(supervisor_);
+    predict_.start(supervisor_);
+    intend_.start(supervisor_);
+    controls_.start(supervisor_);
+  }
+
+  void call(Input& input) {
+    switch (input.below(6)) {
+      case 0:
+      case 1:
+        return judge(ask<sweep_guard::CheckSweep>("/guard/check_sweep", input.rest()));
+      case 2:
+        return judge(ask<sweep_guard::Predict>("/guard/predict", input.rest()));
+      case 3:
+        return judge(ask<sweep_guard::SetIntent>("/guard/intend", input.rest()));
+      case 4:
+        return judge(ask<sweep_guard::Acknowledge>("/guard/acknowledge", input.rest()));
+      default:
+        return judge(ask<std_srvs::SetBool>("/guard/enable", input.rest()));
+    }
+  }
+
+  void forget() {
+    intentions_.clear();
+    monitor_.enable();
+  }
+
+ private:
+  template <typename Service>
+  struct Exchange {
+    std::optional<typename Service::Request> request;  // empty: it cannot be read
+    typename Service::Response response;
+  };
+
+  static sweep_guard_ros::Parameters parameters(const ros::NodeHandle& node) {
+    serverParameters() = {{"/guard/detector", std::string("halfspace")},
+                          {"/guard/check_sweep/deadline", 0.2},
+                          {"/guard/tool/length", kLength}};
+    return sweep_guard_ros::loadParameters(node);
+  }
+
+  static std::unique_ptr<sweep_guard_core::Detector> makeDetector(const std::string& name,
+                                                                  const sweep_guard_core::DetectorOptions& options) {
+    if (name == "select") throw sweep_guard_core::DeviceError("OpenGL is not fuzzed");
+    return sweep_guard_core::makeDetector(name, options);
+  }
+
+  std::future<sweep_guard_ros::PredictService::Motion> motion(sweep_guard_core::Duration end) {
+    std::promise<sweep_guard_ros::PredictService::Motion> promise;
+    promise.set_value({guard_.predictMotion(milliseconds(10), end), milliseconds(10)});
+    return promise.get_future();
+  }
+
+  std::string acknowledge(const std::string& id) {
+    const std::string refusal = monitor_.acknowledge(id, sweep_guard_ros::now());
+    if (!refusal.empty()) throw sweep_guard_core::Error(refusal);
+    return id;
+  }
+
+  template <typename Service>
+  static Exchange<Service> ask(const std::string& name, const std::string& bytes) {
+    ros::ServiceCallbackHelperCallParams params;
+    const boost::shared_array<std::uint8_t> buffer(new std::uint8_t[bytes.size() + 1]);
+    std::copy(bytes.begin(), bytes.end(), buffer.get());
+    params.request = ros::SerializedMessage(buffer, bytes.size());
+    params.request.message_start = buffer.get();
+    params.connection_header = connectionFrom("/caller");
+    std::promise<bool> sent;
+    std::future<bool> is_sent = sent.get_future();
+    const sweep_guard_fuzz::Service& service = services().at(name);
+    service.queue->addCallback(boost::make_shared<Call>(service.helper, params, sent), 1);
+    require(is_sent.get(), "every request is answered");
+    Exchange<Service> exchange;
+    // As the client reads it: after a byte and the length.
+    ros::SerializedMessage answer = params.response;
+    answer.message_start = answer.buf.get() + 5;
+    ros::serialization::deserializeMessage(answer, exchange.response);
+    exchange.request = requestFrom<typename Service::Request>(bytes);
+    return exchange;
+  }
+
+  template <typename Request>
+  static std::optional<Request> requestFrom(const std::string& bytes) {
+    try {
+      const auto* const begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
+      sweep_guard_ros::checkLengths<Request>({begin, bytes.size()});
+      Request request;
+      Bytes copy(bytes.begin(), bytes.end());
+      ros::serialization::IStream stream(copy.data(), static_cast<std::uint32_t>(copy.size()));
+      ros::serialization::deserialize(stream, request);
+      return request;
+    } catch (const sweep_guard_core::InvalidInput&) {
+      return {};
+    }
+  }
+
+  static void judge(const Exchange<sweep_guard::CheckSweep>& exchange) {
+    const auto& [request, response] = exchange;
+    require(request || !response.success, "what cannot be read is refused");
+    require(response.success || (!response.clear && !response.message.empty()), "a refusal says why, and is not clear");
+    require(!response.clear || !response.collision, "a collision is not clear");
+    if (!response.success) return;
+    require(response.collision || response.objects.empty() || request->fine,
+            "without narrow phase what is named is met");
+    require(std::isnan(response.time_of_impact) || (response.time_of_impact >= 0.0 && response.time_of_impact <= 1.0),
+            "an impact is in its sweep");
+    require(response.segment < request->path.size(), "a collision is on the path");
+    require(response.collision || !crosses(request->path), "no crossing is missed");
+  }
+
+  // Whether the line through the tool pierces the square at a pose, or the way of the tip from pose to pose does. A path in the
+  // fixed frame alone.
+  static bool crosses(const std::vector<geometry_msgs::PoseStamped>& path) {
+    std::optional<Eigen::Vector3d> before;
+    for (const geometry_msgs::PoseStamped& pose : path) {
+      if (pose.header.frame_id != "world") return false;
+      const Eigen::Isometry3d X = sweep_guard_ros::fromMsg(pose.pose);
+      const Eigen::Vector3d tip = X.translation();
+      if (pierces(tip, X * Eigen::Vector3d(0.0, 0.0, -kLength)) || (before && pierces(*before, tip))) return true;
+      before = tip;
+    }
+    return false;
+  }
+
+  static bool pierces(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    if (!(from.z() * to.z() < 0.0) || std::abs(from.z()) < 1e-6 || std::abs(to.z()) < 1e-6) return false;
+    const Eigen::Vector3d p = from + from.z() / (from.z() - to.z()) * (to - from);
+    return std::max(std::abs(p.x()), std::abs(p.y())) < 0.9 * kHalfWidth;
+  }
+
+  static void judge(const Exchange<sweep_guard::Predict>& exchange) {
+    const auto& [request, response] = exchange;
+    require(request || !response.success, "what cannot be read is refused");
+    require(response.success || !response.message.empty(), "a refusal says why");
+    if (!response.success) return;
+    const sweep_guard_core::Duration horizon(request->horizon.toNSec());
+    require(horizon >= sweep_guard_core::Duration::zero() && horizon <= std::chrono::seconds(5),
+            "a horizon is 5 s at most");
+    const double probability = response.prediction.probability;
+    require(!response.prediction.valid || (probability >= 0.0 && probability <= 1.0), "a probability is in [0, 1]");
+    require(!response.prediction.collision || response.prediction.time_to_collision >= ros::Duration(0),
+            "a collision has a time");
+    // The tip rises by 1 m/s from 0.18 m below the square.
+    require(horizon < milliseconds(500) || !response.prediction.valid || response.prediction.collision,
+            "the square ahead is met");
+  }
+
+  void judge(const Exchange<sweep_guard::SetIntent>& exchange) {
+    const auto& [request, response] = exchange;
+    require(!response.message.empty(), "every answer says something");
+    const auto intentions = intentions_.at(std::chrono::steady_clock::now());
+    require(request || !response.success, "what cannot be read is refused");
+    require(response.success || intentions->empty(), "what is refused changes nothing");
+    require(intentions->size() <= sweep_guard_core::kMaxIntentions, "intentions are bounded");
+    for (const sweep_guard_core::Intention& intention : *intentions) {
+      require(intention.mesh_id == kId && !intention.triangles.empty(), "contact is meant with what is there");
+      require(intention.triangles.back() < kTriangles, "its triangles exist");
+      require(intention.depth > 0.0 && intention.depth <= 0.5, "its depth is bounded");
+      require(intention.tool_links.empty() ||
+                  intention.tool_links == std::vector<std::string>(intention.tool_links.size(), ""),
+              "its links are those of the tool");
+    }
+  }
+
+  static void judge(const Exchange<sweep_guard::Acknowledge>& exchange) {
+    require(!exchange.response.success, "there is no warning to acknowledge");
+    require(!exchange.response.message.empty(), "a refusal says why");
+  }
+
+  void judge(const Exchange<std_srvs::SetBool>& exchange) {
+    const auto& [request, response] = exchange;
+    require(!response.message.empty(), "every answer says something");
+    require(request || !response.success, "what cannot be read is refused");
+    const bool disables = request && request->data == 0;
+    require(monitor_.disabledBy().has_value() == disables, "the guard is disabled by that request alone");
+  }
+
+  const ros::NodeHandle node_;
+  sweep_guard_ros::Supervisor supervisor_{sweep_guard_ros::Process::kShared};
+  const sweep_guard_ros::LiveParameters live_;
+  sweep_guard_core::WarningMonitor monitor_;
+  sweep_guard_core::IntentionStore intentions_;
+  sweep_guard_core::WorkpieceStore store_;
+  sweep_guard_ros::Frames frames_;
+  sweep_guard_core::Guard guard_;
+  sweep_guard_ros::CheckSweepService check_sweep_;
+  sweep_guard_ros::PredictService predict_;
+  sweep_guard_ros::IntendService intend_;
+  sweep_guard_ros::Controls controls_;
+};
+
+}  // namespace
+}  // namespace sweep_guard_fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
+  sweep_guard_fuzz::startRoscpp();
+  static sweep_guard_fuzz::World* const world = new sweep_guard_fuzz::World;  // its threads end with the process
+  sweep_guard_fuzz::Input input(bytes, size);
+  world->call(input);
+  world->forget();
+  return 0;
+}
