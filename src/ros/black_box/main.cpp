@@ -4,6 +4,7 @@
 #include "ros/black_box/black_box_node.h"
 #include "ros/end_request.h"
 #include "ros/output/start_failure.h"
+#include "ros/parameters/parameters.h"
 #include "ros/process.h"
 #include "sweep_guard/common/error.h"
 

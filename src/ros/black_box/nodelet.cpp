@@ -5,6 +5,7 @@
 
 #include "ros/black_box/black_box_node.h"
 #include "ros/output/start_failure.h"
+#include "ros/parameters/parameters.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
