@@ -97,7 +97,7 @@ class Transcript {
 class Sheet {
  public:
   explicit Sheet(const Eigen::Isometry3d& X_WS) : X_WS_(X_WS) {
-    std::vector<TriangleMesh::Triangle> triangles;
+    std::vector<sweep_guard_core::Triangle> triangles;
     for (std::uint32_t row = 0; row < kCells; ++row) {
       for (std::uint32_t column = 0; column < kCells; ++column) {
         const std::uint32_t corner = row * (kCells + 1) + column;
