@@ -25,7 +25,7 @@ struct WindowMessage {
 /// each key: what a listener that had come earlier would know at the begin of the window. A key may have a second part
 /// behind a line feed, which says what it depends on: as "mesh" leaves the window, "mesh\nvertices" from before is forgotten.
 ///
-/// All that is kept takes at most `max_size` bytes: the oldest messages leave the window first, then the oldest of those that
+/// All that is kept takes at most `max_size` bytes: the oldest messages leave the window first, then the oldest that
 /// are kept by their key. Not thread-safe.
 template <typename Content>
 class MessageWindow {
