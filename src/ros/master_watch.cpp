@@ -18,8 +18,8 @@ using XmlRpc::XmlRpcValue;
 
 constexpr auto kPeriod = std::chrono::seconds(1);
 // roscpp keeps no list of them.
-constexpr std::array kServices = {"acknowledge", "check_sweep", "enable",       "intend",        "predict",
-                                  "rebase",      "reset",       "save_profile", "set_parameters"};
+constexpr std::array kServices = {"acknowledge", "check_sweep", "enable", "intend",       "predict",
+                                  "rebase",      "reset",       "save",   "save_profile", "set_parameters"};
 constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodelet", "set_logger_level",
                                               "unload_nodelet"};
 

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "ros/ros_home.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
@@ -63,12 +64,6 @@ void writeText(int file, const std::string& text) {
   if (fsync(file) != 0) throw Error(std::strerror(errno));
 }
 
-path homeOfRos() {
-  if (const char* const home = std::getenv("ROS_HOME")) return home;
-  if (const char* const home = std::getenv("HOME")) return path(home) / ".ros";
-  throw InvalidInput("neither ROS_HOME nor HOME is set: set prediction/profile, and send an empty name");
-}
-
 bool isPlain(const std::string& name) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
@@ -107,7 +102,7 @@ void writeProfile(const path& file, const sweep_guard_core::Profile& profile) {
 
 path profileNamed(const std::string& name) {
   if (!isPlain(name)) throw InvalidInput("a name has 1 to 64 letters, digits, - and _");
-  const path folder = homeOfRos() / "sweep_guard";
+  const path folder = writableFolder("prediction/profile, and send an empty name");
   path file = folder / (name + ".profile");
   std::error_code none;
   const auto files = std::distance(std::filesystem::directory_iterator(folder, none), {});

@@ -15,6 +15,7 @@
 #include <set>
 #include <sstream>
 
+#include "ros/black_box/black_box_parameters.h"
 #include "ros/motion/motion_parameters.h"
 #include "ros/parameter_documents.h"
 #include "ros/parameters/parameters.h"
@@ -189,6 +190,14 @@ TEST(DocumentsTest, ListEachParameterOfMotionGuard) {
   const std::string head = "| key | default | type, unit, range | effect |";
   expectContents(kInterface, withRows(contents(kInterface), head, fixedParameterRows(described)));
   expectContents(kRoot / "config" / "motion_guard.yaml", motionConfigurationFile(described));
+}
+
+TEST(DocumentsTest, ListEachParameterOfTheBlackBox) {
+  const auto described = loadBlackBoxParameters(ros::NodeHandle("/nothing_is_set")).described;
+  const std::string head = "| parameter | default | type, unit, range | effect |";
+  const std::filesystem::path document = kRoot / "doc" / "black_box.md";
+  expectContents(document, withRows(contents(document), head, fixedParameterRows(described)));
+  expectContents(kRoot / "config" / "black_box.yaml", blackBoxConfigurationFile(described));
 }
 
 std::string argumentLine(const tinyxml2::XMLElement& argument) {

@@ -111,4 +111,8 @@ std::string motionConfigurationFile(const std::vector<ParameterInfo>& infos) {
   return head("motion_guard", "", "src/ros/motion/motion_parameters.cpp") + entries(infos);
 }
 
+std::string blackBoxConfigurationFile(const std::vector<ParameterInfo>& infos) {
+  return head("black_box", "", "src/ros/black_box/black_box_parameters.cpp") + entries(infos);
+}
+
 }  // namespace sweep_guard_ros

@@ -18,5 +18,7 @@ std::vector<std::string> fixedParameterRows(const std::vector<ParameterInfo>& in
 std::string configurationFile(const std::vector<ParameterInfo>& infos);
 /// Returns the text of config/motion_guard.yaml.
 std::string motionConfigurationFile(const std::vector<ParameterInfo>& infos);
+/// Returns the text of config/black_box.yaml.
+std::string blackBoxConfigurationFile(const std::vector<ParameterInfo>& infos);
 
 }  // namespace sweep_guard_ros

@@ -1,5 +1,4 @@
 // Writes a bag with known contacts, plays it with replay.launch, and reads the report.
-#include <arpa/inet.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -9,7 +8,6 @@
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/View.h>
 #include <sweep_guard/Warning.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
@@ -25,6 +23,7 @@
 #include <vector>
 
 #include "refusal.h"
+#include "replay_process.h"
 
 namespace sweep_guard_session {
 namespace {
@@ -78,36 +77,6 @@ sweep_guard::MeshVertices verticesAt(double t) {
   return vertices;
 }
 
-// Free for the moment.
-int freePort() {
-  const int handle = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  EXPECT_EQ(bind(handle, reinterpret_cast<sockaddr*>(&address), size), 0);
-  EXPECT_EQ(getsockname(handle, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  close(handle);
-  return ntohs(address.sin_port);
-}
-
-std::vector<std::vector<std::string>> readCsv(const fs::path& path) {
-  std::vector<std::vector<std::string>> lines;
-  std::ifstream stream(path);
-  for (std::string line; std::getline(stream, line);) {
-    lines.emplace_back();
-    std::istringstream fields(line);
-    for (std::string field; std::getline(fields, field, ',');) lines.back().push_back(field);
-  }
-  return lines;
-}
-
-std::string readText(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
 class ReplayTest : public testing::Test {
  protected:
   ReplayTest() : folder_(fs::path(testing::TempDir()) / ("replay_test_" + std::to_string(getpid()))) {
@@ -148,17 +117,7 @@ class ReplayTest : public testing::Test {
     }
   }
 
-  // What it printed. What it leaves in ROS_HOME goes with the folder.
-  std::string replay(const std::string& arguments) const {
-    const int port = freePort();
-    std::ostringstream command;
-    command << "ROS_HOME=" << folder_ << " ROS_IP=127.0.0.1 ROS_MASTER_URI=http://127.0.0.1:" << port
-            << " timeout 100 roslaunch -p " << port << " sweep_guard replay.launch bag:=" << bag_
-            << " output:=" << (folder_ / "report").string() << ' ' << arguments << " > " << folder_ / "printed.txt"
-            << " 2>&1";
-    EXPECT_EQ(std::system(command.str().c_str()), 0);
-    return readText(folder_ / "printed.txt");
-  }
+  std::string replay(const std::string& arguments) const { return replayBag(bag_, folder_, arguments); }
 
   fs::path folder_;
   fs::path bag_ = folder_ / "operator's \"first\" session.bag";

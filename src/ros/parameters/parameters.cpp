@@ -234,6 +234,7 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   const std::string description = read.name("tool/robot_description", "robot_description",
                                             "urdf only: name of the parameter that holds the URDF, searched from the "
                                             "node's namespace upwards.");
+  read.ignore(description);
   const ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
   parameters.tool_padding = padding;
   if (before != nullptr && before->tool_padding == padding) {

@@ -92,6 +92,8 @@ class ParameterReader {
   /// Searches a text in the private namespace, then in those above it, or under an absolute name; "" if not set.
   /// The error names only the key.
   std::string searchText(const std::string& name);
+  /// Lets a parameter be set that has no effect here.
+  void ignore(const std::string& key) { read_.insert(key); }
   /// Throws InvalidInput if the parameter is set.
   /// @param instead  tells the user what to do
   void refuseIfSet(const std::string& key, const std::string& instead);

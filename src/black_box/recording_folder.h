@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "black_box/recording_files.h"
+
+namespace sweep_guard_core {
+
+/// Returns how many bytes a process without rights of its own may still write to the file system of a folder.
+/// @throws DeviceError
+std::uintmax_t freeSpace(const std::filesystem::path& folder);
+
+/// The folder of the recordings of one writer. Deletes only regular files in it that have the name of a recording. Not
+/// thread-safe. What fails throws DeviceError with the path and the reason; the recordings that are whole stay as they are.
+class RecordingFolder {
+ public:
+  struct Options {
+    std::filesystem::path folder;  ///< absolute
+    std::uintmax_t quota;          ///< of all recordings together [bytes]
+    std::uintmax_t min_free;       ///< what a recording leaves free on the file system [bytes]
+    std::function<std::uintmax_t(const std::filesystem::path&)> free_space = freeSpace;
+  };
+
+  explicit RecordingFolder(Options options) : options_(std::move(options)) {}
+  ~RecordingFolder();
+  RecordingFolder(const RecordingFolder&) = delete;
+  RecordingFolder& operator=(const RecordingFolder&) = delete;
+
+  /// Makes the folder and locks it against other writers, and deletes what a writer has left that ended within a file. Checks
+  /// that files can be written there. May be called again and again.
+  void open();
+
+  struct Paths {
+    std::filesystem::path bag;
+    std::filesystem::path config;
+  };
+  /// Writes a recording: opens the folder, deletes the oldest recordings for the quota, has both files written, and gives
+  /// them their names when they are whole and on the disk. Nothing remains of a recording that fails.
+  /// @param size   how large it is, about [bytes]
+  /// @param write  writes the two files, whose names end in .active
+  /// @return the paths of the files
+  Paths write(const std::string& name, std::uintmax_t size, const std::function<void(const Paths&)>& write);
+
+  std::vector<StoredRecording> stored() const;  ///< recordings that are whole; empty if the folder cannot be read
+
+ private:
+  void lock();
+  void deleteLeftovers() const;
+  void probe() const;
+  void keepQuota(std::uintmax_t size) const;
+  void requireSpace(std::uintmax_t size) const;
+  void remove(const std::string& recording) const;
+  Paths pathsOf(const std::string& name, const std::string& end) const;
+
+  const Options options_;
+  int lock_ = -1;
+};
+
+}  // namespace sweep_guard_core

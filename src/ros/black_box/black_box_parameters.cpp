@@ -1,0 +1,91 @@
+#include "ros/black_box/black_box_parameters.h"
+
+#include <ros/names.h>
+
+#include <limits>
+
+#include "ros/ros_home.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::Duration;
+using sweep_guard_core::toSeconds;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMaxMebibytes = 16777216;
+constexpr std::size_t kMebibyte = 1U << 20U;
+
+Duration seconds(ParameterReader& read, const std::string& key, Duration fallback, double lowest, double highest,
+                 const std::string& effect) {
+  return sweep_guard_core::fromSeconds(read.number(key, toSeconds(fallback), {lowest, highest, "s"}, effect));
+}
+
+std::string readGuard(ParameterReader& read) {
+  std::string guard = read.name("guard", "/sweep_guard", "Name of the guard's node, whose outputs are recorded.");
+  std::string error;
+  if (ros::names::validate(guard, error)) return ros::names::resolve(guard);
+  throw sweep_guard_core::InvalidInput("parameter guard is no name of a node: " + error);
+}
+
+std::filesystem::path readFolder(ParameterReader& read, const ros::NodeHandle& private_node) {
+  const std::filesystem::path folder =
+      read.path("folder",
+                "Folder of the recordings, for this black box alone. Empty: that with the name of the node in "
+                "$ROS_HOME/sweep_guard or ~/.ros/sweep_guard.");
+  if (!folder.empty() && !folder.is_absolute()) {
+    throw sweep_guard_core::InvalidInput("parameter folder is " + folder.string() + ", but must be an absolute path");
+  }
+  if (!folder.empty()) return folder;
+  return writableFolder("folder") / private_node.getNamespace().substr(1);
+}
+
+void readTrigger(ParameterReader& read, sweep_guard_core::RecordingTrigger::Options& trigger) {
+  trigger.on_contact = read.flag("on_contact", trigger.on_contact, "Records when the level becomes CONTACT.");
+  trigger.on_reflex = read.flag("on_reflex", trigger.on_reflex, "Records when the level becomes REFLEX.");
+  trigger.after = seconds(read, "after", trigger.after, 0.0, 60.0,
+                          "Time from an event to its recording, so that what followed is in it; at most window.");
+}
+
+std::size_t mebibytes(ParameterReader& read, const std::string& key, int fallback, int lowest,
+                      const std::string& effect) {
+  return kMebibyte * static_cast<std::size_t>(read.integer(key, fallback, lowest, kMaxMebibytes, effect));
+}
+
+void readSizes(ParameterReader& read, BlackBoxParameters& parameters) {
+  parameters.memory =
+      mebibytes(read, "memory", 1024, 2,
+                "[MiB] All messages that are kept or being written. Where `window` seconds take more than half of it, "
+                "fewer seconds are kept.");
+  parameters.quota =
+      mebibytes(read, "quota", 4096, 1, "[MiB] All recordings in the folder. The oldest are deleted for a new one.");
+  parameters.min_free =
+      mebibytes(read, "min_free", 1024, 0, "[MiB] What a recording leaves free on the disk; else it is not written.");
+}
+
+}  // namespace
+
+BlackBoxParameters loadBlackBoxParameters(const ros::NodeHandle& private_node) {
+  ParameterReader read(private_node);
+  BlackBoxParameters parameters;
+  parameters.guard = readGuard(read);
+  parameters.folder = readFolder(read, private_node);
+  parameters.window = seconds(read, "window", std::chrono::seconds(30), 1.0, 600.0,
+                              "Time before a recording is written that it contains.");
+  readTrigger(read, parameters.trigger);
+  if (parameters.trigger.after > parameters.window) {
+    throw sweep_guard_core::InvalidInput("parameter after must be at most window");
+  }
+  readSizes(read, parameters);
+  parameters.proximity = read.flag("proximity", false,
+                                   "Records ~proximity, too. The guard then computes it at every pose, as for "
+                                   "motion_guard.");
+  read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
+  parameters.settings = read.settings();
+  parameters.described = read.described();
+  read.warnOfUnread();
+  return parameters;
+}
+
+}  // namespace sweep_guard_ros

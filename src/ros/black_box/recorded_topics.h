@@ -1,0 +1,35 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ros/black_box/black_box_parameters.h"
+
+namespace sweep_guard_ros {
+
+/// Of which messages the newest from before a recording belongs to it.
+enum class KeptMessages {
+  kNone,
+  kNewest,         ///< of each publisher
+  kEachMesh,       ///< DeformableMesh: the newest of each workpiece
+  kEachVertices,   ///< MeshVertices: the newest of each workpiece that is newer than its mesh
+  kEachTransform,  ///< TFMessage: the newest with the same child frames
+};
+
+/// A topic that the guard hears or publishes.
+struct RecordedTopic {
+  std::string topic;     ///< as it is subscribed to
+  std::string recorded;  ///< name in the bag: as replay.launch plays and a guard with the default name publishes it
+  KeptMessages kept = KeptMessages::kNone;
+  std::uint32_t queue_length = 2000;  ///< messages
+};
+
+/// Returns the inputs of the guard by the names that remappings of the node give them, and its outputs.
+std::vector<RecordedTopic> recordedTopics(const ros::NodeHandle& node, const BlackBoxParameters& parameters);
+
+constexpr const char* kRecordedWarning = "/sweep_guard/warning";
+
+}  // namespace sweep_guard_ros

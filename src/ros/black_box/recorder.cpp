@@ -1,0 +1,169 @@
+#include "ros/black_box/recorder.h"
+
+#include <ros/console.h>
+#include <ros/serialization.h>
+
+#include <fstream>
+#include <memory>
+#include <utility>
+
+#include "ros/black_box/message_key.h"
+#include "ros/process.h"
+#include "sweep_guard/Warning.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::RecordingTrigger;
+using sweep_guard_core::SteadyTime;
+
+constexpr auto kInspectionPeriod = std::chrono::seconds(5);
+constexpr std::size_t kObjects = 600;  // of a message in memory, besides its bytes and its definition [bytes]
+
+std::vector<std::uint8_t> bytesOf(const topic_tools::ShapeShifter& message) {
+  std::vector<std::uint8_t> bytes(message.size());
+  ros::serialization::OStream stream(bytes.data(), message.size());
+  message.write(stream);
+  return bytes;
+}
+
+void writeConfig(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file);
+  stream << text << std::flush;
+  if (!stream) throw sweep_guard_core::DeviceError(file.string() + ": cannot be written");
+}
+
+}  // namespace
+
+Recorder::Recorder(const BlackBoxParameters& parameters)
+    : parameters_(parameters),
+      window_({parameters.window, parameters.memory / 2}),
+      trigger_(parameters.trigger),
+      config_(parameters.guard, stopping_),
+      folder_({parameters.folder, parameters.quota, parameters.min_free}),
+      writer_([] { setNice(10); }) {}
+
+Recorder::~Recorder() {
+  stopping_ = true;
+  std::future<void> last;
+  {
+    const std::lock_guard lock(mutex_);
+    if (trigger_.waiting()) last = beginRecording();
+  }
+  if (last.valid()) last.wait();
+}
+
+void Recorder::hear(const RecordedTopic& topic, const ros::MessageEvent<const topic_tools::ShapeShifter>& event) {
+  const topic_tools::ShapeShifter::ConstPtr message = event.getConstMessage();
+  const bool is_warning = topic.recorded == kRecordedWarning;
+  std::vector<std::uint8_t> bytes;
+  if (is_warning || topic.kept != KeptMessages::kNone) bytes = bytesOf(*message);
+  const Wire wire{bytes.data(), bytes.size()};
+  const std::size_t size = message->size() + message->getMessageDefinition().size() + kObjects;
+  const sweep_guard_core::Time received = fromMsg(event.getReceiptTime());
+  std::string key = messageKey(topic, event.getPublisherName(), wire);
+
+  const std::lock_guard lock(mutex_);
+  if (window_.hasGoneBack(received)) {
+    if (trigger_.waiting() && !summary_.writing) beginRecording();
+    window_.beginAnew();
+  }
+  window_.add({received, size, std::move(key), {topic.recorded, message, event.getConnectionHeaderPtr()}});
+  if (is_warning) heardWarning(wire);
+}
+
+void Recorder::heardWarning(Wire message) {
+  try {
+    checkLengths<sweep_guard::Warning>(message);
+  } catch (const sweep_guard_core::InvalidInput&) {
+    return;
+  }
+  sweep_guard::Warning warning;
+  ros::serialization::IStream stream(const_cast<std::uint8_t*>(message.bytes),
+                                     static_cast<std::uint32_t>(message.size));
+  ros::serialization::deserialize(stream, warning);
+  if (warning.level > sweep_guard::Warning::CONTACT) return;
+  trigger_.warned(static_cast<sweep_guard_core::WarningLevel>(warning.level), std::chrono::steady_clock::now());
+}
+
+std::string Recorder::requestRecording() {
+  const std::lock_guard lock(mutex_);
+  trigger_.requested(std::chrono::steady_clock::now());
+  return summary_.problem;
+}
+
+void Recorder::tick() {
+  const SteadyTime now = std::chrono::steady_clock::now();
+  const std::lock_guard lock(mutex_);
+  if (summary_.writing) return;
+  if (trigger_.due(now)) {
+    beginRecording();
+  } else if (now >= next_inspection_) {
+    next_inspection_ = now + kInspectionPeriod;
+    writer_.submit<void>([this] { attempt([this] { inspectFolder(); }); });
+  }
+}
+
+std::future<void> Recorder::beginRecording() {
+  const RecordingTrigger::Event event = *trigger_.take();
+  const auto ago = std::chrono::steady_clock::now() - event.time;
+  const std::string name = sweep_guard_core::recordingName(
+      std::chrono::system_clock::now() - std::chrono::duration_cast<std::chrono::system_clock::duration>(ago),
+      event.cause);
+  const auto messages = std::make_shared<const HeardMessages>(window_.snapshot());
+  summary_.writing = true;
+  return writer_.submit<void>([this, name, messages] {
+    const bool written = attempt([&] { write(name, *messages); });
+    const std::lock_guard lock(mutex_);
+    summary_.writing = false;
+    ++(written ? summary_.written : summary_.failed);
+  });
+}
+
+void Recorder::write(const std::string& name, const HeardMessages& messages) {
+  config_.refresh();
+  const auto paths = folder_.write(name, bagSize(messages), [&](const sweep_guard_core::RecordingFolder::Paths& files) {
+    writeConfig(files.config, config_.yaml());
+    writeBag(files.bag, messages);
+  });
+  ROS_INFO("recorded %zu messages: %s", messages.size(), paths.bag.c_str());
+  std::vector<sweep_guard_core::StoredRecording> stored = folder_.stored();
+  const std::lock_guard lock(mutex_);
+  summary_.newest = paths.bag;
+  summary_.stored = std::move(stored);
+}
+
+void Recorder::inspectFolder() {
+  config_.refresh();
+  folder_.open();
+  std::vector<sweep_guard_core::StoredRecording> stored = folder_.stored();
+  const std::lock_guard lock(mutex_);
+  summary_.stored = std::move(stored);
+}
+
+bool Recorder::attempt(const std::function<void()>& work) {
+  std::string problem;
+  try {
+    work();
+  } catch (const std::exception& error) {
+    problem = error.what();
+    log_.error("recording", "black box: " + problem);
+  }
+  const std::lock_guard lock(mutex_);
+  summary_.problem = problem;
+  return problem.empty();
+}
+
+Recorder::Summary Recorder::summary() const {
+  const std::lock_guard lock(mutex_);
+  Summary summary = summary_;
+  summary.length = window_.length();
+  summary.messages = window_.count();
+  summary.size = window_.size();
+  if (trigger_.waiting()) summary.waiting = trigger_.waiting()->cause;
+  return summary;
+}
+
+}  // namespace sweep_guard_ros

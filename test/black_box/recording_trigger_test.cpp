@@ -1,0 +1,67 @@
+#include "black_box/recording_trigger.h"
+
+#include <gtest/gtest.h>
+
+namespace sweep_guard_core {
+namespace {
+
+using namespace std::chrono_literals;
+
+SteadyTime at(Duration time) { return SteadyTime(100s + time); }
+
+RecordingTrigger trigger(bool on_contact, bool on_reflex) { return RecordingTrigger({5s, on_contact, on_reflex}); }
+
+TEST(RecordingTriggerTest, AContactIsDueSomeTimeAfterItsBeginAndOnce) {
+  RecordingTrigger contact = trigger(true, false);
+  contact.warned(WarningLevel::kClear, at(0s));
+  contact.warned(WarningLevel::kReflex, at(1s));
+  EXPECT_FALSE(contact.waiting());
+  contact.warned(WarningLevel::kContact, at(2s));
+  contact.warned(WarningLevel::kContact, at(3s));
+  EXPECT_FALSE(contact.due(at(6999ms)));
+  EXPECT_TRUE(contact.due(at(7s)));
+  EXPECT_EQ(contact.take()->cause, RecordingCause::kContact);
+  contact.warned(WarningLevel::kContact, at(8s));
+  EXPECT_FALSE(contact.waiting());
+}
+
+TEST(RecordingTriggerTest, TheNextContactIsAnotherEvent) {
+  RecordingTrigger contact = trigger(true, false);
+  contact.warned(WarningLevel::kContact, at(0s));
+  contact.take();
+  contact.warned(WarningLevel::kClear, at(6s));
+  contact.warned(WarningLevel::kContact, at(7s));
+  EXPECT_EQ(contact.waiting()->time, at(7s));
+}
+
+TEST(RecordingTriggerTest, AGuardThatBeginsInContactIsAnEvent) {
+  RecordingTrigger contact = trigger(true, false);
+  contact.warned(WarningLevel::kContact, at(0s));
+  EXPECT_TRUE(contact.waiting());
+}
+
+TEST(RecordingTriggerTest, ReflexIsAnEventByChoiceAndNotAfterAContact) {
+  RecordingTrigger reflex = trigger(false, true);
+  reflex.warned(WarningLevel::kContact, at(0s));
+  reflex.warned(WarningLevel::kReflex, at(1s));
+  EXPECT_FALSE(reflex.waiting());
+  reflex.warned(WarningLevel::kClear, at(2s));
+  reflex.warned(WarningLevel::kReflex, at(3s));
+  EXPECT_EQ(reflex.waiting()->cause, RecordingCause::kReflex);
+}
+
+TEST(RecordingTriggerTest, AMoreImportantEventGivesTheRecordingItsTimeAndALessImportantOneJoins) {
+  RecordingTrigger both = trigger(true, true);
+  both.warned(WarningLevel::kReflex, at(0s));
+  both.warned(WarningLevel::kContact, at(4s));
+  both.requested(at(6s));
+  both.warned(WarningLevel::kClear, at(6s));
+  both.warned(WarningLevel::kContact, at(7s));
+  EXPECT_FALSE(both.due(at(8s)));
+  EXPECT_TRUE(both.due(at(9s)));
+  EXPECT_EQ(both.take()->cause, RecordingCause::kContact);
+  EXPECT_FALSE(both.take());
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
