@@ -58,6 +58,7 @@ Retreat run(RetreatKind kind, ClosedLoop loop, const std::vector<Twist>& command
   for (const Twist& command_W : commands_W) {
     if (!opensEveryGap(loop.scene(), loop.X_MT(), command_W)) break;
     const LoopCycle cycle = loop.run(command_W);
+    ++retreat.commands;
     seconds += toSeconds(kCommandPeriod);
     retreat.speed_kept = std::min(
         {retreat.speed_kept, keptOf(cycle.output_W.v_W, command_W.v_W), keptOf(cycle.output_W.w_W, command_W.w_W)});
@@ -107,6 +108,8 @@ std::vector<Retreat> retreatFrom(const HeldTool& held, const RobotLimits& limits
       if (tries <= kTries) retreats.push_back(run(kind, held.loop, speedUpTo(twist_W, limits)));
     }
   }
+  const auto none = [](const Retreat& retreat) { return retreat.commands == 0; };
+  retreats.erase(std::remove_if(retreats.begin(), retreats.end(), none), retreats.end());
   return retreats;
 }
 

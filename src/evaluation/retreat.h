@@ -19,6 +19,7 @@ constexpr size_t kRetreatKinds = 4;
 
 struct Retreat {
   RetreatKind kind;
+  size_t commands = 0;  ///< how many it lasted
   /// Least share of the commanded velocity that was passed on, of translation and turn the smaller one.
   double speed_kept = 1.0;
   std::optional<double> time_until_free;  ///< until the gap had grown by kFree [s]
@@ -40,7 +41,7 @@ bool opensEveryGap(const LoopScene& scene, const Eigen::Isometry3d& X_MT, const 
 /// Lets the tool retreat from one place along the normal of the surface, as it came, and `random_count` times each in
 /// random directions that open every gap, with and without a turn. A retreat begins at the speed 0, speeds up as the
 /// robot can and lasts 0.3 s, or, as it came, 0.5 s. It ends before a command that does not open every gap: beside the
-/// edge of a surface, its normal does not lead away from it.
+/// edge of a surface, its normal does not lead away from it. One that ends before its first command is left out.
 std::vector<Retreat> retreatFrom(const HeldTool& held, const RobotLimits& limits, size_t random_count, Random& random);
 
 }  // namespace sweep_guard_evaluation

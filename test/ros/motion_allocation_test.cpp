@@ -89,8 +89,8 @@ TEST_F(MotionAllocationTest, OfACommandThatIsSlowedDownOnlyItsCopyAndTheStatusAl
   expectAllocations(
       made, kThreads,
       {{"ros::Publisher::publish", false, 4.2, "roscpp: the command, and both forms of the status"},
-       {"boost::make_shared", true, 1.0, "nodelets keep what is published: each command is its own message"},
-       {"statusOf", true, 4.0, "names and text, which change with the gap"}},
+       {"boost::make_shared", true, 1.1, "nodelets keep what is published: each command is its own message"},
+       {"statusOf", true, 4.1, "names and text, which change with the gap"}},
       kCounted);
 }
 
