@@ -19,6 +19,15 @@ def children(pid):
     return found
 
 
+def program(pid):
+    """Path of what it runs; empty: it has ended."""
+    try:
+        with open(f'/proc/{pid}/cmdline') as file:
+            return file.read().split('\0')[0]
+    except (FileNotFoundError, ProcessLookupError):
+        return ''
+
+
 def started(pid):
     return int(status(pid)[19]) / os.sysconf('SC_CLK_TCK')
 

@@ -9,7 +9,7 @@ import threading
 import time
 
 import rosgraph
-from process_table import children
+from process_table import children, program
 
 import link
 import listener
@@ -82,7 +82,7 @@ class GuardedWorld:
 
     def guard(self):
         """Process id of the guard below roslaunch; None: there is none now."""
-        found = children(self.running['guard'].pid)
+        found = [pid for pid in children(self.running['guard'].pid) if program(pid).endswith('sweep_guard_node')]
         return found[0] if found else None
 
     def pids(self, name):

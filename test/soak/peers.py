@@ -9,9 +9,9 @@ from geometry_msgs.msg import PoseStamped, TransformStamped
 from rosgraph_msgs.msg import Clock
 from rospy.impl.tcpros_pubsub import TCPROSHandler
 from sweep_guard import MeshPublisher
-from tf2_msgs.msg import TFMessage
 
 import world
+from transforms import TFMessage
 
 TRANSFORM_LEAD = 0.1  # [s] that transforms are stamped ahead, so that no pose waits for one
 

@@ -20,13 +20,13 @@ import numpy  # noqa: E402
 import rospy  # noqa: E402
 from geometry_msgs.msg import PoseStamped  # noqa: E402
 from sweep_guard.msg import Contacts, DeformableMesh, MeshVertices, Warning  # noqa: E402
-from tf2_msgs.msg import TFMessage  # noqa: E402
 
 import calls  # noqa: E402
 import judge  # noqa: E402
 import process_table  # noqa: E402
 import schedule  # noqa: E402
 import trend  # noqa: E402
+from transforms import TFMessage  # noqa: E402
 import world  # noqa: E402
 from availability import Availability  # noqa: E402
 from guarded_world import GuardedWorld, corruption  # noqa: E402
@@ -484,7 +484,7 @@ def main():
     parser.add_argument('--clock', choices=['both', 'wall', 'simulated'], default='both')
     parser.add_argument('--folder', required=True, help='for the logs')
     options = parser.parse_args()
-    options.slice = max(5.0, min(60.0, options.seconds / 20.0))
+    options.slice = max(15.0, min(60.0, options.seconds / 20.0))
     sys.setswitchinterval(0.0005)
     clocks = {'both': (False, True), 'wall': (False,), 'simulated': (True,)}[options.clock]
     results = Results(options)
