@@ -60,6 +60,7 @@ class Part:
         self.expected_end = 0.0  # until when the guard may end
         self.pid = None
         self.run = None
+        self.begin = time.monotonic()  # of the events
         self.over = False
 
     # What departs: called by the links just before it does.
@@ -135,8 +136,12 @@ class Part:
             self.lateness = max(late for _, late in recent)
 
     def judge_now_and_then(self):
+        shown = 0
         while not self.over:
             time.sleep(0.5)
+            for finding in self.judge.findings[shown:shown + 20]:
+                print(f'{finding.at - self.begin:.2f} s: {finding.kind}: {finding.text}', flush=True)
+            shown = len(self.judge.findings)
             now = time.monotonic()
             with self.lock:
                 self.judge.judge_contacts(now - SETTLED)
@@ -194,7 +199,7 @@ class Part:
             time.sleep(0.1)
 
     def play(self, events):
-        begin = time.monotonic()
+        self.begin = begin = time.monotonic()
         order = iter(range(10**9))
         waiting = [(event.at, next(order), event) for event in events]
         for period in range(int(self.seconds // self.options.period)):
@@ -212,7 +217,7 @@ class Part:
                 else:
                     print(schedule.text(what), flush=True)
                     self.results.events[what.what] += 1
-                    after = self.begin(what)
+                    after = self.do(what)
                 if after is not None:
                     heapq.heappush(waiting, (at + after[0], next(order), after[1]))
         self.wait_for_the_last()
@@ -222,7 +227,7 @@ class Part:
         with self.lock:
             self.judge.judge_contacts(time.monotonic() - 0.5)
 
-    def begin(self, event):
+    def do(self, event):
         """Begins what an event says. Returns after how many seconds which function ends it, or None."""
         now = time.monotonic()
         with self.lock:
