@@ -11,6 +11,7 @@ import xmlrpc.client
 
 import rospy
 from geometry_msgs.msg import Point, PoseStamped, TwistStamped
+from process_table import children, resident, started
 from shape_msgs.msg import MeshTriangle
 from sweep_guard.msg import Contacts, DeformableMesh, MeshVertices, View, Warning
 
@@ -171,32 +172,6 @@ def has(reason):
 
 def age_of_pose(warning):
     return (warning.valid_until - warning.header.stamp).to_sec() - VALID
-
-
-def status(pid):
-    """Fields of /proc/PID/stat from the third on."""
-    with open(f'/proc/{pid}/stat') as file:
-        return file.read().rpartition(')')[2].split()
-
-
-def children(pid):
-    found = []
-    for name in filter(str.isdigit, os.listdir('/proc')):
-        try:
-            if int(status(name)[1]) == pid:
-                found.append(int(name))
-        except (FileNotFoundError, ProcessLookupError):
-            pass
-    return found
-
-
-def started(pid):
-    return int(status(pid)[19]) / os.sysconf('SC_CLK_TCK')
-
-
-def resident(pid):
-    with open(f'/proc/{pid}/statm') as file:
-        return int(file.read().split()[1]) * os.sysconf('SC_PAGESIZE') / 1e6
 
 
 class Table:

@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""The judge of the soak: finds what is planted, and nothing in the warnings of a guard that is right."""
+import unittest
+
+import judge
+import trend
+import world
+
+BEGIN = 1600.0  # [s] of the monotonic clock, a multiple of world.CYCLE
+LEAPS = world.TOOL_LEAP + world.PLATE_LEAP
+HOLD = 0.5  # [s]
+
+
+def nanoseconds(t):
+    return int(round(1e9 * t))
+
+
+def in_plate(t):
+    tip, top = world.ends_in_world(*world.tool_in_tracker(t))
+    height = world.plate_heights(t, tip[0])
+    return tip[2] < height < top[2]
+
+
+def in_contact(t):
+    """Whether the tool was in contact within HOLD before t."""
+    if any(leap <= t - BEGIN <= leap + HOLD for leap in LEAPS):
+        return True
+    return any(in_plate(t - HOLD * share / 20.0) for share in range(21))
+
+
+def spoken(t, level=None, pose_at=None, published=None, run='first', reasons=0):
+    if level is None:
+        level = judge.CONTACT if in_contact(t) else judge.CLEAR
+    stamp = nanoseconds(round(t, 3) if pose_at is None else pose_at)
+    published = nanoseconds(t if published is None else published)
+    return judge.Spoken(t, stamp, published, level, level == judge.CLEAR, reasons, 0, run, 'text')
+
+
+class Soak:
+    """Sends the whole cycle to a judge, and what a guard says to it."""
+
+    def __init__(self, lost=lambda kind, t: False):
+        self.judge = judge.Judge()
+        self.lost = lost
+        self.x = world.plate_corners()[0]
+
+    def run(self, says=spoken, until=world.CYCLE):
+        for millisecond in range(int(1000 * until)):
+            t = BEGIN + 0.001 * millisecond
+            if millisecond % 20 == 0 and not self.lost('tf', t - BEGIN):
+                self.judge.transform(t, nanoseconds(t + 0.1))
+            if millisecond % 16 == 0 and not self.lost('mesh', t - BEGIN):
+                self.judge.mesh(t, nanoseconds(t), world.plate_heights(t, self.x))
+            if not self.lost('pose', t - BEGIN):
+                self.judge.pose(t, nanoseconds(t), *world.ends_in_world(*world.tool_in_tracker(t)))
+            if millisecond % 50 == 0 and millisecond > 0:
+                said = says(t)
+                if said is not None:
+                    self.judge.warning(said, nanoseconds(t))
+            if millisecond % 500 == 0:
+                self.judge.judge_contacts(t - 1.0)
+        self.judge.judge_contacts(BEGIN + until)
+        return self.judge
+
+    def kinds(self, says=spoken, until=world.CYCLE):
+        return {finding.kind for finding in self.run(says, until).findings}
+
+
+def levels_but(begin, end, level):
+    """A guard that is right, but between two times of the cycle."""
+    return lambda t: spoken(t, level) if begin <= t - BEGIN < end else spoken(t)
+
+
+class JudgeTest(unittest.TestCase):
+    def test_finds_nothing_in_the_warnings_of_a_guard_that_is_right(self):
+        judged = Soak().run()
+        self.assertEqual(judged.findings, [])
+        self.assertEqual(judged.counts['contacts judged'], 6)  # two dips, four leaps
+        self.assertGreater(judged.counts['CLEAR with a decided place'], 100)
+
+    def test_finds_clear_in_the_plate(self):
+        self.assertIn('false CLEAR', Soak().kinds(levels_but(3.4, 3.5, judge.CLEAR)))
+
+    def test_finds_a_dip_that_was_not_warned_of(self):
+        unknown = levels_but(2.0, 5.0, judge.UNKNOWN)
+        self.assertEqual(Soak().kinds(unknown), {'missed contact'})
+
+    def test_finds_a_leap_of_the_tool_through_the_plate_that_was_not_warned_of(self):
+        self.assertEqual(Soak().kinds(levels_but(5.9, 6.9, judge.CLEAR)), {'missed contact'})
+
+    def test_finds_a_leap_of_the_plate_over_the_tool_that_was_not_warned_of(self):
+        self.assertEqual(Soak().kinds(levels_but(10.9, 11.9, judge.CLEAR)), {'missed contact'})
+
+    def test_finds_a_contact_across_a_gap_of_the_poses(self):
+        gap = lambda kind, t: kind == 'pose' and 5.5 <= t < 6.3
+        says = lambda t: spoken(t, judge.UNKNOWN, pose_at=BEGIN + 5.499 if t - BEGIN < 6.3 else None) \
+            if 5.5 <= t - BEGIN < 7.15 else spoken(t)
+        self.assertEqual(Soak(gap).kinds(says), {'missed contact'})
+
+    def test_finds_clear_on_a_stale_pose(self):
+        says = lambda t: spoken(t, pose_at=round(t - 0.11, 3)) if 1.0 <= t - BEGIN < 1.1 else spoken(t)
+        self.assertEqual(Soak().kinds(says), {'false CLEAR'})
+        says = lambda t: spoken(t, pose_at=round(t - 0.09, 3)) if 1.0 <= t - BEGIN < 1.1 else spoken(t)
+        self.assertEqual(Soak().kinds(says), set())
+
+    def test_finds_clear_without_fresh_meshes(self):
+        silent = lambda kind, t: kind == 'mesh' and 0.5 <= t < 2.5
+        self.assertEqual(Soak(silent).kinds(), {'false CLEAR'})
+        brief = lambda kind, t: kind == 'mesh' and 0.5 <= t < 0.98
+        self.assertEqual(Soak(brief).kinds(), set())
+
+    def test_finds_clear_without_a_transform(self):
+        silent = lambda kind, t: kind == 'tf' and 0.5 <= t < 2.0
+        self.assertEqual(Soak(silent).kinds(), {'false CLEAR'})
+
+    def test_finds_clear_on_a_pose_that_was_not_sent(self):
+        says = lambda t: spoken(t, pose_at=round(t, 3) - 0.0005) if 1.0 <= t - BEGIN < 1.1 else spoken(t)
+        self.assertEqual(Soak().kinds(says), {'false CLEAR'})
+
+    def test_finds_clear_that_is_valid_for_too_long(self):
+        says = lambda t: spoken(t, published=t + 0.05) if 1.0 <= t - BEGIN < 1.1 else spoken(t)
+        self.assertEqual(Soak().kinds(says), {'false CLEAR'})
+
+    def test_finds_clear_while_the_clock_stands_still_and_nothing_is_sent(self):
+        silent = lambda kind, t: t >= 1.0
+        soak = Soak(silent)
+        soak.run(until=1.0)
+        stands = nanoseconds(BEGIN + 0.999)
+        for t, kinds in ((1.2, set()), (1.5, {'false CLEAR'})):
+            said = judge.Spoken(BEGIN + t, stands, stands, judge.CLEAR, True, 0, 0, 'first', 'text')
+            soak.judge.warning(said, stands)
+            self.assertEqual({finding.kind for finding in soak.judge.findings}, kinds)
+
+    def test_finds_clear_of_a_disabled_guard(self):
+        soak = Soak()
+        soak.judge.disabled.append((BEGIN + 0.5, BEGIN + 1.5))
+        self.assertEqual(soak.kinds(until=2.0), {'false CLEAR'})
+
+    def test_takes_a_level_that_is_only_held_for_no_warning(self):
+        held = lambda t: spoken(t, judge.CONTACT)._replace(held_since=nanoseconds(BEGIN + 2.0)) \
+            if 2.0 <= t - BEGIN < 5.0 else spoken(t)
+        self.assertEqual(Soak().kinds(held), {'missed contact'})
+
+    def test_judges_no_contact_that_is_intended_or_between_two_guards(self):
+        soak = Soak()
+        soak.judge.intended.append((BEGIN + 2.5, BEGIN + 5.0))
+        self.assertEqual(soak.kinds(levels_but(2.6, 4.9, judge.CLEAR)), set())
+        restarted = lambda t: spoken(t, judge.UNKNOWN, run='second') if t - BEGIN > 3.5 else spoken(t)
+        self.assertEqual(Soak().kinds(restarted, until=5.0), set())
+
+    def test_decides_nothing_near_the_plate(self):
+        soak = Soak().run(until=1.0)
+        height = float(world.plate_heights(BEGIN + 0.9, 0.0))
+        for z, side in ((0.02, judge.ABOVE), (-0.03, judge.CROSSING), (-0.2, judge.BELOW), (0.001, judge.UNDECIDED)):
+            pose = judge.Pose(BEGIN + 0.9, nanoseconds(BEGIN + 0.9), (0.0, 0.0, height + z), (0.0, 0.0, height + z + 0.15), True)
+            self.assertEqual(soak._side_of([pose])[0], side)
+
+
+class TrendTest(unittest.TestCase):
+    def samples(self, growth, noise=1.0):
+        """An hour of two processes. growth: per hour"""
+        value = 0.5
+        for at in range(3600):
+            value = (value * 9301.0 + 0.49297) % 1.0
+            group = 'first' if at < 1500 else 'second'
+            yield group, float(at), (50.0 if group == 'first' else 90.0) + growth * at / 3600.0 + noise * (value - 0.5)
+
+    def test_finds_planted_growth_and_its_size(self):
+        fitted = trend.fit(self.samples(growth=5.0), 60.0)
+        self.assertFalse(trend.is_flat(fitted, negligible=1.0))
+        self.assertLess(abs(fitted.slope - 5.0), fitted.error)
+        self.assertLess(fitted.error, 1.0)
+
+    def test_takes_noise_and_another_process_for_no_growth(self):
+        self.assertTrue(trend.is_flat(trend.fit(self.samples(growth=0.0), 60.0), negligible=0.0))
+        self.assertTrue(trend.is_flat(trend.fit(self.samples(growth=0.5), 60.0), negligible=1.0))
+
+    def test_says_nothing_about_too_few(self):
+        self.assertIsNone(trend.fit(list(self.samples(growth=0.0))[:180], 60.0))
+
+    def test_knows_the_quantiles_of_t(self):
+        for freedom, quantile in ((4, 2.776), (10, 2.228), (100, 1.984)):
+            self.assertAlmostEqual(trend.quantile_of_t(freedom), quantile, delta=0.01 * quantile)
+
+
+if __name__ == '__main__':
+    unittest.main()
