@@ -75,8 +75,7 @@ struct PermissionDecision {
 /// | inputs | permission |
 /// |---|---|
 /// | no command, or one older than `command_timeout` | kStop |
-/// | no warning, pose or planes for longer than `silence`, an older pose than `pose_age`, planes past `valid_until`, level
-/// UNKNOWN | kEscape or kStop |
+/// | warning, pose or planes silent for `silence`; an old pose, planes past `valid_until`, UNKNOWN | kEscape or kStop |
 /// | planes that are incomplete or of an unknown tool | kStop |
 /// | otherwise | kLimited |
 ///
