@@ -84,7 +84,7 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
   collectFacing(inputs, command, inputs.pose->X_WT);
   collectFacing(inputs, command, expected_WT);
   UncoveredSurfaces uncovered = inputs.planes->uncovered;
-  uncovered.distance -= distance(inputs.pose->X_WT, expected_WT, limits.tool_radius);
+  uncovered.distance -= motionSincePlanes(inputs, expected_WT, now);
 
   motion.twist_W = motion.decision.permission == Permission::kLimited
                        ? limiter_.limit(command.twist_W, facing_, uncovered, limits)
@@ -98,8 +98,16 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
 Eigen::Isometry3d MotionGuard::expectedPose(const MotionInputs& inputs, const MotionCommand& command,
                                             const Instant& now) const {
   if (command.rest_WT) return *command.rest_WT;
-  const Duration window = age(inputs.pose->timestamps, now) + options_.dead_time + 2 * options_.time_constant;
-  return in_flight_.expectedPose(inputs.pose->X_WT, now.steady, window);
+  return in_flight_.expectedPose(inputs.pose->X_WT, now.steady, age(inputs.pose->timestamps, now) + settlingTime());
+}
+
+// Planes are carried by the newest pose. A distance as a whole cannot be: any point may have come nearer since it was
+// computed.
+double MotionGuard::motionSincePlanes(const MotionInputs& inputs, const Eigen::Isometry3d& expected_WT,
+                                      const Instant& now) const {
+  const double radius = radiusAbout(Eigen::Vector3d::Zero(), *inputs.tool);
+  const Duration window = age(inputs.planes->timestamps, now) + settlingTime();
+  return std::max(distance(inputs.pose->X_WT, expected_WT, radius), in_flight_.pathLength(now.steady, window, radius));
 }
 
 BrakingLimits MotionGuard::brakingLimits(const MotionInputs& inputs, const MotionCommand& command,

@@ -2,30 +2,64 @@
 
 #include <algorithm>
 
+#include "sweep_guard/motion/braking.h"
+
 namespace sweep_guard_core {
+namespace {
+
+constexpr Duration kTwoShortest = std::chrono::milliseconds(2);  // periods
+
+}  // namespace
 
 void MotionInFlight::add(const Twist& twist_W, SteadyTime sent) {
+  if (count_ >= 2 && sent - before(1).sent < kTwoShortest) joinNewest(sent);
   ring_[next_] = {twist_W, sent};
   next_ = (next_ + 1) % kCapacity;
   count_ = std::min(count_ + 1, kCapacity);
 }
 
-Eigen::Isometry3d MotionInFlight::expectedPose(const Eigen::Isometry3d& X_WT, SteadyTime now, Duration window) const {
-  Eigen::Vector3d moved_W = Eigen::Vector3d::Zero();
-  Eigen::Vector3d turned_W = Eigen::Vector3d::Zero();
+// The newest two become one that moves the tool as far until then.
+void MotionInFlight::joinNewest(SteadyTime until) {
+  const Sent newest = before(0);
+  next_ = placeBefore(next_, 0);
+  --count_;
+  Sent& joined = ring_[placeBefore(next_, 0)];
+  const Duration whole = until - joined.sent;
+  const double share = whole > Duration::zero() ? toSeconds(until - newest.sent) / toSeconds(whole) : 1.0;
+  joined.twist_W.v_W += share * (newest.twist_W.v_W - joined.twist_W.v_W);
+  joined.twist_W.w_W += share * (newest.twist_W.w_W - joined.twist_W.w_W);
+}
+
+// Calls visit(twist, seconds) for each velocity that was sent within the window, the newest first.
+template <typename Visit>
+void MotionInFlight::visit(SteadyTime now, Duration window, const Visit& visit) const {
   SteadyTime until = now;
   for (size_t i = 0; i < count_ && until > now - window; ++i) {
     const Sent& sent = before(i);
-    const double seconds = toSeconds(until - std::max(sent.sent, now - window));
-    moved_W += seconds * sent.twist_W.v_W;
-    turned_W += seconds * sent.twist_W.w_W;
+    visit(sent.twist_W, toSeconds(until - std::max(sent.sent, now - window)));
     until = sent.sent;
   }
+}
+
+Eigen::Isometry3d MotionInFlight::expectedPose(const Eigen::Isometry3d& X_WT, SteadyTime now, Duration window) const {
+  Eigen::Vector3d moved_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turned_W = Eigen::Vector3d::Zero();
+  visit(now, window, [&](const Twist& twist_W, double seconds) {
+    moved_W += seconds * twist_W.v_W;
+    turned_W += seconds * twist_W.w_W;
+  });
   Eigen::Isometry3d expected_WT = X_WT;
   expected_WT.translation() += moved_W;
   const double angle = turned_W.norm();
   if (angle > 0.0) expected_WT.linear() = Eigen::AngleAxisd(angle, turned_W / angle) * X_WT.linear();
   return expected_WT;
+}
+
+double MotionInFlight::pathLength(SteadyTime now, Duration window, double tool_radius) const {
+  double length = 0.0;
+  visit(now, window,
+        [&](const Twist& twist_W, double seconds) { length += seconds * fastestPoint(twist_W, tool_radius); });
+  return length;
 }
 
 }  // namespace sweep_guard_core

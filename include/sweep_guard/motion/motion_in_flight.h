@@ -14,10 +14,11 @@ namespace sweep_guard_core {
 /// of the tool both where it is and where it is expected.
 class MotionInFlight {
  public:
-  /// How many velocities are remembered: 1 s at 1 kHz.
+  /// How many velocities are remembered: 1 s at 1 kHz, and no less at higher rates.
   static constexpr size_t kCapacity = 1024;
 
-  /// Adds a velocity that takes effect until the next one.
+  /// Adds a velocity that takes effect until the next one. Of velocities that follow each other within 2 ms, the mean is
+  /// remembered.
   /// @param sent  not before that of the last call
   void add(const Twist& twist_W, SteadyTime sent);
 
@@ -28,6 +29,11 @@ class MotionInFlight {
   /// @param window  age of the pose + the robot's dead time + twice the time constant of its lag, >= 0
   Eigen::Isometry3d expectedPose(const Eigen::Isometry3d& X_WT, SteadyTime now, Duration window) const;
 
+  /// Returns an upper bound of the path of any tool point [m] while the robot carries out what was sent in the last
+  /// `window`. Arguments as for expectedPose().
+  /// @param tool_radius  largest distance of a tool point from the origin of the tool frame [m], >= 0
+  double pathLength(SteadyTime now, Duration window, double tool_radius) const;
+
   void clear() { count_ = 0; }  ///< the robot has rested for longer than the window
 
  private:
@@ -35,7 +41,11 @@ class MotionInFlight {
     Twist twist_W;
     SteadyTime sent;
   };
-  const Sent& before(size_t newest) const { return ring_[(next_ + kCapacity - 1 - newest) % kCapacity]; }
+  static size_t placeBefore(size_t next, size_t newest) { return (next + kCapacity - 1 - newest) % kCapacity; }
+  const Sent& before(size_t newest) const { return ring_[placeBefore(next_, newest)]; }
+  void joinNewest(SteadyTime until);
+  template <typename Visit>
+  void visit(SteadyTime now, Duration window, const Visit& visit) const;
 
   std::array<Sent, kCapacity> ring_;
   size_t next_ = 0;
