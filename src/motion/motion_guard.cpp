@@ -84,6 +84,7 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
   collectFacing(inputs, command, inputs.pose->X_WT);
   collectFacing(inputs, command, expected_WT);
   UncoveredSurfaces uncovered = inputs.planes->uncovered;
+  // Planes are carried by the newest pose. A distance as a whole cannot be: any point may have come nearer.
   const double radius = radiusAbout(Eigen::Vector3d::Zero(), *inputs.tool);
   uncovered.distance -= std::max(distance(inputs.planes->X_WT, inputs.pose->X_WT, radius),
                                  distance(inputs.planes->X_WT, expected_WT, radius));
@@ -100,8 +101,7 @@ void MotionGuard::limit(const MotionInputs& inputs, const MotionCommand& command
 Eigen::Isometry3d MotionGuard::expectedPose(const MotionInputs& inputs, const MotionCommand& command,
                                             const Instant& now) const {
   if (command.rest_WT) return *command.rest_WT;
-  const Duration window = age(inputs.pose->timestamps, now) + options_.dead_time + 2 * options_.time_constant;
-  return in_flight_.expectedPose(inputs.pose->X_WT, now.steady, window);
+  return in_flight_.expectedPose(inputs.pose->X_WT, now.steady, age(inputs.pose->timestamps, now) + settlingTime());
 }
 
 BrakingLimits MotionGuard::brakingLimits(const MotionInputs& inputs, const MotionCommand& command,

@@ -3,11 +3,29 @@
 #include <algorithm>
 
 namespace sweep_guard_core {
+namespace {
+
+constexpr Duration kTwoShortest = std::chrono::milliseconds(2);  // periods
+
+}  // namespace
 
 void MotionInFlight::add(const Twist& twist_W, SteadyTime sent) {
+  if (count_ >= 2 && sent - before(1).sent < kTwoShortest) joinNewest(sent);
   ring_[next_] = {twist_W, sent};
   next_ = (next_ + 1) % kCapacity;
   count_ = std::min(count_ + 1, kCapacity);
+}
+
+// The newest two become one that moves the tool as far until then.
+void MotionInFlight::joinNewest(SteadyTime until) {
+  const Sent newest = before(0);
+  next_ = placeBefore(next_, 0);
+  --count_;
+  Sent& joined = ring_[placeBefore(next_, 0)];
+  const Duration whole = until - joined.sent;
+  const double share = whole > Duration::zero() ? toSeconds(until - newest.sent) / toSeconds(whole) : 1.0;
+  joined.twist_W.v_W += share * (newest.twist_W.v_W - joined.twist_W.v_W);
+  joined.twist_W.w_W += share * (newest.twist_W.w_W - joined.twist_W.w_W);
 }
 
 Eigen::Isometry3d MotionInFlight::expectedPose(const Eigen::Isometry3d& X_WT, SteadyTime now, Duration window) const {

@@ -155,6 +155,48 @@ TEST(MotionGuardTest, WhatNoPlaneStandsForIsNearerSinceThePlanesByTheWayOfTheFar
               stoppingSpeed(left - 0.002, {1.0, 0.01, 0.002, 0.051}), 1e-9);
 }
 
+// Its origin and its tip turn by as much, but not as far.
+TEST(MotionGuardTest, WhatNoPlaneStandsForIsAsNearAsTheFarthestPointBringsIt) {
+  PlaneSet planes = *wall(1000);
+  planes.planes.clear();
+  planes.uncovered = {0.05, 0.0};
+  planes.X_WT = poseAt(0.5);
+  MotionInputs inputs = inputsAt(1000, 0.5);
+  inputs.planes = std::make_shared<const PlaneSet>(planes);
+  inputs.tool = std::make_shared<const ToolBalls>(ToolBalls{1, {{{Vector3d(0.5, 0.0, 0.0), 0.0}}}});
+  MotionCommand command = moving({0.0, 1.0, 0.0}, 1000);
+  command.point_T = Vector3d(0.5, 0.0, 0.0);
+  command.rest_WT = inputs.pose->X_WT * Eigen::AngleAxisd(0.1, Vector3d::UnitZ());
+  MotionGuard guard({});
+  EXPECT_TRUE(isZero(guard.guard(inputs, command, at(1000)).twist_W));
+}
+
+// The tool drives at a wall that no plane stands for. The distance is that of a pose which is older than the newest one.
+TEST(MotionGuardTest, StopsBeforeWhatNoPlaneStandsForHoweverOldTheDistanceIs) {
+  for (const int age_ms : {1, 20, 50, 100}) {
+    for (const double deceleration : {1.0, 5.0, 20.0}) {
+      MotionGuardOptions options;
+      options.deceleration = deceleration;
+      MotionGuard guard(options);
+      std::vector<double> path = {0.1};
+      for (int ms = 0; ms < 3000; ++ms) {
+        const int before = std::max(0, ms - age_ms);
+        PlaneSet planes = *wall(before);
+        planes.planes.clear();
+        planes.uncovered.distance = path[static_cast<size_t>(before)] - 0.001;
+        planes.X_WT = poseAt(path[static_cast<size_t>(before)]);
+        MotionInputs inputs = inputsAt(ms, path.back());
+        inputs.planes = std::make_shared<const PlaneSet>(planes);
+        MotionCommand command = moving({-1.0, 0.0, 0.0}, ms);
+        command.period = milliseconds(1);
+        path.push_back(path.back() + 1e-3 * guard.guard(inputs, command, at(ms)).twist_W.v_W.x());
+      }
+      EXPECT_GE(path.back(), 0.003 - 1e-6) << age_ms << " ms, " << deceleration << " m/s^2";
+      EXPECT_LE(path.back(), 0.003 + 1e-4) << age_ms << " ms, " << deceleration << " m/s^2";
+    }
+  }
+}
+
 TEST(MotionGuardTest, StopsWithoutAWarningPlanesAPoseATool) {
   const auto stops = [](const MotionInputs& inputs, PermissionCause cause) {
     MotionGuard guard(withEscape());

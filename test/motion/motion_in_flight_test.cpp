@@ -11,6 +11,7 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
 SteadyTime at(int ms) { return SteadyTime(milliseconds(ms)); }
@@ -50,6 +51,20 @@ TEST(MotionInFlightTest, ForgetsTheOldest) {
   in_flight.clear();
   EXPECT_TRUE(
       in_flight.expectedPose(Isometry3d::Identity(), at(count), milliseconds(100)).isApprox(Isometry3d::Identity()));
+}
+
+TEST(MotionInFlightTest, RemembersOneSecondAtAnyRate) {
+  MotionInFlight in_flight;
+  for (int i = 0; i < 20'000; ++i) in_flight.add(along(i % 2 == 0 ? 1.5 : 0.5), at(0) + i * microseconds(50));
+  const Isometry3d expected = in_flight.expectedPose(Isometry3d::Identity(), at(1000), milliseconds(1000));
+  EXPECT_NEAR(expected.translation().x(), 1.0, 1e-3);
+}
+
+TEST(MotionInFlightTest, VelocitiesAtTheSameMomentDoNotAddUp) {
+  MotionInFlight in_flight;
+  for (int i = 0; i < 5; ++i) in_flight.add(along(1.0 + i), at(0));
+  const Isometry3d expected = in_flight.expectedPose(Isometry3d::Identity(), at(10), milliseconds(100));
+  EXPECT_NEAR(expected.translation().x(), 0.05, 1e-12);
 }
 
 // A robot that follows commands after a dead time and with a first-order lag, before a wall at x = 0.

@@ -86,6 +86,7 @@ class MotionGuard {
  private:
   void limit(const MotionInputs& inputs, const MotionCommand& command, const Instant& now, GuardedMotion& motion);
   Eigen::Isometry3d expectedPose(const MotionInputs& inputs, const MotionCommand& command, const Instant& now) const;
+  Duration settlingTime() const { return options_.dead_time + 2 * options_.time_constant; }
   BrakingLimits brakingLimits(const MotionInputs& inputs, const MotionCommand& command, const Instant& now) const;
   void collectFacing(const MotionInputs& inputs, const MotionCommand& command, const Eigen::Isometry3d& X_WT);
   std::optional<GuardedMotion::Limiting> limiting(const Twist& command_W, const BrakingLimits& limits) const;

@@ -14,10 +14,11 @@ namespace sweep_guard_core {
 /// of the tool both where it is and where it is expected.
 class MotionInFlight {
  public:
-  /// How many velocities are remembered: 8 s at 1 kHz, more than the longest window of motion_guard.
+  /// How many velocities are remembered: 8 s at 1 kHz, and no less at higher rates.
   static constexpr size_t kCapacity = 8192;
 
-  /// Adds a velocity that takes effect until the next one.
+  /// Adds a velocity that takes effect until the next one. Of velocities that follow each other within 2 ms, the mean is
+  /// remembered.
   /// @param sent  not before that of the last call
   void add(const Twist& twist_W, SteadyTime sent);
 
@@ -35,7 +36,9 @@ class MotionInFlight {
     Twist twist_W;
     SteadyTime sent;
   };
-  const Sent& before(size_t newest) const { return ring_[(next_ + kCapacity - 1 - newest) % kCapacity]; }
+  static size_t placeBefore(size_t next, size_t newest) { return (next + kCapacity - 1 - newest) % kCapacity; }
+  const Sent& before(size_t newest) const { return ring_[placeBefore(next_, newest)]; }
+  void joinNewest(SteadyTime until);
 
   std::array<Sent, kCapacity> ring_;
   size_t next_ = 0;
