@@ -8,7 +8,9 @@
 #include <ros/service_manager.h>
 #include <ros/this_node.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 namespace sweep_guard_ros {
@@ -17,6 +19,7 @@ namespace {
 using XmlRpc::XmlRpcValue;
 
 constexpr auto kPeriod = std::chrono::seconds(1);
+constexpr int kChecksPerLook = 3;  // for publishers that are missing
 // roscpp keeps no list of them.
 constexpr std::array kServices = {"acknowledge", "check_sweep", "enable", "intend",       "predict",
                                   "rebase",      "reset",       "save",   "save_profile", "set_parameters"};
@@ -64,7 +67,11 @@ void MasterWatch::check() {
   if (!answers_ && answers) ROS_WARN("the ROS master answers again");
   answers_ = answers;
   if (!answers) return;
-  if ((node->success && master == master_) || !registerAnew()) return;
+  if (node->success && master == master_) {
+    if (++checks_ % kChecksPerLook == 0) connectMissing();
+    return;
+  }
+  if (!registerAnew()) return;
   master_ = master;
   ROS_WARN("the ROS master was started anew: topics, services and parameters are registered there again");
 }
@@ -131,6 +138,46 @@ std::optional<Publishers> MasterWatch::registerSubscriber(const XmlRpcValue& top
   Publishers publishers;
   for (int i = 0; i < known->value.size(); ++i) publishers.insert(static_cast<const std::string&>(known->value[i]));
   return publishers;
+}
+
+// Those that were missing at the last look, too: a publisher that has just begun is being connected.
+void MasterWatch::connectMissing() {
+  auto missing = missingPublishers();
+  if (!missing) return;
+  for (auto& [topic, publishers] : *missing) {
+    const Publishers& before = missing_[topic];
+    Publishers again;
+    std::set_intersection(publishers.begin(), publishers.end(), before.begin(), before.end(),
+                          std::inserter(again, again.end()));
+    if (again.empty()) continue;
+    ROS_WARN_THROTTLE(60.0, "%s of %s is known to the ROS master and not connected: it is connected anew",
+                      again.begin()->c_str(), topic.c_str());
+    updatePublishers(call_, topic, again);
+  }
+  missing_ = std::move(*missing);
+}
+
+std::optional<PublishersOfTopics> MasterWatch::missingPublishers() const {
+  auto state = call_.call(ros::master::getURI(), "getSystemState", {});
+  const auto subscribed = call_.call(ownUri(), "getSubscriptions", {});
+  const auto connected = connectedPublishers(call_);
+  if (!state || !state->success || !subscribed || !connected) return std::nullopt;
+  PublishersOfTopics missing;
+  for (int i = 0; i < subscribed->value.size(); ++i) missing[subscribed->value[i][0]];
+  for (int i = 0; i < state->value[0].size(); ++i) {
+    const XmlRpcValue& published = state->value[0][i];
+    const auto topic = missing.find(published[0]);
+    if (topic == missing.end()) continue;
+    for (int j = 0; j < published[1].size(); ++j) {
+      const auto node = call_.call(ros::master::getURI(), "lookupNode", {published[1][j]});
+      if (node && node->success) topic->second.insert(static_cast<const std::string&>(node->value));
+    }
+    topic->second.erase(ownUri());
+  }
+  for (const auto& [topic, publishers] : *connected) {
+    for (const std::string& publisher : publishers) missing[topic].erase(publisher);
+  }
+  return missing;
 }
 
 bool MasterWatch::request(const std::string& function, const std::vector<XmlRpcValue>& arguments) {

@@ -17,8 +17,9 @@ namespace sweep_guard_ros {
 /// Notices that the ROS master was started anew, which then knows neither this node nor its parameters, and registers
 /// the topics of the process, the services of the guard, of motion_guard and those that each node or nodelet manager has,
 /// and sets the parameters of this node there again. Services of other nodelets are not known. Connections that exist are kept:
-/// poses and meshes arrive as before, also from nodes that the new master does not know. Asks the master once a second,
-/// in a thread of its own.
+/// poses and meshes arrive as before, also from nodes that the new master does not know. A publisher that the master
+/// knows and that is not connected is connected: roscpp gives up for good where a stream of bytes makes no sense. Asks the
+/// master once a second, in a thread of its own.
 class MasterWatch {
  public:
   /// @param settings  returns the private parameters as they are now. Any thread
@@ -38,6 +39,8 @@ class MasterWatch {
   void check();
   std::optional<std::string> identity() const;
   bool registerAnew();
+  void connectMissing();
+  std::optional<PublishersOfTopics> missingPublishers() const;
   bool setParameters();
   bool registerServices();
   bool registerTopics();
@@ -49,6 +52,8 @@ class MasterWatch {
   const std::function<ParameterReader::Settings()> settings_;
   std::atomic<bool> stopping_ = false;
   bool answers_ = true;
+  int checks_ = 0;
+  PublishersOfTopics missing_;  // at the last look
   const XmlRpcCall call_;
   std::optional<std::string> master_;  // identity of the one that knows this node
   TimerThread thread_;

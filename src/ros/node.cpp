@@ -57,7 +57,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       diagnostics_(
           node, private_node,
           {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_, supervisor_}),
-      watchdog_(monitor_, workpieces_, warnings_),
+      watchdog_(frames_, workpieces_, monitor_, warnings_),
       peer_watch_(monitor_) {
   reports_.every(kViewPeriod, [this] { scene_.publishView(); });
   reports_.every(kViewPeriod, [this] { intend_.publishIfChanged(); });

@@ -121,7 +121,7 @@ bool PeerWatch::inputMayBeSilent() {
   return (warning_.reasons & (kNoPose | kPoseStale | kTfFail | kNoMesh | kMeshStale | kDisabled)) != 0;
 }
 
-void PeerWatch::connectAnew(const std::string& publisher, const std::map<std::string, Publishers>& topics) {
+void PeerWatch::connectAnew(const std::string& publisher, const PublishersOfTopics& topics) {
   for (const auto& [topic, publishers] : topics) {
     if (publishers.count(publisher) == 0) continue;
     pending_[topic].insert(publisher);

@@ -29,7 +29,7 @@ class PeerWatch {
   void checkOrLog();
   void check();
   bool inputMayBeSilent();
-  void connectAnew(const std::string& publisher, const std::map<std::string, Publishers>& topics);
+  void connectAnew(const std::string& publisher, const PublishersOfTopics& topics);
   void connectPending();
 
   const sweep_guard_core::WarningMonitor& monitor_;
@@ -37,7 +37,7 @@ class PeerWatch {
   std::atomic<bool> stopping_ = false;
   const XmlRpcCall call_;
   std::set<std::string> out_of_reach_;
-  std::map<std::string, Publishers> pending_;  // by topic: disconnected, and to be connected again
+  PublishersOfTopics pending_;  // by topic: disconnected, and to be connected again
   TimerThread thread_;
 };
 

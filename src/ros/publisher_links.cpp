@@ -10,10 +10,10 @@ using XmlRpc::XmlRpcValue;
 
 std::string ownUri() { return ros::XMLRPCManager::instance()->getServerURI(); }
 
-std::optional<std::map<std::string, Publishers>> connectedPublishers(const XmlRpcCall& call) {
+std::optional<PublishersOfTopics> connectedPublishers(const XmlRpcCall& call) {
   const auto answer = call.call(ownUri(), "getBusInfo", {});
   if (!answer || !answer->success) return std::nullopt;
-  std::map<std::string, Publishers> publishers;
+  PublishersOfTopics publishers;
   for (int i = 0; i < answer->value.size(); ++i) {
     const XmlRpcValue& connection = answer->value[i];
     const std::string& publisher = connection[1];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -9,13 +10,14 @@
 namespace sweep_guard_ros {
 
 using Publishers = std::set<std::string>;  ///< addresses of nodes, http://HOST:PORT
+using PublishersOfTopics = std::map<std::string, Publishers>;
 
 std::string ownUri();  ///< address of this process, as other nodes call it
 
 /// Asks this process, as another node would, which publishers it is connected to.
 /// @returns publishers by topic; empty optional: no answer
 /// @throws XmlRpc::XmlRpcException if the answer cannot be read
-std::optional<std::map<std::string, Publishers>> connectedPublishers(const XmlRpcCall& call);
+std::optional<PublishersOfTopics> connectedPublishers(const XmlRpcCall& call);
 
 /// Connects a topic to some publishers and disconnects it from others; all other connections stay. roscpp takes a list
 /// of publishers as complete, so the connections are read immediately before. A publisher that another node announces

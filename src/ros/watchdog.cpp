@@ -13,9 +13,9 @@ constexpr auto kConsideredPeriod = std::chrono::seconds(1);
 
 }  // namespace
 
-Watchdog::Watchdog(sweep_guard_core::WarningMonitor& monitor, sweep_guard_core::WorkpieceStore& workpieces,
-                   WarningPublisher& warnings)
-    : monitor_(monitor), workpieces_(workpieces), warnings_(warnings) {
+Watchdog::Watchdog(Frames& frames, sweep_guard_core::WorkpieceStore& workpieces,
+                   sweep_guard_core::WarningMonitor& monitor, WarningPublisher& warnings)
+    : frames_(frames), workpieces_(workpieces), monitor_(monitor), warnings_(warnings) {
   thread_.every(kPeriod, [this] {
     checkClock();
     warnings_.publishIfDue();
@@ -25,6 +25,7 @@ Watchdog::Watchdog(sweep_guard_core::WarningMonitor& monitor, sweep_guard_core::
 }
 
 void Watchdog::checkClock() {
+  frames_.checkClock();
   const auto jump = clocks_.jump(now().stamp, suspendedTime());
   if (!jump) return;
   workpieces_.clearStamps();  // first: whoever sees the jump in a warning may send a workpiece with a stamp that counts

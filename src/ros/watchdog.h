@@ -2,6 +2,7 @@
 
 #include "guard/workpiece_store.h"
 #include "ros/clock_watch.h"
+#include "ros/input/frames.h"
 #include "ros/output/warning_publisher.h"
 #include "ros/threads/timer_thread.h"
 #include "sweep_guard/monitor/warning_monitor.h"
@@ -13,7 +14,7 @@ namespace sweep_guard_ros {
 /// thread.
 class Watchdog {
  public:
-  Watchdog(sweep_guard_core::WarningMonitor& monitor, sweep_guard_core::WorkpieceStore& workpieces,
+  Watchdog(Frames& frames, sweep_guard_core::WorkpieceStore& workpieces, sweep_guard_core::WarningMonitor& monitor,
            WarningPublisher& warnings);
 
   void start(Supervisor& supervisor) { thread_.start(supervisor, {"warnings", sweep_guard_core::Stage::kMonitor}); }
@@ -21,8 +22,9 @@ class Watchdog {
  private:
   void checkClock();
 
-  sweep_guard_core::WarningMonitor& monitor_;
+  Frames& frames_;
   sweep_guard_core::WorkpieceStore& workpieces_;
+  sweep_guard_core::WarningMonitor& monitor_;
   WarningPublisher& warnings_;
   ClockWatch clocks_;
   TimerThread thread_;

@@ -123,9 +123,9 @@ class Scene {
     for (Eigen::Vector3d& vertex : vertices_) {
       vertex += shift;
       if (how > 1 && &vertex == &vertices_[bent]) vertex += 2.0 * shift;
-      for (double& coordinate : vertex) {
-        positions.push_back(static_cast<float>(coordinate));
-        coordinate = static_cast<double>(positions.back());
+      for (int axis = 0; axis < 3; ++axis) {
+        positions.push_back(static_cast<float>(vertex[axis]));
+        vertex[axis] = static_cast<double>(positions.back());
       }
     }
     const Time stamp = stampOf(now_ - milliseconds(5));

@@ -400,6 +400,31 @@ TEST_F(NodeTest, TimeThatGoesBackForgetsAndRecovers) {
   moveUntil("square", {0.0, 0.0, 0.0}, {0.0, 0.0, -0.5}, isClear);
 }
 
+TEST_F(NodeTest, TransformsOfTheTimeBeforeItWentBackDoNotCount) {
+  const auto pose_now = [] {
+    auto pose = poseAt({0.0, 0.0, 0.5}, probe().time());
+    pose.header.frame_id = "cart";
+    return pose;
+  };
+  const auto place_frame = [&] {
+    probe().placeFrame("cart", Eigen::Isometry3d::Identity());
+    CheckSweep::Request at_this_stamp;  // answered when the transform has arrived
+    at_this_stamp.path = {pose_now()};
+    ASSERT_TRUE(probe().check(at_this_stamp).success);
+  };
+  placeSquare("square", {0.0, 0.0, 0.0});
+  place_frame();
+  probe().advance(5.0);
+  place_frame();
+  EXPECT_EQ(probe().move(pose_now()).header.stamp, probe().time());
+  probe().setClock(probe().time() - ros::Duration(3.0));
+  probe().publish(pose_now());
+  probe().awaitWarning(hasReason(Warning::TF_FAIL));
+  probe().advance(0.01);
+  place_frame();
+  EXPECT_EQ(probe().move(pose_now()).header.stamp, probe().time());
+}
+
 TEST_F(NodeTest, CheckSweepFindsASquareOnThePath) {
   placeSquare("square", {0.0, 0.0, 0.0});
   const auto response = probe().check(requestAlong({{0.0, 0.0, 1.0}, {0.0, 0.0, 0.5}, {0.0, 0.0, -0.5}}));

@@ -154,6 +154,8 @@ class Part:
         while not self.over:
             time.sleep(1.0)
             pid, now = self.world.guard(), time.monotonic()
+            if self.over:
+                return
             if pid != self.pid:
                 if self.pid is not None and now > self.expected_end:
                     self.results.ended_by_itself.append(now - self.results.begin)

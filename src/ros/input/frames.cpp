@@ -54,9 +54,7 @@ Frames::Frames(const ros::NodeHandle& node, size_t max_message_size,
 
 // Does what tf2's listener does, which reserves whatever memory a message announces and logs names as they come.
 void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static) {
-  const ros::Time at = ros::Time::now();
-  if (at < newest_) buffer_.clear();
-  newest_ = at;
+  checkClock();
   for (const geometry_msgs::TransformStamped& transform : event.getConstMessage()->transforms) {
     sweep_guard_core::beat();
     try {
@@ -71,6 +69,13 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
       log_.error("transform", "transform to '" + printable(transform.child_frame_id) + "' refused: " + error.what());
     }
   }
+}
+
+void Frames::checkClock() {
+  const std::lock_guard lock(clock_mutex_);
+  const ros::Time at = ros::Time::now();
+  if (at < checked_) buffer_.clear();
+  checked_ = at;
 }
 
 void Frames::checkStatic(const geometry_msgs::TransformStamped& transform) {

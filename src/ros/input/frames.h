@@ -51,6 +51,10 @@ class Frames {
   /// Returns the stamp of the newest transform between two frames; empty if there is none; 0 if it never changes.
   std::optional<sweep_guard_core::Time> newest(const std::string& target, const std::string& source) const;
 
+  /// Forgets the transforms that move if time has gone back since the last call: their stamps mean another time now.
+  /// Any thread.
+  void checkClock();
+
   /// Calls back after every transform, in the thread of the listener, until the handle is destroyed.
   std::shared_ptr<void> onChange(std::function<void()> callback);
 
@@ -63,7 +67,8 @@ class Frames {
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  // by child; used by the listener only
   std::set<std::string> known_;                                               // frames in the buffer
   LogThrottle log_;
-  ros::Time newest_;  // when the newest message came
+  std::mutex clock_mutex_;
+  ros::Time checked_;  // time of the last check
   tf2_ros::Buffer buffer_;
   QueueThread thread_;  // before the subscribers, which use its queue
   BoundedSubscriber moving_;

@@ -29,6 +29,7 @@ MotionGuardNode::MotionGuardNode(const ros::NodeHandle& node, const ros::NodeHan
       diagnostics_(node, private_node, {cycle_, guard_, tool_pose_, status_, output_watch_}) {
   ticks_.every(CommandCycle::kTickPeriod, [this] { cycle_.tick(); });
   ticks_.every(kHoldPeriod, [this] { cycle_.publishHold(hold_); });
+  ticks_.every(kHoldPeriod, [this] { frames_.checkClock(); });
   ticks_.every(kStatusPeriod, [this] { status_.publishIfDue(); });
   reports_.every(kDiagnosticsPeriod, [this] { diagnostics_.publish(); });
 }
