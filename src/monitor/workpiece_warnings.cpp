@@ -9,6 +9,7 @@ namespace sweep_guard_core {
 namespace {
 
 void setAlarm(std::optional<WarningInputs::Alarm>& alarm, const PredictedContact& contact, SteadyTime ended) {
+  if (alarm && ended < alarm->ended) return;
   if (!alarm) alarm.emplace();
   alarm->contact = contact;
   alarm->ended = ended;

@@ -140,6 +140,10 @@ void MonitorModel::sweep(const Report& report, std::int64_t now) {
   if (met) contact_ = Contact{*met, now, true};
 }
 
+void MonitorModel::keepAlarm(std::optional<Alarm>& kept, const Alarm& alarm) {
+  if (!kept || kept->ended < alarm.ended) kept = alarm;
+}
+
 void MonitorModel::endExpected(int id, const Clock& now) {
   const auto& expected = expected_[at(id)];
   if (!expected) return;
@@ -147,8 +151,8 @@ void MonitorModel::endExpected(int id, const Clock& now) {
   const std::int64_t since_end = std::max<std::int64_t>(0, old - expected->length);
   const std::int64_t left = expected->from - old + since_end;
   const std::int64_t ended = now.steady - since_end;
-  if (left <= kConsideredEnd + kTick) alarms_[at(id)][0] = Alarm{kConsidered, ended};
-  if (left <= kReflexEnd) alarms_[at(id)][1] = Alarm{kReflex, ended};
+  if (left <= kConsideredEnd + kTick) keepAlarm(alarms_[at(id)][0], {kConsidered, ended});
+  if (left <= kReflexEnd) keepAlarm(alarms_[at(id)][1], {kReflex, ended});
 }
 
 void MonitorModel::predict(const Report& report, const Clock& now) {

@@ -106,6 +106,7 @@ class MonitorModel {
   };
 
   static size_t at(int id) { return static_cast<size_t>(id); }
+  static void keepAlarm(std::optional<Alarm>& kept, const Alarm& alarm);  // the one that ended later
   void newEpoch();
   void endExpected(int id, const Clock& now);
   std::string whyNotSwept(const Clock& now) const;

@@ -160,17 +160,17 @@ class World {
 
   template <typename Request>
   static std::optional<Request> requestFrom(const std::string& bytes) {
+    std::optional<Request> request;
     try {
       const auto* const begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
       sweep_guard_ros::checkLengths<Request>({begin, bytes.size()});
-      Request request;
       Bytes copy(bytes.begin(), bytes.end());
       ros::serialization::IStream stream(copy.data(), static_cast<std::uint32_t>(copy.size()));
-      ros::serialization::deserialize(stream, request);
-      return request;
+      ros::serialization::deserialize(stream, request.emplace());
     } catch (const sweep_guard_core::InvalidInput&) {
-      return {};
+      request.reset();
     }
+    return request;
   }
 
   static void judge(const Exchange<sweep_guard::CheckSweep>& exchange) {

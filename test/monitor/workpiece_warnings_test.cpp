@@ -41,6 +41,16 @@ TEST_F(WarningMonitorTest, AReflexWarningIsHeldWhileAConsideredOneLasts) {
   EXPECT_EQ(levelAt(1511), WarningLevel::kConsidered);
 }
 
+// A later one may have been over before: the prediction from a pose that was old when it came.
+TEST_F(WarningMonitorTest, AHeldWarningIsNotCutShortByALaterOneThatEndedBefore) {
+  predict(collisionOn(workpieces_, 1000, 100), 1000);
+  sweep(reportOf(workpieces_), 1600);
+  monitor_.predicted(collisionOn(workpieces_, 300, 100), timestampsAt(300), monitor_.checkpoint(), at(1600));
+  sweep(reportOf(workpieces_), 1600);
+  EXPECT_EQ(levelAt(2100), WarningLevel::kReflex);
+  EXPECT_NE(levelAt(2101), WarningLevel::kReflex);
+}
+
 TEST_F(WarningMonitorTest, APredictedContactThatWasNeverDueIsNotHeld) {
   predict(collisionOn(workpieces_, 1000, 1050), 1000);
   sweep(reportOf(workpieces_), 1010);
