@@ -136,6 +136,8 @@ class Connection:
     def _pass_on(self, topic, frame):
         length = len(frame)
         corrupt = self.link.corruption
+        if self.garbled and corrupt is None:
+            raise ConnectionError('the subscriber cannot read on')
         if corrupt is not None:
             length, self.garbled = corrupt(frame, self.garbled)
         if not self.garbled:
@@ -182,12 +184,6 @@ class Link:
         for connection in connections:
             connection.close()
 
-    def cut_garbled(self):
-        with self._lock:
-            connections = [connection for connection in self._connections if connection.garbled]
-        for connection in connections:
-            connection.close()
-
 
 def flip_bit(random):
     """Changes one bit of every frame; the frames stay apart."""
@@ -199,7 +195,7 @@ def flip_bit(random):
 
 
 def shorten(random):
-    """Announces fewer or more bytes than follow: nothing on this connection can be read any more."""
+    """Announces fewer or more bytes than follow: nothing can be read any more. Afterwards the connection is closed."""
     def corrupt(frame, _garbled):
         return max(0, len(frame) + random.choice((-7, -1, 1, 3, 64))), True
     return corrupt

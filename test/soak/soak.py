@@ -154,6 +154,9 @@ class Part:
             now = time.monotonic()
             with self.lock:
                 self.judge.judge_contacts(now - SETTLED)
+                for topic, gap in GAPS.items():
+                    if now - self.departed.get(topic, 0.0) > gap:
+                        self.availability.disturbed(now)
                 if now - (self.availability.heard_at or now) > 0.5:
                     self.availability.heard(now, unknown=True)
 
@@ -303,16 +306,15 @@ class Part:
 
     def do_shorten(self, event):
         begin = time.monotonic()
-        _, end = self.do_flip_bits(event)
+        after, end = self.do_flip_bits(event)
 
-        def cut():
+        def end_excused():
             end()
-            self.world.links[event.target].cut_garbled()
             with self.lock:
-                self.judge.excuse(begin, time.monotonic() + 1.0, 'garbled')
+                self.judge.excuse(begin, time.monotonic() + 3.0, 'garbled')
         with self.lock:
             self.judge.excuse(begin, begin + event.duration + 5.0, 'garbled')
-        return event.duration, cut
+        return after, end_excused
 
     def do_step_clock(self, event):
         with self.lock:
