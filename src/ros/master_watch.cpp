@@ -116,21 +116,12 @@ bool MasterWatch::registerTopics() {
 bool MasterWatch::subscribe(const XmlRpcValue& topic) {
   std::optional<Publishers> connected;
   while (true) {
-    auto publishers = registerSubscriber(topic);
+    auto publishers = registerSubscriber(call_, topic[0], topic[1]);
     if (!publishers) return false;
     if (publishers == connected) return true;
     if (!updatePublishers(call_, topic[0], *publishers)) return false;
     connected = std::move(publishers);
   }
-}
-
-std::optional<Publishers> MasterWatch::registerSubscriber(const XmlRpcValue& topic) {
-  const auto known =
-      call_.call(ros::master::getURI(), "registerSubscriber", {topic[0], topic[1], XmlRpcValue(ownUri())});
-  if (!known || !known->success) return std::nullopt;
-  Publishers publishers;
-  for (int i = 0; i < known->value.size(); ++i) publishers.insert(static_cast<const std::string&>(known->value[i]));
-  return publishers;
 }
 
 bool MasterWatch::request(const std::string& function, const std::vector<XmlRpcValue>& arguments) {

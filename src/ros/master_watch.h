@@ -42,7 +42,6 @@ class MasterWatch {
   bool registerServices();
   bool registerTopics();
   bool subscribe(const XmlRpc::XmlRpcValue& topic);
-  std::optional<Publishers> registerSubscriber(const XmlRpc::XmlRpcValue& topic);
   bool request(const std::string& function, const std::vector<XmlRpc::XmlRpcValue>& arguments);
 
   const std::string namespace_;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <iterator>
 #include <thread>
 
 #include "ros/host_address.h"
@@ -18,6 +19,7 @@ namespace sweep_guard_ros {
 namespace {
 
 constexpr auto kPeriod = std::chrono::milliseconds(100);
+constexpr auto kQuestionPeriod = std::chrono::seconds(1);
 constexpr auto kLongestConnect = std::chrono::milliseconds(200);
 constexpr auto kNewName = std::chrono::milliseconds(100);  // until a name is resolved for the first time
 
@@ -95,7 +97,11 @@ void PeerWatch::checkOrLog() {
 
 void PeerWatch::check() {
   connectPending();
-  if (!inputMayBeSilent()) return out_of_reach_.clear();
+  if (!inputMayBeSilent()) {
+    out_of_reach_.clear();
+    not_connected_.clear();
+    return;
+  }
   const auto topics = connectedPublishers(call_);
   if (!topics) return;
   std::map<std::string, Probe> probes;
@@ -113,6 +119,7 @@ void PeerWatch::check() {
       connectAnew(publisher, *topics);
     }
   }
+  if (out_of_reach_.empty()) connectGivenUp(*topics);
 }
 
 bool PeerWatch::inputMayBeSilent() {
@@ -136,6 +143,44 @@ void PeerWatch::connectPending() {
   for (auto topic = pending_.begin(); topic != pending_.end();) {
     topic = updatePublishers(call_, topic->first, topic->second) ? pending_.erase(topic) : std::next(topic);
   }
+}
+
+// What is found twice: roscpp may be about to connect a publisher that registered a moment ago.
+void PeerWatch::connectGivenUp(const std::map<std::string, Publishers>& connected) {
+  const auto time = std::chrono::steady_clock::now();
+  if (time < next_question_) return;
+  next_question_ = time + kQuestionPeriod;
+  auto found = findNotConnected(connected);
+  if (!found) return;
+  for (const auto& [topic, publishers] : *found) {
+    Publishers again;
+    const Publishers& before = not_connected_[topic];
+    std::set_intersection(publishers.begin(), publishers.end(), before.begin(), before.end(),
+                          std::inserter(again, again.end()));
+    if (!again.empty() && updatePublishers(call_, topic, again)) {
+      ROS_WARN_THROTTLE(10.0, "%s is connected anew to its publisher %s", topic.c_str(), again.begin()->c_str());
+    }
+  }
+  not_connected_ = std::move(*found);
+}
+
+std::optional<std::map<std::string, Publishers>> PeerWatch::findNotConnected(
+    const std::map<std::string, Publishers>& connected) const {
+  const auto topics = call_.call(ownUri(), "getSubscriptions", {});
+  if (!topics) return std::nullopt;
+  std::map<std::string, Publishers> found;
+  for (int i = 0; i < topics->value.size(); ++i) {
+    const std::string& topic = topics->value[i][0];
+    auto publishers = registerSubscriber(call_, topic, topics->value[i][1]);
+    if (!publishers) return std::nullopt;
+    publishers->erase(ownUri());
+    const auto known = connected.find(topic);
+    if (known != connected.end()) {
+      for (const std::string& publisher : known->second) publishers->erase(publisher);
+    }
+    if (!publishers->empty()) found[topic] = std::move(*publishers);
+  }
+  return found;
 }
 
 }  // namespace sweep_guard_ros

@@ -1,5 +1,6 @@
 #include "ros/publisher_links.h"
 
+#include <ros/master.h>
 #include <ros/xmlrpc_manager.h>
 
 #include <mutex>
@@ -20,6 +21,16 @@ std::optional<std::map<std::string, Publishers>> connectedPublishers(const XmlRp
     const std::string& direction = connection[2];
     if (direction == "i") publishers[connection[4]].insert(publisher);
   }
+  return publishers;
+}
+
+std::optional<Publishers> registerSubscriber(const XmlRpcCall& call, const std::string& topic,
+                                             const std::string& type) {
+  const auto known = call.call(ros::master::getURI(), "registerSubscriber",
+                               {XmlRpcValue(topic), XmlRpcValue(type), XmlRpcValue(ownUri())});
+  if (!known || !known->success) return std::nullopt;
+  Publishers publishers;
+  for (int i = 0; i < known->value.size(); ++i) publishers.insert(static_cast<const std::string&>(known->value[i]));
   return publishers;
 }
 

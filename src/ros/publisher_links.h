@@ -17,6 +17,11 @@ std::string ownUri();  ///< address of this process, as other nodes call it
 /// @throws XmlRpc::XmlRpcException if the answer cannot be read
 std::optional<std::map<std::string, Publishers>> connectedPublishers(const XmlRpcCall& call);
 
+/// Registers this process at the master as a subscriber, as it may be already, and asks for the publishers of a topic.
+/// @returns empty optional: no answer
+/// @throws XmlRpc::XmlRpcException if the answer cannot be read
+std::optional<Publishers> registerSubscriber(const XmlRpcCall& call, const std::string& topic, const std::string& type);
+
 /// Connects a topic to some publishers and disconnects it from others; all other connections stay. roscpp takes a list
 /// of publishers as complete, so the connections are read immediately before. A publisher that another node announces
 /// in between, and that is connected by then, is disconnected again.
