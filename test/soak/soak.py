@@ -451,6 +451,12 @@ class Results:
     def trends(self):
         return {name: trend.fit(self.samples[name], self.options.slice) for name in TREND_UNITS}
 
+    def write_samples(self, path):
+        with open(path, 'w') as file:
+            file.write('figure,process,seconds,value\n')
+            for name, samples in self.samples.items():
+                file.writelines(f'{name},{group},{at:.1f},{value:.3f}\n' for group, at, value in samples)
+
     def print_page(self):
         counts = self.counts
         seconds = sum(seconds for _, seconds, _ in self.parts)
@@ -514,6 +520,7 @@ def main():
             Part(options, simulated, options.seconds / len(clocks), results).run_all()
     except (TimeoutError, KeyboardInterrupt) as error:
         results.failure = str(error) or 'interrupted'
+    results.write_samples(os.path.join(options.folder, 'samples.csv'))
     results.print_page()
     return 1 if results.problems() else 0
 
