@@ -26,7 +26,7 @@ CLEAR, CONTACT, UNKNOWN = 1, 4, 0  # as in Warning
 NOT_TAKEN = 1 | 4 | 8 | 16 | 32 | 256 | 512 | 16384
 
 Pose = collections.namedtuple('Pose', 'at stamp tip top sure')  # at: departure [s] of the monotonic clock; stamp [ns]
-Mesh = collections.namedtuple('Mesh', 'at stamp heights renewed')  # heights: None if the vertices are on no grid
+Mesh = collections.namedtuple('Mesh', 'at stamp heights renewed late')  # heights: None if the vertices are on no grid
 Transform = collections.namedtuple('Transform', 'at stamp')
 Spoken = collections.namedtuple('Spoken', 'at stamp published level clear reasons held_since run text')
 Finding = collections.namedtuple('Finding', 'kind at text')
@@ -98,8 +98,9 @@ class Judge:
         self.poses.append(pose)
         self.by_stamp.setdefault(stamp, []).append(pose)
 
-    def mesh(self, at, stamp, heights, renewed=False):
-        self.meshes.append(Mesh(at, stamp, heights, renewed))
+    def mesh(self, at, stamp, heights, renewed=False, late=False):
+        """late: departed more than MAX_LAG after its stamp"""
+        self.meshes.append(Mesh(at, stamp, heights, renewed, late))
 
     def transform(self, at, stamp):
         self.transforms.append(Transform(at, stamp))
@@ -262,6 +263,9 @@ class Judge:
 
     def _mesh_excuse(self, span):
         near = [mesh for mesh in self.meshes if span.begin.at - 0.8 <= mesh.at <= span.end.at + 0.3]
+        first, last = span.begin.stamp - 1e9 * (MESH_TIMEOUT + 0.05), span.end.stamp + 1e9 * 0.3
+        if any(mesh.late for mesh in self.meshes if first <= mesh.stamp <= last):
+            return ['mesh late']
         gaps = [b.at - a.at for a, b in zip(near, near[1:])]
         if any(mesh.renewed for mesh in near):
             return ['mesh renewed']

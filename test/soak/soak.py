@@ -109,8 +109,11 @@ class Part:
     def _note_mesh(self, at, stamp, positions, renewed):
         vertices = positions.reshape(self.corners.shape[0], self.corners.shape[1], 3)
         on_grid = numpy.array_equal(vertices[:, :, :2], self.corners)
+        late = self.world.clock.now() - stamp.to_nsec() > 1e9 * judge.MAX_LAG
         with self.lock:
-            self.judge.mesh(at, stamp.to_nsec(), vertices[:, :, 2].copy() if on_grid else None, renewed)
+            self.judge.mesh(at, stamp.to_nsec(), vertices[:, :, 2].copy() if on_grid else None, renewed, late)
+            if late and not renewed:
+                self.availability.disturbed(at)
 
     # What is heard.
 
