@@ -506,7 +506,7 @@ def main():
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--gap', type=float, default=2.5, help='mean time [s] from one event to the next')
     parser.add_argument('--period', type=float, default=60.0, help='the last 30 %% of each are quiet [s]')
-    parser.add_argument('--warm-up', type=float, default=60.0, help='of each guard, before its memory counts [s]')
+    parser.add_argument('--warm-up', type=float, default=120.0, help='of each guard, before its memory counts [s]')
     parser.add_argument('--clock', choices=['both', 'wall', 'simulated'], default='both')
     parser.add_argument('--folder', required=True, help='for the logs')
     options = parser.parse_args()
