@@ -15,19 +15,27 @@ HoldPublisher::HoldPublisher(ros::NodeHandle private_node)
       lock_(private_node.advertise<std_msgs::Bool>("lock", 1)) {}
 
 void HoldPublisher::publish(bool lets_through, sweep_guard_core::SteadyTime now) {
-  std_msgs::Float64 scale;
-  scale.data = lets_through ? 1.0 : 0.0;
-  velocity_scale_.publish(scale);
-  std_msgs::Bool lock;
-  lock.data = !lets_through;
-  lock_.publish(lock);
-  if (!lets_through) released_since_ = kHeld;
-  if (lets_through && released_since_.load() == kHeld) released_since_ = now;
+  if (lets_through != lets_through_) changed_ = now;
+  lets_through_ = lets_through;
+  send(!lets_through && heard(now));
 }
 
-bool HoldPublisher::released(sweep_guard_core::SteadyTime now) const {
-  const sweep_guard_core::SteadyTime since = released_since_;
-  return since != kHeld && now - since >= kTimeToHear;
+void HoldPublisher::hold() {
+  lets_through_ = false;
+  send(/*holds=*/true);
+}
+
+bool HoldPublisher::heard(sweep_guard_core::SteadyTime now) const {
+  return !changed_ || now - *changed_ >= kTimeToHear;
+}
+
+void HoldPublisher::send(bool holds) {
+  std_msgs::Float64 scale;
+  scale.data = holds ? 0.0 : 1.0;
+  velocity_scale_.publish(scale);
+  std_msgs::Bool lock;
+  lock.data = holds;
+  lock_.publish(lock);
 }
 
 }  // namespace sweep_guard_ros

@@ -2,28 +2,33 @@
 
 #include <ros/node_handle.h>
 
-#include <atomic>
+#include <optional>
 
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_ros {
 
 /// Publishes for those behind motion_guard whether the guard knows: `~velocity_scale`, 1 or else 0, for MoveIt Servo's
-/// ~internal/collision_velocity_scale, and `~lock`, false or else true, for a lock of twist_mux.
+/// ~internal/collision_velocity_scale, and `~lock`, false or else true, for a lock of twist_mux. They hold what comes after
+/// a zero, and so follow it: MoveIt Servo stays halted, until its status is reset, if a scale of 0 meets another command
+/// than zero, and a locked twist_mux would keep the zero back. Not thread-safe.
 class HoldPublisher {
  public:
   explicit HoldPublisher(ros::NodeHandle private_node);
 
-  void publish(bool lets_through, sweep_guard_core::SteadyTime now);  ///< to be called 50 times a second
+  /// To be called 50 times a second. Holds once commands have not been let through for as long as they take to be heard.
+  void publish(bool lets_through, sweep_guard_core::SteadyTime now);
+  void hold();  ///< at once
 
-  /// Returns whether those behind motion_guard have had time to hear that it lets commands through: MoveIt Servo stays
-  /// halted, until its status is reset, if a scale of 0 meets another command than zero. Any thread.
-  bool released(sweep_guard_core::SteadyTime now) const;
+  /// Returns whether those behind motion_guard have had time to hear that it lets commands through.
+  bool released(sweep_guard_core::SteadyTime now) const { return lets_through_ && heard(now); }
 
  private:
-  static constexpr sweep_guard_core::SteadyTime kHeld = sweep_guard_core::SteadyTime::max();
+  bool heard(sweep_guard_core::SteadyTime now) const;
+  void send(bool holds);
 
-  std::atomic<sweep_guard_core::SteadyTime> released_since_ = kHeld;
+  bool lets_through_ = false;
+  std::optional<sweep_guard_core::SteadyTime> changed_;  // since the beginning: nothing was let through before
   ros::Publisher velocity_scale_;
   ros::Publisher lock_;
 };

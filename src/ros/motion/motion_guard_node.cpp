@@ -53,7 +53,8 @@ void MotionGuardNode::start() {
 MotionGuardNode::~MotionGuardNode() {
   ticks_.stop();
   cycle_.stop();
-  hold_.publish(/*lets_through=*/false, std::chrono::steady_clock::now());
+  flush(kTimeToFlush);  // the zero first
+  hold_.hold();
   flush(kTimeToFlush);
   reports_.stop();
   master_watch_.stop();  // its thread uses the supervisor, which is declared after it
