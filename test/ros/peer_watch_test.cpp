@@ -1,11 +1,18 @@
 // What the guard's process does about publishers that cannot be reached for a while.
+#include <arpa/inet.h>
+#include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <ros/connection_manager.h>
+#include <ros/header.h>
 #include <ros/master.h>
 #include <ros/xmlrpc_manager.h>
 #include <signal.h>
 #include <std_msgs/String.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <stdexcept>
 #include <thread>
 
 #include "child_process.h"
@@ -35,7 +42,10 @@ std::string addressOf(const std::string& node) {
 /// A second address of this process, where it can be made unreachable. Topics are connected as before.
 class Address : public XmlRpc::XmlRpcServerMethod {
  public:
-  Address() : XmlRpcServerMethod("requestTopic") {
+  /// @param topics  TCP port that subscribers are sent to; 0: that of this process
+  explicit Address(int topics = 0)
+      : XmlRpcServerMethod("requestTopic"),
+        topics_(topics != 0 ? topics : static_cast<int>(ros::ConnectionManager::instance()->getTCPPort())) {
     server_.addMethod(this);
     open();
   }
@@ -54,11 +64,12 @@ class Address : public XmlRpc::XmlRpcServerMethod {
     answer[1] = "";
     answer[2][0] = "TCPROS";
     answer[2][1] = "127.0.0.1";
-    answer[2][2] = static_cast<int>(ros::ConnectionManager::instance()->getTCPPort());
+    answer[2][2] = topics_;
   }
 
  private:
   XmlRpc::XmlRpcServer server_;
+  const int topics_;
   int port_ = 0;
   int requests_ = 0;
 };
@@ -70,6 +81,66 @@ bool publishPoses(const std::string& uri) {
   const auto answer =
       xmlRpc().call(addressOf("/sweep_guard"), "publisherUpdate", {XmlRpcValue("/tool_pose"), publishers});
   return answer && answer->success;
+}
+
+/// A port at which each subscriber to poses gets a header, and then the length of a message of two gigabytes.
+class TornStream {
+ public:
+  TornStream() {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    if (bind(listener_, reinterpret_cast<sockaddr*>(&address), size) != 0 || listen(listener_, 8) != 0 ||
+        getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
+      throw std::runtime_error("no port");
+    }
+    port_ = ntohs(address.sin_port);
+    thread_ = std::thread([this] { serve(); });
+  }
+  ~TornStream() {
+    shutdown(listener_, SHUT_RDWR);
+    thread_.join();
+    close(listener_);
+  }
+  TornStream(const TornStream&) = delete;
+  TornStream& operator=(const TornStream&) = delete;
+  int port() const { return port_; }
+
+ private:
+  void serve() const {
+    ros::M_string header{{"callerid", "/torn"},
+                         {"md5sum", ros::message_traits::md5sum<geometry_msgs::PoseStamped>()},
+                         {"type", "geometry_msgs/PoseStamped"}};
+    boost::shared_array<std::uint8_t> fields;
+    std::uint32_t size = 0;
+    ros::Header::write(header, fields, size);
+    const std::string length(reinterpret_cast<const char*>(&size), sizeof size);
+    const std::string answer =
+        length + std::string(reinterpret_cast<const char*>(fields.get()), size) + "\xff\xff\xff\x7f";
+    for (int subscriber = 0; (subscriber = accept(listener_, nullptr, nullptr)) >= 0; close(subscriber)) {
+      char received[4096];
+      if (recv(subscriber, received, sizeof received, 0) <= 0) continue;
+      send(subscriber, answer.data(), answer.size(), MSG_NOSIGNAL);
+      while (recv(subscriber, received, sizeof received, 0) > 0) {
+      }
+    }
+  }
+
+  const int listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  int port_ = 0;
+  std::thread thread_;
+};
+
+bool registerPoses(const std::string& node, const std::string& uri) {
+  XmlRpcValue request;
+  request[0] = node;
+  request[1] = "/tool_pose";
+  request[2] = "geometry_msgs/PoseStamped";
+  request[3] = uri;
+  XmlRpcValue answer;
+  XmlRpc::XmlRpcClient master(ros::master::getHost().c_str(), static_cast<int>(ros::master::getPort()), "/");
+  return master.execute("registerPublisher", request, answer) && static_cast<int>(answer[0]) == 1;
 }
 
 // It may have registered a moment ago, since the connections were read.
@@ -115,6 +186,19 @@ TEST_P(PeerWatchTest, ConnectsAnewToAPublisherThatWasOutOfReach) {
     address.serveFor(0.5);
     return address.requests() == 2;
   }));
+  guard.signal(SIGTERM);
+  EXPECT_EQ(guard.wait(), 0);
+  ros::param::del("/sweep_guard");
+}
+
+// roscpp takes the stream for lost, disconnects and does not come back.
+TEST(TornPublisherTest, IsConnectedAnew) {
+  ChildProcess guard(guardWith({}));
+  const GuardProbe probe(/*drives_clock=*/false);
+  const TornStream stream;
+  Address address(stream.port());
+  ASSERT_TRUE(registerPoses("/torn", address.uri()));
+  EXPECT_TRUE(becomesTrue([&] { return address.serveFor(0.3), address.requests() >= 2; }));
   guard.signal(SIGTERM);
   EXPECT_EQ(guard.wait(), 0);
   ros::param::del("/sweep_guard");

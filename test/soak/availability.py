@@ -10,13 +10,14 @@ class Availability:
         self.heard_at = None
         self.longest = 0.0  # [s] UNKNOWN or silent while all was well
         self.longest_at = 0.0
+        self.longest_text = ''
         self.well = 0.0  # [s] since WELL_AFTER after the last disturbance
         self.unknown_while_well = 0.0
 
     def disturbed(self, at):
         self.disturbed_until = max(self.disturbed_until, at)
 
-    def heard(self, at, unknown):
+    def heard(self, at, unknown, text='silent'):
         """A warning was received, or, with unknown, none for a while."""
         since = self.disturbed_until + WELL_AFTER
         if self.heard_at is not None and at > since:
@@ -30,5 +31,5 @@ class Availability:
         if unknown:
             spell = at - max(self.unknown_since, self.disturbed_until)
             if spell > self.longest:
-                self.longest, self.longest_at = spell, at
+                self.longest, self.longest_at, self.longest_text = spell, at, text
         self.heard_at = at

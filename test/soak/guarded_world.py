@@ -55,7 +55,7 @@ class GuardedWorld:
         self.start_master()
         for name in self.peers():
             self.start_peer(name)
-        self.start('guard', ['roslaunch', '-p', str(self.port), 'sweep_guard', 'sweep_guard.launch'])
+        self.start('guard', ['nice', '-n', str(-os.nice(0)), 'roslaunch', '-p', str(self.port), 'sweep_guard', 'sweep_guard.launch'])
 
     def start_master(self):
         self.start('roscore', ['roscore', '-p', str(self.port)])

@@ -26,7 +26,7 @@ CLEAR, CONTACT, UNKNOWN = 1, 4, 0  # as in Warning
 NOT_TAKEN = 1 | 4 | 8 | 16 | 32 | 256 | 512 | 16384
 
 Pose = collections.namedtuple('Pose', 'at stamp tip top sure')  # at: departure [s] of the monotonic clock; stamp [ns]
-Mesh = collections.namedtuple('Mesh', 'at stamp heights renewed')  # heights: None if the vertices are on no grid
+Mesh = collections.namedtuple('Mesh', 'at stamp heights renewed late')  # heights: None if the vertices are on no grid
 Transform = collections.namedtuple('Transform', 'at stamp')
 Spoken = collections.namedtuple('Spoken', 'at stamp published level clear reasons held_since run text')
 Finding = collections.namedtuple('Finding', 'kind at text')
@@ -81,7 +81,7 @@ class Judge:
         self.by_stamp = {}  # poses
         self.spoken = collections.deque()
         self.excuses, self.disabled, self.intended = [], [], []
-        self.clock_steps = []  # when [s]
+        self.clock_steps = []  # not before and not after when [s]
         self.pose_timeouts = [(0.0, 0.1)]  # from when on [s] which [s]
         self.findings = []
         self.counts = collections.Counter()
@@ -98,16 +98,17 @@ class Judge:
         self.poses.append(pose)
         self.by_stamp.setdefault(stamp, []).append(pose)
 
-    def mesh(self, at, stamp, heights, renewed=False):
-        self.meshes.append(Mesh(at, stamp, heights, renewed))
+    def mesh(self, at, stamp, heights, renewed=False, late=False):
+        """late: departed more than MAX_LAG after its stamp"""
+        self.meshes.append(Mesh(at, stamp, heights, renewed, late))
 
     def transform(self, at, stamp):
         self.transforms.append(Transform(at, stamp))
 
-    def clock_step(self, at):
-        """The clock of the stamps has stepped: what was sent before does not count any more."""
-        self.clock_steps.append(at)
-        self.excuse(at - 0.5, at + 1.0, 'the clock stepped')
+    def clock_step(self, begin, end):
+        """The clock of the stamps has stepped between these times: what was sent before does not count any more."""
+        self.clock_steps.append((begin, end))
+        self.excuse(begin - 0.5, end + 1.0, 'the clock stepped')
 
     def excuse(self, begin, end, why):
         """Contacts of this time are not judged. CLEAR still is."""
@@ -119,7 +120,7 @@ class Judge:
         """spoken.at: receipt; stamp_clock: [ns] at receipt; own_delay: how late [s] the receipt may have been noted"""
         self.spoken.append(spoken)
         self.counts['warnings'] += 1
-        if spoken.published > stamp_clock + 1e9 * ROUNDING and not self._just_stepped(spoken.at):
+        if spoken.published > stamp_clock + 1e9 * ROUNDING and not self._just_stepped(spoken.at, own_delay):
             self._find('false CLEAR' if spoken.clear else 'wrong time', spoken, 'is valid for longer than 0.2 s')
         if spoken.clear != (spoken.level == CLEAR):
             self._find('false CLEAR', spoken, 'clear contradicts the level')
@@ -127,9 +128,9 @@ class Judge:
             self.counts['CLEAR judged'] += 1
             self._judge_clear(spoken, stamp_clock, own_delay)
 
-    def _just_stepped(self, at):
-        """The guard's clock comes by a connection of its own."""
-        return any(at - 0.5 <= step <= at for step in self.clock_steps)
+    def _just_stepped(self, at, own_delay):
+        """The guard's clock comes by a connection of its own, and what it says may wait for the judge."""
+        return any(begin <= at and at - 0.5 - own_delay <= end for begin, end in self.clock_steps)
 
     def _find(self, kind, spoken, why):
         self.findings.append(Finding(kind, spoken.at, f'{why}: "{spoken.text}", pose {seconds(spoken.stamp):.4f}, '
@@ -144,7 +145,7 @@ class Judge:
         find = lambda why: self._find('false CLEAR', spoken, why)
         if any(begin < spoken.at - own_delay - SLACK and spoken.at < end for begin, end in self.disabled):
             find('the guard is disabled')
-        if self._just_stepped(spoken.at):
+        if self._just_stepped(spoken.at, own_delay):
             self.counts['CLEAR just after a step of the clock'] += 1
         else:
             self._judge_ages(spoken, timeout, find)
@@ -156,7 +157,7 @@ class Judge:
         """By the stamps, which no delay of the judge's own changes."""
         if seconds(spoken.published - spoken.stamp) > timeout + ROUNDING:
             find(f'the pose is older than {timeout:g} s')
-        since = max((step for step in self.clock_steps if step <= spoken.at), default=0.0)
+        since = max((begin for begin, _ in self.clock_steps if begin <= spoken.at), default=0.0)
         newest = lambda inputs: max((one.stamp for one in inputs if since <= one.at <= spoken.at), default=0)
         if seconds(spoken.published - newest(self.meshes)) > MESH_TIMEOUT + ROUNDING:
             find('no mesh of the last 0.5 s was sent')
@@ -262,6 +263,9 @@ class Judge:
 
     def _mesh_excuse(self, span):
         near = [mesh for mesh in self.meshes if span.begin.at - 0.8 <= mesh.at <= span.end.at + 0.3]
+        first, last = span.begin.stamp - 1e9 * (MESH_TIMEOUT + 0.05), span.end.stamp + 1e9 * 0.3
+        if any(mesh.late for mesh in self.meshes if first <= mesh.stamp <= last):
+            return ['mesh late']
         gaps = [b.at - a.at for a, b in zip(near, near[1:])]
         if any(mesh.renewed for mesh in near):
             return ['mesh renewed']

@@ -39,9 +39,12 @@ def spoken(t, level=None, pose_at=None, published=None, run='first', reasons=0):
 class Soak:
     """Sends the whole cycle to a judge, and what a guard says to it."""
 
-    def __init__(self, lost=lambda kind, t: False):
+    def __init__(self, lost=lambda kind, t: False, stalled=None):
+        """lost: what never departs. stalled: from when to when [s] meshes are kept back, which then depart at once"""
         self.judge = judge.Judge()
         self.lost = lost
+        self.stalled = stalled
+        self.kept = []
         self.x = world.plate_corners()[0]
 
     def run(self, says=spoken, until=world.CYCLE):
@@ -50,7 +53,7 @@ class Soak:
             if millisecond % 20 == 0 and not self.lost('tf', t - BEGIN):
                 self.judge.transform(t, nanoseconds(t + 0.1))
             if millisecond % 16 == 0 and not self.lost('mesh', t - BEGIN):
-                self.judge.mesh(t, nanoseconds(t), world.plate_heights(t, self.x))
+                self.send_mesh(t)
             if not self.lost('pose', t - BEGIN):
                 self.judge.pose(t, nanoseconds(t), *world.ends_in_world(*world.tool_in_tracker(t)))
             if millisecond % 50 == 0 and millisecond > 0:
@@ -61,6 +64,14 @@ class Soak:
                 self.judge.judge_contacts(t - 1.0)
         self.judge.judge_contacts(BEGIN + until)
         return self.judge
+
+    def send_mesh(self, t):
+        self.kept.append((nanoseconds(t), world.plate_heights(t, self.x)))
+        if self.stalled and self.stalled[0] <= t - BEGIN < self.stalled[1]:
+            return
+        for stamp, heights in self.kept:
+            self.judge.mesh(t, stamp, heights, late=nanoseconds(t) - stamp > 1e9 * judge.MAX_LAG)
+        self.kept = []
 
     def kinds(self, says=spoken, until=world.CYCLE):
         return {finding.kind for finding in self.run(says, until).findings}
@@ -147,6 +158,11 @@ class JudgeTest(unittest.TestCase):
         self.assertEqual(soak.kinds(levels_but(2.6, 4.9, judge.CLEAR)), set())
         restarted = lambda t: spoken(t, judge.UNKNOWN, run='second') if t - BEGIN > 3.5 else spoken(t)
         self.assertEqual(Soak().kinds(restarted, until=5.0), set())
+
+    def test_judges_no_contact_with_a_plate_of_which_the_guard_heard_late(self):
+        says = lambda t: spoken(t, judge.UNKNOWN) if 10.8 <= t - BEGIN < 12.4 else spoken(t)
+        self.assertEqual(Soak(stalled=(10.7, 12.4)).kinds(says), set())
+        self.assertEqual(Soak().kinds(says), {'missed contact'})
 
     def test_decides_nothing_near_the_plate(self):
         soak = Soak().run(until=1.0)

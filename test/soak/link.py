@@ -6,7 +6,8 @@ import threading
 import time
 
 LENGTH = struct.Struct('<I')
-MAX_WAITING = 64 << 20  # [bytes] that a stalled link takes from the publisher
+MAX_WAITING = 16 << 20  # [bytes] that a link takes from the publisher while they cannot depart
+MAX_FRAMES = 3000  # the same
 
 
 def field(header, name):
@@ -34,6 +35,26 @@ def read_exactly(connection, size):
 
 def read_frame(connection):
     return read_exactly(connection, LENGTH.unpack(read_exactly(connection, LENGTH.size))[0])
+
+
+def read_frames(connection):
+    """Yields lists of whole frames, all that have arrived."""
+    left = bytearray()
+    while True:
+        received = connection.recv(1 << 18)
+        if not received:
+            raise ConnectionError('closed')
+        left += received
+        frames, place = [], 0
+        while place + LENGTH.size <= len(left):
+            end = place + LENGTH.size + LENGTH.unpack_from(left, place)[0]
+            if end > len(left):
+                break
+            frames.append(left[place + LENGTH.size:end])
+            place = end
+        del left[:place]
+        if frames:
+            yield frames
 
 
 class Connection:
@@ -72,45 +93,51 @@ class Connection:
             answer = read_frame(self.publisher)
             self.subscriber.sendall(LENGTH.pack(len(answer)) + answer)
             threading.Thread(target=self._send, args=(field(request, 'topic'),), daemon=True).start()
-            while self.open:
-                self._take(read_frame(self.publisher))
+            for frames in read_frames(self.publisher):
+                self._take(frames)
         except (OSError, ConnectionError, struct.error):
             pass
         finally:
             self.close()
             self.link.forget(self)
 
-    def _take(self, frame):
+    def _take(self, frames):
         with self.changed:
-            while self.open and self.size > MAX_WAITING:
+            while self.open and (self.size > MAX_WAITING or len(self.waiting) > MAX_FRAMES):
                 self.changed.wait(1.0)
-            self.waiting.append((time.monotonic() + self.link.delay, frame))
-            self.size += len(frame)
+            due = time.monotonic() + self.link.delay
+            self.waiting.extend((due, frame) for frame in frames)
+            self.size += sum(map(len, frames))
             self.changed.notify_all()
 
-    def _next(self):
-        """The next frame once it is due; None when the connection is closed."""
+    def _due(self):
+        """The frames that are due, once there are any; none when the connection is closed."""
         with self.changed:
             while self.open:
-                now = time.monotonic()
-                due = max(self.waiting[0][0], self.link.stalled_until) if self.waiting else now + 1.0
-                if self.waiting and due <= now:
-                    self.size -= len(self.waiting[0][1])
+                now, frames = time.monotonic(), []
+                while self.waiting and max(self.waiting[0][0], self.link.stalled_until) <= now:
+                    frames.append(self.waiting.popleft()[1])
+                if frames:
+                    self.size -= sum(map(len, frames))
                     self.changed.notify_all()
-                    return self.waiting.popleft()[1]
+                    return frames
+                due = max(self.waiting[0][0], self.link.stalled_until) if self.waiting else now + 1.0
                 self.changed.wait(min(due - now, 0.1))
-        return None
+        return []
 
     def _send(self, topic):
         try:
-            while (frame := self._next()) is not None:
-                self._pass_on(topic, frame)
+            while frames := self._due():
+                for frame in frames:
+                    self._pass_on(topic, frame)
         except OSError:
             self.close()
 
     def _pass_on(self, topic, frame):
         length = len(frame)
         corrupt = self.link.corruption
+        if self.garbled and corrupt is None:
+            raise ConnectionError('the subscriber cannot read on')
         if corrupt is not None:
             length, self.garbled = corrupt(frame, self.garbled)
         if not self.garbled:
@@ -157,12 +184,6 @@ class Link:
         for connection in connections:
             connection.close()
 
-    def cut_garbled(self):
-        with self._lock:
-            connections = [connection for connection in self._connections if connection.garbled]
-        for connection in connections:
-            connection.close()
-
 
 def flip_bit(random):
     """Changes one bit of every frame; the frames stay apart."""
@@ -174,7 +195,7 @@ def flip_bit(random):
 
 
 def shorten(random):
-    """Announces fewer or more bytes than follow: nothing on this connection can be read any more."""
+    """Announces fewer or more bytes than follow: nothing can be read any more. Afterwards the connection is closed."""
     def corrupt(frame, _garbled):
         return max(0, len(frame) + random.choice((-7, -1, 1, 3, 64))), True
     return corrupt

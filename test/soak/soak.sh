@@ -7,4 +7,4 @@ set +u
 set -u
 export ROS_IP=127.0.0.1 PYTHONDONTWRITEBYTECODE=1
 unset ROS_HOSTNAME ROS_IPV6
-exec "$1" "$(dirname "$0")/soak.py" --folder "$3" --seconds 40 --period 20 --gap 1.5 --seed 5
+exec "$1" "$(dirname "$0")/soak.py" --folder "$3" --seconds 30 --period 15 --gap 1.2 --seed 5

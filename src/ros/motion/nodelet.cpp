@@ -1,30 +1,10 @@
-#include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include <memory>
-
 #include "ros/motion/motion_guard_node.h"
-#include "ros/output/start_failure.h"
-#include "sweep_guard/common/error.h"
+#include "ros/nodelet_of.h"
 
 namespace sweep_guard_ros {
-
-class MotionGuardNodelet : public nodelet::Nodelet {
- private:
-  void onInit() override {
-    try {
-      checkConfigured(getPrivateNodeHandle(), getMyArgv());
-      node_ = std::make_unique<MotionGuardNode>(getNodeHandle(), getPrivateNodeHandle(), Process::kShared);
-      node_->start();
-    } catch (const sweep_guard_core::Error& error) {
-      reportStartFailure(getNodeHandle(), getName(), error.what());
-      throw;
-    }
-  }
-
-  std::unique_ptr<MotionGuardNode> node_;
-};
-
+using MotionGuardNodelet = NodeletOf<MotionGuardNode>;
 }  // namespace sweep_guard_ros
 
 PLUGINLIB_EXPORT_CLASS(sweep_guard_ros::MotionGuardNodelet, nodelet::Nodelet)
