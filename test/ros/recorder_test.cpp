@@ -36,7 +36,10 @@ class RecorderTest : public ::testing::Test {
     parameters_.quota = 64 * kMebibyte;
     parameters_.min_free = 0;
   }
-  ~RecorderTest() override { fs::remove_all(folder_); }
+  ~RecorderTest() override {
+    recorder_.reset();  // it looks into the folder
+    fs::remove_all(folder_);
+  }
 
   void start() {
     recorder_.emplace(parameters_);
