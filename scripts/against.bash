@@ -31,11 +31,11 @@ in_build() {
   exec "$program" "${@:3}"
 }
 
-# end_beside PID - ends the command that ran beside, which must have done something
+# end_beside PID - ends the command that ran beside, whose output must say by `beside_did` that it did something
 end_beside() {
   end "$1"
-  grep -Eq '^[1-9][0-9]* paths tested' "$figures/beside.log" ||
-    status=2 fail "${beside[*]} has tested no path: $(tail -3 "$figures/beside.log")"
+  grep -Eq "$beside_did" "$figures/beside.log" ||
+    status=2 fail "${beside[*]} has done nothing: $(tail -3 "$figures/beside.log")"
 }
 
 # by_turns ROUND PROGRAM [ARGUMENT]... - of both builds, one after the other; in odd rounds the older one first. What today's

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <map>
@@ -115,16 +116,19 @@ void RecordingFolder::probe() const {
   unlink(file.c_str());
 }
 
-void RecordingFolder::keepQuota(std::uintmax_t size) const {
+std::vector<std::string> RecordingFolder::surplusFor(std::uintmax_t size) const {
   const auto surplus = recordingsToDelete(stored(), options_.quota, size);
-  if (!surplus) {
-    fail(options_.folder, "a recording of " + std::to_string(size / kMebibyte) + " MiB is larger than the quota");
-  }
-  for (const std::string& recording : *surplus) remove(recording);
+  if (surplus) return *surplus;
+  fail(options_.folder, "a recording of " + std::to_string(size / kMebibyte) + " MiB is larger than the quota");
 }
 
-void RecordingFolder::requireSpace(std::uintmax_t size) const {
-  const std::uintmax_t free = options_.free_space(options_.folder);
+void RecordingFolder::check(std::uintmax_t size) {
+  open();
+  const std::vector<std::string> surplus = surplusFor(size);
+  std::uintmax_t free = options_.free_space(options_.folder);
+  for (const StoredRecording& recording : stored()) {
+    if (std::find(surplus.begin(), surplus.end(), recording.name) != surplus.end()) free += recording.size;
+  }
   if (free >= options_.min_free && free - options_.min_free >= size) return;
   fail(options_.folder, "only " + std::to_string(free / kMebibyte) + " MiB are free, and a recording of " +
                             std::to_string(size / kMebibyte) + " MiB has to leave " +
@@ -132,12 +136,14 @@ void RecordingFolder::requireSpace(std::uintmax_t size) const {
 }
 
 // The bag first: a configuration without one is deleted at the next start.
-void RecordingFolder::remove(const std::string& recording) const {
-  const Paths paths = pathsOf(recording, "");
-  for (const path& file : {paths.bag, paths.config}) {
-    std::error_code error;
-    std::filesystem::remove(file, error);
-    if (error) fail(file, error.message());
+void RecordingFolder::keepQuota(std::uintmax_t size) const {
+  for (const std::string& recording : surplusFor(size)) {
+    const Paths paths = pathsOf(recording, "");
+    for (const path& file : {paths.bag, paths.config}) {
+      std::error_code error;
+      std::filesystem::remove(file, error);
+      if (error) fail(file, error.message());
+    }
   }
 }
 
@@ -148,9 +154,8 @@ RecordingFolder::Paths RecordingFolder::pathsOf(const std::string& name, const s
 // The bag last: when it has its name, the recording is whole.
 RecordingFolder::Paths RecordingFolder::write(const std::string& name, std::uintmax_t size,
                                               const std::function<void(const Paths&)>& write) {
-  open();
+  check(size);
   keepQuota(size);
-  requireSpace(size);
   const Paths active = pathsOf(name, kActiveSuffix);
   Paths whole = pathsOf(name, "");
   try {

@@ -34,11 +34,15 @@ class RecordingFolder {
   /// that files can be written there. May be called again and again.
   void open();
 
+  /// Opens the folder, and checks that a recording of `size` bytes could be written: that it is within the quota, and that the
+  /// disk has room for it, that of the recordings included that would be deleted for the quota.
+  void check(std::uintmax_t size);
+
   struct Paths {
     std::filesystem::path bag;
     std::filesystem::path config;
   };
-  /// Writes a recording: opens the folder, deletes the oldest recordings for the quota, has both files written, and gives
+  /// Writes a recording: checks the folder, deletes the oldest recordings for the quota, has both files written, and gives
   /// them their names when they are whole and on the disk. Nothing remains of a recording that fails.
   /// @param size   how large it is, about [bytes]
   /// @param write  writes the two files, whose names end in .active
@@ -51,9 +55,8 @@ class RecordingFolder {
   void lock();
   void deleteLeftovers() const;
   void probe() const;
+  std::vector<std::string> surplusFor(std::uintmax_t size) const;
   void keepQuota(std::uintmax_t size) const;
-  void requireSpace(std::uintmax_t size) const;
-  void remove(const std::string& recording) const;
   Paths pathsOf(const std::string& name, const std::string& end) const;
 
   const Options options_;

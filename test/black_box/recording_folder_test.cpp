@@ -124,6 +124,25 @@ TEST_F(RecordingFolderTest, WithoutFreeSpaceNothingIsWrittenOrDeletedAndTheReaso
   EXPECT_EQ(refusal(folder), "");
 }
 
+TEST_F(RecordingFolderTest, NoRecordingIsDeletedForOneThatWouldNotHaveRoomEvenThen) {
+  RecordingFolder folder(options(/*quota=*/2 * kSize));
+  folder.write(nameOfEvent(1), kSize, writeFiles);
+  folder.write(nameOfEvent(2), kSize, writeFiles);
+  free_ = 499;  // the oldest makes room for another kSize
+  EXPECT_NE(refusal(folder).find("are free"), std::string::npos);
+  EXPECT_EQ(folder.stored().size(), 2U);
+  free_ = 500;
+  EXPECT_EQ(refusal(folder), "");
+}
+
+TEST_F(RecordingFolderTest, ThatNothingCanBeWrittenIsKnownBeforeThereIsSomethingToWrite) {
+  RecordingFolder folder(options(/*quota=*/2 * kSize));
+  folder.check(2 * kSize);
+  EXPECT_THROW(folder.check(2 * kSize + 1), DeviceError);
+  free_ = kSize + 499;
+  EXPECT_THROW(folder.check(kSize), DeviceError);
+}
+
 // The process may write no more than half of a recording: as a disk that becomes full.
 TEST_F(RecordingFolderTest, ADiskThatIsFullAtOnceLeavesNothingOfTheRecordingAndAllOthers) {
   RecordingFolder folder(options());

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <boost/make_shared.hpp>
+#include <iterator>
 
 #include "ros/black_box/guard_config.h"
 #include "ros/black_box/message_key.h"
@@ -72,11 +73,21 @@ TEST_F(BagFileTest, HasAllMessagesInTheirOrderWithTheirTimesAndSenders) {
   EXPECT_LE(std::filesystem::file_size(file_), bagSize(messages));
 }
 
-// Wherever the disk becomes full, that is an error: none is taken for a whole bag.
+std::ptrdiff_t openFiles() {
+  const std::filesystem::directory_iterator descriptors("/proc/self/fd");
+  return std::distance(begin(descriptors), end(descriptors));
+}
+
+// Wherever the disk becomes full, that is an error: none is taken for a whole bag, and none stays open. The folder is reached
+// by a symbolic link, as a home may be.
 TEST_F(BagFileTest, ADiskThatBecomesFullIsAnErrorWhereverThatHappens) {
   const HeardMessages messages = heard();
-  writeBag(file_, messages);
-  const std::uintmax_t size = std::filesystem::file_size(file_);
+  const std::filesystem::path link = file_.string() + ".folder";
+  std::filesystem::create_directory_symlink(file_.parent_path(), link);
+  const std::filesystem::path file = link / file_.filename();
+  writeBag(file, messages);
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  const std::ptrdiff_t open = openFiles();
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto handler = signal(SIGXFSZ, SIG_IGN);
@@ -84,10 +95,12 @@ TEST_F(BagFileTest, ADiskThatBecomesFullIsAnErrorWhereverThatHappens) {
     rlimit small = before;
     small.rlim_cur = limit;
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-    EXPECT_THROW(writeBag(file_, messages), sweep_guard_core::DeviceError) << limit << " of " << size;
+    EXPECT_THROW(writeBag(file, messages), sweep_guard_core::DeviceError) << limit << " of " << size;
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   }
   signal(SIGXFSZ, handler);
+  EXPECT_EQ(openFiles(), open);
+  std::filesystem::remove(link);
 }
 
 TEST(MessageKeyTest, VerticesDependOnTheMeshOfTheirWorkpiece) {

@@ -63,7 +63,7 @@ geometry_msgs::PoseStamped poseAt(double time) {
   return pose;
 }
 
-fs::path folder() { return ros::param::param<std::string>("/black_box/folder", ""); }
+fs::path folder() { return ros::param::param<std::string>("black_box/folder", ""); }
 
 std::optional<fs::path> recordedBag(const std::string& cause) {
   std::error_code none;
@@ -72,6 +72,13 @@ std::optional<fs::path> recordedBag(const std::string& cause) {
     if (file.path().extension() == ".bag" && name.find(cause) != std::string::npos) return file.path();
   }
   return std::nullopt;
+}
+
+std::map<std::string, std::size_t> messagesIn(const fs::path& path) {
+  const rosbag::Bag bag(path.string());
+  std::map<std::string, std::size_t> messages;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) ++messages[message.getTopic()];
+  return messages;
 }
 
 struct Session {
@@ -102,25 +109,31 @@ class BlackBoxReplayTest : public testing::Test {
  protected:
   ~BlackBoxReplayTest() override { fs::remove_all(folder()); }
 
-  // Ends when a recording with this cause is there, after the whole motion.
-  void moveUntilRecorded(const std::string& cause) {
-    ros::NodeHandle node;
-    const ros::Publisher poses = node.advertise<geometry_msgs::PoseStamped>("/arm/measured_cp", 100);
-    const ros::Publisher mesh = node.advertise<sweep_guard::DeformableMesh>("/liver/mesh", 1, /*latch=*/true);
-    while (ros::ok() && (poses.getNumSubscribers() < 2 || mesh.getNumSubscribers() < 2))
+  // The guard and the black box listen; nodelets of one manager are one subscriber.
+  void SetUp() override {
+    const auto subscribers = static_cast<std::uint32_t>(ros::param::param("~subscribers", 2));
+    while (ros::ok() && (poses_.getNumSubscribers() < subscribers || mesh_.getNumSubscribers() < subscribers))
       ros::WallDuration(0.01).sleep();
-    mesh.publish(plate());
+    mesh_.publish(plate());
+  }
+
+  // Ends when a recording with this cause is there, but moves at least for some time [s].
+  void moveUntilRecorded(const std::string& cause, double duration) {
     ros::WallRate rate(kRate);
     double time = 0.0;
-    for (; time < kDuration || !recordedBag(cause); time += 1.0 / kRate, rate.sleep()) {
+    for (; time < duration || !recordedBag(cause); time += 1.0 / kRate, rate.sleep()) {
       ASSERT_LT(time, 60.0) << "nothing was recorded";
-      poses.publish(poseAt(time));
+      poses_.publish(poseAt(time));
     }
   }
+
+  ros::NodeHandle node_;
+  const ros::Publisher poses_ = node_.advertise<geometry_msgs::PoseStamped>("arm/measured_cp", 100);
+  const ros::Publisher mesh_ = node_.advertise<sweep_guard::DeformableMesh>("liver/mesh", 1, /*latch=*/true);
 };
 
 TEST_F(BlackBoxReplayTest, AContactLeavesABagWhoseReplayHasTheSameContactAndLevels) {
-  moveUntilRecorded("contact");
+  moveUntilRecorded("contact", kDuration);
   const fs::path bag = recordedBag("contact").value();
   const Session session = sessionIn(bag);
   ASSERT_TRUE(session.contact);
@@ -149,12 +162,17 @@ TEST_F(BlackBoxReplayTest, AContactLeavesABagWhoseReplayHasTheSameContactAndLeve
   EXPECT_EQ(compared, 3U) << printed;
 }
 
-TEST_F(BlackBoxReplayTest, SaveWritesARecordingWithoutAContact) {
+TEST_F(BlackBoxReplayTest, SaveWritesWithoutAContactWhatTheGuardHeardAndPublished) {
   std_srvs::Trigger save;
-  ASSERT_TRUE(ros::service::call("/black_box/save", save));
+  ASSERT_TRUE(ros::service::waitForService("black_box/save", ros::Duration(20.0)));
+  ASSERT_TRUE(ros::service::call("black_box/save", save));
   EXPECT_TRUE(save.response.success) << save.response.message;
-  for (int i = 0; i < 2000 && !recordedBag("save"); ++i) ros::WallDuration(0.01).sleep();
-  ASSERT_TRUE(recordedBag("save"));
+  moveUntilRecorded("save", 0.0);
+  std::map<std::string, std::size_t> messages = messagesIn(recordedBag("save").value());
+  for (const char* const topic :
+       {"/mesh", "/tool_pose", "/sweep_guard/warning", "/sweep_guard/contacts", "/sweep_guard/tool"}) {
+    EXPECT_GT(messages[topic], 0U) << topic;
+  }
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ void divert(const std::filesystem::path& file) {
   std::error_code error;
   for (const auto& descriptor : std::filesystem::directory_iterator("/proc/self/fd", error)) {
     std::error_code gone;
-    if (std::filesystem::read_symlink(descriptor, gone) != file) continue;
+    if (!std::filesystem::equivalent(descriptor, file, gone)) continue;
     dup2(nowhere, std::stoi(descriptor.path().filename()));
   }
   close(nowhere);

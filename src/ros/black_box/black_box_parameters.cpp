@@ -22,10 +22,12 @@ Duration seconds(ParameterReader& read, const std::string& key, Duration fallbac
   return sweep_guard_core::fromSeconds(read.number(key, toSeconds(fallback), {lowest, highest, "s"}, effect));
 }
 
-std::string readGuard(ParameterReader& read) {
+// As a node resolves it; a nodelet has not the namespace of its process.
+std::string readGuard(ParameterReader& read, const ros::NodeHandle& private_node) {
   std::string guard = read.name("guard", "/sweep_guard", "Name of the guard's node, whose outputs are recorded.");
   std::string error;
-  if (ros::names::validate(guard, error)) return ros::names::resolve(guard);
+  const std::string scope = ros::names::parentNamespace(private_node.getNamespace());
+  if (ros::names::validate(guard, error)) return ros::names::resolve(scope, guard);
   throw sweep_guard_core::InvalidInput("parameter guard is no name of a node: " + error);
 }
 
@@ -69,7 +71,7 @@ void readSizes(ParameterReader& read, BlackBoxParameters& parameters) {
 BlackBoxParameters loadBlackBoxParameters(const ros::NodeHandle& private_node) {
   ParameterReader read(private_node);
   BlackBoxParameters parameters;
-  parameters.guard = readGuard(read);
+  parameters.guard = readGuard(read, private_node);
   parameters.folder = readFolder(read, private_node);
   parameters.window = seconds(read, "window", std::chrono::seconds(30), 1.0, 600.0,
                               "Time before a recording is written that it contains.");

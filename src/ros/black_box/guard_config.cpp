@@ -105,6 +105,8 @@ std::string toYaml(const XmlRpcValue& value) {
 void GuardConfig::refresh() {
   std::optional<XmlRpcValue> parameters = get(guard_);
   if (!parameters || parameters->getType() != XmlRpcValue::TypeStruct) return;
+  if (parameters->hasMember("tool") && (*parameters)["tool"].getType() != XmlRpcValue::TypeStruct)
+    return;  // refused by the guard
   if (const auto description = robotDescription(*parameters)) {
     (*parameters)[kRobotDescription] = *description;
     (*parameters)["tool"][kRobotDescription] = kRobotDescription;

@@ -1,8 +1,10 @@
 #include "ros/black_box/black_box_node.h"
 #include "ros/parameters/parameters.h"
+#include "ros/process.h"
 #include "ros/run_node.h"
 
 int main(int argc, char** argv) {
+  sweep_guard_ros::setNice(5);  // where processors are scarce, the guard has more of them
   return sweep_guard_ros::runNode("black_box", argc, argv, [&] {
     sweep_guard_ros::checkConfigured(ros::NodeHandle("~"), {argv + 1, argv + argc});
     auto node = std::make_shared<sweep_guard_ros::BlackBoxNode>(ros::NodeHandle(), ros::NodeHandle("~"),

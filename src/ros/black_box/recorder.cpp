@@ -47,12 +47,13 @@ Recorder::Recorder(const BlackBoxParameters& parameters)
 
 Recorder::~Recorder() {
   stopping_ = true;
-  std::future<void> last;
+  if (recording_.valid()) recording_.wait();
+  if (!trigger_.waiting()) return;
   {
     const std::lock_guard lock(mutex_);
-    if (trigger_.waiting()) last = beginRecording();
+    beginRecording();
   }
-  if (last.valid()) last.wait();
+  recording_.wait();
 }
 
 void Recorder::hear(const RecordedTopic& topic, const ros::MessageEvent<const topic_tools::ShapeShifter>& event) {
@@ -106,7 +107,7 @@ void Recorder::tick() {
   }
 }
 
-std::future<void> Recorder::beginRecording() {
+void Recorder::beginRecording() {
   const RecordingTrigger::Event event = *trigger_.take();
   const auto ago = std::chrono::steady_clock::now() - event.time;
   const std::string name = sweep_guard_core::recordingName(
@@ -114,7 +115,7 @@ std::future<void> Recorder::beginRecording() {
       event.cause);
   const auto messages = std::make_shared<const HeardMessages>(window_.snapshot());
   summary_.writing = true;
-  return writer_.submit<void>([this, name, messages] {
+  recording_ = writer_.submit<void>([this, name, messages] {
     const bool written = attempt([&] { write(name, *messages); });
     const std::lock_guard lock(mutex_);
     summary_.writing = false;
@@ -137,10 +138,14 @@ void Recorder::write(const std::string& name, const HeardMessages& messages) {
 
 void Recorder::inspectFolder() {
   config_.refresh();
-  folder_.open();
   std::vector<sweep_guard_core::StoredRecording> stored = folder_.stored();
-  const std::lock_guard lock(mutex_);
-  summary_.stored = std::move(stored);
+  std::size_t size = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    summary_.stored = std::move(stored);
+    size = window_.size();
+  }
+  folder_.check(size);
 }
 
 bool Recorder::attempt(const std::function<void()>& work) {

@@ -65,18 +65,19 @@ class Recorder {
 
   // With the lock.
   void heardWarning(Wire message);
-  std::future<void> beginRecording();
+  void beginRecording();
   // In the thread of the writer.
   void write(const std::string& name, const HeardMessages& messages);
   void inspectFolder();
   bool attempt(const std::function<void()>& work);
 
   const BlackBoxParameters& parameters_;
-  mutable std::mutex mutex_;  // of what follows, up to the summary
+  mutable std::mutex mutex_;  // of what follows, up to the recording
   Window window_;
   sweep_guard_core::RecordingTrigger trigger_;
   sweep_guard_core::SteadyTime next_inspection_{};
   Summary summary_{};
+  std::future<void> recording_;  // the newest that was begun
   LogThrottle log_;
   // Only in the thread of the writer.
   std::atomic<bool> stopping_ = false;
