@@ -272,10 +272,10 @@ sweep_guard::Predict::Response GuardProbe::predict(double horizon) {
 sweep_guard::CheckSweep::Response GuardProbe::check(sweep_guard::CheckSweep::Request request) {
   sweep_guard::CheckSweep::Response response;
   // roscpp drops an answer if the end of the connection is noticed first, which happens on a busy machine.
-  if (!check_sweep_.call(request, response) && !check_sweep_.call(request, response)) {
-    throw std::runtime_error("~check_sweep does not answer");
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    if (check_sweep_.call(request, response)) return response;
   }
-  return response;
+  throw std::runtime_error("~check_sweep does not answer");
 }
 
 sweep_guard::Acknowledge::Response GuardProbe::acknowledge(const std::string& mesh_id) {

@@ -9,6 +9,7 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <atomic>
 #include <filesystem>
 
 #include "refusal.h"
@@ -334,6 +335,9 @@ TEST_F(MotionGuardNodeTest, RebasingIsRefusedUnlessPosesAreIncremental) {
 TEST_F(MotionGuardNodeTest, IncrementalPosesMoveTheToolFromWhereItIs) {
   Listener<PoseStamped> guarded(node_, "/clutch/guarded_command");
   Listener<MotionStatus> statuses(node_, "/clutch/motion_guard/status");
+  const auto count = std::make_shared<std::atomic<int>>();  // of guarded poses
+  const ros::Subscriber counter = node_.subscribe<PoseStamped>(
+      "/clutch/guarded_command", 1000, [count](const boost::shared_ptr<const PoseStamped>&) { ++*count; });
   const ros::Publisher poses = node_.advertise<PoseStamped>("/clutch/command", 10);
   const auto command = [&](double x) {
     world_.change([=](auto& state) {
@@ -352,10 +356,11 @@ TEST_F(MotionGuardNodeTest, IncrementalPosesMoveTheToolFromWhereItIs) {
   for (int i = 0; i < 20 && std::abs(sent - 0.8) > 1e-9; ++i) {  // the node may still know the pose of the test before
     world_.change([](auto& state) { state.command = {}; });
     statuses.clear();
-    int idle = 0;  // the second one comes after the zeros
-    statuses.await(
-        [&](const MotionStatus& status) { return status.cause == "the newest command is too old" && ++idle == 2; },
-        "idle");
+    statuses.await([](const MotionStatus& status) { return status.cause == "the newest command is too old"; }, "idle");
+    for (int before = -1; before != *count;) {  // until the zeros are over
+      before = *count;
+      for (int j = 0; j < 20; ++j) statuses.await([](const MotionStatus&) { return true; }, "the time of a status");
+    }
     guarded.clear();
     command(5.0);
     sent = next();
