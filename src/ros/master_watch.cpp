@@ -10,8 +10,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <iterator>
 #include <utility>
+
+#include "ros/host_address.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -158,26 +161,50 @@ void MasterWatch::connectMissing() {
 }
 
 std::optional<PublishersOfTopics> MasterWatch::missingPublishers() const {
-  auto state = call_.call(ros::master::getURI(), "getSystemState", {});
   const auto subscribed = call_.call(ownUri(), "getSubscriptions", {});
-  const auto connected = connectedPublishers(call_);
-  if (!state || !state->success || !subscribed || !connected) return std::nullopt;
+  if (!subscribed) return std::nullopt;
   PublishersOfTopics missing;
   for (int i = 0; i < subscribed->value.size(); ++i) missing[subscribed->value[i][0]];
-  for (int i = 0; i < state->value[0].size(); ++i) {
-    const XmlRpcValue& published = state->value[0][i];
-    const auto topic = missing.find(published[0]);
-    if (topic == missing.end()) continue;
-    for (int j = 0; j < published[1].size(); ++j) {
-      const auto node = call_.call(ros::master::getURI(), "lookupNode", {published[1][j]});
-      if (node && node->success) topic->second.insert(static_cast<const std::string&>(node->value));
-    }
-    topic->second.erase(ownUri());
-  }
-  for (const auto& [topic, publishers] : *connected) {
-    for (const std::string& publisher : publishers) missing[topic].erase(publisher);
+  if (!addPublishersAtMaster(missing)) return std::nullopt;
+  const auto connected = connectedPublishers(call_);
+  if (!connected) return std::nullopt;
+  for (auto& [topic, publishers] : missing) {
+    publishers.erase(ownUri());
+    const auto there = connected->find(topic);
+    if (there == connected->end()) continue;
+    for (const std::string& publisher : there->second) publishers.erase(publisher);
   }
   return missing;
+}
+
+// Asks for each node once, and no more once the master is silent.
+bool MasterWatch::addPublishersAtMaster(PublishersOfTopics& topics) const {
+  const auto state = call_.call(ros::master::getURI(), "getSystemState", {});
+  if (!state || !state->success) return false;
+  std::map<std::string, std::optional<std::string>> addresses;  // of nodes
+  for (int i = 0; i < state->value[0].size(); ++i) {
+    const XmlRpcValue& published = state->value[0][i];
+    const auto topic = topics.find(published[0]);
+    if (topic == topics.end()) continue;
+    for (int j = 0; j < published[1].size(); ++j) {
+      const auto [node, is_new] = addresses.try_emplace(published[1][j]);
+      if (is_new && !lookUp(node->first, node->second)) return false;
+      if (node->second) topic->second.insert(*node->second);
+    }
+  }
+  return true;
+}
+
+// roscpp looks up the names of hosts while all calls to this node wait: one that cannot be looked up is left out.
+bool MasterWatch::lookUp(const std::string& node, std::optional<std::string>& address) const {
+  const auto known = call_.call(ros::master::getURI(), "lookupNode", {XmlRpcValue(node)});
+  if (!known) return false;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!known->success) return true;
+  const std::string& uri = known->value;
+  if (ros::network::splitURI(uri, host, port) && hostAddress(host)) address = uri;
+  return true;
 }
 
 bool MasterWatch::request(const std::string& function, const std::vector<XmlRpcValue>& arguments) {

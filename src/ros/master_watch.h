@@ -41,6 +41,8 @@ class MasterWatch {
   bool registerAnew();
   void connectMissing();
   std::optional<PublishersOfTopics> missingPublishers() const;
+  bool addPublishersAtMaster(PublishersOfTopics& topics) const;
+  bool lookUp(const std::string& node, std::optional<std::string>& address) const;
   bool setParameters();
   bool registerServices();
   bool registerTopics();

@@ -25,8 +25,8 @@ Watchdog::Watchdog(Frames& frames, sweep_guard_core::WorkpieceStore& workpieces,
 }
 
 void Watchdog::checkClock() {
-  frames_.checkClock();
   const auto jump = clocks_.jump(now().stamp, suspendedTime());
+  frames_.checkClock();  // after it: a pose that comes after the jump was reported must not find transforms from before
   if (!jump) return;
   workpieces_.clearStamps();  // first: whoever sees the jump in a warning may send a workpiece with a stamp that counts
   monitor_.timeJumped(*jump);

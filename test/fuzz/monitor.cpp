@@ -216,7 +216,7 @@ class Session {
     const int bits = input_.byte();
     MonitorModel::Report said = report(*swept_, bits % 4);
     said.length = bits % 16 == 15 ? 0 : bits % 8 == 7 ? 10 * input_.byte() : 1200;
-    said.took = bits / 16;
+    said.took = 4 * (bits / 16);
     if (said.length == 0) said.tested = {};
     monitor_.predicted(prediction(said), timestamps(swept_->times), swept_->checkpoint, instant(),
                        milliseconds(said.took));

@@ -19,6 +19,8 @@ ROUNDING = 0.002  # [s]
 SLACK = 0.25  # [s] that the guard and the network may take beyond a timeout where only receipt can be measured
 KEPT = 30.0  # [s] of inputs
 MAX_LAG = 0.25  # [s] from stamp to departure; the guard may treat what is later as too old
+MESH_LEAD = 0.6  # [s] of a stamp before the clock at departure: the guard refuses what is further ahead
+TRANSFORM_LEAD = 10.1  # [s] the same
 ABOVE, CROSSING, BELOW, UNDECIDED = 1, 2, 3, 0
 CLEAR, CONTACT, UNKNOWN = 1, 4, 0  # as in Warning
 # Reasons that say that an input was refused, or forgotten, or that nothing was tested: NO_POSE, POSE_INVALID, OUT_OF_ORDER,
@@ -26,8 +28,8 @@ CLEAR, CONTACT, UNKNOWN = 1, 4, 0  # as in Warning
 NOT_TAKEN = 1 | 4 | 8 | 16 | 32 | 256 | 512 | 16384
 
 Pose = collections.namedtuple('Pose', 'at stamp tip top sure')  # at: departure [s] of the monotonic clock; stamp [ns]
-Mesh = collections.namedtuple('Mesh', 'at stamp heights renewed late')  # heights: None if the vertices are on no grid
-Transform = collections.namedtuple('Transform', 'at stamp')
+Mesh = collections.namedtuple('Mesh', 'at stamp heights renewed late ahead')  # heights: None if the vertices are on no grid
+Transform = collections.namedtuple('Transform', 'at stamp ahead')
 Spoken = collections.namedtuple('Spoken', 'at stamp published level clear reasons held_since run text')
 Finding = collections.namedtuple('Finding', 'kind at text')
 Excuse = collections.namedtuple('Excuse', 'begin end why')
@@ -98,12 +100,13 @@ class Judge:
         self.poses.append(pose)
         self.by_stamp.setdefault(stamp, []).append(pose)
 
-    def mesh(self, at, stamp, heights, renewed=False, late=False):
-        """late: departed more than MAX_LAG after its stamp"""
-        self.meshes.append(Mesh(at, stamp, heights, renewed, late))
+    def mesh(self, at, stamp, heights, renewed=False, late=False, ahead=False):
+        """late: departed more than MAX_LAG after its stamp; ahead: more than MESH_LEAD before it"""
+        self.meshes.append(Mesh(at, stamp, heights, renewed, late, ahead))
 
-    def transform(self, at, stamp):
-        self.transforms.append(Transform(at, stamp))
+    def transform(self, at, stamp, ahead=False):
+        """ahead: departed more than TRANSFORM_LEAD before its stamp"""
+        self.transforms.append(Transform(at, stamp, ahead))
 
     def clock_step(self, begin, end):
         """The clock of the stamps has stepped between these times: what was sent before does not count any more."""
@@ -158,7 +161,7 @@ class Judge:
         if seconds(spoken.published - spoken.stamp) > timeout + ROUNDING:
             find(f'the pose is older than {timeout:g} s')
         since = max((begin for begin, _ in self.clock_steps if begin <= spoken.at), default=0.0)
-        newest = lambda inputs: max((one.stamp for one in inputs if since <= one.at <= spoken.at), default=0)
+        newest = lambda inputs: max((one.stamp for one in inputs if since <= one.at <= spoken.at and not one.ahead), default=0)
         if seconds(spoken.published - newest(self.meshes)) > MESH_TIMEOUT + ROUNDING:
             find('no mesh of the last 0.5 s was sent')
         if newest(self.transforms) < spoken.stamp:
@@ -174,7 +177,7 @@ class Judge:
     def _judge_place(self, spoken, find):
         rests_on = self.by_stamp.get(spoken.stamp, [])
         if not rests_on:
-            if not self._excused(spoken.at - 2.0, spoken.at, 'garbled'):
+            if not self._excused(spoken.at - 2.0, spoken.at, 'garbled poses'):
                 find('rests on a pose that was not sent')
             return
         if self._intended(spoken.at):
@@ -208,12 +211,15 @@ class Judge:
 
     def judge_contacts(self, until):
         """Judges the poses that departed before `until` [s]; all that the guard may have used for them has to be known."""
-        ready = [pose for pose in self.poses if self.judged_until <= pose.at < until and pose.sure]
+        departed = [pose for pose in self.poses if self.judged_until <= pose.at < until]
+        ready = [pose for pose in departed if pose.sure]
+        self.counts['poses'] += len(departed)
         self.judged_until = max(until, self.judged_until)
         for begin in range(0, len(ready), 256):
             batch = ready[begin:begin + 256]
             for pose, side in zip(batch, self._side_of(batch)):
                 if side != UNDECIDED:
+                    self.counts['poses with a decided side'] += 1
                     self._follow(pose, side)
         self._settle(until)
         self._forget(until - KEPT)
@@ -243,9 +249,9 @@ class Judge:
         self.open_spans = waiting
 
     def _judge_span(self, span, heard, beyond):
-        """beyond: first warning that rests on a pose after the span"""
+        """beyond: first warning that rests on a pose after the span, by which CONTACT has to have been said"""
         before = [one for one in self.spoken if one.at < span.begin.at][-1:]
-        until = beyond.at + 0.5
+        until = beyond.at
         said = [one for one in heard if one.at <= until]
         why = self._excused(span.begin.at - 0.3, until) or [
             'not taken' for one in said if one.reasons & NOT_TAKEN] or self._mesh_excuse(span)

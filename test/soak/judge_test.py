@@ -88,6 +88,7 @@ class JudgeTest(unittest.TestCase):
         self.assertEqual(judged.findings, [])
         self.assertEqual(judged.counts['contacts judged'], 6)  # two dips, four leaps
         self.assertGreater(judged.counts['CLEAR with a decided place'], 100)
+        self.assertGreater(judged.counts['poses with a decided side'], 0.8 * judged.counts['poses'])
 
     def test_finds_clear_in_the_plate(self):
         self.assertIn('false CLEAR', Soak().kinds(levels_but(3.4, 3.5, judge.CLEAR)))
@@ -120,6 +121,13 @@ class JudgeTest(unittest.TestCase):
         brief = lambda kind, t: kind == 'mesh' and 0.5 <= t < 0.98
         self.assertEqual(Soak(brief).kinds(), set())
 
+    def test_takes_no_mesh_and_no_transform_from_far_ahead_for_a_fresh_one(self):
+        for kind in ('mesh', 'tf'):
+            soak = Soak(lambda lost, t, kind=kind: lost == kind and 0.5 <= t < 2.0)
+            soak.judge.mesh(BEGIN + 0.5, nanoseconds(BEGIN + 3.0), world.plate_heights(BEGIN, soak.x), ahead=True)
+            soak.judge.transform(BEGIN + 0.5, nanoseconds(BEGIN + 20.0), ahead=True)
+            self.assertEqual(soak.kinds(until=2.0), {'false CLEAR'})
+
     def test_finds_clear_without_a_transform(self):
         silent = lambda kind, t: kind == 'tf' and 0.5 <= t < 2.0
         self.assertEqual(Soak(silent).kinds(), {'false CLEAR'})
@@ -146,6 +154,22 @@ class JudgeTest(unittest.TestCase):
         soak = Soak()
         soak.judge.disabled.append((BEGIN + 0.5, BEGIN + 1.5))
         self.assertEqual(soak.kinds(until=2.0), {'false CLEAR'})
+
+    def test_finds_contact_that_is_said_only_once_the_tool_has_left(self):
+        late = lambda t: spoken(t, judge.CLEAR if t - BEGIN < 6.2 else judge.CONTACT) if 5.9 <= t - BEGIN < 6.9 else spoken(t)
+        self.assertEqual(Soak().kinds(late), {'missed contact'})
+
+    def test_excuses_no_contact_by_what_is_refused_only_afterwards(self):
+        refused = lambda t: spoken(t, judge.UNKNOWN, reasons=256) if 6.3 <= t - BEGIN < 6.9 else \
+            spoken(t, judge.CLEAR) if 5.9 <= t - BEGIN < 6.3 else spoken(t)
+        self.assertEqual(Soak().kinds(refused), {'missed contact'})
+
+    def test_excuses_a_pose_that_was_not_sent_by_garbled_poses_alone(self):
+        says = lambda t: spoken(t, pose_at=round(t, 3) - 0.0005) if 1.0 <= t - BEGIN < 1.1 else spoken(t)
+        for target, kinds in (('poses', set()), ('tf', {'false CLEAR'})):
+            soak = Soak()
+            soak.judge.excuse(BEGIN, BEGIN + 2.0, 'garbled ' + target)
+            self.assertEqual(soak.kinds(says, until=2.0), kinds)
 
     def test_takes_a_level_that_is_only_held_for_no_warning(self):
         held = lambda t: spoken(t, judge.CONTACT)._replace(held_since=nanoseconds(BEGIN + 2.0)) \

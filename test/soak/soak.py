@@ -92,8 +92,9 @@ class Part:
             self._note_mesh(at, message.header.stamp, positions, renewed=True)
         elif topic == 'tf':
             stamps = [transform.header.stamp.to_nsec() for transform in TFMessage().deserialize(data).transforms]
+            ahead = stamps[0] - self.world.clock.now() > 1e9 * judge.TRANSFORM_LEAD
             with self.lock:
-                self.judge.transform(at, stamps[0])
+                self.judge.transform(at, stamps[0], ahead)
 
     def _note_pose(self, at, data, corrupted):
         seconds, nanoseconds, size = POSE_HEADER.unpack_from(data)
@@ -109,9 +110,10 @@ class Part:
     def _note_mesh(self, at, stamp, positions, renewed):
         vertices = positions.reshape(self.corners.shape[0], self.corners.shape[1], 3)
         on_grid = numpy.array_equal(vertices[:, :, :2], self.corners)
-        late = self.world.clock.now() - stamp.to_nsec() > 1e9 * judge.MAX_LAG
+        lag = self.world.clock.now() - stamp.to_nsec()
+        late, ahead = lag > 1e9 * judge.MAX_LAG, -lag > 1e9 * judge.MESH_LEAD
         with self.lock:
-            self.judge.mesh(at, stamp.to_nsec(), vertices[:, :, 2].copy() if on_grid else None, renewed, late)
+            self.judge.mesh(at, stamp.to_nsec(), vertices[:, :, 2].copy() if on_grid else None, renewed, late, ahead)
             if late and not renewed:
                 self.availability.disturbed(at)
 
@@ -316,9 +318,9 @@ class Part:
         def end_excused():
             end()
             with self.lock:
-                self.judge.excuse(begin, time.monotonic() + 3.0, 'garbled')
+                self.judge.excuse(begin, time.monotonic() + 3.0, 'garbled ' + event.target)
         with self.lock:
-            self.judge.excuse(begin, begin + event.duration + 5.0, 'garbled')
+            self.judge.excuse(begin, begin + event.duration + 5.0, 'garbled ' + event.target)
         return after, end_excused
 
     def do_step_clock(self, event):
@@ -473,6 +475,7 @@ class Results:
         kinds = collections.Counter(one.kind for one in self.findings)
         print(f'false CLEAR: {kinds["false CLEAR"]}\ncontacts judged: {counts["contacts judged"]}, '
               f'missed: {kinds["missed contact"]}')
+        print(f'poses: {counts["poses"]}, of which with a decided side of the plate: {counts["poses with a decided side"]}')
         for what, count in sorted(counts.items()):
             if what.startswith(('contacts not', 'contacts that', 'check_sweep', 'calls', 'CLEAR just')):
                 print(f'  {what}: {count}')
