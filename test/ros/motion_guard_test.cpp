@@ -14,6 +14,7 @@
 
 #include "refusal.h"
 #include "ros/child_process.h"
+#include "ros/motion/hold_publisher.h"
 #include "ros/motion_guard_fixture.h"
 
 namespace sweep_guard_ros {
@@ -173,6 +174,37 @@ TEST_F(MotionGuardNodeTest, FollowsTheToolInTf) {
   world_.change([](auto& state) { state.has_pose = false; });
   guarded.await(isZero, "zero without transforms");
   statuses.await([](const MotionStatus& next) { return next.cause == "no new tool pose"; }, "the cause");
+}
+
+// The zero is sent at the first of these times at which nothing is let through.
+TEST(HoldPublisherTest, AScaleOfZeroAndALockFollowTheZeroThatIsSentBefore) {
+  ros::NodeHandle node("hold_publisher_test");
+  Listener<std_msgs::Bool> locks(node, "lock");
+  Listener<std_msgs::Float64> scales(node, "velocity_scale");
+  HoldPublisher hold(node);
+  const auto expect = [&](bool holds) {
+    EXPECT_EQ(locks.await([](const std_msgs::Bool&) { return true; }, "a lock").data, holds);
+    EXPECT_EQ(scales.await([](const std_msgs::Float64&) { return true; }, "a scale").data, holds ? 0.0 : 1.0);
+  };
+  const auto at = [](int ms) { return sweep_guard_core::SteadyTime(std::chrono::milliseconds(ms)); };
+  const auto publish = [&](bool lets_through, int ms) { hold.publish(lets_through, at(ms)); };
+  publish(false, 1000);
+  expect(true);  // nothing was let through yet
+  publish(true, 1020);
+  expect(false);
+  EXPECT_FALSE(hold.released(at(1039)));
+  EXPECT_TRUE(hold.released(at(1040)));
+  publish(false, 1100);
+  expect(false);
+  EXPECT_FALSE(hold.released(at(1140)));
+  publish(false, 1119);
+  expect(false);
+  publish(false, 1120);
+  expect(true);
+  publish(true, 1140);
+  expect(false);
+  hold.hold();
+  expect(true);
 }
 
 TEST_F(MotionGuardNodeTest, SendsFourZerosAfterTheCommandsHaveStopped) {

@@ -9,6 +9,7 @@
 
 #include <boost/make_shared.hpp>
 #include <fstream>
+#include <stdexcept>
 #include <thread>
 
 #include "raw_message.h"
@@ -77,12 +78,14 @@ class RecorderTest : public ::testing::Test {
   }
 
   Recorder::Summary awaitRecordings(std::size_t count) {
-    while (true) {
+    const auto deadline = std::chrono::steady_clock::now() + 20s;
+    while (std::chrono::steady_clock::now() < deadline) {
       recorder_->tick();
       const Recorder::Summary summary = recorder_->summary();
       if (summary.written + summary.failed >= count && !summary.writing) return summary;
-      std::this_thread::sleep_for(1ms);
+      std::this_thread::sleep_for(1ms);  // the recorder tells nobody when a recording is whole
     }
+    throw std::runtime_error("timeout: waited for " + std::to_string(count) + " recordings");
   }
 
   std::vector<fs::path> bags() const {

@@ -112,8 +112,11 @@ class BlackBoxReplayTest : public testing::Test {
   // The guard and the black box listen; nodelets of one manager are one subscriber.
   void SetUp() override {
     const auto subscribers = static_cast<std::uint32_t>(ros::param::param("~subscribers", 2));
-    while (ros::ok() && (poses_.getNumSubscribers() < subscribers || mesh_.getNumSubscribers() < subscribers))
+    const auto deadline = ros::WallTime::now() + ros::WallDuration(20.0);
+    while (poses_.getNumSubscribers() < subscribers || mesh_.getNumSubscribers() < subscribers) {
+      ASSERT_LT(ros::WallTime::now(), deadline) << "the guard or the black box does not listen";
       ros::WallDuration(0.01).sleep();
+    }
     mesh_.publish(plate());
   }
 

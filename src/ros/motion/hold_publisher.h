@@ -9,9 +9,9 @@
 namespace sweep_guard_ros {
 
 /// Publishes for those behind motion_guard whether the guard knows: `~velocity_scale`, 1 or else 0, for MoveIt Servo's
-/// ~internal/collision_velocity_scale, and `~lock`, false or else true, for a lock of twist_mux. They hold what comes after
-/// a zero, and so follow it: MoveIt Servo stays halted, until its status is reset, if a scale of 0 meets another command
-/// than zero, and a locked twist_mux would keep the zero back. Not thread-safe.
+/// ~internal/collision_velocity_scale, and `~lock`, false or else true, for a lock of twist_mux. Both follow the zero that
+/// motion_guard sends: MoveIt Servo stays halted, until its status is reset, if a scale of 0 meets another command than
+/// zero, and a locked twist_mux would keep the zero back. Not thread-safe.
 class HoldPublisher {
  public:
   explicit HoldPublisher(ros::NodeHandle private_node);
