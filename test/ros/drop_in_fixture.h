@@ -19,6 +19,7 @@
 #include "fake_guard.h"
 #include "guard_process.h"
 #include "listener.h"
+#include "repeater.h"
 
 namespace sweep_guard_ros {
 
@@ -26,9 +27,8 @@ namespace sweep_guard_ros {
 template <typename Msg>
 class Stream {
  public:
-  explicit Stream(const std::string& topic) : publisher_(node_.advertise<Msg>(topic, 10)) {
-    timer_ = node_.createSteadyTimer(ros::WallDuration(0.01), [this](const ros::SteadyTimerEvent&) { publish(); });
-  }
+  explicit Stream(const std::string& topic)
+      : publisher_(node_.advertise<Msg>(topic, 10)), repeater_(std::chrono::milliseconds(10), [this] { publish(); }) {}
 
   void send(const Msg& message) {
     const std::lock_guard lock(mutex_);
@@ -53,7 +53,7 @@ class Stream {
   std::mutex mutex_;
   std::optional<Msg> message_;
   ros::Publisher publisher_;
-  ros::SteadyTimer timer_;
+  Repeater repeater_;  // ends before what it publishes
 };
 
 inline geometry_msgs::Twist velocity(double x, double z) {

@@ -8,7 +8,7 @@ namespace {
 constexpr const char* kFrame = "world";
 constexpr const char* kTool = "tool";
 constexpr std::uint32_t kRevision = 1;
-const ros::WallDuration kPeriod(0.01);
+constexpr auto kPeriod = std::chrono::milliseconds(10);
 const ros::Duration kValid(0.2);
 
 sweep_guard::ToolBalls oneBall() {
@@ -30,7 +30,7 @@ FakeGuard::FakeGuard(const std::string& name) : node_(name) {
   proximities_ = node_.advertise<sweep_guard::Proximity>("proximity", 10);
   balls_ = node_.advertise<sweep_guard::ToolBalls>("tool_balls", 1, /*latch=*/true);
   balls_.publish(oneBall());
-  timer_ = node_.createSteadyTimer(kPeriod, [this](const ros::SteadyTimerEvent&) { publish(); });
+  repeater_.emplace(kPeriod, [this] { publish(); });
 }
 
 void FakeGuard::setGap(double gap) {

@@ -8,6 +8,10 @@
 
 #include <Eigen/Core>
 #include <mutex>
+#include <optional>
+#include <string>
+
+#include "repeater.h"
 
 namespace sweep_guard_ros {
 
@@ -35,7 +39,7 @@ class FakeGuard {
   ros::Publisher warnings_;
   ros::Publisher proximities_;
   ros::Publisher balls_;
-  ros::SteadyTimer timer_;
+  std::optional<Repeater> repeater_;  // ends before what it publishes
 };
 
 }  // namespace sweep_guard_ros

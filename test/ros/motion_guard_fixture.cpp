@@ -76,7 +76,7 @@ MotionWorld::MotionWorld()
       pose_(node_.advertise<geometry_msgs::PoseStamped>("tool_pose", 10)),
       joints_(node_.advertise<tf2_msgs::TFMessage>("/tf", 10)),
       frames_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true)),
-      timer_(node_.createWallTimer(ros::WallDuration(0.01), [this](const ros::WallTimerEvent&) { step(); })) {
+      repeater_(std::chrono::milliseconds(10), [this] { step(); }) {
   tool_.publish(needle());
   frames_.publish(frames());
 }

@@ -14,6 +14,7 @@
 #include <mutex>
 #include <string>
 
+#include "ros/repeater.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -92,7 +93,7 @@ class MotionWorld {
   ros::Publisher pose_;
   ros::Publisher joints_;
   ros::Publisher frames_;
-  ros::WallTimer timer_;
+  const Repeater repeater_;  // ends before what it publishes
 };
 
 }  // namespace sweep_guard_ros

@@ -10,8 +10,8 @@ namespace {
 constexpr int kDecelerateForCollision = 3;
 constexpr int kHaltForCollision = 4;
 constexpr std::uint32_t kServoQueue = 2;
-const ros::WallDuration kServoPeriod(0.008);
-const ros::WallDuration kArmPeriod(0.01);
+constexpr auto kServoPeriod = std::chrono::milliseconds(8);
+constexpr auto kArmPeriod = std::chrono::milliseconds(10);
 
 geometry_msgs::Twist scaled(double scale, geometry_msgs::Twist twist) {
   for (double* const value :
@@ -45,7 +45,7 @@ FakeServo::FakeServo(const std::string& name)
         status_ = 0;
         return true;
       });
-  timer_ = node_.createSteadyTimer(kServoPeriod, [this](const ros::SteadyTimerEvent&) { iterate(); });
+  repeater_.emplace(kServoPeriod, [this] { iterate(); });
 }
 
 void FakeServo::iterate() {
@@ -102,7 +102,7 @@ FakeArm::FakeArm(const std::string& name, const geometry_msgs::Pose& pose) : nod
         pose_ = command->pose;
         commands_.set(*command);
       });
-  timer_ = node_.createSteadyTimer(kArmPeriod, [this](const ros::SteadyTimerEvent&) { publish(); });
+  repeater_.emplace(kArmPeriod, [this] { publish(); });
 }
 
 void FakeArm::publish() {

@@ -10,9 +10,11 @@
 
 #include <list>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "listener.h"
+#include "repeater.h"
 
 namespace sweep_guard_ros {
 
@@ -48,7 +50,7 @@ class FakeServo {
   ros::Subscriber command_subscriber_;
   ros::Subscriber scale_subscriber_;
   ros::ServiceServer reset_;
-  ros::SteadyTimer timer_;
+  std::optional<Repeater> repeater_;  // ends before what it publishes
 };
 
 /// twist_mux of ROS Noetic with one input, nav_vel of priority 10: passes a twist on unless a lock of higher priority is
@@ -110,7 +112,7 @@ class FakeArm {
   Watched<geometry_msgs::PoseStamped> commands_;
   ros::Publisher publisher_;
   ros::Subscriber subscriber_;
-  ros::SteadyTimer timer_;
+  std::optional<Repeater> repeater_;  // ends before what it publishes
 };
 
 }  // namespace sweep_guard_ros
