@@ -1,5 +1,6 @@
 #include "ros/process.h"
 
+#include <malloc.h>
 #include <netinet/in.h>
 #include <pthread.h>
 #include <ros/console.h>
@@ -75,6 +76,12 @@ void setIdle() {
 
 // On Linux, setpriority() is of one thread.
 void setNice(int nice) { setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), nice); }
+
+void shareHeaps() {
+#ifdef M_ARENA_MAX  // glibc
+  mallopt(M_ARENA_MAX, 2);
+#endif
+}
 
 void limitMemory(size_t max_memory) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -22,6 +22,10 @@ void setNice(int nice);
 /// once. It stays so; it should hold no lock that others wait for.
 void setIdle();
 
+/// Lets all threads share two heaps, where each would keep as much free memory as its largest burst of messages took.
+/// Before the first thread.
+void shareHeaps();
+
 /// Limits the address space of the process; what does not fit throws std::bad_alloc. Does nothing in builds with a
 /// sanitizer, which reserves terabytes.
 /// @param max_memory  [MiB]; 0: no limit

@@ -12,6 +12,7 @@ namespace sweep_guard_ros {
 
 int runNode(const char* name, int argc, char** argv, const std::function<std::shared_ptr<void>()>& start) {
   return sweep_guard_core::runProgram(name, [&] {
+    shareHeaps();
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);  // throws at a refused name or remapping
     EndRequest end;
     const ros::NodeHandle alive;  // the console is silent without a handle

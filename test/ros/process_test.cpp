@@ -1,10 +1,19 @@
 #include "ros/process.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
 #include <new>
 #include <thread>
 
@@ -89,6 +98,44 @@ TEST(LimitMemoryTest, ZeroLimitsNothing) {
   const rlim_t before = addressSpaceLimit();
   limitMemory(0);
   EXPECT_EQ(addressSpaceLimit(), before);
+}
+
+// Returns the number of heaps that malloc has made for eight threads at once.
+int heapsOfEightThreads() {
+  std::array<std::thread, 8> threads;
+  std::array<std::unique_ptr<int>, 8> made;
+  std::atomic<std::size_t> ready{0};
+  for (std::size_t i = 0; i < threads.size(); ++i) {
+    threads[i] = std::thread([&, i] {
+      made[i] = std::make_unique<int>(1);
+      for (++ready; ready < threads.size();) std::this_thread::yield();
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  char* text = nullptr;
+  std::size_t size = 0;
+  FILE* const stream = open_memstream(&text, &size);
+  malloc_info(0, stream);
+  fclose(stream);
+  int heaps = 0;
+  for (const char* at = strstr(text, "<heap "); at != nullptr; at = strstr(at + 1, "<heap ")) ++heaps;
+  free(text);
+  return heaps;
+}
+
+// Sanitizers have a malloc of their own.
+TEST(ShareHeapsTest, ThreadsShareTwoHeaps) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  testing::FLAGS_gtest_death_test_style = "threadsafe";  // a process in which no thread has run
+  const auto shared = [] {
+    shareHeaps();
+    _exit(heapsOfEightThreads());
+  };
+  EXPECT_EXIT(shared(), testing::ExitedWithCode(2), "");
+  const auto separate = [] { _exit(heapsOfEightThreads()); };
+  EXPECT_EXIT(
+      separate(), [](int status) { return WIFEXITED(status) && WEXITSTATUS(status) > 2; }, "");
+#endif
 }
 
 }  // namespace
