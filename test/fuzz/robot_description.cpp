@@ -8,6 +8,7 @@
 #include "input.h"
 #include "require.h"
 #include "ros/tool/robot_description.h"
+#include "ros/tool/robot_tree.h"
 #include "ros/tool/tool_model.h"
 #include "sweep_guard/common/error.h"
 
@@ -15,6 +16,7 @@ namespace sweep_guard_fuzz {
 namespace {
 
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::poseOf;
 using sweep_guard_ros::RobotDescription;
 using sweep_guard_ros::ToolModel;
 using sweep_guard_ros::ToolModelOptions;
@@ -37,7 +39,10 @@ size_t collisionsIn(const std::string& urdf) {
 void checkPoses(const RobotDescription& robot) {
   for (const urdf::Link* link : RobotDescription::subtree(robot.root())) {
     try {
-      const Eigen::Isometry3d X = sweep_guard_ros::LinkPoses(robot, {}).X_FL(robot.root(), *link);
+      const sweep_guard_ros::RobotTree robot_tree = sweep_guard_ros::treeOf(robot, robot.root(), {link});
+      std::vector<Eigen::Isometry3d> X_RL;
+      robot_tree.tree.poses(sweep_guard_ros::positionsOf(robot, robot_tree.tree, {}), X_RL);
+      const Eigen::Isometry3d X = poseOf(robot_tree.links[0], X_RL);
       if (!X.matrix().allFinite()) continue;  // too far away: the tool is refused then
       const Eigen::Matrix3d product = X.linear() * X.linear().transpose();
       require((product - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6,

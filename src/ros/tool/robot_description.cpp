@@ -5,9 +5,8 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <set>
-#include <sstream>
 
 #include "sweep_guard/common/error.h"
 
@@ -18,8 +17,6 @@ using sweep_guard_core::InvalidInput;
 using tinyxml2::XMLElement;
 
 constexpr size_t kMaxDescription = size_t{8} << 20U;  // [byte]
-constexpr int kMaxMimicDepth = 16;
-constexpr double kMaxAngle = 1e4;  // [rad], of a continuous joint
 
 // urdfdom reports errors through console_bridge, from the detail to the link, and continues after some of them.
 class ErrorCollector : public console_bridge::OutputHandler {
@@ -136,32 +133,6 @@ void requireConnected(const urdf::ModelInterface& model) {
   }
 }
 
-std::string shown(double lower, double upper) {
-  std::ostringstream text;
-  text << lower << " to " << upper;
-  return text.str();
-}
-
-bool hasLimits(const urdf::Joint& joint) {
-  return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC;
-}
-
-std::pair<double, double> limitsOf(const urdf::Joint& joint) {
-  if (!hasLimits(joint)) return {-kMaxAngle, kMaxAngle};
-  const bool usable = joint.limits && std::isfinite(joint.limits->lower) && std::isfinite(joint.limits->upper) &&
-                      joint.limits->lower <= joint.limits->upper;
-  if (!usable)
-    throw InvalidInput("joint '" + joint.name + "': its limits are missing, or the lower is above the upper");
-  return {joint.limits->lower, joint.limits->upper};
-}
-
-Eigen::Vector3d axisOf(const urdf::Joint& joint) {
-  const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
-  const double length = axis.stableNorm();
-  if (!(length > 1e-6 && length < 1e6)) throw InvalidInput("joint '" + joint.name + "': its axis must not be 0");
-  return axis / length;
-}
-
 }  // namespace
 
 RobotDescription::RobotDescription(const std::string& urdf) : model_(parse(checkedXml(urdf))) {
@@ -174,6 +145,11 @@ const urdf::Link* RobotDescription::link(const std::string& name) const {
   return found == model_->links_.end() ? nullptr : found->second.get();
 }
 
+const urdf::Joint* RobotDescription::joint(const std::string& name) const {
+  const auto found = model_->joints_.find(name);
+  return found == model_->joints_.end() ? nullptr : found->second.get();
+}
+
 std::vector<const urdf::Link*> RobotDescription::subtree(const urdf::Link& link) {
   std::vector<const urdf::Link*> links;
   std::vector<const urdf::Link*> open{&link};
@@ -184,82 +160,6 @@ std::vector<const urdf::Link*> RobotDescription::subtree(const urdf::Link& link)
     for (auto child = children.rbegin(); child != children.rend(); ++child) open.push_back(child->get());
   }
   return links;
-}
-
-LinkPoses::LinkPoses(const RobotDescription& robot, std::map<std::string, double> positions)
-    : robot_(robot), positions_(std::move(positions)) {
-  for (const auto& [name, position] : positions_) {
-    if (!robot_.hasJoint(name))
-      throw InvalidInput("tool/joints names '" + name + "', which is not a joint of the robot");
-    if (!std::isfinite(position)) throw InvalidInput("the position of joint '" + name + "' is not finite");
-  }
-}
-
-std::vector<const urdf::Joint*> LinkPoses::pathToRoot(const urdf::Link& link) const {
-  std::vector<const urdf::Joint*> path;
-  const urdf::Link* at = &link;
-  while (at->parent_joint) {
-    path.push_back(at->parent_joint.get());
-    at = robot_.link(path.back()->parent_link_name);
-  }
-  return path;
-}
-
-Eigen::Isometry3d LinkPoses::X_FL(const urdf::Link& frame, const urdf::Link& link) {
-  const std::vector<const urdf::Joint*> to_frame = pathToRoot(frame);
-  const std::vector<const urdf::Joint*> to_link = pathToRoot(link);
-  size_t shared = 0;  // joints above both links, which move both
-  while (shared < std::min(to_frame.size(), to_link.size()) &&
-         to_frame[to_frame.size() - 1 - shared] == to_link[to_link.size() - 1 - shared]) {
-    ++shared;
-  }
-  return X_RL(to_frame, shared).inverse() * X_RL(to_link, shared);
-}
-
-Eigen::Isometry3d LinkPoses::X_RL(const std::vector<const urdf::Joint*>& path, size_t above) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  for (size_t i = path.size() - above; i > 0; --i) X = X * X_PC(*path[i - 1]);
-  return X;
-}
-
-Eigen::Isometry3d LinkPoses::X_PC(const urdf::Joint& joint) {
-  Eigen::Isometry3d X_PJ;
-  try {
-    X_PJ = fromUrdf(joint.parent_to_joint_origin_transform);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput("joint '" + joint.name + "': " + error.what());
-  }
-  if (joint.type == urdf::Joint::FIXED) return X_PJ;
-  const double at = position(joint);
-  joints_[joint.name] = at;
-  if (joint.type == urdf::Joint::PRISMATIC) return X_PJ * Eigen::Translation3d(at * axisOf(joint));
-  return X_PJ * Eigen::AngleAxisd(at, axisOf(joint));
-}
-
-double LinkPoses::position(const urdf::Joint& joint, int depth) const {
-  if (!hasLimits(joint) && joint.type != urdf::Joint::CONTINUOUS) {
-    throw InvalidInput(
-        "joint '" + joint.name +
-        "' is within the tool: only fixed, revolute, continuous and prismatic joints are supported there");
-  }
-  const auto given = positions_.find(joint.name);
-  if (joint.mimic) {
-    const auto followed = robot_.model_->joints_.find(joint.mimic->joint_name);
-    if (followed == robot_.model_->joints_.end() || depth > kMaxMimicDepth) {
-      throw InvalidInput("joint '" + joint.name + "' mimics '" + joint.mimic->joint_name +
-                         "', which does not exist or mimics too many others");
-    }
-    if (given != positions_.end()) {
-      throw InvalidInput("joint '" + joint.name + "' mimics '" + followed->first + "': set that joint in tool/joints");
-    }
-    return joint.mimic->multiplier * position(*followed->second, depth + 1) + joint.mimic->offset;
-  }
-  const auto [lower, upper] = limitsOf(joint);
-  if (given == positions_.end()) return std::clamp(0.0, lower, upper);
-  if (given->second < lower || given->second > upper) {
-    throw InvalidInput("tool/joints/" + joint.name + " is beyond the joint's limits, " + shown(lower, upper));
-  }
-  return given->second;
 }
 
 Eigen::Isometry3d fromUrdf(const urdf::Pose& pose) {

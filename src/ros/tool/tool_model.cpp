@@ -6,6 +6,7 @@
 
 #include "common/xyz.h"
 #include "ros/tool/robot_description.h"
+#include "ros/tool/robot_tree.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/tool/mesh_file.h"
 
@@ -15,6 +16,7 @@ namespace {
 using sweep_guard_core::ConvexPiece;
 using sweep_guard_core::ConvexShape;
 using sweep_guard_core::InvalidInput;
+using sweep_guard_core::poseOf;
 
 const std::string kDefaultFrame = "tool";
 constexpr double kMaxDistance = 100.0;  // [m]
@@ -170,14 +172,17 @@ ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options
   const RobotDescription robot(urdf);
   const urdf::Link& frame = frameOf(robot, options);
   const std::vector<const urdf::Link*> links = linksOf(robot, options, frame);
-  LinkPoses poses(robot, options.joints);
-  ToolModel model{{}, frame.name, {}};
-  for (const urdf::Link* link : links) {
-    const Eigen::Isometry3d X_TL = poses.X_FL(frame, *link);
-    withLinkInErrors(*link, [&] { addPieces(*link, X_TL, options, frame.name, model.pieces); });
+  const RobotTree robot_tree = treeOf(robot, frame, links);
+  const std::vector<double> positions = positionsOf(robot, robot_tree.tree, options.joints);
+  std::vector<Eigen::Isometry3d> X_RL;
+  robot_tree.tree.poses(positions, X_RL);
+  const Eigen::Isometry3d X_TR = poseOf(robot_tree.frame, X_RL).inverse();
+  ToolModel model{{}, frame.name, robot_tree.tree.jointPositions(positions)};
+  for (size_t i = 0; i < links.size(); ++i) {
+    const Eigen::Isometry3d X_TL = X_TR * poseOf(robot_tree.links[i], X_RL);
+    withLinkInErrors(*links[i], [&] { addPieces(*links[i], X_TL, options, frame.name, model.pieces); });
   }
   for (const urdf::Link* link : links) requireCollision(*link);  // last, to report a missing mesh first
-  model.joints = poses.joints();
   return model;
 }
 

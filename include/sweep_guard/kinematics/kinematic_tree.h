@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sweep_guard_core {
+
+enum class JointType { kFixed, kRevolute, kPrismatic };
+
+/// The position of a joint, which others may mimic.
+struct JointVariable {
+  std::string name;                                         ///< of the joint
+  double lower = -std::numeric_limits<double>::infinity();  ///< [rad or m]
+  double upper = std::numeric_limits<double>::infinity();   ///< [rad or m], >= lower
+  bool continuous = false;  ///< [rad]: positions that a full turn lies between are the same
+};
+
+/// A link L of a robot, and the joint that joins it to its parent P: L is where the joint frame J is, moved by the joint.
+struct TreeLink {
+  static constexpr size_t kRoot = std::numeric_limits<size_t>::max();
+
+  std::string name;
+  std::string joint;                                       ///< name
+  size_t parent = kRoot;                                   ///< index, lower than that of this link; kRoot: the root R
+  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();  ///< translation [m]
+  JointType type = JointType::kFixed;
+  Eigen::Vector3d axis_J = Eigen::Vector3d::UnitZ();  ///< unit; of the turn or the way
+  /// The joint is at multiplier * variable + offset [rad or m]. Not used by fixed joints.
+  size_t variable = 0;
+  double multiplier = 1.0;
+  double offset = 0.0;
+
+  /// Returns the position of the joint [rad or m].
+  double at(const std::vector<double>& positions) const { return multiplier * positions[variable] + offset; }
+  bool moves() const { return type != JointType::kFixed && multiplier != 0.0; }
+};
+
+/// The links of a robot that matter, and how its joints move them. The same links in the same order have the same bits,
+/// whatever else the robot has.
+class KinematicTree {
+ public:
+  /// @throws InvalidInput if a link comes before its parent, a joint has no variable, an axis is not unit, a number is not
+  ///     finite, or limits are the wrong way round
+  KinematicTree(std::vector<JointVariable> variables, std::vector<TreeLink> links);
+
+  const std::vector<JointVariable>& variables() const { return variables_; }
+  const std::vector<TreeLink>& links() const { return links_; }
+
+  /// Returns the index of the topmost link of the body of a link: joints within a body do not move. TreeLink::kRoot: the
+  /// link moves with the root.
+  size_t bodyOf(size_t link) const { return bodies_[link]; }
+
+  /// Returns the position of each variable closest to 0 within its limits [rad or m].
+  std::vector<double> nearestToZero() const;
+
+  /// Returns the way of each variable from one position to the other [rad or m]: of a continuous joint the shorter one.
+  /// @param from, to  one of each variable
+  std::vector<double> way(const std::vector<double>& from, const std::vector<double>& to) const;
+
+  /// Returns the position of each moving joint by its name [rad or m], of those that mimic others, too.
+  /// @param positions  one of each variable
+  std::map<std::string, double> jointPositions(const std::vector<double>& positions) const;
+
+  /// Computes the pose of each link in the root frame.
+  /// @param positions   one of each variable [rad or m]; beyond the limits, too
+  /// @param[out] X_RL   overwritten; its buffer is used again
+  void poses(const std::vector<double>& positions, std::vector<Eigen::Isometry3d>& X_RL) const;
+
+ private:
+  std::vector<JointVariable> variables_;
+  std::vector<TreeLink> links_;
+  std::vector<size_t> bodies_;
+};
+
+/// Returns the pose of a link, or of the root, in the root frame.
+/// @param X_RL  from KinematicTree::poses()
+inline Eigen::Isometry3d poseOf(size_t link, const std::vector<Eigen::Isometry3d>& X_RL) {
+  return link == TreeLink::kRoot ? Eigen::Isometry3d::Identity() : X_RL[link];
+}
+
+}  // namespace sweep_guard_core

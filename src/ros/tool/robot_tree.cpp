@@ -1,0 +1,188 @@
+#include "ros/tool/robot_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::JointType;
+using sweep_guard_core::JointVariable;
+using sweep_guard_core::KinematicTree;
+using sweep_guard_core::TreeLink;
+
+constexpr int kMaxMimicDepth = 16;
+constexpr double kMaxAngle = 1e4;  // [rad], of a continuous joint
+
+// From the root of the robot down to the link.
+using Joints = std::vector<const urdf::Joint*>;
+
+Joints jointsAbove(const RobotDescription& robot, const urdf::Link& link) {
+  Joints joints;
+  for (const urdf::Link* at = &link; at->parent_joint; at = robot.link(joints.back()->parent_link_name)) {
+    joints.push_back(at->parent_joint.get());
+  }
+  std::reverse(joints.begin(), joints.end());
+  return joints;
+}
+
+// Joints above all links move all of them alike.
+void forgetShared(std::vector<Joints>& paths) {
+  size_t shared = paths.front().size();
+  for (const Joints& path : paths) {
+    const auto apart = std::mismatch(path.begin(), path.end(), paths.front().begin(), paths.front().end());
+    shared = std::min(shared, static_cast<size_t>(apart.first - path.begin()));
+  }
+  for (Joints& path : paths) path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(shared));
+}
+
+bool hasLimits(const urdf::Joint& joint) {
+  return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC;
+}
+
+std::pair<double, double> limitsOf(const urdf::Joint& joint) {
+  if (!hasLimits(joint)) return {-kMaxAngle, kMaxAngle};
+  const bool usable = joint.limits && std::isfinite(joint.limits->lower) && std::isfinite(joint.limits->upper) &&
+                      joint.limits->lower <= joint.limits->upper;
+  if (!usable)
+    throw InvalidInput("joint '" + joint.name + "': its limits are missing, or the lower is above the upper");
+  return {joint.limits->lower, joint.limits->upper};
+}
+
+Eigen::Vector3d axisOf(const urdf::Joint& joint) {
+  const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
+  const double length = axis.stableNorm();
+  if (!(length > 1e-6 && length < 1e6)) throw InvalidInput("joint '" + joint.name + "': its axis must not be 0");
+  return axis / length;
+}
+
+Eigen::Isometry3d originOf(const urdf::Joint& joint) {
+  try {
+    return fromUrdf(joint.parent_to_joint_origin_transform);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput("joint '" + joint.name + "': " + error.what());
+  }
+}
+
+void requireSupported(const urdf::Joint& joint) {
+  if (hasLimits(joint) || joint.type == urdf::Joint::CONTINUOUS) return;
+  throw InvalidInput("joint '" + joint.name +
+                     "' is within the tool: only fixed, revolute, continuous and prismatic joints are supported there");
+}
+
+const urdf::Joint& followedBy(const RobotDescription& robot, const urdf::Joint& joint, int depth) {
+  const urdf::Joint* const followed = robot.joint(joint.mimic->joint_name);
+  if (followed != nullptr && depth < kMaxMimicDepth) return *followed;
+  throw InvalidInput("joint '" + joint.name + "' mimics '" + joint.mimic->joint_name +
+                     "', which does not exist or mimics too many others");
+}
+
+std::string shown(double lower, double upper) {
+  std::ostringstream text;
+  text << lower << " to " << upper;
+  return text.str();
+}
+
+class TreeBuilder {
+ public:
+  explicit TreeBuilder(const RobotDescription& robot) : robot_(robot) {}
+
+  // Returns the index of the link at the end of the path.
+  size_t add(const Joints& path) {
+    size_t parent = TreeLink::kRoot;
+    for (const urdf::Joint* joint : path) {
+      const auto [place, is_new] = places_.emplace(joint, links_.size());
+      if (is_new) links_.push_back(linkBelow(*joint, parent));
+      parent = place->second;
+    }
+    return parent;
+  }
+
+  KinematicTree tree() { return {std::move(variables_), std::move(links_)}; }
+
+ private:
+  TreeLink linkBelow(const urdf::Joint& joint, size_t parent) {
+    TreeLink link;
+    link.name = joint.child_link_name;
+    link.joint = joint.name;
+    link.parent = parent;
+    link.X_PJ = originOf(joint);
+    if (joint.type == urdf::Joint::FIXED) return link;
+    follow(joint, link);
+    link.type = joint.type == urdf::Joint::PRISMATIC ? JointType::kPrismatic : JointType::kRevolute;
+    link.axis_J = axisOf(joint);
+    return link;
+  }
+
+  void follow(const urdf::Joint& joint, TreeLink& link) {
+    const urdf::Joint* leader = &joint;
+    requireSupported(*leader);
+    for (int depth = 0; leader->mimic; ++depth) {
+      link.offset += link.multiplier * leader->mimic->offset;
+      link.multiplier *= leader->mimic->multiplier;
+      leader = &followedBy(robot_, *leader, depth);
+      requireSupported(*leader);
+    }
+    link.variable = variableOf(*leader);
+  }
+
+  size_t variableOf(const urdf::Joint& joint) {
+    const auto same = [&](const JointVariable& variable) { return variable.name == joint.name; };
+    const auto found = std::find_if(variables_.begin(), variables_.end(), same);
+    const auto index = static_cast<size_t>(found - variables_.begin());
+    if (found != variables_.end()) return index;
+    const auto [lower, upper] = limitsOf(joint);
+    variables_.push_back({joint.name, lower, upper, joint.type == urdf::Joint::CONTINUOUS});
+    return index;
+  }
+
+  const RobotDescription& robot_;
+  std::vector<JointVariable> variables_;
+  std::vector<TreeLink> links_;
+  std::map<const urdf::Joint*, size_t> places_;
+};
+
+void checkGiven(const RobotDescription& robot, const KinematicTree& tree, const std::string& name, double position) {
+  const urdf::Joint* const joint = robot.joint(name);
+  if (joint == nullptr) throw InvalidInput("tool/joints names '" + name + "', which is not a joint of the robot");
+  if (!std::isfinite(position)) throw InvalidInput("the position of joint '" + name + "' is not finite");
+  const auto& links = tree.links();
+  const bool used = std::any_of(links.begin(), links.end(), [&](const TreeLink& link) { return link.joint == name; });
+  if (!used || !joint->mimic) return;
+  throw InvalidInput("joint '" + name + "' mimics '" + joint->mimic->joint_name + "': set that joint in tool/joints");
+}
+
+}  // namespace
+
+RobotTree treeOf(const RobotDescription& robot, const urdf::Link& frame, const std::vector<const urdf::Link*>& links) {
+  std::vector<Joints> paths{jointsAbove(robot, frame)};
+  for (const urdf::Link* link : links) paths.push_back(jointsAbove(robot, *link));
+  forgetShared(paths);
+  TreeBuilder builder(robot);
+  std::vector<size_t> ends;
+  for (const Joints& path : paths) ends.push_back(builder.add(path));
+  return {builder.tree(), ends.front(), {ends.begin() + 1, ends.end()}};
+}
+
+std::vector<double> positionsOf(const RobotDescription& robot, const KinematicTree& tree,
+                                const std::map<std::string, double>& given) {
+  for (const auto& [name, position] : given) checkGiven(robot, tree, name, position);
+  std::vector<double> positions = tree.nearestToZero();
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const auto& [name, lower, upper, continuous] = tree.variables()[i];
+    const auto found = given.find(name);
+    if (found == given.end()) continue;
+    if (found->second < lower || found->second > upper) {
+      throw InvalidInput("tool/joints/" + name + " is beyond the joint's limits, " + shown(lower, upper));
+    }
+    positions[i] = found->second;
+  }
+  return positions;
+}
+
+}  // namespace sweep_guard_ros
