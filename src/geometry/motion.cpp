@@ -51,7 +51,9 @@ std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, dou
   const double frame_angle = motion.frame_W.angle();
   const size_t count = subMotionCount(motion.tool_W.angle() + frame_angle, max_rotation);
   const auto divisor = static_cast<double>(count);
-  const double deviation_bound = frame_angle == 0.0 ? 0.0 : chordError(motion, tool_radius) / (divisor * divisor);
+  const double deviation = motion.tool_W.deviation_bound;
+  const bool arcs_alone = frame_angle == 0.0 && deviation == 0.0;
+  const double deviation_bound = arcs_alone ? 0.0 : chordError(motion, tool_radius) / (divisor * divisor) + deviation;
 
   const auto pose_M = [&](double fraction) {
     return motion.frame_W.at(fraction).inverse() * motion.tool_W.at(fraction);

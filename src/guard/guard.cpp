@@ -22,6 +22,7 @@ void assign(PoseWithFrames& to, const PoseWithFrames& from) {
   to.stamp = from.stamp;
   to.received = from.received;
   to.X_WT = from.X_WT;
+  to.deviation_bound = from.deviation_bound;
   auto next = from.X_WM.begin();
   for (auto& [frame, X_WM] : to.X_WM) X_WM = next++->second;
 }

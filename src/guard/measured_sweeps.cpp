@@ -61,7 +61,8 @@ void MeasuredSweeps::pass(const PoseWithFrames& pose) {
 
 void MeasuredSweeps::add(const PoseWithFrames& pose) {
   ++poses_;
-  for (const auto& [frame, X_WM] : pose.X_WM) histories_[frame].add({poses_, pose.stamp, pose.X_WT, X_WM});
+  for (const auto& [frame, X_WM] : pose.X_WM)
+    histories_[frame].add({poses_, pose.stamp, pose.X_WT, X_WM, pose.deviation_bound});
 }
 
 void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
@@ -181,8 +182,8 @@ void MeasuredSweeps::findSubMotions(const SweepSetup& setup, const PoseHistory& 
   }
   const PoseSample& from = history[first + begin];
   const PoseSample& to = history[first + end];
-  sub_motions_M_ = split({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, setup.options.max_rotation, radius,
-                         std::move(sub_motions_M_));
+  sub_motions_M_ = split({{from.X_WT, to.X_WT, to.deviation_bound}, {from.X_WM, to.X_WM}}, setup.options.max_rotation,
+                         radius, std::move(sub_motions_M_));
 }
 
 void MeasuredSweeps::takeBack() noexcept {

@@ -49,7 +49,8 @@ void PoseHistory::path_M(size_t first, size_t last, double tool_radius, Path& pa
   for (size_t i = first; i <= last; ++i) {
     const PoseSample& to = (*this)[i];
     const PoseSample& from = (*this)[std::max(i, first + 1) - 1];
-    const double deviation = i == first ? 0.0 : chordError({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, tool_radius);
+    const double turn = chordError({{from.X_WT, to.X_WT}, {from.X_WM, to.X_WM}}, tool_radius);
+    const double deviation = i == first ? 0.0 : turn + to.deviation_bound;
     path_M.push_back({to.stamp - (*this)[first].stamp, to.X_WM.inverse() * to.X_WT, deviation});
   }
 }

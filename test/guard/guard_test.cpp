@@ -86,6 +86,22 @@ TEST_F(GuardTest, SweepsFromPoseToPose) {
   EXPECT_FALSE(sweepTo(1.2, -0.2).contact());
 }
 
+// The drill passes 3 mm beside the triangle's edge.
+TEST_F(GuardTest, AToolThatJointsMoveIsSweptWithItsDeviation) {
+  const auto besideAt = [](double seconds, double z, double deviation_bound) {
+    PoseWithFrames beside = pose(seconds, {{"table", Eigen::Isometry3d(Eigen::Translation3d(0, -1.008, z))}});
+    beside.deviation_bound = deviation_bound;
+    return beside;
+  };
+  reportOf(guard_, besideAt(1.0, 0.5, 0.0), table_);
+  EXPECT_FALSE(reportOf(guard_, besideAt(1.1, -0.1, 0.002), table_).contact());
+  EXPECT_TRUE(reportOf(guard_, besideAt(1.2, 0.5, 0.004), table_).contact());
+  guard_.pass(besideAt(1.3, -0.1, 0.004));
+  EXPECT_TRUE(reportOf(guard_, besideAt(1.4, -0.2, 0.0), table_).contact());
+  guard_.pass(besideAt(1.5, 0.5, 0.002));
+  EXPECT_FALSE(reportOf(guard_, besideAt(1.6, 0.6, 0.0), table_).contact());
+}
+
 TEST_F(GuardTest, SweepsEveryIntervalEndToEnd) {
   sweepTo(0.0, 1.0);
   for (int i = 1; i <= 20; ++i) {

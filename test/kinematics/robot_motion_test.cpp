@@ -61,6 +61,29 @@ TEST(RobotMotionTest, NoPointOfABodyDeviatesByMoreThanTheBound) {
   }
 }
 
+// Of a link at the end of an arm that moves for 5 ms at up to 1 rad/s a joint, against the worst of 64 of its points.
+TEST(RobotMotionTest, IsBoundedWithinSixTimesItsDeviationInTheMedian) {
+  Random random(/*seed=*/4);
+  std::vector<double> ratios;
+  for (int i = 0; i < 300; ++i) {
+    const KinematicTree tree = randomRobot(random, 7, /*branches=*/false);
+    const std::vector<RobotBody> bodies{{6, 0.1}};
+    const RobotState from = randomState(random, tree, 3.0);
+    RobotState to = randomStateNear(random, from, 5e-3);
+    to.X_WR = from.X_WR;
+    const RobotMotion motion(tree, bodies, from, to);
+    EXPECT_LE(motion.deviationBound(0, 1), 5e-4);
+    double worst = 0.0;
+    for (int point = 0; point < 64; ++point) {
+      const Eigen::Vector3d p_B = 0.1 * random.direction();
+      worst = std::max(worst, sampledDeviation(tree, bodies, motion, 0, p_B, 0.0, 1.0));
+    }
+    ratios.push_back(motion.deviationBound(0, 1) / worst);
+  }
+  std::nth_element(ratios.begin(), ratios.begin() + 150, ratios.end());
+  EXPECT_LE(ratios[150], 6.0);
+}
+
 // A long lever that one joint turns: the sagitta of its arc, which the bound exceeds by slerp's share alone.
 TEST(RobotMotionTest, TheBoundOfOneTurningLinkIsTheArcOfItsFarthestPoint) {
   TreeLink lever;

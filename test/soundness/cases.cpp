@@ -163,6 +163,8 @@ void readSweep(Line& line, SweepCase& sweep) {
     sweep.tool.push_back(line.body());
   } else if (line.word() == "motion") {
     sweep.motion = line.motion();
+  } else if (line.word() == "deviation") {
+    sweep.motion.deviation_bound = line.number();
   } else if (line.word() == "frame") {
     sweep.frame_W = line.motion();
   } else if (line.word() == "options") {
@@ -208,8 +210,8 @@ TriangleMesh Triangles::mesh() const { return meshOf(*this, corners_M); }
 TriangleMesh Triangles::meshBefore() const { return before_M.empty() ? mesh() : meshOf(*this, before_M); }
 
 std::vector<Motion> SweepCase::subMotions() const {
-  if (!frame_W) return split(motion, options.max_rotation);
-  return split(RelativeMotion{motion, *frame_W}, options.max_rotation, toolOf(tool).boundingRadius());
+  if (!frame_W && motion.deviation_bound == 0.0) return split(motion, options.max_rotation);
+  return split(RelativeMotion{motion, frame_W.value_or(Motion{})}, options.max_rotation, toolOf(tool).boundingRadius());
 }
 
 SweepResult checkCase(Detector& detector, const SweepCase& sweep) {
@@ -237,6 +239,7 @@ std::string textOf(const SweepCase& sweep, const std::string& about) {
   std::string text = "soundness-sweep " + about + '\n';
   for (const Body& body : sweep.tool) text += textOf(body);
   text += textOf("motion", sweep.motion);
+  if (sweep.motion.deviation_bound > 0.0) text += "deviation " + hex(sweep.motion.deviation_bound) + '\n';
   if (sweep.frame_W) text += textOf("frame", *sweep.frame_W);
   text += "options " + nameOf(sweep.options.volume) + ' ' + hex(sweep.options.max_rotation) + ' ' +
           hex(sweep.options.margin) + '\n';

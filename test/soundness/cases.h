@@ -43,7 +43,7 @@ struct Contact {
 struct SweepCase {
   Triangles triangles;
   Bodies tool;
-  Motion motion;                  ///< of the tool in M, or in W if the frame M moves
+  Motion motion;  ///< of the tool in M, or in W if the frame M moves; with a deviation_bound if joints move it
   std::optional<Motion> frame_W;  ///< of M in W
   SweepOptions options;           ///< checks may replace its volume
   std::vector<Contact> contacts;  ///< certain contacts, ascending in their triangles

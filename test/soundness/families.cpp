@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "soundness/joint_positives.h"
 #include "soundness/metamorphic.h"
 #include "soundness/pairs.h"
 #include "soundness/positives.h"
@@ -22,6 +23,17 @@ void replayPair(const Context& context, const AnyCase& any) { checkPair(context,
 void runPositives(const Context& context, std::uint64_t seed) { checkPositives(context, constructedPositives(seed)); }
 
 void replayPositives(const Context& context, const AnyCase& any) { checkPositives(context, any.sweep.value()); }
+
+void runJoints(const Context& context, std::uint64_t seed) {
+  const SweepCase sweep = jointPositives(seed);
+  checkPositives(context, sweep);
+  checkImpacts(context, sweep);
+}
+
+void replayJoints(const Context& context, const AnyCase& any) {
+  checkPositives(context, any.sweep.value());
+  checkImpacts(context, any.sweep.value());
+}
 
 void runImpacts(const Context& context, std::uint64_t seed) { checkImpacts(context, constructedPositives(seed)); }
 
@@ -71,6 +83,7 @@ const std::vector<Family>& families() {
       {"adversarial", "volumes and triangles that are hard for float32 and clipping, against exact arithmetic",
        runPairs<adversarialPairs>, replayPair},
       {"positives", "triangles through known points of a moving tool", runPositives, replayPositives},
+      {"joints", "triangles through known points of a body that joints move", runJoints, replayJoints},
       {"impacts", "time of impact on the same triangles: none is missed or late", runImpacts, replayImpacts},
       {"metamorphic", "triangles that must still be named in another description of the scene", runRelations,
        replayRelations},

@@ -10,6 +10,7 @@
 #include "refusal.h"
 #include "soundness/exact_motion.h"
 #include "soundness/families.h"
+#include "soundness/joint_positives.h"
 #include "soundness/oracle.h"
 #include "soundness/pairs.h"
 #include "soundness/positives.h"
@@ -49,10 +50,22 @@ TEST(ExactMotionTest, EqualsTheMotionOfTheProduct) {
   }
 }
 
+TEST(JointPositivesTest, WouldBeMissedWithoutTheBoundOfTheirDeviation) {
+  std::vector<TestedDetector> detectors = allDetectors();
+  size_t missed = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SweepCase sweep = jointPositives(seed);
+    sweep.motion.deviation_bound = 0.0;
+    missed += sweep.contacts.size() - checkCase(*detectors.front().detector, sweep).not_ruled_out.size();
+  }
+  EXPECT_GT(missed, 100U);
+}
+
 TEST(CaseTest, IsReadAsItWasWritten) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const std::string pair = textOf(adversarialPairs(seed), "adversarial seed 1");
-    const std::string sweep = textOf(constructedPositives(seed), "positives seed 1");
+    const bool joints = seed % 2 == 0;
+    const std::string sweep = textOf(joints ? jointPositives(seed) : constructedPositives(seed), "positives seed 1");
     std::stringstream stream;
     stream << "something before\n" << pair << "something between\n" << sweep;
     const std::optional<AnyCase> first = readCase(stream);

@@ -47,8 +47,9 @@ struct RelativeMotion {
 };
 
 /// Returns the tool's motion in M, cut into the fewest equal sub-motions in which tool and frame together turn by at
-/// most `max_rotation`. Their deviation_bound covers the turn of M; their mesh_translation is 0. Ignores the
-/// deviation_bound and the mesh_translation of tool_W and frame_W.
+/// most `max_rotation`. Their deviation_bound covers the turn of M and that of tool_W: of a tool point, at any time, from
+/// where it would be if T moved as a Motion. Their mesh_translation is 0. Ignores the mesh_translation of tool_W and
+/// frame_W, and the deviation_bound of frame_W.
 /// @param max_rotation  [rad], > 0 (asserted)
 /// @param tool_radius   largest distance of a tool point from the origin of T [m], >= 0
 /// @param buffer        provides the memory of the result; its contents are replaced

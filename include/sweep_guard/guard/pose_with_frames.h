@@ -15,6 +15,9 @@ struct PoseWithFrames {
   SteadyTime received;                                     ///< when the pose arrived
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< translation [m]
   std::map<std::string, Eigen::Isometry3d> X_WM;  ///< [m], by name of M; a frame whose transform is missing is left out
+  /// Bound [m], >= 0, on the distance of a tool point, at any time since the previous pose, from where it would be if the tool
+  /// moved as Motion says: of a tool that joints move.
+  double deviation_bound = 0.0;
 };
 
 }  // namespace sweep_guard_core
