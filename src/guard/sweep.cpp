@@ -7,6 +7,27 @@
 
 namespace sweep_guard_core {
 
+namespace {
+
+// Without a deviation, the last sub-motion ends at the very bits of the pose.
+std::vector<Motion> subMotions(const PathRequest& request, size_t sweep) {
+  const std::vector<Eigen::Isometry3d>& path = request.path;
+  Motion motion{path[sweep], path[std::min(sweep + 1, path.size() - 1)]};
+  if (!request.deviation_bounds.empty()) motion.deviation_bound = request.deviation_bounds[sweep];
+  if (motion.deviation_bound == 0.0) return split(motion, request.options.max_rotation);
+  return split(RelativeMotion{motion, {}}, request.options.max_rotation, request.tool.boundingRadius());
+}
+
+std::optional<size_t> firstPiece(const SweepResult& sweep) {
+  const auto earlier = [](const TriangleContact& a, const TriangleContact& b) {
+    return a.impact.time_of_impact < b.impact.time_of_impact;
+  };
+  const auto first = std::min_element(sweep.in_contact.begin(), sweep.in_contact.end(), earlier);
+  return first == sweep.in_contact.end() ? std::nullopt : std::optional(first->piece);
+}
+
+}  // namespace
+
 PathResult checkPath(Detector& detector, const PathRequest& request) {
   const std::vector<Eigen::Isometry3d>& path = request.path;
   assert(!path.empty());
@@ -14,12 +35,12 @@ PathResult checkPath(Detector& detector, const PathRequest& request) {
   SweepCache cache;
   for (size_t i = 0; i < std::max<size_t>(path.size() - 1, 1); ++i) {
     request.before_sweep();
-    const Motion motion{path[i], path[std::min(i + 1, path.size() - 1)]};
-    const std::vector<Motion> sub_motions = split(motion, request.options.max_rotation);
-    const SweepResult sweep = checkSweep(detector, {request.tool, sub_motions, request.mesh_M, request.options, cache});
+    const SweepResult sweep =
+        checkSweep(detector, {request.tool, subMotions(request, i), request.mesh_M, request.options, cache});
     if (sweep.contact() && !result.first_contact) {
       result.first_contact = i;
       result.time_of_impact = firstTimeOfImpact(sweep);
+      result.piece = firstPiece(sweep);
     }
     cache = sweepCache(sweep);
     unite(result.all, sweep);

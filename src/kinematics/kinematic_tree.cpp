@@ -55,14 +55,13 @@ std::vector<double> KinematicTree::nearestToZero() const {
   return positions;
 }
 
-std::vector<double> KinematicTree::way(const std::vector<double>& from, const std::vector<double>& to) const {
-  assert(from.size() == variables_.size() && to.size() == variables_.size());
-  std::vector<double> way;
+std::vector<double> KinematicTree::unwrapped(const std::vector<double>& before, std::vector<double> positions) const {
+  assert(before.size() == variables_.size() && positions.size() == variables_.size());
   for (size_t i = 0; i < variables_.size(); ++i) {
-    const double straight = to[i] - from[i];
-    way.push_back(variables_[i].continuous ? std::remainder(straight, 2.0 * M_PI) : straight);
+    if (!variables_[i].continuous) continue;
+    positions[i] = before[i] + std::remainder(positions[i] - before[i], 2.0 * M_PI);
   }
-  return way;
+  return positions;
 }
 
 std::map<std::string, double> KinematicTree::jointPositions(const std::vector<double>& positions) const {

@@ -34,8 +34,7 @@ void addTurn(Travel& travel, double angle, double distance) {
 
 RobotMotion::RobotMotion(const KinematicTree& tree, const std::vector<RobotBody>& bodies, const RobotState& from,
                          const RobotState& to)
-    : tree_(tree), from_(from), to_(to), way_(tree.way(from.positions, to.positions)) {
-  for (size_t i = 0; i < way_.size(); ++i) to_.positions[i] = from_.positions[i] + way_[i];
+    : tree_(tree), from_(from), to_(to) {
   tree_.poses(from_.positions, X_RL_start_);
   tree_.poses(to_.positions, X_RL_end_);
   for (const RobotBody& body : bodies) deviations_.push_back(deviationInOnePart(body));
@@ -48,7 +47,7 @@ double RobotMotion::deviationInOnePart(const RobotBody& body) const {
   for (size_t i = body.link; i != TreeLink::kRoot; i = tree_.links()[i].parent) {
     const TreeLink& link = tree_.links()[i];
     if (!link.moves()) continue;
-    const double moved = std::abs(link.multiplier * way_[link.variable]);
+    const double moved = std::abs(link.at(to_.positions) - link.at(from_.positions));
     if (link.type == JointType::kPrismatic) {
       travel.way += moved;
       continue;
@@ -79,7 +78,9 @@ size_t RobotMotion::partsFor(double max_deviation, size_t most) const {
 
 RobotState RobotMotion::at(double fraction) const {
   RobotState state{Motion{from_.X_WR, to_.X_WR}.at(fraction), from_.positions};
-  for (size_t i = 0; i < way_.size(); ++i) state.positions[i] += fraction * way_[i];
+  for (size_t i = 0; i < state.positions.size(); ++i) {
+    state.positions[i] += fraction * (to_.positions[i] - from_.positions[i]);
+  }
   return state;
 }
 

@@ -133,17 +133,5 @@ TEST(RobotMotionTest, ARobotAtRestDoesNotDeviate) {
   EXPECT_EQ(motion.partsFor(5e-4, 100), 1U);
 }
 
-TEST(RobotMotionTest, AContinuousJointGoesTheShorterWay) {
-  TreeLink wheel;
-  wheel.type = JointType::kRevolute;
-  JointVariable turn{"wheel"};
-  turn.continuous = true;
-  const KinematicTree tree({turn}, {wheel});
-  const std::vector<RobotBody> bodies{{0, 0.1}};
-  const RobotMotion motion(tree, bodies, {Eigen::Isometry3d::Identity(), {3.0}},
-                           {Eigen::Isometry3d::Identity(), {-3.0}});
-  EXPECT_NEAR(motion.at(0.5).positions[0], M_PI, 1e-12);
-}
-
 }  // namespace
 }  // namespace sweep_guard_core

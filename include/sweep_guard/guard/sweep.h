@@ -61,6 +61,9 @@ struct PathRequest {
   const TriangleMesh& mesh_M;
   SweepOptions options = {};
   std::function<void()> before_sweep = [] {};  ///< called before every sweep, not empty; may throw to give up
+  /// Of each sweep: bound [m], >= 0, on the distance of a tool point from where it would be if the tool moved as a Motion.
+  /// Empty: 0
+  std::vector<double> deviation_bounds = {};
 };
 
 /// Holds what the tool meets along a path of poses; one sweep for each two consecutive poses.
@@ -70,6 +73,8 @@ struct PathResult {
   SweepResult all;
   std::optional<size_t> first_contact;   ///< first sweep with contact; sweep i goes from pose i to pose i + 1
   std::optional<double> time_of_impact;  ///< in that sweep, [0, 1]; 0 if inside; empty without contact or narrow phase
+  /// Index of the piece that touches first in that sweep; empty without contact or narrow phase, or if inside.
+  std::optional<size_t> piece;
 };
 
 /// Checks every sweep of a path, also after a contact. From pose to pose the tool moves as a Motion; the mesh rests.

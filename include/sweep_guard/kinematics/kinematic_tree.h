@@ -57,9 +57,9 @@ class KinematicTree {
   /// Returns the position of each variable closest to 0 within its limits [rad or m].
   std::vector<double> nearestToZero() const;
 
-  /// Returns the way of each variable from one position to the other [rad or m]: of a continuous joint the shorter one.
-  /// @param from, to  one of each variable
-  std::vector<double> way(const std::vector<double>& from, const std::vector<double>& to) const;
+  /// Returns positions, continuous ones moved by full turns to where they are nearest to those before [rad or m].
+  /// @param before, positions  one of each variable
+  std::vector<double> unwrapped(const std::vector<double>& before, std::vector<double> positions) const;
 
   /// Returns the position of each moving joint by its name [rad or m], of those that mimic others, too.
   /// @param positions  one of each variable

@@ -20,8 +20,8 @@ struct RobotBody {
   double radius;  ///< largest distance of a point of the body from the origin of that link [m], >= 0
 };
 
-/// A motion of a robot between two states: its joints move at constant speed, continuous ones the shorter way, while its
-/// root moves straight and turns about one axis at constant rate, as Motion says. It is cut into equal parts, in each of
+/// A motion of a robot between two states: its joints move at constant speed (see KinematicTree::unwrapped()), while its root
+/// moves straight and turns about one axis at constant rate, as Motion says. It is cut into equal parts, in each of
 /// which every body moves nearly straight.
 ///
 /// A point of a body deviates from the straight line between its two ends by at most an eighth of the largest |p''|, where
@@ -57,7 +57,6 @@ class RobotMotion {
   const KinematicTree& tree_;
   RobotState from_;
   RobotState to_;
-  std::vector<double> way_;
   std::vector<Eigen::Isometry3d> X_RL_start_;
   std::vector<Eigen::Isometry3d> X_RL_end_;
   std::vector<double> deviations_;  // of each body in one part
