@@ -45,7 +45,9 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
                                    cross_check_.sampler(), intentions_}),
       poses_(node, parameters_.initial(), {frames_, workpieces_, monitor_, queue_}),
       meshes_(node, parameters_.initial(), workpieces_, monitor_),
-      check_sweep_(private_node, {parameters_, frames_, workpieces_, monitor_}),
+      path_tests_({parameters_, frames_, workpieces_, monitor_}),
+      check_sweep_(private_node, path_tests_),
+      check_trajectory_(private_node, path_tests_),
       predict_(private_node, parameters_, workpieces_,
                [this](sweep_guard_core::Duration horizon) { return guard_thread_.predictMotion(horizon); }),
       save_profile_(private_node, parameters_, [this] { return guard_thread_.profile(); }),
@@ -71,7 +73,9 @@ void SweepGuardNode::start() {
   frames_.start(supervisor_);
   meshes_.start(supervisor_);
   poses_.start(supervisor_);
+  path_tests_.start(supervisor_);
   check_sweep_.start(supervisor_);
+  check_trajectory_.start(supervisor_);
   predict_.start(supervisor_);
   save_profile_.start(supervisor_);
   controls_.start(supervisor_);

@@ -11,6 +11,7 @@
 #include "ros/parameters/reconfigure_server.h"
 #include "ros/peer_watch.h"
 #include "ros/service/check_sweep.h"
+#include "ros/service/check_trajectory.h"
 #include "ros/service/controls.h"
 #include "ros/service/intend.h"
 #include "ros/service/predict.h"
@@ -59,7 +60,9 @@ class SweepGuardNode {
   GuardThread guard_thread_;
   PoseInput poses_;
   MeshInput meshes_;
+  PathTests path_tests_;
   CheckSweepService check_sweep_;
+  CheckTrajectoryService check_trajectory_;
   PredictService predict_;
   SaveProfileService save_profile_;
   Controls controls_;

@@ -68,6 +68,14 @@ void readIntend(WireReader& read) {
   read.skip(kStamp);
 }
 
+// Of a path that is to be tested: workpieces, volume, detector, margin, narrow phase.
+void readSelection(WireReader& read) {
+  read.each(kLength, [&] { read.text(); });
+  read.text();
+  read.text();
+  read.skip(sizeof(double) + 1);
+}
+
 }  // namespace
 
 template <>
@@ -179,10 +187,22 @@ void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire) {
     read.header();
     read.skip(kPose);
   });
+  readSelection(read);
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::CheckTrajectoryRequest>(Wire wire) {
+  WireReader read(wire);
+  read.header();
   read.each(kLength, [&] { read.text(); });
-  read.text();
-  read.text();
-  read.skip(sizeof(double) + 1);
+  read.each(4 * kLength + kStamp, [&] {
+    for (int quantity = 0; quantity < 4; ++quantity) read.array(sizeof(double));
+    read.skip(kStamp);
+  });
+  read.header();
+  read.skip(kPose);
+  readSelection(read);
   read.end();
 }
 

@@ -8,6 +8,7 @@
 #include <std_srvs/Trigger.h>
 #include <sweep_guard/Acknowledge.h>
 #include <sweep_guard/CheckSweep.h>
+#include <sweep_guard/CheckTrajectory.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/Intend.h>
 #include <sweep_guard/MeshVertices.h>
@@ -57,6 +58,8 @@ template <>
 void checkLengths<sweep_guard::Warning>(Wire wire);
 template <>
 void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire);
+template <>
+void checkLengths<sweep_guard::CheckTrajectoryRequest>(Wire wire);
 template <>
 void checkLengths<sweep_guard::PredictRequest>(Wire wire);
 template <>

@@ -57,6 +57,7 @@ class ServicesTest : public ::testing::Test {
     guard_thread_.start(supervisor_);
     controls_.start(supervisor_);
     reconfigure_server_.start(supervisor_);
+    path_tests_.start(supervisor_);
     check_sweep_.start(supervisor_);
     cross_check_.start(supervisor_);
     spinner_.start();
@@ -162,10 +163,11 @@ class ServicesTest : public ::testing::Test {
   Frames frames_{ros::NodeHandle(), parameters_.initial().max_message_size, [](const auto&, const auto&) {}};
   CrossCheckThread cross_check_{parameters_, monitor_};
   GuardThread guard_thread_{node_, dependenciesWith(parameters_)};
-  CheckSweepService check_sweep_{
-      node_, {parameters_, frames_, workpieces_, monitor_, [this](const auto& /*name*/, const auto& /*options*/) {
-                return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
-              }}};
+  PathTests path_tests_{
+      {parameters_, frames_, workpieces_, monitor_, [this](const auto& /*name*/, const auto& /*options*/) {
+         return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
+       }}};
+  CheckSweepService check_sweep_{node_, path_tests_};
   Controls controls_{
       node_,
       parameters_,

@@ -208,8 +208,8 @@ std::string describe(const ToolModel& model, const std::string& parameter) {
   return text.str();
 }
 
-sweep_guard_core::Tool toolFromRobot(ParameterReader& read, const std::string& parameter,
-                                     const ToolModelOptions& options, std::string& description) {
+void readRobot(ParameterReader& read, const std::string& parameter, const ToolModelOptions& options,
+               Parameters& parameters) {
   const std::string urdf = read.searchText(parameter);
   if (urdf.empty()) {
     throw sweep_guard_core::InvalidInput("tool/type is urdf, but there is no robot description in the parameter '" +
@@ -217,8 +217,10 @@ sweep_guard_core::Tool toolFromRobot(ParameterReader& read, const std::string& p
   }
   try {
     ToolModel model = loadToolModel(urdf, options);
-    description = describe(model, parameter);
-    return sweep_guard_core::Tool(std::move(model.pieces));
+    parameters.tool_description = describe(model, parameter);
+    parameters.tool = std::make_shared<const sweep_guard_core::Tool>(std::move(model.pieces));
+    parameters.robot = model.robot;
+    parameters.why_no_robot = model.why_no_robot;
   } catch (const sweep_guard_core::InvalidInput& error) {
     throw sweep_guard_core::InvalidInput("no tool from the parameter '" + parameter + "': " + error.what());
   }
@@ -240,11 +242,15 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   if (before != nullptr && before->tool_padding == padding) {
     parameters.tool = before->tool;
     parameters.tool_description = before->tool_description;
-    return;
+    parameters.robot = before->robot;
+    parameters.why_no_robot = before->why_no_robot;
+  } else if (type == "urdf") {
+    readRobot(read, description, options, parameters);
+  } else {
+    parameters.tool = std::make_shared<const sweep_guard_core::Tool>(cylinder);
+    parameters.tool_description = "a cylinder";
+    parameters.why_no_robot = "tool/type is cylinder: set it to urdf";
   }
-  parameters.tool_description = "a cylinder";
-  parameters.tool = std::make_shared<const sweep_guard_core::Tool>(
-      type == "urdf" ? toolFromRobot(read, description, options, parameters.tool_description) : cylinder);
 }
 
 Parameters readAll(ParameterReader& read, const Parameters* before) {

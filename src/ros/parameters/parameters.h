@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/tool/tool_model.h"
 #include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning.h"
@@ -28,6 +29,8 @@ struct Parameters {
   ToolSource tool_source;
   std::string tool_frame;
   std::shared_ptr<const sweep_guard_core::Tool> tool;
+  std::shared_ptr<const RobotModel> robot;    ///< whose links are the tool; null: nothing that joints move
+  std::string why_no_robot;                   ///< why it is null
   double tool_padding;                        ///< [m]
   std::string tool_description;               ///< shape and source of the tool, for people
   sweep_guard_core::DetectorChoice detector;  ///< as configured, until it is replaced by one that is available

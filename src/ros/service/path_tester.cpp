@@ -9,12 +9,12 @@ std::vector<sweep_guard_core::PathResult> PathTester::test(const PathQuestion& q
   setParameters(question.parameters);
   sweep_guard_core::Detector& used = detector(question.detector);
   std::vector<sweep_guard_core::PathResult> results;
-  for (const auto& [workpiece, path_M] : question.paths) {
+  for (const auto& [workpiece, tool, path_M, deviation_bounds] : question.paths) {
     const auto before_sweep = [&, id = workpiece->id, sweep = size_t{0}]() mutable {
       question.go_on("sweep " + std::to_string(sweep++) + " of the path, on '" + id + "'");
     };
     results.push_back(sweep_guard_core::checkPath(
-        used, {*parameters_->tool, path_M, workpiece->mesh_M, question.options, before_sweep}));
+        used, {*tool, path_M, workpiece->mesh_M, question.options, before_sweep, deviation_bounds}));
   }
   return results;
 }

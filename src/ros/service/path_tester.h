@@ -24,7 +24,9 @@ using GoOn = std::function<void(const std::string& where)>;
 struct PathQuestion {
   struct Path {
     std::shared_ptr<const sweep_guard_core::Workpiece> workpiece;
-    std::vector<Eigen::Isometry3d> path_M;
+    std::shared_ptr<const sweep_guard_core::Tool> tool;
+    std::vector<Eigen::Isometry3d> path_M;  ///< of the tool's frame
+    std::vector<double> deviation_bounds;   ///< as in PathRequest
   };
 
   std::shared_ptr<const Parameters> parameters;
@@ -39,7 +41,7 @@ class PathTester {
  public:
   explicit PathTester(MakeDetector make_detector) : make_detector_(std::move(make_detector)) {}
 
-  /// Returns what the tool meets along each path.
+  /// Returns what each tool meets along its path.
   /// @throws sweep_guard_core::Error if the detector fails or failed its self-test; and what go_on() throws
   std::vector<sweep_guard_core::PathResult> test(const PathQuestion& question);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -174,15 +175,29 @@ std::vector<double> positionsOf(const RobotDescription& robot, const KinematicTr
   for (const auto& [name, position] : given) checkGiven(robot, tree, name, position);
   std::vector<double> positions = tree.nearestToZero();
   for (size_t i = 0; i < positions.size(); ++i) {
-    const auto& [name, lower, upper, continuous] = tree.variables()[i];
-    const auto found = given.find(name);
-    if (found == given.end()) continue;
-    if (found->second < lower || found->second > upper) {
-      throw InvalidInput("tool/joints/" + name + " is beyond the joint's limits, " + shown(lower, upper));
-    }
-    positions[i] = found->second;
+    const auto found = given.find(tree.variables()[i].name);
+    if (found != given.end()) positions[i] = found->second;
   }
+  checkLimits(tree, positions, "tool/joints/");
   return positions;
+}
+
+size_t variableNamed(const KinematicTree& tree, const std::string& joint) {
+  std::string known;
+  for (size_t i = 0; i < tree.variables().size(); ++i) {
+    if (tree.variables()[i].name == joint) return i;
+    known += (i == 0 ? "" : ", ") + tree.variables()[i].name;
+  }
+  throw InvalidInput("no joint '" + sweep_guard_core::printable(joint) +
+                     "' moves the tool's links: " + (known.empty() ? "none does" : "those that do are " + known));
+}
+
+void checkLimits(const KinematicTree& tree, const std::vector<double>& positions, const std::string& where) {
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const auto& [name, lower, upper, continuous] = tree.variables()[i];
+    if (positions[i] >= lower && positions[i] <= upper) continue;  // false for NaN
+    throw InvalidInput(where + name + " is beyond the joint's limits, " + shown(lower, upper));
+  }
 }
 
 }  // namespace sweep_guard_ros

@@ -28,4 +28,14 @@ RobotTree treeOf(const RobotDescription& robot, const urdf::Link& frame, const s
 std::vector<double> positionsOf(const RobotDescription& robot, const sweep_guard_core::KinematicTree& tree,
                                 const std::map<std::string, double>& given);
 
+/// Returns the index of the variable of a joint.
+/// @throws sweep_guard_core::InvalidInput naming those that there are, if the joint has none
+size_t variableNamed(const sweep_guard_core::KinematicTree& tree, const std::string& joint);
+
+/// @param positions  one of each variable
+/// @param where      begins the message, before the name of the joint
+/// @throws sweep_guard_core::InvalidInput if a position is not finite or beyond the limits of its joint
+void checkLimits(const sweep_guard_core::KinematicTree& tree, const std::vector<double>& positions,
+                 const std::string& where);
+
 }  // namespace sweep_guard_ros

@@ -17,6 +17,7 @@ using sweep_guard_core::ConvexPiece;
 using sweep_guard_core::ConvexShape;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_core::poseOf;
+using sweep_guard_core::TreeLink;
 
 const std::string kDefaultFrame = "tool";
 constexpr double kMaxDistance = 100.0;  // [m]
@@ -166,23 +167,48 @@ void requireCollision(const urdf::Link& link) {
                      "; add a <collision>, or list only links with one in tool/links");
 }
 
+using Pieces = std::vector<ConvexPiece>;
+
+Pieces placed(const Eigen::Isometry3d& X, Pieces::const_iterator first, Pieces::const_iterator last) {
+  Pieces there;
+  for (; first != last; ++first) there.push_back({first->link, first->shape_T.placed(X)});
+  return there;
+}
+
+void addRobot(RobotTree&& robot_tree, const std::vector<double>& positions, const Eigen::Isometry3d& X_TR,
+              const std::vector<std::pair<size_t, Pieces>>& pieces_of_links, ToolModel& model) {
+  const size_t frame = robot_tree.frame;
+  if (frame != TreeLink::kRoot && robot_tree.tree.bodyOf(frame) != TreeLink::kRoot) {
+    model.why_no_robot =
+        "joints of the tool move its frame, '" + model.frame + "': set tool_frame to a link above them";
+    return;
+  }
+  model.robot = std::make_shared<const RobotModel>(
+      RobotModel{robotOf(std::move(robot_tree.tree), pieces_of_links), positions, X_TR});
+}
+
 }  // namespace
 
 ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options) {
   const RobotDescription robot(urdf);
   const urdf::Link& frame = frameOf(robot, options);
   const std::vector<const urdf::Link*> links = linksOf(robot, options, frame);
-  const RobotTree robot_tree = treeOf(robot, frame, links);
+  RobotTree robot_tree = treeOf(robot, frame, links);
   const std::vector<double> positions = positionsOf(robot, robot_tree.tree, options.joints);
   std::vector<Eigen::Isometry3d> X_RL;
   robot_tree.tree.poses(positions, X_RL);
   const Eigen::Isometry3d X_TR = poseOf(robot_tree.frame, X_RL).inverse();
-  ToolModel model{{}, frame.name, robot_tree.tree.jointPositions(positions)};
+  ToolModel model{{}, frame.name, robot_tree.tree.jointPositions(positions), nullptr, {}};
+  std::vector<std::pair<size_t, Pieces>> pieces_of_links;
   for (size_t i = 0; i < links.size(); ++i) {
     const Eigen::Isometry3d X_TL = X_TR * poseOf(robot_tree.links[i], X_RL);
+    const auto before = static_cast<std::ptrdiff_t>(model.pieces.size());
     withLinkInErrors(*links[i], [&] { addPieces(*links[i], X_TL, options, frame.name, model.pieces); });
+    pieces_of_links.emplace_back(robot_tree.links[i],
+                                 placed(X_TL.inverse(), model.pieces.begin() + before, model.pieces.end()));
   }
   for (const urdf::Link* link : links) requireCollision(*link);  // last, to report a missing mesh first
+  addRobot(std::move(robot_tree), positions, X_TR, pieces_of_links, model);
   return model;
 }
 

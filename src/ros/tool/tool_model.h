@@ -1,11 +1,14 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "sweep_guard/geometry/decomposition.h"
 #include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/kinematics/robot_path.h"
 
 namespace sweep_guard_ros {
 
@@ -20,11 +23,20 @@ struct ToolModelOptions {
   double padding = 0.0;  ///< every piece is grown by this [m], >= 0
 };
 
+/// Holds the links of a tool as bodies that joints move.
+struct RobotModel {
+  sweep_guard_core::Robot robot;
+  std::vector<double> positions;  ///< of each variable [rad or m]: as ToolModelOptions::joints
+  Eigen::Isometry3d X_TR;         ///< pose of the robot's root in the tool frame, which no joint moves [m]
+};
+
 /// Holds a tool from a robot description.
 struct ToolModel {
   std::vector<sweep_guard_core::ConvexPiece> pieces;  ///< in the tool frame, at least one per collision of each link
   std::string frame;                                  ///< link whose frame is the tool frame
   std::map<std::string, double> joints;               ///< positions [rad or m] of the moving joints within the tool
+  std::shared_ptr<const RobotModel> robot;            ///< null if joints of the tool move its frame
+  std::string why_no_robot;                           ///< why it is null
 };
 
 /// Makes a tool from the collision geometry of a URDF, in meters. Cylinders, boxes and spheres are exact. A mesh is

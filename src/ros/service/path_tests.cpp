@@ -1,0 +1,103 @@
+#include "ros/service/path_tests.h"
+
+#include <algorithm>
+
+#include "ros/service/limited_calls.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::PathResult;
+using sweep_guard_core::printable;
+
+constexpr auto kTransformWait = std::chrono::milliseconds(100);
+constexpr auto kGrace = std::chrono::milliseconds(50);  // for the sweeps, which know where they were given up
+
+sweep_guard_core::Error givenUp(sweep_guard_core::Duration deadline, const std::string& when) {
+  return sweep_guard_core::Error("not tested within " + shown(ParameterValue(sweep_guard_core::toSeconds(deadline))) +
+                                 " s (check_sweep/deadline): given up " + when);
+}
+
+sweep_guard_core::SweepOptions sweepOptions(const PathRequestOptions& asked, sweep_guard_core::SweepOptions options) {
+  if (!(asked.margin >= 0.0 && asked.margin <= sweep_guard_core::kMaxCoordinate)) {
+    throw InvalidInput("margin must be a length >= 0 m");
+  }
+  if (!asked.volume.empty()) options.volume = sweep_guard_core::volumeKind(asked.volume);
+  options.margin = asked.margin;
+  options.fine = asked.fine;
+  return options;
+}
+
+}  // namespace
+
+void PathTests::start(Supervisor& supervisor) {
+  sweeps_.start(supervisor, {"paths", sweep_guard_core::Stage::kOther, /*watched=*/false});
+}
+
+std::shared_ptr<PathQuestion> PathTests::question(const PathRequestOptions& options) const {
+  auto question = std::make_shared<PathQuestion>();
+  question->parameters = dependencies_.parameters.get();
+  question->detector = options.detector.empty() ? question->parameters->detector.name : options.detector;
+  question->options = sweepOptions(options, question->parameters->guard.sweep);
+  question->go_on = untilDeadline(question->parameters->check_sweep_deadline);
+  return question;
+}
+
+// A busy processor may keep the thread of the sweeps waiting for long. It gives up by itself, before its next sweep.
+std::vector<PathResult> PathTests::test(const std::shared_ptr<const PathQuestion>& question) {
+  auto results = sweeps_.submit<std::vector<PathResult>>([this, question] { return tester_.test(*question); });
+  const sweep_guard_core::Duration deadline = question->parameters->check_sweep_deadline;
+  if (results.wait_until(LimitedCalls::arrival() + deadline + kGrace) == std::future_status::ready)
+    return results.get();
+  throw givenUp(deadline, "during a sweep");
+}
+
+std::string PathTests::meshProblems(const std::vector<std::string>& ids) const {
+  return dependencies_.monitor.meshProblems(now(), ids);
+}
+
+GoOn PathTests::untilDeadline(sweep_guard_core::Duration deadline) const {
+  return [this, deadline, end = LimitedCalls::arrival() + deadline](const std::string& where) {
+    if (stopping_) throw sweep_guard_core::Error("the guard is shutting down");
+    if (std::chrono::steady_clock::now() < end) return;
+    throw givenUp(deadline, "before " + where);
+  };
+}
+
+sweep_guard_core::Workpieces PathTests::selected(const std::vector<std::string>& ids) const {
+  sweep_guard_core::Workpieces all = dependencies_.workpieces.snapshot();
+  if (all.empty()) throw InvalidInput("no workpiece yet");
+  if (ids.empty()) return all;
+  sweep_guard_core::Workpieces selected;
+  for (const std::string& id : std::set<std::string>(ids.begin(), ids.end())) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& workpiece) { return workpiece->id == id; });
+    if (found == all.end()) throw InvalidInput("no workpiece '" + printable(id) + "'");
+    selected.push_back(*found);
+  }
+  return selected;
+}
+
+Eigen::Isometry3d PathTests::transform(const std::string& mesh_frame, const std_msgs::Header& header) const {
+  return dependencies_.frames.lookup(mesh_frame, header.frame_id, fromMsg(header.stamp), kTransformWait);
+}
+
+std::string PathTests::oldTransforms(const PathQuestion& question, const std::set<std::string>& frames) const {
+  for (const PathQuestion::Path& path : question.paths) {
+    const std::string& mesh_frame = path.workpiece->frame;
+    for (const std::string& frame : frames) {
+      const auto newest = dependencies_.frames.newest(mesh_frame, frame);
+      if (newest == sweep_guard_core::Time()) continue;
+      const sweep_guard_core::Duration age = now().stamp - newest.value_or(sweep_guard_core::Time());
+      if (age <= question.parameters->limits.pose_timeout) continue;
+      return "newest transform from '" + printable(frame) + "' to '" + mesh_frame + "' is " +
+             std::to_string(sweep_guard_core::toSeconds(age)) + " s old";
+    }
+  }
+  return "";
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <atomic>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "guard/workpiece_store.h"
+#include "ros/input/frames.h"
+#include "ros/parameters/parameters.h"
+#include "ros/process.h"
+#include "ros/service/path_tester.h"
+#include "ros/threads/background_thread.h"
+#include "sweep_guard/monitor/warning_monitor.h"
+
+namespace sweep_guard_ros {
+
+struct PathTestDependencies {
+  const LiveParameters& parameters;
+  const Frames& frames;
+  const sweep_guard_core::WorkpieceStore& workpieces;
+  const sweep_guard_core::WarningMonitor& monitor;
+  MakeDetector make_detector = sweep_guard_core::makeDetector;
+};
+
+/// What a service asks about, in the words of its request.
+struct PathRequestOptions {
+  const std::string& volume;    ///< empty: as configured
+  const std::string& detector;  ///< empty: as configured
+  double margin;                ///< [m]
+  bool fine;
+};
+
+/// Sweeps paths against the workpieces as they are now, for the services that ask. Has a thread and detectors of its own
+/// and works on a snapshot of the meshes, so it never delays the guard. A question is given up at its deadline, which
+/// counts from the arrival of the call.
+class PathTests {
+ public:
+  explicit PathTests(const PathTestDependencies& dependencies)
+      : dependencies_(dependencies), tester_(dependencies.make_detector) {}
+  PathTests(const PathTests&) = delete;
+  PathTests& operator=(const PathTests&) = delete;
+
+  void start(Supervisor& supervisor);
+  void stop() { stopping_ = true; }  ///< gives up running and later tests soon. Any thread
+  const LiveParameters& parameters() const { return dependencies_.parameters; }
+
+  /// Begins a question; only in a call that LimitedCalls runs.
+  /// @throws sweep_guard_core::InvalidInput if an option is out of range
+  std::shared_ptr<PathQuestion> question(const PathRequestOptions& options) const;
+
+  /// Returns the workpieces with these ids; all, if there are none.
+  /// @throws sweep_guard_core::InvalidInput if one does not exist, or there is no workpiece at all
+  sweep_guard_core::Workpieces selected(const std::vector<std::string>& ids) const;
+
+  /// Returns the transform from a frame to that of a mesh, for which it waits.
+  /// @throws sweep_guard_core::Error if there is none
+  Eigen::Isometry3d transform(const std::string& mesh_frame, const std_msgs::Header& header) const;
+
+  /// Returns the results in the order of the paths.
+  /// @throws sweep_guard_core::Error as PathTester, or if it takes longer than the deadline
+  std::vector<sweep_guard_core::PathResult> test(const std::shared_ptr<const PathQuestion>& question);
+
+  /// Returns what keeps the warning from CLEAR; empty: nothing.
+  std::string meshProblems(const std::vector<std::string>& ids) const;
+  /// Returns which transform between these frames and those of the workpieces tested is too old; empty: none.
+  std::string oldTransforms(const PathQuestion& question, const std::set<std::string>& frames) const;
+
+ private:
+  GoOn untilDeadline(sweep_guard_core::Duration deadline) const;
+
+  const PathTestDependencies dependencies_;
+  PathTester tester_;
+  std::atomic<bool> stopping_ = false;
+  BackgroundThread sweeps_{[] { setNice(10); }};
+};
+
+}  // namespace sweep_guard_ros
