@@ -58,7 +58,8 @@ class World {
         }),
         frames_(node_, 1 << 16, [](const auto&, const auto&) {}),
         guard_(*live_.initial().tool, sweep_guard_core::makeDetector("halfspace"), live_.initial().guard),
-        check_sweep_(node_, {live_, frames_, store_, monitor_, makeDetector}),
+        path_tests_({live_, frames_, store_, monitor_, makeDetector}),
+        check_sweep_(node_, path_tests_),
         predict_(node_, live_, store_, [this](sweep_guard_core::Duration end) { return motion(end); }),
         intend_(node_, {live_, frames_, store_, intentions_}),
         controls_(node_, live_, monitor_, store_, {[] {}, [this](const std::string& id) { return acknowledge(id); }}) {
@@ -77,6 +78,7 @@ class World {
       pose.X_WM["world"] = Eigen::Isometry3d::Identity();
       guard_.sweep(pose, store_.snapshot(), report);
     }
+    path_tests_.start(supervisor_);
     check_sweep_.start(supervisor_);
     predict_.start(supervisor_);
     intend_.start(supervisor_);
@@ -262,6 +264,7 @@ class World {
   sweep_guard_core::WorkpieceStore store_;
   sweep_guard_ros::Frames frames_;
   sweep_guard_core::Guard guard_;
+  sweep_guard_ros::PathTests path_tests_;
   sweep_guard_ros::CheckSweepService check_sweep_;
   sweep_guard_ros::PredictService predict_;
   sweep_guard_ros::IntendService intend_;
