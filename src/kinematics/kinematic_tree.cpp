@@ -55,15 +55,6 @@ std::vector<double> KinematicTree::nearestToZero() const {
   return positions;
 }
 
-std::vector<double> KinematicTree::unwrapped(const std::vector<double>& before, std::vector<double> positions) const {
-  assert(before.size() == variables_.size() && positions.size() == variables_.size());
-  for (size_t i = 0; i < variables_.size(); ++i) {
-    if (!variables_[i].continuous) continue;
-    positions[i] = before[i] + std::remainder(positions[i] - before[i], 2.0 * M_PI);
-  }
-  return positions;
-}
-
 std::map<std::string, double> KinematicTree::jointPositions(const std::vector<double>& positions) const {
   std::map<std::string, double> joints;
   for (const TreeLink& link : links_) {

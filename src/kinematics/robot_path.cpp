@@ -8,7 +8,8 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr size_t kMostParts = 1000;
+constexpr size_t kMaxParts = 1000;
+constexpr size_t kMaxSweeps = 8192;
 
 void add(const Robot& robot, const RobotState& state, RobotPath& path) {
   std::vector<Eigen::Isometry3d> X_WB;
@@ -48,9 +49,10 @@ RobotPath robotPath(const Robot& robot, const std::vector<RobotState>& states, d
   RobotPath path;
   path.bodies.resize(robot.bodies.size());
   add(robot, states.front(), path);
+  const size_t max_parts = std::clamp<size_t>(kMaxSweeps / states.size(), 1, kMaxParts);
   for (size_t segment = 0; segment + 1 < states.size(); ++segment) {
     const RobotMotion motion(robot.tree, robot.bodies, states[segment], states[segment + 1]);
-    const size_t parts = motion.partsFor(max_deviation, kMostParts);
+    const size_t parts = motion.partsFor(max_deviation, max_parts);
     const auto count = static_cast<double>(parts);
     for (size_t part = 1; part <= parts; ++part) {
       const double to = static_cast<double>(part) / count;

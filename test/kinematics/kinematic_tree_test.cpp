@@ -32,7 +32,7 @@ KinematicTree arm() {
   finger.multiplier = 2.0;
   finger.offset = kPi / 2;
   return {
-      {{"shoulder", -kInfinity, kInfinity, /*continuous=*/true}, {"slide", 0.1, 0.5}},
+      {{"shoulder"}, {"slide", 0.1, 0.5}},
       {link("upper", TreeLink::kRoot, JointType::kRevolute, 0), slide, link("plate", 1, JointType::kFixed), finger}};
 }
 
@@ -65,12 +65,6 @@ TEST(KinematicTreeTest, LinksThatNoJointMovesApartAreOneBody) {
   EXPECT_EQ(tree.bodyOf(2), 2U);
   EXPECT_EQ(tree.bodyOf(3), 2U);
   EXPECT_EQ(arm().bodyOf(2), 1U);
-}
-
-TEST(KinematicTreeTest, AContinuousJointTakesTheShorterWay) {
-  const std::vector<double> to = arm().unwrapped({3.0, 0.1}, {-3.0, 0.4});
-  EXPECT_NEAR(to[0], 2.0 * kPi - 3.0, 1e-14);
-  EXPECT_EQ(to[1], 0.4);
 }
 
 TEST(KinematicTreeTest, UnlessSetAJointIsAsNearToZeroAsItsLimitsAllow) {

@@ -20,7 +20,7 @@ TreeLink link(const std::string& name, size_t parent, JointType type) {
   return link;
 }
 
-// A door on a wall, with a handle, and a hinge at its outer edge that nothing hangs on.
+// A door that turns on a wall, with a handle.
 Robot door() {
   return robotOf({{{"hinge"}},
                   {link("wall", TreeLink::kRoot, JointType::kFixed), link("door", 0, JointType::kRevolute),
@@ -68,6 +68,12 @@ TEST(RobotPathTest, ASingleStateHasNoSweep) {
   EXPECT_TRUE(path.places.empty());
   EXPECT_EQ(path.bodies[0].X_WB.size(), 1U);
   EXPECT_EQ(path.deviationBound(), 0.0);
+}
+
+TEST(RobotPathTest, APathOfManyLongSegmentsIsBoundedAsAWhole) {
+  std::vector<RobotState> states(1024, {Eigen::Isometry3d::Identity(), {0.0}});
+  for (size_t i = 1; i < states.size(); i += 2) states[i].positions[0] = 1000.0;
+  EXPECT_EQ(robotPath(door(), states, 5e-4).places.size(), 1023U * 8U);
 }
 
 TEST(RobotPathTest, ALongSegmentHasAThousandSweepsThatSayHowFarTheyDeviate) {

@@ -127,6 +127,21 @@ sweep_guard::CheckSweepRequest example() {
 }
 
 template <>
+sweep_guard::CheckTrajectoryRequest example() {
+  sweep_guard::CheckTrajectoryRequest message;
+  message.trajectory.header.frame_id = "world";
+  message.trajectory.joint_names = {"elbow", ""};
+  message.trajectory.points.resize(2);
+  message.trajectory.points[0].positions = {1.0, 2.0};
+  message.trajectory.points[1].velocities = {3.0};
+  message.tool_pose = poseStamped();
+  message.mesh_ids = {"liver"};
+  message.volume = "hull";
+  message.detector = "select";
+  return message;
+}
+
+template <>
 sweep_guard::Intend example() {
   sweep_guard::Intend message;
   message.mesh_id = "liver";
@@ -264,6 +279,19 @@ std::vector<size_t> lengths<sweep_guard::CheckSweepRequest>() {
 }
 
 template <>
+std::vector<size_t> lengths<sweep_guard::CheckTrajectoryRequest>() {
+  const size_t names = kHeader;
+  const size_t points = names + 4 + (4 + 5) + 4;
+  const size_t first = points + 4;
+  const size_t second = first + 4 * 4 + 16 + 8;
+  const size_t tool_pose = second + 4 * 4 + 8 + 8;
+  const size_t ids = tool_pose + kHeader + kPose;
+  const size_t volume = ids + 4 + (4 + 5);
+  return {12,     names,      names + 4,   names + 13,  points,         first, first + 20, first + 24, first + 28,
+          second, second + 4, second + 16, second + 20, tool_pose + 12, ids,   ids + 4,    volume,     volume + 8};
+}
+
+template <>
 std::vector<size_t> lengths<sweep_guard::Intend>() {
   const size_t triangles = 4 + 5;
   const size_t frame = triangles + 4 + 12;
@@ -347,9 +375,9 @@ using Messages =
     testing::Types<geometry_msgs::PoseStamped, geometry_msgs::Twist, geometry_msgs::TwistStamped, tf2_msgs::TFMessage,
                    sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::Proximity,
                    sweep_guard::ToolBalls, sweep_guard::Warning, sweep_guard::CheckSweepRequest,
-                   sweep_guard::PredictRequest, sweep_guard::AcknowledgeRequest, sweep_guard::SaveProfileRequest,
-                   sweep_guard::Intend, sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest,
-                   std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
+                   sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest, sweep_guard::AcknowledgeRequest,
+                   sweep_guard::SaveProfileRequest, sweep_guard::Intend, sweep_guard::SetIntentRequest,
+                   std_srvs::SetBoolRequest, std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {

@@ -268,8 +268,10 @@ class Judge:
                            f'{seconds(span.end.stamp):.4f} and the levels were {levels}')
 
     def _mesh_excuse(self, span):
-        near = [mesh for mesh in self.meshes if span.begin.at - 0.8 <= mesh.at <= span.end.at + 0.3]
         first, last = span.begin.stamp - 1e9 * (MESH_TIMEOUT + 0.05), span.end.stamp + 1e9 * 0.3
+        # With all by which the sides were decided: the first one after a silence departs later than its stamp.
+        near = [mesh for mesh in self.meshes
+                if span.begin.at - 0.8 <= mesh.at and (mesh.at <= span.end.at + 0.3 or mesh.stamp <= last)]
         if any(mesh.late for mesh in self.meshes if first <= mesh.stamp <= last):
             return ['mesh late']
         gaps = [b.at - a.at for a, b in zip(near, near[1:])]

@@ -39,11 +39,13 @@ def spoken(t, level=None, pose_at=None, published=None, run='first', reasons=0):
 class Soak:
     """Sends the whole cycle to a judge, and what a guard says to it."""
 
-    def __init__(self, lost=lambda kind, t: False, stalled=None):
-        """lost: what never departs. stalled: from when to when [s] meshes are kept back, which then depart at once"""
+    def __init__(self, lost=lambda kind, t: False, stalled=None, lag=0.0):
+        """lost: what never departs. stalled: from when to when [s] meshes are kept back, which then depart at once. lag: from the
+        stamp of a mesh to its departure [s]"""
         self.judge = judge.Judge()
         self.lost = lost
         self.stalled = stalled
+        self.lag = lag
         self.kept = []
         self.x = world.plate_corners()[0]
 
@@ -70,7 +72,7 @@ class Soak:
         if self.stalled and self.stalled[0] <= t - BEGIN < self.stalled[1]:
             return
         for stamp, heights in self.kept:
-            self.judge.mesh(t, stamp, heights, late=nanoseconds(t) - stamp > 1e9 * judge.MAX_LAG)
+            self.judge.mesh(t + self.lag, stamp, heights, late=nanoseconds(t) - stamp > 1e9 * judge.MAX_LAG)
         self.kept = []
 
     def kinds(self, says=spoken, until=world.CYCLE):
@@ -187,6 +189,14 @@ class JudgeTest(unittest.TestCase):
         says = lambda t: spoken(t, judge.UNKNOWN) if 10.8 <= t - BEGIN < 12.4 else spoken(t)
         self.assertEqual(Soak(stalled=(10.7, 12.4)).kinds(says), set())
         self.assertEqual(Soak().kinds(says), {'missed contact'})
+
+    def test_judges_no_contact_with_a_plate_that_leaps_while_it_is_silent_for_longer_than_the_guard_sweeps(self):
+        leap = world.PLATE_LEAP[0]
+        silent = lambda kind, t: kind == 'mesh' and leap - 0.2 <= t < leap + 1.3
+        for lag in (0.0, 0.02):
+            judged = Soak(silent, lag=lag).run(levels_but(leap - 0.2, leap + 1.3, judge.UNKNOWN))
+            self.assertEqual(judged.findings, [])
+            self.assertEqual(judged.counts['contacts not judged: mesh silent'], 1)
 
     def test_decides_nothing_near_the_plate(self):
         soak = Soak().run(until=1.0)

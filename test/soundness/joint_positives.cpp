@@ -11,7 +11,7 @@ namespace sweep_guard_core::soundness {
 namespace {
 
 constexpr int kTriangles = 400;
-constexpr size_t kMostParts = 64;
+constexpr size_t kMaxParts = 64;
 constexpr double kInset = 1e-9;  // of the size of robot and tool: more than their poses are rounded by
 
 // A robot that moves from one state to the other, straight in the space of its joints.
@@ -78,7 +78,7 @@ SweepCase jointPositives(std::uint64_t seed) {
   const std::vector<RobotBody> bodies{{tree.links().size() - 1, toolOf(sweep.tool).boundingRadius()}};
 
   const RobotMotion motion(tree, bodies, from, to);
-  const size_t parts = motion.partsFor(random.logUniform(1e-4, 0.1), kMostParts);
+  const size_t parts = motion.partsFor(random.logUniform(1e-4, 0.1), kMaxParts);
   const auto part = static_cast<double>(random.below(static_cast<int>(parts)));
   const auto poseAt = [&](double fraction) {
     std::vector<Eigen::Isometry3d> X_WB;

@@ -16,7 +16,6 @@ struct JointVariable {
   std::string name;                                         ///< of the joint
   double lower = -std::numeric_limits<double>::infinity();  ///< [rad or m]
   double upper = std::numeric_limits<double>::infinity();   ///< [rad or m], >= lower
-  bool continuous = false;  ///< [rad]: positions that a full turn lies between are the same
 };
 
 /// A link L of a robot, and the joint that joins it to its parent P: L is where the joint frame J is, moved by the joint.
@@ -39,8 +38,7 @@ struct TreeLink {
   bool moves() const { return type != JointType::kFixed && multiplier != 0.0; }
 };
 
-/// The links of a robot that matter, and how its joints move them. The same links in the same order have the same bits,
-/// whatever else the robot has.
+/// The links of a robot that matter, and how its joints move them.
 class KinematicTree {
  public:
   /// @throws InvalidInput if a link comes before its parent, a joint has no variable, an axis is not unit, a number is not
@@ -56,10 +54,6 @@ class KinematicTree {
 
   /// Returns the position of each variable closest to 0 within its limits [rad or m].
   std::vector<double> nearestToZero() const;
-
-  /// Returns positions, continuous ones moved by full turns to where they are nearest to those before [rad or m].
-  /// @param before, positions  one of each variable
-  std::vector<double> unwrapped(const std::vector<double>& before, std::vector<double> positions) const;
 
   /// Returns the position of each moving joint by its name [rad or m], of those that mimic others, too.
   /// @param positions  one of each variable

@@ -17,16 +17,16 @@ struct RobotState {
 /// Some links of a tree that move as one body, in the frame of the topmost of them.
 struct RobotBody {
   size_t link;    ///< from KinematicTree::bodyOf(); TreeLink::kRoot: the body moves with the root
-  double radius;  ///< largest distance of a point of the body from the origin of that link [m], >= 0
+  double radius;  ///< largest distance [m] between a point of the body and the origin of the link, >= 0
 };
 
-/// A motion of a robot between two states: its joints move at constant speed (see KinematicTree::unwrapped()), while its root
+/// A motion of a robot between two states: its joints move at constant speed while its root
 /// moves straight and turns about one axis at constant rate, as Motion says. It is cut into equal parts, in each of
 /// which every body moves nearly straight.
 ///
 /// A point of a body deviates from the straight line between its two ends by at most an eighth of the largest |p''|, where
 /// the motion lasts from 0 to 1. With q_i' the speed of joint i and r_j the distance of the point from the axis of joint j,
-/// the product of q_i' and q_j' counts as often as it occurs:
+/// both orders of i and j count:
 ///
 ///     |p''| <= sum over i, j of |q_i'| |q_j'| r_max(i, j)    max(i, j): the joint farther from the root
 ///

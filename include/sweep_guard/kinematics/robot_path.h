@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "sweep_guard/geometry/tool.h"
@@ -41,7 +42,8 @@ struct RobotPath {
 
 /// Computes the path of all bodies. Between two states, joints and root go straight at constant speed, as RobotMotion says.
 /// @param states         at least one (asserted)
-/// @param max_deviation  [m], > 0: sweeps are short enough for no body to deviate more, but a segment has at most 1000
+/// @param max_deviation  [m], > 0: sweeps are short enough for no body to deviate more, but a segment has at most 1000, and
+///     the path at most 8192 if it has no more segments; what is left is in the bounds of the deviation
 RobotPath robotPath(const Robot& robot, const std::vector<RobotState>& states, double max_deviation);
 
 }  // namespace sweep_guard_core

@@ -336,7 +336,8 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   }
   parameters.check_sweep_deadline = toDuration(
       read.number("check_sweep/deadline", 1.0, {0.01, 60.0, "s"},
-                  "~check_sweep gives a path up that takes longer to test. At most 4 calls wait meanwhile."));
+                  "~check_sweep and ~check_trajectory give a path up that takes longer to test. At most 4 calls "
+                  "wait meanwhile."));
   parameters.realtime_priority = read.integer("timing/realtime_priority", 0, 0, 99,
                                               "Above 0 the sweeping thread asks for this real-time priority "
                                               "(SCHED_FIFO). If the system refuses, the log says what to set.");

@@ -1,7 +1,6 @@
 #include "ros/service/check_sweep.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -23,17 +22,17 @@ struct PathContact {
   std::optional<double> time_of_impact;  // in the segment
 };
 
-bool refuse(const std::string& reason, CheckSweep::Response& response) {
-  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
-  response.message = reason;
-  return true;
-}
-
 void checkPathOf(const CheckSweep::Request& request) {
   if (request.path.empty()) throw InvalidInput("path is empty: send at least one pose");
   if (request.path.size() > kMaxPoses) {
     throw InvalidInput("path has " + std::to_string(request.path.size()) + " poses: send at most 1024");
   }
+}
+
+std::set<std::string> framesOf(const CheckSweep::Request& request) {
+  std::set<std::string> frames;
+  for (const geometry_msgs::PoseStamped& pose : request.path) frames.insert(pose.header.frame_id);
+  return frames;
 }
 
 PathContact earlier(const std::optional<PathContact>& a, const PathContact& b) {
@@ -61,22 +60,8 @@ CheckSweepService::CheckSweepService(const ros::NodeHandle& private_node, PathTe
     : tests_(tests),
       server_(calls_.advertise<ros::ServiceSpec<CheckSweep::Request, CheckSweep::Response>>(
           private_node, "check_sweep", tests.parameters().initial().max_message_size,
-          [this](auto& request, auto& response) { return onCall(request, response); }, refuse)) {}
-
-// Answers errors by a message: a failed ROS call gives the caller none.
-bool CheckSweepService::onCall(CheckSweep::Request& request, CheckSweep::Response& response) {
-  const auto begin = std::chrono::steady_clock::now();
-  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
-  try {
-    check(request, response);
-    response.success = true;
-  } catch (const std::exception& error) {
-    response = CheckSweep::Response();
-    refuse(error.what(), response);
-  }
-  response.compute_time = ros::Duration(sweep_guard_core::toSeconds(std::chrono::steady_clock::now() - begin));
-  return true;
-}
+          [this](auto& request, auto& response) { return answerPath(response, [&] { check(request, response); }); },
+          refusePath<CheckSweep::Response>)) {}
 
 void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Response& response) {
   checkPathOf(request);
@@ -88,16 +73,9 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
         {workpiece, question->parameters->tool, pathIn(workpiece->frame, request.path, question->go_on), {}});
   }
   fill(response, *question, tests_.test(question));
-  response.message = doubts_before.empty() ? doubts(*question, request) : doubts_before;
+  response.message =
+      doubts_before.empty() ? tests_.doubts(*question, request.mesh_ids, framesOf(request)) : doubts_before;
   response.clear = !response.collision && response.message.empty();
-}
-
-// After the test, which waits for late transforms, and during which a mesh may be refused.
-std::string CheckSweepService::doubts(const PathQuestion& question, const CheckSweep::Request& request) const {
-  std::set<std::string> frames;
-  for (const geometry_msgs::PoseStamped& pose : request.path) frames.insert(pose.header.frame_id);
-  const std::string problems = tests_.meshProblems(request.mesh_ids);
-  return problems.empty() ? tests_.oldTransforms(question, frames) : problems;
 }
 
 std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh_frame,

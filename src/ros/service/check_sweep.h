@@ -25,11 +25,9 @@ class CheckSweepService {
   void start(Supervisor& supervisor) { calls_.start(supervisor); }
 
  private:
-  bool onCall(sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
   void check(const sweep_guard::CheckSweep::Request& request, sweep_guard::CheckSweep::Response& response);
   std::vector<Eigen::Isometry3d> pathIn(const std::string& mesh_frame,
                                         const std::vector<geometry_msgs::PoseStamped>& path, const GoOn& go_on) const;
-  std::string doubts(const PathQuestion& question, const sweep_guard::CheckSweep::Request& request) const;
 
   PathTests& tests_;
   LimitedCalls calls_{"check_sweep"};  // before the server, which uses it

@@ -1,7 +1,6 @@
 #include "ros/service/check_trajectory.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -24,12 +23,6 @@ using sweep_guard_core::RobotState;
 
 constexpr size_t kMaxPoints = 1024;
 constexpr double kMaxDeviation = 5e-4;  // [m], of a link within a sweep
-
-bool refuse(const std::string& reason, CheckTrajectory::Response& response) {
-  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
-  response.message = reason;
-  return true;
-}
 
 const RobotModel& robotOf(const Parameters& parameters) {
   if (parameters.robot) return *parameters.robot;
@@ -145,22 +138,8 @@ CheckTrajectoryService::CheckTrajectoryService(const ros::NodeHandle& private_no
     : tests_(tests),
       server_(calls_.advertise<ros::ServiceSpec<CheckTrajectory::Request, CheckTrajectory::Response>>(
           private_node, "check_trajectory", tests.parameters().initial().max_message_size,
-          [this](auto& request, auto& response) { return onCall(request, response); }, refuse)) {}
-
-// Answers errors by a message: a failed ROS call gives the caller none.
-bool CheckTrajectoryService::onCall(CheckTrajectory::Request& request, CheckTrajectory::Response& response) {
-  const auto begin = std::chrono::steady_clock::now();
-  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
-  try {
-    check(request, response);
-    response.success = true;
-  } catch (const std::exception& error) {
-    response = CheckTrajectory::Response();
-    refuse(error.what(), response);
-  }
-  response.compute_time = ros::Duration(sweep_guard_core::toSeconds(std::chrono::steady_clock::now() - begin));
-  return true;
-}
+          [this](auto& request, auto& response) { return answerPath(response, [&] { check(request, response); }); },
+          refusePath<CheckTrajectory::Response>)) {}
 
 void CheckTrajectoryService::check(const CheckTrajectory::Request& request, CheckTrajectory::Response& response) {
   const auto question = tests_.question({request.volume, request.detector, request.margin, request.fine != 0});
@@ -180,8 +159,9 @@ void CheckTrajectoryService::check(const CheckTrajectory::Request& request, Chec
     }
   }
   fill(response, *question, path, tests_.test(question));
-  const std::string problems = doubts_before.empty() ? tests_.meshProblems(request.mesh_ids) : doubts_before;
-  response.message = problems.empty() ? tests_.oldTransforms(*question, {request.tool_pose.header.frame_id}) : problems;
+  response.message = doubts_before.empty()
+                         ? tests_.doubts(*question, request.mesh_ids, {request.tool_pose.header.frame_id})
+                         : doubts_before;
   response.clear = !response.collision && response.message.empty();
 }
 

@@ -25,7 +25,6 @@ class CheckTrajectoryService {
   void start(Supervisor& supervisor) { calls_.start(supervisor); }
 
  private:
-  bool onCall(sweep_guard::CheckTrajectory::Request& request, sweep_guard::CheckTrajectory::Response& response);
   void check(const sweep_guard::CheckTrajectory::Request& request, sweep_guard::CheckTrajectory::Response& response);
   Eigen::Isometry3d toolPoseIn(const std::string& mesh_frame, const geometry_msgs::PoseStamped& pose) const;
 

@@ -85,6 +85,12 @@ Eigen::Isometry3d PathTests::transform(const std::string& mesh_frame, const std_
   return dependencies_.frames.lookup(mesh_frame, header.frame_id, fromMsg(header.stamp), kTransformWait);
 }
 
+std::string PathTests::doubts(const PathQuestion& question, const std::vector<std::string>& ids,
+                              const std::set<std::string>& frames) const {
+  const std::string problems = meshProblems(ids);
+  return problems.empty() ? oldTransforms(question, frames) : problems;
+}
+
 std::string PathTests::oldTransforms(const PathQuestion& question, const std::set<std::string>& frames) const {
   for (const PathQuestion::Path& path : question.paths) {
     const std::string& mesh_frame = path.workpiece->frame;

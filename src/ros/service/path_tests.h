@@ -1,6 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <exception>
+#include <limits>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -61,12 +65,15 @@ class PathTests {
   /// @throws sweep_guard_core::Error as PathTester, or if it takes longer than the deadline
   std::vector<sweep_guard_core::PathResult> test(const std::shared_ptr<const PathQuestion>& question);
 
-  /// Returns what keeps the warning from CLEAR; empty: nothing.
+  /// Returns what is wrong with these workpieces, all if there are no ids; empty: nothing.
   std::string meshProblems(const std::vector<std::string>& ids) const;
-  /// Returns which transform between these frames and those of the workpieces tested is too old; empty: none.
-  std::string oldTransforms(const PathQuestion& question, const std::set<std::string>& frames) const;
+  /// Returns the same, and which transform between these frames and those of the workpieces tested is too old. After the
+  /// test, which waits for late transforms, and during which a mesh may be refused.
+  std::string doubts(const PathQuestion& question, const std::vector<std::string>& ids,
+                     const std::set<std::string>& frames) const;
 
  private:
+  std::string oldTransforms(const PathQuestion& question, const std::set<std::string>& frames) const;
   GoOn untilDeadline(sweep_guard_core::Duration deadline) const;
 
   const PathTestDependencies dependencies_;
@@ -74,5 +81,30 @@ class PathTests {
   std::atomic<bool> stopping_ = false;
   BackgroundThread sweeps_{[] { setNice(10); }};
 };
+
+/// Fills the answer to a question that was not tested.
+template <typename Response>
+bool refusePath(const std::string& reason, Response& response) {
+  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
+  response.message = reason;
+  return true;
+}
+
+/// Fills the answer, and how long that took. Errors are answered by a message: a failed ROS call gives the caller none.
+/// @param check  fills all but `success`, `message` of a failure and `compute_time`; may throw
+template <typename Response, typename Check>
+bool answerPath(Response& response, Check check) {
+  const auto begin = std::chrono::steady_clock::now();
+  response.time_of_impact = std::numeric_limits<double>::quiet_NaN();
+  try {
+    check();
+    response.success = true;
+  } catch (const std::exception& error) {
+    response = Response();
+    refusePath(error.what(), response);
+  }
+  response.compute_time = ros::Duration(sweep_guard_core::toSeconds(std::chrono::steady_clock::now() - begin));
+  return true;
+}
 
 }  // namespace sweep_guard_ros
