@@ -9,6 +9,7 @@ namespace {
 
 constexpr size_t kMaxWorkpieces = 1000;
 constexpr size_t kMaxRemoved = 64;
+constexpr size_t kRemembered = 512;  // deformations: snapshots that none of them needed are given back
 
 bool before(const std::shared_ptr<const Workpiece>& workpiece, const std::string& id) { return workpiece->id < id; }
 
@@ -60,6 +61,7 @@ UpdateOutcome WorkpieceStore::deform(const Deformation& deformation, Time latest
   next->frame = deformation.frame;
   countUpdate(*current, *next);
   replace(next);
+  buffers_[deformation.id].snapshots.forgetUnneeded(kRemembered);
   return UpdateOutcome::kStored;
 }
 

@@ -40,6 +40,32 @@ TEST(PoolTest, TakesOnlyFittingValues) {
   EXPECT_TRUE(pool.take([](const std::string& value) { return value == "one"; }));
 }
 
+TEST(PoolTest, ForgetsWhatNoneOfTheLastCallsNeeded) {
+  constexpr size_t kCalls = 4;
+  Pool<std::string> pool;
+  const auto take = [&](size_t count) {
+    std::vector<std::shared_ptr<std::string>> taken;
+    for (size_t i = 0; i < count; ++i) taken.push_back(pool.take());
+    pool.forgetUnneeded(kCalls);
+  };
+  take(10);
+  for (size_t i = 1; i < kCalls; ++i) take(i == 1 ? 3 : 2);
+  EXPECT_EQ(pool.size(), 10U) << "the first of these calls needed them all";
+  for (size_t i = 0; i < kCalls; ++i) take(i == 1 ? 3 : 2);
+  EXPECT_EQ(pool.size(), 3U);
+}
+
+TEST(PoolTest, NeverForgetsAValueThatIsOwned) {
+  Pool<std::string> pool;
+  const auto first = pool.take();
+  pool.take();
+  const auto third = pool.add("third");
+  pool.forgetUnneeded(1);
+  EXPECT_EQ(pool.size(), 2U);
+  EXPECT_NE(pool.take(), first);
+  EXPECT_EQ(*third, "third");
+}
+
 // The reader releases the value after reading it; the writer does not write before that.
 TEST(PoolTest, DoesNotReuseAValueThatAnotherThreadReads) {
   Pool<std::vector<int>> pool;
