@@ -1,11 +1,11 @@
 #include "sweep_guard/guard/guard.h"
 
 #include <algorithm>
+#include <cassert>
 
-#include "guard/intended_touches.h"
-#include "guard/measured_sweeps.h"
-#include "guard/path_checker.h"
+#include "guard/guarded_body.h"
 #include "guard/time_budget.h"
+#include "guard/united_bodies.h"
 #include "prediction/profile.h"
 #include "sweep_guard/common/error.h"
 
@@ -22,44 +22,72 @@ void assign(PoseWithFrames& to, const PoseWithFrames& from) {
   to.stamp = from.stamp;
   to.received = from.received;
   to.X_WT = from.X_WT;
-  to.deviation_bound = from.deviation_bound;
+  to.bodies = from.bodies;
   auto next = from.X_WM.begin();
   for (auto& [frame, X_WM] : to.X_WM) X_WM = next++->second;
+}
+
+std::vector<std::unique_ptr<GuardedBody>> guarded(std::vector<Tool> bodies, const GuardOptions& options) {
+  std::vector<std::unique_ptr<GuardedBody>> all;
+  for (Tool& body : bodies)
+    all.push_back(std::make_unique<GuardedBody>(std::move(body), PathChecker::optionsOf(options)));
+  return all;
+}
+
+// Does something for each body and adds its result to that of the first.
+template <typename Result, typename Work>
+void forEachBody(const std::vector<std::unique_ptr<GuardedBody>>& bodies, Result GuardedBody::*own, Result& all,
+                 const Work& work) {
+  size_t first_piece = 0;
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    GuardedBody& body = *bodies[i];
+    Result& result = i == 0 ? all : body.*own;
+    work(i, body, result);
+    if (i > 0) unite(all, result, first_piece);
+    first_piece += body.tool.pieces().size();
+  }
 }
 
 }  // namespace
 
 Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options)
-    : tool_(std::move(tool)),
+    : Guard(std::vector<Tool>{std::move(tool)}, std::move(detector), options) {}
+
+Guard::Guard(std::vector<Tool> bodies, std::unique_ptr<Detector> detector, const GuardOptions& options)
+    : bodies_(guarded(std::move(bodies), options)),
       detector_(std::move(detector)),
       options_(options),
       predictor_(options.predictor),
-      measured_sweeps_(std::make_unique<MeasuredSweeps>()),
       budget_(std::make_unique<TimeBudget>(options.horizon, options.cycle)),
       plan_(std::make_unique<SweepPlan>()),
       no_intentions_(std::make_shared<const Intentions>()),
-      intentions_(no_intentions_),
-      touches_(std::make_unique<IntendedTouches>()),
-      path_checker_(std::make_unique<PathChecker>(PathChecker::optionsOf(options))) {}
+      intentions_(no_intentions_) {}
 
 Guard::~Guard() = default;
 
+const Tool& Guard::tool(size_t body) const { return bodies_[body]->tool; }
+
 void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
   const SteadyTime begin = options_.clock();
-  predictor_.observe({pose.stamp, pose.X_WT});
-  const SweepSetup setup{tool_, *detector_, options_.sweep, [this] { throwIfStopping(); }, *intentions()};
-  measured_sweeps_->sweep(setup, pose, workpieces, report);
-  touches_->update(report, pose, tool_, *intentions());
+  predictor_.observe(pose);
+  forEachBody(bodies_, &GuardedBody::report, report, [&](size_t i, GuardedBody& body, SweepReport& swept) {
+    const BodyPose at = pose.body(i);
+    const SweepSetup setup{body.tool, *detector_, options_.sweep, [this] { throwIfStopping(); }, *intentions()};
+    body.sweeps.sweep(setup, pose, at, workpieces, swept);
+    body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
+  });
   if (!newest_) newest_.emplace();
   assign(*newest_, pose);
   budget_->spentOnMeasured(options_.clock() - begin);
 }
 
-void Guard::takeBack() noexcept { measured_sweeps_->takeBack(); }
+void Guard::takeBack() noexcept {
+  for (const auto& body : bodies_) body->sweeps.takeBack();
+}
 
 void Guard::pass(const PoseWithFrames& pose) {
-  predictor_.observe({pose.stamp, pose.X_WT});
-  measured_sweeps_->pass(pose);
+  predictor_.observe(pose);
+  for (size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->sweeps.pass(pose, pose.body(i));
 }
 
 void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& prediction,
@@ -71,31 +99,44 @@ void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& pred
   const SteadyTime begin = options_.clock();
   computeHorizon(options_.horizon, age, horizon_);
   assign(motion_.from, *newest_);
-  predictor_.predict(horizon_.ends, motion_.path);
+  predictor_.predict(horizon_.ends, motion_);
   motion_.reflex_sweeps = horizon_.reflex_sweeps;
-  chooseSweepPlan(begin, between);
+  beginPlan(begin, between);
+  const size_t considered = motion_.path.empty() ? 0 : consideredSweeps();
   const std::shared_ptr<const Intentions> intended = intentions();  // sweeps between may change them
-  path_checker_->predict(*detector_, {tool_, motion_, workpieces, *intended, *touches_}, *plan_, prediction);
+  const auto predict = [&](size_t i, GuardedBody& body, Prediction& predicted) {
+    const PredictedPath& path = motion_.pathOf(i);
+    plan_->sweep_ends.clear();
+    if (!path.empty())
+      findSweepEnds(motion_.from.body(i).X_WB, path, motion_.reflex_sweeps, considered, plan_->sweep_ends);
+    const PredictionRequest request{body.tool, motion_, workpieces, *intended, body.touches, i};
+    body.checker.predict(*detector_, request, *plan_, predicted);
+  };
+  forEachBody(bodies_, &GuardedBody::prediction, prediction, predict);
   size_t volumes = 0;
   for (const PredictedObject& object : prediction.objects) volumes = std::max(volumes, object.volumes_tested);
   budget_->spentOnPredicted(options_.clock() - begin - interrupted_, volumes);
 }
 
-void Guard::chooseSweepPlan(SteadyTime begin, const std::function<void()>& between) {
+void Guard::beginPlan(SteadyTime begin, const std::function<void()>& between) {
   interrupted_ = {};
-  plan_->sweep_ends.clear();
   plan_->out_of_time = [this, end = begin + budget_->forPrediction()] {
     return options_.clock() >= end + interrupted_;
   };
   plan_->before_sweep = [this, &between] { interrupt(between); };
-  const auto& [from, path, reflex_sweeps] = motion_;
-  if (path.empty()) return;
+}
+
+// Of each body: there are volumes enough for all of them.
+size_t Guard::consideredSweeps() const {
   size_t volumes[] = {0, 0};
-  for (size_t i = 0; i < path.size(); ++i) {
-    const Motion step{i == 0 ? from.X_WT : path[i - 1].X_WT, path[i].X_WT};
-    volumes[i < reflex_sweeps ? 0 : 1] += subMotionCount(step.angle(), options_.sweep.max_rotation);
+  for (size_t body = 0; body < bodies_.size(); ++body) {
+    const PredictedPath& path = motion_.pathOf(body);
+    for (size_t i = 0; i < path.size(); ++i) {
+      const Motion step{i == 0 ? motion_.from.body(body).X_WB : path[i - 1].X_WT, path[i].X_WT};
+      volumes[i < motion_.reflex_sweeps ? 0 : 1] += subMotionCount(step.angle(), options_.sweep.max_rotation);
+    }
   }
-  findSweepEnds(motion_, budget_->consideredSweeps(volumes[0], volumes[1]), plan_->sweep_ends);
+  return budget_->consideredSweeps(volumes[0], volumes[1], bodies_.size());
 }
 
 void Guard::interrupt(const std::function<void()>& between) {
@@ -114,7 +155,7 @@ PredictedMotion Guard::predictMotion(Duration age, Duration end) const {
   if (!newest_) return {};
   const Horizon horizon = horizonUpTo(end, options_.horizon, age);
   PredictedMotion motion{*newest_, {}, horizon.reflex_sweeps};
-  predictor_.predict(horizon.ends, motion.path);
+  predictor_.predict(horizon.ends, motion);
   return motion;
 }
 
@@ -125,8 +166,15 @@ bool Guard::isWithin(double distance, const Workpiece& workpiece) {
   SweepOptions options = options_.sweep;
   options.margin += distance;
   options.fine = true;  // a volume has corners that the tool has not
-  const std::vector<Eigen::Isometry3d> path_M = {X_WM->second.inverse() * newest_->X_WT};
-  return checkPath(*detector_, {tool_, path_M, workpiece.mesh_M, options, [this] { throwIfStopping(); }}).all.contact();
+  const auto is_within = [&](size_t i) {
+    const std::vector<Eigen::Isometry3d> path_M = {X_WM->second.inverse() * newest_->body(i).X_WB};
+    const PathRequest request{tool(i), path_M, workpiece.mesh_M, options, [this] { throwIfStopping(); }};
+    return checkPath(*detector_, request).all.contact();
+  };
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    if (is_within(i)) return true;
+  }
+  return false;
 }
 
 void Guard::intend(std::shared_ptr<const Intentions> intentions) { intentions_ = std::move(intentions); }
@@ -138,26 +186,32 @@ const std::shared_ptr<const Intentions>& Guard::intentions() const {
 std::unique_ptr<Profile> Guard::profile() const { return predictor_.profile(); }
 
 void Guard::reset() {
-  measured_sweeps_->reset();
-  touches_->clear();
+  for (const auto& body : bodies_) {
+    body->sweeps.reset();
+    body->touches.clear();
+  }
   predictor_.restart();
   newest_.reset();
 }
 
 void Guard::exchange(GuardChange& change) {
+  assert(change.bodies.empty() || change.bodies.size() == bodies_.size());
   const TimeBudget budget(change.options.horizon, change.options.cycle);
   change.options.clock = options_.clock;
   std::swap(options_, change.options);
-  if (change.detector || change.tool) measured_sweeps_->forgetContacts();
   if (change.detector) std::swap(detector_, change.detector);
-  if (change.tool) std::swap(tool_, *change.tool);
-  if (change.tool) touches_->clear();
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    GuardedBody& body = *bodies_[i];
+    if (change.detector || !change.bodies.empty()) body.sweeps.forgetContacts();
+    if (!change.bodies.empty()) std::swap(body.tool, change.bodies[i]);
+    if (!change.bodies.empty()) body.touches.clear();
+    body.checker = PathChecker(PathChecker::optionsOf(options_));
+  }
   if (change.predictor) {
     std::swap(predictor_, *change.predictor);
-    if (newest_) predictor_.observe({newest_->stamp, newest_->X_WT});
+    if (newest_) predictor_.observe(*newest_);
   }
   *budget_ = budget;
-  *path_checker_ = PathChecker(PathChecker::optionsOf(options_));
 }
 
 }  // namespace sweep_guard_core

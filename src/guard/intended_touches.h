@@ -14,8 +14,10 @@ namespace sweep_guard_core {
 class IntendedTouches {
  public:
   /// Takes over what a sweep found.
-  /// @param pose  where the sweep ended
-  void update(const SweepReport& report, const PoseWithFrames& pose, const Tool& tool, const Intentions& intentions);
+  /// @param report      of one body
+  /// @param pose, X_WB  where its sweep ended
+  void update(const SweepReport& report, const PoseWithFrames& pose, const Eigen::Isometry3d& X_WB, const Tool& body,
+              const Intentions& intentions);
   void clear() { touches_.clear(); }
 
   bool contains(const std::string& mesh_id, const std::string& link) const;

@@ -54,25 +54,25 @@ bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
 
 }  // namespace
 
-void MeasuredSweeps::pass(const PoseWithFrames& pose) {
-  add(pose);
+void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body) {
+  add(pose, body);
   if (!waiting_since_) waiting_since_ = pose.stamp;
 }
 
-void MeasuredSweeps::add(const PoseWithFrames& pose) {
+void MeasuredSweeps::add(const PoseWithFrames& pose, const BodyPose& body) {
   ++poses_;
   for (const auto& [frame, X_WM] : pose.X_WM)
-    histories_[frame].add({poses_, pose.stamp, pose.X_WT, X_WM, pose.deviation_bound});
+    histories_[frame].add({poses_, pose.stamp, body.X_WB, X_WM, body.deviation_bound});
 }
 
-void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces,
-                           SweepReport& report) {
+void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body,
+                           const Workpieces& workpieces, SweepReport& report) {
   forgetRemoved(workpieces);
   for (auto& [id, swept] : swept_) {
     swept.before = swept.pose;
     swept.grown = false;
   }
-  add(pose);
+  add(pose, body);
   report.start = report.end = pose.stamp;
   testPlaced(workpieces, pose, report, [&](const auto& workpiece, const auto& /*X_WM*/, SweptObject& object) {
     sweepObject(setup, workpiece, object);

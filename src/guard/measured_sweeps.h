@@ -23,16 +23,18 @@ struct SweepSetup {
   const Intentions& intentions = kNoIntentions;
 };
 
-/// Sweeps the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for
+/// Sweeps one body of the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for
 /// every frame, and the last sweep of every workpiece.
 class MeasuredSweeps {
  public:
   /// Adds a pose that the next sweep passes through.
-  void pass(const PoseWithFrames& pose);
+  /// @param body  pose of the swept body at that time
+  void pass(const PoseWithFrames& pose, const BodyPose& body);
 
   /// Sweeps through the poses passed since the last sweep to this pose.
   /// @param[out] report  overwritten; its buffers are used again
-  void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
+  void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body, const Workpieces& workpieces,
+             SweepReport& report);
 
   /// Takes the last sweep back: its report was lost. The next one repeats it.
   void takeBack() noexcept;
@@ -57,7 +59,7 @@ class MeasuredSweeps {
     bool grown = false;                // the last sweep has added a deformation
   };
 
-  void add(const PoseWithFrames& pose);
+  void add(const PoseWithFrames& pose, const BodyPose& body);
   void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, SweptObject& object);
   static const Workpiece& measureDisplacements(Swept& swept, Time pose, const std::shared_ptr<const Workpiece>& newest,
                                                Duration& behind);

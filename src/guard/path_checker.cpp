@@ -96,14 +96,17 @@ void PathChecker::predict(Detector& detector, const PredictionRequest& request, 
   X_WM_.reset();
   prediction.stamp = motion.from.stamp;
   prediction.path = motion.path;
+  prediction.body_paths = motion.body_paths;
   prediction.reflex_sweeps = motion.reflex_sweeps;
   prediction.sweeps_asked = motion.path.size();
   prediction.sweeps_made = plan.sweepCount(motion.path);
+  const Eigen::Isometry3d X_WB = motion.from.body(request.body).X_WB;
+  const PredictedPath& path = motion.pathOf(request.body);
   const auto test = [&](const auto& workpiece, const Eigen::Isometry3d& X_WM, PredictedObject& object) {
-    checkNext(detector,
-              {request.tool, motion.from.X_WT, motion.path, motion.reflex_sweeps, X_WM, workpiece, plan,
-               request.intentions, request.touches},
-              object);
+    checkNext(
+        detector,
+        {request.tool, X_WB, path, motion.reflex_sweeps, X_WM, workpiece, plan, request.intentions, request.touches},
+        object);
   };
   testPlaced(motion.path.empty() ? kNone : request.workpieces, motion.from, prediction, test);
 }

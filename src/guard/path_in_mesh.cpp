@@ -115,8 +115,8 @@ Eigen::AlignedBox3d PathInMesh::reach_M(const PathSegment& segment, double devia
   return {box_M.min().array() - (arc + margin), box_M.max().array() + (arc + margin)};
 }
 
-void findSweepEnds(const PredictedMotion& motion, size_t considered_sweeps, std::vector<size_t>& ends) {
-  const auto& [from, path, reflex_sweeps] = motion;
+void findSweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t reflex_sweeps,
+                   size_t considered_sweeps, std::vector<size_t>& ends) {
   assert(considered_sweeps >= 1 && reflex_sweeps <= path.size());
   ends.resize(reflex_sweeps);
   std::iota(ends.begin(), ends.end(), 1);
@@ -125,7 +125,7 @@ void findSweepEnds(const PredictedMotion& motion, size_t considered_sweeps, std:
   size_t begin = reflex_sweeps;
   double turn = 0.0;
   for (size_t end = begin + 1; end <= path.size(); ++end) {
-    const double step = Motion{end == 1 ? from.X_WT : path[end - 2].X_WT, path[end - 1].X_WT}.angle();
+    const double step = Motion{end == 1 ? X_WT : path[end - 2].X_WT, path[end - 1].X_WT}.angle();
     const bool too_far = turn + step > kMaxTurn && begin < end - 1;
     if (too_far) ends.push_back(end - 1);
     if (due(end) > due(end - 1)) ends.push_back(end);

@@ -72,8 +72,11 @@ class PathInMesh {
 /// Finds where the sweeps along a predicted path end: numbers of poses, counted as by PathInMesh; the last sweep ends
 /// with the path. In the reflex interval every pose ends a sweep. The steps after it are shared evenly among about
 /// `considered_sweeps` sweeps, but no two steps are joined that turn by more than 1.5 rad together.
+/// @param X_WT               where the path begins
+/// @param reflex_sweeps      number of poses in the reflex interval
 /// @param considered_sweeps  >= 1
 /// @param[out] ends          overwritten
-void findSweepEnds(const PredictedMotion& motion, size_t considered_sweeps, std::vector<size_t>& ends);
+void findSweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t reflex_sweeps,
+                   size_t considered_sweeps, std::vector<size_t>& ends);
 
 }  // namespace sweep_guard_core

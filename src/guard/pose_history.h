@@ -14,7 +14,7 @@ struct PoseSample {
   Time stamp;
   Eigen::Isometry3d X_WT;
   Eigen::Isometry3d X_WM;
-  double deviation_bound = 0.0;  ///< of the motion since the previous sample, see PoseWithFrames
+  double deviation_bound = 0.0;  ///< of the motion since the previous sample, see BodyPose
 };
 
 /// Keeps the poses of tool and frame that may have to be swept again. Moves them down in its memory to make room, so

@@ -9,12 +9,13 @@
 namespace sweep_guard_core {
 
 struct PredictionRequest {
-  const Tool& tool;
+  const Tool& tool;  ///< one body of it, unless it is only one
   const PredictedMotion& motion;
   const Workpieces&
       workpieces;  ///< their frames are taken to stay where they are at the pose that the motion begins at
   const Intentions& intentions = kNoIntentions;
   const IntendedTouches& touches = kNoTouches;
+  size_t body = 0;  ///< index of `tool` among PoseWithFrames::bodies
 };
 
 /// Tests a predicted motion against every workpiece, as a guard with these options does if time is not short: one sweep

@@ -38,6 +38,19 @@ void unite(std::vector<TriangleContact>& all, const std::vector<TriangleContact>
   unite(all, later, ascending);
 }
 
+// Keeps the contact that is not intended, else the first.
+void uniteSimultaneous(std::vector<TriangleContact>& all, const std::vector<TriangleContact>& others) {
+  const auto rank = [](const TriangleContact& contact) {
+    return std::pair(contact.intended, contact.impact.time_of_impact);
+  };
+  for (TriangleContact& contact : all) {
+    const auto other = std::lower_bound(others.begin(), others.end(), contact, ascending);
+    const bool both = other != others.end() && other->triangle == contact.triangle;
+    if (both && rank(*other) < rank(contact)) contact = *other;
+  }
+  unite(all, others, ascending);
+}
+
 // A triangle is met as intended only if it is so in both. Before the triangles that are not ruled out are united.
 void uniteIntended(SweepResult& all, const SweepResult& later) {
   if (all.intended.empty() && later.intended.empty()) return;
@@ -45,6 +58,16 @@ void uniteIntended(SweepResult& all, const SweepResult& later) {
   sweep_guard_core::unite(unintended, later.unintended());
   sweep_guard_core::unite(all.intended, later.intended);
   remove(all.intended, unintended);
+}
+
+void uniteButContacts(SweepResult& all, const SweepResult& more) {
+  sweep_guard_core::unite(all.triangles, more.triangles);
+  all.margin = std::max(all.margin, more.margin);
+  all.volumes_M.insert(all.volumes_M.end(), more.volumes_M.begin(), more.volumes_M.end());
+  all.fine = more.fine;
+  uniteIntended(all, more);
+  sweep_guard_core::unite(all.not_ruled_out, more.not_ruled_out);
+  all.inside = all.inside || more.inside;
 }
 
 }  // namespace
@@ -103,14 +126,13 @@ TriangleSet SweepResult::unintended() const {
 }
 
 void unite(SweepResult& all, const SweepResult& later) {
-  unite(all.triangles, later.triangles);
-  all.margin = std::max(all.margin, later.margin);
-  all.volumes_M.insert(all.volumes_M.end(), later.volumes_M.begin(), later.volumes_M.end());
-  all.fine = later.fine;
-  uniteIntended(all, later);
-  unite(all.not_ruled_out, later.not_ruled_out);
+  uniteButContacts(all, later);
   unite(all.in_contact, later.in_contact);
-  all.inside = all.inside || later.inside;
+}
+
+void uniteBodies(SweepResult& all, const SweepResult& other) {
+  uniteButContacts(all, other);
+  uniteSimultaneous(all.in_contact, other.in_contact);
 }
 
 SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request) {

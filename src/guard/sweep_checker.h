@@ -62,6 +62,11 @@ SweepResult checkSweep(Detector& detector, const SweepRequest& request);
 /// the later sub-motion, and 0 for triangles that it does not touch.
 void unite(SweepResult& all, const SweepResult& later);
 
+/// Merges what another body of the tool met in the same time into `all`: of each triangle the first contact, but rather one
+/// that is not intended.
+/// @param other  counts its pieces and times as `all` does
+void uniteBodies(SweepResult& all, const SweepResult& other);
+
 /// Returns what the next sweep needs to know about this one.
 SweepCache sweepCache(const SweepResult& result);
 

@@ -18,12 +18,12 @@ TimeBudget::TimeBudget(const HorizonOptions& horizon, Duration cycle) : horizon_
   if (cycle_ <= Duration::zero()) throw InvalidInput("cycle: must be > 0 s");
 }
 
-size_t TimeBudget::consideredSweeps(size_t reflex_volumes, size_t considered_volumes) const {
+size_t TimeBudget::consideredSweeps(size_t reflex_volumes, size_t considered_volumes, size_t bodies) const {
   const double per_volume = per_volume_.value_or(kFirstGuess * measured_);
   const double left = toSeconds(forPrediction()) - static_cast<double>(reflex_volumes) * per_volume;
   const size_t most = sweep_guard_core::consideredSweeps(horizon_);
   if (left >= static_cast<double>(considered_volumes) * per_volume) return most;
-  return static_cast<size_t>(std::clamp(left / per_volume, 1.0, static_cast<double>(most)));
+  return static_cast<size_t>(std::clamp(left / per_volume / static_cast<double>(bodies), 1.0, static_cast<double>(most)));
 }
 
 Duration TimeBudget::forPrediction() const {

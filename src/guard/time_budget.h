@@ -18,7 +18,8 @@ class TimeBudget {
   /// Until the first prediction a volume is assumed to cost a few measured sweeps.
   /// @param reflex_volumes      least number of volumes in the reflex interval
   /// @param considered_volumes  least number of volumes in the considered interval if every step is swept
-  size_t consideredSweeps(size_t reflex_volumes, size_t considered_volumes) const;
+  /// @param bodies              each of which is swept as often; counted in the volumes already
+  size_t consideredSweeps(size_t reflex_volumes, size_t considered_volumes, size_t bodies = 1) const;
 
   /// Returns the time that is left for the prediction, >= 0.
   Duration forPrediction() const;

@@ -83,7 +83,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   if (differ(*before, *next, "prediction/") || differ(*before, *next, "limits/")) {
     change.predictor.emplace(next->guard.predictor);
   }
-  if (differ(*before, *next, "tool/")) change.tool = *next->tool;
+  if (differ(*before, *next, "tool/")) change.bodies = next->bodies();
   const auto exchange = [&, tested = change.detector != nullptr] {
     guard_.exchange(change);
     if (change.tool) proximity_.setTool(guard_.tool());

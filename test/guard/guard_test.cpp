@@ -90,7 +90,7 @@ TEST_F(GuardTest, SweepsFromPoseToPose) {
 TEST_F(GuardTest, AToolThatJointsMoveIsSweptWithItsDeviation) {
   const auto besideAt = [](double seconds, double z, double deviation_bound) {
     PoseWithFrames beside = pose(seconds, {{"table", Eigen::Isometry3d(Eigen::Translation3d(0, -1.008, z))}});
-    beside.deviation_bound = deviation_bound;
+    beside.bodies = {{beside.X_WT, deviation_bound}};
     return beside;
   };
   reportOf(guard_, besideAt(1.0, 0.5, 0.0), table_);
@@ -119,12 +119,12 @@ TEST_F(GuardTest, ContinuesTheSweepWithAnExchangedToolAndDetector) {
   reportOf(guard_, pose(1.0, {{"table", Eigen::Isometry3d(Eigen::Translation3d(0.0, -1.007, 0.5))}}), table_);
   FakeDetector::Record record;
   GuardChange change;
-  change.tool = Tool::cylinder(0.01, 0.1);
+  change.bodies = {Tool::cylinder(0.01, 0.1)};
   change.detector = std::make_unique<FakeDetector>(record);
   change.options.sweep.volume = VolumeKind::kObb;
   guard_.exchange(change);
-  ASSERT_TRUE(change.tool && change.detector);
-  EXPECT_NEAR(change.tool->bounds_T().max().x(), 0.005, 1e-9);
+  ASSERT_TRUE(change.detector);
+  EXPECT_NEAR(change.bodies[0].bounds_T().max().x(), 0.005, 1e-9);
   record_.volumes.clear();
   const Eigen::Isometry3d below(Eigen::Translation3d(0.0, -1.007, -0.5));
   const SweepReport report = reportOf(guard_, pose(1.1, {{"table", below}}), table_);

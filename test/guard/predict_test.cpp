@@ -322,11 +322,7 @@ PredictedPath pathAlong(const std::function<Eigen::Isometry3d(double)>& X_WT) {
 // Of a reflex interval of ten sweeps.
 std::vector<size_t> endsOf(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t considered_sweeps) {
   std::vector<size_t> ends;
-  PredictedMotion motion;
-  motion.from.X_WT = X_WT;
-  motion.path = path;
-  motion.reflex_sweeps = 10;
-  findSweepEnds(motion, considered_sweeps, ends);
+  findSweepEnds(X_WT, path, 10, considered_sweeps, ends);
   return ends;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "sweep_guard/guard/guard_options.h"
 #include "sweep_guard/guard/intention.h"
@@ -12,13 +13,11 @@
 
 namespace sweep_guard_core {
 
-class IntendedTouches;
-class MeasuredSweeps;
-class PathChecker;
+struct GuardedBody;
 class TimeBudget;
 struct SweepPlan;
 
-/// Sweeps the tool from pose to pose, so that no motion goes untested, and predicts contacts after the newest pose
+/// Sweeps the tool, or each body of it, from pose to pose, so that no motion goes untested, and predicts contacts after the newest pose
 /// [P, Sec. 3.2]. Any thread may call it, one thread at a time; stop() at any time.
 ///
 /// After a failure of the detector the next sweep passes through every pose since the last success. Of more than 8192
@@ -40,14 +39,17 @@ class Guard {
   /// @throws InvalidInput if `cycle` or an option of the predictor or the horizon is out of range; `options.sweep` is
   ///     not checked
   Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options);
+  /// Guards a tool of several rigid bodies: they share detector, time and report.
+  /// @param bodies  at least one, each in its own frame; their pieces are counted through
+  Guard(std::vector<Tool> bodies, std::unique_ptr<Detector> detector, const GuardOptions& options);
   ~Guard();
   Guard(const Guard&) = delete;
   Guard& operator=(const Guard&) = delete;
 
   /// Adds a pose that the next sweep passes through. A workpiece whose frame is missing at the pose of the sweep is
   /// reported as unplaced. Once its frame is known again, it is swept through the added poses that hold its frame.
-  /// @param pose  finite, rotations orthonormal, stamp not earlier than the previous pose's; not checked. After time
-  ///     went back, call reset() first
+  /// @param pose  finite, rotations orthonormal, stamp not earlier than the previous pose's, PoseWithFrames::bodies as many
+  ///     as the tool's, or none and the tool is one body; not checked. After time went back, call reset() first
   void pass(const PoseWithFrames& pose);
 
   /// Sweeps from the pose of the last sweep, through the poses passed since, to this pose. If the detector fails or
@@ -104,7 +106,7 @@ class Guard {
   /// Forgets all poses and contacts, and keeps what the predictor has learned of the operator.
   void reset();
 
-  /// Exchanges the options except the clock, and tool, detector or predictor if given. The next sweep begins where the
+  /// Exchanges the options except the clock, and bodies, detector or predictor if given. The next sweep begins where the
   /// last one ended.
   /// @param[in,out] change  receives what it replaces, so that the caller may destroy it in another thread
   /// @throws InvalidInput if `cycle` or an option of the horizon is out of range; then nothing is exchanged
@@ -113,19 +115,20 @@ class Guard {
   /// Gives up the running sweep or prediction and all later ones soon: they report failures. Any thread.
   void stop() { stopping_ = true; }
 
-  const Tool& tool() const { return tool_; }
+  /// Returns one body of the tool.
+  const Tool& tool(size_t body = 0) const;
 
  private:
-  void chooseSweepPlan(SteadyTime begin, const std::function<void()>& between);
+  void beginPlan(SteadyTime begin, const std::function<void()>& between);
+  size_t consideredSweeps() const;
   void interrupt(const std::function<void()>& between);
   void throwIfStopping() const;
 
   std::atomic<bool> stopping_ = false;
-  Tool tool_;
+  std::vector<std::unique_ptr<GuardedBody>> bodies_;
   std::unique_ptr<Detector> detector_;
   GuardOptions options_;
-  PosePredictor predictor_;
-  std::unique_ptr<MeasuredSweeps> measured_sweeps_;
+  MotionPredictor predictor_;
   std::unique_ptr<TimeBudget> budget_;
   std::optional<PoseWithFrames> newest_;  // pose of the last sweep
   PredictedMotion motion_;                // that is tested
@@ -134,8 +137,6 @@ class Guard {
   std::unique_ptr<SweepPlan> plan_;
   const std::shared_ptr<const Intentions> no_intentions_;
   std::shared_ptr<const Intentions> intentions_;
-  std::unique_ptr<IntendedTouches> touches_;
-  std::unique_ptr<PathChecker> path_checker_;
 };
 
 }  // namespace sweep_guard_core

@@ -4,9 +4,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/guard/motion_predictor.h"
 #include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/prediction/horizon.h"
 #include "sweep_guard/prediction/pose_predictor.h"
@@ -28,12 +30,12 @@ struct GuardOptions {
 /// Holds the changes to a running guard. `options` replaces all options of the guard, except the clock; another member
 /// that is empty or null changes nothing.
 struct GuardChange {
-  GuardOptions options;  ///< start from the current ones: defaults replace them, too
-  std::optional<Tool> tool = {};
+  GuardOptions options;           ///< start from the current ones: defaults replace them, too
+  std::vector<Tool> bodies = {};  ///< of the tool, as many as the guard has
   std::unique_ptr<Detector> detector = nullptr;
-  /// Made from `options.predictor`; empty: the guard keeps its predictor and what it has learned, and
+  /// Made from `options.predictor`, for the same bodies; empty: the guard keeps its predictor and what it has learned, and
   /// `options.predictor` has no effect.
-  std::optional<PosePredictor> predictor = {};
+  std::optional<MotionPredictor> predictor = {};
 };
 
 }  // namespace sweep_guard_core

@@ -20,6 +20,9 @@ struct PredictedMotion {
   PoseWithFrames from;       ///< newest measured pose; a default value before the first sweep
   PredictedPath path;        ///< empty if the motion is not known yet
   size_t reflex_sweeps = 0;  ///< number of poses in the reflex interval (HorizonOptions); meaningless without a path
+  std::vector<PredictedPath> body_paths = {};  ///< of each of `from.bodies`, at the same times; empty if there are none
+
+  const PredictedPath& pathOf(size_t body) const { return from.bodies.empty() ? path : body_paths[body]; }
 };
 
 /// One sweep along the predicted path, or a fraction of a sweep, tested against one workpiece. Times count from the
@@ -43,8 +46,10 @@ struct PredictedObject {
   std::vector<PredictedSweep> sweeps;  ///< end to end, ascending; split if they may meet, up to the first contact
   std::vector<std::uint32_t> reflex;   ///< triangles met or not ruled out in the reflex interval: ascending, each once
   std::vector<std::uint32_t> considered;  ///< the same later: ascending, each once, none of `reflex`
-  std::vector<SweptVolume> volumes_M;     ///< volumes around the whole tool, end to end, unsplit; in M
-  size_t volumes_tested = 0;              ///< number of volumes tested in time, including those of split sweeps
+  std::vector<SweptVolume>
+      volumes_M;              ///< volumes around the whole tool, or around each of its bodies in turn: end to end,
+                              ///< unsplit; in M
+  size_t volumes_tested = 0;  ///< number of volumes tested in time, including those of split sweeps
 
   std::vector<std::uint32_t> triangles() const;  ///< of `reflex` and `considered`: ascending, each once
   std::optional<Duration> firstContact() const;  ///< start of the first sweep with contact; empty: none
@@ -56,14 +61,15 @@ struct PredictedObject {
 
 /// The predicted path of the tool after a pose, and the contacts along it.
 struct Prediction {
-  Time stamp;                ///< stamp of the newest measured pose, where the path begins; 0: nothing was predicted
-  PredictedPath path;        ///< empty if the motion is not known yet
+  Time stamp;          ///< stamp of the newest measured pose, where the path begins; 0: nothing was predicted
+  PredictedPath path;  ///< of T; empty if the motion is not known yet
+  std::vector<PredictedPath> body_paths;  ///< as PredictedMotion::body_paths
   size_t reflex_sweeps = 0;  ///< number of sweeps, from the first, in the reflex interval; means nothing without a path
   size_t sweeps_asked = 0;   ///< one for every pose of the path
   size_t sweeps_made = 0;    ///< fewer if time was short: one sweep then covers several poses
   std::vector<PredictedObject> objects;  ///< every workpiece tested; none if the path is empty
   Workpieces unplaced;                   ///< workpieces not tested because their frame is unknown at the newest pose
-  std::vector<SweepFailure> failures;    ///< workpieces whose test failed
+  std::vector<SweepFailure> failures;    ///< workpieces whose test failed, for one body at least
 
   /// Returns the stamp up to which every workpiece is tested: the end of the path, or `stamp` if the path is empty or a
   /// workpiece was not tested.

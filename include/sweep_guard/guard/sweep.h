@@ -23,7 +23,8 @@ struct SweepOptions {
 /// A triangle that the narrow phase finds in contact with the tool.
 struct TriangleContact {
   std::uint32_t triangle;
-  size_t piece;   ///< index of the convex piece of the tool that touches the triangle first
+  /// Index of the convex piece of the tool that touches the triangle first; a Guard counts the pieces of all bodies.
+  size_t piece;
   Impact impact;  ///< first impact of the piece on the triangle
   /// No piece meets the triangle other than intended (Intention). If one does, `piece` is the first of these.
   bool intended = false;

@@ -26,9 +26,10 @@ struct SweepReport {
   Time start;          ///< earliest `interval_start` of `objects`; `end` at the first pose and if there are none
   Time end;            ///< stamp of the pose
   Duration backlog{};  ///< time from the first pose given to Guard::pass() since the last sweep to `end`; 0: none
-  std::vector<SweptObject> objects;    ///< every workpiece swept, in the order given to sweep()
-  Workpieces unplaced;                 ///< workpieces that were not swept because their frame is unknown at `end`
-  std::vector<SweepFailure> failures;  ///< workpieces whose sweep failed
+  std::vector<SweptObject> objects;  ///< every workpiece swept, in the order given to sweep() unless a sweep failed
+  Workpieces unplaced;               ///< workpieces that were not swept because their frame is unknown at `end`
+  /// Workpieces whose sweep failed, for one body of the tool at least; `objects` has what the others met.
+  std::vector<SweepFailure> failures;
 
   double margin() const;           ///< largest margin of all objects [m]; 0 if there are none
   bool contact() const;            ///< the tool met an object, or it is not ruled out that it did

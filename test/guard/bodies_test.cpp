@@ -1,0 +1,259 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "guard/fake_detector.h"
+#include "guard/guard_results.h"
+#include "guard/triangle_set.h"
+#include "kinematics/random_robot.h"
+#include "scenes.h"
+#include "sweep_guard/kinematics/robot_path.h"
+
+namespace sweep_guard_core {
+namespace {
+
+using std::chrono::milliseconds;
+
+Time at(int ms) { return Time(std::chrono::seconds(1) + milliseconds(ms)); }
+
+// Of a radius of half a metre.
+std::shared_ptr<const Workpiece> hull(const std::string& id, double phase, int ms) {
+  TriangleMesh mesh_M = wavyHull(12, 18, phase);
+  std::vector<float> positions = streamedPositions(mesh_M);
+  for (float& coordinate : positions) coordinate *= 5.0F;
+  return std::make_shared<const Workpiece>(
+      Workpiece{id, 0, at(ms), SteadyTime{}, "table", deformed(mesh_M, std::move(positions))});
+}
+
+// Links of two pieces each.
+Robot randomArm(Random& random) {
+  KinematicTree tree = randomRobot(random, 4, /*branches=*/true);
+  std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
+  for (size_t link = 0; link < tree.links().size(); ++link) {
+    const std::string name = "link" + std::to_string(link);
+    pieces.push_back({link, {{name, ConvexShape::sphere(0.02)}, {name, ConvexShape::cylinder(0.01, 0.08)}}});
+  }
+  return robotOf(std::move(tree), pieces);
+}
+
+// A guard of all bodies, and a guard for each of them.
+class BodiesTest : public testing::Test {
+ protected:
+  explicit BodiesTest(std::uint64_t seed = 1) : random_(seed), robot_(randomArm(random_)) {
+    for (const Tool& body : robot_.tools)
+      alone_.push_back(std::make_unique<Guard>(body, std::make_unique<FakeDetector>(record_), timeless()));
+  }
+
+  // Time is never short.
+  static GuardOptions timeless() {
+    GuardOptions options;
+    options.clock = [] { return SteadyTime(); };
+    return options;
+  }
+
+  size_t firstPiece(size_t body) const {
+    size_t pieces = 0;
+    for (size_t i = 0; i < body; ++i) pieces += robot_.tools[i].pieces().size();
+    return pieces;
+  }
+
+  PoseWithFrames nextPose() {
+    const RobotState from = state_;
+    state_ = randomStateNear(random_, from, 0.02);
+    const RobotMotion motion(robot_.tree, robot_.bodies, from, state_);
+    std::vector<Eigen::Isometry3d> X_WB;
+    bodyPoses(robot_.tree, robot_.bodies, state_, X_WB);
+    ms_ += 10;
+    PoseWithFrames pose{at(ms_), {}, state_.X_WR, {{"table", Eigen::Isometry3d::Identity()}}};
+    for (size_t i = 0; i < X_WB.size(); ++i) pose.bodies.push_back({X_WB[i], motion.deviationBound(i, 1)});
+    return pose;
+  }
+
+  static PoseWithFrames ofBody(PoseWithFrames pose, size_t body) {
+    pose.bodies = {pose.bodies[body]};
+    return pose;
+  }
+
+  Random random_;
+  Robot robot_;
+  RobotState state_{Eigen::Isometry3d::Identity(), std::vector<double>(robot_.tree.variables().size(), 0.0)};
+  int ms_ = 0;
+  FakeDetector::Record record_;
+  Guard together_{robot_.tools, std::make_unique<FakeDetector>(record_), timeless()};
+  std::vector<std::unique_ptr<Guard>> alone_;
+};
+
+struct Expected {
+  TriangleSet triangles;
+  TriangleSet not_ruled_out;
+  std::vector<TriangleContact> in_contact;
+};
+
+void add(const SweepReport& report, size_t first_piece, Expected& expected) {
+  const SweepResult& result = report.objects[0].result;
+  unite(expected.triangles, result.triangles);
+  unite(expected.not_ruled_out, result.not_ruled_out);
+  for (TriangleContact contact : result.in_contact) {
+    contact.piece += first_piece;
+    expected.in_contact.push_back(contact);
+  }
+}
+
+const TriangleContact* earliest(const std::vector<TriangleContact>& contacts, std::uint32_t triangle) {
+  const TriangleContact* first = nullptr;
+  for (const TriangleContact& contact : contacts) {
+    const bool sooner = first == nullptr || contact.impact.time_of_impact < first->impact.time_of_impact;
+    if (contact.triangle == triangle && sooner) first = &contact;
+  }
+  return first;
+}
+
+class RandomArmsTest : public BodiesTest, public testing::WithParamInterface<int> {
+ protected:
+  RandomArmsTest() : BodiesTest(static_cast<std::uint64_t>(GetParam())) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomArmsTest, testing::Range(1, 9));
+
+TEST_P(RandomArmsTest, MeetWhatTheirBodiesMeetAlone) {
+  for (int i = 0; i < 40; ++i) {
+    const PoseWithFrames pose = nextPose();
+    const Workpieces workpieces = {hull("hull", 0.02 * i, ms_)};
+    const SweepReport all = reportOf(together_, pose, workpieces);
+    Expected expected;
+    for (size_t body = 0; body < alone_.size(); ++body)
+      add(reportOf(*alone_[body], ofBody(pose, body), workpieces), firstPiece(body), expected);
+    ASSERT_EQ(all.objects.size(), 1U);
+    const SweepResult& result = all.objects[0].result;
+    EXPECT_EQ(result.triangles, expected.triangles);
+    EXPECT_EQ(result.not_ruled_out, expected.not_ruled_out);
+    EXPECT_TRUE(all.complete());
+    for (const TriangleContact& contact : result.in_contact) {
+      const TriangleContact* const first = earliest(expected.in_contact, contact.triangle);
+      ASSERT_NE(first, nullptr);
+      EXPECT_EQ(contact.piece, first->piece);
+      EXPECT_EQ(contact.impact.time_of_impact, first->impact.time_of_impact);
+    }
+    for (const TriangleContact& contact : expected.in_contact)
+      EXPECT_NE(earliest(result.in_contact, contact.triangle), nullptr);
+  }
+}
+
+TEST_P(RandomArmsTest, ArePredictedToMeetWhatTheirBodiesMeetAlone) {
+  Prediction all;
+  for (int i = 0; i < 20; ++i) {
+    const PoseWithFrames pose = nextPose();
+    const Workpieces workpieces = {hull("hull", 0.0, 0), hull("other", 1.0, 0)};
+    reportOf(together_, pose, workpieces);
+    together_.predict({}, workpieces, all);
+    TriangleSet triangles[2];
+    double probability = 0.0;
+    std::optional<Duration> first;
+    for (size_t body = 0; body < alone_.size(); ++body) {
+      reportOf(*alone_[body], ofBody(pose, body), workpieces);
+      const Prediction one = predictionOf(*alone_[body], {}, workpieces);
+      probability = std::max(probability, one.probability(PredictionInterval::kConsidered, std::chrono::seconds(1)));
+      for (size_t k = 0; k < one.objects.size(); ++k) unite(triangles[k], one.objects[k].triangles());
+      if (one.firstContact() && (!first || *one.firstContact() < *first)) first = one.firstContact();
+    }
+    EXPECT_EQ(all.probability(PredictionInterval::kConsidered, std::chrono::seconds(1)), probability);
+    EXPECT_EQ(all.firstContact(), first);
+    ASSERT_EQ(all.objects.size(), i == 0 ? 0U : 2U);
+    EXPECT_EQ(all.complete(), i > 0);
+    for (size_t k = 0; k < all.objects.size(); ++k) {
+      EXPECT_EQ(all.objects[k].triangles(), triangles[k]);
+      for (const PredictedSweep& sweep : all.objects[k].sweeps)
+        EXPECT_EQ(sweep.tool_piece.has_value(), sweep.deviations < GuardOptions().max_deviations);
+    }
+  }
+}
+
+TEST_F(BodiesTest, AnyOfThemIsNearAWorkpiece) {
+  const PoseWithFrames pose = nextPose();
+  const Workpieces workpieces = {hull("hull", 0.0, 0)};
+  reportOf(together_, pose, workpieces);
+  bool near = false;
+  for (size_t body = 0; body < alone_.size(); ++body) {
+    reportOf(*alone_[body], ofBody(pose, body), workpieces);
+    near = near || alone_[body]->isWithin(0.01, *workpieces[0]);
+  }
+  EXPECT_EQ(together_.isWithin(0.01, *workpieces[0]), near);
+}
+
+// Two balls over a triangle, half a metre apart.
+class TwoBallsTest : public testing::Test {
+ protected:
+  PoseWithFrames pose(int ms, double z_first, double z_second) const {
+    PoseWithFrames pose{at(ms), {}, Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}};
+    pose.bodies.push_back({Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z_first))});
+    pose.bodies.push_back({Eigen::Isometry3d(Eigen::Translation3d(0.5, 0.0, z_second))});
+    return pose;
+  }
+
+  const std::shared_ptr<const Workpiece> triangle_ = std::make_shared<const Workpiece>(Workpiece{
+      "triangle", 0, at(0), SteadyTime{}, "table", TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}})});
+  FakeDetector::Record record_;
+  const Tool ball_{ConvexShape::sphere(0.01)};
+  Guard guard_{{ball_, ball_}, std::make_unique<FakeDetector>(record_), {}};
+};
+
+TEST_F(TwoBallsTest, TheFirstToTouchIsNamed) {
+  reportOf(guard_, pose(0, 0.11, 0.21), {triangle_});
+  const SweepReport report = reportOf(guard_, pose(10, -0.29, -0.19), {triangle_});
+  ASSERT_EQ(report.objects[0].result.in_contact.size(), 1U);
+  EXPECT_EQ(report.objects[0].result.in_contact[0].piece, 0U);
+  EXPECT_NEAR(report.objects[0].result.in_contact[0].impact.time_of_impact, 0.25, 1e-6);
+}
+
+TEST_F(TwoBallsTest, TheFailureOfOneLeavesTheContactOfTheOther) {
+  reportOf(guard_, pose(0, 0.11, 0.11), {triangle_});
+  record_.failures_left = 1;
+  const SweepReport report = reportOf(guard_, pose(10, 0.11, -0.09), {triangle_});
+  ASSERT_EQ(report.failures.size(), 1U);
+  EXPECT_EQ(report.failures[0].workpiece, triangle_);
+  EXPECT_FALSE(report.complete());
+  ASSERT_EQ(report.objects.size(), 1U);
+  EXPECT_EQ(report.objects[0].result.in_contact[0].piece, 1U);
+}
+
+// Its way of 20 ms begins with a rest of 10 ms; the other goes back in the second half.
+TEST_F(TwoBallsTest, TheOneThatFailedIsSweptFromWhereItWas) {
+  reportOf(guard_, pose(0, 0.11, 0.11), {triangle_});
+  record_.failures_left = 1;
+  reportOf(guard_, pose(10, 0.11, -0.19), {triangle_});
+  const SweepReport report = reportOf(guard_, pose(20, 0.11, 0.21), {triangle_});
+  EXPECT_TRUE(report.complete());
+  EXPECT_EQ(report.start, at(0));
+  EXPECT_EQ(report.objects[0].interval_start, at(0));
+  ASSERT_EQ(report.objects[0].result.in_contact.size(), 1U);
+  EXPECT_EQ(report.objects[0].result.in_contact[0].piece, 1U);
+  EXPECT_NEAR(report.objects[0].result.in_contact[0].impact.time_of_impact, 0.5 + 0.5 * 0.18 / 0.4, 1e-6);
+}
+
+TEST_F(TwoBallsTest, ASweepTakenBackIsRepeatedForBoth) {
+  reportOf(guard_, pose(0, 0.11, 0.11), {triangle_});
+  const SweepReport lost = reportOf(guard_, pose(10, 0.11, -0.09), {triangle_});
+  guard_.takeBack();
+  const SweepReport again = reportOf(guard_, pose(10, 0.11, -0.09), {triangle_});
+  EXPECT_EQ(again.start, at(0));
+  EXPECT_EQ(again.objects[0].result.in_contact.size(), lost.objects[0].result.in_contact.size());
+}
+
+TEST_F(TwoBallsTest, ContactOfOneAsIntendedDoesNotHideThatOfTheOther) {
+  Intention intention{"triangle", triangle_->mesh_M.sharedTriangles(), {0}, 0.05, {"first"}};
+  Guard guard({Tool({{"first", ConvexShape::sphere(0.01)}}), Tool({{"second", ConvexShape::sphere(0.01)}})},
+              std::make_unique<FakeDetector>(record_), {});
+  guard.intend(std::make_shared<const Intentions>(Intentions{intention}));
+  reportOf(guard, pose(0, 0.05, 0.05), {triangle_});
+  const SweepReport meant = reportOf(guard, pose(10, 0.0, 0.05), {triangle_});
+  EXPECT_TRUE(meant.contact());
+  EXPECT_FALSE(meant.unintendedContact());
+  const SweepReport both = reportOf(guard, pose(20, 0.0, 0.0), {triangle_});
+  EXPECT_TRUE(both.unintendedContact());
+  ASSERT_EQ(both.objects[0].result.in_contact.size(), 1U);
+  EXPECT_EQ(both.objects[0].result.in_contact[0].piece, 1U);
+  EXPECT_TRUE(both.objects[0].result.intended.empty());
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
