@@ -20,10 +20,12 @@ struct PredictionRequest {
 
 /// Tests a predicted motion against every workpiece, as a guard with these options does if time is not short: one sweep
 /// for every pose of the path. A workpiece whose detection fails is reported as a failure. An empty path tests nothing.
+/// @param bodies       of the tool, at least one, as for Guard
 /// @param options      only `sweep`, `horizon.reflex_step` and `max_deviations` count; they are not checked
 /// @param out_of_time  once it returns true, sweeps after the reflex interval are tested coarsely: a triangle counts as
 ///                     met if no plane of a volume separates it from the volume; null: never
-Prediction predictContacts(Detector& detector, const PredictionRequest& request, const GuardOptions& options,
+Prediction predictContacts(Detector& detector, const std::vector<Tool>& bodies, const PredictedMotion& motion,
+                           const Workpieces& workpieces, const GuardOptions& options,
                            const std::function<bool()>& out_of_time);
 
 }  // namespace sweep_guard_core

@@ -213,6 +213,12 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
   for (const sweep_guard_core::PredictedPose& pose : prediction.path) {
     if (pose.ahead > age) msg.poses.push_back(poseMsg(pose, age));
   }
+  for (const sweep_guard_core::PredictedPath& path : prediction.body_paths) {
+    sweep_guard::PredictedBody& body = msg.bodies.emplace_back();
+    for (const sweep_guard_core::PredictedPose& pose : path) {
+      if (pose.ahead > age) body.poses.push_back(poseMsg(pose, age));
+    }
+  }
   msg.sweeps_asked = static_cast<std::uint32_t>(prediction.sweeps_asked);
   msg.sweeps_made = static_cast<std::uint32_t>(prediction.sweeps_made);
   msg.valid = prediction.complete();

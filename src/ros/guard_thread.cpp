@@ -54,7 +54,7 @@ GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadD
     : dependencies_(dependencies),
       results_(private_node, dependencies.parameters),
       proximity_(private_node, dependencies.parameters, dependencies.monitor),
-      guard_(*dependencies.parameters.initial().tool, firstDetector(dependencies),
+      guard_(*dependencies.parameters.initial().bodies, firstDetector(dependencies),
              dependencies.parameters.initial().guard) {}
 
 void GuardThread::start(Supervisor& supervisor) {
@@ -83,10 +83,10 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   if (differ(*before, *next, "prediction/") || differ(*before, *next, "limits/")) {
     change.predictor.emplace(next->guard.predictor);
   }
-  if (differ(*before, *next, "tool/")) change.bodies = next->bodies();
+  if (differ(*before, *next, "tool/")) change.bodies = *next->bodies;
   const auto exchange = [&, tested = change.detector != nullptr] {
     guard_.exchange(change);
-    if (change.tool) proximity_.setTool(guard_.tool());
+    if (!change.bodies.empty()) proximity_.setTool(*next->tool);
     if (tested) dependencies_.monitor.detectorTested({});
     dependencies_.monitor.setLimits(next->limits);
     dependencies_.statistics.setCycle(next->guard.cycle);
@@ -301,7 +301,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
   const SteadyTime end = std::chrono::steady_clock::now();
   sweep_guard_core::beat();
   swept_ = queued;
-  if (!report->objects.empty()) results_.publish(*report, guard_.tool());
+  if (!report->objects.empty()) results_.publish(*report);
   sweep_guard_core::beat();
   dependencies_.monitor.swept(*report, timestampsOf(pose), queued.checkpoint, end);
   dependencies_.warnings.publishIfChanged();

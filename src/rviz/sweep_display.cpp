@@ -46,6 +46,20 @@ DisplayStyle styleOf(const sweep_guard::View& view, const DisplayStyle& style) {
   return view.acknowledged ? style.acknowledged() : style;
 }
 
+BodyPoses bodiesOf(const sweep_guard::View& view) { return view.bodies.empty() ? BodyPoses{view.pose} : view.bodies; }
+
+std::vector<BodyPoses> pathOf(const sweep_guard::View& view) {
+  const size_t count = view.bodies.size();
+  const bool articulated = count > 0 && view.body_path.size() == count * view.path.size();
+  std::vector<BodyPoses> path;
+  for (size_t i = 0; i < view.path.size(); ++i) {
+    const auto first = view.body_path.begin() + static_cast<std::ptrdiff_t>(articulated ? i * count : 0);
+    path.push_back(articulated ? BodyPoses(first, first + static_cast<std::ptrdiff_t>(count))
+                               : BodyPoses{view.path[i]});
+  }
+  return path;
+}
+
 }  // namespace
 
 SweepDisplay::SweepDisplay() {
@@ -176,13 +190,13 @@ void SweepDisplay::draw() {
 void SweepDisplay::drawTools(const DisplayStyle& style) {
   std::vector<ToolVisual::PlacedTool> places;
   const bool posed = hasPose(*view_);
-  if (posed && style.tool.shown) places.push_back({view_->pose, style.tool.color});
+  if (posed && style.tool.shown) places.push_back({bodiesOf(*view_), style.tool.color});
   if (posed && style.ghosts.shown) {
-    for (const size_t i :
-         pickGhosts(view_->path, style.max_ghosts, tool_->boundingRadius(), 0.5 * tool_->thickness())) {
+    const std::vector<BodyPoses> path = pathOf(*view_);
+    for (const size_t i : pickGhosts(path, style.max_ghosts, tool_->sizes())) {
       Ogre::ColourValue color = style.ghosts.color;
-      color.a *= 1.0F - 0.8F * static_cast<float>(i) / static_cast<float>(view_->path.size());
-      places.push_back({view_->path[i], color});
+      color.a *= 1.0F - 0.8F * static_cast<float>(i) / static_cast<float>(path.size());
+      places.push_back({path[i], color});
     }
   }
   tool_->show(places);

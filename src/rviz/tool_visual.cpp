@@ -47,6 +47,22 @@ void add(Ogre::ManualObject& drawing, const shape_msgs::Mesh& piece) {
   }
 }
 
+// A part of an older guard has no body: the tool is one.
+size_t bodyOf(const sweep_guard::ToolShape& shape, size_t part) {
+  constexpr size_t kMostBodies = 1000;
+  return part < shape.bodies.size() ? std::min<size_t>(shape.bodies[part], kMostBodies) : 0;
+}
+
+bool haveMoved(const BodyPoses& from, const BodyPoses& to, const std::vector<BodySize>& bodies) {
+  for (size_t i = 0; i < std::min({from.size(), to.size(), bodies.size()}); ++i) {
+    const Ogre::Quaternion turn = toOgre(from[i].orientation).Inverse() * toOgre(to[i].orientation);
+    const double angle = 2.0 * std::acos(std::min(1.0, static_cast<double>(std::abs(turn.w))));
+    const auto distance = static_cast<double>(toOgre(from[i].position).distance(toOgre(to[i].position)));
+    if (distance + bodies[i].radius * angle >= 0.5 * bodies[i].thickness) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 ToolVisual::ToolVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node)
@@ -59,64 +75,79 @@ ToolVisual::~ToolVisual() {
 
 void ToolVisual::clear() {
   for (const Instance& instance : instances_) {
-    scene_.destroyEntity(instance.entity);
+    if (instance.entity != nullptr) scene_.destroyEntity(instance.entity);
     scene_.destroySceneNode(instance.node);
     drop(instance.material);
   }
   instances_.clear();
   shown_ = 0;
-  if (mesh_) Ogre::MeshManager::getSingleton().remove(mesh_);
-  mesh_.reset();
+  for (const Ogre::MeshPtr& mesh : meshes_) {
+    if (mesh) Ogre::MeshManager::getSingleton().remove(mesh);
+  }
+  meshes_.clear();
+  sizes_.clear();
 }
 
 void ToolVisual::setShape(const sweep_guard::ToolShape& shape) {
   clear();
+  if (shape.parts.empty()) return;
+  size_t bodies = 1;
+  for (size_t part = 0; part < shape.parts.size(); ++part) bodies = std::max(bodies, bodyOf(shape, part) + 1);
+  for (size_t body = 0; body < bodies; ++body) addBody(shape, body);
+}
+
+void ToolVisual::addBody(const sweep_guard::ToolShape& shape, size_t body) {
+  meshes_.emplace_back();
+  sizes_.push_back({});
   Ogre::ManualObject drawing(newName());
   drawing.begin(material_->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST, kResources);
-  for (const shape_msgs::Mesh& piece : shape.parts) {
-    if (indicesInRange(piece.triangles, piece.vertices.size())) add(drawing, piece);
+  for (size_t i = 0; i < shape.parts.size(); ++i) {
+    const shape_msgs::Mesh& piece = shape.parts[i];
+    if (bodyOf(shape, i) == body && indicesInRange(piece.triangles, piece.vertices.size())) add(drawing, piece);
   }
   if (drawing.getCurrentVertexCount() == 0) return;
   drawing.end();
-  mesh_ = drawing.convertToMesh(newName(), kResources);
+  meshes_.back() = drawing.convertToMesh(newName(), kResources);
   const Ogre::AxisAlignedBox& box = drawing.getBoundingBox();
   const Vector3 size = box.getSize();
-  thickness_ = static_cast<double>(std::min({size.x, size.y, size.z}));
-  bounding_radius_ = static_cast<double>(Ogre::Math::boundingRadiusFromAABB(box));
+  sizes_.back() = {static_cast<double>(Ogre::Math::boundingRadiusFromAABB(box)),
+                   static_cast<double>(std::min({size.x, size.y, size.z}))};
 }
 
-ToolVisual::Instance ToolVisual::make() {
-  Instance instance{node_.createChildSceneNode(), scene_.createEntity(mesh_), makeShadedMaterial()};
-  instance.entity->setMaterial(instance.material);
-  instance.node->attachObject(instance.entity);
-  return instance;
+void ToolVisual::makeInstances() {
+  for (const Ogre::MeshPtr& mesh : meshes_) {
+    Instance instance{node_.createChildSceneNode(), mesh ? scene_.createEntity(mesh) : nullptr, makeShadedMaterial()};
+    if (instance.entity != nullptr) {
+      instance.entity->setMaterial(instance.material);
+      instance.node->attachObject(instance.entity);
+    }
+    instances_.push_back(instance);
+  }
 }
 
 void ToolVisual::show(const std::vector<PlacedTool>& places) {
-  if (!mesh_) return;
-  while (instances_.size() < places.size()) instances_.push_back(make());
+  if (!hasShape()) return;
+  while (instances_.size() < places.size() * meshes_.size()) makeInstances();
   for (size_t i = 0; i < instances_.size(); ++i) {
-    instances_[i].node->setVisible(i < places.size());
-    if (i >= places.size()) continue;
-    instances_[i].node->setPosition(toOgre(places[i].pose.position));
-    instances_[i].node->setOrientation(toOgre(places[i].pose.orientation));
-    paintShaded(*instances_[i].material->getTechnique(0)->getPass(0), places[i].color);
+    const size_t place = i / meshes_.size();
+    const size_t body = i % meshes_.size();
+    const bool visible = place < places.size() && body < places[place].bodies.size();
+    instances_[i].node->setVisible(visible);
+    if (!visible) continue;
+    const geometry_msgs::Pose& pose = places[place].bodies[body];
+    instances_[i].node->setPosition(toOgre(pose.position));
+    instances_[i].node->setOrientation(toOgre(pose.orientation));
+    paintShaded(*instances_[i].material->getTechnique(0)->getPass(0), places[place].color);
   }
   shown_ = places.size();
 }
 
-std::vector<size_t> pickGhosts(const std::vector<geometry_msgs::Pose>& path, size_t max_count, double tool_radius,
-                               double spacing) {
+std::vector<size_t> pickGhosts(const std::vector<BodyPoses>& path, size_t max_count,
+                               const std::vector<BodySize>& bodies) {
   std::vector<size_t> picked;
   for (size_t i = 1; i <= max_count && !path.empty(); ++i) {
     const size_t next = (path.size() * i + max_count - 1) / max_count - 1;
-    if (!picked.empty()) {
-      const geometry_msgs::Pose& previous = path[picked.back()];
-      const Ogre::Quaternion turn = toOgre(previous.orientation).Inverse() * toOgre(path[next].orientation);
-      const double angle = 2.0 * std::acos(std::min(1.0, static_cast<double>(std::abs(turn.w))));
-      const float distance = toOgre(previous.position).distance(toOgre(path[next].position));
-      if (next == picked.back() || static_cast<double>(distance) + tool_radius * angle < spacing) continue;
-    }
+    if (!picked.empty() && (next == picked.back() || !haveMoved(path[picked.back()], path[next], bodies))) continue;
     picked.push_back(next);
   }
   return picked;

@@ -11,11 +11,20 @@
 
 namespace sweep_guard_rviz {
 
+/// How large a body of a tool is.
+struct BodySize {
+  double radius;     ///< bound on the distance of a point from the origin of the body [m]
+  double thickness;  ///< smallest extent along an axis of the body [m]
+};
+
+/// The pose of each body of a tool at one time.
+using BodyPoses = std::vector<geometry_msgs::Pose>;
+
 /// Draws the tool at several poses at once, each in a color of its own.
 class ToolVisual {
  public:
   struct PlacedTool {
-    geometry_msgs::Pose pose;  ///< in the frame of the node
+    BodyPoses bodies;  ///< in the frame of the node
     Ogre::ColourValue color;
   };
 
@@ -25,13 +34,10 @@ class ToolVisual {
   ToolVisual& operator=(const ToolVisual&) = delete;
 
   void setShape(const sweep_guard::ToolShape& shape);
-  bool hasShape() const { return mesh_ != nullptr; }
-  double boundingRadius() const {
-    return bounding_radius_;
-  }                                                ///< bound on the distance of a point from the tool's origin [m]
-  double thickness() const { return thickness_; }  ///< smallest extent along an axis of the tool frame [m]
+  bool hasShape() const { return !meshes_.empty(); }
+  const std::vector<BodySize>& sizes() const { return sizes_; }  ///< of each body
 
-  /// Shows the tool at these poses only.
+  /// Shows the tool at these poses only; a body without a pose is not shown.
   void show(const std::vector<PlacedTool>& places);
   size_t shown() const { return shown_; }  ///< number of tools shown
 
@@ -43,24 +49,22 @@ class ToolVisual {
   };
 
   void clear();
-  Instance make();
+  void addBody(const sweep_guard::ToolShape& shape, size_t body);
+  void makeInstances();
 
   Ogre::SceneManager& scene_;
   Ogre::SceneNode& node_;
-  Ogre::MaterialPtr material_;  // of the mesh; each instance has its own
-  Ogre::MeshPtr mesh_;
-  double bounding_radius_ = 0.0;
-  double thickness_ = 0.0;
-  std::vector<Instance> instances_;
+  Ogre::MaterialPtr material_;         // of the meshes; each instance has its own
+  std::vector<Ogre::MeshPtr> meshes_;  // of each body; null for one without a part
+  std::vector<BodySize> sizes_;
+  std::vector<Instance> instances_;  // of each body in turn, for each tool
   size_t shown_ = 0;
 };
 
-/// Returns the indices of the poses at which ghosts are drawn: evenly spread, without those that hardly differ from the
-/// previous one.
-/// @param max_count    largest number of ghosts
-/// @param tool_radius  bounding radius of the tool [m]
-/// @param spacing      distance that some point of the tool must move between two ghosts [m]
-std::vector<size_t> pickGhosts(const std::vector<geometry_msgs::Pose>& path, size_t max_count, double tool_radius,
-                               double spacing);
+/// Returns the indices of the poses at which ghosts are drawn: evenly spread, without those in which no body has moved by half
+/// of its thickness since the previous one.
+/// @param max_count  largest number of ghosts
+std::vector<size_t> pickGhosts(const std::vector<BodyPoses>& path, size_t max_count,
+                               const std::vector<BodySize>& bodies);
 
 }  // namespace sweep_guard_rviz

@@ -16,6 +16,7 @@ struct JointVariable {
   std::string name;                                         ///< of the joint
   double lower = -std::numeric_limits<double>::infinity();  ///< [rad or m]
   double upper = std::numeric_limits<double>::infinity();   ///< [rad or m], >= lower
+  bool continuous = false;                                  ///< turns without end: positions a turn apart are the same
 };
 
 /// A link L of a robot, and the joint that joins it to its parent P: L is where the joint frame J is, moved by the joint.

@@ -30,18 +30,18 @@ geometry_msgs::Point point(const Eigen::Vector3d& p);
 visualization_msgs::Marker marker(const std::string& ns, int id, int type, const std::string& frame,
                                   sweep_guard_core::Time stamp);
 
-/// Describes the markers of a tool in one pose and color: one marker for each cylinder and one for the triangles of all
-/// other pieces, without padding.
+/// Describes the markers of a tool in one pose and color: for each body, one marker for each cylinder and one for the
+/// triangles of all other pieces, without padding.
 struct ToolDrawing {
   std::string ns;
-  int index;  ///< of the tool in its namespace; ids begin at index * toolMarkers(tool)
+  int index;  ///< of the tool in its namespace; ids begin at index times the number of markers of all bodies
   std::string frame;
   sweep_guard_core::Time stamp;
   std_msgs::ColorRGBA color;
 };
-int toolMarkers(const sweep_guard_core::Tool& tool);  ///< number of markers for one tool
-void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing, const sweep_guard_core::Tool& tool,
-             const Eigen::Isometry3d& X_WT);
+/// @param X_WB  pose of each body
+void addTool(visualization_msgs::MarkerArray& array, const ToolDrawing& drawing,
+             const std::vector<sweep_guard_core::Tool>& bodies, const std::vector<Eigen::Isometry3d>& X_WB);
 
 /// Returns the distance [m] between a workpiece and the triangles drawn on it: enough to see them, small for a small
 /// tool.

@@ -30,6 +30,13 @@ Eigen::Vector3d textPosition(const sweep_guard_core::Tool& tool) {
   return {box.center().x(), box.center().y(), box.min().z() - 0.4 * box.sizes().z()};
 }
 
+std::vector<Eigen::Isometry3d> bodyPoses(const MarkerScene& scene) {
+  if (scene.body_poses.empty()) return {scene.X_WT};
+  std::vector<Eigen::Isometry3d> X_WB;
+  for (const sweep_guard_core::BodyPose& body : scene.body_poses) X_WB.push_back(body.X_WB);
+  return X_WB;
+}
+
 void addSweptVolumes(visualization_msgs::MarkerArray& array, const sweep_guard_core::SweepReport& report,
                      WarningLevel level) {
   int index = 0;
@@ -86,8 +93,8 @@ bool isOfWarning(const MarkerScene& scene, sweep_guard_core::Duration hold) {
 void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const {
   const WarningLevel level = scene.warning.level;
   const sweep_guard_core::Time stamp = scene.newest->end;
-  addTool(array, {"tool", 0, fixed_frame_, stamp, unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8))}, *scene.tool,
-          scene.X_WT);
+  addTool(array, {"tool", 0, fixed_frame_, stamp, unlessUnknown(level, color(0.35, 0.5, 0.9, 0.8))}, *scene.bodies,
+          bodyPoses(scene));
 
   Marker text = marker("warning_text", 0, Marker::TEXT_VIEW_FACING, fixed_frame_, stamp);
   text.pose = toMsg(scene.X_WT * Eigen::Translation3d(textPosition(*scene.tool)));
@@ -101,7 +108,8 @@ void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerSc
 }
 
 void Markers::addPredicted(visualization_msgs::MarkerArray& array, const MarkerScene& scene) const {
-  const PredictedScene predicted{*scene.prediction, *scene.tool, fixed_frame_, scene.warning.level};
+  const PredictedScene predicted{*scene.prediction, *scene.bodies, liftOff(*scene.tool), fixed_frame_,
+                                 scene.warning.level};
   addGhosts(array, predicted);
   addPredictedVolumes(array, predicted);
   addPredictedTriangles(array, predicted);

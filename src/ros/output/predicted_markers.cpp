@@ -28,23 +28,39 @@ void fade(Marker& strip, const Eigen::Vector3d& p_W, const std_msgs::ColorRGBA& 
   strip.colors.back().a *= static_cast<float>(share);
 }
 
+std::vector<Eigen::Isometry3d> bodiesAt(const PredictedScene& scene, size_t pose) {
+  const sweep_guard_core::Prediction& prediction = scene.prediction;
+  if (prediction.body_paths.empty()) return {prediction.path[pose].X_WT};
+  std::vector<Eigen::Isometry3d> X_WB;
+  for (const sweep_guard_core::PredictedPath& path : prediction.body_paths) X_WB.push_back(path[pose].X_WT);
+  return X_WB;
+}
+
+// By half of the thickness of one of them.
+bool haveMoved(const std::vector<sweep_guard_core::Tool>& bodies, const std::vector<Eigen::Isometry3d>& before,
+               const std::vector<Eigen::Isometry3d>& X_WB) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    if (largestMotion(bodies[i], before[i], X_WB[i]) >= 0.5 * bodies[i].bounds_T().sizes().minCoeff()) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void addGhosts(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
   const sweep_guard_core::PredictedPath& path = scene.prediction.path;
-  const Eigen::Isometry3d* drawn = nullptr;
+  std::vector<Eigen::Isometry3d> drawn;
   for (int i = 0; i < kGhosts && !path.empty(); ++i) {
     const sweep_guard_core::Duration due = path.back().ahead * (i + 1) / kGhosts;
     const auto pose =
         std::lower_bound(path.begin(), path.end(), due,
                          [](const auto& before, sweep_guard_core::Duration t) { return before.ahead < t; });
-    if (drawn != nullptr &&
-        largestMotion(scene.tool, *drawn, pose->X_WT) < 0.5 * scene.tool.bounds_T().sizes().minCoeff())
-      continue;
-    drawn = &pose->X_WT;
+    const std::vector<Eigen::Isometry3d> X_WB = bodiesAt(scene, static_cast<size_t>(pose - path.begin()));
+    if (!drawn.empty() && !haveMoved(scene.bodies, drawn, X_WB)) continue;
+    drawn = X_WB;
     const std_msgs::ColorRGBA fading = color(0.45, 0.65, 1.0, 0.5 * (kGhosts - i) / kGhosts);
     addTool(array, {"predicted_tool", i, scene.fixed_frame, scene.prediction.stamp, unlessUnknown(scene.level, fading)},
-            scene.tool, pose->X_WT);
+            scene.bodies, X_WB);
   }
 }
 
@@ -59,7 +75,7 @@ void addPredictedVolumes(visualization_msgs::MarkerArray& array, const Predicted
 }
 
 void addPredictedTriangles(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
-  const double lift = 0.5 * liftOff(scene.tool);  // half as high as contacts, which are drawn above
+  const double lift = 0.5 * scene.lift;  // half as high as contacts, which are drawn above
   int index = 0;
   for (const sweep_guard_core::PredictedObject& object : scene.prediction.objects) {
     for (const auto& [level, triangles] :

@@ -3,6 +3,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <string>
+#include <vector>
 
 #include "common/trail.h"
 #include "sweep_guard/geometry/tool.h"
@@ -14,7 +15,8 @@ namespace sweep_guard_ros {
 /// Everything that the markers of the prediction share.
 struct PredictedScene {
   const sweep_guard_core::Prediction& prediction;
-  const sweep_guard_core::Tool& tool;
+  const std::vector<sweep_guard_core::Tool>& bodies;
+  double lift;  ///< of contact triangles [m], see liftOff()
   std::string fixed_frame;
   sweep_guard_core::WarningLevel level;
 };

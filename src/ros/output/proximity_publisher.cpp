@@ -68,9 +68,10 @@ void ProximityPublisher::setTool(const sweep_guard_core::Tool& tool) {
 void ProximityPublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
                                const sweep_guard_core::Workpieces& workpieces,
                                const sweep_guard_core::SweepReport& report, const sweep_guard_core::Guard& guard) {
-  const sweep_guard_core::Tool& tool = guard.tool();
   const auto parameters = parameters_.get();
-  if (planes_publisher_.getNumSubscribers() == 0 || parameters->proximity_reach == 0.0) return reset();
+  const bool wanted = planes_publisher_.getNumSubscribers() > 0 && parameters->proximity_reach > 0.0;
+  if (!wanted || parameters->articulated) return reset();
+  const sweep_guard_core::Tool& tool = guard.tool();
   const InStage computing(Stage::kProximity);
   finder_.find({tool, pose, workpieces, parameters->proximity_reach, &report, guard.intentions().get()}, proximity_);
   const InStage publishing(Stage::kPublish);

@@ -22,11 +22,11 @@ ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const LiveParamet
       prediction_publisher_(private_node.advertise<sweep_guard::Prediction>("prediction", kPredictionsQueue)),
       time_to_collision_publisher_(private_node.advertise<std_msgs::Float64>("time_to_collision", kPredictionsQueue)) {}
 
-void ResultPublisher::publish(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool) const {
+void ResultPublisher::publish(const sweep_guard_core::SweepReport& report) const {
   if (contacts_publisher_.getNumSubscribers() == 0) return;
   const sweep_guard_core::InStage stage(sweep_guard_core::Stage::kPublish);
-  const auto contacts = boost::make_shared<sweep_guard::Contacts>(toMsg(report, tool));
   const auto parameters = parameters_.get();
+  const auto contacts = boost::make_shared<sweep_guard::Contacts>(toMsg(report, *parameters->tool));
   contacts->header.frame_id = parameters->fixed_frame;
   contacts->tool = parameters->tool_frame;
   contacts->volume = sweep_guard_core::nameOf(parameters->guard.sweep.volume);

@@ -13,8 +13,7 @@ class ResultPublisher {
  public:
   ResultPublisher(ros::NodeHandle private_node, const LiveParameters& parameters);
 
-  /// @param tool  the swept tool
-  void publish(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool) const;
+  void publish(const sweep_guard_core::SweepReport& report) const;
   /// @param age  age that the first pose had at the time of the prediction
   void publish(const sweep_guard_core::Prediction& prediction, sweep_guard_core::Duration age) const;
 

@@ -13,7 +13,7 @@ ScenePublisher::ScenePublisher(ros::NodeHandle private_node, const LiveParameter
       markers_(parameters.initial().fixed_frame),
       marker_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
       view_(private_node, parameters.initial().fixed_frame, parameters.initial().tool_frame,
-            *parameters.initial().tool) {}
+            *parameters.initial().bodies) {}
 
 void ScenePublisher::passed(const sweep_guard_core::PoseWithFrames& pose) {
   const std::lock_guard lock(mutex_);
@@ -24,6 +24,7 @@ void ScenePublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
                            std::shared_ptr<const sweep_guard_core::SweepReport> report) {
   const std::lock_guard lock(mutex_);
   scene_.X_WT = pose.X_WT;
+  scene_.body_poses = pose.bodies;
   scene_.trail.add(pose.stamp, pose.X_WT.translation());
   if (report->unintendedContact()) scene_.contact = report;
   scene_.newest = std::move(report);
@@ -57,6 +58,7 @@ MarkerScene ScenePublisher::currentScene() const {
   }
   const auto parameters = parameters_.get();
   scene.tool = parameters->tool;
+  scene.bodies = parameters->bodies;
   scene.namespaces = parameters->marker_namespaces;
   monitor_.warning(now(), scene.warning);
   if (!isOfWarning(scene, parameters->limits.hold_time)) scene.contact.reset();

@@ -67,6 +67,7 @@ sweep_guard::View toMsg(const MarkerScene& scene) {
   msg.held_since = toMsg(scene.warning.held_since.value_or(sweep_guard_core::Time()));
   msg.acknowledged = scene.warning.acknowledged ? 1 : 0;
   msg.pose = toMsg(scene.X_WT);
+  for (const sweep_guard_core::BodyPose& body : scene.body_poses) msg.bodies.push_back(toMsg(body.X_WB));
   if (!scene.newest) return msg;
   msg.header.stamp = toMsg(scene.newest->end);
   for (const sweep_guard_core::SweptObject& object : scene.newest->objects) {
@@ -75,29 +76,35 @@ sweep_guard::View toMsg(const MarkerScene& scene) {
   if (scene.contact && scene.warning.level == sweep_guard_core::WarningLevel::kContact) addContact(scene, msg.objects);
   if (!scene.prediction) return msg;
   addPredicted(*scene.prediction, msg.objects);
-  for (const sweep_guard_core::PredictedPose& pose : scene.prediction->path) msg.path.push_back(toMsg(pose.X_WT));
+  for (size_t i = 0; i < scene.prediction->path.size(); ++i) {
+    msg.path.push_back(toMsg(scene.prediction->path[i].X_WT));
+    for (const auto& path : scene.prediction->body_paths) msg.body_path.push_back(toMsg(path[i].X_WT));
+  }
   return msg;
 }
 
-sweep_guard::ToolShape toMsg(const sweep_guard_core::Tool& tool) {
+sweep_guard::ToolShape toMsg(const std::vector<sweep_guard_core::Tool>& bodies) {
   sweep_guard::ToolShape msg;
-  for (const sweep_guard_core::ConvexPiece& piece : tool.pieces()) {
-    const sweep_guard_core::TriangleMesh& mesh_T = piece.shape_T.mesh_T();
-    shape_msgs::Mesh& surface = msg.parts.emplace_back();
-    for (size_t i = 0; i < mesh_T.vertexCount(); ++i) surface.vertices.push_back(point(mesh_T.vertex(i)));
-    for (const auto& [a, b, c] : mesh_T.triangles()) surface.triangles.emplace_back().vertex_indices = {a, b, c};
-    msg.links.push_back(piece.link);
+  for (size_t body = 0; body < bodies.size(); ++body) {
+    for (const sweep_guard_core::ConvexPiece& piece : bodies[body].pieces()) {
+      const sweep_guard_core::TriangleMesh& mesh_B = piece.shape_T.mesh_T();
+      shape_msgs::Mesh& surface = msg.parts.emplace_back();
+      for (size_t i = 0; i < mesh_B.vertexCount(); ++i) surface.vertices.push_back(point(mesh_B.vertex(i)));
+      for (const auto& [a, b, c] : mesh_B.triangles()) surface.triangles.emplace_back().vertex_indices = {a, b, c};
+      msg.links.push_back(piece.link);
+      msg.bodies.push_back(static_cast<std::uint32_t>(body));
+    }
   }
   return msg;
 }
 
 ViewPublisher::ViewPublisher(ros::NodeHandle private_node, std::string fixed_frame, std::string tool_frame,
-                             const sweep_guard_core::Tool& tool)
+                             const std::vector<sweep_guard_core::Tool>& bodies)
     : fixed_frame_(std::move(fixed_frame)),
       tool_frame_(std::move(tool_frame)),
       view_publisher_(private_node.advertise<sweep_guard::View>("view", 1)),
       tool_publisher_(private_node.advertise<sweep_guard::ToolShape>("tool", 1, /*latch=*/true)) {
-  sweep_guard::ToolShape shape = toMsg(tool);
+  sweep_guard::ToolShape shape = toMsg(bodies);
   shape.header.frame_id = tool_frame_;
   tool_publisher_.publish(shape);
 }

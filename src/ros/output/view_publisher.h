@@ -13,13 +13,14 @@ namespace sweep_guard_ros {
 /// Converts what the markers show. The caller sets frame and tool.
 /// @param scene  must have its tool
 sweep_guard::View toMsg(const MarkerScene& scene);
-sweep_guard::ToolShape toMsg(const sweep_guard_core::Tool& tool);  ///< converts the tool without its padding
+sweep_guard::ToolShape toMsg(
+    const std::vector<sweep_guard_core::Tool>& bodies);  ///< converts the tool without its padding
 
 /// Publishes `~view` and, once, `~tool`, for displays that draw the workpiece themselves.
 class ViewPublisher {
  public:
   ViewPublisher(ros::NodeHandle private_node, std::string fixed_frame, std::string tool_frame,
-                const sweep_guard_core::Tool& tool);
+                const std::vector<sweep_guard_core::Tool>& bodies);
 
   bool hasSubscribers() const { return view_publisher_.getNumSubscribers() > 0; }
   void publish(const MarkerScene& scene) const;

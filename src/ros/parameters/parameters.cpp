@@ -191,13 +191,11 @@ ToolModelOptions readModelOptions(ParameterReader& read, const std::string& fram
                    "tighter; 0: one convex hull for each mesh. More pieces follow hollows more closely and cost time.");
   options.joints = read.numbers("tool/joints",
                                 "urdf only: position [rad or m] of moving joints within the tool, by name, within the "
-                                "joint's limits. The other joints are as close to 0 as they can be. The guard does not "
-                                "follow a joint that moves.");
+                                "joint's limits. The other joints are as close to 0 as they can be or, with "
+                                "tool/joint_states, where `joint_states` says.");
   options.mesh_roots = read.texts("tool/mesh_roots",
                                   "urdf only: absolute folders that file:// meshes may be in, in addition to packages "
                                   "on ROS_PACKAGE_PATH.");
-  read.refuseIfSet("tool/joint_states",
-                   "a tool that changes its shape while it moves is not supported; set tool/joints");
   return options;
 }
 
@@ -218,13 +216,18 @@ void readRobot(ParameterReader& read, const std::string& parameter, const ToolMo
   try {
     ToolModel model = loadToolModel(urdf, options);
     parameters.tool_description = describe(model, parameter);
-    parameters.tool = std::make_shared<const sweep_guard_core::Tool>(std::move(model.pieces));
     parameters.robot = model.robot;
     parameters.why_no_robot = model.why_no_robot;
+    parameters.fixed_joints = options.joints;
+    if (parameters.articulated && !model.robot) throw sweep_guard_core::InvalidInput(model.why_no_robot);
+    parameters.tool = std::make_shared<const sweep_guard_core::Tool>(parameters.articulated ? piecesByBody(*model.robot)
+                                                                                            : std::move(model.pieces));
   } catch (const sweep_guard_core::InvalidInput& error) {
     throw sweep_guard_core::InvalidInput("no tool from the parameter '" + parameter + "': " + error.what());
   }
 }
+
+using Bodies = std::vector<sweep_guard_core::Tool>;
 
 // @param before  has the same tool except for its padding; null: at the start
 void readTool(ParameterReader& read, const Parameters* before, Parameters& parameters) {
@@ -238,9 +241,16 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
                                             "node's namespace upwards.");
   read.ignore(description);
   const ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
+  const bool joint_states = read.flag(
+      "tool/joint_states", false,
+      "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
+      "them moves. Implied by tool_source joint_states. ~proximity is silent then.");
+  parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
   parameters.tool_padding = padding;
   if (before != nullptr && before->tool_padding == padding) {
     parameters.tool = before->tool;
+    parameters.bodies = before->bodies;
+    parameters.fixed_joints = before->fixed_joints;
     parameters.tool_description = before->tool_description;
     parameters.robot = before->robot;
     parameters.why_no_robot = before->why_no_robot;
@@ -250,16 +260,27 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
     parameters.tool = std::make_shared<const sweep_guard_core::Tool>(cylinder);
     parameters.tool_description = "a cylinder";
     parameters.why_no_robot = "tool/type is cylinder: set it to urdf";
+    if (parameters.articulated) {
+      throw sweep_guard_core::InvalidInput("tool/joint_states, or tool_source joint_states: " +
+                                           parameters.why_no_robot);
+    }
   }
+  parameters.bodies = parameters.articulated
+                          ? std::shared_ptr<const Bodies>(parameters.robot, &parameters.robot->robot.tools)
+                          : std::make_shared<const Bodies>(Bodies{*parameters.tool});
 }
 
 Parameters readAll(ParameterReader& read, const Parameters* before) {
   Parameters parameters;
   parameters.fixed_frame = read.name("fixed_frame", "world", "tf frame in which motion is measured.");
-  const std::string source =
-      read.choice("tool_source", "topic", {"topic", "tf"},
-                  "topic: poses of the tool arrive on `tool_pose`. tf: the tool is the frame tool_frame in tf.");
-  parameters.tool_source = source == "tf" ? ToolSource::kTf : ToolSource::kTopic;
+  const std::string source = read.choice(
+      "tool_source", "topic", {"topic", "tf", "joint_states"},
+      "topic: poses of the tool arrive on `tool_pose`. tf: the tool is the frame tool_frame in tf. "
+      "joint_states: the tool is moved by its joints, as `joint_states` says, and tool_frame, the link that "
+      "carries them, is where tf says.");
+  const std::map<std::string, ToolSource> sources = {
+      {"topic", ToolSource::kTopic}, {"tf", ToolSource::kTf}, {"joint_states", ToolSource::kJointStates}};
+  parameters.tool_source = sources.at(source);
   parameters.tool_frame = read.name("tool_frame", "tool",
                                     "tf frame of the tool, and the tool's name in messages. With tool/type urdf: the "
                                     "link that the poses are of; `tool` means the first of tool/links.");

@@ -17,7 +17,7 @@
 
 namespace sweep_guard_ros {
 
-enum class ToolSource { kTopic, kTf };
+enum class ToolSource { kTopic, kTf, kJointStates };
 
 /// What happens if the detector fails its test at the start.
 enum class SelfTest { kNone, kUnknown, kExit };
@@ -28,12 +28,18 @@ struct Parameters {
   std::string fixed_frame;
   ToolSource tool_source;
   std::string tool_frame;
-  std::shared_ptr<const sweep_guard_core::Tool> tool;
-  std::shared_ptr<const RobotModel> robot;    ///< whose links are the tool; null: nothing that joints move
-  std::string why_no_robot;                   ///< why it is null
-  double tool_padding;                        ///< [m]
-  std::string tool_description;               ///< shape and source of the tool, for people
-  sweep_guard_core::DetectorChoice detector;  ///< as configured, until it is replaced by one that is available
+  std::shared_ptr<const sweep_guard_core::Tool>
+      tool;  ///< of an articulated one: all pieces of `bodies` in their order,
+             ///< joints as configured
+  /// What the guard sweeps: the rigid bodies of an articulated tool, each in its own frame, or else `tool`.
+  std::shared_ptr<const std::vector<sweep_guard_core::Tool>> bodies;
+  bool articulated;                            ///< joints of the tool move, as `joint_states` says: `robot` is there
+  std::map<std::string, double> fixed_joints;  ///< positions [rad or m] of joints that `joint_states` need not have
+  std::shared_ptr<const RobotModel> robot;     ///< whose links are the tool; null: nothing that joints move
+  std::string why_no_robot;                    ///< why it is null
+  double tool_padding;                         ///< [m]
+  std::string tool_description;                ///< shape and source of the tool, for people
+  sweep_guard_core::DetectorChoice detector;   ///< as configured, until it is replaced by one that is available
   SelfTest self_test;
   int cross_check;  ///< of so many queries of the detector, one is asked twice; 0: none
   sweep_guard_core::GuardOptions guard;

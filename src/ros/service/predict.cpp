@@ -1,5 +1,6 @@
 #include "ros/service/predict.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "ros/available_detector.h"
@@ -19,6 +20,14 @@ constexpr Duration kMaxHorizon = std::chrono::seconds(5);
 constexpr auto kGuardTimeout = std::chrono::seconds(1);  // of a guard that is stuck in a sweep
 constexpr size_t kMaxRequest = 1024;                     // [bytes]
 constexpr auto kTestTime = std::chrono::seconds(1);      // the rest of the path is tested coarsely
+
+std::vector<std::string> linksOf(const sweep_guard_core::Tool& body) {
+  std::vector<std::string> links;
+  for (const sweep_guard_core::ConvexPiece& piece : body.pieces()) {
+    if (std::find(links.begin(), links.end(), piece.link) == links.end()) links.push_back(piece.link);
+  }
+  return links;
+}
 
 Duration checkedHorizon(const ros::Duration& horizon, Duration configured) {
   const Duration asked(horizon.toNSec());
@@ -47,6 +56,7 @@ sweep_guard::Prediction predictionMsg(const sweep_guard_core::Prediction& predic
   msg.header.frame_id = parameters.fixed_frame;
   msg.tool = parameters.tool_frame;
   msg.predictor = parameters.guard.predictor.predictor;
+  for (size_t i = 0; i < msg.bodies.size(); ++i) msg.bodies[i].links = linksOf((*parameters.bodies)[i]);
   return msg;
 }
 
@@ -89,7 +99,7 @@ sweep_guard::Prediction PredictService::predict(Duration horizon) {
   const Motion motion = future.get();
   const auto end = std::chrono::steady_clock::now() + kTestTime;
   const auto prediction = sweep_guard_core::predictContacts(
-      *detector_, {*parameters_->tool, motion.predicted, workpieces_.snapshot()}, parameters_->guard,
+      *detector_, *parameters_->bodies, motion.predicted, workpieces_.snapshot(), parameters_->guard,
       [this, end] { return stopping_ || std::chrono::steady_clock::now() >= end; });
   sweep_guard::Prediction msg = predictionMsg(prediction, motion.age, *parameters_);
   if (msg.valid) msg.probability = prediction.probability(PredictionInterval::kConsidered, motion.age + horizon);

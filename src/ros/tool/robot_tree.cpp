@@ -138,7 +138,7 @@ class TreeBuilder {
     const auto index = static_cast<size_t>(found - variables_.begin());
     if (found != variables_.end()) return index;
     const auto [lower, upper] = limitsOf(joint);
-    variables_.push_back({joint.name, lower, upper});
+    variables_.push_back({joint.name, lower, upper, joint.type == urdf::Joint::CONTINUOUS});
     return index;
   }
 

@@ -212,4 +212,15 @@ ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options
   return model;
 }
 
+std::vector<ConvexPiece> piecesByBody(const RobotModel& model) {
+  std::vector<Eigen::Isometry3d> X_TB;
+  bodyPoses(model.robot.tree, model.robot.bodies, {model.X_TR, model.positions}, X_TB);
+  Pieces all;
+  for (size_t body = 0; body < X_TB.size(); ++body) {
+    const Pieces& pieces = model.robot.tools[body].pieces();
+    for (ConvexPiece& piece : placed(X_TB[body], pieces.begin(), pieces.end())) all.push_back(std::move(piece));
+  }
+  return all;
+}
+
 }  // namespace sweep_guard_ros

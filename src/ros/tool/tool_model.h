@@ -46,4 +46,7 @@ struct ToolModel {
 ///     and no link is omitted); or if a piece is degenerate or reaches farther than 100 m
 ToolModel loadToolModel(const std::string& urdf, const ToolModelOptions& options);
 
+/// Returns the pieces of all bodies in their order, in the tool frame, at RobotModel::positions.
+std::vector<sweep_guard_core::ConvexPiece> piecesByBody(const RobotModel& model);
+
 }  // namespace sweep_guard_ros

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/common/time.h"
+#include "sweep_guard/kinematics/robot_motion.h"
+
+namespace sweep_guard_core {
+
+/// Positions of one quantity at ascending times. Moves them down in its memory to make room, so nothing is allocated once it
+/// has had its largest size.
+template <typename Value>
+class Track {
+ public:
+  /// A longer track drops its second sample: the motion goes straight past it.
+  static constexpr size_t kMaxSize = 8192;
+
+  struct Sample {
+    Time stamp;
+    Value value;
+  };
+
+  /// @param sample  not earlier than the newest
+  void add(const Sample& sample) {
+    if (size() >= kMaxSize) {
+      all_[begin_ + 1] = all_[begin_];
+      ++begin_;
+    }
+    if (all_.size() == all_.capacity() && begin_ >= all_.size() / 2) {
+      all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(begin_));
+      begin_ = 0;
+    }
+    all_.push_back(sample);
+  }
+  void forgetFirst() { ++begin_; }  ///< must not be called on the last sample
+  void clear() {
+    all_.clear();
+    begin_ = 0;
+  }
+
+  size_t size() const { return all_.size() - begin_; }
+  const Sample& operator[](size_t i) const { return all_[begin_ + i]; }
+  const Sample& newest() const { return all_.back(); }
+
+ private:
+  std::vector<Sample> all_;
+  size_t begin_ = 0;
+};
+
+/// Merges the positions of the joints of a robot, each with stamps of its own, into states of all of them. A joint moves
+/// at constant speed between two of its positions, a continuous one the shorter way. A state comes out for every stamp of
+/// any joint, once all joints are known up to it: joined by RobotMotion, the states are exactly the motion of the joints,
+/// and nothing of it is left out. Nothing comes out before the first stamp up to which all joints have been heard of.
+///
+/// The root may move as well: its poses are joined as Motion says.
+class JointTimeline {
+ public:
+  /// @param tree   must outlive it
+  /// @param fixed  position of each variable that needs none [rad or m]; empty: it comes by add()
+  JointTimeline(const KinematicTree& tree, std::vector<std::optional<double>> fixed, bool root_moves);
+
+  struct Position {
+    size_t variable;  ///< index in the tree
+    double value;     ///< [rad or m]
+  };
+
+  /// Adds positions of some joints at one moment; all of them or, if it throws, none. Those of fixed joints are passed over.
+  /// @param publisher  who says so; a joint belongs to the first who names it, until it was silent for 1 s
+  /// @throws InvalidInput if a position is not finite or beyond 1e4, a joint is named twice, by several publishers, or at a
+  ///     stamp that is earlier than its newest
+  void add(const std::string& publisher, Time stamp, const std::vector<Position>& positions);
+
+  /// Adds a pose of the root, which must move.
+  /// @param stamp  not earlier than the previous one (asserted)
+  /// @param X_WR   finite, rotation orthonormal; not checked
+  void addRoot(Time stamp, const Eigen::Isometry3d& X_WR);
+
+  /// Returns the next state, in the order of stamps; those of the same moment differ where a joint was at two places in it.
+  /// The root is at the origin if it does not move.
+  /// @param[out] state  overwritten; its buffers are used again
+  /// @returns the stamp of the state; empty: none is known yet
+  std::optional<Time> next(RobotState& state);
+
+  /// Returns the index of the variable that was silent longest, or that nobody has named yet; none if all are fixed.
+  std::optional<size_t> oldest() const;
+  /// Returns the newest stamp of a variable; empty before the first.
+  std::optional<Time> newestOf(size_t variable) const;
+
+  void reset();  ///< forgets all positions
+
+ private:
+  struct Joint {
+    std::optional<double> fixed;
+    std::string publisher;
+    Track<double> track;
+  };
+
+  void check(const std::string& publisher, Time stamp, const std::vector<Position>& positions) const;
+  void checkPublisher(const std::string& publisher, Time stamp, const Position& position) const;
+  double unwound(size_t variable, double value) const;
+  std::optional<Time> commonStart() const;
+  std::optional<Time> nextStamp() const;
+  void advance(Time to, bool past_all);
+  void stateAt(Time stamp, RobotState& state) const;
+  template <typename Visit>
+  void forEachTrack(const Visit& visit) const;
+
+  const KinematicTree& tree_;
+  std::vector<Joint> joints_;  // by variable
+  bool root_moves_;
+  Track<Eigen::Isometry3d> root_;
+  bool begun_ = false;
+};
+
+}  // namespace sweep_guard_core
