@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "sweep_guard/common/error.h"
 #include "sweep_guard/geometry/motion.h"
 
 namespace sweep_guard_core {
@@ -74,10 +73,10 @@ void JointTimeline::checkPublisher(const std::string& publisher, Time stamp, con
   const std::string& name = tree_.variables()[position.variable].name;
   const Time newest = joint.track.newest().stamp;
   if (joint.publisher != publisher && stamp - newest < kForgetPublisher) {
-    throw InvalidInput("joint '" + name + "' is published by " + joint.publisher + " and " + publisher +
-                       ": let one of them");
+    throw SeveralPublishers("joint '" + name + "' is published by " + joint.publisher + " and " + publisher +
+                            ": let one of them");
   }
-  if (stamp < newest) throw InvalidInput("joint '" + name + "': its stamp is older than the one before");
+  if (stamp < newest) throw OutOfOrder("joint '" + name + "': its stamp is older than the one before");
 }
 
 double JointTimeline::unwound(size_t variable, double value) const {
@@ -150,15 +149,6 @@ void JointTimeline::stateAt(Time stamp, RobotState& state) const {
   if (!root_moves_) return;
   state.X_WR = root_[0].value;
   if (root_[0].stamp < stamp) state.X_WR = Motion{root_[0].value, root_[1].value}.at(shareAt(root_, stamp));
-}
-
-std::optional<size_t> JointTimeline::oldest() const {
-  std::optional<size_t> oldest;
-  for (size_t i = 0; i < joints_.size(); ++i) {
-    if (joints_[i].fixed) continue;
-    if (!oldest || newestOf(i) < newestOf(*oldest)) oldest = i;
-  }
-  return oldest;
 }
 
 std::optional<Time> JointTimeline::newestOf(size_t variable) const {

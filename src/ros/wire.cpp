@@ -87,6 +87,15 @@ void checkLengths<geometry_msgs::PoseStamped>(Wire wire) {
 }
 
 template <>
+void checkLengths<sensor_msgs::JointState>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.each(kLength, [&] { read.text(); });
+  for (int quantity = 0; quantity < 3; ++quantity) read.array(sizeof(double));
+  read.end();
+}
+
+template <>
 void checkLengths<tf2_msgs::TFMessage>(Wire wire) {
   WireReader read(wire);
   read.each(3 * kLength + kStamp + kPose, [&] {

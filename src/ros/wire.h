@@ -4,6 +4,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <sensor_msgs/JointState.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <sweep_guard/Acknowledge.h>
@@ -40,6 +41,8 @@ void checkLengths(Wire wire);
 
 template <>
 void checkLengths<geometry_msgs::PoseStamped>(Wire wire);
+template <>
+void checkLengths<sensor_msgs::JointState>(Wire wire);
 template <>
 void checkLengths<tf2_msgs::TFMessage>(Wire wire);
 template <>

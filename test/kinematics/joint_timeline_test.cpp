@@ -167,12 +167,13 @@ TEST_F(JointTimelineTest, AMessageThatIsRefusedHasNoEffect) {
   EXPECT_EQ(timeline_.newestOf(0), at(1.0));
 }
 
-TEST_F(JointTimelineTest, NamesTheJointThatWasSilentLongest) {
-  EXPECT_EQ(timeline_.oldest(), 0U);
+TEST_F(JointTimelineTest, KnowsWhenAJointWasNamedLast) {
+  EXPECT_FALSE(timeline_.newestOf(1));
   timeline_.add("driver", at(1.0), {{0, 0.0}, {1, 0.0}, {2, 0.0}});
   timeline_.add("driver", at(1.1), {{0, 0.0}, {2, 0.0}});
-  EXPECT_EQ(timeline_.oldest(), 1U);
   EXPECT_EQ(timeline_.newestOf(1), at(1.0));
+  EXPECT_TRUE(timeline_.expects(1));
+  EXPECT_FALSE(only_a_.expects(1));
   timeline_.reset();
   EXPECT_FALSE(timeline_.newestOf(1));
   EXPECT_TRUE(allOf(timeline_).empty());

@@ -38,6 +38,16 @@ geometry_msgs::PoseStamped example() {
 }
 
 template <>
+sensor_msgs::JointState example() {
+  sensor_msgs::JointState message;
+  message.header = header();
+  message.name = {"elbow", "", "wrist"};
+  message.position = {0.1, 0.2, 0.3};
+  message.effort = {1.0};
+  return message;
+}
+
+template <>
 tf2_msgs::TFMessage example() {
   tf2_msgs::TFMessage message;
   message.transforms.resize(3);
@@ -217,6 +227,12 @@ std::vector<size_t> lengths<geometry_msgs::PoseStamped>() {
 }
 
 template <>
+std::vector<size_t> lengths<sensor_msgs::JointState>() {
+  const size_t positions = kHeader + 4 + 9 + 4 + 9;
+  return {12, kHeader, kHeader + 4, kHeader + 13, kHeader + 17, positions, positions + 28, positions + 32};
+}
+
+template <>
 std::vector<size_t> lengths<tf2_msgs::TFMessage>() {
   const size_t second = 4 + kHeader + 4 + kPose;
   const size_t third = second + 16 + 4 + 4 + kPose;
@@ -372,12 +388,13 @@ template <typename Msg>
 class WireTest : public testing::Test {};
 
 using Messages =
-    testing::Types<geometry_msgs::PoseStamped, geometry_msgs::Twist, geometry_msgs::TwistStamped, tf2_msgs::TFMessage,
-                   sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::Proximity,
-                   sweep_guard::ToolBalls, sweep_guard::Warning, sweep_guard::CheckSweepRequest,
-                   sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest, sweep_guard::AcknowledgeRequest,
-                   sweep_guard::SaveProfileRequest, sweep_guard::Intend, sweep_guard::SetIntentRequest,
-                   std_srvs::SetBoolRequest, std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
+    testing::Types<geometry_msgs::PoseStamped, sensor_msgs::JointState, geometry_msgs::Twist,
+                   geometry_msgs::TwistStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
+                   sweep_guard::MeshVertices, sweep_guard::Proximity, sweep_guard::ToolBalls, sweep_guard::Warning,
+                   sweep_guard::CheckSweepRequest, sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest,
+                   sweep_guard::AcknowledgeRequest, sweep_guard::SaveProfileRequest, sweep_guard::Intend,
+                   sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest, std_srvs::TriggerRequest,
+                   dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {
@@ -451,8 +468,8 @@ class BoundedMessagesTest : public testing::Test {
       [](const auto& /*event*/) {}, [this](const std::string& reason) { refusals_.push_back(reason); }, kMaxSize);
 };
 
-using Topics = testing::Types<geometry_msgs::PoseStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
-                              sweep_guard::MeshVertices>;
+using Topics = testing::Types<geometry_msgs::PoseStamped, sensor_msgs::JointState, tf2_msgs::TFMessage,
+                              sweep_guard::DeformableMesh, sweep_guard::MeshVertices>;
 TYPED_TEST_SUITE(BoundedMessagesTest, Topics, );
 
 TYPED_TEST(BoundedMessagesTest, ReadsWhatWasSent) {

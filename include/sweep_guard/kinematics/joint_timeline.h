@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/error.h"
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 
@@ -52,6 +53,15 @@ class Track {
   size_t begin_ = 0;
 };
 
+/// Refuses positions of a joint that two publishers name.
+struct SeveralPublishers : InvalidInput {
+  using InvalidInput::InvalidInput;
+};
+/// Refuses positions of a joint at an earlier time than its newest.
+struct OutOfOrder : InvalidInput {
+  using InvalidInput::InvalidInput;
+};
+
 /// Merges the positions of the joints of a robot, each with stamps of its own, into states of all of them. A joint moves
 /// at constant speed between two of its positions, a continuous one the shorter way. A state comes out for every stamp of
 /// any joint, once all joints are known up to it: joined by RobotMotion, the states are exactly the motion of the joints,
@@ -71,8 +81,8 @@ class JointTimeline {
 
   /// Adds positions of some joints at one moment; all of them or, if it throws, none. Those of fixed joints are passed over.
   /// @param publisher  who says so; a joint belongs to the first who names it, until it was silent for 1 s
-  /// @throws InvalidInput if a position is not finite or beyond 1e4, a joint is named twice, by several publishers, or at a
-  ///     stamp that is earlier than its newest
+  /// @throws InvalidInput if a position is not finite or beyond 1e4, or a joint is named twice
+  /// @throws SeveralPublishers, OutOfOrder
   void add(const std::string& publisher, Time stamp, const std::vector<Position>& positions);
 
   /// Adds a pose of the root, which must move.
@@ -86,8 +96,8 @@ class JointTimeline {
   /// @returns the stamp of the state; empty: none is known yet
   std::optional<Time> next(RobotState& state);
 
-  /// Returns the index of the variable that was silent longest, or that nobody has named yet; none if all are fixed.
-  std::optional<size_t> oldest() const;
+  /// Returns whether a variable is not fixed.
+  bool expects(size_t variable) const { return !joints_[variable].fixed; }
   /// Returns the newest stamp of a variable; empty before the first.
   std::optional<Time> newestOf(size_t variable) const;
 

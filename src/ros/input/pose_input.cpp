@@ -14,8 +14,9 @@ using sweep_guard_core::Reason;
 
 constexpr auto kPoseTransformWait = std::chrono::milliseconds(20);
 constexpr auto kPauseOfWaits = std::chrono::milliseconds(200);
-constexpr size_t kMaxMissing = 1000;       // as many as workpieces
-constexpr size_t kMaxMessageSize = 16384;  // a frame name of any sense fits [bytes]
+constexpr size_t kMaxMissing = 1000;          // as many as workpieces
+constexpr size_t kMaxMessageSize = 16384;     // a frame name of any sense fits [bytes]
+constexpr size_t kMaxJointsSize = 1U << 20U;  // [bytes]
 constexpr std::uint32_t kQueueLength =
     65536;  // 65 s at 1 kHz; a pose that ROS drops beyond that is a gap in header.seq
 
@@ -23,6 +24,12 @@ struct PoseRefused : sweep_guard_core::InvalidInput {
   PoseRefused(Reason why, const std::string& message) : InvalidInput(message), reason(why) {}
   Reason reason;
 };
+
+void requireStamp(sweep_guard_core::Time stamp) {
+  if (stamp == sweep_guard_core::Time())
+    throw PoseRefused(sweep_guard_core::kPoseInvalid, "stamp is 0: stamp each pose");
+  if (liesInFuture(stamp)) throw PoseRefused(sweep_guard_core::kFutureStamp, kFutureStampText);
+}
 
 }  // namespace
 
@@ -35,9 +42,16 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters,
       workpieces_(dependencies.workpieces),
       monitor_(dependencies.monitor),
       queue_(dependencies.queue) {
+  if (parameters.articulated) {
+    articulated_ = std::make_unique<ArticulatedTool>(parameters);
+    joints_ = subscribeBounded<sensor_msgs::JointState>(
+        thread_.on(node), {"joint_states", kQueueLength, kMaxJointsSize},
+        [this](const auto& event) { refuseWhatFails([&] { acceptJoints(event); }); },
+        [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
+  }
   if (parameters.tool_source == ToolSource::kTf) {
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
-  } else {
+  } else if (parameters.tool_source == ToolSource::kTopic) {
     subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(
         thread_.on(node), {"tool_pose", kQueueLength, kMaxMessageSize}, [this](const auto& event) { onMessage(event); },
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
@@ -45,9 +59,13 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters,
 }
 
 std::string PoseInput::source() const {
-  return subscriber_ ? subscriber_.getTopic() : "tf " + fixed_frame_ + " to " + tool_frame_;
+  const std::string joints = joints_ ? joints_.getTopic() : "";
+  if (joints_ && !subscriber_ && !transforms_changed_) return joints + " on tf " + fixed_frame_ + " to " + tool_frame_;
+  const std::string pose = subscriber_ ? subscriber_.getTopic() : "tf " + fixed_frame_ + " to " + tool_frame_;
+  return joints_ ? pose + " and " + joints : pose;
 }
 
+// Several nodes may publish joints, each its own.
 std::optional<std::uint32_t> PoseInput::publishers() const {
   return subscriber_ ? std::optional(subscriber_.getNumPublishers()) : std::nullopt;
 }
@@ -56,13 +74,28 @@ void PoseInput::onMessage(const ros::MessageEvent<const geometry_msgs::PoseStamp
   const geometry_msgs::PoseStamped& msg = *event.getConstMessage();
   countLost(event.getPublisherName(), msg.header.seq);
   const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
-  acceptOrRefuse(timestamps, [&] {
-    try {
-      return ReceivedPose{timestamps, msg.header.frame_id, fromMsg(msg.pose)};
-    } catch (const sweep_guard_core::InvalidInput& error) {
-      throw PoseRefused(sweep_guard_core::kPoseInvalid, error.what());
-    }
-  });
+  if (!articulated_) record_.received(timestamps);
+  refuseWhatFails([&] { accept({timestamps, msg.header.frame_id, fromMsg(msg.pose)}); });
+}
+
+void PoseInput::acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event) {
+  const sensor_msgs::JointState& msg = *event.getConstMessage();
+  const sweep_guard_core::Timestamps timestamps{fromMsg(msg.header.stamp), std::chrono::steady_clock::now()};
+  begin();
+  requireStamp(timestamps.stamp);
+  articulated_->add(event.getPublisherName(), msg);
+  pushKnownPoses(timestamps.received);
+  const std::string silence = articulated_->silence(timestamps.stamp);
+  if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
+}
+
+// Also of tool poses that came: the newest joint decides up to when all are known.
+void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received) {
+  const auto frame = [this](sweep_guard_core::Time stamp) { return lookup(fixed_frame_, tool_frame_, stamp); };
+  while (articulated_->next(frame, known_)) {
+    record_.received({known_.back().stamp, received});
+    for (ArticulatedTool::Pose& pose : known_) push({pose.stamp, received}, pose.X_WT, std::move(pose.bodies));
+  }
 }
 
 // A publisher that does not count, or begins again, loses nothing.
@@ -96,7 +129,8 @@ void PoseInput::onTransforms() {
     ++waiting_;
     thread_.post([this, pose] {
       --waiting_;
-      acceptOrRefuse(pose.timestamps, [&pose]() -> const ReceivedPose& { return pose; });
+      if (!articulated_) record_.received(pose.timestamps);
+      refuseWhatFails([&] { accept(pose); });
     });
   } catch (const FrameError& error) {
     record_.error(error.what(), /*refused=*/false);
@@ -104,16 +138,18 @@ void PoseInput::onTransforms() {
   }
 }
 
-void PoseInput::acceptOrRefuse(const sweep_guard_core::Timestamps& timestamps,
-                               const std::function<ReceivedPose()>& read) {
-  record_.received(timestamps);
+void PoseInput::refuseWhatFails(const std::function<void()>& accept) {
   try {
-    accept(read());
+    accept();
   } catch (const PoseRefused& error) {
     refuse(error.reason, error.what());
   } catch (const FrameError& error) {
     refuse(sweep_guard_core::kTfFail, error.what());
-  } catch (const std::exception& error) {  // out of memory
+  } catch (const sweep_guard_core::SeveralPublishers& error) {
+    refuse(sweep_guard_core::kMultiPublisher, error.what());
+  } catch (const sweep_guard_core::OutOfOrder& error) {
+    refuse(sweep_guard_core::kOutOfOrder, error.what());
+  } catch (const std::exception& error) {  // InvalidInput, or out of memory
     refuse(sweep_guard_core::kPoseInvalid, error.what());
   }
 }
@@ -124,30 +160,43 @@ void PoseInput::refuse(Reason reason, const std::string& message) {
   log_.error(std::to_string(reason), "tool pose on " + source() + " refused: " + message);
 }
 
-void PoseInput::accept(const ReceivedPose& pose) {
+// Of each input, before it is looked at.
+void PoseInput::begin() {
   const sweep_guard_core::WarningMonitor::Checkpoint checkpoint = monitor_.checkpoint();
   waited_ = false;
-  if (!checkpoint.continues(checkpoint_)) previous_stamp_.reset();
+  if (!checkpoint.continues(checkpoint_)) {
+    previous_stamp_.reset();
+    if (articulated_) articulated_->reset();
+  }
   checkpoint_ = checkpoint;
   // After the checkpoint: the sweep to this pose does not end the fault.
   if (hasSeveralPublishers()) {
     monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source());
   }
-  const auto& [stamp, received] = pose.timestamps;
-  checkStamp(stamp);
-  const Eigen::Isometry3d X_WT = lookup(fixed_frame_, pose.frame, stamp) * pose.X_FT;
-  previous_stamp_ = stamp;
-  if (queue_.push({{stamp, received, X_WT, locate(*workpieces_.frames(), stamp)}, checkpoint})) return;
-  monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
 }
 
-void PoseInput::checkStamp(sweep_guard_core::Time stamp) const {
-  if (stamp == sweep_guard_core::Time())
-    throw PoseRefused(sweep_guard_core::kPoseInvalid, "stamp is 0: stamp each pose");
-  if (liesInFuture(stamp)) throw PoseRefused(sweep_guard_core::kFutureStamp, kFutureStampText);
+void PoseInput::accept(const ReceivedPose& pose) {
+  begin();
+  const auto& [stamp, received] = pose.timestamps;
+  requireStamp(stamp);
   if (previous_stamp_ && stamp < *previous_stamp_) {
     throw PoseRefused(sweep_guard_core::kOutOfOrder, "stamp is older than the previous pose's");
   }
+  const Eigen::Isometry3d X_WT = lookup(fixed_frame_, pose.frame, stamp) * pose.X_FT;
+  previous_stamp_ = stamp;
+  if (!articulated_) return push(pose.timestamps, X_WT, {});
+  articulated_->add(stamp, X_WT);
+  pushKnownPoses(received);
+  const std::string silence = articulated_->silence(stamp);
+  if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
+}
+
+void PoseInput::push(const sweep_guard_core::Timestamps& timestamps, const Eigen::Isometry3d& X_WT,
+                     std::vector<sweep_guard_core::BodyPose> bodies) {
+  const auto& [stamp, received] = timestamps;
+  if (queue_.push({{stamp, received, X_WT, locate(*workpieces_.frames(), stamp), std::move(bodies)}, checkpoint_}))
+    return;
+  monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
 }
 
 std::map<std::string, Eigen::Isometry3d> PoseInput::locate(const std::set<std::string>& mesh_frames,

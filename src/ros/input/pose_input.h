@@ -14,6 +14,7 @@
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
 #include "ros/bounded.h"
+#include "ros/input/articulated_tool.h"
 #include "ros/input/frames.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
@@ -29,8 +30,9 @@ struct PoseInputDependencies {
   WorkQueue& queue;
 };
 
-/// Takes tool poses from the topic `tool_pose` or from tf, refuses bad ones, looks up the frames of the workpieces, and
-/// queues the poses in their order. Has its own thread, because a transform may be up to 20 ms late.
+/// Takes tool poses from the topic `tool_pose` or from tf, and positions of joints from `joint_states`, refuses bad ones,
+/// looks up the frames of the workpieces, and queues the poses in their order. Has its own thread, because a transform may
+/// be up to 20 ms late.
 class PoseInput {
  public:
   PoseInput(const ros::NodeHandle& node, const Parameters& parameters, const PoseInputDependencies& dependencies);
@@ -53,9 +55,13 @@ class PoseInput {
   void countLost(const std::string& publisher, std::uint32_t sequence);
   bool hasSeveralPublishers() const;
   void onTransforms();
-  void acceptOrRefuse(const sweep_guard_core::Timestamps& timestamps, const std::function<ReceivedPose()>& read);
+  void refuseWhatFails(const std::function<void()>& accept);
   void accept(const ReceivedPose& pose);
-  void checkStamp(sweep_guard_core::Time stamp) const;
+  void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
+  void begin();
+  void pushKnownPoses(sweep_guard_core::SteadyTime received);
+  void push(const sweep_guard_core::Timestamps& timestamps, const Eigen::Isometry3d& X_WT,
+            std::vector<sweep_guard_core::BodyPose> bodies);
   std::map<std::string, Eigen::Isometry3d> locate(const std::set<std::string>& mesh_frames,
                                                   sweep_guard_core::Time stamp);
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp);
@@ -84,9 +90,13 @@ class PoseInput {
   LogThrottle log_;
   sweep_guard_core::InputRecord record_;
 
-  QueueThread thread_;  // before the subscriber, which uses its queue
+  std::unique_ptr<ArticulatedTool> articulated_;  // null for a rigid tool
+  std::vector<ArticulatedTool::Pose> known_;      // up to the newest state
+
+  QueueThread thread_;  // before the subscribers, which use its queue
   std::shared_ptr<void> transforms_changed_;
   BoundedSubscriber subscriber_;
+  BoundedSubscriber joints_;
 };
 
 }  // namespace sweep_guard_ros

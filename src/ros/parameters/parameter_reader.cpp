@@ -250,11 +250,6 @@ std::string ParameterReader::searchText(const std::string& name) {
   return static_cast<std::string>(value);
 }
 
-void ParameterReader::refuseIfSet(const std::string& key, const std::string& instead) {
-  XmlRpc::XmlRpcValue value;
-  if (get(key, value)) refuse(key, value, "left out: " + instead);
-}
-
 Eigen::Vector3d ParameterReader::position(const std::string& key, const Eigen::Vector3d& fallback) {
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) return fallback;

@@ -245,6 +245,16 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
       "tool/joint_states", false,
       "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
       "them moves. Implied by tool_source joint_states. ~proximity is silent then.");
+  for (const auto& [joint, seconds] :
+       read.numbers("tool/joint_timeouts",
+                    "tool/joint_states only: age [s] from which a joint makes the warning UNKNOWN, by name. The others "
+                    "have timing/pose_timeout. The tool is swept up to where all joints are known: a slow joint delays "
+                    "contacts, not predictions.")) {
+    if (!(seconds >= 0.01 && seconds <= 2.0)) {
+      throw sweep_guard_core::InvalidInput("tool/joint_timeouts/" + joint + " must be from 0.01 to 2 s");
+    }
+    parameters.joint_timeouts[joint] = toDuration(seconds);
+  }
   parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
   parameters.tool_padding = padding;
   if (before != nullptr && before->tool_padding == padding) {
@@ -336,8 +346,11 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.proximity_reach =
       read.number("proximity/reach", 0.1, {0.0, 10.0, "m"},
                   "~proximity has planes for all surfaces that are nearer to the tool; 0: it is not published.");
-  parameters.limits.pose_timeout = toDuration(
+  parameters.joint_timeout = toDuration(
       read.number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"}, "An older tool pose makes the warning UNKNOWN."));
+  parameters.limits.pose_timeout = parameters.joint_timeout;
+  for (const auto& [joint, timeout] : parameters.joint_timeouts)
+    parameters.limits.pose_timeout = std::max(parameters.limits.pose_timeout, timeout);
   parameters.limits.mesh_timeout = toDuration(read.number(
       "timing/mesh_timeout", 0.5, {0.01, kInfinity, "s"},
       "An older workpiece makes the warning UNKNOWN. .inf (inf on a command line): workpieces do not age."));

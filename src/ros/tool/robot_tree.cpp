@@ -194,7 +194,7 @@ size_t variableNamed(const KinematicTree& tree, const std::string& joint) {
 
 void checkLimits(const KinematicTree& tree, const std::vector<double>& positions, const std::string& where) {
   for (size_t i = 0; i < positions.size(); ++i) {
-    const auto& [name, lower, upper] = tree.variables()[i];
+    const auto& [name, lower, upper, continuous] = tree.variables()[i];
     if (positions[i] >= lower && positions[i] <= upper) continue;  // false for NaN
     throw InvalidInput(where + name + " is beyond the joint's limits, " + shown(lower, upper));
   }

@@ -94,15 +94,12 @@ class ParameterReader {
   std::string searchText(const std::string& name);
   /// Lets a parameter be set that has no effect here.
   void ignore(const std::string& key) { read_.insert(key); }
-  /// Throws InvalidInput if the parameter is set.
-  /// @param instead  tells the user what to do
-  void refuseIfSet(const std::string& key, const std::string& instead);
   /// Reads [x, y, z] [m], each within +-1e6 m; does not check the fallback.
   Eigen::Vector3d position(const std::string& key, const Eigen::Vector3d& fallback);
 
   /// Returns the known settings, and those of all parameters that were read.
   const Settings& settings() const { return settings_; }
-  /// Returns the descriptions in the order of reading; none for text(), position(), searchText() and refuseIfSet().
+  /// Returns the descriptions in the order of reading; none for text(), position() and searchText().
   const std::vector<ParameterInfo>& described() const { return described_; }
 
   /// Logs a warning for every private parameter that was not read: a misspelled key has no effect.

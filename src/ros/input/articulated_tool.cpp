@@ -1,0 +1,109 @@
+#include "ros/input/articulated_tool.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
+#include "sweep_guard/kinematics/robot_motion.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::RobotMotion;
+using sweep_guard_core::RobotState;
+using sweep_guard_core::Time;
+
+constexpr double kMaxDeviation = 5e-4;  // [m], of a body from a Motion
+constexpr size_t kMostParts = 100;      // of a jump
+
+std::vector<std::optional<double>> fixedOf(const Parameters& parameters) {
+  std::vector<std::optional<double>> fixed;
+  for (const auto& variable : parameters.robot->robot.tree.variables()) {
+    const auto joint = parameters.fixed_joints.find(variable.name);
+    fixed.push_back(joint == parameters.fixed_joints.end() ? std::nullopt : std::optional(joint->second));
+  }
+  return fixed;
+}
+
+}  // namespace
+
+ArticulatedTool::ArticulatedTool(const Parameters& parameters)
+    : model_(parameters.robot),
+      root_moves_(parameters.tool_source != ToolSource::kJointStates),
+      timeline_(model_->robot.tree, fixedOf(parameters), root_moves_) {
+  const auto& variables = model_->robot.tree.variables();
+  for (size_t i = 0; i < variables.size(); ++i) {
+    variables_.emplace(variables[i].name, i);
+    const auto given = parameters.joint_timeouts.find(variables[i].name);
+    timeouts_.push_back(given == parameters.joint_timeouts.end() ? parameters.joint_timeout : given->second);
+  }
+}
+
+void ArticulatedTool::add(const std::string& publisher, const sensor_msgs::JointState& positions) {
+  if (positions.position.size() != positions.name.size()) {
+    throw sweep_guard_core::InvalidInput("it names " + std::to_string(positions.name.size()) + " joints and has " +
+                                         std::to_string(positions.position.size()) +
+                                         " positions: publish one for each");
+  }
+  named_.clear();
+  for (size_t i = 0; i < positions.name.size(); ++i) {
+    const auto variable = variables_.find(positions.name[i]);
+    if (variable != variables_.end()) named_.push_back({variable->second, positions.position[i]});
+  }
+  timeline_.add(publisher, fromMsg(positions.header.stamp), named_);
+}
+
+void ArticulatedTool::add(Time stamp, const Eigen::Isometry3d& X_WT) { timeline_.addRoot(stamp, X_WT * model_->X_TR); }
+
+bool ArticulatedTool::next(const std::function<Eigen::Isometry3d(Time)>& X_WT, std::vector<Pose>& poses) {
+  poses.clear();
+  const auto stamp = timeline_.next(next_);
+  if (!stamp) return false;
+  if (!root_moves_) next_.X_WR = X_WT(*stamp) * model_->X_TR;
+  if (!stamp_) {
+    place(*stamp, next_, poses);
+  } else {
+    const RobotMotion motion(model_->robot.tree, model_->robot.bodies, state_, next_);
+    const size_t parts = motion.partsFor(kMaxDeviation, kMostParts);
+    for (size_t part = 1; part <= parts; ++part) {
+      const auto share = static_cast<double>(part) / static_cast<double>(parts);
+      const auto passed = (*stamp - *stamp_) * static_cast<int>(part) / static_cast<int>(parts);
+      place(*stamp_ + passed, part == parts ? next_ : motion.at(share), poses);
+      for (size_t body = 0; body < X_WB_.size(); ++body)
+        poses.back().bodies[body].deviation_bound = motion.deviationBound(body, parts);
+    }
+  }
+  stamp_ = stamp;
+  std::swap(state_, next_);
+  return true;
+}
+
+void ArticulatedTool::place(Time stamp, const RobotState& state, std::vector<Pose>& poses) {
+  bodyPoses(model_->robot.tree, model_->robot.bodies, state, X_WB_);
+  Pose& pose = poses.emplace_back();
+  pose.stamp = stamp;
+  pose.X_WT = state.X_WR * model_->X_TR.inverse();
+  for (const Eigen::Isometry3d& X_WB : X_WB_) pose.bodies.push_back({X_WB});
+}
+
+std::string ArticulatedTool::silence(Time now) const {
+  const auto& variables = model_->robot.tree.variables();
+  for (size_t i = 0; i < variables.size(); ++i) {
+    if (!timeline_.expects(i)) continue;
+    const std::string joint = "joint '" + sweep_guard_core::printable(variables[i].name) + "'";
+    const std::optional<Time> newest = timeline_.newestOf(i);
+    if (!newest) return joint + " has not been published yet";
+    if (now - *newest > timeouts_[i])
+      return joint + " has been silent for " + std::to_string(sweep_guard_core::toSeconds(now - *newest)) + " s";
+  }
+  return "";
+}
+
+void ArticulatedTool::reset() {
+  timeline_.reset();
+  stamp_.reset();
+}
+
+}  // namespace sweep_guard_ros

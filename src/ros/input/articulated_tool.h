@@ -1,0 +1,67 @@
+#pragma once
+
+#include <sensor_msgs/JointState.h>
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "ros/parameters/parameters.h"
+#include "sweep_guard/guard/pose_with_frames.h"
+#include "sweep_guard/kinematics/joint_timeline.h"
+
+namespace sweep_guard_ros {
+
+/// Turns positions of joints into poses of the bodies of an articulated tool. Between two states, it gives as many poses as
+/// keep every body within 0.5 mm of how Motion joins them. One thread.
+class ArticulatedTool {
+ public:
+  struct Pose {
+    sweep_guard_core::Time stamp;
+    Eigen::Isometry3d X_WT;
+    std::vector<sweep_guard_core::BodyPose> bodies;
+  };
+
+  /// @param parameters  with an articulated tool
+  explicit ArticulatedTool(const Parameters& parameters);
+
+  /// Adds positions of joints; those that are not of the tool are passed over.
+  /// @throws sweep_guard_core::InvalidInput as JointTimeline::add(), or if there are not as many positions as names
+  void add(const std::string& publisher, const sensor_msgs::JointState& positions);
+  /// Adds a pose of the tool frame, as JointTimeline::addRoot(); not with ToolSource::kJointStates.
+  void add(sweep_guard_core::Time stamp, const Eigen::Isometry3d& X_WT);
+
+  /// Computes the poses up to the next state that is known; the last one is that of the state.
+  /// @param X_WT        returns the pose of the tool frame at a time, with ToolSource::kJointStates; if it throws, the state
+  ///                    is left out: the motion goes straight past it
+  /// @param[out] poses  overwritten
+  /// @returns false if no other state is known yet
+  bool next(const std::function<Eigen::Isometry3d(sweep_guard_core::Time)>& X_WT, std::vector<Pose>& poses);
+
+  /// Returns what a joint of the tool lacks; empty: nothing.
+  /// @param now  as the stamps
+  std::string silence(sweep_guard_core::Time now) const;
+
+  void reset();  ///< forgets all positions
+
+ private:
+  void place(sweep_guard_core::Time stamp, const sweep_guard_core::RobotState& state, std::vector<Pose>& poses);
+
+  const std::shared_ptr<const RobotModel> model_;
+  const bool root_moves_;
+  std::unordered_map<std::string, size_t> variables_;  // by name of the joint
+  std::vector<sweep_guard_core::Duration> timeouts_;   // by variable
+  sweep_guard_core::JointTimeline timeline_;
+  std::vector<sweep_guard_core::JointTimeline::Position> named_;  // in the message
+  std::optional<sweep_guard_core::Time> stamp_;                   // of state_
+  sweep_guard_core::RobotState state_;                            // the newest
+  sweep_guard_core::RobotState next_;
+  std::vector<Eigen::Isometry3d> X_WB_;
+};
+
+}  // namespace sweep_guard_ros
