@@ -1,0 +1,191 @@
+// The arm of arm.urdf along x, 1 m above the origin; its base rests and its joints move.
+#include <gtest/gtest.h>
+#include <sensor_msgs/JointState.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <map>
+
+#include "guard_probe.h"
+#include "node_fixture.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::Contacts;
+using sweep_guard::Prediction;
+using sweep_guard::Warning;
+
+using Positions = std::map<std::string, double>;
+
+const Positions kStraight = {{"shoulder", 0.0}, {"elbow", 0.0}, {"jaw", 0.04}};
+
+ros::Publisher& jointPublisher() {
+  static ros::Publisher publisher = ros::NodeHandle().advertise<sensor_msgs::JointState>("joint_states", 1000);
+  return publisher;
+}
+
+GuardProbe& jointProbe() {
+  static ros::Publisher mount = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true);
+  tf2_msgs::TFMessage message;
+  geometry_msgs::TransformStamped& base = message.transforms.emplace_back();
+  base.header.frame_id = "world";
+  base.child_frame_id = "base";
+  base.transform.translation.z = base.transform.rotation.w = 1.0;
+  if (mount.getNumSubscribers() == 0) mount.publish(message);
+  static GuardProbe probe(/*drives_clock=*/true, PoseSource::kTf);
+  return probe;
+}
+
+class JointStatesTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    jointProbe().advance(2.0);
+    jointProbe().reset();
+  }
+  void TearDown() override {
+    for (const std::string& id : placed_) jointProbe().remove(id);
+  }
+
+  void publish(const Positions& positions) {
+    sensor_msgs::JointState message;
+    message.header.stamp = jointProbe().time();
+    for (const auto& [name, position] : positions) {
+      message.name.push_back(name);
+      message.position.push_back(position);
+    }
+    jointPublisher().publish(message);
+  }
+
+  void placeSquare(const std::string& id, const Eigen::Vector3d& center, double half_side) {
+    placed_.insert(id);
+    jointProbe().place(squareAt(id, center, jointProbe().time(), half_side));
+  }
+
+  // Publishes the positions until a warning fits.
+  Warning holdUntil(const Positions& positions, const std::function<bool(const Warning&)>& fits) {
+    for (int i = 0; i < 3000; ++i) {
+      jointProbe().tick(0.01);
+      publish(positions);
+      const Warning warning = jointProbe().awaitWarning([](const Warning&) { return true; });
+      if (fits(warning)) return warning;
+    }
+    ADD_FAILURE() << "no such warning; the last: " << jointProbe().warnings().back().text;
+    return {};
+  }
+
+  // Moves the joints from the first to the second positions within 0.2 s, and returns what was touched.
+  std::vector<Contacts> move(const Positions& from, const Positions& to) {
+    jointProbe().forgetContacts();
+    for (int i = 0; i <= 20; ++i) {
+      jointProbe().tick(0.01);
+      Positions now;
+      for (const auto& [name, position] : from) now[name] = position + 0.05 * i * (to.at(name) - position);
+      publish(now);
+    }
+    return jointProbe().awaitContactsUpTo(jointProbe().time());
+  }
+
+  std::set<std::string> placed_;
+};
+
+std::set<std::string> linksIn(const std::vector<Contacts>& contacts) {
+  std::set<std::string> links;
+  for (const Contacts& sweep : contacts) {
+    for (const auto& object : sweep.objects) {
+      for (const auto& impact : object.impacts) links.insert(impact.tool_link);
+    }
+  }
+  return links;
+}
+
+bool isClearNow(const Warning& warning) { return warning.clear; }
+
+TEST_F(JointStatesTest, AnArmAtRestFarFromTheWorkpieceIsClear) {
+  placeSquare("square", {0.0, 0.0, -3.0}, 0.1);
+  EXPECT_TRUE(holdUntil(kStraight, isClearNow).clear);
+}
+
+// The hand stays 0.1 m above the square's plane and passes beside it.
+TEST_F(JointStatesTest, TheUpperArmMeetsWhatTheHandMisses) {
+  placeSquare("square", {0.15, 0.0, 0.85}, 0.02);
+  holdUntil(kStraight, isClearNow);
+  const auto contacts = move(kStraight, {{"shoulder", 1.0}, {"elbow", -1.0}, {"jaw", 0.04}});
+  EXPECT_TRUE(endToEnd(contacts));
+  EXPECT_EQ(linksIn(contacts), std::set<std::string>{"upper"});
+  const Warning warning = jointProbe().awaitWarning([](const Warning& next) { return next.contact; });
+  EXPECT_EQ(warning.mesh_id, "square");
+  EXPECT_EQ(warning.tool_link, "upper");
+}
+
+// It lies between the fingers, 0.02 m left of the middle.
+TEST_F(JointStatesTest, TheFingerThatClosesOnAWorkpieceIsNamed) {
+  placeSquare("square", {0.52, 0.02, 1.0}, 0.003);
+  holdUntil(kStraight, isClearNow);
+  const auto contacts = move(kStraight, {{"shoulder", 0.0}, {"elbow", 0.0}, {"jaw", 0.0}});
+  EXPECT_EQ(linksIn(contacts), std::set<std::string>{"left"});
+}
+
+TEST_F(JointStatesTest, TheLinkThatWillTouchFirstIsPredicted) {
+  placeSquare("square", {0.45, 0.0, 0.7}, 0.03);
+  holdUntil(kStraight, isClearNow);
+  Positions now = kStraight;
+  Warning warning;
+  for (int i = 0; i < 120 && warning.level < Warning::CONSIDERED; ++i) {
+    now["shoulder"] += 0.005;
+    warning = holdUntil(now, [](const Warning&) { return true; });
+  }
+  ASSERT_TRUE(warning.level == Warning::CONSIDERED || warning.level == Warning::REFLEX) << warning.text;
+  EXPECT_EQ(warning.tool_link, "fore") << warning.text;
+  const Prediction prediction = jointProbe().predictions().back();
+  ASSERT_EQ(prediction.bodies.size(), 4U);
+  std::set<std::string> links;
+  for (const auto& body : prediction.bodies) {
+    EXPECT_EQ(body.poses.size(), prediction.poses.size());
+    links.insert(body.links.begin(), body.links.end());
+  }
+  EXPECT_EQ(links, (std::set<std::string>{"fore", "left", "right", "upper"}));
+}
+
+TEST_F(JointStatesTest, JointsMayComeInMessagesOfTheirOwn) {
+  placeSquare("square", {0.45, 0.0, 0.9}, 0.03);
+  holdUntil(kStraight, isClearNow);
+  jointProbe().forgetContacts();
+  for (int i = 0; i <= 40; ++i) {
+    jointProbe().tick(0.005);
+    publish({{"shoulder", 0.01 * i}});
+    publish({{"elbow", 0.0}, {"jaw", 0.04}, {"of another arm", 7.0}});
+  }
+  EXPECT_EQ(linksIn(jointProbe().awaitContactsUpTo(jointProbe().time())), std::set<std::string>{"fore"});
+}
+
+TEST_F(JointStatesTest, ASilentJointIsNamed) {
+  placeSquare("square", {0.0, 0.0, -3.0}, 0.1);
+  holdUntil(kStraight, isClearNow);
+  const auto names = [](const std::string& joint) {
+    return [joint](const Warning& warning) {
+      return hasReason(Warning::POSE_STALE)(warning) && warning.text.find("joint '" + joint + "'") != std::string::npos;
+    };
+  };
+  const ros::Time last = jointProbe().time();
+  holdUntil({{"shoulder", 0.0}, {"jaw", 0.04}}, names("elbow"));
+  EXPECT_GT((jointProbe().time() - last).toSec(), 0.1);
+  holdUntil(kStraight, isClearNow);
+  const ros::Time last_jaw = jointProbe().time();
+  holdUntil({{"shoulder", 0.0}, {"elbow", 0.0}}, names("jaw"));
+  EXPECT_GT((jointProbe().time() - last_jaw).toSec(), 0.3) << "it has a time-out of its own";
+  holdUntil(kStraight, isClearNow);
+}
+
+TEST_F(JointStatesTest, BadPositionsAreRefused) {
+  placeSquare("square", {0.0, 0.0, -3.0}, 0.1);
+  holdUntil(kStraight, isClearNow);
+  jointProbe().tick(0.01);
+  publish({{"shoulder", std::nan("")}});
+  const Warning warning = jointProbe().awaitWarning(hasReason(Warning::POSE_INVALID));
+  EXPECT_NE(warning.text.find("joint 'shoulder' is at nan"), std::string::npos) << warning.text;
+  holdUntil(kStraight, isClearNow);
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
