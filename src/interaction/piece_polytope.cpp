@@ -11,7 +11,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kSamePlane = 1e-6;  // of the radius: corners so near to a face lie in it; float32 rounds by 1e-7
+constexpr double kSamePlane = 2e-7;  // of the radius: corners so near to a face lie in it; float32 rounds by 6e-8
 constexpr double kSameNormal = 0.999;
 constexpr double kThin = 1e-9;  // of the radius: less thick is flat
 
