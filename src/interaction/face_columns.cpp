@@ -67,17 +67,22 @@ FaceColumns::Column::Column(const std::vector<Eigen::Vector2d>& outline)
     const Eigen::Vector2d along = (outline[(i + 1) % outline.size()] - from).normalized();
     Eigen::Vector2d out(along.y(), -along.x());
     if (out.dot(center - from) > 0.0) out = -out;
-    walls.push_back({out.x(), out.y(), out.dot(from)});
+    walls.x.push_back(out.x());
+    walls.y.push_back(out.y());
+    walls.d.push_back(out.dot(from));
     squared_inradius = std::min(squared_inradius, std::pow(out.dot(from - center), 2));
   }
 }
 
 bool FaceColumns::Column::hasOutline(const std::vector<Eigen::Vector2d>& outline, double tolerance) const {
-  if (outline.size() != walls.size()) return false;
-  return std::all_of(walls.begin(), walls.end(), [&](const Wall& wall) {
-    const auto lies_in = [&](const Eigen::Vector2d& p) { return std::abs(wall.beyond(p)) <= tolerance; };
-    return std::count_if(outline.begin(), outline.end(), lies_in) == 2;
-  });
+  if (outline.size() != walls.d.size()) return false;
+  for (size_t i = 0; i < outline.size(); ++i) {
+    const auto lies_in = [&](const Eigen::Vector2d& p) {
+      return std::abs(walls.x[i] * p.x() + walls.y[i] * p.y() - walls.d[i]) <= tolerance;
+    };
+    if (std::count_if(outline.begin(), outline.end(), lies_in) != 2) return false;
+  }
+  return true;
 }
 
 void FaceColumns::add(const Polygon& corners, SurfaceSums& sums) {
@@ -86,34 +91,62 @@ void FaceColumns::add(const Polygon& corners, SurfaceSums& sums) {
   const Eigen::AlignedBox2d shadow(box.min().head<2>(), box.max().head<2>());
   for (const Column& column : columns_) {
     if (box.max().z() <= column.lowest || !column.bounds.intersects(shadow)) continue;
-    kept_ = corners;
-    if (!cutByWalls(column)) continue;
-    inside_ = kept_;
-    for (const Floor& floor : column.floors) addAbove(floor, sums);
+    const Polygon* const inside = partInside(column, corners);
+    if (inside == nullptr) continue;
+    for (const Floor& floor : column.floors) addAbove(floor, *inside, sums);
   }
 }
 
-// Returns whether something is inside of all walls.
-bool FaceColumns::cutByWalls(const Column& column) {
+// Returns null if nothing is inside of all walls.
+const Polygon* FaceColumns::partInside(const Column& column, const Polygon& corners) {
   const auto near = [&](const Eigen::Vector3d& p) {
     return (p.head<2>() - column.center).squaredNorm() <= column.squared_inradius;
   };
-  if (std::all_of(kept_.begin(), kept_.end(), near)) return true;
-  for (const Wall& wall : column.walls) {
+  if (std::all_of(corners.begin(), corners.end(), near)) return &corners;
+  findExtremes(column.walls, corners);
+  if (*std::max_element(least_.begin(), least_.end()) > 0.0) return nullptr;
+  kept_ = corners;
+  for (size_t i = 0; i < most_.size(); ++i) {
+    if (!(most_[i] > 0.0)) continue;
     out_.resize(kept_.size());
     std::transform(kept_.begin(), kept_.end(), out_.begin(),
-                   [&](const Eigen::Vector3d& p) { return wall.beyond(p.head<2>()); });
-    if (!cut()) return false;
+                   [&](const Eigen::Vector3d& p) { return column.walls.beyond(i, p); });
+    if (!cut()) return nullptr;
   }
-  return true;
+  inside_.swap(kept_);
+  return &inside_;
 }
 
-void FaceColumns::addAbove(const Floor& floor, SurfaceSums& sums) {
-  kept_ = inside_;
-  out_.resize(kept_.size());
-  std::transform(kept_.begin(), kept_.end(), out_.begin(), [&](const Eigen::Vector3d& p) { return -floor.below(p); });
-  if (!cut()) return;
-  for (size_t i = 2; i < kept_.size(); ++i) addPrism(floor, {kept_[0], kept_[i - 1], kept_[i]}, sums);
+void FaceColumns::findExtremes(const Walls& walls, const Polygon& corners) {
+  const size_t count = walls.d.size();
+  least_.assign(count, kInfinity);
+  most_.assign(count, -kInfinity);
+  for (const Eigen::Vector3d& corner : corners) {
+    const double* const x = walls.x.data();
+    const double* const y = walls.y.data();
+    const double* const d = walls.d.data();
+    double* const least = least_.data();
+    double* const most = most_.data();
+    for (size_t i = 0; i < count; ++i) {
+      const double out = x[i] * corner.x() + y[i] * corner.y() - d[i];
+      least[i] = std::min(least[i], out);
+      most[i] = std::max(most[i], out);
+    }
+  }
+}
+
+void FaceColumns::addAbove(const Floor& floor, const Polygon& inside, SurfaceSums& sums) {
+  out_.resize(inside.size());
+  std::transform(inside.begin(), inside.end(), out_.begin(), [&](const Eigen::Vector3d& p) { return -floor.below(p); });
+  const auto [least, most] = std::minmax_element(out_.begin(), out_.end());
+  if (*least >= 0.0) return;
+  const bool whole = *most <= 0.0;
+  if (!whole) {
+    kept_ = inside;
+    cut();
+  }
+  const Polygon& above = whole ? inside : kept_;
+  for (size_t i = 2; i < above.size(); ++i) addPrism(floor, {above[0], above[i - 1], above[i]}, sums);
 }
 
 // Between a triangle and the floor. Both are linear, so products of two positions or heights have exact integrals.

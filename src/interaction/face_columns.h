@@ -36,11 +36,11 @@ class FaceColumns {
   void add(const Polygon& corners, SurfaceSums& sums);
 
  private:
-  struct Wall {  // of a column: inside is x * p.x + y * p.y <= d
-    double x;
-    double y;
-    double d;
-    double beyond(const Eigen::Vector2d& p) const { return x * p.x() + y * p.y() - d; }
+  struct Walls {  // of a column, an array for each coefficient: inside is x * p.x + y * p.y <= d
+    std::vector<double> x;
+    std::vector<double> y;
+    std::vector<double> d;
+    double beyond(size_t i, const Eigen::Vector3d& p) const { return x[i] * p.x() + y[i] * p.y() - d[i]; }
   };
   struct Floor {  // the plane of a face: z = x * p.x + y * p.y + d
     double x;
@@ -56,14 +56,15 @@ class FaceColumns {
     Eigen::AlignedBox2d bounds;
     Eigen::Vector2d center;
     double squared_inradius;  // of a circle about the center within all walls
-    std::vector<Wall> walls;
+    Walls walls;
     std::vector<Floor> floors;
     double lowest;  // point of the floors
   };
 
   void addFace(Polygon face);
-  bool cutByWalls(const Column& column);
-  void addAbove(const Floor& floor, SurfaceSums& sums);
+  const Polygon* partInside(const Column& column, const Polygon& corners);
+  void findExtremes(const Walls& walls, const Polygon& corners);
+  void addAbove(const Floor& floor, const Polygon& inside, SurfaceSums& sums);
   static void addPrism(const Floor& floor, const std::array<Eigen::Vector3d, 3>& corners, SurfaceSums& sums);
   bool cut();
 
@@ -71,6 +72,8 @@ class FaceColumns {
   Eigen::AlignedBox3d bounds_;
   std::vector<Column> columns_;
   // Of the running call:
+  std::vector<double> least_;  // of the corners, beyond each wall [m]
+  std::vector<double> most_;
   Polygon inside_;           // of the walls
   Polygon kept_;             // by cut()
   std::vector<double> out_;  // for each corner of kept_: beyond what to cut at, if positive
