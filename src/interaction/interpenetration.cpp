@@ -10,6 +10,20 @@
 #include "interaction/piece_polytope.h"
 
 namespace sweep_guard_core {
+namespace {
+
+Clips slantingSides(const PiecePolytope& piece, const FaceColumns& columns) {
+  Clips sides_C;
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      const Eigen::Vector3d diagonal = Eigen::Vector3d(x, y, 0.0).normalized();
+      sides_C.emplace_back(diagonal, piece.support(columns.R_CT().transpose() * diagonal));
+    }
+  }
+  return sides_C;
+}
+
+}  // namespace
 
 double Interpenetration::depth(double least_area) const {
   assert(least_area > 0.0);
@@ -19,7 +33,8 @@ double Interpenetration::depth(double least_area) const {
 // The frame C is that of the columns.
 class InterpenetrationFinder::Implementation {
  public:
-  explicit Implementation(const ConvexShape& shape_T) : piece_(shape_T), columns_(piece_, piece_.axis()) {}
+  explicit Implementation(const ConvexShape& shape_T)
+      : piece_(shape_T), columns_(piece_, piece_.axis()), sides_C_(slantingSides(piece_, columns_)) {}
 
   Interpenetration find(const TriangleMesh& mesh_M, const Eigen::Isometry3d& X_MT);
   double pieceVolume() const { return piece_.volume(); }
@@ -36,6 +51,7 @@ class InterpenetrationFinder::Implementation {
 
   PiecePolytope piece_;
   FaceColumns columns_;
+  Clips sides_C_;  // with those of the box, eight around z
   Culler culler_;
   // Of the running call:
   const TriangleMesh* mesh_M_ = nullptr;
@@ -90,13 +106,7 @@ SweptVolume InterpenetrationFinder::Implementation::volumeUpTo(double top) const
   SweptVolume volume;
   volume.box.X_MB = X_MC_ * Eigen::Translation3d(box.center());
   volume.box.half_extents = 0.5 * box.sizes();
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      const Eigen::Vector3d diagonal = Eigen::Vector3d(x, y, 0.0).normalized();
-      const double reach = piece_.support(columns_.R_CT().transpose() * diagonal);
-      volume.clips_B.emplace_back(diagonal, reach - diagonal.dot(box.center()));
-    }
-  }
+  for (const HalfSpace& side_C : sides_C_) volume.clips_B.push_back(side_C.grown(-side_C.normal().dot(box.center())));
   return volume;
 }
 
