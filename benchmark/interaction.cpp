@@ -1,5 +1,5 @@
-// Measures the processor time of the interpenetration of a cylinder with a closed mesh, where the cylinder touches about 200
-// triangles.
+// Measures the processor time of the interpenetration of a cylinder with a closed mesh, where the cylinder touches
+// about 200 triangles.
 //   interaction [--csv FILE]
 #include <cstdio>
 #include <ctime>

@@ -17,12 +17,12 @@ struct SurfaceSums {
   Eigen::Matrix3d area_moment = Eigen::Matrix3d::Zero();    ///< of position times transposed normal [m^3]
 };
 
-/// A convex polytope as columns: each stands on the outline that faces have along a direction, infinitely high. The frame
-/// has its origin at PiecePolytope::center_T() and z along the direction. A polygon in a column is cut at each face of
-/// it; what is above a face that looks down belongs to the polytope, until a face that looks up.
+/// A convex polytope as columns: each stands on the outline that faces have along a direction, infinitely high. The
+/// frame has its origin at PiecePolytope::center_T() and z along the direction. A polygon in a column is cut at each
+/// face of it; what is above a face that looks down belongs to the polytope, until a face that looks up.
 ///
-/// The part of a polygon above a face is above that face only, so sums over the faces, with the sign of the side to which
-/// they look, are sums over the polygon in the polytope, and over the prisms below it.
+/// The part of a polygon above a face is above that face only, so sums over the faces, with the sign of the side to
+/// which they look, are sums over the polygon in the polytope, and over the prisms below it.
 class FaceColumns {
  public:
   /// @param up  unit, along the axes of T

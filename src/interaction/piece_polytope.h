@@ -9,10 +9,10 @@
 namespace sweep_guard_core {
 
 /// A polyhedron that stands for a convex piece of the tool where volumes are computed, along the axes of T and relative
-/// to center_T(). A cylinder is a prism of as many sides as mesh_T() and of the same cross-section, a box is itself, and
-/// a hull that of the corners of mesh_T(). Padding moves their faces out, so edges stay sharp. Other padded bodies, a
-/// sphere or a capsule, are hulls of their farthest points in 114 directions, with the padding enlarged so that a sphere
-/// keeps its volume.
+/// to center_T(). A cylinder is a prism of as many sides as mesh_T() and of the same cross-section, a box is itself,
+/// and a hull that of the corners of mesh_T(). Padding moves their faces out, so edges stay sharp. Other padded bodies,
+/// a sphere or a capsule, are hulls of their farthest points in 114 directions, with the padding enlarged so that a
+/// sphere keeps its volume.
 class PiecePolytope {
  public:
   explicit PiecePolytope(const ConvexShape& shape_T);

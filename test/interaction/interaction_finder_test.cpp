@@ -196,8 +196,8 @@ TEST(InteractionEnergyTest, OfALoopIsASmallPartOfWhatIsExchanged) {
   ASSERT_GT(shares.size(), 50U);
   std::sort(shares.begin(), shares.end());
   const double median = shares[shares.size() / 2];
-  std::printf("energy made on %zu loops, of that exchanged: median %.3f, 90 %% %.3f, largest %.3f\n", shares.size(),
-              median, shares[shares.size() * 9 / 10], shares.back());
+  std::printf("share of the exchanged energy that %zu loops make: median %.3f, 90 %% %.3f, largest %.3f\n",
+              shares.size(), median, shares[shares.size() * 9 / 10], shares.back());
   EXPECT_LT(median, 0.03);
   EXPECT_LT(shares[shares.size() * 9 / 10], 0.1);
 }

@@ -159,7 +159,8 @@ TEST(InterpenetrationTest, IsTheSameWhereverToolAndMeshAreTogether) {
   }
 }
 
-// Over vertices, along edges, over the rims of the mesh and of the piece: a jump would stay as large with smaller steps.
+// Over vertices, along edges, over the rims of the mesh and of the piece: a jump would stay as large with smaller
+// steps.
 TEST(InterpenetrationTest, IsContinuousInThePose) {
   const TriangleMesh mesh = organ();
   Random random(/*seed=*/4);

@@ -18,8 +18,8 @@ struct InteractionOptions {
   std::map<std::string, double> stiffness_of;  ///< by id of the workpiece, in place of law.stiffness [N/m^3]
 };
 
-/// What a tool and a workpiece have in common at one pose, and the force of the workpiece on the tool: the sums over the
-/// convex pieces of the tool. Where pieces overlap, their volume and force count as often.
+/// What a tool and a workpiece have in common at one pose, and the force of the workpiece on the tool: the sums over
+/// the convex pieces of the tool. Where pieces overlap, their volume and force count as often.
 struct ObjectInteraction {
   std::shared_ptr<const Workpiece> workpiece;
   bool enclosed = false;                                 ///< as of Interpenetration
@@ -45,9 +45,9 @@ struct InteractionRequest {
 /// The convex pieces of a tool, ready for InteractionFinder. Takes some milliseconds for each piece.
 std::vector<InterpenetrationFinder> interpenetrationFinders(const Tool& tool);
 
-/// Computes the forces of the workpieces on a tool. The velocity for the damping is that between the poses of the two latest
-/// calls, relative to the frame of the workpiece; 0 at the first one, and after 0.1 s without a call. The speed of a
-/// deformation is left out. Keeps its buffers between calls.
+/// Computes the forces of the workpieces on a tool. The velocity for the damping is that between the poses of the two
+/// latest calls, relative to the frame of the workpiece; 0 at the first one, and after 0.1 s without a call. The speed
+/// of a deformation is left out. Keeps its buffers between calls.
 class InteractionFinder {
  public:
   explicit InteractionFinder(const Tool& tool) : pieces_(interpenetrationFinders(tool)) {}

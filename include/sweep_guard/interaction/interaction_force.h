@@ -23,8 +23,8 @@ struct Wrench {
 
 /// Computes the force of the workpiece on the piece, at the centroid of the volume:
 ///   F = k V A / max(|A|, A_min) max(0, 1 + c s)   with   s = -v . A / max(|A|, A_min).
-/// It is continuous in the pose as V and A are, never pulls, and without damping is that of the pose alone. It is not the gradient
-/// of an energy.
+/// It is continuous in the pose as V and A are, never pulls, and without damping is that of the pose alone. It is not
+/// the gradient of an energy.
 /// @param velocity_T  of the piece at the centroid, relative to the workpiece [m/s]
 Wrench interactionForce(const Interpenetration& found, const Eigen::Vector3d& velocity_T, const ForceLaw& law);
 
