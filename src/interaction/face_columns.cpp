@@ -51,13 +51,21 @@ void FaceColumns::addFace(Polygon face) {
   const auto same = [&](const Column& column) { return column.hasOutline(outline, tolerance); };
   auto column = std::find_if(columns_.begin(), columns_.end(), same);
   if (column == columns_.end()) column = columns_.insert(column, Column(outline));
-  column->floors.push_back({-normal.x() / normal.z(), -normal.y() / normal.z(), normal.dot(face[0]) / normal.z(),
-                            normal.z() < 0.0 ? 1.0 : -1.0});
-  for (const Eigen::Vector3d& corner : face) column->lowest = std::min(column->lowest, corner.z());
+  Floor floor{-normal.x() / normal.z(),
+              -normal.y() / normal.z(),
+              normal.dot(face[0]) / normal.z(),
+              normal.z() < 0.0 ? 1.0 : -1.0,
+              kInfinity,
+              -kInfinity};
+  for (const Eigen::Vector3d& corner : face) {
+    floor.lowest = std::min(floor.lowest, corner.z());
+    floor.highest = std::max(floor.highest, corner.z());
+  }
+  column->floors.push_back(floor);
 }
 
 FaceColumns::Column::Column(const std::vector<Eigen::Vector2d>& outline)
-    : center(Eigen::Vector2d::Zero()), squared_inradius(kInfinity), lowest(kInfinity) {
+    : center(Eigen::Vector2d::Zero()), squared_inradius(kInfinity) {
   for (const Eigen::Vector2d& p : outline) {
     bounds.extend(p);
     center += p / static_cast<double>(outline.size());
@@ -90,10 +98,15 @@ void FaceColumns::add(const Polygon& corners, SurfaceSums& sums) {
   for (const Eigen::Vector3d& corner : corners) box.extend(corner);
   const Eigen::AlignedBox2d shadow(box.min().head<2>(), box.max().head<2>());
   for (const Column& column : columns_) {
-    if (box.max().z() <= column.lowest || !column.bounds.intersects(shadow)) continue;
+    const auto below = [&](const Floor& floor) { return box.max().z() <= floor.lowest; };
+    if (!column.bounds.intersects(shadow) || std::all_of(column.floors.begin(), column.floors.end(), below)) continue;
     const Polygon* const inside = partInside(column, corners);
     if (inside == nullptr) continue;
-    for (const Floor& floor : column.floors) addAbove(floor, *inside, sums);
+    for (const Floor& floor : column.floors) {
+      if (below(floor)) continue;
+      const bool whole = box.min().z() >= floor.highest;
+      addPrisms(floor, whole ? *inside : partAbove(floor, *inside), sums);
+    }
   }
 }
 
@@ -104,9 +117,9 @@ const Polygon* FaceColumns::partInside(const Column& column, const Polygon& corn
   };
   if (std::all_of(corners.begin(), corners.end(), near)) return &corners;
   findExtremes(column.walls, corners);
-  if (*std::max_element(least_.begin(), least_.end()) > 0.0) return nullptr;
   kept_ = corners;
   for (size_t i = 0; i < most_.size(); ++i) {
+    if (least_[i] > 0.0) return nullptr;
     if (!(most_[i] > 0.0)) continue;
     out_.resize(kept_.size());
     std::transform(kept_.begin(), kept_.end(), out_.begin(),
@@ -135,17 +148,15 @@ void FaceColumns::findExtremes(const Walls& walls, const Polygon& corners) {
   }
 }
 
-void FaceColumns::addAbove(const Floor& floor, const Polygon& inside, SurfaceSums& sums) {
-  out_.resize(inside.size());
-  std::transform(inside.begin(), inside.end(), out_.begin(), [&](const Eigen::Vector3d& p) { return -floor.below(p); });
-  const auto [least, most] = std::minmax_element(out_.begin(), out_.end());
-  if (*least >= 0.0) return;
-  const bool whole = *most <= 0.0;
-  if (!whole) {
-    kept_ = inside;
-    cut();
-  }
-  const Polygon& above = whole ? inside : kept_;
+const Polygon& FaceColumns::partAbove(const Floor& floor, const Polygon& inside) {
+  kept_ = inside;
+  out_.resize(kept_.size());
+  std::transform(kept_.begin(), kept_.end(), out_.begin(), [&](const Eigen::Vector3d& p) { return -floor.below(p); });
+  if (!cut()) kept_.clear();
+  return kept_;
+}
+
+void FaceColumns::addPrisms(const Floor& floor, const Polygon& above, SurfaceSums& sums) {
   for (size_t i = 2; i < above.size(); ++i) addPrism(floor, {above[0], above[i - 1], above[i]}, sums);
 }
 

@@ -46,7 +46,9 @@ class FaceColumns {
     double x;
     double y;
     double d;
-    double sign;  // 1: the face looks down, -1: up
+    double sign;    // 1: the face looks down, -1: up
+    double lowest;  // point of the face
+    double highest;
     double below(const Eigen::Vector3d& p) const { return p.z() - (x * p.x() + y * p.y() + d); }  // height of p
   };
   struct Column {
@@ -58,13 +60,13 @@ class FaceColumns {
     double squared_inradius;  // of a circle about the center within all walls
     Walls walls;
     std::vector<Floor> floors;
-    double lowest;  // point of the floors
   };
 
   void addFace(Polygon face);
   const Polygon* partInside(const Column& column, const Polygon& corners);
   void findExtremes(const Walls& walls, const Polygon& corners);
-  void addAbove(const Floor& floor, const Polygon& inside, SurfaceSums& sums);
+  const Polygon& partAbove(const Floor& floor, const Polygon& inside);
+  static void addPrisms(const Floor& floor, const Polygon& above, SurfaceSums& sums);
   static void addPrism(const Floor& floor, const std::array<Eigen::Vector3d, 3>& corners, SurfaceSums& sums);
   bool cut();
 
