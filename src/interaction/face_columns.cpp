@@ -118,9 +118,12 @@ const Polygon* FaceColumns::partInside(const Column& column, const Polygon& corn
   if (std::all_of(corners.begin(), corners.end(), near)) return &corners;
   findExtremes(column.walls, corners);
   kept_ = corners;
-  for (size_t i = 0; i < most_.size(); ++i) {
-    if (least_[i] > 0.0) return nullptr;
-    if (!(most_[i] > 0.0)) continue;
+  const double* const least = least_.data();
+  const double* const most = most_.data();
+  const size_t count = most_.size();
+  for (size_t i = 0; i < count; ++i) {
+    if (!(most[i] > 0.0)) continue;
+    if (least[i] > 0.0) return nullptr;
     out_.resize(kept_.size());
     std::transform(kept_.begin(), kept_.end(), out_.begin(),
                    [&](const Eigen::Vector3d& p) { return column.walls.beyond(i, p); });
@@ -157,21 +160,21 @@ const Polygon& FaceColumns::partAbove(const Floor& floor, const Polygon& inside)
 }
 
 void FaceColumns::addPrisms(const Floor& floor, const Polygon& above, SurfaceSums& sums) {
-  for (size_t i = 2; i < above.size(); ++i) addPrism(floor, {above[0], above[i - 1], above[i]}, sums);
+  for (size_t i = 2; i < above.size(); ++i) addPrism(floor, above[0], above[i - 1], above[i], sums);
 }
 
 // Between a triangle and the floor. Both are linear, so products of two positions or heights have exact integrals.
-void FaceColumns::addPrism(const Floor& floor, const std::array<Eigen::Vector3d, 3>& corners, SurfaceSums& sums) {
-  const auto& [a, b, c] = corners;
+void FaceColumns::addPrism(const Floor& floor, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                           const Eigen::Vector3d& c, SurfaceSums& sums) {
   const Eigen::Vector3d area = 0.5 * floor.sign * (b - a).cross(c - a);
   sums.area += area;
   sums.area_moment += (a + b + c) / 3.0 * area.transpose();
   double heights = 0.0;
   Eigen::Vector3d middles = Eigen::Vector3d::Zero();
   Eigen::Vector3d products = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& corner : corners) {
-    const double height = floor.below(corner);
-    const Eigen::Vector3d middle(corner.x(), corner.y(), corner.z() - 0.5 * height);
+  for (const Eigen::Vector3d* const corner : {&a, &b, &c}) {
+    const double height = floor.below(*corner);
+    const Eigen::Vector3d middle(corner->x(), corner->y(), corner->z() - 0.5 * height);
     heights += height;
     middles += middle;
     products += height * middle;

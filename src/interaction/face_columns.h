@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <vector>
 
 #include "interaction/piece_polytope.h"
@@ -67,7 +66,8 @@ class FaceColumns {
   void findExtremes(const Walls& walls, const Polygon& corners);
   const Polygon& partAbove(const Floor& floor, const Polygon& inside);
   static void addPrisms(const Floor& floor, const Polygon& above, SurfaceSums& sums);
-  static void addPrism(const Floor& floor, const std::array<Eigen::Vector3d, 3>& corners, SurfaceSums& sums);
+  static void addPrism(const Floor& floor, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                       SurfaceSums& sums);
   bool cut();
 
   Eigen::Matrix3d R_CT_;
