@@ -9,9 +9,20 @@
 namespace sweep_guard_core {
 
 /// What a thread works on, from a message to a warning; kOther: anything else, which is not measured.
-enum class Stage { kReceive, kSweep, kNarrowPhase, kPrediction, kProbability, kMonitor, kProximity, kPublish, kOther };
-constexpr std::array<const char*, 8> kStageNames = {"receive",     "sweep",   "narrow phase", "prediction",
-                                                    "probability", "monitor", "proximity",    "publish"};
+enum class Stage {
+  kReceive,
+  kSweep,
+  kNarrowPhase,
+  kPrediction,
+  kProbability,
+  kMonitor,
+  kProximity,
+  kInteraction,
+  kPublish,
+  kOther
+};
+constexpr std::array<const char*, 9> kStageNames = {"receive", "sweep",     "narrow phase", "prediction", "probability",
+                                                    "monitor", "proximity", "interaction",  "publish"};
 using StageTimes = std::array<Duration, kStageNames.size()>;  ///< in the order of Stage
 
 /// Measures how long a thread works in each stage, by the steady clock: also while it waits for a processor. While one

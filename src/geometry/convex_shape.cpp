@@ -177,10 +177,20 @@ ConvexShape ConvexShape::hull(const std::vector<Eigen::Vector3d>& points_T) {
 std::optional<ConvexShape::Cylinder> ConvexShape::asCylinder() const {
   const Round* const round = std::get_if<Round>(&body_S_);
   if (round == nullptr) return {};
-  Eigen::Isometry3d X_TC = Eigen::Isometry3d::Identity();
-  X_TC.linear() = R_TS_;
-  X_TC.translation() = p_TS_;
-  return Cylinder{round->radius, round->length, X_TC};
+  return Cylinder{round->radius, round->length, placeOfBody()};
+}
+
+std::optional<ConvexShape::CenteredBox> ConvexShape::asBox() const {
+  const Box* const box = std::get_if<Box>(&body_S_);
+  if (box == nullptr) return {};
+  return CenteredBox{box->half_extents, placeOfBody()};
+}
+
+Eigen::Isometry3d ConvexShape::placeOfBody() const {
+  Eigen::Isometry3d X_TS = Eigen::Isometry3d::Identity();
+  X_TS.linear() = R_TS_;
+  X_TS.translation() = p_TS_;
+  return X_TS;
 }
 
 ConvexShape ConvexShape::placed(const Eigen::Isometry3d& X_NT) const {

@@ -54,6 +54,7 @@ GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadD
     : dependencies_(dependencies),
       results_(private_node, dependencies.parameters),
       proximity_(private_node, dependencies.parameters, dependencies.monitor),
+      interaction_(private_node, dependencies.parameters, dependencies.monitor),
       guard_(*dependencies.parameters.initial().bodies, firstDetector(dependencies),
              dependencies.parameters.initial().guard) {}
 
@@ -83,10 +84,17 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   if (differ(*before, *next, "prediction/") || differ(*before, *next, "limits/")) {
     change.predictor.emplace(next->guard.predictor);
   }
-  if (differ(*before, *next, "tool/")) change.bodies = *next->bodies;
+  std::vector<sweep_guard_core::InterpenetrationFinder> pieces;
+  if (differ(*before, *next, "tool/")) {
+    change.bodies = *next->bodies;
+    pieces = sweep_guard_core::interpenetrationFinders(*next->tool);
+  }
   const auto exchange = [&, tested = change.detector != nullptr] {
     guard_.exchange(change);
-    if (!change.bodies.empty()) proximity_.setTool(*next->tool);
+    if (!change.bodies.empty()) {
+      proximity_.setTool(*next->tool);
+      interaction_.exchange(pieces);
+    }
     if (tested) dependencies_.monitor.detectorTested({});
     dependencies_.monitor.setLimits(next->limits);
     dependencies_.statistics.setCycle(next->guard.cycle);
@@ -105,6 +113,7 @@ void GuardThread::reset() {
     guard_.reset();
     guard_.exchange(change);
     proximity_.reset();
+    interaction_.reset();
     passed_.clear();
     swept_.reset();
     prediction_due_ = false;
@@ -267,6 +276,7 @@ bool GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
   if (!queued.checkpoint.continues(checkpoint_)) {
     guard_.reset();
     proximity_.reset();
+    interaction_.reset();
     passed_.clear();
   }
   checkpoint_ = queued.checkpoint;
@@ -313,6 +323,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
   reportFailures(report->failures);
   dependencies_.scene.swept(pose, report);
   top_->run([&] { proximity_.swept(pose, workpieces, *report, guard_); });
+  top_->run([&] { interaction_.swept(pose, workpieces, *report); });
 }
 
 void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures) {

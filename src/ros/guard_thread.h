@@ -15,6 +15,7 @@
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
 #include "ros/log_throttle.h"
+#include "ros/output/interaction_publisher.h"
 #include "ros/output/proximity_publisher.h"
 #include "ros/output/result_publisher.h"
 #include "ros/output/scene_publisher.h"
@@ -107,8 +108,9 @@ class GuardThread {
 
   const GuardThreadDependencies dependencies_;
   const ResultPublisher results_;
-  ProximityPublisher proximity_;  // after the start, used by the thread only
-  std::mutex change_mutex_;       // one change of the guard at a time
+  ProximityPublisher proximity_;      // after the start, used by the thread only
+  InteractionPublisher interaction_;  // the same
+  std::mutex change_mutex_;           // one change of the guard at a time
 
   // Used by the thread only:
   WorkQueue::Work work_;

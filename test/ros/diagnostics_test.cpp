@@ -1,4 +1,6 @@
 // /diagnostics of a running guard. Part of node_test.
+#include <sweep_guard/Interaction.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -105,9 +107,11 @@ TEST_F(DiagnosticsTest, ReportDetectorPredictorAndDeadlines) {
 }
 
 TEST_F(DiagnosticsTest, EachStageFromAMessageToAWarningTakesTime) {
-  const std::set<std::string> all = {"receive [%]",     "sweep [%]",   "narrow phase [%]", "prediction [%]",
-                                     "probability [%]", "monitor [%]", "proximity [%]",    "publish [%]"};
+  const std::set<std::string> all = {"receive [%]",    "sweep [%]",       "narrow phase [%]",
+                                     "prediction [%]", "probability [%]", "monitor [%]",
+                                     "proximity [%]",  "interaction [%]", "publish [%]"};
   const TopicListener<sweep_guard::Proximity> planes("proximity");
+  const TopicListener<sweep_guard::Interaction> forces("interaction");
   touchASquare();
   std::set<std::string> seen;
   for (int tries_left = 20; tries_left > 0 && seen != all; --tries_left) {

@@ -1,6 +1,7 @@
 // Changes every changeable parameter of a running guard, and checks its effect.
 #include <dynamic_reconfigure/ConfigDescription.h>
 #include <gtest/gtest.h>
+#include <sweep_guard/Interaction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -161,6 +162,27 @@ TEST_F(ReconfigureTest, TheReachOfThePlanesChanges) {
   moveTo({0.0, 0.0, 0.15});
   newest();
   EXPECT_EQ(planes.all().size(), before + 1);
+}
+
+TEST_F(ReconfigureTest, TheLawOfTheForceChanges) {
+  placeSquare("square", {0.0, 0.0, 0.0});
+  const TopicListener<sweep_guard::Interaction> forces("interaction");
+  const auto force = [&](double from, double to) {
+    moveTo({0.0, 0.0, from});
+    moveTo({0.0, 0.0, to});
+    const auto now = [](const auto& interaction) { return interaction.header.stamp == probe().time(); };
+    return -forces.awaitNewest(now).wrench.force.z;  // the tip points down
+  };
+  while (forces.all().empty()) moveTo({0.0, 0.0, -0.01});
+  const double before = force(-0.01, -0.01);
+  EXPECT_GT(before, 0.1);
+  change("interaction/stiffness", 2e6);
+  EXPECT_NEAR(force(-0.01, -0.01), 2.0 * before, 1e-6);
+  change("interaction/damping", 2.0);
+  EXPECT_NEAR(force(-0.009, -0.01), 2.0 * before * (1.0 + 2.0 * 0.1), 1e-6);  // at 0.1 m/s
+  change("interaction/damping", 0.0);
+  change("interaction/min_area", 1.0);
+  EXPECT_LT(force(-0.01, -0.01), 0.01 * before);
 }
 
 // In a corner of the box about a slanting motion, and outside of the hull.

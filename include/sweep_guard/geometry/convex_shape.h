@@ -107,6 +107,13 @@ class ConvexShape {
   };
   std::optional<Cylinder> asCylinder() const;  ///< the body without padding, if it is a cylinder
 
+  /// A box around the origin of a frame C, with edges along its axes.
+  struct CenteredBox {
+    Eigen::Vector3d half_extents;  ///< [m]
+    Eigen::Isometry3d X_TC;
+  };
+  std::optional<CenteredBox> asBox() const;  ///< the body without padding, if it is a box
+
   /// Returns the surface as made, without what padded() added. That of a round body is a polyhedron inside it.
   const TriangleMesh& mesh_T() const { return mesh_T_; }
   const Moments& moments_T() const { return moments_T_; }  ///< of the corners of all triangles of mesh_T()
@@ -138,6 +145,7 @@ class ConvexShape {
   };
 
   ConvexShape(Body body_S, const std::vector<Eigen::Vector3d>& vertices_S, std::vector<Triangle> triangles);
+  Eigen::Isometry3d placeOfBody() const;
   double boundingRadiusOfBody() const;
   Faces faces() const;
   Faces facesOfBox(const Eigen::Matrix3d& axes_T) const;

@@ -40,6 +40,10 @@ class TriangleMesh {
   /// empty. Vertices at the same place count as different: a mesh of separate triangles is not closed. An edge from a
   /// vertex to itself does not count.
   bool closed() const { return topology_->closed; }
+  /// Returns on which side of its triangles the outside of a closed mesh is: 1: their corners are counter-clockwise seen
+  /// from outside, -1: clockwise. 0 if the mesh is not closed(), if triangles at an edge wind differently, or without a
+  /// volume. As of the positions given to the constructor.
+  int winding() const { return topology_->winding; }
   size_t vertexCount() const { return offsets_.size() / 3; }
 
   /// Returns the position of vertex `i` in M [m]; i < vertexCount(), not checked.
@@ -73,6 +77,7 @@ class TriangleMesh {
   struct Topology {
     std::vector<Triangle> triangles;
     bool closed;
+    int winding;
     MeshOrder order;
   };
 

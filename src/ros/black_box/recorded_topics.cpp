@@ -14,6 +14,7 @@ const std::string kRecordedGuard = "/sweep_guard/";
 std::vector<RecordedTopic> recordedTopics(const ros::NodeHandle& node, const BlackBoxParameters& parameters) {
   std::vector<RecordedTopic> topics = {
       {node.resolveName("tool_pose"), "/tool_pose"},
+      {node.resolveName("joint_states"), "/joint_states"},
       {node.resolveName("mesh"), "/mesh", KeptMessages::kEachMesh, kMeshes},
       {node.resolveName("mesh_vertices"), "/mesh_vertices", KeptMessages::kEachVertices, kVertices},
       {"/tf", "/tf", KeptMessages::kEachTransform},

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "common/stage_clock.h"
-#include "sweep_guard/monitor/reason.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -48,7 +47,7 @@ sweep_guard::ToolPiece toMsg(const sweep_guard_core::ConvexPiece& piece) {
 ProximityPublisher::ProximityPublisher(ros::NodeHandle private_node, const LiveParameters& parameters,
                                        const sweep_guard_core::WarningMonitor& monitor)
     : parameters_(parameters),
-      monitor_(monitor),
+      known_surfaces_(monitor),
       planes_publisher_(private_node.advertise<sweep_guard::Proximity>("proximity", kQueue)),
       tool_publisher_(private_node.advertise<sweep_guard::ToolBalls>("tool_balls", 1, /*latch=*/true)),
       tool_revision_(std::random_device()()) {
@@ -82,19 +81,12 @@ void ProximityPublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
   message->tool_pose = sweep_guard_ros::toMsg(pose.X_WT);
   message->tool_revision = tool_revision_;
   message->valid_until = sweep_guard_ros::toMsg(pose.stamp + parameters->limits.pose_timeout);
-  message->valid = knowsAllSurfaces(report);
+  message->valid = known_surfaces_.complete(report, proximity_.unplaced);
   message->planes.reserve(proximity_.planes.size());
   for (const auto& plane : proximity_.planes) message->planes.push_back(toMsg(plane, tool));
   message->uncovered_distance = proximity_.uncovered.distance;
   message->uncovered_speed = proximity_.uncovered.speed;
   planes_publisher_.publish(message);
-}
-
-// The monitor must have the report already.
-bool ProximityPublisher::knowsAllSurfaces(const sweep_guard_core::SweepReport& report) {
-  monitor_.warning(now(), warning_);
-  return report.complete() && proximity_.unplaced.empty() &&
-         (warning_.reasons & sweep_guard_core::kSurfacesMissing) == 0;
 }
 
 }  // namespace sweep_guard_ros

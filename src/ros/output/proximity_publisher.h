@@ -3,10 +3,10 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
+#include "ros/output/known_surfaces.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/guard/sweep_report.h"
-#include "sweep_guard/monitor/warning_monitor.h"
 #include "sweep_guard/motion/proximity_finder.h"
 
 namespace sweep_guard_ros {
@@ -30,16 +30,13 @@ class ProximityPublisher {
   void reset() { finder_.reset(); }  ///< forgets the motion of the surfaces
 
  private:
-  bool knowsAllSurfaces(const sweep_guard_core::SweepReport& report);
-
   const LiveParameters& parameters_;
-  const sweep_guard_core::WarningMonitor& monitor_;
+  KnownSurfaces known_surfaces_;
   ros::Publisher planes_publisher_;
   ros::Publisher tool_publisher_;
   std::uint32_t tool_revision_;  // those of another run are others, too
   sweep_guard_core::ProximityFinder finder_;
   sweep_guard_core::Proximity proximity_;
-  sweep_guard_core::Warning warning_;
 };
 
 }  // namespace sweep_guard_ros

@@ -43,6 +43,13 @@ std::string described(const ParameterReader::Range& range) {
   return (unit.empty() ? "" : "[" + unit + "] ") + shown(range);
 }
 
+// YAML 1.1 takes 1e-06 for a text, and 1.0e-06 for a number.
+std::string yamlNumber(std::string text) {
+  const size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
+  return text;
+}
+
 std::string shown(int lowest, int highest) {
   return " from " + std::to_string(lowest) + " to " + std::to_string(highest);
 }
@@ -89,7 +96,7 @@ std::string shown(const ParameterValue& value) {
   std::ostringstream text;
   text << std::boolalpha;
   std::visit([&](const auto& held) { text << held; }, value);
-  return text.str();
+  return std::holds_alternative<double>(value) ? yamlNumber(text.str()) : text.str();
 }
 
 double ParameterReader::number(const std::string& key, double fallback, const Range& range, const std::string& effect,

@@ -27,7 +27,8 @@ constexpr double kMaxHorizon = 5.0;  // [s]
 constexpr double kMinProbability = 0.001;
 constexpr double kShownProbability = 0.01;  // smaller ones are shown only if a warning depends on them
 const std::string kOldThreshold = "warning/min_probability";
-constexpr double kOldDefault = 0.1;  // on the scale of the old name
+constexpr double kMaxStiffness = 1e12;  // [N/m^3]
+constexpr double kOldDefault = 0.1;     // on the scale of the old name
 const std::vector<std::string> kThresholds = {"warning/considered_on", "warning/considered_off",
                                               "warning/reflex_probability"};
 
@@ -55,6 +56,9 @@ const std::vector<std::string> kChangeable = {"tool/padding",
                                               "warning/acknowledge_time",
                                               "warning/acknowledge_distance",
                                               "proximity/reach",
+                                              "interaction/stiffness",
+                                              "interaction/damping",
+                                              "interaction/min_area",
                                               "timing/min_rate",
                                               "timing/pose_timeout",
                                               "timing/mesh_timeout",
@@ -96,6 +100,27 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
   options.max_turn_rate = read.number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0, "rad/s"},
                                       "No prediction turns faster. A pose that does is a jump: the motion is learned "
                                       "again.");
+  return options;
+}
+
+sweep_guard_core::InteractionOptions readInteraction(ParameterReader& read) {
+  sweep_guard_core::InteractionOptions options;
+  sweep_guard_core::ForceLaw& law = options.law;
+  law.stiffness = read.number("interaction/stiffness", law.stiffness, {0.0, kMaxStiffness, "N/m^3"},
+                              "~interaction: force per volume that tool and workpiece have in common.");
+  options.stiffness_of = read.numbers("interaction/stiffness_of",
+                                      "~interaction: the stiffness [N/m^3] of some workpieces by their id, in place of "
+                                      "interaction/stiffness; 0 to 1e12.");
+  for (const auto& [id, stiffness] : options.stiffness_of) {
+    if (stiffness >= 0.0 && stiffness <= kMaxStiffness) continue;
+    throw sweep_guard_core::InvalidInput("parameter interaction/stiffness_of/" + id + " must be 0 to 1e12 N/m^3");
+  }
+  law.damping = read.number("interaction/damping", law.damping, {0.0, 1000.0, "s/m"},
+                            "~interaction: by which share the force grows per speed at which the tool closes on the "
+                            "workpiece. As much is taken from it on the way out; the force never pulls.");
+  law.least_area = read.number("interaction/min_area", law.least_area, {1e-12, 1.0, "m^2"},
+                               "~interaction: where the integral of the surface's normal inside the tool is less, the "
+                               "force is less by the same share. It keeps the force continuous.");
   return options;
 }
 
@@ -244,7 +269,7 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   const bool joint_states = read.flag(
       "tool/joint_states", false,
       "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
-      "them moves. Implied by tool_source joint_states. ~proximity is silent then.");
+      "them moves. Implied by tool_source joint_states. ~proximity and ~interaction are silent then.");
   for (const auto& [joint, seconds] :
        read.numbers("tool/joint_timeouts",
                     "tool/joint_states only: age [s] from which a joint makes the warning UNKNOWN, by name. The others "
@@ -346,6 +371,7 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   parameters.proximity_reach =
       read.number("proximity/reach", 0.1, {0.0, 10.0, "m"},
                   "~proximity has planes for all surfaces that are nearer to the tool; 0: it is not published.");
+  parameters.interaction = readInteraction(read);
   parameters.joint_timeout = toDuration(
       read.number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"}, "An older tool pose makes the warning UNKNOWN."));
   parameters.limits.pose_timeout = parameters.joint_timeout;

@@ -12,6 +12,7 @@
 #include "ros/tool/tool_model.h"
 #include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/guard/guard.h"
+#include "sweep_guard/interaction/interaction_finder.h"
 #include "sweep_guard/monitor/warning.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
@@ -47,8 +48,9 @@ struct Parameters {
   sweep_guard_core::GuardOptions guard;
   std::string profile_file;  ///< that the profile of the predictor was read from; empty: none
   sweep_guard_core::WarningLimits limits;
-  double acknowledge_distance;              ///< [m]
-  double proximity_reach;                   ///< [m]; 0: no planes
+  double acknowledge_distance;  ///< [m]
+  double proximity_reach;       ///< [m]; 0: no planes
+  sweep_guard_core::InteractionOptions interaction;
   double marker_rate;                       ///< [Hz]
   std::set<std::string> marker_namespaces;  ///< published ones
   sweep_guard_core::Duration check_sweep_deadline;

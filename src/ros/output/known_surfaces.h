@@ -1,0 +1,23 @@
+#pragma once
+
+#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/monitor/warning_monitor.h"
+
+namespace sweep_guard_ros {
+
+/// Says whether what is computed from the workpieces at a swept pose is complete. Keeps its buffer between calls.
+class KnownSurfaces {
+ public:
+  explicit KnownSurfaces(const sweep_guard_core::WarningMonitor& monitor) : monitor_(monitor) {}
+
+  /// Returns whether there is a workpiece, and each was tested at the pose with all its updates.
+  /// @param report    of the sweep to the pose; the monitor must have it already
+  /// @param unplaced  workpieces that were left out
+  bool complete(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Workpieces& unplaced);
+
+ private:
+  const sweep_guard_core::WarningMonitor& monitor_;
+  sweep_guard_core::Warning warning_;
+};
+
+}  // namespace sweep_guard_ros
