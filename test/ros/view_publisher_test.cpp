@@ -104,7 +104,7 @@ TEST(ViewTest, IsEmptyBeforeTheFirstSweep) {
 }
 
 TEST(ToolShapeTest, HasTheSurfaceOfEveryPiece) {
-  const sweep_guard::ToolShape shape = toMsg(kTool);
+  const sweep_guard::ToolShape shape = toMsg(std::vector<sweep_guard_core::Tool>{kTool});
   ASSERT_EQ(shape.parts.size(), 1U);
   EXPECT_EQ(shape.parts[0].triangles.size(), kTool.pieces()[0].shape_T.mesh_T().triangles().size());
   EXPECT_EQ(shape.links, std::vector<std::string>{""});
