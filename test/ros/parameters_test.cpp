@@ -223,12 +223,52 @@ TEST_F(ParametersTest, AreNotChangedToValuesThatTheStartRefuses) {
   refused("nonsense", 1.0, "there is no parameter");
 }
 
+// A hand of arm.urdf's kind: the opening moves the finger.
+TEST_F(ParametersTest, AToolWhoseJointsMoveNeedsAFrameThatTheyDoNot) {
+  ros::param::set("/robot_description", kGripper);
+  node_.setParam("tool/type", "urdf");
+  node_.setParam("tool/joint_states", true);
+  const Parameters moving = loadParameters(node_);
+  EXPECT_TRUE(moving.articulated);
+  EXPECT_EQ(moving.bodies->size(), 2U);
+  size_t pieces = 0;
+  for (const auto& body : *moving.bodies) {
+    for (const auto& piece : body.pieces()) EXPECT_EQ(moving.tool->pieces()[pieces++].link, piece.link);
+  }
+  EXPECT_EQ(moving.tool->pieces().size(), pieces);
+  node_.setParam("tool_frame", "finger");
+  EXPECT_TRUE(has(refusal(node_), "no joint moves the tool's links"));
+  node_.setParam("tool/links", std::vector<std::string>{"hand", "finger"});
+  EXPECT_TRUE(has(refusal(node_), "joints of the tool move its frame"));
+}
+
+TEST_F(ParametersTest, JointsOfACylinderDoNotMove) {
+  node_.setParam("tool_source", "joint_states");
+  EXPECT_TRUE(has(refusal(node_), "tool/type is cylinder: set it to urdf"));
+}
+
+TEST_F(ParametersTest, TheSlowestJointDecidesHowOldAPoseMayBe) {
+  ros::param::set("/robot_description", kGripper);
+  node_.setParam("tool/type", "urdf");
+  node_.setParam("tool/joint_states", true);
+  node_.setParam("tool/joint_timeouts/opening", 0.3);
+  const Parameters loaded = loadParameters(node_);
+  EXPECT_EQ(loaded.limits.pose_timeout, std::chrono::milliseconds(300));
+  EXPECT_EQ(loaded.guard.horizon.reserve, std::chrono::milliseconds(300));
+  EXPECT_EQ(loaded.joint_timeout, std::chrono::milliseconds(100));
+  node_.setParam("tool/joint_timeouts/opening", 3.0);
+  EXPECT_TRUE(has(refusal(node_), "tool/joint_timeouts/opening"));
+  node_.setParam("tool/joint_timeouts/opening", 0.3);
+  node_.setParam("tool/joint_timeouts/closing", 0.3);
+  EXPECT_TRUE(has(refusal(node_), "no joint 'closing' moves the tool's links"));
+}
+
 // doc/interface.md and config/sweep_guard.yaml are generated from the descriptions.
 TEST_F(ParametersTest, AreAllDescribedWithTheirEffect) {
   const Parameters loaded = loadParameters(node_);
   std::set<std::string> read;
   for (const auto& [key, setting] : loaded.settings) read.insert(key);
-  for (const char* const apart : {"diagnostic_period", "tool/joint_states", "robot_description"}) read.erase(apart);
+  for (const char* const apart : {"diagnostic_period", "robot_description"}) read.erase(apart);
   std::set<std::string> described;
   for (const ParameterInfo& info : loaded.described) {
     if (!info.effect.empty()) described.insert(info.key);
@@ -336,7 +376,8 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("tool/joints", 0.5, "a group of numbers");
   refused("tool/joints/opening", "wide", "a finite number");
   refused("tool/joints/opening", NAN, "a finite number");
-  refused("tool/joint_states", "joint_states", "tool/joints");
+  refused("tool/joint_states", "joint_states", "true or false");
+  refused("tool/joint_timeouts", 0.5, "a group of numbers");
   refused("tool/radius", 0.0, "1e-06 to 100");
   refused("tool/radius", -0.01, "-0.01");
   refused("tool/radius", NAN, "1e-06 to 100");

@@ -33,6 +33,23 @@ void requireStamp(sweep_guard_core::Time stamp) {
 
 }  // namespace
 
+template <typename Accept>
+void PoseInput::refuseWhatFails(const Accept& accept) {
+  try {
+    accept();
+  } catch (const PoseRefused& error) {
+    refuse(error.reason, error.what());
+  } catch (const FrameError& error) {
+    refuse(sweep_guard_core::kTfFail, error.what());
+  } catch (const sweep_guard_core::SeveralPublishers& error) {
+    refuse(sweep_guard_core::kMultiPublisher, error.what());
+  } catch (const sweep_guard_core::OutOfOrder& error) {
+    refuse(sweep_guard_core::kOutOfOrder, error.what());
+  } catch (const std::exception& error) {  // InvalidInput, or out of memory
+    refuse(sweep_guard_core::kPoseInvalid, error.what());
+  }
+}
+
 PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters,
                      const PoseInputDependencies& dependencies)
     : fixed_frame_(parameters.fixed_frame),
@@ -135,22 +152,6 @@ void PoseInput::onTransforms() {
   } catch (const FrameError& error) {
     record_.error(error.what(), /*refused=*/false);
     monitor_.fault(sweep_guard_core::kTfFail, error.what());
-  }
-}
-
-void PoseInput::refuseWhatFails(const std::function<void()>& accept) {
-  try {
-    accept();
-  } catch (const PoseRefused& error) {
-    refuse(error.reason, error.what());
-  } catch (const FrameError& error) {
-    refuse(sweep_guard_core::kTfFail, error.what());
-  } catch (const sweep_guard_core::SeveralPublishers& error) {
-    refuse(sweep_guard_core::kMultiPublisher, error.what());
-  } catch (const sweep_guard_core::OutOfOrder& error) {
-    refuse(sweep_guard_core::kOutOfOrder, error.what());
-  } catch (const std::exception& error) {  // InvalidInput, or out of memory
-    refuse(sweep_guard_core::kPoseInvalid, error.what());
   }
 }
 

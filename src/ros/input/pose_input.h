@@ -55,7 +55,8 @@ class PoseInput {
   void countLost(const std::string& publisher, std::uint32_t sequence);
   bool hasSeveralPublishers() const;
   void onTransforms();
-  void refuseWhatFails(const std::function<void()>& accept);
+  template <typename Accept>
+  void refuseWhatFails(const Accept& accept);
   void accept(const ReceivedPose& pose);
   void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
   void begin();

@@ -9,6 +9,7 @@
 
 #include "ros/output/markers.h"
 #include "ros/profile_file.h"
+#include "ros/tool/robot_tree.h"
 #include "ros/tool/tool_model.h"
 #include "sweep_guard/common/error.h"
 
@@ -231,6 +232,18 @@ std::string describe(const ToolModel& model, const std::string& parameter) {
   return text.str();
 }
 
+// Of a tool whose joints move.
+void checkJoints(const Parameters& parameters) {
+  if (!parameters.robot) throw sweep_guard_core::InvalidInput(parameters.why_no_robot);
+  const sweep_guard_core::KinematicTree& tree = parameters.robot->robot.tree;
+  for (const auto& [joint, timeout] : parameters.joint_timeouts) variableNamed(tree, joint);
+  const auto is_fixed = [&](const auto& variable) { return parameters.fixed_joints.count(variable.name) != 0; };
+  if (std::all_of(tree.variables().begin(), tree.variables().end(), is_fixed)) {
+    throw sweep_guard_core::InvalidInput(
+        "no joint moves the tool's links, or tool/joints names all that do: leave tool/joint_states out");
+  }
+}
+
 void readRobot(ParameterReader& read, const std::string& parameter, const ToolModelOptions& options,
                Parameters& parameters) {
   const std::string urdf = read.searchText(parameter);
@@ -244,7 +257,7 @@ void readRobot(ParameterReader& read, const std::string& parameter, const ToolMo
     parameters.robot = model.robot;
     parameters.why_no_robot = model.why_no_robot;
     parameters.fixed_joints = options.joints;
-    if (parameters.articulated && !model.robot) throw sweep_guard_core::InvalidInput(model.why_no_robot);
+    if (parameters.articulated) checkJoints(parameters);
     parameters.tool = std::make_shared<const sweep_guard_core::Tool>(parameters.articulated ? piecesByBody(*model.robot)
                                                                                             : std::move(model.pieces));
   } catch (const sweep_guard_core::InvalidInput& error) {

@@ -1,0 +1,174 @@
+// Measures what guarding an arm costs: 7 links of 20 convex pieces each, joints at up to 1 rad/s, states at 200 Hz, a mesh that
+// deforms at 60 Hz, one measured sweep and a prediction of 21 sweeps for each state. One thread.
+//   arm [--triangles N] [--detector NAME] [--csv FILE]
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "common/run_program.h"
+#include "machine.h"
+#include "microseconds.h"
+#include "row.h"
+#include "scenes.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/common/quantile.h"
+#include "sweep_guard/guard/guard.h"
+#include "sweep_guard/kinematics/robot_path.h"
+
+namespace sweep_guard_benchmark {
+namespace {
+
+using namespace sweep_guard_core;
+
+constexpr size_t kLinks = 7;
+constexpr size_t kPieces = 20;
+constexpr double kLength = 0.15;  // of a link [m]
+constexpr int kStates = 2000;
+constexpr int kWarmUp = 200;  // states
+constexpr size_t kDeformations = 12;
+constexpr double kPeriod = 1.0 / 200.0;  // [s]
+constexpr double kFrame = 1.0 / 60.0;    // of the mesh [s]
+const std::string kMesh = "hull";
+
+// A link is a tube of staves around z, in two halves.
+std::vector<ConvexPiece> piecesOf(const std::string& link) {
+  std::vector<ConvexPiece> pieces;
+  for (size_t i = 0; i < kPieces; ++i) {
+    const double angle = 4.0 * M_PI * static_cast<double>(i) / kPieces;
+    const double z = (i < kPieces / 2 ? 0.25 : 0.75) * kLength;
+    const Eigen::Isometry3d X = Eigen::Translation3d(0.0, 0.0, z) * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) *
+                                Eigen::Translation3d(0.03, 0.0, 0.0);
+    pieces.push_back({link, ConvexShape::box({0.005, 0.012, 0.25 * kLength}).placed(X)});
+  }
+  return pieces;
+}
+
+Robot arm() {
+  std::vector<JointVariable> variables(kLinks);
+  std::vector<TreeLink> links(kLinks);
+  std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
+  for (size_t i = 0; i < kLinks; ++i) {
+    variables[i].name = "joint" + std::to_string(i);
+    links[i].name = "link" + std::to_string(i);
+    links[i].type = JointType::kRevolute;
+    links[i].variable = i;
+    links[i].axis_J = i % 2 == 0 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
+    if (i > 0) links[i].parent = i - 1;
+    if (i > 0) links[i].X_PJ.translation().z() = kLength;
+    pieces.emplace_back(i, piecesOf(links[i].name));
+  }
+  return robotOf({std::move(variables), std::move(links)}, pieces);
+}
+
+// Every joint swings at up to 1 rad/s, each in a time of its own.
+RobotState stateAt(double t) {
+  RobotState state;
+  for (size_t i = 0; i < kLinks; ++i) {
+    const double rate = 1.0 + 0.2 * static_cast<double>(i);  // [rad/s]
+    state.positions.push_back((i % 2 == 0 ? 0.0 : 0.2) + std::sin(rate * t) / rate);
+  }
+  return state;
+}
+
+// Of 0.25 m, beside the end of the arm.
+std::vector<Workpieces> deformations(int triangles) {
+  const int rings = std::max(4, static_cast<int>(std::sqrt(triangles / 4.0)));
+  const TriangleMesh first = wavyHull(rings, triangles / (2 * (rings - 1)), 0.0);
+  std::vector<Workpieces> all;
+  for (size_t i = 0; i < kDeformations; ++i) {
+    const double phase = 2.0 * M_PI * static_cast<double>(i) / kDeformations;
+    std::vector<float> positions = streamedPositions(wavyHull(rings, triangles / (2 * (rings - 1)), phase));
+    for (float& coordinate : positions) coordinate *= 1.25F;
+    all.push_back(
+        {std::make_shared<const Workpiece>(Workpiece{kMesh, 0, {}, {}, kMesh, deformed(first, std::move(positions))})});
+  }
+  return all;
+}
+
+Workpieces stamped(const Workpieces& deformation, Time stamp, const Workpieces& before) {
+  auto workpiece = std::make_shared<Workpiece>(*deformation.front());
+  workpiece->stamp = stamp;
+  if (!before.empty()) countUpdate(*before.front(), *workpiece);
+  return {workpiece};
+}
+
+PoseWithFrames poseAt(const Robot& robot, double t, const Eigen::Isometry3d& X_WM) {
+  const RobotState state = stateAt(t);
+  const RobotMotion motion(robot.tree, robot.bodies, stateAt(t - kPeriod), state);
+  std::vector<Eigen::Isometry3d> X_WB;
+  bodyPoses(robot.tree, robot.bodies, state, X_WB);
+  PoseWithFrames pose{Time(fromSeconds(10.0 + t)), {}, Eigen::Isometry3d::Identity(), {{kMesh, X_WM}}};
+  for (size_t i = 0; i < X_WB.size(); ++i) pose.bodies.push_back({X_WB[i], motion.deviationBound(i, 1)});
+  return pose;
+}
+
+struct Times {
+  std::vector<double> sweeps;
+  std::vector<double> both;
+  size_t contacts = 0;
+  size_t volumes = 0;
+};
+
+Times guard(const std::string& detector, int triangles, const Eigen::Isometry3d& X_WM) {
+  const Robot robot = arm();
+  const std::vector<Workpieces> all = deformations(triangles);
+  Guard guard(robot.tools, makeDetector(detector), GuardOptions());
+  SweepReport report;
+  Prediction prediction;
+  Workpieces now;
+  int frame = -1;
+  Times times;
+  for (int i = 0; i < kStates; ++i) {
+    const double t = kPeriod * i;
+    const PoseWithFrames pose = poseAt(robot, t, X_WM);
+    if (static_cast<int>(t / kFrame) != frame) {
+      frame = static_cast<int>(t / kFrame);
+      now = stamped(all[static_cast<size_t>(frame) % kDeformations], pose.stamp, now);
+    }
+    const double swept = microseconds([&] { guard.sweep(pose, now, report); });
+    const double predicted = microseconds([&] { guard.predict({}, now, prediction); });
+    if (i < kWarmUp) continue;
+    times.sweeps.push_back(swept);
+    times.both.push_back(swept + predicted);
+    times.contacts += report.contact() ? 1 : 0;
+    for (const PredictedObject& object : prediction.objects) times.volumes += object.volumes_tested;
+  }
+  return times;
+}
+
+void report(const std::string& place, Times times, ResultFile& results, const std::string& detector, int triangles) {
+  const auto states = static_cast<double>(times.both.size());
+  const double p99 = quantile(times.both, 0.99);
+  std::printf(
+      "%-8s %s, %d triangles: sweep %.0f us (p99 %.0f), sweep and prediction %.0f us (p99 %.0f); contact in %.0f %%, "
+      "%.0f predicted volumes\n",
+      place.c_str(), detector.c_str(), triangles, quantile(times.sweeps, 0.5), quantile(times.sweeps, 0.99),
+      quantile(times.both, 0.5), p99, 100.0 * static_cast<double>(times.contacts) / states,
+      static_cast<double>(times.volumes) / states);
+  results.write(makeRow("arm " + place, detector, static_cast<size_t>(triangles), kLinks, times.both));
+}
+
+int run(const std::vector<std::string>& arguments) {
+  std::string csv, detector = "halfspace";
+  int triangles = 20000;
+  for (size_t i = 0; i + 1 < arguments.size(); i += 2) {
+    if (arguments[i] == "--csv") csv = arguments[i + 1];
+    if (arguments[i] == "--detector") detector = arguments[i + 1];
+    if (arguments[i] == "--triangles") triangles = std::stoi(arguments[i + 1]);
+  }
+  if (arguments.size() % 2 != 0) throw InvalidInput("usage: arm [--triangles N] [--detector NAME] [--csv FILE]");
+  ResultFile results(csv);
+  std::printf("%sload %.2f\n", machineText().c_str(), load());
+  const auto at = [](double x, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, z)); };
+  report("beside", guard(detector, triangles, at(0.45, 0.6)), results, detector, triangles);
+  report("in reach", guard(detector, triangles, at(0.25, 0.8)), results, detector, triangles);
+  report("far", guard(detector, triangles, at(50.0, 0.0)), results, detector, triangles);
+  return 0;
+}
+
+}  // namespace
+}  // namespace sweep_guard_benchmark
+
+int main(int argc, char** argv) {
+  return sweep_guard_core::runProgram("arm", [&] { return sweep_guard_benchmark::run({argv + 1, argv + argc}); });
+}
