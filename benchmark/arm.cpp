@@ -23,8 +23,8 @@ using namespace sweep_guard_core;
 constexpr size_t kLinks = 7;
 constexpr size_t kPieces = 20;
 constexpr double kLength = 0.15;  // of a link [m]
-constexpr int kStates = 2000;
-constexpr int kWarmUp = 200;  // states
+constexpr int kStates = 600;
+constexpr int kWarmUp = 100;  // states
 constexpr size_t kDeformations = 12;
 constexpr double kPeriod = 1.0 / 200.0;  // [s]
 constexpr double kFrame = 1.0 / 60.0;    // of the mesh [s]
