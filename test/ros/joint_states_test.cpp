@@ -127,7 +127,7 @@ TEST_F(JointStatesTest, TheFingerThatClosesOnAWorkpieceIsNamed) {
 }
 
 TEST_F(JointStatesTest, TheLinkThatWillTouchFirstIsPredicted) {
-  placeSquare("square", {0.45, 0.0, 0.7}, 0.03);
+  placeSquare("square", {0.36, 0.0, 0.75}, 0.02);
   holdUntil(kStraight, isClearNow);
   Positions now = kStraight;
   Warning warning;
