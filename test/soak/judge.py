@@ -135,6 +135,9 @@ class Judge:
         """The guard's clock comes by a connection of its own, and what it says may wait for the judge."""
         return any(begin <= at and at - 0.5 - own_delay <= end for begin, end in self.clock_steps)
 
+    def _stepped_between(self, first, second):
+        return any(begin <= second and first <= end for begin, end in self.clock_steps)
+
     def _find(self, kind, spoken, why):
         self.findings.append(Finding(kind, spoken.at, f'{why}: "{spoken.text}", pose {seconds(spoken.stamp):.4f}, '
                                      f'published {seconds(spoken.published):.4f}'))
@@ -226,6 +229,8 @@ class Judge:
 
     def _follow(self, pose, side):
         before, self.last = self.last, (pose, side)
+        if before and self._stepped_between(before[0].at, pose.at):
+            before, self.crossing = None, None
         if side == CROSSING:
             self.crossing = self.crossing or pose
             return

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The judge of the soak: finds what is planted, and nothing in the warnings of a guard that is right."""
 import unittest
+import unittest.mock
 
 import judge
 import trend
@@ -197,6 +198,15 @@ class JudgeTest(unittest.TestCase):
             judged = Soak(silent, lag=lag).run(levels_but(leap - 0.2, leap + 1.3, judge.UNKNOWN))
             self.assertEqual(judged.findings, [])
             self.assertEqual(judged.counts['contacts not judged: mesh silent'], 1)
+
+    def test_takes_poses_before_and_after_a_step_of_the_clock_for_no_leap(self):
+        stamped = nanoseconds
+        stepped = lambda t: stamped(t if t < BEGIN + 6.2 else t - 3.0)
+        soak = Soak(lost=lambda kind, t: kind == 'pose' and 5.5 <= t < 6.3)
+        soak.judge.clock_step(BEGIN + 6.2, BEGIN + 6.201)
+        with unittest.mock.patch(f'{__name__}.nanoseconds', stepped):
+            says = lambda t: spoken(t, judge.UNKNOWN) if 5.5 <= t - BEGIN < 7.15 else spoken(t)
+            self.assertNotIn('missed contact', soak.kinds(says))
 
     def test_decides_nothing_near_the_plate(self):
         soak = Soak().run(until=1.0)
