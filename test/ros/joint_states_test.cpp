@@ -130,12 +130,15 @@ TEST_F(JointStatesTest, TheLinkThatWillTouchFirstIsPredicted) {
   placeSquare("square", {0.36, 0.0, 0.75}, 0.02);
   holdUntil(kStraight, isClearNow);
   Positions now = kStraight;
-  Warning warning;
-  for (int i = 0; i < 120 && warning.level < Warning::CONSIDERED; ++i) {
+  jointProbe().skipWarnings();
+  for (int i = 0; i < 60; ++i) {
     now["shoulder"] += 0.005;
-    warning = holdUntil(now, [](const Warning&) { return true; });
+    jointProbe().tick(0.01);
+    publish(now);
+    jointProbe().awaitPrediction(jointProbe().time());
   }
-  ASSERT_TRUE(warning.level == Warning::CONSIDERED || warning.level == Warning::REFLEX) << warning.text;
+  const Warning warning = jointProbe().awaitWarning(
+      [](const Warning& next) { return next.level == Warning::CONSIDERED || next.level == Warning::REFLEX; });
   EXPECT_EQ(warning.tool_link, "fore") << warning.text;
   const Prediction prediction = jointProbe().predictions().back();
   ASSERT_EQ(prediction.bodies.size(), 4U);
