@@ -156,6 +156,10 @@ std::optional<Time> JointTimeline::newestOf(size_t variable) const {
   return track.size() == 0 ? std::nullopt : std::optional(track.newest().stamp);
 }
 
+std::optional<Time> JointTimeline::newestOfRoot() const {
+  return root_.size() == 0 ? std::nullopt : std::optional(root_.newest().stamp);
+}
+
 void JointTimeline::reset() {
   for (Joint& joint : joints_) joint.track.clear();
   root_.clear();

@@ -134,6 +134,7 @@ TEST_F(JointTimelineTest, AMovingRootIsJoinedLikeAMotion) {
                       Eigen::Translation3d(1.0, 0.0, 0.0) * Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ())};
   timeline.addRoot(at(1.0), motion.X_MT_start);
   timeline.addRoot(at(2.0), motion.X_MT_end);
+  EXPECT_EQ(timeline.newestOfRoot(), at(2.0));
   timeline.add("driver", at(1.0), {{0, 0.0}});
   timeline.add("driver", at(1.25), {{0, 0.0}});
   const std::vector<Stamped> states = allOf(timeline);

@@ -100,6 +100,7 @@ class JointTimeline {
   bool expects(size_t variable) const { return !joints_[variable].fixed; }
   /// Returns the newest stamp of a variable; empty before the first.
   std::optional<Time> newestOf(size_t variable) const;
+  std::optional<Time> newestOfRoot() const;  ///< the same of a root that moves; empty also if it does not move
 
   void reset();  ///< forgets all positions
 

@@ -32,6 +32,7 @@ std::vector<std::optional<double>> fixedOf(const Parameters& parameters) {
 ArticulatedTool::ArticulatedTool(const Parameters& parameters)
     : model_(parameters.robot),
       root_moves_(parameters.tool_source != ToolSource::kJointStates),
+      root_timeout_(parameters.joint_timeout),
       timeline_(model_->robot.tree, fixedOf(parameters), root_moves_) {
   const auto& variables = model_->robot.tree.variables();
   for (size_t i = 0; i < variables.size(); ++i) {
@@ -89,16 +90,18 @@ void ArticulatedTool::place(Time stamp, const RobotState& state, std::vector<Pos
 }
 
 std::string ArticulatedTool::silence(Time now) const {
+  const auto tell = [now](const std::string& what, std::optional<Time> newest, sweep_guard_core::Duration timeout) {
+    if (!newest) return what + " has not been published yet";
+    if (now - *newest <= timeout) return std::string();
+    return what + " has been silent for " + std::to_string(sweep_guard_core::toSeconds(now - *newest)) + " s";
+  };
+  std::string silence = root_moves_ ? tell("the tool pose", timeline_.newestOfRoot(), root_timeout_) : "";
   const auto& variables = model_->robot.tree.variables();
-  for (size_t i = 0; i < variables.size(); ++i) {
-    if (!timeline_.expects(i)) continue;
+  for (size_t i = 0; i < variables.size() && silence.empty(); ++i) {
     const std::string joint = "joint '" + sweep_guard_core::printable(variables[i].name) + "'";
-    const std::optional<Time> newest = timeline_.newestOf(i);
-    if (!newest) return joint + " has not been published yet";
-    if (now - *newest > timeouts_[i])
-      return joint + " has been silent for " + std::to_string(sweep_guard_core::toSeconds(now - *newest)) + " s";
+    if (timeline_.expects(i)) silence = tell(joint, timeline_.newestOf(i), timeouts_[i]);
   }
-  return "";
+  return silence;
 }
 
 void ArticulatedTool::reset() {

@@ -43,7 +43,7 @@ class ArticulatedTool {
   /// @returns false if no other state is known yet
   bool next(const std::function<Eigen::Isometry3d(sweep_guard_core::Time)>& X_WT, std::vector<Pose>& poses);
 
-  /// Returns what a joint of the tool lacks; empty: nothing.
+  /// Returns what a joint of the tool, or its pose, lacks; empty: nothing.
   /// @param now  as the stamps
   std::string silence(sweep_guard_core::Time now) const;
 
@@ -54,6 +54,7 @@ class ArticulatedTool {
 
   const std::shared_ptr<const RobotModel> model_;
   const bool root_moves_;
+  const sweep_guard_core::Duration root_timeout_;
   std::unordered_map<std::string, size_t> variables_;  // by name of the joint
   std::vector<sweep_guard_core::Duration> timeouts_;   // by variable
   sweep_guard_core::JointTimeline timeline_;

@@ -36,7 +36,7 @@ struct Parameters {
   std::shared_ptr<const std::vector<sweep_guard_core::Tool>> bodies;
   bool articulated;                            ///< joints of the tool move, as `joint_states` says: `robot` is there
   std::map<std::string, double> fixed_joints;  ///< positions [rad or m] of joints that `joint_states` need not have
-  std::map<std::string, sweep_guard_core::Duration> joint_timeouts;  ///< of those that have one of their own
+  std::map<std::string, sweep_guard_core::Duration> joint_timeouts;  ///< where a joint has its own
   sweep_guard_core::Duration joint_timeout;                          ///< of the others, and of the tool pose
   std::shared_ptr<const RobotModel> robot;    ///< whose links are the tool; null: nothing that joints move
   std::string why_no_robot;                   ///< why it is null

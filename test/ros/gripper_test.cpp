@@ -1,0 +1,72 @@
+// The forearm of arm.urdf with its two fingers: its pose is on `tool_pose`, the jaw is on `joint_states`.
+#include <gtest/gtest.h>
+#include <sensor_msgs/JointState.h>
+
+#include "guard_probe.h"
+#include "node_fixture.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::Contacts;
+using sweep_guard::Warning;
+
+class GripperTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    probe().place(squareAt("square", {0.22, 0.02, 0.0}, probe().time(), 0.003));
+    step(0.5, 0.04);
+    while (!isClear(step(0.0, 0.04))) {
+    }
+  }
+
+  // The forearm along x at this height, level with the fingers that it carries.
+  static void publishPose(double z) {
+    geometry_msgs::PoseStamped pose = poseAt({0.0, 0.0, z}, probe().time());
+    pose.pose.orientation = geometry_msgs::Quaternion();
+    pose.pose.orientation.w = 1.0;
+    probe().publish(pose);
+  }
+
+  static void publishJaw(double jaw) {
+    static ros::Publisher publisher = ros::NodeHandle().advertise<sensor_msgs::JointState>("joint_states", 1000);
+    sensor_msgs::JointState message;
+    message.header.stamp = probe().time();
+    message.name = {"jaw"};
+    message.position = {jaw};
+    publisher.publish(message);
+  }
+
+  static Warning step(double z, double jaw) {
+    probe().tick(0.01);
+    publishPose(z);
+    publishJaw(jaw);
+    return probe().awaitWarning([](const Warning&) { return true; });
+  }
+};
+
+TEST_F(GripperTest, TheFingerThatClosesIsNamedWhileTheForearmRests) {
+  probe().forgetContacts();
+  for (int i = 0; i <= 20; ++i) step(0.0, 0.04 - 0.002 * i);
+  std::set<std::string> links;
+  for (const Contacts& sweep : probe().awaitContactsUpTo(probe().time())) {
+    for (const auto& object : sweep.objects) {
+      for (const auto& impact : object.impacts) links.insert(impact.tool_link);
+    }
+  }
+  EXPECT_EQ(links, std::set<std::string>{"left"});
+}
+
+TEST_F(GripperTest, ASilentPoseIsNamed) {
+  Warning warning;
+  for (int i = 0; i < 200 && warning.text.find("the tool pose has been silent") == std::string::npos; ++i) {
+    probe().advance(0.01);
+    publishJaw(0.04);
+    warning = probe().awaitWarning([](const Warning&) { return true; });
+  }
+  EXPECT_TRUE(hasReason(Warning::POSE_STALE)(warning)) << warning.text;
+  EXPECT_NE(warning.text.find("the tool pose has been silent"), std::string::npos) << warning.text;
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
