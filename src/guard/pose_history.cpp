@@ -15,26 +15,12 @@ size_t lastUpToKey(const PoseSample* first, const PoseSample* end, const Key& ke
 
 }  // namespace
 
-void PoseHistory::add(const PoseSample& sample) {
-  if (size() >= kMaxSize) {
-    all_[begin_ + 1] = all_[begin_];
-    ++begin_;
-  }
-  if (all_.size() == all_.capacity() && begin_ >= all_.size() / 2) {
-    all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(begin_));
-    begin_ = 0;
-  }
-  all_.push_back(sample);
-}
-
 size_t PoseHistory::lastUpTo(std::uint64_t number) const {
-  return lastUpToKey(&all_[begin_], &all_[begin_] + size(), number,
-                     [](const PoseSample& sample) { return sample.number; });
+  return lastUpToKey(all_.begin(), all_.end(), number, [](const PoseSample& sample) { return sample.number; });
 }
 
 size_t PoseHistory::lastUpTo(Time stamp) const {
-  return lastUpToKey(&all_[begin_], &all_[begin_] + size(), stamp,
-                     [](const PoseSample& sample) { return sample.stamp; });
+  return lastUpToKey(all_.begin(), all_.end(), stamp, [](const PoseSample& sample) { return sample.stamp; });
 }
 
 double PoseHistory::share(size_t from, size_t i) const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/merged_motion.h"
+#include "sweep_guard/common/sample_buffer.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_core {
@@ -17,21 +18,19 @@ struct PoseSample {
   double deviation_bound = 0.0;  ///< of the motion since the previous sample, see BodyPose
 };
 
-/// Keeps the poses of tool and frame that may have to be swept again. Moves them down in its memory to make room, so
-/// that nothing is allocated once the history has had its largest size.
+/// Keeps the poses of tool and frame that may have to be swept again. Only a detector that keeps failing needs as many as
+/// SampleBuffer holds: twice the number of poses that are swept at once.
 class PoseHistory {
  public:
-  /// Largest number of poses; only a detector that keeps failing needs as many. A longer history drops its second pose,
-  /// and the motion goes straight past it. Twice the number of poses that are swept at once.
-  static constexpr size_t kMaxSize = 8192;
+  static constexpr size_t kMaxSize = SampleBuffer<PoseSample>::kMaxSize;
 
   /// @param sample  numbers ascend; stamps do not decrease
-  void add(const PoseSample& sample);
-  void forgetFirst() { ++begin_; }  ///< must not be called on the last pose
+  void add(const PoseSample& sample) { all_.add(sample); }
+  void forgetFirst() { all_.forgetFirst(); }  ///< must not be called on the last pose
 
-  size_t size() const { return all_.size() - begin_; }
-  const PoseSample& operator[](size_t i) const { return all_[begin_ + i]; }
-  const PoseSample& newest() const { return all_.back(); }
+  size_t size() const { return all_.size(); }
+  const PoseSample& operator[](size_t i) const { return all_[i]; }
+  const PoseSample& newest() const { return all_.newest(); }
 
   /// Returns the index of the last pose with this number or a lower one; 0 if there is none.
   size_t lastUpTo(std::uint64_t number) const;
@@ -48,8 +47,7 @@ class PoseHistory {
   void path_M(size_t first, size_t last, double tool_radius, Path& path_M) const;
 
  private:
-  std::vector<PoseSample> all_;
-  size_t begin_ = 0;
+  SampleBuffer<PoseSample> all_;
 };
 
 }  // namespace sweep_guard_core

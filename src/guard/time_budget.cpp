@@ -23,7 +23,8 @@ size_t TimeBudget::consideredSweeps(size_t reflex_volumes, size_t considered_vol
   const double left = toSeconds(forPrediction()) - static_cast<double>(reflex_volumes) * per_volume;
   const size_t most = sweep_guard_core::consideredSweeps(horizon_);
   if (left >= static_cast<double>(considered_volumes) * per_volume) return most;
-  return static_cast<size_t>(std::clamp(left / per_volume / static_cast<double>(bodies), 1.0, static_cast<double>(most)));
+  return static_cast<size_t>(
+      std::clamp(left / per_volume / static_cast<double>(bodies), 1.0, static_cast<double>(most)));
 }
 
 Duration TimeBudget::forPrediction() const {

@@ -88,7 +88,7 @@ std::vector<PredictedSweep> united(const std::vector<PredictedSweep>& all, const
   return united;
 }
 
-void unite(PredictedObject& all, PredictedObject& body, Time /*end*/) {
+void unite(PredictedObject& all, PredictedObject& body) {
   if (areFree(all.sweeps)) std::swap(all.sweeps, body.sweeps);
   if (!areFree(body.sweeps)) all.sweeps = united(all.sweeps, body.sweeps);
   sweep_guard_core::unite(all.reflex, body.reflex);
@@ -98,12 +98,12 @@ void unite(PredictedObject& all, PredictedObject& body, Time /*end*/) {
   all.volumes_tested += body.volumes_tested;
 }
 
-template <typename Object>
-void unite(std::vector<Object>& all, std::vector<Object>& body, size_t first_piece, Time end) {
+template <typename Object, typename Unite>
+void uniteEach(std::vector<Object>& all, std::vector<Object>& body, size_t first_piece, const Unite& unite) {
   for (Object& object : body) {
     countPiecesFrom(first_piece, object);
     if (Object* const known = objectOf(object.workpiece, all)) {
-      unite(*known, object, end);
+      unite(*known, object);
     } else {
       all.push_back(std::move(object));
     }
@@ -116,13 +116,15 @@ void unite(SweepReport& all, SweepReport& body, size_t first_piece) {
   all.start = std::min(all.start, body.start);
   all.backlog = std::max(all.backlog, body.backlog);
   unite(all.failures, body.failures);
-  unite(all.objects, body.objects, first_piece, all.end);
+  uniteEach(all.objects, body.objects, first_piece,
+            [&](SweptObject& known, SweptObject& object) { unite(known, object, all.end); });
 }
 
 void unite(Prediction& all, Prediction& body, size_t first_piece) {
   all.sweeps_made = std::min(all.sweeps_made, body.sweeps_made);
   unite(all.failures, body.failures);
-  unite(all.objects, body.objects, first_piece, all.stamp);
+  uniteEach(all.objects, body.objects, first_piece,
+            [](PredictedObject& known, PredictedObject& object) { unite(known, object); });
 }
 
 }  // namespace sweep_guard_core

@@ -50,12 +50,13 @@ void JointTimeline::add(const std::string& publisher, Time stamp, const std::vec
     Joint& joint = joints_[variable];
     if (joint.fixed) continue;
     if (joint.publisher != publisher) joint.publisher = publisher;
-    joint.track.add({stamp, unwound(variable, value)});
+    dropped_ = !joint.track.add({stamp, unwound(variable, value)}) || dropped_;
   }
 }
 
 void JointTimeline::check(const std::string& publisher, Time stamp, const std::vector<Position>& positions) const {
   for (size_t i = 0; i < positions.size(); ++i) {
+    if (!expects(positions[i].variable)) continue;
     const std::string& name = tree_.variables()[positions[i].variable].name;
     if (!(std::abs(positions[i].value) <= kMaxPosition)) {
       throw InvalidInput("joint '" + name + "' is at " + std::to_string(positions[i].value) +
@@ -88,7 +89,7 @@ double JointTimeline::unwound(size_t variable, double value) const {
 
 void JointTimeline::addRoot(Time stamp, const Eigen::Isometry3d& X_WR) {
   assert(root_moves_ && (root_.size() == 0 || stamp >= root_.newest().stamp));
-  root_.add({stamp, X_WR});
+  dropped_ = !root_.add({stamp, X_WR}) || dropped_;
 }
 
 template <typename Visit>
@@ -103,6 +104,8 @@ std::optional<Time> JointTimeline::next(RobotState& state) {
   const std::optional<Time> stamp = begun_ ? nextStamp() : commonStart();
   if (!stamp) return std::nullopt;
   advance(*stamp, /*past_all=*/!begun_);
+  leaves_out_ = begun_ && dropped_;
+  dropped_ = false;
   begun_ = true;
   stateAt(*stamp, state);
   return stamp;
@@ -163,7 +166,7 @@ std::optional<Time> JointTimeline::newestOfRoot() const {
 void JointTimeline::reset() {
   for (Joint& joint : joints_) joint.track.clear();
   root_.clear();
-  begun_ = false;
+  begun_ = dropped_ = leaves_out_ = false;
 }
 
 }  // namespace sweep_guard_core

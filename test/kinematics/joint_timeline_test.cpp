@@ -124,7 +124,7 @@ TEST_F(JointTimelineTest, AJointAtTwoPlacesInOneMomentIsAtBoth) {
 }
 
 TEST_F(JointTimelineTest, PositionsOfFixedJointsArePassedOver) {
-  only_a_.add("driver", at(1.0), {{0, 0.0}, {1, 7.0}});
+  only_a_.add("driver", at(1.0), {{0, 0.0}, {1, 7.0}, {1, std::nan("")}});
   EXPECT_EQ(allOf(only_a_)[0].state.positions[1], 0.5);
 }
 
@@ -189,6 +189,19 @@ TEST_F(JointTimelineTest, AJointFarAheadOfASilentOneGoesStraightPastItsOldestPos
   EXPECT_EQ(states[0].stamp, at(1.0));
   EXPECT_EQ(states[1].stamp, at(11.0 - 0.001 * (Track<double>::kMaxSize - 2)));
   EXPECT_EQ(states.back().stamp, at(11.0));
+}
+
+TEST_F(JointTimelineTest, TheStatePastDroppedPositionsTellsOfThem) {
+  timeline_.add("driver", at(1.0), {{0, 0.0}, {1, 0.0}, {2, 0.0}});
+  RobotState state;
+  ASSERT_TRUE(timeline_.next(state));
+  EXPECT_FALSE(timeline_.leavesOut());
+  for (int i = 1; i <= 10000; ++i) timeline_.add("driver", at(1.0 + 0.001 * i), {{0, 0.1 * i}, {1, 0.0}});
+  timeline_.add("driver", at(11.0), {{2, 0.0}});
+  ASSERT_TRUE(timeline_.next(state));
+  EXPECT_TRUE(timeline_.leavesOut());
+  ASSERT_TRUE(timeline_.next(state));
+  EXPECT_FALSE(timeline_.leavesOut());
 }
 
 // Each joint is published on its own, at 10 Hz to 1 kHz, late by up to 50 ms.

@@ -257,7 +257,8 @@ TEST_F(ParametersTest, TheSlowestJointDecidesHowOldAPoseMayBe) {
   EXPECT_EQ(loaded.guard.horizon.reserve, std::chrono::milliseconds(300));
   EXPECT_EQ(loaded.joint_timeout, std::chrono::milliseconds(100));
   node_.setParam("tool/joint_timeouts/opening", 3.0);
-  EXPECT_TRUE(has(refusal(node_), "tool/joint_timeouts/opening"));
+  EXPECT_TRUE(has(refusal(node_), "/guarded/tool/joint_timeouts/opening"));
+  EXPECT_TRUE(has(refusal(node_), "a number from 0.01 to 2"));
   node_.setParam("tool/joint_timeouts/opening", 0.3);
   node_.setParam("tool/joint_timeouts/closing", 0.3);
   EXPECT_TRUE(has(refusal(node_), "no joint 'closing' moves the tool's links"));

@@ -17,8 +17,8 @@ struct GuardedBody;
 class TimeBudget;
 struct SweepPlan;
 
-/// Sweeps the tool, or each body of it, from pose to pose, so that no motion goes untested, and predicts contacts after the newest pose
-/// [P, Sec. 3.2]. Any thread may call it, one thread at a time; stop() at any time.
+/// Sweeps the tool, or each body of it, from pose to pose, so that no motion goes untested, and predicts contacts after the
+/// newest pose [P, Sec. 3.2]. Any thread may call it, one thread at a time; stop() at any time.
 ///
 /// After a failure of the detector the next sweep passes through every pose since the last success. Of more than 8192
 /// poses that wait, it goes straight past the oldest ones. After a missing transform it goes straight from the last

@@ -24,7 +24,7 @@ struct PoseWithFrames {
   SteadyTime received;                                     ///< when the pose arrived
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< translation [m]
   std::map<std::string, Eigen::Isometry3d> X_WM =
-      {};                        ///< [m], by name of M; a frame whose transform is missing is left out
+      {};                             ///< [m], by name of M; a frame whose transform is missing is left out
   std::vector<BodyPose> bodies = {};  ///< of each body of the guarded tool; empty: it is one body, in T
 
   BodyPose body(size_t i) const { return bodies.empty() ? BodyPose{X_WT} : bodies[i]; }

@@ -2,56 +2,25 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/sample_buffer.h"
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 
 namespace sweep_guard_core {
 
-/// Positions of one quantity at ascending times. Moves them down in its memory to make room, so nothing is allocated once it
-/// has had its largest size.
+/// A position of one quantity at one moment.
 template <typename Value>
-class Track {
- public:
-  /// A longer track drops its second sample: the motion goes straight past it.
-  static constexpr size_t kMaxSize = 8192;
-
-  struct Sample {
-    Time stamp;
-    Value value;
-  };
-
-  /// @param sample  not earlier than the newest
-  void add(const Sample& sample) {
-    if (size() >= kMaxSize) {
-      all_[begin_ + 1] = all_[begin_];
-      ++begin_;
-    }
-    if (all_.size() == all_.capacity() && begin_ >= all_.size() / 2) {
-      all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(begin_));
-      begin_ = 0;
-    }
-    all_.push_back(sample);
-  }
-  void forgetFirst() { ++begin_; }  ///< must not be called on the last sample
-  void clear() {
-    all_.clear();
-    begin_ = 0;
-  }
-
-  size_t size() const { return all_.size() - begin_; }
-  const Sample& operator[](size_t i) const { return all_[begin_ + i]; }
-  const Sample& newest() const { return all_.back(); }
-
- private:
-  std::vector<Sample> all_;
-  size_t begin_ = 0;
+struct StampedValue {
+  Time stamp;
+  Value value;
 };
+template <typename Value>
+using Track = SampleBuffer<StampedValue<Value>>;
 
 /// Refuses positions of a joint that two publishers name.
 struct SeveralPublishers : InvalidInput {
@@ -65,7 +34,8 @@ struct OutOfOrder : InvalidInput {
 /// Merges the positions of the joints of a robot, each with stamps of its own, into states of all of them. A joint moves
 /// at constant speed between two of its positions, a continuous one the shorter way. A state comes out for every stamp of
 /// any joint, once all joints are known up to it: joined by RobotMotion, the states are exactly the motion of the joints,
-/// and nothing of it is left out. Nothing comes out before the first stamp up to which all joints have been heard of.
+/// and nothing of it is left out but what leavesOut() tells of. Nothing comes out before the first stamp up to which all
+/// joints have been heard of.
 ///
 /// The root may move as well: its poses are joined as Motion says.
 class JointTimeline {
@@ -95,6 +65,10 @@ class JointTimeline {
   /// @param[out] state  overwritten; its buffers are used again
   /// @returns the stamp of the state; empty: none is known yet
   std::optional<Time> next(RobotState& state);
+
+  /// Returns whether the newest state from next() was reached straight past positions that were dropped: a joint, or the
+  /// root, was too far ahead of another one.
+  bool leavesOut() const { return leaves_out_; }
 
   /// Returns whether a variable is not fixed.
   bool expects(size_t variable) const { return !joints_[variable].fixed; }
@@ -126,6 +100,8 @@ class JointTimeline {
   bool root_moves_;
   Track<Eigen::Isometry3d> root_;
   bool begun_ = false;
+  bool dropped_ = false;  // since the newest state
+  bool leaves_out_ = false;
 };
 
 }  // namespace sweep_guard_core

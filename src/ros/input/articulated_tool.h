@@ -43,6 +43,9 @@ class ArticulatedTool {
   /// @returns false if no other state is known yet
   bool next(const std::function<Eigen::Isometry3d(sweep_guard_core::Time)>& X_WT, std::vector<Pose>& poses);
 
+  /// Returns whether the newest poses from next() go straight past positions that were dropped.
+  bool leavesOut() const { return timeline_.leavesOut(); }
+
   /// Returns what a joint of the tool, or its pose, lacks; empty: nothing.
   /// @param now  as the stamps
   std::string silence(sweep_guard_core::Time now) const;

@@ -14,8 +14,9 @@ using sweep_guard_core::Reason;
 
 constexpr auto kPoseTransformWait = std::chrono::milliseconds(20);
 constexpr auto kPauseOfWaits = std::chrono::milliseconds(200);
-constexpr size_t kMaxMissing = 1000;          // as many as workpieces
-constexpr size_t kMaxMessageSize = 16384;     // a frame name of any sense fits [bytes]
+constexpr size_t kMaxMissing = 1000;       // as many as workpieces
+constexpr size_t kMaxMessageSize = 16384;  // a frame name of any sense fits [bytes]
+constexpr const char* kPassed = "positions of joints were dropped: others were silent meanwhile";
 constexpr size_t kMaxJointsSize = 1U << 20U;  // [bytes]
 constexpr std::uint32_t kQueueLength =
     65536;  // 65 s at 1 kHz; a pose that ROS drops beyond that is a gap in header.seq
@@ -110,6 +111,7 @@ void PoseInput::acceptJoints(const ros::MessageEvent<const sensor_msgs::JointSta
 void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received) {
   const auto frame = [this](sweep_guard_core::Time stamp) { return lookup(fixed_frame_, tool_frame_, stamp); };
   while (articulated_->next(frame, known_)) {
+    if (articulated_->leavesOut()) monitor_.fault(sweep_guard_core::kPosesUnswept, kPassed);
     record_.received({known_.back().stamp, received});
     for (ArticulatedTool::Pose& pose : known_) push({pose.stamp, received}, pose.X_WT, std::move(pose.bodies));
   }

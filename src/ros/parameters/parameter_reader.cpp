@@ -222,7 +222,8 @@ std::vector<std::string> ParameterReader::texts(const std::string& key, const st
   return texts;
 }
 
-std::map<std::string, double> ParameterReader::numbers(const std::string& key, const std::string& effect) {
+std::map<std::string, double> ParameterReader::numbers(const std::string& key, const std::string& effect,
+                                                       const std::optional<Range>& range) {
   XmlRpc::XmlRpcValue value;
   const std::string wanted = "a group of numbers, or {}";
   std::map<std::string, double> numbers;
@@ -234,6 +235,7 @@ std::map<std::string, double> ParameterReader::numbers(const std::string& key, c
       read_.insert(entry_key);
       const double number = toNumber(entry);
       if (!std::isfinite(number)) refuse(entry_key, entry, "a finite number");
+      if (range && !within(number, *range)) refuse(entry_key, entry, shown(*range));
       numbers[name] = number;
       entries += (entries.empty() ? "" : ", ") + name + ": " + shown(ParameterValue(number));
     }

@@ -87,8 +87,9 @@ class ParameterReader {
                                      const std::string& effect = "");
   /// Reads a list of texts that are not empty; [] if not set.
   std::vector<std::string> texts(const std::string& key, const std::string& effect = "");
-  /// Reads a group of finite numbers by their names in the group; empty if not set.
-  std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "");
+  /// Reads a group of finite numbers by their names in the group, each within a range if there is one; empty if not set.
+  std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "",
+                                        const std::optional<Range>& range = {});
   /// Searches a text in the private namespace, then in those above it, or under an absolute name; "" if not set.
   /// The error names only the key.
   std::string searchText(const std::string& name);

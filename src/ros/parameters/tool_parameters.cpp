@@ -1,0 +1,144 @@
+#include "ros/parameters/tool_parameters.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "ros/tool/robot_tree.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::Duration;
+
+// The cylinder's parameters are checked for every tool type.
+sweep_guard_core::Tool readCylinder(ParameterReader& read, double padding) {
+  const double radius = read.number("tool/radius", 0.01, {1e-6, 100.0, "m"}, "Radius of the cylinder.");
+  const double length = read.number("tool/length", 0.15, {1e-6, 100.0, "m"}, "Length of the cylinder.");
+  const int sides =
+      read.integer("tool/sides", 32, 3, 1000,
+                   "Sides of the polygonal cylinder that decides how the box is turned. The tool itself is "
+                   "round.");
+  return sweep_guard_core::Tool(sweep_guard_core::ConvexShape::cylinder(radius, length, sides).padded(padding));
+}
+
+ToolModelOptions readModelOptions(ParameterReader& read, const std::string& frame, double padding) {
+  ToolModelOptions options;
+  options.frame = frame;
+  options.padding = padding;
+  options.links = read.texts("tool/links",
+                             "urdf only: links that are the tool. []: the link tool_frame and all that is attached to "
+                             "it.");
+  options.mesh_depth =
+      read.integer("tool/mesh_depth", options.mesh_depth, 0, 16,
+                   "urdf only: a mesh is cut in two up to this many times where that makes the tool "
+                   "tighter; 0: one convex hull for each mesh. More pieces follow hollows more closely and cost time.");
+  options.joints = read.numbers("tool/joints",
+                                "urdf only: position [rad or m] of moving joints within the tool, by name, within the "
+                                "joint's limits. The other joints are as close to 0 as they can be or, with "
+                                "tool/joint_states, where `joint_states` says.");
+  options.mesh_roots = read.texts("tool/mesh_roots",
+                                  "urdf only: absolute folders that file:// meshes may be in, in addition to packages "
+                                  "on ROS_PACKAGE_PATH.");
+  return options;
+}
+
+std::string describe(const ToolModel& model, const std::string& parameter) {
+  std::ostringstream text;
+  text << model.pieces.size() << " convex pieces from " << parameter << " in the frame of '" << model.frame << "'";
+  for (const auto& [joint, position] : model.joints) text << ", joint '" << joint << "' at " << position;
+  return text.str();
+}
+
+// Of a tool whose joints move.
+void checkJoints(const Parameters& parameters) {
+  if (!parameters.robot) throw sweep_guard_core::InvalidInput(parameters.why_no_robot);
+  const sweep_guard_core::KinematicTree& tree = parameters.robot->robot.tree;
+  for (const auto& [joint, timeout] : parameters.joint_timeouts) variableNamed(tree, joint);
+  const auto is_fixed = [&](const auto& variable) { return parameters.fixed_joints.count(variable.name) != 0; };
+  if (std::all_of(tree.variables().begin(), tree.variables().end(), is_fixed)) {
+    throw sweep_guard_core::InvalidInput(
+        "no joint moves the tool's links, or tool/joints names all that do: leave tool/joint_states out");
+  }
+}
+
+void readRobot(ParameterReader& read, const std::string& parameter, const ToolModelOptions& options,
+               Parameters& parameters) {
+  const std::string urdf = read.searchText(parameter);
+  if (urdf.empty()) {
+    throw sweep_guard_core::InvalidInput("tool/type is urdf, but there is no robot description in the parameter '" +
+                                         parameter + "': load one, or name it in tool/robot_description");
+  }
+  try {
+    ToolModel model = loadToolModel(urdf, options);
+    parameters.tool_description = describe(model, parameter);
+    parameters.robot = model.robot;
+    parameters.why_no_robot = model.why_no_robot;
+    parameters.fixed_joints = options.joints;
+    if (parameters.articulated) checkJoints(parameters);
+    parameters.tool = std::make_shared<const sweep_guard_core::Tool>(parameters.articulated ? piecesByBody(*model.robot)
+                                                                                            : std::move(model.pieces));
+  } catch (const sweep_guard_core::InvalidInput& error) {
+    throw sweep_guard_core::InvalidInput("no tool from the parameter '" + parameter + "': " + error.what());
+  }
+}
+
+using Bodies = std::vector<sweep_guard_core::Tool>;
+
+std::map<std::string, Duration> readJointTimeouts(ParameterReader& read) {
+  std::map<std::string, Duration> timeouts;
+  for (const auto& [joint, seconds] : read.numbers(
+           "tool/joint_timeouts",
+           "tool/joint_states only: age [s] from which a joint makes the warning UNKNOWN, by name, 0.01 to 2. The "
+           "others have timing/pose_timeout. The tool is swept up to where all joints are known: a slow joint "
+           "delays contacts, not predictions.",
+           ParameterReader::Range{0.01, 2.0, "s"})) {
+    timeouts[joint] = sweep_guard_core::fromSeconds(seconds);
+  }
+  return timeouts;
+}
+
+}  // namespace
+
+void readTool(ParameterReader& read, const Parameters* before, Parameters& parameters) {
+  const std::string type = read.choice("tool/type", "cylinder", {"cylinder", "urdf"},
+                                       "cylinder: the tool fills z in [-tool/length, 0] of its frame; z points out of "
+                                       "the tip. urdf: the tool is the collision geometry of a robot description.");
+  const double padding = read.number("tool/padding", 0.0, {0.0, 1.0, "m"}, "Grows the tool on all sides.");
+  const sweep_guard_core::Tool cylinder = readCylinder(read, padding);
+  const std::string description = read.name("tool/robot_description", "robot_description",
+                                            "urdf only: name of the parameter that holds the URDF, searched from the "
+                                            "node's namespace upwards.");
+  read.ignore(description);
+  const ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
+  const bool joint_states = read.flag(
+      "tool/joint_states", false,
+      "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
+      "them moves. Implied by tool_source joint_states. ~proximity and ~interaction are silent then.");
+  parameters.joint_timeouts = readJointTimeouts(read);
+  parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
+  parameters.tool_padding = padding;
+  if (before != nullptr && before->tool_padding == padding) {
+    parameters.tool = before->tool;
+    parameters.bodies = before->bodies;
+    parameters.fixed_joints = before->fixed_joints;
+    parameters.tool_description = before->tool_description;
+    parameters.robot = before->robot;
+    parameters.why_no_robot = before->why_no_robot;
+  } else if (type == "urdf") {
+    readRobot(read, description, options, parameters);
+  } else {
+    parameters.tool = std::make_shared<const sweep_guard_core::Tool>(cylinder);
+    parameters.tool_description = "a cylinder";
+    parameters.why_no_robot = "tool/type is cylinder: set it to urdf";
+    if (parameters.articulated) {
+      throw sweep_guard_core::InvalidInput("tool/joint_states, or tool_source joint_states: " +
+                                           parameters.why_no_robot);
+    }
+  }
+  parameters.bodies = parameters.articulated
+                          ? std::shared_ptr<const Bodies>(parameters.robot, &parameters.robot->robot.tools)
+                          : std::make_shared<const Bodies>(Bodies{*parameters.tool});
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "ros/parameters/parameters.h"
+
+namespace sweep_guard_ros {
+
+/// Reads the parameters below `tool/`, and makes the tool from them.
+/// @param before      has the same tool except for its padding; null: at the start
+/// @param parameters  has source and frame of the tool; gets the rest
+/// @throws sweep_guard_core::InvalidInput as loadParameters()
+void readTool(ParameterReader& read, const Parameters* before, Parameters& parameters);
+
+}  // namespace sweep_guard_ros
