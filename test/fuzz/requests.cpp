@@ -9,6 +9,7 @@
 #include "require.h"
 #include "ros/input/frames.h"
 #include "ros/service/check_sweep.h"
+#include "ros/service/check_trajectory.h"
 #include "ros/service/controls.h"
 #include "ros/service/intend.h"
 #include "ros/service/predict.h"
@@ -28,6 +29,17 @@ constexpr double kHalfWidth = 0.5;  // of the workpiece, a square in the plane z
 constexpr double kLength = 0.15;    // of the tool, from its tip at the origin against z [m]
 constexpr std::uint32_t kTriangles = 2;
 const std::string kId = "liver";
+constexpr double kUpperArm = 0.3;  // [m] along x at position 0, as the forearm; both turn about y
+constexpr double kForearm = 0.2;   // [m]
+const std::string kArm = R"(<robot name="arm">
+  <link name="base"/>
+  <link name="upper"><collision><origin xyz="0.15 0 0"/><geometry><box size="0.3 0.02 0.02"/></geometry></collision></link>
+  <link name="fore"><collision><origin xyz="0.1 0 0"/><geometry><box size="0.2 0.02 0.02"/></geometry></collision></link>
+  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 1 0"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="0.3 0 0"/><axis xyz="0 1 0"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+</robot>)";
 
 // Runs a call where roscpp would.
 class Call : public ros::CallbackInterface {
@@ -50,7 +62,9 @@ class World {
  public:
   World()
       : node_("/guard"),
+        robot_node_("/robot"),
         live_(parameters(node_)),
+        robot_live_(parameters(robot_node_)),
         monitor_(live_.initial().limits),
         store_([this](const sweep_guard_core::Workpieces& newest) {
           monitor_.setWorkpieces(newest);
@@ -59,7 +73,9 @@ class World {
         frames_(node_, 1 << 16, [](const auto&, const auto&) {}),
         guard_(*live_.initial().tool, sweep_guard_core::makeDetector("halfspace"), live_.initial().guard),
         path_tests_({live_, frames_, store_, monitor_, makeDetector}),
+        robot_tests_({robot_live_, frames_, store_, monitor_, makeDetector}),
         check_sweep_(node_, path_tests_),
+        check_trajectory_(robot_node_, robot_tests_),
         predict_(node_, live_, store_, [this](sweep_guard_core::Duration end) { return motion(end); }),
         intend_(node_, {live_, frames_, store_, intentions_}),
         controls_(node_, live_, monitor_, store_, {[] {}, [this](const std::string& id) { return acknowledge(id); }}) {
@@ -79,7 +95,9 @@ class World {
       guard_.sweep(pose, store_.snapshot(), report);
     }
     path_tests_.start(supervisor_);
+    robot_tests_.start(supervisor_);
     check_sweep_.start(supervisor_);
+    check_trajectory_.start(supervisor_);
     predict_.start(supervisor_);
     intend_.start(supervisor_);
     controls_.start(supervisor_);
@@ -88,8 +106,9 @@ class World {
   void call(Input& input) {
     switch (input.below(6)) {
       case 0:
-      case 1:
         return judge(ask<sweep_guard::CheckSweep>("/guard/check_sweep", input.rest()));
+      case 1:
+        return judge(ask<sweep_guard::CheckTrajectory>("/robot/check_trajectory", input.rest()));
       case 2:
         return judge(ask<sweep_guard::Predict>("/guard/predict", input.rest()));
       case 3:
@@ -116,7 +135,12 @@ class World {
   static sweep_guard_ros::Parameters parameters(const ros::NodeHandle& node) {
     serverParameters() = {{"/guard/detector", std::string("halfspace")},
                           {"/guard/check_sweep/deadline", 0.2},
-                          {"/guard/tool/length", kLength}};
+                          {"/guard/tool/length", kLength},
+                          {"/robot_description", kArm},
+                          {"/robot/detector", std::string("halfspace")},
+                          {"/robot/check_sweep/deadline", 0.2},
+                          {"/robot/tool_frame", std::string("base")},
+                          {"/robot/tool/type", std::string("urdf")}};
     return sweep_guard_ros::loadParameters(node);
   }
 
@@ -175,16 +199,24 @@ class World {
     return request;
   }
 
-  static void judge(const Exchange<sweep_guard::CheckSweep>& exchange) {
+  // What holds for every path. Returns whether it was tested.
+  template <typename Service>
+  static bool isTested(const Exchange<Service>& exchange) {
     const auto& [request, response] = exchange;
     require(request || !response.success, "what cannot be read is refused");
     require(response.success || (!response.clear && !response.message.empty()), "a refusal says why, and is not clear");
     require(!response.clear || !response.collision, "a collision is not clear");
-    if (!response.success) return;
+    if (!response.success) return false;
     require(response.collision || response.objects.empty() || request->fine,
             "without narrow phase what is named is met");
     require(std::isnan(response.time_of_impact) || (response.time_of_impact >= 0.0 && response.time_of_impact <= 1.0),
             "an impact is in its sweep");
+    return true;
+  }
+
+  static void judge(const Exchange<sweep_guard::CheckSweep>& exchange) {
+    if (!isTested(exchange)) return;
+    const auto& [request, response] = exchange;
     require(response.segment < request->path.size(), "a collision is on the path");
     require(response.collision || !crosses(request->path), "no crossing is missed");
   }
@@ -201,6 +233,50 @@ class World {
       before = tip;
     }
     return false;
+  }
+
+  static void judge(const Exchange<sweep_guard::CheckTrajectory>& exchange) {
+    if (!isTested(exchange)) return;
+    const auto& [request, response] = exchange;
+    require(response.segment < request->trajectory.points.size(), "a collision is on the way");
+    require(response.deviation >= 0.0 && response.deviation <= 5e-4,
+            "joints bend the way by half a millimeter at most");
+    require(response.collision || !crosses(*request), "no crossing is missed");
+  }
+
+  // Whether the line through the arm pierces the square at one of 17 moments of a segment. With the base in the fixed frame.
+  static bool crosses(const sweep_guard::CheckTrajectory::Request& request) {
+    if (request.tool_pose.header.frame_id != "world") return false;
+    const Eigen::Isometry3d X_WT = sweep_guard_ros::fromMsg(request.tool_pose.pose);
+    const auto& points = request.trajectory.points;
+    for (size_t i = 0; i < points.size(); ++i) {
+      const Arm from = armAt(request.trajectory, i), to = armAt(request.trajectory, std::min(i + 1, points.size() - 1));
+      for (int step = 0; step <= 16; ++step) {
+        const double t = step / 16.0;
+        const Arm arm{from.shoulder + t * (to.shoulder - from.shoulder), from.elbow + t * (to.elbow - from.elbow)};
+        if (pierces(X_WT, arm)) return true;
+      }
+    }
+    return false;
+  }
+
+  struct Arm {
+    double shoulder, elbow;  // [rad]
+  };
+
+  static Arm armAt(const trajectory_msgs::JointTrajectory& trajectory, size_t point) {
+    Arm arm{0.0, 0.0};
+    for (size_t i = 0; i < trajectory.joint_names.size(); ++i) {
+      (trajectory.joint_names[i] == "elbow" ? arm.elbow : arm.shoulder) = trajectory.points[point].positions[i];
+    }
+    return arm;
+  }
+
+  static bool pierces(const Eigen::Isometry3d& X_WT, const Arm& arm) {
+    const auto along = [](double angle) { return Eigen::Vector3d(std::cos(angle), 0.0, -std::sin(angle)); };
+    const Eigen::Vector3d elbow = kUpperArm * along(arm.shoulder);
+    const Eigen::Vector3d wrist = elbow + kForearm * along(arm.shoulder + arm.elbow);
+    return pierces(X_WT.translation(), X_WT * elbow) || pierces(X_WT * elbow, X_WT * wrist);
   }
 
   static bool pierces(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
@@ -257,15 +333,19 @@ class World {
   }
 
   const ros::NodeHandle node_;
+  const ros::NodeHandle robot_node_;
   sweep_guard_ros::Supervisor supervisor_{sweep_guard_ros::Process::kShared};
   const sweep_guard_ros::LiveParameters live_;
+  const sweep_guard_ros::LiveParameters robot_live_;
   sweep_guard_core::WarningMonitor monitor_;
   sweep_guard_core::IntentionStore intentions_;
   sweep_guard_core::WorkpieceStore store_;
   sweep_guard_ros::Frames frames_;
   sweep_guard_core::Guard guard_;
   sweep_guard_ros::PathTests path_tests_;
+  sweep_guard_ros::PathTests robot_tests_;
   sweep_guard_ros::CheckSweepService check_sweep_;
+  sweep_guard_ros::CheckTrajectoryService check_trajectory_;
   sweep_guard_ros::PredictService predict_;
   sweep_guard_ros::IntendService intend_;
   sweep_guard_ros::Controls controls_;

@@ -40,7 +40,7 @@ class GuardedWorld:
             self.clock.set(10**12)
         self.running = {}
         self.frozen = {}
-        self.ports = {name: free_port() for name in ('poses', 'mesh', 'tf')}
+        self.ports = {name: free_port() for name in self.peers()}
         self.links = {name: link.Link(note, port) for name, port in self.ports.items()}
         self.lock = threading.Lock()
 
@@ -76,8 +76,7 @@ class GuardedWorld:
 
     def start_peer(self, name):
         command = [sys.executable, os.path.join(HERE, 'peers.py'), name, '--clock', self.clock_file]
-        if name in self.links:
-            command += ['--port', str(self.ports[name]), '--proxy', str(self.links[name].port)]
+        command += ['--port', str(self.ports[name]), '--proxy', str(self.links[name].port)]
         self.start(name, command)
 
     def guard(self):

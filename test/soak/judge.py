@@ -84,6 +84,7 @@ class Judge:
         self.spoken = collections.deque()
         self.excuses, self.disabled, self.intended = [], [], []
         self.clock_steps = []  # not before and not after when [s]
+        self.clocks = collections.deque()  # of each /clock: departure [s], what it says [ns]; none: stamps are of the wall clock
         self.pose_timeouts = [(0.0, 0.1)]  # from when on [s] which [s]
         self.findings = []
         self.counts = collections.Counter()
@@ -108,6 +109,9 @@ class Judge:
         """ahead: departed more than TRANSFORM_LEAD before its stamp"""
         self.transforms.append(Transform(at, stamp, ahead))
 
+    def clock(self, at, stamp):
+        self.clocks.append((at, stamp))
+
     def clock_step(self, begin, end):
         """The clock of the stamps has stepped between these times: what was sent before does not count any more."""
         self.clock_steps.append((begin, end))
@@ -123,13 +127,23 @@ class Judge:
         """spoken.at: receipt; stamp_clock: [ns] at receipt; own_delay: how late [s] the receipt may have been noted"""
         self.spoken.append(spoken)
         self.counts['warnings'] += 1
-        if spoken.published > stamp_clock + 1e9 * ROUNDING and not self._just_stepped(spoken.at, own_delay):
+        latest = stamp_clock if spoken.clear else self._latest_heard(spoken.at - 0.5 - own_delay, stamp_clock)
+        if spoken.published > latest + 1e9 * ROUNDING and not self._just_stepped(spoken.at, own_delay):
             self._find('false CLEAR' if spoken.clear else 'wrong time', spoken, 'is valid for longer than 0.2 s')
         if spoken.clear != (spoken.level == CLEAR):
             self._find('false CLEAR', spoken, 'clear contradicts the level')
         if spoken.level == CLEAR or spoken.clear:
             self.counts['CLEAR judged'] += 1
             self._judge_clear(spoken, stamp_clock, own_delay)
+
+    def _latest_heard(self, since, stamp_clock):
+        """The latest that the guard's clock may say [ns]: what it was sent last, which may be long ago."""
+        latest = stamp_clock
+        for at, stamp in reversed(self.clocks):
+            latest = max(latest, stamp)
+            if at < since:
+                break
+        return latest
 
     def _just_stepped(self, at, own_delay):
         """The guard's clock comes by a connection of its own, and what it says may wait for the judge."""
@@ -290,3 +304,5 @@ class Judge:
                 gone = kept.popleft()
                 if kept is self.poses:
                     self.by_stamp.pop(gone.stamp, None)
+        while len(self.clocks) > 1 and self.clocks[1][0] < before:
+            self.clocks.popleft()

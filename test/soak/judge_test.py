@@ -143,6 +143,22 @@ class JudgeTest(unittest.TestCase):
         says = lambda t: spoken(t, published=t + 0.05) if 1.0 <= t - BEGIN < 1.1 else spoken(t)
         self.assertEqual(Soak().kinds(says), {'false CLEAR'})
 
+    def test_takes_no_unknown_for_one_of_the_wrong_time_while_the_guard_hears_no_clock(self):
+        def kinds(level, heard_after):
+            soak = Soak()
+            soak.run(until=2.0)
+            soak.judge.clock(BEGIN + 1.0, nanoseconds(BEGIN + 1.0))
+            soak.judge.clock_step(BEGIN + 1.001, BEGIN + 1.002)
+            if heard_after is not None:
+                soak.judge.clock(BEGIN + heard_after, nanoseconds(BEGIN - 3.0))
+            said = spoken(BEGIN + 2.0, level, BEGIN + 0.9, BEGIN + 1.0)
+            soak.judge.warning(said, nanoseconds(BEGIN - 2.0))
+            return {finding.kind for finding in soak.judge.findings}
+        self.assertEqual(kinds(judge.UNKNOWN, None), set())
+        self.assertEqual(kinds(judge.UNKNOWN, 1.6), set())
+        self.assertEqual(kinds(judge.UNKNOWN, 1.3), {'wrong time'})
+        self.assertIn('false CLEAR', kinds(judge.CLEAR, None))
+
     def test_finds_clear_while_the_clock_stands_still_and_nothing_is_sent(self):
         silent = lambda kind, t: t >= 1.0
         soak = Soak(silent)

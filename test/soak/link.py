@@ -92,7 +92,7 @@ class Connection:
             self.publisher.sendall(LENGTH.pack(len(request)) + request)
             answer = read_frame(self.publisher)
             self.subscriber.sendall(LENGTH.pack(len(answer)) + answer)
-            threading.Thread(target=self._send, args=(field(request, 'topic'),), daemon=True).start()
+            threading.Thread(target=self._send, args=(field(request, 'topic'), field(request, 'callerid')), daemon=True).start()
             for frames in read_frames(self.publisher):
                 self._take(frames)
         except (OSError, ConnectionError, struct.error):
@@ -125,15 +125,15 @@ class Connection:
                 self.changed.wait(min(due - now, 0.1))
         return []
 
-    def _send(self, topic):
+    def _send(self, topic, subscriber):
         try:
             while frames := self._due():
                 for frame in frames:
-                    self._pass_on(topic, frame)
+                    self._pass_on(topic, subscriber, frame)
         except OSError:
             self.close()
 
-    def _pass_on(self, topic, frame):
+    def _pass_on(self, topic, subscriber, frame):
         length = len(frame)
         corrupt = self.link.corruption
         if self.garbled and corrupt is None:
@@ -141,7 +141,7 @@ class Connection:
         if corrupt is not None:
             length, self.garbled = corrupt(frame, self.garbled)
         if not self.garbled:
-            self.link.note(topic, time.monotonic(), frame, corrupt is not None)
+            self.link.note(topic, subscriber, time.monotonic(), frame, corrupt is not None)
         if len(frame) < 1024:
             self.subscriber.sendall(LENGTH.pack(length) + frame)
         else:
@@ -151,7 +151,7 @@ class Connection:
 
 class Link:
     def __init__(self, note, publisher_port):
-        """note: called with topic, time of departure [s], frame and whether it is corrupted, just before it departs"""
+        """note: called with topic, subscriber, time of departure [s], frame and whether it is corrupted, just before it departs"""
         self.note = note
         self.publisher_port = publisher_port
         self.delay = 0.0  # [s] of every frame

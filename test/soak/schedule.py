@@ -35,6 +35,7 @@ KINDS = {
     'intend': (1, ('guard',), 2.0, 5.0),
     'parameter': (4, ('caller',), 0.0, 0.0),
 }
+ENDS_OF_THE_GUARD = {'kill guard', 'end guard'}
 SIMULATED = {
     'step clock': (6, ('clock',), 0.0, 0.0),
     'freeze': (4, PUBLISHERS + ('roscore', 'clock'), 0.05, 3.0),
@@ -52,11 +53,11 @@ def detail_of(what, choose):
     return None
 
 
-def make(seed, seconds, period=60.0, gap=2.5, simulated=False):
-    """Events within so many seconds, in their order. gap: mean time [s] from one to the next"""
+def make(seed, seconds, period=60.0, gap=2.5, simulated=False, one_guard=False):
+    """Events within so many seconds, in their order. gap: mean time [s] from one to the next. one_guard: it is never ended"""
     choose = random.Random(f'{seed} {simulated}')
     kinds = dict(KINDS, **SIMULATED) if simulated else KINDS
-    names = sorted(kinds)
+    names = sorted(kinds.keys() - ENDS_OF_THE_GUARD if one_guard else kinds)
     busy = collections.Counter()
     events, at = [], choose.expovariate(1.0 / gap)
     while at < seconds:

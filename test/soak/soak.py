@@ -32,6 +32,7 @@ from availability import Availability  # noqa: E402
 from guarded_world import GuardedWorld, corruption  # noqa: E402
 from listener import Listener  # noqa: E402
 
+GUARD = '/sweep_guard'
 MAX_UNKNOWN = 15.0  # [s] UNKNOWN or silent, though all has been well for so long
 GAPS = {'tool_pose': 0.05, 'mesh_vertices': 0.2, 'tf': 0.09}  # [s] between inputs: a longer one is a disturbance
 POSE_HEADER = struct.Struct('<4xIII')  # geometry_msgs/PoseStamped: stamp, length of frame_id
@@ -68,7 +69,9 @@ class Part:
 
     # What departs: called by the links just before it does.
 
-    def note(self, topic, at, frame, corrupted):
+    def note(self, topic, subscriber, at, frame, corrupted):
+        if subscriber != GUARD:
+            return
         topic = topic.strip('/')
         try:
             self._note(topic, at, bytes(frame), corrupted)
@@ -95,6 +98,9 @@ class Part:
             ahead = stamps[0] - self.world.clock.now() > 1e9 * judge.TRANSFORM_LEAD
             with self.lock:
                 self.judge.transform(at, stamps[0], ahead)
+        elif topic == 'clock':
+            with self.lock:
+                self.judge.clock(at, 10**9 * int.from_bytes(data[:4], 'little') + int.from_bytes(data[4:8], 'little'))
 
     def _note_pose(self, at, data, corrupted):
         seconds, nanoseconds, size = POSE_HEADER.unpack_from(data)
@@ -196,13 +202,13 @@ class Part:
         os.environ['ROS_MASTER_URI'] = self.world.master
         try:
             self.world.start_all()
-            listeners = [Listener(self.world.master, '/sweep_guard', '/sweep_guard/warning', Warning, self.take_warning),
-                         Listener(self.world.master, '/sweep_guard', '/sweep_guard/contacts', Contacts, self.take_contacts)]
+            listeners = [Listener(self.world.master, GUARD, GUARD + '/warning', Warning, self.take_warning),
+                         Listener(self.world.master, GUARD, GUARD + '/contacts', Contacts, self.take_contacts)]
             for work in (self.watch_itself, self.judge_now_and_then, self.sample):
                 threading.Thread(target=work, daemon=True).start()
             self.wait_until_clear()
             self.play(schedule.make(self.options.seed, self.seconds, self.options.period, self.options.gap,
-                                    self.world.simulated))
+                                    self.world.simulated, self.options.one_guard))
             for one in listeners:
                 one.end()
         finally:
@@ -512,6 +518,7 @@ def main():
     parser.add_argument('--gap', type=float, default=2.5, help='mean time [s] from one event to the next')
     parser.add_argument('--period', type=float, default=60.0, help='the last 30 %% of each are quiet [s]')
     parser.add_argument('--warm-up', type=float, default=120.0, help='of each guard, before its memory counts [s]')
+    parser.add_argument('--one-guard', action='store_true', help='the guard is never ended')
     parser.add_argument('--clock', choices=['both', 'wall', 'simulated'], default='both')
     parser.add_argument('--folder', required=True, help='for the logs')
     options = parser.parse_args()
