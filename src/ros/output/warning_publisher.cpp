@@ -2,11 +2,9 @@
 
 #include <std_msgs/Bool.h>
 
-#include <cstdio>
-#include <random>
-
 #include "common/stage_clock.h"
 #include "ros/output/flush.h"
+#include "ros/output/run_id.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -18,13 +16,6 @@ using sweep_guard_core::Stage;
 constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, polled every 10 ms
 constexpr auto kValid = std::chrono::milliseconds(200);
 constexpr auto kFlushTime = std::chrono::milliseconds(200);
-
-std::string randomId() {
-  std::random_device random;
-  char id[17];
-  std::snprintf(id, sizeof id, "%08x%08x", random(), random());
-  return id;
-}
 
 std_msgs::Bool flagMessage(bool raised) {
   std_msgs::Bool msg;
@@ -41,7 +32,7 @@ WarningPublisher::WarningPublisher(ros::NodeHandle private_node, const LiveParam
       warning_publisher_(private_node.advertise<sweep_guard::Warning>("warning", 10)),
       reflex_publisher_(private_node.advertise<std_msgs::Bool>("reflex_warning", 10)),
       considered_publisher_(private_node.advertise<std_msgs::Bool>("considered_warning", 10)) {
-  message_.run_id = randomId();
+  message_.run_id = randomRunId();
 }
 
 void WarningPublisher::publishIfChanged() {

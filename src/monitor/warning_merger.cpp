@@ -1,0 +1,98 @@
+#include "monitor/warning_merger.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdio>
+#include <tuple>
+#include <utility>
+
+#include "sweep_guard/monitor/reason.h"
+
+namespace sweep_guard_core {
+namespace {
+
+std::string inSeconds(Duration duration) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2f s", toSeconds(duration));
+  return text.data();
+}
+
+int rank(WarningLevel level) {
+  if (level == WarningLevel::kClear) return 0;
+  return level == WarningLevel::kUnknown ? 1 : static_cast<int>(level);
+}
+
+template <typename Value>
+std::optional<Value> earlier(const std::optional<Value>& a, const std::optional<Value>& b) {
+  return a && b ? std::min(*a, *b) : a ? a : b;
+}
+
+}  // namespace
+
+WarningMerger::WarningMerger(std::vector<std::string> guards) : guards_(std::move(guards)), newest_(guards_.size()) {
+  assert(!guards_.empty());
+}
+
+void WarningMerger::hear(size_t guard, HeardWarning warning) { newest_[guard] = std::move(warning); }
+
+std::string WarningMerger::silence(size_t guard, const Instant& now) const {
+  const auto& newest = newest_[guard];
+  if (!newest) return "no warning yet";
+  const Duration since = now.steady - newest->received;
+  if (since > kSilence) return "silent for " + inSeconds(since);
+  const Duration left = newest->valid_until - now.stamp;
+  if (left < Duration::zero()) return "warning is over since " + inSeconds(-left) + ": it came late, or clocks differ";
+  if (left > kValid + kMaxLead) return "warning is " + inSeconds(left - kValid) + " ahead: clocks differ";
+  return {};
+}
+
+MergedWarning WarningMerger::merged(const Instant& now) const {
+  MergedWarning all;
+  all.level = WarningLevel::kClear;
+  all.covered_until = Time::max();
+  all.valid_until = now.stamp + kValid;
+  std::string text;
+  bool any_silent = false;
+  for (size_t guard = 0; guard < guards_.size(); ++guard) {
+    const std::string silent = silence(guard, now);
+    if (silent.empty()) addTo(all, guard);
+    any_silent = any_silent || !silent.empty();
+    const bool clear = silent.empty() && newest_[guard]->level == WarningLevel::kClear;
+    if (!clear)
+      text += (text.empty() ? ": " : "; ") + guards_[guard] + ": " + (silent.empty() ? newest_[guard]->text : silent);
+  }
+  if (any_silent) {
+    all.reasons |= kNotCovered;
+    all.covered_until = Time();
+    if (all.level == WarningLevel::kClear) {
+      all.level = WarningLevel::kUnknown;
+      all.leader.reset();
+    }
+  }
+  all.acknowledged = all.leader && newest_[*all.leader]->acknowledged;
+  all.text = styleOf(all.level).name + text;
+  return all;
+}
+
+void WarningMerger::addTo(MergedWarning& all, size_t guard) const {
+  const HeardWarning& warning = *newest_[guard];
+  all.reasons |= warning.reasons;
+  all.time_to_collision = earlier(all.time_to_collision, warning.time_to_collision);
+  all.covered_until = std::min(all.covered_until, warning.covered_until);
+  all.valid_until = std::min(all.valid_until, warning.valid_until);
+  all.intended = all.intended || warning.intended;
+  if (all.leader && !leads(guard, *all.leader)) return;
+  all.leader = guard;
+  all.level = warning.level;
+}
+
+bool WarningMerger::leads(size_t guard, size_t other) const {
+  const auto order = [](const HeardWarning& warning) {
+    return std::tuple(-rank(warning.level), warning.held, warning.acknowledged,
+                      warning.time_to_collision.value_or(Duration::max()), warning.stamp);
+  };
+  return order(*newest_[guard]) < order(*newest_[other]);
+}
+
+}  // namespace sweep_guard_core

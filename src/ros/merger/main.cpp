@@ -1,0 +1,13 @@
+#include "ros/merger/warning_merger_node.h"
+#include "ros/parameters/parameters.h"
+#include "ros/run_node.h"
+
+int main(int argc, char** argv) {
+  return sweep_guard_ros::runNode("warning_merger", argc, argv, [&] {
+    sweep_guard_ros::checkConfigured(ros::NodeHandle("~"), {argv + 1, argv + argc});
+    auto node = std::make_shared<sweep_guard_ros::WarningMergerNode>(ros::NodeHandle(), ros::NodeHandle("~"),
+                                                                     sweep_guard_ros::Process::kOwn);
+    node->start();
+    return node;
+  });
+}

@@ -1,0 +1,217 @@
+#include "ros/merger/warning_merger_node.h"
+
+#include <ros/names.h>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "ros/output/flush.h"
+#include "ros/output/run_id.h"
+#include "ros/sole_publisher.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
+#include "sweep_guard/monitor/reason.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using sweep_guard_core::HeardWarning;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::MergedWarning;
+using sweep_guard_core::WarningLevel;
+using sweep_guard_core::WarningMerger;
+
+constexpr auto kTickPeriod = std::chrono::milliseconds(10);
+constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, looked at in every tick
+constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
+constexpr size_t kMaxMessageSize = 64 << 20;
+constexpr size_t kMaxGuards = 64;
+
+// As a node resolves them; a nodelet has not the namespace of its process.
+std::vector<std::string> readGuards(ParameterReader& read, const ros::NodeHandle& private_node) {
+  const std::string scope = ros::names::parentNamespace(private_node.getNamespace());
+  std::vector<std::string> guards;
+  for (const std::string& name : read.texts("guards")) {
+    std::string error;
+    if (!ros::names::validate(name, error)) throw InvalidInput("parameter guards has no name of a node: " + error);
+    guards.push_back(ros::names::resolve(scope, name));
+    if (std::count(guards.begin(), guards.end(), guards.back()) > 1) {
+      throw InvalidInput("parameter guards has " + guards.back() + " twice: name each guard once");
+    }
+    if (guards.back() == private_node.getNamespace()) {
+      throw InvalidInput("parameter guards has " + guards.back() + ", which is this node: name the guards alone");
+    }
+  }
+  if (guards.empty() || guards.size() > kMaxGuards) {
+    throw InvalidInput("parameter guards has " + std::to_string(guards.size()) +
+                       " names: set it to the nodes of 1 to 64 guards, as in [/left/sweep_guard, /right/sweep_guard]");
+  }
+  return guards;
+}
+
+HeardWarning heardFrom(const sweep_guard::Warning& message) {
+  if (message.level > sweep_guard::Warning::CONTACT) {
+    throw InvalidInput("level " + std::to_string(message.level) + " is unknown: guard and merger differ in version");
+  }
+  HeardWarning warning;
+  warning.level = static_cast<WarningLevel>(message.level);
+  warning.reasons = message.reasons;
+  warning.stamp = fromMsg(message.header.stamp);
+  if (message.time_to_collision >= ros::Duration(0)) {
+    warning.time_to_collision = std::chrono::nanoseconds(message.time_to_collision.toNSec());
+  }
+  warning.covered_until = fromMsg(message.covered_until);
+  warning.valid_until = fromMsg(message.valid_until);
+  warning.held = message.held != 0;
+  warning.acknowledged = message.acknowledged != 0;
+  warning.intended = message.intended != 0;
+  warning.text = sweep_guard_core::printable(message.text);
+  warning.received = now().steady;
+  return warning;
+}
+
+void setLevel(sweep_guard::Warning& message, WarningLevel level, std::uint32_t reasons) {
+  message.level = static_cast<std::uint8_t>(level);
+  message.reasons = reasons;
+  message.clear = level == WarningLevel::kClear;
+  message.contact = level == WarningLevel::kContact;
+  message.considered = !message.clear;
+  message.reflex = message.contact || level == WarningLevel::kReflex || (reasons & ~sweep_guard_core::kDegraded) != 0;
+}
+
+bool differ(const sweep_guard::Warning& a, const sweep_guard::Warning& b) {
+  const auto state = [](const sweep_guard::Warning& warning) {
+    return std::tie(warning.level, warning.reasons, warning.held, warning.acknowledged, warning.intended);
+  };
+  return state(a) != state(b);
+}
+
+}  // namespace
+
+WarningMergerNode::WarningMergerNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process)
+    : WarningMergerNode(node, private_node, process, ParameterReader(private_node)) {}
+
+WarningMergerNode::WarningMergerNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process,
+                                     ParameterReader read)
+    : master_watch_(private_node, [this] { return settings_; }),
+      supervisor_(process),
+      merger_(readGuards(read, private_node)),
+      newest_(merger_.guards().size()),
+      updater_(node, private_node, private_node.getNamespace()) {
+  read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
+  read.warnOfUnread();
+  settings_ = read.settings();
+  published_.run_id = randomRunId();
+  publisher_ = ros::NodeHandle(private_node).advertise<sweep_guard::Warning>("warning", 10);
+  updater_.setHardwareID("none");
+  for (size_t guard = 0; guard < newest_.size(); ++guard) {
+    subscribers_.push_back(subscribe(node, guard));
+    updater_.add(merger_.guards()[guard], [this, guard](Status& status) { report(status, guard); });
+  }
+  ticks_.every(kTickPeriod, [this] { publish(); });
+  reports_.every(kReportPeriod, [this] { updater_.force_update(); });
+}
+
+WarningMergerNode::~WarningMergerNode() {
+  ticks_.stop();
+  reports_.stop();
+  master_watch_.stop();  // its thread uses the supervisor, which is declared after it
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  publish();
+  flush(kTimeToFlush);
+}
+
+void WarningMergerNode::start() {
+  thread_.start(supervisor_, {"guards", sweep_guard_core::Stage::kReceive, /*watched=*/true, /*loses_latched=*/false});
+  ticks_.start(supervisor_, {"ticks"});
+  reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
+  master_watch_.start(supervisor_);
+  supervisor_.start();
+}
+
+BoundedSubscriber WarningMergerNode::subscribe(const ros::NodeHandle& node, size_t guard) {
+  const std::string topic = merger_.guards()[guard] + "/warning";
+  const auto refuse = [this, topic](const std::string& reason) {
+    log_.error(topic, "message on " + topic + " refused: " + reason);
+  };
+  using Event = ros::MessageEvent<const sweep_guard::Warning>;
+  return subscribeBounded<sweep_guard::Warning>(
+      thread_.on(node), {topic, 10, kMaxMessageSize},
+      [this, guard, refuse, sole = SolePublisher(WarningMerger::kSilence)](const Event& event) mutable {
+        try {
+          if (!sole.alone(event.getPublisherName(), now().steady)) throw InvalidInput("several nodes publish it");
+          hear(guard, *event.getConstMessage());
+        } catch (const InvalidInput& error) {
+          refuse(error.what());
+        }
+      },
+      refuse);
+}
+
+void WarningMergerNode::hear(size_t guard, const sweep_guard::Warning& message) {
+  HeardWarning warning = heardFrom(message);
+  {
+    const std::lock_guard lock(mutex_);
+    merger_.hear(guard, std::move(warning));
+    newest_[guard] = message;
+  }
+  publish();
+}
+
+void WarningMergerNode::publish() {
+  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Instant at = now();
+  sweep_guard::Warning next = merged(at);
+  if (!differ(next, published_) && at.steady - published_at_ < kPeriod) return;
+  next.sequence = published_.sequence;
+  next.level_counts = published_.level_counts;
+  next.run_id = published_.run_id;
+  if (next.level != published_.level) {
+    ++next.sequence;
+    ++next.level_counts[next.level];
+  }
+  published_ = next;
+  published_at_ = at.steady;
+  publisher_.publish(next);
+}
+
+// Called under the lock.
+sweep_guard::Warning WarningMergerNode::merged(const sweep_guard_core::Instant& now) const {
+  const MergedWarning all = merger_.merged(now);
+  sweep_guard::Warning message = all.leader && !ending_ ? newest_[*all.leader] : sweep_guard::Warning();
+  message.valid_until = toMsg(all.valid_until);
+  if (ending_) {
+    setLevel(message, WarningLevel::kUnknown, sweep_guard_core::kDisabled);
+    message.time_to_collision = ros::Duration(-1.0);
+    message.text = "UNKNOWN: the merger ends";
+    return message;
+  }
+  setLevel(message, all.level, all.reasons);
+  message.time_to_collision = all.time_to_collision ? toMsg(*all.time_to_collision) : ros::Duration(-1.0);
+  message.covered_until = toMsg(all.covered_until);
+  message.acknowledged = all.acknowledged;
+  message.intended = all.intended;
+  message.text = all.text;
+  return message;
+}
+
+void WarningMergerNode::report(Status& status, size_t guard) {
+  const std::lock_guard lock(mutex_);
+  const std::string silence = merger_.silence(guard, now());
+  const auto level = static_cast<WarningLevel>(newest_[guard].level);
+  status.summary(silence.empty() ? DiagnosticStatus::OK : DiagnosticStatus::ERROR,
+                 silence.empty() ? styleOf(level).name : silence);
+  status.add("topic", subscribers_[guard].getTopic());
+  status.add("publishers", subscribers_[guard].getNumPublishers());
+  status.add("text", sweep_guard_core::printable(newest_[guard].text));
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <sweep_guard/Warning.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "monitor/warning_merger.h"
+#include "ros/bounded.h"
+#include "ros/log_throttle.h"
+#include "ros/master_watch.h"
+#include "ros/threads/queue_thread.h"
+#include "ros/threads/timer_thread.h"
+#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
+
+namespace sweep_guard_ros {
+
+/// Publishes one `~warning` for several guards, as WarningMerger merges theirs: at once when it changes, and at 20 Hz at least.
+/// A ROS node or a nodelet. A guard whose topic several nodes publish on counts as silent.
+class WarningMergerNode {
+ public:
+  /// @throws sweep_guard_core::InvalidInput if a parameter is refused
+  WarningMergerNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process);
+  ~WarningMergerNode();  ///< publishes a last UNKNOWN
+  WarningMergerNode(const WarningMergerNode&) = delete;
+  WarningMergerNode& operator=(const WarningMergerNode&) = delete;
+
+  void start();  ///< begins to listen; once
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  WarningMergerNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process,
+                    ParameterReader read);
+
+  BoundedSubscriber subscribe(const ros::NodeHandle& node, size_t guard);
+  void hear(size_t guard, const sweep_guard::Warning& message);
+  void publish();
+  sweep_guard::Warning merged(const sweep_guard_core::Instant& now) const;
+  void report(Status& status, size_t guard);
+
+  // Members use only earlier members.
+  MasterWatch master_watch_;  // before what registers at the master
+  Supervisor supervisor_;     // before all threads
+  ParameterReader::Settings settings_;
+  LogThrottle log_;
+  mutable sweep_guard_core::PriorityMutex mutex_;  // of the next five
+  sweep_guard_core::WarningMerger merger_;
+  std::vector<sweep_guard::Warning> newest_;     // by guard
+  sweep_guard::Warning published_;               // newest
+  sweep_guard_core::SteadyTime published_at_{};  // its time
+  bool ending_ = false;
+  ros::Publisher publisher_;
+  diagnostic_updater::Updater updater_;
+  QueueThread thread_;
+  std::vector<BoundedSubscriber> subscribers_;  // by guard
+  TimerThread ticks_;
+  TimerThread reports_;
+};
+
+}  // namespace sweep_guard_ros
