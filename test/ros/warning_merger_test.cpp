@@ -1,0 +1,113 @@
+// Three guards and their merger, as a node and as a nodelet, on the wall clock: silence has a limit.
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <signal.h>
+
+#include <array>
+
+#include "child_process.h"
+#include "fake_guard.h"
+#include "guard_process.h"
+#include "listener.h"
+#include "refusal.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard::Warning;
+using SteadyClock = std::chrono::steady_clock;
+
+class WarningMergerNodeTest : public testing::TestWithParam<const char*> {
+ protected:
+  WarningMergerNodeTest() { spinner_.start(); }
+  ~WarningMergerNodeTest() override { spinner_.stop(); }
+
+  Warning await(std::uint8_t level) const {
+    return merged_.await("level " + std::to_string(level),
+                         [level](const Warning& warning) { return warning.level == level; });
+  }
+
+  ros::AsyncSpinner spinner_{1};
+  Listener<Warning> merged_{GetParam()};
+  std::array<FakeGuard, 3> guards_{FakeGuard("/a"), FakeGuard("/b"), FakeGuard("/c")};
+};
+
+TEST_P(WarningMergerNodeTest, IsClearOnlyWhileEachGuardIs) {
+  await(Warning::CLEAR);
+  for (const std::uint8_t level : {Warning::UNKNOWN, Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT}) {
+    guards_[1].setLevel(level);
+    const Warning merged = await(level);
+    EXPECT_FALSE(merged.clear);
+    EXPECT_TRUE(merged.considered);
+    EXPECT_EQ(merged.reflex != 0, level != Warning::CONSIDERED);
+    EXPECT_EQ(merged.contact != 0, level == Warning::CONTACT);
+    EXPECT_PRED_FORMAT2(testing::IsSubstring, "/b: ", merged.text);
+    EXPECT_EQ(merged.reasons, level == Warning::UNKNOWN ? std::uint32_t{Warning::MESH_STALE} : 0U);
+    guards_[1].setLevel(Warning::CLEAR);
+    const Warning clear = await(Warning::CLEAR);
+    EXPECT_TRUE(clear.clear);
+    EXPECT_EQ(clear.sequence, merged.sequence + 1);
+    EXPECT_EQ(clear.tool, "tool");
+  }
+}
+
+TEST_P(WarningMergerNodeTest, SilenceOfOneOfThreeGuardsIsUnknownWithin250Milliseconds) {
+  for (int i = 0; i < 10; ++i) {
+    await(Warning::CLEAR);
+    guards_[2].setSilent(true);
+    const auto silent = SteadyClock::now();
+    const Warning unknown = await(Warning::UNKNOWN);
+    EXPECT_LT(SteadyClock::now() - silent, std::chrono::milliseconds(250));
+    EXPECT_PRED_FORMAT2(testing::IsSubstring, "/c: silent for", unknown.text);
+    EXPECT_EQ(unknown.reasons, Warning::NOT_COVERED);
+    EXPECT_TRUE(unknown.reflex);
+    guards_[2].setSilent(false);
+  }
+}
+
+TEST_P(WarningMergerNodeTest, AContactIsShownWhileAnotherGuardIsSilent) {
+  guards_[0].setSilent(true);
+  guards_[1].setLevel(Warning::CONTACT);
+  const Warning contact = merged_.await("both", [](const Warning& warning) {
+    return warning.level == Warning::CONTACT && (warning.reasons & Warning::NOT_COVERED) != 0;
+  });
+  EXPECT_TRUE(contact.contact);
+  EXPECT_EQ(contact.covered_until, ros::Time());
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, WarningMergerNodeTest,
+                         testing::Values("/warning_merger/warning", "/in_manager/warning_merger/warning"));
+
+void expectRefused(const std::string& guards, const std::string& reason) {
+  ChildProcess process(program("warning_merger_node", {"__name:=refused", "_guards:=" + guards}));
+  EXPECT_EQ(process.wait(), 2);
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, reason, process.output());
+  ros::param::del("/refused");
+}
+
+TEST(WarningMergerStartTest, RefusesGuardsThatCannotBeMerged) {
+  expectRefused("[]", "parameter guards has 0 names: set it to the nodes of 1 to 64 guards");
+  expectRefused("[/a, a]", "parameter guards has /a twice");
+  expectRefused("[/a, /refused]", "which is this node");
+  expectRefused("['/a b']", "parameter guards has no name of a node");
+}
+
+TEST(WarningMergerEndTest, SaysUnknownWhenItEnds) {
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  FakeGuard guard("/alone");
+  const Listener<Warning> merged("/ending/warning");
+  ChildProcess process(program("warning_merger_node", {"__name:=ending", "_guards:=[/alone]"}));
+  merged.await("CLEAR", [](const Warning& warning) { return warning.clear != 0; });
+  process.signal(SIGTERM);
+  const Warning last =
+      merged.await("the end", [](const Warning& warning) { return warning.text == "UNKNOWN: the merger ends"; });
+  EXPECT_EQ(last.level, Warning::UNKNOWN);
+  EXPECT_EQ(last.reasons, Warning::DISABLED);
+  EXPECT_EQ(process.wait(), 0);
+  spinner.stop();
+}
+
+}  // namespace
+}  // namespace sweep_guard_ros
