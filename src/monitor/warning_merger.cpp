@@ -12,6 +12,8 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr Duration kMaxLag = std::chrono::milliseconds(50);  // that needs no word
+
 std::string inSeconds(Duration duration) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.2f s", toSeconds(duration));
@@ -39,10 +41,13 @@ void WarningMerger::hear(size_t guard, HeardWarning warning) { newest_[guard] = 
 std::string WarningMerger::silence(size_t guard, const Instant& now) const {
   const auto& newest = newest_[guard];
   if (!newest) return "no warning yet";
-  const Duration since = now.steady - newest->received;
-  if (since > kSilence) return "silent for " + inSeconds(since);
+  const Duration since = now.steady - newest->received.steady;
   const Duration left = newest->valid_until - now.stamp;
-  if (left < Duration::zero()) return "warning is over since " + inSeconds(-left) + ": it came late, or clocks differ";
+  if (since > kSilence || left < Duration::zero()) {
+    const Duration lag = newest->received.stamp - (newest->valid_until - kValid);
+    return lag > kMaxLag ? "newest warning came " + inSeconds(lag) + " late, or clocks differ"
+                         : "silent for " + inSeconds(since);
+  }
   if (left > kValid + kMaxLead) return "warning is " + inSeconds(left - kValid) + " ahead: clocks differ";
   return {};
 }

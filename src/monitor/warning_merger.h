@@ -22,7 +22,7 @@ struct HeardWarning {
   bool acknowledged = false;
   bool intended = false;
   std::string text;
-  SteadyTime received;
+  Instant received;
 };
 
 /// What several guards say together.

@@ -31,7 +31,7 @@ HeardWarning said(WarningLevel level, Duration time = {}) {
   warning.covered_until = at(time).stamp + milliseconds(1000);
   warning.valid_until = at(time).stamp + WarningMerger::kValid;
   warning.text = styleOf(level).name;
-  warning.received = at(time).steady;
+  warning.received = at(time);
   return warning;
 }
 
@@ -98,7 +98,7 @@ TEST_F(WarningMergerTest, IsUnknown200MillisecondsAfterAGuardFellSilent) {
 TEST_F(WarningMergerTest, AWarningThatCameLateCountsOnlyAsLongAsItIsValid) {
   merger_.hear(kLeft, said(kClear));
   HeardWarning delayed = said(kClear);
-  delayed.received = at(milliseconds(150)).steady;
+  delayed.received = at(milliseconds(150));
   merger_.hear(kRight, delayed);
   merger_.hear(kLeft, said(kClear, milliseconds(150)));
   const MergedWarning valid = merger_.merged(at(milliseconds(200)));
@@ -106,7 +106,7 @@ TEST_F(WarningMergerTest, AWarningThatCameLateCountsOnlyAsLongAsItIsValid) {
   EXPECT_EQ(valid.valid_until, at(milliseconds(200)).stamp);
   const MergedWarning over = merger_.merged(at(milliseconds(210)));
   EXPECT_EQ(over.level, kUnknown);
-  EXPECT_EQ(over.text, "UNKNOWN: /right: warning is over since 0.01 s: it came late, or clocks differ");
+  EXPECT_EQ(over.text, "UNKNOWN: /right: newest warning came 0.15 s late, or clocks differ");
 }
 
 TEST_F(WarningMergerTest, AGuardWhoseClockIsAheadCountsAsSilent) {
@@ -189,7 +189,7 @@ TEST(WarningMergerModelTest, AgreesOnRandomWarningsOfFiveGuards) {
     int silent = 0;
     std::array<int, 5> levels{};
     for (const auto& warning : heard) {
-      const bool counts = warning && time - (warning->received - at({}).steady) <= milliseconds(200) &&
+      const bool counts = warning && time - (warning->received.steady - at({}).steady) <= milliseconds(200) &&
                           warning->valid_until >= at(time).stamp;
       silent += counts ? 0 : 1;
       if (counts) ++levels[static_cast<size_t>(warning->level)];

@@ -71,7 +71,7 @@ HeardWarning heardFrom(const sweep_guard::Warning& message) {
   warning.acknowledged = message.acknowledged != 0;
   warning.intended = message.intended != 0;
   warning.text = sweep_guard_core::printable(message.text);
-  warning.received = now().steady;
+  warning.received = now();
   return warning;
 }
 
