@@ -52,7 +52,7 @@ TEST_P(WarningMergerNodeTest, IsClearOnlyWhileEachGuardIs) {
   }
 }
 
-TEST_P(WarningMergerNodeTest, SilenceOfOneOfThreeGuardsIsUnknownWithin250Milliseconds) {
+TEST_P(WarningMergerNodeTest, SilenceOfOneOfThreeGuardsIsUnknownSoon) {
   for (int i = 0; i < 10; ++i) {
     await(Warning::CLEAR);
     guards_[2].setSilent(true);
