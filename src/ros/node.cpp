@@ -10,6 +10,7 @@ namespace sweep_guard_ros {
 namespace {
 
 const sweep_guard_core::Duration kViewPeriod = sweep_guard_core::fromSeconds(1.0 / 60.0);
+constexpr auto kEarlyPeriod = std::chrono::milliseconds(100);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
 
 }  // namespace
@@ -63,6 +64,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       peer_watch_(monitor_) {
   reports_.every(kViewPeriod, [this] { scene_.publishView(); });
   reports_.every(kViewPeriod, [this] { intend_.publishIfChanged(); });
+  reports_.every(kEarlyPeriod, [this] { meshes_.takeEarly(); });
   reports_.every(kDiagnosticsPeriod, [this] { diagnostics_.publish(); });
 }
 

@@ -318,6 +318,33 @@ TEST_P(BadMeshTest, IsRefusedAndIsUnknownUntilAGoodOne) {
   probe().awaitWarning([](const Warning& later) { return (later.reasons & Warning::MESH_INVALID) == 0; });
 }
 
+// As a latched one does while the clock of a simulation is silent: nobody sends it again.
+TEST_F(NodeTest, AMeshThatCameBeforeTheClockIsTakenWhenTheClockHasCome) {
+  const auto early = squareAt("square", {0.0, 0.0, -1.0}, probe().time() + ros::Duration(2.0));
+  placed_.insert("square");
+  probe().publish(early);
+  EXPECT_TRUE(has(probe().awaitWarning(hasReason(Warning::MESH_INVALID)).text, "stamp lies in the future"));
+  probe().advance(1.9);
+  probe().skipWarnings();
+  EXPECT_NE(probe().awaitWarning([](const Warning&) { return true; }).reasons & Warning::MESH_INVALID, 0U);
+  probe().advance(0.2);
+  probe().awaitWarning([](const Warning& later) { return (later.reasons & Warning::MESH_INVALID) == 0; });
+  restAt({0.0, 0.0, 0.5});
+  moveTo({0.0, 0.0, -1.5});
+  EXPECT_TRUE(probe().awaitWarning([](const Warning& later) { return later.contact; }).contact);
+}
+
+TEST_F(NodeTest, VerticesThatFollowAMeshThatCameBeforeTheClockDeformIt) {
+  const auto early = squareAt("square", {0.0, 0.0, -1.0}, probe().time() + ros::Duration(2.0));
+  placed_.insert("square");
+  probe().publish(early);
+  probe().awaitWarning(hasReason(Warning::MESH_INVALID));
+  probe().advance(2.1);
+  probe().place(squareMovedTo("square", {0.0, 0.0, 0.0}, probe().time()));
+  moveTo({0.0, 0.0, 0.05});
+  EXPECT_EQ(moveTo({0.0, 0.0, -0.01}).objects.size(), 1U);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Meshes, BadMeshTest,
     ::testing::Values(BadMesh{"NanVertex", [](auto& mesh) { mesh.mesh.vertices[3].z = kNan; }},

@@ -24,6 +24,7 @@ using sweep_guard_core::UpdateOutcome;
 
 constexpr size_t kMinCapacity = 256U << 20U;  // [bytes]
 constexpr size_t kOverhead = 512;             // of a job and its message, beside the serialized bytes
+constexpr size_t kMaxEarly = 64;              // meshes
 constexpr std::uint32_t kQueueLength = 1000;  // each message may be of another workpiece; taken from it at once
 
 void checkHeader(const std_msgs::Header& header) {
@@ -142,6 +143,7 @@ void MeshInput::unread(const std::string& reason, InputRecord& record) {
 }
 
 void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, SteadyTime received) {
+  forgetEarly(msg->id);
   try {
     auto mesh_M = std::make_shared<std::optional<TriangleMesh>>();
     if (!removes(*msg)) {
@@ -152,7 +154,50 @@ void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, Steady
                    [this, msg, received] { drop(*msg, received); }, sizeOf(*msg)});
   } catch (const std::exception& error) {  // invalid, or out of memory
     monitor_.meshRefused(msg->id, refusal(msg->id, error, mesh_record_), received);
+    keepIfEarly(msg, received);
   }
+}
+
+// The clock of a simulation may be silent for a while, and a latched mesh is not sent again.
+void MeshInput::keepIfEarly(const sweep_guard::DeformableMesh::ConstPtr& msg, SteadyTime received) {
+  if (!ros::Time::isSimTime() || fromMsg(msg->header.stamp) <= latestStamp()) return;
+  const std::lock_guard lock(early_mutex_);
+  if (early_.size() < kMaxEarly) early_[msg->id] = {msg, received};
+}
+
+void MeshInput::forgetEarly(const std::string& id) {
+  const std::lock_guard lock(early_mutex_);
+  early_.erase(id);
+}
+
+void MeshInput::takeEarly() {
+  const std::lock_guard lock(early_mutex_);
+  for (const auto& [id, early] : early_) {
+    if (fromMsg(early.msg->header.stamp) > latestStamp()) continue;
+    storing_.push({[this, id = id] { storeEarly(id); }, [] {}, kOverhead + id.size()});
+  }
+}
+
+// Converted here, before any vertices of later stamps are stored.
+void MeshInput::storeEarly(const std::string& id) {
+  const auto early = dueOf(id);
+  if (!early) return;
+  const auto& [msg, received] = *early;
+  try {
+    checkHeader(msg->header);
+    store(*msg, received, fromMsg(msg->mesh, max_triangles_));
+  } catch (const std::exception& error) {  // invalid, or out of memory
+    monitor_.meshRefused(id, refusal(id, error, mesh_record_), received);
+  }
+}
+
+std::optional<MeshInput::EarlyMesh> MeshInput::dueOf(const std::string& id) {
+  const std::lock_guard lock(early_mutex_);
+  const auto early = early_.find(id);
+  if (early == early_.end() || fromMsg(early->second.msg->header.stamp) > latestStamp()) return {};
+  EarlyMesh due = std::move(early->second);
+  early_.erase(early);
+  return due;
 }
 
 void MeshInput::store(const sweep_guard::DeformableMesh& msg, SteadyTime received, std::optional<TriangleMesh> mesh_M) {
@@ -174,6 +219,7 @@ void MeshInput::store(const sweep_guard::DeformableMesh& msg, SteadyTime receive
 void MeshInput::store(const sweep_guard::MeshVertices& msg, SteadyTime received) {
   try {
     checkHeader(msg.header);
+    storeEarly(msg.id);
     const UpdateOutcome outcome = workpieces_.deform(
         {msg.id, msg.revision, fromMsg(msg.header.stamp), received, msg.header.frame_id, msg.positions}, latestStamp());
     if (outcome == UpdateOutcome::kStored) monitor_.verticesAccepted(msg.id, received);

@@ -32,6 +32,9 @@ class MeshInput {
 
   void start(Supervisor& supervisor);
 
+  /// Takes each mesh that came too early once simulated time has reached its stamp. To be called now and then. Any thread
+  void takeEarly();
+
   std::string meshTopic() const { return mesh_.getTopic(); }          ///< resolved
   std::string verticesTopic() const { return vertices_.getTopic(); }  ///< resolved
   std::uint32_t meshPublishers() const { return mesh_.getNumPublishers(); }
@@ -41,6 +44,11 @@ class MeshInput {
   std::uint64_t droppedUpdates() const { return dropped_; }  ///< messages on both topics, since the start
 
  private:
+  struct EarlyMesh {
+    sweep_guard::DeformableMesh::ConstPtr msg;
+    sweep_guard_core::SteadyTime received;
+  };
+
   template <typename Msg>
   BoundedSubscriber subscribe(ros::NodeHandle node, const std::string& topic, size_t max_size,
                               sweep_guard_core::InputRecord& record);
@@ -57,6 +65,10 @@ class MeshInput {
              std::optional<sweep_guard_core::TriangleMesh> mesh_M);
   void store(const sweep_guard::MeshVertices& msg, sweep_guard_core::SteadyTime received);
   std::string refusal(const std::string& id, const std::exception& error, sweep_guard_core::InputRecord& record);
+  void keepIfEarly(const sweep_guard::DeformableMesh::ConstPtr& msg, sweep_guard_core::SteadyTime received);
+  void forgetEarly(const std::string& id);
+  void storeEarly(const std::string& id);
+  std::optional<EarlyMesh> dueOf(const std::string& id);
   void drop(const sweep_guard::DeformableMesh& msg, sweep_guard_core::SteadyTime received);
   void drop(const sweep_guard::MeshVertices& msg, sweep_guard_core::SteadyTime received);
 
@@ -70,9 +82,11 @@ class MeshInput {
   std::atomic<std::uint64_t> dropped_ = 0;
   std::mutex conversion_mutex_;
   std::map<std::string, size_t> in_conversion_;  // by id: messages that converting_ has
-  Worker storing_;                               // before what pushes jobs
-  Worker converting_;                            // before the thread that pushes jobs
-  QueueThread thread_;                           // before the subscribers, which use its queue
+  std::mutex early_mutex_;
+  std::map<std::string, EarlyMesh> early_;  // by id
+  Worker storing_;                          // before what pushes jobs
+  Worker converting_;                       // before the thread that pushes jobs
+  QueueThread thread_;                      // before the subscribers, which use its queue
   BoundedSubscriber mesh_;
   BoundedSubscriber vertices_;
 };
