@@ -243,21 +243,24 @@ double timeToCollision(const sweep_guard::Prediction& prediction) {
   return prediction.valid ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
 }
 
-sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning) {
+void setLevel(sweep_guard::Warning& msg, sweep_guard_core::WarningLevel level, std::uint32_t reasons) {
   using sweep_guard_core::WarningLevel;
+  msg.level = static_cast<std::uint8_t>(level);
+  msg.reasons = reasons;
+  msg.clear = level == WarningLevel::kClear;
+  msg.contact = level == WarningLevel::kContact;
+  msg.considered = !msg.clear;
+  msg.reflex = msg.contact || level == WarningLevel::kReflex || (reasons & ~sweep_guard_core::kDegraded) != 0;
+}
+
+sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning) {
   Warning msg;
   msg.header.stamp = toMsg(warning.pose_stamp);
-  msg.level = static_cast<std::uint8_t>(warning.level);
-  msg.clear = warning.level == WarningLevel::kClear;
-  msg.contact = warning.level == WarningLevel::kContact;
-  msg.considered = !msg.clear;
-  msg.reflex =
-      msg.contact || warning.level == WarningLevel::kReflex || (warning.reasons & ~sweep_guard_core::kDegraded) != 0;
+  setLevel(msg, warning.level, warning.reasons);
   msg.time_to_collision = ros::Duration(msg.contact ? 0.0 : -1.0);
   if (!msg.contact && warning.time_to_collision) msg.time_to_collision = toMsg(*warning.time_to_collision);
   msg.mesh_id = warning.mesh_id;
   msg.triangles = warning.triangles;
-  msg.reasons = warning.reasons;
   msg.text = warning.text;
   msg.covered_until = toMsg(warning.covered_until);
   msg.held = warning.held_since.has_value();

@@ -78,6 +78,8 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
 /// if unknown.
 double timeToCollision(const sweep_guard::Prediction& prediction);
 
+/// Sets level and reasons, and the flags that follow from them.
+void setLevel(sweep_guard::Warning& msg, sweep_guard_core::WarningLevel level, std::uint32_t reasons);
 /// Converts a warning. The caller sets frame, tool, `tool_link`, counters, `valid_until` and `run_id`.
 sweep_guard::Warning toMsg(const sweep_guard_core::Warning& warning);
 

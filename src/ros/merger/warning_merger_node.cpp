@@ -75,15 +75,6 @@ HeardWarning heardFrom(const sweep_guard::Warning& message) {
   return warning;
 }
 
-void setLevel(sweep_guard::Warning& message, WarningLevel level, std::uint32_t reasons) {
-  message.level = static_cast<std::uint8_t>(level);
-  message.reasons = reasons;
-  message.clear = level == WarningLevel::kClear;
-  message.contact = level == WarningLevel::kContact;
-  message.considered = !message.clear;
-  message.reflex = message.contact || level == WarningLevel::kReflex || (reasons & ~sweep_guard_core::kDegraded) != 0;
-}
-
 bool differ(const sweep_guard::Warning& a, const sweep_guard::Warning& b) {
   const auto state = [](const sweep_guard::Warning& warning) {
     return std::tie(warning.level, warning.reasons, warning.held, warning.acknowledged, warning.intended);
