@@ -24,7 +24,6 @@ using sweep_guard_core::UpdateOutcome;
 
 constexpr size_t kMinCapacity = 256U << 20U;  // [bytes]
 constexpr size_t kOverhead = 512;             // of a job and its message, beside the serialized bytes
-constexpr size_t kMaxEarly = 64;              // meshes
 constexpr std::uint32_t kQueueLength = 1000;  // each message may be of another workpiece; taken from it at once
 
 void checkHeader(const std_msgs::Header& header) {
@@ -51,10 +50,11 @@ MeshInput::MeshInput(const ros::NodeHandle& node, const Parameters& parameters,
                      sweep_guard_core::WorkpieceStore& workpieces, sweep_guard_core::WarningMonitor& monitor)
     : mesh_ids_(parameters.mesh_ids),
       max_triangles_(parameters.max_triangles),
+      max_waiting_bytes_(capacity(parameters)),
       workpieces_(workpieces),
       monitor_(monitor),
-      storing_(capacity(parameters)),
-      converting_(capacity(parameters)),
+      storing_(max_waiting_bytes_),
+      converting_(max_waiting_bytes_),
       mesh_(
           subscribe<sweep_guard::DeformableMesh>(thread_.on(node), "mesh", parameters.max_message_size, mesh_record_)),
       vertices_(subscribe<sweep_guard::MeshVertices>(thread_.on(node), "mesh_vertices", parameters.max_message_size,
@@ -162,7 +162,9 @@ void MeshInput::convert(const sweep_guard::DeformableMesh::ConstPtr& msg, Steady
 void MeshInput::keepIfEarly(const sweep_guard::DeformableMesh::ConstPtr& msg, SteadyTime received) {
   if (!ros::Time::isSimTime() || fromMsg(msg->header.stamp) <= latestStamp()) return;
   const std::lock_guard lock(early_mutex_);
-  if (early_.size() < kMaxEarly) early_[msg->id] = {msg, received};
+  size_t bytes = sizeOf(*msg);
+  for (const auto& [id, early] : early_) bytes += sizeOf(*early.msg);
+  if (bytes <= max_waiting_bytes_) early_[msg->id] = {msg, received};
 }
 
 void MeshInput::forgetEarly(const std::string& id) {

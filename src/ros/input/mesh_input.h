@@ -74,6 +74,7 @@ class MeshInput {
 
   const std::set<std::string> mesh_ids_;
   const size_t max_triangles_;
+  const size_t max_waiting_bytes_;  // in each of three places
   sweep_guard_core::WorkpieceStore& workpieces_;
   sweep_guard_core::WarningMonitor& monitor_;
   LogThrottle log_;
