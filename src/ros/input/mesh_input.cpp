@@ -24,6 +24,7 @@ using sweep_guard_core::UpdateOutcome;
 
 constexpr size_t kMinCapacity = 256U << 20U;  // [bytes]
 constexpr size_t kOverhead = 512;             // of a job and its message, beside the serialized bytes
+constexpr size_t kMaxEarly = 1024;            // meshes
 constexpr std::uint32_t kQueueLength = 1000;  // each message may be of another workpiece; taken from it at once
 
 void checkHeader(const std_msgs::Header& header) {
@@ -164,7 +165,7 @@ void MeshInput::keepIfEarly(const sweep_guard::DeformableMesh::ConstPtr& msg, St
   const std::lock_guard lock(early_mutex_);
   size_t bytes = sizeOf(*msg);
   for (const auto& [id, early] : early_) bytes += sizeOf(*early.msg);
-  if (bytes <= max_waiting_bytes_) early_[msg->id] = {msg, received};
+  if (early_.size() < kMaxEarly && bytes <= max_waiting_bytes_) early_[msg->id] = {msg, received};
 }
 
 void MeshInput::forgetEarly(const std::string& id) {
