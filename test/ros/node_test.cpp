@@ -340,6 +340,7 @@ TEST_F(NodeTest, VerticesThatFollowAMeshThatCameBeforeTheClockDeformIt) {
   probe().publish(early);
   probe().awaitWarning(hasReason(Warning::MESH_INVALID));
   probe().advance(2.1);
+  probe().awaitWarning([](const Warning& later) { return later.valid_until >= probe().time() + ros::Duration(0.2); });
   probe().place(squareMovedTo("square", {0.0, 0.0, 0.0}, probe().time()));
   moveTo({0.0, 0.0, 0.05});
   EXPECT_EQ(moveTo({0.0, 0.0, -0.01}).objects.size(), 1U);
