@@ -32,7 +32,8 @@ std::optional<Value> earlier(const std::optional<Value>& a, const std::optional<
 
 }  // namespace
 
-WarningMerger::WarningMerger(std::vector<std::string> guards) : guards_(std::move(guards)), newest_(guards_.size()) {
+WarningMerger::WarningMerger(std::vector<std::string> guards, Duration timeout)
+    : guards_(std::move(guards)), timeout_(timeout), newest_(guards_.size()) {
   assert(!guards_.empty());
 }
 
@@ -43,7 +44,7 @@ std::string WarningMerger::silence(size_t guard, const Instant& now) const {
   if (!newest) return "no warning yet";
   const Duration since = now.steady - newest->received.steady;
   const Duration left = newest->valid_until - now.stamp;
-  if (since > kSilence || left < Duration::zero()) {
+  if (since > timeout_ || left < Duration::zero()) {
     const Duration lag = newest->received.stamp - (newest->valid_until - kValid);
     return lag > kMaxLag ? "newest warning came " + inSeconds(lag) + " late, or clocks differ"
                          : "silent for " + inSeconds(since);

@@ -42,15 +42,15 @@ struct MergedWarning {
 
 /// Merges the newest warnings of guards. The worst level counts, in the order in which it does within one guard: CONTACT,
 /// REFLEX, CONSIDERED, UNKNOWN, CLEAR. So CLEAR needs that every guard says so and none is silent. A guard is silent, which
-/// is UNKNOWN, before its first warning, 0.2 s after it received the newest, and after that one's `valid_until`.
+/// is UNKNOWN, before its first warning, `timeout` after its newest was received, and after that one's `valid_until`.
 class WarningMerger {
  public:
-  static constexpr Duration kSilence = std::chrono::milliseconds(200);
   static constexpr Duration kValid = std::chrono::milliseconds(200);    ///< of a guard's warning, as it publishes it
   static constexpr Duration kMaxLead = std::chrono::milliseconds(100);  ///< that the clock of a guard may be ahead
 
-  /// @param guards  names, for the text; at least one (asserted)
-  explicit WarningMerger(std::vector<std::string> guards);
+  /// @param guards   names, for the text; at least one (asserted)
+  /// @param timeout  > 0
+  explicit WarningMerger(std::vector<std::string> guards, Duration timeout = kValid);
 
   /// Takes the newest warning of a guard. @param guard  index of its name
   void hear(size_t guard, HeardWarning warning);
@@ -66,6 +66,7 @@ class WarningMerger {
   bool leads(size_t guard, size_t other) const;
 
   std::vector<std::string> guards_;
+  Duration timeout_;
   std::vector<std::optional<HeardWarning>> newest_;  // by guard
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <signal.h>
+#include <std_msgs/Bool.h>
 
 #include <array>
 
@@ -64,6 +65,22 @@ TEST_P(WarningMergerNodeTest, SilenceOfOneOfThreeGuardsIsUnknownSoon) {
     EXPECT_TRUE(unknown.reflex);
     guards_[2].setSilent(false);
   }
+}
+
+TEST_P(WarningMergerNodeTest, FlagsFollowTheWarning) {
+  const std::string scope = std::string(GetParam()).substr(0, std::string(GetParam()).rfind('/'));
+  const Listener<std_msgs::Bool> reflex(scope + "/reflex_warning");
+  const Listener<std_msgs::Bool> considered(scope + "/considered_warning");
+  const auto is = [](bool raised) {
+    return [raised](const std_msgs::Bool& flag) { return (flag.data != 0) == raised; };
+  };
+  await(Warning::CLEAR);
+  reflex.await("no reflex flag", is(false));
+  considered.await("no considered flag", is(false));
+  guards_[1].setLevel(Warning::CONSIDERED);
+  considered.await("considered", is(true));
+  guards_[1].setLevel(Warning::REFLEX);
+  reflex.await("reflex", is(true));
 }
 
 TEST_P(WarningMergerNodeTest, AContactIsShownWhileAnotherGuardIsSilent) {

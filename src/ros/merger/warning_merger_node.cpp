@@ -1,6 +1,7 @@
 #include "ros/merger/warning_merger_node.h"
 
 #include <ros/names.h>
+#include <std_msgs/Bool.h>
 
 #include <algorithm>
 #include <limits>
@@ -27,6 +28,7 @@ using sweep_guard_core::WarningMerger;
 
 constexpr auto kTickPeriod = std::chrono::milliseconds(10);
 constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, looked at in every tick
+constexpr auto kFlagPeriod = std::chrono::milliseconds(100);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
 constexpr size_t kMaxMessageSize = 64 << 20;
@@ -52,6 +54,17 @@ std::vector<std::string> readGuards(ParameterReader& read, const ros::NodeHandle
                        " names: set it to the nodes of 1 to 64 guards, as in [/left/sweep_guard, /right/sweep_guard]");
   }
   return guards;
+}
+
+sweep_guard_core::Duration readTimeout(ParameterReader& read) {
+  const double longest = sweep_guard_core::toSeconds(WarningMerger::kValid);
+  return sweep_guard_core::fromSeconds(read.number("timeout", longest, {0.05, longest, "s"}));
+}
+
+std_msgs::Bool flag(bool raised) {
+  std_msgs::Bool message;
+  message.data = raised;
+  return message;
 }
 
 HeardWarning heardFrom(const sweep_guard::Warning& message) {
@@ -91,7 +104,7 @@ WarningMergerNode::WarningMergerNode(const ros::NodeHandle& node, const ros::Nod
                                      ParameterReader read)
     : master_watch_(private_node, [this] { return settings_; }),
       supervisor_(process),
-      merger_(readGuards(read, private_node)),
+      merger_(readGuards(read, private_node), readTimeout(read)),
       newest_(merger_.guards().size()),
       updater_(node, private_node, private_node.getNamespace()) {
   read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
@@ -99,12 +112,15 @@ WarningMergerNode::WarningMergerNode(const ros::NodeHandle& node, const ros::Nod
   settings_ = read.settings();
   published_.run_id = randomRunId();
   publisher_ = ros::NodeHandle(private_node).advertise<sweep_guard::Warning>("warning", 10);
+  reflex_ = ros::NodeHandle(private_node).advertise<std_msgs::Bool>("reflex_warning", 10);
+  considered_ = ros::NodeHandle(private_node).advertise<std_msgs::Bool>("considered_warning", 10);
   updater_.setHardwareID("none");
   for (size_t guard = 0; guard < newest_.size(); ++guard) {
     subscribers_.push_back(subscribe(node, guard));
     updater_.add(merger_.guards()[guard], [this, guard](Status& status) { report(status, guard); });
   }
   ticks_.every(kTickPeriod, [this] { publish(); });
+  ticks_.every(kFlagPeriod, [this] { publishFlags(); });
   reports_.every(kReportPeriod, [this] { updater_.force_update(); });
 }
 
@@ -117,6 +133,7 @@ WarningMergerNode::~WarningMergerNode() {
     ending_ = true;
   }
   publish();
+  publishFlags();
   flush(kTimeToFlush);
 }
 
@@ -136,7 +153,7 @@ BoundedSubscriber WarningMergerNode::subscribe(const ros::NodeHandle& node, size
   using Event = ros::MessageEvent<const sweep_guard::Warning>;
   return subscribeBounded<sweep_guard::Warning>(
       thread_.on(node), {topic, 10, kMaxMessageSize},
-      [this, guard, refuse, sole = SolePublisher(WarningMerger::kSilence)](const Event& event) mutable {
+      [this, guard, refuse, sole = SolePublisher(WarningMerger::kValid)](const Event& event) mutable {
         try {
           if (!sole.alone(event.getPublisherName(), now().steady)) throw InvalidInput("several nodes publish it");
           hear(guard, *event.getConstMessage());
@@ -169,9 +186,19 @@ void WarningMergerNode::publish() {
     ++next.sequence;
     ++next.level_counts[next.level];
   }
+  const bool reflex_rises = next.reflex && !published_.reflex;
+  const bool considered_rises = next.considered && !published_.considered;
   published_ = next;
   published_at_ = at.steady;
   publisher_.publish(next);
+  if (reflex_rises) reflex_.publish(flag(true));
+  if (considered_rises) considered_.publish(flag(true));
+}
+
+void WarningMergerNode::publishFlags() {
+  const std::lock_guard lock(mutex_);
+  reflex_.publish(flag(published_.reflex != 0));
+  considered_.publish(flag(published_.considered != 0));
 }
 
 // Called under the lock.

@@ -19,7 +19,8 @@
 
 namespace sweep_guard_ros {
 
-/// Publishes one `~warning` for several guards, as WarningMerger merges theirs: at once when it changes, and at 20 Hz at least.
+/// Publishes one `~warning` for several guards, as WarningMerger merges theirs: at once when it changes, and at 20 Hz at least;
+/// and the flags `~reflex_warning` and `~considered_warning`, as a guard does.
 /// A ROS node or a nodelet. A guard whose topic several nodes publish on counts as silent.
 class WarningMergerNode {
  public:
@@ -40,6 +41,7 @@ class WarningMergerNode {
   BoundedSubscriber subscribe(const ros::NodeHandle& node, size_t guard);
   void hear(size_t guard, const sweep_guard::Warning& message);
   void publish();
+  void publishFlags();
   sweep_guard::Warning merged(const sweep_guard_core::Instant& now) const;
   void report(Status& status, size_t guard);
 
@@ -55,6 +57,8 @@ class WarningMergerNode {
   sweep_guard_core::SteadyTime published_at_{};  // its time
   bool ending_ = false;
   ros::Publisher publisher_;
+  ros::Publisher reflex_;
+  ros::Publisher considered_;
   diagnostic_updater::Updater updater_;
   QueueThread thread_;
   std::vector<BoundedSubscriber> subscribers_;  // by guard
