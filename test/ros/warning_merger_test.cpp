@@ -22,7 +22,19 @@ using SteadyClock = std::chrono::steady_clock;
 class WarningMergerNodeTest : public testing::TestWithParam<const char*> {
  protected:
   WarningMergerNodeTest() { spinner_.start(); }
-  ~WarningMergerNodeTest() override { spinner_.stop(); }
+  ~WarningMergerNodeTest() override {
+    for (FakeGuard& guard : guards_) {
+      guard.setLevel(Warning::CLEAR);
+      guard.setSilent(false);
+    }
+    spinner_.stop();
+  }
+
+  // Once for all tests: new ones would be silent until they are connected.
+  static std::array<FakeGuard, 3>& guards() {
+    static auto* const guards = new std::array<FakeGuard, 3>{FakeGuard("/a"), FakeGuard("/b"), FakeGuard("/c")};
+    return *guards;
+  }
 
   Warning await(std::uint8_t level) const {
     return merged_.await("level " + std::to_string(level),
@@ -31,24 +43,25 @@ class WarningMergerNodeTest : public testing::TestWithParam<const char*> {
 
   ros::AsyncSpinner spinner_{1};
   Listener<Warning> merged_{GetParam()};
-  std::array<FakeGuard, 3> guards_{FakeGuard("/a"), FakeGuard("/b"), FakeGuard("/c")};
+  std::array<FakeGuard, 3>& guards_ = guards();
 };
 
 TEST_P(WarningMergerNodeTest, IsClearOnlyWhileEachGuardIs) {
   await(Warning::CLEAR);
   for (const std::uint8_t level : {Warning::UNKNOWN, Warning::CONSIDERED, Warning::REFLEX, Warning::CONTACT}) {
     guards_[1].setLevel(level);
-    const Warning merged = await(level);
+    const std::uint32_t reasons = level == Warning::UNKNOWN ? std::uint32_t{Warning::MESH_STALE} : 0U;
+    const Warning merged = merged_.await("what /b says", [&](const Warning& warning) {
+      return warning.level == level && warning.reasons == reasons && has(warning.text, "/b: ");
+    });
     EXPECT_FALSE(merged.clear);
     EXPECT_TRUE(merged.considered);
     EXPECT_EQ(merged.reflex != 0, level != Warning::CONSIDERED);
     EXPECT_EQ(merged.contact != 0, level == Warning::CONTACT);
-    EXPECT_PRED_FORMAT2(testing::IsSubstring, "/b: ", merged.text);
-    EXPECT_EQ(merged.reasons, level == Warning::UNKNOWN ? std::uint32_t{Warning::MESH_STALE} : 0U);
     guards_[1].setLevel(Warning::CLEAR);
     const Warning clear = await(Warning::CLEAR);
     EXPECT_TRUE(clear.clear);
-    EXPECT_EQ(clear.sequence, merged.sequence + 1);
+    EXPECT_GT(clear.sequence, merged.sequence);
     EXPECT_EQ(clear.tool, "tool");
   }
 }
@@ -58,9 +71,10 @@ TEST_P(WarningMergerNodeTest, SilenceOfOneOfThreeGuardsIsUnknownSoon) {
     await(Warning::CLEAR);
     guards_[2].setSilent(true);
     const auto silent = SteadyClock::now();
-    const Warning unknown = await(Warning::UNKNOWN);
+    const Warning unknown = merged_.await("the silence of /c", [](const Warning& warning) {
+      return warning.level == Warning::UNKNOWN && has(warning.text, "/c: silent for");
+    });
     EXPECT_LT(SteadyClock::now() - silent, std::chrono::milliseconds(250));
-    EXPECT_PRED_FORMAT2(testing::IsSubstring, "/c: silent for", unknown.text);
     EXPECT_EQ(unknown.reasons, Warning::NOT_COVERED);
     EXPECT_TRUE(unknown.reflex);
     guards_[2].setSilent(false);
