@@ -110,7 +110,8 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
                                             "urdf only: name of the parameter that holds the URDF, searched from the "
                                             "node's namespace upwards.");
   read.ignore(description);
-  const ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
+  ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
+  options.of_root = parameters.tool_source == ToolSource::kJointStates;
   const bool joint_states = read.flag(
       "tool/joint_states", false,
       "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
