@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes rosbags of joints that move, for robots made by others: joint_bags.py SCENE DATA FOLDER."""
+"""Writes rosbags of joints that move, for robots made by others: joint_bags.py DATA FOLDER."""
 import math
 import os
 import sys
@@ -8,6 +8,7 @@ import xml.etree.ElementTree as ElementTree
 import rosbag
 import rospy
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Header
 
 RATE = 100  # [Hz]
 UR5 = ['shoulder_pan_joint', 'shoulder_lift_joint', 'elbow_joint', 'wrist_1_joint', 'wrist_2_joint', 'wrist_3_joint']
@@ -30,14 +31,16 @@ PSM_SHAPES = {
 }
 
 
-def write_bag(path, names, begin, end, duration):
+def write_bag(path, names, begin, end, duration, topics=('/joint_states',)):
     with rosbag.Bag(path, 'w') as bag:
         for i in range(int(duration * RATE) + 1):
             stamp = rospy.Time.from_sec(1000.0 + i / RATE)
             share = 0.5 - 0.5 * math.cos(math.pi * i / (duration * RATE))
             message = JointState(name=names, position=[a + share * (b - a) for a, b in zip(begin, end)])
             message.header.stamp = stamp
-            bag.write('joint_states', message, stamp)
+            for topic in topics:
+                bag.write(topic, message, stamp)
+        bag.write('/header', Header(), rospy.Time(1000))
 
 
 def write_urdf(source, path):
@@ -54,10 +57,22 @@ def write_urdf(source, path):
     robot.write(path)
 
 
-def main(scene, data, folder):
-    robot, *motion = SCENES[scene]
-    write_bag(os.path.join(folder, scene + '.bag'), *motion)
-    write_urdf(os.path.join(data, 'urdf/expanded', robot + '.urdf'), os.path.join(folder, scene + '.urdf'))
+def main(data, folder):
+    def write_robot(scene, robot):
+        write_urdf(os.path.join(data, 'urdf/expanded', robot + '.urdf'), os.path.join(folder, scene + '.urdf'))
+
+    def bag(scene):
+        return os.path.join(folder, scene + '.bag')
+
+    for scene, (robot, *motion) in SCENES.items():
+        write_robot(scene, robot)
+        write_bag(bag(scene), *motion)
+    for scene in 'two_topics', 'no_joints', 'few_joints':
+        write_robot(scene, 'ur5')
+    _, *motion = SCENES['ur5']
+    write_bag(bag('two_topics'), *motion, topics=['/joint_states', '/other/joint_states'])
+    write_bag(bag('no_joints'), *motion, topics=[])
+    write_bag(bag('few_joints'), ['shoulder_pan_joint'], [0.0], [1.0], 1.0)
 
 
 if __name__ == '__main__':
