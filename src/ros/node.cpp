@@ -2,9 +2,12 @@
 
 #include <ros/console.h>
 
+#include <cstdint>
 #include <utility>
 
 #include "ros/available_detector.h"
+#include "sweep_guard/monitor/reason.h"
+#include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -12,6 +15,9 @@ namespace {
 const sweep_guard_core::Duration kViewPeriod = sweep_guard_core::fromSeconds(1.0 / 60.0);
 constexpr auto kEarlyPeriod = std::chrono::milliseconds(100);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
+constexpr std::uint32_t kSilentInputs = sweep_guard_core::kNoPose | sweep_guard_core::kPoseStale |
+                                        sweep_guard_core::kTfFail | sweep_guard_core::kNoMesh |
+                                        sweep_guard_core::kMeshStale | sweep_guard_core::kDisabled;
 
 }  // namespace
 
@@ -61,7 +67,10 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
           node, private_node,
           {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_, supervisor_}),
       watchdog_(frames_, workpieces_, monitor_, warnings_),
-      peer_watch_(monitor_) {
+      peer_watch_([this, warning = sweep_guard_core::Warning()]() mutable {
+        monitor_.warning(now(), warning);
+        return (warning.reasons & kSilentInputs) != 0;
+      }) {
   reports_.every(kViewPeriod, [this] { scene_.publishView(); });
   reports_.every(kViewPeriod, [this] { intend_.publishIfChanged(); });
   reports_.every(kEarlyPeriod, [this] { meshes_.takeEarly(); });

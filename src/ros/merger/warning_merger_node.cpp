@@ -106,7 +106,8 @@ WarningMergerNode::WarningMergerNode(const ros::NodeHandle& node, const ros::Nod
       supervisor_(process),
       merger_(readGuards(read, private_node), readTimeout(read)),
       newest_(merger_.guards().size()),
-      updater_(node, private_node, private_node.getNamespace()) {
+      updater_(node, private_node, private_node.getNamespace()),
+      peer_watch_([this] { return aGuardIsSilent(); }) {
   read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
   read.warnOfUnread();
   settings_ = read.settings();
@@ -142,6 +143,7 @@ void WarningMergerNode::start() {
   ticks_.start(supervisor_, {"ticks"});
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
   master_watch_.start(supervisor_);
+  peer_watch_.start(supervisor_);
   supervisor_.start();
 }
 
@@ -219,6 +221,15 @@ sweep_guard::Warning WarningMergerNode::merged(const sweep_guard_core::Instant& 
   message.intended = all.intended;
   message.text = all.text;
   return message;
+}
+
+bool WarningMergerNode::aGuardIsSilent() const {
+  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Instant at = now();
+  for (size_t guard = 0; guard < newest_.size(); ++guard) {
+    if (!merger_.silence(guard, at).empty()) return true;
+  }
+  return false;
 }
 
 void WarningMergerNode::report(Status& status, size_t guard) {
