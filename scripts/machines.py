@@ -20,8 +20,10 @@ TO_CLEAR = 1.0  # [s] beyond the length of the cut
 class Machines(World):
     """The hub, which this process is on, and the machines of the guards."""
 
-    def __init__(self, namespaces, folder):
+    def __init__(self, router, namespaces, folder):
         super().__init__(None, folder)
+        # One process for all: to start one takes time.
+        self.rules = subprocess.Popen(['ip', '-n', router, '-batch', '-'], stdin=subprocess.PIPE, text=True)
         self.namespaces = namespaces
 
     def start(self, name, command, at_peers=True, at=None, **environment):
@@ -36,11 +38,18 @@ class Machines(World):
                                      'tool_pose:=/tool_pose', 'mesh:=/mesh', 'mesh_vertices:=/mesh_vertices'], at=side)
 
     def set_links(self, sides, state):
+        """Neither end notices but by the silence, as when a switch between them fails. Returns when it was asked for."""
+        change = 'add' if state == 'down' else 'del'
+        asked = now()
         for side in sides:
-            subprocess.run(['ip', 'link', 'set', side, state], check=True)
+            for way in 'from', 'to':
+                self.rules.stdin.write(f'rule {change} {way} {ADDRESSES[side]} blackhole\n')
+        self.rules.stdin.flush()
+        return asked
 
     def set_link(self, state):
-        self.set_links(ADDRESSES, state)
+        """At the end: the router ends with the script."""
+        self.rules.stdin.close()
 
 
 def after_last(warnings, fits, mark):
@@ -55,13 +64,11 @@ def cut(machines, warnings, table, length, count):
         warnings.wait_until_steadily_clear()
         sides = CUTS[i % len(CUTS)]
         mark = warnings.mark()
-        machines.set_links(sides, 'down')
-        begin = now()
+        begin = machines.set_links(sides, 'down')
         if length > SILENCE:
             to_unknown.append(warnings.wait(unknown, mark)[0] - begin)
         time.sleep(max(0.0, begin + length - now()))
-        machines.set_links(sides, 'up')
-        up = now()
+        up = machines.set_links(sides, 'up')
         time.sleep(SILENCE)  # until the warnings from before the cut are over
         after_unknown = after_last(warnings, unknown, mark)
         what = f'cut of {length:g} s, {" and ".join(sides)}'
@@ -77,7 +84,7 @@ def cut(machines, warnings, table, length, count):
 
 
 def measure(options):
-    machines = Machines({'left': options.left, 'right': options.right}, options.folder)
+    machines = Machines(options.router, {'left': options.left, 'right': options.right}, options.folder)
     table = Table()
     try:
         machines.start_master()
@@ -102,6 +109,6 @@ def measure(options):
 
 if __name__ == '__main__':
     parser = argparse.ArgumentParser(description=__doc__)
-    for option in ('--left', '--right', '--folder', '--cuts'):
+    for option in ('--router', '--left', '--right', '--folder', '--cuts'):
         parser.add_argument(option, required=True)
     sys.exit(measure(parser.parse_args(rospy.myargv()[1:])))
