@@ -9,6 +9,7 @@
 #include <ros/xmlrpc_manager.h>
 #include <signal.h>
 #include <std_msgs/String.h>
+#include <sweep_guard/Warning.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -74,17 +75,16 @@ class Address : public XmlRpc::XmlRpcServerMethod {
   int requests_ = 0;
 };
 
-// Tells a node that these publish a topic.
-bool announce(const std::string& node, const std::string& topic, const std::vector<std::string>& uris) {
+// Tells a node that this process and another address publish a topic.
+bool announce(const std::string& node, const std::string& topic, const std::string& uri) {
   XmlRpcValue publishers;
-  for (size_t i = 0; i < uris.size(); ++i) publishers[static_cast<int>(i)] = uris[i];
+  publishers[0] = ros::XMLRPCManager::instance()->getServerURI();
+  publishers[1] = uri;
   const auto answer = xmlRpc().call(addressOf(node), "publisherUpdate", {XmlRpcValue(topic), publishers});
   return answer && answer->success;
 }
 
-bool publishPoses(const std::string& uri) {
-  return announce("/sweep_guard", "/tool_pose", {ros::XMLRPCManager::instance()->getServerURI(), uri});
-}
+bool publishPoses(const std::string& uri) { return announce("/sweep_guard", "/tool_pose", uri); }
 
 bool isConnectedAnew(Address& address) {
   return becomesTrue([&] {
@@ -200,9 +200,10 @@ TEST_P(PeerWatchTest, ConnectsAnewToAPublisherThatWasOutOfReach) {
 
 TEST(MergerPeerWatchTest, ConnectsAnewToAGuardThatWasOutOfReach) {
   ChildProcess merger(program("warning_merger_node", {"__name:=merger", "_guards:=[/far]"}));
-  ASSERT_TRUE(becomesTrue([] { return !addressOf("/merger").empty(); }));
+  const ros::Publisher guard = ros::NodeHandle().advertise<sweep_guard::Warning>("/far/warning", 1);
+  ASSERT_TRUE(becomesTrue([&] { return guard.getNumSubscribers() == 1; }));
   Address address;
-  ASSERT_TRUE(becomesTrue([&] { return announce("/merger", "/far/warning", {address.uri()}); }));
+  ASSERT_TRUE(announce("/merger", "/far/warning", address.uri()));
   ASSERT_TRUE(becomesTrue([&] { return address.serveFor(0.3), address.requests() == 1; }));
   EXPECT_TRUE(isConnectedAnew(address));
   merger.signal(SIGTERM);
