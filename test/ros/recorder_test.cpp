@@ -58,6 +58,7 @@ class RecorderTest : public ::testing::Test {
     const auto header =
         boost::make_shared<ros::M_string>(ros::M_string{{"callerid", "/guard"}, {"topic", topic.topic}});
     recorder_->hear(topic, {message, header, ros::Time(now_)});
+    newest_ = message;
     now_ += 0.01;
   }
 
@@ -116,6 +117,7 @@ class RecorderTest : public ::testing::Test {
   const fs::path folder_ = fs::path(testing::TempDir()) / ("recorder_test_" + std::to_string(getpid()));
   BlackBoxParameters parameters_{};
   double now_ = 1000.0;  // [s]
+  boost::weak_ptr<topic_tools::ShapeShifter> newest_;
   Supervisor supervisor_{Process::kShared};
   std::optional<Recorder> recorder_;
 };
@@ -132,6 +134,17 @@ TEST_F(RecorderTest, AHundredContactsInARowAreAllRecordedAndStayWithinTheQuota) 
   }
   EXPECT_LT(bags().size(), 100U);
   EXPECT_GT(bags().size(), 1U);
+}
+
+TEST_F(RecorderTest, WhatWasWrittenTakesNoMemoryAfterwards) {
+  start();
+  touch();
+  const boost::weak_ptr<topic_tools::ShapeShifter> written = newest_;
+  awaitRecordings(1);
+  EXPECT_FALSE(written.expired());
+  now_ += 100.0;
+  hearWarning(Warning::CONTACT);
+  EXPECT_TRUE(written.expired());
 }
 
 TEST_F(RecorderTest, AContactThatGoesOnIsOneEvent) {

@@ -113,10 +113,11 @@ void Recorder::beginRecording() {
   const std::string name = sweep_guard_core::recordingName(
       std::chrono::system_clock::now() - std::chrono::duration_cast<std::chrono::system_clock::duration>(ago),
       event.cause);
-  const auto messages = std::make_shared<const HeardMessages>(window_.snapshot());
+  auto messages = std::make_shared<const HeardMessages>(window_.snapshot());
   summary_.writing = true;
-  recording_ = writer_.submit<void>([this, name, messages] {
+  recording_ = writer_.submit<void>([this, name, messages = std::move(messages)]() mutable {
     const bool written = attempt([&] { write(name, *messages); });
+    messages.reset();  // recording_ keeps this function until the next one
     const std::lock_guard lock(mutex_);
     summary_.writing = false;
     ++(written ? summary_.written : summary_.failed);
