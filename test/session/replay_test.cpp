@@ -6,6 +6,7 @@
 #include <sensor_msgs/JointState.h>
 #include <sweep_guard/Contacts.h>
 #include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/Intend.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/View.h>
 #include <sweep_guard/Warning.h>
@@ -289,6 +290,21 @@ TEST_F(ReplayTest, PlaysTheJointsOfATool) {
   ASSERT_EQ(contacts.size(), 3U) << printed;
   EXPECT_NEAR(std::stod(contacts[1][1]), 0.3354 / kTurnRate, 0.005) << printed;
   EXPECT_EQ(contacts[1][5], "fore") << printed;
+}
+
+TEST_F(ReplayTest, ContactThatWasMeantIsMeantInTheReplay) {
+  const auto write_intend = [](rosbag::Bag& bag) {
+    sweep_guard::Intend intend;
+    intend.mesh_id = "plate";
+    intend.triangles = {0, 1};
+    intend.depth = 0.05;
+    bag.write("/sweep_guard/intend_updates", ros::Time(kBegin + 0.3), intend);
+  };
+  writeBag({writeMesh, writePoses, writeVertices, write_intend});
+  const std::string printed = replay("");
+  const std::string levels = readText(folder_ / "report/levels.csv");
+  EXPECT_TRUE(has(levels, "CLEAR")) << printed;
+  EXPECT_FALSE(has(levels, "CONTACT")) << levels;
 }
 
 TEST_F(ReplayTest, ABagThatCannotBeGuardedEndsItWithALineThatSaysWhy) {
