@@ -13,6 +13,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "evaluation/gnuplot.h"
@@ -79,15 +80,8 @@ class ReplayReport {
   explicit ReplayReport(sweep_guard_ros::ParameterReader& parameters)
       : path_(parameters.name("bag", "")), output_(parameters.name("output", path_ + ".report")) {
     parameters.number("rate", 1.0, {1e-3, 1e3});  // of the player, which reports no range
-    SessionTopics topics;
-    topics.tool_pose = parameters.text("tool_pose", "/tool_pose");
-    topics.mesh = parameters.text("mesh", "/mesh");
-    topics.mesh_vertices = parameters.text("mesh_vertices", "/mesh_vertices");
     const ros::NodeHandle guard(parameters.name("guard", "sweep_guard"));
-    if (guard.param<std::string>("tool_source", "topic") == "tf") {
-      listenTo(topics.tool_pose);
-      topics.tool_pose.clear();
-    }
+    const SessionTopics topics = readTopics(parameters, guard);
     mesh_in_bag_ = !topics.mesh.empty();
     bag_ = inspectBag(path_, topics);
     if (bag_.meshes == 1 && bag_.vertices == 0 && std::isfinite(guard.param("timing/mesh_timeout", 0.5))) {
@@ -111,6 +105,21 @@ class ReplayReport {
   }
 
  private:
+  // Listens to the topics of the tool that the guard does not listen to, and leaves them out.
+  SessionTopics readTopics(sweep_guard_ros::ParameterReader& parameters, const ros::NodeHandle& guard) {
+    SessionTopics topics;
+    topics.tool_pose = parameters.text("tool_pose", "/tool_pose");
+    topics.joint_states = parameters.text("joint_states", "/joint_states");
+    topics.mesh = parameters.text("mesh", "/mesh");
+    topics.mesh_vertices = parameters.text("mesh_vertices", "/mesh_vertices");
+    const auto source = guard.param<std::string>("tool_source", "topic");
+    if (source != "topic") listenTo(std::exchange(topics.tool_pose, ""));
+    if (source != "joint_states" && !guard.param("tool/joint_states", false)) {
+      listenTo(std::exchange(topics.joint_states, ""));
+    }
+    return topics;
+  }
+
   bool sweptToTheEnd() const {
     const auto last = log_.swept().last();
     return last && (bag_.poses.empty() || *last >= bag_.poses.back());
