@@ -22,6 +22,8 @@
 #include "session/session_bag.h"
 #include "session/session_log.h"
 #include "session/session_report.h"
+#include "session/session_sound.h"
+#include "sound/wav.h"
 #include "sweep_guard/Contacts.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
@@ -36,6 +38,7 @@ using sweep_guard_ros::fromMsg;
 
 constexpr std::uint32_t kQueue = 100000;
 constexpr double kConnectTimeout = 60.0;  // [s] of wall time, for guard and player
+constexpr std::uint32_t kSoundRate = 8000;  // samples per second
 constexpr double kAnswerTimeout = 2.0;    // [s] of wall time, for the last answers
 
 sweep_guard_core::Time now() { return fromMsg(ros::Time::now()); }
@@ -192,11 +195,12 @@ class ReplayReport {
     const std::filesystem::path folder(output_);
     write(folder / "contacts.csv", contactsCsv(log_, bag_.begin));
     write(folder / "levels.csv", levelsCsv(log_, bag_.begin));
+    write(folder / "sound.wav", sweep_guard_core::wavFile(soundOf(log_, kSoundRate), kSoundRate));
     const std::string name = std::filesystem::path(path_).filename();
     sweep_guard_evaluation::runGnuplot(timelinePlot(log_, bag_, name, folder / "timeline.png"));
     sweep_guard_evaluation::runGnuplot(contactsPlot(log_, bag_, name, folder / "contacts.png"));
     std::cout << summary(log_, bag_) << "written to " << output_
-              << ": timeline.png, contacts.png, contacts.csv, levels.csv" << std::endl;
+              << ": timeline.png, contacts.png, contacts.csv, levels.csv, sound.wav" << std::endl;
   }
 
   std::string path_;
