@@ -58,7 +58,7 @@ refuses() {
 
 python3 "$here/joint_bags.py" "$data" "$folder"
 panda_links=panda_link5,panda_link6,panda_link7,panda_hand,panda_leftfinger,panda_rightfinger
-elbow_place=(size:=0.2 place:=[0.068,0.394,0.363])
+elbow_place=(size:=0.2 "place:=[0.068,0.394,0.363]")
 
 # The workpiece is where the last link meets it.
 meets ur5 ur5 '*wrist_3_link*'
@@ -66,7 +66,7 @@ meets panda panda '*panda_leftfinger*' "tool_links:=$panda_links"
 meets psm psm '*PSM1_jaw_1_link*' "tool_links:=PSM1_housing_link,PSM1_roll_link,PSM1_jaw_1_link,PSM1_jaw_2_link"
 
 # The tube of a torus is between the fingers, nearer to the right one, which closes on it.
-meets jaws jaws panda_rightfinger "mesh:=$data/mesh/sofa_torus.obj" size:=0.2 place:=[0,-0.008,0.165] \
+meets jaws jaws panda_rightfinger "mesh:=$data/mesh/sofa_torus.obj" size:=0.2 "place:=[0,-0.008,0.165]" \
   tool_links:=panda_hand,panda_leftfinger,panda_rightfinger
 
 # The arm turns, and its elbow meets what the last link passes by.
