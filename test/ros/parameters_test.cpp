@@ -181,12 +181,12 @@ TEST_F(ParametersTest, TakePairsThatMayTouch) {
   EXPECT_EQ(
       refusal(node_),
       "parameter tool/allowed: the tool has no link 'finger': a cylinder has one link, without a name: write '*'");
-  pairs.setSize(1);
-  pairs[0] = pairOf("*", "payload");
-  node_.setParam("tool/allowed", pairs);
+  XmlRpc::XmlRpcValue any;
+  any[0] = pairOf("*", "payload");
+  node_.setParam("tool/allowed", any);
   EXPECT_EQ(loadParameters(node_).guard.allowed.size(), 1U);
-  pairs[0] = pairOf("*", std::string(129, 'x'));
-  node_.setParam("tool/allowed", pairs);
+  any[0] = pairOf("*", std::string(129, 'x'));
+  node_.setParam("tool/allowed", any);
   EXPECT_TRUE(has(refusal(node_), "is no name of a workpiece"));
 }
 
