@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "ros/merger/heard_warning.h"
 #include "ros/output/flush.h"
 #include "ros/output/run_id.h"
 #include "ros/sole_publisher.h"
@@ -65,27 +66,6 @@ std_msgs::Bool flag(bool raised) {
   std_msgs::Bool message;
   message.data = raised;
   return message;
-}
-
-HeardWarning heardFrom(const sweep_guard::Warning& message) {
-  if (message.level > sweep_guard::Warning::CONTACT) {
-    throw InvalidInput("level " + std::to_string(message.level) + " is unknown: guard and merger differ in version");
-  }
-  HeardWarning warning;
-  warning.level = static_cast<WarningLevel>(message.level);
-  warning.reasons = message.reasons;
-  warning.stamp = fromMsg(message.header.stamp);
-  if (message.time_to_collision >= ros::Duration(0)) {
-    warning.time_to_collision = std::chrono::nanoseconds(message.time_to_collision.toNSec());
-  }
-  warning.covered_until = fromMsg(message.covered_until);
-  warning.valid_until = fromMsg(message.valid_until);
-  warning.held = message.held != 0;
-  warning.acknowledged = message.acknowledged != 0;
-  warning.intended = message.intended != 0;
-  warning.text = sweep_guard_core::printable(message.text);
-  warning.received = now();
-  return warning;
 }
 
 bool differ(const sweep_guard::Warning& a, const sweep_guard::Warning& b) {
