@@ -225,6 +225,17 @@ class JudgeTest(unittest.TestCase):
             says = lambda t: spoken(t, judge.UNKNOWN) if 5.5 <= t - BEGIN < 7.15 else spoken(t)
             self.assertNotIn('missed contact', soak.kinds(says))
 
+    def judged_late(self, stepped_at, own_delay):
+        """Judges a CLEAR of the second 1, which waited while the clock stepped back."""
+        judged = Soak().run(until=1.0)
+        judged.clock_step(BEGIN + stepped_at, BEGIN + stepped_at + 0.001)
+        judged.warning(spoken(BEGIN + 0.999), nanoseconds(BEGIN - 3.0), own_delay)
+        return [finding.kind for finding in judged.findings]
+
+    def test_a_warning_that_waited_while_the_clock_stepped_is_not_of_the_wrong_time(self):
+        self.assertEqual(self.judged_late(stepped_at=1.002, own_delay=0.01), [])
+        self.assertEqual(self.judged_late(stepped_at=1.1, own_delay=0.01), ['false CLEAR'])
+
     def test_decides_nothing_near_the_plate(self):
         soak = Soak().run(until=1.0)
         height = float(world.plate_heights(BEGIN + 0.9, 0.0))

@@ -128,7 +128,8 @@ class Part:
                               message.level, bool(message.clear), message.reasons,
                               message.held_since.to_nsec() if message.held else 0, message.run_id, message.text)
         with self.lock:
-            self.judge.warning(spoken, self.world.clock.now(), self.lateness)
+            own_delay = max(self.lateness, time.monotonic() - at)  # the lock, too, takes time
+            self.judge.warning(spoken, self.world.clock.now(), own_delay)
             self.availability.heard(at, message.level == Warning.UNKNOWN, message.text)
             self.run = message.run_id
 
