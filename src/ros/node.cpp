@@ -43,9 +43,11 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
               [this](const std::string& parent, const std::string& child) {
                 monitor_.timeJumped("static transform from '" + child + "' to '" + parent + "' has changed");
               }),
+      allowed_(parameters_.initial().guard.allowed),
       workpieces_([this](const auto& workpieces) {
         monitor_.setWorkpieces(workpieces);
         intentions_.follow(workpieces);
+        allowed_.follow(workpieces);
       }),
       cross_check_(parameters_, monitor_),
       guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_,
@@ -63,9 +65,9 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
           {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); }}),
       intend_(private_node, {parameters_, frames_, workpieces_, intentions_}),
       reconfigure_server_(private_node, parameters_, [this](const auto& next) { apply(next); }),
-      diagnostics_(
-          node, private_node,
-          {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_, supervisor_}),
+      diagnostics_(node, private_node,
+                   {parameters_, poses_, meshes_, workpieces_, allowed_, monitor_, statistics_, reconfigure_server_,
+                    supervisor_}),
       watchdog_(frames_, workpieces_, monitor_, warnings_),
       peer_watch_([this, warning = sweep_guard_core::Warning()]() mutable {
         monitor_.warning(now(), warning);
@@ -123,6 +125,8 @@ void SweepGuardNode::logStart() const {
            initial.tool_description.c_str(), initial.fixed_frame.c_str(), describe(initial.detector).c_str(),
            sweep_guard_core::nameOf(initial.guard.sweep.volume).c_str(), poses_.source().c_str(),
            meshes_.meshTopic().c_str(), meshes_.verticesTopic().c_str());
+  for (const sweep_guard_core::AllowedPair& pair : initial.guard.allowed)
+    ROS_INFO("contact of %s is allowed (tool/allowed): it is no warning", describe(pair).c_str());
 }
 
 }  // namespace sweep_guard_ros

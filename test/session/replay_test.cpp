@@ -256,6 +256,29 @@ TEST_F(ReplayTest, ContactsAndWarningsThatDoNotTellWhatIsIntendedAreMigrated) {
   EXPECT_EQ(next, 10U);
 }
 
+// recorded_before_allowed.bag holds contacts and views from before `allowed`.
+TEST_F(ReplayTest, ContactsAndViewsThatDoNotTellWhatIsAllowedAreMigrated) {
+  migrate(fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_before_allowed.bag", bag_, folder_ / "fixed.txt");
+  const rosbag::Bag bag(bag_.string());
+  std::uint32_t contacts = 0;
+  std::uint32_t views = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    if (const auto sweep = message.instantiate<sweep_guard::Contacts>()) {
+      EXPECT_EQ(sweep->objects.at(0).triangles, (std::vector<std::uint32_t>{contacts, contacts + 1}));
+      EXPECT_EQ(sweep->objects[0].intended, (std::vector<std::uint32_t>{contacts}));
+      EXPECT_TRUE(sweep->allowed.empty());
+      ++contacts;
+    }
+    if (const auto view = message.instantiate<sweep_guard::View>()) {
+      EXPECT_EQ(view->objects.at(0).touched, (std::vector<std::uint32_t>{views, views + 1}));
+      EXPECT_TRUE(view->objects[0].allowed.empty());
+      ++views;
+    }
+  }
+  EXPECT_EQ(contacts, 3U);
+  EXPECT_EQ(views, 3U);
+}
+
 // recorded_with_run_id.bag holds the definition before `held` and `acknowledged`.
 TEST_F(ReplayTest, WarningsThatDoNotTellWhatIsHeldAreMigrated) {
   const auto warnings = migratedWarnings("recorded_with_run_id.bag", bag_, folder_ / "fixed.txt");
