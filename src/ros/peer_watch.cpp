@@ -19,6 +19,7 @@ namespace {
 
 constexpr auto kPeriod = std::chrono::milliseconds(100);
 constexpr auto kLongestConnect = std::chrono::milliseconds(200);
+constexpr int kLooksDown = 10;  // until a connection that is down is made anew: roscpp tries after 0.1, 0.3 and 0.7 s
 constexpr auto kNewName = std::chrono::milliseconds(100);  // until a name is resolved for the first time
 
 int millisecondsUntil(sweep_guard_core::SteadyTime end) {
@@ -95,11 +96,15 @@ void PeerWatch::checkOrLog() {
 
 void PeerWatch::check() {
   connectPending();
-  if (!input_may_be_silent_()) return out_of_reach_.clear();
-  const auto topics = connectedPublishers(call_);
-  if (!topics) return;
+  if (!input_may_be_silent_()) {
+    out_of_reach_.clear();
+    looks_down_.clear();
+    return;
+  }
+  const auto links = publisherLinks(call_);
+  if (!links) return;
   std::map<std::string, Probe> probes;
-  for (const auto& [topic, publishers] : *topics) {
+  for (const auto& [topic, publishers] : links->all) {
     for (const std::string& publisher : publishers) {
       if (publisher != ownUri()) probes.try_emplace(publisher, publisher);
     }
@@ -110,9 +115,18 @@ void PeerWatch::check() {
     if (!probe.connected(deadline)) {
       out_of_reach_.insert(publisher);
     } else if (out_of_reach_.erase(publisher) != 0) {
-      connectAnew(publisher, *topics);
+      connectAnew(publisher, links->all);
+    } else if (staysDown(publisher, links->down)) {
+      connectAnew(publisher, links->down);
     }
   }
+}
+
+bool PeerWatch::staysDown(const std::string& publisher, const PublishersOfTopics& down) {
+  const auto holds = [&](const auto& topic) { return topic.second.count(publisher) != 0; };
+  int& looks = looks_down_[publisher];
+  looks = std::any_of(down.begin(), down.end(), holds) ? looks + 1 : 0;
+  return looks > 0 && looks % kLooksDown == 0;
 }
 
 void PeerWatch::connectAnew(const std::string& publisher, const PublishersOfTopics& topics) {
@@ -122,7 +136,7 @@ void PeerWatch::connectAnew(const std::string& publisher, const PublishersOfTopi
     updatePublishers(call_, topic, /*added=*/{}, /*removed=*/{publisher});
   }
   connectPending();
-  ROS_WARN("%s was out of reach and is connected anew", publisher.c_str());
+  ROS_WARN_THROTTLE(10.0, "%s was out of reach and is connected anew", publisher.c_str());
 }
 
 // Until it succeeds: nobody else knows that they are to be connected.

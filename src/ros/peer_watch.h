@@ -12,8 +12,9 @@
 namespace sweep_guard_ros {
 
 /// Connects the inputs of a node anew to publishers that were out of reach. Without it they stay silent after a broken link
-/// is whole again, for up to as long as it was broken: that is how long TCP waits until it sends again. Looks only while an
-/// input may be silent; in a thread of its own.
+/// is whole again, for up to as long as it was broken: that is how long TCP waits until it sends again. The same where a
+/// publisher answers, but a connection to it stays down: roscpp tries again after up to 20 s, and never where the connection
+/// broke while it was made. Looks only while an input may be silent; in a thread of its own.
 class PeerWatch {
  public:
   /// @param input_may_be_silent  called in its thread
@@ -29,6 +30,7 @@ class PeerWatch {
  private:
   void checkOrLog();
   void check();
+  bool staysDown(const std::string& publisher, const PublishersOfTopics& down);
   void connectAnew(const std::string& publisher, const PublishersOfTopics& topics);
   void connectPending();
 
@@ -36,7 +38,8 @@ class PeerWatch {
   std::atomic<bool> stopping_ = false;
   const XmlRpcCall call_;
   std::set<std::string> out_of_reach_;
-  PublishersOfTopics pending_;  // by topic: disconnected, and to be connected again
+  std::map<std::string, int> looks_down_;  // by publisher: at how many looks a connection to it has been down
+  PublishersOfTopics pending_;             // by topic: disconnected, and to be connected again
   TimerThread thread_;
 };
 

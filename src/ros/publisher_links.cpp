@@ -3,24 +3,44 @@
 #include <ros/xmlrpc_manager.h>
 
 #include <mutex>
+#include <utility>
 
 namespace sweep_guard_ros {
 
 using XmlRpc::XmlRpcValue;
 
+namespace {
+
+// roscpp tells the number of the socket in words.
+bool isDown(const XmlRpcValue& connection) {
+  if (connection.size() < 7) return false;
+  const std::string& transport = connection[6];
+  return transport.find("on socket -1]") != std::string::npos;
+}
+
+}  // namespace
+
 std::string ownUri() { return ros::XMLRPCManager::instance()->getServerURI(); }
 
-std::optional<PublishersOfTopics> connectedPublishers(const XmlRpcCall& call) {
+std::optional<PublisherLinks> publisherLinks(const XmlRpcCall& call) {
   const auto answer = call.call(ownUri(), "getBusInfo", {});
   if (!answer || !answer->success) return std::nullopt;
-  PublishersOfTopics publishers;
+  PublisherLinks links;
   for (int i = 0; i < answer->value.size(); ++i) {
     const XmlRpcValue& connection = answer->value[i];
     const std::string& publisher = connection[1];
     const std::string& direction = connection[2];
-    if (direction == "i") publishers[connection[4]].insert(publisher);
+    if (direction != "i") continue;
+    links.all[connection[4]].insert(publisher);
+    if (isDown(connection)) links.down[connection[4]].insert(publisher);
   }
-  return publishers;
+  return links;
+}
+
+std::optional<PublishersOfTopics> connectedPublishers(const XmlRpcCall& call) {
+  auto links = publisherLinks(call);
+  if (!links) return std::nullopt;
+  return std::move(links->all);
 }
 
 bool updatePublishers(const XmlRpcCall& call, const std::string& topic, const Publishers& added,

@@ -14,9 +14,17 @@ using PublishersOfTopics = std::map<std::string, Publishers>;
 
 std::string ownUri();  ///< address of this process, as other nodes call it
 
+/// The publishers that a process is connected to, by topic.
+struct PublisherLinks {
+  PublishersOfTopics all;
+  PublishersOfTopics down;  ///< of these, those to which there is no connection at the moment
+};
+
 /// Asks this process, as another node would, which publishers it is connected to.
-/// @returns publishers by topic; empty optional: no answer
+/// @returns empty optional: no answer
 /// @throws XmlRpc::XmlRpcException if the answer cannot be read
+std::optional<PublisherLinks> publisherLinks(const XmlRpcCall& call);
+/// Returns PublisherLinks::all.
 std::optional<PublishersOfTopics> connectedPublishers(const XmlRpcCall& call);
 
 /// Connects a topic to some publishers and disconnects it from others; all other connections stay. roscpp takes a list

@@ -96,10 +96,10 @@ bool isConnectedAnew(Address& address) {
   });
 }
 
-/// A port at which each subscriber to poses gets a header, and then the length of a message of two gigabytes.
-class TornStream {
+/// A port that accepts subscribers.
+class Port {
  public:
-  TornStream() {
+  Port() {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -109,19 +109,51 @@ class TornStream {
       throw std::runtime_error("no port");
     }
     port_ = ntohs(address.sin_port);
-    thread_ = std::thread([this] { serve(); });
   }
-  ~TornStream() {
-    shutdown(listener_, SHUT_RDWR);
-    thread_.join();
-    close(listener_);
-  }
-  TornStream(const TornStream&) = delete;
-  TornStream& operator=(const TornStream&) = delete;
+  virtual ~Port() { close(listener_); }
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
   int port() const { return port_; }
 
+ protected:
+  void start() {
+    thread_ = std::thread([this] {
+      for (int subscriber = 0; (subscriber = accept(listener_, nullptr, nullptr)) >= 0; close(subscriber)) {
+        serve(subscriber);
+      }
+    });
+  }
+  void stop() {
+    shutdown(listener_, SHUT_RDWR);
+    thread_.join();
+  }
+
  private:
-  void serve() const {
+  virtual void serve(int subscriber) const = 0;
+
+  const int listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  int port_ = 0;
+  std::thread thread_;
+};
+
+/// Each subscriber is disconnected at once.
+class ClosedStream : public Port {
+ public:
+  ClosedStream() { start(); }
+  ~ClosedStream() override { stop(); }
+
+ private:
+  void serve(int /*subscriber*/) const override {}
+};
+
+/// Each subscriber to poses gets a header, and then the length of a message of two gigabytes.
+class TornStream : public Port {
+ public:
+  TornStream() { start(); }
+  ~TornStream() override { stop(); }
+
+ private:
+  void serve(int subscriber) const override {
     ros::M_string header{{"callerid", "/torn"},
                          {"md5sum", ros::message_traits::md5sum<geometry_msgs::PoseStamped>()},
                          {"type", "geometry_msgs/PoseStamped"}};
@@ -131,18 +163,12 @@ class TornStream {
     const std::string length(reinterpret_cast<const char*>(&size), sizeof size);
     const std::string answer =
         length + std::string(reinterpret_cast<const char*>(fields.get()), size) + "\xff\xff\xff\x7f";
-    for (int subscriber = 0; (subscriber = accept(listener_, nullptr, nullptr)) >= 0; close(subscriber)) {
-      char received[4096];
-      if (recv(subscriber, received, sizeof received, 0) <= 0) continue;
-      send(subscriber, answer.data(), answer.size(), MSG_NOSIGNAL);
-      while (recv(subscriber, received, sizeof received, 0) > 0) {
-      }
+    char received[4096];
+    if (recv(subscriber, received, sizeof received, 0) <= 0) return;
+    send(subscriber, answer.data(), answer.size(), MSG_NOSIGNAL);
+    while (recv(subscriber, received, sizeof received, 0) > 0) {
     }
   }
-
-  const int listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  int port_ = 0;
-  std::thread thread_;
 };
 
 bool registerPoses(const std::string& node, const std::string& uri) {
@@ -219,6 +245,19 @@ TEST(TornPublisherTest, IsConnectedAnew) {
   Address address(stream.port());
   ASSERT_TRUE(registerPoses("/torn", address.uri()));
   EXPECT_TRUE(becomesTrue([&] { return address.serveFor(0.3), address.requests() >= 2; }));
+  guard.signal(SIGTERM);
+  EXPECT_EQ(guard.wait(), 0);
+  ros::param::del("/sweep_guard");
+}
+
+// roscpp by itself would try again after 0.1 s to 20 s, at the same port, and ask for no other.
+TEST(ClosedPublisherTest, IsAskedAgainForItsPort) {
+  ChildProcess guard(guardWith({}));
+  const GuardProbe probe(/*drives_clock=*/false);
+  const ClosedStream stream;
+  Address address(stream.port());
+  ASSERT_TRUE(publishPoses(address.uri()));
+  EXPECT_TRUE(becomesTrue([&] { return address.serveFor(0.3), address.requests() >= 3; }));
   guard.signal(SIGTERM);
   EXPECT_EQ(guard.wait(), 0);
   ros::param::del("/sweep_guard");
