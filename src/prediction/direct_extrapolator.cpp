@@ -6,67 +6,95 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kPriorSpeed = 0.02;     // [m/s]
-constexpr double kPriorTurnRate = 0.15;  // [rad/s]
+template <int Axes, size_t... i>
+std::array<DisplacementRegression<Axes>, sizeof...(i)> makeRegressions(double prior_speed,
+                                                                       std::index_sequence<i...> /*horizons*/) {
+  return {DisplacementRegression<Axes>(kLearnedHorizons[i], prior_speed)...};
+}
 
-template <size_t... i>
-std::array<DisplacementRegression, sizeof...(i)> makeRegressions(double prior_speed,
-                                                                 std::index_sequence<i...> /*horizons*/) {
-  return {DisplacementRegression(kLearnedHorizons[i], prior_speed)...};
+template <int Axes, typename Speeds, size_t... i>
+auto makeGroups(const Speeds& prior_speeds, std::index_sequence<i...> /*groups*/) {
+  constexpr auto kHorizons = std::make_index_sequence<kLearnedHorizons.size()>();
+  using Regressions = std::array<DisplacementRegression<Axes>, kLearnedHorizons.size()>;
+  return std::array<Regressions, sizeof...(i)>{
+      makeRegressions<Axes>(prior_speeds[static_cast<Eigen::Index>(i)], kHorizons)...};
 }
 
 }  // namespace
 
-DirectExtrapolator::DirectExtrapolator(const Profile* profile)
-    : translation_(makeRegressions(kPriorSpeed, std::make_index_sequence<kLearnedHorizons.size()>())),
-      rotation_(makeRegressions(kPriorTurnRate, std::make_index_sequence<kLearnedHorizons.size()>())) {
-  if (profile == nullptr) return;
-  regressors_.begin(profile->speeds);
+template <typename Space>
+DirectExtrapolator<Space>::DirectExtrapolator(const typename Space::Speeds& prior_speeds, const Profile* profile)
+    : groups_(makeGroups<Space::kAxes>(prior_speeds, std::make_index_sequence<Space::kGroups>())) {
+  if (profile != nullptr) begin(*profile);
+}
+
+template <>
+void DirectExtrapolator<PoseSpace>::begin(const Profile& profile) {
+  regressors_.begin(profile.speeds);
   for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-    translation_[i].begin(profile->translation[i], expectedWeights(translation_, i));
-    rotation_[i].begin(profile->rotation[i], expectedWeights(rotation_, i));
+    groups_[0][i].begin(profile.translation[i], expectedWeights(groups_[0], i));
+    groups_[1][i].begin(profile.rotation[i], expectedWeights(groups_[1], i));
   }
 }
 
-bool DirectExtrapolator::save(Profile& profile) const {
+template <>
+void DirectExtrapolator<JointSpace>::begin(const Profile& /*profile*/) {}
+
+template <>
+bool DirectExtrapolator<PoseSpace>::save(Profile& profile) const {
   profile.speeds = regressors_.speeds();
   for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-    profile.translation[i] = translation_[i].learned();
-    profile.rotation[i] = rotation_[i].learned();
+    profile.translation[i] = groups_[0][i].learned();
+    profile.rotation[i] = groups_[1][i].learned();
   }
   return true;
 }
 
-void DirectExtrapolator::observe(const PoseTracker& tracker) {
+template <>
+bool DirectExtrapolator<JointSpace>::save(Profile& /*profile*/) const {
+  return false;
+}
+
+template <typename Space>
+void DirectExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {
+  using Step = typename MotionTracker<Space>::Step;
   regressors_.observe(tracker);
-  const MotionRegressors::Values& newest = regressors_.values();
-  if (tracker.step() == PoseTracker::Step::kBegins) targets_.clear();
-  if (tracker.step() == PoseTracker::Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
-  if (tracker.step() != PoseTracker::Step::kContinues) return;
+  const auto& newest = regressors_.values();
+  if (tracker.step() == Step::kBegins) targets_.clear();
+  if (tracker.step() == Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
+  if (tracker.step() != Step::kContinues) return;
   const double period = toSeconds(tracker.period());
-  targets_.add(tracker.newest(), newest, [&](const MotionRegressors::Values& then, size_t i, const Vector6d& moved) {
-    translation_[i].learn({then.topRows<3>(), moved.head<3>(), period}, expectedWeights(translation_, i));
-    rotation_[i].learn({then.bottomRows<3>(), moved.tail<3>(), period}, expectedWeights(rotation_, i));
+  targets_.add(tracker.newest(), newest, [&](const auto& then, size_t i, const Vector& moved) {
+    for (size_t group = 0; group < groups_.size(); ++group) {
+      const auto first = static_cast<Eigen::Index>(group) * Space::kAxes;
+      groups_[group][i].learn(
+          {then.template middleRows<Space::kAxes>(first), moved.template segment<Space::kAxes>(first), period},
+          expectedWeights(groups_[group], i));
+    }
   });
 }
 
-DisplacementRegression::Weights DirectExtrapolator::expectedWeights(const Regressions& regressions, size_t horizon) {
-  if (horizon == 0) return DisplacementRegression::constantVelocity(kLearnedHorizons[0]);
+template <typename Space>
+typename DirectExtrapolator<Space>::Weights DirectExtrapolator<Space>::expectedWeights(const Regressions& regressions,
+                                                                                       size_t horizon) {
+  if (horizon == 0) return Regression::constantVelocity(kLearnedHorizons[0]);
   return kLearnedHorizons[horizon] / kLearnedHorizons[horizon - 1] * regressions[horizon - 1].weights();
 }
 
-Vector6d DirectExtrapolator::displacementIn(double ahead) const {
-  Vector6d displacement;
-  displacement << displacementIn(ahead, translation_, regressors_.values().topRows<3>()),
-      displacementIn(ahead, rotation_, regressors_.values().bottomRows<3>());
+template <typename Space>
+typename Space::Vector DirectExtrapolator<Space>::displacementIn(double ahead) const {
+  Vector displacement;
+  for (size_t group = 0; group < groups_.size(); ++group) {
+    const auto first = static_cast<Eigen::Index>(group) * Space::kAxes;
+    const auto weights = interpolateOverHorizons<Weights>(
+        ahead, [&](size_t i) { return groups_[group][i].weights() / kLearnedHorizons[i]; });
+    displacement.template segment<Space::kAxes>(first) =
+        ahead * regressors_.values().template middleRows<Space::kAxes>(first) * weights;
+  }
   return displacement;
 }
 
-Eigen::Vector3d DirectExtrapolator::displacementIn(double ahead, const Regressions& regressions,
-                                                   const DisplacementRegression::Velocities& velocities) {
-  const auto weights = interpolateOverHorizons<DisplacementRegression::Weights>(
-      ahead, [&](size_t i) { return regressions[i].weights() / kLearnedHorizons[i]; });
-  return ahead * velocities * weights;
-}
+template class DirectExtrapolator<PoseSpace>;
+template class DirectExtrapolator<JointSpace>;
 
 }  // namespace sweep_guard_core

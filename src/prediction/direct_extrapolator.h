@@ -11,26 +11,29 @@ namespace sweep_guard_core {
 
 /// Learns the operator's displacements from the recent motion: for each of kLearnedHorizons, a regression of the
 /// displacement on MotionRegressors. Each one expects what was learned for the next shorter horizon.
-class DirectExtrapolator : public Extrapolator {
+template <typename Space>
+class DirectExtrapolator : public Extrapolator<Space> {
  public:
+  using Vector = typename Space::Vector;
+
   /// @param profile  what it begins with; null: nothing
-  explicit DirectExtrapolator(const Profile* profile);
+  DirectExtrapolator(const typename Space::Speeds& prior_speeds, const Profile* profile);
 
   bool save(Profile& profile) const override;
-  void observe(const PoseTracker& tracker) override;
-  Vector6d displacementIn(double ahead) const override;
+  void observe(const MotionTracker<Space>& tracker) override;
+  Vector displacementIn(double ahead) const override;
 
  private:
-  using Regressions = std::array<DisplacementRegression, kLearnedHorizons.size()>;
+  using Regression = DisplacementRegression<Space::kAxes>;
+  using Weights = typename Regression::Weights;
+  using Regressions = std::array<Regression, kLearnedHorizons.size()>;
 
-  static DisplacementRegression::Weights expectedWeights(const Regressions& regressions, size_t horizon);
-  static Eigen::Vector3d displacementIn(double ahead, const Regressions& regressions,
-                                        const DisplacementRegression::Velocities& velocities);
+  void begin(const Profile& profile);
+  static Weights expectedWeights(const Regressions& regressions, size_t horizon);
 
-  MotionRegressors regressors_;
-  DelayedTargets<MotionRegressors::Values> targets_;
-  Regressions translation_;
-  Regressions rotation_;
+  MotionRegressors<Space> regressors_;
+  DelayedTargets<Space, typename MotionRegressors<Space>::Values> targets_;
+  std::array<Regressions, Space::kGroups> groups_;
 };
 
 }  // namespace sweep_guard_core

@@ -1,0 +1,72 @@
+#include "sweep_guard/prediction/joint_predictor.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "prediction/motion_channel.h"
+#include "prediction/predictor_options.h"
+#include "sweep_guard/common/unwound.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr double kPriorSpeed = 0.02;     // [m/s]
+constexpr double kPriorTurnRate = 0.15;  // [rad/s]
+
+JointSpace spaceOf(const PredictableJoint& joint, const PredictorOptions& options) {
+  JointSpace space{joint.turns ? options.max_turn_rate : options.max_speed, joint.turns ? kPriorTurnRate : kPriorSpeed};
+  if (joint.continuous) return space;
+  space.lower = joint.lower;
+  space.upper = joint.upper;
+  return space;
+}
+
+}  // namespace
+
+struct JointPredictor::Joint {
+  Joint(const PredictableJoint& joint, const PredictorOptions& options)
+      : continuous(joint.continuous), channel(options, spaceOf(joint, options)) {}
+
+  bool continuous;
+  MotionChannel<JointSpace> channel;
+  double newest = 0.0;  // as observed [rad or m]
+};
+
+JointPredictor::JointPredictor(const PredictorOptions& options, const std::vector<PredictableJoint>& joints) {
+  checked(options);
+  for (const PredictableJoint& joint : joints) joints_.emplace_back(joint, options);
+}
+
+JointPredictor::~JointPredictor() = default;
+JointPredictor::JointPredictor(JointPredictor&&) noexcept = default;
+JointPredictor& JointPredictor::operator=(JointPredictor&&) noexcept = default;
+
+void JointPredictor::observe(Time stamp, const std::vector<double>& positions) {
+  assert(positions.size() == joints_.size());
+  for (size_t i = 0; i < positions.size(); ++i) {
+    auto& [continuous, channel, newest] = joints_[i];
+    newest = positions[i];
+    channel.observe({stamp, continuous ? unwound(newest, channel.newest().position) : newest});
+  }
+}
+
+bool JointPredictor::knowsMotion() const {
+  return std::all_of(joints_.begin(), joints_.end(), [](const Joint& joint) { return joint.channel.knowsMotion(); });
+}
+
+void JointPredictor::predict(Duration ahead, PredictedJoints& joints) const {
+  assert(ahead > Duration::zero() && knowsMotion());
+  joints.positions.clear();
+  joints.variances.clear();
+  const double seconds = toSeconds(ahead);
+  for (const Joint& joint : joints_) {
+    joints.positions.push_back(joint.newest + joint.channel.displacementIn(seconds)[0]);
+    joints.variances.push_back(joint.channel.covariance(seconds)(0, 0));
+  }
+}
+
+void JointPredictor::restart() {
+  for (Joint& joint : joints_) joint.channel.interrupt();
+}
+
+}  // namespace sweep_guard_core
