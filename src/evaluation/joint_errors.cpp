@@ -133,7 +133,8 @@ class Comparison {
     if (!known) return;
     for (size_t i = 0; i < request_.horizons.size(); ++i) {
       const Duration ahead = request_.horizons[i];
-      bodyPoses(robot_->tree, robot_->bodies, {{}, positionsAt(request_.states, stamp + ahead)}, X_WB_);
+      bodyPoses(robot_->tree, robot_->bodies,
+                {Eigen::Isometry3d::Identity(), positionsAt(request_.states, stamp + ahead)}, X_WB_);
       for (size_t link = 0; link < poses_.size(); ++link) {
         const auto& path = motion_.body_paths[link];  // with steps in between
         const auto then = std::find_if(path.begin(), path.end(), [&](const auto& pose) { return pose.ahead == ahead; });

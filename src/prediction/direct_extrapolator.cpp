@@ -1,5 +1,7 @@
 #include "prediction/direct_extrapolator.h"
 
+#include <utility>
+
 #include "prediction/interpolation.h"
 #include "prediction/profile.h"
 
@@ -23,8 +25,13 @@ auto makeGroups(const Speeds& prior_speeds, std::index_sequence<i...> /*groups*/
 }  // namespace
 
 template <typename Space>
-DirectExtrapolator<Space>::DirectExtrapolator(const typename Space::Speeds& prior_speeds, const Profile* profile)
-    : groups_(makeGroups<Space::kAxes>(prior_speeds, std::make_index_sequence<Space::kGroups>())) {
+LearnedMotion<Space>::LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels)
+    : groups(makeGroups<Space::kAxes>(prior_speeds, std::make_index_sequence<Space::kGroups>())),
+      share(1.0 / static_cast<double>(channels)) {}
+
+template <typename Space>
+DirectExtrapolator<Space>::DirectExtrapolator(std::shared_ptr<LearnedMotion<Space>> learned, const Profile* profile)
+    : learned_(std::move(learned)) {
   if (profile != nullptr) begin(*profile);
 }
 
@@ -32,8 +39,8 @@ template <>
 void DirectExtrapolator<PoseSpace>::begin(const Profile& profile) {
   regressors_.begin(profile.speeds);
   for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-    groups_[0][i].begin(profile.translation[i], expectedWeights(groups_[0], i));
-    groups_[1][i].begin(profile.rotation[i], expectedWeights(groups_[1], i));
+    learned_->groups[0][i].begin(profile.translation[i], expectedWeights(learned_->groups[0], i));
+    learned_->groups[1][i].begin(profile.rotation[i], expectedWeights(learned_->groups[1], i));
   }
 }
 
@@ -44,8 +51,8 @@ template <>
 bool DirectExtrapolator<PoseSpace>::save(Profile& profile) const {
   profile.speeds = regressors_.speeds();
   for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-    profile.translation[i] = groups_[0][i].learned();
-    profile.rotation[i] = groups_[1][i].learned();
+    profile.translation[i] = learned_->groups[0][i].learned();
+    profile.rotation[i] = learned_->groups[1][i].learned();
   }
   return true;
 }
@@ -63,13 +70,13 @@ void DirectExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {
   if (tracker.step() == Step::kBegins) targets_.clear();
   if (tracker.step() == Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
   if (tracker.step() != Step::kContinues) return;
-  const double period = toSeconds(tracker.period());
+  const double period = learned_->share * toSeconds(tracker.period());
   targets_.add(tracker.newest(), newest, [&](const auto& then, size_t i, const Vector& moved) {
-    for (size_t group = 0; group < groups_.size(); ++group) {
+    for (size_t group = 0; group < learned_->groups.size(); ++group) {
       const auto first = static_cast<Eigen::Index>(group) * Space::kAxes;
-      groups_[group][i].learn(
+      learned_->groups[group][i].learn(
           {then.template middleRows<Space::kAxes>(first), moved.template segment<Space::kAxes>(first), period},
-          expectedWeights(groups_[group], i));
+          expectedWeights(learned_->groups[group], i));
     }
   });
 }
@@ -84,16 +91,18 @@ typename DirectExtrapolator<Space>::Weights DirectExtrapolator<Space>::expectedW
 template <typename Space>
 typename Space::Vector DirectExtrapolator<Space>::displacementIn(double ahead) const {
   Vector displacement;
-  for (size_t group = 0; group < groups_.size(); ++group) {
+  for (size_t group = 0; group < learned_->groups.size(); ++group) {
     const auto first = static_cast<Eigen::Index>(group) * Space::kAxes;
     const auto weights = interpolateOverHorizons<Weights>(
-        ahead, [&](size_t i) { return groups_[group][i].weights() / kLearnedHorizons[i]; });
+        ahead, [&](size_t i) { return learned_->groups[group][i].weights() / kLearnedHorizons[i]; });
     displacement.template segment<Space::kAxes>(first) =
         ahead * regressors_.values().template middleRows<Space::kAxes>(first) * weights;
   }
   return displacement;
 }
 
+template struct LearnedMotion<PoseSpace>;
+template struct LearnedMotion<JointSpace>;
 template class DirectExtrapolator<PoseSpace>;
 template class DirectExtrapolator<JointSpace>;
 

@@ -24,9 +24,14 @@ class Extrapolator {
   virtual bool save(Profile& /*profile*/) const { return false; }
 };
 
+template <typename Space>
+struct LearnedMotion;
+
 /// Makes the extrapolator that `options.predictor` names; `direct` begins with the profile, unless it is of a joint.
+/// @param learned  that `direct` shares with others; null: it learns alone
 /// @throws InvalidInput if the name is unknown
 template <typename Space>
-std::unique_ptr<Extrapolator<Space>> makeExtrapolator(const PredictorOptions& options, const Space& space);
+std::unique_ptr<Extrapolator<Space>> makeExtrapolator(const PredictorOptions& options, const Space& space,
+                                                      std::shared_ptr<LearnedMotion<Space>> learned = nullptr);
 
 }  // namespace sweep_guard_core

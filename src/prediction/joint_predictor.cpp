@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
+#include "prediction/direct_extrapolator.h"
 #include "prediction/motion_channel.h"
 #include "prediction/predictor_options.h"
 #include "sweep_guard/common/unwound.h"
@@ -21,11 +23,20 @@ JointSpace spaceOf(const PredictableJoint& joint, const PredictorOptions& option
   return space;
 }
 
+// One hand moves the joints, so they begin and end together: those of one kind share what is learned.
+std::shared_ptr<LearnedMotion<JointSpace>> learnedBy(const std::vector<PredictableJoint>& joints, bool turn) {
+  const auto count =
+      std::count_if(joints.begin(), joints.end(), [turn](const auto& joint) { return joint.turns == turn; });
+  const JointSpace::Speeds prior_speed(turn ? kPriorTurnRate : kPriorSpeed);
+  return std::make_shared<LearnedMotion<JointSpace>>(prior_speed, std::max<size_t>(1, static_cast<size_t>(count)));
+}
+
 }  // namespace
 
 struct JointPredictor::Joint {
-  Joint(const PredictableJoint& joint, const PredictorOptions& options)
-      : continuous(joint.continuous), channel(options, spaceOf(joint, options)) {}
+  Joint(const PredictableJoint& joint, const PredictorOptions& options,
+        std::shared_ptr<LearnedMotion<JointSpace>> learned)
+      : continuous(joint.continuous), channel(options, spaceOf(joint, options), std::move(learned)) {}
 
   bool continuous;
   MotionChannel<JointSpace> channel;
@@ -34,7 +45,9 @@ struct JointPredictor::Joint {
 
 JointPredictor::JointPredictor(const PredictorOptions& options, const std::vector<PredictableJoint>& joints) {
   checked(options);
-  for (const PredictableJoint& joint : joints) joints_.emplace_back(joint, options);
+  const auto turning = learnedBy(joints, true);
+  const auto sliding = learnedBy(joints, false);
+  for (const PredictableJoint& joint : joints) joints_.emplace_back(joint, options, joint.turns ? turning : sliding);
 }
 
 JointPredictor::~JointPredictor() = default;

@@ -1,5 +1,7 @@
 #include "prediction/motion_channel.h"
 
+#include <utility>
+
 namespace sweep_guard_core {
 namespace {
 
@@ -8,8 +10,12 @@ constexpr auto kActivityWindow = std::chrono::milliseconds(120);
 }  // namespace
 
 template <typename Space>
-MotionChannel<Space>::MotionChannel(const PredictorOptions& options, const Space& space)
-    : tracker_(space), velocity_(kActivityWindow), extrapolator_(makeExtrapolator(options, space)), errors_(space) {}
+MotionChannel<Space>::MotionChannel(const PredictorOptions& options, const Space& space,
+                                    std::shared_ptr<LearnedMotion<Space>> learned)
+    : tracker_(space),
+      velocity_(kActivityWindow),
+      extrapolator_(makeExtrapolator(options, space, std::move(learned))),
+      errors_(space) {}
 
 template <typename Space>
 void MotionChannel<Space>::observe(const typename Space::Sample& sample) {

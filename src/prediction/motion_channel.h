@@ -13,7 +13,9 @@ template <typename Space>
 class MotionChannel {
  public:
   /// @throws InvalidInput if the name of the predictor is unknown
-  MotionChannel(const PredictorOptions& options, const Space& space);
+  /// @param learned  as for makeExtrapolator()
+  MotionChannel(const PredictorOptions& options, const Space& space,
+                std::shared_ptr<LearnedMotion<Space>> learned = nullptr);
 
   void observe(const typename Space::Sample& sample);
   void interrupt() { tracker_.interrupt(); }  ///< ends the motion: the next sample begins another one
