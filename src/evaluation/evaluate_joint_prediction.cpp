@@ -1,5 +1,8 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "common/run_program.h"
 #include "evaluation/joint_errors.h"
@@ -9,6 +12,7 @@
 #include "recording/joint_bag.h"
 #include "ros/tool/robot_tree.h"
 #include "sweep_guard/common/unwound.h"
+#include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_evaluation {
 namespace {
@@ -20,9 +24,7 @@ constexpr const char* kUsage =
     "Usage: evaluate_joint_prediction --urdf FILE --links LINK,LINK,... [options] BAG...\n\n"
     "Predicts the links of a robot from its joints, and each from its own poses, and compares both with what came. "
     "Writes\n"
-    "a CSV table. BAG is a rosbag with sensor_msgs/JointState. Stop with an error if a message lacks a joint that "
-    "moves\n"
-    "the links.\n\n";
+    "a CSV table. BAG is a rosbag with sensor_msgs/JointState.\n\n";
 
 struct Arguments {
   bool help = false;
@@ -38,7 +40,7 @@ Arguments parse(int argc, char** argv) {
   options.add_options()("help,h", po::bool_switch(&arguments.help), "print this text")(
       "urdf", text(arguments.urdf, "FILE"), "description of the robot")("links", text(arguments.links, "LINK,..."),
                                                                         "links whose origins are predicted")(
-      "topic", text(arguments.topic, "NAME"), "topic of the joints; all by default")(
+      "topic", text(arguments.topic, "NAME"), "topic of the joints; required if there are several")(
       "predictors", withDefault("direct,polynomial,constant_velocity,hold", "NAMES"), "predictors to compare")(
       "horizons", withDefault("0.1,0.5,1", "S,S,..."), "horizons of the errors [s]");
   const po::variables_map values = parseCommandLine(argc, argv, options, arguments.bags);
@@ -64,19 +66,37 @@ sweep_guard_ros::RobotTree readTree(const Arguments& arguments) {
   return treeOf(robot, robot.root(), links);
 }
 
+// The position of each variable, or none if the message lacks one.
+std::optional<std::vector<double>> positionsOf(const sensor_msgs::JointState& joints,
+                                               const sweep_guard_core::KinematicTree& tree) {
+  std::vector<double> positions;
+  for (const sweep_guard_core::JointVariable& variable : tree.variables()) {
+    const auto found = std::find(joints.name.begin(), joints.name.end(), variable.name);
+    const auto index = static_cast<size_t>(found - joints.name.begin());
+    if (index >= joints.position.size()) return std::nullopt;
+    if (!std::isfinite(joints.position[index]))
+      throw InvalidInput("the position of joint '" + variable.name + "' is not finite");
+    positions.push_back(joints.position[index]);
+  }
+  return positions;
+}
+
+// Messages that lack a joint, or are not later than the one before, are left out.
 std::vector<StampedJoints> readStates(const std::string& bag, const std::string& topic,
                                       const sweep_guard_core::KinematicTree& tree) {
-  std::vector<std::string> names;
-  for (const sweep_guard_core::JointVariable& variable : tree.variables()) names.push_back(variable.name);
   std::vector<StampedJoints> states;
-  for (const auto& [stamp, positions] : sweep_guard_recording::readJointBag(bag, topic, names)) {
-    StampedJoints state{stamp, positions};
-    for (size_t i = 0; i < positions.size() && !states.empty(); ++i) {
-      if (tree.variables()[i].continuous)
-        state.positions[i] = sweep_guard_core::unwound(positions[i], states.back().positions[i]);
+  const auto add = [&](const std::string&, const sensor_msgs::JointState& joints) {
+    auto positions = positionsOf(joints, tree);
+    const sweep_guard_core::Time stamp = sweep_guard_ros::fromMsg(joints.header.stamp);
+    if (!positions || (!states.empty() && stamp <= states.back().stamp)) return;
+    for (size_t i = 0; i < positions->size() && !states.empty(); ++i) {
+      double& position = (*positions)[i];
+      if (tree.variables()[i].continuous) position = sweep_guard_core::unwound(position, states.back().positions[i]);
     }
-    states.push_back(std::move(state));
-  }
+    states.push_back({stamp, std::move(*positions)});
+  };
+  sweep_guard_recording::readJointBag(bag, topic, add);
+  if (states.empty()) throw InvalidInput(bag + ": no message has all joints that move the links");
   return states;
 }
 

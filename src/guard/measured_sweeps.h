@@ -21,6 +21,7 @@ struct SweepSetup {
   const SweepOptions& options;
   std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up
   const Intentions& intentions = kNoIntentions;
+  const AllowedPairs& allowed = kNoAllowedPairs;
 };
 
 /// Sweeps one body of the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for

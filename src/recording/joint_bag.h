@@ -1,26 +1,17 @@
 #pragma once
 
-#include <string>
-#include <vector>
+#include <sensor_msgs/JointState.h>
 
-#include "sweep_guard/common/time.h"
+#include <functional>
+#include <string>
 
 namespace sweep_guard_recording {
 
-/// Positions of some joints at one time.
-struct RecordedJoints {
-  sweep_guard_core::Time stamp;
-  std::vector<double> positions;  ///< in the order of the names that were asked for [rad or m]
-};
-
-/// Reads the positions of joints from the sensor_msgs/JointState of a rosbag. Messages that lack one of the joints, or are
-/// not later than the one before, are left out.
-/// @param topic  empty: all topics of this type
-/// @param names  of the joints
-/// @return in the order of the bag, at least one
-/// @throws sweep_guard_core::InvalidInput if the file cannot be read or is no bag, if no message has all joints, or if a
-///     position is not finite
-std::vector<RecordedJoints> readJointBag(const std::string& path, const std::string& topic,
-                                         const std::vector<std::string>& names);
+/// Has each sensor_msgs/JointState on one topic of a rosbag read, in the order of the bag.
+/// @param topic  empty: the only topic of this type
+/// @param read   takes the name of the node that published the message, and the message
+/// @throws sweep_guard_core::InvalidInput as readBag() does, or naming the message if `read` throws one
+void readJointBag(const std::string& path, const std::string& topic,
+                  const std::function<void(const std::string& publisher, const sensor_msgs::JointState&)>& read);
 
 }  // namespace sweep_guard_recording

@@ -55,6 +55,7 @@ class SweepGuardNode {
   sweep_guard_core::SweepStatistics statistics_;
   Frames frames_;
   sweep_guard_core::IntentionStore intentions_;
+  sweep_guard_core::AllowedMatches allowed_;
   sweep_guard_core::WorkpieceStore workpieces_;
   CrossCheckThread cross_check_;
   GuardThread guard_thread_;

@@ -149,15 +149,12 @@ TEST_P(RandomArmsTest, ArePredictedToMeetWhatTheirBodiesMeetAlone) {
     const Workpieces workpieces = {hull("hull", 0.0, 0), hull("other", 1.0, 0)};
     reportOf(together_, pose, workpieces);
     together_.predict({}, workpieces, all);
-    const PredictedMotion motion = together_.predictMotion({}, std::chrono::milliseconds(1100));
     TriangleSet triangles[2];
     double probability = 0.0;
     std::optional<Duration> first;
     FakeDetector detector(record_);
     for (size_t body = 0; body < alone_.size(); ++body) {
-      PredictedMotion of_body = motion;
-      of_body.from.bodies = {motion.from.bodies[body]};
-      of_body.body_paths = {motion.body_paths[body]};
+      PredictedMotion of_body{ofBody(pose, body), all.path, all.reflex_sweeps, {all.body_paths[body]}};
       const Prediction one = predictContacts(detector, {robot_->tools[body]}, of_body, workpieces, timeless(), {});
       probability = std::max(probability, one.probability(PredictionInterval::kConsidered, std::chrono::seconds(1)));
       for (size_t k = 0; k < one.objects.size(); ++k) unite(triangles[k], one.objects[k].triangles());
@@ -313,7 +310,8 @@ TEST(ArmBesideASheetTest, AContactOfTheElbowIsPredictedAhead) {
     }
     const Prediction prediction = predictionOf(guard, {}, workpieces);
     ASSERT_TRUE(prediction.firstContact()) << predictor;
-    EXPECT_NEAR(toSeconds(*prediction.firstContact()), 0.55, 0.08) << predictor;
+    EXPECT_LT(toSeconds(*prediction.firstContact()), 0.55) << predictor;
+    EXPECT_GT(toSeconds(*prediction.firstContact()), 0.55 - 0.14) << "its box is 21 mm nearer, with " << predictor;
     const auto& sweeps = prediction.objects[0].sweeps;
     const auto first = std::find_if(sweeps.begin(), sweeps.end(), [](const auto& sweep) { return sweep.contact; });
     ASSERT_TRUE(first->tool_piece);

@@ -81,6 +81,14 @@ PredictorOptions optionsOf(const std::string& name) {
   return options;
 }
 
+std::vector<PredictableJoint> jointsOf(const KinematicTree& tree) {
+  std::vector<PredictableJoint> joints(tree.variables().size());
+  for (const TreeLink& link : tree.links()) {
+    if (link.type == JointType::kPrismatic) joints[link.variable].turns = false;
+  }
+  return joints;
+}
+
 // The root moves as well.
 TEST(MotionPredictorTest, BodiesOfJointsAtConstantSpeedArePredictedExactly) {
   Random random(/*seed=*/5);
@@ -147,7 +155,7 @@ TEST(MotionPredictorTest, ItsCovariancesAreThoseOfErrorsOfJointsAndRoot) {
     };
     MotionPredictor predictor(optionsOf("hold"), robot);
     const PredictedMotion motion = predicted(predictor, *robot, truth, 10.0);
-    JointPredictor joints(optionsOf("hold"), std::vector<PredictableJoint>(start.positions.size()));
+    JointPredictor joints(optionsOf("hold"), jointsOf(robot->tree));
     for (double t = 0.0; t < 10.0 + 1e-9; t += 0.01) joints.observe(at(t), truth(t).positions);
     const PredictedPose& root = motion.path.back();
     PredictedJoints expected;

@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
-#include <sensor_msgs/JointState.h>
+#include <std_msgs/Header.h>
 
 #include <filesystem>
-#include <limits>
+#include <vector>
 
 #include "refusal.h"
+#include "sweep_guard/common/error.h"
 #include "test_file.h"
 
 namespace sweep_guard_recording {
@@ -18,50 +19,66 @@ class JointBagTest : public testing::Test {
   JointBagTest() : path_(sweep_guard_core::testFile(".bag")), bag_(path_, rosbag::bagmode::Write) {}
   ~JointBagTest() override { std::filesystem::remove(path_); }
 
-  void write(const std::string& topic, double stamp, const std::vector<std::string>& names,
-             const std::vector<double>& positions) {
+  void write(const std::string& topic, double position) {
     sensor_msgs::JointState message;
-    message.header.stamp = ros::Time(stamp);
-    message.name = names;
-    message.position = positions;
+    message.name = {"elbow"};
+    message.position = {position};
     bag_.write(topic, ros::Time(1000.0 + ++written_), message);
   }
 
-  std::vector<RecordedJoints> read(const std::string& topic = "") {
+  std::vector<double> read(const std::string& topic = "") {
     bag_.close();
-    return readJointBag(path_, topic, {"shoulder", "elbow"});
+    std::vector<double> positions;
+    readJointBag(path_, topic, [&](const std::string&, const sensor_msgs::JointState& message) {
+      positions.push_back(message.position.at(0));
+    });
+    return positions;
   }
 
-  const std::string path_;
+  std::string refusal(const std::string& topic = "") {
+    return ::refusal([&] { read(topic); });
+  }
+
+  std::string path_;
   rosbag::Bag bag_;
   int written_ = 0;
 };
 
-TEST_F(JointBagTest, GivesThePositionsInTheOrderAskedFor) {
-  write("/joints", 10.0, {"elbow", "gripper", "shoulder"}, {0.2, 9.0, 0.1});
-  write("/joints", 10.5, {"elbow", "gripper", "shoulder"}, {0.4, 9.0, 0.3});
-  const std::vector<RecordedJoints> states = read();
-  ASSERT_EQ(states.size(), 2U);
-  EXPECT_EQ(states[0].positions, (std::vector<double>{0.1, 0.2}));
-  EXPECT_EQ(states[1].positions, (std::vector<double>{0.3, 0.4}));
-  EXPECT_EQ(states[1].stamp - states[0].stamp, std::chrono::milliseconds(500));
+TEST_F(JointBagTest, ReadsTheOnlyTopicInTheOrderOfTheBag) {
+  bag_.write("header", ros::Time(1.0), std_msgs::Header());
+  write("joint_states", 0.5);
+  write("joint_states", 0.25);
+  EXPECT_EQ(read(), (std::vector<double>{0.5, 0.25}));
 }
 
-TEST_F(JointBagTest, LeavesOutMessagesThatLackAJointOrAreNotLater) {
-  write("/joints", 10.0, {"shoulder", "elbow"}, {0.1, 0.2});
-  write("/gripper", 10.1, {"gripper"}, {9.0});
-  write("/joints", 10.2, {"shoulder", "elbow"}, {0.1});
-  write("/joints", 10.0, {"shoulder", "elbow"}, {0.5, 0.6});
-  write("/other", 10.3, {"shoulder", "elbow"}, {0.7, 0.8});
-  EXPECT_EQ(read("/joints").size(), 1U);
+TEST_F(JointBagTest, ListsTheTopicsWhereThereIsAChoice) {
+  write("right/joint_states", 0.5);
+  write("left/joint_states", 0.5);
+  EXPECT_TRUE(
+      has(refusal(), "choose one topic (joints_topic:=TOPIC); there are: left/joint_states, right/joint_states"));
 }
 
-TEST_F(JointBagTest, RefusesABagWithoutTheJointsAndPositionsThatAreNotFinite) {
-  write("/joints", 10.0, {"shoulder"}, {0.1});
-  EXPECT_NE(::refusal([&] { read(); }).find("has all joints"), std::string::npos);
-  bag_.open(path_, rosbag::bagmode::Write);
-  write("/joints", 10.0, {"shoulder", "elbow"}, {0.1, std::numeric_limits<double>::quiet_NaN()});
-  EXPECT_NE(::refusal([&] { read(); }).find("'elbow' is not finite"), std::string::npos);
+TEST_F(JointBagTest, ReadsTheTopicThatIsAskedFor) {
+  write("right/joint_states", 0.5);
+  write("left/joint_states", 0.25);
+  EXPECT_EQ(read("left/joint_states"), std::vector<double>{0.25});
+}
+
+TEST_F(JointBagTest, RefusesABagWithoutJoints) {
+  bag_.write("header", ros::Time(1.0), std_msgs::Header());
+  EXPECT_TRUE(has(refusal(), path_ + ": no sensor_msgs/JointState in the bag; record one of them"));
+}
+
+TEST_F(JointBagTest, NamesTheMessageThatIsRefused) {
+  write("joint_states", 0.5);
+  write("joint_states", 0.25);
+  bag_.close();
+  const std::string text = ::refusal([&] {
+    readJointBag(path_, "", [](const std::string&, const sensor_msgs::JointState& message) {
+      if (message.position.at(0) < 0.5) throw sweep_guard_core::InvalidInput("too little");
+    });
+  });
+  EXPECT_TRUE(has(text, path_ + ": joint_states, message 2: too little"));
 }
 
 }  // namespace
