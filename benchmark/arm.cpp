@@ -1,5 +1,5 @@
 // Measures what guarding an arm costs: 7 links of 20 convex pieces each, joints at up to 1 rad/s, states at 200 Hz, a mesh that
-// deforms at 60 Hz, one measured sweep and a prediction of 21 sweeps for each state. One thread.
+// deforms at 60 Hz, one measured sweep and a prediction of 21 steps by the joints for each state. One thread.
 //   arm [--triangles N] [--detector NAME] [--csv FILE]
 #include <algorithm>
 #include <cmath>
@@ -99,6 +99,7 @@ PoseWithFrames poseAt(const Robot& robot, double t, const Eigen::Isometry3d& X_W
   bodyPoses(robot.tree, robot.bodies, state, X_WB);
   PoseWithFrames pose{Time(fromSeconds(10.0 + t)), {}, Eigen::Isometry3d::Identity(), {{kMesh, X_WM}}};
   for (size_t i = 0; i < X_WB.size(); ++i) pose.bodies.push_back({X_WB[i], motion.deviationBound(i, 1)});
+  pose.state = state;
   return pose;
 }
 
@@ -110,9 +111,9 @@ struct Times {
 };
 
 Times guard(const std::string& detector, int triangles, const Eigen::Isometry3d& X_WM) {
-  const Robot robot = arm();
+  const auto robot = std::make_shared<const Robot>(arm());
   const std::vector<Workpieces> all = deformations(triangles);
-  Guard guard(robot.tools, makeDetector(detector), GuardOptions());
+  Guard guard(robot, makeDetector(detector), GuardOptions());
   SweepReport report;
   Prediction prediction;
   Workpieces now;
@@ -120,7 +121,7 @@ Times guard(const std::string& detector, int triangles, const Eigen::Isometry3d&
   Times times;
   for (int i = 0; i < kStates; ++i) {
     const double t = kPeriod * i;
-    const PoseWithFrames pose = poseAt(robot, t, X_WM);
+    const PoseWithFrames pose = poseAt(*robot, t, X_WM);
     if (static_cast<int>(t / kFrame) != frame) {
       frame = static_cast<int>(t / kFrame);
       now = stamped(all[static_cast<size_t>(frame) % kDeformations], pose.stamp, now);

@@ -1,8 +1,17 @@
 #include "evaluation/option_values.h"
 
+#include <sstream>
+
 namespace sweep_guard_evaluation {
 
 namespace po = boost::program_options;
+
+std::vector<std::string> splitAtCommas(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream stream(list + ',');
+  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+  return words;
+}
 
 po::variables_map parseCommandLine(int argc, const char* const* argv, po::options_description options,
                                    std::vector<std::string>& files) {

@@ -30,6 +30,9 @@ Number toNumber(const std::string& option, const std::string& word, Number lower
                                                    upper));
 }
 
+/// Returns the words of a list with commas between them.
+std::vector<std::string> splitAtCommas(const std::string& list);
+
 /// Parses a command line of options and files, and stores what it says.
 /// @throws sweep_guard_core::InvalidInput that names an option that is unknown or lacks its value
 boost::program_options::variables_map parseCommandLine(int argc, const char* const* argv,

@@ -20,13 +20,6 @@ namespace {
 constexpr double kMaxHorizon = 10.0;  // [s]
 const sweep_guard_core::WarningThresholds kThresholds;
 
-std::vector<std::string> splitAtCommas(const std::string& list) {
-  std::vector<std::string> words;
-  std::istringstream stream(list + ',');
-  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-  return words;
-}
-
 po::options_description outputOptions(Options& options) {
   po::options_description described("Results to compute and write; by default all results are computed and printed");
   described.add_options()("csv", text(options.csv, "FILE"), "prediction errors")("plot", text(options.plot, "FILE.png"),

@@ -23,6 +23,7 @@ void assign(PoseWithFrames& to, const PoseWithFrames& from) {
   to.received = from.received;
   to.X_WT = from.X_WT;
   to.bodies = from.bodies;
+  to.state = from.state;
   auto next = from.X_WM.begin();
   for (auto& [frame, X_WM] : to.X_WM) X_WM = next++->second;
 }
@@ -51,13 +52,17 @@ void forEachBody(const std::vector<std::unique_ptr<GuardedBody>>& bodies, Result
 }  // namespace
 
 Guard::Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options)
-    : Guard(std::vector<Tool>{std::move(tool)}, std::move(detector), options) {}
+    : Guard(std::vector<Tool>{std::move(tool)}, nullptr, std::move(detector), options) {}
 
-Guard::Guard(std::vector<Tool> bodies, std::unique_ptr<Detector> detector, const GuardOptions& options)
+Guard::Guard(std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector, const GuardOptions& options)
+    : Guard(robot->tools, robot, std::move(detector), options) {}
+
+Guard::Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector,
+             const GuardOptions& options)
     : bodies_(guarded(std::move(bodies), options)),
       detector_(std::move(detector)),
       options_(options),
-      predictor_(options.predictor),
+      predictor_(options.predictor, std::move(robot)),
       budget_(std::make_unique<TimeBudget>(options.horizon, options.cycle)),
       plan_(std::make_unique<SweepPlan>()),
       no_intentions_(std::make_shared<const Intentions>()),
@@ -100,8 +105,7 @@ void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& pred
   const SteadyTime begin = options_.clock();
   computeHorizon(options_.horizon, age, horizon_);
   assign(motion_.from, *newest_);
-  predictor_.predict(horizon_.ends, motion_);
-  motion_.reflex_sweeps = horizon_.reflex_sweeps;
+  predictor_.predict(horizon_, motion_);
   beginPlan(begin, between);
   const size_t considered = motion_.path.empty() ? 0 : consideredSweeps();
   const std::shared_ptr<const Intentions> intended = intentions();  // sweeps between may change them
@@ -127,7 +131,7 @@ void Guard::beginPlan(SteadyTime begin, const std::function<void()>& between) {
   plan_->before_sweep = [this, &between] { interrupt(between); };
 }
 
-// Of each body: there are volumes enough for all of them.
+// Of each body: there are volumes enough for all of them. In time, no steps are joined that MotionPredictor has cut.
 size_t Guard::consideredSweeps() const {
   size_t volumes[] = {0, 0};
   for (size_t body = 0; body < bodies_.size(); ++body) {
@@ -137,7 +141,9 @@ size_t Guard::consideredSweeps() const {
       volumes[i < motion_.reflex_sweeps ? 0 : 1] += subMotionCount(step.angle(), options_.sweep.max_rotation);
     }
   }
-  return budget_->consideredSweeps(volumes[0], volumes[1], bodies_.size());
+  const size_t in_time = budget_->consideredSweeps(volumes[0], volumes[1], bodies_.size());
+  const bool all = in_time == sweep_guard_core::consideredSweeps(options_.horizon);
+  return all ? motion_.path.size() - motion_.reflex_sweeps : in_time;
 }
 
 void Guard::interrupt(const std::function<void()>& between) {
@@ -155,8 +161,8 @@ void Guard::throwIfStopping() const {
 PredictedMotion Guard::predictMotion(Duration age, Duration end) const {
   if (!newest_) return {};
   const Horizon horizon = horizonUpTo(end, options_.horizon, age);
-  PredictedMotion motion{*newest_, {}, horizon.reflex_sweeps};
-  predictor_.predict(horizon.ends, motion);
+  PredictedMotion motion{*newest_, {}};
+  predictor_.predict(horizon, motion);
   return motion;
 }
 
@@ -213,6 +219,8 @@ void Guard::exchange(GuardChange& change) {
   if (change.predictor) {
     std::swap(predictor_, *change.predictor);
     if (newest_) predictor_.observe(*newest_);
+  } else if (change.robot) {
+    predictor_.exchange(change.robot);
   }
   *budget_ = budget;
 }

@@ -63,13 +63,15 @@ void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const P
   tool_radius_ = tool.boundingRadius();
   path_M_.clear();
   covariances_M_.clear();
+  deviations_.assign(1, 0.0);
   const Eigen::Isometry3d X_MW = X_WM.inverse();
   path_M_.push_back({Duration::zero(), X_MW * X_WT, 0.0});
   covariances_M_.emplace_back(Matrix6d::Zero());
   for (const PredictedPose& pose : path) {
     const Motion step_M{path_M_.back().X_MT, X_MW * pose.X_WT};
-    path_M_.push_back({pose.ahead, step_M.X_MT_end, chordError(tool_radius_, step_M.angle())});
+    path_M_.push_back({pose.ahead, step_M.X_MT_end, chordError(tool_radius_, step_M.angle()) + pose.deviation_bound});
     covariances_M_.push_back(turned(pose.covariance, X_MW.linear()));
+    deviations_.push_back(pose.deviation_bound);
   }
 }
 
@@ -93,25 +95,29 @@ PathInMesh::Pose PathInMesh::at(Duration time, size_t first) const {
 void PathInMesh::motions_M(const PathSegment& segment, double max_rotation, std::vector<Motion>& motions_M) const {
   if (segment.last - segment.first > 1) {
     motions_M.assign(1, mergedMotion(path_M_, segment.first, segment.last, tool_radius_));
-  } else {
-    motions_M = split({at(segment.from, segment.first).X_MT, end_M(segment)}, max_rotation, std::move(motions_M));
+    return;
   }
+  const Motion step_M{at(segment.from, segment.first).X_MT, end_M(segment), deviations_[segment.last]};
+  motions_M = step_M.deviation_bound == 0.0
+                  ? split(step_M, max_rotation, std::move(motions_M))
+                  : split(RelativeMotion{step_M, {}}, max_rotation, tool_radius_, std::move(motions_M));
 }
 
 Eigen::AlignedBox3d PathInMesh::reach_M(const PathSegment& segment, double deviations, double margin) const {
   Pose pose = at(segment.from, segment.first);
   Eigen::AlignedBox3d box_M;
   double arc = 0.0;
-  const auto extendTo = [&](const Pose& next) {
+  const auto extendTo = [&](const Pose& next, double deviation) {
     // Every covariance between the poses lies between theirs, so no deviation exceeds the larger of both.
     for (const Eigen::Isometry3d& X_MT : {pose.X_MT, next.X_MT}) {
       box_M.extend(boxAround(tool_T_, X_MT, pose.covariance_M, next.covariance_M, deviations));
     }
-    arc = std::max(arc, chordError(tool_radius_, Motion{pose.X_MT, next.X_MT}.angle()));
+    arc = std::max(arc, chordError(tool_radius_, Motion{pose.X_MT, next.X_MT}.angle()) + deviation);
     pose = next;
   };
-  for (size_t i = segment.first + 1; i < segment.last; ++i) extendTo({path_M_[i].X_MT, covariances_M_[i]});
-  extendTo(at(segment.to, segment.last - 1));
+  for (size_t i = segment.first + 1; i < segment.last; ++i)
+    extendTo({path_M_[i].X_MT, covariances_M_[i]}, deviations_[i]);
+  extendTo(at(segment.to, segment.last - 1), deviations_[segment.last]);
   return {box_M.min().array() - (arc + margin), box_M.max().array() + (arc + margin)};
 }
 

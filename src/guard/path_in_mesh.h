@@ -67,6 +67,7 @@ class PathInMesh {
   double tool_radius_ = 0.0;
   Path path_M_;
   std::vector<Matrix6d> covariances_M_;  // at the points of path_M_
+  std::vector<double> deviations_;       // from a Motion, before each point of path_M_
 };
 
 /// Finds where the sweeps along a predicted path end: numbers of poses, counted as by PathInMesh; the last sweep ends

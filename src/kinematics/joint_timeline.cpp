@@ -4,13 +4,13 @@
 #include <cassert>
 #include <cmath>
 
+#include "sweep_guard/common/unwound.h"
 #include "sweep_guard/geometry/motion.h"
 
 namespace sweep_guard_core {
 namespace {
 
 constexpr double kMaxPosition = 1e4;  // [rad or m]
-constexpr double kTurn = 2.0 * 3.14159265358979323846;
 constexpr Duration kForgetPublisher = std::chrono::seconds(1);
 
 // Tracks of different types do the same:
@@ -83,8 +83,7 @@ void JointTimeline::checkPublisher(const std::string& publisher, Time stamp, con
 double JointTimeline::unwound(size_t variable, double value) const {
   const Track<double>& track = joints_[variable].track;
   if (!tree_.variables()[variable].continuous || track.size() == 0) return value;
-  const double before = track.newest().value;
-  return before + std::remainder(value - before, kTurn);
+  return sweep_guard_core::unwound(value, track.newest().value);
 }
 
 void JointTimeline::addRoot(Time stamp, const Eigen::Isometry3d& X_WR) {

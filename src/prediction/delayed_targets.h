@@ -3,29 +3,30 @@
 #include <array>
 #include <boost/circular_buffer.hpp>
 
-#include "prediction/displacement.h"
-#include "sweep_guard/common/stamped_pose.h"
+#include "prediction/motion_space.h"
 
 namespace sweep_guard_core {
 
 /// Horizons [s] for which predictors learn; they interpolate between these.
 constexpr std::array<double, 8> kLearnedHorizons = {0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0};
 
-/// Keeps the features of every pose until the displacement of the tool within each of kLearnedHorizons is known.
-template <typename Features>
+/// Keeps the features of every sample until the displacement within each of kLearnedHorizons is known.
+template <typename Space, typename Features>
 class DelayedTargets {
  public:
-  /// Reports the targets that the newest pose completes, and keeps its features.
-  /// @param on_target  called as on_target(features, i, displacement): features of an earlier pose, and the
-  ///                   displacement from that pose within kLearnedHorizons[i]
+  using Sample = typename Space::Sample;
+
+  /// Reports the targets that the newest sample completes, and keeps its features.
+  /// @param on_target  called as on_target(features, i, displacement): features of an earlier sample, and the
+  ///                   displacement from that sample within kLearnedHorizons[i]
   template <typename OnTarget>
-  void add(const StampedPose& newest, const Features& features, OnTarget&& on_target) {
+  void add(const Sample& newest, const Features& features, OnTarget&& on_target) {
     for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
       for (; next_[i] < samples_.size(); ++next_[i]) {
-        const Sample& sample = samples_[next_[i]];
-        const Time then = sample.pose.stamp + fromSeconds(kLearnedHorizons[i]);
+        const Kept& kept = samples_[next_[i]];
+        const Time then = kept.sample.stamp + fromSeconds(kLearnedHorizons[i]);
         if (then > newest.stamp) break;
-        on_target(sample.features, i, displacement(sample.pose.X_WT, between(samples_.back().pose, newest, then)));
+        on_target(kept.features, i, Space::displacementOf(kept.sample, between(samples_.back().sample, newest, then)));
       }
     }
     dropCompleted();
@@ -33,26 +34,26 @@ class DelayedTargets {
     samples_.push_back({newest, features});
   }
 
-  /// Replaces the newest pose and its features.
-  void correctNewest(const StampedPose& pose, const Features& features) {
-    if (!samples_.empty()) samples_.back() = {pose, features};
+  /// Replaces the newest sample and its features.
+  void correctNewest(const Sample& sample, const Features& features) {
+    if (!samples_.empty()) samples_.back() = {sample, features};
   }
 
-  /// Forgets all poses: after an interruption their targets are never completed.
+  /// Forgets all samples: after an interruption their targets are never completed.
   void clear() {
     samples_.clear();
     next_.fill(0);
   }
 
  private:
-  struct Sample {
-    StampedPose pose;
+  struct Kept {
+    Sample sample;
     Features features;
   };
 
-  static Eigen::Isometry3d between(const StampedPose& from, const StampedPose& to, Time stamp) {
+  static Sample between(const Sample& from, const Sample& to, Time stamp) {
     const double share = toSeconds(stamp - from.stamp) / toSeconds(to.stamp - from.stamp);
-    return displaced(from.X_WT, share * displacement(from.X_WT, to.X_WT));
+    return Space::displacedSample(from, share * Space::displacementOf(from, to));
   }
 
   void dropCompleted() {
@@ -61,7 +62,7 @@ class DelayedTargets {
     for (size_t& next : next_) next -= completed;
   }
 
-  boost::circular_buffer<Sample> samples_{64};
+  boost::circular_buffer<Kept> samples_{64};
   std::array<size_t, kLearnedHorizons.size()> next_{};  // first sample whose target for this horizon is open
 };
 

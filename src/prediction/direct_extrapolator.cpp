@@ -1,72 +1,109 @@
 #include "prediction/direct_extrapolator.h"
 
+#include <utility>
+
 #include "prediction/interpolation.h"
 #include "prediction/profile.h"
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kPriorSpeed = 0.02;     // [m/s]
-constexpr double kPriorTurnRate = 0.15;  // [rad/s]
+template <int Axes, size_t... i>
+std::array<DisplacementRegression<Axes>, sizeof...(i)> makeRegressions(double prior_speed,
+                                                                       std::index_sequence<i...> /*horizons*/) {
+  return {DisplacementRegression<Axes>(kLearnedHorizons[i], prior_speed)...};
+}
 
-template <size_t... i>
-std::array<DisplacementRegression, sizeof...(i)> makeRegressions(double prior_speed,
-                                                                 std::index_sequence<i...> /*horizons*/) {
-  return {DisplacementRegression(kLearnedHorizons[i], prior_speed)...};
+template <int Axes, typename Speeds, size_t... i>
+auto makeGroups(const Speeds& prior_speeds, std::index_sequence<i...> /*groups*/) {
+  constexpr auto kHorizons = std::make_index_sequence<kLearnedHorizons.size()>();
+  using Regressions = std::array<DisplacementRegression<Axes>, kLearnedHorizons.size()>;
+  return std::array<Regressions, sizeof...(i)>{
+      makeRegressions<Axes>(prior_speeds[static_cast<Eigen::Index>(i)], kHorizons)...};
 }
 
 }  // namespace
 
-DirectExtrapolator::DirectExtrapolator(const Profile* profile)
-    : translation_(makeRegressions(kPriorSpeed, std::make_index_sequence<kLearnedHorizons.size()>())),
-      rotation_(makeRegressions(kPriorTurnRate, std::make_index_sequence<kLearnedHorizons.size()>())) {
-  if (profile == nullptr) return;
-  regressors_.begin(profile->speeds);
+template <typename Space>
+LearnedMotion<Space>::LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels)
+    : groups(makeGroups<Space::kAxes>(prior_speeds, std::make_index_sequence<Space::kGroups>())),
+      share(1.0 / static_cast<double>(channels)) {}
+
+template <typename Space>
+DirectExtrapolator<Space>::DirectExtrapolator(std::shared_ptr<LearnedMotion<Space>> learned, const Profile* profile)
+    : learned_(std::move(learned)) {
+  if (profile != nullptr) begin(*profile);
+}
+
+template <>
+void DirectExtrapolator<PoseSpace>::begin(const Profile& profile) {
+  regressors_.begin(profile.speeds);
   for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-    translation_[i].begin(profile->translation[i], expectedWeights(translation_, i));
-    rotation_[i].begin(profile->rotation[i], expectedWeights(rotation_, i));
+    learned_->groups[0][i].begin(profile.translation[i], expectedWeights(learned_->groups[0], i));
+    learned_->groups[1][i].begin(profile.rotation[i], expectedWeights(learned_->groups[1], i));
   }
 }
 
-bool DirectExtrapolator::save(Profile& profile) const {
+template <>
+void DirectExtrapolator<JointSpace>::begin(const Profile& /*profile*/) {}
+
+template <>
+bool DirectExtrapolator<PoseSpace>::save(Profile& profile) const {
   profile.speeds = regressors_.speeds();
   for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-    profile.translation[i] = translation_[i].learned();
-    profile.rotation[i] = rotation_[i].learned();
+    profile.translation[i] = learned_->groups[0][i].learned();
+    profile.rotation[i] = learned_->groups[1][i].learned();
   }
   return true;
 }
 
-void DirectExtrapolator::observe(const PoseTracker& tracker) {
+template <>
+bool DirectExtrapolator<JointSpace>::save(Profile& /*profile*/) const {
+  return false;
+}
+
+template <typename Space>
+void DirectExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {
+  using Step = typename MotionTracker<Space>::Step;
   regressors_.observe(tracker);
-  const MotionRegressors::Values& newest = regressors_.values();
-  if (tracker.step() == PoseTracker::Step::kBegins) targets_.clear();
-  if (tracker.step() == PoseTracker::Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
-  if (tracker.step() != PoseTracker::Step::kContinues) return;
-  const double period = toSeconds(tracker.period());
-  targets_.add(tracker.newest(), newest, [&](const MotionRegressors::Values& then, size_t i, const Vector6d& moved) {
-    translation_[i].learn({then.topRows<3>(), moved.head<3>(), period}, expectedWeights(translation_, i));
-    rotation_[i].learn({then.bottomRows<3>(), moved.tail<3>(), period}, expectedWeights(rotation_, i));
+  const auto& newest = regressors_.values();
+  if (tracker.step() == Step::kBegins) targets_.clear();
+  if (tracker.step() == Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
+  if (tracker.step() != Step::kContinues) return;
+  const double period = learned_->share * toSeconds(tracker.period());
+  targets_.add(tracker.newest(), newest, [&](const auto& then, size_t i, const Vector& moved) {
+    for (size_t group = 0; group < learned_->groups.size(); ++group) {
+      const auto first = static_cast<Eigen::Index>(group) * Space::kAxes;
+      learned_->groups[group][i].learn(
+          {then.template middleRows<Space::kAxes>(first), moved.template segment<Space::kAxes>(first), period},
+          expectedWeights(learned_->groups[group], i));
+    }
   });
 }
 
-DisplacementRegression::Weights DirectExtrapolator::expectedWeights(const Regressions& regressions, size_t horizon) {
-  if (horizon == 0) return DisplacementRegression::constantVelocity(kLearnedHorizons[0]);
+template <typename Space>
+typename DirectExtrapolator<Space>::Weights DirectExtrapolator<Space>::expectedWeights(const Regressions& regressions,
+                                                                                       size_t horizon) {
+  if (horizon == 0) return Regression::constantVelocity(kLearnedHorizons[0]);
   return kLearnedHorizons[horizon] / kLearnedHorizons[horizon - 1] * regressions[horizon - 1].weights();
 }
 
-Vector6d DirectExtrapolator::displacementIn(double ahead) const {
-  Vector6d displacement;
-  displacement << displacementIn(ahead, translation_, regressors_.values().topRows<3>()),
-      displacementIn(ahead, rotation_, regressors_.values().bottomRows<3>());
+template <typename Space>
+typename Space::Vector DirectExtrapolator<Space>::displacementIn(double ahead) const {
+  Vector displacement;
+  for (size_t group = 0; group < learned_->groups.size(); ++group) {
+    const auto first = static_cast<Eigen::Index>(group) * Space::kAxes;
+    const auto weights = interpolateOverHorizons<Weights>(
+        ahead, [&](size_t i) { return learned_->groups[group][i].weights() / kLearnedHorizons[i]; });
+    displacement.template segment<Space::kAxes>(first) =
+        ahead * regressors_.values().template middleRows<Space::kAxes>(first) * weights;
+  }
   return displacement;
 }
 
-Eigen::Vector3d DirectExtrapolator::displacementIn(double ahead, const Regressions& regressions,
-                                                   const DisplacementRegression::Velocities& velocities) {
-  const auto weights = interpolateOverHorizons<DisplacementRegression::Weights>(
-      ahead, [&](size_t i) { return regressions[i].weights() / kLearnedHorizons[i]; });
-  return ahead * velocities * weights;
-}
+template struct LearnedMotion<PoseSpace>;
+template struct LearnedMotion<JointSpace>;
+template class DirectExtrapolator<PoseSpace>;
+template class DirectExtrapolator<JointSpace>;
 
 }  // namespace sweep_guard_core

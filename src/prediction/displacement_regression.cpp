@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "prediction/motion_space.h"
+
 namespace sweep_guard_core {
 namespace {
 
@@ -17,9 +19,10 @@ constexpr double kProfileTrust = 0.5;   // its errors count as those of this muc
 }  // namespace
 
 // Time is weighted by motion: a tool at rest neither teaches nor forgets anything.
-void DisplacementRegression::learn(const Observation& observation, const Weights& expected) {
+template <int Axes>
+void DisplacementRegression<Axes>::learn(const Observation& observation, const Weights& expected) {
   const auto& [velocities, moved, period] = observation;
-  const Eigen::Vector3d steady = ahead_ * velocities.col(0);
+  const Moved steady = ahead_ * velocities.col(0);
   const double motion = std::max(moved.norm(), steady.norm()) / (prior_speed_ * ahead_);
   const double weight = period * std::min(1.0, motion);
   const double error = (moved - velocities * learned_).norm();
@@ -29,19 +32,21 @@ void DisplacementRegression::learn(const Observation& observation, const Weights
   fit_.forget(decay(weight));
   time_ = decay(weight) * time_ + weight;
   profile_time_ *= decay(kProfileFading * weight);
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < Axes; ++axis) {
     fit_.add(velocities.row(axis).transpose(), Eigen::Matrix<double, 1, 1>(moved[axis]), robust_weight);
   }
   learned_ = fit().coefficients(prior(), expected);
   blend();
 }
 
-DisplacementRegression::Learned DisplacementRegression::learned() const {
+template <int Axes>
+typename DisplacementRegression<Axes>::Learned DisplacementRegression<Axes>::learned() const {
   const Fit all = fit();
   return {all.information(), all.projection(), errors_.mean(), time_ + profile_time_};
 }
 
-void DisplacementRegression::begin(const Learned& learned, const Weights& expected) {
+template <int Axes>
+void DisplacementRegression<Axes>::begin(const Learned& learned, const Weights& expected) {
   const double moved = learned.errors[2];
   if (moved == 0.0 || learned.time == 0.0) return;
   const double scale = 1.0 / (learned.time * moved * moved);
@@ -53,7 +58,8 @@ void DisplacementRegression::begin(const Learned& learned, const Weights& expect
 }
 
 // As if the profile were of an operator as fast as this one: the information of a faster one would outweigh his for long.
-DisplacementRegression::Fit DisplacementRegression::fit() const {
+template <int Axes>
+typename DisplacementRegression<Axes>::Fit DisplacementRegression<Axes>::fit() const {
   const double moved = errors_.mean()[2];
   Fit all = fit_;
   all.add(profile_, profile_time_ * moved * moved);
@@ -61,16 +67,21 @@ DisplacementRegression::Fit DisplacementRegression::fit() const {
 }
 
 // Bayes: errors per axis of variance s^2, one independent error per horizon, weights expected within one horizon.
-double DisplacementRegression::prior() const {
+template <int Axes>
+double DisplacementRegression<Axes>::prior() const {
   const double error = errors_.mean()[0];
-  return error * error / 3.0 / ahead_ + kRestShare * prior_speed_ * prior_speed_;
+  return error * error / Axes / ahead_ + kRestShare * prior_speed_ * prior_speed_;
 }
 
 // The fourth power favors the best of the three, and changes continuously when another one becomes the best.
-void DisplacementRegression::blend() {
+template <int Axes>
+void DisplacementRegression<Axes>::blend() {
   const Eigen::Array3d errors = errors_.mean() + std::numeric_limits<double>::min();
   const Eigen::Array3d share = (errors.minCoeff() / errors).square().square();
   weights_ = (share[0] * learned_ + share[1] * constantVelocity(ahead_)) / share.sum();
 }
+
+template class DisplacementRegression<PoseSpace::kAxes>;
+template class DisplacementRegression<JointSpace::kAxes>;
 
 }  // namespace sweep_guard_core

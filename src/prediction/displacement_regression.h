@@ -7,25 +7,30 @@
 
 namespace sweep_guard_core {
 
-/// Learns the tool's displacement within one horizon from the operator's velocities. A recursive least squares fit
-/// regresses the displacement on the velocities before it, with coefficients that the three axes share; outliers have
+/// Number of velocities that a displacement is regressed on.
+constexpr int kRegressors = 8;
+
+/// Learns the displacement of a tool or a joint within one horizon from the operator's velocities. A recursive least squares fit
+/// regresses the displacement on the velocities before it, with coefficients that its axes share; outliers have
 /// less weight. Before it has learned, it assumes constant velocity. If its errors exceed those of constant velocity or
 /// of no motion, it blends with these. For translation [m, m/s] or rotation [rad, rad/s].
+/// @tparam Axes  number of axes that share the coefficients: 3 of a tool, 1 of a joint
+template <int Axes>
 class DisplacementRegression {
  public:
-  static constexpr int kVelocities = 8;
-  using Velocities = Eigen::Matrix<double, 3, kVelocities>;  ///< one per column; the first is the newest
-  using Weights = Eigen::Matrix<double, kVelocities, 1>;     ///< [s]; predicted displacement: velocities * weights
+  using Velocities = Eigen::Matrix<double, Axes, kRegressors>;  ///< one per column; the first is the newest
+  using Moved = Eigen::Matrix<double, Axes, 1>;
+  using Weights = Eigen::Matrix<double, kRegressors, 1>;  ///< [s]; predicted displacement: velocities * weights
 
   struct Observation {
     Velocities velocities;  ///< at a pose
-    Eigen::Vector3d moved;  ///< displacement within the horizon after the pose
+    Moved moved;            ///< displacement within the horizon after the pose
     double period;          ///< since the previous pose [s], > 0
   };
 
   /// What was learned.
   struct Learned {
-    Eigen::Matrix<double, kVelocities, kVelocities> information;
+    Eigen::Matrix<double, kRegressors, kRegressors> information;
     Weights projection;
     Eigen::Array3d errors;  ///< mean errors of the fit, of constant velocity, of no motion, >= 0
     double time;            ///< time of motion that it weighs as much as [s], >= 0
@@ -50,7 +55,7 @@ class DisplacementRegression {
   void begin(const Learned& learned, const Weights& expected);
 
  private:
-  using Fit = Rls<kVelocities, 1>;
+  using Fit = Rls<kRegressors, 1>;
 
   Fit fit() const;
   double prior() const;

@@ -5,9 +5,10 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kPriorShare = 0.3;      // of the displacement at the current speed: error assumed before any is known
-constexpr double kPriorSpeed = 0.02;     // [m/s]; one second at this speed outweighs the assumed error
-constexpr double kPriorTurnRate = 0.15;  // [rad/s]; one second at this rate outweighs the assumed error
+constexpr double kPriorShare = 0.3;  // of the displacement at the current speed: error assumed before any is known
+
+using Joint = JointSpace::Vector;
+using JointSquares = Eigen::Array<double, 1, 1>;
 
 // Returns squares per axis: along a direction, across it, in rotation.
 Eigen::Array3d squares(const Vector6d& error, const Eigen::Vector3d& direction) {
@@ -15,75 +16,101 @@ Eigen::Array3d squares(const Vector6d& error, const Eigen::Vector3d& direction) 
   const double across = error.head<3>().squaredNorm() - along * along;
   return {along * along, across / 2.0, error.tail<3>().squaredNorm() / 3.0};
 }
+JointSquares squares(const Joint& error, const Joint& /*direction*/) { return error.array().square(); }
 
 Eigen::Array3d speedSquares(const Vector6d& velocity) {
   const double speed = velocity.head<3>().squaredNorm();
   return {speed, speed, velocity.tail<3>().squaredNorm()};
 }
+JointSquares speedSquares(const Joint& velocity) { return velocity.array().square(); }
 
-Vector6d errorOf(const Vector6d& predicted, const Vector6d& moved) {
-  const auto pose = [](const Vector6d& moved_by) { return displaced(Eigen::Isometry3d::Identity(), moved_by); };
-  return displacement(pose(predicted), pose(moved));
+Eigen::Array3d activityAt(const PoseSpace::Speeds& speeds) {
+  return Eigen::Array3d(speeds[0], speeds[0], speeds[1]).square();
 }
+JointSquares activityAt(const JointSpace::Speeds& speeds) { return speeds.square(); }
+
+template <typename Space>
+typename Space::Vector errorOf(const typename Space::Vector& predicted, const typename Space::Vector& moved) {
+  const auto displacedBy = [](const auto& moved_by) { return Space::displacedSample({}, moved_by); };
+  return Space::displacementOf(displacedBy(predicted), displacedBy(moved));
+}
+
+Matrix6d covarianceOf(const Eigen::Array3d& variance, const Eigen::Vector3d& direction) {
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.diagonal() << Eigen::Vector3d::Constant(variance[1]), Eigen::Vector3d::Constant(variance[2]);
+  covariance.topLeftCorner<3, 3>() += (variance[0] - variance[1]) * direction * direction.transpose();
+  return covariance;
+}
+Joint covarianceOf(const JointSquares& variance, const Joint& /*direction*/) { return variance.matrix(); }
 
 }  // namespace
 
-ErrorModel::ErrorStatistics ErrorModel::priorStatistics(double ahead, const Squares& share) {
-  const Squares activity = Squares(kPriorSpeed, kPriorSpeed, kPriorTurnRate).square();
-  return {ExponentialMovingAverage<Squares>((ahead * share).square() * activity, 1.0),
-          ExponentialMovingAverage<Squares>(activity, 1.0)};
+// One second at the prior speeds outweighs the assumed errors.
+template <typename Space>
+typename ErrorModel<Space>::ErrorStatistics ErrorModel<Space>::priorStatistics(double ahead,
+                                                                               const Squares& share) const {
+  return {ExponentialMovingAverage<Squares>((ahead * share).square() * prior_activity_, 1.0),
+          ExponentialMovingAverage<Squares>(prior_activity_, 1.0)};
 }
 
-ErrorModel::ErrorModel() {
+template <typename Space>
+ErrorModel<Space>::ErrorModel(const Space& space) : prior_activity_(activityAt(space.priorSpeeds())) {
   for (const double ahead : kLearnedHorizons) {
     statistics_.push_back(priorStatistics(ahead, Squares::Constant(kPriorShare)));
   }
 }
 
-ErrorModel::Shares ErrorModel::shares() const {
+template <typename Space>
+typename ErrorModel<Space>::Shares ErrorModel<Space>::shares() const {
   Shares shares;
   for (size_t i = 0; i < shares.size(); ++i) shares[i] = share(i);
   return shares;
 }
 
 // Smaller errors than assumed have to be seen again: another operator's profile must not make the guard sure.
-void ErrorModel::begin(const Shares& shares) {
+template <typename Space>
+void ErrorModel<Space>::begin(const Shares& shares) {
   for (size_t i = 0; i < shares.size(); ++i) {
     statistics_[i] = priorStatistics(kLearnedHorizons[i], shares[i].max(kPriorShare));
   }
 }
 
-ErrorModel::Squares ErrorModel::share(size_t horizon) const {
+template <typename Space>
+typename ErrorModel<Space>::Squares ErrorModel<Space>::share(size_t horizon) const {
   const auto& [errors, activity] = statistics_[horizon];
   return (errors.mean() / activity.mean()).sqrt() / kLearnedHorizons[horizon];
 }
 
 // Errors are relative to a speed: the largest of the speed at the pose, that of the motion that followed, and that of
 // the predicted motion. The speed at the pose alone would fail when the tool starts from rest.
-void ErrorModel::observe(const PoseTracker& tracker, const Vector6d& velocity,
-                         const PredictedDisplacements& predicted) {
+template <typename Space>
+void ErrorModel<Space>::observe(const MotionTracker<Space>& tracker, const Vector& velocity,
+                                const PredictedDisplacements<Space>& predicted) {
+  using Step = typename MotionTracker<Space>::Step;
   const double period = toSeconds(tracker.period());
-  if (tracker.step() == PoseTracker::Step::kBegins) targets_.clear();
-  if (tracker.step() == PoseTracker::Step::kContinues) speeds_.add(speedSquares(velocity), period);
+  if (tracker.step() == Step::kBegins) targets_.clear();
+  if (tracker.step() == Step::kContinues) speeds_.add(speedSquares(velocity), period);
   activity_ = speedSquares(velocity) + speeds_.mean();
-  direction_ = velocity.head<3>().stableNormalized();
+  direction_ = velocity.template head<Space::kAxes>().stableNormalized();
   const Features newest{predicted, activity_, direction_};
-  if (tracker.step() == PoseTracker::Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
-  if (tracker.step() != PoseTracker::Step::kContinues) return;
-  targets_.add(tracker.newest(), newest, [&](const Features& features, size_t i, const Vector6d& moved) {
-    statistics_[i].errors.add(squares(errorOf(features.predicted[i], moved), features.direction), period);
-    const auto speed = [&](const Vector6d& displacement) { return speedSquares(displacement / kLearnedHorizons[i]); };
+  if (tracker.step() == Step::kCorrects) targets_.correctNewest(tracker.newest(), newest);
+  if (tracker.step() != Step::kContinues) return;
+  targets_.add(tracker.newest(), newest, [&](const Features& features, size_t i, const Vector& moved) {
+    statistics_[i].errors.add(squares(errorOf<Space>(features.predicted[i], moved), features.direction), period);
+    const auto speed = [&](const Vector& displacement) {
+      return speedSquares(Vector(displacement / kLearnedHorizons[i]));
+    };
     statistics_[i].activity.add(features.activity.max(speed(moved)).max(speed(features.predicted[i])), period);
   });
 }
 
-Matrix6d ErrorModel::covariance(double ahead) const {
+template <typename Space>
+typename ErrorModel<Space>::Covariance ErrorModel<Space>::covariance(double ahead) const {
   const auto relative = interpolateOverHorizons<Squares>(ahead, [this](size_t i) { return share(i); });
-  const Squares variance = (relative * ahead).square() * activity_;
-  Matrix6d covariance = Matrix6d::Zero();
-  covariance.diagonal() << Eigen::Vector3d::Constant(variance[1]), Eigen::Vector3d::Constant(variance[2]);
-  covariance.topLeftCorner<3, 3>() += (variance[0] - variance[1]) * direction_ * direction_.transpose();
-  return covariance;
+  return covarianceOf((relative * ahead).square() * activity_, direction_);
 }
+
+template class ErrorModel<PoseSpace>;
+template class ErrorModel<JointSpace>;
 
 }  // namespace sweep_guard_core

@@ -5,58 +5,64 @@
 
 #include "prediction/delayed_targets.h"
 #include "prediction/exponential_moving_average.h"
-#include "prediction/pose_tracker.h"
-#include "sweep_guard/common/matrix6.h"
+#include "prediction/motion_tracker.h"
 
 namespace sweep_guard_core {
 
-/// Predicted displacements of the tool within each of kLearnedHorizons.
-using PredictedDisplacements = std::array<Vector6d, kLearnedHorizons.size()>;
+/// Predicted displacements within each of kLearnedHorizons.
+template <typename Space>
+using PredictedDisplacements = std::array<typename Space::Vector, kLearnedHorizons.size()>;
 
-/// Learns the errors of predictions from the motion that followed: the mean square of the recent errors along the
-/// motion, across it and in rotation. The errors scale with the speed.
+/// Learns the errors of predictions from the motion that followed: the mean square of the recent errors, of a tool
+/// along the motion, across it and in rotation. The errors scale with the speed.
+template <typename Space>
 class ErrorModel {
  public:
-  /// Errors within each of kLearnedHorizons, relative to the displacement at the current speed: along the motion, across
-  /// it, in rotation.
-  using Shares = std::array<Eigen::Array3d, kLearnedHorizons.size()>;
+  /// Errors within each of kLearnedHorizons, relative to the displacement at the current speed. Of a tool: along the
+  /// motion, across it, in rotation.
+  using Shares = std::array<Eigen::Array<double, Space::kErrors, 1>, kLearnedHorizons.size()>;
+  using Vector = typename Space::Vector;
+  using Covariance = Eigen::Matrix<double, Space::kSize, Space::kSize>;
 
-  ErrorModel();
+  explicit ErrorModel(const Space& space);
 
   Shares shares() const;
   /// Begins with these shares where they are larger than those that it assumes.
   void begin(const Shares& shares);
 
   /// Adds the newest pose of a tracker and what is predicted there.
-  /// @param velocity  of the tool: along the axes of W [m/s], then about the tool's own axes [rad/s]
-  void observe(const PoseTracker& tracker, const Vector6d& velocity, const PredictedDisplacements& predicted);
+  /// @param velocity  as Velocity measures it
+  void observe(const MotionTracker<Space>& tracker, const Vector& velocity,
+               const PredictedDisplacements<Space>& predicted);
 
-  /// Returns the covariance of a predicted pose's error: translation [m], then rotation vector [rad], both along the
-  /// axes of W.
+  /// Returns the covariance of the error of what is predicted. Of a pose: translation [m], then rotation vector [rad],
+  /// both along the axes of W.
   /// @param ahead  time after the newest pose [s], > 0
-  Matrix6d covariance(double ahead) const;
+  Covariance covariance(double ahead) const;
 
  private:
-  // Mean squares per axis: along the motion, across it, in rotation.
-  using Squares = Eigen::Array3d;
+  // Mean squares per axis, for each kind of error.
+  using Squares = Eigen::Array<double, Space::kErrors, 1>;
+  using Direction = Eigen::Matrix<double, Space::kAxes, 1>;
   struct ErrorStatistics {
     ExponentialMovingAverage<Squares> errors;
     ExponentialMovingAverage<Squares> activity;  // squared speed at the time of the errors
   };
   struct Features {
-    PredictedDisplacements predicted;
+    PredictedDisplacements<Space> predicted;
     Squares activity;
-    Eigen::Vector3d direction;
+    Direction direction;
   };
 
-  static ErrorStatistics priorStatistics(double ahead, const Squares& share);
+  ErrorStatistics priorStatistics(double ahead, const Squares& share) const;
   Squares share(size_t horizon) const;
 
-  DelayedTargets<Features> targets_;
-  std::vector<ErrorStatistics> statistics_;                    // for each of kLearnedHorizons
-  ExponentialMovingAverage<Squares> speeds_{Squares::Zero()};  // of the tool
-  Squares activity_ = Squares::Zero();                         // current squared speed plus the mean
-  Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();        // of the motion in W: unit, or 0 at rest
+  const Squares prior_activity_;
+  DelayedTargets<Space, Features> targets_;
+  std::vector<ErrorStatistics> statistics_;  // for each of kLearnedHorizons
+  ExponentialMovingAverage<Squares> speeds_{Squares::Zero()};
+  Squares activity_ = Squares::Zero();       // current squared speed plus the mean
+  Direction direction_ = Direction::Zero();  // of the motion: unit, or 0 at rest
 };
 
 }  // namespace sweep_guard_core

@@ -1,32 +1,37 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
-#include "prediction/displacement.h"
-#include "prediction/pose_tracker.h"
+#include "prediction/motion_tracker.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard_core {
 
-/// Extrapolates the motion of a tool.
+/// Extrapolates the motion of a tool or a joint.
+template <typename Space>
 class Extrapolator {
  public:
   virtual ~Extrapolator() = default;
 
-  /// Adds the newest pose of the tracker.
-  virtual void observe(const PoseTracker& tracker) = 0;
+  /// Adds the newest sample of the tracker.
+  virtual void observe(const MotionTracker<Space>& tracker) = 0;
 
-  /// Predicts the displacement of the tool after the newest pose.
+  /// Predicts the displacement after the newest sample.
   /// @param ahead  [s], > 0
-  virtual Vector6d displacementIn(double ahead) const = 0;
+  virtual typename Space::Vector displacementIn(double ahead) const = 0;
 
-  /// Writes what was learned of the operator. Returns false if this extrapolator learns nothing.
+  /// Writes what was learned of the operator. Returns false if this extrapolator learns nothing that a profile keeps.
   virtual bool save(Profile& /*profile*/) const { return false; }
 };
 
-/// Makes the extrapolator that `options.predictor` names; `direct` begins with the profile.
+template <typename Space>
+struct LearnedMotion;
+
+/// Makes the extrapolator that `options.predictor` names; `direct` begins with the profile, unless it is of a joint.
+/// @param learned  that `direct` shares with others; null: it learns alone
 /// @throws InvalidInput if the name is unknown
-std::unique_ptr<Extrapolator> makeExtrapolator(const PredictorOptions& options);
+template <typename Space>
+std::unique_ptr<Extrapolator<Space>> makeExtrapolator(const PredictorOptions& options, const Space& space,
+                                                      std::shared_ptr<LearnedMotion<Space>> learned = nullptr);
 
 }  // namespace sweep_guard_core

@@ -18,22 +18,24 @@ constexpr double kMaxSpeed = 2.5;   // largest speed that counts, relative to th
 constexpr double kSlowSpeed = 0.3;  // half of the saturated speed is reached here, relative to the mean speed
 
 enum Column : Eigen::Index { kScaled = kWindows.size(), kSaturated, kReturn, kColumns };
-static_assert(kColumns == DisplacementRegression::kVelocities);
+static_assert(kColumns == kRegressors);
 
 }  // namespace
 
-std::vector<std::string> MotionRegressors::names() {
+std::vector<std::string> regressorNames() {
   std::vector<std::string> names;
   for (const int milliseconds : kWindows) names.push_back(std::to_string(milliseconds) + "ms");
   for (const char* const name : {"times_speed", "saturated", "return"}) names.emplace_back(name);
   return names;
 }
 
-MotionRegressors::MotionRegressors() {
+template <typename Space>
+MotionRegressors<Space>::MotionRegressors() {
   for (const int milliseconds : kWindows) windows_.emplace_back(std::chrono::milliseconds(milliseconds));
 }
 
-void MotionRegressors::observe(const PoseTracker& tracker) {
+template <typename Space>
+void MotionRegressors<Space>::observe(const MotionTracker<Space>& tracker) {
   for (size_t i = 0; i < windows_.size(); ++i) {
     windows_[i].observe(tracker);
     values_.col(static_cast<Eigen::Index>(i)) = windows_[i].value();
@@ -43,23 +45,28 @@ void MotionRegressors::observe(const PoseTracker& tracker) {
   scale();
 }
 
-void MotionRegressors::begin(const Speeds& speeds) {
-  speeds_ = ExponentialMovingAverage<Eigen::Array2d>(speeds.squares, std::min(speeds.time, kProfileTime));
+template <typename Space>
+void MotionRegressors<Space>::begin(const Speeds& speeds) {
+  speeds_ = ExponentialMovingAverage<typename Space::Speeds>(speeds.squares, std::min(speeds.time, kProfileTime));
 }
 
-void MotionRegressors::average(const PoseTracker& tracker) {
-  if (tracker.step() == PoseTracker::Step::kBegins) center_ = tracker.coordinates();
-  if (tracker.step() != PoseTracker::Step::kContinues) return;
+template <typename Space>
+void MotionRegressors<Space>::average(const MotionTracker<Space>& tracker) {
+  if (tracker.step() == MotionTracker<Space>::Step::kBegins) center_ = tracker.coordinates();
+  if (tracker.step() != MotionTracker<Space>::Step::kContinues) return;
   const double period = toSeconds(tracker.period());
   center_ += (1.0 - std::exp(-period / kCenterTime)) * (tracker.coordinates() - center_);
-  const Vector6d velocity = values_.col(kModerate);
-  speeds_.add({velocity.head<3>().squaredNorm(), velocity.tail<3>().squaredNorm()}, period);
+  typename Space::Speeds squares;
+  for (int i = 0; i < Space::kGroups; ++i)
+    squares[i] = values_.col(kModerate).template segment<Space::kAxes>(i * Space::kAxes).squaredNorm();
+  speeds_.add(squares, period);
 }
 
-void MotionRegressors::scale() {
-  const Eigen::Array2d mean = speeds_.mean().sqrt();
-  for (const Eigen::Index i : {0, 1}) {
-    auto values = values_.middleRows<3>(3 * i);
+template <typename Space>
+void MotionRegressors<Space>::scale() {
+  const typename Space::Speeds mean = speeds_.mean().sqrt();
+  for (int i = 0; i < Space::kGroups; ++i) {
+    auto values = values_.template middleRows<Space::kAxes>(i * Space::kAxes);
     if (mean[i] == 0.0) {
       values.col(kScaled).setZero();
       values.col(kSaturated).setZero();
@@ -69,5 +76,8 @@ void MotionRegressors::scale() {
     values.col(kSaturated) = values.col(kSmooth) / (values.col(kSmooth).norm() / mean[i] + kSlowSpeed);
   }
 }
+
+template class MotionRegressors<PoseSpace>;
+template class MotionRegressors<JointSpace>;
 
 }  // namespace sweep_guard_core

@@ -4,15 +4,16 @@
 
 namespace sweep_guard_core {
 
-PolynomialExtrapolator::PolynomialExtrapolator(const PredictorOptions& options)
-    : degree_(options.degree),
+template <typename Space>
+PolynomialExtrapolator<Space>::PolynomialExtrapolator(const PredictorOptions& options)
+    : degrees_(Space::degreesOf(options)),
       window_(options.window),
-      fit_({*std::max_element(options.degree.begin(), options.degree.end()), options.window,
-            options.forgetting_factor}) {}
+      fit_({*std::max_element(degrees_.begin(), degrees_.end()), options.window, options.forgetting_factor}) {}
 
-void PolynomialExtrapolator::observe(const PoseTracker& tracker) {
+template <typename Space>
+void PolynomialExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {
   follow(fit_, tracker);
-  PolynomialFit::Degrees degrees = degree_;
+  typename Fit::Degrees degrees = degrees_;
   if (fit_.span() < window_ / 2) {
     for (int& degree : degrees) degree = std::min(degree, 1);
   }
@@ -21,8 +22,12 @@ void PolynomialExtrapolator::observe(const PoseTracker& tracker) {
   coordinates_ = tracker.coordinates();
 }
 
-Vector6d PolynomialExtrapolator::displacementIn(double ahead) const {
+template <typename Space>
+typename Space::Vector PolynomialExtrapolator<Space>::displacementIn(double ahead) const {
   return curve_.at(newest_ + fromSeconds(ahead)) - coordinates_;
 }
+
+template class PolynomialExtrapolator<PoseSpace>;
+template class PolynomialExtrapolator<JointSpace>;
 
 }  // namespace sweep_guard_core

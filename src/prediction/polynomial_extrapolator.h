@@ -8,20 +8,25 @@ namespace sweep_guard_core {
 /// Extrapolates by the paper's predictor [P, Sec. 3.2]: an independent polynomial in time for each degree of freedom,
 /// fitted by recursive least squares over an observation period. Degrees above 1 are used once half of that period is
 /// observed.
-class PolynomialExtrapolator : public Extrapolator {
+template <typename Space>
+class PolynomialExtrapolator : public Extrapolator<Space> {
  public:
+  using Vector = typename Space::Vector;
+
   explicit PolynomialExtrapolator(const PredictorOptions& options);
 
-  void observe(const PoseTracker& tracker) override;
-  Vector6d displacementIn(double ahead) const override;
+  void observe(const MotionTracker<Space>& tracker) override;
+  Vector displacementIn(double ahead) const override;
 
  private:
-  std::array<int, 6> degree_;
+  using Fit = PolynomialFit<Space::kSize>;
+
+  typename Fit::Degrees degrees_;
   Duration window_;
-  PolynomialFit fit_;
-  PolynomialFit::Curve curve_;
+  Fit fit_;
+  typename Fit::Curve curve_;
   Time newest_;
-  Vector6d coordinates_ = Vector6d::Zero();
+  Vector coordinates_ = Vector::Zero();
 };
 
 }  // namespace sweep_guard_core

@@ -4,10 +4,12 @@
 #include <cassert>
 #include <cmath>
 
+#include "prediction/motion_space.h"
+
 namespace sweep_guard_core {
 namespace {
 
-constexpr int kTerms = PolynomialFit::kMaxDegree + 1;
+constexpr int kTerms = kMaxPolynomialDegree + 1;
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 
 // Computes Legendre polynomials by Bonnet's recursion.
@@ -28,28 +30,36 @@ Terms legendreSlope(double x) {
 
 }  // namespace
 
-Vector6d PolynomialFit::Curve::sum(const Vector6d& constant, const Eigen::Matrix<double, kTerms, 1>& terms) const {
-  Vector6d values = constant;
-  for (int axis = 0; axis < 6; ++axis) {
+template <int N>
+typename PolynomialFit<N>::Values PolynomialFit<N>::Curve::sum(const Values& constant,
+                                                               const typename Fit::Regressors& terms) const {
+  Values values = constant;
+  for (int axis = 0; axis < N; ++axis) {
     const auto degree = static_cast<size_t>(degrees_[static_cast<size_t>(axis)]);
-    const Fit::Coefficients& coefficients = by_degree_[degree];
+    const typename Fit::Coefficients& coefficients = by_degree_[degree];
     values[axis] += coefficients.col(axis).dot(terms.head(coefficients.rows()));
   }
   return values;
 }
 
-Vector6d PolynomialFit::Curve::at(Time stamp) const { return sum(origin_, legendre(abscissa(stamp))); }
-
-Vector6d PolynomialFit::Curve::slopeAt(Time stamp) const {
-  return sum(Vector6d::Zero(), legendreSlope(abscissa(stamp))) / half_width_;
+template <int N>
+typename PolynomialFit<N>::Values PolynomialFit<N>::Curve::at(Time stamp) const {
+  return sum(origin_, legendre(abscissa(stamp)));
 }
 
-PolynomialFit::PolynomialFit(const Options& options) : options_(options), samples_(64) {
-  assert(options.degree >= 0 && options.degree <= kMaxDegree && options.window > Duration::zero());
+template <int N>
+typename PolynomialFit<N>::Values PolynomialFit<N>::Curve::slopeAt(Time stamp) const {
+  return sum(Values::Zero(), legendreSlope(abscissa(stamp))) / half_width_;
+}
+
+template <int N>
+PolynomialFit<N>::PolynomialFit(const Options& options) : options_(options), samples_(64) {
+  assert(options.degree >= 0 && options.degree <= kMaxPolynomialDegree && options.window > Duration::zero());
   assert(options.forgetting_factor > 0.0 && options.forgetting_factor <= 1.0);
 }
 
-void PolynomialFit::add(Time stamp, const Vector6d& values) {
+template <int N>
+void PolynomialFit<N>::add(Time stamp, const Values& values) {
   assert(samples_.empty() || stamp > samples_.back().stamp);
   if (samples_.full()) samples_.set_capacity(2 * samples_.capacity());
   samples_.push_back({stamp, values});
@@ -63,26 +73,31 @@ void PolynomialFit::add(Time stamp, const Vector6d& values) {
   }
 }
 
-void PolynomialFit::replaceNewest(const Vector6d& values) {
+template <int N>
+void PolynomialFit<N>::replaceNewest(const Values& values) {
   assert(!samples_.empty());
   samples_.back().values = values;
   rebuild();
 }
 
-void PolynomialFit::clear() {
+template <int N>
+void PolynomialFit<N>::clear() {
   samples_.clear();
   fit_ = {};
 }
 
-Duration PolynomialFit::span() const {
+template <int N>
+Duration PolynomialFit<N>::span() const {
   return samples_.empty() ? Duration::zero() : samples_.back().stamp - samples_.front().stamp;
 }
 
-void PolynomialFit::include(const Sample& sample) {
+template <int N>
+void PolynomialFit<N>::include(const Sample& sample) {
   fit_.add(legendre(toSeconds(sample.stamp - middle_) / half_width_), sample.values - origin_);
 }
 
-void PolynomialFit::dropOld() {
+template <int N>
+void PolynomialFit<N>::dropOld() {
   const Time oldest = samples_.back().stamp - options_.window;
   const size_t kept = static_cast<size_t>(std::max(options_.degree + 1, 2));
   while (samples_.size() > kept && samples_.front().stamp < oldest) {
@@ -93,7 +108,8 @@ void PolynomialFit::dropOld() {
   }
 }
 
-void PolynomialFit::rebuild() {
+template <int N>
+void PolynomialFit<N>::rebuild() {
   middle_ = samples_.front().stamp + span() / 2;
   half_width_ = std::max(toSeconds(span()) / 2.0, 1e-9);
   origin_ = samples_.back().values;
@@ -104,7 +120,8 @@ void PolynomialFit::rebuild() {
   }
 }
 
-PolynomialFit::Curve PolynomialFit::curve(const Degrees& degrees) const {
+template <int N>
+typename PolynomialFit<N>::Curve PolynomialFit<N>::curve(const Degrees& degrees) const {
   assert(!samples_.empty());
   Curve curve;
   curve.middle_ = middle_;
@@ -121,5 +138,8 @@ PolynomialFit::Curve PolynomialFit::curve(const Degrees& degrees) const {
   }
   return curve;
 }
+
+template class PolynomialFit<PoseSpace::kSize>;
+template class PolynomialFit<JointSpace::kSize>;
 
 }  // namespace sweep_guard_core

@@ -4,23 +4,25 @@
 #include <boost/circular_buffer.hpp>
 
 #include "prediction/rls.h"
-#include "sweep_guard/common/matrix6.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_core {
 
-/// Fits six values by polynomials in time over a sliding window: recursive least squares with exponential forgetting on
+constexpr int kMaxPolynomialDegree = 5;
+
+/// Fits N values by polynomials in time over a sliding window: recursive least squares with exponential forgetting on
 /// an observation period [P, Sec. 3.2].
 ///
 /// The fit uses Legendre polynomials about the middle of the window. When the window has moved by an eighth, the fit is
 /// rebuilt from its samples. It therefore stays well conditioned however long it runs, at constant cost per sample.
+template <int N>
 class PolynomialFit {
  public:
-  static constexpr int kMaxDegree = 5;
-  using Degrees = std::array<int, 6>;  ///< one for each value, 0 to kMaxDegree
+  using Degrees = std::array<int, N>;  ///< one for each value, 0 to kMaxPolynomialDegree
+  using Values = Eigen::Matrix<double, N, 1>;
 
   struct Options {
-    int degree = 1;                  ///< largest degree that curve() may use, 0 to kMaxDegree
+    int degree = 1;                  ///< largest degree that curve() may use, 0 to kMaxPolynomialDegree
     Duration window{};               ///< older samples are dropped, except the newest degree + 1; > 0
     double forgetting_factor = 1.0;  ///< weight of a sample relative to the next one, in (0, 1]
   };
@@ -28,29 +30,29 @@ class PolynomialFit {
   /// The fitted polynomials. A snapshot: later samples do not change it.
   class Curve {
    public:
-    Vector6d at(Time stamp) const;       ///< the values
-    Vector6d slopeAt(Time stamp) const;  ///< their derivative [1/s]
+    Values at(Time stamp) const;       ///< the values
+    Values slopeAt(Time stamp) const;  ///< their derivative [1/s]
 
    private:
     friend class PolynomialFit;
-    using Fit = Rls<kMaxDegree + 1, 6>;
+    using Fit = Rls<kMaxPolynomialDegree + 1, N>;
     double abscissa(Time stamp) const { return toSeconds(stamp - middle_) / half_width_; }
-    Vector6d sum(const Vector6d& constant, const Fit::Regressors& terms) const;
+    Values sum(const Values& constant, const typename Fit::Regressors& terms) const;
 
     Time middle_;
     double half_width_ = 1.0;
-    Vector6d origin_;
+    Values origin_;
     Degrees degrees_;
-    std::array<Fit::Coefficients, kMaxDegree + 1> by_degree_;  // for the degrees in use
+    std::array<typename Fit::Coefficients, kMaxPolynomialDegree + 1> by_degree_;  // for the degrees in use
   };
 
   explicit PolynomialFit(const Options& options);
 
   /// Adds a sample.
   /// @param stamp  later than the previous sample's
-  void add(Time stamp, const Vector6d& values);
+  void add(Time stamp, const Values& values);
   /// Replaces the values of the newest sample.
-  void replaceNewest(const Vector6d& values);
+  void replaceNewest(const Values& values);
   void clear();
 
   size_t size() const { return samples_.size(); }  ///< number of samples in the window
@@ -63,7 +65,7 @@ class PolynomialFit {
  private:
   struct Sample {
     Time stamp;
-    Vector6d values;
+    Values values;
   };
   void include(const Sample& sample);
   void dropOld();
@@ -71,10 +73,10 @@ class PolynomialFit {
 
   Options options_;
   boost::circular_buffer<Sample> samples_;
-  Curve::Fit fit_;
+  typename Curve::Fit fit_;
   Time middle_;
   double half_width_ = 1.0;  // [s]
-  Vector6d origin_ = Vector6d::Zero();
+  Values origin_ = Values::Zero();
 };
 
 }  // namespace sweep_guard_core

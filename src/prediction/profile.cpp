@@ -21,7 +21,7 @@ std::string layout() {
   std::string text = "horizons";
   for (const double ahead : kLearnedHorizons) text += ' ' + shortestText(ahead);
   text += "\nregressors";
-  for (const std::string& name : MotionRegressors::names()) text += ' ' + name;
+  for (const std::string& name : regressorNames()) text += ' ' + name;
   return text;
 }
 
@@ -88,7 +88,7 @@ void readNumbers(std::string_view words, double* numbers, Eigen::Index count, co
   if (!words.empty()) lines.refuse("it has too many numbers");
 }
 
-bool canBeLearned(const DisplacementRegression::Learned& learned) {
+bool canBeLearned(const DisplacementRegression<PoseSpace::kAxes>::Learned& learned) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(learned.information, Eigen::EigenvaluesOnly);
   const Eigen::VectorXd& eigenvalues = solver.eigenvalues();
   const bool semi_definite = eigenvalues.minCoeff() >= -kRounding * eigenvalues.maxCoeff();

@@ -13,12 +13,12 @@ namespace sweep_guard_core {
 /// What `direct` has learned of an operator. A predictor may begin with it instead of with constant velocity; it then
 /// goes on to learn and to forget as ever.
 struct Profile {
-  using Regressions = std::array<DisplacementRegression::Learned, kLearnedHorizons.size()>;
+  using Regressions = std::array<DisplacementRegression<PoseSpace::kAxes>::Learned, kLearnedHorizons.size()>;
 
   Regressions translation;
   Regressions rotation;
-  MotionRegressors::Speeds speeds;
-  ErrorModel::Shares errors;
+  MotionRegressors<PoseSpace>::Speeds speeds;
+  ErrorModel<PoseSpace>::Shares errors;
 };
 
 constexpr size_t kMaxProfileSize = 1U << 18U;  ///< of its text [bytes]

@@ -2,19 +2,28 @@
 
 namespace sweep_guard_core {
 
-void follow(PolynomialFit& fit, const PoseTracker& tracker) {
-  if (tracker.step() == PoseTracker::Step::kCorrects) {
+template <typename Space>
+void follow(PolynomialFit<Space::kSize>& fit, const MotionTracker<Space>& tracker) {
+  using Step = typename MotionTracker<Space>::Step;
+  if (tracker.step() == Step::kCorrects) {
     fit.replaceNewest(tracker.coordinates());
     return;
   }
-  if (tracker.step() == PoseTracker::Step::kBegins) fit.clear();
+  if (tracker.step() == Step::kBegins) fit.clear();
   fit.add(tracker.newest().stamp, tracker.coordinates());
 }
 
-void Velocity::observe(const PoseTracker& tracker) {
+template <typename Space>
+void Velocity<Space>::observe(const MotionTracker<Space>& tracker) {
   follow(fit_, tracker);
-  const Vector6d slope = fit_.curve({1, 1, 1, 1, 1, 1}).slopeAt(tracker.newest().stamp);
-  value_ << limited(slope.head<3>(), tracker.maxSpeed()), limited(slope.tail<3>(), tracker.maxTurnRate());
+  typename PolynomialFit<Space::kSize>::Degrees straight;
+  straight.fill(1);
+  value_ = tracker.space().limitedTo(fit_.curve(straight).slopeAt(tracker.newest().stamp), 1.0);
 }
+
+template void follow(PolynomialFit<PoseSpace::kSize>& fit, const PoseTracker& tracker);
+template void follow(PolynomialFit<JointSpace::kSize>& fit, const JointTracker& tracker);
+template class Velocity<PoseSpace>;
+template class Velocity<JointSpace>;
 
 }  // namespace sweep_guard_core

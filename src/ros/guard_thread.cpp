@@ -44,6 +44,11 @@ std::unique_ptr<sweep_guard_core::Detector> firstDetector(const GuardThreadDepen
   return sampled(std::move(detector), parameters.detector.name, dependencies.sampler);
 }
 
+sweep_guard_core::Guard guardOf(const Parameters& parameters, std::unique_ptr<sweep_guard_core::Detector> detector) {
+  if (parameters.articulated) return {articulatedRobot(parameters), std::move(detector), parameters.guard};
+  return {*parameters.tool, std::move(detector), parameters.guard};
+}
+
 Timestamps timestampsOf(const sweep_guard_core::PoseWithFrames& pose) { return {pose.stamp, pose.received}; }
 
 Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(pose, at), Duration::zero()); }
@@ -55,8 +60,7 @@ GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadD
       results_(private_node, dependencies.parameters),
       proximity_(private_node, dependencies.parameters, dependencies.monitor),
       interaction_(private_node, dependencies.parameters, dependencies.monitor),
-      guard_(*dependencies.parameters.initial().bodies, firstDetector(dependencies),
-             dependencies.parameters.initial().guard) {}
+      guard_(guardOf(dependencies.parameters.initial(), firstDetector(dependencies))) {}
 
 void GuardThread::start(Supervisor& supervisor) {
   top_ = &supervisor.add({"guard", sweep_guard_core::Stage::kSweep});
@@ -82,11 +86,12 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
     change.detector = sampled(std::move(detector), next->detector.name, dependencies_.sampler);
   }
   if (differ(*before, *next, "prediction/") || differ(*before, *next, "limits/")) {
-    change.predictor.emplace(next->guard.predictor);
+    change.predictor.emplace(next->guard.predictor, articulatedRobot(*next));
   }
   std::vector<sweep_guard_core::InterpenetrationFinder> pieces;
   if (differ(*before, *next, "tool/")) {
     change.bodies = *next->bodies;
+    change.robot = articulatedRobot(*next);
     pieces = sweep_guard_core::interpenetrationFinders(*next->tool);
   }
   const auto exchange = [&, tested = change.detector != nullptr] {
@@ -106,8 +111,9 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
 void GuardThread::reset() {
   const std::lock_guard lock(change_mutex_);
   sweep_guard_core::GuardChange change;
-  change.options = dependencies_.parameters.get()->guard;
-  change.predictor.emplace(change.options.predictor);
+  const auto parameters = dependencies_.parameters.get();
+  change.options = parameters->guard;
+  change.predictor.emplace(change.options.predictor, articulatedRobot(*parameters));
   const auto forget = [&] {
     dependencies_.monitor.restart();
     guard_.reset();

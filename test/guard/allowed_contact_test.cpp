@@ -222,10 +222,15 @@ TEST_F(AllowedContactTest, IsLeftOutOfAPathAndOfTheDistance) {
 
 // The allowed body is the second: its pieces are counted from those of the first.
 TEST_F(AllowedContactTest, OfOneBodyOfSeveralNamesItsPiece) {
-  const std::vector<Tool> bodies = {Tool(std::vector<ConvexPiece>{palm()}), Tool(std::vector<ConvexPiece>{finger()})};
-  Guard guard(bodies, makeDetector("reference"), allowing({{"finger", "payload"}}));
+  std::vector<TreeLink> links(2);
+  links[0].type = links[1].type = JointType::kPrismatic;
+  links[1].variable = 1;
+  const auto robot = std::make_shared<const Robot>(
+      robotOf({{{"of the palm"}, {"of the finger"}}, links}, {{0, {palm()}}, {1, {finger()}}}));
+  Guard guard(robot, makeDetector("reference"), allowing({{"finger", "payload"}}));
   PoseWithFrames pose = next({0.0, 0.0, 0.0});
   pose.bodies = {{at({0.0, 0.0, -0.3})}, {at({0.0, 0.0, -0.035})}};
+  pose.state.positions = {-0.3, -0.035};
   const SweepReport report = reportOf(guard, pose, {payload_});
   EXPECT_FALSE(report.contact());
   ASSERT_FALSE(report.objects.at(0).result.allowed.in_contact.empty());

@@ -4,6 +4,7 @@
 
 #include "guard/fake_detector.h"
 #include "guard/guard_results.h"
+#include "guard/predict_contacts.h"
 #include "guard/triangle_set.h"
 #include "kinematics/random_robot.h"
 #include "scenes.h"
@@ -39,8 +40,9 @@ Robot randomArm(Random& random) {
 // A guard of all bodies, and a guard for each of them.
 class BodiesTest : public testing::Test {
  protected:
-  explicit BodiesTest(std::uint64_t seed = 1) : random_(seed), robot_(randomArm(random_)) {
-    for (const Tool& body : robot_.tools)
+  explicit BodiesTest(std::uint64_t seed = 1)
+      : random_(seed), robot_(std::make_shared<const Robot>(randomArm(random_))) {
+    for (const Tool& body : robot_->tools)
       alone_.push_back(std::make_unique<Guard>(body, std::make_unique<FakeDetector>(record_), timeless()));
   }
 
@@ -53,19 +55,20 @@ class BodiesTest : public testing::Test {
 
   size_t firstPiece(size_t body) const {
     size_t pieces = 0;
-    for (size_t i = 0; i < body; ++i) pieces += robot_.tools[i].pieces().size();
+    for (size_t i = 0; i < body; ++i) pieces += robot_->tools[i].pieces().size();
     return pieces;
   }
 
   PoseWithFrames nextPose() {
     const RobotState from = state_;
     state_ = randomStateNear(random_, from, 0.02);
-    const RobotMotion motion(robot_.tree, robot_.bodies, from, state_);
+    const RobotMotion motion(robot_->tree, robot_->bodies, from, state_);
     std::vector<Eigen::Isometry3d> X_WB;
-    bodyPoses(robot_.tree, robot_.bodies, state_, X_WB);
+    bodyPoses(robot_->tree, robot_->bodies, state_, X_WB);
     ms_ += 10;
     PoseWithFrames pose{at(ms_), {}, state_.X_WR, {{"table", Eigen::Isometry3d::Identity()}}};
     for (size_t i = 0; i < X_WB.size(); ++i) pose.bodies.push_back({X_WB[i], motion.deviationBound(i, 1)});
+    pose.state = state_;
     return pose;
   }
 
@@ -75,11 +78,11 @@ class BodiesTest : public testing::Test {
   }
 
   Random random_;
-  Robot robot_;
-  RobotState state_{Eigen::Isometry3d::Identity(), std::vector<double>(robot_.tree.variables().size(), 0.0)};
+  std::shared_ptr<const Robot> robot_;
+  RobotState state_{Eigen::Isometry3d::Identity(), std::vector<double>(robot_->tree.variables().size(), 0.0)};
   int ms_ = 0;
   FakeDetector::Record record_;
-  Guard together_{robot_.tools, std::make_unique<FakeDetector>(record_), timeless()};
+  Guard together_{robot_, std::make_unique<FakeDetector>(record_), timeless()};
   std::vector<std::unique_ptr<Guard>> alone_;
 };
 
@@ -149,9 +152,10 @@ TEST_P(RandomArmsTest, ArePredictedToMeetWhatTheirBodiesMeetAlone) {
     TriangleSet triangles[2];
     double probability = 0.0;
     std::optional<Duration> first;
+    FakeDetector detector(record_);
     for (size_t body = 0; body < alone_.size(); ++body) {
-      reportOf(*alone_[body], ofBody(pose, body), workpieces);
-      const Prediction one = predictionOf(*alone_[body], {}, workpieces);
+      PredictedMotion of_body{ofBody(pose, body), all.path, all.reflex_sweeps, {all.body_paths[body]}};
+      const Prediction one = predictContacts(detector, {robot_->tools[body]}, of_body, workpieces, timeless(), {});
       probability = std::max(probability, one.probability(PredictionInterval::kConsidered, std::chrono::seconds(1)));
       for (size_t k = 0; k < one.objects.size(); ++k) unite(triangles[k], one.objects[k].triangles());
       if (one.firstContact() && (!first || *one.firstContact() < *first)) first = one.firstContact();
@@ -180,21 +184,35 @@ TEST_F(BodiesTest, AnyOfThemIsNearAWorkpiece) {
   EXPECT_EQ(together_.isWithin(0.01, *workpieces[0]), near);
 }
 
-// Two balls over a triangle, half a metre apart.
+// Balls that slide along z, half a metre apart.
+std::shared_ptr<const Robot> twoBalls(const std::string& first, const std::string& second) {
+  std::vector<TreeLink> links(2);
+  std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
+  for (size_t i = 0; i < 2; ++i) {
+    links[i].name = i == 0 ? first : second;
+    links[i].type = JointType::kPrismatic;
+    links[i].variable = i;
+    links[i].X_PJ.translation().x() = 0.5 * static_cast<double>(i);
+    pieces.push_back({i, {{links[i].name, ConvexShape::sphere(0.01)}}});
+  }
+  return std::make_shared<const Robot>(robotOf({{{"one"}, {"other"}}, links}, pieces));
+}
+
+// Over a triangle.
 class TwoBallsTest : public testing::Test {
  protected:
   PoseWithFrames pose(int ms, double z_first, double z_second) const {
     PoseWithFrames pose{at(ms), {}, Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}};
     pose.bodies.push_back({Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z_first))});
     pose.bodies.push_back({Eigen::Isometry3d(Eigen::Translation3d(0.5, 0.0, z_second))});
+    pose.state.positions = {z_first, z_second};
     return pose;
   }
 
   const std::shared_ptr<const Workpiece> triangle_ = std::make_shared<const Workpiece>(Workpiece{
       "triangle", 0, at(0), SteadyTime{}, "table", TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}})});
   FakeDetector::Record record_;
-  const Tool ball_{ConvexShape::sphere(0.01)};
-  Guard guard_{{ball_, ball_}, std::make_unique<FakeDetector>(record_), {}};
+  Guard guard_{twoBalls("first", "second"), std::make_unique<FakeDetector>(record_), {}};
 };
 
 TEST_F(TwoBallsTest, TheFirstToTouchIsNamed) {
@@ -241,8 +259,7 @@ TEST_F(TwoBallsTest, ASweepTakenBackIsRepeatedForBoth) {
 
 TEST_F(TwoBallsTest, ContactOfOneAsIntendedDoesNotHideThatOfTheOther) {
   Intention intention{"triangle", triangle_->mesh_M.sharedTriangles(), {0}, 0.05, {"first"}};
-  Guard guard({Tool({{"first", ConvexShape::sphere(0.01)}}), Tool({{"second", ConvexShape::sphere(0.01)}})},
-              std::make_unique<FakeDetector>(record_), {});
+  Guard guard(twoBalls("first", "second"), std::make_unique<FakeDetector>(record_), {});
   guard.intend(std::make_shared<const Intentions>(Intentions{intention}));
   reportOf(guard, pose(0, 0.05, 0.05), {triangle_});
   const SweepReport meant = reportOf(guard, pose(10, 0.0, 0.05), {triangle_});
@@ -253,6 +270,53 @@ TEST_F(TwoBallsTest, ContactOfOneAsIntendedDoesNotHideThatOfTheOther) {
   ASSERT_EQ(both.objects[0].result.in_contact.size(), 1U);
   EXPECT_EQ(both.objects[0].result.in_contact[0].piece, 1U);
   EXPECT_TRUE(both.objects[0].result.intended.empty());
+}
+
+// Two links of 0.4 m; the elbow of the upper one is thick, the lower one is folded back.
+Robot foldedArm() {
+  std::vector<TreeLink> links(2);
+  std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
+  for (size_t i = 0; i < 2; ++i) {
+    links[i].name = i == 0 ? "upper" : "fore";
+    links[i].type = JointType::kRevolute;
+    links[i].variable = i;
+    const Eigen::Isometry3d middle(Eigen::Translation3d(0.2, 0.0, 0.0));
+    pieces.push_back({i, {{links[i].name, ConvexShape::box({0.2, 0.02, 0.02}).placed(middle)}}});
+  }
+  links[1].parent = 0;
+  links[1].X_PJ.translation().x() = 0.4;
+  pieces[0].second.push_back({"upper", ConvexShape::sphere(0.05).placed(Eigen::Isometry3d(links[1].X_PJ))});
+  return robotOf({{{"shoulder"}, {"elbow"}}, links}, pieces);
+}
+
+// The shoulder turns at 0.5 rad/s towards a sheet 0.3 m to its side: the elbow comes to it after 1.35 s, the tip never does.
+TEST(ArmBesideASheetTest, AContactOfTheElbowIsPredictedAhead) {
+  const auto robot = std::make_shared<const Robot>(foldedArm());
+  GuardOptions options;
+  options.clock = [] { return SteadyTime(); };
+  for (const char* predictor : {"direct", "polynomial", "constant_velocity"}) {
+    options.predictor.predictor = predictor;
+    Guard guard(robot, makeDetector("halfspace"), options);
+    const Workpieces workpieces = {std::make_shared<const Workpiece>(
+        Workpiece{"sheet", 0, at(0), SteadyTime{}, "table",
+                  TriangleMesh({{-1, 0.3, -1}, {1, 0.3, -1}, {1, 0.3, 1}, {-1, 0.3, 1}}, {{0, 1, 2}, {0, 2, 3}})})};
+    for (int ms = 0; ms <= 800; ms += 10) {
+      PoseWithFrames pose{at(ms), {}, Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}};
+      pose.state.positions = {0.0005 * ms, 2.6};
+      std::vector<Eigen::Isometry3d> X_WB;
+      bodyPoses(robot->tree, robot->bodies, pose.state, X_WB);
+      for (const Eigen::Isometry3d& X : X_WB) pose.bodies.push_back({X});
+      EXPECT_FALSE(reportOf(guard, pose, workpieces).contact());
+    }
+    const Prediction prediction = predictionOf(guard, {}, workpieces);
+    ASSERT_TRUE(prediction.firstContact()) << predictor;
+    EXPECT_LT(toSeconds(*prediction.firstContact()), 0.55) << predictor;
+    EXPECT_GT(toSeconds(*prediction.firstContact()), 0.55 - 0.14) << "its box is 21 mm nearer, with " << predictor;
+    const auto& sweeps = prediction.objects[0].sweeps;
+    const auto first = std::find_if(sweeps.begin(), sweeps.end(), [](const auto& sweep) { return sweep.contact; });
+    ASSERT_TRUE(first->tool_piece);
+    EXPECT_EQ(*first->tool_piece, 1U) << "the elbow of the upper link, with " << predictor;
+  }
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
-// Poses of links against those of KDL, which shares no code with ours. It does not know joints that mimic others: it gets
+// Poses and Jacobians of links against those of KDL, which shares no code with ours. It does not know joints that mimic others: it gets
 // their positions.
 #include <gtest/gtest.h>
 
 #include <kdl/chain.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
 
 #include "kinematics/random_robot.h"
+#include "sweep_guard/kinematics/jacobian.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -24,19 +26,41 @@ KDL::Joint jointOf(const TreeLink& link) {
   return {link.name, F.p, axis, link.type == JointType::kRevolute ? KDL::Joint::RotAxis : KDL::Joint::TransAxis};
 }
 
-KDL::Frame poseByKdl(const KinematicTree& tree, size_t link, const std::vector<double>& positions) {
-  std::vector<TreeLink> path;
-  for (; link != TreeLink::kRoot; link = tree.links()[link].parent) path.insert(path.begin(), tree.links()[link]);
-  KDL::Chain chain;
-  for (const TreeLink& next : path) chain.addSegment(KDL::Segment(next.name, jointOf(next), toKdl(next.X_PJ)));
-  KDL::JntArray array(chain.getNrOfJoints());
-  unsigned int joint = 0;
-  for (const TreeLink& next : path) {
-    if (next.type != JointType::kFixed) array(joint++) = next.multiplier * positions[next.variable] + next.offset;
+// The links from the root to one of them, the joints that move, and their positions.
+struct ChainByKdl {
+  ChainByKdl(const KinematicTree& tree, size_t link, const std::vector<double>& positions) {
+    std::vector<TreeLink> path;
+    for (; link != TreeLink::kRoot; link = tree.links()[link].parent) path.insert(path.begin(), tree.links()[link]);
+    for (const TreeLink& next : path) {
+      chain.addSegment(KDL::Segment(next.name, jointOf(next), toKdl(next.X_PJ)));
+      if (next.type != JointType::kFixed) joints.push_back(next);
+    }
+    array.resize(chain.getNrOfJoints());
+    for (unsigned int i = 0; i < joints.size(); ++i) array(i) = joints[i].at(positions);
   }
+
+  KDL::Chain chain;
+  std::vector<TreeLink> joints;
+  KDL::JntArray array;
+};
+
+KDL::Frame poseByKdl(const KinematicTree& tree, size_t link, const std::vector<double>& positions) {
+  const ChainByKdl of(tree, link, positions);
   KDL::Frame F;
-  EXPECT_GE(KDL::ChainFkSolverPos_recursive(chain).JntToCart(array, F), 0);
+  EXPECT_GE(KDL::ChainFkSolverPos_recursive(of.chain).JntToCart(of.array, F), 0);
   return F;
+}
+
+Jacobian jacobianByKdl(const KinematicTree& tree, size_t link, const std::vector<double>& positions) {
+  const ChainByKdl of(tree, link, positions);
+  KDL::Jacobian of_joints(of.chain.getNrOfJoints());
+  EXPECT_GE(KDL::ChainJntToJacSolver(of.chain).JntToJac(of.array, of_joints), 0);
+  Jacobian J_R = Jacobian::Zero(6, static_cast<Eigen::Index>(positions.size()));
+  for (size_t i = 0; i < of.joints.size(); ++i) {
+    J_R.col(static_cast<Eigen::Index>(of.joints[i].variable)) +=
+        of.joints[i].multiplier * of_joints.data.col(static_cast<Eigen::Index>(i));
+  }
+  return J_R;
 }
 
 TEST(KinematicsKdlTest, LinksAreWhereKdlPutsThem) {
@@ -49,6 +73,21 @@ TEST(KinematicsKdlTest, LinksAreWhereKdlPutsThem) {
     for (size_t link = 0; link < X_RL.size(); ++link) {
       const KDL::Frame expected = poseByKdl(tree, link, state.positions);
       EXPECT_TRUE(KDL::Equal(expected, toKdl(X_RL[link]), 1e-12)) << "robot " << i << ", link " << link;
+    }
+  }
+}
+
+TEST(KinematicsKdlTest, JacobiansAreThoseOfKdl) {
+  Random random(/*seed=*/2);
+  Jacobian J_R;
+  for (int i = 0; i < 1000; ++i) {
+    const KinematicTree tree = randomRobot(random, 2 + static_cast<size_t>(random.below(12)), random.chance(0.5));
+    const RobotState state = randomState(random, tree, 3.0);
+    std::vector<Eigen::Isometry3d> X_RL;
+    tree.poses(state.positions, X_RL);
+    for (size_t link = 0; link < X_RL.size(); ++link) {
+      geometricJacobian(tree, X_RL, link, J_R);
+      EXPECT_LT((J_R - jacobianByKdl(tree, link, state.positions)).norm(), 1e-12) << "robot " << i << ", link " << link;
     }
   }
 }

@@ -22,7 +22,7 @@ struct Target {
   Vector6d moved;
 };
 
-std::vector<Target> addPose(DelayedTargets<double>& targets, double seconds) {
+std::vector<Target> addPose(DelayedTargets<PoseSpace, double>& targets, double seconds) {
   std::vector<Target> given;
   targets.add(poseAt(seconds), seconds, [&](double known, size_t i, const Vector6d& moved) {
     given.push_back({known, i, moved});
@@ -32,7 +32,7 @@ std::vector<Target> addPose(DelayedTargets<double>& targets, double seconds) {
 
 // Poses do not come when a horizon ends: the displacement until then is interpolated.
 TEST(DelayedTargetsTest, GivesTheDisplacementForEveryPoseAndHorizon) {
-  DelayedTargets<double> targets;
+  DelayedTargets<PoseSpace, double> targets;
   std::vector<Target> given;
   constexpr double kPeriod = 0.037;
   constexpr int kPoses = 100;
@@ -50,7 +50,7 @@ TEST(DelayedTargetsTest, GivesTheDisplacementForEveryPoseAndHorizon) {
 }
 
 TEST(DelayedTargetsTest, GivesNothingAcrossAnInterruption) {
-  DelayedTargets<double> targets;
+  DelayedTargets<PoseSpace, double> targets;
   for (int i = 0; i < 10; ++i) addPose(targets, 50.0 + 0.001 * i);
   targets.clear();
   EXPECT_TRUE(addPose(targets, 60.0).empty());
@@ -60,7 +60,7 @@ TEST(DelayedTargetsTest, GivesNothingAcrossAnInterruption) {
 }
 
 TEST(DelayedTargetsTest, UsesTheCorrectedNewestPose) {
-  DelayedTargets<double> targets;
+  DelayedTargets<PoseSpace, double> targets;
   addPose(targets, 50.0);
   StampedPose right = poseAt(50.0);
   right.X_WT.translation().x() += 1.0;

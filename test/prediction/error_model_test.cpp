@@ -20,7 +20,7 @@ class ErrorModelTest : public testing::Test {
       track_.add(pose);
       Vector6d velocity = Vector6d::Zero();
       velocity[0] = speed;
-      PredictedDisplacements predicted;
+      PredictedDisplacements<PoseSpace> predicted;
       for (size_t k = 0; k < predicted.size(); ++k) {
         predicted[k] = kLearnedHorizons[k] * velocity;
         predicted[k].head<3>() += error_share * kLearnedHorizons[k] * speed * std::sqrt(3.0) * random_.direction();
@@ -36,8 +36,8 @@ class ErrorModelTest : public testing::Test {
   Random random_{1};
   double time_ = 100.0;
   double x_ = 0.0;
-  PoseTracker track_{5.0, 20.0};
-  ErrorModel model_;
+  PoseTracker track_{PoseSpace{5.0, 20.0}};
+  ErrorModel<PoseSpace> model_{PoseSpace{5.0, 20.0}};
 };
 
 TEST_F(ErrorModelTest, AssumesAShareOfTheDisplacementBeforeItHasErrors) {
@@ -69,15 +69,15 @@ TEST_F(ErrorModelTest, ExpectsGreaterErrorsInFastMotion) {
 
 // The tool goes along x and its predictions err along x alone.
 TEST(ErrorModelDirectionTest, SeparatesErrorsAlongTheMotionFromErrorsAcrossIt) {
-  PoseTracker tracker(5.0, 20.0);
-  ErrorModel model;
+  PoseTracker tracker(PoseSpace{5.0, 20.0});
+  ErrorModel<PoseSpace> model(PoseSpace{5.0, 20.0});
   for (int i = 0; i < 6000; ++i) {
     StampedPose pose;
     pose.stamp = Time(fromSeconds(100.0 + 0.01 * i));
     pose.X_WT.translation().x() = 0.002 * i;
     tracker.add(pose);
     const Vector6d velocity = 0.2 * Vector6d::Unit(0);
-    PredictedDisplacements predicted;
+    PredictedDisplacements<PoseSpace> predicted;
     for (size_t k = 0; k < predicted.size(); ++k) predicted[k] = 1.1 * kLearnedHorizons[k] * velocity;
     model.observe(tracker, velocity, predicted);
   }

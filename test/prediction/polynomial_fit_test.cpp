@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "sweep_guard/common/matrix6.h"
+
 namespace sweep_guard_core {
 namespace {
 
@@ -21,9 +23,9 @@ Vector6d staircase(double t) {
   return values;
 }
 
-PolynomialFit fitOf(const std::function<Vector6d(double)>& truth, int degree, double until, double period,
-                    double forgetting_factor = 0.98) {
-  PolynomialFit fit({degree, kWindow, forgetting_factor});
+PolynomialFit<6> fitOf(const std::function<Vector6d(double)>& truth, int degree, double until, double period,
+                       double forgetting_factor = 0.98) {
+  PolynomialFit<6> fit({degree, kWindow, forgetting_factor});
   for (int i = 0; i * period <= until; ++i) fit.add(at(i * period), truth(i * period));
   return fit;
 }
@@ -37,7 +39,7 @@ TEST(PolynomialFitTest, ReturnsPolynomialsOfEveryDegree) {
 }
 
 TEST(PolynomialFitTest, TakesStampsAsTheyCome) {
-  PolynomialFit fit({3, kWindow, 0.95});
+  PolynomialFit<6> fit({3, kWindow, 0.95});
   double t = 0.0;
   for (int i = 0; i < 200; ++i) {
     t += i % 3 == 0 ? 0.002 : 0.017;
@@ -56,19 +58,19 @@ TEST(PolynomialFitTest, MeasuresTheSlope) {
 // What lies before the window has no weight at all, however little is forgotten.
 TEST(PolynomialFitTest, ForgetsWhatIsOlderThanTheWindow) {
   const auto corner = [](double t) -> Vector6d { return Vector6d::Constant(t < 1.0 ? 5.0 * t : 5.0); };
-  PolynomialFit fit = fitOf(corner, 1, 1.0 + toSeconds(kWindow) + 0.01, 0.01, 1.0);
+  PolynomialFit<6> fit = fitOf(corner, 1, 1.0 + toSeconds(kWindow) + 0.01, 0.01, 1.0);
   EXPECT_NEAR(fit.curve({1, 1, 1, 1, 1, 1}).slopeAt(at(1.31))[0], 0.0, 1e-12);
   EXPECT_LE(fit.span(), kWindow);
 }
 
 TEST(PolynomialFitTest, WeighsSamplesByTheForgettingFactor) {
-  PolynomialFit fit({0, kWindow, 0.5});
+  PolynomialFit<6> fit({0, kWindow, 0.5});
   for (int i = 0; i < 3; ++i) fit.add(at(0.01 * i), Vector6d::Constant(i));
   EXPECT_NEAR(fit.curve({}).at(at(0.0))[0], (0.25 * 0 + 0.5 * 1 + 1.0 * 2) / 1.75, 1e-12);
 }
 
 TEST(PolynomialFitTest, LowersTheDegreeUntilThereAreSamplesForIt) {
-  PolynomialFit fit({3, kWindow, 1.0});
+  PolynomialFit<6> fit({3, kWindow, 1.0});
   fit.add(at(0.0), staircase(0.0));
   EXPECT_EQ(fit.curve({3, 3, 3, 3, 3, 3}).at(at(1.0)), staircase(0.0));
   fit.add(at(0.1), staircase(0.1));
@@ -76,13 +78,13 @@ TEST(PolynomialFitTest, LowersTheDegreeUntilThereAreSamplesForIt) {
 }
 
 TEST(PolynomialFitTest, KeepsSlowSamplesThoughTheyAreOlderThanTheWindow) {
-  PolynomialFit fit = fitOf(staircase, 2, 10.0, 1.0);
+  PolynomialFit<6> fit = fitOf(staircase, 2, 10.0, 1.0);
   EXPECT_EQ(fit.size(), 3U);
   EXPECT_NEAR(fit.curve({2, 2, 2, 2, 2, 2}).at(at(11.0))[2], staircase(11.0)[2], 1e-9);
 }
 
 TEST(PolynomialFitTest, CorrectsItsNewestSample) {
-  PolynomialFit fit = fitOf(staircase, 1, 0.2, 0.01);
+  PolynomialFit<6> fit = fitOf(staircase, 1, 0.2, 0.01);
   fit.add(at(0.21), Vector6d::Constant(99.0));
   fit.replaceNewest(staircase(0.21));
   EXPECT_NEAR(fit.curve({0, 1, 0, 0, 0, 0}).at(at(1.0))[1], staircase(1.0)[1], 1e-12);
@@ -91,7 +93,7 @@ TEST(PolynomialFitTest, CorrectsItsNewestSample) {
 // Hours at 1 kHz: neither errors of rounding nor the age of the clock add up, and nothing winds up while it stands
 // still.
 TEST(PolynomialFitTest, IsAsExactAfterTenMillionUpdatesAsAtFirst) {
-  PolynomialFit fit({2, milliseconds(50), 0.98});
+  PolynomialFit<6> fit({2, milliseconds(50), 0.98});
   const auto truth = [](double t) -> Vector6d {
     return Vector6d::Constant(t < 5000.0 ? 1e3 : 1e3 + 0.01 * (t - 5000.0) * (t - 5000.0));
   };

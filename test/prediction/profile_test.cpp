@@ -111,9 +111,9 @@ TEST(ProfileTest, IsKeptThroughAGapAndSavedAgain) {
   follow(predictor, kQuick, 0.0, 0.05);
   const auto again = predictor.profile();
   for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-    const auto weights = [](const DisplacementRegression::Learned& of) {
-      DisplacementRegression regression(1.0, 0.02);
-      regression.begin(of, DisplacementRegression::Weights::Zero());
+    const auto weights = [](const DisplacementRegression<3>::Learned& of) {
+      DisplacementRegression<3> regression(1.0, 0.02);
+      regression.begin(of, DisplacementRegression<3>::Weights::Zero());
       return regression.weights();
     };
     EXPECT_LT((weights(again->translation[i]) - weights(profile->translation[i])).norm(), 0.05) << i;

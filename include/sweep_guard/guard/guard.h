@@ -39,9 +39,10 @@ class Guard {
   /// @throws InvalidInput if `cycle` or an option of the predictor or the horizon is out of range; `options.sweep` is
   ///     not checked
   Guard(Tool tool, std::unique_ptr<Detector> detector, const GuardOptions& options);
-  /// Guards a tool of several rigid bodies: they share detector, time and report.
-  /// @param bodies  at least one, each in its own frame; their pieces are counted through
-  Guard(std::vector<Tool> bodies, std::unique_ptr<Detector> detector, const GuardOptions& options);
+  /// Guards the bodies of a robot, whose joints move them: they share detector, time and report. The motion of the joints
+  /// is predicted, see MotionPredictor.
+  /// @param robot  with at least one body, not null; their pieces are counted through
+  Guard(std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector, const GuardOptions& options);
   ~Guard();
   Guard(const Guard&) = delete;
   Guard& operator=(const Guard&) = delete;
@@ -49,7 +50,7 @@ class Guard {
   /// Adds a pose that the next sweep passes through. A workpiece whose frame is missing at the pose of the sweep is
   /// reported as unplaced. Once its frame is known again, it is swept through the added poses that hold its frame.
   /// @param pose  finite, rotations orthonormal, stamp not earlier than the previous pose's, PoseWithFrames::bodies as many
-  ///     as the tool's, or none and the tool is one body; not checked. After time went back, call reset() first
+  ///     as the robot's, with its state, or none without a robot; not checked. After time went back, call reset() first
   void pass(const PoseWithFrames& pose);
 
   /// Sweeps from the pose of the last sweep, through the poses passed since, to this pose. If the detector fails or
@@ -119,6 +120,9 @@ class Guard {
   const Tool& tool(size_t body = 0) const;
 
  private:
+  Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector,
+        const GuardOptions& options);
+
   void beginPlan(SteadyTime begin, const std::function<void()>& between);
   size_t consideredSweeps() const;
   void interrupt(const std::function<void()>& between);

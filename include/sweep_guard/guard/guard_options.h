@@ -33,8 +33,9 @@ struct GuardOptions {
 /// Holds the changes to a running guard. `options` replaces all options of the guard, except the clock; another member
 /// that is empty or null changes nothing.
 struct GuardChange {
-  GuardOptions options;           ///< start from the current ones: defaults replace them, too
-  std::vector<Tool> bodies = {};  ///< of the tool, as many as the guard has
+  GuardOptions options;                          ///< start from the current ones: defaults replace them, too
+  std::vector<Tool> bodies = {};                 ///< of the tool, as many as the guard has
+  std::shared_ptr<const Robot> robot = nullptr;  ///< whose tools `bodies` are, with the joints that the guard's has
   std::unique_ptr<Detector> detector = nullptr;
   /// Made from `options.predictor`, for the same bodies; empty: the guard keeps its predictor and what it has learned, and
   /// `options.predictor` has no effect.

@@ -1,38 +1,58 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/guard/prediction.h"
+#include "sweep_guard/kinematics/jacobian.h"
+#include "sweep_guard/kinematics/robot_path.h"
+#include "sweep_guard/prediction/horizon.h"
+#include "sweep_guard/prediction/joint_predictor.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard_core {
 
-/// Predicts the motion of the tool frame and of each body of the tool by PosePredictor, each on its own.
+/// Predicts the motion of a tool: that of the tool frame by PosePredictor and, of a robot, that of its joints by
+/// JointPredictor. The bodies of a robot are where its predicted joints put them, which is where they can go. Their
+/// covariances are those of frame and joints to first order, J * C * J^T with the geometric Jacobian J of each body, and
+/// what the arcs of the joints add to the position. The errors of the joints count as independent of each other.
 class MotionPredictor {
  public:
+  /// @param robot  of which joints move; null: a tool of one rigid body
   /// @throws InvalidInput as PosePredictor()
-  explicit MotionPredictor(const PredictorOptions& options) : options_(options), tool_(options) {}
+  explicit MotionPredictor(const PredictorOptions& options, std::shared_ptr<const Robot> robot = nullptr);
 
   /// Adds the newest pose, as PosePredictor::observe().
-  /// @param pose  has as many bodies as the first one; not checked
+  /// @param pose  of a robot: with the state of its joints; not checked
   void observe(const PoseWithFrames& pose);
 
-  /// Predicts the paths after the newest pose, as PosePredictor::predict().
-  /// @param[out] motion  its paths are overwritten, all or none of them empty
-  void predict(const std::vector<Duration>& ahead, PredictedMotion& motion) const;
+  /// Predicts the paths after the newest pose, which `motion.from` is, as PosePredictor::predict().
+  ///
+  /// The bodies of a robot do not move as a Motion from pose to pose. A step of the horizon in which one deviates by more
+  /// than 0.5 mm (in the reflex interval) or 5 mm (later) is cut into up to four; PredictedPose::deviation_bound has what
+  /// is left.
+  /// @param[out] motion  its paths and `reflex_sweeps` are overwritten, all or none of the paths empty
+  void predict(const Horizon& horizon, PredictedMotion& motion) const;
 
   /// Forgets the poses, and keeps what was learned of the operator.
   void restart();
 
-  /// Returns what was learned of the motion of the tool frame, see PosePredictor.
+  /// Exchanges the robot for one with the same joints.
+  void exchange(std::shared_ptr<const Robot>& robot) { std::swap(robot_, robot); }
+
+  /// Returns what was learned of the motion of the tool frame, see PosePredictor. It holds nothing of joints.
   std::unique_ptr<Profile> profile() const;
 
  private:
-  PredictorOptions options_;
+  std::vector<RobotState> statesAlong(const PredictedMotion& motion) const;
+  Horizon cut(const Horizon& horizon, const std::vector<RobotState>& states) const;
+  void predictBodies(PredictedMotion& motion) const;
+
   PosePredictor tool_;
-  std::vector<PosePredictor> bodies_;
+  std::shared_ptr<const Robot> robot_;
+  std::optional<JointPredictor> joints_;
 };
 
 }  // namespace sweep_guard_core

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sweep_guard/common/time.h"
+#include "sweep_guard/kinematics/robot_motion.h"
 
 namespace sweep_guard_core {
 
@@ -26,6 +27,7 @@ struct PoseWithFrames {
   std::map<std::string, Eigen::Isometry3d> X_WM =
       {};                             ///< [m], by name of M; a frame whose transform is missing is left out
   std::vector<BodyPose> bodies = {};  ///< of each body of the guarded tool; empty: it is one body, in T
+  RobotState state = {};              ///< of the robot whose bodies these are; means nothing without any
 
   BodyPose body(size_t i) const { return bodies.empty() ? BodyPose{X_WT} : bodies[i]; }
 };

@@ -17,6 +17,9 @@ struct PredictedPose {
   /// Covariance of its error: translation [m], then rotation vector [rad], both along the axes of W; symmetric,
   /// positive semi-definite.
   Matrix6d covariance = Matrix6d::Zero();
+  /// Bound [m], >= 0, on the distance of a point, at any time since the pose before, from where it would be if the body
+  /// moved as Motion says: for a body that joints move.
+  double deviation_bound = 0.0;
 };
 
 /// Predicted poses, ascending in time. The path begins at the newest observed pose, which is not part of it.

@@ -67,6 +67,7 @@ void ArticulatedTool::place(Time stamp, const RobotState& state, std::vector<Pos
   pose.stamp = stamp;
   pose.X_WT = state.X_WR * model_->X_TR.inverse();
   for (const Eigen::Isometry3d& X_WB : X_WB_) pose.bodies.push_back({X_WB});
+  pose.state = state;
 }
 
 std::string ArticulatedTool::silence(Time now) const {

@@ -24,6 +24,7 @@ class ArticulatedTool {
     sweep_guard_core::Time stamp;
     Eigen::Isometry3d X_WT;
     std::vector<sweep_guard_core::BodyPose> bodies;
+    sweep_guard_core::RobotState state;
   };
 
   /// @param parameters  with an articulated tool

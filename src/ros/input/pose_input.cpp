@@ -113,7 +113,7 @@ void PoseInput::pushKnownPoses(sweep_guard_core::SteadyTime received) {
   while (articulated_->next(frame, known_)) {
     if (articulated_->leavesOut()) monitor_.fault(sweep_guard_core::kPosesUnswept, kPassed);
     record_.received({known_.back().stamp, received});
-    for (ArticulatedTool::Pose& pose : known_) push({pose.stamp, received}, pose.X_WT, std::move(pose.bodies));
+    for (ArticulatedTool::Pose& pose : known_) push(received, std::move(pose));
   }
 }
 
@@ -187,17 +187,17 @@ void PoseInput::accept(const ReceivedPose& pose) {
   }
   const Eigen::Isometry3d X_WT = lookup(fixed_frame_, pose.frame, stamp) * pose.X_FT;
   previous_stamp_ = stamp;
-  if (!articulated_) return push(pose.timestamps, X_WT, {});
+  if (!articulated_) return push(pose.timestamps.received, {pose.timestamps.stamp, X_WT, {}, {}});
   articulated_->add(stamp, X_WT);
   pushKnownPoses(received);
   const std::string silence = articulated_->silence(stamp);
   if (!silence.empty()) monitor_.fault(sweep_guard_core::kPoseStale, silence);
 }
 
-void PoseInput::push(const sweep_guard_core::Timestamps& timestamps, const Eigen::Isometry3d& X_WT,
-                     std::vector<sweep_guard_core::BodyPose> bodies) {
-  const auto& [stamp, received] = timestamps;
-  if (queue_.push({{stamp, received, X_WT, locate(*workpieces_.frames(), stamp), std::move(bodies)}, checkpoint_}))
+void PoseInput::push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose) {
+  auto& [stamp, X_WT, bodies, state] = pose;
+  auto frames = locate(*workpieces_.frames(), stamp);
+  if (queue_.push({{stamp, received, X_WT, std::move(frames), std::move(bodies), std::move(state)}, checkpoint_}))
     return;
   monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses were dropped: too many wait to be swept");
 }

@@ -61,8 +61,7 @@ class PoseInput {
   void acceptJoints(const ros::MessageEvent<const sensor_msgs::JointState>& event);
   void begin();
   void pushKnownPoses(sweep_guard_core::SteadyTime received);
-  void push(const sweep_guard_core::Timestamps& timestamps, const Eigen::Isometry3d& X_WT,
-            std::vector<sweep_guard_core::BodyPose> bodies);
+  void push(sweep_guard_core::SteadyTime received, ArticulatedTool::Pose pose);
   std::map<std::string, Eigen::Isometry3d> locate(const std::set<std::string>& mesh_frames,
                                                   sweep_guard_core::Time stamp);
   Eigen::Isometry3d lookup(const std::string& target, const std::string& source, sweep_guard_core::Time stamp);

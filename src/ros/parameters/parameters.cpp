@@ -83,10 +83,11 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
   const std::vector<int> degree =
       read.integers("prediction/degree", {options.degree.begin(), options.degree.end()}, 0, 5,
                     "polynomial only: degree along x y z of the fixed frame, then about x y z of the tool. Higher "
-                    "degrees follow curves and overshoot.");
+                    "degrees follow curves and overshoot. Of joints that move: the largest.");
   std::copy(degree.begin(), degree.end(), options.degree.begin());
-  for (const std::string& axis : read.selection("prediction/constrained", axes,
-                                                "Axes that the operator cannot move: they are predicted to stay.")) {
+  for (const std::string& axis :
+       read.selection("prediction/constrained", axes,
+                      "Axes that the operator cannot move: they are predicted to stay. Not of joints.")) {
     options.constrained[static_cast<size_t>(std::find(axes.begin(), axes.end(), axis) - axes.begin())] = true;
   }
   options.forgetting_factor = read.number("prediction/forgetting_factor", options.forgetting_factor, {0.01, 1.0},
@@ -94,12 +95,14 @@ sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
                                           "larger filters more noise.");
   options.window = toDuration(read.number("prediction/window", toSeconds(options.window), {0.02, 10.0, "s"},
                                           "Polynomials ignore samples that are older."));
-  options.max_speed = read.number("limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
-                                  "No prediction moves the tip faster. A faster pose is a jump: the motion is learned "
-                                  "again.");
-  options.max_turn_rate = read.number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0, "rad/s"},
-                                      "No prediction turns faster. A pose that does is a jump: the motion is learned "
-                                      "again.");
+  options.max_speed =
+      read.number("limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
+                  "No prediction moves the tip faster, or a joint that slides. A faster pose is a jump: "
+                  "the motion is learned again.");
+  options.max_turn_rate =
+      read.number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0, "rad/s"},
+                  "No prediction turns faster, of the tool or of a joint. A pose that does is a jump: the "
+                  "motion is learned again.");
   return options;
 }
 
@@ -318,6 +321,11 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
 }
 
 }  // namespace
+
+std::shared_ptr<const sweep_guard_core::Robot> articulatedRobot(const Parameters& parameters) {
+  if (!parameters.articulated) return nullptr;
+  return {parameters.robot, &parameters.robot->robot};
+}
 
 Parameters loadParameters(const ros::NodeHandle& private_node) {
   ParameterReader read(private_node);

@@ -64,6 +64,9 @@ struct Parameters {
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order
 };
 
+/// Returns the robot whose joints move the tool; null: none do.
+std::shared_ptr<const sweep_guard_core::Robot> articulatedRobot(const Parameters& parameters);
+
 /// Reads the private parameters, and makes the tool from them or from a robot description. A missing parameter takes
 /// its default. Warns of each parameter that is not read.
 /// @throws sweep_guard_core::InvalidInput naming key, value and range if one has the wrong type, is NaN or is out of

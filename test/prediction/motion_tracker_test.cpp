@@ -1,4 +1,4 @@
-#include "prediction/pose_tracker.h"
+#include "prediction/motion_tracker.h"
 
 #include <gtest/gtest.h>
 
@@ -14,38 +14,38 @@ StampedPose poseAt(double seconds, const Eigen::Vector3d& p_W, double turn = 0.0
   return pose;
 }
 
-class PoseTrackerTest : public testing::Test {
+class MotionTrackerTest : public testing::Test {
  protected:
   Step addAt(double seconds, double x = 0.0) { return track_.add(poseAt(seconds, {x, 0.0, 0.0})); }
 
-  PoseTracker track_{/*max_speed=*/2.0, /*max_turn_rate=*/10.0};
+  PoseTracker track_{{/*max_speed=*/2.0, /*max_turn_rate=*/10.0}};
 };
 
-TEST_F(PoseTrackerTest, BeginsWithTheFirstPoseAndContinues) {
+TEST_F(MotionTrackerTest, BeginsWithTheFirstPoseAndContinues) {
   EXPECT_EQ(addAt(0.0), Step::kBegins);
   EXPECT_EQ(addAt(0.1, 0.1), Step::kContinues);
-  EXPECT_EQ(track_.poses(), 2);
+  EXPECT_EQ(track_.samples(), 2);
   EXPECT_NEAR(track_.coordinates()[0], 0.1, 1e-15);
   EXPECT_EQ(track_.period(), std::chrono::milliseconds(100));
 }
 
-TEST_F(PoseTrackerTest, AGapInterruptsTheMotion) {
+TEST_F(MotionTrackerTest, AGapInterruptsTheMotion) {
   addAt(0.00);
   addAt(0.01);
   EXPECT_EQ(addAt(0.26), Step::kContinues);
   addAt(0.27);
   EXPECT_EQ(addAt(0.5201), Step::kBegins);
-  EXPECT_EQ(track_.poses(), 1);
+  EXPECT_EQ(track_.samples(), 1);
 }
 
-TEST_F(PoseTrackerTest, SlowPosesAreNoGap) {
+TEST_F(MotionTrackerTest, SlowPosesAreNoGap) {
   addAt(0.0);
   addAt(0.4);
   for (int i = 2; i < 10; ++i) EXPECT_EQ(addAt(0.4 * i), Step::kContinues);
   EXPECT_EQ(addAt(3.6 + 1.01), Step::kBegins);
 }
 
-TEST_F(PoseTrackerTest, ALongGapDoesNotExcuseTheNext) {
+TEST_F(MotionTrackerTest, ALongGapDoesNotExcuseTheNext) {
   addAt(0.0);
   EXPECT_EQ(addAt(12.0), Step::kBegins);
   EXPECT_EQ(addAt(14.0), Step::kBegins);
@@ -53,7 +53,7 @@ TEST_F(PoseTrackerTest, ALongGapDoesNotExcuseTheNext) {
   EXPECT_EQ(addAt(14.9), Step::kBegins);
 }
 
-TEST_F(PoseTrackerTest, AJumpInterruptsTheMotion) {
+TEST_F(MotionTrackerTest, AJumpInterruptsTheMotion) {
   addAt(0.0);
   EXPECT_EQ(addAt(0.1, 0.199), Step::kContinues);
   EXPECT_EQ(addAt(0.2, 0.400), Step::kBegins);
@@ -64,35 +64,35 @@ TEST_F(PoseTrackerTest, AJumpInterruptsTheMotion) {
 }
 
 // Recorders that cut their stamps make two poses 10 ms apart look simultaneous.
-TEST_F(PoseTrackerTest, APoseThatIsNotLaterCorrectsTheOneBefore) {
+TEST_F(MotionTrackerTest, APoseThatIsNotLaterCorrectsTheOneBefore) {
   addAt(0.0);
   addAt(0.1, 0.1);
   EXPECT_EQ(addAt(0.1, 0.11), Step::kCorrects);
-  EXPECT_EQ(track_.poses(), 2);
+  EXPECT_EQ(track_.samples(), 2);
   EXPECT_NEAR(track_.coordinates()[0], 0.11, 1e-15);
   EXPECT_EQ(track_.newest().X_WT.translation().x(), 0.11);
 }
 
-TEST_F(PoseTrackerTest, ACorrectionThatIsAJumpInterruptsTheMotion) {
+TEST_F(MotionTrackerTest, ACorrectionThatIsAJumpInterruptsTheMotion) {
   addAt(0.0);
   addAt(0.1, 0.1);
   EXPECT_EQ(addAt(0.1, 9.0), Step::kBegins);
 }
 
 // Poses closer than half a millisecond say nothing of a speed, and a flood of them would fill the memory.
-TEST_F(PoseTrackerTest, PosesHardlyLaterCorrectTheOneBefore) {
+TEST_F(MotionTrackerTest, PosesHardlyLaterCorrectTheOneBefore) {
   addAt(0.0);
   EXPECT_EQ(addAt(0.000499), Step::kCorrects);
   EXPECT_EQ(addAt(0.0005), Step::kContinues);
 }
 
-TEST_F(PoseTrackerTest, TurnsAddUpBeyondAFullTurn) {
+TEST_F(MotionTrackerTest, TurnsAddUpBeyondAFullTurn) {
   for (int i = 0; i <= 100; ++i) track_.add(poseAt(0.1 * i, {0.0, 0.0, 0.0}, 0.5 * i));
-  EXPECT_EQ(track_.poses(), 101);
+  EXPECT_EQ(track_.samples(), 101);
   EXPECT_NEAR(track_.coordinates()[5], 50.0, 1e-12);
 }
 
-TEST_F(PoseTrackerTest, BeginsAnewWhenInterrupted) {
+TEST_F(MotionTrackerTest, BeginsAnewWhenInterrupted) {
   addAt(10.0);
   addAt(10.1);
   track_.interrupt();

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sweep_guard/kinematics/robot_motion.h"
+#include "sweep_guard/prediction/pose_predictor.h"
+
+namespace sweep_guard_evaluation {
+
+/// The positions of the joints of a robot at one time.
+struct StampedJoints {
+  sweep_guard_core::Time stamp;
+  std::vector<double> positions;  ///< of each variable of a tree [rad or m]
+};
+
+struct JointErrorRequest {
+  const sweep_guard_core::KinematicTree& tree;
+  const std::vector<size_t>& links;                  ///< whose origins are compared; indices in the tree
+  const std::vector<StampedJoints>& states;          ///< stamps strictly ascending
+  std::vector<sweep_guard_core::Duration> horizons;  ///< ascending, > 0
+  sweep_guard_core::PredictorOptions predictor;
+};
+
+/// What predictions of the origin of a link are worth. NaN without samples.
+struct LinkErrors {
+  double median;  ///< distance from where it came to be [m]
+  double p90;     ///< the same
+  /// Standard deviation [m] of a ball whose volume is that of the covariance, at its geometric mean: exp(log det / 6). A
+  /// millimeter is added to all deviations, since some links move in fewer than three directions.
+  double width;
+  /// The same of the covariance scaled to hold 90 % of the errors.
+  double calibrated_width;
+};
+
+/// The prediction by joints and that of the pose of the link, on the same samples: those with a second before and the
+/// horizon after them without a gap of 0.25 s.
+struct JointErrorReport {
+  std::string link;
+  sweep_guard_core::Duration horizon;
+  LinkErrors by_joints;  ///< by MotionPredictor
+  LinkErrors by_pose;    ///< by PosePredictor
+  size_t samples;
+};
+
+/// Passes every state to both predictors and compares their predictions with the recording. The root rests.
+/// @return for each link, by horizon
+std::vector<JointErrorReport> compareJointPrediction(const JointErrorRequest& request);
+
+/// Returns a CSV file with the columns recording,predictor,link,horizon_s,by,median_m,p90_m,width_m,calibrated_width_m,
+/// samples, where `by` is `joints` or `pose`.
+/// @param name  of the recording
+std::string jointErrorCsv(const std::string& name, const std::string& predictor,
+                          const std::vector<JointErrorReport>& reports, bool header);
+
+}  // namespace sweep_guard_evaluation

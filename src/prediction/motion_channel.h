@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+
+#include "prediction/error_model.h"
+#include "prediction/extrapolator.h"
+#include "prediction/velocity.h"
+
+namespace sweep_guard_core {
+
+/// Predicts the motion of a tool or a joint, and the covariance of its errors from those of its own earlier predictions.
+template <typename Space>
+class MotionChannel {
+ public:
+  /// @throws InvalidInput if the name of the predictor is unknown
+  /// @param learned  as for makeExtrapolator()
+  MotionChannel(const PredictorOptions& options, const Space& space,
+                std::shared_ptr<LearnedMotion<Space>> learned = nullptr);
+
+  void observe(const typename Space::Sample& sample);
+  void interrupt() { tracker_.interrupt(); }  ///< ends the motion: the next sample begins another one
+
+  bool knowsMotion() const { return tracker_.samples() >= 2; }  ///< two samples since the motion began
+  const typename Space::Sample& newest() const { return tracker_.newest(); }
+
+  /// Returns the displacement after the newest sample that is predicted, within the limits of the space.
+  /// @param ahead  [s], > 0
+  typename Space::Vector displacementIn(double ahead) const {
+    return tracker_.space().possible(tracker_.newest(), extrapolator_->displacementIn(ahead), ahead);
+  }
+  /// Returns the covariance of its error.
+  typename ErrorModel<Space>::Covariance covariance(double ahead) const { return errors_.covariance(ahead); }
+
+  const Extrapolator<Space>& extrapolator() const { return *extrapolator_; }
+  ErrorModel<Space>& errors() { return errors_; }
+  const ErrorModel<Space>& errors() const { return errors_; }
+
+ private:
+  MotionTracker<Space> tracker_;
+  Velocity<Space> velocity_;
+  std::unique_ptr<Extrapolator<Space>> extrapolator_;
+  ErrorModel<Space> errors_;
+};
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "prediction/motion_space.h"
+
+namespace sweep_guard_core {
+
+/// Tracks what moves, a tool or a joint, and detects interruptions of its motion: a gap of 0.25 s, or three periods of
+/// slower samples but at most 1 s, or a jump faster than the limits.
+template <typename Space>
+class MotionTracker {
+ public:
+  using Sample = typename Space::Sample;
+  using Vector = typename Space::Vector;
+
+  enum class Step {
+    kBegins,     ///< the first sample, or the first after an interruption
+    kContinues,  ///< the motion continues from the previous sample
+    kCorrects,   ///< the stamp is later by less than 0.5 ms: the sample replaces the previous one
+  };
+
+  explicit MotionTracker(const Space& space) : space_(space) {}
+
+  Step add(const Sample& sample);
+
+  /// Ends the motion: the next sample begins another one.
+  void interrupt() {
+    samples_ = 0;
+    period_ = Duration::zero();
+  }
+
+  const Space& space() const { return space_; }
+  Step step() const { return step_; }               ///< what the newest sample did
+  int samples() const { return samples_; }          ///< number of samples since the motion began
+  const Sample& newest() const { return newest_; }  ///< there must be one
+  Duration period() const { return period_; }       ///< from the previous sample to the newest
+
+  /// Returns coordinates of the newest sample that never wrap. Of a pose: translation in W [m], then the rotations about
+  /// the tool's own axes, summed from pose to pose [rad].
+  const Vector& coordinates() const { return coordinates_; }
+
+ private:
+  bool gap(Duration period) const;
+
+  Space space_;
+  int samples_ = 0;
+  Step step_ = Step::kBegins;
+  Sample newest_;
+  Duration period_{};
+  Vector coordinates_ = Vector::Zero();
+};
+
+using PoseTracker = MotionTracker<PoseSpace>;
+using JointTracker = MotionTracker<JointSpace>;
+
+}  // namespace sweep_guard_core
