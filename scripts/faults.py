@@ -209,12 +209,21 @@ class World:
         self.link = True
 
     def start(self, name, command, at_peers=True, **environment):
-        log = open(os.path.join(self.folder, name + '.log'), 'ab')
         there = ['ip', 'netns', 'exec', self.peers] if at_peers else []
         address = {'ROS_IP': '10.99.0.2'} if at_peers else {}
-        self.running[name] = subprocess.Popen(there + command, stdout=log, stderr=log, stdin=subprocess.DEVNULL,
-                                              env=dict(os.environ, **address, **environment))
+        return self.run(name, there + command, **address, **environment)
+
+    def run(self, name, command, **environment):
+        log = open(os.path.join(self.folder, name + '.log'), 'ab')
+        self.running[name] = subprocess.Popen(command, stdout=log, stderr=log, stdin=subprocess.DEVNULL,
+                                              env=dict(os.environ, **environment))
         return self.running[name]
+
+    def write_config(self, path, mesh_ids):
+        with open(os.path.join(os.path.dirname(__file__), '..', 'config', 'sweep_guard.yaml')) as file:
+            lines = [line for line in file if not line.startswith('mesh_ids:')]
+        with open(path, 'w') as file:
+            file.writelines(lines + [f'mesh_ids: [{", ".join(mesh_ids)}]\n'])
 
     def start_master(self, timeout=30.0):
         self.start('roscore', ['roscore', '-p', '11311'])
@@ -399,10 +408,7 @@ def measure(options):
             world.role(name, *role)
         world.role('subscriber', 'subscribe')
         config = os.path.join(options.folder, 'parameters.yaml')
-        with open(os.path.join(os.path.dirname(__file__), '..', 'config', 'sweep_guard.yaml')) as file:
-            lines = [line for line in file if not line.startswith('mesh_ids:')]
-        with open(config, 'w') as file:
-            file.writelines(lines + ['mesh_ids: [left, right]\n'])
+        world.write_config(config, ['left', 'right'])
         world.start('roslaunch', ['roslaunch', 'sweep_guard', 'sweep_guard.launch', 'config:=' + config], at_peers=False)
         world.start('motion_guard', [program(world, 'motion_guard_node')], at_peers=False)
         world.role('commands', 'commands')

@@ -26,7 +26,7 @@ struct WindowMessage {
 /// behind a line feed, which says what it depends on: as "mesh" leaves the window, "mesh\nvertices" from before is forgotten.
 ///
 /// All that is kept takes at most `max_size` bytes: the oldest messages leave the window first, then the oldest that
-/// are kept by their key. Not thread-safe.
+/// are kept by their key. A message that is larger by itself is not kept. Not thread-safe.
 template <typename Content>
 class MessageWindow {
  public:
@@ -44,16 +44,15 @@ class MessageWindow {
 
   explicit MessageWindow(const Limits& limits) : limits_(limits) {}
 
-  void add(Message message) {
+  /// @returns whether the message is kept; if not, all others are
+  bool add(Message message) {
+    if (message.size > limits_.max_size) return false;
     size_ += message.size;
     window_.push_back(std::move(message));
     while (window_.front().received < window_.back().received - limits_.length) shift();
     while (size_ > limits_.max_size && window_.size() > 1) shift();
-    while (size_ > limits_.max_size && !before_.empty()) forgetOldest();
-    if (size_ > limits_.max_size) {
-      size_ = 0;
-      window_.clear();
-    }
+    while (size_ > limits_.max_size) forgetOldest();
+    return true;
   }
 
   /// Forgets all but the newest of each key: what follows belongs to another time.
@@ -77,6 +76,16 @@ class MessageWindow {
     }
     return all;
   }
+
+  /// Returns whether the window reaches over a moment.
+  bool covers(Time time) const {
+    return !window_.empty() && window_.front().received <= time && time <= window_.back().received;
+  }
+  /// Returns whether the size lets messages leave for one of this size, and a moment is in the older half of the window.
+  bool isLeaving(Time time, std::size_t size) const {
+    return size_ + size > limits_.max_size && covers(time) && time - window_.front().received < length() / 2;
+  }
+  Time newest() const { return window_.empty() ? Time() : window_.back().received; }  ///< when it was received; or 0
 
   /// Returns whether the clock has gone back since the newest message, by so much that beginAnew() is due.
   bool hasGoneBack(Time now) const { return !window_.empty() && now < window_.back().received - kLead; }

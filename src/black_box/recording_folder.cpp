@@ -25,12 +25,13 @@ constexpr std::uintmax_t kMebibyte = 1U << 20U;
 }
 [[noreturn]] void fail(const path& file, int error) { fail(file, std::strerror(error)); }
 
+// Not every file system can do that with a folder.
 void synchronize(const path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) fail(file, errno);
   const int error = fsync(descriptor) == 0 ? 0 : errno;
   close(descriptor);
-  if (error != 0) fail(file, error);
+  if (error != 0 && error != EINVAL) fail(file, error);
 }
 
 void giveName(const path& from, const path& to) {
@@ -75,20 +76,19 @@ void RecordingFolder::open() {
   std::error_code error;
   std::filesystem::create_directories(options_.folder, error);
   if (error) fail(options_.folder, error.message());
-  lock();
-  deleteLeftovers();
+  if (lock()) deleteLeftovers();
   probe();
 }
 
 // The kernel gives the lock back when the process ends, however that happens. A folder that was replaced is locked anew.
-void RecordingFolder::lock() {
+bool RecordingFolder::lock() {
   std::error_code error;
   const path locked = "/proc/self/fd/" + std::to_string(lock_);
-  if (lock_ >= 0 && std::filesystem::equivalent(locked, options_.folder, error)) return;
+  if (lock_ >= 0 && std::filesystem::equivalent(locked, options_.folder, error)) return false;
   if (lock_ >= 0) close(lock_);
   lock_ = ::open(options_.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0) fail(options_.folder, errno);
-  if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return true;
   const int reason = errno;
   close(lock_);
   lock_ = -1;

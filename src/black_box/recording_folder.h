@@ -30,8 +30,8 @@ class RecordingFolder {
   RecordingFolder(const RecordingFolder&) = delete;
   RecordingFolder& operator=(const RecordingFolder&) = delete;
 
-  /// Makes the folder and locks it against other writers, and deletes what a writer has left that ended within a file. Checks
-  /// that files can be written there. May be called again and again.
+  /// Makes the folder and locks it against other writers. Then, and not again while it is locked, deletes what a writer has
+  /// left that ended within a file. Checks that files can be written there. May be called again and again.
   void open();
 
   /// Opens the folder, and checks that a recording of `size` bytes could be written: that it is within the quota, and that the
@@ -52,7 +52,7 @@ class RecordingFolder {
   std::vector<StoredRecording> stored() const;  ///< recordings that are whole; empty if the folder cannot be read
 
  private:
-  void lock();
+  bool lock();
   void deleteLeftovers() const;
   void probe() const;
   std::vector<std::string> surplusFor(std::uintmax_t size) const;

@@ -16,6 +16,9 @@ const char* nameOf(RecordingCause cause);
 /// Decides when a recording is written: some time after an event, so that what followed is in it. An event is that the level
 /// of the warning becomes CONTACT, that it becomes REFLEX, or a request. Events that come while one waits share its
 /// recording; a more important one gives it its name and its time. Not thread-safe.
+///
+/// The time after an event is over when it is over on one of both clocks: a simulation may run faster than the steady clock,
+/// or stand still.
 class RecordingTrigger {
  public:
   struct Options {
@@ -26,21 +29,21 @@ class RecordingTrigger {
 
   struct Event {
     RecordingCause cause;
-    SteadyTime time;
+    Instant begin;  ///< without a stamp, the steady clock alone counts
   };
 
   explicit RecordingTrigger(const Options& options) : options_(options) {}
 
-  void warned(WarningLevel level, SteadyTime now);
-  void requested(SteadyTime now) { happened(RecordingCause::kSave, now); }
+  void warned(WarningLevel level, const Instant& now);
+  void requested(const Instant& now) { happened(RecordingCause::kSave, now); }
 
   const std::optional<Event>& waiting() const { return waiting_; }
-  bool due(SteadyTime now) const { return waiting_ && now - waiting_->time >= options_.after; }
+  bool due(const Instant& now) const;
   /// Takes the event that waits; empty if there is none.
   std::optional<Event> take();
 
  private:
-  void happened(RecordingCause cause, SteadyTime now);
+  void happened(RecordingCause cause, const Instant& now);
 
   const Options options_;
   WarningLevel newest_ = WarningLevel::kUnknown;

@@ -72,8 +72,8 @@ void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, Swee
   predictor_.observe(pose);
   forEachBody(bodies_, &GuardedBody::report, report, [&](size_t i, GuardedBody& body, SweepReport& swept) {
     const BodyPose at = pose.body(i);
-    const SweepSetup setup{body.tool,     *detector_, options_.sweep, [this] { throwIfStopping(); },
-                           *intentions(), *frames_};
+    const SweepSetup setup{body.tool,     *detector_,       options_.sweep, [this] { throwIfStopping(); },
+                           *intentions(), options_.allowed, *frames_};
     body.sweeps.sweep(setup, pose, at, workpieces, swept);
     body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
   });
@@ -170,7 +170,8 @@ bool Guard::isWithin(double distance, const Workpiece& workpiece) {
   options.fine = true;  // a volume has corners that the tool has not
   const auto is_within = [&](size_t i) {
     const std::vector<Eigen::Isometry3d> path_M = {X_WM->second.inverse() * newest_->body(i).X_WB};
-    const PathRequest request{tool(i), path_M, workpiece.mesh_M, options, [this] { throwIfStopping(); }};
+    const AllowedPieces allowed(tool(i), options_.allowed, workpiece.id);
+    const PathRequest request{tool(i), path_M, workpiece.mesh_M, options, [this] { throwIfStopping(); }, {}, allowed};
     return checkPath(*detector_, request).all.contact();
   };
   for (size_t i = 0; i < bodies_.size(); ++i) {
@@ -200,11 +201,12 @@ void Guard::exchange(GuardChange& change) {
   assert(change.bodies.empty() || change.bodies.size() == bodies_.size());
   const TimeBudget budget(change.options.horizon, change.options.cycle);
   change.options.clock = options_.clock;
+  const bool others_allowed = !(change.options.allowed == options_.allowed);
   std::swap(options_, change.options);
   if (change.detector) std::swap(detector_, change.detector);
   for (size_t i = 0; i < bodies_.size(); ++i) {
     GuardedBody& body = *bodies_[i];
-    if (change.detector || !change.bodies.empty()) body.sweeps.forgetContacts();
+    if (change.detector || !change.bodies.empty() || others_allowed) body.sweeps.forgetContacts();
     if (!change.bodies.empty()) std::swap(body.tool, change.bodies[i]);
     if (!change.bodies.empty()) body.touches.clear();
     body.checker = PathChecker(PathChecker::optionsOf(options_));

@@ -121,6 +121,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   const bool again = deformed && mesh.moved();
   const size_t first = again ? std::min(begin, history.lastUpTo(before.stamp)) : begin;
   const IntendedContact intended(setup.tool, setup.intentions, *workpiece);
+  const AllowedPieces allowed(setup.tool, setup.allowed, workpiece->id);
   object.workpiece = workpiece;
   object.interval_start = history[begin].stamp;
   object.result.clear();
@@ -137,11 +138,12 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
       cache_.already_confirmed = object.result.not_ruled_out;
       remove(cache_.already_confirmed, object.result.intended);
     }
-    SweepResult& result =
-        sweep_checker_.check(setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, intended});
+    SweepResult& result = sweep_checker_.check(
+        setup.detector, {setup.tool, sub_motions_M_, mesh, setup.options, cache_, intended, allowed});
     if (is_new) cache_.contact_normals.clear();
     update(cache_, result);
-    rescale(result.in_contact, history.share(begin, i, end_time), history.share(begin, end, end_time));
+    for (std::vector<TriangleContact>* const in_contact : {&result.in_contact, &result.allowed.in_contact})
+      rescale(*in_contact, history.share(begin, i, end_time), history.share(begin, end, end_time));
     unite(object.result, result);
     i = end;
   } while (i < last);

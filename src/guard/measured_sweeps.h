@@ -22,6 +22,7 @@ struct SweepSetup {
   const SweepOptions& options;
   std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up
   const Intentions& intentions = kNoIntentions;
+  const AllowedPairs& allowed = kNoAllowedPairs;
   const FrameMotions& frames = kNoFrameMotions;  ///< of those that move on their own
 };
 

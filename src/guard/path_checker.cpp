@@ -35,7 +35,9 @@ struct PathChecker::Scene {
   const Workpiece& workpiece;
   const IntendedContact& intended;
   const IntendedTouches& touches;
+  const AllowedPieces& allowed;
 
+  bool mayTouch(const Tool::Node& node) const { return node.piece && allowed.contains(*node.piece); }
   bool inTimeFor(const PathSegment& segment) const {
     return segment.to <= reflex_end || !plan.out_of_time || !plan.out_of_time();
   }
@@ -64,8 +66,9 @@ void PathChecker::checkNext(Detector& detector, const PredictedPathRequest& requ
   const size_t reflex_sweeps = request.reflex_sweeps;
   const Duration reflex_end = reflex_sweeps == 0 ? Duration::zero() : request.path[reflex_sweeps - 1].ahead;
   const IntendedContact intended(request.tool, request.intentions, *object.workpiece);
-  const Scene scene{detector,     request.tool,      margin,   reflex_end,
-                    request.plan, *object.workpiece, intended, request.touches};
+  const AllowedPieces allowed(request.tool, options_.allowed, object.workpiece->id);
+  const Scene scene{detector,          request.tool, margin,          reflex_end, request.plan,
+                    *object.workpiece, intended,     request.touches, allowed};
   const Submesh submesh = submeshInReach(mesh_M, reach_M_, 0);
   Progress progress{object, &object.reflex};
   for (size_t i = 0; i < request.plan.sweepCount(request.path); ++i) {
@@ -192,6 +195,7 @@ bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, Swept
 
 bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
                                const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations) {
+  if (scene.mayTouch(node)) return false;
   if (!meter_.isNear(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, node.piece))) return false;
   if (node.piece) return true;
   return std::any_of(node.below.begin(), node.below.end(), [&](size_t index) {
@@ -229,6 +233,7 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
 PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh,
                                                   const PathSegment& segment, const Tool::Node& node,
                                                   const SweptBody& body, const PerHalfSpace& deviations) {
+  if (scene.mayTouch(node)) return {};
   const auto clearance =
       meter_.measure(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, node.piece));
   if (!clearance) return {};

@@ -44,9 +44,10 @@ class PathChecker {
     SweepOptions sweep;
     Duration finest;                         ///< a sweep with contact is halved until it lasts no longer than this, > 0
     double max_deviations = kMaxDeviations;  ///< contacts at more standard deviations are ignored
+    AllowedPairs allowed = {};               ///< left out
   };
   static Options optionsOf(const GuardOptions& options) {
-    return {options.sweep, options.horizon.reflex_step / 2, options.max_deviations};
+    return {options.sweep, options.horizon.reflex_step / 2, options.max_deviations, options.allowed};
   }
 
   explicit PathChecker(const Options& options) : options_(options), meter_(options.max_deviations) {}

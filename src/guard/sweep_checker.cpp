@@ -17,11 +17,15 @@ bool linkTouches(const std::vector<TriangleContact>& in_contact, const Tool& too
 }
 
 // Not of the links that touch: how deep all their pieces are was measured.
-bool anyPieceInside(const Tool& tool, const Eigen::Isometry3d& X_MT, const TriangleMesh& mesh_M,
-                    const std::vector<TriangleContact>& in_contact) {
-  return mesh_M.closed() && std::any_of(tool.pieces().begin(), tool.pieces().end(), [&](const ConvexPiece& piece) {
-           return !linkTouches(in_contact, tool, piece.link) && inside(mesh_M, X_MT * piece.shape_T.moments_T().mean);
-         });
+bool anyPieceInside(const Tool& tool, const AllowedPieces& allowed, const Eigen::Isometry3d& X_MT,
+                    const TriangleMesh& mesh_M, const std::vector<TriangleContact>& in_contact) {
+  if (!mesh_M.closed()) return false;
+  for (size_t i = 0; i < tool.pieces().size(); ++i) {
+    const ConvexPiece& piece = tool.pieces()[i];
+    if (allowed.contains(i) || linkTouches(in_contact, tool, piece.link)) continue;
+    if (inside(mesh_M, X_MT * piece.shape_T.moments_T().mean)) return true;
+  }
+  return false;
 }
 
 bool ascending(const TriangleContact& a, const TriangleContact& b) { return a.triangle < b.triangle; }
@@ -68,6 +72,7 @@ void uniteButContacts(SweepResult& all, const SweepResult& more) {
   uniteIntended(all, more);
   sweep_guard_core::unite(all.not_ruled_out, more.not_ruled_out);
   all.inside = all.inside || more.inside;
+  sweep_guard_core::unite(all.allowed.triangles, more.allowed.triangles);
 }
 
 }  // namespace
@@ -89,8 +94,9 @@ struct SweepChecker::TreeWalk {
     if (node.piece) {
       detect(detector, around, body, checker.detection_);
       inflation = checker.detection_.inflation;
-      unite(checker.candidates_[*node.piece], checker.detection_.triangles);
-      unite(result.triangles, checker.detection_.triangles);
+      const bool allowed = request.allowed.contains(*node.piece);
+      unite((allowed ? checker.allowed_ : checker.candidates_)[*node.piece], checker.detection_.triangles);
+      unite(allowed ? result.allowed.triangles : result.triangles, checker.detection_.triangles);
     } else if (visitBelow(node, body.volume_M, around, depth)) {
       return;
     }
@@ -108,6 +114,11 @@ struct SweepChecker::TreeWalk {
   }
 };
 
+void AllowedContact::clear() {
+  triangles.clear();
+  in_contact.clear();
+}
+
 void SweepResult::clear() {
   triangles.clear();
   margin = 0.0;
@@ -117,6 +128,7 @@ void SweepResult::clear() {
   in_contact.clear();
   intended.clear();
   inside = false;
+  allowed.clear();
 }
 
 TriangleSet SweepResult::unintended() const {
@@ -125,20 +137,31 @@ TriangleSet SweepResult::unintended() const {
   return triangles_left;
 }
 
+TriangleSet SweepResult::allowedTriangles() const {
+  if (!fine) return allowed.triangles;
+  TriangleSet touched;
+  for (const TriangleContact& contact : allowed.in_contact) touched.push_back(contact.triangle);
+  return touched;
+}
+
 void unite(SweepResult& all, const SweepResult& later) {
   uniteButContacts(all, later);
   unite(all.in_contact, later.in_contact);
+  unite(all.allowed.in_contact, later.allowed.in_contact);
 }
 
 void uniteBodies(SweepResult& all, const SweepResult& other) {
   uniteButContacts(all, other);
   uniteSimultaneous(all.in_contact, other.in_contact);
+  uniteSimultaneous(all.allowed.in_contact, other.allowed.in_contact);
 }
 
 SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request) {
   result_.clear();
-  candidates_.resize(request.tool.pieces().size());
-  for (TriangleSet& candidates : candidates_) candidates.clear();
+  for (std::vector<TriangleSet>* const of_pieces : {&candidates_, &allowed_}) {
+    of_pieces->resize(request.tool.pieces().size());
+    for (TriangleSet& candidates : *of_pieces) candidates.clear();
+  }
   for (Motion motion_M : request.sub_motions) {
     motion_M.mesh_translation = request.mesh.translation_M();
     TreeWalk{detector, request, motion_M, *this}.visit(0, request.mesh.mesh_M(), 0);
@@ -146,9 +169,10 @@ SweepResult& SweepChecker::check(Detector& detector, const SweepRequest& request
   result_.fine = request.options.fine;
   result_.not_ruled_out = result_.triangles;
   if (request.options.fine) narrow(request);
+  if (request.options.fine && !result_.allowed.triangles.empty()) narrowAllowed(request);
   if (!result_.unintendedContact() && !request.cache.outside) {
     const Eigen::Isometry3d& X_MT = request.sub_motions.back().X_MT_end;
-    result_.inside = anyPieceInside(request.tool, X_MT, request.mesh.mesh_M(), result_.in_contact);
+    result_.inside = anyPieceInside(request.tool, request.allowed, X_MT, request.mesh.mesh_M(), result_.in_contact);
   }
   return result_;
 }
@@ -166,6 +190,14 @@ void SweepChecker::narrow(const SweepRequest& request) {
   if (request.intended.empty()) return;
   result_.intended = narrow_phase_result_.not_ruled_out;
   remove(result_.intended, narrow_phase_result_.unintended);
+}
+
+void SweepChecker::narrowAllowed(const SweepRequest& request) {
+  const InStage stage(Stage::kNarrowPhase);
+  narrow_phase_.run({request.tool, request.sub_motions, request.mesh, allowed_, request.options.margin,
+                     request.cache.contact_normals},
+                    narrow_phase_result_);
+  std::swap(result_.allowed.in_contact, narrow_phase_result_.in_contact);
 }
 
 SweepResult checkSweep(Detector& detector, const SweepRequest& request) {

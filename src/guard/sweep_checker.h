@@ -28,11 +28,13 @@ struct SweepRequest {
   SweepOptions options = {};
   const SweepCache& cache = kEmptySweepCache;  ///< of the sweep that ended where this one begins
   const IntendedContact& intended = kNothingIntended;
+  const AllowedPieces& allowed = kNoAllowedPieces;
 };
 
 /// Tests the volumes that the tool sweeps during each sub-motion. Descends the tool's tree of boxes to its convex
 /// pieces where the boxes meet triangles, and hands the candidates of the pieces to the narrow phase. If the mesh is
-/// closed, no triangle is met and the tool was not known to be outside before, tests whether a piece lies inside.
+/// closed, no triangle is met and the tool was not known to be outside before, tests whether a piece lies inside. Pieces
+/// that may touch the mesh are tested alike and reported apart; they are never inside.
 /// Keeps its buffers between calls.
 class SweepChecker {
  public:
@@ -44,9 +46,11 @@ class SweepChecker {
   struct TreeWalk;
 
   void narrow(const SweepRequest& request);
+  void narrowAllowed(const SweepRequest& request);
 
   SweepResult result_;
   std::vector<TriangleSet> candidates_;  // of each piece of the tool
+  std::vector<TriangleSet> allowed_;     // the same, of the pieces that may touch the mesh
   Detection detection_;
   Culler culler_;
   std::deque<SubmeshFinder> finders_;  // by depth in the tool's tree

@@ -31,10 +31,14 @@ void beginAt(Time start, Time end, SweptObject& object) {
   const double left_out = length > 0.0 ? toSeconds(object.interval_start - start) / length : 0.0;
   object.interval_start = start;
   if (left_out == 0.0) return;
-  for (TriangleContact& contact : object.result.in_contact) {
-    double& time = contact.impact.time_of_impact;
-    time = left_out + (1.0 - left_out) * time;
-  }
+  const auto delay = [&](std::vector<TriangleContact>& in_contact) {
+    for (TriangleContact& contact : in_contact) {
+      double& time = contact.impact.time_of_impact;
+      time = left_out + (1.0 - left_out) * time;
+    }
+  };
+  delay(object.result.in_contact);
+  delay(object.result.allowed.in_contact);
 }
 
 void unite(SweptObject& all, SweptObject& body, Time end) {
@@ -47,6 +51,7 @@ void unite(SweptObject& all, SweptObject& body, Time end) {
 
 void countPiecesFrom(size_t first_piece, SweptObject& object) {
   for (TriangleContact& contact : object.result.in_contact) contact.piece += first_piece;
+  for (TriangleContact& contact : object.result.allowed.in_contact) contact.piece += first_piece;
 }
 
 void countPiecesFrom(size_t first_piece, PredictedObject& object) {

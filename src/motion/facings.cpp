@@ -42,9 +42,11 @@ void Facings::forgetRemoved(const Workpieces& workpieces) {
 
 void Facings::place(const ProximityRequest& request, const std::shared_ptr<const Workpiece>& workpiece,
                     const Eigen::Isometry3d& X_WM) {
-  PlacedSurface& surface = surfaces_[surface_count_++];
   SurfaceMotion& motion = motions_[workpiece->id];
   motion.update(workpiece, X_WM, request.pose.stamp);
+  const AllowedPieces allowed(request.tool, request.allowed, workpiece->id);
+  if (allowed.all()) return;
+  PlacedSurface& surface = surfaces_[surface_count_++];
   surface.workpiece = workpiece;
   surface.motion = &motion;
   surface.intended = request.intentions == nullptr ? IntendedContact()
@@ -58,15 +60,17 @@ void Facings::place(const ProximityRequest& request, const std::shared_ptr<const
   surface.age = motion.deforms() ? ageOf(*workpiece, request.pose) : 0.0;
   surface.boxes.assign(workpiece->mesh_M.blocks());
   rounding_ = std::max(rounding_, workpiece->mesh_M.rounding());
-  face(request, surface, X_WM);
+  face(request, surface, allowed, X_WM);
 }
 
-void Facings::face(const ProximityRequest& request, const PlacedSurface& surface, const Eigen::Isometry3d& X_WM) {
+void Facings::face(const ProximityRequest& request, const PlacedSurface& surface, const AllowedPieces& allowed,
+                   const Eigen::Isometry3d& X_WM) {
   const TriangleMesh& mesh_M = surface.workpiece->mesh_M;
   Eigen::Isometry3d X_MT = X_WM.inverse() * request.pose.X_WT;
   X_MT.translation() -= mesh_M.origin();
   const auto& pieces = request.tool.pieces();
   for (size_t piece = 0; piece < pieces.size(); ++piece) {
+    if (allowed.contains(piece)) continue;
     if (count_ == facings_.size()) facings_.emplace_back();
     Facing& facing = facings_[count_++];
     facing.piece = piece;

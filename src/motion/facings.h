@@ -30,7 +30,8 @@ class Facings {
   void forgetRemoved(const Workpieces& workpieces);
   void place(const ProximityRequest& request, const std::shared_ptr<const Workpiece>& workpiece,
              const Eigen::Isometry3d& X_WM);
-  void face(const ProximityRequest& request, const PlacedSurface& surface, const Eigen::Isometry3d& X_WM);
+  void face(const ProximityRequest& request, const PlacedSurface& surface, const AllowedPieces& allowed,
+            const Eigen::Isometry3d& X_WM);
 
   std::map<std::string, SurfaceMotion> motions_;  // by id
   std::vector<PlacedSurface> surfaces_;           // the first surface_count_

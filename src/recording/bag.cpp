@@ -2,15 +2,14 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
+#include <rosbag/message_instance.h>
 
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <string_view>
 
+#include "recording/bag_topic.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -23,34 +22,14 @@ using sweep_guard_ros::fromMsg;
 namespace {
 
 constexpr std::string_view kMagic = "#ROSBAG V";
-const std::vector<std::string> kTypes = {"geometry_msgs/PoseStamped", "geometry_msgs/TransformStamped"};
+const TopicChoice kPoses = {{"geometry_msgs/PoseStamped", "geometry_msgs/TransformStamped"},
+                            "PoseStamped or TransformStamped",
+                            "motion_topic:=TOPIC, or --topic of evaluate_prediction"};
 
 struct FramedPose {
   std::string frames;
   StampedPose pose;
 };
-
-std::string joinNames(const std::set<std::string>& topics) {
-  std::string list;
-  for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
-  return list;
-}
-
-std::string chooseTopic(const rosbag::Bag& bag, const std::string& requested) {
-  std::set<std::string> topics;
-  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag, rosbag::TypeQuery(kTypes)).getConnections()) {
-    topics.insert(connection->topic);
-  }
-  if (topics.empty()) throw InvalidInput("no PoseStamped or TransformStamped in the bag; record one of them");
-  if (!requested.empty() && topics.count(requested) == 0) {
-    throw InvalidInput("no PoseStamped or TransformStamped on " + requested + "; there are: " + joinNames(topics));
-  }
-  if (requested.empty() && topics.size() != 1) {
-    throw InvalidInput("choose one topic (motion_topic:=TOPIC, or --topic of evaluate_prediction); there are: " +
-                       joinNames(topics));
-  }
-  return requested.empty() ? *topics.begin() : requested;
-}
 
 FramedPose read(const rosbag::MessageInstance& message) {
   if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>()) {
@@ -73,22 +52,6 @@ void append(std::vector<StampedPose>* poses, std::string* frames, const FramedPo
   poses->push_back(next.pose);
 }
 
-std::vector<StampedPose> readTopic(const rosbag::Bag& bag, const std::string& topic) {
-  std::vector<StampedPose> poses;
-  std::string frames;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
-    try {
-      append(&poses, &frames, read(message));
-    } catch (const InvalidInput& error) {
-      throw InvalidInput(topic + ", message " + std::to_string(poses.size() + 1) + ": " + error.what());
-    }
-  }
-  if (poses.empty()) throw InvalidInput("no message on " + topic);
-  return poses;
-}
-
-std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
-
 }  // namespace
 
 bool isBag(const std::string& path) {
@@ -100,16 +63,13 @@ bool isBag(const std::string& path) {
 }
 
 std::vector<StampedPose> readBag(const std::string& path, const std::string& topic) {
-  try {
-    const rosbag::Bag bag(path);
-    return readTopic(bag, chooseTopic(bag, topic));
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(path + ": " + error.what());
-  } catch (const rosbag::BagUnindexedException&) {
-    throw InvalidInput(path + ": the bag has no index; run rosbag reindex on it");
-  } catch (const std::exception& error) {  // of rosbag or ROS, or no memory for the size in a broken header
-    throw InvalidInput(path + ": the bag is broken: " + firstLine(error.what()));
-  }
+  std::vector<StampedPose> poses;
+  std::string frames;
+  openBag(path, [&](const rosbag::Bag& bag) {
+    forEachMessage(bag, chooseTopic(bag, topic, kPoses),
+                   [&](const rosbag::MessageInstance& message) { append(&poses, &frames, read(message)); });
+  });
+  return poses;
 }
 
 }  // namespace sweep_guard_recording

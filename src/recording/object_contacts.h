@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "sweep_guard/ObjectContacts.h"
@@ -19,6 +21,14 @@ inline std::vector<std::uint32_t> trianglesInContact(const sweep_guard::ObjectCo
   triangles.reserve(object.impacts.size());
   for (const sweep_guard::TriangleContact& impact : object.impacts) triangles.push_back(impact.triangle);
   return triangles;
+}
+
+/// Returns the links of the tool that are in contact; none without a narrow phase, or for a tool without a robot description.
+inline std::set<std::string> linksInContact(const sweep_guard::ObjectContacts& object) {
+  std::set<std::string> links;
+  for (const sweep_guard::TriangleContact& impact : object.impacts) links.insert(impact.tool_link);
+  links.erase("");
+  return links;
 }
 
 }  // namespace sweep_guard_recording

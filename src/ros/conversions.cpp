@@ -200,12 +200,26 @@ sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
   return msg;
 }
 
+sweep_guard::ObjectContacts allowedMsg(const sweep_guard_core::Workpiece& workpiece,
+                                       const sweep_guard_core::SweepResult& result,
+                                       const sweep_guard_core::Tool& tool) {
+  sweep_guard::ObjectContacts msg = toMsg(workpiece, result.allowed.triangles);
+  msg.fine = result.fine;
+  for (const sweep_guard_core::TriangleContact& contact : result.allowed.in_contact)
+    msg.impacts.push_back(contactMsg(contact, tool));
+  return msg;
+}
+
 sweep_guard::Contacts toMsg(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Tool& tool) {
   sweep_guard::Contacts msg;
   msg.header.stamp = toMsg(report.end);
   msg.interval_start = toMsg(report.start);
   msg.margin = report.margin();
   for (const sweep_guard_core::SweptObject& object : report.objects) {
+    if (!object.result.allowed.triangles.empty()) {
+      msg.allowed.push_back(allowedMsg(*object.workpiece, object.result, tool));
+      rescale(msg.allowed.back().impacts, object.interval_start, report);
+    }
     if (object.result.triangles.empty() && !object.result.inside) continue;
     msg.objects.push_back(toMsg(*object.workpiece, object.result, tool));
     rescale(msg.objects.back().impacts, object.interval_start, report);

@@ -5,15 +5,12 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <system_error>
 
 namespace sweep_guard_ros {
 namespace {
-
-constexpr auto kTimeToEnd = std::chrono::milliseconds(800);
 
 std::array<int, 2> request_pipe;  // a signal handler may only write
 
@@ -31,7 +28,7 @@ void onShutdownCall(XmlRpc::XmlRpcValue& parameters, XmlRpc::XmlRpcValue& result
 
 }  // namespace
 
-EndRequest::EndRequest() {
+EndRequest::EndRequest(std::chrono::milliseconds time_to_end) : time_to_end_(time_to_end) {
   if (pipe(request_pipe.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   ros::XMLRPCManager::instance()->bind("shutdown", onShutdownCall);
   thread_ = std::thread([this] { run(); });
@@ -62,7 +59,7 @@ void EndRequest::run() {
   requested_ = true;
   changed_.notify_all();
   const auto done = [this] { return done_; };
-  if (!done() && (!awaited_ || !changed_.wait_for(lock, kTimeToEnd, done))) std::_Exit(EXIT_SUCCESS);
+  if (!done() && (!awaited_ || !changed_.wait_for(lock, time_to_end_, done))) std::_Exit(EXIT_SUCCESS);
 }
 
 }  // namespace sweep_guard_ros

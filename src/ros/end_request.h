@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -11,18 +12,20 @@ namespace sweep_guard_ros {
 /// NoSigintHandler and before the first node handle: of two handlers of a call, roscpp keeps the first.
 class EndRequest {
  public:
-  EndRequest();
+  /// @param time_to_end  that the process has from a request on
+  explicit EndRequest(std::chrono::milliseconds time_to_end);
   ~EndRequest();  ///< the end is done
   EndRequest(const EndRequest&) = delete;
   EndRequest& operator=(const EndRequest&) = delete;
 
-  /// Returns when the end is requested. The process then has 0.8 s: what is not done by then is left to the kernel, and
-  /// the exit status is 0. Before this call, a request ends the process at once.
+  /// Returns when the end is requested. What is not done in time is left to the kernel, and the exit status is 0. Before this
+  /// call, a request ends the process at once.
   void await();
 
  private:
   void run();
 
+  const std::chrono::milliseconds time_to_end_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool awaited_ = false;

@@ -2,9 +2,12 @@
 
 #include <ros/console.h>
 
+#include <cstdint>
 #include <utility>
 
 #include "ros/available_detector.h"
+#include "sweep_guard/monitor/reason.h"
+#include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -12,6 +15,9 @@ namespace {
 const sweep_guard_core::Duration kViewPeriod = sweep_guard_core::fromSeconds(1.0 / 60.0);
 constexpr auto kEarlyPeriod = std::chrono::milliseconds(100);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
+constexpr std::uint32_t kSilentInputs = sweep_guard_core::kNoPose | sweep_guard_core::kPoseStale |
+                                        sweep_guard_core::kTfFail | sweep_guard_core::kNoMesh |
+                                        sweep_guard_core::kMeshStale | sweep_guard_core::kDisabled;
 
 }  // namespace
 
@@ -37,9 +43,11 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
               [this](const std::string& parent, const std::string& child) {
                 monitor_.timeJumped("static transform from '" + child + "' to '" + parent + "' has changed");
               }),
+      allowed_(parameters_.initial().guard.allowed),
       workpieces_([this](const auto& workpieces) {
         monitor_.setWorkpieces(workpieces);
         intentions_.follow(workpieces);
+        allowed_.follow(workpieces);
       }),
       cross_check_(parameters_, monitor_),
       guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_,
@@ -58,11 +66,14 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
           {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); }}),
       intend_(private_node, {parameters_, frames_, workpieces_, intentions_}),
       reconfigure_server_(private_node, parameters_, [this](const auto& next) { apply(next); }),
-      diagnostics_(
-          node, private_node,
-          {parameters_, poses_, meshes_, workpieces_, monitor_, statistics_, reconfigure_server_, supervisor_}),
+      diagnostics_(node, private_node,
+                   {parameters_, poses_, meshes_, workpieces_, allowed_, monitor_, statistics_, reconfigure_server_,
+                    supervisor_}),
       watchdog_(frames_, workpieces_, monitor_, warnings_),
-      peer_watch_(monitor_) {
+      peer_watch_([this, warning = sweep_guard_core::Warning()]() mutable {
+        monitor_.warning(now(), warning);
+        return (warning.reasons & kSilentInputs) != 0;
+      }) {
   reports_.every(kViewPeriod, [this] { scene_.publishView(); });
   reports_.every(kViewPeriod, [this] { intend_.publishIfChanged(); });
   reports_.every(kEarlyPeriod, [this] { meshes_.takeEarly(); });
@@ -116,6 +127,8 @@ void SweepGuardNode::logStart() const {
            initial.tool_description.c_str(), initial.fixed_frame.c_str(), describe(initial.detector).c_str(),
            sweep_guard_core::nameOf(initial.guard.sweep.volume).c_str(), poses_.source().c_str(),
            meshes_.meshTopic().c_str(), meshes_.verticesTopic().c_str());
+  for (const sweep_guard_core::AllowedPair& pair : initial.guard.allowed)
+    ROS_INFO("contact of %s is allowed (tool/allowed): it is no warning", describe(pair).c_str());
 }
 
 }  // namespace sweep_guard_ros

@@ -56,6 +56,7 @@ class SweepGuardNode {
   sweep_guard_core::SweepStatistics statistics_;
   Frames frames_;
   sweep_guard_core::IntentionStore intentions_;
+  sweep_guard_core::AllowedMatches allowed_;
   sweep_guard_core::WorkpieceStore workpieces_;
   sweep_guard_core::FrameMotionStore frame_motions_;
   CrossCheckThread cross_check_;

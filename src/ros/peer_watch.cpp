@@ -9,10 +9,10 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 #include "ros/host_address.h"
 #include "ros/publisher_links.h"
-#include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -75,8 +75,8 @@ void beginOthers(std::map<std::string, Probe>& probes) {
 
 }  // namespace
 
-PeerWatch::PeerWatch(const sweep_guard_core::WarningMonitor& monitor)
-    : monitor_(monitor), call_(kCallTimeout, stopping_) {
+PeerWatch::PeerWatch(std::function<bool()> input_may_be_silent)
+    : input_may_be_silent_(std::move(input_may_be_silent)), call_(kCallTimeout, stopping_) {
   thread_.every(kPeriod, [this] { checkOrLog(); });
 }
 
@@ -95,7 +95,7 @@ void PeerWatch::checkOrLog() {
 
 void PeerWatch::check() {
   connectPending();
-  if (!inputMayBeSilent()) return out_of_reach_.clear();
+  if (!input_may_be_silent_()) return out_of_reach_.clear();
   const auto topics = connectedPublishers(call_);
   if (!topics) return;
   std::map<std::string, Probe> probes;
@@ -113,12 +113,6 @@ void PeerWatch::check() {
       connectAnew(publisher, *topics);
     }
   }
-}
-
-bool PeerWatch::inputMayBeSilent() {
-  monitor_.warning(now(), warning_);
-  using namespace sweep_guard_core;
-  return (warning_.reasons & (kNoPose | kPoseStale | kTfFail | kNoMesh | kMeshStale | kDisabled)) != 0;
 }
 
 void PeerWatch::connectAnew(const std::string& publisher, const PublishersOfTopics& topics) {

@@ -1,22 +1,23 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
 
 #include "ros/publisher_links.h"
 #include "ros/threads/timer_thread.h"
-#include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
 
-/// Connects the inputs anew to publishers that were out of reach. Without it they stay silent after a broken link is
-/// whole again, for up to as long as it was broken: that is how long TCP waits until it sends again. Looks only while an
-/// input or a transform is missing or stale, or the guard is disabled; in a thread of its own.
+/// Connects the inputs of a node anew to publishers that were out of reach. Without it they stay silent after a broken link
+/// is whole again, for up to as long as it was broken: that is how long TCP waits until it sends again. Looks only while an
+/// input may be silent; in a thread of its own.
 class PeerWatch {
  public:
-  explicit PeerWatch(const sweep_guard_core::WarningMonitor& monitor);
+  /// @param input_may_be_silent  called in its thread
+  explicit PeerWatch(std::function<bool()> input_may_be_silent);
   ~PeerWatch();
   PeerWatch(const PeerWatch&) = delete;
   PeerWatch& operator=(const PeerWatch&) = delete;
@@ -28,12 +29,10 @@ class PeerWatch {
  private:
   void checkOrLog();
   void check();
-  bool inputMayBeSilent();
   void connectAnew(const std::string& publisher, const PublishersOfTopics& topics);
   void connectPending();
 
-  const sweep_guard_core::WarningMonitor& monitor_;
-  sweep_guard_core::Warning warning_;
+  const std::function<bool()> input_may_be_silent_;
   std::atomic<bool> stopping_ = false;
   const XmlRpcCall call_;
   std::set<std::string> out_of_reach_;

@@ -10,11 +10,12 @@
 
 namespace sweep_guard_ros {
 
-int runNode(const char* name, int argc, char** argv, const std::function<std::shared_ptr<void>()>& start) {
+int runNode(const char* name, int argc, char** argv, const std::function<std::shared_ptr<void>()>& start,
+            std::chrono::milliseconds time_to_end) {
   return sweep_guard_core::runProgram(name, [&] {
     shareHeaps();
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);  // throws at a refused name or remapping
-    EndRequest end;
+    EndRequest end(time_to_end);
     const ros::NodeHandle alive;  // the console is silent without a handle
     keepToLoopback();
     try {

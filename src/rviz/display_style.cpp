@@ -6,7 +6,8 @@ namespace {
 constexpr ElementStyle DisplayStyle::*kGuardElements[] = {
     &DisplayStyle::touched,   &DisplayStyle::reflex,  &DisplayStyle::considered, &DisplayStyle::measured,
     &DisplayStyle::predicted, &DisplayStyle::tool,    &DisplayStyle::ghosts,     &DisplayStyle::path,
-    &DisplayStyle::contacts,  &DisplayStyle::normals, &DisplayStyle::depths,     &DisplayStyle::intended};
+    &DisplayStyle::contacts,  &DisplayStyle::normals, &DisplayStyle::depths,     &DisplayStyle::intended,
+    &DisplayStyle::allowed};
 
 constexpr float kPale = 0.3F;  // of the opacity
 

@@ -20,6 +20,7 @@ struct DisplayStyle {
   ElementStyle reflex;
   ElementStyle considered;
   ElementStyle intended;   ///< where contact is meant
+  ElementStyle allowed;    ///< triangles that links touch which may
   ElementStyle measured;   ///< volumes of the newest sweep
   size_t history = 0;      ///< number of earlier volumes that are kept
   ElementStyle predicted;  ///< volumes along the predicted path

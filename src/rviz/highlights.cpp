@@ -29,10 +29,13 @@ Highlights highlightsOf(const sweep_guard::ObjectView& view, const Triangles& in
   shown.touched = below(view.touched, triangles);
   shown.reflex = without(below(view.reflex, triangles), shown.touched);
   shown.considered = without(without(below(view.considered, triangles), shown.touched), shown.reflex);
+  shown.allowed = below(view.allowed, triangles);
   shown.intended = below(intended, triangles);
   for (const Triangles* const urgent : {&shown.touched, &shown.reflex, &shown.considered}) {
+    shown.allowed = without(shown.allowed, *urgent);
     shown.intended = without(shown.intended, *urgent);
   }
+  shown.intended = without(shown.intended, shown.allowed);
   return shown;
 }
 

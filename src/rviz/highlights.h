@@ -12,11 +12,12 @@ struct Highlights {
   std::vector<std::uint32_t> touched;
   std::vector<std::uint32_t> reflex;      ///< without those in touched
   std::vector<std::uint32_t> considered;  ///< without those in touched and reflex
+  std::vector<std::uint32_t> allowed;     ///< touched by links that may, without those above
   std::vector<std::uint32_t> intended;    ///< without those above
 
   bool operator==(const Highlights& other) const {
     return touched == other.touched && reflex == other.reflex && considered == other.considered &&
-           intended == other.intended;
+           allowed == other.allowed && intended == other.intended;
   }
 };
 

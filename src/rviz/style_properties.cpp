@@ -18,6 +18,7 @@ StyleProperties::StyleProperties(rviz::Property& parent, const std::function<voi
       reflex_(add({"Reflex", "Triangles that the tool will touch within the reflex interval.", {255, 70, 50}, 0.9F})),
       considered_(add({"Considered", "Triangles that the tool will touch later.", {255, 176, 0}, 0.9F})),
       intended_(add({"Intended", "Triangles that the tool is meant to touch.", {40, 170, 70}, 0.5F})),
+      allowed_(add({"Allowed", "Triangles that links touch which may (tool/allowed).", {100, 140, 165}, 0.6F})),
       measured_(add(
           {"Measured sweep", "Swept boxes with their clipping planes, up to the newest pose.", {0, 205, 230}, 0.2F})),
       predicted_(add({"Predicted sweeps",
@@ -74,6 +75,7 @@ DisplayStyle StyleProperties::style() const {
   style.reflex = reflex_.style();
   style.considered = considered_.style();
   style.intended = intended_.style();
+  style.allowed = allowed_.style();
   style.measured = measured_.style();
   style.history = static_cast<size_t>(history_->getInt());
   style.predicted = predicted_.style();

@@ -45,6 +45,7 @@ class StyleProperties {
   ElementProperties reflex_;
   ElementProperties considered_;
   ElementProperties intended_;
+  ElementProperties allowed_;
   ElementProperties measured_;
   rviz::IntProperty* history_;
   ElementProperties predicted_;

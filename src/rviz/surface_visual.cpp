@@ -170,6 +170,7 @@ void SurfaceVisual::highlight(const Highlights& highlights) {
   setIndices(kTouched, highlights.touched);
   setIndices(kReflex, highlights.reflex);
   setIndices(kConsidered, highlights.considered);
+  setIndices(kAllowed, highlights.allowed);
   setIndices(kIntended, highlights.intended);
   updateVisibility();
 }
@@ -177,7 +178,7 @@ void SurfaceVisual::highlight(const Highlights& highlights) {
 void SurfaceVisual::paintLayer(Layer layer, const Ogre::ColourValue& color, bool shown, bool edges) {
   Ogre::Technique& technique = *materials_[layer]->getTechnique(0);
   if (edges != (technique.getNumPasses() == 2)) edges ? addEdges(technique, layer) : technique.removePass(1);
-  const bool dark = layer == kSurface || layer == kIntended;
+  const bool dark = layer == kSurface || layer == kIntended || layer == kAllowed;
   Ogre::ColourValue line = dark ? 0.4F * color : 0.5F * (color + Ogre::ColourValue::White);
   line.a = (layer == kSurface ? 0.25F : 1.0F) * color.a;
   if (edges) paint(*technique.getPass(1), line);

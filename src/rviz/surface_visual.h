@@ -19,7 +19,7 @@ namespace sweep_guard_rviz {
 class SurfaceVisual {
  public:
   /// The layers in drawing order, the last on top.
-  enum Layer { kSurface, kIntended, kConsidered, kReflex, kTouched, kLayers };
+  enum Layer { kSurface, kIntended, kAllowed, kConsidered, kReflex, kTouched, kLayers };
 
   SurfaceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node);
   ~SurfaceVisual();

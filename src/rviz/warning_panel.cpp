@@ -4,6 +4,7 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
+#include <QCheckBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -21,6 +22,7 @@ namespace {
 constexpr unsigned kRefreshesPerChart = 3;
 constexpr size_t kMaxReasons = 4;
 const char* const kTopic = "Warning Topic";
+const char* const kSound = "Sound";
 
 QString bullets(const std::vector<std::string>& reasons, size_t max_count) {
   QStringList lines;
@@ -49,12 +51,14 @@ WarningPanel::WarningPanel(QWidget* parent)
       acknowledge_(new QPushButton("I know", this)),
       enable_(new QPushButton(this)),
       reset_(new QPushButton("Reset", this)),
+      hear_(new QCheckBox("Sound", this)),
       outcome_(makeLabel(this)),
       topic_edit_(new QLineEdit(this)) {
   light_->setObjectName("light");
   acknowledge_->setObjectName("acknowledge");
   enable_->setObjectName("enable");
   reset_->setObjectName("reset");
+  hear_->setObjectName("hear");
   outcome_->setObjectName("outcome");
   layOut();
   connect(acknowledge_, &QPushButton::clicked, this, [this] {
@@ -62,6 +66,10 @@ WarningPanel::WarningPanel(QWidget* parent)
   });
   connect(enable_, &QPushButton::clicked, this, [this] { call_.setBool(announceCall("enable"), state_.disabled); });
   connect(reset_, &QPushButton::clicked, this, [this] { call_.trigger(announceCall("reset")); });
+  connect(hear_, &QCheckBox::toggled, this, [this](bool on) {
+    letHear(on);
+    Q_EMIT configChanged();
+  });
   connect(topic_edit_, &QLineEdit::editingFinished, this, [this] {
     if (topic_edit_->text().toStdString() == topic_) return;
     setTopic(topic_edit_->text().toStdString());
@@ -86,6 +94,8 @@ void WarningPanel::layOut() {
   topic_edit_->setFocusPolicy(Qt::ClickFocus);
   acknowledge_->setToolTip(
       "Shows an amber warning of this workpiece with less emphasis for a while. This is no permission");
+  hear_->setToolTip(
+      "Beeps faster the sooner the collision is, a steady tone in contact, a low double tone for UNKNOWN");
   reset_->setToolTip("Clears faults and forgets all poses, as after a start");
 
   auto* const place = new QWidget(this);
@@ -100,6 +110,7 @@ void WarningPanel::layOut() {
   buttons->addWidget(acknowledge_);
   buttons->addWidget(enable_);
   buttons->addWidget(reset_);
+  buttons->addWidget(hear_);
   auto* const topic = new QFormLayout;
   topic->setContentsMargins(9, 0, 9, 6);
   topic->addRow("Topic", topic_edit_);
@@ -119,11 +130,14 @@ void WarningPanel::load(const rviz::Config& config) {
   rviz::Panel::load(config);
   QString topic;
   if (config.mapGetString(kTopic, &topic)) setTopic(topic.toStdString());
+  bool sound = false;
+  if (config.mapGetBool(kSound, &sound)) hear_->setChecked(sound);
 }
 
 void WarningPanel::save(rviz::Config config) const {
   rviz::Panel::save(config);
   config.mapSetValue(kTopic, QString::fromStdString(topic_));
+  config.mapSetValue(kSound, hear_->isChecked());
 }
 
 void WarningPanel::setTopic(const std::string& topic) {
@@ -149,6 +163,15 @@ std::string WarningPanel::announceCall(const std::string& service) {
   return name;
 }
 
+void WarningPanel::letHear(bool on) {
+  if (on) {
+    sound_.turnOn();
+  } else {
+    sound_.turnOff();
+  }
+  if (const std::string problem = sound_.problem(); !problem.empty()) showOutcome(problem);
+}
+
 void WarningPanel::showOutcome(const std::string& outcome) {
   outcome_->setText(QString::fromStdString(outcome));
   outcome_->show();
@@ -160,6 +183,7 @@ void WarningPanel::refresh(const Moment& now) {
   state_ = panelState(newest_, now, topic_);
   remember(warnings, now.steady);
   showState(now.steady);
+  sound_.set(soundCue(newest_, state_));
   if (const auto outcome = call_.takeOutcome()) showOutcome(*outcome);
 }
 

@@ -7,9 +7,11 @@
 #include <string>
 
 #include "rviz/level_history.h"
+#include "rviz/panel_sound.h"
 #include "rviz/service_call.h"
 #include "rviz/warning_feed.h"
 
+class QCheckBox;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -19,8 +21,8 @@ namespace sweep_guard_rviz {
 class StripChart;
 class TrafficLight;
 
-/// Shows the warnings of one guard to its operator, and acknowledges them; disables, enables and resets the guard. Saves
-/// the topic in rviz's configuration; the names of the services follow from the topic.
+/// Shows the warnings of one guard to its operator, and acknowledges them; disables, enables and resets the guard. Lets
+/// them be heard, by choice. Saves the topic and this choice in rviz's configuration; the names of the services follow from the topic.
 class WarningPanel : public rviz::Panel {
  public:
   /// Period of refresh(). Together with kSilence it is the delay until a dead guard turns the panel gray.
@@ -45,6 +47,7 @@ class WarningPanel : public rviz::Panel {
   void showState(SteadyTime now);
   bool canAcknowledge() const;
   std::string announceCall(const std::string& service);
+  void letHear(bool on);
   void showOutcome(const std::string& outcome);
 
   std::string topic_;
@@ -54,6 +57,7 @@ class WarningPanel : public rviz::Panel {
   std::optional<ReceivedWarning> newest_;
   LevelHistory history_;
   PanelState state_;
+  PanelSound sound_;
   unsigned refreshes_ = 0;
 
   TrafficLight* light_;
@@ -63,6 +67,7 @@ class WarningPanel : public rviz::Panel {
   QPushButton* acknowledge_;
   QPushButton* enable_;
   QPushButton* reset_;
+  QCheckBox* hear_;
   QLabel* outcome_;
   QLineEdit* topic_edit_;
   QTimer timer_;

@@ -130,6 +130,7 @@ void WorkpieceVisual::paint(const DisplayStyle& style) {
   surface_.paintLayer(SurfaceVisual::kReflex, style.reflex.color, style.reflex.shown, true);
   surface_.paintLayer(SurfaceVisual::kConsidered, style.considered.color, style.considered.shown, true);
   surface_.paintLayer(SurfaceVisual::kIntended, style.intended.color, style.intended.shown, true);
+  surface_.paintLayer(SurfaceVisual::kAllowed, style.allowed.color, style.allowed.shown, true);
   measured_.paint(style.measured.color, outline(style.measured));
   predicted_.paint(style.predicted.color, outline(style.predicted));
   points_.paint(style.contacts.color, style.contacts.color);

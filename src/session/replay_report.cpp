@@ -13,6 +13,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "evaluation/gnuplot.h"
@@ -21,6 +22,8 @@
 #include "session/session_bag.h"
 #include "session/session_log.h"
 #include "session/session_report.h"
+#include "session/session_sound.h"
+#include "sound/wav.h"
 #include "sweep_guard/Contacts.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
@@ -35,6 +38,7 @@ using sweep_guard_ros::fromMsg;
 
 constexpr std::uint32_t kQueue = 100000;
 constexpr double kConnectTimeout = 60.0;  // [s] of wall time, for guard and player
+constexpr std::uint32_t kSoundRate = 8000;  // samples per second
 constexpr double kAnswerTimeout = 2.0;    // [s] of wall time, for the last answers
 
 sweep_guard_core::Time now() { return fromMsg(ros::Time::now()); }
@@ -79,15 +83,8 @@ class ReplayReport {
   explicit ReplayReport(sweep_guard_ros::ParameterReader& parameters)
       : path_(parameters.name("bag", "")), output_(parameters.name("output", path_ + ".report")) {
     parameters.number("rate", 1.0, {1e-3, 1e3});  // of the player, which reports no range
-    SessionTopics topics;
-    topics.tool_pose = parameters.text("tool_pose", "/tool_pose");
-    topics.mesh = parameters.text("mesh", "/mesh");
-    topics.mesh_vertices = parameters.text("mesh_vertices", "/mesh_vertices");
     const ros::NodeHandle guard(parameters.name("guard", "sweep_guard"));
-    if (guard.param<std::string>("tool_source", "topic") == "tf") {
-      listenTo(topics.tool_pose);
-      topics.tool_pose.clear();
-    }
+    const SessionTopics topics = readTopics(parameters, guard);
     mesh_in_bag_ = !topics.mesh.empty();
     bag_ = inspectBag(path_, topics);
     if (bag_.meshes == 1 && bag_.vertices == 0 && std::isfinite(guard.param("timing/mesh_timeout", 0.5))) {
@@ -111,6 +108,21 @@ class ReplayReport {
   }
 
  private:
+  // Listens to the topics of the tool that the guard does not listen to, and leaves them out.
+  SessionTopics readTopics(sweep_guard_ros::ParameterReader& parameters, const ros::NodeHandle& guard) {
+    SessionTopics topics;
+    topics.tool_pose = parameters.text("tool_pose", "/tool_pose");
+    topics.joint_states = parameters.text("joint_states", "/joint_states");
+    topics.mesh = parameters.text("mesh", "/mesh");
+    topics.mesh_vertices = parameters.text("mesh_vertices", "/mesh_vertices");
+    const auto source = guard.param<std::string>("tool_source", "topic");
+    if (source != "topic") listenTo(std::exchange(topics.tool_pose, ""));
+    if (source != "joint_states" && !guard.param("tool/joint_states", false)) {
+      listenTo(std::exchange(topics.joint_states, ""));
+    }
+    return topics;
+  }
+
   bool sweptToTheEnd() const {
     const auto last = log_.swept().last();
     return last && (bag_.poses.empty() || *last >= bag_.poses.back());
@@ -183,11 +195,12 @@ class ReplayReport {
     const std::filesystem::path folder(output_);
     write(folder / "contacts.csv", contactsCsv(log_, bag_.begin));
     write(folder / "levels.csv", levelsCsv(log_, bag_.begin));
+    write(folder / "sound.wav", sweep_guard_core::wavFile(soundOf(log_, kSoundRate), kSoundRate));
     const std::string name = std::filesystem::path(path_).filename();
     sweep_guard_evaluation::runGnuplot(timelinePlot(log_, bag_, name, folder / "timeline.png"));
     sweep_guard_evaluation::runGnuplot(contactsPlot(log_, bag_, name, folder / "contacts.png"));
     std::cout << summary(log_, bag_) << "written to " << output_
-              << ": timeline.png, contacts.png, contacts.csv, levels.csv" << std::endl;
+              << ": timeline.png, contacts.png, contacts.csv, levels.csv, sound.wav" << std::endl;
   }
 
   std::string path_;

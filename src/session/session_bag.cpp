@@ -54,6 +54,9 @@ void require(const Types& types, const std::string& argument, const std::string&
 
 void requireTopics(const Types& types, const SessionTopics& topics) {
   if (!topics.tool_pose.empty()) require(types, "tool_pose", topics.tool_pose, kPoseType, "give tool_pose:=TOPIC");
+  if (!topics.joint_states.empty()) {
+    require(types, "joint_states", topics.joint_states, "sensor_msgs/JointState", "give joint_states:=TOPIC");
+  }
   if (topics.mesh.empty()) return;
   require(types, "mesh", topics.mesh, "sweep_guard/DeformableMesh",
           "give mesh:=TOPIC, or mesh_file:=FILE if it was not recorded");

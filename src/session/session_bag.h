@@ -10,9 +10,10 @@ namespace sweep_guard_session {
 
 /// Topics of the guard's inputs, as they are named in the bag.
 struct SessionTopics {
-  std::string tool_pose;      ///< geometry_msgs/PoseStamped; empty: the pose comes from tf
+  std::string tool_pose;      ///< geometry_msgs/PoseStamped; empty: the pose comes from elsewhere
   std::string mesh;           ///< sweep_guard/DeformableMesh; empty: the workpiece comes from elsewhere
   std::string mesh_vertices;  ///< sweep_guard/MeshVertices; may be missing in the bag
+  std::string joint_states;   ///< sensor_msgs/JointState; empty: the tool has no joints that move
 };
 
 /// Summary of a bag.

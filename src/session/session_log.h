@@ -62,6 +62,7 @@ class SessionLog {
   void end(sweep_guard_core::Time time);  ///< ends the last warning
 
   const std::vector<ReceivedWarning>& warnings() const { return warnings_; }
+  sweep_guard_core::Time endTime() const { return end_; }
   std::vector<Segment> segments() const;  ///< without gaps; none is empty
   std::vector<Contact> contacts() const;
   sweep_guard_core::Duration duration(sweep_guard_core::WarningLevel level) const;  ///< of all segments of a level

@@ -2,6 +2,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
 #include <unistd.h>
 
 #include <boost/program_options.hpp>
@@ -47,6 +48,7 @@ void interrupt(int) { interrupted = 1; }
 struct Arguments {
   double duration = 0.0;  // [s]
   std::string latency_csv;
+  bool joints = false;
   bool help = false;
 };
 
@@ -54,8 +56,9 @@ po::options_description describe(Arguments& arguments) {
   po::options_description options(
       "Usage: demo_monitor [options]\n"
       "Counts the poses of a demo and the answers of the guard, and reports them.\n"
-      "Topics: tool_pose, mesh_vertices, contacts, warning");
+      "Topics: tool_pose or joint_states, mesh_vertices, contacts, warning");
   options.add_options()("help,h", po::bool_switch(&arguments.help), "print this text")(
+      "joints", po::bool_switch(&arguments.joints), "joints move the tool: count their states as poses")(
       "duration", po::value(&arguments.duration)->value_name("S"),
       "seconds from the first pose, at most 1e6; 0 (default): until the operator ends or Ctrl-C")(
       "latency-csv", po::value(&arguments.latency_csv)->value_name("FILE"),
@@ -93,7 +96,7 @@ bool waitUntil(const std::function<bool()>& condition, const std::string& proble
 
 class DemoMonitor {
  public:
-  explicit DemoMonitor(Duration duration) : duration_(duration) {
+  DemoMonitor(Duration duration, bool joints) : duration_(duration), joints_(joints) {
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     contacts_ = node_.subscribe("contacts", kQueue, &DemoMonitor::onContacts, this, hints);
     mesh_vertices_ = node_.subscribe("mesh_vertices", kQueue, &DemoMonitor::onMeshVertices, this, hints);
@@ -109,9 +112,10 @@ class DemoMonitor {
                  "no publisher of " + contacts_.getTopic() + "; start the guard, or remap contacts to it")) {
       return;
     }
-    tool_pose_ = node_.subscribe("tool_pose", kQueue, &DemoMonitor::onPose, this, ros::TransportHints().tcpNoDelay());
+    poses_ = joints_ ? subscribePoses<sensor_msgs::JointState>("joint_states")
+                     : subscribePoses<geometry_msgs::PoseStamped>("tool_pose");
     if (!waitFor([this] { return statistics_.poses() > 0; },
-                 "no pose on " + tool_pose_.getTopic() + "; start the operator, or see its log")) {
+                 "no pose on " + poses_.getTopic() + "; start the operator, or see its log")) {
       return;
     }
     count();
@@ -121,8 +125,12 @@ class DemoMonitor {
   const DemoStatistics& statistics() const { return statistics_; }
 
  private:
-  void onPose(const geometry_msgs::PoseStamped::ConstPtr& pose) {
-    statistics_.addPose(fromMsg(pose->header.stamp), pose->header.seq);
+  template <typename Message>
+  ros::Subscriber subscribePoses(const std::string& topic) {
+    const auto add = [this](const typename Message::ConstPtr& message) {
+      statistics_.addPose(fromMsg(message->header.stamp), message->header.seq);
+    };
+    return node_.subscribe<Message>(topic, kQueue, add, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   }
   void onMeshVertices(const sweep_guard::MeshVertices::ConstPtr&) { statistics_.addMeshUpdate(); }
   void onWarning(const sweep_guard::Warning::ConstPtr& warning) {
@@ -139,7 +147,8 @@ class DemoMonitor {
     std::vector<ContactObject> objects;
     for (const sweep_guard::ObjectContacts& object : contacts->objects) {
       if (!sweep_guard_recording::isInContact(object)) continue;
-      objects.push_back({object.mesh_id, sweep_guard_recording::trianglesInContact(object)});
+      objects.push_back({object.mesh_id, sweep_guard_recording::trianglesInContact(object),
+                         sweep_guard_recording::linksInContact(object)});
     }
     statistics_.addContacts(start, stamp, arrival, objects);
   }
@@ -159,12 +168,12 @@ class DemoMonitor {
   }
 
   bool isOver(Duration elapsed) const {
-    return duration_ > Duration(0) ? elapsed >= duration_ : tool_pose_.getNumPublishers() == 0;
+    return duration_ > Duration(0) ? elapsed >= duration_ : poses_.getNumPublishers() == 0;
   }
 
   void settle() {
     handleMessages();
-    tool_pose_.shutdown();
+    poses_.shutdown();
     settling_ = true;
     for (const Duration begin = steadyNow(); statistics_.posesNotSwept() > 0 && steadyNow() - begin < kAnswerTimeout;) {
       handleMessages();
@@ -181,11 +190,12 @@ class DemoMonitor {
   }
 
   Duration duration_;
+  bool joints_;  // the poses are states of joints
   DemoStatistics statistics_;
   bool settling_ = false;  // only late answers count
   std::string level_ = "-";
   ros::NodeHandle node_;
-  ros::Subscriber tool_pose_;
+  ros::Subscriber poses_;
   ros::Subscriber mesh_vertices_;
   ros::Subscriber contacts_;
   ros::Subscriber warning_;
@@ -211,7 +221,7 @@ int run(const std::vector<std::string>& words) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   if (!waitUntil(ros::master::check, "no ROS master at " + ros::master::getURI() + "; start the demo")) return 1;
-  DemoMonitor monitor(sweep_guard_core::fromSeconds(arguments.duration));
+  DemoMonitor monitor(sweep_guard_core::fromSeconds(arguments.duration), arguments.joints);
   monitor.run();
   std::cout << monitor.statistics().summary() << std::endl;
   if (!arguments.latency_csv.empty()) writeLatencies(arguments.latency_csv, monitor.statistics().latencies());

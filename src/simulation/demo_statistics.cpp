@@ -35,6 +35,12 @@ std::string warned(const std::vector<sweep_guard_recording::WarnedContact>& cont
          fmt::format(", by {:.2f} s (reflex {:.2f} s) in the median", quantile(considered, 0.5), quantile(reflex, 0.5));
 }
 
+std::string byLink(const std::map<std::string, std::size_t>& contacts) {
+  std::string lines;
+  for (const auto& [link, count] : contacts) lines += fmt::format("  of {:<17} {}\n", link, count);
+  return lines;
+}
+
 }  // namespace
 
 void DemoStatistics::addPose(Time stamp, std::uint32_t sequence) {
@@ -46,11 +52,14 @@ void DemoStatistics::addPose(Time stamp, std::uint32_t sequence) {
 
 void DemoStatistics::addContacts(Time start, Time stamp, Time arrival, const std::vector<ContactObject>& objects) {
   std::size_t triangles = 0;
+  std::set<std::string> links;
   for (const ContactObject& object : objects) {
+    links.insert(object.links.begin(), object.links.end());
     triangles += object.triangles.size();
     for (const std::uint32_t triangle : object.triangles) triangles_.emplace(object.mesh_id, triangle);
   }
   if (!objects.empty()) ++contacts_;
+  for (const std::string& link : links) ++contacts_by_link_[link];
   latencies_.push_back({stamp, arrival - stamp, triangles});
   swept_.add(start, stamp);
   not_swept_.erase(stamp);
@@ -85,14 +94,15 @@ std::string DemoStatistics::summary() const {
       "mesh updates          {}\n"
       "sweeps tested         {}\n"
       "contacts              {}\n"
+      "{}"
       "triangles touched     {}\n"
       "pose to contact [ms]  p50 {}  p99 {}  max {}\n"
       "warned ahead of       {}\n"
       "missed cycles         {}\n"
       "poses lost            {}",
-      poses_, mesh_updates_, sweeps(), contacts_, trianglesInContact(), milliseconds(latency(0.5)),
-      milliseconds(latency(0.99)), milliseconds(latency(1.0)), warned(levels_.contacts()), missedCycles(),
-      posesNotSwept() + posesNeverReceived());
+      poses_, mesh_updates_, sweeps(), contacts_, byLink(contacts_by_link_), trianglesInContact(),
+      milliseconds(latency(0.5)), milliseconds(latency(0.99)), milliseconds(latency(1.0)), warned(levels_.contacts()),
+      missedCycles(), posesNotSwept() + posesNeverReceived());
 }
 
 std::optional<std::string> DemoStatistics::fault() const {

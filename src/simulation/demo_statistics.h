@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -18,6 +19,7 @@ namespace sweep_guard_simulation {
 struct ContactObject {
   std::string mesh_id;
   std::vector<std::uint32_t> triangles;  ///< empty: the tool is inside the workpiece
+  std::set<std::string> links;           ///< of the tool that touch; empty: not known
 };
 
 /// Time from a pose to the answer of the guard.
@@ -44,10 +46,11 @@ class DemoStatistics {
   bool expects(sweep_guard_core::Time start, sweep_guard_core::Time stamp) const;
 
   std::size_t poses() const { return poses_; }
-  std::size_t sweeps() const { return latencies_.size(); }              ///< Contacts messages
-  std::size_t contacts() const { return contacts_; }                    ///< Contacts messages with a workpiece
-  std::size_t trianglesInContact() const { return triangles_.size(); }  ///< each counts once
-  std::size_t posesNotSwept() const { return not_swept_.size(); }       ///< until now
+  std::size_t sweeps() const { return latencies_.size(); }  ///< Contacts messages
+  std::size_t contacts() const { return contacts_; }        ///< Contacts messages with a workpiece
+  const std::map<std::string, std::size_t>& contactsByLink() const { return contacts_by_link_; }  ///< as contacts()
+  std::size_t trianglesInContact() const { return triangles_.size(); }                            ///< each counts once
+  std::size_t posesNotSwept() const { return not_swept_.size(); }                                 ///< until now
   std::size_t posesNeverReceived() const { return sequence_gap_; }      ///< gaps in header.seq
   std::size_t missedCycles() const;                                     ///< answers later than 1/15 s
   const std::vector<Latency>& latencies() const { return latencies_; }  ///< in order of arrival
@@ -64,6 +67,7 @@ class DemoStatistics {
   std::size_t poses_ = 0;
   std::size_t mesh_updates_ = 0;
   std::size_t contacts_ = 0;
+  std::map<std::string, std::size_t> contacts_by_link_;
   std::size_t sequence_gap_ = 0;
   std::optional<std::uint32_t> last_sequence_;
   sweep_guard_recording::SweptIntervals swept_;

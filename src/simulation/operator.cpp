@@ -4,9 +4,7 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
-#include <algorithm>
 #include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,14 +19,13 @@
 #include "simulation/joy_guide.h"
 #include "simulation/joystick.h"
 #include "simulation/marker_guide.h"
+#include "simulation/motion_start.h"
 #include "simulation/pose_scheduler.h"
 #include "simulation/pose_stream.h"
 #include "simulation/replay.h"
 #include "simulation/tip.h"
 #include "simulation/top_surface.h"
-#include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/SetIntent.h"
-#include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/ros/conversions.h"
@@ -41,8 +38,6 @@ namespace {
 using sweep_guard_core::StampedPose;
 
 constexpr int kQueue = 10000;
-constexpr double kMaxSleep = 0.1;         // [s] of one sleep, so that the node ends soon during a long gap
-constexpr double kLongGap = 5.0;          // [s] reported in the log
 constexpr double kReminderPeriod = 10.0;  // [s]
 constexpr double kFinalDelay = 1.0;       // [s] for the last poses to be sent
 constexpr double kRisePerWidth = 0.45;    // clearance per radial extent of the tool, as the drill tilts
@@ -53,20 +48,6 @@ constexpr double kHoleCircle = 0.06;      // [m] radius
 constexpr int kHolesOnCircle = 5;
 constexpr double kIntendedRadius = 0.08;  // [m] around a hole: that of some triangles of a coarse workpiece
 constexpr double kIntendedDepth = 0.02;   // [m]; more than the depth of a hole, because the workpiece sways
-constexpr std::uint32_t kNotReady =
-    sweep_guard::Warning::NO_MESH | sweep_guard::Warning::MESH_INVALID | sweep_guard::Warning::MESH_STALE;
-
-sweep_guard_core::TriangleMesh toMesh(const sweep_guard::DeformableMesh& message, const Eigen::Isometry3d& X_WM) {
-  std::vector<Eigen::Vector3d> vertices_W;
-  for (const geometry_msgs::Point& p : message.mesh.vertices)
-    vertices_W.push_back(X_WM * Eigen::Vector3d(p.x, p.y, p.z));
-  std::vector<sweep_guard_core::Triangle> triangles;
-  for (const shape_msgs::MeshTriangle& triangle : message.mesh.triangles) {
-    const auto& indices = triangle.vertex_indices;
-    triangles.push_back({indices[0], indices[1], indices[2]});
-  }
-  return sweep_guard_core::TriangleMesh(vertices_W, std::move(triangles));
-}
 
 /// Moves the tool: waits for the workpiece and for the guard, then publishes each pose when it is due.
 class OperatorNode {
@@ -87,24 +68,22 @@ class OperatorNode {
         min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
         intend_(parameters.flag("intend", false)),
         guard_(parameters.text("guard", "")),
-        listener_(buffer_) {
+        listener_(buffer_),
+        start_(frame_, buffer_) {
     if (input_ == "recording") readMotion();
     publisher_ = node_.advertise<geometry_msgs::PoseStamped>("tool_pose", kQueue);
-    mesh_subscriber_ = node_.subscribe("mesh", 1, &OperatorNode::onMesh, this);
-    warning_subscriber_ = node_.subscribe("warning", 1, &OperatorNode::onWarning, this);
   }
 
   void run() {
     ros::Time::waitForValid();
-    if (!waitUntil([this] { return surface_.has_value(); }, "the workpiece and its frame")) return;
-    if (wait_for_guard_ && !waitUntil([this] { return guard_ready_; }, "the guard to know the workpiece")) return;
+    if (!start_.awaitWorkpiece()) return;
+    surface_.emplace(start_.mesh_W());
+    if (wait_for_guard_ && !start_.awaitGuard()) return;
     if (!guard_.empty()) setTool(*sweep_guard_ros::loadParameters(ros::NodeHandle(guard_)).tool);
     const PoseStream motion = makePoses();
-    const auto connected = [this] { return static_cast<int>(publisher_.getNumSubscribers()) >= min_subscribers_; };
-    if (!waitUntil(connected, std::to_string(min_subscribers_) + " subscribers of the tool pose")) return;
+    if (!MotionStart::awaitSubscribers(publisher_, min_subscribers_)) return;
     if (intend_) intendHoles();
-    mesh_subscriber_.shutdown();
-    warning_subscriber_.shutdown();
+    start_.stopListening();
     ROS_INFO("the operator starts to move");
     if (perform(motion)) {
       ROS_INFO("the motion is over");
@@ -151,33 +130,6 @@ class OperatorNode {
     radial_extent_ = radialExtent(tool);
   }
 
-  void onMesh(const sweep_guard::DeformableMesh::ConstPtr& mesh) {
-    if (!mesh->mesh.triangles.empty()) mesh_ = mesh;
-  }
-
-  void onWarning(const sweep_guard::Warning::ConstPtr& warning) { guard_ready_ = (warning->reasons & kNotReady) == 0; }
-
-  void locateSurface() {
-    if (surface_ || !mesh_) return;
-    try {
-      const Eigen::Isometry3d X_WM =
-          tf2::transformToEigen(buffer_.lookupTransform(frame_, mesh_->header.frame_id, ros::Time(0)));
-      surface_.emplace(toMesh(*mesh_, X_WM));
-    } catch (const tf2::TransformException&) {
-      return;
-    }
-  }
-
-  bool waitUntil(const std::function<bool()>& condition, const std::string& what) {
-    for (const ros::WallDuration pause(0.01); ros::ok(); pause.sleep()) {
-      ros::spinOnce();
-      locateSurface();
-      if (condition()) return true;
-      ROS_INFO_THROTTLE(5.0, "waiting for %s", what.c_str());
-    }
-    return false;
-  }
-
   PoseStream makePoses() {
     if (input_ == "recording") return playRecording();
     if (input_ == "scripted") return drill();
@@ -216,7 +168,7 @@ class OperatorNode {
     sweep_guard::SetIntent service;
     for (const Eigen::Vector3d& hole_W : holes_W()) {
       sweep_guard::Intend intend;
-      intend.mesh_id = mesh_->id;
+      intend.mesh_id = start_.meshId();
       intend.frame_id = frame_;
       intend.center = tf2::toMsg(hole_W);
       intend.radius = kIntendedRadius;
@@ -244,32 +196,20 @@ class OperatorNode {
   }
 
   bool perform(const PoseStream& motion) {
-    PoseScheduler scheduler(now(), joy_guide_ || marker_guide_);
+    PoseScheduler scheduler(rosNow(), joy_guide_ || marker_guide_);
     for (std::optional<StampedPose> pose = motion(); pose; pose = motion()) {
-      const double gap = sweep_guard_core::toSeconds(scheduler.due(pose->stamp) - now());
-      if (gap > kLongGap) ROS_INFO("the motion has a gap: waiting for %.0f s", gap);
-      if (!sleepUntil(sweep_guard_ros::toMsg(scheduler.due(pose->stamp)))) return false;
-      if (scheduler.resume(pose->stamp, now())) resumeAfterStall();
+      if (!awaitDue(scheduler, pose->stamp)) return false;
+      if (scheduler.resume(pose->stamp, rosNow())) resumeAfterStall();
       publish(pose->X_WT * Eigen::Translation3d(-p_TTip_), sweep_guard_ros::toMsg(scheduler.due(pose->stamp)));
       ros::spinOnce();
     }
     return true;
   }
 
-  static sweep_guard_core::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
-
   void resumeAfterStall() {
     ROS_WARN_THROTTLE(kReminderPeriod, "the operator stalled: the tool continues from rest");
     stalled_ = true;
     if (joy_guide_) joy_guide_->release();
-  }
-
-  static bool sleepUntil(const ros::Time& due) {
-    while (ros::ok() && ros::Time::now() < due) {
-      const ros::Duration left = due - ros::Time::now();
-      std::min(left, ros::Duration(kMaxSleep)).sleep();
-    }
-    return ros::ok();
   }
 
   void publish(const Eigen::Isometry3d& X_WT, const ros::Time& stamp) {
@@ -295,17 +235,14 @@ class OperatorNode {
   bool intend_;
   std::string guard_;  // the operator moves its tool; empty: a tool with the tip at the origin
   std::vector<StampedPose> recording_;
-  sweep_guard::DeformableMesh::ConstPtr mesh_;
   std::optional<TopSurface> surface_;
-  bool guard_ready_ = false;
   Eigen::Vector3d p_TTip_ = Eigen::Vector3d::Zero();  // [m]; the motion is that of the tip
   double radial_extent_ = 0.0;                        // [m]
   ros::NodeHandle node_;
   ros::Publisher publisher_;
-  ros::Subscriber mesh_subscriber_;
-  ros::Subscriber warning_subscriber_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
+  MotionStart start_;
   bool stalled_ = false;  // since the last motion of the tip
   std::optional<JoyGuide> joy_guide_;
   std::unique_ptr<MarkerGuide> marker_guide_;

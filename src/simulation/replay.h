@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "simulation/playback.h"
 #include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_simulation {
@@ -23,13 +23,10 @@ class Replay {
   Replay(std::vector<sweep_guard_core::StampedPose> motion, const Options& options);
 
   /// Returns the next pose, with its stamp counted from the first pose (0); empty after the last pose.
-  std::optional<sweep_guard_core::StampedPose> next();
+  std::optional<sweep_guard_core::StampedPose> next() { return playback_.next(); }
 
  private:
-  std::vector<sweep_guard_core::StampedPose> motion_;
-  bool loop_;
-  std::size_t index_ = 0;
-  sweep_guard_core::Time stamp_;
+  Playback<sweep_guard_core::StampedPose> playback_;
 };
 
 }  // namespace sweep_guard_simulation

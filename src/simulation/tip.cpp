@@ -1,5 +1,6 @@
 #include "simulation/tip.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -14,17 +15,21 @@ constexpr double kTilt = 1e-3;
 
 }  // namespace
 
-Vector3d tipOf(const sweep_guard_core::Tool& tool) {
-  const auto reach = [](const ConvexPiece& piece) { return piece.shape_T.support(Vector3d::UnitZ()); };
+Vector3d frontOf(const sweep_guard_core::Tool& tool, const Vector3d& direction_T) {
+  const auto reach = [&](const ConvexPiece& piece) { return piece.shape_T.support(direction_T); };
   const auto front = std::max_element(tool.pieces().begin(), tool.pieces().end(),
                                       [&](const ConvexPiece& a, const ConvexPiece& b) { return reach(a) < reach(b); });
+  const auto turned = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction_T);
   Vector3d sum = Vector3d::Zero();
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * M_PI * (i + 0.5) / kDirections;
-    sum += front->shape_T.supportPoint(Vector3d(kTilt * std::cos(angle), kTilt * std::sin(angle), 1.0).normalized());
+    const Vector3d tilted(kTilt * std::cos(angle), kTilt * std::sin(angle), 1.0);
+    sum += front->shape_T.supportPoint(turned * tilted.normalized());
   }
   return sum / kDirections;
 }
+
+Vector3d tipOf(const sweep_guard_core::Tool& tool) { return frontOf(tool, Vector3d::UnitZ()); }
 
 double radialExtent(const sweep_guard_core::Tool& tool) {
   const Vector3d tip = tipOf(tool);

@@ -94,10 +94,35 @@ TEST_F(MessageWindowTest, NeverTakesMoreThanItsSize) {
   EXPECT_EQ(contents().back(), "999");
 }
 
-TEST_F(MessageWindowTest, AMessageThatIsTooLargeByItselfIsNotKept) {
-  hear(0s, "huge", "mesh", 101);
-  EXPECT_TRUE(contents().empty());
-  EXPECT_EQ(window_.size(), 0U);
+TEST_F(MessageWindowTest, AMessageThatIsTooLargeByItselfIsNotKeptAndAllOthersAre) {
+  hear(0s, "liver", "liver");
+  hear(20s, "pose");
+  EXPECT_FALSE(window_.add({Time(kBegin + 21s), 101, "bone", "huge"}));
+  EXPECT_EQ(contents(), (std::vector<std::string>{"liver", "pose"}));
+  EXPECT_EQ(window_.size(), 2U);
+  EXPECT_TRUE(window_.add({Time(kBegin + 21s), 100, "bone", "large"}));
+  EXPECT_EQ(contents(), std::vector<std::string>{"large"});
+}
+
+TEST_F(MessageWindowTest, CoversTheTimeFromItsOldestToItsNewestMessage) {
+  EXPECT_FALSE(window_.covers(Time()));
+  EXPECT_EQ(window_.newest(), Time());
+  hear(1s, "pose");
+  hear(12s, "next");
+  hear(13s, "newest");
+  EXPECT_FALSE(window_.covers(Time(kBegin + 11s)));
+  EXPECT_TRUE(window_.covers(Time(kBegin + 12s)));
+  EXPECT_TRUE(window_.covers(window_.newest()));
+  EXPECT_FALSE(window_.covers(Time(kBegin + 14s)));
+}
+
+TEST_F(MessageWindowTest, AMomentLeavesWhereTheSizeIsReachedAndItIsInTheOlderHalf) {
+  hear(0s, "first", "", 30);
+  hear(4s, "second", "", 30);
+  EXPECT_FALSE(window_.isLeaving(Time(kBegin + 1s), 40));
+  EXPECT_TRUE(window_.isLeaving(Time(kBegin + 1s), 41));
+  EXPECT_FALSE(window_.isLeaving(Time(kBegin + 2s), 41));
+  EXPECT_FALSE(window_.isLeaving(Time(kBegin - 1s), 41));
 }
 
 TEST_F(MessageWindowTest, KeepsOnlySoManyKeys) {

@@ -205,6 +205,19 @@ TEST_F(RecordingFolderTest, ABagThatWasCutByAKillIsNeverTakenForAWholeOneAndIsDe
   EXPECT_EQ(files(), (std::set<std::string>{nameOfEvent(0) + ".bag", nameOfEvent(0) + ".yaml"}));
 }
 
+// Somebody may be moving both elsewhere.
+TEST_F(RecordingFolderTest, AConfigurationWhoseBagIsMovedAwayStaysUntilTheNextStart) {
+  {
+    RecordingFolder folder(options());
+    fs::remove(folder.write(nameOfEvent(0), kSize, writeFiles).bag);
+    folder.check(kSize);
+    folder.write(nameOfEvent(1), kSize, writeFiles);
+    EXPECT_EQ(files().count(nameOfEvent(0) + ".yaml"), 1U);
+  }
+  RecordingFolder(options()).open();
+  EXPECT_EQ(files().count(nameOfEvent(0) + ".yaml"), 0U);
+}
+
 TEST_F(RecordingFolderTest, AConfigurationWithoutItsBagIsDeletedAtTheNextStart) {
   fs::create_directories(folder_);
   fill(folder_ / (nameOfEvent(0) + ".yaml"), 10);

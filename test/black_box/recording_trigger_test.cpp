@@ -7,7 +7,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-SteadyTime at(Duration time) { return SteadyTime(100s + time); }
+Instant at(Duration stamp, Duration steady) { return {Time(7s + stamp), SteadyTime(100s + steady)}; }
+Instant at(Duration time) { return at(time, time); }
 
 RecordingTrigger trigger(bool on_contact, bool on_reflex) { return RecordingTrigger({5s, on_contact, on_reflex}); }
 
@@ -25,13 +26,31 @@ TEST(RecordingTriggerTest, AContactIsDueSomeTimeAfterItsBeginAndOnce) {
   EXPECT_FALSE(contact.waiting());
 }
 
+TEST(RecordingTriggerTest, AnEventIsDueInASimulationThatIsFastOrStandsStillOrBeginsAnew) {
+  RecordingTrigger contact = trigger(true, false);
+  contact.warned(WarningLevel::kContact, at(0s));
+  EXPECT_FALSE(contact.due(at(4999ms, 1s)));
+  EXPECT_TRUE(contact.due(at(5s, 1s)));
+  EXPECT_TRUE(contact.due(at(0s, 5s)));
+  EXPECT_FALSE(contact.due(at(-7s, 4s)));
+  EXPECT_TRUE(contact.due(at(-7s, 5s)));
+}
+
+// ~save may be called before any message came.
+TEST(RecordingTriggerTest, AnEventWithoutAStampIsDueByTheSteadyClockAlone) {
+  RecordingTrigger save = trigger(true, false);
+  save.requested({Time(), at(0s).steady});
+  EXPECT_FALSE(save.due(at(1000s, 4s)));
+  EXPECT_TRUE(save.due(at(1000s, 5s)));
+}
+
 TEST(RecordingTriggerTest, TheNextContactIsAnotherEvent) {
   RecordingTrigger contact = trigger(true, false);
   contact.warned(WarningLevel::kContact, at(0s));
   contact.take();
   contact.warned(WarningLevel::kClear, at(6s));
   contact.warned(WarningLevel::kContact, at(7s));
-  EXPECT_EQ(contact.waiting()->time, at(7s));
+  EXPECT_EQ(contact.waiting()->begin.steady, at(7s).steady);
 }
 
 TEST(RecordingTriggerTest, AGuardThatBeginsInContactIsAnEvent) {

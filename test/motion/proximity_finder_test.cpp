@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "allocations.h"
 #include "motion/random_scenes.h"
@@ -553,6 +554,45 @@ TEST_F(IntendedProximityTest, ARegionOfAnotherMeshChangesNothing) {
     EXPECT_EQ(other.planes[i].plane.normal_W, nothing.planes[i].plane.normal_W);
   }
   EXPECT_EQ(other.uncovered.distance, nothing.uncovered.distance);
+}
+
+TEST_F(IntendedProximityTest, ALinkThatMayTouchHasNoPlanes) {
+  intentions_.clear();
+  const auto pieces = [&](const AllowedPairs& allowed) {
+    Isometry3d X_WT(Eigen::AngleAxisd(M_PI, Vector3d::UnitX()));
+    X_WT.translation() = Vector3d(0.0, 0.0, 0.001);
+    Proximity found;
+    finder_.find({tool_, poseAt(X_WT), {plate_}, 0.1, nullptr, nullptr, allowed}, found);
+    std::set<size_t> with_planes;
+    for (const ProximityPlane& each : found.planes) with_planes.insert(each.plane.piece);
+    return std::pair(with_planes, found.uncovered.distance);
+  };
+  EXPECT_EQ(pieces({}).first, (std::set<size_t>{0, 1}));
+  EXPECT_EQ(pieces({{"bit", plate_->id}}).first, (std::set<size_t>{1}));
+  EXPECT_EQ(pieces({{"bit", "other"}}).first, (std::set<size_t>{0, 1}));
+  EXPECT_TRUE(pieces({{"*", plate_->id}}).first.empty());
+  EXPECT_EQ(pieces({{"*", plate_->id}}).second, kInfinity);
+}
+
+// A payload moves as fast as the tool that holds it.
+TEST_F(IntendedProximityTest, TheSpeedOfWhatMayBeTouchedCountsForNothing) {
+  const auto table = workpieceOf(square(10), "table");
+  const auto speedOfUncovered = [&](const AllowedPairs& allowed) {
+    ProximityFinder finder;
+    Proximity found;
+    const Isometry3d far(Eigen::Translation3d(0.0, 0.0, -1.0));
+    for (const Duration t : {100s + 0ms, 100s + 10ms}) {
+      PoseWithFrames pose = poseAt(Isometry3d::Identity(), Time(t));
+      pose.X_WM = {{kFrame, Isometry3d(Eigen::Translation3d(toSeconds(t - 100s), 0.0, -0.01))}, {"still", far}};
+      Workpiece still = *table;
+      still.frame = "still";
+      finder.find({tool_, pose, {plate_, std::make_shared<const Workpiece>(still)}, 0.1, nullptr, nullptr, allowed},
+                  found);
+    }
+    return found.uncovered.speed;
+  };
+  EXPECT_GT(speedOfUncovered({}), 0.9);
+  EXPECT_EQ(speedOfUncovered({{"*", plate_->id}}), 0.0);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include <set>
 #include <sstream>
 
-#include "ros/black_box/black_box_parameters.h"
+#include "ros/black_box/recorded_topics.h"
 #include "ros/motion/motion_parameters.h"
 #include "ros/parameter_documents.h"
 #include "ros/parameters/parameters.h"
@@ -158,6 +158,26 @@ Names topicsListed(const std::string& head) {
 TEST(DocumentsTest, ListEachTopicAndItsType) {
   EXPECT_EQ(topicsListed("| in | type | meaning | try |"), topicsOfTheGuard(kSubscribed));
   EXPECT_EQ(topicsListed("| out | type | when | try |"), topicsOfTheGuard(kPublished));
+}
+
+Names recordedNames(const BlackBoxParameters& parameters) {
+  Names names;
+  for (const RecordedTopic& topic : recordedTopics(ros::NodeHandle(), parameters)) names.insert(topic.topic);
+  return names;
+}
+
+// ~markers and ~view draw what the others say; the tool of this guard has no joints.
+TEST(DocumentsTest, TheBlackBoxRecordsWhatTheGuardHearsAndPublishes) {
+  Names heard = namesOfTheGuard(kSubscribed);
+  heard.merge(namesOfTheGuard(kPublished));
+  heard.insert("/joint_states");
+  for (const char* const drawing : {"/markers", "/view"}) EXPECT_EQ(heard.erase(kGuard + drawing), 1U) << drawing;
+  BlackBoxParameters parameters = loadBlackBoxParameters(ros::NodeHandle("/nothing_is_set"));
+  parameters.proximity = parameters.interaction = true;
+  EXPECT_EQ(recordedNames(parameters), heard);
+  parameters.proximity = parameters.interaction = false;
+  for (const char* const chosen : {"/proximity", "/interaction"}) EXPECT_EQ(heard.erase(kGuard + chosen), 1U) << chosen;
+  EXPECT_EQ(recordedNames(parameters), heard);
 }
 
 TEST(DocumentsTest, ListEachService) {

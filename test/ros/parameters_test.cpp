@@ -158,6 +158,56 @@ TEST_F(ParametersTest, TakeAListOfLinksAsText) {
   }
 }
 
+XmlRpc::XmlRpcValue pairOf(const std::string& link, const std::string& mesh_id) {
+  XmlRpc::XmlRpcValue pair;
+  pair["link"] = link;
+  pair["mesh_id"] = mesh_id;
+  return pair;
+}
+
+TEST_F(ParametersTest, TakePairsThatMayTouch) {
+  ros::param::set("/robot_description", kGripper);
+  node_.setParam("tool/type", "urdf");
+  XmlRpc::XmlRpcValue pairs;
+  pairs[0] = pairOf("finger", "payload");
+  pairs[1] = pairOf("*", "*");
+  node_.setParam("tool/allowed", pairs);
+  EXPECT_EQ(loadParameters(node_).guard.allowed, (sweep_guard_core::AllowedPairs{{"finger", "payload"}, {"*", "*"}}));
+  pairs[1] = pairOf("thumb", "payload");
+  node_.setParam("tool/allowed", pairs);
+  EXPECT_EQ(refusal(node_),
+            "parameter tool/allowed: the tool has no link 'thumb': it has 'finger', 'hand', or '*' for all");
+  node_.setParam("tool/type", "cylinder");
+  EXPECT_EQ(
+      refusal(node_),
+      "parameter tool/allowed: the tool has no link 'finger': a cylinder has one link, without a name: write '*'");
+  XmlRpc::XmlRpcValue any;
+  any[0] = pairOf("*", "payload");
+  node_.setParam("tool/allowed", any);
+  EXPECT_EQ(loadParameters(node_).guard.allowed.size(), 1U);
+  any[0] = pairOf("*", std::string(129, 'x'));
+  node_.setParam("tool/allowed", any);
+  EXPECT_TRUE(has(refusal(node_), "is no name of a workpiece"));
+}
+
+TEST_F(ParametersTest, RefusePairsThatAreNone) {
+  for (const char* const missing : {"link", "mesh_id"}) {
+    XmlRpc::XmlRpcValue pairs;
+    pairs[0] = pairOf("*", "payload");
+    pairs[0][missing] = "";
+    node_.setParam("tool/allowed", pairs);
+    EXPECT_TRUE(has(refusal(node_), "none of the texts empty")) << missing;
+    pairs[0][missing] = 3;
+    node_.setParam("tool/allowed", pairs);
+    EXPECT_TRUE(has(refusal(node_), "a list of groups {link: TEXT, mesh_id: TEXT}, or []")) << missing;
+  }
+  XmlRpc::XmlRpcValue pairs;
+  pairs[0] = pairOf("*", "payload");
+  pairs[0]["depth"] = "1";
+  node_.setParam("tool/allowed", pairs);
+  EXPECT_TRUE(has(refusal(node_), "a list of groups"));
+}
+
 TEST_F(ParametersTest, FindTheRobotUnderAnotherName) {
   node_.setParam("tool/type", "urdf");
   EXPECT_TRUE(has(refusal(node_), "no robot description in the parameter 'robot_description'"));
@@ -370,6 +420,8 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("tool/links", true, "a list of texts");
   refused("tool/links", std::vector<int>{1}, "a list of texts");
   refused("tool/links", std::vector<std::string>{""}, "none of them empty");
+  refused("tool/allowed", "payload", "a list of groups");
+  refused("tool/allowed", true, "a list of groups");
   refused("tool/mesh_roots", 1, "a list of texts");
   refused("tool/mesh_depth", 17, "0 to 16");
   refused("tool/padding", -0.001, "0 to 1");

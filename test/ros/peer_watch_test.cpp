@@ -1,4 +1,4 @@
-// What the guard's process does about publishers that cannot be reached for a while.
+// What the processes of guard and merger do about publishers that cannot be reached for a while.
 #include <arpa/inet.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <ros/xmlrpc_manager.h>
 #include <signal.h>
 #include <std_msgs/String.h>
+#include <sweep_guard/Warning.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -74,13 +75,25 @@ class Address : public XmlRpc::XmlRpcServerMethod {
   int requests_ = 0;
 };
 
-bool publishPoses(const std::string& uri) {
+// Tells a node that this process and another address publish a topic.
+bool announce(const std::string& node, const std::string& topic, const std::string& uri) {
   XmlRpcValue publishers;
   publishers[0] = ros::XMLRPCManager::instance()->getServerURI();
   publishers[1] = uri;
-  const auto answer =
-      xmlRpc().call(addressOf("/sweep_guard"), "publisherUpdate", {XmlRpcValue("/tool_pose"), publishers});
+  const auto answer = xmlRpc().call(addressOf(node), "publisherUpdate", {XmlRpcValue(topic), publishers});
   return answer && answer->success;
+}
+
+bool publishPoses(const std::string& uri) { return announce("/sweep_guard", "/tool_pose", uri); }
+
+bool isConnectedAnew(Address& address) {
+  return becomesTrue([&] {
+    address.close();
+    ros::WallDuration(0.5).sleep();
+    address.open();
+    address.serveFor(0.5);
+    return address.requests() == 2;
+  });
 }
 
 /// A port at which each subscriber to poses gets a header, and then the length of a message of two gigabytes.
@@ -179,16 +192,23 @@ TEST_P(PeerWatchTest, ConnectsAnewToAPublisherThatWasOutOfReach) {
   Address address;
   ASSERT_TRUE(publishPoses(address.uri()));
   ASSERT_TRUE(becomesTrue([&] { return address.serveFor(0.3), address.requests() == 1; }));
-  EXPECT_TRUE(becomesTrue([&] {
-    address.close();
-    ros::WallDuration(0.5).sleep();
-    address.open();
-    address.serveFor(0.5);
-    return address.requests() == 2;
-  }));
+  EXPECT_TRUE(isConnectedAnew(address));
   guard.signal(SIGTERM);
   EXPECT_EQ(guard.wait(), 0);
   ros::param::del("/sweep_guard");
+}
+
+TEST(MergerPeerWatchTest, ConnectsAnewToAGuardThatWasOutOfReach) {
+  ChildProcess merger(program("warning_merger_node", {"__name:=merger", "_guards:=[/far]"}));
+  const ros::Publisher guard = ros::NodeHandle().advertise<sweep_guard::Warning>("/far/warning", 1);
+  ASSERT_TRUE(becomesTrue([&] { return guard.getNumSubscribers() == 1; }));
+  Address address;
+  ASSERT_TRUE(announce("/merger", "/far/warning", address.uri()));
+  ASSERT_TRUE(becomesTrue([&] { return address.serveFor(0.3), address.requests() == 1; }));
+  EXPECT_TRUE(isConnectedAnew(address));
+  merger.signal(SIGTERM);
+  EXPECT_EQ(merger.wait(), 0);
+  ros::param::del("/merger");
 }
 
 // roscpp takes the stream for lost, disconnects and does not come back.

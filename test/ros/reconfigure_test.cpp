@@ -440,6 +440,7 @@ TEST_F(ReconfigureTest, TheMarkerRateChanges) {
 TEST_F(ReconfigureTest, EachNamespaceOfTheMarkersCanBeHidden) {
   placeSquare("square", {0.0, 0.0, 0.0});
   placeSquare("below", {0.0, 0.0, -0.1});
+  placeSquare("allowed", {0.0, 0.0, 0.0});
   change("warning/hold_time", 60.0);
   moveTo({0.0, 0.0, 0.02});
   moveTo({0.0, 0.0, 0.0});

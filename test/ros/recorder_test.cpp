@@ -58,6 +58,7 @@ class RecorderTest : public ::testing::Test {
     const auto header =
         boost::make_shared<ros::M_string>(ros::M_string{{"callerid", "/guard"}, {"topic", topic.topic}});
     recorder_->hear(topic, {message, header, ros::Time(now_)});
+    newest_ = message;
     now_ += 0.01;
   }
 
@@ -116,6 +117,7 @@ class RecorderTest : public ::testing::Test {
   const fs::path folder_ = fs::path(testing::TempDir()) / ("recorder_test_" + std::to_string(getpid()));
   BlackBoxParameters parameters_{};
   double now_ = 1000.0;  // [s]
+  boost::weak_ptr<topic_tools::ShapeShifter> newest_;
   Supervisor supervisor_{Process::kShared};
   std::optional<Recorder> recorder_;
 };
@@ -132,6 +134,17 @@ TEST_F(RecorderTest, AHundredContactsInARowAreAllRecordedAndStayWithinTheQuota) 
   }
   EXPECT_LT(bags().size(), 100U);
   EXPECT_GT(bags().size(), 1U);
+}
+
+TEST_F(RecorderTest, WhatWasWrittenTakesNoMemoryAfterwards) {
+  start();
+  touch();
+  const boost::weak_ptr<topic_tools::ShapeShifter> written = newest_;
+  awaitRecordings(1);
+  EXPECT_FALSE(written.expired());
+  now_ += 100.0;
+  hearWarning(Warning::CONTACT);
+  EXPECT_TRUE(written.expired());
 }
 
 TEST_F(RecorderTest, AContactThatGoesOnIsOneEvent) {
@@ -163,6 +176,58 @@ TEST_F(RecorderTest, AnEventThatWaitsIsRecordedBeforeTheWindowBeginsAnew) {
   hearWarning(Warning::CLEAR);
   EXPECT_EQ(contactsIn(awaitRecordings(1).newest), 1U);
   EXPECT_EQ(recorder_->summary().messages, 1U);
+}
+
+TEST_F(RecorderTest, AnEventThatWaitsIsRecordedBeforeTheClockLeapsPastIt) {
+  parameters_.trigger.after = 30s;
+  start();
+  touch();
+  now_ += 100.0;
+  hearWarning(Warning::CLEAR);
+  EXPECT_EQ(contactsIn(awaitRecordings(1).newest), 1U);
+  EXPECT_EQ(recorder_->summary().messages, 1U);
+}
+
+// The steady clock alone would let it wait until the contact has left the window.
+TEST_F(RecorderTest, InASimulationThatRunsFastAContactIsInItsRecording) {
+  parameters_.trigger.after = 5s;
+  parameters_.window = 6s;
+  start();
+  touch();
+  for (int i = 0; i < 1000; ++i) hearWarning(Warning::CLEAR);
+  EXPECT_EQ(contactsIn(awaitRecordings(1).newest), 1U);
+}
+
+TEST_F(RecorderTest, AContactIsRecordedBeforeLargeMessagesReplaceIt) {
+  parameters_.trigger.after = 30s;
+  parameters_.memory = 2 * kMebibyte;
+  start();
+  touch();
+  sweep_guard::MeshVertices vertices;
+  vertices.positions.resize(10000);
+  for (int i = 0; i < 100; ++i) hear(kVertices, vertices);
+  EXPECT_EQ(contactsIn(awaitRecordings(1).newest), 1U);
+}
+
+TEST_F(RecorderTest, AMessageThatIsTooLargeIsReportedAndAllOthersStay) {
+  parameters_.memory = 2 * kMebibyte;
+  start();
+  touch();
+  const Recorder::Summary before = recorder_->summary();
+  sweep_guard::MeshVertices vertices;
+  vertices.positions.resize(kMebibyte / sizeof(float));
+  hear(kVertices, vertices);
+  EXPECT_EQ(recorder_->summary().too_large, 1U);
+  EXPECT_EQ(recorder_->summary().messages, before.messages);
+}
+
+// A name takes memory as a key, too, wherever that is kept.
+TEST_F(RecorderTest, LongNamesCount) {
+  start();
+  sweep_guard::MeshVertices vertices;
+  vertices.id = std::string(kMebibyte, 'x');
+  hear(kVertices, vertices);
+  EXPECT_GE(recorder_->summary().size, 3 * kMebibyte);
 }
 
 TEST_F(RecorderTest, WhatCannotBeWrittenIsReportedUntilItCan) {

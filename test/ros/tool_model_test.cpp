@@ -118,6 +118,16 @@ TEST(ToolModelTest, TakesTheFirstLinkForAToolFrameThatNobodyNamed) {
   EXPECT_TRUE(has(refusal(urdf, toolOf("tol", {"b"})), "tool_frame names 'tol'"));
 }
 
+TEST(ToolModelTest, TakesTheRootForAToolFrameThatNobodyNamedIfItIsTold) {
+  const std::string urdf =
+      robot(link("a") + link("b", kBall) + joint("ab", "fixed", "a", "b", "<origin xyz='0 0 2'/>"));
+  ToolModelOptions options = toolOf("tool", {"b"});
+  options.of_root = true;
+  const ToolModel model = loadToolModel(urdf, options);
+  EXPECT_EQ(model.frame, "a");
+  expectBox(model.pieces, Vector3d(-0.1, -0.1, 1.9), Vector3d(0.1, 0.1, 2.1));
+}
+
 TEST(ToolModelTest, HoldsJointsWhereTheyAreSet) {
   const std::string urdf = robot(link("a", kBall) + link("b") + link("c", kBall) +
                                  joint("turn", "revolute", "a", "b",

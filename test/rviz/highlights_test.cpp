@@ -30,6 +30,17 @@ TEST(HighlightsTest, OrderAndRepetitionDoNotMatter) {
   EXPECT_EQ(highlightsOf(view, {}, 10).considered, (Triangles{2, 7}));
 }
 
+TEST(HighlightsTest, WhatIsAllowedIsShownWhereNothingIsMoreUrgentAndBeforeWhatIsIntended) {
+  sweep_guard::ObjectView view;
+  view.touched = {1};
+  view.considered = {3};
+  view.allowed = {1, 3, 4, 10};
+  const Highlights shown = highlightsOf(view, {4, 5}, 10);
+  EXPECT_EQ(shown.allowed, Triangles{4});
+  EXPECT_EQ(shown.intended, Triangles{5});
+  EXPECT_EQ(shown.touched, Triangles{1});
+}
+
 TEST(HighlightsTest, WhatIsIntendedIsShownWhereNothingIsMoreUrgent) {
   sweep_guard::ObjectView view;
   view.touched = {1};

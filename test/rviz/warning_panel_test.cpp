@@ -7,6 +7,7 @@
 #include <sweep_guard/Acknowledge.h>
 
 #include <QApplication>
+#include <QCheckBox>
 #include <QLabel>
 #include <QPushButton>
 #include <algorithm>
@@ -120,6 +121,21 @@ TEST_F(WarningPanelTest, NothingButClearIsGreenAnywhereInTheLight) {
     say(warningLevel(level));
     EXPECT_EQ(shareOf(light(), isGreen), 0.0) << panel_.state().title;
   }
+}
+
+TEST_F(WarningPanelTest, SoundIsOffAtFirstAndSavedByChoice) {
+  auto* const hear = panel_.findChild<QCheckBox*>("hear");
+  EXPECT_FALSE(hear->isChecked());
+  hear->click();
+  rviz::Config config;
+  panel_.save(config);
+  WarningPanel again;
+  again.load(config);
+  EXPECT_TRUE(again.findChild<QCheckBox*>("hear")->isChecked());
+  hear->click();
+  panel_.save(config);
+  again.load(config);
+  EXPECT_FALSE(again.findChild<QCheckBox*>("hear")->isChecked());
 }
 
 TEST_F(WarningPanelTest, ContactFlashes) {

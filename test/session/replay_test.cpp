@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/JointState.h>
 #include <sweep_guard/Contacts.h>
 #include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/Intend.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/View.h>
 #include <sweep_guard/Warning.h>
@@ -36,6 +38,7 @@ constexpr double kRate = 1000.0;                  // [Hz] of the poses
 constexpr double kHeight = 0.15;                  // [m] of the tip above the plate, at first
 constexpr double kPeriod = 2.0;                   // [s] down, and up again
 constexpr double kSpeed = 0.16;                   // [m/s]
+constexpr double kTurnRate = 0.5;                 // [rad/s] of the arm's shoulder
 constexpr double kFirstTouch = kHeight / kSpeed;  // [s] after the tip begins to come down
 
 geometry_msgs::PoseStamped poseAt(double t) {
@@ -114,6 +117,26 @@ class ReplayTest : public testing::Test {
       transform.transform.translation.z = pose.pose.position.z;
       transform.transform.rotation = pose.pose.orientation;
       bag.write("/tf", pose.header.stamp, message);
+    }
+  }
+
+  // The base of arm.urdf, 0.3 m behind the plate: its shoulder turns the arm down, and up again.
+  static void writeJoints(rosbag::Bag& bag) {
+    tf2_msgs::TFMessage mount;
+    geometry_msgs::TransformStamped& base = mount.transforms.emplace_back();
+    base.header = poseAt(0.0).header;
+    base.child_frame_id = "base";
+    base.transform.translation.x = -0.3;
+    base.transform.translation.z = kHeight;
+    base.transform.rotation.w = 1.0;
+    bag.write("/tf_static", base.header.stamp, mount);
+    sensor_msgs::JointState joints;
+    joints.name = {"shoulder", "elbow", "jaw"};
+    for (double t = 0.0; t < kDuration; t += 0.01) {
+      const double phase = std::fmod(t, kPeriod);
+      joints.header = poseAt(t).header;
+      joints.position = {kTurnRate * std::min(phase, kPeriod - phase), 0.0, 0.0};
+      bag.write("/joint_states", joints.header.stamp, joints);
     }
   }
 
@@ -233,6 +256,29 @@ TEST_F(ReplayTest, ContactsAndWarningsThatDoNotTellWhatIsIntendedAreMigrated) {
   EXPECT_EQ(next, 10U);
 }
 
+// recorded_before_allowed.bag holds contacts and views from before `allowed`.
+TEST_F(ReplayTest, ContactsAndViewsThatDoNotTellWhatIsAllowedAreMigrated) {
+  migrate(fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_before_allowed.bag", bag_, folder_ / "fixed.txt");
+  const rosbag::Bag bag(bag_.string());
+  std::uint32_t contacts = 0;
+  std::uint32_t views = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    if (const auto sweep = message.instantiate<sweep_guard::Contacts>()) {
+      EXPECT_EQ(sweep->objects.at(0).triangles, (std::vector<std::uint32_t>{contacts, contacts + 1}));
+      EXPECT_EQ(sweep->objects[0].intended, (std::vector<std::uint32_t>{contacts}));
+      EXPECT_TRUE(sweep->allowed.empty());
+      ++contacts;
+    }
+    if (const auto view = message.instantiate<sweep_guard::View>()) {
+      EXPECT_EQ(view->objects.at(0).touched, (std::vector<std::uint32_t>{views, views + 1}));
+      EXPECT_TRUE(view->objects[0].allowed.empty());
+      ++views;
+    }
+  }
+  EXPECT_EQ(contacts, 3U);
+  EXPECT_EQ(views, 3U);
+}
+
 // recorded_with_run_id.bag holds the definition before `held` and `acknowledged`.
 TEST_F(ReplayTest, WarningsThatDoNotTellWhatIsHeldAreMigrated) {
   const auto warnings = migratedWarnings("recorded_with_run_id.bag", bag_, folder_ / "fixed.txt");
@@ -252,6 +298,36 @@ TEST_F(ReplayTest, TakesTheToolFromTfAlthoughTheBagHasItsPoses) {
   const std::string printed = replay("config:=" + config.string());
   ASSERT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 3U) << printed;
   EXPECT_FALSE(has(printed, "there are no vertices")) << printed;
+}
+
+// The far edge of the plate is 0.4 m before the shoulder and 0.15 m below it, and the forearm is 0.02 m thick:
+// 0.15 cos a - 0.4 sin a = 0.01 at an angle a of 0.3354.
+TEST_F(ReplayTest, PlaysTheJointsOfATool) {
+  writeBag({writeMesh, writeJoints});
+  const fs::path config = folder_ / "joints.yaml";
+  std::ofstream(config) << "tool_source: joint_states\ntool_frame: base\ntiming:\n  mesh_timeout: .inf\n"
+                        << "tool:\n  type: urdf\n  links: [upper, fore, left, right]\n";
+  const std::string urdf = std::string(SWEEP_GUARD_SOURCE_DIR) + "/test/ros/arm.urdf";
+  const std::string printed = replay("config:=" + config.string() + " tool_urdf:=" + urdf);
+  const auto contacts = readCsv(folder_ / "report/contacts.csv");
+  ASSERT_EQ(contacts.size(), 3U) << printed;
+  EXPECT_NEAR(std::stod(contacts[1][1]), 0.3354 / kTurnRate, 0.005) << printed;
+  EXPECT_EQ(contacts[1][5], "fore") << printed;
+}
+
+TEST_F(ReplayTest, ContactThatWasMeantIsMeantInTheReplay) {
+  const auto write_intend = [](rosbag::Bag& bag) {
+    sweep_guard::Intend intend;
+    intend.mesh_id = "plate";
+    intend.triangles = {0, 1};
+    intend.depth = 0.05;
+    bag.write("/sweep_guard/intend_updates", ros::Time(kBegin + 0.3), intend);
+  };
+  writeBag({writeMesh, writePoses, writeVertices, write_intend});
+  const std::string printed = replay("");
+  const std::string levels = readText(folder_ / "report/levels.csv");
+  EXPECT_TRUE(has(levels, "CLEAR")) << printed;
+  EXPECT_FALSE(has(levels, "CONTACT")) << levels;
 }
 
 TEST_F(ReplayTest, ABagThatCannotBeGuardedEndsItWithALineThatSaysWhy) {

@@ -3,6 +3,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
+#include <sensor_msgs/JointState.h>
 #include <std_msgs/Header.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
@@ -35,7 +36,7 @@ class SessionBagTest : public testing::Test {
 
   SessionBag inspect() {
     bag_.close();
-    return inspectBag(path_, {"/tool_pose", "/mesh", "/mesh_vertices"});
+    return inspectBag(path_, {"/tool_pose", "/mesh", "/mesh_vertices", ""});
   }
 
   // Returns the message of the refusal.
@@ -62,7 +63,7 @@ TEST_F(SessionBagTest, CountsWhatIsGuarded) {
 }
 
 TEST_F(SessionBagTest, RefusesAFileThatIsMissingOrNoBag) {
-  const SessionTopics topics{"/tool_pose", "/mesh", "/mesh_vertices"};
+  const SessionTopics topics{"/tool_pose", "/mesh", "/mesh_vertices", ""};
   bag_.close();
   EXPECT_THROW(inspectBag(path_ + ".not", topics), sweep_guard_core::InvalidInput);
   std::ofstream(path_) << "100 0 0 0 0 0 0 1\n";
@@ -97,8 +98,17 @@ TEST_F(SessionBagTest, SaysHowToGuardABagWithoutAMesh) {
 TEST_F(SessionBagTest, NeedsNoMeshThatComesFromElsewhereAndNoPoseThatComesFromTf) {
   writePose(101.0, 101.0);
   bag_.close();
-  EXPECT_EQ(inspectBag(path_, {"/tool_pose", "", ""}).poses.size(), 1U);
-  EXPECT_TRUE(inspectBag(path_, {"", "", ""}).poses.empty());
+  EXPECT_EQ(inspectBag(path_, {"/tool_pose", "", "", ""}).poses.size(), 1U);
+  EXPECT_TRUE(inspectBag(path_, {"", "", "", ""}).poses.empty());
+}
+
+TEST_F(SessionBagTest, NeedsTheJointsOfAToolWhoseJointsMove) {
+  bag_.write("/joint_states", ros::Time(101.0), sensor_msgs::JointState());
+  bag_.close();
+  EXPECT_TRUE(inspectBag(path_, {"", "", "", "/joint_states"}).poses.empty());
+  const std::string text = ::refusal([this] { inspectBag(path_, {"", "", "", "/arm/joint_states"}); });
+  EXPECT_TRUE(has(text, "no topic /arm/joint_states")) << text;
+  EXPECT_TRUE(has(text, "give joint_states:=TOPIC")) << text;
 }
 
 TEST_F(SessionBagTest, RefusesATopicOfAnotherType) {

@@ -89,14 +89,22 @@ TEST_F(DemoStatisticsTest, CountsGapsInTheSequence) {
 }
 
 TEST_F(DemoStatisticsTest, CountsContactsAndDistinctTriangles) {
-  addSweep(10, 10, 11, {{"a", {1, 2}}, {"b", {1}}});
-  addSweep(20, 20, 21, {{"a", {2, 3}}});
-  addSweep(30, 30, 31, {{"a", {}}});  // inside
+  addSweep(10, 10, 11, {{"a", {1, 2}, {}}, {"b", {1}, {}}});
+  addSweep(20, 20, 21, {{"a", {2, 3}, {}}});
+  addSweep(30, 30, 31, {{"a", {}, {}}});  // inside
   addSweep(40, 40, 41);
   EXPECT_EQ(statistics_.sweeps(), 4U);
   EXPECT_EQ(statistics_.contacts(), 3U);
   EXPECT_EQ(statistics_.trianglesInContact(), 4U);
   EXPECT_EQ(statistics_.latencies().front().triangles, 3U);
+}
+
+TEST_F(DemoStatisticsTest, CountsTheContactsOfEachLink) {
+  EXPECT_FALSE(has(statistics_.summary(), "  of "));
+  addSweep(10, 10, 11, {{"a", {1}, {"elbow", "wrist"}}, {"b", {1}, {"wrist"}}});
+  addSweep(20, 20, 21, {{"a", {1}, {"wrist"}}});
+  EXPECT_TRUE(has(statistics_.summary(),
+                  "contacts              2\n  of elbow             1\n  of wrist             2\ntriangles touched"));
 }
 
 TEST_F(DemoStatisticsTest, InterpolatesQuantilesOfTheLatencies) {
@@ -134,7 +142,7 @@ TEST_F(DemoStatisticsTest, ReportsTheLeadsOfTheWarnings) {
 
 TEST_F(DemoStatisticsTest, WritesTheLiveLine) {
   addPose(10, 1);
-  statistics_.addContacts(at(10), at(10), sweep_guard_core::Time(std::chrono::microseconds(10400)), {{"a", {1}}});
+  statistics_.addContacts(at(10), at(10), sweep_guard_core::Time(std::chrono::microseconds(10400)), {{"a", {1}, {}}});
   EXPECT_EQ(statistics_.liveLine(milliseconds(12500), "CONTACT"),
             "12.5 s  poses 1  contacts 1  level CONTACT  latency p50 0.4 ms");
 }

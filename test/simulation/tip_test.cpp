@@ -30,5 +30,11 @@ TEST(TipTest, IsTheTopOfABall) {
   EXPECT_LT((tipOf(tool) - Vector3d(0, 0, 0.5)).norm(), 1e-3);
 }
 
+TEST(TipTest, TheFrontIsWhereTheToolReachesFarthest) {
+  const Tool tool({{"left", boxAt({-0.2, 0, 0}, {0.1, 0.1, 0.1})}, {"right", boxAt({0.2, 0.05, 0}, {0.1, 0.1, 0.1})}});
+  EXPECT_LT((frontOf(tool, Vector3d::UnitX()) - Vector3d(0.3, 0.05, 0)).norm(), 1e-6);
+  EXPECT_LT((frontOf(tool, -Vector3d::UnitX()) - Vector3d(-0.3, 0, 0)).norm(), 1e-6);
+}
+
 }  // namespace
 }  // namespace sweep_guard_simulation

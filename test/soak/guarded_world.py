@@ -17,6 +17,8 @@ import world
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 START_TIME = 60.0  # [s] within which a master or a guard has to answer
+END_TIME = 20.0  # [s] within which a launched process ends
+PEER_END_TIME = 2.0  # [s] the same of a peer: after its master was started anew, one of rospy sometimes never ends
 
 
 def free_port():
@@ -103,7 +105,7 @@ class GuardedWorld:
         """Ends a process; a guard is started again by roslaunch."""
         self._signal(self.pids(name), by)
         if name != 'guard' and name in self.running:
-            self._wait(self.running.pop(name))
+            self._wait(self.running.pop(name), PEER_END_TIME)
 
     def restart_publishers(self):
         """Those of rospy do not register at a new master."""
@@ -121,9 +123,9 @@ class GuardedWorld:
                 pass
 
     @staticmethod
-    def _wait(process):
+    def _wait(process, seconds=END_TIME):
         try:
-            process.wait(20.0)
+            process.wait(seconds)
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()

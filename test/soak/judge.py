@@ -124,7 +124,7 @@ class Judge:
     # What was heard.
 
     def warning(self, spoken, stamp_clock, own_delay=0.0):
-        """spoken.at: receipt; stamp_clock: [ns] at receipt; own_delay: how late [s] the receipt may have been noted"""
+        """spoken.at: receipt; stamp_clock: [ns] now; own_delay: how late [s] that is, and the receipt may have been noted"""
         self.spoken.append(spoken)
         self.counts['warnings'] += 1
         latest = stamp_clock if spoken.clear else self._latest_heard(spoken.at - 0.5 - own_delay, stamp_clock)
@@ -147,7 +147,7 @@ class Judge:
 
     def _just_stepped(self, at, own_delay):
         """The guard's clock comes by a connection of its own, and what it says may wait for the judge."""
-        return any(begin <= at and at - 0.5 - own_delay <= end for begin, end in self.clock_steps)
+        return any(begin <= at + own_delay and at - 0.5 - own_delay <= end for begin, end in self.clock_steps)
 
     def _stepped_between(self, first, second):
         return any(begin <= second and first <= end for begin, end in self.clock_steps)

@@ -3,6 +3,7 @@
 import unittest
 import unittest.mock
 
+import availability
 import judge
 import trend
 import world
@@ -224,12 +225,49 @@ class JudgeTest(unittest.TestCase):
             says = lambda t: spoken(t, judge.UNKNOWN) if 5.5 <= t - BEGIN < 7.15 else spoken(t)
             self.assertNotIn('missed contact', soak.kinds(says))
 
+    def judged_late(self, stepped_at, own_delay):
+        """Judges a CLEAR of the second 1, which waited while the clock stepped back."""
+        judged = Soak().run(until=1.0)
+        judged.clock_step(BEGIN + stepped_at, BEGIN + stepped_at + 0.001)
+        judged.warning(spoken(BEGIN + 0.999), nanoseconds(BEGIN - 3.0), own_delay)
+        return [finding.kind for finding in judged.findings]
+
+    def test_a_warning_that_waited_while_the_clock_stepped_is_not_of_the_wrong_time(self):
+        self.assertEqual(self.judged_late(stepped_at=1.002, own_delay=0.01), [])
+        self.assertEqual(self.judged_late(stepped_at=1.1, own_delay=0.01), ['false CLEAR'])
+
     def test_decides_nothing_near_the_plate(self):
         soak = Soak().run(until=1.0)
         height = float(world.plate_heights(BEGIN + 0.9, 0.0))
         for z, side in ((0.02, judge.ABOVE), (-0.03, judge.CROSSING), (-0.2, judge.BELOW), (0.001, judge.UNDECIDED)):
             pose = judge.Pose(BEGIN + 0.9, nanoseconds(BEGIN + 0.9), (0.0, 0.0, height + z), (0.0, 0.0, height + z + 0.15), True)
             self.assertEqual(soak._side_of([pose])[0], side)
+
+
+class AvailabilityTest(unittest.TestCase):
+    def longest(self, departs, acts=lambda _: False):
+        """Longest time counted in a minute of UNKNOWN. departs: whether clock and poses do so at a time"""
+        available = availability.Availability()
+        for step in range(6000):
+            at = 0.01 * step
+            if departs(at):
+                available.departed('clock', at)
+                available.departed('tool_pose', at)
+            available.acting = acts(at)
+            available.heard(at, unknown=True)
+        return available.longest
+
+    def test_counts_what_no_disturbance_explains(self):
+        self.assertAlmostEqual(self.longest(lambda _: True), 60.0, delta=0.1)
+
+    def test_counts_nothing_while_processes_end_and_start(self):
+        self.assertAlmostEqual(self.longest(lambda _: True, acts=lambda at: 2.0 < at < 30.0), 30.0, delta=0.1)
+
+    def test_a_gap_of_what_departs_is_a_disturbance(self):
+        self.assertAlmostEqual(self.longest(lambda at: not 5.0 < at < 20.0), 40.0, delta=0.1)
+
+    def test_a_guard_that_never_connects_has_no_excuse(self):
+        self.assertAlmostEqual(self.longest(lambda at: at < 5.0), 60.0 - 25.0, delta=0.1)
 
 
 class TrendTest(unittest.TestCase):

@@ -6,6 +6,7 @@ it was not UNKNOWN for long while all was well, and nothing grew.
 """
 import argparse
 import collections
+import contextlib
 import heapq
 import os
 import signal
@@ -34,7 +35,6 @@ from listener import Listener  # noqa: E402
 
 GUARD = '/sweep_guard'
 MAX_UNKNOWN = 15.0  # [s] UNKNOWN or silent, though all has been well for so long
-GAPS = {'tool_pose': 0.05, 'mesh_vertices': 0.2, 'tf': 0.09}  # [s] between inputs: a longer one is a disturbance
 POSE_HEADER = struct.Struct('<4xIII')  # geometry_msgs/PoseStamped: stamp, length of frame_id
 POSE_VALUES = struct.Struct('<7d')
 NICE = -10  # of the soak and the peers, where that is allowed, so that load delays the guard and not the judge
@@ -56,7 +56,6 @@ class Part:
         self.lock = threading.Lock()  # of both
         self.plate_x, self.plate_y = world.plate_corners()
         self.corners = numpy.stack([self.plate_x, self.plate_y], axis=-1).astype(numpy.float32)
-        self.departed = {}  # newest of each topic
         self.world = GuardedWorld(folder, simulated, self.note)
         self.latencies = collections.deque()
         self.lateness = 0.0
@@ -79,9 +78,7 @@ class Part:
             if not corrupted:
                 raise error
         with self.lock:
-            if at - self.departed.get(topic, at) > GAPS.get(topic, 1e9):
-                self.availability.disturbed(at)
-            self.departed[topic] = at
+            self.availability.departed(topic, at)
 
     def _note(self, topic, at, data, corrupted):
         if topic == 'tool_pose':
@@ -131,7 +128,8 @@ class Part:
                               message.level, bool(message.clear), message.reasons,
                               message.held_since.to_nsec() if message.held else 0, message.run_id, message.text)
         with self.lock:
-            self.judge.warning(spoken, self.world.clock.now(), self.lateness)
+            own_delay = max(self.lateness, time.monotonic() - at)  # the lock, too, takes time
+            self.judge.warning(spoken, self.world.clock.now(), own_delay)
             self.availability.heard(at, message.level == Warning.UNKNOWN, message.text)
             self.run = message.run_id
 
@@ -165,9 +163,7 @@ class Part:
             now = time.monotonic()
             with self.lock:
                 self.judge.judge_contacts(now - SETTLED)
-                for topic, gap in GAPS.items():
-                    if now - self.departed.get(topic, 0.0) > gap:
-                        self.availability.disturbed(now)
+                self.availability.look(now)
                 if now - (self.availability.heard_at or now) > 0.5:
                     self.availability.heard(now, unknown=True)
 
@@ -254,17 +250,25 @@ class Part:
 
     def do(self, event):
         """Begins what an event says. Returns after how many seconds which function ends it, or None."""
-        now = time.monotonic()
+        with self.disturbing(event.duration):
+            return getattr(self, 'do_' + event.what.replace(' ', '_'))(event)
+
+    @contextlib.contextmanager
+    def disturbing(self, seconds=0.0):
+        """All is well again so many seconds after its end."""
         with self.lock:
-            self.availability.disturbed(now + event.duration)
-        name = event.what.replace(' ', '_')
-        return getattr(self, 'do_' + name)(event)
+            self.availability.acting = True
+        try:
+            yield
+        finally:
+            with self.lock:
+                self.availability.acting = False
+                self.availability.disturbed(time.monotonic() + seconds)
 
     def after(self, event, function):
         def end():
-            function()
-            with self.lock:
-                self.availability.disturbed(time.monotonic())
+            with self.disturbing():
+                function()
         return event.duration, end
 
     def do_kill(self, event, by=signal.SIGKILL):

@@ -93,7 +93,7 @@ class Guard {
   /// @param end  of the prediction, counted from now, > 0 (asserted)
   PredictedMotion predictMotion(Duration age, Duration end) const;
 
-  /// Returns whether the tool at the newest pose, grown by a distance, meets a workpiece. False before the first sweep,
+  /// Returns whether the tool at the newest pose, grown by a distance, meets a workpiece other than allowed. False before the first sweep,
   /// and if the frame of the workpiece is not known at that pose.
   /// @param distance  [m], >= 0; not checked
   /// @throws DeviceError if the detector fails

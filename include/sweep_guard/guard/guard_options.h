@@ -8,6 +8,7 @@
 
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/guard/allowed_contact.h"
 #include "sweep_guard/guard/motion_predictor.h"
 #include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/prediction/horizon.h"
@@ -22,6 +23,8 @@ struct GuardOptions {
   /// Contacts so many standard deviations off the predicted path are not looked for, which saves time: their probability
   /// is 0. From 0, where only contacts of the path itself are found, to 3.09; not checked. See deviationsAt().
   double max_deviations = 3.09;
+  /// Contact of these pairs is reported apart (SweepResult::allowed), is not predicted, and keeps nothing from being clear.
+  AllowedPairs allowed = {};
   Duration cycle = fromSeconds(1.0 / 15.0);  ///< time available for the sweep to one pose and for its prediction, > 0
   /// Clock that measures what sweeps cost; must not be empty or go back (not checked). Called in the guard's thread.
   std::function<SteadyTime()> clock = std::chrono::steady_clock::now;

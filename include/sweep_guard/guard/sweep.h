@@ -9,6 +9,7 @@
 #include "sweep_guard/detection/time_of_impact.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/guard/allowed_contact.h"
 
 namespace sweep_guard_core {
 
@@ -30,6 +31,14 @@ struct TriangleContact {
   bool intended = false;
 };
 
+/// Holds what the pieces of the tool that may touch a mesh (AllowedPieces) meet of it during one motion.
+struct AllowedContact {
+  TriangleSet triangles = {};                    ///< triangles that a swept volume may meet: ascending, each once
+  std::vector<TriangleContact> in_contact = {};  ///< those in contact, as in SweepResult; empty without narrow phase
+
+  void clear();  ///< resets all fields and keeps the buffers
+};
+
 /// Holds the triangles of one mesh that the tool meets during one motion.
 struct SweepResult {
   TriangleSet triangles;  ///< triangles that a swept volume may meet: ascending, each once
@@ -47,13 +56,17 @@ struct SweepResult {
   /// A piece of the tool lies wholly inside the closed mesh. Tested only if the sweep's `not_ruled_out` holds nothing but
   /// `intended`, and then not for the links that touch as intended; false otherwise, and for a mesh that is not closed().
   bool inside = false;
+  /// What is met by the pieces that may; all other members but `margin` and `volumes_M` are without these pieces.
+  AllowedContact allowed = {};
 
   /// Returns whether the tool met the mesh, or whether it is not ruled out that it did.
   bool contact() const { return inside || !not_ruled_out.empty(); }
   /// Returns whether there is a contact() other than intended.
   bool unintendedContact() const { return inside || not_ruled_out.size() > intended.size(); }
   TriangleSet unintended() const;  ///< `not_ruled_out` without `intended`
-  void clear();                    ///< resets all fields and keeps the buffers
+  /// Returns the triangles of `allowed` in contact; without narrow phase, all.
+  TriangleSet allowedTriangles() const;
+  void clear();  ///< resets all fields and keeps the buffers
 };
 
 struct PathRequest {
@@ -65,6 +78,7 @@ struct PathRequest {
   /// Of each sweep: bound [m], >= 0, on the distance of a tool point from where it would be if the tool moved as a Motion.
   /// Empty: 0
   std::vector<double> deviation_bounds = {};
+  const AllowedPieces& allowed = kNoAllowedPieces;
 };
 
 /// Holds what the tool meets along a path of poses; one sweep for each two consecutive poses.

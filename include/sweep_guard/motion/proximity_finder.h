@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/guard/allowed_contact.h"
 #include "sweep_guard/guard/intention.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/guard/sweep_report.h"
@@ -27,6 +28,7 @@ struct ProximityRequest {
   /// Where contact is meant: a triangle that a link may touch counts from the allowed depth on, for the pieces of this
   /// link. Null: nowhere.
   const Intentions* intentions = nullptr;
+  const AllowedPairs& allowed = kNoAllowedPairs;  ///< a workpiece is no surface for the pieces that may touch it
 };
 
 /// A plane and what it was made for.

@@ -69,6 +69,9 @@ sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
 /// @param tool  the one that was swept: names the links (its pieces are not checked)
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const sweep_guard_core::SweepResult& result, const sweep_guard_core::Tool& tool);
+/// Converts what is met as allowed (SweepResult::allowed) in the same way.
+sweep_guard::ObjectContacts allowedMsg(const sweep_guard_core::Workpiece& workpiece,
+                                       const sweep_guard_core::SweepResult& result, const sweep_guard_core::Tool& tool);
 /// Converts the objects that a swept volume meets or that the tool is inside, in the report's order. The caller sets
 /// frame, tool and volume. The message's interval is that of the report; times of impact are fractions of it, although
 /// the interval of their SweptObject may begin later.

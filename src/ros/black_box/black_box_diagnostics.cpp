@@ -27,9 +27,13 @@ void BlackBoxDiagnostics::memory(Status& status) const {
   if (warnings_.getNumPublishers() == 0) {
     status.summary(DiagnosticStatus::WARN, "no guard publishes " + warnings_.getTopic() + ": no contact is noticed");
   }
+  if (summary.too_large > 0) {
+    status.mergeSummary(DiagnosticStatus::WARN, "messages are larger than half of memory: see the log");
+  }
   status.addf("time kept [s]", "%.1f", sweep_guard_core::toSeconds(summary.length));
   status.add("messages", summary.messages);
   status.addf("size [MiB]", "%.1f", mebibytes(summary.size));
+  status.add("messages too large", summary.too_large);
 }
 
 void BlackBoxDiagnostics::recordings(Status& status) const {

@@ -83,6 +83,8 @@ BlackBoxParameters loadBlackBoxParameters(const ros::NodeHandle& private_node) {
   parameters.proximity = read.flag("proximity", false,
                                    "Records ~proximity, too. The guard then computes it at every pose, as for "
                                    "motion_guard.");
+  parameters.interaction =
+      read.flag("interaction", false, "Records ~interaction, too. The guard then computes it at every pose.");
   read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
   parameters.settings = read.settings();
   parameters.described = read.described();

@@ -23,6 +23,7 @@ struct BlackBoxParameters {
   std::uintmax_t quota;     ///< [bytes]
   std::uintmax_t min_free;  ///< [bytes]
   bool proximity;
+  bool interaction;
   ParameterReader::Settings settings;    ///< as read
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order
 };

@@ -32,6 +32,7 @@ std::vector<RecordedTopic> recordedTopics(const ros::NodeHandle& node, const Bla
     add(latched, KeptMessages::kNewest);
   }
   if (parameters.proximity) add("proximity", KeptMessages::kNone);
+  if (parameters.interaction) add("interaction", KeptMessages::kNone);
   return topics;
 }
 

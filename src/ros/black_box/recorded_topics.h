@@ -27,7 +27,8 @@ struct RecordedTopic {
   std::uint32_t queue_length = 2000;  ///< messages
 };
 
-/// Returns the inputs of the guard by the names that remappings of the node give them, and its outputs.
+/// Returns the inputs of the guard by the names that remappings of the node give them, and its outputs, but for ~markers and
+/// ~view, which draw what the others say.
 std::vector<RecordedTopic> recordedTopics(const ros::NodeHandle& node, const BlackBoxParameters& parameters);
 
 constexpr const char* kRecordedWarning = "/sweep_guard/warning";

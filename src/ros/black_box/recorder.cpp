@@ -16,8 +16,8 @@
 namespace sweep_guard_ros {
 namespace {
 
+using sweep_guard_core::RecordingCause;
 using sweep_guard_core::RecordingTrigger;
-using sweep_guard_core::SteadyTime;
 
 constexpr auto kInspectionPeriod = std::chrono::seconds(5);
 constexpr std::size_t kObjects = 600;  // of a message in memory, besides its bytes and its definition [bytes]
@@ -62,18 +62,34 @@ void Recorder::hear(const RecordedTopic& topic, const ros::MessageEvent<const to
   std::vector<std::uint8_t> bytes;
   if (is_warning || topic.kept != KeptMessages::kNone) bytes = bytesOf(*message);
   const Wire wire{bytes.data(), bytes.size()};
-  const std::size_t size = message->size() + message->getMessageDefinition().size() + kObjects;
-  const sweep_guard_core::Time received = fromMsg(event.getReceiptTime());
   std::string key = messageKey(topic, event.getPublisherName(), wire);
+  const std::size_t size = message->size() + message->getMessageDefinition().size() + 2 * key.size() + kObjects;
+  const sweep_guard_core::Time received = fromMsg(event.getReceiptTime());
 
-  const std::lock_guard lock(mutex_);
-  if (window_.hasGoneBack(received)) {
-    if (trigger_.waiting() && !summary_.writing) beginRecording();
-    window_.beginAnew();
+  bool kept = false;
+  {
+    const std::lock_guard lock(mutex_);
+    makeRoomFor(received, size);
+    kept = window_.add({received, size, std::move(key), {topic.recorded, message, event.getConnectionHeaderPtr()}});
+    if (!kept) ++summary_.too_large;
+    if (is_warning) heardWarning(wire);
   }
-  window_.add({received, size, std::move(key), {topic.recorded, message, event.getConnectionHeaderPtr()}});
-  if (is_warning) heardWarning(wire);
+  if (kept) return;
+  log_.error("too large", "black box: a message on " + topic.topic + " is not kept: it takes " +
+                              std::to_string(size >> 20U) + " MiB, more than half of memory");
 }
+
+// An event that waits is written before its messages leave the window, also where the clock leaps or the memory is full.
+void Recorder::makeRoomFor(sweep_guard_core::Time received, std::size_t size) {
+  const bool anew = window_.hasGoneBack(received);
+  if (trigger_.waiting() && !summary_.writing) {
+    const bool due = trigger_.due({received, std::chrono::steady_clock::now()});
+    if (anew || due || window_.isLeaving(trigger_.waiting()->begin.stamp, size)) beginRecording();
+  }
+  if (anew) window_.beginAnew();
+}
+
+sweep_guard_core::Instant Recorder::now() const { return {window_.newest(), std::chrono::steady_clock::now()}; }
 
 void Recorder::heardWarning(Wire message) {
   try {
@@ -86,37 +102,40 @@ void Recorder::heardWarning(Wire message) {
                                      static_cast<std::uint32_t>(message.size));
   ros::serialization::deserialize(stream, warning);
   if (warning.level > sweep_guard::Warning::CONTACT) return;
-  trigger_.warned(static_cast<sweep_guard_core::WarningLevel>(warning.level), std::chrono::steady_clock::now());
+  trigger_.warned(static_cast<sweep_guard_core::WarningLevel>(warning.level), now());
 }
 
 std::string Recorder::requestRecording() {
   const std::lock_guard lock(mutex_);
-  trigger_.requested(std::chrono::steady_clock::now());
+  trigger_.requested(now());
   return summary_.problem;
 }
 
 void Recorder::tick() {
-  const SteadyTime now = std::chrono::steady_clock::now();
   const std::lock_guard lock(mutex_);
   if (summary_.writing) return;
-  if (trigger_.due(now)) {
+  const sweep_guard_core::Instant instant = now();
+  if (trigger_.due(instant)) {
     beginRecording();
-  } else if (now >= next_inspection_) {
-    next_inspection_ = now + kInspectionPeriod;
+  } else if (instant.steady >= next_inspection_) {
+    next_inspection_ = instant.steady + kInspectionPeriod;
     writer_.submit<void>([this] { attempt([this] { inspectFolder(); }); });
   }
 }
 
 void Recorder::beginRecording() {
   const RecordingTrigger::Event event = *trigger_.take();
-  const auto ago = std::chrono::steady_clock::now() - event.time;
+  const auto ago = std::chrono::steady_clock::now() - event.begin.steady;
   const std::string name = sweep_guard_core::recordingName(
       std::chrono::system_clock::now() - std::chrono::duration_cast<std::chrono::system_clock::duration>(ago),
       event.cause);
-  const auto messages = std::make_shared<const HeardMessages>(window_.snapshot());
+  auto messages = std::make_shared<const HeardMessages>(window_.snapshot());
+  const bool covered = event.cause == RecordingCause::kSave || window_.covers(event.begin.stamp);
   summary_.writing = true;
-  recording_ = writer_.submit<void>([this, name, messages] {
+  recording_ = writer_.submit<void>([this, name, messages = std::move(messages), covered]() mutable {
+    if (!covered) log_.error("late", "black box: " + name + " was written too late to contain its event");
     const bool written = attempt([&] { write(name, *messages); });
+    messages.reset();  // recording_ keeps this function until the next one
     const std::lock_guard lock(mutex_);
     summary_.writing = false;
     ++(written ? summary_.written : summary_.failed);

@@ -49,7 +49,8 @@ class Recorder {
   struct Summary {
     sweep_guard_core::Duration length;  ///< of what is kept
     std::size_t messages;
-    std::size_t size;  ///< [bytes]
+    std::size_t size;           ///< [bytes]
+    std::size_t too_large = 0;  ///< messages that were not kept
     std::optional<sweep_guard_core::RecordingCause> waiting;
     bool writing;
     std::size_t written = 0;
@@ -64,6 +65,8 @@ class Recorder {
   using Window = sweep_guard_core::MessageWindow<HeardMessage>;
 
   // With the lock.
+  sweep_guard_core::Instant now() const;
+  void makeRoomFor(sweep_guard_core::Time received, std::size_t size);
   void heardWarning(Wire message);
   void beginRecording();
   // In the thread of the writer.

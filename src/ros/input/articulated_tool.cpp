@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/kinematics/robot_motion.h"
 #include "sweep_guard/ros/conversions.h"
@@ -18,41 +17,22 @@ using sweep_guard_core::Time;
 constexpr double kMaxDeviation = 5e-4;  // [m], of a body from a Motion
 constexpr size_t kMostParts = 100;      // of a jump
 
-std::vector<std::optional<double>> fixedOf(const Parameters& parameters) {
-  std::vector<std::optional<double>> fixed;
-  for (const auto& variable : parameters.robot->robot.tree.variables()) {
-    const auto joint = parameters.fixed_joints.find(variable.name);
-    fixed.push_back(joint == parameters.fixed_joints.end() ? std::nullopt : std::optional(joint->second));
-  }
-  return fixed;
-}
-
 }  // namespace
 
 ArticulatedTool::ArticulatedTool(const Parameters& parameters)
     : model_(parameters.robot),
       root_moves_(parameters.tool_source != ToolSource::kJointStates),
       root_timeout_(parameters.joint_timeout),
-      timeline_(model_->robot.tree, fixedOf(parameters), root_moves_) {
-  const auto& variables = model_->robot.tree.variables();
-  for (size_t i = 0; i < variables.size(); ++i) {
-    variables_.emplace(variables[i].name, i);
-    const auto given = parameters.joint_timeouts.find(variables[i].name);
+      names_(model_->robot.tree),
+      timeline_(model_->robot.tree, fixedPositions(model_->robot.tree, parameters.fixed_joints), root_moves_) {
+  for (const auto& variable : model_->robot.tree.variables()) {
+    const auto given = parameters.joint_timeouts.find(variable.name);
     timeouts_.push_back(given == parameters.joint_timeouts.end() ? parameters.joint_timeout : given->second);
   }
 }
 
 void ArticulatedTool::add(const std::string& publisher, const sensor_msgs::JointState& positions) {
-  if (positions.position.size() != positions.name.size()) {
-    throw sweep_guard_core::InvalidInput("it names " + std::to_string(positions.name.size()) + " joints and has " +
-                                         std::to_string(positions.position.size()) +
-                                         " positions: publish one for each");
-  }
-  named_.clear();
-  for (size_t i = 0; i < positions.name.size(); ++i) {
-    const auto variable = variables_.find(positions.name[i]);
-    if (variable != variables_.end()) named_.push_back({variable->second, positions.position[i]});
-  }
+  names_.find(positions, named_);
   timeline_.add(publisher, fromMsg(positions.header.stamp), named_);
 }
 

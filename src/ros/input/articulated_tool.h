@@ -4,13 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
+#include "ros/input/joint_names.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/kinematics/joint_timeline.h"
@@ -58,8 +57,8 @@ class ArticulatedTool {
   const std::shared_ptr<const RobotModel> model_;
   const bool root_moves_;
   const sweep_guard_core::Duration root_timeout_;
-  std::unordered_map<std::string, size_t> variables_;  // by name of the joint
-  std::vector<sweep_guard_core::Duration> timeouts_;   // by variable
+  const JointNames names_;
+  std::vector<sweep_guard_core::Duration> timeouts_;  // by variable
   sweep_guard_core::JointTimeline timeline_;
   std::vector<sweep_guard_core::JointTimeline::Position> named_;  // in the message
   std::optional<sweep_guard_core::Time> stamp_;                   // of state_

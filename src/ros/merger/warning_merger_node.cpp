@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "ros/merger/heard_warning.h"
 #include "ros/output/flush.h"
 #include "ros/output/run_id.h"
 #include "ros/sole_publisher.h"
@@ -53,27 +54,6 @@ std_msgs::Bool flag(bool raised) {
   return message;
 }
 
-HeardWarning heardFrom(const sweep_guard::Warning& message) {
-  if (message.level > sweep_guard::Warning::CONTACT) {
-    throw InvalidInput("level " + std::to_string(message.level) + " is unknown: guard and merger differ in version");
-  }
-  HeardWarning warning;
-  warning.level = static_cast<WarningLevel>(message.level);
-  warning.reasons = message.reasons;
-  warning.stamp = fromMsg(message.header.stamp);
-  if (message.time_to_collision >= ros::Duration(0)) {
-    warning.time_to_collision = std::chrono::nanoseconds(message.time_to_collision.toNSec());
-  }
-  warning.covered_until = fromMsg(message.covered_until);
-  warning.valid_until = fromMsg(message.valid_until);
-  warning.held = message.held != 0;
-  warning.acknowledged = message.acknowledged != 0;
-  warning.intended = message.intended != 0;
-  warning.text = sweep_guard_core::printable(message.text);
-  warning.received = now();
-  return warning;
-}
-
 bool differ(const sweep_guard::Warning& a, const sweep_guard::Warning& b) {
   const auto state = [](const sweep_guard::Warning& warning) {
     return std::tie(warning.level, warning.reasons, warning.held, warning.acknowledged, warning.intended);
@@ -92,7 +72,8 @@ WarningMergerNode::WarningMergerNode(const ros::NodeHandle& node, const ros::Nod
       supervisor_(process),
       merger_(readGuards(read), readTimeout(read)),
       newest_(merger_.guards().size()),
-      updater_(node, private_node, private_node.getNamespace()) {
+      updater_(node, private_node, private_node.getNamespace()),
+      peer_watch_([this] { return aGuardIsSilent(); }) {
   read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
   read.warnOfUnread();
   settings_ = read.settings();
@@ -128,6 +109,7 @@ void WarningMergerNode::start() {
   ticks_.start(supervisor_, {"ticks"});
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
   master_watch_.start(supervisor_);
+  peer_watch_.start(supervisor_);
   supervisor_.start();
 }
 
@@ -205,6 +187,15 @@ sweep_guard::Warning WarningMergerNode::merged(const sweep_guard_core::Instant& 
   message.intended = all.intended;
   message.text = all.text;
   return message;
+}
+
+bool WarningMergerNode::aGuardIsSilent() const {
+  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::Instant at = now();
+  for (size_t guard = 0; guard < newest_.size(); ++guard) {
+    if (!merger_.silence(guard, at).empty()) return true;
+  }
+  return false;
 }
 
 void WarningMergerNode::report(Status& status, size_t guard) {

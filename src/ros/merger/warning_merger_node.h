@@ -12,6 +12,7 @@
 #include "ros/bounded.h"
 #include "ros/log_throttle.h"
 #include "ros/master_watch.h"
+#include "ros/peer_watch.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
 #include "sweep_guard/common/priority_mutex.h"
@@ -44,6 +45,7 @@ class WarningMergerNode {
   void publishFlags();
   sweep_guard::Warning merged(const sweep_guard_core::Instant& now) const;
   void report(Status& status, size_t guard);
+  bool aGuardIsSilent() const;
 
   // Members use only earlier members.
   MasterWatch master_watch_;  // before what registers at the master
@@ -62,6 +64,7 @@ class WarningMergerNode {
   diagnostic_updater::Updater updater_;
   QueueThread thread_;
   std::vector<BoundedSubscriber> subscribers_;  // by guard
+  PeerWatch peer_watch_;
   TimerThread ticks_;
   TimerThread reports_;
 };

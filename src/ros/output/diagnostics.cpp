@@ -44,6 +44,7 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.add("mesh", [this](Status& status) { mesh(status); });
   updater_.add("mesh vertices", [this](Status& status) { vertices(status); });
   updater_.add("workpieces", [this](Status& status) { workpieces(status); });
+  updater_.add("allowed contact", [this](Status& status) { allowed(status); });
   updater_.add("detector", [this](Status& status) { detector(status); });
   updater_.add("prediction", [this](Status& status) { prediction(status); });
   updater_.add("stages", [this](Status& status) { stages(status); });
@@ -141,6 +142,16 @@ void Diagnostics::workpieces(Status& status) const {
     status.addf("'" + workpiece->id + "'", "revision %u, %zu triangles in '%s', %.3f s old", workpiece->revision,
                 workpiece->mesh_M.triangles().size(), workpiece->frame.c_str(),
                 toSeconds(sweep_guard_core::age(seen, at)));
+  }
+}
+
+void Diagnostics::allowed(Status& status) const {
+  const auto matches = sources_.allowed.matches();
+  status.summary(DiagnosticStatus::OK,
+                 matches.empty() ? "none (tool/allowed)" : std::to_string(matches.size()) + " pairs may touch");
+  for (const auto& [pair, has_matched] : matches) {
+    if (!has_matched) status.mergeSummary(DiagnosticStatus::WARN, "no workpiece '" + pair.mesh_id + "' so far");
+    status.add(describe(pair), has_matched ? "may touch" : "no such workpiece so far");
   }
 }
 

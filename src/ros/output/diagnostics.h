@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "guard/allowed_matches.h"
 #include "monitor/sweep_statistics.h"
 #include "ros/input/mesh_input.h"
 #include "ros/input/pose_input.h"
@@ -20,6 +21,7 @@ struct DiagnosticsSources {
   const PoseInput& poses;
   const MeshInput& meshes;
   const sweep_guard_core::WorkpieceStore& workpieces;
+  const sweep_guard_core::AllowedMatches& allowed;
   const sweep_guard_core::WarningMonitor& monitor;
   sweep_guard_core::SweepStatistics& statistics;
   const ReconfigureServer& reconfigure;
@@ -30,8 +32,8 @@ struct DiagnosticsSources {
 void reportDetector(const sweep_guard_core::SweepStatistics::Summary& statistics, const Parameters& parameters,
                     diagnostic_updater::DiagnosticStatusWrapper& status);
 
-/// Publishes on /diagnostics the warning, each input (source, publishers, rate, age, last error), the workpieces, the
-/// detector and its deadlines, the prediction, the time in each stage, the changed parameters, and the memory of the
+/// Publishes on /diagnostics the warning, each input (source, publishers, rate, age, last error), the workpieces, which
+/// contact is allowed, the detector and its deadlines, the prediction, the time in each stage, the changed parameters, and the memory of the
 /// process.
 class Diagnostics {
  public:
@@ -61,6 +63,7 @@ class Diagnostics {
   void vertices(Status& status);
   void input(Status& status, const Input& input, Counts& previous) const;
   void workpieces(Status& status) const;
+  void allowed(Status& status) const;
   void detector(Status& status) const;
   void prediction(Status& status) const;
   void stages(Status& status);

@@ -62,12 +62,25 @@ void addContactTriangles(visualization_msgs::MarkerArray& array, const sweep_gua
   }
 }
 
+void addAllowedTriangles(visualization_msgs::MarkerArray& array, const sweep_guard_core::SweepReport& report,
+                         double lift, WarningLevel level) {
+  int index = 0;
+  for (const sweep_guard_core::SweptObject& object : report.objects) {
+    if (object.workpiece->of_other_tool) continue;
+    Surface surface("allowed_triangles", index++, object.workpiece->frame, report.end, lift);
+    surface.paint(unlessUnknown(level, color(0.4, 0.55, 0.65, 0.6)), unlessUnknown(level, color(0.25, 0.35, 0.4, 0.6)));
+    surface.add(object.workpiece->mesh_M, object.result.allowedTriangles(), lift);
+    surface.moveInto(array);
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string>& markerNamespaces() {
-  static const std::vector<std::string> namespaces = {"tool",           "swept_volume",     "contact_triangles",
-                                                      "predicted_tool", "predicted_volume", "predicted_triangles",
-                                                      "trajectory",     "warning_text"};
+  static const std::vector<std::string> namespaces = {
+      "tool",           "swept_volume",     "contact_triangles",   "allowed_triangles",
+      "predicted_tool", "predicted_volume", "predicted_triangles", "trajectory",
+      "warning_text"};
   return namespaces;
 }
 
@@ -103,6 +116,7 @@ void Markers::addMeasured(visualization_msgs::MarkerArray& array, const MarkerSc
   addText(array, std::move(text), scene.warning);
 
   addSweptVolumes(array, *scene.newest, level);
+  addAllowedTriangles(array, *scene.newest, liftOff(*scene.tool), level);
   addTrail(array, scene.trail, fixed_frame_, level);
   if (scene.contact && level == WarningLevel::kContact) {
     addContactTriangles(array, *scene.contact, stamp, liftOff(*scene.tool), scene.warning.held_since.has_value());

@@ -74,7 +74,9 @@ sweep_guard::View toMsg(const MarkerScene& scene) {
   msg.header.stamp = toMsg(scene.newest->end);
   for (const sweep_guard_core::SweptObject& object : scene.newest->objects) {
     if (object.workpiece->of_other_tool) continue;  // its frame is not in tf, and its own guard shows it
-    viewOf(*object.workpiece, msg.objects).measured = volumeMsgs(object.result.volumes_M);
+    ObjectView& view = viewOf(*object.workpiece, msg.objects);
+    view.measured = volumeMsgs(object.result.volumes_M);
+    view.allowed = object.result.allowedTriangles();
   }
   if (scene.contact && scene.warning.level == sweep_guard_core::WarningLevel::kContact) addContact(scene, msg.objects);
   if (!scene.prediction) return msg;

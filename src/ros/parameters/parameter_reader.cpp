@@ -83,6 +83,24 @@ XmlRpc::XmlRpcValue toInteger(const XmlRpc::XmlRpcValue& value) {
 
 std::string bracketed(const std::vector<std::string>& words) { return "[" + listed(words) + "]"; }
 
+std::string grouped(const std::vector<std::string>& names, const std::vector<std::string>& texts) {
+  std::vector<std::string> entries;
+  for (size_t i = 0; i < names.size(); ++i) entries.push_back(names[i] + ": " + texts[i]);
+  return "{" + listed(entries) + "}";
+}
+
+// Returns the texts of a group by these names; empty if it is not one of just these.
+std::vector<std::string> textsOf(XmlRpc::XmlRpcValue& group, const std::vector<std::string>& names) {
+  if (group.getType() != XmlRpc::XmlRpcValue::TypeStruct || group.size() != static_cast<int>(names.size())) return {};
+  std::vector<std::string> texts;
+  for (const std::string& name : names) {
+    if (!group.hasMember(name) || group[name].getType() != XmlRpc::XmlRpcValue::TypeString) return {};
+    texts.push_back(static_cast<std::string>(group[name]));
+    if (texts.back().empty()) return {};
+  }
+  return texts;
+}
+
 std::string bracketed(const std::vector<int>& integers) {
   std::vector<std::string> words;
   words.reserve(integers.size());
@@ -241,6 +259,24 @@ std::vector<std::string> ParameterReader::nodes(const std::string& key, const st
     }
   }
   return nodes;
+}
+
+std::vector<std::vector<std::string>> ParameterReader::groups(const std::string& key,
+                                                              const std::vector<std::string>& names,
+                                                              const std::string& effect) {
+  XmlRpc::XmlRpcValue list;
+  const std::string wanted =
+      "a list of groups " + grouped(names, std::vector<std::string>(names.size(), "TEXT")) + ", or []";
+  std::vector<std::vector<std::string>> groups;
+  std::vector<std::string> entries;
+  const bool set = getList(key, wanted, list);
+  for (int i = 0; set && i < list.size(); ++i) {
+    groups.push_back(textsOf(list[i], names));
+    if (groups.back().empty()) refuse(key, list, wanted + ", none of the texts empty");
+    entries.push_back(grouped(names, groups.back()));
+  }
+  described_.push_back({key, bracketed(entries), std::string("[]"), 0.0, 0.0, {}, wanted, effect});
+  return groups;
 }
 
 std::map<std::string, double> ParameterReader::numbers(const std::string& key, const std::string& effect,

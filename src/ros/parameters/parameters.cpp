@@ -203,9 +203,11 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
   const std::map<std::string, ToolSource> sources = {
       {"topic", ToolSource::kTopic}, {"tf", ToolSource::kTf}, {"joint_states", ToolSource::kJointStates}};
   parameters.tool_source = sources.at(source);
-  parameters.tool_frame = read.name("tool_frame", "tool",
-                                    "tf frame of the tool, and the tool's name in messages. With tool/type urdf: the "
-                                    "link that the poses are of; `tool` means the first of tool/links.");
+  parameters.tool_frame =
+      read.name("tool_frame", "tool",
+                "tf frame of the tool, and the tool's name in messages. With tool/type urdf: the "
+                "link that the poses are of; `tool` means the first of tool/links or, with tool_source "
+                "joint_states, the root of the robot.");
   readTool(read, before, parameters);
   parameters.detector.name =
       read.choice("detector", "select", sweep_guard_core::detectorNames(),

@@ -1,10 +1,12 @@
 #include "ros/parameters/tool_parameters.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "ros/tool/robot_tree.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -83,6 +85,39 @@ void readRobot(ParameterReader& read, const std::string& parameter, const ToolMo
   }
 }
 
+sweep_guard_core::AllowedPairs readAllowed(ParameterReader& read) {
+  sweep_guard_core::AllowedPairs pairs;
+  for (const auto& texts : read.groups("tool/allowed", {"link", "mesh_id"},
+                                       "Contact of this link of the tool with this workpiece is allowed: it is no "
+                                       "warning and limits no motion; `*`: each link, or each workpiece. A cylinder's "
+                                       "link is `*`. What the link touches is `allowed` in ~contacts.")) {
+    if (!sweep_guard_core::isName(texts[1])) {
+      throw sweep_guard_core::InvalidInput("parameter tool/allowed: mesh_id '" + sweep_guard_core::printable(texts[1]) +
+                                           "' is no name of a workpiece: at most 128 printable characters");
+    }
+    pairs.push_back({texts[0], texts[1]});
+  }
+  return pairs;
+}
+
+std::string linksOf(const sweep_guard_core::Tool& tool) {
+  std::set<std::string> links;
+  for (const sweep_guard_core::ConvexPiece& piece : tool.pieces()) links.insert(piece.link);
+  if (links == std::set<std::string>{""}) return "a cylinder has one link, without a name: write '*'";
+  std::string list;
+  for (const std::string& link : links) list += (list.empty() ? "'" : ", '") + link + "'";
+  return "it has " + list + ", or '*' for all";
+}
+
+void checkAllowed(const sweep_guard_core::AllowedPairs& pairs, const sweep_guard_core::Tool& tool) {
+  for (const sweep_guard_core::AllowedPair& pair : pairs) {
+    const auto holds = [&](const sweep_guard_core::ConvexPiece& piece) { return pair.holds(piece.link); };
+    if (std::any_of(tool.pieces().begin(), tool.pieces().end(), holds)) continue;
+    throw sweep_guard_core::InvalidInput("parameter tool/allowed: the tool has no link '" +
+                                         sweep_guard_core::printable(pair.link) + "': " + linksOf(tool));
+  }
+}
+
 using Bodies = std::vector<sweep_guard_core::Tool>;
 
 std::map<std::string, Duration> readJointTimeouts(ParameterReader& read) {
@@ -110,12 +145,14 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
                                             "urdf only: name of the parameter that holds the URDF, searched from the "
                                             "node's namespace upwards.");
   read.ignore(description);
-  const ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
+  ToolModelOptions options = readModelOptions(read, parameters.tool_frame, padding);
+  options.of_root = parameters.tool_source == ToolSource::kJointStates;
   const bool joint_states = read.flag(
       "tool/joint_states", false,
       "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
       "them moves. Implied by tool_source joint_states. ~proximity and ~interaction are silent then.");
   parameters.joint_timeouts = readJointTimeouts(read);
+  parameters.guard.allowed = readAllowed(read);
   parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
   parameters.tool_padding = padding;
   if (before != nullptr && before->tool_padding == padding) {
@@ -136,6 +173,7 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
                                            parameters.why_no_robot);
     }
   }
+  checkAllowed(parameters.guard.allowed, *parameters.tool);
   parameters.bodies = parameters.articulated
                           ? std::shared_ptr<const Bodies>(parameters.robot, &parameters.robot->robot.tools)
                           : std::make_shared<const Bodies>(Bodies{*parameters.tool});

@@ -46,6 +46,8 @@ void fill(CheckSweep::Response& response, const PathQuestion& question, const st
     response.margin = std::max(response.margin, result.all.margin);
     if (!result.all.triangles.empty() || result.all.inside)
       response.objects.push_back(toMsg(*question.paths[i].workpiece, result.all, *question.parameters->tool));
+    if (!result.all.allowed.triangles.empty())
+      response.allowed.push_back(allowedMsg(*question.paths[i].workpiece, result.all, *question.parameters->tool));
     if (result.first_contact) first = earlier(first, {*result.first_contact, result.time_of_impact});
   }
   response.collision = first.has_value();
@@ -76,6 +78,7 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   response.message =
       doubts_before.empty() ? tests_.doubts(*question, request.mesh_ids, framesOf(request)) : doubts_before;
   response.clear = !response.collision && response.message.empty();
+  addLeftOut(*question, response.message);
 }
 
 std::vector<Eigen::Isometry3d> CheckSweepService::pathIn(const std::string& mesh_frame,

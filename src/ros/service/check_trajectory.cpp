@@ -117,6 +117,7 @@ void fill(CheckTrajectory::Response& response, const PathQuestion& question, con
     const sweep_guard_core::SweepResult& all = results[i].all;
     response.margin = std::max(response.margin, all.margin);
     if (!all.triangles.empty() || all.inside) add(toMsg(*workpiece, all, *tool), response.objects);
+    if (!all.allowed.triangles.empty()) add(allowedMsg(*workpiece, all, *tool), response.allowed);
     if (!results[i].first_contact) continue;
     const Collision collision = collisionOf(results[i], i, robot_path);
     if (!first || isEarlier(collision, *first)) first = collision;
@@ -163,6 +164,7 @@ void CheckTrajectoryService::check(const CheckTrajectory::Request& request, Chec
                          ? tests_.doubts(*question, request.mesh_ids, {request.tool_pose.header.frame_id})
                          : doubts_before;
   response.clear = !response.collision && response.message.empty();
+  addLeftOut(*question, response.message);
 }
 
 Eigen::Isometry3d CheckTrajectoryService::toolPoseIn(const std::string& mesh_frame,

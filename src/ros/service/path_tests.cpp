@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ros/service/left_out.h"
 #include "ros/service/limited_calls.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
@@ -33,6 +34,13 @@ sweep_guard_core::SweepOptions sweepOptions(const PathRequestOptions& asked, swe
 }
 
 }  // namespace
+
+void addLeftOut(const PathQuestion& question, std::string& message) {
+  sweep_guard_core::Workpieces tested;
+  for (const PathQuestion::Path& path : question.paths) tested.push_back(path.workpiece);
+  const std::string left_out = describeLeftOut(question.parameters->guard.allowed, tested);
+  message += (message.empty() || left_out.empty() ? "" : "; ") + left_out;
+}
 
 void PathTests::start(Supervisor& supervisor) {
   sweeps_.start(supervisor, {"paths", sweep_guard_core::Stage::kOther, /*watched=*/false});

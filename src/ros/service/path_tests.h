@@ -86,6 +86,10 @@ class PathTests {
   BackgroundThread sweeps_{[] { setNice(10); }};
 };
 
+/// Says which allowed pairs (tool/allowed) the test of a question has left out.
+/// @param[in,out] message  to the caller; is added to
+void addLeftOut(const PathQuestion& question, std::string& message);
+
 /// Fills the answer to a question that was not tested.
 template <typename Response>
 bool refusePath(const std::string& reason, Response& response) {

@@ -5,6 +5,7 @@
 
 #include "ros/available_detector.h"
 #include "ros/detector_test.h"
+#include "ros/service/left_out.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -72,7 +73,7 @@ PredictService::PredictService(const ros::NodeHandle& private_node, const LivePa
 bool PredictService::onCall(Predict::Request& request, Predict::Response& response) {
   try {
     refreshParameters();
-    response.prediction = predict(checkedHorizon(request.horizon, parameters_->guard.horizon.considered));
+    predict(checkedHorizon(request.horizon, parameters_->guard.horizon.considered), response);
     response.success = true;
     return true;
   } catch (const std::exception& error) {
@@ -92,18 +93,20 @@ void PredictService::refreshParameters() {
   parameters_ = current;
 }
 
-sweep_guard::Prediction PredictService::predict(Duration horizon) {
+void PredictService::predict(Duration horizon, Predict::Response& response) {
   std::future<Motion> future = predict_motion_(horizon);
   if (future.wait_for(kGuardTimeout) != std::future_status::ready)
     throw sweep_guard_core::Error("the guard is busy: ask again");
   const Motion motion = future.get();
+  const sweep_guard_core::Workpieces workpieces = workpieces_.snapshot();
   const auto end = std::chrono::steady_clock::now() + kTestTime;
   const auto prediction = sweep_guard_core::predictContacts(
-      *detector_, *parameters_->bodies, motion.predicted, workpieces_.snapshot(), parameters_->guard,
+      *detector_, *parameters_->bodies, motion.predicted, workpieces, parameters_->guard,
       [this, end] { return stopping_ || std::chrono::steady_clock::now() >= end; });
-  sweep_guard::Prediction msg = predictionMsg(prediction, motion.age, *parameters_);
+  sweep_guard::Prediction& msg = response.prediction;
+  msg = predictionMsg(prediction, motion.age, *parameters_);
   if (msg.valid) msg.probability = prediction.probability(PredictionInterval::kConsidered, motion.age + horizon);
-  return msg;
+  response.message = describeLeftOut(parameters_->guard.allowed, workpieces);
 }
 
 }  // namespace sweep_guard_ros

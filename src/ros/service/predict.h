@@ -45,7 +45,7 @@ class PredictService {
  private:
   bool onCall(sweep_guard::Predict::Request& request, sweep_guard::Predict::Response& response);
   void refreshParameters();
-  sweep_guard::Prediction predict(sweep_guard_core::Duration horizon);
+  void predict(sweep_guard_core::Duration horizon, sweep_guard::Predict::Response& response);
 
   const LiveParameters& live_;
   std::shared_ptr<const Parameters> parameters_;  // of the newest call

@@ -40,7 +40,8 @@ const urdf::Link& frameOf(const RobotDescription& robot, const ToolModelOptions&
   if (options.frame != kDefaultFrame || robot.link(kDefaultFrame) != nullptr) {
     return linkNamed(robot, options.frame, "tool_frame");
   }
-  return options.links.empty() ? robot.root() : linkNamed(robot, options.links.front(), "tool/links");
+  return options.links.empty() || options.of_root ? robot.root()
+                                                  : linkNamed(robot, options.links.front(), "tool/links");
 }
 
 bool hasNoShape(const urdf::Link& link) { return link.collision_array.empty() && link.visual_array.empty(); }

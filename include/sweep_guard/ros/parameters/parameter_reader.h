@@ -13,7 +13,7 @@
 
 namespace sweep_guard_ros {
 
-/// Holds a value. A list is text: [x, y, z]. So is a group: {a: x, b: y}.
+/// Holds a value. A list is text: [x, y, z]. So is a group, {a: x, b: y}, and a list of groups.
 using ParameterValue = std::variant<bool, int, double, std::string>;
 
 /// Returns the value as text for people.
@@ -92,6 +92,10 @@ class ParameterReader {
   /// Reads a group of finite numbers by their names in the group, each within a range if there is one; empty if not set.
   std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "",
                                         const std::optional<Range>& range = {});
+  /// Reads a list of groups, each of which has these texts, none of them empty, and nothing else; [] if not set. Returns the
+  /// texts in the order of `names`.
+  std::vector<std::vector<std::string>> groups(const std::string& key, const std::vector<std::string>& names,
+                                               const std::string& effect = "");
   /// Searches a text in the private namespace, then in those above it, or under an absolute name; "" if not set.
   /// The error names only the key.
   std::string searchText(const std::string& name);

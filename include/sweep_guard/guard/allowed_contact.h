@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sweep_guard/geometry/tool.h"
+
+namespace sweep_guard_core {
+
+/// A link of the tool and a workpiece that may touch, wherever and however deep.
+struct AllowedPair {
+  static constexpr const char* kAny = "*";
+
+  std::string link;     ///< of a ConvexPiece; kAny: every link
+  std::string mesh_id;  ///< of a Workpiece; kAny: every workpiece
+
+  bool concerns(const std::string& id) const { return mesh_id == kAny || mesh_id == id; }
+  bool holds(const std::string& tool_link) const { return link == kAny || link == tool_link; }
+  bool operator==(const AllowedPair& other) const { return link == other.link && mesh_id == other.mesh_id; }
+};
+
+using AllowedPairs = std::vector<AllowedPair>;
+
+/// Returns the pair in words: "link 'finger' with 'payload'".
+std::string describe(const AllowedPair& pair);
+
+/// Names the convex pieces of a tool that may touch one workpiece.
+class AllowedPieces {
+ public:
+  /// No piece.
+  AllowedPieces() = default;
+  /// @param mesh_id  of the workpiece
+  AllowedPieces(const Tool& tool, const AllowedPairs& pairs, const std::string& mesh_id);
+
+  bool empty() const { return pieces_.empty(); }
+  bool contains(size_t piece) const { return !empty() && pieces_[piece]; }
+  bool all() const;  ///< every piece of the tool
+
+ private:
+  std::vector<bool> pieces_;  // of the tool; empty: none
+};
+
+inline const AllowedPairs kNoAllowedPairs;
+inline const AllowedPieces kNoAllowedPieces;
+
+}  // namespace sweep_guard_core

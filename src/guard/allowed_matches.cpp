@@ -1,0 +1,26 @@
+#include "guard/allowed_matches.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace sweep_guard_core {
+
+AllowedMatches::AllowedMatches(const AllowedPairs& pairs) {
+  for (const AllowedPair& pair : pairs) matches_.push_back({pair, pair.mesh_id == AllowedPair::kAny});
+}
+
+void AllowedMatches::follow(const Workpieces& newest) {
+  const std::lock_guard lock(mutex_);
+  for (Match& match : matches_) {
+    match.has_matched = match.has_matched || std::any_of(newest.begin(), newest.end(), [&](const auto& workpiece) {
+                          return match.pair.concerns(workpiece->id);
+                        });
+  }
+}
+
+std::vector<AllowedMatches::Match> AllowedMatches::matches() const {
+  const std::lock_guard lock(mutex_);
+  return matches_;
+}
+
+}  // namespace sweep_guard_core

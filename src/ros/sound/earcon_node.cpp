@@ -1,0 +1,145 @@
+#include "ros/sound/earcon_node.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "ros/merger/heard_warning.h"
+#include "ros/sole_publisher.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::SteadyTime;
+using sweep_guard_core::WarningMerger;
+
+constexpr std::uint32_t kRate = 48000;  // samples per second
+constexpr auto kTickPeriod = std::chrono::milliseconds(10);
+constexpr auto kAhead = std::chrono::milliseconds(40);  // of the sound
+constexpr auto kStartPeriod = std::chrono::seconds(2);
+constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr size_t kMaxMessageSize = 64 << 20;
+
+std::vector<std::string> readCommand(ParameterReader& read) {
+  std::vector<std::string> command = read.texts("player");
+  if (!command.empty()) return command;
+  return {"aplay", "-q", "-t", "raw", "-f", "S16_LE", "-c", "1", "-r", std::to_string(kRate), "--buffer-time=60000",
+          "-"};
+}
+
+}  // namespace
+
+EarconNode::EarconNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+    : EarconNode(node, private_node, ParameterReader(private_node)) {}
+
+EarconNode::EarconNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReader read)
+    : master_watch_(private_node, [this] { return settings_; }),
+      supervisor_(Process::kOwn),
+      command_(readCommand(read)),
+      clear_tick_(read.flag("clear_tick", true)),
+      volume_(read.number("volume", 1.0, {0.0, 1.0})),
+      warning_({node.resolveName("warning")}),
+      synthesizer_(kRate),
+      updater_(node, private_node, private_node.getNamespace()) {
+  read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
+  read.warnOfUnread();
+  settings_ = read.settings();
+  updater_.setHardwareID("none");
+  updater_.add("sound", [this](Status& status) { report(status); });
+  const auto refuse = [this](const std::string& reason) {
+    log_.error("refused", "message on " + warning_.guards().front() + " refused: " + reason);
+  };
+  using Event = ros::MessageEvent<const sweep_guard::Warning>;
+  subscriber_ = subscribeBounded<sweep_guard::Warning>(
+      thread_.on(node), {"warning", 10, kMaxMessageSize},
+      [this, refuse, sole = SolePublisher(WarningMerger::kValid)](const Event& event) mutable {
+        try {
+          if (!sole.alone(event.getPublisherName(), now().steady)) throw InvalidInput("several nodes publish it");
+          hear(*event.getConstMessage());
+        } catch (const InvalidInput& error) {
+          refuse(error.what());
+        }
+      },
+      refuse);
+  sound_.every(kTickPeriod, [this] { sound(); });
+  reports_.every(kReportPeriod, [this] { updater_.force_update(); });
+}
+
+EarconNode::~EarconNode() {
+  sound_.stop();
+  reports_.stop();
+  master_watch_.stop();  // its thread uses the supervisor, which is declared after it
+}
+
+void EarconNode::start() {
+  thread_.start(supervisor_, {"guard", sweep_guard_core::Stage::kReceive, /*watched=*/true, /*loses_latched=*/false});
+  sound_.start(supervisor_, {"sound", sweep_guard_core::Stage::kPublish});
+  reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
+  master_watch_.start(supervisor_);
+  supervisor_.start();
+}
+
+void EarconNode::hear(const sweep_guard::Warning& message) {
+  sweep_guard_core::HeardWarning warning = heardFrom(message);
+  const std::lock_guard lock(mutex_);
+  warning_.hear(0, std::move(warning));
+}
+
+sweep_guard_core::SoundCue EarconNode::cue() const {
+  const std::lock_guard lock(mutex_);
+  const sweep_guard_core::MergedWarning warning = warning_.merged(now());
+  return {warning.level, warning.time_to_collision, warning.acknowledged};
+}
+
+// A player that has ended is started again: a sound card may come back.
+void EarconNode::sound() {
+  const sweep_guard_core::SoundCue heard = cue();
+  std::string problem;
+  try {
+    play(heard);
+  } catch (const sweep_guard_core::DeviceError& error) {
+    player_.reset();
+    problem = error.what();
+    log_.error("player", "no sound: " + problem);
+  }
+  const std::lock_guard lock(mutex_);
+  sounds_ = heard.level;
+  if (player_ || !problem.empty()) problem_ = problem;
+}
+
+void EarconNode::play(const sweep_guard_core::SoundCue& cue) {
+  const SteadyTime at = std::chrono::steady_clock::now();
+  if (!player_) {
+    if (at < next_start_) return;
+    next_start_ = at + kStartPeriod;
+    samples_.clear();
+    player_.emplace(command_);
+    played_until_ = at;
+  }
+  played_until_ = std::max(played_until_, at);
+  sweep_guard_core::Earcon earcon = earconOf(cue, clear_tick_);
+  earcon.amplitude *= volume_;
+  const double missing = sweep_guard_core::toSeconds(at + kAhead - played_until_);
+  if (samples_.empty() && missing > 0.0) {
+    const auto count = static_cast<size_t>(missing * synthesizer_.rate());
+    synthesizer_.render(earcon, count, samples_);
+    played_until_ += sweep_guard_core::fromSeconds(static_cast<double>(count) / synthesizer_.rate());
+  }
+  const size_t taken = player_->play(samples_);
+  samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(taken));
+}
+
+void EarconNode::report(Status& status) const {
+  const std::lock_guard lock(mutex_);
+  const std::string silence = warning_.silence(0, now());
+  status.summary(silence.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                 silence.empty() ? styleOf(sounds_).name : silence);
+  if (!problem_.empty()) status.mergeSummary(DiagnosticStatus::ERROR, "no sound: " + problem_);
+  status.add("topic", warning_.guards().front());
+  status.add("player", command_.front());
+}
+
+}  // namespace sweep_guard_ros

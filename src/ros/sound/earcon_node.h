@@ -1,0 +1,73 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <sweep_guard/Warning.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "monitor/warning_merger.h"
+#include "ros/bounded.h"
+#include "ros/log_throttle.h"
+#include "ros/master_watch.h"
+#include "ros/sound/sound_player.h"
+#include "ros/threads/queue_thread.h"
+#include "ros/threads/timer_thread.h"
+#include "sound/synthesizer.h"
+#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/ros/parameters/parameter_reader.h"
+
+namespace sweep_guard_ros {
+
+/// Lets an operator hear the warning of a guard or of warning_merger: earconOf() by a program that plays samples. Silence of
+/// the guard sounds as UNKNOWN. A ROS node.
+class EarconNode {
+ public:
+  /// @throws sweep_guard_core::InvalidInput if a parameter is refused
+  EarconNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  ~EarconNode();
+  EarconNode(const EarconNode&) = delete;
+  EarconNode& operator=(const EarconNode&) = delete;
+
+  void start();  ///< begins to listen and to sound; once
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  EarconNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, ParameterReader read);
+
+  void hear(const sweep_guard::Warning& message);
+  void sound();
+  void play(const sweep_guard_core::SoundCue& cue);
+  sweep_guard_core::SoundCue cue() const;
+  void report(Status& status) const;
+
+  // Members use only earlier members.
+  MasterWatch master_watch_;  // before what registers at the master
+  Supervisor supervisor_;     // before all threads
+  const std::vector<std::string> command_;
+  const bool clear_tick_;
+  const double volume_;
+  ParameterReader::Settings settings_;
+  LogThrottle log_;
+  mutable sweep_guard_core::PriorityMutex mutex_;  // of the next three
+  sweep_guard_core::WarningMerger warning_;        // of one guard
+  std::string problem_;                            // of the player; empty: none
+  sweep_guard_core::WarningLevel sounds_ = sweep_guard_core::WarningLevel::kUnknown;
+  // Of the thread of the sound:
+  sweep_guard_core::Synthesizer synthesizer_;
+  std::optional<SoundPlayer> player_;
+  sweep_guard_core::SteadyTime next_start_{};  // of the player, at the earliest
+  sweep_guard_core::SteadyTime played_until_{};
+  std::vector<std::int16_t> samples_;  // that wait for room
+  diagnostic_updater::Updater updater_;
+  QueueThread thread_;
+  BoundedSubscriber subscriber_;
+  TimerThread sound_;
+  TimerThread reports_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,56 @@
+#include "sound/earcon.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr double kRamp = 0.004;          // of a beep [s]
+constexpr double kSoonest = 0.1;         // time to collision [s] of the fastest beeps
+constexpr double kLatest = 1.0;          // time to collision [s] of the slowest
+constexpr double kFastPeriod = 0.1;      // [s]
+constexpr double kSlowPeriod = 0.6;      // [s]
+constexpr double kProbablePeriod = 0.8;  // [s], of a collision that is only probable
+constexpr double kQuieter = 0.25;        // what is acknowledged
+constexpr Earcon kUnknownTone = {1.0, 0.24, 300.0, 225.0, 0.6};
+constexpr Earcon kTick = {2.0, 0.012, 1500.0, 1500.0, 0.15};
+constexpr Earcon kSilence = {2.0, 0.012, 1500.0, 1500.0, 0.0};
+constexpr Earcon kContactTone = {1.0, 1.0, 1000.0, 1000.0, 1.0};  // whole waves in a period: it joins its repetition
+
+double periodOf(const std::optional<Duration>& time_to_collision) {
+  if (!time_to_collision) return kProbablePeriod;
+  const double share = (toSeconds(*time_to_collision) - kSoonest) / (kLatest - kSoonest);
+  return kFastPeriod + std::clamp(share, 0.0, 1.0) * (kSlowPeriod - kFastPeriod);
+}
+
+double envelope(const Earcon& earcon, double time) {
+  if (earcon.steady()) return 1.0;
+  return std::clamp(std::min(time, earcon.length - time) / kRamp, 0.0, 1.0);
+}
+
+}  // namespace
+
+Earcon earconOf(const SoundCue& cue, bool clear_tick) {
+  switch (cue.level) {
+    case WarningLevel::kClear:
+      return clear_tick ? kTick : kSilence;
+    case WarningLevel::kConsidered:
+      return {periodOf(cue.time_to_collision), 0.06, 800.0, 800.0, cue.acknowledged ? kQuieter * 0.8 : 0.8};
+    case WarningLevel::kReflex:
+      return {kFastPeriod, 0.06, 1000.0, 1000.0, 1.0};
+    case WarningLevel::kContact:
+      return kContactTone;
+    default:
+      return kUnknownTone;
+  }
+}
+
+double sampleOf(const Earcon& earcon, double time) {
+  const double t = std::fmod(time, earcon.period);
+  const double half = 0.5 * earcon.length;
+  const double waves = t < half ? earcon.first * t : earcon.first * half + earcon.second * (t - half);
+  return earcon.amplitude * envelope(earcon, t) * std::sin(2.0 * M_PI * waves);
+}
+
+}  // namespace sweep_guard_core

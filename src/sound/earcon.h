@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "sweep_guard/common/time.h"
+#include "sweep_guard/common/warning_level.h"
+
+namespace sweep_guard_core {
+
+/// What an operator is to hear of.
+struct SoundCue {
+  WarningLevel level = WarningLevel::kUnknown;
+  std::optional<Duration> time_to_collision;  ///< at kConsidered and kReflex; empty: not known
+  bool acknowledged = false;                  ///< of kConsidered
+};
+
+/// A beep that repeats, in two halves, each of one tone.
+struct Earcon {
+  double period = 1.0;     ///< [s] from the begin of a beep to that of the next, >= `length`
+  double length = 1.0;     ///< [s] of a beep, > 0; `period`: a tone without end, of whole waves
+  double first = 0.0;      ///< tone of the first half [Hz]
+  double second = 0.0;     ///< tone of the second half [Hz]
+  double amplitude = 0.0;  ///< in [0, 1]; 0: silence
+
+  bool steady() const { return length >= period; }
+};
+
+/// Returns how a level sounds, like a parking aid: beeps that follow each other faster the sooner the collision is, a steady
+/// tone in contact, a low double tone for kUnknown, a soft tick every 2 s for kClear. What is acknowledged is quieter.
+/// @param clear_tick  false: kClear is silent
+Earcon earconOf(const SoundCue& cue, bool clear_tick);
+
+/// Returns the sound at one moment, in [-1, 1]. Beeps begin and end within 4 ms without a click.
+/// @param time  [s] since the begin of a beep, >= 0
+double sampleOf(const Earcon& earcon, double time);
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,78 @@
+#!/bin/bash
+# demo_joints.sh SCRIPTS: robots made by others move by recorded joints. The demo meets the workpiece with the link that it
+# should, and loses no state; and refuses what does not fit.
+set -euo pipefail
+# shellcheck source-path=SCRIPTDIR/../../scripts
+. "$1/processes.bash"
+here=$(dirname "$(readlink -f "$0")")
+data=${SWEEP_GUARD_DATA:-$1/../../shared/data}
+[[ -e $data/urdf/expanded ]] || { echo "SKIPPED: $data/urdf/expanded is missing; set SWEEP_GUARD_DATA" && exit 77; }
+data=$(realpath "$data")
+export ROS_IP=127.0.0.1 ROS_PACKAGE_PATH=$ROS_PACKAGE_PATH:$data/urdf
+folder=$(mktemp -d)
+export ROS_HOME=$folder
+trap 'clean_up; rm -rf "$folder"' EXIT
+
+wrong() {
+  echo "$*:" && cat "$folder/output"
+  exit 1
+}
+
+launch_demo() {
+  local scene=$1
+  shift
+  choose_master
+  start timeout 200 roslaunch -p "$port" sweep_guard demo.launch rviz:=false "tool_urdf:=$folder/$scene.urdf" \
+    "joints:=$folder/$scene.bag" "$@" >"$folder/output" 2>&1
+  launch=$!
+}
+
+# play SCENE ARGUMENT... - a demo of it at a master of its own, to its end
+play() {
+  launch_demo "$@"
+  wait "$launch" || wrong "$1 did not end"
+}
+
+# meets NAME SCENE LINKS ARGUMENT... - a pattern of the links that touch, separated by blanks
+meets() {
+  local name=$1 scene=$2 expected=$3 touched
+  shift 3
+  play "$scene" loop:=false duration:=6 "$@"
+  sed -n '/^poses in/,/^poses lost/p' "$folder/output" | sed "s/^/$name: /"
+  grep -q '^poses in  *401$' "$folder/output" || wrong "$name: not every state came"
+  grep -q '^poses lost  *0$' "$folder/output" || wrong "$name: states were lost"
+  touched=$(sed -n 's/^  of \([^ ]*\) .*/\1/p' "$folder/output" | xargs)
+  # shellcheck disable=SC2053  # a pattern
+  [[ $touched == $expected ]] || wrong "$name: '$touched' touched, not '$expected'"
+}
+
+# refuses WHAT SCENE - the line that says so
+refuses() {
+  launch_demo "$2"
+  start timeout 100 grep -qm1 'process has died' <(tail -n +1 -f --pid="$launch" "$folder/output")
+  wait $! || wrong "$2 was not refused"
+  end "$launch"
+  grep -qF "$1" "$folder/output" || wrong "it does not say '$1'"
+  echo "refused: $1"
+}
+
+python3 "$here/joint_bags.py" "$data" "$folder"
+panda_links=panda_link5,panda_link6,panda_link7,panda_hand,panda_leftfinger,panda_rightfinger
+elbow_place=(size:=0.2 "place:=[0.068,0.394,0.363]")
+
+# The workpiece is where the last link meets it.
+meets ur5 ur5 '*wrist_3_link*'
+meets panda panda '*panda_leftfinger*' "tool_links:=$panda_links"
+meets psm psm '*PSM1_jaw_1_link*' "tool_links:=PSM1_housing_link,PSM1_roll_link,PSM1_jaw_1_link,PSM1_jaw_2_link"
+
+# The tube of a torus is between the fingers, nearer to the right one, which closes on it.
+meets jaws jaws panda_rightfinger "mesh:=$data/mesh/sofa_torus.obj" size:=0.2 "place:=[0,-0.008,0.165]" \
+  tool_links:=panda_hand,panda_leftfinger,panda_rightfinger
+
+# The arm turns, and its elbow meets what the last link passes by.
+meets elbow elbow 'forearm_link upper_arm_link' "${elbow_place[@]}"
+meets 'wrist alone' elbow '' "${elbow_place[@]}" tool_links:=wrist_3_link
+
+refuses 'choose one topic (joints_topic:=TOPIC); there are: /joint_states, /other/joint_states' two_topics
+refuses 'no sensor_msgs/JointState in the bag' no_joints
+refuses "it has no position of 'shoulder_lift_joint', 'elbow_joint'" few_joints

@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sound/earcon.h"
+#include "sound/synthesizer.h"
+#include "sound/wav.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr size_t kRate = 44100;
+
+SoundCue at(WarningLevel level, std::optional<double> seconds = {}, bool acknowledged = false) {
+  return {level, seconds ? std::optional(fromSeconds(*seconds)) : std::nullopt, acknowledged};
+}
+
+SoundCue considered(double seconds) { return at(WarningLevel::kConsidered, seconds); }
+
+std::vector<std::int16_t> render(const Earcon& earcon, double seconds) {
+  std::vector<std::int16_t> samples;
+  Synthesizer(kRate).render(earcon, static_cast<size_t>(seconds * kRate), samples);
+  return samples;
+}
+
+double loudest(const std::vector<std::int16_t>& samples) {
+  const auto louder = [](int a, int b) { return std::abs(a) < std::abs(b); };
+  return std::abs(*std::max_element(samples.begin(), samples.end(), louder)) / 32767.0;
+}
+
+// Number of beeps: begins of sound after at least 20 ms of silence.
+int beeps(const std::vector<std::int16_t>& samples) {
+  int count = 0;
+  size_t silent = kRate;
+  for (const std::int16_t sample : samples) {
+    if (sample == 0) {
+      ++silent;
+      continue;
+    }
+    count += silent >= kRate / 50 ? 1 : 0;
+    silent = 0;
+  }
+  return count;
+}
+
+// How many waves a second, from the rising zero crossings of a stretch.
+double frequency(const std::vector<std::int16_t>& samples, double begin, double end) {
+  int crossings = 0;
+  for (auto i = static_cast<size_t>(begin * kRate) + 1; i < static_cast<size_t>(end * kRate); ++i) {
+    crossings += samples[i - 1] < 0 && samples[i] >= 0 ? 1 : 0;
+  }
+  return crossings / (end - begin);
+}
+
+TEST(EarconTest, BeepsFollowFasterTheSoonerTheCollisionIs) {
+  int before = 0;
+  for (const double seconds : {1.0, 0.7, 0.4, 0.1}) {
+    const int heard = beeps(render(earconOf(considered(seconds), true), 6.0));
+    EXPECT_GT(heard, before) << seconds << " s";
+    before = heard;
+  }
+  EXPECT_EQ(beeps(render(earconOf(considered(1.0), true), 6.0)), 10);
+  EXPECT_EQ(beeps(render(earconOf(at(WarningLevel::kReflex, 0.05), true), 6.0)), 60);
+}
+
+TEST(EarconTest, ContactIsASteadyToneWithoutAGap) {
+  const auto samples = render(earconOf(at(WarningLevel::kContact), true), 3.0);
+  EXPECT_EQ(beeps(samples), 1);
+  EXPECT_NEAR(frequency(samples, 0.1, 2.9), 1000.0, 1.0);
+  for (size_t i = 1; i < samples.size(); ++i) EXPECT_LT(std::abs(samples[i] - samples[i - 1]), 5000) << i;
+}
+
+TEST(EarconTest, UnknownIsTwoLowTones) {
+  const auto samples = render(earconOf(at(WarningLevel::kUnknown), true), 1.0);
+  EXPECT_EQ(beeps(samples), 1);
+  EXPECT_NEAR(frequency(samples, 0.01, 0.11), 300.0, 15.0);
+  EXPECT_NEAR(frequency(samples, 0.13, 0.23), 225.0, 15.0);
+}
+
+TEST(EarconTest, ClearTicksSoftlyEveryTwoSecondsOrIsSilent) {
+  const auto ticks = render(earconOf(at(WarningLevel::kClear), true), 10.0);
+  EXPECT_EQ(beeps(ticks), 5);
+  EXPECT_LT(loudest(ticks), 0.2);
+  EXPECT_EQ(loudest(render(earconOf(at(WarningLevel::kClear), false), 10.0)), 0.0);
+}
+
+TEST(EarconTest, WhatIsAcknowledgedIsQuieter) {
+  const double loud = loudest(render(earconOf(at(WarningLevel::kConsidered, 0.5), true), 1.0));
+  const double quiet = loudest(render(earconOf(at(WarningLevel::kConsidered, 0.5, true), true), 1.0));
+  EXPECT_NEAR(quiet, 0.25 * loud, 0.01);
+  EXPECT_GT(quiet, 0.0);
+}
+
+// Silence must not mean anything but a clear level that is told not to tick.
+TEST(EarconTest, EveryOtherLevelSounds) {
+  for (const auto level :
+       {WarningLevel::kUnknown, WarningLevel::kConsidered, WarningLevel::kReflex, WarningLevel::kContact}) {
+    for (const bool acknowledged : {false, true}) {
+      EXPECT_GT(loudest(render(earconOf(at(level, {}, acknowledged), false), 1.0)), 0.1) << styleOf(level).name;
+    }
+  }
+}
+
+// The largest step of a tone of 1 kHz at full amplitude is 0.14 of it; a click is a larger one.
+TEST(SynthesizerTest, NeverClicks) {
+  Synthesizer synthesizer(kRate);
+  std::vector<std::int16_t> samples;
+  std::uint32_t random = 1;
+  for (int i = 0; i < 3000; ++i) {
+    random = random * 1664525U + 1013904223U;
+    SoundCue cue = at(static_cast<WarningLevel>((random >> 16U) % 5), (random >> 8U) % 1000 / 1000.0);
+    cue.acknowledged = (random >> 24U) % 2 == 0;
+    synthesizer.render(earconOf(cue, true), (random >> 20U) % 1500, samples);
+  }
+  int largest = 0;
+  for (size_t i = 1; i < samples.size(); ++i) largest = std::max(largest, std::abs(samples[i] - samples[i - 1]));
+  EXPECT_LT(largest, 0.25 * 32767);
+  EXPECT_GT(largest, 0.1 * 32767);
+}
+
+TEST(SynthesizerTest, BeepsThatComeFasterAreNotBegunAnew) {
+  Synthesizer synthesizer(kRate);
+  std::vector<std::int16_t> samples;
+  for (int i = 0; i < 50; ++i) synthesizer.render(earconOf(considered(1.0 - 0.01 * i), true), kRate / 50, samples);
+  EXPECT_GE(beeps(samples), 2);
+  EXPECT_LE(beeps(samples), 4);
+}
+
+TEST(SynthesizerTest, AnotherLevelIsHeardAtOnce) {
+  Synthesizer synthesizer(kRate);
+  std::vector<std::int16_t> samples;
+  synthesizer.render(earconOf(at(WarningLevel::kClear), false), kRate, samples);
+  samples.clear();
+  synthesizer.render(earconOf(at(WarningLevel::kContact), false), kRate / 50, samples);
+  EXPECT_GT(loudest(samples), 0.9);
+}
+
+TEST(WavFileTest, HasTheHeaderAndTheBytesOfItsSamples) {
+  const std::string bytes = wavFile({1, -2, 256}, kRate);
+  ASSERT_EQ(bytes.size(), 44U + 6U);
+  EXPECT_EQ(bytes.substr(0, 4), "RIFF");
+  EXPECT_EQ(bytes.substr(8, 8), "WAVEfmt ");
+  EXPECT_EQ(bytes.substr(24, 4), std::string("\x44\xAC\0\0", 4));  // 44100
+  EXPECT_EQ(bytes.substr(40, 4), std::string("\6\0\0\0", 4));
+  EXPECT_EQ(bytes.substr(44), std::string("\1\0\xFE\xFF\0\1", 6));
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
