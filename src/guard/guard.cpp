@@ -72,8 +72,8 @@ void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, Swee
   predictor_.observe(pose);
   forEachBody(bodies_, &GuardedBody::report, report, [&](size_t i, GuardedBody& body, SweepReport& swept) {
     const BodyPose at = pose.body(i);
-    const SweepSetup setup{body.tool,     *detector_,      options_.sweep, [this] { throwIfStopping(); },
-                           *intentions(), options_.allowed};
+    const SweepSetup setup{body.tool,     *detector_,       options_.sweep, [this] { throwIfStopping(); },
+                           *intentions(), options_.allowed, *frames_};
     body.sweeps.sweep(setup, pose, at, workpieces, swept);
     body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
   });
@@ -88,7 +88,7 @@ void Guard::takeBack() noexcept {
 
 void Guard::pass(const PoseWithFrames& pose) {
   predictor_.observe(pose);
-  for (size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->sweeps.pass(pose, pose.body(i));
+  for (size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->sweeps.pass(pose, pose.body(i), *frames_);
 }
 
 void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& prediction,
@@ -102,6 +102,7 @@ void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& pred
   assign(motion_.from, *newest_);
   predictor_.predict(horizon_.ends, motion_);
   motion_.reflex_sweeps = horizon_.reflex_sweeps;
+  motion_.frames = frames_;
   beginPlan(begin, between);
   const size_t considered = motion_.path.empty() ? 0 : consideredSweeps();
   const std::shared_ptr<const Intentions> intended = intentions();  // sweeps between may change them
@@ -155,7 +156,7 @@ void Guard::throwIfStopping() const {
 PredictedMotion Guard::predictMotion(Duration age, Duration end) const {
   if (!newest_) return {};
   const Horizon horizon = horizonUpTo(end, options_.horizon, age);
-  PredictedMotion motion{*newest_, {}, horizon.reflex_sweeps};
+  PredictedMotion motion{*newest_, {}, horizon.reflex_sweeps, {}, frames_};
   predictor_.predict(horizon.ends, motion);
   return motion;
 }
