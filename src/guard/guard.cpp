@@ -77,8 +77,8 @@ void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, Swee
   predictor_.observe(pose);
   forEachBody(bodies_, &GuardedBody::report, report, [&](size_t i, GuardedBody& body, SweepReport& swept) {
     const BodyPose at = pose.body(i);
-    const SweepSetup setup{body.tool,     *detector_,      options_.sweep, [this] { throwIfStopping(); },
-                           *intentions(), options_.allowed};
+    const SweepSetup setup{body.tool,     *detector_,       options_.sweep, [this] { throwIfStopping(); },
+                           *intentions(), options_.allowed, *frames_};
     body.sweeps.sweep(setup, pose, at, workpieces, swept);
     body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
   });
@@ -93,7 +93,7 @@ void Guard::takeBack() noexcept {
 
 void Guard::pass(const PoseWithFrames& pose) {
   predictor_.observe(pose);
-  for (size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->sweeps.pass(pose, pose.body(i));
+  for (size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->sweeps.pass(pose, pose.body(i), *frames_);
 }
 
 void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& prediction,
@@ -106,6 +106,7 @@ void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& pred
   computeHorizon(options_.horizon, age, horizon_);
   assign(motion_.from, *newest_);
   predictor_.predict(horizon_, motion_);
+  motion_.frames = frames_;
   beginPlan(begin, between);
   const size_t considered = motion_.path.empty() ? 0 : consideredSweeps();
   const std::shared_ptr<const Intentions> intended = intentions();  // sweeps between may change them
@@ -162,6 +163,7 @@ PredictedMotion Guard::predictMotion(Duration age, Duration end) const {
   if (!newest_) return {};
   const Horizon horizon = horizonUpTo(end, options_.horizon, age);
   PredictedMotion motion{*newest_, {}};
+  motion.frames = frames_;
   predictor_.predict(horizon, motion);
   return motion;
 }

@@ -54,15 +54,30 @@ bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
 
 }  // namespace
 
-void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body) {
-  add(pose, body);
+void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
+  add(pose, body, frames);
   if (!waiting_since_) waiting_since_ = pose.stamp;
 }
 
-void MeasuredSweeps::add(const PoseWithFrames& pose, const BodyPose& body) {
+void MeasuredSweeps::add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
   ++poses_;
-  for (const auto& [frame, X_WM] : pose.X_WM)
-    histories_[frame].add({poses_, pose.stamp, body.X_WB, X_WM, body.deviation_bound});
+  for (const auto& [frame, X_WM] : pose.X_WM) {
+    if (frames.count(frame) == 0) histories_[frame].add({poses_, pose.stamp, body.X_WB, X_WM, body.deviation_bound});
+  }
+  for (const auto& [frame, motion] : frames) joined_[frame].add(pose.stamp, body);
+}
+
+// Numbers ascend in each history, also where several samples lie between two poses.
+void MeasuredSweeps::join(const FrameMotions& frames) {
+  for (const auto& [frame, motion] : frames) {
+    joined_[frame].join(*motion, samples_);
+    for (const JoinedMotion::Sample& sample : samples_)
+      histories_[frame].add({++poses_, sample.stamp, sample.X_WB, sample.X_WM, sample.deviation_bound});
+  }
+}
+
+bool MeasuredSweeps::isPlaced(const std::string& frame, const PoseWithFrames& pose, const FrameMotions& frames) const {
+  return frames.count(frame) == 0 ? pose.X_WM.count(frame) != 0 : histories_.count(frame) != 0;
 }
 
 void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body,
@@ -72,10 +87,12 @@ void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, 
     swept.before = swept.pose;
     swept.grown = false;
   }
-  add(pose, body);
+  add(pose, body, setup.frames);
+  join(setup.frames);
   report.start = report.end = pose.stamp;
-  testPlaced(workpieces, pose, report, [&](const auto& workpiece, const auto& /*X_WM*/, SweptObject& object) {
-    sweepObject(setup, workpiece, object);
+  const auto is_placed = [&](const Workpiece& workpiece) { return isPlaced(workpiece.frame, pose, setup.frames); };
+  testPlaced(workpieces, is_placed, report, [&](const auto& workpiece, SweptObject& object) {
+    sweepObject(setup, workpiece, pose.stamp, object);
     report.start = std::min(report.start, object.interval_start);
   });
   // Their next sweep begins where this one would have begun.
@@ -89,8 +106,9 @@ void MeasuredSweeps::sweep(const SweepSetup& setup, const PoseWithFrames& pose, 
   swept_to_ = poses_;
 }
 
+// @param end_time  of the interval that times of impact are fractions of
 void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece,
-                                 SweptObject& object) {
+                                 Time end_time, SweptObject& object) {
   const PoseHistory& history = histories_.at(workpiece->frame);
   const size_t last = history.size() - 1;
   Swept& swept = lastSwept(workpiece);
@@ -125,7 +143,7 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
     if (is_new) cache_.contact_normals.clear();
     update(cache_, result);
     for (std::vector<TriangleContact>* const in_contact : {&result.in_contact, &result.allowed.in_contact})
-      rescale(*in_contact, history.share(begin, i), history.share(begin, end));
+      rescale(*in_contact, history.share(begin, i, end_time), history.share(begin, end, end_time));
     unite(object.result, result);
     i = end;
   } while (i < last);
@@ -198,6 +216,7 @@ void MeasuredSweeps::takeBack() noexcept {
 
 void MeasuredSweeps::reset() {
   histories_.clear();
+  joined_.clear();
   swept_.clear();
   waiting_since_.reset();
 }
@@ -216,6 +235,7 @@ void MeasuredSweeps::forgetRemoved(const Workpieces& workpieces) {
     }
   };
   keepOnlyNamed(histories_, &Workpiece::frame);
+  keepOnlyNamed(joined_, &Workpiece::frame);
   keepOnlyNamed(swept_, &Workpiece::id);
 }
 

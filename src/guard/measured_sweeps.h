@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "guard/displacements.h"
+#include "guard/joined_motion.h"
 #include "guard/pose_history.h"
 #include "guard/sweep_checker.h"
 #include "sweep_guard/guard/pose_with_frames.h"
@@ -22,6 +23,7 @@ struct SweepSetup {
   std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up
   const Intentions& intentions = kNoIntentions;
   const AllowedPairs& allowed = kNoAllowedPairs;
+  const FrameMotions& frames = kNoFrameMotions;  ///< of those that move on their own
 };
 
 /// Sweeps one body of the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for
@@ -29,10 +31,12 @@ struct SweepSetup {
 class MeasuredSweeps {
  public:
   /// Adds a pose that the next sweep passes through.
-  /// @param body  pose of the swept body at that time
-  void pass(const PoseWithFrames& pose, const BodyPose& body);
+  /// @param body    pose of the swept body at that time
+  /// @param frames  that move on their own; those of the pose by these names do not count
+  void pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames = kNoFrameMotions);
 
-  /// Sweeps through the poses passed since the last sweep to this pose.
+  /// Sweeps through the poses passed since the last sweep to this pose. Against a workpiece in a frame that moves on its own,
+  /// up to the newest pose of that frame, if that is older.
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const SweepSetup& setup, const PoseWithFrames& pose, const BodyPose& body, const Workpieces& workpieces,
              SweepReport& report);
@@ -60,8 +64,11 @@ class MeasuredSweeps {
     bool grown = false;                // the last sweep has added a deformation
   };
 
-  void add(const PoseWithFrames& pose, const BodyPose& body);
-  void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, SweptObject& object);
+  void add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames);
+  void join(const FrameMotions& frames);
+  bool isPlaced(const std::string& frame, const PoseWithFrames& pose, const FrameMotions& frames) const;
+  void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Time end_time,
+                   SweptObject& object);
   static const Workpiece& measureDisplacements(Swept& swept, Time pose, const std::shared_ptr<const Workpiece>& newest,
                                                Duration& behind);
   Swept& lastSwept(const std::shared_ptr<const Workpiece>& workpiece);
@@ -71,12 +78,14 @@ class MeasuredSweeps {
   void shorten(const std::string& frame, PoseHistory& history) const;
 
   std::map<std::string, PoseHistory> histories_;  // by frame: the poses that may be swept again, and the newest
+  std::map<std::string, JoinedMotion> joined_;    // by frame, of those that move on their own
+  std::vector<JoinedMotion::Sample> samples_;     // of one of these
   std::map<std::string, Swept> swept_;            // by id
-  std::uint64_t poses_ = 0;
-  std::uint64_t swept_to_ = 0;         // number of the pose of the last sweep
-  std::optional<Time> waiting_since_;  // stamp of the first pose passed since then
-  Path path_M_;                        // of the segment under test
-  std::vector<Motion> sub_motions_M_;  // of a motion along the segment
+  std::uint64_t poses_ = 0;                       // and samples of joined motions
+  std::uint64_t swept_to_ = 0;                    // number of the pose of the last sweep
+  std::optional<Time> waiting_since_;             // stamp of the first pose passed since then
+  Path path_M_;                                   // of the segment under test
+  std::vector<Motion> sub_motions_M_;             // of a motion along the segment
   SweepChecker sweep_checker_;
   SweepCache cache_;  // kept apart while the sweep may still fail
 };

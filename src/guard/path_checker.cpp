@@ -19,6 +19,11 @@ void leaveOut(TriangleSet& triangles, const IsLeftOut& is_left_out) {
     triangles.erase(std::remove_if(triangles.begin(), triangles.end(), std::ref(is_left_out)), triangles.end());
 }
 
+// Of the mesh as sent, which lies within its rounding of what is stored.
+double radiusAboutFrame(const TriangleMesh& mesh_M) {
+  return mesh_M.origin().norm() + mesh_M.radius() + mesh_M.rounding();
+}
+
 }  // namespace
 
 struct PathChecker::Scene {
@@ -76,9 +81,14 @@ void PathChecker::checkNext(Detector& detector, const PredictedPathRequest& requ
 
 // Sweeps the path, unless the workpiece before was in the same place.
 void PathChecker::follow(const PredictedPathRequest& request, double margin) {
-  if (X_WM_ && X_WM_->matrix() == request.X_WM.matrix() && margin_ == margin) return;
+  const bool same = !request.frame && X_WM_ && X_WM_->matrix() == request.X_WM.matrix() && margin_ == margin;
+  if (same) return;
   X_WM_.reset();
-  path_M_.follow(request.tool, request.X_WT, request.path, request.X_WM);
+  if (request.frame != nullptr) {
+    path_M_.follow(request.tool, request.X_WT, request.path, *request.frame);
+  } else {
+    path_M_.follow(request.tool, request.X_WT, request.path, request.X_WM);
+  }
   margin_ = margin;
   reach_M_ = path_M_.reach_M(path_M_.whole(), options_.max_deviations, margin);
   swept_ = 0;
@@ -89,7 +99,7 @@ void PathChecker::follow(const PredictedPathRequest& request, double margin) {
     sweepSegment(path_M_.between(begin, end), margin);
     begin = end;
   }
-  X_WM_ = request.X_WM;
+  if (request.frame == nullptr) X_WM_ = request.X_WM;
 }
 
 void PathChecker::predict(Detector& detector, const PredictionRequest& request, const SweepPlan& plan,
@@ -105,13 +115,28 @@ void PathChecker::predict(Detector& detector, const PredictionRequest& request, 
   prediction.sweeps_made = plan.sweepCount(motion.path);
   const Eigen::Isometry3d X_WB = motion.from.body(request.body).X_WB;
   const PredictedPath& path = motion.pathOf(request.body);
-  const auto test = [&](const auto& workpiece, const Eigen::Isometry3d& X_WM, PredictedObject& object) {
-    checkNext(
-        detector,
-        {request.tool, X_WB, path, motion.reflex_sweeps, X_WM, workpiece, plan, request.intentions, request.touches},
-        object);
+  const FrameMotions& frames = motion.frames ? *motion.frames : kNoFrameMotions;
+  Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();
+  std::optional<FramePath> frame;
+  const auto is_placed = [&](const Workpiece& workpiece) {
+    frame.reset();
+    const auto moving = frames.find(workpiece.frame);
+    if (moving != frames.end()) {
+      frame = framePath(*moving->second, motion.from.stamp, path, radiusAboutFrame(workpiece.mesh_M));
+      return frame.has_value();
+    }
+    const auto resting = motion.from.X_WM.find(workpiece.frame);
+    if (resting == motion.from.X_WM.end()) return false;
+    X_WM = resting->second;
+    return true;
   };
-  testPlaced(motion.path.empty() ? kNone : request.workpieces, motion.from, prediction, test);
+  const auto test = [&](const auto& workpiece, PredictedObject& object) {
+    checkNext(detector,
+              {request.tool, X_WB, path, motion.reflex_sweeps, X_WM, workpiece, plan, request.intentions,
+               request.touches, frame ? &*frame : nullptr},
+              object);
+  };
+  testPlaced(motion.path.empty() ? kNone : request.workpieces, is_placed, prediction, test);
 }
 
 Submesh PathChecker::submeshInReach(const Submesh& around, const Eigen::AlignedBox3d& reach_M, size_t halvings) {

@@ -29,11 +29,12 @@ struct PredictedPathRequest {
   const Eigen::Isometry3d& X_WT;  ///< where the path begins
   const PredictedPath& path;      ///< at least one pose
   size_t reflex_sweeps;           ///< number of poses, from the first, within the reflex interval
-  const Eigen::Isometry3d& X_WM;  ///< frame of the workpiece; taken to stay where it is
+  const Eigen::Isometry3d& X_WM;  ///< frame of the workpiece; taken to stay where it is, unless there is `frame`
   const std::shared_ptr<const Workpiece>& workpiece;
   const SweepPlan& plan;
   const Intentions& intentions = kNoIntentions;
   const IntendedTouches& touches = kNoTouches;
+  const FramePath* frame = nullptr;  ///< along `path`, of a frame that moves on its own
 };
 
 /// Tests the sweeps along a predicted path. Keeps its buffers between calls.

@@ -17,6 +17,14 @@ Matrix6d turned(const Matrix6d& covariance_W, const Eigen::Matrix3d& R_MW) {
   return R * covariance_W * R.transpose();
 }
 
+// The covariance of the error that a tool at `r` from the origin of a frame seems to have where the pose of the frame errs: a
+// point there moves by dx + dtheta x r.
+Matrix6d movedTo(const Eigen::Vector3d& r, const Matrix6d& covariance) {
+  Matrix6d J = Matrix6d::Identity();
+  J.topRightCorner<3, 3>() << 0.0, r.z(), -r.y(), -r.z(), 0.0, r.x(), r.y(), -r.x(), 0.0;
+  return J * covariance * J.transpose();
+}
+
 double fraction(Duration elapsed, Duration whole) { return toSeconds(elapsed) / toSeconds(whole); }
 
 // Variances along the axes of M of a point at r from the tool's origin: the point moves by dx + dtheta x r, and along an
@@ -56,14 +64,19 @@ Eigen::AlignedBox3d boxAround(const Eigen::AlignedBox3d& tool_T, const Eigen::Is
 
 }  // namespace
 
-void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
-                        const Eigen::Isometry3d& X_WM) {
-  assert(!path.empty());
+void PathInMesh::begin(const Tool& tool) {
   tool_T_ = tool.bounds_T();
   tool_radius_ = tool.boundingRadius();
   path_M_.clear();
   covariances_M_.clear();
   deviations_.assign(1, 0.0);
+  steps_W_.clear();
+}
+
+void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
+                        const Eigen::Isometry3d& X_WM) {
+  assert(!path.empty());
+  begin(tool);
   const Eigen::Isometry3d X_MW = X_WM.inverse();
   path_M_.push_back({Duration::zero(), X_MW * X_WT, 0.0});
   covariances_M_.emplace_back(Matrix6d::Zero());
@@ -72,6 +85,27 @@ void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const P
     path_M_.push_back({pose.ahead, step_M.X_MT_end, chordError(tool_radius_, step_M.angle()) + pose.deviation_bound});
     covariances_M_.push_back(turned(pose.covariance, X_MW.linear()));
     deviations_.push_back(pose.deviation_bound);
+  }
+}
+
+void PathInMesh::follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
+                        const FramePath& frame) {
+  assert(!path.empty() && frame.points.size() == path.size() + 1);
+  begin(tool);
+  const Eigen::Isometry3d* from_WT = &X_WT;
+  const auto add = [&](Duration ahead, const Matrix6d& covariance_W, const FramePath::Point& point, double deviation) {
+    path_M_.push_back({ahead, point.X_WM.inverse() * *from_WT, deviation});
+    const Matrix6d both_W = covariance_W + movedTo(from_WT->translation() - point.X_WM.translation(), point.covariance);
+    covariances_M_.push_back(turned(both_W, point.X_WM.linear().transpose()));
+  };
+  add(Duration::zero(), Matrix6d::Zero(), frame.points[0], 0.0);
+  for (size_t i = 0; i < path.size(); ++i) {
+    const FramePath::Point& before = frame.points[i];
+    const FramePath::Point& point = frame.points[i + 1];
+    deviations_.push_back(path[i].deviation_bound + point.deviation_bound);
+    steps_W_.push_back({{*from_WT, path[i].X_WT, deviations_.back()}, {before.X_WM, point.X_WM}});
+    from_WT = &path[i].X_WT;
+    add(path[i].ahead, path[i].covariance, point, chordError(steps_W_.back(), tool_radius_) + deviations_.back());
   }
 }
 
@@ -87,14 +121,32 @@ PathInMesh::Pose PathInMesh::at(Duration time, size_t first) const {
   const PathPoint& after = path_M_[first + 1];
   if (time == before.time) return {before.X_MT, covariances_M_[first]};
   if (time == after.time) return {after.X_MT, covariances_M_[first + 1]};
-  const double share = fraction(time - before.time, after.time - before.time);
-  return {Motion{before.X_MT, after.X_MT}.at(share),
-          (1.0 - share) * covariances_M_[first] + share * covariances_M_[first + 1]};
+  const double share = shareOf(time, first);
+  const Eigen::Isometry3d X_MT = steps_W_.empty()
+                                     ? Motion{before.X_MT, after.X_MT}.at(share)
+                                     : steps_W_[first].frame_W.at(share).inverse() * steps_W_[first].tool_W.at(share);
+  return {X_MT, (1.0 - share) * covariances_M_[first] + share * covariances_M_[first + 1]};
+}
+
+double PathInMesh::shareOf(Duration time, size_t first) const {
+  return fraction(time - path_M_[first].time, path_M_[first + 1].time - path_M_[first].time);
+}
+
+// Of a segment within one step.
+RelativeMotion PathInMesh::part(const PathSegment& segment) const {
+  const auto& [tool_W, frame_W] = steps_W_[segment.first];
+  const double from = shareOf(segment.from, segment.first);
+  const double to = shareOf(segment.to, segment.first);
+  return {{tool_W.at(from), tool_W.at(to), tool_W.deviation_bound}, {frame_W.at(from), frame_W.at(to)}};
 }
 
 void PathInMesh::motions_M(const PathSegment& segment, double max_rotation, std::vector<Motion>& motions_M) const {
   if (segment.last - segment.first > 1) {
     motions_M.assign(1, mergedMotion(path_M_, segment.first, segment.last, tool_radius_));
+    return;
+  }
+  if (!steps_W_.empty()) {
+    motions_M = split(part(segment), max_rotation, tool_radius_, std::move(motions_M));
     return;
   }
   const Motion step_M{at(segment.from, segment.first).X_MT, end_M(segment), deviations_[segment.last]};
@@ -118,6 +170,9 @@ Eigen::AlignedBox3d PathInMesh::reach_M(const PathSegment& segment, double devia
   for (size_t i = segment.first + 1; i < segment.last; ++i)
     extendTo({path_M_[i].X_MT, covariances_M_[i]}, deviations_[i]);
   extendTo(at(segment.to, segment.last - 1), deviations_[segment.last]);
+  if (!steps_W_.empty()) {
+    for (size_t i = segment.first + 1; i <= segment.last; ++i) arc = std::max(arc, path_M_[i].deviation_bound);
+  }
   return {box_M.min().array() - (arc + margin), box_M.max().array() + (arc + margin)};
 }
 

@@ -5,6 +5,7 @@
 
 #include "geometry/merged_motion.h"
 #include "sweep_guard/geometry/tool.h"
+#include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/guard/prediction.h"
 
 namespace sweep_guard_core {
@@ -17,8 +18,9 @@ struct PathSegment {
   size_t last = 1;   ///< first pose not before `to`
 };
 
-/// Expresses a predicted path in a mesh frame M that stays where it is. Between poses the tool moves straight at
-/// constant speed and turns about one axis at constant rate. Keeps its buffers from one path to the next.
+/// Expresses a predicted path in a mesh frame M that stays where it is, or that moves along a path of its own. Between poses
+/// the tool moves straight at constant speed and turns about one axis at constant rate. Keeps its buffers from one path to the
+/// next.
 class PathInMesh {
  public:
   /// Sets the path; must be called before any other function.
@@ -26,6 +28,9 @@ class PathInMesh {
   /// @param path  at least one pose
   void follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path,
               const Eigen::Isometry3d& X_WM);
+  /// Sets the path in a frame that moves. The covariances become those of the tool relative to the frame: the errors of both
+  /// count as independent.
+  void follow(const Tool& tool, const Eigen::Isometry3d& X_WT, const PredictedPath& path, const FramePath& frame);
 
   PathSegment whole() const { return between(0, path_M_.size() - 1); }
 
@@ -62,12 +67,16 @@ class PathInMesh {
   };
 
   Pose at(Duration time, size_t first) const;
+  void begin(const Tool& tool);
+  double shareOf(Duration time, size_t first) const;
+  RelativeMotion part(const PathSegment& segment) const;
 
   Eigen::AlignedBox3d tool_T_;
   double tool_radius_ = 0.0;
   Path path_M_;
   std::vector<Matrix6d> covariances_M_;  // at the points of path_M_
   std::vector<double> deviations_;       // from a Motion, before each point of path_M_
+  std::vector<RelativeMotion> steps_W_;  // between them, in a frame that moves; empty: it rests
 };
 
 /// Finds where the sweeps along a predicted path end: numbers of poses, counted as by PathInMesh; the last sweep ends

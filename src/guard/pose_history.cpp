@@ -23,9 +23,9 @@ size_t PoseHistory::lastUpTo(Time stamp) const {
   return lastUpToKey(all_.begin(), all_.end(), stamp, [](const PoseSample& sample) { return sample.stamp; });
 }
 
-double PoseHistory::share(size_t from, size_t i) const {
+double PoseHistory::share(size_t from, size_t i, Time end) const {
   if (i <= from) return 0.0;
-  const double time = toSeconds(newest().stamp - (*this)[from].stamp);
+  const double time = toSeconds(end - (*this)[from].stamp);
   return time > 0.0 ? toSeconds((*this)[i].stamp - (*this)[from].stamp) / time : 1.0;
 }
 

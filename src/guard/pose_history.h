@@ -37,9 +37,10 @@ class PoseHistory {
   /// Returns the index of the last pose with this stamp or an earlier one; 0 if there is none.
   size_t lastUpTo(Time stamp) const;
 
-  /// Returns the fraction of the time from pose `from` to the newest pose that has passed at pose `i`: 0 before `from`,
-  /// and 1 if no time passes.
-  double share(size_t from, size_t i) const;
+  /// Returns the fraction of the time from pose `from` to `end` that has passed at pose `i`: 0 before `from`, and 1 if no
+  /// time passes.
+  /// @param end  not before the newest pose
+  double share(size_t from, size_t i, Time end) const;
 
   /// Computes the path of the tool in M from pose `first` to pose `last`.
   /// @param tool_radius   largest distance of a tool point from the origin of T [m], >= 0

@@ -11,8 +11,8 @@ namespace sweep_guard_core {
 struct PredictionRequest {
   const Tool& tool;  ///< one body of it, unless it is only one
   const PredictedMotion& motion;
-  const Workpieces&
-      workpieces;  ///< their frames are taken to stay where they are at the pose that the motion begins at
+  /// Their frames are taken to stay where they are at the pose that the motion begins at, but for PredictedMotion::frames.
+  const Workpieces& workpieces;
   const Intentions& intentions = kNoIntentions;
   const IntendedTouches& touches = kNoTouches;
   size_t body = 0;  ///< index of `tool` among PoseWithFrames::bodies

@@ -60,6 +60,7 @@ void SweptWorkpieces::updateObjects() {
     if (object.id != workpiece.id) object.behind = {};
     object.id = workpiece.id;
     object.timestamps = {workpiece.stamp, workpiece.received};
+    object.ages = !workpiece.of_other_tool;
     object.swept = holds(swept_, workpiece);
     object.dropped = dropped_.count(workpiece.id) != 0;
   }

@@ -82,7 +82,7 @@ void addMissing(const WarningInputs& inputs, Warning& warning) {
 void addObjectReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
   addMissing(inputs, warning);
   for (const WarningInputs::Object& object : inputs.objects) {
-    if (stale(object.timestamps, now, limits.mesh_timeout)) {
+    if (object.ages && stale(object.timestamps, now, limits.mesh_timeout)) {
       addObject(warning, kMeshStale,
                 {"workpiece '", object.id, "' is ", inSeconds(age(object.timestamps, now)), " old"});
     }
@@ -97,6 +97,23 @@ void addObjectReasons(const WarningInputs& inputs, const Instant& now, const War
   }
   if (inputs.unread && now.steady - inputs.unread->found <= kUnreadTime) {
     add(warning, kMeshInvalid, {inputs.unread->message});
+  }
+}
+
+// Neither its motion nor its surface is known.
+constexpr auto kOtherToolUnknown = static_cast<Reason>(kNotCovered | kNotSwept);
+
+void addOtherToolReasons(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits,
+                         Warning& warning) {
+  for (const WarningInputs::OtherTool& tool : inputs.other_tools) {
+    if (!tool.problem.empty()) {
+      addObject(warning, kOtherToolUnknown, {"tool of '", tool.name, "': ", tool.problem});
+    } else if (!tool.newest) {
+      addObject(warning, kOtherToolUnknown, {"tool of '", tool.name, "' has not been heard of"});
+    } else if (stale(*tool.newest, now, limits.pose_timeout)) {
+      addObject(warning, kOtherToolUnknown,
+                {"newest pose of the tool of '", tool.name, "' is ", inSeconds(age(*tool.newest, now)), " old"});
+    }
   }
 }
 
@@ -284,6 +301,7 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
   addPoseReasons(inputs, now, limits, warning);
   addObjectReasons(inputs, now, limits, warning);
   addCoverageReasons(inputs, now, limits, warning);
+  addOtherToolReasons(inputs, now, limits, warning);
   addLoadReasons(inputs, now, limits, warning);
   for (const auto& [reason, message] : inputs.faults) add(warning, reason, {message});
   addThreadReasons(inputs, warning);
@@ -304,6 +322,7 @@ void computeWarning(const WarningInputs& inputs, const Instant& now, const Warni
 std::string meshProblems(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits) {
   Warning warning;
   addObjectReasons(inputs, now, limits, warning);
+  addOtherToolReasons(inputs, now, limits, warning);
   for (const auto& [reason, message] : inputs.faults) add(warning, reason, {message});
   addThreadReasons(inputs, warning);
   return warning.text;

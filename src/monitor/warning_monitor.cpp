@@ -32,6 +32,36 @@ void WarningMonitor::require(const std::set<std::string>& ids) {
   inputs_.required.assign(ids.begin(), ids.end());
 }
 
+void WarningMonitor::requireTools(const std::vector<std::string>& names) {
+  const std::lock_guard lock(mutex_);
+  inputs_.other_tools.clear();
+  for (const std::string& name : names) inputs_.other_tools.push_back({name, {}, {}});
+}
+
+WarningInputs::OtherTool* WarningMonitor::findTool(const std::string& name) {
+  const auto same = [&](const WarningInputs::OtherTool& tool) { return tool.name == name; };
+  const auto found = std::find_if(inputs_.other_tools.begin(), inputs_.other_tools.end(), same);
+  return found == inputs_.other_tools.end() ? nullptr : &*found;
+}
+
+void WarningMonitor::toolHeard(const std::string& name, const Timestamps& pose) {
+  const std::lock_guard lock(mutex_);
+  WarningInputs::OtherTool* const tool = findTool(name);
+  if (tool == nullptr) return;
+  tool->newest = pose;
+  tool->problem.clear();
+}
+
+void WarningMonitor::toolUnknown(const std::string& name, const std::string& problem) {
+  {
+    const std::lock_guard lock(mutex_);
+    WarningInputs::OtherTool* const tool = findTool(name);
+    if (tool == nullptr) return;
+    tool->problem = problem;
+  }
+  on_fault_();
+}
+
 WarningMonitor::Checkpoint WarningMonitor::checkpoint() const {
   const std::lock_guard lock(mutex_);
   return {epoch_, faults_->count()};
@@ -255,6 +285,7 @@ void WarningMonitor::restartLocked() {
   workpieces_->restart();
   swept_until_ = {};
   coverage_.reset();
+  for (WarningInputs::OtherTool& tool : inputs_.other_tools) tool.newest.reset();
 }
 
 void WarningMonitor::restart() {
@@ -354,6 +385,14 @@ WarningInputs WarningMonitor::inputsAbout(const std::vector<std::string>& ids) c
   WarningInputs about;
   std::copy_if(inputs_.objects.begin(), inputs_.objects.end(), std::back_inserter(about.objects), asked_object);
   std::copy_if(inputs_.required.begin(), inputs_.required.end(), std::back_inserter(about.required), asked);
+  const auto asked_tool = [&](const WarningInputs::OtherTool& tool) {
+    const auto is_link = [&](const std::string& id) {
+      return id.compare(0, tool.name.size() + 1, tool.name + "/") == 0;
+    };
+    return ids.empty() || std::any_of(ids.begin(), ids.end(), is_link);
+  };
+  std::copy_if(inputs_.other_tools.begin(), inputs_.other_tools.end(), std::back_inserter(about.other_tools),
+               asked_tool);
   const auto tell = [&](Reason reason, const std::string& message) {
     if (!message.empty()) about.faults[reason] = message;
   };

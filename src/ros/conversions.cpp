@@ -49,6 +49,8 @@ static_assert(equal(Warning::CONTACT, sweep_guard_core::WarningLevel::kContact))
 constexpr std::int64_t kLastStamp = (std::int64_t{1} << 32) * 1'000'000'000 - 1;  // [ns]
 constexpr std::int64_t kLongest = ((std::int64_t{1} << 31) - 1) * 1'000'000'000;  // [ns]
 
+using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
 template <typename Vector>
 Eigen::Vector3d toEigen(const Vector& v) {
   return {v.x, v.y, v.z};
@@ -75,15 +77,6 @@ sweep_guard::TriangleContact contactMsg(const sweep_guard_core::TriangleContact&
   msg.point = vectorMsg<geometry_msgs::Point>(contact.impact.point_M);
   msg.normal = vectorMsg<geometry_msgs::Vector3>(contact.impact.normal_M);
   msg.depth = contact.impact.depth;
-  return msg;
-}
-
-sweep_guard::PredictedPose poseMsg(const sweep_guard_core::PredictedPose& pose, sweep_guard_core::Duration age) {
-  using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-  sweep_guard::PredictedPose msg;
-  msg.from_now = toMsg(pose.ahead - age);
-  msg.pose = toMsg(pose.X_WT);
-  Eigen::Map<RowMajor>(msg.covariance.data()) = pose.covariance;
   return msg;
 }
 
@@ -171,6 +164,20 @@ sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_
   return sweep_guard_core::TriangleMesh(vertices, std::move(triangles));
 }
 
+sweep_guard::PredictedPose toMsg(const sweep_guard_core::PredictedPose& pose, sweep_guard_core::Duration age) {
+  sweep_guard::PredictedPose msg;
+  msg.from_now = toMsg(pose.ahead - age);
+  msg.pose = toMsg(pose.X_WT);
+  Eigen::Map<RowMajor6d>(msg.covariance.data()) = pose.covariance;
+  return msg;
+}
+
+sweep_guard_core::PredictedPose fromMsg(const sweep_guard::PredictedPose& pose) {
+  const sweep_guard_core::Matrix6d covariance = Eigen::Map<const RowMajor6d>(pose.covariance.data());
+  if (!covariance.allFinite()) throw InvalidInput("covariance is NaN or infinite");
+  return {sweep_guard_core::Duration(pose.from_now.toNSec()), fromMsg(pose.pose), covariance};
+}
+
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const std::vector<std::uint32_t>& triangles) {
   sweep_guard::ObjectContacts msg;
@@ -225,12 +232,12 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
   sweep_guard::Prediction msg;
   msg.header.stamp = toMsg(prediction.stamp);
   for (const sweep_guard_core::PredictedPose& pose : prediction.path) {
-    if (pose.ahead > age) msg.poses.push_back(poseMsg(pose, age));
+    if (pose.ahead > age) msg.poses.push_back(toMsg(pose, age));
   }
   for (const sweep_guard_core::PredictedPath& path : prediction.body_paths) {
     sweep_guard::PredictedBody& body = msg.bodies.emplace_back();
     for (const sweep_guard_core::PredictedPose& pose : path) {
-      if (pose.ahead > age) body.poses.push_back(poseMsg(pose, age));
+      if (pose.ahead > age) body.poses.push_back(toMsg(pose, age));
     }
   }
   msg.sweeps_asked = static_cast<std::uint32_t>(prediction.sweeps_asked);

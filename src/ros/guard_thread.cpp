@@ -60,6 +60,7 @@ GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadD
       results_(private_node, dependencies.parameters),
       proximity_(private_node, dependencies.parameters, dependencies.monitor),
       interaction_(private_node, dependencies.parameters, dependencies.monitor),
+      bodies_(private_node, dependencies.parameters),
       guard_(guardOf(dependencies.parameters.initial(), firstDetector(dependencies))) {}
 
 void GuardThread::start(Supervisor& supervisor) {
@@ -98,6 +99,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
     guard_.exchange(change);
     if (!change.bodies.empty()) {
       proximity_.setTool(*next->tool);
+      bodies_.setTool(*next);
       interaction_.exchange(pieces);
     }
     if (tested) dependencies_.monitor.detectorTested({});
@@ -120,6 +122,7 @@ void GuardThread::reset() {
     guard_.exchange(change);
     proximity_.reset();
     interaction_.reset();
+    bodies_.reset();
     passed_.clear();
     swept_.reset();
     prediction_due_ = false;
@@ -283,9 +286,11 @@ bool GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
     guard_.reset();
     proximity_.reset();
     interaction_.reset();
+    bodies_.reset();
     passed_.clear();
   }
   checkpoint_ = queued.checkpoint;
+  follow();
   pace_.received(queued.pose.received);
   if (next != nullptr && knowsAllFramesOf(queued, *next)) {
     pass(queued.pose);
@@ -300,8 +305,13 @@ bool GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
   return true;
 }
 
+void GuardThread::follow() {
+  if (dependencies_.frame_motions != nullptr) guard_.follow(dependencies_.frame_motions->get());
+}
+
 void GuardThread::pass(const sweep_guard_core::PoseWithFrames& pose) {
   guard_.pass(pose);
+  bodies_.moved(pose);
   passed_.push_back(pose.received);
   dependencies_.scene.passed(pose);
 }
@@ -330,6 +340,7 @@ void GuardThread::sweep(const QueuedPose& queued) {
   dependencies_.scene.swept(pose, report);
   top_->run([&] { proximity_.swept(pose, workpieces, *report, guard_); });
   top_->run([&] { interaction_.swept(pose, workpieces, *report); });
+  top_->run([&] { bodies_.moved(pose); });
 }
 
 void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures) {
@@ -371,6 +382,7 @@ void GuardThread::predict() {
   const auto prediction = predictions_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
   guard_.intend(dependencies_.intentions.at(at.steady));
+  follow();
   predictInterrupted(age, workpieces, *prediction, charge.interrupted);
   const Duration took = std::chrono::steady_clock::now() - at.steady - charge.interrupted;
   dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), took);
@@ -385,6 +397,7 @@ void GuardThread::predict() {
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
   dependencies_.scene.predicted(pose, prediction);
+  bodies_.predicted(pose, *prediction);
 }
 
 // Sweeps the poses that come meanwhile, as long as none of them fails, and counts how long that takes.

@@ -11,10 +11,12 @@
 
 #include "common/pool.h"
 #include "guard/cross_check.h"
+#include "guard/frame_motion_store.h"
 #include "guard/intention_store.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
 #include "ros/log_throttle.h"
+#include "ros/output/bodies_publisher.h"
 #include "ros/output/interaction_publisher.h"
 #include "ros/output/proximity_publisher.h"
 #include "ros/output/result_publisher.h"
@@ -40,6 +42,7 @@ struct GuardThreadDependencies {
   ScenePublisher& scene;
   sweep_guard_core::QuerySampler& sampler;
   sweep_guard_core::IntentionStore& intentions;
+  const sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of other tools
   std::function<std::unique_ptr<sweep_guard_core::Detector>(const Parameters&)> make_detector =
       [](const Parameters& wanted) { return makeDetector(wanted.detector.name, wanted.detector.options); };
 };
@@ -91,6 +94,7 @@ class GuardThread {
   bool sweepWaiting();
   bool takeMore();
   bool process(const QueuedPose& queued, const QueuedPose* next);
+  void follow();
   void pass(const sweep_guard_core::PoseWithFrames& pose);
   void sweep(const QueuedPose& queued);
   void predict();
@@ -110,6 +114,7 @@ class GuardThread {
   const ResultPublisher results_;
   ProximityPublisher proximity_;      // after the start, used by the thread only
   InteractionPublisher interaction_;  // the same
+  BodiesPublisher bodies_;            // the same
   std::mutex change_mutex_;           // one change of the guard at a time
 
   // Used by the thread only:

@@ -51,10 +51,11 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       }),
       cross_check_(parameters_, monitor_),
       guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_,
-                                   cross_check_.sampler(), intentions_}),
-      poses_(node, parameters_.initial(), {frames_, workpieces_, monitor_, queue_}),
+                                   cross_check_.sampler(), intentions_, &frame_motions_}),
+      poses_(node, parameters_.initial(), {frames_, workpieces_, monitor_, queue_, &frame_motions_}),
       meshes_(node, parameters_.initial(), workpieces_, monitor_),
-      path_tests_({parameters_, frames_, workpieces_, monitor_}),
+      other_tools_(node, parameters_.initial(), {meshes_, workpieces_, frame_motions_, monitor_}),
+      path_tests_({parameters_, frames_, workpieces_, monitor_, &frame_motions_}),
       check_sweep_(private_node, path_tests_),
       check_trajectory_(private_node, path_tests_),
       predict_(private_node, parameters_, workpieces_,
@@ -85,6 +86,7 @@ void SweepGuardNode::start() {
   watchdog_.start(supervisor_);
   frames_.start(supervisor_);
   meshes_.start(supervisor_);
+  other_tools_.start(supervisor_);
   poses_.start(supervisor_);
   path_tests_.start(supervisor_);
   check_sweep_.start(supervisor_);

@@ -3,6 +3,7 @@
 #include "ros/cross_check_thread.h"
 #include "ros/guard_thread.h"
 #include "ros/input/mesh_input.h"
+#include "ros/input/other_tools.h"
 #include "ros/input/pose_input.h"
 #include "ros/master_watch.h"
 #include "ros/output/diagnostics.h"
@@ -57,10 +58,12 @@ class SweepGuardNode {
   sweep_guard_core::IntentionStore intentions_;
   sweep_guard_core::AllowedMatches allowed_;
   sweep_guard_core::WorkpieceStore workpieces_;
+  sweep_guard_core::FrameMotionStore frame_motions_;
   CrossCheckThread cross_check_;
   GuardThread guard_thread_;
   PoseInput poses_;
   MeshInput meshes_;
+  OtherTools other_tools_;
   PathTests path_tests_;
   CheckSweepService check_sweep_;
   CheckTrajectoryService check_trajectory_;

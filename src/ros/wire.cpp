@@ -172,6 +172,35 @@ void checkLengths<sweep_guard::ToolBalls>(Wire wire) {
 }
 
 template <>
+void checkLengths<sweep_guard::ToolBodies>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.text();
+  read.skip(sizeof(sweep_guard::ToolBodies::revision) + sizeof(sweep_guard::ToolBodies::sequence) + kStamp);
+  read.each(kPose + sizeof(double) + kLength, [&] {
+    read.skip(kPose + sizeof(double));
+    read.array(kStamp + kPose + sizeof(sweep_guard::PredictedPose::covariance));
+  });
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::ToolSurface>(Wire wire) {
+  WireReader read(wire);
+  read.header();
+  read.text();
+  read.text();
+  read.skip(sizeof(sweep_guard::ToolSurface::revision));
+  read.each(3 * kLength + sizeof(sweep_guard::LinkSurface::body), [&] {
+    read.text();
+    read.skip(sizeof(sweep_guard::LinkSurface::body));
+    read.array(3 * sizeof(std::uint32_t));
+    read.array(3 * sizeof(double));
+  });
+  read.end();
+}
+
+template <>
 void checkLengths<sweep_guard::Warning>(Wire wire) {
   WireReader read(wire);
   read.header();

@@ -18,6 +18,8 @@
 #include <sweep_guard/SaveProfile.h>
 #include <sweep_guard/SetIntent.h>
 #include <sweep_guard/ToolBalls.h>
+#include <sweep_guard/ToolBodies.h>
+#include <sweep_guard/ToolSurface.h>
 #include <sweep_guard/Warning.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -57,6 +59,10 @@ template <>
 void checkLengths<sweep_guard::Proximity>(Wire wire);
 template <>
 void checkLengths<sweep_guard::ToolBalls>(Wire wire);
+template <>
+void checkLengths<sweep_guard::ToolBodies>(Wire wire);
+template <>
+void checkLengths<sweep_guard::ToolSurface>(Wire wire);
 template <>
 void checkLengths<sweep_guard::Warning>(Wire wire);
 template <>

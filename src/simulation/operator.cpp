@@ -64,6 +64,7 @@ class OperatorNode {
         rate_(parameters.number("rate", 100.0, {1.0, 10000.0})),
         loop_(parameters.flag("loop", true)),
         wait_for_guard_(parameters.flag("wait_for_guard", true)),
+        first_hole_(parameters.integer("first_hole", 0, 0, kHolesOnCircle)),
         min_subscribers_(parameters.integer("min_subscribers", 1, 0, 100)),
         intend_(parameters.flag("intend", false)),
         guard_(parameters.text("guard", "")),
@@ -155,7 +156,12 @@ class OperatorNode {
     return sampled(Drilling(holes_W(), options), rate_, loop_);
   }
 
-  std::vector<Eigen::Vector3d> holes_W() const { return holesAround(*surface_, kHoleCircle, kHolesOnCircle); }
+  std::vector<Eigen::Vector3d> holes_W() const {
+    std::vector<Eigen::Vector3d> holes_W = holesAround(*surface_, kHoleCircle, kHolesOnCircle);
+    const auto first = static_cast<size_t>(first_hole_) % holes_W.size();
+    std::rotate(holes_W.begin(), holes_W.begin() + static_cast<std::ptrdiff_t>(first), holes_W.end());
+    return holes_W;
+  }
 
   // Says where the drill is meant to touch the workpiece.
   void intendHoles() {
@@ -224,6 +230,7 @@ class OperatorNode {
   double rate_;
   bool loop_;
   bool wait_for_guard_;
+  int first_hole_;  // of the script
   int min_subscribers_;
   bool intend_;
   std::string guard_;  // the operator moves its tool; empty: a tool with the tip at the origin

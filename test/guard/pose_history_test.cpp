@@ -56,12 +56,13 @@ TEST(PoseHistoryTest, FindsPosesByNumberAndStamp) {
 TEST(PoseHistoryTest, SharesAreOfTime) {
   PoseHistory history;
   for (const Duration stamp : {0ms, 10ms, 40ms, 50ms}) history.add(sampleOf(1, stamp));
-  EXPECT_EQ(history.share(1, 0), 0.0);
-  EXPECT_EQ(history.share(1, 1), 0.0);
-  EXPECT_EQ(history.share(1, 2), 0.75);
-  EXPECT_EQ(history.share(1, 3), 1.0);
+  EXPECT_EQ(history.share(1, 0, Time(50ms)), 0.0);
+  EXPECT_EQ(history.share(1, 1, Time(50ms)), 0.0);
+  EXPECT_EQ(history.share(1, 2, Time(50ms)), 0.75);
+  EXPECT_EQ(history.share(1, 3, Time(50ms)), 1.0);
+  EXPECT_EQ(history.share(1, 3, Time(90ms)), 0.5);
   history.add(sampleOf(2, 50ms));
-  EXPECT_EQ(history.share(3, 4), 1.0);
+  EXPECT_EQ(history.share(3, 4, Time(50ms)), 1.0);
 }
 
 // The frame turns by half a radian under a tool that rests a metre beside its origin.

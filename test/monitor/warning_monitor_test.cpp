@@ -35,6 +35,35 @@ TEST_F(WarningMonitorTest, AnOverloadIsForgottenWhenTimeJumps) {
   EXPECT_EQ(reasonsAt(1010) & kOverload, 0U);
 }
 
+TEST_F(WarningMonitorTest, AnotherToolThatIsSilentOrUnknownIsNotCovered) {
+  monitor_.requireTools({"/left"});
+  EXPECT_EQ(reasonsAt(1010), kNotCovered | kNotSwept);
+  monitor_.toolHeard("/left", timestampsAt(1000));
+  monitor_.toolHeard("/right", timestampsAt(1000));
+  EXPECT_EQ(levelAt(1100), WarningLevel::kClear);
+  sweep(reportOf(workpieces_), 1090);
+  EXPECT_EQ(levelAt(1100), WarningLevel::kClear);
+  EXPECT_EQ(reasonsAt(1101), kNotCovered | kNotSwept) << "100 ms after its newest pose";
+  EXPECT_NE(monitor_.meshProblems(at(1101), {}), "");
+  EXPECT_NE(monitor_.meshProblems(at(1101), {"/left/hand"}), "");
+  EXPECT_EQ(monitor_.meshProblems(at(1101), {"liver"}), "");
+  monitor_.toolHeard("/left", timestampsAt(1090));
+  EXPECT_EQ(levelAt(1101), WarningLevel::kClear);
+  monitor_.toolUnknown("/left", "its surface has not come");
+  EXPECT_EQ(reasonsAt(1101), kNotCovered | kNotSwept);
+  EXPECT_NE(warningOf(monitor_, at(1101)).text.find("tool of '/left': its surface"), std::string::npos);
+}
+
+// What moves with another tool has the age of its poses, not that of its shape.
+TEST_F(WarningMonitorTest, ALinkOfAnotherToolDoesNotAge) {
+  Workpiece link = *workpiece("/left/hand", 100);
+  link.of_other_tool = true;
+  const Workpieces both = {std::make_shared<const Workpiece>(link), workpieces_[0]};
+  monitor_.setWorkpieces(both);
+  sweep(reportOf(both), 1000);
+  EXPECT_EQ(levelAt(1010), WarningLevel::kClear);
+}
+
 TEST(EmptyWarningMonitorTest, KnowsNothing) {
   const Warning warning = warningOf(WarningMonitor(kLimits), at(0));
   EXPECT_EQ(warning.level, WarningLevel::kUnknown);

@@ -114,6 +114,29 @@ sweep_guard::ToolBalls example() {
 }
 
 template <>
+sweep_guard::ToolBodies example() {
+  sweep_guard::ToolBodies message;
+  message.header = header();
+  message.run_id = "run";
+  message.bodies.resize(2);
+  message.bodies[1].predicted.resize(3);
+  return message;
+}
+
+template <>
+sweep_guard::ToolSurface example() {
+  sweep_guard::ToolSurface message;
+  message.header = header();
+  message.tool = "drill";
+  message.run_id = "run";
+  message.links.resize(2);
+  message.links[0].link = "tip";
+  message.links[0].mesh.triangles.resize(2);
+  message.links[0].mesh.vertices.resize(3);
+  return message;
+}
+
+template <>
 sweep_guard::Warning example() {
   sweep_guard::Warning message;
   message.header = header();
@@ -276,6 +299,22 @@ std::vector<size_t> lengths<sweep_guard::ToolBalls>() {
 }
 
 template <>
+std::vector<size_t> lengths<sweep_guard::ToolBodies>() {
+  const size_t bodies = kHeader + 4 + 3 + 4 + 4 + 8;
+  const size_t first = bodies + 4 + kPose + 8;
+  return {12, kHeader, bodies, first, first + 4 + kPose + 8};
+}
+
+template <>
+std::vector<size_t> lengths<sweep_guard::ToolSurface>() {
+  const size_t links = kHeader + 4 + 5 + 4 + 3 + 4;
+  const size_t triangles = links + 4 + 4 + 3 + 4;
+  const size_t vertices = triangles + 4 + 2 * 12;
+  const size_t second = vertices + 4 + 3 * 24;
+  return {12, kHeader, kHeader + 4 + 5, links, links + 4, triangles, vertices, second, second + 8, second + 12};
+}
+
+template <>
 std::vector<size_t> lengths<sweep_guard::Warning>() {
   const size_t mesh_id = kHeader + 4 + 5 + 5 + 8;
   const size_t link = mesh_id + 4 + 5;
@@ -390,11 +429,11 @@ class WireTest : public testing::Test {};
 using Messages =
     testing::Types<geometry_msgs::PoseStamped, sensor_msgs::JointState, geometry_msgs::Twist,
                    geometry_msgs::TwistStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
-                   sweep_guard::MeshVertices, sweep_guard::Proximity, sweep_guard::ToolBalls, sweep_guard::Warning,
-                   sweep_guard::CheckSweepRequest, sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest,
-                   sweep_guard::AcknowledgeRequest, sweep_guard::SaveProfileRequest, sweep_guard::Intend,
-                   sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest, std_srvs::TriggerRequest,
-                   dynamic_reconfigure::ReconfigureRequest>;
+                   sweep_guard::MeshVertices, sweep_guard::Proximity, sweep_guard::ToolBalls, sweep_guard::ToolBodies,
+                   sweep_guard::ToolSurface, sweep_guard::Warning, sweep_guard::CheckSweepRequest,
+                   sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest, sweep_guard::AcknowledgeRequest,
+                   sweep_guard::SaveProfileRequest, sweep_guard::Intend, sweep_guard::SetIntentRequest,
+                   std_srvs::SetBoolRequest, std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {

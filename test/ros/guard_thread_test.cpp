@@ -78,6 +78,7 @@ class GuardThreadTest : public ::testing::Test {
   GuardThread guard_thread_{
       node_,
       {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_, sampler_, intentions_,
+       /*frame_motions=*/nullptr,
        [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(record_); }}};
 };
 

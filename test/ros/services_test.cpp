@@ -139,6 +139,7 @@ class ServicesTest : public ::testing::Test {
             scene_,
             cross_check_.sampler(),
             intentions_,
+            /*frame_motions=*/nullptr,
             [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(detector_record_); }};
   }
 
@@ -163,10 +164,10 @@ class ServicesTest : public ::testing::Test {
   Frames frames_{ros::NodeHandle(), parameters_.initial().max_message_size, [](const auto&, const auto&) {}};
   CrossCheckThread cross_check_{parameters_, monitor_};
   GuardThread guard_thread_{node_, dependenciesWith(parameters_)};
-  PathTests path_tests_{
-      {parameters_, frames_, workpieces_, monitor_, [this](const auto& /*name*/, const auto& /*options*/) {
-         return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
-       }}};
+  PathTests path_tests_{{parameters_, frames_, workpieces_, monitor_, /*frame_motions=*/nullptr,
+                         [this](const auto& /*name*/, const auto& /*options*/) {
+                           return std::make_unique<sweep_guard_core::FakeDetector>(path_detector_record_);
+                         }}};
   CheckSweepService check_sweep_{node_, path_tests_};
   Controls controls_{
       node_,

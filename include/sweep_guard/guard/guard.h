@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/guard/guard_options.h"
 #include "sweep_guard/guard/intention.h"
 #include "sweep_guard/guard/prediction.h"
@@ -60,11 +61,18 @@ class Guard {
   /// @param[out] report  overwritten; its buffers are used again
   void sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report);
 
+  /// Sets how frames move on their own, from the next pass(), sweep() and predict() on: PoseWithFrames::X_WM does not count for
+  /// them. Their workpieces are swept up to the older of the newest poses of frame and tool, and predicted along the motion
+  /// of the frame. Each call continues the motions of the one before.
+  /// @param frames  not null
+  void follow(std::shared_ptr<const FrameMotions> frames) { frames_ = std::move(frames); }
+
   /// Takes the last sweep back, because its report was lost or sweep() threw: the next one begins where it began. Not
   /// after later calls of pass().
   void takeBack() noexcept;
 
-  /// Predicts the path after the newest pose and tests it. Frames of workpieces are taken to stay where they are. The
+  /// Predicts the path after the newest pose and tests it. Frames of workpieces are taken to stay where they are, but for
+  /// those of follow(). The
   /// newest pose must have been given to sweep(), not to pass(). The path is empty until PosePredictor knows a motion.
   /// The whole prediction is empty, without a stamp, before the first sweep and if `age` exceeds the reserve of the
   /// horizon: the number of sweeps would grow with the age. Fails and throws as sweep() does.
@@ -141,6 +149,7 @@ class Guard {
   std::unique_ptr<SweepPlan> plan_;
   const std::shared_ptr<const Intentions> no_intentions_;
   std::shared_ptr<const Intentions> intentions_;
+  std::shared_ptr<const FrameMotions> frames_ = std::make_shared<const FrameMotions>();
 };
 
 }  // namespace sweep_guard_core

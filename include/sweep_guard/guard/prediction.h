@@ -8,6 +8,7 @@
 
 #include "sweep_guard/common/time.h"
 #include "sweep_guard/geometry/swept_volume.h"
+#include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/guard/probability_map.h"
 #include "sweep_guard/guard/workpiece.h"
@@ -21,6 +22,7 @@ struct PredictedMotion {
   PredictedPath path;        ///< empty if the motion is not known yet
   size_t reflex_sweeps = 0;  ///< number of poses in the reflex interval (HorizonOptions); meaningless without a path
   std::vector<PredictedPath> body_paths = {};  ///< of each of `from.bodies`, at the same times; empty if there are none
+  std::shared_ptr<const FrameMotions> frames = {};  ///< of those that move on their own; null: none
 
   const PredictedPath& pathOf(size_t body) const { return from.bodies.empty() ? path : body_paths[body]; }
 };
@@ -68,8 +70,9 @@ struct Prediction {
   size_t sweeps_asked = 0;   ///< one for every pose of the path
   size_t sweeps_made = 0;    ///< fewer if time was short: one sweep then covers several poses
   std::vector<PredictedObject> objects;  ///< every workpiece tested; none if the path is empty
-  Workpieces unplaced;                   ///< workpieces not tested because their frame is unknown at the newest pose
-  std::vector<SweepFailure> failures;    ///< workpieces whose test failed, for one body at least
+  /// Workpieces not tested because their frame is unknown at the newest pose, or of one that moves on its own, to the end.
+  Workpieces unplaced;
+  std::vector<SweepFailure> failures;  ///< workpieces whose test failed, for one body at least
 
   /// Returns the stamp up to which every workpiece is tested: the end of the path, or `stamp` if the path is empty or a
   /// workpiece was not tested.

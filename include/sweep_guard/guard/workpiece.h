@@ -21,7 +21,8 @@ struct Workpiece {
   TriangleMesh mesh_M;
   /// Number of updates of the vertex positions since the triangles came, or came again in another frame.
   std::uint64_t updates = 0;
-  double path_length = 0.0;  ///< upper bound on any vertex's path length in M over these updates [m]
+  double path_length = 0.0;    ///< upper bound on any vertex's path length in M over these updates [m]
+  bool of_other_tool = false;  ///< a link of another tool: Guard::follow() moves its frame, and it does not age
 };
 
 /// Counts one update: sets `updates` and `path_length` of a workpiece from those before the update.

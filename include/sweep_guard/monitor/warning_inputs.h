@@ -23,6 +23,13 @@ struct WarningInputs {
     /// workpiece moved in between was not tested, and `swept` is false. 0: nothing was left out.
     Duration behind = {};
     bool dropped = false;  ///< an update was dropped unread, and no later one has been swept
+    bool ages = true;      ///< false: of another tool
+  };
+  /// Another tool that is watched, too.
+  struct OtherTool {
+    std::string name;                  ///< of its guard
+    std::optional<Timestamps> newest;  ///< of its newest pose that counts
+    std::string problem;               ///< why its newest pose does not count; empty: it does
   };
   struct Contact {
     std::string id;
@@ -64,8 +71,9 @@ struct WarningInputs {
     bool lasting = false;  ///< until a restart
   };
 
-  std::optional<Timestamps> pose;          ///< newest pose that has been swept
-  std::vector<Object> objects;             ///< ascending by id, each once
+  std::optional<Timestamps> pose;  ///< newest pose that has been swept
+  std::vector<Object> objects;     ///< ascending by id, each once
+  std::vector<OtherTool> other_tools;
   std::optional<Contact> contact;          ///< newest contact; of several in one sweep, the first reported
   std::vector<std::string> intended;       ///< workpieces that the newest sweep met as intended (Intention)
   std::vector<WorkpieceWarning> warnings;  ///< each workpiece once

@@ -56,6 +56,17 @@ class WarningMonitor {
   /// Sets the ids of the workpieces without which the warning is not clear.
   void require(const std::set<std::string>& ids);
 
+  /// Sets the guards of other tools: the warning is not clear while one of them is silent for longer than `pose_timeout`.
+  /// @param names  each once; not checked
+  void requireTools(const std::vector<std::string>& names);
+
+  /// Reports a pose of another tool that counts. Does nothing if there is no such tool.
+  void toolHeard(const std::string& name, const Timestamps& pose);
+
+  /// Reports why poses of another tool do not count. The warning is not clear until toolHeard(). Does nothing if there is no
+  /// such tool.
+  void toolUnknown(const std::string& name, const std::string& problem);
+
   Checkpoint checkpoint() const;
 
   /// Reports that an input was refused or failed. The warning is not clear until a pose received later has been swept.
@@ -212,6 +223,7 @@ class WarningMonitor {
   void beginCoverage(const Prediction& prediction);
   WarningInputs inputsAbout(const std::vector<std::string>& ids) const;
   Time coveredUntil(const Instant& now) const;
+  WarningInputs::OtherTool* findTool(const std::string& name);
 
   const std::function<void()> on_fault_;
   const std::function<std::optional<SteadyTime>()> waiting_since_;

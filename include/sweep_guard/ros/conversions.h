@@ -54,6 +54,12 @@ geometry_msgs::Pose toMsg(const Eigen::Isometry3d& pose);
 ///     `max_triangles` vertices, or if TriangleMesh refuses the mesh
 sweep_guard_core::TriangleMesh fromMsg(const shape_msgs::Mesh& mesh, size_t max_triangles);
 
+/// Converts a predicted pose, at the time after its stamp at which it was predicted.
+sweep_guard::PredictedPose toMsg(const sweep_guard_core::PredictedPose& pose, sweep_guard_core::Duration age);
+/// Converts a predicted pose whose time counts from the stamp of the newest measured pose.
+/// @throws sweep_guard_core::InvalidInput as for a pose, or if the covariance has a NaN or an infinity
+sweep_guard_core::PredictedPose fromMsg(const sweep_guard::PredictedPose& pose);
+
 /// Makes a message that names a workpiece and these triangles of it, without impacts.
 /// @param triangles  indices: ascending, each once
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,

@@ -50,6 +50,7 @@ size_t sizeOf(const Msg& msg) {
 MeshInput::MeshInput(const ros::NodeHandle& node, const Parameters& parameters,
                      sweep_guard_core::WorkpieceStore& workpieces, sweep_guard_core::WarningMonitor& monitor)
     : mesh_ids_(parameters.mesh_ids),
+      other_tools_(parameters.other_tools),
       max_triangles_(parameters.max_triangles),
       max_waiting_bytes_(capacity(parameters)),
       workpieces_(workpieces),
@@ -129,6 +130,11 @@ void MeshInput::pushToStore(const sweep_guard::MeshVertices::ConstPtr& msg, Stea
 bool MeshInput::readable(const std::string& id, const std_msgs::Header& header, InputRecord& record) {
   if (!mesh_ids_.empty() && mesh_ids_.count(id) == 0) return false;
   record.received({fromMsg(header.stamp), std::chrono::steady_clock::now()});
+  const auto is_link = [&](const std::string& tool) { return id.compare(0, tool.size() + 1, tool + "/") == 0; };
+  if (std::any_of(other_tools_.begin(), other_tools_.end(), is_link)) {
+    unread("id '" + printable(id) + "' is that of a link of another tool (other_tools)", record);
+    return false;
+  }
   if (isName(id)) return true;
   unread(id.empty() ? "id is empty: name the workpiece"
                     : "id '" + printable(id) + "' has more than 128 or unprintable characters",

@@ -35,6 +35,9 @@ class MeshInput {
   /// Takes each mesh that came too early once simulated time has reached its stamp. To be called now and then. Any thread
   void takeEarly();
 
+  /// Runs a job in the thread that changes the store of the workpieces.
+  void changeStore(const Worker::Job& job) { storing_.push(job); }
+
   std::string meshTopic() const { return mesh_.getTopic(); }          ///< resolved
   std::string verticesTopic() const { return vertices_.getTopic(); }  ///< resolved
   std::uint32_t meshPublishers() const { return mesh_.getNumPublishers(); }
@@ -73,6 +76,7 @@ class MeshInput {
   void drop(const sweep_guard::MeshVertices& msg, sweep_guard_core::SteadyTime received);
 
   const std::set<std::string> mesh_ids_;
+  const std::vector<std::string> other_tools_;
   const size_t max_triangles_;
   const size_t max_waiting_bytes_;  // in each of three places
   sweep_guard_core::WorkpieceStore& workpieces_;

@@ -59,7 +59,8 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters,
       frames_(dependencies.frames),
       workpieces_(dependencies.workpieces),
       monitor_(dependencies.monitor),
-      queue_(dependencies.queue) {
+      queue_(dependencies.queue),
+      frame_motions_(dependencies.frame_motions) {
   if (parameters.articulated) {
     articulated_ = std::make_unique<ArticulatedTool>(parameters);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
@@ -207,6 +208,10 @@ std::map<std::string, Eigen::Isometry3d> PoseInput::locate(const std::set<std::s
   std::map<std::string, Eigen::Isometry3d> X_WM;
   for (const std::string& frame : mesh_frames) {
     sweep_guard_core::beat();
+    if (frame_motions_ != nullptr && frame_motions_->expects(frame)) {
+      if (const auto known = frame_motions_->at(frame, stamp)) X_WM[frame] = *known;
+      continue;
+    }
     try {
       X_WM[frame] = lookup(fixed_frame_, frame, stamp);
     } catch (const FrameError& error) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "guard/frame_motion_store.h"
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
 #include "ros/bounded.h"
@@ -28,6 +29,7 @@ struct PoseInputDependencies {
   const sweep_guard_core::WorkpieceStore& workpieces;
   sweep_guard_core::WarningMonitor& monitor;
   WorkQueue& queue;
+  const sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of frames that tf does not have
 };
 
 /// Takes tool poses from the topic `tool_pose` or from tf, and positions of joints from `joint_states`, refuses bad ones,
@@ -75,6 +77,7 @@ class PoseInput {
   const sweep_guard_core::WorkpieceStore& workpieces_;
   sweep_guard_core::WarningMonitor& monitor_;
   WorkQueue& queue_;
+  const sweep_guard_core::FrameMotionStore* const frame_motions_;
 
   sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the previous pose
   std::optional<sweep_guard_core::Time> previous_stamp_;

@@ -1,6 +1,5 @@
 #include "ros/merger/warning_merger_node.h"
 
-#include <ros/names.h>
 #include <std_msgs/Bool.h>
 
 #include <algorithm>
@@ -35,21 +34,8 @@ constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
 constexpr size_t kMaxMessageSize = 64 << 20;
 constexpr size_t kMaxGuards = 64;
 
-// As a node resolves them; a nodelet has not the namespace of its process.
-std::vector<std::string> readGuards(ParameterReader& read, const ros::NodeHandle& private_node) {
-  const std::string scope = ros::names::parentNamespace(private_node.getNamespace());
-  std::vector<std::string> guards;
-  for (const std::string& name : read.texts("guards")) {
-    std::string error;
-    if (!ros::names::validate(name, error)) throw InvalidInput("parameter guards has no name of a node: " + error);
-    guards.push_back(ros::names::resolve(scope, name));
-    if (std::count(guards.begin(), guards.end(), guards.back()) > 1) {
-      throw InvalidInput("parameter guards has " + guards.back() + " twice: name each guard once");
-    }
-    if (guards.back() == private_node.getNamespace()) {
-      throw InvalidInput("parameter guards has " + guards.back() + ", which is this node: name the guards alone");
-    }
-  }
+std::vector<std::string> readGuards(ParameterReader& read) {
+  std::vector<std::string> guards = read.nodes("guards");
   if (guards.empty() || guards.size() > kMaxGuards) {
     throw InvalidInput("parameter guards has " + std::to_string(guards.size()) +
                        " names: set it to the nodes of 1 to 64 guards, as in [/left/sweep_guard, /right/sweep_guard]");
@@ -84,7 +70,7 @@ WarningMergerNode::WarningMergerNode(const ros::NodeHandle& node, const ros::Nod
                                      ParameterReader read)
     : master_watch_(private_node, [this] { return settings_; }),
       supervisor_(process),
-      merger_(readGuards(read, private_node), readTimeout(read)),
+      merger_(readGuards(read), readTimeout(read)),
       newest_(merger_.guards().size()),
       updater_(node, private_node, private_node.getNamespace()),
       peer_watch_([this] { return aGuardIsSilent(); }) {

@@ -41,6 +41,7 @@ void addSweptVolumes(visualization_msgs::MarkerArray& array, const sweep_guard_c
                      WarningLevel level) {
   int index = 0;
   for (const sweep_guard_core::SweptObject& object : report.objects) {
+    if (object.workpiece->of_other_tool) continue;
     Surface surface("swept_volume", index++, object.workpiece->frame, report.end, kLineWidth);
     surface.paint(levelColor(level, 0.25), levelColor(level, 0.8));
     for (const sweep_guard_core::SweptVolume& volume_M : object.result.volumes_M) surface.add(volume_M);
@@ -53,6 +54,7 @@ void addContactTriangles(visualization_msgs::MarkerArray& array, const sweep_gua
   const double alpha = held ? 0.3 : 0.95;
   int index = 0;
   for (const sweep_guard_core::SweptObject& object : report.objects) {
+    if (object.workpiece->of_other_tool) continue;
     Surface surface("contact_triangles", index++, object.workpiece->frame, stamp, lift);
     surface.paint(color(1.0, 0.15, 0.1, alpha), color(1.0, 0.75, 0.7, alpha));
     surface.add(object.workpiece->mesh_M, object.result.not_ruled_out, lift);
@@ -64,6 +66,7 @@ void addAllowedTriangles(visualization_msgs::MarkerArray& array, const sweep_gua
                          double lift, WarningLevel level) {
   int index = 0;
   for (const sweep_guard_core::SweptObject& object : report.objects) {
+    if (object.workpiece->of_other_tool) continue;
     Surface surface("allowed_triangles", index++, object.workpiece->frame, report.end, lift);
     surface.paint(unlessUnknown(level, color(0.4, 0.55, 0.65, 0.6)), unlessUnknown(level, color(0.25, 0.35, 0.4, 0.6)));
     surface.add(object.workpiece->mesh_M, object.result.allowedTriangles(), lift);

@@ -67,6 +67,7 @@ void addGhosts(visualization_msgs::MarkerArray& array, const PredictedScene& sce
 void addPredictedVolumes(visualization_msgs::MarkerArray& array, const PredictedScene& scene) {
   int index = 0;
   for (const sweep_guard_core::PredictedObject& object : scene.prediction.objects) {
+    if (object.workpiece->of_other_tool) continue;
     Surface surface("predicted_volume", index++, object.workpiece->frame, scene.prediction.stamp, 0.0005);
     surface.paint(levelColor(scene.level, 0.03), levelColor(scene.level, 0.12));
     for (const sweep_guard_core::SweptVolume& volume_M : object.volumes_M) surface.add(volume_M);
@@ -78,6 +79,7 @@ void addPredictedTriangles(visualization_msgs::MarkerArray& array, const Predict
   const double lift = 0.5 * scene.lift;  // half as high as contacts, which are drawn above
   int index = 0;
   for (const sweep_guard_core::PredictedObject& object : scene.prediction.objects) {
+    if (object.workpiece->of_other_tool) continue;
     for (const auto& [level, triangles] :
          {std::pair{WarningLevel::kReflex, &object.reflex}, {WarningLevel::kConsidered, &object.considered}}) {
       const WarningLevel shown = scene.level == WarningLevel::kUnknown ? WarningLevel::kUnknown : level;

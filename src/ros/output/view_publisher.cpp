@@ -41,6 +41,7 @@ ObjectView& viewOf(const sweep_guard_core::Workpiece& workpiece, std::vector<Obj
 
 void addContact(const MarkerScene& scene, std::vector<ObjectView>& objects) {
   for (const sweep_guard_core::SweptObject& object : scene.contact->objects) {
+    if (object.workpiece->of_other_tool) continue;
     ObjectView& view = viewOf(*object.workpiece, objects);
     if (view.revision != object.workpiece->revision) continue;
     view.touched = object.result.unintended();
@@ -50,6 +51,7 @@ void addContact(const MarkerScene& scene, std::vector<ObjectView>& objects) {
 
 void addPredicted(const sweep_guard_core::Prediction& prediction, std::vector<ObjectView>& objects) {
   for (const sweep_guard_core::PredictedObject& object : prediction.objects) {
+    if (object.workpiece->of_other_tool) continue;
     ObjectView& view = viewOf(*object.workpiece, objects);
     if (view.revision != object.workpiece->revision) continue;
     view.predicted = volumeMsgs(object.volumes_M);
@@ -71,6 +73,7 @@ sweep_guard::View toMsg(const MarkerScene& scene) {
   if (!scene.newest) return msg;
   msg.header.stamp = toMsg(scene.newest->end);
   for (const sweep_guard_core::SweptObject& object : scene.newest->objects) {
+    if (object.workpiece->of_other_tool) continue;  // its frame is not in tf, and its own guard shows it
     ObjectView& view = viewOf(*object.workpiece, msg.objects);
     view.measured = volumeMsgs(object.result.volumes_M);
     view.allowed = object.result.allowedTriangles();

@@ -298,6 +298,11 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                  "Workpieces that must be there: the warning is not CLEAR without each of them, and no other id is "
                  "listened to. []: all ids that come.");
   parameters.mesh_ids.insert(ids.begin(), ids.end());
+  parameters.other_tools = read.nodes(
+      "other_tools",
+      "Nodes of the guards of other tools, as in [/left/sweep_guard]: their links are workpieces, too, which "
+      "move and are predicted as these guards say. While one of them is silent for timing/pose_timeout, the "
+      "warning is UNKNOWN, reason NOT_COVERED. []: none.");
   parameters.allow_several_publishers =
       read.flag("allow_several_publishers", false,
                 "Allows several publishers on `tool_pose`. Otherwise the warning is UNKNOWN while there are several: "

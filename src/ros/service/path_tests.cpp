@@ -90,7 +90,17 @@ sweep_guard_core::Workpieces PathTests::selected(const std::vector<std::string>&
 }
 
 Eigen::Isometry3d PathTests::transform(const std::string& mesh_frame, const std_msgs::Header& header) const {
-  return dependencies_.frames.lookup(mesh_frame, header.frame_id, fromMsg(header.stamp), kTransformWait);
+  const auto lookup = [&](const std::string& target) {
+    return dependencies_.frames.lookup(target, header.frame_id, fromMsg(header.stamp), kTransformWait);
+  };
+  if (!isOfOtherTool(mesh_frame)) return lookup(mesh_frame);
+  const auto X_WM = dependencies_.frame_motions->newest(mesh_frame);
+  if (!X_WM) throw sweep_guard_core::Error("it is not known where the other tool is");
+  return X_WM->inverse() * lookup(dependencies_.parameters.initial().fixed_frame);
+}
+
+bool PathTests::isOfOtherTool(const std::string& frame) const {
+  return dependencies_.frame_motions != nullptr && dependencies_.frame_motions->expects(frame);
 }
 
 std::string PathTests::doubts(const PathQuestion& question, const std::vector<std::string>& ids,
@@ -101,7 +111,8 @@ std::string PathTests::doubts(const PathQuestion& question, const std::vector<st
 
 std::string PathTests::oldTransforms(const PathQuestion& question, const std::set<std::string>& frames) const {
   for (const PathQuestion::Path& path : question.paths) {
-    const std::string& mesh_frame = path.workpiece->frame;
+    const std::string& mesh_frame =
+        isOfOtherTool(path.workpiece->frame) ? question.parameters->fixed_frame : path.workpiece->frame;
     for (const std::string& frame : frames) {
       const auto newest = dependencies_.frames.newest(mesh_frame, frame);
       if (newest == sweep_guard_core::Time()) continue;

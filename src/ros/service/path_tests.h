@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "guard/frame_motion_store.h"
 #include "guard/workpiece_store.h"
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
@@ -24,6 +25,7 @@ struct PathTestDependencies {
   const Frames& frames;
   const sweep_guard_core::WorkpieceStore& workpieces;
   const sweep_guard_core::WarningMonitor& monitor;
+  const sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of frames that tf does not have
   MakeDetector make_detector = sweep_guard_core::makeDetector;
 };
 
@@ -57,7 +59,8 @@ class PathTests {
   /// @throws sweep_guard_core::InvalidInput if one does not exist, or there is no workpiece at all
   sweep_guard_core::Workpieces selected(const std::vector<std::string>& ids) const;
 
-  /// Returns the transform from a frame to that of a mesh, for which it waits.
+  /// Returns the transform from a frame to that of a mesh, for which it waits. The link of another tool is where it was
+  /// measured last.
   /// @throws sweep_guard_core::Error if there is none
   Eigen::Isometry3d transform(const std::string& mesh_frame, const std_msgs::Header& header) const;
 
@@ -73,6 +76,7 @@ class PathTests {
                      const std::set<std::string>& frames) const;
 
  private:
+  bool isOfOtherTool(const std::string& frame) const;
   std::string oldTransforms(const PathQuestion& question, const std::set<std::string>& frames) const;
   GoOn untilDeadline(sweep_guard_core::Duration deadline) const;
 

@@ -87,6 +87,8 @@ class ParameterReader {
                                      const std::string& effect = "");
   /// Reads a list of texts that are not empty; [] if not set.
   std::vector<std::string> texts(const std::string& key, const std::string& effect = "");
+  /// Reads a list of names of other nodes, each once, and resolves them as the node itself does; [] if not set.
+  std::vector<std::string> nodes(const std::string& key, const std::string& effect = "");
   /// Reads a group of finite numbers by their names in the group, each within a range if there is one; empty if not set.
   std::map<std::string, double> numbers(const std::string& key, const std::string& effect = "",
                                         const std::optional<Range>& range = {});

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/common/time.h"
+#include "sweep_guard/prediction/pose_predictor.h"
+
+namespace sweep_guard_core {
+
+/// The pose of a frame M in the fixed frame W at one moment.
+struct FramePose {
+  Time stamp;
+  Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();  ///< finite, rotation orthonormal; not checked
+  /// Bound [m], >= 0, on the distance of a point of the workpieces in M, at any time since the previous pose, from where it
+  /// would be if M moved as Motion says.
+  double deviation_bound = 0.0;
+};
+
+/// How a frame moves that another guard measures and predicts, such as that of a body of its tool. Between two poses, measured
+/// or predicted, it moves as a Motion.
+struct FrameMotion {
+  std::vector<FramePose> measured;  ///< at least one; stamps ascend
+  Time predicted_from;              ///< stamp at which `predicted` begins; means nothing without it
+  /// Its first pose is the one at `predicted_from`, without error; empty: where the frame goes is not known.
+  PredictedPath predicted = {};
+
+  /// Returns the pose at a time: measured up to `predicted_from`, then predicted. For 0.25 s after its end, the prediction goes
+  /// on at the velocity of its last step. Empty: before the first measured pose and after that.
+  std::optional<PredictedPose> at(Time time) const;
+};
+
+/// The motions of frames by their names, none null.
+using FrameMotions = std::map<std::string, std::shared_ptr<const FrameMotion>>;
+inline const FrameMotions kNoFrameMotions;
+
+/// The poses of a frame at the times of a path of the tool.
+struct FramePath {
+  struct Point {
+    Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();
+    Matrix6d covariance = Matrix6d::Zero();  ///< of the error of X_WM, as PredictedPose
+    /// Bound [m] on the distance of a point of the workpiece, since the previous point, from where it would be if the frame
+    /// moved as a Motion.
+    double deviation_bound = 0.0;
+  };
+  std::vector<Point> points;  ///< the first at the begin of the path, then one for each pose
+};
+
+/// Returns how a frame moves along a path; empty if that is not known up to its end.
+/// @param begin   stamp at which the path begins
+/// @param path    only its times count
+/// @param radius  largest distance of a point of the workpiece from the origin of the frame [m], >= 0
+std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path, double radius);
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,103 @@
+#include "sweep_guard/guard/frame_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/merged_motion.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr Duration kMaxBeyond = std::chrono::milliseconds(250);
+
+struct Knot {
+  Time time;
+  Eigen::Isometry3d X_WM;
+  Matrix6d covariance;
+  double deviation_bound;
+};
+
+Knot measuredKnot(const FramePose& pose) { return {pose.stamp, pose.X_WM, Matrix6d::Zero(), pose.deviation_bound}; }
+
+std::vector<Knot> knotsOf(const FrameMotion& motion) {
+  std::vector<Knot> knots;
+  for (const FramePose& pose : motion.measured) {
+    if (motion.predicted.empty() || pose.stamp < motion.predicted_from) knots.push_back(measuredKnot(pose));
+  }
+  for (const PredictedPose& pose : motion.predicted)
+    knots.push_back({motion.predicted_from + pose.ahead, pose.X_WT, pose.covariance, 0.0});
+  return knots;
+}
+
+// After the last knot it goes on as between the last two; the error grows with the time.
+Knot beyond(const FrameMotion& motion, const std::vector<Knot>& knots, Time time) {
+  const Knot& last = knots.back();
+  const Knot& before = knots[knots.size() - 2];
+  const double step = toSeconds(last.time - before.time);
+  const double share = step > 0.0 ? toSeconds(time - last.time) / step : 0.0;
+  const Eigen::AngleAxisd turn(before.X_WM.linear().transpose() * last.X_WM.linear());
+  Knot knot = last;
+  knot.time = time;
+  knot.X_WM.linear() = last.X_WM.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis());
+  knot.X_WM.translation() += share * (last.X_WM.translation() - before.X_WM.translation());
+  const double ahead = toSeconds(last.time - motion.predicted_from);
+  if (ahead > 0.0) knot.covariance *= std::pow(toSeconds(time - motion.predicted_from) / ahead, 2);
+  return knot;
+}
+
+std::optional<Knot> knotAt(const FrameMotion& motion, const std::vector<Knot>& knots, Time time) {
+  const auto is_before = [](const Knot& knot, Time limit) { return knot.time < limit; };
+  const auto next = std::lower_bound(knots.begin(), knots.end(), time, is_before);
+  if (next == knots.end()) {
+    const bool known = motion.predicted.size() > 1 && time - knots.back().time <= kMaxBeyond;
+    return known ? std::optional(beyond(motion, knots, time)) : std::nullopt;
+  }
+  if (next->time == time) return *next;
+  if (next == knots.begin()) return std::nullopt;
+  const Knot& before = *std::prev(next);
+  const double share = toSeconds(time - before.time) / toSeconds(next->time - before.time);
+  return Knot{time, Motion{before.X_WM, next->X_WM}.at(share),
+              (1.0 - share) * before.covariance + share * next->covariance, next->deviation_bound};
+}
+
+// Of the points within a radius, from a Motion from the first knot to the last.
+double deviationBound(const std::vector<Knot>& knots, double radius) {
+  double deviation = 0.0;
+  for (const Knot& knot : knots) deviation = std::max(deviation, &knot == &knots.front() ? 0.0 : knot.deviation_bound);
+  if (knots.size() == 2) return deviation;
+  Path path;
+  for (const Knot& knot : knots) {
+    const double turn = path.empty() ? 0.0 : Motion{path.back().X_MT, knot.X_WM}.angle();
+    path.push_back({knot.time - knots.front().time, knot.X_WM, chordError(radius, turn)});
+  }
+  return deviation + mergedMotion(path, 0, path.size() - 1, radius).deviation_bound;
+}
+
+}  // namespace
+
+std::optional<PredictedPose> FrameMotion::at(Time time) const {
+  const auto knot = knotAt(*this, knotsOf(*this), time);
+  if (!knot) return std::nullopt;
+  return PredictedPose{knot->time - predicted_from, knot->X_WM, knot->covariance};
+}
+
+std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path, double radius) {
+  const std::vector<Knot> knots = knotsOf(motion);
+  std::optional<Knot> from = knotAt(motion, knots, begin);
+  if (!from) return std::nullopt;
+  FramePath frame{{{from->X_WM, from->covariance, 0.0}}};
+  for (const PredictedPose& pose : path) {
+    const auto to = knotAt(motion, knots, begin + pose.ahead);
+    if (!to) return std::nullopt;
+    std::vector<Knot> between{*from};
+    for (const Knot& knot : knots) {
+      if (from->time < knot.time && knot.time < to->time) between.push_back(knot);
+    }
+    between.push_back(*to);
+    frame.points.push_back({to->X_WM, to->covariance, deviationBound(between, radius)});
+    from = to;
+  }
+  return frame;
+}
+
+}  // namespace sweep_guard_core

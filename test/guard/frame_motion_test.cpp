@@ -1,0 +1,120 @@
+#include "sweep_guard/guard/frame_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "guard/sparse_motion.h"
+#include "scenes.h"
+#include "sweep_guard/geometry/motion.h"
+
+namespace sweep_guard_core {
+namespace {
+
+using namespace std::chrono_literals;
+
+Eigen::Isometry3d along(double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)); }
+
+PredictedPose predicted(Duration ahead, double x, double variance) {
+  return {ahead, along(x), variance * Matrix6d::Identity()};
+}
+
+// Measured every 10 ms up to 40 ms; predicted from 30 ms on, where it goes another way.
+FrameMotion motion() {
+  FrameMotion motion;
+  for (int i = 0; i <= 4; ++i) motion.measured.push_back({Time(i * 10ms), along(0.1 * i), 0.0});
+  motion.predicted_from = Time(30ms);
+  motion.predicted = {predicted(0ms, 0.3, 0.0), predicted(100ms, 5.0, 1.0), predicted(200ms, 6.0, 4.0)};
+  return motion;
+}
+
+TEST(FrameMotionTest, IsMeasuredUpToThePrediction) {
+  EXPECT_FALSE(motion().at(Time(-1ms)));
+  EXPECT_NEAR(motion().at(Time(0ms))->X_WT.translation().x(), 0.0, 1e-12);
+  EXPECT_NEAR(motion().at(Time(25ms))->X_WT.translation().x(), 0.25, 1e-12);
+  EXPECT_NEAR(motion().at(Time(80ms))->X_WT.translation().x(), 2.65, 1e-12);
+  EXPECT_NEAR(motion().at(Time(80ms))->covariance(0, 0), 0.5, 1e-12);
+}
+
+TEST(FrameMotionTest, GoesOnForAQuarterOfASecond) {
+  EXPECT_NEAR(motion().at(Time(430ms))->X_WT.translation().x(), 8.0, 1e-12);
+  EXPECT_NEAR(motion().at(Time(430ms))->covariance(0, 0), 16.0, 1e-9);
+  EXPECT_TRUE(motion().at(Time(480ms)));
+  EXPECT_FALSE(motion().at(Time(481ms)));
+}
+
+TEST(FrameMotionTest, EndsWithTheNewestPoseIfNothingIsPredicted) {
+  FrameMotion measured = motion();
+  measured.predicted.clear();
+  EXPECT_NEAR(measured.at(Time(40ms))->X_WT.translation().x(), 0.4, 1e-12);
+  EXPECT_FALSE(measured.at(Time(41ms)));
+  EXPECT_FALSE(framePath(measured, Time(40ms), {predicted(10ms, 0.0, 0.0)}, 1.0));
+  EXPECT_FALSE(framePath(motion(), Time(-1ms), {predicted(10ms, 0.0, 0.0)}, 1.0));
+}
+
+// Compares each point with where the path and its bound put it, at many times.
+TEST(FrameMotionTest, NoPointIsFartherFromThePathThanItsBound) {
+  Random random(8);
+  double tightest = 1.0;
+  for (int round = 0; round < 300; ++round) {
+    FrameMotion motion;
+    Eigen::Isometry3d X = random.pose(random.inBox({1.0, 1.0, 1.0}));
+    const auto step = [&] {
+      X.translation() += random.inBox({0.1, 0.1, 0.1});
+      X.linear() = X.linear() * random.turn(random.uniform(0.0, 0.4));
+      return X;
+    };
+    for (int i = 0; i <= 5; ++i) motion.measured.push_back({Time(i * 10ms), step(), 0.0});
+    motion.predicted_from = Time(50ms);
+    for (int i = 0; i <= 10; ++i) motion.predicted.push_back({i * 10ms, step()});
+    const double radius = random.uniform(0.0, 0.5);
+    const PredictedPath times = {{13ms}, {20ms}, {41ms}, {90ms}};
+    const auto path = framePath(motion, Time(7ms), times, radius);
+    ASSERT_TRUE(path);
+    const Eigen::Vector3d p_M = radius * random.direction();
+    Duration from{};
+    for (size_t i = 0; i < times.size(); ++i) {
+      const Motion straight{path->points[i].X_WM, path->points[i + 1].X_WM};
+      double farthest = 0.0;
+      for (int k = 0; k <= 50; ++k) {
+        const Duration time = from + (times[i].ahead - from) * k / 50;
+        const Eigen::Vector3d meant_W = straight.at(k / 50.0) * p_M;
+        farthest = std::max(farthest, (motion.at(Time(7ms) + time)->X_WT * p_M - meant_W).norm());
+      }
+      const double bound = path->points[i + 1].deviation_bound;
+      EXPECT_LE(farthest, bound + 1e-9);
+      if (bound > 0.0) tightest = std::min(tightest, 1.0 - farthest / bound);
+      from = times[i].ahead;
+    }
+  }
+  EXPECT_LT(tightest, 0.5) << "a bound that holds anyway proves nothing";
+}
+
+TEST(SparseMotionTest, NoPointIsFartherFromTheFewerPosesThanTheirBound) {
+  Random random(9);
+  for (int round = 0; round < 300; ++round) {
+    const double radius = random.uniform(0.0, 0.5);
+    const Eigen::Vector3d p_B = radius * random.direction();
+    SparseMotion sparse(radius);
+    std::vector<Eigen::Isometry3d> poses = {random.pose(random.inBox({1.0, 1.0, 1.0}))};
+    sparse.add(Time(0ms), {poses[0]});
+    EXPECT_EQ(sparse.take().deviation_bound, 0.0);
+    for (int i = 1; i <= 6; ++i) {
+      Eigen::Isometry3d X = poses.back();
+      X.translation() += random.inBox({0.1, 0.1, 0.1});
+      X.linear() = X.linear() * random.turn(random.uniform(0.0, 0.4));
+      poses.push_back(X);
+      sparse.add(Time(i * 10ms), {X});
+    }
+    const BodyPose newest = sparse.take();
+    EXPECT_TRUE(newest.X_WB.isApprox(poses.back()));
+    const Motion straight{poses.front(), poses.back()};
+    for (int k = 0; k <= 300; ++k) {
+      const int i = std::min(k / 50, 5);
+      const Eigen::Isometry3d at =
+          Motion{poses[static_cast<size_t>(i)], poses[static_cast<size_t>(i) + 1]}.at(k / 50.0 - i);
+      EXPECT_LE((at * p_B - straight.at(k / 300.0) * p_B).norm(), newest.deviation_bound + 1e-9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
