@@ -17,7 +17,8 @@ constexpr auto kEarlyPeriod = std::chrono::milliseconds(100);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
 constexpr std::uint32_t kSilentInputs = sweep_guard_core::kNoPose | sweep_guard_core::kPoseStale |
                                         sweep_guard_core::kTfFail | sweep_guard_core::kNoMesh |
-                                        sweep_guard_core::kMeshStale | sweep_guard_core::kDisabled;
+                                        sweep_guard_core::kMeshStale | sweep_guard_core::kNotCovered |
+                                        sweep_guard_core::kDisabled;
 
 }  // namespace
 
