@@ -17,13 +17,6 @@ constexpr auto kPollPeriod = std::chrono::milliseconds(1);
 constexpr std::uint32_t kQueueLength = 1000;
 constexpr size_t kMaxReason = 400;    // [bytes]
 constexpr size_t kMaxFrames = 10000;  // tf2 forgets none
-constexpr auto kMaxLead = std::chrono::seconds(10);
-
-// tf2 ignores every transform that is older than the newest of its frame: one from far ahead would silence the frame.
-void checkStamp(const ros::Time& stamp) {
-  if (ros::Time::now().isZero() || fromMsg(stamp) <= now().stamp + kMaxLead) return;
-  throw sweep_guard_core::InvalidInput("its stamp lies more than 10 s in the future");
-}
 
 void check(const geometry_msgs::TransformStamped& transform) {
   for (const std::string& frame : {transform.header.frame_id, transform.child_frame_id}) {
@@ -73,9 +66,13 @@ void Frames::onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& ev
 
 void Frames::checkClock() {
   const std::lock_guard lock(clock_mutex_);
-  const ros::Time at = ros::Time::now();
-  if (at < checked_) buffer_.clear();
-  checked_ = at;
+  if (clock_.hasGoneBack(now())) buffer_.clear();
+}
+
+void Frames::checkStamp(const ros::Time& stamp) {
+  const std::lock_guard lock(clock_mutex_);
+  const std::string refusal = clock_.refusal(fromMsg(stamp), now());
+  if (!refusal.empty()) throw sweep_guard_core::InvalidInput(refusal);
 }
 
 void Frames::checkStatic(const geometry_msgs::TransformStamped& transform) {

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "ros/bounded.h"
+#include "ros/input/transform_clock.h"
 #include "ros/log_throttle.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/common/error.h"
@@ -60,6 +61,7 @@ class Frames {
 
  private:
   void onTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static);
+  void checkStamp(const ros::Time& stamp);
   void checkStatic(const geometry_msgs::TransformStamped& transform);
   void countFrames(const geometry_msgs::TransformStamped& transform);
 
@@ -67,8 +69,8 @@ class Frames {
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  // by child; used by the listener only
   std::set<std::string> known_;                                               // frames in the buffer
   LogThrottle log_;
-  std::mutex clock_mutex_;
-  ros::Time checked_;  // time of the last check
+  std::mutex clock_mutex_;  // of the next one
+  TransformClock clock_;
   tf2_ros::Buffer buffer_;
   QueueThread thread_;  // before the subscribers, which use its queue
   BoundedSubscriber moving_;
