@@ -17,7 +17,7 @@ using sweep_guard_core::Time;
 namespace {
 
 constexpr Duration kGap = std::chrono::milliseconds(250);
-constexpr Duration kHistory = std::chrono::seconds(1);
+constexpr Duration kHistory = std::chrono::seconds(3);
 constexpr double kFloor = 1e-3;        // [m]
 constexpr double kNineTenths = 6.251;  // of chi^2 with 3 degrees of freedom
 

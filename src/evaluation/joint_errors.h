@@ -33,8 +33,8 @@ struct LinkErrors {
   double calibrated_width;
 };
 
-/// The prediction by joints and that of the pose of the link, on the same samples: those with a second before and the
-/// horizon after them without a gap of 0.25 s.
+/// The prediction by joints and that of the pose of the link, on the same samples: those with 3 s before and the longest
+/// horizon after them without a gap of 0.25 s. Earlier, nothing is learned, and many recordings begin at rest.
 struct JointErrorReport {
   std::string link;
   sweep_guard_core::Duration horizon;

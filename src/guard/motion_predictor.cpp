@@ -1,5 +1,6 @@
 #include "sweep_guard/guard/motion_predictor.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "prediction/profile.h"
@@ -28,13 +29,18 @@ Matrix6d carried(const Matrix6d& covariance, const Eigen::Vector3d& r) {
   return A * covariance * A.transpose();
 }
 
-// Of the error that J leaves out: a point at r from the axis of a joint that errs by q is off by r q^2 / 2 towards the axis.
-// The mean of its square is 3/4 r^2 sigma^4; it counts along all axes.
+// Of the error that J leaves out, to second order: joints i and j that err by q_i and q_j move a point by q_i q_j times the
+// change of column j with joint i, which is no longer than the turn of one times the way of the other, and half of that if
+// they are the same joint. The mean of its square counts along all axes.
 double curvatureVariance(const Jacobian& J, const std::vector<double>& variances) {
+  const auto column = [&](size_t i) { return J.col(static_cast<Eigen::Index>(i)); };
   double sum = 0.0;
   for (size_t i = 0; i < variances.size(); ++i) {
-    const auto column = J.col(static_cast<Eigen::Index>(i));
-    sum += 0.75 * column.head<3>().squaredNorm() * column.tail<3>().squaredNorm() * variances[i] * variances[i];
+    for (size_t j = 0; j <= i; ++j) {
+      const double change = std::min(column(i).head<3>().squaredNorm() * column(j).tail<3>().squaredNorm(),
+                                     column(j).head<3>().squaredNorm() * column(i).tail<3>().squaredNorm());
+      sum += (i == j ? 0.75 : 1.0) * change * variances[i] * variances[j];
+    }
   }
   return sum;
 }

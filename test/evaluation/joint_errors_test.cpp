@@ -62,13 +62,13 @@ TEST_F(JointErrorsTest, JointsAtConstantSpeedArePredictedExactlyAndLinksAreNot) 
   EXPECT_EQ(reports[3].link, "tip");
   EXPECT_GT(reports[3].by_pose.median, 1.5 * reports[1].by_pose.median);
   EXPECT_LT(reports[3].by_joints.width, reports[3].by_pose.width);
-  EXPECT_EQ(reports[0].samples, 350U) << "5 s without one second before and half a second after";
+  EXPECT_EQ(reports[0].samples, 150U) << "5 s without 3 s before and half a second after";
 }
 
 TEST_F(JointErrorsTest, SamplesHaveNoGapBeforeOrAfterThem) {
   const auto positions = [](double t) { return std::vector<double>{std::sin(t), std::cos(t)}; };
-  add(0.0, 3.0, positions);
-  add(4.0, 7.0, positions);
+  add(0.0, 5.0, positions);
+  add(6.0, 11.0, positions);
   EXPECT_EQ(compare()[0].samples, 300U);
 }
 
@@ -88,7 +88,7 @@ TEST_F(JointErrorsTest, TheCalibratedWidthHoldsNineTenthsOfTheErrors) {
 }
 
 TEST_F(JointErrorsTest, TheTableHasALineForEachWayToPredict) {
-  add(0.0, 3.0, [](double t) { return std::vector<double>{t, 0.5}; });
+  add(0.0, 4.0, [](double t) { return std::vector<double>{t, 0.5}; });
   const std::string csv = jointErrorCsv("arm", "direct", compare("direct"), /*header=*/true);
   EXPECT_EQ(csv.rfind("recording,predictor,link,horizon_s,by,median_m,p90_m,width_m,calibrated_width_m,samples\n", 0),
             0U);
