@@ -13,6 +13,7 @@
 
 namespace sweep_guard_core {
 
+class ClosestApproaches;
 struct GuardedBody;
 class TimeBudget;
 struct SweepPlan;
@@ -119,6 +120,7 @@ class Guard {
   const Tool& tool(size_t body = 0) const;
 
  private:
+  void orderBodies(const Workpieces& workpieces);
   void beginPlan(SteadyTime begin, const std::function<void()>& between);
   size_t consideredSweeps() const;
   void interrupt(const std::function<void()>& between);
@@ -135,6 +137,10 @@ class Guard {
   Duration interrupted_{};                // time for other things during this test
   Horizon horizon_;
   std::unique_ptr<SweepPlan> plan_;
+  std::unique_ptr<ClosestApproaches> closest_;  // in the running prediction
+  std::vector<size_t> swept_order_;             // of the bodies: 0, 1, ...
+  std::vector<size_t> predicted_order_;         // of the bodies: what may come nearest first
+  std::vector<double> nearness_;                // of the bodies [standard deviations]
   const std::shared_ptr<const Intentions> no_intentions_;
   std::shared_ptr<const Intentions> intentions_;
 };
