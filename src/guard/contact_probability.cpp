@@ -106,7 +106,7 @@ std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const S
   candidates_.clear();
   if (submesh.empty()) return {};
   at_most = std::min(at_most, max_deviations_);
-  const double reach = reachOfVertices(submesh, swept_M, sigmas, at_most);
+  const double reach = reachOfVertices(submesh, swept_M, sigmas, at_most, kTolerance);
   const Planes planes(submesh.mesh_M(), swept_M, sigmas);
   const auto nearestUpTo = [&](double limit) {
     collectCandidates(within(limit, submesh, swept_M, sigmas), limit, planes, is_left_out);
@@ -123,7 +123,7 @@ bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, 
                             const IsLeftOut& is_left_out) {
   beat();
   if (submesh.empty()) return false;
-  const double reach = reachOfVertices(submesh, swept_M, sigmas, max_deviations_);
+  const double reach = reachOfVertices(submesh, swept_M, sigmas, max_deviations_, kTolerance);
   const Planes planes(submesh.mesh_M(), swept_M, sigmas);
   const auto isWithin = [&](double limit) {
     const auto& remaining = within(limit, submesh, swept_M, sigmas);
@@ -140,10 +140,16 @@ bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, 
   return isWithin(reach) || (reach < max_deviations_ && isWithin(max_deviations_));
 }
 
+bool ClearanceMeter::mayBeNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas) {
+  if (submesh.empty()) return false;
+  const bool vertex = reachOfVertices(submesh, swept_M, sigmas, max_deviations_, max_deviations_) < max_deviations_;
+  return vertex || isNear(submesh, swept_M, sigmas);
+}
+
 // Returns by how many deviations the planes must be moved out, from 0 to `at_most`, to enclose a vertex of the submesh's
-// blocks.
+// blocks: the nearest one, or one that is nearer than `enough`.
 double ClearanceMeter::reachOfVertices(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas,
-                                       double at_most) {
+                                       double at_most, double enough) {
   const simd::Planes planes = floatPlanes(submesh.mesh_M(), swept_M);
   simd::PerPlane inverse{};
   std::transform(sigmas.begin(), sigmas.end(), inverse.begin(), [](double sigma) { return float(1.0 / sigma); });
@@ -159,7 +165,7 @@ double ClearanceMeter::reachOfVertices(const Submesh& submesh, const SweptVolume
   const auto end = scores_.begin() + static_cast<std::ptrdiff_t>(count);
   const auto first = std::min_element(scores_.begin(), end);
   if (*first < nearest) lookAt(static_cast<size_t>(first - scores_.begin()));
-  for (size_t i = 0; i < count && nearest > kTolerance; ++i) {
+  for (size_t i = 0; i < count && nearest >= enough; ++i) {
     if (scores_[i] + kTolerance < nearest) lookAt(i);
   }
   return std::clamp(nearest, 0.0, at_most);

@@ -210,8 +210,10 @@ bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, Swept
 
 bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
                                const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations) {
-  if (!meter_.isNear(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, node.piece))) return false;
-  if (node.piece) return true;
+  if (node.piece) {
+    return meter_.isNear(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, node.piece));
+  }
+  if (!meter_.mayBeNear(submesh, body.volume_M, deviations)) return false;
   const std::array<size_t, 2> nearest_first = nearestFirst(scene, node);
   return std::any_of(nearest_first.begin(), nearest_first.end(), [&](size_t index) {
     const Tool::Node& below = scene.tool.tree()[index];
@@ -259,7 +261,7 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
     if (!clearance->separated) unseparated_.push_back({body, candidate});
     return scene.hasTouched(*node.piece) ? Candidate() : candidate;
   }
-  if (!meter_.isNear(submesh, body.volume_M, deviations)) return {};
+  if (!meter_.mayBeNear(submesh, body.volume_M, deviations)) return {};
   Candidate candidate;
   for (const size_t index : nearestFirst(scene, node)) {
     const Tool::Node& below = scene.tool.tree()[index];
