@@ -33,8 +33,8 @@ struct PredictedSweep {
   /// Number of standard deviations by which the tool must leave the path here to meet the workpiece; negative if the
   /// path meets it: to be free. 0 if, in the reflex interval, the volume meets it and the hull of the tool does not: the
   /// error of so short a prediction is smaller than the space that the volume leaves. Infinite beyond
-  /// GuardOptions::max_deviations, and where no sweep that meets the workpiece comes nearer than one that begins earlier:
-  /// that changes no probability within an interval.
+  /// GuardOptions::max_deviations. May be infinite where the path meets nothing and comes no nearer than in a sweep that
+  /// begins earlier: that changes no probability within an interval.
   double deviations = std::numeric_limits<double>::infinity();
   /// Index of the convex piece of the tool with these deviations; with `contact`, of those that meet the workpiece.
   /// Empty if there are none.
