@@ -3,10 +3,10 @@
 //   contact_patch [--csv FILE]
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 
 #include "common/run_program.h"
 #include "guard/sweep_checker.h"
+#include "microseconds.h"
 #include "row.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
@@ -95,19 +95,6 @@ struct Sweep {
   SweepCache cache;
   TriangleSet named;
 };
-
-double processorMicroseconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e6 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_nsec);
-}
-
-template <typename Work>
-double processorTime(const Work& work) {
-  const double begin = processorMicroseconds();
-  work();
-  return processorMicroseconds() - begin;
-}
 
 class PatchTimes {
  public:

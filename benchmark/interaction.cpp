@@ -2,10 +2,10 @@
 // about 200 triangles.
 //   interaction [--csv FILE]
 #include <cstdio>
-#include <ctime>
 
 #include "common/run_program.h"
 #include "machine.h"
+#include "microseconds.h"
 #include "row.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
@@ -20,12 +20,6 @@ using namespace sweep_guard_core;
 constexpr int kPoses = 500;
 constexpr int kRounds = 20;
 constexpr double kRadius = 0.1;  // about that of the mesh [m]
-
-double processorMicroseconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e6 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_nsec);
-}
 
 // The tip 20 to 30 mm behind a random place of the surface, the shaft outwards.
 Eigen::Isometry3d poseInside(Random& random) {

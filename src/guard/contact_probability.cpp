@@ -94,31 +94,39 @@ struct ClearanceMeter::Planes {
   Scores offsets = Scores::Constant(std::numeric_limits<double>::max());  // of what is no plane: nothing is beyond it
 };
 
-ClearanceMeter::ClearanceMeter(double max_deviations) : reaches_{0.0, 0.75, 1.5, max_deviations} {
-  for (double& reach : reaches_) reach = std::min(reach, max_deviations);
-}
+ClearanceMeter::ClearanceMeter(double max_deviations, const simd::Kernels& kernels)
+    : max_deviations_(max_deviations), kernels_(&kernels), culler_(kernels) {}
 
-// Moves the planes out step by step: the fewer triangles are within, the fewer have to be compared.
+// Moves the planes out as far as the nearest vertex: the fewer triangles are within, the fewer have to be compared. That
+// vertex may belong to no triangle of the submesh: if there is nothing within, moves them out all the way.
 std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const SweptVolume& swept_M,
-                                                 const PerHalfSpace& sigmas, const IsLeftOut& is_left_out) {
+                                                 const PerHalfSpace& sigmas, const IsLeftOut& is_left_out,
+                                                 double at_most) {
   beat();
   candidates_.clear();
   if (submesh.empty()) return {};
+  at_most = std::min(at_most, max_deviations_);
+  const double reach = reachOfVertices(submesh, swept_M, sigmas, at_most, kTolerance);
   const Planes planes(submesh.mesh_M(), swept_M, sigmas);
-  for (const double reach : reaches_) {
-    collectCandidates(within(reach, submesh, swept_M, sigmas), reach, planes, is_left_out);
-    if (const auto clearance = nearestWithin(reach, planes)) return clearance;
-  }
-  return {};
+  const auto nearestUpTo = [&](double limit) {
+    collectCandidates(within(limit, submesh, swept_M, sigmas), limit, planes, is_left_out);
+    return nearestWithin(limit, planes);
+  };
+  auto clearance = nearestUpTo(reach);
+  if (!clearance && reach < at_most) clearance = nearestUpTo(at_most);
+  const bool separated = candidates_.empty() || candidates_.front().at_least > 0.0;
+  if (!clearance && !separated && at_most < max_deviations_) clearance = nearestUpTo(max_deviations_);
+  return clearance;
 }
 
 bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas,
                             const IsLeftOut& is_left_out) {
   beat();
   if (submesh.empty()) return false;
+  const double reach = reachOfVertices(submesh, swept_M, sigmas, max_deviations_, kTolerance);
   const Planes planes(submesh.mesh_M(), swept_M, sigmas);
-  return std::any_of(reaches_.begin(), reaches_.end(), [&](double reach) {
-    const auto& remaining = within(reach, submesh, swept_M, sigmas);
+  const auto isWithin = [&](double limit) {
+    const auto& remaining = within(limit, submesh, swept_M, sigmas);
     const auto any = [&](const auto& test) {
       return std::any_of(remaining.begin(), remaining.end(), [&](const RemainingTriangle& triangle) {
         return test(triangle) && !(is_left_out && is_left_out(triangle.triangle));
@@ -126,9 +134,41 @@ bool ClearanceMeter::isNear(const Submesh& submesh, const SweptVolume& swept_M, 
     };
     return any([](const RemainingTriangle& triangle) { return triangle.met; }) ||
            any([&](const RemainingTriangle& triangle) {
-             return reaches(reach, planes.corners(triangle.triangle), planes);
+             return reaches(limit, planes.corners(triangle.triangle), planes);
            });
-  });
+  };
+  return isWithin(reach) || (reach < max_deviations_ && isWithin(max_deviations_));
+}
+
+bool ClearanceMeter::mayBeNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas) {
+  if (submesh.empty()) return false;
+  const bool vertex = reachOfVertices(submesh, swept_M, sigmas, max_deviations_, max_deviations_) < max_deviations_;
+  return vertex || isNear(submesh, swept_M, sigmas);
+}
+
+// Returns by how many deviations the planes must be moved out, from 0 to `at_most`, to enclose a vertex of the submesh's
+// blocks: the nearest one, or one that is nearer than `enough`.
+double ClearanceMeter::reachOfVertices(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas,
+                                       double at_most, double enough) {
+  const simd::Planes planes = floatPlanes(submesh.mesh_M(), swept_M);
+  simd::PerPlane inverse{};
+  std::transform(sigmas.begin(), sigmas.end(), inverse.begin(), [](double sigma) { return float(1.0 / sigma); });
+  const size_t count = submesh.blocks().size();
+  scores_.resize(std::max(scores_.size(), simd::padded(count)));
+  kernels_->scoreBoxes(submesh.boxes(), count, planes, inverse, scores_.data());
+  double nearest = at_most;
+  const auto lookAt = [&](size_t block) {
+    withBlock(submesh.mesh_M().places(), submesh.blocks()[block], [&](const float* vertices) {
+      nearest = std::min(nearest, kernels_->scoreBlock(vertices, planes, inverse) + kTolerance);
+    });
+  };
+  const auto end = scores_.begin() + static_cast<std::ptrdiff_t>(count);
+  const auto first = std::min_element(scores_.begin(), end);
+  if (*first < nearest) lookAt(static_cast<size_t>(first - scores_.begin()));
+  for (size_t i = 0; i < count && nearest >= enough; ++i) {
+    if (scores_[i] + kTolerance < nearest) lookAt(i);
+  }
+  return std::clamp(nearest, 0.0, at_most);
 }
 
 // Returns the triangles that no plane, moved out by so many deviations, separates from the volume.

@@ -49,19 +49,25 @@ using IsLeftOut = std::function<bool(std::uint32_t triangle)>;
 class ClearanceMeter {
  public:
   /// @param max_deviations  larger clearances are not measured; at most kMaxDeviations
-  explicit ClearanceMeter(double max_deviations = kMaxDeviations);
+  explicit ClearanceMeter(double max_deviations = kMaxDeviations, const simd::Kernels& kernels = simd::kernels());
 
   /// Returns empty if the clearance exceeds the largest one to measure. Exact to 1e-3 standard deviations; at least
-  /// -kMaxDeviations.
-  /// @param submesh     other triangles are not tested
+  /// -kMaxDeviations. Looks first at the block of vertices that may be nearest, so that few triangles are compared.
+  /// @param submesh      other triangles are not tested
   /// @param deviations   from planeDeviations()
   /// @param is_left_out  triangles that are not tested either; empty: none
+  /// @param at_most      >= 0; larger clearances are not measured either, unless there is a triangle that no plane
+  ///     separates
   std::optional<Clearance> measure(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations,
-                                   const IsLeftOut& is_left_out = {});
+                                   const IsLeftOut& is_left_out = {}, double at_most = kMaxDeviations);
 
   /// Returns whether measure() would find a clearance. Takes a fraction of its time.
   bool isNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations,
               const IsLeftOut& is_left_out = {});
+
+  /// Returns true if isNear() would, and also if a vertex is near that belongs to no triangle of the submesh. Takes a
+  /// fraction of its time.
+  bool mayBeNear(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& deviations);
 
   /// Returns the triangles that no plane of the volume separates from it: ascending. The volume meets no other triangles.
   /// Valid until the next call.
@@ -76,6 +82,8 @@ class ClearanceMeter {
   struct Planes;
   using Corners = std::array<Eigen::Vector3d, 3>;  // relative to the origin of the mesh
 
+  double reachOfVertices(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas, double at_most,
+                         double enough);
   const std::vector<RemainingTriangle>& within(double reach, const Submesh& submesh, const SweptVolume& swept_M,
                                                PerHalfSpace sigmas);
   void collectCandidates(const std::vector<RemainingTriangle>& remaining, double reach, const Planes& planes,
@@ -84,8 +92,10 @@ class ClearanceMeter {
   static bool reaches(double z, const Corners& corners, const Planes& planes);
   static double deviationsTo(double nearest, const Candidate& candidate, const Planes& planes);
 
-  std::array<double, 4> reaches_;  // by which the planes are moved out, one after the other
+  double max_deviations_;
+  const simd::Kernels* kernels_;
   Culler culler_;
+  std::vector<float> scores_;          // of blocks
   std::vector<Candidate> candidates_;  // ascending by at_least
   TriangleSet not_separated_;
 };

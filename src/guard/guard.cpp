@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
 
+#include "guard/closest_approach.h"
 #include "guard/guarded_body.h"
 #include "guard/time_budget.h"
 #include "guard/united_bodies.h"
@@ -35,18 +39,40 @@ std::vector<std::unique_ptr<GuardedBody>> guarded(std::vector<Tool> bodies, cons
   return all;
 }
 
-// Does something for each body and adds its result to that of the first.
+// Does something for each body, in this order, and adds the results to that of the first body.
 template <typename Result, typename Work>
-void forEachBody(const std::vector<std::unique_ptr<GuardedBody>>& bodies, Result GuardedBody::*own, Result& all,
-                 const Work& work) {
-  size_t first_piece = 0;
-  for (size_t i = 0; i < bodies.size(); ++i) {
-    GuardedBody& body = *bodies[i];
-    Result& result = i == 0 ? all : body.*own;
-    work(i, body, result);
-    if (i > 0) unite(all, result, first_piece);
-    first_piece += body.tool.pieces().size();
+void forEachBody(const std::vector<std::unique_ptr<GuardedBody>>& bodies, const std::vector<size_t>& order,
+                 Result GuardedBody::*own, Result& all, const Work& work) {
+  for (const size_t i : order) work(i, *bodies[i], i == 0 ? all : (*bodies[i]).*own);
+  size_t first_piece = bodies[0]->tool.pieces().size();
+  for (size_t i = 1; i < bodies.size(); ++i) {
+    unite(all, (*bodies[i]).*own, first_piece);
+    first_piece += bodies[i]->tool.pieces().size();
   }
+}
+
+std::vector<size_t> inOrder(size_t bodies) {
+  std::vector<size_t> order(bodies);
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
+// Returns about how many standard deviations there are between the end of a path and the nearest workpiece.
+double deviationsAtEnd(const Tool& tool, const PredictedPose& end, const PoseWithFrames& pose,
+                       const Workpieces& workpieces) {
+  const Eigen::Vector3d center_W = end.X_WT * tool.bounds_T().center();
+  const double lever = tool.bounds_T().center().norm();
+  const double sigma = std::sqrt(end.covariance.topLeftCorner<3, 3>().trace()) +
+                       lever * std::sqrt(end.covariance.bottomRightCorner<3, 3>().trace());
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& workpiece : workpieces) {
+    const auto X_WM = pose.X_WM.find(workpiece->frame);
+    if (X_WM == pose.X_WM.end()) continue;
+    const TriangleMesh& mesh_M = workpiece->mesh_M;
+    const Eigen::Vector3d p = X_WM->second.inverse() * center_W - mesh_M.origin();
+    nearest = std::min(nearest, mesh_M.blocks().bounds().exteriorDistance(p));
+  }
+  return nearest / std::max(sigma, 1e-9);
 }
 
 }  // namespace
@@ -65,6 +91,10 @@ Guard::Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::
       predictor_(options.predictor, std::move(robot)),
       budget_(std::make_unique<TimeBudget>(options.horizon, options.cycle)),
       plan_(std::make_unique<SweepPlan>()),
+      closest_(std::make_unique<ClosestApproaches>()),
+      swept_order_(inOrder(bodies_.size())),
+      predicted_order_(swept_order_),
+      nearness_(bodies_.size()),
       no_intentions_(std::make_shared<const Intentions>()),
       intentions_(no_intentions_) {}
 
@@ -75,7 +105,7 @@ const Tool& Guard::tool(size_t body) const { return bodies_[body]->tool; }
 void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
   const SteadyTime begin = options_.clock();
   predictor_.observe(pose);
-  forEachBody(bodies_, &GuardedBody::report, report, [&](size_t i, GuardedBody& body, SweepReport& swept) {
+  forEachBody(bodies_, swept_order_, &GuardedBody::report, report, [&](size_t i, GuardedBody& body, SweepReport& swept) {
     const BodyPose at = pose.body(i);
     const SweepSetup setup{body.tool,     *detector_,       options_.sweep, [this] { throwIfStopping(); },
                            *intentions(), options_.allowed, *frames_};
@@ -115,13 +145,27 @@ void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& pred
     plan_->sweep_ends.clear();
     if (!path.empty())
       findSweepEnds(motion_.from.body(i).X_WB, path, motion_.reflex_sweeps, considered, plan_->sweep_ends);
-    const PredictionRequest request{body.tool, motion_, workpieces, *intended, body.touches, i};
+    const PredictionRequest request{body.tool, motion_, workpieces, *intended, body.touches, i,
+                                    bodies_.size() > 1 ? closest_.get() : nullptr};
     body.checker.predict(*detector_, request, *plan_, predicted);
   };
-  forEachBody(bodies_, &GuardedBody::prediction, prediction, predict);
+  closest_->clear();
+  orderBodies(workpieces);
+  forEachBody(bodies_, predicted_order_, &GuardedBody::prediction, prediction, predict);
   size_t volumes = 0;
   for (const PredictedObject& object : prediction.objects) volumes = std::max(volumes, object.volumes_tested);
   budget_->spentOnPredicted(options_.clock() - begin - interrupted_, volumes);
+}
+
+// What comes nearest leaves the least to measure for the others.
+void Guard::orderBodies(const Workpieces& workpieces) {
+  if (motion_.path.empty()) return;
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    nearness_[i] = deviationsAtEnd(bodies_[i]->tool, motion_.pathOf(i).back(), motion_.from, workpieces);
+  }
+  predicted_order_ = swept_order_;
+  std::sort(predicted_order_.begin(), predicted_order_.end(),
+                   [&](size_t one, size_t other) { return std::pair(nearness_[one], one) < std::pair(nearness_[other], other); });
 }
 
 void Guard::beginPlan(SteadyTime begin, const std::function<void()>& between) {

@@ -1,6 +1,7 @@
 #include "guard/path_checker.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/heartbeat.h"
 #include "common/stage_clock.h"
@@ -13,6 +14,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Duration kFinestProbable = std::chrono::milliseconds(25);  // shortest sweep with a merely possible contact
+
+constexpr double kRounding = 1e-9;  // relative, of a reach
 
 void leaveOut(TriangleSet& triangles, const IsLeftOut& is_left_out) {
   if (is_left_out)
@@ -46,14 +49,20 @@ struct PathChecker::Scene {
   }
 };
 
+size_t PathChecker::indexOf(const Scene& scene, const Tool::Node& node) {
+  return static_cast<size_t>(&node - scene.tool.tree().data());
+}
+
 struct PathChecker::Progress {
   PredictedObject& object;
+  ClosestApproach& closest;
   TriangleSet* triangles;  // of the interval under test
   bool contact = false;    // found in an earlier segment
 };
 
 void PathChecker::check(Detector& detector, const PredictedPathRequest& request, PredictedObject& object) {
   X_WM_.reset();
+  own_closest_.clear();
   checkNext(detector, request, object);
 }
 
@@ -62,6 +71,8 @@ void PathChecker::checkNext(Detector& detector, const PredictedPathRequest& requ
   object.workpiece = request.workpiece;
   const TriangleMesh& mesh_M = object.workpiece->mesh_M;
   const double margin = options_.sweep.margin + mesh_M.rounding();
+  const bool several = request.closest != nullptr && request.frame == nullptr;
+  if (several && staysOutOfReach(request, margin)) return addFreeSweeps(request, object);
   follow(request, margin);
   const size_t reflex_sweeps = request.reflex_sweeps;
   const Duration reflex_end = reflex_sweeps == 0 ? Duration::zero() : request.path[reflex_sweeps - 1].ahead;
@@ -70,13 +81,46 @@ void PathChecker::checkNext(Detector& detector, const PredictedPathRequest& requ
   const Scene scene{detector,          request.tool, margin,          reflex_end, request.plan,
                     *object.workpiece, intended,     request.touches, allowed};
   const Submesh submesh = submeshInReach(mesh_M, reach_M_, 0);
-  Progress progress{object, &object.reflex};
+  second_first_.assign(request.tool.tree().size(), 0);
+  ClosestApproaches& closest = request.closest != nullptr ? *request.closest : own_closest_;
+  Progress progress{object, closest.to(*object.workpiece), &object.reflex};
   for (size_t i = 0; i < request.plan.sweepCount(request.path); ++i) {
     for (const SweptBody& body : segments_[i].bodies) object.volumes_M.push_back(body.volume_M);
     if (segments_[i].segment.last > reflex_sweeps) progress.triangles = &object.considered;
     checkSegment(scene, submesh, i, progress, 1);
   }
   remove(object.considered, object.reflex);
+}
+
+// Returns whether a ball around the tool, with every error that counts, stays beside the box around the mesh.
+bool PathChecker::staysOutOfReach(const PredictedPathRequest& request, double margin) const {
+  const Eigen::Isometry3d X_MW = request.X_WM.inverse();
+  const double radius = request.tool.boundingRadius();
+  Eigen::AlignedBox3d origins_M(Eigen::Vector3d(X_MW * request.X_WT.translation()));
+  double error = 0.0;
+  double deviation = 0.0;
+  for (const PredictedPose& pose : request.path) {
+    origins_M.extend(Eigen::Vector3d(X_MW * pose.X_WT.translation()));
+    const double moves = std::sqrt(pose.covariance.topLeftCorner<3, 3>().trace());
+    const double turns = std::sqrt(pose.covariance.bottomRightCorner<3, 3>().trace());
+    error = std::max(error, moves + radius * turns);
+    deviation = std::max(deviation, pose.deviation_bound);
+  }
+  const TriangleMesh& mesh_M = request.workpiece->mesh_M;
+  const Eigen::AlignedBox3d& bounds = mesh_M.blocks().bounds();
+  const double reach = (1.0 + kRounding) * (radius + margin + deviation + options_.max_deviations * error) +
+                       kRounding * (mesh_M.radius() + mesh_M.origin().norm());
+  const Eigen::AlignedBox3d mesh(bounds.min() + mesh_M.origin(), bounds.max() + mesh_M.origin());
+  return origins_M.squaredExteriorDistance(mesh) > reach * reach;
+}
+
+void PathChecker::addFreeSweeps(const PredictedPathRequest& request, PredictedObject& object) {
+  const size_t count = request.plan.sweepCount(request.path);
+  object.volumes_tested = count;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t first = i == 0 ? 0 : request.plan.sweep_ends.empty() ? i : request.plan.sweep_ends[i - 1];
+    object.sweeps.push_back({first == 0 ? Duration::zero() : request.path[first - 1].ahead});
+  }
 }
 
 // Sweeps the path, unless the workpiece before was in the same place.
@@ -107,6 +151,7 @@ void PathChecker::predict(Detector& detector, const PredictionRequest& request, 
   static const Workpieces kNone;
   const PredictedMotion& motion = request.motion;
   X_WM_.reset();
+  own_closest_.clear();
   prediction.stamp = motion.from.stamp;
   prediction.path = motion.path;
   prediction.body_paths = motion.body_paths;
@@ -133,7 +178,7 @@ void PathChecker::predict(Detector& detector, const PredictionRequest& request, 
   const auto test = [&](const auto& workpiece, PredictedObject& object) {
     checkNext(detector,
               {request.tool, X_WB, path, motion.reflex_sweeps, X_WM, workpiece, plan, request.intentions,
-               request.touches, frame ? &*frame : nullptr},
+               request.touches, frame ? &*frame : nullptr, request.closest},
               object);
   };
   testPlaced(motion.path.empty() ? kNone : request.workpieces, is_placed, prediction, test);
@@ -196,9 +241,12 @@ bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, Swept
 bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
                                const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations) {
   if (scene.mayTouch(node)) return false;
-  if (!meter_.isNear(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, node.piece))) return false;
-  if (node.piece) return true;
-  return std::any_of(node.below.begin(), node.below.end(), [&](size_t index) {
+  if (node.piece) {
+    return meter_.isNear(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, node.piece));
+  }
+  if (!meter_.mayBeNear(submesh, body.volume_M, deviations)) return false;
+  const std::array<size_t, 2> nearest_first = nearestFirst(scene, node);
+  return std::any_of(nearest_first.begin(), nearest_first.end(), [&](size_t index) {
     const Tool::Node& below = scene.tool.tree()[index];
     const UncertainBody within = sweepBelow(scene, segment, below, body.motion_M);
     return hasCandidate(scene, submesh, segment, below, within.body, within.deviations);
@@ -217,38 +265,53 @@ PathChecker::Candidate PathChecker::noCandidate() {
   return {};
 }
 
-// Finds the piece of the tool nearest to the mesh, and the pieces that no plane separates from the mesh.
-PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept) {
+// Finds the piece of the tool nearest to the mesh, if it is nearer than `at_most`, and the pieces that no plane separates
+// from the mesh.
+PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept,
+                                                  double at_most) {
   Candidate candidate = noCandidate();
   if (submesh.empty()) return candidate;
   const InStage stage(Stage::kProbability);
   measureDeviations(scene, swept);
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
     candidate = nearer(candidate, findCandidate(scene, submesh, swept.segment, scene.tool.tree()[0], swept.bodies[i],
-                                                swept.deviations[i]));
+                                                swept.deviations[i], std::min(at_most, candidate.deviations)));
   }
   return candidate;
 }
 
 PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh,
                                                   const PathSegment& segment, const Tool::Node& node,
-                                                  const SweptBody& body, const PerHalfSpace& deviations) {
+                                                  const SweptBody& body, const PerHalfSpace& deviations,
+                                                  double at_most) {
   if (scene.mayTouch(node)) return {};
-  const auto clearance =
-      meter_.measure(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, node.piece));
-  if (!clearance) return {};
   if (node.piece) {
+    const auto clearance = meter_.measure(submesh, body.volume_M, deviations,
+                                          intendedFor(scene, submesh, body, node.piece), std::max(0.0, at_most));
+    if (!clearance) return {};
     const Candidate candidate{clearance->deviations, node.piece};
     if (!clearance->separated) unseparated_.push_back({body, candidate});
     return scene.hasTouched(*node.piece) ? Candidate() : candidate;
   }
+  if (!meter_.mayBeNear(submesh, body.volume_M, deviations)) return {};
   Candidate candidate;
-  for (const size_t index : node.below) {
+  for (const size_t index : nearestFirst(scene, node)) {
     const Tool::Node& below = scene.tool.tree()[index];
     const UncertainBody within = sweepBelow(scene, segment, below, body.motion_M);
-    candidate = nearer(candidate, findCandidate(scene, submesh, segment, below, within.body, within.deviations));
+    const Candidate found = findCandidate(scene, submesh, segment, below, within.body, within.deviations,
+                                          std::min(at_most, candidate.deviations));
+    if (found.deviations < candidate.deviations) second_first_[indexOf(scene, node)] = index == node.below[1];
+    candidate = nearer(candidate, found);
   }
   return candidate;
+}
+
+// Returns the nodes below a node, first the one that was nearer last time: what is nearest need not be told from what is
+// farther.
+std::array<size_t, 2> PathChecker::nearestFirst(const Scene& scene, const Tool::Node& node) const {
+  const auto& [first, second] = node.below;
+  if (second_first_[indexOf(scene, node)] != 0) return {second, first};
+  return {first, second};
 }
 
 // Returns which triangles a piece is meant to touch; empty: none, as for boxes around pieces.
@@ -312,7 +375,8 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
     progress.object.volumes_tested += swept.bodies.size();
     return halve();
   }
-  const Candidate candidate = near ? findCandidate(scene, submesh, swept) : noCandidate();
+  const double at_most = progress.closest.upTo(segment.from);
+  const Candidate candidate = near ? findCandidate(scene, submesh, swept, at_most) : noCandidate();
   const bool in_time = (!candidate.piece && unseparated_.empty()) || scene.inTimeFor(segment);
   const bool finer = !progress.contact && in_time;
   if (in_time) progress.object.volumes_tested += swept.bodies.size();
@@ -328,6 +392,7 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
   const double nearest = std::min(candidate.deviations, not_ruled_out_.empty() ? kInfinity : in_contact_.deviations);
   const double deviations = only_volume ? std::max(0.0, nearest) : nearest;
   progress.object.sweeps.push_back({segment.from, !not_ruled_out_.empty(), deviations, tool_piece});
+  progress.closest.add(segment.from, deviations);
   progress.contact = progress.contact || !not_ruled_out_.empty();
   unite(*progress.triangles, not_ruled_out_);
 }

@@ -35,6 +35,7 @@ struct PredictedPathRequest {
   const Intentions& intentions = kNoIntentions;
   const IntendedTouches& touches = kNoTouches;
   const FramePath* frame = nullptr;  ///< along `path`, of a frame that moves on its own
+  ClosestApproaches* closest = nullptr;  ///< of the bodies of the tool; null: it is the only one
 };
 
 /// Tests the sweeps along a predicted path. Keeps its buffers between calls.
@@ -57,6 +58,7 @@ class PathChecker {
   /// contact, sweeps are no longer halved. Triangles that a piece is meant to touch are left out for it; a link that has
   /// touched as intended only counts where the path itself meets the workpiece. Once the plan is out of time, sweeps beyond the reflex interval are neither
   /// halved nor handed to the detector: a triangle counts as met if no plane of a volume separates it from the volume.
+  /// What comes no nearer than an earlier sweep, of this body or another one, is not measured (PredictedSweep).
   /// @param[out] object  overwritten; its buffers are used again
   /// @throws DeviceError if the detector fails
   void check(Detector& detector, const PredictedPathRequest& request, PredictedObject& object);
@@ -106,13 +108,18 @@ class PathChecker {
                     const SweptBody& body, const PerHalfSpace& deviations);
   static const Candidate& nearer(const Candidate& one, const Candidate& other);
   Candidate noCandidate();
-  Candidate findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
+  Candidate findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept, double at_most);
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
-                          const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations);
+                          const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations,
+                          double at_most);
+  static size_t indexOf(const Scene& scene, const Tool::Node& node);
+  std::array<size_t, 2> nearestFirst(const Scene& scene, const Tool::Node& node) const;
   static IsLeftOut intendedFor(const Scene& scene, const Submesh& submesh, const SweptBody& body,
                                std::optional<size_t> piece);
   bool hullMissesDetected(const SweptBody& body, const TriangleMesh& mesh_M) const;
   void checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress, size_t halvings);
+  bool staysOutOfReach(const PredictedPathRequest& request, double margin) const;
+  static void addFreeSweeps(const PredictedPathRequest& request, PredictedObject& object);
   Submesh submeshInReach(const Submesh& around, const Eigen::AlignedBox3d& reach_M, size_t halvings);
 
   Options options_;
@@ -120,6 +127,8 @@ class PathChecker {
   std::deque<SubmeshFinder> finders_;  // of the whole path, of its sweeps, of their halves, ...
   Detection detection_;
   PathInMesh path_M_;
+  ClosestApproaches own_closest_;
+  std::vector<char> second_first_;  // for each node of the tool's tree: the second one below was nearer last time
   // Of path_M_, for the workpieces placed as the last one was:
   std::optional<Eigen::Isometry3d> X_WM_;
   double margin_ = 0.0;

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "guard/closest_approach.h"
 #include "guard/intended_touches.h"
 #include "sweep_guard/guard/guard_options.h"
 #include "sweep_guard/guard/prediction.h"
@@ -16,6 +17,7 @@ struct PredictionRequest {
   const Intentions& intentions = kNoIntentions;
   const IntendedTouches& touches = kNoTouches;
   size_t body = 0;  ///< index of `tool` among PoseWithFrames::bodies
+  ClosestApproaches* closest = nullptr;  ///< of the bodies predicted so far; null: it is the only one
 };
 
 /// Tests a predicted motion against every workpiece, as a guard with these options does if time is not short: one sweep

@@ -151,6 +151,31 @@ void classifyBoxes(const BoxArrays<const float>& boxes, std::size_t count, const
   for (; first < count; first += kWidth) classifyBoxesFrom<1>(first, nearest, planes, bits);
 }
 
+// Handles several independent registers of boxes at a time.
+template <std::size_t registers>
+void scoreBoxesFrom(std::size_t first, const NearestCorners& nearest, const Planes& planes, const PerPlane& inverse,
+                    float* scores) {
+  Float most[registers];
+  for (std::size_t k = 0; k < registers; ++k) most[k] = broadcast(-__builtin_inff());
+  for (std::size_t i = 0; i < planes.count; ++i) {
+    for (std::size_t k = 0; k < registers; ++k) {
+      const auto corner = [&](std::size_t axis) { return load(nearest.from[i][axis] + first + k * kWidth); };
+      const Float out =
+          dot(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i], corner(0), corner(1), corner(2));
+      most[k] = max(most[k], (out - planes.outside[i]) * inverse[i]);
+    }
+  }
+  for (std::size_t k = 0; k < registers; ++k) __builtin_memcpy(scores + first + k * kWidth, &most[k], sizeof(Float));
+}
+
+void scoreBoxes(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes, const PerPlane& inverse,
+                float* scores) {
+  const NearestCorners nearest(boxes, planes);
+  std::size_t first = 0;
+  for (; first + 4 * kWidth <= count; first += 4 * kWidth) scoreBoxesFrom<4>(first, nearest, planes, inverse, scores);
+  for (; first < count; first += kWidth) scoreBoxesFrom<1>(first, nearest, planes, inverse, scores);
+}
+
 // Gathers one axis of kWidth vertices from the three registers that contain them.
 template <std::size_t axis, std::size_t... lane>
 [[gnu::always_inline]] inline Float oneAxis(const Float (&of)[3], std::index_sequence<lane...> /*all*/) {
@@ -171,6 +196,25 @@ struct Points {
   Float y;
   Float z;
 };
+
+// Handles two independent registers of vertices at a time.
+float scoreBlock(const float* vertices, const Planes& planes, const PerPlane& inverse) {
+  Float least = broadcast(__builtin_inff());
+  for (std::size_t first = 0; first < kBlock; first += 2 * kWidth) {
+    const Points at[2] = {Points(vertices + 3 * first), Points(vertices + 3 * (first + kWidth))};
+    Float most[2] = {broadcast(-__builtin_inff()), broadcast(-__builtin_inff())};
+    for (std::size_t i = 0; i < planes.count; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Float out = dot(planes.normal[0][i], planes.normal[1][i], planes.normal[2][i], at[k].x, at[k].y, at[k].z);
+        most[k] = max(most[k], (out - planes.outside[i]) * inverse[i]);
+      }
+    }
+    least = min(least, min(most[0], most[1]));
+  }
+  float best = least[0];
+  for (std::size_t lane = 1; lane < kWidth; ++lane) best = least[lane] < best ? least[lane] : best;
+  return best;
+}
 
 constexpr auto kInside = static_cast<float>(kInsideAll);
 
@@ -302,7 +346,8 @@ void separate(const TriangleBatch& triangles, const Directions& directions, Batc
 
 namespace SWEEP_GUARD_ISA {
 extern const Kernels kKernels;
-const Kernels kKernels = {nullptr, bound, classifyBoxes, classifyBlock, classifyTriangles, largest, separate};
+const Kernels kKernels = {nullptr,       bound,             classifyBoxes, scoreBoxes, scoreBlock,
+                          classifyBlock, classifyTriangles, largest,       separate};
 }  // namespace SWEEP_GUARD_ISA
 
 }  // namespace sweep_guard_core::simd

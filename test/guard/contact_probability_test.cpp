@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "guard/clearance_by_clipping.h"
 #include "scenes.h"
 
 namespace sweep_guard_core {
@@ -180,34 +180,6 @@ TEST(ContactProbabilityTest, GrowsWithDoubtAndFallsWithDistance) {
   };
   for (double distance = -0.05; distance < 0.2; distance += 0.01)
     EXPECT_LE(wall(distance + 0.01), wall(distance) + 1e-3);
-}
-
-// Some of a volume with its planes moved out: what clipping leaves of a triangle.
-bool meets(const TriangleMesh& mesh_M, const Triangle& triangle, const SweptVolume& swept_M, double z,
-           const PerHalfSpace& deviations) {
-  const auto half_spaces_B = swept_M.halfSpaces_B();
-  Polygon polygon_B;
-  for (const auto vertex : triangle) polygon_B.push_back(swept_M.box.X_MB.inverse() * mesh_M.vertex(vertex));
-  for (size_t k = 0; k < half_spaces_B.size(); ++k) {
-    polygon_B = clip(polygon_B, half_spaces_B[k].grown(z * deviations[k]));
-  }
-  return !polygon_B.empty();
-}
-
-// How far the planes must be moved in until one of them has the triangle wholly beyond it, at the least.
-double farthestBack(const TriangleMesh& mesh_M, const Triangle& triangle, const SweptVolume& swept_M,
-                    const PerHalfSpace& deviations) {
-  const auto half_spaces_B = swept_M.halfSpaces_B();
-  double back = -std::numeric_limits<double>::infinity();
-  for (size_t k = 0; k < half_spaces_B.size(); ++k) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const auto vertex : triangle) {
-      const double distance = half_spaces_B[k].signedDistance(swept_M.box.X_MB.inverse() * mesh_M.vertex(vertex));
-      nearest = std::min(nearest, distance / deviations[k]);
-    }
-    back = std::max(back, nearest);
-  }
-  return back;
 }
 
 // What the meter says is what clipping says: a little less and nothing is met, a little more and something is. Where

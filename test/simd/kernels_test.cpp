@@ -154,6 +154,56 @@ TEST_P(KernelsTest, FindsThePlanesThatAWholeBoxIsBeyond) {
   EXPECT_GT(clear, 100);
 }
 
+PerPlane randomInverses(Random& random) {
+  PerPlane inverse;
+  for (float& one : inverse) one = static_cast<float>(random.logUniform(1.0, 100.0));
+  return inverse;
+}
+
+TEST_P(KernelsTest, ScoresABoxByTheCornerNearestToEachPlane) {
+  Random random(8);
+  for (const size_t count : {1U, 16U, 40U, 130U}) {
+    Boxes boxes(count);
+    for (size_t i = 0; i < 3 * boxes.stride; ++i) {
+      boxes.sides[i] = randomFloat(random);
+      boxes.sides[i + 3 * boxes.stride] = boxes.sides[i] + 0.3F * std::abs(randomFloat(random));
+    }
+    const Planes planes = randomPlanes(random, 12);
+    const PerPlane inverse = randomInverses(random);
+    std::vector<float> scores(boxes.stride);
+    GetParam().scoreBoxes(boxes.arrays<const float>(), count, planes, inverse, scores.data());
+    for (size_t box = 0; box < count; ++box) {
+      double most = -1e9;
+      for (size_t plane = 0; plane < planes.count; ++plane) {
+        float nearest[3];
+        for (size_t axis = 0; axis < 3; ++axis) {
+          const bool upper = planes.normal[axis][plane] < 0.0F;
+          nearest[axis] = (upper ? boxes.arrays<float>().upper : boxes.arrays<float>().lower)[axis][box];
+        }
+        most = std::max(most, beyond(planes, plane, nearest) * inverse[plane]);
+      }
+      EXPECT_NEAR(scores[box], most, 100.0 * kRounding) << box;
+    }
+  }
+}
+
+TEST_P(KernelsTest, ScoresABlockByItsLeastVertex) {
+  Random random(9);
+  for (int trial = 0; trial < 200; ++trial) {
+    const std::vector<float> vertices = randomBlocks(random, 1);
+    const Planes planes = randomPlanes(random, 1 + static_cast<size_t>(random.below(static_cast<int>(kMaxPlanes))));
+    const PerPlane inverse = randomInverses(random);
+    double least = 1e9;
+    for (size_t i = 0; i < kBlock; ++i) {
+      double most = -1e9;
+      for (size_t plane = 0; plane < planes.count; ++plane)
+        most = std::max(most, beyond(planes, plane, &vertices[3 * i]) * inverse[plane]);
+      least = std::min(least, most);
+    }
+    EXPECT_NEAR(GetParam().scoreBlock(vertices.data(), planes, inverse), least, 100.0 * kRounding) << trial;
+  }
+}
+
 TEST_P(KernelsTest, FindsThePlanesThatAVertexIsBeyondAndVerticesInsideOfAll) {
   Random random(5);
   int inside_all = 0;

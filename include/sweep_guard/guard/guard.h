@@ -14,6 +14,7 @@
 
 namespace sweep_guard_core {
 
+class ClosestApproaches;
 struct GuardedBody;
 class TimeBudget;
 struct SweepPlan;
@@ -131,6 +132,7 @@ class Guard {
   Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::unique_ptr<Detector> detector,
         const GuardOptions& options);
 
+  void orderBodies(const Workpieces& workpieces);
   void beginPlan(SteadyTime begin, const std::function<void()>& between);
   size_t consideredSweeps() const;
   void interrupt(const std::function<void()>& between);
@@ -147,6 +149,10 @@ class Guard {
   Duration interrupted_{};                // time for other things during this test
   Horizon horizon_;
   std::unique_ptr<SweepPlan> plan_;
+  std::unique_ptr<ClosestApproaches> closest_;  // in the running prediction
+  std::vector<size_t> swept_order_;             // of the bodies: 0, 1, ...
+  std::vector<size_t> predicted_order_;         // of the bodies: what may come nearest first
+  std::vector<double> nearness_;                // of the bodies [standard deviations]
   const std::shared_ptr<const Intentions> no_intentions_;
   std::shared_ptr<const Intentions> intentions_;
   std::shared_ptr<const FrameMotions> frames_ = std::make_shared<const FrameMotions>();

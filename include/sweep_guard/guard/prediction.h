@@ -35,7 +35,8 @@ struct PredictedSweep {
   /// Number of standard deviations by which the tool must leave the path here to meet the workpiece; negative if the
   /// path meets it: to be free. 0 if, in the reflex interval, the volume meets it and the hull of the tool does not: the
   /// error of so short a prediction is smaller than the space that the volume leaves. Infinite beyond
-  /// GuardOptions::max_deviations.
+  /// GuardOptions::max_deviations. May be infinite where the path meets nothing and comes no nearer than in a sweep that
+  /// begins earlier: that changes no probability within an interval.
   double deviations = std::numeric_limits<double>::infinity();
   /// Index of the convex piece of the tool with these deviations; with `contact`, of those that meet the workpiece.
   /// Empty if there are none.
@@ -49,8 +50,8 @@ struct PredictedObject {
   std::vector<std::uint32_t> reflex;   ///< triangles met or not ruled out in the reflex interval: ascending, each once
   std::vector<std::uint32_t> considered;  ///< the same later: ascending, each once, none of `reflex`
   std::vector<SweptVolume>
-      volumes_M;              ///< volumes around the whole tool, or around each of its bodies in turn: end to end,
-                              ///< unsplit; in M
+      volumes_M;              ///< volumes around the whole tool, or around each of its bodies in turn, except bodies that
+                              ///< stay out of reach of the workpiece: end to end, unsplit; in M
   size_t volumes_tested = 0;  ///< number of volumes tested in time, including those of split sweeps
 
   std::vector<std::uint32_t> triangles() const;  ///< of `reflex` and `considered`: ascending, each once

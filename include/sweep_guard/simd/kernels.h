@@ -39,14 +39,16 @@ struct Extremes {
   std::array<float, 3> upper;
 };
 
+using PerPlane = std::array<float, kMaxPlanes + 1>;  ///< the last one is unused
+
 /// Planes n·p = d, in the frame of the vertices and boxes that they are compared with. Beyond a plane is n·p > d. The
 /// thresholds [m] allow for rounding: a point with n·p > `outside` in float32 is beyond the plane, one with n·p <
 /// `inside` is not.
 struct Planes {
   std::size_t count = 0;                                    ///< at most kMaxPlanes
-  std::array<std::array<float, kMaxPlanes + 1>, 3> normal;  ///< x, y and z of the unit normals; from `count` on unused
-  std::array<float, kMaxPlanes + 1> outside;
-  std::array<float, kMaxPlanes + 1> inside;
+  std::array<PerPlane, 3> normal;                            ///< x, y and z of the unit normals; from `count` on unused
+  PerPlane outside;
+  PerPlane inside;
 };
 
 /// The bits of a vertex inside of all planes. Otherwise bit i is set if the vertex is beyond plane i.
@@ -111,6 +113,18 @@ struct Kernels {
   /// @param[out] bits  one entry for each box; room for padded(count) entries
   void (*classifyBoxes)(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes,
                         std::uint16_t* bits);
+
+  /// Computes for each box how many scales it lies at least beyond the planes: the largest (n·p - outside) / scale of all
+  /// planes, p the corner of the box that is least far beyond the plane. Up to rounding: a few 2^-23 of it.
+  /// @param boxes        arrays of padded(count) entries
+  /// @param inverse      1 / scale of each plane [1/m], > 0
+  /// @param[out] scores  one entry for each box; room for padded(count) entries
+  void (*scoreBoxes)(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes,
+                     const PerPlane& inverse, float* scores);
+
+  /// Returns the same for the vertex of a block for which it is least.
+  /// @param vertices  x0 y0 z0 x1 ... [m] of kBlock vertices
+  float (*scoreBlock)(const float* vertices, const Planes& planes, const PerPlane& inverse);
 
   /// Computes the bits of the vertices of one block: kInsideAll, or the planes that the vertex is beyond.
   /// @param vertices   x0 y0 z0 x1 ... [m] of kBlock vertices

@@ -1,0 +1,122 @@
+#include "guard/path_checker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "detection/reference_detector.h"
+#include "guard/clearance_by_clipping.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTolerance = 2e-3;  // [standard deviations]
+constexpr double kMeasured = 1.5;    // the corners of a volume may lie farther out of reach than the tool
+constexpr Duration kStep = std::chrono::milliseconds(20);
+
+Tool toolOf(Random& random, size_t pieces) {
+  std::vector<ConvexPiece> all;
+  for (size_t i = 0; i < pieces; ++i) {
+    const Eigen::Isometry3d X = random.pose(random.inBox({0.1, 0.1, 0.1}));
+    all.push_back({"link", ConvexShape::box({0.01, 0.02, 0.03}).placed(X)});
+  }
+  return Tool(std::move(all));
+}
+
+// A path along which the tool turns, drifts, and is ever less certain.
+PredictedPath randomPath(Random& random, const Eigen::Isometry3d& X_WT) {
+  const Eigen::Vector3d step = 0.02 * random.direction();
+  const Eigen::AngleAxisd turn(0.03, random.direction());
+  const Vector6d sigmas = random.logUniform(0.003, 0.03) * Vector6d::Ones();
+  PredictedPath path;
+  Eigen::Isometry3d X = X_WT;
+  for (int i = 1; i <= 8; ++i) {
+    X = Eigen::Translation3d(step) * X * turn;
+    path.push_back({i * kStep, X, i * i * Matrix6d(sigmas.cwiseProduct(sigmas).asDiagonal())});
+  }
+  return path;
+}
+
+TriangleMesh randomSoup(Random& random) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const Eigen::Vector3d place = random.uniform(0.2, 0.6) * random.direction();
+    for (int k = 0; k < 3; ++k)
+      vertices.emplace_back((place + random.inBox({0.03, 0.03, 0.03})).cast<float>().cast<double>());
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return TriangleMesh(vertices, triangles);
+}
+
+struct Scene {
+  explicit Scene(std::uint64_t seed) : random(seed) {}
+
+  Random random;
+  Tool tool = toolOf(random, 12);
+  Eigen::Isometry3d X_WT = random.pose(Eigen::Vector3d::Zero());
+  PredictedPath path = randomPath(random, X_WT);
+  std::shared_ptr<const Workpiece> workpiece =
+      std::make_shared<const Workpiece>(Workpiece{"soup", 0, Time(), SteadyTime(), "table", randomSoup(random)});
+};
+
+PredictedObject predicted(const Scene& scene) {
+  ReferenceDetector detector;
+  PathChecker checker({SweepOptions(), kStep});
+  PredictedObject object;
+  checker.check(detector, {scene.tool, scene.X_WT, scene.path, 0, Eigen::Isometry3d::Identity(), scene.workpiece, {}},
+                object);
+  return object;
+}
+
+// Of each piece in one step, compared with each triangle.
+std::vector<double> clearances(const Scene& scene, size_t step) {
+  const PredictedPose& end = scene.path[step];
+  const Motion motion{step == 0 ? scene.X_WT : scene.path[step - 1].X_WT, end.X_WT};
+  const TriangleMesh& mesh_M = scene.workpiece->mesh_M;
+  std::vector<double> all;
+  for (const ConvexPiece& piece : scene.tool.pieces()) {
+    const SweptVolume swept_M =
+        sweptVolume(piece.shape_T, motion, SweepOptions().volume, SweepOptions().margin + mesh_M.rounding());
+    all.push_back(
+        clearanceByClipping(mesh_M, swept_M, planeDeviations(piece.shape_T, end.X_WT, end.covariance, swept_M)));
+  }
+  return all;
+}
+
+// A sweep that comes no nearer than an earlier one need not say how near.
+TEST(PathCheckerTest, FindsTheNearestPieceThatComparingEachPieceWithEachTriangleFinds) {
+  int nearer = 0;
+  int no_nearer = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Scene scene(seed);
+    const PredictedObject object = predicted(scene);
+    ASSERT_EQ(object.sweeps.size(), scene.path.size());
+    double before = kInfinity;
+    for (size_t step = 0; step < object.sweeps.size(); ++step) {
+      const PredictedSweep& sweep = object.sweeps[step];
+      const std::vector<double> all = clearances(scene, step);
+      const double least = *std::min_element(all.begin(), all.end());
+      EXPECT_GE(sweep.deviations, least - kTolerance) << seed << ", step " << step;
+      if (least < std::min(before - kTolerance, kMeasured)) {
+        ++nearer;
+        EXPECT_NEAR(sweep.deviations, least, kTolerance) << seed << ", step " << step;
+        ASSERT_TRUE(sweep.tool_piece);
+        if (!sweep.contact) {
+          EXPECT_NEAR(all[*sweep.tool_piece], least, kTolerance) << seed << ", step " << step;
+        }
+      }
+      if (least > before + kTolerance && least > 0.0) {
+        no_nearer += sweep.deviations == kInfinity;
+        EXPECT_GT(sweep.deviations, before) << seed << ", step " << step;
+      }
+      before = std::min(before, sweep.deviations);
+    }
+  }
+  EXPECT_GT(nearer, 50);
+  EXPECT_GT(no_nearer, 10);
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
