@@ -84,7 +84,7 @@ PredictorOptions optionsOf(const std::string& name) {
 std::vector<PredictableJoint> jointsOf(const KinematicTree& tree) {
   std::vector<PredictableJoint> joints(tree.variables().size());
   for (const TreeLink& link : tree.links()) {
-    if (link.type == JointType::kPrismatic) joints[link.variable].turns = false;
+    if (link.moves()) joints[link.variable].turns = link.type == JointType::kRevolute;
   }
   return joints;
 }

@@ -329,7 +329,7 @@ TEST_F(PredictedFramesTest, NoPredictedContactIsMissed) {
   }
   RecordProperty("overlaps", overlaps);
   RecordProperty("contacts", contacts);
-  EXPECT_GT(overlaps, pairs / 10);
+  EXPECT_GT(overlaps, pairs / 20);
   EXPECT_LT(contacts, overlaps * 3 / 2);
 }
 
