@@ -84,7 +84,8 @@ PredictorOptions optionsOf(const std::string& name) {
 std::vector<PredictableJoint> jointsOf(const KinematicTree& tree) {
   std::vector<PredictableJoint> joints(tree.variables().size());
   for (const TreeLink& link : tree.links()) {
-    if (link.moves()) joints[link.variable].turns = link.type == JointType::kRevolute;
+    const bool mimics = link.joint != tree.variables()[link.variable].name;
+    if (link.type == JointType::kPrismatic && !mimics) joints[link.variable].turns = false;
   }
   return joints;
 }

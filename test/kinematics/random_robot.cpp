@@ -20,6 +20,7 @@ KinematicTree randomRobot(Random& random, size_t joints, bool branches) {
   for (size_t i = 0; i < joints; ++i) {
     TreeLink link;
     link.name = "link" + std::to_string(i);
+    link.joint = "joint" + std::to_string(i);
     if (i > 0) link.parent = branches ? static_cast<size_t>(random.below(static_cast<int>(i))) : i - 1;
     link.X_PJ = random.pose(random.inBox({0.3, 0.3, 0.3}));
     link.axis_J = random.direction();
