@@ -166,12 +166,14 @@ Names recordedNames(const BlackBoxParameters& parameters) {
   return names;
 }
 
-// ~markers and ~view draw what the others say; the tool of this guard has no joints.
+// ~markers and ~view draw what the others say, ~surface and ~bodies are for the guards of other tools; the tool of this guard
+// has no joints.
 TEST(DocumentsTest, TheBlackBoxRecordsWhatTheGuardHearsAndPublishes) {
   Names heard = namesOfTheGuard(kSubscribed);
   heard.merge(namesOfTheGuard(kPublished));
   heard.insert("/joint_states");
-  for (const char* const drawing : {"/markers", "/view"}) EXPECT_EQ(heard.erase(kGuard + drawing), 1U) << drawing;
+  for (const char* const again : {"/markers", "/view", "/surface", "/bodies"})
+    EXPECT_EQ(heard.erase(kGuard + again), 1U) << again;
   BlackBoxParameters parameters = loadBlackBoxParameters(ros::NodeHandle("/nothing_is_set"));
   parameters.proximity = parameters.interaction = true;
   EXPECT_EQ(recordedNames(parameters), heard);

@@ -438,9 +438,10 @@ TEST_F(ReconfigureTest, TheMarkerRateChanges) {
 }
 
 TEST_F(ReconfigureTest, EachNamespaceOfTheMarkersCanBeHidden) {
+  placed_.insert("allowed");
+  probe().publish(squareAt("allowed", {0.0, 0.0, 0.0}, probe().time(), 0.1));  // no answer shows it: it may be touched
   placeSquare("square", {0.0, 0.0, 0.0});
   placeSquare("below", {0.0, 0.0, -0.1});
-  placeSquare("allowed", {0.0, 0.0, 0.0});
   change("warning/hold_time", 60.0);
   moveTo({0.0, 0.0, 0.02});
   moveTo({0.0, 0.0, 0.0});

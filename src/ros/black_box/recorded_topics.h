@@ -28,7 +28,7 @@ struct RecordedTopic {
 };
 
 /// Returns the inputs of the guard by the names that remappings of the node give them, and its outputs, but for ~markers and
-/// ~view, which draw what the others say.
+/// ~view, which draw what the others say, and ~surface and ~bodies, which are for the guards of other tools.
 std::vector<RecordedTopic> recordedTopics(const ros::NodeHandle& node, const BlackBoxParameters& parameters);
 
 constexpr const char* kRecordedWarning = "/sweep_guard/warning";
