@@ -1,7 +1,9 @@
 #include "ros/publisher_links.h"
 
+#include <poll.h>
 #include <ros/xmlrpc_manager.h>
 
+#include <cstdlib>
 #include <mutex>
 #include <utility>
 
@@ -11,11 +13,15 @@ using XmlRpc::XmlRpcValue;
 
 namespace {
 
-// roscpp tells the number of the socket in words.
+// roscpp tells the number of the socket in words. Where the publisher closed it while it was made, roscpp does not notice.
 bool isDown(const XmlRpcValue& connection) {
   if (connection.size() < 7) return false;
+  static const std::string kBefore = " on socket ";
   const std::string& transport = connection[6];
-  return transport.find("on socket -1]") != std::string::npos;
+  const std::size_t place = transport.rfind(kBefore);
+  if (place == std::string::npos) return false;
+  pollfd socket{std::atoi(transport.c_str() + place + kBefore.size()), POLLRDHUP, 0};
+  return socket.fd < 0 || (poll(&socket, 1, 0) == 1 && socket.revents != 0);
 }
 
 }  // namespace
