@@ -123,7 +123,8 @@ class StaticTest {
  public:
   StaticTest(const PeerKind& kind, int triangles) : positions_(positionsOfDeformations(triangles)) {
     surface_.positions_M = positions_.front();
-    for (const Triangle& triangle : hullAt(0.0, triangles).triangles()) surface_.triangles.push_back(triangle);
+    const TriangleMesh hull = hullAt(0.0, triangles);
+    surface_.triangles.assign(hull.triangles().begin(), hull.triangles().end());
     peer_ = kind.make(surface_);
   }
 
