@@ -259,6 +259,15 @@ void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire) {
 }
 
 template <>
+void checkLengths<sweep_guard::AttachRequest>(Wire wire) {
+  WireReader read(wire);
+  read.text();
+  read.text();
+  read.skip(1);
+  read.end();
+}
+
+template <>
 void checkLengths<sweep_guard::SaveProfileRequest>(Wire wire) {
   WireReader read(wire);
   read.text();

@@ -199,6 +199,15 @@ sweep_guard::AcknowledgeRequest example() {
 }
 
 template <>
+sweep_guard::AttachRequest example() {
+  sweep_guard::AttachRequest message;
+  message.mesh_id = "payload";
+  message.link = "finger";
+  message.attach = 1;
+  return message;
+}
+
+template <>
 sweep_guard::PredictRequest example() {
   return {};
 }
@@ -369,6 +378,11 @@ std::vector<size_t> lengths<sweep_guard::AcknowledgeRequest>() {
 }
 
 template <>
+std::vector<size_t> lengths<sweep_guard::AttachRequest>() {
+  return {0, 4 + 7};
+}
+
+template <>
 std::vector<size_t> lengths<sweep_guard::PredictRequest>() {
   return {};
 }
@@ -432,7 +446,7 @@ using Messages =
                    sweep_guard::MeshVertices, sweep_guard::Proximity, sweep_guard::ToolBalls, sweep_guard::ToolBodies,
                    sweep_guard::ToolSurface, sweep_guard::Warning, sweep_guard::CheckSweepRequest,
                    sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest, sweep_guard::AcknowledgeRequest,
-                   sweep_guard::SaveProfileRequest, sweep_guard::Intend, sweep_guard::SetIntentRequest,
+                   sweep_guard::AttachRequest, sweep_guard::SaveProfileRequest, sweep_guard::Intend, sweep_guard::SetIntentRequest,
                    std_srvs::SetBoolRequest, std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 

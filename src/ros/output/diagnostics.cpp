@@ -143,6 +143,7 @@ void Diagnostics::workpieces(Status& status) const {
                 workpiece->mesh_M.triangles().size(), workpiece->frame.c_str(),
                 toSeconds(sweep_guard_core::age(seen, at)));
   }
+  for (const std::string& id : sources_.parameters.get()->attached) status.add("'" + id + "'", "attached to the tool");
 }
 
 void Diagnostics::allowed(Status& status) const {

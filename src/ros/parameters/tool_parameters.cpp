@@ -1,10 +1,10 @@
 #include "ros/parameters/tool_parameters.h"
 
 #include <algorithm>
-#include <set>
 #include <sstream>
 
 #include "ros/tool/robot_tree.h"
+#include "ros/tool/tool_links.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 
@@ -100,21 +100,12 @@ sweep_guard_core::AllowedPairs readAllowed(ParameterReader& read) {
   return pairs;
 }
 
-std::string linksOf(const sweep_guard_core::Tool& tool) {
-  std::set<std::string> links;
-  for (const sweep_guard_core::ConvexPiece& piece : tool.pieces()) links.insert(piece.link);
-  if (links == std::set<std::string>{""}) return "a cylinder has one link, without a name: write '*'";
-  std::string list;
-  for (const std::string& link : links) list += (list.empty() ? "'" : ", '") + link + "'";
-  return "it has " + list + ", or '*' for all";
-}
-
 void checkAllowed(const sweep_guard_core::AllowedPairs& pairs, const sweep_guard_core::Tool& tool) {
   for (const sweep_guard_core::AllowedPair& pair : pairs) {
-    const auto holds = [&](const sweep_guard_core::ConvexPiece& piece) { return pair.holds(piece.link); };
-    if (std::any_of(tool.pieces().begin(), tool.pieces().end(), holds)) continue;
+    if (pair.link == sweep_guard_core::AllowedPair::kAny || hasLink(tool, pair.link)) continue;
     throw sweep_guard_core::InvalidInput("parameter tool/allowed: the tool has no link '" +
-                                         sweep_guard_core::printable(pair.link) + "': " + linksOf(tool));
+                                         sweep_guard_core::printable(pair.link) + "': " + linksOf(tool) +
+                                         "; '*' means each");
   }
 }
 
@@ -155,6 +146,11 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   parameters.guard.allowed = readAllowed(read);
   parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
   parameters.tool_padding = padding;
+  if (before != nullptr) parameters.attached = before->attached;
+  if (!parameters.attached.empty() && before->tool_padding != padding) {
+    throw sweep_guard_core::InvalidInput("tool/padding does not change while '" + *parameters.attached.begin() +
+                                         "' is attached: detach it first");
+  }
   if (before != nullptr && before->tool_padding == padding) {
     parameters.tool = before->tool;
     parameters.bodies = before->bodies;
