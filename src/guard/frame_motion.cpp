@@ -25,7 +25,7 @@ std::vector<Knot> knotsOf(const FrameMotion& motion) {
     if (motion.predicted.empty() || pose.stamp < motion.predicted_from) knots.push_back(measuredKnot(pose));
   }
   for (const PredictedPose& pose : motion.predicted)
-    knots.push_back({motion.predicted_from + pose.ahead, pose.X_WT, pose.covariance, 0.0});
+    knots.push_back({motion.predicted_from + pose.ahead, pose.X_WT, pose.covariance, pose.deviation_bound});
   return knots;
 }
 

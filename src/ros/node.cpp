@@ -15,10 +15,9 @@ namespace {
 const sweep_guard_core::Duration kViewPeriod = sweep_guard_core::fromSeconds(1.0 / 60.0);
 constexpr auto kEarlyPeriod = std::chrono::milliseconds(100);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
-constexpr std::uint32_t kSilentInputs = sweep_guard_core::kNoPose | sweep_guard_core::kPoseStale |
-                                        sweep_guard_core::kTfFail | sweep_guard_core::kNoMesh |
-                                        sweep_guard_core::kMeshStale | sweep_guard_core::kNotCovered |
-                                        sweep_guard_core::kDisabled;
+constexpr std::uint32_t kSilentInputs =
+    sweep_guard_core::kNoPose | sweep_guard_core::kPoseStale | sweep_guard_core::kTfFail | sweep_guard_core::kNoMesh |
+    sweep_guard_core::kMeshStale | sweep_guard_core::kNotCovered | sweep_guard_core::kDisabled;
 
 }  // namespace
 
@@ -55,7 +54,9 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
                                    cross_check_.sampler(), intentions_, &frame_motions_}),
       poses_(node, parameters_, {frames_, workpieces_, monitor_, queue_, &frame_motions_}),
       meshes_(node, parameters_.initial(), workpieces_, monitor_),
-      other_tools_(node, parameters_.initial(), {meshes_, workpieces_, frame_motions_, monitor_}),
+      other_tools_(
+          node, parameters_.initial(),
+          {[this](const Worker::Job& job) { meshes_.changeStore(job); }, workpieces_, frame_motions_, monitor_}),
       path_tests_({parameters_, frames_, workpieces_, monitor_, &frame_motions_}),
       check_sweep_(private_node, path_tests_),
       check_trajectory_(private_node, path_tests_),
