@@ -1,24 +1,37 @@
 #include "guard/rigid_shape.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 namespace sweep_guard_core {
+namespace {
 
-double deviationFromRigid(const TriangleMesh& mesh_M, const std::vector<float>& positions_M) {
-  const auto count = static_cast<Eigen::Index>(mesh_M.vertexCount());
+Eigen::Matrix3Xd verticesOf(const TriangleMesh& mesh_M) {
+  Eigen::Matrix3Xd vertices_M(3, static_cast<Eigen::Index>(mesh_M.vertexCount()));
+  for (Eigen::Index i = 0; i < vertices_M.cols(); ++i) vertices_M.col(i) = mesh_M.vertex(static_cast<size_t>(i));
+  return vertices_M;
+}
+
+RigidFit fit(const Eigen::Matrix3Xd& before_M, const Eigen::Matrix3Xd& after_M) {
+  assert(before_M.cols() == after_M.cols());
+  RigidFit fit{{}, std::numeric_limits<double>::infinity()};
+  if (!after_M.allFinite()) return fit;
+  fit.X_MM.matrix() = Eigen::umeyama(before_M, after_M, /*with_scaling=*/false);
+  const Eigen::Matrix3Xd moved_M = (fit.X_MM.linear() * before_M).colwise() + fit.X_MM.translation();
+  fit.deviation = (after_M - moved_M).colwise().norm().maxCoeff();
+  return fit;
+}
+
+}  // namespace
+
+RigidFit rigidFit(const TriangleMesh& mesh_M, const std::vector<float>& positions_M) {
   assert(positions_M.size() == 3 * mesh_M.vertexCount());
-  if (!std::all_of(positions_M.begin(), positions_M.end(), [](float x) { return std::isfinite(x); }))
-    return std::numeric_limits<double>::infinity();
-  Eigen::Matrix3Xd before(3, count);
-  for (Eigen::Index i = 0; i < count; ++i) before.col(i) = mesh_M.vertex(static_cast<size_t>(i));
-  const Eigen::Matrix3Xd after = Eigen::Map<const Eigen::Matrix3Xf>(positions_M.data(), 3, count).cast<double>();
-  const Eigen::Matrix4d best = Eigen::umeyama(before, after, /*with_scaling=*/false);
-  const Eigen::Matrix3Xd moved = (best.topLeftCorner<3, 3>() * before).colwise() + best.topRightCorner<3, 1>();
-  return (after - moved).colwise().norm().maxCoeff();
+  const auto count = static_cast<Eigen::Index>(mesh_M.vertexCount());
+  return fit(verticesOf(mesh_M), Eigen::Map<const Eigen::Matrix3Xf>(positions_M.data(), 3, count).cast<double>());
+}
+
+RigidFit rigidFit(const TriangleMesh& mesh_M, const TriangleMesh& moved_M) {
+  return fit(verticesOf(mesh_M), verticesOf(moved_M));
 }
 
 }  // namespace sweep_guard_core

@@ -26,21 +26,13 @@ InvalidInput attachedAnd(const std::string& id, const std::string& why) {
   return InvalidInput(why + ", but '" + id + "' is attached to the tool: detach it first");
 }
 
-void requireShape(const Workpiece& attached, std::uint32_t revision, const std::vector<float>& positions_M) {
+void requireRevision(const Workpiece& attached, std::uint32_t revision) {
   if (revision != attached.revision) throw attachedAnd(attached.id, "its revision has changed");
-  attached.mesh_M.checkCount(positions_M);
-  const double deviation = deviationFromRigid(attached.mesh_M, positions_M);
-  if (deviation <= WorkpieceStore::kRigid) return;
-  throw attachedAnd(attached.id, "it deforms by " + std::to_string(deviation) + " m");
 }
 
-std::vector<float> positionsOf(const TriangleMesh& mesh_M) {
-  std::vector<float> positions_M;
-  for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
-    const Eigen::Vector3f p_M = mesh_M.vertex(i).cast<float>();
-    positions_M.insert(positions_M.end(), p_M.data(), p_M.data() + 3);
-  }
-  return positions_M;
+void requireShape(const Workpiece& attached, const RigidFit& fit) {
+  if (fit.deviation <= WorkpieceStore::kRigid) return;
+  throw attachedAnd(attached.id, "it deforms by " + std::to_string(fit.deviation) + " m");
 }
 
 }  // namespace
@@ -49,8 +41,10 @@ WorkpieceStore::WorkpieceStore(OnChange on_change) : on_change_(std::move(on_cha
 
 UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
   if (const auto held = attached(next.id)) {
-    if (!sameTriangles(held->workpiece->mesh_M, next.mesh_M)) throw attachedAnd(next.id, "it has other triangles");
-    requireShape(*held->workpiece, next.revision, positionsOf(next.mesh_M));
+    const Workpiece& workpiece = *held->workpiece;
+    if (!sameTriangles(workpiece.mesh_M, next.mesh_M)) throw attachedAnd(next.id, "it has other triangles");
+    requireRevision(workpiece, next.revision);
+    requireShape(workpiece, rigidFit(workpiece.mesh_M, next.mesh_M));
     return UpdateOutcome::kStored;
   }
   const auto current = find(next.id);
@@ -71,7 +65,10 @@ UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
 
 UpdateOutcome WorkpieceStore::deform(const Deformation& deformation, Time latest) {
   if (const auto held = attached(deformation.id)) {
-    requireShape(*held->workpiece, deformation.revision, deformation.positions_M);
+    const Workpiece& workpiece = *held->workpiece;
+    requireRevision(workpiece, deformation.revision);
+    workpiece.mesh_M.checkCount(deformation.positions_M);
+    requireShape(workpiece, rigidFit(workpiece.mesh_M, deformation.positions_M));
     return UpdateOutcome::kStored;
   }
   const auto current = find(deformation.id);

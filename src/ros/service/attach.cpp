@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "guard/rigid_shape.h"
 #include "ros/tool/payload.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
@@ -28,6 +29,15 @@ std::vector<sweep_guard_core::ConvexShape> shapesOf(const TriangleMesh& mesh_M) 
   sweep_guard_core::DecompositionOptions cuts;
   if (mesh_M.triangles().size() > kMaxCut) cuts.max_depth = 0;
   return sweep_guard_core::convexPieces(mesh_M, cuts);
+}
+
+Eigen::Isometry3d motionSince(const Workpiece& before, const Workpiece& newest) {
+  if (before.frame != newest.frame || before.mesh_M.triangles() != newest.mesh_M.triangles())
+    throw InvalidInput("'" + before.id + "' was replaced meanwhile: ask again");
+  const sweep_guard_core::RigidFit fit = sweep_guard_core::rigidFit(before.mesh_M, newest.mesh_M);
+  if (fit.deviation <= sweep_guard_core::WorkpieceStore::kRigid) return fit.X_MM;
+  throw InvalidInput("'" + before.id + "' has deformed by " + std::to_string(fit.deviation) +
+                     " m meanwhile: the tool can carry what keeps its shape");
 }
 
 // Where the tool holds it now.
@@ -70,22 +80,28 @@ std::string AttachService::attach(const std::string& id, const std::string& link
   const auto before = dependencies_.parameters.get();
   if (before->attached.count(id) != 0) throw InvalidInput("'" + id + "' is attached already: detach it first");
   bodyWithLink(*before, link);
-  const auto workpieces = dependencies_.workpieces.snapshot();
-  const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
-  const auto found = std::find_if(workpieces.begin(), workpieces.end(), same);
-  if (found == workpieces.end()) throw InvalidInput("there is no workpiece '" + id + "'");
-  const std::shared_ptr<const Workpiece> workpiece = *found;
-  if (workpiece->of_other_tool) throw InvalidInput("'" + id + "' is a link of another tool");
-  Payload payload{id, link, shapesOf(workpiece->mesh_M)};
-  const PoseWithFrames pose = newestPose();  // after the mesh was cut: nothing may move long since
-  payload.X_WM = lookup(workpiece->frame, pose.stamp);
+  const auto cut = workpieceOf(id);
+  Payload payload{id, link, shapesOf(cut->mesh_M)};
+  const auto newest = workpieceOf(id);  // the tool may have carried it meanwhile
+  const PoseWithFrames pose = newestPose();
+  const Eigen::Isometry3d X_WM = lookup(newest->frame, pose.stamp);
+  payload.X_WM = X_WM * motionSince(*cut, *newest);
   const auto next = std::make_shared<const Parameters>(withPayload(*before, payload, pose));
   tool_.exchange_tool(before, next, [&] {
-    dependencies_.workpieces.attach(workpiece, pose.body(bodyWithLink(*before, link)).X_WB.inverse() * payload.X_WM);
+    dependencies_.workpieces.attach(newest, pose.body(bodyWithLink(*before, link)).X_WB.inverse() * X_WM);
     require(*next);
   });
   return "'" + id + "' is part of the tool: " + std::to_string(payload.shapes_M.size()) + " convex piece(s) on " +
          (link.empty() ? "the cylinder" : "link '" + link + "'");
+}
+
+std::shared_ptr<const Workpiece> AttachService::workpieceOf(const std::string& id) const {
+  const auto workpieces = dependencies_.workpieces.snapshot();
+  const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
+  const auto found = std::find_if(workpieces.begin(), workpieces.end(), same);
+  if (found == workpieces.end()) throw InvalidInput("there is no workpiece '" + id + "'");
+  if ((*found)->of_other_tool) throw InvalidInput("'" + id + "' is a link of another tool");
+  return *found;
 }
 
 std::string AttachService::detach(const std::string& id) {

@@ -48,6 +48,7 @@ class AttachService {
   bool onCall(Event& event);
   std::string attach(const std::string& id, const std::string& link);
   std::string detach(const std::string& id);
+  std::shared_ptr<const sweep_guard_core::Workpiece> workpieceOf(const std::string& id) const;
   sweep_guard_core::PoseWithFrames newestPose() const;
   Eigen::Isometry3d lookup(const std::string& frame, sweep_guard_core::Time stamp) const;
   void require(const Parameters& next) const;
