@@ -34,4 +34,8 @@ RigidFit rigidFit(const TriangleMesh& mesh_M, const TriangleMesh& moved_M) {
   return fit(verticesOf(mesh_M), verticesOf(moved_M));
 }
 
+bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.vertexCount() == b.vertexCount() && a.triangles() == b.triangles();
+}
+
 }  // namespace sweep_guard_core

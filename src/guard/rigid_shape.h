@@ -18,4 +18,6 @@ RigidFit rigidFit(const TriangleMesh& mesh_M, const std::vector<float>& position
 /// @param moved_M  with as many vertices (asserted)
 RigidFit rigidFit(const TriangleMesh& mesh_M, const TriangleMesh& moved_M);
 
+bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b);  ///< and as many vertices
+
 }  // namespace sweep_guard_core

@@ -14,10 +14,6 @@ constexpr size_t kRemembered = 512;  // deformations: snapshots that none of the
 
 bool before(const std::shared_ptr<const Workpiece>& workpiece, const std::string& id) { return workpiece->id < id; }
 
-bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.vertexCount() == b.vertexCount() && a.triangles() == b.triangles();
-}
-
 void requireOrder(const Workpiece& current, Time stamp, Time latest) {
   if (stamp < current.stamp && current.stamp <= latest) throw InvalidInput("stamp is older than the previous one");
 }

@@ -32,7 +32,7 @@ std::vector<sweep_guard_core::ConvexShape> shapesOf(const TriangleMesh& mesh_M) 
 }
 
 Eigen::Isometry3d motionSince(const Workpiece& before, const Workpiece& newest) {
-  if (before.frame != newest.frame || before.mesh_M.triangles() != newest.mesh_M.triangles())
+  if (before.frame != newest.frame || !sweep_guard_core::sameTriangles(before.mesh_M, newest.mesh_M))
     throw InvalidInput("'" + before.id + "' was replaced meanwhile: ask again");
   const sweep_guard_core::RigidFit fit = sweep_guard_core::rigidFit(before.mesh_M, newest.mesh_M);
   if (fit.deviation <= sweep_guard_core::WorkpieceStore::kRigid) return fit.X_MM;
