@@ -102,6 +102,17 @@ TEST(FrameMotionTest, NoPointIsFartherFromThePathThanItsBound) {
   EXPECT_LT(tightest, 0.5) << "a bound that holds anyway proves nothing";
 }
 
+// It may be as far on one side of the straight way as the way to it is on the other.
+TEST(FrameMotionTest, APredictionThatBeginsBetweenTwoPosesDoublesTheirBound) {
+  FrameMotion motion;
+  motion.measured = {{Time(0ms), along(0.0)}, {Time(10ms), along(1.0), 0.1}};
+  motion.predicted_from = Time(5ms);
+  motion.predicted = {predicted(0ms, 0.5, 0.0), predicted(100ms, 5.0, 1.0)};
+  const auto path = framePath(motion, Time(0ms), {{3ms}, {20ms}}, 0.5);
+  EXPECT_NEAR(path->points[1].deviation_bound, 0.2, 1e-12);
+  EXPECT_GE(path->points[2].deviation_bound, 0.2);
+}
+
 TEST(SparseMotionTest, NoPointIsFartherFromTheFewerPosesThanTheirBound) {
   Random random(9);
   for (int round = 0; round < 300; ++round) {

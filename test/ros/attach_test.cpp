@@ -145,7 +145,7 @@ TEST_F(AttachTest, ARefusalSaysWhy) {
   EXPECT_TRUE(has(call("pailoud", "left", true).message, "there is no workpiece 'pailoud'"));
   EXPECT_TRUE(has(call("", "left", true).message, "mesh_id is no name"));
   EXPECT_TRUE(has(call("payload", "", false).message, "'payload' is not attached"));
-  placeCube("right", {0.0, 0.0, 0.3});
+  placeCube("right", {0.3, 0.3, 0.3});
   EXPECT_TRUE(has(call("right", "left", true).message, "the tool has a link 'right' already"));
   restAt({0.0, 0.0, 1.0});
   ASSERT_TRUE(call("payload", "left", true).success);
