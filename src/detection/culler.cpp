@@ -19,13 +19,24 @@ const std::vector<RemainingTriangle>& Culler::cull(const Submesh& submesh, const
   remaining_.clear();
   if (submesh.empty() || whollyBeyond(submesh.mesh_M(), planes)) return remaining_;
   findClusters(submesh, planes);
-  for (const std::uint32_t block : blocks_) {
-    withBlock(submesh.mesh_M().places(), submesh.blocks()[block], [&](const float* vertices) {
-      kernels_->classifyBlock(vertices, planes, &vertex_bits_[block * simd::kBlock]);
-    });
-  }
+  for (const std::uint32_t block : blocks_) classifyBlock(submesh, planes, block);
   for (const Cluster* cluster : clusters_) cullCluster(submesh.mesh_M().order(), *cluster);
   return remaining_;
+}
+
+bool Culler::leavesAny(const Submesh& submesh, const simd::Planes& planes) {
+  if (submesh.empty() || whollyBeyond(submesh.mesh_M(), planes)) return false;
+  vertex_bits_.resize(std::max(vertex_bits_.size(), submesh.blocks().size() * simd::kBlock));
+  bits_.classify(submesh, planes);
+  bool any = false;
+  bits_.forEachRemaining(submesh, [&](const Cluster& cluster) {
+    if (any) return;
+    for (const std::uint32_t block : cluster.blocks) {
+      if (bits_.firstAsked(block)) classifyBlock(submesh, planes, block);
+    }
+    any = (classified(submesh.mesh_M().order(), cluster).not_beyond & allOf(cluster)) != 0;
+  });
+  return any;
 }
 
 // Finds the clusters that do not lie wholly beyond one plane, and prefetches their corners and vertices.
@@ -45,10 +56,19 @@ void Culler::findClusters(const Submesh& submesh, const simd::Planes& planes) {
   });
 }
 
-void Culler::cullCluster(const MeshOrder& order, const Cluster& cluster) {
+void Culler::classifyBlock(const Submesh& submesh, const simd::Planes& planes, std::uint32_t block) {
+  withBlock(submesh.mesh_M().places(), submesh.blocks()[block], [&](const float* vertices) {
+    kernels_->classifyBlock(vertices, planes, &vertex_bits_[block * simd::kBlock]);
+  });
+}
+
+simd::TriangleBits Culler::classified(const MeshOrder& order, const Cluster& cluster) const {
   const auto bits = [&](size_t i) { return &vertex_bits_[cluster.blocks[i] * simd::kBlock]; };
-  const simd::TriangleBits found =
-      kernels_->classifyTriangles(order.corners[cluster.number], {bits(0), bits(1), bits(2), bits(3)});
+  return kernels_->classifyTriangles(order.corners[cluster.number], {bits(0), bits(1), bits(2), bits(3)});
+}
+
+void Culler::cullCluster(const MeshOrder& order, const Cluster& cluster) {
+  const simd::TriangleBits found = classified(order, cluster);
   for (std::uint64_t left = found.not_beyond & allOf(cluster); left != 0; left &= left - 1) {
     const auto i = static_cast<std::uint32_t>(__builtin_ctzll(left));
     const std::uint32_t place = cluster.first + i;

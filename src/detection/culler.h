@@ -25,15 +25,20 @@ class Culler {
   /// @param planes  planes of the volume, from floatPlanes()
   const std::vector<RemainingTriangle>& cull(const Submesh& submesh, const simd::Planes& planes);
 
+  /// Returns whether a triangle remains.
+  bool leavesAny(const Submesh& submesh, const simd::Planes& planes);
+
  private:
   void findClusters(const Submesh& submesh, const simd::Planes& planes);
+  void classifyBlock(const Submesh& submesh, const simd::Planes& planes, std::uint32_t block);
+  simd::TriangleBits classified(const MeshOrder& order, const Cluster& cluster) const;
   void cullCluster(const MeshOrder& order, const Cluster& cluster);
 
   const simd::Kernels* kernels_;
   BlockBits bits_;
   std::vector<const Cluster*> clusters_;    // that remain
   std::vector<std::uint32_t> blocks_;       // of the remaining clusters, each once
-  std::vector<std::uint16_t> vertex_bits_;  // of each block of the submesh; valid for blocks_ only
+  std::vector<std::uint16_t> vertex_bits_;  // of each block of the submesh; valid for those of remaining clusters only
   std::vector<RemainingTriangle> remaining_;
 };
 

@@ -176,6 +176,28 @@ void scoreBoxes(const BoxArrays<const float>& boxes, std::size_t count, const Pl
   for (; first < count; first += kWidth) scoreBoxesFrom<1>(first, nearest, planes, inverse, scores);
 }
 
+float leastOf(const Float& lanes) {
+  float least = lanes[0];
+  for (std::size_t lane = 1; lane < kWidth; ++lane) least = lanes[lane] < least ? lanes[lane] : least;
+  return least;
+}
+
+float nearestBox(const BoxArrays<const float>& boxes, std::size_t count, const std::array<float, 3>& point) {
+  const Float zero{};
+  Float least = broadcast(__builtin_inff());
+  for (std::size_t first = 0; first < count; first += kWidth) {
+    Float squared{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Float below = load(boxes.lower[axis] + first) - point[axis];
+      const Float above = point[axis] - load(boxes.upper[axis] + first);
+      const Float apart = max(max(below, above), zero);
+      squared += apart * apart;
+    }
+    least = min(least, squared);
+  }
+  return leastOf(least);
+}
+
 // Gathers one axis of kWidth vertices from the three registers that contain them.
 template <std::size_t axis, std::size_t... lane>
 [[gnu::always_inline]] inline Float oneAxis(const Float (&of)[3], std::index_sequence<lane...> /*all*/) {
@@ -211,9 +233,7 @@ float scoreBlock(const float* vertices, const Planes& planes, const PerPlane& in
     }
     least = min(least, min(most[0], most[1]));
   }
-  float best = least[0];
-  for (std::size_t lane = 1; lane < kWidth; ++lane) best = least[lane] < best ? least[lane] : best;
-  return best;
+  return leastOf(least);
 }
 
 constexpr auto kInside = static_cast<float>(kInsideAll);
@@ -346,8 +366,8 @@ void separate(const TriangleBatch& triangles, const Directions& directions, Batc
 
 namespace SWEEP_GUARD_ISA {
 extern const Kernels kKernels;
-const Kernels kKernels = {nullptr,       bound,             classifyBoxes, scoreBoxes, scoreBlock,
-                          classifyBlock, classifyTriangles, largest,       separate};
+const Kernels kKernels = {nullptr,    bound,         classifyBoxes,     scoreBoxes, nearestBox,
+                          scoreBlock, classifyBlock, classifyTriangles, largest,    separate};
 }  // namespace SWEEP_GUARD_ISA
 
 }  // namespace sweep_guard_core::simd

@@ -118,6 +118,7 @@ TEST_P(LargeMeshTest, CullKeepsWhatTheReferenceFindsAndLittleMore) {
 
     const simd::Planes planes = floatPlanes(hull, swept_M);
     Triangles of_part;
+    EXPECT_EQ(culler.leavesAny(hull, planes), !culler.cull(hull, planes).empty());
     for (const RemainingTriangle& candidate : culler.cull(finder.find(hull, planes), planes))
       of_part.push_back(candidate.triangle);
     std::sort(of_part.begin(), of_part.end());

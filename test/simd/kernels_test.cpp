@@ -187,6 +187,30 @@ TEST_P(KernelsTest, ScoresABoxByTheCornerNearestToEachPlane) {
   }
 }
 
+TEST_P(KernelsTest, MeasuresTheDistanceFromTheNearestBox) {
+  Random random(10);
+  for (int trial = 0; trial < 200; ++trial) {
+    const size_t count = kPadding * static_cast<size_t>(1 + random.below(5));
+    Boxes boxes(count);
+    double least = 1e9;
+    std::array<float, 3> point{};
+    for (float& coordinate : point) coordinate = static_cast<float>(random.uniform(-3.0, 3.0));
+    for (size_t box = 0; box < count; ++box) {
+      double squared = 0.0;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double lower = random.uniform(-3.0, 2.0);
+        const double upper = lower + random.uniform(0.0, 1.0);
+        boxes.arrays<float>().lower[axis][box] = static_cast<float>(lower);
+        boxes.arrays<float>().upper[axis][box] = static_cast<float>(upper);
+        const double apart = std::max({lower - point[axis], point[axis] - upper, 0.0});
+        squared += apart * apart;
+      }
+      least = std::min(least, squared);
+    }
+    EXPECT_NEAR(GetParam().nearestBox(boxes.arrays<const float>(), count, point), least, 100.0 * kRounding) << trial;
+  }
+}
+
 TEST_P(KernelsTest, ScoresABlockByItsLeastVertex) {
   Random random(9);
   for (int trial = 0; trial < 200; ++trial) {

@@ -45,8 +45,8 @@ using PerPlane = std::array<float, kMaxPlanes + 1>;  ///< the last one is unused
 /// thresholds [m] allow for rounding: a point with n·p > `outside` in float32 is beyond the plane, one with n·p <
 /// `inside` is not.
 struct Planes {
-  std::size_t count = 0;                                    ///< at most kMaxPlanes
-  std::array<PerPlane, 3> normal;                            ///< x, y and z of the unit normals; from `count` on unused
+  std::size_t count = 0;           ///< at most kMaxPlanes
+  std::array<PerPlane, 3> normal;  ///< x, y and z of the unit normals; from `count` on unused
   PerPlane outside;
   PerPlane inside;
 };
@@ -122,7 +122,11 @@ struct Kernels {
   void (*scoreBoxes)(const BoxArrays<const float>& boxes, std::size_t count, const Planes& planes,
                      const PerPlane& inverse, float* scores);
 
-  /// Returns the same for the vertex of a block for which it is least.
+  /// Returns the square of the least distance of a point from the boxes [m^2]. Up to rounding: a few 2^-23 of it.
+  /// @param count  a multiple of kPadding, > 0
+  float (*nearestBox)(const BoxArrays<const float>& boxes, std::size_t count, const std::array<float, 3>& point);
+
+  /// Returns the same as scoreBoxes() for the vertex of a block for which it is least.
   /// @param vertices  x0 y0 z0 x1 ... [m] of kBlock vertices
   float (*scoreBlock)(const float* vertices, const Planes& planes, const PerPlane& inverse);
 
