@@ -21,18 +21,21 @@ Moments united(const std::vector<Moments>& sets) {
   return all;
 }
 
+void extendAlongAxes(const ConvexShape& shape, Eigen::AlignedBox3d& bounds) {
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
+    bounds.min()[i] = std::min(bounds.min()[i], -shape.support(-axis));
+    bounds.max()[i] = std::max(bounds.max()[i], shape.support(axis));
+  }
+}
+
 }  // namespace
 
 Tool::Tool(std::vector<ConvexPiece> pieces) : pieces_(std::move(pieces)) {
   if (pieces_.empty()) throw InvalidInput("the tool has no convex piece: give it at least one");
   for (const ConvexPiece& piece : pieces_) {
-    const ConvexShape& shape = piece.shape_T;
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
-      bounds_.min()[i] = std::min(bounds_.min()[i], -shape.support(-axis));
-      bounds_.max()[i] = std::max(bounds_.max()[i], shape.support(axis));
-    }
-    bounding_radius_ = std::max(bounding_radius_, shape.boundingRadius());
+    extendAlongAxes(piece.shape_T, bounds_);
+    bounding_radius_ = std::max(bounding_radius_, piece.shape_T.boundingRadius());
   }
   std::vector<size_t> all(pieces_.size());
   std::iota(all.begin(), all.end(), 0U);
@@ -49,10 +52,10 @@ Tool Tool::cylinder(double radius, double length, int sides) {
 size_t Tool::grow(std::vector<size_t> pieces) {
   const size_t node = tree_.size();
   if (pieces.size() == 1) {
-    tree_.push_back({pieces_[pieces[0]].shape_T, pieces[0], {}});
+    tree_.push_back({pieces_[pieces[0]].shape_T, boundsWithFaces(pieces), pieces[0], {}});
     return node;
   }
-  tree_.push_back({boxAround(pieces), std::nullopt, {}});
+  tree_.push_back({boxAround(pieces), boundsWithFaces(pieces), std::nullopt, {}});
   const Eigen::Vector3d longest = tree_[node].shape_T.axis_T();
   const auto along = [&](size_t piece) { return longest.dot(pieces_[piece].shape_T.moments_T().mean); };
   const auto middle = pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2);
@@ -61,6 +64,20 @@ size_t Tool::grow(std::vector<size_t> pieces) {
   const size_t second = grow({middle, pieces.end()});
   tree_[node].below = {first, second};
   return node;
+}
+
+Eigen::AlignedBox3d Tool::boundsWithFaces(const std::vector<size_t>& pieces) const {
+  Eigen::AlignedBox3d bounds;
+  for (const size_t piece : pieces) {
+    const ConvexShape& shape = pieces_[piece].shape_T;
+    extendAlongAxes(shape, bounds);
+    for (int i = 0; i < 6; ++i) {
+      const Eigen::Vector3d direction = (i < 3 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(i % 3);
+      bounds.extend(shape.frontSupport(direction));
+      bounds.extend(shape.rearSupport(direction));
+    }
+  }
+  return bounds;
 }
 
 ConvexShape Tool::boxAround(const std::vector<size_t>& pieces) const {

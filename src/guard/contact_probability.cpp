@@ -115,7 +115,11 @@ std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const S
   auto clearance = nearestUpTo(reach);
   if (!clearance && reach < at_most) clearance = nearestUpTo(at_most);
   const bool separated = candidates_.empty() || candidates_.front().at_least > 0.0;
-  if (!clearance && !separated && at_most < max_deviations_) clearance = nearestUpTo(max_deviations_);
+  if (!clearance && !separated && at_most < max_deviations_) {
+    double enclosing = max_deviations_;
+    for (const Candidate& candidate : candidates_) enclosing = std::min(enclosing, candidate.at_most);
+    clearance = nearestUpTo(std::max(enclosing, at_most));
+  }
   return clearance;
 }
 
@@ -146,6 +150,14 @@ bool ClearanceMeter::mayBeNear(const Submesh& submesh, const SweptVolume& swept_
   return vertex || isNear(submesh, swept_M, sigmas);
 }
 
+bool ClearanceMeter::isSeparated(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas,
+                                 double by) {
+  beat();
+  PerHalfSpace outwards = sigmas;
+  for (double& distance : outwards) distance *= by;
+  return !culler_.leavesAny(submesh, floatPlanes(submesh.mesh_M(), swept_M, outwards));
+}
+
 // Returns by how many deviations the planes must be moved out, from 0 to `at_most`, to enclose a vertex of the submesh's
 // blocks: the nearest one, or one that is nearer than `enough`.
 double ClearanceMeter::reachOfVertices(const Submesh& submesh, const SweptVolume& swept_M, const PerHalfSpace& sigmas,
@@ -162,11 +174,15 @@ double ClearanceMeter::reachOfVertices(const Submesh& submesh, const SweptVolume
       nearest = std::min(nearest, kernels_->scoreBlock(vertices, planes, inverse) + kTolerance);
     });
   };
-  const auto end = scores_.begin() + static_cast<std::ptrdiff_t>(count);
-  const auto first = std::min_element(scores_.begin(), end);
-  if (*first < nearest) lookAt(static_cast<size_t>(first - scores_.begin()));
-  for (size_t i = 0; i < count && nearest >= enough; ++i) {
-    if (scores_[i] + kTolerance < nearest) lookAt(i);
+  near_blocks_.clear();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (scores_[i] < nearest) near_blocks_.push_back(i);
+  }
+  const auto first = std::min_element(near_blocks_.begin(), near_blocks_.end(),
+                                      [&](std::uint32_t a, std::uint32_t b) { return scores_[a] < scores_[b]; });
+  if (first != near_blocks_.end()) lookAt(*first);
+  for (auto block = near_blocks_.begin(); block != near_blocks_.end() && nearest >= enough; ++block) {
+    if (block != first && scores_[*block] + kTolerance < nearest) lookAt(*block);
   }
   return std::clamp(nearest, 0.0, at_most);
 }
@@ -194,16 +210,16 @@ std::optional<Clearance> ClearanceMeter::nearestWithin(double reach, const Plane
   return Clearance{separated, nearest};
 }
 
-const TriangleSet& ClearanceMeter::notSeparated(const Submesh& submesh, const SweptVolume& swept_M) {
+const std::vector<std::uint32_t>& ClearanceMeter::notSeparated(const Submesh& submesh, const SweptVolume& swept_M) {
   beat();
   not_separated_.clear();
   if (submesh.empty()) return not_separated_;
   const PerHalfSpace unit(6 + swept_M.clips_B.size(), 1.0);
   const Planes planes(submesh.mesh_M(), swept_M, unit);
   for (const RemainingTriangle& remaining : within(0.0, submesh, swept_M, unit)) {
-    if (planes.candidate(remaining.triangle).at_least <= 0.0) not_separated_.push_back(remaining.triangle);
+    const bool not_separated = remaining.met || planes.candidate(remaining.triangle).at_least <= 0.0;
+    if (not_separated) not_separated_.push_back(remaining.triangle);
   }
-  std::sort(not_separated_.begin(), not_separated_.end());
   return not_separated_;
 }
 

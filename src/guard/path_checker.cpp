@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/heartbeat.h"
 #include "common/stage_clock.h"
@@ -17,11 +18,6 @@ constexpr Duration kFinestProbable = std::chrono::milliseconds(25);  // shortest
 
 constexpr double kRounding = 1e-9;  // relative, of a reach
 
-void leaveOut(TriangleSet& triangles, const IsLeftOut& is_left_out) {
-  if (is_left_out)
-    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), std::ref(is_left_out)), triangles.end());
-}
-
 // Of the mesh as sent, which lies within its rounding of what is stored.
 double radiusAboutFrame(const TriangleMesh& mesh_M) {
   return mesh_M.origin().norm() + mesh_M.radius() + mesh_M.rounding();
@@ -36,11 +32,12 @@ struct PathChecker::Scene {
   Duration reflex_end;  // after the newest pose
   const SweepPlan& plan;
   const Workpiece& workpiece;
+  bool bounded;  // what comes no nearer may be left out before it has a volume
   const IntendedContact& intended;
   const IntendedTouches& touches;
   const AllowedPieces& allowed;
 
-  bool mayTouch(const Tool::Node& node) const { return node.piece && allowed.contains(*node.piece); }
+  bool mayTouch(size_t piece) const { return allowed.contains(piece); }
   bool inTimeFor(const PathSegment& segment) const {
     return segment.to <= reflex_end || !plan.out_of_time || !plan.out_of_time();
   }
@@ -49,15 +46,16 @@ struct PathChecker::Scene {
   }
 };
 
-size_t PathChecker::indexOf(const Scene& scene, const Tool::Node& node) {
-  return static_cast<size_t>(&node - scene.tool.tree().data());
-}
-
 struct PathChecker::Progress {
   PredictedObject& object;
   ClosestApproach& closest;
   TriangleSet* triangles;  // of the interval under test
   bool contact = false;    // found in an earlier segment
+
+  bool hasReported(std::uint32_t triangle) const {
+    const auto among = [&](const TriangleSet& set) { return std::binary_search(set.begin(), set.end(), triangle); };
+    return among(*triangles) || among(object.reflex);
+  }
 };
 
 void PathChecker::check(Detector& detector, const PredictedPathRequest& request, PredictedObject& object) {
@@ -78,10 +76,11 @@ void PathChecker::checkNext(Detector& detector, const PredictedPathRequest& requ
   const Duration reflex_end = reflex_sweeps == 0 ? Duration::zero() : request.path[reflex_sweeps - 1].ahead;
   const IntendedContact intended(request.tool, request.intentions, *object.workpiece);
   const AllowedPieces allowed(request.tool, options_.allowed, object.workpiece->id);
-  const Scene scene{detector,          request.tool, margin,          reflex_end, request.plan,
-                    *object.workpiece, intended,     request.touches, allowed};
+  const bool bounded = request.closest != nullptr || request.tool.pieces().size() > 1;
+  const Scene scene{detector,          request.tool, margin,   reflex_end,      request.plan,
+                    *object.workpiece, bounded,      intended, request.touches, allowed};
   const Submesh submesh = submeshInReach(mesh_M, reach_M_, 0);
-  second_first_.assign(request.tool.tree().size(), 0);
+  if (bounded) boxes_.around(submesh);
   ClosestApproaches& closest = request.closest != nullptr ? *request.closest : own_closest_;
   Progress progress{object, closest.to(*object.workpiece), &object.reflex};
   for (size_t i = 0; i < request.plan.sweepCount(request.path); ++i) {
@@ -194,6 +193,7 @@ size_t PathChecker::sweepSegment(const PathSegment& segment, double margin) {
   if (swept_ == segments_.size()) segments_.emplace_back();
   SweptSegment& swept = segments_[swept_];
   swept.segment = segment;
+  swept.end_M = path_M_.end_M(segment);
   swept.reach_M = path_M_.reach_M(segment, options_.max_deviations, margin);
   swept.bodies.clear();
   swept.deviations.clear();
@@ -213,17 +213,16 @@ void PathChecker::sweepHalves(size_t number, double margin) {
 
 void PathChecker::measureDeviations(const Scene& scene, SweptSegment& swept) {
   if (!swept.deviations.empty()) return;
-  const Eigen::Isometry3d end_M = path_M_.end_M(swept.segment);
-  const Matrix6d covariance_M = path_M_.covariance_M(swept.segment);
+  const auto& [X_MT, covariance_M] = swept.end_M;
   for (const SweptBody& body : swept.bodies) {
-    swept.deviations.push_back(planeDeviations(scene.tool.whole(), end_M, covariance_M, body.volume_M));
+    swept.deviations.push_back(planeDeviations(scene.tool.whole(), X_MT, covariance_M, body.volume_M));
   }
 }
 
-PathChecker::UncertainBody PathChecker::sweepBelow(const Scene& scene, const PathSegment& segment,
-                                                   const Tool::Node& below, const Motion& motion_M) const {
-  const SweptBody body = sweptBody(below.shape_T, motion_M, options_.sweep.volume, scene.margin);
-  return {body, planeDeviations(below.shape_T, path_M_.end_M(segment), path_M_.covariance_M(segment), body.volume_M)};
+PathChecker::UncertainBody PathChecker::sweepPiece(const Scene& scene, const UncertainPose& end_M,
+                                                   const Motion& motion_M, const ConvexShape& piece) const {
+  const SweptBody body = sweptBody(piece, motion_M, options_.sweep.volume, scene.margin);
+  return {body, planeDeviations(piece, end_M.X_MT, end_M.covariance_M, body.volume_M)};
 }
 
 // Returns whether findCandidate() would find a piece of the tool, without its deviations.
@@ -231,26 +230,32 @@ bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, Swept
   if (submesh.empty()) return false;
   const InStage stage(Stage::kProbability);
   measureDeviations(scene, swept);
+  const std::optional<size_t>& only_piece = scene.tool.tree()[0].piece;
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
-    const Tool::Node& whole = scene.tool.tree()[0];
-    if (hasCandidate(scene, submesh, swept.segment, whole, swept.bodies[i], swept.deviations[i])) return true;
+    const SweptBody& body = swept.bodies[i];
+    const PerHalfSpace& deviations = swept.deviations[i];
+    const bool near = only_piece
+                          ? !scene.mayTouch(*only_piece) && meter_.isNear(submesh, body.volume_M, deviations,
+                                                                          intendedFor(scene, submesh, body, only_piece))
+                          : meter_.mayBeNear(submesh, body.volume_M, deviations) &&
+                                hasCandidateBelow(scene, submesh, swept.end_M, body.motion_M, 0);
+    if (near) return true;
   }
   return false;
 }
 
-bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
-                               const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations) {
-  if (scene.mayTouch(node)) return false;
-  if (node.piece) {
-    return meter_.isNear(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, node.piece));
+bool PathChecker::hasCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainPose& end_M,
+                                    const Motion& motion_M, size_t node) {
+  const Tool::Node& below = scene.tool.tree()[node];
+  if (isLeftOut(scene, submesh, end_M, motion_M, node, kInfinity)) return false;
+  if (below.piece) {
+    const UncertainBody piece = sweepPiece(scene, end_M, motion_M, below.shape_T);
+    return meter_.isNear(submesh, piece.body.volume_M, piece.deviations,
+                         intendedFor(scene, submesh, piece.body, below.piece));
   }
-  if (!meter_.mayBeNear(submesh, body.volume_M, deviations)) return false;
-  const std::array<size_t, 2> nearest_first = nearestFirst(scene, node);
-  return std::any_of(nearest_first.begin(), nearest_first.end(), [&](size_t index) {
-    const Tool::Node& below = scene.tool.tree()[index];
-    const UncertainBody within = sweepBelow(scene, segment, below, body.motion_M);
-    return hasCandidate(scene, submesh, segment, below, within.body, within.deviations);
-  });
+  const std::array<size_t, 2> nearest_first = nearestFirst(scene, below);
+  return std::any_of(nearest_first.begin(), nearest_first.end(),
+                     [&](size_t index) { return hasCandidateBelow(scene, submesh, end_M, motion_M, index); });
 }
 
 // Returns the nearer candidate; of two equal ones, the first.
@@ -260,7 +265,8 @@ const PathChecker::Candidate& PathChecker::nearer(const Candidate& one, const Ca
 
 PathChecker::Candidate PathChecker::noCandidate() {
   unseparated_.clear();
-  not_ruled_out_.clear();
+  newly_met_.clear();
+  meets_ = false;
   in_contact_ = {};
   return {};
 }
@@ -273,44 +279,99 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
   if (submesh.empty()) return candidate;
   const InStage stage(Stage::kProbability);
   measureDeviations(scene, swept);
+  const std::optional<size_t>& only_piece = scene.tool.tree()[0].piece;
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
-    candidate = nearer(candidate, findCandidate(scene, submesh, swept.segment, scene.tool.tree()[0], swept.bodies[i],
-                                                swept.deviations[i], std::min(at_most, candidate.deviations)));
+    const SweptBody& body = swept.bodies[i];
+    const PerHalfSpace& deviations = swept.deviations[i];
+    const double nearest = std::min(at_most, candidate.deviations);
+    if (only_piece) {
+      candidate = nearer(candidate, measure(scene, submesh, body, deviations, *only_piece, nearest));
+    } else if (meter_.mayBeNear(submesh, body.volume_M, deviations)) {
+      candidate =
+          nearer(candidate, findCandidateBelow(scene, submesh, swept.end_M, body.motion_M, /*node=*/0, nearest));
+    }
   }
   return candidate;
 }
 
-PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh,
-                                                  const PathSegment& segment, const Tool::Node& node,
-                                                  const SweptBody& body, const PerHalfSpace& deviations,
-                                                  double at_most) {
-  if (scene.mayTouch(node)) return {};
-  if (node.piece) {
-    const auto clearance = meter_.measure(submesh, body.volume_M, deviations,
-                                          intendedFor(scene, submesh, body, node.piece), std::max(0.0, at_most));
-    if (!clearance) return {};
-    const Candidate candidate{clearance->deviations, node.piece};
-    if (!clearance->separated) unseparated_.push_back({body, candidate});
-    return scene.hasTouched(*node.piece) ? Candidate() : candidate;
+PathChecker::Candidate PathChecker::findCandidateBelow(const Scene& scene, const Submesh& submesh,
+                                                       const UncertainPose& end_M, const Motion& motion_M, size_t node,
+                                                       double at_most) {
+  const Tool::Node& below = scene.tool.tree()[node];
+  if (isLeftOut(scene, submesh, end_M, motion_M, node, at_most)) return {};
+  if (below.piece) {
+    const UncertainBody piece = sweepPiece(scene, end_M, motion_M, below.shape_T);
+    return measure(scene, submesh, piece.body, piece.deviations, *below.piece, at_most);
   }
-  if (!meter_.mayBeNear(submesh, body.volume_M, deviations)) return {};
   Candidate candidate;
-  for (const size_t index : nearestFirst(scene, node)) {
-    const Tool::Node& below = scene.tool.tree()[index];
-    const UncertainBody within = sweepBelow(scene, segment, below, body.motion_M);
-    const Candidate found = findCandidate(scene, submesh, segment, below, within.body, within.deviations,
-                                          std::min(at_most, candidate.deviations));
-    if (found.deviations < candidate.deviations) second_first_[indexOf(scene, node)] = index == node.below[1];
-    candidate = nearer(candidate, found);
+  for (const size_t index : nearestFirst(scene, below)) {
+    const double nearest = std::min(at_most, candidate.deviations);
+    candidate = nearer(candidate, findCandidateBelow(scene, submesh, end_M, motion_M, index, nearest));
   }
   return candidate;
 }
 
-// Returns the nodes below a node, first the one that was nearer last time: what is nearest need not be told from what is
-// farther.
-std::array<size_t, 2> PathChecker::nearestFirst(const Scene& scene, const Tool::Node& node) const {
+// Returns whether no piece below a node counts, or comes nearer than `at_most`. The planes that cut the box of a piece take more
+// time than the box, and most boxes suffice. Without bounds, the boxes around pieces have to.
+bool PathChecker::isLeftOut(const Scene& scene, const Submesh& submesh, const UncertainPose& end_M,
+                            const Motion& motion_M, size_t node, double at_most) {
+  const Tool::Node& below = scene.tool.tree()[node];
+  if (below.piece && scene.mayTouch(*below.piece)) return true;
+  if (comesNoNearer(scene, node, at_most)) return true;
+  const bool box_helps = below.piece ? options_.sweep.volume != VolumeKind::kObb : !step_;
+  if (!box_helps) return false;
+  const SweptVolume box_M = sweptVolume(below.shape_T, motion_M, VolumeKind::kObb, scene.margin);
+  const PerHalfSpace deviations = planeDeviations(below.shape_T, end_M.X_MT, end_M.covariance_M, box_M);
+  return meter_.isSeparated(submesh, box_M, deviations, limit(below.piece ? at_most : kInfinity));
+}
+
+PathChecker::Candidate PathChecker::measure(const Scene& scene, const Submesh& submesh, const SweptBody& body,
+                                            const PerHalfSpace& deviations, size_t piece, double at_most) {
+  if (scene.mayTouch(piece)) return {};
+  const auto clearance = meter_.measure(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, piece),
+                                        std::max(0.0, at_most));
+  if (!clearance) return {};
+  const Candidate candidate{clearance->deviations, piece};
+  if (!clearance->separated) unseparated_.push_back({body, candidate});
+  return scene.hasTouched(piece) ? Candidate() : candidate;
+}
+
+void PathChecker::boundPieces(const Scene& scene, const PathSegment& segment) {
+  step_.reset();
+  if (!scene.bounded || segment.last - segment.first > 1) return;
+  step_.emplace(path_M_.uncertainStep(segment, scene.margin));
+  least_.assign(scene.tool.tree().size(), std::nullopt);
+}
+
+// Returns a bound on the clearances of the pieces below a node in the segment under test, without their volumes.
+double PathChecker::leastDeviations(const Scene& scene, size_t node) {
+  if (!step_) return -kInfinity;
+  std::optional<double>& least = least_[node];
+  if (!least) {
+    const UncertainBall ball = step_->ballAround(scene.tool.tree()[node].bounds_T);
+    least = ball.deviationsWithin(boxes_.distanceFrom(ball.center_M));
+  }
+  return *least;
+}
+
+double PathChecker::limit(double at_most) const { return std::max(0.0, std::min(at_most, options_.max_deviations)); }
+
+bool PathChecker::comesNoNearer(const Scene& scene, size_t node, double at_most) {
+  return leastDeviations(scene, node) > limit(at_most);
+}
+
+bool PathChecker::noPieceComesNearer(const Scene& scene, size_t node, double at_most) {
+  if (comesNoNearer(scene, node, at_most)) return true;
+  const Tool::Node& below = scene.tool.tree()[node];
+  if (below.piece) return scene.mayTouch(*below.piece);
+  return std::all_of(below.below.begin(), below.below.end(),
+                     [&](size_t index) { return noPieceComesNearer(scene, index, at_most); });
+}
+
+// Returns the nodes below a node, first the one that may come nearer: what is nearest need not be told from what is farther.
+std::array<size_t, 2> PathChecker::nearestFirst(const Scene& scene, const Tool::Node& node) {
   const auto& [first, second] = node.below;
-  if (second_first_[indexOf(scene, node)] != 0) return {second, first};
+  if (leastDeviations(scene, second) < leastDeviations(scene, first)) return {second, first};
   return {first, second};
 }
 
@@ -325,36 +386,61 @@ IsLeftOut PathChecker::intendedFor(const Scene& scene, const Submesh& submesh, c
   };
 }
 
-void PathChecker::detectContacts(const Scene& scene, const Submesh& submesh) {
-  hulls_miss_ = true;
+void PathChecker::detectContacts(const Scene& scene, const Submesh& submesh, const Progress& progress, bool reflex) {
+  hulls_miss_ = reflex;
   for (const auto& [body, candidate] : unseparated_) {
-    detect(scene.detector, submesh, body, detection_);
-    leaveOut(detection_.triangles, intendedFor(scene, submesh, body, candidate.piece));
-    unite(not_ruled_out_, detection_.triangles);
-    if (!detection_.triangles.empty()) in_contact_ = nearer(in_contact_, candidate);
-    hulls_miss_ = hulls_miss_ && hullMissesDetected(body, submesh.mesh_M());
-  }
-}
-
-// Returns whether the hull of a body proves that it misses the triangles that its volume meets.
-bool PathChecker::hullMissesDetected(const SweptBody& body, const TriangleMesh& mesh_M) const {
-  const MovingMesh at_rest(mesh_M);
-  return std::all_of(detection_.triangles.begin(), detection_.triangles.end(), [&](std::uint32_t triangle) {
     beat();
-    return missedByHull(*body.shape_T, body.motion_M, at_rest.triangle(triangle), body.volume_M.margin);
-  });
+    detection_ = scene.detector.detect(submesh, body.volume_M);
+    if (keepNewlyMet(body, intendedFor(scene, submesh, body, candidate.piece), submesh.mesh_M(), progress))
+      addContact(candidate);
+    unite(newly_met_, detection_.triangles);
+  }
 }
 
-// Takes each triangle that no plane separates for met.
+// Keeps of the detected triangles those that the body meets and that are not reported yet. Returns whether it meets any: of
+// those that are reported, one is enough.
+bool PathChecker::keepNewlyMet(const SweptBody& body, const IsLeftOut& intended, const TriangleMesh& mesh_M,
+                               const Progress& progress) {
+  const MovingMesh at_rest(mesh_M);
+  const auto isMissed = [&](std::uint32_t triangle, double margin) {
+    return missedByHull(*body.shape_T, body.motion_M, at_rest.triangle(triangle), margin);
+  };
+  const double margin = body.volume_M.margin;
+  bool meets = false;
+  const auto isNewlyMet = [&](std::uint32_t triangle) {
+    const bool reported = progress.hasReported(triangle);
+    if (reported && meets && !hulls_miss_) return false;
+    beat();
+    if (intended && intended(triangle)) return false;
+    if (body.kind == VolumeKind::kHull && isMissed(triangle, margin + detection_.inflation)) return false;
+    meets = true;
+    hulls_miss_ = hulls_miss_ && isMissed(triangle, margin);
+    return !reported;
+  };
+  TriangleSet& triangles = detection_.triangles;
+  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), std::not_fn(isNewlyMet)), triangles.end());
+  return meets;
+}
+
+void PathChecker::addContact(const Candidate& candidate) {
+  meets_ = true;
+  in_contact_ = nearer(in_contact_, candidate);
+}
+
+// Takes each triangle that no plane separates for met. Most pieces name the same ones: they are sorted at the end.
 void PathChecker::assumeContacts(const Scene& scene, const Submesh& submesh) {
+  assumed_.assign(submesh.mesh_M().triangles().size(), 0);
   for (const auto& [body, candidate] : unseparated_) {
-    TriangleSet& triangles = detection_.triangles;
-    triangles = meter_.notSeparated(submesh, body.volume_M);
     const IsLeftOut intended = intendedFor(scene, submesh, body, candidate.piece);
-    leaveOut(triangles, intended);
-    unite(not_ruled_out_, triangles);
-    if (!intended || !triangles.empty()) in_contact_ = nearer(in_contact_, candidate);
+    bool meets = false;
+    for (const std::uint32_t triangle : meter_.notSeparated(submesh, body.volume_M)) {
+      if (intended && intended(triangle)) continue;
+      meets = true;
+      if (std::exchange(assumed_[triangle], 1) == 0) newly_met_.push_back(triangle);
+    }
+    if (meets) addContact(candidate);
   }
+  std::sort(newly_met_.begin(), newly_met_.end());
 }
 
 void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress,
@@ -362,6 +448,13 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
   scene.plan.before_sweep();
   SweptSegment& swept = segments_[number];
   const PathSegment& segment = swept.segment;
+  const double at_most = progress.closest.upTo(segment.from);
+  boundPieces(scene, segment);
+  if (step_ && noPieceComesNearer(scene, /*node=*/0, at_most)) {
+    progress.object.volumes_tested += swept.bodies.size();
+    progress.object.sweeps.push_back({segment.from});
+    return;
+  }
   const Submesh submesh = submeshInReach(around, swept.reach_M, halvings);
   const Duration length = segment.to - segment.from;
   const auto halve = [&] {
@@ -375,26 +468,24 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
     progress.object.volumes_tested += swept.bodies.size();
     return halve();
   }
-  const double at_most = progress.closest.upTo(segment.from);
   const Candidate candidate = near ? findCandidate(scene, submesh, swept, at_most) : noCandidate();
   const bool in_time = (!candidate.piece && unseparated_.empty()) || scene.inTimeFor(segment);
   const bool finer = !progress.contact && in_time;
   if (in_time) progress.object.volumes_tested += swept.bodies.size();
   if (in_time) {
-    detectContacts(scene, submesh);
+    detectContacts(scene, submesh, progress, segment.to <= scene.reflex_end);
   } else {
     assumeContacts(scene, submesh);
   }
-  if (!not_ruled_out_.empty() && finer && length > options_.finest) return halve();
+  if (meets_ && finer && length > options_.finest) return halve();
 
-  const auto tool_piece = not_ruled_out_.empty() ? candidate.piece : in_contact_.piece;
-  const bool only_volume = !not_ruled_out_.empty() && hulls_miss_ && segment.to <= scene.reflex_end;
-  const double nearest = std::min(candidate.deviations, not_ruled_out_.empty() ? kInfinity : in_contact_.deviations);
+  const bool only_volume = meets_ && hulls_miss_ && segment.to <= scene.reflex_end;
+  const double nearest = std::min(candidate.deviations, meets_ ? in_contact_.deviations : kInfinity);
   const double deviations = only_volume ? std::max(0.0, nearest) : nearest;
-  progress.object.sweeps.push_back({segment.from, !not_ruled_out_.empty(), deviations, tool_piece});
+  progress.object.sweeps.push_back({segment.from, meets_, deviations, meets_ ? in_contact_.piece : candidate.piece});
   progress.closest.add(segment.from, deviations);
-  progress.contact = progress.contact || !not_ruled_out_.empty();
-  unite(*progress.triangles, not_ruled_out_);
+  progress.contact = progress.contact || meets_;
+  unite(*progress.triangles, newly_met_);
 }
 
 }  // namespace sweep_guard_core

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "detection/cluster_boxes.h"
 #include "guard/contact_probability.h"
 #include "guard/intended_touches.h"
 #include "guard/path_in_mesh.h"
@@ -34,7 +35,7 @@ struct PredictedPathRequest {
   const SweepPlan& plan;
   const Intentions& intentions = kNoIntentions;
   const IntendedTouches& touches = kNoTouches;
-  const FramePath* frame = nullptr;  ///< along `path`, of a frame that moves on its own
+  const FramePath* frame = nullptr;      ///< along `path`, of a frame that moves on its own
   ClosestApproaches* closest = nullptr;  ///< of the bodies of the tool; null: it is the only one
 };
 
@@ -88,6 +89,7 @@ class PathChecker {
   /// What the tool sweeps in a segment of the path, whatever the workpiece.
   struct SweptSegment {
     PathSegment segment;
+    UncertainPose end_M;
     Eigen::AlignedBox3d reach_M;
     std::vector<SweptBody> bodies;         // around the whole tool
     std::vector<PerHalfSpace> deviations;  // of these; empty: not computed yet
@@ -99,24 +101,33 @@ class PathChecker {
   size_t sweepSegment(const PathSegment& segment, double margin);
   void sweepHalves(size_t number, double margin);
   void measureDeviations(const Scene& scene, SweptSegment& swept);
-  UncertainBody sweepBelow(const Scene& scene, const PathSegment& segment, const Tool::Node& below,
-                           const Motion& motion_M) const;
-  void detectContacts(const Scene& scene, const Submesh& submesh);
+  UncertainBody sweepPiece(const Scene& scene, const UncertainPose& end_M, const Motion& motion_M,
+                           const ConvexShape& piece) const;
+  void detectContacts(const Scene& scene, const Submesh& submesh, const Progress& progress, bool reflex);
+  bool keepNewlyMet(const SweptBody& body, const IsLeftOut& intended, const TriangleMesh& mesh_M,
+                    const Progress& progress);
+  void addContact(const Candidate& candidate);
   void assumeContacts(const Scene& scene, const Submesh& submesh);
   bool hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
-  bool hasCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment, const Tool::Node& node,
-                    const SweptBody& body, const PerHalfSpace& deviations);
+  bool hasCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainPose& end_M, const Motion& motion_M,
+                         size_t node);
   static const Candidate& nearer(const Candidate& one, const Candidate& other);
   Candidate noCandidate();
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept, double at_most);
-  Candidate findCandidate(const Scene& scene, const Submesh& submesh, const PathSegment& segment,
-                          const Tool::Node& node, const SweptBody& body, const PerHalfSpace& deviations,
-                          double at_most);
-  static size_t indexOf(const Scene& scene, const Tool::Node& node);
-  std::array<size_t, 2> nearestFirst(const Scene& scene, const Tool::Node& node) const;
+  Candidate findCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainPose& end_M,
+                               const Motion& motion_M, size_t node, double at_most);
+  bool isLeftOut(const Scene& scene, const Submesh& submesh, const UncertainPose& end_M, const Motion& motion_M,
+                 size_t node, double at_most);
+  double limit(double at_most) const;
+  Candidate measure(const Scene& scene, const Submesh& submesh, const SweptBody& body, const PerHalfSpace& deviations,
+                    size_t piece, double at_most);
+  void boundPieces(const Scene& scene, const PathSegment& segment);
+  double leastDeviations(const Scene& scene, size_t node);
+  bool comesNoNearer(const Scene& scene, size_t node, double at_most);
+  bool noPieceComesNearer(const Scene& scene, size_t node, double at_most);
+  std::array<size_t, 2> nearestFirst(const Scene& scene, const Tool::Node& node);
   static IsLeftOut intendedFor(const Scene& scene, const Submesh& submesh, const SweptBody& body,
                                std::optional<size_t> piece);
-  bool hullMissesDetected(const SweptBody& body, const TriangleMesh& mesh_M) const;
   void checkSegment(const Scene& scene, const Submesh& around, size_t number, Progress& progress, size_t halvings);
   bool staysOutOfReach(const PredictedPathRequest& request, double margin) const;
   static void addFreeSweeps(const PredictedPathRequest& request, PredictedObject& object);
@@ -128,7 +139,7 @@ class PathChecker {
   Detection detection_;
   PathInMesh path_M_;
   ClosestApproaches own_closest_;
-  std::vector<char> second_first_;  // for each node of the tool's tree: the second one below was nearer last time
+  ClusterBoxes boxes_;  // of what the path may reach
   // Of path_M_, for the workpieces placed as the last one was:
   std::optional<Eigen::Isometry3d> X_WM_;
   double margin_ = 0.0;
@@ -137,9 +148,14 @@ class PathChecker {
   std::deque<SweptSegment> segments_;  // the base sweeps first; more than `swept_` are buffers to use again
   size_t swept_ = 0;
   // Of the segment under test:
+  std::optional<UncertainStep> step_;  // none: nothing is bounded
+  std::vector<std::optional<double>>
+      least_;  // bounds on the clearances of the pieces below each node; empty: not computed yet
   std::vector<Motion> motions_M_;
   std::vector<Unseparated> unseparated_;  // pieces of the tool that no plane separates from the mesh
-  TriangleSet not_ruled_out_;             // triangles that these pieces may meet
+  bool meets_ = false;                    // one of them meets the mesh
+  TriangleSet newly_met_;                 // triangles that these pieces meet, but for those reported already
+  std::vector<char> assumed_;             // for each triangle of the mesh: newly met
   Candidate in_contact_;                  // the nearest of the pieces that meet one
   bool hulls_miss_ = false;               // the hulls of all pieces miss what their volumes meet
 };

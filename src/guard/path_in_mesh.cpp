@@ -116,7 +116,7 @@ std::pair<PathSegment, PathSegment> PathInMesh::halves(const PathSegment& segmen
   return {{from, middle, first, last}, {middle, to, first, last}};
 }
 
-PathInMesh::Pose PathInMesh::at(Duration time, size_t first) const {
+UncertainPose PathInMesh::at(Duration time, size_t first) const {
   const PathPoint& before = path_M_[first];
   const PathPoint& after = path_M_[first + 1];
   if (time == before.time) return {before.X_MT, covariances_M_[first]};
@@ -149,17 +149,17 @@ void PathInMesh::motions_M(const PathSegment& segment, double max_rotation, std:
     motions_M = split(part(segment), max_rotation, tool_radius_, std::move(motions_M));
     return;
   }
-  const Motion step_M{at(segment.from, segment.first).X_MT, end_M(segment), deviations_[segment.last]};
+  const Motion step_M{at(segment.from, segment.first).X_MT, end_M(segment).X_MT, deviations_[segment.last]};
   motions_M = step_M.deviation_bound == 0.0
                   ? split(step_M, max_rotation, std::move(motions_M))
                   : split(RelativeMotion{step_M, {}}, max_rotation, tool_radius_, std::move(motions_M));
 }
 
 Eigen::AlignedBox3d PathInMesh::reach_M(const PathSegment& segment, double deviations, double margin) const {
-  Pose pose = at(segment.from, segment.first);
+  UncertainPose pose = at(segment.from, segment.first);
   Eigen::AlignedBox3d box_M;
   double arc = 0.0;
-  const auto extendTo = [&](const Pose& next, double deviation) {
+  const auto extendTo = [&](const UncertainPose& next, double deviation) {
     // Every covariance between the poses lies between theirs, so no deviation exceeds the larger of both.
     for (const Eigen::Isometry3d& X_MT : {pose.X_MT, next.X_MT}) {
       box_M.extend(boxAround(tool_T_, X_MT, pose.covariance_M, next.covariance_M, deviations));
@@ -174,6 +174,14 @@ Eigen::AlignedBox3d PathInMesh::reach_M(const PathSegment& segment, double devia
     for (size_t i = segment.first + 1; i <= segment.last; ++i) arc = std::max(arc, path_M_[i].deviation_bound);
   }
   return {box_M.min().array() - (arc + margin), box_M.max().array() + (arc + margin)};
+}
+
+// Its poses leave the chord by their arcs. So do volumes around points between them, which may leave their motion, too.
+UncertainStep PathInMesh::uncertainStep(const PathSegment& segment, double margin) const {
+  assert(segment.last - segment.first == 1);
+  const double arcs = path_M_[segment.last].deviation_bound - deviations_[segment.last];
+  const double margin_and_arcs = margin + 2.0 * arcs + deviations_[segment.last];
+  return {at(segment.from, segment.first), at(segment.to, segment.first), margin_and_arcs};
 }
 
 void findSweepEnds(const Eigen::Isometry3d& X_WT, const PredictedPath& path, size_t reflex_sweeps,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/merged_motion.h"
+#include "guard/uncertain_step.h"
 #include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/guard/prediction.h"
@@ -48,25 +49,21 @@ class PathInMesh {
   /// @param[out] motions_M  overwritten
   void motions_M(const PathSegment& segment, double max_rotation, std::vector<Motion>& motions_M) const;
 
-  /// Returns the pose at the end of the segment.
-  Eigen::Isometry3d end_M(const PathSegment& segment) const { return at(segment.to, segment.last - 1).X_MT; }
-
-  /// Returns the covariance of that pose's error: translation [m], then rotation vector [rad], along the axes of M. It
-  /// is 0 at the measured pose and linear in time between two poses.
-  Matrix6d covariance_M(const PathSegment& segment) const { return at(segment.to, segment.last - 1).covariance_M; }
+  /// Returns the pose at the end of the segment. The covariance of its error is 0 at the measured pose and linear in time
+  /// between two poses.
+  UncertainPose end_M(const PathSegment& segment) const { return at(segment.to, segment.last - 1); }
 
   /// Returns a box that holds every tool point throughout the segment, if no pose errs by more than `deviations`
   /// standard deviations.
   /// @param margin  the tool is grown by this [m], >= 0
   Eigen::AlignedBox3d reach_M(const PathSegment& segment, double deviations, double margin) const;
 
- private:
-  struct Pose {
-    Eigen::Isometry3d X_MT;
-    Matrix6d covariance_M;
-  };
+  /// Returns what bounds the volumes of a segment of one step or of a fraction of it.
+  /// @param margin  the tool is grown by this [m], >= 0
+  UncertainStep uncertainStep(const PathSegment& segment, double margin) const;
 
-  Pose at(Duration time, size_t first) const;
+ private:
+  UncertainPose at(Duration time, size_t first) const;
   void begin(const Tool& tool);
   double shareOf(Duration time, size_t first) const;
   RelativeMotion part(const PathSegment& segment) const;

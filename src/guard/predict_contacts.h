@@ -16,7 +16,7 @@ struct PredictionRequest {
   const Workpieces& workpieces;
   const Intentions& intentions = kNoIntentions;
   const IntendedTouches& touches = kNoTouches;
-  size_t body = 0;  ///< index of `tool` among PoseWithFrames::bodies
+  size_t body = 0;                       ///< index of `tool` among PoseWithFrames::bodies
   ClosestApproaches* closest = nullptr;  ///< of the bodies predicted so far; null: it is the only one
 };
 

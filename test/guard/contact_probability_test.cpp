@@ -226,5 +226,42 @@ TEST(ContactProbabilityTest, TheDeviationsAreThoseAtWhichTheVolumeMeetsTheMesh) 
   EXPECT_GT(inside, 20);
 }
 
+// Up to fewer deviations, the meter says the same of what is nearer, and of what no plane separates; and it says nothing where
+// the planes of the box alone, moved out as far, separate every triangle.
+TEST(ContactProbabilityTest, IsTheSameUpToFewerDeviationsUnlessTheBoxAloneSeparatesAll) {
+  Random random(4);
+  const TriangleMesh hull = wavyHull(12, 16, 0.5);
+  ClearanceMeter meter;
+  int same = 0;
+  int separated_by_box = 0;
+  for (int i = 0; i < 500; ++i) {
+    const ConvexShape tool = randomTool(random, 0.1);
+    const Motion motion = randomMotion(random, tool, random.uniform(0.05, 0.3) * random.direction(), 0.17);
+    const Matrix6d covariance = covarianceOf(Eigen::Matrix<double, 6, 1>::Constant(random.logUniform(0.01, 0.2)));
+    const SweptVolume swept_M = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
+    const auto deviations = planeDeviations(tool, motion.X_MT_end, covariance, swept_M);
+    const SweptVolume box_M = sweptVolume(tool, motion, VolumeKind::kObb);
+    const auto of_box = planeDeviations(tool, motion.X_MT_end, covariance, box_M);
+    const auto all = meter.measure(hull, swept_M, deviations);
+    for (const double at_most : {0.0, 0.3, 1.0, 2.5}) {
+      const auto clearance = meter.measure(hull, swept_M, deviations, {}, at_most);
+      if (meter.isSeparated(hull, box_M, of_box, at_most)) {
+        ++separated_by_box;
+        EXPECT_FALSE(clearance) << i;
+      }
+      if (clearance) {
+        ++same;
+        EXPECT_NEAR(clearance->deviations, all->deviations, 2e-3) << i;
+        EXPECT_EQ(clearance->separated, all->separated) << i;
+      } else if (all) {
+        EXPECT_TRUE(all->separated) << i;
+        EXPECT_GT(all->deviations, at_most - 2e-3) << i;
+      }
+    }
+  }
+  EXPECT_GT(same, 100);
+  EXPECT_GT(separated_by_box, 100);
+}
+
 }  // namespace
 }  // namespace sweep_guard_core

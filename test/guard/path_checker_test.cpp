@@ -38,11 +38,11 @@ PredictedPath randomPath(Random& random, const Eigen::Isometry3d& X_WT) {
   return path;
 }
 
-TriangleMesh randomSoup(Random& random) {
+TriangleMesh randomSoup(Random& random, const Eigen::Vector3d& middle) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
   for (std::uint32_t i = 0; i < 300; ++i) {
-    const Eigen::Vector3d place = random.uniform(0.2, 0.6) * random.direction();
+    const Eigen::Vector3d place = middle + random.uniform(0.2, 0.6) * random.direction();
     for (int k = 0; k < 3; ++k)
       vertices.emplace_back((place + random.inBox({0.03, 0.03, 0.03})).cast<float>().cast<double>());
     triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
@@ -51,14 +51,16 @@ TriangleMesh randomSoup(Random& random) {
 }
 
 struct Scene {
-  explicit Scene(std::uint64_t seed) : random(seed) {}
+  explicit Scene(std::uint64_t seed, const Eigen::Vector3d& middle = Eigen::Vector3d::Zero())
+      : random(seed), middle_of_soup(middle) {}
 
   Random random;
+  Eigen::Vector3d middle_of_soup;
   Tool tool = toolOf(random, 12);
   Eigen::Isometry3d X_WT = random.pose(Eigen::Vector3d::Zero());
   PredictedPath path = randomPath(random, X_WT);
-  std::shared_ptr<const Workpiece> workpiece =
-      std::make_shared<const Workpiece>(Workpiece{"soup", 0, Time(), SteadyTime(), "table", randomSoup(random)});
+  std::shared_ptr<const Workpiece> workpiece = std::make_shared<const Workpiece>(
+      Workpiece{"soup", 0, Time(), SteadyTime(), "table", randomSoup(random, middle_of_soup)});
 };
 
 PredictedObject predicted(const Scene& scene) {
@@ -85,37 +87,56 @@ std::vector<double> clearances(const Scene& scene, size_t step) {
   return all;
 }
 
-// A sweep that comes no nearer than an earlier one need not say how near.
-TEST(PathCheckerTest, FindsTheNearestPieceThatComparingEachPieceWithEachTriangleFinds) {
+struct Found {
   int nearer = 0;
   int no_nearer = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const Scene scene(seed);
-    const PredictedObject object = predicted(scene);
-    ASSERT_EQ(object.sweeps.size(), scene.path.size());
-    double before = kInfinity;
-    for (size_t step = 0; step < object.sweeps.size(); ++step) {
-      const PredictedSweep& sweep = object.sweeps[step];
-      const std::vector<double> all = clearances(scene, step);
-      const double least = *std::min_element(all.begin(), all.end());
-      EXPECT_GE(sweep.deviations, least - kTolerance) << seed << ", step " << step;
-      if (least < std::min(before - kTolerance, kMeasured)) {
-        ++nearer;
-        EXPECT_NEAR(sweep.deviations, least, kTolerance) << seed << ", step " << step;
-        ASSERT_TRUE(sweep.tool_piece);
-        if (!sweep.contact) {
-          EXPECT_NEAR(all[*sweep.tool_piece], least, kTolerance) << seed << ", step " << step;
-        }
+};
+
+// A sweep that comes no nearer than an earlier one need not say how near.
+void expectTheNearestPiece(const Scene& scene, Found& found) {
+  const PredictedObject object = predicted(scene);
+  ASSERT_EQ(object.sweeps.size(), scene.path.size());
+  double before = kInfinity;
+  for (size_t step = 0; step < object.sweeps.size(); ++step) {
+    const PredictedSweep& sweep = object.sweeps[step];
+    const std::vector<double> all = clearances(scene, step);
+    const double least = *std::min_element(all.begin(), all.end());
+    EXPECT_GE(sweep.deviations, least - kTolerance) << "step " << step;
+    if (least < std::min(before - kTolerance, kMeasured)) {
+      ++found.nearer;
+      EXPECT_NEAR(sweep.deviations, least, kTolerance) << "step " << step;
+      ASSERT_TRUE(sweep.tool_piece);
+      if (!sweep.contact) {
+        EXPECT_NEAR(all[*sweep.tool_piece], least, kTolerance) << "step " << step;
       }
-      if (least > before + kTolerance && least > 0.0) {
-        no_nearer += sweep.deviations == kInfinity;
-        EXPECT_GT(sweep.deviations, before) << seed << ", step " << step;
-      }
-      before = std::min(before, sweep.deviations);
     }
+    if (least > before + kTolerance && least > 0.0) {
+      found.no_nearer += sweep.deviations == kInfinity;
+      EXPECT_GT(sweep.deviations, before) << "step " << step;
+    }
+    before = std::min(before, sweep.deviations);
   }
-  EXPECT_GT(nearer, 50);
-  EXPECT_GT(no_nearer, 10);
+}
+
+TEST(PathCheckerTest, FindsTheNearestPieceThatComparingEachPieceWithEachTriangleFinds) {
+  Found found;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    expectTheNearestPiece(Scene(seed), found);
+  }
+  EXPECT_GT(found.nearer, 50);
+  EXPECT_GT(found.no_nearer, 10);
+}
+
+// There, bounds leave out pieces and steps before they have volumes.
+TEST(PathCheckerTest, FindsTheNearestPieceBesideAWorkpieceToo) {
+  Found found;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    expectTheNearestPiece(Scene(seed, {0.75, 0.0, 0.0}), found);
+  }
+  EXPECT_GT(found.nearer, 50);
+  EXPECT_GT(found.no_nearer, 3);
 }
 
 }  // namespace

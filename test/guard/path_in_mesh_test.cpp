@@ -55,8 +55,8 @@ TEST(PathInMeshTest, ReachesAsFarAsAnyToolPointThatErrs) {
     const Eigen::AlignedBox3d box_M = motion.reach_M(whole, 2.0, 0.0);
     for (const auto& segment :
          {motion.halves(whole).first, motion.between(4, 5), motion.halves(motion.between(7, 8)).second}) {
-      const Eigen::Isometry3d X_MT = motion.end_M(segment);
-      const Matrix6d doubt = motion.covariance_M(segment).llt().matrixL();
+      const Eigen::Isometry3d X_MT = motion.end_M(segment).X_MT;
+      const Matrix6d doubt = motion.end_M(segment).covariance_M.llt().matrixL();
       const Eigen::AlignedBox3d near_M = motion.reach_M(segment, 2.0, 0.0);
       for (const Eigen::Vector3d& p_T : roundToolPoints_T(kTool, 8)) {
         // Any error of two deviations, to first order.

@@ -24,6 +24,7 @@ class Tool {
   /// A node of the tree: a leaf is a piece, any other node is a box around the pieces below it.
   struct Node {
     ConvexShape shape_T;
+    Eigen::AlignedBox3d bounds_T;      ///< of its pieces and of their faces (ConvexShape), along the axes of T [m]
     std::optional<size_t> piece;       ///< index into pieces(), for a leaf
     std::array<size_t, 2> below = {};  ///< indices into tree(), for other nodes
   };
@@ -49,6 +50,7 @@ class Tool {
 
  private:
   size_t grow(std::vector<size_t> pieces);
+  Eigen::AlignedBox3d boundsWithFaces(const std::vector<size_t>& pieces) const;
   ConvexShape boxAround(const std::vector<size_t>& pieces) const;
 
   std::vector<ConvexPiece> pieces_;
