@@ -3,7 +3,8 @@
 // processor spends on it, which also counts for the guard's cycle.
 // Beside it in the same run: FCL and Bullet, if they are installed, test the same pieces at the same poses, static and
 // without a prediction.
-//   arm [--triangles N] [--detector NAME] [--csv FILE]
+//   arm [--triangles N] [--detector NAME] [--rate HZ] [--peers none] [--csv FILE]
+// The guard has 1 / HZ for each state.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -177,6 +178,13 @@ std::vector<Static> staticTests(int triangles) {
   return tests;
 }
 
+struct Options {
+  int triangles = 20000;
+  std::string detector = "halfspace";
+  double rate = 15.0;  // [Hz]
+  bool peers = true;
+};
+
 struct Times {
   std::vector<double> sweeps;
   std::vector<double> both;
@@ -184,12 +192,13 @@ struct Times {
   size_t volumes = 0;
 };
 
-Times guard(const std::string& detector, int triangles, const Eigen::Isometry3d& X_WM, std::vector<Static>& tests) {
+Times guard(const Options& options, const Eigen::Isometry3d& X_WM, std::vector<Static>& tests) {
   const auto robot = std::make_shared<const Robot>(arm());
-  const std::vector<Workpieces> all = deformations(triangles);
-  GuardOptions options;
-  options.clock = [] { return SteadyTime(fromSeconds(1e-6 * processorMicroseconds())); };
-  Guard guard(robot, makeDetector(detector), options);
+  const std::vector<Workpieces> all = deformations(options.triangles);
+  GuardOptions guard_options;
+  guard_options.cycle = fromSeconds(1.0 / options.rate);
+  guard_options.clock = [] { return SteadyTime(fromSeconds(1e-6 * processorMicroseconds())); };
+  Guard guard(robot, makeDetector(options.detector), guard_options);
   SweepReport report;
   Prediction prediction;
   Workpieces now;
@@ -215,23 +224,23 @@ Times guard(const std::string& detector, int triangles, const Eigen::Isometry3d&
   return times;
 }
 
-void report(const std::string& place, Times times, ResultFile& results, const std::string& detector, int triangles) {
+void report(const std::string& place, Times times, ResultFile& results, const Options& options) {
   const auto states = static_cast<double>(times.both.size());
   const double p99 = quantile(times.both, 0.99);
   std::printf(
       "%-8s %s, %d triangles: sweep %.0f us (p99 %.0f), sweep and prediction %.0f us (p99 %.0f); contact in %.0f %%, "
       "%.0f predicted volumes\n",
-      place.c_str(), detector.c_str(), triangles, quantile(times.sweeps, 0.5), quantile(times.sweeps, 0.99),
-      quantile(times.both, 0.5), p99, 100.0 * static_cast<double>(times.contacts) / states,
-      static_cast<double>(times.volumes) / states);
-  results.write(makeRow("arm " + place, detector, static_cast<size_t>(triangles), kLinks, times.both));
+      place.c_str(), options.detector.c_str(), options.triangles, quantile(times.sweeps, 0.5),
+      quantile(times.sweeps, 0.99), quantile(times.both, 0.5), p99,
+      100.0 * static_cast<double>(times.contacts) / states, static_cast<double>(times.volumes) / states);
+  results.write(makeRow("arm " + place, options.detector, static_cast<size_t>(options.triangles), kLinks, times.both));
 }
 
-void guardAt(const std::string& place, const Eigen::Isometry3d& X_WM, const std::string& detector, int triangles,
-             ResultFile& results) {
-  std::vector<Static> tests = staticTests(triangles);
-  const Times times = guard(detector, triangles, X_WM, tests);
-  report(place, times, results, detector, triangles);
+void guardAt(const std::string& place, const Eigen::Isometry3d& X_WM, const Options& options, ResultFile& results) {
+  std::vector<Static> tests;
+  if (options.peers) tests = staticTests(options.triangles);
+  const Times times = guard(options, X_WM, tests);
+  report(place, times, results, options);
   for (const Static& one : tests) {
     const double median = quantile(one.test->times(), 0.5);
     std::printf(
@@ -239,25 +248,55 @@ void guardAt(const std::string& place, const Eigen::Isometry3d& X_WM, const std:
         "times as long\n",
         one.name.c_str(), median, quantile(one.test->times(), 0.99), quantile(times.sweeps, 0.5) / median,
         quantile(times.both, 0.5) / median);
-    results.write(makeRow("arm static " + place, one.name, static_cast<size_t>(triangles), kLinks, one.test->times()));
+    results.write(
+        makeRow("arm static " + place, one.name, static_cast<size_t>(options.triangles), kLinks, one.test->times()));
   }
 }
 
+// What a mesh far away costs more than no mesh.
+void outside(const Options& options) {
+  const auto robot = std::make_shared<const Robot>(arm());
+  const Workpieces far = deformations(options.triangles).front();
+  const Workpieces none;
+  Guard with(robot, makeDetector(options.detector), {});
+  Guard without(robot, makeDetector(options.detector), {});
+  SweepReport report;
+  Prediction prediction;
+  std::vector<double> swept, predicted;
+  for (int i = 0; i < kStates; ++i) {
+    const PoseWithFrames pose = poseAt(*robot, kPeriod * i, Eigen::Isometry3d(Eigen::Translation3d(50.0, 0.0, 0.0)));
+    const double sweep = processorTime([&] { with.sweep(pose, far, report); });
+    const double none_swept = processorTime([&] { without.sweep(pose, none, report); });
+    const double none_predicted = processorTime([&] { without.predict({}, none, prediction); });
+    const double prediction_took = processorTime([&] { with.predict({}, far, prediction); });
+    if (i < kWarmUp) continue;
+    swept.push_back((sweep - none_swept) / static_cast<double>(kLinks));
+    const auto sweeps = static_cast<double>(kLinks * prediction.sweeps_made);
+    predicted.push_back((prediction_took - none_predicted) / sweeps);
+  }
+  std::printf("a body outside: %.2f us (p99 %.2f) for each measured sweep, %.3f us (p99 %.3f) for each predicted one\n",
+              quantile(swept, 0.5), quantile(swept, 0.99), quantile(predicted, 0.5), quantile(predicted, 0.99));
+}
+
 int run(const std::vector<std::string>& arguments) {
-  std::string csv, detector = "halfspace";
-  int triangles = 20000;
+  std::string csv;
+  Options options;
   for (size_t i = 0; i + 1 < arguments.size(); i += 2) {
     if (arguments[i] == "--csv") csv = arguments[i + 1];
-    if (arguments[i] == "--detector") detector = arguments[i + 1];
-    if (arguments[i] == "--triangles") triangles = std::stoi(arguments[i + 1]);
+    if (arguments[i] == "--detector") options.detector = arguments[i + 1];
+    if (arguments[i] == "--triangles") options.triangles = std::stoi(arguments[i + 1]);
+    if (arguments[i] == "--peers") options.peers = arguments[i + 1] != "none";
+    if (arguments[i] == "--rate") options.rate = std::stod(arguments[i + 1]);
   }
-  if (arguments.size() % 2 != 0) throw InvalidInput("usage: arm [--triangles N] [--detector NAME] [--csv FILE]");
+  if (arguments.size() % 2 != 0)
+    throw InvalidInput("usage: arm [--triangles N] [--detector NAME] [--rate HZ] [--peers none] [--csv FILE]");
   ResultFile results(csv);
   std::printf("%sload %.2f\n", machineText().c_str(), load());
   const auto at = [](double x, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, z)); };
-  guardAt("beside", at(0.45, 0.6), detector, triangles, results);
-  guardAt("in reach", at(0.25, 0.8), detector, triangles, results);
-  guardAt("far", at(50.0, 0.0), detector, triangles, results);
+  guardAt("beside", at(0.45, 0.6), options, results);
+  guardAt("in reach", at(0.25, 0.8), options, results);
+  guardAt("far", at(50.0, 0.0), options, results);
+  outside(options);
   return 0;
 }
 
