@@ -1,7 +1,7 @@
 #include "simulation/elastic/bar_model.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -16,7 +16,7 @@ using sweep_guard_core::InvalidInput;
 
 namespace {
 
-constexpr int kMaxPivots = 100;
+constexpr int kMaxPivots = 20;
 
 const BarModel::Options& checked(const BarModel::Options& options) {
   if (!(options.step > 0.0)) throw InvalidInput("the time step must be above 0 s");
@@ -40,24 +40,25 @@ std::vector<double> lengthsOf(const BarStructure& structure) {
 
 }  // namespace
 
-/// The pressures of a step. They are linear in the displacement of their nodes, so that they are part of the step's
-/// linear system. In place of another matrix they take one more right-hand side each.
+/// The pressures of a step. They are linear in the displacements of their nodes, so that they are part of the step's
+/// linear system; what the nodes answer to them stands in for another matrix.
 class BarModel::Yielding {
  public:
-  Yielding(const std::vector<Pressure>& pressures, const BarModel& model)
-      : pressures_(pressures), before_(model.positions_), forces_(Eigen::VectorXd::Zero(count())) {
-    for (const Pressure& pressure : pressures) {
-      Eigen::VectorXd shares = Eigen::VectorXd::Zero(before_.rows());
-      for (const auto& [node, share] : pressure.shares) shares[node] = model.structure_.fixed[node] ? 0.0 : share;
-      answers_.push_back(model.solver_.solve(shares));
-    }
-    compliance_.resize(count(), count());
-    slack_.resize(count());
+  Yielding(const std::vector<Pressure>& pressures, BarModel& model)
+      : pressures_(pressures),
+        before_(model.positions_),
+        slack_(count()),
+        compliance_(count(), count()),
+        forces_(Eigen::VectorXd::Zero(count())),
+        presses_(pressures.size(), true) {
+    for (const Pressure& pressure : pressures) answers_.push_back(&model.answerOf(pressure.node));
     for (Eigen::Index i = 0; i < count(); ++i) {
       slack_[i] = 1.0 / of(i).stiffness;
-      for (Eigen::Index j = 0; j < count(); ++j)
-        compliance_(i, j) = of(i).outward.dot(of(j).outward) * mean(i, answer(j));
+      for (Eigen::Index j = 0; j < count(); ++j) {
+        compliance_(i, j) = of(i).outward.dot(of(j).outward) * answer(j)[of(i).node];
+      }
     }
+    compliance_.diagonal() += slack_;
   }
 
   /// Moves the nodes from where they were without the pressures.
@@ -65,10 +66,12 @@ class BarModel::Yielding {
     if (count() == 0) return;
     Eigen::VectorXd free(count());
     for (Eigen::Index i = 0; i < count(); ++i) {
-      free[i] = of(i).force * slack_[i] + mean(i, (positions - before_) * of(i).outward);
+      free[i] = of(i).force * slack_[i] + (positions.row(of(i).node) - before_.row(of(i).node)).dot(of(i).outward);
     }
     solve(free);
-    for (Eigen::Index i = 0; i < count(); ++i) positions -= forces_[i] * answer(i) * of(i).outward.transpose();
+    for (Eigen::Index i = 0; i < count(); ++i) {
+      if (forces_[i] > 0.0) positions -= answer(i) * (forces_[i] * of(i).outward.transpose());
+    }
   }
 
   const Eigen::VectorXd& forces() const { return forces_; }
@@ -76,47 +79,45 @@ class BarModel::Yielding {
  private:
   Eigen::Index count() const { return static_cast<Eigen::Index>(pressures_.size()); }
   const Pressure& of(Eigen::Index i) const { return pressures_[static_cast<size_t>(i)]; }
-  const Eigen::VectorXd& answer(Eigen::Index i) const { return answers_[static_cast<size_t>(i)]; }
+  const Eigen::VectorXd& answer(Eigen::Index i) const { return *answers_[static_cast<size_t>(i)]; }
 
-  double mean(Eigen::Index i, const Eigen::VectorXd& values) const {
-    double sum = 0.0;
-    for (const auto& [node, share] : of(i).shares) sum += share * values[node];
-    return sum;
-  }
-
-  // No pressure pulls: least-index pivoting [Murty 1974].
+  // No pressure pulls: block pivoting [Judice and Pires 1994].
   void solve(const Eigen::VectorXd& free) {
-    const Eigen::MatrixXd matrix = compliance_ + Eigen::MatrixXd(slack_.asDiagonal());
-    std::vector<bool> presses(pressures_.size(), true);
     for (int pivot = 0; pivot < kMaxPivots; ++pivot) {
-      forces_ = forcesOf(matrix, free, presses);
-      const Eigen::VectorXd gaps = matrix * forces_ - free;
-      size_t i = 0;
-      while (i < presses.size() && (presses[i] ? forces_[index(i)] >= 0.0 : gaps[index(i)] >= 0.0)) ++i;
-      if (i == presses.size()) return;
-      presses[i] = !presses[i];
+      forces_ = forcesOf(free);
+      const Eigen::VectorXd gaps = compliance_ * forces_ - free;
+      bool changed = false;
+      for (size_t i = 0; i < presses_.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        if (presses_[i] ? forces_[row] >= 0.0 : gaps[row] >= 0.0) continue;
+        presses_[i] = !presses_[i];
+        changed = true;
+      }
+      if (!changed) return;
     }
     forces_ = forces_.cwiseMax(0.0);
   }
 
-  static Eigen::VectorXd forcesOf(Eigen::MatrixXd matrix, Eigen::VectorXd right, const std::vector<bool>& presses) {
-    for (size_t i = 0; i < presses.size(); ++i) {
-      if (presses[i]) continue;
-      matrix.row(index(i)).setZero();
-      matrix(index(i), index(i)) = 1.0;
-      right[index(i)] = 0.0;
+  Eigen::VectorXd forcesOf(Eigen::VectorXd right) const {
+    Eigen::MatrixXd matrix = compliance_;
+    for (size_t i = 0; i < presses_.size(); ++i) {
+      if (presses_[i]) continue;
+      const auto row = static_cast<Eigen::Index>(i);
+      matrix.row(row).setZero();
+      matrix.col(row).setZero();
+      matrix(row, row) = 1.0;
+      right[row] = 0.0;
     }
-    return matrix.partialPivLu().solve(right);
+    return matrix.ldlt().solve(right);
   }
-
-  static Eigen::Index index(size_t i) { return static_cast<Eigen::Index>(i); }
 
   const std::vector<Pressure>& pressures_;
   const MatrixX3d before_;
-  std::vector<Eigen::VectorXd> answers_;  // displacement of the nodes by a force of 1 N [m/N]
-  Eigen::MatrixXd compliance_;            // displacement at a pressure by another one [m/N]
-  Eigen::VectorXd slack_;                 // displacement that takes 1 N off a pressure [m/N]
+  std::vector<const Eigen::VectorXd*> answers_;
+  Eigen::VectorXd slack_;       // displacement that takes 1 N off a pressure [m/N]
+  Eigen::MatrixXd compliance_;  // distance by which a pressure of 1 N shrinks another one, or itself [m/N]
   Eigen::VectorXd forces_;
+  std::vector<bool> presses_;
 };
 
 BarModel::BarModel(BarStructure structure, const Options& options)
@@ -171,6 +172,14 @@ void BarModel::advance(const MatrixX3d& loads, const std::vector<Pressure>& pres
   }
   velocities_ = (positions_ - before) / options_.step;
   forces_ = yielding.forces();
+}
+
+const Eigen::VectorXd& BarModel::answerOf(std::uint32_t node) {
+  const auto [answer, first] = answers_.try_emplace(node);
+  if (!first) return answer->second;
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(positions_.rows());
+  if (!structure_.fixed[node]) force[node] = 1.0;
+  return answer->second = solver_.solve(force);
 }
 
 void BarModel::startAhead() {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
+#include <map>
 #include <vector>
 
 #include "simulation/elastic/bar_structure.h"
@@ -9,12 +9,12 @@
 
 namespace sweep_guard_simulation {
 
-/// A body that presses on nodes with a force that yields as they give way.
+/// A force on a node that yields as the node gives way.
 struct Pressure {
-  std::vector<std::pair<std::uint32_t, double>> shares;  ///< of nodes in the force; their sum is 1
-  Eigen::Vector3d outward;                               ///< unit; the nodes are pressed against it
-  double force;      ///< with the nodes where they are at the start of the step [N], >= 0
-  double stiffness;  ///< growth of the force per outward displacement of the nodes, in their shares [N/m], > 0
+  std::uint32_t node;
+  Eigen::Vector3d outward;  ///< unit; the node is pressed against it
+  double force;             ///< with the node where it is at the start of the step [N], >= 0
+  double stiffness;         ///< growth of the force per outward displacement of the node [N/m], > 0
 };
 
 /// Moves a structure of bars by implicit Euler steps. The bars are as stiff as they are at any length and direction:
@@ -34,6 +34,7 @@ class BarModel {
   ///     range, or as SparseSolver
   BarModel(BarStructure structure, const Options& options);
 
+  /// Moves on by a step. The first pressure on a node takes one more right-hand side.
   /// @param loads      on each node [N]
   /// @param pressures  at the positions before the step
   void advance(const Eigen::MatrixX3d& loads, const std::vector<Pressure>& pressures = {});
@@ -49,6 +50,7 @@ class BarModel {
  private:
   class Yielding;
 
+  const Eigen::VectorXd& answerOf(std::uint32_t node);
   Eigen::SparseMatrix<double> makeMatrix() const;
   Eigen::MatrixX3d heldRight() const;
   void addBars(Eigen::MatrixX3d& right) const;
@@ -63,6 +65,7 @@ class BarModel {
   Eigen::MatrixX3d positions_;
   Eigen::MatrixX3d velocities_;
   Eigen::VectorXd forces_;
+  std::map<std::uint32_t, Eigen::VectorXd> answers_;  // of all nodes to 1 N on a node in the global step [m/N]
 };
 
 }  // namespace sweep_guard_simulation

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
@@ -234,7 +235,7 @@ TEST_F(PressureTest, YieldsAsTwoSpringsInARow) {
   for (const double stiffness : {1.0, 200.0, 1e9}) {
     BarModel model(structure_, equilibrium(1));
     const double indentation = 0.01;  // of the pressing body
-    model.advance(MatrixX3d::Zero(1, 3), {{{{0, 1.0}}, {0.0, 0.0, 1.0}, stiffness * indentation, stiffness}});
+    model.advance(MatrixX3d::Zero(1, 3), {{0, {0.0, 0.0, 1.0}, stiffness * indentation, stiffness}});
     const double force = indentation / (1.0 / stiffness + 1.0 / kGround);
     EXPECT_NEAR(model.forces()[0], force, 1e-9 * force);
     EXPECT_NEAR(model.positions()(0, 2), -force / kGround, 1e-9);
@@ -243,20 +244,19 @@ TEST_F(PressureTest, YieldsAsTwoSpringsInARow) {
 
 TEST_F(PressureTest, NeverPulls) {
   BarModel model(structure_, equilibrium(1));
-  model.advance(MatrixX3d::Zero(1, 3), {{{{0, 1.0}}, {0.0, 0.0, 1.0}, 1.0, 1e6}});
+  model.advance(MatrixX3d::Zero(1, 3), {{0, {0.0, 0.0, 1.0}, 1.0, 1e6}});
   const double pressed = model.positions()(0, 2);
   ASSERT_LT(pressed, 0.0);
   MatrixX3d loads = MatrixX3d::Zero(1, 3);
   loads(0, 2) = -10.0;
-  model.advance(loads, {{{{0, 1.0}}, {0.0, 0.0, 1.0}, 0.1, 1e6}});
+  model.advance(loads, {{0, {0.0, 0.0, 1.0}, 0.1, 1e6}});
   EXPECT_EQ(model.forces()[0], 0.0);
   EXPECT_NEAR(model.positions()(0, 2), -10.0 / kGround, 1e-12);
 }
 
 TEST_F(PressureTest, TwoThatOpposeEachOtherKeepTheNodeBetweenThem) {
   BarModel model(structure_, equilibrium(1));
-  model.advance(MatrixX3d::Zero(1, 3),
-                {{{{0, 1.0}}, {0.0, 0.0, 1.0}, 30.0, 1e4}, {{{0, 1.0}}, {0.0, 0.0, -1.0}, 10.0, 1e4}});
+  model.advance(MatrixX3d::Zero(1, 3), {{0, {0.0, 0.0, 1.0}, 30.0, 1e4}, {0, {0.0, 0.0, -1.0}, 10.0, 1e4}});
   const double displacement = -20.0 / (kGround + 2e4);
   EXPECT_NEAR(model.positions()(0, 2), displacement, 1e-9);
   EXPECT_NEAR(model.forces()[0], 30.0 + 1e4 * displacement, 1e-6);
