@@ -42,10 +42,12 @@ void ElasticWorkpiece::setTool(const sweep_guard_core::Tool& tool, const sweep_g
   for (const sweep_guard_core::ConvexPiece& piece : tool.pieces()) pieces_.emplace_back(piece.shape_T, law);
 }
 
-void ElasticWorkpiece::advance(const Eigen::Isometry3d& X_MT) {
-  std::vector<Pressure> pressures;
-  for (PressingPiece& piece : pieces_) piece.press(mesh_, X_MT, pressures);
-  model_.advance(Eigen::MatrixX3d::Zero(model_.positions().rows(), 3), pressures);
+void ElasticWorkpiece::advance(const std::optional<Eigen::Isometry3d>& X_MT) {
+  pressures_.clear();
+  for (PressingPiece& piece : pieces_) {
+    if (X_MT) piece.press(mesh_, *X_MT, pressures_);
+  }
+  model_.advance(Eigen::MatrixX3d::Zero(model_.positions().rows(), 3), pressures_);
   std::vector<float> moved = positions();
   mesh_.deform(moved);
 }
@@ -59,7 +61,22 @@ std::vector<float> ElasticWorkpiece::positions() const {
   return positions;
 }
 
-double ElasticWorkpiece::force() const { return model_.forces().sum(); }
+Vector3d ElasticWorkpiece::force_M() const {
+  Vector3d sum = Vector3d::Zero();
+  for (size_t i = 0; i < pressures_.size(); ++i) {
+    sum += model_.forces()[static_cast<Eigen::Index>(i)] * pressures_[i].outward;
+  }
+  return sum;
+}
+
+Vector3d ElasticWorkpiece::pressed_M() const {
+  Vector3d sum = Vector3d::Zero();
+  for (size_t i = 0; i < pressures_.size(); ++i) {
+    sum += model_.forces()[static_cast<Eigen::Index>(i)] * model_.positions().row(pressures_[i].node).transpose();
+  }
+  const double total = model_.forces().sum();
+  return total > 0.0 ? Vector3d(sum / total) : sum;
+}
 
 double ElasticWorkpiece::dent() const {
   const auto count = static_cast<Eigen::Index>(mesh_.vertexCount());

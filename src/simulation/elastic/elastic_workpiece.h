@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "simulation/elastic/bar_model.h"
@@ -33,11 +34,12 @@ class ElasticWorkpiece {
   void setTool(const sweep_guard_core::Tool& tool, const sweep_guard_core::ForceLaw& law);
 
   /// Moves on by a step.
-  /// @param X_MT  pose of the tool
-  void advance(const Eigen::Isometry3d& X_MT);
+  /// @param X_MT  pose of the tool; empty: it is not there
+  void advance(const std::optional<Eigen::Isometry3d>& X_MT);
 
   std::vector<float> positions() const;  ///< of the vertices: x0 y0 z0 x1 ... [m]
-  double force() const;                  ///< sum of the forces of the pieces at the end of the last step [N], >= 0
+  Eigen::Vector3d force_M() const;       ///< of the workpiece on the tool, at the end of the last step [N]
+  Eigen::Vector3d pressed_M() const;     ///< where it acts: the middle of the pressed vertices; 0 without a force [m]
   double dent() const;                   ///< largest distance of a vertex from its place at rest [m]
   const BarModel& model() const { return model_; }
 
@@ -45,6 +47,7 @@ class ElasticWorkpiece {
   sweep_guard_core::TriangleMesh mesh_;
   BarModel model_;
   std::vector<PressingPiece> pieces_;  // of the tool
+  std::vector<Pressure> pressures_;    // in the last step
 };
 
 }  // namespace sweep_guard_simulation

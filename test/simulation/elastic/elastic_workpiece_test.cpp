@@ -99,7 +99,7 @@ TEST(ElasticWorkpieceTest, RestsWithoutATool) {
   Indentation indentation(Workpiece::hull(1600, resting()), damped());
   indentation.hold(-0.01, 1.0);
   EXPECT_LT(indentation.workpiece().dent(), 1e-9);
-  EXPECT_EQ(indentation.workpiece().force(), 0.0);
+  EXPECT_EQ(indentation.workpiece().force_M().norm(), 0.0);
 }
 
 TEST(ElasticWorkpieceTest, GivesWayToAToolAndPushesBackAsTheInteractionForceSays) {
@@ -109,7 +109,7 @@ TEST(ElasticWorkpieceTest, GivesWayToAToolAndPushesBackAsTheInteractionForceSays
   const Interpenetration found = indentation.found();
   const double force = interactionForce(found, Vector3d::Zero(), indentation.law()).force_T.norm();
   EXPECT_GT(force, 0.5);
-  EXPECT_NEAR(indentation.workpiece().force(), force, 0.01 * force);
+  EXPECT_NEAR(indentation.workpiece().force_M().norm(), force, 0.01 * force);
   EXPECT_GT(indentation.workpiece().dent(), 0.008);
   EXPECT_LT(indentation.workpiece().dent(), 0.015);
 }
@@ -118,11 +118,11 @@ TEST(ElasticWorkpieceTest, StaysCalmUnderAHardContact) {
   Indentation indentation(Workpiece::hull(1600, resting()), damped(), 1e8);
   indentation.moveTo(0.005, 0.5);
   indentation.hold(0.005, 2.0);
-  const double held = indentation.workpiece().force();
+  const double held = indentation.workpiece().force_M().norm();
   EXPECT_GT(held, 0.1);
   for (int i = 0; i < 60; ++i) {
     indentation.hold(0.005, 1.0 / kRate);
-    EXPECT_NEAR(indentation.workpiece().force(), held, 0.02 * held);
+    EXPECT_NEAR(indentation.workpiece().force_M().norm(), held, 0.02 * held);
   }
 }
 
@@ -147,7 +147,7 @@ void pushTenMillimetersInAndOut(const Workpiece& rest) {
   Indentation indentation(rest, damped());
   indentation.moveTo(0.01, 0.5);
   EXPECT_GT(indentation.workpiece().dent(), 0.008);
-  EXPECT_GT(indentation.workpiece().force(), 0.1);
+  EXPECT_GT(indentation.workpiece().force_M().norm(), 0.1);
   indentation.moveTo(-0.01, 0.5);
   indentation.hold(-0.01, 1.0);
   EXPECT_LT(indentation.workpiece().dent(), 0.0005);
