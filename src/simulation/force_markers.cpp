@@ -8,7 +8,8 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kLengthPerForce = 0.1;  // [m/N]
+constexpr double kLengthPerForce = 0.05;          // [m/N]
+const Eigen::Vector3d kBeside(-0.05, 0.0, 0.01);  // place of the words [m]
 
 Marker markerOf(const std_msgs::Header& header, int type, bool there) {
   Marker marker;
@@ -31,13 +32,13 @@ visualization_msgs::MarkerArray forceMarkers(const std_msgs::Header& header, con
   const Eigen::Vector3d end = pressed.point + kLengthPerForce * pressed.force;
   Marker arrow = markerOf(header, Marker::ARROW, there);
   arrow.points = {tf2::toMsg(pressed.point), tf2::toMsg(end)};
-  arrow.scale.x = 0.006;
-  arrow.scale.y = 0.014;
-  arrow.scale.z = 0.02;
+  arrow.scale.x = 0.004;
+  arrow.scale.y = 0.01;
+  arrow.scale.z = 0.015;
   Marker text = markerOf(header, Marker::TEXT_VIEW_FACING, there);
-  text.pose.position = tf2::toMsg(Eigen::Vector3d(end + Eigen::Vector3d(0.0, 0.0, 0.02)));
-  text.scale.z = 0.018;
-  text.text = fmt::format("{:.2f} N, dent {:.1f} mm", pressed.force.norm(), 1e3 * pressed.dent);
+  text.pose.position = tf2::toMsg(Eigen::Vector3d(end + kBeside));
+  text.scale.z = 0.01;
+  text.text = fmt::format("{:.2f} N\ndent {:.1f} mm", pressed.force.norm(), 1e3 * pressed.dent);
   visualization_msgs::MarkerArray markers;
   markers.markers = {arrow, text};
   return markers;

@@ -14,7 +14,7 @@ struct PressedSurface {
   double dent;            ///< [m]
 };
 
-/// Returns an arrow from the point, 0.1 m long per N, with the numbers beside it in words. Without a force
+/// Returns an arrow from the point, 0.05 m long per N, with the numbers beside it in words. Without a force
 /// they are deleted.
 visualization_msgs::MarkerArray forceMarkers(const std_msgs::Header& header, const PressedSurface& pressed);
 
