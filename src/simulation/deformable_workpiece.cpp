@@ -93,6 +93,7 @@ class WorkpieceNode {
     }
     Eigen::Isometry3d X_WT;
     tf2::fromMsg(pose->pose, X_WT);
+    if (!X_WT.matrix().allFinite()) return;
     X_MT_ = X_WM_.inverse() * X_WT;
   }
 
