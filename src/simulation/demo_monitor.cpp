@@ -102,7 +102,7 @@ bool waitUntil(const std::function<bool()>& condition, const std::string& proble
 
 class DemoMonitor {
  public:
-  DemoMonitor(const Arguments& arguments)
+  explicit DemoMonitor(const Arguments& arguments)
       : duration_(sweep_guard_core::fromSeconds(arguments.duration)), joints_(arguments.joints) {
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     contacts_ = node_.subscribe("contacts", kQueue, &DemoMonitor::onContacts, this, hints);
@@ -120,6 +120,10 @@ class DemoMonitor {
     };
     if (!waitFor([this] { return contacts_.getNumPublishers() > 0; },
                  "no publisher of " + contacts_.getTopic() + "; start the guard, or remap contacts to it")) {
+      return;
+    }
+    if (!waitFor([this] { return workpiece_known_; },
+                 "the guard knows no workpiece; start one, or see the guard's log")) {
       return;
     }
     poses_ = joints_ ? subscribePoses<sensor_msgs::JointState>("joint_states")
@@ -165,6 +169,7 @@ class DemoMonitor {
   void onWarning(const sweep_guard::Warning::ConstPtr& warning) {
     const auto level = static_cast<sweep_guard_core::WarningLevel>(warning->level);
     level_ = sweep_guard_core::styleOf(level).name;
+    workpiece_known_ = (warning->reasons & sweep_guard::Warning::NO_MESH) == 0;
     statistics_.addWarning(fromMsg(ros::Time::now()), level);
   }
 
@@ -222,6 +227,7 @@ class DemoMonitor {
   bool joints_;  // the poses are states of joints
   DemoStatistics statistics_;
   std::vector<Eigen::Vector3d> rest_;  // vertices of an elastic workpiece as they were first [m]
+  bool workpiece_known_ = false;       // to the guard
   bool settling_ = false;              // only late answers count
   std::string level_ = "-";
   ros::NodeHandle node_;
