@@ -23,7 +23,9 @@ Eigen::Matrix3Xd cubeWithPoints(Random& random, int count) {
 
 Eigen::Matrix3d edges(const Eigen::Matrix3Xd& points, const std::array<std::uint32_t, 4>& corners) {
   Eigen::Matrix3d edges;
-  for (int i = 0; i < 3; ++i) edges.col(i) = points.col(corners[i + 1]) - points.col(corners[0]);
+  for (size_t i = 1; i < 4; ++i) {
+    edges.col(static_cast<Eigen::Index>(i) - 1) = points.col(corners[i]) - points.col(corners[0]);
+  }
   return edges;
 }
 

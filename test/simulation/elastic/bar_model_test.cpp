@@ -118,7 +118,7 @@ class ElasticCubeTest : public testing::Test {
     const MatrixX3d& rest = lattice_.structure().rest;
     const MatrixX3d from_middle = rest.rowwise() - RowVector3d(2.0, 2.0, 2.0);
     const MatrixX3d moved = model.positions() - rest;
-    const Eigen::Matrix3d gradient =
+    Eigen::Matrix3d gradient =
         ((from_middle.transpose() * from_middle).inverse() * from_middle.transpose() * moved).transpose();
     EXPECT_LT((moved - from_middle * gradient.transpose()).norm(), 1e-5 * moved.norm());
     return gradient;

@@ -37,7 +37,9 @@ class Lattice {
   static Eigen::MatrixX3d nodes(const std::array<int, 3>& cells) {
     Eigen::MatrixX3d nodes((cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1), 3);
     for (int i = 0; i < nodes.rows(); ++i) {
-      nodes.row(i) << i % (cells[0] + 1), i / (cells[0] + 1) % (cells[1] + 1), i / (cells[0] + 1) / (cells[1] + 1);
+      const int row = i / (cells[0] + 1);
+      const int layer = row / (cells[1] + 1);
+      nodes.row(i) << i % (cells[0] + 1), row % (cells[1] + 1), layer;
     }
     return nodes;
   }
