@@ -1,81 +1,25 @@
 #include "sweep_guard/geometry/convex_hull.h"
 
-#include <libqhull_r/libqhull_r.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <memory>
-#include <new>
 #include <optional>
 #include <string>
 #include <tuple>
 
+#include "geometry/qhull.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-using Facet = std::vector<std::uint32_t>;  // indices of its corners, as many as the hull has dimensions
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 constexpr double kMaxHullTolerance = 1e-9;  // relative to the extent
-
-// Runs Qhull. Not libqhullcpp: on flat points it crashes where another plugin of the process has loaded libqhull_r
-// before.
-class Qhull {
- public:
-  Qhull() : messages_(std::fopen("/dev/null", "w")) {
-    if (!messages_) throw DeviceError("cannot open /dev/null for the messages of Qhull");
-    qh_zero(&qh_, messages_.get());
-  }
-  ~Qhull() {
-    int long_blocks = 0;
-    int long_bytes = 0;
-    qh_freeqhull(&qh_, !qh_ALL);
-    qh_memfreeshort(&qh_, &long_blocks, &long_bytes);
-  }
-  Qhull(const Qhull&) = delete;
-  Qhull& operator=(const Qhull&) = delete;
-
-  // Returns no facets if the points span fewer dimensions or Qhull fails.
-  std::optional<std::vector<Facet>> facets(std::vector<double> coordinates, int dimensions) {
-    std::string command = "qhull Qt";
-    const int count = static_cast<int>(coordinates.size()) / dimensions;
-    const int error =
-        qh_new_qhull(&qh_, dimensions, count, coordinates.data(), False, command.data(), nullptr, messages_.get());
-    if (error == qh_ERRmem) throw std::bad_alloc();
-    if (error != qh_ERRnone) return std::nullopt;
-    std::vector<Facet> facets;
-    for (const facetT* facet = qh_.facet_list; facet && facet->next; facet = facet->next) {
-      facets.push_back(cornersOf(*facet));
-      if (facets.back().size() != static_cast<size_t>(dimensions)) return std::nullopt;
-    }
-    return facets;
-  }
-
- private:
-  struct Close {
-    void operator()(FILE* file) const { std::fclose(file); }
-  };
-
-  Facet cornersOf(const facetT& facet) {
-    Facet corners;
-    vertexT* vertex = nullptr;
-    vertexT** vertexp = nullptr;
-    FOREACHvertex_(facet.vertices) corners.push_back(static_cast<std::uint32_t>(qh_pointid(&qh_, vertex->point)));
-    if (facet.toporient != qh_ORIENTclock) std::swap(corners[0], corners[1]);
-    return corners;
-  }
-
-  std::unique_ptr<FILE, Close> messages_;
-  qhT qh_ = {};
-};
 
 void checkPoints(const Points& points) {
   if (points.empty()) throw InvalidInput("no points: a convex hull needs at least one");
@@ -115,8 +59,7 @@ Eigen::Matrix3Xd principalCoordinates(const Eigen::Matrix3Xd& about) {
 
 std::optional<std::vector<Facet>> facetsOf(const Eigen::Matrix3Xd& principal, int dimensions) {
   if (principal.cols() <= dimensions) return std::nullopt;
-  const Eigen::MatrixXd used = principal.topRows(dimensions);
-  return Qhull().facets({used.data(), used.data() + used.size()}, dimensions);
+  return hullFacets(principal.topRows(dimensions));
 }
 
 // The two ends of points on a line.

@@ -1,14 +1,19 @@
+#include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/ros.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <visualization_msgs/Marker.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "recording/run_node.h"
+#include "simulation/force_markers.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
 #include "simulation/workpiece_parameters.h"
@@ -22,6 +27,8 @@ namespace sweep_guard_simulation {
 namespace {
 
 constexpr double kMarkerPeriod = 1.0 / 15.0;  // [s]
+constexpr double kReminderPeriod = 10.0;      // [s]
+constexpr double kLeastShare = 0.95;          // of the rate
 
 std_msgs::ColorRGBA shade(const Eigen::Vector3d& normal) {
   const auto light = static_cast<float>(0.5 + 0.5 * normal.dot(Eigen::Vector3d(0.48, 0.14, 0.866)));
@@ -33,42 +40,82 @@ std_msgs::ColorRGBA shade(const Eigen::Vector3d& normal) {
   return color;
 }
 
-/// Publishes a workpiece: its triangles once, its vertices at a rate, and a marker for rviz if there are subscribers.
+/// Publishes a workpiece: its triangles once, its vertices at a rate, and markers for rviz if there are subscribers. An
+/// elastic one gives way to the tool of a guard.
 class WorkpieceNode {
  public:
   explicit WorkpieceNode(sweep_guard_ros::ParameterReader& parameters)
       : workpiece_(makeWorkpiece(parameters)),
         id_(parameters.name("id", "workpiece")),
         frame_(parameters.name("frame", "workpiece")),
-        rate_(parameters.number("rate", 60.0, {0.1, 1000.0})) {
+        parent_frame_(parameters.name("parent_frame", "world")),
+        X_WM_(placeOf(parameters)),
+        rate_(parameters.number("rate", 60.0, {0.1, 1000.0})),
+        elastic_(makeElasticWorkpiece(parameters, workpiece_, 1.0 / rate_,
+                                      X_WM_.linear().transpose() * Eigen::Vector3d::UnitZ())) {
+    const std::string guard = parameters.text("guard", "sweep_guard");
+    if (elastic_) setToolOf(guard, id_, *elastic_);
     ros::Time::waitForValid();
-    broadcastFrame(parameters.name("parent_frame", "world"), parameters.position("position", {0.0, 0.0, 0.3}));
+    broadcastFrame();
     mesh_publisher_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
     vertices_publisher_ = node_.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);
     marker_publisher_ = private_node_.advertise<visualization_msgs::Marker>("marker", 1);
+    if (!elastic_) return;
+    force_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("force", 1);
+    tool_subscriber_ =
+        node_.subscribe("tool_pose", 1, &WorkpieceNode::onToolPose, this, ros::TransportHints().tcpNoDelay());
   }
 
   void run() {
-    start_ = ros::Time::now();
+    start_ = counted_since_ = ros::Time::now();
     publishMesh();
     for (ros::Rate rate(rate_); ros::ok(); rate.sleep()) {
       ros::spinOnce();
+      if (elastic_) advance();
       publishVertices();
     }
   }
 
  private:
-  void broadcastFrame(const std::string& parent, const Eigen::Vector3d& position) {
-    geometry_msgs::TransformStamped transform =
-        tf2::eigenToTransform(Eigen::Isometry3d(Eigen::Translation3d(position)));
+  void broadcastFrame() {
+    geometry_msgs::TransformStamped transform = tf2::eigenToTransform(X_WM_);
     transform.header.stamp = ros::Time::now();
-    transform.header.frame_id = parent;
+    transform.header.frame_id = parent_frame_;
     transform.child_frame_id = frame_;
     broadcaster_.sendTransform(transform);
   }
 
+  void onToolPose(const geometry_msgs::PoseStamped::ConstPtr& pose) {
+    if (pose->header.frame_id != parent_frame_) {
+      ROS_WARN_THROTTLE(kReminderPeriod, "the elastic workpiece needs tool poses in the frame '%s', not '%s'",
+                        parent_frame_.c_str(), pose->header.frame_id.c_str());
+      return;
+    }
+    Eigen::Isometry3d X_WT;
+    tf2::fromMsg(pose->pose, X_WT);
+    if (!X_WT.matrix().allFinite()) return;
+    X_MT_ = X_WM_.inverse() * X_WT;
+  }
+
+  void advance() {
+    elastic_->advance(X_MT_);
+    ++steps_;
+    const double seconds = (ros::Time::now() - counted_since_).toSec();
+    if (seconds < kReminderPeriod) return;
+    const double reached = steps_ / seconds;
+    if (reached < kLeastShare * rate_) {
+      ROS_WARN("the elastic workpiece moves too slowly: %.0f of %.0f steps per second", reached, rate_);
+    }
+    counted_since_ = ros::Time::now();
+    steps_ = 0;
+  }
+
+  std::vector<float> positionsAt(const ros::Time& time) const {
+    return elastic_ ? elastic_->positions() : workpiece_.positions((time - start_).toSec());
+  }
+
   void publishMesh() {
-    sweep_guard::DeformableMesh message = meshMessage(workpiece_, 0.0);
+    sweep_guard::DeformableMesh message = meshMessage(positionsAt(start_), workpiece_.triangles());
     message.header.stamp = start_;
     message.header.frame_id = frame_;
     message.id = id_;
@@ -79,14 +126,17 @@ class WorkpieceNode {
 
   void publishVertices() {
     const ros::Time now = ros::Time::now();
-    sweep_guard::MeshVertices message = verticesMessage(workpiece_, (now - start_).toSec());
+    sweep_guard::MeshVertices message = verticesMessage(positionsAt(now));
     message.header.stamp = now;
     message.header.frame_id = frame_;
     message.id = id_;
     vertices_publisher_.publish(message);
-    if (marker_publisher_.getNumSubscribers() > 0 && (message.header.stamp - marker_stamp_).toSec() >= kMarkerPeriod) {
-      marker_stamp_ = message.header.stamp;
-      publishMarker(message);
+    if ((message.header.stamp - marker_stamp_).toSec() < kMarkerPeriod) return;
+    marker_stamp_ = message.header.stamp;
+    if (marker_publisher_.getNumSubscribers() > 0) publishMarker(message);
+    if (elastic_ && force_publisher_.getNumSubscribers() > 0) {
+      force_publisher_.publish(
+          forceMarkers(message.header, {elastic_->pressed_M(), elastic_->force_M(), elastic_->dent()}));
     }
   }
 
@@ -115,14 +165,22 @@ class WorkpieceNode {
   Workpiece workpiece_;
   std::string id_;
   std::string frame_;
+  std::string parent_frame_;
+  Eigen::Isometry3d X_WM_;
   double rate_;
+  std::optional<ElasticWorkpiece> elastic_;
+  std::optional<Eigen::Isometry3d> X_MT_;  // newest pose of the tool
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
   ros::Publisher mesh_publisher_;
   ros::Publisher vertices_publisher_;
   ros::Publisher marker_publisher_;
+  ros::Publisher force_publisher_;
+  ros::Subscriber tool_subscriber_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   ros::Time start_;
+  ros::Time counted_since_;
+  int steps_ = 0;  // since then
   ros::Time marker_stamp_;
 };
 

@@ -5,6 +5,8 @@
 #include <sensor_msgs/JointState.h>
 #include <unistd.h>
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <boost/program_options.hpp>
 #include <cerrno>
 #include <csignal>
@@ -20,6 +22,8 @@
 #include "recording/object_contacts.h"
 #include "simulation/demo_statistics.h"
 #include "sweep_guard/Contacts.h"
+#include "sweep_guard/DeformableMesh.h"
+#include "sweep_guard/Interaction.h"
 #include "sweep_guard/MeshVertices.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
@@ -49,6 +53,7 @@ struct Arguments {
   double duration = 0.0;  // [s]
   std::string latency_csv;
   bool joints = false;
+  bool elastic = false;
   bool help = false;
 };
 
@@ -56,9 +61,10 @@ po::options_description describe(Arguments& arguments) {
   po::options_description options(
       "Usage: demo_monitor [options]\n"
       "Counts the poses of a demo and the answers of the guard, and reports them.\n"
-      "Topics: tool_pose or joint_states, mesh_vertices, contacts, warning");
+      "Topics: tool_pose or joint_states, mesh, mesh_vertices, contacts, warning, interaction");
   options.add_options()("help,h", po::bool_switch(&arguments.help), "print this text")(
       "joints", po::bool_switch(&arguments.joints), "joints move the tool: count their states as poses")(
+      "elastic", po::bool_switch(&arguments.elastic), "also report how far the workpiece gives way, and the force")(
       "duration", po::value(&arguments.duration)->value_name("S"),
       "seconds from the first pose, at most 1e6; 0 (default): until the operator ends or Ctrl-C")(
       "latency-csv", po::value(&arguments.latency_csv)->value_name("FILE"),
@@ -96,11 +102,15 @@ bool waitUntil(const std::function<bool()>& condition, const std::string& proble
 
 class DemoMonitor {
  public:
-  DemoMonitor(Duration duration, bool joints) : duration_(duration), joints_(joints) {
+  explicit DemoMonitor(const Arguments& arguments)
+      : duration_(sweep_guard_core::fromSeconds(arguments.duration)), joints_(arguments.joints) {
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     contacts_ = node_.subscribe("contacts", kQueue, &DemoMonitor::onContacts, this, hints);
     mesh_vertices_ = node_.subscribe("mesh_vertices", kQueue, &DemoMonitor::onMeshVertices, this, hints);
     warning_ = node_.subscribe("warning", kQueue, &DemoMonitor::onWarning, this, hints);
+    if (!arguments.elastic) return;
+    mesh_ = node_.subscribe("mesh", 1, &DemoMonitor::onMesh, this);
+    interaction_ = node_.subscribe("interaction", kQueue, &DemoMonitor::onInteraction, this, hints);
   }
 
   /// Counts until the duration is over, the operator ends, or Ctrl-C.
@@ -110,6 +120,10 @@ class DemoMonitor {
     };
     if (!waitFor([this] { return contacts_.getNumPublishers() > 0; },
                  "no publisher of " + contacts_.getTopic() + "; start the guard, or remap contacts to it")) {
+      return;
+    }
+    if (!waitFor([this] { return workpiece_known_; },
+                 "the guard knows no workpiece; start one, or see the guard's log")) {
       return;
     }
     poses_ = joints_ ? subscribePoses<sensor_msgs::JointState>("joint_states")
@@ -132,10 +146,30 @@ class DemoMonitor {
     };
     return node_.subscribe<Message>(topic, kQueue, add, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   }
-  void onMeshVertices(const sweep_guard::MeshVertices::ConstPtr&) { statistics_.addMeshUpdate(); }
+  void onMesh(const sweep_guard::DeformableMesh::ConstPtr& mesh) {
+    rest_.clear();
+    for (const geometry_msgs::Point& p : mesh->mesh.vertices) rest_.emplace_back(p.x, p.y, p.z);
+  }
+  void onMeshVertices(const sweep_guard::MeshVertices::ConstPtr& vertices) {
+    statistics_.addMeshUpdate(fromMsg(vertices->header.stamp));
+    if (!rest_.empty()) statistics_.addDent(dentOf(vertices->positions));
+  }
+  double dentOf(const std::vector<float>& positions) const {
+    double dent = 0.0;
+    for (size_t i = 0; i < std::min(rest_.size(), positions.size() / 3); ++i) {
+      const Eigen::Vector3d p = Eigen::Map<const Eigen::Vector3f>(&positions[3 * i]).cast<double>();
+      dent = std::max(dent, (p - rest_[i]).norm());
+    }
+    return dent;
+  }
+  void onInteraction(const sweep_guard::Interaction::ConstPtr& interaction) {
+    const geometry_msgs::Vector3& force = interaction->wrench.force;
+    statistics_.addForce(Eigen::Vector3d(force.x, force.y, force.z).norm());
+  }
   void onWarning(const sweep_guard::Warning::ConstPtr& warning) {
     const auto level = static_cast<sweep_guard_core::WarningLevel>(warning->level);
     level_ = sweep_guard_core::styleOf(level).name;
+    workpiece_known_ = (warning->reasons & sweep_guard::Warning::NO_MESH) == 0;
     statistics_.addWarning(fromMsg(ros::Time::now()), level);
   }
 
@@ -192,11 +226,15 @@ class DemoMonitor {
   Duration duration_;
   bool joints_;  // the poses are states of joints
   DemoStatistics statistics_;
-  bool settling_ = false;  // only late answers count
+  std::vector<Eigen::Vector3d> rest_;  // vertices of an elastic workpiece as they were first [m]
+  bool workpiece_known_ = false;       // to the guard
+  bool settling_ = false;              // only late answers count
   std::string level_ = "-";
   ros::NodeHandle node_;
   ros::Subscriber poses_;
+  ros::Subscriber mesh_;
   ros::Subscriber mesh_vertices_;
+  ros::Subscriber interaction_;
   ros::Subscriber contacts_;
   ros::Subscriber warning_;
 };
@@ -221,7 +259,7 @@ int run(const std::vector<std::string>& words) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   if (!waitUntil(ros::master::check, "no ROS master at " + ros::master::getURI() + "; start the demo")) return 1;
-  DemoMonitor monitor(sweep_guard_core::fromSeconds(arguments.duration), arguments.joints);
+  DemoMonitor monitor(arguments);
   monitor.run();
   std::cout << monitor.statistics().summary() << std::endl;
   if (!arguments.latency_csv.empty()) writeLatencies(arguments.latency_csv, monitor.statistics().latencies());

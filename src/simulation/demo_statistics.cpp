@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sweep_guard/common/quantile.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr Duration kCycle = std::chrono::nanoseconds(std::chrono::seconds(1)) / 15;
 
-std::string milliseconds(double value) { return std::isnan(value) ? "-" : fmt::format("{:.1f}", value); }
+std::string oneDecimal(double value) { return std::isnan(value) ? "-" : fmt::format("{:.1f}", value); }
 
 // 4 of 4 contacts, by 0.60 s (reflex 0.15 s) in the median
 std::string warned(const std::vector<sweep_guard_recording::WarnedContact>& contacts) {
@@ -48,6 +49,17 @@ void DemoStatistics::addPose(Time stamp, std::uint32_t sequence) {
   if (last_sequence_ && sequence > *last_sequence_) sequence_gap_ += sequence - *last_sequence_ - 1;
   last_sequence_ = sequence;
   if (!swept_.covers(stamp)) not_swept_.insert(stamp);
+}
+
+void DemoStatistics::addMeshUpdate(Time stamp) {
+  if (mesh_updates_ == 0) first_update_ = stamp;
+  last_update_ = stamp;
+  ++mesh_updates_;
+}
+
+double DemoStatistics::meshRate() const {
+  if (mesh_updates_ < 2) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(mesh_updates_ - 1) / toSeconds(last_update_ - first_update_);
 }
 
 void DemoStatistics::addContacts(Time start, Time stamp, Time arrival, const std::vector<ContactObject>& objects) {
@@ -85,10 +97,18 @@ double DemoStatistics::latency(double fraction) const {
 
 std::string DemoStatistics::liveLine(Duration elapsed, const std::string& level) const {
   return fmt::format("{:.1f} s  poses {}  contacts {}  level {}  latency p50 {} ms", toSeconds(elapsed), poses_,
-                     contacts_, level, milliseconds(latency(0.5)));
+                     contacts_, level, oneDecimal(latency(0.5)));
 }
 
 std::string DemoStatistics::summary() const {
+  std::string elastic;
+  if (largest_dent_) {
+    elastic = fmt::format(
+        "mesh updates [Hz]     {}\n"
+        "largest dent [mm]     {:.1f}\n"
+        "largest force [N]     {:.2f}\n",
+        oneDecimal(meshRate()), 1e3 * *largest_dent_, largest_force_.value_or(0.0));
+  }
   return fmt::format(
       "poses in              {}\n"
       "mesh updates          {}\n"
@@ -96,12 +116,13 @@ std::string DemoStatistics::summary() const {
       "contacts              {}\n"
       "{}"
       "triangles touched     {}\n"
+      "{}"
       "pose to contact [ms]  p50 {}  p99 {}  max {}\n"
       "warned ahead of       {}\n"
       "missed cycles         {}\n"
       "poses lost            {}",
-      poses_, mesh_updates_, sweeps(), contacts_, byLink(contacts_by_link_), trianglesInContact(),
-      milliseconds(latency(0.5)), milliseconds(latency(0.99)), milliseconds(latency(1.0)), warned(levels_.contacts()),
+      poses_, mesh_updates_, sweeps(), contacts_, byLink(contacts_by_link_), trianglesInContact(), elastic,
+      oneDecimal(latency(0.5)), oneDecimal(latency(0.99)), oneDecimal(latency(1.0)), warned(levels_.contacts()),
       missedCycles(), posesNotSwept() + posesNeverReceived());
 }
 
@@ -110,6 +131,8 @@ std::optional<std::string> DemoStatistics::fault() const {
   if (mesh_updates_ == 0) return "no mesh update arrived: the workpiece did not deform";
   if (posesNeverReceived() > 0) return fmt::format("{} poses were lost before the monitor", posesNeverReceived());
   if (posesNotSwept() > 0) return fmt::format("{} poses were not swept by the guard", posesNotSwept());
+  if (largest_dent_ && contacts_ > 0 && !(*largest_dent_ > 0.0)) return "the workpiece did not give way to the tool";
+  if (largest_dent_ && contacts_ > 0 && !(largest_force_ > 0.0)) return "the guard measured no force";
   return std::nullopt;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -35,7 +36,12 @@ class DemoStatistics {
  public:
   /// @param sequence  header.seq, counted by the publisher
   void addPose(sweep_guard_core::Time stamp, std::uint32_t sequence);
-  void addMeshUpdate() { ++mesh_updates_; }
+  void addMeshUpdate(sweep_guard_core::Time stamp);
+  /// Counts what a tool does to an elastic workpiece; summary() and fault() have it then.
+  /// @param dent   largest distance of a vertex from its place at rest [m]
+  void addDent(double dent) { largest_dent_ = std::max(dent, largest_dent_.value_or(0.0)); }
+  /// @param force  on the tool [N]
+  void addForce(double force) { largest_force_ = std::max(force, largest_force_.value_or(0.0)); }
   /// @param start, stamp  of the swept interval
   void addContacts(sweep_guard_core::Time start, sweep_guard_core::Time stamp, sweep_guard_core::Time arrival,
                    const std::vector<ContactObject>& objects);
@@ -55,6 +61,8 @@ class DemoStatistics {
   std::size_t missedCycles() const;                                     ///< answers later than 1/15 s
   const std::vector<Latency>& latencies() const { return latencies_; }  ///< in order of arrival
 
+  double meshRate() const;  ///< [Hz] by the stamps; NaN with less than two
+
   /// Returns a quantile of the delays [ms]; NaN without an answer.
   double latency(double fraction) const;
 
@@ -66,6 +74,10 @@ class DemoStatistics {
  private:
   std::size_t poses_ = 0;
   std::size_t mesh_updates_ = 0;
+  sweep_guard_core::Time first_update_;
+  sweep_guard_core::Time last_update_;
+  std::optional<double> largest_dent_;   // [m]
+  std::optional<double> largest_force_;  // [N]
   std::size_t contacts_ = 0;
   std::map<std::string, std::size_t> contacts_by_link_;
   std::size_t sequence_gap_ = 0;

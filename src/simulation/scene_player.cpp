@@ -9,18 +9,22 @@
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "recording/run_node.h"
+#include "simulation/force_markers.h"
 #include "simulation/tip_script.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
 #include "simulation/workpiece_parameters.h"
 #include "sweep_guard/Acknowledge.h"
+#include "sweep_guard/Interaction.h"
 #include "sweep_guard/Prediction.h"
 #include "sweep_guard/ToolShape.h"
 #include "sweep_guard/View.h"
@@ -42,6 +46,7 @@ const std::string kEnd = "END";
 const std::string kHeld = "HELD";                  // a contact that has been over for a while
 const std::string kAcknowledged = "ACKNOWLEDGED";  // a warning, which the player acknowledges
 constexpr double kHeldFor = 0.2;                   // [s]
+const std::string kWorkpiece = "workpiece";
 
 const char* nameOf(std::uint8_t level) {
   return sweep_guard_core::styleOf(static_cast<sweep_guard_core::WarningLevel>(level)).name;
@@ -63,9 +68,13 @@ class ScenePlayer {
         slowdown_(parameters.number("slowdown", 1.0, {0.01, 100.0})),
         level_(parameters.choice("until", kEnd, endConditions())),
         from_(parameters.number("from", 0.0, {0.0, 1000.0})),
-        silent_from_(parameters.number("silent_from", 1000.0, {0.0, 1000.0})) {
+        silent_from_(parameters.number("silent_from", 1000.0, {0.0, 1000.0})),
+        X_WM_(placeOf(parameters)),
+        elastic_(makeElasticWorkpiece(parameters, workpiece_, step_,
+                                      X_WM_.linear().transpose() * Eigen::Vector3d::UnitZ())) {
+    if (elastic_) setToolOf("guard", kWorkpiece, *elastic_);
     node_.setParam("/use_sim_time", true);
-    broadcastFrame(parameters);
+    broadcastFrame();
     clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10);
     mesh_publisher_ = node_.advertise<sweep_guard::DeformableMesh>("mesh", 1, /*latch=*/true);
     vertices_publisher_ = node_.advertise<sweep_guard::MeshVertices>("mesh_vertices", 10);
@@ -78,6 +87,10 @@ class ScenePlayer {
     prediction_subscriber_ = node_.subscribe<sweep_guard::Prediction>(
         "guard/prediction", 10,
         [this](const sweep_guard::Prediction::ConstPtr& message) { predicted_ = message->header.stamp; });
+    if (elastic_) {
+      force_publisher_ = node_.advertise<visualization_msgs::MarkerArray>("shown/force", 1);
+      interaction_subscriber_ = node_.subscribe("guard/interaction", 10, &ScenePlayer::onInteraction, this);
+    }
     tool_subscriber_ = node_.subscribe<sweep_guard::ToolShape>(
         "guard/tool", 1, [this](const sweep_guard::ToolShape::ConstPtr& shape) { tool_publisher_.publish(shape); });
   }
@@ -95,11 +108,8 @@ class ScenePlayer {
   }
 
  private:
-  void broadcastFrame(sweep_guard_ros::ParameterReader& parameters) {
-    const Eigen::Vector3d turn = parameters.position("turn", {0.0, 0.0, 0.0});
-    const Eigen::Isometry3d X_WM = Eigen::Translation3d(parameters.position("position", {0.0, 0.0, 0.3})) *
-                                   Eigen::AngleAxisd(turn.norm(), turn.stableNormalized());
-    geometry_msgs::TransformStamped transform = tf2::eigenToTransform(X_WM);
+  void broadcastFrame() {
+    geometry_msgs::TransformStamped transform = tf2::eigenToTransform(X_WM_);
     transform.header.frame_id = frame_;
     transform.child_frame_id = "workpiece";
     broadcaster_.sendTransform(transform);
@@ -120,15 +130,17 @@ class ScenePlayer {
     clock_publisher_.publish(clock);
   }
 
+  std::vector<float> positions() const { return elastic_ ? elastic_->positions() : workpiece_.positions(t_); }
+
   void publishMesh() const {
-    sweep_guard::DeformableMesh mesh = meshMessage(workpiece_, t_);
-    mesh.id = "workpiece";
+    sweep_guard::DeformableMesh mesh = meshMessage(positions(), workpiece_.triangles());
+    mesh.id = kWorkpiece;
     send(mesh_publisher_, mesh, "workpiece");
   }
 
   void publishVertices() const {
-    sweep_guard::MeshVertices vertices = verticesMessage(workpiece_, t_);
-    vertices.id = "workpiece";
+    sweep_guard::MeshVertices vertices = verticesMessage(positions());
+    vertices.id = kWorkpiece;
     send(vertices_publisher_, vertices, "workpiece");
   }
 
@@ -152,6 +164,20 @@ class ScenePlayer {
     warning_publisher_.publish(warning_);
   }
 
+  // The force as the guard measures it.
+  void onInteraction(const sweep_guard::Interaction::ConstPtr& interaction) {
+    if (holding_ || interaction->header.stamp != now()) return;
+    const auto vectorOf = [](const auto& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
+    const Eigen::Isometry3d X_WT = script_.pose(t_);
+    PressedSurface pressed{Eigen::Vector3d::Zero(), X_WT.linear() * vectorOf(interaction->wrench.force),
+                           elastic_->dent()};
+    if (!interaction->objects.empty()) pressed.point = X_WT * vectorOf(interaction->objects[0].centroid);
+    std_msgs::Header header = interaction->header;
+    header.frame_id = frame_;
+    force_ = forceMarkers(header, pressed);
+    force_publisher_.publish(force_);
+  }
+
   void await(const std::string& what, const std::function<bool()>& condition) const {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kTimeout);
     for (; !condition(); ros::WallDuration(0.005).sleep()) {
@@ -167,6 +193,7 @@ class ScenePlayer {
     ros::WallTime due = ros::WallTime::now() + ros::WallDuration(kFirstDelay);
     while (true) {
       publishClock();
+      if (elastic_) elastic_->advance(X_WM_.inverse() * script_.pose(t_));
       publishVertices();
       const bool silent = t_ >= silent_from_;
       if (!silent) {
@@ -213,6 +240,7 @@ class ScenePlayer {
       publishClock();
       view_publisher_.publish(view_);
       warning_publisher_.publish(warning_);
+      if (elastic_) force_publisher_.publish(force_);
       ros::spinOnce();
     }
   }
@@ -225,7 +253,9 @@ class ScenePlayer {
   std::string level_;   // that ends the scene
   double from_;         // [s] when it may end
   double silent_from_;  // [s] end of the poses
-  double t_ = 0.0;      // [s]
+  Eigen::Isometry3d X_WM_;
+  std::optional<ElasticWorkpiece> elastic_;
+  double t_ = 0.0;  // [s]
   bool warned_ = false;
   bool holding_ = false;
   int views_ = 0;  // of the newest pose and its prediction
@@ -241,6 +271,9 @@ class ScenePlayer {
   ros::Publisher view_publisher_;
   ros::Publisher warning_publisher_;
   ros::Publisher tool_publisher_;
+  ros::Publisher force_publisher_;
+  visualization_msgs::MarkerArray force_;
+  ros::Subscriber interaction_subscriber_;
   ros::Subscriber view_subscriber_;
   ros::Subscriber warning_subscriber_;
   ros::Subscriber prediction_subscriber_;

@@ -24,7 +24,7 @@ class DemoStatisticsTest : public testing::Test {
 };
 
 TEST_F(DemoStatisticsTest, HasNoFaultWhenEveryPoseWasAnswered) {
-  statistics_.addMeshUpdate();
+  statistics_.addMeshUpdate(at(0));
   addPose(10, 1);
   addPose(20, 2);
   addSweep(10, 10, 11);
@@ -41,7 +41,7 @@ TEST_F(DemoStatisticsTest, MatchesAnAnswerThatArrivesBeforeItsPose) {
 }
 
 TEST_F(DemoStatisticsTest, APoseThatWaitedIsSweptWithTheNextInEitherOrder) {
-  statistics_.addMeshUpdate();
+  statistics_.addMeshUpdate(at(0));
   addPose(10, 1);
   addSweep(10, 10, 11);
   addPose(20, 2);
@@ -78,7 +78,7 @@ TEST_F(DemoStatisticsTest, CountsALostPoseDespiteAnAnswerToAnotherPose) {
 }
 
 TEST_F(DemoStatisticsTest, CountsGapsInTheSequence) {
-  statistics_.addMeshUpdate();
+  statistics_.addMeshUpdate(at(0));
   for (const std::uint32_t sequence : {7U, 8U, 11U, 12U}) {
     const int ms = static_cast<int>(sequence);
     addPose(ms, sequence);
@@ -125,7 +125,7 @@ TEST_F(DemoStatisticsTest, NamesTheInputThatIsMissing) {
   EXPECT_EQ(statistics_.fault(), "no tool pose arrived: the operator did not move");
   addPose(10, 1);
   EXPECT_EQ(statistics_.fault(), "no mesh update arrived: the workpiece did not deform");
-  statistics_.addMeshUpdate();
+  statistics_.addMeshUpdate(at(0));
   EXPECT_EQ(statistics_.fault(), "1 poses were not swept by the guard");
 }
 
@@ -145,6 +145,32 @@ TEST_F(DemoStatisticsTest, WritesTheLiveLine) {
   statistics_.addContacts(at(10), at(10), sweep_guard_core::Time(std::chrono::microseconds(10400)), {{"a", {1}, {}}});
   EXPECT_EQ(statistics_.liveLine(milliseconds(12500), "CONTACT"),
             "12.5 s  poses 1  contacts 1  level CONTACT  latency p50 0.4 ms");
+}
+
+TEST_F(DemoStatisticsTest, TellsRateDentAndForceOfAnElasticWorkpiece) {
+  addPose(10, 1);
+  addSweep(10, 10, 11);
+  for (int i = 0; i <= 60; ++i) statistics_.addMeshUpdate(at(20 * i));
+  EXPECT_FALSE(has(statistics_.summary(), "dent"));
+  for (const double dent : {0.001, 0.0104, 0.002}) statistics_.addDent(dent);
+  for (const double force : {0.0, 1.236, 0.5}) statistics_.addForce(force);
+  EXPECT_TRUE(has(statistics_.summary(), "mesh updates [Hz]     50.0\n"));
+  EXPECT_TRUE(has(statistics_.summary(), "largest dent [mm]     10.4\n"));
+  EXPECT_TRUE(has(statistics_.summary(), "largest force [N]     1.24\n"));
+}
+
+TEST_F(DemoStatisticsTest, AContactThatMakesNoDentOrNoForceIsAFault) {
+  addPose(10, 1);
+  statistics_.addMeshUpdate(at(0));
+  statistics_.addDent(0.0);
+  addSweep(10, 10, 11);
+  EXPECT_FALSE(statistics_.fault());
+  addSweep(10, 10, 11, {{"workpiece", {3}, {}}});
+  EXPECT_TRUE(has(statistics_.fault().value(), "did not give way"));
+  statistics_.addDent(0.01);
+  EXPECT_TRUE(has(statistics_.fault().value(), "no force"));
+  statistics_.addForce(1.0);
+  EXPECT_FALSE(statistics_.fault());
 }
 
 }  // namespace
