@@ -1,0 +1,141 @@
+#include "sweep_guard/haptics/passivity_controller.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "motion/random_scenes.h"
+
+namespace sweep_guard_core {
+namespace {
+
+using std::chrono::milliseconds;
+
+const PassivityController::Options kAtTheDevice{/*max_effort=*/4.0, /*max_speed=*/0.5, milliseconds(1), Duration{}};
+
+SteadyTime at(double ms) { return SteadyTime(fromSeconds(1.0 + 1e-3 * ms)); }
+
+TEST(PassivityControllerTest, TheEnergyIsTheSumOfTheForceBeforeTimesTheWay) {
+  PassivityController axis(kAtTheDevice);
+  axis.moved(0.0, at(0));
+  EXPECT_EQ(axis.limit(1.0, at(0)), 1.0);
+  axis.moved(-2e-4, at(1));
+  EXPECT_EQ(axis.limit(3.0, at(1)), 3.0);
+  axis.moved(1e-4, at(2));
+  EXPECT_NEAR(axis.energy(), 1.0 * -2e-4 + 3.0 * 1e-4, 1e-15);
+  EXPECT_DOUBLE_EQ(axis.tolerance(), 4.0 * 0.5 * 1e-3);
+}
+
+TEST(PassivityControllerTest, SendsNothingBeforeThePositionOfTheDeviceIsKnown) {
+  PassivityController axis(kAtTheDevice);
+  EXPECT_EQ(axis.limit(2.0, at(0)), 0.0);
+  axis.moved(0.0, at(0));
+  EXPECT_EQ(axis.limit(2.0, at(0)), 2.0);
+}
+
+// As a force that follows a hand wherever it goes.
+TEST(PassivityControllerTest, AForceThatAlwaysPushesAlongRunsOutOfEnergy) {
+  PassivityController axis(kAtTheDevice);
+  axis.moved(0.0, at(0));
+  double sent = axis.limit(4.0, at(0));
+  for (int i = 1; i <= 50; ++i) {
+    axis.moved(2e-4, at(i));
+    sent = axis.limit(4.0, at(i));
+    ASSERT_LE(axis.energy(), axis.tolerance());
+  }
+  EXPECT_LT(sent, 1e-6);
+}
+
+TEST(PassivityControllerTest, AnAxisWithoutEnergyRecoversWhenTheHandPushesAgainstIt) {
+  PassivityController axis(kAtTheDevice);
+  axis.moved(0.0, at(0));
+  axis.limit(4.0, at(0));
+  for (int i = 1; i <= 20; ++i) {
+    axis.moved(2e-4, at(i));
+    axis.limit(4.0, at(i));
+  }
+  double sent = 0.0;
+  for (int i = 21; i <= 200; ++i) {
+    axis.moved(-5e-5, at(i));
+    sent = axis.limit(4.0, at(i));
+  }
+  EXPECT_EQ(sent, 4.0);
+}
+
+TEST(PassivityControllerTest, EnergyThatWasTakenIsForgottenWithTheContact) {
+  PassivityController axis(kAtTheDevice);
+  axis.moved(0.0, at(0));
+  axis.limit(4.0, at(0));
+  axis.moved(-5e-4, at(1));
+  EXPECT_LT(axis.energy(), 0.0);
+  axis.limit(0.0, at(1));
+  EXPECT_EQ(axis.energy(), 0.0);
+}
+
+TEST(PassivityControllerTest, WhatIsForgottenBeforeThePositionIsKnownCountsAsTheWorst) {
+  PassivityController axis(kAtTheDevice);
+  axis.moved(0.0, at(0));
+  EXPECT_EQ(axis.limit(4.0, at(0)), 4.0);
+  for (int ms = 1; ms <= 3000; ++ms) EXPECT_EQ(axis.limit(ms < 50 ? 4.0 : 0.0, at(ms)), 0.0) << "nothing is left";
+  axis.moved(5e-4, at(3000));
+  EXPECT_DOUBLE_EQ(axis.energy(), axis.tolerance());
+}
+
+// The hand does its worst: it goes with the force that acts, at full speed or not, and turns at random. Positions come late
+// or not at all, what is sent acts late.
+double largestEnergy(RandomScenes& random, const PassivityController::Options& options, double position_delay,
+                     bool passive) {
+  struct Late {
+    double value;
+    double time;  // [ms]
+  };
+  PassivityController axis(options);
+  std::deque<Late> positions;
+  std::deque<Late> efforts;
+  double position = 0.0, known = 0.0, acting = 0.0, energy = 0.0, largest = 0.0, arrived = 0.0;
+  const double output_delay = 1e3 * toSeconds(options.output_delay);
+  const double keeps = random.uniform(0.5, 1.0);
+  for (int ms = 0; ms < 400; ++ms) {
+    if (!random.chance(0.2)) positions.push_back({position, static_cast<double>(ms)});
+    while (!positions.empty() && positions.front().time + position_delay <= ms) {
+      axis.moved(positions.front().value - known, at(positions.front().time));
+      known = positions.front().value;
+      positions.pop_front();
+    }
+    const double wanted = random.chance(0.1) ? 0.0 : random.uniform(-1.0, 1.0) * options.max_effort;
+    const double sent = passive ? axis.limit(wanted, at(ms)) : wanted;
+    arrived =
+        std::max(arrived, ms + std::floor(10.0 * random.uniform(0.0, output_delay)) / 10.0);  // a step of the hand
+    efforts.push_back({sent, arrived});
+    for (int step = 0; step < 10; ++step) {
+      while (!efforts.empty() && efforts.front().time <= ms + 0.1 * step) {
+        acting = efforts.front().value;
+        efforts.pop_front();
+      }
+      const double direction = random.chance(keeps) == (acting > 0.0) ? 1.0 : -1.0;
+      const double way = direction * options.max_speed * 1e-4 * (random.chance(0.5) ? 1.0 : random.uniform(0.0, 1.0));
+      position += way;
+      energy += acting * way;
+      largest = std::max(largest, energy);
+    }
+  }
+  return largest;
+}
+
+TEST(PassivityControllerTest, NoHandGetsMoreThanTheToleranceHoweverLateItIsKnownAndReached) {
+  RandomScenes random(11);
+  int active = 0;
+  const std::uint64_t cases = caseCount(500);
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    PassivityController::Options options = kAtTheDevice;
+    const double position_delay = random.chance(0.3) ? 0.0 : random.uniform(0.0, 50.0);
+    if (!random.chance(0.3)) options.output_delay = fromSeconds(random.uniform(0.0, 0.05));
+    const double tolerance = PassivityController(options).tolerance();
+    ASSERT_LE(largestEnergy(random, options, position_delay, /*passive=*/true), tolerance + 1e-12);
+    active += largestEnergy(random, options, position_delay, /*passive=*/false) > tolerance ? 1 : 0;
+  }
+  EXPECT_GT(active, static_cast<int>(cases / 2)) << "the hand does its worst";
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
