@@ -11,7 +11,8 @@ double fade(Duration silent, const ForceLimits& limits) {
 
 }  // namespace
 
-ForcePermission decideForce(const PermissionInputs& inputs, const Instant& now, const ForceLimits& limits) {
+ForcePermission decideForce(const ForceEvidence& evidence, const Instant& now, const ForceLimits& limits) {
+  const PermissionInputs& inputs = evidence.guard;
   if (!inputs.warning) return {0.0, PermissionCause::kNoWarning};
   if (now.steady - inputs.warning->received > limits.warning_silence) return {0.0, PermissionCause::kWarningSilent};
   if (inputs.warning->level == WarningLevel::kUnknown) return {0.0, PermissionCause::kUnknown};
@@ -22,11 +23,15 @@ ForcePermission decideForce(const PermissionInputs& inputs, const Instant& now, 
   if (!inputs.planes->complete) return {0.0, PermissionCause::kIncomplete};
   if (!inputs.planes->tool_known) return {0.0, PermissionCause::kNoTool};
 
-  const double pose_gain = fade(now.steady - inputs.pose->received, limits);
-  const double planes_gain = fade(now.steady - inputs.planes->timestamps.received, limits);
-  if (pose_gain < 1.0 && pose_gain <= planes_gain) return {pose_gain, PermissionCause::kPoseSilent};
-  if (planes_gain < 1.0) return {planes_gain, PermissionCause::kPlanesSilent};
-  return {1.0, PermissionCause::kGuarded};
+  ForcePermission permission{1.0, PermissionCause::kGuarded};
+  const auto fadeWith = [&](const Timestamps& input, PermissionCause cause) {
+    const double gain = fade(now.steady - input.received, limits);
+    if (gain < permission.gain) permission = {gain, cause};
+  };
+  fadeWith(*inputs.pose, PermissionCause::kPoseSilent);
+  fadeWith(inputs.planes->timestamps, PermissionCause::kPlanesSilent);
+  if (evidence.device) fadeWith(*evidence.device, PermissionCause::kDeviceSilent);
+  return permission;
 }
 
 }  // namespace sweep_guard_core

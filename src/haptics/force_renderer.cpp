@@ -37,17 +37,6 @@ void requireUsable(const ForceOptions& options) {
           "position_scale");
 }
 
-PermissionInputs permissionInputs(const MotionInputs& known) {
-  PermissionInputs permission;
-  permission.warning = known.warning;
-  if (known.pose) permission.pose = known.pose->timestamps;
-  if (!known.planes) return permission;
-  const PlaneSet& planes = *known.planes;
-  const bool tool_known = known.tool && belongsTo(planes, *known.tool);
-  permission.planes = PermissionInputs::Planes{planes.timestamps, planes.valid_until, planes.complete, tool_known};
-  return permission;
-}
-
 }  // namespace
 
 ForceRenderer::ForceRenderer(const ForceOptions& options) : options_(options) { requireUsable(options_); }
@@ -56,7 +45,7 @@ RenderedForce ForceRenderer::render(const ForceInputs& inputs, const DeviceWrenc
   const double period = toSeconds(rendered_ ? std::min(now.steady - *rendered_, 2 * options_.period) : options_.period);
   rendered_ = now.steady;
   RenderedForce rendered;
-  rendered.permission = decideForce(permissionInputs(inputs.known), now, options_.limits);
+  rendered.permission = decideForce({permissionInputs(inputs.known), inputs.device}, now, options_.limits);
   const DeviceWrench before = faded_ ? unfaded_ : sent;
   if (inputs.known.pose) {
     measureVelocity(*inputs.known.pose);

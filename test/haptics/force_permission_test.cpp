@@ -24,7 +24,7 @@ PermissionInputs fresh() {
 ForcePermission decide(const std::function<void(PermissionInputs&)>& change) {
   PermissionInputs inputs = fresh();
   change(inputs);
-  return decideForce(inputs, kNow, {});
+  return decideForce({inputs, {}}, kNow, {});
 }
 
 TEST(ForcePermissionTest, FreshInputsOfAnyKnownLevelLetTheWholeForceThrough) {
@@ -36,14 +36,17 @@ TEST(ForcePermissionTest, FreshInputsOfAnyKnownLevelLetTheWholeForceThrough) {
   }
 }
 
-TEST(ForcePermissionTest, ASilentPoseOrSilentPlanesFadeTheForceOutFrom50To70Milliseconds) {
+TEST(ForcePermissionTest, ASilentPosePlanesOrDeviceFadeTheForceOutFrom50To70Milliseconds) {
   for (const auto& [silent, gain] : {std::pair{50, 1.0}, {55, 0.75}, {60, 0.5}, {69, 0.05}, {70, 0.0}, {90, 0.0}}) {
     const Timestamps silent_since = ago(milliseconds(silent));
     const ForcePermission pose = decide([&](auto& inputs) { inputs.pose = silent_since; });
     EXPECT_NEAR(pose.gain, gain, 1e-9) << silent;
     const ForcePermission planes = decide([&](auto& inputs) { inputs.planes->timestamps = silent_since; });
     EXPECT_NEAR(planes.gain, gain, 1e-9) << silent;
+    const ForcePermission device = decideForce({fresh(), silent_since}, kNow, {});
+    EXPECT_NEAR(device.gain, gain, 1e-9) << silent;
     if (silent == 50) continue;
+    EXPECT_EQ(device.cause, PermissionCause::kDeviceSilent);
     EXPECT_EQ(pose.cause, PermissionCause::kPoseSilent);
     EXPECT_EQ(planes.cause, PermissionCause::kPlanesSilent);
   }

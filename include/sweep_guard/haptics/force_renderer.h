@@ -32,6 +32,7 @@ struct ForceOptions {
 
 /// What a force is computed from.
 struct ForceInputs {
+  std::optional<Timestamps> device;                    ///< newest pose of the device, if it tells its own
   MotionInputs known;                                  ///< of the guard, and the newest pose of the tool
   Eigen::Matrix3d R_WD = Eigen::Matrix3d::Identity();  ///< axes of the device in the fixed frame
 };

@@ -11,9 +11,8 @@ struct SampledDevice {
 
 /// Returns the largest stiffness [N/m] of a simulated wall that such a device can be coupled to without gaining energy from
 /// it in a linear model: K < (b - B) / (T/2 + delay), 0 if B >= b. Without delay this is the condition of Colgate and
-/// Schenkel (1997), b > K T / 2 + B. With a delay of m periods in the force of the spring, its left side grows by the
-/// maximum 2 m + 1 of Dirichlet's kernel in place of 1: b > K (T/2 + m T) + B, as Hulin, Preusche and Hirzinger (2008)
-/// have it for the slope of the stable region.
+/// Schenkel (1997), b > K T / 2 + B. With a delay of m periods the term of the spring grows by the maximum 2 m + 1 of
+/// Dirichlet's kernel, b > K (T/2 + m T) + B; doc/haptics.md derives it. The denominator is that of Gil et al. (2009).
 /// @param delay  from a position of the device to the force that answers to it, without the hold of a period [s], >= 0
 double maxStiffness(const SampledDevice& device, double delay);
 
