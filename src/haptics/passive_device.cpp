@@ -12,14 +12,15 @@ constexpr size_t kTranslation = 3;
 }  // namespace
 
 PassiveDevice::PassiveDevice(const ForceOptions& force, const Options& options) {
-  if (!(options.max_speed > 0.0) || !(options.max_turn_rate > 0.0)) {
-    throw InvalidInput("max_speed and max_turn_rate of the hand: must be > 0");
-  }
-  axes_.assign(kTranslation,
-               PassivityController({force.max_force, options.max_speed, force.period, force.output_delay}));
+  const bool possible = options.max_speed > 0.0 && options.max_acceleration > 0.0 && options.max_turn_rate > 0.0 &&
+                        options.max_turn_acceleration > 0.0;
+  if (!possible) throw InvalidInput("max_speed, max_turn_rate and accelerations of the hand: must be > 0");
+  axes_.assign(kTranslation, PassivityController({force.max_force, options.max_speed, options.max_acceleration,
+                                                  force.period, force.output_delay}));
   if (!(force.max_torque > 0.0)) return;
   axes_.resize(2 * kTranslation,
-               PassivityController({force.max_torque, options.max_turn_rate, force.period, force.output_delay}));
+               PassivityController({force.max_torque, options.max_turn_rate, options.max_turn_acceleration,
+                                    force.period, force.output_delay}));
 }
 
 void PassiveDevice::observe(const Hand& hand, const Instant& now) {

@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace sweep_guard_core {
+namespace {
+
+constexpr auto kForgiven = std::chrono::seconds(1);  // without a wanted force until what was given is forgotten
+
+}  // namespace
 
 double PassivityController::tolerance() const {
   return options_.max_effort * options_.max_speed * toSeconds(options_.period);
@@ -34,36 +39,72 @@ void PassivityController::moved(double displacement, SteadyTime until) {
     highest = first ? sent.effort : std::max(highest, sent.effort);
     first = false;
   });
-  const double way = std::max(std::abs(displacement), options_.max_speed * toSeconds(until - *known_));
-  energy_ += (lowest + highest) / 2 * displacement + (highest - lowest) / 2 * way;
+  interval_ = seconds(until);
+  const double way = std::abs(displacement);
+  const double strayed = options_.max_acceleration * interval_ * interval_ / 2;
+  const double path = std::max(way, std::min(options_.max_speed * interval_, way + strayed));
+  energy_ += (lowest + highest) / 2 * displacement + (highest - lowest) / 2 * path;
+  const double fastest = interval_ > 0.0 ? way / interval_ + options_.max_acceleration * interval_ : options_.max_speed;
+  speed_ = std::min(options_.max_speed, fastest);
   known_ = until;
+  held_.reset();
 }
 
 double PassivityController::limit(double wanted, SteadyTime now) {
   if (!known_) return 0.0;
-  if (wanted == 0.0) energy_ = std::max(energy_, 0.0);
-  const double left = tolerance() - energy_ - unknownEnergy(now);
-  const double way = options_.max_speed * toSeconds(options_.period + options_.output_delay);
-  const double most = std::max(0.0, left) / way;
-  const double effort = std::clamp(wanted, -most, most);
+  forget(wanted, now);
+  if (!held_) held_ = steady(now);
+  const double bound = std::min(*held_, most(now, toSeconds(options_.period)));
+  const double effort = std::clamp(wanted, -bound, bound);
   remember(effort, now);
   return effort;
+}
+
+void PassivityController::forget(double wanted, SteadyTime now) {
+  if (wanted != 0.0) return free_.reset();
+  if (!free_) free_ = now;
+  cycle_ = 0.0;
+  energy_ = now - *free_ < kForgiven ? std::max(energy_, 0.0) : 0.0;
+}
+
+// Returns the longest way of the hand so long after the newest known position.
+double PassivityController::longestWay(double after) const {
+  const double speeds_up = std::min(after, (options_.max_speed - speed_) / options_.max_acceleration);
+  return speed_ * speeds_up + options_.max_acceleration * speeds_up * speeds_up / 2 +
+         options_.max_speed * (after - speeds_up);
+}
+
+// Returns the largest effort that may be sent for so long [s].
+double PassivityController::most(SteadyTime now, double lasts) const {
+  const double left = tolerance() - energy_ - unknownEnergy(now);
+  const double ends = seconds(now) + lasts + toSeconds(options_.output_delay);
+  return std::max(0.0, left) / (longestWay(ends) - longestWay(seconds(now)));
+}
+
+// Returns the largest effort that could have been sent all the time, and until the next position.
+double PassivityController::steady(SteadyTime now) {
+  cycle_ = std::max(cycle_, seconds(now) + interval_);
+  const double ends = cycle_ + toSeconds(options_.period + options_.output_delay);
+  const double tail = toSeconds(options_.output_delay) * options_.max_speed;
+  return std::max(0.0, tolerance() - energy_) / (longestWay(ends) + tail);
 }
 
 // The integral of the largest |effort| that may act, times the speed: each increase may come as late, and each decrease as
 // much later, as the output takes.
 double PassivityController::unknownEnergy(SteadyTime now) const {
-  double impulse = 0.0;
+  const double output_delay = toSeconds(options_.output_delay);
+  double energy = 0.0;
   double newer = 0.0;
   double increases = 0.0;
   visitActing(SteadyTime::max(), [&](const Sent& sent, SteadyTime next) {
     const double effort = std::abs(sent.effort);
-    const Duration acts = std::min(next, now) - std::max(sent.at, *known_);
-    impulse += effort * std::max(0.0, toSeconds(acts));
+    const double from = std::max(0.0, seconds(sent.at));
+    energy += effort * (longestWay(std::max(from, seconds(std::min(next, now)))) - longestWay(from));
     increases += std::max(0.0, newer - effort);
     newer = effort;
   });
-  return options_.max_speed * (impulse + (increases + newer) * toSeconds(options_.output_delay));
+  const double last = longestWay(seconds(now) + output_delay) - longestWay(seconds(now));
+  return energy + (increases + newer) * last;
 }
 
 // What is forgotten before it is known how the device moved is charged as the worst.

@@ -76,7 +76,7 @@ struct Located {
 
 class Hand {
  public:
-  Hand(RandomScenes& random, double max_speed, const Vector3d& towards_D) : max_speed_(max_speed) {
+  Hand(RandomScenes& random, const PassiveDevice::Options& limits, const Vector3d& towards_D) : limits_(limits) {
     mass_ = random.uniform(0.1, 0.5);
     damping_ = random.uniform(1.0, 4.0);
     bias_ = random.uniform(0.3, 2.0) * towards_D;
@@ -89,8 +89,9 @@ class Hand {
   Vector3d move(const Vector3d& force_D, double now) {
     Vector3d total = force_D + bias_ - damping_ * velocity_;
     for (const Wave& wave : waves_) total += std::sin(wave.rate * now + wave.phase) * wave.amplitude;
-    velocity_ += kStep / mass_ * total;
-    velocity_ = velocity_.cwiseMin(max_speed_).cwiseMax(-max_speed_);
+    const Vector3d acceleration = total / mass_;
+    velocity_ += kStep * acceleration.cwiseMin(limits_.max_acceleration).cwiseMax(-limits_.max_acceleration);
+    velocity_ = velocity_.cwiseMin(limits_.max_speed).cwiseMax(-limits_.max_speed);
     const Vector3d way = kStep * velocity_;
     position_ += way;
     return way;
@@ -104,7 +105,7 @@ class Hand {
     double rate;  // [rad/s]
     double phase;
   };
-  const double max_speed_;
+  const PassiveDevice::Options limits_;
   double mass_;
   double damping_;
   Vector3d bias_;
@@ -136,7 +137,7 @@ class Episode {
       const Vector3d tilted = (normal_W + random_.uniform(0.0, 0.7) * random_.direction()).normalized();
       surface_.push_back(planeAt(tilted, -random_.uniform(0.006, 0.02) * normal_W));
     }
-    hand_.emplace(random_, hand_limits_.max_speed, -(R_WD_.transpose() * normal_W));
+    hand_.emplace(random_, hand_limits_, -(R_WD_.transpose() * normal_W));
   }
 
   EpisodeResult run() {
@@ -222,7 +223,7 @@ class Episode {
   RandomScenes random_;
   const EpisodeOptions options_;
   const LinkTraits force_link_;
-  const PassiveDevice::Options hand_limits_{/*max_speed=*/0.5, /*max_turn_rate=*/5.0};
+  const PassiveDevice::Options hand_limits_;
   const ForceOptions force_;
   ForceRenderer renderer_;
   PassiveDevice device_;

@@ -112,7 +112,7 @@ TEST_F(ForceRendererTest, ADelayOfThePoseScalesTheStiffnessDown) {
   EXPECT_EQ(ticks(5000).stiffness_gain, 1.0);
 }
 
-TEST_F(ForceRendererTest, SilenceOfPoseOrPlanesIsZeroWithin70Milliseconds) {
+TEST_F(ForceRendererTest, SilenceOfPoseOrPlanesIsZeroWithinSeventyMilliseconds) {
   for (bool* const source : {&poses_, &planes_}) {
     place(0.01);
     EXPECT_NEAR(ticks(100).wrench.force_D.z(), 2.0, 1e-6);
@@ -169,7 +169,7 @@ TEST_F(ForceRendererTest, OptionsThatNoDeviceCanCarryAreRefused) {
   options_ = {};
   options_.max_force = 0.0;
   EXPECT_TRUE(has(refusal([&] { ForceRenderer{options_}; }), "max_force"));
-  EXPECT_TRUE(has(refusal([&] { PassiveDevice({}, {0.0, 1.0}); }), "max_speed"));
+  EXPECT_TRUE(has(refusal([&] { PassiveDevice({}, {/*max_speed=*/0.0}); }), "max_speed"));
 }
 
 // A hand in a frame that is turned, and twice as large as the device.
@@ -195,7 +195,7 @@ TEST(PassiveDeviceTest, ATorqueIsLimitedLikeAForce) {
   ForceOptions options;
   options.output_delay = {};
   options.max_torque = 0.1;
-  PassiveDevice device(options, {/*max_speed=*/0.5, /*max_turn_rate=*/2.0});
+  PassiveDevice device(options, {/*max_speed=*/0.5, /*max_acceleration=*/50.0, /*max_turn_rate=*/2.0});
   double torque = 0.1;
   for (int ms = 0; ms < 100; ++ms) {
     const Instant at{Time(std::chrono::seconds(5) + milliseconds(ms)),
@@ -204,7 +204,7 @@ TEST(PassiveDeviceTest, ATorqueIsLimitedLikeAForce) {
     device.observe({X_FH, Eigen::Matrix3d::Identity(), 1.0, {at.stamp, at.steady}}, at);
     torque = device.limit({Vector3d::Zero(), Vector3d(0.0, 0.1, 0.0)}, at.steady).torque_D.y();
   }
-  EXPECT_LT(torque, 1e-3) << "it turned the hand until nothing was left";
+  EXPECT_LT(torque, 1e-2) << "it turned the hand until nothing was left";
 }
 
 }  // namespace

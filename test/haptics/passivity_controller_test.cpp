@@ -11,7 +11,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-const PassivityController::Options kAtTheDevice{/*max_effort=*/4.0, /*max_speed=*/0.5, milliseconds(1), Duration{}};
+const PassivityController::Options kAtTheDevice{/*max_effort=*/4.0, /*max_speed=*/0.5, /*max_acceleration=*/50.0,
+                                                milliseconds(1), Duration{}};
 
 SteadyTime at(double ms) { return SteadyTime(fromSeconds(1.0 + 1e-3 * ms)); }
 
@@ -20,9 +21,9 @@ TEST(PassivityControllerTest, TheEnergyIsTheSumOfTheForceBeforeTimesTheWay) {
   axis.moved(0.0, at(0));
   EXPECT_EQ(axis.limit(1.0, at(0)), 1.0);
   axis.moved(-2e-4, at(1));
-  EXPECT_EQ(axis.limit(3.0, at(1)), 3.0);
-  axis.moved(1e-4, at(2));
-  EXPECT_NEAR(axis.energy(), 1.0 * -2e-4 + 3.0 * 1e-4, 1e-15);
+  EXPECT_EQ(axis.limit(2.0, at(1)), 2.0);
+  axis.moved(3e-4, at(2));
+  EXPECT_NEAR(axis.energy(), 1.0 * -2e-4 + 2.0 * 3e-4, 1e-15);
   EXPECT_DOUBLE_EQ(axis.tolerance(), 4.0 * 0.5 * 1e-3);
 }
 
@@ -43,7 +44,7 @@ TEST(PassivityControllerTest, AForceThatAlwaysPushesAlongRunsOutOfEnergy) {
     sent = axis.limit(4.0, at(i));
     ASSERT_LE(axis.energy(), axis.tolerance());
   }
-  EXPECT_LT(sent, 1e-6);
+  EXPECT_LT(sent, 1e-4);
 }
 
 TEST(PassivityControllerTest, AnAxisWithoutEnergyRecoversWhenTheHandPushesAgainstIt) {
@@ -76,12 +77,47 @@ TEST(PassivityControllerTest, WhatIsForgottenBeforeThePositionIsKnownCountsAsThe
   PassivityController axis(kAtTheDevice);
   axis.moved(0.0, at(0));
   EXPECT_EQ(axis.limit(4.0, at(0)), 4.0);
-  for (int ms = 1; ms <= 3000; ++ms) EXPECT_EQ(axis.limit(ms < 50 ? 4.0 : 0.0, at(ms)), 0.0) << "nothing is left";
+  for (int ms = 1; ms <= 3000; ++ms) EXPECT_EQ(axis.limit(4.0, at(ms)), 0.0) << "nothing is left";
   axis.moved(5e-4, at(3000));
   EXPECT_DOUBLE_EQ(axis.energy(), axis.tolerance());
 }
 
-// The hand does its worst: it goes with the force that acts, at full speed or not, and turns at random. Positions come late
+// A force that shrank while a position is awaited would be charged for its change, and die out at rest.
+TEST(PassivityControllerTest, WithSeldomPositionsTheForceStaysWhileTheHandRests) {
+  PassivityController::Options options = kAtTheDevice;
+  options.output_delay = milliseconds(2);
+  PassivityController axis(options);
+  double sent = 0.0;
+  double least = 1.0;
+  for (int ms = 0; ms < 3000; ++ms) {
+    if (ms % 10 == 0) axis.moved(0.0, at(ms - 1));
+    sent = axis.limit(2.0, at(ms));
+    if (ms > 1000) least = std::min(least, sent);
+  }
+  EXPECT_GT(least, 0.1);
+  EXPECT_LT(sent, 1.0) << "less than of a hand that is known";
+}
+
+TEST(PassivityControllerTest, ASecondWithoutForceForgetsTheEnergyThatWasGiven) {
+  PassivityController axis(kAtTheDevice);
+  axis.moved(0.0, at(0));
+  for (int ms = 0; ms < 30; ++ms) {
+    axis.moved(4e-4, at(ms));
+    axis.limit(4.0, at(ms));
+  }
+  EXPECT_GT(axis.energy(), 0.5 * axis.tolerance());
+  const auto rest = [&](int ms) {
+    axis.moved(0.0, at(ms));
+    axis.limit(0.0, at(ms));
+  };
+  for (int ms = 30; ms < 1030; ++ms) rest(ms);
+  EXPECT_GT(axis.energy(), 0.5 * axis.tolerance());
+  rest(1030);
+  EXPECT_EQ(axis.energy(), 0.0);
+  EXPECT_GT(axis.limit(4.0, at(1031)), 1.0);
+}
+
+// The hand does its worst within its limits: it goes with the force that acts, and turns back at random. Positions come late
 // or not at all, what is sent acts late.
 double largestEnergy(RandomScenes& random, const PassivityController::Options& options, double position_delay,
                      bool passive) {
@@ -95,6 +131,8 @@ double largestEnergy(RandomScenes& random, const PassivityController::Options& o
   double position = 0.0, known = 0.0, acting = 0.0, energy = 0.0, largest = 0.0, arrived = 0.0;
   const double output_delay = 1e3 * toSeconds(options.output_delay);
   const double keeps = random.uniform(0.5, 1.0);
+  double speed = 0.0;
+  bool along = true;
   for (int ms = 0; ms < 400; ++ms) {
     if (!random.chance(0.2)) positions.push_back({position, static_cast<double>(ms)});
     while (!positions.empty() && positions.front().time + position_delay <= ms) {
@@ -112,8 +150,10 @@ double largestEnergy(RandomScenes& random, const PassivityController::Options& o
         acting = efforts.front().value;
         efforts.pop_front();
       }
-      const double direction = random.chance(keeps) == (acting > 0.0) ? 1.0 : -1.0;
-      const double way = direction * options.max_speed * 1e-4 * (random.chance(0.5) ? 1.0 : random.uniform(0.0, 1.0));
+      if (random.chance(0.05)) along = random.chance(keeps);
+      speed += 1e-4 * options.max_acceleration * (along == (acting > 0.0) ? 1.0 : -1.0);
+      speed = std::clamp(speed, -options.max_speed, options.max_speed);
+      const double way = 1e-4 * speed;
       position += way;
       energy += acting * way;
       largest = std::max(largest, energy);

@@ -4,7 +4,6 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/WrenchStamped.h>
 
-#include "child_process.h"
 #include "drop_in_fixture.h"
 #include "refusal.h"
 

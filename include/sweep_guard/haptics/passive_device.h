@@ -14,8 +14,10 @@ namespace sweep_guard_core {
 class PassiveDevice {
  public:
   struct Options {
-    double max_speed = 0.5;      ///< of the hand along any axis [m/s], > 0
-    double max_turn_rate = 5.0;  ///< about any axis [rad/s], > 0
+    double max_speed = 0.5;                ///< of the hand along any axis [m/s], > 0
+    double max_acceleration = 50.0;        ///< [m/s^2], > 0
+    double max_turn_rate = 5.0;            ///< about any axis [rad/s], > 0
+    double max_turn_acceleration = 500.0;  ///< [rad/s^2], > 0
   };
 
   /// @throws InvalidInput  if an option is NaN or out of range

@@ -16,12 +16,14 @@ namespace sweep_guard_core {
 /// after the newest known position, the worst is assumed: all the motion there can be, with the force. Where the force
 /// changed within the time that it needs to the device, the worst of those that may have acted counts. The controller
 /// makes the next force so small that the sum stays below the tolerance max_effort * max_speed * period, however the hand
-/// moves. Energy that was taken is forgotten when no force is wanted any more: each contact pays for itself.
+/// moves within its limits, and that it need not change before the next position: what changes is charged. Energy that was
+/// taken is forgotten when no force is wanted any more, energy that was given a second later: each contact pays for itself.
 class PassivityController {
  public:
   struct Options {
     double max_effort = 3.0;                               ///< > 0
     double max_speed = 0.5;                                ///< that the hand does not exceed, > 0
+    double max_acceleration = 50.0;                        ///< that the hand does not exceed, > 0
     Duration period = std::chrono::milliseconds(1);        ///< of limit(), > 0
     Duration output_delay = std::chrono::milliseconds(2);  ///< until what is sent acts, at most; >= 0
   };
@@ -49,7 +51,12 @@ class PassivityController {
   const Sent& before(size_t newest) const { return ring_[(next_ + kCapacity - 1 - newest) % kCapacity]; }
   template <typename Visit>
   void visitActing(SteadyTime until, const Visit& visit) const;
+  double seconds(SteadyTime time) const { return toSeconds(time - *known_); }
+  double longestWay(double after) const;
   double unknownEnergy(SteadyTime now) const;
+  double most(SteadyTime now, double lasts) const;
+  double steady(SteadyTime now);
+  void forget(double wanted, SteadyTime now);
   void remember(double effort, SteadyTime now);
 
   Options options_;
@@ -57,6 +64,11 @@ class PassivityController {
   size_t next_ = 0;
   size_t count_ = 0;
   std::optional<SteadyTime> known_;  // time of the newest position
+  double speed_ = 0.0;               // the largest it may have had there
+  double interval_ = 0.0;            // from the position before [s]
+  double cycle_ = 0.0;               // age of a position when the next one comes, the longest of this contact [s]
+  std::optional<double> held_;       // the most that may be sent until the next position; empty: to be computed
+  std::optional<SteadyTime> free_;   // since when no force is wanted
   double energy_ = 0.0;
 };
 

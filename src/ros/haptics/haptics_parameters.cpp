@@ -88,8 +88,14 @@ void readDevice(ParameterReader& read, HapticsParameters& parameters) {
       "max_speed", parameters.hand.max_speed, {1e-2, 10.0, "m/s"},
       "Speed of the hand along any axis that the passivity controller counts on. Lower values leave more of "
       "the force where poses are late.");
+  parameters.hand.max_acceleration =
+      read.number("max_acceleration", parameters.hand.max_acceleration, {1.0, 1e4, "m/s^2"},
+                  "Acceleration of the hand along any axis that the passivity controller counts on.");
   parameters.hand.max_turn_rate = read.number("max_turn_rate", parameters.hand.max_turn_rate, {1e-1, 100.0, "rad/s"},
                                               "Turn rate of the hand that the passivity controller counts on.");
+  parameters.hand.max_turn_acceleration =
+      read.number("max_turn_acceleration", parameters.hand.max_turn_acceleration, {10.0, 1e5, "rad/s^2"},
+                  "Angular acceleration of the hand that the passivity controller counts on.");
   force.output_delay = seconds(read, "output_delay", force.output_delay, 0.0, 0.2,
                                "Time until what is sent acts at the device, at most.");
 }
