@@ -73,6 +73,15 @@ TEST(PassivityControllerTest, EnergyThatWasTakenIsForgottenWithTheContact) {
   EXPECT_EQ(axis.energy(), 0.0);
 }
 
+// The hand may have gone all its way before the force began.
+TEST(PassivityControllerTest, AWayThatBeganBeforeTheForceIsNoEnergyIn) {
+  PassivityController axis(kAtTheDevice);
+  axis.moved(0.0, at(0));
+  EXPECT_EQ(axis.limit(2.0, at(1)), 2.0);
+  axis.moved(-1e-3, at(2));
+  EXPECT_GE(axis.energy(), -1e-15);
+}
+
 TEST(PassivityControllerTest, WhatIsForgottenBeforeThePositionIsKnownCountsAsTheWorst) {
   PassivityController axis(kAtTheDevice);
   axis.moved(0.0, at(0));
