@@ -6,6 +6,8 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr double kPause = 0.06;                      // between positions that do not come one after the other [s]
+constexpr double kKept = 0.995;                      // of the longest cycle, with each position
 constexpr auto kForgiven = std::chrono::seconds(1);  // without a wanted force until what was given is forgotten
 
 }  // namespace
@@ -83,7 +85,7 @@ double PassivityController::most(SteadyTime now, double lasts) const {
 
 // Returns the largest effort that could have been sent all the time, and until the next position.
 double PassivityController::steady(SteadyTime now) {
-  cycle_ = std::max(cycle_, seconds(now) + interval_);
+  cycle_ = std::max(kKept * cycle_, seconds(now) + (interval_ < kPause ? interval_ : 0.0));
   const double ends = cycle_ + toSeconds(options_.period + options_.output_delay);
   const double tail = toSeconds(options_.output_delay) * options_.max_speed;
   return std::max(0.0, tolerance() - energy_) / (longestWay(ends) + tail);

@@ -107,6 +107,18 @@ TEST(PassivityControllerTest, WithSeldomPositionsTheForceStaysWhileTheHandRests)
   EXPECT_LT(sent, 1.0) << "less than of a hand that is known";
 }
 
+TEST(PassivityControllerTest, APauseBetweenPositionsIsNoReasonForALittleForce) {
+  PassivityController axis(kAtTheDevice);
+  double sent = 0.0;
+  for (const int begin : {0, 1000}) {
+    for (int ms = begin; ms < begin + 100; ++ms) {
+      axis.moved(0.0, at(ms));
+      sent = axis.limit(1.0, at(ms));
+    }
+    EXPECT_EQ(sent, 1.0);
+  }
+}
+
 TEST(PassivityControllerTest, ASecondWithoutForceForgetsTheEnergyThatWasGiven) {
   PassivityController axis(kAtTheDevice);
   axis.moved(0.0, at(0));

@@ -15,7 +15,7 @@ using geometry_msgs::PoseStamped;
 using geometry_msgs::WrenchStamped;
 
 constexpr double kDepth = 0.004;
-constexpr double kFelt = 0.05;  // [N]
+constexpr double kFelt = 0.02;  // [N], with poses at 100 Hz
 
 bool isFelt(const WrenchStamped& wrench) { return std::abs(wrench.wrench.force.x) + wrench.wrench.force.z > kFelt; }
 bool isZeroWrench(const WrenchStamped& wrench) { return wrench.wrench == geometry_msgs::Wrench(); }

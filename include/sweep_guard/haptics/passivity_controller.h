@@ -66,9 +66,9 @@ class PassivityController {
   std::optional<SteadyTime> known_;  // time of the newest position
   double speed_ = 0.0;               // the largest it may have had there
   double interval_ = 0.0;            // from the position before [s]
-  double cycle_ = 0.0;               // age of a position when the next one comes, the longest of this contact [s]
-  std::optional<double> held_;       // the most that may be sent until the next position; empty: to be computed
-  std::optional<SteadyTime> free_;   // since when no force is wanted
+  double cycle_ = 0.0;              // age of a position when the next one comes, the longest lately in this contact [s]
+  std::optional<double> held_;      // the most that may be sent until the next position; empty: to be computed
+  std::optional<SteadyTime> free_;  // since when no force is wanted
   double energy_ = 0.0;
 };
 
