@@ -45,7 +45,10 @@ void PassivityController::moved(double displacement, SteadyTime until) {
   const double way = std::abs(displacement);
   const double strayed = options_.max_acceleration * interval_ * interval_ / 2;
   const double path = std::max(way, std::min(options_.max_speed * interval_, way + strayed));
-  energy_ += (lowest + highest) / 2 * displacement + (highest - lowest) / 2 * path;
+  const double known = (lowest + highest) / 2 * displacement + (highest - lowest) / 2 * path;
+  const bool within_limits = way <= longestWay(interval_);
+  energy_ +=
+      within_limits ? std::min(known, unknownEnergy(until)) : known;  // after a pause, the assumed one may be less
   const double fastest = interval_ > 0.0 ? way / interval_ + options_.max_acceleration * interval_ : options_.max_speed;
   speed_ = std::min(options_.max_speed, fastest);
   known_ = until;

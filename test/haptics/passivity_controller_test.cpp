@@ -119,6 +119,15 @@ TEST(PassivityControllerTest, APauseBetweenPositionsIsNoReasonForALittleForce) {
   }
 }
 
+TEST(PassivityControllerTest, APositionNeverCostsMoreThanWasAssumedWithoutIt) {
+  PassivityController axis(kAtTheDevice);
+  axis.moved(0.0, at(0));
+  for (int ms = 0; ms < 300; ++ms) axis.limit(ms < 20 ? 4.0 : 1e-9, at(ms));
+  axis.moved(0.0, at(300));
+  EXPECT_GT(axis.energy(), 0.0);
+  EXPECT_LE(axis.energy(), axis.tolerance());
+}
+
 TEST(PassivityControllerTest, ASecondWithoutForceForgetsTheEnergyThatWasGiven) {
   PassivityController axis(kAtTheDevice);
   axis.moved(0.0, at(0));

@@ -51,7 +51,14 @@ class HapticsNodeTest : public testing::Test {
     return pose;
   }
 
+  // After a second without a force the controller has forgotten what a silence may have cost.
   WrenchStamped press(const Listener<WrenchStamped>& forces) {
+    guard_.setGap(0.1);
+    const ros::Time free = forces.await("zero", isZeroWrench).header.stamp;
+    forces.await("a second without a force", [&](const WrenchStamped& next) {
+      EXPECT_TRUE(isZeroWrench(next));
+      return next.header.stamp - free > ros::Duration(1.2);
+    });
     guard_.setGap(-kDepth);
     return forces.await("a force", isFelt);
   }
