@@ -42,14 +42,14 @@ def line(name, values):
 
 
 def move(publisher, ending):
-    """Publishes the pose of a tool whose tip points down, 30 mm above the sheet to 10 mm below."""
+    """Publishes the pose of a tool whose tip points down, 40 mm above the middle of the sheet to 20 mm below."""
     rate = rospy.Rate(500)
     pose = PoseStamped()
     pose.header.frame_id = 'world'
     pose.pose.orientation.x = 1.0
     while not ending.is_set() and not rospy.is_shutdown():
         pose.header.stamp = rospy.Time.now()
-        pose.pose.position.z = 0.01 + 0.02 * math.sin(3.0 * pose.header.stamp.to_sec())
+        pose.pose.position.z = 0.01 + 0.03 * math.sin(2.0 * pose.header.stamp.to_sec())
         publisher.publish(pose)
         rate.sleep()
 
