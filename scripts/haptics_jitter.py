@@ -21,7 +21,7 @@ class Heard:
     """Stamps and receipts of a topic, and how many forces were not zero."""
 
     def __init__(self, topic):
-        self.stamps, self.receipts, self.felt, self.listens = [], [], 0, False
+        self.stamps, self.numbers, self.receipts, self.felt, self.listens = [], [], [], 0, False
         rospy.Subscriber(topic, WrenchStamped, self.hear, tcp_nodelay=True)
 
     def hear(self, message):
@@ -29,11 +29,18 @@ class Heard:
             return
         self.receipts.append(time.monotonic())
         self.stamps.append(message.header.stamp.to_nsec())
+        self.numbers.append(message.header.seq)
         self.felt += message.wrench.force.z != 0.0
 
 
 def jitter(times):
     return numpy.abs(numpy.diff(times) - PERIOD)
+
+
+def jitter_of_stamps(heard):
+    """Returns that of the forces which were sent one after the other: those that arrived too late were replaced by newer ones."""
+    next_to = numpy.diff(heard.numbers) == 1
+    return jitter(1e-9 * (numpy.array(heard.stamps, dtype=float) - heard.stamps[0]))[next_to]
 
 
 def line(name, values):
@@ -73,10 +80,12 @@ def main():
     if len(sent.stamps) < 0.5 * options.seconds / PERIOD:
         print(f'only {len(sent.stamps)} forces were heard')
         return 1
-    stamps = jitter(1e-9 * (numpy.array(sent.stamps, dtype=float) - sent.stamps[0]))
+    stamps = jitter_of_stamps(sent)
+    numbers = sent.numbers[-1] - sent.numbers[0]
     print(line('sent (stamps of haptics)', stamps))
     print(line('received behind the watchdog', jitter(passed.receipts)))
-    print(f'rate {len(stamps) / (1e-9 * (sent.stamps[-1] - sent.stamps[0])):.1f} Hz, '
+    print(f'rate {numbers / (1e-9 * (sent.stamps[-1] - sent.stamps[0])):.1f} Hz, '
+          f'{100 * (1 - len(sent.numbers) / (numbers + 1)):.1f} % not received here, '
           f'{100 * sent.felt / len(sent.stamps):.0f} % not zero, load {os.getloadavg()[0]:.2f} '
           f'on {os.cpu_count()} processors')
     return 0 if numpy.quantile(stamps, 0.99) < LIMIT else 1
