@@ -19,13 +19,27 @@ struct Knot {
 
 Knot measuredKnot(const FramePose& pose) { return {pose.stamp, pose.X_WM, Matrix6d::Zero(), pose.deviation_bound}; }
 
-std::vector<Knot> knotsOf(const FrameMotion& motion) {
+// The pose that the prediction begins at may lie between two measured ones. Then it is off their Motion by up to the bound, the
+// way to it as well, and three arcs differ from their chords.
+double boundOfFirst(const FrameMotion& motion, double radius) {
+  const auto is_before = [](const FramePose& pose, Time limit) { return pose.stamp < limit; };
+  const auto next = std::lower_bound(motion.measured.begin(), motion.measured.end(), motion.predicted_from, is_before);
+  if (next == motion.measured.end()) return 0.0;
+  if (next->stamp == motion.predicted_from || next == motion.measured.begin()) return next->deviation_bound;
+  const double turn = Motion{std::prev(next)->X_WM, next->X_WM}.angle();
+  return 2.0 * next->deviation_bound + 3.0 * chordError(radius, turn);
+}
+
+// The bounds hold for points within a radius.
+std::vector<Knot> knotsOf(const FrameMotion& motion, double radius) {
   std::vector<Knot> knots;
   for (const FramePose& pose : motion.measured) {
     if (motion.predicted.empty() || pose.stamp < motion.predicted_from) knots.push_back(measuredKnot(pose));
   }
+  const size_t measured = knots.size();
   for (const PredictedPose& pose : motion.predicted)
-    knots.push_back({motion.predicted_from + pose.ahead, pose.X_WT, pose.covariance, 0.0});
+    knots.push_back({motion.predicted_from + pose.ahead, pose.X_WT, pose.covariance, pose.deviation_bound});
+  if (knots.size() > measured) knots[measured].deviation_bound = boundOfFirst(motion, radius);
   return knots;
 }
 
@@ -76,13 +90,13 @@ double deviationBound(const std::vector<Knot>& knots, double radius) {
 }  // namespace
 
 std::optional<PredictedPose> FrameMotion::at(Time time) const {
-  const auto knot = knotAt(*this, knotsOf(*this), time);
+  const auto knot = knotAt(*this, knotsOf(*this, 0.0), time);
   if (!knot) return std::nullopt;
   return PredictedPose{knot->time - predicted_from, knot->X_WM, knot->covariance};
 }
 
 std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path, double radius) {
-  const std::vector<Knot> knots = knotsOf(motion);
+  const std::vector<Knot> knots = knotsOf(motion, radius);
   std::optional<Knot> from = knotAt(motion, knots, begin);
   if (!from) return std::nullopt;
   FramePath frame{{{from->X_WM, from->covariance, 0.0}}};

@@ -105,13 +105,14 @@ const Tool& Guard::tool(size_t body) const { return bodies_[body]->tool; }
 void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
   const SteadyTime begin = options_.clock();
   predictor_.observe(pose);
-  forEachBody(bodies_, swept_order_, &GuardedBody::report, report, [&](size_t i, GuardedBody& body, SweepReport& swept) {
-    const BodyPose at = pose.body(i);
-    const SweepSetup setup{body.tool,     *detector_,       options_.sweep, [this] { throwIfStopping(); },
-                           *intentions(), options_.allowed, *frames_};
-    body.sweeps.sweep(setup, pose, at, workpieces, swept);
-    body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
-  });
+  forEachBody(bodies_, swept_order_, &GuardedBody::report, report,
+              [&](size_t i, GuardedBody& body, SweepReport& swept) {
+                const BodyPose at = pose.body(i);
+                const SweepSetup setup{body.tool,     *detector_,       options_.sweep, [this] { throwIfStopping(); },
+                                       *intentions(), options_.allowed, *frames_};
+                body.sweeps.sweep(setup, pose, at, workpieces, swept);
+                body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
+              });
   if (!newest_) newest_.emplace();
   assign(*newest_, pose);
   budget_->spentOnMeasured(options_.clock() - begin);
@@ -145,8 +146,8 @@ void Guard::predict(Duration age, const Workpieces& workpieces, Prediction& pred
     plan_->sweep_ends.clear();
     if (!path.empty())
       findSweepEnds(motion_.from.body(i).X_WB, path, motion_.reflex_sweeps, considered, plan_->sweep_ends);
-    const PredictionRequest request{body.tool, motion_, workpieces, *intended, body.touches, i,
-                                    bodies_.size() > 1 ? closest_.get() : nullptr};
+    const PredictionRequest request{
+        body.tool, motion_, workpieces, *intended, body.touches, i, bodies_.size() > 1 ? closest_.get() : nullptr};
     body.checker.predict(*detector_, request, *plan_, predicted);
   };
   closest_->clear();
@@ -164,8 +165,9 @@ void Guard::orderBodies(const Workpieces& workpieces) {
     nearness_[i] = deviationsAtEnd(bodies_[i]->tool, motion_.pathOf(i).back(), motion_.from, workpieces);
   }
   predicted_order_ = swept_order_;
-  std::sort(predicted_order_.begin(), predicted_order_.end(),
-                   [&](size_t one, size_t other) { return std::pair(nearness_[one], one) < std::pair(nearness_[other], other); });
+  std::sort(predicted_order_.begin(), predicted_order_.end(), [&](size_t one, size_t other) {
+    return std::pair(nearness_[one], one) < std::pair(nearness_[other], other);
+  });
 }
 
 void Guard::beginPlan(SteadyTime begin, const std::function<void()>& between) {

@@ -12,8 +12,8 @@ Prediction predictContacts(Detector& detector, const std::vector<Tool>& bodies, 
   ClosestApproaches closest;
   size_t first_piece = 0;
   for (size_t i = 0; i < bodies.size(); ++i) {
-    const PredictionRequest request{bodies[i], motion, workpieces, kNoIntentions, kNoTouches, i,
-                                    bodies.size() > 1 ? &closest : nullptr};
+    const PredictionRequest request{
+        bodies[i], motion, workpieces, kNoIntentions, kNoTouches, i, bodies.size() > 1 ? &closest : nullptr};
     Prediction prediction;
     PathChecker(PathChecker::optionsOf(options)).predict(detector, request, {{}, out_of_time}, prediction);
     if (i == 0) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "guard/rigid_shape.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
@@ -13,12 +14,21 @@ constexpr size_t kRemembered = 512;  // deformations: snapshots that none of the
 
 bool before(const std::shared_ptr<const Workpiece>& workpiece, const std::string& id) { return workpiece->id < id; }
 
-bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.vertexCount() == b.vertexCount() && a.triangles() == b.triangles();
-}
-
 void requireOrder(const Workpiece& current, Time stamp, Time latest) {
   if (stamp < current.stamp && current.stamp <= latest) throw InvalidInput("stamp is older than the previous one");
+}
+
+InvalidInput attachedAnd(const std::string& id, const std::string& why) {
+  return InvalidInput(why + ", but '" + id + "' is attached to the tool: detach it first");
+}
+
+void requireRevision(const Workpiece& attached, std::uint32_t revision) {
+  if (revision != attached.revision) throw attachedAnd(attached.id, "its revision has changed");
+}
+
+void requireShape(const Workpiece& attached, const RigidFit& fit) {
+  if (fit.deviation <= WorkpieceStore::kRigid) return;
+  throw attachedAnd(attached.id, "it deforms by " + std::to_string(fit.deviation) + " m");
 }
 
 }  // namespace
@@ -26,6 +36,13 @@ void requireOrder(const Workpiece& current, Time stamp, Time latest) {
 WorkpieceStore::WorkpieceStore(OnChange on_change) : on_change_(std::move(on_change)) {}
 
 UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
+  if (const auto held = attached(next.id)) {
+    const Workpiece& workpiece = *held->workpiece;
+    if (!sameTriangles(workpiece.mesh_M, next.mesh_M)) throw attachedAnd(next.id, "it has other triangles");
+    requireRevision(workpiece, next.revision);
+    requireShape(workpiece, rigidFit(workpiece.mesh_M, next.mesh_M));
+    return UpdateOutcome::kStored;
+  }
   const auto current = find(next.id);
   const bool same = current && sameTriangles(current->mesh_M, next.mesh_M);
   if (current) {
@@ -43,6 +60,13 @@ UpdateOutcome WorkpieceStore::set(Workpiece next, Time latest) {
 }
 
 UpdateOutcome WorkpieceStore::deform(const Deformation& deformation, Time latest) {
+  if (const auto held = attached(deformation.id)) {
+    const Workpiece& workpiece = *held->workpiece;
+    requireRevision(workpiece, deformation.revision);
+    workpiece.mesh_M.checkCount(deformation.positions_M);
+    requireShape(workpiece, rigidFit(workpiece.mesh_M, deformation.positions_M));
+    return UpdateOutcome::kStored;
+  }
   const auto current = find(deformation.id);
   if (!current) return wasRemoved(deformation) ? UpdateOutcome::kIgnored : UpdateOutcome::kUnknownWorkpiece;
   if (current->revision != deformation.revision) {
@@ -87,6 +111,11 @@ std::shared_ptr<const Workpiece> WorkpieceStore::find(const std::string& id) con
 
 void WorkpieceStore::replace(std::shared_ptr<const Workpiece> snapshot) {
   const std::lock_guard lock(mutex_);
+  if (attached_.count(snapshot->id) != 0) return;  // meanwhile
+  replaceLocked(std::move(snapshot));
+}
+
+void WorkpieceStore::replaceLocked(std::shared_ptr<const Workpiece> snapshot) {
   const auto place = std::lower_bound(workpieces_.begin(), workpieces_.end(), snapshot->id, before);
   const bool known = place != workpieces_.end() && (*place)->id == snapshot->id;
   const bool same_frame = known && (*place)->frame == snapshot->frame;
@@ -110,6 +139,30 @@ bool WorkpieceStore::remove(const std::string& id, Time stamp) {
   updateFrames();
   on_change_(workpieces_);
   return true;
+}
+
+void WorkpieceStore::attach(const std::shared_ptr<const Workpiece>& workpiece, const Eigen::Isometry3d& X_BM) {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::lower_bound(workpieces_.begin(), workpieces_.end(), workpiece->id, before);
+  const bool same = found != workpieces_.end() && (*found)->id == workpiece->id &&
+                    (*found)->frame == workpiece->frame && sameTriangles((*found)->mesh_M, workpiece->mesh_M);
+  if (!same) throw InvalidInput("'" + workpiece->id + "' was replaced meanwhile: ask again");
+  attached_.insert_or_assign(workpiece->id, Attached{workpiece, X_BM});
+  workpieces_.erase(found);
+  updateFrames();
+  on_change_(workpieces_);
+}
+
+void WorkpieceStore::detach(Workpiece workpiece) {
+  const std::lock_guard lock(mutex_);
+  attached_.erase(workpiece.id);
+  replaceLocked(std::make_shared<const Workpiece>(std::move(workpiece)));
+}
+
+std::optional<WorkpieceStore::Attached> WorkpieceStore::attached(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = attached_.find(id);
+  return found == attached_.end() ? std::nullopt : std::optional(found->second);
 }
 
 bool WorkpieceStore::contains(const std::string& id) const { return find(id) != nullptr; }

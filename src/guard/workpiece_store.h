@@ -1,10 +1,12 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -36,8 +38,13 @@ enum class UpdateOutcome {
 /// Keeps the newest snapshot of every workpiece. Snapshots do not change while they are shared. Unshared
 /// snapshots are reused for deformations, which then allocate nothing. One thread calls set(), deform() and
 /// remove(); any thread may call the others. A call that throws keeps the old snapshot.
+///
+/// An attached workpiece is part of the tool: it has no snapshot, but its shape is watched. While it keeps its shape, to
+/// kRigid, set() and deform() return kStored and change nothing; otherwise they throw InvalidInput. remove() finds nothing.
 class WorkpieceStore {
  public:
+  static constexpr double kRigid = 1e-3;  ///< distance of a vertex from the shape that an attached workpiece keeps [m]
+
   using OnChange = std::function<void(const Workpieces&)>;
 
   /// @param on_change  called after every change with all snapshots, under the lock of the store
@@ -62,6 +69,21 @@ class WorkpieceStore {
   /// @returns false if there is no such workpiece
   bool remove(const std::string& id, Time stamp);
 
+  /// A workpiece that is part of the tool, and where the tool's body B holds it.
+  struct Attached {
+    std::shared_ptr<const Workpiece> workpiece;
+    Eigen::Isometry3d X_BM;  ///< [m]
+  };
+
+  /// Takes a workpiece out of the snapshots: it is part of the tool.
+  /// @param workpiece  a snapshot of this store
+  /// @throws InvalidInput if its triangles or its frame are no longer the newest
+  void attach(const std::shared_ptr<const Workpiece>& workpiece, const Eigen::Isometry3d& X_BM);
+  /// Puts an attached workpiece back.
+  /// @param workpiece  of an attached id; not checked
+  void detach(Workpiece workpiece);
+  std::optional<Attached> attached(const std::string& id) const;  ///< empty: it is not
+
   bool contains(const std::string& id) const;
   Workpieces snapshot() const;                                  ///< ascending by id
   std::shared_ptr<const std::set<std::string>> frames() const;  ///< frames of all workpieces
@@ -78,12 +100,14 @@ class WorkpieceStore {
   std::shared_ptr<const Workpiece> find(const std::string& id) const;
   std::shared_ptr<Workpiece> unusedSnapshot(const Workpiece& current);
   void replace(std::shared_ptr<const Workpiece> snapshot);
+  void replaceLocked(std::shared_ptr<const Workpiece> snapshot);
   void updateFrames();
   bool wasRemoved(const Deformation& deformation) const;
 
   const OnChange on_change_;
   mutable PriorityMutex mutex_;
   Workpieces workpieces_;
+  std::map<std::string, Attached> attached_;  // by id
   std::shared_ptr<const std::set<std::string>> frames_ = std::make_shared<const std::set<std::string>>();
   std::map<std::string, Buffers> buffers_;            // by id, for the triangles of the snapshot; not locked
   std::deque<std::pair<std::string, Time>> removed_;  // ids and stamps, the newest last

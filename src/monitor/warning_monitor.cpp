@@ -62,6 +62,11 @@ void WarningMonitor::toolUnknown(const std::string& name, const std::string& pro
   on_fault_();
 }
 
+std::vector<WarningInputs::OtherTool> WarningMonitor::otherTools() const {
+  const std::lock_guard lock(mutex_);
+  return inputs_.other_tools;
+}
+
 WarningMonitor::Checkpoint WarningMonitor::checkpoint() const {
   const std::lock_guard lock(mutex_);
   return {epoch_, faults_->count()};

@@ -72,7 +72,7 @@ sweep_guard::TriangleContact contactMsg(const sweep_guard_core::TriangleContact&
                                         const sweep_guard_core::Tool& tool) {
   sweep_guard::TriangleContact msg;
   msg.triangle = contact.triangle;
-  msg.tool_link = tool.pieces()[contact.piece].link;
+  msg.tool_link = linkOf(tool, contact.piece);
   msg.time_of_impact = contact.impact.time_of_impact;
   msg.point = vectorMsg<geometry_msgs::Point>(contact.impact.point_M);
   msg.normal = vectorMsg<geometry_msgs::Vector3>(contact.impact.normal_M);
@@ -257,6 +257,10 @@ sweep_guard::Prediction toMsg(const sweep_guard_core::Prediction& prediction, sw
     if (!triangles.empty()) msg.objects.push_back(toMsg(*object.workpiece, triangles));
   }
   return msg;
+}
+
+std::string linkOf(const sweep_guard_core::Tool& tool, size_t piece) {
+  return piece < tool.pieces().size() ? tool.pieces()[piece].link : "";
 }
 
 double timeToCollision(const sweep_guard::Prediction& prediction) {

@@ -80,6 +80,9 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   sweep_guard_core::GuardChange change;
   change.options = next->guard;
   const auto before = dependencies_.parameters.get();
+  if (before->attached != next->attached) {
+    throw Error("a workpiece was attached or detached meanwhile: ask again; no parameter was changed");
+  }
   if (detectorsDiffer(*before, *next)) {
     auto detector = dependencies_.make_detector(*next);
     const std::string failure = testFailure(*next, describe(next->detector), *detector);
@@ -116,21 +119,61 @@ void GuardThread::reset() {
   const auto parameters = dependencies_.parameters.get();
   change.options = parameters->guard;
   change.predictor.emplace(change.options.predictor, articulatedRobot(*parameters));
-  const auto forget = [&] {
-    dependencies_.monitor.restart();
-    guard_.reset();
+  const auto begin_anew = [&] {
+    forget();
     guard_.exchange(change);
-    proximity_.reset();
-    interaction_.reset();
-    bodies_.reset();
-    passed_.clear();
-    swept_.reset();
-    prediction_due_ = false;
-    dependencies_.scene.clear();
     dependencies_.intentions.clear();
   };
-  runInTime(forget, "nothing was reset");
+  runInTime(begin_anew, "nothing was reset");
   dependencies_.statistics.restart();
+}
+
+// By the guard's thread.
+void GuardThread::forget() {
+  dependencies_.monitor.restart();
+  guard_.reset();
+  proximity_.reset();
+  interaction_.reset();
+  bodies_.reset();
+  passed_.clear();
+  swept_.reset();
+  prediction_due_ = false;
+  dependencies_.scene.clear();
+}
+
+void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
+                               const std::shared_ptr<const Parameters>& next, const std::function<void()>& also) {
+  const std::lock_guard lock(change_mutex_);
+  sweep_guard_core::GuardChange change;
+  change.options = next->guard;
+  change.bodies = *next->bodies;
+  change.robot = articulatedRobot(*next);
+  auto pieces = sweep_guard_core::interpenetrationFinders(*next->tool);
+  const auto exchange = [&] {
+    if (dependencies_.parameters.get() != before) throw Error("parameters have changed meanwhile: ask again");
+    also();
+    dependencies_.parameters.set(next);  // before the poses of the next epoch are computed
+    forget();
+    guard_.exchange(change);
+    interaction_.exchange(pieces);
+    proximity_.setTool(*next->tool);
+    bodies_.setTool(*next);
+    dependencies_.scene.setTool(*next->bodies);
+  };
+  runInTime(exchange, "the tool is as before");
+  dependencies_.warnings.publishIfChanged();
+}
+
+std::future<sweep_guard_core::PoseWithFrames> GuardThread::newestPose() {
+  return dependencies_.queue.submit<sweep_guard_core::PoseWithFrames>([this] { return freshPose().pose; });
+}
+
+const QueuedPose& GuardThread::freshPose() const {
+  if (!swept_ || !dependencies_.monitor.checkpoint().continues(checkpoint_)) throw Error("no tool pose yet");
+  if (stale(timestampsOf(swept_->pose), now(), dependencies_.parameters.get()->limits.pose_timeout)) {
+    throw Error("newest tool pose is stale: motion is unknown");
+  }
+  return *swept_;
 }
 
 std::string GuardThread::acknowledge(const std::string& id) {
@@ -420,11 +463,7 @@ PredictService::Motion GuardThread::motion(Duration horizon) const {
   const Instant at = now();
   const sweep_guard_core::WarningMonitor& monitor = dependencies_.monitor;
   if (const auto asked_by = monitor.disabledBy()) throw Error("the guard is disabled by " + *asked_by);
-  if (!swept_ || !monitor.checkpoint().continues(checkpoint_)) throw Error("no tool pose yet");
-  const Timestamps from = timestampsOf(swept_->pose);
-  if (stale(from, at, dependencies_.parameters.get()->limits.pose_timeout)) {
-    throw Error("newest tool pose is stale: motion is unknown");
-  }
+  const Timestamps from = timestampsOf(freshPose().pose);
   const Duration age = ageOf(from, at);
   sweep_guard_core::PredictedMotion motion = guard_.predictMotion(age, horizon);
   if (motion.path.empty()) throw Error("motion is not known yet: two tool poses in a row are needed");

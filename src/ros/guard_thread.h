@@ -68,6 +68,14 @@ class GuardThread {
   /// @throws sweep_guard_core::Error if a sweep lasts longer than 0.5 s, or the guard is shutting down; then nothing is
   ///     set, also later
   void apply(const std::shared_ptr<const Parameters>& next);
+  /// Exchanges the tool, and forgets the poses and what rests on them, as reset() does: the warning is UNKNOWN until two
+  /// other poses have arrived. Returns when that is done. Any thread.
+  /// @param before  parameters that `next` was made from; @param also  is done between the same two sweeps; may throw
+  /// @throws sweep_guard_core::Error as apply(), or if other parameters were set meanwhile; then nothing is exchanged
+  void exchangeTool(const std::shared_ptr<const Parameters>& before, const std::shared_ptr<const Parameters>& next,
+                    const std::function<void()>& also);
+  /// Returns the newest swept pose. Any thread. The future throws sweep_guard_core::Error if there is none, or it is stale.
+  std::future<sweep_guard_core::PoseWithFrames> newestPose();
   /// Forgets everything but the workpieces. Returns when that is done. Any thread.
   /// @throws sweep_guard_core::Error as apply(); then nothing is forgotten, also later
   void reset();
@@ -84,6 +92,8 @@ class GuardThread {
   std::future<std::unique_ptr<sweep_guard_core::Profile>> profile();
 
  private:
+  void forget();
+  const QueuedPose& freshPose() const;
   void run();
   bool workOnce();
   void setPriority() const;

@@ -24,9 +24,9 @@ using XmlRpc::XmlRpcValue;
 constexpr auto kPeriod = std::chrono::seconds(1);
 constexpr int kChecksPerLook = 3;  // for publishers that are missing
 // roscpp keeps no list of them.
-constexpr std::array kServices = {"acknowledge", "check_sweep",  "check_trajectory", "enable",
-                                  "intend",      "predict",      "rebase",           "reset",
-                                  "save",        "save_profile", "set_parameters"};
+constexpr std::array kServices = {"acknowledge", "attach", "check_sweep",  "check_trajectory",
+                                  "enable",      "intend", "predict",      "rebase",
+                                  "reset",       "save",   "save_profile", "set_parameters"};
 constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodelet", "set_logger_level",
                                               "unload_nodelet"};
 
@@ -35,6 +35,8 @@ constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodel
 MasterWatch::MasterWatch(const ros::NodeHandle& private_node, std::function<ParameterReader::Settings()> settings)
     : namespace_(private_node.getNamespace()),
       settings_(std::move(settings)),
+      service_address_("rosrpc://" + ros::network::getHost() + ":" +
+                       std::to_string(ros::ConnectionManager::instance()->getTCPPort())),
       call_(kCallTimeout, stopping_),
       master_(identity()) {
   thread_.every(kPeriod, [this] { checkOrLog(); });
@@ -66,7 +68,7 @@ void MasterWatch::check() {
   const auto master = identity();
   const auto node = call_.call(ros::master::getURI(), "lookupNode", {XmlRpcValue(ros::this_node::getName())});
   const bool answers = master && node;
-  if (stopping_) return;
+  if (stopping_ || ros::isShuttingDown()) return;
   if (answers_ && !answers) ROS_WARN("the ROS master does not answer: this node goes on with the connections it has");
   if (!answers_ && answers) ROS_WARN("the ROS master answers again");
   answers_ = answers;
@@ -95,8 +97,6 @@ bool MasterWatch::setParameters() {
 }
 
 bool MasterWatch::registerServices() {
-  const std::string address =
-      "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
   std::vector<std::string> services;
   services.reserve(kServices.size() + kServicesOfTheProcess.size());
   for (const char* const name : kServices) services.push_back(ros::names::append(namespace_, name));
@@ -104,7 +104,8 @@ bool MasterWatch::registerServices() {
     services.push_back(ros::names::append(ros::this_node::getName(), name));
   for (const std::string& service : services) {
     if (!ros::ServiceManager::instance()->lookupServicePublication(service)) continue;
-    if (!request("registerService", {XmlRpcValue(service), XmlRpcValue(address), XmlRpcValue(ownUri())})) return false;
+    if (!request("registerService", {XmlRpcValue(service), XmlRpcValue(service_address_), XmlRpcValue(ownUri())}))
+      return false;
   }
   return true;
 }

@@ -52,6 +52,7 @@ class MasterWatch {
 
   const std::string namespace_;
   const std::function<ParameterReader::Settings()> settings_;
+  const std::string service_address_;  // at the start: roscpp's server is gone while the process shuts down
   std::atomic<bool> stopping_ = false;
   bool answers_ = true;
   int checks_ = 0;

@@ -15,10 +15,9 @@ namespace {
 const sweep_guard_core::Duration kViewPeriod = sweep_guard_core::fromSeconds(1.0 / 60.0);
 constexpr auto kEarlyPeriod = std::chrono::milliseconds(100);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
-constexpr std::uint32_t kSilentInputs = sweep_guard_core::kNoPose | sweep_guard_core::kPoseStale |
-                                        sweep_guard_core::kTfFail | sweep_guard_core::kNoMesh |
-                                        sweep_guard_core::kMeshStale | sweep_guard_core::kNotCovered |
-                                        sweep_guard_core::kDisabled;
+constexpr std::uint32_t kSilentInputs =
+    sweep_guard_core::kNoPose | sweep_guard_core::kPoseStale | sweep_guard_core::kTfFail | sweep_guard_core::kNoMesh |
+    sweep_guard_core::kMeshStale | sweep_guard_core::kNotCovered | sweep_guard_core::kDisabled;
 
 }  // namespace
 
@@ -53,9 +52,11 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       cross_check_(parameters_, monitor_),
       guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_,
                                    cross_check_.sampler(), intentions_, &frame_motions_}),
-      poses_(node, parameters_.initial(), {frames_, workpieces_, monitor_, queue_, &frame_motions_}),
+      poses_(node, parameters_, {frames_, workpieces_, monitor_, queue_, &frame_motions_}),
       meshes_(node, parameters_.initial(), workpieces_, monitor_),
-      other_tools_(node, parameters_.initial(), {meshes_, workpieces_, frame_motions_, monitor_}),
+      other_tools_(
+          node, parameters_.initial(),
+          {[this](const Worker::Job& job) { meshes_.changeStore(job); }, workpieces_, frame_motions_, monitor_}),
       path_tests_({parameters_, frames_, workpieces_, monitor_, &frame_motions_}),
       check_sweep_(private_node, path_tests_),
       check_trajectory_(private_node, path_tests_),
@@ -66,6 +67,11 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
           private_node, parameters_, monitor_, workpieces_,
           {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); }}),
       intend_(private_node, {parameters_, frames_, workpieces_, intentions_}),
+      attach_(private_node, {parameters_, frames_, workpieces_, monitor_},
+              {[this] { return guard_thread_.newestPose(); },
+               [this](const auto& before, const auto& next, const auto& also) {
+                 guard_thread_.exchangeTool(before, next, also);
+               }}),
       reconfigure_server_(private_node, parameters_, [this](const auto& next) { apply(next); }),
       diagnostics_(node, private_node,
                    {parameters_, poses_, meshes_, workpieces_, allowed_, monitor_, statistics_, reconfigure_server_,
@@ -96,6 +102,7 @@ void SweepGuardNode::start() {
   save_profile_.start(supervisor_);
   controls_.start(supervisor_);
   intend_.start(supervisor_);
+  attach_.start(supervisor_);
   reconfigure_server_.start(supervisor_);
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
   cross_check_.start(supervisor_);

@@ -11,6 +11,7 @@
 #include "ros/output/warning_publisher.h"
 #include "ros/parameters/reconfigure_server.h"
 #include "ros/peer_watch.h"
+#include "ros/service/attach.h"
 #include "ros/service/check_sweep.h"
 #include "ros/service/check_trajectory.h"
 #include "ros/service/controls.h"
@@ -71,6 +72,7 @@ class SweepGuardNode {
   SaveProfileService save_profile_;
   Controls controls_;
   IntendService intend_;
+  AttachService attach_;
   ReconfigureServer reconfigure_server_;
   Diagnostics diagnostics_;
   Watchdog watchdog_;

@@ -183,9 +183,10 @@ void checkLengths<sweep_guard::ToolBodies>(Wire wire) {
   read.header();
   read.text();
   read.skip(sizeof(sweep_guard::ToolBodies::revision) + sizeof(sweep_guard::ToolBodies::sequence) + kStamp);
-  read.each(kPose + sizeof(double) + kLength, [&] {
+  read.each(kPose + sizeof(double) + 2 * kLength, [&] {
     read.skip(kPose + sizeof(double));
     read.array(kStamp + kPose + sizeof(sweep_guard::PredictedPose::covariance));
+    read.array(sizeof(double));
   });
   read.end();
 }
@@ -261,6 +262,15 @@ template <>
 void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire) {
   WireReader read(wire);
   read.text();
+  read.end();
+}
+
+template <>
+void checkLengths<sweep_guard::AttachRequest>(Wire wire) {
+  WireReader read(wire);
+  read.text();
+  read.text();
+  read.skip(1);
   read.end();
 }
 

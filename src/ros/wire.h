@@ -9,6 +9,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <sweep_guard/Acknowledge.h>
+#include <sweep_guard/Attach.h>
 #include <sweep_guard/CheckSweep.h>
 #include <sweep_guard/CheckTrajectory.h>
 #include <sweep_guard/DeformableMesh.h>
@@ -76,6 +77,8 @@ template <>
 void checkLengths<sweep_guard::PredictRequest>(Wire wire);
 template <>
 void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire);
+template <>
+void checkLengths<sweep_guard::AttachRequest>(Wire wire);
 template <>
 void checkLengths<std_srvs::SetBoolRequest>(Wire wire);
 template <>

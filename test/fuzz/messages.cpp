@@ -1,4 +1,4 @@
-// Bytes from the wire, as they arrive at each subscription of both nodes: lengths are checked, then they are read, converted and
+// Bytes from the wire, as they arrive at each subscription of the guard and the motion guard: lengths are checked, then they are read, converted and
 // taken over.
 #include <cmath>
 
@@ -7,6 +7,7 @@
 #include "require.h"
 #include "ros/bounded.h"
 #include "ros/input/frames.h"
+#include "ros/input/other_tools.h"
 #include "ros/input/pose_input.h"
 #include "ros/motion/guard_input.h"
 #include "ros/motion/motion_parameters.h"
@@ -37,7 +38,9 @@ class World {
         store_([this](const sweep_guard_core::Workpieces& newest) { monitor_.setWorkpieces(newest); }),
         frames_(node_, kMaxSize,
                 [this](const auto&, const auto&) { monitor_.timeJumped("a static transform changed"); }),
-        poses_(node_, guardParameters(), {frames_, store_, monitor_, queue_}),
+        live_(guardParameters()),
+        poses_(node_, live_, {frames_, store_, monitor_, queue_, &frame_motions_}),
+        other_tools_(node_, guardParameters(), {[](const auto& job) { job.run(); }, store_, frame_motions_, monitor_}),
         guard_(node_, motionParameters()),
         motion_guard_(motionParameters().options) {}
 
@@ -47,7 +50,7 @@ class World {
     const size_t size = input.raw<std::uint16_t>();
     Bytes bytes;
     while (bytes.size() < size && !input.atEnd()) bytes.push_back(static_cast<std::uint8_t>(input.byte()));
-    switch (topic % 11) {
+    switch (topic % 13) {
       case 0:
         return deliver<geometry_msgs::PoseStamped>("/tool_pose", bytes);
       case 1:
@@ -68,8 +71,12 @@ class World {
         return convert<geometry_msgs::Twist>(bytes, [this](const auto& msg) { command(msg); });
       case 9:
         return convert<geometry_msgs::TwistStamped>(bytes, [this](const auto& msg) { command(msg.twist); });
-      default:
+      case 10:
         return convert<sweep_guard::Intend>(bytes, [](const auto&) {});
+      case 11:
+        return deliver<sweep_guard::ToolSurface>("/peer/surface", bytes);
+      default:
+        return deliver<sweep_guard::ToolBodies>("/peer/bodies", bytes);
     }
   }
 
@@ -79,6 +86,7 @@ class World {
     require(warning.level == sweep_guard_core::WarningLevel::kUnknown, "without a sweep no level is known");
     bytesOf(sweep_guard_ros::toMsg(warning));
     for (const auto& workpiece : store_.snapshot()) check(*workpiece);
+    for (const auto& [frame, motion] : *frame_motions_.get()) check(*motion);
     sweep_guard_ros::WorkQueue::Work work;
     if (queue_.hasPoses()) queue_.take(work);
     for (const sweep_guard_ros::QueuedPose& queued : work.poses) {
@@ -89,7 +97,12 @@ class World {
 
  private:
   static const sweep_guard_ros::Parameters& guardParameters() {
-    static const sweep_guard_ros::Parameters parameters = sweep_guard_ros::loadParameters(ros::NodeHandle("/guard"));
+    static const sweep_guard_ros::Parameters parameters = [] {
+      sweep_guard_ros::Parameters with_peer = sweep_guard_ros::loadParameters(ros::NodeHandle("/guard"));
+      with_peer.other_tools = {"/peer"};
+      with_peer.max_triangles = kMaxTriangles;
+      return with_peer;
+    }();
     return parameters;
   }
   static const sweep_guard_ros::MotionParameters& motionParameters() {
@@ -181,6 +194,19 @@ class World {
     }
   }
 
+  static void check(const sweep_guard_core::FrameMotion& motion) {
+    for (size_t i = 0; i < motion.measured.size(); ++i) {
+      check(motion.measured[i].X_WM);
+      require(motion.measured[i].deviation_bound >= 0.0, "a bound is a length");
+      require(i == 0 || motion.measured[i - 1].stamp < motion.measured[i].stamp, "stamps ascend");
+    }
+    for (size_t i = 0; i < motion.predicted.size(); ++i) {
+      check(motion.predicted[i].X_WT);
+      require(motion.predicted[i].deviation_bound >= 0.0, "a bound is a length");
+      require(i == 0 || motion.predicted[i - 1].ahead < motion.predicted[i].ahead, "predicted times ascend");
+    }
+  }
+
   static void check(const Eigen::Isometry3d& pose) {
     require(pose.matrix().allFinite(), "poses are finite");
     const Eigen::Matrix3d product = pose.linear() * pose.linear().transpose();
@@ -192,7 +218,10 @@ class World {
   sweep_guard_core::WorkpieceStore store_;
   sweep_guard_ros::WorkQueue queue_;
   sweep_guard_ros::Frames frames_;
+  sweep_guard_core::FrameMotionStore frame_motions_;
+  sweep_guard_ros::LiveParameters live_;
   sweep_guard_ros::PoseInput poses_;
+  sweep_guard_ros::OtherTools other_tools_;
   sweep_guard_ros::GuardInput guard_;
   sweep_guard_core::MotionGuard motion_guard_;
 };

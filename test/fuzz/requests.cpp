@@ -8,6 +8,7 @@
 #include "input.h"
 #include "require.h"
 #include "ros/input/frames.h"
+#include "ros/service/attach.h"
 #include "ros/service/check_sweep.h"
 #include "ros/service/check_trajectory.h"
 #include "ros/service/controls.h"
@@ -78,6 +79,9 @@ class World {
         check_trajectory_(robot_node_, robot_tests_),
         predict_(node_, live_, store_, [this](sweep_guard_core::Duration end) { return motion(end); }),
         intend_(node_, {live_, frames_, store_, intentions_}),
+        attach_(node_, {live_, frames_, store_, monitor_},
+                {[this] { return newestPose(); },
+                 [this](const auto& /*before*/, const auto& next, const auto& /*also*/) { exchange(*next); }}),
         controls_(node_, live_, monitor_, store_, {[] {}, [this](const std::string& id) { return acknowledge(id); }}) {
     const sweep_guard_core::TriangleMesh mesh({{-kHalfWidth, -kHalfWidth, 0},
                                                {kHalfWidth, -kHalfWidth, 0},
@@ -100,11 +104,12 @@ class World {
     check_trajectory_.start(supervisor_);
     predict_.start(supervisor_);
     intend_.start(supervisor_);
+    attach_.start(supervisor_);
     controls_.start(supervisor_);
   }
 
   void call(Input& input) {
-    switch (input.below(6)) {
+    switch (input.below(7)) {
       case 0:
         return judge(ask<sweep_guard::CheckSweep>("/guard/check_sweep", input.rest()));
       case 1:
@@ -115,17 +120,32 @@ class World {
         return judge(ask<sweep_guard::SetIntent>("/guard/intend", input.rest()));
       case 4:
         return judge(ask<sweep_guard::Acknowledge>("/guard/acknowledge", input.rest()));
-      default:
+      case 5:
         return judge(ask<std_srvs::SetBool>("/guard/enable", input.rest()));
+      default:
+        return judge(ask<sweep_guard::Attach>("/guard/attach", input.rest()));
     }
   }
 
   void forget() {
+    exchanged_ = false;
     intentions_.clear();
     monitor_.enable();
   }
 
  private:
+  std::future<sweep_guard_core::PoseWithFrames> newestPose() {
+    std::promise<sweep_guard_core::PoseWithFrames> pose;
+    pose.set_value({sweep_guard_ros::now().stamp, std::chrono::steady_clock::now()});
+    return pose.get_future();
+  }
+
+  void exchange(const sweep_guard_ros::Parameters& next) {
+    require(next.tool->pieces().size() > live_.initial().tool->pieces().size(), "the tool has the payload");
+    exchanged_ = true;
+    throw sweep_guard_core::Error("the tool is as before");
+  }
+
   template <typename Service>
   struct Exchange {
     std::optional<typename Service::Request> request;  // empty: it cannot be read
@@ -324,6 +344,14 @@ class World {
     require(!exchange.response.message.empty(), "a refusal says why");
   }
 
+  void judge(const Exchange<sweep_guard::Attach>& exchange) {
+    const auto& [request, response] = exchange;
+    require(!response.message.empty(), "every answer says something");
+    require(!response.success, "no tool is exchanged here");
+    const bool right = request && request->attach != 0 && request->mesh_id == kId && request->link.empty();
+    require(exchanged_ == right, "the tool changes for the workpiece that is there alone");
+  }
+
   void judge(const Exchange<std_srvs::SetBool>& exchange) {
     const auto& [request, response] = exchange;
     require(!response.message.empty(), "every answer says something");
@@ -348,6 +376,8 @@ class World {
   sweep_guard_ros::CheckTrajectoryService check_trajectory_;
   sweep_guard_ros::PredictService predict_;
   sweep_guard_ros::IntendService intend_;
+  bool exchanged_ = false;  // the tool, by the last call
+  sweep_guard_ros::AttachService attach_;
   sweep_guard_ros::Controls controls_;
 };
 

@@ -50,6 +50,18 @@ TEST(FrameMotionTest, EndsWithTheNewestPoseIfNothingIsPredicted) {
   EXPECT_FALSE(framePath(motion(), Time(-1ms), {predicted(10ms, 0.0, 0.0)}, 1.0));
 }
 
+// How far a point may be from where the frame is at a time: 0 at a pose.
+double deviationAt(const FrameMotion& motion, Time time) {
+  for (const FramePose& pose : motion.measured) {
+    if (pose.stamp >= time) return pose.stamp == time ? 0.0 : pose.deviation_bound;
+  }
+  for (const PredictedPose& pose : motion.predicted) {
+    const Time stamp = motion.predicted_from + pose.ahead;
+    if (stamp >= time) return stamp == time ? 0.0 : pose.deviation_bound;
+  }
+  return motion.predicted.back().deviation_bound;
+}
+
 // Compares each point with where the path and its bound put it, at many times.
 TEST(FrameMotionTest, NoPointIsFartherFromThePathThanItsBound) {
   Random random(8);
@@ -62,9 +74,10 @@ TEST(FrameMotionTest, NoPointIsFartherFromThePathThanItsBound) {
       X.linear() = X.linear() * random.turn(random.uniform(0.0, 0.4));
       return X;
     };
-    for (int i = 0; i <= 5; ++i) motion.measured.push_back({Time(i * 10ms), step(), 0.0});
+    for (int i = 0; i <= 5; ++i) motion.measured.push_back({Time(i * 10ms), step(), random.uniform(0.0, 0.02)});
     motion.predicted_from = Time(50ms);
-    for (int i = 0; i <= 10; ++i) motion.predicted.push_back({i * 10ms, step()});
+    for (int i = 0; i <= 10; ++i)
+      motion.predicted.push_back({i * 10ms, step(), Matrix6d::Zero(), random.uniform(0.0, 0.02)});
     const double radius = random.uniform(0.0, 0.5);
     const PredictedPath times = {{13ms}, {20ms}, {41ms}, {90ms}};
     const auto path = framePath(motion, Time(7ms), times, radius);
@@ -77,7 +90,8 @@ TEST(FrameMotionTest, NoPointIsFartherFromThePathThanItsBound) {
       for (int k = 0; k <= 50; ++k) {
         const Duration time = from + (times[i].ahead - from) * k / 50;
         const Eigen::Vector3d meant_W = straight.at(k / 50.0) * p_M;
-        farthest = std::max(farthest, (motion.at(Time(7ms) + time)->X_WT * p_M - meant_W).norm());
+        const double off = deviationAt(motion, Time(7ms) + time);
+        farthest = std::max(farthest, off + (motion.at(Time(7ms) + time)->X_WT * p_M - meant_W).norm());
       }
       const double bound = path->points[i + 1].deviation_bound;
       EXPECT_LE(farthest, bound + 1e-9);
@@ -86,6 +100,17 @@ TEST(FrameMotionTest, NoPointIsFartherFromThePathThanItsBound) {
     }
   }
   EXPECT_LT(tightest, 0.5) << "a bound that holds anyway proves nothing";
+}
+
+// It may be as far on one side of the straight way as the way to it is on the other.
+TEST(FrameMotionTest, APredictionThatBeginsBetweenTwoPosesDoublesTheirBound) {
+  FrameMotion motion;
+  motion.measured = {{Time(0ms), along(0.0)}, {Time(10ms), along(1.0), 0.1}};
+  motion.predicted_from = Time(5ms);
+  motion.predicted = {predicted(0ms, 0.5, 0.0), predicted(100ms, 5.0, 1.0)};
+  const auto path = framePath(motion, Time(0ms), {{3ms}, {20ms}}, 0.5);
+  EXPECT_NEAR(path->points[1].deviation_bound, 0.2, 1e-12);
+  EXPECT_GE(path->points[2].deviation_bound, 0.2);
 }
 
 TEST(SparseMotionTest, NoPointIsFartherFromTheFewerPosesThanTheirBound) {

@@ -84,6 +84,46 @@ TEST(WorkpieceStoreTest, AcceptsOlderStampsAfterTimeWentBack) {
   EXPECT_FALSE(store.remove(kId, at(2)));
 }
 
+// What is part of the tool is no obstacle to it.
+TEST(WorkpieceStoreTest, AnAttachedWorkpieceHasNoSnapshotUntilItIsDetached) {
+  WorkpieceStore store;
+  store.set(triangle(1), at(9));
+  store.attach(store.snapshot()[0], Eigen::Isometry3d::Identity());
+  EXPECT_TRUE(store.snapshot().empty());
+  EXPECT_TRUE(store.frames()->empty());
+  EXPECT_EQ(store.attached(kId)->workpiece->stamp, at(1));
+  EXPECT_FALSE(store.remove(kId, at(2)));
+  EXPECT_TRUE(store.attached(kId));
+  store.detach(triangle(3));
+  EXPECT_FALSE(store.attached(kId));
+  EXPECT_EQ(store.snapshot().at(0)->stamp, at(3));
+}
+
+TEST(WorkpieceStoreTest, AnAttachedWorkpieceHasToKeepItsShape) {
+  WorkpieceStore store;
+  store.set(triangle(1), at(9));
+  store.attach(store.snapshot()[0], Eigen::Isometry3d::Identity());
+  EXPECT_EQ(store.deform(raised(2), at(9)), UpdateOutcome::kStored);
+  EXPECT_EQ(store.set(triangle(3), at(9)), UpdateOutcome::kStored);
+  const std::vector<float> larger = {0, 0, 2, 1.01F, 0, 2, 0, 1, 2};
+  const auto refused = [](const std::function<void()>& update) { return has(refusal(update), "detach it first"); };
+  EXPECT_TRUE(refused([&] { store.deform({kId, 7, at(4), {}, kFrame, larger}, at(9)); }));
+  EXPECT_TRUE(refused([&] { store.deform({kId, 8, at(4), {}, kFrame, kRaised}, at(9)); }));
+  EXPECT_TRUE(refused([&] { store.set(turned(4), at(9)); }));
+  EXPECT_TRUE(store.snapshot().empty());
+}
+
+TEST(WorkpieceStoreTest, AttachesOnlyWhatIsStillThere) {
+  WorkpieceStore store;
+  store.set(triangle(1), at(9));
+  const auto old = store.snapshot()[0];
+  store.deform(raised(2), at(9));
+  store.set(turned(3), at(9));
+  EXPECT_TRUE(has(refusal([&] { store.attach(old, Eigen::Isometry3d::Identity()); }), "was replaced meanwhile"));
+  store.remove(kId, at(4));
+  EXPECT_TRUE(has(refusal([&] { store.attach(old, Eigen::Isometry3d::Identity()); }), "was replaced meanwhile"));
+}
+
 // A latched publisher sends its mesh again whenever a connection is made.
 TEST(WorkpieceStoreTest, IgnoresAnOlderCopyOfTheRevisionInForce) {
   int changes = 0;

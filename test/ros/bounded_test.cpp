@@ -127,6 +127,7 @@ sweep_guard::ToolBodies example() {
   message.run_id = "run";
   message.bodies.resize(2);
   message.bodies[1].predicted.resize(3);
+  message.bodies[1].predicted_deviation_bounds.resize(3);
   return message;
 }
 
@@ -202,6 +203,15 @@ template <>
 sweep_guard::AcknowledgeRequest example() {
   sweep_guard::AcknowledgeRequest message;
   message.mesh_id = "liver";
+  return message;
+}
+
+template <>
+sweep_guard::AttachRequest example() {
+  sweep_guard::AttachRequest message;
+  message.mesh_id = "payload";
+  message.link = "finger";
+  message.attach = 1;
   return message;
 }
 
@@ -314,7 +324,9 @@ template <>
 std::vector<size_t> lengths<sweep_guard::ToolBodies>() {
   const size_t bodies = kHeader + 4 + 3 + 4 + 4 + 8;
   const size_t first = bodies + 4 + kPose + 8;
-  return {12, kHeader, bodies, first, first + 4 + kPose + 8};
+  const size_t second = first + 8 + kPose + 8;
+  constexpr size_t kPredicted = 8 + kPose + 36 * 8;
+  return {12, kHeader, bodies, first, first + 4, second, second + 4 + 3 * kPredicted};
 }
 
 template <>
@@ -381,6 +393,11 @@ std::vector<size_t> lengths<sweep_guard::AcknowledgeRequest>() {
 }
 
 template <>
+std::vector<size_t> lengths<sweep_guard::AttachRequest>() {
+  return {0, 4 + 7};
+}
+
+template <>
 std::vector<size_t> lengths<sweep_guard::PredictRequest>() {
   return {};
 }
@@ -444,9 +461,9 @@ using Messages =
                    sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::Proximity,
                    sweep_guard::ToolBalls, sweep_guard::ToolBodies, sweep_guard::ToolSurface, sweep_guard::Warning,
                    sweep_guard::CheckSweepRequest, sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest,
-                   sweep_guard::AcknowledgeRequest, sweep_guard::SaveProfileRequest, sweep_guard::Intend,
-                   sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest, std_srvs::TriggerRequest,
-                   dynamic_reconfigure::ReconfigureRequest>;
+                   sweep_guard::AcknowledgeRequest, sweep_guard::AttachRequest, sweep_guard::SaveProfileRequest,
+                   sweep_guard::Intend, sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest,
+                   std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {

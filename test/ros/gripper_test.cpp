@@ -1,7 +1,9 @@
 // The forearm of arm.urdf with its two fingers: its pose is on `tool_pose`, the jaw is on `joint_states`.
 #include <gtest/gtest.h>
 #include <sensor_msgs/JointState.h>
+#include <sweep_guard/Attach.h>
 
+#include "cube.h"
 #include "guard_probe.h"
 #include "node_fixture.h"
 
@@ -55,6 +57,38 @@ TEST_F(GripperTest, TheFingerThatClosesIsNamedWhileTheForearmRests) {
     }
   }
   EXPECT_EQ(links, std::set<std::string>{"left"});
+}
+
+// A plate below the fingers is in the way of the cube alone.
+TEST_F(GripperTest, WhatAFingerHoldsMovesWithIt) {
+  probe().place(cubeAt("payload", {0.22, 0.045, -0.025}, probe().time(), 0.005));
+  probe().place(squareAt("plate", {0.22, 0.02, -0.025}, probe().time(), 0.003));
+  while (!isClear(step(0.0, 0.04))) {
+  }
+  sweep_guard::Attach attached;
+  attached.request.mesh_id = "payload";
+  attached.request.link = "left";
+  attached.request.attach = 1;
+  ASSERT_TRUE(ros::service::call("/sweep_guard/attach", attached));
+  ASSERT_TRUE(attached.response.success) << attached.response.message;
+  while (!isClear(step(0.0, 0.04))) {
+  }
+  probe().forgetContacts();
+  for (int i = 0; i <= 10; ++i) step(0.0, 0.04 - 0.002 * i);
+  std::set<std::string> links;
+  for (const Contacts& sweep : probe().awaitContactsUpTo(probe().time())) {
+    for (const auto& object : sweep.objects) {
+      for (const auto& impact : object.impacts) {
+        if (object.mesh_id == "plate") links.insert(impact.tool_link);
+      }
+    }
+  }
+  EXPECT_EQ(links, std::set<std::string>{"payload"});
+  attached.request.attach = 0;
+  step(0.0, 0.04);
+  ASSERT_TRUE(ros::service::call("/sweep_guard/attach", attached));
+  EXPECT_TRUE(attached.response.success) << attached.response.message;
+  for (const char* const id : {"payload", "plate"}) probe().remove(id);
 }
 
 TEST_F(GripperTest, ASilentPoseIsNamed) {

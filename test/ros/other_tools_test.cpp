@@ -51,10 +51,12 @@ class Peer {
       auto& pose = body.predicted.emplace_back();
       pose.from_now = ros::Duration(0.1 * i);
       pose.pose = body.pose;
+      body.predicted_deviation_bounds.push_back(i == 0 ? 0.0 : predicted_deviation_bound_);
     }
     bodies_publisher_.publish(msg);
   }
   void lose() { ++sequence_; }
+  void leavePredictedPathBy(double bound) { predicted_deviation_bound_ = bound; }
 
  private:
   ros::NodeHandle node_{"/peer"};
@@ -62,6 +64,7 @@ class Peer {
   ros::Publisher bodies_publisher_ = node_.advertise<sweep_guard::ToolBodies>("bodies", 10);
   std::string run_id_;
   std::uint32_t sequence_ = 0;
+  double predicted_deviation_bound_ = 0.0;
 };
 
 const Eigen::Vector3d kFar(1.0, 0.0, 0.0);
@@ -102,6 +105,9 @@ TEST_F(OtherToolsTest, ASilentToolIsUnknown) {
   peer().publishSurface(0.01);
   restUntil(kFar, isClear);
   restUntil({}, [](const Warning& warning) { return saysOfThePeer(warning, "newest pose of the tool of"); });
+  probe().awaitStatus("other tools", [](const auto& status) {
+    return status.message == "'/peer' does not count" && valueOf(status, "'/peer'").find(" s old") != std::string::npos;
+  });
   restUntil(kFar, isClear);
 }
 
@@ -124,6 +130,19 @@ TEST_F(OtherToolsTest, ARestartedToolIsUnknownUntilItsSurfaceComesAndThenHasThat
   const Warning warning = restUntil(kNear, [](const Warning& one) { return one.level == Warning::CONTACT; });
   EXPECT_EQ(warning.mesh_id, "/peer/hand");
   peer().start("small again", 0.01);
+  restUntil(kFar, isClear);
+}
+
+// As that of an arm whose joints move.
+TEST_F(OtherToolsTest, WhatMayLieBesideThePredictedPathIsForeseen) {
+  peer().start("bending", 0.01);
+  restUntil(kFar, isClear);
+  peer().leavePredictedPathBy(1.5);
+  const Warning warning = restUntil(kFar, [](const Warning& one) { return one.level == Warning::REFLEX; });
+  EXPECT_EQ(warning.mesh_id, "/peer/hand");
+  peer().leavePredictedPathBy(-1.0);
+  restUntil(kFar, [](const Warning& one) { return saysOfThePeer(one, "deviation bound"); });
+  peer().leavePredictedPathBy(0.0);
   restUntil(kFar, isClear);
 }
 

@@ -176,11 +176,11 @@ TEST_F(ParametersTest, TakePairsThatMayTouch) {
   pairs[1] = pairOf("thumb", "payload");
   node_.setParam("tool/allowed", pairs);
   EXPECT_EQ(refusal(node_),
-            "parameter tool/allowed: the tool has no link 'thumb': it has 'finger', 'hand', or '*' for all");
+            "parameter tool/allowed: the tool has no link 'thumb': it has 'finger', 'hand'; '*' means each");
   node_.setParam("tool/type", "cylinder");
   EXPECT_EQ(
       refusal(node_),
-      "parameter tool/allowed: the tool has no link 'finger': a cylinder has one link, without a name: write '*'");
+      "parameter tool/allowed: the tool has no link 'finger': a cylinder has one link, without a name; '*' means each");
   XmlRpc::XmlRpcValue any;
   any[0] = pairOf("*", "payload");
   node_.setParam("tool/allowed", any);
@@ -280,6 +280,7 @@ TEST_F(ParametersTest, AToolWhoseJointsMoveNeedsAFrameThatTheyDoNot) {
   node_.setParam("tool/joint_states", true);
   const Parameters moving = loadParameters(node_);
   EXPECT_TRUE(moving.articulated);
+  EXPECT_TRUE(has(moving.tool_description, "in the frame of 'hand', joints where joint_states says"));
   EXPECT_EQ(moving.bodies->size(), 2U);
   size_t pieces = 0;
   for (const auto& body : *moving.bodies) {

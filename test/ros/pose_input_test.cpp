@@ -30,7 +30,8 @@ TEST(PoseInputTest, NoPoseOfALongBacklogIsLost) {
   const sweep_guard_core::WorkpieceStore workpieces;
   WorkQueue queue;
   Supervisor supervisor(Process::kShared);
-  PoseInput input(node, parameters, {frames, workpieces, monitor, queue});
+  const LiveParameters live(parameters);
+  PoseInput input(node, live, {frames, workpieces, monitor, queue});
   const ros::Publisher publisher = node.advertise<geometry_msgs::PoseStamped>("tool_pose", 1);
   ASSERT_EQ(publisher.getNumSubscribers(), 1U);
   input.start(supervisor);

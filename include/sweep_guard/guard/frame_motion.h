@@ -22,7 +22,7 @@ struct FramePose {
 };
 
 /// How a frame moves that another guard measures and predicts, such as that of a body of its tool. Between two poses, measured
-/// or predicted, it moves as a Motion.
+/// or predicted, it moves as a Motion, to within their deviation bounds.
 struct FrameMotion {
   std::vector<FramePose> measured;  ///< at least one; stamps ascend
   Time predicted_from;              ///< stamp at which `predicted` begins; means nothing without it

@@ -67,6 +67,9 @@ class WarningMonitor {
   /// such tool.
   void toolUnknown(const std::string& name, const std::string& problem);
 
+  /// Returns what is known of the other tools, in the order of requireTools().
+  std::vector<WarningInputs::OtherTool> otherTools() const;
+
   Checkpoint checkpoint() const;
 
   /// Reports that an input was refused or failed. The warning is not clear until a pose received later has been swept.

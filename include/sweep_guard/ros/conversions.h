@@ -64,6 +64,8 @@ sweep_guard_core::PredictedPose fromMsg(const sweep_guard::PredictedPose& pose);
 /// @param triangles  indices: ascending, each once
 sweep_guard::ObjectContacts toMsg(const sweep_guard_core::Workpiece& workpiece,
                                   const std::vector<std::uint32_t>& triangles);
+/// Returns the link of a piece. Empty if the tool has no such piece: it was another tool, before a payload was detached.
+std::string linkOf(const sweep_guard_core::Tool& tool, size_t piece);
 /// Converts all triangles that the swept volumes meet, also those that the narrow phase ruled out, and the impacts:
 /// points [m] and normals in the mesh's frame.
 /// @param tool  the one that was swept: names the links (its pieces are not checked)

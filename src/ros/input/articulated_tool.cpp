@@ -19,8 +19,11 @@ constexpr size_t kMostParts = 100;      // of a jump
 
 }  // namespace
 
-ArticulatedTool::ArticulatedTool(const Parameters& parameters)
-    : model_(parameters.robot),
+ArticulatedTool::ArticulatedTool(const LiveParameters& live) : ArticulatedTool(live, live.initial()) {}
+
+ArticulatedTool::ArticulatedTool(const LiveParameters& live, const Parameters& parameters)
+    : live_(live),
+      model_(parameters.robot),
       root_moves_(parameters.tool_source != ToolSource::kJointStates),
       root_timeout_(parameters.joint_timeout),
       names_(model_->robot.tree),
@@ -46,7 +49,8 @@ bool ArticulatedTool::next(const std::function<Eigen::Isometry3d(Time)>& X_WT, s
   if (!stamp_) {
     place(*stamp, next_, poses);
   } else {
-    const RobotMotion motion(model_->robot.tree, model_->robot.bodies, state_, next_);
+    const auto newest = live_.get();  // with the sizes of what is attached
+    const RobotMotion motion(model_->robot.tree, newest->robot->robot.bodies, state_, next_);
     const size_t parts = motion.partsFor(kMaxDeviation, kMostParts);
     for (size_t part = 1; part <= parts; ++part) {
       const auto share = static_cast<double>(part) / static_cast<double>(parts);

@@ -27,8 +27,8 @@ class ArticulatedTool {
     sweep_guard_core::RobotState state;
   };
 
-  /// @param parameters  with an articulated tool
-  explicit ArticulatedTool(const Parameters& parameters);
+  /// @param live  with an articulated tool; its bodies may change, its joints do not
+  explicit ArticulatedTool(const LiveParameters& live);
 
   /// Adds positions of joints; those that are not of the tool are passed over.
   /// @throws sweep_guard_core::InvalidInput as JointTimeline::add(), or if there are not as many positions as names
@@ -55,7 +55,9 @@ class ArticulatedTool {
  private:
   void place(sweep_guard_core::Time stamp, const sweep_guard_core::RobotState& state, std::vector<Pose>& poses);
 
-  const std::shared_ptr<const RobotModel> model_;
+  ArticulatedTool(const LiveParameters& live, const Parameters& parameters);
+  const LiveParameters& live_;
+  const std::shared_ptr<const RobotModel> model_;  // at the start
   const bool root_moves_;
   const sweep_guard_core::Duration root_timeout_;
   const JointNames names_;

@@ -28,10 +28,18 @@ std::string frameOf(const std::string& name, const std::string& run_id, std::uin
   return name + "/" + run_id + "." + std::to_string(revision) + "." + std::to_string(body);
 }
 
-sweep_guard_core::PredictedPath pathFrom(const std::vector<sweep_guard::PredictedPose>& poses) {
+double checked(double deviation_bound) {
+  if (deviation_bound >= 0.0 && deviation_bound <= sweep_guard_core::kMaxCoordinate) return deviation_bound;
+  throw InvalidInput("a deviation bound of its poses is no length from 0 to 1e7 m");
+}
+
+sweep_guard_core::PredictedPath pathFrom(const sweep_guard::BodyMotion& motion) {
+  if (motion.predicted.size() != motion.predicted_deviation_bounds.size())
+    throw InvalidInput("there are not as many deviation bounds as predicted poses");
   sweep_guard_core::PredictedPath path;
-  for (const sweep_guard::PredictedPose& pose : poses) {
-    path.push_back(fromMsg(pose));
+  for (size_t i = 0; i < motion.predicted.size(); ++i) {
+    path.push_back(fromMsg(motion.predicted[i]));
+    path.back().deviation_bound = checked(motion.predicted_deviation_bounds[i]);
     const bool ascends = path.size() == 1 ? path[0].ahead == sweep_guard_core::Duration::zero()
                                           : path.back().ahead > path[path.size() - 2].ahead;
     if (!ascends) throw InvalidInput("predicted poses do not begin at 0 s and ascend in time");
@@ -129,9 +137,9 @@ void OtherTools::hear(size_t tool, const sweep_guard::ToolSurface& msg) {
   }
   dependencies_.monitor.toolUnknown(name, "no pose has come since its surface came");
   const auto surface = std::make_shared<const Surface>(surfaceFrom(name, msg));
-  dependencies_.meshes.changeStore({[this, tool, surface] { take(tool, *surface); },
-                                    [this, name] { refuse(name, "its surface was dropped: too many meshes wait"); },
-                                    kJobSize});
+  dependencies_.change_store({[this, tool, surface] { take(tool, *surface); },
+                              [this, name] { refuse(name, "its surface was dropped: too many meshes wait"); },
+                              kJobSize});
 }
 
 void OtherTools::take(size_t tool, const Surface& surface) {
@@ -194,16 +202,15 @@ void OtherTools::hear(size_t tool, const sweep_guard::ToolBodies& msg) {
 // After time went back, the motion begins anew.
 void OtherTools::add(size_t body, const sweep_guard::ToolBodies& msg, Tool& tool) {
   const sweep_guard::BodyMotion& moved = msg.bodies[body];
-  if (!(moved.deviation_bound >= 0.0 && moved.deviation_bound <= sweep_guard_core::kMaxCoordinate))
-    throw InvalidInput("deviation_bound of its pose is no length from 0 to 1e7 m");
-  const sweep_guard_core::FramePose pose{fromMsg(msg.header.stamp), fromMsg(moved.pose), moved.deviation_bound};
+  const sweep_guard_core::FramePose pose{fromMsg(msg.header.stamp), fromMsg(moved.pose),
+                                         checked(moved.deviation_bound)};
   FrameMotion& motion = tool.motions[body];
   auto& measured = motion.measured;
   if (!measured.empty() && pose.stamp < measured.back().stamp) measured.clear();
   if (measured.empty() || pose.stamp > measured.back().stamp) measured.push_back(pose);
   const auto is_kept = [&](const sweep_guard_core::FramePose& one) { return pose.stamp - one.stamp <= kKept; };
   measured.erase(measured.begin(), std::find_if(measured.begin(), measured.end(), is_kept));
-  motion.predicted = pathFrom(moved.predicted);
+  motion.predicted = pathFrom(moved);
   motion.predicted_from = fromMsg(msg.predicted_from);
 }
 

@@ -3,23 +3,26 @@
 #include <sweep_guard/ToolBodies.h>
 #include <sweep_guard/ToolSurface.h>
 
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "guard/frame_motion_store.h"
+#include "guard/workpiece_store.h"
 #include "ros/bounded.h"
-#include "ros/input/mesh_input.h"
+#include "ros/input/worker.h"
 #include "ros/log_throttle.h"
 #include "ros/parameters/parameters.h"
 #include "ros/sole_publisher.h"
 #include "ros/threads/queue_thread.h"
+#include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {
 
 struct OtherToolsDependencies {
-  MeshInput& meshes;
+  std::function<void(const Worker::Job&)> change_store;  ///< runs a job in the thread that changes the workpieces
   sweep_guard_core::WorkpieceStore& workpieces;
   sweep_guard_core::FrameMotionStore& frame_motions;
   sweep_guard_core::WarningMonitor& monitor;

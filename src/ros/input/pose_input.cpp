@@ -51,26 +51,25 @@ void PoseInput::refuseWhatFails(const Accept& accept) {
   }
 }
 
-PoseInput::PoseInput(const ros::NodeHandle& node, const Parameters& parameters,
-                     const PoseInputDependencies& dependencies)
-    : fixed_frame_(parameters.fixed_frame),
-      tool_frame_(parameters.tool_frame),
-      allow_several_publishers_(parameters.allow_several_publishers),
+PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, const PoseInputDependencies& dependencies)
+    : fixed_frame_(live.initial().fixed_frame),
+      tool_frame_(live.initial().tool_frame),
+      allow_several_publishers_(live.initial().allow_several_publishers),
       frames_(dependencies.frames),
       workpieces_(dependencies.workpieces),
       monitor_(dependencies.monitor),
       queue_(dependencies.queue),
       frame_motions_(dependencies.frame_motions) {
-  if (parameters.articulated) {
-    articulated_ = std::make_unique<ArticulatedTool>(parameters);
+  if (live.initial().articulated) {
+    articulated_ = std::make_unique<ArticulatedTool>(live);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
         thread_.on(node), {"joint_states", kQueueLength, kMaxJointsSize},
         [this](const auto& event) { refuseWhatFails([&] { acceptJoints(event); }); },
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
-  if (parameters.tool_source == ToolSource::kTf) {
+  if (live.initial().tool_source == ToolSource::kTf) {
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
-  } else if (parameters.tool_source == ToolSource::kTopic) {
+  } else if (live.initial().tool_source == ToolSource::kTopic) {
     subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(
         thread_.on(node), {"tool_pose", kQueueLength, kMaxMessageSize}, [this](const auto& event) { onMessage(event); },
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });

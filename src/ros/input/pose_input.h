@@ -37,7 +37,7 @@ struct PoseInputDependencies {
 /// be up to 20 ms late.
 class PoseInput {
  public:
-  PoseInput(const ros::NodeHandle& node, const Parameters& parameters, const PoseInputDependencies& dependencies);
+  PoseInput(const ros::NodeHandle& node, const LiveParameters& live, const PoseInputDependencies& dependencies);
 
   void start(Supervisor& supervisor) { thread_.start(supervisor, {"poses", sweep_guard_core::Stage::kReceive}); }
 

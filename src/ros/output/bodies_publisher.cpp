@@ -22,13 +22,16 @@ sweep_guard::LinkSurface toMsg(const sweep_guard_core::LinkSurface& surface, siz
   return msg;
 }
 
-std::vector<sweep_guard::PredictedPose> pathMsg(const Eigen::Isometry3d& X_WB,
-                                                const sweep_guard_core::PredictedPath& path) {
-  std::vector<sweep_guard::PredictedPose> poses;
-  if (path.empty()) return poses;
-  poses.push_back(sweep_guard_ros::toMsg(sweep_guard_core::PredictedPose{{}, X_WB}, {}));
-  for (const sweep_guard_core::PredictedPose& pose : path) poses.push_back(sweep_guard_ros::toMsg(pose, {}));
-  return poses;
+void add(const sweep_guard_core::PredictedPose& pose, sweep_guard::BodyMotion& motion) {
+  motion.predicted.push_back(sweep_guard_ros::toMsg(pose, {}));
+  motion.predicted_deviation_bounds.push_back(pose.deviation_bound);
+}
+
+sweep_guard::BodyMotion predictedMotion(const Eigen::Isometry3d& X_WB, const sweep_guard_core::PredictedPath& path) {
+  sweep_guard::BodyMotion motion;
+  if (!path.empty()) add({{}, X_WB}, motion);
+  for (const sweep_guard_core::PredictedPose& pose : path) add(pose, motion);
+  return motion;
 }
 
 }  // namespace
@@ -90,7 +93,7 @@ void BodiesPublisher::predicted(const sweep_guard_core::PoseWithFrames& from,
   predicted_from_ = toMsg(known ? from.stamp : sweep_guard_core::Time());
   for (size_t i = 0; known && i < motions_.size(); ++i) {
     const auto& path = prediction.body_paths.empty() ? prediction.path : prediction.body_paths[i];
-    predicted_.push_back(pathMsg(from.body(i).X_WB, path));
+    predicted_.push_back(predictedMotion(from.body(i).X_WB, path));
   }
   publish();
 }
@@ -105,11 +108,11 @@ void BodiesPublisher::publish() {
   msg->sequence = ++sequence_;
   msg->predicted_from = predicted_from_;
   for (size_t i = 0; i < motions_.size(); ++i) {
-    sweep_guard::BodyMotion& body = msg->bodies.emplace_back();
+    sweep_guard::BodyMotion& body =
+        msg->bodies.emplace_back(i < predicted_.size() ? predicted_[i] : sweep_guard::BodyMotion());
     if (newest_ != published_) poses_[i] = motions_[i].take();
     body.pose = toMsg(poses_[i].X_WB);
     body.deviation_bound = poses_[i].deviation_bound;
-    if (i < predicted_.size()) body.predicted = predicted_[i];
   }
   published_ = newest_;
   bodies_publisher_.publish(msg);

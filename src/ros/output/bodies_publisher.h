@@ -43,7 +43,7 @@ class BodiesPublisher {
   sweep_guard_core::Time newest_;                        // stamp of the newest pose; 0: none
   sweep_guard_core::Time published_;                     // stamp of the newest published pose
   ros::Time predicted_from_;
-  std::vector<std::vector<sweep_guard::PredictedPose>> predicted_;  // by body
+  std::vector<sweep_guard::BodyMotion> predicted_;  // by body; their measured poses mean nothing
 };
 
 }  // namespace sweep_guard_ros

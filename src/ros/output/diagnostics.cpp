@@ -45,6 +45,8 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.add("mesh vertices", [this](Status& status) { vertices(status); });
   updater_.add("workpieces", [this](Status& status) { workpieces(status); });
   updater_.add("allowed contact", [this](Status& status) { allowed(status); });
+  if (!sources.parameters.initial().other_tools.empty())
+    updater_.add("other tools", [this](Status& status) { otherTools(status); });
   updater_.add("detector", [this](Status& status) { detector(status); });
   updater_.add("prediction", [this](Status& status) { prediction(status); });
   updater_.add("stages", [this](Status& status) { stages(status); });
@@ -143,6 +145,7 @@ void Diagnostics::workpieces(Status& status) const {
                 workpiece->mesh_M.triangles().size(), workpiece->frame.c_str(),
                 toSeconds(sweep_guard_core::age(seen, at)));
   }
+  for (const std::string& id : sources_.parameters.get()->attached) status.add("'" + id + "'", "attached to the tool");
 }
 
 void Diagnostics::allowed(Status& status) const {
@@ -152,6 +155,19 @@ void Diagnostics::allowed(Status& status) const {
   for (const auto& [pair, has_matched] : matches) {
     if (!has_matched) status.mergeSummary(DiagnosticStatus::WARN, "no workpiece '" + pair.mesh_id + "' so far");
     status.add(describe(pair), has_matched ? "may touch" : "no such workpiece so far");
+  }
+}
+
+void Diagnostics::otherTools(Status& status) const {
+  const sweep_guard_core::Instant at = now();
+  const sweep_guard_core::Duration timeout = sources_.parameters.get()->limits.pose_timeout;
+  status.summary(DiagnosticStatus::OK, "heard");
+  for (const auto& [name, newest, problem] : sources_.monitor.otherTools()) {
+    const std::string age = newest ? "pose " + std::to_string(toSeconds(sweep_guard_core::age(*newest, at))) + " s old"
+                                   : std::string("not heard of");
+    const bool counts = newest && problem.empty() && !sweep_guard_core::stale(*newest, at, timeout);
+    if (!counts) status.mergeSummary(DiagnosticStatus::ERROR, "'" + name + "' does not count");
+    status.add("'" + name + "'", problem.empty() ? age : age + ": " + problem);
   }
 }
 

@@ -64,6 +64,7 @@ class Diagnostics {
   void input(Status& status, const Input& input, Counts& previous) const;
   void workpieces(Status& status) const;
   void allowed(Status& status) const;
+  void otherTools(Status& status) const;
   void detector(Status& status) const;
   void prediction(Status& status) const;
   void stages(Status& status);

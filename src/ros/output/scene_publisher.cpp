@@ -42,6 +42,8 @@ void ScenePublisher::clear() {
   scene_ = {};
 }
 
+void ScenePublisher::setTool(const std::vector<sweep_guard_core::Tool>& bodies) { view_.publishTool(bodies); }
+
 void ScenePublisher::publishMarkers() {
   if (marker_publisher_.getNumSubscribers() > 0) marker_publisher_.publish(markers_.draw(currentScene()));
 }

@@ -26,6 +26,7 @@ class ScenePublisher {
   void predicted(const sweep_guard_core::PoseWithFrames& from,
                  std::shared_ptr<const sweep_guard_core::Prediction> prediction);
   void clear();
+  void setTool(const std::vector<sweep_guard_core::Tool>& bodies);  ///< publishes another `~tool`
 
   void publishMarkers();     ///< publishes if there is a subscriber
   void publishView() const;  ///< publishes if there is a subscriber

@@ -109,6 +109,10 @@ ViewPublisher::ViewPublisher(ros::NodeHandle private_node, std::string fixed_fra
       tool_frame_(std::move(tool_frame)),
       view_publisher_(private_node.advertise<sweep_guard::View>("view", 1)),
       tool_publisher_(private_node.advertise<sweep_guard::ToolShape>("tool", 1, /*latch=*/true)) {
+  publishTool(bodies);
+}
+
+void ViewPublisher::publishTool(const std::vector<sweep_guard_core::Tool>& bodies) const {
   sweep_guard::ToolShape shape = toMsg(bodies);
   shape.header.frame_id = tool_frame_;
   tool_publisher_.publish(shape);

@@ -16,7 +16,7 @@ sweep_guard::View toMsg(const MarkerScene& scene);
 sweep_guard::ToolShape toMsg(
     const std::vector<sweep_guard_core::Tool>& bodies);  ///< converts the tool without its padding
 
-/// Publishes `~view` and, once, `~tool`, for displays that draw the workpiece themselves.
+/// Publishes `~view` and, once and for each other tool, `~tool`, for displays that draw the workpiece themselves.
 class ViewPublisher {
  public:
   ViewPublisher(ros::NodeHandle private_node, std::string fixed_frame, std::string tool_frame,
@@ -24,6 +24,7 @@ class ViewPublisher {
 
   bool hasSubscribers() const { return view_publisher_.getNumSubscribers() > 0; }
   void publish(const MarkerScene& scene) const;
+  void publishTool(const std::vector<sweep_guard_core::Tool>& bodies) const;
 
  private:
   const std::string fixed_frame_;

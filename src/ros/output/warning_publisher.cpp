@@ -79,7 +79,7 @@ void WarningPublisher::publish(bool only_if_changed) {
   const InStage publishing(Stage::kPublish);
   const auto parameters = parameters_.get();
   sweep_guard::Warning next = toMsg(warning_);
-  if (warning_.tool_piece) next.tool_link = parameters->tool->pieces()[*warning_.tool_piece].link;
+  if (warning_.tool_piece) next.tool_link = linkOf(*parameters->tool, *warning_.tool_piece);
   next.header.frame_id = parameters->fixed_frame;
   next.tool = parameters->tool_frame;
   next.sequence = message_.sequence + (new_level ? 1 : 0);

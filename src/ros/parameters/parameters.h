@@ -38,10 +38,11 @@ struct Parameters {
   std::map<std::string, double> fixed_joints;  ///< positions [rad or m] of joints that `joint_states` need not have
   std::map<std::string, sweep_guard_core::Duration> joint_timeouts;  ///< where a joint has its own
   sweep_guard_core::Duration joint_timeout;                          ///< of the others, and of the tool pose
-  std::shared_ptr<const RobotModel> robot;    ///< whose links are the tool; null: nothing that joints move
-  std::string why_no_robot;                   ///< why it is null
-  double tool_padding;                        ///< [m]
-  std::string tool_description;               ///< shape and source of the tool, for people
+  std::shared_ptr<const RobotModel> robot;  ///< whose links are the tool; null: nothing that joints move
+  std::string why_no_robot;                 ///< why it is null
+  double tool_padding;                      ///< [m]
+  std::set<std::string> attached;           ///< workpieces that are part of the tool, as links of these names (~attach)
+  std::string tool_description;             ///< shape and source of the tool, for people
   sweep_guard_core::DetectorChoice detector;  ///< as configured, until it is replaced by one that is available
   SelfTest self_test;
   int cross_check;  ///< of so many queries of the detector, one is asked twice; 0: none

@@ -1,10 +1,10 @@
 #include "ros/parameters/tool_parameters.h"
 
 #include <algorithm>
-#include <set>
 #include <sstream>
 
 #include "ros/tool/robot_tree.h"
+#include "ros/tool/tool_links.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 
@@ -45,10 +45,14 @@ ToolModelOptions readModelOptions(ParameterReader& read, const std::string& fram
   return options;
 }
 
-std::string describe(const ToolModel& model, const std::string& parameter) {
+std::string describe(const ToolModel& model, const std::string& parameter, const Parameters& parameters) {
+  const bool moves = parameters.articulated;
   std::ostringstream text;
   text << model.pieces.size() << " convex pieces from " << parameter << " in the frame of '" << model.frame << "'";
-  for (const auto& [joint, position] : model.joints) text << ", joint '" << joint << "' at " << position;
+  for (const auto& [joint, position] : model.joints) {
+    if (!moves || parameters.fixed_joints.count(joint) != 0) text << ", joint '" << joint << "' at " << position;
+  }
+  if (moves) text << ", joints where joint_states says";
   return text.str();
 }
 
@@ -73,10 +77,10 @@ void readRobot(ParameterReader& read, const std::string& parameter, const ToolMo
   }
   try {
     ToolModel model = loadToolModel(urdf, options);
-    parameters.tool_description = describe(model, parameter);
+    parameters.fixed_joints = options.joints;
+    parameters.tool_description = describe(model, parameter, parameters);
     parameters.robot = model.robot;
     parameters.why_no_robot = model.why_no_robot;
-    parameters.fixed_joints = options.joints;
     if (parameters.articulated) checkJoints(parameters);
     parameters.tool = std::make_shared<const sweep_guard_core::Tool>(parameters.articulated ? piecesByBody(*model.robot)
                                                                                             : std::move(model.pieces));
@@ -100,21 +104,12 @@ sweep_guard_core::AllowedPairs readAllowed(ParameterReader& read) {
   return pairs;
 }
 
-std::string linksOf(const sweep_guard_core::Tool& tool) {
-  std::set<std::string> links;
-  for (const sweep_guard_core::ConvexPiece& piece : tool.pieces()) links.insert(piece.link);
-  if (links == std::set<std::string>{""}) return "a cylinder has one link, without a name: write '*'";
-  std::string list;
-  for (const std::string& link : links) list += (list.empty() ? "'" : ", '") + link + "'";
-  return "it has " + list + ", or '*' for all";
-}
-
 void checkAllowed(const sweep_guard_core::AllowedPairs& pairs, const sweep_guard_core::Tool& tool) {
   for (const sweep_guard_core::AllowedPair& pair : pairs) {
-    const auto holds = [&](const sweep_guard_core::ConvexPiece& piece) { return pair.holds(piece.link); };
-    if (std::any_of(tool.pieces().begin(), tool.pieces().end(), holds)) continue;
+    if (pair.link == sweep_guard_core::AllowedPair::kAny || hasLink(tool, pair.link)) continue;
     throw sweep_guard_core::InvalidInput("parameter tool/allowed: the tool has no link '" +
-                                         sweep_guard_core::printable(pair.link) + "': " + linksOf(tool));
+                                         sweep_guard_core::printable(pair.link) + "': " + linksOf(tool) +
+                                         "; '*' means each");
   }
 }
 
@@ -155,6 +150,11 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   parameters.guard.allowed = readAllowed(read);
   parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
   parameters.tool_padding = padding;
+  if (before != nullptr) parameters.attached = before->attached;
+  if (!parameters.attached.empty() && before->tool_padding != padding) {
+    throw sweep_guard_core::InvalidInput("tool/padding does not change while '" + *parameters.attached.begin() +
+                                         "' is attached: detach it first");
+  }
   if (before != nullptr && before->tool_padding == padding) {
     parameters.tool = before->tool;
     parameters.bodies = before->bodies;

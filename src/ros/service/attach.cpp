@@ -1,0 +1,140 @@
+#include "ros/service/attach.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+
+#include "guard/rigid_shape.h"
+#include "ros/tool/payload.h"
+#include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
+#include "sweep_guard/geometry/decomposition.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::Error;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_core::PoseWithFrames;
+using sweep_guard_core::printable;
+using sweep_guard_core::TriangleMesh;
+using sweep_guard_core::Workpiece;
+
+constexpr size_t kMaxRequest = 1024;                     // [bytes]
+constexpr auto kGuardTimeout = std::chrono::seconds(1);  // of a guard that is stuck in a sweep
+constexpr auto kTransformWait = std::chrono::milliseconds(100);
+constexpr size_t kMaxCut = 20000;  // triangles; the time to cut grows with them: a larger mesh becomes one hull
+
+std::vector<sweep_guard_core::ConvexShape> shapesOf(const TriangleMesh& mesh_M) {
+  sweep_guard_core::DecompositionOptions cuts;
+  if (mesh_M.triangles().size() > kMaxCut) cuts.max_depth = 0;
+  return sweep_guard_core::convexPieces(mesh_M, cuts);
+}
+
+Eigen::Isometry3d motionSince(const Workpiece& before, const Workpiece& newest) {
+  if (before.frame != newest.frame || !sweep_guard_core::sameTriangles(before.mesh_M, newest.mesh_M))
+    throw InvalidInput("'" + before.id + "' was replaced meanwhile: ask again");
+  const sweep_guard_core::RigidFit fit = sweep_guard_core::rigidFit(before.mesh_M, newest.mesh_M);
+  if (fit.deviation <= sweep_guard_core::WorkpieceStore::kRigid) return fit.X_MM;
+  throw InvalidInput("'" + before.id + "' has deformed by " + std::to_string(fit.deviation) +
+                     " m meanwhile: the tool can carry what keeps its shape");
+}
+
+// Where the tool holds it now.
+Workpiece movedBy(const Eigen::Isometry3d& X_MM, const Workpiece& held, const PoseWithFrames& pose) {
+  std::vector<Eigen::Vector3d> vertices_M;
+  for (size_t i = 0; i < held.mesh_M.vertexCount(); ++i) vertices_M.push_back(X_MM * held.mesh_M.vertex(i));
+  return {held.id,       held.revision, pose.stamp,
+          pose.received, held.frame,    TriangleMesh(vertices_M, held.mesh_M.triangles())};
+}
+
+}  // namespace
+
+AttachService::AttachService(const ros::NodeHandle& private_node, const AttachDependencies& dependencies,
+                             ToolControls tool)
+    : dependencies_(dependencies),
+      tool_(std::move(tool)),
+      server_(calls_.advertise<Event>(
+          private_node, "attach", kMaxRequest, [this](Event& event) { return onCall(event); },
+          [](const std::string& reason, sweep_guard::Attach::Response& response) {
+            response.message = reason;
+            return true;
+          })) {}
+
+// Answers errors by a message: a failed ROS call gives the caller none.
+bool AttachService::onCall(Event& event) {
+  const sweep_guard::Attach::Request& request = event.getRequest();
+  sweep_guard::Attach::Response& response = event.getResponse();
+  try {
+    if (!sweep_guard_core::isName(request.mesh_id)) throw InvalidInput("mesh_id is no name");
+    response.message = request.attach != 0 ? attach(request.mesh_id, request.link) : detach(request.mesh_id);
+    response.success = 1;
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+  ROS_INFO("~attach called by %s: %s", printable(event.getCallerName()).c_str(), response.message.c_str());
+  return true;
+}
+
+std::string AttachService::attach(const std::string& id, const std::string& link) {
+  const auto before = dependencies_.parameters.get();
+  if (before->attached.count(id) != 0) throw InvalidInput("'" + id + "' is attached already: detach it first");
+  bodyWithLink(*before, link);
+  const auto cut = workpieceOf(id);
+  Payload payload{id, link, shapesOf(cut->mesh_M)};
+  const auto newest = workpieceOf(id);  // the tool may have carried it meanwhile
+  const PoseWithFrames pose = newestPose();
+  const Eigen::Isometry3d X_WM = lookup(newest->frame, pose.stamp);
+  payload.X_WM = X_WM * motionSince(*cut, *newest);
+  const auto next = std::make_shared<const Parameters>(withPayload(*before, payload, pose));
+  tool_.exchange_tool(before, next, [&] {
+    dependencies_.workpieces.attach(newest, pose.body(bodyWithLink(*before, link)).X_WB.inverse() * X_WM);
+    require(*next);
+  });
+  return "'" + id + "' is part of the tool: " + std::to_string(payload.shapes_M.size()) + " convex piece(s) on " +
+         (link.empty() ? "the cylinder" : "link '" + link + "'");
+}
+
+std::shared_ptr<const Workpiece> AttachService::workpieceOf(const std::string& id) const {
+  const auto workpieces = dependencies_.workpieces.snapshot();
+  const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
+  const auto found = std::find_if(workpieces.begin(), workpieces.end(), same);
+  if (found == workpieces.end()) throw InvalidInput("there is no workpiece '" + id + "'");
+  if ((*found)->of_other_tool) throw InvalidInput("'" + id + "' is a link of another tool");
+  return *found;
+}
+
+std::string AttachService::detach(const std::string& id) {
+  const auto before = dependencies_.parameters.get();
+  const auto held = dependencies_.workpieces.attached(id);
+  if (!held) throw InvalidInput("'" + id + "' is not attached");
+  const PoseWithFrames pose = newestPose();
+  const Eigen::Isometry3d X_WB = pose.body(bodyWithLink(*before, id)).X_WB;
+  const Eigen::Isometry3d X_MM = lookup(held->workpiece->frame, pose.stamp).inverse() * X_WB * held->X_BM;
+  const auto next = std::make_shared<const Parameters>(withoutPayload(*before, id));
+  tool_.exchange_tool(before, next, [&, restored = movedBy(X_MM, *held->workpiece, pose)] {
+    dependencies_.workpieces.detach(restored);
+    dependencies_.monitor.meshAccepted(id, std::chrono::steady_clock::now());
+    require(*next);
+  });
+  return "'" + id + "' is a workpiece, where the tool has held it last";
+}
+
+PoseWithFrames AttachService::newestPose() const {
+  auto future = tool_.newest_pose();
+  if (future.wait_for(kGuardTimeout) != std::future_status::ready) throw Error("the guard is busy: ask again");
+  return future.get();
+}
+
+Eigen::Isometry3d AttachService::lookup(const std::string& frame, sweep_guard_core::Time stamp) const {
+  return dependencies_.frames.lookup(dependencies_.parameters.initial().fixed_frame, frame, stamp, kTransformWait);
+}
+
+// What is part of the tool need not be there as a workpiece.
+void AttachService::require(const Parameters& next) const {
+  std::set<std::string> ids = next.mesh_ids;
+  for (const std::string& id : next.attached) ids.erase(id);
+  dependencies_.monitor.require(ids);
+}
+
+}  // namespace sweep_guard_ros

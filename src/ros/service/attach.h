@@ -1,0 +1,62 @@
+#pragma once
+
+#include <ros/service_server.h>
+#include <sweep_guard/Attach.h>
+
+#include <functional>
+#include <future>
+#include <memory>
+#include <string>
+
+#include "guard/workpiece_store.h"
+#include "ros/input/frames.h"
+#include "ros/parameters/parameters.h"
+#include "ros/service/limited_calls.h"
+#include "sweep_guard/guard/pose_with_frames.h"
+#include "sweep_guard/monitor/warning_monitor.h"
+
+namespace sweep_guard_ros {
+
+/// What AttachService asks of the guard's thread.
+struct ToolControls {
+  /// Returns the newest swept pose. The future throws sweep_guard_core::Error if there is none, or it is stale.
+  std::function<std::future<sweep_guard_core::PoseWithFrames>()> newest_pose;
+  /// See GuardThread::exchangeTool().
+  std::function<void(const std::shared_ptr<const Parameters>& before, const std::shared_ptr<const Parameters>& next,
+                     const std::function<void()>& also)>
+      exchange_tool;
+};
+
+struct AttachDependencies {
+  const LiveParameters& parameters;
+  const Frames& frames;
+  sweep_guard_core::WorkpieceStore& workpieces;
+  sweep_guard_core::WarningMonitor& monitor;
+};
+
+/// Serves `~attach`: a workpiece that the tool holds becomes part of the tool, and is given back. Cuts it into convex pieces
+/// in a thread of its own. A call that finds 4 others waiting is answered BUSY.
+class AttachService {
+ public:
+  AttachService(const ros::NodeHandle& private_node, const AttachDependencies& dependencies, ToolControls tool);
+
+  void start(Supervisor& supervisor) { calls_.start(supervisor); }
+
+ private:
+  using Event = ros::ServiceEvent<sweep_guard::Attach::Request, sweep_guard::Attach::Response>;
+
+  bool onCall(Event& event);
+  std::string attach(const std::string& id, const std::string& link);
+  std::string detach(const std::string& id);
+  std::shared_ptr<const sweep_guard_core::Workpiece> workpieceOf(const std::string& id) const;
+  sweep_guard_core::PoseWithFrames newestPose() const;
+  Eigen::Isometry3d lookup(const std::string& frame, sweep_guard_core::Time stamp) const;
+  void require(const Parameters& next) const;
+
+  const AttachDependencies dependencies_;
+  const ToolControls tool_;
+  LimitedCalls calls_{"attach"};  // before the server, which uses it
+  ros::ServiceServer server_;
+};
+
+}  // namespace sweep_guard_ros
