@@ -51,6 +51,18 @@ TEST(ContactForceTest, NoTranslationFreesAToolThatPiercesASheet) {
   EXPECT_EQ(force.depth, 0.0);
 }
 
+// Opposite normals, with further planes in between: the search has to see that there is no way out.
+TEST(ContactForceTest, NorFromASheetAmongOtherPlanes) {
+  RandomScenes random(4);
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d normal_W = random.direction();
+    std::vector<SeparatingPlane> planes = {planeAt(normal_W, Vector3d::Zero()), planeAt(-normal_W, 0.001 * normal_W)};
+    for (size_t j = random.count(5); j > 0; --j)
+      planes.push_back(planeAt(random.direction(), 0.002 * random.direction()));
+    EXPECT_TRUE(forceAt(Vector3d::Zero(), planes).force_W.isZero(0.0));
+  }
+}
+
 TEST(ContactForceTest, TheTorqueIsThatOfTheForceAtTheNearestPoint) {
   ToolBalls tool = ballTool(0.001);
   tool.pieces[0].push_back({Vector3d(0.1, 0.0, -0.01), 0.002});
