@@ -4,6 +4,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/WrenchStamped.h>
 
+#include "child_process.h"
 #include "drop_in_fixture.h"
 #include "refusal.h"
 
@@ -127,6 +128,17 @@ TEST_F(HapticsNodeTest, ASilentToolPoseOrDeviceIsZeroAtOnceAndTheForceComesBack)
   turned_forces_.await("zero", isZeroWrench);
   awaitDiagnosis("turned/haptics: force", diagnostic_msgs::DiagnosticStatus::WARN, "zero: no new pose of the device");
   forces_.await("the force for the device that tells no pose", isFelt);
+}
+
+TEST_F(HapticsNodeTest, ParametersThatDoNotFitTogetherEndItWithStatusTwo) {
+  ChildProcess process(program("haptics_node", {"__name:=refused", "_damping:=2.5", "_device_damping:=2.0"}));
+  EXPECT_EQ(process.wait(), 2);
+  EXPECT_TRUE(has(process.output(), "device_damping: must be above"));
+}
+
+TEST_F(HapticsNodeTest, ASecondPublisherOfTheForceIsAnErrorInTheDiagnostics) {
+  const ros::Publisher second = node_.advertise<WrenchStamped>("/haptics/servo_cf", 1);
+  awaitDiagnosis("haptics: output", diagnostic_msgs::DiagnosticStatus::ERROR, "past the guard");
 }
 
 // The device would repeat the last force.
