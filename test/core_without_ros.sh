@@ -6,7 +6,7 @@ library=$1
 root=$2
 
 files=()
-for room in black_box common simd geometry detection prediction guard monitor motion; do
+for room in black_box common simd geometry detection prediction guard monitor motion interaction haptics; do
   for folder in "$root/include/sweep_guard/$room" "$root/src/$room"; do
     [[ -d $folder ]] && files+=("$folder"/*)
   done

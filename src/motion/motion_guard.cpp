@@ -11,18 +11,6 @@ namespace {
 
 constexpr size_t kBalls = 4096;  // before buffers grow
 
-PermissionInputs permissionInputs(const MotionInputs& inputs, const Timestamps& command) {
-  PermissionInputs permission;
-  permission.command = command;
-  permission.warning = inputs.warning;
-  if (inputs.pose) permission.pose = inputs.pose->timestamps;
-  if (!inputs.planes) return permission;
-  const PlaneSet& planes = *inputs.planes;
-  const bool tool_known = inputs.tool && belongsTo(planes, *inputs.tool);
-  permission.planes = PermissionInputs::Planes{planes.timestamps, planes.valid_until, planes.complete, tool_known};
-  return permission;
-}
-
 double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double radius) {
   const double angle = Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
   return (a.translation() - b.translation()).norm() + radius * angle;
@@ -40,6 +28,17 @@ void requireUsable(const MotionGuardOptions& options) {
 }
 
 }  // namespace
+
+PermissionInputs permissionInputs(const MotionInputs& inputs) {
+  PermissionInputs permission;
+  permission.warning = inputs.warning;
+  if (inputs.pose) permission.pose = inputs.pose->timestamps;
+  if (!inputs.planes) return permission;
+  const PlaneSet& planes = *inputs.planes;
+  const bool tool_known = inputs.tool && belongsTo(planes, *inputs.tool);
+  permission.planes = PermissionInputs::Planes{planes.timestamps, planes.valid_until, planes.complete, tool_known};
+  return permission;
+}
 
 Twist atPoint(const Twist& twist_W, const Eigen::Vector3d& to_W) {
   return {twist_W.v_W + twist_W.w_W.cross(to_W), twist_W.w_W};
@@ -70,7 +69,9 @@ GuardedMotion MotionGuard::guard(const MotionInputs& inputs, const MotionCommand
 
 PermissionDecision MotionGuard::permission(const MotionInputs& inputs, const Timestamps& command,
                                            const Instant& now) const {
-  return decidePermission(permissionInputs(inputs, command), now, options_.permission);
+  PermissionInputs permission = permissionInputs(inputs);
+  permission.command = command;
+  return decidePermission(permission, now, options_.permission);
 }
 
 void MotionGuard::stop(SteadyTime now) { in_flight_.add({}, now); }

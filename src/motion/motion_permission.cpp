@@ -68,6 +68,8 @@ const char* textOf(PermissionCause cause) {
       return "not every workpiece was tested at the newest pose";
     case PermissionCause::kNoTool:
       return "the balls of this tool have not arrived";
+    case PermissionCause::kDeviceSilent:
+      return "no new pose of the device";
   }
   return "";
 }

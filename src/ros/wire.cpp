@@ -142,6 +142,12 @@ void checkLengths<geometry_msgs::TwistStamped>(Wire wire) {
   read.end();
 }
 
+// A wrench is as long as a twist.
+template <>
+void checkLengths<geometry_msgs::WrenchStamped>(Wire wire) {
+  checkLengths<geometry_msgs::TwistStamped>(wire);
+}
+
 template <>
 void checkLengths<sweep_guard::Proximity>(Wire wire) {
   WireReader read(wire);

@@ -4,6 +4,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <sensor_msgs/JointState.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
@@ -56,6 +57,8 @@ template <>
 void checkLengths<geometry_msgs::Twist>(Wire wire);
 template <>
 void checkLengths<geometry_msgs::TwistStamped>(Wire wire);
+template <>
+void checkLengths<geometry_msgs::WrenchStamped>(Wire wire);
 template <>
 void checkLengths<sweep_guard::Proximity>(Wire wire);
 template <>

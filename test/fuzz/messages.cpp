@@ -41,7 +41,7 @@ class World {
         live_(guardParameters()),
         poses_(node_, live_, {frames_, store_, monitor_, queue_, &frame_motions_}),
         other_tools_(node_, guardParameters(), {[](const auto& job) { job.run(); }, store_, frame_motions_, monitor_}),
-        guard_(node_, motionParameters()),
+        guard_(node_, motionParameters().guardSource()),
         motion_guard_(motionParameters().options) {}
 
   // The first byte chooses the topic, two more are the length.

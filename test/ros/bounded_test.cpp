@@ -92,6 +92,13 @@ geometry_msgs::TwistStamped example() {
 }
 
 template <>
+geometry_msgs::WrenchStamped example() {
+  geometry_msgs::WrenchStamped message;
+  message.header = header();
+  return message;
+}
+
+template <>
 sweep_guard::Proximity example() {
   sweep_guard::Proximity message;
   message.header = header();
@@ -294,6 +301,11 @@ std::vector<size_t> lengths<geometry_msgs::TwistStamped>() {
 }
 
 template <>
+std::vector<size_t> lengths<geometry_msgs::WrenchStamped>() {
+  return {12};
+}
+
+template <>
 std::vector<size_t> lengths<sweep_guard::Proximity>() {
   const size_t planes = kHeader + 4 + 5 + 56 + 4 + 8 + 1;
   const size_t first = planes + 4;
@@ -445,13 +457,13 @@ class WireTest : public testing::Test {};
 
 using Messages =
     testing::Types<geometry_msgs::PoseStamped, sensor_msgs::JointState, geometry_msgs::Twist,
-                   geometry_msgs::TwistStamped, tf2_msgs::TFMessage, sweep_guard::DeformableMesh,
-                   sweep_guard::MeshVertices, sweep_guard::Proximity, sweep_guard::ToolBalls, sweep_guard::ToolBodies,
-                   sweep_guard::ToolSurface, sweep_guard::Warning, sweep_guard::CheckSweepRequest,
-                   sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest, sweep_guard::AcknowledgeRequest,
-                   sweep_guard::AttachRequest, sweep_guard::SaveProfileRequest, sweep_guard::Intend,
-                   sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest, std_srvs::TriggerRequest,
-                   dynamic_reconfigure::ReconfigureRequest>;
+                   geometry_msgs::TwistStamped, geometry_msgs::WrenchStamped, tf2_msgs::TFMessage,
+                   sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::Proximity,
+                   sweep_guard::ToolBalls, sweep_guard::ToolBodies, sweep_guard::ToolSurface, sweep_guard::Warning,
+                   sweep_guard::CheckSweepRequest, sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest,
+                   sweep_guard::AcknowledgeRequest, sweep_guard::AttachRequest, sweep_guard::SaveProfileRequest,
+                   sweep_guard::Intend, sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest,
+                   std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {

@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "ros/black_box/recorded_topics.h"
+#include "ros/haptics/haptics_parameters.h"
 #include "ros/motion/motion_parameters.h"
 #include "ros/parameter_documents.h"
 #include "ros/parameters/parameters.h"
@@ -220,6 +221,14 @@ TEST(DocumentsTest, ListEachParameterOfTheBlackBox) {
   const std::filesystem::path document = kRoot / "doc" / "black_box.md";
   expectContents(document, withRows(contents(document), head, fixedParameterRows(described)));
   expectContents(kRoot / "config" / "black_box.yaml", blackBoxConfigurationFile(described));
+}
+
+TEST(DocumentsTest, ListEachParameterOfHaptics) {
+  const auto described = loadHapticsParameters(ros::NodeHandle("/nothing_is_set")).described;
+  const std::string head = "| parameter | default | type, unit, range | effect |";
+  const std::filesystem::path document = kRoot / "doc" / "haptics.md";
+  expectContents(document, withRows(contents(document), head, fixedParameterRows(described)));
+  expectContents(kRoot / "config" / "haptics.yaml", hapticsConfigurationFile(described));
 }
 
 std::string argumentLine(const tinyxml2::XMLElement& argument) {

@@ -115,4 +115,8 @@ std::string blackBoxConfigurationFile(const std::vector<ParameterInfo>& infos) {
   return head("black_box", "", "src/ros/black_box/black_box_parameters.cpp") + entries(infos);
 }
 
+std::string hapticsConfigurationFile(const std::vector<ParameterInfo>& infos) {
+  return head("haptics", "", "src/ros/haptics/haptics_parameters.cpp") + entries(infos);
+}
+
 }  // namespace sweep_guard_ros

@@ -20,5 +20,7 @@ std::string configurationFile(const std::vector<ParameterInfo>& infos);
 std::string motionConfigurationFile(const std::vector<ParameterInfo>& infos);
 /// Returns the text of config/black_box.yaml.
 std::string blackBoxConfigurationFile(const std::vector<ParameterInfo>& infos);
+/// Returns the text of config/haptics.yaml.
+std::string hapticsConfigurationFile(const std::vector<ParameterInfo>& infos);
 
 }  // namespace sweep_guard_ros

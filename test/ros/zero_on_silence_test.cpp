@@ -2,6 +2,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <signal.h>
@@ -115,6 +116,25 @@ TEST_F(ZeroOnSilenceTest, PassesOnStampedCommandsWithTheirHeaders) {
   });
   output.await("zero",
                [&](const auto& next) { return isZero(next.twist) && next.header.stamp > command.header.stamp; });
+}
+
+TEST_F(ZeroOnSilenceTest, PassesOnWrenchesAndReplacesWhatIsNotFinite) {
+  using geometry_msgs::WrenchStamped;
+  const ChildProcess process(program("zero_on_silence", {"_command_type:=wrench_stamped", "_timeout:=1.0"}));
+  const Listener<WrenchStamped> output("output");
+  const ros::Publisher publisher = node_.advertise<WrenchStamped>("command", 1);
+  connect(publisher, output);
+  WrenchStamped command;
+  command.header.frame_id = "base";
+  command.wrench.force.z = 1.5;
+  sendUntilPassed<WrenchStamped>(publisher, command, output, [&](const WrenchStamped& next) {
+    return next.header.frame_id == "base" && next.wrench == command.wrench;
+  });
+  command.wrench.torque.x = kNaN;
+  const auto sent = SteadyClock::now();
+  publisher.publish(command);
+  output.await("zero", [](const WrenchStamped& next) { return next.wrench == geometry_msgs::Wrench(); });
+  EXPECT_LT(SteadyClock::now() - sent, std::chrono::milliseconds(500)) << "it is not the silence that did it";
 }
 
 TEST_F(ZeroOnSilenceTest, SendsALastZeroWhenItEnds) {

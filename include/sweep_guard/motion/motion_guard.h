@@ -35,6 +35,9 @@ struct MotionInputs {
   std::optional<PermissionInputs::ReceivedWarning> warning;  ///< newest one
 };
 
+/// Returns what a permission is decided by, without a command.
+PermissionInputs permissionInputs(const MotionInputs& inputs);
+
 /// A commanded velocity of one point of the tool.
 struct MotionCommand {
   Twist twist_W;                                      ///< of the point

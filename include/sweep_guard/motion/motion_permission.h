@@ -30,7 +30,8 @@ enum class PermissionCause : std::uint8_t {
   kPoseSilent,     ///< no tool pose has arrived within `silence`
   kOldPose,        ///< the newest tool pose is older than `pose_age`
   kIncomplete,     ///< not every workpiece was tested at the pose of the separating planes
-  kNoTool          ///< the tool that the separating planes were computed for is not known
+  kNoTool,         ///< the tool that the separating planes were computed for is not known
+  kDeviceSilent    ///< of a haptic device: none of its own poses has arrived within ForceLimits::silence
 };
 
 /// Returns the cause in words for people.

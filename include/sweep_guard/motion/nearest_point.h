@@ -11,7 +11,7 @@ namespace sweep_guard_core {
 /// The half-space {y : normal · y <= offset} of R^4.
 struct HalfSpace4 {
   Eigen::Vector4d normal;  ///< unit
-  double offset;           ///< >= 0: the origin belongs to the half-space
+  double offset;           ///< >= 0 if the origin belongs to the half-space
 };
 
 /// The point of a polyhedron that is nearest to a target, with the proof of it: target - point = sum of multipliers[i] *
@@ -27,7 +27,8 @@ struct NearestPoint {
 /// and Idnani (1983): begins at the target and adds the half-space that is violated most, until none is. The number of
 /// half-spaces is not limited; nothing is allocated. The point may lie outside of a half-space by 1e-13, or by up to 1e-6
 /// where normals are within 1e-8 of linear dependence.
-/// @returns empty if rounding kept it from an answer: after 200 steps, or without a direction to go on in
+/// @returns empty if the half-spaces have no point in common, or if rounding kept it from an answer: after 200 steps, or
+/// without a direction to go on in
 std::optional<NearestPoint> nearestPoint(const Eigen::Vector4d& target, const std::vector<HalfSpace4>& half_spaces);
 
 }  // namespace sweep_guard_core

@@ -57,13 +57,11 @@ std::shared_ptr<const sweep_guard_core::ToolBalls> toolFrom(const sweep_guard::T
 
 }  // namespace
 
-GuardInput::GuardInput(const ros::NodeHandle& node, const MotionParameters& parameters)
-    : fixed_frame_(parameters.fixed_frame),
-      tool_frame_(parameters.tool_frame),
-      silence_(parameters.options.permission.silence) {
-  planes_ = subscribe(node, parameters.guard + "/proximity", planes_record_, &GuardInput::acceptPlanes);
-  tool_ = subscribe(node, parameters.guard + "/tool_balls", tool_record_, &GuardInput::acceptTool);
-  warning_ = subscribe(node, parameters.guard + "/warning", warning_record_, &GuardInput::acceptWarning);
+GuardInput::GuardInput(const ros::NodeHandle& node, const GuardSource& source)
+    : fixed_frame_(source.fixed_frame), tool_frame_(source.tool_frame), silence_(source.silence) {
+  planes_ = subscribe(node, source.guard + "/proximity", planes_record_, &GuardInput::acceptPlanes);
+  tool_ = subscribe(node, source.guard + "/tool_balls", tool_record_, &GuardInput::acceptTool);
+  warning_ = subscribe(node, source.guard + "/warning", warning_record_, &GuardInput::acceptWarning);
 }
 
 template <typename Msg>

@@ -12,7 +12,7 @@
 #include "monitor/input_record.h"
 #include "ros/bounded.h"
 #include "ros/log_throttle.h"
-#include "ros/motion/motion_parameters.h"
+#include "ros/motion/guard_source.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/motion/motion_guard.h"
 
@@ -22,7 +22,7 @@ namespace sweep_guard_ros {
 /// each. One that is refused changes nothing: the guard then seems silent. So it does if several nodes publish.
 class GuardInput {
  public:
-  GuardInput(const ros::NodeHandle& node, const MotionParameters& parameters);
+  GuardInput(const ros::NodeHandle& node, const GuardSource& source);
 
   void start(Supervisor& supervisor) {
     thread_.start(supervisor, {"guard", sweep_guard_core::Stage::kReceive, /*watched=*/true, /*loses_latched=*/true});

@@ -35,8 +35,6 @@ class MotionDiagnostics {
   void motion(Status& status) const;
   void command(Status& status) const;
   void output(Status& status) const;
-  void guard(Status& status) const;
-  void toolPose(Status& status) const;
 
   const MotionDiagnosticsSources sources_;
   diagnostic_updater::Updater updater_;

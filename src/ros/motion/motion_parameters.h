@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/motion/guard_source.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/motion/motion_guard.h"
 #include "sweep_guard/motion/pose_follower.h"
@@ -30,6 +31,11 @@ struct MotionParameters {
   int halt_messages;                     ///< zeros after the commands have stopped; 0: without end
   ParameterReader::Settings settings;    ///< as read
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order
+
+  GuardSource guardSource() const { return {guard, fixed_frame, tool_frame, options.permission.silence}; }
+  PoseSource poseSource() const {
+    return {"tool pose", "tool_pose", tool_source, fixed_frame, tool_frame, options.permission.silence};
+  }
 };
 
 /// Reads the private parameters. A missing parameter takes its default. Warns of each parameter that is not read.

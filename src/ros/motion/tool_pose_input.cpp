@@ -23,16 +23,17 @@ Eigen::Isometry3d nearestInTime(const Frames& frames, const std::string& target,
 
 }  // namespace
 
-ToolPoseInput::ToolPoseInput(const ros::NodeHandle& node, const MotionParameters& parameters, Frames& frames)
-    : fixed_frame_(parameters.fixed_frame),
-      tool_frame_(parameters.tool_frame),
-      silence_(parameters.options.permission.silence),
+ToolPoseInput::ToolPoseInput(const ros::NodeHandle& node, const PoseSource& source, Frames& frames)
+    : name_(source.name),
+      fixed_frame_(source.fixed_frame),
+      tool_frame_(source.frame),
+      silence_(source.silence),
       frames_(frames) {
-  if (parameters.tool_source == ToolSource::kTf) {
+  if (source.source == ToolSource::kTf) {
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
   } else {
     subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(
-        thread_.on(node), {"tool_pose", kQueueLength, kMaxMessageSize},
+        thread_.on(node), {source.topic, kQueueLength, kMaxMessageSize},
         [this](const auto& event) { onMessage(*event.getConstMessage()); },
         [this](const std::string& reason) { refuse(reason); });
   }
@@ -90,7 +91,7 @@ void ToolPoseInput::accept(const Eigen::Isometry3d& X_WT, const sweep_guard_core
 
 void ToolPoseInput::refuse(const std::string& reason) {
   record_.error(reason, /*refused=*/true);
-  log_.error("", "tool pose on " + source() + " refused: " + reason);
+  log_.error("", name_ + " on " + this->source() + " refused: " + reason);
 }
 
 }  // namespace sweep_guard_ros

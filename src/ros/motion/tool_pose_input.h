@@ -11,19 +11,22 @@
 #include "ros/bounded.h"
 #include "ros/input/frames.h"
 #include "ros/log_throttle.h"
-#include "ros/motion/motion_parameters.h"
+#include "ros/motion/guard_source.h"
 #include "ros/threads/queue_thread.h"
 #include "sweep_guard/motion/motion_guard.h"
 
 namespace sweep_guard_ros {
 
-/// Keeps the newest pose of the tool, from the topic `tool_pose` or from tf. Looks transforms up as they are: a pose whose
+/// Keeps the newest pose of the tool, or of another frame, from a topic or from tf. Looks transforms up as they are: a pose whose
 /// frame has no transform at its stamp takes the newest one.
 class ToolPoseInput {
  public:
-  ToolPoseInput(const ros::NodeHandle& node, const MotionParameters& parameters, Frames& frames);
+  ToolPoseInput(const ros::NodeHandle& node, const PoseSource& source, Frames& frames);
 
-  void start(Supervisor& supervisor) { thread_.start(supervisor, {"poses", sweep_guard_core::Stage::kReceive}); }
+  /// @param thread  name of its thread
+  void start(Supervisor& supervisor, const char* thread = "poses") {
+    thread_.start(supervisor, {thread, sweep_guard_core::Stage::kReceive});
+  }
 
   std::optional<sweep_guard_core::MotionInputs::ToolPose> newest() const;  ///< any thread
 
@@ -37,6 +40,7 @@ class ToolPoseInput {
   void accept(const Eigen::Isometry3d& X_WT, const sweep_guard_core::Timestamps& timestamps);
   void refuse(const std::string& reason);
 
+  const std::string name_;
   const std::string fixed_frame_;
   const std::string tool_frame_;
   const sweep_guard_core::Duration silence_;

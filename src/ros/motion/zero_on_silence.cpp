@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 
 #include <cmath>
 #include <limits>
@@ -19,25 +20,26 @@ constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
 constexpr size_t kMaxMessageSize = 4096;
 
-const geometry_msgs::Twist& twistOf(const geometry_msgs::Twist& command) { return command; }
-const geometry_msgs::Twist& twistOf(const geometry_msgs::TwistStamped& command) { return command.twist; }
-
 bool isFinite(const geometry_msgs::Vector3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 bool isFinite(const geometry_msgs::Twist& twist) { return isFinite(twist.linear) && isFinite(twist.angular); }
+bool isFinite(const geometry_msgs::TwistStamped& command) { return isFinite(command.twist); }
+bool isFinite(const geometry_msgs::WrenchStamped& command) {
+  return isFinite(command.wrench.force) && isFinite(command.wrench.torque);
+}
 
 template <typename Msg>
 Msg zero() {
-  return {};
+  Msg stamped;
+  stamped.header.stamp = ros::Time::now();
+  return stamped;
 }
 
 template <>
-geometry_msgs::TwistStamped zero() {
-  geometry_msgs::TwistStamped twist;
-  twist.header.stamp = ros::Time::now();
-  return twist;
+geometry_msgs::Twist zero() {
+  return {};
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -56,7 +58,7 @@ ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle&
       silence_(sweep_guard_core::fromSeconds(read.number("timeout", 0.1, {0.01, 1.0, "s"}))),
       updater_(node, private_node, private_node.getNamespace()),
       supervisor_(Process::kOwn) {
-  const std::string type = read.choice("command_type", "twist", {"twist", "twist_stamped"});
+  const std::string type = read.choice("command_type", "twist", {"twist", "twist_stamped", "wrench_stamped"});
   read.number("diagnostic_period", 1.0, {0.0, std::numeric_limits<double>::infinity()});  // set by diagnostic_updater
   read.warnOfUnread();
   settings_ = read.settings();
@@ -64,7 +66,9 @@ ZeroOnSilence::ZeroOnSilence(const ros::NodeHandle& node, const ros::NodeHandle&
   updater_.add("commands", [this](Status& status) { report(status); });
   zeros_.every(kZeroPeriod, [this] { sendZeroIfSilent(); });
   reports_.every(kReportPeriod, [this] { updater_.force_update(); });
-  type == "twist" ? relay<geometry_msgs::Twist>(node) : relay<geometry_msgs::TwistStamped>(node);
+  if (type == "twist") relay<geometry_msgs::Twist>(node);
+  if (type == "twist_stamped") relay<geometry_msgs::TwistStamped>(node);
+  if (type == "wrench_stamped") relay<geometry_msgs::WrenchStamped>(node);
   output_watch_.emplace(output_.getTopic());
 }
 
@@ -100,7 +104,7 @@ void ZeroOnSilence::relay(const ros::NodeHandle& node) {
 
 template <typename Msg>
 void ZeroOnSilence::pass(const boost::shared_ptr<const Msg>& command) {
-  if (!isFinite(twistOf(*command))) return refuse("command is not finite");
+  if (!isFinite(*command)) return refuse("command is not finite");
   const std::lock_guard lock(mutex_);
   if (stopping_) return;
   silence_.received(std::chrono::steady_clock::now());

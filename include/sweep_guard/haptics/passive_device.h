@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "sweep_guard/haptics/force_renderer.h"
+#include "sweep_guard/haptics/passivity_controller.h"
+
+namespace sweep_guard_core {
+
+/// Keeps a device passive in each of its axes, three of translation and three of rotation, with one PassivityController
+/// each. One thread at a time. It allocates nothing.
+class PassiveDevice {
+ public:
+  struct Options {
+    double max_speed = 0.5;                ///< of the hand along any axis [m/s], > 0
+    double max_acceleration = 50.0;        ///< [m/s^2], > 0
+    double max_turn_rate = 5.0;            ///< about any axis [rad/s], > 0
+    double max_turn_acceleration = 500.0;  ///< [rad/s^2], > 0
+  };
+
+  /// @throws InvalidInput  if an option is NaN or out of range
+  PassiveDevice(const ForceOptions& force, const Options& options);
+
+  /// A hand in a frame F that does not move.
+  struct Hand {
+    Eigen::Isometry3d X_FH = Eigen::Isometry3d::Identity();
+    Eigen::Matrix3d R_FD = Eigen::Matrix3d::Identity();  ///< axes of the device
+    double scale = 1.0;                                  ///< way in F for a way of the device [-], > 0
+    Timestamps timestamps;
+  };
+
+  /// Observes where the hand is. One that was observed before, by its stamp, changes nothing.
+  void observe(const Hand& hand, const Instant& now);
+
+  /// Returns what to send: in each axis the wanted effort, or the nearest one that is passive.
+  DeviceWrench limit(const DeviceWrench& wanted, SteadyTime now);
+
+  double energy() const;     ///< the largest that an axis of translation has given [J]; negative: all took more
+  double tolerance() const;  ///< of an axis of translation [J]
+
+ private:
+  std::vector<PassivityController> axes_;  // three of translation, then, with torque, three of rotation
+  std::optional<Hand> newest_;
+};
+
+}  // namespace sweep_guard_core

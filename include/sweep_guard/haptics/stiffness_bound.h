@@ -1,0 +1,19 @@
+#pragma once
+
+namespace sweep_guard_core {
+
+/// A device that is sampled and driven with a period, and the damper that is simulated with it.
+struct SampledDevice {
+  double damping = 2.0;          ///< of the device and the hand that holds it [N s/m], >= 0
+  double virtual_damping = 0.0;  ///< that is simulated [N s/m], >= 0
+  double period = 0.001;         ///< [s], > 0
+};
+
+/// Returns the largest stiffness [N/m] of a simulated wall that such a device can be coupled to without gaining energy from
+/// it in a linear model: K < (b - B) / (T/2 + delay), 0 if B >= b. Without delay this is the condition of Colgate and
+/// Schenkel (1997), b > K T / 2 + B. With a delay of m periods the term of the spring grows by the maximum 2 m + 1 of
+/// Dirichlet's kernel, b > K (T/2 + m T) + B; doc/haptics.md derives it. The denominator is that of Gil et al. (2009).
+/// @param delay  from a position of the device to the force that answers to it, without the hold of a period [s], >= 0
+double maxStiffness(const SampledDevice& device, double delay);
+
+}  // namespace sweep_guard_core

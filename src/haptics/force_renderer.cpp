@@ -1,0 +1,111 @@
+#include "sweep_guard/haptics/force_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_core {
+namespace {
+
+constexpr double kVelocityTime = 0.01;  // time constant of the low-pass [s]
+constexpr double kLongestPause = 0.1;   // between poses that a velocity is measured from [s]
+constexpr double kDelayTime = 1.0;      // in which a long delay is forgotten [s]
+
+Eigen::Vector3d clampedTo(const Eigen::Vector3d& vector, double length) {
+  const double norm = vector.norm();
+  return norm > length ? Eigen::Vector3d(vector * (length / norm)) : vector;
+}
+
+// At the device, without the stiffness that a delay takes.
+double dampingAtDevice(const ForceOptions& options) {
+  return (options.law.damping + options.law.cue_damping) * options.force_scale * options.position_scale;
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw InvalidInput(what);
+}
+
+void requireUsable(const ForceOptions& options) {
+  sweep_guard_core::requireUsable(options.law);
+  require(options.position_scale > 0.0 && options.force_scale > 0.0, "position_scale and force_scale: must be > 0");
+  require(options.max_force > 0.0 && options.max_force_rate > 0.0, "max_force and its rate: must be > 0");
+  require(options.max_torque >= 0.0 && options.max_torque_rate > 0.0, "max_torque: must be >= 0, and its rate > 0");
+  require(options.period > Duration::zero() && options.output_delay >= Duration::zero(), "period: must be > 0 s");
+  require(options.device_damping > dampingAtDevice(options),
+          "device_damping: must be above the damping and the cue's damping together, times force_scale and "
+          "position_scale");
+}
+
+}  // namespace
+
+ForceRenderer::ForceRenderer(const ForceOptions& options) : options_(options) { requireUsable(options_); }
+
+RenderedForce ForceRenderer::render(const ForceInputs& inputs, const DeviceWrench& sent, const Instant& now) {
+  const double period = toSeconds(rendered_ ? std::min(now.steady - *rendered_, 2 * options_.period) : options_.period);
+  rendered_ = now.steady;
+  RenderedForce rendered;
+  rendered.permission = decideForce({permissionInputs(inputs.known), inputs.device}, now, options_.limits);
+  const DeviceWrench before = faded_ ? unfaded_ : sent;
+  if (inputs.known.pose) {
+    measureVelocity(*inputs.known.pose);
+    measureDelay(inputs.known.pose->timestamps, now);
+  }
+  if (!(rendered.permission.gain > 0.0)) {
+    faded_ = false;
+    return rendered;
+  }
+  const MotionInputs& known = inputs.known;
+  ToolForce force = finder_.find(*known.planes, *known.tool, known.pose->X_WT, twist_W_, options_.law);
+  rendered.depth = force.depth;
+  rendered.delay = fromSeconds(delay_) + options_.output_delay;
+  rendered.stiffness_gain = stiffnessGain();
+  force.force_W *= rendered.stiffness_gain;
+  force.torque_W *= rendered.stiffness_gain;
+  unfaded_ = clamped(atDevice(force, inputs.R_WD), rendered.permission.gain < 1.0 ? before : sent, period);
+  faded_ = rendered.permission.gain < 1.0;
+  rendered.wrench = {rendered.permission.gain * unfaded_.force_D, rendered.permission.gain * unfaded_.torque_D};
+  return rendered;
+}
+
+void ForceRenderer::measureVelocity(const MotionInputs::ToolPose& pose) {
+  const Sample sample{pose.X_WT, pose.timestamps.stamp};
+  const double interval = newest_ ? toSeconds(sample.stamp - newest_->stamp) : -1.0;
+  if (interval == 0.0) return;
+  if (interval < 0.0 || interval > kLongestPause) {
+    twist_W_ = {};
+  } else {
+    const double weight = 1.0 - std::exp(-interval / kVelocityTime);
+    const Eigen::AngleAxisd turn(sample.X_WT.linear() * newest_->X_WT.linear().transpose());
+    twist_W_.v_W += weight * ((sample.X_WT.translation() - newest_->X_WT.translation()) / interval - twist_W_.v_W);
+    twist_W_.w_W += weight * (turn.angle() / interval * turn.axis() - twist_W_.w_W);
+  }
+  newest_ = sample;
+}
+
+void ForceRenderer::measureDelay(const Timestamps& pose, const Instant& now) {
+  const double kept = std::exp(-toSeconds(options_.period) / kDelayTime);
+  delay_ = std::max(toSeconds(age(pose, now)), kept * delay_);
+}
+
+double ForceRenderer::stiffnessGain() const {
+  const double stiffness = options_.law.stiffness * options_.force_scale * options_.position_scale;
+  const SampledDevice device{options_.device_damping, dampingAtDevice(options_), toSeconds(options_.period)};
+  const double most = maxStiffness(device, delay_ + toSeconds(options_.output_delay));
+  return stiffness > most ? most / stiffness : 1.0;
+}
+
+// A lever at the device is that at the tool / position_scale.
+DeviceWrench ForceRenderer::atDevice(const ToolForce& force, const Eigen::Matrix3d& R_WD) const {
+  return {options_.force_scale * (R_WD.transpose() * force.force_W),
+          options_.force_scale / options_.position_scale * (R_WD.transpose() * force.torque_W)};
+}
+
+DeviceWrench ForceRenderer::clamped(const DeviceWrench& wanted, const DeviceWrench& before, double period) const {
+  const Eigen::Vector3d force_D = clampedTo(wanted.force_D, options_.max_force);
+  const Eigen::Vector3d torque_D = clampedTo(wanted.torque_D, options_.max_torque);
+  return {before.force_D + clampedTo(force_D - before.force_D, options_.max_force_rate * period),
+          before.torque_D + clampedTo(torque_D - before.torque_D, options_.max_torque_rate * period)};
+}
+
+}  // namespace sweep_guard_core

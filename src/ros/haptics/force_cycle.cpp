@@ -1,0 +1,94 @@
+#include "ros/haptics/force_cycle.h"
+
+#include <geometry_msgs/WrenchStamped.h>
+#include <ros/console.h>
+
+#include <boost/make_shared.hpp>
+
+#include "ros/motion/command_frames.h"
+#include "ros/process.h"
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+
+using sweep_guard_core::DeviceWrench;
+using sweep_guard_core::ForceInputs;
+using sweep_guard_core::Instant;
+
+ForceCycle::ForceCycle(ros::NodeHandle node, const HapticsParameters& parameters, const ForceCycleSources& sources)
+    : parameters_(parameters),
+      sources_(sources),
+      ticks_(kPeriod),
+      renderer_(parameters.force),
+      device_(parameters.force, parameters.hand),
+      publisher_(node.advertise<geometry_msgs::WrenchStamped>("servo_cf", 1)) {}
+
+void ForceCycle::tick() {
+  const std::lock_guard lock(mutex_);
+  if (stopped_) return;
+  if (!real_time_ && parameters_.realtime_priority > 0) {
+    const std::string refused = requestRealTime(parameters_.realtime_priority);
+    if (!refused.empty()) ROS_WARN("realtime_priority has no effect: %s", refused.c_str());
+  }
+  real_time_ = true;
+  const Instant at = now();
+  ticks_.tick(at.steady);
+  state_.sent = wrenchAt(at);
+  publish(state_.sent);
+}
+
+void ForceCycle::stop() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  publish({});
+}
+
+ForceCycle::State ForceCycle::state() const {
+  const std::lock_guard lock(mutex_);
+  State state = state_;
+  state.energy = device_.energy();
+  state.tolerance = device_.tolerance();
+  return state;
+}
+
+DeviceWrench ForceCycle::wrenchAt(const Instant& at) {
+  ForceInputs inputs;
+  inputs.known = sources_.guard.newest().inputs;
+  inputs.known.pose = sources_.tool.newest();
+  try {
+    inputs.R_WD = newestPose(sources_.frames, parameters_.guard.fixed_frame, parameters_.device_frame).linear();
+    state_.problem.clear();
+  } catch (const FrameError& error) {
+    state_.problem = error.what();
+    log_.error("", "device_frame: " + state_.problem);
+    inputs.known.warning.reset();
+  }
+  observe(inputs, at);
+  if (sources_.device != nullptr) {
+    const auto device = sources_.device->newest();
+    inputs.device = device ? device->timestamps : sweep_guard_core::Timestamps{};
+  }
+  state_.rendered = renderer_.render(inputs, state_.sent, at);
+  return device_.limit(state_.rendered.wrench, at.steady);
+}
+
+void ForceCycle::observe(const ForceInputs& inputs, const Instant& at) {
+  if (sources_.device != nullptr) {
+    if (const auto hand = sources_.device->newest()) {
+      device_.observe({hand->X_WT, Eigen::Matrix3d::Identity(), 1.0, hand->timestamps}, at);
+    }
+  } else if (const auto& tool = inputs.known.pose) {
+    device_.observe({tool->X_WT, inputs.R_WD, parameters_.force.position_scale, tool->timestamps}, at);
+  }
+}
+
+void ForceCycle::publish(const DeviceWrench& wrench) {
+  const auto msg = boost::make_shared<geometry_msgs::WrenchStamped>();
+  msg->header.stamp = ros::Time::now();
+  msg->header.frame_id = parameters_.device_frame;
+  msg->wrench.force = vectorMsg<geometry_msgs::Vector3>(wrench.force_D);
+  msg->wrench.torque = vectorMsg<geometry_msgs::Vector3>(wrench.torque_D);
+  publisher_.publish(msg);
+}
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <mutex>
+#include <string>
+
+#include "ros/haptics/haptics_parameters.h"
+#include "ros/haptics/tick_record.h"
+#include "ros/log_throttle.h"
+#include "ros/motion/guard_input.h"
+#include "ros/motion/tool_pose_input.h"
+#include "sweep_guard/common/priority_mutex.h"
+
+namespace sweep_guard_ros {
+
+struct ForceCycleSources {
+  const GuardInput& guard;
+  const ToolPoseInput& tool;
+  const ToolPoseInput* device;  ///< null: the pose of the tool stands for it
+  const Frames& frames;
+};
+
+/// Computes the force of the surfaces at each tick and publishes it on `servo_cf`: zero where nothing is known.
+class ForceCycle {
+ public:
+  static constexpr sweep_guard_core::Duration kPeriod = std::chrono::milliseconds(1);
+
+  /// @throws sweep_guard_core::InvalidInput if the parameters do not fit together
+  ForceCycle(ros::NodeHandle node, const HapticsParameters& parameters, const ForceCycleSources& sources);
+
+  void tick();  ///< to be called each kPeriod
+  void stop();  ///< publishes zero, and nothing after it
+
+  struct State {
+    sweep_guard_core::RenderedForce rendered;
+    sweep_guard_core::DeviceWrench sent;
+    double energy = 0.0;     ///< that an axis of the device gave at most [J]
+    double tolerance = 0.0;  ///< [J]
+    std::string problem;     ///< with the frame of the device; empty: none
+  };
+  State state() const;
+  const TickRecord& ticks() const { return ticks_; }
+  std::string topic() const { return publisher_.getTopic(); }
+  std::uint32_t subscribers() const { return publisher_.getNumSubscribers(); }
+
+ private:
+  sweep_guard_core::DeviceWrench wrenchAt(const sweep_guard_core::Instant& at);
+  void observe(const sweep_guard_core::ForceInputs& inputs, const sweep_guard_core::Instant& at);
+  void publish(const sweep_guard_core::DeviceWrench& wrench);
+
+  const HapticsParameters& parameters_;
+  const ForceCycleSources sources_;
+  TickRecord ticks_;
+  LogThrottle log_;
+  mutable sweep_guard_core::PriorityMutex mutex_;  // of what follows
+  sweep_guard_core::ForceRenderer renderer_;
+  sweep_guard_core::PassiveDevice device_;
+  State state_;
+  bool real_time_ = false;
+  bool stopped_ = false;
+  ros::Publisher publisher_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+
+#include "ros/haptics/force_cycle.h"
+#include "ros/haptics/haptics_diagnostics.h"
+#include "ros/input/frames.h"
+#include "ros/master_watch.h"
+#include "ros/threads/supervisor.h"
+#include "ros/threads/timer_thread.h"
+
+namespace sweep_guard_ros {
+
+/// Sends the force of the surfaces around the tool to a haptic device, as a ROS node or a nodelet. doc/haptics.md lists
+/// topics and parameters.
+class HapticsNode {
+ public:
+  /// @throws sweep_guard_core::InvalidInput if a parameter is refused
+  HapticsNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Process process);
+  ~HapticsNode();  ///< sends a last zero
+  HapticsNode(const HapticsNode&) = delete;
+  HapticsNode& operator=(const HapticsNode&) = delete;
+
+  void start();  ///< begins to send; once
+
+ private:
+  const ToolPoseInput* device() const { return device_pose_ ? &*device_pose_ : nullptr; }
+
+  // Members use only earlier members.
+  const HapticsParameters parameters_;
+  MasterWatch master_watch_;  // before what registers at the master
+  Supervisor supervisor_;     // before all threads
+  Frames frames_;
+  GuardInput guard_;
+  ToolPoseInput tool_pose_;
+  std::optional<ToolPoseInput> device_pose_;
+  std::optional<ForceCycle> cycle_;
+  std::optional<OutputWatch> output_watch_;
+  std::optional<HapticsDiagnostics> diagnostics_;
+  TimerThread forces_;
+  TimerThread reports_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,120 @@
+#include "ros/haptics/haptics_parameters.h"
+
+#include <ros/names.h>
+
+#include <limits>
+
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using sweep_guard_core::Duration;
+using sweep_guard_core::ForceOptions;
+using sweep_guard_core::toSeconds;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Duration seconds(ParameterReader& read, const std::string& key, Duration fallback, double lowest, double highest,
+                 const std::string& effect) {
+  return sweep_guard_core::fromSeconds(read.number(key, toSeconds(fallback), {lowest, highest, "s"}, effect));
+}
+
+std::string readGuard(ParameterReader& read) {
+  std::string guard = read.name("guard", "/sweep_guard",
+                                "Name of the guard's node, whose proximity, tool_balls and warning are listened to.");
+  std::string error;
+  if (ros::names::validate(guard, error)) return guard;
+  throw sweep_guard_core::InvalidInput("parameter guard is no name of a node: " + error);
+}
+
+void readSources(ParameterReader& read, HapticsParameters& parameters) {
+  const Duration silence = parameters.force.limits.warning_silence;
+  const std::string fixed_frame =
+      read.name("fixed_frame", "world", "tf frame that the planes are in: as that of the guard.");
+  const std::string source =
+      read.choice("tool_source", "topic", {"topic", "tf"},
+                  "topic: poses of the tool arrive on `tool_pose`. tf: the tool is the frame tool_frame in tf.");
+  const std::string tool_frame = read.name("tool_frame", "tool", "tf frame of the tool: as that of the guard.");
+  parameters.guard = {readGuard(read), fixed_frame, tool_frame, silence};
+  parameters.tool = {"tool pose", "tool_pose", source == "tf" ? ToolSource::kTf : ToolSource::kTopic,
+                     fixed_frame, tool_frame,  silence};
+  parameters.device_frame = read.optionalName(
+      "device_frame", "tf frame that does not move with the device, whose axes its force has. Empty: fixed_frame.");
+  if (parameters.device_frame.empty()) parameters.device_frame = fixed_frame;
+  parameters.device_tells_pose =
+      read.choice(
+          "device_source", "tool_pose", {"tool_pose", "device_pose"},
+          "Where the motion of the hand is known from, for the passivity controller. tool_pose: from the pose of "
+          "the tool, for a tool that always follows. device_pose: from poses of the device on `device_pose`.") ==
+      "device_pose";
+}
+
+void readContact(ParameterReader& read, ForceOptions& force) {
+  sweep_guard_core::ContactLaw& law = force.law;
+  law.stiffness = read.number("stiffness", law.stiffness, {0.0, 1e5, "N/m"},
+                              "Force on the tool for a depth. Less where the delay does not allow it.");
+  law.damping =
+      read.number("damping", law.damping, {0.0, 1e3, "N s/m"}, "Force on the tool for a speed into a surface.");
+  law.distance =
+      read.number("distance", law.distance, {0.0, 1.0, "m"}, "Distance from a surface at which the force begins.");
+  law.cue_damping =
+      read.number("cue/damping", law.cue_damping, {0.0, 1e3, "N s/m"},
+                  "Force on the tool for a speed towards a surface that it meets within cue/time: it grows "
+                  "from 0 to this as the time shrinks. 0: no cue.");
+  law.cue_time = read.number("cue/time", law.cue_time, {0.01, 5.0, "s"},
+                             "How long before a surface is reached at the present speed the cue begins.");
+}
+
+void readDevice(ParameterReader& read, HapticsParameters& parameters) {
+  ForceOptions& force = parameters.force;
+  force.position_scale =
+      read.number("position_scale", force.position_scale, {1e-3, 1e3}, "Way of the tool for a way of the device.");
+  force.force_scale = read.number("force_scale", force.force_scale, {1e-3, 1e3},
+                                  "Force at the device for a force on the tool; a torque is scaled by force_scale / "
+                                  "position_scale.");
+  force.max_force = read.number("max_force", force.max_force, {1e-3, 100.0, "N"}, "Largest force at the device.");
+  force.max_force_rate = read.number("max_force_rate", force.max_force_rate, {1.0, 1e6, "N/s"},
+                                     "How fast the force at the device changes, but to zero.");
+  force.max_torque =
+      read.number("max_torque", force.max_torque, {0.0, 10.0, "N m"}, "Largest torque at the device. 0: no torque.");
+  force.max_torque_rate = read.number("max_torque_rate", force.max_torque_rate, {1e-2, 1e5, "N m/s"},
+                                      "How fast the torque at the device changes, but to zero.");
+  force.device_damping =
+      read.number("device_damping", force.device_damping, {1e-3, 1e3, "N s/m"},
+                  "Damping of the device and the hand that holds it, which bounds the stiffness. Above "
+                  "damping + cue/damping, times force_scale and position_scale.");
+  parameters.hand.max_speed = read.number(
+      "max_speed", parameters.hand.max_speed, {1e-2, 10.0, "m/s"},
+      "Speed of the hand along any axis that the passivity controller counts on. Lower values leave more of "
+      "the force where poses are late.");
+  parameters.hand.max_acceleration =
+      read.number("max_acceleration", parameters.hand.max_acceleration, {1.0, 1e4, "m/s^2"},
+                  "Acceleration of the hand along any axis that the passivity controller counts on.");
+  parameters.hand.max_turn_rate = read.number("max_turn_rate", parameters.hand.max_turn_rate, {1e-1, 100.0, "rad/s"},
+                                              "Turn rate of the hand that the passivity controller counts on.");
+  parameters.hand.max_turn_acceleration =
+      read.number("max_turn_acceleration", parameters.hand.max_turn_acceleration, {10.0, 1e5, "rad/s^2"},
+                  "Angular acceleration of the hand that the passivity controller counts on.");
+  force.output_delay = seconds(read, "output_delay", force.output_delay, 0.0, 0.2,
+                               "Time until what is sent acts at the device, at most.");
+}
+
+}  // namespace
+
+HapticsParameters loadHapticsParameters(const ros::NodeHandle& private_node) {
+  ParameterReader read(private_node);
+  HapticsParameters parameters;
+  readSources(read, parameters);
+  readContact(read, parameters.force);
+  readDevice(read, parameters);
+  parameters.realtime_priority = read.integer(
+      "realtime_priority", 0, 0, 99, "SCHED_FIFO priority of the thread that sends; 0: that of other threads.");
+  read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
+  parameters.settings = read.settings();
+  parameters.described = read.described();
+  read.warnOfUnread();
+  return parameters;
+}
+
+}  // namespace sweep_guard_ros

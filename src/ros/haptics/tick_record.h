@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/common/quantile.h"
+#include "sweep_guard/common/time.h"
+
+namespace sweep_guard_ros {
+
+/// Keeps by how much the newest intervals between ticks differed from the period. Any thread.
+class TickRecord {
+ public:
+  struct Summary {
+    double p99 = 0.0;      ///< [s]
+    double largest = 0.0;  ///< [s]
+  };
+
+  explicit TickRecord(sweep_guard_core::Duration period) : period_(period) {}
+
+  void tick(sweep_guard_core::SteadyTime now) {
+    const std::lock_guard lock(mutex_);
+    if (ticked_) jitter_[count_++ % kTicks] = std::abs(sweep_guard_core::toSeconds(now - *ticked_ - period_));
+    ticked_ = now;
+  }
+
+  Summary summary() const {
+    std::vector<double> jitter;
+    {
+      const std::lock_guard lock(mutex_);
+      jitter.assign(jitter_.begin(), jitter_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kTicks)));
+    }
+    if (jitter.empty()) return {};
+    return {sweep_guard_core::quantile(jitter, 0.99), sweep_guard_core::quantile(jitter, 1.0)};
+  }
+
+ private:
+  static constexpr size_t kTicks = 1000;
+
+  const sweep_guard_core::Duration period_;
+  mutable sweep_guard_core::PriorityMutex mutex_;
+  std::optional<sweep_guard_core::SteadyTime> ticked_;
+  std::array<double, kTicks> jitter_{};
+  size_t count_ = 0;
+};
+
+}  // namespace sweep_guard_ros

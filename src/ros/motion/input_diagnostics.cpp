@@ -1,0 +1,67 @@
+#include "ros/motion/input_diagnostics.h"
+
+#include "sweep_guard/ros/conversions.h"
+
+namespace sweep_guard_ros {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using sweep_guard_core::InputRecord;
+using sweep_guard_core::toSeconds;
+
+constexpr auto kSilent = std::chrono::seconds(1);
+
+bool refusedLately(const InputRecord::Summary& record) {
+  return record.refused > 0 && now().steady - record.error_time < kSilent;
+}
+
+}  // namespace
+
+void addRecord(const std::string& name, const InputRecord::Summary& record, DiagnosticsLine& line) {
+  const sweep_guard_core::Instant at = now();
+  line.add(name + " received", record.received);
+  line.add(name + " refused", record.refused);
+  if (record.newest) line.addf(name + " age [s]", "%.3f", toSeconds(at.steady - record.newest->received));
+  if (!record.last_error.empty()) line.add(name + " last error", record.last_error);
+}
+
+bool silent(const InputRecord::Summary& record) {
+  return !record.newest || now().steady - record.newest->received > kSilent;
+}
+
+void reportGuard(const GuardInput& guard, DiagnosticsLine& line) {
+  line.summary(DiagnosticStatus::OK, "received");
+  for (const auto& [topic, publishers, record] : guard.sources()) {
+    if (!record.newest) line.mergeSummary(DiagnosticStatus::ERROR, "nothing received on " + topic);
+    if (refusedLately(record)) line.mergeSummary(DiagnosticStatus::ERROR, topic + " refused: " + record.last_error);
+    if (publishers > 1) line.mergeSummary(DiagnosticStatus::ERROR, "several publishers on " + topic);
+    line.add(topic, std::to_string(publishers) + " publishers");
+    addRecord(topic, record, line);
+  }
+}
+
+void reportPose(const ToolPoseInput& pose, const std::string& name, DiagnosticsLine& line) {
+  const InputRecord::Summary record = pose.record().summary();
+  line.summary(DiagnosticStatus::OK, "received");
+  if (silent(record)) line.summary(DiagnosticStatus::ERROR, "no " + name + " on " + pose.source());
+  if (refusedLately(record)) line.mergeSummary(DiagnosticStatus::ERROR, "refused: " + record.last_error);
+  if (pose.publishers().value_or(1) > 1) {
+    line.mergeSummary(DiagnosticStatus::WARN, "several publishers: the tool jumps between their poses");
+  }
+  line.add("source", pose.source());
+  addRecord(name, record, line);
+}
+
+void reportOutput(const OutputWatch& watch, const Output& output, DiagnosticsLine& line) {
+  line.summary(DiagnosticStatus::OK, "only " + output.node + " publishes on " + output.topic);
+  if (output.subscribers == 0) {
+    line.summary(DiagnosticStatus::WARN, "no subscriber to " + output.topic + ": " + output.without);
+  }
+  for (const std::string& other : watch.otherPublishers()) {
+    line.mergeSummary(DiagnosticStatus::ERROR, other + " publishes on " + output.topic + ", past the guard");
+  }
+  line.add("topic", output.topic);
+  line.add("subscribers", output.subscribers);
+}
+
+}  // namespace sweep_guard_ros

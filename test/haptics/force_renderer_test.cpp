@@ -1,0 +1,211 @@
+#include "sweep_guard/haptics/force_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include "allocations.h"
+#include "haptics/planes.h"
+#include "refusal.h"
+#include "sweep_guard/haptics/passive_device.h"
+
+namespace sweep_guard_core {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Isometry3d;
+using Eigen::Translation3d;
+using Eigen::Vector3d;
+using std::chrono::milliseconds;
+
+constexpr double kRadius = 0.005;
+
+// A ball above the plane z = 0, and a renderer that is called each millisecond.
+class ForceRendererTest : public testing::Test {
+ protected:
+  ForceRendererTest() {
+    options_.law.stiffness = 200.0;
+    options_.device_damping = 100.0;
+    options_.max_force_rate = 1e6;
+  }
+
+  void place(double depth) { pose_ = Translation3d(0.0, 0.0, kRadius - depth); }
+
+  Instant now() const { return {Time(std::chrono::seconds(50) + now_), SteadyTime(std::chrono::seconds(9) + now_)}; }
+
+  RenderedForce tick() {
+    now_ += milliseconds(1);
+    const Timestamps fresh{now().stamp, now().steady};
+    if (poses_) inputs_.known.pose = MotionInputs::ToolPose{pose_, {fresh.stamp - pose_delay_, fresh.received}};
+    if (warnings_) inputs_.known.warning = PermissionInputs::ReceivedWarning{level_, 0, now().steady};
+    if (planes_) {
+      PlaneSet planes = planeSet({planeAt(Vector3d::UnitZ(), Vector3d::Zero())});
+      planes.timestamps = fresh;
+      planes.valid_until = fresh.stamp + milliseconds(100);
+      inputs_.known.planes = std::make_shared<PlaneSet>(planes);
+    }
+    inputs_.known.tool = std::make_shared<ToolBalls>(ballTool(kRadius));
+    if (!renderer_) renderer_.emplace(options_);
+    const RenderedForce rendered = renderer_->render(inputs_, sent_, now());
+    sent_ = rendered.wrench;
+    return rendered;
+  }
+
+  RenderedForce ticks(int count) {
+    for (int i = 1; i < count; ++i) tick();
+    return tick();
+  }
+
+  ForceOptions options_;
+  ForceInputs inputs_;
+  std::optional<ForceRenderer> renderer_;
+  DeviceWrench sent_;
+  Isometry3d pose_ = Isometry3d::Identity();
+  Duration now_{};
+  Duration pose_delay_{};
+  WarningLevel level_ = WarningLevel::kContact;
+  bool poses_ = true;
+  bool planes_ = true;
+  bool warnings_ = true;
+};
+
+TEST_F(ForceRendererTest, ScalesAndTurnsTheForceToTheDevice) {
+  options_.force_scale = 0.5;
+  options_.position_scale = 0.25;
+  inputs_.R_WD = AngleAxisd(M_PI / 2, Vector3d::UnitX());
+  place(0.01);
+  const Vector3d force_D = ticks(3).wrench.force_D;
+  EXPECT_TRUE(force_D.isApprox(Vector3d(0.0, 1.0, 0.0), 1e-6)) << force_D.transpose();
+}
+
+TEST_F(ForceRendererTest, ClampsForceAndRate) {
+  options_.max_force = 2.5;
+  options_.max_force_rate = 100.0;
+  place(0.03);
+  double before = 0.0;
+  for (int i = 1; i <= 40; ++i) {
+    const double force = tick().wrench.force_D.norm();
+    EXPECT_LE(force - before, 0.1 + 1e-9);
+    before = force;
+  }
+  EXPECT_NEAR(before, 2.5, 1e-9);
+  place(-0.1);
+  EXPECT_NEAR(tick().wrench.force_D.norm(), 2.4, 1e-9);
+}
+
+TEST_F(ForceRendererTest, TorqueIsByChoice) {
+  inputs_.known.tool.reset();
+  pose_ = Translation3d(0.0, 0.0, kRadius - 0.005) * AngleAxisd(0.3, Vector3d::UnitX());
+  EXPECT_TRUE(ticks(3).wrench.torque_D.isZero(0.0));
+  EXPECT_GT(sent_.force_D.norm(), 0.5);
+}
+
+TEST_F(ForceRendererTest, ADelayOfThePoseScalesTheStiffnessDown) {
+  options_.device_damping = 2.0;
+  place(0.005);
+  EXPECT_EQ(ticks(3).stiffness_gain, 1.0);
+  pose_delay_ = milliseconds(37);
+  const RenderedForce rendered = tick();
+  EXPECT_NEAR(toSeconds(rendered.delay), 0.039, 1e-9) << "with the 2 ms of the output";
+  EXPECT_NEAR(rendered.stiffness_gain, 2.0 / (0.0005 + 0.039) / 200.0, 1e-9);
+  EXPECT_NEAR(rendered.wrench.force_D.z(), 200.0 * rendered.stiffness_gain * 0.005, 1e-9);
+  pose_delay_ = {};
+  EXPECT_LT(tick().stiffness_gain, 0.3) << "a delay is remembered";
+  EXPECT_EQ(ticks(5000).stiffness_gain, 1.0);
+}
+
+TEST_F(ForceRendererTest, SilenceOfPoseOrPlanesIsZeroWithinSeventyMilliseconds) {
+  for (bool* const source : {&poses_, &planes_}) {
+    place(0.01);
+    EXPECT_NEAR(ticks(100).wrench.force_D.z(), 2.0, 1e-6);
+    *source = false;
+    EXPECT_NEAR(ticks(50).wrench.force_D.z(), 2.0, 1e-6);
+    EXPECT_NEAR(ticks(10).wrench.force_D.z(), 1.0, 1e-6);
+    EXPECT_GT(ticks(9).wrench.force_D.z(), 0.0);
+    EXPECT_EQ(tick().wrench.force_D.z(), 0.0);
+    *source = true;
+  }
+}
+
+TEST_F(ForceRendererTest, AfterASilenceTheForceComesBackAtItsRate) {
+  options_.max_force_rate = 100.0;
+  place(0.01);
+  ticks(100);
+  poses_ = false;
+  ticks(60);
+  poses_ = true;
+  const double before = sent_.force_D.z();
+  EXPECT_NEAR(before, 1.0, 1e-6);
+  EXPECT_NEAR(tick().wrench.force_D.z(), before + 0.1, 1e-6);
+}
+
+TEST_F(ForceRendererTest, UnknownAndASilentGuardAreZeroAtOnce) {
+  place(0.01);
+  EXPECT_GT(ticks(50).wrench.force_D.z(), 1.0);
+  level_ = WarningLevel::kUnknown;
+  EXPECT_TRUE(tick().wrench.force_D.isZero(0.0));
+  level_ = WarningLevel::kContact;
+  EXPECT_GT(ticks(50).wrench.force_D.z(), 1.0);
+  warnings_ = false;
+  EXPECT_GT(ticks(150).wrench.force_D.z(), 1.0);
+  EXPECT_TRUE(tick().wrench.force_D.isZero(0.0));
+}
+
+TEST_F(ForceRendererTest, AllocatesNothing) {
+  place(0.01);
+  ticks(5);
+  PassiveDevice device(options_, {});
+  const ForceInputs inputs = inputs_;
+  now_ += milliseconds(1);
+  const Instant at = now();
+  const Allocations allocations;
+  renderer_->render(inputs, sent_, at);
+  device.observe({inputs.known.pose->X_WT, inputs.R_WD, 1.0, inputs.known.pose->timestamps}, at);
+  device.limit(sent_, at.steady);
+  EXPECT_EQ(allocations.count(), 0U) << allocations.stacks();
+}
+
+TEST_F(ForceRendererTest, OptionsThatNoDeviceCanCarryAreRefused) {
+  options_.law.damping = 100.0;
+  EXPECT_TRUE(has(refusal([&] { ForceRenderer{options_}; }), "device_damping"));
+  options_ = {};
+  options_.max_force = 0.0;
+  EXPECT_TRUE(has(refusal([&] { ForceRenderer{options_}; }), "max_force"));
+  EXPECT_TRUE(has(refusal([&] { PassiveDevice({}, {/*max_speed=*/0.0}); }), "max_speed"));
+}
+
+// A hand in a frame that is turned, and twice as large as the device.
+TEST(PassiveDeviceTest, ObservesTheEnergyAlongTheAxesAndInTheUnitsOfTheDevice) {
+  ForceOptions options;
+  options.output_delay = {};
+  PassiveDevice device(options, {});
+  const Eigen::Matrix3d R_FD(AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
+  const auto at = [](int ms) {
+    return Instant{Time(std::chrono::seconds(5) + milliseconds(ms)),
+                   SteadyTime(std::chrono::seconds(1) + milliseconds(ms))};
+  };
+  const auto observe = [&](const Vector3d& p_F, int ms) {
+    device.observe({Isometry3d(Translation3d(p_F)), R_FD, 2.0, {at(ms).stamp, at(ms).steady}}, at(ms));
+  };
+  observe(Vector3d::Zero(), 0);
+  EXPECT_EQ(device.limit({Vector3d(1.0, 0.0, 0.0), Vector3d::Zero()}, at(0).steady).force_D.x(), 1.0);
+  observe(Vector3d(0.0, 4e-4, 0.0), 1);
+  EXPECT_NEAR(device.energy(), 1.0 * 2e-4, 1e-12);
+}
+
+TEST(PassiveDeviceTest, ATorqueIsLimitedLikeAForce) {
+  ForceOptions options;
+  options.output_delay = {};
+  options.max_torque = 0.1;
+  PassiveDevice device(options, {/*max_speed=*/0.5, /*max_acceleration=*/50.0, /*max_turn_rate=*/2.0});
+  double torque = 0.1;
+  for (int ms = 0; ms < 100; ++ms) {
+    const Instant at{Time(std::chrono::seconds(5) + milliseconds(ms)),
+                     SteadyTime(std::chrono::seconds(1) + milliseconds(ms))};
+    const Isometry3d X_FH(AngleAxisd(1e-3 * ms, Vector3d::UnitY()));
+    device.observe({X_FH, Eigen::Matrix3d::Identity(), 1.0, {at.stamp, at.steady}}, at);
+    torque = device.limit({Vector3d::Zero(), Vector3d(0.0, 0.1, 0.0)}, at.steady).torque_D.y();
+  }
+  EXPECT_LT(torque, 1e-2) << "it turned the hand until nothing was left";
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
