@@ -11,7 +11,7 @@ namespace sweep_guard_rviz {
 namespace {
 
 constexpr float kThickness = 0.04F;  // of the length
-constexpr float kText = 0.01F;       // height of a letter [m]
+constexpr float kText = 0.006F;      // height of a letter [m]
 
 }  // namespace
 

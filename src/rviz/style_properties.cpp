@@ -61,7 +61,7 @@ StyleProperties::StyleProperties(rviz::Property& parent, const std::function<voi
   point_size_->setMin(1e-5F);
   normal_length_ = new rviz::FloatProperty("Length", 0.02F, "[m]", normals_.shown);
   normal_length_->setMin(1e-5F);
-  force_length_ = new rviz::FloatProperty("Length", 0.01F, "[m/N]", force_.shown);
+  force_length_ = new rviz::FloatProperty("Length", 0.03F, "[m/N]", force_.shown);
   force_length_->setMin(1e-6F);
   for (rviz::Property* property :
        {static_cast<rviz::Property*>(max_edged_), static_cast<rviz::Property*>(history_),
