@@ -24,8 +24,9 @@ namespace {
 constexpr std::size_t kMaxWorkpieces = 4;
 constexpr std::size_t kMaxTriangles = 30000;
 constexpr double kUntouched = -0.15;  // on the scale of colors, where the touched are from 0 to 1
-constexpr double kWidth = 1300.0;     // both in [pixel]
+constexpr double kWidth = 1300.0;     // all in [pixel]
 constexpr double kRowHeight = 480.0;
+constexpr double kTitle = 40.0;
 
 using Surface = TouchLog::Surface;
 
@@ -47,25 +48,23 @@ Vector3d centerOf(const Surface& surface) {
   return box.center();
 }
 
-// The side that was touched, whatever the winding of the triangles.
+// The side that was touched: outwards where the surface is closed, whatever its winding.
 Vector3d directionOfView(const Surface& surface, const ObjectTouches& touches) {
   const Vector3d center = centerOf(surface);
-  Vector3d outwards = Vector3d::Zero();
+  double volume = 0.0;
+  for (std::size_t triangle = 0; triangle < surface.triangles.size(); ++triangle)
+    volume += areaOf(surface, triangle).dot(middleOf(surface, triangle) - center);
   Vector3d normal = Vector3d::Zero();
-  for (const std::uint32_t triangle : touches.triangles) {
-    outwards += middleOf(surface, triangle) - center;
-    normal += areaOf(surface, triangle);
-  }
-  if (normal.dot(outwards) < 0.0) normal = -normal;
-  if (normal.norm() < 1e-12) normal = outwards.norm() < 1e-12 ? Vector3d::UnitZ() : outwards;
-  return normal.normalized();
+  for (const std::uint32_t triangle : touches.triangles) normal += areaOf(surface, triangle);
+  if (normal.norm() < 1e-12) return Vector3d::UnitZ();
+  return (volume < 0.0 ? -1.0 : 1.0) * normal.normalized();
 }
 
 // A direction that is a little to the side shows the shape.
 std::string viewFrom(const Vector3d& direction) {
   const double tilt = std::acos(std::clamp(direction.z(), -1.0, 1.0)) * 180.0 / M_PI;
   const double turn = std::atan2(direction.x(), -direction.y()) * 180.0 / M_PI;
-  return fmt::format("set view {:.1f}, {:.1f}, 1.2\n", std::clamp(tilt + 25.0, 0.0, 180.0),
+  return fmt::format("set view {:.1f}, {:.1f}, 1.5\n", std::clamp(tilt + 25.0, 0.0, 180.0),
                      std::fmod(turn + 360.0, 360.0));
 }
 
@@ -117,8 +116,23 @@ std::string patches(const Surface& surface, const ObjectTouches& touches, const 
   return text;
 }
 
-std::string panel(const Surface& surface, const ObjectTouches& touches, const Scale& scale) {
-  const std::string title = "set title " + gnuplotText(touches.mesh_id + ": " + scale.title) + " noenhanced\n";
+/// Part of the picture, in shares of its size.
+struct Place {
+  double left;
+  double bottom;
+  double height;
+
+  std::string commands() const {
+    return fmt::format(
+        "set origin {:.3f}, {:.3f}\nset size 0.5, {:.3f}\n"
+        "set colorbox user origin {:.3f}, {:.3f} size 0.01, {:.3f}\n",
+        left, bottom, height, left + 0.40, bottom + 0.25 * height, 0.5 * height);
+  }
+};
+
+std::string panel(const Surface& surface, const ObjectTouches& touches, const Scale& scale, const Place& place) {
+  const std::string title =
+      place.commands() + "set title " + gnuplotText(touches.mesh_id + ": " + scale.title) + " noenhanced\n";
   const std::string data = surface.triangles.empty() ? "" : patches(surface, touches, scale);
   if (data.empty()) {
     return title +
@@ -126,7 +140,7 @@ std::string panel(const Surface& surface, const ObjectTouches& touches, const Sc
            "label 1\n";
   }
   return fmt::format(
-      "{}{}set cbrange [{}:1]\nset cbtics ('not touched' {}, {} 0, {} 1)\n$patches << EOD\n{}EOD\n"
+      "{}{}set cbrange [{}:1]\nset cbtics ('none' {}, {} 0, {} 1)\n$patches << EOD\n{}EOD\n"
       "splot $patches using 1:2:3:4 with pm3d notitle\n",
       title, viewFrom(directionOfView(surface, touches)), kUntouched, kUntouched, gnuplotText(scale.least),
       gnuplotText(scale.largest), data);
@@ -179,16 +193,19 @@ std::string touchesCsv(const sweep_guard::Touches& touches) {
 std::string touchesPlot(const TouchLog& log, const std::string& title, const std::string& path) {
   const auto& objects = log.touches().objects;
   const std::size_t rows = std::clamp<std::size_t>(objects.size(), 1, kMaxWorkpieces);
+  const double height = kRowHeight * static_cast<double>(rows) + kTitle;
   std::string script = fmt::format(
       "set terminal pngcairo size {},{} font 'sans,12'\nset output {}\nunset key\nunset tics\nunset border\n"
       "set view equal xyz\nset pm3d depthorder corners2color c1 border lc rgb '#999999' lw 0.2\n"
       "set palette defined ({} '#d6cdbc', -0.001 '#d6cdbc', 0 '#dadaeb', 0.2 '#bcbddc', 0.4 '#9e9ac8', 0.6 '#807dba', "
-      "0.8 '#6a51a3', 1 '#4a1486')\nset multiplot layout {},2 title {} noenhanced\n",
-      kWidth, kRowHeight * static_cast<double>(rows) + 40.0, gnuplotText(path), kUntouched, rows, gnuplotText(title));
+      "0.8 '#6a51a3', 1 '#4a1486')\nset multiplot title {} noenhanced\n",
+      kWidth, height, gnuplotText(path), kUntouched, gnuplotText(title));
   for (std::size_t i = 0; i < std::min(objects.size(), kMaxWorkpieces); ++i) {
     const Surface surface = log.surfaceOf(objects[i]);
-    script += panel(surface, objects[i], scaleOfSweeps(objects[i]));
-    script += panel(surface, objects[i], scaleOfDepth(objects[i]));
+    const double row = kRowHeight / height;
+    const double bottom = row * static_cast<double>(rows - 1 - i);
+    script += panel(surface, objects[i], scaleOfSweeps(objects[i]), {0.0, bottom, row});
+    script += panel(surface, objects[i], scaleOfDepth(objects[i]), {0.5, bottom, row});
   }
   if (objects.empty()) {
     script += "set label 'nothing was touched' at graph 0.5, 0.5 center\nplot [0:1] [0:1] -1 notitle\n";
