@@ -280,6 +280,7 @@ TEST_F(ParametersTest, AToolWhoseJointsMoveNeedsAFrameThatTheyDoNot) {
   node_.setParam("tool/joint_states", true);
   const Parameters moving = loadParameters(node_);
   EXPECT_TRUE(moving.articulated);
+  EXPECT_TRUE(has(moving.tool_description, "in the frame of 'hand', joints where joint_states says"));
   EXPECT_EQ(moving.bodies->size(), 2U);
   size_t pieces = 0;
   for (const auto& body : *moving.bodies) {

@@ -45,10 +45,14 @@ ToolModelOptions readModelOptions(ParameterReader& read, const std::string& fram
   return options;
 }
 
-std::string describe(const ToolModel& model, const std::string& parameter) {
+std::string describe(const ToolModel& model, const std::string& parameter, const Parameters& parameters) {
+  const bool moves = parameters.articulated;
   std::ostringstream text;
   text << model.pieces.size() << " convex pieces from " << parameter << " in the frame of '" << model.frame << "'";
-  for (const auto& [joint, position] : model.joints) text << ", joint '" << joint << "' at " << position;
+  for (const auto& [joint, position] : model.joints) {
+    if (!moves || parameters.fixed_joints.count(joint) != 0) text << ", joint '" << joint << "' at " << position;
+  }
+  if (moves) text << ", joints where joint_states says";
   return text.str();
 }
 
@@ -73,10 +77,10 @@ void readRobot(ParameterReader& read, const std::string& parameter, const ToolMo
   }
   try {
     ToolModel model = loadToolModel(urdf, options);
-    parameters.tool_description = describe(model, parameter);
+    parameters.fixed_joints = options.joints;
+    parameters.tool_description = describe(model, parameter, parameters);
     parameters.robot = model.robot;
     parameters.why_no_robot = model.why_no_robot;
-    parameters.fixed_joints = options.joints;
     if (parameters.articulated) checkJoints(parameters);
     parameters.tool = std::make_shared<const sweep_guard_core::Tool>(parameters.articulated ? piecesByBody(*model.robot)
                                                                                             : std::move(model.pieces));
