@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "guard/placed_workpieces.h"
+#include "guard/rigid_shape.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -46,10 +47,6 @@ void update(SweepCache& cache, const SweepResult& result) {
   for (const TriangleContact& contact : result.in_contact) {
     place = std::next(cache.contact_normals.insert_or_assign(place, contact.triangle, contact.impact.normal_M));
   }
-}
-
-bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
-  return &a.triangles() == &b.triangles() || (a.vertexCount() == b.vertexCount() && a.triangles() == b.triangles());
 }
 
 }  // namespace

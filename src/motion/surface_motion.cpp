@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "guard/rigid_shape.h"
+
 namespace sweep_guard_core {
 namespace {
 
 constexpr double kRounding = 0x1p-22;   // of differences in float32, and of the corners of their boxes
 constexpr double kMinInterval = 0.001;  // [s]; stamps that are nearer, or that went back, give no speed
-
-bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
-  return &a.triangles() == &b.triangles() || (a.vertexCount() == b.vertexCount() && a.triangles() == b.triangles());
-}
 
 // A snapshot without a stamp is from before time went back.
 double intervalBetween(const Workpiece& before, const Workpiece& now) {

@@ -21,6 +21,7 @@
 #include "ros/output/proximity_publisher.h"
 #include "ros/output/result_publisher.h"
 #include "ros/output/scene_publisher.h"
+#include "ros/output/touches_publisher.h"
 #include "ros/output/warning_publisher.h"
 #include "ros/parameters/parameters.h"
 #include "ros/prediction_pace.h"
@@ -40,6 +41,7 @@ struct GuardThreadDependencies {
   WorkQueue& queue;
   WarningPublisher& warnings;
   ScenePublisher& scene;
+  TouchesPublisher& touches;
   sweep_guard_core::QuerySampler& sampler;
   sweep_guard_core::IntentionStore& intentions;
   const sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of other tools

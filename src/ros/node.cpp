@@ -15,6 +15,7 @@ namespace {
 const sweep_guard_core::Duration kViewPeriod = sweep_guard_core::fromSeconds(1.0 / 60.0);
 constexpr auto kEarlyPeriod = std::chrono::milliseconds(100);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
+constexpr auto kTouchesPeriod = std::chrono::seconds(1);
 constexpr std::uint32_t kSilentInputs =
     sweep_guard_core::kNoPose | sweep_guard_core::kPoseStale | sweep_guard_core::kTfFail | sweep_guard_core::kNoMesh |
     sweep_guard_core::kMeshStale | sweep_guard_core::kNotCovered | sweep_guard_core::kDisabled;
@@ -36,6 +37,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
                   }),
       warnings_(private_node, parameters_, monitor_),
       scene_(private_node, parameters_, monitor_),
+      touches_(private_node),
       marker_timer_(reports_.every(sweep_guard_core::fromSeconds(1.0 / parameters_.initial().marker_rate),
                                    [this] { scene_.publishMarkers(); })),
       statistics_(parameters_.initial().guard.cycle),
@@ -50,7 +52,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
         allowed_.follow(workpieces);
       }),
       cross_check_(parameters_, monitor_),
-      guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_,
+      guard_thread_(private_node, {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_, touches_,
                                    cross_check_.sampler(), intentions_, &frame_motions_}),
       poses_(node, parameters_, {frames_, workpieces_, monitor_, queue_, &frame_motions_}),
       meshes_(node, parameters_.initial(), workpieces_, monitor_),
@@ -65,7 +67,8 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       save_profile_(private_node, parameters_, [this] { return guard_thread_.profile(); }),
       controls_(
           private_node, parameters_, monitor_, workpieces_,
-          {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); }}),
+          {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); },
+           [this] { touches_.reset(); }}),
       intend_(private_node, {parameters_, frames_, workpieces_, intentions_}),
       attach_(private_node, {parameters_, frames_, workpieces_, monitor_},
               {[this] { return guard_thread_.newestPose(); },
@@ -84,6 +87,7 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
   reports_.every(kViewPeriod, [this] { scene_.publishView(); });
   reports_.every(kViewPeriod, [this] { intend_.publishIfChanged(); });
   reports_.every(kEarlyPeriod, [this] { meshes_.takeEarly(); });
+  reports_.every(kTouchesPeriod, [this] { touches_.publishIfChanged(); });
   reports_.every(kDiagnosticsPeriod, [this] { diagnostics_.publish(); });
 }
 

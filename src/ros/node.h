@@ -8,6 +8,7 @@
 #include "ros/master_watch.h"
 #include "ros/output/diagnostics.h"
 #include "ros/output/scene_publisher.h"
+#include "ros/output/touches_publisher.h"
 #include "ros/output/warning_publisher.h"
 #include "ros/parameters/reconfigure_server.h"
 #include "ros/peer_watch.h"
@@ -52,6 +53,7 @@ class SweepGuardNode {
   Supervisor supervisor_;  // before all threads
   WarningPublisher warnings_;
   ScenePublisher scene_;
+  TouchesPublisher touches_;
   TimerThread reports_;
   TimerThread::Timer& marker_timer_;
   sweep_guard_core::SweepStatistics statistics_;

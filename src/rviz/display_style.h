@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include "rviz/heat_map.h"
+
 namespace sweep_guard_rviz {
 
 /// Describes how one element of the display is drawn.
@@ -33,6 +35,9 @@ struct DisplayStyle {
   ElementStyle normals;
   float normal_length = 0.0F;  ///< [m]
   ElementStyle depths;         ///< of contacts: a spike into the workpiece, and a label with the largest depth
+  ElementStyle force;          ///< of a workpiece on the tool, with a label
+  float force_length = 0.0F;   ///< of its arrow, per force [m/N]
+  ColorBy color_by = ColorBy::kNothing;
   std::optional<double>
       since_contact;  ///< [s] since the tool touched: the label says so, without spikes. Empty: it touches
 

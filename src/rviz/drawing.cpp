@@ -5,6 +5,8 @@
 #include <OgreSceneNode.h>
 #include <OgreTechnique.h>
 
+#include <array>
+
 #include "rviz/paint.h"
 
 namespace sweep_guard_rviz {
@@ -19,6 +21,13 @@ void addAll(Ogre::ManualObject& object, const Ogre::MaterialPtr& material, Ogre:
   for (const Vector3& point : points) object.position(point);
   object.end();
   points.clear();
+}
+
+// Corners of a square across a direction, about its middle.
+std::array<Vector3, 4> squareAcross(const Vector3& direction, float radius) {
+  const Vector3 u = radius * direction.perpendicular().normalisedCopy();
+  const Vector3 v = radius * direction.crossProduct(u).normalisedCopy();
+  return {u, v, -u, -v};
 }
 
 }  // namespace
@@ -53,10 +62,20 @@ void Drawing::addFace(const std::vector<Vector3>& corners) {
 }
 
 void Drawing::addSpike(const Vector3& base, const Vector3& tip, float radius) {
-  const Vector3 u = (tip - base).perpendicular().normalisedCopy();
-  const Vector3 v = (tip - base).crossProduct(u).normalisedCopy();
-  const Vector3 corners[] = {base + radius * u, base + radius * v, base - radius * u, base - radius * v};
-  for (size_t i = 0; i < 4; ++i) addTriangle(corners[i], corners[(i + 1) % 4], tip);
+  const std::array<Vector3, 4> corners = squareAcross(tip - base, radius);
+  for (size_t i = 0; i < 4; ++i) addTriangle(base + corners[i], base + corners[(i + 1) % 4], tip);
+}
+
+void Drawing::addArrow(const Vector3& base, const Vector3& tip, float radius) {
+  const std::array<Vector3, 4> corners = squareAcross(tip - base, radius);
+  const Vector3 neck = tip - 6.0F * radius * (tip - base).normalisedCopy();
+  for (size_t i = 0; i < 4; ++i) {
+    const Vector3& corner = corners[i];
+    const Vector3& next = corners[(i + 1) % 4];
+    addTriangle(base + corner, base + next, neck + corner);
+    addTriangle(base + next, neck + next, neck + corner);
+  }
+  addSpike(neck, tip, 2.0F * radius);
 }
 
 void Drawing::addBead(const Vector3& center, float radius) {

@@ -28,6 +28,8 @@ class Drawing {
   void addFace(const std::vector<Ogre::Vector3>& corners);
   /// Adds a four-sided pyramid from a base of this radius to a tip.
   void addSpike(const Ogre::Vector3& base, const Ogre::Vector3& tip, float radius);
+  /// Adds a four-sided shaft of this radius with a pyramid of twice the radius at its tip.
+  void addArrow(const Ogre::Vector3& base, const Ogre::Vector3& tip, float radius);
   /// Adds a small octahedron.
   void addBead(const Ogre::Vector3& center, float radius);
 

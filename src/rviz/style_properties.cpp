@@ -30,11 +30,25 @@ StyleProperties::StyleProperties(rviz::Property& parent, const std::function<voi
       path_(add({"Path", "Path of the tip, measured (the last 2 s) and predicted.", {235, 235, 235}, 0.9F})),
       contacts_(add({"Contacts", "First contact point of each triangle.", {255, 240, 90}, 1.0F})),
       normals_(add({"Normals", "Contact normals, pointing out of the workpiece.", {255, 240, 90}, 1.0F})),
-      depths_(add({"Depths", "Contact depths, into the workpiece; the largest also as text.", {235, 20, 20}, 1.0F})) {
+      depths_(add({"Depths", "Contact depths, into the workpiece; the largest also as text.", {235, 20, 20}, 1.0F})),
+      force_(add(
+          {"Force",
+           "Force of a workpiece on the tool, with volume and depth as text; the guard computes it while this is on.",
+           {190, 90, 255},
+           1.0F,
+           false})) {
   max_edged_ = new rviz::IntProperty("Edges Up To", 5000,
                                      "Edges are drawn for surfaces with at most this many triangles; lines are slow.",
                                      surface_.shown);
   max_edged_->setMin(0);
+  color_by_ =
+      new rviz::EnumProperty("Color By", "Nothing",
+                             "Colors the triangles that were touched by the number of sweeps that touched them, "
+                             "or by the largest depth: since the workpiece came, or since ~reset_touches.",
+                             surface_.shown);
+  color_by_->addOption("Nothing", static_cast<int>(ColorBy::kNothing));
+  color_by_->addOption("Touches", static_cast<int>(ColorBy::kTouches));
+  color_by_->addOption("Largest Depth", static_cast<int>(ColorBy::kDepth));
   history_ = new rviz::IntProperty("History", 0, "Number of earlier boxes kept, at least half a box width apart.",
                                    measured_.shown);
   history_->setMin(0);
@@ -47,16 +61,20 @@ StyleProperties::StyleProperties(rviz::Property& parent, const std::function<voi
   point_size_->setMin(1e-5F);
   normal_length_ = new rviz::FloatProperty("Length", 0.02F, "[m]", normals_.shown);
   normal_length_->setMin(1e-5F);
-  for (rviz::Property* property : {static_cast<rviz::Property*>(max_edged_), static_cast<rviz::Property*>(history_),
-                                   static_cast<rviz::Property*>(max_ghosts_), static_cast<rviz::Property*>(point_size_),
-                                   static_cast<rviz::Property*>(normal_length_)}) {
+  force_length_ = new rviz::FloatProperty("Length", 0.03F, "[m/N]", force_.shown);
+  force_length_->setMin(1e-6F);
+  for (rviz::Property* property :
+       {static_cast<rviz::Property*>(max_edged_), static_cast<rviz::Property*>(history_),
+        static_cast<rviz::Property*>(max_ghosts_), static_cast<rviz::Property*>(point_size_),
+        static_cast<rviz::Property*>(normal_length_), static_cast<rviz::Property*>(color_by_),
+        static_cast<rviz::Property*>(force_length_)}) {
     QObject::connect(property, &rviz::Property::changed, &parent_, changed_);
   }
 }
 
 StyleProperties::ElementProperties StyleProperties::add(const Default& element) {
   ElementProperties properties{};
-  properties.shown = new rviz::BoolProperty(element.name, true, element.description, &parent_);
+  properties.shown = new rviz::BoolProperty(element.name, element.shown, element.description, &parent_);
   properties.color = new rviz::ColorProperty("Color", element.color, "", properties.shown);
   properties.alpha = new rviz::FloatProperty("Alpha", element.alpha, "0 is transparent, 1 opaque.", properties.shown);
   properties.alpha->setMin(0.0F);
@@ -88,6 +106,9 @@ DisplayStyle StyleProperties::style() const {
   style.normals = normals_.style();
   style.normal_length = normal_length_->getFloat();
   style.depths = depths_.style();
+  style.force = force_.style();
+  style.force_length = force_length_->getFloat();
+  style.color_by = static_cast<ColorBy>(color_by_->getOptionInt());
   return style;
 }
 

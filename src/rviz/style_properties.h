@@ -2,6 +2,7 @@
 
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>
+#include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/int_property.h>
 
@@ -34,6 +35,7 @@ class StyleProperties {
     const char* description;
     QColor color;
     float alpha;
+    bool shown = true;
   };
   ElementProperties add(const Default& element);
 
@@ -41,6 +43,7 @@ class StyleProperties {
   std::function<void()> changed_;
   ElementProperties surface_;
   rviz::IntProperty* max_edged_;
+  rviz::EnumProperty* color_by_;
   ElementProperties touched_;
   ElementProperties reflex_;
   ElementProperties considered_;
@@ -58,6 +61,8 @@ class StyleProperties {
   ElementProperties normals_;
   rviz::FloatProperty* normal_length_;
   ElementProperties depths_;
+  ElementProperties force_;
+  rviz::FloatProperty* force_length_;
 };
 
 }  // namespace sweep_guard_rviz

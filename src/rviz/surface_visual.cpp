@@ -175,6 +175,12 @@ void SurfaceVisual::highlight(const Highlights& highlights) {
   updateVisibility();
 }
 
+void SurfaceVisual::color(const HeatMap& map) {
+  if (entity_ == nullptr) return;
+  for (size_t i = 0; i < kHeatColors; ++i) setIndices(static_cast<Layer>(kHeat + i), map.triangles[i]);
+  updateVisibility();
+}
+
 void SurfaceVisual::paintLayer(Layer layer, const Ogre::ColourValue& color, bool shown, bool edges) {
   Ogre::Technique& technique = *materials_[layer]->getTechnique(0);
   if (edges != (technique.getNumPasses() == 2)) edges ? addEdges(technique, layer) : technique.removePass(1);

@@ -10,6 +10,7 @@
 
 #include <vector>
 
+#include "rviz/heat_map.h"
 #include "rviz/highlights.h"
 
 namespace sweep_guard_rviz {
@@ -19,7 +20,16 @@ namespace sweep_guard_rviz {
 class SurfaceVisual {
  public:
   /// The layers in drawing order, the last on top.
-  enum Layer { kSurface, kIntended, kAllowed, kConsidered, kReflex, kTouched, kLayers };
+  enum Layer {
+    kSurface,
+    kHeat,  ///< the first of kHeatColors
+    kIntended = kHeat + kHeatColors,
+    kAllowed,
+    kConsidered,
+    kReflex,
+    kTouched,
+    kLayers
+  };
 
   SurfaceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node);
   ~SurfaceVisual();
@@ -36,6 +46,7 @@ class SurfaceVisual {
   /// @param positions  x0 y0 z0 x1 ... of all vertices, in the frame of the node [m]
   void setVertices(const float* positions);
   void highlight(const Highlights& highlights);  ///< indices below triangleCount()
+  void color(const HeatMap& map);                ///< the same
 
   /// @param edges  draws the edges of the triangles, too
   void paintLayer(Layer layer, const Ogre::ColourValue& color, bool shown, bool edges);

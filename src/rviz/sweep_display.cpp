@@ -70,6 +70,7 @@ SweepDisplay::SweepDisplay() {
 SweepDisplay::~SweepDisplay() {
   unsubscribe();
   workpieces_.reset();
+  force_.reset();
   path_.reset();
   tool_.reset();
   if (guard_node_ != nullptr) scene_manager_->destroySceneNode(guard_node_);
@@ -84,7 +85,12 @@ void SweepDisplay::addTopics() {
       topic<sweep_guard::MeshVertices>("Vertices Topic", "/mesh_vertices", "Deformations of the meshes.", *this);
   intended_topic_ =
       topic<sweep_guard::Intended>("Intended Topic", "/sweep_guard/intended", "Where contact is meant.", *this);
-  for (rviz::RosTopicProperty* each : {view_topic_, tool_topic_, mesh_topic_, vertices_topic_, intended_topic_}) {
+  interaction_topic_ = topic<sweep_guard::Interaction>("Interaction Topic", "/sweep_guard/interaction",
+                                                       "Force of the workpieces on the tool.", *this);
+  touches_topic_ =
+      topic<sweep_guard::Touches>("Touches Topic", "/sweep_guard/touches", "Which triangles were touched.", *this);
+  for (rviz::RosTopicProperty* each :
+       {view_topic_, tool_topic_, mesh_topic_, vertices_topic_, intended_topic_, interaction_topic_, touches_topic_}) {
     connect(each, &rviz::Property::changed, this, [this] {
       if (initialized()) reset();
     });
@@ -94,14 +100,18 @@ void SweepDisplay::addTopics() {
 void SweepDisplay::setTopic(const QString& topic, const QString& /*datatype*/) {
   const std::string guard = ros::names::parentNamespace(topic.toStdString());
   view_topic_->setString(topic);
-  tool_topic_->setString(QString::fromStdString(ros::names::append(guard, "tool")));
-  intended_topic_->setString(QString::fromStdString(ros::names::append(guard, "intended")));
+  const std::pair<rviz::RosTopicProperty*, const char*> others[] = {{tool_topic_, "tool"},
+                                                                    {intended_topic_, "intended"},
+                                                                    {interaction_topic_, "interaction"},
+                                                                    {touches_topic_, "touches"}};
+  for (const auto& [other, name] : others) other->setString(QString::fromStdString(ros::names::append(guard, name)));
 }
 
 void SweepDisplay::onInitialize() {
   guard_node_ = scene_node_->createChildSceneNode();
   tool_ = std::make_unique<ToolVisual>(*scene_manager_, *guard_node_);
   path_ = std::make_unique<TipPath>(*scene_manager_, *guard_node_);
+  force_ = std::make_unique<ForceVisual>(*scene_manager_, *guard_node_);
   workpieces_ = std::make_unique<Workpieces>(*scene_manager_, *scene_node_);
 }
 
@@ -139,15 +149,42 @@ void SweepDisplay::subscribe() {
   }
 }
 
+void SweepDisplay::subscribeByChoice(const DisplayStyle& style) {
+  if (!style.force.shown) {
+    interaction_subscriber_.shutdown();
+    interaction_.reset();
+  } else if (!interaction_subscriber_) {
+    interaction_subscriber_ = update_nh_.subscribe<sweep_guard::Interaction>(
+        interaction_topic_->getTopicStd(), 1, [this](const sweep_guard::Interaction::ConstPtr& interaction) {
+          interaction_ = interaction;
+          interaction_received_ = std::chrono::steady_clock::now();
+          stale_ = true;
+        });
+  }
+  if (style.color_by == ColorBy::kNothing) {
+    touches_subscriber_.shutdown();
+  } else if (!touches_subscriber_) {
+    touches_subscriber_ = update_nh_.subscribe<sweep_guard::Touches>(
+        touches_topic_->getTopicStd(), 1, [this](const sweep_guard::Touches::ConstPtr& touches) {
+          workpieces_->take(touches);
+          stale_ = true;
+        });
+  }
+}
+
 void SweepDisplay::unsubscribe() {
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
+  interaction_subscriber_.shutdown();
+  touches_subscriber_.shutdown();
 }
 
 void SweepDisplay::reset() {
   rviz::Display::reset();
   reported_.clear();
   view_.reset();
+  interaction_.reset();
   if (initialized()) {
+    force_->clear();
     workpieces_->clear();
     path_->clear();
     tool_->setShape({});
@@ -179,12 +216,20 @@ void SweepDisplay::draw() {
   stale_ = false;
   was_silent_ = silent();
   DisplayStyle style = style_->style();
+  subscribeByChoice(style);
   if (was_silent_) style = style.surfaceOnly();
   if (!view_) return workpieces_->draw({}, style);
   style = styleOf(*view_, style);
   workpieces_->draw(view_->objects, style);
   drawTools(style);
   path_->show(view_->path, style.path);
+  drawForce(style);
+}
+
+void SweepDisplay::drawForce(const DisplayStyle& style) {
+  const bool fresh = interaction_ && std::chrono::steady_clock::now() - interaction_received_ <= kSilent;
+  if (fresh && style.force.shown && hasPose(*view_)) return force_->show(*interaction_, view_->pose, style);
+  force_->clear();
 }
 
 void SweepDisplay::drawTools(const DisplayStyle& style) {
@@ -231,6 +276,8 @@ void SweepDisplay::reportInputs() {
   report("Tool", tool_->hasShape() ? "" : "no tool shape from " + tool_topic_->getTopicStd(), "known");
   report("Mesh", workpieces_->problem(mesh_topic_->getTopicStd()),
          std::to_string(drawnTriangles(SurfaceVisual::kSurface)) + " triangles");
+  const std::string legend = workpieces_->legend();
+  if (touches_subscriber_) report("Touches", "", legend.empty() ? "none" : legend);
 }
 
 void SweepDisplay::report(const std::string& name, const std::string& problem, const std::string& ok_text,

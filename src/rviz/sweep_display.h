@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "rviz/force_visual.h"
 #include "rviz/style_properties.h"
 #include "rviz/tip_path.h"
 #include "rviz/tool_visual.h"
@@ -21,7 +22,8 @@ class RosTopicProperty;
 namespace sweep_guard_rviz {
 
 /// Draws the deforming workpieces together with the content of a guard's `~view`. Draws only the workpieces when no
-/// `~view` has arrived for 0.5 s, and no tool while its pose is not known. Subscribes to nothing while it is disabled.
+/// `~view` has arrived for 0.5 s, and no tool while its pose is not known. By choice draws the force on the tool, and colors
+/// what was touched. Subscribes to nothing while it is disabled.
 class SweepDisplay : public rviz::Display {
  public:
   SweepDisplay();
@@ -29,12 +31,13 @@ class SweepDisplay : public rviz::Display {
 
   void update(float wall_dt, float ros_dt) override;
   void reset() override;
-  /// Selects the guard that publishes this `~view`, and its `~tool` and `~intended`.
+  /// Selects the guard that publishes this `~view`, and its other topics.
   void setTopic(const QString& topic, const QString& datatype) override;
 
   /// Returns the number of triangles that a layer shows, of all workpieces.
   size_t drawnTriangles(SurfaceVisual::Layer layer) const;
-  size_t drawnTools() const { return tool_ ? tool_->shown() : 0; }  ///< number of drawn tools, ghosts included
+  size_t drawnForces() const { return force_ ? force_->shown() : 0; }  ///< number of arrows
+  size_t drawnTools() const { return tool_ ? tool_->shown() : 0; }     ///< number of drawn tools, ghosts included
 
  protected:
   void onInitialize() override;
@@ -48,9 +51,11 @@ class SweepDisplay : public rviz::Display {
   void subscribe();
   void unsubscribe();
   void takeView(const sweep_guard::View::ConstPtr& view);
+  void subscribeByChoice(const DisplayStyle& style);
 
   void draw();
   void drawTools(const DisplayStyle& style);
+  void drawForce(const DisplayStyle& style);
   void place();
   void reportInputs();
   /// Sets one line of the status.
@@ -64,14 +69,21 @@ class SweepDisplay : public rviz::Display {
   rviz::RosTopicProperty* mesh_topic_ = nullptr;
   rviz::RosTopicProperty* vertices_topic_ = nullptr;
   rviz::RosTopicProperty* intended_topic_ = nullptr;
+  rviz::RosTopicProperty* interaction_topic_ = nullptr;
+  rviz::RosTopicProperty* touches_topic_ = nullptr;
   std::unique_ptr<StyleProperties> style_;
 
   Ogre::SceneNode* guard_node_ = nullptr;  // at the fixed frame of the guard
   std::unique_ptr<ToolVisual> tool_;
   std::unique_ptr<TipPath> path_;
+  std::unique_ptr<ForceVisual> force_;
   std::unique_ptr<Workpieces> workpieces_;
 
   ros::Subscriber subscribers_[5];
+  ros::Subscriber interaction_subscriber_;  // only while the force is shown: the guard computes it for its subscribers
+  ros::Subscriber touches_subscriber_;      // only while they are shown
+  sweep_guard::Interaction::ConstPtr interaction_;
+  SteadyTime interaction_received_;
   sweep_guard::View::ConstPtr view_;
   SteadyTime view_received_;
   bool was_silent_ = true;

@@ -89,6 +89,7 @@ std::string WorkpieceVisual::setMesh(const sweep_guard::DeformableMesh& message)
   frame_ = message.header.frame_id;
   revision_ = message.revision;
   highlights_.reset();
+  heat_ = {};
   return "";
 }
 
@@ -105,6 +106,16 @@ void WorkpieceVisual::setIntended(std::uint32_t revision, const std::vector<std:
   intended_revision_ = revision;
   intended_ = triangles;
 }
+
+void WorkpieceVisual::setTouches(const sweep_guard::ObjectTouches& touches, ColorBy by) {
+  HeatMap map = revision_ == touches.revision ? heatMapOf(touches, by, surface_.triangleCount()) : HeatMap();
+  colored_by_ = by;
+  if (map == heat_) return;
+  surface_.color(map);
+  heat_ = std::move(map);
+}
+
+std::string WorkpieceVisual::legend() const { return legendOf(heat_, colored_by_); }
 
 void WorkpieceVisual::show(const sweep_guard::ObjectView& view, const DisplayStyle& style) {
   if (frame_.empty()) frame_ = view.frame_id;
@@ -126,6 +137,11 @@ void WorkpieceVisual::showSurfaceOnly() {
 void WorkpieceVisual::paint(const DisplayStyle& style) {
   const bool edges = surface_.triangleCount() <= style.max_edged;
   surface_.paintLayer(SurfaceVisual::kSurface, style.surface.color, style.surface.shown, edges);
+  for (size_t i = 0; i < kHeatColors; ++i) {
+    Ogre::ColourValue color = heatColors()[i];
+    color.a = style.surface.color.a;
+    surface_.paintLayer(static_cast<SurfaceVisual::Layer>(SurfaceVisual::kHeat + i), color, style.surface.shown, false);
+  }
   surface_.paintLayer(SurfaceVisual::kTouched, style.touched.color, style.touched.shown, true);
   surface_.paintLayer(SurfaceVisual::kReflex, style.reflex.color, style.reflex.shown, true);
   surface_.paintLayer(SurfaceVisual::kConsidered, style.considered.color, style.considered.shown, true);

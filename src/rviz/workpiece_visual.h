@@ -4,6 +4,7 @@
 #include <rviz/ogre_helpers/movable_text.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/MeshVertices.h>
+#include <sweep_guard/ObjectTouches.h>
 #include <sweep_guard/ObjectView.h>
 
 #include <memory>
@@ -34,6 +35,10 @@ class WorkpieceVisual {
   /// Sets where contact is meant.
   /// @param revision  of the mesh that the triangles are indices into
   void setIntended(std::uint32_t revision, const std::vector<std::uint32_t>& triangles);
+
+  /// Sets which triangles were touched.
+  void setTouches(const sweep_guard::ObjectTouches& touches, ColorBy by);
+  std::string legend() const;  ///< of the colors of the surface; empty: nothing is colored
 
   void show(const sweep_guard::ObjectView& view, const DisplayStyle& style);
   void showSurfaceOnly();
@@ -70,6 +75,8 @@ class WorkpieceVisual {
   std::optional<Highlights> highlights_;
   std::uint32_t intended_revision_ = 0;
   std::vector<std::uint32_t> intended_;
+  HeatMap heat_;
+  ColorBy colored_by_ = ColorBy::kNothing;
 };
 
 }  // namespace sweep_guard_rviz

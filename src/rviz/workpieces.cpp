@@ -9,6 +9,7 @@ void Workpieces::clear() {
   problems_.clear();
   vertices_.clear();
   intended_.reset();
+  touches_.reset();
 }
 
 WorkpieceVisual& Workpieces::visual(const std::string& id) {
@@ -57,6 +58,7 @@ void Workpieces::draw(const std::vector<sweep_guard::ObjectView>& objects, const
     }
     visual.paint(style);
     showIntended(each->first, visual);
+    showTouches(each->first, visual, style.color_by);
     view != views.end() ? visual.show(*view->second, style) : visual.showSurfaceOnly();
     ++each;
   }
@@ -74,6 +76,14 @@ void Workpieces::showIntended(const std::string& id, WorkpieceVisual& visual) co
   visual.setIntended(revision, triangles);
 }
 
+void Workpieces::showTouches(const std::string& id, WorkpieceVisual& visual, ColorBy by) const {
+  static const sweep_guard::Touches kNone;
+  const auto& objects = touches_ ? touches_->objects : kNone.objects;
+  const auto same = [&](const sweep_guard::ObjectTouches& object) { return object.mesh_id == id; };
+  const auto object = std::find_if(objects.begin(), objects.end(), same);
+  visual.setTouches(object == objects.end() ? sweep_guard::ObjectTouches() : *object, by);
+}
+
 void Workpieces::place(const FindFrame& find) {
   Ogre::Vector3 position;
   Ogre::Quaternion rotation;
@@ -88,6 +98,15 @@ size_t Workpieces::drawnTriangles(SurfaceVisual::Layer layer) const {
   size_t count = 0;
   for (const auto& [id, visual] : visuals_) count += visual->drawnTriangles(layer);
   return count;
+}
+
+std::string Workpieces::legend() const {
+  std::string text;
+  for (const auto& [id, visual] : visuals_) {
+    const std::string legend = visual->legend();
+    if (!legend.empty()) text += (text.empty() ? "'" : ", '") + id + "': " + legend;
+  }
+  return text;
 }
 
 std::string Workpieces::problem(const std::string& topic) const {

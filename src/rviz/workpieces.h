@@ -4,6 +4,7 @@
 #include <sweep_guard/Intended.h>
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/ObjectView.h>
+#include <sweep_guard/Touches.h>
 
 #include <functional>
 #include <map>
@@ -30,6 +31,7 @@ class Workpieces {
   void take(const sweep_guard::DeformableMesh& mesh);
   void take(const sweep_guard::MeshVertices::ConstPtr& vertices);
   void take(const sweep_guard::Intended::ConstPtr& intended) { intended_ = intended; }
+  void take(const sweep_guard::Touches::ConstPtr& touches) { touches_ = touches; }
   void deform();  ///< applies the newest vertices
 
   /// Draws all workpieces. One that is not among `objects` is drawn without volumes and contacts, or removed if it has
@@ -37,6 +39,7 @@ class Workpieces {
   void draw(const std::vector<sweep_guard::ObjectView>& objects, const DisplayStyle& style);
   void place(const FindFrame& find);  ///< hides workpieces whose frame is not known
 
+  std::string legend() const;  ///< of the colors of each workpiece that was touched; empty: none is colored
   size_t drawnTriangles(SurfaceVisual::Layer layer) const;
   /// Returns a missing or invalid input as text; empty if there is none.
   /// @param topic  topic of the meshes
@@ -45,6 +48,7 @@ class Workpieces {
  private:
   WorkpieceVisual& visual(const std::string& id);
   void showIntended(const std::string& id, WorkpieceVisual& visual) const;
+  void showTouches(const std::string& id, WorkpieceVisual& visual, ColorBy by) const;
   void setProblem(const std::string& id, const std::string& problem);
 
   Ogre::SceneManager& scene_;
@@ -53,6 +57,7 @@ class Workpieces {
   std::map<std::string, std::string> problems_;                          // by workpiece
   std::map<std::string, sweep_guard::MeshVertices::ConstPtr> vertices_;  // not drawn yet
   sweep_guard::Intended::ConstPtr intended_;
+  sweep_guard::Touches::ConstPtr touches_;
 };
 
 }  // namespace sweep_guard_rviz

@@ -23,6 +23,7 @@
 #include "session/session_log.h"
 #include "session/session_report.h"
 #include "session/session_sound.h"
+#include "session/touch_report.h"
 #include "sound/wav.h"
 #include "sweep_guard/Contacts.h"
 #include "sweep_guard/Warning.h"
@@ -37,9 +38,9 @@ using sweep_guard_core::InvalidInput;
 using sweep_guard_ros::fromMsg;
 
 constexpr std::uint32_t kQueue = 100000;
-constexpr double kConnectTimeout = 60.0;  // [s] of wall time, for guard and player
+constexpr double kConnectTimeout = 60.0;    // [s] of wall time, for guard and player
 constexpr std::uint32_t kSoundRate = 8000;  // samples per second
-constexpr double kAnswerTimeout = 2.0;    // [s] of wall time, for the last answers
+constexpr double kAnswerTimeout = 2.0;      // [s] of wall time, for the last answers
 
 sweep_guard_core::Time now() { return fromMsg(ros::Time::now()); }
 
@@ -84,14 +85,13 @@ class ReplayReport {
       : path_(parameters.name("bag", "")), output_(parameters.name("output", path_ + ".report")) {
     parameters.number("rate", 1.0, {1e-3, 1e3});  // of the player, which reports no range
     const ros::NodeHandle guard(parameters.name("guard", "sweep_guard"));
-    const SessionTopics topics = readTopics(parameters, guard);
-    mesh_in_bag_ = !topics.mesh.empty();
-    bag_ = inspectBag(path_, topics);
+    topics_ = readTopics(parameters, guard);
+    bag_ = inspectBag(path_, topics_);
     if (bag_.meshes == 1 && bag_.vertices == 0 && std::isfinite(guard.param("timing/mesh_timeout", 0.5))) {
       ROS_WARN(
           "there are no vertices on %s: after timing/mesh_timeout the workpiece is stale and the level UNKNOWN. Give "
           "mesh_vertices:=TOPIC, or set timing/mesh_timeout: .inf in your config if the workpiece is rigid",
-          topics.mesh_vertices.c_str());
+          topics_.mesh_vertices.c_str());
     }
     listenTo(parameters.text("topics", ""));
     sweep_guard_evaluation::requireGnuplot();
@@ -104,6 +104,8 @@ class ReplayReport {
     if (contacts_.getNumPublishers() == 0) throw InvalidInput("the guard ended during the session; see its log");
     waitUntil([this] { return sweptToTheEnd(); }, kAnswerTimeout);
     log_.end(now());
+    playing_ = false;
+    waitUntil([this] { return fromMsg(touches_.touches().header.stamp) >= last_touch_; }, kAnswerTimeout);
     if (ros::ok()) report();
   }
 
@@ -128,7 +130,7 @@ class ReplayReport {
     return last && (bag_.poses.empty() || *last >= bag_.poses.back());
   }
 
-  // The player waits for a subscriber on each topic. Others may come later or never.
+  // The player waits for a subscriber on each topic: of what it plays to the guard, that has to be the guard. Others may come later or never.
   void listenTo(const std::string& topics) {
     std::istringstream words(topics);
     for (std::string topic; words >> topic;) subscribers_.push_back(subscribe(topic));
@@ -158,10 +160,11 @@ class ReplayReport {
     clock_ = subscribe("/clock");
     contacts_ =
         node_.subscribe("contacts", kQueue, &ReplayReport::onContacts, this, ros::TransportHints().tcpNoDelay());
+    listenToTouches();
     warning_ = node_.subscribe("warning", kQueue, &ReplayReport::onWarning, this, ros::TransportHints().tcpNoDelay());
     require([this] { return contacts_.getNumPublishers() > 0 && warned_; },
             "no guard on " + contacts_.getTopic() + "; see its log");
-    require([this] { return mesh_in_bag_ || knows_mesh_; }, "the guard got no workpiece; see the log of static_mesh");
+    require([this] { return meshInBag() || knows_mesh_; }, "the guard got no workpiece; see the log of static_mesh");
     const std::string service = ros::names::resolve("pause_playback");
     require([this, &service] { return clock_.getNumPublishers() > 0 && ros::service::exists(service, false); },
             "the bag is not played: no service " + service + ". Each topic of the player needs a subscriber");
@@ -172,10 +175,26 @@ class ReplayReport {
     ROS_INFO("playing %s: %.1f s", path_.c_str(), sweep_guard_core::toSeconds(bag_.end - bag_.begin));
   }
 
+  void listenToTouches() {
+    touched_ = {takeFrom<sweep_guard::Touches>("touches")};
+    if (!meshInBag()) touched_.push_back(takeFrom<sweep_guard::DeformableMesh>("mesh"));
+  }
+
+  bool meshInBag() const { return !topics_.mesh.empty(); }
+
+  template <typename Message>
+  ros::Subscriber takeFrom(const std::string& topic) {
+    const boost::function<void(const typename Message::ConstPtr&)> take = [this](const auto& message) {
+      touches_.take(message);
+    };
+    return node_.subscribe<Message>(topic, kQueue, take);
+  }
+
   void onContacts(const sweep_guard::Contacts::ConstPtr& contacts) {
     log_.addSweep(fromMsg(contacts->interval_start), fromMsg(contacts->header.stamp));
     for (const sweep_guard::ObjectContacts& object : contacts->objects) {
       if (sweep_guard_recording::isInContact(object)) log_.add(toSweepContact(*contacts, object));
+      if (!sweep_guard_recording::trianglesInContact(object).empty()) last_touch_ = fromMsg(contacts->header.stamp);
     }
   }
 
@@ -191,23 +210,29 @@ class ReplayReport {
     log_.add(received);
   }
 
-  void report() const {
+  void report() {
     const std::filesystem::path folder(output_);
+    if (meshInBag()) touches_.readShapes(path_, topics_);
     write(folder / "contacts.csv", contactsCsv(log_, bag_.begin));
     write(folder / "levels.csv", levelsCsv(log_, bag_.begin));
     write(folder / "sound.wav", sweep_guard_core::wavFile(soundOf(log_, kSoundRate), kSoundRate));
+    write(folder / "touches.csv", touchesCsv(touches_.touches()));
     const std::string name = std::filesystem::path(path_).filename();
     sweep_guard_evaluation::runGnuplot(timelinePlot(log_, bag_, name, folder / "timeline.png"));
     sweep_guard_evaluation::runGnuplot(contactsPlot(log_, bag_, name, folder / "contacts.png"));
+    sweep_guard_evaluation::runGnuplot(touchesPlot(touches_, name, folder / "touches.png"));
     std::cout << summary(log_, bag_) << "written to " << output_
-              << ": timeline.png, contacts.png, contacts.csv, levels.csv, sound.wav" << std::endl;
+              << ": timeline.png, contacts.png, touches.png, contacts.csv, touches.csv, levels.csv, sound.wav"
+              << std::endl;
   }
 
   std::string path_;
   std::string output_;
-  bool mesh_in_bag_ = true;
+  SessionTopics topics_;
   SessionBag bag_;
   SessionLog log_;
+  TouchLog touches_;
+  sweep_guard_core::Time last_touch_;  // stamp of the newest pose that touched
   bool warned_ = false;
   bool knows_mesh_ = false;
   bool playing_ = false;
@@ -215,6 +240,7 @@ class ReplayReport {
   ros::Subscriber clock_;
   ros::Subscriber contacts_;
   ros::Subscriber warning_;
+  std::vector<ros::Subscriber> touched_;
   std::vector<ros::Subscriber> subscribers_;
 };
 

@@ -72,12 +72,13 @@ class GuardThreadTest : public ::testing::Test {
   sweep_guard_core::WorkpieceStore workpieces_{[this](const auto& workpieces) { monitor_.setWorkpieces(workpieces); }};
   WarningPublisher warnings_{node_, parameters_, monitor_};
   ScenePublisher scene_{node_, parameters_, monitor_};
+  TouchesPublisher touches_{node_};
   sweep_guard_core::SweepStatistics statistics_{parameters_.initial().guard.cycle};
   sweep_guard_core::QuerySampler sampler_{/*every=*/0};
   sweep_guard_core::IntentionStore intentions_;
   GuardThread guard_thread_{
       node_,
-      {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_, sampler_, intentions_,
+      {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_, touches_, sampler_, intentions_,
        /*frame_motions=*/nullptr,
        [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(record_); }}};
 };

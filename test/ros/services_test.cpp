@@ -137,6 +137,7 @@ class ServicesTest : public ::testing::Test {
             queue_,
             warnings_,
             scene_,
+            touches_,
             cross_check_.sampler(),
             intentions_,
             /*frame_motions=*/nullptr,
@@ -160,6 +161,7 @@ class ServicesTest : public ::testing::Test {
   sweep_guard_core::WarningMonitor monitor_{parameters_.initial().limits};
   WarningPublisher warnings_{node_, parameters_, monitor_};
   ScenePublisher scene_{node_, parameters_, monitor_};
+  TouchesPublisher touches_{node_};
   sweep_guard_core::SweepStatistics statistics_{parameters_.initial().guard.cycle};
   Frames frames_{ros::NodeHandle(), parameters_.initial().max_message_size, [](const auto&, const auto&) {}};
   CrossCheckThread cross_check_{parameters_, monitor_};

@@ -167,6 +167,15 @@ TEST_F(ReplayTest, ReportsEachContactWhenItWasWithItsLeads) {
   EXPECT_TRUE(has(readText(folder_ / "report/levels.csv"), "REFLEX")) << printed;
   EXPECT_GT(fs::file_size(folder_ / "report/timeline.png"), 10000U);
   EXPECT_GT(fs::file_size(folder_ / "report/contacts.png"), 10000U);
+  EXPECT_GT(fs::file_size(folder_ / "report/touches.png"), 10000U);
+  const auto touches = readCsv(folder_ / "report/touches.csv");
+  ASSERT_EQ(touches.size(), 3U) << printed;
+  for (std::size_t i = 1; i < touches.size(); ++i) {
+    EXPECT_EQ(touches[i][0], "plate");
+    EXPECT_EQ(touches[i][2], std::to_string(i - 1));
+    EXPECT_GT(std::stoi(touches[i][3]), 10);
+    EXPECT_NEAR(std::stod(touches[i][4]), std::stod(contacts[1][7]), 1.0);
+  }
 }
 
 // The file is in millimeters.

@@ -28,7 +28,8 @@ std::vector<RecordedTopic> recordedTopics(const ros::NodeHandle& node, const Bla
                                  "time_to_collision", "intend_updates"}) {
     add(name, KeptMessages::kNone);
   }
-  for (const char* const latched : {"tool", "tool_balls", "intended", "parameter_descriptions", "parameter_updates"}) {
+  for (const char* const latched :
+       {"tool", "tool_balls", "intended", "touches", "parameter_descriptions", "parameter_updates"}) {
     add(latched, KeptMessages::kNewest);
   }
   if (parameters.proximity) add("proximity", KeptMessages::kNone);

@@ -21,7 +21,8 @@ Controls::Controls(const ros::NodeHandle& private_node, const LiveParameters& pa
       guard_(std::move(guard)),
       enable_server_(advertise(private_node, "enable", &Controls::onEnable)),
       reset_server_(advertise(private_node, "reset", &Controls::onReset)),
-      acknowledge_server_(advertise(private_node, "acknowledge", &Controls::onAcknowledge)) {}
+      acknowledge_server_(advertise(private_node, "acknowledge", &Controls::onAcknowledge)),
+      reset_touches_server_(advertise(private_node, "reset_touches", &Controls::onResetTouches)) {}
 
 template <typename Event>
 ros::ServiceServer Controls::advertise(const ros::NodeHandle& node, const std::string& name,
@@ -101,6 +102,20 @@ bool Controls::onReset(ResetEvent& event) {
     response.message = error.what();
   }
   ROS_WARN("~reset called: %s", response.message.c_str());
+  return true;
+}
+
+bool Controls::onResetTouches(ResetEvent& event) {
+  std_srvs::Trigger::Response& response = event.getResponse();
+  try {
+    guard_.reset_touches();
+    response.success = true;
+    response.message = "the counts of ~touches begin anew";
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+  ROS_INFO("~reset_touches called by %s: %s", sweep_guard_core::printable(event.getCallerName()).c_str(),
+           response.message.c_str());
   return true;
 }
 

@@ -14,16 +14,17 @@
 
 namespace sweep_guard_ros {
 
-/// What Controls asks of the guard's thread. Both return when it is done, and throw sweep_guard_core::Error.
+/// What Controls asks of the guard. Each returns when it is done; those of its thread throw sweep_guard_core::Error.
 struct GuardControls {
   std::function<void()> reset;                                    ///< see GuardThread::reset()
   std::function<std::string(const std::string& id)> acknowledge;  ///< see GuardThread::acknowledge()
+  std::function<void()> reset_touches;                            ///< see TouchesPublisher::reset()
 };
 
-/// Serves `~enable`, `~reset` and `~acknowledge`. While disabled, the warning is UNKNOWN and both flags stay raised. The
-/// guard refuses to be disabled at REFLEX or CONTACT: a gray light would hide the danger from the operator. It can always
-/// be reset: a contact that lasts is found again at the next pose. Without a next pose the contact is forgotten, and the
-/// warning is UNKNOWN. A call that finds 4 others of these services waiting is answered BUSY.
+/// Serves `~enable`, `~reset`, `~acknowledge` and `~reset_touches`. While disabled, the warning is UNKNOWN and both flags
+/// stay raised. The guard refuses to be disabled at REFLEX or CONTACT: a gray light would hide the danger from the
+/// operator. It can always be reset: a contact that lasts is found again at the next pose. Without a next pose the contact
+/// is forgotten, and the warning is UNKNOWN. A call that finds 4 others of these services waiting is answered BUSY.
 class Controls {
  public:
   Controls(const ros::NodeHandle& private_node, const LiveParameters& parameters,
@@ -41,6 +42,7 @@ class Controls {
   bool onAcknowledge(AcknowledgeEvent& event);
   void acknowledge(const std::string& id, sweep_guard::Acknowledge::Response& response);
   bool onReset(ResetEvent& event);
+  bool onResetTouches(ResetEvent& event);
   template <typename Event>
   ros::ServiceServer advertise(const ros::NodeHandle& node, const std::string& name, bool (Controls::*on_call)(Event&));
   void enable(std_srvs::SetBool::Response& response);
@@ -54,6 +56,7 @@ class Controls {
   ros::ServiceServer enable_server_;
   ros::ServiceServer reset_server_;
   ros::ServiceServer acknowledge_server_;
+  ros::ServiceServer reset_touches_server_;
 };
 
 }  // namespace sweep_guard_ros

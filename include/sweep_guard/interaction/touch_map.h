@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/guard/sweep_report.h"
+
+namespace sweep_guard_core {
+
+/// What the tool has done to one triangle.
+struct TriangleTouches {
+  std::uint32_t triangle;
+  /// Number of sweeps in which the tool touched the triangle; stays at the largest number of the type.
+  std::uint32_t sweeps;
+  float depth;  ///< largest depth at the end of such a sweep (Impact::depth) [m]; NaN: no sweep had a narrow phase
+};
+
+/// What the tool has done to one workpiece.
+struct ObjectTouches {
+  std::string id;
+  std::uint32_t revision = 0;
+  std::vector<TriangleTouches> triangles;  ///< those touched, in the order of their first touches
+};
+
+/// Counts in how many sweeps the tool touched each triangle of the workpieces, and keeps the largest depth.
+///
+/// A sweep touches the triangles for which the narrow phase finds an impact, also where contact is intended or allowed;
+/// without narrow phase, all that it does not rule out. It counts once, however many poses it passes and bodies the tool
+/// has. Depths are those at the swept poses: what a tool does on the way in and out within one sweep has depth 0.
+///
+/// Deformations keep the counts. They begin anew when the triangles or the revision of a workpiece change, and after it
+/// was away. A triangle of a workpiece that was swept costs 12 bytes. Once a workpiece was swept and the buffers are as
+/// large as the largest contact, nothing is allocated.
+class TouchMap {
+ public:
+  /// @param workpieces  all that there are; not only those swept
+  void add(const SweepReport& report, const Workpieces& workpieces);
+  void clear();  ///< all counts begin anew
+
+  std::uint64_t changes() const { return changes_; }  ///< grows with every change of what touches() returns
+  Time newest() const { return newest_; }             ///< stamp of the newest pose that touched; 0: none since clear()
+
+  /// Returns the workpieces that were touched, ascending by id.
+  /// @param[out] objects  overwritten; its buffers are used again
+  void touches(std::vector<ObjectTouches>& objects) const;
+
+ private:
+  struct Touch {
+    std::uint32_t sweeps = 0;
+    float depth = 0.0F;
+  };
+  struct Touched {
+    std::shared_ptr<const Workpiece> workpiece;  // as swept last
+    std::vector<Touch> of_triangle;
+    std::vector<std::uint32_t> triangles;  // those touched
+  };
+
+  void forgetRemoved(const Workpieces& workpieces);
+  Touched& touchedOf(const std::shared_ptr<const Workpiece>& workpiece);
+  void beginAnew(Touched& touched);
+  void findTouched(const SweepResult& result);
+  void count(Touched& touched) const;
+
+  std::map<std::string, Touched> touched_;  // by id of the workpiece
+  std::uint64_t changes_ = 0;
+  Time newest_;
+  TriangleSet in_sweep_;  // touched in the sweep that is added
+  TriangleSet allowed_;   // the same, as allowed
+};
+
+}  // namespace sweep_guard_core

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/interaction/touch_map.h"
+
+namespace sweep_guard_ros {
+
+/// Counts which triangles the tool touches, and publishes that, `~touches`, latched. The thread that sweeps only counts: it
+/// waits for another thread no longer than the touched triangles take to be copied.
+class TouchesPublisher {
+ public:
+  explicit TouchesPublisher(ros::NodeHandle private_node);
+
+  /// Counts a sweep. The thread that sweeps.
+  void swept(const sweep_guard_core::SweepReport& report, const sweep_guard_core::Workpieces& workpieces);
+  void publishIfChanged();  ///< publishes if there is a subscriber and something has changed. Any thread
+  void reset();             ///< begins anew, and publishes that. Any thread
+
+ private:
+  void publishLocked();
+
+  const ros::Publisher publisher_;
+  sweep_guard_core::PriorityMutex map_mutex_;
+  sweep_guard_core::TouchMap map_;
+
+  std::mutex publish_mutex_;  // locked before the other; for the members below
+  std::uint64_t published_ = 0;
+  std::vector<sweep_guard_core::ObjectTouches> objects_;
+};
+
+}  // namespace sweep_guard_ros

@@ -1,0 +1,75 @@
+#include "rviz/force_visual.h"
+
+#include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
+
+#include <cstdio>
+
+#include "rviz/ogre_conversions.h"
+
+namespace sweep_guard_rviz {
+namespace {
+
+constexpr float kThickness = 0.04F;  // of the length
+constexpr float kText = 0.006F;      // height of a letter [m]
+
+}  // namespace
+
+struct ForceVisual::Label {
+  explicit Label(Ogre::SceneNode& parent) : text("-"), node(parent.createChildSceneNode()) {
+    text.showOnTop(true);
+    text.setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_ABOVE);
+    node->attachObject(&text);
+  }
+
+  rviz::MovableText text;
+  Ogre::SceneNode* node;
+};
+
+std::string describe(const sweep_guard::ObjectInteraction& object) {
+  const Ogre::Vector3 force = toOgre(object.wrench.force);
+  char text[96];
+  std::snprintf(text, sizeof text, "%.2f N, %.2f cm^3, %.1f mm", static_cast<double>(force.length()),
+                1e6 * object.volume, 1e3 * object.depth);
+  return text;
+}
+
+ForceVisual::ForceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node)
+    : scene_(scene), node_(node), arrows_(scene, node, Drawing::Depth::kOnTop) {}
+
+ForceVisual::~ForceVisual() {
+  for (const auto& label : labels_) {
+    label->node->detachAllObjects();
+    scene_.destroySceneNode(label->node);
+  }
+}
+
+void ForceVisual::show(const sweep_guard::Interaction& interaction, const geometry_msgs::Pose& tool,
+                       const DisplayStyle& style) {
+  const Ogre::Quaternion rotation = toOgre(tool.orientation);
+  shown_ = 0;
+  for (const sweep_guard::ObjectInteraction& object : interaction.objects) {
+    const Ogre::Vector3 from = toOgre(tool.position) + rotation * toOgre(object.centroid);
+    const Ogre::Vector3 along = style.force_length * (rotation * toOgre(object.wrench.force));
+    if (along.isZeroLength()) continue;
+    arrows_.addArrow(from, from + along, kThickness * along.length());
+    label(describe(object), from + along, style);
+  }
+  for (size_t i = shown_; i < labels_.size(); ++i) labels_[i]->node->setVisible(false);
+  arrows_.paint(style.force.color, style.force.color);
+  arrows_.show();
+}
+
+void ForceVisual::clear() { show({}, {}, DisplayStyle()); }
+
+void ForceVisual::label(const std::string& text, const Ogre::Vector3& place, const DisplayStyle& style) {
+  if (shown_ == labels_.size()) labels_.push_back(std::make_unique<Label>(node_));
+  Label& label = *labels_[shown_++];
+  label.text.setCaption(text);
+  label.text.setCharacterHeight(kText);
+  label.text.setColor(style.force.color);
+  label.node->setPosition(place);
+  label.node->setVisible(true);
+}
+
+}  // namespace sweep_guard_rviz

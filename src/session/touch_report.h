@@ -1,0 +1,52 @@
+#pragma once
+
+#include <sweep_guard/DeformableMesh.h>
+#include <sweep_guard/MeshVertices.h>
+#include <sweep_guard/Touches.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "session/session_bag.h"
+
+namespace sweep_guard_session {
+
+/// What a guard counted in a session, and the newest shape of the workpieces.
+class TouchLog {
+ public:
+  void take(const sweep_guard::DeformableMesh::ConstPtr& mesh) { meshes_[mesh->id] = mesh; }
+  void take(const sweep_guard::MeshVertices::ConstPtr& vertices) { vertices_[vertices->id] = vertices; }
+  void take(const sweep_guard::Touches::ConstPtr& touches) { touches_ = *touches; }
+  void readShapes(const std::string& bag,
+                  const SessionTopics& topics);  ///< takes the newest of each workpiece in a bag
+
+  const sweep_guard::Touches& touches() const { return touches_; }
+
+  /// The shape of a workpiece in its frame.
+  struct Surface {
+    std::vector<Eigen::Vector3d> vertices;                ///< [m]
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< empty: not known, or without all touched triangles
+  };
+  /// Returns the shape that the touches of a workpiece belong to.
+  Surface surfaceOf(const sweep_guard::ObjectTouches& touches) const;
+
+ private:
+  std::map<std::string, sweep_guard::DeformableMesh::ConstPtr> meshes_;  // by id
+  std::map<std::string, sweep_guard::MeshVertices::ConstPtr> vertices_;  // by id
+  sweep_guard::Touches touches_;
+};
+
+/// Returns a CSV file with one line for each touched triangle. The columns are mesh,revision,triangle,sweeps,depth_mm.
+std::string touchesCsv(const sweep_guard::Touches& touches);
+
+/// Returns a gnuplot script that draws the first 4 touched workpieces as they were at the end, from the side that was touched:
+/// by the sweeps that touched each triangle, and by the largest depth. Of a workpiece of more than 30 000 triangles only those
+/// touched are drawn.
+/// @param path  of the PNG file
+std::string touchesPlot(const TouchLog& log, const std::string& title, const std::string& path);
+
+}  // namespace sweep_guard_session
