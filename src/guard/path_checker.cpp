@@ -76,10 +76,10 @@ void PathChecker::checkNext(Detector& detector, const PredictedPathRequest& requ
   const Duration reflex_end = reflex_sweeps == 0 ? Duration::zero() : request.path[reflex_sweeps - 1].ahead;
   const IntendedContact intended(request.tool, request.intentions, *object.workpiece);
   const AllowedPieces allowed(request.tool, options_.allowed, object.workpiece->id);
-  const bool bounded = request.closest != nullptr || request.tool.pieces().size() > 1;
+  const Submesh submesh = submeshInReach(mesh_M, reach_M_, 0);
+  const bool bounded = !submesh.empty() && (request.closest != nullptr || request.tool.pieces().size() > 1);
   const Scene scene{detector,          request.tool, margin,   reflex_end,      request.plan,
                     *object.workpiece, bounded,      intended, request.touches, allowed};
-  const Submesh submesh = submeshInReach(mesh_M, reach_M_, 0);
   if (bounded) boxes_.around(submesh);
   ClosestApproaches& closest = request.closest != nullptr ? *request.closest : own_closest_;
   Progress progress{object, closest.to(*object.workpiece), &object.reflex};
@@ -193,7 +193,6 @@ size_t PathChecker::sweepSegment(const PathSegment& segment, double margin) {
   if (swept_ == segments_.size()) segments_.emplace_back();
   SweptSegment& swept = segments_[swept_];
   swept.segment = segment;
-  swept.end_M = path_M_.end_M(segment);
   swept.reach_M = path_M_.reach_M(segment, options_.max_deviations, margin);
   swept.bodies.clear();
   swept.deviations.clear();
@@ -213,6 +212,7 @@ void PathChecker::sweepHalves(size_t number, double margin) {
 
 void PathChecker::measureDeviations(const Scene& scene, SweptSegment& swept) {
   if (!swept.deviations.empty()) return;
+  swept.end_M = path_M_.end_M(swept.segment);
   const auto& [X_MT, covariance_M] = swept.end_M;
   for (const SweptBody& body : swept.bodies) {
     swept.deviations.push_back(planeDeviations(scene.tool.whole(), X_MT, covariance_M, body.volume_M));

@@ -89,10 +89,10 @@ class PathChecker {
   /// What the tool sweeps in a segment of the path, whatever the workpiece.
   struct SweptSegment {
     PathSegment segment;
-    UncertainPose end_M;
     Eigen::AlignedBox3d reach_M;
     std::vector<SweptBody> bodies;         // around the whole tool
     std::vector<PerHalfSpace> deviations;  // of these; empty: not computed yet
+    UncertainPose end_M;                   // computed with them
     std::array<size_t, 2> halves{};        // indices into segments_; 0: not swept yet
   };
 
