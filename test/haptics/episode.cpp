@@ -92,7 +92,7 @@ class Hand {
     const Vector3d acceleration = total / mass_;
     velocity_ += kStep * acceleration.cwiseMin(limits_.max_acceleration).cwiseMax(-limits_.max_acceleration);
     velocity_ = velocity_.cwiseMin(limits_.max_speed).cwiseMax(-limits_.max_speed);
-    const Vector3d way = kStep * velocity_;
+    Vector3d way = kStep * velocity_;
     position_ += way;
     return way;
   }
