@@ -3,8 +3,7 @@
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 
-#include <cstdio>
-
+#include "rviz/force_text.h"
 #include "rviz/ogre_conversions.h"
 
 namespace sweep_guard_rviz {
@@ -25,14 +24,6 @@ struct ForceVisual::Label {
   rviz::MovableText text;
   Ogre::SceneNode* node;
 };
-
-std::string describe(const sweep_guard::ObjectInteraction& object) {
-  const Ogre::Vector3 force = toOgre(object.wrench.force);
-  char text[96];
-  std::snprintf(text, sizeof text, "%.2f N, %.2f cm^3, %.1f mm", static_cast<double>(force.length()),
-                1e6 * object.volume, 1e3 * object.depth);
-  return text;
-}
 
 ForceVisual::ForceVisual(Ogre::SceneManager& scene, Ogre::SceneNode& node)
     : scene_(scene), node_(node), arrows_(scene, node, Drawing::Depth::kOnTop) {}

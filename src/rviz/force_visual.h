@@ -13,9 +13,6 @@
 
 namespace sweep_guard_rviz {
 
-/// Returns force, volume and depth of an interaction in words.
-std::string describe(const sweep_guard::ObjectInteraction& object);
-
 /// Draws the force of each workpiece on the tool as an arrow from the centroid of the volume that they have in common, with
 /// force, volume and depth as text at its tip.
 class ForceVisual {

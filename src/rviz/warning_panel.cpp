@@ -46,6 +46,7 @@ WarningPanel::WarningPanel(QWidget* parent)
     : rviz::Panel(parent),
       light_(new TrafficLight(this)),
       target_(makeLabel(this)),
+      force_(makeLabel(this)),
       reasons_(makeLabel(this)),
       chart_(new StripChart(this)),
       acknowledge_(new QPushButton("I know", this)),
@@ -55,6 +56,7 @@ WarningPanel::WarningPanel(QWidget* parent)
       outcome_(makeLabel(this)),
       topic_edit_(new QLineEdit(this)) {
   light_->setObjectName("light");
+  force_->setObjectName("force");
   acknowledge_->setObjectName("acknowledge");
   enable_->setObjectName("enable");
   reset_->setObjectName("reset");
@@ -103,6 +105,7 @@ void WarningPanel::layOut() {
   auto* const texts = new QVBoxLayout(place);
   texts->setContentsMargins(9, 4, 9, 0);
   texts->addWidget(target_);
+  texts->addWidget(force_);
   texts->addWidget(reasons_);
   texts->addStretch();
   auto* const buttons = new QHBoxLayout;
@@ -183,6 +186,7 @@ void WarningPanel::refresh(const Moment& now) {
   state_ = panelState(newest_, now, topic_);
   remember(warnings, now.steady);
   showState(now.steady);
+  showForce();
   sound_.set(soundCue(newest_, state_));
   if (const auto outcome = call_.takeOutcome()) showOutcome(*outcome);
 }
@@ -207,6 +211,14 @@ void WarningPanel::showState(SteadyTime now) {
   for (QPushButton* const button : {enable_, reset_}) button->setEnabled(may_call);
   acknowledge_->setEnabled(may_call && canAcknowledge());
   if (refreshes_++ % kRefreshesPerChart == 0) chart_->show(history_, now);
+}
+
+void WarningPanel::showForce() {
+  const bool touches = state_.level == WarningLevel::kContact && newest_ && !newest_->warning.held;
+  force_feed_.listen(touches && !guard_.empty() ? ros::names::append(guard_, "interaction") : "");
+  const std::string text = force_feed_.text();
+  force_->setText(QString::fromStdString(text));
+  force_->setVisible(!text.empty());
 }
 
 bool WarningPanel::canAcknowledge() const {

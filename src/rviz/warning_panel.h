@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "rviz/force_feed.h"
 #include "rviz/level_history.h"
 #include "rviz/panel_sound.h"
 #include "rviz/service_call.h"
@@ -21,7 +22,7 @@ namespace sweep_guard_rviz {
 class StripChart;
 class TrafficLight;
 
-/// Shows the warnings of one guard to its operator, and acknowledges them; disables, enables and resets the guard. Lets
+/// Shows the warnings of one guard to its operator, in contact with the force on the tool, and acknowledges them; disables, enables and resets the guard. Lets
 /// them be heard, by choice. Saves the topic and this choice in rviz's configuration; the names of the services follow from the topic.
 class WarningPanel : public rviz::Panel {
  public:
@@ -45,6 +46,7 @@ class WarningPanel : public rviz::Panel {
   void setTopic(const std::string& topic);
   void remember(const std::vector<ReceivedWarning>& warnings, SteadyTime now);
   void showState(SteadyTime now);
+  void showForce();
   bool canAcknowledge() const;
   std::string announceCall(const std::string& service);
   void letHear(bool on);
@@ -53,6 +55,7 @@ class WarningPanel : public rviz::Panel {
   std::string topic_;
   std::string guard_;  // namespace of its services; empty: no guard
   WarningFeed feed_;
+  ForceFeed force_feed_;
   ServiceCall call_;
   std::optional<ReceivedWarning> newest_;
   LevelHistory history_;
@@ -62,6 +65,7 @@ class WarningPanel : public rviz::Panel {
 
   TrafficLight* light_;
   QLabel* target_;
+  QLabel* force_;
   QLabel* reasons_;
   StripChart* chart_;
   QPushButton* acknowledge_;

@@ -82,7 +82,8 @@ class World {
         attach_(node_, {live_, frames_, store_, monitor_},
                 {[this] { return newestPose(); },
                  [this](const auto& /*before*/, const auto& next, const auto& /*also*/) { exchange(*next); }}),
-        controls_(node_, live_, monitor_, store_, {[] {}, [this](const std::string& id) { return acknowledge(id); }}) {
+        controls_(node_, live_, monitor_, store_,
+                  {[] {}, [this](const std::string& id) { return acknowledge(id); }, [] {}}) {
     const sweep_guard_core::TriangleMesh mesh({{-kHalfWidth, -kHalfWidth, 0},
                                                {kHalfWidth, -kHalfWidth, 0},
                                                {kHalfWidth, kHalfWidth, 0},

@@ -117,7 +117,8 @@ class LimitedServicesTest : public testing::Test {
                       [this](const std::string& id) {
                         stuck_.wait();
                         return id;
-                      }}};
+                      },
+                      [] {}}};
   PredictService predict_{node_, parameters_, workpieces_, [this](auto) -> std::future<PredictService::Motion> {
                             stuck_.wait();
                             throw sweep_guard_core::Error("no tool pose yet");

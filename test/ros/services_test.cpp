@@ -176,7 +176,8 @@ class ServicesTest : public ::testing::Test {
       parameters_,
       monitor_,
       workpieces_,
-      {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); }}};
+      {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); },
+       [this] { touches_.reset(); }}};
   ReconfigureServer reconfigure_server_{node_, parameters_, [this](const auto& next) { guard_thread_.apply(next); }};
   ros::AsyncSpinner spinner_{1};
 };

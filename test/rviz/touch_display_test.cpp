@@ -6,6 +6,7 @@
 #include "await.h"
 #include "display_fixture.h"
 #include "pictures.h"
+#include "rviz/force_text.h"
 
 namespace sweep_guard_rviz {
 namespace {
@@ -152,6 +153,16 @@ TEST_F(TouchDisplayTest, AForceThatIsNoLongerToldIsNotDrawn) {
 
 TEST(ForceTextTest, TellsForceVolumeAndDepth) {
   EXPECT_EQ(describe(pushedUp(4.0).objects[0]), "4.00 N, 3.14 cm^3, 10.2 mm");
+}
+
+TEST(ForceTextTest, OfSeveralWorkpiecesTellsTheWholeForceAndTheLargestDepth) {
+  Interaction interaction = pushedUp(4.0);
+  interaction.objects.push_back(interaction.objects[0]);
+  interaction.objects[1].depth = 0.02;
+  interaction.wrench.force.x = 3.0;
+  interaction.wrench.force.z = 4.0;
+  EXPECT_EQ(describe(interaction), "5.00 N, 6.28 cm^3, 20.0 mm");
+  EXPECT_EQ(describe(Interaction()), "");
 }
 
 }  // namespace

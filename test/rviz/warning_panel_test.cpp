@@ -5,6 +5,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <sweep_guard/Acknowledge.h>
+#include <sweep_guard/Interaction.h>
 
 #include <QApplication>
 #include <QCheckBox>
@@ -136,6 +137,30 @@ TEST_F(WarningPanelTest, SoundIsOffAtFirstAndSavedByChoice) {
   panel_.save(config);
   again.load(config);
   EXPECT_FALSE(again.findChild<QCheckBox*>("hear")->isChecked());
+}
+
+// The guard computes the force for its subscribers.
+TEST_F(WarningPanelTest, OnlyInContactItListensToTheForceAndTellsIt) {
+  ros::Publisher forces = node_.advertise<sweep_guard::Interaction>("/guard/interaction", 10);
+  sweep_guard::Interaction interaction;
+  interaction.wrench.force.z = 1.2;
+  interaction.objects.resize(1);
+  interaction.objects[0].volume = 1.2e-6;
+  interaction.objects[0].depth = 0.0042;
+  const auto* const force = panel_.findChild<QLabel*>("force");
+  say(warningLevel(Warning::REFLEX));
+  EXPECT_EQ(forces.getNumSubscribers(), 0U);
+  EXPECT_FALSE(force->isVisible());
+  say(warningLevel(Warning::CONTACT));
+  await("the force", [&] {
+    forces.publish(interaction);
+    return force->isVisible() && force->text() == "1.20 N, 1.20 cm^3, 4.2 mm";
+  });
+  keepPicture(panel_.grab().toImage(), "panel_force");
+  Warning held = warningLevel(Warning::CONTACT);
+  held.held = 1;
+  say(held);
+  await("that it goes", [&] { return forces.getNumSubscribers() == 0 && !force->isVisible(); });
 }
 
 TEST_F(WarningPanelTest, ContactFlashes) {

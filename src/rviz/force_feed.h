@@ -1,0 +1,32 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <sweep_guard/Interaction.h>
+
+#include <chrono>
+#include <string>
+
+namespace sweep_guard_rviz {
+
+/// Receives the force on the tool. The guard computes it only for subscribers: listen while it is shown.
+class ForceFeed {
+ public:
+  ForceFeed() { node_.setCallbackQueue(&queue_); }
+
+  /// Switches to another topic and forgets the force of the previous one. An empty topic ends listening.
+  void listen(const std::string& topic);
+
+  /// Returns the newest force in words; empty: there is none, or none came for 0.5 s.
+  std::string text();
+
+ private:
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  std::string topic_;
+  ros::Subscriber subscriber_;
+  std::string text_;
+  std::chrono::steady_clock::time_point received_;
+};
+
+}  // namespace sweep_guard_rviz
