@@ -85,7 +85,8 @@ void ForceRenderer::measureVelocity(const MotionInputs::ToolPose& pose) {
 
 void ForceRenderer::measureDelay(const Timestamps& pose, const Instant& now) {
   const double kept = std::exp(-toSeconds(options_.period) / kDelayTime);
-  delay_ = std::max(toSeconds(age(pose, now)), kept * delay_);
+  const Duration counted = std::min(age(pose, now), options_.limits.pose_age);  // an older pose makes no force
+  delay_ = std::max(toSeconds(counted), kept * delay_);
 }
 
 double ForceRenderer::stiffnessGain() const {

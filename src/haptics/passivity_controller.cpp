@@ -6,8 +6,11 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kPause = 0.06;                      // between positions that do not come one after the other [s]
-constexpr double kKept = 0.995;                      // of the longest cycle, with each position
+constexpr double kPause = 0.06;  // between positions that do not come one after the other [s]
+constexpr double kKept = 0.995;  // of the longest cycle, with each position
+constexpr auto kWatchdog =
+    std::chrono::milliseconds(10);                   // shortest gap after a force in which a watchdog may have sent 0
+constexpr double kRounding = 1e-9;                   // relative, of a way
 constexpr auto kForgiven = std::chrono::seconds(1);  // without a wanted force until what was given is forgotten
 
 }  // namespace
@@ -36,9 +39,10 @@ void PassivityController::moved(double displacement, SteadyTime until) {
   double lowest = 0.0;
   double highest = 0.0;
   bool first = true;
-  visitActing(until, [&](const Sent& sent, SteadyTime /*next*/) {
+  visitActing(until, [&](const Sent& sent, SteadyTime next) {
     lowest = first ? sent.effort : std::min(lowest, sent.effort);
     highest = first ? sent.effort : std::max(highest, sent.effort);
+    if (next - sent.at > kWatchdog) lowest = std::min(lowest, 0.0), highest = std::max(highest, 0.0);
     first = false;
   });
   interval_ = seconds(until);
@@ -46,9 +50,11 @@ void PassivityController::moved(double displacement, SteadyTime until) {
   const double strayed = options_.max_acceleration * interval_ * interval_ / 2;
   const double path = std::max(way, std::min(options_.max_speed * interval_, way + strayed));
   const double known = (lowest + highest) / 2 * displacement + (highest - lowest) / 2 * path;
-  const bool within_limits = way <= longestWay(interval_);
-  energy_ +=
-      within_limits ? std::min(known, unknownEnergy(until)) : known;  // after a pause, the assumed one may be less
+  const bool within_limits = way <= (1.0 + kRounding) * longestWay(interval_);
+  const double limited = within_limits
+                             ? std::min(known, unknownEnergy(until))  // after a pause, the assumed one may be less
+                             : std::max(known, 0.0);                  // a jump takes no energy
+  energy_ += limited;
   const double fastest = interval_ > 0.0 ? way / interval_ + options_.max_acceleration * interval_ : options_.max_speed;
   speed_ = std::min(options_.max_speed, fastest);
   known_ = until;

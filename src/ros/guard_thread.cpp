@@ -381,10 +381,10 @@ void GuardThread::sweep(const QueuedPose& queued) {
   dependencies_.statistics.swept(warned - pose.received, end - begin);
   reportFailures(report->failures);
   dependencies_.scene.swept(pose, report);
-  top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
   top_->run([&] { proximity_.swept(pose, workpieces, *report, guard_); });
   top_->run([&] { interaction_.swept(pose, workpieces, *report); });
   top_->run([&] { bodies_.moved(pose); });
+  top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
 }
 
 void GuardThread::reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures) {

@@ -55,7 +55,7 @@ std::string commented(const std::string& text, const std::string& indent) {
 }
 
 std::string capitalized(std::string text) {
-  const size_t first = text.front() == '[' ? text.find(' ') + 1 : 0;
+  const size_t first = text.front() == '[' ? text.find("] ") + 2 : 0;
   text[first] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[first])));
   return text;
 }

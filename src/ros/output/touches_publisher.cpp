@@ -41,7 +41,7 @@ void TouchesPublisher::swept(const sweep_guard_core::SweepReport& report,
 
 void TouchesPublisher::publishIfChanged() {
   const std::lock_guard lock(publish_mutex_);
-  if (publisher_.getNumSubscribers() > 0) publishLocked();
+  publishLocked();
 }
 
 void TouchesPublisher::reset() {

@@ -137,7 +137,10 @@ class BarBuilder {
 void fill(BarBuilder& builder, const TriangleMesh& mesh, const MatrixX3d& nodes) {
   const Eigen::AlignedBox3d box = mesh.bounds_M();
   const Eigen::Matrix3Xd scaled = (nodes.transpose().colwise() - box.center()) / box.sizes().norm();
-  for (const auto& corners : sweep_guard_core::delaunayTetrahedra(scaled)) {
+  const auto tetrahedra = sweep_guard_core::delaunayTetrahedra(scaled);
+  if (tetrahedra.empty())
+    throw sweep_guard_core::InvalidInput("no tetrahedra fill the elastic workpiece: take another mesh");
+  for (const auto& corners : tetrahedra) {
     Vector3d middle = Vector3d::Zero();
     for (const std::uint32_t corner : corners) middle += nodes.row(corner).transpose() / 4.0;
     if (inside(mesh, middle)) builder.addTetrahedron(corners);
