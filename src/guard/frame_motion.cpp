@@ -19,15 +19,18 @@ struct Knot {
 
 Knot measuredKnot(const FramePose& pose) { return {pose.stamp, pose.X_WM, Matrix6d::Zero(), pose.deviation_bound}; }
 
-// The pose that the prediction begins at may lie between two measured ones. Then it is off their Motion by up to the bound, the
-// way to it as well, and three arcs differ from their chords.
+// The pose P that the prediction begins at may lie between two measured ones, A and C. On the way to it, the frame is within the
+// bound of Motion(A, C), which is within its arc of the chord from A; that chord ends within the bound of P, and is within the
+// arc of Motion(A, P) of it.
 double boundOfFirst(const FrameMotion& motion, double radius) {
   const auto is_before = [](const FramePose& pose, Time limit) { return pose.stamp < limit; };
   const auto next = std::lower_bound(motion.measured.begin(), motion.measured.end(), motion.predicted_from, is_before);
   if (next == motion.measured.end()) return 0.0;
   if (next->stamp == motion.predicted_from || next == motion.measured.begin()) return next->deviation_bound;
-  const double turn = Motion{std::prev(next)->X_WM, next->X_WM}.angle();
-  return 2.0 * next->deviation_bound + 3.0 * chordError(radius, turn);
+  const auto arc = [&](const Eigen::Isometry3d& X_WM) {
+    return chordError(radius, Motion{std::prev(next)->X_WM, X_WM}.angle());
+  };
+  return 2.0 * next->deviation_bound + arc(next->X_WM) + arc(motion.predicted.front().X_WT);
 }
 
 // The bounds hold for points within a radius.

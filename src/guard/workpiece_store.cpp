@@ -111,7 +111,7 @@ std::shared_ptr<const Workpiece> WorkpieceStore::find(const std::string& id) con
 
 void WorkpieceStore::replace(std::shared_ptr<const Workpiece> snapshot) {
   const std::lock_guard lock(mutex_);
-  if (attached_.count(snapshot->id) != 0) return;  // meanwhile
+  if (attached_.count(snapshot->id) != 0) throw attachedAnd(snapshot->id, "it came while it was attached");
   replaceLocked(std::move(snapshot));
 }
 
@@ -170,6 +170,13 @@ bool WorkpieceStore::contains(const std::string& id) const { return find(id) != 
 Workpieces WorkpieceStore::snapshot() const {
   const std::lock_guard lock(mutex_);
   return workpieces_;
+}
+
+Workpieces WorkpieceStore::snapshotBeside(const std::set<std::string>& attached) const {
+  const std::lock_guard lock(mutex_);
+  const auto is = [](const auto& held, const std::string& id) { return held.first == id; };
+  if (std::equal(attached_.begin(), attached_.end(), attached.begin(), attached.end(), is)) return workpieces_;
+  throw Error("a workpiece was attached or detached meanwhile: ask again");
 }
 
 std::shared_ptr<const std::set<std::string>> WorkpieceStore::frames() const {

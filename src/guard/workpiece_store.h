@@ -85,7 +85,10 @@ class WorkpieceStore {
   std::optional<Attached> attached(const std::string& id) const;  ///< empty: it is not
 
   bool contains(const std::string& id) const;
-  Workpieces snapshot() const;                                  ///< ascending by id
+  Workpieces snapshot() const;  ///< ascending by id
+  /// Returns the snapshots for a tool that has these workpieces as parts.
+  /// @throws Error if others are attached meanwhile
+  Workpieces snapshotBeside(const std::set<std::string>& attached) const;
   std::shared_ptr<const std::set<std::string>> frames() const;  ///< frames of all workpieces
 
   /// Clears the stamps of all snapshots, after time went back.

@@ -93,7 +93,9 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
     change.predictor.emplace(next->guard.predictor, articulatedRobot(*next));
   }
   std::vector<sweep_guard_core::InterpenetrationFinder> pieces;
+  boost::shared_ptr<sweep_guard::ToolSurface> surface;
   if (differ(*before, *next, "tool/")) {
+    surface = surfaceMsg(*next);
     change.bodies = *next->bodies;
     change.robot = articulatedRobot(*next);
     pieces = sweep_guard_core::interpenetrationFinders(*next->tool);
@@ -102,7 +104,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
     guard_.exchange(change);
     if (!change.bodies.empty()) {
       proximity_.setTool(*next->tool);
-      bodies_.setTool(*next);
+      bodies_.setTool(*next->bodies, surface);
       interaction_.exchange(pieces);
     }
     if (tested) dependencies_.monitor.detectorTested({});
@@ -128,7 +130,7 @@ void GuardThread::reset() {
   dependencies_.statistics.restart();
 }
 
-// By the guard's thread.
+// Called by the guard's thread.
 void GuardThread::forget() {
   dependencies_.monitor.restart();
   guard_.reset();
@@ -142,22 +144,25 @@ void GuardThread::forget() {
 }
 
 void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
-                               const std::shared_ptr<const Parameters>& next, const std::function<void()>& also) {
+                               const std::shared_ptr<const Parameters>& next,
+                               const std::function<void()>& change_store) {
   const std::lock_guard lock(change_mutex_);
   sweep_guard_core::GuardChange change;
   change.options = next->guard;
   change.bodies = *next->bodies;
   change.robot = articulatedRobot(*next);
   auto pieces = sweep_guard_core::interpenetrationFinders(*next->tool);
+  const auto surface = surfaceMsg(*next);
   const auto exchange = [&] {
     if (dependencies_.parameters.get() != before) throw Error("parameters have changed meanwhile: ask again");
-    also();
+    change_store();
     dependencies_.parameters.set(next);  // before the poses of the next epoch are computed
     forget();
     guard_.exchange(change);
+    dependencies_.intentions.clear();
     interaction_.exchange(pieces);
     proximity_.setTool(*next->tool);
-    bodies_.setTool(*next);
+    bodies_.setTool(*next->bodies, surface);
     dependencies_.scene.setTool(*next->bodies);
   };
   runInTime(exchange, "the tool is as before");
@@ -169,6 +174,7 @@ std::future<sweep_guard_core::PoseWithFrames> GuardThread::newestPose() {
 }
 
 const QueuedPose& GuardThread::freshPose() const {
+  if (const auto asked_by = dependencies_.monitor.disabledBy()) throw Error("the guard is disabled by " + *asked_by);
   if (!swept_ || !dependencies_.monitor.checkpoint().continues(checkpoint_)) throw Error("no tool pose yet");
   if (stale(timestampsOf(swept_->pose), now(), dependencies_.parameters.get()->limits.pose_timeout)) {
     throw Error("newest tool pose is stale: motion is unknown");
@@ -440,6 +446,7 @@ void GuardThread::predict() {
                                       prediction->probability(PredictionInterval::kConsidered, age + considered)});
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
+  if (!dependencies_.monitor.counts(checkpoint)) return;  // poses of another epoch were swept meanwhile
   dependencies_.scene.predicted(pose, prediction);
   bodies_.predicted(pose, *prediction);
 }
@@ -462,8 +469,6 @@ void GuardThread::predictInterrupted(Duration age, const sweep_guard_core::Workp
 
 PredictService::Motion GuardThread::motion(Duration horizon) const {
   const Instant at = now();
-  const sweep_guard_core::WarningMonitor& monitor = dependencies_.monitor;
-  if (const auto asked_by = monitor.disabledBy()) throw Error("the guard is disabled by " + *asked_by);
   const Timestamps from = timestampsOf(freshPose().pose);
   const Duration age = ageOf(from, at);
   sweep_guard_core::PredictedMotion motion = guard_.predictMotion(age, horizon);

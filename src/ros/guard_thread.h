@@ -72,10 +72,11 @@ class GuardThread {
   void apply(const std::shared_ptr<const Parameters>& next);
   /// Exchanges the tool, and forgets the poses and what rests on them, as reset() does: the warning is UNKNOWN until two
   /// other poses have arrived. Returns when that is done. Any thread.
-  /// @param before  parameters that `next` was made from; @param also  is done between the same two sweeps; may throw
+  /// @param before        parameters that `next` was made from
+  /// @param change_store  takes the payload out of the workpieces or puts it back, between the same two sweeps; may throw
   /// @throws sweep_guard_core::Error as apply(), or if other parameters were set meanwhile; then nothing is exchanged
   void exchangeTool(const std::shared_ptr<const Parameters>& before, const std::shared_ptr<const Parameters>& next,
-                    const std::function<void()>& also);
+                    const std::function<void()>& change_store);
   /// Returns the newest swept pose. Any thread. The future throws sweep_guard_core::Error if there is none, or it is stale.
   std::future<sweep_guard_core::PoseWithFrames> newestPose();
   /// Forgets everything but the workpieces. Returns when that is done. Any thread.

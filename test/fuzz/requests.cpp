@@ -2,6 +2,7 @@
 // ~save_profile, which writes files, and ~set_parameters, which is the target `parameters`.
 #include <cmath>
 #include <future>
+#include <limits>
 
 #include "guard/intention_store.h"
 #include "guard/workpiece_store.h"
@@ -157,6 +158,7 @@ class World {
     serverParameters() = {{"/guard/detector", std::string("halfspace")},
                           {"/guard/check_sweep/deadline", 0.2},
                           {"/guard/tool/length", kLength},
+                          {"/guard/timing/mesh_timeout", std::numeric_limits<double>::infinity()},
                           {"/robot_description", kArm},
                           {"/robot/detector", std::string("halfspace")},
                           {"/robot/check_sweep/deadline", 0.2},

@@ -236,7 +236,8 @@ void MeshInput::store(const sweep_guard::MeshVertices& msg, SteadyTime received)
       unread("vertices of '" + msg.id + "' came before their mesh: publish DeformableMesh latched", vertices_record_);
     }
   } catch (const std::exception& error) {  // invalid, or out of memory
-    if (!workpieces_.contains(msg.id)) return unread("vertices of '" + msg.id + "': " + error.what(), vertices_record_);
+    const bool known = workpieces_.contains(msg.id) || workpieces_.attached(msg.id);
+    if (!known) return unread("vertices of '" + msg.id + "': " + error.what(), vertices_record_);
     monitor_.verticesRefused(msg.id, refusal(msg.id, error, vertices_record_), received);
   }
 }

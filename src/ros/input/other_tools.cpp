@@ -210,6 +210,8 @@ void OtherTools::add(size_t body, const sweep_guard::ToolBodies& msg, Tool& tool
   if (measured.empty() || pose.stamp > measured.back().stamp) measured.push_back(pose);
   const auto is_kept = [&](const sweep_guard_core::FramePose& one) { return pose.stamp - one.stamp <= kKept; };
   measured.erase(measured.begin(), std::find_if(measured.begin(), measured.end(), is_kept));
+  if (!moved.predicted.empty() && msg.predicted_from > msg.header.stamp)
+    throw InvalidInput("its prediction begins after its newest pose");
   motion.predicted = pathFrom(moved);
   motion.predicted_from = fromMsg(msg.predicted_from);
 }

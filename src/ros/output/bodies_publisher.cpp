@@ -36,13 +36,13 @@ sweep_guard::BodyMotion predictedMotion(const Eigen::Isometry3d& X_WB, const swe
 
 }  // namespace
 
-sweep_guard::ToolSurface surfaceMsg(const Parameters& parameters) {
-  sweep_guard::ToolSurface msg;
-  msg.header.frame_id = parameters.tool_frame;
-  msg.tool = parameters.tool_frame;
+boost::shared_ptr<sweep_guard::ToolSurface> surfaceMsg(const Parameters& parameters) {
+  const auto msg = boost::make_shared<sweep_guard::ToolSurface>();
+  msg->header.frame_id = parameters.tool_frame;
+  msg->tool = parameters.tool_frame;
   for (size_t body = 0; body < parameters.bodies->size(); ++body) {
     for (const auto& surface : sweep_guard_core::linkSurfaces((*parameters.bodies)[body]))
-      msg.links.push_back(toMsg(surface, body, parameters.tool_frame));
+      msg->links.push_back(toMsg(surface, body, parameters.tool_frame));
   }
   return msg;
 }
@@ -52,19 +52,19 @@ BodiesPublisher::BodiesPublisher(ros::NodeHandle private_node, const LiveParamet
       run_id_(randomRunId()),
       surface_publisher_(private_node.advertise<sweep_guard::ToolSurface>("surface", 1, /*latch=*/true)),
       bodies_publisher_(private_node.advertise<sweep_guard::ToolBodies>("bodies", kQueue)) {
-  setTool(parameters.initial());
+  setTool(*parameters.initial().bodies, surfaceMsg(parameters.initial()));
 }
 
-void BodiesPublisher::setTool(const Parameters& parameters) {
+void BodiesPublisher::setTool(const std::vector<sweep_guard_core::Tool>& bodies,
+                              const boost::shared_ptr<sweep_guard::ToolSurface>& surface) {
   reset();
   motions_.clear();
-  poses_.assign(parameters.bodies->size(), {});
-  for (const sweep_guard_core::Tool& body : *parameters.bodies) motions_.emplace_back(body.boundingRadius());
-  const auto msg = boost::make_shared<sweep_guard::ToolSurface>(surfaceMsg(parameters));
-  msg->header.stamp = ros::Time::now();
-  msg->run_id = run_id_;
-  msg->revision = ++revision_;
-  surface_publisher_.publish(msg);
+  poses_.assign(bodies.size(), {});
+  for (const sweep_guard_core::Tool& body : bodies) motions_.emplace_back(body.boundingRadius());
+  surface->header.stamp = ros::Time::now();
+  surface->run_id = run_id_;
+  surface->revision = ++revision_;
+  surface_publisher_.publish(surface);
 }
 
 void BodiesPublisher::reset() {

@@ -15,8 +15,8 @@
 
 namespace sweep_guard_ros {
 
-/// Converts the surfaces of all bodies. The caller sets stamp, run and revision.
-sweep_guard::ToolSurface surfaceMsg(const Parameters& parameters);
+/// Converts the surfaces of all bodies, without stamp, run and revision. Takes seconds for thousands of corners.
+boost::shared_ptr<sweep_guard::ToolSurface> surfaceMsg(const Parameters& parameters);
 
 /// Publishes what the guards of other tools need: `~surface`, and `~bodies` for each pose, at most at 200 Hz, and for each
 /// prediction. One thread.
@@ -24,7 +24,10 @@ class BodiesPublisher {
  public:
   BodiesPublisher(ros::NodeHandle private_node, const LiveParameters& parameters);
 
-  void setTool(const Parameters& parameters);  ///< publishes the surface of another tool
+  /// Publishes the surface of another tool.
+  /// @param surface  from surfaceMsg(), of these bodies
+  void setTool(const std::vector<sweep_guard_core::Tool>& bodies,
+               const boost::shared_ptr<sweep_guard::ToolSurface>& surface);
   void moved(const sweep_guard_core::PoseWithFrames& pose);
   void predicted(const sweep_guard_core::PoseWithFrames& from, const sweep_guard_core::Prediction& prediction);
   void reset();  ///< how the tool moves meanwhile is not known

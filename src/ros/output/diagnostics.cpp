@@ -133,7 +133,8 @@ void Diagnostics::input(Status& status, const Input& input, Counts& previous) co
 void Diagnostics::workpieces(Status& status) const {
   const sweep_guard_core::Workpieces workpieces = sources_.workpieces.snapshot();
   const sweep_guard_core::Instant at = now();
-  const sweep_guard_core::Duration timeout = sources_.parameters.get()->limits.mesh_timeout;
+  const auto parameters = sources_.parameters.get();
+  const sweep_guard_core::Duration timeout = parameters->limits.mesh_timeout;
   status.summary(DiagnosticStatus::OK, std::to_string(workpieces.size()) + " workpieces");
   if (workpieces.empty()) status.summary(DiagnosticStatus::STALE, "no workpiece yet");
   for (const auto& workpiece : workpieces) {
@@ -145,7 +146,7 @@ void Diagnostics::workpieces(Status& status) const {
                 workpiece->mesh_M.triangles().size(), workpiece->frame.c_str(),
                 toSeconds(sweep_guard_core::age(seen, at)));
   }
-  for (const std::string& id : sources_.parameters.get()->attached) status.add("'" + id + "'", "attached to the tool");
+  for (const std::string& id : parameters->attached) status.add("'" + id + "'", "attached to the tool");
 }
 
 void Diagnostics::allowed(Status& status) const {

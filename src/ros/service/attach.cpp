@@ -9,6 +9,7 @@
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/printable.h"
 #include "sweep_guard/geometry/decomposition.h"
+#include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -32,7 +33,8 @@ std::vector<sweep_guard_core::ConvexShape> shapesOf(const TriangleMesh& mesh_M) 
 }
 
 Eigen::Isometry3d motionSince(const Workpiece& before, const Workpiece& newest) {
-  if (before.frame != newest.frame || !sweep_guard_core::sameTriangles(before.mesh_M, newest.mesh_M))
+  if (before.frame != newest.frame || before.revision != newest.revision ||
+      !sweep_guard_core::sameTriangles(before.mesh_M, newest.mesh_M))
     throw InvalidInput("'" + before.id + "' was replaced meanwhile: ask again");
   const sweep_guard_core::RigidFit fit = sweep_guard_core::rigidFit(before.mesh_M, newest.mesh_M);
   if (fit.deviation <= sweep_guard_core::WorkpieceStore::kRigid) return fit.X_MM;
@@ -40,7 +42,7 @@ Eigen::Isometry3d motionSince(const Workpiece& before, const Workpiece& newest) 
                      " m meanwhile: the tool can carry what keeps its shape");
 }
 
-// Where the tool holds it now.
+// Returns the workpiece where the tool holds it at a pose.
 Workpiece movedBy(const Eigen::Isometry3d& X_MM, const Workpiece& held, const PoseWithFrames& pose) {
   std::vector<Eigen::Vector3d> vertices_M;
   for (size_t i = 0; i < held.mesh_M.vertexCount(); ++i) vertices_M.push_back(X_MM * held.mesh_M.vertex(i));
@@ -82,13 +84,14 @@ std::string AttachService::attach(const std::string& id, const std::string& link
   bodyWithLink(*before, link);
   const auto cut = workpieceOf(id);
   Payload payload{id, link, shapesOf(cut->mesh_M)};
+  const std::string problems = dependencies_.monitor.meshProblems(now(), {id});
+  if (!problems.empty()) throw Error(problems + ": where the tool holds it is not known");
   const auto newest = workpieceOf(id);  // the tool may have carried it meanwhile
   const PoseWithFrames pose = newestPose();
-  const Eigen::Isometry3d X_WM = lookup(newest->frame, pose.stamp);
-  payload.X_WM = X_WM * motionSince(*cut, *newest);
+  payload.X_WM = lookup(newest->frame, pose.stamp) * motionSince(*cut, *newest);
   const auto next = std::make_shared<const Parameters>(withPayload(*before, payload, pose));
   tool_.exchange_tool(before, next, [&] {
-    dependencies_.workpieces.attach(newest, pose.body(bodyWithLink(*before, link)).X_WB.inverse() * X_WM);
+    dependencies_.workpieces.attach(cut, pose.body(bodyWithLink(*before, link)).X_WB.inverse() * payload.X_WM);
     require(*next);
   });
   return "'" + id + "' is part of the tool: " + std::to_string(payload.shapes_M.size()) + " convex piece(s) on " +
@@ -114,7 +117,6 @@ std::string AttachService::detach(const std::string& id) {
   const auto next = std::make_shared<const Parameters>(withoutPayload(*before, id));
   tool_.exchange_tool(before, next, [&, restored = movedBy(X_MM, *held->workpiece, pose)] {
     dependencies_.workpieces.detach(restored);
-    dependencies_.monitor.meshAccepted(id, std::chrono::steady_clock::now());
     require(*next);
   });
   return "'" + id + "' is a workpiece, where the tool has held it last";

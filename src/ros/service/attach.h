@@ -23,7 +23,7 @@ struct ToolControls {
   std::function<std::future<sweep_guard_core::PoseWithFrames>()> newest_pose;
   /// See GuardThread::exchangeTool().
   std::function<void(const std::shared_ptr<const Parameters>& before, const std::shared_ptr<const Parameters>& next,
-                     const std::function<void()>& also)>
+                     const std::function<void()>& change_store)>
       exchange_tool;
 };
 

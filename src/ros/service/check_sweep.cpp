@@ -70,7 +70,7 @@ void CheckSweepService::check(const CheckSweep::Request& request, CheckSweep::Re
   const auto question = tests_.question({request.volume, request.detector, request.margin, request.fine != 0});
   // Before the snapshot is taken: what is accepted later does not better it.
   const std::string doubts_before = tests_.meshProblems(request.mesh_ids);
-  for (const auto& workpiece : tests_.selected(request.mesh_ids)) {
+  for (const auto& workpiece : tests_.selected(*question, request.mesh_ids)) {
     question->paths.push_back(
         {workpiece, question->parameters->tool, pathIn(workpiece->frame, request.path, question->go_on), {}});
   }

@@ -148,7 +148,7 @@ void CheckTrajectoryService::check(const CheckTrajectory::Request& request, Chec
   const std::vector<RobotState> states = statesOf(request.trajectory, model);
   // Before the snapshot is taken: what is accepted later does not better it.
   const std::string doubts_before = tests_.meshProblems(request.mesh_ids);
-  const sweep_guard_core::Workpieces workpieces = tests_.selected(request.mesh_ids);
+  const sweep_guard_core::Workpieces workpieces = tests_.selected(*question, request.mesh_ids);
   question->go_on("the poses of the links");
   const RobotPath path = robotPath(model.robot, states, kMaxDeviation);
   for (const auto& workpiece : workpieces) {

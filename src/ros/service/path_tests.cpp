@@ -76,8 +76,9 @@ GoOn PathTests::untilDeadline(sweep_guard_core::Duration deadline) const {
   };
 }
 
-sweep_guard_core::Workpieces PathTests::selected(const std::vector<std::string>& ids) const {
-  sweep_guard_core::Workpieces all = dependencies_.workpieces.snapshot();
+sweep_guard_core::Workpieces PathTests::selected(const PathQuestion& question,
+                                                 const std::vector<std::string>& ids) const {
+  sweep_guard_core::Workpieces all = dependencies_.workpieces.snapshotBeside(question.parameters->attached);
   if (all.empty()) throw InvalidInput("no workpiece yet");
   if (ids.empty()) return all;
   sweep_guard_core::Workpieces selected;

@@ -57,7 +57,7 @@ class PathTests {
 
   /// Returns the workpieces with these ids; all, if there are none.
   /// @throws sweep_guard_core::InvalidInput if one does not exist, or there is no workpiece at all
-  sweep_guard_core::Workpieces selected(const std::vector<std::string>& ids) const;
+  sweep_guard_core::Workpieces selected(const PathQuestion& question, const std::vector<std::string>& ids) const;
 
   /// Returns the transform from a frame to that of a mesh, for which it waits. The link of another tool is where it was
   /// measured last.

@@ -98,7 +98,7 @@ void PredictService::predict(Duration horizon, Predict::Response& response) {
   if (future.wait_for(kGuardTimeout) != std::future_status::ready)
     throw sweep_guard_core::Error("the guard is busy: ask again");
   const Motion motion = future.get();
-  const sweep_guard_core::Workpieces workpieces = workpieces_.snapshot();
+  const sweep_guard_core::Workpieces workpieces = workpieces_.snapshotBeside(parameters_->attached);
   const auto end = std::chrono::steady_clock::now() + kTestTime;
   const auto prediction = sweep_guard_core::predictContacts(
       *detector_, *parameters_->bodies, motion.predicted, workpieces, parameters_->guard,
