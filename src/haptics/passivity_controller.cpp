@@ -6,10 +6,8 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kPause = 0.06;  // between positions that do not come one after the other [s]
-constexpr double kKept = 0.995;  // of the longest cycle, with each position
-constexpr auto kWatchdog =
-    std::chrono::milliseconds(10);                   // shortest gap after a force in which a watchdog may have sent 0
+constexpr double kPause = 0.06;                      // between positions that do not come one after the other [s]
+constexpr double kKept = 0.995;                      // of the longest cycle, with each position
 constexpr double kRounding = 1e-9;                   // relative, of a way
 constexpr auto kForgiven = std::chrono::seconds(1);  // without a wanted force until what was given is forgotten
 
@@ -39,10 +37,9 @@ void PassivityController::moved(double displacement, SteadyTime until) {
   double lowest = 0.0;
   double highest = 0.0;
   bool first = true;
-  visitActing(until, [&](const Sent& sent, SteadyTime next) {
+  visitActing(until, [&](const Sent& sent, SteadyTime /*next*/) {
     lowest = first ? sent.effort : std::min(lowest, sent.effort);
     highest = first ? sent.effort : std::max(highest, sent.effort);
-    if (next - sent.at > kWatchdog) lowest = std::min(lowest, 0.0), highest = std::max(highest, 0.0);
     first = false;
   });
   interval_ = seconds(until);
