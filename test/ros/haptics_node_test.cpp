@@ -55,9 +55,9 @@ class HapticsNodeTest : public testing::Test {
   // After a second without a force the controller has forgotten what a silence may have cost.
   WrenchStamped press(const Listener<WrenchStamped>& forces) {
     guard_.setGap(0.1);
-    const ros::Time free = forces.await("zero", isZeroWrench).header.stamp;
+    ros::Time free = forces.next().header.stamp;
     forces.await("a second without a force", [&](const WrenchStamped& next) {
-      EXPECT_TRUE(isZeroWrench(next));
+      if (!isZeroWrench(next)) free = next.header.stamp;
       return next.header.stamp - free > ros::Duration(1.2);
     });
     guard_.setGap(-kDepth);
@@ -127,7 +127,7 @@ TEST_F(HapticsNodeTest, ASilentToolPoseOrDeviceIsZeroAtOnceAndTheForceComesBack)
   device_poses_.reset();
   turned_forces_.await("zero", isZeroWrench);
   awaitDiagnosis("turned/haptics: force", diagnostic_msgs::DiagnosticStatus::WARN, "zero: no new pose of the device");
-  forces_.await("the force for the device that tells no pose", isFelt);
+  press();  // the other device, which tells no pose
 }
 
 TEST_F(HapticsNodeTest, ParametersThatDoNotFitTogetherEndItWithStatusTwo) {
