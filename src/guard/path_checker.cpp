@@ -32,7 +32,7 @@ struct PathChecker::Scene {
   Duration reflex_end;  // after the newest pose
   const SweepPlan& plan;
   const Workpiece& workpiece;
-  bool bounded;  // what comes no nearer may be left out before it has a volume
+  bool bounded;  // pieces that come no nearer are left out before their volumes are computed
   const IntendedContact& intended;
   const IntendedTouches& touches;
   const AllowedPieces& allowed;

@@ -9,7 +9,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr double kVelocityTime = 0.01;  // time constant of the low-pass [s]
-constexpr double kLongestPause = 0.1;   // between poses that a velocity is measured from [s]
+constexpr double kMaxPause = 0.1;       // between poses that a velocity is measured from [s]
 constexpr double kDelayTime = 1.0;      // in which a long delay is forgotten [s]
 
 Eigen::Vector3d clampedTo(const Eigen::Vector3d& vector, double length) {
@@ -72,7 +72,7 @@ void ForceRenderer::measureVelocity(const MotionInputs::ToolPose& pose) {
   const Sample sample{pose.X_WT, pose.timestamps.stamp};
   const double interval = newest_ ? toSeconds(sample.stamp - newest_->stamp) : -1.0;
   if (interval == 0.0) return;
-  if (interval < 0.0 || interval > kLongestPause) {
+  if (interval < 0.0 || interval > kMaxPause) {
     twist_W_ = {};
   } else {
     const double weight = 1.0 - std::exp(-interval / kVelocityTime);

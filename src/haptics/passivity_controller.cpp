@@ -44,8 +44,8 @@ void PassivityController::moved(double displacement, SteadyTime until) {
   });
   interval_ = seconds(until);
   const double way = std::abs(displacement);
-  const double strayed = options_.max_acceleration * interval_ * interval_ / 2;
-  const double path = std::max(way, std::min(options_.max_speed * interval_, way + strayed));
+  const double deviation = options_.max_acceleration * interval_ * interval_ / 2;
+  const double path = std::max(way, std::min(options_.max_speed * interval_, way + deviation));
   const double known = (lowest + highest) / 2 * displacement + (highest - lowest) / 2 * path;
   const bool within_limits = way <= (1.0 + kRounding) * longestWay(interval_);
   const double limited = within_limits

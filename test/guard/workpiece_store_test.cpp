@@ -113,6 +113,17 @@ TEST(WorkpieceStoreTest, AnAttachedWorkpieceHasToKeepItsShape) {
   EXPECT_TRUE(store.snapshot().empty());
 }
 
+// So that nobody finds the payload neither in the tool nor among the workpieces.
+TEST(WorkpieceStoreTest, GivesSnapshotsOnlyBesideAToolWithThePayloadsThatAreAttached) {
+  WorkpieceStore store;
+  store.set(triangle(1), at(9));
+  EXPECT_EQ(store.snapshotBeside({}).size(), 1U);
+  store.attach(store.snapshot()[0], Eigen::Isometry3d::Identity());
+  EXPECT_TRUE(store.snapshotBeside({kId}).empty());
+  EXPECT_THROW(store.snapshotBeside({}), Error);
+  EXPECT_THROW(store.snapshotBeside({kId, "another"}), Error);
+}
+
 TEST(WorkpieceStoreTest, AttachesOnlyWhatIsStillThere) {
   WorkpieceStore store;
   store.set(triangle(1), at(9));

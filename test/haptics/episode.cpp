@@ -18,7 +18,7 @@ constexpr int kMilliseconds = 1000;
 constexpr int kSteps = 10;  // of the hand in a millisecond
 constexpr double kStep = 1e-3 / kSteps;
 constexpr double kRadius = 0.005;
-constexpr int kLongestRun = 5;
+constexpr int kMaxRun = 5;
 constexpr double kMaxDelay = 0.05;
 
 struct LinkTraits {
@@ -30,7 +30,7 @@ LinkTraits randomLink(RandomScenes& random) { return {random.uniform(0.0, kMaxDe
 
 // The longest time until a newer message acts.
 double longestAge(const LinkTraits& link, double period) {
-  return link.delay > 0.0 ? link.delay + kLongestRun * period + kStep : 0.0;
+  return link.delay > 0.0 ? link.delay + kMaxRun * period + kStep : 0.0;
 }
 
 template <typename T>
@@ -39,7 +39,7 @@ class Link {
   Link(const LinkTraits& traits, RandomScenes& random) : traits_(traits), random_(random) {}
 
   void send(const T& value, double now) {
-    if (run_ < kLongestRun && random_.chance(traits_.losses)) {
+    if (run_ < kMaxRun && random_.chance(traits_.losses)) {
       ++run_;
       return;
     }

@@ -1,6 +1,8 @@
 // A forearm with two open fingers that points down; a cube hangs 10 mm below the left one.
 #include <gtest/gtest.h>
 #include <sweep_guard/Attach.h>
+#include <sweep_guard/Intended.h>
+#include <sweep_guard/SetIntent.h>
 #include <sweep_guard/ToolShape.h>
 
 #include "cube.h"
@@ -119,17 +121,14 @@ TEST_F(AttachTest, DetachingGivesItBackWhereTheToolHasCarriedIt) {
   EXPECT_EQ(linksTouching(contacts, "payload"), std::set<std::string>{"left"});
 }
 
-// Until it has its shape again, wherever that is.
+// The guard accepts the shape again wherever it is.
 TEST_F(AttachTest, APayloadThatDeformsIsNotCovered) {
   attachAt({0.0, 0.0, 0.1});
   probe().publish(
       verticesOf(cube_, probe().time(), [](const Eigen::Vector3d& p) -> Eigen::Vector3d { return 1.5 * p; }));
   const Warning warning = probe().awaitWarning(hasReason(Warning::MESH_INVALID));
+  EXPECT_TRUE(has(warning.text, "workpiece 'payload' refused")) << "a message that cannot be read counts for 1 s only";
   EXPECT_TRUE(has(warning.text, "'payload' is attached to the tool: detach it first")) << warning.text;
-  const auto longer = std::chrono::steady_clock::now() + std::chrono::milliseconds(1200);  // than what is unread counts
-  while (std::chrono::steady_clock::now() < longer) moveTo({0.0, 0.0, 0.1});
-  probe().skipWarnings();
-  probe().awaitWarning(hasReason(Warning::MESH_INVALID));
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
   probe().publish(
       verticesOf(cube_, probe().time(), [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return turn * p; }));
@@ -145,9 +144,9 @@ TEST_F(AttachTest, AnotherMeshOfThePayloadIsRefusedUntilItIsDetachedAndSentAgain
   probe().publish(renewed);
   probe().awaitWarning(hasReason(Warning::MESH_INVALID));
   ASSERT_TRUE(detachAt({0.0, 0.0, 0.1}).success);
-  for (int i = 0; i < 30; ++i) moveTo({0.0, 0.0, 0.1});
+  moveTo({0.0, 0.0, 0.1});
   probe().skipWarnings();
-  probe().awaitWarning(hasReason(Warning::MESH_INVALID));
+  EXPECT_TRUE(hasReason(Warning::MESH_INVALID)(probe().awaitWarning([](const Warning&) { return true; })));
   renewed.header.stamp = probe().time();
   probe().publish(renewed);
   restAt({0.0, 0.0, 0.1});
@@ -167,6 +166,33 @@ TEST_F(AttachTest, ARefusalSaysWhy) {
   ASSERT_TRUE(call("payload", "left", true).success);
   restAt({0.0, 0.0, 1.0});
   EXPECT_TRUE(has(call("payload", "left", true).message, "is attached already"));
+}
+
+// The tool may have carried it since.
+TEST_F(AttachTest, AStaleMeshIsNotAttached) {
+  placeCube("payload", {0.0, 0.0, 0.3});
+  restAt({0.0, 0.0, 1.0});
+  probe().tick(1001.0);
+  moveTo({0.0, 0.0, 1.0});
+  EXPECT_TRUE(has(call("payload", "left", true).message, "where the tool holds it is not known"));
+}
+
+// As by ~reset: a region meant for the tool would be meant for the payload, too.
+TEST_F(AttachTest, WhereContactIsMeantIsForgotten) {
+  const TopicListener<sweep_guard::Intended> intended("intended");
+  placeSquare("table", {0.0, 0.0, 0.0}, "world", /*half_side=*/0.5);
+  placeCube("payload", Eigen::Vector3d(0.0, 0.0, 0.1) + kBelow);
+  restAt({0.0, 0.0, 0.1});
+  sweep_guard::SetIntent meant;
+  meant.request.intends.emplace_back();
+  meant.request.intends[0].mesh_id = "table";
+  meant.request.intends[0].triangles = {0, 1};
+  meant.request.intends[0].depth = 0.01;
+  ASSERT_TRUE(ros::service::call("/sweep_guard/intend", meant));
+  ASSERT_TRUE(meant.response.success) << meant.response.message;
+  intended.awaitNewest([](const auto& now) { return now.intentions.size() == 1; });
+  ASSERT_TRUE(call("payload", "left", true).success);
+  intended.awaitNewest([](const auto& now) { return now.intentions.empty(); });
 }
 
 TEST_F(AttachTest, AResetKeepsIt) {

@@ -13,8 +13,8 @@ namespace sweep_guard_ros {
 struct Payload {
   std::string id;
   std::string link;                                        ///< that holds it
-  std::vector<sweep_guard_core::ConvexShape> shapes_M;     ///< of the workpiece, in its frame
-  Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();  ///< pose of that frame now [m]
+  std::vector<sweep_guard_core::ConvexShape> shapes_M;     ///< convex pieces of the workpiece
+  Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();  ///< pose of the frame of the workpiece [m]
 };
 
 /// Returns the index of the rigid body of the tool that a link belongs to, among PoseWithFrames::bodies; 0 for a rigid tool.

@@ -17,7 +17,7 @@ using sweep_guard_core::InvalidInput;
 namespace {
 
 constexpr int kMaxPivots = 20;
-constexpr size_t kMostAnswers = 32'000'000;  // numbers: 256 MB
+constexpr size_t kMaxAnswers = 32'000'000;  // numbers: 256 MB
 
 const BarModel::Options& checked(const BarModel::Options& options) {
   if (!(options.step > 0.0)) throw InvalidInput("the time step must be above 0 s");
@@ -159,7 +159,7 @@ MatrixX3d BarModel::heldRight() const {
 }
 
 void BarModel::advance(const MatrixX3d& loads, const std::vector<Pressure>& pressures) {
-  if (answers_.size() * static_cast<size_t>(positions_.rows()) > kMostAnswers) answers_.clear();
+  if (answers_.size() * static_cast<size_t>(positions_.rows()) > kMaxAnswers) answers_.clear();
   const MatrixX3d before = positions_;
   const MatrixX3d constant =
       held_ + loads + inertia_.asDiagonal() * before + (structure_.masses / options_.step).asDiagonal() * velocities_;
