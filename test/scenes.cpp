@@ -284,6 +284,22 @@ ConvexShape randomTool(Random& random, double scale) {
   return ConvexShape::cylinder(radius, length, 3 + random.below(30));
 }
 
+ConvexShape randomShape(Random& random, int hull_points) {
+  switch (random.below(4)) {
+    case 0:
+      return ConvexShape::cylinder(random.uniform(0.005, 0.05), random.uniform(0.02, 0.2));
+    case 1:
+      return ConvexShape::sphere(random.uniform(0.01, 0.06));
+    case 2:
+      return ConvexShape::box({random.uniform(0.005, 0.1), random.uniform(0.005, 0.1), random.uniform(0.005, 0.1)});
+    default: {
+      std::vector<Eigen::Vector3d> points;
+      for (int i = 0; i < hull_points; ++i) points.push_back(random.inBox({0.1, 0.05, 0.03}));
+      return ConvexShape::hull(points);
+    }
+  }
+}
+
 Motion randomMotion(Random& random, const ConvexShape& tool, const Eigen::Vector3d& place, double max_angle) {
   const int kind = random.below(8);
   const double size = tool.radius() + tool.length();

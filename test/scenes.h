@@ -35,6 +35,9 @@ class Random {
 /// Returns a cylinder of about the size `scale` [m]. One in eight is flat (length 0), one in eight a needle (radius 0).
 ConvexShape randomTool(Random& random, double scale);
 
+/// Returns a cylinder, a sphere, a box or a hull of so many points: 5 to 200 mm.
+ConvexShape randomShape(Random& random, int hull_points);
+
 /// Returns a motion that begins at `place` [m], moves by up to two tool sizes and turns by up to `max_angle` [rad]. One
 /// in eight rests, one in eight only translates, one in eight only turns.
 Motion randomMotion(Random& random, const ConvexShape& tool, const Eigen::Vector3d& place, double max_angle);

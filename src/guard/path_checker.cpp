@@ -219,10 +219,10 @@ void PathChecker::measureDeviations(const Scene& scene, SweptSegment& swept) {
   }
 }
 
-PathChecker::UncertainBody PathChecker::sweepPiece(const Scene& scene, const UncertainPose& end_M,
-                                                   const Motion& motion_M, const ConvexShape& piece) const {
-  const SweptBody body = sweptBody(piece, motion_M, options_.sweep.volume, scene.margin);
-  return {body, planeDeviations(piece, end_M.X_MT, end_M.covariance_M, body.volume_M)};
+PathChecker::UncertainBody PathChecker::sweepPiece(const Scene& scene, const UncertainMotion& motion,
+                                                   const ConvexShape& piece) const {
+  const SweptBody body = sweptBody(piece, motion.motion_M, options_.sweep.volume, scene.margin);
+  return {body, planeDeviations(piece, motion.end_M.X_MT, motion.end_M.covariance_M, body.volume_M)};
 }
 
 // Returns whether findCandidate() would find a piece of the tool, without its deviations.
@@ -238,24 +238,24 @@ bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, Swept
                           ? !scene.mayTouch(*only_piece) && meter_.isNear(submesh, body.volume_M, deviations,
                                                                           intendedFor(scene, submesh, body, only_piece))
                           : meter_.mayBeNear(submesh, body.volume_M, deviations) &&
-                                hasCandidateBelow(scene, submesh, swept.end_M, body.motion_M, 0);
+                                hasCandidateBelow(scene, submesh, {body.motion_M, swept.end_M}, 0);
     if (near) return true;
   }
   return false;
 }
 
-bool PathChecker::hasCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainPose& end_M,
-                                    const Motion& motion_M, size_t node) {
+bool PathChecker::hasCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainMotion& motion,
+                                    size_t node) {
   const Tool::Node& below = scene.tool.tree()[node];
-  if (isLeftOut(scene, submesh, end_M, motion_M, node, kInfinity)) return false;
+  if (isLeftOut(scene, submesh, motion, node, kInfinity)) return false;
   if (below.piece) {
-    const UncertainBody piece = sweepPiece(scene, end_M, motion_M, below.shape_T);
+    const UncertainBody piece = sweepPiece(scene, motion, below.shape_T);
     return meter_.isNear(submesh, piece.body.volume_M, piece.deviations,
                          intendedFor(scene, submesh, piece.body, below.piece));
   }
   const std::array<size_t, 2> nearest_first = nearestFirst(scene, below);
   return std::any_of(nearest_first.begin(), nearest_first.end(),
-                     [&](size_t index) { return hasCandidateBelow(scene, submesh, end_M, motion_M, index); });
+                     [&](size_t index) { return hasCandidateBelow(scene, submesh, motion, index); });
 }
 
 // Returns the nearer candidate; of two equal ones, the first.
@@ -285,48 +285,48 @@ PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Subm
     const PerHalfSpace& deviations = swept.deviations[i];
     const double nearest = std::min(at_most, candidate.deviations);
     if (only_piece) {
-      candidate = nearer(candidate, measure(scene, submesh, body, deviations, *only_piece, nearest));
+      candidate = nearer(candidate, measure(scene, submesh, {body, deviations, *only_piece}, nearest));
     } else if (meter_.mayBeNear(submesh, body.volume_M, deviations)) {
       candidate =
-          nearer(candidate, findCandidateBelow(scene, submesh, swept.end_M, body.motion_M, /*node=*/0, nearest));
+          nearer(candidate, findCandidateBelow(scene, submesh, {body.motion_M, swept.end_M}, /*node=*/0, nearest));
     }
   }
   return candidate;
 }
 
 PathChecker::Candidate PathChecker::findCandidateBelow(const Scene& scene, const Submesh& submesh,
-                                                       const UncertainPose& end_M, const Motion& motion_M, size_t node,
-                                                       double at_most) {
+                                                       const UncertainMotion& motion, size_t node, double at_most) {
   const Tool::Node& below = scene.tool.tree()[node];
-  if (isLeftOut(scene, submesh, end_M, motion_M, node, at_most)) return {};
+  if (isLeftOut(scene, submesh, motion, node, at_most)) return {};
   if (below.piece) {
-    const UncertainBody piece = sweepPiece(scene, end_M, motion_M, below.shape_T);
-    return measure(scene, submesh, piece.body, piece.deviations, *below.piece, at_most);
+    const UncertainBody piece = sweepPiece(scene, motion, below.shape_T);
+    return measure(scene, submesh, {piece.body, piece.deviations, *below.piece}, at_most);
   }
   Candidate candidate;
   for (const size_t index : nearestFirst(scene, below)) {
     const double nearest = std::min(at_most, candidate.deviations);
-    candidate = nearer(candidate, findCandidateBelow(scene, submesh, end_M, motion_M, index, nearest));
+    candidate = nearer(candidate, findCandidateBelow(scene, submesh, motion, index, nearest));
   }
   return candidate;
 }
 
 // Returns whether no piece below a node counts, or comes nearer than `at_most`. The planes that cut the box of a piece take more
 // time than the box, and most boxes suffice. Without bounds, the boxes around pieces have to.
-bool PathChecker::isLeftOut(const Scene& scene, const Submesh& submesh, const UncertainPose& end_M,
-                            const Motion& motion_M, size_t node, double at_most) {
+bool PathChecker::isLeftOut(const Scene& scene, const Submesh& submesh, const UncertainMotion& motion, size_t node,
+                            double at_most) {
   const Tool::Node& below = scene.tool.tree()[node];
   if (below.piece && scene.mayTouch(*below.piece)) return true;
   if (comesNoNearer(scene, node, at_most)) return true;
   const bool box_helps = below.piece ? options_.sweep.volume != VolumeKind::kObb : !step_;
   if (!box_helps) return false;
-  const SweptVolume box_M = sweptVolume(below.shape_T, motion_M, VolumeKind::kObb, scene.margin);
-  const PerHalfSpace deviations = planeDeviations(below.shape_T, end_M.X_MT, end_M.covariance_M, box_M);
+  const SweptVolume box_M = sweptVolume(below.shape_T, motion.motion_M, VolumeKind::kObb, scene.margin);
+  const PerHalfSpace deviations = planeDeviations(below.shape_T, motion.end_M.X_MT, motion.end_M.covariance_M, box_M);
   return meter_.isSeparated(submesh, box_M, deviations, limit(below.piece ? at_most : kInfinity));
 }
 
-PathChecker::Candidate PathChecker::measure(const Scene& scene, const Submesh& submesh, const SweptBody& body,
-                                            const PerHalfSpace& deviations, size_t piece, double at_most) {
+PathChecker::Candidate PathChecker::measure(const Scene& scene, const Submesh& submesh, const SweptPiece& swept,
+                                            double at_most) {
+  const auto& [body, deviations, piece] = swept;
   if (scene.mayTouch(piece)) return {};
   const auto clearance = meter_.measure(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, piece),
                                         std::max(0.0, at_most));

@@ -78,6 +78,17 @@ class PathChecker {
     double deviations = std::numeric_limits<double>::infinity();
     std::optional<size_t> piece = {};  // none if no piece may meet the mesh
   };
+  /// A motion of the tool, and the pose at the end of its segment.
+  struct UncertainMotion {
+    const Motion& motion_M;
+    const UncertainPose& end_M;
+  };
+  /// What a piece of the tool sweeps.
+  struct SweptPiece {
+    const SweptBody& body;
+    const PerHalfSpace& deviations;
+    size_t piece;
+  };
   struct UncertainBody {
     SweptBody body;
     PerHalfSpace deviations;
@@ -101,26 +112,23 @@ class PathChecker {
   size_t sweepSegment(const PathSegment& segment, double margin);
   void sweepHalves(size_t number, double margin);
   void measureDeviations(const Scene& scene, SweptSegment& swept);
-  UncertainBody sweepPiece(const Scene& scene, const UncertainPose& end_M, const Motion& motion_M,
-                           const ConvexShape& piece) const;
+  UncertainBody sweepPiece(const Scene& scene, const UncertainMotion& motion, const ConvexShape& piece) const;
   void detectContacts(const Scene& scene, const Submesh& submesh, const Progress& progress, bool reflex);
   bool keepNewlyMet(const SweptBody& body, const IsLeftOut& intended, const TriangleMesh& mesh_M,
                     const Progress& progress);
   void addContact(const Candidate& candidate);
   void assumeContacts(const Scene& scene, const Submesh& submesh);
   bool hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
-  bool hasCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainPose& end_M, const Motion& motion_M,
-                         size_t node);
+  bool hasCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainMotion& motion, size_t node);
   static const Candidate& nearer(const Candidate& one, const Candidate& other);
   Candidate noCandidate();
   Candidate findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept, double at_most);
-  Candidate findCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainPose& end_M,
-                               const Motion& motion_M, size_t node, double at_most);
-  bool isLeftOut(const Scene& scene, const Submesh& submesh, const UncertainPose& end_M, const Motion& motion_M,
-                 size_t node, double at_most);
+  Candidate findCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainMotion& motion, size_t node,
+                               double at_most);
+  bool isLeftOut(const Scene& scene, const Submesh& submesh, const UncertainMotion& motion, size_t node,
+                 double at_most);
   double limit(double at_most) const;
-  Candidate measure(const Scene& scene, const Submesh& submesh, const SweptBody& body, const PerHalfSpace& deviations,
-                    size_t piece, double at_most);
+  Candidate measure(const Scene& scene, const Submesh& submesh, const SweptPiece& swept, double at_most);
   void boundPieces(const Scene& scene, const PathSegment& segment);
   double leastDeviations(const Scene& scene, size_t node);
   bool comesNoNearer(const Scene& scene, size_t node, double at_most);

@@ -63,28 +63,13 @@ bool overlap(const Tool& a, const Eigen::Isometry3d& X_WA, const Tool& b, const 
   return false;
 }
 
-ConvexShape randomShape(Random& random) {
-  switch (random.below(4)) {
-    case 0:
-      return ConvexShape::cylinder(random.uniform(0.005, 0.05), random.uniform(0.02, 0.2));
-    case 1:
-      return ConvexShape::sphere(random.uniform(0.01, 0.06));
-    case 2:
-      return ConvexShape::box({random.uniform(0.005, 0.1), random.uniform(0.005, 0.1), random.uniform(0.005, 0.1)});
-    default: {
-      std::vector<Eigen::Vector3d> points;
-      for (int i = 0; i < 12; ++i) points.push_back(random.inBox({0.1, 0.05, 0.03}));
-      return ConvexShape::hull(points);
-    }
-  }
-}
-
 Tool randomBody(Random& random) {
   std::vector<ConvexPiece> pieces;
   for (int i = random.below(2); i >= 0; --i) {
     const double padding = random.chance(0.3) ? random.uniform(0.0, 0.01) : 0.0;
-    pieces.push_back(
-        {"link", randomShape(random).padded(padding).placed(random.pose(random.inBox({0.05, 0.05, 0.05})))});
+    pieces.push_back({"link", randomShape(random, /*hull_points=*/12)
+                                  .padded(padding)
+                                  .placed(random.pose(random.inBox({0.05, 0.05, 0.05})))});
   }
   return Tool(pieces);
 }

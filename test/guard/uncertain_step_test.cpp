@@ -14,26 +14,11 @@ constexpr double kMargin = 0.002;     // [m]
 constexpr double kTolerance = 1e-3;   // [standard deviations]
 constexpr double kMaxRotation = 0.1;  // [rad]
 
-ConvexShape randomShape(Random& random) {
-  switch (random.below(4)) {
-    case 0:
-      return ConvexShape::cylinder(random.uniform(0.005, 0.05), random.uniform(0.02, 0.2));
-    case 1:
-      return ConvexShape::sphere(random.uniform(0.01, 0.06));
-    case 2:
-      return ConvexShape::box({random.uniform(0.005, 0.1), random.uniform(0.005, 0.1), random.uniform(0.005, 0.1)});
-    default: {
-      std::vector<Eigen::Vector3d> points;
-      for (int i = 0; i < 6; ++i) points.push_back(random.inBox({0.1, 0.05, 0.03}));
-      return ConvexShape::hull(points);
-    }
-  }
-}
-
 Tool randomTool(Random& random) {
   std::vector<ConvexPiece> pieces;
   for (int i = random.below(5); i >= 0; --i) {
-    pieces.push_back({"link", randomShape(random).placed(random.pose(random.inBox({0.1, 0.1, 0.2})))});
+    pieces.push_back(
+        {"link", randomShape(random, /*hull_points=*/6).placed(random.pose(random.inBox({0.1, 0.1, 0.2})))});
   }
   return Tool(pieces);
 }

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "grid_mesh.h"
+
 namespace sweep_guard_rviz {
 
 using sweep_guard::DeformableMesh;
@@ -19,25 +21,10 @@ std::vector<std::uint32_t> range(std::uint32_t begin, std::uint32_t end) {
 }  // namespace
 
 DeformableMesh square(double z, std::uint32_t revision) {
-  DeformableMesh mesh;
+  DeformableMesh mesh = gridMesh(kSide, 4.0, [z](double /*x*/, double /*y*/) { return z; });
   mesh.header.frame_id = "world";
   mesh.id = "square";
   mesh.revision = revision;
-  for (std::uint32_t y = 0; y <= kSide; ++y) {
-    for (std::uint32_t x = 0; x <= kSide; ++x) {
-      geometry_msgs::Point& p = mesh.mesh.vertices.emplace_back();
-      p.x = 4.0 * x / kSide - 2.0;
-      p.y = 4.0 * y / kSide - 2.0;
-      p.z = z;
-    }
-  }
-  for (std::uint32_t y = 0; y < kSide; ++y) {
-    for (std::uint32_t x = 0; x < kSide; ++x) {
-      const std::uint32_t a = y * (kSide + 1) + x;
-      mesh.mesh.triangles.emplace_back().vertex_indices = {a, a + 1, a + kSide + 1};
-      mesh.mesh.triangles.emplace_back().vertex_indices = {a + 1, a + kSide + 2, a + kSide + 1};
-    }
-  }
   return mesh;
 }
 

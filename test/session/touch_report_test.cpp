@@ -1,11 +1,13 @@
 #include "session/touch_report.h"
 
 #include <gtest/gtest.h>
+#include <boost/make_shared.hpp>
 
 #include <cmath>
 #include <filesystem>
 
 #include "evaluation/gnuplot.h"
+#include "grid_mesh.h"
 #include "refusal.h"
 
 namespace sweep_guard_session {
@@ -17,25 +19,9 @@ using sweep_guard::Touches;
 
 // A roof over a square, of 2 * 40 * 40 triangles.
 DeformableMesh roof() {
-  constexpr std::uint32_t kSide = 40;
-  DeformableMesh mesh;
+  DeformableMesh mesh = gridMesh(40, 0.1, [](double x, double /*y*/) { return 0.03 - 0.6 * std::abs(x); });
   mesh.id = "operator's roof";
   mesh.revision = 3;
-  for (std::uint32_t y = 0; y <= kSide; ++y) {
-    for (std::uint32_t x = 0; x <= kSide; ++x) {
-      geometry_msgs::Point& p = mesh.mesh.vertices.emplace_back();
-      p.x = 0.1 * x / kSide - 0.05;
-      p.y = 0.1 * y / kSide - 0.05;
-      p.z = 0.03 - 0.6 * std::abs(p.x);
-    }
-  }
-  for (std::uint32_t y = 0; y < kSide; ++y) {
-    for (std::uint32_t x = 0; x < kSide; ++x) {
-      const std::uint32_t a = y * (kSide + 1) + x;
-      mesh.mesh.triangles.emplace_back().vertex_indices = {a, a + 1, a + kSide + 1};
-      mesh.mesh.triangles.emplace_back().vertex_indices = {a + 1, a + kSide + 2, a + kSide + 1};
-    }
-  }
   return mesh;
 }
 

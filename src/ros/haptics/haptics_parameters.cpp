@@ -1,44 +1,22 @@
 #include "ros/haptics/haptics_parameters.h"
 
-#include <ros/names.h>
-
 #include <limits>
 
-#include "sweep_guard/common/error.h"
+#include "ros/motion/source_parameters.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
 using sweep_guard_core::ForceOptions;
-using sweep_guard_core::toSeconds;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Duration seconds(ParameterReader& read, const std::string& key, Duration fallback, double lowest, double highest,
-                 const std::string& effect) {
-  return sweep_guard_core::fromSeconds(read.number(key, toSeconds(fallback), {lowest, highest, "s"}, effect));
-}
-
-std::string readGuard(ParameterReader& read) {
-  std::string guard = read.name("guard", "/sweep_guard",
-                                "Name of the guard's node, whose proximity, tool_balls and warning are listened to.");
-  std::string error;
-  if (ros::names::validate(guard, error)) return guard;
-  throw sweep_guard_core::InvalidInput("parameter guard is no name of a node: " + error);
-}
-
 void readSources(ParameterReader& read, HapticsParameters& parameters) {
   const Duration silence = parameters.force.limits.warning_silence;
-  const std::string fixed_frame =
-      read.name("fixed_frame", "world", "tf frame that the planes are in: as that of the guard.");
-  const std::string source =
-      read.choice("tool_source", "topic", {"topic", "tf"},
-                  "topic: poses of the tool arrive on `tool_pose`. tf: the tool is the frame tool_frame in tf.");
-  const std::string tool_frame = read.name("tool_frame", "tool", "tf frame of the tool: as that of the guard.");
+  const auto [fixed_frame, tool_source, tool_frame] = readSourceFrames(read);
   parameters.guard = {readGuard(read), fixed_frame, tool_frame, silence};
-  parameters.tool = {"tool pose", "tool_pose", source == "tf" ? ToolSource::kTf : ToolSource::kTopic,
-                     fixed_frame, tool_frame,  silence};
+  parameters.tool = {"tool pose", "tool_pose", tool_source, fixed_frame, tool_frame, silence};
   parameters.device_frame = read.optionalName(
       "device_frame", "tf frame that does not move with the device, whose axes its force has. Empty: fixed_frame.");
   if (parameters.device_frame.empty()) parameters.device_frame = fixed_frame;
@@ -96,8 +74,8 @@ void readDevice(ParameterReader& read, HapticsParameters& parameters) {
   parameters.hand.max_turn_acceleration =
       read.number("max_turn_acceleration", parameters.hand.max_turn_acceleration, {10.0, 1e5, "rad/s^2"},
                   "Angular acceleration of the hand that the passivity controller counts on.");
-  force.output_delay = seconds(read, "output_delay", force.output_delay, 0.0, 0.2,
-                               "Time until what is sent acts at the device, at most.");
+  force.output_delay = readSeconds(read, "output_delay", force.output_delay, {0.0, 0.2, "s"},
+                                   "Time until what is sent acts at the device, at most.");
 }
 
 }  // namespace

@@ -1,25 +1,17 @@
 #include "ros/motion/motion_parameters.h"
 
-#include <ros/names.h>
-
 #include <limits>
 #include <map>
 
-#include "sweep_guard/common/error.h"
+#include "ros/motion/source_parameters.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
 using sweep_guard_core::MotionGuardOptions;
-using sweep_guard_core::toSeconds;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Duration seconds(ParameterReader& read, const std::string& key, Duration fallback, double lowest, double highest,
-                 const std::string& effect) {
-  return sweep_guard_core::fromSeconds(read.number(key, toSeconds(fallback), {lowest, highest, "s"}, effect));
-}
 
 void readCommand(ParameterReader& read, MotionParameters& parameters) {
   const std::map<std::string, CommandType> types = {{"twist_stamped", CommandType::kTwistStamped},
@@ -39,12 +31,10 @@ void readCommand(ParameterReader& read, MotionParameters& parameters) {
 }
 
 void readFrames(ParameterReader& read, MotionParameters& parameters) {
-  parameters.fixed_frame = read.name("fixed_frame", "world", "tf frame that the planes are in: as that of the guard.");
-  const std::string source =
-      read.choice("tool_source", "topic", {"topic", "tf"},
-                  "topic: poses of the tool arrive on `tool_pose`. tf: the tool is the frame tool_frame in tf.");
-  parameters.tool_source = source == "tf" ? ToolSource::kTf : ToolSource::kTopic;
-  parameters.tool_frame = read.name("tool_frame", "tool", "tf frame of the tool: as that of the guard.");
+  const SourceFrames frames = readSourceFrames(read);
+  parameters.fixed_frame = frames.fixed_frame;
+  parameters.tool_source = frames.tool_source;
+  parameters.tool_frame = frames.tool_frame;
   parameters.command_frame =
       read.optionalName("command_frame",
                         "tf frame of a command whose header names none. Empty: fixed_frame for twist, which has "
@@ -67,32 +57,24 @@ void readScales(ParameterReader& read, MotionParameters& parameters) {
                                          "command_in_type unitless: its scale/rotational.");
 }
 
-std::string readGuard(ParameterReader& read) {
-  std::string guard = read.name("guard", "/sweep_guard",
-                                "Name of the guard's node, whose proximity, tool_balls and warning are listened to.");
-  std::string error;
-  if (ros::names::validate(guard, error)) return guard;
-  throw sweep_guard_core::InvalidInput("parameter guard is no name of a node: " + error);
-}
-
 void readTimes(ParameterReader& read, MotionParameters& parameters) {
   sweep_guard_core::PermissionLimits& limits = parameters.options.permission;
-  limits.command_timeout =
-      seconds(read, "command_timeout", limits.command_timeout, 0.005, 10.0,
-              "An older command is not carried out: zero is sent. Also the longest period of commands that is counted "
-              "on.");
-  limits.silence = seconds(read, "silence", limits.silence, 0.02, 2.0,
-                           "Zero is sent unless a warning, planes and a tool pose have come within this time.");
+  limits.command_timeout = readSeconds(
+      read, "command_timeout", limits.command_timeout, {0.005, 10.0, "s"},
+      "An older command is not carried out: zero is sent. Also the longest period of commands that is counted "
+      "on.");
+  limits.silence = readSeconds(read, "silence", limits.silence, {0.02, 2.0, "s"},
+                               "Zero is sent unless a warning, planes and a tool pose have come within this time.");
   parameters.halt_messages = read.integer(
       "halt_messages", 4, 0, 1000,
       "Number of zeros that are sent after the commands have stopped; then nothing is sent. 0: zeros without "
       "end.");
-  parameters.options.dead_time = seconds(read, "lag/dead_time", std::chrono::milliseconds(20), 0.0, 2.0,
-                                         "Time until the robot begins to do what was sent.");
+  parameters.options.dead_time = readSeconds(read, "lag/dead_time", std::chrono::milliseconds(20), {0.0, 2.0, "s"},
+                                             "Time until the robot begins to do what was sent.");
   parameters.options.time_constant =
-      seconds(read, "lag/time_constant", std::chrono::milliseconds(30), 0.0, 2.0,
-              "Time constant with which the robot then follows. Filters behind motion_guard count, as "
-              "low_pass_filter_coeff of MoveIt Servo.");
+      readSeconds(read, "lag/time_constant", std::chrono::milliseconds(30), {0.0, 2.0, "s"},
+                  "Time constant with which the robot then follows. Filters behind motion_guard count, as "
+                  "low_pass_filter_coeff of MoveIt Servo.");
 }
 
 void readMotion(ParameterReader& read, MotionParameters& parameters) {
