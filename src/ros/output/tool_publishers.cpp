@@ -3,7 +3,7 @@
 namespace sweep_guard_ros {
 
 ToolShapes::ToolShapes(const Parameters& parameters)
-    : pieces(sweep_guard_core::interpenetrationFinders(*parameters.tool)), surface(surfaceMsg(parameters)) {}
+    : pieces(sweep_guard_core::interpenetrationFinders(*parameters.bodies)), surface(surfaceMsg(parameters)) {}
 
 ToolPublishers::ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
                                const sweep_guard_core::WarningMonitor& monitor)

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <boost/shared_ptr.hpp>
-#include <vector>
 
 #include "ros/output/bodies_publisher.h"
 #include "ros/output/interaction_publisher.h"
@@ -14,7 +13,7 @@ struct ToolShapes {
   /// Any thread. Takes seconds for thousands of corners.
   explicit ToolShapes(const Parameters& parameters);
 
-  std::vector<sweep_guard_core::InterpenetrationFinder> pieces;
+  sweep_guard_core::InterpenetrationFinders pieces;
   boost::shared_ptr<sweep_guard::ToolSurface> surface;
 };
 
