@@ -68,15 +68,25 @@ std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, dou
 
 // A tool point in M is x = R_MW (d + R_WT p): |x''| <= turn^2 |d| + 2 turn |d'| + (turn + tool's turn)^2 |p|, and the
 // chord of a curve errs by an eighth of that.
+double chordError(const RelativeTurn& turn, double tool_radius) {
+  const double both = turn.tool + turn.frame;
+  if (turn.frame == 0.0) return both * both * tool_radius / 8.0;
+  const double farthest = std::max(turn.start_W.norm(), turn.end_W.norm());
+  const double moves = (turn.end_W - turn.start_W).norm();
+  return (turn.frame * turn.frame * farthest + 2.0 * turn.frame * moves + both * both * tool_radius) / 8.0;
+}
+
 double chordError(const RelativeMotion& motion, double tool_radius) {
-  const double turn = motion.frame_W.angle();
-  const double both = motion.tool_W.angle() + turn;
-  const Eigen::Vector3d from_W = motion.tool_W.X_MT_start.translation() - motion.frame_W.X_MT_start.translation();
-  const Eigen::Vector3d to_W = motion.tool_W.X_MT_end.translation() - motion.frame_W.X_MT_end.translation();
-  const double farthest = std::max(from_W.norm(), to_W.norm());
-  return (turn * turn * farthest + 2.0 * turn * (to_W - from_W).norm() + both * both * tool_radius) / 8.0;
+  const Eigen::Vector3d start_W = motion.tool_W.X_MT_start.translation() - motion.frame_W.X_MT_start.translation();
+  const Eigen::Vector3d end_W = motion.tool_W.X_MT_end.translation() - motion.frame_W.X_MT_end.translation();
+  return chordError(RelativeTurn{motion.tool_W.angle(), motion.frame_W.angle(), start_W, end_W}, tool_radius);
 }
 
 double chordError(double radius, double angle) { return radius * angle * angle / 8.0; }
+
+// The Frobenius norm is sqrt(8) sin(angle / 2), and a sine up to half of pi is no less than 2 / pi times the angle.
+double angleBound(const Eigen::Matrix3d& R_start, const Eigen::Matrix3d& R_end) {
+  return M_PI / std::sqrt(8.0) * (R_end - R_start).norm();
+}
 
 }  // namespace sweep_guard_core

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "guard/closest_approach.h"
+#include "guard/displacement_cache.h"
 #include "guard/guarded_body.h"
 #include "guard/time_budget.h"
 #include "guard/united_bodies.h"
@@ -87,6 +88,7 @@ Guard::Guard(std::vector<Tool> bodies, std::shared_ptr<const Robot> robot, std::
              const GuardOptions& options)
     : bodies_(guarded(std::move(bodies), options)),
       detector_(std::move(detector)),
+      displacements_(std::make_unique<DisplacementCache>()),
       options_(options),
       predictor_(options.predictor, std::move(robot)),
       budget_(std::make_unique<TimeBudget>(options.horizon, options.cycle)),
@@ -108,11 +110,13 @@ void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, Swee
   forEachBody(bodies_, swept_order_, &GuardedBody::report, report,
               [&](size_t i, GuardedBody& body, SweepReport& swept) {
                 const BodyPose at = pose.body(i);
-                const SweepSetup setup{body.tool,     *detector_,       options_.sweep, [this] { throwIfStopping(); },
-                                       *intentions(), options_.allowed, *frames_};
+                const SweepSetup setup{
+                    body.tool,     *detector_,       options_.sweep, *displacements_,   [this] { throwIfStopping(); },
+                    *intentions(), options_.allowed, *frames_,       bodies_.size() > 1};
                 body.sweeps.sweep(setup, pose, at, workpieces, swept);
                 body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
               });
+  displacements_->forgetUnused();
   if (!newest_) newest_.emplace();
   assign(*newest_, pose);
   budget_->spentOnMeasured(options_.clock() - begin);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "guard/out_of_reach.h"
 #include "guard/placed_workpieces.h"
 #include "guard/rigid_shape.h"
 
@@ -38,6 +39,16 @@ MovingMesh movingMesh(const Workpiece& now, const Workpiece& before, const Displ
   const double path_length = now.path_length - before.path_length;
   const double deviation = skipped ? pathDeviation(path_length, displacements.lowerBound()) : 0.0;
   return {now.mesh_M, before.mesh_M, displacements, deviation};
+}
+
+// Returns whether no volume of a segment comes to the mesh.
+bool staysOutOfReach(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t last,
+                     const MovingMesh& mesh) {
+  const Tool& tool = setup.tool;
+  const Eigen::Vector3d center_T = tool.bounds_T().center();
+  const PoseBounds poses = history.bounds_M(first, last, center_T, tool.boundingRadius() + center_T.norm());
+  const double merged = kMergeTolerance * tool.boundingRadius();
+  return staysOutOfReach(tool, poses, mesh, setup.options.margin + merged);
 }
 
 // Keeps the older normal of a triangle that has no newer one.
@@ -111,23 +122,45 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   Swept& swept = lastSwept(workpiece);
   swept.before = swept.pose;
   const size_t begin = history.lastUpTo(swept.pose);
-  const Workpiece& from = measureDisplacements(swept, history[begin].stamp, workpiece, object.behind);
+  const auto& from = deformationAt(history[begin].stamp, *workpiece, swept, object.behind);
   const Workpiece& before = *swept.deformations.back();
   const bool deformed = workpiece.get() != &before;
-  const MovingMesh mesh = movingMesh(*workpiece, from, swept.displacements);
+  const MovingMesh mesh = movingMesh(*workpiece, *from, setup.displacements.between(from, workpiece));
   const bool again = deformed && mesh.moved();
   const size_t first = again ? std::min(begin, history.lastUpTo(before.stamp)) : begin;
-  const IntendedContact intended(setup.tool, setup.intentions, *workpiece);
-  const AllowedPieces allowed(setup.tool, setup.allowed, workpiece->id);
+  const Segment segment{*workpiece, history, mesh, first, begin, last, end_time};
   object.workpiece = workpiece;
   object.interval_start = history[begin].stamp;
   object.result.clear();
   cache_ = swept.cache;
+  if (setup.several && staysOutOfReach(setup, history, first, last, mesh)) {
+    leaveOut(setup, segment, object);
+  } else {
+    sweepSegment(setup, segment, object);
+  }
+  if (deformed) swept.deformations.push_back(workpiece);
+  swept.grown = deformed;
+  swept.pose = history.newest().number;
+  std::swap(swept.cache, cache_);
+}
+
+// As sweepSegment() does if no volume reaches the mesh.
+void MeasuredSweeps::leaveOut(const SweepSetup& setup, const Segment& segment, SweptObject& object) {
+  setup.before_sweep();
+  object.result.fine = setup.options.fine;
+  if (segment.hasNew()) cache_.contact_normals.clear();
+  update(cache_, object.result);
+}
+
+void MeasuredSweeps::sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object) {
+  const auto& [workpiece, history, mesh, first, begin, last, end_time] = segment;
+  const IntendedContact intended(setup.tool, setup.intentions, workpiece);
+  const AllowedPieces allowed(setup.tool, setup.allowed, workpiece.id);
   history.path_M(first, last, setup.tool.boundingRadius(), path_M_);
   size_t i = first;
   do {
     setup.before_sweep();
-    const bool is_new = i >= begin;
+    const bool is_new = segment.isNew(i);
     const size_t end = first + endOfMotion(setup, i - first, (is_new ? last : begin) - first);
     findSubMotions(setup, history, first, i - first, end - first);
     cache_.already_confirmed.clear();
@@ -144,28 +177,19 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
     unite(object.result, result);
     i = end;
   } while (i < last);
-  if (deformed) swept.deformations.push_back(workpiece);
-  swept.grown = deformed;
-  swept.pose = history.newest().number;
-  std::swap(swept.cache, cache_);
 }
 
-// Returns the deformation that was there at the time of a pose.
-const Workpiece& MeasuredSweeps::measureDisplacements(Swept& swept, Time pose,
-                                                      const std::shared_ptr<const Workpiece>& newest,
-                                                      Duration& behind) {
+// Returns the deformation that was there at the time of a pose, and forgets those before it.
+const std::shared_ptr<const Workpiece>& MeasuredSweeps::deformationAt(Time pose, const Workpiece& newest, Swept& swept,
+                                                                      Duration& behind) {
   while (swept.deformations.size() > 1 && swept.deformations[1]->stamp <= pose) {
     swept.deformations.erase(swept.deformations.begin());
   }
-  swept.incomplete = forgetLateDeformations(*newest, swept.deformations) || swept.incomplete;
+  swept.incomplete = forgetLateDeformations(newest, swept.deformations) || swept.incomplete;
   const auto& from = swept.deformations.front();
   swept.incomplete = swept.incomplete && from->stamp > pose;
   behind = swept.incomplete ? from->stamp - pose : Duration::zero();
-  if (newest != swept.deformations.back() || swept.displaced_from != from) {
-    swept.displaced_from = from;
-    swept.displacements = newest == from ? Displacements() : Displacements(from->mesh_M, newest->mesh_M);
-  }
-  return *from;
+  return from;
 }
 
 // A workpiece with other triangles, or in another frame, has not been swept since the last pose.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "guard/displacements.h"
+#include "guard/displacement_cache.h"
 #include "guard/joined_motion.h"
 #include "guard/pose_history.h"
 #include "guard/sweep_checker.h"
@@ -20,10 +20,12 @@ struct SweepSetup {
   const Tool& tool;
   Detector& detector;
   const SweepOptions& options;
+  DisplacementCache& displacements;
   std::function<void()> before_sweep = [] {};  ///< called before every sweep; may throw to give up
   const Intentions& intentions = kNoIntentions;
   const AllowedPairs& allowed = kNoAllowedPairs;
   const FrameMotions& frames = kNoFrameMotions;  ///< of those that move on their own
+  bool several = false;  ///< the tool is one of several bodies: where it stays out of reach, it has no volumes
 };
 
 /// Sweeps one body of the tool along the measured poses; Guard says what is swept. Keeps the poses that may be swept again for
@@ -57,11 +59,23 @@ class MeasuredSweeps {
     Workpieces deformations;
     std::uint64_t pose = 0;  // number of the pose of the last sweep
     SweepCache cache = {};
-    std::shared_ptr<const Workpiece> displaced_from = nullptr;
-    Displacements displacements = {};  // from there to the newest deformation
-    bool incomplete = false;           // deformations before the first of these are forgotten
-    std::uint64_t before = 0;          // `pose` before the last sweep
-    bool grown = false;                // the last sweep has added a deformation
+    bool incomplete = false;   // deformations before the first of these are forgotten
+    std::uint64_t before = 0;  // `pose` before the last sweep
+    bool grown = false;        // the last sweep has added a deformation
+  };
+
+  // Poses to be swept against one workpiece. Those before `begin` were swept when its deformation was not known yet.
+  struct Segment {
+    const Workpiece& workpiece;
+    const PoseHistory& history;
+    const MovingMesh& mesh;
+    size_t first;
+    size_t begin;
+    size_t last;
+    Time end_time;  // of the interval that times of impact are fractions of
+
+    bool isNew(size_t i) const { return i >= begin; }
+    bool hasNew() const { return first == begin || begin < last; }
   };
 
   void add(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames);
@@ -69,8 +83,10 @@ class MeasuredSweeps {
   bool isPlaced(const std::string& frame, const PoseWithFrames& pose, const FrameMotions& frames) const;
   void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Time end_time,
                    SweptObject& object);
-  static const Workpiece& measureDisplacements(Swept& swept, Time pose, const std::shared_ptr<const Workpiece>& newest,
-                                               Duration& behind);
+  void sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object);
+  void leaveOut(const SweepSetup& setup, const Segment& segment, SweptObject& object);
+  static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept,
+                                                               Duration& behind);
   Swept& lastSwept(const std::shared_ptr<const Workpiece>& workpiece);
   size_t endOfMotion(const SweepSetup& setup, size_t begin, size_t last) const;
   void findSubMotions(const SweepSetup& setup, const PoseHistory& history, size_t first, size_t begin, size_t end);

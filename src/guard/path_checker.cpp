@@ -7,6 +7,7 @@
 #include "common/heartbeat.h"
 #include "common/stage_clock.h"
 #include "guard/moving_mesh.h"
+#include "guard/out_of_reach.h"
 #include "guard/placed_workpieces.h"
 #include "guard/triangle_set.h"
 
@@ -15,8 +16,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Duration kFinestProbable = std::chrono::milliseconds(25);  // shortest sweep with a merely possible contact
-
-constexpr double kRounding = 1e-9;  // relative, of a reach
 
 // Of the mesh as sent, which lies within its rounding of what is stored.
 double radiusAboutFrame(const TriangleMesh& mesh_M) {
@@ -105,12 +104,8 @@ bool PathChecker::staysOutOfReach(const PredictedPathRequest& request, double ma
     error = std::max(error, moves + radius * turns);
     deviation = std::max(deviation, pose.deviation_bound);
   }
-  const TriangleMesh& mesh_M = request.workpiece->mesh_M;
-  const Eigen::AlignedBox3d& bounds = mesh_M.blocks().bounds();
-  const double reach = (1.0 + kRounding) * (radius + margin + deviation + options_.max_deviations * error) +
-                       kRounding * (mesh_M.radius() + mesh_M.origin().norm());
-  const Eigen::AlignedBox3d mesh(bounds.min() + mesh_M.origin(), bounds.max() + mesh_M.origin());
-  return origins_M.squaredExteriorDistance(mesh) > reach * reach;
+  const double reach = radius + margin + deviation + options_.max_deviations * error;
+  return staysBeside(request.workpiece->mesh_M, origins_M, reach);
 }
 
 void PathChecker::addFreeSweeps(const PredictedPathRequest& request, PredictedObject& object) {

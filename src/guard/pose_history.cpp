@@ -6,11 +6,29 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr double kRounding = 0x1p-48;  // relative: a dozen roundings of 2^-53, with a margin
+
+// Searches from the newest on, in steps that double: that is where to look, and what is in the processor's cache.
 template <typename Key, typename KeyOf>
 size_t lastUpToKey(const PoseSample* first, const PoseSample* end, const Key& key, const KeyOf& key_of) {
-  const auto* beyond =
-      std::upper_bound(first, end, key, [&](const Key& a, const PoseSample& sample) { return a < key_of(sample); });
+  const auto is_before = [&](const Key& a, const PoseSample& sample) { return a < key_of(sample); };
+  const PoseSample* beyond = end;
+  const auto step = [&] { return std::min(std::max<std::ptrdiff_t>(end - beyond, 1), beyond - first); };
+  while (beyond != first && is_before(key, *(beyond - step()))) beyond -= step();
+  beyond = std::upper_bound(beyond - step(), beyond, key, is_before);
   return static_cast<size_t>(std::max<std::ptrdiff_t>(beyond - first, 1) - 1);
+}
+
+double chordErrorBound(const PoseSample& from, const PoseSample& to, double tool_radius) {
+  const double tool = angleBound(from.X_WT.linear(), to.X_WT.linear());
+  const double frame = angleBound(from.X_WM.linear(), to.X_WM.linear());
+  return chordError(RelativeTurn{tool, frame, from.X_WT.translation() - from.X_WM.translation(),
+                                 to.X_WT.translation() - to.X_WM.translation()},
+                    tool_radius);
+}
+
+double roundingOf(const PoseSample& sample) {
+  return kRounding * (sample.X_WT.translation().lpNorm<1>() + sample.X_WM.translation().lpNorm<1>());
 }
 
 }  // namespace
@@ -39,6 +57,19 @@ void PoseHistory::path_M(size_t first, size_t last, double tool_radius, Path& pa
     const double deviation = i == first ? 0.0 : turn + to.deviation_bound;
     path_M.push_back({to.stamp - (*this)[first].stamp, to.X_WM.inverse() * to.X_WT, deviation});
   }
+}
+
+PoseBounds PoseHistory::bounds_M(size_t first, size_t last, const Eigen::Vector3d& point_T, double tool_radius) const {
+  assert(first <= last && last < size());
+  PoseBounds bounds;
+  for (size_t i = first; i <= last; ++i) {
+    const PoseSample& to = (*this)[i];
+    const Eigen::Vector3d point_W = to.X_WT * point_T - to.X_WM.translation();
+    bounds.point_M.extend(to.X_WM.linear().transpose() * point_W);
+    const double turn = i == first ? 0.0 : chordErrorBound((*this)[i - 1], to, tool_radius);
+    bounds.deviation = std::max(bounds.deviation, turn + to.deviation_bound + roundingOf(to));
+  }
+  return bounds;
 }
 
 }  // namespace sweep_guard_core

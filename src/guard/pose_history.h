@@ -18,6 +18,14 @@ struct PoseSample {
   double deviation_bound = 0.0;  ///< of the motion since the previous sample, see BodyPose
 };
 
+/// Where a point of the tool is at some poses, seen from a frame M, and how far the tool is from the chords between them.
+struct PoseBounds {
+  Eigen::AlignedBox3d point_M;  ///< holds the point at each pose [m]
+  /// Bound [m] on the deviation of the point and of a tool point, between two poses, from a straight line at constant speed;
+  /// rounding included.
+  double deviation = 0.0;
+};
+
 /// Keeps the poses of tool and frame that may have to be swept again. Only a detector that keeps failing needs as many as
 /// SampleBuffer holds: twice the number of poses that are swept at once.
 class PoseHistory {
@@ -46,6 +54,11 @@ class PoseHistory {
   /// @param tool_radius   largest distance of a tool point from the origin of T [m], >= 0
   /// @param[out] path_M   overwritten
   void path_M(size_t first, size_t last, double tool_radius, Path& path_M) const;
+
+  /// Bounds that path without its angles, which take most of its time.
+  /// @param point_T      of which the box is [m]
+  /// @param tool_radius  largest distance of a tool point, or of `point_T`, from the origin of T [m], >= 0
+  PoseBounds bounds_M(size_t first, size_t last, const Eigen::Vector3d& point_T, double tool_radius) const;
 
  private:
   SampleBuffer<PoseSample> all_;

@@ -63,6 +63,20 @@ TEST(MotionTest, HasAUnitAxisWithoutARotationAndAtHalfATurn) {
   }
 }
 
+TEST(AngleBoundTest, IsNoLessThanTheAngleAndAtMostHalfOfPiTimesIt) {
+  Random random(/*seed=*/5);
+  for (int i = 0; i < 10'000; ++i) {
+    const Eigen::Isometry3d start = random.pose(Eigen::Vector3d::Zero());
+    Eigen::Isometry3d end = start;
+    end.linear() = start.linear() * random.turn(random.logUniform(1e-4, kPi));
+    const double angle = angleBetween(start, end);
+    const double bound = angleBound(start.linear(), end.linear());
+    EXPECT_GE(bound, angle * (1.0 - 1e-9));
+    EXPECT_LE(bound, 0.5 * kPi * angle * (1.0 + 1e-9));
+  }
+  EXPECT_EQ(angleBound(Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()), 0.0);
+}
+
 TEST(SplitTest, MakesTheFewestSubMotionsWithinTheMaximum) {
   const Motion motion{turnedAboutZ(0), turnedAboutZ(90, {9, 0, 0})};
   EXPECT_EQ(split(motion, 91 * kDegree).size(), 1U);

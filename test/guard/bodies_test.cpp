@@ -276,9 +276,9 @@ TEST_F(TwoBallsTest, TheFirstToTouchIsNamed) {
 }
 
 TEST_F(TwoBallsTest, TheFailureOfOneLeavesTheContactOfTheOther) {
-  reportOf(guard_, pose(0, 0.11, 0.11), {triangle_});
+  reportOf(guard_, pose(0, 0.02, 0.11), {triangle_});
   record_.failures_left = 1;
-  const SweepReport report = reportOf(guard_, pose(10, 0.11, -0.09), {triangle_});
+  const SweepReport report = reportOf(guard_, pose(10, 0.02, -0.09), {triangle_});
   ASSERT_EQ(report.failures.size(), 1U);
   EXPECT_EQ(report.failures[0].workpiece, triangle_);
   EXPECT_FALSE(report.complete());
@@ -288,10 +288,10 @@ TEST_F(TwoBallsTest, TheFailureOfOneLeavesTheContactOfTheOther) {
 
 // Its way of 20 ms begins with a rest of 10 ms; the other goes back in the second half.
 TEST_F(TwoBallsTest, TheOneThatFailedIsSweptFromWhereItWas) {
-  reportOf(guard_, pose(0, 0.11, 0.11), {triangle_});
+  reportOf(guard_, pose(0, 0.02, 0.11), {triangle_});
   record_.failures_left = 1;
-  reportOf(guard_, pose(10, 0.11, -0.19), {triangle_});
-  const SweepReport report = reportOf(guard_, pose(20, 0.11, 0.21), {triangle_});
+  reportOf(guard_, pose(10, 0.02, -0.19), {triangle_});
+  const SweepReport report = reportOf(guard_, pose(20, 0.02, 0.21), {triangle_});
   EXPECT_TRUE(report.complete());
   EXPECT_EQ(report.start, at(0));
   EXPECT_EQ(report.objects[0].interval_start, at(0));

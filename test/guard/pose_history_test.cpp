@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "scenes.h"
+
 namespace sweep_guard_core {
 namespace {
 
@@ -80,6 +82,48 @@ TEST(PoseHistoryTest, IsExpressedInTheFrame) {
   EXPECT_EQ(path_M[1].time, 1s);
   EXPECT_NEAR(path_M[1].deviation_bound, 0.3 / 8.0, 1e-12);
   EXPECT_TRUE(path_M[1].X_MT.translation().isApprox(Eigen::Vector3d(std::cos(0.5), -std::sin(0.5), 0)));
+}
+
+TEST(PoseHistoryTest, ItsBoundsHoldThePathThatAPointTakes) {
+  Random random(/*seed=*/4);
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE("path " + std::to_string(i));
+    PoseHistory history;
+    const double reach = random.chance(0.5) ? 0.1 : 1.0;  // [rad]
+    PoseSample sample{1, Time(0ms), random.pose(random.inBox({1, 1, 1})), random.pose(random.inBox({1, 1, 1}))};
+    for (int k = 0; k < 3; ++k) {
+      history.add(sample);
+      for (Eigen::Isometry3d* const X : {&sample.X_WT, &sample.X_WM})
+        *X = Eigen::Translation3d(random.inBox({0.1, 0.1, 0.1})) * *X * Eigen::Isometry3d(random.turn(reach));
+    }
+    const Eigen::Vector3d point_T = random.inBox({0.2, 0.2, 0.2});
+    const PoseBounds bounds = history.bounds_M(0, 2, point_T, point_T.norm());
+    for (size_t k = 1; k < 3; ++k) {
+      const Motion tool{history[k - 1].X_WT, history[k].X_WT};
+      const Motion frame{history[k - 1].X_WM, history[k].X_WM};
+      for (int step = 0; step <= 20; ++step) {
+        const Eigen::Vector3d point_M = frame.at(step / 20.0).inverse() * (tool.at(step / 20.0) * point_T);
+        EXPECT_LE(bounds.point_M.exteriorDistance(point_M), bounds.deviation);
+      }
+    }
+  }
+}
+
+// Each of three motions deviates in another way.
+TEST(PoseHistoryTest, ItsBoundsDeviateAsTheMotionThatDeviatesMost) {
+  PoseHistory history = historyOf(2);
+  EXPECT_NEAR(history.bounds_M(0, 1, {0, 0, 0}, 0.5).deviation, 0.0, 1e-12);
+  PoseSample next = history.newest();
+  next.deviation_bound = 0.25;
+  history.add(next);
+  EXPECT_NEAR(history.bounds_M(0, 2, {0, 0, 0}, 0.5).deviation, 0.25, 1e-12);
+  EXPECT_NEAR(history.bounds_M(2, 2, {0, 0, 0}, 0.5).deviation, 0.25, 1e-12);
+  next.deviation_bound = 0.0;
+  next.X_WT.linear() = Eigen::AngleAxisd(3.0, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  history.add(next);
+  Path path_M;
+  history.path_M(2, 3, 0.5, path_M);
+  EXPECT_GE(history.bounds_M(0, 3, {0, 0, 0}, 0.5).deviation, path_M[1].deviation_bound);
 }
 
 }  // namespace

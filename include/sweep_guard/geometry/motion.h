@@ -56,10 +56,23 @@ struct RelativeMotion {
 [[nodiscard]] std::vector<Motion> split(const RelativeMotion& motion, double max_rotation, double tool_radius,
                                         std::vector<Motion> buffer = {});
 
+/// What bounds how far a tool leaves the straight path between two poses, seen from M.
+struct RelativeTurn {
+  double tool;              ///< angle by which the tool turns, or more [rad]
+  double frame;             ///< angle by which M turns, or more [rad]
+  Eigen::Vector3d start_W;  ///< from the origin of M to that of T at the start, along the axes of W [m]
+  Eigen::Vector3d end_W;    ///< the same at the end
+};
+
 /// Returns a bound [m] on the deviation of a tool point, seen from M, from its straight path at constant speed between
 /// the ends of the motion.
 /// @param tool_radius  largest distance of a tool point from the origin of T [m], >= 0
 double chordError(const RelativeMotion& motion, double tool_radius);
+double chordError(const RelativeTurn& turn, double tool_radius);
+
+/// Returns an upper bound on the angle between two orientations [rad]: at most pi / 2 times the angle, and found in a fraction
+/// of the time.
+double angleBound(const Eigen::Matrix3d& R_start, const Eigen::Matrix3d& R_end);
 
 /// Returns a bound [m] on the distance between the arc of a tool point, while the tool turns, and the chord that
 /// replaces the arc. A swept volume built on chords is conservative once it is grown by this. It is radius * angle^2 /

@@ -15,6 +15,7 @@
 namespace sweep_guard_core {
 
 class ClosestApproaches;
+class DisplacementCache;
 struct GuardedBody;
 class TimeBudget;
 struct SweepPlan;
@@ -141,6 +142,7 @@ class Guard {
   std::atomic<bool> stopping_ = false;
   std::vector<std::unique_ptr<GuardedBody>> bodies_;
   std::unique_ptr<Detector> detector_;
+  std::unique_ptr<DisplacementCache> displacements_;
   GuardOptions options_;
   MotionPredictor predictor_;
   std::unique_ptr<TimeBudget> budget_;

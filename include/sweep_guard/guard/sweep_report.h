@@ -18,6 +18,7 @@ struct SweptObject {
   /// Time by which the pose that the sweep began at is older than the oldest update of the workpiece still kept: the
   /// sweep leaves out how the workpiece moved in between. 0: nothing is left out.
   Duration behind{};
+  /// Bodies of several that stay out of reach of the workpiece have no volumes, nor a margin.
   SweepResult result;
 };
 
