@@ -316,7 +316,7 @@ bool PathChecker::isLeftOut(const Scene& scene, const Submesh& submesh, const Un
   if (!box_helps) return false;
   const SweptVolume box_M = sweptVolume(below.shape_T, motion.motion_M, VolumeKind::kObb, scene.margin);
   const PerHalfSpace deviations = planeDeviations(below.shape_T, motion.end_M.X_MT, motion.end_M.covariance_M, box_M);
-  return meter_.isSeparated(submesh, box_M, deviations, limit(below.piece ? at_most : kInfinity));
+  return meter_.isSeparated(submesh, box_M, deviations, below.piece ? limit(at_most) : limit(kInfinity));
 }
 
 PathChecker::Candidate PathChecker::measure(const Scene& scene, const Submesh& submesh, const SweptPiece& swept,
