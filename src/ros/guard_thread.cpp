@@ -95,7 +95,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   std::vector<sweep_guard_core::InterpenetrationFinder> pieces;
   boost::shared_ptr<sweep_guard::ToolSurface> surface;
   if (differ(*before, *next, "tool/")) {
-    surface = surfaceMsg(*next);
+    surface = dependencies_.make_surface(*next);
     change.bodies = *next->bodies;
     change.robot = articulatedRobot(*next);
     pieces = sweep_guard_core::interpenetrationFinders(*next->tool);
@@ -152,7 +152,7 @@ void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
   change.bodies = *next->bodies;
   change.robot = articulatedRobot(*next);
   auto pieces = sweep_guard_core::interpenetrationFinders(*next->tool);
-  const auto surface = surfaceMsg(*next);
+  const auto surface = dependencies_.make_surface(*next);
   const auto exchange = [&] {
     if (dependencies_.parameters.get() != before) throw Error("parameters have changed meanwhile: ask again");
     change_store();
@@ -438,6 +438,7 @@ void GuardThread::predict() {
   dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), took);
   dependencies_.warnings.publishIfChanged();
   sweep_guard_core::beat();
+  if (!dependencies_.monitor.counts(checkpoint)) return;  // another epoch has begun meanwhile
   results_.publish(*prediction, age);
 
   const Duration considered = dependencies_.parameters.get()->limits.considered;
@@ -446,7 +447,6 @@ void GuardThread::predict() {
                                       prediction->probability(PredictionInterval::kConsidered, age + considered)});
   reportFailures(prediction->failures);
   endAcknowledgements(workpieces);
-  if (!dependencies_.monitor.counts(checkpoint)) return;  // poses of another epoch were swept meanwhile
   dependencies_.scene.predicted(pose, prediction);
   bodies_.predicted(pose, *prediction);
 }
