@@ -12,6 +12,7 @@
 
 #include "geometry/qhull.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/geometry/linear_functions.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -81,6 +82,8 @@ Facet cornersOf(const std::vector<Facet>& facets) {
 
 // The hull as simplices from its center to its facets, for convex combinations near a point.
 class Simplices {
+  using Weights = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
+
  public:
   Simplices(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
     const Facet corners = cornersOf(facets);
@@ -88,15 +91,13 @@ class Simplices {
     for (const Facet& facet : facets) add(about, facet);
   }
 
-  // Returns a bound on the distance of a point from the hull, except for the rounding of the sums.
+  // Returns a bound on the distance of a point from the hull, except for the rounding of the sums. A point of the hull
+  // lies in the simplex whose facet is ahead of it, as seen from the center.
   double distanceBound(const Eigen::Vector3d& p, double negligible) const {
     double least = (p - center_).norm();
-    for (size_t i = 0; i < spans_.size() && least > negligible; ++i) {
-      Eigen::VectorXd weights = (inverses_[i] * (p - center_)).cwiseMax(0.0);
-      weights /= std::max(1.0, weights.sum());
-      const double distance = (p - center_ - spans_[i] * weights).norm();
-      if (distance < least) least = distance;
-    }
+    if (weight_sums_.empty()) return least;
+    least = std::min(least, distanceFrom(weight_sums_.largest(p - center_), p));
+    for (size_t i = 0; i < spans_.size() && least > negligible; ++i) least = std::min(least, distanceFrom(i, p));
     return least;
   }
 
@@ -108,24 +109,32 @@ class Simplices {
     if (!inverse.allFinite()) return;
     spans_.emplace_back(span);
     inverses_.emplace_back(inverse);
+    weight_sums_.add(inverse.colwise().sum().transpose(), 0.0);
+  }
+
+  double distanceFrom(size_t simplex, const Eigen::Vector3d& p) const {
+    Weights weights = (inverses_[simplex] * (p - center_)).cwiseMax(0.0);
+    weights /= std::max(1.0, weights.sum());
+    return (p - center_ - spans_[simplex] * weights).norm();
   }
 
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   std::vector<Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>> spans_;
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3>> inverses_;
+  LinearFunctions weight_sums_;
 };
 
 double hullTolerance(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
-  const double rounding = kRounding * extentOf(about);
   const Facet corners = cornersOf(facets);
+  // Each weight and each sum may have one rounding error per corner.
+  const double of_sums = static_cast<double>(corners.size() + 32) * kRounding * extentOf(about);
   const Simplices simplices(about, facets);
-  double hull_tolerance = 0.0;
+  double farthest = 0.0;
   for (std::uint32_t i = 0; i < about.cols(); ++i) {
     if (std::binary_search(corners.begin(), corners.end(), i)) continue;
-    hull_tolerance = std::max(hull_tolerance, simplices.distanceBound(about.col(i), 4.0 * rounding));
+    farthest = std::max(farthest, simplices.distanceBound(about.col(i), 0.1 * of_sums));
   }
-  // Each weight and each sum may have one rounding error per corner.
-  return hull_tolerance + static_cast<double>(corners.size() + 32) * rounding;
+  return farthest + of_sums;
 }
 
 std::vector<Triangle> fan(size_t corners) {

@@ -1,24 +1,53 @@
 #include "guard/rigid_shape.h"
 
+#include <Eigen/SVD>
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 namespace sweep_guard_core {
 namespace {
 
-Eigen::Matrix3Xd verticesOf(const TriangleMesh& mesh_M) {
-  Eigen::Matrix3Xd vertices_M(3, static_cast<Eigen::Index>(mesh_M.vertexCount()));
-  for (Eigen::Index i = 0; i < vertices_M.cols(); ++i) vertices_M.col(i) = mesh_M.vertex(static_cast<size_t>(i));
-  return vertices_M;
+struct Means {
+  Eigen::Vector3d before_M = Eigen::Vector3d::Zero();
+  Eigen::Vector3d after_M = Eigen::Vector3d::Zero();
+};
+
+template <typename PositionOf>
+Means meansOf(const TriangleMesh& mesh_M, const PositionOf& after_M) {
+  Means means;
+  for (size_t i = 0; i < mesh_M.vertexCount(); ++i) {
+    means.before_M += mesh_M.vertex(i);
+    means.after_M += after_M(i);
+  }
+  const auto count = static_cast<double>(mesh_M.vertexCount());
+  return {means.before_M / count, means.after_M / count};
 }
 
-RigidFit fit(const Eigen::Matrix3Xd& before_M, const Eigen::Matrix3Xd& after_M) {
-  assert(before_M.cols() == after_M.cols());
+// Returns the rotation by which one set of points about its mean becomes most nearly another one, from the sum of their
+// outer products.
+Eigen::Matrix3d rotationOf(const Eigen::Matrix3d& products) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double handedness = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.matrixU() * Eigen::Vector3d(1.0, 1.0, handedness).asDiagonal() * svd.matrixV().transpose();
+}
+
+// Reads the vertices where they are: it runs at each update of a payload.
+template <typename PositionOf>
+RigidFit fit(const TriangleMesh& mesh_M, const PositionOf& after_M) {
   RigidFit fit{{}, std::numeric_limits<double>::infinity()};
-  if (!after_M.allFinite()) return fit;
-  fit.X_MM.matrix() = Eigen::umeyama(before_M, after_M, /*with_scaling=*/false);
-  const Eigen::Matrix3Xd moved_M = (fit.X_MM.linear() * before_M).colwise() + fit.X_MM.translation();
-  fit.deviation = (after_M - moved_M).colwise().norm().maxCoeff();
+  const Means means = meansOf(mesh_M, after_M);
+  if (!means.after_M.allFinite()) return fit;
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for (size_t i = 0; i < mesh_M.vertexCount(); ++i)
+    products += (after_M(i) - means.after_M) * (mesh_M.vertex(i) - means.before_M).transpose();
+  fit.X_MM.linear() = rotationOf(products);
+  fit.X_MM.translation() = means.after_M - fit.X_MM.linear() * means.before_M;
+  double farthest = 0.0;
+  for (size_t i = 0; i < mesh_M.vertexCount(); ++i)
+    farthest = std::max(farthest, (after_M(i) - fit.X_MM * mesh_M.vertex(i)).squaredNorm());
+  fit.deviation = std::sqrt(farthest);
   return fit;
 }
 
@@ -26,12 +55,14 @@ RigidFit fit(const Eigen::Matrix3Xd& before_M, const Eigen::Matrix3Xd& after_M) 
 
 RigidFit rigidFit(const TriangleMesh& mesh_M, const std::vector<float>& positions_M) {
   assert(positions_M.size() == 3 * mesh_M.vertexCount());
-  const auto count = static_cast<Eigen::Index>(mesh_M.vertexCount());
-  return fit(verticesOf(mesh_M), Eigen::Map<const Eigen::Matrix3Xf>(positions_M.data(), 3, count).cast<double>());
+  return fit(mesh_M, [&](size_t i) -> Eigen::Vector3d {
+    return Eigen::Map<const Eigen::Vector3f>(&positions_M[3 * i]).cast<double>();
+  });
 }
 
 RigidFit rigidFit(const TriangleMesh& mesh_M, const TriangleMesh& moved_M) {
-  return fit(verticesOf(mesh_M), verticesOf(moved_M));
+  assert(moved_M.vertexCount() == mesh_M.vertexCount());
+  return fit(mesh_M, [&](size_t i) { return moved_M.vertex(i); });
 }
 
 bool sameTriangles(const TriangleMesh& a, const TriangleMesh& b) {

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "ros/gate.h"
 #include "ros/threads/thread_top.h"
+#include "ros/topic_refusals.h"
 #include "ros/wire.h"
 #include "sweep_guard/common/error.h"
 
@@ -41,11 +41,17 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
   using Base = ros::SubscriptionCallbackHelperT<const ros::MessageEvent<const Msg>&>;
   using Refused = std::function<void(const std::string&)>;
 
-  BoundedMessages(typename Base::Callback callback, Refused refused, size_t max_size)
-      : Base(std::move(callback), kCreate), refused_(std::move(refused)), max_size_(max_size) {}
+  /// @param topic    resolved name
+  /// @param refused  called with the reason of each refusal, also where another subscription of this process refused the
+  ///                 message
+  BoundedMessages(const std::string& topic, typename Base::Callback callback, Refused refused, size_t max_size)
+      : Base(std::move(callback), kCreate),
+        refusals_(TopicRefusals::of(topic)),
+        refused_(refusals_->add(std::move(refused))),
+        max_size_(max_size) {}
 
-  /// Reports no more refusals.
-  void close() { refused_.close(); }
+  /// Is told of no more refusals.
+  void close() { refused_->close(); }
 
   /// Returns null for a refused message, which roscpp then leaves out.
   ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& message) override {
@@ -55,7 +61,7 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
     } catch (const std::bad_alloc& error) {
       ThreadTop::reportFailure(error.what());
     } catch (const std::exception& error) {
-      refused_.pass(error.what());
+      refusals_->pass(error.what());
     }
     return {};
   }
@@ -72,7 +78,8 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
   // Base's default; a temporary copies a buffer that is not initialized, and GCC 14 says so.
   inline static const typename Base::CreateFunction kCreate = ros::DefaultMessageCreator<Msg>();
 
-  Gate<const std::string&> refused_;
+  const std::shared_ptr<TopicRefusals> refusals_;
+  const std::shared_ptr<TopicRefusals::Report> refused_;
   const size_t max_size_;
 };
 
@@ -88,7 +95,8 @@ class BoundedSubscriber : public ros::Subscriber {
   std::shared_ptr<void> closing_;
 };
 
-/// Subscribes to messages whose lengths are checked before memory is reserved for them.
+/// Subscribes to messages whose lengths are checked before memory is reserved for them. All subscriptions of a process to a
+/// topic receive the same message, which the first of them reads and may refuse, by its own limit.
 /// @param refused  called in place of `callback` with the reason. Any thread
 template <typename Msg>
 BoundedSubscriber subscribeBounded(ros::NodeHandle node, const BoundedSubscription& subscription,
@@ -96,8 +104,8 @@ BoundedSubscriber subscribeBounded(ros::NodeHandle node, const BoundedSubscripti
                                    typename BoundedMessages<Msg>::Refused refused) {
   ros::SubscribeOptions options(subscription.topic, subscription.queue_length, ros::message_traits::md5sum<Msg>(),
                                 ros::message_traits::datatype<Msg>());
-  const auto helper =
-      boost::make_shared<BoundedMessages<Msg>>(std::move(callback), std::move(refused), subscription.max_size);
+  const auto helper = boost::make_shared<BoundedMessages<Msg>>(
+      node.resolveName(subscription.topic), std::move(callback), std::move(refused), subscription.max_size);
   options.helper = helper;
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   return {node.subscribe(options), std::shared_ptr<void>(nullptr, [helper](void*) { helper->close(); })};

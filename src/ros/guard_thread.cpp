@@ -82,7 +82,7 @@ void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   }
   sweep_guard_core::GuardChange change = changeTo(*next, *before);
   std::optional<ToolShapes> shapes;
-  if (!change.bodies.empty()) shapes.emplace(*next);
+  if (!change.bodies.empty()) shapes = dependencies_.make_shapes(*next);
   const auto exchange = [&, tested = change.detector != nullptr] {
     guard_.exchange(change);
     if (shapes) tool_.setTool(*next, *shapes);
@@ -151,7 +151,7 @@ void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
   change.options = next->guard;
   change.bodies = *next->bodies;
   change.robot = articulatedRobot(*next);
-  ToolShapes shapes(*next);
+  ToolShapes shapes = dependencies_.make_shapes(*next);
   const auto exchange = [&] {
     if (dependencies_.parameters.get() != before) throw Error("parameters have changed meanwhile: ask again");
     change_store();
@@ -387,6 +387,7 @@ void GuardThread::predict() {
   dependencies_.monitor.predicted(*prediction, from, checkpoint, now(), took);
   dependencies_.warnings.publishIfChanged();
   sweep_guard_core::beat();
+  if (!dependencies_.monitor.counts(checkpoint)) return;  // another epoch has begun meanwhile
   results_.publish(*prediction, age);
 
   const Duration considered = dependencies_.parameters.get()->limits.considered;
@@ -395,7 +396,6 @@ void GuardThread::predict() {
                                       prediction->probability(PredictionInterval::kConsidered, age + considered)});
   reportFailures(prediction->failures);
   if (acknowledgements_.endWhereFar(workpieces, checkpoint_.epoch)) dependencies_.warnings.publishIfChanged();
-  if (!dependencies_.monitor.counts(checkpoint)) return;  // poses of another epoch were swept meanwhile
   dependencies_.scene.predicted(pose, prediction);
   tool_.bodies.predicted(pose, *prediction);
 }

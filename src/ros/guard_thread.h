@@ -46,6 +46,9 @@ struct GuardThreadDependencies {
   const sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of other tools
   std::function<std::unique_ptr<sweep_guard_core::Detector>(const Parameters&)> make_detector =
       [](const Parameters& wanted) { return makeDetector(wanted.detector.name, wanted.detector.options); };
+  std::function<ToolShapes(const Parameters&)> make_shapes = [](const Parameters& wanted) {
+    return ToolShapes(wanted);
+  };
 };
 
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the

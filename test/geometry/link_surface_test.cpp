@@ -36,6 +36,23 @@ double lackOf(const ConvexShape& shape_B) {
   return lack + 1e-5;
 }
 
+void expectHolds(const LinkSurface& surface, const ConvexShape& shape_B) {
+  for (const auto& [a, b, c] : surface.triangles) {
+    const Eigen::Vector3d& p = surface.vertices_B[a];
+    const Eigen::Vector3d normal = (surface.vertices_B[b] - p).cross(surface.vertices_B[c] - p).normalized();
+    EXPECT_LE(shape_B.support(normal), normal.dot(p) + 1e-12) << "no point of the link is in front of a face";
+  }
+}
+
+void expectLittleElse(const LinkSurface& surface, const ConvexShape& shape_B, Random& random) {
+  double farthest = 0.0;
+  for (int d = 0; d < 500; ++d) {
+    const Eigen::Vector3d direction = random.direction();
+    farthest = std::max(farthest, supportOf(surface, direction) - shape_B.support(direction));
+  }
+  EXPECT_LE(farthest, 1.3 * lackOf(shape_B));
+}
+
 TEST(LinkSurfaceTest, HoldsTheLinkAndLittleElse) {
   Random random(5);
   for (int i = 0; i < 10; ++i) {
@@ -44,20 +61,24 @@ TEST(LinkSurfaceTest, HoldsTheLinkAndLittleElse) {
       const ConvexShape shape_B = shape.padded(padding).placed(random.pose(random.inBox({1.0, 1.0, 1.0})));
       const std::vector<LinkSurface> surfaces = linkSurfaces(Tool(shape_B));
       ASSERT_EQ(surfaces.size(), 1U);
-      for (const auto& [a, b, c] : surfaces[0].triangles) {
-        const Eigen::Vector3d& p = surfaces[0].vertices_B[a];
-        const Eigen::Vector3d normal =
-            (surfaces[0].vertices_B[b] - p).cross(surfaces[0].vertices_B[c] - p).normalized();
-        EXPECT_LE(shape_B.support(normal), normal.dot(p) + 1e-12) << "no point of the link is in front of a face";
-      }
-      double farthest = 0.0;
-      for (int d = 0; d < 500; ++d) {
-        const Eigen::Vector3d direction = random.direction();
-        farthest = std::max(farthest, supportOf(surfaces[0], direction) - shape_B.support(direction));
-      }
-      EXPECT_LE(farthest, 1.3 * lackOf(shape_B));
+      expectHolds(surfaces[0], shape_B);
+      expectLittleElse(surfaces[0], shape_B, random);
     }
   }
+}
+
+// As of a ball that the tool carries.
+TEST(LinkSurfaceTest, HoldsALinkOfThousandsOfCornersAndLittleElse) {
+  Random random(8);
+  const TriangleMesh waves = wavyHull(/*rings=*/50, /*sectors=*/50, 0.0);
+  std::vector<Eigen::Vector3d> on_ball;
+  for (size_t i = 0; i < waves.vertexCount(); ++i) on_ball.emplace_back(0.05 * waves.vertex(i).normalized());
+  const ConvexShape shape_B = ConvexShape::hull(on_ball).padded(0.001);
+  ASSERT_EQ(shape_B.mesh_T().vertexCount(), on_ball.size());
+  const LinkSurface surface = linkSurfaces(Tool(shape_B))[0];
+  expectHolds(surface, shape_B);
+  expectLittleElse(surface, shape_B, random);
+  EXPECT_TRUE(TriangleMesh(surface.vertices_B, surface.triangles).closed());
 }
 
 TEST(LinkSurfaceTest, IsClosed) {

@@ -7,6 +7,7 @@
 #include "common/pool.h"
 #include "common/xyz.h"
 #include "guard/cross_check.h"
+#include "guard/workpiece_store.h"
 #include "mesh_orders.h"
 #include "monitor/warnings.h"
 #include "scenes.h"
@@ -190,6 +191,22 @@ TEST_P(SteadyStateTest, AllocatesNothingForPosesThatArePassed) {
     }
     cycle(begin + 7, kClear);
   }
+}
+
+TEST(AttachedPayloadTest, ItsVerticesAllocateNothing) {
+  const TriangleMesh payload_M = meshOrderings().back().of(wavyHull(/*rings=*/30, /*sectors=*/40, 0.0));
+  const std::string id = "payload";
+  WorkpieceStore store([](const Workpieces& /*workpieces*/) {});
+  store.set({id, 1, {}, {}, kFrame, payload_M}, {});
+  store.attach(store.snapshot().front(), Eigen::Isometry3d::Identity());
+  const Eigen::Isometry3d X_MM = Random(/*seed=*/1).pose({0.1, 0.2, 0.3});
+  std::vector<float> positions_M;
+  for (size_t i = 0; i < payload_M.vertexCount(); ++i) {
+    for (const double x : xyz(X_MM * payload_M.vertex(i))) positions_M.push_back(static_cast<float>(x));
+  }
+  const Allocations made;
+  EXPECT_EQ(store.deform({id, 1, {}, {}, kFrame, positions_M}, {}), UpdateOutcome::kStored);
+  EXPECT_EQ(made.count(), 0U) << made.stacks();
 }
 
 INSTANTIATE_TEST_SUITE_P(

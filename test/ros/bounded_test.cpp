@@ -533,8 +533,12 @@ class BoundedMessagesTest : public testing::Test {
   }
 
   std::vector<std::string> refusals_;
-  const boost::shared_ptr<BoundedMessages<Msg>> helper_ = boost::make_shared<BoundedMessages<Msg>>(
-      [](const auto& /*event*/) {}, [this](const std::string& reason) { refusals_.push_back(reason); }, kMaxSize);
+  static boost::shared_ptr<BoundedMessages<Msg>> helper(const std::string& topic, std::vector<std::string>& refusals) {
+    return boost::make_shared<BoundedMessages<Msg>>(
+        topic, [](const auto& /*event*/) {}, [&](const std::string& reason) { refusals.push_back(reason); }, kMaxSize);
+  }
+
+  const boost::shared_ptr<BoundedMessages<Msg>> helper_ = helper("/topic", refusals_);
 };
 
 using Topics = testing::Types<geometry_msgs::PoseStamped, sensor_msgs::JointState, tf2_msgs::TFMessage,
@@ -583,6 +587,22 @@ TEST_F(MessageSizeTest, ReportsNothingOnceItIsClosed) {
   helper_->close();
   EXPECT_FALSE(deserialize({}));
   EXPECT_TRUE(refusals_.empty());
+}
+
+// roscpp has the helper of one subscription read for all of the topic, also if that was closed.
+TEST_F(MessageSizeTest, ARefusalIsReportedToEverySubscriptionToTheTopic) {
+  std::vector<std::string> of_another;
+  std::vector<std::string> of_another_topic;
+  const auto another = helper("/topic", of_another);
+  const auto another_topic = helper("/another", of_another_topic);
+  EXPECT_FALSE(deserialize({}));
+  EXPECT_EQ(refusals_.size(), 1U);
+  EXPECT_EQ(of_another, refusals_);
+  helper_->close();
+  EXPECT_FALSE(deserialize({}));
+  EXPECT_EQ(refusals_.size(), 1U);
+  EXPECT_EQ(of_another.size(), 2U);
+  EXPECT_TRUE(of_another_topic.empty());
 }
 
 using CheckSweepSpec = ros::ServiceSpec<sweep_guard::CheckSweepRequest, sweep_guard::CheckSweepResponse>;

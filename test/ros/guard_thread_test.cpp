@@ -2,13 +2,17 @@
 #include "ros/guard_thread.h"
 
 #include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <sweep_guard/Prediction.h>
 
 #include <algorithm>
+#include <future>
 #include <limits>
 #include <thread>
 
 #include "guard/fake_detector.h"
 #include "scenes.h"
+#include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -64,6 +68,8 @@ class GuardThreadTest : public ::testing::Test {
   sweep_guard_core::Time stamp_;
   int pushed_ = 0;
   sweep_guard_core::FakeDetector::Record record_;
+  std::thread::id shapes_made_by_;
+  bool interrupted_ = false;  // a prediction; used by the guard's thread only
   ros::NodeHandle node_ = privateNode();
   LiveParameters parameters_{loadParameters(node_)};
   Supervisor supervisor_{Process::kShared};
@@ -80,7 +86,11 @@ class GuardThreadTest : public ::testing::Test {
       node_,
       {parameters_, workpieces_, monitor_, statistics_, queue_, warnings_, scene_, touches_, sampler_, intentions_,
        /*frame_motions=*/nullptr,
-       [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(record_); }}};
+       [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(record_); },
+       [this](const Parameters& parameters) {
+         shapes_made_by_ = std::this_thread::get_id();
+         return ToolShapes(parameters);
+       }}};
 };
 
 // A pose comes during a prediction, so that another one follows. Two come during that. The first sweep takes longer than a prediction may be held up, so the second pose is left for the time after it.
@@ -153,6 +163,69 @@ TEST_F(GuardThreadTest, LeavesTimeBetweenPredictionsAndPredictsFromTheNewestPose
   EXPECT_TRUE(await([&] { return begun.size() == 2; }));
   EXPECT_GE(begun.at(1) - begun.at(0), 3 * kTook / 2);
   EXPECT_EQ(statistics_.take().sweeps_total, 3U);
+}
+
+// For a payload with many corners that takes longer than a cycle.
+TEST_F(GuardThreadTest, TheSurfaceForOtherGuardsIsMadeByTheThreadThatExchangesTheTool) {
+  const auto before = parameters_.get();
+  guard_thread_.exchangeTool(before, std::make_shared<const Parameters>(*before), [] {});
+  EXPECT_EQ(shapes_made_by_, std::this_thread::get_id());
+  shapes_made_by_ = {};
+  node_.setParam("tool/radius", 0.007);
+  guard_thread_.apply(std::make_shared<const Parameters>(loadParameters(node_)));
+  EXPECT_EQ(shapes_made_by_, std::this_thread::get_id());
+  node_.deleteParam("tool");
+}
+
+// As after ~enable or a jump of time, which wait for no prediction.
+TEST_F(GuardThreadTest, APredictionWhoseEpochEndedMeanwhileIsNotPublished) {
+  std::vector<sweep_guard_core::Time> predicted_from;
+  const ros::Subscriber predictions = node_.subscribe<sweep_guard::Prediction>(
+      "prediction", 0, [&](const auto& prediction) { predicted_from.push_back(fromMsg(prediction->header.stamp)); });
+  push();
+  passTheQueue();
+  record_.asked = [this] {
+    if (interrupted_ || !inPrediction()) return;
+    interrupted_ = true;
+    monitor_.restart();
+  };
+  push();
+  const sweep_guard_core::Time of_ended_epoch = stamp_;
+  ASSERT_TRUE(await([&] { return interrupted_; }));
+  const auto end = now().steady + std::chrono::seconds(20);
+  while ((predicted_from.empty() || predicted_from.back() <= of_ended_epoch) && now().steady < end) {
+    push();
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+  }
+  ASSERT_FALSE(predicted_from.empty());
+  EXPECT_GT(predicted_from.back(), of_ended_epoch);
+  EXPECT_EQ(std::count(predicted_from.begin(), predicted_from.end(), of_ended_epoch), 0);
+}
+
+// A pose of the old tool comes meanwhile, too.
+TEST_F(GuardThreadTest, AfterTheToolIsExchangedNothingIsPredictedFromPosesBefore) {
+  push();
+  passTheQueue();
+  std::uint64_t predictions = 0;
+  std::future<void> exchanged;
+  record_.asked = [&] {
+    if (interrupted_ || !inPrediction()) return;
+    interrupted_ = true;
+    exchanged = std::async(std::launch::async, [&] {
+      const auto before = parameters_.get();
+      guard_thread_.exchangeTool(before, std::make_shared<const Parameters>(*before),
+                                 [&] { predictions = statistics_.take().predictions_total; });
+    });
+    while (!queue_.hasWork()) std::this_thread::yield();
+    push();
+  };
+  push();
+  ASSERT_TRUE(await([&] { return interrupted_; }));
+  exchanged.get();
+  const auto due = now().steady + 2 * parameters_.get()->guard.cycle;
+  ASSERT_TRUE(await([&] { return now().steady > due; }));
+  EXPECT_EQ(statistics_.take().predictions_total, predictions);
+  EXPECT_THROW(guard_thread_.newestPose().get(), sweep_guard_core::Error);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 
 namespace sweep_guard_ros {
 
-/// Converts the surfaces of all bodies, without stamp, run and revision. Takes seconds for thousands of corners.
+/// Converts the surfaces of all bodies, without stamp, run and revision. Takes seconds for ten thousand corners.
 boost::shared_ptr<sweep_guard::ToolSurface> surfaceMsg(const Parameters& parameters);
 
 /// Publishes what the guards of other tools need: `~surface`, and `~bodies` for each pose, at most at 200 Hz, and for each
