@@ -86,8 +86,10 @@ HapticsParameters loadHapticsParameters(const ros::NodeHandle& private_node) {
   readSources(read, parameters);
   readContact(read, parameters.force);
   readDevice(read, parameters);
-  parameters.realtime_priority = read.integer(
-      "realtime_priority", 0, 0, 99, "SCHED_FIFO priority of the thread that sends; 0: that of other threads.");
+  parameters.realtime_priority = read.integer("realtime_priority", 50, 0, 99,
+                                              "Real-time priority (SCHED_FIFO) that the thread that sends asks for. If "
+                                              "the system refuses, it goes on without it, and "
+                                              "the log and the diagnostics say what to set. 0: it asks for none.");
   read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
   parameters.settings = read.settings();
   parameters.described = read.described();
