@@ -210,7 +210,7 @@ std::future<std::unique_ptr<sweep_guard_core::Profile>> GuardThread::profile() {
 void GuardThread::setPriority() const {
   const int priority = dependencies_.parameters.initial().realtime_priority;
   if (priority == 0) return;
-  const std::string refusal = requestRealTime(priority);
+  const std::string refusal = requestRealTime(priority, "timing/realtime_priority");
   if (!refusal.empty()) ROS_WARN("%s", refusal.c_str());
 }
 

@@ -7,12 +7,14 @@
 #include <ros/network.h>
 #include <ros/xmlrpc_manager.h>
 #include <sched.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -22,7 +24,20 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr size_t kHeadroom = 256;  // [MiB]
+constexpr size_t kHeadroom = 256;                 // [MiB]
+constexpr std::uint64_t kShortestSlice = 100000;  // [ns]
+
+// As in linux/sched/types.h, which clashes with sched.h on older systems.
+struct SchedulingAttributes {
+  std::uint32_t size;
+  std::uint32_t policy;
+  std::uint64_t flags;
+  std::int32_t nice;
+  std::uint32_t priority;
+  std::uint64_t runtime;  // of SCHED_OTHER: the time slice [ns]
+  std::uint64_t deadline;
+  std::uint64_t period;
+};
 
 [[maybe_unused]] size_t addressSpace() {  // [MiB]
   std::ifstream statm("/proc/self/statm");
@@ -59,14 +74,30 @@ void keepToLoopback() {
 }
 
 // SCHED_RESET_ON_FORK: threads started by this one do not inherit the priority.
-std::string requestRealTime(int priority) {
+std::string requestRealTime(int priority, const std::string& parameter) {
   sched_param parameters{};
   parameters.sched_priority = priority;
   const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
   if (error == 0) return {};
   return "real-time priority " + std::to_string(priority) + " is refused: " + std::generic_category().message(error) +
          ". Allow it with the line 'USER - rtprio " + std::to_string(priority) +
-         "' in /etc/security/limits.conf and a new login, or set timing/realtime_priority to 0";
+         "' in /etc/security/limits.conf and a new login, or set " + parameter + " to 0";
+}
+
+void limitRealTime(sweep_guard_core::Duration longest) {
+  rlimit limit{};
+  getrlimit(RLIMIT_RTTIME, &limit);
+  const auto microseconds = std::chrono::duration_cast<std::chrono::microseconds>(longest).count();
+  limit.rlim_cur = std::min(limit.rlim_cur, static_cast<rlim_t>(microseconds));
+  setrlimit(RLIMIT_RTTIME, &limit);
+}
+
+void setPrompt() {
+  prctl(PR_SET_TIMERSLACK, 1UL);  // [ns]
+  SchedulingAttributes attributes{};
+  if (syscall(SYS_sched_getattr, 0, &attributes, sizeof attributes, 0) != 0) return;
+  attributes.runtime = kShortestSlice;
+  syscall(SYS_sched_setattr, 0, &attributes, 0);
 }
 
 void setIdle() {

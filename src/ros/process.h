@@ -3,12 +3,23 @@
 #include <cstddef>
 #include <string>
 
+#include "sweep_guard/common/time.h"
+
 namespace sweep_guard_ros {
 
 /// Gives the calling thread a real-time priority (SCHED_FIFO).
-/// @param priority  1 to 99
+/// @param priority   1 to 99
+/// @param parameter  that it was set by
 /// @returns the reason of a refusal, and what to set; empty if granted
-std::string requestRealTime(int priority);
+std::string requestRealTime(int priority, const std::string& parameter);
+
+/// Ends the process by SIGXCPU once a thread with a real-time priority has taken so much processor time without a pause: it
+/// would keep others from running. For programs whose process is their own.
+void limitRealTime(sweep_guard_core::Duration longest);
+
+/// Lets the calling thread run sooner after it wakes up, without any privilege: its timers have no slack, and its time slice
+/// is the shortest there is. From Linux 6.12 on it preempts threads whose slices are longer; before, slices are all alike.
+void setPrompt();
 
 /// Lets the XML-RPC server of roscpp, which listens on every interface, answer on the loopback interface alone if
 /// ROS_IP or ROS_HOSTNAME is there. Call it when the first node handle exists. Logs a failure.

@@ -65,10 +65,12 @@ class HapticsNodeTest : public testing::Test {
   }
   WrenchStamped press() { return press(forces_); }
 
-  void awaitDiagnosis(const std::string& name, int level, const std::string& text) {
+  // Of a level, or of any.
+  void awaitDiagnosis(const std::string& name, std::optional<int> level, const std::string& text) {
     diagnostics_.await(text, [&](const DiagnosticArray& array) {
       for (const auto& status : array.status) {
-        if (has(status.name, name) && status.level == level && has(status.message, text)) return true;
+        if (has(status.name, name) && status.level == level.value_or(status.level) && has(status.message, text))
+          return true;
       }
       return false;
     });
@@ -139,6 +141,12 @@ TEST_F(HapticsNodeTest, ParametersThatDoNotFitTogetherEndItWithStatusTwo) {
 TEST_F(HapticsNodeTest, ASecondPublisherOfTheForceIsAnErrorInTheDiagnostics) {
   const ros::Publisher second = node_.advertise<WrenchStamped>("/haptics/servo_cf", 1);
   awaitDiagnosis("haptics: output", diagnostic_msgs::DiagnosticStatus::ERROR, "past the guard");
+}
+
+TEST_F(HapticsNodeTest, WithoutARealTimePriorityItSendsAndSaysWhatToSet) {
+  const Listener<WrenchStamped> forces("/refused/servo_cf");
+  forces.next();
+  awaitDiagnosis("refused/haptics: output", {}, "'USER - rtprio 50' in /etc/security/limits.conf");
 }
 
 // The device would repeat the last force.

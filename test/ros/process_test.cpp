@@ -4,7 +4,9 @@
 #include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,7 +34,7 @@ struct Asked {
 Asked ask(int priority) {
   Asked asked;
   std::thread([&] {
-    asked.refusal = requestRealTime(priority);
+    asked.refusal = requestRealTime(priority, "timing/realtime_priority");
     sched_param parameters{};
     pthread_getschedparam(pthread_self(), &asked.policy, &parameters);
     asked.policy &= ~SCHED_RESET_ON_FORK;
@@ -66,6 +68,35 @@ TEST(RequestRealTimeTest, ConcernsOnlyTheCallingThread) {
   int policy = 0;
   pthread_getschedparam(pthread_self(), &policy, &parameters);
   EXPECT_EQ(policy, SCHED_OTHER);
+}
+
+// In a process of its own: a thread that never rests ends it.
+TEST(LimitRealTimeDeathTest, EndsAProcessThatAHungRealTimeThreadWouldHoldUp) {
+  if (!ask(10).refusal.empty()) GTEST_SKIP() << "real-time priorities are refused";
+  const auto hang = [] {
+    limitRealTime(std::chrono::milliseconds(20));
+    requestRealTime(10, "timing/realtime_priority");
+    for (volatile int spins = 0;; spins = spins + 1) {
+    }
+  };
+  EXPECT_EXIT(hang(), testing::KilledBySignal(SIGXCPU), "");
+}
+
+TEST(SetPromptTest, TakesTheSlackOfTimersFromTheCallingThreadAlone) {
+  int slack = 0;
+  int policy = -1;
+  int nice = 0;
+  std::thread([&] {
+    setNice(3);
+    setPrompt();
+    slack = prctl(PR_GET_TIMERSLACK);
+    policy = sched_getscheduler(0);
+    nice = getpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)));
+  }).join();
+  EXPECT_EQ(slack, 1);
+  EXPECT_EQ(policy, SCHED_OTHER);
+  EXPECT_EQ(nice, 3);
+  EXPECT_GT(prctl(PR_GET_TIMERSLACK), 1);
 }
 
 rlim_t addressSpaceLimit() {

@@ -1,6 +1,7 @@
 #include "ros/threads/timer_thread.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <future>
@@ -72,6 +73,46 @@ TEST_F(TimerThreadTest, DoesNotMakeUpForLateCalls) {
   while (count < 3) std::this_thread::sleep_for(1ms);
   std::this_thread::sleep_for(30ms);
   EXPECT_LE(count, 10);
+}
+
+long pausesOfThisThread() {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_nvcsw;
+}
+
+// With a real-time priority it would keep all others from running.
+TEST_F(TimerThreadTest, RestsBetweenCallsThatAreAlwaysLate) {
+  Calls calls(10);
+  long before = -1;
+  int without_pause = 0;
+  TimerThread thread;
+  thread.every(100us, [&] {
+    const long pauses = pausesOfThisThread();
+    without_pause += pauses == before ? 1 : 0;
+    before = pauses;
+    for (const SteadyTime begin = now(); now() - begin < 1ms;) {
+    }
+    calls.count();
+  });
+  thread.start(supervisor_, {"timers"});
+  calls.await();
+  thread.stop();
+  EXPECT_EQ(without_pause, 0);
+}
+
+TEST_F(TimerThreadTest, PreparesItselfBeforeTheFirstCallAndGoesOnIfThatFails) {
+  std::atomic<bool> prepared = false;
+  std::promise<bool> called;
+  TimerThread thread;
+  thread.every(1ms, [&, first = true]() mutable {
+    if (std::exchange(first, false)) called.set_value(prepared);
+  });
+  thread.start(supervisor_, {"timers"}, [&] {
+    prepared = true;
+    throw std::bad_alloc();
+  });
+  EXPECT_TRUE(called.get_future().get());
 }
 
 TEST_F(TimerThreadTest, ANewPeriodCountsFromTheNextCallOn) {

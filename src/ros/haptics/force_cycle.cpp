@@ -1,12 +1,7 @@
 #include "ros/haptics/force_cycle.h"
 
-#include <geometry_msgs/WrenchStamped.h>
-#include <ros/console.h>
-
 #include <boost/make_shared.hpp>
 
-#include "ros/motion/command_frames.h"
-#include "ros/process.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
@@ -26,11 +21,6 @@ ForceCycle::ForceCycle(ros::NodeHandle node, const HapticsParameters& parameters
 void ForceCycle::tick() {
   const std::lock_guard lock(mutex_);
   if (stopped_) return;
-  if (!real_time_ && parameters_.realtime_priority > 0) {
-    const std::string refused = requestRealTime(parameters_.realtime_priority);
-    if (!refused.empty()) ROS_WARN("realtime_priority has no effect: %s", refused.c_str());
-  }
-  real_time_ = true;
   const Instant at = now();
   ticks_.tick(at.steady);
   state_.sent = wrenchAt(at);
@@ -48,19 +38,19 @@ ForceCycle::State ForceCycle::state() const {
   State state = state_;
   state.energy = device_.energy();
   state.tolerance = device_.tolerance();
+  state.turn_energy = device_.turnEnergy();
+  state.turn_tolerance = device_.turnTolerance();
   return state;
 }
 
 DeviceWrench ForceCycle::wrenchAt(const Instant& at) {
   ForceInputs inputs;
-  inputs.known = sources_.guard.newest().inputs;
+  inputs.known = sources_.guard.inputs();
   inputs.known.pose = sources_.tool.newest();
-  try {
-    inputs.R_WD = newestPose(sources_.frames, parameters_.guard.fixed_frame, parameters_.device_frame).linear();
-    state_.problem.clear();
-  } catch (const FrameError& error) {
-    state_.problem = error.what();
-    log_.error("", "device_frame: " + state_.problem);
+  const std::optional<Eigen::Matrix3d> R_WD = sources_.axes.newest(at.stamp);
+  if (R_WD) {
+    inputs.R_WD = *R_WD;
+  } else {
     inputs.known.warning.reset();
   }
   observe(inputs, at);
@@ -83,12 +73,14 @@ void ForceCycle::observe(const ForceInputs& inputs, const Instant& at) {
 }
 
 void ForceCycle::publish(const DeviceWrench& wrench) {
-  const auto msg = boost::make_shared<geometry_msgs::WrenchStamped>();
-  msg->header.stamp = ros::Time::now();
-  msg->header.frame_id = parameters_.device_frame;
-  msg->wrench.force = vectorMsg<geometry_msgs::Vector3>(wrench.force_D);
-  msg->wrench.torque = vectorMsg<geometry_msgs::Vector3>(wrench.torque_D);
-  publisher_.publish(msg);
+  if (!message_.unique()) {  // a nodelet keeps it
+    message_ = boost::make_shared<geometry_msgs::WrenchStamped>();
+    message_->header.frame_id = parameters_.device_frame;
+  }
+  message_->header.stamp = ros::Time::now();
+  message_->wrench.force = vectorMsg<geometry_msgs::Vector3>(wrench.force_D);
+  message_->wrench.torque = vectorMsg<geometry_msgs::Vector3>(wrench.torque_D);
+  publisher_.publish(message_);
 }
 
 }  // namespace sweep_guard_ros

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <geometry_msgs/WrenchStamped.h>
 #include <ros/node_handle.h>
 
 #include <mutex>
 #include <string>
 
+#include "ros/haptics/device_axes.h"
 #include "ros/haptics/haptics_parameters.h"
 #include "ros/haptics/tick_record.h"
-#include "ros/log_throttle.h"
 #include "ros/motion/guard_input.h"
 #include "ros/motion/tool_pose_input.h"
 #include "sweep_guard/common/priority_mutex.h"
@@ -18,10 +19,12 @@ struct ForceCycleSources {
   const GuardInput& guard;
   const ToolPoseInput& tool;
   const ToolPoseInput* device;  ///< null: the pose of the tool stands for it
-  const Frames& frames;
+  const DeviceAxes& axes;
 };
 
-/// Computes the force of the surfaces at each tick and publishes it on `servo_cf`: zero where nothing is known.
+/// Computes the force of the surfaces at each tick and publishes it on `servo_cf`: zero where nothing is known. A tick waits
+/// for no thread without its priority but in roscpp, and allocates nothing but there, and a message while a nodelet keeps
+/// the one before.
 class ForceCycle {
  public:
   static constexpr sweep_guard_core::Duration kPeriod = std::chrono::milliseconds(1);
@@ -35,9 +38,10 @@ class ForceCycle {
   struct State {
     sweep_guard_core::RenderedForce rendered;
     sweep_guard_core::DeviceWrench sent;
-    double energy = 0.0;     ///< that an axis of the device gave at most [J]
-    double tolerance = 0.0;  ///< [J]
-    std::string problem;     ///< with the frame of the device; empty: none
+    double energy = 0.0;          ///< that an axis of translation of the device gave at most [J]
+    double tolerance = 0.0;       ///< [J]
+    double turn_energy = 0.0;     ///< that an axis of rotation gave at most [J]
+    double turn_tolerance = 0.0;  ///< [J]; 0: there is no torque
   };
   State state() const;
   const TickRecord& ticks() const { return ticks_; }
@@ -52,13 +56,12 @@ class ForceCycle {
   const HapticsParameters& parameters_;
   const ForceCycleSources sources_;
   TickRecord ticks_;
-  LogThrottle log_;
   mutable sweep_guard_core::PriorityMutex mutex_;  // of what follows
   sweep_guard_core::ForceRenderer renderer_;
   sweep_guard_core::PassiveDevice device_;
   State state_;
-  bool real_time_ = false;
   bool stopped_ = false;
+  boost::shared_ptr<geometry_msgs::WrenchStamped> message_;  // null, or what was published last
   ros::Publisher publisher_;
 };
 

@@ -10,6 +10,11 @@ using sweep_guard_core::toSeconds;
 
 constexpr double kMaxJitter = 2e-4;  // p99 [s]
 
+// Whatever the level: mergeSummary() drops what is said beside OK.
+void addRemark(const std::string& remark, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  status.message += "; " + remark;
+}
+
 }  // namespace
 
 HapticsDiagnostics::HapticsDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
@@ -24,14 +29,18 @@ HapticsDiagnostics::HapticsDiagnostics(const ros::NodeHandle& node, const ros::N
   updater_.add("device pose", [this](Status& status) { reportPose(*sources_.device, "pose of the device", status); });
 }
 
-void HapticsDiagnostics::force(Status& status) const {
+void HapticsDiagnostics::force(Status& status) {
   const ForceCycle::State state = sources_.cycle.state();
   const sweep_guard_core::RenderedForce& rendered = state.rendered;
   const bool whole = rendered.permission.gain >= 1.0;
   status.summary(whole ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                  whole ? "sent" : std::string("zero: ") + textOf(rendered.permission.cause));
-  if (rendered.stiffness_gain < 1.0) status.mergeSummary(DiagnosticStatus::OK, "softer, for the delay");
-  if (!state.problem.empty()) status.mergeSummary(DiagnosticStatus::ERROR, "device_frame: " + state.problem);
+  if (rendered.stiffness_gain < 1.0) addRemark("softer, for the delay", status);
+  const std::string problem = sources_.axes.problem();
+  if (!problem.empty()) {
+    status.mergeSummary(DiagnosticStatus::ERROR, "device_frame: " + problem);
+    log_.error("", "device_frame: " + problem);
+  }
   status.addf("force [N]", "%.3f", state.sent.force_D.norm());
   status.addf("torque [N m]", "%.4f", state.sent.torque_D.norm());
   status.addf("depth [m]", "%.5f", rendered.depth);
@@ -39,6 +48,9 @@ void HapticsDiagnostics::force(Status& status) const {
   status.addf("share of the stiffness", "%.3f", rendered.stiffness_gain);
   status.addf("energy given by an axis, at most [J]", "%.6f", state.energy);
   status.addf("tolerance [J]", "%.6f", state.tolerance);
+  if (!(state.turn_tolerance > 0.0)) return;
+  status.addf("energy given about an axis, at most [J]", "%.6f", state.turn_energy);
+  status.addf("tolerance about an axis [J]", "%.6f", state.turn_tolerance);
 }
 
 void HapticsDiagnostics::output(Status& status) const {
@@ -46,6 +58,8 @@ void HapticsDiagnostics::output(Status& status) const {
   reportOutput(sources_.output, {sources_.cycle.topic(), sources_.cycle.subscribers(), "haptics", "nothing is felt"},
                status);
   if (ticks.p99 > kMaxJitter) status.mergeSummary(DiagnosticStatus::WARN, "late: the processor is busy");
+  const std::string refusal = sources_.priority.refusal();
+  if (!refusal.empty()) addRemark(refusal, status);
   status.addf("jitter p99 [ms]", "%.3f", 1e3 * ticks.p99);
   status.addf("jitter, largest [ms]", "%.3f", 1e3 * ticks.largest);
 }

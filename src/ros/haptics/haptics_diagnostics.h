@@ -3,12 +3,16 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 
 #include "ros/haptics/force_cycle.h"
+#include "ros/log_throttle.h"
 #include "ros/motion/output_watch.h"
+#include "ros/threads/real_time_request.h"
 
 namespace sweep_guard_ros {
 
 struct HapticsDiagnosticsSources {
   const ForceCycle& cycle;
+  const DeviceAxes& axes;
+  const RealTimeRequest& priority;
   const GuardInput& guard;
   const ToolPoseInput& tool;
   const ToolPoseInput* device;  ///< null: the pose of the tool stands for it
@@ -27,10 +31,11 @@ class HapticsDiagnostics {
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-  void force(Status& status) const;
+  void force(Status& status);
   void output(Status& status) const;
 
   const HapticsDiagnosticsSources sources_;
+  LogThrottle log_;
   diagnostic_updater::Updater updater_;
 };
 

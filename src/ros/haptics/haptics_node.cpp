@@ -20,12 +20,15 @@ HapticsNode::HapticsNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
       supervisor_(process),
       frames_(node, kMaxTransforms, [](const std::string& /*parent*/, const std::string& /*child*/) {}),
       guard_(node, parameters_.guard),
-      tool_pose_(node, parameters_.tool, frames_) {
+      tool_pose_(node, parameters_.tool, frames_),
+      axes_(frames_, parameters_.guard.fixed_frame, parameters_.device_frame),
+      priority_(parameters_.realtime_priority, "realtime_priority") {
   if (parameters_.device_tells_pose) device_pose_.emplace(node, parameters_.device(), frames_);
-  cycle_.emplace(node, parameters_, ForceCycleSources{guard_, tool_pose_, device(), frames_});
+  cycle_.emplace(node, parameters_, ForceCycleSources{guard_, tool_pose_, device(), axes_});
   output_watch_.emplace(cycle_->topic());
-  diagnostics_.emplace(node, private_node,
-                       HapticsDiagnosticsSources{*cycle_, guard_, tool_pose_, device(), *output_watch_});
+  diagnostics_.emplace(
+      node, private_node,
+      HapticsDiagnosticsSources{*cycle_, axes_, priority_, guard_, tool_pose_, device(), *output_watch_});
   forces_.every(ForceCycle::kPeriod, [this] { cycle_->tick(); });
   reports_.every(kClockPeriod, [this] { frames_.checkClock(); });
   reports_.every(kDiagnosticsPeriod, [this] { diagnostics_->publish(); });
@@ -37,7 +40,7 @@ void HapticsNode::start() {
   guard_.start(supervisor_);
   tool_pose_.start(supervisor_);
   if (device_pose_) device_pose_->start(supervisor_, "device poses");
-  forces_.start(supervisor_, {"forces", sweep_guard_core::Stage::kPublish});
+  forces_.start(supervisor_, {"forces", sweep_guard_core::Stage::kPublish}, [this] { priority_.make(); });
   reports_.start(supervisor_, {"reports", sweep_guard_core::Stage::kPublish});
   output_watch_->start(supervisor_);
   master_watch_.start(supervisor_);

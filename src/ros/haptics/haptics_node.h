@@ -6,6 +6,7 @@
 #include "ros/haptics/haptics_diagnostics.h"
 #include "ros/input/frames.h"
 #include "ros/master_watch.h"
+#include "ros/threads/real_time_request.h"
 #include "ros/threads/supervisor.h"
 #include "ros/threads/timer_thread.h"
 
@@ -34,6 +35,8 @@ class HapticsNode {
   GuardInput guard_;
   ToolPoseInput tool_pose_;
   std::optional<ToolPoseInput> device_pose_;
+  DeviceAxes axes_;
+  RealTimeRequest priority_;
   std::optional<ForceCycle> cycle_;
   std::optional<OutputWatch> output_watch_;
   std::optional<HapticsDiagnostics> diagnostics_;

@@ -62,6 +62,8 @@ void readDevice(ParameterReader& read, HapticsParameters& parameters) {
       read.number("device_damping", force.device_damping, {1e-3, 1e3, "N s/m"},
                   "Damping of the device and the hand that holds it, which bounds the stiffness. Above "
                   "damping + cue/damping, times force_scale and position_scale.");
+  force.device_turn_damping = read.number("device_turn_damping", force.device_turn_damping, {1e-6, 10.0, "N m s/rad"},
+                                          "The same about any axis: it bounds the stiffness where there is torque.");
   parameters.hand.max_speed = read.number(
       "max_speed", parameters.hand.max_speed, {1e-2, 10.0, "m/s"},
       "Speed of the hand along any axis that the passivity controller counts on. Lower values leave more of "
@@ -86,8 +88,10 @@ HapticsParameters loadHapticsParameters(const ros::NodeHandle& private_node) {
   readSources(read, parameters);
   readContact(read, parameters.force);
   readDevice(read, parameters);
-  parameters.realtime_priority = read.integer(
-      "realtime_priority", 0, 0, 99, "SCHED_FIFO priority of the thread that sends; 0: that of other threads.");
+  parameters.realtime_priority = read.integer("realtime_priority", 50, 0, 99,
+                                              "Real-time priority (SCHED_FIFO) that the thread that sends asks for. If "
+                                              "the system refuses, it goes on without it, and "
+                                              "the log and the diagnostics say what to set. 0: it asks for none.");
   read.number("diagnostic_period", 1.0, {0.0, kInfinity});  // set by diagnostic_updater
   parameters.settings = read.settings();
   parameters.described = read.described();

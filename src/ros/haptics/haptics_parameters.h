@@ -21,7 +21,7 @@ struct HapticsParameters {
   bool device_tells_pose;  ///< on `device_pose`; false: the pose of the tool stands for it
   sweep_guard_core::ForceOptions force;
   sweep_guard_core::PassiveDevice::Options hand;
-  int realtime_priority;                 ///< of the thread that sends; 0: as others
+  int realtime_priority;                 ///< that the thread that sends asks for; 0: none
   ParameterReader::Settings settings;    ///< as read
   std::vector<ParameterInfo> described;  ///< always the same keys in the same order
 

@@ -32,6 +32,7 @@ class TickRecord {
 
   Summary summary() const {
     std::vector<double> jitter;
+    jitter.reserve(kTicks);
     {
       const std::lock_guard lock(mutex_);
       jitter.assign(jitter_.begin(), jitter_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kTicks)));

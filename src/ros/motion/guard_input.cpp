@@ -26,20 +26,19 @@ Eigen::Vector3d fromXyz(const Msg& msg) {
   return {msg.x, msg.y, msg.z};
 }
 
-std::shared_ptr<const PlaneSet> planesFrom(const sweep_guard::Proximity& msg, sweep_guard_core::SteadyTime received) {
+void readPlanes(const sweep_guard::Proximity& msg, sweep_guard_core::SteadyTime received, PlaneSet& planes) {
   if (msg.planes.size() > kMaxPlanes) throw InvalidInput("there are more than 64 planes");
-  auto planes = std::make_shared<PlaneSet>();
-  planes->timestamps = {fromMsg(msg.header.stamp), received};
-  planes->valid_until = fromMsg(msg.valid_until);
-  planes->X_WT = fromMsg(msg.tool_pose);
-  planes->complete = msg.valid;
-  planes->tool_revision = msg.tool_revision;
-  planes->uncovered = {msg.uncovered_distance, msg.uncovered_speed};
+  planes.timestamps = {fromMsg(msg.header.stamp), received};
+  planes.valid_until = fromMsg(msg.valid_until);
+  planes.X_WT = fromMsg(msg.tool_pose);
+  planes.complete = msg.valid;
+  planes.tool_revision = msg.tool_revision;
+  planes.uncovered = {msg.uncovered_distance, msg.uncovered_speed};
+  planes.planes.clear();
   for (const sweep_guard::SeparatingPlane& plane : msg.planes) {
-    planes->planes.push_back({plane.piece, fromXyz(plane.normal), fromXyz(plane.point), plane.gap, plane.speed});
+    planes.planes.push_back({plane.piece, fromXyz(plane.normal), fromXyz(plane.point), plane.gap, plane.speed});
   }
-  requireUsable(*planes);
-  return planes;
+  requireUsable(planes);
 }
 
 std::shared_ptr<const sweep_guard_core::ToolBalls> toolFrom(const sweep_guard::ToolBalls& msg) {
@@ -88,6 +87,11 @@ GuardInput::Newest GuardInput::newest() const {
   return newest_;
 }
 
+sweep_guard_core::MotionInputs GuardInput::inputs() const {
+  const std::lock_guard lock(mutex_);
+  return newest_.inputs;
+}
+
 std::array<GuardInput::Source, 3> GuardInput::sources() const {
   return {{{planes_.getTopic(), planes_.getNumPublishers(), planes_record_.summary()},
            {tool_.getTopic(), tool_.getNumPublishers(), tool_record_.summary()},
@@ -95,13 +99,14 @@ std::array<GuardInput::Source, 3> GuardInput::sources() const {
 }
 
 void GuardInput::acceptPlanes(const ros::MessageEvent<const sweep_guard::Proximity>& event) {
-  const sweep_guard::Proximity::ConstPtr msg = event.getConstMessage();
+  sweep_guard::Proximity::ConstPtr msg = event.getConstMessage();
   checkFrame(msg->header.frame_id, fixed_frame_);
-  auto planes = planesFrom(*msg, std::chrono::steady_clock::now());
+  const auto planes = plane_sets_.take();
+  readPlanes(*msg, std::chrono::steady_clock::now(), *planes);
   checkStamp(planes->timestamps);
   const std::lock_guard lock(mutex_);
-  newest_.inputs.planes.swap(planes);
-  newest_.planes = msg;
+  newest_.inputs.planes = planes;
+  newest_.planes.swap(msg);
 }
 
 void GuardInput::acceptTool(const ros::MessageEvent<const sweep_guard::ToolBalls>& event) {

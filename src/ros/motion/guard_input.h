@@ -9,6 +9,7 @@
 #include <mutex>
 #include <string>
 
+#include "common/pool.h"
 #include "monitor/input_record.h"
 #include "ros/bounded.h"
 #include "ros/log_throttle.h"
@@ -33,7 +34,8 @@ class GuardInput {
     sweep_guard_core::MotionInputs inputs;
     sweep_guard::Proximity::ConstPtr planes;  ///< null as long as there are no planes
   };
-  Newest newest() const;  ///< any thread
+  Newest newest() const;                          ///< any thread
+  sweep_guard_core::MotionInputs inputs() const;  ///< what has come, without the message. Any thread; frees nothing
 
   struct Source {
     std::string topic;
@@ -59,6 +61,7 @@ class GuardInput {
   const sweep_guard_core::Duration silence_;
   mutable sweep_guard_core::PriorityMutex mutex_;
   Newest newest_;
+  sweep_guard_core::Pool<sweep_guard_core::PlaneSet> plane_sets_;  // used by the thread that receives
   sweep_guard_core::InputRecord planes_record_;
   sweep_guard_core::InputRecord tool_record_;
   sweep_guard_core::InputRecord warning_record_;

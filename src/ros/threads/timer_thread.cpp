@@ -8,11 +8,18 @@ namespace sweep_guard_ros {
 using sweep_guard_core::Duration;
 using sweep_guard_core::SteadyTime;
 
+namespace {
+
+constexpr Duration kRest = std::chrono::microseconds(50);
+
+}  // namespace
+
 TimerThread::Timer& TimerThread::every(Duration period, std::function<void()> call) {
   return timers_.emplace_back(period, std::move(call));
 }
 
-void TimerThread::start(Supervisor& supervisor, const ThreadTraits& traits) {
+void TimerThread::start(Supervisor& supervisor, const ThreadTraits& traits, std::function<void()> prepare) {
+  prepare_ = std::move(prepare);
   top_ = &supervisor.add(traits);
   const SteadyTime now = std::chrono::steady_clock::now();
   for (Timer& timer : timers_) timer.called_ = now;
@@ -30,10 +37,12 @@ void TimerThread::stop() {
 
 void TimerThread::run() {
   top_->enter();
+  if (prepare_) top_->attempt(prepare_);
   std::unique_lock lock(mutex_);
   while (!stopping_) {
     lock.unlock();
-    const SteadyTime next = callDue();
+    const SteadyTime due = callDue();
+    const SteadyTime next = std::max(due, std::chrono::steady_clock::now() + kRest);
     lock.lock();
     stopped_.wait_until(lock, next, [this] { return stopping_; });
   }

@@ -13,7 +13,8 @@
 namespace sweep_guard_ros {
 
 /// Calls functions periodically on the steady clock, in one thread. Nothing stops a timer: one of roscpp is lost if there
-/// is no memory to schedule its next call.
+/// is no memory to schedule its next call. The thread rests between calls, however late they are: one with a real-time
+/// priority never takes the whole processor.
 class TimerThread {
  public:
   /// A function and its period. Calls that come late are not made up for.
@@ -37,7 +38,8 @@ class TimerThread {
   /// Returns a new timer, which lives as long as the thread. Not after start().
   Timer& every(sweep_guard_core::Duration period, std::function<void()> call);
   /// Starts the thread; the supervisor must outlive it.
-  void start(Supervisor& supervisor, const ThreadTraits& traits);
+  /// @param prepare  called once by the thread before all else; may be empty
+  void start(Supervisor& supervisor, const ThreadTraits& traits, std::function<void()> prepare = {});
   void stop();  ///< waits for the running call
 
  private:
@@ -45,6 +47,7 @@ class TimerThread {
   sweep_guard_core::SteadyTime callDue();
 
   std::deque<Timer> timers_;
+  std::function<void()> prepare_;
   ThreadTop* top_ = nullptr;
   std::mutex mutex_;
   std::condition_variable stopped_;

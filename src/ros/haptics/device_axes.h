@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "ros/input/frames.h"
+#include "sweep_guard/common/priority_mutex.h"
+
+namespace sweep_guard_ros {
+
+/// Keeps the axes of the device in the fixed frame for a real-time thread: they are looked up in the thread of the tf listener,
+/// because the lock of tf inherits no priority, and a look-up allocates.
+class DeviceAxes {
+ public:
+  DeviceAxes(Frames& frames, const std::string& fixed_frame, const std::string& device_frame);
+
+  /// Returns R_WD; empty if it is not known, or older than kOldestTransform. Any thread. It allocates nothing.
+  std::optional<Eigen::Matrix3d> newest(sweep_guard_core::Time now) const;
+
+  std::string problem() const;  ///< why it is not known; empty: it is. Looks it up itself
+
+ private:
+  struct Looked {
+    Eigen::Matrix3d R_WD;
+    sweep_guard_core::Time stamp;  // 0: it never changes
+  };
+
+  void lookUp();
+
+  const Frames& frames_;
+  const std::string fixed_frame_;
+  const std::string device_frame_;
+  mutable sweep_guard_core::PriorityMutex mutex_;
+  std::optional<Looked> newest_;
+  const std::shared_ptr<void> transforms_changed_;
+};
+
+}  // namespace sweep_guard_ros
