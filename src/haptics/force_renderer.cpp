@@ -32,6 +32,7 @@ void requireUsable(const ForceOptions& options) {
   require(options.max_force > 0.0 && options.max_force_rate > 0.0, "max_force and its rate: must be > 0");
   require(options.max_torque >= 0.0 && options.max_torque_rate > 0.0, "max_torque: must be >= 0, and its rate > 0");
   require(options.period > Duration::zero() && options.output_delay >= Duration::zero(), "period: must be > 0 s");
+  require(options.device_turn_damping > 0.0, "device_turn_damping: must be > 0");
   require(options.device_damping > dampingAtDevice(options),
           "device_damping: must be above the damping and the cue's damping together, times force_scale and "
           "position_scale");
@@ -56,13 +57,14 @@ RenderedForce ForceRenderer::render(const ForceInputs& inputs, const DeviceWrenc
     return rendered;
   }
   const MotionInputs& known = inputs.known;
-  ToolForce force = finder_.find(*known.planes, *known.tool, known.pose->X_WT, twist_W_, options_.law);
+  const ToolForce force = finder_.find(*known.planes, *known.tool, known.pose->X_WT, twist_W_, options_.law);
+  DeviceWrench wanted = atDevice(force, inputs.R_WD);
   rendered.depth = force.depth;
   rendered.delay = fromSeconds(delay_) + options_.output_delay;
-  rendered.stiffness_gain = stiffnessGain();
-  force.force_W *= rendered.stiffness_gain;
-  force.torque_W *= rendered.stiffness_gain;
-  unfaded_ = clamped(atDevice(force, inputs.R_WD), rendered.permission.gain < 1.0 ? before : sent, period);
+  rendered.stiffness_gain = stiffnessGain(wanted);
+  wanted.force_D *= rendered.stiffness_gain;
+  wanted.torque_D *= rendered.stiffness_gain;
+  unfaded_ = clamped(wanted, rendered.permission.gain < 1.0 ? before : sent, period);
   faded_ = rendered.permission.gain < 1.0;
   rendered.wrench = {rendered.permission.gain * unfaded_.force_D, rendered.permission.gain * unfaded_.torque_D};
   return rendered;
@@ -89,11 +91,17 @@ void ForceRenderer::measureDelay(const Timestamps& pose, const Instant& now) {
   delay_ = std::max(toSeconds(counted), kept * delay_);
 }
 
-double ForceRenderer::stiffnessGain() const {
+double ForceRenderer::stiffnessGain(const DeviceWrench& stiff) const {
   const double stiffness = options_.law.stiffness * options_.force_scale * options_.position_scale;
   const SampledDevice device{options_.device_damping, dampingAtDevice(options_), toSeconds(options_.period)};
-  const double most = maxStiffness(device, delay_ + toSeconds(options_.output_delay));
-  return stiffness > most ? most / stiffness : 1.0;
+  const double delay = delay_ + toSeconds(options_.output_delay);
+  const double most = maxStiffness(device, delay);
+  const double gain = stiffness > most ? most / stiffness : 1.0;
+  const double force = stiff.force_D.norm();
+  if (!(options_.max_torque > 0.0) || !(force > 0.0)) return gain;
+  const double damping =
+      dampingWithLever(options_.device_damping, options_.device_turn_damping, stiff.torque_D.norm() / force);
+  return std::min(gain, damping / (stiffness * (device.period / 2 + delay) + device.virtual_damping));
 }
 
 // A lever at the device is that at the tool / position_scale.

@@ -7,11 +7,14 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr size_t kTranslation = 3;
+double largestEnergy(const std::vector<PassivityController>& axes, size_t first) {
+  return std::max({axes[first].energy(), axes[first + 1].energy(), axes[first + 2].energy()});
+}
 
 }  // namespace
 
-PassiveDevice::PassiveDevice(const ForceOptions& force, const Options& options) {
+PassiveDevice::PassiveDevice(const ForceOptions& force, const Options& options)
+    : turn_limits_{options.max_turn_rate, options.max_turn_acceleration} {
   const bool possible = options.max_speed > 0.0 && options.max_acceleration > 0.0 && options.max_turn_rate > 0.0 &&
                         options.max_turn_acceleration > 0.0;
   if (!possible) throw InvalidInput("max_speed, max_turn_rate and accelerations of the hand: must be > 0");
@@ -31,8 +34,13 @@ void PassiveDevice::observe(const Hand& hand, const Instant& now) {
   motion_D << hand.R_FD.transpose() * (hand.X_FH.translation() - before_FH.translation()) / hand.scale,
       hand.R_FD.transpose() * (turn.angle() * turn.axis());
   const SteadyTime measured = now.steady - age(hand.timestamps, now);
-  for (size_t i = 0; i < axes_.size(); ++i) axes_[i].moved(motion_D[static_cast<Eigen::Index>(i)], measured);
+  const double interval = newest_ ? std::max(0.0, toSeconds(measured - measured_)) : 0.0;
+  const double doubt = coningBound(turn.angle(), interval, turn_limits_);
+  for (size_t i = 0; i < axes_.size(); ++i) {
+    axes_[i].moved(motion_D[static_cast<Eigen::Index>(i)], measured, i < kTranslation ? 0.0 : doubt);
+  }
   newest_ = hand;
+  measured_ = std::max(measured, measured_);
 }
 
 DeviceWrench PassiveDevice::limit(const DeviceWrench& wanted, SteadyTime now) {
@@ -46,8 +54,12 @@ DeviceWrench PassiveDevice::limit(const DeviceWrench& wanted, SteadyTime now) {
   return passive;
 }
 
-double PassiveDevice::energy() const { return std::max({axes_[0].energy(), axes_[1].energy(), axes_[2].energy()}); }
+double PassiveDevice::energy() const { return largestEnergy(axes_, 0); }
 
-double PassiveDevice::tolerance() const { return axes_[0].tolerance(); }
+double PassiveDevice::tolerance() const { return axes_.front().tolerance(); }
+
+double PassiveDevice::turnEnergy() const { return hasTorque() ? largestEnergy(axes_, kTranslation) : 0.0; }
+
+double PassiveDevice::turnTolerance() const { return hasTorque() ? axes_.back().tolerance() : 0.0; }
 
 }  // namespace sweep_guard_core

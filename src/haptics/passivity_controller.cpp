@@ -31,7 +31,7 @@ void PassivityController::visitActing(SteadyTime until, const Visit& visit) cons
   if (*known_ < next) visit(Sent{0.0, *known_}, std::min(next, until));
 }
 
-void PassivityController::moved(double displacement, SteadyTime until) {
+void PassivityController::moved(double displacement, SteadyTime until, double doubt) {
   if (!known_) known_ = until;
   until = std::max(until, *known_);
   double lowest = 0.0;
@@ -43,11 +43,12 @@ void PassivityController::moved(double displacement, SteadyTime until) {
     first = false;
   });
   interval_ = seconds(until);
-  const double way = std::abs(displacement);
+  const double way = std::abs(displacement) + doubt;
   const double deviation = options_.max_acceleration * interval_ * interval_ / 2;
   const double path = std::max(way, std::min(options_.max_speed * interval_, way + deviation));
-  const double known = (lowest + highest) / 2 * displacement + (highest - lowest) / 2 * path;
-  const bool within_limits = way <= (1.0 + kRounding) * longestWay(interval_);
+  const double middle = (lowest + highest) / 2;
+  const double known = middle * displacement + std::abs(middle) * doubt + (highest - lowest) / 2 * path;
+  const bool within_limits = way - 2.0 * doubt <= (1.0 + kRounding) * longestWay(interval_);
   const double limited = within_limits
                              ? std::min(known, unknownEnergy(until))  // after a pause, the assumed one may be less
                              : std::max(known, 0.0);                  // a jump takes no energy

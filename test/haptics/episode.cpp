@@ -74,22 +74,44 @@ struct Located {
   double time;
 };
 
-class Hand {
+// What drives a hand: a constant effort and three oscillating ones.
+class Drive {
  public:
-  Hand(RandomScenes& random, const PassiveDevice::Options& limits, const Vector3d& towards_D) : limits_(limits) {
-    mass_ = random.uniform(0.1, 0.5);
-    damping_ = random.uniform(1.0, 4.0);
-    bias_ = random.uniform(0.3, 2.0) * towards_D;
+  Drive(RandomScenes& random, const Vector3d& towards_D, double unit) {
+    bias_ = unit * random.uniform(0.3, 2.0) * towards_D;
     for (int i = 0; i < 3; ++i) {
-      waves_.push_back({random.uniform(0.3, 2.5) * (random.chance(0.5) ? towards_D : random.direction()),
+      waves_.push_back({unit * random.uniform(0.3, 2.5) * (random.chance(0.5) ? towards_D : random.direction()),
                         random.logUniform(2.0, 60.0), random.uniform(0.0, 6.28)});
     }
   }
 
+  Vector3d at(double now) const {
+    Vector3d effort = bias_;
+    for (const Wave& wave : waves_) effort += std::sin(wave.rate * now + wave.phase) * wave.amplitude;
+    return effort;
+  }
+
+ private:
+  struct Wave {
+    Vector3d amplitude;
+    double rate;  // [rad/s]
+    double phase;
+  };
+  Vector3d bias_;
+  std::vector<Wave> waves_;
+};
+
+// Each axis has its own limits.
+class Hand {
+ public:
+  Hand(RandomScenes& random, const PassiveDevice::Options& limits, const Vector3d& towards_D)
+      : limits_(limits),
+        mass_(random.uniform(0.1, 0.5)),
+        damping_(random.uniform(1.0, 4.0)),
+        drive_(random, towards_D, /*unit=*/1.0) {}
+
   Vector3d move(const Vector3d& force_D, double now) {
-    Vector3d total = force_D + bias_ - damping_ * velocity_;
-    for (const Wave& wave : waves_) total += std::sin(wave.rate * now + wave.phase) * wave.amplitude;
-    const Vector3d acceleration = total / mass_;
+    const Vector3d acceleration = (force_D + drive_.at(now) - damping_ * velocity_) / mass_;
     velocity_ += kStep * acceleration.cwiseMin(limits_.max_acceleration).cwiseMax(-limits_.max_acceleration);
     velocity_ = velocity_.cwiseMin(limits_.max_speed).cwiseMax(-limits_.max_speed);
     Vector3d way = kStep * velocity_;
@@ -100,19 +122,69 @@ class Hand {
   const Vector3d& position() const { return position_; }
 
  private:
-  struct Wave {
-    Vector3d amplitude;
-    double rate;  // [rad/s]
-    double phase;
-  };
   const PassiveDevice::Options limits_;
-  double mass_;
-  double damping_;
-  Vector3d bias_;
-  std::vector<Wave> waves_;
+  const double mass_;
+  const double damping_;
+  const Drive drive_;
   Vector3d position_ = Vector3d::Zero();
   Vector3d velocity_ = Vector3d::Zero();
 };
+
+Vector3d shortened(const Vector3d& vector, double length) {
+  return vector.norm() > length ? Vector3d(vector * (length / vector.norm())) : vector;
+}
+
+// The wrist that turns the device; all axes together have a limit.
+class Wrist {
+ public:
+  Wrist(RandomScenes& random, const PassiveDevice::Options& limits, const Vector3d& towards_D)
+      : limits_(limits),
+        inertia_(random.logUniform(1e-4, 1e-3)),
+        damping_(random.uniform(5e-3, 2e-2)),
+        drive_(random, towards_D, /*unit=*/0.04) {}
+
+  Vector3d turn(const Vector3d& torque_D, double now) {
+    const Vector3d acceleration = (torque_D + drive_.at(now) - damping_ * rate_) / inertia_;
+    rate_ = shortened(rate_ + kStep * shortened(acceleration, limits_.max_turn_acceleration), limits_.max_turn_rate);
+    Vector3d way = kStep * rate_;
+    const Eigen::AngleAxisd turn(way.norm(), way.stableNormalized());
+    orientation_ = (turn * orientation_).normalized();
+    return way;
+  }
+
+  const Eigen::Quaterniond& orientation() const { return orientation_; }
+
+ private:
+  const PassiveDevice::Options limits_;
+  const double inertia_;
+  const double damping_;
+  const Drive drive_;
+  Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();
+  Vector3d rate_ = Vector3d::Zero();
+};
+
+// Energy and impulse at three axes.
+class Account {
+ public:
+  void add(const Vector3d& effort, const Vector3d& way) {
+    energy_ += effort.cwiseProduct(way);
+    largest_ = std::max(largest_, energy_.maxCoeff());
+    impulse_ += kStep * effort.norm();
+  }
+  EpisodeEnergy result(double tolerance) const { return {largest_, tolerance, impulse_}; }
+
+ private:
+  Vector3d energy_ = Vector3d::Zero();
+  double largest_ = 0.0;
+  double impulse_ = 0.0;
+};
+
+// A shaft from the origin of the tool frame.
+ToolBalls shaftTo(const Vector3d& end_T) {
+  ToolBalls tool = ballTool(kRadius);
+  tool.pieces[0].push_back({end_T, kRadius});
+  return tool;
+}
 
 Time stampAt(double seconds) { return Time(std::chrono::seconds(100) + fromSeconds(seconds)); }
 SteadyTime steadyAt(double seconds) { return SteadyTime(std::chrono::seconds(10) + fromSeconds(seconds)); }
@@ -138,6 +210,10 @@ class Episode {
       surface_.push_back(planeAt(tilted, -random_.uniform(0.006, 0.02) * normal_W));
     }
     hand_.emplace(random_, hand_limits_, -(R_WD_.transpose() * normal_W));
+    if (!options_.turns) return;
+    const Vector3d along_W = normal_W.cross(random_.direction()).normalized();
+    tool_ = std::make_shared<ToolBalls>(shaftTo(random_.uniform(0.02, 0.1) * along_W));
+    wrist_.emplace(random_, hand_limits_, R_WD_.transpose() * normal_W.cross(along_W));
   }
 
   EpisodeResult run() {
@@ -146,7 +222,7 @@ class Episode {
       tick(1e-3 * ms);
       for (int step = 0; step < kSteps; ++step) move(1e-3 * ms + kStep * step);
     }
-    return {largest_, device_.tolerance(), impulse_};
+    return {translation_.result(device_.tolerance()), rotation_.result(device_.turnTolerance())};
   }
 
  private:
@@ -157,21 +233,30 @@ class Episode {
     force.position_scale = random_.logUniform(0.3, 3.0);
     force.force_scale = random_.logUniform(0.3, 1.0);
     force.max_force_rate = random_.logUniform(100.0, 2000.0);
+    force.max_torque = options_.turns ? 0.15 : 0.0;
     force.device_damping = options_.bounded ? 2.0 : 1e9;
+    force.device_turn_damping = options_.bounded ? 0.01 : 1e9;
     force.output_delay = fromSeconds(longestAge(force_link_, 1e-3));
     return force;
   }
 
-  Isometry3d toolAt(const Vector3d& hand_D) const {
-    return Isometry3d(Eigen::Translation3d(force_.position_scale * (R_WD_ * hand_D)));
+  Isometry3d hand() const {
+    const Isometry3d X_DH(Eigen::Translation3d(hand_->position()));
+    return wrist_ ? X_DH * wrist_->orientation() : X_DH;
+  }
+
+  Isometry3d tool() const {
+    const Isometry3d X_DH = hand();
+    return Eigen::Translation3d(force_.position_scale * (R_WD_ * X_DH.translation())) *
+           Isometry3d(R_WD_ * X_DH.linear() * R_WD_.transpose());
   }
 
   void sample(int ms) {
     const double now = 1e-3 * ms;
-    hands_.send({Isometry3d(Eigen::Translation3d(hand_->position())), now}, now);
+    hands_.send({hand(), now}, now);
     if (ms % 2 == 0) {
-      tool_poses_.send({toolAt(hand_->position()), now}, now);
-      to_guard_.send({toolAt(hand_->position()), now}, now);
+      tool_poses_.send({tool(), now}, now);
+      to_guard_.send({tool(), now}, now);
     }
     to_guard_.receive(now);
     if (ms % 17 == 0 && to_guard_.newest()) planes_.send(to_guard_.newest()->second.time, now);
@@ -209,15 +294,14 @@ class Episode {
     observe(now, at);
     const RenderedForce rendered = renderer_.render(inputs_, sent_, at);
     sent_ = options_.controlled ? device_.limit(rendered.wrench, at.steady) : rendered.wrench;
-    forces_.send(sent_.force_D, now);
+    forces_.send(sent_, now);
   }
 
   void move(double now) {
     forces_.receive(now);
-    const Vector3d acting = forces_.newest() ? forces_.newest()->second : Vector3d::Zero();
-    energy_ += acting.cwiseProduct(hand_->move(acting, now));
-    largest_ = std::max(largest_, energy_.maxCoeff());
-    impulse_ += kStep * acting.norm();
+    const DeviceWrench acting = forces_.newest() ? forces_.newest()->second : DeviceWrench{};
+    translation_.add(acting.force_D, hand_->move(acting.force_D, now));
+    if (wrist_) rotation_.add(acting.torque_D, wrist_->turn(acting.torque_D, now));
   }
 
   RandomScenes random_;
@@ -231,16 +315,16 @@ class Episode {
   Link<Located> to_guard_;
   Link<double> planes_;
   Link<Located> hands_;
-  Link<Vector3d> forces_;
+  Link<DeviceWrench> forces_;
   Eigen::Matrix3d R_WD_;
   std::vector<SeparatingPlane> surface_;
   std::optional<Hand> hand_;
-  const std::shared_ptr<const ToolBalls> tool_ = std::make_shared<ToolBalls>(ballTool(kRadius));
+  std::optional<Wrist> wrist_;
+  std::shared_ptr<const ToolBalls> tool_ = std::make_shared<ToolBalls>(ballTool(kRadius));
   ForceInputs inputs_;
   DeviceWrench sent_;
-  Vector3d energy_ = Vector3d::Zero();
-  double largest_ = 0.0;
-  double impulse_ = 0.0;
+  Account translation_;
+  Account rotation_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Random episodes of a simulated hand that presses a device into planes, with delays of 0 to 50 ms and losses. The energy is
-// counted at the device, apart from the controller.
+// Random episodes of a simulated hand that presses a device into planes, and turns it by choice, with delays of 0 to 50 ms and
+// losses. The energy is counted at the device, apart from the controller.
 #include "haptics/episode.h"
 
 #include <gtest/gtest.h>
@@ -17,19 +17,41 @@ struct Count {
   std::uint64_t active = 0;
   double largest = 0.0;  // energy / tolerance
   double mean = 0.0;     // of the same
-  double impulse = 0.0;  // [N s]
+  double impulse = 0.0;  // [N s] or [N m s]
+
+  void add(const EpisodeEnergy& energy, std::uint64_t episodes) {
+    const double share = energy.given / energy.tolerance;
+    active += share > 1.0 + 1e-9 ? 1 : 0;
+    largest = std::max(largest, share);
+    mean += share / static_cast<double>(episodes);
+    impulse += energy.impulse;
+  }
 };
 
-Count runEpisodes(std::uint64_t episodes, bool controlled, bool bounded, std::optional<Place> place = {}) {
+// Counts the axes of translation where the hand does not turn, and else those of rotation.
+Count runEpisodes(std::uint64_t episodes, EpisodeOptions options, std::optional<Place> place = {}) {
   Count count;
   for (std::uint64_t i = 0; i < episodes; ++i) {
-    const EpisodeResult result = runEpisode({i, place.value_or(kPlaces[i % 3]), controlled, bounded});
-    count.active += result.energy > result.tolerance * (1.0 + 1e-9) ? 1 : 0;
-    count.largest = std::max(count.largest, result.energy / result.tolerance);
-    count.mean += result.energy / result.tolerance / static_cast<double>(episodes);
-    count.impulse += result.impulse;
+    options.seed = i;
+    options.place = place.value_or(kPlaces[i % 3]);
+    const EpisodeResult result = runEpisode(options);
+    count.add(options.turns ? result.rotation : result.translation, episodes);
   }
   return count;
+}
+
+Count runEpisodes(std::uint64_t episodes, bool controlled, bool bounded, std::optional<Place> place = {}) {
+  EpisodeOptions options;
+  options.controlled = controlled;
+  options.bounded = bounded;
+  return runEpisodes(episodes, options, place);
+}
+
+Count runTurningEpisodes(std::uint64_t episodes, bool controlled, std::optional<Place> place = {}) {
+  EpisodeOptions options;
+  options.controlled = controlled;
+  options.turns = true;
+  return runEpisodes(episodes, options, place);
 }
 
 TEST(EpisodeTest, EachOfAThousandRandomEpisodesIsPassive) {
@@ -54,6 +76,32 @@ TEST(EpisodeTest, WithoutTheControllerEpisodesAreActive) {
   EXPECT_LT(bounded.mean, neither.mean) << "the bound helps";
   std::cout << "active of " << episodes << ": " << neither.active << ", with the bound alone " << bounded.active
             << "; mean energy / tolerance " << neither.mean << " and " << bounded.mean << "\n";
+}
+
+TEST(EpisodeTest, EachOfAThousandEpisodesWithTurnsAndTorquesIsPassiveAboutEachAxis) {
+  const Count count = runTurningEpisodes(caseCount(1000), /*controlled=*/true);
+  EXPECT_EQ(count.active, 0U);
+  EXPECT_LE(count.largest, 1.0 + 1e-9);
+  EXPECT_GT(count.impulse, 0.0);
+  std::cout << "largest energy / tolerance: " << count.largest << "\n";
+}
+
+TEST(EpisodeTest, WithoutTheControllerEpisodesWithTurnsAreActive) {
+  const std::uint64_t episodes = 100;
+  const Count count = runTurningEpisodes(episodes, /*controlled=*/false);
+  EXPECT_GT(count.active, episodes / 2);
+  std::cout << "active of " << episodes << ": " << count.active << ", mean energy / tolerance " << count.mean << "\n";
+}
+
+TEST(EpisodeTest, AtTheDeviceTheControllerLeavesMostOfTheTorque) {
+  for (const Place place : kPlaces) {
+    const double controlled = runTurningEpisodes(50, /*controlled=*/true, place).impulse;
+    const double free = runTurningEpisodes(50, /*controlled=*/false, place).impulse;
+    if (place == Place::kAtTheDevice) {
+      EXPECT_GT(controlled, 0.7 * free);
+    }
+    std::cout << "impulse of the torque in 50 episodes: " << controlled << " N m s of " << free << "\n";
+  }
 }
 
 // A controller that is too strict would be passive and useless.

@@ -42,7 +42,7 @@ class ForceRendererTest : public testing::Test {
       planes.valid_until = fresh.stamp + milliseconds(100);
       inputs_.known.planes = std::make_shared<PlaneSet>(planes);
     }
-    inputs_.known.tool = std::make_shared<ToolBalls>(ballTool(kRadius));
+    inputs_.known.tool = std::make_shared<ToolBalls>(tool_);
     if (!renderer_) renderer_.emplace(options_);
     const RenderedForce rendered = renderer_->render(inputs_, sent_, now());
     sent_ = rendered.wrench;
@@ -55,6 +55,7 @@ class ForceRendererTest : public testing::Test {
   }
 
   ForceOptions options_;
+  ToolBalls tool_ = ballTool(kRadius);
   ForceInputs inputs_;
   std::optional<ForceRenderer> renderer_;
   DeviceWrench sent_;
@@ -110,6 +111,18 @@ TEST_F(ForceRendererTest, ADelayOfThePoseScalesTheStiffnessDown) {
   pose_delay_ = {};
   EXPECT_LT(tick().stiffness_gain, 0.3) << "a delay is remembered";
   EXPECT_EQ(ticks(5000).stiffness_gain, 1.0);
+}
+
+TEST_F(ForceRendererTest, ALeverScalesTheStiffnessDownWhereThereIsTorque) {
+  options_.device_turn_damping = 1e-3;
+  tool_.pieces[0][0].center_T = Vector3d(0.1, 0.0, 0.0);
+  place(0.005);
+  EXPECT_EQ(ticks(3).stiffness_gain, 1.0);
+  options_.max_torque = 1.0;
+  renderer_.reset();
+  const RenderedForce rendered = ticks(3);
+  EXPECT_NEAR(rendered.stiffness_gain, dampingWithLever(100.0, 1e-3, 0.1) / (200.0 * 0.0025), 1e-9);
+  EXPECT_NEAR(rendered.wrench.torque_D.norm(), 0.1 * rendered.wrench.force_D.norm(), 1e-9);
 }
 
 TEST_F(ForceRendererTest, SilenceOfPoseOrPlanesIsZeroWithinSeventyMilliseconds) {
@@ -170,41 +183,6 @@ TEST_F(ForceRendererTest, OptionsThatNoDeviceCanCarryAreRefused) {
   options_.max_force = 0.0;
   EXPECT_TRUE(has(refusal([&] { ForceRenderer{options_}; }), "max_force"));
   EXPECT_TRUE(has(refusal([&] { PassiveDevice({}, {/*max_speed=*/0.0}); }), "max_speed"));
-}
-
-// A hand in a frame that is turned, and twice as large as the device.
-TEST(PassiveDeviceTest, ObservesTheEnergyAlongTheAxesAndInTheUnitsOfTheDevice) {
-  ForceOptions options;
-  options.output_delay = {};
-  PassiveDevice device(options, {});
-  const Eigen::Matrix3d R_FD(AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
-  const auto at = [](int ms) {
-    return Instant{Time(std::chrono::seconds(5) + milliseconds(ms)),
-                   SteadyTime(std::chrono::seconds(1) + milliseconds(ms))};
-  };
-  const auto observe = [&](const Vector3d& p_F, int ms) {
-    device.observe({Isometry3d(Translation3d(p_F)), R_FD, 2.0, {at(ms).stamp, at(ms).steady}}, at(ms));
-  };
-  observe(Vector3d::Zero(), 0);
-  EXPECT_EQ(device.limit({Vector3d(1.0, 0.0, 0.0), Vector3d::Zero()}, at(0).steady).force_D.x(), 1.0);
-  observe(Vector3d(0.0, 4e-4, 0.0), 1);
-  EXPECT_NEAR(device.energy(), 1.0 * 2e-4, 1e-12);
-}
-
-TEST(PassiveDeviceTest, ATorqueIsLimitedLikeAForce) {
-  ForceOptions options;
-  options.output_delay = {};
-  options.max_torque = 0.1;
-  PassiveDevice device(options, {/*max_speed=*/0.5, /*max_acceleration=*/50.0, /*max_turn_rate=*/2.0});
-  double torque = 0.1;
-  for (int ms = 0; ms < 100; ++ms) {
-    const Instant at{Time(std::chrono::seconds(5) + milliseconds(ms)),
-                     SteadyTime(std::chrono::seconds(1) + milliseconds(ms))};
-    const Isometry3d X_FH(AngleAxisd(1e-3 * ms, Vector3d::UnitY()));
-    device.observe({X_FH, Eigen::Matrix3d::Identity(), 1.0, {at.stamp, at.steady}}, at);
-    torque = device.limit({Vector3d::Zero(), Vector3d(0.0, 0.1, 0.0)}, at.steady).torque_D.y();
-  }
-  EXPECT_LT(torque, 1e-2) << "it turned the hand until nothing was left";
 }
 
 }  // namespace

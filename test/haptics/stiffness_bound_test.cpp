@@ -48,5 +48,13 @@ TEST(StiffnessBoundTest, IsZeroIfTheSimulatedDamperIsStronger) {
   EXPECT_DOUBLE_EQ(maxStiffness({2.5, 0.5, 0.001}, 0.0195), 100.0);
 }
 
+// The matrix diag(b, c) less what a spring and a damper at the point take, (1, lever) (1, lever)', loses its determinant.
+TEST(StiffnessBoundTest, WithALeverForceAndTorqueTogetherUseUpTheDamping) {
+  const double b = 2.0, c = 0.01, lever = 0.08;
+  const double damping = dampingWithLever(b, c, lever);
+  EXPECT_NEAR((b - damping) * (c - damping * lever * lever), std::pow(damping * lever, 2), 1e-12);
+  EXPECT_EQ(dampingWithLever(b, c, 0.0), b);
+}
+
 }  // namespace
 }  // namespace sweep_guard_core

@@ -25,6 +25,7 @@ struct ForceOptions {
   double max_torque = 0.0;                         ///< at the device [N m], >= 0; 0: no torque
   double max_torque_rate = 20.0;                   ///< [N m/s], > 0
   double device_damping = 2.0;                     ///< of device and hand [N s/m]; above that of the law at the device
+  double device_turn_damping = 0.01;               ///< the same about any axis [N m s/rad], > 0
   Duration period = std::chrono::milliseconds(1);  ///< > 0
   Duration output_delay = std::chrono::milliseconds(2);  ///< until what is sent acts, at most; >= 0
   ForceLimits limits;
@@ -66,7 +67,7 @@ class ForceRenderer {
 
   void measureVelocity(const MotionInputs::ToolPose& pose);
   void measureDelay(const Timestamps& pose, const Instant& now);
-  double stiffnessGain() const;
+  double stiffnessGain(const DeviceWrench& stiff) const;
   DeviceWrench atDevice(const ToolForce& force, const Eigen::Matrix3d& R_WD) const;
   DeviceWrench clamped(const DeviceWrench& wanted, const DeviceWrench& before, double period) const;
 

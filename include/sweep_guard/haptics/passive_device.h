@@ -4,20 +4,22 @@
 #include <optional>
 #include <vector>
 
+#include "sweep_guard/haptics/coning_bound.h"
 #include "sweep_guard/haptics/force_renderer.h"
 #include "sweep_guard/haptics/passivity_controller.h"
 
 namespace sweep_guard_core {
 
 /// Keeps a device passive in each of its axes, three of translation and three of rotation, with one PassivityController
-/// each. One thread at a time. It allocates nothing.
+/// each. The turn about an axis is what the hand may have turned about it: see coningBound(). One thread at a time. It
+/// allocates nothing.
 class PassiveDevice {
  public:
   struct Options {
     double max_speed = 0.5;                ///< of the hand along any axis [m/s], > 0
     double max_acceleration = 50.0;        ///< [m/s^2], > 0
-    double max_turn_rate = 5.0;            ///< about any axis [rad/s], > 0
-    double max_turn_acceleration = 500.0;  ///< [rad/s^2], > 0
+    double max_turn_rate = 5.0;            ///< about all axes together [rad/s], > 0
+    double max_turn_acceleration = 500.0;  ///< about all axes together [rad/s^2], > 0
   };
 
   /// @throws InvalidInput  if an option is NaN or out of range
@@ -40,9 +42,17 @@ class PassiveDevice {
   double energy() const;     ///< the largest that an axis of translation has given [J]; negative: all took more
   double tolerance() const;  ///< of an axis of translation [J]
 
+  double turnEnergy() const;     ///< the same of the axes of rotation [J]; 0 without torque
+  double turnTolerance() const;  ///< of an axis of rotation [J]; 0 without torque
+
  private:
+  bool hasTorque() const { return axes_.size() > kTranslation; }
+
+  static constexpr size_t kTranslation = 3;  // axes
+  const TurnLimits turn_limits_;
   std::vector<PassivityController> axes_;  // three of translation, then, with torque, three of rotation
   std::optional<Hand> newest_;
+  SteadyTime measured_;  // when the hand was there
 };
 
 }  // namespace sweep_guard_core

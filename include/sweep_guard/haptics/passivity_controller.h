@@ -32,7 +32,8 @@ class PassivityController {
 
   /// Observes that the device has moved, since the last call. The first call only tells where it is.
   /// @param until  time of the newest position; one before that of the last call counts as this
-  void moved(double displacement, SteadyTime until);
+  /// @param doubt  by how much the displacement may be another one, >= 0
+  void moved(double displacement, SteadyTime until, double doubt = 0.0);
 
   /// Returns the effort to send: the wanted one, or the nearest one that is passive. Zero before the device is known.
   /// @param now  not before that of the last call

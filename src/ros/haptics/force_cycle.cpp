@@ -38,6 +38,8 @@ ForceCycle::State ForceCycle::state() const {
   State state = state_;
   state.energy = device_.energy();
   state.tolerance = device_.tolerance();
+  state.turn_energy = device_.turnEnergy();
+  state.turn_tolerance = device_.turnTolerance();
   return state;
 }
 

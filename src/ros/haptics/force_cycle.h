@@ -40,6 +40,8 @@ class ForceCycle {
     sweep_guard_core::DeviceWrench sent;
     double energy = 0.0;          ///< that an axis of translation of the device gave at most [J]
     double tolerance = 0.0;       ///< [J]
+    double turn_energy = 0.0;     ///< that an axis of rotation gave at most [J]
+    double turn_tolerance = 0.0;  ///< [J]; 0: there is no torque
   };
   State state() const;
   const TickRecord& ticks() const { return ticks_; }

@@ -48,6 +48,9 @@ void HapticsDiagnostics::force(Status& status) {
   status.addf("share of the stiffness", "%.3f", rendered.stiffness_gain);
   status.addf("energy given by an axis, at most [J]", "%.6f", state.energy);
   status.addf("tolerance [J]", "%.6f", state.tolerance);
+  if (!(state.turn_tolerance > 0.0)) return;
+  status.addf("energy given about an axis, at most [J]", "%.6f", state.turn_energy);
+  status.addf("tolerance about an axis [J]", "%.6f", state.turn_tolerance);
 }
 
 void HapticsDiagnostics::output(Status& status) const {

@@ -62,6 +62,8 @@ void readDevice(ParameterReader& read, HapticsParameters& parameters) {
       read.number("device_damping", force.device_damping, {1e-3, 1e3, "N s/m"},
                   "Damping of the device and the hand that holds it, which bounds the stiffness. Above "
                   "damping + cue/damping, times force_scale and position_scale.");
+  force.device_turn_damping = read.number("device_turn_damping", force.device_turn_damping, {1e-6, 10.0, "N m s/rad"},
+                                          "The same about any axis: it bounds the stiffness where there is torque.");
   parameters.hand.max_speed = read.number(
       "max_speed", parameters.hand.max_speed, {1e-2, 10.0, "m/s"},
       "Speed of the hand along any axis that the passivity controller counts on. Lower values leave more of "

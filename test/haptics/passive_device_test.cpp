@@ -1,0 +1,136 @@
+#include "sweep_guard/haptics/passive_device.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "motion/random_scenes.h"
+
+namespace sweep_guard_core {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Isometry3d;
+using Eigen::Quaterniond;
+using Eigen::Translation3d;
+using Eigen::Vector3d;
+
+Instant at(double ms) { return {Time(fromSeconds(5.0 + 1e-3 * ms)), SteadyTime(fromSeconds(1.0 + 1e-3 * ms))}; }
+
+// A hand in a frame that is turned, and twice as large as the device.
+TEST(PassiveDeviceTest, ObservesTheEnergyAlongTheAxesAndInTheUnitsOfTheDevice) {
+  ForceOptions options;
+  options.output_delay = {};
+  PassiveDevice device(options, {});
+  const Eigen::Matrix3d R_FD(AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
+  const auto observe = [&](const Vector3d& p_F, int ms) {
+    device.observe({Isometry3d(Translation3d(p_F)), R_FD, 2.0, {at(ms).stamp, at(ms).steady}}, at(ms));
+  };
+  observe(Vector3d::Zero(), 0);
+  EXPECT_EQ(device.limit({Vector3d(1.0, 0.0, 0.0), Vector3d::Zero()}, at(0).steady).force_D.x(), 1.0);
+  observe(Vector3d(0.0, 4e-4, 0.0), 1);
+  EXPECT_NEAR(device.energy(), 1.0 * 2e-4, 1e-12);
+}
+
+TEST(PassiveDeviceTest, ATorqueIsLimitedLikeAForce) {
+  ForceOptions options;
+  options.output_delay = {};
+  options.max_torque = 0.1;
+  PassiveDevice device(options, {/*max_speed=*/0.5, /*max_acceleration=*/50.0, /*max_turn_rate=*/2.0});
+  double torque = 0.1;
+  for (int ms = 0; ms < 100; ++ms) {
+    const Isometry3d X_FH(AngleAxisd(1e-3 * ms, Vector3d::UnitY()));
+    device.observe({X_FH, Eigen::Matrix3d::Identity(), 1.0, {at(ms).stamp, at(ms).steady}}, at(ms));
+    torque = device.limit({Vector3d::Zero(), Vector3d(0.0, 0.1, 0.0)}, at(ms).steady).torque_D.y();
+  }
+  EXPECT_LT(torque, 1e-2) << "it turned the hand until nothing was left";
+}
+
+// A hand that does its worst within its limits: it turns with the torque that acts, or goes around a cone about it, which does
+// work between two positions that are alike, or turns as it likes.
+class Wrist {
+ public:
+  Wrist(RandomScenes& random, const PassiveDevice::Options& limits) : random_(random), limits_(limits) {}
+
+  Vector3d turn(const Vector3d& torque_D, double seconds) {
+    if (random_.chance(0.01)) choose();
+    phase_ += lap_ * seconds;
+    const Vector3d along_D = torque_D.stableNormalized();
+    Vector3d target = free_;
+    if (mode_ == Mode::kAlong) target = along_D;
+    if (mode_ == Mode::kAround)
+      target = std::cos(phase_) * along_D.unitOrthogonal() + std::sin(phase_) * along_D.cross(along_D.unitOrthogonal());
+    const Vector3d change = limits_.max_turn_rate * target - rate_;
+    const double most = limits_.max_turn_acceleration * seconds;
+    rate_ += std::min(1.0, most / std::max(1e-12, change.norm())) * change;
+    const Quaterniond turn(AngleAxisd(seconds * rate_.norm(), rate_.stableNormalized()));
+    orientation_ = (turn * orientation_).normalized();
+    return seconds * rate_;
+  }
+
+  const Quaterniond& orientation() const { return orientation_; }
+
+ private:
+  enum class Mode { kAlong, kAround, kFree };
+
+  void choose() {
+    mode_ = random_.chance(0.4) ? Mode::kAround : random_.chance(0.7) ? Mode::kAlong : Mode::kFree;
+    lap_ = (random_.chance(0.5) ? 1.0 : -1.0) * random_.logUniform(20.0, 2000.0);
+    free_ = random_.uniform(-1.0, 1.0) * random_.direction();
+  }
+
+  RandomScenes& random_;
+  const PassiveDevice::Options limits_;
+  Mode mode_ = Mode::kAlong;
+  double lap_ = 100.0;  // [rad/s]
+  double phase_ = 0.0;
+  Vector3d free_ = Vector3d::Zero();
+  Vector3d rate_ = Vector3d::Zero();
+  Quaterniond orientation_ = Quaterniond::Identity();
+};
+
+// Positions come every so many milliseconds, and late. Returns the largest energy of an axis.
+double largestTurnEnergy(RandomScenes& random, const ForceOptions& force, int period, double delay, bool passive) {
+  const PassiveDevice::Options limits;
+  PassiveDevice device(force, limits);
+  Wrist wrist(random, limits);
+  std::deque<std::pair<double, Quaterniond>> seen;
+  Vector3d wanted = Vector3d::Zero();
+  Vector3d energy = Vector3d::Zero();
+  double largest = 0.0;
+  for (int ms = 0; ms < 400; ++ms) {
+    if (ms % period == 0) seen.emplace_back(ms, wrist.orientation());
+    for (; !seen.empty() && seen.front().first + delay <= ms; seen.pop_front()) {
+      const Instant then = at(seen.front().first);
+      device.observe({Isometry3d(seen.front().second), Eigen::Matrix3d::Identity(), 1.0, {then.stamp, at(ms).steady}},
+                     at(ms));
+    }
+    if (random.chance(0.02)) wanted = force.max_torque * random.uniform(-1.0, 1.0) * random.direction();
+    const Vector3d sent = passive ? device.limit({Vector3d::Zero(), wanted}, at(ms).steady).torque_D : wanted;
+    for (int step = 0; step < 10; ++step) {
+      energy += sent.cwiseProduct(wrist.turn(sent, 1e-4));
+      largest = std::max(largest, energy.maxCoeff());
+    }
+  }
+  return largest;
+}
+
+TEST(PassiveDeviceTest, NoHandThatTurnsGetsMoreThanTheToleranceAboutAnyAxis) {
+  RandomScenes random(12);
+  ForceOptions force;
+  force.output_delay = {};
+  force.max_torque = 0.1;
+  const double tolerance = PassiveDevice(force, {}).turnTolerance();
+  int active = 0;
+  const std::uint64_t cases = caseCount(300);
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    const int period = random.chance(0.3) ? 1 : static_cast<int>(random.logUniform(1.0, 60.0));
+    const double delay = random.chance(0.5) ? 0.0 : random.uniform(0.0, 50.0);
+    ASSERT_LE(largestTurnEnergy(random, force, period, delay, /*passive=*/true), tolerance + 1e-12);
+    active += largestTurnEnergy(random, force, period, delay, /*passive=*/false) > tolerance ? 1 : 0;
+  }
+  EXPECT_GT(active, static_cast<int>(cases / 4)) << "the hand does its worst";
+}
+
+}  // namespace
+}  // namespace sweep_guard_core
