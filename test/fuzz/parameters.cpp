@@ -6,11 +6,13 @@
 
 #include "input.h"
 #include "require.h"
+#include "ros/haptics/haptics_parameters.h"
 #include "ros/motion/motion_parameters.h"
 #include "ros/parameters/parameters.h"
 #include "roscpp_alone.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/guard/guard.h"
+#include "sweep_guard/haptics/passive_device.h"
 
 namespace sweep_guard_fuzz {
 namespace {
@@ -186,17 +188,62 @@ void checkGuard(Input& input) {
           "nothing changes by itself");
 }
 
-void checkMotion(Input& input) {
-  using sweep_guard_ros::MotionParameters;
-  static const ros::NodeHandle node("/motion");
-  static const Defaults<MotionParameters> defaults(sweep_guard_ros::loadMotionParameters(node));
-  setServer(input, defaults, "/motion");
+// Of a node whose parameters do not change while it runs.
+template <typename Loaded>
+void checkStart(Input& input, const std::string& name, Loaded (*load)(const ros::NodeHandle&),
+                void (*use)(const Loaded&)) {
+  static const ros::NodeHandle node(name);
+  static const Defaults<Loaded> defaults(load(node));
+  setServer(input, defaults, name);
   try {
-    const MotionParameters parameters = sweep_guard_ros::loadMotionParameters(node);
+    const Loaded parameters = load(node);
     checkRanges(parameters.described, defaults.parameters.described);
-    require(std::isfinite(parameters.linear_scale) && std::isfinite(parameters.angular_scale), "a scale is finite");
-    const sweep_guard_core::MotionGuard guard(parameters.options);
+    use(parameters);
   } catch (const InvalidInput&) {
+  }
+}
+
+void useMotion(const sweep_guard_ros::MotionParameters& parameters) {
+  require(std::isfinite(parameters.linear_scale) && std::isfinite(parameters.angular_scale), "a scale is finite");
+  const sweep_guard_core::MotionGuard guard(parameters.options);
+}
+
+// A ball 3 mm within the plane z = 0, whose normal is its z axis.
+sweep_guard_core::ForceInputs pressedBall(const sweep_guard_core::Instant& at) {
+  auto tool = std::make_shared<sweep_guard_core::ToolBalls>();
+  tool->revision = 1;
+  tool->pieces = {{{Eigen::Vector3d(0.01, 0.0, -0.003), 0.0}}};
+  auto planes = std::make_shared<sweep_guard_core::PlaneSet>();
+  planes->timestamps = {at.stamp, at.steady};
+  planes->valid_until = at.stamp + std::chrono::milliseconds(100);
+  planes->complete = true;
+  planes->tool_revision = 1;
+  planes->planes.push_back({0, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero(), -0.003, 0.0});
+  sweep_guard_core::ForceInputs inputs;
+  inputs.known.tool = tool;
+  inputs.known.planes = planes;
+  inputs.known.pose = sweep_guard_core::MotionInputs::ToolPose{Eigen::Isometry3d::Identity(), {at.stamp, at.steady}};
+  inputs.known.warning =
+      sweep_guard_core::PermissionInputs::ReceivedWarning{sweep_guard_core::WarningLevel::kContact, 0, at.steady};
+  return inputs;
+}
+
+// What is accepted makes forces that are finite, within their limits, and passive.
+void useHaptics(const sweep_guard_ros::HapticsParameters& parameters) {
+  sweep_guard_core::ForceRenderer renderer(parameters.force);
+  sweep_guard_core::PassiveDevice device(parameters.force, parameters.hand);
+  sweep_guard_core::DeviceWrench sent;
+  for (int i = 1; i <= 20; ++i) {
+    const sweep_guard_core::Duration time = std::chrono::seconds(100) + i * parameters.force.period;
+    const sweep_guard_core::Instant at{sweep_guard_core::Time(time), sweep_guard_core::SteadyTime(time)};
+    const sweep_guard_core::ForceInputs inputs = pressedBall(at);
+    device.observe(
+        {inputs.known.pose->X_WT, inputs.R_WD, parameters.force.position_scale, inputs.known.pose->timestamps}, at);
+    sent = device.limit(renderer.render(inputs, sent, at).wrench, at.steady);
+    require(sent.force_D.norm() <= parameters.force.max_force * (1.0 + 1e-9), "a force is within its limit");
+    require(sent.torque_D.norm() <= parameters.force.max_torque * (1.0 + 1e-9), "a torque is within its limit");
+    require(device.energy() <= device.tolerance() && device.turnEnergy() <= device.turnTolerance(),
+            "a device is passive");
   }
 }
 
@@ -207,10 +254,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, size_t size) {
   sweep_guard_fuzz::startRoscpp();
   sweep_guard_fuzz::serverParameters().clear();
   sweep_guard_fuzz::Input input(bytes, size);
-  if (input.below(4) == 3) {
-    sweep_guard_fuzz::checkMotion(input);
-  } else {
-    sweep_guard_fuzz::checkGuard(input);
+  switch (input.below(4)) {
+    case 3:
+      sweep_guard_fuzz::checkStart(input, "/motion", sweep_guard_ros::loadMotionParameters,
+                                   sweep_guard_fuzz::useMotion);
+      break;
+    case 2:
+      sweep_guard_fuzz::checkStart(input, "/haptics", sweep_guard_ros::loadHapticsParameters,
+                                   sweep_guard_fuzz::useHaptics);
+      break;
+    default:
+      sweep_guard_fuzz::checkGuard(input);
   }
   return 0;
 }

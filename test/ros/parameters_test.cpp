@@ -217,6 +217,8 @@ TEST_F(ParametersTest, FindTheRobotUnderAnotherName) {
   EXPECT_EQ(loadParameters(node_).tool->pieces().size(), 2U);
   node_.setParam("gripper", 3);
   EXPECT_EQ(refusal(node_), "parameter /guarded/gripper must be a text");
+  node_.setParam("tool/robot_description", "the gripper");
+  EXPECT_TRUE(has(refusal(node_), "no robot description in the parameter 'the gripper'"));
 }
 
 TEST_F(ParametersTest, TakeNumbersAndAxesAsText) {
@@ -430,6 +432,9 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("tool/joints", 0.5, "a group of numbers");
   refused("tool/joints/opening", "wide", "a finite number");
   refused("tool/joints/opening", NAN, "a finite number");
+  XmlRpc::XmlRpcValue no_ros_name;
+  no_ros_name["finger-1"] = "wide";
+  refused("tool/joints", no_ros_name, "tool/joints/finger-1");
   refused("tool/joint_states", "joint_states", "true or false");
   refused("tool/joint_timeouts", 0.5, "a group of numbers");
   refused("tool/radius", 0.0, "1e-06 to 100");

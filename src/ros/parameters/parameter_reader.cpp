@@ -1,6 +1,7 @@
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 #include <ros/console.h>
+#include <ros/names.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "common/number_text.h"
 #include "common/xyz.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/common/printable.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -365,12 +367,13 @@ bool ParameterReader::getList(const std::string& key, const std::string& wanted,
   return true;
 }
 
+// Names of joints are no names of ROS: resolveName() would throw.
 void ParameterReader::refuse(const std::string& key, const XmlRpc::XmlRpcValue& value,
                              const std::string& wanted) const {
   std::ostringstream shown_value;
   value.write(shown_value);
-  throw sweep_guard_core::InvalidInput("parameter " + node_.resolveName(key) + " is " + shown_value.str() +
-                                       ", but must be " + wanted);
+  throw sweep_guard_core::InvalidInput("parameter " + node_.getNamespace() + "/" + sweep_guard_core::printable(key) +
+                                       " is " + shown_value.str() + ", but must be " + wanted);
 }
 
 }  // namespace sweep_guard_ros
