@@ -72,7 +72,7 @@ bool NodeHandle::getParamNames(std::vector<std::string>& names) const {
 }
 
 bool NodeHandle::searchParam(const std::string& key, std::string& name) const {
-  for (const std::string& candidate : {resolveName(key), names::append("/", key)}) {
+  for (const std::string& candidate : {names::append(getNamespace(), key), names::append("/", key)}) {
     name = candidate;
     if (sweep_guard_fuzz::serverParameters().count(name) != 0) return true;
   }

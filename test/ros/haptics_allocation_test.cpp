@@ -38,10 +38,14 @@ class HapticsAllocationTest : public testing::Test {
     haptics_.start();
   }
 
-  WrenchStamped awaitForceAfter(const ros::Time& time) {
-    return passed_.await("a force", [&](const WrenchStamped& wrench) {
-      return wrench.wrench.force.z > 0.0 && wrench.header.stamp > time;
-    });
+  ros::Time awaitForce() {
+    return passed_.await("a force", [](const WrenchStamped& wrench) { return wrench.wrench.force.z > 0.0; })
+        .header.stamp;
+  }
+  // The controller may have taken the force back meanwhile, where the machine is busy.
+  ros::Time awaitCycleAfter(const ros::Time& time) {
+    return passed_.await("a cycle", [&](const WrenchStamped& wrench) { return wrench.header.stamp > time; })
+        .header.stamp;
   }
 
   ros::NodeHandle node_;
@@ -55,12 +59,11 @@ class HapticsAllocationTest : public testing::Test {
 
 TEST_F(HapticsAllocationTest, OfACycleOnlyThePublicationAllocates) {
   guard_.setGap(-0.004);
-  const ros::Time pushed = awaitForceAfter(ros::Time()).header.stamp;
-  const ros::Time begin = awaitForceAfter(pushed + kWarmUp).header.stamp;
+  const ros::Time begin = awaitCycleAfter(awaitForce() + kWarmUp);
   const sweep_guard_core::AllocationsOfAllThreads made;
-  awaitForceAfter(begin + kCounted);
+  awaitCycleAfter(begin + kCounted);
   expectAllocations(made, kThreads,
-                    {{"ros::Publisher::publish", false, 3.1, "roscpp makes bytes of the message, and queues them"}},
+                    {{"ros::Publisher::publish", false, 4.2, "roscpp makes bytes of the message, and queues them"}},
                     kCycles, /*growth=*/0.0);
 }
 

@@ -218,7 +218,7 @@ TEST_F(ParametersTest, FindTheRobotUnderAnotherName) {
   node_.setParam("gripper", 3);
   EXPECT_EQ(refusal(node_), "parameter /guarded/gripper must be a text");
   node_.setParam("tool/robot_description", "the gripper");
-  EXPECT_TRUE(has(refusal(node_), "'the gripper' is no name of a parameter"));
+  EXPECT_TRUE(has(refusal(node_), "no robot description in the parameter 'the gripper'"));
 }
 
 TEST_F(ParametersTest, TakeNumbersAndAxesAsText) {
