@@ -271,30 +271,44 @@ std::vector<double> means(const std::vector<double>& all, double share) {
   return means;
 }
 
-// What a mesh far away costs more than no mesh.
-void outside(const Options& options) {
+Workpieces restingMeshes(size_t count, int triangles) {
+  const Workpiece mesh = *deformations(triangles).front().front();
+  Workpieces meshes;
+  for (size_t i = 0; i < count; ++i) {
+    auto one = std::make_shared<Workpiece>(mesh);
+    one->id += std::to_string(i);
+    meshes.push_back(std::move(one));
+  }
+  return meshes;
+}
+
+// What each of some meshes far away costs more than the first few of them.
+void outside(const Options& options, size_t meshes, size_t few) {
   const auto robot = std::make_shared<const Robot>(arm());
-  const Workpieces far = deformations(options.triangles).front();
-  const Workpieces none;
-  Guard with(robot, makeDetector(options.detector), {});
-  Guard without(robot, makeDetector(options.detector), {});
+  const Workpieces all = restingMeshes(meshes, options.triangles);
+  const Workpieces first(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(few));
+  Guard of_all(robot, makeDetector(options.detector), {});
+  Guard of_few(robot, makeDetector(options.detector), {});
   SweepReport report;
   Prediction prediction;
-  Prediction of_none;
+  Prediction of_first;
   std::vector<double> sweeps;
   std::vector<double> predictions;
   for (int i = 0; i < kStates; ++i) {
     const PoseWithFrames pose = poseAt(*robot, kPeriod * i, Eigen::Isometry3d(Eigen::Translation3d(50.0, 0.0, 0.0)));
     sweeps.push_back(howMuchMore(
-        i, [&] { with.sweep(pose, far, report); }, [&] { without.sweep(pose, none, report); }));
+        i, [&] { of_all.sweep(pose, all, report); }, [&] { of_few.sweep(pose, first, report); }));
     predictions.push_back(howMuchMore(
-        i, [&] { with.predict({}, far, prediction); }, [&] { without.predict({}, none, of_none); }));
+        i, [&] { of_all.predict({}, all, prediction); }, [&] { of_few.predict({}, first, of_first); }));
   }
-  const auto bodies = static_cast<double>(kLinks);
+  const auto bodies = static_cast<double>(kLinks * (meshes - few));
   const std::vector<double> swept = means(sweeps, bodies);
   const std::vector<double> predicted = means(predictions, bodies * static_cast<double>(prediction.sweeps_made));
-  std::printf("a body outside: %.2f us (p99 %.2f) for each measured sweep, %.3f us (p99 %.3f) for each predicted one\n",
-              quantile(swept, 0.5), quantile(swept, 0.99), quantile(predicted, 0.5), quantile(predicted, 0.99));
+  std::printf(
+      "a body outside of each of %zu meshes, more than of %zu: %.2f us (p99 %.2f) for each measured sweep, %.3f us "
+      "(p99 "
+      "%.3f) for each predicted one\n",
+      meshes, few, quantile(swept, 0.5), quantile(swept, 0.99), quantile(predicted, 0.5), quantile(predicted, 0.99));
 }
 
 int run(const std::vector<std::string>& arguments) {
@@ -315,7 +329,8 @@ int run(const std::vector<std::string>& arguments) {
   guardAt("beside", at(0.45, 0.6), options, results);
   guardAt("in reach", at(0.25, 0.8), options, results);
   guardAt("far", at(50.0, 0.0), options, results);
-  outside(options);
+  outside(options, 1, 0);
+  outside(options, 8, 1);
   return 0;
 }
 

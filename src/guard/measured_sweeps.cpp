@@ -60,6 +60,14 @@ void update(SweepCache& cache, const SweepResult& result) {
   }
 }
 
+// Does what a sweep does that meets nothing. The tool was outside at its begin, too, which holds even if the sweep fails.
+void leaveOut(const SweepSetup& setup, bool has_new_poses, SweepCache& cache, SweepResult& result) {
+  setup.before_sweep();
+  result.fine = setup.options.fine;
+  if (has_new_poses) cache.contact_normals.clear();
+  update(cache, result);
+}
+
 }  // namespace
 
 void MeasuredSweeps::pass(const PoseWithFrames& pose, const BodyPose& body, const FrameMotions& frames) {
@@ -132,24 +140,17 @@ void MeasuredSweeps::sweepObject(const SweepSetup& setup, const std::shared_ptr<
   object.workpiece = workpiece;
   object.interval_start = history[begin].stamp;
   object.result.clear();
-  cache_ = swept.cache;
-  if (setup.several && staysOutOfReach(setup, history, first, last, mesh)) {
-    leaveOut(setup, segment, object);
+  const bool left_out = setup.several && staysOutOfReach(setup, history, first, last, mesh);
+  if (left_out) {
+    leaveOut(setup, segment.hasNew(), swept.cache, object.result);
   } else {
+    cache_ = swept.cache;
     sweepSegment(setup, segment, object);
   }
   if (deformed) swept.deformations.push_back(workpiece);
   swept.grown = deformed;
   swept.pose = history.newest().number;
-  std::swap(swept.cache, cache_);
-}
-
-// As sweepSegment() does if no volume reaches the mesh.
-void MeasuredSweeps::leaveOut(const SweepSetup& setup, const Segment& segment, SweptObject& object) {
-  setup.before_sweep();
-  object.result.fine = setup.options.fine;
-  if (segment.hasNew()) cache_.contact_normals.clear();
-  update(cache_, object.result);
+  if (!left_out) std::swap(swept.cache, cache_);
 }
 
 void MeasuredSweeps::sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object) {

@@ -84,7 +84,6 @@ class MeasuredSweeps {
   void sweepObject(const SweepSetup& setup, const std::shared_ptr<const Workpiece>& workpiece, Time end_time,
                    SweptObject& object);
   void sweepSegment(const SweepSetup& setup, const Segment& segment, SweptObject& object);
-  void leaveOut(const SweepSetup& setup, const Segment& segment, SweptObject& object);
   static const std::shared_ptr<const Workpiece>& deformationAt(Time pose, const Workpiece& newest, Swept& swept,
                                                                Duration& behind);
   Swept& lastSwept(const std::shared_ptr<const Workpiece>& workpiece);
