@@ -13,7 +13,7 @@ NODE = '/sweep_guard'
 COMMAND = ['rosrun', 'nodelet', 'nodelet', 'standalone', 'sweep_guard/SweepGuardNodelet', '__name:=' + NODE[1:]]
 PATIENCE = 20.0  # [s]
 TIME_TO_ANSWER = 0.4  # [s], less than the guard waits for an answer
-ATTEMPTS = 5  # of a machine that is busy
+ATTEMPTS = 10  # a busy machine may not end it in time
 
 
 class Master(ROSMasterHandler):
