@@ -307,11 +307,6 @@ std::string ParameterReader::searchText(const std::string& name) {
   std::string key;
   XmlRpc::XmlRpcValue value;
   read_.insert(name);
-  std::string error;
-  if (!ros::names::validate(name, error)) {
-    throw sweep_guard_core::InvalidInput("'" + sweep_guard_core::printable(name) +
-                                         "' is no name of a parameter: it has letters, digits, / and _");
-  }
   const auto known = settings_.find(name);
   if (known != settings_.end()) return known->second ? static_cast<std::string>(*known->second) : "";
   settings_[name] = std::nullopt;
