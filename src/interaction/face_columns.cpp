@@ -19,14 +19,26 @@ Eigen::Matrix3d axesAlong(const Eigen::Vector3d& up) {
   return R_CT;
 }
 
+double distanceFromSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double share = along.dot(p - a) / std::max(along.squaredNorm(), std::numeric_limits<double>::min());
+  return (p - a - std::clamp(share, 0.0, 1.0) * along).norm();
+}
+
+// Leaves out corners between their neighbors.
 std::vector<Eigen::Vector2d> outlineOf(const Polygon& face, double tolerance) {
   std::vector<Eigen::Vector2d> outline;
-  for (const Eigen::Vector3d& corner : face) {
-    const Eigen::Vector2d p = corner.head<2>();
-    const bool again = !outline.empty() && ((p - outline.back()).norm() <= tolerance);
-    if (!again) outline.push_back(p);
+  for (const Eigen::Vector3d& corner : face) outline.emplace_back(corner.head<2>());
+  for (size_t i = 0; i < outline.size();) {
+    const size_t count = outline.size();
+    const Eigen::Vector2d& before = outline[(i + count - 1) % count];
+    const Eigen::Vector2d& after = outline[(i + 1) % count];
+    if (distanceFromSegment(outline[i], before, after) <= tolerance) {
+      outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      ++i;
+    }
   }
-  while (outline.size() > 1 && (outline.front() - outline.back()).norm() <= tolerance) outline.pop_back();
   return outline;
 }
 
@@ -46,15 +58,16 @@ void FaceColumns::addFace(Polygon face) {
   normal.normalize();
   if (!(std::abs(normal.z()) > kUpright)) return;
   const double tolerance = kSameOutline * bounds_.diagonal().norm();
-  const std::vector<Eigen::Vector2d> outline = outlineOf(face, tolerance);
+  std::vector<Eigen::Vector2d> outline = outlineOf(face, tolerance);
+  if (normal.z() < 0.0) std::reverse(outline.begin(), outline.end());
   if (outline.size() < 3) return;
-  const auto same = [&](const Column& column) { return column.hasOutline(outline, tolerance); };
+  const auto same = [&](const Column& column) { return column.outline.hasCorners(outline, tolerance); };
   auto column = std::find_if(columns_.begin(), columns_.end(), same);
-  if (column == columns_.end()) column = columns_.insert(column, Column(outline));
+  if (column == columns_.end()) column = columns_.insert(column, {Outline(outline), {}});
   Floor floor{-normal.x() / normal.z(),
               -normal.y() / normal.z(),
               normal.dot(face[0]) / normal.z(),
-              normal.z() < 0.0 ? 1.0 : -1.0,
+              /*looks_down=*/normal.z() < 0.0,
               kInfinity,
               -kInfinity};
   for (const Eigen::Vector3d& corner : face) {
@@ -64,140 +77,35 @@ void FaceColumns::addFace(Polygon face) {
   column->floors.push_back(floor);
 }
 
-FaceColumns::Column::Column(const std::vector<Eigen::Vector2d>& outline)
-    : center(Eigen::Vector2d::Zero()), squared_inradius(kInfinity) {
-  for (const Eigen::Vector2d& p : outline) {
-    bounds.extend(p);
-    center += p / static_cast<double>(outline.size());
-  }
-  for (size_t i = 0; i < outline.size(); ++i) {
-    const Eigen::Vector2d& from = outline[i];
-    const Eigen::Vector2d along = (outline[(i + 1) % outline.size()] - from).normalized();
-    Eigen::Vector2d out(along.y(), -along.x());
-    if (out.dot(center - from) > 0.0) out = -out;
-    walls.x.push_back(out.x());
-    walls.y.push_back(out.y());
-    walls.d.push_back(out.dot(from));
-    squared_inradius = std::min(squared_inradius, std::pow(out.dot(from - center), 2));
-  }
-}
-
-bool FaceColumns::Column::hasOutline(const std::vector<Eigen::Vector2d>& outline, double tolerance) const {
-  if (outline.size() != walls.d.size()) return false;
-  for (size_t i = 0; i < outline.size(); ++i) {
-    const auto lies_in = [&](const Eigen::Vector2d& p) {
-      return std::abs(walls.x[i] * p.x() + walls.y[i] * p.y() - walls.d[i]) <= tolerance;
-    };
-    if (std::count_if(outline.begin(), outline.end(), lies_in) != 2) return false;
-  }
-  return true;
-}
-
-void FaceColumns::add(const Polygon& corners, SurfaceSums& sums) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& corner : corners) box.extend(corner);
-  const Eigen::AlignedBox2d shadow(box.min().head<2>(), box.max().head<2>());
+void FaceColumns::add(const std::array<Eigen::Vector3d, 3>& triangle, PrismAccumulator& prisms) {
+  const Eigen::Vector3d lower = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
+  const Eigen::Vector3d upper = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
+  const Eigen::AlignedBox2d shadow(lower.head<2>(), upper.head<2>());
+  const auto below = [&](const Floor& floor) { return upper.z() <= floor.lowest; };
   for (const Column& column : columns_) {
-    const auto below = [&](const Floor& floor) { return box.max().z() <= floor.lowest; };
-    if (!column.bounds.intersects(shadow) || std::all_of(column.floors.begin(), column.floors.end(), below)) continue;
-    const Polygon* const inside = partInside(column, corners);
-    if (inside == nullptr) continue;
+    if (!column.outline.bounds().intersects(shadow)) continue;
+    if (std::all_of(column.floors.begin(), column.floors.end(), below)) continue;
+    if (!column.outline.cut(triangle, inside_)) continue;
     for (const Floor& floor : column.floors) {
       if (below(floor)) continue;
-      const bool whole = box.min().z() >= floor.highest;
-      addPrisms(floor, whole ? *inside : partAbove(floor, *inside), sums);
+      addFan(floor, lower.z() >= floor.highest ? inside_.corners() : partAbove(floor), prisms);
     }
   }
 }
 
-// Returns null if nothing is inside of all walls.
-const Polygon* FaceColumns::partInside(const Column& column, const Polygon& corners) {
-  const auto near = [&](const Eigen::Vector3d& p) {
-    return (p.head<2>() - column.center).squaredNorm() <= column.squared_inradius;
-  };
-  if (std::all_of(corners.begin(), corners.end(), near)) return &corners;
-  findExtremes(column.walls, corners);
-  kept_ = corners;
-  const double* const least = least_.data();
-  const double* const most = most_.data();
-  const size_t count = most_.size();
-  for (size_t i = 0; i < count; ++i) {
-    if (!(most[i] > 0.0)) continue;
-    if (least[i] > 0.0) return nullptr;
-    out_.resize(kept_.size());
-    std::transform(kept_.begin(), kept_.end(), out_.begin(),
-                   [&](const Eigen::Vector3d& p) { return column.walls.beyond(i, p); });
-    if (!cut()) return nullptr;
+const Polygon& FaceColumns::partAbove(const Floor& floor) {
+  above_.begin(inside_.corners());
+  above_.cut([&](const Eigen::Vector3d& p) { return -floor.height(p); });
+  return above_.corners();
+}
+
+void FaceColumns::addFan(const Floor& floor, const Polygon& above, PrismAccumulator& prisms) {
+  for (size_t i = 2; i < above.size(); ++i) {
+    const Eigen::Vector3d& a = above[0];
+    const Eigen::Vector3d& b = floor.looks_down ? above[i - 1] : above[i];
+    const Eigen::Vector3d& c = floor.looks_down ? above[i] : above[i - 1];
+    prisms.add({&a, &b, &c}, {floor.height(a), floor.height(b), floor.height(c)});
   }
-  inside_.swap(kept_);
-  return &inside_;
-}
-
-void FaceColumns::findExtremes(const Walls& walls, const Polygon& corners) {
-  const size_t count = walls.d.size();
-  least_.assign(count, kInfinity);
-  most_.assign(count, -kInfinity);
-  for (const Eigen::Vector3d& corner : corners) {
-    const double* const x = walls.x.data();
-    const double* const y = walls.y.data();
-    const double* const d = walls.d.data();
-    double* const least = least_.data();
-    double* const most = most_.data();
-    for (size_t i = 0; i < count; ++i) {
-      const double out = x[i] * corner.x() + y[i] * corner.y() - d[i];
-      least[i] = std::min(least[i], out);
-      most[i] = std::max(most[i], out);
-    }
-  }
-}
-
-const Polygon& FaceColumns::partAbove(const Floor& floor, const Polygon& inside) {
-  kept_ = inside;
-  out_.resize(kept_.size());
-  std::transform(kept_.begin(), kept_.end(), out_.begin(), [&](const Eigen::Vector3d& p) { return -floor.below(p); });
-  if (!cut()) kept_.clear();
-  return kept_;
-}
-
-void FaceColumns::addPrisms(const Floor& floor, const Polygon& above, SurfaceSums& sums) {
-  for (size_t i = 2; i < above.size(); ++i) addPrism(floor, above[0], above[i - 1], above[i], sums);
-}
-
-// Between a triangle and the floor. Both are linear, so products of two positions or heights have exact integrals.
-void FaceColumns::addPrism(const Floor& floor, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                           const Eigen::Vector3d& c, SurfaceSums& sums) {
-  const Eigen::Vector3d area = 0.5 * floor.sign * (b - a).cross(c - a);
-  sums.area += area;
-  sums.area_moment += (a + b + c) / 3.0 * area.transpose();
-  double heights = 0.0;
-  Eigen::Vector3d middles = Eigen::Vector3d::Zero();
-  Eigen::Vector3d products = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d* const corner : {&a, &b, &c}) {
-    const double height = floor.below(*corner);
-    const Eigen::Vector3d middle(corner->x(), corner->y(), corner->z() - 0.5 * height);
-    heights += height;
-    middles += middle;
-    products += height * middle;
-  }
-  sums.volume += area.z() * heights / 3.0;
-  sums.volume_moment += area.z() / 12.0 * (heights * middles + products);
-}
-
-// Keeps what is not out_, boundary included (Sutherland and Hodgman 1974). Returns whether more than that is kept.
-bool FaceColumns::cut() {
-  const auto beyond = [](double out) { return out > 0.0; };
-  if (std::none_of(out_.begin(), out_.end(), beyond)) return true;
-  if (std::none_of(out_.begin(), out_.end(), [](double out) { return out < 0.0; })) return false;
-  whole_.swap(kept_);
-  kept_.clear();
-  for (size_t i = 0; i < whole_.size(); ++i) {
-    const size_t before = i == 0 ? whole_.size() - 1 : i - 1;
-    if (beyond(out_[i]) != beyond(out_[before])) {
-      kept_.push_back(whole_[before] + out_[before] / (out_[before] - out_[i]) * (whole_[i] - whole_[before]));
-    }
-    if (!beyond(out_[i])) kept_.push_back(whole_[i]);
-  }
-  return kept_.size() >= 3;
 }
 
 }  // namespace sweep_guard_core

@@ -12,6 +12,8 @@
 namespace sweep_guard_core {
 namespace {
 
+using Corners = std::array<Eigen::Vector3d, 3>;
+
 Clips slantingSides(const PiecePolytope& piece, const FaceColumns& columns) {
   Clips sides_C;
   for (const double x : {-1.0, 1.0}) {
@@ -57,7 +59,7 @@ class InterpenetrationFinder::Implementation {
   const TriangleMesh* mesh_M_ = nullptr;
   Eigen::Isometry3d X_MC_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_CO_ = Eigen::Isometry3d::Identity();  // O: at the mesh's origin(), with the axes of M
-  Polygon corners_;
+  PrismAccumulator prisms_;
   SurfaceSums sums_;
 };
 
@@ -67,7 +69,7 @@ Interpenetration InterpenetrationFinder::Implementation::find(const TriangleMesh
   found.enclosed = mesh_M.winding() != 0;
   if (piece_.volume() == 0.0) return found;
   place(mesh_M, X_MT);
-  sums_ = SurfaceSums();
+  prisms_.begin();
   if (found.enclosed) {
     sumOfEnclosed();
   } else {
@@ -89,14 +91,13 @@ void InterpenetrationFinder::Implementation::place(const TriangleMesh& mesh_M, c
 // piece swept up to a height.
 template <typename Function>
 void InterpenetrationFinder::Implementation::forEachTriangleUpTo(double top, const Function& function) {
-  corners_.resize(3);
-  for (const RemainingTriangle& remaining : culler_.cull(*mesh_M_, floatPlanes(*mesh_M_, volumeUpTo(top)))) {
-    auto [a, b, c] = mesh_M_->triangles()[remaining.triangle];
+  const auto& triangles = mesh_M_->triangles();
+  const auto& all_remaining = culler_.cull(*mesh_M_, floatPlanes(*mesh_M_, volumeUpTo(top)));
+  for (const RemainingTriangle& remaining : all_remaining) __builtin_prefetch(&triangles[remaining.triangle]);
+  for (const RemainingTriangle& remaining : all_remaining) {
+    auto [a, b, c] = triangles[remaining.triangle];
     if (mesh_M_->winding() < 0) std::swap(b, c);
-    corners_[0] = X_CO_ * mesh_M_->offset(a);
-    corners_[1] = X_CO_ * mesh_M_->offset(b);
-    corners_[2] = X_CO_ * mesh_M_->offset(c);
-    function(corners_);
+    function(Corners{X_CO_ * mesh_M_->offset(a), X_CO_ * mesh_M_->offset(b), X_CO_ * mesh_M_->offset(c)});
   }
 }
 
@@ -112,13 +113,15 @@ SweptVolume InterpenetrationFinder::Implementation::volumeUpTo(double top) const
 
 void InterpenetrationFinder::Implementation::sumOfEnclosed() {
   const double top = X_CO_.translation().z() + mesh_M_->radius();
-  forEachTriangleUpTo(top, [&](const Polygon& corners) { columns_.add(corners, sums_); });
+  forEachTriangleUpTo(top, [&](const Corners& corners) { columns_.add(corners, prisms_); });
+  sums_ = prisms_.sums();
 }
 
 // Their area does not depend on the direction of the columns.
 void InterpenetrationFinder::Implementation::sumOfOpen() {
   const double top = columns_.bounds().max().z();
-  forEachTriangleUpTo(top, [&](const Polygon& corners) { columns_.add(corners, sums_); });
+  forEachTriangleUpTo(top, [&](const Corners& corners) { columns_.add(corners, prisms_); });
+  sums_ = prisms_.sums();
   sums_.volume = 0.0;
   sums_.volume_moment.setZero();
   if (!sums_.area.isZero(0.0)) addBehind(sums_.area.normalized());
@@ -128,15 +131,15 @@ void InterpenetrationFinder::Implementation::addBehind(const Eigen::Vector3d& no
   const Eigen::Matrix3d& R_CT = columns_.R_CT();
   FaceColumns columns_N(piece_, R_CT.transpose() * normal);
   const Eigen::Matrix3d R_NC = columns_N.R_CT() * R_CT.transpose();
-  SurfaceSums sums_N;
-  forEachTriangleUpTo(columns_.bounds().max().z(), [&](const Polygon& corners) {
-    Polygon inside = corners;
+  prisms_.begin();
+  forEachTriangleUpTo(columns_.bounds().max().z(), [&](const Corners& corners) {
+    Polygon inside(corners.begin(), corners.end());
     for (const HalfSpace& face : piece_.halfSpaces())
       inside = clip(inside, HalfSpace(R_CT * face.normal(), face.offset()));
-    if (inside.size() < 3) return;
     for (Eigen::Vector3d& corner : inside) corner = R_NC * corner;
-    columns_N.add(inside, sums_N);
+    for (size_t i = 2; i < inside.size(); ++i) columns_N.add({inside[0], inside[i - 1], inside[i]}, prisms_);
   });
+  const SurfaceSums sums_N = prisms_.sums();
   sums_.volume = sums_N.volume;
   sums_.volume_moment = R_NC.transpose() * sums_N.volume_moment;
 }

@@ -353,6 +353,61 @@ TEST_P(KernelsTest, FindsNoGapWithoutDirections) {
   for (const double gap : gaps.gap) EXPECT_EQ(gap, -std::numeric_limits<double>::infinity());
 }
 
+// A prism is three tetrahedra.
+TEST_P(KernelsTest, AddsTheIntegralsOverPrisms) {
+  Random random(9);
+  for (const size_t count : {size_t{0}, size_t{1}, size_t{5}, size_t{33}, kPrisms}) {
+    PrismBatch prisms;
+    for (auto& corner : prisms.corner) {
+      for (auto& axis : corner) {
+        for (double& coordinate : axis) coordinate = random.uniform(-1.0, 1.0);
+      }
+    }
+    for (auto& of_corner : prisms.height) {
+      for (double& height : of_corner) height = random.uniform(0.0, 1.0);
+    }
+    prisms.count = count;
+    PrismSums sums;
+    sums.volume = 1.0;
+    sums.area[2] = 2.0;
+    GetParam().addPrisms(prisms, sums);
+    double volume = 1.0;
+    Eigen::Vector3d volume_moment = Eigen::Vector3d::Zero();
+    Eigen::Vector3d area(0.0, 0.0, 2.0);
+    Eigen::Matrix3d area_moment = Eigen::Matrix3d::Zero();
+    for (size_t i = 0; i < count; ++i) {
+      const auto top = [&](size_t k) {
+        const auto& corner = prisms.corner[k];
+        return Eigen::Vector3d(corner[0][i], corner[1][i], corner[2][i]);
+      };
+      const auto bottom = [&](size_t k) {
+        return Eigen::Vector3d(top(k) - prisms.height[k][i] * Eigen::Vector3d::UnitZ());
+      };
+      const auto addTetrahedron = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                                      const Eigen::Vector3d& d) {
+        const double of_one = (b - a).cross(c - a).dot(d - a) / 6.0;
+        volume += of_one;
+        volume_moment += of_one / 4.0 * (a + b + c + d);
+      };
+      addTetrahedron(bottom(0), bottom(1), bottom(2), top(2));
+      addTetrahedron(bottom(0), bottom(1), top(2), top(1));
+      addTetrahedron(bottom(0), top(1), top(2), top(0));
+      const Eigen::Vector3d normal = 0.5 * (top(1) - top(0)).cross(top(2) - top(0));
+      area += normal;
+      area_moment += (top(0) + top(1) + top(2)) / 3.0 * normal.transpose();
+    }
+    EXPECT_NEAR(sums.volume, volume, 1e-13);
+    for (int row = 0; row < 3; ++row) {
+      const auto axis = static_cast<size_t>(row);
+      EXPECT_NEAR(sums.volume_moment[axis], volume_moment[row], 1e-13);
+      EXPECT_NEAR(sums.area[axis], area[row], 1e-13);
+      for (int column = 0; column < 3; ++column) {
+        EXPECT_NEAR(sums.area_moment[axis][static_cast<size_t>(column)], area_moment(row, column), 1e-13);
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(AllSets, KernelsTest, testing::ValuesIn(availableKernels()),
                          [](const auto& test) { return test.param.name; });
 

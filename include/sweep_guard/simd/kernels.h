@@ -98,6 +98,23 @@ struct BatchGaps {
   std::array<double, kBatch> direction;  ///< index of the direction
 };
 
+/// Vertical prisms: the triangles at their upper ends, and the lengths of their vertical edges.
+constexpr std::size_t kPrisms = 64;
+struct PrismBatch {
+  std::size_t count = 0;                                                  ///< at most kPrisms
+  std::array<std::array<std::array<double, kPrisms>, 3>, 3> corner = {};  ///< by corner, axis and prism [m]; finite
+  std::array<std::array<double, kPrisms>, 3> height = {};                 ///< of the edge below each corner [m]; finite
+};
+
+/// Integrals over prisms and over the triangles at their upper ends. A prism counts negative for the volume where its
+/// corners are clockwise seen from above.
+struct PrismSums {
+  double volume = 0.0;                                    ///< [m^3]
+  std::array<double, 3> volume_moment = {};               ///< of the position over the volume [m^4]
+  std::array<double, 3> area = {};                        ///< of the unit normal over the triangles [m^2]
+  std::array<std::array<double, 3>, 3> area_moment = {};  ///< of position (row) times unit normal (column) [m^3]
+};
+
 struct Kernels {
   const char* name;  ///< name of the instruction set
 
@@ -146,6 +163,9 @@ struct Kernels {
 
   /// Computes the largest gap of each triangle of a batch. Without directions it is -infinity.
   void (*separate)(const TriangleBatch& triangles, const Directions& directions, BatchGaps& gaps);
+
+  /// Adds the integrals of all prisms of a batch.
+  void (*addPrisms)(const PrismBatch& prisms, PrismSums& sums);
 };
 
 /// Returns the kernels that this machine can run, the best first; `baseline` is always among them.
