@@ -99,6 +99,7 @@ const Polygon& FaceColumns::partAbove(const Floor& floor) {
   return above_.corners();
 }
 
+// Prisms above a face that looks up are turned, so that they count negative.
 void FaceColumns::addFan(const Floor& floor, const Polygon& above, PrismAccumulator& prisms) {
   for (size_t i = 2; i < above.size(); ++i) {
     const Eigen::Vector3d& a = above[0];

@@ -51,7 +51,7 @@ class FaceColumns {
   Eigen::Matrix3d R_CT_;
   Eigen::AlignedBox3d bounds_;
   std::vector<Column> columns_;
-  PolygonCutter inside_;  // of the walls
+  PolygonCutter inside_;  // of the walls; of the running call
   PolygonCutter above_;   // of a floor
 };
 
