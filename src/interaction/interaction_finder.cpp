@@ -5,7 +5,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kLongest = 0.1;  // between two poses [s]
+constexpr Duration kLongest = std::chrono::milliseconds(100);  // between two poses
 
 ForceLaw lawOf(const Workpiece& workpiece, const InteractionOptions& options) {
   ForceLaw law = options.law;
@@ -14,30 +14,45 @@ ForceLaw lawOf(const Workpiece& workpiece, const InteractionOptions& options) {
   return law;
 }
 
+Eigen::Isometry3d bodyInTool(const PoseWithFrames& pose, size_t body) {
+  if (pose.bodies.empty()) return Eigen::Isometry3d::Identity();
+  return pose.X_WT.inverse() * pose.bodies[body].X_WB;
+}
+
+Interpenetration inTool(const Eigen::Isometry3d& X_TB, Interpenetration found) {
+  found.centroid_T = X_TB * found.centroid_T;
+  found.area_T = X_TB.linear() * found.area_T;
+  return found;
+}
+
 }  // namespace
 
-std::vector<InterpenetrationFinder> interpenetrationFinders(const Tool& tool) {
-  std::vector<InterpenetrationFinder> finders;
-  for (const ConvexPiece& piece : tool.pieces()) finders.emplace_back(piece.shape_T);
+InterpenetrationFinders interpenetrationFinders(const std::vector<Tool>& bodies) {
+  InterpenetrationFinders finders;
+  for (const Tool& body : bodies) {
+    finders.emplace_back();
+    for (const ConvexPiece& piece : body.pieces()) finders.back().emplace_back(piece.shape_T);
+  }
   return finders;
 }
 
-/// The tool at two poses relative to a workpiece.
-class InteractionFinder::ToolMotion {
- public:
-  ToolMotion(const Eigen::Isometry3d& X_MT, const Eigen::Isometry3d& before, double seconds)
-      : X_MT_(X_MT), before_(before), seconds_(seconds) {}
+void InteractionFinder::ToolMotion::moveTo(const PoseWithFrames& pose, const std::string& frame,
+                                           const Eigen::Isometry3d& X_WM, size_t bodies) {
+  std::swap(before_, now_);
+  now_.X_MB.clear();
+  for (size_t i = 0; i < bodies; ++i) now_.X_MB.push_back(X_WM.inverse() * pose.body(i).X_WB);
+  now_.frame = frame;
+  now_.stamp = pose.stamp;
+  const Duration since = now_.stamp - before_.stamp;
+  known_ = before_.X_MB.size() == bodies && before_.frame == frame && since > Duration::zero() && since <= kLongest;
+}
 
-  const Eigen::Isometry3d& X_MT() const { return X_MT_; }
-  Eigen::Vector3d velocity_T(const Eigen::Vector3d& p_T) const {
-    return X_MT_.linear().transpose() * (X_MT_ * p_T - before_ * p_T) / seconds_;
-  }
-
- private:
-  Eigen::Isometry3d X_MT_;
-  Eigen::Isometry3d before_;
-  double seconds_;
-};
+Eigen::Vector3d InteractionFinder::ToolMotion::velocity_B(size_t body, const Eigen::Vector3d& p_B) const {
+  if (!known_) return Eigen::Vector3d::Zero();
+  const Eigen::Isometry3d& X_MB = now_.X_MB[body];
+  const double seconds = toSeconds(now_.stamp - before_.stamp);
+  return X_MB.linear().transpose() * (X_MB * p_B - before_.X_MB[body] * p_B) / seconds;
+}
 
 void InteractionFinder::find(const InteractionRequest& request, Interaction& interaction) {
   interaction.objects.clear();
@@ -47,12 +62,13 @@ void InteractionFinder::find(const InteractionRequest& request, Interaction& int
   for (const auto& workpiece : request.workpieces) {
     const auto X_WM = request.pose.X_WM.find(workpiece->frame);
     if (X_WM == request.pose.X_WM.end()) {
-      earlier_.erase(workpiece->id);
+      motions_.erase(workpiece->id);
       interaction.unplaced.push_back(workpiece);
       continue;
     }
-    const PlacedTool now{X_WM->second.inverse() * request.pose.X_WT, workpiece->frame, request.pose.stamp};
-    const ObjectInteraction found = interact(workpiece, motionOf(*workpiece, now), request.options);
+    ToolMotion& motion = motions_[workpiece->id];
+    motion.moveTo(request.pose, workpiece->frame, X_WM->second, bodies_.size());
+    const ObjectInteraction found = interact(workpiece, request.pose, motion, request.options);
     if (found.volume == 0.0 && found.area_T.isZero(0.0)) continue;
     interaction.total += found.wrench;
     interaction.objects.push_back(found);
@@ -60,38 +76,32 @@ void InteractionFinder::find(const InteractionRequest& request, Interaction& int
 }
 
 void InteractionFinder::forgetRemoved(const Workpieces& workpieces) {
-  for (auto earlier = earlier_.begin(); earlier != earlier_.end();) {
-    const auto same = [&](const auto& workpiece) { return workpiece->id == earlier->first; };
+  for (auto motion = motions_.begin(); motion != motions_.end();) {
+    const auto same = [&](const auto& workpiece) { return workpiece->id == motion->first; };
     const bool there = std::any_of(workpieces.begin(), workpieces.end(), same);
-    earlier = there ? std::next(earlier) : earlier_.erase(earlier);
+    motion = there ? std::next(motion) : motions_.erase(motion);
   }
-}
-
-InteractionFinder::ToolMotion InteractionFinder::motionOf(const Workpiece& workpiece, const PlacedTool& now) {
-  const auto [earlier, first] = earlier_.emplace(workpiece.id, now);
-  const PlacedTool before = earlier->second;
-  earlier->second = now;
-  const double seconds = toSeconds(now.stamp - before.stamp);
-  if (first || before.frame != now.frame || !(seconds > 0.0 && seconds <= kLongest)) {
-    return {now.X_MT, now.X_MT, kLongest};
-  }
-  return {now.X_MT, before.X_MT, seconds};
 }
 
 ObjectInteraction InteractionFinder::interact(const std::shared_ptr<const Workpiece>& workpiece,
-                                              const ToolMotion& motion, const InteractionOptions& options) {
+                                              const PoseWithFrames& pose, const ToolMotion& motion,
+                                              const InteractionOptions& options) {
   const ForceLaw law = lawOf(*workpiece, options);
   ObjectInteraction sum;
   sum.workpiece = workpiece;
   Eigen::Vector3d moment_T = Eigen::Vector3d::Zero();
-  for (InterpenetrationFinder& piece : pieces_) {
-    const Interpenetration found = piece.find(workpiece->mesh_M, motion.X_MT());
-    sum.enclosed = found.enclosed;
-    sum.volume += found.volume;
-    moment_T += found.volume * found.centroid_T;
-    sum.area_T += found.area_T;
-    sum.depth = std::max(sum.depth, found.depth(law.least_area));
-    sum.wrench += interactionForce(found, motion.velocity_T(found.centroid_T), law);
+  for (size_t body = 0; body < bodies_.size(); ++body) {
+    const Eigen::Isometry3d X_TB = bodyInTool(pose, body);
+    for (InterpenetrationFinder& piece : bodies_[body]) {
+      const Interpenetration found_B = piece.find(workpiece->mesh_M, motion.X_MB(body));
+      const Interpenetration found = inTool(X_TB, found_B);
+      sum.enclosed = found.enclosed;
+      sum.volume += found.volume;
+      moment_T += found.volume * found.centroid_T;
+      sum.area_T += found.area_T;
+      sum.depth = std::max(sum.depth, found.depth(law.least_area));
+      sum.wrench += interactionForce(found, X_TB.linear() * motion.velocity_B(body, found_B.centroid_T), law);
+    }
   }
   if (sum.volume > 0.0) sum.centroid_T = moment_T / sum.volume;
   return sum;

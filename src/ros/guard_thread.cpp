@@ -58,10 +58,9 @@ Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(
 GuardThread::GuardThread(const ros::NodeHandle& private_node, const GuardThreadDependencies& dependencies)
     : dependencies_(dependencies),
       results_(private_node, dependencies.parameters),
-      proximity_(private_node, dependencies.parameters, dependencies.monitor),
-      interaction_(private_node, dependencies.parameters, dependencies.monitor),
-      bodies_(private_node, dependencies.parameters),
-      guard_(guardOf(dependencies.parameters.initial(), firstDetector(dependencies))) {}
+      tool_(private_node, dependencies.parameters, dependencies.monitor),
+      guard_(guardOf(dependencies.parameters.initial(), firstDetector(dependencies))),
+      acknowledgements_(dependencies.parameters, dependencies.monitor, dependencies.sampler, guard_) {}
 
 void GuardThread::start(Supervisor& supervisor) {
   top_ = &supervisor.add({"guard", sweep_guard_core::Stage::kSweep});
@@ -77,42 +76,41 @@ void GuardThread::stop() {
 // Makes the new parts and destroys the old ones here: the guard's thread only exchanges them.
 void GuardThread::apply(const std::shared_ptr<const Parameters>& next) {
   const std::lock_guard lock(change_mutex_);
-  sweep_guard_core::GuardChange change;
-  change.options = next->guard;
   const auto before = dependencies_.parameters.get();
   if (before->attached != next->attached) {
     throw Error("a workpiece was attached or detached meanwhile: ask again; no parameter was changed");
   }
-  if (detectorsDiffer(*before, *next)) {
-    auto detector = dependencies_.make_detector(*next);
-    const std::string failure = testFailure(*next, describe(next->detector), *detector);
-    if (!failure.empty()) throw sweep_guard_core::DeviceError(failure + ": no parameter was changed");
-    change.detector = sampled(std::move(detector), next->detector.name, dependencies_.sampler);
-  }
-  if (differ(*before, *next, "prediction/") || differ(*before, *next, "limits/")) {
-    change.predictor.emplace(next->guard.predictor, articulatedRobot(*next));
-  }
-  std::vector<sweep_guard_core::InterpenetrationFinder> pieces;
-  boost::shared_ptr<sweep_guard::ToolSurface> surface;
-  if (differ(*before, *next, "tool/")) {
-    surface = dependencies_.make_surface(*next);
-    change.bodies = *next->bodies;
-    change.robot = articulatedRobot(*next);
-    pieces = sweep_guard_core::interpenetrationFinders(*next->tool);
-  }
+  sweep_guard_core::GuardChange change = changeTo(*next, *before);
+  std::optional<ToolShapes> shapes;
+  if (!change.bodies.empty()) shapes = dependencies_.make_shapes(*next);
   const auto exchange = [&, tested = change.detector != nullptr] {
     guard_.exchange(change);
-    if (!change.bodies.empty()) {
-      proximity_.setTool(*next->tool);
-      bodies_.setTool(*next->bodies, surface);
-      interaction_.exchange(pieces);
-    }
+    if (shapes) tool_.setTool(*next, *shapes);
     if (tested) dependencies_.monitor.detectorTested({});
     dependencies_.monitor.setLimits(next->limits);
     dependencies_.statistics.setCycle(next->guard.cycle);
     dependencies_.parameters.set(next);
   };
   runInTime(exchange, "no parameter was changed");
+}
+
+sweep_guard_core::GuardChange GuardThread::changeTo(const Parameters& next, const Parameters& before) {
+  sweep_guard_core::GuardChange change;
+  change.options = next.guard;
+  if (detectorsDiffer(before, next)) {
+    auto detector = dependencies_.make_detector(next);
+    const std::string failure = testFailure(next, describe(next.detector), *detector);
+    if (!failure.empty()) throw sweep_guard_core::DeviceError(failure + ": no parameter was changed");
+    change.detector = sampled(std::move(detector), next.detector.name, dependencies_.sampler);
+  }
+  if (differ(before, next, "prediction/") || differ(before, next, "limits/")) {
+    change.predictor.emplace(next.guard.predictor, articulatedRobot(next));
+  }
+  if (differ(before, next, "tool/")) {
+    change.bodies = *next.bodies;
+    change.robot = articulatedRobot(next);
+  }
+  return change;
 }
 
 void GuardThread::reset() {
@@ -133,14 +131,16 @@ void GuardThread::reset() {
 // Called by the guard's thread.
 void GuardThread::forget() {
   dependencies_.monitor.restart();
-  guard_.reset();
-  proximity_.reset();
-  interaction_.reset();
-  bodies_.reset();
-  passed_.clear();
+  resetMotion();
   swept_.reset();
   prediction_due_ = false;
   dependencies_.scene.clear();
+}
+
+void GuardThread::resetMotion() {
+  guard_.reset();
+  tool_.reset();
+  passed_.clear();
 }
 
 void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
@@ -151,8 +151,7 @@ void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
   change.options = next->guard;
   change.bodies = *next->bodies;
   change.robot = articulatedRobot(*next);
-  auto pieces = sweep_guard_core::interpenetrationFinders(*next->tool);
-  const auto surface = dependencies_.make_surface(*next);
+  ToolShapes shapes = dependencies_.make_shapes(*next);
   const auto exchange = [&] {
     if (dependencies_.parameters.get() != before) throw Error("parameters have changed meanwhile: ask again");
     change_store();
@@ -160,9 +159,7 @@ void GuardThread::exchangeTool(const std::shared_ptr<const Parameters>& before,
     forget();
     guard_.exchange(change);
     dependencies_.intentions.clear();
-    interaction_.exchange(pieces);
-    proximity_.setTool(*next->tool);
-    bodies_.setTool(*next->bodies, surface);
+    tool_.setTool(*next, shapes);
     dependencies_.scene.setTool(*next->bodies);
   };
   runInTime(exchange, "the tool is as before");
@@ -183,55 +180,13 @@ const QueuedPose& GuardThread::freshPose() const {
 }
 
 std::string GuardThread::acknowledge(const std::string& id) {
-  std::string acknowledged = id;
-  runInTime([&] { acknowledgeNow(acknowledged); }, "nothing was acknowledged");
+  std::string acknowledged;
+  const auto add = [&] {
+    acknowledged = acknowledgements_.add(id, dependencies_.workpieces.snapshot(), checkpoint_.epoch);
+  };
+  runInTime(add, "nothing was acknowledged");
   dependencies_.warnings.publishIfChanged();
   return acknowledged;
-}
-
-void GuardThread::acknowledgeNow(std::string& id) {
-  if (id.empty()) {
-    sweep_guard_core::Warning warning;
-    dependencies_.monitor.warning(now(), warning);
-    if (warning.mesh_id.empty()) throw Error("there is no warning: " + warning.text);
-    id = warning.mesh_id;
-  }
-  const auto throwIf = [](const std::string& refusal) {
-    if (!refusal.empty()) throw Error(refusal);
-  };
-  throwIf(dependencies_.monitor.whyNotAcknowledged(id, now()));
-  if (!isNear(id, dependencies_.workpieces.snapshot())) {
-    throw Error("the tool is farther from '" + id + "' than warning/acknowledge_distance");
-  }
-  throwIf(dependencies_.monitor.acknowledge(id, now()));
-}
-
-void GuardThread::endAcknowledgements(const sweep_guard_core::Workpieces& workpieces) {
-  bool ended = false;
-  for (const std::string& id : dependencies_.monitor.acknowledged(std::chrono::steady_clock::now())) {
-    if (isKnownNear(id, workpieces)) continue;
-    dependencies_.monitor.endAcknowledgement(id);
-    ended = true;
-  }
-  if (ended) dependencies_.warnings.publishIfChanged();
-}
-
-// A workpiece that cannot be tested is not acknowledged any longer.
-bool GuardThread::isKnownNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces) {
-  try {
-    return isNear(id, workpieces);
-  } catch (const Error& error) {
-    log_.error(id, "testing whether the tool is near '" + id + "' failed: " + error.what());
-    return false;
-  }
-}
-
-bool GuardThread::isNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces) {
-  const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
-  const auto workpiece = std::find_if(workpieces.begin(), workpieces.end(), same);
-  if (workpiece == workpieces.end()) return false;
-  dependencies_.sampler.setWorkpieces(workpieces, {/*measured=*/false, checkpoint_.epoch});
-  return guard_.isWithin(dependencies_.parameters.get()->acknowledge_distance, **workpiece);
 }
 
 void GuardThread::runInTime(const std::function<void()>& task, const std::string& otherwise) {
@@ -331,13 +286,7 @@ bool GuardThread::sweepWaiting() {
 // Returns whether the pose was swept: others are passed, or out of date.
 bool GuardThread::process(const QueuedPose& queued, const QueuedPose* next) {
   if (!dependencies_.monitor.counts(queued.checkpoint)) return false;
-  if (!queued.checkpoint.continues(checkpoint_)) {
-    guard_.reset();
-    proximity_.reset();
-    interaction_.reset();
-    bodies_.reset();
-    passed_.clear();
-  }
+  if (!queued.checkpoint.continues(checkpoint_)) resetMotion();
   checkpoint_ = queued.checkpoint;
   follow();
   pace_.received(queued.pose.received);
@@ -360,7 +309,7 @@ void GuardThread::follow() {
 
 void GuardThread::pass(const sweep_guard_core::PoseWithFrames& pose) {
   guard_.pass(pose);
-  bodies_.moved(pose);
+  tool_.bodies.moved(pose);
   passed_.push_back(pose.received);
   dependencies_.scene.passed(pose);
 }
@@ -387,9 +336,9 @@ void GuardThread::sweep(const QueuedPose& queued) {
   dependencies_.statistics.swept(warned - pose.received, end - begin);
   reportFailures(report->failures);
   dependencies_.scene.swept(pose, report);
-  top_->run([&] { proximity_.swept(pose, workpieces, *report, guard_); });
-  top_->run([&] { interaction_.swept(pose, workpieces, *report); });
-  top_->run([&] { bodies_.moved(pose); });
+  top_->run([&] { tool_.proximity.swept(pose, workpieces, *report, guard_); });
+  top_->run([&] { tool_.interaction.swept(pose, workpieces, *report); });
+  top_->run([&] { tool_.bodies.moved(pose); });
   top_->run([&] { dependencies_.touches.swept(*report, workpieces); });
 }
 
@@ -446,9 +395,9 @@ void GuardThread::predict() {
                                       prediction->sweeps_asked, prediction->coveredUntil() - prediction->stamp - age,
                                       prediction->probability(PredictionInterval::kConsidered, age + considered)});
   reportFailures(prediction->failures);
-  endAcknowledgements(workpieces);
+  if (acknowledgements_.endWhereFar(workpieces, checkpoint_.epoch)) dependencies_.warnings.publishIfChanged();
   dependencies_.scene.predicted(pose, prediction);
-  bodies_.predicted(pose, *prediction);
+  tool_.bodies.predicted(pose, *prediction);
 }
 
 // Sweeps the poses that come meanwhile, as long as none of them fails, and counts how long that takes.

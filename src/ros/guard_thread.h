@@ -15,12 +15,11 @@
 #include "guard/intention_store.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
+#include "ros/acknowledgements.h"
 #include "ros/log_throttle.h"
-#include "ros/output/bodies_publisher.h"
-#include "ros/output/interaction_publisher.h"
-#include "ros/output/proximity_publisher.h"
 #include "ros/output/result_publisher.h"
 #include "ros/output/scene_publisher.h"
+#include "ros/output/tool_publishers.h"
 #include "ros/output/touches_publisher.h"
 #include "ros/output/warning_publisher.h"
 #include "ros/parameters/parameters.h"
@@ -47,7 +46,9 @@ struct GuardThreadDependencies {
   const sweep_guard_core::FrameMotionStore* frame_motions = nullptr;  ///< of other tools
   std::function<std::unique_ptr<sweep_guard_core::Detector>(const Parameters&)> make_detector =
       [](const Parameters& wanted) { return makeDetector(wanted.detector.name, wanted.detector.options); };
-  std::function<boost::shared_ptr<sweep_guard::ToolSurface>(const Parameters&)> make_surface = surfaceMsg;
+  std::function<ToolShapes(const Parameters&)> make_shapes = [](const Parameters& wanted) {
+    return ToolShapes(wanted);
+  };
 };
 
 /// Runs the guard in one thread: sweeps every queued pose, sweeps a backlog of poses as one motion, predicts from the
@@ -96,7 +97,9 @@ class GuardThread {
   std::future<std::unique_ptr<sweep_guard_core::Profile>> profile();
 
  private:
+  sweep_guard_core::GuardChange changeTo(const Parameters& next, const Parameters& before);
   void forget();
+  void resetMotion();
   const QueuedPose& freshPose() const;
   void run();
   bool workOnce();
@@ -117,24 +120,19 @@ class GuardThread {
   bool mayPredict() const;
   bool timeToPredict() const;
   std::optional<sweep_guard_core::SteadyTime> latestPrediction() const;
-  void acknowledgeNow(std::string& id);
-  void endAcknowledgements(const sweep_guard_core::Workpieces& workpieces);
-  bool isKnownNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces);
-  bool isNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces);
   void reportFailures(const std::vector<sweep_guard_core::SweepFailure>& failures);
   PredictService::Motion motion(sweep_guard_core::Duration horizon) const;
 
   const GuardThreadDependencies dependencies_;
   const ResultPublisher results_;
-  ProximityPublisher proximity_;      // after the start, used by the thread only
-  InteractionPublisher interaction_;  // the same
-  BodiesPublisher bodies_;            // the same
-  std::mutex change_mutex_;           // one change of the guard at a time
+  ToolPublishers tool_;      // after the start, used by the thread only
+  std::mutex change_mutex_;  // one change of the guard at a time
 
   // Used by the thread only:
   WorkQueue::Work work_;
   size_t next_ = 0;  // of work_.poses: those before it are done
   sweep_guard_core::Guard guard_;
+  Acknowledgements acknowledgements_;
   sweep_guard_core::WarningMonitor::Checkpoint checkpoint_;  // of the newest pose in the guard
   std::optional<QueuedPose> swept_;                          // newest swept pose
   bool prediction_due_ = false;                              // from that pose

@@ -27,6 +27,7 @@
 #include "sweep_guard/Interaction.h"
 #include "sweep_guard/Prediction.h"
 #include "sweep_guard/ToolShape.h"
+#include "sweep_guard/Touches.h"
 #include "sweep_guard/View.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/warning_level.h"
@@ -57,6 +58,28 @@ std::vector<std::string> endConditions() {
   for (const sweep_guard_core::LevelStyle& style : sweep_guard_core::kLevelStyles) names.emplace_back(style.name);
   return names;
 }
+
+/// Relays what the guard says on a topic, and repeats the newest of it.
+template <typename Message>
+class Relay {
+ public:
+  explicit Relay(const std::string& topic)
+      : publisher_(node_.advertise<Message>("shown/" + topic, 10)),
+        subscriber_(node_.subscribe<Message>("guard/" + topic, 10, [this](const typename Message::ConstPtr& message) {
+          newest_ = message;
+          repeat();
+        })) {}
+
+  void repeat() const {
+    if (newest_) publisher_.publish(newest_);
+  }
+
+ private:
+  ros::NodeHandle node_;
+  typename Message::ConstPtr newest_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+};
 
 class ScenePlayer {
  public:
@@ -90,6 +113,8 @@ class ScenePlayer {
     if (elastic_) {
       force_publisher_ = node_.advertise<visualization_msgs::MarkerArray>("shown/force", 1);
       interaction_subscriber_ = node_.subscribe("guard/interaction", 10, &ScenePlayer::onInteraction, this);
+      interaction_.emplace("interaction");
+      touches_.emplace("touches");
     }
     tool_subscriber_ = node_.subscribe<sweep_guard::ToolShape>(
         "guard/tool", 1, [this](const sweep_guard::ToolShape::ConstPtr& shape) { tool_publisher_.publish(shape); });
@@ -240,7 +265,10 @@ class ScenePlayer {
       publishClock();
       view_publisher_.publish(view_);
       warning_publisher_.publish(warning_);
-      if (elastic_) force_publisher_.publish(force_);
+      if (elastic_) {
+        force_publisher_.publish(force_);
+        interaction_->repeat();
+      }
       ros::spinOnce();
     }
   }
@@ -274,6 +302,8 @@ class ScenePlayer {
   ros::Publisher force_publisher_;
   visualization_msgs::MarkerArray force_;
   ros::Subscriber interaction_subscriber_;
+  std::optional<Relay<sweep_guard::Interaction>> interaction_;
+  std::optional<Relay<sweep_guard::Touches>> touches_;
   ros::Subscriber view_subscriber_;
   ros::Subscriber warning_subscriber_;
   ros::Subscriber prediction_subscriber_;

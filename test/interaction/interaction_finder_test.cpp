@@ -37,7 +37,7 @@ class InteractionFinderTest : public testing::Test {
 
   InteractionOptions options_;
   Workpieces workpieces_ = {workpieceOf(boxMesh({1.0, 1.0, 1.0}))};
-  InteractionFinder finder_{Tool(ConvexShape::box(kHalf))};
+  InteractionFinder finder_{std::vector<Tool>{Tool(ConvexShape::box(kHalf))}};
 };
 
 TEST_F(InteractionFinderTest, TheForceIsStiffnessTimesVolumeOutOfTheWorkpiece) {
@@ -84,7 +84,7 @@ TEST_F(InteractionFinderTest, AnObjectMayHaveItsOwnStiffness) {
 
 TEST_F(InteractionFinderTest, PiecesThatOverlapCountTwice) {
   const ConvexShape box = ConvexShape::box(kHalf);
-  InteractionFinder twice(Tool(std::vector<ConvexPiece>{{"a", box}, {"b", box}}));
+  InteractionFinder twice({Tool(std::vector<ConvexPiece>{{"a", box}, {"b", box}})});
   Interaction found;
   const PoseWithFrames pose = poseAt(at(0.1, 0.2, 1.02));
   twice.find({pose, workpieces_, options_}, found);
@@ -148,6 +148,49 @@ TEST_F(InteractionFinderTest, AfterASilenceThereIsNoDamping) {
   EXPECT_NEAR(find(poseAt(at(0.1, 0.2, 1.02), 220ms)).total.force_T.z(), 8.0, 1e-8);
 }
 
+// Two jaws, each turned and placed against T.
+class JawsTest : public InteractionFinderTest {
+ protected:
+  PoseWithFrames poseOf(const Isometry3d& X_WT, const Isometry3d& X_TB, Duration at = 0s) const {
+    PoseWithFrames pose = poseAt(X_WT, at);
+    pose.bodies = {{X_WT * X_TB}, {X_WT * X_TA_}};
+    return pose;
+  }
+  Interaction findOfJaws(const PoseWithFrames& pose) {
+    Interaction found;
+    jaws_.find({pose, workpieces_, options_}, found);
+    return found;
+  }
+
+  const Isometry3d X_TA_ = at(0.2, -0.1, 0.3);
+  InteractionFinder jaws_{{Tool(ConvexShape::box(kHalf)), Tool(ConvexShape::box(kHalf))}};
+};
+
+TEST_F(JawsTest, TheForceOfAJawIsThatOfARigidToolWithTheJawInPlace) {
+  const Isometry3d X_WT = at(0.1, 0.2, 0.95) * Eigen::AngleAxisd(0.4, Vector3d(1.0, 2.0, -1.0).normalized());
+  const Isometry3d X_TB = at(0.0, 0.0, 0.07) * Eigen::AngleAxisd(-0.7, Vector3d(2.0, 0.5, 1.0).normalized());
+  const ConvexShape jaw = ConvexShape::box(kHalf);
+  InteractionFinder rigid({Tool(std::vector<ConvexPiece>{{"b", jaw.placed(X_TB)}, {"a", jaw.placed(X_TA_)}})});
+  Interaction expected;
+  rigid.find({poseAt(X_WT), workpieces_, options_}, expected);
+  const Interaction found = findOfJaws(poseOf(X_WT, X_TB));
+  ASSERT_EQ(found.objects.size(), 1U);
+  ASSERT_EQ(expected.objects.size(), 1U);
+  EXPECT_GT(expected.objects[0].volume, 1e-6);
+  EXPECT_NEAR(found.objects[0].volume, expected.objects[0].volume, 1e-12);
+  EXPECT_LT((found.objects[0].centroid_T - expected.objects[0].centroid_T).norm(), 1e-9);
+  EXPECT_LT((found.objects[0].area_T - expected.objects[0].area_T).norm(), 1e-10);
+  EXPECT_LT((found.total.force_T - expected.total.force_T).norm(), 1e-6);
+  EXPECT_LT((found.total.torque_T - expected.total.torque_T).norm(), 1e-6);
+}
+
+TEST_F(JawsTest, AJawThatClosesIsDampedWhileTheToolRests) {
+  options_.law.damping = 2.0;
+  const Isometry3d X_WT = at(0.1, 0.2, 0.5);
+  findOfJaws(poseOf(X_WT, at(0.0, 0.0, 0.521)));
+  EXPECT_NEAR(findOfJaws(poseOf(X_WT, at(0.0, 0.0, 0.52), 10ms)).total.force_T.z(), 8.0 * (1.0 + 2.0 * 0.1), 1e-6);
+}
+
 // The energy [J] that the workpiece gives to a tool on a closed path, and all that it exchanges.
 struct LoopEnergy {
   double made = 0.0;
@@ -156,7 +199,7 @@ struct LoopEnergy {
 
 LoopEnergy energyOnLoop(const Isometry3d& X_MT, const Vector3d& u, const Vector3d& v, const Vector3d& turn) {
   const Workpieces workpieces = {workpieceOf(organ())};
-  InteractionFinder finder(Tool(ConvexShape::cylinder(0.006, 0.08)));
+  InteractionFinder finder({Tool(ConvexShape::cylinder(0.006, 0.08))});
   const InteractionOptions options;
   constexpr int kSteps = 400;
   const auto pose = [&](int i) {

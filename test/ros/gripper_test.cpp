@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/JointState.h>
 #include <sweep_guard/Attach.h>
+#include <sweep_guard/Interaction.h>
 
 #include "cube.h"
 #include "guard_probe.h"
 #include "node_fixture.h"
+#include "proximity_listener.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -57,6 +59,30 @@ TEST_F(GripperTest, TheFingerThatClosesIsNamedWhileTheForearmRests) {
     }
   }
   EXPECT_EQ(links, std::set<std::string>{"left"});
+}
+
+// The square faces up: what it presses on is the lower half of the finger.
+TEST_F(GripperTest, TheForceOnAFingerIsAtTheToolFrame) {
+  const TopicListener<sweep_guard::Interaction> forces("interaction");
+  const auto forceAt = [&](double jaw) {
+    step(0.0, jaw);
+    while (forces.all().empty())
+      step(0.0, jaw);  // poses that are swept before the guard knows its subscriber have none
+    const ros::Time stamp = probe().time();
+    return forces.awaitNewest([&](const auto& force) { return force.header.stamp >= stamp; });
+  };
+  EXPECT_TRUE(forceAt(0.04).objects.empty());
+  const sweep_guard::Interaction force = forceAt(0.015);
+  EXPECT_TRUE(force.valid);
+  ASSERT_EQ(force.objects.size(), 1U);
+  EXPECT_EQ(force.objects[0].mesh_id, "square");
+  EXPECT_NEAR(force.objects[0].volume, 0.006 * 0.006 * 0.01, 1e-12);
+  EXPECT_NEAR(force.objects[0].centroid.x, 0.22, 1e-6);
+  EXPECT_NEAR(force.objects[0].centroid.y, 0.02, 1e-6);
+  EXPECT_NEAR(force.objects[0].centroid.z, -0.005, 1e-6);
+  EXPECT_NEAR(force.wrench.force.z, 0.36, 1e-6);
+  EXPECT_NEAR(force.wrench.torque.x, 0.02 * 0.36, 1e-6);
+  EXPECT_NEAR(force.wrench.torque.y, -0.22 * 0.36, 1e-6);
 }
 
 // A plate below the fingers is in the way of the cube alone.

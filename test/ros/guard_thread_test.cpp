@@ -89,7 +89,7 @@ class GuardThreadTest : public ::testing::Test {
        [this](const Parameters&) { return std::make_unique<sweep_guard_core::FakeDetector>(record_); },
        [this](const Parameters& parameters) {
          surface_made_by_ = std::this_thread::get_id();
-         return surfaceMsg(parameters);
+         return ToolShapes(parameters);
        }}};
 };
 

@@ -50,8 +50,8 @@ struct PredictedObject {
   std::vector<std::uint32_t> reflex;   ///< triangles met or not ruled out in the reflex interval: ascending, each once
   std::vector<std::uint32_t> considered;  ///< the same later: ascending, each once, none of `reflex`
   std::vector<SweptVolume>
-      volumes_M;              ///< volumes around the whole tool, or around each of its bodies in turn, except bodies that
-                              ///< stay out of reach of the workpiece: end to end, unsplit; in M
+      volumes_M;  ///< volumes around the whole tool, or around each of its bodies in turn, except bodies that
+                  ///< stay out of reach of the workpiece: end to end, unsplit; in M
   size_t volumes_tested = 0;  ///< number of volumes tested in time, including those of split sweeps
 
   std::vector<std::uint32_t> triangles() const;  ///< of `reflex` and `considered`: ascending, each once

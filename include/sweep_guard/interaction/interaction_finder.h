@@ -42,39 +42,55 @@ struct InteractionRequest {
   const InteractionOptions& options;
 };
 
-/// The convex pieces of a tool, ready for InteractionFinder. Takes some milliseconds for each piece.
-std::vector<InterpenetrationFinder> interpenetrationFinders(const Tool& tool);
+/// The convex pieces of a tool, by body, ready for InteractionFinder.
+using InterpenetrationFinders = std::vector<std::vector<InterpenetrationFinder>>;
 
-/// Computes the forces of the workpieces on a tool. The velocity for the damping is that between the poses of the two
-/// latest calls, relative to the frame of the workpiece; 0 at the first one, and after 0.1 s without a call. The speed
-/// of a deformation is left out. Keeps its buffers between calls.
+/// Takes some milliseconds for each piece.
+InterpenetrationFinders interpenetrationFinders(const std::vector<Tool>& bodies);
+
+/// Computes the forces of the workpieces on a tool. The velocity for the damping is that of each body between the poses of
+/// the two latest calls, relative to the frame of the workpiece; 0 at the first one, and after 0.1 s without a call. The
+/// speed of a deformation is left out. Keeps its buffers between calls.
 class InteractionFinder {
  public:
-  explicit InteractionFinder(const Tool& tool) : pieces_(interpenetrationFinders(tool)) {}
+  /// @param bodies  of the tool, each in its own frame; as many as the poses have, or one, which is in T
+  explicit InteractionFinder(const std::vector<Tool>& bodies) : bodies_(interpenetrationFinders(bodies)) {}
 
   /// Exchanges the pieces of the tool; the caller gets those before.
-  void exchange(std::vector<InterpenetrationFinder>& pieces) { pieces_.swap(pieces); }
+  void exchange(InterpenetrationFinders& bodies) { bodies_.swap(bodies); }
 
   /// @param[out] interaction  overwritten; its buffers are used again
   void find(const InteractionRequest& request, Interaction& interaction);
 
-  void reset() { earlier_.clear(); }  ///< forgets the poses
+  void reset() { motions_.clear(); }  ///< forgets the poses
 
  private:
-  struct PlacedTool {
-    Eigen::Isometry3d X_MT;
-    std::string frame;  // name of M
-    Time stamp;
+  /// The bodies at the two latest poses, relative to a workpiece.
+  class ToolMotion {
+   public:
+    void moveTo(const PoseWithFrames& pose, const std::string& frame, const Eigen::Isometry3d& X_WM, size_t bodies);
+
+    const Eigen::Isometry3d& X_MB(size_t body) const { return now_.X_MB[body]; }
+    Eigen::Vector3d velocity_B(size_t body, const Eigen::Vector3d& p_B) const;  // [m/s]; 0: unknown
+
+   private:
+    struct Placed {
+      std::vector<Eigen::Isometry3d> X_MB;
+      std::string frame;  // name of M
+      Time stamp;
+    };
+
+    Placed before_;
+    Placed now_;
+    bool known_ = false;
   };
-  class ToolMotion;
 
-  ToolMotion motionOf(const Workpiece& workpiece, const PlacedTool& now);
   void forgetRemoved(const Workpieces& workpieces);
-  ObjectInteraction interact(const std::shared_ptr<const Workpiece>& workpiece, const ToolMotion& motion,
-                             const InteractionOptions& options);
+  ObjectInteraction interact(const std::shared_ptr<const Workpiece>& workpiece, const PoseWithFrames& pose,
+                             const ToolMotion& motion, const InteractionOptions& options);
 
-  std::vector<InterpenetrationFinder> pieces_;
-  std::map<std::string, PlacedTool> earlier_;  // by id of the workpiece
+  InterpenetrationFinders bodies_;
+  std::map<std::string, ToolMotion> motions_;  // by id of the workpiece
 };
 
 }  // namespace sweep_guard_core

@@ -43,13 +43,13 @@ InteractionPublisher::InteractionPublisher(ros::NodeHandle private_node, const L
     : parameters_(parameters),
       known_surfaces_(monitor),
       publisher_(private_node.advertise<sweep_guard::Interaction>("interaction", kQueue)),
-      finder_(*parameters.initial().tool) {}
+      finder_(*parameters.initial().bodies) {}
 
 void InteractionPublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
                                  const sweep_guard_core::Workpieces& workpieces,
                                  const sweep_guard_core::SweepReport& report) {
   const auto parameters = parameters_.get();
-  if (publisher_.getNumSubscribers() == 0 || parameters->articulated) return reset();
+  if (publisher_.getNumSubscribers() == 0) return reset();
   const InStage computing(Stage::kInteraction);
   finder_.find({pose, workpieces, parameters->interaction}, interaction_);
   const InStage publishing(Stage::kPublish);

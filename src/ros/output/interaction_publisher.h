@@ -3,8 +3,6 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
-#include <vector>
-
 #include "ros/output/known_surfaces.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/interaction/interaction_finder.h"
@@ -18,7 +16,7 @@ class InteractionPublisher {
                        const sweep_guard_core::WarningMonitor& monitor);
 
   /// Exchanges the pieces of the tool; the caller gets those before.
-  void exchange(std::vector<sweep_guard_core::InterpenetrationFinder>& pieces) { finder_.exchange(pieces); }
+  void exchange(sweep_guard_core::InterpenetrationFinders& bodies) { finder_.exchange(bodies); }
 
   /// Computes and publishes the force, if there is a subscriber.
   /// @param report  of the sweep to the pose

@@ -145,7 +145,7 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   const bool joint_states = read.flag(
       "tool/joint_states", false,
       "urdf only: joints of the tool move, and `joint_states` says how. tool_frame must be a link that none of "
-      "them moves. Implied by tool_source joint_states. ~proximity and ~interaction are silent then.");
+      "them moves. Implied by tool_source joint_states. ~proximity is silent then.");
   parameters.joint_timeouts = readJointTimeouts(read);
   parameters.guard.allowed = readAllowed(read);
   parameters.articulated = joint_states || parameters.tool_source == ToolSource::kJointStates;
