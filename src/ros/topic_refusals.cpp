@@ -17,7 +17,7 @@ std::shared_ptr<TopicRefusals> TopicRefusals::of(const std::string& topic) {
 }
 
 std::shared_ptr<TopicRefusals::Report> TopicRefusals::add(std::function<void(const std::string&)> report) {
-  const auto added = std::make_shared<Report>(std::move(report));
+  auto added = std::make_shared<Report>(std::move(report));
   const std::lock_guard lock(mutex_);
   const auto is_gone = [](const auto& one) { return one.expired(); };
   reports_.erase(std::remove_if(reports_.begin(), reports_.end(), is_gone), reports_.end());

@@ -17,6 +17,7 @@ double supportOf(const LinkSurface& surface, const Eigen::Vector3d& direction) {
 
 std::vector<ConvexShape> shapesOf(Random& random) {
   std::vector<Eigen::Vector3d> points;
+  points.reserve(20);
   for (int i = 0; i < 20; ++i) points.push_back(random.inBox({0.1, 0.05, 0.02}));
   return {ConvexShape::cylinder(0.01, 0.15), ConvexShape::cylinder(0.3, 0.02, 5), ConvexShape::sphere(0.05),
           ConvexShape::box({0.1, 0.02, 0.3}), ConvexShape::hull(points)};

@@ -10,7 +10,7 @@ namespace sweep_guard_ros {
 
 /// Another tool, as its publishers need it.
 struct ToolShapes {
-  /// Any thread. Takes seconds for thousands of corners.
+  /// Any thread. Takes seconds for ten thousand corners.
   explicit ToolShapes(const Parameters& parameters);
 
   sweep_guard_core::InterpenetrationFinders pieces;
