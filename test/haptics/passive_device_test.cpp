@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
+#include <utility>
 
 #include "motion/random_scenes.h"
 

@@ -1,3 +1,6 @@
+#include <chrono>
+#include <memory>
+
 #include "ros/haptics/haptics_node.h"
 #include "ros/process.h"
 #include "ros/run_node.h"

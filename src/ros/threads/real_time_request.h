@@ -2,6 +2,7 @@
 
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "sweep_guard/common/priority_mutex.h"
 
