@@ -137,7 +137,8 @@ class World {
 
   template <typename Msg, typename Take>
   static void convert(const Bytes& bytes, const Take& take) {
-    BoundedMessages<Msg> subscription("/topic", [](const auto&) {}, [](const std::string&) {}, kMaxSize);
+    BoundedMessages<Msg> subscription(
+        "/topic", [](const auto&) {}, [](const std::string&) {}, kMaxSize);
     const auto msg = read(subscription, bytes);
     if (msg != nullptr) take(*msg);
   }
