@@ -12,6 +12,8 @@
 namespace sweep_guard_core {
 namespace {
 
+constexpr double kRounding = 1e-12;  // of volume and extent of a piece: less is the rounding of prisms that cancel
+
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 Clips slantingSides(const PiecePolytope& piece, const FaceColumns& columns) {
@@ -147,14 +149,14 @@ void InterpenetrationFinder::Implementation::addBehind(const Eigen::Vector3d& no
 void InterpenetrationFinder::Implementation::report(Interpenetration& found) const {
   const Eigen::Matrix3d R_TC = columns_.R_CT().transpose();
   const Eigen::AlignedBox3d& bounds = columns_.bounds();
-  found.volume = std::max(0.0, sums_.volume);
-  if (found.volume > 0.0) {
+  if (sums_.volume > kRounding * piece_.volume()) {
+    found.volume = sums_.volume;
     const Eigen::Vector3d centroid = sums_.volume_moment / sums_.volume;
     found.centroid_T = piece_.center_T() + R_TC * centroid.cwiseMax(bounds.min()).cwiseMin(bounds.max());
   }
-  found.area_T = R_TC * sums_.area;
   const double area = sums_.area.norm();
-  if (!(area > 0.0)) return;
+  if (!(area > kRounding * bounds.sizes().squaredNorm())) return;
+  found.area_T = R_TC * sums_.area;
   const Eigen::Vector3d normal = sums_.area / area;
   const double behind = piece_.support(-R_TC * normal);
   const double size = behind + piece_.support(R_TC * normal);
