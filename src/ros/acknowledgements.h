@@ -11,7 +11,7 @@
 
 namespace sweep_guard_ros {
 
-/// Acknowledges warnings of workpieces that the tool is near, and ends that where it has left. The thread of the guard.
+/// Acknowledges warnings of workpieces that the tool is near, and ends acknowledgements of those that the tool has left. The thread of the guard.
 class Acknowledgements {
  public:
   /// All must outlive this.
@@ -27,7 +27,7 @@ class Acknowledgements {
   ///     warning/acknowledge_distance
   std::string add(const std::string& id, const sweep_guard_core::Workpieces& workpieces, std::uint64_t epoch);
 
-  /// Ends those of workpieces that the tool is not near, or is not known to be near. Returns whether there was one.
+  /// Ends acknowledgements of workpieces that the tool is not near, or is not known to be near. Returns whether there was one.
   bool endWhereFar(const sweep_guard_core::Workpieces& workpieces, std::uint64_t epoch);
 
  private:

@@ -36,7 +36,7 @@ class Master(ROSMasterHandler):
         if of_node and method == 'lookupNode' and not self._asked.is_set():
             self._asked.set()
             self._answered_in_time = self._gone.wait(TIME_TO_ANSWER)
-        elif of_node and self._gone.is_set():
+        elif of_node and self._gone.is_set() and method.startswith(('register', 'setParam')):
             self._calls_after_the_answer.append(method)
         result = getattr(self, method)(*params)
         if self._asked.is_set() and self.reg_manager.get_node(NODE) is None:

@@ -5,7 +5,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <thread>
 
@@ -28,7 +27,7 @@ TEST(RealTimeRequestDeathTest, ARefusalIsSaidWithWhatToDoAndTheThreadGoesOn) {
     refuseRealTime();
     RealTimeRequest request(50, "realtime_priority");
     request.make();
-    std::fputs(request.refusal().c_str(), stderr);
+    if (request.refusal().empty()) std::exit(5);
     std::exit(sched_getscheduler(0) == SCHED_OTHER ? 0 : 1);
   };
   EXPECT_EXIT(goes_on(), testing::ExitedWithCode(0), "'USER - rtprio 50'.*or set realtime_priority to 0");

@@ -73,10 +73,8 @@ void ForceCycle::observe(const ForceInputs& inputs, const Instant& at) {
 }
 
 void ForceCycle::publish(const DeviceWrench& wrench) {
-  if (!message_.unique()) {  // a nodelet keeps it
-    message_ = boost::make_shared<geometry_msgs::WrenchStamped>();
-    message_->header.frame_id = parameters_.device_frame;
-  }
+  if (!message_.unique()) message_ = boost::make_shared<geometry_msgs::WrenchStamped>();  // a nodelet keeps it
+  message_->header.frame_id = parameters_.device_frame;
   message_->header.stamp = ros::Time::now();
   message_->wrench.force = vectorMsg<geometry_msgs::Vector3>(wrench.force_D);
   message_->wrench.torque = vectorMsg<geometry_msgs::Vector3>(wrench.torque_D);

@@ -18,6 +18,8 @@ constexpr size_t kMaxMissing = 1000;       // as many as workpieces
 constexpr size_t kMaxMessageSize = 16384;  // a frame name of any sense fits [bytes]
 constexpr const char* kPassed = "positions of joints were dropped: others were silent meanwhile";
 constexpr size_t kMaxJointsSize = 1U << 20U;  // [bytes]
+constexpr char kPoseTopic[] = "tool_pose";
+constexpr char kJointsTopic[] = "joint_states";
 constexpr std::uint32_t kQueueLength =
     65536;  // 65 s at 1 kHz; a pose that ROS drops beyond that is a gap in header.seq
 
@@ -30,6 +32,14 @@ void requireStamp(sweep_guard_core::Time stamp) {
   if (stamp == sweep_guard_core::Time())
     throw PoseRefused(sweep_guard_core::kPoseInvalid, "stamp is 0: stamp each pose");
   if (liesInFuture(stamp)) throw PoseRefused(sweep_guard_core::kFutureStamp, kFutureStampText);
+}
+
+std::string sourceOf(const ros::NodeHandle& node, const Parameters& parameters) {
+  const std::string frames = "tf " + parameters.fixed_frame + " to " + parameters.tool_frame;
+  const std::string joints = node.resolveName(kJointsTopic);
+  if (parameters.tool_source == ToolSource::kJointStates) return joints + " on " + frames;
+  const std::string pose = parameters.tool_source == ToolSource::kTf ? frames : node.resolveName(kPoseTopic);
+  return parameters.articulated ? pose + " and " + joints : pose;
 }
 
 }  // namespace
@@ -54,6 +64,7 @@ void PoseInput::refuseWhatFails(const Accept& accept) {
 PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, const PoseInputDependencies& dependencies)
     : fixed_frame_(live.initial().fixed_frame),
       tool_frame_(live.initial().tool_frame),
+      source_(sourceOf(node, live.initial())),
       allow_several_publishers_(live.initial().allow_several_publishers),
       frames_(dependencies.frames),
       workpieces_(dependencies.workpieces),
@@ -63,7 +74,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
   if (live.initial().articulated) {
     articulated_ = std::make_unique<ArticulatedTool>(live);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
-        thread_.on(node), {"joint_states", kQueueLength, kMaxJointsSize},
+        thread_.on(node), {kJointsTopic, kQueueLength, kMaxJointsSize},
         [this](const auto& event) { refuseWhatFails([&] { acceptJoints(event); }); },
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
@@ -71,16 +82,9 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
   } else if (live.initial().tool_source == ToolSource::kTopic) {
     subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(
-        thread_.on(node), {"tool_pose", kQueueLength, kMaxMessageSize}, [this](const auto& event) { onMessage(event); },
+        thread_.on(node), {kPoseTopic, kQueueLength, kMaxMessageSize}, [this](const auto& event) { onMessage(event); },
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
-}
-
-std::string PoseInput::source() const {
-  const std::string joints = joints_ ? joints_.getTopic() : "";
-  if (joints_ && !subscriber_ && !transforms_changed_) return joints + " on tf " + fixed_frame_ + " to " + tool_frame_;
-  const std::string pose = subscriber_ ? subscriber_.getTopic() : "tf " + fixed_frame_ + " to " + tool_frame_;
-  return joints_ ? pose + " and " + joints : pose;
 }
 
 // Several nodes may publish joints, each its own.
@@ -160,7 +164,7 @@ void PoseInput::onTransforms() {
 void PoseInput::refuse(Reason reason, const std::string& message) {
   record_.error(message, /*refused=*/true);
   monitor_.fault(reason, "tool pose refused: " + message);
-  log_.error(std::to_string(reason), "tool pose on " + source() + " refused: " + message);
+  log_.error(std::to_string(reason), "tool pose on " + source_ + " refused: " + message);
 }
 
 // Of each input, before it is looked at.
@@ -174,7 +178,7 @@ void PoseInput::begin() {
   checkpoint_ = checkpoint;
   // After the checkpoint: the sweep to this pose does not end the fault.
   if (hasSeveralPublishers()) {
-    monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source());
+    monitor_.fault(sweep_guard_core::kMultiPublisher, "several nodes publish tool poses on " + source_);
   }
 }
 

@@ -42,9 +42,9 @@ class PoseInput {
   void start(Supervisor& supervisor) { thread_.start(supervisor, {"poses", sweep_guard_core::Stage::kReceive}); }
 
   const sweep_guard_core::InputRecord& record() const { return record_; }
-  std::string source() const;                       ///< resolved topic, or the tf frames
-  std::optional<std::uint32_t> publishers() const;  ///< of the topic; empty for tf
-  std::uint64_t lost() const { return lost_; }      ///< poses that were sent and did not arrive, by header.seq
+  const std::string& source() const { return source_; }  ///< resolved topics, or the tf frames
+  std::optional<std::uint32_t> publishers() const;       ///< of the topic; empty for tf
+  std::uint64_t lost() const { return lost_; }           ///< poses that were sent and did not arrive, by header.seq
 
  private:
   struct ReceivedPose {
@@ -72,6 +72,7 @@ class PoseInput {
 
   const std::string fixed_frame_;
   const std::string tool_frame_;
+  const std::string source_;
   const bool allow_several_publishers_;
   Frames& frames_;
   const sweep_guard_core::WorkpieceStore& workpieces_;

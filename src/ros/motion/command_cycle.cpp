@@ -25,6 +25,7 @@ CommandCycle::CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& p
     : parameters_(parameters),
       sources_(sources),
       frames_(sources.frames, parameters),
+      topic_(node.resolveName(CommandPort::kTopic)),
       guard_(parameters.options),
       period_(parameters.options.permission.command_timeout),
       port_(makeCommandPort(thread_.on(node), parameters, frames_,
@@ -46,7 +47,7 @@ void CommandCycle::onCommand(const CommandPort::Received& received) {
 
 void CommandCycle::refuse(const std::string& reason) {
   record_.error(reason, /*refused=*/true);
-  log_.error("", "command on " + port_->commandTopic() + " refused: " + reason);
+  log_.error("", "command on " + topic_ + " refused: " + reason);
 }
 
 CommandCycle::~CommandCycle() { stop(); }

@@ -72,6 +72,7 @@ class CommandCycle {
   const MotionParameters& parameters_;
   const CommandCycleSources sources_;
   const CommandFrames frames_;
+  const std::string topic_;  // resolved, of the commands
   sweep_guard_core::InputRecord record_;
   LogThrottle log_;
   mutable sweep_guard_core::PriorityMutex mutex_;  // of what follows

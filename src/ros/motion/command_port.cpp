@@ -55,7 +55,7 @@ class TypedPort : public CommandPort {
   TypedPort(ros::NodeHandle node, const CommandFrames& frames, Callbacks callbacks)
       : frames_(frames), publisher_(node.advertise<Msg>("guarded_command", 1)) {
     subscriber_ = subscribeBounded<Msg>(
-        node, {"command", kQueueLength, kMaxMessageSize},
+        node, {kTopic, kQueueLength, kMaxMessageSize},
         [received = std::move(callbacks.received)](const ros::MessageEvent<const Msg>& event) {
           const auto msg = event.getConstMessage();
           received({msg, timestampsOf(*msg)});

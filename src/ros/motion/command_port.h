@@ -18,6 +18,8 @@ namespace sweep_guard_ros {
 /// callbacks.
 class CommandPort {
  public:
+  static constexpr char kTopic[] = "command";
+
   using ToolPose = sweep_guard_core::MotionInputs::ToolPose;
   struct Received {
     boost::shared_ptr<const void> message;

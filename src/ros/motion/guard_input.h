@@ -35,7 +35,7 @@ class GuardInput {
     sweep_guard::Proximity::ConstPtr planes;  ///< null as long as there are no planes
   };
   Newest newest() const;                          ///< any thread
-  sweep_guard_core::MotionInputs inputs() const;  ///< what has come, without the message. Any thread; frees nothing
+  sweep_guard_core::MotionInputs inputs() const;  ///< what has come, without the message. Any thread
 
   struct Source {
     std::string topic;

@@ -27,6 +27,8 @@ ToolPoseInput::ToolPoseInput(const ros::NodeHandle& node, const PoseSource& sour
     : name_(source.name),
       fixed_frame_(source.fixed_frame),
       tool_frame_(source.frame),
+      source_(source.source == ToolSource::kTf ? "tf " + fixed_frame_ + " to " + tool_frame_
+                                               : node.resolveName(source.topic)),
       silence_(source.silence),
       frames_(frames) {
   if (source.source == ToolSource::kTf) {
@@ -42,10 +44,6 @@ ToolPoseInput::ToolPoseInput(const ros::NodeHandle& node, const PoseSource& sour
 std::optional<sweep_guard_core::MotionInputs::ToolPose> ToolPoseInput::newest() const {
   const std::lock_guard lock(mutex_);
   return newest_;
-}
-
-std::string ToolPoseInput::source() const {
-  return subscriber_ ? subscriber_.getTopic() : "tf " + fixed_frame_ + " to " + tool_frame_;
 }
 
 std::optional<std::uint32_t> ToolPoseInput::publishers() const {
@@ -91,7 +89,7 @@ void ToolPoseInput::accept(const Eigen::Isometry3d& X_WT, const sweep_guard_core
 
 void ToolPoseInput::refuse(const std::string& reason) {
   record_.error(reason, /*refused=*/true);
-  log_.error("", name_ + " on " + this->source() + " refused: " + reason);
+  log_.error("", name_ + " on " + source_ + " refused: " + reason);
 }
 
 }  // namespace sweep_guard_ros

@@ -31,8 +31,8 @@ class ToolPoseInput {
   std::optional<sweep_guard_core::MotionInputs::ToolPose> newest() const;  ///< any thread
 
   const sweep_guard_core::InputRecord& record() const { return record_; }
-  std::string source() const;                       ///< resolved topic, or the tf frames
-  std::optional<std::uint32_t> publishers() const;  ///< of the topic; empty for tf
+  const std::string& source() const { return source_; }  ///< resolved topic, or the tf frames
+  std::optional<std::uint32_t> publishers() const;       ///< of the topic; empty for tf
 
  private:
   void onMessage(const geometry_msgs::PoseStamped& msg);
@@ -43,6 +43,7 @@ class ToolPoseInput {
   const std::string name_;
   const std::string fixed_frame_;
   const std::string tool_frame_;
+  const std::string source_;
   const sweep_guard_core::Duration silence_;
   Frames& frames_;
   mutable sweep_guard_core::PriorityMutex mutex_;

@@ -8,7 +8,7 @@
 
 namespace sweep_guard_ros {
 
-/// Another tool, as its publishers need it.
+/// What the publishers need of another tool.
 struct ToolShapes {
   /// Any thread. Takes seconds for ten thousand corners.
   explicit ToolShapes(const Parameters& parameters);
@@ -17,7 +17,7 @@ struct ToolShapes {
   boost::shared_ptr<sweep_guard::ToolSurface> surface;
 };
 
-/// Publish what is known of the tool beside warnings, at every swept pose. One thread.
+/// Publishes what is known of the tool beside warnings, at every swept pose. One thread.
 struct ToolPublishers {
   ToolPublishers(const ros::NodeHandle& private_node, const LiveParameters& parameters,
                  const sweep_guard_core::WarningMonitor& monitor);

@@ -19,7 +19,6 @@ class RealTimeRequest {
   void make();  ///< by the thread, once. Logs a refusal
 
   std::string refusal() const;  ///< with what to do; empty: granted, or not asked for yet. Any thread
-  int priority() const { return priority_; }
 
  private:
   const int priority_;
