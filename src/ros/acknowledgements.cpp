@@ -18,7 +18,7 @@ void throwIf(const std::string& refusal) {
 
 std::string Acknowledgements::add(const std::string& id, const sweep_guard_core::Workpieces& workpieces,
                                   std::uint64_t epoch) {
-  const std::string warned = id.empty() ? warnedOf() : id;
+  std::string warned = id.empty() ? warnedOf() : id;
   throwIf(monitor_.whyNotAcknowledged(warned, now()));
   if (!isNear(warned, workpieces, epoch)) {
     throw Error("the tool is farther from '" + warned + "' than warning/acknowledge_distance");

@@ -6,6 +6,7 @@
 #include <sweep_guard/Prediction.h>
 
 #include <algorithm>
+#include <atomic>
 #include <future>
 #include <limits>
 #include <thread>
