@@ -107,6 +107,7 @@ const Tool& Guard::tool(size_t body) const { return bodies_[body]->tool; }
 void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, SweepReport& report) {
   const SteadyTime begin = options_.clock();
   predictor_.observe(pose);
+  displacements_->forgetUnused();
   forEachBody(bodies_, swept_order_, &GuardedBody::report, report,
               [&](size_t i, GuardedBody& body, SweepReport& swept) {
                 const BodyPose at = pose.body(i);
@@ -116,7 +117,6 @@ void Guard::sweep(const PoseWithFrames& pose, const Workpieces& workpieces, Swee
                 body.sweeps.sweep(setup, pose, at, workpieces, swept);
                 body.touches.update(swept, pose, at.X_WB, body.tool, *intentions());
               });
-  displacements_->forgetUnused();
   if (!newest_) newest_.emplace();
   assign(*newest_, pose);
   budget_->spentOnMeasured(options_.clock() - begin);

@@ -60,7 +60,7 @@ void update(SweepCache& cache, const SweepResult& result) {
   }
 }
 
-// Does what a sweep does that meets nothing. The tool was outside at its begin, too, which holds even if the sweep fails.
+// Leaves what a sweep leaves that meets nothing. The tool was outside at its start, too, which holds even if the sweep fails.
 void leaveOut(const SweepSetup& setup, bool has_new_poses, SweepCache& cache, SweepResult& result) {
   setup.before_sweep();
   result.fine = setup.options.fine;

@@ -1,6 +1,7 @@
 #include "sweep_guard/interaction/interaction_finder.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sweep_guard_core {
 namespace {
@@ -55,6 +56,7 @@ Eigen::Vector3d InteractionFinder::ToolMotion::velocity_B(size_t body, const Eig
 }
 
 void InteractionFinder::find(const InteractionRequest& request, Interaction& interaction) {
+  assert(request.pose.bodies.empty() ? bodies_.size() == 1 : bodies_.size() == request.pose.bodies.size());
   interaction.objects.clear();
   interaction.unplaced.clear();
   interaction.total = Wrench();

@@ -18,7 +18,7 @@ double maxStiffness(const SampledDevice& device, double delay);
 
 /// Returns the damping [N s/m] against the motion of a point that a force acts on with a lever about the device, where each
 /// force F comes with a torque F * lever: with the dampings b and c of translation and rotation, a spring K and a damper B at that
-/// point gain no energy if (K (T/2 + delay) + B) (1/b + lever^2/c) < 1, so 1 / (1/b + lever^2/c) stands for b.
+/// point gain no energy if (K (T/2 + delay) + B) (1/b + lever^2/c) < 1, so 1 / (1/b + lever^2/c) stands for b. For one contact.
 /// @param damping       of translation [N s/m], > 0
 /// @param turn_damping  of rotation [N m s/rad], > 0
 /// @param lever         [m]

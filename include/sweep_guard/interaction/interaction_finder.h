@@ -45,7 +45,7 @@ struct InteractionRequest {
 /// The convex pieces of a tool, by body, ready for InteractionFinder.
 using InterpenetrationFinders = std::vector<std::vector<InterpenetrationFinder>>;
 
-/// Takes some milliseconds for each piece.
+/// Returns those of a tool. Takes some milliseconds for each piece.
 InterpenetrationFinders interpenetrationFinders(const std::vector<Tool>& bodies);
 
 /// Computes the forces of the workpieces on a tool. The velocity for the damping is that of each body between the poses of
@@ -53,11 +53,14 @@ InterpenetrationFinders interpenetrationFinders(const std::vector<Tool>& bodies)
 /// speed of a deformation is left out. Keeps its buffers between calls.
 class InteractionFinder {
  public:
-  /// @param bodies  of the tool, each in its own frame; as many as the poses have, or one, which is in T
+  /// @param bodies  of the tool, each in its own frame; as many as the poses have, or one in T for poses without bodies
   explicit InteractionFinder(const std::vector<Tool>& bodies) : bodies_(interpenetrationFinders(bodies)) {}
 
-  /// Exchanges the pieces of the tool; the caller gets those before.
-  void exchange(InterpenetrationFinders& bodies) { bodies_.swap(bodies); }
+  /// Exchanges the pieces of the tool, and forgets the poses; the caller gets those before.
+  void exchange(InterpenetrationFinders& bodies) {
+    bodies_.swap(bodies);
+    reset();
+  }
 
   /// @param[out] interaction  overwritten; its buffers are used again
   void find(const InteractionRequest& request, Interaction& interaction);
@@ -74,14 +77,14 @@ class InteractionFinder {
     Eigen::Vector3d velocity_B(size_t body, const Eigen::Vector3d& p_B) const;  // [m/s]; 0: unknown
 
    private:
-    struct Placed {
+    struct BodyPoses {
       std::vector<Eigen::Isometry3d> X_MB;
       std::string frame;  // name of M
       Time stamp;
     };
 
-    Placed before_;
-    Placed now_;
+    BodyPoses before_;
+    BodyPoses now_;
     bool known_ = false;
   };
 
