@@ -224,7 +224,7 @@ Times guard(const Options& options, const Eigen::Isometry3d& X_WM, std::vector<S
   return times;
 }
 
-void report(const std::string& place, Times times, ResultFile& results, const Options& options) {
+void report(const std::string& place, const Times& times, ResultFile& results, const Options& options) {
   const auto states = static_cast<double>(times.both.size());
   const double p99 = quantile(times.both, 0.99);
   std::printf(

@@ -112,9 +112,10 @@ XmlRpc::XmlRpcValue valueFrom(Input& input, const ParameterInfo* info, int depth
 template <typename Loaded>
 void setServer(Input& input, const Defaults<Loaded>& defaults, const std::string& node) {
   serverParameters().clear();
+  const std::string scope = node + "/";
   for (int count = input.below(8); count > 0; --count) {
     const std::string& key = defaults.keys[static_cast<size_t>(input.byte()) % defaults.keys.size()];
-    serverParameters()[node + "/" + key] = valueFrom(input, defaults.described(key));
+    serverParameters()[scope + key] = valueFrom(input, defaults.described(key));
   }
   if (input.below(4) == 3) serverParameters()["/robot_description"] = valueFrom(input, nullptr);
 }

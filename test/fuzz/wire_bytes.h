@@ -21,7 +21,7 @@ Bytes bytesOf(const Msg& msg) {
 
 /// A connection from a node of this name.
 inline boost::shared_ptr<ros::M_string> connectionFrom(const std::string& caller) {
-  const auto header = boost::make_shared<ros::M_string>();
+  auto header = boost::make_shared<ros::M_string>();
   (*header)["callerid"] = caller;
   return header;
 }

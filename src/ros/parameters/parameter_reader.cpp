@@ -244,20 +244,20 @@ std::vector<std::string> ParameterReader::texts(const std::string& key, const st
 
 // A nodelet has not the namespace of its process.
 std::vector<std::string> ParameterReader::nodes(const std::string& key, const std::string& effect) {
+  const auto refusal = [&](const std::string& why) {
+    return sweep_guard_core::InvalidInput("parameter " + key + " has " + why);
+  };
   const std::string scope = ros::names::parentNamespace(node_.getNamespace());
   std::vector<std::string> nodes;
   for (const std::string& name : texts(key, effect)) {
     std::string error;
-    if (!ros::names::validate(name, error)) {
-      throw sweep_guard_core::InvalidInput("parameter " + key + " has no name of a node: " + error);
-    }
+    if (!ros::names::validate(name, error)) throw refusal("no name of a node: " + error);
     nodes.push_back(ros::names::resolve(scope, name));
     if (std::count(nodes.begin(), nodes.end(), nodes.back()) > 1) {
-      throw sweep_guard_core::InvalidInput("parameter " + key + " has " + nodes.back() + " twice: name each node once");
+      throw refusal(nodes.back() + " twice: name each node once");
     }
     if (nodes.back() == node_.getNamespace()) {
-      throw sweep_guard_core::InvalidInput("parameter " + key + " has " + nodes.back() +
-                                           ", which is this node: name the others alone");
+      throw refusal(nodes.back() + ", which is this node: name the others alone");
     }
   }
   return nodes;
