@@ -6,6 +6,7 @@
 #include <std_msgs/Bool.h>
 
 #include <array>
+#include <utility>
 
 #include "child_process.h"
 #include "fake_guard.h"
@@ -130,10 +131,12 @@ TEST(WarningMergerEndTest, SaysUnknownWhenItEnds) {
   FakeGuard guard("/alone");
   const Listener<Warning> merged("/ending/warning");
   ChildProcess process(program("warning_merger_node", {"__name:=ending", "_guards:=[/alone]"}));
-  merged.await("CLEAR", [](const Warning& warning) { return warning.clear != 0; });
-  process.signal(SIGTERM);
-  const Warning last =
-      merged.await("the end", [](const Warning& warning) { return warning.text == "UNKNOWN: the merger ends"; });
+  bool ends = false;
+  const Warning last = merged.await("the end", [&](const Warning& warning) {
+    if (warning.clear != 0 && !std::exchange(ends, true)) process.signal(SIGTERM);
+    return warning.text == "UNKNOWN: the merger ends";
+  });
+  EXPECT_TRUE(ends);
   EXPECT_EQ(last.level, Warning::UNKNOWN);
   EXPECT_EQ(last.reasons, Warning::DISABLED);
   EXPECT_EQ(process.wait(), 0);
