@@ -71,9 +71,22 @@ TEST(RequestRealTimeTest, ConcernsOnlyTheCallingThread) {
   EXPECT_EQ(policy, SCHED_OTHER);
 }
 
+// In a process of its own: the limit stays.
+TEST(LimitRealTimeDeathTest, LowersTheLimitOfTheKernelAndNeverRaisesIt) {
+  const auto limits = [] {
+    limitRealTime(std::chrono::milliseconds(20));
+    limitRealTime(std::chrono::seconds(1));
+    rlimit limit{};
+    getrlimit(RLIMIT_RTTIME, &limit);
+    std::exit(limit.rlim_cur == 20'000 ? 0 : 1);
+  };
+  EXPECT_EXIT(limits(), testing::ExitedWithCode(0), "");
+}
+
 // In a process of its own: a thread that never rests ends it.
 TEST(LimitRealTimeDeathTest, EndsAProcessThatAHungRealTimeThreadWouldHoldUp) {
-  if (!ask(10).refusal.empty()) GTEST_SKIP() << "real-time priorities are refused";
+  const std::string refusal = ask(10).refusal;  // the kernel then ends nothing
+  if (!refusal.empty()) GTEST_SKIP() << refusal;
   const auto hang = [] {
     limitRealTime(std::chrono::milliseconds(20));
     requestRealTime(10, "timing/realtime_priority");

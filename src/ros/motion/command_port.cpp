@@ -57,7 +57,7 @@ class TypedPort : public CommandPort {
     subscriber_ = subscribeBounded<Msg>(
         node, {kTopic, kQueueLength, kMaxMessageSize},
         [received = std::move(callbacks.received)](const ros::MessageEvent<const Msg>& event) {
-          const auto msg = event.getConstMessage();
+          const auto& msg = event.getConstMessage();
           received({msg, timestampsOf(*msg)});
         },
         std::move(callbacks.refused));
@@ -189,7 +189,7 @@ class PosePort : public TypedPort<geometry_msgs::PoseStamped> {
 
 }  // namespace
 
-std::unique_ptr<CommandPort> makeCommandPort(ros::NodeHandle node, const MotionParameters& parameters,
+std::unique_ptr<CommandPort> makeCommandPort(const ros::NodeHandle& node, const MotionParameters& parameters,
                                              const CommandFrames& frames, CommandPort::Callbacks callbacks) {
   switch (parameters.command_type) {
     case CommandType::kTwist:

@@ -56,7 +56,7 @@ class CommandPort {
 
 /// Returns the port of command_type.
 /// @param node  its queue calls back
-std::unique_ptr<CommandPort> makeCommandPort(ros::NodeHandle node, const MotionParameters& parameters,
+std::unique_ptr<CommandPort> makeCommandPort(const ros::NodeHandle& node, const MotionParameters& parameters,
                                              const CommandFrames& frames, CommandPort::Callbacks callbacks);
 
 }  // namespace sweep_guard_ros
