@@ -50,7 +50,7 @@ class BoundedMessages : public ros::SubscriptionCallbackHelperT<const ros::Messa
         refused_(refusals_->add(std::move(refused))),
         max_size_(max_size) {}
 
-  /// Is told of no more refusals.
+  /// Receives no more reports of refusals.
   void close() { refused_->close(); }
 
   /// Returns null for a refused message, which roscpp then leaves out.

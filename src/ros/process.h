@@ -13,7 +13,7 @@ namespace sweep_guard_ros {
 /// @returns the reason of a refusal, and what to set; empty if granted
 std::string requestRealTime(int priority, const std::string& parameter);
 
-/// Ends the process by SIGXCPU once a thread with a real-time priority has taken so much processor time without a pause: it
+/// Ends the process by SIGXCPU once a thread with a real-time priority has taken this much processor time without a pause: it
 /// would keep others from running. For programs whose process is their own.
 void limitRealTime(sweep_guard_core::Duration longest);
 
