@@ -133,20 +133,6 @@ std::string errorTable(const ErrorReport& report) {
   return table;
 }
 
-double meanRatio(const ErrorReport& report, size_t predictor) {
-  double sum = 0.0;
-  size_t count = 0;
-  for (size_t horizon = 0; horizon < report.horizons.size(); ++horizon) {
-    for (const Quantity& quantity : kQuantities) {
-      for (const Field field : {quantity.median, quantity.p95}) {
-        sum += report.errors[predictor][horizon].*field / bestBaseline(report, horizon, field);
-        ++count;
-      }
-    }
-  }
-  return sum / static_cast<double>(count);
-}
-
 std::string errorPlot(const std::vector<ErrorReport>& reports, const std::string& path) {
   PlotPage page(path, reports.size(), kQuantities.size());
   page.addKey(reports.front().predictors, {"with lines lw 3 lc rgb 'black' title 'median'",

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/heartbeat.h"
-#include "prediction/profile.h"
 #include "ros/available_detector.h"
 #include "ros/detector_test.h"
 #include "ros/process.h"
@@ -201,10 +200,6 @@ void GuardThread::runInTime(const std::function<void()>& task, const std::string
 
 std::future<PredictService::Motion> GuardThread::predictMotion(Duration horizon) {
   return dependencies_.queue.submit<PredictService::Motion>([this, horizon] { return motion(horizon); });
-}
-
-std::future<std::unique_ptr<sweep_guard_core::Profile>> GuardThread::profile() {
-  return dependencies_.queue.submit<std::unique_ptr<sweep_guard_core::Profile>>([this] { return guard_.profile(); });
 }
 
 void GuardThread::setPriority() const {

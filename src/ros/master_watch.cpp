@@ -24,9 +24,9 @@ using XmlRpc::XmlRpcValue;
 constexpr auto kPeriod = std::chrono::seconds(1);
 constexpr int kChecksPerLook = 3;  // for publishers that are missing
 // roscpp keeps no list of them.
-constexpr std::array kServices = {
-    "acknowledge", "attach",        "check_sweep", "check_trajectory", "enable",        "intend", "predict", "rebase",
-    "reset",       "reset_touches", "save",        "save_profile",     "set_parameters"};
+constexpr std::array kServices = {"acknowledge", "attach",        "check_sweep", "check_trajectory",
+                                  "enable",      "intend",        "predict",     "rebase",
+                                  "reset",       "reset_touches", "save",        "set_parameters"};
 constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodelet", "set_logger_level",
                                               "unload_nodelet"};
 

@@ -14,8 +14,8 @@ double probabilityWithin(PredictionInterval interval, double deviations);
 /// probabilityWithin().
 double deviationsAt(PredictionInterval interval, double probability);
 
-/// Returns the probability within an interval at the deviations of which contactProbability() is `plane_probability`,
-/// the scale of `warning/min_probability`; 1 if there are none.
+/// Returns the probability within an interval at the deviations of which contactProbability() is `plane_probability`;
+/// 1 if there are none.
 double fromPlaneProbability(PredictionInterval interval, double plane_probability);
 
 }  // namespace sweep_guard_core
