@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "sweep_guard/common/matrix6.h"
+#include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_core {
 
