@@ -1,7 +1,7 @@
 #include "rviz/volume_faces.h"
 
 #include "rviz/ogre_conversions.h"
-#include "sweep_guard/geometry/convex_polytope.h"
+#include "sweep_guard/geometry/half_space.h"
 
 namespace sweep_guard_rviz {
 namespace {
