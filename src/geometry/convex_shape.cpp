@@ -16,7 +16,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kNeedle = 1e-6;  // least area of a face, in parallelograms of its longest edge squared
+constexpr double kMinFaceArea = 1e-6;  // least area of a face, in parallelograms of its longest edge squared
 
 template <typename... Functions>
 struct Overloaded : Functions... {
@@ -121,7 +121,7 @@ LinearFunctions facesOf(const ConvexHull& hull) {
     const Eigen::Vector3d ac = hull.corners[c] - hull.corners[a];
     const Eigen::Vector3d normal = ab.cross(ac);
     const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
-    if (normal.norm() < kNeedle * longest) return {};
+    if (normal.norm() < kMinFaceArea * longest) return {};
     const Eigen::Vector3d outwards = normal.normalized();
     double reach = outwards.dot(hull.corners[a]);
     for (const Eigen::Vector3d& corner : hull.corners) reach = std::max(reach, outwards.dot(corner));

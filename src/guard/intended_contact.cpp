@@ -3,14 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <limits>
 
+#include "common/floating_point.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMinSine = 1e-9;  // of the angle between two edges of a triangle that has a normal
 
 using Corners = std::array<Eigen::Vector3d, 3>;

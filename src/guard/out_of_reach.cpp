@@ -2,15 +2,12 @@
 
 #include <cmath>
 
+#include "common/floating_point.h"
+
 namespace sweep_guard_core {
-namespace {
-
-constexpr double kRounding = 1e-9;  // relative, of distances
-
-}  // namespace
-
 bool staysBeside(const TriangleMesh& mesh_M, const Eigen::AlignedBox3d& points_M, double distance) {
-  const double apart = (1.0 + kRounding) * distance + kRounding * (mesh_M.radius() + mesh_M.origin().norm());
+  const double apart =
+      (1.0 + kDistanceRounding) * distance + kDistanceRounding * (mesh_M.radius() + mesh_M.origin().norm());
   return points_M.squaredExteriorDistance(mesh_M.bounds_M()) > apart * apart;
 }
 

@@ -6,7 +6,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kRounding = 0x1p-48;  // relative: a dozen roundings of 2^-53, with a margin
+constexpr double kPositionRounding = 0x1p-48;  // relative: a dozen roundings of 2^-53, with a margin
 
 // Searches from the newest on, in steps that double: that is where to look, and what is in the processor's cache.
 template <typename Key, typename KeyOf>
@@ -28,7 +28,7 @@ double chordErrorBound(const PoseSample& from, const PoseSample& to, double tool
 }
 
 double roundingOf(const PoseSample& sample) {
-  return kRounding * (sample.X_WT.translation().lpNorm<1>() + sample.X_WM.translation().lpNorm<1>());
+  return kPositionRounding * (sample.X_WT.translation().lpNorm<1>() + sample.X_WM.translation().lpNorm<1>());
 }
 
 }  // namespace

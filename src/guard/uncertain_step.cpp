@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/floating_point.h"
 #include "sweep_guard/geometry/motion.h"
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kRounding = 1e-9;  // relative, of distances
 constexpr double kMinSigma = 2e-9;  // [m]; planeDeviations() are at least 1e-9 along each of three axes
 
 template <typename Measure>
@@ -41,7 +41,7 @@ UncertainBall UncertainStep::ballAround(const Eigen::AlignedBox3d& pieces_T) con
   const double reach = 0.5 * sides.sum() * (1.0 + angle_) + 0.5 * (to - from).norm() + std::sqrt(3.0) * margin_;
   const double trace = moves_ + r * r * turns_ + 2.0 * std::sqrt(2.0) * r * both_;
   const double sigma = std::sqrt(trace) + std::sqrt(3.0 * turns_norm_) * 0.5 * sides.norm();
-  return {middle, reach + kRounding * (middle.norm() + reach), sigma + kMinSigma};
+  return {middle, reach + kDistanceRounding * (middle.norm() + reach), sigma + kMinSigma};
 }
 
 }  // namespace sweep_guard_core

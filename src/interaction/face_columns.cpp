@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "common/floating_point.h"
+
 namespace sweep_guard_core {
 namespace {
 
 constexpr double kUpright = 1e-9;       // vertical part of the unit normal of a face that has no outline
 constexpr double kSameOutline = 1e-11;  // of the size of the polytope
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Eigen::Matrix3d axesAlong(const Eigen::Vector3d& up) {
   Eigen::Matrix3d R_CT;

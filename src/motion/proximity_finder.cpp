@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "common/floating_point.h"
 #include "motion/facings.h"
 #include "motion/plane_collector.h"
 
@@ -11,7 +11,6 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr double kNearer = 1e-3;  // share by which a triangle may be nearer than one that gets its plane first
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
