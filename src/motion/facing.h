@@ -9,7 +9,7 @@
 #include "motion/block_boxes.h"
 #include "motion/piece_cover.h"
 #include "motion/surface_motion.h"
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/guard/workpiece.h"
 
 namespace sweep_guard_core {
