@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "prediction/displacement.h"
+#include "prediction/motion_space.h"
 #include "refusal.h"
 #include "sweep_guard/prediction/pose_predictor.h"
 
