@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "recording/joint_bag.h"
+#include "recording/bag.h"
 #include "ros/input/joint_names.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/kinematics/joint_timeline.h"
