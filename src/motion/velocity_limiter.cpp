@@ -8,8 +8,8 @@ namespace sweep_guard_core {
 namespace {
 
 // Errors of a closing speed, in commanded speeds of the fastest tool point:
-constexpr double kRounding = 1e-11;      // of the command itself
-constexpr double kMaxRounding = 1.5e-6;  // of the nearest velocity, between planes that are nearly parallel
+constexpr double kCommandRounding = 1e-11;  // of the command itself
+constexpr double kMaxRounding = 1.5e-6;     // of the nearest velocity, between planes that are nearly parallel
 
 // A turn may also close a gap by its second order, until the next command.
 bool opens(const FacingBall& ball, const Twist& twist_W, const BrakingLimits& limits) {
@@ -32,7 +32,7 @@ Twist VelocityLimiter::limit(const Twist& command_W, const std::vector<FacingBal
   collectRows(command_W, facing, limits);
   const double allowed = allowedSpeed(uncovered, limits);
   const double fastest = fastestPoint(command_W, limits.tool_radius);
-  if (fastest <= allowed && largestScale({command_W.v_W, 1.0}, kRounding * fastest) == 1.0) return command_W;
+  if (fastest <= allowed && largestScale({command_W.v_W, 1.0}, kCommandRounding * fastest) == 1.0) return command_W;
 
   const Motion motion = nearest(command_W);
   const double speed = fastestPoint({motion.v_W, motion.s * command_W.w_W}, limits.tool_radius);

@@ -10,7 +10,7 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kBodiesQueued = 100;
 constexpr auto kMinPeriod = std::chrono::milliseconds(5);
 
 sweep_guard::LinkSurface toMsg(const sweep_guard_core::LinkSurface& surface, size_t body, const std::string& tool) {
@@ -51,7 +51,7 @@ BodiesPublisher::BodiesPublisher(ros::NodeHandle private_node, const LiveParamet
     : parameters_(parameters),
       run_id_(randomRunId()),
       surface_publisher_(private_node.advertise<sweep_guard::ToolSurface>("surface", 1, /*latch=*/true)),
-      bodies_publisher_(private_node.advertise<sweep_guard::ToolBodies>("bodies", kQueue)) {
+      bodies_publisher_(private_node.advertise<sweep_guard::ToolBodies>("bodies", kBodiesQueued)) {
   setTool(*parameters.initial().bodies, surfaceMsg(parameters.initial()));
 }
 

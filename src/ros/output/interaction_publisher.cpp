@@ -13,7 +13,7 @@ namespace {
 using sweep_guard_core::InStage;
 using sweep_guard_core::Stage;
 
-constexpr std::uint32_t kQueue = 100;  // 0.1 s at 1 kHz: older forces serve nobody
+constexpr std::uint32_t kForcesQueued = 100;  // 0.1 s at 1 kHz: older forces serve nobody
 
 geometry_msgs::Wrench toMsg(const sweep_guard_core::Wrench& wrench) {
   geometry_msgs::Wrench message;
@@ -42,7 +42,7 @@ InteractionPublisher::InteractionPublisher(ros::NodeHandle private_node, const L
                                            const sweep_guard_core::WarningMonitor& monitor)
     : parameters_(parameters),
       known_surfaces_(monitor),
-      publisher_(private_node.advertise<sweep_guard::Interaction>("interaction", kQueue)),
+      publisher_(private_node.advertise<sweep_guard::Interaction>("interaction", kForcesQueued)),
       finder_(*parameters.initial().bodies) {}
 
 void InteractionPublisher::swept(const sweep_guard_core::PoseWithFrames& pose,

@@ -15,7 +15,7 @@ namespace {
 using sweep_guard_core::InStage;
 using sweep_guard_core::Stage;
 
-constexpr std::uint32_t kQueue = 100;  // 0.1 s at 1 kHz: older planes serve nobody
+constexpr std::uint32_t kPlanesQueued = 100;  // 0.1 s at 1 kHz: older planes serve nobody
 
 sweep_guard::SeparatingPlane toMsg(const sweep_guard_core::ProximityPlane& found, const sweep_guard_core::Tool& tool) {
   const sweep_guard_core::SeparatingPlane& plane = found.plane;
@@ -48,7 +48,7 @@ ProximityPublisher::ProximityPublisher(ros::NodeHandle private_node, const LiveP
                                        const sweep_guard_core::WarningMonitor& monitor)
     : parameters_(parameters),
       known_surfaces_(monitor),
-      planes_publisher_(private_node.advertise<sweep_guard::Proximity>("proximity", kQueue)),
+      planes_publisher_(private_node.advertise<sweep_guard::Proximity>("proximity", kPlanesQueued)),
       tool_publisher_(private_node.advertise<sweep_guard::ToolBalls>("tool_balls", 1, /*latch=*/true)),
       tool_revision_(std::random_device()()) {
   setTool(*parameters.initial().tool);
