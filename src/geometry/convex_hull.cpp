@@ -12,7 +12,7 @@
 #include "common/floating_point.h"
 #include "geometry/qhull.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/geometry/linear_functions.h"
+#include "sweep_guard/geometry/convex_shape.h"
 
 namespace sweep_guard_core {
 namespace {

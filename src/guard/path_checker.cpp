@@ -8,9 +8,9 @@
 #include "common/heartbeat.h"
 #include "common/stage_clock.h"
 #include "guard/moving_mesh.h"
-#include "guard/out_of_reach.h"
 #include "guard/placed_workpieces.h"
 #include "guard/triangle_set.h"
+#include "guard/out_of_reach.h"
 
 namespace sweep_guard_core {
 namespace {

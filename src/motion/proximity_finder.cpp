@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/floating_point.h"
-#include "motion/facings.h"
+#include "motion/facing.h"
 #include "motion/plane_collector.h"
 
 namespace sweep_guard_core {

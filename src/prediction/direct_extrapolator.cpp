@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "prediction/interpolation.h"
+#include "prediction/delayed_targets.h"
 
 namespace sweep_guard_core {
 namespace {

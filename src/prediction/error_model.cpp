@@ -1,6 +1,6 @@
 #include "prediction/error_model.h"
 
-#include "prediction/interpolation.h"
+#include "prediction/delayed_targets.h"
 
 namespace sweep_guard_core {
 namespace {

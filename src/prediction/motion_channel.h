@@ -4,7 +4,8 @@
 
 #include "prediction/error_model.h"
 #include "prediction/extrapolator.h"
-#include "prediction/velocity.h"
+#include "prediction/motion_tracker.h"
+#include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard_core {
 
@@ -37,5 +38,9 @@ class MotionChannel {
   std::unique_ptr<Extrapolator<Space>> extrapolator_;
   ErrorModel<Space> errors_;
 };
+
+/// Returns the options.
+/// @throws InvalidInput if one is out of range; not if the name of the predictor is unknown
+const PredictorOptions& checked(const PredictorOptions& options);
 
 }  // namespace sweep_guard_core

@@ -5,7 +5,6 @@
 #include "prediction/displacement_regression.h"
 #include "prediction/exponential_moving_average.h"
 #include "prediction/motion_tracker.h"
-#include "prediction/velocity.h"
 
 namespace sweep_guard_core {
 

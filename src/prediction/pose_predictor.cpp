@@ -3,7 +3,6 @@
 #include <cassert>
 
 #include "prediction/motion_channel.h"
-#include "prediction/predictor_options.h"
 
 namespace sweep_guard_core {
 

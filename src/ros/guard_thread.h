@@ -11,7 +11,6 @@
 
 #include "common/pool.h"
 #include "guard/cross_check.h"
-#include "guard/frame_motion_store.h"
 #include "guard/intention_store.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
@@ -27,6 +26,7 @@
 #include "ros/service/predict.h"
 #include "ros/threads/supervisor.h"
 #include "ros/work_queue.h"
+#include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 

@@ -13,7 +13,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <utility>
 
-#include "rviz/attach.h"
+#include "rviz/drawing.h"
 
 namespace sweep_guard_rviz {
 namespace {

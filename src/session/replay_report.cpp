@@ -22,7 +22,6 @@
 #include "session/session_bag.h"
 #include "session/session_log.h"
 #include "session/session_report.h"
-#include "session/session_sound.h"
 #include "session/touch_report.h"
 #include "sound/wav.h"
 #include "sweep_guard/Contacts.h"

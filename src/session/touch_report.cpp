@@ -9,7 +9,7 @@
 
 #include "evaluation/csv.h"
 #include "evaluation/gnuplot.h"
-#include "recording/bag_topic.h"
+#include "recording/bag.h"
 
 namespace sweep_guard_session {
 

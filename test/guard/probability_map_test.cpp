@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/probability_map.h"
+#include "sweep_guard/guard/prediction.h"
 
 #include <gtest/gtest.h>
 

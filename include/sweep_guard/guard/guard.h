@@ -10,7 +10,7 @@
 #include "sweep_guard/guard/guard_options.h"
 #include "sweep_guard/guard/intention.h"
 #include "sweep_guard/guard/prediction.h"
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 
 namespace sweep_guard_core {
 

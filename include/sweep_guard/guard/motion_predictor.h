@@ -6,7 +6,7 @@
 
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/guard/prediction.h"
-#include "sweep_guard/kinematics/jacobian.h"
+#include "sweep_guard/kinematics/kinematic_tree.h"
 #include "sweep_guard/kinematics/robot_path.h"
 #include "sweep_guard/prediction/horizon.h"
 #include "sweep_guard/prediction/joint_predictor.h"

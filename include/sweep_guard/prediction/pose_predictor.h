@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/matrix6.h"
 #include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_core {
