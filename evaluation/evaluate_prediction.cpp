@@ -6,7 +6,6 @@
 #include "common/run_program.h"
 #include "evaluation/calibration_report.h"
 #include "evaluation/evaluate.h"
-#include "evaluation/gnuplot.h"
 #include "evaluation/options.h"
 #include "evaluation/output_file.h"
 #include "evaluation/parallel.h"
@@ -14,6 +13,7 @@
 #include "evaluation/sessions.h"
 #include "evaluation/sessions_report.h"
 #include "evaluation/tradeoff_report.h"
+#include "recording/gnuplot.h"
 #include "recording/recording.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/tool/mesh_file.h"
@@ -25,6 +25,8 @@ using std::chrono::milliseconds;
 using sweep_guard_core::Duration;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_recording::Recording;
+using sweep_guard_recording::requireGnuplot;
+using sweep_guard_recording::runGnuplot;
 
 std::vector<Recording> readAll(const Options& options) {
   std::vector<Recording> recordings(options.files.size());

@@ -6,13 +6,14 @@
 #include <limits>
 #include <sstream>
 
-#include "evaluation/csv.h"
+#include "common/csv.h"
 #include "evaluation/option_values.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_evaluation {
 
 namespace po = boost::program_options;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::InvalidInput;
 
 namespace {
