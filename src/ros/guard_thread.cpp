@@ -22,9 +22,9 @@ using sweep_guard_core::PredictionInterval;
 using sweep_guard_core::SteadyTime;
 using sweep_guard_core::Timestamps;
 
-constexpr Duration kPause = std::chrono::milliseconds(10);           // before a failed sweep is tried again
-constexpr Duration kMaxInterrupted = std::chrono::milliseconds(50);  // from the begin of a prediction on
-constexpr Duration kMaxWait = std::chrono::milliseconds(500);        // for a sweep to end, before a change or a reset
+constexpr Duration kPauseAfterFailure = std::chrono::milliseconds(10);  // before a failed sweep is tried again
+constexpr Duration kMaxInterrupted = std::chrono::milliseconds(50);     // from the begin of a prediction on
+constexpr Duration kMaxWait = std::chrono::milliseconds(500);  // for a sweep to end, before a change or a reset
 
 // A passed pose is swept as a part of the motion to the next one.
 bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
@@ -246,7 +246,7 @@ bool GuardThread::sweepOrRepeat() {
     top_->run([this] { sweepNext(); });
     if (next_ != pose) return true;
     if (dependencies_.queue.stopped()) return false;
-    std::this_thread::sleep_for(kPause);
+    std::this_thread::sleep_for(kPauseAfterFailure);
     for (const auto& task : dependencies_.queue.takeTasks()) top_->run(task);
   }
 }
