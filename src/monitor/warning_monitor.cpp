@@ -154,11 +154,6 @@ void WarningMonitor::detectorsDisagree(const std::string& message, const Sampled
   if (query.origin.measured && holds(workpieces_->newest(), *query.workpiece)) meets(*query.workpiece, missed, now);
 }
 
-void WarningMonitor::describeDisagreement(const std::string& message, const SampledQuery& query) {
-  const std::lock_guard lock(mutex_);
-  if (query.origin.epoch == epoch_ && !faults_->get(kCrosscheck).empty()) faults_->set(kCrosscheck, message);
-}
-
 void WarningMonitor::meets(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now) {
   if (triangles.empty() || inputs_.disabled_by) return;
   addToContact(workpiece, triangles, now, inputs_.contact);

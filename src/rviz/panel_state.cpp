@@ -190,11 +190,4 @@ PanelState panelState(const std::optional<ReceivedWarning>& newest, const Moment
   return state;
 }
 
-sweep_guard_core::SoundCue soundCue(const std::optional<ReceivedWarning>& newest, const PanelState& state) {
-  sweep_guard_core::SoundCue cue{state.level, {}, state.acknowledged};
-  const auto time = newest && !state.silent ? timeToCollision(newest->warning) : std::nullopt;
-  if (time) cue.time_to_collision = sweep_guard_core::fromSeconds(*time);
-  return cue;
-}
-
 }  // namespace sweep_guard_rviz

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "sound/earcon.h"
 #include "sweep_guard/common/warning_level.h"
 
 namespace sweep_guard_rviz {
@@ -56,10 +55,6 @@ struct PanelState {
 /// @param newest  the newest warning; empty if none has arrived
 /// @param topic   topic of the warnings, named in the text
 PanelState panelState(const std::optional<ReceivedWarning>& newest, const Moment& now, const std::string& topic);
-
-/// Returns what is to be heard beside a panel that shows this state.
-/// @param newest  the newest warning; empty if none has arrived
-sweep_guard_core::SoundCue soundCue(const std::optional<ReceivedWarning>& newest, const PanelState& state);
 
 /// Returns the level of a warning of any age; kUnknown if the warning contradicts itself.
 WarningLevel levelOf(const sweep_guard::Warning& warning);

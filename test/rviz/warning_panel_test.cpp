@@ -8,7 +8,6 @@
 #include <sweep_guard/Interaction.h>
 
 #include <QApplication>
-#include <QCheckBox>
 #include <QLabel>
 #include <QPushButton>
 #include <algorithm>
@@ -122,21 +121,6 @@ TEST_F(WarningPanelTest, NothingButClearIsGreenAnywhereInTheLight) {
     say(warningLevel(level));
     EXPECT_EQ(shareOf(light(), isGreen), 0.0) << panel_.state().title;
   }
-}
-
-TEST_F(WarningPanelTest, SoundIsOffAtFirstAndSavedByChoice) {
-  auto* const hear = panel_.findChild<QCheckBox*>("hear");
-  EXPECT_FALSE(hear->isChecked());
-  hear->click();
-  rviz::Config config;
-  panel_.save(config);
-  WarningPanel again;
-  again.load(config);
-  EXPECT_TRUE(again.findChild<QCheckBox*>("hear")->isChecked());
-  hear->click();
-  panel_.save(config);
-  again.load(config);
-  EXPECT_FALSE(again.findChild<QCheckBox*>("hear")->isChecked());
 }
 
 // The guard computes the force for its subscribers.
