@@ -15,7 +15,7 @@ Timestamps ago(Duration age) { return {kNow.stamp - age, kNow.steady - age}; }
 
 PermissionInputs fresh() {
   PermissionInputs inputs;
-  inputs.warning = PermissionInputs::ReceivedWarning{WarningLevel::kClear, 0, kNow.steady};
+  inputs.warning = PermissionInputs::GuardWarning{WarningLevel::kClear, 0, kNow.steady};
   inputs.pose = ago({});
   inputs.planes = PermissionInputs::Planes{ago({}), kNow.stamp + milliseconds(100)};
   return inputs;

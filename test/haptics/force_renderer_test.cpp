@@ -35,7 +35,7 @@ class ForceRendererTest : public testing::Test {
     now_ += milliseconds(1);
     const Timestamps fresh{now().stamp, now().steady};
     if (poses_) inputs_.known.pose = MotionInputs::ToolPose{pose_, {fresh.stamp - pose_delay_, fresh.received}};
-    if (warnings_) inputs_.known.warning = PermissionInputs::ReceivedWarning{level_, 0, now().steady};
+    if (warnings_) inputs_.known.warning = PermissionInputs::GuardWarning{level_, 0, now().steady};
     if (planes_) {
       PlaneSet planes = planeSet({planeAt(Vector3d::UnitZ(), Vector3d::Zero())});
       planes.timestamps = fresh;

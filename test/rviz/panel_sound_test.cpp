@@ -14,7 +14,8 @@ namespace {
 using std::chrono::milliseconds;
 using sweep_guard::Warning;
 
-const Moment kNow{SteadyTime(std::chrono::hours(1)), ros::Time(1000.0)};
+const ros::Time kStamp(1000.0);
+const Instant kNow{toTime(kStamp), SteadyTime(std::chrono::hours(1))};
 
 sweep_guard_core::SoundCue cueOf(std::uint8_t level, milliseconds age = milliseconds(10)) {
   Warning warning;
@@ -22,8 +23,8 @@ sweep_guard_core::SoundCue cueOf(std::uint8_t level, milliseconds age = millisec
   warning.clear = level == Warning::CLEAR;
   warning.acknowledged = level == Warning::CONSIDERED;
   warning.time_to_collision = ros::Duration(level == Warning::CONSIDERED ? 0.5 : -1.0);
-  warning.valid_until = kNow.stamp + ros::Duration(0.2);
-  const ReceivedWarning received{warning, {kNow.steady - age, kNow.stamp}};
+  warning.valid_until = kStamp + ros::Duration(0.2);
+  const ReceivedWarning received{warning, {kNow.stamp, kNow.steady - age}};
   return soundCue(received, panelState(received, kNow, "/guard/warning"));
 }
 
