@@ -13,7 +13,6 @@
 #include "guard/path_checker.h"
 #include "guard/time_budget.h"
 #include "guard/united_bodies.h"
-#include "prediction/profile.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
@@ -258,8 +257,6 @@ void Guard::intend(std::shared_ptr<const Intentions> intentions) { intentions_ =
 const std::shared_ptr<const Intentions>& Guard::intentions() const {
   return options_.sweep.fine ? intentions_ : no_intentions_;
 }
-
-std::unique_ptr<Profile> Guard::profile() const { return predictor_.profile(); }
 
 void Guard::reset() {
   for (const auto& body : bodies_) {

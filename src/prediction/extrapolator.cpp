@@ -85,7 +85,7 @@ std::unique_ptr<Extrapolator<Space>> makeExtrapolator(const PredictorOptions& op
   if (options.predictor == "hold") return std::make_unique<Hold<Space>>();
   if (options.predictor == "direct") {
     if (!learned) learned = std::make_shared<LearnedMotion<Space>>(space.priorSpeeds(), /*channels=*/1);
-    return std::make_unique<DirectExtrapolator<Space>>(std::move(learned), options.profile.get());
+    return std::make_unique<DirectExtrapolator<Space>>(std::move(learned));
   }
   throw InvalidInput("predictor '" + options.predictor +
                      "' is unknown: use polynomial, constant_velocity, hold or direct");

@@ -32,10 +32,6 @@ class MotionChannel {
   /// Returns the covariance of its error.
   typename ErrorModel<Space>::Covariance covariance(double ahead) const { return errors_.covariance(ahead); }
 
-  const Extrapolator<Space>& extrapolator() const { return *extrapolator_; }
-  ErrorModel<Space>& errors() { return errors_; }
-  const ErrorModel<Space>& errors() const { return errors_; }
-
  private:
   MotionTracker<Space> tracker_;
   Velocity<Space> velocity_;

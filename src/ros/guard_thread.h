@@ -93,8 +93,6 @@ class GuardThread {
   /// Predicts the motion up to a horizon counted from now. Any thread. The future throws sweep_guard_core::Error if the
   /// motion is unknown.
   std::future<PredictService::Motion> predictMotion(sweep_guard_core::Duration horizon);
-  /// Copies what was learned of the operator, see PosePredictor. Any thread.
-  std::future<std::unique_ptr<sweep_guard_core::Profile>> profile();
 
  private:
   sweep_guard_core::GuardChange changeTo(const Parameters& next, const Parameters& before);

@@ -5,12 +5,6 @@
 #include <cstdio>
 
 namespace sweep_guard_rviz {
-namespace {
-
-constexpr auto kSilent = std::chrono::milliseconds(500);
-
-}  // namespace
-
 std::string describe(const sweep_guard::ObjectInteraction& object) {
   const geometry_msgs::Vector3& force = object.wrench.force;
   char text[96];

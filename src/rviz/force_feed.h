@@ -9,6 +9,8 @@
 
 namespace sweep_guard_rviz {
 
+constexpr auto kSilent = std::chrono::milliseconds(500);  ///< after which a message is no longer shown
+
 /// Returns force, volume and depth in words.
 std::string describe(const sweep_guard::ObjectInteraction& object);
 

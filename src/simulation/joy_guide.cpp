@@ -12,7 +12,7 @@
 namespace sweep_guard_simulation {
 namespace {
 
-constexpr double kReminderPeriod = 10.0;  // [s]
+constexpr double kJoyReminder = 10.0;  // [s]
 constexpr sweep_guard_core::Duration kBacklog =
     std::chrono::milliseconds(100);  // time in which roscpp delivers waiting messages
 
@@ -59,7 +59,7 @@ JoyGuide::JoyGuide(ros::NodeHandle node, const Joystick::Options& options, int a
 
 void JoyGuide::move(GuidedTip& tip, double dt) const {
   if (subscriber_.getNumPublishers() == 0) {
-    ROS_WARN_THROTTLE(kReminderPeriod, "the tool rests: nobody publishes %s; start the driver of the device",
+    ROS_WARN_THROTTLE(kJoyReminder, "the tool rests: nobody publishes %s; start the driver of the device",
                       subscriber_.getTopic().c_str());
   }
   tip.moveAt(joystick_.velocity(now()), dt);
@@ -72,7 +72,7 @@ void JoyGuide::onJoy(const sensor_msgs::Joy::ConstPtr& joy) {
   try {
     joystick_.setAxes(joy->axes, now());
   } catch (const sweep_guard_core::InvalidInput& error) {
-    ROS_ERROR_THROTTLE(kReminderPeriod, "message on %s refused: %s", subscriber_.getTopic().c_str(), error.what());
+    ROS_ERROR_THROTTLE(kJoyReminder, "message on %s refused: %s", subscriber_.getTopic().c_str(), error.what());
   }
 }
 

@@ -111,9 +111,6 @@ class Guard {
   /// Returns where contact is meant: nowhere without narrow phase.
   const std::shared_ptr<const Intentions>& intentions() const;
 
-  /// Returns what was learned of the operator, see PosePredictor.
-  std::unique_ptr<Profile> profile() const;
-
   /// Forgets all poses and contacts, and keeps what the predictor has learned of the operator.
   void reset();
 

@@ -42,9 +42,6 @@ class MotionPredictor {
   /// Exchanges the robot for one with the same joints.
   void exchange(std::shared_ptr<const Robot>& robot) { std::swap(robot_, robot); }
 
-  /// Returns what was learned of the motion of the tool frame, see PosePredictor. It holds nothing of joints.
-  std::unique_ptr<Profile> profile() const;
-
  private:
   std::vector<RobotState> statesAlong(const PredictedMotion& motion) const;
   Horizon cut(const Horizon& horizon, const std::vector<RobotState>& states) const;

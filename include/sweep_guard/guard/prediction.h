@@ -27,8 +27,8 @@ double probabilityWithin(PredictionInterval interval, double deviations);
 /// probabilityWithin().
 double deviationsAt(PredictionInterval interval, double probability);
 
-/// Returns the probability within an interval at the deviations of which contactProbability() is `plane_probability`,
-/// the scale of `warning/min_probability`; 1 if there are none.
+/// Returns the probability within an interval at the deviations of which contactProbability() is `plane_probability`;
+/// 1 if there are none.
 double fromPlaneProbability(PredictionInterval interval, double plane_probability);
 
 /// The predicted motion of the tool after a pose, not yet tested for contacts.

@@ -17,7 +17,6 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr auto kZeroPeriod = std::chrono::milliseconds(20);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
-constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
 constexpr size_t kMaxCommandSize = 4096;
 
 bool isFinite(const geometry_msgs::Vector3& v) {
@@ -80,7 +79,7 @@ ZeroOnSilence::~ZeroOnSilence() {
   zeros_.stop();
   const std::lock_guard lock(mutex_);
   send_zero_();
-  flush(kTimeToFlush);
+  flush();
 }
 
 void ZeroOnSilence::start() {

@@ -16,7 +16,6 @@ using sweep_guard_core::isName;
 using sweep_guard_core::SteadyTime;
 
 constexpr std::uint32_t kQueueLength = 100;  // of a stroke of the brush
-constexpr auto kTransformWait = std::chrono::milliseconds(100);
 
 sweep_guard::Intention toMsg(const sweep_guard_core::Intention& intention, const sweep_guard_core::Instant& now,
                              std::uint32_t revision) {

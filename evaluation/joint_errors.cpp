@@ -5,12 +5,14 @@
 #include <limits>
 #include <memory>
 
-#include "evaluation/csv.h"
+#include "common/csv.h"
 #include "sweep_guard/common/quantile.h"
 #include "sweep_guard/guard/motion_predictor.h"
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
 

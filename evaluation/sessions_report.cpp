@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <sstream>
 
+#include "common/csv.h"
 #include "common/number_text.h"
-#include "evaluation/csv.h"
-#include "evaluation/gnuplot.h"
+#include "recording/gnuplot.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::csvFields;
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::InvalidInput;
+using sweep_guard_recording::PlotPage;
 
 namespace {
 

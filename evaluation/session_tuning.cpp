@@ -6,12 +6,15 @@
 #include <cmath>
 #include <utility>
 
-#include "evaluation/csv.h"
-#include "evaluation/gnuplot.h"
+#include "common/csv.h"
+#include "recording/gnuplot.h"
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::WarningThresholds;
+using sweep_guard_recording::PlotPage;
 
 namespace {
 

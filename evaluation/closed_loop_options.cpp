@@ -3,10 +3,12 @@
 #include <limits>
 #include <sstream>
 
-#include "evaluation/csv.h"
+#include "common/csv.h"
 #include "evaluation/option_values.h"
 
 namespace sweep_guard_evaluation {
+
+using sweep_guard_core::csvNumber;
 
 namespace po = boost::program_options;
 

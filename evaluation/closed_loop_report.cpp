@@ -6,12 +6,14 @@
 #include <array>
 #include <limits>
 
-#include "evaluation/csv.h"
+#include "common/csv.h"
 #include "evaluation/parallel.h"
 #include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::quantile;
 using sweep_guard_recording::Recording;
 

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "evaluation/csv.h"
+#include "common/csv.h"
 #include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::quantile;
 
 namespace {

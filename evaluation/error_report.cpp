@@ -6,12 +6,17 @@
 #include <cmath>
 #include <limits>
 
-#include "evaluation/csv.h"
-#include "evaluation/gnuplot.h"
+#include "common/csv.h"
+#include "recording/gnuplot.h"
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::toSeconds;
+using sweep_guard_recording::colorOf;
+using sweep_guard_recording::gnuplotText;
+using sweep_guard_recording::PlotPage;
 
 namespace {
 
@@ -131,20 +136,6 @@ std::string errorTable(const ErrorReport& report) {
       report.recording, report.errors.front().front().samples);
   for (const Quantity& quantity : kQuantities) table += quantityTable(report, quantity);
   return table;
-}
-
-double meanRatio(const ErrorReport& report, size_t predictor) {
-  double sum = 0.0;
-  size_t count = 0;
-  for (size_t horizon = 0; horizon < report.horizons.size(); ++horizon) {
-    for (const Quantity& quantity : kQuantities) {
-      for (const Field field : {quantity.median, quantity.p95}) {
-        sum += report.errors[predictor][horizon].*field / bestBaseline(report, horizon, field);
-        ++count;
-      }
-    }
-  }
-  return sum / static_cast<double>(count);
 }
 
 std::string errorPlot(const std::vector<ErrorReport>& reports, const std::string& path) {

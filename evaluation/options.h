@@ -45,20 +45,17 @@ struct Options {
   std::string tune_plot;
   bool calibration = false;  ///< print the calibration of the probabilities
   std::string calibration_plot;
-  bool profiles = false;  ///< print the tables of the profiles
-  std::string profiles_csv;
   std::string compare_sessions;  ///< file to read: a sessions_objects_csv
 
   bool writesNothing() const {
     return csv.empty() && plot.empty() && warnings_csv.empty() && tradeoff_csv.empty() && tradeoff_plot.empty() &&
-           !wantsSessions() && !wantsProfiles();
+           !wantsSessions();
   }
   bool wantsSessions() const {
     return sessions || !sessions_csv.empty() || !sessions_plot.empty() || !sessions_objects_csv.empty() || tune ||
            !compare_sessions.empty() || wantsCalibration();
   }
   bool wantsCalibration() const { return calibration || !calibration_plot.empty(); }
-  bool wantsProfiles() const { return profiles || !profiles_csv.empty(); }
   bool wantsErrors() const { return !csv.empty() || !plot.empty() || writesNothing(); }
   bool wantsTradeoff() const { return !tradeoff_csv.empty() || !tradeoff_plot.empty(); }
   bool wantsWarnings() const { return !warnings_csv.empty() || wantsTradeoff() || writesNothing(); }

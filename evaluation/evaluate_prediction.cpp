@@ -6,15 +6,14 @@
 #include "common/run_program.h"
 #include "evaluation/calibration_report.h"
 #include "evaluation/evaluate.h"
-#include "evaluation/gnuplot.h"
 #include "evaluation/options.h"
 #include "evaluation/output_file.h"
 #include "evaluation/parallel.h"
-#include "evaluation/profile_report.h"
 #include "evaluation/progress_bar.h"
 #include "evaluation/sessions.h"
 #include "evaluation/sessions_report.h"
 #include "evaluation/tradeoff_report.h"
+#include "recording/gnuplot.h"
 #include "recording/recording.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/tool/mesh_file.h"
@@ -26,6 +25,8 @@ using std::chrono::milliseconds;
 using sweep_guard_core::Duration;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_recording::Recording;
+using sweep_guard_recording::requireGnuplot;
+using sweep_guard_recording::runGnuplot;
 
 std::vector<Recording> readAll(const Options& options) {
   std::vector<Recording> recordings(options.files.size());
@@ -85,7 +86,6 @@ class Evaluation {
         tune_csv_(options.tune_csv, options.files),
         tune_plot_(options.tune_plot, options.files),
         calibration_plot_(options.calibration_plot, options.files),
-        profiles_csv_(options.profiles_csv, options.files),
         sessions_before_(readSessions(options.compare_sessions)) {
     for (const Recording& recording : recordings_) steps_ += recording.poses.size() * options.predictors.size();
   }
@@ -93,11 +93,7 @@ class Evaluation {
   /// Shows a progress bar during some work and returns its result.
   template <typename Work>
   auto withProgress(const std::string& title, const Work& work) {
-    return withProgress(title, steps_, work);
-  }
-  template <typename Work>
-  auto withProgress(const std::string& title, size_t steps, const Work& work) {
-    ProgressBar bar(title, steps);
+    ProgressBar bar(title, steps_);
     return work([&](size_t poses) { bar.advance(poses); });
   }
 
@@ -138,15 +134,6 @@ class Evaluation {
     if (options_.tune) tune(tuningCurve(sessions, simulation.limits));
   }
 
-  void evaluateProfiles() {
-    const std::vector<ErrorReport> reports =
-        withProgress("profiles", profileSteps(recordings_),
-                     [&](const Progress& progress) { return reportProfiles(recordings_, options_, progress); });
-    if (profiles_csv_.requested()) profiles_csv_.write(errorCsv(reports));
-    for (const ErrorReport& report : reports) std::cout << errorTable(report) << '\n';
-    std::cout << profileTable(reports);
-  }
-
  private:
   void tune(const std::vector<TuningPoint>& points) {
     if (tune_csv_.requested()) tune_csv_.write(tuningCsv(points));
@@ -182,7 +169,6 @@ class Evaluation {
   OutputFile tune_csv_;
   OutputFile tune_plot_;
   OutputFile calibration_plot_;
-  OutputFile profiles_csv_;
   std::vector<RecordingSessions> sessions_before_;
   size_t steps_ = 0;
 };
@@ -200,7 +186,6 @@ int run(int argc, char** argv) {
   Evaluation evaluation(options);
   if (options.wantsErrors()) evaluation.evaluateErrors();
   if (options.wantsWarnings()) evaluation.evaluateWarnings();
-  if (options.wantsProfiles()) evaluation.evaluateProfiles();
   if (options.wantsSessions()) evaluation.evaluateSessions();
   return 0;
 }

@@ -26,10 +26,6 @@ std::string errorCsv(const std::vector<ErrorReport>& reports);
 /// `constant_velocity` if both are among the predictors.
 std::string errorTable(const ErrorReport& report);
 
-/// Returns the mean of a predictor's errors relative to the better of `hold` and `constant_velocity`: at all horizons,
-/// of position and rotation, medians and 95th percentiles. NaN if one of the two is not among the predictors.
-double meanRatio(const ErrorReport& report, size_t predictor);
-
 /// Returns a gnuplot script that plots errors against horizons: for each recording a row with a panel for position and
 /// a panel for rotation, and one color for each predictor.
 /// @param path  of the PNG file

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "evaluation/gnuplot.h"
 #include "guard/contact_probability.h"
+#include "recording/gnuplot.h"
 
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::PredictionInterval;
 using sweep_guard_core::toSeconds;
+using sweep_guard_recording::PlotPage;
 
 namespace {
 

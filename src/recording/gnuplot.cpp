@@ -1,4 +1,4 @@
-#include "evaluation/gnuplot.h"
+#include "recording/gnuplot.h"
 
 #include <csignal>
 #include <cstdio>
@@ -8,7 +8,7 @@
 
 #include "sweep_guard/common/error.h"
 
-namespace sweep_guard_evaluation {
+namespace sweep_guard_recording {
 namespace {
 
 constexpr double kWidth = 1300.0;  // all in [pixel]
@@ -95,4 +95,4 @@ void PlotPage::place(double left, double right, double bottom, double top) {
   script_ += margins.str();
 }
 
-}  // namespace sweep_guard_evaluation
+}  // namespace sweep_guard_recording

@@ -7,10 +7,17 @@
 #include <limits>
 #include <utility>
 
-#include "evaluation/csv.h"
-#include "evaluation/gnuplot.h"
+#include "common/csv.h"
+#include "recording/gnuplot.h"
 
 namespace sweep_guard_evaluation {
+
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
+using sweep_guard_recording::colorOf;
+using sweep_guard_recording::gnuplotText;
+using sweep_guard_recording::PlotPage;
+
 namespace {
 
 const std::string kAxes =

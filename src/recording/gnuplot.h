@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace sweep_guard_evaluation {
+namespace sweep_guard_recording {
 
 /// Throws if gnuplot is not installed.
 /// @throws sweep_guard_core::InvalidInput that says what to install
@@ -44,4 +44,4 @@ class PlotPage {
   std::string script_;
 };
 
-}  // namespace sweep_guard_evaluation
+}  // namespace sweep_guard_recording

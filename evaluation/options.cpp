@@ -6,13 +6,14 @@
 #include <limits>
 #include <sstream>
 
-#include "evaluation/csv.h"
+#include "common/csv.h"
 #include "evaluation/option_values.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_evaluation {
 
 namespace po = boost::program_options;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::InvalidInput;
 
 namespace {
@@ -35,10 +36,7 @@ po::options_description outputOptions(Options& options) {
       "compares the sessions with those of an earlier --sessions-objects-csv")(
       "calibration", po::bool_switch(&options.calibration),
       "how often the contacts came that the guard predicts with a probability, beside the objects of the sessions")(
-      "calibration-plot", text(options.calibration_plot, "FILE.png"), "reliability diagram")(
-      "profiles", po::bool_switch(&options.profiles),
-      "errors of `direct` on the second half of each recording, with and without what was learned on the first")(
-      "profiles-csv", text(options.profiles_csv, "FILE"), "the same errors");
+      "calibration-plot", text(options.calibration_plot, "FILE.png"), "reliability diagram");
   return described;
 }
 
@@ -65,7 +63,7 @@ po::options_description warningOptions(const Options& options) {
                                                                "radius of the tool, a cylinder [m]")(
       "tool-length", withDefault("0.1", "M"), "length of the tool [m]")(
       "min-probability", withDefault(csvNumber(options.min_probability), "P"),
-      "raises a warning as warning/min_probability of the guard does, in (0, 1]")(
+      "smallest probability of meeting the plane of a triangle that raises a warning, in (0, 1]")(
       "hold-time", withDefault("0.5", "S"), "a warning stays for this time after its cause is over [s]")(
       "up-to", withDefault("20", "N"), "end of the average of the trade-off [false alarms per minute]");
   return described;

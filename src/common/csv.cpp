@@ -1,11 +1,13 @@
-#include "evaluation/csv.h"
+#include "common/csv.h"
 
-#include <fmt/format.h>
+#include <cstddef>
+#include <locale>
+#include <sstream>
 
-namespace sweep_guard_evaluation {
+namespace sweep_guard_core {
 namespace {
 
-std::string field(const std::string& text) {
+std::string csvField(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
@@ -14,18 +16,23 @@ std::string field(const std::string& text) {
 
 }  // namespace
 
-std::string csvNumber(double value) { return fmt::format("{:.6g}", value); }
+std::string csvNumber(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
 
 std::string csvLine(const std::vector<std::string>& fields) {
   std::string line;
-  for (const std::string& text : fields) line += (line.empty() ? "" : ",") + field(text);
+  for (const std::string& text : fields) line += (line.empty() ? "" : ",") + csvField(text);
   return line + '\n';
 }
 
 std::vector<std::string> csvFields(const std::string& line) {
   std::vector<std::string> fields(1);
   bool quoted = false;
-  for (size_t i = 0; i < line.size(); ++i) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
     const bool doubled = quoted && line.compare(i, 2, "\"\"") == 0;
     if (line[i] == ',' && !quoted) {
       fields.emplace_back();
@@ -39,4 +46,4 @@ std::vector<std::string> csvFields(const std::string& line) {
   return fields;
 }
 
-}  // namespace sweep_guard_evaluation
+}  // namespace sweep_guard_core
