@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "common/floating_point.h"
-#include "detection/features.h"
 #include "detection/trajectory.h"
 #include "geometry/penetration.h"
 #include "sweep_guard/geometry/separation.h"
