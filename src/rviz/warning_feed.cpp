@@ -36,7 +36,7 @@ std::vector<ReceivedWarning> WarningFeed::take() {
 void WarningFeed::receive(const sweep_guard::Warning& warning) {
   const std::lock_guard lock(mutex_);
   if (received_.size() >= kKept) received_.erase(received_.begin(), received_.begin() + kKept / 2);
-  received_.push_back({warning, currentMoment()});
+  received_.push_back({warning, currentInstant()});
 }
 
 }  // namespace sweep_guard_rviz

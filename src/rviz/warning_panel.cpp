@@ -70,7 +70,7 @@ WarningPanel::WarningPanel(QWidget* parent)
     Q_EMIT configChanged();
   });
   setTopic("/sweep_guard/warning");
-  connect(&timer_, &QTimer::timeout, this, [this] { refresh(currentMoment()); });
+  connect(&timer_, &QTimer::timeout, this, [this] { refresh(currentInstant()); });
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.start(kPeriod);
 }
@@ -143,7 +143,7 @@ void WarningPanel::setTopic(const std::string& topic) {
   } catch (const ros::InvalidNameException& error) {
     showOutcome(error.what());
   }
-  refresh(currentMoment());
+  refresh(currentInstant());
 }
 
 std::string WarningPanel::announceCall(const std::string& service) {
@@ -157,7 +157,7 @@ void WarningPanel::showOutcome(const std::string& outcome) {
   outcome_->show();
 }
 
-void WarningPanel::refresh(const Moment& now) {
+void WarningPanel::refresh(const Instant& now) {
   const std::vector<ReceivedWarning> warnings = feed_.take();
   if (!warnings.empty()) newest_ = warnings.back();
   state_ = panelState(newest_, now, topic_);

@@ -34,7 +34,7 @@ class WarningPanel : public rviz::Panel {
   void save(rviz::Config config) const override;
 
   /// Shows the state at a moment. The panel's timer calls this every kPeriod.
-  void refresh(const Moment& now);
+  void refresh(const Instant& now);
 
   const PanelState& state() const { return state_; }  ///< the state shown
   const LevelHistory& history() const { return history_; }

@@ -201,8 +201,8 @@ class ReplayReport {
     warned_ = true;
     knows_mesh_ = (warning->reasons & sweep_guard::Warning::NO_MESH) == 0;
     if (!playing_) return;
-    ReceivedWarning received{std::max(now(), bag_.begin), static_cast<sweep_guard_core::WarningLevel>(warning->level),
-                             warning->text};
+    LoggedWarning received{std::max(now(), bag_.begin), static_cast<sweep_guard_core::WarningLevel>(warning->level),
+                           warning->text};
     if (warning->time_to_collision >= ros::Duration(0)) {
       received.time_to_collision = sweep_guard_core::Duration(warning->time_to_collision.toNSec());
     }

@@ -119,7 +119,7 @@ std::string levelPanel(const SessionLog& log, Time begin) {
 std::string collisionPanel(const SessionLog& log, Time begin) {
   std::string points;
   double highest = 1.0;
-  for (const ReceivedWarning& warning : log.warnings()) {
+  for (const LoggedWarning& warning : log.warnings()) {
     if (warning.time_to_collision) {
       highest = std::max(highest, toSeconds(*warning.time_to_collision));
       points += fmt::format("{:.6g} {:.6g}", seconds(warning.received, begin), toSeconds(*warning.time_to_collision));

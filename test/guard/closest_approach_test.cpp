@@ -1,4 +1,4 @@
-#include "guard/closest_approach.h"
+#include "guard/predict_contacts.h"
 
 #include <gtest/gtest.h>
 

@@ -265,7 +265,7 @@ class Episode {
   void receive(double now) {
     inputs_.R_WD = R_WD_;
     inputs_.known.tool = tool_;
-    inputs_.known.warning = PermissionInputs::ReceivedWarning{WarningLevel::kContact, 0, steadyAt(now)};
+    inputs_.known.warning = PermissionInputs::GuardWarning{WarningLevel::kContact, 0, steadyAt(now)};
     if (tool_poses_.receive(now)) {
       const Located& tool = tool_poses_.newest()->second;
       inputs_.known.pose = MotionInputs::ToolPose{tool.X, {stampAt(tool.time), steadyAt(now)}};

@@ -37,7 +37,7 @@ std::shared_ptr<const PlaneSet> wall(int ms) {
 
 MotionInputs inputsAt(int ms, double x) {
   return {wall(ms), needle(), MotionInputs::ToolPose{poseAt(x), received(ms)},
-          PermissionInputs::ReceivedWarning{WarningLevel::kClear, 0, at(ms).steady}};
+          PermissionInputs::GuardWarning{WarningLevel::kClear, 0, at(ms).steady}};
 }
 
 MotionCommand moving(const Vector3d& v_W, int ms, const Vector3d& w_W = Vector3d::Zero()) {

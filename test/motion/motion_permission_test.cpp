@@ -21,7 +21,7 @@ class MotionPermissionTest : public testing::Test {
  protected:
   MotionPermissionTest() {
     inputs_.command = received(990);
-    inputs_.warning = PermissionInputs::ReceivedWarning{WarningLevel::kClear, 0, at(990).steady};
+    inputs_.warning = PermissionInputs::GuardWarning{WarningLevel::kClear, 0, at(990).steady};
     inputs_.planes = PermissionInputs::Planes{received(990), at(1140).stamp};
     inputs_.pose = received(990);
   }

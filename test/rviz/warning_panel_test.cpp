@@ -162,7 +162,7 @@ TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGrayWithinAFifthOfASecondAtTwentyF
   say(warningLevel(Warning::CLEAR), /*valid_for=*/3600.0);
   fallSilent();
   const std::deque<LevelHistory::Sample>& samples = panel_.history().samples();
-  Moment now{samples.back().since, ros::Time::now()};
+  Instant now{toTime(ros::Time::now()), samples.back().since};
   while (!panel_.state().silent) {
     now.steady += WarningPanel::kPeriod;
     panel_.refresh(now);
