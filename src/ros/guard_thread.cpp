@@ -7,7 +7,6 @@
 
 #include "common/heartbeat.h"
 #include "prediction/profile.h"
-#include "ros/available_detector.h"
 #include "ros/detector_test.h"
 #include "ros/process.h"
 #include "sweep_guard/common/error.h"
