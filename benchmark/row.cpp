@@ -1,13 +1,13 @@
 #include "row.h"
 
-#include "evaluation/csv.h"
+#include "common/csv.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_benchmark {
 namespace {
 
-using sweep_guard_evaluation::csvNumber;
+using sweep_guard_core::csvNumber;
 
 std::string textOf(const std::optional<double>& value) { return value ? csvNumber(*value) : ""; }
 
@@ -30,11 +30,11 @@ ResultFile::ResultFile(const std::string& path) : path_(path) {
 
 void ResultFile::write(const Row& row) {
   if (path_.empty()) return;
-  csv_ << sweep_guard_evaluation::csvLine({row.work, row.method, std::to_string(row.triangles),
-                                           std::to_string(row.queries), csvNumber(row.median_us), csvNumber(row.p10_us),
-                                           csvNumber(row.p90_us), textOf(row.ratio_median), textOf(row.ratio_p10),
-                                           row.misses ? std::to_string(*row.misses) : "",
-                                           row.extras ? std::to_string(*row.extras) : ""})
+  csv_ << sweep_guard_core::csvLine({row.work, row.method, std::to_string(row.triangles), std::to_string(row.queries),
+                                     csvNumber(row.median_us), csvNumber(row.p10_us), csvNumber(row.p90_us),
+                                     textOf(row.ratio_median), textOf(row.ratio_p10),
+                                     row.misses ? std::to_string(*row.misses) : "",
+                                     row.extras ? std::to_string(*row.extras) : ""})
        << std::flush;
   if (!csv_) throw sweep_guard_core::InvalidInput(path_ + ": cannot write");
 }

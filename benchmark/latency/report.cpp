@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "evaluation/csv.h"
+#include "common/csv.h"
 #include "latency/requirements.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/common/quantile.h"
@@ -12,10 +12,10 @@
 namespace sweep_guard_benchmark {
 namespace {
 
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_core::quantile;
-using sweep_guard_evaluation::csvLine;
-using sweep_guard_evaluation::csvNumber;
 
 std::string methodOf(const Settings& settings) {
   std::string method = settings.detector;

@@ -2,13 +2,13 @@
 
 #include <optional>
 
-#include "evaluation/csv.h"
+#include "common/csv.h"
 #include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_benchmark {
 namespace {
 
-using sweep_guard_evaluation::csvNumber;
+using sweep_guard_core::csvNumber;
 
 constexpr double kMinSweepsPerSecond = 30.0;  // of a million triangles
 

@@ -23,7 +23,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-constexpr auto kPeriod = std::chrono::seconds(1);
+constexpr auto kMasterPeriod = std::chrono::seconds(1);
 constexpr int kChecksPerLook = 3;  // for publishers that are missing
 // Those that roscpp and nodelet advertise.
 constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodelet", "set_logger_level",
@@ -38,7 +38,7 @@ MasterWatch::MasterWatch(const ros::NodeHandle& private_node, std::function<Para
                        std::to_string(ros::ConnectionManager::instance()->getTCPPort())),
       call_(kCallTimeout, stopping_),
       master_(identity()) {
-  thread_.every(kPeriod, [this] { checkOrLog(); });
+  thread_.every(kMasterPeriod, [this] { checkOrLog(); });
 }
 
 void MasterWatch::stop() {

@@ -6,14 +6,14 @@
 #include <array>
 #include <cmath>
 
-#include "evaluation/gnuplot.h"
+#include "recording/gnuplot.h"
 
 namespace sweep_guard_session {
 
 using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
 using sweep_guard_core::toSeconds;
-using sweep_guard_evaluation::gnuplotText;
+using sweep_guard_recording::gnuplotText;
 
 namespace {
 

@@ -16,13 +16,12 @@
 #include <utility>
 #include <vector>
 
-#include "evaluation/gnuplot.h"
+#include "recording/gnuplot.h"
 #include "recording/object_contacts.h"
 #include "recording/run_node.h"
 #include "session/session_bag.h"
 #include "session/session_log.h"
 #include "session/session_report.h"
-#include "session/session_sound.h"
 #include "session/touch_report.h"
 #include "sound/wav.h"
 #include "sweep_guard/Contacts.h"
@@ -94,7 +93,7 @@ class ReplayReport {
           topics_.mesh_vertices.c_str());
     }
     listenTo(parameters.text("topics", ""));
-    sweep_guard_evaluation::requireGnuplot();
+    sweep_guard_recording::requireGnuplot();
     makeFolder();
   }
 
@@ -218,9 +217,9 @@ class ReplayReport {
     write(folder / "sound.wav", sweep_guard_core::wavFile(soundOf(log_, kSoundRate), kSoundRate));
     write(folder / "touches.csv", touchesCsv(touches_.touches()));
     const std::string name = std::filesystem::path(path_).filename();
-    sweep_guard_evaluation::runGnuplot(timelinePlot(log_, bag_, name, folder / "timeline.png"));
-    sweep_guard_evaluation::runGnuplot(contactsPlot(log_, bag_, name, folder / "contacts.png"));
-    sweep_guard_evaluation::runGnuplot(touchesPlot(touches_, name, folder / "touches.png"));
+    sweep_guard_recording::runGnuplot(timelinePlot(log_, bag_, name, folder / "timeline.png"));
+    sweep_guard_recording::runGnuplot(contactsPlot(log_, bag_, name, folder / "contacts.png"));
+    sweep_guard_recording::runGnuplot(touchesPlot(touches_, name, folder / "touches.png"));
     std::cout << summary(log_, bag_) << "written to " << output_
               << ": timeline.png, contacts.png, touches.png, contacts.csv, touches.csv, levels.csv, sound.wav"
               << std::endl;

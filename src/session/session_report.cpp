@@ -7,20 +7,20 @@
 #include <cmath>
 #include <vector>
 
-#include "evaluation/csv.h"
-#include "evaluation/gnuplot.h"
+#include "common/csv.h"
+#include "recording/gnuplot.h"
 #include "session/contact_table.h"
 #include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_session {
 
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::Duration;
 using sweep_guard_core::Time;
 using sweep_guard_core::toSeconds;
 using sweep_guard_core::WarningLevel;
-using sweep_guard_evaluation::csvLine;
-using sweep_guard_evaluation::csvNumber;
-using sweep_guard_evaluation::gnuplotText;
+using sweep_guard_recording::gnuplotText;
 
 namespace {
 
@@ -192,7 +192,7 @@ std::string summary(const SessionLog& log, const SessionBag& bag) {
 
 std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
                          const std::string& path) {
-  sweep_guard_evaluation::PlotPage page(path, /*rows=*/3, /*columns=*/1);
+  sweep_guard_recording::PlotPage page(path, /*rows=*/3, /*columns=*/1);
   std::vector<std::string> key;
   key.reserve(kLevels.size());
   for (const WarningLevel level : kLevels) {

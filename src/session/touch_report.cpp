@@ -7,17 +7,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluation/csv.h"
-#include "evaluation/gnuplot.h"
-#include "recording/bag_topic.h"
+#include "common/csv.h"
+#include "recording/bag.h"
+#include "recording/gnuplot.h"
 
 namespace sweep_guard_session {
 
 using Eigen::Vector3d;
 using sweep_guard::ObjectTouches;
-using sweep_guard_evaluation::csvLine;
-using sweep_guard_evaluation::csvNumber;
-using sweep_guard_evaluation::gnuplotText;
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
+using sweep_guard_recording::gnuplotText;
 
 namespace {
 

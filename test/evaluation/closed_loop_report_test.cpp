@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "evaluation/csv.h"
+#include "common/csv.h"
 #include "evaluation/motions.h"
 
 namespace sweep_guard_evaluation {
+
+using sweep_guard_core::csvFields;
+
 namespace {
 
 ClosedLoopCount counted(bool guarded) {

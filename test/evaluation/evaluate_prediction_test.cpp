@@ -169,18 +169,6 @@ TEST_F(EvaluatePredictionTest, ShowsHowHonestTheProbabilitiesAre) {
   EXPECT_TRUE(has(outcome.out, "probability of a contact within 1 s"));
 }
 
-TEST_F(EvaluatePredictionTest, ShowsTheGainOfAProfileAndOfThatOfAnotherRecording) {
-  writeMotion("hand.txt");
-  writeMotion("arm.txt");
-  const Outcome outcome = run("--profiles-csv profiles.csv hand.txt arm.txt");
-  EXPECT_EQ(outcome.status, 0) << outcome.out;
-  EXPECT_TRUE(has(outcome.out, "`direct` with the profile"));
-  EXPECT_TRUE(has(outcome.out, "\n  hand, first 20 s"));
-  const std::string csv = read("profiles.csv");
-  EXPECT_TRUE(has(csv, "\n\"hand, second half\",direct own,0.5,"));
-  EXPECT_TRUE(has(csv, "\n\"arm, first 20 s\",direct hand,1,"));
-}
-
 TEST_F(EvaluatePredictionTest, CountsSessionsBesideMeshes) {
   writeMotion("hand.txt");
   write("roof.obj", "v -10 -30 80\nv -10 30 80\nv 70 0 80\nf 1 2 3\n");

@@ -19,7 +19,6 @@
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/Predict.h>
 #include <sweep_guard/Proximity.h>
-#include <sweep_guard/SaveProfile.h>
 #include <sweep_guard/SetIntent.h>
 #include <sweep_guard/ToolBalls.h>
 #include <sweep_guard/ToolBodies.h>
@@ -175,9 +174,9 @@ using Messages =
                    sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::Proximity,
                    sweep_guard::ToolBalls, sweep_guard::ToolBodies, sweep_guard::ToolSurface, sweep_guard::Warning,
                    sweep_guard::CheckSweepRequest, sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest,
-                   sweep_guard::AcknowledgeRequest, sweep_guard::AttachRequest, sweep_guard::SaveProfileRequest,
-                   sweep_guard::Intend, sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest,
-                   std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
+                   sweep_guard::AcknowledgeRequest, sweep_guard::AttachRequest, sweep_guard::Intend,
+                   sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest, std_srvs::TriggerRequest,
+                   dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {

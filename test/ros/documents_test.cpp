@@ -368,7 +368,7 @@ bool hasOption(const std::string& text, const std::string& option) {
 
 // Searches the script, and the programs that it passes its arguments to.
 bool takes(const std::filesystem::path& script, const std::string& option) {
-  static const std::string programs = sources({"src", "test", "benchmark"});
+  static const std::string programs = sources({"src", "test", "evaluation", "benchmark"});
   return hasOption(contents(script), option) || hasOption(programs, option);
 }
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "evaluation/gnuplot.h"
+#include "recording/gnuplot.h"
 #include "refusal.h"
 
 namespace sweep_guard_session {
@@ -66,7 +66,7 @@ TEST(ContactTableTest, IsDrawnInAPictureThatGrowsWithItsLines) {
   std::uint32_t before = 0;
   for (const std::size_t count : {1U, 10U, 40U, 60U}) {
     const std::vector<Contact> contacts(count, contactAt(0, "operator's\n{liver}_\\1"));
-    sweep_guard_evaluation::runGnuplot(ContactTable(contacts, kBegin, 40).plot("session.bag", path));
+    sweep_guard_recording::runGnuplot(ContactTable(contacts, kBegin, 40).plot("session.bag", path));
     EXPECT_GT(heightOf(path), before);
     EXPECT_LT(heightOf(path), 1500U);
     before = heightOf(path);

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "evaluation/gnuplot.h"
+#include "recording/gnuplot.h"
 #include "refusal.h"
 
 namespace sweep_guard_session {
@@ -97,10 +97,10 @@ TEST(SessionReportTest, PlotsAreDrawnWithAndWithoutContacts) {
   uneventful.end(at(2000));
   for (const SessionLog& log : {oneContact(), uneventful, SessionLog()}) {
     std::filesystem::remove(path);
-    sweep_guard_evaluation::runGnuplot(timelinePlot(log, bagOf(1), "operator's.bag", path));
+    sweep_guard_recording::runGnuplot(timelinePlot(log, bagOf(1), "operator's.bag", path));
     EXPECT_GT(std::filesystem::file_size(path), 10000U);
     std::filesystem::remove(path);
-    sweep_guard_evaluation::runGnuplot(contactsPlot(log, bagOf(1), "operator's.bag", path));
+    sweep_guard_recording::runGnuplot(contactsPlot(log, bagOf(1), "operator's.bag", path));
     EXPECT_GT(std::filesystem::file_size(path), 3000U);
   }
   std::filesystem::remove(path);

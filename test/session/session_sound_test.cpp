@@ -1,4 +1,4 @@
-#include "session/session_sound.h"
+#include "session/session_log.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "evaluation/gnuplot.h"
 #include "grid_mesh.h"
+#include "recording/gnuplot.h"
 #include "refusal.h"
 
 namespace sweep_guard_session {
@@ -104,7 +104,7 @@ TEST(TouchReportTest, IsDrawnWithAndWithoutTouchesAndShape) {
       {logOf(mesh, touchesOf(mesh)), 50000}, {shapeless, 3000}, {TouchLog(), 3000}};
   for (const auto& [log, least_size] : cases) {
     std::filesystem::remove(path);
-    sweep_guard_evaluation::runGnuplot(touchesPlot(log, "operator's.bag", path));
+    sweep_guard_recording::runGnuplot(touchesPlot(log, "operator's.bag", path));
     EXPECT_GT(std::filesystem::file_size(path), least_size);
   }
   std::filesystem::remove(path);

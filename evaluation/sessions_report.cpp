@@ -1,0 +1,230 @@
+#include "evaluation/sessions_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "common/csv.h"
+#include "common/number_text.h"
+#include "recording/gnuplot.h"
+#include "sweep_guard/common/error.h"
+
+namespace sweep_guard_evaluation {
+
+using sweep_guard_core::csvFields;
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
+using sweep_guard_core::InvalidInput;
+using sweep_guard_recording::PlotPage;
+
+namespace {
+
+constexpr const char* kAll = "all";
+
+struct Figure {
+  const char* column;
+  const char* title;  // in the table
+  double (*of)(const SessionFigures&);
+};
+
+const std::vector<Figure>& figureColumns() {
+  using F = const SessionFigures&;
+  static const std::vector<Figure> kFigures = {
+      {"warned_0.1", "warned 0.1 s", [](F f) { return f.warned(0); }},
+      {"warned_0.3", "warned 0.3 s", [](F f) { return f.warned(1); }},
+      {"warned_0.5", "warned 0.5 s", [](F f) { return f.warned(2); }},
+      {"warned_1.0", "warned 1.0 s", [](F f) { return f.warned(3); }},
+      {"unjustified_per_min", "unjustified/min", [](F f) { return f.unjustifiedPerMinute(); }},
+      {"precision", "precision", [](F f) { return f.precision(); }},
+      {"precision_10mm", "within 10 mm", [](F f) { return f.precisionWithin(0); }},
+      {"precision_20mm", "within 20 mm", [](F f) { return f.precisionWithin(1); }},
+      {"precision_50mm", "within 50 mm", [](F f) { return f.precisionWithin(2); }},
+      {"false_on_share", "false on-time", [](F f) { return f.falseOnShare(); }}};
+  return kFigures;
+}
+
+std::vector<double> valuesOf(const SessionFigures& figures) {
+  std::vector<double> values;
+  for (const Figure& figure : figureColumns()) values.push_back(figure.of(figures));
+  return values;
+}
+
+std::string csvRow(const std::string& recording, const SessionFigures& figures) {
+  std::vector<std::string> fields = {recording, csvNumber(figures.minutes), std::to_string(figures.count.contacts)};
+  for (const double value : valuesOf(figures)) fields.push_back(csvNumber(value));
+  return csvLine(fields);
+}
+
+std::string tableRows(const std::string& recording, const std::vector<RecordingSessions>& recordings) {
+  const SessionFigures figures = figuresOf(recordings);
+  const auto intervals = bootstrap([&](size_t draw) { return valuesOf(figuresOf(resampled(recordings, draw))); });
+  std::string rows = fmt::format("{}: {:.1f} min, {} contacts, {} without REFLEX, {} alarms\n", recording,
+                                 figures.minutes, figures.count.contacts, figures.count.late, figures.count.alarms);
+  for (size_t i = 0; i < intervals.size(); ++i) {
+    const Figure& figure = figureColumns()[i];
+    rows += fmt::format("  {:<16} {:6.3f}  [{:.3f}, {:.3f}]\n", figure.title, figure.of(figures), intervals[i].lower,
+                        intervals[i].upper);
+  }
+  return rows;
+}
+
+// Names of the columns and the counts in them, in the same order.
+template <typename Function>
+void forEachCount(SessionCount& count, const Function& function) {
+  function("contacts", count.contacts);
+  const char* const warned[] = {"warned_0.1", "warned_0.3", "warned_0.5", "warned_1.0"};
+  for (size_t i = 0; i < std::size(warned); ++i) function(warned[i], count.warned[i]);
+  function("late", count.late);
+  function("alarms", count.alarms);
+  function("unjustified", count.unjustified);
+  const char* const near[] = {"near_10mm", "near_20mm", "near_50mm"};
+  for (size_t i = 0; i < std::size(near); ++i) function(near[i], count.near_misses[i]);
+}
+
+std::string objectsHeader() {
+  std::vector<std::string> columns = {"recording", "session", "object", "minutes"};
+  SessionCount none;
+  forEachCount(none, [&](const char* column, size_t /*count*/) { columns.emplace_back(column); });
+  return csvLine(columns);
+}
+
+template <typename Number>
+Number numberAt(std::vector<std::string>& words, size_t index, size_t line) {
+  if (const auto number = sweep_guard_core::parseNumber<Number>(words[index])) return *number;
+  throw InvalidInput(fmt::format("line {}: '{}' is not a number", line, words[index]));
+}
+
+bool sameSessions(const RecordingSessions& a, const RecordingSessions& b) {
+  const auto same_objects = [](const auto& x, const auto& y) { return x.size() == y.size(); };
+  return a.recording == b.recording &&
+         std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(), same_objects) &&
+         figuresOf(a).count.contacts == figuresOf(b).count.contacts;
+}
+
+std::vector<double> ratiosOf(const SessionFigures& now, const SessionFigures& before) {
+  return {now.unjustifiedPerMinute() / before.unjustifiedPerMinute(), now.precision() - before.precision(),
+          now.warned(2) - before.warned(2), now.warned(3) - before.warned(3)};
+}
+
+const std::array<const char*, 4> kColors = {"#0072B2", "#56B4E9", "#009E73", "#999999"};
+
+/// Plots one bar for each column of the data.
+std::string panel(const std::string& title, size_t columns, const std::string& data) {
+  std::string plot;
+  for (size_t i = 0; i < columns; ++i) {
+    plot +=
+        fmt::format("{} $data using {}:xtic(1) with histograms lc rgb '{}'", i == 0 ? "plot" : ",", i + 2, kColors[i]);
+  }
+  return fmt::format(
+      "$data << END\n{}END\nset title '{}' offset 0,-0.6\nset style fill solid\n"
+      "set xtics rotate by -20 noenhanced font ',9'\nset yrange [0:*]\n{}",
+      data, title, plot);
+}
+
+std::string label(std::string name) {
+  std::replace(name.begin(), name.end(), '"', '\'');
+  return '"' + name + '"';
+}
+
+}  // namespace
+
+std::string sessionsCsv(const std::vector<RecordingSessions>& recordings) {
+  std::vector<std::string> columns = {"recording", "minutes", "contacts"};
+  for (const Figure& figure : figureColumns()) columns.emplace_back(figure.column);
+  std::string csv = csvLine(columns);
+  for (const RecordingSessions& recording : recordings) csv += csvRow(recording.recording, figuresOf(recording));
+  return csv + csvRow(kAll, figuresOf(recordings));
+}
+
+std::string sessionsTable(const std::vector<RecordingSessions>& recordings) {
+  std::string table;
+  for (const RecordingSessions& recording : recordings) table += tableRows(recording.recording, {recording});
+  return table + tableRows(kAll, recordings);
+}
+
+std::string sessionObjectsCsv(const std::vector<RecordingSessions>& recordings) {
+  std::string csv = objectsHeader();
+  for (const RecordingSessions& recording : recordings) {
+    for (size_t session = 0; session < recording.objects.size(); ++session) {
+      for (size_t object = 0; object < recording.objects[session].size(); ++object) {
+        std::vector<std::string> fields = {recording.recording, std::to_string(session), std::to_string(object),
+                                           csvNumber(recording.minutes)};
+        SessionCount count = recording.objects[session][object];
+        forEachCount(count, [&](const char*, size_t number) { fields.push_back(std::to_string(number)); });
+        csv += csvLine(fields);
+      }
+    }
+  }
+  return csv;
+}
+
+std::vector<RecordingSessions> readSessionObjects(const std::string& csv) {
+  std::istringstream stream(csv);
+  std::string line;
+  std::getline(stream, line);
+  if (line + '\n' != objectsHeader()) throw InvalidInput("line 1: not that of a --sessions-objects-csv");
+  std::vector<RecordingSessions> recordings;
+  for (size_t number = 2; std::getline(stream, line); ++number) {
+    std::vector<std::string> words = csvFields(line);
+    SessionCount count;
+    size_t columns = 4;
+    forEachCount(count, [&](const char*, size_t) { ++columns; });
+    if (words.size() != columns) throw InvalidInput(fmt::format("line {}: has {} fields", number, words.size()));
+    if (recordings.empty() || recordings.back().recording != words[0]) recordings.push_back({words[0], 0.0, {}});
+    RecordingSessions& recording = recordings.back();
+    recording.minutes = numberAt<double>(words, 3, number);
+    if (numberAt<size_t>(words, 1, number) == recording.objects.size()) recording.objects.emplace_back();
+    size_t column = 4;
+    forEachCount(count, [&](const char*, size_t& value) { value = numberAt<size_t>(words, column++, number); });
+    recording.objects.back().push_back(count);
+  }
+  return recordings;
+}
+
+std::string sessionsComparison(const std::vector<RecordingSessions>& recordings,
+                               const std::vector<RecordingSessions>& before) {
+  if (!std::equal(recordings.begin(), recordings.end(), before.begin(), before.end(), sameSessions)) {
+    throw InvalidInput("the runs to compare differ in recordings, sessions, objects or contacts");
+  }
+  const SessionFigures now = figuresOf(recordings);
+  const std::vector<double> ratios = ratiosOf(now, figuresOf(before));
+  const auto intervals = bootstrap([&](size_t draw) {
+    return ratiosOf(figuresOf(resampled(recordings, draw)), figuresOf(resampled(before, draw)));
+  });
+  const char* const names[] = {"unjustified alarms per minute, ratio", "precision, difference",
+                               "warned 0.5 s ahead, difference", "warned 1.0 s ahead, difference"};
+  std::string text = "compared with the other run:\n";
+  for (size_t i = 0; i < ratios.size(); ++i) {
+    text += fmt::format("  {:<38} {:6.3f}  [{:.3f}, {:.3f}]\n", names[i], ratios[i], intervals[i].lower,
+                        intervals[i].upper);
+  }
+  return text + fmt::format("  {:<38} {} (before: {})\n", "contacts without REFLEX", now.count.late,
+                            figuresOf(before).count.late);
+}
+
+std::string sessionsPlot(const std::vector<RecordingSessions>& recordings, const std::string& path) {
+  std::array<std::string, 3> data;
+  const auto add = [&](const std::string& name, const SessionFigures& f) {
+    data[0] += fmt::format("{} {:.6g}\n", label(name), f.unjustifiedPerMinute());
+    data[1] += fmt::format("{} {:.6g} {:.6g} {:.6g} {:.6g}\n", label(name), f.precision(), f.precisionWithin(0),
+                           f.precisionWithin(1), f.precisionWithin(2));
+    data[2] += fmt::format("{} {:.6g} {:.6g} {:.6g} {:.6g}\n", label(name), f.warned(0), f.warned(1), f.warned(2),
+                           f.warned(3));
+  };
+  for (const RecordingSessions& recording : recordings) add(recording.recording, figuresOf(recording));
+  add(kAll, figuresOf(recordings));
+  const char* const names[] = {"contact, 0.1 s", "10 mm, 0.3 s", "20 mm, 0.5 s", "50 mm, 1.0 s"};
+  std::vector<std::string> entries;
+  for (size_t i = 0; i < kColors.size(); ++i) {
+    entries.push_back(fmt::format("with lines lw 8 lc rgb '{}' title '{}'", kColors[i], names[i]));
+  }
+  PlotPage page(path, 1, data.size());
+  page.addKey({}, entries);
+  page.addPanel(0, 0, panel("unjustified alarms per minute", 1, data[0]));
+  page.addPanel(0, 1, panel("alarms before a contact or near miss", 4, data[1]));
+  page.addPanel(0, 2, panel("contacts warned of ahead", 4, data[2]));
+  return page.script();
+}
+
+}  // namespace sweep_guard_evaluation
