@@ -180,8 +180,11 @@ TriangleSet testedTriangles(const SampledQuery& query) {
 }
 
 std::string otherDetector(const std::string& name, std::uint64_t number) {
-  if (number % kReferencePeriod == 0 && name != "reference") return "reference";
-  return name == "halfspace" ? "select" : "halfspace";
+  const std::vector<std::string>& names = detectorNames();
+  const std::string& reference = names.back();
+  if (number % kReferencePeriod == 0 && name != reference) return reference;
+  const auto quick = std::find_if(names.rbegin() + 1, names.rend(), [&](const auto& other) { return other != name; });
+  return *quick;
 }
 
 }  // namespace sweep_guard_core

@@ -70,13 +70,14 @@ CrossCheckThread::Other& CrossCheckThread::other(const std::string& name) {
   return made != others_.end() ? made->second : others_.emplace(name, make(name)).first->second;
 }
 
-// Without OpenGL, `reference` stands in for `select`.
+// Without OpenGL, the reference stands in for `select`.
 CrossCheckThread::Other CrossCheckThread::make(const std::string& name) const {
   try {
     return {name, sweep_guard_core::makeDetector(name, parameters_.initial().detector.options)};
   } catch (const sweep_guard_core::DeviceError& error) {
-    ROS_WARN("cross-check by reference instead of %s: %s", name.c_str(), error.what());
-    return {"reference", sweep_guard_core::makeDetector("reference")};
+    const std::string& reference = sweep_guard_core::detectorNames().back();
+    ROS_WARN("cross-check by %s instead of %s: %s", reference.c_str(), name.c_str(), error.what());
+    return {reference, sweep_guard_core::makeDetector(reference)};
   }
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/heartbeat.h"
-#include "ros/available_detector.h"
 #include "ros/detector_test.h"
 #include "ros/process.h"
 #include "sweep_guard/common/error.h"

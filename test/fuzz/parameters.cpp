@@ -177,7 +177,7 @@ void checkGuard(Input& input) {
     try {
       Parameters next = sweep_guard_ros::changeParameters(node, parameters, changes);
       for (const auto& change : differences(parameters, next)) {
-        require(sweep_guard_ros::changesWhileRunning(change.key), "only what may change changes");
+        require(defaults.described(change.key)->live, "only what may change changes");
       }
       parameters = std::move(next);
     } catch (const InvalidInput&) {
