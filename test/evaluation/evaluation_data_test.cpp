@@ -5,8 +5,6 @@
 
 #include "data_path.h"
 #include "evaluation/evaluate.h"
-#include "evaluation/profile_report.h"
-#include "prediction/profile.h"
 
 namespace sweep_guard_evaluation {
 namespace {
@@ -61,7 +59,7 @@ TEST_F(EvaluationDataTest, TheDefaultPredictorIsAheadOfHoldingAndOfConstantVeloc
   options_.predictors = {"hold", "constant_velocity", "direct"};
   double sum = 0.0;
   int ratios = 0;
-  for (const ErrorReport& report : reportErrors(recordings_, options_, options_.horizons, [](size_t) {})) {
+  for (const ErrorReport& report : reportErrors(recordings_, options_, [](size_t) {})) {
     for (size_t horizon = 0; horizon < report.horizons.size(); ++horizon) {
       for (const Field field : {&ErrorSummary::position_median, &ErrorSummary::position_p95,
                                 &ErrorSummary::rotation_median, &ErrorSummary::rotation_p95}) {
@@ -81,47 +79,6 @@ TEST_F(EvaluationDataTest, EveryContactIsWarnedOfByTheReflexWarning) {
   for (const WarningReport& report : reportWarnings(recordings_, options_, [](size_t) {})) {
     const AlarmStatistics& reflex = report.statistics[0][report.chosen][0];
     EXPECT_EQ(reflex.contacts, 5U) << report.recording;
-    EXPECT_EQ(reflex.leads.size(), reflex.contacts) << report.recording;
-  }
-}
-
-constexpr size_t kWithout = 2;  // of reportProfiles()
-constexpr size_t kOwn = 3;
-
-double meanOfOthers(const ErrorReport& report) {
-  double sum = 0.0;
-  for (size_t other = kOwn + 1; other < report.predictors.size(); ++other) sum += meanRatio(report, other);
-  return sum / static_cast<double>(report.predictors.size() - kOwn - 1);
-}
-
-TEST_F(EvaluationDataTest, ItsOwnProfileSharpensTheBeginAndAnotherOneIsOutgrown) {
-  double gain = 0.0;
-  for (const ErrorReport& report : reportProfiles(recordings_, options_, [](size_t) {})) {
-    const double without = meanRatio(report, kWithout);
-    if (report.recording.find("first 20 s") != std::string::npos) {
-      EXPECT_LT(meanRatio(report, kOwn), without) << report.recording;
-      gain += without - meanRatio(report, kOwn);
-    }
-    if (report.recording.find("after 20 s") != std::string::npos) {
-      EXPECT_LT(meanOfOthers(report), without + 0.03) << report.recording;
-    }
-  }
-  EXPECT_GT(gain / static_cast<double>(recordings_.size()), 0.015);
-}
-
-// The motion after a profile of the next recording's first half, which is another operator's, begins here.
-TEST_F(EvaluationDataTest, WithTheProfileOfAnotherNoContactIsWithoutReflex) {
-  options_.predictors = {"direct"};
-  options_.placement.count = 20;
-  for (size_t i = 0; i < recordings_.size(); ++i) {
-    sweep_guard_core::PosePredictor other{sweep_guard_core::PredictorOptions()};
-    for (const auto& pose : recordings_[(i + 1) % recordings_.size()].poses) other.observe(pose);
-    options_.predictor.profile = other.profile();
-    Recording begin = recordings_[i];
-    while (begin.poses.back().stamp - begin.poses.front().stamp > std::chrono::seconds(20)) begin.poses.pop_back();
-    const WarningReport report = reportWarnings({begin}, options_, [](size_t) {}).front();
-    const AlarmStatistics& reflex = report.statistics[0][report.chosen][0];
-    EXPECT_GT(reflex.contacts, 0U) << report.recording;
     EXPECT_EQ(reflex.leads.size(), reflex.contacts) << report.recording;
   }
 }

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <algorithm>
 
-#include "recording/gnuplot.h"
 #include "refusal.h"
 
 namespace sweep_guard_session {
@@ -56,6 +55,11 @@ TEST(SessionReportTest, WritesALineForEachSegment) {
             "1.3100,2.0000,CONTACT,\"CONTACT: tool meets 'a, b'\"\n");
 }
 
+TEST(SessionReportTest, WritesTheTimeToCollisionOfEachWarning) {
+  EXPECT_EQ(collisionsCsv(oneContact(), kBegin),
+            "received_s,time_to_collision_s\n0.0000,\n0.1000,\n0.5000,0.9000\n1.2000,0.1000\n1.3100,0.0000\n");
+}
+
 TEST(SessionReportTest, SummaryNamesContactsAndPosesNotSwept) {
   SessionLog log = oneContact();
   EXPECT_TRUE(has(summary(log, bagOf(1)), "swept      1 times, without a gap\n"));
@@ -89,22 +93,28 @@ TEST(SessionReportTest, ReportsASessionOfOneInstant) {
   }
 }
 
-// gnuplot refuses a script that is wrong; an apostrophe must not end a text in it.
-TEST(SessionReportTest, PlotsAreDrawnWithAndWithoutContacts) {
-  const std::string path = testing::TempDir() + "session_report_test.png";
-  SessionLog uneventful;
-  uneventful.add({at(0), WarningLevel::kClear, "CLEAR"});
-  uneventful.end(at(2000));
-  for (const SessionLog& log : {oneContact(), uneventful, SessionLog()}) {
-    std::filesystem::remove(path);
-    sweep_guard_recording::runGnuplot(timelinePlot(log, bagOf(1), "operator's.bag", path));
-    EXPECT_GT(std::filesystem::file_size(path), 10000U);
-    std::filesystem::remove(path);
-    sweep_guard_recording::runGnuplot(contactsPlot(log, bagOf(1), "operator's.bag", path));
-    EXPECT_GT(std::filesystem::file_size(path), 3000U);
-  }
-  std::filesystem::remove(path);
+constexpr int kRate = 8000;
+
+// Number of samples that are not 0, from one time [ms] to another.
+long sounding(const std::vector<std::int16_t>& samples, int begin, int end) {
+  const auto sample = [&](int ms) { return samples.begin() + ms * kRate / 1000; };
+  return std::count_if(sample(begin), sample(end), [](int value) { return value != 0; });
 }
+
+TEST(SessionSoundTest, LastsAsLongAsTheSessionAndSoundsAsItsLevels) {
+  SessionLog log;
+  log.add({at(1000), WarningLevel::kClear, {}});
+  log.add({at(1500), WarningLevel::kContact, {}});
+  log.add({at(2500), WarningLevel::kClear, {}});
+  log.end(at(4000));
+  const auto samples = soundOf(log, kRate);
+  EXPECT_EQ(samples.size(), 3U * kRate);
+  EXPECT_EQ(sounding(samples, 100, 500), 0);
+  EXPECT_EQ(sounding(samples, 510, 1500), 5940);  // a tone of 1 kHz is 0 at two of its eight samples
+  EXPECT_LT(sounding(samples, 1510, 3000), 200);
+}
+
+TEST(SessionSoundTest, IsEmptyWithoutWarnings) { EXPECT_TRUE(soundOf(SessionLog(), kRate).empty()); }
 
 }  // namespace
 }  // namespace sweep_guard_session
