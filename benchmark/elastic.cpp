@@ -7,8 +7,8 @@
 #include "machine.h"
 #include "microseconds.h"
 #include "row.h"
+#include "simulation/drilling.h"
 #include "simulation/elastic/elastic_workpiece.h"
-#include "simulation/top_surface.h"
 #include "simulation/workpiece.h"
 #include "sweep_guard/common/error.h"
 

@@ -8,7 +8,7 @@
 #include "scenes.h"
 #include "sweep_guard/common/quantile.h"
 #include "sweep_guard/geometry/convex_hull.h"
-#include "sweep_guard/geometry/convex_polytope.h"
+#include "sweep_guard/geometry/half_space.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
 namespace sweep_guard_core {

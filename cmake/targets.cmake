@@ -14,6 +14,27 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   list(APPEND rounding -U__ARM_FEATURE_FMA)
 endif()
 
+# sweep_guard_unite(TARGET) - compiles the sources of each folder as one, if SWEEP_GUARD_UNITY is on. A source that has the
+# property SKIP_UNITY_BUILD_INCLUSION or a UNITY_GROUP of its own keeps it
+function(sweep_guard_unite target)
+  if(NOT SWEEP_GUARD_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  foreach(source ${sources})
+    get_filename_component(source ${source} ABSOLUTE)
+    get_source_file_property(group ${source} TARGET_DIRECTORY ${target} UNITY_GROUP)
+    if(NOT group)
+      get_filename_component(folder ${source} DIRECTORY)
+      file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+      string(MAKE_C_IDENTIFIER ${folder} group)
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
+    endif()
+  endforeach()
+endfunction()
+
 # Settings of every target of ours: the headers of other packages are system headers, so that warnings in them are not errors.
 function(sweep_guard_target target)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
@@ -21,10 +42,15 @@ function(sweep_guard_target target)
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual $<$<BOOL:${SWEEP_GUARD_WERROR}>:-Werror>)
   target_compile_options(${target} PRIVATE ${rounding} ${protection})
   target_link_options(${target} PRIVATE ${link_protection})
+  sweep_guard_unite(${target})
 endfunction()
 
+# The loops are in the core: the rest is compiled with -O2, which takes less time.
 function(sweep_guard_ros_target target)
   sweep_guard_target(${target})
+  if(NOT SWEEP_GUARD_SANITIZE)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O2>)
+  endif()
   target_link_libraries(${target} sweep_guard_catkin)  # no keyword: catkin links its tests without
   add_dependencies(${target} ${${PROJECT_NAME}_EXPORTED_TARGETS})
 endfunction()

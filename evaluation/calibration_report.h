@@ -5,7 +5,7 @@
 
 #include "evaluation/calibration.h"
 #include "evaluation/sessions.h"
-#include "sweep_guard/guard/probability_map.h"
+#include "sweep_guard/guard/prediction.h"
 
 namespace sweep_guard_evaluation {
 

@@ -60,7 +60,7 @@ po::options_description warningOptions(const Options& options) {
                                                                "radius of the tool, a cylinder [m]")(
       "tool-length", withDefault("0.1", "M"), "length of the tool [m]")(
       "min-probability", withDefault(csvNumber(options.min_probability), "P"),
-      "raises a warning as warning/min_probability of the guard does, in (0, 1]")(
+      "smallest probability of meeting the plane of a triangle that raises a warning, in (0, 1]")(
       "hold-time", withDefault("0.5", "S"), "a warning stays for this time after its cause is over [s]")(
       "up-to", withDefault("20", "N"), "end of the average of the trade-off [false alarms per minute]");
   return described;

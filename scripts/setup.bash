@@ -32,6 +32,7 @@ clean_environment() {
   unset PYTHONPATH PYTHONHOME LD_LIBRARY_PATH PKG_CONFIG_PATH CMAKE_PREFIX_PATH
   unset ROS_PACKAGE_PATH ROS_ROOT ROS_DISTRO ROS_NAMESPACE ROS_LOG_DIR
   export ROS_HOME="$build/ros"  # logs belong to the build, not to ~/.ros
+  export ROS_LANG_DISABLE=genlisp  # a process for each message, for nobody here
   export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1  # the copies of scripts/mutation find what is compiled here
   export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}  # else it does without precompiled headers
 }
@@ -124,7 +125,7 @@ build_targets() {
   say "configuring $build"
   cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
-    -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" -DSWEEP_GUARD_WERROR=ON "${options[@]}" >"$build/configure.log" 2>&1 || {
+    -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" -DSWEEP_GUARD_WERROR=ON -DSWEEP_GUARD_UNITY=ON "${options[@]}" >"$build/configure.log" 2>&1 || {
     cat "$build/configure.log" >&2
     fail "configuring failed. If something other than these scripts made $build, remove it and try again"
   }

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "sweep_guard/geometry/convex_polytope.h"
+#include "sweep_guard/geometry/half_space.h"
 
 namespace sweep_guard_core {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sweep_guard/geometry/convex_polytope.h"
+#include "sweep_guard/geometry/half_space.h"
 #include "sweep_guard/geometry/swept_volume.h"
 
 namespace sweep_guard_benchmark {

@@ -3,18 +3,18 @@
 namespace sweep_guard_core {
 namespace {
 
-thread_local Heartbeat* current = nullptr;
+thread_local Heartbeat* heartbeat_of_thread = nullptr;
 
 }  // namespace
 
 void Heartbeat::begin() {
-  current = this;
+  heartbeat_of_thread = this;
   add(1);
 }
 
 void Heartbeat::end() {
   add(1);
-  current = nullptr;
+  heartbeat_of_thread = nullptr;
 }
 
 Heartbeat::Reading Heartbeat::read() const {
@@ -28,7 +28,7 @@ void Heartbeat::add(std::uint64_t steps) {
 }
 
 void beat() {
-  if (current != nullptr) current->add(2);
+  if (heartbeat_of_thread != nullptr) heartbeat_of_thread->add(2);
 }
 
 }  // namespace sweep_guard_core

@@ -1,9 +1,11 @@
 #include "common/number_text.h"
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <locale>
@@ -69,6 +71,12 @@ std::string shortestText(double number) {
     if (parseNumber<double>(text.str()) == number) break;
   }
   return text.str();
+}
+
+std::string inSeconds(Duration duration) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2f s", toSeconds(duration));
+  return text.data();
 }
 
 }  // namespace sweep_guard_core

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "sweep_guard/common/time.h"
+
 namespace sweep_guard_core {
 
 // Numbers as text, the same in every locale. std::from_chars and std::to_chars lack floating point before libstdc++ 11.
@@ -16,5 +18,8 @@ std::optional<Number> parseNumber(std::string_view text);
 
 /// Returns the decimal number with the fewest digits that is read as the same number.
 std::string shortestText(double number);
+
+/// Returns a duration with two decimals and its unit, as in "0.25 s".
+std::string inSeconds(Duration duration);
 
 }  // namespace sweep_guard_core

@@ -6,19 +6,19 @@
 namespace sweep_guard_core {
 namespace {
 
-thread_local StageClock* current = nullptr;
+thread_local StageClock* clock_of_thread = nullptr;
 
 }  // namespace
 
 void StageClock::begin(Stage stage) {
-  current = stage == Stage::kOther ? nullptr : this;
+  clock_of_thread = stage == Stage::kOther ? nullptr : this;
   stage_ = stage;
   since_ = std::chrono::steady_clock::now();
 }
 
 void StageClock::end() {
   change(Stage::kOther);
-  current = nullptr;
+  clock_of_thread = nullptr;
 }
 
 StageTimes StageClock::read() const {
@@ -39,7 +39,7 @@ Stage StageClock::change(Stage to) {
   return std::exchange(stage_, to);
 }
 
-InStage::InStage(Stage stage) : clock_(current), before_(stage) {
+InStage::InStage(Stage stage) : clock_(clock_of_thread), before_(stage) {
   if (clock_ != nullptr) before_ = clock_->change(stage);
 }
 

@@ -7,7 +7,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kFloatError = 0x1p-20;  // a dozen roundings of 2^-24: point, differences, squares, sums
+constexpr double kDistanceError = 0x1p-20;  // a dozen roundings of 2^-24: point, differences, squares, sums
 
 }  // namespace
 
@@ -35,7 +35,7 @@ double ClusterBoxes::distanceFrom(const Eigen::Vector3d& p_M) const {
   const simd::BoxArrays<const float> boxes{{side(0), side(1), side(2)}, {side(3), side(4), side(5)}};
   const Eigen::Vector3f rounded = p.cast<float>();
   const double squared = kernels_->nearestBox(boxes, count_, {rounded.x(), rounded.y(), rounded.z()});
-  const double doubt = kFloatError * (radius_ + p.norm()) + 0x1p-48 * origin_M_.norm();
+  const double doubt = kDistanceError * (radius_ + p.norm()) + 0x1p-48 * origin_M_.norm();
   return std::max(0.0, std::sqrt(squared) - doubt);
 }
 

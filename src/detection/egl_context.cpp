@@ -7,7 +7,6 @@
 #include <cstring>
 #include <vector>
 
-#include "detection/gl_library.h"
 #include "detection/offscreen_context.h"
 
 namespace sweep_guard_core {

@@ -8,7 +8,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kFloatError = 0x1p-20;  // at most six roundings of 2^-24: normal, offset, three products, two sums
+constexpr double kPlaneError = 0x1p-20;  // at most six roundings of 2^-24: normal, offset, three products, two sums
 constexpr double kMaxSize = 1e30;        // larger than any coordinate, finite in float32
 
 class FloatPlanes {
@@ -20,7 +20,7 @@ class FloatPlanes {
     const size_t i = planes_.count++;
     assert(planes_.count <= simd::kMaxPlanes);
     d = std::min(std::max(d, -kMaxSize), kMaxSize);
-    const double doubt = kFloatError * (radius_ + std::abs(d)) + rounding_;
+    const double doubt = kPlaneError * (radius_ + std::abs(d)) + rounding_;
     for (size_t axis = 0; axis < 3; ++axis) {
       planes_.normal[axis][i] = static_cast<float>(normal[static_cast<Eigen::Index>(axis)]);
     }

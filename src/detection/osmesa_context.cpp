@@ -4,7 +4,6 @@
 #include <set>
 #include <vector>
 
-#include "detection/gl_library.h"
 #include "detection/offscreen_context.h"
 
 namespace sweep_guard_core {

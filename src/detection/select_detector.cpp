@@ -11,7 +11,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kFloatError =
+constexpr double kSelectError =
     0x1p-22;  // per meter of distance from the center of the box; the largest found is 1 to 2e-8
 
 // Converts the half-space n·p <= d to a plane in coordinates scaled to the cube; OpenGL keeps the positive side.
@@ -75,7 +75,7 @@ void SelectDetector::collectCorners(const TriangleMesh& mesh_M, const OrientedBo
 double SelectDetector::computeInflation(const TriangleMesh& mesh_M, const OrientedBox& box_M) const {
   double squared = box_M.half_extents.squaredNorm();
   for (const Eigen::Vector3d& corner : corners_B_) squared = std::max(squared, corner.squaredNorm());
-  return kFloatError * std::sqrt(squared) + BoxCoordinates(mesh_M, box_M).rounding();
+  return kSelectError * std::sqrt(squared) + BoxCoordinates(mesh_M, box_M).rounding();
 }
 
 // Finds the triangles that hit, counted among those in doubt: first in blocks, then one by one.

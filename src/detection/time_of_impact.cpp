@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
-#include <limits>
 
+#include "common/floating_point.h"
 #include "detection/features.h"
 #include "detection/trajectory.h"
 #include "geometry/penetration.h"
@@ -14,7 +14,6 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxDirections = 1000;
 constexpr int kMaxKnown = 8;         // of these that need not be the direction of the closest points
 constexpr double kOffset = 1e-3;     // of the tool's bounding radius

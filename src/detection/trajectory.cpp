@@ -1,12 +1,12 @@
 #include "detection/trajectory.h"
 
 #include <cmath>
-#include <limits>
+
+#include "common/floating_point.h"
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxTries = 40;
 
 // Returns the minimum of (1 - x) start + x end - curvature x (1 - x) for x in [0, 1].

@@ -5,21 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
 
+#include "common/floating_point.h"
 #include "geometry/qhull.h"
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/geometry/linear_functions.h"
+#include "sweep_guard/geometry/convex_shape.h"
 
 namespace sweep_guard_core {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kRounding = std::numeric_limits<double>::epsilon();
 constexpr double kMaxHullTolerance = 1e-9;  // relative to the extent
 
 void checkPoints(const Points& points) {
@@ -127,7 +126,7 @@ class Simplices {
 double hullTolerance(const Eigen::Matrix3Xd& about, const std::vector<Facet>& facets) {
   const Facet corners = cornersOf(facets);
   // Each weight and each sum may have one rounding error per corner.
-  const double of_sums = static_cast<double>(corners.size() + 32) * kRounding * extentOf(about);
+  const double of_sums = static_cast<double>(corners.size() + 32) * kEpsilon * extentOf(about);
   const Simplices simplices(about, facets);
   double farthest = 0.0;
   for (std::uint32_t i = 0; i < about.cols(); ++i) {

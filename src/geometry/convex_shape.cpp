@@ -11,11 +11,12 @@
 #include "geometry/shape_surface.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/geometry/convex_hull.h"
+#include "sweep_guard/simd/kernels.h"
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kNeedle = 1e-6;  // least area of a face, in parallelograms of its longest edge squared
+constexpr double kMinFaceArea = 1e-6;  // least area of a face, in parallelograms of its longest edge squared
 
 template <typename... Functions>
 struct Overloaded : Functions... {
@@ -120,7 +121,7 @@ LinearFunctions facesOf(const ConvexHull& hull) {
     const Eigen::Vector3d ac = hull.corners[c] - hull.corners[a];
     const Eigen::Vector3d normal = ab.cross(ac);
     const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
-    if (normal.norm() < kNeedle * longest) return {};
+    if (normal.norm() < kMinFaceArea * longest) return {};
     const Eigen::Vector3d outwards = normal.normalized();
     double reach = outwards.dot(hull.corners[a]);
     for (const Eigen::Vector3d& corner : hull.corners) reach = std::max(reach, outwards.dot(corner));
@@ -130,6 +131,26 @@ LinearFunctions facesOf(const ConvexHull& hull) {
 }
 
 }  // namespace
+
+void LinearFunctions::add(const Eigen::Vector3d& gradient, double constant) {
+  const size_t padded = (size_ + simd::kFunctions) / simd::kFunctions * simd::kFunctions;
+  const auto append = [&](std::vector<double>& values, double value) {
+    values.resize(size_);
+    values.resize(padded, value);
+  };
+  append(x_, gradient.x());
+  append(y_, gradient.y());
+  append(z_, gradient.z());
+  append(constant_, constant);
+  ++size_;
+}
+
+size_t LinearFunctions::largest(const Eigen::Vector3d& p) const {
+  assert(!empty());
+  static const auto find = simd::kernels().largest;
+  const size_t found = find({x_.data(), y_.data(), z_.data(), constant_.data(), x_.size()}, {p.x(), p.y(), p.z()});
+  return std::min(found, size_ - 1);
+}
 
 ConvexShape::Points::Points(const std::vector<Eigen::Vector3d>& points) : corners(points) {
   for (const Eigen::Vector3d& corner : corners) reach.add(corner, 0.0);

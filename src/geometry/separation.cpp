@@ -3,17 +3,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "common/floating_point.h"
 
 namespace sweep_guard_core {
 namespace {
 
 constexpr int kMaxSteps = 64;
-constexpr double kRounding = std::numeric_limits<double>::epsilon();
-constexpr double kNeedle = 1e-8;    // squared sine below which the weights of a face lose digits
-constexpr double kOverlap = 1e-12;  // of the size; the direction of points that are nearer has no digits
-constexpr double kShare = 0.125;    // share of the gap beyond the margin that roughSeparation() may underestimate
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMinSquaredSine = 1e-8;  // squared sine below which the weights of a face lose digits
+constexpr double kOverlap = 1e-12;        // of the size; the direction of points that are nearer has no digits
+constexpr double kShare = 0.125;          // share of the gap beyond the margin that roughSeparation() may underestimate
 
 // A point of the Minkowski difference, and its two points.
 struct Vertex {
@@ -81,7 +80,7 @@ Closest Simplex::onFace(int i, int j, int k) const {
   const double a = normal.dot(w(j).cross(w(k)));
   const double b = normal.dot(w(k).cross(w(i)));
   const double c = normal.dot(w(i).cross(w(j)));
-  const bool needle = normal.squaredNorm() < kNeedle * ij.squaredNorm() * ik.squaredNorm();
+  const bool needle = normal.squaredNorm() < kMinSquaredSine * ij.squaredNorm() * ik.squaredNorm();
   Closest best;
   if (a > 0.0 && b > 0.0 && c > 0.0) {
     const double sum = a + b + c;
@@ -105,7 +104,7 @@ Closest Simplex::inTetrahedron() const {
     const Eigen::Vector3d ij = w(j) - w(i);
     const Eigen::Vector3d ik = w(k) - w(i);
     const double volume = (whole < 0.0 ? -1.0 : 1.0) * w(i).dot(ij.cross(ik));
-    const double doubt = 8.0 * kRounding * std::sqrt(w(i).squaredNorm() * ij.squaredNorm() * ik.squaredNorm());
+    const double doubt = 8.0 * kEpsilon * std::sqrt(w(i).squaredNorm() * ij.squaredNorm() * ik.squaredNorm());
     volumes[static_cast<std::size_t>(opposite)] = volume;
     if (volume <= doubt) replaceIfNearer(best, onFace(i, j, k));
   }
@@ -211,9 +210,9 @@ class Search {
     if (simplex_.size() == 0) return approach(vertex) && best_.gap <= goal_.gap_above;
     const double distance = std::sqrt(closest_.squared_distance);
     const double left = distance - best_.gap;
-    if (best_.gap > goal_.gap_above || left <= std::max(kRounding * size_, goal_.accuracy)) return false;
+    if (best_.gap > goal_.gap_above || left <= std::max(kEpsilon * size_, goal_.accuracy)) return false;
     if (left <= kShare * (best_.gap - goal_.margin)) return false;
-    return !simplex_.has(vertex.w, 2.0 * kRounding * size_) && approach(vertex);
+    return !simplex_.has(vertex.w, 2.0 * kEpsilon * size_) && approach(vertex);
   }
 
   // Returns false if the vertex brings the simplex no closer to the origin, or close enough.
@@ -226,7 +225,7 @@ class Search {
     }
     simplex_.keep(closest);
     closest_ = closest;
-    return std::sqrt(closest_.squared_distance) > std::max(4.0 * kRounding * size_, goal_.distance_within);
+    return std::sqrt(closest_.squared_distance) > std::max(4.0 * kEpsilon * size_, goal_.distance_within);
   }
 
   const SupportMapping& tool_;

@@ -1,6 +1,7 @@
 #include "sweep_guard/guard/allowed_contact.h"
 
 #include <algorithm>
+#include <mutex>
 
 namespace sweep_guard_core {
 
@@ -23,6 +24,24 @@ AllowedPieces::AllowedPieces(const Tool& tool, const AllowedPairs& pairs, const 
 
 bool AllowedPieces::all() const {
   return !empty() && std::all_of(pieces_.begin(), pieces_.end(), [](bool allowed) { return allowed; });
+}
+
+AllowedMatches::AllowedMatches(const AllowedPairs& pairs) {
+  for (const AllowedPair& pair : pairs) matches_.push_back({pair, pair.mesh_id == AllowedPair::kAny});
+}
+
+void AllowedMatches::follow(const Workpieces& newest) {
+  const std::lock_guard lock(mutex_);
+  for (Match& match : matches_) {
+    match.has_matched = match.has_matched || std::any_of(newest.begin(), newest.end(), [&](const auto& workpiece) {
+                          return match.pair.concerns(workpiece->id);
+                        });
+  }
+}
+
+std::vector<AllowedMatches::Match> AllowedMatches::matches() const {
+  const std::lock_guard lock(mutex_);
+  return matches_;
 }
 
 }  // namespace sweep_guard_core

@@ -14,9 +14,9 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kMinDeviation = 1e-9;  // [m]; smaller deviations are rounded up
-constexpr double kTolerance = 1e-3;     // [standard deviations]
-constexpr double kRounding = 1e-6;      // [standard deviations], of clipping
+constexpr double kMinDeviation = 1e-9;      // [m]; smaller deviations are rounded up
+constexpr double kTolerance = 1e-3;         // [standard deviations]
+constexpr double kClippingRounding = 1e-6;  // [standard deviations], of clipping
 
 double deviationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& r, const Matrix6d& covariance) {
   Eigen::Matrix<double, 6, 1> J;
@@ -201,7 +201,7 @@ std::optional<Clearance> ClearanceMeter::nearestWithin(double reach, const Plane
     beat();
     if (candidate.at_least > nearest - kTolerance) break;
     const auto corners = planes.corners(candidate.triangle);
-    if (candidate.at_least <= 0.0 && reaches(kRounding, corners, planes)) {
+    if (candidate.at_least <= 0.0 && reaches(kClippingRounding, corners, planes)) {
       return Clearance{separated, std::max(candidate.at_least, -kMaxDeviations)};
     }
     nearest = std::min(nearest, deviationsTo(nearest, candidate, planes));
@@ -229,7 +229,7 @@ double ClearanceMeter::deviationsTo(double nearest, const Candidate& candidate, 
   double lower = std::max(candidate.at_least, 0.0);
   double upper = std::min(nearest - kTolerance, candidate.at_most);
   if (lower > upper || (upper < candidate.at_most && !reaches(upper, corners, planes))) return nearest;
-  if (reaches(lower + kRounding, corners, planes)) return lower;
+  if (reaches(lower + kClippingRounding, corners, planes)) return lower;
   while (upper - lower > kTolerance) {
     const double middle = 0.5 * (lower + upper);
     (reaches(middle, corners, planes) ? upper : lower) = middle;

@@ -1,5 +1,6 @@
 #include "guard/displacements.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace sweep_guard_core {
@@ -48,6 +49,23 @@ Displacements::Displacements(const TriangleMesh& from_M, const TriangleMesh& to_
   const Eigen::Vector3d shift_M = to_M.origin() - from_M.origin();
   const Eigen::Vector3d rounding = (to_M.origin().cwiseAbs() + from_M.origin().cwiseAbs()) * 0x1p-50;
   box_M_ = Eigen::AlignedBox3d(box_M_.min() + shift_M - rounding, box_M_.max() + shift_M + rounding);
+}
+
+Displacements DisplacementCache::between(const std::shared_ptr<const Workpiece>& from,
+                                         const std::shared_ptr<const Workpiece>& to) {
+  if (from == to) return {};
+  const auto same = [&](const Known& known) { return known.from == from && known.to == to; };
+  auto known = std::find_if(known_.begin(), known_.end(), same);
+  if (known == known_.end())
+    known = known_.insert(known, {from, to, Displacements(from->mesh_M, to->mesh_M), /*used=*/true});
+  known->used = true;
+  return known->displacements;
+}
+
+void DisplacementCache::forgetUnused() {
+  known_.erase(std::remove_if(known_.begin(), known_.end(), [](const Known& known) { return !known.used; }),
+               known_.end());
+  for (Known& known : known_) known.used = false;
 }
 
 }  // namespace sweep_guard_core

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <utility>
 
 #include "geometry/merged_motion.h"
 
@@ -10,14 +12,16 @@ namespace {
 
 constexpr Duration kMaxBeyond = std::chrono::milliseconds(250);
 
-struct Knot {
+struct FrameKnot {
   Time time;
   Eigen::Isometry3d X_WM;
   Matrix6d covariance;
   double deviation_bound;
 };
 
-Knot measuredKnot(const FramePose& pose) { return {pose.stamp, pose.X_WM, Matrix6d::Zero(), pose.deviation_bound}; }
+FrameKnot measuredKnot(const FramePose& pose) {
+  return {pose.stamp, pose.X_WM, Matrix6d::Zero(), pose.deviation_bound};
+}
 
 // The pose P that the prediction begins at may lie between two measured ones, A and C. On the way to it, the frame is within the
 // bound of Motion(A, C), which is within its arc of the chord from A; that chord ends within the bound of P, and is within the
@@ -34,8 +38,8 @@ double boundOfFirst(const FrameMotion& motion, double radius) {
 }
 
 // The bounds hold for points within a radius.
-std::vector<Knot> knotsOf(const FrameMotion& motion, double radius) {
-  std::vector<Knot> knots;
+std::vector<FrameKnot> knotsOf(const FrameMotion& motion, double radius) {
+  std::vector<FrameKnot> knots;
   for (const FramePose& pose : motion.measured) {
     if (motion.predicted.empty() || pose.stamp < motion.predicted_from) knots.push_back(measuredKnot(pose));
   }
@@ -47,13 +51,13 @@ std::vector<Knot> knotsOf(const FrameMotion& motion, double radius) {
 }
 
 // After the last knot it goes on as between the last two; the error grows with the time.
-Knot beyond(const FrameMotion& motion, const std::vector<Knot>& knots, Time time) {
-  const Knot& last = knots.back();
-  const Knot& before = knots[knots.size() - 2];
+FrameKnot beyond(const FrameMotion& motion, const std::vector<FrameKnot>& knots, Time time) {
+  const FrameKnot& last = knots.back();
+  const FrameKnot& before = knots[knots.size() - 2];
   const double step = toSeconds(last.time - before.time);
   const double share = step > 0.0 ? toSeconds(time - last.time) / step : 0.0;
   const Eigen::AngleAxisd turn(before.X_WM.linear().transpose() * last.X_WM.linear());
-  Knot knot = last;
+  FrameKnot knot = last;
   knot.time = time;
   knot.X_WM.linear() = last.X_WM.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis());
   knot.X_WM.translation() += share * (last.X_WM.translation() - before.X_WM.translation());
@@ -62,8 +66,8 @@ Knot beyond(const FrameMotion& motion, const std::vector<Knot>& knots, Time time
   return knot;
 }
 
-std::optional<Knot> knotAt(const FrameMotion& motion, const std::vector<Knot>& knots, Time time) {
-  const auto is_before = [](const Knot& knot, Time limit) { return knot.time < limit; };
+std::optional<FrameKnot> knotAt(const FrameMotion& motion, const std::vector<FrameKnot>& knots, Time time) {
+  const auto is_before = [](const FrameKnot& knot, Time limit) { return knot.time < limit; };
   const auto next = std::lower_bound(knots.begin(), knots.end(), time, is_before);
   if (next == knots.end()) {
     const bool known = motion.predicted.size() > 1 && time - knots.back().time <= kMaxBeyond;
@@ -71,23 +75,28 @@ std::optional<Knot> knotAt(const FrameMotion& motion, const std::vector<Knot>& k
   }
   if (next->time == time) return *next;
   if (next == knots.begin()) return std::nullopt;
-  const Knot& before = *std::prev(next);
+  const FrameKnot& before = *std::prev(next);
   const double share = toSeconds(time - before.time) / toSeconds(next->time - before.time);
-  return Knot{time, Motion{before.X_WM, next->X_WM}.at(share),
-              (1.0 - share) * before.covariance + share * next->covariance, next->deviation_bound};
+  return FrameKnot{time, Motion{before.X_WM, next->X_WM}.at(share),
+                   (1.0 - share) * before.covariance + share * next->covariance, next->deviation_bound};
 }
 
 // Of the points within a radius, from a Motion from the first knot to the last.
-double deviationBound(const std::vector<Knot>& knots, double radius) {
+double deviationBound(const std::vector<FrameKnot>& knots, double radius) {
   double deviation = 0.0;
-  for (const Knot& knot : knots) deviation = std::max(deviation, &knot == &knots.front() ? 0.0 : knot.deviation_bound);
+  for (const FrameKnot& knot : knots)
+    deviation = std::max(deviation, &knot == &knots.front() ? 0.0 : knot.deviation_bound);
   if (knots.size() == 2) return deviation;
   Path path;
-  for (const Knot& knot : knots) {
+  for (const FrameKnot& knot : knots) {
     const double turn = path.empty() ? 0.0 : Motion{path.back().X_MT, knot.X_WM}.angle();
     path.push_back({knot.time - knots.front().time, knot.X_WM, chordError(radius, turn)});
   }
   return deviation + mergedMotion(path, 0, path.size() - 1, radius).deviation_bound;
+}
+
+bool beginsWith(const std::string& name, const std::string& beginning) {
+  return name.compare(0, beginning.size(), beginning) == 0;
 }
 
 }  // namespace
@@ -99,15 +108,15 @@ std::optional<PredictedPose> FrameMotion::at(Time time) const {
 }
 
 std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const PredictedPath& path, double radius) {
-  const std::vector<Knot> knots = knotsOf(motion, radius);
-  std::optional<Knot> from = knotAt(motion, knots, begin);
+  const std::vector<FrameKnot> knots = knotsOf(motion, radius);
+  std::optional<FrameKnot> from = knotAt(motion, knots, begin);
   if (!from) return std::nullopt;
   FramePath frame{{{from->X_WM, from->covariance, 0.0}}};
   for (const PredictedPose& pose : path) {
     const auto to = knotAt(motion, knots, begin + pose.ahead);
     if (!to) return std::nullopt;
-    std::vector<Knot> between{*from};
-    for (const Knot& knot : knots) {
+    std::vector<FrameKnot> between{*from};
+    for (const FrameKnot& knot : knots) {
       if (from->time < knot.time && knot.time < to->time) between.push_back(knot);
     }
     between.push_back(*to);
@@ -115,6 +124,56 @@ std::optional<FramePath> framePath(const FrameMotion& motion, Time begin, const 
     from = to;
   }
   return frame;
+}
+
+FrameMotionStore::FrameMotionStore() : motions_(std::make_shared<const FrameMotions>()) {}
+
+void FrameMotionStore::expect(const std::string& beginning, const std::set<std::string>& frames) {
+  const std::lock_guard lock(mutex_);
+  for (auto frame = frames_.begin(); frame != frames_.end();)
+    frame = beginsWith(*frame, beginning) ? frames_.erase(frame) : std::next(frame);
+  frames_.insert(frames.begin(), frames.end());
+  FrameMotions left;
+  for (const auto& [frame, motion] : *motions_) {
+    if (frames_.count(frame) != 0) left.emplace(frame, motion);
+  }
+  motions_ = std::make_shared<const FrameMotions>(std::move(left));
+}
+
+void FrameMotionStore::set(const FrameMotions& motions) {
+  const std::lock_guard lock(mutex_);
+  FrameMotions next = *motions_;
+  for (const auto& [frame, motion] : motions) {
+    if (frames_.count(frame) != 0) next[frame] = motion;
+  }
+  motions_ = std::make_shared<const FrameMotions>(std::move(next));
+}
+
+std::shared_ptr<const FrameMotions> FrameMotionStore::get() const {
+  const std::lock_guard lock(mutex_);
+  return motions_;
+}
+
+bool FrameMotionStore::expects(const std::string& frame) const {
+  const std::lock_guard lock(mutex_);
+  return frames_.count(frame) != 0;
+}
+
+std::shared_ptr<const FrameMotion> FrameMotionStore::find(const std::string& frame) const {
+  const auto motions = get();
+  const auto found = motions->find(frame);
+  return found == motions->end() ? nullptr : found->second;
+}
+
+std::optional<Eigen::Isometry3d> FrameMotionStore::at(const std::string& frame, Time time) const {
+  const auto motion = find(frame);
+  const auto pose = motion ? motion->at(time) : std::nullopt;
+  return pose ? std::optional(pose->X_WT) : std::nullopt;
+}
+
+std::optional<Eigen::Isometry3d> FrameMotionStore::newest(const std::string& frame) const {
+  const auto motion = find(frame);
+  return motion ? std::optional(motion->measured.back().X_WM) : std::nullopt;
 }
 
 }  // namespace sweep_guard_core

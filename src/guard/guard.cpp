@@ -7,14 +7,29 @@
 #include <numeric>
 
 #include "guard/closest_approach.h"
-#include "guard/displacement_cache.h"
-#include "guard/guarded_body.h"
+#include "guard/displacements.h"
+#include "guard/intended_contact.h"
+#include "guard/measured_sweeps.h"
+#include "guard/path_checker.h"
 #include "guard/time_budget.h"
 #include "guard/united_bodies.h"
-#include "prediction/profile.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
+
+// One rigid body of the guarded tool, and what Guard keeps for it.
+struct GuardedBody {
+  GuardedBody(Tool tool_B, const PathChecker::Options& options) : tool(std::move(tool_B)), checker(options) {}
+
+  Tool tool;  ///< in the frame of the body
+  MeasuredSweeps sweeps;
+  IntendedTouches touches;
+  PathChecker checker;
+  // Of a body but the first, until they are united with those of the first:
+  SweepReport report;
+  Prediction prediction;
+};
+
 namespace {
 
 // Copies the pose, reusing map nodes when the frames are equal.
@@ -242,8 +257,6 @@ void Guard::intend(std::shared_ptr<const Intentions> intentions) { intentions_ =
 const std::shared_ptr<const Intentions>& Guard::intentions() const {
   return options_.sweep.fine ? intentions_ : no_intentions_;
 }
-
-std::unique_ptr<Profile> Guard::profile() const { return predictor_.profile(); }
 
 void Guard::reset() {
   for (const auto& body : bodies_) {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "guard/displacement_cache.h"
+#include "guard/displacements.h"
 #include "guard/joined_motion.h"
 #include "guard/pose_history.h"
 #include "guard/sweep_checker.h"
 #include "sweep_guard/guard/pose_with_frames.h"
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 
 namespace sweep_guard_core {
 

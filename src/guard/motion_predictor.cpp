@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "prediction/profile.h"
-
 namespace sweep_guard_core {
 namespace {
 
@@ -140,7 +138,5 @@ void MotionPredictor::restart() {
   tool_.restart();
   if (joints_) joints_->restart();
 }
-
-std::unique_ptr<Profile> MotionPredictor::profile() const { return tool_.profile(); }
 
 }  // namespace sweep_guard_core

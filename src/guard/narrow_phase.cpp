@@ -8,7 +8,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kSame = 0.999;  // cosine of the angle to a direction that serves as well
+constexpr double kSameNormal = 0.999;  // cosine of the angle to a direction that serves as well
 
 // One that is not intended goes first.
 bool earlierOfTriangle(const TriangleContact& a, const TriangleContact& b) {
@@ -95,7 +95,7 @@ class NarrowPhase::Piece {
     const Eigen::Vector3d& direction_M = finder_.separatingDirection_M();
     candidate.not_ruled_out =
         candidate.impact || (request_.mesh.moved() && hullsMeet(candidate.triangle_M, direction_M));
-    const bool is_new = !candidate.not_ruled_out || direction_M.dot(guess_M) < kSame;
+    const bool is_new = !candidate.not_ruled_out || direction_M.dot(guess_M) < kSameNormal;
     if (is_new && !direction_M.isZero(0.0)) directions_.add(direction_M);
   }
 

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <utility>
 
+#include "common/floating_point.h"
 #include "common/heartbeat.h"
 #include "common/stage_clock.h"
 #include "guard/moving_mesh.h"
-#include "guard/out_of_reach.h"
 #include "guard/placed_workpieces.h"
 #include "guard/triangle_set.h"
+#include "guard/out_of_reach.h"
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Duration kFinestProbable = std::chrono::milliseconds(25);  // shortest sweep with a merely possible contact
 
 // Of the mesh as sent, which lies within its rounding of what is stored.

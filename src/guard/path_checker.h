@@ -9,7 +9,7 @@
 
 #include "detection/cluster_boxes.h"
 #include "guard/contact_probability.h"
-#include "guard/intended_touches.h"
+#include "guard/intended_contact.h"
 #include "guard/path_in_mesh.h"
 #include "guard/predict_contacts.h"
 #include "guard/swept_body.h"

@@ -6,7 +6,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kRounding = 0x1p-48;  // relative: a dozen roundings of 2^-53, with a margin
+constexpr double kPositionRounding = 0x1p-48;  // relative: a dozen roundings of 2^-53, with a margin
 
 // Searches from the newest on, in steps that double: that is where to look, and what is in the processor's cache.
 template <typename Key, typename KeyOf>
@@ -28,7 +28,7 @@ double chordErrorBound(const PoseSample& from, const PoseSample& to, double tool
 }
 
 double roundingOf(const PoseSample& sample) {
-  return kRounding * (sample.X_WT.translation().lpNorm<1>() + sample.X_WM.translation().lpNorm<1>());
+  return kPositionRounding * (sample.X_WT.translation().lpNorm<1>() + sample.X_WM.translation().lpNorm<1>());
 }
 
 }  // namespace
@@ -70,6 +70,29 @@ PoseBounds PoseHistory::bounds_M(size_t first, size_t last, const Eigen::Vector3
     bounds.deviation = std::max(bounds.deviation, turn + to.deviation_bound + roundingOf(to));
   }
   return bounds;
+}
+
+void SparseMotion::add(Time stamp, const BodyPose& pose) {
+  if (path_W_.empty()) {
+    first_ = stamp;
+    deviation_bound_ = 0.0;
+    path_W_.push_back({Duration::zero(), pose.X_WB, 0.0});
+    return;
+  }
+  const double turn = Motion{path_W_.back().X_MT, pose.X_WB}.angle();
+  path_W_.push_back({stamp - first_, pose.X_WB, chordError(radius_, turn)});
+  deviation_bound_ = std::max(deviation_bound_, pose.deviation_bound);
+}
+
+BodyPose SparseMotion::take() {
+  assert(!path_W_.empty());
+  BodyPose newest{path_W_.back().X_MT, deviation_bound_};
+  if (path_W_.size() > 2)
+    newest.deviation_bound += mergedMotion(path_W_, 0, path_W_.size() - 1, radius_).deviation_bound;
+  first_ += path_W_.back().time;
+  path_W_.assign(1, {Duration::zero(), newest.X_WB, 0.0});
+  deviation_bound_ = 0.0;
+  return newest;
 }
 
 }  // namespace sweep_guard_core

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "guard/closest_approach.h"
-#include "guard/intended_touches.h"
+#include "guard/intended_contact.h"
 #include "sweep_guard/guard/guard_options.h"
 #include "sweep_guard/guard/prediction.h"
 

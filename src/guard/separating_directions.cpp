@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/floating_point.h"
+
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kSame = 0.9999;         // cosine of the angle to a direction that serves as well
-constexpr double kRounding = 1e-9;       // of the size of piece and triangle, as in timeOfImpact()
-constexpr double kPoseRounding = 1e-14;  // of distances from the origin of M
+constexpr double kSameDirection = 0.9999;  // cosine of the angle to a direction that serves as well
+constexpr double kPoseRounding = 1e-14;    // of distances from the origin of M
 
 Eigen::Vector3d normalOf(const simd::Directions& directions, std::size_t i) {
   return {directions.normal[0][i], directions.normal[1][i], directions.normal[2][i]};
@@ -26,13 +27,13 @@ void SeparatingDirections::begin(const ConvexShape& shape_T, const std::vector<M
   }
   origin_M_ = sub_motions.front().X_MT_start.translation();
   const double travel = (sub_motions.back().X_MT_end.translation() - origin_M_).norm();
-  rounding_of_poses_ = kRounding * shape_T.boundingRadius() + kPoseRounding * (origin_M_.norm() + travel);
+  rounding_of_poses_ = kDistanceRounding * shape_T.boundingRadius() + kPoseRounding * (origin_M_.norm() + travel);
   for (std::size_t i = 0; i < directions_.count; ++i) set(i, normalOf(directions_, i));
 }
 
 void SeparatingDirections::add(const Eigen::Vector3d& direction_M) {
   for (std::size_t i = 0; i < directions_.count; ++i) {
-    if (normalOf(directions_, i).dot(direction_M) > kSame) return;
+    if (normalOf(directions_, i).dot(direction_M) > kSameDirection) return;
   }
   const bool full = directions_.count == simd::kMaxDirections;
   const std::size_t place = full ? oldest_ : directions_.count++;
@@ -71,7 +72,7 @@ void SeparatingDirections::load(std::size_t place, const MovingTriangle& triangl
     }
     farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
   }
-  rounding_[place] = rounding_of_poses_ + kRounding * farthest;
+  rounding_[place] = rounding_of_poses_ + kDistanceRounding * farthest;
 }
 
 void SeparatingDirections::separate() { simd::kernels().separate(batch_, directions_, gaps_); }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "sweep_guard/detection/detector.h"
@@ -25,8 +28,19 @@ void unite(std::vector<Value>& all, const std::vector<Value>& more, const Below&
   all.erase(all.begin() + static_cast<std::ptrdiff_t>(left), all.begin() + static_cast<std::ptrdiff_t>(place));
 }
 
-void unite(TriangleSet& all, const TriangleSet& more);       ///< adds `more` to `all`, in place
-void remove(TriangleSet& all, const TriangleSet& others);    ///< removes `others` from `all`, in place
-void keepOnly(TriangleSet& all, const TriangleSet& others);  ///< removes all but `others` from `all`, in place
+/// Adds `more` to `all`, in place.
+inline void unite(TriangleSet& all, const TriangleSet& more) { unite(all, more, std::less<>()); }
+
+/// Removes `others` from `all`, in place.
+inline void remove(TriangleSet& all, const TriangleSet& others) {
+  const auto is_other = [&](std::uint32_t one) { return std::binary_search(others.begin(), others.end(), one); };
+  if (!others.empty()) all.erase(std::remove_if(all.begin(), all.end(), is_other), all.end());
+}
+
+/// Removes all but `others` from `all`, in place.
+inline void keepOnly(TriangleSet& all, const TriangleSet& others) {
+  const auto is_none = [&](std::uint32_t one) { return !std::binary_search(others.begin(), others.end(), one); };
+  all.erase(std::remove_if(all.begin(), all.end(), is_none), all.end());
+}
 
 }  // namespace sweep_guard_core

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "sweep_guard/guard/prediction.h"
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 
 namespace sweep_guard_core {
 

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "common/floating_point.h"
+
 namespace sweep_guard_core {
 namespace {
 
+using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
 constexpr double kUpright = 1e-9;       // vertical part of the unit normal of a face that has no outline
 constexpr double kSameOutline = 1e-11;  // of the size of the polytope
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Eigen::Matrix3d axesAlong(const Eigen::Vector3d& up) {
   Eigen::Matrix3d R_CT;
@@ -43,6 +46,26 @@ std::vector<Eigen::Vector2d> outlineOf(const Polygon& face, double tolerance) {
 }
 
 }  // namespace
+
+void PrismAccumulator::begin() {
+  batch_.count = 0;
+  sums_ = simd::PrismSums();
+}
+
+void PrismAccumulator::addBatch() {
+  simd::kernels().addPrisms(batch_, sums_);
+  batch_.count = 0;
+}
+
+SurfaceSums PrismAccumulator::sums() {
+  addBatch();
+  SurfaceSums sums;
+  sums.volume = sums_.volume;
+  sums.volume_moment = Eigen::Map<const Eigen::Vector3d>(sums_.volume_moment.data());
+  sums.area = Eigen::Map<const Eigen::Vector3d>(sums_.area.data());
+  sums.area_moment = Eigen::Map<const RowMajor>(sums_.area_moment[0].data());
+  return sums;
+}
 
 FaceColumns::FaceColumns(const PiecePolytope& piece, const Eigen::Vector3d& up) : R_CT_(axesAlong(up)) {
   for (const Polygon& face : piece.faces()) {

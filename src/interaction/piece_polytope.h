@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "sweep_guard/geometry/convex_polytope.h"
 #include "sweep_guard/geometry/convex_shape.h"
+#include "sweep_guard/geometry/half_space.h"
 
 namespace sweep_guard_core {
 

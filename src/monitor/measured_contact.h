@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/monitor/warning_inputs.h"
 
 namespace sweep_guard_core {

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/monitor/warning_inputs.h"
 
 namespace sweep_guard_core {

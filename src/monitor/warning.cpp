@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <initializer_list>
 #include <string_view>
+
+#include "common/number_text.h"
 
 namespace sweep_guard_core {
 namespace {
 
 constexpr Duration kUnreadTime = std::chrono::seconds(1);
 constexpr size_t kMaxText = 1000;  // longer texts name no further workpieces [bytes]
-
-std::string inSeconds(Duration duration) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f s", toSeconds(duration));
-  return text;
-}
 
 std::string inPercent(double probability) {
   const long percent = std::lround(100.0 * probability);

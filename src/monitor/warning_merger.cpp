@@ -1,24 +1,17 @@
 #include "monitor/warning_merger.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <cstdio>
 #include <tuple>
 #include <utility>
 
+#include "common/number_text.h"
 #include "sweep_guard/monitor/reason.h"
 
 namespace sweep_guard_core {
 namespace {
 
 constexpr Duration kMaxLag = std::chrono::milliseconds(50);  // that needs no word
-
-std::string inSeconds(Duration duration) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f s", toSeconds(duration));
-  return text.data();
-}
 
 int rank(WarningLevel level) {
   if (level == WarningLevel::kClear) return 0;

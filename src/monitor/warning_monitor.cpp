@@ -6,7 +6,6 @@
 #include "guard/cross_check.h"
 #include "monitor/faults.h"
 #include "monitor/measured_contact.h"
-#include "monitor/refusals.h"
 #include "monitor/swept_workpieces.h"
 #include "monitor/workpiece_warnings.h"
 

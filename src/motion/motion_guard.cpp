@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sweep_guard/common/error.h"
-#include "sweep_guard/motion/escape_velocity.h"
+#include "sweep_guard/motion/velocity_limiter.h"
 
 namespace sweep_guard_core {
 namespace {

@@ -11,10 +11,10 @@ using Vector = Eigen::Matrix<Real, 4, 1>;
 using Square = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 4, 4>;
 using Values = Eigen::Matrix<Real, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1>;
 
-constexpr Real kTolerance = 1e-13L;  // distance from a half-space that counts as inside
-constexpr Real kRounding = 1e-6L;    // of such a distance, where normals are nearly dependent
-constexpr Real kParallel = 1e-8L;    // sine of the angle below which normals count as dependent
-constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+constexpr Real kTolerance = 1e-13L;     // distance from a half-space that counts as inside
+constexpr Real kPointRounding = 1e-6L;  // of such a distance, where normals are nearly dependent
+constexpr Real kParallel = 1e-8L;       // sine of the angle below which normals count as dependent
+constexpr Real kNowhere = std::numeric_limits<Real>::infinity();
 constexpr int kMaxSteps = 200;
 
 // The active half-spaces, with a QR factorization of their normals: N = Q R.
@@ -85,13 +85,13 @@ class DualSearch {
 
   std::optional<NearestPoint> run() {
     for (int step = 0; step < kMaxSteps; ++step) {
-      if (step == kMaxSteps / 2) tolerance_ = kRounding;  // nearly parallel half-spaces take turns
+      if (step == kMaxSteps / 2) tolerance_ = kPointRounding;  // nearly parallel half-spaces take turns
       const std::optional<size_t> violated = mostViolated();
       if (!point_.allFinite()) return {};
       if (!violated) return result();
       if (satisfy(*violated)) continue;
       tolerance_ = std::max(tolerance_, violation(*violated));  // there is a common point, so only rounding is left
-      if (tolerance_ > kRounding) return {};
+      if (tolerance_ > kPointRounding) return {};
     }
     return {};
   }
@@ -122,16 +122,16 @@ class DualSearch {
       const Values falling = active_.coefficients(normal);
       const auto [blocking, to_block] = firstToFall(falling);
       const Real slope = direction.squaredNorm();
-      const Real to_plane = slope > kParallel * kParallel ? violation(added) / slope : kInfinity;
+      const Real to_plane = slope > kParallel * kParallel ? violation(added) / slope : kNowhere;
       const Real length = std::min(to_block, to_plane);
-      if (length == kInfinity) {
+      if (length == kNowhere) {
         cancel(added, multiplier, falling);
         return false;
       }
       multiplier += length;
       for (Eigen::Index i = 0; i < active_.size(); ++i) multipliers_[static_cast<size_t>(i)] -= length * falling[i];
       if (to_plane <= to_block) return reach(added, multiplier);
-      if (to_plane < kInfinity) point_ -= length * direction;
+      if (to_plane < kNowhere) point_ -= length * direction;
       active_.remove(blocking);
       multipliers_.erase(multipliers_.begin() + blocking);
     }
@@ -142,7 +142,7 @@ class DualSearch {
     Real length;
   };
   Fall firstToFall(const Values& falling) const {
-    Fall first{0, kInfinity};
+    Fall first{0, kNowhere};
     for (Eigen::Index i = 0; i < falling.size(); ++i) {
       if (falling[i] <= 0) continue;
       const Real length = std::max(Real{0}, multipliers_[static_cast<size_t>(i)]) / falling[i];

@@ -1,8 +1,8 @@
 #include "motion/plane_collector.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "common/floating_point.h"
 #include "sweep_guard/geometry/separation.h"
 
 namespace sweep_guard_core {
@@ -11,7 +11,6 @@ namespace {
 constexpr double kSlack = 0.05;        // share of its gap by which a plane moves to the tool
 constexpr double kMinSlack = 0x1p-17;  // of the mesh's radius: more than what float32 leaves in doubt
 constexpr double kSameNormal = 0.9;    // cosine of the angle between normals in contact that one plane stands for
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "motion/facings.h"
+#include "common/floating_point.h"
+#include "motion/facing.h"
 #include "motion/plane_collector.h"
 
 namespace sweep_guard_core {
 namespace {
 
 constexpr double kNearer = 1e-3;  // share by which a triangle may be nearer than one that gets its plane first
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

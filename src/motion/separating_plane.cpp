@@ -6,7 +6,8 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr int kSides = 16;
-constexpr double kRounding = 0x1p-21;  // of vertices to float32, each time a shape is placed, in radii of the mesh
+constexpr double kPlacedRounding =
+    0x1p-21;  // of vertices to float32, each time a shape is placed, in radii of the mesh
 constexpr double kPi = 3.14159265358979323846;
 
 std::vector<ToolBall> prismAround(const ConvexShape::Cylinder& cylinder, double padding) {
@@ -39,7 +40,7 @@ std::vector<ToolBall> enclosingBalls(const ConvexShape& shape_T) {
   const TriangleMesh& mesh_T = shape_T.mesh_T();
   std::vector<ToolBall> balls;
   for (size_t i = 0; i < mesh_T.vertexCount(); ++i) {
-    balls.push_back({mesh_T.vertex(i), shape_T.padding() + kRounding * mesh_T.radius()});
+    balls.push_back({mesh_T.vertex(i), shape_T.padding() + kPlacedRounding * mesh_T.radius()});
   }
   return balls;
 }

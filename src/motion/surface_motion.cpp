@@ -8,8 +8,8 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kRounding = 0x1p-22;   // of differences in float32, and of the corners of their boxes
-constexpr double kMinInterval = 0.001;  // [s]; stamps that are nearer, or that went back, give no speed
+constexpr double kFloatRounding = 0x1p-22;  // of differences in float32, and of the corners of their boxes
+constexpr double kMinInterval = 0.001;      // [s]; stamps that are nearer, or that went back, give no speed
 
 // A snapshot without a stamp is from before time went back.
 double intervalBetween(const Workpiece& before, const Workpiece& now) {
@@ -75,7 +75,7 @@ double SurfaceMotion::frameSpeed(const Eigen::Vector3d& n_M, const CenteredBox& 
 double SurfaceMotion::deformingSpeed(const Eigen::Vector3d& n_M, const CenteredBox& displacement_M) const {
   const Eigen::Vector3d farthest = displacement_M.center.cwiseAbs() + displacement_M.half;
   const double along = n_M.dot(displacement_M.center) + n_M.cwiseAbs().dot(displacement_M.half);
-  return (along + kRounding * farthest.sum()) / interval_;
+  return (along + kFloatRounding * farthest.sum()) / interval_;
 }
 
 double SurfaceMotion::alongNormal(const Eigen::Vector3d& n_M, const Triangle& triangle) const {
@@ -99,7 +99,7 @@ double SurfaceMotion::fastest(const CenteredBox& box_M) const {
   double speed = 0.0;
   if (deforms_) {
     const CenteredBox displacement_M(displacements_.of(WholeMesh()));
-    speed += (1.0 + kRounding) * (displacement_M.center.cwiseAbs() + displacement_M.half).norm() / interval_;
+    speed += (1.0 + kFloatRounding) * (displacement_M.center.cwiseAbs() + displacement_M.half).norm() / interval_;
   }
   if (!frame_moves_) return speed;
   const Eigen::Vector3d middle_M = workpiece_->mesh_M.origin() + box_M.center;

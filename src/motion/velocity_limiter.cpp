@@ -8,8 +8,14 @@ namespace sweep_guard_core {
 namespace {
 
 // Errors of a closing speed, in commanded speeds of the fastest tool point:
-constexpr double kRounding = 1e-11;      // of the command itself
-constexpr double kMaxRounding = 1.5e-6;  // of the nearest velocity, between planes that are nearly parallel
+constexpr double kCommandRounding = 1e-11;  // of the command itself
+constexpr double kMaxRounding = 1.5e-6;     // of the nearest velocity, between planes that are nearly parallel
+
+// A turn may also close a gap by its second order, until the next command.
+bool opens(const FacingBall& ball, const Twist& twist_W, const BrakingLimits& limits) {
+  const double turned = 0.5 * limits.tool_radius * twist_W.w_W.squaredNorm() * limits.reaction_time;
+  return closingSpeed(ball, twist_W) + std::max(0.0, ball.surface_speed) + turned < 0.0;
+}
 
 }  // namespace
 
@@ -26,7 +32,7 @@ Twist VelocityLimiter::limit(const Twist& command_W, const std::vector<FacingBal
   collectRows(command_W, facing, limits);
   const double allowed = allowedSpeed(uncovered, limits);
   const double fastest = fastestPoint(command_W, limits.tool_radius);
-  if (fastest <= allowed && largestScale({command_W.v_W, 1.0}, kRounding * fastest) == 1.0) return command_W;
+  if (fastest <= allowed && largestScale({command_W.v_W, 1.0}, kCommandRounding * fastest) == 1.0) return command_W;
 
   const Motion motion = nearest(command_W);
   const double speed = fastestPoint({motion.v_W, motion.s * command_W.w_W}, limits.tool_radius);
@@ -79,6 +85,21 @@ double VelocityLimiter::largestScale(const Motion& motion, double tolerance) con
     if (closing > row.limit + tolerance) scale = std::min(scale, row.limit / closing);
   }
   return scale;
+}
+
+Twist escapeVelocity(const Twist& command_W, const std::vector<FacingBall>& facing, const UncoveredSurfaces& uncovered,
+                     const BrakingLimits& limits, double escape_speed) {
+  requireUsable(command_W);
+  requireUsable(limits);
+  requireUsable(uncovered);
+  for (const FacingBall& ball : facing) requireUsable(ball);
+  const double fastest = fastestPoint(command_W, limits.tool_radius);
+  const double allowed = std::min(escape_speed, allowedSpeed(uncovered, limits));
+  const double scale = fastest > allowed ? allowed / fastest : 1.0;
+  const Twist escape_W{scale * command_W.v_W, scale * command_W.w_W};
+  const bool all_grow =
+      std::all_of(facing.begin(), facing.end(), [&](const FacingBall& ball) { return opens(ball, escape_W, limits); });
+  return all_grow ? escape_W : Twist{};
 }
 
 }  // namespace sweep_guard_core

@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "prediction/interpolation.h"
-#include "prediction/profile.h"
+#include "prediction/delayed_targets.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -28,39 +27,6 @@ template <typename Space>
 LearnedMotion<Space>::LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels)
     : groups(makeGroups<Space::kAxes>(prior_speeds, std::make_index_sequence<Space::kGroups>())),
       share(1.0 / static_cast<double>(channels)) {}
-
-template <typename Space>
-DirectExtrapolator<Space>::DirectExtrapolator(std::shared_ptr<LearnedMotion<Space>> learned, const Profile* profile)
-    : learned_(std::move(learned)) {
-  if (profile != nullptr) begin(*profile);
-}
-
-template <>
-void DirectExtrapolator<PoseSpace>::begin(const Profile& profile) {
-  regressors_.begin(profile.speeds);
-  for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-    learned_->groups[0][i].begin(profile.translation[i], expectedWeights(learned_->groups[0], i));
-    learned_->groups[1][i].begin(profile.rotation[i], expectedWeights(learned_->groups[1], i));
-  }
-}
-
-template <>
-void DirectExtrapolator<JointSpace>::begin(const Profile& /*profile*/) {}
-
-template <>
-bool DirectExtrapolator<PoseSpace>::save(Profile& profile) const {
-  profile.speeds = regressors_.speeds();
-  for (size_t i = 0; i < kLearnedHorizons.size(); ++i) {
-    profile.translation[i] = learned_->groups[0][i].learned();
-    profile.rotation[i] = learned_->groups[1][i].learned();
-  }
-  return true;
-}
-
-template <>
-bool DirectExtrapolator<JointSpace>::save(Profile& /*profile*/) const {
-  return false;
-}
 
 template <typename Space>
 void DirectExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "prediction/delayed_targets.h"
 #include "prediction/displacement_regression.h"
@@ -30,10 +31,8 @@ class DirectExtrapolator : public Extrapolator<Space> {
   using Vector = typename Space::Vector;
 
   /// @param learned  not null; not checked
-  /// @param profile  what it begins with; null: nothing
-  DirectExtrapolator(std::shared_ptr<LearnedMotion<Space>> learned, const Profile* profile);
+  explicit DirectExtrapolator(std::shared_ptr<LearnedMotion<Space>> learned) : learned_(std::move(learned)) {}
 
-  bool save(Profile& profile) const override;
   void observe(const MotionTracker<Space>& tracker) override;
   Vector displacementIn(double ahead) const override;
 
@@ -42,7 +41,6 @@ class DirectExtrapolator : public Extrapolator<Space> {
   using Weights = typename Regression::Weights;
   using Regressions = typename LearnedMotion<Space>::Regressions;
 
-  void begin(const Profile& profile);
   static Weights expectedWeights(const Regressions& regressions, size_t horizon);
 
   MotionRegressors<Space> regressors_;

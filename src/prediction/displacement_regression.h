@@ -28,14 +28,6 @@ class DisplacementRegression {
     double period;          ///< since the previous pose [s], > 0
   };
 
-  /// What was learned.
-  struct Learned {
-    Eigen::Matrix<double, kRegressors, kRegressors> information;
-    Weights projection;
-    Eigen::Array3d errors;  ///< mean errors of the fit, of constant velocity, of no motion, >= 0
-    double time;            ///< time of motion that it weighs as much as [s], >= 0
-  };
-
   /// @param ahead        the horizon [s], > 0
   /// @param prior_speed  motion at this speed has full weight, slower motion has less, > 0
   DisplacementRegression(double ahead, double prior_speed) : ahead_(ahead), prior_speed_(prior_speed) {}
@@ -49,24 +41,13 @@ class DisplacementRegression {
 
   const Weights& weights() const { return weights_; }
 
-  Learned learned() const;
-  /// Begins with what was learned earlier, perhaps of another operator: it weighs as much as 5 s of the motion to come,
-  /// and loses its weight within as long. Without any time it is nothing.
-  void begin(const Learned& learned, const Weights& expected);
-
  private:
-  using Fit = Rls<kRegressors, 1>;
-
-  Fit fit() const;
   double prior() const;
   void blend();
 
   double ahead_;
   double prior_speed_;
-  Fit fit_;
-  double time_ = 0.0;          // of motion in the fit [s]
-  Fit profile_;                // for one second and a mean displacement of 1
-  double profile_time_ = 0.0;  // of motion that it counts as [s]
+  Rls<kRegressors, 1> fit_;
   Weights learned_ = constantVelocity(ahead_);
   // Errors of the fit, of constant velocity, of no motion.
   ExponentialMovingAverage<Eigen::Array3d> errors_{Eigen::Array3d(0.0, 0.0, prior_speed_* ahead_), /*weight=*/0.1};

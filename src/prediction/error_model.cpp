@@ -1,6 +1,6 @@
 #include "prediction/error_model.h"
 
-#include "prediction/interpolation.h"
+#include "prediction/delayed_targets.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -47,31 +47,12 @@ Joint covarianceOf(const JointSquares& variance, const Joint& /*direction*/) { r
 
 // One second at the prior speeds outweighs the assumed errors.
 template <typename Space>
-typename ErrorModel<Space>::ErrorStatistics ErrorModel<Space>::priorStatistics(double ahead,
-                                                                               const Squares& share) const {
-  return {ExponentialMovingAverage<Squares>((ahead * share).square() * prior_activity_, 1.0),
-          ExponentialMovingAverage<Squares>(prior_activity_, 1.0)};
-}
-
-template <typename Space>
-ErrorModel<Space>::ErrorModel(const Space& space) : prior_activity_(activityAt(space.priorSpeeds())) {
+ErrorModel<Space>::ErrorModel(const Space& space) {
+  const Squares prior_activity = activityAt(space.priorSpeeds());
   for (const double ahead : kLearnedHorizons) {
-    statistics_.push_back(priorStatistics(ahead, Squares::Constant(kPriorShare)));
-  }
-}
-
-template <typename Space>
-typename ErrorModel<Space>::Shares ErrorModel<Space>::shares() const {
-  Shares shares;
-  for (size_t i = 0; i < shares.size(); ++i) shares[i] = share(i);
-  return shares;
-}
-
-// Smaller errors than assumed have to be seen again: another operator's profile must not make the guard sure.
-template <typename Space>
-void ErrorModel<Space>::begin(const Shares& shares) {
-  for (size_t i = 0; i < shares.size(); ++i) {
-    statistics_[i] = priorStatistics(kLearnedHorizons[i], shares[i].max(kPriorShare));
+    const Squares share = Squares::Constant(kPriorShare);
+    statistics_.push_back({ExponentialMovingAverage<Squares>((ahead * share).square() * prior_activity, 1.0),
+                           ExponentialMovingAverage<Squares>(prior_activity, 1.0)});
   }
 }
 

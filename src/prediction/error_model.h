@@ -18,17 +18,10 @@ using PredictedDisplacements = std::array<typename Space::Vector, kLearnedHorizo
 template <typename Space>
 class ErrorModel {
  public:
-  /// Errors within each of kLearnedHorizons, relative to the displacement at the current speed. Of a tool: along the
-  /// motion, across it, in rotation.
-  using Shares = std::array<Eigen::Array<double, Space::kErrors, 1>, kLearnedHorizons.size()>;
   using Vector = typename Space::Vector;
   using Covariance = Eigen::Matrix<double, Space::kSize, Space::kSize>;
 
   explicit ErrorModel(const Space& space);
-
-  Shares shares() const;
-  /// Begins with these shares where they are larger than those that it assumes.
-  void begin(const Shares& shares);
 
   /// Adds the newest pose of a tracker and what is predicted there.
   /// @param velocity  as Velocity measures it
@@ -54,10 +47,9 @@ class ErrorModel {
     Direction direction;
   };
 
-  ErrorStatistics priorStatistics(double ahead, const Squares& share) const;
+  /// Returns the error within kLearnedHorizons[horizon], relative to the displacement at the current speed.
   Squares share(size_t horizon) const;
 
-  const Squares prior_activity_;
   DelayedTargets<Space, Features> targets_;
   std::vector<ErrorStatistics> statistics_;  // for each of kLearnedHorizons
   ExponentialMovingAverage<Squares> speeds_{Squares::Zero()};

@@ -26,7 +26,6 @@ class ExponentialMovingAverage {
   }
 
   Value mean() const { return sum_ / weight_; }
-  double weight() const { return weight_; }  ///< of all values and the prior [s]
 
  private:
   Value sum_;

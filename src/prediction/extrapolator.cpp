@@ -1,13 +1,62 @@
 #include "prediction/extrapolator.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "prediction/direct_extrapolator.h"
-#include "prediction/polynomial_extrapolator.h"
+#include "prediction/motion_tracker.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
 namespace {
+
+// Extrapolates by the paper's predictor [P, Sec. 3.2]: an independent polynomial in time for each degree of freedom,
+// fitted by recursive least squares over an observation period. Degrees above 1 are used once half of that period is
+// observed.
+template <typename Space>
+class PolynomialExtrapolator : public Extrapolator<Space> {
+ public:
+  using Vector = typename Space::Vector;
+
+  explicit PolynomialExtrapolator(const PredictorOptions& options);
+
+  void observe(const MotionTracker<Space>& tracker) override;
+  Vector displacementIn(double ahead) const override;
+
+ private:
+  using Fit = PolynomialFit<Space::kSize>;
+
+  typename Fit::Degrees degrees_;
+  Duration window_;
+  Fit fit_;
+  typename Fit::Curve curve_;
+  Time newest_;
+  Vector coordinates_ = Vector::Zero();
+};
+
+template <typename Space>
+PolynomialExtrapolator<Space>::PolynomialExtrapolator(const PredictorOptions& options)
+    : degrees_(Space::degreesOf(options)),
+      window_(options.window),
+      fit_({*std::max_element(degrees_.begin(), degrees_.end()), options.window, options.forgetting_factor}) {}
+
+template <typename Space>
+void PolynomialExtrapolator<Space>::observe(const MotionTracker<Space>& tracker) {
+  follow(fit_, tracker);
+  typename Fit::Degrees degrees = degrees_;
+  if (fit_.span() < window_ / 2) {
+    for (int& degree : degrees) degree = std::min(degree, 1);
+  }
+  curve_ = fit_.curve(degrees);
+  newest_ = tracker.newest().stamp;
+  coordinates_ = tracker.coordinates();
+}
+
+template <typename Space>
+typename Space::Vector PolynomialExtrapolator<Space>::displacementIn(double ahead) const {
+  return curve_.at(newest_ + fromSeconds(ahead)) - coordinates_;
+}
 
 template <typename Space>
 class Hold : public Extrapolator<Space> {
@@ -36,7 +85,7 @@ std::unique_ptr<Extrapolator<Space>> makeExtrapolator(const PredictorOptions& op
   if (options.predictor == "hold") return std::make_unique<Hold<Space>>();
   if (options.predictor == "direct") {
     if (!learned) learned = std::make_shared<LearnedMotion<Space>>(space.priorSpeeds(), /*channels=*/1);
-    return std::make_unique<DirectExtrapolator<Space>>(std::move(learned), options.profile.get());
+    return std::make_unique<DirectExtrapolator<Space>>(std::move(learned));
   }
   throw InvalidInput("predictor '" + options.predictor +
                      "' is unknown: use polynomial, constant_velocity, hold or direct");

@@ -19,15 +19,12 @@ class Extrapolator {
   /// Predicts the displacement after the newest sample.
   /// @param ahead  [s], > 0
   virtual typename Space::Vector displacementIn(double ahead) const = 0;
-
-  /// Writes what was learned of the operator. Returns false if this extrapolator learns nothing that a profile keeps.
-  virtual bool save(Profile& /*profile*/) const { return false; }
 };
 
 template <typename Space>
 struct LearnedMotion;
 
-/// Makes the extrapolator that `options.predictor` names; `direct` begins with the profile, unless it is of a joint.
+/// Makes the extrapolator that `options.predictor` names.
 /// @param learned  that `direct` shares with others; null: it learns alone
 /// @throws InvalidInput if the name is unknown
 template <typename Space>

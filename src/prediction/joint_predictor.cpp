@@ -6,7 +6,6 @@
 
 #include "prediction/direct_extrapolator.h"
 #include "prediction/motion_channel.h"
-#include "prediction/predictor_options.h"
 #include "sweep_guard/common/unwound.h"
 
 namespace sweep_guard_core {

@@ -2,10 +2,17 @@
 
 #include <utility>
 
+#include "prediction/polynomial_fit.h"
+#include "sweep_guard/common/error.h"
+
 namespace sweep_guard_core {
 namespace {
 
 constexpr auto kActivityWindow = std::chrono::milliseconds(120);
+
+void check(bool good, const std::string& complaint) {
+  if (!good) throw InvalidInput(complaint);
+}
 
 }  // namespace
 
@@ -29,5 +36,20 @@ void MotionChannel<Space>::observe(const typename Space::Sample& sample) {
 
 template class MotionChannel<PoseSpace>;
 template class MotionChannel<JointSpace>;
+
+const PredictorOptions& checked(const PredictorOptions& options) {
+  for (const int degree : options.degree) {
+    check(degree >= 0 && degree <= kMaxPolynomialDegree, "prediction degree " + std::to_string(degree) +
+                                                             " is out of range: use 0 to " +
+                                                             std::to_string(kMaxPolynomialDegree));
+  }
+  check(options.forgetting_factor > 0.0 && options.forgetting_factor <= 1.0,
+        "forgetting factor " + std::to_string(options.forgetting_factor) +
+            " is out of range: use more than 0, at most 1");
+  check(options.window > Duration::zero(), "the observation window must be longer than 0 s");
+  check(options.max_speed > 0.0, "max_speed must be greater than 0");
+  check(options.max_turn_rate > 0.0, "max_turn_rate must be greater than 0");
+  return options;
+}
 
 }  // namespace sweep_guard_core

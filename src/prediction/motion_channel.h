@@ -4,7 +4,8 @@
 
 #include "prediction/error_model.h"
 #include "prediction/extrapolator.h"
-#include "prediction/velocity.h"
+#include "prediction/motion_tracker.h"
+#include "sweep_guard/prediction/pose_predictor.h"
 
 namespace sweep_guard_core {
 
@@ -31,15 +32,15 @@ class MotionChannel {
   /// Returns the covariance of its error.
   typename ErrorModel<Space>::Covariance covariance(double ahead) const { return errors_.covariance(ahead); }
 
-  const Extrapolator<Space>& extrapolator() const { return *extrapolator_; }
-  ErrorModel<Space>& errors() { return errors_; }
-  const ErrorModel<Space>& errors() const { return errors_; }
-
  private:
   MotionTracker<Space> tracker_;
   Velocity<Space> velocity_;
   std::unique_ptr<Extrapolator<Space>> extrapolator_;
   ErrorModel<Space> errors_;
 };
+
+/// Returns the options.
+/// @throws InvalidInput if one is out of range; not if the name of the predictor is unknown
+const PredictorOptions& checked(const PredictorOptions& options);
 
 }  // namespace sweep_guard_core

@@ -10,8 +10,6 @@ namespace {
 constexpr std::array<int, 5> kWindows = {50, 120, 300, 800, 20};  // [ms]
 constexpr double kCenterTime = 6.0;                               // [s]
 
-constexpr double kProfileTime = 1.0;  // mean speeds of a profile count as those of so many seconds at most
-
 constexpr int kModerate = 1;        // window of 120 ms: what fast motion is measured by
 constexpr int kSmooth = 2;          // window of 300 ms
 constexpr double kMaxSpeed = 2.5;   // largest speed that counts, relative to the mean speed
@@ -21,13 +19,6 @@ enum Column : Eigen::Index { kScaled = kWindows.size(), kSaturated, kReturn, kCo
 static_assert(kColumns == kRegressors);
 
 }  // namespace
-
-std::vector<std::string> regressorNames() {
-  std::vector<std::string> names;
-  for (const int milliseconds : kWindows) names.push_back(std::to_string(milliseconds) + "ms");
-  for (const char* const name : {"times_speed", "saturated", "return"}) names.emplace_back(name);
-  return names;
-}
 
 template <typename Space>
 MotionRegressors<Space>::MotionRegressors() {
@@ -43,11 +34,6 @@ void MotionRegressors<Space>::observe(const MotionTracker<Space>& tracker) {
   average(tracker);
   values_.col(kReturn) = (tracker.coordinates() - center_) / kCenterTime;
   scale();
-}
-
-template <typename Space>
-void MotionRegressors<Space>::begin(const Speeds& speeds) {
-  speeds_ = ExponentialMovingAverage<typename Space::Speeds>(speeds.squares, std::min(speeds.time, kProfileTime));
 }
 
 template <typename Space>

@@ -1,17 +1,12 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "prediction/displacement_regression.h"
 #include "prediction/exponential_moving_average.h"
 #include "prediction/motion_tracker.h"
-#include "prediction/velocity.h"
 
 namespace sweep_guard_core {
-
-/// Returns a name for each regressor.
-std::vector<std::string> regressorNames();
 
 /// Measures what displacements are regressed on. All are velocities: of the newest motion over windows of 50, 120, 300,
 /// 800 and 20 ms; one of them times its speed, because fast motions end sooner; one of them at a saturated speed,
@@ -22,19 +17,10 @@ class MotionRegressors {
   /// Of a tool: translation [m/s] above rotation [rad/s]. One regressor per column.
   using Values = Eigen::Matrix<double, Space::kSize, kRegressors>;
 
-  /// The mean speeds, which scale two of the regressors.
-  struct Speeds {
-    typename Space::Speeds squares;  ///< of each group, as of translation [m^2/s^2] and rotation [rad^2/s^2], >= 0
-    double time;                     ///< that they are known from [s], > 0
-  };
-
   MotionRegressors();
 
   void observe(const MotionTracker<Space>& tracker);
   const Values& values() const { return values_; }
-
-  Speeds speeds() const { return {speeds_.mean(), speeds_.weight()}; }
-  void begin(const Speeds& speeds);
 
  private:
   void average(const MotionTracker<Space>& tracker);

@@ -3,16 +3,12 @@
 #include <cassert>
 
 #include "prediction/motion_channel.h"
-#include "prediction/predictor_options.h"
-#include "prediction/profile.h"
 
 namespace sweep_guard_core {
 
 struct PosePredictor::Impl {
   explicit Impl(const PredictorOptions& options)
-      : channel(checked(options), PoseSpace{options.max_speed, options.max_turn_rate, options.constrained}) {
-    if (options.profile && options.predictor == "direct") channel.errors().begin(options.profile->errors);
-  }
+      : channel(checked(options), PoseSpace{options.max_speed, options.max_turn_rate, options.constrained}) {}
 
   MotionChannel<PoseSpace> channel;
 };
@@ -37,13 +33,6 @@ void PosePredictor::predict(const std::vector<Duration>& ahead, PredictedPath& p
     pose.covariance = channel.covariance(seconds);
     path.push_back(pose);
   }
-}
-
-std::unique_ptr<Profile> PosePredictor::profile() const {
-  auto profile = std::make_unique<Profile>();
-  if (!impl_->channel.extrapolator().save(*profile)) return nullptr;
-  profile->errors = impl_->channel.errors().shares();
-  return profile;
 }
 
 void PosePredictor::restart() { impl_->channel.interrupt(); }

@@ -16,18 +16,6 @@ class Rls {
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, N, N>;
   using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, M, Eigen::ColMajor, N, M>;
 
-  using Information = Eigen::Matrix<double, N, N>;
-  using Projection = Eigen::Matrix<double, N, M>;
-
-  Rls() = default;
-  /// Goes on from an earlier fit.
-  /// @param information  positive semi-definite; its upper triangle is not used
-  Rls(const Information& information, const Projection& projection)
-      : information_(information), projection_(projection) {}
-
-  const Information& information() const { return information_; }
-  const Projection& projection() const { return projection_; }
-
   /// Multiplies the weight of all observations.
   /// @param factor  in (0, 1]
   void forget(double factor) {
@@ -40,12 +28,6 @@ class Rls {
   void add(const Regressors& regressors, const Outputs& outputs, double weight = 1.0) {
     information_.noalias() += (weight * regressors) * regressors.transpose();
     projection_.noalias() += weight * regressors * outputs.transpose();
-  }
-
-  /// Adds the observations of another fit.
-  void add(const Rls& other, double weight) {
-    information_ += weight * other.information_;
-    projection_ += weight * other.projection_;
   }
 
   /// Returns the coefficients that fit best: one column per output.
@@ -69,8 +51,8 @@ class Rls {
     return Eigen::LDLT<Square>(information);
   }
 
-  Information information_ = Information::Zero();
-  Projection projection_ = Projection::Zero();
+  Eigen::Matrix<double, N, N> information_ = Eigen::Matrix<double, N, N>::Zero();
+  Eigen::Matrix<double, N, M> projection_ = Eigen::Matrix<double, N, M>::Zero();
 };
 
 }  // namespace sweep_guard_core

@@ -3,13 +3,15 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <rosbag/message_instance.h>
+#include <rosbag/view.h>
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string_view>
 
-#include "recording/bag_topic.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -20,6 +22,14 @@ using sweep_guard_core::StampedPose;
 using sweep_guard_ros::fromMsg;
 
 namespace {
+
+std::string joinNames(const std::set<std::string>& topics) {
+  std::string list;
+  for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
+  return list;
+}
+
+std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 constexpr std::string_view kMagic = "#ROSBAG V";
 const TopicChoice kPoses = {{"geometry_msgs/PoseStamped", "geometry_msgs/TransformStamped"},
@@ -52,7 +62,50 @@ void append(std::vector<StampedPose>* poses, std::string* frames, const FramedPo
   poses->push_back(next.pose);
 }
 
+const TopicChoice kJoints = {{"sensor_msgs/JointState"}, "sensor_msgs/JointState", "joints_topic:=TOPIC"};
+
 }  // namespace
+
+std::string chooseTopic(const rosbag::Bag& bag, const std::string& requested, const TopicChoice& choice) {
+  std::set<std::string> topics;
+  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag, rosbag::TypeQuery(choice.types)).getConnections()) {
+    topics.insert(connection->topic);
+  }
+  if (topics.empty()) throw InvalidInput("no " + choice.what + " in the bag; record one of them");
+  if (!requested.empty() && topics.count(requested) == 0) {
+    throw InvalidInput("no " + choice.what + " on " + requested + "; there are: " + joinNames(topics));
+  }
+  if (requested.empty() && topics.size() != 1) {
+    throw InvalidInput("choose one topic (" + choice.how + "); there are: " + joinNames(topics));
+  }
+  return requested.empty() ? *topics.begin() : requested;
+}
+
+void openBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& read) {
+  try {
+    read(rosbag::Bag(path));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(path + ": " + error.what());
+  } catch (const rosbag::BagUnindexedException&) {
+    throw InvalidInput(path + ": the bag has no index; run rosbag reindex on it");
+  } catch (const std::exception& error) {  // of rosbag or ROS, or no memory for the size in a broken header
+    throw InvalidInput(path + ": the bag is broken: " + firstLine(error.what()));
+  }
+}
+
+void forEachMessage(const rosbag::Bag& bag, const std::string& topic,
+                    const std::function<void(const rosbag::MessageInstance&)>& read) {
+  std::size_t count = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+    ++count;
+    try {
+      read(message);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(topic + ", message " + std::to_string(count) + ": " + error.what());
+    }
+  }
+  if (count == 0) throw InvalidInput("no message on " + topic);
+}
 
 bool isBag(const std::string& path) {
   std::error_code error;
@@ -70,6 +123,17 @@ std::vector<StampedPose> readBag(const std::string& path, const std::string& top
                    [&](const rosbag::MessageInstance& message) { append(&poses, &frames, read(message)); });
   });
   return poses;
+}
+
+void readJointBag(const std::string& path, const std::string& topic,
+                  const std::function<void(const std::string& publisher, const sensor_msgs::JointState&)>& read) {
+  openBag(path, [&](const rosbag::Bag& bag) {
+    forEachMessage(bag, chooseTopic(bag, topic, kJoints), [&](const rosbag::MessageInstance& message) {
+      const auto joints = message.instantiate<sensor_msgs::JointState>();
+      if (!joints) throw sweep_guard_core::InvalidInput("message cannot be read; record it again");
+      read(message.getCallerId(), *joints);
+    });
+  });
 }
 
 }  // namespace sweep_guard_recording

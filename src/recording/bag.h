@@ -1,11 +1,39 @@
 #pragma once
 
+#include <rosbag/bag.h>
+#include <sensor_msgs/JointState.h>
+
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_recording {
+
+/// Which topics of a bag there are to choose from.
+struct TopicChoice {
+  std::vector<std::string> types;  ///< of messages, as in geometry_msgs/PoseStamped
+  std::string what;                ///< the types in words
+  std::string how;                 ///< how one is chosen, in words
+};
+
+/// Returns the topic of a bag that was asked for, or else the only one.
+/// @param requested  empty: the only one
+/// @throws sweep_guard_core::InvalidInput if the topic is missing or there are several to choose from (the message lists
+///     them)
+std::string chooseTopic(const rosbag::Bag& bag, const std::string& requested, const TopicChoice& choice);
+
+/// Opens a bag and has it read.
+/// @throws sweep_guard_core::InvalidInput, which begins with the path, if it is no bag or a broken one, or if `read` throws
+///     one
+void openBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& read);
+
+/// Has each message on a topic read, in the order of the bag.
+/// @throws sweep_guard_core::InvalidInput, which begins with topic and number of the message, if `read` throws one; or if
+///     there is no message
+void forEachMessage(const rosbag::Bag& bag, const std::string& topic,
+                    const std::function<void(const rosbag::MessageInstance&)>& read);
 
 /// Returns whether a file begins like a rosbag; false if it cannot be read.
 bool isBag(const std::string& path);
@@ -18,5 +46,12 @@ bool isBag(const std::string& path);
 ///     several to choose from (the message lists them), if fromMsg() refuses a pose, a stamp is earlier than the
 ///     previous one, or the frames change
 std::vector<sweep_guard_core::StampedPose> readBag(const std::string& path, const std::string& topic);
+
+/// Has each sensor_msgs/JointState on one topic of a rosbag read, in the order of the bag.
+/// @param topic  empty: the only topic of this type
+/// @param read   takes the name of the node that published the message, and the message
+/// @throws sweep_guard_core::InvalidInput as readBag() does, or naming the message if `read` throws one
+void readJointBag(const std::string& path, const std::string& topic,
+                  const std::function<void(const std::string& publisher, const sensor_msgs::JointState&)>& read);
 
 }  // namespace sweep_guard_recording

@@ -10,7 +10,7 @@ using sweep_guard_core::Duration;
 
 constexpr auto kBack = std::chrono::milliseconds(100);
 constexpr auto kSuspended = std::chrono::milliseconds(200);
-constexpr auto kPause = std::chrono::milliseconds(1);  // between readings of the clocks
+constexpr auto kPauseOfReading = std::chrono::milliseconds(1);  // between readings of the clocks
 
 std::string inSeconds(const char* text, Duration duration) {
   char message[80];
@@ -45,7 +45,7 @@ Duration suspendedTime(ReadClock read) {
     before = running;
     since_start = read(CLOCK_BOOTTIME);
     running = read(CLOCK_MONOTONIC);
-  } while (running - before > kPause);
+  } while (running - before > kPauseOfReading);
   return std::max(since_start - before, Duration::zero());
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/heartbeat.h"
-#include "prediction/profile.h"
 #include "ros/available_detector.h"
 #include "ros/detector_test.h"
 #include "ros/process.h"
@@ -23,9 +22,9 @@ using sweep_guard_core::PredictionInterval;
 using sweep_guard_core::SteadyTime;
 using sweep_guard_core::Timestamps;
 
-constexpr Duration kPause = std::chrono::milliseconds(10);           // before a failed sweep is tried again
-constexpr Duration kMaxInterrupted = std::chrono::milliseconds(50);  // from the begin of a prediction on
-constexpr Duration kMaxWait = std::chrono::milliseconds(500);        // for a sweep to end, before a change or a reset
+constexpr Duration kPauseAfterFailure = std::chrono::milliseconds(10);  // before a failed sweep is tried again
+constexpr Duration kMaxInterrupted = std::chrono::milliseconds(50);     // from the begin of a prediction on
+constexpr Duration kMaxWait = std::chrono::milliseconds(500);  // for a sweep to end, before a change or a reset
 
 // A passed pose is swept as a part of the motion to the next one.
 bool knowsAllFramesOf(const QueuedPose& queued, const QueuedPose& next) {
@@ -203,10 +202,6 @@ std::future<PredictService::Motion> GuardThread::predictMotion(Duration horizon)
   return dependencies_.queue.submit<PredictService::Motion>([this, horizon] { return motion(horizon); });
 }
 
-std::future<std::unique_ptr<sweep_guard_core::Profile>> GuardThread::profile() {
-  return dependencies_.queue.submit<std::unique_ptr<sweep_guard_core::Profile>>([this] { return guard_.profile(); });
-}
-
 void GuardThread::setPriority() const {
   const int priority = dependencies_.parameters.initial().realtime_priority;
   if (priority == 0) return;
@@ -251,7 +246,7 @@ bool GuardThread::sweepOrRepeat() {
     top_->run([this] { sweepNext(); });
     if (next_ != pose) return true;
     if (dependencies_.queue.stopped()) return false;
-    std::this_thread::sleep_for(kPause);
+    std::this_thread::sleep_for(kPauseAfterFailure);
     for (const auto& task : dependencies_.queue.takeTasks()) top_->run(task);
   }
 }

@@ -11,7 +11,6 @@
 
 #include "common/pool.h"
 #include "guard/cross_check.h"
-#include "guard/frame_motion_store.h"
 #include "guard/intention_store.h"
 #include "guard/workpiece_store.h"
 #include "monitor/sweep_statistics.h"
@@ -27,6 +26,7 @@
 #include "ros/service/predict.h"
 #include "ros/threads/supervisor.h"
 #include "ros/work_queue.h"
+#include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/guard/guard.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
@@ -93,8 +93,6 @@ class GuardThread {
   /// Predicts the motion up to a horizon counted from now. Any thread. The future throws sweep_guard_core::Error if the
   /// motion is unknown.
   std::future<PredictService::Motion> predictMotion(sweep_guard_core::Duration horizon);
-  /// Copies what was learned of the operator, see PosePredictor. Any thread.
-  std::future<std::unique_ptr<sweep_guard_core::Profile>> profile();
 
  private:
   sweep_guard_core::GuardChange changeTo(const Parameters& next, const Parameters& before);

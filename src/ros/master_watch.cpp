@@ -21,12 +21,12 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-constexpr auto kPeriod = std::chrono::seconds(1);
+constexpr auto kMasterPeriod = std::chrono::seconds(1);
 constexpr int kChecksPerLook = 3;  // for publishers that are missing
 // roscpp keeps no list of them.
-constexpr std::array kServices = {
-    "acknowledge", "attach",        "check_sweep", "check_trajectory", "enable",        "intend", "predict", "rebase",
-    "reset",       "reset_touches", "save",        "save_profile",     "set_parameters"};
+constexpr std::array kServices = {"acknowledge", "attach",        "check_sweep", "check_trajectory",
+                                  "enable",      "intend",        "predict",     "rebase",
+                                  "reset",       "reset_touches", "save",        "set_parameters"};
 constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodelet", "set_logger_level",
                                               "unload_nodelet"};
 
@@ -39,7 +39,7 @@ MasterWatch::MasterWatch(const ros::NodeHandle& private_node, std::function<Para
                        std::to_string(ros::ConnectionManager::instance()->getTCPPort())),
       call_(kCallTimeout, stopping_),
       master_(identity()) {
-  thread_.every(kPeriod, [this] { checkOrLog(); });
+  thread_.every(kMasterPeriod, [this] { checkOrLog(); });
 }
 
 void MasterWatch::stop() {

@@ -64,7 +64,6 @@ SweepGuardNode::SweepGuardNode(const ros::NodeHandle& node, const ros::NodeHandl
       check_trajectory_(private_node, path_tests_),
       predict_(private_node, parameters_, workpieces_,
                [this](sweep_guard_core::Duration horizon) { return guard_thread_.predictMotion(horizon); }),
-      save_profile_(private_node, parameters_, [this] { return guard_thread_.profile(); }),
       controls_(
           private_node, parameters_, monitor_, workpieces_,
           {[this] { guard_thread_.reset(); }, [this](const std::string& id) { return guard_thread_.acknowledge(id); },
@@ -103,7 +102,6 @@ void SweepGuardNode::start() {
   check_sweep_.start(supervisor_);
   check_trajectory_.start(supervisor_);
   predict_.start(supervisor_);
-  save_profile_.start(supervisor_);
   controls_.start(supervisor_);
   intend_.start(supervisor_);
   attach_.start(supervisor_);

@@ -18,7 +18,6 @@
 #include "ros/service/controls.h"
 #include "ros/service/intend.h"
 #include "ros/service/predict.h"
-#include "ros/service/save_profile.h"
 #include "ros/threads/supervisor.h"
 #include "ros/threads/timer_thread.h"
 #include "ros/watchdog.h"
@@ -71,7 +70,6 @@ class SweepGuardNode {
   CheckSweepService check_sweep_;
   CheckTrajectoryService check_trajectory_;
   PredictService predict_;
-  SaveProfileService save_profile_;
   Controls controls_;
   IntendService intend_;
   AttachService attach_;

@@ -17,7 +17,7 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr auto kPeriod = std::chrono::milliseconds(100);
+constexpr auto kPeerPeriod = std::chrono::milliseconds(100);
 constexpr auto kLongestConnect = std::chrono::milliseconds(200);
 constexpr int kLooksDown = 10;  // until a connection that is down is made anew: roscpp tries after 0.1, 0.3 and 0.7 s
 constexpr auto kNewName = std::chrono::milliseconds(100);  // until a name is resolved for the first time
@@ -78,7 +78,7 @@ void beginOthers(std::map<std::string, Probe>& probes) {
 
 PeerWatch::PeerWatch(std::function<bool()> input_may_be_silent)
     : input_may_be_silent_(std::move(input_may_be_silent)), call_(kCallTimeout, stopping_) {
-  thread_.every(kPeriod, [this] { checkOrLog(); });
+  thread_.every(kPeerPeriod, [this] { checkOrLog(); });
 }
 
 PeerWatch::~PeerWatch() {

@@ -7,7 +7,7 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr auto kPeriod = std::chrono::milliseconds(10);  // largest delay until a silent input is noticed
+constexpr auto kWatchPeriod = std::chrono::milliseconds(10);  // largest delay until a silent input is noticed
 constexpr auto kReflexPeriod = std::chrono::milliseconds(100);
 constexpr auto kConsideredPeriod = std::chrono::seconds(1);
 
@@ -16,7 +16,7 @@ constexpr auto kConsideredPeriod = std::chrono::seconds(1);
 Watchdog::Watchdog(Frames& frames, sweep_guard_core::WorkpieceStore& workpieces,
                    sweep_guard_core::WarningMonitor& monitor, WarningPublisher& warnings)
     : frames_(frames), workpieces_(workpieces), monitor_(monitor), warnings_(warnings) {
-  thread_.every(kPeriod, [this] {
+  thread_.every(kWatchPeriod, [this] {
     checkClock();
     warnings_.publishIfDue();
   });

@@ -275,13 +275,6 @@ void checkLengths<sweep_guard::AttachRequest>(Wire wire) {
 }
 
 template <>
-void checkLengths<sweep_guard::SaveProfileRequest>(Wire wire) {
-  WireReader read(wire);
-  read.text();
-  read.end();
-}
-
-template <>
 void checkLengths<sweep_guard::Intend>(Wire wire) {
   WireReader read(wire);
   readIntend(read);

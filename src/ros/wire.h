@@ -17,7 +17,6 @@
 #include <sweep_guard/MeshVertices.h>
 #include <sweep_guard/Predict.h>
 #include <sweep_guard/Proximity.h>
-#include <sweep_guard/SaveProfile.h>
 #include <sweep_guard/SetIntent.h>
 #include <sweep_guard/ToolBalls.h>
 #include <sweep_guard/ToolBodies.h>
@@ -83,8 +82,6 @@ template <>
 void checkLengths<std_srvs::SetBoolRequest>(Wire wire);
 template <>
 void checkLengths<std_srvs::TriggerRequest>(Wire wire);
-template <>
-void checkLengths<sweep_guard::SaveProfileRequest>(Wire wire);
 template <>
 void checkLengths<sweep_guard::Intend>(Wire wire);
 template <>

@@ -2,6 +2,7 @@
 
 #include <OgreColourValue.h>
 #include <OgreMaterial.h>
+#include <OgreSceneNode.h>
 #include <OgreVector.h>
 
 #include <vector>
@@ -9,10 +10,38 @@
 namespace Ogre {
 class ManualObject;
 class SceneManager;
-class SceneNode;
 }  // namespace Ogre
 
 namespace sweep_guard_rviz {
+
+/// Shows a node below its parent or detaches it. Setting its visibility instead would overwrite that of its children.
+inline void attach(Ogre::SceneNode& parent, Ogre::SceneNode& node, bool shown) {
+  if (shown == (node.getParent() != nullptr)) return;
+  if (shown) {
+    parent.addChild(&node);
+  } else {
+    parent.removeChild(&node);
+  }
+}
+
+/// The Ogre resource group of everything drawn here: Ogre's default.
+constexpr const char* kResources = "General";
+
+/// Makes a material that ignores light and is visible from both sides. It has one pass; more may be added.
+/// @param lifted  depth bias towards the eye that keeps coplanar surfaces from flickering: 0 is none
+Ogre::MaterialPtr makeMaterial(int lifted = 0);
+
+/// Makes a material that is shaded by rviz's light, dimly on its dark side.
+Ogre::MaterialPtr makeShadedMaterial();
+
+/// Removes a material from Ogre, which otherwise keeps it.
+void drop(const Ogre::MaterialPtr& material);
+
+/// Paints in one color. Transparent surfaces hide nothing.
+void paint(Ogre::Pass& pass, const Ogre::ColourValue& color);
+/// Paints in the colors of the vertices with this alpha.
+void paintByVertices(Ogre::Pass& pass, float alpha);
+void paintShaded(Ogre::Pass& pass, const Ogre::ColourValue& color);
 
 /// Draws a small number of triangles and lines that are replaced whenever they change.
 class Drawing {

@@ -9,6 +9,15 @@
 
 namespace sweep_guard_rviz {
 
+constexpr auto kSilent = std::chrono::milliseconds(500);  ///< after which a message is no longer shown
+
+/// Returns force, volume and depth in words.
+std::string describe(const sweep_guard::ObjectInteraction& object);
+
+/// Returns the same for all workpieces: the whole force, the sum of the volumes and the largest depth; empty: there is no
+/// force.
+std::string describe(const sweep_guard::Interaction& interaction);
+
 /// Receives the force on the tool. The guard computes it only for subscribers: listen while it is shown.
 class ForceFeed {
  public:

@@ -14,16 +14,17 @@
 #include <QRegularExpression>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "rviz/workpieces.h"
 #include "sweep_guard/common/printable.h"
 
 namespace sweep_guard_rviz {
 namespace {
 
-constexpr std::uint32_t kMeshesQueued = 10;  // for several workpieces
-constexpr float kStep = 0.5F;                // of the radius, between the balls of a stroke
+constexpr float kStep = 0.5F;  // of the radius, between the balls of a stroke
 
 template <typename Message>
-rviz::RosTopicProperty* topic(const char* name, const char* value, const char* description, rviz::Property* parent) {
+rviz::RosTopicProperty* topicProperty(const char* name, const char* value, const char* description,
+                                      rviz::Property* parent) {
   return new rviz::RosTopicProperty(name, value, ros::message_traits::datatype<Message>(), description, parent);
 }
 
@@ -39,9 +40,9 @@ IntendTool::IntendTool() {
   shortcut_key_ = 'u';
   rviz::Property* const parent = getPropertyContainer();
   guard_ = new rviz::StringProperty("Guard", "/sweep_guard", "Name of the guard's node.", parent);
-  mesh_topic_ = topic<sweep_guard::DeformableMesh>("Mesh Topic", "/mesh", "Meshes of the workpieces.", parent);
-  vertices_topic_ =
-      topic<sweep_guard::MeshVertices>("Vertices Topic", "/mesh_vertices", "Deformations of the meshes.", parent);
+  mesh_topic_ = topicProperty<sweep_guard::DeformableMesh>("Mesh Topic", "/mesh", "Meshes of the workpieces.", parent);
+  vertices_topic_ = topicProperty<sweep_guard::MeshVertices>("Vertices Topic", "/mesh_vertices",
+                                                             "Deformations of the meshes.", parent);
   radius_ = length("Radius", 0.005F, "[m] of the brush: triangles that lie wholly inside are meant.", parent);
   depth_ = length("Depth", 0.01F, "[m] that the tool may reach behind the surface.", parent);
   links_ = new rviz::StringProperty("Tool Links", "", "Links that may touch, separated by blanks; empty: all.", parent);

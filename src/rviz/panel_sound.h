@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "sound/synthesizer.h"
+#include "sound/earcon.h"
 
 namespace sweep_guard_rviz {
 

@@ -3,7 +3,6 @@
 #include <OgreMath.h>
 
 #include "rviz/ogre_conversions.h"
-#include "rviz/triangles.h"
 
 namespace sweep_guard_rviz {
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <utility>
 
-#include "rviz/paint.h"
+#include "rviz/drawing.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -13,15 +13,13 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <utility>
 
-#include "rviz/attach.h"
+#include "rviz/drawing.h"
+#include "rviz/force_feed.h"
 
 namespace sweep_guard_rviz {
 namespace {
 
 using rviz::StatusProperty;
-
-constexpr auto kSilent = std::chrono::milliseconds(500);
-constexpr std::uint32_t kMeshesQueued = 10;  // for several workpieces
 
 template <typename Message>
 rviz::RosTopicProperty* topic(const char* name, const char* value, const char* description, rviz::Property& parent) {

@@ -12,9 +12,8 @@
 #include <cmath>
 #include <string>
 
+#include "rviz/drawing.h"
 #include "rviz/ogre_conversions.h"
-#include "rviz/paint.h"
-#include "rviz/triangles.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "rviz/force_feed.h"
-#include "rviz/level_history.h"
 #include "rviz/panel_sound.h"
 #include "rviz/service_call.h"
+#include "rviz/strip_chart.h"
 #include "rviz/warning_feed.h"
 
 class QCheckBox;

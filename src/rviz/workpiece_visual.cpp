@@ -8,10 +8,9 @@
 #include <cstdio>
 #include <utility>
 
-#include "rviz/attach.h"
+#include "rviz/drawing.h"
 #include "rviz/ogre_conversions.h"
-#include "rviz/triangles.h"
-#include "rviz/volume_faces.h"
+#include "rviz/volume_history.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -6,6 +6,7 @@
 #include <sweep_guard/ObjectView.h>
 #include <sweep_guard/Touches.h>
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -16,6 +17,8 @@
 #include "rviz/workpiece_visual.h"
 
 namespace sweep_guard_rviz {
+
+constexpr std::uint32_t kMeshesQueued = 10;  ///< of topics, for several workpieces
 
 /// Holds the workpieces of one display by id.
 class Workpieces {

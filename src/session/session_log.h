@@ -75,4 +75,8 @@ class SessionLog {
   sweep_guard_recording::SweptIntervals swept_;
 };
 
+/// Returns what an operator would have heard from the first warning to the end of the session: signed 16 bits, one channel.
+/// @param rate  samples per second, > 0
+std::vector<std::int16_t> soundOf(const SessionLog& log, double rate);
+
 }  // namespace sweep_guard_session

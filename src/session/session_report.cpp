@@ -9,7 +9,6 @@
 
 #include "common/csv.h"
 #include "session/contact_table.h"
-#include "sound/synthesizer.h"
 #include "sweep_guard/common/quantile.h"
 
 namespace sweep_guard_session {
@@ -132,22 +131,6 @@ std::string summary(const SessionLog& log, const SessionBag& bag) {
   text += leadLine(contacts, WarningLevel::kConsidered, &Contact::considered_lead);
   text += leadLine(contacts, WarningLevel::kReflex, &Contact::reflex_lead);
   return text + contactTable(contacts, bag.begin, kMaxContactsPrinted);
-}
-
-std::vector<std::int16_t> soundOf(const SessionLog& log, double rate) {
-  std::vector<std::int16_t> samples;
-  if (log.warnings().empty()) return samples;
-  sweep_guard_core::Synthesizer synthesizer(rate);
-  const Time begin = log.warnings().front().received;
-  for (size_t i = 0; i < log.warnings().size(); ++i) {
-    const ReceivedWarning& warning = log.warnings()[i];
-    const bool last = i + 1 == log.warnings().size();
-    const Time end = last ? std::max(log.endTime(), warning.received) : log.warnings()[i + 1].received;
-    const auto until = static_cast<size_t>(toSeconds(end - begin) * rate);
-    const sweep_guard_core::SoundCue cue{warning.level, warning.time_to_collision};
-    synthesizer.render(earconOf(cue, /*clear_tick=*/true), until - std::min(until, samples.size()), samples);
-  }
-  return samples;
 }
 
 }  // namespace sweep_guard_session

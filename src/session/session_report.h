@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include "session/session_bag.h"
 #include "session/session_log.h"
@@ -23,9 +21,5 @@ std::string collisionsCsv(const SessionLog& log, sweep_guard_core::Time begin);
 /// Returns a summary for a terminal: the bag, the duration of each level, the contacts and their leads. Ends with a
 /// line feed.
 std::string summary(const SessionLog& log, const SessionBag& bag);
-
-/// Returns what an operator would have heard from the first warning to the end of the session: signed 16 bits, one channel.
-/// @param rate  samples per second, > 0
-std::vector<std::int16_t> soundOf(const SessionLog& log, double rate);
 
 }  // namespace sweep_guard_session

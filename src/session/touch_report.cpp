@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "common/csv.h"
-#include "recording/bag_topic.h"
+#include "recording/bag.h"
 
 namespace sweep_guard_session {
 

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "recording/run_node.h"
-#include "simulation/force_markers.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
 #include "simulation/workpiece_parameters.h"

@@ -2,9 +2,13 @@
 
 #include <Eigen/Geometry>
 
-#include "simulation/twist.h"
-
 namespace sweep_guard_simulation {
+
+/// Velocity of a tool.
+struct Twist {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< of the tip, in W [m/s]
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< in W [rad/s]
+};
 
 /// Moves the tip of a tool that is guided by hand. Bounds speed and acceleration, so the tip moves smoothly even if its
 /// target jumps.

@@ -14,7 +14,6 @@
 #include "recording/run_node.h"
 #include "ros/parameters/parameters.h"
 #include "simulation/joint_motion.h"
-#include "simulation/meeting.h"
 #include "simulation/motion_start.h"
 #include "simulation/playback.h"
 #include "simulation/pose_scheduler.h"

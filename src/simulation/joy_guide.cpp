@@ -1,13 +1,18 @@
 #include "simulation/joy_guide.h"
 
+#include <sweep_guard/Acknowledge.h>
+
+#include <chrono>
+#include <cstddef>
+#include <utility>
+
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_simulation {
-
 namespace {
 
-constexpr double kReminderPeriod = 10.0;  // [s]
+constexpr double kJoyReminder = 10.0;  // [s]
 constexpr sweep_guard_core::Duration kBacklog =
     std::chrono::milliseconds(100);  // time in which roscpp delivers waiting messages
 
@@ -15,6 +20,35 @@ constexpr sweep_guard_core::Duration kBacklog =
 sweep_guard_core::Time now() { return sweep_guard_ros::fromMsg(ros::Time::now()); }
 
 }  // namespace
+
+using sweep_guard::Acknowledge;
+
+AcknowledgeButton::AcknowledgeButton(ros::NodeHandle node, int button)
+    : node_(node), button_(button), subscriber_(node.subscribe("warning", 1, &AcknowledgeButton::onWarning, this)) {}
+
+void AcknowledgeButton::update(const std::vector<int>& buttons) {
+  const auto index = static_cast<std::size_t>(button_);
+  const bool down = button_ >= 0 && index < buttons.size() && buttons[index] != 0;
+  const bool pressed = down && !std::exchange(down_, down);
+  down_ = down;
+  if (pressed && warning_ && !warning_->mesh_id.empty() && idle()) call();
+}
+
+bool AcknowledgeButton::idle() const {
+  return !call_.valid() || call_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+// The operator means the workpiece that he was warned of, not one that is warned of by the time the call arrives.
+void AcknowledgeButton::call() {
+  const std::string guard = ros::names::parentNamespace(subscriber_.getTopic());
+  auto client = node_.serviceClient<Acknowledge>(ros::names::append(guard, "acknowledge"));
+  Acknowledge acknowledge;
+  acknowledge.request.mesh_id = warning_->mesh_id;
+  call_ = std::async(std::launch::async, [client, acknowledge]() mutable {
+    const bool answered = client.call(acknowledge);
+    ROS_INFO("%s: %s", client.getService().c_str(), answered ? acknowledge.response.message.c_str() : "no answer");
+  });
+}
 
 JoyGuide::JoyGuide(ros::NodeHandle node, const Joystick::Options& options, int acknowledge_button)
     : joystick_(options),
@@ -25,7 +59,7 @@ JoyGuide::JoyGuide(ros::NodeHandle node, const Joystick::Options& options, int a
 
 void JoyGuide::move(GuidedTip& tip, double dt) const {
   if (subscriber_.getNumPublishers() == 0) {
-    ROS_WARN_THROTTLE(kReminderPeriod, "the tool rests: nobody publishes %s; start the driver of the device",
+    ROS_WARN_THROTTLE(kJoyReminder, "the tool rests: nobody publishes %s; start the driver of the device",
                       subscriber_.getTopic().c_str());
   }
   tip.moveAt(joystick_.velocity(now()), dt);
@@ -38,7 +72,7 @@ void JoyGuide::onJoy(const sensor_msgs::Joy::ConstPtr& joy) {
   try {
     joystick_.setAxes(joy->axes, now());
   } catch (const sweep_guard_core::InvalidInput& error) {
-    ROS_ERROR_THROTTLE(kReminderPeriod, "message on %s refused: %s", subscriber_.getTopic().c_str(), error.what());
+    ROS_ERROR_THROTTLE(kJoyReminder, "message on %s refused: %s", subscriber_.getTopic().c_str(), error.what());
   }
 }
 

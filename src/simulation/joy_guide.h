@@ -2,12 +2,40 @@
 
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
+#include <sweep_guard/Warning.h>
 
-#include "simulation/acknowledge_button.h"
+#include <future>
+#include <string>
+#include <vector>
+
 #include "simulation/guided_tip.h"
 #include "simulation/joystick.h"
 
 namespace sweep_guard_simulation {
+
+/// Calls `acknowledge` of the guard whose warnings arrive on the topic `warning` when a button of an input device goes
+/// down.
+class AcknowledgeButton {
+ public:
+  /// @param button  index in the messages of the device; -1: none
+  AcknowledgeButton(ros::NodeHandle node, int button);
+
+  /// Takes the buttons of a message of the device. Does not wait for the guard's answer, and does nothing while a call
+  /// runs.
+  void update(const std::vector<int>& buttons);
+
+ private:
+  void onWarning(const sweep_guard::Warning::ConstPtr& warning) { warning_ = warning; }
+  bool idle() const;
+  void call();
+
+  ros::NodeHandle node_;
+  int button_;
+  bool down_ = false;
+  ros::Subscriber subscriber_;
+  sweep_guard::Warning::ConstPtr warning_;  // newest
+  std::future<void> call_;
+};
 
 /// Guides a tip by the messages of an input device on the topic `joy`, and acknowledges warnings by one of its buttons.
 class JoyGuide {

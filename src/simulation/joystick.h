@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/twist.h"
+#include "simulation/guided_tip.h"
 #include "sweep_guard/common/time.h"
 
 namespace sweep_guard_simulation {

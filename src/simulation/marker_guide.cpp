@@ -15,7 +15,7 @@ using visualization_msgs::InteractiveMarkerControl;
 
 namespace {
 
-constexpr double kReminderPeriod = 5.0;  // [s]
+constexpr double kMarkerReminder = 5.0;  // [s]
 constexpr float kSize = 0.2F;            // [m] larger than the tool, smaller than the view of rviz
 
 // rviz uses the x axis of the control's orientation.
@@ -61,9 +61,9 @@ void MarkerGuide::onFeedback(const Feedback::ConstPtr& feedback) {
         tf2::transformToEigen(buffer_.lookupTransform(frame_, feedback->header.frame_id, ros::Time(0)));
     goal_W_ = X_WF * sweep_guard_ros::fromMsg(feedback->pose);
   } catch (const tf2::TransformException& error) {
-    ROS_ERROR_THROTTLE(kReminderPeriod, "pose of the marker refused: %s", error.what());
+    ROS_ERROR_THROTTLE(kMarkerReminder, "pose of the marker refused: %s", error.what());
   } catch (const sweep_guard_core::InvalidInput& error) {
-    ROS_ERROR_THROTTLE(kReminderPeriod, "pose of the marker refused: %s", error.what());
+    ROS_ERROR_THROTTLE(kMarkerReminder, "pose of the marker refused: %s", error.what());
   }
 }
 

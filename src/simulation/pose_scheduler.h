@@ -20,7 +20,12 @@ class PoseScheduler {
   /// Reports that a pose is published at `now`. After a stall of a live motion, this pose becomes due now and later
   /// poses are delayed by the same time.
   /// @return whether there was such a stall
-  bool resume(sweep_guard_core::Time stamp, sweep_guard_core::Time now);
+  bool resume(sweep_guard_core::Time stamp, sweep_guard_core::Time now) {
+    const sweep_guard_core::Duration delay = now - due(stamp);
+    if (!live_ || delay <= kStall) return false;
+    start_ += delay;
+    return true;
+  }
 
  private:
   sweep_guard_core::Time start_;

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "recording/run_node.h"
-#include "simulation/force_markers.h"
 #include "simulation/tip_script.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"

@@ -78,7 +78,7 @@ std::vector<Triangle> gridTriangles(const Grid& grid) {
   return triangles;
 }
 
-void requireWithin(const std::string& name, double value, double min, double max) {
+void requireSize(const std::string& name, double value, double min, double max) {
   if (value >= min && value <= max) return;
   throw InvalidInput(name + " of the workpiece is " + std::to_string(value) + ", must be in [" + std::to_string(min) +
                      ", " + std::to_string(max) + "]");
@@ -91,9 +91,9 @@ Workpiece::Workpiece(const std::vector<Eigen::Vector3d>& points, std::vector<Tri
     : triangles_(std::move(triangles)),
       amplitude_(options.amplitude * options.size),
       angular_rate_(2.0 * M_PI / options.period) {
-  requireWithin("size", options.size, 1e-3, 100.0);
-  requireWithin("amplitude", options.amplitude, 0.0, 0.05);
-  requireWithin("period", options.period, 0.01, 1000.0);
+  requireSize("size", options.size, 1e-3, 100.0);
+  requireSize("amplitude", options.amplitude, 0.0, 0.05);
+  requireSize("period", options.period, 0.01, 1000.0);
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& point : points) {
     if (!point.allFinite()) throw InvalidInput("a vertex is not finite");
@@ -108,7 +108,7 @@ Workpiece::Workpiece(const std::vector<Eigen::Vector3d>& points, std::vector<Tri
 }
 
 Workpiece Workpiece::hull(int triangles, const Options& options) {
-  requireWithin("number of triangles", triangles, 6, 1000000);
+  requireSize("number of triangles", triangles, 6, 1000000);
   const Grid grid = gridFor(triangles);
   Workpiece workpiece(gridPoints(grid), gridTriangles(grid), options);
   workpiece.makeWaves(options);

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "detection/every_context.h"
-#include "detection/gl_library.h"
 #include "refusal.h"
 #include "scenes.h"
 #include "sweep_guard/detection/detector.h"

@@ -1,4 +1,4 @@
-// Runs a target on the files of folders, without libFuzzer: what was found once must not come again.
+// Runs a target on the files of folders, without libFuzzer: what was found once must not come again. The first folder has files.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -16,19 +16,27 @@ std::vector<std::uint8_t> bytesOf(const std::filesystem::path& file) {
   return {read.begin(), read.end()};
 }
 
+/// Returns how many files there are.
+int runOn(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) return 0;  // nothing was found yet
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::cerr << entry.path().string() << std::endl;  // the last one is that of a crash
+    const std::vector<std::uint8_t> bytes = bytesOf(entry.path());
+    LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+    ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  int count = 0;
+  bool complete = argc > 1;
   for (int i = 1; i < argc; ++i) {
-    if (!std::filesystem::is_directory(argv[i])) continue;  // nothing was found yet
-    for (const auto& entry : std::filesystem::directory_iterator(argv[i])) {
-      std::cerr << entry.path().string() << std::endl;  // the last one is that of a crash
-      const std::vector<std::uint8_t> bytes = bytesOf(entry.path());
-      LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
-      ++count;
-    }
+    const int count = runOn(argv[i]);
+    std::cout << count << " inputs in " << argv[i] << std::endl;
+    complete = complete && (i > 1 || count > 0);
   }
-  std::cout << count << " inputs" << std::endl;
-  return count > 0 ? 0 : 1;
+  return complete ? 0 : 1;
 }

@@ -1,5 +1,5 @@
 // Requests to the services of the guard, as bytes from the wire. They run in the services' own threads, one at a time. Not
-// ~save_profile, which writes files, and ~set_parameters, which is the target `parameters`.
+// ~set_parameters, which is the target `parameters`.
 #include <cmath>
 #include <future>
 #include <limits>

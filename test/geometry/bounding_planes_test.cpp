@@ -1,4 +1,4 @@
-#include "geometry/bounding_planes.h"
+#include "sweep_guard/geometry/swept_volume.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,7 @@
 
 #include "geometry/round_tool.h"
 #include "scenes.h"
-#include "sweep_guard/geometry/convex_polytope.h"
-#include "sweep_guard/geometry/swept_volume.h"
+#include "sweep_guard/geometry/half_space.h"
 
 namespace sweep_guard_core {
 namespace {

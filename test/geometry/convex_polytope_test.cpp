@@ -1,4 +1,4 @@
-#include "sweep_guard/geometry/convex_polytope.h"
+#include "sweep_guard/geometry/half_space.h"
 
 #include <gtest/gtest.h>
 

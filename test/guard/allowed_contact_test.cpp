@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "guard/allowed_matches.h"
 #include "guard/guard_results.h"
 #include "monitor/warnings.h"
 #include "scenes.h"

@@ -1,4 +1,4 @@
-#include "guard/displacement_cache.h"
+#include "guard/displacements.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "guard/sparse_motion.h"
+#include "guard/pose_history.h"
 #include "scenes.h"
 #include "sweep_guard/geometry/motion.h"
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "kinematics/random_robot.h"
-#include "prediction/displacement.h"
+#include "prediction/motion_space.h"
 #include "scenes.h"
 
 namespace sweep_guard_core {

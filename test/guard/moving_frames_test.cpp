@@ -6,7 +6,7 @@
 #include "geometry/libccd_overlap.h"
 #include "guard/guard_results.h"
 #include "guard/path_in_mesh.h"
-#include "guard/sparse_motion.h"
+#include "guard/pose_history.h"
 #include "scenes.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/geometry/link_surface.h"

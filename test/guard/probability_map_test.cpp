@@ -1,4 +1,4 @@
-#include "sweep_guard/guard/probability_map.h"
+#include "sweep_guard/guard/prediction.h"
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Intervals, ProbabilityMapTest,
                            return test.param == PredictionInterval::kReflex ? "Reflex" : "Considered";
                          });
 
-TEST(WarningThresholdsTest, TheOldThresholdsOfBothIntervalsDiffer) {
+TEST(WarningThresholdsTest, TheThresholdsOfOnePlaneDifferBetweenTheIntervals) {
   const WarningThresholds thresholds = WarningThresholds::ofMinProbability(0.1);
   EXPECT_EQ(thresholds.reflex, fromPlaneProbability(PredictionInterval::kReflex, 0.1));
   EXPECT_EQ(thresholds.considered_on, fromPlaneProbability(PredictionInterval::kConsidered, 0.1));

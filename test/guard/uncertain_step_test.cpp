@@ -1,4 +1,4 @@
-#include "guard/uncertain_step.h"
+#include "guard/out_of_reach.h"
 
 #include <gtest/gtest.h>
 

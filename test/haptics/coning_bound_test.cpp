@@ -1,4 +1,4 @@
-#include "sweep_guard/haptics/coning_bound.h"
+#include "sweep_guard/haptics/passive_device.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sweep_guard/haptics/force_permission.h"
+#include "sweep_guard/haptics/force_renderer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sweep_guard/haptics/stiffness_bound.h"
+#include "sweep_guard/haptics/force_renderer.h"
 
 #include <gtest/gtest.h>
 

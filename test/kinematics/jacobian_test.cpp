@@ -1,4 +1,4 @@
-#include "sweep_guard/kinematics/jacobian.h"
+#include "sweep_guard/kinematics/kinematic_tree.h"
 
 #include <gtest/gtest.h>
 

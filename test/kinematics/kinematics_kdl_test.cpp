@@ -7,7 +7,7 @@
 #include <kdl/chainjnttojacsolver.hpp>
 
 #include "kinematics/random_robot.h"
-#include "sweep_guard/kinematics/jacobian.h"
+#include "sweep_guard/kinematics/kinematic_tree.h"
 
 namespace sweep_guard_core {
 namespace {

@@ -1,4 +1,4 @@
-#include "motion/command_silence.h"
+#include "sweep_guard/motion/command_period.h"
 
 #include <gtest/gtest.h>
 

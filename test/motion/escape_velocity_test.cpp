@@ -1,4 +1,4 @@
-#include "sweep_guard/motion/escape_velocity.h"
+#include "sweep_guard/motion/velocity_limiter.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "sweep_guard/common/matrix6.h"
+#include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_core {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "prediction/displacement.h"
+#include "prediction/motion_space.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 

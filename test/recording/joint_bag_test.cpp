@@ -1,4 +1,4 @@
-#include "recording/joint_bag.h"
+#include "recording/bag.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>

@@ -1,4 +1,4 @@
-#include "recording/motion_file.h"
+#include "recording/recording.h"
 
 #include <gtest/gtest.h>
 

@@ -231,13 +231,6 @@ std_srvs::TriggerRequest example() {
 }
 
 template <>
-sweep_guard::SaveProfileRequest example() {
-  sweep_guard::SaveProfileRequest message;
-  message.name = "anna";
-  return message;
-}
-
-template <>
 dynamic_reconfigure::ReconfigureRequest example() {
   dynamic_reconfigure::ReconfigureRequest message;
   message.config.bools.resize(2);
@@ -413,11 +406,6 @@ std::vector<size_t> lengths<std_srvs::TriggerRequest>() {
 }
 
 template <>
-std::vector<size_t> lengths<sweep_guard::SaveProfileRequest>() {
-  return {0};
-}
-
-template <>
 std::vector<size_t> lengths<dynamic_reconfigure::ReconfigureRequest>() {
   const size_t ints = 4 + (4 + 4 + 1) + (4 + 1);
   const size_t strs = ints + 4 + (4 + 6 + 4);
@@ -461,9 +449,9 @@ using Messages =
                    sweep_guard::DeformableMesh, sweep_guard::MeshVertices, sweep_guard::Proximity,
                    sweep_guard::ToolBalls, sweep_guard::ToolBodies, sweep_guard::ToolSurface, sweep_guard::Warning,
                    sweep_guard::CheckSweepRequest, sweep_guard::CheckTrajectoryRequest, sweep_guard::PredictRequest,
-                   sweep_guard::AcknowledgeRequest, sweep_guard::AttachRequest, sweep_guard::SaveProfileRequest,
-                   sweep_guard::Intend, sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest,
-                   std_srvs::TriggerRequest, dynamic_reconfigure::ReconfigureRequest>;
+                   sweep_guard::AcknowledgeRequest, sweep_guard::AttachRequest, sweep_guard::Intend,
+                   sweep_guard::SetIntentRequest, std_srvs::SetBoolRequest, std_srvs::TriggerRequest,
+                   dynamic_reconfigure::ReconfigureRequest>;
 TYPED_TEST_SUITE(WireTest, Messages, );  // ISO C++17 wants an argument for `...`, even an empty one
 
 TYPED_TEST(WireTest, PassesRealMessages) {

@@ -35,9 +35,8 @@ std::vector<ParameterInfo> grouped(const std::vector<ParameterInfo>& infos) {
   }
   std::vector<ParameterInfo> ordered;
   for (const std::string& group : groups) {
-    std::copy_if(infos.begin(), infos.end(), std::back_inserter(ordered), [&](const ParameterInfo& info) {
-      return groupOf(info.key) == group && !info.effect.empty() && !info.deprecated;
-    });
+    std::copy_if(infos.begin(), infos.end(), std::back_inserter(ordered),
+                 [&](const ParameterInfo& info) { return groupOf(info.key) == group && !info.effect.empty(); });
   }
   return ordered;
 }

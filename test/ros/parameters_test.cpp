@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <set>
 
@@ -345,23 +346,48 @@ const double kReflex = WarningThresholds{}.reflex;
 double considered(double plane) { return fromPlaneProbability(PredictionInterval::kConsidered, plane); }
 double reflex(double plane) { return fromPlaneProbability(PredictionInterval::kReflex, plane); }
 
-TEST_F(ThresholdsTest, TheOldNameSetsAllThatAreNotSet) {
+// The numbers after the keys, in the order of the message.
+std::vector<double> valuesIn(const std::string& message) {
+  std::vector<double> values;
+  for (const char* const key : {"considered_on: ", "considered_off: ", "reflex_probability: "}) {
+    const size_t begin = message.find(key);
+    EXPECT_NE(begin, std::string::npos) << message;
+    if (begin != std::string::npos) values.push_back(std::stod(message.substr(begin + std::strlen(key))));
+  }
+  return values;
+}
+
+TEST_F(ThresholdsTest, TheOldThresholdIsRefusedWithTheThreeThatMeanTheSame) {
+  using Values = std::vector<double>;
   expect(kOn, kOff, kReflex, loadParameters(node_));
-  node_.setParam("warning/min_probability", 0.3);
-  expect(considered(0.3), considered(0.3), reflex(0.3), loadParameters(node_));
+  for (const double old : {0.3, 0.1, 1.0}) {
+    node_.setParam("warning/min_probability", old);
+    const std::string message = refusal(node_);
+    EXPECT_TRUE(has(message, "warning/min_probability has been replaced by three")) << message;
+    EXPECT_EQ(valuesIn(message), (Values{considered(old), considered(old), reflex(old)})) << message;
+  }
   node_.setParam("warning/min_probability", 0.1);
-  expect(considered(0.1), considered(0.1), reflex(0.1), loadParameters(node_));
   node_.setParam("warning/reflex_probability", 0.2);
-  expect(considered(0.1), considered(0.1), 0.2, loadParameters(node_));
+  EXPECT_EQ(valuesIn(refusal(node_)), (Values{considered(0.1), considered(0.1), 0.2}));
   node_.setParam("warning/considered_on", 0.005);
-  expect(0.005, 0.005, 0.2, loadParameters(node_));
+  EXPECT_EQ(valuesIn(refusal(node_)), (Values{0.005, 0.005, 0.2}));
   node_.setParam("warning/considered_off", 0.002);
+  EXPECT_EQ(valuesIn(refusal(node_)), (Values{0.005, 0.002, 0.2}));
+  node_.deleteParam("warning/min_probability");
   expect(0.005, 0.002, 0.2, loadParameters(node_));
+}
+
+TEST_F(ThresholdsTest, TheOldThresholdIsUnknownWhileTheGuardRuns) {
+  const Parameters before = loadParameters(node_);
+  const auto change = [&] { changeParameters(node_, before, {{"warning/min_probability", 0.3}}); };
+  EXPECT_TRUE(has(::refusal(change), "there is no parameter"));
 }
 
 TEST_F(ThresholdsTest, TheLowerOneFollowsAnUpperOneBelowIt) {
   node_.setParam("warning/considered_on", 0.002);
-  expect(0.002, 0.002, kReflex, loadParameters(node_));
+  const Parameters before = loadParameters(node_);
+  expect(0.002, 0.002, kReflex, before);
+  expect(0.001, 0.001, kReflex, changeParameters(node_, before, {{"warning/considered_on", 0.001}}));
   node_.setParam("warning/considered_off", 0.06);
   EXPECT_TRUE(has(refusal(node_), "at most warning/considered_on"));
 }
@@ -377,26 +403,6 @@ TEST_F(ThresholdsTest, ThePredictionFindsWhateverIsWarnedOf) {
   EXPECT_EQ(most(), considered_shown);
   node_.setParam("warning/reflex_probability", 0.001);
   EXPECT_EQ(most(), deviationsAt(PredictionInterval::kReflex, 0.001));
-}
-
-// What the same request says of a new name goes before the old one; what was said before does not.
-TEST_F(ThresholdsTest, TheOldNameSetsThemWhileTheGuardRuns) {
-  node_.setParam("warning/considered_on", 0.4);
-  const Parameters before = loadParameters(node_);
-  const Parameters old_name = changeParameters(node_, before, {{"warning/min_probability", 0.3}});
-  expect(considered(0.3), considered(0.3), reflex(0.3), old_name);
-  expect(0.5, considered(0.3), reflex(0.3), changeParameters(node_, old_name, {{"warning/considered_on", 0.5}}));
-  const std::map<std::string, ParameterValue> both = {{"warning/min_probability", 0.2},
-                                                      {"warning/reflex_probability", 0.7}};
-  expect(considered(0.2), considered(0.2), 0.7, changeParameters(node_, old_name, both));
-  expect(considered(0.1), considered(0.1), reflex(0.1),
-         changeParameters(node_, before, {{"warning/min_probability", 0.1}}));
-}
-
-TEST_F(ThresholdsTest, TheOldNameAloneIsInNoDocument) {
-  for (const ParameterInfo& info : loadParameters(node_).described) {
-    EXPECT_EQ(info.deprecated, info.key == "warning/min_probability") << info.key;
-  }
 }
 
 // A prediction is used until the next one, at most until its pose is stale.
@@ -472,7 +478,6 @@ TEST_F(ParametersTest, AreRefusedByNameValueAndRange) {
   refused("horizon/considered", INFINITY, "0.101 to 5");
   refused("horizon/considered_step", 0.95, "0.001 to 0.9: at most");
   refused("warning/min_probability", 0.0, "0.001 to 1");
-  refused("warning/min_probability", 10, "0.001 to 1");
   refused("warning/considered_on", 0.0, "0.001 to 1");
   refused("warning/considered_off", 0.3, "0.001 to 0.065");
   refused("warning/reflex_probability", 1.1, "0.001 to 1");

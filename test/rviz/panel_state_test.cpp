@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rviz/level_history.h"
+#include "rviz/strip_chart.h"
 
 namespace sweep_guard_rviz {
 namespace {

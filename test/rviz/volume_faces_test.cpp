@@ -1,4 +1,4 @@
-#include "rviz/volume_faces.h"
+#include "rviz/volume_history.h"
 
 #include <gtest/gtest.h>
 

@@ -2,14 +2,10 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
-#include <sweep_guard/Contacts.h>
 #include <sweep_guard/DeformableMesh.h>
 #include <sweep_guard/Intend.h>
 #include <sweep_guard/MeshVertices.h>
-#include <sweep_guard/View.h>
-#include <sweep_guard/Warning.h>
 #include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
@@ -185,118 +181,6 @@ TEST_F(ReplayTest, TakesAWorkpieceFromAFileWhereTheBagHasNone) {
   std::ofstream(file) << "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\nf 1 2 3\nf 1 3 4\n";
   const std::string printed = replay("mesh_file:=" + file.string() + " mesh_scale:=0.001");
   ASSERT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 3U) << printed;
-}
-
-// The warnings that can be read, in their order.
-std::vector<sweep_guard::Warning> warningsOf(const fs::path& path) {
-  const rosbag::Bag bag(path.string());
-  std::vector<sweep_guard::Warning> warnings;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/sweep_guard/warning"))) {
-    const auto warning = message.instantiate<sweep_guard::Warning>();
-    if (warning) warnings.push_back(*warning);
-  }
-  return warnings;
-}
-
-void migrate(const fs::path& old, const fs::path& fixed, const fs::path& log) {
-  const fs::path rules = fs::path(SWEEP_GUARD_SOURCE_DIR) / "migration_rules/sweep_guard.bmr";
-  std::ostringstream fix;
-  fix << "python3 " << SWEEP_GUARD_SOURCE_DIR << "/migration_rules/rosbag_fix.py fix --noplugins " << old << ' '
-      << fixed << ' ' << rules << " > " << log << " 2>&1";
-  ASSERT_EQ(std::system(fix.str().c_str()), 0) << readText(log);
-}
-
-// Of a bag in this folder, whose definition of Warning is an older one.
-std::vector<sweep_guard::Warning> migratedWarnings(const std::string& name, const fs::path& fixed,
-                                                   const fs::path& log) {
-  const fs::path old = fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session" / name;
-  EXPECT_TRUE(warningsOf(old).empty());
-  migrate(old, fixed, log);
-  return warningsOf(fixed);
-}
-
-// recorded_before.bag holds the first definition of Warning.
-TEST_F(ReplayTest, ABagWithOlderMessagesIsMigratedAndReplayed) {
-  const auto warnings = migratedWarnings("recorded_before.bag", bag_, folder_ / "fixed.txt");
-  ASSERT_EQ(warnings.size(), 40U);
-  for (std::size_t i = 0; i < warnings.size(); ++i) EXPECT_EQ(warnings[i].level, i / 8);
-
-  const std::string printed = replay("");
-  EXPECT_TRUE(has(printed, "200 poses")) << printed;
-  EXPECT_EQ(readCsv(folder_ / "report/contacts.csv").size(), 2U) << printed;
-}
-
-// recorded_view.bag holds views from before `held` and `acknowledged`.
-TEST_F(ReplayTest, ViewsThatDoNotTellWhatIsHeldAreMigrated) {
-  migrate(fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_view.bag", bag_, folder_ / "fixed.txt");
-  const rosbag::Bag bag(bag_.string());
-  int views = 0;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/sweep_guard/view"))) {
-    const auto view = message.instantiate<sweep_guard::View>();
-    ASSERT_TRUE(view);
-    ASSERT_EQ(view->objects.size(), 1U);
-    EXPECT_EQ(view->objects[0].touched, (std::vector<std::uint32_t>{1, 2}));
-    EXPECT_FALSE(view->held || view->acknowledged);
-    ++views;
-  }
-  EXPECT_EQ(views, 3);
-}
-
-// recorded_before_intended.bag holds messages from before `intended`.
-TEST_F(ReplayTest, ContactsAndWarningsThatDoNotTellWhatIsIntendedAreMigrated) {
-  const auto warnings = migratedWarnings("recorded_before_intended.bag", bag_, folder_ / "fixed.txt");
-  ASSERT_EQ(warnings.size(), 10U);
-  for (std::size_t i = 0; i < warnings.size(); ++i) {
-    EXPECT_EQ(warnings[i].level, i / 2);
-    EXPECT_EQ(warnings[i].held, i % 2);
-    EXPECT_FALSE(warnings[i].intended);
-  }
-  const rosbag::Bag bag(bag_.string());
-  std::uint32_t next = 0;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/sweep_guard/contacts"))) {
-    const auto contacts = message.instantiate<sweep_guard::Contacts>();
-    ASSERT_TRUE(contacts);
-    ASSERT_EQ(contacts->objects.size(), 1U);
-    EXPECT_EQ(contacts->objects[0].triangles, (std::vector<std::uint32_t>{next, next + 1}));
-    EXPECT_EQ(contacts->objects[0].impacts.at(0).tool_link, "bit");
-    EXPECT_TRUE(contacts->objects[0].intended.empty());
-    ++next;
-  }
-  EXPECT_EQ(next, 10U);
-}
-
-// recorded_before_allowed.bag holds contacts and views from before `allowed`.
-TEST_F(ReplayTest, ContactsAndViewsThatDoNotTellWhatIsAllowedAreMigrated) {
-  migrate(fs::path(SWEEP_GUARD_SOURCE_DIR) / "test/session/recorded_before_allowed.bag", bag_, folder_ / "fixed.txt");
-  const rosbag::Bag bag(bag_.string());
-  std::uint32_t contacts = 0;
-  std::uint32_t views = 0;
-  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
-    if (const auto sweep = message.instantiate<sweep_guard::Contacts>()) {
-      EXPECT_EQ(sweep->objects.at(0).triangles, (std::vector<std::uint32_t>{contacts, contacts + 1}));
-      EXPECT_EQ(sweep->objects[0].intended, (std::vector<std::uint32_t>{contacts}));
-      EXPECT_TRUE(sweep->allowed.empty());
-      ++contacts;
-    }
-    if (const auto view = message.instantiate<sweep_guard::View>()) {
-      EXPECT_EQ(view->objects.at(0).touched, (std::vector<std::uint32_t>{views, views + 1}));
-      EXPECT_TRUE(view->objects[0].allowed.empty());
-      ++views;
-    }
-  }
-  EXPECT_EQ(contacts, 3U);
-  EXPECT_EQ(views, 3U);
-}
-
-// recorded_with_run_id.bag holds the definition before `held` and `acknowledged`.
-TEST_F(ReplayTest, WarningsThatDoNotTellWhatIsHeldAreMigrated) {
-  const auto warnings = migratedWarnings("recorded_with_run_id.bag", bag_, folder_ / "fixed.txt");
-  ASSERT_EQ(warnings.size(), 10U);
-  for (std::size_t i = 0; i < warnings.size(); ++i) {
-    EXPECT_EQ(warnings[i].level, i / 2);
-    EXPECT_EQ(warnings[i].run_id, "0123456789abcdef");
-    EXPECT_FALSE(warnings[i].held || warnings[i].acknowledged);
-  }
 }
 
 // The guard does not subscribe to the poses, and the player waits for a subscriber of each topic.

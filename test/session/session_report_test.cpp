@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "refusal.h"
 
 namespace sweep_guard_session {
@@ -92,29 +90,6 @@ TEST(SessionReportTest, ReportsASessionOfOneInstant) {
     EXPECT_TRUE(has(summary(log, bagOf(0)), "contacts   0\n"));
   }
 }
-
-constexpr int kRate = 8000;
-
-// Number of samples that are not 0, from one time [ms] to another.
-long sounding(const std::vector<std::int16_t>& samples, int begin, int end) {
-  const auto sample = [&](int ms) { return samples.begin() + ms * kRate / 1000; };
-  return std::count_if(sample(begin), sample(end), [](int value) { return value != 0; });
-}
-
-TEST(SessionSoundTest, LastsAsLongAsTheSessionAndSoundsAsItsLevels) {
-  SessionLog log;
-  log.add({at(1000), WarningLevel::kClear, {}});
-  log.add({at(1500), WarningLevel::kContact, {}});
-  log.add({at(2500), WarningLevel::kClear, {}});
-  log.end(at(4000));
-  const auto samples = soundOf(log, kRate);
-  EXPECT_EQ(samples.size(), 3U * kRate);
-  EXPECT_EQ(sounding(samples, 100, 500), 0);
-  EXPECT_EQ(sounding(samples, 510, 1500), 5940);  // a tone of 1 kHz is 0 at two of its eight samples
-  EXPECT_LT(sounding(samples, 1510, 3000), 200);
-}
-
-TEST(SessionSoundTest, IsEmptyWithoutWarnings) { EXPECT_TRUE(soundOf(SessionLog(), kRate).empty()); }
 
 }  // namespace
 }  // namespace sweep_guard_session

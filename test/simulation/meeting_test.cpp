@@ -1,4 +1,4 @@
-#include "simulation/meeting.h"
+#include "simulation/joint_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simulation/replay.h"
+#include "simulation/pose_stream.h"
 
 #include <gtest/gtest.h>
 

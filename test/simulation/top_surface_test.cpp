@@ -1,4 +1,4 @@
-#include "simulation/top_surface.h"
+#include "simulation/drilling.h"
 
 #include <gtest/gtest.h>
 

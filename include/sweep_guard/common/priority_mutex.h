@@ -8,7 +8,13 @@ namespace sweep_guard_core {
 /// others. Used with std::lock_guard and std::unique_lock. Not recursive. Never throws, and ignores errors of pthread.
 class PriorityMutex {
  public:
-  PriorityMutex();
+  PriorityMutex() {
+    pthread_mutexattr_t attributes;
+    pthread_mutexattr_init(&attributes);
+    pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT);
+    pthread_mutex_init(&mutex_, &attributes);
+    pthread_mutexattr_destroy(&attributes);
+  }
   ~PriorityMutex() { pthread_mutex_destroy(&mutex_); }
   PriorityMutex(const PriorityMutex&) = delete;
   PriorityMutex& operator=(const PriorityMutex&) = delete;

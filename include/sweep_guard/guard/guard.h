@@ -10,7 +10,7 @@
 #include "sweep_guard/guard/guard_options.h"
 #include "sweep_guard/guard/intention.h"
 #include "sweep_guard/guard/prediction.h"
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 
 namespace sweep_guard_core {
 
@@ -110,9 +110,6 @@ class Guard {
   void intend(std::shared_ptr<const Intentions> intentions);
   /// Returns where contact is meant: nowhere without narrow phase.
   const std::shared_ptr<const Intentions>& intentions() const;
-
-  /// Returns what was learned of the operator, see PosePredictor.
-  std::unique_ptr<Profile> profile() const;
 
   /// Forgets all poses and contacts, and keeps what the predictor has learned of the operator.
   void reset();

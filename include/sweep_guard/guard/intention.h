@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -32,7 +33,10 @@ struct Intention {
   bool concerns(const Workpiece& workpiece) const {
     return workpiece.id == mesh_id && &workpiece.mesh_M.triangles() == mesh_triangles.get();
   }
-  bool allows(const std::string& link) const;  ///< this link of the tool may touch the region
+  /// Returns whether this link of the tool may touch the region.
+  bool allows(const std::string& link) const {
+    return tool_links.empty() || std::find(tool_links.begin(), tool_links.end(), link) != tool_links.end();
+  }
 };
 
 using Intentions = std::vector<Intention>;

@@ -6,7 +6,7 @@
 
 #include "sweep_guard/guard/pose_with_frames.h"
 #include "sweep_guard/guard/prediction.h"
-#include "sweep_guard/kinematics/jacobian.h"
+#include "sweep_guard/kinematics/kinematic_tree.h"
 #include "sweep_guard/kinematics/robot_path.h"
 #include "sweep_guard/prediction/horizon.h"
 #include "sweep_guard/prediction/joint_predictor.h"
@@ -41,9 +41,6 @@ class MotionPredictor {
 
   /// Exchanges the robot for one with the same joints.
   void exchange(std::shared_ptr<const Robot>& robot) { std::swap(robot_, robot); }
-
-  /// Returns what was learned of the motion of the tool frame, see PosePredictor. It holds nothing of joints.
-  std::unique_ptr<Profile> profile() const;
 
  private:
   std::vector<RobotState> statesAlong(const PredictedMotion& motion) const;

@@ -4,11 +4,61 @@
 #include <optional>
 
 #include "sweep_guard/haptics/contact_force.h"
-#include "sweep_guard/haptics/force_permission.h"
-#include "sweep_guard/haptics/stiffness_bound.h"
 #include "sweep_guard/motion/motion_guard.h"
+#include "sweep_guard/motion/motion_permission.h"
 
 namespace sweep_guard_core {
+
+/// When a force is taken back.
+struct ForceLimits {
+  Duration warning_silence = std::chrono::milliseconds(150);  ///< by receipt, > 0
+  Duration silence = std::chrono::milliseconds(50);           ///< of poses and planes, by receipt, > 0
+  Duration ramp = std::chrono::milliseconds(20);              ///< in which the force then goes to zero, > 0
+  Duration pose_age = std::chrono::milliseconds(150);         ///< by stamp, > 0
+};
+
+/// What is known when a force is to be sent.
+struct ForceEvidence {
+  PermissionInputs guard;            ///< but for PermissionInputs::command
+  std::optional<Timestamps> device;  ///< newest pose that the device tells itself; empty: the tool stands for it
+};
+
+struct ForcePermission {
+  double gain = 0.0;  ///< of the force, in [0, 1]
+  PermissionCause cause = PermissionCause::kNoWarning;
+};
+
+/// Decides how much of a force is let through. Nothing is remembered. The first row that applies wins:
+///
+/// | inputs | gain |
+/// |---|---|
+/// | no warning for `warning_silence`, UNKNOWN | 0 |
+/// | no pose or no planes yet, an old pose, planes past `valid_until`, incomplete or of an unknown tool | 0 |
+/// | pose, planes or device silent for `silence` | from 1 down to 0 within `ramp` |
+/// | otherwise | 1 |
+ForcePermission decideForce(const ForceEvidence& evidence, const Instant& now, const ForceLimits& limits);
+
+/// A device that is sampled and driven with a period, and the damper that is simulated with it.
+struct SampledDevice {
+  double damping = 2.0;          ///< of the device and the hand that holds it [N s/m], >= 0
+  double virtual_damping = 0.0;  ///< that is simulated [N s/m], >= 0
+  double period = 0.001;         ///< [s], > 0
+};
+
+/// Returns the largest stiffness [N/m] of a simulated wall that such a device can be coupled to without gaining energy from
+/// it in a linear model: K < (b - B) / (T/2 + delay), 0 if B >= b. Without delay this is the condition of Colgate and
+/// Schenkel (1997), b > K T / 2 + B. With a delay of m periods the term of the spring grows by the maximum 2 m + 1 of
+/// Dirichlet's kernel, b > K (T/2 + m T) + B; doc/haptics.md derives it. The denominator is that of Gil et al. (2009).
+/// @param delay  from a position of the device to the force that answers to it, without the hold of a period [s], >= 0
+double maxStiffness(const SampledDevice& device, double delay);
+
+/// Returns the damping [N s/m] against the motion of a point that a force acts on with a lever about the device, where each
+/// force F comes with a torque F * lever: with the dampings b and c of translation and rotation, a spring K and a damper B at that
+/// point gain no energy if (K (T/2 + delay) + B) (1/b + lever^2/c) < 1, so 1 / (1/b + lever^2/c) stands for b. For one contact.
+/// @param damping       of translation [N s/m], > 0
+/// @param turn_damping  of rotation [N m s/rad], > 0
+/// @param lever         [m]
+double dampingWithLever(double damping, double turn_damping, double lever);
 
 /// What a device exerts on its hand, along the axes of its frame D.
 struct DeviceWrench {

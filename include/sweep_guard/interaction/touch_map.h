@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 
 namespace sweep_guard_core {
 

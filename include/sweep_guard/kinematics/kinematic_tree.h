@@ -77,4 +77,15 @@ inline Eigen::Isometry3d poseOf(size_t link, const std::vector<Eigen::Isometry3d
   return link == TreeLink::kRoot ? Eigen::Isometry3d::Identity() : X_RL[link];
 }
 
+/// Of a link: velocity of its origin, then its angular velocity, both along the axes of the root frame R, per unit speed of
+/// each variable. One column per variable: [m/rad or m/m], [rad/rad or rad/m].
+using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// Computes the geometric Jacobian of a link, or of the root, whose Jacobian is 0. Joints that mimic a variable count in its
+/// column.
+/// @param X_RL             from KinematicTree::poses()
+/// @param[out] J_R         overwritten; its buffer is used again
+void geometricJacobian(const KinematicTree& tree, const std::vector<Eigen::Isometry3d>& X_RL, size_t link,
+                       Jacobian& J_R);
+
 }  // namespace sweep_guard_core

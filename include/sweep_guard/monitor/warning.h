@@ -17,7 +17,7 @@ struct WarningThresholds {
   double considered_on = 0.065;    ///< raises CONSIDERED
   double considered_off = 0.0029;  ///< keeps CONSIDERED up; <= considered_on
 
-  /// Returns the thresholds that warn as `warning/min_probability`, see fromPlaneProbability().
+  /// Returns the thresholds of all contacts at least this probable on the scale of one plane, see fromPlaneProbability().
   static WarningThresholds ofMinProbability(double min_probability);
 };
 

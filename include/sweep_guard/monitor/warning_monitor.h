@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sweep_guard/common/priority_mutex.h"
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/monitor/reason.h"
 #include "sweep_guard/monitor/warning.h"
 

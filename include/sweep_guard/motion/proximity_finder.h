@@ -9,7 +9,7 @@
 #include "sweep_guard/guard/allowed_contact.h"
 #include "sweep_guard/guard/intention.h"
 #include "sweep_guard/guard/pose_with_frames.h"
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/guard/workpiece.h"
 #include "sweep_guard/motion/braking.h"
 #include "sweep_guard/motion/separating_plane.h"

@@ -26,7 +26,7 @@ struct PredictedJoints {
 /// at its limits; one that is beyond a limit is not predicted to go farther. Any thread may call it, one thread at a time.
 ///
 /// Of the options, `max_turn_rate` limits joints that turn and `max_speed` the others; the largest of `degree` is that of
-/// each joint. `constrained` and `profile` do not count.
+/// each joint. `constrained` does not count.
 class JointPredictor {
  public:
   /// @throws InvalidInput as PosePredictor()

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "sweep_guard/common/matrix6.h"
 #include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_core {
@@ -25,8 +24,6 @@ struct PredictedPose {
 /// Predicted poses, ascending in time. The path begins at the newest observed pose, which is not part of it.
 using PredictedPath = std::vector<PredictedPose>;
 
-struct Profile;
-
 struct PredictorOptions {
   std::string predictor = "direct";  ///< one of predictorNames()
   /// Degrees of the polynomials of `polynomial`: x y z of the tool's origin along the axes of W, then rotation about
@@ -37,7 +34,6 @@ struct PredictorOptions {
   Duration window = std::chrono::milliseconds(300);  ///< of `polynomial`: drops older samples if enough are left; > 0
   double max_speed = 5.0;                            ///< largest predicted speed of the tool's origin [m/s], > 0
   double max_turn_rate = 20.0;                       ///< largest predicted turn rate [rad/s], > 0
-  std::shared_ptr<const Profile> profile;            ///< of `direct`: what it begins with; null: constant velocity
 };
 
 /// Returns the names of the predictors: `polynomial` (fitted to the last poses), `constant_velocity` (that of the last
@@ -69,9 +65,6 @@ class PosePredictor {
 
   /// Forgets the poses, and keeps what was learned of the operator.
   void restart();
-
-  /// Returns what was learned of the operator; null if this predictor learns nothing that another one could begin with.
-  std::unique_ptr<Profile> profile() const;
 
  private:
   struct Impl;

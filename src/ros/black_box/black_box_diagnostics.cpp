@@ -5,7 +5,7 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-double mebibytes(std::uintmax_t size) { return static_cast<double>(size) / (1U << 20U); }
+double inMebibytes(std::uintmax_t size) { return static_cast<double>(size) / (1U << 20U); }
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void BlackBoxDiagnostics::memory(Status& status) const {
   }
   status.addf("time kept [s]", "%.1f", sweep_guard_core::toSeconds(summary.length));
   status.add("messages", summary.messages);
-  status.addf("size [MiB]", "%.1f", mebibytes(summary.size));
+  status.addf("size [MiB]", "%.1f", inMebibytes(summary.size));
   status.add("messages too large", summary.too_large);
 }
 
@@ -45,7 +45,7 @@ void BlackBoxDiagnostics::recordings(Status& status) const {
   if (!summary.problem.empty()) status.summary(DiagnosticStatus::ERROR, "nothing can be written: " + summary.problem);
   status.add("folder", parameters_.folder.string());
   status.add("recordings there", summary.stored.size());
-  status.addf("size [MiB]", "%.1f", mebibytes(size));
+  status.addf("size [MiB]", "%.1f", inMebibytes(size));
   status.add("written", summary.written);
   status.add("failed", summary.failed);
   status.add("event that waits", summary.waiting ? nameOf(*summary.waiting) : "none");

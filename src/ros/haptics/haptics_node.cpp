@@ -9,7 +9,6 @@ namespace {
 
 constexpr auto kClockPeriod = std::chrono::milliseconds(20);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
-constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
 constexpr size_t kMaxTransforms = 64 << 20;  // size of a message [bytes]
 
 }  // namespace
@@ -53,7 +52,7 @@ void HapticsNode::start() {
 HapticsNode::~HapticsNode() {
   forces_.stop();
   cycle_->stop();
-  flush(kTimeToFlush);
+  flush();
   reports_.stop();
   master_watch_.stop();  // its thread uses the supervisor, which is declared after it
 }

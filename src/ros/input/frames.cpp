@@ -14,7 +14,7 @@ namespace {
 using sweep_guard_core::printable;
 
 constexpr auto kPollPeriod = std::chrono::milliseconds(1);
-constexpr std::uint32_t kQueueLength = 1000;
+constexpr std::uint32_t kTransformsQueued = 1000;
 constexpr size_t kMaxReason = 400;    // [bytes]
 constexpr size_t kMaxFrames = 10000;  // tf2 forgets none
 
@@ -37,7 +37,7 @@ Frames::Frames(const ros::NodeHandle& node, size_t max_message_size,
   buffer_.setUsingDedicatedThread(true);
   const auto subscribe = [&](const std::string& topic, bool is_static) {
     return subscribeBounded<tf2_msgs::TFMessage>(
-        thread_.on(node), {topic, kQueueLength, max_message_size},
+        thread_.on(node), {topic, kTransformsQueued, max_message_size},
         [this, is_static](const auto& event) { onTransforms(event, is_static); },
         [this, topic](const std::string& reason) { log_.error(topic, topic + ": " + reason); });
   };

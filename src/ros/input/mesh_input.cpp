@@ -22,10 +22,10 @@ using sweep_guard_core::SteadyTime;
 using sweep_guard_core::TriangleMesh;
 using sweep_guard_core::UpdateOutcome;
 
-constexpr size_t kMinCapacity = 256U << 20U;  // [bytes]
-constexpr size_t kOverhead = 512;             // of a job and its message, beside the serialized bytes
-constexpr size_t kMaxEarly = 1024;            // meshes
-constexpr std::uint32_t kQueueLength = 1000;  // each message may be of another workpiece; taken from it at once
+constexpr size_t kMinCapacity = 256U << 20U;   // [bytes]
+constexpr size_t kOverhead = 512;              // of a job and its message, beside the serialized bytes
+constexpr size_t kMaxEarly = 1024;             // meshes
+constexpr std::uint32_t kMeshesQueued = 1000;  // each message may be of another workpiece; taken from it at once
 
 void checkHeader(const std_msgs::Header& header) {
   if (header.frame_id.empty()) throw InvalidInput("header.frame_id is empty: name the frame of the vertices");
@@ -68,7 +68,7 @@ template <typename Msg>
 BoundedSubscriber MeshInput::subscribe(ros::NodeHandle node, const std::string& topic, size_t max_size,
                                        InputRecord& record) {
   return subscribeBounded<Msg>(
-      node, {topic, kQueueLength, max_size},
+      node, {topic, kMeshesQueued, max_size},
       [this](const ros::MessageEvent<const Msg>& event) { onMessage(event.getConstMessage()); },
       [this, &record](const std::string& reason) { unread(reason, record); });
 }

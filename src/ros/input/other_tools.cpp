@@ -17,7 +17,7 @@ using sweep_guard_core::FrameMotions;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_core::Time;
 
-constexpr std::uint32_t kQueueLength = 1000;
+constexpr std::uint32_t kToolsQueued = 1000;
 constexpr size_t kMaxBodiesSize = 16U << 20U;               // [bytes]
 constexpr auto kKept = std::chrono::seconds(1);             // of the measured motion
 constexpr auto kForgetPublisher = std::chrono::seconds(1);  // that is silent
@@ -87,7 +87,7 @@ BoundedSubscriber OtherTools::subscribe(const ros::NodeHandle& node, size_t tool
                                         size_t max_size, Hear hear) {
   const std::string name = tools_[tool].name;
   return subscribeBounded<Msg>(
-      thread_.on(node), {name + topic, kQueueLength, max_size},
+      thread_.on(node), {name + topic, kToolsQueued, max_size},
       [this, name, hear](const ros::MessageEvent<const Msg>& event) mutable {
         try {
           hear(*event.getConstMessage(), event.getPublisherName());

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "guard/frame_motion_store.h"
 #include "guard/workpiece_store.h"
 #include "ros/bounded.h"
 #include "ros/input/worker.h"
@@ -17,6 +16,7 @@
 #include "ros/parameters/parameters.h"
 #include "ros/sole_publisher.h"
 #include "ros/threads/queue_thread.h"
+#include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {

@@ -20,7 +20,7 @@ constexpr const char* kPassed = "positions of joints were dropped: others were s
 constexpr size_t kMaxJointsSize = 1U << 20U;  // [bytes]
 constexpr char kPoseTopic[] = "tool_pose";
 constexpr char kJointsTopic[] = "joint_states";
-constexpr std::uint32_t kQueueLength =
+constexpr std::uint32_t kPosesQueued =
     65536;  // 65 s at 1 kHz; a pose that ROS drops beyond that is a gap in header.seq
 
 struct PoseRefused : sweep_guard_core::InvalidInput {
@@ -74,7 +74,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
   if (live.initial().articulated) {
     articulated_ = std::make_unique<ArticulatedTool>(live);
     joints_ = subscribeBounded<sensor_msgs::JointState>(
-        thread_.on(node), {kJointsTopic, kQueueLength, kMaxJointsSize},
+        thread_.on(node), {kJointsTopic, kPosesQueued, kMaxJointsSize},
         [this](const auto& event) { refuseWhatFails([&] { acceptJoints(event); }); },
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
@@ -82,7 +82,7 @@ PoseInput::PoseInput(const ros::NodeHandle& node, const LiveParameters& live, co
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
   } else if (live.initial().tool_source == ToolSource::kTopic) {
     subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(
-        thread_.on(node), {kPoseTopic, kQueueLength, kMaxMessageSize}, [this](const auto& event) { onMessage(event); },
+        thread_.on(node), {kPoseTopic, kPosesQueued, kMaxMessageSize}, [this](const auto& event) { onMessage(event); },
         [this](const std::string& reason) { refuse(sweep_guard_core::kPoseInvalid, reason); });
   }
 }
@@ -144,7 +144,7 @@ void PoseInput::onTransforms() {
   last_transform_ = newest;
   if (!newest) return;
   try {
-    if (waiting_ >= kQueueLength) {
+    if (waiting_ >= kPosesQueued) {
       return monitor_.fault(sweep_guard_core::kPosesUnswept, "tool poses from tf were dropped: too many wait");
     }
     const ReceivedPose pose{

@@ -11,7 +11,6 @@
 #include <string>
 #include <utility>
 
-#include "guard/frame_motion_store.h"
 #include "guard/workpiece_store.h"
 #include "monitor/input_record.h"
 #include "ros/bounded.h"
@@ -21,6 +20,7 @@
 #include "ros/parameters/parameters.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/work_queue.h"
+#include "sweep_guard/guard/frame_motion.h"
 
 namespace sweep_guard_ros {
 

@@ -30,7 +30,6 @@ constexpr auto kTickPeriod = std::chrono::milliseconds(10);
 constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, looked at in every tick
 constexpr auto kFlagPeriod = std::chrono::milliseconds(100);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
-constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
 constexpr size_t kMaxMessageSize = 64 << 20;
 constexpr size_t kMaxGuards = 64;
 
@@ -101,7 +100,7 @@ WarningMergerNode::~WarningMergerNode() {
   }
   publish();
   publishFlags();
-  flush(kTimeToFlush);
+  flush();
 }
 
 void WarningMergerNode::start() {

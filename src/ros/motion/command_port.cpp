@@ -19,8 +19,8 @@ using sweep_guard_core::Time;
 using sweep_guard_core::Timestamps;
 using sweep_guard_core::Twist;
 
-constexpr std::uint32_t kQueueLength = 1;  // only the newest counts
-constexpr size_t kMaxMessageSize = 16384;
+constexpr std::uint32_t kCommandsQueued = 1;  // only the newest counts
+constexpr size_t kMaxCommandMessage = 16384;
 
 const geometry_msgs::Twist& twistOf(const geometry_msgs::Twist& msg) { return msg; }
 const geometry_msgs::Twist& twistOf(const geometry_msgs::TwistStamped& msg) { return msg.twist; }
@@ -55,7 +55,7 @@ class TypedPort : public CommandPort {
   TypedPort(ros::NodeHandle node, const CommandFrames& frames, Callbacks callbacks)
       : frames_(frames), publisher_(node.advertise<Msg>("guarded_command", 1)) {
     subscriber_ = subscribeBounded<Msg>(
-        node, {kTopic, kQueueLength, kMaxMessageSize},
+        node, {kTopic, kCommandsQueued, kMaxCommandMessage},
         [received = std::move(callbacks.received)](const ros::MessageEvent<const Msg>& event) {
           const auto& msg = event.getConstMessage();
           received({msg, timestampsOf(*msg)});

@@ -17,12 +17,12 @@ using sweep_guard_core::InvalidInput;
 using sweep_guard_core::PermissionInputs;
 using sweep_guard_core::PlaneSet;
 
-constexpr std::uint32_t kQueueLength = 1;  // only the newest counts
-constexpr size_t kMaxMessageSize = 64 << 20;
+constexpr std::uint32_t kGuardQueued = 1;  // only the newest counts
+constexpr size_t kMaxPlanesSize = 64 << 20;
 constexpr size_t kMaxPlanes = 64;  // as Proximity says
 
 template <typename Msg>
-Eigen::Vector3d fromXyz(const Msg& msg) {
+Eigen::Vector3d vectorFrom(const Msg& msg) {
   return {msg.x, msg.y, msg.z};
 }
 
@@ -36,7 +36,7 @@ void readPlanes(const sweep_guard::Proximity& msg, sweep_guard_core::SteadyTime 
   planes.uncovered = {msg.uncovered_distance, msg.uncovered_speed};
   planes.planes.clear();
   for (const sweep_guard::SeparatingPlane& plane : msg.planes) {
-    planes.planes.push_back({plane.piece, fromXyz(plane.normal), fromXyz(plane.point), plane.gap, plane.speed});
+    planes.planes.push_back({plane.piece, vectorFrom(plane.normal), vectorFrom(plane.point), plane.gap, plane.speed});
   }
   requireUsable(planes);
 }
@@ -47,7 +47,7 @@ std::shared_ptr<const sweep_guard_core::ToolBalls> toolFrom(const sweep_guard::T
   for (const sweep_guard::ToolPiece& piece : msg.pieces) {
     tool->pieces.emplace_back();
     for (const sweep_guard::ToolBall& ball : piece.balls) {
-      tool->pieces.back().push_back({fromXyz(ball.center), ball.radius});
+      tool->pieces.back().push_back({vectorFrom(ball.center), ball.radius});
     }
   }
   requireUsable(*tool);
@@ -67,7 +67,7 @@ template <typename Msg>
 BoundedSubscriber GuardInput::subscribe(const ros::NodeHandle& node, const std::string& topic, InputRecord& record,
                                         void (GuardInput::*accept)(const ros::MessageEvent<const Msg>&)) {
   return subscribeBounded<Msg>(
-      thread_.on(node), {topic, kQueueLength, kMaxMessageSize},
+      thread_.on(node), {topic, kGuardQueued, kMaxPlanesSize},
       [this, topic, &record, accept,
        sole = SolePublisher(silence_)](const ros::MessageEvent<const Msg>& event) mutable {
         const sweep_guard_core::SteadyTime received = std::chrono::steady_clock::now();

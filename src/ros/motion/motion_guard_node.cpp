@@ -10,7 +10,6 @@ namespace {
 constexpr auto kHoldPeriod = std::chrono::milliseconds(20);
 constexpr auto kStatusPeriod = std::chrono::milliseconds(10);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
-constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
 constexpr size_t kMaxTransforms = 64 << 20;  // size of a message [bytes]
 
 }  // namespace
@@ -53,9 +52,9 @@ void MotionGuardNode::start() {
 MotionGuardNode::~MotionGuardNode() {
   ticks_.stop();
   cycle_.stop();
-  flush(kTimeToFlush);  // the zero first
+  flush();  // the zero first
   hold_.hold();
-  flush(kTimeToFlush);
+  flush();
   reports_.stop();
   master_watch_.stop();  // its thread uses the supervisor, which is declared after it
 }

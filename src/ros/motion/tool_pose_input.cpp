@@ -9,8 +9,8 @@ namespace {
 
 using sweep_guard_core::InvalidInput;
 
-constexpr std::uint32_t kQueueLength = 1;  // only the newest counts
-constexpr size_t kMaxMessageSize = 16384;
+constexpr std::uint32_t kPosesQueued = 1;  // only the newest counts
+constexpr size_t kMaxPoseSize = 16384;
 
 Eigen::Isometry3d nearestInTime(const Frames& frames, const std::string& target, const std::string& source,
                                 sweep_guard_core::Time stamp) {
@@ -35,7 +35,7 @@ ToolPoseInput::ToolPoseInput(const ros::NodeHandle& node, const PoseSource& sour
     transforms_changed_ = frames_.onChange([this] { onTransforms(); });
   } else {
     subscriber_ = subscribeBounded<geometry_msgs::PoseStamped>(
-        thread_.on(node), {source.topic, kQueueLength, kMaxMessageSize},
+        thread_.on(node), {source.topic, kPosesQueued, kMaxPoseSize},
         [this](const auto& event) { onMessage(*event.getConstMessage()); },
         [this](const std::string& reason) { refuse(reason); });
   }

@@ -17,8 +17,7 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr auto kZeroPeriod = std::chrono::milliseconds(20);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
-constexpr auto kTimeToFlush = std::chrono::milliseconds(200);
-constexpr size_t kMaxMessageSize = 4096;
+constexpr size_t kMaxCommandSize = 4096;
 
 bool isFinite(const geometry_msgs::Vector3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -80,7 +79,7 @@ ZeroOnSilence::~ZeroOnSilence() {
   zeros_.stop();
   const std::lock_guard lock(mutex_);
   send_zero_();
-  flush(kTimeToFlush);
+  flush();
 }
 
 void ZeroOnSilence::start() {
@@ -97,7 +96,7 @@ void ZeroOnSilence::relay(const ros::NodeHandle& node) {
   output_ = ros::NodeHandle(node).advertise<Msg>("output", 1);
   send_zero_ = [this] { output_.publish(zero<Msg>()); };
   input_ = subscribeBounded<Msg>(
-      commands_.on(node), {"command", 1, kMaxMessageSize},
+      commands_.on(node), {"command", 1, kMaxCommandSize},
       [this](const ros::MessageEvent<const Msg>& event) { pass<Msg>(event.getConstMessage()); },
       [this](const std::string& reason) { refuse(reason); });
 }

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "motion/command_silence.h"
 #include "ros/bounded.h"
 #include "ros/log_throttle.h"
 #include "ros/master_watch.h"
@@ -16,6 +15,7 @@
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
 #include "sweep_guard/common/priority_mutex.h"
+#include "sweep_guard/motion/command_period.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 
 namespace sweep_guard_ros {

@@ -10,10 +10,11 @@
 namespace sweep_guard_ros {
 namespace {
 
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kBodiesQueued = 100;
 constexpr auto kMinPeriod = std::chrono::milliseconds(5);
 
-sweep_guard::LinkSurface toMsg(const sweep_guard_core::LinkSurface& surface, size_t body, const std::string& tool) {
+sweep_guard::LinkSurface surfaceMsg(const sweep_guard_core::LinkSurface& surface, size_t body,
+                                    const std::string& tool) {
   sweep_guard::LinkSurface msg;
   msg.link = surface.link.empty() ? tool : surface.link;
   msg.body = static_cast<std::uint32_t>(body);
@@ -23,7 +24,7 @@ sweep_guard::LinkSurface toMsg(const sweep_guard_core::LinkSurface& surface, siz
 }
 
 void add(const sweep_guard_core::PredictedPose& pose, sweep_guard::BodyMotion& motion) {
-  motion.predicted.push_back(sweep_guard_ros::toMsg(pose, {}));
+  motion.predicted.push_back(toMsg(pose, {}));
   motion.predicted_deviation_bounds.push_back(pose.deviation_bound);
 }
 
@@ -42,7 +43,7 @@ boost::shared_ptr<sweep_guard::ToolSurface> surfaceMsg(const Parameters& paramet
   msg->tool = parameters.tool_frame;
   for (size_t body = 0; body < parameters.bodies->size(); ++body) {
     for (const auto& surface : sweep_guard_core::linkSurfaces((*parameters.bodies)[body]))
-      msg->links.push_back(toMsg(surface, body, parameters.tool_frame));
+      msg->links.push_back(surfaceMsg(surface, body, parameters.tool_frame));
   }
   return msg;
 }
@@ -51,7 +52,7 @@ BodiesPublisher::BodiesPublisher(ros::NodeHandle private_node, const LiveParamet
     : parameters_(parameters),
       run_id_(randomRunId()),
       surface_publisher_(private_node.advertise<sweep_guard::ToolSurface>("surface", 1, /*latch=*/true)),
-      bodies_publisher_(private_node.advertise<sweep_guard::ToolBodies>("bodies", kQueue)) {
+      bodies_publisher_(private_node.advertise<sweep_guard::ToolBodies>("bodies", kBodiesQueued)) {
   setTool(*parameters.initial().bodies, surfaceMsg(parameters.initial()));
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "guard/sparse_motion.h"
+#include "guard/pose_history.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/guard/prediction.h"
 

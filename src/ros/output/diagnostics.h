@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "guard/allowed_matches.h"
 #include "monitor/sweep_statistics.h"
 #include "ros/input/mesh_input.h"
 #include "ros/input/pose_input.h"
@@ -13,6 +12,7 @@
 #include "ros/parameters/reconfigure_server.h"
 #include "ros/threads/supervisor.h"
 #include "sweep_guard/common/time.h"
+#include "sweep_guard/guard/allowed_contact.h"
 
 namespace sweep_guard_ros {
 

@@ -3,6 +3,7 @@
 #include <ros/init.h>
 #include <ros/poll_manager.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -13,6 +14,7 @@ namespace {
 // roscpp sends in the rounds of its poll thread: one that runs already may have passed the publishers, the next takes the
 // messages from them and then writes to the sockets, and the last one shows that this is done.
 constexpr int kRounds = 3;
+constexpr auto kMaxWait = std::chrono::milliseconds(200);
 
 struct Rounds {
   std::mutex mutex;
@@ -22,7 +24,7 @@ struct Rounds {
 
 }  // namespace
 
-void flush(std::chrono::milliseconds longest) {
+void flush() {
   if (!ros::isStarted() || ros::isShuttingDown()) return;
   const auto rounds = std::make_shared<Rounds>();
   const auto& poll_manager = ros::PollManager::instance();
@@ -35,7 +37,7 @@ void flush(std::chrono::milliseconds longest) {
   poll_manager->getPollSet().signal();
   {
     std::unique_lock lock(rounds->mutex);
-    rounds->changed.wait_for(lock, longest, [&] { return rounds->count >= kRounds; });
+    rounds->changed.wait_for(lock, kMaxWait, [&] { return rounds->count >= kRounds; });
   }
   poll_manager->removePollThreadListener(connection);
 }

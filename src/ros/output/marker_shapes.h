@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sweep_guard/common/time.h"
-#include "sweep_guard/geometry/convex_polytope.h"
+#include "sweep_guard/geometry/half_space.h"
 #include "sweep_guard/geometry/swept_volume.h"
 #include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/guard/workpiece.h"

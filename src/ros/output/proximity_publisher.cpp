@@ -15,9 +15,10 @@ namespace {
 using sweep_guard_core::InStage;
 using sweep_guard_core::Stage;
 
-constexpr std::uint32_t kQueue = 100;  // 0.1 s at 1 kHz: older planes serve nobody
+constexpr std::uint32_t kPlanesQueued = 100;  // 0.1 s at 1 kHz: older planes serve nobody
 
-sweep_guard::SeparatingPlane toMsg(const sweep_guard_core::ProximityPlane& found, const sweep_guard_core::Tool& tool) {
+sweep_guard::SeparatingPlane planeMsg(const sweep_guard_core::ProximityPlane& found,
+                                      const sweep_guard_core::Tool& tool) {
   const sweep_guard_core::SeparatingPlane& plane = found.plane;
   sweep_guard::SeparatingPlane message;
   message.tool_link = tool.pieces()[plane.piece].link;
@@ -31,7 +32,7 @@ sweep_guard::SeparatingPlane toMsg(const sweep_guard_core::ProximityPlane& found
   return message;
 }
 
-sweep_guard::ToolPiece toMsg(const sweep_guard_core::ConvexPiece& piece) {
+sweep_guard::ToolPiece pieceMsg(const sweep_guard_core::ConvexPiece& piece) {
   sweep_guard::ToolPiece message;
   message.link = piece.link;
   for (const sweep_guard_core::ToolBall& ball : sweep_guard_core::enclosingBalls(piece.shape_T)) {
@@ -48,7 +49,7 @@ ProximityPublisher::ProximityPublisher(ros::NodeHandle private_node, const LiveP
                                        const sweep_guard_core::WarningMonitor& monitor)
     : parameters_(parameters),
       known_surfaces_(monitor),
-      planes_publisher_(private_node.advertise<sweep_guard::Proximity>("proximity", kQueue)),
+      planes_publisher_(private_node.advertise<sweep_guard::Proximity>("proximity", kPlanesQueued)),
       tool_publisher_(private_node.advertise<sweep_guard::ToolBalls>("tool_balls", 1, /*latch=*/true)),
       tool_revision_(std::random_device()()) {
   setTool(*parameters.initial().tool);
@@ -60,7 +61,7 @@ void ProximityPublisher::setTool(const sweep_guard_core::Tool& tool) {
   message->header.frame_id = parameters_.initial().tool_frame;
   message->tool = parameters_.initial().tool_frame;
   message->revision = ++tool_revision_;
-  for (const sweep_guard_core::ConvexPiece& piece : tool.pieces()) message->pieces.push_back(toMsg(piece));
+  for (const sweep_guard_core::ConvexPiece& piece : tool.pieces()) message->pieces.push_back(pieceMsg(piece));
   tool_publisher_.publish(message);
 }
 
@@ -77,15 +78,15 @@ void ProximityPublisher::swept(const sweep_guard_core::PoseWithFrames& pose,
                proximity_);
   const InStage publishing(Stage::kPublish);
   const auto message = boost::make_shared<sweep_guard::Proximity>();
-  message->header.stamp = sweep_guard_ros::toMsg(pose.stamp);
+  message->header.stamp = toMsg(pose.stamp);
   message->header.frame_id = parameters->fixed_frame;
   message->tool = parameters->tool_frame;
-  message->tool_pose = sweep_guard_ros::toMsg(pose.X_WT);
+  message->tool_pose = toMsg(pose.X_WT);
   message->tool_revision = tool_revision_;
-  message->valid_until = sweep_guard_ros::toMsg(pose.stamp + parameters->limits.pose_timeout);
+  message->valid_until = toMsg(pose.stamp + parameters->limits.pose_timeout);
   message->valid = known_surfaces_.complete(report, proximity_.unplaced);
   message->planes.reserve(proximity_.planes.size());
-  for (const auto& plane : proximity_.planes) message->planes.push_back(toMsg(plane, tool));
+  for (const auto& plane : proximity_.planes) message->planes.push_back(planeMsg(plane, tool));
   message->uncovered_distance = proximity_.uncovered.distance;
   message->uncovered_speed = proximity_.uncovered.speed;
   planes_publisher_.publish(message);

@@ -6,7 +6,7 @@
 #include "ros/output/known_surfaces.h"
 #include "ros/parameters/parameters.h"
 #include "sweep_guard/guard/guard.h"
-#include "sweep_guard/guard/sweep_report.h"
+#include "sweep_guard/guard/sweep.h"
 #include "sweep_guard/motion/proximity_finder.h"
 
 namespace sweep_guard_ros {

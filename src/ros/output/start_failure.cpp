@@ -51,7 +51,7 @@ void reportStartFailure(ros::NodeHandle node, const std::string& name, const std
   while (publisher.getNumSubscribers() < listening && std::chrono::steady_clock::now() < deadline) {
     ros::WallDuration(0.01).sleep();
   }
-  flush(std::chrono::milliseconds(200));
+  flush();
 }
 
 }  // namespace sweep_guard_ros

@@ -12,7 +12,7 @@ namespace {
 
 using sweep_guard_core::TriangleTouches;
 
-sweep_guard::ObjectTouches toMsg(sweep_guard_core::ObjectTouches& object) {
+sweep_guard::ObjectTouches touchesMsg(sweep_guard_core::ObjectTouches& object) {
   const auto ascending = [](const TriangleTouches& a, const TriangleTouches& b) { return a.triangle < b.triangle; };
   std::sort(object.triangles.begin(), object.triangles.end(), ascending);
   sweep_guard::ObjectTouches message;
@@ -59,10 +59,10 @@ void TouchesPublisher::publishLocked() {
     const std::lock_guard lock(map_mutex_);
     if (map_.changes() == published_) return;
     published_ = map_.changes();
-    message->header.stamp = sweep_guard_ros::toMsg(map_.newest());
+    message->header.stamp = toMsg(map_.newest());
     map_.touches(objects_);
   }
-  for (sweep_guard_core::ObjectTouches& object : objects_) message->objects.push_back(toMsg(object));
+  for (sweep_guard_core::ObjectTouches& object : objects_) message->objects.push_back(touchesMsg(object));
   publisher_.publish(message);
 }
 

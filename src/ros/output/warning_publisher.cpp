@@ -15,7 +15,6 @@ using sweep_guard_core::Stage;
 
 constexpr auto kPeriod = std::chrono::milliseconds(45);  // 20 Hz at least, polled every 10 ms
 constexpr auto kValid = std::chrono::milliseconds(200);
-constexpr auto kFlushTime = std::chrono::milliseconds(200);
 
 std_msgs::Bool flagMessage(bool raised) {
   std_msgs::Bool msg;
@@ -53,7 +52,7 @@ void WarningPublisher::publishFinal() {
   }
   publishReflex();
   publishConsidered();
-  flush(kFlushTime);
+  flush();
 }
 
 void WarningPublisher::publishReflex() { publishFlag(reflex_publisher_, &sweep_guard::Warning::reflex); }

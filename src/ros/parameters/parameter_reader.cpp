@@ -131,13 +131,6 @@ double ParameterReader::number(const std::string& key, double fallback, const Ra
   return toNumber(value);
 }
 
-std::optional<double> ParameterReader::deprecatedNumber(const std::string& key, double shown, const Range& range,
-                                                        const std::string& effect) {
-  const double value = number(key, shown, range, effect);
-  described_.back().deprecated = true;
-  return settings_.at(key) ? std::optional(value) : std::nullopt;
-}
-
 int ParameterReader::integer(const std::string& key, int fallback, int lowest, int highest, const std::string& effect) {
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) value = fallback;

@@ -7,16 +7,18 @@
 #include <limits>
 #include <sstream>
 
+#include "common/number_text.h"
 #include "ros/output/markers.h"
 #include "ros/parameters/tool_parameters.h"
-#include "ros/profile_file.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
 namespace {
 
 using sweep_guard_core::Duration;
+using sweep_guard_core::shortestText;
 using sweep_guard_core::toSeconds;
+using sweep_guard_core::WarningThresholds;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMinStep = 0.001;        // [s]
@@ -26,11 +28,7 @@ constexpr size_t kMebibyte = 1U << 20;
 constexpr double kMaxHorizon = 5.0;  // [s]
 constexpr double kMinProbability = 0.001;
 constexpr double kShownProbability = 0.01;  // smaller ones are shown only if a warning depends on them
-const std::string kOldThreshold = "warning/min_probability";
-constexpr double kMaxStiffness = 1e12;  // [N/m^3]
-constexpr double kOldDefault = 0.1;     // on the scale of the old name
-const std::vector<std::string> kThresholds = {"warning/considered_on", "warning/considered_off",
-                                              "warning/reflex_probability"};
+constexpr double kMaxStiffness = 1e12;      // [N/m^3]
 
 // May change while the node runs, with all keys of kMarkers.
 const std::vector<std::string> kChangeable = {"tool/padding",
@@ -51,7 +49,6 @@ const std::vector<std::string> kChangeable = {"tool/padding",
                                               "warning/considered_on",
                                               "warning/considered_off",
                                               "warning/reflex_probability",
-                                              kOldThreshold,
                                               "warning/hold_time",
                                               "warning/acknowledge_time",
                                               "warning/acknowledge_distance",
@@ -127,19 +124,6 @@ sweep_guard_core::InteractionOptions readInteraction(ParameterReader& read) {
   return options;
 }
 
-// @param before  has the same profile; null: at the start
-void readProfileFile(ParameterReader& read, const Parameters* before, Parameters& parameters) {
-  parameters.profile_file = read.path(
-      "prediction/profile",
-      "direct only: file that ~save_profile has written; the prediction begins with what it holds, and goes on to "
-      "learn. Empty: it begins with constant velocity.");
-  if (before != nullptr) {
-    parameters.guard.predictor.profile = before->guard.predictor.profile;
-  } else if (!parameters.profile_file.empty()) {
-    parameters.guard.predictor.profile = readProfile(parameters.profile_file);
-  }
-}
-
 sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pose_timeout) {
   const ParameterReader::Range any{kMinStep, kMaxHorizon, "s"};
   const double reflex = read.number("horizon/reflex", 0.1, {0.01, 1.0, "s"},
@@ -160,15 +144,9 @@ sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pos
           pose_timeout};
 }
 
-sweep_guard_core::WarningThresholds readThresholds(ParameterReader& read) {
+// @param thresholds  of the keys that are not set
+WarningThresholds readThresholds(ParameterReader& read, WarningThresholds thresholds = {}) {
   const ParameterReader::Range any{kMinProbability, 1.0};
-  sweep_guard_core::WarningThresholds thresholds;
-  const std::optional<double> all =
-      read.deprecatedNumber(kOldThreshold, kOldDefault, any,
-                            "Old name, and old scale: sets those of warning/considered_on, warning/considered_off and "
-                            "warning/reflex_probability that are not set themselves; while the guard runs, those that "
-                            "are not in the same request.");
-  if (all) thresholds = sweep_guard_core::WarningThresholds::ofMinProbability(*all);
   thresholds.considered_on =
       read.number("warning/considered_on", thresholds.considered_on, any,
                   "A contact off the predicted path raises CONSIDERED from this probability "
@@ -185,8 +163,22 @@ sweep_guard_core::WarningThresholds readThresholds(ParameterReader& read) {
   return thresholds;
 }
 
+// Ignored, it would make the guard warn otherwise than it was configured to.
+void refuseMinProbability(const ros::NodeHandle& private_node) {
+  const std::string key = "warning/min_probability";
+  XmlRpc::XmlRpcValue value;
+  if (!private_node.getParam(key, value)) return;
+  ParameterReader read(private_node);
+  const double all = read.number(key, 1.0, {kMinProbability, 1.0});
+  const auto [reflex, on, off] = readThresholds(read, WarningThresholds::ofMinProbability(all));
+  throw sweep_guard_core::InvalidInput(
+      "parameter " + private_node.resolveName(key) + " has been replaced by three: remove it, and set " +
+      "warning/considered_on: " + shortestText(on) + ", warning/considered_off: " + shortestText(off) +
+      ", warning/reflex_probability: " + shortestText(reflex) + " to be warned as by " + shortestText(all));
+}
+
 // What is farther off the predicted path raises or keeps no warning, and is not worth showing.
-double maxDeviations(const sweep_guard_core::WarningThresholds& thresholds) {
+double maxDeviations(const WarningThresholds& thresholds) {
   const auto deviations = [](sweep_guard_core::PredictionInterval interval, double threshold) {
     return sweep_guard_core::deviationsAt(interval, std::min(kShownProbability, threshold));
   };
@@ -273,7 +265,6 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
       "timing/mesh_timeout", 0.5, {0.01, kInfinity, "s"},
       "An older workpiece makes the warning UNKNOWN. .inf (inf on a command line): workpieces do not age."));
   parameters.guard.predictor = readPredictor(read);
-  readProfileFile(read, before, parameters);
   parameters.guard.horizon = readHorizon(read, parameters.limits.pose_timeout);
   parameters.limits.reflex = parameters.guard.horizon.reflex;
   parameters.limits.considered = parameters.guard.horizon.considered;
@@ -333,16 +324,10 @@ std::shared_ptr<const sweep_guard_core::Robot> articulatedRobot(const Parameters
 }
 
 Parameters loadParameters(const ros::NodeHandle& private_node) {
+  refuseMinProbability(private_node);
   ParameterReader read(private_node);
   Parameters parameters = readAll(read, nullptr);
   read.warnOfUnread();
-  if (parameters.settings.at(kOldThreshold)) {
-    const auto& [reflex, on, off] = parameters.limits.thresholds;
-    ROS_WARN(
-        "%s is an old name: it sets those of warning/considered_on (now %g), warning/considered_off (%g) and "
-        "warning/reflex_probability (%g) that are not set; without it they have their defaults",
-        private_node.resolveName(kOldThreshold).c_str(), on, off, reflex);
-  }
   return parameters;
 }
 
@@ -367,9 +352,6 @@ Parameters changeParameters(const ros::NodeHandle& private_node, const Parameter
       throw sweep_guard_core::InvalidInput("parameter " + name + " does not change while the guard runs: restart it");
     }
     std::visit([&, key = key](const auto& held) { settings[key] = XmlRpc::XmlRpcValue(held); }, value);
-  }
-  for (const std::string& key : kThresholds) {
-    if (changes.count(kOldThreshold) != 0 && changes.count(key) == 0) settings[key].reset();
   }
   ParameterReader read(private_node, std::move(settings));
   return readAll(read, &before);

@@ -47,7 +47,6 @@ struct Parameters {
   SelfTest self_test;
   int cross_check;  ///< of so many queries of the detector, one is asked twice; 0: none
   sweep_guard_core::GuardOptions guard;
-  std::string profile_file;  ///< that the profile of the predictor was read from; empty: none
   sweep_guard_core::WarningLimits limits;
   double acknowledge_distance;  ///< [m]
   double proximity_reach;       ///< [m]; 0: no planes
@@ -72,7 +71,8 @@ std::shared_ptr<const sweep_guard_core::Robot> articulatedRobot(const Parameters
 /// Reads the private parameters, and makes the tool from them or from a robot description. A missing parameter takes
 /// its default. Warns of each parameter that is not read.
 /// @throws sweep_guard_core::InvalidInput naming key, value and range if one has the wrong type, is NaN or is out of
-///     range; naming link and file if the robot description makes no tool
+///     range; naming the three keys that replaced `warning/min_probability` if that is set; naming link and file if
+///     the robot description makes no tool
 Parameters loadParameters(const ros::NodeHandle& private_node);
 
 /// Refuses to start with the defaults alone in place of a configuration: a master that was started anew has lost it.

@@ -21,9 +21,6 @@ using sweep_guard_core::printable;
 using sweep_guard_core::TriangleMesh;
 using sweep_guard_core::Workpiece;
 
-constexpr size_t kMaxRequest = 1024;                     // [bytes]
-constexpr auto kGuardTimeout = std::chrono::seconds(1);  // of a guard that is stuck in a sweep
-constexpr auto kTransformWait = std::chrono::milliseconds(100);
 constexpr size_t kMaxCut = 20000;  // triangles; the time to cut grows with them: a larger mesh becomes one hull
 
 std::vector<sweep_guard_core::ConvexShape> shapesOf(const TriangleMesh& mesh_M) {

@@ -6,12 +6,6 @@
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
-namespace {
-
-constexpr size_t kMaxRequest = 1024;  // [bytes]
-
-}  // namespace
-
 Controls::Controls(const ros::NodeHandle& private_node, const LiveParameters& parameters,
                    sweep_guard_core::WarningMonitor& monitor, const sweep_guard_core::WorkpieceStore& workpieces,
                    GuardControls guard)

@@ -16,30 +16,29 @@ using sweep_guard_core::isName;
 using sweep_guard_core::SteadyTime;
 
 constexpr std::uint32_t kQueueLength = 100;  // of a stroke of the brush
-constexpr auto kTransformWait = std::chrono::milliseconds(100);
 
-sweep_guard::Intention toMsg(const sweep_guard_core::Intention& intention, const sweep_guard_core::Instant& now,
-                             std::uint32_t revision) {
+sweep_guard::Intention intentionMsg(const sweep_guard_core::Intention& intention, const sweep_guard_core::Instant& now,
+                                    std::uint32_t revision) {
   sweep_guard::Intention msg;
   msg.mesh_id = intention.mesh_id;
   msg.revision = revision;
   msg.triangles = intention.triangles;
   msg.depth = intention.depth;
   msg.tool_links = intention.tool_links;
-  if (intention.until) msg.until = sweep_guard_ros::toMsg(now.stamp + (*intention.until - now.steady));
+  if (intention.until) msg.until = toMsg(now.stamp + (*intention.until - now.steady));
   return msg;
 }
 
-sweep_guard::Intended toMsg(const sweep_guard_core::Intentions& intentions,
-                            const sweep_guard_core::Workpieces& workpieces) {
+sweep_guard::Intended intendedMsg(const sweep_guard_core::Intentions& intentions,
+                                  const sweep_guard_core::Workpieces& workpieces) {
   const sweep_guard_core::Instant at = now();
   sweep_guard::Intended msg;
-  msg.header.stamp = sweep_guard_ros::toMsg(at.stamp);
+  msg.header.stamp = toMsg(at.stamp);
   for (const sweep_guard_core::Intention& intention : intentions) {
     const auto concerned = std::find_if(workpieces.begin(), workpieces.end(),
                                         [&](const auto& workpiece) { return intention.concerns(*workpiece); });
     if (concerned == workpieces.end()) continue;
-    msg.intentions.push_back(toMsg(intention, at, (*concerned)->revision));
+    msg.intentions.push_back(intentionMsg(intention, at, (*concerned)->revision));
   }
   return msg;
 }
@@ -154,7 +153,7 @@ void IntendService::publishIfChanged() {
   const auto intentions = dependencies_.intentions.at(std::chrono::steady_clock::now());
   if (intentions == published_) return;
   published_ = intentions;
-  sweep_guard::Intended msg = toMsg(*intentions, dependencies_.workpieces.snapshot());
+  sweep_guard::Intended msg = intendedMsg(*intentions, dependencies_.workpieces.snapshot());
   msg.refusal = refusal_;
   publisher_.publish(msg);
 }

@@ -13,6 +13,10 @@
 
 namespace sweep_guard_ros {
 
+constexpr size_t kMaxRequest = 1024;  ///< [bytes]; of a request that holds little more than names
+constexpr auto kTransformWait = std::chrono::milliseconds(100);  ///< of a call for a transform
+constexpr auto kGuardTimeout = std::chrono::seconds(1);          ///< of a call for a guard that is stuck in a sweep
+
 /// Runs the calls of services in a thread of their own. At most 4 calls wait there while one runs. Any more are answered
 /// BUSY at once, in a second thread. The servers must be destroyed first.
 class LimitedCalls : public ros::CallbackQueueInterface {

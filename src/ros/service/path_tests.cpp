@@ -15,7 +15,6 @@ using sweep_guard_core::InvalidInput;
 using sweep_guard_core::PathResult;
 using sweep_guard_core::printable;
 
-constexpr auto kTransformWait = std::chrono::milliseconds(100);
 constexpr auto kGrace = std::chrono::milliseconds(50);  // for the sweeps, which know where they were given up
 
 sweep_guard_core::Error givenUp(sweep_guard_core::Duration deadline, const std::string& when) {

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "guard/frame_motion_store.h"
 #include "guard/workpiece_store.h"
 #include "ros/input/frames.h"
 #include "ros/parameters/parameters.h"
 #include "ros/process.h"
 #include "ros/service/path_tester.h"
 #include "ros/threads/background_thread.h"
+#include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/monitor/warning_monitor.h"
 
 namespace sweep_guard_ros {

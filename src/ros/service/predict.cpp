@@ -18,9 +18,7 @@ using sweep_guard_core::InvalidInput;
 using sweep_guard_core::PredictionInterval;
 
 constexpr Duration kMaxHorizon = std::chrono::seconds(5);
-constexpr auto kGuardTimeout = std::chrono::seconds(1);  // of a guard that is stuck in a sweep
-constexpr size_t kMaxRequest = 1024;                     // [bytes]
-constexpr auto kTestTime = std::chrono::seconds(1);      // the rest of the path is tested coarsely
+constexpr auto kTestTime = std::chrono::seconds(1);  // the rest of the path is tested coarsely
 
 std::vector<std::string> linksOf(const sweep_guard_core::Tool& body) {
   std::vector<std::string> links;

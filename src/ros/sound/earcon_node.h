@@ -16,7 +16,7 @@
 #include "ros/sound/sound_player.h"
 #include "ros/threads/queue_thread.h"
 #include "ros/threads/timer_thread.h"
-#include "sound/synthesizer.h"
+#include "sound/earcon.h"
 #include "sweep_guard/common/priority_mutex.h"
 #include "sweep_guard/ros/parameters/parameter_reader.h"
 

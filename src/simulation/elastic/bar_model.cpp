@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "sweep_guard/common/error.h"
 
@@ -40,6 +41,12 @@ std::vector<double> lengthsOf(const BarStructure& structure) {
 }
 
 }  // namespace
+
+BarStructure::BarStructure(Eigen::MatrixX3d nodes)
+    : rest(std::move(nodes)),
+      masses(Eigen::VectorXd::Zero(rest.rows())),
+      foundation(Eigen::VectorXd::Zero(rest.rows())),
+      fixed(static_cast<size_t>(rest.rows()), false) {}
 
 /// The pressures of a step. They are linear in the displacements of their nodes, so that they are part of the step's
 /// linear system; what the nodes answer to them stands in for another matrix.

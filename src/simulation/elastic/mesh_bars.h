@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulation/elastic/bar_structure.h"
+#include "simulation/elastic/bar_model.h"
 #include "sweep_guard/geometry/triangle_mesh.h"
 
 namespace sweep_guard_simulation {

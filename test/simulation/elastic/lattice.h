@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "simulation/elastic/bar_structure.h"
+#include "simulation/elastic/bar_model.h"
 
 namespace sweep_guard_simulation {
 

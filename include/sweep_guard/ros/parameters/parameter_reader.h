@@ -29,7 +29,6 @@ struct ParameterInfo {
   std::vector<std::string> choices;  ///< allowed texts of choice(); empty: any
   std::string wanted;                ///< type, unit and range, as text
   std::string effect;                ///< sentences for users
-  bool deprecated = false;           ///< no longer listed in doc/interface.md and config/sweep_guard.yaml
 };
 
 struct ParameterRange {
@@ -63,10 +62,6 @@ class ParameterReader {
   /// Reads a number; accepts an integer. Checks the fallback, too, as do integer(), name() and choice().
   double number(const std::string& key, double fallback, const Range& range, const std::string& effect = "",
                 const std::optional<Bound>& bound = {});
-  /// Reads a number whose key has been replaced by others; empty if not set.
-  /// @param shown  value that clients see while it is not set
-  std::optional<double> deprecatedNumber(const std::string& key, double shown, const Range& range,
-                                         const std::string& effect);
   int integer(const std::string& key, int fallback, int lowest, int highest, const std::string& effect = "");
   bool flag(const std::string& key, bool fallback, const std::string& effect = "");
   /// Reads a text, which may be empty.

@@ -1,0 +1,8 @@
+#!/bin/bash
+# replay.sh PROGRAM CORPUS.tar.gz FOUND: runs a target on the inputs in the archive, unpacked below the working directory, and on
+# those that broke something, if there are any.
+set -euo pipefail
+inputs=corpus/$(basename "$2" .tar.gz)
+rm -rf "$inputs" && mkdir -p "$inputs"
+tar -xzf "$2" -C "$inputs"
+"$1" "$inputs" "$3"
