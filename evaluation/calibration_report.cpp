@@ -2,26 +2,25 @@
 
 #include <fmt/format.h>
 
+#include "common/csv.h"
 #include "guard/contact_probability.h"
-#include "recording/gnuplot.h"
 
 namespace sweep_guard_evaluation {
 
+using sweep_guard_core::csvLine;
+using sweep_guard_core::csvNumber;
 using sweep_guard_core::PredictionInterval;
 using sweep_guard_core::toSeconds;
-using sweep_guard_recording::PlotPage;
 
 namespace {
 
-struct ScaleStyle {
+struct ScaleName {
   Scale scale;
   const char* title;
-  const char* color;
 };
 
-constexpr ScaleStyle kScales[] = {{Scale::kPlane, "one plane", "#999999"},
-                                  {Scale::kGuard, "the guard", "#0072B2"},
-                                  {Scale::kOthers, "fitted to the other recordings", "#D55E00"}};
+constexpr ScaleName kScales[] = {
+    {Scale::kPlane, "one plane"}, {Scale::kGuard, "the guard"}, {Scale::kOthers, "fitted to the other recordings"}};
 
 std::vector<PredictionOutcome> allBut(const std::vector<std::vector<PredictionOutcome>>& outcomes, size_t recording) {
   std::vector<PredictionOutcome> all;
@@ -39,27 +38,27 @@ std::string figuresRow(const std::string& name, const std::vector<Forecast>& for
 
 std::string figuresTable(const IntervalCalibration& calibration) {
   std::string table;
-  for (const ScaleStyle& style : kScales) {
-    table += fmt::format("  {:<30} {:>8} {:>8} {:>8} {:>8} {:>8}\n", style.title, "count", "error", "Brier", "skill",
+  for (const ScaleName& scale : kScales) {
+    table += fmt::format("  {:<30} {:>8} {:>8} {:>8} {:>8} {:>8}\n", scale.title, "count", "error", "Brier", "skill",
                          "ratio");
     for (size_t i = 0; i < calibration.recordings.size(); ++i) {
-      table += figuresRow(calibration.recordings[i], calibration.forecasts(style.scale, i));
+      table += figuresRow(calibration.recordings[i], calibration.forecasts(scale.scale, i));
     }
-    table += figuresRow("all", calibration.forecasts(style.scale));
+    table += figuresRow("all", calibration.forecasts(scale.scale));
   }
   return table;
 }
 
 std::string binsTable(const IntervalCalibration& calibration) {
   std::string table = "  ten equal bins of all recordings: mean probability, frequency\n";
-  for (const ScaleStyle& style : kScales) {
+  for (const ScaleName& scale : kScales) {
     std::string probabilities;
     std::string frequencies;
-    for (const ReliabilityBin& bin : calibrationOf(calibration.forecasts(style.scale)).bins) {
+    for (const ReliabilityBin& bin : calibrationOf(calibration.forecasts(scale.scale)).bins) {
       probabilities += fmt::format(" {:.3f}", bin.probability);
       frequencies += fmt::format(" {:.3f}", bin.frequency);
     }
-    table += fmt::format("    {:<30}{}\n    {:<30}{}\n", style.title, probabilities, "", frequencies);
+    table += fmt::format("    {:<30}{}\n    {:<30}{}\n", scale.title, probabilities, "", frequencies);
   }
   return table;
 }
@@ -77,24 +76,6 @@ std::string knotsTable(const std::vector<IntervalCalibration>& calibrations) {
     table += "},";
   }
   return table + '\n';
-}
-
-std::string panel(const IntervalCalibration& calibration) {
-  std::string data;
-  std::string plot = "plot x with lines dt 2 lc rgb 'black'";
-  for (const ScaleStyle& style : kScales) {
-    const auto number = static_cast<int>(style.scale);
-    data += fmt::format("$scale{} << END\n", number);
-    for (const ReliabilityBin& bin : calibrationOf(calibration.forecasts(style.scale)).bins) {
-      data += fmt::format("{:.6g} {:.6g}\n", bin.probability, bin.frequency);
-    }
-    data += "END\n";
-    plot += fmt::format(", $scale{} with linespoints lw 2 pt 7 lc rgb '{}'", number, style.color);
-  }
-  return fmt::format(
-      "{}set title 'within {:g} s' offset 0,-0.6\nset xrange [0:1]\nset yrange [0:1]\nset xlabel 'probability'\n"
-      "set ylabel 'how often it came'\n{}",
-      data, toSeconds(calibration.length), plot);
 }
 
 }  // namespace
@@ -145,15 +126,17 @@ std::string calibrationTable(const std::vector<IntervalCalibration>& calibration
   return table + knotsTable(calibrations);
 }
 
-std::string calibrationPlot(const std::vector<IntervalCalibration>& calibrations, const std::string& path) {
-  std::vector<std::string> entries;
-  for (const ScaleStyle& style : kScales) {
-    entries.push_back(fmt::format("with lines lw 4 lc rgb '{}' title '{}'", style.color, style.title));
+std::string calibrationCsv(const std::vector<IntervalCalibration>& calibrations) {
+  std::string csv = csvLine({"within_s", "scale", "probability", "frequency"});
+  for (const IntervalCalibration& calibration : calibrations) {
+    for (const ScaleName& scale : kScales) {
+      for (const ReliabilityBin& bin : calibrationOf(calibration.forecasts(scale.scale)).bins) {
+        csv += csvLine({csvNumber(toSeconds(calibration.length)), scale.title, csvNumber(bin.probability),
+                        csvNumber(bin.frequency)});
+      }
+    }
   }
-  PlotPage page(path, 1, calibrations.size());
-  page.addKey({}, entries);
-  for (size_t i = 0; i < calibrations.size(); ++i) page.addPanel(0, i, panel(calibrations[i]));
-  return page.script();
+  return csv;
 }
 
 }  // namespace sweep_guard_evaluation

@@ -38,9 +38,7 @@ std::vector<IntervalCalibration> calibrate(const std::vector<Sessions>& sessions
 /// probabilityWithin() that fit all recordings.
 std::string calibrationTable(const std::vector<IntervalCalibration>& calibrations);
 
-/// Returns a gnuplot script of a reliability diagram of each interval: how often contacts came against their
-/// probability.
-/// @param path  of the PNG file
-std::string calibrationPlot(const std::vector<IntervalCalibration>& calibrations, const std::string& path);
+/// Returns a CSV file of the bins of all recordings with the columns within_s,scale,probability,frequency.
+std::string calibrationCsv(const std::vector<IntervalCalibration>& calibrations);
 
 }  // namespace sweep_guard_evaluation

@@ -7,21 +7,14 @@
 #include <limits>
 
 #include "common/csv.h"
-#include "recording/gnuplot.h"
 
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::csvLine;
 using sweep_guard_core::csvNumber;
 using sweep_guard_core::toSeconds;
-using sweep_guard_recording::colorOf;
-using sweep_guard_recording::gnuplotText;
-using sweep_guard_recording::PlotPage;
 
 namespace {
-
-const std::string kAxes =
-    "set logscale xy\nset xrange [0.02:*] noextend\nset xtics (0.02, 0.05, 0.1, 0.2, 0.5, 1)\nset format y '%g'\n";
 
 using Field = double ErrorSummary::*;
 
@@ -75,42 +68,7 @@ std::string quantityTable(const ErrorReport& report, const Quantity& quantity) {
   return table + '\n';
 }
 
-std::string dataBlock(const ErrorReport& report, size_t predictor, const Quantity& quantity) {
-  std::string block;
-  for (size_t horizon = 0; horizon < report.horizons.size(); ++horizon) {
-    const ErrorSummary& errors = report.errors[predictor][horizon];
-    block += fmt::format("{:.6g} {:.6g} {:.6g}\n", toSeconds(report.horizons[horizon]),
-                         quantity.scale * errors.*quantity.median, quantity.scale * errors.*quantity.p95);
-  }
-  return block;
-}
-
-std::string panel(const ErrorReport& report, const Quantity& quantity) {
-  std::string commands;
-  std::string curves;
-  for (size_t i = 0; i < report.predictors.size(); ++i) {
-    commands += fmt::format("$curve{} << END\n{}END\n", i, dataBlock(report, i, quantity));
-    curves += fmt::format(
-        "{0} $curve{1} using 1:3 with lines lw 2 dt 2 lc rgb '{2}', $curve{1} using 1:2 with lines lw 3 lc rgb '{2}'",
-        i == 0 ? "plot" : ",", i, colorOf(report.predictors[i]));
-  }
-  return fmt::format("{}set title {} noenhanced offset 0,-0.6\nset ylabel '{} error [{}]'\n{}", commands,
-                     gnuplotText(report.recording), quantity.name, quantity.unit, curves);
-}
-
 }  // namespace
-
-ErrorReport atHorizons(const ErrorReport& report, const std::vector<sweep_guard_core::Duration>& horizons) {
-  ErrorReport selected{report.recording, report.predictors, horizons, {}};
-  for (const std::vector<ErrorSummary>& of_predictor : report.errors) {
-    selected.errors.emplace_back();
-    for (const sweep_guard_core::Duration horizon : horizons) {
-      const auto found = std::find(report.horizons.begin(), report.horizons.end(), horizon);
-      selected.errors.back().push_back(of_predictor[static_cast<size_t>(found - report.horizons.begin())]);
-    }
-  }
-  return selected;
-}
 
 std::string errorCsv(const std::vector<ErrorReport>& reports) {
   std::string csv = csvLine({"recording", "predictor", "horizon_s", "position_median_m", "position_p95_m",
@@ -136,19 +94,6 @@ std::string errorTable(const ErrorReport& report) {
       report.recording, report.errors.front().front().samples);
   for (const Quantity& quantity : kQuantities) table += quantityTable(report, quantity);
   return table;
-}
-
-std::string errorPlot(const std::vector<ErrorReport>& reports, const std::string& path) {
-  PlotPage page(path, reports.size(), kQuantities.size());
-  page.addKey(reports.front().predictors, {"with lines lw 3 lc rgb 'black' title 'median'",
-                                           "with lines lw 2 dt 2 lc rgb 'black' title '95th percentile'"});
-  for (size_t row = 0; row < reports.size(); ++row) {
-    for (size_t column = 0; column < kQuantities.size(); ++column) {
-      const std::string label = row + 1 == reports.size() ? "set xlabel 'horizon [s]'\n" : "";
-      page.addPanel(row, column, kAxes + label + panel(reports[row], kQuantities[column]));
-    }
-  }
-  return page.script();
 }
 
 }  // namespace sweep_guard_evaluation

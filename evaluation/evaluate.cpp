@@ -46,23 +46,24 @@ WarningReport emptyReport(const std::string& recording, size_t placements, const
 }  // namespace
 
 std::vector<ErrorReport> reportErrors(const std::vector<Recording>& recordings, const Options& options,
-                                      const std::vector<Duration>& horizons, const Progress& progress) {
+                                      const Progress& progress) {
   std::vector<RecordingErrors> cases;
   for (const Recording& recording : recordings) {
-    cases.emplace_back(recording, std::max(kFuture, horizons.back()));
+    cases.emplace_back(recording, std::max(kFuture, options.horizons.back()));
     cases.back().errors.resize(options.predictors.size());
   }
   inParallel(cases.size() * options.predictors.size(), [&](size_t i) {
     RecordingErrors& current = cases[i / options.predictors.size()];
     const size_t predictor = i % options.predictors.size();
-    current.errors[predictor] = predictionErrors({current.recording.poses, current.motion, current.samples, horizons,
-                                                  withPredictor(options.predictor, options.predictors[predictor])},
-                                                 progress);
+    current.errors[predictor] =
+        predictionErrors({current.recording.poses, current.motion, current.samples, options.horizons,
+                          withPredictor(options.predictor, options.predictors[predictor])},
+                         progress);
   });
   std::vector<ErrorReport> reports;
   reports.reserve(cases.size());
   for (const RecordingErrors& current : cases)
-    reports.push_back({current.recording.name, options.predictors, horizons, summaries(current.errors)});
+    reports.push_back({current.recording.name, options.predictors, options.horizons, summaries(current.errors)});
   return reports;
 }
 

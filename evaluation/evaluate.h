@@ -15,10 +15,8 @@ constexpr sweep_guard_core::Duration kFuture = std::chrono::seconds(1);
 
 /// Computes the prediction errors of every predictor on every recording. Samples have 1 s before and 1 s (or the
 /// longest horizon, if it is longer) after them without a gap.
-/// @param horizons  ascending, > 0
 std::vector<ErrorReport> reportErrors(const std::vector<sweep_guard_recording::Recording>& recordings,
-                                      const Options& options, const std::vector<sweep_guard_core::Duration>& horizons,
-                                      const Progress& progress);
+                                      const Options& options, const Progress& progress);
 
 /// Computes leads and false alarms of every predictor on every recording, at the requested threshold and, if a
 /// trade-off is requested, at all its thresholds.

@@ -1,6 +1,5 @@
 #include <fstream>
 #include <iostream>
-#include <set>
 #include <sstream>
 
 #include "common/run_program.h"
@@ -13,7 +12,6 @@
 #include "evaluation/sessions.h"
 #include "evaluation/sessions_report.h"
 #include "evaluation/tradeoff_report.h"
-#include "recording/gnuplot.h"
 #include "recording/recording.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/tool/mesh_file.h"
@@ -21,12 +19,8 @@
 namespace sweep_guard_evaluation {
 namespace {
 
-using std::chrono::milliseconds;
-using sweep_guard_core::Duration;
 using sweep_guard_core::InvalidInput;
 using sweep_guard_recording::Recording;
-using sweep_guard_recording::requireGnuplot;
-using sweep_guard_recording::runGnuplot;
 
 std::vector<Recording> readAll(const Options& options) {
   std::vector<Recording> recordings(options.files.size());
@@ -56,14 +50,6 @@ std::vector<RecordingSessions> readSessions(const std::string& path) {
   }
 }
 
-std::vector<Duration> withPlotted(const std::vector<Duration>& horizons) {
-  std::set<Duration> all(horizons.begin(), horizons.end());
-  for (const int ms : {20, 30, 40, 60, 80, 100, 140, 200, 280, 400, 500, 560, 700, 800, 900, 1000}) {
-    all.insert(milliseconds(ms));
-  }
-  return {all.begin(), all.end()};
-}
-
 std::vector<std::string> inputsOfSessions(const Options& options) {
   std::vector<std::string> inputs = options.files;
   if (!options.compare_sessions.empty()) inputs.push_back(options.compare_sessions);
@@ -76,16 +62,12 @@ class Evaluation {
       : options_(options),
         recordings_(readAll(options)),
         csv_(options.csv, options.files),
-        plot_(options.plot, options.files),
         warnings_csv_(options.warnings_csv, options.files),
         tradeoff_csv_(options.tradeoff_csv, options.files),
-        tradeoff_plot_(options.tradeoff_plot, options.files),
         sessions_csv_(options.sessions_csv, options.files),
-        sessions_plot_(options.sessions_plot, options.files),
         sessions_objects_csv_(options.sessions_objects_csv, inputsOfSessions(options)),
         tune_csv_(options.tune_csv, options.files),
-        tune_plot_(options.tune_plot, options.files),
-        calibration_plot_(options.calibration_plot, options.files),
+        calibration_csv_(options.calibration_csv, options.files),
         sessions_before_(readSessions(options.compare_sessions)) {
     for (const Recording& recording : recordings_) steps_ += recording.poses.size() * options.predictors.size();
   }
@@ -98,11 +80,8 @@ class Evaluation {
   }
 
   void evaluateErrors() {
-    const std::vector<Duration> horizons = plot_.requested() ? withPlotted(options_.horizons) : options_.horizons;
-    std::vector<ErrorReport> reports = withProgress(
-        "errors  ", [&](const Progress& progress) { return reportErrors(recordings_, options_, horizons, progress); });
-    if (plot_.requested()) runGnuplot(errorPlot(reports, plot_.path()));
-    for (ErrorReport& report : reports) report = atHorizons(report, options_.horizons);
+    const std::vector<ErrorReport> reports = withProgress(
+        "errors  ", [&](const Progress& progress) { return reportErrors(recordings_, options_, progress); });
     if (csv_.requested()) csv_.write(errorCsv(reports));
     for (const ErrorReport& report : reports) std::cout << errorTable(report) << '\n';
   }
@@ -112,7 +91,6 @@ class Evaluation {
         "warnings", [&](const Progress& progress) { return reportWarnings(recordings_, options_, progress); });
     if (warnings_csv_.requested()) warnings_csv_.write(warningCsv(reports));
     if (tradeoff_csv_.requested()) tradeoff_csv_.write(tradeoffCsv(reports));
-    if (tradeoff_plot_.requested()) runGnuplot(tradeoffPlot(reports, tradeoff_plot_.path()));
     for (const WarningReport& report : reports) {
       std::cout << warningTable(report) << '\n';
       if (options_.wantsTradeoff()) std::cout << tradeoffTable(report, options_.max_false_alarms) << '\n';
@@ -136,21 +114,19 @@ class Evaluation {
 
  private:
   void tune(const std::vector<TuningPoint>& points) {
-    if (tune_csv_.requested()) tune_csv_.write(tuningCsv(points));
-    if (tune_plot_.requested()) runGnuplot(tuningPlot(points, *options_.tune, tune_plot_.path()));
+    if (tune_csv_.requested()) tune_csv_.write(tuningCsv(points, *options_.tune));
     std::cout << tuningText(points, *options_.tune);
   }
 
   void reportCalibration(const std::vector<Sessions>& sessions, const sweep_guard_core::WarningLimits& limits) {
     const std::vector<IntervalCalibration> calibrations = calibrate(sessions, limits);
-    if (calibration_plot_.requested()) runGnuplot(calibrationPlot(calibrations, calibration_plot_.path()));
+    if (calibration_csv_.requested()) calibration_csv_.write(calibrationCsv(calibrations));
     std::cout << calibrationTable(calibrations) << '\n';
   }
 
   void report(const std::vector<RecordingSessions>& sessions) {
     if (sessions_csv_.requested()) sessions_csv_.write(sessionsCsv(sessions));
     if (sessions_objects_csv_.requested()) sessions_objects_csv_.write(sessionObjectsCsv(sessions));
-    if (sessions_plot_.requested()) runGnuplot(sessionsPlot(sessions, sessions_plot_.path()));
     std::cout << sessionsTable(sessions) << '\n';
     if (options_.compare_sessions.empty()) return;
     std::cout << sessionsComparison(sessions, sessions_before_) << '\n';
@@ -159,16 +135,12 @@ class Evaluation {
   const Options& options_;
   std::vector<Recording> recordings_;
   OutputFile csv_;
-  OutputFile plot_;
   OutputFile warnings_csv_;
   OutputFile tradeoff_csv_;
-  OutputFile tradeoff_plot_;
   OutputFile sessions_csv_;
-  OutputFile sessions_plot_;
   OutputFile sessions_objects_csv_;
   OutputFile tune_csv_;
-  OutputFile tune_plot_;
-  OutputFile calibration_plot_;
+  OutputFile calibration_csv_;
   std::vector<RecordingSessions> sessions_before_;
   size_t steps_ = 0;
 };
@@ -178,10 +150,6 @@ int run(int argc, char** argv) {
   if (options.help) {
     std::cout << usage();
     return 0;
-  }
-  if (!options.plot.empty() || !options.tradeoff_plot.empty() || !options.sessions_plot.empty() ||
-      !options.tune_plot.empty() || !options.calibration_plot.empty()) {
-    requireGnuplot();
   }
   Evaluation evaluation(options);
   if (options.wantsErrors()) evaluation.evaluateErrors();

@@ -23,20 +23,17 @@ const sweep_guard_core::WarningThresholds kThresholds;
 
 po::options_description outputOptions(Options& options) {
   po::options_description described("Results to compute and write; by default all results are computed and printed");
-  described.add_options()("csv", text(options.csv, "FILE"), "prediction errors")("plot", text(options.plot, "FILE.png"),
-                                                                                 "plot of errors against horizons")(
+  described.add_options()("csv", text(options.csv, "FILE"), "prediction errors")(
       "warnings-csv", text(options.warnings_csv, "FILE"), "leads and false alarms of the warnings")(
       "tradeoff-csv", text(options.tradeoff_csv, "FILE"), "contacts warned of and false alarms, for all thresholds")(
-      "tradeoff-plot", text(options.tradeoff_plot, "FILE.png"), "plot of the trade-off")(
       "sessions", po::bool_switch(&options.sessions), "alarms in sessions beside fixed sheets")(
       "sessions-csv", text(options.sessions_csv, "FILE"), "figures of the sessions")(
-      "sessions-plot", text(options.sessions_plot, "FILE.png"), "plot of the figures of the sessions")(
       "sessions-objects-csv", text(options.sessions_objects_csv, "FILE"), "counts of every sheet of every session")(
       "compare-sessions", text(options.compare_sessions, "FILE"),
       "compares the sessions with those of an earlier --sessions-objects-csv")(
       "calibration", po::bool_switch(&options.calibration),
       "how often the contacts came that the guard predicts with a probability, beside the objects of the sessions")(
-      "calibration-plot", text(options.calibration_plot, "FILE.png"), "reliability diagram");
+      "calibration-csv", text(options.calibration_csv, "FILE"), "the same in ten equal bins");
   return described;
 }
 
@@ -86,8 +83,7 @@ po::options_description sessionOptions(Options& options) {
       "smallest probability that raises REFLEX, in (0, 1]; --min-probability sets these three")(
       "tune", po::value<std::string>()->value_name("N"),
       "finds the thresholds for at most N unjustified alarms per minute and prints them as yaml")(
-      "tune-csv", text(options.tune_csv, "FILE"), "with --tune: what each threshold gives")(
-      "tune-plot", text(options.tune_plot, "FILE.png"), "with --tune: plot of the trade-off");
+      "tune-csv", text(options.tune_csv, "FILE"), "with --tune: what each threshold gives");
   return described;
 }
 
@@ -154,9 +150,7 @@ void store(const po::variables_map& values, Options& options) {
     throw InvalidInput("--considered-off: must be at most --considered-on");
   }
   if (values.count("tune") != 0) options.tune = number("tune", 0.0, 1e6);
-  if (!options.tune && !(options.tune_csv.empty() && options.tune_plot.empty())) {
-    throw InvalidInput("--tune-csv, --tune-plot: need --tune");
-  }
+  if (!options.tune && !options.tune_csv.empty()) throw InvalidInput("--tune-csv: needs --tune");
   options.session.sheets = number("sheets", size_t{0}, size_t{10000});
   options.session.sessions = number("session-count", size_t{1}, size_t{1000});
   options.session.seed = options.placement.seed;
@@ -179,7 +173,9 @@ std::string usage() {
   text << "Usage: evaluate_prediction [options] FILE...\n\n"
           "Measures how well recorded motions are predicted, and how early and how often the guard warns. FILE is a\n"
           "motion file (lines `stamp tx ty tz qx qy qz qw` in s and m) or a rosbag with geometry_msgs/PoseStamped or\n"
-          "TransformStamped. Prints tables of the results.\n\n"
+          "TransformStamped. Prints tables of the results. `rosrun sweep_guard plot.py FILE.csv FILE.png` draws the "
+          "files\n"
+          "that it writes.\n\n"
        << outputOptions(options) << '\n'
        << predictionOptions(options) << '\n'
        << warningOptions(options) << '\n'

@@ -32,33 +32,26 @@ struct Options {
   double max_false_alarms = 20.0;         ///< per minute; end of the average of the trade-off
 
   std::string csv;  ///< files to write; empty: none
-  std::string plot;
   std::string warnings_csv;
   std::string tradeoff_csv;
-  std::string tradeoff_plot;
   bool sessions = false;  ///< print the table of the sessions
   std::string sessions_csv;
-  std::string sessions_plot;
   std::string sessions_objects_csv;
   std::optional<double> tune;  ///< wanted unjustified alarms per minute
   std::string tune_csv;
-  std::string tune_plot;
   bool calibration = false;  ///< print the calibration of the probabilities
-  std::string calibration_plot;
+  std::string calibration_csv;
   std::string compare_sessions;  ///< file to read: a sessions_objects_csv
 
-  bool writesNothing() const {
-    return csv.empty() && plot.empty() && warnings_csv.empty() && tradeoff_csv.empty() && tradeoff_plot.empty() &&
-           !wantsSessions();
-  }
+  bool wantsNothing() const { return csv.empty() && warnings_csv.empty() && tradeoff_csv.empty() && !wantsSessions(); }
   bool wantsSessions() const {
-    return sessions || !sessions_csv.empty() || !sessions_plot.empty() || !sessions_objects_csv.empty() || tune ||
-           !compare_sessions.empty() || wantsCalibration();
+    return sessions || !sessions_csv.empty() || !sessions_objects_csv.empty() || tune || !compare_sessions.empty() ||
+           wantsCalibration();
   }
-  bool wantsCalibration() const { return calibration || !calibration_plot.empty(); }
-  bool wantsErrors() const { return !csv.empty() || !plot.empty() || writesNothing(); }
-  bool wantsTradeoff() const { return !tradeoff_csv.empty() || !tradeoff_plot.empty(); }
-  bool wantsWarnings() const { return !warnings_csv.empty() || wantsTradeoff() || writesNothing(); }
+  bool wantsCalibration() const { return calibration || !calibration_csv.empty(); }
+  bool wantsErrors() const { return !csv.empty() || wantsNothing(); }
+  bool wantsTradeoff() const { return !tradeoff_csv.empty(); }
+  bool wantsWarnings() const { return !warnings_csv.empty() || wantsTradeoff() || wantsNothing(); }
 };
 
 /// Returns the text of --help.

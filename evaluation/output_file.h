@@ -14,7 +14,6 @@ class OutputFile {
   OutputFile(const std::string& path, const std::vector<std::string>& inputs);
 
   bool requested() const { return !path_.empty(); }
-  const std::string& path() const { return path_; }
 
   /// @throws sweep_guard_core::InvalidInput  if the disk is full
   void write(const std::string& text);

@@ -7,24 +7,17 @@
 #include <utility>
 
 #include "common/csv.h"
-#include "recording/gnuplot.h"
 
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::csvLine;
 using sweep_guard_core::csvNumber;
 using sweep_guard_core::WarningThresholds;
-using sweep_guard_recording::PlotPage;
 
 namespace {
 
 const std::vector<double> kConsideredOn = {0.002, 0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08,
                                            0.1,   0.12,  0.14, 0.17, 0.2,  0.25, 0.3,  0.35, 0.5,  1.0};
-
-const std::vector<std::pair<size_t, std::string>>& plottedLeads() {
-  static const std::vector<std::pair<size_t, std::string>> kLeads = {{2, "#0072B2"}, {3, "#009E73"}};
-  return kLeads;
-}
 
 std::string share(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value); }
 
@@ -54,10 +47,10 @@ std::optional<TuningPoint> choosePoint(const std::vector<TuningPoint>& points, d
   return chosen;
 }
 
-std::string tuningCsv(const std::vector<TuningPoint>& points) {
+std::string tuningCsv(const std::vector<TuningPoint>& points, double unjustified_per_min) {
   std::string csv =
       csvLine({"considered_on", "considered_off", "reflex_probability", "unjustified_per_min", "precision",
-               "warned_0.1", "warned_0.3", "warned_0.5", "warned_1.0", "late", "false_on_share"});
+               "warned_0.1", "warned_0.3", "warned_0.5", "warned_1.0", "late", "false_on_share", "at_most_per_min"});
   for (const auto& [thresholds, figures] : points) {
     std::vector<std::string> fields;
     for (const double value : {thresholds.considered_on, thresholds.considered_off, thresholds.reflex,
@@ -67,6 +60,7 @@ std::string tuningCsv(const std::vector<TuningPoint>& points) {
     for (size_t lead = 0; lead < kSessionLeads.size(); ++lead) fields.push_back(csvNumber(figures.warned(lead)));
     fields.push_back(std::to_string(figures.count.late));
     fields.push_back(csvNumber(figures.falseOnShare()));
+    fields.push_back(csvNumber(unjustified_per_min));
     csv += csvLine(fields);
   }
   return csv;
@@ -89,29 +83,6 @@ std::string tuningText(const std::vector<TuningPoint>& points, double unjustifie
   const double fewest = std::min_element(points.begin(), points.end(), fewer)->figures.unjustifiedPerMinute();
   return text + fmt::format("\nno threshold has at most {:g} unjustified alarms per minute; the fewest are {:.2f}\n",
                             unjustified_per_min, fewest);
-}
-
-std::string tuningPlot(const std::vector<TuningPoint>& points, double unjustified_per_min, const std::string& path) {
-  std::string data;
-  for (const auto& [thresholds, figures] : points) {
-    data += fmt::format("{:.6g} {:.6g} {:.6g}\n", figures.unjustifiedPerMinute(), figures.warned(2), figures.warned(3));
-  }
-  std::vector<std::string> entries;
-  std::string curves;
-  for (size_t i = 0; i < plottedLeads().size(); ++i) {
-    const auto& [lead, color] = plottedLeads()[i];
-    curves +=
-        fmt::format("{} $curve using 1:{} with linespoints lw 2 pt 7 lc rgb '{}'", i == 0 ? "plot" : ",", i + 2, color);
-    entries.push_back(fmt::format("with lines lw 4 lc rgb '{}' title '{:.1f} s ahead'", color, kSessionLeads[lead]));
-  }
-  PlotPage page(path, 1, 1);
-  page.addKey({}, entries);
-  page.addPanel(0, 0,
-                fmt::format("$curve << END\n{}END\nset xrange [0:*]\nset yrange [0:1.03]\n"
-                            "set xlabel 'unjustified alarms per minute'\nset ylabel 'contacts warned of'\n"
-                            "set arrow from {:.6g}, graph 0 to {:.6g}, graph 1 nohead dt 2\n{}",
-                            data, unjustified_per_min, unjustified_per_min, curves));
-  return page.script();
 }
 
 }  // namespace sweep_guard_evaluation

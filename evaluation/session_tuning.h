@@ -25,16 +25,11 @@ std::vector<sweep_guard_core::WarningThresholds> tuningThresholds(const sweep_gu
 std::optional<TuningPoint> choosePoint(const std::vector<TuningPoint>& points, double unjustified_per_min);
 
 /// Returns a CSV file with the columns considered_on,considered_off,reflex_probability,unjustified_per_min,precision,
-/// warned_0.1,warned_0.3,warned_0.5,warned_1.0,late,false_on_share.
-std::string tuningCsv(const std::vector<TuningPoint>& points);
+/// warned_0.1,warned_0.3,warned_0.5,warned_1.0,late,false_on_share,at_most_per_min; the last is the same in each row.
+std::string tuningCsv(const std::vector<TuningPoint>& points, double unjustified_per_min);
 
 /// Returns the curve as a table for the terminal, and below it the chosen thresholds as yaml to paste, or what the
 /// fewest unjustified alarms are.
 std::string tuningText(const std::vector<TuningPoint>& points, double unjustified_per_min);
-
-/// Returns a gnuplot script that plots the share of contacts warned of 0.5 and 1.0 s ahead against the unjustified
-/// alarms per minute.
-/// @param path  of the PNG file
-std::string tuningPlot(const std::vector<TuningPoint>& points, double unjustified_per_min, const std::string& path);
 
 }  // namespace sweep_guard_evaluation

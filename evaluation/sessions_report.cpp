@@ -7,7 +7,6 @@
 
 #include "common/csv.h"
 #include "common/number_text.h"
-#include "recording/gnuplot.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_evaluation {
@@ -16,7 +15,6 @@ using sweep_guard_core::csvFields;
 using sweep_guard_core::csvLine;
 using sweep_guard_core::csvNumber;
 using sweep_guard_core::InvalidInput;
-using sweep_guard_recording::PlotPage;
 
 namespace {
 
@@ -107,26 +105,6 @@ std::vector<double> ratiosOf(const SessionFigures& now, const SessionFigures& be
           now.warned(2) - before.warned(2), now.warned(3) - before.warned(3)};
 }
 
-const std::array<const char*, 4> kColors = {"#0072B2", "#56B4E9", "#009E73", "#999999"};
-
-/// Plots one bar for each column of the data.
-std::string panel(const std::string& title, size_t columns, const std::string& data) {
-  std::string plot;
-  for (size_t i = 0; i < columns; ++i) {
-    plot +=
-        fmt::format("{} $data using {}:xtic(1) with histograms lc rgb '{}'", i == 0 ? "plot" : ",", i + 2, kColors[i]);
-  }
-  return fmt::format(
-      "$data << END\n{}END\nset title '{}' offset 0,-0.6\nset style fill solid\n"
-      "set xtics rotate by -20 noenhanced font ',9'\nset yrange [0:*]\n{}",
-      data, title, plot);
-}
-
-std::string label(std::string name) {
-  std::replace(name.begin(), name.end(), '"', '\'');
-  return '"' + name + '"';
-}
-
 }  // namespace
 
 std::string sessionsCsv(const std::vector<RecordingSessions>& recordings) {
@@ -201,30 +179,6 @@ std::string sessionsComparison(const std::vector<RecordingSessions>& recordings,
   }
   return text + fmt::format("  {:<38} {} (before: {})\n", "contacts without REFLEX", now.count.late,
                             figuresOf(before).count.late);
-}
-
-std::string sessionsPlot(const std::vector<RecordingSessions>& recordings, const std::string& path) {
-  std::array<std::string, 3> data;
-  const auto add = [&](const std::string& name, const SessionFigures& f) {
-    data[0] += fmt::format("{} {:.6g}\n", label(name), f.unjustifiedPerMinute());
-    data[1] += fmt::format("{} {:.6g} {:.6g} {:.6g} {:.6g}\n", label(name), f.precision(), f.precisionWithin(0),
-                           f.precisionWithin(1), f.precisionWithin(2));
-    data[2] += fmt::format("{} {:.6g} {:.6g} {:.6g} {:.6g}\n", label(name), f.warned(0), f.warned(1), f.warned(2),
-                           f.warned(3));
-  };
-  for (const RecordingSessions& recording : recordings) add(recording.recording, figuresOf(recording));
-  add(kAll, figuresOf(recordings));
-  const char* const names[] = {"contact, 0.1 s", "10 mm, 0.3 s", "20 mm, 0.5 s", "50 mm, 1.0 s"};
-  std::vector<std::string> entries;
-  for (size_t i = 0; i < kColors.size(); ++i) {
-    entries.push_back(fmt::format("with lines lw 8 lc rgb '{}' title '{}'", kColors[i], names[i]));
-  }
-  PlotPage page(path, 1, data.size());
-  page.addKey({}, entries);
-  page.addPanel(0, 0, panel("unjustified alarms per minute", 1, data[0]));
-  page.addPanel(0, 1, panel("alarms before a contact or near miss", 4, data[1]));
-  page.addPanel(0, 2, panel("contacts warned of ahead", 4, data[2]));
-  return page.script();
 }
 
 }  // namespace sweep_guard_evaluation

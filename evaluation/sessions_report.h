@@ -30,9 +30,4 @@ std::vector<RecordingSessions> readSessionObjects(const std::string& csv);
 std::string sessionsComparison(const std::vector<RecordingSessions>& recordings,
                                const std::vector<RecordingSessions>& before);
 
-/// Returns a gnuplot script that plots, for each recording, the unjustified alarms per minute, the precision without and
-/// with near misses, and the share of contacts warned of.
-/// @param path  of the PNG file
-std::string sessionsPlot(const std::vector<RecordingSessions>& recordings, const std::string& path);
-
 }  // namespace sweep_guard_evaluation

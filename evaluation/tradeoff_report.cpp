@@ -8,46 +8,11 @@
 #include <utility>
 
 #include "common/csv.h"
-#include "recording/gnuplot.h"
 
 namespace sweep_guard_evaluation {
 
 using sweep_guard_core::csvLine;
 using sweep_guard_core::csvNumber;
-using sweep_guard_recording::colorOf;
-using sweep_guard_recording::gnuplotText;
-using sweep_guard_recording::PlotPage;
-
-namespace {
-
-const std::string kAxes =
-    "set xrange [0:*]\nset yrange [0:1.03]\nset ytics 0.2\nset format y '%.1f'\n"
-    "set ylabel 'contacts warned of' offset 1,0\n";
-
-std::string dataBlock(const WarningReport& report, size_t predictor, double lead) {
-  std::string block;
-  for (size_t threshold = 0; threshold < report.min_probabilities.size(); ++threshold) {
-    const AlarmStatistics& statistics = report.considered(predictor, threshold);
-    block += fmt::format("{:.6g} {:.6g}\n", statistics.falseAlarmsPerMinute(), statistics.warnedAhead(lead));
-  }
-  return block;
-}
-
-std::string panel(const WarningReport& report, double lead) {
-  std::string data;
-  std::string curves;
-  for (size_t i = 0; i < report.predictors.size(); ++i) {
-    data += fmt::format("$curve{} << END\n{}END\n", i, dataBlock(report, i, lead));
-    curves += fmt::format(
-        "{0} $curve{1} with linespoints lw 2 pt 7 ps 0.4 lc rgb '{2}', "
-        "$curve{1} every ::{3}::{3} with points pt 6 lw 3 ps 2 lc rgb '{2}'",
-        i == 0 ? "plot" : ",", i, colorOf(report.predictors[i]), report.chosen);
-  }
-  return fmt::format("{}set title {} noenhanced font ',12' offset 0,-0.6\n{}", data,
-                     gnuplotText(fmt::format("{}, {:.1f} s ahead", report.recording, lead)), curves);
-}
-
-}  // namespace
 
 std::vector<double> tradeoffThresholds(double chosen) {
   std::vector<double> thresholds = {0.001, 0.0015, 0.002, 0.003, 0.005, 0.007, 0.01, 0.015, 0.02,  0.03, 0.05,
@@ -80,8 +45,8 @@ double meanShareWarned(const WarningReport& report, size_t predictor, double lea
 }
 
 std::string tradeoffCsv(const std::vector<WarningReport>& reports) {
-  std::string csv = csvLine(
-      {"recording", "predictor", "min_probability", "false_alarms_per_min", "warned_0.1", "warned_0.5", "warned_1.0"});
+  std::string csv = csvLine({"recording", "predictor", "min_probability", "false_alarms_per_min", "warned_0.1",
+                             "warned_0.5", "warned_1.0", "chosen"});
   for (const WarningReport& report : reports) {
     for (size_t predictor = 0; predictor < report.predictors.size(); ++predictor) {
       for (size_t threshold = 0; threshold < report.min_probabilities.size(); ++threshold) {
@@ -90,6 +55,7 @@ std::string tradeoffCsv(const std::vector<WarningReport>& reports) {
                                            csvNumber(report.min_probabilities[threshold]),
                                            csvNumber(statistics.falseAlarmsPerMinute())};
         for (const double lead : comparedLeads()) fields.push_back(csvNumber(statistics.warnedAhead(lead)));
+        fields.emplace_back(threshold == report.chosen ? "1" : "0");
         csv += csvLine(fields);
       }
     }
@@ -110,20 +76,6 @@ std::string tradeoffTable(const WarningReport& report, double max_false_alarms) 
     table += '\n';
   }
   return table;
-}
-
-std::string tradeoffPlot(const std::vector<WarningReport>& reports, const std::string& path) {
-  PlotPage page(path, reports.size(), comparedLeads().size());
-  const WarningReport& first = reports.front();
-  page.addKey(first.predictors, {fmt::format("with points pt 6 lw 3 ps 2 lc rgb 'black' title 'probability {:g}'",
-                                             first.min_probabilities[first.chosen])});
-  for (size_t row = 0; row < reports.size(); ++row) {
-    for (size_t column = 0; column < comparedLeads().size(); ++column) {
-      const std::string label = row + 1 == reports.size() ? "set xlabel 'false alarms per minute'\n" : "";
-      page.addPanel(row, column, kAxes + label + panel(reports[row], comparedLeads()[column]));
-    }
-  }
-  return page.script();
 }
 
 }  // namespace sweep_guard_evaluation

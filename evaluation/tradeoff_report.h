@@ -18,16 +18,11 @@ std::vector<double> tradeoffThresholds(double chosen);
 double meanShareWarned(const WarningReport& report, size_t predictor, double lead, double max_false_alarms);
 
 /// Returns a CSV file of all thresholds with the columns
-/// recording,predictor,min_probability,false_alarms_per_min,warned_0.1,warned_0.5,warned_1.0.
+/// recording,predictor,min_probability,false_alarms_per_min,warned_0.1,warned_0.5,warned_1.0,chosen; chosen is 1 for the threshold
+/// that the guard uses, else 0.
 std::string tradeoffCsv(const std::vector<WarningReport>& reports);
 
 /// Returns meanShareWarned() of all predictors as a table for the terminal.
 std::string tradeoffTable(const WarningReport& report, double max_false_alarms);
-
-/// Returns a gnuplot script that plots the share of contacts with a warning in time against the false alarms per
-/// minute: one row of panels for each recording, one column for each lead, one curve for each predictor, with a mark at
-/// the chosen threshold.
-/// @param path  of the PNG file
-std::string tradeoffPlot(const std::vector<WarningReport>& reports, const std::string& path);
 
 }  // namespace sweep_guard_evaluation

@@ -1,10 +1,15 @@
 // Starts the player of a bag, records the messages of the guard, and reports them.
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <spawn.h>
 #include <std_srvs/SetBool.h>
+#include <sys/wait.h>
 #include <topic_tools/shape_shifter.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -16,7 +21,6 @@
 #include <utility>
 #include <vector>
 
-#include "recording/gnuplot.h"
 #include "recording/object_contacts.h"
 #include "recording/run_node.h"
 #include "session/session_bag.h"
@@ -78,6 +82,20 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!stream) throw InvalidInput(path.string() + ": cannot be written; give output:=FOLDER");
 }
 
+/// Has plot.py draw the CSV files of a report. It is beside this program, and says what it lacks.
+bool drawPictures(std::string folder, std::string name) {
+  std::string program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("plot.py");
+  const std::array<char*, 4> arguments{program.data(), folder.data(), name.data(), nullptr};
+  pid_t process = 0;
+  if (posix_spawn(&process, program.c_str(), nullptr, nullptr, arguments.data(), environ) != 0) {
+    ROS_WARN("no pictures: %s cannot be run: is python3 installed?", program.c_str());
+    return false;
+  }
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  return status == 0;
+}
+
 class ReplayReport {
  public:
   explicit ReplayReport(sweep_guard_ros::ParameterReader& parameters)
@@ -93,7 +111,6 @@ class ReplayReport {
           topics_.mesh_vertices.c_str());
     }
     listenTo(parameters.text("topics", ""));
-    sweep_guard_recording::requireGnuplot();
     makeFolder();
   }
 
@@ -214,15 +231,14 @@ class ReplayReport {
     if (meshInBag()) touches_.readShapes(path_, topics_);
     write(folder / "contacts.csv", contactsCsv(log_, bag_.begin));
     write(folder / "levels.csv", levelsCsv(log_, bag_.begin));
+    write(folder / "collisions.csv", collisionsCsv(log_, bag_.begin));
     write(folder / "sound.wav", sweep_guard_core::wavFile(soundOf(log_, kSoundRate), kSoundRate));
     write(folder / "touches.csv", touchesCsv(touches_.touches()));
+    write(folder / "surfaces.csv", surfacesCsv(touches_));
     const std::string name = std::filesystem::path(path_).filename();
-    sweep_guard_recording::runGnuplot(timelinePlot(log_, bag_, name, folder / "timeline.png"));
-    sweep_guard_recording::runGnuplot(contactsPlot(log_, bag_, name, folder / "contacts.png"));
-    sweep_guard_recording::runGnuplot(touchesPlot(touches_, name, folder / "touches.png"));
-    std::cout << summary(log_, bag_) << "written to " << output_
-              << ": timeline.png, contacts.png, touches.png, contacts.csv, touches.csv, levels.csv, sound.wav"
-              << std::endl;
+    std::cout << summary(log_, bag_) << "written to " << output_ << ": "
+              << (drawPictures(folder, name) ? "timeline.png, contacts.png, touches.png, " : "no pictures, but ")
+              << "contacts.csv, touches.csv, surfaces.csv, levels.csv, collisions.csv, sound.wav" << std::endl;
   }
 
   std::string path_;

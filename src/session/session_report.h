@@ -14,18 +14,12 @@ std::string contactsCsv(const SessionLog& log, sweep_guard_core::Time begin);
 /// Returns a CSV file with one line for each segment. The columns are begin_s,end_s,level,text.
 std::string levelsCsv(const SessionLog& log, sweep_guard_core::Time begin);
 
+/// Returns a CSV file with one line for each warning. The columns are received_s,time_to_collision_s; the time is empty if no
+/// collision is predicted, or not known.
+std::string collisionsCsv(const SessionLog& log, sweep_guard_core::Time begin);
+
 /// Returns a summary for a terminal: the bag, the duration of each level, the contacts and their leads. Ends with a
 /// line feed.
 std::string summary(const SessionLog& log, const SessionBag& bag);
-
-/// Returns a gnuplot script that plots levels, time to collision and leads over time.
-/// @param path  of the PNG file
-std::string timelinePlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
-                         const std::string& path);
-
-/// Returns a gnuplot script that draws a table of the first 40 contacts.
-/// @param path  of the PNG file
-std::string contactsPlot(const SessionLog& log, const SessionBag& bag, const std::string& title,
-                         const std::string& path);
 
 }  // namespace sweep_guard_session

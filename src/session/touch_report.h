@@ -43,10 +43,9 @@ class TouchLog {
 /// Returns a CSV file with one line for each touched triangle. The columns are mesh,revision,triangle,sweeps,depth_mm.
 std::string touchesCsv(const sweep_guard::Touches& touches);
 
-/// Returns a gnuplot script that draws the first 4 touched workpieces as they were at the end, from the side that was touched:
-/// by the sweeps that touched each triangle, and by the largest depth. Of a workpiece of more than 30 000 triangles only those
-/// touched are drawn.
-/// @param path  of the PNG file
-std::string touchesPlot(const TouchLog& log, const std::string& title, const std::string& path);
+/// Returns a CSV file with one line for each triangle of the first 4 touched workpieces, as they were at the end; of a
+/// workpiece of more than 30 000 triangles only for those touched. The columns are mesh,triangle and the corners
+/// x1,y1,z1,...,z3 [m] in the workpiece's frame, counterclockwise from outside if the surface is closed.
+std::string surfacesCsv(const TouchLog& log);
 
 }  // namespace sweep_guard_session

@@ -36,12 +36,5 @@ TEST(ErrorReportTest, ComparesWithTheBetterOfHoldAndConstantVelocity) {
   EXPECT_TRUE(has(errorTable(report("hand")), "5/20 (0.50/0.50)"));
 }
 
-TEST(ErrorReportTest, KeepsTheHorizonsAskedFor) {
-  const ErrorReport some = atHorizons(report("hand"), {milliseconds(500)});
-  ASSERT_EQ(some.errors.size(), 3U);
-  ASSERT_EQ(some.errors[2].size(), 1U);
-  EXPECT_EQ(some.errors[2][0].position_median, 0.2);
-}
-
 }  // namespace
 }  // namespace sweep_guard_evaluation

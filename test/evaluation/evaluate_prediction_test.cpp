@@ -29,9 +29,10 @@ class EvaluatePredictionTest : public testing::Test {
   }
   ~EvaluatePredictionTest() override { std::filesystem::remove_all(folder_); }
 
-  Outcome run(const std::string& arguments, const std::string& environment = "") const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && " + environment + " " EVALUATE_PREDICTION " " + arguments + " 2>&1";
+  Outcome run(const std::string& arguments) const { return runProgram(EVALUATE_PREDICTION, arguments); }
+
+  Outcome runProgram(const std::string& program, const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.string() + "' && " + program + " " + arguments + " 2>&1";
     FILE* const pipe = popen(command.c_str(), "r");
     Outcome outcome{};
     std::array<char, 4096> part;
@@ -178,18 +179,20 @@ TEST_F(EvaluatePredictionTest, CountsSessionsBesideMeshes) {
   expectOneLine(meshes + "--mesh nowhere.stl", "nowhere.stl");
 }
 
-TEST_F(EvaluatePredictionTest, DrawsAPngAndLeavesNothingElse) {
+TEST_F(EvaluatePredictionTest, WritesWhatCanBeDrawn) {
   writeMotion("it's a hand.txt");
-  const Outcome outcome = run("--plot \"it's.png\" \"it's a hand.txt\"");
+  const std::string files =
+      "--csv errors.csv --tradeoff-csv tradeoff.csv --calibration-csv calibration.csv --sessions-csv sessions.csv "
+      "--tune 2 "
+      "--tune-csv tuning.csv ";
+  const Outcome outcome = run("--predictors direct --placements 2 --sheets 2 --session-count 1 " + files + "*.txt");
   EXPECT_EQ(outcome.status, 0) << outcome.out;
-  EXPECT_EQ(read("it's.png").substr(1, 3), "PNG");
-  EXPECT_EQ(run("--predictors direct --placements 2 --tradeoff-plot curves.png \"it's a hand.txt\"").status, 0);
-  EXPECT_EQ(read("curves.png").substr(1, 3), "PNG");
-  EXPECT_EQ(run("--sheets 2 --session-count 1 --sessions-plot sessions.png \"it's a hand.txt\"").status, 0);
-  EXPECT_EQ(read("sessions.png").substr(1, 3), "PNG");
-  EXPECT_EQ(run("--sheets 2 --session-count 1 --calibration-plot honest.png \"it's a hand.txt\"").status, 0);
-  EXPECT_EQ(read("honest.png").substr(1, 3), "PNG");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 5);
+  for (const std::string name : {"errors", "tradeoff", "calibration", "sessions", "tuning"}) {
+    const Outcome drawn = runProgram(SWEEP_GUARD_SOURCE_DIR "/scripts/plot.py", name + ".csv " + name + ".png");
+    EXPECT_EQ(drawn.status, 0) << drawn.out;
+    EXPECT_EQ(read(name + ".png").substr(1, 3), "PNG");
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 11);
 }
 
 TEST_F(EvaluatePredictionTest, DoesNotOverwriteARecording) {
@@ -197,13 +200,6 @@ TEST_F(EvaluatePredictionTest, DoesNotOverwriteARecording) {
   const std::string before = read("hand.txt");
   expectOneLine("--csv hand.txt hand.txt", "hand.txt: is an input");
   EXPECT_EQ(read("hand.txt"), before);
-}
-
-TEST_F(EvaluatePredictionTest, SaysWhatToInstallForPlots) {
-  writeMotion("hand.txt");
-  const Outcome outcome = run("--plot errors.png hand.txt", "PATH=/nowhere");
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_EQ(outcome.out, "evaluate_prediction: plots need gnuplot; install it: apt-get install gnuplot-nox\n");
 }
 
 }  // namespace

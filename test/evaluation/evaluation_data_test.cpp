@@ -59,7 +59,7 @@ TEST_F(EvaluationDataTest, TheDefaultPredictorIsAheadOfHoldingAndOfConstantVeloc
   options_.predictors = {"hold", "constant_velocity", "direct"};
   double sum = 0.0;
   int ratios = 0;
-  for (const ErrorReport& report : reportErrors(recordings_, options_, options_.horizons, [](size_t) {})) {
+  for (const ErrorReport& report : reportErrors(recordings_, options_, [](size_t) {})) {
     for (size_t horizon = 0; horizon < report.horizons.size(); ++horizon) {
       for (const Field field : {&ErrorSummary::position_median, &ErrorSummary::position_p95,
                                 &ErrorSummary::rotation_median, &ErrorSummary::rotation_p95}) {

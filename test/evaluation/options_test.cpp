@@ -80,7 +80,7 @@ TEST(OptionsTest, ComputeWhatIsToBeWrittenOrEverything) {
   EXPECT_TRUE(errors.wantsErrors() && !errors.wantsWarnings() && !errors.wantsTradeoff());
   const Options warnings = parse({"--warnings-csv", "w.csv", "a.txt"});
   EXPECT_TRUE(!warnings.wantsErrors() && warnings.wantsWarnings() && !warnings.wantsTradeoff());
-  const Options tradeoff = parse({"--tradeoff-plot", "t.png", "a.txt"});
+  const Options tradeoff = parse({"--tradeoff-csv", "t.csv", "a.txt"});
   EXPECT_TRUE(!tradeoff.wantsErrors() && tradeoff.wantsWarnings() && tradeoff.wantsTradeoff());
 }
 
@@ -112,7 +112,7 @@ TEST(OptionsTest, SessionsHaveTheThresholdsOfTheGuardOrOneForAll) {
 }
 
 TEST(OptionsTest, TheCalibrationNeedsSessions) {
-  for (const Options& options : {parse({"--calibration", "a.txt"}), parse({"--calibration-plot", "c.png", "a.txt"})}) {
+  for (const Options& options : {parse({"--calibration", "a.txt"}), parse({"--calibration-csv", "c.csv", "a.txt"})}) {
     EXPECT_TRUE(options.wantsCalibration() && options.wantsSessions() && !options.wantsErrors());
   }
   EXPECT_FALSE(parse({"--sessions", "a.txt"}).wantsCalibration());

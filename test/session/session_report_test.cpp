@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "recording/gnuplot.h"
 #include "refusal.h"
 
 namespace sweep_guard_session {
@@ -56,6 +53,11 @@ TEST(SessionReportTest, WritesALineForEachSegment) {
             "1.3100,2.0000,CONTACT,\"CONTACT: tool meets 'a, b'\"\n");
 }
 
+TEST(SessionReportTest, WritesTheTimeToCollisionOfEachWarning) {
+  EXPECT_EQ(collisionsCsv(oneContact(), kBegin),
+            "received_s,time_to_collision_s\n0.0000,\n0.1000,\n0.5000,0.9000\n1.2000,0.1000\n1.3100,0.0000\n");
+}
+
 TEST(SessionReportTest, SummaryNamesContactsAndPosesNotSwept) {
   SessionLog log = oneContact();
   EXPECT_TRUE(has(summary(log, bagOf(1)), "swept      1 times, without a gap\n"));
@@ -87,23 +89,6 @@ TEST(SessionReportTest, ReportsASessionOfOneInstant) {
     EXPECT_TRUE(has(summary(log, bagOf(0)), "UNKNOWN         0.0 s   0.0 %\n"));
     EXPECT_TRUE(has(summary(log, bagOf(0)), "contacts   0\n"));
   }
-}
-
-// gnuplot refuses a script that is wrong; an apostrophe must not end a text in it.
-TEST(SessionReportTest, PlotsAreDrawnWithAndWithoutContacts) {
-  const std::string path = testing::TempDir() + "session_report_test.png";
-  SessionLog uneventful;
-  uneventful.add({at(0), WarningLevel::kClear, "CLEAR"});
-  uneventful.end(at(2000));
-  for (const SessionLog& log : {oneContact(), uneventful, SessionLog()}) {
-    std::filesystem::remove(path);
-    sweep_guard_recording::runGnuplot(timelinePlot(log, bagOf(1), "operator's.bag", path));
-    EXPECT_GT(std::filesystem::file_size(path), 10000U);
-    std::filesystem::remove(path);
-    sweep_guard_recording::runGnuplot(contactsPlot(log, bagOf(1), "operator's.bag", path));
-    EXPECT_GT(std::filesystem::file_size(path), 3000U);
-  }
-  std::filesystem::remove(path);
 }
 
 }  // namespace

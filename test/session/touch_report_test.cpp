@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 #include <boost/make_shared.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <sstream>
+#include <utility>
 
 #include "grid_mesh.h"
-#include "recording/gnuplot.h"
 #include "refusal.h"
 
 namespace sweep_guard_session {
@@ -87,27 +88,57 @@ TEST(TouchReportTest, AMeshOfAnotherRevisionIsNotTheSurface) {
   EXPECT_TRUE(logOf(mesh, touches).surfaceOf(touches.objects[0]).triangles.empty());
 }
 
-TEST(TouchReportTest, TheScalesEndAtTheLargestValues) {
-  const DeformableMesh mesh = roof();
-  const std::string script = touchesPlot(logOf(mesh, touchesOf(mesh)), "a bag", "picture.png");
-  EXPECT_TRUE(has(script, "'1' 0, '1501' 1")) << script.substr(0, 2000);
-  EXPECT_TRUE(has(script, "'0' 0, '6.0' 1"));
+std::string lineOf(const std::string& csv, std::size_t number) {
+  std::istringstream lines(csv);
+  std::string line;
+  for (std::size_t i = 0; i <= number; ++i) std::getline(lines, line);
+  return line;
 }
 
-// gnuplot refuses a script that is wrong.
-TEST(TouchReportTest, IsDrawnWithAndWithoutTouchesAndShape) {
-  const std::string path = testing::TempDir() + "touch_report_test.png";
+TEST(TouchReportTest, WritesTheCornersOfAllTrianglesOfATouchedSurface) {
   const DeformableMesh mesh = roof();
-  TouchLog shapeless;
-  shapeless.take(boost::make_shared<const Touches>(touchesOf(mesh)));
-  const std::pair<TouchLog, std::uintmax_t> cases[] = {
-      {logOf(mesh, touchesOf(mesh)), 50000}, {shapeless, 3000}, {TouchLog(), 3000}};
-  for (const auto& [log, least_size] : cases) {
-    std::filesystem::remove(path);
-    sweep_guard_recording::runGnuplot(touchesPlot(log, "operator's.bag", path));
-    EXPECT_GT(std::filesystem::file_size(path), least_size);
+  const std::string csv = surfacesCsv(logOf(mesh, touchesOf(mesh)));
+  EXPECT_EQ(lineOf(csv, 0), "mesh,triangle,x1,y1,z1,x2,y2,z2,x3,y3,z3");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 40 * 40);
+  EXPECT_EQ(lineOf(csv, 1).substr(0, 30), "operator's roof,0,-0.05,-0.05,");
+}
+
+TEST(TouchReportTest, OfALargeSurfaceOnlyWhatWasTouchedIsWritten) {
+  DeformableMesh mesh = gridMesh(130, 0.1, [](double /*x*/, double /*y*/) { return 0.0; });
+  mesh.id = "plate";
+  Touches touches;
+  sweep_guard::ObjectTouches& object = touches.objects.emplace_back();
+  object.mesh_id = mesh.id;
+  object.triangles = {7, 33000};
+  const std::string csv = surfacesCsv(logOf(mesh, touches));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+  EXPECT_TRUE(has(csv, "\nplate,7,"));
+  EXPECT_TRUE(has(csv, "\nplate,33000,"));
+}
+
+// A tetrahedron whose triangles face inwards.
+TEST(TouchReportTest, TheCornersOfAClosedSurfaceAreCounterclockwiseFromOutside) {
+  DeformableMesh mesh;
+  mesh.id = "tip";
+  const double corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const auto& [x, y, z] : corners) {
+    geometry_msgs::Point& p = mesh.mesh.vertices.emplace_back();
+    p.x = x, p.y = y, p.z = z;
   }
-  std::filesystem::remove(path);
+  const std::uint32_t triangles[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  for (const auto& [a, b, c] : triangles) mesh.mesh.triangles.emplace_back().vertex_indices = {a, b, c};
+  Touches touches;
+  touches.objects.emplace_back().mesh_id = mesh.id;
+  touches.objects[0].triangles = {0};
+  EXPECT_EQ(lineOf(surfacesCsv(logOf(mesh, touches)), 1), "tip,0,0,0,0,0,1,0,1,0,0");
+  for (auto& triangle : mesh.mesh.triangles) std::swap(triangle.vertex_indices[1], triangle.vertex_indices[2]);
+  EXPECT_EQ(lineOf(surfacesCsv(logOf(mesh, touches)), 1), "tip,0,0,0,0,0,1,0,1,0,0");
+}
+
+TEST(TouchReportTest, WithoutItsShapeNothingOfASurfaceIsWritten) {
+  TouchLog shapeless;
+  shapeless.take(boost::make_shared<const Touches>(touchesOf(roof())));
+  EXPECT_EQ(surfacesCsv(shapeless), surfacesCsv(TouchLog()));
 }
 
 }  // namespace
