@@ -7,12 +7,12 @@
 #include <optional>
 #include <vector>
 
-#include "detection/cluster_boxes.h"
 #include "guard/contact_probability.h"
 #include "guard/intended_contact.h"
 #include "guard/path_in_mesh.h"
 #include "guard/predict_contacts.h"
 #include "guard/swept_body.h"
+#include "sweep_guard/detection/submesh.h"
 
 namespace sweep_guard_core {
 

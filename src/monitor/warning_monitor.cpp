@@ -5,7 +5,6 @@
 #include "common/stage_clock.h"
 #include "guard/cross_check.h"
 #include "monitor/faults.h"
-#include "monitor/measured_contact.h"
 #include "monitor/swept_workpieces.h"
 #include "monitor/workpiece_warnings.h"
 

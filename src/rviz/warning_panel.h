@@ -6,10 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "rviz/force_feed.h"
+#include "rviz/feeds.h"
 #include "rviz/service_call.h"
 #include "rviz/strip_chart.h"
-#include "rviz/warning_feed.h"
 
 class QLabel;
 class QLineEdit;

@@ -27,7 +27,7 @@
 #include "session/session_log.h"
 #include "session/session_report.h"
 #include "session/touch_report.h"
-#include "sound/wav.h"
+#include "sound/earcon.h"
 #include "sweep_guard/Contacts.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"

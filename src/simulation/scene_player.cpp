@@ -21,7 +21,6 @@
 #include "simulation/tip_script.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
-#include "simulation/workpiece_parameters.h"
 #include "sweep_guard/Acknowledge.h"
 #include "sweep_guard/Interaction.h"
 #include "sweep_guard/Prediction.h"

@@ -1,4 +1,4 @@
-#include "geometry/merged_motion.h"
+#include "sweep_guard/geometry/motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "guard/joined_motion.h"
+#include "guard/pose_history.h"
 
 #include <gtest/gtest.h>
 

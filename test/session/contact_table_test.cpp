@@ -1,4 +1,4 @@
-#include "session/contact_table.h"
+#include "session/session_report.h"
 
 #include <gtest/gtest.h>
 
