@@ -7,10 +7,10 @@
 namespace sweep_guard_core {
 namespace {
 
-const TriangleMesh kFlat({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+const TriangleMesh kCorner({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
 
 std::shared_ptr<Workpiece> sheetAt(float z) {
-  auto workpiece = std::make_shared<Workpiece>(Workpiece{"sheet", 0, {}, {}, "table", kFlat});
+  auto workpiece = std::make_shared<Workpiece>(Workpiece{"sheet", 0, {}, {}, "table", kCorner});
   std::vector<float> positions = {0, 0, z, 1, 0, z, 0, 1, z};
   workpiece->mesh_M.deform(positions);
   return workpiece;

@@ -7,6 +7,7 @@
 
 #include "guard/fake_detector.h"
 #include "guard/guard_results.h"
+#include "guard/times.h"
 #include "guard/united_bodies.h"
 #include "kinematics/random_robot.h"
 #include "scenes.h"
@@ -17,10 +18,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-Time at(int ms) { return Time(std::chrono::seconds(1) + milliseconds(ms)); }
-
-Eigen::Isometry3d up(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); }
-
 TEST(StaysBesideTest, IsDecidedByTheBoxAroundTheMesh) {
   const TriangleMesh mesh({{4, 0, 0}, {6, 2, 0}, {6, 0, 2}}, {{0, 1, 2}});
   const Eigen::AlignedBox3d points(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1));
@@ -29,7 +26,7 @@ TEST(StaysBesideTest, IsDecidedByTheBoxAroundTheMesh) {
   EXPECT_FALSE(staysBeside(mesh, {Eigen::Vector3d(5, 1, 1), Eigen::Vector3d(5, 1, 1)}, 0.0));
 }
 
-Workpiece workpieceOf(const std::string& id, const std::string& frame, const TriangleMesh& mesh_M, int ms) {
+Workpiece workpieceAt(const std::string& id, const std::string& frame, const TriangleMesh& mesh_M, int ms) {
   return {id, 0, at(ms), SteadyTime{}, frame, mesh_M};
 }
 
@@ -71,11 +68,11 @@ class BallOverASheetTest : public testing::Test {
   void moveSheet(int ms, float z) { workpieces_ = {updated(*workpieces_[0], sheetAt(z), at(ms))}; }
 
   void place(const TriangleMesh& mesh_M) {
-    workpieces_ = {std::make_shared<const Workpiece>(workpieceOf("sheet", "table", mesh_M, 0))};
+    workpieces_ = {std::make_shared<const Workpiece>(workpieceAt("sheet", "table", mesh_M, 0))};
   }
 
   const TriangleMesh sheet_ = TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}});
-  Workpieces workpieces_ = {std::make_shared<const Workpiece>(workpieceOf("sheet", "table", sheet_, 0))};
+  Workpieces workpieces_ = {std::make_shared<const Workpiece>(workpieceAt("sheet", "table", sheet_, 0))};
   FakeDetector::Record record_;
   Guard guard_{twoBalls(), std::make_unique<FakeDetector>(record_), {}};
 };
@@ -266,7 +263,7 @@ class ArmAmongHulls {
   void add(const std::string& frame) {
     places_M_.push_back(random_.inBox({0.4, 0.4, 0.4}));
     const TriangleMesh mesh_M = deformed(wavyHull(10, 14, 0.0), positionsAt(0.0, places_M_.back()));
-    workpieces_.push_back(std::make_shared<const Workpiece>(workpieceOf(frame, frame, mesh_M, ms_)));
+    workpieces_.push_back(std::make_shared<const Workpiece>(workpieceAt(frame, frame, mesh_M, ms_)));
   }
 
   void moveAll() {

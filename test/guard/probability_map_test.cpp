@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "common/floating_point.h"
 #include "guard/contact_probability.h"
 #include "sweep_guard/monitor/warning.h"
 
 namespace sweep_guard_core {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class ProbabilityMapTest : public testing::TestWithParam<PredictionInterval> {};
 

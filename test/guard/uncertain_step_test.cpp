@@ -10,9 +10,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kMargin = 0.002;     // [m]
-constexpr double kTolerance = 1e-3;   // [standard deviations]
-constexpr double kMaxRotation = 0.1;  // [rad]
+constexpr double kMargin = 0.002;        // [m]
+constexpr double kStepTolerance = 1e-3;  // [standard deviations]
+constexpr double kMaxTurn = 0.1;         // [rad]
 
 Tool randomTool(Random& random) {
   std::vector<ConvexPiece> pieces;
@@ -35,7 +35,7 @@ Matrix6d randomCovariance(Random& random) {
 }
 
 // Two steps, so that the first pose of the second errs, too.
-PredictedPath randomPath(Random& random, const Eigen::Isometry3d& X_WT) {
+PredictedPath randomSteps(Random& random, const Eigen::Isometry3d& X_WT) {
   PredictedPath path;
   Eigen::Isometry3d X = X_WT;
   for (int i = 1; i <= 2; ++i) {
@@ -79,7 +79,7 @@ double leastClearance(const PathInMesh& path_M, const PathSegment& segment, cons
                       const TriangleMesh& mesh_M, VolumeKind kind, int halvings) {
   double least = std::numeric_limits<double>::infinity();
   std::vector<Motion> motions_M;
-  path_M.motions_M(segment, kMaxRotation, motions_M);
+  path_M.motions_M(segment, kMaxTurn, motions_M);
   for (const Motion& motion_M : motions_M) {
     const SweptVolume swept_M = sweptVolume(piece, motion_M, kind, kMargin);
     const PerHalfSpace deviations =
@@ -104,7 +104,7 @@ TEST(UncertainStepTest, NoVolumeOfAPieceIsNearerThanItsBoundWhateverTheStepAndTh
   for (int i = 0; i < 1000; ++i) {
     const Tool tool = randomTool(random);
     const Eigen::Isometry3d X_WT = random.pose(random.inBox({0.3, 0.3, 0.3}));
-    const PredictedPath path = randomPath(random, X_WT);
+    const PredictedPath path = randomSteps(random, X_WT);
     PathInMesh path_M;
     if (random.chance(0.5)) {
       path_M.follow(tool, X_WT, path, random.pose(random.inBox({0.3, 0.3, 0.3})));
@@ -125,7 +125,7 @@ TEST(UncertainStepTest, NoVolumeOfAPieceIsNearerThanItsBoundWhateverTheStepAndTh
         const double least = ball.deviationsWithin(boundsOf(mesh_M).exteriorDistance(ball.center_M));
         far += least > 0.0 && clearance < kMaxDeviations;
         if (clearance < kMaxDeviations) {
-          EXPECT_LE(least, std::max(0.0, clearance) + kTolerance) << i;
+          EXPECT_LE(least, std::max(0.0, clearance) + kStepTolerance) << i;
         }
       }
     }

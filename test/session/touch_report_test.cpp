@@ -41,7 +41,7 @@ Touches touchesOf(const DeformableMesh& mesh) {
   return touches;
 }
 
-TouchLog logOf(const DeformableMesh& mesh, const Touches& touches) {
+TouchLog touchLogOf(const DeformableMesh& mesh, const Touches& touches) {
   TouchLog log;
   log.take(boost::make_shared<const DeformableMesh>(mesh));
   log.take(boost::make_shared<const Touches>(touches));
@@ -65,7 +65,7 @@ TEST(TouchReportTest, WritesALineForEachTouchedTriangle) {
 TEST(TouchReportTest, TheSurfaceIsThatOfTheNewestVerticesOfTheRevision) {
   const DeformableMesh mesh = roof();
   const Touches touches = touchesOf(mesh);
-  TouchLog log = logOf(mesh, touches);
+  TouchLog log = touchLogOf(mesh, touches);
   const auto surface = log.surfaceOf(touches.objects[0]);
   ASSERT_EQ(surface.vertices.size(), mesh.mesh.vertices.size());
   EXPECT_EQ(surface.triangles.size(), mesh.mesh.triangles.size());
@@ -84,12 +84,12 @@ TEST(TouchReportTest, AMeshOfAnotherRevisionIsNotTheSurface) {
   DeformableMesh mesh = roof();
   const Touches touches = touchesOf(mesh);
   mesh.revision = 4;
-  EXPECT_TRUE(logOf(mesh, touches).surfaceOf(touches.objects[0]).triangles.empty());
+  EXPECT_TRUE(touchLogOf(mesh, touches).surfaceOf(touches.objects[0]).triangles.empty());
 }
 
 TEST(TouchReportTest, TheScalesEndAtTheLargestValues) {
   const DeformableMesh mesh = roof();
-  const std::string script = touchesPlot(logOf(mesh, touchesOf(mesh)), "a bag", "picture.png");
+  const std::string script = touchesPlot(touchLogOf(mesh, touchesOf(mesh)), "a bag", "picture.png");
   EXPECT_TRUE(has(script, "'1' 0, '1501' 1")) << script.substr(0, 2000);
   EXPECT_TRUE(has(script, "'0' 0, '6.0' 1"));
 }
@@ -101,7 +101,7 @@ TEST(TouchReportTest, IsDrawnWithAndWithoutTouchesAndShape) {
   TouchLog shapeless;
   shapeless.take(boost::make_shared<const Touches>(touchesOf(mesh)));
   const std::pair<TouchLog, std::uintmax_t> cases[] = {
-      {logOf(mesh, touchesOf(mesh)), 50000}, {shapeless, 3000}, {TouchLog(), 3000}};
+      {touchLogOf(mesh, touchesOf(mesh)), 50000}, {shapeless, 3000}, {TouchLog(), 3000}};
   for (const auto& [log, least_size] : cases) {
     std::filesystem::remove(path);
     sweep_guard_evaluation::runGnuplot(touchesPlot(log, "operator's.bag", path));
