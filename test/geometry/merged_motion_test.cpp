@@ -12,8 +12,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Eigen::Isometry3d at(double x, double y = 0.0) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, 0)); }
-
 // Points a millisecond apart, along an axis.
 Path pathAlong(const std::vector<double>& x) {
   Path path;

@@ -14,7 +14,7 @@ namespace sweep_guard_core {
 namespace {
 
 // Returns the distance of a point outside of the volume [m]; negative inside.
-double outside(const SweptVolume& volume, const Eigen::Vector3d& p_B) {
+double outsideOf(const SweptVolume& volume, const Eigen::Vector3d& p_B) {
   double farthest = -std::numeric_limits<double>::infinity();
   for (const HalfSpace& half_space : volume.halfSpaces_B()) {
     farthest = std::max(farthest, half_space.signedDistance(p_B));
@@ -23,12 +23,12 @@ double outside(const SweptVolume& volume, const Eigen::Vector3d& p_B) {
 }
 
 // Returns the largest such distance of the round tool over samples of the exact motion.
-double outside(const SweptVolume& volume, const ConvexShape& tool, const Motion& motion, int steps) {
+double outsideOf(const SweptVolume& volume, const ConvexShape& tool, const Motion& motion, int steps) {
   double farthest = -std::numeric_limits<double>::infinity();
   for (int step = 0; step <= steps; ++step) {
     const Eigen::Isometry3d X_BT = volume.box.X_MB.inverse() * motion.at(static_cast<double>(step) / steps);
     for (const Eigen::Vector3d& p_T : roundToolPoints_T(tool, 16)) {
-      farthest = std::max(farthest, outside(volume, X_BT * p_T));
+      farthest = std::max(farthest, outsideOf(volume, X_BT * p_T));
     }
   }
   return farthest;
@@ -69,7 +69,7 @@ TEST(SweptVolumeTest, HoldsTheToolAllAlongTheExactMotion) {
     const double size = tool.radius() + tool.length();
     const Motion motion = randomMotion(random, tool, size * random.direction(), /*max_angle=*/1.57);
     for (const VolumeKind kind : {VolumeKind::kObb, VolumeKind::kObbPlanes}) {
-      EXPECT_LE(outside(sweptVolume(tool, motion, kind), tool, motion, /*steps=*/20), 1e-12 * size);
+      EXPECT_LE(outsideOf(sweptVolume(tool, motion, kind), tool, motion, /*steps=*/20), 1e-12 * size);
     }
   }
 }
@@ -81,7 +81,7 @@ TEST(SweptVolumeTest, WouldNotHoldTheArcsWithoutItsMargin) {
   turn.X_MT_end.linear() = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitX()).toRotationMatrix();
   SweptVolume volume = sweptVolume(drill, turn, VolumeKind::kObbPlanes);
   volume.box.half_extents.array() -= 0.999 * volume.margin;
-  EXPECT_GT(outside(volume, drill, turn, /*steps=*/50), 0.5 * volume.margin);
+  EXPECT_GT(outsideOf(volume, drill, turn, /*steps=*/50), 0.5 * volume.margin);
 }
 
 // Doubles are 1.2e-10 m apart there, and so are the poses.
@@ -91,7 +91,7 @@ TEST(SweptVolumeTest, HoldsTheToolAThousandKilometersOut) {
     const ConvexShape tool = randomTool(random, 0.1);
     const Motion motion = randomMotion(random, tool, 1e6 * random.direction(), /*max_angle=*/0.175);
     const SweptVolume volume = sweptVolume(tool, motion, VolumeKind::kObbPlanes);
-    EXPECT_LE(outside(volume, tool, motion, /*steps=*/10), 1e-9) << "motion " << i;
+    EXPECT_LE(outsideOf(volume, tool, motion, /*steps=*/10), 1e-9) << "motion " << i;
   }
 }
 
@@ -117,7 +117,7 @@ TEST(SweptVolumeTest, HasItsInteriorPointStrictlyInside) {
     const Motion motion = randomMotion(random, tool, random.logUniform(1e-3, 1e6) * random.direction(), 1.57);
     const bool solid = tool.radius() > 0.0 && tool.length() > 0.0;
     const SweptVolume volume = sweptVolume(tool, motion, VolumeKind::kObbPlanes, solid ? 0.0 : 1e-3 * size);
-    EXPECT_LT(outside(volume, volume.interior_B), 0.0) << "motion " << i;
+    EXPECT_LT(outsideOf(volume, volume.interior_B), 0.0) << "motion " << i;
   }
 }
 

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/floating_point.h"
 #include "scenes.h"
 
 namespace sweep_guard_core {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(ClosestApproachTest, IsTheLeastOfAllSweepsThatBeginNoLater) {
   Random random(1);

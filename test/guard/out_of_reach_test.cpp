@@ -9,6 +9,7 @@
 #include "guard/fake_detector.h"
 #include "guard/guard_results.h"
 #include "guard/path_in_mesh.h"
+#include "guard/times.h"
 #include "guard/united_bodies.h"
 #include "kinematics/random_robot.h"
 #include "scenes.h"
@@ -19,10 +20,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-Time at(int ms) { return Time(std::chrono::seconds(1) + milliseconds(ms)); }
-
-Eigen::Isometry3d up(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); }
-
 TEST(StaysBesideTest, IsDecidedByTheBoxAroundTheMesh) {
   const TriangleMesh mesh({{4, 0, 0}, {6, 2, 0}, {6, 0, 2}}, {{0, 1, 2}});
   const Eigen::AlignedBox3d points(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1));
@@ -31,7 +28,7 @@ TEST(StaysBesideTest, IsDecidedByTheBoxAroundTheMesh) {
   EXPECT_FALSE(staysBeside(mesh, {Eigen::Vector3d(5, 1, 1), Eigen::Vector3d(5, 1, 1)}, 0.0));
 }
 
-Workpiece workpieceOf(const std::string& id, const std::string& frame, const TriangleMesh& mesh_M, int ms) {
+Workpiece workpieceAt(const std::string& id, const std::string& frame, const TriangleMesh& mesh_M, int ms) {
   return {id, 0, at(ms), SteadyTime{}, frame, mesh_M};
 }
 
@@ -73,11 +70,11 @@ class BallOverASheetTest : public testing::Test {
   void moveSheet(int ms, float z) { workpieces_ = {updated(*workpieces_[0], sheetAt(z), at(ms))}; }
 
   void place(const TriangleMesh& mesh_M) {
-    workpieces_ = {std::make_shared<const Workpiece>(workpieceOf("sheet", "table", mesh_M, 0))};
+    workpieces_ = {std::make_shared<const Workpiece>(workpieceAt("sheet", "table", mesh_M, 0))};
   }
 
   const TriangleMesh sheet_ = TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}});
-  Workpieces workpieces_ = {std::make_shared<const Workpiece>(workpieceOf("sheet", "table", sheet_, 0))};
+  Workpieces workpieces_ = {std::make_shared<const Workpiece>(workpieceAt("sheet", "table", sheet_, 0))};
   FakeDetector::Record record_;
   Guard guard_{twoBalls(), std::make_unique<FakeDetector>(record_), {}};
 };
@@ -268,7 +265,7 @@ class ArmAmongHulls {
   void add(const std::string& frame) {
     places_M_.push_back(random_.inBox({0.4, 0.4, 0.4}));
     const TriangleMesh mesh_M = deformed(wavyHull(10, 14, 0.0), positionsAt(0.0, places_M_.back()));
-    workpieces_.push_back(std::make_shared<const Workpiece>(workpieceOf(frame, frame, mesh_M, ms_)));
+    workpieces_.push_back(std::make_shared<const Workpiece>(workpieceAt(frame, frame, mesh_M, ms_)));
   }
 
   void moveAll() {
@@ -382,9 +379,9 @@ TEST(OutOfReachTest, ChangesNothingThatIsMetHoweverToolFramesAndMeshesMove) {
 
 using namespace std::chrono_literals;
 
-constexpr double kMargin = 0.002;     // [m]
-constexpr double kTolerance = 1e-3;   // [standard deviations]
-constexpr double kMaxRotation = 0.1;  // [rad]
+constexpr double kMargin = 0.002;        // [m]
+constexpr double kStepTolerance = 1e-3;  // [standard deviations]
+constexpr double kMaxTurn = 0.1;         // [rad]
 
 Tool randomTool(Random& random) {
   std::vector<ConvexPiece> pieces;
@@ -407,7 +404,7 @@ Matrix6d randomCovariance(Random& random) {
 }
 
 // Two steps, so that the first pose of the second errs, too.
-PredictedPath randomPath(Random& random, const Eigen::Isometry3d& X_WT) {
+PredictedPath randomSteps(Random& random, const Eigen::Isometry3d& X_WT) {
   PredictedPath path;
   Eigen::Isometry3d X = X_WT;
   for (int i = 1; i <= 2; ++i) {
@@ -451,7 +448,7 @@ double leastClearance(const PathInMesh& path_M, const PathSegment& segment, cons
                       const TriangleMesh& mesh_M, VolumeKind kind, int halvings) {
   double least = std::numeric_limits<double>::infinity();
   std::vector<Motion> motions_M;
-  path_M.motions_M(segment, kMaxRotation, motions_M);
+  path_M.motions_M(segment, kMaxTurn, motions_M);
   for (const Motion& motion_M : motions_M) {
     const SweptVolume swept_M = sweptVolume(piece, motion_M, kind, kMargin);
     const PerHalfSpace deviations =
@@ -476,7 +473,7 @@ TEST(UncertainStepTest, NoVolumeOfAPieceIsNearerThanItsBoundWhateverTheStepAndTh
   for (int i = 0; i < 1000; ++i) {
     const Tool tool = randomTool(random);
     const Eigen::Isometry3d X_WT = random.pose(random.inBox({0.3, 0.3, 0.3}));
-    const PredictedPath path = randomPath(random, X_WT);
+    const PredictedPath path = randomSteps(random, X_WT);
     PathInMesh path_M;
     if (random.chance(0.5)) {
       path_M.follow(tool, X_WT, path, random.pose(random.inBox({0.3, 0.3, 0.3})));
@@ -497,7 +494,7 @@ TEST(UncertainStepTest, NoVolumeOfAPieceIsNearerThanItsBoundWhateverTheStepAndTh
         const double least = ball.deviationsWithin(boundsOf(mesh_M).exteriorDistance(ball.center_M));
         far += least > 0.0 && clearance < kMaxDeviations;
         if (clearance < kMaxDeviations) {
-          EXPECT_LE(least, std::max(0.0, clearance) + kTolerance) << i;
+          EXPECT_LE(least, std::max(0.0, clearance) + kStepTolerance) << i;
         }
       }
     }

@@ -19,7 +19,7 @@ using Eigen::Quaterniond;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
 
-Instant at(double ms) { return {Time(fromSeconds(5.0 + 1e-3 * ms)), SteadyTime(fromSeconds(1.0 + 1e-3 * ms))}; }
+Instant instantAt(double ms) { return {Time(fromSeconds(5.0 + 1e-3 * ms)), SteadyTime(fromSeconds(1.0 + 1e-3 * ms))}; }
 
 // A hand in a frame that is turned, and twice as large as the device.
 TEST(PassiveDeviceTest, ObservesTheEnergyAlongTheAxesAndInTheUnitsOfTheDevice) {
@@ -28,10 +28,11 @@ TEST(PassiveDeviceTest, ObservesTheEnergyAlongTheAxesAndInTheUnitsOfTheDevice) {
   PassiveDevice device(options, {});
   const Eigen::Matrix3d R_FD(AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
   const auto observe = [&](const Vector3d& p_F, int ms) {
-    device.observe({Isometry3d(Translation3d(p_F)), R_FD, 2.0, {at(ms).stamp, at(ms).steady}}, at(ms));
+    device.observe({Isometry3d(Translation3d(p_F)), R_FD, 2.0, {instantAt(ms).stamp, instantAt(ms).steady}},
+                   instantAt(ms));
   };
   observe(Vector3d::Zero(), 0);
-  EXPECT_EQ(device.limit({Vector3d(1.0, 0.0, 0.0), Vector3d::Zero()}, at(0).steady).force_D.x(), 1.0);
+  EXPECT_EQ(device.limit({Vector3d(1.0, 0.0, 0.0), Vector3d::Zero()}, instantAt(0).steady).force_D.x(), 1.0);
   observe(Vector3d(0.0, 4e-4, 0.0), 1);
   EXPECT_NEAR(device.energy(), 1.0 * 2e-4, 1e-12);
 }
@@ -44,17 +45,18 @@ TEST(PassiveDeviceTest, ATorqueIsLimitedLikeAForce) {
   double torque = 0.1;
   for (int ms = 0; ms < 100; ++ms) {
     const Isometry3d X_FH(AngleAxisd(1e-3 * ms, Vector3d::UnitY()));
-    device.observe({X_FH, Eigen::Matrix3d::Identity(), 1.0, {at(ms).stamp, at(ms).steady}}, at(ms));
-    torque = device.limit({Vector3d::Zero(), Vector3d(0.0, 0.1, 0.0)}, at(ms).steady).torque_D.y();
+    device.observe({X_FH, Eigen::Matrix3d::Identity(), 1.0, {instantAt(ms).stamp, instantAt(ms).steady}},
+                   instantAt(ms));
+    torque = device.limit({Vector3d::Zero(), Vector3d(0.0, 0.1, 0.0)}, instantAt(ms).steady).torque_D.y();
   }
   EXPECT_LT(torque, 1e-2) << "it turned the hand until nothing was left";
 }
 
 // A hand that does its worst within its limits: it turns with the torque that acts, or goes around a cone about it, which does
 // work between two positions that are alike, or turns as it likes.
-class Wrist {
+class WorstWrist {
  public:
-  Wrist(RandomScenes& random, const PassiveDevice::Options& limits) : random_(random), limits_(limits) {}
+  WorstWrist(RandomScenes& random, const PassiveDevice::Options& limits) : random_(random), limits_(limits) {}
 
   Vector3d turn(const Vector3d& torque_D, double seconds) {
     if (random_.chance(0.01)) choose();
@@ -97,7 +99,7 @@ class Wrist {
 double largestTurnEnergy(RandomScenes& random, const ForceOptions& force, int period, double delay, bool passive) {
   const PassiveDevice::Options limits;
   PassiveDevice device(force, limits);
-  Wrist wrist(random, limits);
+  WorstWrist wrist(random, limits);
   std::deque<std::pair<double, Quaterniond>> seen;
   Vector3d wanted = Vector3d::Zero();
   Vector3d energy = Vector3d::Zero();
@@ -105,12 +107,13 @@ double largestTurnEnergy(RandomScenes& random, const ForceOptions& force, int pe
   for (int ms = 0; ms < 400; ++ms) {
     if (ms % period == 0) seen.emplace_back(ms, wrist.orientation());
     for (; !seen.empty() && seen.front().first + delay <= ms; seen.pop_front()) {
-      const Instant then = at(seen.front().first);
-      device.observe({Isometry3d(seen.front().second), Eigen::Matrix3d::Identity(), 1.0, {then.stamp, at(ms).steady}},
-                     at(ms));
+      const Instant then = instantAt(seen.front().first);
+      device.observe(
+          {Isometry3d(seen.front().second), Eigen::Matrix3d::Identity(), 1.0, {then.stamp, instantAt(ms).steady}},
+          instantAt(ms));
     }
     if (random.chance(0.02)) wanted = force.max_torque * random.uniform(-1.0, 1.0) * random.direction();
-    const Vector3d sent = passive ? device.limit({Vector3d::Zero(), wanted}, at(ms).steady).torque_D : wanted;
+    const Vector3d sent = passive ? device.limit({Vector3d::Zero(), wanted}, instantAt(ms).steady).torque_D : wanted;
     for (int step = 0; step < 10; ++step) {
       energy += sent.cwiseProduct(wrist.turn(sent, 1e-4));
       largest = std::max(largest, energy.maxCoeff());

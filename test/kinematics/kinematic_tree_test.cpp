@@ -4,15 +4,13 @@
 
 #include <cmath>
 
+#include "common/floating_point.h"
 #include "kinematics/random_robot.h"
 #include "refusal.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TreeLink link(const std::string& name, size_t parent, JointType type, size_t variable = 0) {
   TreeLink link;
@@ -31,7 +29,7 @@ KinematicTree arm() {
   slide.axis_J = Eigen::Vector3d::UnitX();
   TreeLink finger = link("finger", 2, JointType::kRevolute, 0);
   finger.multiplier = 2.0;
-  finger.offset = kPi / 2;
+  finger.offset = M_PI / 2;
   return {
       {{"shoulder"}, {"slide", 0.1, 0.5}},
       {link("upper", TreeLink::kRoot, JointType::kRevolute, 0), slide, link("plate", 1, JointType::kFixed), finger}};
@@ -44,7 +42,7 @@ std::vector<Eigen::Isometry3d> posesOf(const KinematicTree& tree, const std::vec
 }
 
 TEST(KinematicTreeTest, LinksAreMovedByTheJointsAboveThem) {
-  const std::vector<Eigen::Isometry3d> X_RL = posesOf(arm(), {kPi / 2, 0.3});
+  const std::vector<Eigen::Isometry3d> X_RL = posesOf(arm(), {M_PI / 2, 0.3});
   EXPECT_TRUE(X_RL[0].translation().isApprox(Eigen::Vector3d(1.0, 0.0, 0.0), 1e-14));
   EXPECT_TRUE(X_RL[1].translation().isApprox(Eigen::Vector3d(1.0, 1.3, 0.0), 1e-14));
   EXPECT_TRUE(X_RL[2].translation().isApprox(Eigen::Vector3d(1.0, 2.3, 0.0), 1e-14));
@@ -54,7 +52,7 @@ TEST(KinematicTreeTest, LinksAreMovedByTheJointsAboveThem) {
 TEST(KinematicTreeTest, AJointThatMimicsFollows) {
   const Eigen::Isometry3d X_RF = posesOf(arm(), {0.2, 0.1})[3];
   EXPECT_TRUE(X_RF.linear().isApprox(
-      Eigen::AngleAxisd(0.2 + 0.4 + kPi / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix(), 1e-14));
+      Eigen::AngleAxisd(0.2 + 0.4 + M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix(), 1e-14));
 }
 
 TEST(KinematicTreeTest, LinksThatNoJointMovesApartAreOneBody) {

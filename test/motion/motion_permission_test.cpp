@@ -4,17 +4,13 @@
 
 #include <initializer_list>
 
+#include "motion/times.h"
 #include "sweep_guard/monitor/reason.h"
 
 namespace sweep_guard_core {
 namespace {
 
 using std::chrono::milliseconds;
-
-constexpr Duration kStart = std::chrono::seconds(100);
-
-constexpr Instant at(int ms) { return {Time(kStart + milliseconds(ms)), SteadyTime(kStart + milliseconds(ms))}; }
-constexpr Timestamps received(int ms) { return {at(ms).stamp, at(ms).steady}; }
 
 // At 1000 ms, all inputs are 10 ms old and the level is CLEAR.
 class MotionPermissionTest : public testing::Test {

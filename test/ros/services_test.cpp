@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "guard/fake_detector.h"
+#include "guard_probe.h"
 #include "refusal.h"
 #include "ros/cross_check_thread.h"
 #include "ros/guard_thread.h"
@@ -32,10 +33,6 @@ using std::chrono::milliseconds;
 using sweep_guard::CheckSweep;
 
 constexpr double kDeadline = 0.5;  // [s]
-
-double secondsSince(std::chrono::steady_clock::time_point begin) {
-  return sweep_guard_core::toSeconds(std::chrono::steady_clock::now() - begin);
-}
 
 // How many threads of this process have this nice value.
 int threadsOfNice(int nice) {
