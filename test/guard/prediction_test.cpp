@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "common/floating_point.h"
 #include "guard/contact_probability.h"
 #include "monitor/warnings.h"
 #include "sweep_guard/monitor/warning.h"
@@ -164,8 +164,6 @@ TEST(PredictedContactTest, HasAProbabilityForEachInterval) {
   EXPECT_EQ(contactAt(0.5).reflex_probability, probabilityWithin(PredictionInterval::kReflex, 0.5));
   EXPECT_EQ(contactAt(0.5).considered_probability, probabilityWithin(PredictionInterval::kConsidered, 0.5));
 }
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class ProbabilityMapTest : public testing::TestWithParam<PredictionInterval> {};
 
