@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "recording/level_trace.h"
-#include "sound/synthesizer.h"
+#include "sound/earcon.h"
 
 namespace sweep_guard_session {
 
