@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "recording/run_node.h"
-#include "simulation/tip_script.h"
+#include "pictures/tip_script.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
 #include "sweep_guard/Acknowledge.h"
