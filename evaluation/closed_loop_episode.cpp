@@ -11,13 +11,14 @@ using sweep_guard_core::Twist;
 
 namespace {
 
-constexpr size_t kWatched = 400;    // cycles before a placement in which its episode may begin
-constexpr size_t kUntouched = 20;   // cycles before the begin in which a guard changes nothing: more than is in flight
+constexpr size_t kWatched = 400;  // cycles before a placement in which its episode may begin
+constexpr size_t kUntouchedCycles =
+    20;                             // cycles before the begin in which a guard changes nothing: more than is in flight
 constexpr size_t kUntilPlanes = 3;  // cycles until a guard has its first planes
 constexpr size_t kReachedLater = 20;  // cycles for which a surface within reach counts: planes and poses are late
 constexpr size_t kCame = 50;          // cycles of the way in that are retraced
 constexpr double kHeld = 0.5;         // share of the speed below which the tool is held
-constexpr Duration kAfter = std::chrono::seconds(2);
+constexpr Duration kAfterPlacement = std::chrono::seconds(2);
 constexpr double kMinApproach = 0.05;  // [m/s] of a surface
 constexpr double kMaxApproach = 0.3;   // [m/s]
 
@@ -28,7 +29,7 @@ bool areSame(const Twist& a, const Twist& b) {
   return same(a.v_W, b.v_W) && same(a.w_W, b.w_W);
 }
 
-double keptOf(const Twist& output_W, const Twist& command_W, double radius) {
+double keptShareOf(const Twist& output_W, const Twist& command_W, double radius) {
   const double speed = fastestPoint(command_W, radius);
   return speed > 0.0 ? fastestPoint(output_W, radius) / speed : 1.0;
 }
@@ -106,7 +107,8 @@ DrivenRobot resting(const DrivenRobot& driven, const LoopPlacement& placement, c
   const SimulatedRobot robot(driven.cycles[end].robot.pose(), setup.delays);
   DrivenRobot at_rest;
   Time time = driven.cycles[placement.begin].time;
-  for (; time < placement.placement.end + kAfter; time += kCommandPeriod) at_rest.cycles.push_back({time, {}, robot});
+  for (; time < placement.placement.end + kAfterPlacement; time += kCommandPeriod)
+    at_rest.cycles.push_back({time, {}, robot});
   return at_rest;
 }
 
@@ -144,7 +146,7 @@ std::optional<LoopPlacement> beginOf(const DrivenRobot& driven, const ObstaclePl
     passed = watch(*loop, driven, cycle) ? passed + 1 : 0;
     if (++watched > kUntilPlanes && passed == 0) loop.reset();  // it would go on from what was not sent
     const bool apart = scene.separationAt(driven.cycles[cycle + 1].robot.pose()).gap > setup.guard.motion.standoff;
-    if (passed >= kUntouched && apart) found = LoopPlacement{placement, cycle + 1};
+    if (passed >= kUntouchedCycles && apart) found = LoopPlacement{placement, cycle + 1};
   }
   return found;
 }
@@ -154,7 +156,7 @@ ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const LoopPlacement& pla
   Random random(kind.seed);
   LoopScene scene(setup.tool, placement.placement.obstacle);
   const SurfaceVelocity surface = velocityOf(scene, driven, placement, kind.surface, random);
-  size_t cycle = cyclesBefore(driven, placement.begin, kUntouched + kUntilPlanes);
+  size_t cycle = cyclesBefore(driven, placement.begin, kUntouchedCycles + kUntilPlanes);
   ClosedLoop loop = loopAt(scene, driven, cycle, surface, setup);
   if (kind.guarded) loop.addGuard(guardOf(setup));
   for (; cycle < placement.begin; ++cycle) watch(loop, driven, cycle);
@@ -164,12 +166,12 @@ ClosedLoopEpisode runEpisode(const DrivenRobot& driven, const LoopPlacement& pla
   std::optional<HeldTool> held;
   double least_kept = kHeld;
   std::vector<Twist> came_W;
-  const Time end = placement.placement.end + kAfter;
+  const Time end = placement.placement.end + kAfterPlacement;
   for (; driven.cycles[cycle].time < end && !episode.contact; ++cycle) {
     const LoopCycle ran = loop.run(driven.cycles[cycle].command_W);
     account.add(ran);
     came_W.push_back(loop.robot().velocity_W());
-    const double kept = keptOf(ran.output_W, ran.command_W, setup.tool.boundingRadius());
+    const double kept = keptShareOf(ran.output_W, ran.command_W, setup.tool.boundingRadius());
     if (kept < least_kept) held.emplace(HeldTool{loop, newest(came_W, kCame)});
     least_kept = std::min(least_kept, kept);
     if (!followsAt(driven, cycle)) break;

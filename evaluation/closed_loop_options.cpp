@@ -54,7 +54,7 @@ po::options_description describeRobot(const ClosedLoopSetup& setup) {
   return described;
 }
 
-void store(const po::variables_map& values, ClosedLoopOptions& options) {
+void storeLoop(const po::variables_map& values, ClosedLoopOptions& options) {
   const auto number = [&](const char* option, auto lower, auto upper) {
     return toNumber(option, values[option].as<std::string>(), lower, upper);
   };
@@ -103,7 +103,7 @@ ClosedLoopOptions parseClosedLoopOptions(int argc, const char* const* argv) {
   po::options_description all = describe(options);
   all.add(describeRobot(options.setup));
   const po::variables_map values = parseCommandLine(argc, argv, all, options.files);
-  store(values, options);
+  storeLoop(values, options);
   if (options.files.empty() && !options.help) {
     throw sweep_guard_core::InvalidInput("no recording; --help shows the usage");
   }

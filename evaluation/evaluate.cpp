@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "evaluation/parallel.h"
-#include "evaluation/tradeoff_report.h"
 
 namespace sweep_guard_evaluation {
 

@@ -4,7 +4,7 @@
 #include "evaluation/closed_loop_options.h"
 #include "evaluation/closed_loop_report.h"
 #include "evaluation/output_file.h"
-#include "evaluation/progress_bar.h"
+#include "evaluation/progress.h"
 
 namespace sweep_guard_evaluation {
 namespace {

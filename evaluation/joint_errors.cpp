@@ -19,7 +19,7 @@ using sweep_guard_core::Time;
 namespace {
 
 constexpr Duration kGap = std::chrono::milliseconds(250);
-constexpr Duration kHistory = std::chrono::seconds(3);
+constexpr Duration kHistoryOfJoints = std::chrono::seconds(3);
 constexpr double kFloor = 1e-3;        // [m]
 constexpr double kNineTenths = 6.251;  // of chi^2 with 3 degrees of freedom
 
@@ -64,9 +64,9 @@ class Errors {
   double log_determinants_ = 0.0;
 };
 
-class Comparison {
+class JointComparison {
  public:
-  explicit Comparison(const JointErrorRequest& request)
+  explicit JointComparison(const JointErrorRequest& request)
       : request_(request),
         robot_(std::make_shared<const sweep_guard_core::Robot>(robotOf(request))),
         joints_(request.predictor, robot_),
@@ -82,7 +82,7 @@ class Comparison {
       const Time stamp = request_.states[i].stamp;
       if (i > 0 && stamp - request_.states[i - 1].stamp > kGap) begin = stamp;
       observe(request_.states[i]);
-      if (stamp - begin >= kHistory && isContinuousAfter(i)) compare(stamp);
+      if (stamp - begin >= kHistoryOfJoints && isContinuousAfter(i)) compare(stamp);
     }
   }
 
@@ -161,7 +161,7 @@ class Comparison {
 }  // namespace
 
 std::vector<JointErrorReport> compareJointPrediction(const JointErrorRequest& request) {
-  Comparison comparison(request);
+  JointComparison comparison(request);
   comparison.run();
   return comparison.reports();
 }

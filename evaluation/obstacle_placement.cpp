@@ -15,15 +15,15 @@ using sweep_guard_core::Time;
 
 namespace {
 
-constexpr Duration kHistory = seconds(1);
+constexpr Duration kHistoryBefore = seconds(1);
 constexpr Duration kBefore = seconds(4);
-constexpr Duration kUntouched = seconds(2);
+constexpr Duration kUntouchedBefore = seconds(2);
 constexpr Duration kAfter = seconds(4);
 constexpr Duration kUntouchedAfter = seconds(2);  // makes a warning at the end of a near miss false
 constexpr Duration kHalfVelocityWindow = milliseconds(25);
-constexpr double kMinSpeed = 0.01;  // [m/s] below, the tool rests
-constexpr double kMaxGap = 0.1;     // [m] of a near miss
-constexpr int kTries = 1000;        // for each placement, on average
+constexpr double kRestSpeed = 0.01;       // [m/s] below, the tool rests
+constexpr double kMaxGap = 0.1;           // [m] of a near miss
+constexpr int kTriesForPlacement = 1000;  // for each placement, on average
 
 /// A moment of the motion that has room for an episode.
 struct Moment {
@@ -36,11 +36,11 @@ std::optional<Moment> randomMoment(const RecordedMotion& motion, Duration after,
   const Duration length = motion.poses().back().stamp - motion.poses().front().stamp;
   const Time time = motion.poses().front().stamp +
                     sweep_guard_core::fromSeconds(random.uniform(0.0, sweep_guard_core::toSeconds(length)));
-  if (!motion.isContinuous(time - kBefore - kHistory, time + after + kHalfVelocityWindow)) return std::nullopt;
+  if (!motion.isContinuous(time - kBefore - kHistoryBefore, time + after + kHalfVelocityWindow)) return std::nullopt;
   const Eigen::Vector3d displacement_W =
       motion.at(time + kHalfVelocityWindow).translation() - motion.at(time - kHalfVelocityWindow).translation();
   const Eigen::Vector3d velocity_W = displacement_W / sweep_guard_core::toSeconds(2 * kHalfVelocityWindow);
-  if (velocity_W.norm() < kMinSpeed) return std::nullopt;
+  if (velocity_W.norm() < kRestSpeed) return std::nullopt;
   return Moment{time, motion.at(time), velocity_W};
 }
 
@@ -83,7 +83,7 @@ std::optional<ObstaclePlacement> tryContact(const RecordedMotion& motion, const 
   const SquareObstacle obstacle = randomObstacle(tool, *moment, kContactRange, random);
   const Time begin = moment->time - kBefore;
   const std::optional<Time> contact = firstContact(motion, tool, obstacle, begin, moment->time);
-  if (!contact || *contact < begin + kUntouched) return std::nullopt;
+  if (!contact || *contact < begin + kUntouchedBefore) return std::nullopt;
   return ObstaclePlacement{obstacle, begin, *contact, contact};
 }
 
@@ -104,7 +104,7 @@ std::vector<ObstaclePlacement> placeObstacles(const RecordedMotion& motion, cons
                                               const ObstaclePlacementOptions& options) {
   Random random(options.seed);
   std::vector<ObstaclePlacement> placements;
-  for (size_t tries = kTries * options.count; placements.size() < options.count && tries > 0; --tries) {
+  for (size_t tries = kTriesForPlacement * options.count; placements.size() < options.count && tries > 0; --tries) {
     const bool to_contact = placements.size() % 2 == 0;
     const std::optional<ObstaclePlacement> placement =
         to_contact ? tryContact(motion, tool, random) : tryMiss(motion, tool, random);

@@ -51,7 +51,7 @@ class Comparison {
   std::vector<ErrorsAhead> errors_;
 };
 
-std::vector<double> keptOf(const std::vector<float>& errors, const std::vector<bool>& kept) {
+std::vector<double> keptErrors(const std::vector<float>& errors, const std::vector<bool>& kept) {
   std::vector<double> sample;
   for (size_t i = 0; i < errors.size(); ++i) {
     if (kept[i]) sample.push_back(errors[i]);
@@ -106,8 +106,8 @@ std::vector<std::vector<ErrorSummary>> summaries(const std::vector<std::vector<E
   for (const std::vector<ErrorsAhead>& of_predictor : errors) {
     all.emplace_back();
     for (const ErrorsAhead& ahead : of_predictor) {
-      const std::vector<double> position = keptOf(ahead.position, kept);
-      const std::vector<double> rotation = keptOf(ahead.rotation, kept);
+      const std::vector<double> position = keptErrors(ahead.position, kept);
+      const std::vector<double> rotation = keptErrors(ahead.rotation, kept);
       all.back().push_back({quantile(position, 0.5), quantile(position, 0.95), quantile(rotation, 0.5),
                             quantile(rotation, 0.95), position.size()});
     }

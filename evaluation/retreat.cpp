@@ -12,11 +12,11 @@ using sweep_guard_core::Twist;
 namespace {
 
 constexpr size_t kCycles = 30;
-constexpr int kTries = 1000;          // for each random direction
-constexpr double kNormalSpeed = 0.1;  // [m/s]
-constexpr double kMinSpeed = 0.02;    // [m/s] of a random retreat
-constexpr double kMinTurnRate = 0.1;  // [rad/s]
-constexpr double kShareOfMax = 0.6;   // of the robot's speed, at most
+constexpr int kTriesForTwist = 1000;       // for each random direction
+constexpr double kNormalSpeed = 0.1;       // [m/s]
+constexpr double kMinRetreatSpeed = 0.02;  // [m/s] of a random retreat
+constexpr double kMinTurnRate = 0.1;       // [rad/s]
+constexpr double kShareOfMax = 0.6;        // of the robot's speed, at most
 
 struct Point {
   Eigen::Vector3d p;
@@ -50,7 +50,7 @@ std::vector<Twist> reversed(const std::vector<Twist>& came_W) {
   return back_W;
 }
 
-Retreat run(RetreatKind kind, ClosedLoop loop, const std::vector<Twist>& commands_W) {
+Retreat runRetreat(RetreatKind kind, ClosedLoop loop, const std::vector<Twist>& commands_W) {
   Retreat retreat;
   retreat.kind = kind;
   const double begin = loop.scene().separationAt(loop.X_MT()).gap;
@@ -70,7 +70,7 @@ Retreat run(RetreatKind kind, ClosedLoop loop, const std::vector<Twist>& command
 
 Twist randomTwist(RetreatKind kind, const RobotLimits& limits, Random& random) {
   Twist twist_W;
-  twist_W.v_W = random.uniform(kMinSpeed, kShareOfMax * limits.max_speed) * random.direction();
+  twist_W.v_W = random.uniform(kMinRetreatSpeed, kShareOfMax * limits.max_speed) * random.direction();
   if (kind == RetreatKind::kTurn) {
     twist_W.w_W = random.uniform(kMinTurnRate, limits.max_turn_rate) * random.direction();
   }
@@ -98,14 +98,15 @@ std::vector<Retreat> retreatFrom(const HeldTool& held, const RobotLimits& limits
   const Eigen::Isometry3d X_MT = held.loop.X_MT();
   const double side = scene.separationAt(X_MT).normal.dot(scene.normal_M()) >= 0.0 ? 1.0 : -1.0;
   const Twist away_W{side * kNormalSpeed * scene.normal_M(), Eigen::Vector3d::Zero()};
-  std::vector<Retreat> retreats = {run(RetreatKind::kNormal, held.loop, speedUpTo(away_W, limits)),
-                                   run(RetreatKind::kReverse, held.loop, reversed(held.came_W))};
+  std::vector<Retreat> retreats = {runRetreat(RetreatKind::kNormal, held.loop, speedUpTo(away_W, limits)),
+                                   runRetreat(RetreatKind::kReverse, held.loop, reversed(held.came_W))};
   for (const RetreatKind kind : {RetreatKind::kTranslate, RetreatKind::kTurn}) {
     for (size_t i = 0; i < random_count; ++i) {
       Twist twist_W = randomTwist(kind, limits, random);
       int tries = 0;
-      while (tries++ < kTries && !opensEveryGap(scene, X_MT, twist_W)) twist_W = randomTwist(kind, limits, random);
-      if (tries <= kTries) retreats.push_back(run(kind, held.loop, speedUpTo(twist_W, limits)));
+      while (tries++ < kTriesForTwist && !opensEveryGap(scene, X_MT, twist_W))
+        twist_W = randomTwist(kind, limits, random);
+      if (tries <= kTriesForTwist) retreats.push_back(runRetreat(kind, held.loop, speedUpTo(twist_W, limits)));
     }
   }
   const auto none = [](const Retreat& retreat) { return retreat.commands == 0; };

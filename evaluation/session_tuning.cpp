@@ -19,7 +19,7 @@ namespace {
 const std::vector<double> kConsideredOn = {0.002, 0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08,
                                            0.1,   0.12,  0.14, 0.17, 0.2,  0.25, 0.3,  0.35, 0.5,  1.0};
 
-std::string share(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value); }
+std::string shareText(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value); }
 
 std::string yaml(const WarningThresholds& thresholds) {
   return fmt::format("warning:\n  considered_on: {:g}\n  considered_off: {:g}\n  reflex_probability: {:g}\n",
@@ -70,8 +70,8 @@ std::string tuningText(const std::vector<TuningPoint>& points, double unjustifie
   std::string text = "  considered_on  off     unjustified/min  precision  warned 0.5 s  1.0 s ahead  without REFLEX\n";
   for (const auto& [thresholds, figures] : points) {
     text += fmt::format("  {:<13g}  {:<7g} {:>14.2f}  {:>9}  {:>12}  {:>11}  {:>14}\n", thresholds.considered_on,
-                        thresholds.considered_off, figures.unjustifiedPerMinute(), share(figures.precision()),
-                        share(figures.warned(2)), share(figures.warned(3)), figures.count.late);
+                        thresholds.considered_off, figures.unjustifiedPerMinute(), shareText(figures.precision()),
+                        shareText(figures.warned(2)), shareText(figures.warned(3)), figures.count.late);
   }
   const std::optional<TuningPoint> chosen = choosePoint(points, unjustified_per_min);
   if (chosen)

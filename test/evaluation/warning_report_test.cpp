@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "evaluation/tradeoff_report.h"
 #include "refusal.h"
 
 namespace sweep_guard_evaluation {

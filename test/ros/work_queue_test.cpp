@@ -156,7 +156,7 @@ TEST(WorkQueueTest, WaitsNoLongerThanAsked) {
   EXPECT_TRUE(taken.poses.empty() && taken.tasks.empty());
   EXPECT_TRUE(queue.take(taken, until));
   queue.push({});
-  EXPECT_TRUE(queue.take(taken, SteadyTime()));
+  EXPECT_TRUE(queue.take(taken, sweep_guard_core::SteadyTime()));
   EXPECT_EQ(taken.poses.size(), 1U);
 }
 

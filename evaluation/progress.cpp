@@ -1,4 +1,4 @@
-#include "evaluation/progress_bar.h"
+#include "evaluation/progress.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "simulation/tip_script.h"
+#include "pictures/tip_script.h"
 
 #include <gtest/gtest.h>
 
