@@ -12,7 +12,6 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kTiny = 1e-6;  // of the volume's size: too small to have a useful direction
 
 using Corners = std::array<Eigen::Vector3d, 3>;
@@ -142,7 +141,7 @@ Touch edgeOnEdge(Random& random, const std::vector<Polygon>& faces, double side,
   const Eigen::Vector3d face_normal = faceNormal(face);
   const Eigen::Vector3d into_face = face_normal.cross(edge);
   // A plane that leans less than the neighboring face touches only the edge.
-  double lean = kPi;
+  double lean = M_PI;
   for (const Eigen::Vector3d& p : cornersOf(faces)) {
     const double depth = -face_normal.dot(p - a);
     if (depth > kTiny * size) lean = std::min(lean, std::atan2(depth, -into_face.dot(p - a)));
@@ -259,8 +258,8 @@ Eigen::Vector3d Random::direction() {
 Eigen::Matrix3d Random::turn(double angle) { return Eigen::AngleAxisd(angle, direction()).toRotationMatrix(); }
 
 Eigen::Matrix3d Random::rotation() {
-  const Eigen::Matrix3d first = turn(uniform(0.0, kPi));
-  return first * turn(uniform(0.0, kPi));
+  const Eigen::Matrix3d first = turn(uniform(0.0, M_PI));
+  return first * turn(uniform(0.0, M_PI));
 }
 
 Eigen::Isometry3d Random::pose(const Eigen::Vector3d& place) {
@@ -316,7 +315,7 @@ Motion randomMotion(Random& random, const ConvexShape& tool, const Eigen::Vector
 Motion handMotion(Random& random) {
   Motion motion;
   motion.X_MT_start = random.pose(Eigen::Vector3d::Zero());
-  motion.X_MT_end.linear() = random.turn(random.uniform(0.0, kPi / 18.0)) * motion.X_MT_start.linear();
+  motion.X_MT_end.linear() = random.turn(random.uniform(0.0, M_PI / 18.0)) * motion.X_MT_start.linear();
   motion.X_MT_end.translation() = random.uniform(0.001, 0.020) * random.direction();
   return motion;
 }
@@ -403,9 +402,9 @@ std::string describe(const Scene& scene, std::uint32_t triangle) {
 TriangleMesh wavyHull(int rings, int sectors, double phase) {
   std::vector<Eigen::Vector3d> vertices = {{0.0, 0.0, 0.1}, {0.0, 0.0, -0.1}};
   for (int ring = 1; ring < rings; ++ring) {
-    const double polar = kPi * ring / rings;
+    const double polar = M_PI * ring / rings;
     for (int sector = 0; sector < sectors; ++sector) {
-      const double azimuth = 2.0 * kPi * sector / sectors;
+      const double azimuth = 2.0 * M_PI * sector / sectors;
       const double radius = 0.1 + 0.01 * std::sin(polar) * std::sin(5.0 * azimuth + phase) * std::cos(4.0 * polar);
       vertices.emplace_back(radius * Eigen::Vector3d(std::sin(polar) * std::cos(azimuth),
                                                      std::sin(polar) * std::sin(azimuth), std::cos(polar)));

@@ -51,6 +51,14 @@ inline TriangleMesh deformed(TriangleMesh mesh, std::vector<float> positions_M) 
   return mesh;
 }
 
+/// Returns a pose at a place [m] that is not turned.
+inline Eigen::Isometry3d placedAt(const Eigen::Vector3d& place) {
+  return Eigen::Isometry3d(Eigen::Translation3d(place));
+}
+inline Eigen::Isometry3d placedAt(double x, double y, double z) { return placedAt({x, y, z}); }
+inline Eigen::Isometry3d along(double x) { return placedAt(x, 0.0, 0.0); }
+inline Eigen::Isometry3d up(double z) { return placedAt(0.0, 0.0, z); }
+
 /// A mesh and a volume to test against it.
 struct Scene {
   TriangleMesh mesh_M;

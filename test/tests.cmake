@@ -1,6 +1,11 @@
-# sweep_guard_label(TEST LABEL...) - unit: runs anywhere, in seconds; ros: starts a master; slow: takes longer than 10 s
+# sweep_guard_label(TEST LABEL...) - unit: runs anywhere, in seconds; ros: starts a master; slow: takes longer than 10 s, and
+# begins before the others; search: draws as many cases as SWEEP_GUARD_SCENES and SWEEP_GUARD_CASES say; nightly: not in
+# scripts/test
 function(sweep_guard_label test)
   set_tests_properties(${test} PROPERTIES LABELS "${ARGN}")
+  if(slow IN_LIST ARGN)
+    set_tests_properties(${test} PROPERTIES COST 30)
+  endif()
 endfunction()
 
 # The main program, and the headers that are precompiled for the tests.
@@ -8,13 +13,18 @@ set(test_headers
   <Eigen/Geometry> <algorithm> <cmath> <functional> <gtest/gtest.h> <map> <memory> <optional> <set> <string> <variant> <vector>)
 add_library(sweep_guard_test_main STATIC EXCLUDE_FROM_ALL main.cpp)
 sweep_guard_target(sweep_guard_test_main)
+sweep_guard_optimize(sweep_guard_test_main -O2)
 target_link_libraries(sweep_guard_test_main GTest::gtest Eigen3::Eigen)
 target_precompile_headers(sweep_guard_test_main PRIVATE ${test_headers})
 
 if(NOT SWEEP_GUARD_CORE_ONLY)
-  add_library(sweep_guard_probe STATIC EXCLUDE_FROM_ALL ros/guard_probe.cpp)
+  # With the main program, for those that have none of their own.
+  add_library(sweep_guard_probe STATIC EXCLUDE_FROM_ALL
+    ros/child_process.cpp ros/guard_probe.cpp ros/guard_process.cpp ros/main.cpp)
+  set_source_files_properties(ros/main.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   sweep_guard_ros_target(sweep_guard_probe)
   target_link_libraries(sweep_guard_probe sweep_guard_ros GTest::gtest)
+  sweep_guard_optimize(sweep_guard_probe -O1)
   target_precompile_headers(sweep_guard_probe PRIVATE ${test_headers}
     <geometry_msgs/PoseStamped.h> <ros/ros.h> <std_srvs/SetBool.h> <std_srvs/Trigger.h> <visualization_msgs/MarkerArray.h>)
 endif()
@@ -28,21 +38,48 @@ function(sweep_guard_empty_libraries target)
   target_compile_definitions(${target} PRIVATE SWEEP_GUARD_EMPTY_LIBRARIES="${PROJECT_BINARY_DIR}/test/empty")
 endfunction()
 
+# sweep_guard_deal(TARGET) - for a unity build: at most eight sources of a folder are compiled as one, in at most 1.5 GB of memory
+function(sweep_guard_deal target)
+  if(NOT SWEEP_GUARD_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    get_filename_component(source ${source} ABSOLUTE)
+    get_filename_component(folder ${source} DIRECTORY)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+    string(MAKE_C_IDENTIFIER ${folder} folder)
+    list(LENGTH dealt_${folder} count)
+    list(APPEND dealt_${folder} ${source})
+    math(EXPR group "${count} / 8")
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${folder}_${group})
+  endforeach()
+endfunction()
+
 # sweep_guard_gtest(TARGET SOURCE...) - a test program of the core. catkin links it to Google Test without a keyword, so
 # this has to as well.
 function(sweep_guard_gtest target)
   catkin_add_gtest(${target} ${ARGN})
+  sweep_guard_deal(${target})
   sweep_guard_target(${target})
+  sweep_guard_optimize(${target} -O2)
   target_precompile_headers(${target} REUSE_FROM sweep_guard_test_main)
   target_link_libraries(${target} sweep_guard_test_main sweep_guard_scenes Threads::Threads)
   sweep_guard_label(_ctest_${PROJECT_NAME}_gtest_${target} unit)
 endfunction()
 
+# sweep_guard_share_probe_headers(TARGET) - and the level of optimization that goes with them
+function(sweep_guard_share_probe_headers target)
+  sweep_guard_optimize(${target} -O1)
+  target_precompile_headers(${target} REUSE_FROM sweep_guard_probe)
+endfunction()
+
 # sweep_guard_ros_gtest(TARGET SOURCE...) - a test program that uses ROS and needs no master
 function(sweep_guard_ros_gtest target)
   catkin_add_gtest(${target} ${ARGN})
+  sweep_guard_deal(${target})
   sweep_guard_ros_target(${target})
-  target_precompile_headers(${target} REUSE_FROM sweep_guard_probe)
+  sweep_guard_share_probe_headers(${target})
   target_link_libraries(${target} sweep_guard_test_main sweep_guard_scenes sweep_guard_ros)
   sweep_guard_label(_ctest_${PROJECT_NAME}_gtest_${target} unit)
 endfunction()
@@ -52,8 +89,8 @@ function(sweep_guard_rostest name)
   add_rostest_gtest(${name}_test ${name}.test ${name}_test.cpp ${ARGN})
   sweep_guard_ros_target(${name}_test)
   target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/test)
-  target_precompile_headers(${name}_test REUSE_FROM sweep_guard_probe)
-  target_link_libraries(${name}_test sweep_guard_ros)
+  sweep_guard_share_probe_headers(${name}_test)
+  target_link_libraries(${name}_test sweep_guard_probe)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   string(REPLACE / _ folder ${folder})
   sweep_guard_label(_ctest_${PROJECT_NAME}_rostest_${folder}_${name}.test ros)

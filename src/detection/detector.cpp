@@ -1,9 +1,13 @@
 #include "sweep_guard/detection/detector.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "detection/halfspace_detector.h"
 #include "detection/reference_detector.h"
 #include "detection/select_detector.h"
 #include "sweep_guard/common/error.h"
+#include "sweep_guard/simd/kernels.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -46,13 +50,46 @@ std::unique_ptr<Detector> makeSelect(const DetectorOptions& options) {
   return std::move(select.detector);
 }
 
+struct Kind {
+  std::string name;
+  std::function<std::unique_ptr<Detector>(const DetectorOptions&)> make;
+  std::function<std::string(const DetectorOptions&)> platform;  // what it runs on; null: nothing of its own
+};
+
+// The last one shares no code with the others.
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> kinds = {
+      {"select", makeSelect, [](const DetectorOptions& options) { return options.gl_context; }},
+      {"halfspace", [](const DetectorOptions&) { return std::make_unique<HalfspaceDetector>(); },
+       [](const DetectorOptions&) { return simd::kernels().name; }},
+      {"reference", [](const DetectorOptions&) { return std::make_unique<ReferenceDetector>(); }, nullptr}};
+  return kinds;
+}
+
+const Kind& kind(const std::string& name) {
+  const auto same = [&](const Kind& one) { return one.name == name; };
+  const auto found = std::find_if(kinds().begin(), kinds().end(), same);
+  if (found != kinds().end()) return *found;
+  std::string known;
+  for (const Kind& one : kinds()) known += (known.empty() ? "" : ", ") + one.name;
+  throw InvalidInput("detector '" + name + "' is unknown: use one of " + known);
+}
+
+std::vector<std::string> namesOf(const std::vector<Kind>& kinds) {
+  std::vector<std::string> names;
+  for (const Kind& one : kinds) names.push_back(one.name);
+  return names;
+}
+
 }  // namespace
 
 std::unique_ptr<Detector> makeDetector(const std::string& name, const DetectorOptions& options) {
-  if (name == "select") return makeSelect(options);
-  if (name == "halfspace") return std::make_unique<HalfspaceDetector>();
-  if (name == "reference") return std::make_unique<ReferenceDetector>();
-  throw InvalidInput("detector '" + name + "' is unknown: use select, halfspace or reference");
+  return kind(name).make(options);
+}
+
+std::string describe(const DetectorChoice& detector) {
+  const auto& platform = kind(detector.name).platform;
+  return platform ? detector.name + " on " + platform(detector.options) : detector.name;
 }
 
 DetectorChoice availableDetector(const std::string& name, const DetectorOptions& options) {
@@ -69,7 +106,7 @@ DetectorChoice availableDetector(const std::string& name, const DetectorOptions&
 }
 
 const std::vector<std::string>& detectorNames() {
-  static const std::vector<std::string> names = {"select", "halfspace", "reference"};
+  static const std::vector<std::string> names = namesOf(kinds());
   return names;
 }
 

@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "common/floating_point.h"
-#include "detection/features.h"
 #include "detection/trajectory.h"
 #include "geometry/penetration.h"
 #include "sweep_guard/geometry/separation.h"
@@ -20,7 +19,7 @@ constexpr double kOffset = 1e-3;     // of the tool's bounding radius
 constexpr double kRounding = 2e-15;  // of the size
 constexpr double kMinGap = 1e-6;     // of the size; the direction of a smaller one has few exact digits
 
-struct Touch {
+struct TimedTouch {
   double fraction;
   Separation separation;
 };
@@ -76,7 +75,7 @@ class ImpactFinder::Search {
     finder_.separating_M_.setZero();
     for (std::size_t i = 0; i < count(); ++i) {
       const Trajectory trajectory = trajectoryOf(i);
-      const std::optional<Touch> touch = firstTouch(trajectory, finder_.sub_motions_[i].margin);
+      const std::optional<TimedTouch> touch = firstTouch(trajectory, finder_.sub_motions_[i].margin);
       if (!touch) {
         finder_.separating_M_ = trajectory.inMesh(*direction_, 0.0);
         continue;
@@ -102,7 +101,7 @@ class ImpactFinder::Search {
     return {shape_T_, finder_.sub_motions_[sub_motion], triangle_, i / all, (i + 1.0) / all};
   }
 
-  std::optional<Touch> firstTouch(const Trajectory& trajectory, double margin) {
+  std::optional<TimedTouch> firstTouch(const Trajectory& trajectory, double margin) {
     Gap at = {0.0, direction_ ? trajectory.gap(*direction_, 0.0) : -kInfinity, 0.0};
     bool stuck = false;  // no known direction proves anything from here on
     while (true) {
@@ -114,7 +113,7 @@ class ImpactFinder::Search {
         const bool close = near && at.gap > margin;
         if (const auto touch = close ? cornerTouchAt(trajectory, at) : std::nullopt) return touch;
         const Separation apart = separationAt(trajectory, at.fraction, margin);
-        if (overlapping(apart)) return Touch{at.fraction, apart};
+        if (overlapping(apart)) return TimedTouch{at.fraction, apart};
         if (apart.gap <= margin + tolerance_) {
           return touchAt(trajectory, at.fraction, exactSeparationAt(trajectory, at.fraction));
         }
@@ -146,13 +145,13 @@ class ImpactFinder::Search {
   }
 
   // If a corner is just as far from the tool as the gap along a direction, that is the direction of the closest points.
-  std::optional<Touch> cornerTouchAt(const Trajectory& trajectory, const Gap& at) const {
+  std::optional<TimedTouch> cornerTouchAt(const Trajectory& trajectory, const Gap& at) const {
     const double s = at.fraction;
     const Eigen::Vector3d direction = trajectory.inMesh(*direction_, s);
     const Eigen::Vector3d corner = PointHull(trajectory.corners(s)).supportPoint(direction);
     const Eigen::Vector3d on_tool = corner + (at.gap + shape_T_.padding() + kRounding * size_) * direction;
     if (shape_T_.depthOf(trajectory.tool(s).inTool(on_tool)).depth < shape_T_.padding()) return std::nullopt;
-    return Touch{s, {direction, at.gap, on_tool, corner, {}}};
+    return TimedTouch{s, {direction, at.gap, on_tool, corner, {}}};
   }
 
   bool overlapping(const Separation& apart) const {
@@ -185,7 +184,7 @@ class ImpactFinder::Search {
 
   // The direction of a tiny distance has few exact digits. The tool is therefore moved away along it by a little: the
   // error of the direction shrinks by the ratio of this distance to the tool's radius of curvature.
-  Touch touchAt(const Trajectory& trajectory, double s, Separation exact) {
+  TimedTouch touchAt(const Trajectory& trajectory, double s, Separation exact) {
     const double distance = exact.gap + shape_T_.padding();
     const double offset = kOffset * (shape_T_.boundingRadius() > 0.0 ? shape_T_.boundingRadius() : size_);
     if (distance > 0.0 && distance < offset) {

@@ -80,7 +80,7 @@ struct ClearanceMeter::Planes {
   Scores scores(const Eigen::Vector3d& p) const {
     return normals.col(0) * p.x() + normals.col(1) * p.y() + normals.col(2) * p.z() - offsets;
   }
-  Candidate candidate(std::uint32_t triangle) const {
+  NearTriangle candidate(std::uint32_t triangle) const {
     const auto& [p, q, r] = corners(triangle);
     const Scores a = scores(p);
     const Scores b = scores(q);
@@ -117,7 +117,7 @@ std::optional<Clearance> ClearanceMeter::measure(const Submesh& submesh, const S
   const bool separated = candidates_.empty() || candidates_.front().at_least > 0.0;
   if (!clearance && !separated && at_most < max_deviations_) {
     double enclosing = max_deviations_;
-    for (const Candidate& candidate : candidates_) enclosing = std::min(enclosing, candidate.at_most);
+    for (const NearTriangle& candidate : candidates_) enclosing = std::min(enclosing, candidate.at_most);
     clearance = nearestUpTo(std::max(enclosing, at_most));
   }
   return clearance;
@@ -197,7 +197,7 @@ const std::vector<RemainingTriangle>& ClearanceMeter::within(double reach, const
 std::optional<Clearance> ClearanceMeter::nearestWithin(double reach, const Planes& planes) const {
   const bool separated = candidates_.empty() || candidates_.front().at_least > 0.0;
   double nearest = reach + kTolerance;
-  for (const Candidate& candidate : candidates_) {
+  for (const NearTriangle& candidate : candidates_) {
     beat();
     if (candidate.at_least > nearest - kTolerance) break;
     const auto corners = planes.corners(candidate.triangle);
@@ -224,7 +224,7 @@ const std::vector<std::uint32_t>& ClearanceMeter::notSeparated(const Submesh& su
 }
 
 // Bisects. Returns `nearest` if the candidate is not nearer.
-double ClearanceMeter::deviationsTo(double nearest, const Candidate& candidate, const Planes& planes) {
+double ClearanceMeter::deviationsTo(double nearest, const NearTriangle& candidate, const Planes& planes) {
   const auto corners = planes.corners(candidate.triangle);
   double lower = std::max(candidate.at_least, 0.0);
   double upper = std::min(nearest - kTolerance, candidate.at_most);
@@ -254,15 +254,15 @@ void ClearanceMeter::collectCandidates(const std::vector<RemainingTriangle>& rem
   double limit = reach + kTolerance;
   candidates_.clear();
   for (const RemainingTriangle& triangle : remaining) {
-    const Candidate candidate = planes.candidate(triangle.triangle);
+    const NearTriangle candidate = planes.candidate(triangle.triangle);
     if (candidate.at_least > limit || (is_left_out && is_left_out(triangle.triangle))) continue;
     candidates_.push_back(candidate);
     limit = std::min(limit, candidate.at_most);
   }
-  const auto too_far = [&](const Candidate& candidate) { return candidate.at_least > limit; };
+  const auto too_far = [&](const NearTriangle& candidate) { return candidate.at_least > limit; };
   candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), too_far), candidates_.end());
   std::sort(candidates_.begin(), candidates_.end(),
-            [](const Candidate& x, const Candidate& y) { return x.at_least < y.at_least; });
+            [](const NearTriangle& x, const NearTriangle& y) { return x.at_least < y.at_least; });
 }
 
 }  // namespace sweep_guard_core

@@ -79,7 +79,7 @@ class ClearanceMeter {
   const std::vector<std::uint32_t>& notSeparated(const Submesh& submesh, const SweptVolume& swept_M);
 
  private:
-  struct Candidate {
+  struct NearTriangle {
     std::uint32_t triangle;
     double at_least;  // deviations
     double at_most;   // deviations
@@ -95,14 +95,14 @@ class ClearanceMeter {
                          const IsLeftOut& is_left_out);
   std::optional<Clearance> nearestWithin(double reach, const Planes& planes) const;
   static bool reaches(double z, const Corners& corners, const Planes& planes);
-  static double deviationsTo(double nearest, const Candidate& candidate, const Planes& planes);
+  static double deviationsTo(double nearest, const NearTriangle& candidate, const Planes& planes);
 
   double max_deviations_;
   const simd::Kernels* kernels_;
   Culler culler_;
   std::vector<float> scores_;  // of blocks
   std::vector<std::uint32_t> near_blocks_;
-  std::vector<Candidate> candidates_;  // ascending by at_least
+  std::vector<NearTriangle> candidates_;  // ascending by at_least
   std::vector<std::uint32_t> not_separated_;
 };
 

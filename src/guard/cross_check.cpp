@@ -1,8 +1,11 @@
 #include "guard/cross_check.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <iterator>
 
+#include "common/number_text.h"
+#include "common/xyz.h"
 #include "detection/reference_detector.h"
 #include "guard/triangle_set.h"
 
@@ -10,6 +13,7 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr std::uint64_t kReferencePeriod = 10;  // [queries]
+constexpr size_t kMaxNamed = 20;                // [triangles]
 
 class SampledDetector : public Detector {
  public:
@@ -37,6 +41,43 @@ SweptVolume shrunk(SweptVolume volume, double distance) {
   volume.box.half_extents = (volume.box.half_extents.array() - distance).max(0.0);
   for (HalfSpace& clip_B : volume.clips_B) clip_B = clip_B.grown(-distance);
   return volume;
+}
+
+std::string text(const Eigen::Vector3d& p) {
+  std::string numbers;
+  for (const double x : xyz(p)) numbers += ' ' + shortestText(x);
+  return numbers;
+}
+
+std::string text(Time stamp) {
+  const std::int64_t total = stamp.time_since_epoch().count();
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%lld.%09lld", static_cast<long long>(total / 1000000000),
+                static_cast<long long>(total % 1000000000));
+  return seconds;
+}
+
+std::string text(const StampedPose& pose) {
+  const Eigen::Quaterniond turn(pose.X_WT.linear());
+  return text(Eigen::Vector3d(pose.X_WT.translation())) + text(Eigen::Vector3d(turn.vec())) + ' ' +
+         shortestText(turn.w()) + " at " + text(pose.stamp);
+}
+
+std::string text(const TriangleSet& triangles) {
+  std::string numbers;
+  for (size_t i = 0; i < std::min(triangles.size(), kMaxNamed); ++i) numbers += ' ' + std::to_string(triangles[i]);
+  if (triangles.size() > kMaxNamed) numbers += " and " + std::to_string(triangles.size() - kMaxNamed) + " more";
+  return triangles.empty() ? " none" : numbers;
+}
+
+std::string text(const SweptVolume& volume) {
+  std::string numbers = " axes";
+  for (int i = 0; i < 3; ++i) numbers += text(Eigen::Vector3d(volume.box.X_MB.linear().col(i)));
+  numbers += " center" + text(Eigen::Vector3d(volume.box.X_MB.translation()));
+  numbers += " half_extents" + text(volume.box.half_extents) + " interior" + text(volume.interior_B);
+  numbers += " margin " + shortestText(volume.margin) + " clips " + std::to_string(volume.clips_B.size());
+  for (const HalfSpace& clip_B : volume.clips_B) numbers += text(clip_B.normal()) + ' ' + shortestText(clip_B.offset());
+  return numbers;
 }
 
 }  // namespace
@@ -117,6 +158,15 @@ Disagreement crossCheck(const SampledQuery& query, Detector& other) {
   return result;
 }
 
+std::string describe(const SampledQuery& query, const Disagreement& disagreement) {
+  const Workpiece& workpiece = *query.workpiece;
+  const QueryOrigin& origin = query.origin;
+  return "missed" + text(disagreement.missed) + ", invented" + text(disagreement.invented) + "; mesh '" + workpiece.id +
+         "' revision " + std::to_string(workpiece.revision) + " at " + text(workpiece.stamp) + " in '" +
+         workpiece.frame + "'; tool " + (origin.measured ? "measured" : "predicted") + " from" + text(origin.from) +
+         " to" + text(origin.to) + "; volume in the mesh frame:" + text(query.swept_M);
+}
+
 TriangleSet testedTriangles(const SampledQuery& query) {
   const MeshOrder& order = query.workpiece->mesh_M.order();
   TriangleSet all;
@@ -130,8 +180,11 @@ TriangleSet testedTriangles(const SampledQuery& query) {
 }
 
 std::string otherDetector(const std::string& name, std::uint64_t number) {
-  if (number % kReferencePeriod == 0 && name != "reference") return "reference";
-  return name == "halfspace" ? "select" : "halfspace";
+  const std::vector<std::string>& names = detectorNames();
+  const std::string& reference = names.back();
+  if (number % kReferencePeriod == 0 && name != reference) return reference;
+  const auto quick = std::find_if(names.rbegin() + 1, names.rend(), [&](const auto& other) { return other != name; });
+  return *quick;
 }
 
 }  // namespace sweep_guard_core

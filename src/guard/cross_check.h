@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sweep_guard/common/stamped_pose.h"
 #include "sweep_guard/detection/detector.h"
 #include "sweep_guard/guard/workpiece.h"
 
@@ -17,6 +18,9 @@ namespace sweep_guard_core {
 struct QueryOrigin {
   bool measured = true;     ///< the tool has moved so; false: it is expected to
   std::uint64_t epoch = 0;  ///< of the monitor, when the pose was received
+  StampedPose from =
+      {};  ///< the tool pose that was swept before `to`; if that is the first one, and of a prediction: `to`
+  StampedPose to = {};  ///< the newest tool pose
 };
 
 /// What a detector was asked about one volume, and its answer.
@@ -82,11 +86,15 @@ struct Disagreement {
 /// @throws DeviceError if the other detector fails
 Disagreement crossCheck(const SampledQuery& query, Detector& other);
 
+/// Names a query and the triangles in one line: tool poses, mesh, and the volume in M with all digits. With the mesh out of a
+/// recording, detectors can be asked the same again.
+std::string describe(const SampledQuery& query, const Disagreement& disagreement);
+
 /// Returns the triangles that the detector was asked about: ascending.
 TriangleSet testedTriangles(const SampledQuery& query);
 
-/// Returns the name of the detector that answers a query again: `halfspace`, and for that `select`. They share code, so
-/// every tenth query is for `reference`, which shares none.
+/// Returns the name of the detector that answers a query again: the last of detectorNames() but one, and for that the one
+/// before. They share code, so every tenth query is for the last one, which shares none.
 /// @param number  of the query: 1, 2, ...
 std::string otherDetector(const std::string& name, std::uint64_t number);
 

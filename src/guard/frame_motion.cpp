@@ -5,7 +5,7 @@
 #include <mutex>
 #include <utility>
 
-#include "geometry/merged_motion.h"
+#include "sweep_guard/geometry/motion.h"
 
 namespace sweep_guard_core {
 namespace {

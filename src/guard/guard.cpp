@@ -6,11 +6,11 @@
 #include <limits>
 #include <numeric>
 
-#include "guard/closest_approach.h"
 #include "guard/displacements.h"
 #include "guard/intended_contact.h"
 #include "guard/measured_sweeps.h"
 #include "guard/path_checker.h"
+#include "guard/predict_contacts.h"
 #include "guard/time_budget.h"
 #include "guard/united_bodies.h"
 #include "sweep_guard/common/error.h"

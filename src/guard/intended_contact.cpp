@@ -159,7 +159,7 @@ double IntendedContact::allowedDepth(size_t piece, std::uint32_t triangle) const
 void IntendedTouches::update(const SweepReport& report, const PoseWithFrames& pose, const Eigen::Isometry3d& X_WB,
                              const Tool& body, const Intentions& intentions) {
   if (intentions.empty()) return clear();
-  const auto is_over = [&](const Touch& touch) {
+  const auto is_over = [&](const TouchedLink& touch) {
     const auto same = [&](const SweptObject& object) { return object.workpiece->id == touch.mesh_id; };
     const auto object = std::find_if(report.objects.begin(), report.objects.end(), same);
     return object == report.objects.end() || hasLeft(touch.link, *object->workpiece, pose, X_WB, body, intentions);
@@ -167,7 +167,7 @@ void IntendedTouches::update(const SweepReport& report, const PoseWithFrames& po
   touches_.erase(std::remove_if(touches_.begin(), touches_.end(), is_over), touches_.end());
   for (const SweptObject& object : report.objects) {
     for (const TriangleContact& contact : object.result.in_contact) {
-      const Touch touch{object.workpiece->id, body.pieces()[contact.piece].link};
+      const TouchedLink touch{object.workpiece->id, body.pieces()[contact.piece].link};
       const bool is_new = contact.intended && std::find(touches_.begin(), touches_.end(), touch) == touches_.end();
       if (is_new) touches_.push_back(touch);
     }
@@ -176,7 +176,7 @@ void IntendedTouches::update(const SweepReport& report, const PoseWithFrames& po
 
 bool IntendedTouches::contains(const std::string& mesh_id, const std::string& link) const {
   return std::any_of(touches_.begin(), touches_.end(),
-                     [&](const Touch& touch) { return touch.mesh_id == mesh_id && touch.link == link; });
+                     [&](const TouchedLink& touch) { return touch.mesh_id == mesh_id && touch.link == link; });
 }
 
 }  // namespace sweep_guard_core

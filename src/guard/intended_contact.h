@@ -96,13 +96,13 @@ class IntendedTouches {
   bool contains(const std::string& mesh_id, const std::string& link) const;
 
  private:
-  struct Touch {
+  struct TouchedLink {
     std::string mesh_id;
     std::string link;
-    bool operator==(const Touch& other) const { return mesh_id == other.mesh_id && link == other.link; }
+    bool operator==(const TouchedLink& other) const { return mesh_id == other.mesh_id && link == other.link; }
   };
 
-  std::vector<Touch> touches_;
+  std::vector<TouchedLink> touches_;
 };
 
 inline const IntendedTouches kNoTouches;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "guard/displacements.h"
-#include "guard/joined_motion.h"
 #include "guard/pose_history.h"
 #include "guard/sweep_checker.h"
 #include "sweep_guard/guard/pose_with_frames.h"

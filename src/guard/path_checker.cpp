@@ -8,9 +8,9 @@
 #include "common/heartbeat.h"
 #include "common/stage_clock.h"
 #include "guard/moving_mesh.h"
+#include "guard/out_of_reach.h"
 #include "guard/placed_workpieces.h"
 #include "guard/triangle_set.h"
-#include "guard/out_of_reach.h"
 
 namespace sweep_guard_core {
 namespace {
@@ -220,7 +220,7 @@ PathChecker::UncertainBody PathChecker::sweepPiece(const Scene& scene, const Unc
   return {body, planeDeviations(piece, motion.end_M.X_MT, motion.end_M.covariance_M, body.volume_M)};
 }
 
-// Returns whether findCandidate() would find a piece of the tool, without its deviations.
+// Returns whether findNearestPiece() would find a piece of the tool, without its deviations.
 bool PathChecker::hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept) {
   if (submesh.empty()) return false;
   const InStage stage(Stage::kProbability);
@@ -253,12 +253,12 @@ bool PathChecker::hasCandidateBelow(const Scene& scene, const Submesh& submesh, 
                      [&](size_t index) { return hasCandidateBelow(scene, submesh, motion, index); });
 }
 
-// Returns the nearer candidate; of two equal ones, the first.
-const PathChecker::Candidate& PathChecker::nearer(const Candidate& one, const Candidate& other) {
+// Returns the nearer approach; of two equal ones, the first.
+const PathChecker::PieceApproach& PathChecker::nearer(const PieceApproach& one, const PieceApproach& other) {
   return other.deviations < one.deviations ? other : one;
 }
 
-PathChecker::Candidate PathChecker::noCandidate() {
+PathChecker::PieceApproach PathChecker::noApproach() {
   unseparated_.clear();
   newly_met_.clear();
   meets_ = false;
@@ -268,41 +268,42 @@ PathChecker::Candidate PathChecker::noCandidate() {
 
 // Finds the piece of the tool nearest to the mesh, if it is nearer than `at_most`, and the pieces that no plane separates
 // from the mesh.
-PathChecker::Candidate PathChecker::findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept,
-                                                  double at_most) {
-  Candidate candidate = noCandidate();
-  if (submesh.empty()) return candidate;
+PathChecker::PieceApproach PathChecker::findNearestPiece(const Scene& scene, const Submesh& submesh,
+                                                         SweptSegment& swept, double at_most) {
+  PieceApproach approach = noApproach();
+  if (submesh.empty()) return approach;
   const InStage stage(Stage::kProbability);
   measureDeviations(scene, swept);
   const std::optional<size_t>& only_piece = scene.tool.tree()[0].piece;
   for (size_t i = 0; i < swept.bodies.size(); ++i) {
     const SweptBody& body = swept.bodies[i];
     const PerHalfSpace& deviations = swept.deviations[i];
-    const double nearest = std::min(at_most, candidate.deviations);
+    const double nearest = std::min(at_most, approach.deviations);
     if (only_piece) {
-      candidate = nearer(candidate, measure(scene, submesh, {body, deviations, *only_piece}, nearest));
+      approach = nearer(approach, measure(scene, submesh, {body, deviations, *only_piece}, nearest));
     } else if (meter_.mayBeNear(submesh, body.volume_M, deviations)) {
-      candidate =
-          nearer(candidate, findCandidateBelow(scene, submesh, {body.motion_M, swept.end_M}, /*node=*/0, nearest));
+      approach =
+          nearer(approach, findNearestPieceBelow(scene, submesh, {body.motion_M, swept.end_M}, /*node=*/0, nearest));
     }
   }
-  return candidate;
+  return approach;
 }
 
-PathChecker::Candidate PathChecker::findCandidateBelow(const Scene& scene, const Submesh& submesh,
-                                                       const UncertainMotion& motion, size_t node, double at_most) {
+PathChecker::PieceApproach PathChecker::findNearestPieceBelow(const Scene& scene, const Submesh& submesh,
+                                                              const UncertainMotion& motion, size_t node,
+                                                              double at_most) {
   const Tool::Node& below = scene.tool.tree()[node];
   if (isLeftOut(scene, submesh, motion, node, at_most)) return {};
   if (below.piece) {
     const UncertainBody piece = sweepPiece(scene, motion, below.shape_T);
     return measure(scene, submesh, {piece.body, piece.deviations, *below.piece}, at_most);
   }
-  Candidate candidate;
+  PieceApproach approach;
   for (const size_t index : nearestFirst(scene, below)) {
-    const double nearest = std::min(at_most, candidate.deviations);
-    candidate = nearer(candidate, findCandidateBelow(scene, submesh, motion, index, nearest));
+    const double nearest = std::min(at_most, approach.deviations);
+    approach = nearer(approach, findNearestPieceBelow(scene, submesh, motion, index, nearest));
   }
-  return candidate;
+  return approach;
 }
 
 // Returns whether no piece below a node counts, or comes nearer than `at_most`. The planes that cut the box of a piece take more
@@ -319,16 +320,16 @@ bool PathChecker::isLeftOut(const Scene& scene, const Submesh& submesh, const Un
   return meter_.isSeparated(submesh, box_M, deviations, below.piece ? limit(at_most) : limit(kInfinity));
 }
 
-PathChecker::Candidate PathChecker::measure(const Scene& scene, const Submesh& submesh, const SweptPiece& swept,
-                                            double at_most) {
+PathChecker::PieceApproach PathChecker::measure(const Scene& scene, const Submesh& submesh, const SweptPiece& swept,
+                                                double at_most) {
   const auto& [body, deviations, piece] = swept;
   if (scene.mayTouch(piece)) return {};
   const auto clearance = meter_.measure(submesh, body.volume_M, deviations, intendedFor(scene, submesh, body, piece),
                                         std::max(0.0, at_most));
   if (!clearance) return {};
-  const Candidate candidate{clearance->deviations, piece};
-  if (!clearance->separated) unseparated_.push_back({body, candidate});
-  return scene.hasTouched(piece) ? Candidate() : candidate;
+  const PieceApproach approach{clearance->deviations, piece};
+  if (!clearance->separated) unseparated_.push_back({body, approach});
+  return scene.hasTouched(piece) ? PieceApproach() : approach;
 }
 
 void PathChecker::boundPieces(const Scene& scene, const PathSegment& segment) {
@@ -383,11 +384,11 @@ IsLeftOut PathChecker::intendedFor(const Scene& scene, const Submesh& submesh, c
 
 void PathChecker::detectContacts(const Scene& scene, const Submesh& submesh, const Progress& progress, bool reflex) {
   hulls_miss_ = reflex;
-  for (const auto& [body, candidate] : unseparated_) {
+  for (const auto& [body, approach] : unseparated_) {
     beat();
     detection_ = scene.detector.detect(submesh, body.volume_M);
-    if (keepNewlyMet(body, intendedFor(scene, submesh, body, candidate.piece), submesh.mesh_M(), progress))
-      addContact(candidate);
+    if (keepNewlyMet(body, intendedFor(scene, submesh, body, approach.piece), submesh.mesh_M(), progress))
+      addContact(approach);
     unite(newly_met_, detection_.triangles);
   }
 }
@@ -417,23 +418,23 @@ bool PathChecker::keepNewlyMet(const SweptBody& body, const IsLeftOut& intended,
   return meets;
 }
 
-void PathChecker::addContact(const Candidate& candidate) {
+void PathChecker::addContact(const PieceApproach& approach) {
   meets_ = true;
-  in_contact_ = nearer(in_contact_, candidate);
+  in_contact_ = nearer(in_contact_, approach);
 }
 
 // Takes each triangle that no plane separates for met. Most pieces name the same ones: they are sorted at the end.
 void PathChecker::assumeContacts(const Scene& scene, const Submesh& submesh) {
   assumed_.assign(submesh.mesh_M().triangles().size(), 0);
-  for (const auto& [body, candidate] : unseparated_) {
-    const IsLeftOut intended = intendedFor(scene, submesh, body, candidate.piece);
+  for (const auto& [body, approach] : unseparated_) {
+    const IsLeftOut intended = intendedFor(scene, submesh, body, approach.piece);
     bool meets = false;
     for (const std::uint32_t triangle : meter_.notSeparated(submesh, body.volume_M)) {
       if (intended && intended(triangle)) continue;
       meets = true;
       if (std::exchange(assumed_[triangle], 1) == 0) newly_met_.push_back(triangle);
     }
-    if (meets) addContact(candidate);
+    if (meets) addContact(approach);
   }
   std::sort(newly_met_.begin(), newly_met_.end());
 }
@@ -463,8 +464,8 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
     progress.object.volumes_tested += swept.bodies.size();
     return halve();
   }
-  const Candidate candidate = near ? findCandidate(scene, submesh, swept, at_most) : noCandidate();
-  const bool in_time = (!candidate.piece && unseparated_.empty()) || scene.inTimeFor(segment);
+  const PieceApproach approach = near ? findNearestPiece(scene, submesh, swept, at_most) : noApproach();
+  const bool in_time = (!approach.piece && unseparated_.empty()) || scene.inTimeFor(segment);
   const bool finer = !progress.contact && in_time;
   if (in_time) progress.object.volumes_tested += swept.bodies.size();
   if (in_time) {
@@ -475,9 +476,9 @@ void PathChecker::checkSegment(const Scene& scene, const Submesh& around, size_t
   if (meets_ && finer && length > options_.finest) return halve();
 
   const bool only_volume = meets_ && hulls_miss_ && segment.to <= scene.reflex_end;
-  const double nearest = std::min(candidate.deviations, meets_ ? in_contact_.deviations : kInfinity);
+  const double nearest = std::min(approach.deviations, meets_ ? in_contact_.deviations : kInfinity);
   const double deviations = only_volume ? std::max(0.0, nearest) : nearest;
-  progress.object.sweeps.push_back({segment.from, meets_, deviations, meets_ ? in_contact_.piece : candidate.piece});
+  progress.object.sweeps.push_back({segment.from, meets_, deviations, meets_ ? in_contact_.piece : approach.piece});
   progress.closest.add(segment.from, deviations);
   progress.contact = progress.contact || meets_;
   unite(*progress.triangles, newly_met_);

@@ -7,12 +7,12 @@
 #include <optional>
 #include <vector>
 
-#include "detection/cluster_boxes.h"
 #include "guard/contact_probability.h"
 #include "guard/intended_contact.h"
 #include "guard/path_in_mesh.h"
 #include "guard/predict_contacts.h"
 #include "guard/swept_body.h"
+#include "sweep_guard/detection/submesh.h"
 
 namespace sweep_guard_core {
 
@@ -74,7 +74,7 @@ class PathChecker {
   struct Progress;
 
   /// A convex piece of the tool, and how near it comes to the mesh (Clearance).
-  struct Candidate {
+  struct PieceApproach {
     double deviations = std::numeric_limits<double>::infinity();
     std::optional<size_t> piece = {};  // none if no piece may meet the mesh
   };
@@ -95,7 +95,7 @@ class PathChecker {
   };
   struct Unseparated {
     SweptBody body;
-    Candidate candidate;
+    PieceApproach approach;
   };
   /// What the tool sweeps in a segment of the path, whatever the workpiece.
   struct SweptSegment {
@@ -116,19 +116,19 @@ class PathChecker {
   void detectContacts(const Scene& scene, const Submesh& submesh, const Progress& progress, bool reflex);
   bool keepNewlyMet(const SweptBody& body, const IsLeftOut& intended, const TriangleMesh& mesh_M,
                     const Progress& progress);
-  void addContact(const Candidate& candidate);
+  void addContact(const PieceApproach& approach);
   void assumeContacts(const Scene& scene, const Submesh& submesh);
   bool hasCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept);
   bool hasCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainMotion& motion, size_t node);
-  static const Candidate& nearer(const Candidate& one, const Candidate& other);
-  Candidate noCandidate();
-  Candidate findCandidate(const Scene& scene, const Submesh& submesh, SweptSegment& swept, double at_most);
-  Candidate findCandidateBelow(const Scene& scene, const Submesh& submesh, const UncertainMotion& motion, size_t node,
-                               double at_most);
+  static const PieceApproach& nearer(const PieceApproach& one, const PieceApproach& other);
+  PieceApproach noApproach();
+  PieceApproach findNearestPiece(const Scene& scene, const Submesh& submesh, SweptSegment& swept, double at_most);
+  PieceApproach findNearestPieceBelow(const Scene& scene, const Submesh& submesh, const UncertainMotion& motion,
+                                      size_t node, double at_most);
   bool isLeftOut(const Scene& scene, const Submesh& submesh, const UncertainMotion& motion, size_t node,
                  double at_most);
   double limit(double at_most) const;
-  Candidate measure(const Scene& scene, const Submesh& submesh, const SweptPiece& swept, double at_most);
+  PieceApproach measure(const Scene& scene, const Submesh& submesh, const SweptPiece& swept, double at_most);
   void boundPieces(const Scene& scene, const PathSegment& segment);
   double leastDeviations(const Scene& scene, size_t node);
   bool comesNoNearer(const Scene& scene, size_t node, double at_most);
@@ -164,7 +164,7 @@ class PathChecker {
   bool meets_ = false;                    // one of them meets the mesh
   TriangleSet newly_met_;                 // triangles that these pieces meet, but for those reported already
   std::vector<char> assumed_;             // for each triangle of the mesh: newly met
-  Candidate in_contact_;                  // the nearest of the pieces that meet one
+  PieceApproach in_contact_;              // the nearest of the pieces that meet one
   bool hulls_miss_ = false;               // the hulls of all pieces miss what their volumes meet
 };
 

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/merged_motion.h"
 #include "guard/out_of_reach.h"
+#include "sweep_guard/geometry/motion.h"
 #include "sweep_guard/geometry/tool.h"
 #include "sweep_guard/guard/frame_motion.h"
 #include "sweep_guard/guard/prediction.h"

@@ -57,7 +57,7 @@ void TouchMap::touches(std::vector<ObjectTouches>& objects) const {
     object.revision = touched.workpiece->revision;
     object.triangles.clear();
     for (const std::uint32_t triangle : touched.triangles) {
-      const Touch& touch = touched.of_triangle[triangle];
+      const TouchCount& touch = touched.of_triangle[triangle];
       object.triangles.push_back({triangle, touch.sweeps, touch.depth});
     }
   }
@@ -105,7 +105,7 @@ void TouchMap::findTouched(const SweepResult& result) {
 
 void TouchMap::count(Touched& touched) const {
   for (const std::uint32_t triangle : in_sweep_) {
-    Touch& touch = touched.of_triangle[triangle];
+    TouchCount& touch = touched.of_triangle[triangle];
     if (touch.sweeps == 0) {
       touch.depth = kUnknown;
       touched.triangles.push_back(triangle);

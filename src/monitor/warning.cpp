@@ -126,7 +126,7 @@ void addThreadReasons(const WarningInputs& inputs, Warning& warning) {
 }
 
 // The warning of one workpiece.
-struct Candidate {
+struct WorkpieceLevel {
   WarningLevel level = WarningLevel::kClear;
   const PredictedContact* contact = nullptr;
   std::optional<SteadyTime> ended = {};  // empty: it is predicted now
@@ -135,7 +135,7 @@ struct Candidate {
   void raise(WarningLevel to, const PredictedContact& about, const std::optional<SteadyTime>& since) {
     if (to > level) *this = {to, &about, since, false};
   }
-  bool goesBefore(const Candidate& other) const {
+  bool goesBefore(const WorkpieceLevel& other) const {
     if (level != other.level || level == WarningLevel::kClear) return level > other.level;
     if (acknowledged != other.acknowledged) return other.acknowledged;
     if (!ended != !other.ended) return !ended;
@@ -143,38 +143,39 @@ struct Candidate {
   }
 };
 
-Candidate candidateOf(const WarningInputs::WorkpieceWarning& workpiece, const Instant& now,
-                      const WarningLimits& limits) {
-  Candidate candidate;
+WorkpieceLevel levelOf(const WarningInputs::WorkpieceWarning& workpiece, const Instant& now,
+                       const WarningLimits& limits) {
+  WorkpieceLevel warned;
   if (workpiece.predicted) {
     const Duration since_end = timeSinceEnd(*workpiece.predicted, now);
     const bool current = since_end == Duration::zero();
     if (since_end <= limits.hold_time) {
-      candidate.raise(warningLevel(*workpiece.predicted, now, limits), *workpiece.predicted,
-                      current ? std::nullopt : std::optional(now.steady - since_end));
+      warned.raise(warningLevel(*workpiece.predicted, now, limits), *workpiece.predicted,
+                   current ? std::nullopt : std::optional(now.steady - since_end));
     }
   }
   const auto raiseIfHeld = [&](WarningLevel level, const std::optional<WarningInputs::Alarm>& alarm) {
-    if (alarm && now.steady - alarm->ended <= limits.hold_time) candidate.raise(level, alarm->contact, alarm->ended);
+    if (alarm && now.steady - alarm->ended <= limits.hold_time) warned.raise(level, alarm->contact, alarm->ended);
   };
   raiseIfHeld(WarningLevel::kReflex, workpiece.reflex);
   raiseIfHeld(WarningLevel::kConsidered, workpiece.considered);
-  candidate.acknowledged = candidate.level == WarningLevel::kConsidered && workpiece.acknowledged_until &&
-                           now.steady <= *workpiece.acknowledged_until;
-  return candidate;
+  warned.acknowledged = warned.level == WarningLevel::kConsidered && workpiece.acknowledged_until &&
+                        now.steady <= *workpiece.acknowledged_until;
+  return warned;
 }
 
-Candidate strongestWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits) {
-  Candidate strongest = candidateOf(inputs.removed, now, limits);
+WorkpieceLevel strongestWarning(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits) {
+  WorkpieceLevel strongest = levelOf(inputs.removed, now, limits);
   for (const WarningInputs::WorkpieceWarning& workpiece : inputs.warnings) {
-    const Candidate candidate = candidateOf(workpiece, now, limits);
-    if (candidate.goesBefore(strongest)) strongest = candidate;
+    const WorkpieceLevel warned = levelOf(workpiece, now, limits);
+    if (warned.goesBefore(strongest)) strongest = warned;
   }
   return strongest;
 }
 
 // Of the workpiece that is warned of, or without one, the earliest.
-const PredictedContact* currentPrediction(const WarningInputs& inputs, const Instant& now, const Candidate& warned) {
+const PredictedContact* currentPrediction(const WarningInputs& inputs, const Instant& now,
+                                          const WorkpieceLevel& warned) {
   const PredictedContact* current = nullptr;
   for (const WarningInputs::WorkpieceWarning& workpiece : inputs.warnings) {
     if (!workpiece.predicted || timeSinceEnd(*workpiece.predicted, now) > Duration::zero()) continue;
@@ -226,7 +227,7 @@ void setPrediction(const PredictedContact& predicted, const Instant& now, const 
 }
 
 void warn(const WarningInputs& inputs, const Instant& now, const WarningLimits& limits, Warning& warning) {
-  const Candidate strongest = strongestWarning(inputs, now, limits);
+  const WorkpieceLevel strongest = strongestWarning(inputs, now, limits);
   const PredictedContact* const current = currentPrediction(inputs, now, strongest);
   if (current != nullptr) setPrediction(*current, now, limits, warning);
   if (strongest.contact == nullptr) return;
@@ -337,7 +338,7 @@ bool isConsidered(const PredictedContact& predicted, const Instant& now, const W
 }
 
 bool isWarnedOf(const WarningInputs::WorkpieceWarning& workpiece, const Instant& now, const WarningLimits& limits) {
-  return candidateOf(workpiece, now, limits).level != WarningLevel::kClear;
+  return levelOf(workpiece, now, limits).level != WarningLevel::kClear;
 }
 
 Duration timeSinceEnd(const PredictedContact& predicted, const Instant& now) {

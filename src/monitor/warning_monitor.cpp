@@ -5,7 +5,6 @@
 #include "common/stage_clock.h"
 #include "guard/cross_check.h"
 #include "monitor/faults.h"
-#include "monitor/measured_contact.h"
 #include "monitor/swept_workpieces.h"
 #include "monitor/workpiece_warnings.h"
 
@@ -152,11 +151,6 @@ void WarningMonitor::detectorsDisagree(const std::string& message, const Sampled
   if (query.origin.epoch != epoch_) return;
   faults_->set(kCrosscheck, message);
   if (query.origin.measured && holds(workpieces_->newest(), *query.workpiece)) meets(*query.workpiece, missed, now);
-}
-
-void WarningMonitor::describeDisagreement(const std::string& message, const SampledQuery& query) {
-  const std::lock_guard lock(mutex_);
-  if (query.origin.epoch == epoch_ && !faults_->get(kCrosscheck).empty()) faults_->set(kCrosscheck, message);
 }
 
 void WarningMonitor::meets(const Workpiece& workpiece, const std::vector<std::uint32_t>& triangles, SteadyTime now) {

@@ -23,14 +23,14 @@ class ProximityFinder::Search {
   enum class Kind : std::uint8_t { kMesh, kGroup, kCluster, kTriangle, kSeparated };
 
   // A part of a mesh before a piece. Of all that wait, the one that may be nearest is next.
-  struct Candidate {
+  struct WaitingPart {
     double bound;  // lower bound on the distance [m]
     std::uint32_t facing;
     std::uint32_t index;    // of the group, cluster, triangle or separation
     std::uint32_t checked;  // number of planes that it does not lie behind
     Kind kind;
 
-    bool operator<(const Candidate& other) const {
+    bool operator<(const WaitingPart& other) const {
       return bound != other.bound ? bound > other.bound : kind < other.kind;
     }
   };
@@ -38,21 +38,21 @@ class ProximityFinder::Search {
   void begin(const ProximityRequest& request, Proximity& proximity);
   void pushIntended(std::uint32_t index);
 
-  void push(const Candidate& candidate);
-  Candidate pop();
-  double leastBound() const { return candidates_.empty() ? kInfinity : candidates_.front().bound; }
-  bool process(const Candidate& candidate);
+  void push(const WaitingPart& waiting);
+  WaitingPart pop();
+  double leastBound() const { return waiting_.empty() ? kInfinity : waiting_.front().bound; }
+  bool process(const WaitingPart& waiting);
   template <typename Part>
-  bool processPart(const Candidate& candidate, const Part& part);
-  bool processTriangle(const Candidate& candidate);
-  void open(const Candidate& candidate, WholeMesh all, const CenteredBox& box);
-  void open(const Candidate& candidate, const ClusterGroup& group, const CenteredBox& box);
-  void open(const Candidate& candidate, const Cluster& cluster, const CenteredBox& box);
+  bool processPart(const WaitingPart& waiting, const Part& part);
+  bool processTriangle(const WaitingPart& waiting);
+  void open(const WaitingPart& waiting, WholeMesh all, const CenteredBox& box);
+  void open(const WaitingPart& waiting, const ClusterGroup& group, const CenteredBox& box);
+  void open(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box);
 
-  bool postpone(Candidate candidate);
-  void seed(const Candidate& candidate, const Cluster& cluster, const CenteredBox& box);
+  bool postpone(WaitingPart waiting);
+  void seed(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box);
   void wait(std::uint32_t index, const SeparatedTriangle& separated);
-  bool standFor(const Candidate& candidate, const SeparatedTriangle& separated);
+  bool standFor(const WaitingPart& waiting, const SeparatedTriangle& separated);
   bool leaveOver(double distance);
 
   Facings facings_;
@@ -60,13 +60,13 @@ class ProximityFinder::Search {
   // Of the running call:
   const ProximityRequest* request_ = nullptr;
   Proximity* found_ = nullptr;
-  std::vector<Candidate> candidates_;
+  std::vector<WaitingPart> waiting_;
   std::vector<SeparatedTriangle> separated_;
 };
 
 void ProximityFinder::Search::find(const ProximityRequest& request, Proximity& proximity) {
   begin(request, proximity);
-  while (!candidates_.empty() && process(pop())) {
+  while (!waiting_.empty() && process(pop())) {
   }
   std::sort(proximity.planes.begin(), proximity.planes.end(),
             [](const auto& a, const auto& b) { return a.plane.gap < b.plane.gap; });
@@ -79,7 +79,7 @@ void ProximityFinder::Search::begin(const ProximityRequest& request, Proximity& 
   proximity.planes.clear();
   proximity.unplaced.clear();
   proximity.uncovered = {};
-  candidates_.clear();
+  waiting_.clear();
   separated_.clear();
   planes_.begin(request.pose.X_WT, proximity.planes);
   facings_.begin(request, proximity.unplaced);
@@ -104,68 +104,68 @@ void ProximityFinder::Search::pushIntended(std::uint32_t index) {
   }
 }
 
-void ProximityFinder::Search::push(const Candidate& candidate) {
-  candidates_.push_back(candidate);
-  std::push_heap(candidates_.begin(), candidates_.end());
+void ProximityFinder::Search::push(const WaitingPart& waiting) {
+  waiting_.push_back(waiting);
+  std::push_heap(waiting_.begin(), waiting_.end());
 }
 
-ProximityFinder::Search::Candidate ProximityFinder::Search::pop() {
-  std::pop_heap(candidates_.begin(), candidates_.end());
-  const Candidate candidate = candidates_.back();
-  candidates_.pop_back();
-  return candidate;
+ProximityFinder::Search::WaitingPart ProximityFinder::Search::pop() {
+  std::pop_heap(waiting_.begin(), waiting_.end());
+  const WaitingPart waiting = waiting_.back();
+  waiting_.pop_back();
+  return waiting;
 }
 
 // Returns false at the end of the search.
-bool ProximityFinder::Search::process(const Candidate& candidate) {
-  const MeshOrder& order = facings_[candidate.facing].mesh().order();
-  switch (candidate.kind) {
+bool ProximityFinder::Search::process(const WaitingPart& waiting) {
+  const MeshOrder& order = facings_[waiting.facing].mesh().order();
+  switch (waiting.kind) {
     case Kind::kMesh:
-      return processPart(candidate, WholeMesh());
+      return processPart(waiting, WholeMesh());
     case Kind::kGroup:
-      return processPart(candidate, order.groups[candidate.index]);
+      return processPart(waiting, order.groups[waiting.index]);
     case Kind::kCluster:
-      return processPart(candidate, order.clusters[candidate.index]);
+      return processPart(waiting, order.clusters[waiting.index]);
     default:
-      return processTriangle(candidate);
+      return processTriangle(waiting);
   }
 }
 
 template <typename Part>
-bool ProximityFinder::Search::processPart(const Candidate& candidate, const Part& part) {
-  const Facing& facing = facings_[candidate.facing];
+bool ProximityFinder::Search::processPart(const WaitingPart& waiting, const Part& part) {
+  const Facing& facing = facings_[waiting.facing];
   const CenteredBox box(facing.surface->boxes.of(part));
   if (const auto plane = facing.cover.behind(box)) {
     planes_.quicken(*plane, facing, part, box);
     return true;
   }
-  if (candidate.bound >= request_->reach) return leaveOver(candidate.bound);
-  if (facing.cover.behindNearest(box)) return postpone(candidate);
-  open(candidate, part, box);
+  if (waiting.bound >= request_->reach) return leaveOver(waiting.bound);
+  if (facing.cover.behindNearest(box)) return postpone(waiting);
+  open(waiting, part, box);
   return true;
 }
 
-void ProximityFinder::Search::open(const Candidate& candidate, WholeMesh /*all*/, const CenteredBox& /*box*/) {
-  const Facing& facing = facings_[candidate.facing];
+void ProximityFinder::Search::open(const WaitingPart& waiting, WholeMesh /*all*/, const CenteredBox& /*box*/) {
+  const Facing& facing = facings_[waiting.facing];
   const auto& groups = facing.mesh().order().groups;
   for (std::uint32_t i = 0; i < groups.size(); ++i) {
     const CenteredBox box(facing.surface->boxes.of(groups[i]));
-    push({std::max(candidate.bound, facing.cover.distance(box)), candidate.facing, i, 0, Kind::kGroup});
+    push({std::max(waiting.bound, facing.cover.distance(box)), waiting.facing, i, 0, Kind::kGroup});
   }
 }
 
-void ProximityFinder::Search::open(const Candidate& candidate, const ClusterGroup& group, const CenteredBox& /*box*/) {
-  const Facing& facing = facings_[candidate.facing];
+void ProximityFinder::Search::open(const WaitingPart& waiting, const ClusterGroup& group, const CenteredBox& /*box*/) {
+  const Facing& facing = facings_[waiting.facing];
   const auto& clusters = facing.mesh().order().clusters;
   for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
     const CenteredBox box(facing.surface->boxes.of(clusters[i]));
-    push({std::max(candidate.bound, facing.cover.distance(box)), candidate.facing, i, 0, Kind::kCluster});
+    push({std::max(waiting.bound, facing.cover.distance(box)), waiting.facing, i, 0, Kind::kCluster});
   }
 }
 
-void ProximityFinder::Search::open(const Candidate& candidate, const Cluster& cluster, const CenteredBox& box) {
-  Facing& facing = facings_[candidate.facing];
-  if (!facing.cover.hasNearest()) seed(candidate, cluster, box);
+void ProximityFinder::Search::open(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box) {
+  Facing& facing = facings_[waiting.facing];
+  if (!facing.cover.hasNearest()) seed(waiting, cluster, box);
   const PieceCover::Classified classified = facing.cover.classify(cluster, box);
   for (const size_t plane : classified.standing) planes_.quicken(plane, facing, cluster, box);
   const double limit = std::min(facing.nearest, request_->reach);
@@ -173,26 +173,26 @@ void ProximityFinder::Search::open(const Candidate& candidate, const Cluster& cl
   for (std::uint64_t left = classified.nearer; left != 0; left &= left - 1) {
     const std::uint32_t triangle = facing.triangleAt(cluster, left);
     if (facing.allowedDepth(triangle) > 0.0) continue;
-    const double bound = std::max(candidate.bound, facing.cover.distance(facing.corners(triangle)));
+    const double bound = std::max(waiting.bound, facing.cover.distance(facing.corners(triangle)));
     if (bound < limit) {
-      push({bound, candidate.facing, triangle, static_cast<std::uint32_t>(classified.tested), Kind::kTriangle});
+      push({bound, waiting.facing, triangle, static_cast<std::uint32_t>(classified.tested), Kind::kTriangle});
     } else {
       rest = std::min(rest, bound);
     }
   }
-  if (rest < kInfinity) push({std::max(candidate.bound, rest), candidate.facing, candidate.index, 0, Kind::kCluster});
+  if (rest < kInfinity) push({std::max(waiting.bound, rest), waiting.facing, waiting.index, 0, Kind::kCluster});
 }
 
 // What lies behind the plane of the nearest triangle known waits until that triangle has its plane.
-bool ProximityFinder::Search::postpone(Candidate candidate) {
-  candidate.bound = std::max(candidate.bound, facings_[candidate.facing].nearest);
-  push(candidate);
+bool ProximityFinder::Search::postpone(WaitingPart waiting) {
+  waiting.bound = std::max(waiting.bound, facings_[waiting.facing].nearest);
+  push(waiting);
   return true;
 }
 
 // Separates one triangle of a cluster, so that it need not be done for those that are farther.
-void ProximityFinder::Search::seed(const Candidate& candidate, const Cluster& cluster, const CenteredBox& box) {
-  Facing& facing = facings_[candidate.facing];
+void ProximityFinder::Search::seed(const WaitingPart& waiting, const Cluster& cluster, const CenteredBox& box) {
+  Facing& facing = facings_[waiting.facing];
   double least = kInfinity;
   std::uint32_t nearest = 0;
   for (std::uint64_t left = facing.cover.classify(cluster, box).nearer; left != 0; left &= left - 1) {
@@ -204,7 +204,7 @@ void ProximityFinder::Search::seed(const Candidate& candidate, const Cluster& cl
   }
   if (least >= request_->reach) return;
   const SeparatedTriangle separated = facing.separate(nearest);
-  if (separated.gap > 0.0) wait(candidate.facing, separated);
+  if (separated.gap > 0.0) wait(waiting.facing, separated);
 }
 
 void ProximityFinder::Search::wait(std::uint32_t index, const SeparatedTriangle& separated) {
@@ -218,31 +218,31 @@ void ProximityFinder::Search::wait(std::uint32_t index, const SeparatedTriangle&
   facing.cover.setNearest(separated.normal_T, separated.normal_T.dot(separated.top_T) + kNearer * separated.gap);
 }
 
-bool ProximityFinder::Search::processTriangle(const Candidate& candidate) {
-  Facing& facing = facings_[candidate.facing];
-  const bool known = candidate.kind == Kind::kSeparated;
-  SeparatedTriangle separated = known ? separated_[candidate.index] : SeparatedTriangle{candidate.index, {}, 0.0, {}};
+bool ProximityFinder::Search::processTriangle(const WaitingPart& waiting) {
+  Facing& facing = facings_[waiting.facing];
+  const bool known = waiting.kind == Kind::kSeparated;
+  SeparatedTriangle separated = known ? separated_[waiting.index] : SeparatedTriangle{waiting.index, {}, 0.0, {}};
   const PieceCover::Corners at = facing.corners(separated.triangle);
-  if (known && candidate.bound >= facing.nearest) facing.forgetNearest();
-  if (const auto plane = facing.cover.behind(at, candidate.checked)) {
+  if (known && waiting.bound >= facing.nearest) facing.forgetNearest();
+  if (const auto plane = facing.cover.behind(at, waiting.checked)) {
     planes_.quicken(*plane, facing, facing.mesh().triangles()[separated.triangle]);
     return true;
   }
-  if (candidate.bound >= request_->reach) return leaveOver(candidate.bound);
+  if (waiting.bound >= request_->reach) return leaveOver(waiting.bound);
   if (!known) {
-    if (facing.cover.behindNearest(at)) return postpone(candidate);
+    if (facing.cover.behindNearest(at)) return postpone(waiting);
     separated = facing.separate(separated.triangle);
     if ((1.0 - kNearer) * separated.gap > leastBound()) {
-      wait(candidate.facing, separated);
+      wait(waiting.facing, separated);
       return true;
     }
   }
-  return standFor(candidate, separated);
+  return standFor(waiting, separated);
 }
 
 // Returns false if it is left over: no plane is free.
-bool ProximityFinder::Search::standFor(const Candidate& candidate, const SeparatedTriangle& separated) {
-  Facing& facing = facings_[candidate.facing];
+bool ProximityFinder::Search::standFor(const WaitingPart& waiting, const SeparatedTriangle& separated) {
+  Facing& facing = facings_[waiting.facing];
   if (separated.gap <= 0.0 && planes_.join(facing, separated)) return true;
   const double distance = std::min((1.0 - kNearer) * separated.gap, leastBound());
   if (distance >= request_->reach || planes_.full()) return leaveOver(distance);

@@ -1,11 +1,25 @@
 #include "prediction/direct_extrapolator.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "prediction/delayed_targets.h"
 
 namespace sweep_guard_core {
 namespace {
+
+constexpr std::array<int, 5> kWindows = {50, 120, 300, 800, 20};  // [ms]
+constexpr double kCenterTime = 6.0;                               // [s]
+
+constexpr int kModerate = 1;        // window of 120 ms: what fast motion is measured by
+constexpr int kSmooth = 2;          // window of 300 ms
+constexpr double kMaxSpeed = 2.5;   // largest speed that counts, relative to the mean speed
+constexpr double kSlowSpeed = 0.3;  // half of the saturated speed is reached here, relative to the mean speed
+
+enum Column : Eigen::Index { kScaled = kWindows.size(), kSaturated, kReturn, kColumns };
+static_assert(kColumns == kRegressors);
 
 template <int Axes, size_t... i>
 std::array<DisplacementRegression<Axes>, sizeof...(i)> makeRegressions(double prior_speed,
@@ -22,6 +36,52 @@ auto makeGroups(const Speeds& prior_speeds, std::index_sequence<i...> /*groups*/
 }
 
 }  // namespace
+
+template <typename Space>
+MotionRegressors<Space>::MotionRegressors() {
+  for (const int milliseconds : kWindows) windows_.emplace_back(std::chrono::milliseconds(milliseconds));
+}
+
+template <typename Space>
+void MotionRegressors<Space>::observe(const MotionTracker<Space>& tracker) {
+  for (size_t i = 0; i < windows_.size(); ++i) {
+    windows_[i].observe(tracker);
+    values_.col(static_cast<Eigen::Index>(i)) = windows_[i].value();
+  }
+  average(tracker);
+  values_.col(kReturn) = (tracker.coordinates() - center_) / kCenterTime;
+  scale();
+}
+
+template <typename Space>
+void MotionRegressors<Space>::average(const MotionTracker<Space>& tracker) {
+  if (tracker.step() == MotionTracker<Space>::Step::kBegins) center_ = tracker.coordinates();
+  if (tracker.step() != MotionTracker<Space>::Step::kContinues) return;
+  const double period = toSeconds(tracker.period());
+  center_ += (1.0 - std::exp(-period / kCenterTime)) * (tracker.coordinates() - center_);
+  typename Space::Speeds squares;
+  for (int i = 0; i < Space::kGroups; ++i)
+    squares[i] = values_.col(kModerate).template segment<Space::kAxes>(i * Space::kAxes).squaredNorm();
+  speeds_.add(squares, period);
+}
+
+template <typename Space>
+void MotionRegressors<Space>::scale() {
+  const typename Space::Speeds mean = speeds_.mean().sqrt();
+  for (int i = 0; i < Space::kGroups; ++i) {
+    auto values = values_.template middleRows<Space::kAxes>(i * Space::kAxes);
+    if (mean[i] == 0.0) {
+      values.col(kScaled).setZero();
+      values.col(kSaturated).setZero();
+      continue;
+    }
+    values.col(kScaled) = std::min(values.col(kModerate).norm() / mean[i], kMaxSpeed) * values.col(kModerate);
+    values.col(kSaturated) = values.col(kSmooth) / (values.col(kSmooth).norm() / mean[i] + kSlowSpeed);
+  }
+}
+
+template class MotionRegressors<PoseSpace>;
+template class MotionRegressors<JointSpace>;
 
 template <typename Space>
 LearnedMotion<Space>::LearnedMotion(const typename Space::Speeds& prior_speeds, size_t channels)

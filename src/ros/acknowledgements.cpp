@@ -17,10 +17,10 @@ void throwIf(const std::string& refusal) {
 }  // namespace
 
 std::string Acknowledgements::add(const std::string& id, const sweep_guard_core::Workpieces& workpieces,
-                                  std::uint64_t epoch) {
+                                  const sweep_guard_core::QueryOrigin& origin) {
   std::string warned = id.empty() ? warnedOf() : id;
   throwIf(monitor_.whyNotAcknowledged(warned, now()));
-  if (!isNear(warned, workpieces, epoch)) {
+  if (!isNear(warned, workpieces, origin)) {
     throw Error("the tool is farther from '" + warned + "' than warning/acknowledge_distance");
   }
   throwIf(monitor_.acknowledge(warned, now()));
@@ -34,10 +34,11 @@ std::string Acknowledgements::warnedOf() const {
   return warning.mesh_id;
 }
 
-bool Acknowledgements::endWhereFar(const sweep_guard_core::Workpieces& workpieces, std::uint64_t epoch) {
+bool Acknowledgements::endWhereFar(const sweep_guard_core::Workpieces& workpieces,
+                                   const sweep_guard_core::QueryOrigin& origin) {
   bool ended = false;
   for (const std::string& id : monitor_.acknowledged(std::chrono::steady_clock::now())) {
-    if (isKnownNear(id, workpieces, epoch)) continue;
+    if (isKnownNear(id, workpieces, origin)) continue;
     monitor_.endAcknowledgement(id);
     ended = true;
   }
@@ -46,9 +47,9 @@ bool Acknowledgements::endWhereFar(const sweep_guard_core::Workpieces& workpiece
 
 // A workpiece that cannot be tested is not acknowledged any longer.
 bool Acknowledgements::isKnownNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces,
-                                   std::uint64_t epoch) {
+                                   const sweep_guard_core::QueryOrigin& origin) {
   try {
-    return isNear(id, workpieces, epoch);
+    return isNear(id, workpieces, origin);
   } catch (const Error& error) {
     log_.error(id, "testing whether the tool is near '" + id + "' failed: " + error.what());
     return false;
@@ -56,11 +57,11 @@ bool Acknowledgements::isKnownNear(const std::string& id, const sweep_guard_core
 }
 
 bool Acknowledgements::isNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces,
-                              std::uint64_t epoch) {
+                              const sweep_guard_core::QueryOrigin& origin) {
   const auto same = [&](const auto& workpiece) { return workpiece->id == id; };
   const auto workpiece = std::find_if(workpieces.begin(), workpieces.end(), same);
   if (workpiece == workpieces.end()) return false;
-  sampler_.setWorkpieces(workpieces, {/*measured=*/false, epoch});
+  sampler_.setWorkpieces(workpieces, origin);
   return guard_.isWithin(parameters_.get()->acknowledge_distance, **workpiece);
 }
 

@@ -20,20 +20,23 @@ class Acknowledgements {
       : parameters_(parameters), monitor_(monitor), sampler_(sampler), guard_(guard) {}
 
   /// Acknowledges a warning, see WarningMonitor.
-  /// @param id     of the workpiece; empty: the one that the warning names
-  /// @param epoch  of the newest pose in the guard
+  /// @param id      of the workpiece; empty: the one that the warning names
+  /// @param origin  of the queries: the newest pose in the guard
   /// @returns the id
   /// @throws sweep_guard_core::Error if there is nothing to acknowledge, or the tool is farther away than
   ///     warning/acknowledge_distance
-  std::string add(const std::string& id, const sweep_guard_core::Workpieces& workpieces, std::uint64_t epoch);
+  std::string add(const std::string& id, const sweep_guard_core::Workpieces& workpieces,
+                  const sweep_guard_core::QueryOrigin& origin);
 
   /// Ends acknowledgements of workpieces that the tool is not near, or is not known to be near. Returns whether there was one.
-  bool endWhereFar(const sweep_guard_core::Workpieces& workpieces, std::uint64_t epoch);
+  bool endWhereFar(const sweep_guard_core::Workpieces& workpieces, const sweep_guard_core::QueryOrigin& origin);
 
  private:
   std::string warnedOf() const;
-  bool isKnownNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces, std::uint64_t epoch);
-  bool isNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces, std::uint64_t epoch);
+  bool isKnownNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces,
+                   const sweep_guard_core::QueryOrigin& origin);
+  bool isNear(const std::string& id, const sweep_guard_core::Workpieces& workpieces,
+              const sweep_guard_core::QueryOrigin& origin);
 
   const LiveParameters& parameters_;
   sweep_guard_core::WarningMonitor& monitor_;

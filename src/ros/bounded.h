@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ros/advertise_service_options.h>
 #include <ros/node_handle.h>
 
 #include <boost/make_shared.hpp>
@@ -9,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "ros/own_services.h"
 #include "ros/threads/thread_top.h"
 #include "ros/topic_refusals.h"
 #include "ros/wire.h"
@@ -154,7 +154,7 @@ ros::ServiceServer advertiseBounded(ros::NodeHandle node, const std::string& nam
   options.initBySpecType<Spec>(name, callback);
   options.helper =
       boost::make_shared<BoundedCalls<Spec>>(std::move(callback), std::move(refused), max_size, std::move(admit));
-  return node.advertiseService(options);
+  return advertiseOwn(node, options);
 }
 
 }  // namespace sweep_guard_ros

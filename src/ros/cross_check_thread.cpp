@@ -1,16 +1,12 @@
 #include "ros/cross_check_thread.h"
 
 #include <ros/console.h>
-#include <ros/file_log.h>
 
-#include "guard/detector_case.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
 namespace sweep_guard_ros {
 namespace {
-
-constexpr std::uintmax_t kMaxFolder = 64U << 20U;  // [bytes]
 
 std::string found(size_t count, const std::string& detector) {
   return std::to_string(count) + (count == 1 ? " triangle" : " triangles") + " found by " + detector + " only";
@@ -60,17 +56,13 @@ void CrossCheckThread::check(const sweep_guard_core::SampledQuery& query) {
   if (disagreement.any()) report(query, asked->name, disagreement);
 }
 
-// The warning first: a large case takes a while to write.
 void CrossCheckThread::report(const sweep_guard_core::SampledQuery& query, const std::string& other,
                               const sweep_guard_core::Disagreement& disagreement) {
-  std::string text = "detectors disagree about '" + query.workpiece->id +
-                     "': " + found(disagreement.missed.size(), other) + ", " +
-                     found(disagreement.invented.size(), query.detector);
+  const std::string text = "detectors disagree about '" + query.workpiece->id +
+                           "': " + found(disagreement.missed.size(), other) + ", " +
+                           found(disagreement.invented.size(), query.detector);
   monitor_.detectorsDisagree(text, query, disagreement.missed, now().steady);
-  const std::string folder = ros::file_log::getLogDirectory() + "/sweep_guard_cases";
-  text += "; " + save(query, other, folder, kMaxFolder);
-  monitor_.describeDisagreement(text, query);
-  log_.error("disagreement", text);
+  log_.error("disagreement", "CROSSCHECK: " + text + ": " + describe(query, disagreement));
 }
 
 CrossCheckThread::Other& CrossCheckThread::other(const std::string& name) {
@@ -78,13 +70,14 @@ CrossCheckThread::Other& CrossCheckThread::other(const std::string& name) {
   return made != others_.end() ? made->second : others_.emplace(name, make(name)).first->second;
 }
 
-// Without OpenGL, `reference` stands in for `select`.
+// Without OpenGL, the reference stands in for `select`.
 CrossCheckThread::Other CrossCheckThread::make(const std::string& name) const {
   try {
     return {name, sweep_guard_core::makeDetector(name, parameters_.initial().detector.options)};
   } catch (const sweep_guard_core::DeviceError& error) {
-    ROS_WARN("cross-check by reference instead of %s: %s", name.c_str(), error.what());
-    return {"reference", sweep_guard_core::makeDetector("reference")};
+    const std::string& reference = sweep_guard_core::detectorNames().back();
+    ROS_WARN("cross-check by %s instead of %s: %s", reference.c_str(), name.c_str(), error.what());
+    return {reference, sweep_guard_core::makeDetector(reference)};
   }
 }
 

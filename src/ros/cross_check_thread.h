@@ -17,8 +17,7 @@
 namespace sweep_guard_ros {
 
 /// Asks a second detector every Nth query of the guard's, whose thread runs when nothing else does. If they
-/// disagree, reports it to the monitor and saves the query in the folder of ROS's logs. Publishes nothing: the watchdog
-/// does soon.
+/// disagree, reports it to the monitor and logs the query. Publishes nothing: the watchdog does soon.
 class CrossCheckThread {
  public:
   CrossCheckThread(const LiveParameters& parameters, sweep_guard_core::WarningMonitor& monitor);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/heartbeat.h"
-#include "ros/available_detector.h"
 #include "ros/detector_test.h"
 #include "ros/process.h"
 #include "sweep_guard/common/error.h"
@@ -49,6 +48,15 @@ sweep_guard_core::Guard guardOf(const Parameters& parameters, std::unique_ptr<sw
 }
 
 Timestamps timestampsOf(const sweep_guard_core::PoseWithFrames& pose) { return {pose.stamp, pose.received}; }
+
+sweep_guard_core::StampedPose stampedPoseOf(const sweep_guard_core::PoseWithFrames& pose) {
+  return {pose.stamp, pose.X_WT};
+}
+
+// Of queries about what the tool will do.
+sweep_guard_core::QueryOrigin predictedFrom(const sweep_guard_core::PoseWithFrames& pose, std::uint64_t epoch) {
+  return {/*measured=*/false, epoch, stampedPoseOf(pose), stampedPoseOf(pose)};
+}
 
 Duration ageOf(const Timestamps& pose, const Instant& at) { return std::max(age(pose, at), Duration::zero()); }
 
@@ -181,7 +189,8 @@ const QueuedPose& GuardThread::freshPose() const {
 std::string GuardThread::acknowledge(const std::string& id) {
   std::string acknowledged;
   const auto add = [&] {
-    acknowledged = acknowledgements_.add(id, dependencies_.workpieces.snapshot(), checkpoint_.epoch);
+    const auto origin = predictedFrom(swept_.value_or(QueuedPose()).pose, checkpoint_.epoch);
+    acknowledged = acknowledgements_.add(id, dependencies_.workpieces.snapshot(), origin);
   };
   runInTime(add, "nothing was acknowledged");
   dependencies_.warnings.publishIfChanged();
@@ -314,7 +323,9 @@ void GuardThread::sweep(const QueuedPose& queued) {
   const SteadyTime begin = std::chrono::steady_clock::now();
   const auto report = reports_.take();
   const sweep_guard_core::Workpieces workpieces = dependencies_.workpieces.snapshot();
-  dependencies_.sampler.setWorkpieces(workpieces, {/*measured=*/true, queued.checkpoint.epoch});
+  const sweep_guard_core::PoseWithFrames& before = swept_ ? swept_->pose : pose;
+  dependencies_.sampler.setWorkpieces(
+      workpieces, {/*measured=*/true, queued.checkpoint.epoch, stampedPoseOf(before), stampedPoseOf(pose)});
   guard_.intend(dependencies_.intentions.at(begin));
   guard_.sweep(pose, workpieces, *report);
   const SteadyTime end = std::chrono::steady_clock::now();
@@ -390,7 +401,8 @@ void GuardThread::predict() {
                                       prediction->sweeps_asked, prediction->coveredUntil() - prediction->stamp - age,
                                       prediction->probability(PredictionInterval::kConsidered, age + considered)});
   reportFailures(prediction->failures);
-  if (acknowledgements_.endWhereFar(workpieces, checkpoint_.epoch)) dependencies_.warnings.publishIfChanged();
+  if (acknowledgements_.endWhereFar(workpieces, predictedFrom(pose, checkpoint_.epoch)))
+    dependencies_.warnings.publishIfChanged();
   dependencies_.scene.predicted(pose, prediction);
   tool_.bodies.predicted(pose, *prediction);
 }
@@ -398,7 +410,7 @@ void GuardThread::predict() {
 // Sweeps the poses that come meanwhile, as long as none of them fails, and counts how long that takes.
 void GuardThread::predictInterrupted(Duration age, const sweep_guard_core::Workpieces& workpieces,
                                      sweep_guard_core::Prediction& prediction, Duration& interrupted) {
-  const sweep_guard_core::QueryOrigin origin{/*measured=*/false, predicted_from_.checkpoint.epoch};
+  const auto origin = predictedFrom(predicted_from_.pose, predicted_from_.checkpoint.epoch);
   dependencies_.sampler.setWorkpieces(workpieces, origin);
   bool interruptible = true;
   const auto between = [&] {

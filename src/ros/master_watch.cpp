@@ -12,9 +12,11 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "ros/host_address.h"
+#include "ros/own_services.h"
 
 namespace sweep_guard_ros {
 namespace {
@@ -23,10 +25,7 @@ using XmlRpc::XmlRpcValue;
 
 constexpr auto kMasterPeriod = std::chrono::seconds(1);
 constexpr int kChecksPerLook = 3;  // for publishers that are missing
-// roscpp keeps no list of them.
-constexpr std::array kServices = {"acknowledge", "attach",        "check_sweep", "check_trajectory",
-                                  "enable",      "intend",        "predict",     "rebase",
-                                  "reset",       "reset_touches", "save",        "set_parameters"};
+// Those that roscpp and nodelet advertise.
 constexpr std::array kServicesOfTheProcess = {"get_loggers", "list", "load_nodelet", "set_logger_level",
                                               "unload_nodelet"};
 
@@ -97,11 +96,9 @@ bool MasterWatch::setParameters() {
 }
 
 bool MasterWatch::registerServices() {
-  std::vector<std::string> services;
-  services.reserve(kServices.size() + kServicesOfTheProcess.size());
-  for (const char* const name : kServices) services.push_back(ros::names::append(namespace_, name));
+  std::set<std::string> services = ownServices();
   for (const char* const name : kServicesOfTheProcess)
-    services.push_back(ros::names::append(ros::this_node::getName(), name));
+    services.insert(ros::names::append(ros::this_node::getName(), name));
   for (const std::string& service : services) {
     if (!ros::ServiceManager::instance()->lookupServicePublication(service)) continue;
     if (!request("registerService", {XmlRpcValue(service), XmlRpcValue(service_address_), XmlRpcValue(ownUri())}))

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "ros/available_detector.h"
 #include "sweep_guard/monitor/reason.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -19,6 +18,16 @@ constexpr auto kTouchesPeriod = std::chrono::seconds(1);
 constexpr std::uint32_t kSilentInputs =
     sweep_guard_core::kNoPose | sweep_guard_core::kPoseStale | sweep_guard_core::kTfFail | sweep_guard_core::kNoMesh |
     sweep_guard_core::kMeshStale | sweep_guard_core::kNotCovered | sweep_guard_core::kDisabled;
+
+// With a detector that this machine can make.
+Parameters withAvailableDetector(Parameters parameters) {
+  parameters.detector = sweep_guard_core::availableDetector(parameters.detector.name, parameters.detector.options);
+  if (parameters.detector.replacesSelect()) {
+    ROS_WARN("detector %s instead of select: %s", describe(parameters.detector).c_str(),
+             parameters.detector.missing.c_str());
+  }
+  return parameters;
+}
 
 }  // namespace
 

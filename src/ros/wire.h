@@ -1,31 +1,16 @@
 #pragma once
 
-#include <dynamic_reconfigure/Reconfigure.h>
-#include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/Twist.h>
-#include <geometry_msgs/TwistStamped.h>
-#include <geometry_msgs/WrenchStamped.h>
-#include <sensor_msgs/JointState.h>
-#include <std_srvs/SetBool.h>
-#include <std_srvs/Trigger.h>
-#include <sweep_guard/Acknowledge.h>
-#include <sweep_guard/Attach.h>
-#include <sweep_guard/CheckSweep.h>
-#include <sweep_guard/CheckTrajectory.h>
-#include <sweep_guard/DeformableMesh.h>
-#include <sweep_guard/Intend.h>
-#include <sweep_guard/MeshVertices.h>
-#include <sweep_guard/Predict.h>
-#include <sweep_guard/Proximity.h>
-#include <sweep_guard/SetIntent.h>
-#include <sweep_guard/ToolBalls.h>
-#include <sweep_guard/ToolBodies.h>
-#include <sweep_guard/ToolSurface.h>
-#include <sweep_guard/Warning.h>
-#include <tf2_msgs/TFMessage.h>
+#include <ros/serialization.h>
 
+#include <algorithm>
+#include <boost/array.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
 
@@ -35,58 +20,97 @@ struct Wire {
   size_t size;
 };
 
+/// Walks over the bytes of a message as its generated serializer walks over the fields, but reads the lengths alone. The
+/// fields that the serializer passes give the types; their values are never used, and nothing is allocated. Fields of a
+/// fixed size are only added up: the sum is compared with the bytes before the next length is read, and at the end.
+class WireStream {
+ public:
+  explicit WireStream(Wire wire) : wire_(wire) {}
+
+  template <typename Field>
+  void next(const Field& field) {
+    if constexpr (ros::message_traits::IsFixedSize<Field>::value) {
+      passed_ += ros::serialization::serializationLength(field);
+    } else {
+      ros::serialization::Serializer<Field>::template allInOne<WireStream, const Field&>(*this, field);
+    }
+  }
+
+  template <typename Allocator>
+  void next(const std::basic_string<char, std::char_traits<char>, Allocator>& /*text*/) {
+    passed_ += length(1);
+  }
+
+  // Each element of another than a fixed size has a length, which ends the loop where the bytes end.
+  template <typename Element, typename Allocator>
+  void next(const std::vector<Element, Allocator>& /*array*/) {
+    const size_t smallest = ros::serialization::serializationLength(example<Element>());
+    size_t count = length(smallest);
+    if constexpr (ros::message_traits::IsFixedSize<Element>::value) {
+      passed_ += count * smallest;
+    } else {
+      const Element& element = example<Element>();
+      for (; count > 0; --count) next(element);
+    }
+  }
+
+  template <typename Element, size_t kSize>
+  void next(const boost::array<Element, kSize>& array) {
+    if constexpr (ros::message_traits::IsFixedSize<Element>::value) {
+      passed_ += ros::serialization::serializationLength(array);
+    } else {
+      for (const Element& element : array) next(element);
+    }
+  }
+
+  /// Throws unless the message ends here.
+  void end() const {
+    if (passed_ > wire_.size) refuse("message is cut off: it takes ", passed_, " bytes and holds ", wire_.size);
+    if (passed_ < wire_.size)
+      refuse("message is too long for its type: it takes ", passed_, " bytes and holds ", wire_.size);
+  }
+
+  /// An empty message, string or number.
+  template <typename Type>
+  static const Type& example() {
+    static const Type kExample{};
+    return kExample;
+  }
+
+ private:
+  // Reads how many elements follow.
+  // @param smallest  size of an element [bytes]. Also one that takes no byte on the wire takes memory, and counts as one
+  size_t length(size_t smallest) {
+    std::uint32_t count = 0;
+    if (passed_ + sizeof count > wire_.size) {
+      refuse("message is cut off: it takes at least ", passed_ + sizeof count, " bytes and holds ", wire_.size);
+    }
+    std::memcpy(&count, wire_.bytes + passed_, sizeof count);
+    passed_ += sizeof count;
+    const size_t left = wire_.size - passed_;
+    if (count > left / std::max<size_t>(smallest, 1)) {
+      refuse("message announces ", count, " elements and holds ", left);
+    }
+    return count;
+  }
+
+  [[noreturn]] static void refuse(const char* problem, size_t taken, const char* than, size_t bytes) {
+    throw sweep_guard_core::InvalidInput(problem + std::to_string(taken) + than + std::to_string(bytes) + " bytes");
+  }
+
+  const Wire wire_;
+  size_t passed_ = 0;  // [bytes]; up to the next length it may exceed the message
+};
+
 /// Checks that each length in a serialized message fits the bytes that follow. roscpp reserves memory for a length
 /// before it checks that, and multiplies lengths in 32 bits.
-/// @tparam Msg  one of the messages below
+/// @tparam Msg  any generated message, request or response
 /// @throws sweep_guard_core::InvalidInput if a length exceeds the message, or if bytes are left over
 template <typename Msg>
-void checkLengths(Wire wire);
-
-template <>
-void checkLengths<geometry_msgs::PoseStamped>(Wire wire);
-template <>
-void checkLengths<sensor_msgs::JointState>(Wire wire);
-template <>
-void checkLengths<tf2_msgs::TFMessage>(Wire wire);
-template <>
-void checkLengths<sweep_guard::DeformableMesh>(Wire wire);
-template <>
-void checkLengths<sweep_guard::MeshVertices>(Wire wire);
-template <>
-void checkLengths<geometry_msgs::Twist>(Wire wire);
-template <>
-void checkLengths<geometry_msgs::TwistStamped>(Wire wire);
-template <>
-void checkLengths<geometry_msgs::WrenchStamped>(Wire wire);
-template <>
-void checkLengths<sweep_guard::Proximity>(Wire wire);
-template <>
-void checkLengths<sweep_guard::ToolBalls>(Wire wire);
-template <>
-void checkLengths<sweep_guard::ToolBodies>(Wire wire);
-template <>
-void checkLengths<sweep_guard::ToolSurface>(Wire wire);
-template <>
-void checkLengths<sweep_guard::Warning>(Wire wire);
-template <>
-void checkLengths<sweep_guard::CheckSweepRequest>(Wire wire);
-template <>
-void checkLengths<sweep_guard::CheckTrajectoryRequest>(Wire wire);
-template <>
-void checkLengths<sweep_guard::PredictRequest>(Wire wire);
-template <>
-void checkLengths<sweep_guard::AcknowledgeRequest>(Wire wire);
-template <>
-void checkLengths<sweep_guard::AttachRequest>(Wire wire);
-template <>
-void checkLengths<std_srvs::SetBoolRequest>(Wire wire);
-template <>
-void checkLengths<std_srvs::TriggerRequest>(Wire wire);
-template <>
-void checkLengths<sweep_guard::Intend>(Wire wire);
-template <>
-void checkLengths<sweep_guard::SetIntentRequest>(Wire wire);
-template <>
-void checkLengths<dynamic_reconfigure::ReconfigureRequest>(Wire wire);
+void checkLengths(Wire wire) {
+  WireStream stream(wire);
+  stream.next(WireStream::example<Msg>());
+  stream.end();
+}
 
 }  // namespace sweep_guard_ros

@@ -3,7 +3,7 @@
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 
-#include "rviz/force_feed.h"
+#include "rviz/feeds.h"
 #include "rviz/ogre_conversions.h"
 
 namespace sweep_guard_rviz {

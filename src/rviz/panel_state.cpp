@@ -9,6 +9,7 @@ namespace sweep_guard_rviz {
 namespace {
 
 using sweep_guard::Warning;
+using sweep_guard_core::toSeconds;
 
 constexpr auto kFlashHalf = std::chrono::milliseconds(250);
 
@@ -58,13 +59,13 @@ const char* meaningOf(WarningLevel level, bool timed) {
   return "nothing is guaranteed";
 }
 
-std::string ago(const Warning& warning, const Moment& now) {
+std::string ago(const Warning& warning, const Instant& now) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.1f s ago", std::max(0.0, (now.stamp - warning.held_since).toSec()));
+  std::snprintf(text, sizeof text, "%.1f s ago", std::max(0.0, toSeconds(now.stamp - toTime(warning.held_since))));
   return text;
 }
 
-std::string meaningOf(const Warning& warning, WarningLevel level, bool timed, const Moment& now) {
+std::string meaningOf(const Warning& warning, WarningLevel level, bool timed, const Instant& now) {
   std::string meaning = meaningOf(level, timed);
   if (level == WarningLevel::kContact && warning.held) meaning = "touched " + ago(warning, now);
   if (level != WarningLevel::kContact && warning.held && !timed)
@@ -141,7 +142,7 @@ bool PanelState::operator==(const PanelState& other) const {
   return all(*this) == all(other);
 }
 
-Moment currentMoment() { return {std::chrono::steady_clock::now(), ros::Time::now()}; }
+Instant currentInstant() { return {toTime(ros::Time::now()), std::chrono::steady_clock::now()}; }
 
 WarningLevel levelOf(const Warning& warning) {
   const bool says_clear = warning.level == Warning::CLEAR;
@@ -156,13 +157,13 @@ std::optional<double> timeToCollision(const Warning& warning) {
   return warning.time_to_collision.toSec();
 }
 
-PanelState panelState(const std::optional<ReceivedWarning>& newest, const Moment& now, const std::string& topic) {
+PanelState panelState(const std::optional<ReceivedWarning>& newest, const Instant& now, const std::string& topic) {
   if (!newest) return silent("no warning from " + topic);
   const Warning& warning = newest->warning;
   const std::chrono::duration<double> age = now.steady - newest->received.steady;
   if (age > kSilence) return silent("the guard has been silent for " + seconds(age.count()));
-  if (warning.valid_until < now.stamp) {
-    return silent("the warning expired " + seconds((now.stamp - warning.valid_until).toSec()) + " ago");
+  if (toTime(warning.valid_until) < now.stamp) {
+    return silent("the warning expired " + seconds(toSeconds(now.stamp - toTime(warning.valid_until))) + " ago");
   }
 
   PanelState state;
@@ -188,13 +189,6 @@ PanelState panelState(const std::optional<ReceivedWarning>& newest, const Moment
   state.target = targetOf(warning);
   state.reasons = reasonsOf(warning);
   return state;
-}
-
-sweep_guard_core::SoundCue soundCue(const std::optional<ReceivedWarning>& newest, const PanelState& state) {
-  sweep_guard_core::SoundCue cue{state.level, {}, state.acknowledged};
-  const auto time = newest && !state.silent ? timeToCollision(newest->warning) : std::nullopt;
-  if (time) cue.time_to_collision = sweep_guard_core::fromSeconds(*time);
-  return cue;
 }
 
 }  // namespace sweep_guard_rviz

@@ -8,26 +8,26 @@
 #include <string>
 #include <vector>
 
-#include "sound/earcon.h"
+#include "sweep_guard/common/time.h"
 #include "sweep_guard/common/warning_level.h"
 
 namespace sweep_guard_rviz {
 
-using SteadyTime = std::chrono::steady_clock::time_point;
+using sweep_guard_core::Instant;
+using sweep_guard_core::SteadyTime;
 using sweep_guard_core::WarningLevel;
 
-/// One moment on both clocks.
-struct Moment {
-  SteadyTime steady;
-  ros::Time stamp;
-};
+/// Returns a time of ROS on the clock of the core.
+inline sweep_guard_core::Time toTime(const ros::Time& time) {
+  return sweep_guard_core::Time(std::chrono::nanoseconds(time.toNSec()));
+}
 
-Moment currentMoment();
+Instant currentInstant();
 
 /// A warning with its time of arrival.
 struct ReceivedWarning {
   sweep_guard::Warning warning;
-  Moment received;
+  Instant received;
 };
 
 /// Age above which a warning is no longer shown: a little more than two periods of the warning. Together with the
@@ -55,11 +55,7 @@ struct PanelState {
 /// Computes what the panel shows.
 /// @param newest  the newest warning; empty if none has arrived
 /// @param topic   topic of the warnings, named in the text
-PanelState panelState(const std::optional<ReceivedWarning>& newest, const Moment& now, const std::string& topic);
-
-/// Returns what is to be heard beside a panel that shows this state.
-/// @param newest  the newest warning; empty if none has arrived
-sweep_guard_core::SoundCue soundCue(const std::optional<ReceivedWarning>& newest, const PanelState& state);
+PanelState panelState(const std::optional<ReceivedWarning>& newest, const Instant& now, const std::string& topic);
 
 /// Returns the level of a warning of any age; kUnknown if the warning contradicts itself.
 WarningLevel levelOf(const sweep_guard::Warning& warning);

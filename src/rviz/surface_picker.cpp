@@ -36,13 +36,13 @@ std::optional<SurfacePicker::Picked> SurfacePicker::pick(const Ogre::Ray& ray, c
   return picked;
 }
 
-Ogre::Vector3 SurfacePicker::Surface::vertex(std::uint32_t index) const {
+Ogre::Vector3 SurfacePicker::PickableSurface::vertex(std::uint32_t index) const {
   if (!vertices) return toOgre(mesh->mesh.vertices[index]);
   const float* const p = &vertices->positions[size_t{3} * index];
   return {p[0], p[1], p[2]};
 }
 
-std::optional<float> SurfacePicker::Surface::distance(const Ogre::Ray& ray_M) const {
+std::optional<float> SurfacePicker::PickableSurface::distance(const Ogre::Ray& ray_M) const {
   std::optional<float> nearest;
   for (const shape_msgs::MeshTriangle& triangle : mesh->mesh.triangles) {
     const auto& corners = triangle.vertex_indices;

@@ -34,7 +34,7 @@ class SurfacePicker {
   std::optional<Picked> pick(const Ogre::Ray& ray, const FindFrame& find) const;
 
  private:
-  struct Surface {
+  struct PickableSurface {
     sweep_guard::DeformableMesh::ConstPtr mesh;
     sweep_guard::MeshVertices::ConstPtr vertices;  // null: those of the mesh
 
@@ -42,7 +42,7 @@ class SurfacePicker {
     std::optional<float> distance(const Ogre::Ray& ray_M) const;
   };
 
-  std::map<std::string, Surface> surfaces_;  // by id
+  std::map<std::string, PickableSurface> surfaces_;  // by id
 };
 
 }  // namespace sweep_guard_rviz

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "rviz/drawing.h"
-#include "rviz/force_feed.h"
+#include "rviz/feeds.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -4,7 +4,6 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include <QCheckBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -22,7 +21,6 @@ namespace {
 constexpr unsigned kRefreshesPerChart = 3;
 constexpr size_t kMaxReasons = 4;
 const char* const kTopic = "Warning Topic";
-const char* const kSound = "Sound";
 
 QString bullets(const std::vector<std::string>& reasons, size_t max_count) {
   QStringList lines;
@@ -52,7 +50,6 @@ WarningPanel::WarningPanel(QWidget* parent)
       acknowledge_(new QPushButton("I know", this)),
       enable_(new QPushButton(this)),
       reset_(new QPushButton("Reset", this)),
-      hear_(new QCheckBox("Sound", this)),
       outcome_(makeLabel(this)),
       topic_edit_(new QLineEdit(this)) {
   light_->setObjectName("light");
@@ -60,7 +57,6 @@ WarningPanel::WarningPanel(QWidget* parent)
   acknowledge_->setObjectName("acknowledge");
   enable_->setObjectName("enable");
   reset_->setObjectName("reset");
-  hear_->setObjectName("hear");
   outcome_->setObjectName("outcome");
   layOut();
   connect(acknowledge_, &QPushButton::clicked, this, [this] {
@@ -68,17 +64,13 @@ WarningPanel::WarningPanel(QWidget* parent)
   });
   connect(enable_, &QPushButton::clicked, this, [this] { call_.setBool(announceCall("enable"), state_.disabled); });
   connect(reset_, &QPushButton::clicked, this, [this] { call_.trigger(announceCall("reset")); });
-  connect(hear_, &QCheckBox::toggled, this, [this](bool on) {
-    letHear(on);
-    Q_EMIT configChanged();
-  });
   connect(topic_edit_, &QLineEdit::editingFinished, this, [this] {
     if (topic_edit_->text().toStdString() == topic_) return;
     setTopic(topic_edit_->text().toStdString());
     Q_EMIT configChanged();
   });
   setTopic("/sweep_guard/warning");
-  connect(&timer_, &QTimer::timeout, this, [this] { refresh(currentMoment()); });
+  connect(&timer_, &QTimer::timeout, this, [this] { refresh(currentInstant()); });
   timer_.setTimerType(Qt::PreciseTimer);
   timer_.start(kPeriod);
 }
@@ -96,8 +88,6 @@ void WarningPanel::layOut() {
   topic_edit_->setFocusPolicy(Qt::ClickFocus);
   acknowledge_->setToolTip(
       "Shows an amber warning of this workpiece with less emphasis for a while. This is no permission");
-  hear_->setToolTip(
-      "Beeps faster the sooner the collision is, a steady tone in contact, a low double tone for UNKNOWN");
   reset_->setToolTip("Clears faults and forgets all poses, as after a start");
 
   auto* const place = new QWidget(this);
@@ -113,7 +103,6 @@ void WarningPanel::layOut() {
   buttons->addWidget(acknowledge_);
   buttons->addWidget(enable_);
   buttons->addWidget(reset_);
-  buttons->addWidget(hear_);
   auto* const topic = new QFormLayout;
   topic->setContentsMargins(9, 0, 9, 6);
   topic->addRow("Topic", topic_edit_);
@@ -133,14 +122,11 @@ void WarningPanel::load(const rviz::Config& config) {
   rviz::Panel::load(config);
   QString topic;
   if (config.mapGetString(kTopic, &topic)) setTopic(topic.toStdString());
-  bool sound = false;
-  if (config.mapGetBool(kSound, &sound)) hear_->setChecked(sound);
 }
 
 void WarningPanel::save(rviz::Config config) const {
   rviz::Panel::save(config);
   config.mapSetValue(kTopic, QString::fromStdString(topic_));
-  config.mapSetValue(kSound, hear_->isChecked());
 }
 
 void WarningPanel::setTopic(const std::string& topic) {
@@ -157,7 +143,7 @@ void WarningPanel::setTopic(const std::string& topic) {
   } catch (const ros::InvalidNameException& error) {
     showOutcome(error.what());
   }
-  refresh(currentMoment());
+  refresh(currentInstant());
 }
 
 std::string WarningPanel::announceCall(const std::string& service) {
@@ -166,28 +152,18 @@ std::string WarningPanel::announceCall(const std::string& service) {
   return name;
 }
 
-void WarningPanel::letHear(bool on) {
-  if (on) {
-    sound_.turnOn();
-  } else {
-    sound_.turnOff();
-  }
-  if (const std::string problem = sound_.problem(); !problem.empty()) showOutcome(problem);
-}
-
 void WarningPanel::showOutcome(const std::string& outcome) {
   outcome_->setText(QString::fromStdString(outcome));
   outcome_->show();
 }
 
-void WarningPanel::refresh(const Moment& now) {
+void WarningPanel::refresh(const Instant& now) {
   const std::vector<ReceivedWarning> warnings = feed_.take();
   if (!warnings.empty()) newest_ = warnings.back();
   state_ = panelState(newest_, now, topic_);
   remember(warnings, now.steady);
   showState(now.steady);
   showForce();
-  sound_.set(soundCue(newest_, state_));
   if (const auto outcome = call_.takeOutcome()) showOutcome(*outcome);
 }
 

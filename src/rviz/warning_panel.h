@@ -6,13 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "rviz/force_feed.h"
-#include "rviz/panel_sound.h"
+#include "rviz/feeds.h"
 #include "rviz/service_call.h"
 #include "rviz/strip_chart.h"
-#include "rviz/warning_feed.h"
 
-class QCheckBox;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -22,8 +19,8 @@ namespace sweep_guard_rviz {
 class StripChart;
 class TrafficLight;
 
-/// Shows the warnings of one guard to its operator, in contact with the force on the tool, and acknowledges them; disables, enables and resets the guard. Lets
-/// them be heard, by choice. Saves the topic and this choice in rviz's configuration; the names of the services follow from the topic.
+/// Shows the warnings of one guard to its operator, in contact with the force on the tool, and acknowledges them; disables, enables
+/// and resets the guard. Saves the topic in rviz's configuration; the names of the services follow from the topic.
 class WarningPanel : public rviz::Panel {
  public:
   /// Period of refresh(). Together with kSilence it is the delay until a dead guard turns the panel gray.
@@ -36,7 +33,7 @@ class WarningPanel : public rviz::Panel {
   void save(rviz::Config config) const override;
 
   /// Shows the state at a moment. The panel's timer calls this every kPeriod.
-  void refresh(const Moment& now);
+  void refresh(const Instant& now);
 
   const PanelState& state() const { return state_; }  ///< the state shown
   const LevelHistory& history() const { return history_; }
@@ -49,7 +46,6 @@ class WarningPanel : public rviz::Panel {
   void showForce();
   bool canAcknowledge() const;
   std::string announceCall(const std::string& service);
-  void letHear(bool on);
   void showOutcome(const std::string& outcome);
 
   std::string topic_;
@@ -60,7 +56,6 @@ class WarningPanel : public rviz::Panel {
   std::optional<ReceivedWarning> newest_;
   LevelHistory history_;
   PanelState state_;
-  PanelSound sound_;
   unsigned refreshes_ = 0;
 
   TrafficLight* light_;
@@ -71,7 +66,6 @@ class WarningPanel : public rviz::Panel {
   QPushButton* acknowledge_;
   QPushButton* enable_;
   QPushButton* reset_;
-  QCheckBox* hear_;
   QLabel* outcome_;
   QLineEdit* topic_edit_;
   QTimer timer_;

@@ -27,7 +27,7 @@
 #include "session/session_log.h"
 #include "session/session_report.h"
 #include "session/touch_report.h"
-#include "sound/wav.h"
+#include "sound/earcon.h"
 #include "sweep_guard/Contacts.h"
 #include "sweep_guard/Warning.h"
 #include "sweep_guard/common/error.h"
@@ -218,8 +218,8 @@ class ReplayReport {
     warned_ = true;
     knows_mesh_ = (warning->reasons & sweep_guard::Warning::NO_MESH) == 0;
     if (!playing_) return;
-    ReceivedWarning received{std::max(now(), bag_.begin), static_cast<sweep_guard_core::WarningLevel>(warning->level),
-                             warning->text};
+    LoggedWarning received{std::max(now(), bag_.begin), static_cast<sweep_guard_core::WarningLevel>(warning->level),
+                           warning->text};
     if (warning->time_to_collision >= ros::Duration(0)) {
       received.time_to_collision = sweep_guard_core::Duration(warning->time_to_collision.toNSec());
     }

@@ -40,7 +40,7 @@ void assign(const std::vector<SweepContact>& sweep_contacts, std::vector<Contact
 
 }  // namespace
 
-void SessionLog::add(const ReceivedWarning& warning) {
+void SessionLog::add(const LoggedWarning& warning) {
   warnings_.push_back(warning);
   end_ = warning.received;
 }
@@ -51,7 +51,7 @@ std::vector<Segment> SessionLog::segments() const {
   std::vector<Segment> segments;
   Duration longest{0};
   for (std::size_t i = 0; i < warnings_.size(); ++i) {
-    const ReceivedWarning& warning = warnings_[i];
+    const LoggedWarning& warning = warnings_[i];
     const Time until = i + 1 < warnings_.size() ? warnings_[i + 1].received : end_;
     const Duration lasted = until - warning.received;
     if (lasted == Duration(0)) continue;
@@ -100,7 +100,7 @@ std::vector<std::int16_t> soundOf(const SessionLog& log, double rate) {
   sweep_guard_core::Synthesizer synthesizer(rate);
   const sweep_guard_core::Time begin = log.warnings().front().received;
   for (size_t i = 0; i < log.warnings().size(); ++i) {
-    const ReceivedWarning& warning = log.warnings()[i];
+    const LoggedWarning& warning = log.warnings()[i];
     const bool last = i + 1 == log.warnings().size();
     const sweep_guard_core::Time end =
         last ? std::max(log.endTime(), warning.received) : log.warnings()[i + 1].received;

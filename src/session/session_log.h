@@ -14,7 +14,7 @@
 namespace sweep_guard_session {
 
 /// A warning and the time when it was received.
-struct ReceivedWarning {
+struct LoggedWarning {
   sweep_guard_core::Time received;  ///< on the session's clock; not earlier than that of the previous warning
   sweep_guard_core::WarningLevel level = sweep_guard_core::WarningLevel::kUnknown;
   std::string text;                                               ///< level and reasons in words
@@ -56,12 +56,12 @@ struct Contact {
 /// Collects the messages of a guard during a session, in the order of arrival.
 class SessionLog {
  public:
-  void add(const ReceivedWarning& warning);
+  void add(const LoggedWarning& warning);
   void add(SweepContact contact) { sweep_contacts_.push_back(std::move(contact)); }
   void addSweep(sweep_guard_core::Time start, sweep_guard_core::Time stamp) { swept_.add(start, stamp); }
   void end(sweep_guard_core::Time time);  ///< ends the last warning
 
-  const std::vector<ReceivedWarning>& warnings() const { return warnings_; }
+  const std::vector<LoggedWarning>& warnings() const { return warnings_; }
   sweep_guard_core::Time endTime() const { return end_; }
   std::vector<Segment> segments() const;  ///< without gaps; none is empty
   std::vector<Contact> contacts() const;
@@ -69,7 +69,7 @@ class SessionLog {
   const sweep_guard_recording::SweptIntervals& swept() const { return swept_; }
 
  private:
-  std::vector<ReceivedWarning> warnings_;
+  std::vector<LoggedWarning> warnings_;
   std::vector<SweepContact> sweep_contacts_;
   sweep_guard_core::Time end_;
   sweep_guard_recording::SweptIntervals swept_;

@@ -170,7 +170,7 @@ std::string levelsCsv(const SessionLog& log, Time begin) {
 
 std::string collisionsCsv(const SessionLog& log, Time begin) {
   std::string csv = csvLine({"received_s", "time_to_collision_s"});
-  for (const ReceivedWarning& warning : log.warnings()) {
+  for (const LoggedWarning& warning : log.warnings()) {
     const auto& time = warning.time_to_collision;
     csv += csvLine({fixed(seconds(warning.received, begin)), time ? fixed(toSeconds(*time)) : ""});
   }

@@ -15,7 +15,6 @@
 #include "recording/run_node.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
-#include "simulation/workpiece_parameters.h"
 #include "sweep_guard/DeformableMesh.h"
 #include "sweep_guard/MeshVertices.h"
 #include "sweep_guard/common/error.h"

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sweep_guard/common/time.h"
@@ -61,5 +62,10 @@ class Synthesizer {
 
   static constexpr double kFade = 0.005;  // [s]
 };
+
+/// Returns samples as a WAV file: PCM, signed 16 bits, one channel.
+/// @param rate  samples per second
+/// @throws InvalidInput if there are more than a WAV file can hold: 2 GiB
+std::string wavFile(const std::vector<std::int16_t>& samples, std::uint32_t rate);
 
 }  // namespace sweep_guard_core

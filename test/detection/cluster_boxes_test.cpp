@@ -1,4 +1,4 @@
-#include "detection/cluster_boxes.h"
+#include "sweep_guard/detection/submesh.h"
 
 #include <gtest/gtest.h>
 

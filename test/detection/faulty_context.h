@@ -1,5 +1,7 @@
 #pragma once
 
+#include <GL/gl.h>
+
 #include <map>
 #include <memory>
 #include <string>
@@ -9,6 +11,8 @@
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_core {
+
+inline GLenum GLAPIENTRY reportAnError() { return GL_INVALID_OPERATION; }
 
 /// A context of which single functions are replaced.
 class FaultyContext : public OffscreenContext {

@@ -48,8 +48,6 @@ GLint GLAPIENTRY overflowForEver(GLenum mode) {
   return -1;
 }
 
-GLenum GLAPIENTRY reportAnError() { return GL_INVALID_OPERATION; }
-
 GLuint* selection = nullptr;
 
 void GLAPIENTRY rememberBuffer(GLsizei size, GLuint* buffer) {

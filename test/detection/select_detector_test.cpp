@@ -16,8 +16,6 @@ namespace {
 
 using Replacements = FaultyContext::Replacements;
 
-GLenum GLAPIENTRY reportAnError() { return GL_INVALID_OPERATION; }
-
 // What a context whose selection fails is made of.
 Replacements broken() { return {{"glGetError", reinterpret_cast<OffscreenContext::Function>(reportAnError)}}; }
 
@@ -129,10 +127,10 @@ TEST_P(SelectDetectorTest, AnswersInOneThreadAfterTheOther) {
 }
 
 TEST_P(SelectDetectorTest, DetectorsInParallelThreadsDoNotDisturbEachOther) {
-  constexpr std::uint64_t kScenes = 200;
+  constexpr std::uint64_t kRandomScenes = 200;
   std::vector<std::vector<std::uint32_t>> alone;
   SelectDetector detector_alone({}, contexts());
-  for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+  for (std::uint64_t seed = 0; seed < kRandomScenes; ++seed) {
     const Scene scene = randomScene(seed);
     alone.push_back(detector_alone.detect(scene.mesh_M, scene.swept_M).triangles);
   }
@@ -142,7 +140,7 @@ TEST_P(SelectDetectorTest, DetectorsInParallelThreadsDoNotDisturbEachOther) {
   for (int& wrong_here : wrong) {
     threads.emplace_back([&] {
       SelectDetector detector({}, contexts());
-      for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+      for (std::uint64_t seed = 0; seed < kRandomScenes; ++seed) {
         const Scene scene = randomScene(seed);
         if (detector.detect(scene.mesh_M, scene.swept_M).triangles != alone[seed]) ++wrong_here;
       }

@@ -9,13 +9,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-ClosedLoopOptions parse(std::vector<const char*> words) {
+ClosedLoopOptions parsedClosedLoop(std::vector<const char*> words) {
   words.insert(words.begin(), "evaluate_closed_loop");
   return parseClosedLoopOptions(static_cast<int>(words.size()), words.data());
 }
 
 TEST(ClosedLoopOptionsTest, HasDefaultsThatHelpPrints) {
-  const ClosedLoopOptions options = parse({"hand.txt"});
+  const ClosedLoopOptions options = parsedClosedLoop({"hand.txt"});
   EXPECT_EQ(options.files, std::vector<std::string>{"hand.txt"});
   EXPECT_EQ(options.placement.count, 120U);
   EXPECT_EQ(options.setup.delays.lag, milliseconds(30));
@@ -24,8 +24,9 @@ TEST(ClosedLoopOptionsTest, HasDefaultsThatHelpPrints) {
 }
 
 TEST(ClosedLoopOptionsTest, TakesRobotGuardAndPlacements) {
-  const ClosedLoopOptions options = parse({"--placements", "7", "--seed", "2", "--dead-time", "0.05", "--lag", "0",
-                                           "--standoff", "0.01", "--reach", "0.5", "--csv", "x.csv", "a", "b"});
+  const ClosedLoopOptions options =
+      parsedClosedLoop({"--placements", "7", "--seed", "2", "--dead-time", "0.05", "--lag", "0", "--standoff", "0.01",
+                        "--reach", "0.5", "--csv", "x.csv", "a", "b"});
   EXPECT_EQ(options.placement.count, 7U);
   EXPECT_EQ(options.placement.seed, 2U);
   EXPECT_EQ(options.setup.delays.dead_time, milliseconds(50));
@@ -36,11 +37,11 @@ TEST(ClosedLoopOptionsTest, TakesRobotGuardAndPlacements) {
 }
 
 TEST(ClosedLoopOptionsTest, RefusesWhatIsOutOfRange) {
-  EXPECT_TRUE(has(refusal([] { parse({}); }), "no recording"));
-  EXPECT_TRUE(has(refusal([] { parse({"--lag", "-1", "a"}); }), "--lag"));
-  EXPECT_TRUE(has(refusal([] { parse({"--placements", "0", "a"}); }), "--placements"));
-  EXPECT_TRUE(has(refusal([] { parse({"--plane-delay", "0", "a"}); }), "--plane-delay"));
-  EXPECT_TRUE(has(refusal([] { parse({"--wish", "a"}); }), "--wish"));
+  EXPECT_TRUE(has(refusal([] { parsedClosedLoop({}); }), "no recording"));
+  EXPECT_TRUE(has(refusal([] { parsedClosedLoop({"--lag", "-1", "a"}); }), "--lag"));
+  EXPECT_TRUE(has(refusal([] { parsedClosedLoop({"--placements", "0", "a"}); }), "--placements"));
+  EXPECT_TRUE(has(refusal([] { parsedClosedLoop({"--plane-delay", "0", "a"}); }), "--plane-delay"));
+  EXPECT_TRUE(has(refusal([] { parsedClosedLoop({"--wish", "a"}); }), "--wish"));
 }
 
 }  // namespace

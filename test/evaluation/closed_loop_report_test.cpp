@@ -11,7 +11,7 @@ using sweep_guard_core::csvFields;
 
 namespace {
 
-ClosedLoopCount counted(bool guarded) {
+ClosedLoopCount twoEpisodes(bool guarded) {
   ClosedLoopCount count{"hand", guarded, std::vector<ClosedLoopEpisode>(2), {false, true}};
   for (ClosedLoopEpisode& episode : count.episodes) episode.free_commands = 50;
   return count;
@@ -24,7 +24,7 @@ std::vector<std::string> fieldsOf(const ClosedLoopCount& count) {
 }
 
 TEST(ClosedLoopReportTest, HasTheFiguresOfEachArmInALine) {
-  ClosedLoopCount count = counted(true);
+  ClosedLoopCount count = twoEpisodes(true);
   count.episodes[0].retreats.resize(4);
   count.episodes[0].retreats[0].speed_kept = 0.5;
   count.episodes[0].retreats[0].time_until_free = 0.2;
@@ -41,7 +41,7 @@ TEST(ClosedLoopReportTest, HasTheFiguresOfEachArmInALine) {
 }
 
 TEST(ClosedLoopReportTest, IsEmptyWhereThereIsNothingToSay) {
-  const std::vector<std::string> fields = fieldsOf(counted(false));
+  const std::vector<std::string> fields = fieldsOf(twoEpisodes(false));
   EXPECT_EQ(fields[3], "0");
   EXPECT_EQ(fields[4], "");
   EXPECT_EQ(fields[5], "0");
@@ -49,19 +49,19 @@ TEST(ClosedLoopReportTest, IsEmptyWhereThereIsNothingToSay) {
 }
 
 TEST(ClosedLoopReportTest, KeepsItsPromiseOnlyIfNothingIsTouchedChangedOrHeldBackAndTheStandoffIsReachedSlowly) {
-  EXPECT_TRUE(keepsItsPromise({counted(true)}));
-  ClosedLoopCount count = counted(true);
+  EXPECT_TRUE(keepsItsPromise({twoEpisodes(true)}));
+  ClosedLoopCount count = twoEpisodes(true);
   count.episodes[0].contact = LoopCycle::Contact{0.1, 0.1};
   EXPECT_FALSE(keepsItsPromise({count}));
   count.guarded = false;
   EXPECT_TRUE(keepsItsPromise({count}));
-  count = counted(true);
+  count = twoEpisodes(true);
   count.episodes[1].free_changed = 1;
   EXPECT_FALSE(keepsItsPromise({count}));
-  count = counted(true);
+  count = twoEpisodes(true);
   count.episodes[1].standoff_speed = 0.001;
   EXPECT_FALSE(keepsItsPromise({count}));
-  count = counted(true);
+  count = twoEpisodes(true);
   count.episodes[1].retreats.resize(1);
   EXPECT_TRUE(keepsItsPromise({count}));
   count.episodes[1].retreats[0].contact = true;
@@ -72,9 +72,10 @@ TEST(ClosedLoopReportTest, KeepsItsPromiseOnlyIfNothingIsTouchedChangedOrHeldBac
 }
 
 TEST(ClosedLoopReportTest, SumsTheRecordingsButNotTheKinds) {
-  ClosedLoopCount comes = counted(true);
+  ClosedLoopCount comes = twoEpisodes(true);
   comes.recording = "hand, surface comes";
-  const auto sums = summed({counted(false), counted(true), comes, counted(false), counted(true), comes});
+  const auto sums =
+      summed({twoEpisodes(false), twoEpisodes(true), comes, twoEpisodes(false), twoEpisodes(true), comes});
   ASSERT_EQ(sums.size(), 3U);
   EXPECT_EQ(sums[0].recording, "all");
   EXPECT_EQ(sums[2].recording, "all, surface comes");

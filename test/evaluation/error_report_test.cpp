@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-ErrorReport report(const std::string& recording) {
+ErrorReport errorReport(const std::string& recording) {
   return {recording,
           {"hold", "constant_velocity", "direct"},
           {milliseconds(100), milliseconds(500)},
@@ -19,7 +19,7 @@ ErrorReport report(const std::string& recording) {
 }
 
 TEST(ErrorReportTest, WritesALineForEachPredictorAndHorizon) {
-  const std::string csv = errorCsv({report("hand")});
+  const std::string csv = errorCsv({errorReport("hand")});
   EXPECT_EQ(csv.substr(0, csv.find("hand,constant")),
             "recording,predictor,horizon_s,position_median_m,position_p95_m,rotation_median_rad,rotation_p95_rad,"
             "samples\n"
@@ -29,11 +29,11 @@ TEST(ErrorReportTest, WritesALineForEachPredictorAndHorizon) {
 }
 
 TEST(ErrorReportTest, QuotesARecordingWithACommaInItsName) {
-  EXPECT_TRUE(has(errorCsv({report("left, \"2\"")}), "\n\"left, \"\"2\"\"\",direct,0.1,"));
+  EXPECT_TRUE(has(errorCsv({errorReport("left, \"2\"")}), "\n\"left, \"\"2\"\"\",direct,0.1,"));
 }
 
 TEST(ErrorReportTest, ComparesWithTheBetterOfHoldAndConstantVelocity) {
-  EXPECT_TRUE(has(errorTable(report("hand")), "5/20 (0.50/0.50)"));
+  EXPECT_TRUE(has(errorTable(errorReport("hand")), "5/20 (0.50/0.50)"));
 }
 
 }  // namespace

@@ -12,23 +12,23 @@ using sweep_guard_core::Twist;
 
 Twist along(double x) { return {{x, 0.0, 0.0}, Vector3d::Zero()}; }
 
-void run(SimulatedRobot& robot, int ms) {
+void runFor(SimulatedRobot& robot, int ms) {
   for (int i = 0; i < ms; ++i) robot.step();
 }
 
 TEST(SimulatedRobotTest, RestsForTheDeadTime) {
   SimulatedRobot robot(Isometry3d::Identity(), {milliseconds(20), milliseconds(0)});
   robot.send(along(1.0));
-  run(robot, 20);
+  runFor(robot, 20);
   EXPECT_EQ(robot.pose().translation().x(), 0.0);
-  run(robot, 10);
+  runFor(robot, 10);
   EXPECT_NEAR(robot.pose().translation().x(), 0.01, 1e-12);
 }
 
 TEST(SimulatedRobotTest, HasMadeUpForAllButOneEthAfterItsLag) {
   SimulatedRobot robot(Isometry3d::Identity(), {milliseconds(0), milliseconds(30)});
   robot.send(along(1.0));
-  run(robot, 30);
+  runFor(robot, 30);
   EXPECT_NEAR(robot.velocity_W().v_W.x(), 1.0 - std::exp(-1.0), 1e-12);
 }
 
@@ -37,7 +37,7 @@ TEST(SimulatedRobotTest, TurnsAboutTheOriginOfTheTool) {
   X_WT.translation() = Vector3d(1.0, 2.0, 3.0);
   SimulatedRobot robot(X_WT, {milliseconds(0), milliseconds(0)});
   robot.send({Vector3d::Zero(), {0.0, 0.0, 2.0}});
-  run(robot, 100);
+  runFor(robot, 100);
   EXPECT_EQ(robot.pose().translation(), X_WT.translation());
   EXPECT_TRUE(robot.pose().linear().isApprox(Eigen::AngleAxisd(0.2, Vector3d::UnitZ()).toRotationMatrix(), 1e-12));
 }

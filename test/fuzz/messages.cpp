@@ -1,5 +1,9 @@
 // Bytes from the wire, as they arrive at each subscription of the guard and the motion guard: lengths are checked, then they are read, converted and
 // taken over.
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <sweep_guard/Intend.h>
+
 #include <cmath>
 
 #include "guard/workpiece_store.h"

@@ -177,7 +177,7 @@ void checkGuard(Input& input) {
     try {
       Parameters next = sweep_guard_ros::changeParameters(node, parameters, changes);
       for (const auto& change : differences(parameters, next)) {
-        require(sweep_guard_ros::changesWhileRunning(change.key), "only what may change changes");
+        require(defaults.described(change.key)->live, "only what may change changes");
       }
       parameters = std::move(next);
     } catch (const InvalidInput&) {
@@ -226,7 +226,7 @@ sweep_guard_core::ForceInputs pressedBall(const sweep_guard_core::Instant& at) {
   inputs.known.planes = planes;
   inputs.known.pose = sweep_guard_core::MotionInputs::ToolPose{Eigen::Isometry3d::Identity(), {at.stamp, at.steady}};
   inputs.known.warning =
-      sweep_guard_core::PermissionInputs::ReceivedWarning{sweep_guard_core::WarningLevel::kContact, 0, at.steady};
+      sweep_guard_core::PermissionInputs::GuardWarning{sweep_guard_core::WarningLevel::kContact, 0, at.steady};
   return inputs;
 }
 

@@ -88,7 +88,8 @@ void expectPartition(const TriangleMesh& mesh, const Sets& sets) {
   for (const int count : uses) EXPECT_EQ(count, 1);
 }
 
-void expectHolds(const TriangleMesh& mesh, const Sets& sets, const std::vector<ConvexShape>& parts, Random& random) {
+void expectPartsHold(const TriangleMesh& mesh, const Sets& sets, const std::vector<ConvexShape>& parts,
+                     Random& random) {
   ASSERT_EQ(parts.size(), sets.size());
   for (size_t i = 0; i < parts.size(); ++i) {
     for (int k = 0; k < 50; ++k) {
@@ -128,7 +129,7 @@ TEST(DecompositionTest, PiecesContainTheirTriangles) {
     const TriangleMesh mesh = triangleSoup(random, 1 + random.below(200), size, random.direction());
     const DecompositionOptions options{/*max_depth=*/random.below(8), /*step=*/0.002, /*least_saving=*/0.001};
     SCOPED_TRACE("soup " + std::to_string(i));
-    expectHolds(mesh, decompose(mesh, options), convexPieces(mesh, options), random);
+    expectPartsHold(mesh, decompose(mesh, options), convexPieces(mesh, options), random);
   }
 }
 

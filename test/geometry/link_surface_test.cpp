@@ -37,7 +37,7 @@ double lackOf(const ConvexShape& shape_B) {
   return lack + 1e-5;
 }
 
-void expectHolds(const LinkSurface& surface, const ConvexShape& shape_B) {
+void expectSurfaceHolds(const LinkSurface& surface, const ConvexShape& shape_B) {
   for (const auto& [a, b, c] : surface.triangles) {
     const Eigen::Vector3d& p = surface.vertices_B[a];
     const Eigen::Vector3d normal = (surface.vertices_B[b] - p).cross(surface.vertices_B[c] - p).normalized();
@@ -62,7 +62,7 @@ TEST(LinkSurfaceTest, HoldsTheLinkAndLittleElse) {
       const ConvexShape shape_B = shape.padded(padding).placed(random.pose(random.inBox({1.0, 1.0, 1.0})));
       const std::vector<LinkSurface> surfaces = linkSurfaces(Tool(shape_B));
       ASSERT_EQ(surfaces.size(), 1U);
-      expectHolds(surfaces[0], shape_B);
+      expectSurfaceHolds(surfaces[0], shape_B);
       expectLittleElse(surfaces[0], shape_B, random);
     }
   }
@@ -77,7 +77,7 @@ TEST(LinkSurfaceTest, HoldsALinkOfThousandsOfCornersAndLittleElse) {
   const ConvexShape shape_B = ConvexShape::hull(on_ball).padded(0.001);
   ASSERT_EQ(shape_B.mesh_T().vertexCount(), on_ball.size());
   const LinkSurface surface = linkSurfaces(Tool(shape_B))[0];
-  expectHolds(surface, shape_B);
+  expectSurfaceHolds(surface, shape_B);
   expectLittleElse(surface, shape_B, random);
   EXPECT_TRUE(TriangleMesh(surface.vertices_B, surface.triangles).closed());
 }

@@ -1,4 +1,4 @@
-#include "geometry/merged_motion.h"
+#include "sweep_guard/geometry/motion.h"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Eigen::Isometry3d at(double x, double y = 0.0) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, 0)); }
-
 // Points a millisecond apart, along an axis.
 Path pathAlong(const std::vector<double>& x) {
   Path path;
-  for (const double place : x) path.push_back({static_cast<std::int64_t>(path.size()) * 1ms, at(place), 0.0});
+  for (const double place : x) path.push_back({static_cast<std::int64_t>(path.size()) * 1ms, along(place), 0.0});
   return path;
 }
 
@@ -34,7 +32,7 @@ TEST(MergedMotionTest, OfASteadyMotionHasNoDeviation) {
 
 TEST(MergedMotionTest, DeviatesWhereThePathIsAside) {
   Path path = pathAlong({0, 1, 2});
-  path[1].X_MT = at(1, 0.25);
+  path[1].X_MT = placedAt(1, 0.25, 0);
   EXPECT_NEAR(mergedMotion(path, 0, 2, 0.1).deviation_bound, 0.25, 1e-12);
 }
 

@@ -11,8 +11,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
-constexpr double kDegree = kPi / 180.0;
+constexpr double kDegree = M_PI / 180.0;
 
 Eigen::Isometry3d turnedAboutZ(double degrees, const Eigen::Vector3d& place = Eigen::Vector3d::Zero()) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -48,7 +47,7 @@ TEST(MotionTest, IsHalfwayBetweenAnyTwoRotations) {
   for (int i = 0; i < 10'000; ++i) {
     const Motion motion{random.pose(Eigen::Vector3d::Zero()), random.pose(Eigen::Vector3d::Zero())};
     const double half = 0.5 * motion.angle();
-    EXPECT_LE(half, 0.5 * kPi);
+    EXPECT_LE(half, 0.5 * M_PI);
     EXPECT_NEAR(angleBetween(motion.X_MT_start, motion.at(0.5)), half, 1e-9) << "motion " << i;
     EXPECT_NEAR(angleBetween(motion.at(0.5), motion.X_MT_end), half, 1e-9) << "motion " << i;
   }
@@ -68,11 +67,11 @@ TEST(AngleBoundTest, IsNoLessThanTheAngleAndAtMostHalfOfPiTimesIt) {
   for (int i = 0; i < 10'000; ++i) {
     const Eigen::Isometry3d start = random.pose(Eigen::Vector3d::Zero());
     Eigen::Isometry3d end = start;
-    end.linear() = start.linear() * random.turn(random.logUniform(1e-4, kPi));
+    end.linear() = start.linear() * random.turn(random.logUniform(1e-4, M_PI));
     const double angle = angleBetween(start, end);
     const double bound = angleBound(start.linear(), end.linear());
     EXPECT_GE(bound, angle * (1.0 - 1e-9));
-    EXPECT_LE(bound, 0.5 * kPi * angle * (1.0 + 1e-9));
+    EXPECT_LE(bound, 0.5 * M_PI * angle * (1.0 + 1e-9));
   }
   EXPECT_EQ(angleBound(Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()), 0.0);
 }

@@ -8,7 +8,7 @@
 namespace sweep_guard_core {
 namespace {
 
-constexpr int kMotions = 20'000;
+constexpr int kBoxMotions = 20'000;
 
 Motion standstill() { return {}; }
 
@@ -83,7 +83,7 @@ TEST(OrientedBoxTest, IsValidForEqualEigenvalues) {
 
 TEST(OrientedBoxTest, HoldsTheRoundToolAtBothPosesTightly) {
   Random random(/*seed=*/1);
-  for (int i = 0; i < kMotions && !HasFailure(); ++i) {
+  for (int i = 0; i < kBoxMotions && !HasFailure(); ++i) {
     SCOPED_TRACE("motion " + std::to_string(i));
     const ConvexShape tool = randomTool(random, random.logUniform(1e-3, 1e3));
     const double size = tool.radius() + tool.length();

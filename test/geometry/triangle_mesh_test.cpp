@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "common/floating_point.h"
 #include "refusal.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
@@ -14,7 +15,6 @@ namespace sweep_guard_core {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // One triangle and an unused vertex.
 const std::vector<Eigen::Vector3d> kVertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

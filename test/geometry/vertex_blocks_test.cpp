@@ -24,7 +24,7 @@ Eigen::AlignedBox3f boxOf(const std::vector<float>& positions, size_t first, siz
   return box;
 }
 
-Eigen::AlignedBox3f at(const simd::BoxArrays<const float>& boxes, size_t i) {
+Eigen::AlignedBox3f boxAt(const simd::BoxArrays<const float>& boxes, size_t i) {
   return {Eigen::Vector3f(boxes.lower[0][i], boxes.lower[1][i], boxes.lower[2][i]),
           Eigen::Vector3f(boxes.upper[0][i], boxes.upper[1][i], boxes.upper[2][i])};
 }
@@ -37,8 +37,8 @@ TEST(VertexBlocksTest, HaveTheTightestBoxesForAnyNumberOfVertices) {
     ASSERT_TRUE(blocks.measure(positions));
     ASSERT_EQ(blocks.count(), (vertices + 31) / 32);
     for (size_t i = 0; i < blocks.count(); ++i) {
-      EXPECT_EQ(at(blocks.arrays(), i).min(), boxOf(positions, 32 * i, 32).min()) << vertices;
-      EXPECT_EQ(at(blocks.arrays(), i).max(), boxOf(positions, 32 * i, 32).max()) << vertices;
+      EXPECT_EQ(boxAt(blocks.arrays(), i).min(), boxOf(positions, 32 * i, 32).min()) << vertices;
+      EXPECT_EQ(boxAt(blocks.arrays(), i).max(), boxOf(positions, 32 * i, 32).max()) << vertices;
     }
     EXPECT_EQ(blocks.bounds().min(), boxOf(positions, 0, vertices).min().cast<double>());
     EXPECT_EQ(blocks.bounds().max(), boxOf(positions, 0, vertices).max().cast<double>());
@@ -64,7 +64,7 @@ TEST(VertexBlocksTest, AreMeasuredAgainEachTime) {
     const std::vector<float> positions = randomPositions(random, vertices);
     blocks.measure(positions);
     EXPECT_EQ(blocks.bounds().min(), boxOf(positions, 0, vertices).min().cast<double>());
-    EXPECT_EQ(at(blocks.arrays(), blocks.count() - 1).min(), boxOf(positions, 32 * (blocks.count() - 1), 32).min());
+    EXPECT_EQ(boxAt(blocks.arrays(), blocks.count() - 1).min(), boxOf(positions, 32 * (blocks.count() - 1), 32).min());
   }
 }
 

@@ -26,8 +26,6 @@ ConvexPiece palm() {
 }
 Tool gripper() { return Tool(std::vector<ConvexPiece>{finger(), palm()}); }
 
-Isometry3d at(const Vector3d& place) { return Isometry3d(Eigen::Translation3d(place)); }
-
 // A closed cube around a place.
 TriangleMesh cube(const Vector3d& center, double half) {
   std::vector<Vector3d> vertices;
@@ -67,7 +65,7 @@ class AllowedContactTest : public ::testing::Test {
  protected:
   PoseWithFrames next(const Vector3d& place, const Isometry3d& X_WM = Isometry3d::Identity()) {
     now_ += 10ms;
-    return {Time(now_), SteadyTime(now_), at(place), {{"table", X_WM}}};
+    return {Time(now_), SteadyTime(now_), placedAt(place), {{"table", X_WM}}};
   }
 
   SweepResult resultOf(Guard& guard, const Vector3d& place, const std::shared_ptr<const Workpiece>& workpiece) {
@@ -202,7 +200,7 @@ TEST_F(AllowedContactTest, RaisesNoLevelAndKeepsNothingFromBeingClear) {
 
 TEST_F(AllowedContactTest, IsLeftOutOfAPathAndOfTheDistance) {
   const Tool tool = gripper();
-  const std::vector<Isometry3d> path = {at({0.0, 0.0, -0.2}), at({0.0, 0.0, 0.0})};
+  const std::vector<Isometry3d> path = {placedAt({0.0, 0.0, -0.2}), placedAt({0.0, 0.0, 0.0})};
   const auto detector = makeDetector("reference");
   const AllowedPieces allowed(tool, {{"finger", "payload"}}, "payload");
   const PathResult found = checkPath(*detector, {tool, path, payload_->mesh_M, {}, [] {}, {}, allowed});
@@ -228,7 +226,7 @@ TEST_F(AllowedContactTest, OfOneBodyOfSeveralNamesItsPiece) {
       robotOf({{{"of the palm"}, {"of the finger"}}, links}, {{0, {palm()}}, {1, {finger()}}}));
   Guard guard(robot, makeDetector("reference"), allowing({{"finger", "payload"}}));
   PoseWithFrames pose = next({0.0, 0.0, 0.0});
-  pose.bodies = {{at({0.0, 0.0, -0.3})}, {at({0.0, 0.0, -0.035})}};
+  pose.bodies = {{placedAt({0.0, 0.0, -0.3})}, {placedAt({0.0, 0.0, -0.035})}};
   pose.state.positions = {-0.3, -0.035};
   const SweepReport report = reportOf(guard, pose, {payload_});
   EXPECT_FALSE(report.contact());

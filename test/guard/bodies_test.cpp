@@ -5,6 +5,7 @@
 #include "guard/fake_detector.h"
 #include "guard/guard_results.h"
 #include "guard/predict_contacts.h"
+#include "guard/times.h"
 #include "guard/triangle_set.h"
 #include "kinematics/random_robot.h"
 #include "scenes.h"
@@ -14,8 +15,6 @@ namespace sweep_guard_core {
 namespace {
 
 using std::chrono::milliseconds;
-
-Time at(int ms) { return Time(std::chrono::seconds(1) + milliseconds(ms)); }
 
 // Of a radius of half a metre.
 std::shared_ptr<const Workpiece> hull(const std::string& id, double phase, int ms, const std::string& frame = "table") {
@@ -27,7 +26,7 @@ std::shared_ptr<const Workpiece> hull(const std::string& id, double phase, int m
 }
 
 // Links of two pieces each.
-Robot randomArm(Random& random) {
+Robot armOfPairs(Random& random) {
   KinematicTree tree = randomRobot(random, 4, /*branches=*/true);
   std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
   for (size_t link = 0; link < tree.links().size(); ++link) {
@@ -41,7 +40,7 @@ Robot randomArm(Random& random) {
 class BodiesTest : public testing::Test {
  protected:
   explicit BodiesTest(std::uint64_t seed = 1)
-      : random_(seed), robot_(std::make_shared<const Robot>(randomArm(random_))) {
+      : random_(seed), robot_(std::make_shared<const Robot>(armOfPairs(random_))) {
     for (const Tool& body : robot_->tools)
       alone_.push_back(std::make_unique<Guard>(body, std::make_unique<FakeDetector>(record_), timeless()));
   }

@@ -1,16 +1,15 @@
-#include "guard/closest_approach.h"
+#include "guard/predict_contacts.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "common/floating_point.h"
 #include "scenes.h"
 
 namespace sweep_guard_core {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(ClosestApproachTest, IsTheLeastOfAllSweepsThatBeginNoLater) {
   Random random(1);

@@ -1,13 +1,10 @@
 #include "guard/cross_check.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <sstream>
 
 #include "fake_detector.h"
-#include "guard/detector_case.h"
 #include "refusal.h"
 #include "scenes.h"
 #include "sweep_guard/guard/guard.h"
@@ -15,14 +12,9 @@
 namespace sweep_guard_core {
 namespace {
 
-namespace filesystem = std::filesystem;
-
 // A drill that goes through the top of a wavy workpiece, far from the origin of its frame.
 class CrossCheckTest : public testing::Test {
  protected:
-  CrossCheckTest() : folder_(filesystem::temp_directory_path() / ("cross_check_" + std::to_string(getpid()))) {}
-  ~CrossCheckTest() override { filesystem::remove_all(folder_); }
-
   static Workpieces workpieces() {
     const TriangleMesh hull = wavyHull(/*rings=*/30, /*sectors=*/40, /*phase=*/0.0);
     std::vector<Eigen::Vector3d> vertices_M;
@@ -74,7 +66,6 @@ class CrossCheckTest : public testing::Test {
 
   static inline const Eigen::Vector3d kPlace{300.0, -200.0, 100.0};
 
-  filesystem::path folder_;
   Workpieces workpieces_ = workpieces();
   QuerySampler sampler_{/*every=*/1};
   std::vector<SampledQuery> queries_;
@@ -132,43 +123,73 @@ TEST_F(CrossCheckTest, TakesEveryNthQueryAndSkipsThemWhileOneWaits) {
   EXPECT_FALSE(sampler.take(query));
 }
 
-TEST_F(CrossCheckTest, ASavedCaseIsReadBackAndReproducesTheDisagreement) {
+Eigen::Vector3d vectorIn(std::istream& stream) {
+  Eigen::Vector3d p;
+  stream >> p.x() >> p.y() >> p.z();
+  return p;
+}
+
+// The volume that describe() has written.
+SweptVolume volumeIn(const std::string& description) {
+  const std::string title = "volume in the mesh frame:";
+  std::istringstream stream(description.substr(description.find(title) + title.size()));
+  SweptVolume volume;
+  std::string key;
+  stream >> key;
+  for (int i = 0; i < 3; ++i) volume.box.X_MB.linear().col(i) = vectorIn(stream);
+  stream >> key;
+  volume.box.X_MB.translation() = vectorIn(stream);
+  stream >> key;
+  volume.box.half_extents = vectorIn(stream);
+  stream >> key;
+  volume.interior_B = vectorIn(stream);
+  size_t clips = 0;
+  stream >> key >> volume.margin >> key >> clips;
+  for (; clips > 0; --clips) {
+    const Eigen::Vector3d normal = vectorIn(stream);
+    double offset = 0.0;
+    stream >> offset;
+    volume.clips_B.push_back(HalfSpace(normal, offset));
+  }
+  EXPECT_FALSE(stream.fail()) << description;
+  return volume;
+}
+
+TEST_F(CrossCheckTest, ADescribedQueryReproducesTheDisagreement) {
   FakeDetector::Record record;
   record.drop_every = 3;
   drill(std::make_unique<FakeDetector>(record));
   const auto halfspace = makeDetector("halfspace");
   size_t reproduced = 0;
-  for (const SampledQuery& query : queries_) {
+  for (SampledQuery& query : queries_) {
     const Disagreement before = crossCheck(query, *halfspace);
     if (!before.any()) continue;
-    std::stringstream text;
-    write(caseOf(query, "halfspace"), text);
-    const DetectorCase read = readDetectorCase(text);
-    EXPECT_EQ(read.mesh_id, "liver");
-    EXPECT_EQ(read.detector, "select");
-    EXPECT_EQ(read.other, "halfspace");
-    TriangleSet again = crossCheck(queryOf(read), *halfspace).missed;
-    for (std::uint32_t& triangle : again) triangle = read.numbers.at(triangle);
-    EXPECT_EQ(again, before.missed);
-    EXPECT_EQ(read.found.inflation, query.found.inflation);
-    EXPECT_EQ(read.swept_M.box.half_extents, query.swept_M.box.half_extents);
+    query.swept_M = volumeIn(describe(query, before));
+    EXPECT_EQ(crossCheck(query, *halfspace).missed, before.missed);
     ++reproduced;
   }
   EXPECT_GT(reproduced, 0U);
 }
 
-TEST_F(CrossCheckTest, CasesFillTheirFolderUpToALimitAndThenSayWhy) {
-  drill(makeDetector("reference"));
-  const auto save_up_to = [&](const filesystem::path& folder, std::uintmax_t max_folder) {
-    return save(queries_.at(0), "halfspace", folder, max_folder);
-  };
-  const std::string first = save_up_to(folder_, 1U << 30U);
-  EXPECT_EQ(first, "saved as " + (folder_ / "detector_case_1.txt").string());
-  const auto size = filesystem::file_size(folder_ / "detector_case_1.txt");
-  EXPECT_TRUE(has(save_up_to(folder_, 2 * size), "detector_case_2.txt"));
-  EXPECT_TRUE(has(save_up_to(folder_, 3 * size - 1), "not saved: "));
-  EXPECT_TRUE(has(save_up_to("/dev/null/cases", 1U << 30U), "not saved: "));
-  EXPECT_TRUE(has(save_up_to("/dev/full", 1U << 30U), "not saved: "));
+TEST_F(CrossCheckTest, ADescriptionNamesTrianglesMeshAndPoses) {
+  SampledQuery query;
+  Workpiece workpiece = *workpieces_[0];
+  workpiece.stamp = Time(std::chrono::nanoseconds(12000000034));
+  query.workpiece = std::make_shared<const Workpiece>(workpiece);
+  query.origin.from.stamp = Time(std::chrono::milliseconds(1500));
+  query.origin.to.stamp = Time(std::chrono::milliseconds(1510));
+  query.origin.to.X_WT.translation() = Eigen::Vector3d(0.1, -2.0, 300.0);
+  Disagreement disagreement{{3, 7}, {}};
+  const std::string begin =
+      "; mesh 'liver' revision 1 at 12.000000034 in 'world'; tool measured from 0 0 0 0 0 0 1 at 1.500000000 to 0.1 -2 "
+      "300 "
+      "0 0 0 1 at 1.510000000; volume in the mesh frame: axes 1 0 0 0 1 0 0 0 1 center 0 0 0 half_extents ";
+  EXPECT_TRUE(has(describe(query, disagreement), "missed 3 7, invented none" + begin));
+  query.origin.measured = false;
+  disagreement.invented.resize(22, 5);
+  const std::string many = describe(query, disagreement);
+  EXPECT_TRUE(has(many, " 5 5 and 2 more; mesh"));
+  EXPECT_TRUE(has(many, "tool predicted from"));
 }
 
 TEST_F(CrossCheckTest, EveryTenthQueryIsForADetectorThatSharesNoCode) {
@@ -187,13 +208,6 @@ TEST_F(CrossCheckTest, ASamplerThatKeepsNoneHoldsNoWorkpiece) {
   QuerySampler sampler(/*every=*/0);
   sampler.setWorkpieces(workpieces_);
   EXPECT_EQ(workpieces_[0].use_count(), 1);
-}
-
-TEST(DetectorCaseTest, RefusesOtherTexts) {
-  for (const char* const text : {"", "sweep_guard detector case 2", "sweep_guard detector case 1\nworkpiece a\n"}) {
-    std::istringstream stream(text);
-    EXPECT_THROW(readDetectorCase(stream), InvalidInput) << text;
-  }
 }
 
 }  // namespace

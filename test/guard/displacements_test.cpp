@@ -20,7 +20,7 @@ TriangleMesh strip(size_t vertices, Random& random, double size, const Eigen::Ve
   return TriangleMesh(positions, triangles);
 }
 
-TriangleMesh moved(const TriangleMesh& mesh, Random& random, double most) {
+TriangleMesh shaken(const TriangleMesh& mesh, Random& random, double most) {
   std::vector<float> positions;
   for (size_t i = 0; i < mesh.vertexCount(); ++i) {
     const Eigen::Vector3d p = mesh.vertex(i) + random.inBox({most, most, most});
@@ -59,8 +59,8 @@ TEST(DisplacementsTest, HoldThatOfEveryVertexOfAnyMesh) {
     SCOPED_TRACE(std::to_string(vertices) + " vertices");
     const TriangleMesh sent = strip(vertices, random, random.logUniform(0.01, 100.0), random.inBox({10, 10, 10}));
     const double most = random.logUniform(1e-6, 10.0);
-    const TriangleMesh first = moved(sent, random, most);
-    expectTight(first, moved(first, random, most), 1e-6 * most + 1e-7);
+    const TriangleMesh first = shaken(sent, random, most);
+    expectTight(first, shaken(first, random, most), 1e-6 * most + 1e-7);
     expectTight(sent, first, 1e-4);
     expectTight(sent, strip(vertices, random, 1.0, random.inBox({1e6, 1e6, 1e6})), 1e-6);
   }
@@ -69,7 +69,7 @@ TEST(DisplacementsTest, HoldThatOfEveryVertexOfAnyMesh) {
 // Where the last of eight vertices, and the first and the last of all, are the only ones that move.
 TEST(DisplacementsTest, SeeEachVertex) {
   Random random(/*seed=*/2);
-  const TriangleMesh mesh = moved(strip(37, random, 1.0, {0, 0, 0}), random, 0.0);
+  const TriangleMesh mesh = shaken(strip(37, random, 1.0, {0, 0, 0}), random, 0.0);
   std::vector<float> positions = mesh.places();
   for (size_t i = 0; i < positions.size(); ++i) {
     const float before = positions[i];
@@ -88,6 +88,60 @@ TEST(DisplacementsTest, AreBoundedByTheCornersOfTheirBox) {
   EXPECT_TRUE(displacements.any());
   EXPECT_NEAR(displacements.upperBound(), 3.0, 1e-6);
   EXPECT_NEAR(displacements.lowerBound(), 1.0, 1e-6);
+}
+
+const TriangleMesh kCorner({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+
+std::shared_ptr<Workpiece> sheetAt(float z) {
+  auto workpiece = std::make_shared<Workpiece>(Workpiece{"sheet", 0, {}, {}, "table", kCorner});
+  std::vector<float> positions = {0, 0, z, 1, 0, z, 0, 1, z};
+  workpiece->mesh_M.deform(positions);
+  return workpiece;
+}
+
+double rise(const Displacements& displacements) { return displacements.box_M().center().z(); }
+
+TEST(DisplacementCacheTest, KnowsEachPairOfDeformations) {
+  DisplacementCache cache;
+  const auto low = sheetAt(0.0F);
+  const auto middle = sheetAt(1.0F);
+  const auto high = sheetAt(3.0F);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(rise(cache.between(low, middle)), 1.0, 1e-6);
+    EXPECT_NEAR(rise(cache.between(low, high)), 3.0, 1e-6);
+    EXPECT_NEAR(rise(cache.between(middle, high)), 2.0, 1e-6);
+    EXPECT_FALSE(cache.between(high, high).any());
+  }
+}
+
+// A snapshot never changes; this one does, so that a second look would show.
+TEST(DisplacementCacheTest, LooksOnceAtWhatIsAskedForAgainAndAgain) {
+  DisplacementCache cache;
+  const auto low = sheetAt(0.0F);
+  const auto high = sheetAt(1.0F);
+  cache.between(low, high);
+  std::vector<float> positions = {0, 0, 2, 1, 0, 2, 0, 1, 2};
+  high->mesh_M.deform(positions);
+  for (int sweep = 0; sweep < 3; ++sweep) {
+    EXPECT_NEAR(rise(cache.between(low, high)), 1.0, 1e-6);
+    cache.forgetUnused();
+  }
+  cache.forgetUnused();
+  EXPECT_NEAR(rise(cache.between(low, high)), 2.0, 1e-6);
+}
+
+TEST(DisplacementCacheTest, KeepsNoDeformationThatNobodyAsksFor) {
+  DisplacementCache cache;
+  std::weak_ptr<Workpiece> low;
+  {
+    const auto from = sheetAt(0.0F);
+    low = from;
+    cache.between(from, sheetAt(1.0F));
+  }
+  cache.forgetUnused();
+  EXPECT_FALSE(low.expired());
+  cache.forgetUnused();
+  EXPECT_TRUE(low.expired());
 }
 
 }  // namespace

@@ -11,9 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Eigen::Isometry3d along(double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)); }
-
-PredictedPose predicted(Duration ahead, double x, double variance) {
+PredictedPose predictedAlong(Duration ahead, double x, double variance) {
   return {ahead, along(x), variance * Matrix6d::Identity()};
 }
 
@@ -22,7 +20,7 @@ FrameMotion motion() {
   FrameMotion motion;
   for (int i = 0; i <= 4; ++i) motion.measured.push_back({Time(i * 10ms), along(0.1 * i), 0.0});
   motion.predicted_from = Time(30ms);
-  motion.predicted = {predicted(0ms, 0.3, 0.0), predicted(100ms, 5.0, 1.0), predicted(200ms, 6.0, 4.0)};
+  motion.predicted = {predictedAlong(0ms, 0.3, 0.0), predictedAlong(100ms, 5.0, 1.0), predictedAlong(200ms, 6.0, 4.0)};
   return motion;
 }
 
@@ -46,8 +44,8 @@ TEST(FrameMotionTest, EndsWithTheNewestPoseIfNothingIsPredicted) {
   measured.predicted.clear();
   EXPECT_NEAR(measured.at(Time(40ms))->X_WT.translation().x(), 0.4, 1e-12);
   EXPECT_FALSE(measured.at(Time(41ms)));
-  EXPECT_FALSE(framePath(measured, Time(40ms), {predicted(10ms, 0.0, 0.0)}, 1.0));
-  EXPECT_FALSE(framePath(motion(), Time(-1ms), {predicted(10ms, 0.0, 0.0)}, 1.0));
+  EXPECT_FALSE(framePath(measured, Time(40ms), {predictedAlong(10ms, 0.0, 0.0)}, 1.0));
+  EXPECT_FALSE(framePath(motion(), Time(-1ms), {predictedAlong(10ms, 0.0, 0.0)}, 1.0));
 }
 
 // How far a point may be from where the frame is at a time: 0 at a pose.
@@ -107,7 +105,7 @@ TEST(FrameMotionTest, APredictionThatBeginsBetweenTwoPosesDoublesTheirBound) {
   FrameMotion motion;
   motion.measured = {{Time(0ms), along(0.0)}, {Time(10ms), along(1.0), 0.1}};
   motion.predicted_from = Time(5ms);
-  motion.predicted = {predicted(0ms, 0.5, 0.0), predicted(100ms, 5.0, 1.0)};
+  motion.predicted = {predictedAlong(0ms, 0.5, 0.0), predictedAlong(100ms, 5.0, 1.0)};
   const auto path = framePath(motion, Time(0ms), {{3ms}, {20ms}}, 0.5);
   EXPECT_NEAR(path->points[1].deviation_bound, 0.2, 1e-12);
   EXPECT_GE(path->points[2].deviation_bound, 0.2);

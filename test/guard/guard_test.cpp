@@ -7,6 +7,7 @@
 
 #include "guard/fake_detector.h"
 #include "guard/moving_mesh.h"
+#include "guard/times.h"
 #include "scenes.h"
 
 namespace sweep_guard_core {
@@ -14,23 +15,19 @@ namespace {
 
 using Indices = std::vector<std::uint32_t>;
 
-Time at(double seconds) { return Time(fromSeconds(seconds)); }
-
-Eigen::Isometry3d up(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0, 0, z)); }
-
 using Places = std::map<std::string, Eigen::Isometry3d>;
 
 // The tool at a place in each frame. Only the motion between them counts: the tool rests in W, the frames move.
 PoseWithFrames pose(double seconds, const Places& X_MT) {
-  PoseWithFrames pose{at(seconds), SteadyTime{}, Eigen::Isometry3d::Identity(), {}};
+  PoseWithFrames pose{atSecond(seconds), SteadyTime{}, Eigen::Isometry3d::Identity(), {}};
   for (const auto& [frame, X] : X_MT) pose.X_WM[frame] = X.inverse();
   return pose;
 }
 
 // One triangle of a metre in the plane z = 0 of its frame.
-std::shared_ptr<const Workpiece> triangle(const std::string& id, const std::string& frame) {
-  return std::make_shared<const Workpiece>(
-      Workpiece{id, 0, at(0.0), SteadyTime{}, frame, TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}})});
+std::shared_ptr<const Workpiece> triangleIn(const std::string& id, const std::string& frame) {
+  return std::make_shared<const Workpiece>(Workpiece{id, 0, atSecond(0.0), SteadyTime{}, frame,
+                                                     TriangleMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}})});
 }
 
 // A drill that is 0.1 m long and guarded in the frame `table`, unless stated otherwise.
@@ -40,17 +37,17 @@ class GuardTest : public testing::Test {
 
   void passTo(double seconds, double z) { guard_.pass(pose(seconds, {{"table", up(z)}})); }
 
-  const Workpieces table_ = {triangle("triangle", "table")};
+  const Workpieces table_ = {triangleIn("triangle", "table")};
   FakeDetector::Record record_;
   Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<FakeDetector>(record_), {}};
 };
 
 TEST_F(GuardTest, TestsTheFirstPoseAlone) {
   const SweepReport report = sweepTo(1.0, 0.5);
-  EXPECT_EQ(report.start, at(1.0));
-  EXPECT_EQ(report.end, at(1.0));
+  EXPECT_EQ(report.start, atSecond(1.0));
+  EXPECT_EQ(report.end, atSecond(1.0));
   ASSERT_EQ(report.objects.size(), 1U);
-  EXPECT_EQ(report.objects[0].interval_start, at(1.0));
+  EXPECT_EQ(report.objects[0].interval_start, atSecond(1.0));
   EXPECT_FALSE(report.contact());
   ASSERT_EQ(record_.volumes.size(), 1U);
   EXPECT_NEAR(record_.volumes[0].box.half_extents.z(), 0.05, 1e-9);  // no longer than the drill
@@ -69,7 +66,7 @@ TEST_F(GuardTest, KnowsWhetherTheToolAtTheNewestPoseIsWithinADistance) {
   sweepTo(1.1, 0.15);
   EXPECT_FALSE(guard_.isWithin(0.0499, *table_[0]));
   EXPECT_TRUE(guard_.isWithin(0.0501, *table_[0]));
-  EXPECT_FALSE(guard_.isWithin(1.0, *triangle("triangle", "elsewhere")));
+  EXPECT_FALSE(guard_.isWithin(1.0, *triangleIn("triangle", "elsewhere")));
   sweepTo(1.2, 0.25);
   EXPECT_FALSE(guard_.isWithin(0.0501, *table_[0]));
 }
@@ -79,9 +76,9 @@ TEST_F(GuardTest, SweepsFromPoseToPose) {
   EXPECT_FALSE(sweepTo(1.0, 0.5).contact());
   const SweepReport report = sweepTo(1.1, -0.1);
   EXPECT_TRUE(report.contact());
-  EXPECT_EQ(report.start, at(1.0));
-  EXPECT_EQ(report.end, at(1.1));
-  EXPECT_EQ(report.objects[0].interval_start, at(1.0));
+  EXPECT_EQ(report.start, atSecond(1.0));
+  EXPECT_EQ(report.end, atSecond(1.1));
+  EXPECT_EQ(report.objects[0].interval_start, atSecond(1.0));
   EXPECT_EQ(report.objects[0].workpiece, table_[0]);
   EXPECT_FALSE(sweepTo(1.2, -0.2).contact());
 }
@@ -106,8 +103,8 @@ TEST_F(GuardTest, SweepsEveryIntervalEndToEnd) {
   sweepTo(0.0, 1.0);
   for (int i = 1; i <= 20; ++i) {
     const SweepReport report = sweepTo(0.01 * i, 1.0 - 0.1 * i);
-    EXPECT_EQ(report.start, at(0.01 * (i - 1)));
-    EXPECT_EQ(report.end, at(0.01 * i));
+    EXPECT_EQ(report.start, atSecond(0.01 * (i - 1)));
+    EXPECT_EQ(report.end, atSecond(0.01 * i));
     // From the tip now to the far end before: 0.2 m, about the tip before.
     EXPECT_NEAR(record_.volumes.back().box.half_extents.z(), 0.1, 1e-6);
     EXPECT_NEAR(record_.volumes.back().box.X_MB.translation().z(), 1.0 - 0.1 * i, 1e-6);
@@ -128,7 +125,7 @@ TEST_F(GuardTest, ContinuesTheSweepWithAnExchangedToolAndDetector) {
   record_.volumes.clear();
   const Eigen::Isometry3d below(Eigen::Translation3d(0.0, -1.007, -0.5));
   const SweepReport report = reportOf(guard_, pose(1.1, {{"table", below}}), table_);
-  EXPECT_EQ(report.start, at(1.0));
+  EXPECT_EQ(report.start, atSecond(1.0));
   EXPECT_TRUE(report.contact());
   EXPECT_TRUE(record_.volumes.empty());
   ASSERT_FALSE(record.volumes.empty());
@@ -180,7 +177,7 @@ TEST_F(GuardTest, LeavesTheIntervalOfAFailedSweepToTheNext) {
   const SweepReport report = sweepTo(1.2, -0.2);
   EXPECT_TRUE(report.contact());
   EXPECT_TRUE(report.complete());
-  EXPECT_EQ(report.objects[0].interval_start, at(1.0));
+  EXPECT_EQ(report.objects[0].interval_start, atSecond(1.0));
 }
 
 TEST_F(GuardTest, GivesUpSweepsAndPredictionsOnceItIsStopped) {
@@ -233,7 +230,7 @@ TEST_F(GuardTest, TimesOfImpactOnMergedSegmentsAreNotLate) {
 }
 
 TEST_F(GuardTest, SweepsThePathAcrossAFailureThoughTheTrianglesAreNew) {
-  const Workpieces remeshed = {triangle("triangle", "table")};
+  const Workpieces remeshed = {triangleIn("triangle", "table")};
   sweepTo(1.0, 0.5);
   record_.failures_left = 1;
   sweepTo(1.1, -0.2);
@@ -241,7 +238,7 @@ TEST_F(GuardTest, SweepsThePathAcrossAFailureThoughTheTrianglesAreNew) {
 }
 
 TEST_F(GuardTest, AFailureOnOneWorkpieceDoesNotHideAContactWithAnother) {
-  const Workpieces both = {triangle("first", "table"), triangle("second", "table")};
+  const Workpieces both = {triangleIn("first", "table"), triangleIn("second", "table")};
   record_.failures_left = 1;
   const SweepReport report = reportOf(guard_, pose(1.0, {{"table", up(0.05)}}), both);
   ASSERT_EQ(report.failures.size(), 1U);
@@ -257,11 +254,11 @@ TEST_F(GuardTest, PassesThroughABacklogInOneSweep) {
   const SweepReport report = sweepTo(1.04, 0.46);
   EXPECT_EQ(record_.volumes.size(), 1U);
   EXPECT_NEAR(record_.volumes[0].box.half_extents.z(), 0.07, 1e-6);
-  EXPECT_EQ(report.start, at(1.0));
-  EXPECT_EQ(report.end, at(1.04));
+  EXPECT_EQ(report.start, atSecond(1.0));
+  EXPECT_EQ(report.end, atSecond(1.04));
   EXPECT_NEAR(toSeconds(report.backlog), 0.039, 1e-9);
   const SweepReport next = sweepTo(1.041, 0.46);
-  EXPECT_EQ(next.start, at(1.04));
+  EXPECT_EQ(next.start, atSecond(1.04));
   EXPECT_EQ(next.backlog, Duration::zero());
 }
 
@@ -294,7 +291,7 @@ TEST_F(GuardTest, SweepsABacklogWhereItsFrameIsKnownAgain) {
   passTo(1.3, 0.4);
   const SweepReport report = sweepTo(1.4, 0.5);
   EXPECT_TRUE(report.contact());
-  EXPECT_EQ(report.start, at(1.0));
+  EXPECT_EQ(report.start, atSecond(1.0));
 }
 
 TEST_F(GuardTest, SweepsTheBacklogOfAWorkpieceWhoseFrameWasMissingAtItsFirstSweep) {
@@ -305,7 +302,7 @@ TEST_F(GuardTest, SweepsTheBacklogOfAWorkpieceWhoseFrameWasMissingAtItsFirstSwee
   EXPECT_EQ(unplaced.unplaced.size(), 1U);
   const SweepReport report = sweepTo(1.4, 0.5);
   EXPECT_TRUE(report.contact());
-  EXPECT_EQ(report.start, at(1.0));
+  EXPECT_EQ(report.start, atSecond(1.0));
 }
 
 TEST_F(GuardTest, ABacklogLeavesThePredictionAsItIs) {
@@ -314,7 +311,7 @@ TEST_F(GuardTest, ABacklogLeavesThePredictionAsItIs) {
   Guard backlogged(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options);
   Guard prompt(Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), options);
   for (int ms = 0; ms <= 300; ++ms) {
-    const PoseWithFrames pose{at(1.0 + 1e-3 * ms), SteadyTime{}, up(0.5 + 0.1 * std::sin(0.01 * ms)), {}};
+    const PoseWithFrames pose{atSecond(1.0 + 1e-3 * ms), SteadyTime{}, up(0.5 + 0.1 * std::sin(0.01 * ms)), {}};
     reportOf(prompt, pose, {});
     if (ms % 10 == 0) {
       reportOf(backlogged, pose, {});
@@ -332,14 +329,15 @@ TEST_F(GuardTest, ABacklogLeavesThePredictionAsItIs) {
 // an arc that deviates by a metre times 0.25 / 8 = 31 mm from the straight path. Something stands on that arc.
 TEST_F(GuardTest, SweepsTheArcThatATurningTableMakesOfARestingTool) {
   const auto tableTurnedBy = [](double angle) {
-    PoseWithFrames pose{at(1.0 + angle), SteadyTime{}, Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0)), {}};
+    PoseWithFrames pose{
+        atSecond(1.0 + angle), SteadyTime{}, Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0)), {}};
     pose.X_WM["table"] = Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitZ());
     return pose;
   };
   const Eigen::Vector3d on_arc(std::cos(0.25), std::sin(0.25), -0.05);
   const TriangleMesh dot({on_arc, on_arc, on_arc}, {{0, 1, 2}});
   const Workpieces table = {
-      std::make_shared<const Workpiece>(Workpiece{"dot", 0, at(0.0), SteadyTime{}, "table", dot})};
+      std::make_shared<const Workpiece>(Workpiece{"dot", 0, atSecond(0.0), SteadyTime{}, "table", dot})};
   EXPECT_FALSE(reportOf(guard_, tableTurnedBy(0.0), table).contact());
   EXPECT_TRUE(reportOf(guard_, tableTurnedBy(0.5), table).contact());
 }
@@ -349,7 +347,7 @@ TEST_F(GuardTest, TestsThePoseAloneAfterAReset) {
   guard_.reset();
   const SweepReport report = sweepTo(0.3, -0.1);
   EXPECT_FALSE(report.contact());
-  EXPECT_EQ(report.objects[0].interval_start, at(0.3));
+  EXPECT_EQ(report.objects[0].interval_start, atSecond(0.3));
 }
 
 TEST_F(GuardTest, HasNothingToReportWithoutWorkpieces) {
@@ -361,7 +359,7 @@ TEST_F(GuardTest, HasNothingToReportWithoutWorkpieces) {
 }
 
 TEST_F(GuardTest, NamesWorkpiecesWhoseFrameIsMissing) {
-  const Workpieces both = {triangle("on table", "table"), triangle("on turntable", "turntable")};
+  const Workpieces both = {triangleIn("on table", "table"), triangleIn("on turntable", "turntable")};
   const SweepReport report = reportOf(guard_, pose(1.0, {{"table", up(0.5)}}), both);
   ASSERT_EQ(report.objects.size(), 1U);
   EXPECT_EQ(report.objects[0].workpiece, both[0]);
@@ -371,16 +369,16 @@ TEST_F(GuardTest, NamesWorkpiecesWhoseFrameIsMissing) {
 
 // For one pose the turntable's transform is missing. The next sweep there starts at the pose before.
 TEST_F(GuardTest, SweepsFromTheLastPoseThatWasKnownInAFrame) {
-  const Workpieces both = {triangle("on table", "table"), triangle("on turntable", "turntable")};
+  const Workpieces both = {triangleIn("on table", "table"), triangleIn("on turntable", "turntable")};
   reportOf(guard_, pose(1.0, {{"table", up(0.5)}, {"turntable", up(0.5)}}), both);
   reportOf(guard_, pose(1.1, {{"table", up(0.4)}}), both);
   const SweepReport report = reportOf(guard_, pose(1.2, {{"table", up(0.3)}, {"turntable", up(-0.1)}}), both);
   ASSERT_EQ(report.objects.size(), 2U);
-  EXPECT_EQ(report.objects[0].interval_start, at(1.1));
+  EXPECT_EQ(report.objects[0].interval_start, atSecond(1.1));
   EXPECT_TRUE(report.objects[0].result.triangles.empty());
-  EXPECT_EQ(report.objects[1].interval_start, at(1.0));
+  EXPECT_EQ(report.objects[1].interval_start, atSecond(1.0));
   EXPECT_EQ(report.objects[1].result.triangles, Indices{0});
-  EXPECT_EQ(report.start, at(1.0));
+  EXPECT_EQ(report.start, atSecond(1.0));
   EXPECT_TRUE(report.contact());
 }
 
@@ -397,7 +395,7 @@ TEST_F(GuardTest, SweepsAWorkpieceThatComesLaterFromThePoseBefore) {
   reportOf(guard_, pose(1.0, {{"table", up(0.5)}}), {});
   const SweepReport report = sweepTo(1.1, -0.1);
   EXPECT_TRUE(report.contact());
-  EXPECT_EQ(report.objects[0].interval_start, at(1.0));
+  EXPECT_EQ(report.objects[0].interval_start, atSecond(1.0));
 }
 
 // What comes to live in a frame later was not there when the tool moved before.
@@ -405,7 +403,7 @@ TEST_F(GuardTest, ForgetsAFrameThatNothingLivesIn) {
   sweepTo(1.0, 0.5);
   reportOf(guard_, pose(1.1, {}), {});
   const SweepReport report = sweepTo(1.2, -0.1);
-  EXPECT_EQ(report.objects[0].interval_start, at(1.2));
+  EXPECT_EQ(report.objects[0].interval_start, atSecond(1.2));
   EXPECT_FALSE(report.contact());
 }
 
@@ -427,7 +425,7 @@ class MovingWorkpieceTest : public testing::Test {
       for (const double x : {p.x(), p.y(), z}) positions.push_back(static_cast<float>(x));
     }
     const auto next = std::make_shared<Workpiece>(
-        Workpiece{"triangle", 0, at(seconds), SteadyTime{}, "table", deformed(before, positions)});
+        Workpiece{"triangle", 0, atSecond(seconds), SteadyTime{}, "table", deformed(before, positions)});
     if (newest_) countUpdate(*newest_, *next);
     newest_ = next;
   }
@@ -485,7 +483,7 @@ TEST_F(MovingWorkpieceTest, IsMetWhereTheToolWasMeanwhile) {
   place(1.025, 0.0);
   const SweepReport report = sweepTo(1.04, 2.0);
   EXPECT_TRUE(report.contact());
-  EXPECT_EQ(report.objects[0].interval_start, at(1.03));
+  EXPECT_EQ(report.objects[0].interval_start, atSecond(1.03));
 }
 
 // 16 ms at 1 kHz: one sweep for what was, and one for what is new.
@@ -613,7 +611,8 @@ TEST_F(MovingWorkpieceTest, IsNeverFarAheadOfPosesWithinHalfASecond) {
 TEST_F(MovingWorkpieceTest, IsFollowedThoughItsTrianglesAreSentAnew) {
   beginAt(0.0);
   const TriangleMesh anew({{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}}, {{0, 1, 2}});
-  newest_ = std::make_shared<const Workpiece>(Workpiece{"triangle", 0, at(1.01), SteadyTime{}, "table", anew, 1, 2.0});
+  newest_ =
+      std::make_shared<const Workpiece>(Workpiece{"triangle", 0, atSecond(1.01), SteadyTime{}, "table", anew, 1, 2.0});
   EXPECT_TRUE(sweepTo(1.01, 0.0).contact());
 }
 

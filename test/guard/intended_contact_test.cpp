@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kCells = 48;           // of 1 mm, along both sides
+constexpr int kSheetCells = 48;      // of 1 mm, along both sides
 constexpr double kThickness = 0.06;  // [m]
 constexpr double kHole = 0.015;      // radius of the region [m]
 constexpr double kDepth = 0.012;     // allowed [m]
@@ -32,10 +32,10 @@ using Lift = std::function<double(double x, double y)>;  // of the upper side [m
 std::vector<Eigen::Vector3d> slabVertices(const Lift& lift) {
   std::vector<Eigen::Vector3d> vertices;
   for (const bool upper : {true, false}) {
-    for (int j = 0; j <= kCells; ++j) {
-      for (int i = 0; i <= kCells; ++i) {
-        const double x = 1e-3 * (i - kCells / 2);
-        const double y = 1e-3 * (j - kCells / 2);
+    for (int j = 0; j <= kSheetCells; ++j) {
+      for (int i = 0; i <= kSheetCells; ++i) {
+        const double x = 1e-3 * (i - kSheetCells / 2);
+        const double y = 1e-3 * (j - kSheetCells / 2);
         vertices.emplace_back(x, y, upper ? lift(x, y) : -kThickness);
       }
     }
@@ -45,24 +45,26 @@ std::vector<Eigen::Vector3d> slabVertices(const Lift& lift) {
 
 std::vector<Triangle> slabTriangles() {
   const auto at = [](bool upper, int i, int j) {
-    return static_cast<std::uint32_t>((upper ? 0 : (kCells + 1) * (kCells + 1)) + j * (kCells + 1) + i);
+    return static_cast<std::uint32_t>((upper ? 0 : (kSheetCells + 1) * (kSheetCells + 1)) + j * (kSheetCells + 1) + i);
   };
   std::vector<Triangle> triangles;
   const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     triangles.push_back({a, b, c});
     triangles.push_back({a, c, d});
   };
-  for (int j = 0; j < kCells; ++j) {
-    for (int i = 0; i < kCells; ++i) {
+  for (int j = 0; j < kSheetCells; ++j) {
+    for (int i = 0; i < kSheetCells; ++i) {
       quad(at(true, i, j), at(true, i + 1, j), at(true, i + 1, j + 1), at(true, i, j + 1));
       quad(at(false, i, j), at(false, i, j + 1), at(false, i + 1, j + 1), at(false, i + 1, j));
     }
   }
-  for (int i = 0; i < kCells; ++i) {
+  for (int i = 0; i < kSheetCells; ++i) {
     quad(at(false, i, 0), at(false, i + 1, 0), at(true, i + 1, 0), at(true, i, 0));
-    quad(at(false, i + 1, kCells), at(false, i, kCells), at(true, i, kCells), at(true, i + 1, kCells));
+    quad(at(false, i + 1, kSheetCells), at(false, i, kSheetCells), at(true, i, kSheetCells),
+         at(true, i + 1, kSheetCells));
     quad(at(false, 0, i + 1), at(false, 0, i), at(true, 0, i), at(true, 0, i + 1));
-    quad(at(false, kCells, i), at(false, kCells, i + 1), at(true, kCells, i + 1), at(true, kCells, i));
+    quad(at(false, kSheetCells, i), at(false, kSheetCells, i + 1), at(true, kSheetCells, i + 1),
+         at(true, kSheetCells, i));
   }
   return triangles;
 }

@@ -1,7 +1,8 @@
-#include "guard/joined_motion.h"
+#include "guard/pose_history.h"
 
 #include <gtest/gtest.h>
 
+#include "guard/times.h"
 #include "scenes.h"
 #include "sweep_guard/geometry/motion.h"
 
@@ -9,10 +10,6 @@ namespace sweep_guard_core {
 namespace {
 
 using std::chrono::milliseconds;
-
-Time at(int ms) { return Time(std::chrono::seconds(1) + milliseconds(ms)); }
-
-Eigen::Isometry3d along(double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)); }
 
 std::vector<int> stampsOf(const std::vector<JoinedMotion::Sample>& samples) {
   std::vector<int> stamps;

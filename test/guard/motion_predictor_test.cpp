@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "guard/times.h"
 #include "kinematics/random_robot.h"
 #include "prediction/motion_space.h"
 #include "scenes.h"
@@ -14,8 +15,6 @@ namespace sweep_guard_core {
 namespace {
 
 using std::chrono::milliseconds;
-
-Time at(double seconds) { return Time(fromSeconds(1000.0 + seconds)); }
 
 std::shared_ptr<const Robot> robotWith(KinematicTree tree) {
   std::vector<std::pair<size_t, std::vector<ConvexPiece>>> pieces;
@@ -42,7 +41,7 @@ std::shared_ptr<const Robot> planarArm(const JointVariable& elbow = {"elbow"}) {
 }
 
 PoseWithFrames poseAt(const Robot& robot, double seconds, const RobotState& state) {
-  PoseWithFrames pose{at(seconds), {}, state.X_WR};
+  PoseWithFrames pose{atSecond(1000.0 + seconds), {}, state.X_WR};
   std::vector<Eigen::Isometry3d> X_WB;
   bodyPoses(robot.tree, robot.bodies, state, X_WB);
   for (const Eigen::Isometry3d& X : X_WB) pose.bodies.push_back({X});
@@ -157,7 +156,7 @@ TEST(MotionPredictorTest, ItsCovariancesAreThoseOfErrorsOfJointsAndRoot) {
     MotionPredictor predictor(optionsOf("hold"), robot);
     const PredictedMotion motion = predicted(predictor, *robot, truth, 10.0);
     JointPredictor joints(optionsOf("hold"), jointsOf(robot->tree));
-    for (double t = 0.0; t < 10.0 + 1e-9; t += 0.01) joints.observe(at(t), truth(t).positions);
+    for (double t = 0.0; t < 10.0 + 1e-9; t += 0.01) joints.observe(atSecond(1000.0 + t), truth(t).positions);
     const PredictedPose& root = motion.path.back();
     PredictedJoints expected;
     joints.predict(root.ahead, expected);

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
+#include "common/floating_point.h"
 #include "detection/reference_detector.h"
 #include "guard/clearance_by_clipping.h"
 
 namespace sweep_guard_core {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTolerance = 2e-3;  // [standard deviations]
-constexpr double kMeasured = 1.5;    // the corners of a volume may lie farther out of reach than the tool
+constexpr double kPathTolerance = 2e-3;  // [standard deviations]
+constexpr double kMeasured = 1.5;        // the corners of a volume may lie farther out of reach than the tool
 constexpr Duration kStep = std::chrono::milliseconds(20);
 
 Tool toolOf(Random& random, size_t pieces) {
@@ -50,8 +50,8 @@ TriangleMesh randomSoup(Random& random, const Eigen::Vector3d& middle) {
   return TriangleMesh(vertices, triangles);
 }
 
-struct Scene {
-  explicit Scene(std::uint64_t seed, const Eigen::Vector3d& middle = Eigen::Vector3d::Zero())
+struct PathScene {
+  explicit PathScene(std::uint64_t seed, const Eigen::Vector3d& middle = Eigen::Vector3d::Zero())
       : random(seed), middle_of_soup(middle) {}
 
   Random random;
@@ -63,7 +63,7 @@ struct Scene {
       Workpiece{"soup", 0, Time(), SteadyTime(), "table", randomSoup(random, middle_of_soup)});
 };
 
-PredictedObject predicted(const Scene& scene) {
+PredictedObject checkedAlone(const PathScene& scene) {
   ReferenceDetector detector;
   PathChecker checker({SweepOptions(), kStep});
   PredictedObject object;
@@ -73,7 +73,7 @@ PredictedObject predicted(const Scene& scene) {
 }
 
 // Of each piece in one step, compared with each triangle.
-std::vector<double> clearances(const Scene& scene, size_t step) {
+std::vector<double> clearances(const PathScene& scene, size_t step) {
   const PredictedPose& end = scene.path[step];
   const Motion motion{step == 0 ? scene.X_WT : scene.path[step - 1].X_WT, end.X_WT};
   const TriangleMesh& mesh_M = scene.workpiece->mesh_M;
@@ -93,24 +93,24 @@ struct Found {
 };
 
 // A sweep that comes no nearer than an earlier one need not say how near.
-void expectTheNearestPiece(const Scene& scene, Found& found) {
-  const PredictedObject object = predicted(scene);
+void expectTheNearestPiece(const PathScene& scene, Found& found) {
+  const PredictedObject object = checkedAlone(scene);
   ASSERT_EQ(object.sweeps.size(), scene.path.size());
   double before = kInfinity;
   for (size_t step = 0; step < object.sweeps.size(); ++step) {
     const PredictedSweep& sweep = object.sweeps[step];
     const std::vector<double> all = clearances(scene, step);
     const double least = *std::min_element(all.begin(), all.end());
-    EXPECT_GE(sweep.deviations, least - kTolerance) << "step " << step;
-    if (least < std::min(before - kTolerance, kMeasured)) {
+    EXPECT_GE(sweep.deviations, least - kPathTolerance) << "step " << step;
+    if (least < std::min(before - kPathTolerance, kMeasured)) {
       ++found.nearer;
-      EXPECT_NEAR(sweep.deviations, least, kTolerance) << "step " << step;
+      EXPECT_NEAR(sweep.deviations, least, kPathTolerance) << "step " << step;
       ASSERT_TRUE(sweep.tool_piece);
       if (!sweep.contact) {
-        EXPECT_NEAR(all[*sweep.tool_piece], least, kTolerance) << "step " << step;
+        EXPECT_NEAR(all[*sweep.tool_piece], least, kPathTolerance) << "step " << step;
       }
     }
-    if (least > before + kTolerance && least > 0.0) {
+    if (least > before + kPathTolerance && least > 0.0) {
       found.no_nearer += sweep.deviations == kInfinity;
       EXPECT_GT(sweep.deviations, before) << "step " << step;
     }
@@ -122,7 +122,7 @@ TEST(PathCheckerTest, FindsTheNearestPieceThatComparingEachPieceWithEachTriangle
   Found found;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    expectTheNearestPiece(Scene(seed), found);
+    expectTheNearestPiece(PathScene(seed), found);
   }
   EXPECT_GT(found.nearer, 50);
   EXPECT_GT(found.no_nearer, 10);
@@ -133,7 +133,7 @@ TEST(PathCheckerTest, FindsTheNearestPieceBesideAWorkpieceToo) {
   Found found;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    expectTheNearestPiece(Scene(seed, {0.75, 0.0, 0.0}), found);
+    expectTheNearestPiece(PathScene(seed, {0.75, 0.0, 0.0}), found);
   }
   EXPECT_GT(found.nearer, 50);
   EXPECT_GT(found.no_nearer, 3);

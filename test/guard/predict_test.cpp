@@ -23,8 +23,8 @@ GuardOptions constantVelocity() {
   return options;
 }
 
-std::shared_ptr<const Workpiece> workpiece(const std::string& id, const TriangleMesh& mesh_M,
-                                           const std::string& frame = "table") {
+std::shared_ptr<const Workpiece> workpieceWith(const std::string& id, const TriangleMesh& mesh_M,
+                                               const std::string& frame = "table") {
   return std::make_shared<const Workpiece>(Workpiece{id, 0, Time(1s), SteadyTime{}, frame, mesh_M});
 }
 
@@ -71,7 +71,7 @@ class GuardPredictionTest : public testing::Test {
 };
 
 TEST_F(GuardPredictionTest, PredictsNothingBeforeAMotionIsKnown) {
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   EXPECT_TRUE(predictionOf(guard_, 0ms, workpieces_).path.empty());
   reportOf(guard_, {Time(10s), SteadyTime(), Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}},
            workpieces_);
@@ -82,14 +82,14 @@ TEST_F(GuardPredictionTest, PredictsNothingBeforeAMotionIsKnown) {
 }
 
 TEST_F(GuardPredictionTest, PredictsNothingAfterAReset) {
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   follow(comingDown(0.05, 0.1));
   guard_.reset();
   EXPECT_TRUE(predict().path.empty());
 }
 
 TEST_F(GuardPredictionTest, CoversTheHorizonCountedFromNow) {
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   follow(comingDown(5.0, 0.1));
   const Prediction prediction = predict(30ms);
   EXPECT_EQ(prediction.stamp, Time(10s));
@@ -106,7 +106,7 @@ TEST_F(GuardPredictionTest, CoversTheHorizonCountedFromNow) {
 
 // A clock that is an hour off: the sweeps to now would be split into 25 ms.
 TEST_F(GuardPredictionTest, PredictsNothingFromAPoseOlderThanTheReserve) {
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   follow(comingDown(0.05, 0.1));
   const size_t detections = record_.volumes.size();
   for (const Duration age : {Duration(100ms + 1ns), Duration(1s), Duration(1h), Duration(8760h)}) {
@@ -121,7 +121,7 @@ TEST_F(GuardPredictionTest, PredictsNothingFromAPoseOlderThanTheReserve) {
 
 // 2 s are the largest reserve that timing/pose_timeout allows. Splitting takes at most 15 volumes for 100 ms.
 TEST_F(GuardPredictionTest, TestsABoundedNumberOfVolumesAtAnyAge) {
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   GuardOptions options = constantVelocity();
   options.horizon.reserve = 2s;
   for (const double speed : {0.0, 0.001, 0.01, 0.1, 1.0}) {
@@ -145,7 +145,7 @@ TEST_F(GuardPredictionTest, TestsABoundedNumberOfVolumesAtAnyAge) {
 
 TEST_F(GuardPredictionTest, PredictsTheMotionForAnyHorizonWithoutTesting) {
   EXPECT_TRUE(guard_.predictMotion(0ms, 1s).path.empty());
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   follow(comingDown(0.05, 0.1));
   const size_t detections = record_.volumes.size();
   const PredictedMotion predicted = guard_.predictMotion(20ms, 3s);
@@ -157,7 +157,7 @@ TEST_F(GuardPredictionTest, PredictsTheMotionForAnyHorizonWithoutTesting) {
 
 // 5 cm at 0.1 m/s: half a second. It is known to 5 ms when the sweep of 100 ms is halved that often.
 TEST_F(GuardPredictionTest, ReportsWhenThePathMeetsASquare) {
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   follow(comingDown(0.05, 0.1));
   const Prediction prediction = predict();
   const auto expected = predictedContact(prediction);
@@ -176,7 +176,7 @@ TEST_F(GuardPredictionTest, ReportsWhenThePathMeetsASquare) {
 }
 
 TEST_F(GuardPredictionTest, ReportsTrianglesOfTheReflexIntervalSeparately) {
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   follow(comingDown(0.005, 0.1));
   const Prediction prediction = predict();
   EXPECT_EQ(prediction.objects[0].reflex, (Indices{0, 1}));
@@ -192,7 +192,7 @@ TEST_F(GuardPredictionTest, TakesAWorkpieceWhereItsFrameIs) {
     for (const auto& [x, y] : {std::pair(-1.0, -1.0), {1.0, -1.0}, {0.0, 1.0}}) {
       corners_M.push_back(X_MW * Eigen::Vector3d(x, y, 0.0));
     }
-    workpieces_ = {workpiece("square", TriangleMesh(corners_M, {{0, 1, 2}}), "turned")};
+    workpieces_ = {workpieceWith("square", TriangleMesh(corners_M, {{0, 1, 2}}), "turned")};
     guard_.reset();
     follow(comingDown(0.05, 0.1), {{"turned", X_MW.inverse()}});
     const auto expected = predictedContact(predict());
@@ -205,7 +205,7 @@ TEST_F(GuardPredictionTest, TakesAWorkpieceWhereItsFrameIs) {
 // The drill swings past a wall, 0.01 mm beside it. 25 ms take a margin of 0.018 mm for its arc.
 TEST_F(GuardPredictionTest, AVolumeThatIsMerelyLooseMeetsNothing) {
   const double x = 0.005 + 0.00001;
-  workpieces_ = {workpiece("wall", TriangleMesh({{x, -1, -1}, {x, 1, -1}, {x, 0, 1}}, {{0, 1, 2}}))};
+  workpieces_ = {workpieceWith("wall", TriangleMesh({{x, -1, -1}, {x, 1, -1}, {x, 0, 1}}, {{0, 1, 2}}))};
   follow({Eigen::Isometry3d::Identity(), {0, 0, 0}, {1.5, 0, 0}});
   const size_t asked_before = record_.volumes.size();
   const Prediction prediction = predict();
@@ -216,7 +216,7 @@ TEST_F(GuardPredictionTest, AVolumeThatIsMerelyLooseMeetsNothing) {
 
 // Far away the detector is not asked.
 TEST_F(GuardPredictionTest, AFarWorkpieceCostsNoDetection) {
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   follow(comingDown(5.0, 0.1));
   record_.volumes.clear();
   EXPECT_FALSE(predictedContact(predict(), kMaxDeviations));
@@ -224,7 +224,7 @@ TEST_F(GuardPredictionTest, AFarWorkpieceCostsNoDetection) {
 }
 
 TEST_F(GuardPredictionTest, AContactTooFarToMatterIsNotReported) {
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   constexpr double kMost = 1.3;
   constexpr double kFar = std::numeric_limits<double>::infinity();
   int far = 0;
@@ -255,7 +255,7 @@ TEST_F(GuardPredictionTest, AContactTooFarToMatterIsNotReported) {
 }
 
 TEST_F(GuardPredictionTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
-  workpieces_ = {workpiece("first", squareAt(0.0)), workpiece("second", squareAt(-0.01))};
+  workpieces_ = {workpieceWith("first", squareAt(0.0)), workpieceWith("second", squareAt(-0.01))};
   follow(comingDown(0.05, 0.1));
   record_.failures_left = 1;
   const Prediction prediction = predictionOf(guard_, 0ms, workpieces_);
@@ -267,7 +267,7 @@ TEST_F(GuardPredictionTest, AFailureOnOneWorkpieceDoesNotHideAnother) {
 }
 
 TEST_F(GuardPredictionTest, NamesWorkpiecesWhoseFrameIsMissing) {
-  workpieces_ = {workpiece("here", squareAt(0.0)), workpiece("lost", squareAt(0.0), "nowhere")};
+  workpieces_ = {workpieceWith("here", squareAt(0.0)), workpieceWith("lost", squareAt(0.0), "nowhere")};
   follow(comingDown(0.05, 0.1));
   const Prediction prediction = predict();
   ASSERT_EQ(prediction.unplaced.size(), 1U);
@@ -287,7 +287,7 @@ bool contains(const SweptVolume& volume_M, const Eigen::Vector3d& p_M) {
 TEST_F(GuardPredictionTest, TheVolumesCoverThePathWithoutHoles) {
   Random random(6);
   const auto rims_T = roundToolPoints_T(guard_.tool().whole(), 8);
-  workpieces_ = {workpiece("square", squareAt(0.0))};
+  workpieces_ = {workpieceWith("square", squareAt(0.0))};
   for (int i = 0; i < 20; ++i) {
     const Steady motion{random.pose(random.inBox({1, 1, 1})), random.logUniform(0.01, 2.0) * random.direction(),
                         random.logUniform(0.01, 10.0) * random.direction()};
@@ -346,7 +346,7 @@ class CoarseSweepsTest : public testing::Test {
                        path,
                        10,
                        Eigen::Isometry3d::Identity(),
-                       workpiece("one", mesh_M),
+                       workpieceWith("one", mesh_M),
                        {ends, [spent] { return spent; }}},
                       object);
         check(object);
@@ -448,7 +448,7 @@ class ToolPiecesTest : public testing::Test {
                    path,
                    10,
                    Eigen::Isometry3d::Identity(),
-                   workpiece("patch", mesh_M),
+                   workpieceWith("patch", mesh_M),
                    {{}, [in_time] { return !in_time; }}},
                   object);
     return object;
@@ -565,7 +565,7 @@ class SlowGuard {
   SteadyTime clock_;
   PoseWithFrames pose_{
       Time(10s), SteadyTime(), Eigen::Isometry3d::Identity(), {{"table", Eigen::Isometry3d::Identity()}}};
-  Workpieces workpieces_ = {workpiece("square", squareAt(-0.05))};
+  Workpieces workpieces_ = {workpieceWith("square", squareAt(-0.05))};
   std::optional<Guard> guard_;
 };
 
@@ -653,7 +653,7 @@ class InterruptedGuardTest : public testing::Test {
   }
 
   const Steady motion_ = comingDown(0.05, 0.2);
-  const Workpieces workpieces_ = {workpiece("square", squareAt(0.0))};
+  const Workpieces workpieces_ = {workpieceWith("square", squareAt(0.0))};
   Guard guard_{Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), constantVelocity()};
   Guard other_{Tool::cylinder(0.005, 0.1), std::make_unique<ReferenceDetector>(), constantVelocity()};
 };

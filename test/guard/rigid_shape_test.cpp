@@ -10,7 +10,7 @@
 namespace sweep_guard_core {
 namespace {
 
-std::vector<float> moved(const TriangleMesh& mesh, const Eigen::Isometry3d& X) {
+std::vector<float> positionsAt(const TriangleMesh& mesh, const Eigen::Isometry3d& X) {
   std::vector<float> positions;
   for (size_t i = 0; i < mesh.vertexCount(); ++i) {
     const Eigen::Vector3f p = (X * mesh.vertex(i)).cast<float>();
@@ -25,9 +25,9 @@ TEST(RigidShapeTest, AnyRigidMotionKeepsTheShape) {
   const TriangleMesh flat({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0.1, 0.1, 0}}, {{0, 1, 2}, {1, 3, 2}});
   for (int i = 0; i < 100; ++i) {
     const Eigen::Isometry3d X = random.pose(random.inBox({1.0, 1.0, 1.0}));
-    EXPECT_LT(rigidFit(hull, moved(hull, X)).deviation, 1e-6);
-    EXPECT_TRUE(rigidFit(hull, moved(hull, X)).X_MM.isApprox(X, 1e-5));
-    EXPECT_LT(rigidFit(flat, moved(flat, X)).deviation, 1e-6);
+    EXPECT_LT(rigidFit(hull, positionsAt(hull, X)).deviation, 1e-6);
+    EXPECT_TRUE(rigidFit(hull, positionsAt(hull, X)).X_MM.isApprox(X, 1e-5));
+    EXPECT_LT(rigidFit(flat, positionsAt(flat, X)).deviation, 1e-6);
   }
 }
 
@@ -35,7 +35,7 @@ TEST(RigidShapeTest, OneVertexThatLeavesItIsFound) {
   Random random(2);
   const TriangleMesh hull = wavyHull(12, 18, 0.0);
   for (int i = 0; i < 100; ++i) {
-    std::vector<float> positions = moved(hull, random.pose(random.inBox({1.0, 1.0, 1.0})));
+    std::vector<float> positions = positionsAt(hull, random.pose(random.inBox({1.0, 1.0, 1.0})));
     positions[3 * static_cast<size_t>(random.below(static_cast<int>(hull.vertexCount())))] += 0.01F;
     EXPECT_NEAR(rigidFit(hull, positions).deviation, 0.01, 5e-4);
   }

@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Scene {
-  explicit Scene(Random& random, double size, double away)
+struct ToolAndTriangle {
+  explicit ToolAndTriangle(Random& random, double size, double away)
       : shape_T(randomTool(random, size)),
         motion_M(randomMotion(random, shape_T, away * random.direction(), 0.17)),
         place_M(motion_M.X_MT_start.translation()) {}
@@ -38,7 +38,7 @@ TEST(SeparatingDirectionsTest, SeparateOnlyWhatTheHullMisses) {
   int missed = 0;
   for (int i = 0; i < 300; ++i) {
     const double size = random.logUniform(1e-3, 10.0);
-    const Scene scene(random, size, random.chance(0.5) ? 0.0 : random.logUniform(1.0, 1e5));
+    const ToolAndTriangle scene(random, size, random.chance(0.5) ? 0.0 : random.logUniform(1.0, 1e5));
     const double margin = random.chance(0.5) ? 0.0 : 0.1 * size;
     SeparatingDirections directions;
     const std::vector<Motion> motions_M = {scene.motion_M};

@@ -25,8 +25,6 @@ Detector& reference() {
 
 const ConvexShape kDrill = ConvexShape::cylinder(/*radius=*/0.005, /*length=*/0.1);
 
-Eigen::Isometry3d at(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
-
 // A square of 1 m in the plane at height z, and one 1 m to the side.
 TriangleMesh square(double z) {
   return TriangleMesh({{-0.5, -0.5, z}, {0.5, -0.5, z}, {0.5, 0.5, z}, {-0.5, 0.5, z}, {1.5, -0.5, z}, {2.5, 0.5, z}},
@@ -44,11 +42,11 @@ class SweepCheckerTest : public testing::TestWithParam<std::string> {
 
 // 0.1 mm thin; 2 m between the poses.
 TEST_P(SweepCheckerTest, MeetsAThinSquareBetweenTwoPosesFarApart) {
-  const Motion through{at(0.1, 0.1, 1.0), at(0.1, 0.1, -0.9)};
+  const Motion through{placedAt(0.1, 0.1, 1.0), placedAt(0.1, 0.1, -0.9)};
   EXPECT_EQ(test(through, square(0.0)).triangles, (Indices{0, 1}));
   EXPECT_EQ(test(through, square(0.0001)).triangles, (Indices{0, 1}));
-  EXPECT_TRUE(test({at(0.1, 0.1, 1.0), at(0.1, 0.1, 1.0)}, square(0.0)).triangles.empty());
-  EXPECT_TRUE(test({at(0.1, 0.1, -0.9), at(0.1, 0.1, -0.9)}, square(0.0)).triangles.empty());
+  EXPECT_TRUE(test({placedAt(0.1, 0.1, 1.0), placedAt(0.1, 0.1, 1.0)}, square(0.0)).triangles.empty());
+  EXPECT_TRUE(test({placedAt(0.1, 0.1, -0.9), placedAt(0.1, 0.1, -0.9)}, square(0.0)).triangles.empty());
 }
 
 // The drill turns by 90 degrees about its tip: its far end runs along an arc of 0.1 m, which deviates 0.029 m from its
@@ -67,7 +65,7 @@ TEST_P(SweepCheckerTest, MeetsATriangleThatOnlyTheArcReaches) {
 }
 
 TEST_P(SweepCheckerTest, NamesEachTriangleOnceThoughSeveralSubMotionsMeetIt) {
-  Motion turn{at(0, 0, 0.01), at(0, 0, -0.01)};
+  Motion turn{placedAt(0, 0, 0.01), placedAt(0, 0, -0.01)};
   turn.X_MT_end.linear() = Eigen::AngleAxisd(1.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
   const SweepResult result = test(turn, square(0.0));
   EXPECT_EQ(result.volumes_M.size(), 9U);  // 1.5 / 0.175 = 8.6
@@ -75,7 +73,7 @@ TEST_P(SweepCheckerTest, NamesEachTriangleOnceThoughSeveralSubMotionsMeetIt) {
 }
 
 TEST_P(SweepCheckerTest, GrowsTheToolByTheMargin) {
-  const Motion below{at(0, 0, -0.011), at(0.1, 0, -0.011)};
+  const Motion below{placedAt(0, 0, -0.011), placedAt(0.1, 0, -0.011)};
   SweepOptions options;
   options.margin = 0.010;
   EXPECT_TRUE(test(below, square(0.0), options).triangles.empty());
@@ -104,7 +102,7 @@ TEST(SweepResultTest, SubMotionsAreEndToEndFromPoseToPose) {
 TEST(SweepResultTest, UsesTheVolumeAskedFor) {
   FakeDetector::Record record;
   FakeDetector detector(record);
-  const Motion motion{at(0, 0, 0), at(0.1, 0.05, 0.02)};
+  const Motion motion{placedAt(0, 0, 0), placedAt(0.1, 0.05, 0.02)};
   SweepOptions options;
   options.volume = VolumeKind::kObb;
   testMotion(detector, kDrill, motion, square(0.0), options);
@@ -162,7 +160,7 @@ TEST(SweepResultTest, NamesNothingFartherThanItsMargin) {
 
 // The box around a drill that goes aslant holds corners that the drill never comes to. Whoever looks closely sees that.
 TEST(NarrowPhaseTest, RulesOutWhatOnlyTheVolumeMeets) {
-  const Motion aslant{at(0, 0, 0), at(0.1, 0.02, 0.05)};
+  const Motion aslant{placedAt(0, 0, 0), placedAt(0.1, 0.02, 0.05)};
   const SweptVolume volume = sweptVolume(kDrill, aslant, VolumeKind::kObb);
   const Eigen::Vector3d corner = volume.box.X_MB * (0.999 * volume.box.half_extents);
   const TriangleMesh dot({corner, corner, corner}, {{0, 1, 2}});
@@ -177,7 +175,8 @@ TEST(NarrowPhaseTest, RulesOutWhatOnlyTheVolumeMeets) {
 }
 
 TEST(NarrowPhaseTest, ReportsTimePointAndDepth) {
-  const SweepResult down = testMotion(reference(), kDrill, {at(0.2, 0.1, 0.3), at(0.2, 0.1, -0.1)}, square(0.0), {});
+  const SweepResult down =
+      testMotion(reference(), kDrill, {placedAt(0.2, 0.1, 0.3), placedAt(0.2, 0.1, -0.1)}, square(0.0), {});
   EXPECT_EQ(down.not_ruled_out, (Indices{0}));
   ASSERT_EQ(down.in_contact.size(), 1U);
   // The drill points up: its far end, 0.1 m below the tip, comes first, after 0.2 of 0.4 m.
@@ -189,12 +188,12 @@ TEST(NarrowPhaseTest, ReportsTimePointAndDepth) {
 }
 
 TEST(NarrowPhaseTest, DoesNotTestAConfirmedTriangleAgain) {
-  const std::vector<Motion> down = {{at(0.2, 0.1, 0.3), at(0.2, 0.1, -0.1)}};
+  const std::vector<Motion> down = {{placedAt(0.2, 0.1, 0.3), placedAt(0.2, 0.1, -0.1)}};
   const SweepCache confirmed{{}, false, {0, 7}};
   const SweepResult already_confirmed = checkSweep(reference(), {Tool(kDrill), down, square(0.0), {}, confirmed});
   EXPECT_EQ(already_confirmed.not_ruled_out, (Indices{0}));
   EXPECT_TRUE(already_confirmed.in_contact.empty());
-  const std::vector<Motion> above = {{at(0.2, 0.1, 0.5), at(0.2, 0.1, 0.3)}};
+  const std::vector<Motion> above = {{placedAt(0.2, 0.1, 0.5), placedAt(0.2, 0.1, 0.3)}};
   EXPECT_FALSE(checkSweep(reference(), {Tool(kDrill), above, square(0.0), {}, confirmed}).contact());
 }
 
@@ -203,7 +202,7 @@ TEST(NarrowPhaseTest, KeepsTheContactNormalOfItsFirstContact) {
   SweepCache before;
   double depth = 0.0;
   for (double z = 0.11; z > -0.05; z -= 0.01) {
-    const std::vector<Motion> push = split({at(0.2, 0.1, z), at(0.2, 0.1, z - 0.01)}, 0.1);
+    const std::vector<Motion> push = split({placedAt(0.2, 0.1, z), placedAt(0.2, 0.1, z - 0.01)}, 0.1);
     const SweepResult result = checkSweep(reference(), {Tool(kDrill), push, square(0.0), {}, before});
     before = sweepCache(result);
     if (result.in_contact.empty()) continue;
@@ -258,7 +257,7 @@ TEST(SeveralPiecesTest, MeetWhatEachOfThemMeetsAndNotWhatIsBetweenThem) {
     EXPECT_EQ(result.in_contact[0].piece, 0U);
     EXPECT_EQ(result.in_contact[1].piece, 1U);
     EXPECT_EQ(result.volumes_M.size(), 2U);
-    const SweepResult aside = checkSweep(*detector, {gripper, {{at(1, 0, 0), at(1.1, 0, 0)}}, three, {}});
+    const SweepResult aside = checkSweep(*detector, {gripper, {{placedAt(1, 0, 0), placedAt(1.1, 0, 0)}}, three, {}});
     EXPECT_TRUE(aside.triangles.empty());
     EXPECT_EQ(aside.volumes_M.size(), 1U);  // of the box around both
   }
@@ -277,15 +276,16 @@ TEST(InsideOfAWorkpieceTest, IsContactOfAClosedMeshAlone) {
   EXPECT_TRUE(within.inside && within.contact());
   EXPECT_EQ(firstTimeOfImpact(within), 0.0);
   EXPECT_FALSE(testMotion(reference(), bead, Motion{}, open, {}).contact());
-  EXPECT_FALSE(testMotion(reference(), bead, {at(1, 0, 0), at(1, 0, 0)}, closed, {}).contact());
+  EXPECT_FALSE(testMotion(reference(), bead, {placedAt(1, 0, 0), placedAt(1, 0, 0)}, closed, {}).contact());
 }
 
 TEST(InsideOfAWorkpieceTest, IsAskedAgainOnlyAfterContact) {
   const TriangleMesh closed = wavyHull(24, 40, 0.0);
   const Tool bead = Tool::cylinder(0.005, 0.01);
-  const SweepResult outside = checkSweep(reference(), {bead, {{at(1, 0, 0), at(1, 0, 0)}}, closed, {}});
+  const SweepResult outside = checkSweep(reference(), {bead, {{placedAt(1, 0, 0), placedAt(1, 0, 0)}}, closed, {}});
   EXPECT_TRUE(sweepCache(outside).outside);
-  const SweepResult in = checkSweep(reference(), {bead, {{at(1, 0, 0), at(0, 0, 0)}}, closed, {}, sweepCache(outside)});
+  const SweepResult in =
+      checkSweep(reference(), {bead, {{placedAt(1, 0, 0), placedAt(0, 0, 0)}}, closed, {}, sweepCache(outside)});
   EXPECT_FALSE(in.not_ruled_out.empty());
   EXPECT_FALSE(sweepCache(in).outside);
   EXPECT_TRUE(checkSweep(reference(), {bead, {Motion{}}, closed, {}, sweepCache(in)}).inside);

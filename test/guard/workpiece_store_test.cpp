@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "guard/times.h"
+
 namespace sweep_guard_core {
 namespace {
 
@@ -11,112 +13,110 @@ const std::string kFrame = "table";
 const std::string kOtherFrame = "bed";
 const std::vector<float> kRaised = {0, 0, 2, 1, 0, 2, 0, 1, 2};
 
-Time at(int second) { return Time(std::chrono::seconds(second)); }
-
-Workpiece triangle(int stamp) {
-  return {kId, 7, at(stamp), {}, kFrame, TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})};
+Workpiece triangleAt(int stamp) {
+  return {kId, 7, atSecond(stamp), {}, kFrame, TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})};
 }
 
 // The same vertices with another triangle.
 Workpiece turned(int stamp) {
-  Workpiece workpiece = triangle(stamp);
+  Workpiece workpiece = triangleAt(stamp);
   workpiece.mesh_M = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 2, 1}});
   return workpiece;
 }
 
-Deformation raised(int stamp) { return {kId, 7, at(stamp), {}, kFrame, kRaised}; }
+Deformation raised(int stamp) { return {kId, 7, atSecond(stamp), {}, kFrame, kRaised}; }
 
 void setAndRemove(WorkpieceStore& store, int revision) {
-  store.set(triangle(revision), at(9));
-  store.remove(kId, at(5));
+  store.set(triangleAt(revision), atSecond(9));
+  store.remove(kId, atSecond(5));
 }
 
 TEST(WorkpieceStoreTest, CountsUpdatesAndTheirPathLength) {
   WorkpieceStore store;
-  store.set(triangle(1), at(9));
-  store.deform(raised(2), at(9));
-  store.set(triangle(3), at(9));
+  store.set(triangleAt(1), atSecond(9));
+  store.deform(raised(2), atSecond(9));
+  store.set(triangleAt(3), atSecond(9));
   EXPECT_EQ(store.snapshot()[0]->updates, 2U);
   EXPECT_NEAR(store.snapshot()[0]->path_length, 4.0, 1e-6);
-  Workpiece moved = triangle(4);
+  Workpiece moved = triangleAt(4);
   moved.frame = "bed";
-  store.set(moved, at(9));
+  store.set(moved, atSecond(9));
   EXPECT_EQ(store.snapshot()[0]->updates, 0U);
   EXPECT_EQ(*store.frames(), std::set<std::string>{"bed"});
 }
 
 TEST(WorkpieceStoreTest, ReusesOnlySnapshotsThatNobodyHolds) {
   WorkpieceStore store;
-  store.set(triangle(1), at(9));
-  store.deform(raised(2), at(9));
+  store.set(triangleAt(1), atSecond(9));
+  store.deform(raised(2), atSecond(9));
   const auto held = store.snapshot()[0];
   std::set<const Workpiece*> used;
   for (int stamp = 3; stamp < 9; ++stamp) {
-    store.deform(raised(stamp), at(9));
+    store.deform(raised(stamp), atSecond(9));
     used.insert(store.snapshot()[0].get());
   }
   EXPECT_EQ(used.size(), 2U);
-  EXPECT_EQ(held->stamp, at(2));
+  EXPECT_EQ(held->stamp, atSecond(2));
 }
 
 TEST(WorkpieceStoreTest, RefusesWhatDoesNotFitAndKeepsTheSnapshot) {
   WorkpieceStore store;
-  store.set(triangle(2), at(9));
-  EXPECT_TRUE(has(refusal([&] { store.set(turned(1), at(9)); }), "older"));
-  Workpiece next_revision = triangle(1);
+  store.set(triangleAt(2), atSecond(9));
+  EXPECT_TRUE(has(refusal([&] { store.set(turned(1), atSecond(9)); }), "older"));
+  Workpiece next_revision = triangleAt(1);
   next_revision.revision = 8;
-  EXPECT_TRUE(has(refusal([&] { store.set(next_revision, at(9)); }), "older"));
-  EXPECT_TRUE(has(refusal([&] { store.deform(raised(1), at(9)); }), "older"));
+  EXPECT_TRUE(has(refusal([&] { store.set(next_revision, atSecond(9)); }), "older"));
+  EXPECT_TRUE(has(refusal([&] { store.deform(raised(1), atSecond(9)); }), "older"));
   Deformation other = raised(3);
   other.revision = 8;
-  EXPECT_TRUE(has(refusal([&] { store.deform(other, at(9)); }), "revision 8, their mesh has 7"));
-  EXPECT_EQ(store.snapshot()[0]->stamp, at(2));
+  EXPECT_TRUE(has(refusal([&] { store.deform(other, atSecond(9)); }), "revision 8, their mesh has 7"));
+  EXPECT_EQ(store.snapshot()[0]->stamp, atSecond(2));
 }
 
 // Stamps from before time went back say nothing about the order.
 TEST(WorkpieceStoreTest, AcceptsOlderStampsAfterTimeWentBack) {
   WorkpieceStore store;
-  store.set(triangle(5), at(9));
-  store.deform(raised(2), /*latest=*/at(3));
+  store.set(triangleAt(5), atSecond(9));
+  store.deform(raised(2), /*latest=*/atSecond(3));
   store.clearStamps();
-  store.set(triangle(1), at(9));
-  EXPECT_TRUE(store.remove(kId, at(2)));
-  EXPECT_FALSE(store.remove(kId, at(2)));
+  store.set(triangleAt(1), atSecond(9));
+  EXPECT_TRUE(store.remove(kId, atSecond(2)));
+  EXPECT_FALSE(store.remove(kId, atSecond(2)));
 }
 
 // What is part of the tool is no obstacle to it.
 TEST(WorkpieceStoreTest, AnAttachedWorkpieceHasNoSnapshotUntilItIsDetached) {
   WorkpieceStore store;
-  store.set(triangle(1), at(9));
+  store.set(triangleAt(1), atSecond(9));
   store.attach(store.snapshot()[0], Eigen::Isometry3d::Identity());
   EXPECT_TRUE(store.snapshot().empty());
   EXPECT_TRUE(store.frames()->empty());
-  EXPECT_EQ(store.attached(kId)->workpiece->stamp, at(1));
-  EXPECT_FALSE(store.remove(kId, at(2)));
+  EXPECT_EQ(store.attached(kId)->workpiece->stamp, atSecond(1));
+  EXPECT_FALSE(store.remove(kId, atSecond(2)));
   EXPECT_TRUE(store.attached(kId));
-  store.detach(triangle(3));
+  store.detach(triangleAt(3));
   EXPECT_FALSE(store.attached(kId));
-  EXPECT_EQ(store.snapshot().at(0)->stamp, at(3));
+  EXPECT_EQ(store.snapshot().at(0)->stamp, atSecond(3));
 }
 
 TEST(WorkpieceStoreTest, AnAttachedWorkpieceHasToKeepItsShape) {
   WorkpieceStore store;
-  store.set(triangle(1), at(9));
+  store.set(triangleAt(1), atSecond(9));
   store.attach(store.snapshot()[0], Eigen::Isometry3d::Identity());
-  EXPECT_EQ(store.deform(raised(2), at(9)), UpdateOutcome::kStored);
-  EXPECT_EQ(store.set(triangle(3), at(9)), UpdateOutcome::kStored);
+  EXPECT_EQ(store.deform(raised(2), atSecond(9)), UpdateOutcome::kStored);
+  EXPECT_EQ(store.set(triangleAt(3), atSecond(9)), UpdateOutcome::kStored);
   const std::vector<float> larger = {0, 0, 2, 1.01F, 0, 2, 0, 1, 2};
   const auto refused = [](const std::function<void()>& update) { return has(refusal(update), "detach it first"); };
-  EXPECT_TRUE(refused([&] { store.deform({kId, 7, at(4), {}, kFrame, larger}, at(9)); }));
-  EXPECT_TRUE(refused([&] { store.deform({kId, 8, at(4), {}, kFrame, kRaised}, at(9)); }));
-  EXPECT_TRUE(refused([&] { store.set(turned(4), at(9)); }));
+  EXPECT_TRUE(refused([&] { store.deform({kId, 7, atSecond(4), {}, kFrame, larger}, atSecond(9)); }));
+  EXPECT_TRUE(refused([&] { store.deform({kId, 8, atSecond(4), {}, kFrame, kRaised}, atSecond(9)); }));
+  EXPECT_TRUE(refused([&] { store.set(turned(4), atSecond(9)); }));
   EXPECT_TRUE(store.snapshot().empty());
 }
 
 // So that nobody finds the payload neither in the tool nor among the workpieces.
 TEST(WorkpieceStoreTest, GivesSnapshotsOnlyBesideAToolWithThePayloadsThatAreAttached) {
   WorkpieceStore store;
-  store.set(triangle(1), at(9));
+  store.set(triangleAt(1), atSecond(9));
   EXPECT_EQ(store.snapshotBeside({}).size(), 1U);
   store.attach(store.snapshot()[0], Eigen::Isometry3d::Identity());
   EXPECT_TRUE(store.snapshotBeside({kId}).empty());
@@ -126,12 +126,12 @@ TEST(WorkpieceStoreTest, GivesSnapshotsOnlyBesideAToolWithThePayloadsThatAreAtta
 
 TEST(WorkpieceStoreTest, AttachesOnlyWhatIsStillThere) {
   WorkpieceStore store;
-  store.set(triangle(1), at(9));
+  store.set(triangleAt(1), atSecond(9));
   const auto old = store.snapshot()[0];
-  store.deform(raised(2), at(9));
-  store.set(turned(3), at(9));
+  store.deform(raised(2), atSecond(9));
+  store.set(turned(3), atSecond(9));
   EXPECT_TRUE(has(refusal([&] { store.attach(old, Eigen::Isometry3d::Identity()); }), "was replaced meanwhile"));
-  store.remove(kId, at(4));
+  store.remove(kId, atSecond(4));
   EXPECT_TRUE(has(refusal([&] { store.attach(old, Eigen::Isometry3d::Identity()); }), "was replaced meanwhile"));
 }
 
@@ -139,86 +139,86 @@ TEST(WorkpieceStoreTest, AttachesOnlyWhatIsStillThere) {
 TEST(WorkpieceStoreTest, IgnoresAnOlderCopyOfTheRevisionInForce) {
   int changes = 0;
   WorkpieceStore store([&](const auto&) { ++changes; });
-  EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kStored);
-  EXPECT_EQ(store.deform(raised(3), at(9)), UpdateOutcome::kStored);
+  EXPECT_EQ(store.set(triangleAt(1), atSecond(9)), UpdateOutcome::kStored);
+  EXPECT_EQ(store.deform(raised(3), atSecond(9)), UpdateOutcome::kStored);
   const auto before = store.snapshot()[0];
-  EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kIgnored);
-  EXPECT_EQ(store.set(triangle(2), at(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(store.set(triangleAt(1), atSecond(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(store.set(triangleAt(2), atSecond(9)), UpdateOutcome::kIgnored);
   EXPECT_EQ(changes, 2);
   EXPECT_EQ(store.snapshot()[0], before);
-  EXPECT_EQ(before->stamp, at(3));
+  EXPECT_EQ(before->stamp, atSecond(3));
   EXPECT_EQ(before->mesh_M.vertex(0).z(), 2.0);
   EXPECT_EQ(before->updates, 1U);
   EXPECT_NEAR(before->path_length, 2.0, 1e-6);
-  EXPECT_EQ(store.deform(raised(4), at(9)), UpdateOutcome::kStored);
+  EXPECT_EQ(store.deform(raised(4), atSecond(9)), UpdateOutcome::kStored);
 }
 
 TEST(WorkpieceStoreTest, AnEqualCopyIsNoRefusal) {
   WorkpieceStore store;
-  store.set(triangle(1), at(9));
-  EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kStored);
+  store.set(triangleAt(1), atSecond(9));
+  EXPECT_EQ(store.set(triangleAt(1), atSecond(9)), UpdateOutcome::kStored);
 }
 
 // Vertices may name another frame than their mesh.
 TEST(WorkpieceStoreTest, IgnoresAnOlderCopyOfAMeshWhoseVerticesCameInAnotherFrame) {
   WorkpieceStore store;
-  store.set(triangle(1), at(9));
-  Deformation moved{kId, 7, at(2), {}, kOtherFrame, kRaised};
-  store.deform(moved, at(9));
-  EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kIgnored);
+  store.set(triangleAt(1), atSecond(9));
+  Deformation moved{kId, 7, atSecond(2), {}, kOtherFrame, kRaised};
+  store.deform(moved, atSecond(9));
+  EXPECT_EQ(store.set(triangleAt(1), atSecond(9)), UpdateOutcome::kIgnored);
   EXPECT_EQ(*store.frames(), std::set<std::string>{kOtherFrame});
 }
 
 TEST(WorkpieceStoreTest, IgnoresVerticesFromBeforeTheRemoval) {
   WorkpieceStore store;
-  EXPECT_EQ(store.deform(raised(1), at(9)), UpdateOutcome::kUnknownWorkpiece);
-  store.set(triangle(1), at(9));
-  EXPECT_TRUE(store.remove(kId, at(5)));
-  EXPECT_EQ(store.deform(raised(4), at(9)), UpdateOutcome::kIgnored);
-  EXPECT_EQ(store.deform(raised(5), at(9)), UpdateOutcome::kIgnored);
-  EXPECT_EQ(store.deform(raised(6), at(9)), UpdateOutcome::kUnknownWorkpiece);
+  EXPECT_EQ(store.deform(raised(1), atSecond(9)), UpdateOutcome::kUnknownWorkpiece);
+  store.set(triangleAt(1), atSecond(9));
+  EXPECT_TRUE(store.remove(kId, atSecond(5)));
+  EXPECT_EQ(store.deform(raised(4), atSecond(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(store.deform(raised(5), atSecond(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(store.deform(raised(6), atSecond(9)), UpdateOutcome::kUnknownWorkpiece);
   EXPECT_TRUE(store.snapshot().empty());
   const std::string other = "spleen";
-  EXPECT_EQ(store.deform({other, 7, at(4), {}, kFrame, kRaised}, at(9)), UpdateOutcome::kUnknownWorkpiece);
+  EXPECT_EQ(store.deform({other, 7, atSecond(4), {}, kFrame, kRaised}, atSecond(9)), UpdateOutcome::kUnknownWorkpiece);
 }
 
 // `rostopic pub` stamps with 0.
 TEST(WorkpieceStoreTest, ARemovalWithoutAStampCountsFromTheNewestVertices) {
   WorkpieceStore store;
-  store.set(triangle(1), at(9));
-  store.deform(raised(3), at(9));
+  store.set(triangleAt(1), atSecond(9));
+  store.deform(raised(3), atSecond(9));
   EXPECT_TRUE(store.remove(kId, Time()));
-  EXPECT_EQ(store.deform(raised(3), at(9)), UpdateOutcome::kIgnored);
-  EXPECT_EQ(store.deform(raised(4), at(9)), UpdateOutcome::kUnknownWorkpiece);
+  EXPECT_EQ(store.deform(raised(3), atSecond(9)), UpdateOutcome::kIgnored);
+  EXPECT_EQ(store.deform(raised(4), atSecond(9)), UpdateOutcome::kUnknownWorkpiece);
 }
 
 TEST(WorkpieceStoreTest, ARemovedWorkpieceMayComeBackWithAnyStamp) {
   WorkpieceStore store;
   setAndRemove(store, 3);
-  EXPECT_EQ(store.set(triangle(1), at(9)), UpdateOutcome::kStored);
-  EXPECT_EQ(store.deform(raised(2), at(9)), UpdateOutcome::kStored);
+  EXPECT_EQ(store.set(triangleAt(1), atSecond(9)), UpdateOutcome::kStored);
+  EXPECT_EQ(store.deform(raised(2), atSecond(9)), UpdateOutcome::kStored);
 }
 
 TEST(WorkpieceStoreTest, ForgetsRemovalsWhenTimeWentBack) {
   WorkpieceStore store;
   setAndRemove(store, 5);
   store.clearStamps();
-  EXPECT_EQ(store.deform(raised(1), at(9)), UpdateOutcome::kUnknownWorkpiece);
+  EXPECT_EQ(store.deform(raised(1), atSecond(9)), UpdateOutcome::kUnknownWorkpiece);
 }
 
 TEST(WorkpieceStoreTest, RemembersTheNewestSixtyFourRemovals) {
   WorkpieceStore store;
   const auto idOf = [](int i) { return "ghost" + std::to_string(i); };
   for (int i = 0; i < 1000; ++i) {
-    Workpiece ghost = triangle(1);
+    Workpiece ghost = triangleAt(1);
     ghost.id = idOf(i);
-    store.set(ghost, at(9));
-    ASSERT_TRUE(store.remove(ghost.id, at(2)));
+    store.set(ghost, atSecond(9));
+    ASSERT_TRUE(store.remove(ghost.id, atSecond(2)));
   }
   for (int i = 0; i < 1000; ++i) {
     const std::string id = idOf(i);
     const auto expected = i < 1000 - 64 ? UpdateOutcome::kUnknownWorkpiece : UpdateOutcome::kIgnored;
-    ASSERT_EQ(store.deform({id, 7, at(1), {}, kFrame, kRaised}, at(9)), expected) << id;
+    ASSERT_EQ(store.deform({id, 7, atSecond(1), {}, kFrame, kRaised}, atSecond(9)), expected) << id;
   }
 }
 

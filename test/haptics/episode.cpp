@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 constexpr int kMilliseconds = 1000;
 constexpr int kSteps = 10;  // of the hand in a millisecond
 constexpr double kStep = 1e-3 / kSteps;
-constexpr double kRadius = 0.005;
+constexpr double kEpisodeRadius = 0.005;
 constexpr int kMaxRun = 5;
 constexpr double kMaxDelay = 0.05;
 
@@ -181,8 +181,8 @@ class Account {
 
 // A shaft from the origin of the tool frame.
 ToolBalls shaftTo(const Vector3d& end_T) {
-  ToolBalls tool = ballTool(kRadius);
-  tool.pieces[0].push_back({end_T, kRadius});
+  ToolBalls tool = ballTool(kEpisodeRadius);
+  tool.pieces[0].push_back({end_T, kEpisodeRadius});
   return tool;
 }
 
@@ -265,7 +265,7 @@ class Episode {
   void receive(double now) {
     inputs_.R_WD = R_WD_;
     inputs_.known.tool = tool_;
-    inputs_.known.warning = PermissionInputs::ReceivedWarning{WarningLevel::kContact, 0, steadyAt(now)};
+    inputs_.known.warning = PermissionInputs::GuardWarning{WarningLevel::kContact, 0, steadyAt(now)};
     if (tool_poses_.receive(now)) {
       const Located& tool = tool_poses_.newest()->second;
       inputs_.known.pose = MotionInputs::ToolPose{tool.X, {stampAt(tool.time), steadyAt(now)}};
@@ -320,7 +320,7 @@ class Episode {
   std::vector<SeparatingPlane> surface_;
   std::optional<Hand> hand_;
   std::optional<Wrist> wrist_;
-  std::shared_ptr<const ToolBalls> tool_ = std::make_shared<ToolBalls>(ballTool(kRadius));
+  std::shared_ptr<const ToolBalls> tool_ = std::make_shared<ToolBalls>(ballTool(kEpisodeRadius));
   ForceInputs inputs_;
   DeviceWrench sent_;
   Account translation_;

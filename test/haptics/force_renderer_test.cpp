@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <complex>
+#include <functional>
+
 #include "allocations.h"
 #include "haptics/planes.h"
+#include "motion/random_scenes.h"
 #include "refusal.h"
 #include "sweep_guard/haptics/passive_device.h"
 
@@ -35,7 +40,7 @@ class ForceRendererTest : public testing::Test {
     now_ += milliseconds(1);
     const Timestamps fresh{now().stamp, now().steady};
     if (poses_) inputs_.known.pose = MotionInputs::ToolPose{pose_, {fresh.stamp - pose_delay_, fresh.received}};
-    if (warnings_) inputs_.known.warning = PermissionInputs::ReceivedWarning{level_, 0, now().steady};
+    if (warnings_) inputs_.known.warning = PermissionInputs::GuardWarning{level_, 0, now().steady};
     if (planes_) {
       PlaneSet planes = planeSet({planeAt(Vector3d::UnitZ(), Vector3d::Zero())});
       planes.timestamps = fresh;
@@ -183,6 +188,114 @@ TEST_F(ForceRendererTest, OptionsThatNoDeviceCanCarryAreRefused) {
   options_.max_force = 0.0;
   EXPECT_TRUE(has(refusal([&] { ForceRenderer{options_}; }), "max_force"));
   EXPECT_TRUE(has(refusal([&] { PassiveDevice({}, {/*max_speed=*/0.0}); }), "max_speed"));
+}
+
+using Complex = std::complex<double>;
+
+// The damping that a device needs beside a simulated wall H(z) = z^-m (K + B (z - 1) / (T z)), at the frequency angle / T:
+// T/2 / (1 - cos(angle)) Re{(1 - e^(-j angle)) H(e^(j angle))} [Colgate and Schenkel 1997].
+double neededDamping(double stiffness, const SampledDevice& device, int delay_periods, double angle) {
+  const Complex z = std::polar(1.0, angle);
+  const Complex wall =
+      std::pow(z, -delay_periods) * (stiffness + device.virtual_damping * (z - 1.0) / (device.period * z));
+  return device.period / 2 / (1.0 - std::cos(angle)) * std::real((1.0 - 1.0 / z) * wall);
+}
+
+TEST(StiffnessBoundTest, ADeviceWithTheBoundHasTheDampingOfColgateAndSchenkelAtEachFrequency) {
+  RandomScenes random(3);
+  for (int i = 0; i < 200; ++i) {
+    const SampledDevice device{random.uniform(0.5, 5.0), random.uniform(0.0, 0.4), random.logUniform(5e-4, 5e-3)};
+    const int periods = static_cast<int>(random.count(50));
+    const double stiffness = maxStiffness(device, periods * device.period);
+    for (int j = 1; j <= 500; ++j) {
+      ASSERT_LE(neededDamping(stiffness, device, periods, M_PI * j / 500.0), device.damping + 1e-9);
+    }
+  }
+}
+
+// At low frequencies, without virtual damping, nothing is left of it: a stiffer wall is active.
+TEST(StiffnessBoundTest, WithoutVirtualDampingTheBoundIsTheBest) {
+  const SampledDevice device{2.0, 0.0, 0.001};
+  for (const int periods : {0, 1, 10, 50}) {
+    const double stiffness = maxStiffness(device, periods * device.period);
+    EXPECT_GT(neededDamping(1.001 * stiffness, device, periods, 1e-4), device.damping);
+  }
+}
+
+TEST(StiffnessBoundTest, IsZeroIfTheSimulatedDamperIsStronger) {
+  EXPECT_EQ(maxStiffness({1.0, 1.5, 0.001}, 0.0), 0.0);
+  EXPECT_DOUBLE_EQ(maxStiffness({2.0, 0.0, 0.001}, 0.0), 4000.0);
+  EXPECT_DOUBLE_EQ(maxStiffness({2.5, 0.5, 0.001}, 0.0195), 100.0);
+}
+
+// The matrix diag(b, c) less what a spring and a damper at the point take, (1, lever) (1, lever)', loses its determinant.
+TEST(StiffnessBoundTest, WithALeverForceAndTorqueTogetherUseUpTheDamping) {
+  const double b = 2.0, c = 0.01, lever = 0.08;
+  const double damping = dampingWithLever(b, c, lever);
+  EXPECT_NEAR((b - damping) * (c - damping * lever * lever), std::pow(damping * lever, 2), 1e-12);
+  EXPECT_EQ(dampingWithLever(b, c, 0.0), b);
+}
+
+const Instant kNow{Time(std::chrono::seconds(100)), SteadyTime(std::chrono::seconds(7))};
+
+Timestamps ago(Duration age) { return {kNow.stamp - age, kNow.steady - age}; }
+
+PermissionInputs fresh() {
+  PermissionInputs inputs;
+  inputs.warning = PermissionInputs::GuardWarning{WarningLevel::kClear, 0, kNow.steady};
+  inputs.pose = ago({});
+  inputs.planes = PermissionInputs::Planes{ago({}), kNow.stamp + milliseconds(100)};
+  return inputs;
+}
+
+ForcePermission decide(const std::function<void(PermissionInputs&)>& change) {
+  PermissionInputs inputs = fresh();
+  change(inputs);
+  return decideForce({inputs, {}}, kNow, {});
+}
+
+TEST(ForcePermissionTest, FreshInputsOfAnyKnownLevelLetTheWholeForceThrough) {
+  for (const WarningLevel level :
+       {WarningLevel::kClear, WarningLevel::kConsidered, WarningLevel::kReflex, WarningLevel::kContact}) {
+    const ForcePermission permission = decide([&](auto& inputs) { inputs.warning->level = level; });
+    EXPECT_EQ(permission.gain, 1.0);
+    EXPECT_EQ(permission.cause, PermissionCause::kGuarded);
+  }
+}
+
+TEST(ForcePermissionTest, ASilentPosePlanesOrDeviceFadeTheForceOutFrom50To70Milliseconds) {
+  for (const auto& [silent, gain] : {std::pair{50, 1.0}, {55, 0.75}, {60, 0.5}, {69, 0.05}, {70, 0.0}, {90, 0.0}}) {
+    const Timestamps silent_since = ago(milliseconds(silent));
+    const ForcePermission pose = decide([&](auto& inputs) { inputs.pose = silent_since; });
+    EXPECT_NEAR(pose.gain, gain, 1e-9) << silent;
+    const ForcePermission planes = decide([&](auto& inputs) { inputs.planes->timestamps = silent_since; });
+    EXPECT_NEAR(planes.gain, gain, 1e-9) << silent;
+    const ForcePermission device = decideForce({fresh(), silent_since}, kNow, {});
+    EXPECT_NEAR(device.gain, gain, 1e-9) << silent;
+    if (silent == 50) continue;
+    EXPECT_EQ(device.cause, PermissionCause::kDeviceSilent);
+    EXPECT_EQ(pose.cause, PermissionCause::kPoseSilent);
+    EXPECT_EQ(planes.cause, PermissionCause::kPlanesSilent);
+  }
+}
+
+TEST(ForcePermissionTest, WhatIsNotKnownLetsNothingThrough) {
+  const std::vector<std::pair<PermissionCause, std::function<void(PermissionInputs&)>>> cases = {
+      {PermissionCause::kNoWarning, [](auto& inputs) { inputs.warning.reset(); }},
+      {PermissionCause::kWarningSilent, [](auto& inputs) { inputs.warning->received -= milliseconds(151); }},
+      {PermissionCause::kUnknown, [](auto& inputs) { inputs.warning->level = WarningLevel::kUnknown; }},
+      {PermissionCause::kNoPose, [](auto& inputs) { inputs.pose.reset(); }},
+      {PermissionCause::kOldPose, [](auto& inputs) { inputs.pose->stamp -= milliseconds(151); }},
+      {PermissionCause::kNoPlanes, [](auto& inputs) { inputs.planes.reset(); }},
+      {PermissionCause::kPlanesExpired, [](auto& inputs) { inputs.planes->valid_until -= milliseconds(101); }},
+      {PermissionCause::kIncomplete, [](auto& inputs) { inputs.planes->complete = false; }},
+      {PermissionCause::kNoTool, [](auto& inputs) { inputs.planes->tool_known = false; }}};
+  for (const auto& [cause, change] : cases) {
+    const ForcePermission permission = decide(change);
+    EXPECT_EQ(permission.gain, 0.0) << textOf(cause);
+    EXPECT_EQ(permission.cause, cause) << textOf(cause);
+  }
+  EXPECT_EQ(decide([](auto& inputs) { inputs.warning->received -= milliseconds(150); }).gain, 1.0);
 }
 
 }  // namespace

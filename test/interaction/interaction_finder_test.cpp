@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using namespace std::chrono_literals;
 
 const std::string kFrame = "mesh";
-const Vector3d kHalf(0.01, 0.02, 0.03);  // of a box as a tool [m]
+const Vector3d kHalfTool(0.01, 0.02, 0.03);  // of a box as a tool [m]
 
 std::shared_ptr<const Workpiece> workpieceOf(const TriangleMesh& mesh_M, const std::string& id = "liver",
                                              const std::string& frame = kFrame) {
@@ -37,12 +37,12 @@ class InteractionFinderTest : public testing::Test {
 
   InteractionOptions options_;
   Workpieces workpieces_ = {workpieceOf(boxMesh({1.0, 1.0, 1.0}))};
-  InteractionFinder finder_{std::vector<Tool>{Tool(ConvexShape::box(kHalf))}};
+  InteractionFinder finder_{std::vector<Tool>{Tool(ConvexShape::box(kHalfTool))}};
 };
 
 TEST_F(InteractionFinderTest, TheForceIsStiffnessTimesVolumeOutOfTheWorkpiece) {
   options_.law.stiffness = 2e6;
-  const Interaction found = find(poseAt(at(0.1, 0.2, 1.02)));
+  const Interaction found = find(poseAt(placedAt(0.1, 0.2, 1.02)));
   ASSERT_EQ(found.objects.size(), 1U);
   const ObjectInteraction& object = found.objects[0];
   EXPECT_EQ(object.workpiece->id, "liver");
@@ -55,18 +55,18 @@ TEST_F(InteractionFinderTest, TheForceIsStiffnessTimesVolumeOutOfTheWorkpiece) {
 }
 
 TEST_F(InteractionFinderTest, TheTorqueIsThatOfTheForceAtTheCentroid) {
-  const Interaction found = find(poseAt(at(1.005, 0.3, 0.0)));
+  const Interaction found = find(poseAt(placedAt(1.005, 0.3, 0.0)));
   const Vector3d centroid_T(-0.0075, 0.0, 0.0);
   ASSERT_EQ(found.objects.size(), 1U);
   EXPECT_TRUE(found.objects[0].centroid_T.isApprox(centroid_T, 1e-9));
-  const Interaction beside = find(poseAt(at(1.005, 0.99, 0.0)));
+  const Interaction beside = find(poseAt(placedAt(1.005, 0.99, 0.0)));
   const ObjectInteraction& object = beside.objects.at(0);
   EXPECT_LT((object.wrench.torque_T - object.centroid_T.cross(object.wrench.force_T)).norm(), 1e-12);
   EXPECT_GT(object.wrench.torque_T.norm(), 1e-3);
 }
 
 TEST_F(InteractionFinderTest, WithoutTouchThereIsNoObjectAndNoForce) {
-  const Interaction found = find(poseAt(at(0.0, 0.0, 1.031)));
+  const Interaction found = find(poseAt(placedAt(0.0, 0.0, 1.031)));
   EXPECT_TRUE(found.objects.empty());
   EXPECT_TRUE(found.total.force_T.isZero(0.0));
 }
@@ -75,7 +75,7 @@ TEST_F(InteractionFinderTest, AnObjectMayHaveItsOwnStiffness) {
   workpieces_.push_back(workpieceOf(boxMesh({1.0, 1.0, 1.0}), "bone"));
   options_.law.stiffness = 1e6;
   options_.stiffness_of["bone"] = 3e6;
-  const Interaction found = find(poseAt(at(0.1, 0.2, 1.02)));
+  const Interaction found = find(poseAt(placedAt(0.1, 0.2, 1.02)));
   ASSERT_EQ(found.objects.size(), 2U);
   EXPECT_NEAR(found.objects[0].wrench.force_T.z(), 8.0, 1e-8);
   EXPECT_NEAR(found.objects[1].wrench.force_T.z(), 24.0, 1e-8);
@@ -83,10 +83,10 @@ TEST_F(InteractionFinderTest, AnObjectMayHaveItsOwnStiffness) {
 }
 
 TEST_F(InteractionFinderTest, PiecesThatOverlapCountTwice) {
-  const ConvexShape box = ConvexShape::box(kHalf);
+  const ConvexShape box = ConvexShape::box(kHalfTool);
   InteractionFinder twice({Tool(std::vector<ConvexPiece>{{"a", box}, {"b", box}})});
   Interaction found;
-  const PoseWithFrames pose = poseAt(at(0.1, 0.2, 1.02));
+  const PoseWithFrames pose = poseAt(placedAt(0.1, 0.2, 1.02));
   twice.find({pose, workpieces_, options_}, found);
   const Interaction once = find(pose);
   EXPECT_NEAR(found.objects.at(0).volume, 2.0 * once.objects.at(0).volume, 1e-18);
@@ -96,7 +96,7 @@ TEST_F(InteractionFinderTest, PiecesThatOverlapCountTwice) {
 
 TEST_F(InteractionFinderTest, AWorkpieceWithoutFrameIsLeftOut) {
   workpieces_.push_back(workpieceOf(boxMesh({1.0, 1.0, 1.0}), "lost", "nowhere"));
-  const Interaction found = find(poseAt(at(0.1, 0.2, 1.02)));
+  const Interaction found = find(poseAt(placedAt(0.1, 0.2, 1.02)));
   EXPECT_EQ(found.objects.size(), 1U);
   ASSERT_EQ(found.unplaced.size(), 1U);
   EXPECT_EQ(found.unplaced[0]->id, "lost");
@@ -104,48 +104,48 @@ TEST_F(InteractionFinderTest, AWorkpieceWithoutFrameIsLeftOut) {
 
 TEST_F(InteractionFinderTest, BelowTheLeastAreaTheForceIsLess) {
   options_.law.least_area = 16e-4;  // twice that of the box
-  EXPECT_NEAR(find(poseAt(at(0.1, 0.2, 1.02))).total.force_T.z(), 4.0, 1e-8);
+  EXPECT_NEAR(find(poseAt(placedAt(0.1, 0.2, 1.02))).total.force_T.z(), 4.0, 1e-8);
 }
 
 TEST_F(InteractionFinderTest, WithoutDampingTheForceIsTheSameOnTheWayInAndOut) {
   std::vector<Vector3d> in;
-  for (int i = 0; i <= 20; ++i) in.push_back(find(poseAt(at(0.1, 0.2, 1.03 - 0.001 * i), i * 1ms)).total.force_T);
+  for (int i = 0; i <= 20; ++i) in.push_back(find(poseAt(placedAt(0.1, 0.2, 1.03 - 0.001 * i), i * 1ms)).total.force_T);
   for (int i = 20; i >= 0; --i) {
-    const Interaction out = find(poseAt(at(0.1, 0.2, 1.03 - 0.001 * i), (40 - i) * 1ms));
+    const Interaction out = find(poseAt(placedAt(0.1, 0.2, 1.03 - 0.001 * i), (40 - i) * 1ms));
     EXPECT_EQ(out.total.force_T, in[static_cast<size_t>(i)]);
   }
 }
 
 TEST_F(InteractionFinderTest, DampingAddsToTheForceOnTheWayInAndTakesFromItOnTheWayOut) {
   options_.law.damping = 2.0;
-  find(poseAt(at(0.1, 0.2, 1.021)));
-  EXPECT_NEAR(find(poseAt(at(0.1, 0.2, 1.02), 10ms)).total.force_T.z(), 8.0 * (1.0 + 2.0 * 0.1), 1e-6);
-  find(poseAt(at(0.1, 0.2, 1.019), 20ms));
-  EXPECT_NEAR(find(poseAt(at(0.1, 0.2, 1.02), 30ms)).total.force_T.z(), 8.0 * (1.0 - 2.0 * 0.1), 1e-6);
+  find(poseAt(placedAt(0.1, 0.2, 1.021)));
+  EXPECT_NEAR(find(poseAt(placedAt(0.1, 0.2, 1.02), 10ms)).total.force_T.z(), 8.0 * (1.0 + 2.0 * 0.1), 1e-6);
+  find(poseAt(placedAt(0.1, 0.2, 1.019), 20ms));
+  EXPECT_NEAR(find(poseAt(placedAt(0.1, 0.2, 1.02), 30ms)).total.force_T.z(), 8.0 * (1.0 - 2.0 * 0.1), 1e-6);
 }
 
 TEST_F(InteractionFinderTest, NeverPullsHoweverFastTheToolLeaves) {
   options_.law.damping = 2.0;
-  find(poseAt(at(0.1, 0.2, 1.0)));
-  EXPECT_EQ(find(poseAt(at(0.1, 0.2, 1.02), 10ms)).total.force_T.z(), 0.0);
+  find(poseAt(placedAt(0.1, 0.2, 1.0)));
+  EXPECT_EQ(find(poseAt(placedAt(0.1, 0.2, 1.02), 10ms)).total.force_T.z(), 0.0);
 }
 
 TEST_F(InteractionFinderTest, DampsTheSpeedRelativeToTheFrameOfTheWorkpiece) {
   options_.law.damping = 2.0;
-  find(poseAt(at(0.1, 0.2, 1.02)));
-  const Interaction together = find(poseAt(at(0.1, 0.2, 1.021), 10ms, at(0.0, 0.0, 0.001)));
+  find(poseAt(placedAt(0.1, 0.2, 1.02)));
+  const Interaction together = find(poseAt(placedAt(0.1, 0.2, 1.021), 10ms, placedAt(0.0, 0.0, 0.001)));
   EXPECT_NEAR(together.total.force_T.z(), 8.0, 1e-6);
-  const Interaction up = find(poseAt(at(0.1, 0.2, 1.021), 20ms, at(0.0, 0.0, 0.002)));
+  const Interaction up = find(poseAt(placedAt(0.1, 0.2, 1.021), 20ms, placedAt(0.0, 0.0, 0.002)));
   EXPECT_NEAR(up.total.force_T.z(), 8.8 * (1.0 + 2.0 * 0.1), 1e-6);
 }
 
 TEST_F(InteractionFinderTest, AfterASilenceThereIsNoDamping) {
   options_.law.damping = 2.0;
-  find(poseAt(at(0.1, 0.2, 1.021)));
-  EXPECT_NEAR(find(poseAt(at(0.1, 0.2, 1.02), 200ms)).total.force_T.z(), 8.0, 1e-8);
-  find(poseAt(at(0.1, 0.2, 1.021), 210ms));
+  find(poseAt(placedAt(0.1, 0.2, 1.021)));
+  EXPECT_NEAR(find(poseAt(placedAt(0.1, 0.2, 1.02), 200ms)).total.force_T.z(), 8.0, 1e-8);
+  find(poseAt(placedAt(0.1, 0.2, 1.021), 210ms));
   finder_.reset();
-  EXPECT_NEAR(find(poseAt(at(0.1, 0.2, 1.02), 220ms)).total.force_T.z(), 8.0, 1e-8);
+  EXPECT_NEAR(find(poseAt(placedAt(0.1, 0.2, 1.02), 220ms)).total.force_T.z(), 8.0, 1e-8);
 }
 
 // Two jaws, each turned and placed against T.
@@ -162,14 +162,14 @@ class JawsTest : public InteractionFinderTest {
     return found;
   }
 
-  const Isometry3d X_TA_ = at(0.2, -0.1, 0.3);
-  InteractionFinder jaws_{{Tool(ConvexShape::box(kHalf)), Tool(ConvexShape::box(kHalf))}};
+  const Isometry3d X_TA_ = placedAt(0.2, -0.1, 0.3);
+  InteractionFinder jaws_{{Tool(ConvexShape::box(kHalfTool)), Tool(ConvexShape::box(kHalfTool))}};
 };
 
 TEST_F(JawsTest, TheForceOfAJawIsThatOfARigidToolWithTheJawInPlace) {
-  const Isometry3d X_WT = at(0.1, 0.2, 0.95) * Eigen::AngleAxisd(0.4, Vector3d(1.0, 2.0, -1.0).normalized());
-  const Isometry3d X_TB = at(0.0, 0.0, 0.07) * Eigen::AngleAxisd(-0.7, Vector3d(2.0, 0.5, 1.0).normalized());
-  const ConvexShape jaw = ConvexShape::box(kHalf);
+  const Isometry3d X_WT = placedAt(0.1, 0.2, 0.95) * Eigen::AngleAxisd(0.4, Vector3d(1.0, 2.0, -1.0).normalized());
+  const Isometry3d X_TB = placedAt(0.0, 0.0, 0.07) * Eigen::AngleAxisd(-0.7, Vector3d(2.0, 0.5, 1.0).normalized());
+  const ConvexShape jaw = ConvexShape::box(kHalfTool);
   InteractionFinder rigid({Tool(std::vector<ConvexPiece>{{"b", jaw.placed(X_TB)}, {"a", jaw.placed(X_TA_)}})});
   Interaction expected;
   rigid.find({poseAt(X_WT), workpieces_, options_}, expected);
@@ -186,9 +186,10 @@ TEST_F(JawsTest, TheForceOfAJawIsThatOfARigidToolWithTheJawInPlace) {
 
 TEST_F(JawsTest, AJawThatClosesIsDampedWhileTheToolRests) {
   options_.law.damping = 2.0;
-  const Isometry3d X_WT = at(0.1, 0.2, 0.5);
-  findOfJaws(poseOf(X_WT, at(0.0, 0.0, 0.521)));
-  EXPECT_NEAR(findOfJaws(poseOf(X_WT, at(0.0, 0.0, 0.52), 10ms)).total.force_T.z(), 8.0 * (1.0 + 2.0 * 0.1), 1e-6);
+  const Isometry3d X_WT = placedAt(0.1, 0.2, 0.5);
+  findOfJaws(poseOf(X_WT, placedAt(0.0, 0.0, 0.521)));
+  EXPECT_NEAR(findOfJaws(poseOf(X_WT, placedAt(0.0, 0.0, 0.52), 10ms)).total.force_T.z(), 8.0 * (1.0 + 2.0 * 0.1),
+              1e-6);
 }
 
 // The energy [J] that the workpiece gives to a tool on a closed path, and all that it exchanges.

@@ -8,8 +8,6 @@
 
 namespace sweep_guard_core {
 
-inline Eigen::Isometry3d at(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
-
 /// Returns a box around the origin; its triangles are counter-clockwise seen from outside, or from inside.
 inline TriangleMesh boxMesh(const Eigen::Vector3d& half, bool inside_out = false) {
   std::vector<Eigen::Vector3d> corners;

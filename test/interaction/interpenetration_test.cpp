@@ -13,8 +13,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
-const Vector3d kHalf(0.01, 0.02, 0.03);  // of a box as a piece [m]
+const Vector3d kHalfPiece(0.01, 0.02, 0.03);  // of a box as a piece [m]
 
 Interpenetration find(const ConvexShape& shape_T, const TriangleMesh& mesh_M, const Isometry3d& X_MT) {
   return InterpenetrationFinder(shape_T).find(mesh_M, X_MT);
@@ -22,16 +21,16 @@ Interpenetration find(const ConvexShape& shape_T, const TriangleMesh& mesh_M, co
 
 TEST(PieceVolumeTest, IsThatOfTheShape) {
   const auto volume = [](const ConvexShape& shape_T) { return InterpenetrationFinder(shape_T).pieceVolume(); };
-  EXPECT_NEAR(volume(ConvexShape::box(kHalf)), 8.0 * kHalf.prod(), 1e-18);
-  EXPECT_NEAR(volume(ConvexShape::cylinder(0.01, 0.1)), kPi * 1e-5, 1e-17);
-  EXPECT_NEAR(volume(ConvexShape::cylinder(0.01, 0.1, 3)), kPi * 1e-5, 1e-17);
-  EXPECT_NEAR(volume(ConvexShape::sphere(0.01)), 4.0 / 3.0 * kPi * 1e-6, 1e-13);
-  EXPECT_NEAR(volume(ConvexShape::box(kHalf).padded(0.01)), 8.0 * 0.02 * 0.03 * 0.04, 1e-18);
-  EXPECT_NEAR(volume(ConvexShape::cylinder(0.01, 0.1).padded(0.01)), kPi * 4e-4 * 0.12, 1e-16);
+  EXPECT_NEAR(volume(ConvexShape::box(kHalfPiece)), 8.0 * kHalfPiece.prod(), 1e-18);
+  EXPECT_NEAR(volume(ConvexShape::cylinder(0.01, 0.1)), M_PI * 1e-5, 1e-17);
+  EXPECT_NEAR(volume(ConvexShape::cylinder(0.01, 0.1, 3)), M_PI * 1e-5, 1e-17);
+  EXPECT_NEAR(volume(ConvexShape::sphere(0.01)), 4.0 / 3.0 * M_PI * 1e-6, 1e-13);
+  EXPECT_NEAR(volume(ConvexShape::box(kHalfPiece).padded(0.01)), 8.0 * 0.02 * 0.03 * 0.04, 1e-18);
+  EXPECT_NEAR(volume(ConvexShape::cylinder(0.01, 0.1).padded(0.01)), M_PI * 4e-4 * 0.12, 1e-16);
   const ConvexShape tetrahedron = ConvexShape::hull({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}});
   EXPECT_NEAR(volume(tetrahedron), 1e-3 / 6.0, 1e-10);
   const ConvexShape capsule = ConvexShape::hull({{0, 0, 0}, {0, 0, 0.1}}).padded(0.01);
-  const double round = kPi * 1e-4 * 0.1 + 4.0 / 3.0 * kPi * 1e-6;
+  const double round = M_PI * 1e-4 * 0.1 + 4.0 / 3.0 * M_PI * 1e-6;
   EXPECT_NEAR(volume(capsule), round, 0.06 * round);
 }
 
@@ -45,7 +44,7 @@ TEST(PieceVolumeTest, OfAFlatPieceIsZero) {
 TEST(InterpenetrationTest, OfABoxPressedIntoAFaceIsItsPartBehindTheFace) {
   for (const bool inside_out : {false, true}) {
     const TriangleMesh mesh = boxMesh({1.0, 1.0, 1.0}, inside_out);
-    const Interpenetration found = find(ConvexShape::box(kHalf), mesh, at(0.1, 0.2, 1.02));
+    const Interpenetration found = find(ConvexShape::box(kHalfPiece), mesh, placedAt(0.1, 0.2, 1.02));
     EXPECT_TRUE(found.enclosed);
     EXPECT_NEAR(found.volume, 0.02 * 0.04 * 0.01, 1e-18);
     EXPECT_TRUE(found.centroid_T.isApprox(Vector3d(0.0, 0.0, -0.025), 1e-11)) << found.centroid_T.transpose();
@@ -55,21 +54,21 @@ TEST(InterpenetrationTest, OfABoxPressedIntoAFaceIsItsPartBehindTheFace) {
 }
 
 TEST(InterpenetrationTest, OfAPieceThatTouchesNoTriangleIsAllOrNothing) {
-  const ConvexShape box = ConvexShape::box(kHalf);
+  const ConvexShape box = ConvexShape::box(kHalfPiece);
   const TriangleMesh mesh = boxMesh({1.0, 1.0, 1.0});
-  const Interpenetration inside = find(box, mesh, at(0.1, 0.2, 0.3));
-  EXPECT_NEAR(inside.volume, 8.0 * kHalf.prod(), 1e-17);
+  const Interpenetration inside = find(box, mesh, placedAt(0.1, 0.2, 0.3));
+  EXPECT_NEAR(inside.volume, 8.0 * kHalfPiece.prod(), 1e-17);
   EXPECT_LT(inside.centroid_T.norm(), 1e-12);
   EXPECT_LT(inside.area_T.norm(), 1e-18);
-  for (const Isometry3d& X_MT : {at(2.0, 0.0, 0.0), at(0.0, 0.0, 2.0), at(0.0, 0.0, -2.0)}) {
+  for (const Isometry3d& X_MT : {placedAt(2.0, 0.0, 0.0), placedAt(0.0, 0.0, 2.0), placedAt(0.0, 0.0, -2.0)}) {
     EXPECT_EQ(find(box, mesh, X_MT).volume, 0.0);
   }
 }
 
 TEST(InterpenetrationTest, HasNoAreaWhereThePiecePiercesAPlate) {
   const TriangleMesh plate = boxMesh({1.0, 1.0, 0.005});
-  const Interpenetration found = find(ConvexShape::cylinder(0.01, 0.1), plate, at(0.1, 0.2, 0.05));
-  EXPECT_NEAR(found.volume, kPi * 1e-4 * 0.01, 1e-13);  // float32 rounds the half thickness
+  const Interpenetration found = find(ConvexShape::cylinder(0.01, 0.1), plate, placedAt(0.1, 0.2, 0.05));
+  EXPECT_NEAR(found.volume, M_PI * 1e-4 * 0.01, 1e-13);  // float32 rounds the half thickness
   EXPECT_LT(found.area_T.norm(), 1e-17);
   EXPECT_LT(found.depth(1e-6), 1e-12);
 }
@@ -77,13 +76,13 @@ TEST(InterpenetrationTest, HasNoAreaWhereThePiecePiercesAPlate) {
 TEST(InterpenetrationTest, WithAnOpenMeshIsWhatLiesBehindIt) {
   for (const std::uint32_t cells : {1U, 40U}) {
     const TriangleMesh mesh = sheet(0.1, cells);
-    const Interpenetration found = find(ConvexShape::box(kHalf), mesh, at(0.011, 0.012, 0.02));
+    const Interpenetration found = find(ConvexShape::box(kHalfPiece), mesh, placedAt(0.011, 0.012, 0.02));
     EXPECT_FALSE(found.enclosed);
     EXPECT_NEAR(found.volume, 0.02 * 0.04 * 0.01, 1e-17);
     EXPECT_TRUE(found.centroid_T.isApprox(Vector3d(0.0, 0.0, -0.025), 1e-9)) << found.centroid_T.transpose();
     EXPECT_TRUE(found.area_T.isApprox(Vector3d(0.0, 0.0, 0.02 * 0.04), 1e-9)) << found.area_T.transpose();
     EXPECT_NEAR(found.reach, 0.01, 1e-12);
-    EXPECT_EQ(find(ConvexShape::box(kHalf), mesh, at(0.0, 0.0, -0.04)).volume, 0.0);
+    EXPECT_EQ(find(ConvexShape::box(kHalfPiece), mesh, placedAt(0.0, 0.0, -0.04)).volume, 0.0);
   }
 }
 
@@ -96,7 +95,7 @@ TEST(InterpenetrationTest, WithTrianglesThatWindDifferentlyTakesTheMeshForOpen) 
   const TriangleMesh wrong(corners, triangles);
   EXPECT_TRUE(wrong.closed());
   EXPECT_EQ(wrong.winding(), 0);
-  const Interpenetration found = find(ConvexShape::box(kHalf), wrong, at(0.1, 0.2, 1.02));
+  const Interpenetration found = find(ConvexShape::box(kHalfPiece), wrong, placedAt(0.1, 0.2, 1.02));
   EXPECT_FALSE(found.enclosed);
   EXPECT_NEAR(found.volume, 0.02 * 0.04 * 0.01, 1e-17);
 }
@@ -112,11 +111,11 @@ TEST(InterpenetrationTest, IsTheSumOfThatOfTheHalvesOfAPiece) {
   for (int i = 0; i < 200; ++i) {
     const Isometry3d X_MT = poseInOrgan(random);
     const Interpenetration sum = finder.find(mesh, X_MT);
-    double volume = half.find(mesh, X_MT * at(0.0, 0.0, 0.015)).volume;
-    Vector3d area_T = half.find(mesh, X_MT * at(0.0, 0.0, 0.015)).area_T;
+    double volume = half.find(mesh, X_MT * placedAt(0.0, 0.0, 0.015)).volume;
+    Vector3d area_T = half.find(mesh, X_MT * placedAt(0.0, 0.0, 0.015)).area_T;
     for (const double x : {-0.005, 0.005}) {
-      volume += quarter.find(mesh, X_MT * at(x, 0.0, -0.015)).volume;
-      area_T += quarter.find(mesh, X_MT * at(x, 0.0, -0.015)).area_T;
+      volume += quarter.find(mesh, X_MT * placedAt(x, 0.0, -0.015)).volume;
+      area_T += quarter.find(mesh, X_MT * placedAt(x, 0.0, -0.015)).area_T;
     }
     EXPECT_NEAR(volume, sum.volume, 1e-9 * finder.pieceVolume());
     EXPECT_LT((area_T - sum.area_T).norm(), 1e-12);
@@ -166,7 +165,7 @@ TEST(InterpenetrationTest, IsContinuousInThePose) {
   Random random(/*seed=*/4);
   const ConvexShape hull = ConvexShape::hull({{0, 0, 0}, {0.02, 0, -0.03}, {-0.01, 0.02, -0.03}, {0, -0.02, -0.03}});
   int touching = 0;
-  for (const ConvexShape& shape_T : {ConvexShape::cylinder(0.006, 0.06), ConvexShape::box(kHalf), hull}) {
+  for (const ConvexShape& shape_T : {ConvexShape::cylinder(0.006, 0.06), ConvexShape::box(kHalfPiece), hull}) {
     InterpenetrationFinder finder(shape_T);
     for (int path = 0; path < 20; ++path) {
       const Isometry3d X_MT = poseInOrgan(random);

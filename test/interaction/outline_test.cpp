@@ -12,13 +12,11 @@ namespace {
 using Corners2d = std::vector<Eigen::Vector2d>;
 using Triangle3d = std::array<Eigen::Vector3d, 3>;
 
-constexpr double kPi = 3.14159265358979323846;
-
 // Irregular, and longer than wide; its corners are on an ellipse about a point that is not its center.
 Corners2d ovalWithCorners(int count, Random& random) {
   Corners2d corners;
   for (int i = 0; i < count; ++i) {
-    const double angle = 2.0 * kPi * (i + random.uniform(0.0, 0.9)) / count;
+    const double angle = 2.0 * M_PI * (i + random.uniform(0.0, 0.9)) / count;
     corners.emplace_back(0.3 + 2.0 * std::cos(angle), 0.2 + std::sin(angle));
   }
   return corners;

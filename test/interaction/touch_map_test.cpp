@@ -258,7 +258,7 @@ TEST(TouchMapOfAGuardTest, TheDepthIsThatOfTheToolBehindTheTriangle) {
   SweepReport report;
   for (int i = 0; i <= 4; ++i) {
     const double height = 0.025 - 0.0025 * i;  // of the middle of the box: 5 mm before the surface to 5 mm behind it
-    guard.sweep({Time(100s) + i * 10ms, {}, at(0.03, -0.06, height), {{"mesh", Eigen::Isometry3d::Identity()}}},
+    guard.sweep({Time(100s) + i * 10ms, {}, placedAt(0.03, -0.06, height), {{"mesh", Eigen::Isometry3d::Identity()}}},
                 workpieces, report);
     map.add(report, workpieces);
   }

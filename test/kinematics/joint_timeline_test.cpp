@@ -26,7 +26,7 @@ TreeLink linkAt(size_t i) {
 }
 
 // Joints a, b and c; c is continuous.
-KinematicTree arm() {
+KinematicTree armOfThree() {
   std::vector<JointVariable> variables(3);
   for (size_t i = 0; i < 3; ++i) variables[i].name = std::string(1, static_cast<char>('a' + i));
   variables[2].continuous = true;
@@ -57,7 +57,7 @@ class JointTimelineTest : public testing::Test {
     return "";
   }
 
-  const KinematicTree tree_ = arm();
+  const KinematicTree tree_ = armOfThree();
   JointTimeline timeline_{tree_, {{}, {}, {}}, /*root_moves=*/false};
   JointTimeline only_a_{tree_, {{}, 0.5, 0.25}, /*root_moves=*/false};
 };
@@ -208,7 +208,7 @@ TEST_F(JointTimelineTest, TheStatePastDroppedPositionsTellsOfThem) {
 TEST(RandomJointTimelineTest, TheStatesAreTheMotionOfAllJoints) {
   Random random(1);
   for (int trial = 0; trial < 50; ++trial) {
-    const KinematicTree tree = arm();
+    const KinematicTree tree = armOfThree();
     JointTimeline timeline(tree, {{}, {}, {}}, /*root_moves=*/false);
     std::map<Time, double> sent[3];
     std::multimap<double, std::pair<size_t, Time>> arrivals;

@@ -11,7 +11,7 @@ ConvexPiece ball(const std::string& link, double x) {
   return {link, ConvexShape::sphere(0.01).placed(Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)))};
 }
 
-TreeLink link(const std::string& name, size_t parent, JointType type) {
+TreeLink linkOf(const std::string& name, size_t parent, JointType type) {
   TreeLink link;
   link.name = name;
   link.parent = parent;
@@ -23,8 +23,8 @@ TreeLink link(const std::string& name, size_t parent, JointType type) {
 // A door that turns on a wall, with a handle.
 Robot door() {
   return robotOf({{{"hinge"}},
-                  {link("wall", TreeLink::kRoot, JointType::kFixed), link("door", 0, JointType::kRevolute),
-                   link("handle", 1, JointType::kFixed)}},
+                  {linkOf("wall", TreeLink::kRoot, JointType::kFixed), linkOf("door", 0, JointType::kRevolute),
+                   linkOf("handle", 1, JointType::kFixed)}},
                  {{0, {ball("wall", 0.0)}}, {1, {ball("door", 0.5)}}, {2, {ball("handle", 0.0)}}});
 }
 

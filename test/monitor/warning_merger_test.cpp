@@ -19,7 +19,7 @@ constexpr auto kContact = WarningLevel::kContact;
 constexpr size_t kLeft = 0;
 constexpr size_t kRight = 1;
 
-Instant at(Duration time) {
+Instant instantAt(Duration time) {
   return {Time(std::chrono::seconds(1000) + time), SteadyTime(std::chrono::seconds(5) + time)};
 }
 
@@ -27,11 +27,11 @@ Instant at(Duration time) {
 HeardWarning said(WarningLevel level, Duration time = {}) {
   HeardWarning warning;
   warning.level = level;
-  warning.stamp = at(time).stamp - milliseconds(5);
-  warning.covered_until = at(time).stamp + milliseconds(1000);
-  warning.valid_until = at(time).stamp + WarningMerger::kValid;
+  warning.stamp = instantAt(time).stamp - milliseconds(5);
+  warning.covered_until = instantAt(time).stamp + milliseconds(1000);
+  warning.valid_until = instantAt(time).stamp + WarningMerger::kValid;
   warning.text = styleOf(level).name;
-  warning.received = at(time);
+  warning.received = instantAt(time);
   return warning;
 }
 
@@ -40,12 +40,12 @@ class WarningMergerTest : public testing::Test {
   MergedWarning merged(WarningLevel left, WarningLevel right) {
     merger_.hear(kLeft, said(left));
     merger_.hear(kRight, said(right));
-    return merger_.merged(at({}));
+    return merger_.merged(instantAt({}));
   }
   MergedWarning merged(const HeardWarning& left, const HeardWarning& right) {
     merger_.hear(kLeft, left);
     merger_.hear(kRight, right);
-    return merger_.merged(at({}));
+    return merger_.merged(instantAt({}));
   }
 
   WarningMerger merger_{{"/left", "/right"}};
@@ -74,9 +74,9 @@ TEST_F(WarningMergerTest, AContactStaysVisibleBesideAGuardThatKnowsNothing) {
 }
 
 TEST_F(WarningMergerTest, IsUnknownBeforeEachGuardHasSpoken) {
-  EXPECT_EQ(merger_.merged(at({})).level, kUnknown);
+  EXPECT_EQ(merger_.merged(instantAt({})).level, kUnknown);
   merger_.hear(kLeft, said(kClear));
-  const MergedWarning one = merger_.merged(at({}));
+  const MergedWarning one = merger_.merged(instantAt({}));
   EXPECT_EQ(one.level, kUnknown);
   EXPECT_EQ(one.reasons, kNotCovered);
   EXPECT_EQ(one.leader, std::nullopt);
@@ -89,8 +89,8 @@ TEST_F(WarningMergerTest, IsUnknown200MillisecondsAfterAGuardFellSilent) {
   HeardWarning later = said(kClear, milliseconds(150));
   later.valid_until += milliseconds(100);
   merger_.hear(kRight, later);
-  EXPECT_EQ(merger_.merged(at(milliseconds(200))).level, kClear);
-  const MergedWarning silent = merger_.merged(at(milliseconds(201)));
+  EXPECT_EQ(merger_.merged(instantAt(milliseconds(200))).level, kClear);
+  const MergedWarning silent = merger_.merged(instantAt(milliseconds(201)));
   EXPECT_EQ(silent.level, kUnknown);
   EXPECT_EQ(silent.text, "UNKNOWN: /left: silent for 0.20 s");
 }
@@ -98,13 +98,13 @@ TEST_F(WarningMergerTest, IsUnknown200MillisecondsAfterAGuardFellSilent) {
 TEST_F(WarningMergerTest, AWarningThatCameLateCountsOnlyAsLongAsItIsValid) {
   merger_.hear(kLeft, said(kClear));
   HeardWarning delayed = said(kClear);
-  delayed.received = at(milliseconds(150));
+  delayed.received = instantAt(milliseconds(150));
   merger_.hear(kRight, delayed);
   merger_.hear(kLeft, said(kClear, milliseconds(150)));
-  const MergedWarning valid = merger_.merged(at(milliseconds(200)));
+  const MergedWarning valid = merger_.merged(instantAt(milliseconds(200)));
   EXPECT_EQ(valid.level, kClear);
-  EXPECT_EQ(valid.valid_until, at(milliseconds(200)).stamp);
-  const MergedWarning over = merger_.merged(at(milliseconds(210)));
+  EXPECT_EQ(valid.valid_until, instantAt(milliseconds(200)).stamp);
+  const MergedWarning over = merger_.merged(instantAt(milliseconds(210)));
   EXPECT_EQ(over.level, kUnknown);
   EXPECT_EQ(over.text, "UNKNOWN: /right: newest warning came 0.15 s late, or clocks differ");
 }
@@ -122,7 +122,7 @@ TEST_F(WarningMergerTest, AGuardWhoseClockIsAheadCountsAsSilent) {
 TEST_F(WarningMergerTest, ASilentContactIsNoLongerShown) {
   merger_.hear(kLeft, said(kContact));
   merger_.hear(kRight, said(kClear, milliseconds(250)));
-  EXPECT_EQ(merger_.merged(at(milliseconds(250))).level, kUnknown);
+  EXPECT_EQ(merger_.merged(instantAt(milliseconds(250))).level, kUnknown);
 }
 
 TEST_F(WarningMergerTest, ShowsTheEarlierOfTwoCollisions) {
@@ -189,8 +189,8 @@ TEST(WarningMergerModelTest, AgreesOnRandomWarningsOfFiveGuards) {
     int silent = 0;
     std::array<int, 5> levels{};
     for (const auto& warning : heard) {
-      const bool counts = warning && time - (warning->received.steady - at({}).steady) <= milliseconds(200) &&
-                          warning->valid_until >= at(time).stamp;
+      const bool counts = warning && time - (warning->received.steady - instantAt({}).steady) <= milliseconds(200) &&
+                          warning->valid_until >= instantAt(time).stamp;
       silent += counts ? 0 : 1;
       if (counts) ++levels[static_cast<size_t>(warning->level)];
     }
@@ -198,10 +198,10 @@ TEST(WarningMergerModelTest, AgreesOnRandomWarningsOfFiveGuards) {
     for (const WarningLevel level : {kConsidered, kReflex, kContact}) {
       if (levels[static_cast<size_t>(level)] > 0) expected = level;
     }
-    const MergedWarning merged = merger.merged(at(time));
+    const MergedWarning merged = merger.merged(instantAt(time));
     ASSERT_EQ(merged.level, expected) << step;
     ASSERT_EQ(silent > 0, merged.covered_until == Time()) << step;
-    ASSERT_LE(merged.valid_until, at(time).stamp + WarningMerger::kValid);
+    ASSERT_LE(merged.valid_until, instantAt(time).stamp + WarningMerger::kValid);
     clear += expected == kClear ? 1 : 0;
   }
   EXPECT_GT(clear, 10000);

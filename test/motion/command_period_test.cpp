@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "motion/times.h"
 #include "refusal.h"
 
 namespace sweep_guard_core {
@@ -10,44 +11,42 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-SteadyTime at(int ms) { return SteadyTime(milliseconds(ms)); }
-
 TEST(CommandPeriodTest, IsTheBoundBeforeTwoCommands) {
   CommandPeriod period(milliseconds(100));
   EXPECT_EQ(period.longest(), milliseconds(100));
   EXPECT_EQ(period.mean(), milliseconds(100));
-  period.add(at(0));
+  period.add(steadyAt(0));
   EXPECT_EQ(period.longest(), milliseconds(100));
   EXPECT_EQ(period.mean(), milliseconds(100));
 }
 
 TEST(CommandPeriodTest, IsMeasuredOverTheNewestIntervals) {
   CommandPeriod period(milliseconds(100));
-  period.add(at(0));
-  period.add(at(40));
-  period.add(at(50));
+  period.add(steadyAt(0));
+  period.add(steadyAt(40));
+  period.add(steadyAt(50));
   EXPECT_EQ(period.longest(), milliseconds(40));
   EXPECT_EQ(period.mean(), milliseconds(25));
-  for (int i = 0; i < static_cast<int>(CommandPeriod::kIntervals); ++i) period.add(at(60 + 10 * i));
+  for (int i = 0; i < static_cast<int>(CommandPeriod::kIntervals); ++i) period.add(steadyAt(60 + 10 * i));
   EXPECT_EQ(period.longest(), milliseconds(10));
   EXPECT_EQ(period.mean(), milliseconds(10));
 }
 
 TEST(CommandPeriodTest, BeginsAgainAfterAPause) {
   CommandPeriod period(milliseconds(100));
-  period.add(at(0));
-  period.add(at(10));
-  period.add(at(111));
+  period.add(steadyAt(0));
+  period.add(steadyAt(10));
+  period.add(steadyAt(111));
   EXPECT_EQ(period.longest(), milliseconds(100));
-  period.add(at(131));
+  period.add(steadyAt(131));
   EXPECT_EQ(period.longest(), milliseconds(20));
   EXPECT_EQ(period.mean(), milliseconds(20));
 }
 
 TEST(CommandPeriodTest, IsNeverShorterThanAMillisecond) {
   CommandPeriod period(milliseconds(100));
-  period.add(at(0));
-  period.add(at(0) + microseconds(10));
+  period.add(steadyAt(0));
+  period.add(steadyAt(0) + microseconds(10));
   EXPECT_EQ(period.longest(), milliseconds(1));
   EXPECT_EQ(period.mean(), milliseconds(1));
 }

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "motion/floor.h"
 #include "refusal.h"
 
 namespace sweep_guard_core {
@@ -11,44 +12,37 @@ namespace {
 
 using Eigen::Vector3d;
 
-const BrakingLimits kLimits{/*deceleration=*/1.0, /*reaction_time=*/0.1, /*standoff=*/0.0, /*tool_radius=*/0.1};
 constexpr double kEscapeSpeed = 0.02;
-
-FacingBall floorAt(const Vector3d& center_W, double surface_speed = 0.0) {
-  return {Vector3d::UnitZ(), center_W, 0.001, surface_speed};
-}
 
 Twist escape(const Twist& command_W, const std::vector<FacingBall>& facing, double escape_speed = kEscapeSpeed) {
   return escapeVelocity(command_W, facing, {}, kLimits, escape_speed);
 }
 
-bool isZero(const Twist& twist_W) { return twist_W.v_W.isZero(0.0) && twist_W.w_W.isZero(0.0); }
-
 TEST(EscapeVelocityTest, ScalesTheCommandDownToTheEscapeSpeed) {
-  const Twist output_W = escape({{0.3, 0.0, 0.4}, {0.0, 0.0, 5.0}}, {floorAt(Vector3d::Zero())});
+  const Twist output_W = escape({{0.3, 0.0, 0.4}, {0.0, 0.0, 5.0}}, {floorAt(0.001)});
   EXPECT_TRUE(output_W.v_W.isApprox(Vector3d(0.006, 0.0, 0.008), 1e-12));
   EXPECT_TRUE(output_W.w_W.isApprox(Vector3d(0.0, 0.0, 0.1), 1e-12));
 }
 
 TEST(EscapeVelocityTest, KeepsASlowCommandAsItIs) {
   const Twist command{{0.0, 0.0, 0.01}, Vector3d::Zero()};
-  EXPECT_EQ(escape(command, {floorAt(Vector3d::Zero())}).v_W, command.v_W);
+  EXPECT_EQ(escape(command, {floorAt(0.001)}).v_W, command.v_W);
 }
 
 TEST(EscapeVelocityTest, NeedsEveryGapToGrow) {
   const Twist up{{0.0, 0.0, 0.01}, Vector3d::Zero()};
-  EXPECT_FALSE(isZero(escape(up, {floorAt(Vector3d::Zero())})));
-  EXPECT_TRUE(isZero(escape(up, {floorAt(Vector3d::Zero()), {-Vector3d::UnitZ(), Vector3d::Zero(), 1.0, 0.0}})));
-  EXPECT_TRUE(isZero(escape({{0.01, 0.0, 0.0}, Vector3d::Zero()}, {floorAt(Vector3d::Zero())})));
+  EXPECT_FALSE(isZero(escape(up, {floorAt(0.001)})));
+  EXPECT_TRUE(isZero(escape(up, {floorAt(0.001), {-Vector3d::UnitZ(), Vector3d::Zero(), 1.0, 0.0}})));
+  EXPECT_TRUE(isZero(escape({{0.01, 0.0, 0.0}, Vector3d::Zero()}, {floorAt(0.001)})));
 }
 
 TEST(EscapeVelocityTest, CountsTheSurfaceAndTheTurn) {
   const Twist up{{0.0, 0.0, 0.01}, Vector3d::Zero()};
-  EXPECT_TRUE(isZero(escape(up, {floorAt(Vector3d::Zero(), /*surface_speed=*/0.01)})));
-  EXPECT_FALSE(isZero(escape(up, {floorAt(Vector3d::Zero(), /*surface_speed=*/-0.01)})));
+  EXPECT_TRUE(isZero(escape(up, {floorAt(0.001, Vector3d::Zero(), /*surface_speed=*/0.01)})));
+  EXPECT_FALSE(isZero(escape(up, {floorAt(0.001, Vector3d::Zero(), /*surface_speed=*/-0.01)})));
   const Twist turning{{0.0, 0.0, 0.01}, {0.0, 0.11, 0.0}};
-  EXPECT_TRUE(isZero(escape(turning, {floorAt({0.1, 0.0, 0.0})})));
-  EXPECT_FALSE(isZero(escape(turning, {floorAt({-0.1, 0.0, 0.0})})));
+  EXPECT_TRUE(isZero(escape(turning, {floorAt(0.001, {0.1, 0.0, 0.0})})));
+  EXPECT_FALSE(isZero(escape(turning, {floorAt(0.001, {-0.1, 0.0, 0.0})})));
 }
 
 TEST(EscapeVelocityTest, CanStopBeforeWhatNoPlaneStandsFor) {

@@ -5,8 +5,11 @@
 #include <limits>
 
 #include "allocations.h"
+#include "motion/floor.h"
 #include "motion/random_scenes.h"
+#include "motion/times.h"
 #include "refusal.h"
+#include "scenes.h"
 #include "sweep_guard/monitor/reason.h"
 
 namespace sweep_guard_core {
@@ -15,12 +18,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using std::chrono::milliseconds;
-
-constexpr Duration kStart = std::chrono::seconds(100);
-
-Instant at(int ms) { return {Time(kStart + milliseconds(ms)), SteadyTime(kStart + milliseconds(ms))}; }
-Timestamps received(int ms) { return {at(ms).stamp, at(ms).steady}; }
-Isometry3d poseAt(double x) { return Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)); }
 
 // A needle from the origin of the tool frame to 0.1 m along x, 1 mm thick.
 std::shared_ptr<const ToolBalls> needle() {
@@ -36,15 +33,13 @@ std::shared_ptr<const PlaneSet> wall(int ms) {
 }
 
 MotionInputs inputsAt(int ms, double x) {
-  return {wall(ms), needle(), MotionInputs::ToolPose{poseAt(x), received(ms)},
-          PermissionInputs::ReceivedWarning{WarningLevel::kClear, 0, at(ms).steady}};
+  return {wall(ms), needle(), MotionInputs::ToolPose{along(x), received(ms)},
+          PermissionInputs::GuardWarning{WarningLevel::kClear, 0, at(ms).steady}};
 }
 
 MotionCommand moving(const Vector3d& v_W, int ms, const Vector3d& w_W = Vector3d::Zero()) {
   return {{v_W, w_W}, Vector3d::Zero(), received(ms), milliseconds(10), {}};
 }
-
-bool isZero(const Twist& twist) { return twist == Twist{}; }
 
 MotionGuardOptions withEscape() {
   MotionGuardOptions options;
@@ -108,7 +103,7 @@ TEST(MotionGuardTest, CountsWhatIsInFlight) {
 TEST(MotionGuardTest, TheRestOfARobotThatFollowsPosesCounts) {
   MotionGuard guard({});
   MotionCommand command = moving({-0.1, 0.0, 0.0}, 1000);
-  command.rest_WT = poseAt(0.003);  // at the standoff
+  command.rest_WT = along(0.003);  // at the standoff
   EXPECT_NEAR(guard.guard(inputsAt(1000, 0.5), command, at(1000)).twist_W.v_W.x(), 0.0, 1e-9);
 }
 
@@ -116,7 +111,7 @@ TEST(MotionGuardTest, WhatNoPlaneStandsForBoundsTheSpeedAsAWhole) {
   PlaneSet planes = *wall(1000);
   planes.planes.clear();
   planes.uncovered = {0.05, 0.0};
-  planes.X_WT = poseAt(0.5);
+  planes.X_WT = along(0.5);
   MotionInputs inputs = inputsAt(1000, 0.5);
   inputs.planes = std::make_shared<const PlaneSet>(planes);
   MotionGuard guard({});
@@ -129,12 +124,12 @@ TEST(MotionGuardTest, AMotionInFlightBringsWhatNoPlaneStandsForNearer) {
   PlaneSet planes = *wall(1000);
   planes.planes.clear();
   planes.uncovered = {0.05, 0.0};
-  planes.X_WT = poseAt(0.5);
+  planes.X_WT = along(0.5);
   MotionInputs inputs = inputsAt(1000, 0.5);
   inputs.planes = std::make_shared<const PlaneSet>(planes);
   MotionGuard guard({});
   MotionCommand command = moving({0.0, 1.0, 0.0}, 1000);
-  command.rest_WT = poseAt(0.48);
+  command.rest_WT = along(0.48);
   EXPECT_NEAR(guard.guard(inputs, command, at(1000)).twist_W.v_W.norm(),
               stoppingSpeed(0.028, {1.0, 0.01, 0.002, 0.101}), 1e-9);
 }
@@ -143,7 +138,7 @@ TEST(MotionGuardTest, WhatNoPlaneStandsForIsNearerSinceThePlanesByTheWayOfTheFar
   PlaneSet planes = *wall(1000);
   planes.planes.clear();
   planes.uncovered = {0.1, 0.0};
-  planes.X_WT = poseAt(0.52);
+  planes.X_WT = along(0.52);
   MotionInputs inputs = inputsAt(1000, 0.5);
   inputs.pose->X_WT.rotate(Eigen::AngleAxisd(0.3, Vector3d::UnitZ()));
   inputs.planes = std::make_shared<const PlaneSet>(planes);
@@ -160,7 +155,7 @@ TEST(MotionGuardTest, WhatNoPlaneStandsForIsAsNearAsTheFarthestPointBringsIt) {
   PlaneSet planes = *wall(1000);
   planes.planes.clear();
   planes.uncovered = {0.05, 0.0};
-  planes.X_WT = poseAt(0.5);
+  planes.X_WT = along(0.5);
   MotionInputs inputs = inputsAt(1000, 0.5);
   inputs.planes = std::make_shared<const PlaneSet>(planes);
   inputs.tool = std::make_shared<const ToolBalls>(ToolBalls{1, {{{Vector3d(0.5, 0.0, 0.0), 0.0}}}});
@@ -184,7 +179,7 @@ TEST(MotionGuardTest, StopsBeforeWhatNoPlaneStandsForHoweverOldTheDistanceIs) {
         PlaneSet planes = *wall(before);
         planes.planes.clear();
         planes.uncovered.distance = path[static_cast<size_t>(before)] - 0.001;
-        planes.X_WT = poseAt(path[static_cast<size_t>(before)]);
+        planes.X_WT = along(path[static_cast<size_t>(before)]);
         MotionInputs inputs = inputsAt(ms, path.back());
         inputs.planes = std::make_shared<const PlaneSet>(planes);
         MotionCommand command = moving({-1.0, 0.0, 0.0}, ms);

@@ -4,6 +4,7 @@
 
 #include <deque>
 
+#include "motion/times.h"
 #include "sweep_guard/motion/velocity_limiter.h"
 
 namespace sweep_guard_core {
@@ -14,16 +15,15 @@ using Eigen::Vector3d;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-SteadyTime at(int ms) { return SteadyTime(milliseconds(ms)); }
-Twist along(double x) { return {{x, 0.0, 0.0}, Vector3d::Zero()}; }
+Twist movingAlong(double x) { return {{x, 0.0, 0.0}, Vector3d::Zero()}; }
 
 TEST(MotionInFlightTest, AddsUpWhatWasSentWithinTheWindow) {
   MotionInFlight in_flight;
-  in_flight.add(along(1.0), at(0));
-  in_flight.add(along(2.0), at(10));
-  in_flight.add(along(4.0), at(20));
+  in_flight.add(movingAlong(1.0), steadyAt(0));
+  in_flight.add(movingAlong(2.0), steadyAt(10));
+  in_flight.add(movingAlong(4.0), steadyAt(20));
   const auto expected = [&](int window_ms) {
-    return in_flight.expectedPose(Isometry3d::Identity(), at(30), milliseconds(window_ms)).translation().x();
+    return in_flight.expectedPose(Isometry3d::Identity(), steadyAt(30), milliseconds(window_ms)).translation().x();
   };
   EXPECT_DOUBLE_EQ(expected(0), 0.0);
   EXPECT_DOUBLE_EQ(expected(10), 0.04);
@@ -33,10 +33,10 @@ TEST(MotionInFlightTest, AddsUpWhatWasSentWithinTheWindow) {
 
 TEST(MotionInFlightTest, TurnsAboutTheOriginOfTheTool) {
   MotionInFlight in_flight;
-  in_flight.add({Vector3d::Zero(), {0.0, 0.0, 1.0}}, at(0));
+  in_flight.add({Vector3d::Zero(), {0.0, 0.0, 1.0}}, steadyAt(0));
   Isometry3d X_WT = Isometry3d::Identity();
   X_WT.translation() = Vector3d(1.0, 2.0, 3.0);
-  const Isometry3d expected = in_flight.expectedPose(X_WT, at(100), milliseconds(100));
+  const Isometry3d expected = in_flight.expectedPose(X_WT, steadyAt(100), milliseconds(100));
   EXPECT_EQ(expected.translation(), X_WT.translation());
   EXPECT_TRUE(expected.linear().isApprox(Eigen::AngleAxisd(0.1, Vector3d::UnitZ()).toRotationMatrix(), 1e-12));
 }
@@ -44,26 +44,27 @@ TEST(MotionInFlightTest, TurnsAboutTheOriginOfTheTool) {
 TEST(MotionInFlightTest, ForgetsTheOldest) {
   MotionInFlight in_flight;
   const int count = static_cast<int>(MotionInFlight::kCapacity) + 10;
-  for (int i = 0; i < count; ++i) in_flight.add(along(1.0), at(i));
+  for (int i = 0; i < count; ++i) in_flight.add(movingAlong(1.0), steadyAt(i));
   const double moved =
-      in_flight.expectedPose(Isometry3d::Identity(), at(count), milliseconds(1 << 20)).translation().x();
+      in_flight.expectedPose(Isometry3d::Identity(), steadyAt(count), milliseconds(1 << 20)).translation().x();
   EXPECT_NEAR(moved, 1e-3 * static_cast<double>(MotionInFlight::kCapacity), 1e-12);
   in_flight.clear();
-  EXPECT_TRUE(
-      in_flight.expectedPose(Isometry3d::Identity(), at(count), milliseconds(100)).isApprox(Isometry3d::Identity()));
+  EXPECT_TRUE(in_flight.expectedPose(Isometry3d::Identity(), steadyAt(count), milliseconds(100))
+                  .isApprox(Isometry3d::Identity()));
 }
 
 TEST(MotionInFlightTest, RemembersOneSecondAtAnyRate) {
   MotionInFlight in_flight;
-  for (int i = 0; i < 20'000; ++i) in_flight.add(along(i % 2 == 0 ? 1.5 : 0.5), at(0) + i * microseconds(50));
-  const Isometry3d expected = in_flight.expectedPose(Isometry3d::Identity(), at(1000), milliseconds(1000));
+  for (int i = 0; i < 20'000; ++i)
+    in_flight.add(movingAlong(i % 2 == 0 ? 1.5 : 0.5), steadyAt(0) + i * microseconds(50));
+  const Isometry3d expected = in_flight.expectedPose(Isometry3d::Identity(), steadyAt(1000), milliseconds(1000));
   EXPECT_NEAR(expected.translation().x(), 1.0, 1e-3);
 }
 
 TEST(MotionInFlightTest, VelocitiesAtTheSameMomentDoNotAddUp) {
   MotionInFlight in_flight;
-  for (int i = 0; i < 5; ++i) in_flight.add(along(1.0 + i), at(0));
-  const Isometry3d expected = in_flight.expectedPose(Isometry3d::Identity(), at(10), milliseconds(100));
+  for (int i = 0; i < 5; ++i) in_flight.add(movingAlong(1.0 + i), steadyAt(0));
+  const Isometry3d expected = in_flight.expectedPose(Isometry3d::Identity(), steadyAt(10), milliseconds(100));
   EXPECT_NEAR(expected.translation().x(), 0.05, 1e-12);
 }
 
@@ -120,9 +121,9 @@ double nearest(double x, const Delays& delays, double deceleration, bool count_i
       std::vector<FacingBall> facing;
       addFacingBalls(wall, {{Vector3d::Zero(), 0.0}}, X_WT, facing);
       if (count_in_flight)
-        addFacingBalls(wall, {{Vector3d::Zero(), 0.0}}, in_flight.expectedPose(X_WT, at(ms), window), facing);
-      output = limiter.limit(along(-1.0), facing, {}, limits);
-      in_flight.add(output, at(ms));
+        addFacingBalls(wall, {{Vector3d::Zero(), 0.0}}, in_flight.expectedPose(X_WT, steadyAt(ms), window), facing);
+      output = limiter.limit(movingAlong(-1.0), facing, {}, limits);
+      in_flight.add(output, steadyAt(ms));
     }
     robot.step(output.v_W.x());
     least = std::min(least, robot.x());

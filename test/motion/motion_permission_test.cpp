@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 
+#include "motion/times.h"
 #include "sweep_guard/monitor/reason.h"
 
 namespace sweep_guard_core {
@@ -11,17 +12,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Duration kStart = std::chrono::seconds(100);
-
-constexpr Instant at(int ms) { return {Time(kStart + milliseconds(ms)), SteadyTime(kStart + milliseconds(ms))}; }
-constexpr Timestamps received(int ms) { return {at(ms).stamp, at(ms).steady}; }
-
 // At 1000 ms, all inputs are 10 ms old and the level is CLEAR.
 class MotionPermissionTest : public testing::Test {
  protected:
   MotionPermissionTest() {
     inputs_.command = received(990);
-    inputs_.warning = PermissionInputs::ReceivedWarning{WarningLevel::kClear, 0, at(990).steady};
+    inputs_.warning = PermissionInputs::GuardWarning{WarningLevel::kClear, 0, at(990).steady};
     inputs_.planes = PermissionInputs::Planes{received(990), at(1140).stamp};
     inputs_.pose = received(990);
   }

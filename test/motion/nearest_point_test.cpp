@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector4d;
 
-constexpr double kTolerance = 1e-9;      // in units of the target
-constexpr double kMaxRounding = 1.5e-6;  // where normals are nearly dependent
+constexpr double kPointTolerance = 1e-9;  // in units of the target
+constexpr double kMaxRounding = 1.5e-6;   // where normals are nearly dependent
 
 Vector4d unit(RandomScenes& random) {
   return Vector4d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))
@@ -70,10 +70,11 @@ TEST(NearestPointTest, FulfillsTheConditionsOfOptimality) {
     ++active[nearest->active.size()];
     const double error = optimalityError(target, half_spaces, *nearest);
     ASSERT_LT(error, kMaxRounding) << "case " << i;
-    inexact += error < kTolerance ? 0 : 1;
+    inexact += error < kPointTolerance ? 0 : 1;
     worst = std::max(worst, error);
   }
-  std::printf("%" PRIu64 " cases, largest error %.2g, %" PRIu64 " above %.0e\n", cases, worst, inexact, kTolerance);
+  std::printf("%" PRIu64 " cases, largest error %.2g, %" PRIu64 " above %.0e\n", cases, worst, inexact,
+              kPointTolerance);
   EXPECT_LE(inexact, cases / 10000);
   for (const std::uint64_t count : active) EXPECT_GT(count, cases / 1000);
 }

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "allocations.h"
+#include "common/floating_point.h"
 #include "motion/random_scenes.h"
 #include "scenes.h"
 #include "sweep_guard/geometry/separation.h"
@@ -22,7 +23,6 @@ using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 using namespace std::chrono_literals;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const std::string kFrame = "mesh";
 
 std::shared_ptr<const Workpiece> workpieceOf(const TriangleMesh& mesh_M, const std::string& id = "liver") {
@@ -42,8 +42,6 @@ PoseWithFrames poseAt(const Isometry3d& X_WT, Time stamp = Time(100s),
                       const Isometry3d& X_WM = Isometry3d::Identity()) {
   return {stamp, SteadyTime(100s), X_WT, {{kFrame, X_WM}}};
 }
-
-Isometry3d at(double x, double y, double z) { return Isometry3d(Eigen::Translation3d(x, y, z)); }
 
 // A square of side 0.2 m in z = 0, of 2 * cells^2 triangles.
 TriangleMesh square(std::uint32_t cells, const Eigen::Matrix3d& R_MS = Eigen::Matrix3d::Identity()) {
@@ -303,18 +301,18 @@ TEST(ProximityFinderTest, WhatIsBeyondTheReachBoundsTheSpeedAsAWhole) {
   const Tool tool(ConvexShape::sphere(0.01));
   ProximityFinder finder;
   Proximity found;
-  finder.find({tool, poseAt(at(0.0, 0.0, 0.1101)), {workpiece}, 0.1}, found);
+  finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.1101)), {workpiece}, 0.1}, found);
   EXPECT_TRUE(found.planes.empty());
   EXPECT_LE(found.uncovered.distance, 0.1001);
   EXPECT_GE(found.uncovered.distance, 0.1);
-  finder.find({tool, poseAt(at(0.0, 0.0, 0.1099)), {workpiece}, 0.1}, found);
+  finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.1099)), {workpiece}, 0.1}, found);
   EXPECT_EQ(found.planes.size(), 1U);
 }
 
 TEST(ProximityFinderTest, WithoutWorkpieceThereIsNothing) {
   ProximityFinder finder;
   Proximity found;
-  finder.find({Tool(ConvexShape::sphere(0.01)), poseAt(at(0.0, 0.0, 0.0)), {}, 0.1}, found);
+  finder.find({Tool(ConvexShape::sphere(0.01)), poseAt(placedAt(0.0, 0.0, 0.0)), {}, 0.1}, found);
   EXPECT_TRUE(found.planes.empty());
   EXPECT_EQ(found.uncovered.distance, kInfinity);
 }
@@ -323,7 +321,7 @@ TEST(ProximityFinderTest, AWorkpieceWithoutItsFrameIsNamed) {
   ProximityFinder finder;
   Proximity found;
   const auto workpiece = workpieceOf(square(2));
-  finder.find({Tool(ConvexShape::sphere(0.01)), {Time(1s), {}, at(0.0, 0.0, 0.02), {}}, {workpiece}, 0.1}, found);
+  finder.find({Tool(ConvexShape::sphere(0.01)), {Time(1s), {}, placedAt(0.0, 0.0, 0.02), {}}, {workpiece}, 0.1}, found);
   ASSERT_EQ(found.unplaced.size(), 1U);
   EXPECT_EQ(found.unplaced[0], workpiece);
 }
@@ -338,7 +336,7 @@ TEST(ProximityFinderTest, TheSpeedIsThatOfTheTwoLatestDeformationsUntilTheNext) 
   ProximityFinder finder;
   Proximity found;
   const auto speed = [&](const auto& workpiece) {
-    finder.find({tool, poseAt(at(0.0, 0.0, 0.05)), {workpiece}, 0.1}, found);
+    finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.05)), {workpiece}, 0.1}, found);
     return found.planes.at(0).plane.surface_speed;
   };
   EXPECT_EQ(speed(first), 0.0);
@@ -358,8 +356,8 @@ TEST(ProximityFinderTest, APartThatMovesElsewhereDoesNotQuickenAPlane) {
   const Tool tool(ConvexShape::sphere(0.01));
   ProximityFinder finder;
   Proximity found;
-  finder.find({tool, poseAt(at(-0.05, 0.0, 0.02)), {first}, 0.05}, found);
-  finder.find({tool, poseAt(at(-0.05, 0.0, 0.02)), {second}, 0.05}, found);
+  finder.find({tool, poseAt(placedAt(-0.05, 0.0, 0.02)), {first}, 0.05}, found);
+  finder.find({tool, poseAt(placedAt(-0.05, 0.0, 0.02)), {second}, 0.05}, found);
   ASSERT_FALSE(found.planes.empty());
   EXPECT_NEAR(found.planes[0].plane.surface_speed, 0.0, 1e-6);
 }
@@ -367,12 +365,12 @@ TEST(ProximityFinderTest, APartThatMovesElsewhereDoesNotQuickenAPlane) {
 // A drill through a sheet, also off the perpendicular.
 TEST(ProximityFinderTest, FromAContactTheToolCanRetreat) {
   const auto workpiece = workpieceOf(square(100));
-  const Tool tool(ConvexShape::cylinder(0.002, 0.05).placed(at(0.0, 0.0, 0.05)));
+  const Tool tool(ConvexShape::cylinder(0.002, 0.05).placed(placedAt(0.0, 0.0, 0.05)));
   ProximityFinder finder;
   Proximity found;
   Random random(3);
   for (int i = 0; i < 200; ++i) {
-    Isometry3d X_WT = at(random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), -random.uniform(1e-5, 0.01));
+    Isometry3d X_WT = placedAt(random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), -random.uniform(1e-5, 0.01));
     X_WT.rotate(Eigen::AngleAxisd(random.uniform(0.0, 0.5), Vector3d::UnitX()));
     finder.find({tool, poseAt(X_WT), {workpiece}, 0.1}, found);
     ASSERT_FALSE(found.planes.empty());
@@ -390,10 +388,10 @@ TEST(ProximityFinderTest, APlaneInContactDoesNotStandForWhatTheToolMayStillMeet)
   std::vector<Vector3d> vertices = {{-0.1, -0.1, 0.0}, {0.1, -0.1, 0.0}, {0.0, 0.1, 0.0}};
   for (size_t i = 0; i < 3; ++i) vertices.emplace_back(vertices[i] - Vector3d(0.0, 0.0, 0.02));
   const auto workpiece = workpieceOf(TriangleMesh(vertices, {{0, 1, 2}, {3, 4, 5}}));
-  const Tool tool(ConvexShape::cylinder(0.002, 0.05).placed(at(0.0, 0.0, 0.05)));
+  const Tool tool(ConvexShape::cylinder(0.002, 0.05).placed(placedAt(0.0, 0.0, 0.05)));
   ProximityFinder finder;
   Proximity found;
-  finder.find({tool, poseAt(at(0.0, 0.0, -0.01)), {workpiece}, 0.1}, found);
+  finder.find({tool, poseAt(placedAt(0.0, 0.0, -0.01)), {workpiece}, 0.1}, found);
   ASSERT_EQ(found.planes.size(), 2U);
   EXPECT_NEAR(found.planes[0].plane.gap, -0.01, 1e-6);
   EXPECT_EQ(found.planes[1].triangle, 1U);
@@ -412,7 +410,7 @@ TEST(ProximityFinderTest, AContactKeepsTheNormalOfTheSweep) {
   }
   ProximityFinder finder;
   Proximity found;
-  const PoseWithFrames pose = poseAt(at(0.0, 0.0, -0.002));
+  const PoseWithFrames pose = poseAt(placedAt(0.0, 0.0, -0.002));
   finder.find({tool, pose, {workpiece}, 0.1, &report}, found);
   ASSERT_FALSE(found.planes.empty());
   EXPECT_NEAR(found.planes[0].plane.normal_W.dot(first_touched), 1.0, 1e-12);
@@ -425,9 +423,9 @@ TEST(ProximityFinderTest, ResetForgetsSpeeds) {
   const Tool tool(ConvexShape::sphere(0.01));
   ProximityFinder finder;
   Proximity found;
-  finder.find({tool, poseAt(at(0.0, 0.0, 0.05)), {first}, 0.1}, found);
+  finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.05)), {first}, 0.1}, found);
   finder.reset();
-  finder.find({tool, poseAt(at(0.0, 0.0, 0.05)), {updated(*first, raised, 20ms)}, 0.1}, found);
+  finder.find({tool, poseAt(placedAt(0.0, 0.0, 0.05)), {updated(*first, raised, 20ms)}, 0.1}, found);
   EXPECT_EQ(found.planes.at(0).plane.surface_speed, 0.0);
 }
 
@@ -441,7 +439,7 @@ TEST(ProximityFinderTest, AllocatesNothing) {
   const Workpieces first = {one};
   const Workpieces second = {two};
   std::vector<PoseWithFrames> poses;
-  for (int i = 0; i < 50; ++i) poses.push_back(poseAt(at(0.06 + 0.002 * i, 0.01, 0.0), Time(100s + i * 10ms)));
+  for (int i = 0; i < 50; ++i) poses.push_back(poseAt(placedAt(0.06 + 0.002 * i, 0.01, 0.0), Time(100s + i * 10ms)));
   const auto run = [&] {
     for (size_t i = 0; i < poses.size(); ++i) finder.find({tool, poses[i], i % 2 == 0 ? first : second, 0.1}, found);
   };
@@ -476,7 +474,7 @@ class IntendedProximityTest : public ::testing::Test {
   }
 
   // With the tip at a height above the plate.
-  Proximity at(double height, double x = 0.0) {
+  Proximity placedAt(double height, double x = 0.0) {
     Isometry3d X_WT(Eigen::AngleAxisd(M_PI, Vector3d::UnitX()));
     X_WT.translation() = Vector3d(x, 0.0, height);
     Proximity found;
@@ -502,22 +500,22 @@ class IntendedProximityTest : public ::testing::Test {
 };
 
 TEST_F(IntendedProximityTest, TheBitMayComeDownToTheDepth) {
-  EXPECT_NEAR(nearestBelow(at(0.01)), 0.015, 0.05 * 0.015 + 1e-5);
-  EXPECT_NEAR(nearestBelow(at(0.001)), 0.006, 0.05 * 0.006 + 1e-5);
-  const Proximity inside = at(-0.003);
+  EXPECT_NEAR(nearestBelow(placedAt(0.01)), 0.015, 0.05 * 0.015 + 1e-5);
+  EXPECT_NEAR(nearestBelow(placedAt(0.001)), 0.006, 0.05 * 0.006 + 1e-5);
+  const Proximity inside = placedAt(-0.003);
   EXPECT_NEAR(nearestBelow(inside), 0.002, 0.05 * 0.002 + 1e-5);
   for (const ProximityPlane& each : inside.planes) EXPECT_GT(each.plane.gap, 0.0);
 }
 
 TEST_F(IntendedProximityTest, DeeperThanAllowedIsAContact) {
-  const Proximity found = at(-0.006);
+  const Proximity found = placedAt(-0.006);
   ASSERT_FALSE(found.planes.empty());
   EXPECT_TRUE(found.planes[0].contact);
   EXPECT_LT(found.planes[0].plane.gap, 0.0);
 }
 
 TEST_F(IntendedProximityTest, TheShaftIsHeldBackByTheSurface) {
-  const Proximity found = at(-0.003);
+  const Proximity found = placedAt(-0.003);
   const auto of_shaft = [](const ProximityPlane& each) { return each.plane.piece == 1; };
   const auto shaft = std::find_if(found.planes.begin(), found.planes.end(), of_shaft);
   ASSERT_NE(shaft, found.planes.end());
@@ -525,14 +523,14 @@ TEST_F(IntendedProximityTest, TheShaftIsHeldBackByTheSurface) {
 }
 
 TEST_F(IntendedProximityTest, BesideTheRegionTheSurfaceCounts) {
-  const Proximity found = at(0.001, 0.02);
+  const Proximity found = placedAt(0.001, 0.02);
   ASSERT_FALSE(found.planes.empty());
   EXPECT_NEAR(found.planes[0].plane.gap, 0.001, 6e-5);
   EXPECT_GT(found.planes[0].plane.normal_W.z(), 0.9);
 }
 
 TEST_F(IntendedProximityTest, InTheHoleItsRimIsNear) {
-  const Proximity found = at(-0.003, 0.01);
+  const Proximity found = placedAt(-0.003, 0.01);
   double nearest = kInfinity;
   for (const ProximityPlane& each : found.planes) {
     if (each.plane.piece == 0 && each.plane.normal_W.x() < -0.7) nearest = std::min(nearest, each.plane.gap);
@@ -542,11 +540,11 @@ TEST_F(IntendedProximityTest, InTheHoleItsRimIsNear) {
 }
 
 TEST_F(IntendedProximityTest, ARegionOfAnotherMeshChangesNothing) {
-  const Proximity meant = at(0.001);
+  const Proximity meant = placedAt(0.001);
   intentions_[0].mesh_id = "other";
-  const Proximity other = at(0.001);
+  const Proximity other = placedAt(0.001);
   intentions_.clear();
-  const Proximity nothing = at(0.001);
+  const Proximity nothing = placedAt(0.001);
   EXPECT_NE(meant.planes[0].plane.gap, nothing.planes[0].plane.gap);
   ASSERT_EQ(other.planes.size(), nothing.planes.size());
   for (size_t i = 0; i < other.planes.size(); ++i) {

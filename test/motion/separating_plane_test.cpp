@@ -15,7 +15,7 @@ double support(const std::vector<ToolBall>& balls, const Vector3d& direction) {
   return most;
 }
 
-Eigen::Isometry3d pose(RandomScenes& random) {
+Eigen::Isometry3d poseOf(RandomScenes& random) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.linear() = Eigen::AngleAxisd(random.uniform(0.0, 3.0), random.direction()).toRotationMatrix();
   X.translation() = random.direction();
@@ -28,7 +28,7 @@ TEST(EnclosingBallsTest, ContainTheBodyAndLittleMore) {
   for (int i = 0; i < 30; ++i) points.push_back(random.uniform(0.0, 0.1) * random.direction());
   for (const ConvexShape& shape : {ConvexShape::cylinder(0.02, 0.1), ConvexShape::sphere(0.03),
                                    ConvexShape::box({0.01, 0.02, 0.03}), ConvexShape::hull(points)}) {
-    const ConvexShape placed = shape.padded(0.003).placed(pose(random));
+    const ConvexShape placed = shape.padded(0.003).placed(poseOf(random));
     const auto balls = enclosingBalls(placed);
     for (int i = 0; i < 1000; ++i) {
       const Vector3d direction = random.direction();

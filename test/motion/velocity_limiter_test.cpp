@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "allocations.h"
+#include "common/floating_point.h"
+#include "motion/floor.h"
 #include "motion/random_scenes.h"
 #include "refusal.h"
 
@@ -13,15 +15,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1.6e-6;  // in speeds of the fastest tool point
 
-const BrakingLimits kLimits{/*deceleration=*/1.0, /*reaction_time=*/0.1, /*standoff=*/0.0, /*tool_radius=*/0.1};
 const FacingBall kFloor{Vector3d::UnitZ(), Vector3d::Zero(), 0.04, 0.0};
-
-FacingBall floorAt(double gap, const Vector3d& center_W = Vector3d::Zero(), double surface_speed = 0.0) {
-  return {Vector3d::UnitZ(), center_W, gap, surface_speed};
-}
 
 Twist limit(const MotionScene& scene) {
   return VelocityLimiter(scene.facing.size()).limit(scene.command_W, scene.facing, scene.uncovered, scene.limits);
@@ -31,7 +27,6 @@ Twist limit(const Twist& command_W, const std::vector<FacingBall>& facing, const
   return limit(MotionScene{command_W, facing, {}, limits});
 }
 
-bool isZero(const Twist& twist_W) { return twist_W.v_W.isZero(0.0) && twist_W.w_W.isZero(0.0); }
 bool isEqual(const Twist& a, const Twist& b) { return a.v_W == b.v_W && a.w_W == b.w_W; }
 
 double distance(const Twist& a, const Twist& b, double radius) {

@@ -8,7 +8,7 @@ namespace sweep_guard_core {
 namespace {
 
 // Goes at 0.1 m/s along x and turns at 4 rad/s about z.
-StampedPose poseAt(double seconds) {
+StampedPose screwAt(double seconds) {
   StampedPose pose;
   pose.stamp = Time(fromSeconds(seconds));
   pose.X_WT =
@@ -24,7 +24,7 @@ struct Target {
 
 std::vector<Target> addPose(DelayedTargets<PoseSpace, double>& targets, double seconds) {
   std::vector<Target> given;
-  targets.add(poseAt(seconds), seconds, [&](double known, size_t i, const Vector6d& moved) {
+  targets.add(screwAt(seconds), seconds, [&](double known, size_t i, const Vector6d& moved) {
     given.push_back({known, i, moved});
   });
   return given;
@@ -44,7 +44,7 @@ TEST(DelayedTargetsTest, GivesTheDisplacementForEveryPoseAndHorizon) {
   for (const double ahead : kLearnedHorizons) expected += kPoses - static_cast<size_t>(std::ceil(ahead / kPeriod));
   EXPECT_EQ(given.size(), expected);
   for (const Target& one : given) {
-    const Vector6d truth = displacement(poseAt(one.known).X_WT, poseAt(one.known + kLearnedHorizons[one.i]).X_WT);
+    const Vector6d truth = displacement(screwAt(one.known).X_WT, screwAt(one.known + kLearnedHorizons[one.i]).X_WT);
     EXPECT_LT((one.moved - truth).norm(), 1e-9) << kLearnedHorizons[one.i] << " s after " << one.known << " s";
   }
 }
@@ -62,13 +62,13 @@ TEST(DelayedTargetsTest, GivesNothingAcrossAnInterruption) {
 TEST(DelayedTargetsTest, UsesTheCorrectedNewestPose) {
   DelayedTargets<PoseSpace, double> targets;
   addPose(targets, 50.0);
-  StampedPose right = poseAt(50.0);
+  StampedPose right = screwAt(50.0);
   right.X_WT.translation().x() += 1.0;
   targets.correctNewest(right, 7.0);
   const auto given = addPose(targets, 52.0);
   ASSERT_EQ(given.size(), kLearnedHorizons.size());
   EXPECT_EQ(given[7].known, 7.0);
-  EXPECT_NEAR(given[7].moved[0], 0.5 * (poseAt(52.0).X_WT.translation().x() - right.X_WT.translation().x()), 1e-12);
+  EXPECT_NEAR(given[7].moved[0], 0.5 * (screwAt(52.0).X_WT.translation().x() - right.X_WT.translation().x()), 1e-12);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "prediction/predictors.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 
@@ -13,22 +14,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-const std::vector<Duration> kAhead = {milliseconds(10),  milliseconds(50),  milliseconds(100),
-                                      milliseconds(200), milliseconds(500), milliseconds(1000)};
-
 using PositionsAt = std::function<std::vector<double>(double)>;
 
-PredictorOptions optionsOf(const std::string& name) {
-  PredictorOptions options;
-  options.predictor = name;
-  return options;
-}
-
 void observe(JointPredictor& predictor, double seconds, const std::vector<double>& positions) {
-  predictor.observe(Time(fromSeconds(1000.0 + seconds)), positions);
+  predictor.observe(at(seconds), positions);
 }
 
-void follow(JointPredictor& predictor, const PositionsAt& truth, double from, double until) {
+void followJoints(JointPredictor& predictor, const PositionsAt& truth, double from, double until) {
   for (int i = 0; from + 0.01 * i <= until + 1e-9; ++i) observe(predictor, from + 0.01 * i, truth(from + 0.01 * i));
 }
 
@@ -47,7 +39,7 @@ TEST(JointPredictorTest, ConstantSpeedIsPredictedExactlyByAllThatMove) {
   for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
     JointPredictor predictor(optionsOf(name), kBoth);
     for (const double until : {0.5, 20.0}) {
-      follow(predictor, steady, until == 0.5 ? 0.0 : 0.51, until);
+      followJoints(predictor, steady, until == 0.5 ? 0.0 : 0.51, until);
       for (const Duration ahead : kAhead) {
         const std::vector<double> positions = predicted(predictor, ahead).positions;
         const std::vector<double> truth = steady(until + toSeconds(ahead));
@@ -63,13 +55,13 @@ TEST(JointPredictorTest, TheLargestDegreeIsThatOfEachJoint) {
   options.degree = {1, 1, 1, 1, 2, 0};
   JointPredictor predictor(options, {{}});
   const auto parabola = [](double t) { return std::vector<double>{0.2 * t - 0.1 * t * t}; };
-  follow(predictor, parabola, 0.0, 1.0);
+  followJoints(predictor, parabola, 0.0, 1.0);
   EXPECT_NEAR(predicted(predictor, milliseconds(500)).positions[0], parabola(1.5)[0], 1e-9);
 }
 
 TEST(JointPredictorTest, HoldStaysAndDoubtsIt) {
   JointPredictor predictor(optionsOf("hold"), kBoth);
-  follow(predictor, steady, 0.0, 5.0);
+  followJoints(predictor, steady, 0.0, 5.0);
   const PredictedJoints joints = predicted(predictor, milliseconds(500));
   EXPECT_EQ(joints.positions, steady(5.0));
   EXPECT_NEAR(std::sqrt(joints.variances[0]), 0.4, 0.1) << "half a second at 0.8 rad/s";
@@ -78,7 +70,7 @@ TEST(JointPredictorTest, HoldStaysAndDoubtsIt) {
 TEST(JointPredictorTest, AJointStopsAtItsLimits) {
   for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
     JointPredictor predictor(optionsOf(name), {{true, false, -1.0, 1.0}, {false, false, 0.0, 0.2}});
-    follow(
+    followJoints(
         predictor,
         [](double t) {
           return std::vector<double>{0.5 + 0.4 * t, 0.15 - 0.1 * t};
@@ -93,11 +85,11 @@ TEST(JointPredictorTest, AJointStopsAtItsLimits) {
 // A limit of the description that the joint does not keep.
 TEST(JointPredictorTest, AJointBeyondALimitGoesNoFartherButMayReturn) {
   JointPredictor out(optionsOf("constant_velocity"), {{true, false, -1.0, 1.0}});
-  follow(
+  followJoints(
       out, [](double t) { return std::vector<double>{1.2 + 0.4 * t}; }, 0.0, 0.5);
   EXPECT_EQ(predicted(out, milliseconds(500)).positions[0], 1.2 + 0.4 * 0.5);
   JointPredictor back(optionsOf("constant_velocity"), {{true, false, -1.0, 1.0}});
-  follow(
+  followJoints(
       back, [](double t) { return std::vector<double>{1.4 - 0.4 * t}; }, 0.0, 0.5);
   EXPECT_NEAR(predicted(back, milliseconds(500)).positions[0], 1.0, 1e-9);
 }
@@ -106,7 +98,7 @@ TEST(JointPredictorTest, AContinuousJointGoesOnWhereItsPositionsWrap) {
   const auto turning = [](double t) { return std::vector<double>{std::remainder(3.0 * t, 2.0 * M_PI)}; };
   for (const char* name : {"constant_velocity", "polynomial", "direct"}) {
     JointPredictor predictor(optionsOf(name), {{true, /*continuous=*/true}});
-    follow(predictor, turning, 0.0, 0.3);
+    followJoints(predictor, turning, 0.0, 0.3);
     for (int i = 31; i < 500; ++i) {
       observe(predictor, 0.01 * i, turning(0.01 * i));
       const double position = predicted(predictor, milliseconds(500)).positions[0];
@@ -129,14 +121,14 @@ TEST(JointPredictorTest, BeginsAnewAfterAGapAJumpOrARestart) {
     EXPECT_FALSE(predictor.knowsMotion());
     observe(predictor, 0.0, steady(0.0));
     EXPECT_FALSE(predictor.knowsMotion());
-    follow(predictor, steady, 0.01, 1.0);
+    followJoints(predictor, steady, 0.01, 1.0);
     EXPECT_TRUE(predictor.knowsMotion());
     observe(predictor, 3.0, steady(3.0));
     EXPECT_FALSE(predictor.knowsMotion()) << name << ": a gap of 2 s";
-    follow(predictor, steady, 3.01, 3.1);
+    followJoints(predictor, steady, 3.01, 3.1);
     observe(predictor, 3.11, {steady(3.11)[0], 0.3});
     EXPECT_FALSE(predictor.knowsMotion()) << name << ": one joint jumped by 0.14 m";
-    follow(predictor, steady, 3.12, 3.2);
+    followJoints(predictor, steady, 3.12, 3.2);
     predictor.restart();
     observe(predictor, 0.0, steady(0.0));
     EXPECT_FALSE(predictor.knowsMotion()) << name << ": restarted";
@@ -151,7 +143,7 @@ TEST(JointPredictorTest, IsNeverFasterThanTheLimits) {
     options.degree = {3, 3, 3, 3, 3, 3};
     JointPredictor predictor(options, kBoth);
     const auto rush = [](double t) { return std::vector<double>{1.5 * t * t, 0.4 * t * t}; };
-    follow(predictor, rush, 0.0, 0.6);
+    followJoints(predictor, rush, 0.0, 0.6);
     for (const Duration ahead : kAhead) {
       const std::vector<double> positions = predicted(predictor, ahead).positions;
       EXPECT_LE(std::abs(positions[0] - rush(0.6)[0]), 2.0 * toSeconds(ahead) + 1e-12) << name;
@@ -170,7 +162,7 @@ TEST(JointPredictorTest, ItsVariancesMatchItsErrors) {
   const PositionsAt sway = [&](double t) { return std::vector<double>{wave(t), 0.1 * wave(t + 100.0)}; };
   for (const std::string& name : predictorNames()) {
     JointPredictor predictor(optionsOf(name), kBoth);
-    follow(predictor, sway, 0.0, 30.0);
+    followJoints(predictor, sway, 0.0, 30.0);
     double errors[] = {0.0, 0.0};
     double expected[] = {0.0, 0.0};
     for (int i = 3001; i < 6000; ++i) {
@@ -190,7 +182,7 @@ TEST(JointPredictorTest, ItsVariancesMatchItsErrors) {
 
 TEST(JointPredictorTest, AJointThatNeverMovedIsNotInDoubt) {
   JointPredictor predictor(optionsOf("direct"), kBoth);
-  follow(
+  followJoints(
       predictor,
       [](double t) {
         return std::vector<double>{std::sin(t), 0.1};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "prediction/predictors.h"
 #include "sweep_guard/common/stamped_pose.h"
 
 namespace sweep_guard_core {
@@ -13,8 +14,6 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr Duration kWindow = milliseconds(300);
-
-Time at(double seconds) { return Time(fromSeconds(1000.0 + seconds)); }
 
 // Value i is a polynomial of degree i in time, in [m].
 Vector6d staircase(double t) {

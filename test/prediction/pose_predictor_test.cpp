@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "prediction/motion_space.h"
+#include "prediction/predictors.h"
 #include "scenes.h"
 #include "sweep_guard/common/error.h"
 
@@ -20,18 +21,7 @@ PredictedPath pathOf(const PosePredictor& predictor, const std::vector<Duration>
 
 using std::chrono::milliseconds;
 
-const std::vector<Duration> kAhead = {milliseconds(10),  milliseconds(50),  milliseconds(100),
-                                      milliseconds(200), milliseconds(500), milliseconds(1000)};
-
-Time at(double seconds) { return Time(fromSeconds(1000.0 + seconds)); }
-
 using PoseAt = std::function<Eigen::Isometry3d(double)>;
-
-PredictorOptions optionsOf(const std::string& name) {
-  PredictorOptions options;
-  options.predictor = name;
-  return options;
-}
 
 PosePredictor predictorOf(const std::string& name) { return PosePredictor(optionsOf(name)); }
 

@@ -29,8 +29,6 @@ constexpr double kMaxGrowth = 64.0;   // [MB]
 constexpr double kMaxRecovery = 1.2;  // [s]
 constexpr size_t kMaxLines = 20;
 constexpr double kMaxMemory = 4096.0;  // [MB] limits/memory
-const Eigen::Vector3d kAway(0, 0, 0.5);
-const Eigen::Vector3d kSquare(0, 0, -1);
 
 GuardProbe& probe() {
   static GuardProbe probe(/*drives_clock=*/false);
@@ -142,10 +140,6 @@ void connectAndLeave(int i) {
     static_cast<void>(send(socket, "no", 2, MSG_NOSIGNAL));
   }
   close(socket);
-}
-
-double secondsSince(SteadyClock::time_point begin) {
-  return std::chrono::duration<double>(SteadyClock::now() - begin).count();
 }
 
 class FloodTest : public ::testing::TestWithParam<Flood> {

@@ -27,6 +27,13 @@
 
 namespace sweep_guard_ros {
 
+inline const Eigen::Vector3d kAway(0, 0, 0.5);  ///< where the tool meets nothing [m]
+inline const Eigen::Vector3d kSquare(0, 0, -1);
+
+inline double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 /// Where the guard is configured to take the tool's pose from.
 enum class PoseSource { kTopic, kTf };
 

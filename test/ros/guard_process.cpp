@@ -24,8 +24,8 @@ double statusMegabytes(pid_t pid, const std::string& key) {
   return 0.0;
 }
 
-bool ask(const std::string& node, const char* method, const XmlRpc::XmlRpcValue& request,
-         XmlRpc::XmlRpcValue& response) {
+bool askNode(const std::string& node, const char* method, const XmlRpc::XmlRpcValue& request,
+             XmlRpc::XmlRpcValue& response) {
   XmlRpc::XmlRpcValue lookup;
   lookup[0] = "sweep_guard_test";
   lookup[1] = node;
@@ -56,7 +56,7 @@ pid_t pidOf(const std::string& node) {
   XmlRpc::XmlRpcValue request;
   request[0] = "sweep_guard_test";
   XmlRpc::XmlRpcValue response;
-  return ask(node, "getPid", request, response) ? static_cast<int>(response[2]) : 0;
+  return askNode(node, "getPid", request, response) ? static_cast<int>(response[2]) : 0;
 }
 
 std::uint16_t guardPort() {
@@ -65,7 +65,8 @@ std::uint16_t guardPort() {
   request[1] = "/sweep_guard/warning";
   request[2][0][0] = "TCPROS";
   XmlRpc::XmlRpcValue response;
-  if (!ask("/sweep_guard", "requestTopic", request, response)) throw std::runtime_error("the guard does not answer");
+  if (!askNode("/sweep_guard", "requestTopic", request, response))
+    throw std::runtime_error("the guard does not answer");
   return static_cast<std::uint16_t>(static_cast<int>(response[2][2]));
 }
 

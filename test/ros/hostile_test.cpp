@@ -28,19 +28,13 @@ using sweep_guard::MeshVertices;
 using sweep_guard::Warning;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr double kMaxGrowth = 64.0;      // [MB]
-constexpr size_t kMaxText = 1000;        // characters
-const Eigen::Vector3d kAway(0, 0, 0.5);  // where the tool meets nothing
-const Eigen::Vector3d kSquare(0, 0, -1);
+constexpr double kMaxGrowth = 64.0;  // [MB]
+constexpr size_t kMaxText = 1000;    // characters
 
 // Comes before the probe's own publisher, which would number the poses.
 ros::Publisher& rawPoses() {
   static ros::Publisher publisher = ros::NodeHandle().advertise<Raw<geometry_msgs::PoseStamped>>("tool_pose", 10000);
   return publisher;
-}
-
-double secondsSince(SteadyClock::time_point begin) {
-  return std::chrono::duration<double>(SteadyClock::now() - begin).count();
 }
 
 bool printableText(const std::string& text) {

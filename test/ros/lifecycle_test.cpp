@@ -24,12 +24,6 @@ using SteadyClock = std::chrono::steady_clock;
 using XmlRpc::XmlRpcValue;
 
 constexpr double kLongestEnd = 1.0;  // [s]
-const Eigen::Vector3d kAway(0, 0, 0.5);
-const Eigen::Vector3d kSquare(0, 0, -1);
-
-double secondsSince(SteadyClock::time_point begin) {
-  return std::chrono::duration<double>(SteadyClock::now() - begin).count();
-}
 
 bool isFinal(const Warning& warning) {
   return warning.level == Warning::UNKNOWN && !warning.clear && warning.reflex &&

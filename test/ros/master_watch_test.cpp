@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "child_process.h"
+#include "guard_probe.h"
 #include "guard_process.h"
 
 namespace sweep_guard_ros {
@@ -18,10 +19,6 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 using XmlRpc::XmlRpcValue;
-
-double secondsSince(SteadyClock::time_point begin) {
-  return std::chrono::duration<double>(SteadyClock::now() - begin).count();
-}
 
 std::string freePort() {
   XmlRpc::XmlRpcServer server;

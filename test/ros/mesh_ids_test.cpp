@@ -15,8 +15,6 @@ using sweep_guard::CheckSweep;
 using sweep_guard::DeformableMesh;
 using sweep_guard::Warning;
 
-const Eigen::Vector3d kAway(0, 0, 0.5);  // where the tool meets nothing
-
 bool known(const std::string& id) {
   CheckSweep::Request request;
   request.path = {poseAt(kAway, ros::Time())};

@@ -91,7 +91,7 @@ std::string entries(const std::vector<ParameterInfo>& infos) {
 std::vector<std::string> parameterRows(const std::vector<ParameterInfo>& infos) {
   std::vector<std::string> rows;
   for (const ParameterInfo& info : grouped(infos)) {
-    rows.push_back(begin(info) + (changesWhileRunning(info.key) ? "yes" : "no") + " | " + info.effect + " |");
+    rows.push_back(begin(info) + (info.live ? "yes" : "no") + " | " + info.effect + " |");
   }
   return rows;
 }

@@ -17,9 +17,7 @@ namespace sweep_guard_ros {
 namespace {
 
 using namespace std::chrono_literals;
-using sweep_guard_core::SteadyTime;
-
-SteadyTime now() { return std::chrono::steady_clock::now(); }
+using SteadyClock = std::chrono::steady_clock;
 
 // A thread named `busy` that does what it is given.
 class SupervisedThread {
@@ -64,9 +62,9 @@ struct BlockedThread : SupervisedThread {
 
 // @returns whether the thread comes to hang, or ceases to, within this time
 bool comesToHang(const SupervisedThread& thread, bool hangs, std::chrono::milliseconds limit) {
-  const SteadyTime end = now() + limit;
+  const auto end = SteadyClock::now() + limit;
   while ((thread.supervisor().hung() != nullptr) != hangs) {
-    if (now() > end) return false;
+    if (SteadyClock::now() > end) return false;
     std::this_thread::sleep_for(1ms);
   }
   return true;
@@ -125,7 +123,7 @@ TEST(SupervisorTest, AThreadThatMakesProgressOrHasNoWorkDoesNotHang) {
   SupervisedThread thread(Process::kShared);
   EXPECT_FALSE(comesToHang(thread, true, 300ms));
   thread.work([] {
-    for (const SteadyTime end = now() + 500ms; now() < end;) {
+    for (const auto end = SteadyClock::now() + 500ms; SteadyClock::now() < end;) {
       std::this_thread::sleep_for(1ms);
       sweep_guard_core::beat();
     }

@@ -20,8 +20,6 @@ using namespace std::chrono_literals;
 using sweep_guard::Warning;
 using Clock = std::chrono::steady_clock;
 
-const Eigen::Vector3d kAway(0, 0, 0.5);  // where the tool meets nothing
-const Eigen::Vector3d kSquare(0, 0, -1);
 constexpr auto kReported = 150ms;
 constexpr auto kAborted = 10s;  // 2 s of processor time, on a busy machine too
 

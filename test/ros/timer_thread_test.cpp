@@ -11,11 +11,9 @@ namespace sweep_guard_ros {
 namespace {
 
 using namespace std::chrono_literals;
-using sweep_guard_core::SteadyTime;
+using SteadyClock = std::chrono::steady_clock;
 
 constexpr auto kLate = 500ms;  // for a machine under load
-
-SteadyTime now() { return std::chrono::steady_clock::now(); }
 
 // Waits for this many calls.
 class Calls {
@@ -42,14 +40,14 @@ TEST_F(TimerThreadTest, CallsEachFunctionAtItsPeriod) {
   TimerThread thread;
   thread.every(10ms, [&] { fast.count(); });
   thread.every(100ms, [&] { slow.count(); });
-  const SteadyTime begin = now();
+  const auto begin = SteadyClock::now();
   thread.start(supervisor_, {"timers"});
   fast.await();
-  EXPECT_GE(now() - begin, 200ms);
-  EXPECT_LT(now() - begin, 400ms + kLate);
+  EXPECT_GE(SteadyClock::now() - begin, 200ms);
+  EXPECT_LT(SteadyClock::now() - begin, 400ms + kLate);
   slow.await();
-  EXPECT_GE(now() - begin, 400ms);
-  EXPECT_LT(now() - begin, 800ms + kLate);
+  EXPECT_GE(SteadyClock::now() - begin, 400ms);
+  EXPECT_LT(SteadyClock::now() - begin, 800ms + kLate);
 }
 
 TEST_F(TimerThreadTest, GoesOnAfterExceptions) {
@@ -91,7 +89,7 @@ TEST_F(TimerThreadTest, RestsBetweenCallsThatAreAlwaysLate) {
     const long pauses = pausesOfThisThread();
     without_pause += pauses == before ? 1 : 0;
     before = pauses;
-    for (const SteadyTime begin = now(); now() - begin < 1ms;) {
+    for (const auto begin = SteadyClock::now(); SteadyClock::now() - begin < 1ms;) {
     }
     calls.count();
   });
@@ -120,10 +118,10 @@ TEST_F(TimerThreadTest, ANewPeriodCountsFromTheNextCallOn) {
   TimerThread thread;
   TimerThread::Timer& timer = thread.every(100ms, [&] { calls.count(); });
   thread.every(10ms, [&] { timer.setPeriod(10ms); });
-  const SteadyTime begin = now();
+  const auto begin = SteadyClock::now();
   thread.start(supervisor_, {"timers"});
   calls.await();
-  EXPECT_LE(now() - begin, 1s);
+  EXPECT_LE(SteadyClock::now() - begin, 1s);
 }
 
 TEST_F(TimerThreadTest, StoppingWaitsForTheRunningCallAndCallsNoMore) {

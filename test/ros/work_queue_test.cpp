@@ -5,12 +5,13 @@
 #include <atomic>
 #include <thread>
 
+#include "motion/times.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
 namespace {
 
-using sweep_guard_core::SteadyTime;
+using sweep_guard_core::steadyAt;
 
 constexpr size_t kPoses = 65536;
 constexpr size_t kAtOnce = 4096;
@@ -18,11 +19,9 @@ constexpr int kTasks = 16;
 
 QueuedPose receivedAt(int ms) {
   QueuedPose queued;
-  queued.pose.received = SteadyTime(std::chrono::milliseconds(ms));
+  queued.pose.received = steadyAt(ms);
   return queued;
 }
-
-SteadyTime at(int ms) { return SteadyTime(std::chrono::milliseconds(ms)); }
 
 std::future<int> submit(WorkQueue& queue, int answer) {
   return queue.submit<int>([answer] { return answer; });
@@ -59,7 +58,7 @@ TEST(WorkQueueTest, APoseReplacesTheNewestOfAFullQueueAndSaysSo) {
     ASSERT_TRUE(queue.take(taken));
     for (const QueuedPose& queued : taken.poses) {
       ++poses;
-      ASSERT_EQ(queued.pose.received, at(poses == kPoses ? 100001 : static_cast<int>(poses - 1)));
+      ASSERT_EQ(queued.pose.received, steadyAt(poses == kPoses ? 100001 : static_cast<int>(poses - 1)));
     }
   }
   EXPECT_EQ(poses, kPoses);
@@ -77,12 +76,12 @@ TEST(WorkQueueTest, TakesNoMorePosesThanTheGuardKeeps) {
   EXPECT_EQ(taken.tasks.size(), 1U);
   EXPECT_TRUE(queue.hasPoses());
   queue.swept({});
-  EXPECT_EQ(queue.waitingSince(), at(kAtOnce));
+  EXPECT_EQ(queue.waitingSince(), steadyAt(kAtOnce));
   queue.push(receivedAt(100000));
   ASSERT_TRUE(queue.take(taken));
   ASSERT_EQ(taken.poses.size(), 8U);
-  EXPECT_EQ(taken.poses.front().pose.received, at(kAtOnce));
-  EXPECT_EQ(taken.poses.back().pose.received, at(100000));
+  EXPECT_EQ(taken.poses.front().pose.received, steadyAt(kAtOnce));
+  EXPECT_EQ(taken.poses.back().pose.received, steadyAt(100000));
   EXPECT_TRUE(taken.tasks.empty());
 }
 
@@ -90,15 +89,15 @@ TEST(WorkQueueTest, KnowsSinceWhenTheOldestPoseWaits) {
   WorkQueue queue;
   EXPECT_FALSE(queue.waitingSince());
   for (const int ms : {10, 20, 30}) queue.push(receivedAt(ms));
-  EXPECT_EQ(queue.waitingSince(), at(10));
+  EXPECT_EQ(queue.waitingSince(), steadyAt(10));
   WorkQueue::Work taken;
   ASSERT_TRUE(queue.take(taken));
   queue.push(receivedAt(40));
-  EXPECT_EQ(queue.waitingSince(), at(10));  // taken, and not swept
-  queue.swept(at(30));
-  EXPECT_EQ(queue.waitingSince(), at(30));
+  EXPECT_EQ(queue.waitingSince(), steadyAt(10));  // taken, and not swept
+  queue.swept(steadyAt(30));
+  EXPECT_EQ(queue.waitingSince(), steadyAt(30));
   queue.swept({});
-  EXPECT_EQ(queue.waitingSince(), at(40));
+  EXPECT_EQ(queue.waitingSince(), steadyAt(40));
   ASSERT_TRUE(queue.take(taken));
   queue.swept({});
   EXPECT_FALSE(queue.waitingSince());
@@ -157,7 +156,7 @@ TEST(WorkQueueTest, WaitsNoLongerThanAsked) {
   EXPECT_TRUE(taken.poses.empty() && taken.tasks.empty());
   EXPECT_TRUE(queue.take(taken, until));
   queue.push({});
-  EXPECT_TRUE(queue.take(taken, SteadyTime()));
+  EXPECT_TRUE(queue.take(taken, sweep_guard_core::SteadyTime()));
   EXPECT_EQ(taken.poses.size(), 1U);
 }
 

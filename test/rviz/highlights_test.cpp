@@ -1,4 +1,4 @@
-#include "rviz/highlights.h"
+#include "rviz/surface_visual.h"
 
 #include <gtest/gtest.h>
 

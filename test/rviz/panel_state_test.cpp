@@ -10,7 +10,8 @@ namespace {
 using std::chrono::milliseconds;
 using sweep_guard::Warning;
 
-const Moment kNow{SteadyTime(std::chrono::hours(1)), ros::Time(1000.0)};
+const ros::Time kStamp(1000.0);
+const Instant kNow{toTime(kStamp), SteadyTime(std::chrono::hours(1))};
 
 Warning warningLevel(std::uint8_t level, std::uint32_t reasons = 0) {
   Warning warning;
@@ -18,12 +19,12 @@ Warning warningLevel(std::uint8_t level, std::uint32_t reasons = 0) {
   warning.reasons = reasons;
   warning.clear = level == Warning::CLEAR;
   warning.time_to_collision = ros::Duration(-1.0);
-  warning.valid_until = kNow.stamp + ros::Duration(0.2);
+  warning.valid_until = kStamp + ros::Duration(0.2);
   return warning;
 }
 
 PanelState shown(const Warning& warning, milliseconds age = milliseconds(10)) {
-  return panelState(ReceivedWarning{warning, {kNow.steady - age, kNow.stamp}}, kNow, "/guard/warning");
+  return panelState(ReceivedWarning{warning, {kNow.stamp, kNow.steady - age}}, kNow, "/guard/warning");
 }
 
 TEST(PanelStateTest, EveryLevelHasItsName) {
@@ -65,7 +66,7 @@ TEST(PanelStateTest, SilenceIsUnknown) {
 
 TEST(PanelStateTest, AWarningThatRanOutIsUnknownHoweverFreshItCame) {
   Warning warning = warningLevel(Warning::CLEAR);
-  warning.valid_until = kNow.stamp - ros::Duration(0.01);
+  warning.valid_until = kStamp - ros::Duration(0.01);
   EXPECT_EQ(shown(warning).level, WarningLevel::kUnknown);
 }
 
@@ -130,7 +131,7 @@ TEST(PanelStateTest, OnlyContactFlashesAndDoesSoTwiceASecond) {
     int changes = 0;
     bool bright = true;
     for (int tick = 0; tick < 1000; tick += 10) {
-      const Moment now{kNow.steady + milliseconds(tick), kNow.stamp};
+      const Instant now{kNow.stamp, kNow.steady + milliseconds(tick)};
       const PanelState state = panelState(ReceivedWarning{warningLevel(level), now}, now, "");
       changes += state.bright != bright ? 1 : 0;
       bright = state.bright;
@@ -150,7 +151,7 @@ TEST(PanelStateTest, AHeldContactIsNotNow) {
   EXPECT_EQ(shown(warning).time, "now");
   EXPECT_EQ(shown(warning).meaning, "the tool touches");
   warning.held = true;
-  warning.held_since = kNow.stamp - ros::Duration(0.3);
+  warning.held_since = kStamp - ros::Duration(0.3);
   warning.text = "CONTACT: tool touched 'liver' 0.28 s ago";
   const PanelState state = shown(warning);
   EXPECT_EQ(state.level, WarningLevel::kContact);
@@ -164,7 +165,7 @@ TEST(PanelStateTest, AHeldContactDoesNotFlash) {
   Warning warning = warningLevel(Warning::CONTACT);
   warning.held = true;
   for (int tick = 0; tick < 1000; tick += 10) {
-    const Moment now{kNow.steady + milliseconds(tick), kNow.stamp};
+    const Instant now{kNow.stamp, kNow.steady + milliseconds(tick)};
     EXPECT_TRUE(panelState(ReceivedWarning{warning, now}, now, "").bright);
   }
 }
@@ -172,7 +173,7 @@ TEST(PanelStateTest, AHeldContactDoesNotFlash) {
 TEST(PanelStateTest, AHeldWarningSaysSinceWhen) {
   Warning warning = warningLevel(Warning::REFLEX);
   warning.held = true;
-  warning.held_since = kNow.stamp - ros::Duration(0.2);
+  warning.held_since = kStamp - ros::Duration(0.2);
   EXPECT_EQ(shown(warning).meaning, "collision was expected, 0.2 s ago");
 }
 

@@ -6,7 +6,7 @@
 #include "await.h"
 #include "display_fixture.h"
 #include "pictures.h"
-#include "rviz/force_feed.h"
+#include "rviz/feeds.h"
 
 namespace sweep_guard_rviz {
 namespace {

@@ -8,7 +8,6 @@
 #include <sweep_guard/Interaction.h>
 
 #include <QApplication>
-#include <QCheckBox>
 #include <QLabel>
 #include <QPushButton>
 #include <algorithm>
@@ -124,21 +123,6 @@ TEST_F(WarningPanelTest, NothingButClearIsGreenAnywhereInTheLight) {
   }
 }
 
-TEST_F(WarningPanelTest, SoundIsOffAtFirstAndSavedByChoice) {
-  auto* const hear = panel_.findChild<QCheckBox*>("hear");
-  EXPECT_FALSE(hear->isChecked());
-  hear->click();
-  rviz::Config config;
-  panel_.save(config);
-  WarningPanel again;
-  again.load(config);
-  EXPECT_TRUE(again.findChild<QCheckBox*>("hear")->isChecked());
-  hear->click();
-  panel_.save(config);
-  again.load(config);
-  EXPECT_FALSE(again.findChild<QCheckBox*>("hear")->isChecked());
-}
-
 // The guard computes the force for its subscribers.
 TEST_F(WarningPanelTest, OnlyInContactItListensToTheForceAndTellsIt) {
   ros::Publisher forces = node_.advertise<sweep_guard::Interaction>("/guard/interaction", 10);
@@ -178,7 +162,7 @@ TEST_F(WarningPanelTest, AGuardThatDiesTurnsItGrayWithinAFifthOfASecondAtTwentyF
   say(warningLevel(Warning::CLEAR), /*valid_for=*/3600.0);
   fallSilent();
   const std::deque<LevelHistory::Sample>& samples = panel_.history().samples();
-  Moment now{samples.back().since, ros::Time::now()};
+  Instant now{toTime(ros::Time::now()), samples.back().since};
   while (!panel_.state().silent) {
     now.steady += WarningPanel::kPeriod;
     panel_.refresh(now);

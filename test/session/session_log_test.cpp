@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "timeline.h"
@@ -21,7 +22,7 @@ struct ReceivedLevel {
   std::string text = {};
 };
 
-SweepContact contactAt(int first, int received, std::uint32_t triangle, double depth) {
+SweepContact sweepContactAt(int first, int received, std::uint32_t triangle, double depth) {
   const int stamp = first + 4;
   return {at(received), at(first), at(stamp), "liver", "tip", {triangle}, depth};
 }
@@ -55,7 +56,7 @@ TEST(SessionLogTest, ASegmentHasTheTextThatLastedLongest) {
 TEST(SessionLogTest, LeadsEndAtTheFirstContactOfASweep) {
   const std::vector<Contact> contacts =
       logOf({{0, kClear}, {1000, kConsidered}, {1700, kReflex}, {1910, kContact}, {2600, kClear}},
-            {contactAt(1900, 1909, 7, 0.001), contactAt(1910, 1919, 8, 0.003)}, 2600)
+            {sweepContactAt(1900, 1909, 7, 0.001), sweepContactAt(1910, 1919, 8, 0.003)}, 2600)
           .contacts();
   ASSERT_EQ(contacts.size(), 1U);
   EXPECT_EQ(contacts[0].begin, at(1900));
@@ -70,7 +71,7 @@ TEST(SessionLogTest, LeadsEndAtTheFirstContactOfASweep) {
 
 TEST(SessionLogTest, AnInterruptedWarningCountsFromItsReturn) {
   const Contact contact = logOf({{0, kConsidered}, {500, kUnknown}, {600, kConsidered}, {1000, kContact}},
-                                {contactAt(1000, 1000, 1, 0.0)}, 1100)
+                                {sweepContactAt(1000, 1000, 1, 0.0)}, 1100)
                               .contacts()
                               .at(0);
   EXPECT_EQ(contact.considered_lead, milliseconds(400));
@@ -79,7 +80,7 @@ TEST(SessionLogTest, AnInterruptedWarningCountsFromItsReturn) {
 
 TEST(SessionLogTest, TheRestOfAWarningAfterAContactCountsAnew) {
   const std::vector<Contact> contacts = logOf({{0, kReflex}, {100, kContact}, {700, kReflex}, {900, kContact}},
-                                              {contactAt(90, 100, 1, 0.0), contactAt(890, 900, 2, 0.0)}, 1000)
+                                              {sweepContactAt(90, 100, 1, 0.0), sweepContactAt(890, 900, 2, 0.0)}, 1000)
                                             .contacts();
   ASSERT_EQ(contacts.size(), 2U);
   EXPECT_EQ(contacts[1].reflex_lead, milliseconds(190));
@@ -88,7 +89,7 @@ TEST(SessionLogTest, TheRestOfAWarningAfterAContactCountsAnew) {
 
 TEST(SessionLogTest, AWarningAfterTheFirstContactHasNoLead) {
   const Contact contact =
-      logOf({{0, kClear}, {95, kReflex}, {100, kContact}}, {contactAt(90, 100, 1, NAN)}, 200).contacts().at(0);
+      logOf({{0, kClear}, {95, kReflex}, {100, kContact}}, {sweepContactAt(90, 100, 1, NAN)}, 200).contacts().at(0);
   EXPECT_EQ(contact.reflex_lead, milliseconds(0));
   EXPECT_TRUE(std::isnan(contact.depth));
 }
@@ -97,7 +98,8 @@ TEST(SessionLogTest, AWarningAfterTheFirstContactHasNoLead) {
 TEST(SessionLogTest, ASweepReceivedAfterItsContactBelongsToIt) {
   const std::vector<Contact> contacts =
       logOf({{0, kContact}, {100, kReflex}, {500, kContact}},
-            {contactAt(0, 0, 1, 0.001), contactAt(95, 101, 2, 0.002), contactAt(490, 500, 3, 0.003)}, 600)
+            {sweepContactAt(0, 0, 1, 0.001), sweepContactAt(95, 101, 2, 0.002), sweepContactAt(490, 500, 3, 0.003)},
+            600)
           .contacts();
   ASSERT_EQ(contacts.size(), 2U);
   EXPECT_EQ(contacts[0].triangles, (Triangles{1, 2}));
@@ -109,7 +111,7 @@ TEST(SessionLogTest, ASweepReceivedAfterItsContactBelongsToIt) {
 
 TEST(SessionLogTest, ASweepInWhichAContactEndedBelongsToTheNextOne) {
   const std::vector<Contact> contacts = logOf({{0, kContact}, {100, kClear}, {105, kContact}},
-                                              {contactAt(0, 4, 1, 0.001), contactAt(98, 105, 2, 0.002)}, 200)
+                                              {sweepContactAt(0, 4, 1, 0.001), sweepContactAt(98, 105, 2, 0.002)}, 200)
                                             .contacts();
   ASSERT_EQ(contacts.size(), 2U);
   EXPECT_EQ(contacts[0].triangles, Triangles{1});
@@ -118,7 +120,7 @@ TEST(SessionLogTest, ASweepInWhichAContactEndedBelongsToTheNextOne) {
 }
 
 TEST(SessionLogTest, ASweepReceivedAfterTheLastContactBelongsToIt) {
-  const SessionLog log = logOf({{0, kContact}, {100, kClear}}, {contactAt(95, 101, 1, 0.001)}, 200);
+  const SessionLog log = logOf({{0, kContact}, {100, kClear}}, {sweepContactAt(95, 101, 1, 0.001)}, 200);
   EXPECT_EQ(log.contacts().at(0).triangles, Triangles{1});
 }
 
@@ -127,6 +129,29 @@ TEST(SessionLogTest, IsEmptyWithoutMessages) {
   EXPECT_TRUE(log.segments().empty());
   EXPECT_TRUE(log.contacts().empty());
 }
+
+constexpr int kRate = 8000;
+
+// Number of samples that are not 0, from one time [ms] to another.
+long sounding(const std::vector<std::int16_t>& samples, int begin, int end) {
+  const auto at = [&](int ms) { return samples.begin() + ms * kRate / 1000; };
+  return std::count_if(at(begin), at(end), [](int sample) { return sample != 0; });
+}
+
+TEST(SessionSoundTest, LastsAsLongAsTheSessionAndSoundsAsItsLevels) {
+  SessionLog log;
+  log.add({at(1000), kClear, {}});
+  log.add({at(1500), kContact, {}});
+  log.add({at(2500), kClear, {}});
+  log.end(at(4000));
+  const auto samples = soundOf(log, kRate);
+  EXPECT_EQ(samples.size(), 3U * kRate);
+  EXPECT_EQ(sounding(samples, 100, 500), 0);
+  EXPECT_EQ(sounding(samples, 510, 1500), 5940);  // a tone of 1 kHz is 0 at two of its eight samples
+  EXPECT_LT(sounding(samples, 1510, 3000), 200);
+}
+
+TEST(SessionSoundTest, IsEmptyWithoutWarnings) { EXPECT_TRUE(soundOf(SessionLog(), kRate).empty()); }
 
 }  // namespace
 }  // namespace sweep_guard_session

@@ -14,15 +14,15 @@ using std::chrono::milliseconds;
 using sweep_guard_core::Time;
 using sweep_guard_core::WarningLevel;
 
-const Time kBegin(std::chrono::seconds(100));
+const Time kBagBegin(std::chrono::seconds(100));
 
-Time at(int ms) { return kBegin + milliseconds(ms); }
+Time at(int ms) { return kBagBegin + milliseconds(ms); }
 
 // The last pose is in contact, and there is a pose every 10 ms before it.
 SessionBag bagOf(int poses) {
   SessionBag bag;
   for (int i = poses; i > 0; --i) bag.poses.push_back(at(1320 - 10 * i));
-  bag.begin = kBegin;
+  bag.begin = kBagBegin;
   bag.end = at(2000);
   return bag;
 }
@@ -41,13 +41,13 @@ SessionLog oneContact() {
 }
 
 TEST(SessionReportTest, WritesALineForEachContact) {
-  EXPECT_EQ(contactsCsv(oneContact(), kBegin),
+  EXPECT_EQ(contactsCsv(oneContact(), kBagBegin),
             "contact,begin_s,end_s,stamp_s,mesh,tool_link,triangles,depth_mm,considered_lead_s,reflex_lead_s\n"
             "1,1.3000,2.0000,101.300000,\"a, b\",tip,2,2.5,0.8000,0.1000\n");
 }
 
 TEST(SessionReportTest, WritesALineForEachSegment) {
-  EXPECT_EQ(levelsCsv(oneContact(), kBegin),
+  EXPECT_EQ(levelsCsv(oneContact(), kBagBegin),
             "begin_s,end_s,level,text\n"
             "0.0000,0.1000,UNKNOWN,UNKNOWN: no tool pose yet\n"
             "0.1000,0.5000,CLEAR,CLEAR\n"

@@ -42,7 +42,7 @@ Touches touchesOf(const DeformableMesh& mesh) {
   return touches;
 }
 
-TouchLog logOf(const DeformableMesh& mesh, const Touches& touches) {
+TouchLog touchLogOf(const DeformableMesh& mesh, const Touches& touches) {
   TouchLog log;
   log.take(boost::make_shared<const DeformableMesh>(mesh));
   log.take(boost::make_shared<const Touches>(touches));
@@ -66,7 +66,7 @@ TEST(TouchReportTest, WritesALineForEachTouchedTriangle) {
 TEST(TouchReportTest, TheSurfaceIsThatOfTheNewestVerticesOfTheRevision) {
   const DeformableMesh mesh = roof();
   const Touches touches = touchesOf(mesh);
-  TouchLog log = logOf(mesh, touches);
+  TouchLog log = touchLogOf(mesh, touches);
   const auto surface = log.surfaceOf(touches.objects[0]);
   ASSERT_EQ(surface.vertices.size(), mesh.mesh.vertices.size());
   EXPECT_EQ(surface.triangles.size(), mesh.mesh.triangles.size());
@@ -85,7 +85,7 @@ TEST(TouchReportTest, AMeshOfAnotherRevisionIsNotTheSurface) {
   DeformableMesh mesh = roof();
   const Touches touches = touchesOf(mesh);
   mesh.revision = 4;
-  EXPECT_TRUE(logOf(mesh, touches).surfaceOf(touches.objects[0]).triangles.empty());
+  EXPECT_TRUE(touchLogOf(mesh, touches).surfaceOf(touches.objects[0]).triangles.empty());
 }
 
 std::string lineOf(const std::string& csv, std::size_t number) {
@@ -97,7 +97,7 @@ std::string lineOf(const std::string& csv, std::size_t number) {
 
 TEST(TouchReportTest, WritesTheCornersOfAllTrianglesOfATouchedSurface) {
   const DeformableMesh mesh = roof();
-  const std::string csv = surfacesCsv(logOf(mesh, touchesOf(mesh)));
+  const std::string csv = surfacesCsv(touchLogOf(mesh, touchesOf(mesh)));
   EXPECT_EQ(lineOf(csv, 0), "mesh,triangle,x1,y1,z1,x2,y2,z2,x3,y3,z3");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 40 * 40);
   EXPECT_EQ(lineOf(csv, 1).substr(0, 30), "operator's roof,0,-0.05,-0.05,");
@@ -110,7 +110,7 @@ TEST(TouchReportTest, OfALargeSurfaceOnlyWhatWasTouchedIsWritten) {
   sweep_guard::ObjectTouches& object = touches.objects.emplace_back();
   object.mesh_id = mesh.id;
   object.triangles = {7, 33000};
-  const std::string csv = surfacesCsv(logOf(mesh, touches));
+  const std::string csv = surfacesCsv(touchLogOf(mesh, touches));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
   EXPECT_TRUE(has(csv, "\nplate,7,"));
   EXPECT_TRUE(has(csv, "\nplate,33000,"));
@@ -130,9 +130,9 @@ TEST(TouchReportTest, TheCornersOfAClosedSurfaceAreCounterclockwiseFromOutside) 
   Touches touches;
   touches.objects.emplace_back().mesh_id = mesh.id;
   touches.objects[0].triangles = {0};
-  EXPECT_EQ(lineOf(surfacesCsv(logOf(mesh, touches)), 1), "tip,0,0,0,0,0,1,0,1,0,0");
+  EXPECT_EQ(lineOf(surfacesCsv(touchLogOf(mesh, touches)), 1), "tip,0,0,0,0,0,1,0,1,0,0");
   for (auto& triangle : mesh.mesh.triangles) std::swap(triangle.vertex_indices[1], triangle.vertex_indices[2]);
-  EXPECT_EQ(lineOf(surfacesCsv(logOf(mesh, touches)), 1), "tip,0,0,0,0,0,1,0,1,0,0");
+  EXPECT_EQ(lineOf(surfacesCsv(touchLogOf(mesh, touches)), 1), "tip,0,0,0,0,0,1,0,1,0,0");
 }
 
 TEST(TouchReportTest, WithoutItsShapeNothingOfASurfaceIsWritten) {

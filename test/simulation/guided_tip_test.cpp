@@ -13,7 +13,7 @@ using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kStep = 0.01;  // [s]
+constexpr double kTipStep = 0.01;  // [s]
 constexpr double kTiny = 1e-12;
 const Twist kForward{/*linear=*/{0.1, 0.0, 0.0}};
 
@@ -78,30 +78,30 @@ INSTANTIATE_TEST_SUITE_P(Rates, GuidedTipAtAnyRateTest, ::testing::Values(0.001,
 TEST(GuidedTipTest, StaysWhereItIsWhenItIsThere) {
   const Isometry3d goal = poseAt({0.1, 0.2, 0.3});
   GuidedTip tip(goal, {});
-  for (int i = 0; i < 100; ++i) tip.moveTowards(goal, kStep);
+  for (int i = 0; i < 100; ++i) tip.moveTowards(goal, kTipStep);
   EXPECT_TRUE(tip.pose().isApprox(goal, kTiny));
 }
 
 // From rest to 0.1 m/s at 1 m/s^2 takes 10 steps, and as many to stop.
 TEST(GuidedTipTest, TakesUpAVelocityAndStops) {
   GuidedTip tip(poseAt({0, 0, 0}), {});
-  for (int i = 0; i < 20; ++i) tip.moveAt(kForward, kStep);
+  for (int i = 0; i < 20; ++i) tip.moveAt(kForward, kTipStep);
   Vector3d before = tip.pose().translation();
-  tip.moveAt(kForward, kStep);
+  tip.moveAt(kForward, kTipStep);
   EXPECT_TRUE((tip.pose().translation() - before).isApprox(Vector3d(0.001, 0, 0), 1e-9));
-  for (int i = 0; i < 10; ++i) tip.moveAt({}, kStep);
+  for (int i = 0; i < 10; ++i) tip.moveAt({}, kTipStep);
   before = tip.pose().translation();
-  tip.moveAt({}, kStep);
+  tip.moveAt({}, kTipStep);
   EXPECT_TRUE(tip.pose().translation().isApprox(before, kTiny));
 }
 
 // The first step from rest: 1 m/s^2 over 0.01 s.
 TEST(GuidedTipTest, StartsFromRestAfterwardsAsAtFirst) {
   GuidedTip tip(poseAt({0, 0, 0}), {});
-  for (int i = 0; i < 20; ++i) tip.moveAt(kForward, kStep);
+  for (int i = 0; i < 20; ++i) tip.moveAt(kForward, kTipStep);
   tip.stop();
   const Vector3d before = tip.pose().translation();
-  tip.moveAt(kForward, kStep);
+  tip.moveAt(kForward, kTipStep);
   EXPECT_TRUE((tip.pose().translation() - before).isApprox(Vector3d(0.0001, 0, 0), 1e-9));
 }
 
@@ -110,7 +110,7 @@ TEST(GuidedTipTest, TurnsAboutTheAxesOfTheWorldAndItsTip) {
   const Isometry3d before = tip.pose();
   Twist desired;
   desired.angular.z() = 1.0;
-  for (int i = 0; i < 100; ++i) tip.moveAt(desired, kStep);
+  for (int i = 0; i < 100; ++i) tip.moveAt(desired, kTipStep);
   const AngleAxisd turn(tip.pose().linear() * before.linear().transpose());
   EXPECT_TRUE(turn.axis().isApprox(Vector3d::UnitZ(), 1e-9));
   EXPECT_GT(turn.angle(), 0.8);
@@ -121,7 +121,7 @@ TEST(GuidedTipTest, RotationsStayRotations) {
   GuidedTip tip(poseAt({0, 0, 0}), {});
   Twist desired;
   desired.angular << 1, -1, 1;
-  for (int i = 0; i < 100000; ++i) tip.moveAt(desired, kStep);
+  for (int i = 0; i < 100000; ++i) tip.moveAt(desired, kTipStep);
   EXPECT_TRUE((tip.pose().linear().transpose() * tip.pose().linear()).isIdentity(1e-12));
 }
 

@@ -10,7 +10,7 @@ namespace {
 using std::chrono::seconds;
 using sweep_guard_core::StampedPose;
 
-StampedPose poseAt(int stamp, double x, double z) {
+StampedPose stampedPoseAt(int stamp, double x, double z) {
   StampedPose pose;
   pose.stamp = sweep_guard_core::Time(seconds(stamp));
   pose.X_WT.translation() << x, 0, z;
@@ -31,26 +31,28 @@ std::vector<std::pair<long, double>> play(Replay* replay, int count) {
 using Played = std::vector<std::pair<long, double>>;
 
 TEST(ReplayTest, GivesEveryPoseOnceAtItsIntervalAndEnds) {
-  Replay replay({poseAt(10, 0, 0), poseAt(11, 1, 0), poseAt(11, 2, 0), poseAt(14, 3, 0)}, {/*loop=*/false});
+  Replay replay({stampedPoseAt(10, 0, 0), stampedPoseAt(11, 1, 0), stampedPoseAt(11, 2, 0), stampedPoseAt(14, 3, 0)},
+                {/*loop=*/false});
   EXPECT_EQ(play(&replay, 9), (Played{{0, 0}, {1, 1}, {1, 2}, {4, 3}}));
   EXPECT_FALSE(replay.next());
 }
 
 TEST(ReplayTest, LoopsBackAndForthWithoutAJump) {
-  Replay replay({poseAt(10, 0, 0), poseAt(11, 1, 0), poseAt(11, 2, 0), poseAt(14, 3, 0)}, {/*loop=*/true});
+  Replay replay({stampedPoseAt(10, 0, 0), stampedPoseAt(11, 1, 0), stampedPoseAt(11, 2, 0), stampedPoseAt(14, 3, 0)},
+                {/*loop=*/true});
   EXPECT_EQ(play(&replay, 9), (Played{{0, 0}, {1, 1}, {1, 2}, {4, 3}, {7, 2}, {7, 1}, {8, 0}, {9, 1}, {9, 2}}));
 }
 
 TEST(ReplayTest, MovesTheLowestTipOfTheFirstSecondsToTheTarget) {
   Replay::Options options;
   options.target_W = {5, 0, 1};
-  Replay replay({poseAt(0, 0, 3), poseAt(4, 1, 2), poseAt(6, 2, -7)}, options);
+  Replay replay({stampedPoseAt(0, 0, 3), stampedPoseAt(4, 1, 2), stampedPoseAt(6, 2, -7)}, options);
   EXPECT_EQ(replay.next()->X_WT.translation(), Eigen::Vector3d(4, 0, 2));
   EXPECT_EQ(replay.next()->X_WT.translation(), Eigen::Vector3d(5, 0, 1));
 }
 
 TEST(ReplayTest, LeavesRotationsAlone) {
-  StampedPose turned = poseAt(0, 0, 0);
+  StampedPose turned = stampedPoseAt(0, 0, 0);
   turned.X_WT.linear() = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitX()).toRotationMatrix();
   Replay replay({turned}, {/*loop=*/false, /*target_W=*/{1, 2, 3}});
   EXPECT_EQ(replay.next()->X_WT.linear(), turned.X_WT.linear());
@@ -58,7 +60,8 @@ TEST(ReplayTest, LeavesRotationsAlone) {
 
 TEST(ReplayTest, RefusesAMotionThatCannotBePlayed) {
   EXPECT_THROW(Replay({}, {}), sweep_guard_core::InvalidInput);
-  EXPECT_THROW(Replay({poseAt(1, 0, 0), poseAt(1, 1, 0)}, {/*loop=*/true}), sweep_guard_core::InvalidInput);
+  EXPECT_THROW(Replay({stampedPoseAt(1, 0, 0), stampedPoseAt(1, 1, 0)}, {/*loop=*/true}),
+               sweep_guard_core::InvalidInput);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "sound/earcon.h"
-#include "sound/wav.h"
 
 namespace sweep_guard_core {
 namespace {

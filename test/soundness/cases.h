@@ -14,6 +14,8 @@
 
 namespace sweep_guard_core::soundness {
 
+inline constexpr double kMaxDistance = 9.9e6;  ///< of a case from the origin [m]: leaves room for a tool
+
 /// The triangles of a case.
 struct Triangles {
   std::vector<Eigen::Vector3d> corners_M;  ///< three for each [m]

@@ -43,7 +43,7 @@ struct JointMotion {
   }
 };
 
-Vector3r randomPointOf(Random& random, const Body& body, Real inset) {
+Vector3r randomLinkPoint(Random& random, const Body& body, Real inset) {
   const Vector3r p = support(body, random.direction().cast<Real>(), inset);
   const Vector3r q = support(body, random.direction().cast<Real>(), inset);
   return random.chance(0.7) ? p : Vector3r(p + static_cast<Real>(random.uniform(0.0, 1.0)) * (q - p));
@@ -92,7 +92,7 @@ SweepCase jointPositives(std::uint64_t seed) {
   const double size = extentOf(sweep.tool) * random.logUniform(1e-3, 1.0);
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
     const double fraction = random.chance(0.3) ? 0.5 : random.uniform(0.0, 1.0);
-    const Vector3r p_B = randomPointOf(random, sweep.tool.front(), kInset);
+    const Vector3r p_B = randomLinkPoint(random, sweep.tool.front(), kInset);
     const Vector3r p_W =
         exact.at((static_cast<Real>(part) + static_cast<Real>(fraction)) / static_cast<Real>(count), p_B);
     const auto corners = triangleThrough(random, p_W, size);

@@ -10,9 +10,6 @@
 namespace sweep_guard_core::soundness {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
-constexpr double kMaxDistance = 9.9e6;
-
 // Depends on the case alone, so that a replay draws the same numbers.
 Random randomOf(const Triangles& triangles) {
   std::uint64_t seed = 0;
@@ -265,7 +262,7 @@ void checkOne(Relations& relations, const PairCase& pair) {
 }
 
 // At half a turn, rounding decides which way the tool turns.
-bool isHalfATurn(const Motion& motion) { return motion.angle() > kPi - 1e-7; }
+bool isHalfATurn(const Motion& motion) { return motion.angle() > M_PI - 1e-7; }
 
 SweepCase reversed(SweepCase sweep) {
   std::swap(sweep.motion.X_MT_start, sweep.motion.X_MT_end);

@@ -7,8 +7,6 @@
 namespace sweep_guard_core::soundness {
 namespace {
 
-constexpr double kMaxDistance = 9.9e6;
-
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 PairCase pairOf(const Scene& scene) {

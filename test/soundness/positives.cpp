@@ -8,9 +8,6 @@
 namespace sweep_guard_core::soundness {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
-constexpr double kMaxDistance = 9.9e6;  // leaves room for a tool
-
 // A point of the tool at a fraction of the motion.
 struct ToolPoint {
   Real fraction;
@@ -166,7 +163,7 @@ Vector3r pointOf(const Shape& shape, const MovedTriangle& moved, Real mesh_fract
   return p;
 }
 
-double largestCoordinate(const Motion& motion) {
+double largestTranslation(const Motion& motion) {
   return std::max(motion.X_MT_start.translation().cwiseAbs().maxCoeff(),
                   motion.X_MT_end.translation().cwiseAbs().maxCoeff());
 }
@@ -193,7 +190,7 @@ class Builder {
   // Adds a triangle whose corners are float32 numbers, and moves the tool to it.
   void addTriangleInFloat(double triangle_size) {
     sweep_.triangles.streamed = true;
-    choosePoint(largestCoordinate(sweep_.motion) + triangle_size);
+    choosePoint(largestTranslation(sweep_.motion) + triangle_size);
     const Shape shape = randomShape(random_, point_.outward_M, triangle_size);
     MovedTriangle moved = cornersAbout(shape, position(), randomTranslations(), point_.mesh_fraction);
     for (size_t i = 0; i < 3; ++i) {
@@ -207,7 +204,8 @@ class Builder {
   }
 
   void addTriangles(int count, double triangle_size) {
-    const double largest = largestCoordinate(sweep_.motion) + (sweep_.frame_W ? largestCoordinate(*sweep_.frame_W) : 0);
+    const double largest =
+        largestTranslation(sweep_.motion) + (sweep_.frame_W ? largestTranslation(*sweep_.frame_W) : 0);
     choosePoint(largest + triangle_size);
     while (count-- > 0) {
       point_ = randomToolPoint(random_, body(), motion(), translation_, sub_motions_, inset_);
@@ -274,13 +272,13 @@ double randomAngle(Random& random) {
     case 1:
       return random.logUniform(1e-12, 1e-6);
     case 2:
-      return kPi / 2.0;
+      return M_PI / 2.0;
     case 3:
-      return kPi - random.logUniform(1e-9, 1e-4);
+      return M_PI - random.logUniform(1e-9, 1e-4);
     case 4:
-      return kPi;
+      return M_PI;
     case 5:
-      return random.uniform(0.0, kPi);
+      return random.uniform(0.0, M_PI);
     default:
       return random.uniform(0.0, 0.35);
   }
@@ -302,7 +300,7 @@ SweepCase constructedPositives(std::uint64_t seed) {
   do {
     sweep = randomSweep(random);
     const double size = extentOf(sweep.tool);
-    const double distance = largestCoordinate(sweep.motion);
+    const double distance = largestTranslation(sweep.motion);
     const double triangle_size = std::min(size * random.logUniform(1e-6, 1e6), 0.3 * (kMaxDistance - distance));
     const bool moves = random.chance(0.3);
     const Eigen::Vector3d translation = size * random.logUniform(1e-6, 3.0) * random.direction();

@@ -12,7 +12,7 @@
 namespace sweep_guard_core::soundness {
 namespace {
 
-using Corners = std::array<Vector3r, 3>;
+using CornersInReal = std::array<Vector3r, 3>;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ SampledSweep::SampledSweep(const SweepCase& sweep) : tool_(sweep.tool) {
 }
 
 std::optional<Real> SampledSweep::distance(const std::array<Eigen::Vector3d, 3>& corners_M) const {
-  const Corners corners = {corners_M[0].cast<Real>(), corners_M[1].cast<Real>(), corners_M[2].cast<Real>()};
+  const CornersInReal corners = {corners_M[0].cast<Real>(), corners_M[1].cast<Real>(), corners_M[2].cast<Real>()};
   const Vector3r center = (corners[0] + corners[1] + corners[2]) / 3;
   Real radius = 0;
   for (const Vector3r& p : corners) radius = std::max(radius, (p - center).norm());
@@ -67,7 +67,7 @@ bool SampledSweep::endsInside(const Triangles& triangles) const {
     const Vector3r p = end.p_M + end.R_TM.transpose() * support(body, Vector3r::UnitZ());
     Real solid_angle = 0;  // of each triangle, after van Oosterom and Strackee 1983
     for (size_t i = 0; i < triangles.count(); ++i) {
-      Corners seen;
+      CornersInReal seen;
       for (size_t k = 0; k < 3; ++k) seen[k] = (triangles.corners_M[3 * i + k].cast<Real>() - p).normalized();
       const auto& [a, b, c] = seen;
       solid_angle += 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
@@ -76,8 +76,8 @@ bool SampledSweep::endsInside(const Triangles& triangles) const {
   });
 }
 
-std::optional<Real> SampledSweep::distanceAt(const Pose& pose, const Body& body, const Corners& corners_M) const {
-  Corners corners_T;
+std::optional<Real> SampledSweep::distanceAt(const Pose& pose, const Body& body, const CornersInReal& corners_M) const {
+  CornersInReal corners_T;
   Vector3r p = Vector3r::Zero();
   for (size_t i = 0; i < 3; ++i) {
     corners_T[i] = pose.R_TM * (corners_M[i] - pose.p_M);

@@ -81,7 +81,10 @@ struct DetectorChoice {
 /// works or, if none does, `halfspace`. Every other choice stays as it is. Makes a context, to try it: some ms.
 DetectorChoice availableDetector(const std::string& name, const DetectorOptions& options = {});
 
-/// Returns the names that makeDetector() knows.
+/// Describes a detector for people: its name, and the OpenGL library or the instruction set that it runs on.
+std::string describe(const DetectorChoice& detector);
+
+/// Returns the names that makeDetector() knows. The last one, `reference`, shares no code with the others.
 const std::vector<std::string>& detectorNames();
 
 /// Returns the names of the off-screen OpenGL contexts that `select` knows, in the order in which kAnyGlContext tries

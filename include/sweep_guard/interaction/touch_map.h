@@ -48,13 +48,13 @@ class TouchMap {
   void touches(std::vector<ObjectTouches>& objects) const;
 
  private:
-  struct Touch {
+  struct TouchCount {
     std::uint32_t sweeps = 0;
     float depth = 0.0F;
   };
   struct Touched {
     std::shared_ptr<const Workpiece> workpiece;  // as swept last
-    std::vector<Touch> of_triangle;
+    std::vector<TouchCount> of_triangle;
     std::vector<std::uint32_t> triangles;  // those touched
   };
 

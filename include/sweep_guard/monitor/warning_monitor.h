@@ -124,10 +124,6 @@ class WarningMonitor {
   void detectorsDisagree(const std::string& message, const SampledQuery& query,
                          const std::vector<std::uint32_t>& missed, SteadyTime now);
 
-  /// Replaces the message of the newest disagreement. Does nothing if there is none, or if the monitor was restarted
-  /// since the query's epoch. Does not call on_fault.
-  void describeDisagreement(const std::string& message, const SampledQuery& query);
-
   /// Reports that poses were sent and did not arrive. The warning says so for the hold time; its level stays.
   void posesLost(const std::string& message, SteadyTime now);
 

@@ -29,10 +29,10 @@ struct MotionInputs {
     Eigen::Isometry3d X_WT;
     Timestamps timestamps;
   };
-  std::shared_ptr<const PlaneSet> planes;                    ///< newest ones
-  std::shared_ptr<const ToolBalls> tool;                     ///< newest one
-  std::optional<ToolPose> pose;                              ///< newest one
-  std::optional<PermissionInputs::ReceivedWarning> warning;  ///< newest one
+  std::shared_ptr<const PlaneSet> planes;                 ///< newest ones
+  std::shared_ptr<const ToolBalls> tool;                  ///< newest one
+  std::optional<ToolPose> pose;                           ///< newest one
+  std::optional<PermissionInputs::GuardWarning> warning;  ///< newest one
 };
 
 /// Returns what a permission is decided by, without a command.

@@ -48,7 +48,7 @@ struct PermissionLimits {
 
 /// What is known when a command is to be passed on.
 struct PermissionInputs {
-  struct ReceivedWarning {
+  struct GuardWarning {
     WarningLevel level = WarningLevel::kUnknown;
     std::uint32_t reasons = 0;  ///< bits of Reason
     SteadyTime received;
@@ -59,10 +59,10 @@ struct PermissionInputs {
     bool complete = true;    ///< every workpiece was tested at that pose
     bool tool_known = true;  ///< the balls of the tool that they were computed for have arrived
   };
-  std::optional<Timestamps> command;       ///< newest one; without a stamp of its own, that of its receipt
-  std::optional<ReceivedWarning> warning;  ///< newest warning
-  std::optional<Planes> planes;            ///< newest ones
-  std::optional<Timestamps> pose;          ///< newest pose of the tool
+  std::optional<Timestamps> command;    ///< newest one; without a stamp of its own, that of its receipt
+  std::optional<GuardWarning> warning;  ///< newest warning
+  std::optional<Planes> planes;         ///< newest ones
+  std::optional<Timestamps> pose;       ///< newest pose of the tool
 };
 
 struct PermissionDecision {

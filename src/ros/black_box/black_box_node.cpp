@@ -11,7 +11,6 @@ namespace {
 
 constexpr auto kTickPeriod = std::chrono::milliseconds(50);
 constexpr auto kDiagnosticsPeriod = std::chrono::seconds(1);
-constexpr std::size_t kMaxRequest = 1024;  // [bytes]
 
 }  // namespace
 

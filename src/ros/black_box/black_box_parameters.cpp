@@ -2,9 +2,10 @@
 
 #include <ros/names.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 
-#include "ros/ros_home.h"
 #include "sweep_guard/common/error.h"
 
 namespace sweep_guard_ros {
@@ -20,6 +21,14 @@ constexpr std::size_t kMebibyte = 1U << 20U;
 Duration seconds(ParameterReader& read, const std::string& key, Duration fallback, double lowest, double highest,
                  const std::string& effect) {
   return sweep_guard_core::fromSeconds(read.number(key, toSeconds(fallback), {lowest, highest, "s"}, effect));
+}
+
+// The folder that ROS gives nodes of this package to write to: $ROS_HOME/sweep_guard or ~/.ros/sweep_guard.
+std::filesystem::path writableFolder(const std::string& instead) {
+  const std::filesystem::path folder = "sweep_guard";
+  if (const char* const home = std::getenv("ROS_HOME")) return home / folder;
+  if (const char* const home = std::getenv("HOME")) return std::filesystem::path(home) / ".ros" / folder;
+  throw sweep_guard_core::InvalidInput("ROS_HOME and HOME are not set: set " + instead);
 }
 
 // As a node resolves it; a nodelet has not the namespace of its process.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ros/motion/motion_status.h"
+#include "ros/own_services.h"
 #include "sweep_guard/common/error.h"
 #include "sweep_guard/ros/conversions.h"
 
@@ -31,7 +32,7 @@ CommandCycle::CommandCycle(const ros::NodeHandle& node, const ros::NodeHandle& p
       port_(makeCommandPort(thread_.on(node), parameters, frames_,
                             {[this](const auto& received) { onCommand(received); },
                              [this](const std::string& reason) { refuse(reason); }})),
-      rebase_(thread_.on(private_node).advertiseService("rebase", &CommandCycle::onRebase, this)) {}
+      rebase_(advertiseRebase(thread_.on(private_node))) {}
 
 void CommandCycle::onCommand(const CommandPort::Received& received) {
   record_.received(received.timestamps);
@@ -98,6 +99,14 @@ sweep_guard_core::Duration CommandCycle::longestInForce() const {
 sweep_guard_core::Duration CommandCycle::period() const {
   const std::lock_guard lock(mutex_);
   return longestInForce();
+}
+
+ros::ServiceServer CommandCycle::advertiseRebase(ros::NodeHandle node) {
+  const auto on_call = [this](Trigger::Request& request, Trigger::Response& response) {
+    return onRebase(request, response);
+  };
+  auto options = ros::AdvertiseServiceOptions::create<Trigger>("rebase", on_call, ros::VoidConstPtr(), nullptr);
+  return advertiseOwn(node, options);
 }
 
 bool CommandCycle::onRebase(Trigger::Request& /*request*/, Trigger::Response& response) {

@@ -59,6 +59,7 @@ class CommandCycle {
 
   void onCommand(const CommandPort::Received& received);
   void refuse(const std::string& reason);
+  ros::ServiceServer advertiseRebase(ros::NodeHandle node);
   bool onRebase(Trigger::Request& request, Trigger::Response& response);
   void update(const sweep_guard_core::Instant& at);
   bool letsThrough(const sweep_guard_core::Instant& at) const;

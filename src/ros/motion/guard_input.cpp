@@ -122,7 +122,7 @@ void GuardInput::acceptWarning(const ros::MessageEvent<const sweep_guard::Warnin
   const auto level =
       known ? static_cast<sweep_guard_core::WarningLevel>(msg.level) : sweep_guard_core::WarningLevel::kUnknown;
   const std::lock_guard lock(mutex_);
-  newest_.inputs.warning = PermissionInputs::ReceivedWarning{level, msg.reasons, std::chrono::steady_clock::now()};
+  newest_.inputs.warning = PermissionInputs::GuardWarning{level, msg.reasons, std::chrono::steady_clock::now()};
 }
 
 // When time went back, those before are silent soon.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "common/number_text.h"
 #include "common/xyz.h"
@@ -119,6 +120,11 @@ std::string shown(const ParameterValue& value) {
   return std::holds_alternative<double>(value) ? yamlNumber(text.str()) : text.str();
 }
 
+void ParameterReader::describe(ParameterInfo info) {
+  info.live = std::exchange(next_is_live_, false);
+  described_.push_back(std::move(info));
+}
+
 double ParameterReader::number(const std::string& key, double fallback, const Range& range, const std::string& effect,
                                const std::optional<Bound>& bound) {
   XmlRpc::XmlRpcValue value;
@@ -126,7 +132,7 @@ double ParameterReader::number(const std::string& key, double fallback, const Ra
   const Range& narrowest = bound ? bound->range : range;
   if (!within(toNumber(value), narrowest))
     refuse(key, value, shown(narrowest) + (bound ? std::string(": ") + bound->note : ""));
-  described_.push_back(
+  describe(
       {key, toNumber(value), fallback, range.lowest, range.highest, {}, sweep_guard_ros::described(range), effect});
   return toNumber(value);
 }
@@ -137,8 +143,7 @@ int ParameterReader::integer(const std::string& key, int fallback, int lowest, i
   const std::string wanted = "an integer" + shown(lowest, highest);
   if (!within(value, lowest, highest)) refuse(key, value, wanted);
   const int integer = static_cast<int>(value);
-  described_.push_back(
-      {key, integer, fallback, static_cast<double>(lowest), static_cast<double>(highest), {}, wanted, effect});
+  describe({key, integer, fallback, static_cast<double>(lowest), static_cast<double>(highest), {}, wanted, effect});
   return integer;
 }
 
@@ -155,7 +160,7 @@ std::vector<int> ParameterReader::integers(const std::string& key, const std::ve
   }
   if (!set) integers = fallback;
   if (integers.size() != fallback.size()) refuse(key, list, wanted);
-  described_.push_back({key, bracketed(integers), bracketed(fallback), 0.0, 0.0, {}, wanted, effect});
+  describe({key, bracketed(integers), bracketed(fallback), 0.0, 0.0, {}, wanted, effect});
   return integers;
 }
 
@@ -163,7 +168,7 @@ bool ParameterReader::flag(const std::string& key, bool fallback, const std::str
   XmlRpc::XmlRpcValue value;
   if (!get(key, value)) value = fallback;
   if (value.getType() != XmlRpc::XmlRpcValue::TypeBoolean) refuse(key, value, "true or false");
-  described_.push_back({key, static_cast<bool>(value), fallback, 0.0, 1.0, {}, "true or false", effect});
+  describe({key, static_cast<bool>(value), fallback, 0.0, 1.0, {}, "true or false", effect});
   return static_cast<bool>(value);
 }
 
@@ -178,7 +183,7 @@ std::string ParameterReader::name(const std::string& key, const std::string& fal
   std::string name = text(key, fallback);
   const std::string wanted = "a name, not empty";
   if (name.empty()) refuse(key, XmlRpc::XmlRpcValue(name), wanted);
-  described_.push_back({key, name, fallback, 0.0, 0.0, {}, wanted, effect});
+  describe({key, name, fallback, 0.0, 0.0, {}, wanted, effect});
   return name;
 }
 
@@ -193,7 +198,7 @@ std::string ParameterReader::path(const std::string& key, const std::string& eff
 std::string ParameterReader::optionalText(const std::string& key, const std::string& wanted,
                                           const std::string& effect) {
   std::string read = text(key, "");
-  described_.push_back({key, read, std::string(), 0.0, 0.0, {}, wanted, effect});
+  describe({key, read, std::string(), 0.0, 0.0, {}, wanted, effect});
   return read;
 }
 
@@ -202,7 +207,7 @@ std::string ParameterReader::choice(const std::string& key, const std::string& f
   std::string chosen = text(key, fallback);
   const std::string wanted = "one of " + listed(choices);
   if (std::count(choices.begin(), choices.end(), chosen) == 0) refuse(key, XmlRpc::XmlRpcValue(chosen), wanted);
-  described_.push_back({key, chosen, fallback, 0.0, 0.0, choices, wanted, effect});
+  describe({key, chosen, fallback, 0.0, 0.0, choices, wanted, effect});
   return chosen;
 }
 
@@ -217,7 +222,7 @@ std::vector<std::string> ParameterReader::selection(const std::string& key, cons
     selection.push_back(static_cast<std::string>(list[i]));
     if (std::count(choices.begin(), choices.end(), selection.back()) == 0) refuse(key, list, wanted);
   }
-  described_.push_back({key, bracketed(selection), std::string("[]"), 0.0, 0.0, {}, wanted, effect});
+  describe({key, bracketed(selection), std::string("[]"), 0.0, 0.0, {}, wanted, effect});
   return selection;
 }
 
@@ -231,7 +236,7 @@ std::vector<std::string> ParameterReader::texts(const std::string& key, const st
     texts.push_back(static_cast<std::string>(value[i]));
     if (texts.back().empty()) refuse(key, value, wanted + ", none of them empty");
   }
-  described_.push_back({key, bracketed(texts), std::string("[]"), 0.0, 0.0, {}, wanted, effect});
+  describe({key, bracketed(texts), std::string("[]"), 0.0, 0.0, {}, wanted, effect});
   return texts;
 }
 
@@ -270,7 +275,7 @@ std::vector<std::vector<std::string>> ParameterReader::groups(const std::string&
     if (groups.back().empty()) refuse(key, list, wanted + ", none of the texts empty");
     entries.push_back(grouped(names, groups.back()));
   }
-  described_.push_back({key, bracketed(entries), std::string("[]"), 0.0, 0.0, {}, wanted, effect});
+  describe({key, bracketed(entries), std::string("[]"), 0.0, 0.0, {}, wanted, effect});
   return groups;
 }
 
@@ -292,7 +297,7 @@ std::map<std::string, double> ParameterReader::numbers(const std::string& key, c
       entries += (entries.empty() ? "" : ", ") + name + ": " + shown(ParameterValue(number));
     }
   }
-  described_.push_back({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
+  describe({key, "{" + entries + "}", std::string("{}"), 0.0, 0.0, {}, wanted, effect});
   return numbers;
 }
 

@@ -30,41 +30,6 @@ constexpr double kMinProbability = 0.001;
 constexpr double kShownProbability = 0.01;  // smaller ones are shown only if a warning depends on them
 constexpr double kMaxStiffness = 1e12;      // [N/m^3]
 
-// May change while the node runs, with all keys of kMarkers.
-const std::vector<std::string> kChangeable = {"tool/padding",
-                                              "volume",
-                                              "detector",
-                                              "cull",
-                                              "fine",
-                                              "max_rotation_per_sweep",
-                                              "prediction/predictor",
-                                              "prediction/degree",
-                                              "prediction/constrained",
-                                              "prediction/forgetting_factor",
-                                              "prediction/window",
-                                              "horizon/reflex",
-                                              "horizon/reflex_step",
-                                              "horizon/considered",
-                                              "horizon/considered_step",
-                                              "warning/considered_on",
-                                              "warning/considered_off",
-                                              "warning/reflex_probability",
-                                              "warning/hold_time",
-                                              "warning/acknowledge_time",
-                                              "warning/acknowledge_distance",
-                                              "proximity/reach",
-                                              "interaction/stiffness",
-                                              "interaction/damping",
-                                              "interaction/min_area",
-                                              "timing/min_rate",
-                                              "timing/pose_timeout",
-                                              "timing/mesh_timeout",
-                                              "timing/marker_rate",
-                                              "check_sweep/deadline",
-                                              "limits/max_speed",
-                                              "limits/max_turn_rate"};
-const std::string kMarkers = "markers/";
-
 Duration toDuration(double seconds) {
   return seconds > kLongest ? Duration::max() : sweep_guard_core::fromSeconds(seconds);
 }
@@ -72,42 +37,43 @@ Duration toDuration(double seconds) {
 sweep_guard_core::PredictorOptions readPredictor(ParameterReader& read) {
   const std::vector<std::string> axes = {"x", "y", "z", "rx", "ry", "rz"};
   sweep_guard_core::PredictorOptions options;
-  options.predictor =
-      read.choice("prediction/predictor", options.predictor, sweep_guard_core::predictorNames(),
-                  "direct: learns the displacement within each horizon from the operator's velocities. polynomial: "
-                  "fits one polynomial per axis. constant_velocity: continues at the newest velocity. "
-                  "hold: the tool stays where it is.");
-  const std::vector<int> degree =
-      read.integers("prediction/degree", {options.degree.begin(), options.degree.end()}, 0, 5,
-                    "polynomial only: degree along x y z of the fixed frame, then about x y z of the tool. Higher "
-                    "degrees follow curves and overshoot. Of joints that move: the largest.");
+  options.predictor = read.live().choice(
+      "prediction/predictor", options.predictor, sweep_guard_core::predictorNames(),
+      "direct: learns the displacement within each horizon from the operator's velocities. polynomial: "
+      "fits one polynomial per axis. constant_velocity: continues at the newest velocity. "
+      "hold: the tool stays where it is.");
+  const std::vector<int> degree = read.live().integers(
+      "prediction/degree", {options.degree.begin(), options.degree.end()}, 0, 5,
+      "polynomial only: degree along x y z of the fixed frame, then about x y z of the tool. Higher "
+      "degrees follow curves and overshoot. Of joints that move: the largest.");
   std::copy(degree.begin(), degree.end(), options.degree.begin());
   for (const std::string& axis :
-       read.selection("prediction/constrained", axes,
-                      "Axes that the operator cannot move: they are predicted to stay. Not of joints.")) {
+       read.live().selection("prediction/constrained", axes,
+                             "Axes that the operator cannot move: they are predicted to stay. Not of joints.")) {
     options.constrained[static_cast<size_t>(std::find(axes.begin(), axes.end(), axis) - axes.begin())] = true;
   }
-  options.forgetting_factor = read.number("prediction/forgetting_factor", options.forgetting_factor, {0.01, 1.0},
-                                          "Weight of a sample relative to the next one. Smaller follows turns sooner, "
-                                          "larger filters more noise.");
-  options.window = toDuration(read.number("prediction/window", toSeconds(options.window), {0.02, 10.0, "s"},
-                                          "Polynomials ignore samples that are older."));
+  options.forgetting_factor =
+      read.live().number("prediction/forgetting_factor", options.forgetting_factor, {0.01, 1.0},
+                         "Weight of a sample relative to the next one. Smaller follows turns sooner, "
+                         "larger filters more noise.");
+  options.window = toDuration(read.live().number("prediction/window", toSeconds(options.window), {0.02, 10.0, "s"},
+                                                 "Polynomials ignore samples that are older."));
   options.max_speed =
-      read.number("limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
-                  "No prediction moves the tip faster, or a joint that slides. A faster pose is a jump: "
-                  "the motion is learned again.");
+      read.live().number("limits/max_speed", options.max_speed, {0.001, 1000.0, "m/s"},
+                         "No prediction moves the tip faster, or a joint that slides. A faster pose is a jump: "
+                         "the motion is learned again.");
   options.max_turn_rate =
-      read.number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0, "rad/s"},
-                  "No prediction turns faster, of the tool or of a joint. A pose that does is a jump: the "
-                  "motion is learned again.");
+      read.live().number("limits/max_turn_rate", options.max_turn_rate, {0.001, 1000.0, "rad/s"},
+                         "No prediction turns faster, of the tool or of a joint. A pose that does is a jump: the "
+                         "motion is learned again.");
   return options;
 }
 
 sweep_guard_core::InteractionOptions readInteraction(ParameterReader& read) {
   sweep_guard_core::InteractionOptions options;
   sweep_guard_core::ForceLaw& law = options.law;
-  law.stiffness = read.number("interaction/stiffness", law.stiffness, {0.0, kMaxStiffness, "N/m^3"},
-                              "~interaction: force per volume that tool and workpiece have in common.");
+  law.stiffness = read.live().number("interaction/stiffness", law.stiffness, {0.0, kMaxStiffness, "N/m^3"},
+                                     "~interaction: force per volume that tool and workpiece have in common.");
   options.stiffness_of = read.numbers("interaction/stiffness_of",
                                       "~interaction: the stiffness [N/m^3] of some workpieces by their id, in place of "
                                       "interaction/stiffness; 0 to 1e12.");
@@ -115,27 +81,29 @@ sweep_guard_core::InteractionOptions readInteraction(ParameterReader& read) {
     if (stiffness >= 0.0 && stiffness <= kMaxStiffness) continue;
     throw sweep_guard_core::InvalidInput("parameter interaction/stiffness_of/" + id + " must be 0 to 1e12 N/m^3");
   }
-  law.damping = read.number("interaction/damping", law.damping, {0.0, 1000.0, "s/m"},
-                            "~interaction: by which share the force grows per speed at which the tool closes on the "
-                            "workpiece. As much is taken from it on the way out; the force never pulls.");
-  law.least_area = read.number("interaction/min_area", law.least_area, {1e-12, 1.0, "m^2"},
-                               "~interaction: where the integral of the surface's normal inside the tool is less, the "
-                               "force is less by the same share. It keeps the force continuous.");
+  law.damping =
+      read.live().number("interaction/damping", law.damping, {0.0, 1000.0, "s/m"},
+                         "~interaction: by which share the force grows per speed at which the tool closes on the "
+                         "workpiece. As much is taken from it on the way out; the force never pulls.");
+  law.least_area =
+      read.live().number("interaction/min_area", law.least_area, {1e-12, 1.0, "m^2"},
+                         "~interaction: where the integral of the surface's normal inside the tool is less, the "
+                         "force is less by the same share. It keeps the force continuous.");
   return options;
 }
 
 sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pose_timeout) {
   const ParameterReader::Range any{kMinStep, kMaxHorizon, "s"};
-  const double reflex = read.number("horizon/reflex", 0.1, {0.01, 1.0, "s"},
-                                    "A collision predicted within this time from now raises REFLEX.");
-  const double reflex_step = read.number("horizon/reflex_step", 0.01, any,
-                                         "Duration of a predicted sweep within horizon/reflex; at most horizon/reflex.",
-                                         ParameterReader::Bound{{kMinStep, reflex}, "at most horizon/reflex"});
-  const double considered = read.number(
+  const double reflex = read.live().number("horizon/reflex", 0.1, {0.01, 1.0, "s"},
+                                           "A collision predicted within this time from now raises REFLEX.");
+  const double reflex_step = read.live().number(
+      "horizon/reflex_step", 0.01, any, "Duration of a predicted sweep within horizon/reflex; at most horizon/reflex.",
+      ParameterReader::Bound{{kMinStep, reflex}, "at most horizon/reflex"});
+  const double considered = read.live().number(
       "horizon/considered", 1.0, any,
       "A collision predicted within this time from now raises CONSIDERED. Must be later than horizon/reflex.",
       ParameterReader::Bound{{reflex + kMinStep, kMaxHorizon}, "later than horizon/reflex"});
-  const double considered_step = read.number(
+  const double considered_step = read.live().number(
       "horizon/considered_step", 0.1, any,
       "Duration of a predicted sweep after horizon/reflex; at most horizon/considered less horizon/reflex. The sweeps "
       "become longer where the detector is too slow for timing/min_rate.",
@@ -148,18 +116,18 @@ sweep_guard_core::HorizonOptions readHorizon(ParameterReader& read, Duration pos
 WarningThresholds readThresholds(ParameterReader& read, WarningThresholds thresholds = {}) {
   const ParameterReader::Range any{kMinProbability, 1.0};
   thresholds.considered_on =
-      read.number("warning/considered_on", thresholds.considered_on, any,
-                  "A contact off the predicted path raises CONSIDERED from this probability "
-                  "within horizon/considered on. Smaller warns earlier, with more false alarms.");
-  thresholds.considered_off =
-      read.number("warning/considered_off", std::min(thresholds.considered_off, thresholds.considered_on), any,
-                  "CONSIDERED stays while a contact with that workpiece within horizon/considered is at least this "
-                  "probable; at most "
-                  "warning/considered_on. Smaller interrupts a warning less often.",
-                  ParameterReader::Bound{{kMinProbability, thresholds.considered_on}, "at most warning/considered_on"});
-  thresholds.reflex =
-      read.number("warning/reflex_probability", thresholds.reflex, any,
-                  "A contact off the predicted path raises REFLEX from this probability within horizon/reflex on.");
+      read.live().number("warning/considered_on", thresholds.considered_on, any,
+                         "A contact off the predicted path raises CONSIDERED from this probability "
+                         "within horizon/considered on. Smaller warns earlier, with more false alarms.");
+  thresholds.considered_off = read.live().number(
+      "warning/considered_off", std::min(thresholds.considered_off, thresholds.considered_on), any,
+      "CONSIDERED stays while a contact with that workpiece within horizon/considered is at least this "
+      "probable; at most "
+      "warning/considered_on. Smaller interrupts a warning less often.",
+      ParameterReader::Bound{{kMinProbability, thresholds.considered_on}, "at most warning/considered_on"});
+  thresholds.reflex = read.live().number(
+      "warning/reflex_probability", thresholds.reflex, any,
+      "A contact off the predicted path raises REFLEX from this probability within horizon/reflex on.");
   return thresholds;
 }
 
@@ -205,11 +173,11 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
                 "joint_states, the root of the robot.");
   readTool(read, before, parameters);
   parameters.detector.name =
-      read.choice("detector", "select", sweep_guard_core::detectorNames(),
-                  "select: OpenGL selection off screen. halfspace: the same test on the processor's "
-                  "vector units, the fastest. reference: clips every triangle in double precision, "
-                  "slow.");
-  parameters.detector.options.cull = read.flag(
+      read.live().choice("detector", "select", sweep_guard_core::detectorNames(),
+                         "select: OpenGL selection off screen. halfspace: the same test on the processor's "
+                         "vector units, the fastest. reference: clips every triangle in double precision, "
+                         "slow.");
+  parameters.detector.options.cull = read.live().flag(
       "cull", true, "select only: draws only triangles that do not lie wholly beyond one plane of the volume.");
   std::vector<std::string> gl_contexts = sweep_guard_core::offscreenContextNames();
   gl_contexts.insert(gl_contexts.begin(), sweep_guard_core::kAnyGlContext);
@@ -232,55 +200,57 @@ Parameters readAll(ParameterReader& read, const Parameters* before) {
       "(halfspace, and for that select; every tenth time reference). If they disagree, both answers count, reason "
       "CROSSCHECK. 0: none.");
   parameters.guard.sweep.fine =
-      read.flag("fine", true,
-                "Confirms the triangles that a volume meets: when, where and how deep the tool "
-                "touches them. A triangle that is proven to be missed is no contact.");
-  parameters.guard.sweep.volume = sweep_guard_core::volumeKind(
-      read.choice("volume", "obb_planes", {"obb", "obb_planes", "hull"},
-                  "Volume around the tool at two poses. obb: oriented box. obb_planes: box cut by two side planes and "
-                  "two front planes, tighter. hull: convex hull, tightest and slower."));
-  parameters.guard.sweep.max_rotation = read.number("max_rotation_per_sweep", 0.175, {0.01, 0.5, "rad"},
-                                                    "A motion that turns more is swept in several steps. Smaller is "
-                                                    "tighter and slower.");
+      read.live().flag("fine", true,
+                       "Confirms the triangles that a volume meets: when, where and how deep the tool "
+                       "touches them. A triangle that is proven to be missed is no contact.");
+  parameters.guard.sweep.volume = sweep_guard_core::volumeKind(read.live().choice(
+      "volume", "obb_planes", {"obb", "obb_planes", "hull"},
+      "Volume around the tool at two poses. obb: oriented box. obb_planes: box cut by two side planes and "
+      "two front planes, tighter. hull: convex hull, tightest and slower."));
+  parameters.guard.sweep.max_rotation =
+      read.live().number("max_rotation_per_sweep", 0.175, {0.01, 0.5, "rad"},
+                         "A motion that turns more is swept in several steps. Smaller is "
+                         "tighter and slower.");
   parameters.limits.thresholds = readThresholds(read);
   parameters.guard.max_deviations = maxDeviations(parameters.limits.thresholds);
-  parameters.limits.hold_time = toDuration(read.number("warning/hold_time", 0.5, {0.0, 60.0, "s"},
-                                                       "A warning stays for this long after its cause is over."));
+  parameters.limits.hold_time = toDuration(read.live().number(
+      "warning/hold_time", 0.5, {0.0, 60.0, "s"}, "A warning stays for this long after its cause is over."));
   parameters.limits.acknowledge_time =
-      toDuration(read.number("warning/acknowledge_time", 10.0, {0.1, 60.0, "s"},
-                             "A warning is acknowledged (~acknowledge) for no longer than this."));
+      toDuration(read.live().number("warning/acknowledge_time", 10.0, {0.1, 60.0, "s"},
+                                    "A warning is acknowledged (~acknowledge) for no longer than this."));
   parameters.acknowledge_distance =
-      read.number("warning/acknowledge_distance", 0.03, {0.0, 1.0, "m"},
-                  "A warning stays acknowledged while the tool, grown by this much, meets the workpiece.");
+      read.live().number("warning/acknowledge_distance", 0.03, {0.0, 1.0, "m"},
+                         "A warning stays acknowledged while the tool, grown by this much, meets the workpiece.");
   parameters.proximity_reach =
-      read.number("proximity/reach", 0.1, {0.0, 10.0, "m"},
-                  "~proximity has planes for all surfaces that are nearer to the tool; 0: it is not published.");
+      read.live().number("proximity/reach", 0.1, {0.0, 10.0, "m"},
+                         "~proximity has planes for all surfaces that are nearer to the tool; 0: it is not published.");
   parameters.interaction = readInteraction(read);
-  parameters.joint_timeout = toDuration(
-      read.number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"}, "An older tool pose makes the warning UNKNOWN."));
+  parameters.joint_timeout = toDuration(read.live().number("timing/pose_timeout", 0.1, {0.01, 2.0, "s"},
+                                                           "An older tool pose makes the warning UNKNOWN."));
   parameters.limits.pose_timeout = parameters.joint_timeout;
   for (const auto& [joint, timeout] : parameters.joint_timeouts)
     parameters.limits.pose_timeout = std::max(parameters.limits.pose_timeout, timeout);
-  parameters.limits.mesh_timeout = toDuration(read.number(
+  parameters.limits.mesh_timeout = toDuration(read.live().number(
       "timing/mesh_timeout", 0.5, {0.01, kInfinity, "s"},
       "An older workpiece makes the warning UNKNOWN. .inf (inf on a command line): workpieces do not age."));
   parameters.guard.predictor = readPredictor(read);
   parameters.guard.horizon = readHorizon(read, parameters.limits.pose_timeout);
   parameters.limits.reflex = parameters.guard.horizon.reflex;
   parameters.limits.considered = parameters.guard.horizon.considered;
-  parameters.guard.cycle = toDuration(1.0 / read.number("timing/min_rate", 15.0, {1.0, 1000.0, "Hz"},
-                                                        "Poses are swept, and the path ahead is tested, at least this "
-                                                        "often."));
-  parameters.marker_rate = read.number("timing/marker_rate", 15.0, {0.1, 100.0, "Hz"},
-                                       "~markers are published at most this often, and only to subscribers.");
+  parameters.guard.cycle =
+      toDuration(1.0 / read.live().number("timing/min_rate", 15.0, {1.0, 1000.0, "Hz"},
+                                          "Poses are swept, and the path ahead is tested, at least this "
+                                          "often."));
+  parameters.marker_rate = read.live().number("timing/marker_rate", 15.0, {0.1, 100.0, "Hz"},
+                                              "~markers are published at most this often, and only to subscribers.");
   for (const std::string& name : markerNamespaces()) {
-    if (read.flag(kMarkers + name, true, "Publishes the namespace " + name + " of ~markers."))
+    if (read.live().flag("markers/" + name, true, "Publishes the namespace " + name + " of ~markers."))
       parameters.marker_namespaces.insert(name);
   }
   parameters.check_sweep_deadline = toDuration(
-      read.number("check_sweep/deadline", 1.0, {0.01, 60.0, "s"},
-                  "~check_sweep and ~check_trajectory give a path up that takes longer to test. At most 4 calls "
-                  "wait meanwhile."));
+      read.live().number("check_sweep/deadline", 1.0, {0.01, 60.0, "s"},
+                         "~check_sweep and ~check_trajectory give a path up that takes longer to test. At most 4 calls "
+                         "wait meanwhile."));
   parameters.realtime_priority = read.integer("timing/realtime_priority", 0, 0, 99,
                                               "Above 0 the sweeping thread asks for this real-time priority "
                                               "(SCHED_FIFO). If the system refuses, the log says what to set.");
@@ -338,17 +308,14 @@ void checkConfigured(const ros::NodeHandle& private_node, const std::vector<std:
                                        ": the master was started anew and has lost them; start the launch file again");
 }
 
-bool changesWhileRunning(const std::string& key) {
-  return std::count(kChangeable.begin(), kChangeable.end(), key) != 0 || key.compare(0, kMarkers.size(), kMarkers) == 0;
-}
-
 Parameters changeParameters(const ros::NodeHandle& private_node, const Parameters& before,
                             const std::map<std::string, ParameterValue>& changes) {
   ParameterReader::Settings settings = before.settings;
   for (const auto& [key, value] : changes) {
     const std::string name = private_node.resolveName(key);
     if (settings.count(key) == 0) throw sweep_guard_core::InvalidInput("there is no parameter " + name);
-    if (!changesWhileRunning(key)) {
+    const auto is_live = [&, key = key](const ParameterInfo& info) { return info.key == key && info.live; };
+    if (std::none_of(before.described.begin(), before.described.end(), is_live)) {
       throw sweep_guard_core::InvalidInput("parameter " + name + " does not change while the guard runs: restart it");
     }
     std::visit([&, key = key](const auto& held) { settings[key] = XmlRpc::XmlRpcValue(held); }, value);

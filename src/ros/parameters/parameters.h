@@ -80,9 +80,6 @@ Parameters loadParameters(const ros::NodeHandle& private_node);
 /// @throws sweep_guard_core::InvalidInput if there is no private parameter
 void checkConfigured(const ros::NodeHandle& private_node, const std::vector<std::string>& arguments);
 
-/// Returns whether a parameter may change while the node runs. Tools, topics and devices may not.
-bool changesWhileRunning(const std::string& key);
-
 /// Returns the parameters with these changes, checked as at the start. All others stay, whatever the parameter server
 /// holds now.
 /// @throws sweep_guard_core::InvalidInput as loadParameters(), or if a parameter does not exist or may not change while

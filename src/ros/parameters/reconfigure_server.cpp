@@ -89,7 +89,7 @@ std::vector<dynamic_reconfigure::Group> groups(const std::vector<ParameterInfo>&
 std::vector<ParameterInfo> changeable(const Parameters& parameters) {
   std::vector<ParameterInfo> changeable;
   for (const ParameterInfo& info : parameters.described) {
-    if (changesWhileRunning(info.key)) changeable.push_back(info);
+    if (info.live) changeable.push_back(info);
   }
   return changeable;
 }

@@ -134,7 +134,7 @@ void readTool(ParameterReader& read, const Parameters* before, Parameters& param
   const std::string type = read.choice("tool/type", "cylinder", {"cylinder", "urdf"},
                                        "cylinder: the tool fills z in [-tool/length, 0] of its frame; z points out of "
                                        "the tip. urdf: the tool is the collision geometry of a robot description.");
-  const double padding = read.number("tool/padding", 0.0, {0.0, 1.0, "m"}, "Grows the tool on all sides.");
+  const double padding = read.live().number("tool/padding", 0.0, {0.0, 1.0, "m"}, "Grows the tool on all sides.");
   const sweep_guard_core::Tool cylinder = readCylinder(read, padding);
   const std::string description = read.name("tool/robot_description", "robot_description",
                                             "urdf only: name of the parameter that holds the URDF, searched from the "

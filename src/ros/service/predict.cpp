@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "ros/available_detector.h"
 #include "ros/detector_test.h"
 #include "ros/service/left_out.h"
 #include "sweep_guard/common/error.h"

@@ -8,7 +8,7 @@
 #include "simulation/elastic/mesh_bars.h"
 #include "simulation/elastic/pressing_piece.h"
 #include "sweep_guard/geometry/tool.h"
-#include "sweep_guard/interaction/interaction_force.h"
+#include "sweep_guard/interaction/interaction_finder.h"
 
 namespace sweep_guard_simulation {
 

@@ -5,7 +5,7 @@
 
 #include "interaction/piece_polytope.h"
 #include "simulation/elastic/bar_model.h"
-#include "sweep_guard/interaction/interaction_force.h"
+#include "sweep_guard/interaction/interaction_finder.h"
 
 namespace sweep_guard_simulation {
 

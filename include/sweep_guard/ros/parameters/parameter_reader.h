@@ -29,6 +29,7 @@ struct ParameterInfo {
   std::vector<std::string> choices;  ///< allowed texts of choice(); empty: any
   std::string wanted;                ///< type, unit and range, as text
   std::string effect;                ///< sentences for users
+  bool live = false;                 ///< may change while the node runs
 };
 
 struct ParameterRange {
@@ -58,6 +59,12 @@ class ParameterReader {
   /// @param known  settings that are taken instead of the parameter server's; an empty one counts as not set
   explicit ParameterReader(const ros::NodeHandle& private_node, Settings known = {})
       : node_(private_node), settings_(std::move(known)) {}
+
+  /// Describes the parameter that is read next as live: it may change while the node runs. Tools, topics and devices may not.
+  ParameterReader& live() {
+    next_is_live_ = true;
+    return *this;
+  }
 
   /// Reads a number; accepts an integer. Checks the fallback, too, as do integer(), name() and choice().
   double number(const std::string& key, double fallback, const Range& range, const std::string& effect = "",
@@ -109,6 +116,7 @@ class ParameterReader {
   void warnOfUnread() const;
 
  private:
+  void describe(ParameterInfo info);
   std::string optionalText(const std::string& key, const std::string& wanted, const std::string& effect);
   bool isGroup(const std::string& key) const;
   bool get(const std::string& key, XmlRpc::XmlRpcValue& value);
@@ -119,6 +127,7 @@ class ParameterReader {
   Settings settings_;
   std::set<std::string> read_;
   std::vector<ParameterInfo> described_;
+  bool next_is_live_ = false;
 };
 
 }  // namespace sweep_guard_ros

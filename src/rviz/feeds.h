@@ -1,0 +1,71 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <sweep_guard/Interaction.h>
+
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "rviz/panel_state.h"
+
+namespace sweep_guard_rviz {
+
+/// Receives warnings on a thread of its own, so that a busy rviz does not delay their time of arrival.
+class WarningFeed {
+ public:
+  WarningFeed();
+  ~WarningFeed();
+  WarningFeed(const WarningFeed&) = delete;
+  WarningFeed& operator=(const WarningFeed&) = delete;
+
+  /// Switches to another topic and drops the warnings of the previous one. An empty topic ends listening.
+  /// @throws ros::InvalidNameException if `topic` is not a valid name
+  void listen(const std::string& topic);
+
+  std::vector<ReceivedWarning> take();  ///< warnings received since the last call, in order
+
+ private:
+  void receive(const sweep_guard::Warning& warning);
+
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  ros::AsyncSpinner spinner_;
+  ros::Subscriber subscriber_;
+  std::mutex mutex_;
+  std::vector<ReceivedWarning> received_;
+};
+
+constexpr auto kSilent = std::chrono::milliseconds(500);  ///< after which a message is no longer shown
+
+/// Returns force, volume and depth in words.
+std::string describe(const sweep_guard::ObjectInteraction& object);
+
+/// Returns the same for all workpieces: the whole force, the sum of the volumes and the largest depth; empty: there is no
+/// force.
+std::string describe(const sweep_guard::Interaction& interaction);
+
+/// Receives the force on the tool. The guard computes it only for subscribers: listen while it is shown.
+class ForceFeed {
+ public:
+  ForceFeed() { node_.setCallbackQueue(&queue_); }
+
+  /// Switches to another topic and forgets the force of the previous one. An empty topic ends listening.
+  void listen(const std::string& topic);
+
+  /// Returns the newest force in words; empty: there is none, or none came for 0.5 s.
+  std::string text();
+
+ private:
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  std::string topic_;
+  ros::Subscriber subscriber_;
+  std::string text_;
+  std::chrono::steady_clock::time_point received_;
+};
+
+}  // namespace sweep_guard_rviz
