@@ -46,9 +46,9 @@ void SimulatedRobot::step() {
   }
   velocity_W_.v_W += gain_ * (arriving_W.v_W - velocity_W_.v_W);
   velocity_W_.w_W += gain_ * (arriving_W.w_W - velocity_W_.w_W);
-  const double seconds = toSeconds(kStep);
-  p_WT_ += seconds * velocity_W_.v_W;
-  const double angle = seconds * velocity_W_.w_W.norm();
+  const double step = toSeconds(kStep);
+  p_WT_ += step * velocity_W_.v_W;
+  const double angle = step * velocity_W_.w_W.norm();
   if (angle == 0.0) return;
   q_WT_ = (Eigen::AngleAxisd(angle, velocity_W_.w_W.normalized()) * q_WT_).normalized();
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "guard/out_of_reach.h"
 #include "guard/placed_workpieces.h"
 #include "guard/rigid_shape.h"
-#include "guard/out_of_reach.h"
 
 namespace sweep_guard_core {
 namespace {

@@ -17,7 +17,7 @@ using namespace sweep_guard_core;
 
 constexpr Duration kHoldTime = 500ms;
 const double kDeviations = deviationsAt(PredictionInterval::kReflex, WarningThresholds{}.reflex);
-constexpr Duration kReflex = 115ms;  // the interval and a tick
+constexpr Duration kReflexInterval = 115ms;  // the interval and a tick
 constexpr size_t kObstacles = 6;
 const ConvexShape kTool = ConvexShape::cylinder(0.005, 0.1);
 
@@ -27,7 +27,7 @@ Instant instantOf(Time time) { return {time, SteadyTime(time.time_since_epoch())
 class SingleThreshold {
  public:
   void predicted(const Prediction& prediction, Time now) {
-    if (start_ && left(now) <= kReflex) ended_ = now - sinceEnd(now);
+    if (start_ && left(now) <= kReflexInterval) ended_ = now - sinceEnd(now);
     start_.reset();
     for (const PredictedObject& object : prediction.objects) {
       const auto warns = [](const PredictedSweep& one) { return one.contact || one.deviations <= kDeviations; };
@@ -40,7 +40,7 @@ class SingleThreshold {
   }
 
   bool isReflexAt(Time now) const {
-    const bool current = start_ && sinceEnd(now) <= kHoldTime && left(now) <= kReflex;
+    const bool current = start_ && sinceEnd(now) <= kHoldTime && left(now) <= kReflexInterval;
     return current || (ended_ && now - *ended_ <= kHoldTime);
   }
 

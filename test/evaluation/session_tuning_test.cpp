@@ -63,7 +63,7 @@ TEST(SessionTuningTest, SharesOfNothingAreNoNumbers) {
 }
 
 TEST(SessionTuningTest, WritesTheCurve) {
-  EXPECT_TRUE(has(tuningCsv(kPoints), "\n0.2,0.05,0.1,4,0.333333,1,1,0.75,0.25,0,0\n"));
+  EXPECT_TRUE(has(tuningCsv(kPoints, 5.0), "\n0.2,0.05,0.1,4,0.333333,1,1,0.75,0.25,0,0,5\n"));
 }
 
 }  // namespace

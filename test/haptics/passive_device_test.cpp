@@ -160,11 +160,11 @@ struct Turned {
 // One lap around a cone turns about its axis by its solid angle, without a turn rate about that axis in the mean of the path.
 TEST(ConingBoundTest, AHandThatGoesAroundAConeTurnsMoreThanItsEndsShow) {
   constexpr double kInterval = 0.05;
-  constexpr int kSteps = 20000;
+  constexpr int kParts = 20000;
   Turned turned;
-  for (int i = 0; i < kSteps; ++i) {
-    const double angle = 2.0 * M_PI * (i + 0.5) / kSteps;
-    turned.step({std::cos(angle), std::sin(angle), 0.0}, kInterval / kSteps);
+  for (int i = 0; i < kParts; ++i) {
+    const double angle = 2.0 * M_PI * (i + 0.5) / kParts;
+    turned.step({std::cos(angle), std::sin(angle), 0.0}, kInterval / kParts);
   }
   const Vector3d shown = rotationVector(turned.orientation);
   EXPECT_LT(turned.integral.norm(), 1e-12);
@@ -190,8 +190,8 @@ TEST(ConingBoundTest, NoMotionTurnsFartherFromWhatItsEndsShow) {
     const double rate = random.logUniform(0.5, 20.0);
     const TurnLimits limits{rate, rate * random.logUniform(2.0, 1000.0)};
     const double interval = random.logUniform(1e-3, 0.3);
-    constexpr int kSteps = 200;
-    const double step = interval / kSteps;
+    constexpr int kParts = 200;
+    const double step = interval / kParts;
     const bool around = random.chance(0.3);
     const Quaterniond frame = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), random.direction());
     const double lap = limits.max_acceleration / rate * random.uniform(0.2, 1.0);
@@ -199,7 +199,7 @@ TEST(ConingBoundTest, NoMotionTurnsFartherFromWhatItsEndsShow) {
     Vector3d target = rate * random.direction();
     Vector3d w = random.uniform(0.0, 1.0) * target;
     Turned turned;
-    for (int k = 0; k < kSteps; ++k) {
+    for (int k = 0; k < kParts; ++k) {
       if (random.chance(changes)) target = rate * random.direction();
       const Vector3d change = target - w;
       w += std::min(1.0, limits.max_acceleration * step / std::max(1e-12, change.norm())) * change;

@@ -16,7 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 
 const Instant kNow{Time(1000s), SteadyTime(50s)};
-const WarningLimits kLimits{/*pose_timeout=*/100ms, /*mesh_timeout=*/500ms, /*hold_time=*/200ms};
+const WarningLimits kShortLimits{/*pose_timeout=*/100ms, /*mesh_timeout=*/500ms, /*hold_time=*/200ms};
 
 // Made and received so long ago.
 Timestamps aged(Duration age) { return {kNow.stamp - age, kNow.steady - age}; }
@@ -31,7 +31,7 @@ WarningInputs allGood() {
   return inputs;
 }
 
-Warning warningNow(const WarningInputs& inputs) { return warningOf(inputs, kNow, kLimits); }
+Warning warningNow(const WarningInputs& inputs) { return warningOf(inputs, kNow, kShortLimits); }
 
 // From a prediction that began at a pose 10 ms ago and lasts 1.1 s.
 PredictedContact predictedIn(Duration time) {
@@ -257,11 +257,11 @@ TEST(WarningTest, TimeToCollisionRunsDownOnEitherClockAndNotBelowZero) {
   predict(300ms, inputs);
   for (const Duration passed : {0ms, 100ms, 200ms, 300ms, 400ms}) {
     const Duration left = std::max<Duration>(300ms - passed, 0ms);
-    EXPECT_EQ(warningOf(inputs, {kNow.stamp + passed, kNow.steady}, kLimits).time_to_collision, left);
-    EXPECT_EQ(warningOf(inputs, {kNow.stamp, kNow.steady + passed}, kLimits).time_to_collision, left);
+    EXPECT_EQ(warningOf(inputs, {kNow.stamp + passed, kNow.steady}, kShortLimits).time_to_collision, left);
+    EXPECT_EQ(warningOf(inputs, {kNow.stamp, kNow.steady + passed}, kShortLimits).time_to_collision, left);
   }
-  EXPECT_EQ(warningOf(inputs, {kNow.stamp + 185ms - 1ns, kNow.steady}, kLimits).level, WarningLevel::kConsidered);
-  EXPECT_EQ(warningOf(inputs, {kNow.stamp + 185ms, kNow.steady}, kLimits).level, WarningLevel::kReflex);
+  EXPECT_EQ(warningOf(inputs, {kNow.stamp + 185ms - 1ns, kNow.steady}, kShortLimits).level, WarningLevel::kConsidered);
+  EXPECT_EQ(warningOf(inputs, {kNow.stamp + 185ms, kNow.steady}, kShortLimits).level, WarningLevel::kReflex);
 }
 
 // The operator is warned of it, but no one can say when it comes.
@@ -326,8 +326,8 @@ TEST(WarningTest, NeedsCoverageToTheEndOfTheConsideredInterval) {
 // Stamps whose clock has stopped: time goes on.
 TEST(WarningTest, CoverageRunsOutOnEitherClock) {
   const WarningInputs inputs = allGood();
-  EXPECT_EQ(warningOf(inputs, {kNow.stamp + 1ns, kNow.steady}, kLimits).reasons, kNotCovered);
-  EXPECT_EQ(warningOf(inputs, {kNow.stamp, kNow.steady + 1ns}, kLimits).reasons, kNotCovered);
+  EXPECT_EQ(warningOf(inputs, {kNow.stamp + 1ns, kNow.steady}, kShortLimits).reasons, kNotCovered);
+  EXPECT_EQ(warningOf(inputs, {kNow.stamp, kNow.steady + 1ns}, kShortLimits).reasons, kNotCovered);
 }
 
 TEST(WarningTest, SaysNothingMoreWhereEverythingIsFreshAndSwept) { EXPECT_EQ(warningNow(allGood()).text, "CLEAR"); }
@@ -367,7 +367,7 @@ TEST(WarningTest, TakesAnAgeOnEitherClock) {
 }
 
 TEST(WarningTest, NeverTakesAStaticWorkpieceForStale) {
-  WarningLimits limits = kLimits;
+  WarningLimits limits = kShortLimits;
   limits.mesh_timeout = Duration::max();
   WarningInputs inputs = allGood();
   inputs.objects = {{"fixture", {Time(1s), SteadyTime(1s)}, /*swept=*/true}};

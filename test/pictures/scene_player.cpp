@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "recording/run_node.h"
 #include "pictures/tip_script.h"
+#include "recording/run_node.h"
 #include "simulation/workpiece.h"
 #include "simulation/workpiece_messages.h"
 #include "sweep_guard/Acknowledge.h"

@@ -345,12 +345,13 @@ TEST(DocumentsTest, LinksLeadSomewhere) {
 TEST(DocumentsTest, NameParametersThatThereAre) {
   const auto settings = loadParameters(ros::NodeHandle("/nothing_is_set")).settings;
   const std::regex key("^((tool|prediction|horizon|warning|timing|markers|limits)/[a-z_]+)(?![a-z_.])");  // no files
+  const std::string replaced = "warning/min_probability";  // is refused by this name
   size_t named = 0;
   for (const auto& file : documents()) {
     for (const std::string& code : codes(contents(file))) {
       std::smatch found;
       if (!std::regex_search(code, found, key)) continue;
-      EXPECT_EQ(settings.count(found[1]), 1U) << file << " names " << found[1];
+      EXPECT_TRUE(settings.count(found[1]) == 1 || found[1] == replaced) << file << " names " << found[1];
       ++named;
     }
   }

@@ -57,7 +57,7 @@ TEST(SessionReportTest, WritesALineForEachSegment) {
 }
 
 TEST(SessionReportTest, WritesTheTimeToCollisionOfEachWarning) {
-  EXPECT_EQ(collisionsCsv(oneContact(), kBegin),
+  EXPECT_EQ(collisionsCsv(oneContact(), kBagBegin),
             "received_s,time_to_collision_s\n0.0000,\n0.1000,\n0.5000,0.9000\n1.2000,0.1000\n1.3100,0.0000\n");
 }
 
@@ -95,36 +95,36 @@ TEST(SessionReportTest, ReportsASessionOfOneInstant) {
 }
 
 Contact contactAt(int ms, const std::string& mesh) {
-  const Time begin = kBegin + milliseconds(ms);
+  const Time begin = kBagBegin + milliseconds(ms);
   return {begin, begin + milliseconds(700), mesh, "finger", {3, 4}, 0.0025, milliseconds(800), milliseconds(0)};
 }
 
 TEST(ContactTableTest, HasALineForEachContact) {
-  EXPECT_EQ(contactTable({contactAt(1300, "liver")}, kBegin, 5),
+  EXPECT_EQ(contactTable({contactAt(1300, "liver")}, kBagBegin, 5),
             "    # begin [s] lasts [s] workpiece    link of the tool triangles depth [mm]   CONSIDERED   REFLEX\n"
             "    1      1.30      0.70 liver        finger                   2        2.5       0.80 s     none\n");
 }
 
 TEST(ContactTableTest, SaysHowManyAreLeftOut) {
   const std::vector<Contact> contacts(7, contactAt(0, "liver"));
-  EXPECT_TRUE(has(contactTable(contacts, kBegin, 5), "  ... and 2 more in contacts.csv\n"));
-  EXPECT_FALSE(has(contactTable(contacts, kBegin, 7), "more"));
+  EXPECT_TRUE(has(contactTable(contacts, kBagBegin, 5), "  ... and 2 more in contacts.csv\n"));
+  EXPECT_FALSE(has(contactTable(contacts, kBagBegin, 7), "more"));
 }
 
 TEST(ContactTableTest, ADepthThatIsNotKnownIsNoNumber) {
   Contact contact = contactAt(0, "liver");
   contact.depth = NAN;
-  EXPECT_FALSE(has(contactTable({contact}, kBegin, 5), "nan"));
+  EXPECT_FALSE(has(contactTable({contact}, kBagBegin, 5), "nan"));
 }
 
 // Names come from messages: they may be long, and hold what ends a line.
 TEST(ContactTableTest, AnyNameStaysInItsCell) {
-  const std::string line = contactTable({contactAt(0, "a\nb" + std::string(500, 'x'))}, kBegin, 5);
+  const std::string line = contactTable({contactAt(0, "a\nb" + std::string(500, 'x'))}, kBagBegin, 5);
   EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 2);
   EXPECT_LT(line.size(), 300U);
   const std::string umlauts =
       "\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4";
-  EXPECT_TRUE(has(contactTable({contactAt(0, "l" + umlauts + umlauts)}, kBegin, 5), "l" + umlauts + "..."));
+  EXPECT_TRUE(has(contactTable({contactAt(0, "l" + umlauts + umlauts)}, kBagBegin, 5), "l" + umlauts + "..."));
 }
 
 }  // namespace
