@@ -187,8 +187,8 @@ def draw_latency(rows, picture):
                 some = [row for row in sizes[size] if row['method'] == method and row['work'] == work]
                 middles = column(some, 'middle')
                 edges = [middle / HALF_CLASS for middle in middles] + [middle * HALF_CLASS for middle in middles[-1:]]
-                if some:
-                    axes.stairs([100 * share for share in column(some, 'share')], edges, color=color, linewidth=2)
+                percents = [100 * share for share in column(some, 'share')]
+                axes.step(edges[:1] + edges, [0] * bool(some) + percents + [0] * bool(some), where='post', color=color, linewidth=2)
             axes.set(xscale='log', xlim=(0.03, 1000), ylabel='%', title=f'{size} triangles, {method}')
             axes.set_ylim(bottom=0)
             write_numbers(axes.xaxis)

@@ -88,7 +88,7 @@ fail_to_install() {
 # install_listed FILE... - the packages listed in files of this folder, by their names on this system
 install_listed() {
   local packages
-  mapfile -t packages < <(cd "$root/scripts" && sed 's/#.*//' "$@" | xargs -n1 | packages_here)
+  mapfile -t packages < <(cd "$root/scripts" && sed 's/#.*//' "$@" | grep -oE '[^ ]+' | packages_here)
   install_packages "${packages[@]}"
 }
 

@@ -13,12 +13,13 @@ without=$(grep -E '^\| [0-9]+ \|' $document | grep -vE "$a_test" || true)
 [[ -z $without ]] || { echo "no test: $without" && exit 1; }
 
 status=0
-while IFS=:. read -r file _ suite name; do
-  mapfile -t sources < <(find test -name "$file.cpp")
-  if ! cat "${sources[@]}" /dev/null | tr '\n' ' ' | grep -qE "TEST(_F|_P)?\($suite, +$name\)"; then
-    echo "there is no $file.cpp:$suite.$name" && status=1
-  fi
-done < <(grep -ohE '[a-z_]+\.cpp:[A-Za-z]+\.[A-Za-z]+' $document doc/threats.md doc/reliability.md | sort -u)
+# tests - every one as file.cpp:Suite.Name
+tests() {
+  grep -rzoE --include='*.cpp' 'TEST(_F|_P)?\([A-Za-z]+,\s+[A-Za-z]+\)' test | tr -s ' \n' ' ' | tr '\0' '\n' |
+    sed -E 's|.*/([a-z_]+\.cpp):TEST(_F\|_P)?\(([A-Za-z]+), ([A-Za-z]+)\)|\1:\3.\4|' | sort -u
+}
+missing=$(comm -13 <(tests) <(grep -ohE '[a-z_]+\.cpp:[A-Za-z]+\.[A-Za-z]+' $document doc/threats.md doc/reliability.md | sort -u))
+[[ -z $missing ]] || { echo "there is no $missing" && status=1; }
 while read -r file; do
   [[ -n $(find test -name "$file") ]] || { echo "there is no $file" && status=1; }
 done < <(grep -ohE '[a-z_]+\.sh\b' $document doc/threats.md doc/reliability.md | sort -u)

@@ -7,8 +7,13 @@ cd "$1"
 rows=$(sed -n '/^## Where it is decided$/,/^## Decisions$/s/^| \(.*\) |$/\1/p' doc/architecture.md | tail -n +2)
 [[ $(wc -l <<<"$rows") -ge 80 ]] || { echo "finds only these rows: $rows" && exit 1; }
 
-# path_of FILE - one of the places that the document names has it
-path_of() { ls -d "src/$1" "include/sweep_guard/$1" "$1" 2>/dev/null || true; }
+# find_file FILE - one of the places that the document names has it
+find_file() {
+  local paths=()
+  for path in "src/$1" "include/sweep_guard/$1" "$1"; do [[ ! -e $path ]] || paths+=("$path"); done
+  path=${paths[*]}
+  [[ -f $path ]]
+}
 
 status=0
 complain() { echo "$*" && status=1; }
@@ -16,12 +21,11 @@ while IFS= read -r row; do
   place=${row##* | }
   [[ $place =~ ^\`([A-Za-z0-9_./-]+)(: ([A-Za-z0-9_]+))?\`$ ]] || { complain "names no file: $row" && continue; }
   file=${BASH_REMATCH[1]} symbol=${BASH_REMATCH[3]}
-  path=$(path_of "$file")
-  [[ -f $path ]] || { complain "there is not one $file: $path" && continue; }
+  find_file "$file" || { complain "there is not one $file: $path" && continue; }
   [[ -z $symbol ]] || grep -qw -- "$symbol" "$path" || complain "$path has no $symbol"
 done <<<"$rows"
 
 while IFS= read -r file; do
-  [[ -f $(path_of "$file") ]] || complain "there is no $file"
+  find_file "$file" || complain "there is no $file"
 done < <(grep -oE '`[a-z_/]+\.[a-z]+' <<<"$rows" | tr -d '`' | sort -u)
 exit $status

@@ -32,9 +32,9 @@ TEST(WarningReportTest, ShowsTheSharesThatAreWarnedOfAhead) {
 
 TEST(TradeoffReportTest, WritesALineForEachThreshold) {
   EXPECT_EQ(tradeoffCsv({report()}),
-            "recording,predictor,min_probability,false_alarms_per_min,warned_0.1,warned_0.5,warned_1.0\n"
-            "hand,direct,0.1,6,0.8,0.5,0.2\n"
-            "hand,direct,1,2,0.4,0.3,0.2\n");
+            "recording,predictor,min_probability,false_alarms_per_min,warned_0.1,warned_0.5,warned_1.0,chosen\n"
+            "hand,direct,0.1,6,0.8,0.5,0.2,1\n"
+            "hand,direct,1,2,0.4,0.3,0.2,0\n");
 }
 
 // 0 up to 2 per minute, 0.4 up to 6, 0.8 up to 10.
