@@ -27,7 +27,7 @@ namespace {
 using XmlRpc::XmlRpcValue;
 
 bool becomesTrue(const std::function<bool()>& fact) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (std::chrono::steady_clock::now() < end) {
     if (fact()) return true;
     ros::WallDuration(0.01).sleep();
