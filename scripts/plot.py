@@ -24,12 +24,15 @@ UNTOUCHED = -0.15  # on the scale of colors, where the touched triangles are fro
 TOUCH_COLORS = ['#d6cdbc', '#d6cdbc', '#dadaeb', '#bcbddc', '#9e9ac8', '#807dba', '#6a51a3', '#4a1486']
 MAX_CONTACTS = 40
 MAX_WORKPIECES = 4
-KEY = 0.45 # height [inch] above the panels
+KEY = 0.45  # height [inch] above the panels
 
 
 def rows_of(path, **options):
     with open(path, newline='', encoding='utf-8', errors='replace') as file:
-        return list(csv.DictReader(file, **options))
+        rows = list(csv.DictReader(file, **options))
+    if any(None in row.values() for row in rows):
+        raise ValueError(f'{path}: a line has fewer columns than the first')
+    return rows
 
 
 def column(rows, name):
@@ -118,8 +121,9 @@ def draw_tradeoff(rows, picture):
             axes.set_xlim(left=0)
     for axes in grid[-1]:
         axes.set_xlabel('false alarms per minute')
-    probability = next(row['min_probability'] for row in rows if row['chosen'] == '1')
-    save(figure, picture, colored(by(rows, 'predictor'), PREDICTORS) + [(f'probability {probability}', dict(ring, color='black'))])
+    chosen = [row['min_probability'] for row in rows if row['chosen'] == '1']
+    rings = [(f'probability {probability}', dict(ring, color='black')) for probability in chosen[:1]]
+    save(figure, picture, colored(by(rows, 'predictor'), PREDICTORS) + rings)
 
 
 def draw_calibration(rows, picture):
@@ -369,6 +373,9 @@ if __name__ == '__main__':
     except ImportError as error:
         print(f'plot.py: no pictures: {error}; install python3-matplotlib', file=sys.stderr)
         sys.exit(2)
-    except (KeyError, ValueError, OSError) as error:
+    except KeyError as error:
+        print(f'plot.py: {sys.argv[1]}: {error} is unknown', file=sys.stderr)
+        sys.exit(2)
+    except (ValueError, OSError, csv.Error) as error:
         print(f'plot.py: {error}', file=sys.stderr)
         sys.exit(2)

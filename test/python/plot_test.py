@@ -127,6 +127,22 @@ class PlotTest(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stderr, 'plot.py: no pictures: No module named matplotlib; install python3-matplotlib\n')
 
+    def test_draws_a_trade_off_without_a_chosen_threshold(self):
+        with open(self.path('tradeoff.csv'), 'w', encoding='utf-8') as file:
+            file.write(FILES['tradeoff.csv'].replace('0.5,1\n', '0.5,0\n'))
+        plot.main([self.path('tradeoff.csv'), self.path('picture.png')])
+        self.assertGreater(self.height('picture.png'), 100)
+
+    def test_what_cannot_be_read_is_status_two_and_one_line(self):
+        errors = FILES['errors.csv']
+        for text in (errors.replace('0.004', 'far'), errors[:-len('0.2,7\n')], errors.replace('direct', 200000 * 'x'),
+                     errors.replace('position_p95_m', 'p95')):
+            with open(self.path('errors.csv'), 'w', encoding='utf-8') as file:
+                file.write(text)
+            done = run(self.path('errors.csv'), self.path('errors.png'))
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, r'^plot\.py: [^\n]+\n$')
+
     def test_refuses_a_file_of_another_kind(self):
         for text in ('', 'a,b\n', 'a,b\n1,2\n'):
             with open(self.path('other.csv'), 'w', encoding='utf-8') as file:
