@@ -25,6 +25,9 @@ FILES = {
     'tuning.csv': 'considered_on,considered_off,reflex_probability,unjustified_per_min,precision,warned_0.1,warned_0.3,warned_0.5,'
                   'warned_1.0,late,false_on_share,at_most_per_min\n0.1,0.1,0.5,2,0.5,1,1,0.9,0.8,0,0.1,2.5\n',
     'stages.csv': 'triangles,method,stage,percent_of_a_processor\n1600,tcpros,sweep,3\n1600,tcpros,predict,2\n',
+    'times.csv': 'work,method,triangles,queries,median_us,p10_us,p90_us,ratio_median,ratio_p10,misses,extras\n'
+                 'ordered,memory read,400,1,0.5,,,,,,\nordered,halfspace,400,1,5,4,7,,,0,0\nordered,scalar,400,1,9,8,12,2,1.8,0,0\n'
+                 'ordered,halfspace,1600,1,6,5,8,,,0,0\nset up,halfspace,400,0,90,80,95,,,,\n',
     'latency.tsv': 'tcpros\t1600\tpose to contacts\t1\t0.5\ntcpros\t1600\tpose to contacts\t1.1\t0.5\n'}
 CONTACTS = 'contact,begin_s,end_s,stamp_s,mesh,tool_link,triangles,depth_mm,considered_lead_s,reflex_lead_s'
 REPORT = {'levels': 'begin_s,end_s,level,text', 'collisions': 'received_s,time_to_collision_s', 'contacts': CONTACTS,
