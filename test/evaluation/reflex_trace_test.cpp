@@ -108,7 +108,7 @@ class Session {
   Time newest_;
 };
 
-constexpr size_t kPoses = 1500;
+constexpr size_t kPoses = 5000;
 
 class ReflexTraceTest : public testing::TestWithParam<const char*> {};
 
