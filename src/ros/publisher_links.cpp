@@ -1,7 +1,9 @@
 #include "ros/publisher_links.h"
 
+#include <netinet/in.h>
 #include <poll.h>
 #include <ros/xmlrpc_manager.h>
+#include <sys/socket.h>
 
 #include <cstdlib>
 #include <mutex>
@@ -13,15 +15,33 @@ using XmlRpc::XmlRpcValue;
 
 namespace {
 
-// roscpp tells the number of the socket in words. Where the publisher closed it while it was made, roscpp does not notice.
+std::optional<int> numberAfter(const std::string& words, const std::string& text) {
+  const std::size_t place = text.rfind(words);
+  if (place == std::string::npos) return std::nullopt;
+  return std::atoi(text.c_str() + place + words.size());
+}
+
+// Returns empty if it is no TCP socket.
+std::optional<int> portOf(int socket) {
+  sockaddr_in6 address{};  // that of IPv4 has its port at the same place
+  socklen_t size = sizeof address;
+  if (getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0) return std::nullopt;
+  if (address.sin6_family != AF_INET && address.sin6_family != AF_INET6) return std::nullopt;
+  return ntohs(address.sin6_port);
+}
+
+// roscpp tells port and socket in words, as in "TCPROS connection on port 59746 to [host:34318 on socket 11]", also after
+// it has closed the socket, whose number may be another's by then. Where the publisher closed it while it was made, roscpp
+// does not notice.
 bool isDown(const XmlRpcValue& connection) {
   if (connection.size() < 7) return false;
-  static const std::string kBefore = " on socket ";
   const std::string& transport = connection[6];
-  const std::size_t place = transport.rfind(kBefore);
-  if (place == std::string::npos) return false;
-  pollfd socket{std::atoi(transport.c_str() + place + kBefore.size()), POLLRDHUP, 0};
-  return socket.fd < 0 || (poll(&socket, 1, 0) == 1 && socket.revents != 0);
+  const auto port = numberAfter(" on port ", transport);
+  const auto number = numberAfter(" on socket ", transport);
+  if (!port || !number) return false;
+  if (portOf(*number) != port) return true;
+  pollfd socket{*number, POLLRDHUP, 0};
+  return poll(&socket, 1, 0) == 1 && socket.revents != 0;
 }
 
 }  // namespace

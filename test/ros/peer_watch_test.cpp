@@ -206,6 +206,38 @@ TEST(PublisherLinksTest, AnUpdateKeepsThePublishersThatItDoesNotName) {
   EXPECT_TRUE(becomesTrue([&] { return connected() == Publishers{one, two}; }));
 }
 
+/// Takes the numbers of sockets that were closed for others, which are open.
+class TakenNumbers {
+ public:
+  TakenNumbers() {
+    int pair[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0) throw std::runtime_error("no sockets");
+    numbers_ = {pair[0], pair[1]};
+    while (numbers_.size() < 100) numbers_.push_back(dup(pair[0]));
+  }
+  ~TakenNumbers() {
+    for (const int number : numbers_) close(number);
+  }
+  TakenNumbers(const TakenNumbers&) = delete;
+  TakenNumbers& operator=(const TakenNumbers&) = delete;
+
+ private:
+  std::vector<int> numbers_;
+};
+
+// roscpp names a socket by its number also after it has closed it.
+TEST(PublisherLinksTest, AClosedConnectionIsDownAlsoWhereAnotherSocketHasItsNumber) {
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe(
+      "/closed", 1, +[](const std_msgs::String::ConstPtr&) {});
+  const ClosedStream stream;
+  Address address(stream.port());
+  ASSERT_TRUE(announce(ros::this_node::getName(), "/closed", address.uri()));
+  const auto isDown = [&] { return (*publisherLinks(xmlRpc())).down["/closed"] == Publishers{address.uri() + "/"}; };
+  ASSERT_TRUE(becomesTrue([&] { return address.serveFor(0.1), isDown(); }));
+  const TakenNumbers numbers;
+  EXPECT_TRUE(isDown());
+}
+
 struct Silence {
   const char* name;
   std::function<void(GuardProbe&)> begin;
