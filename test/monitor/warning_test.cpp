@@ -462,6 +462,19 @@ TEST(WarningTest, WhatDegradesLeavesTheLevelAndEndsAfterTheHoldTime) {
   EXPECT_EQ(warningNow(inputs).reasons, 0U);
 }
 
+TEST(WarningTest, AnOpenSurfaceIsSaidAndKeepsTheLevel) {
+  WarningInputs inputs = allGood();
+  inputs.objects[0].open_edges = 3;
+  EXPECT_EQ(warningNow(inputs).level, WarningLevel::kClear);
+  EXPECT_EQ(warningNow(inputs).reasons, kInsideUntested);
+  EXPECT_EQ(warningNow(inputs).text,
+            "CLEAR: the surface of 'liver' is open at 3 edges: the guard cannot tell whether the tool is inside");
+  inputs.objects[0].swept = false;
+  EXPECT_EQ(warningNow(inputs).reasons, kNotSwept | kInsideUntested);
+  inputs.objects[0].open_edges = 0;
+  EXPECT_EQ(warningNow(inputs).reasons, kNotSwept);
+}
+
 // Numbers on the wire, in Warning.msg.
 TEST(WarningTest, LevelsHaveTheNumbersAndNamesOfTheMessage) {
   constexpr std::array<const char*, 5> kNames = {"UNKNOWN", "CLEAR", "CONSIDERED", "REFLEX", "CONTACT"};

@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 
+#include "cube.h"
 #include "node_fixture.h"
 #include "refusal.h"
 
@@ -119,6 +120,38 @@ TEST_F(NodeTest, AToolInsideAClosedMeshIsContact) {
   EXPECT_TRUE(contacts.objects[0].triangles.empty());
   const Warning warning = probe().awaitWarning([](const Warning& next) { return next.contact; });
   EXPECT_TRUE(has(warning.text, "inside 'box'"));
+}
+
+// As an STL or a marker of the type TRIANGLE_LIST gives it.
+TEST_F(NodeTest, AToolInsideASolidOfSeparateTrianglesIsContact) {
+  probe().place(separated(cubeAt("box", {0.0, 0.0, 0.0}, probe().time(), 1.0)));
+  placed_.insert("box");
+  const Contacts contacts = moveTo({0.0, 0.0, 0.1});
+  ASSERT_EQ(contacts.objects.size(), 1U);
+  EXPECT_TRUE(contacts.objects[0].inside && contacts.objects[0].inside_tested);
+  EXPECT_TRUE(has(probe().awaitWarning([](const Warning& next) { return next.contact; }).text, "inside 'box'"));
+}
+
+TEST_F(NodeTest, AnOpenSolidIsSaidToBeUntestedUntilItIsClosedOrSaidToBeOpen) {
+  const auto solid = cubeAt("box", {0.0, 0.0, -2.0}, probe().time(), 1.0);
+  auto open = solid;
+  open.mesh.triangles.pop_back();
+  const auto isUntested = [](const Warning& next) { return (next.reasons & Warning::INSIDE_UNTESTED) != 0; };
+  const auto isNot = [&](const Warning& next) { return next.clear && !isUntested(next); };
+  placed_.insert("box");
+  probe().place(open);
+  moveTo({0.0, 0.0, 0.5});
+  const Warning untested = probe().awaitWarning([&](const Warning& next) { return next.clear && isUntested(next); });
+  EXPECT_TRUE(has(untested.text, "the surface of 'box' is open at 3 edges: the guard cannot tell whether"));
+  EXPECT_FALSE(untested.reflex);
+  open.open = 1;
+  for (auto next : {solid, open}) {
+    next.revision = ++open.revision;
+    next.header.stamp = probe().time();
+    probe().place(next);
+    moveTo({0.0, 0.0, 0.5});
+    probe().awaitWarning(isNot);
+  }
 }
 
 TEST_F(NodeTest, ContactIsWarnedOfThenHeldThenClear) {

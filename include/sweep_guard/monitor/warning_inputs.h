@@ -24,6 +24,7 @@ struct WarningInputs {
     Duration behind = {};
     bool dropped = false;  ///< an update was dropped unread, and no later one has been swept
     bool ages = true;      ///< false: of another tool
+    size_t open_edges = 0;  ///< borders of its surface, TriangleMesh::openEdges()
   };
   /// Another tool that is watched, too.
   struct OtherTool {
