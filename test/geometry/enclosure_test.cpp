@@ -90,7 +90,7 @@ TEST(EnclosureTest, OfAReversedSolidThatIsNotWithinTheOtherIsASolid) {
   SentSurface in_the_box_of_a_frame = cubeSurface(0.1).reversed().movedBy(0.55, 0.55, 0.55);
   const double tetrahedron[4][3] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
   for (const auto& corner : tetrahedron) in_the_box_of_a_frame.vertices.emplace_back(-Eigen::Vector3d(corner[0], corner[1], corner[2]));
-  in_the_box_of_a_frame.triangles.insert(in_the_box_of_a_frame.triangles.end(), {{24, 26, 25}, {24, 25, 27}, {24, 27, 26}, {25, 26, 27}});
+  in_the_box_of_a_frame.triangles.insert(in_the_box_of_a_frame.triangles.end(), {{24, 25, 26}, {24, 27, 25}, {24, 26, 27}, {25, 27, 26}});
   EXPECT_NEAR(signedVolume(in_the_box_of_a_frame.mesh()), 8.0 / 3.0 + 0.008, 1e-6);
 }
 
