@@ -395,7 +395,7 @@ TEST(WarningTest, NamesEveryReasonInItsText) {
 }
 
 TEST(WarningTest, EveryFaultMakesItUnknownUnderItsOwnBit) {
-  for (std::uint32_t bit = 1; bit <= kCrosscheck; bit <<= 1) {
+  for (std::uint32_t bit = 1; bit <= kInsideUntested; bit <<= 1) {
     if ((bit & kDegraded) != 0) continue;
     WarningInputs inputs = allGood();
     inputs.faults[static_cast<Reason>(bit)] = "message";
